@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: Apache-2.0
+# What every target of the project has in common: C++20, no contraction of a*b+c (the predicates and the
+# reproducibility of the mesh rest on it), and a compile error for any GPL header of CGAL.
+include(GNUInstallDirs)
+
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
+function(pgdr_settings target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+  target_compile_definitions(${target} PRIVATE CGAL_LICENSE_ERROR)
+  target_compile_options(${target} PRIVATE -ffp-contract=off -Wall -Wextra)
+  if(PGDR_WARNINGS_AS_ERRORS)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  if(PGDR_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${PGDR_SANITIZE} -fno-omit-frame-pointer
+      -fno-sanitize-recover=all)
+    target_link_options(${target} PRIVATE -fsanitize=${PGDR_SANITIZE})
+  endif()
+endfunction()
+
+# A layer: a library that exposes its own folder alone, and links downwards alone.
+# pgdr_layer(<name> HEADERS <public headers...> SOURCES <files...> LINKS <lower layers...>)
+function(pgdr_layer name)
+  cmake_parse_arguments(arg "" "" "HEADERS;SOURCES;LINKS" ${ARGN})
+  add_library(pgdr_${name} ${arg_SOURCES})
+  add_library(pgdr::${name} ALIAS pgdr_${name})
+  pgdr_settings(pgdr_${name})
+  set_target_properties(pgdr_${name} PROPERTIES EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON)
+  target_sources(pgdr_${name} PUBLIC FILE_SET HEADERS
+    BASE_DIRS ${CMAKE_CURRENT_SOURCE_DIR} FILES ${arg_HEADERS})
+  target_include_directories(pgdr_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  target_link_libraries(pgdr_${name} PUBLIC ${arg_LINKS})
+  set_property(GLOBAL APPEND PROPERTY PGDR_LAYERS pgdr_${name})
+endfunction()

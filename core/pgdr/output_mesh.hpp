@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The finished mesh: flat arrays, input points first. What `refine` returns, what files hold, what the checker reads.
+// A plain value; any number of threads may read it. 16 bytes a tetrahedron and 24 a vertex, plus labels where a mesh
+// has more than one region.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "pgdr/types.hpp"
+
+namespace pgdr {
+
+template <int D>
+struct OutputMesh {
+  using Index = std::uint32_t;
+  /// Sub-simplex of a constraint: a subsegment (2 vertices) or, in 3D, a subfacet (3 vertices), with its marker.
+  template <int K>
+  struct Constraint {
+    std::array<Index, K> vertices;
+    int marker = 0;
+  };
+
+  /// The distinct input points in the order of the input, then Steiner points along a Hilbert curve.
+  std::vector<Point<D>> points;
+  std::size_t input_points = 0;           ///< how many of `points` are the input's (0: unknown, e.g. read from a file)
+  std::vector<int> point_markers;         ///< empty, or one a point
+  std::vector<std::array<Index, D + 1>> cells;  ///< positively oriented
+  std::vector<double> regions;            ///< empty (one region), or the attribute of each cell
+  std::vector<Constraint<2>> subsegments;
+  std::vector<Constraint<3>> subfacets;   ///< 3D only
+};
+
+}  // namespace pgdr

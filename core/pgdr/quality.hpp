@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a mesh is worth: worst radius-edge ratio, smallest and largest (dihedral) angle, histogram. Doubles, for reports;
+// whether a bound holds is decided by the exact functions of predicates.hpp.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "pgdr/output_mesh.hpp"
+
+namespace pgdr {
+
+struct QualitySummary {
+  double max_radius_edge = 0;
+  double min_angle_deg = 180, max_angle_deg = 0;  ///< angles of triangles in 2D, dihedral angles in 3D
+  std::array<std::uint64_t, 18> histogram{};      ///< number of those angles in [10 i, 10 i + 10) degrees
+};
+
+/// Angles of one simplex in degrees: 3 corners (2D), 6 dihedral angles (3D, edges 01 02 03 12 13 23).
+template <int D>
+std::array<double, D == 2 ? 3 : 6> angles_deg(const Simplex<D>& s);
+
+template <int D>
+QualitySummary summarize_quality(const OutputMesh<D>& mesh);
+
+}  // namespace pgdr

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "pgdr/error.hpp"
+
+#include <utility>
+
+namespace pgdr {
+namespace {
+
+std::string located_message(const Diagnostic& d) {
+  std::string s = d.file;
+  if (!s.empty() && d.line != 0) s += ":" + std::to_string(d.line);
+  if (s.empty() && d.line != 0) s = "line " + std::to_string(d.line);
+  if (!s.empty()) s += ": ";
+  return s + d.message;
+}
+
+}  // namespace
+
+Error::Error(Diagnostic d) : diagnostic_(std::move(d)), what_(located_message(diagnostic_)) {}
+
+std::string_view name(Errc code) {
+  switch (code) {
+    case Errc::bad_option: return "bad_option";
+    case Errc::bad_size: return "bad_size";
+    case Errc::unknown_format: return "unknown_format";
+    case Errc::syntax: return "syntax";
+    case Errc::truncated: return "truncated";
+    case Errc::count_too_large: return "count_too_large";
+    case Errc::not_finite: return "not_finite";
+    case Errc::index_out_of_range: return "index_out_of_range";
+    case Errc::degenerate_segment: return "degenerate_segment";
+    case Errc::degenerate_facet: return "degenerate_facet";
+    case Errc::self_crossing_facet: return "self_crossing_facet";
+    case Errc::entities_intersect: return "entities_intersect";
+    case Errc::encloses_nothing: return "encloses_nothing";
+    case Errc::seed_on_boundary: return "seed_on_boundary";
+    case Errc::conflicting_seeds: return "conflicting_seeds";
+    case Errc::no_volume: return "no_volume";
+    case Errc::boundary_not_recovered: return "boundary_not_recovered";
+    case Errc::cannot_open: return "cannot_open";
+    case Errc::cannot_write: return "cannot_write";
+    case Errc::out_of_memory: return "out_of_memory";
+    case Errc::ids_exhausted: return "ids_exhausted";
+    case Errc::internal: return "internal";
+  }
+  return "internal";
+}
+
+}  // namespace pgdr

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Circumspheres, diametral and equatorial balls, computed from the vertices in lexicographic order of coordinates, so
+// that each is a function of the vertex set. Pure functions, any thread.
+#pragma once
+
+#include <span>
+
+#include "pgdr/types.hpp"
+
+namespace pgdr {
+
+/// Circumsphere of a full-dimensional simplex. `center_error` bounds |computed centre - exact centre| (Euclidean);
+/// infinity if the doubles could not even bound it. `squared_radius` is |center - lexicographically first corner|^2
+/// of the computed centre. Where the plain evaluation is ill-conditioned (bound > 2^-20 of the radius) the centre is evaluated
+/// in expansions or rationals and rounded; it is non-finite only if it overflows.
+template <int D>
+struct Circumsphere {
+  Point<D> center;
+  double squared_radius = 0;
+  double center_error = 0;
+};
+
+/// @pre the corners are affinely independent (exactly).
+template <int D>
+Circumsphere<D> circumsphere(const Simplex<D>& s);
+
+/// Squared length of the shortest edge (rounded differences, canonical order of the two ends).
+template <int D>
+double shortest_edge_squared(const Simplex<D>& s);
+
+/// Centroid, in canonical vertex order.
+template <int D>
+Point<D> centroid(const Simplex<D>& s);
+
+/// Smallest ball through the two ends of an edge, or the three corners of a triangle in space (diametral, equatorial).
+template <int D>
+struct Ball {
+  Point<D> center;
+  double squared_radius = 0;
+};
+template <int D>
+Ball<D> diametral_ball(const Point<D>& a, const Point<D>& b);
+Ball<3> equatorial_ball(const Point3& a, const Point3& b, const Point3& c);
+
+/// x strictly inside the ball on which a-b is a diameter: (a-x).(b-x) < 0, exact.
+template <int D>
+bool in_diametral_ball(const Point<D>& a, const Point<D>& b, const Point<D>& x);
+/// x strictly inside the equatorial ball of abc; decided from the rounded ball (deterministic, not exact).
+bool in_equatorial_ball(const Ball<3>& ball, const Point3& x);
+
+}  // namespace pgdr

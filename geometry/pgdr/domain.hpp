@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A checked and prepared `Plc<D>`: distinct points, maximal segments, facets as unions of triangles. Everything that
+// refines or checks a mesh speaks of the entities of a Domain. Immutable once made; any number of threads may read it.
+//
+// Definitions (3D). A polygon is the union of the triangles of one deterministic triangulation in its projection; its
+// planarity defect is reported. Facets that are exactly coplanar, share an edge used by just these two, and have equal
+// markers, are one facet. A segment is an edge that bounds a facet, is used by one or by more than two triangles, is
+// explicit in the input, or lies between two facets. Diagonals inside one input polygon are never segments, also where
+// the polygon is not exactly planar.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "pgdr/error.hpp"
+#include "pgdr/plc.hpp"
+#include "pgdr/types.hpp"
+
+namespace pgdr {
+
+using EntityId = std::uint32_t;
+inline constexpr EntityId no_entity = 0xffffffffu;
+
+struct DomainSegment {
+  std::array<std::uint32_t, 2> points;  ///< indices into Domain::points, lexicographically smaller coordinates first
+  int marker = 0;
+  bool explicit_in_input = false;
+};
+
+struct DomainFacet {
+  int marker = 0;
+  int axis = 2;        ///< the coordinate dropped in its projection: the largest component of its normal
+  bool planar = true;  ///< all its points lie exactly in the plane of its first triangle
+  /// Largest distance of one of its points from the plane of its first (largest) triangle; 0 if planar. Units of input.
+  double planarity_defect = 0;
+  std::uint32_t first_triangle = 0, triangle_count = 0;  ///< into Domain::triangles; orient_projected positive each;
+                                                         ///< the one of largest projected area is first
+  std::uint32_t first_segment = 0, segment_count = 0;    ///< into Domain::facet_segments: bounding and inner ones
+  std::uint32_t first_point = 0, point_count = 0;        ///< into Domain::facet_points: all, sorted by index
+};
+
+template <int D>
+class Domain {
+ public:
+  /// Checks and prepares. What can be repaired without changing the geometry (exact duplicates of points, repeated
+  /// segments and facets with the same vertices, -0) is, and is reported in `repairs()`.
+  /// @throws InputError with ids, coordinates, and file and line if known: not_finite, index_out_of_range,
+  ///   degenerate_segment (both ends equal), degenerate_facet (fewer than three distinct points, or all collinear),
+  ///   self_crossing_facet (two polygon edges cross, or a vertex lies inside an edge), no_volume.
+  explicit Domain(const Plc<D>& plc);
+
+  std::span<const Point<D>> points() const { return points_; }
+  /// Domain point of each Plc point (exact duplicates share one). Distinct points keep the order of the input.
+  std::span<const std::uint32_t> point_of_input() const { return point_of_input_; }
+  /// First Plc point of each domain point.
+  std::span<const std::uint32_t> input_of_point() const { return input_of_point_; }
+  std::span<const int> point_markers() const { return point_markers_; }
+  std::span<const DomainSegment> segments() const { return segments_; }
+  std::span<const DomainFacet> facets() const { return facets_; }
+  /// The triangles that define facet f, resp. its segments, resp. its points (inner points included).
+  std::span<const std::array<std::uint32_t, 3>> triangles(EntityId f) const;
+  std::span<const EntityId> facet_segments(EntityId f) const;
+  std::span<const std::uint32_t> facet_points(EntityId f) const;
+  /// Facets that have segment s among theirs, ascending.
+  std::span<const EntityId> facets_of_segment(EntityId s) const;
+  std::span<const Point<D>> holes() const { return holes_; }
+  std::span<const RegionSeed<D>> regions() const { return regions_; }
+
+  /// Largest |coordinate| of the entity's points: the yardstick of "k ulps".
+  double segment_magnitude(EntityId s) const;
+  double facet_magnitude(EntityId f) const;
+
+  const std::vector<Diagnostic>& repairs() const { return repairs_; }
+  const std::vector<Diagnostic>& warnings() const { return warnings_; }
+
+ private:
+  template <int>
+  friend class DomainBuilder;
+  std::vector<Point<D>> points_;
+  std::vector<std::uint32_t> point_of_input_, input_of_point_;
+  std::vector<int> point_markers_;
+  std::vector<DomainSegment> segments_;
+  std::vector<DomainFacet> facets_;
+  std::vector<std::array<std::uint32_t, 3>> triangles_;
+  std::vector<EntityId> facet_segments_;
+  std::vector<std::uint32_t> facet_points_;
+  std::vector<std::uint32_t> facets_of_segment_begin_;
+  std::vector<EntityId> facets_of_segment_;
+  std::vector<Point<D>> holes_;
+  std::vector<RegionSeed<D>> regions_;
+  std::vector<Diagnostic> repairs_, warnings_;
+};
+
+/// The point P + t (Q - P) of segment s (P, Q its ends, in that order), evaluated in double-double and rounded once
+/// (<= 1 ulp of the segment's magnitude off its line; exactly on it where the segment is axis-aligned). 0 < t < 1.
+template <int D>
+Point<D> point_on_segment(const Domain<D>& domain, EntityId s, double t);
+/// The parameter t of a point on (near) segment s, in [0, 1].
+template <int D>
+double segment_parameter(const Domain<D>& domain, EntityId s, const Point<D>& p);
+/// x projected to facet f: orthogonally to the plane of the defining triangle that contains x in the facet's
+/// projection (nearest one if none does), in double-double, rounded once; exactly on it where axis-aligned.
+Point<3> point_on_facet(const Domain<3>& domain, EntityId f, const Point<3>& x);
+
+/// The smallest angle, in degrees, between two entities that share an input vertex; 180 if they share none or are
+/// the same. Segments: between their directions at the shared vertex. Otherwise the smallest angle between a direction
+/// into the one and a direction into the other at a shared vertex, and, for two facets with a common segment, their
+/// dihedral angle there. Doubles; for reports and reasons.
+enum class EntityKind : std::uint8_t { vertex, segment, facet, volume };
+struct EntityRef {
+  EntityKind kind = EntityKind::volume;
+  EntityId id = no_entity;
+  friend bool operator==(const EntityRef&, const EntityRef&) = default;
+};
+template <int D>
+double entity_angle(const Domain<D>& domain, EntityRef a, EntityRef b);
+/// True iff both are segments or facets (or an input vertex of one) with a common input vertex.
+template <int D>
+bool entities_touch(const Domain<D>& domain, EntityRef a, EntityRef b);
+
+}  // namespace pgdr

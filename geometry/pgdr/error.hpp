@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The one error vocabulary of the library. Nothing here prints; words for people are made once, in `message`, and the
+// data a program needs (code, ids, coordinates, file, line) is beside it. Exceptions leave public functions only.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <exception>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pgdr {
+
+/// What went wrong. `name(code)` is the stable snake_case word of the JSON report.
+enum class Errc {
+  // usage
+  bad_option,
+  bad_size,  ///< a size function returned a value that is not positive
+  // input: reading
+  unknown_format,
+  syntax,           ///< a token that is not what the format asks for
+  truncated,        ///< the file ends too early
+  count_too_large,  ///< a header promises more than the file can hold
+  // input: content
+  not_finite,
+  index_out_of_range,
+  degenerate_segment,
+  degenerate_facet,
+  self_crossing_facet,
+  entities_intersect,  ///< two input entities meet where neither has a vertex or an edge in common
+  encloses_nothing,
+  seed_on_boundary,
+  conflicting_seeds,
+  no_volume,  ///< all points lie in one plane (3D) or on one line (2D)
+  boundary_not_recovered,
+  // files
+  cannot_open,
+  cannot_write,
+  // resources and the rest
+  out_of_memory,
+  ids_exhausted,
+  internal,
+};
+
+std::string_view name(Errc code);
+
+/// One error or warning, as data. Ids are those of the input file or spans (its own numbering, see `Plc::first_index`).
+struct Diagnostic {
+  Errc code = Errc::internal;
+  std::string message;                       ///< one sentence that names the culprit
+  std::string file;                          ///< empty if the input came from memory
+  std::uint64_t line = 0;                    ///< 1-based; 0 = unknown
+  std::vector<std::int64_t> ids;             ///< of the culprits (points, facets, segments, as the message says)
+  std::vector<std::array<double, 3>> points; ///< where; z = 0 in 2D
+};
+
+/// Base of all exceptions of the library. `what()` is file:line: message.
+class Error : public std::exception {
+ public:
+  explicit Error(Diagnostic d);
+  const Diagnostic& diagnostic() const noexcept { return diagnostic_; }
+  Errc code() const noexcept { return diagnostic_.code; }
+  const char* what() const noexcept override { return what_.c_str(); }
+
+ private:
+  Diagnostic diagnostic_;
+  std::string what_;
+};
+
+/// An option or callback that cannot be used (exit code 2 of the command).
+struct UsageError : Error { using Error::Error; };
+/// Malformed or invalid input (exit code 3).
+struct InputError : Error { using Error::Error; };
+/// A file that cannot be opened or written (exit code 4).
+struct FileError : Error { using Error::Error; };
+/// Memory or ids exhausted, or a broken invariant (exit code 7).
+struct ResourceError : Error { using Error::Error; };
+
+}  // namespace pgdr

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Exact signs of orientation and in-sphere determinants, and the symbolic perturbation of the lifted heights.
+// Four stages: a floating-point filter with a derived bound, expansion arithmetic without allocation, exact rationals
+// (CGAL), and, for `in_sphere_perturbed` alone, the perturbation. All functions are pure and may be called from any
+// thread; rounding must be to nearest, without flush-to-zero. Coordinates must be finite.
+#pragma once
+
+#include <cstdint>
+
+#include "pgdr/types.hpp"
+
+namespace pgdr {
+
+/// Sign of det[p1-p0; ...; pD-p0]: positive for a counter-clockwise triangle, for a tetrahedron whose fourth point sees
+/// the first three clockwise ((0,0,0),(1,0,0),(0,1,0),(0,0,1) is positive). Swapping two points negates it; zero iff
+/// the points lie in one line (plane).
+template <int D>
+Sign orient(const Simplex<D>& s);
+
+inline Sign orient2d(const Point2& a, const Point2& b, const Point2& c) { return orient<2>({a, b, c}); }
+inline Sign orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+  return orient<3>({a, b, c, d});
+}
+
+/// Where p lies about the sphere through the corners of s: positive inside, zero on it, negative outside.
+/// @pre orient(s) is positive.
+template <int D>
+Sign in_sphere(const Simplex<D>& s, const Point<D>& p);
+
+/// As in_sphere, with the lifted height of every point v raised by an infinitesimal eps(v); eps decreases in the
+/// lexicographic order of coordinates (the lexicographically first point has the largest). Never zero. The points of s
+/// and p must be pairwise distinct. The Delaunay triangulation under this test is unique, whatever the order of
+/// insertion.
+/// @pre orient(s) is positive.
+template <int D>
+Sign in_sphere_perturbed(const Simplex<D>& s, const Point<D>& p);
+
+/// In-circle of four points of one plane of space: the coordinate `axis` (0, 1, 2) is dropped, heights are |x|^2 of all
+/// three coordinates (so the circle is that of the plane in space), with the same perturbation. Positive: p inside the
+/// circumcircle of a, b, c. Never zero for pairwise distinct points.
+/// @pre orient_projected(a, b, c, axis) is positive; the four points are (nearly) coplanar.
+Sign in_circle_perturbed(const Point3& a, const Point3& b, const Point3& c, const Point3& p, int axis);
+
+/// orient2d of the points without coordinate `axis`; the two kept axes in cyclic order ((axis+1)%3, (axis+2)%3).
+Sign orient_projected(const Point3& a, const Point3& b, const Point3& c, int axis);
+
+/// True iff the angle at v between the directions to a and b is (strictly) below 60 degrees, resp. 90 degrees. Exact.
+template <int D>
+bool angle_below_60(const Point<D>& v, const Point<D>& a, const Point<D>& b);
+template <int D>
+bool angle_below_90(const Point<D>& v, const Point<D>& a, const Point<D>& b);
+
+/// True iff c lies on the line through a and b (a != b). Exact.
+template <int D>
+bool collinear(const Point<D>& a, const Point<D>& b, const Point<D>& c);
+
+/// The two bounds, shared by refiner and checker; exact where the filter cannot decide.
+/// radius-edge: r^2 <= bound^2 * l^2 (l the shortest edge); size: r^2 <= size^2. Only points decide, in canonical order.
+template <int D>
+bool radius_edge_within(const Simplex<D>& s, double bound);
+template <int D>
+bool circumradius_within(const Simplex<D>& s, double size);
+/// |volume| (area in 2D) <= bound, exactly.
+template <int D>
+bool measure_within(const Simplex<D>& s, double bound);
+
+/// How often each stage decided, per thread, since the thread began: summed by whoever owns the threads.
+struct PredicateCounts {
+  std::uint64_t filter = 0, expansion = 0, exact = 0, perturbed = 0;
+  PredicateCounts& operator+=(const PredicateCounts& o);
+  PredicateCounts operator-(const PredicateCounts& o) const;
+};
+PredicateCounts predicate_counts();  ///< of the calling thread
+
+}  // namespace pgdr

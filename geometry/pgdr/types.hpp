@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The vocabulary of all layers: points, ids. Depends on the standard library alone. Plain values, any thread.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+
+namespace pgdr {
+
+/// A point of the plane (D = 2) or of space (D = 3); coordinates in the units of the input.
+template <int D>
+struct Point {
+  static_assert(D == 2 || D == 3);
+  std::array<double, D> x{};
+
+  constexpr double& operator[](int i) { return x[static_cast<std::size_t>(i)]; }
+  constexpr double operator[](int i) const { return x[static_cast<std::size_t>(i)]; }
+  friend constexpr bool operator==(const Point&, const Point&) = default;
+};
+
+using Point2 = Point<2>;
+using Point3 = Point<3>;
+
+/// Lexicographic order of coordinates: the one total order of points that decisions rest on (never ids).
+template <int D>
+constexpr bool lex_less(const Point<D>& a, const Point<D>& b) {
+  for (int i = 0; i < D; ++i) {
+    if (a[i] < b[i]) return true;
+    if (b[i] < a[i]) return false;
+  }
+  return false;
+}
+
+/// Squared Euclidean distance, summed in the order of the axes.
+template <int D>
+constexpr double squared_distance(const Point<D>& a, const Point<D>& b) {
+  double s = 0;
+  for (int i = 0; i < D; ++i) s += (a[i] - b[i]) * (a[i] - b[i]);
+  return s;
+}
+
+/// The corners of a simplex of full dimension.
+template <int D>
+using Simplex = std::array<Point<D>, D + 1>;
+
+/// Exact signs. For orientations: positive = counter-clockwise (2D), det[b-a; c-a; d-a] > 0 (3D).
+enum class Sign : int { negative = -1, zero = 0, positive = 1 };
+
+constexpr Sign operator-(Sign s) { return static_cast<Sign>(-static_cast<int>(s)); }
+template <class Number>
+constexpr Sign sign_of(const Number& v) {
+  return v > 0 ? Sign::positive : v < 0 ? Sign::negative : Sign::zero;
+}
+
+/// Typed 32-bit ids; converted explicitly where an array is indexed, nowhere else.
+enum class VertexId : std::uint32_t {};
+enum class CellId : std::uint32_t {};
+inline constexpr VertexId no_vertex{0xffffffffu};
+inline constexpr CellId no_cell{0xffffffffu};
+
+template <class Id>
+  requires std::same_as<Id, VertexId> || std::same_as<Id, CellId>
+constexpr std::uint32_t index(Id id) {
+  return static_cast<std::uint32_t>(id);
+}
+
+}  // namespace pgdr

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Everything a user of the library needs.
+#pragma once
+
+#include "pgdr/check.hpp"
+#include "pgdr/domain.hpp"
+#include "pgdr/error.hpp"
+#include "pgdr/io.hpp"
+#include "pgdr/output_mesh.hpp"
+#include "pgdr/plc.hpp"
+#include "pgdr/point_selector.hpp"
+#include "pgdr/quality.hpp"
+#include "pgdr/refine.hpp"
+#include "pgdr/sizing.hpp"
+#include "pgdr/types.hpp"
