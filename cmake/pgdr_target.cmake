@@ -1,3 +1,4 @@
+# SPDX-FileCopyrightText: 2026 The pgdr authors
 # SPDX-License-Identifier: Apache-2.0
 # What every target of the project has in common: C++20, no contraction of a*b+c (the predicates and the
 # reproducibility of the mesh rest on it), and a compile error for any GPL header of CGAL.
@@ -11,7 +12,7 @@ function(pgdr_settings target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
   target_compile_definitions(${target} PRIVATE CGAL_LICENSE_ERROR)
-  target_compile_options(${target} PRIVATE -ffp-contract=off -Wall -Wextra)
+  target_compile_options(${target} PRIVATE -ffp-contract=off -Wall -Wextra -Wno-missing-field-initializers)
   if(PGDR_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
@@ -22,11 +23,11 @@ function(pgdr_settings target)
   endif()
 endfunction()
 
-# A layer: a library that exposes its own folder alone, and links downwards alone.
+# A layer: a static library that exposes its own folder alone, and links downwards alone.
 # pgdr_layer(<name> HEADERS <public headers...> SOURCES <files...> LINKS <lower layers...>)
 function(pgdr_layer name)
   cmake_parse_arguments(arg "" "" "HEADERS;SOURCES;LINKS" ${ARGN})
-  add_library(pgdr_${name} ${arg_SOURCES})
+  add_library(pgdr_${name} STATIC ${arg_SOURCES})
   add_library(pgdr::${name} ALIAS pgdr_${name})
   pgdr_settings(pgdr_${name})
   set_target_properties(pgdr_${name} PROPERTIES EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON)

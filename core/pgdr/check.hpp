@@ -4,11 +4,18 @@
 // The independent checker: decides from the input and the finished mesh alone whether the mesh is sound, Delaunay,
 // conforming and within its bounds. It shares nothing with the refiner but the predicates and the bound tests.
 // Any thread; no state. Exact arithmetic wherever a verdict depends on a sign.
+//
+// With the input at hand the verdict is complete: positively oriented cells whose faces match, and whose boundary is,
+// triangle by triangle, a triangulation of the boundary of the volume that they are to fill, cover that volume exactly
+// once. Without it, cells that overlap are found where they share a vertex, not where two far boundaries cross.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pgdr/domain.hpp"
@@ -34,19 +41,38 @@ struct CheckOptions {
   double max_measure = std::numeric_limits<double>::infinity();  ///< volume (3D) bound of all cells
   const std::vector<PoorReason>* reasons = nullptr;
   /// Widest distance, in ulps of the entity's largest coordinate, of a vertex from the line or plane it is on.
+  /// One ulp is 2^-52 times that coordinate. Axis-aligned entities must be met exactly.
   int conformity_ulps = 2;
   std::size_t max_listed = 20;        ///< at most so many findings of one kind in words; all are counted
 };
 
 struct CheckFinding {
   enum class Kind {
-    bad_index, repeated_vertex, duplicate_point, unreferenced_point, inverted_cell, bad_link, overlapping, not_delaunay,
-    missing_input_point, segment_not_conforming, facet_not_conforming, wrong_marker, stray_constraint,
-    wrong_region, wrong_volume, hole_filled, over_radius_edge, over_size, bad_reason,
+    not_finite,              ///< a coordinate is infinite or not a number
+    bad_index,               ///< a vertex that does not exist, or labels that are not one a cell (marker: a point)
+    repeated_vertex,         ///< a cell or constraint with the same vertex twice
+    duplicate_point,         ///< two points with the same coordinates
+    unreferenced_point,      ///< a point that is not of the input and lies in no cell
+    inverted_cell,           ///< orientation not positive
+    bad_link,                ///< a face shared wrongly, or a hull face that is no constraint
+    overlapping,             ///< cells round a vertex that cover some direction twice, or not at all
+    not_delaunay,            ///< beyond what rounding or a refused split explains
+    missing_input_point,     ///< an input point that is no vertex of a cell
+    segment_not_conforming,  ///< no chain of subsegments, or one off its line
+    facet_not_conforming,    ///< not the union of its subfacets, or a vertex off its plane
+    wrong_marker,            ///< of an input point, a subsegment or a subfacet
+    stray_constraint,        ///< a subsegment or subfacet that no entity owns or no cell has
+    wrong_region,            ///< label not constant in a volume, or not that of its seed
+    wrong_volume,            ///< a volume without cells, only partly filled, or of another measure
+    hole_filled,             ///< cells outside the domain or in a hole
+    over_radius_edge,        ///< without a reason that holds
+    over_size,               ///< without a reason that holds
+    bad_reason,              ///< a reason that does not hold
   };
+  static constexpr std::size_t kinds = static_cast<std::size_t>(Kind::bad_reason) + 1;
   Kind kind;
-  std::string message;
-  std::vector<std::int64_t> ids;
+  std::string message;            ///< one sentence; numbers of points, cells and entities count from 0
+  std::vector<std::int64_t> ids;  ///< the cells, vertices or entities of the message, in its order
 };
 std::string_view name(CheckFinding::Kind kind);
 
@@ -54,14 +80,17 @@ struct CheckReport {
   std::uint64_t not_delaunay_rounding = 0;  ///< local violations that moving slanted points by conformity_ulps cancels
   std::uint64_t not_delaunay_refused = 0;   ///< other violations, beside an entity whose split was refused (in reasons)
   std::uint64_t over_radius_edge = 0, over_size = 0;  ///< cells over a bound
-  std::uint64_t explained = 0;                        ///< of these, cells with a reason that holds
+  std::uint64_t explained = 0;                        ///< cells over a bound with a reason that holds
   std::vector<CheckFinding> findings;                 ///< what makes the check fail, at most max_listed a kind
   std::uint64_t finding_count = 0;                    ///< all of them
+  std::array<std::uint64_t, CheckFinding::kinds> count_of_kind{};
+  std::uint64_t count(CheckFinding::Kind kind) const { return count_of_kind[static_cast<std::size_t>(kind)]; }
   /// 0: everything holds; 1: sound and conforming, over a bound only where the reasons explain it; 6: anything else.
   int exit_code() const;
 };
 
-/// Runs all checks for which `options` has the data.
+/// Runs all checks for which `options` has the data. Bad indices and coordinates that are not finite end it early.
+/// @throws UsageError bad_size if the size function returns a value that is not positive; ResourceError.
 template <int D>
 CheckReport check(const OutputMesh<D>& mesh, const CheckOptions<D>& options);
 

@@ -17,6 +17,7 @@
 
 #include <filesystem>
 
+#include "pgdr/error.hpp"
 #include "pgdr/output_mesh.hpp"
 #include "pgdr/plc.hpp"
 

@@ -5,11 +5,7 @@
 // several threads. Callbacks (size, selector) are called concurrently; progress from one thread at a time.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
-#include <functional>
-#include <optional>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -19,35 +15,14 @@
 #include "pgdr/plc.hpp"
 #include "pgdr/point_selector.hpp"
 #include "pgdr/predicates.hpp"
+#include "pgdr/refine_options.hpp"
 #include "pgdr/sizing.hpp"
 
 namespace pgdr {
 
-struct Progress {
-  std::uint64_t vertices = 0, cells = 0, poor = 0;  ///< poor: entries waiting in the lists
-};
-
-template <int D>
-struct RefineOptions {
-  /// Upper bound on circumradius over shortest edge. Proved for >= 2 (3D), >= sqrt 2 (2D).
-  double radius_edge_bound = smallest_proved_bound<D>();
-  SizingField<D> size;            ///< circumradius (3D) or area (2D) bound at the centroid
-  double max_volume = std::numeric_limits<double>::infinity();  ///< 3D: volume bound of all cells
-  PointSelector<D> selector;      ///< empty: circumcentre
-  DiskOptions disk;
-  OutsidePolicy outside = OutsidePolicy::replace_by_circumcenter;
-  bool refine = true;             ///< false: boundary recovery alone
-  double min_edge = 0;            ///< insertions that would make an edge shorter than this are refused
-  std::uint64_t max_vertices = std::numeric_limits<std::uint64_t>::max();
-  std::optional<std::chrono::duration<double>> time_limit;
-  std::stop_token stop;
-  std::function<void(const Progress&)> progress;
-};
-
-enum class StopCause { finished, max_vertices, time_limit, cancelled };
-
 struct RefineStatistics {
   double seconds_mesh = 0, seconds_initial = 0, seconds_refine = 0;
+  std::uint64_t segment_points = 0, facet_points = 0;  ///< Steiner points of the boundary recovery
   std::uint64_t insertions_committed = 0, insertions_refused = 0, selector_outside = 0;
   PredicateCounts predicates;
 };
@@ -55,7 +30,7 @@ struct RefineStatistics {
 template <int D>
 struct RefineResult {
   OutputMesh<D> mesh;
-  StopCause stop = StopCause::finished;
+  StopCause stop = StopCause::finished;  ///< ended before the boundary was recovered: `mesh` is empty
   std::uint64_t poor_left = 0;
   bool size_met = true;               ///< every cell within the size and measure bounds
   std::vector<PoorReason> reasons;    ///< one for every poor cell when finished

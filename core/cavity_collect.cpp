@@ -1,0 +1,311 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The reading phases of an insertion.
+#include <algorithm>
+
+#include "pgdr/cavity.hpp"
+
+namespace pgdr {
+
+template <int D>
+void Cavity<D>::begin(const Point<D>& p) {
+  point_ = p;
+  shrunk_ = touches_constraints_ = has_ghosts_ = false;
+  split_edge_ = {no_vertex, no_vertex};
+  split_segment_ = no_entity;
+}
+
+template <int D>
+void Cavity<D>::release() {
+  clear_part_bits();
+  for (const CellId c : cells_) mesh_->unmark(c);
+  cells_.clear();
+  boundary_.clear();
+  part_.clear();
+  protected_.clear();
+}
+
+template <int D>
+void Cavity<D>::clear_part_bits() {
+  for (const PartFace& f : part_) {
+    if (auto* k = mesh_->constraints(f.cell)) k->part = 0;
+    if (const Link across = mesh_->cell(f.cell).links[f.face])
+      if (auto* k = mesh_->constraints(across.cell())) k->part = 0;
+  }
+}
+
+template <int D>
+auto Cavity<D>::collect(const Point<D>& p, CellId seed) -> Status {
+  begin(p);
+  if (!mesh_->conflicts(seed, p)) return Status::not_in_conflict;
+  take(seed);
+  protected_.push_back(seed);
+  grow();
+  return Status::ok;
+}
+
+template <int D>
+void Cavity<D>::add_part_face(CellId cell, int face, EntityId entity) {
+  if (in_part(cell, face)) return;
+  part_.push_back({cell, face, entity});
+  mesh_->constraints(cell)->part |= static_cast<std::uint8_t>(1 << face);
+  take(cell);
+  if (const Link across = mesh_->cell(cell).links[face]) {
+    mesh_->constraints(across.cell())->part |= static_cast<std::uint8_t>(1 << across.face());
+    take(across.cell());
+  }
+}
+
+/// The other constrained face of `entity` at the ridge of face `face` of `cell` that leaves out vertex `corner`, looked
+/// for by walking round the ridge, first the one way, then (where that ends at the hull) the other.
+template <int D>
+static Link entity_face_round_ridge(const Mesh<D>& mesh, CellId cell, int face, int corner, EntityId entity) {
+  auto belongs = [&](CellId c, int f) {
+    const auto* k = mesh.constraints(c);
+    return k && (k->faces >> f & 1) && k->face_entity[f] == entity;
+  };
+  for (const bool across : {false, true}) {
+    // Within the cell the walk leaves through the face opposite `corner`; beyond the face it starts in the neighbour.
+    RidgeWalk<D> walk{cell, face, corner};
+    if (across) {
+      walk = {cell, corner, face};
+      if (!walk.link(mesh)) return {};
+      walk.step(mesh);
+    }
+    const RidgeWalk<D> start = walk;
+    do {
+      if (belongs(walk.cell, walk.exit)) return Link(walk.cell, walk.exit);
+      if (!walk.link(mesh)) break;
+      walk.step(mesh);
+    } while (walk.cell != start.cell);
+  }
+  return {};
+}
+
+/// Breadth first over the entity's faces from part_[from], across ridges that are no subsegments.
+template <int D>
+void Cavity<D>::grow_part(std::size_t from) {
+  if constexpr (D == 3) {
+    for (std::size_t i = from; i < part_.size(); ++i) {
+      const PartFace f = part_[i];
+      for (int corner = 0; corner <= D; ++corner) {
+        if (corner == f.face) continue;
+        int ends[2], n = 0;
+        for (int j = 0; j <= D; ++j)
+          if (j != f.face && j != corner) ends[n++] = j;
+        if (mesh_->constraints(f.cell)->edges >> edge_of_ends[ends[0]][ends[1]] & 1) continue;
+        const Link other = entity_face_round_ridge<D>(*mesh_, f.cell, f.face, corner, f.entity);
+        if (!other || in_part(other.cell(), other.face())) continue;
+        const Link back = mesh_->cell(other.cell()).links[other.face()];
+        if (mesh_->conflicts(other.cell(), point_) || (back && mesh_->conflicts(back.cell(), point_)))
+          add_part_face(other.cell(), other.face(), f.entity);
+      }
+    }
+  }
+}
+
+template <int D>
+auto Cavity<D>::collect_on_face(const Point<D>& p, CellId cell, int face) -> Status {
+  begin(p);
+  const Link across = mesh_->cell(cell).links[face];
+  if (!mesh_->conflicts(cell, p) && !(across && mesh_->conflicts(across.cell(), p))) return Status::not_in_conflict;
+  add_part_face(cell, face, mesh_->constraints(cell)->face_entity[face]);
+  protected_.push_back(cell);
+  if (across) protected_.push_back(across.cell());
+  grow_part(0);
+  grow();
+  return Status::ok;
+}
+
+template <int D>
+auto Cavity<D>::collect_on_edge(const Point<D>& p, CellId cell, int edge) -> Status
+  requires(D == 3)
+{
+  begin(p);
+  const auto [a, b] = edge_ends[edge];
+  split_edge_ = {mesh_->cell(cell).vertices[a], mesh_->cell(cell).vertices[b]};
+  split_segment_ = mesh_->constraints(cell)->edge_entity[edge];
+  int others[2], n = 0;
+  for (int j = 0; j <= D; ++j)
+    if (j != a && j != b) others[n++] = j;
+  // All cells round the edge, the one way and, where that ends at the hull, the other.
+  for (const int way : {0, 1}) {
+    RidgeWalk<D> walk{cell, others[1 - way], others[way]};
+    bool closed = false;
+    while (true) {
+      take(walk.cell);
+      const auto* k = mesh_->constraints(walk.cell);
+      if (k && (k->faces >> walk.exit & 1)) add_part_face(walk.cell, walk.exit, k->face_entity[walk.exit]);
+      if (!walk.link(*mesh_)) break;
+      walk.step(*mesh_);
+      if (walk.cell == cell) {
+        closed = true;
+        break;
+      }
+    }
+    if (closed) break;
+  }
+  protected_ = cells_;
+  bool conflict = false;
+  for (const CellId c : protected_) conflict = conflict || mesh_->conflicts(c, p);
+  if (!conflict) return Status::not_in_conflict;
+  grow_part(0);
+  grow();
+  return Status::ok;
+}
+
+template <int D>
+void Cavity<D>::grow() {
+  boundary_.clear();
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const CellId c = cells_[i];
+    const CellRecord<D>& k = mesh_->cell(c);
+    const ConstraintRecord<D>* constraints = mesh_->constraints(c);
+    unsigned closed = 0;
+    if (constraints) {
+      closed = constraints->faces & ~unsigned{constraints->part};
+      touches_constraints_ = true;
+    }
+    for (int f = 0; f <= D; ++f) {
+      const Link next = k.links[f];
+      if (closed >> f & 1) {
+        boundary_.push_back({c, f});
+      } else if (!next) {
+        continue;  // a subfacet of the part, at the hull
+      } else if (!mesh_->marked(next.cell())) {
+        if (mesh_->conflicts(next.cell(), point_)) {
+          take(next.cell());
+        } else {
+          boundary_.push_back({c, f});
+        }
+      }
+    }
+  }
+}
+
+template <int D>
+void Cavity<D>::rebuild_boundary() {
+  boundary_.clear();
+  for (const CellId c : cells_)
+    for (int f = 0; f <= D; ++f) {
+      if (in_part(c, f)) continue;
+      const Link next = mesh_->cell(c).links[f];
+      if (mesh_->constrained(c, f) || (next && !mesh_->marked(next.cell()))) boundary_.push_back({c, f});
+    }
+}
+
+/// Does p see the inner side of the face? Ghosts' own faces at infinity are always seen.
+template <int D>
+bool Cavity<D>::visible(const BoundaryFace& f) const {
+  const CellRecord<D>& k = mesh_->cell(f.cell);
+  Simplex<D> s;
+  for (int i = 0; i <= D; ++i) {
+    if (i == f.face) {
+      s[i] = point_;
+    } else if (k.vertices[i] == infinite_vertex) {
+      return true;
+    } else {
+      s[i] = mesh_->point(k.vertices[i]);
+      if (s[i] == point_) return false;
+    }
+  }
+  return orient<D>(s) == Sign::positive;
+}
+
+template <int D>
+auto Cavity<D>::make_star_shaped() -> Status {
+  std::vector<CellId> doomed;
+  while (true) {
+    for (const BoundaryFace& f : boundary_) {
+      if (!visible(f)) doomed.push_back(f.cell);
+      // A wall with a taken cell on either side: p can lie on one side of it only.
+    }
+    if (doomed.empty()) return Status::ok;
+    if (const Status s = drop_cells(doomed); s != Status::ok) return s;
+    doomed.clear();
+  }
+}
+
+/// Gives the doomed cells back, and what is no longer connected to the protected cells through faces.
+template <int D>
+auto Cavity<D>::drop_cells(const std::vector<CellId>& doomed) -> Status {
+  shrunk_ = true;
+  for (const CellId c : doomed) {
+    if (std::find(protected_.begin(), protected_.end(), c) != protected_.end()) {
+      for (const VertexId v : mesh_->cell(c).vertices)
+        if (v != infinite_vertex && mesh_->point(v) == point_) return Status::duplicate;
+      return Status::not_star_shaped;
+    }
+    mesh_->unmark(c);
+  }
+  // Part faces next to a cell given back leave the part.
+  const auto old_part = part_;
+  clear_part_bits();
+  part_.clear();
+  for (const PartFace& f : old_part) {
+    const Link across = mesh_->cell(f.cell).links[f.face];
+    if (!mesh_->marked(f.cell) || (across && !mesh_->marked(across.cell()))) continue;
+    part_.push_back(f);
+    mesh_->constraints(f.cell)->part |= static_cast<std::uint8_t>(1 << f.face);
+    if (across) mesh_->constraints(across.cell())->part |= static_cast<std::uint8_t>(1 << across.face());
+  }
+  std::vector<CellId> kept = protected_;
+  for (const CellId c : kept) mesh_->unmark(c);
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    const CellId c = kept[i];
+    for (int f = 0; f <= D; ++f) {
+      const Link next = mesh_->cell(c).links[f];
+      if (!next || (mesh_->constrained(c, f) && !in_part(c, f)) || !mesh_->marked(next.cell())) continue;
+      mesh_->unmark(next.cell());
+      kept.push_back(next.cell());
+    }
+  }
+  for (const CellId c : cells_) mesh_->unmark(c);
+  for (const CellId c : kept) mesh_->mark(c);
+  cells_ = std::move(kept);
+  rebuild_boundary();
+  return Status::ok;
+}
+
+template <int D>
+auto Cavity<D>::check_nothing_swallowed() -> Status {
+  std::vector<VertexId> rim;
+  std::vector<std::array<VertexId, 2>> rim_edges;
+  auto edge_key = [](VertexId a, VertexId b) { return a < b ? std::array{a, b} : std::array{b, a}; };
+  for (const BoundaryFace& f : boundary_) {
+    const auto& k = mesh_->cell(f.cell);
+    const Link out = k.links[f.face];
+    if (out && mesh_->marked(out.cell())) return Status::not_star_shaped;
+    for (int i = 0; i <= D; ++i) {
+      if (i == f.face) continue;
+      rim.push_back(k.vertices[i]);
+      if constexpr (D == 3)
+        for (int j = i + 1; j <= D; ++j)
+          if (j != f.face) rim_edges.push_back(edge_key(k.vertices[i], k.vertices[j]));
+    }
+  }
+  std::sort(rim.begin(), rim.end());
+  std::sort(rim_edges.begin(), rim_edges.end());
+  const auto split = edge_key(split_edge_[0], split_edge_[1]);
+  for (const CellId c : cells_) {
+    const auto& k = mesh_->cell(c);
+    for (const VertexId v : k.vertices)
+      if (!std::binary_search(rim.begin(), rim.end(), v)) return Status::swallows;
+    if constexpr (D == 3) {
+      const auto* constraints = mesh_->constraints(c);
+      if (!constraints || !constraints->edges) continue;
+      for (int e = 0; e < 6; ++e) {
+        if (!(constraints->edges >> e & 1)) continue;
+        const auto key = edge_key(k.vertices[edge_ends[e][0]], k.vertices[edge_ends[e][1]]);
+        if (key != split && !std::binary_search(rim_edges.begin(), rim_edges.end(), key)) return Status::swallows;
+      }
+    }
+  }
+  return Status::ok;
+}
+
+template class Cavity<2>;
+template class Cavity<3>;
+
+}  // namespace pgdr

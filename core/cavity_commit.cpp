@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The writing phase of an insertion. New cells take the place of old ones in the numbering of their vertices: the cell
+// on boundary face f of old cell k is k with vertex f replaced by the new vertex, so that orientation, constrained
+// faces and edges of f keep their numbers.
+#include <algorithm>
+#include <cassert>
+
+#include "pgdr/cavity.hpp"
+
+namespace pgdr {
+namespace {
+
+template <std::size_t N>
+std::array<VertexId, N> sorted(std::array<VertexId, N> r) {
+  std::sort(r.begin(), r.end());
+  return r;
+}
+
+/// The vertices of cell k but numbers i and j.
+template <int D>
+std::array<VertexId, D - 1> ridge_without(const CellRecord<D>& k, int i, int j) {
+  std::array<VertexId, D - 1> r;
+  int n = 0;
+  for (int v = 0; v <= D; ++v)
+    if (v != i && v != j) r[n++] = k.vertices[v];
+  return sorted(r);
+}
+
+}  // namespace
+
+template <int D>
+VertexId Cavity<D>::commit(Pools& pools, Home home, float relaxed_radius) {
+  const VertexId v = mesh_->new_vertex(pools, point_, home, relaxed_radius);
+  // The rim of the part: ridges of one part face of their entity alone, the split subsegment itself left out.
+  rim_.clear();
+  for (const PartFace& f : part_)
+    for (int corner = 0; corner <= D; ++corner)
+      if (corner != f.face) rim_.push_back({ridge_without<D>(mesh_->cell(f.cell), f.face, corner), f.entity});
+  if (!rim_.empty()) {
+    auto less = [](const RimRidge& a, const RimRidge& b) {
+      return a.ridge != b.ridge ? a.ridge < b.ridge : a.entity < b.entity;
+    };
+    std::sort(rim_.begin(), rim_.end(), less);
+    std::vector<RimRidge> once;
+    for (std::size_t i = 0, j; i < rim_.size(); i = j) {
+      for (j = i + 1; j < rim_.size() && !less(rim_[i], rim_[j]);) ++j;
+      bool split = false;
+      if constexpr (D == 3) split = split_segment_ != no_entity && rim_[i].ridge == sorted(split_edge_);
+      if (j == i + 1 && !split) once.push_back(rim_[i]);
+    }
+    rim_ = std::move(once);
+  }
+
+  new_cells_.clear();
+  for (const BoundaryFace& f : boundary_) new_cells_.push_back(make_cell(pools, f, v));
+  // Only now do old cells point to their successors: make_cell reads the old links.
+  for (std::size_t i = 0; i < boundary_.size(); ++i)
+    mesh_->cell(boundary_[i].cell).links[boundary_[i].face] = Link(new_cells_[i], boundary_[i].face);
+  link_new_cells(pools);
+  if (split_segment_ != no_entity) mark_split_entities(pools, v);
+  part_.clear();
+  for (const CellId c : cells_) {
+    mesh_->unmark(c);
+    mesh_->free_cell(pools, c);
+  }
+  cells_.clear();
+  boundary_.clear();
+  protected_.clear();
+  return v;
+}
+
+template <int D>
+CellId Cavity<D>::make_cell(Pools& pools, const BoundaryFace& f, VertexId v) {
+  const CellId c = mesh_->new_cell(pools);
+  const CellRecord<D>& old = mesh_->cell(f.cell);
+  CellRecord<D>& k = mesh_->cell(c);
+  k.vertices = old.vertices;
+  k.vertices[f.face] = v;
+  k.links.fill(Link{});
+  const Link outside = old.links[f.face];
+  k.links[f.face] = outside;
+  if (outside) mesh_->cell(outside.cell()).links[outside.face()] = Link(c, f.face);
+  mesh_->set_region(c, mesh_->region(f.cell));
+  if (touches_constraints_) inherit_constraints(pools, f, c);
+  if (mesh_->is_ghost(c)) {
+    mesh_->set_ghost_sphere(c);
+  } else {
+    mesh_->set_sphere(c, circumsphere<D>(mesh_->simplex(c)));
+  }
+  return c;
+}
+
+template <int D>
+void Cavity<D>::inherit_constraints(Pools& pools, const BoundaryFace& f, CellId c) {
+  const ConstraintRecord<D>* old = mesh_->constraints(f.cell);
+  if (!old) return;
+  const bool face = old->faces >> f.face & 1;
+  unsigned edges = 0;
+  if constexpr (D == 3) {
+    edges = old->edges;
+    for (int j = 0; j <= D; ++j)
+      if (j != f.face) edges &= ~(1u << edge_of_ends[f.face][j]);
+  }
+  if (!face && !edges) return;
+  ConstraintRecord<D>& k = mesh_->ensure_constraints(pools, c);
+  if (face) {
+    k.faces |= static_cast<std::uint8_t>(1 << f.face);
+    k.face_entity[f.face] = old->face_entity[f.face];
+  }
+  k.edges = static_cast<std::uint8_t>(edges);
+  if (edges) k.edge_entity = old->edge_entity;
+}
+
+/// Neighbours among the new cells, found by walking round each ridge of the boundary through the old cells.
+template <int D>
+void Cavity<D>::link_new_cells(Pools& pools) {
+  for (std::size_t i = 0; i < boundary_.size(); ++i) {
+    const auto [old, face] = boundary_[i];
+    const CellId c = new_cells_[i];
+    for (int j = 0; j <= D; ++j) {
+      if (j == face || mesh_->cell(c).links[j]) continue;
+      RidgeWalk<D> walk{old, face, j};
+      Link next = walk.link(*mesh_);
+      while (next && mesh_->marked(next.cell())) {
+        walk.step(*mesh_);
+        next = walk.link(*mesh_);
+      }
+      Link partner;  // none: a new subfacet at the hull
+      if (next) {
+        partner = Link(next.cell(), walk.entry);
+        mesh_->cell(c).links[j] = partner;
+        mesh_->cell(partner.cell()).links[partner.face()] = Link(c, j);
+      }
+      if (rim_.empty()) {
+        assert(next && "the hull opens at a point that splits no boundary entity");
+        continue;
+      }
+      const auto ridge = ridge_without<D>(mesh_->cell(old), face, j);
+      const auto rim = std::lower_bound(rim_.begin(), rim_.end(), ridge,
+                                        [](const RimRidge& a, const auto& r) { return a.ridge < r; });
+      if (rim == rim_.end() || rim->ridge != ridge) {
+        assert(next);
+        continue;
+      }
+      auto constrain = [&](CellId cell, int f) {
+        ConstraintRecord<D>& k = mesh_->ensure_constraints(pools, cell);
+        k.faces |= static_cast<std::uint8_t>(1 << f);
+        k.face_entity[f] = rim->entity;
+      };
+      constrain(c, j);
+      if (partner) constrain(partner.cell(), partner.face());
+    }
+  }
+}
+
+/// 3D: the two halves of a split subsegment, on every new cell that contains one.
+template <int D>
+void Cavity<D>::mark_split_entities(Pools& pools, VertexId v) {
+  if constexpr (D == 3) {
+    for (const CellId c : new_cells_) {
+      const auto& k = mesh_->cell(c);
+      const int p = static_cast<int>(std::find(k.vertices.begin(), k.vertices.end(), v) - k.vertices.begin());
+      for (int i = 0; i <= D; ++i) {
+        if (k.vertices[i] != split_edge_[0] && k.vertices[i] != split_edge_[1]) continue;
+        const int e = edge_of_ends[p][i];
+        ConstraintRecord<D>& r = mesh_->ensure_constraints(pools, c);
+        r.edges |= static_cast<std::uint8_t>(1 << e);
+        r.edge_entity[e] = split_segment_;
+      }
+    }
+  }
+}
+
+template VertexId Cavity<2>::commit(Pools&, Home, float);
+template VertexId Cavity<3>::commit(Pools&, Home, float);
+
+}  // namespace pgdr

@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Exact decisions on CGAL's rationals (LGPL). The filters run in long double, with error bounds in terms of its own
+// epsilon: where it is no wider than double they decide less, never wrongly.
+#include "detail/check_exact.hpp"
+
+#include <CGAL/Exact_rational.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace pgdr::checking {
+namespace {
+
+using Rational = CGAL::Exact_rational;
+template <class Number, std::size_t N>
+using Vector = std::array<Number, N>;
+
+template <class Number, int D>
+Vector<Number, D> difference(const Point<D>& a, const Point<D>& b) {
+  Vector<Number, D> v;
+  for (int i = 0; i < D; ++i) v[i] = Number(a[i]) - Number(b[i]);
+  return v;
+}
+
+template <class Number, std::size_t N>
+Number dot(const Vector<Number, N>& u, const Vector<Number, N>& v) {
+  Number s = u[0] * v[0];
+  for (std::size_t i = 1; i < N; ++i) s += u[i] * v[i];
+  return s;
+}
+
+template <class Number>
+Vector<Number, 3> cross(const Vector<Number, 3>& u, const Vector<Number, 3>& v) {
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+/// |u x v|^2: twice the area of the triangle they span, squared.
+template <class Number, std::size_t N>
+Number cross_squared(const Vector<Number, N>& u, const Vector<Number, N>& v) {
+  if constexpr (N == 2) {
+    const Number c = u[0] * v[1] - u[1] * v[0];
+    return c * c;
+  } else {
+    const auto c = cross(u, v);
+    return dot(c, c);
+  }
+}
+
+Rational squared(const Tolerance& t) {
+  const Rational width = Rational(t.ulps) * Rational(t.magnitude) * Rational(0x1p-52);
+  return width * width;
+}
+
+long double width_of(const Tolerance& t) { return static_cast<long double>(t.ulps) * t.magnitude * 0x1p-52L; }
+
+enum class Filtered { no, yes, unsure };
+
+constexpr long double epsilon = std::numeric_limits<long double>::epsilon();
+// Below this, products of two may have lost digits to underflow; the rationals decide.
+constexpr long double smallest_trusted = std::numeric_limits<double>::min() * 0x1p100L;
+
+/// computed <= bound, where both have errors of at most `error` in the first and 16 epsilon relative in the second.
+Filtered within(long double computed, long double error, long double bound) {
+  if (!(bound > smallest_trusted)) return Filtered::unsure;
+  if (computed + error <= bound * (1 - 16 * epsilon)) return Filtered::yes;
+  if (computed - error > bound * (1 + 16 * epsilon)) return Filtered::no;
+  return Filtered::unsure;
+}
+
+}  // namespace
+
+// In the filter each component of u x v is off by at most 4 epsilon (|u_i v_j| + |u_j v_i|) (two differences, a
+// product and a difference, each with a relative error of epsilon / 2), so its length by less than 16 epsilon |u||v|;
+// the square root and the sums add a few epsilon of the length itself, which 32 covers.
+template <int D>
+bool near_line(const Point<D>& p, const Point<D>& q, const Point<D>& x, const Tolerance& tolerance) {
+  {
+    const auto u = difference<long double, D>(q, p), v = difference<long double, D>(x, p);
+    const long double length = std::sqrt(dot(u, u));
+    const long double off = std::sqrt(cross_squared(u, v));
+    const auto answer = within(off, 32 * epsilon * length * std::sqrt(dot(v, v)), width_of(tolerance) * length);
+    if (answer != Filtered::unsure) return answer == Filtered::yes;
+  }
+  const auto u = difference<Rational, D>(q, p), v = difference<Rational, D>(x, p);
+  return cross_squared(u, v) <= squared(tolerance) * dot(u, u);
+}
+
+// In the filter the normal n = u x w is off by less than 16 epsilon |u||w|, and n.v by that times |v| and a few epsilon
+// more of |n||v| <= |u||w||v|. The error of |n| counts against the bound: it is moved to the other side.
+bool near_plane(const std::array<Point3, 3>& triangle, const Point3& x, const Tolerance& tolerance) {
+  const auto& [a, b, c] = triangle;
+  {
+    const auto u = difference<long double, 3>(b, a), w = difference<long double, 3>(c, a);
+    const auto v = difference<long double, 3>(x, a);
+    const auto n = cross(u, w);
+    const long double product = std::sqrt(dot(u, u) * dot(w, w)), width = width_of(tolerance);
+    const long double error = 40 * epsilon * product * (std::sqrt(dot(v, v)) + width);
+    const auto answer = within(std::abs(dot(n, v)), error, width * std::sqrt(dot(n, n)));
+    if (answer != Filtered::unsure) return answer == Filtered::yes;
+  }
+  const auto n = cross(difference<Rational, 3>(b, a), difference<Rational, 3>(c, a));
+  const Rational height = dot(n, difference<Rational, 3>(x, a));
+  return height * height <= squared(tolerance) * dot(n, n);
+}
+
+template <int D>
+double distance_from_line(const Point<D>& p, const Point<D>& q, const Point<D>& x) {
+  const auto u = difference<long double, D>(q, p);
+  return static_cast<double>(std::sqrt(cross_squared(u, difference<long double, D>(x, p)) / dot(u, u)));
+}
+
+double distance_from_plane(const std::array<Point3, 3>& triangle, const Point3& x) {
+  const auto& [a, b, c] = triangle;
+  const auto n = cross(difference<long double, 3>(b, a), difference<long double, 3>(c, a));
+  return static_cast<double>(std::abs(dot(n, difference<long double, 3>(x, a))) / std::sqrt(dot(n, n)));
+}
+
+template <int D>
+bool advances(const Point<D>& p, const Point<D>& q, const Point<D>& x, const Point<D>& y) {
+  const auto u = difference<long double, D>(y, x), v = difference<long double, D>(q, p);
+  const long double product = dot(u, v), error = 8 * epsilon * std::sqrt(dot(u, u)) * std::sqrt(dot(v, v));
+  if (error > smallest_trusted && std::abs(product) > error) return product > 0;
+  return dot(difference<Rational, D>(y, x), difference<Rational, D>(q, p)) > 0;
+}
+
+bool dihedral_below_90(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+  const auto e = difference<Rational, 3>(b, a), u = difference<Rational, 3>(c, a), v = difference<Rational, 3>(d, a);
+  // The parts of u and v normal to e are u - (u.e / e.e) e and v - (v.e / e.e) e.
+  return dot(u, v) * dot(e, e) > dot(u, e) * dot(v, e);
+}
+
+namespace {
+
+template <class Number, std::size_t N>
+using Matrix = std::array<std::array<Number, N>, N>;
+
+template <class Number, std::size_t N>
+Matrix<Number, N - 1> without(const Matrix<Number, N>& m, std::size_t row, std::size_t column) {
+  Matrix<Number, N - 1> r;
+  for (std::size_t i = 0; i + 1 < N; ++i)
+    for (std::size_t j = 0; j + 1 < N; ++j) r[i][j] = m[i + (i >= row)][j + (j >= column)];
+  return r;
+}
+
+template <class Number, std::size_t N>
+Number determinant(const Matrix<Number, N>& m) {
+  if constexpr (N == 1) {
+    return m[0][0];
+  } else {
+    Number sum = 0;
+    for (std::size_t column = 0; column < N; ++column) {
+      const Number term = m[0][column] * determinant(without(m, 0, column));
+      sum += column % 2 ? Number(-term) : term;
+    }
+    return sum;
+  }
+}
+
+}  // namespace
+
+// The determinant is W = det(a_i, |a_i|^2), i = 0..D, with a_i = corner i - p. Let C be its cofactors. Then
+//   dW/d corner_ij = C_ij + 2 a_ij C_iL,   dW/d p_j = - sum over i of the same (W depends on differences alone),
+// and to first order the largest change is sum over points of delta * |gradient|_1, which is attained. The rest: W is a
+// sum of 72 monomials of degree 5 in 3D (24 products with 3 squares in each height), 12 of degree 4 in 2D, in the a_ij,
+// which are at most m and change by at most h = max(delta_i) + delta_p. A monomial changes beyond first order by at
+// most (m + h)^n - m^n - n m^(n-1) h <= n (n - 1) / 2 * (m + h)^(n-2) h^2: hence 720 and 72.
+template <int D>
+bool rounding_cancels(const Simplex<D>& s, const Point<D>& p, const std::array<double, D + 2>& delta) {
+  if (std::all_of(delta.begin(), delta.end(), [](double d) { return d == 0; })) return false;
+  Matrix<Rational, D + 1> rows;
+  Rational m = 0, h = 0;
+  for (int i = 0; i <= D; ++i) {
+    const auto a = difference<Rational, D>(s[i], p);
+    std::copy(a.begin(), a.end(), rows[i].begin());
+    rows[i][D] = dot(a, a);
+    for (const Rational& x : a) m = std::max(m, Rational(abs(x)));
+    h = std::max(h, Rational(delta[i]));
+  }
+  h += Rational(delta[D + 1]);
+
+  Rational value = 0, bound = 0;
+  Vector<Rational, D> of_p;
+  of_p.fill(0);
+  for (int i = 0; i <= D; ++i) {
+    Vector<Rational, D + 1> cofactor;
+    for (int j = 0; j <= D; ++j) {
+      cofactor[j] = determinant(without(rows, i, j));
+      if ((i + j) % 2) cofactor[j] = -cofactor[j];
+    }
+    if (i == 0) value = dot(rows[0], cofactor);
+    for (int j = 0; j < D; ++j) {
+      const Rational gradient = cofactor[j] + 2 * rows[i][j] * cofactor[D];
+      of_p[j] += gradient;
+      bound += Rational(delta[i]) * abs(gradient);
+    }
+  }
+  for (const Rational& g : of_p) bound += Rational(delta[D + 1]) * abs(g);
+  const Rational reach = m + h;
+  bound += D == 3 ? Rational(720 * h * h * reach * reach * reach) : Rational(72 * h * h * reach * reach);
+  return abs(value) <= bound;
+}
+
+// A simplex is crossed at q + t (p - q), t = o(q) / (o(q) - o(p)), where o(x) = det(simplex, x).
+template <int D>
+std::vector<std::uint32_t> order_along(const Point<D>& q, const Point<D>& p,
+                                       const std::vector<std::array<Point<D>, D>>& simplices) {
+  std::vector<Rational> t;
+  for (const auto& s : simplices) {
+    const auto height = [&](const Point<D>& x) {
+      Matrix<Rational, D> rows;
+      for (int i = 0; i < D; ++i) rows[i] = difference<Rational, D>(s[i], x);
+      return determinant(rows);
+    };
+    const Rational from = height(q);
+    t.push_back(from / (from - height(p)));
+  }
+  std::vector<std::uint32_t> order(simplices.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return t[a] < t[b]; });
+  for (std::size_t i = 1; i < order.size(); ++i)
+    if (t[order[i - 1]] == t[order[i]]) return {};
+  return order;
+}
+
+#define PGDR_INSTANTIATE(D)                                                                                    \
+  template bool near_line(const Point<D>&, const Point<D>&, const Point<D>&, const Tolerance&);                \
+  template double distance_from_line(const Point<D>&, const Point<D>&, const Point<D>&);                       \
+  template bool advances(const Point<D>&, const Point<D>&, const Point<D>&, const Point<D>&);                  \
+  template bool rounding_cancels<D>(const Simplex<D>&, const Point<D>&, const std::array<double, D + 2>&);     \
+  template std::vector<std::uint32_t> order_along<D>(const Point<D>&, const Point<D>&,                         \
+                                                     const std::vector<std::array<Point<D>, D>>&);
+PGDR_INSTANTIATE(2)
+PGDR_INSTANTIATE(3)
+#undef PGDR_INSTANTIATE
+
+}  // namespace pgdr::checking

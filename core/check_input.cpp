@@ -1,0 +1,379 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Builds InputVolumes: walls, patches, sides joined round ridges and along lines, seeds, measures.
+#include "detail/check_input.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "pgdr/predicates.hpp"
+
+namespace pgdr::checking {
+
+void CompensatedSum::add(double x) {
+  const double t = sum_ + x;
+  rest_ += std::abs(sum_) >= std::abs(x) ? (sum_ - t) + x : (x - t) + sum_;
+  sum_ = t;
+  absolute_ += std::abs(x);
+}
+
+// Differences, products and sums: at most 7 roundings in any of the products (3D), each relative 2^-53, of the sum of
+// their absolute values; 8 covers those of that sum.
+template <int D>
+std::pair<double, double> signed_measure(const std::array<Point<D>, D>& s, const Point<D>& x) {
+  std::array<Point<D>, D> a;
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j < D; ++j) a[i][j] = s[i][j] - x[j];
+  if constexpr (D == 2) {
+    const double l = a[0][0] * a[1][1], r = a[0][1] * a[1][0];
+    return {l - r, 0x1p-50 * (std::abs(l) + std::abs(r))};
+  } else {
+    double value = 0, size = 0;
+    for (int j = 0; j < 3; ++j) {
+      const int k = (j + 1) % 3, m = (j + 2) % 3;
+      const double l = a[1][k] * a[2][m], r = a[1][m] * a[2][k];
+      value -= a[0][j] * (l - r);
+      size += std::abs(a[0][j]) * (std::abs(l) + std::abs(r));
+    }
+    return {value, 0x1p-50 * size};
+  }
+}
+
+namespace {
+
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  std::uint32_t find(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = find(a);
+    b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+/// A wall at a ridge: `ahead` is its side that a turn round the ridge, counter-clockwise seen against the direction from
+/// the ridge's smaller point to its larger (in 2D: in the plane), enters when it leaves the wall.
+struct AtRidge {
+  std::array<std::uint32_t, 2> ridge;  ///< sorted; the second is 0 in 2D
+  std::uint32_t simplex, apex;
+  bool ahead_negative;
+};
+
+}  // namespace
+
+template <int D>
+class InputBuilder {
+ public:
+  explicit InputBuilder(InputVolumes<D>& out)
+      : out_(out), domain_(*out.domain_), sides_(0), patches_(0), components_(0) {}
+
+  void run() {
+    collect_walls();
+    collect_ridges();
+    const auto n = static_cast<std::uint32_t>(out_.simplices_.size());
+    sides_ = DisjointSets(2 * n + 1);  // side 2 i: positive, 2 i + 1: negative, 2 n: outside
+    patches_ = DisjointSets(n);
+    components_ = DisjointSets(n);
+    for (std::size_t i = 0, j; i < ridges_.size(); i = j) {
+      for (j = i + 1; j < ridges_.size() && ridges_[j].ridge == ridges_[i].ridge;) ++j;
+      turn_round(std::span(ridges_).subspan(i, j - i));
+    }
+    cast_lines();
+    number_patches_and_volumes();
+    place_seeds();
+    collect_wanted();
+    measure();
+  }
+
+ private:
+  void collect_walls() {
+    const auto points = domain_.points();
+    Point<D> low{}, high{};
+    for (std::size_t i = 0; i < points.size(); ++i)
+      for (int k = 0; k < D; ++k) {
+        low[k] = i ? std::min(low[k], points[i][k]) : points[i][k];
+        high[k] = i ? std::max(high[k], points[i][k]) : points[i][k];
+      }
+    for (int k = 0; k < D; ++k) {
+      out_.span_ = std::max(out_.span_, high[k] - low[k]);
+      centre_[k] = low[k] + (high[k] - low[k]) / 2;
+    }
+    if constexpr (D == 2) {
+      for (const DomainSegment& s : domain_.segments()) out_.simplices_.push_back(s.points);
+    } else {
+      for (EntityId f = 0; f < domain_.facets().size(); ++f)
+        for (const auto& t : domain_.triangles(f)) {
+          out_.simplices_.push_back(t);
+          facet_of_.push_back(f);
+        }
+      for (EntityId s = 0; s < domain_.segments().size(); ++s) {
+        auto key = domain_.segments()[s].points;
+        std::sort(key.begin(), key.end());
+        segments_.push_back({key, s});
+      }
+      std::sort(segments_.begin(), segments_.end());
+    }
+  }
+
+  void collect_ridges() {
+    for (std::uint32_t i = 0; i < out_.simplices_.size(); ++i) {
+      const auto& s = out_.simplices_[i];
+      for (int k = 0; k < D; ++k) {
+        if constexpr (D == 2) {
+          ridges_.push_back({{s[k], 0}, i, s[1 - k], k == 1});
+        } else {
+          const std::uint32_t a = s[(k + 1) % 3], b = s[(k + 2) % 3];
+          ridges_.push_back({{std::min(a, b), std::max(a, b)}, i, s[k], a > b});
+        }
+      }
+    }
+    std::sort(ridges_.begin(), ridges_.end(), [](const AtRidge& x, const AtRidge& y) {
+      return x.ridge != y.ridge ? x.ridge < y.ridge : x.simplex < y.simplex;
+    });
+  }
+
+  Sign turn(const std::array<std::uint32_t, 2>& ridge, std::uint32_t from, std::uint32_t to) const {
+    const auto p = domain_.points();
+    if constexpr (D == 2)
+      return orient2d(p[ridge[0]], p[from], p[to]);
+    else
+      return orient3d(p[ridge[0]], p[ridge[1]], p[from], p[to]);
+  }
+
+  void turn_round(std::span<AtRidge> walls) {
+    // Angles from the first wall on: (0, 180), 180, (180, 360) degrees; inside the first and the last by orientation.
+    const std::uint32_t reference = walls[0].apex;
+    const auto part = [&](const AtRidge& w) {
+      const Sign s = turn(w.ridge, reference, w.apex);
+      return s == Sign::positive ? 1 : s == Sign::zero ? 2 : 3;
+    };
+    if (walls.size() > 2)
+      std::sort(walls.begin() + 1, walls.end(), [&](const AtRidge& x, const AtRidge& y) {
+        const int px = part(x), py = part(y);
+        return px != py ? px < py : px != 2 && turn(x.ridge, x.apex, y.apex) == Sign::positive;
+      });
+    for (std::size_t i = 0; i < walls.size(); ++i) {
+      const AtRidge &w = walls[i], &next = walls[(i + 1) % walls.size()];
+      sides_.join(2 * w.simplex + w.ahead_negative, 2 * next.simplex + !next.ahead_negative);
+      components_.join(w.simplex, next.simplex);
+    }
+    if constexpr (D == 3) note_bounds(walls);
+  }
+
+  void note_bounds(std::span<const AtRidge> walls) {
+    const auto at = std::lower_bound(segments_.begin(), segments_.end(), std::pair{walls[0].ridge, EntityId{0}});
+    if (at == segments_.end() || at->first != walls[0].ridge) {
+      if (walls.size() == 2 && facet_of_[walls[0].simplex] == facet_of_[walls[1].simplex])
+        patches_.join(walls[0].simplex, walls[1].simplex);
+      return;
+    }
+    // ahead_negative: the triangle runs from the larger point number to the smaller.
+    const bool larger_first = domain_.segments()[at->second].points[0] > domain_.segments()[at->second].points[1];
+    for (const AtRidge& w : walls) out_.bounds_.push_back({at->second, w.ahead_negative != larger_first, w.simplex});
+  }
+
+  /// Along a line, what lies between two walls that follow each other is one volume; both its ends are outside.
+  void cast_lines() {
+    const auto n = static_cast<std::uint32_t>(out_.simplices_.size());
+    std::vector<std::uint8_t> linked(n, 0);
+    std::vector<std::uint32_t> first_of_component;
+    for (std::uint32_t i = 0; i < n; ++i)
+      if (components_.find(i) == i) first_of_component.push_back(i);
+    for (const std::uint32_t root : first_of_component)
+      for (std::uint64_t attempt = 0; !linked[root]; ++attempt) {
+        if (attempt == 1000)
+          throw ResourceError({Errc::internal, "The checker found no line through a component of the input.", {}, 0, {}, {}});
+        cast_line(target(root, attempt), attempt, linked);
+      }
+  }
+
+  /// The centroid of a wall of the component; of another one at each attempt.
+  Point<D> target(std::uint32_t root, std::uint64_t attempt) {
+    const auto n = static_cast<std::uint32_t>(out_.simplices_.size());
+    auto i = static_cast<std::uint32_t>((root + 7919 * attempt) % n);
+    while (components_.find(i) != root) i = (i + 1) % n;
+    const auto s = out_.simplex(i);
+    Point<D> c;
+    for (int k = 0; k < D; ++k) {
+      double sum = 0;
+      for (const Point<D>& x : s) sum += x[k] / D;
+      c[k] = sum;
+    }
+    return c;
+  }
+
+  void cast_line(const Point<D>& through, std::uint64_t attempt, std::vector<std::uint8_t>& linked) {
+    const Point<D> q = out_.far_from(through, attempt);
+    Point<D> p;
+    for (int k = 0; k < D; ++k) p[k] = through[k] + (through[k] - q[k]);
+    const auto hits = out_.crossings(q, p);
+    if (!hits || hits->empty()) return;
+    std::uint32_t open = 2 * static_cast<std::uint32_t>(out_.simplices_.size());
+    for (const std::uint32_t i : *hits) {
+      const bool from_negative = side_of(i, q) == Sign::negative;
+      sides_.join(open, 2 * i + from_negative);
+      open = 2 * i + !from_negative;
+      linked[components_.find(i)] = 1;
+    }
+    sides_.join(open, 2 * static_cast<std::uint32_t>(out_.simplices_.size()));
+  }
+
+  Sign side_of(std::uint32_t i, const Point<D>& x) const {
+    const auto s = out_.simplex(i);
+    if constexpr (D == 2)
+      return orient2d(s[0], s[1], x);
+    else
+      return orient3d(s[0], s[1], s[2], x);
+  }
+
+  void number_patches_and_volumes() {
+    const auto n = static_cast<std::uint32_t>(out_.simplices_.size());
+    std::vector<std::uint32_t> order(n), volume_of(2 * n + 1, 0xffffffffu);
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return patches_.find(a) < patches_.find(b); });
+    const auto volume_at = [&](std::uint32_t side) {
+      auto& v = volume_of[sides_.find(side)];
+      if (v == 0xffffffffu) {
+        v = static_cast<std::uint32_t>(out_.volumes_.size());
+        out_.volumes_.emplace_back();
+      }
+      return v;
+    };
+    volume_at(2 * n);
+    out_.volumes_[0].kept = false;
+    std::vector<std::array<std::uint32_t, D>> simplices;
+    std::vector<std::uint32_t> place(n);
+    for (const std::uint32_t i : order) {
+      if (simplices.empty() || patches_.find(i) != patches_.find(order[simplices.size() - 1]))
+        out_.patches_.push_back({D == 2 ? i : facet_of_[i], static_cast<std::uint32_t>(simplices.size()), 0,
+                                 {volume_at(2 * i), volume_at(2 * i + 1)}});
+      ++out_.patches_.back().count;
+      place[i] = static_cast<std::uint32_t>(out_.patches_.size() - 1);
+      out_.patch_of_.push_back(place[i]);
+      simplices.push_back(out_.simplices_[i]);
+    }
+    out_.simplices_ = std::move(simplices);
+    for (Bound& b : out_.bounds_) b.patch = place[b.patch];
+    std::sort(out_.bounds_.begin(), out_.bounds_.end());
+  }
+
+  void place_seeds() {
+    for (const auto& p : domain_.holes()) {
+      out_.hole_volumes_.push_back(out_.locate(p));
+      if (const auto v = out_.hole_volumes_.back()) out_.volumes_[*v].kept = false;
+    }
+    for (std::uint32_t i = 0; i < domain_.regions().size(); ++i) {
+      const RegionSeed<D>& seed = domain_.regions()[i];
+      out_.region_volumes_.push_back(out_.locate(seed.point));
+      if (const auto v = out_.region_volumes_.back()) {
+        out_.volumes_[*v].seeds.push_back(i);
+        if (seed.size > 0) out_.volumes_[*v].size = std::min(out_.volumes_[*v].size, seed.size);
+      }
+    }
+  }
+
+  /// Entities at a wall are wanted if one side of it is kept.
+  void collect_wanted() {
+    using Wanted = typename InputVolumes<D>::Wanted;
+    auto &point = out_.wants_point_, &segment = out_.wants_segment_;
+    point.assign(domain_.points().size(), Wanted::unknown);
+    segment.assign(domain_.segments().size(), Wanted::unknown);
+    const auto mark = [](Wanted& flag, bool wanted) {
+      flag = flag == Wanted::yes || wanted ? Wanted::yes : Wanted::no;
+    };
+    for (std::uint32_t i = 0; i < out_.simplices_.size(); ++i) {
+      const std::uint32_t patch = out_.patch_of_[i];
+      for (const std::uint32_t v : out_.simplices_[i]) mark(point[v], out_.wants_patch(patch));
+      if constexpr (D == 2) mark(segment[out_.patches_[patch].entity], out_.wants_patch(patch));
+    }
+    for (const Bound& b : out_.bounds_) mark(segment[b.segment], out_.wants_patch(b.patch));
+  }
+
+  void measure() {
+    constexpr double parts = D == 2 ? 2 : 6;
+    std::vector<CompensatedSum> sum(out_.volumes_.size());
+    for (std::uint32_t i = 0; i < out_.simplices_.size(); ++i) {
+      const auto [value, error] = signed_measure<D>(out_.simplex(i), centre_);
+      const auto& side = out_.patches_[out_.patch_of_[i]].volume;
+      if (side[0] == side[1]) continue;
+      sum[side[0]].add(value / parts);
+      sum[side[1]].add(-value / parts);
+      for (const std::uint32_t v : side) out_.volumes_[v].measure_error += error / parts;
+    }
+    for (std::size_t v = 0; v < sum.size(); ++v) {
+      out_.volumes_[v].measure = sum[v].value();
+      out_.volumes_[v].measure_error += sum[v].error();
+    }
+  }
+
+  InputVolumes<D>& out_;
+  const Domain<D>& domain_;
+  Point<D> centre_;
+  std::vector<EntityId> facet_of_;
+  std::vector<std::pair<std::array<std::uint32_t, 2>, EntityId>> segments_;
+  std::vector<AtRidge> ridges_;
+  DisjointSets sides_, patches_, components_;
+};
+
+template <int D>
+InputVolumes<D>::InputVolumes(const Domain<D>& domain) : domain_(&domain) {
+  InputBuilder<D>(*this).run();
+}
+
+template <int D>
+std::uint32_t InputVolumes<D>::side_volume(std::uint32_t simplex, bool negative) const {
+  return patches_[patch_of_[simplex]].volume[negative];
+}
+
+template <int D>
+bool InputVolumes<D>::wants_patch(std::uint32_t patch) const {
+  const auto& side = patches_[patch].volume;
+  return volumes_[side[0]].kept || volumes_[side[1]].kept;
+}
+
+template <int D>
+bool InputVolumes<D>::keeps(const Point<D>& p) const {
+  const auto v = locate(p);
+  return !v || volumes_[*v].kept;
+}
+
+template <int D>
+bool InputVolumes<D>::wants_segment(EntityId segment) const {
+  if (wants_segment_[segment] != Wanted::unknown) return wants_segment_[segment] == Wanted::yes;
+  const auto& ends = domain_->segments()[segment].points;
+  Point<D> middle;
+  for (int k = 0; k < D; ++k) middle[k] = domain_->points()[ends[0]][k] / 2 + domain_->points()[ends[1]][k] / 2;
+  return keeps(middle);
+}
+
+template <int D>
+bool InputVolumes<D>::wants_point(std::uint32_t point) const {
+  if (wants_point_[point] != Wanted::unknown) return wants_point_[point] == Wanted::yes;
+  return keeps(domain_->points()[point]);
+}
+
+template <int D>
+std::span<const Bound> InputVolumes<D>::bounds(EntityId segment, bool reversed) const {
+  const auto less = [](const Bound& a, const Bound& b) {
+    return std::pair(a.segment, a.reversed) < std::pair(b.segment, b.reversed);
+  };
+  const auto [first, last] = std::equal_range(bounds_.begin(), bounds_.end(), Bound{segment, reversed, 0}, less);
+  return {first, last};
+}
+
+template class InputVolumes<2>;
+template class InputVolumes<3>;
+template std::pair<double, double> signed_measure<2>(const std::array<Point2, 2>&, const Point2&);
+template std::pair<double, double> signed_measure<3>(const std::array<Point3, 3>&, const Point3&);
+
+}  // namespace pgdr::checking

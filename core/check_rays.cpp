@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Lines through the input: which walls a line crosses and in which order. Exact; a line that meets a ridge, or lies in a
+// wall, is given up for another one.
+#include <algorithm>
+#include <cmath>
+
+#include "detail/check_exact.hpp"
+#include "detail/check_input.hpp"
+#include "pgdr/predicates.hpp"
+
+namespace pgdr::checking {
+namespace {
+
+enum class Crossing { miss, hit, degenerate };
+
+template <int D>
+Crossing crossing(const std::array<Point<D>, D>& s, const Point<D>& q, const Point<D>& p) {
+  const auto against = [&](const Point<D>& x) {
+    if constexpr (D == 2)
+      return orient2d(s[0], s[1], x);
+    else
+      return orient3d(s[0], s[1], s[2], x);
+  };
+  const Sign of_q = against(q), of_p = against(p);
+  if (of_q == of_p && of_q != Sign::zero) return Crossing::miss;
+  // Seen along the line, the simplex surrounds it iff its D faces turn round it the same way.
+  bool positive = false, negative = false, zero = of_q == Sign::zero || of_p == Sign::zero;
+  for (int i = 0; i < D; ++i) {
+    Sign turn;
+    if constexpr (D == 2)
+      turn = i == 0 ? orient2d(q, p, s[0]) : -orient2d(q, p, s[1]);
+    else
+      turn = orient3d(q, p, s[i], s[(i + 1) % 3]);
+    positive |= turn == Sign::positive;
+    negative |= turn == Sign::negative;
+    zero |= turn == Sign::zero;
+  }
+  if (positive && negative) return Crossing::miss;
+  return zero ? Crossing::degenerate : Crossing::hit;
+}
+
+std::uint64_t mix(std::uint64_t x) {  // splitmix64
+  x += 0x9e3779b97f4a7c15u;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+/// Distances of points from a line, along D - 1 directions normal to it, in doubles with a bound of their error.
+template <int D>
+class Strip {
+ public:
+  Strip(const Point<D>& q, const Point<D>& p, double magnitude) : q_(q) {
+    Point<D> d;
+    double length = 0;
+    for (int i = 0; i < D; ++i) {
+      d[i] = p[i] - q[i];
+      length = std::max(length, std::abs(d[i]));
+    }
+    for (int i = 0; i < D; ++i) d[i] /= length;
+    int least = 0;
+    for (int i = 1; i < D; ++i)
+      if (std::abs(d[i]) < std::abs(d[least])) least = i;
+    // Any D - 1 directions would do: an exact normal is not needed, the error term covers what they are off.
+    if constexpr (D == 2) {
+      normal_[0] = {{-d[1], d[0]}};
+    } else {
+      const int j = (least + 1) % 3, k = (least + 2) % 3;
+      normal_[0][j] = -d[k];
+      normal_[0][k] = d[j];
+      for (int i = 0; i < 3; ++i)
+        normal_[1][i] = d[(i + 1) % 3] * normal_[0][(i + 2) % 3] - d[(i + 2) % 3] * normal_[0][(i + 1) % 3];
+    }
+    slack_ = 0x1p-40 * (magnitude + length);
+  }
+
+  bool may_cross(const std::array<Point<D>, D>& s) const {
+    for (const auto& n : normal_) {
+      bool below = true, above = true;
+      for (const Point<D>& x : s) {
+        double height = 0;
+        for (int i = 0; i < D; ++i) height += n[i] * (x[i] - q_[i]);
+        below &= height < -slack_;
+        above &= height > slack_;
+      }
+      if (below || above) return false;
+    }
+    return true;
+  }
+
+ private:
+  Point<D> q_;
+  std::array<Point<D>, D - 1> normal_{};
+  double slack_ = 0;
+};
+
+}  // namespace
+
+template <int D>
+std::array<Point<D>, D> InputVolumes<D>::simplex(std::uint32_t i) const {
+  std::array<Point<D>, D> s;
+  for (int k = 0; k < D; ++k) s[k] = domain_->points()[simplices_[i][k]];
+  return s;
+}
+
+template <int D>
+std::optional<std::vector<std::uint32_t>> InputVolumes<D>::crossings(const Point<D>& q, const Point<D>& p) const {
+  double magnitude = 0;
+  for (const Point<D>& x : {q, p})
+    for (int i = 0; i < D; ++i) magnitude = std::max(magnitude, std::abs(x[i]));
+  const Strip<D> strip(q, p, magnitude);
+  std::vector<std::uint32_t> hits;
+  std::vector<std::array<Point<D>, D>> hit_simplices;
+  for (std::uint32_t i = 0; i < simplices_.size(); ++i) {
+    const auto s = simplex(i);
+    if (!strip.may_cross(s)) continue;
+    const Crossing c = crossing<D>(s, q, p);
+    if (c == Crossing::degenerate) return {};
+    if (c == Crossing::miss) continue;
+    hits.push_back(i);
+    hit_simplices.push_back(s);
+  }
+  const auto order = order_along<D>(q, p, hit_simplices);
+  if (order.size() != hits.size()) return {};
+  std::vector<std::uint32_t> sorted;
+  for (const std::uint32_t i : order) sorted.push_back(hits[i]);
+  return sorted;
+}
+
+/// A point outside the bounding box, in a direction that depends on the attempt alone.
+template <int D>
+Point<D> InputVolumes<D>::far_from(const Point<D>& p, std::uint64_t attempt) const {
+  Point<D> q = p;
+  for (int i = 0; i < D; ++i) {
+    const double unit = static_cast<double>(mix(8 * attempt + static_cast<std::uint64_t>(i)) >> 11) * 0x1p-52 - 1;
+    // At least two spans in every axis, so that the point is outside the box, whatever p in it.
+    q[i] += span_ * (unit < 0 ? unit - 0.25 : unit + 0.25) * 8;
+  }
+  return q;
+}
+
+template <int D>
+std::optional<std::uint32_t> InputVolumes<D>::locate(const Point<D>& p) const {
+  constexpr std::uint64_t attempts = 32;  // a line in general position is found at once unless p is on a wall
+  for (std::uint64_t attempt = 0; attempt < attempts; ++attempt) {
+    const auto hits = crossings(far_from(p, attempt), p);
+    if (!hits) continue;
+    if (hits->empty()) return 0;
+    const auto s = simplex(hits->back());
+    const Sign side = [&] {
+      if constexpr (D == 2)
+        return orient2d(s[0], s[1], p);
+      else
+        return orient3d(s[0], s[1], s[2], p);
+    }();
+    return side_volume(hits->back(), side == Sign::negative);
+  }
+  return {};
+}
+
+template class InputVolumes<2>;
+template class InputVolumes<3>;
+
+}  // namespace pgdr::checking

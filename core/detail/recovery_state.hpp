@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What boundary recovery works on; private to recovery*.cpp.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "detail/wanted_simplices.hpp"
+#include "pgdr/recovery.hpp"
+
+namespace pgdr::detail {
+
+/// The subsegments of every segment, and where to split them.
+template <int D>
+class SegmentChains {
+ public:
+  struct Link {
+    VertexId vertex;
+    double t;  ///< parameter on the segment
+  };
+
+  SegmentChains(Mesh<D>& mesh, Delaunay<D>& delaunay, const Domain<D>& domain);
+
+  /// Splits every subsegment that is no edge of the mesh, until none is missing. False if `stop` says so.
+  template <class Stop>
+  bool recover(const Stop& stop) {
+    for (bool again = true; again;) {
+      again = false;
+      for (const auto& [segment, a, b] : missing()) {
+        if (stop()) return false;
+        again = split(segment, a, b) || again;
+      }
+    }
+    return true;
+  }
+  /// Splits the subsegment ab of the segment, if it is one; false otherwise.
+  bool split(EntityId segment, VertexId a, VertexId b);
+
+  const std::vector<Link>& chain(EntityId segment) const { return chains_[segment]; }
+  /// Segments whose chain has changed since the last call.
+  std::vector<EntityId> take_changed();
+  std::uint64_t points() const { return points_; }
+  void mark(typename Mesh<D>::Pools& pools);
+
+ private:
+  struct Subsegment {
+    EntityId segment;
+    VertexId a, b;
+  };
+  std::vector<Subsegment> missing() const;
+  double split_parameter(EntityId segment, const Link& a, const Link& b) const;
+  void find_shells();
+  WantedSimplices<2> wanted() const;
+
+  Mesh<D>* mesh_;
+  Delaunay<D>* delaunay_;
+  const Domain<D>* domain_;
+  std::vector<std::vector<Link>> chains_;
+  std::vector<std::array<bool, 2>> shell_;  ///< another segment makes less than 60 degrees at this end
+  std::vector<EntityId> changed_;
+  std::uint64_t points_ = 0;
+};
+
+extern template class SegmentChains<2>;
+extern template class SegmentChains<3>;
+
+/// The triangulation of every facet in its plane.
+class FacetPatches {
+ public:
+  FacetPatches(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>& domain, SegmentChains<3>& chains);
+
+  /// Puts points where triangles are missing, one round. False if none was missing.
+  bool recover_once();
+  std::uint64_t points() const { return points_; }
+  void mark(Mesh<3>::Pools& pools);
+
+ private:
+  using Triangle = std::array<VertexId, 3>;
+  struct Subsegment {
+    EntityId segment;
+    VertexId a, b;
+  };
+  void triangulate(EntityId facet);
+  void recover_facet(EntityId facet, std::vector<Triangle> missing);
+  std::optional<Subsegment> in_the_way(const std::vector<Subsegment>& rim, EntityId facet, const Triangle& t,
+                                       const Point3& x) const;
+  std::vector<Subsegment> subsegments(EntityId facet) const;
+  WantedSimplices<3> wanted() const;
+  void find_present(WantedSimplices<3>& wanted) const;
+
+  Mesh<3>* mesh_;
+  Delaunay<3>* delaunay_;
+  const Domain<3>* domain_;
+  SegmentChains<3>* chains_;
+  std::vector<std::vector<Triangle>> triangles_;
+  std::vector<std::vector<VertexId>> inner_points_;  ///< Steiner points inside each facet
+  std::vector<bool> changed_;
+  std::uint64_t points_ = 0;
+};
+
+}  // namespace pgdr::detail

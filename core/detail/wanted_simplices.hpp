@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A set of edges or triangles that a mesh is to contain, looked up by their vertices while all cells are passed over once.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "pgdr/domain.hpp"
+#include "pgdr/types.hpp"
+
+namespace pgdr::detail {
+
+template <std::size_t K>
+class WantedSimplices {
+ public:
+  struct Item {
+    std::array<VertexId, K> vertices;  // sorted
+    EntityId entity;
+    bool present = false;
+  };
+
+  void add(std::array<VertexId, K> vertices, EntityId entity) {
+    std::sort(vertices.begin(), vertices.end());
+    items_.push_back({vertices, entity});
+  }
+  /// To be called once, after all `add`s.
+  void index_by_first(std::uint32_t vertex_bound) {
+    std::sort(items_.begin(), items_.end(), [](const Item& a, const Item& b) { return a.vertices < b.vertices; });
+    begin_.assign(vertex_bound + 1, 0);
+    for (const Item& item : items_) ++begin_[pgdr::index(item.vertices[0]) + 1];
+    for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
+  }
+  Item* find(std::array<VertexId, K> vertices) {
+    std::sort(vertices.begin(), vertices.end());
+    const std::uint32_t first = pgdr::index(vertices[0]);
+    if (first + 1 >= begin_.size()) return nullptr;
+    for (std::uint32_t i = begin_[first]; i < begin_[first + 1]; ++i)
+      if (items_[i].vertices == vertices) return &items_[i];
+    return nullptr;
+  }
+  std::vector<Item>& items() { return items_; }
+
+ private:
+  std::vector<Item> items_;
+  std::vector<std::uint32_t> begin_;
+};
+
+}  // namespace pgdr::detail

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cerrno>
+#include <memory>
+#include <random>
+#include <system_error>
+#include <utility>
+
+#include "detail/file_input.hpp"
+#include "detail/file_output.hpp"
+#include "pgdr/error.hpp"
+
+namespace pgdr::detail {
+namespace fs = std::filesystem;
+namespace {
+
+std::string reason(int error_number) { return std::generic_category().message(error_number); }
+
+[[noreturn]] void cannot_open(const fs::path& file, const std::string& why) {
+  throw FileError(Diagnostic{Errc::cannot_open, "cannot be read: " + why, file.string(), 0, {}, {}});
+}
+
+std::string random_suffix() {
+  std::random_device device;
+  constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz234567";
+  std::string suffix;
+  for (int i = 0; i < 12; ++i) suffix += letters[device() % letters.size()];
+  return suffix;
+}
+
+}  // namespace
+
+std::string read_whole_file(const fs::path& file) {
+  std::error_code ec;
+  if (fs::is_directory(file, ec)) cannot_open(file, "it is a directory");
+  std::FILE* const stream = std::fopen(file.c_str(), "rb");
+  if (stream == nullptr) cannot_open(file, reason(errno));
+  const auto close = [](std::FILE* f) { std::fclose(f); };
+  const std::unique_ptr<std::FILE, decltype(close)> guard(stream, close);
+
+  // Asked first, so that a large file is not copied while the string grows; but trusted for nothing, since pipes have
+  // no size and files change.
+  const std::uintmax_t size = fs::file_size(file, ec);
+  std::string text;
+  text.resize(ec ? 0 : static_cast<std::size_t>(size));
+  std::size_t used = 0;
+  for (;;) {
+    if (used == text.size()) {
+      char probe = 0;
+      if (std::fread(&probe, 1, 1, stream) == 0) break;
+      text.resize(text.size() + (std::size_t{1} << 16) + text.size() / 2);
+      text[used++] = probe;
+    }
+    const std::size_t n = std::fread(text.data() + used, 1, text.size() - used, stream);
+    used += n;
+    if (n == 0) break;
+  }
+  if (std::ferror(stream) != 0) cannot_open(file, reason(errno));
+  text.resize(used);
+  return text;
+}
+
+FileOutput::FileOutput(const fs::path& target) : target_(target), buffer_(std::size_t{1} << 20) {
+  std::error_code ec;
+  // A link keeps pointing at the file that is replaced.
+  if (fs::is_symlink(target_, ec)) {
+    fs::path resolved = fs::canonical(target_, ec);
+    if (!ec) target_ = std::move(resolved);
+  }
+  if (fs::exists(target_, ec) && !fs::is_regular_file(target_, ec)) fail("it is not a regular file");
+  constexpr int attempts = 100;
+  for (int i = 0; i < attempts && stream_ == nullptr; ++i) {
+    temporary_ = target_;
+    temporary_.replace_filename("." + target_.filename().string().substr(0, 200) + "." + random_suffix() + ".tmp");
+    stream_ = std::fopen(temporary_.c_str(), "wbx");
+    if (stream_ == nullptr && errno != EEXIST) break;
+  }
+  if (stream_ == nullptr) fail(reason(errno));
+  std::setvbuf(stream_, nullptr, _IONBF, 0);
+}
+
+FileOutput::~FileOutput() {
+  if (stream_ != nullptr) std::fclose(stream_);
+  std::error_code ec;
+  if (!temporary_.empty()) fs::remove(temporary_, ec);
+}
+
+void FileOutput::put_long(std::string_view text) {
+  flush();
+  if (text.size() > buffer_.size()) return write(text);
+  put(text);
+}
+
+void FileOutput::flush() {
+  write({buffer_.data(), used_});
+  used_ = 0;
+}
+
+void FileOutput::write(std::string_view bytes) {
+  if (std::fwrite(bytes.data(), 1, bytes.size(), stream_) != bytes.size()) fail(reason(errno));
+}
+
+void FileOutput::commit() {
+  flush();
+  if (std::fclose(std::exchange(stream_, nullptr)) != 0) fail(reason(errno));
+  std::error_code ec;
+  fs::rename(temporary_, target_, ec);
+  if (ec) fail(ec.message());
+  temporary_.clear();
+}
+
+void FileOutput::fail(const std::string& why) const {
+  throw FileError(Diagnostic{Errc::cannot_write, "cannot be written: " + why, target_.string(), 0, {}, {}});
+}
+
+}  // namespace pgdr::detail

@@ -1,0 +1,204 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// STL surfaces, binary and ASCII. Binary is whatever has the size that its count of triangles implies, since binary
+// headers that begin with "solid" are common. STL repeats a point for each triangle; equal coordinates (-0 is 0) become
+// one point here. Normals are not read: they are often wrong or NaN, and the corners say it all.
+#include <bit>
+#include <cctype>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include "detail/io_formats.hpp"
+#include "detail/line_scanner.hpp"
+
+namespace pgdr::detail {
+namespace {
+
+/// Numbers distinct points in the order in which they come; open addressing, since there are three for each triangle.
+class PointIndex {
+ public:
+  explicit PointIndex(std::vector<Point<3>>& points) : points_(points), slots_(1024, none) {}
+
+  std::uint32_t insert(Point<3> p) {
+    for (int i = 0; i < 3; ++i) p[i] += 0.0;  // makes -0 to 0
+    if (2 * points_.size() >= slots_.size()) grow();
+    std::size_t at = find(p);
+    if (slots_[at] == none) {
+      slots_[at] = static_cast<std::uint32_t>(points_.size());
+      points_.push_back(p);
+    }
+    return slots_[at];
+  }
+
+ private:
+  static constexpr std::uint32_t none = 0xffffffff;
+
+  /// The slot of p, or the empty one where it belongs.
+  std::size_t find(const Point<3>& p) const {
+    std::uint64_t h = 0;
+    for (int i = 0; i < 3; ++i) {
+      h = (h ^ std::bit_cast<std::uint64_t>(p[i])) * 0x9e3779b97f4a7c15u;
+      h ^= h >> 32;
+    }
+    std::size_t at = h & (slots_.size() - 1);
+    while (slots_[at] != none && points_[slots_[at]] != p) at = (at + 1) & (slots_.size() - 1);
+    return at;
+  }
+  void grow() {
+    slots_.assign(2 * slots_.size(), none);
+    for (std::uint32_t i = 0; i < points_.size(); ++i) slots_[find(points_[i])] = i;
+  }
+
+  std::vector<Point<3>>& points_;
+  std::vector<std::uint32_t> slots_;
+};
+
+constexpr std::size_t binary_header = 84, binary_triangle = 50;
+
+std::uint32_t little_endian(std::string_view text, std::size_t at) {
+  std::uint32_t v = 0;
+  for (std::size_t i = 0; i < 4; ++i) v |= std::uint32_t{static_cast<unsigned char>(text[at + i])} << (8 * i);
+  return v;
+}
+
+bool starts_with_solid(std::string_view text) {
+  constexpr std::string_view solid = "solid";
+  std::size_t at = 0;
+  while (at < text.size() && std::isspace(static_cast<unsigned char>(text[at])) != 0) ++at;
+  for (std::size_t i = 0; i < solid.size(); ++i) {
+    if (at + i >= text.size() || std::tolower(static_cast<unsigned char>(text[at + i])) != solid[i]) return false;
+  }
+  return true;
+}
+
+[[noreturn]] void fail_binary(const Plc<3>& plc, Errc code, std::string message, std::vector<std::int64_t> ids = {}) {
+  throw InputError(Diagnostic{code, std::move(message), plc.source.file, 0, std::move(ids), {}});
+}
+
+void check_binary_size(std::string_view text, const Plc<3>& plc) {
+  if (text.size() < binary_header) fail_binary(plc, Errc::truncated, "the file ends within the header");
+  const std::uint64_t n = little_endian(text, binary_header - 4);
+  const std::uint64_t size = binary_header + n * binary_triangle;
+  const std::string story = "the header states " + std::to_string(n) + " triangles, hence " + std::to_string(size) +
+                            " bytes, but the file has " + std::to_string(text.size());
+  if (size > text.size()) fail_binary(plc, Errc::count_too_large, story);
+  if (size < text.size()) fail_binary(plc, Errc::syntax, story);
+}
+
+void add_triangle(Plc<3>& plc, const std::array<std::uint32_t, 3>& corners, int marker) {
+  auto& facet = plc.facets.emplace_back();
+  facet.polygons.emplace_back(corners.begin(), corners.end());
+  facet.marker = marker;
+}
+
+void read_binary(std::string_view text, Plc<3>& plc) {
+  const std::size_t n = little_endian(text, binary_header - 4);
+  plc.facets.reserve(n);
+  PointIndex index(plc.points);
+  for (std::size_t t = 0; t < n; ++t) {
+    std::size_t at = binary_header + t * binary_triangle + 12;  // behind the normal
+    std::array<std::uint32_t, 3> corners;
+    for (auto& c : corners) {
+      Point<3> p;
+      for (int i = 0; i < 3; ++i, at += 4) {
+        p[i] = std::bit_cast<float>(little_endian(text, at));
+        if (!std::isfinite(p[i]))
+          fail_binary(plc, Errc::not_finite, "a coordinate of triangle " + std::to_string(t) + " is not finite",
+                      {static_cast<std::int64_t>(t)});
+      }
+      c = index.insert(p);
+    }
+    add_triangle(plc, corners, 0);
+  }
+}
+
+/// ASCII STL: a keyword at a time, in any case of letters.
+class AsciiReader {
+ public:
+  AsciiReader(std::string_view text, Plc<3>& plc) : in_(text, plc.source.file), plc_(plc), index_(plc.points) {}
+
+  void read() {
+    constexpr Subject solid{"a solid"};
+    while (in_.advance()) {
+      expect("solid", solid);
+      ++solids_;
+      in_.skip_line();  // the name
+      for (;;) {
+        in_.require({"a facet or the end of the solid"});
+        const std::string_view word = in_.word(solid);
+        if (is(word, "endsolid")) break;
+        if (!is(word, "facet")) fail(word, "'facet' or 'endsolid'");
+        read_facet();
+      }
+      in_.skip_line();
+    }
+    // The solids of a file with several are told apart by their markers; a single one has no label to lose.
+    if (solids_ == 1) {
+      for (auto& f : plc_.facets) f.marker = 0;
+    }
+  }
+
+ private:
+  static bool is(std::string_view word, std::string_view keyword) {
+    if (word.size() != keyword.size()) return false;
+    for (std::size_t i = 0; i < word.size(); ++i) {
+      if (std::tolower(static_cast<unsigned char>(word[i])) != keyword[i]) return false;
+    }
+    return true;
+  }
+  [[noreturn]] void fail(std::string_view word, std::string_view wanted) const {
+    in_.fail(Errc::syntax, quoted(word) + " stands where " + std::string(wanted) + " is expected");
+  }
+  void expect(std::string_view keyword, Subject s) {
+    in_.require(s);
+    const std::string_view word = in_.word(s);
+    if (!is(word, keyword)) fail(word, quoted(keyword));
+  }
+
+  void read_facet() {
+    const Subject s{"facet", static_cast<std::int64_t>(plc_.facets.size())};
+    plc_.source.facet_lines.push_back(static_cast<std::uint32_t>(in_.line()));
+    in_.skip_line();  // the normal
+    expect("outer", s);
+    expect("loop", s);
+    std::array<std::uint32_t, 3> corners;
+    for (auto& c : corners) {
+      expect("vertex", s);
+      Point<3> p;
+      for (int i = 0; i < 3; ++i) {
+        in_.require(s);
+        p[i] = in_.number(s);
+      }
+      c = index_.insert(p);
+    }
+    expect("endloop", s);
+    expect("endfacet", s);
+    add_triangle(plc_, corners, solids_);
+  }
+
+  LineScanner in_;
+  Plc<3>& plc_;
+  PointIndex index_;
+  int solids_ = 0;
+};
+
+}  // namespace
+
+Plc<3> read_stl(std::string_view text, const std::filesystem::path& file) {
+  Plc<3> plc;
+  plc.source.file = file.string();
+  const bool sizes_agree =
+      text.size() >= binary_header &&
+      text.size() == binary_header + std::uint64_t{little_endian(text, binary_header - 4)} * binary_triangle;
+  if (!sizes_agree && starts_with_solid(text)) {
+    AsciiReader(text, plc).read();
+  } else {
+    check_binary_size(text, plc);
+    read_binary(text, plc);
+  }
+  return plc;
+}
+
+}  // namespace pgdr::detail

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "pgdr/mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pgdr {
+
+// The relative half width of each level's band: 2^-44, 2^-41, ..., 2^-2, and infinity, which leaves all to the exact test.
+template <int D>
+const std::array<typename Mesh<D>::Band, 16> Mesh<D>::bands = [] {
+  std::array<Band, 16> b{};
+  for (int i = 0; i < 15; ++i) b[i] = {1 - std::ldexp(1.0, 3 * i - 44), 1 + std::ldexp(1.0, 3 * i - 44)};
+  b[15] = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  return b;
+}();
+
+template <int D>
+Mesh<D>::Mesh()
+    : cells_(capacity),
+      tags_(capacity),
+      regions_(capacity),
+      vertices_(capacity),
+      constraints_(capacity),
+      cell_source_("cells", capacity,
+                   [this](std::uint32_t n) {
+                     cells_.grow_to(n);
+                     tags_.grow_to(n);
+                     regions_.grow_to(n);
+                     // Slots of a block that are never taken must read as dead.
+                     for (std::uint32_t i = n - IdSource::block; i < n; ++i) cells_[i].vertices[0] = no_vertex;
+                   }),
+      vertex_source_("vertices", capacity,
+                     [this](std::uint32_t n) {
+                       vertices_.grow_to(n);
+                     }),
+      constraint_source_("constrained cells", capacity, [this](std::uint32_t n) { constraints_.grow_to(n); }) {}
+
+// Let c~ be the computed centre, d = c - c~ its error, r~ = |v0 - c~|. For any p,
+//   (|p-c|^2 - |v0-c|^2) = (|p-c~|^2 - r~^2) - 2 d.(p - v0),
+// and |p - v0| <= |p-c~| + r~. Where |p-c~| <= 2 r~ the last term is at most 6 |d| r~; where |p-c~| > 2 r~ the first is
+// at least 3/4 |p-c~|^2 and the last at most 3 |d| |p-c~|, so that the sign is right as long as |d| < r~/4, which the
+// levels below the last imply. Evaluating both squares costs less than 8 u relative each, and the four bits taken from
+// r~^2 cost 2^-48: 2^-46 covers these.
+template <int D>
+void Mesh<D>::set_sphere(CellId c, const Circumsphere<D>& sphere) {
+  CellRecord<D>& k = cell(c);
+  k.center = sphere.center;
+  const double band = 6 * sphere.center_error / std::sqrt(sphere.squared_radius) + 0x1p-46;
+  int level = 15;
+  if (band <= 0x1p-44) {
+    level = 0;
+  } else if (band <= 0x1p-3) {
+    level = (44 + std::ilogb(band) + 1 + 2) / 3;
+  }
+  const std::uint64_t bits = std::bit_cast<std::uint64_t>(sphere.squared_radius);
+  k.radius2 = std::bit_cast<double>((bits & ~std::uint64_t{15}) | static_cast<std::uint64_t>(level));
+}
+
+template <int D>
+bool Mesh<D>::conflicts_exactly(CellId c, const Point<D>& p) const {
+  const CellRecord<D>& k = cell(c);
+  for (int i = 0; i <= D; ++i) {
+    if (k.vertices[i] != infinite_vertex) continue;
+    Simplex<D> s;
+    for (int j = 0; j <= D; ++j) s[j] = j == i ? p : point(k.vertices[j]);
+    const Sign side = orient<D>(s);
+    return side == Sign::zero ? conflicts(k.links[i].cell(), p) : side == Sign::positive;
+  }
+  return in_sphere_perturbed<D>(simplex(c), p) == Sign::positive;
+}
+
+template <int D>
+void Mesh<D>::free_cell(Pools& pools, CellId c) {
+  const std::uint32_t tag = tags_[index(c)] & ~mark_bit;
+  if (tag != 0) pools.constraints.give(tag - 1);
+  cell(c).vertices[0] = no_vertex;
+  pools.cells.give(index(c));
+}
+
+template <int D>
+VertexId Mesh<D>::new_vertex(Pools& pools, const Point<D>& p, Home home, float relaxed_radius) {
+  const VertexId v{pools.vertices.take()};
+  vertex(v) = {p, home, relaxed_radius};
+  return v;
+}
+
+template <int D>
+void Mesh<D>::free_vertex(Pools& pools, VertexId v) {
+  pools.vertices.give(index(v));
+}
+
+template <int D>
+ConstraintRecord<D>& Mesh<D>::ensure_constraints(Pools& pools, CellId c) {
+  if (ConstraintRecord<D>* k = constraints(c)) return *k;
+  const std::uint32_t id = pools.constraints.take();
+  constraints_[id] = {};
+  tags_[index(c)] = (tags_[index(c)] & mark_bit) | (id + 1);
+  return constraints_[id];
+}
+
+template class Mesh<2>;
+template class Mesh<3>;
+
+}  // namespace pgdr

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// One insertion (Bowyer-Watson) in its phases: collect and judge read, commit writes; giving up before commit is free.
+// The cavity is the set of cells in conflict with the new point p that are reached from a seed without crossing a
+// constrained face, except the part of the facet (segment) that p lies on: of a subfacet in that part the cells on
+// both sides are taken as soon as one of them is in conflict. Then it is cut back, by exact orientation, to its
+// largest star-shaped part; the cells next to the split entity, or the seed, are never given up.
+//
+// A Cavity is the workspace of one visit: one thread at a time; reused from insertion to insertion.
+#pragma once
+
+#include <vector>
+
+#include "pgdr/mesh.hpp"
+
+namespace pgdr {
+
+/// Steps from cell to cell round a ridge (a vertex in 2D, an edge in 3D). `exit` and `entry` are the numbers of the two
+/// vertices of the cell that are not on the ridge; the next cell lies across the face opposite `exit`.
+template <int D>
+struct RidgeWalk {
+  CellId cell;
+  int entry, exit;
+
+  Link link(const Mesh<D>& mesh) const { return mesh.cell(cell).links[exit]; }
+  /// @pre link() leads somewhere.
+  void step(const Mesh<D>& mesh) {
+    const auto& k = mesh.cell(cell);
+    const VertexId pivot = k.vertices[entry];
+    const Link next = k.links[exit];
+    cell = next.cell();
+    entry = next.face();
+    const auto& n = mesh.cell(cell);
+    exit = 0;
+    while (n.vertices[exit] != pivot) ++exit;
+  }
+};
+
+template <int D>
+class Cavity {
+ public:
+  using Pools = typename Mesh<D>::Pools;
+  struct BoundaryFace {
+    CellId cell;  ///< inside
+    int face;
+  };
+  /// A subfacet (2D: subsegment) that the insertion splits, seen from one side.
+  struct PartFace {
+    CellId cell;
+    int face;
+    EntityId entity;
+  };
+  enum class Status {
+    ok,
+    not_in_conflict,  ///< the rounded point does not lie in the seed's circumsphere
+    not_star_shaped,  ///< a cell that must go cannot be seen from the point
+    duplicate,        ///< the point is a vertex already
+    swallows,         ///< a vertex or a subsegment would vanish
+  };
+
+  explicit Cavity(Mesh<D>& mesh) : mesh_(&mesh) {}
+  ~Cavity() { release(); }
+  Cavity(const Cavity&) = delete;
+  Cavity& operator=(const Cavity&) = delete;
+
+  // ---- collect -----------------------------------------------------------------------------------------------------
+  /// A point in the volume; the seed must be in conflict with it.
+  Status collect(const Point<D>& p, CellId seed);
+  /// A point on the facet (2D: segment) that the constrained face belongs to, inside the face's circumcircle.
+  Status collect_on_face(const Point<D>& p, CellId cell, int face);
+  /// 3D: a point on the subsegment that is edge `edge` of `cell`.
+  Status collect_on_edge(const Point<D>& p, CellId cell, int edge)
+    requires(D == 3);
+
+  /// Cuts back to the star-shaped part. After `collect...` said ok.
+  Status make_star_shaped();
+  /// Would a vertex or subsegment vanish? Asked of cavities next to constraints or cut back; costs a pass over all cells.
+  Status check_nothing_swallowed();
+
+  // ---- what was collected ------------------------------------------------------------------------------------------
+  const Point<D>& point() const { return point_; }
+  const std::vector<CellId>& cells() const { return cells_; }
+  const std::vector<BoundaryFace>& boundary() const { return boundary_; }
+  const std::vector<PartFace>& part() const { return part_; }
+  bool shrunk() const { return shrunk_; }
+  bool touches_constraints() const { return touches_constraints_; }
+
+  // ---- commit ------------------------------------------------------------------------------------------------------
+  /// Writes the star of the new vertex. Its entity's new subfacets and subsegments are marked.
+  VertexId commit(Pools& pools, Home home, float relaxed_radius);
+  /// The cells made by the last commit.
+  const std::vector<CellId>& new_cells() const { return new_cells_; }
+
+  /// Gives up what was collected. Free.
+  void release();
+
+ private:
+  void begin(const Point<D>& p);
+  bool take(CellId c) {
+    if (mesh_->marked(c)) return false;
+    mesh_->mark(c);
+    cells_.push_back(c);
+    return true;
+  }
+  void grow_part(std::size_t from);
+  void add_part_face(CellId cell, int face, EntityId entity);
+  bool in_part(CellId cell, int face) const {
+    const auto* k = mesh_->constraints(cell);
+    return k && (k->part >> face & 1);
+  }
+  void grow();
+  void rebuild_boundary();
+  bool visible(const BoundaryFace& f) const;
+  Status drop_cells(const std::vector<CellId>& doomed);
+  void clear_part_bits();
+  CellId make_cell(Pools& pools, const BoundaryFace& f, VertexId v);
+  void inherit_constraints(Pools& pools, const BoundaryFace& f, CellId c);
+  void link_new_cells(Pools& pools);
+  void mark_split_entities(Pools& pools, VertexId v);
+
+  Mesh<D>* mesh_;
+  Point<D> point_;
+  std::vector<CellId> cells_, new_cells_;
+  std::vector<CellId> protected_;
+  std::vector<BoundaryFace> boundary_;
+  std::vector<PartFace> part_;
+  /// Rim of the part: ridges that get a new constrained face with the new vertex, and of which entity.
+  struct RimRidge {
+    std::array<VertexId, D - 1> ridge;  // sorted
+    EntityId entity;
+  };
+  std::vector<RimRidge> rim_;
+  std::array<VertexId, 2> split_edge_{no_vertex, no_vertex};  // 3D: the subsegment being split
+  EntityId split_segment_ = no_entity;
+  bool shrunk_ = false, touches_constraints_ = false, has_ghosts_ = false;
+};
+
+extern template class Cavity<2>;
+extern template class Cavity<3>;
+
+}  // namespace pgdr

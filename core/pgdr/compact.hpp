@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// From the mesh under refinement to the finished one. The numbering is a function of the mesh alone: input points in the
+// order of the input, Steiner points along a Hilbert curve (ties by coordinates), cells by their sorted vertex numbers.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "pgdr/mesh.hpp"
+#include "pgdr/output_mesh.hpp"
+
+namespace pgdr {
+
+template <int D>
+struct Compacted {
+  OutputMesh<D> mesh;
+  std::vector<std::uint32_t> cell_number;  ///< by index(CellId); 0xffffffff for dead cells
+};
+
+/// @param region_attributes  attribute of each region number; empty: do not label.
+template <int D>
+Compacted<D> compact(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes);
+
+}  // namespace pgdr

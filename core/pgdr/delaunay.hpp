@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The (perturbed) Delaunay triangulation of a point set, built by insertion into a Mesh, its convex hull closed by
+// ghost cells. Unique for a set of points: independent of the order of insertion. Serial.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "pgdr/cavity.hpp"
+#include "pgdr/mesh.hpp"
+
+namespace pgdr {
+
+/// The cell that contains p (closed), or the ghost beyond whose hull face p lies, by a visibility walk from `hint`.
+/// @pre the mesh is a Delaunay triangulation closed by ghosts.
+template <int D>
+CellId locate(const Mesh<D>& mesh, const Point<D>& p, CellId hint);
+
+template <int D>
+class Delaunay {
+ public:
+  /// @pre `mesh` is empty.
+  Delaunay(Mesh<D>& mesh, typename Mesh<D>::Pools& pools) : mesh_(&mesh), pools_(&pools), cavity_(mesh) {}
+
+  /// Triangulates distinct points; vertex k of the result is points[k], at home at input vertex k. False (and no cell)
+  /// if the points lie in one line (2D) or plane (3D).
+  bool build(std::span<const Point<D>> points);
+
+  /// Inserts one more point, searched for from the star of vertex `near`. Returns the vertex there already, if there is one.
+  VertexId insert(const Point<D>& p, Home home, VertexId near);
+
+  /// Vertices in the order of `points`.
+  const std::vector<VertexId>& vertices() const { return vertices_; }
+  /// A cell at v (v < vertex bound).
+  CellId cell_at(VertexId v) const { return cell_at_[index(v)]; }
+
+ private:
+  bool first_simplex(std::span<const Point<D>> points, std::array<std::uint32_t, D + 1>& corners) const;
+  void make_first_cells(std::span<const Point<D>> points, const std::array<std::uint32_t, D + 1>& corners);
+  VertexId insert_from(const Point<D>& p, Home home, CellId hint);
+  void note_cells(VertexId v);
+
+  Mesh<D>* mesh_;
+  typename Mesh<D>::Pools* pools_;
+  Cavity<D> cavity_;
+  std::vector<VertexId> vertices_;
+  std::vector<CellId> cell_at_;
+};
+
+extern template class Delaunay<2>;
+extern template class Delaunay<3>;
+
+}  // namespace pgdr

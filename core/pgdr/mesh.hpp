@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The mesh while it is refined: flat arrays of vertices and cells, growing without moving. A cell is one cache line in
+// 3D: vertices, links to its neighbours, and its cached circumsphere, which answers nearly every in-sphere question
+// without touching a vertex. Constrained faces and edges are marked on the cells that contain them, in side records
+// of the few cells that have any.
+//
+// Threads: elements carry no lock. A cell is written by the visit that owns it alone; see design notes in docs/.
+// Until the exterior is carved away, the complement of the convex hull is filled with ghost cells at `infinite_vertex`.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include "pgdr/circumsphere.hpp"
+#include "pgdr/domain.hpp"
+#include "pgdr/pool.hpp"
+#include "pgdr/predicates.hpp"
+#include "pgdr/types.hpp"
+
+namespace pgdr {
+
+inline constexpr VertexId infinite_vertex{0xfffffffeu};
+
+/// A face seen from a cell: the cell beyond it and the number of the same face there; or nothing.
+struct Link {
+  std::uint32_t code = 0xffffffffu;
+
+  Link() = default;
+  Link(CellId cell, int face) : code(index(cell) << 2 | static_cast<std::uint32_t>(face)) {}
+  explicit operator bool() const { return code != 0xffffffffu; }
+  CellId cell() const { return CellId{code >> 2}; }
+  int face() const { return static_cast<int>(code & 3u); }
+  friend bool operator==(Link, Link) = default;
+};
+
+/// What a vertex lies on, packed: two bits of EntityKind, thirty of id.
+struct Home {
+  std::uint32_t code = 0;
+
+  Home() = default;
+  Home(EntityKind kind, EntityId id) : code(static_cast<std::uint32_t>(kind) << 30 | (id & 0x3fffffffu)) {}
+  EntityKind kind() const { return static_cast<EntityKind>(code >> 30); }
+  EntityId id() const { return code & 0x3fffffffu; }
+  EntityRef entity() const { return {kind(), kind() == EntityKind::volume ? no_entity : id()}; }
+};
+
+/// `relaxed_radius` is R(p) of the small-angle rule (refiner.hpp), rounded down; infinity for input vertices.
+template <int D>
+struct VertexRecord {
+  Point<D> point;
+  Home home;
+  float relaxed_radius = std::numeric_limits<float>::infinity();
+};
+
+template <int D>
+struct alignas(D == 3 ? 64 : 16) CellRecord {
+  std::array<VertexId, D + 1> vertices;
+  std::array<Link, D + 1> links;  ///< links[i]: across the face opposite vertices[i]
+  Point<D> center;                ///< of the circumsphere, rounded
+  double radius2;                 ///< squared; its lowest four bits are the level of the filter's error band
+};
+static_assert(sizeof(CellRecord<3>) == 64);
+
+inline constexpr int edge_count(int dimension) { return dimension == 3 ? 6 : 3; }
+/// The two ends of edge e of a tetrahedron, and e of two corners.
+inline constexpr std::array<std::array<int, 2>, 6> edge_ends = {{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+inline constexpr int edge_of_ends[4][4] = {{-1, 0, 1, 2}, {0, -1, 3, 4}, {1, 3, -1, 5}, {2, 4, 5, -1}};
+
+/// Which faces and edges of a cell are constrained, and by what. In 2D the faces are the subsegments.
+template <int D>
+struct ConstraintRecord {
+  std::uint8_t faces = 0;                     ///< bit i: the face opposite vertex i is constrained
+  std::uint8_t edges = 0;                     ///< 3D, bit e: edge e is a subsegment
+  std::uint8_t part = 0;                      ///< scratch of a cavity: bit i: face i is being split
+  std::array<EntityId, D + 1> face_entity{};  ///< facet (3D) or segment (2D)
+  std::array<EntityId, D == 3 ? 6 : 1> edge_entity{};
+};
+
+template <int D>
+class Mesh {
+ public:
+  Mesh();
+
+  VertexRecord<D>& vertex(VertexId v) { return vertices_[index(v)]; }
+  const VertexRecord<D>& vertex(VertexId v) const { return vertices_[index(v)]; }
+  const Point<D>& point(VertexId v) const { return vertices_[index(v)].point; }
+  CellRecord<D>& cell(CellId c) { return cells_[index(c)]; }
+  const CellRecord<D>& cell(CellId c) const { return cells_[index(c)]; }
+
+  bool alive(CellId c) const { return cell(c).vertices[0] != no_vertex; }
+  bool is_ghost(CellId c) const {
+    for (const VertexId v : cell(c).vertices)
+      if (v == infinite_vertex) return true;
+    return false;
+  }
+  Simplex<D> simplex(CellId c) const {
+    Simplex<D> s;
+    for (int i = 0; i <= D; ++i) s[i] = point(cell(c).vertices[i]);
+    return s;
+  }
+
+  // Marks of a cavity under construction: owner of the cell alone.
+  bool marked(CellId c) const { return tags_[index(c)] & mark_bit; }
+  void mark(CellId c) { tags_[index(c)] |= mark_bit; }
+  void unmark(CellId c) { tags_[index(c)] &= ~mark_bit; }
+
+  /// Constraints of c, or null if none of its faces or edges is constrained.
+  ConstraintRecord<D>* constraints(CellId c) {
+    const std::uint32_t id = tags_[index(c)] & ~mark_bit;
+    return id == 0 ? nullptr : &constraints_[id - 1];
+  }
+  const ConstraintRecord<D>* constraints(CellId c) const { return const_cast<Mesh*>(this)->constraints(c); }
+  bool constrained(CellId c, int face) const {
+    const auto* k = constraints(c);
+    return k && (k->faces >> face & 1);
+  }
+  std::uint16_t region(CellId c) const { return regions_[index(c)]; }
+  void set_region(CellId c, std::uint16_t r) { regions_[index(c)] = r; }
+
+  /// Stores the circumsphere as the filter of `conflicts`. Ghosts: `set_ghost_sphere`.
+  void set_sphere(CellId c, const Circumsphere<D>& sphere);
+  void set_ghost_sphere(CellId c) { cell(c).radius2 = std::numeric_limits<double>::quiet_NaN(); }
+
+  /// Exactly: is p inside the (perturbed) circumsphere of c? For a ghost: beyond its hull face, or in that face's plane
+  /// and inside the sphere of the cell behind it. p must not be a vertex of c.
+  bool conflicts(CellId c, const Point<D>& p) const {
+    const CellRecord<D>& k = cell(c);
+    const double d2 = squared_distance(k.center, p);
+    const auto& band = bands[std::bit_cast<std::uint64_t>(k.radius2) & 15];
+    if (d2 < k.radius2 * band.inner) return true;
+    if (d2 > k.radius2 * band.outer) return false;
+    return conflicts_exactly(c, p);
+  }
+
+  /// Bounds of the exact squared circumradius, from the cached one.
+  std::pair<double, double> squared_radius_bounds(CellId c) const {
+    const double r2 = cell(c).radius2;
+    const auto& band = bands[std::bit_cast<std::uint64_t>(r2) & 15];
+    return {r2 * band.inner, r2 * band.outer};
+  }
+  /// Is the cached centre good enough to be a Steiner point?
+  bool center_is_accurate(CellId c) const { return (std::bit_cast<std::uint64_t>(cell(c).radius2) & 15) < 9; }
+
+  /// Ids below these bounds may be alive; `alive` tells for cells.
+  std::uint32_t cell_bound() const { return cell_source_.bound(); }
+  std::uint32_t vertex_bound() const { return vertex_source_.bound(); }
+
+  /// The pools of one thread.
+  struct Pools {
+    IdPool cells, vertices, constraints;
+  };
+  Pools make_pools() { return {IdPool(cell_source_), IdPool(vertex_source_), IdPool(constraint_source_)}; }
+
+  CellId new_cell(Pools& pools) {
+    const std::uint32_t id = pools.cells.take();
+    tags_[id] = 0;
+    return CellId{id};
+  }
+  void free_cell(Pools& pools, CellId c);
+  VertexId new_vertex(Pools& pools, const Point<D>& p, Home home, float relaxed_radius);
+  void free_vertex(Pools& pools, VertexId v);
+  /// The constraints of c, made if it has none yet.
+  ConstraintRecord<D>& ensure_constraints(Pools& pools, CellId c);
+
+ private:
+  static constexpr std::uint32_t mark_bit = 1u << 31;
+  static constexpr std::uint32_t capacity = (1u << 30) - 1024;
+  struct Band { double inner, outer; };
+  static const std::array<Band, 16> bands;
+
+  bool conflicts_exactly(CellId c, const Point<D>& p) const;
+
+  ChunkedArray<CellRecord<D>, 14> cells_;
+  ChunkedArray<std::uint32_t, 14> tags_;
+  ChunkedArray<std::uint16_t, 14> regions_;
+  ChunkedArray<VertexRecord<D>, 14> vertices_;
+  ChunkedArray<ConstraintRecord<D>, 12> constraints_;
+  IdSource cell_source_, vertex_source_, constraint_source_;
+};
+
+extern template class Mesh<2>;
+extern template class Mesh<3>;
+
+}  // namespace pgdr

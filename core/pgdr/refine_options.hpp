@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the caller may ask of a refinement, and what is counted. Plain values.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <stop_token>
+
+#include "pgdr/point_selector.hpp"
+#include "pgdr/predicates.hpp"
+#include "pgdr/sizing.hpp"
+
+namespace pgdr {
+
+struct Progress {
+  std::uint64_t vertices = 0;  ///< so far
+  std::uint64_t waiting = 0;   ///< entries in the lists of what is to be treated
+};
+
+template <int D>
+struct RefineOptions {
+  /// Upper bound on circumradius over shortest edge. Proved for >= 2 (3D), >= sqrt 2 (2D).
+  double radius_edge_bound = smallest_proved_bound<D>();
+  SizingField<D> size;            ///< circumradius (3D) or area (2D) bound at the centroid
+  double max_volume = std::numeric_limits<double>::infinity();  ///< 3D: volume bound of all cells
+  PointSelector<D> selector;      ///< empty: circumcentre
+  DiskOptions disk;
+  OutsidePolicy outside = OutsidePolicy::replace_by_circumcenter;
+  bool refine = true;             ///< false: boundary recovery alone
+  double min_edge = 0;            ///< insertions that would make an edge shorter than this are refused
+  std::uint64_t max_vertices = std::numeric_limits<std::uint64_t>::max();
+  std::optional<std::chrono::duration<double>> time_limit;
+  std::stop_token stop;
+  std::function<void(const Progress&)> progress;  ///< from one thread at a time, a few times a second at most
+};
+
+enum class StopCause { finished, max_vertices, min_edge, time_limit, cancelled };
+
+}  // namespace pgdr

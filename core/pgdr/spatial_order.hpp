@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Hilbert keys, and the biased randomised insertion order (Amenta, Choi, Rote 2003): rounds of doubling size drawn by a
+// hash of the coordinates, each in Hilbert order. Functions of the coordinates alone; pure; any thread.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "pgdr/types.hpp"
+
+namespace pgdr {
+
+/// Maps a cube to keys along a Hilbert curve; 31 bits a coordinate in 2D, 21 in 3D. Points outside are clamped.
+template <int D>
+class HilbertCurve {
+ public:
+  /// The cube spans the bounding box of `points`, its side rounded up to a power of two.
+  explicit HilbertCurve(std::span<const Point<D>> points);
+  std::uint64_t key(const Point<D>& p) const;
+
+ private:
+  Point<D> corner_{};
+  double scale_ = 1;
+};
+
+/// A permutation of the indices of `points` in which to insert them.
+template <int D>
+std::vector<std::uint32_t> insertion_order(std::span<const Point<D>> points);
+
+}  // namespace pgdr

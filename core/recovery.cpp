@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "pgdr/recovery.hpp"
+
+#include "detail/recovery_state.hpp"
+
+namespace pgdr {
+namespace {
+
+/// Recovery by Steiner points on facets need not end where facets meet at small angles or intersect: past this many
+/// points it is given up with a typed error.
+std::uint64_t most_points(std::size_t input_points) { return 200000 + 100 * std::uint64_t{input_points}; }
+
+}  // namespace
+
+template <int D>
+StopCause recover_boundary(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, Delaunay<D>& delaunay,
+                           const Domain<D>& domain, const RefineOptions<D>& options,
+                           std::chrono::steady_clock::time_point start, RecoveryCounts& counts) {
+  detail::SegmentChains<D> chains(mesh, delaunay, domain);
+  StopCause cause = StopCause::finished;
+  const std::uint64_t most = most_points(domain.points().size());
+  std::uint64_t facet_points = 0;
+  auto stop = [&] {
+    const std::uint64_t steiner = chains.points() + facet_points;
+    if (steiner > most)
+      throw InputError({Errc::boundary_not_recovered,
+                        "the boundary is not recovered after " + std::to_string(steiner) +
+                            " Steiner points; facets meet at very small angles or intersect",
+                        {}, 0, {}, {}});
+    if (options.stop.stop_requested()) cause = StopCause::cancelled;
+    if (domain.points().size() + steiner >= options.max_vertices) cause = StopCause::max_vertices;
+    if (options.time_limit && std::chrono::steady_clock::now() - start >= *options.time_limit)
+      cause = StopCause::time_limit;
+    return cause != StopCause::finished;
+  };
+  if constexpr (D == 3) {
+    detail::FacetPatches patches(mesh, delaunay, domain, chains);
+    do {
+      ++counts.rounds;
+      if (stop() || !chains.recover(stop)) break;
+      const bool again = patches.recover_once();
+      facet_points = patches.points();
+      if (!again) {
+        patches.mark(pools);
+        chains.mark(pools);
+        break;
+      }
+    } while (true);
+  } else {
+    if (!stop() && chains.recover(stop)) chains.mark(pools);
+    counts.rounds = 1;
+  }
+  counts.segment_points = chains.points();
+  counts.facet_points = facet_points;
+  return cause;
+}
+
+template StopCause recover_boundary<2>(Mesh<2>&, Mesh<2>::Pools&, Delaunay<2>&, const Domain<2>&,
+                                       const RefineOptions<2>&, std::chrono::steady_clock::time_point, RecoveryCounts&);
+template StopCause recover_boundary<3>(Mesh<3>&, Mesh<3>::Pools&, Delaunay<3>&, const Domain<3>&,
+                                       const RefineOptions<3>&, std::chrono::steady_clock::time_point, RecoveryCounts&);
+
+}  // namespace pgdr

@@ -1,0 +1,213 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <unordered_map>
+
+#include "detail/planar_cdt.hpp"
+#include "detail/recovery_state.hpp"
+
+namespace pgdr::detail {
+namespace {
+
+/// Edges of the facet's defining triangles that only one of them has, directed so that the facet is on their left.
+std::vector<std::array<std::uint32_t, 2>> directed_rim(const Domain<3>& domain, EntityId f) {
+  std::vector<std::array<std::uint32_t, 2>> edges, rim;
+  for (const auto& t : domain.triangles(f))
+    for (int i = 0; i < 3; ++i) edges.push_back({t[i], t[(i + 1) % 3]});
+  std::sort(edges.begin(), edges.end());
+  for (const auto& e : edges)
+    if (!std::binary_search(edges.begin(), edges.end(), std::array{e[1], e[0]})) rim.push_back(e);
+  return rim;
+}
+
+InputError not_a_plane_graph(const Domain<3>& domain, EntityId f, const Mesh<3>& mesh, std::span<const VertexId> at) {
+  Diagnostic d;
+  d.code = Errc::boundary_not_recovered;
+  d.message = "facet " + std::to_string(f) + ": its segments cross or touch in its projection once Steiner points are on them";
+  for (const std::uint32_t p : domain.facet_points(f)) d.ids.push_back(domain.input_of_point()[p]);
+  for (const VertexId v : at) d.points.push_back(mesh.point(v).x);
+  return InputError(std::move(d));
+}
+
+}  // namespace
+
+FacetPatches::FacetPatches(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>& domain, SegmentChains<3>& chains)
+    : mesh_(&mesh),
+      delaunay_(&delaunay),
+      domain_(&domain),
+      chains_(&chains),
+      triangles_(domain.facets().size()),
+      inner_points_(domain.facets().size()),
+      changed_(domain.facets().size(), false) {
+  for (EntityId f = 0; f < triangles_.size(); ++f) {
+    const auto given = domain.triangles(f);
+    for (const auto& t : given)
+      triangles_[f].push_back({delaunay.vertices()[t[0]], delaunay.vertices()[t[1]], delaunay.vertices()[t[2]]});
+    // One triangle is its own Delaunay triangulation; of several the tie rules must be those of the mesh.
+    changed_[f] = given.size() > 1 || domain.facet_points(f).size() > 3;
+  }
+}
+
+auto FacetPatches::subsegments(EntityId facet) const -> std::vector<Subsegment> {
+  std::vector<Subsegment> list;
+  for (const EntityId s : domain_->facet_segments(facet)) {
+    const auto& chain = chains_->chain(s);
+    for (std::size_t i = 1; i < chain.size(); ++i) list.push_back({s, chain[i - 1].vertex, chain[i].vertex});
+  }
+  return list;
+}
+
+/// Anew, from the points and subsegments that the facet has now.
+void FacetPatches::triangulate(EntityId facet) {
+  std::vector<VertexId> vertices;
+  std::unordered_map<std::uint32_t, std::uint32_t> local;
+  std::vector<Point3> points;
+  auto add = [&](VertexId v) {
+    const auto [at, fresh] = local.try_emplace(index(v), static_cast<std::uint32_t>(points.size()));
+    if (fresh) {
+      points.push_back(mesh_->point(v));
+      vertices.push_back(v);
+    }
+    return at->second;
+  };
+  for (const std::uint32_t p : domain_->facet_points(facet)) add(delaunay_->vertices()[p]);
+  for (const VertexId v : inner_points_[facet]) add(v);
+  std::vector<PlanarEdge> constraints, rim;
+  const auto directed = directed_rim(*domain_, facet);
+  for (const EntityId s : domain_->facet_segments(facet)) {
+    const auto& ends = domain_->segments()[s].points;
+    const bool forward = std::binary_search(directed.begin(), directed.end(), std::array{ends[0], ends[1]});
+    const bool backward = std::binary_search(directed.begin(), directed.end(), std::array{ends[1], ends[0]});
+    const auto& chain = chains_->chain(s);
+    for (std::size_t i = 1; i < chain.size(); ++i) {
+      const PlanarEdge e{add(chain[i - 1].vertex), add(chain[i].vertex)};
+      constraints.push_back(e);
+      if (forward) rim.push_back(e);
+      if (backward) rim.push_back({e[1], e[0]});
+    }
+  }
+  std::vector<std::uint32_t> all(points.size());
+  for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
+  PlanarTriangulation plane;
+  const PlanarResult result = plane.build(points, all, constraints, domain_->facets()[facet].axis);
+  if (!result) {
+    const std::array<VertexId, 2> at{vertices[result.edge[0]], vertices[result.edge[1]]};
+    throw not_a_plane_graph(*domain_, facet, *mesh_, at);
+  }
+  plane.keep_left_of(rim);
+  triangles_[facet].clear();
+  for (const PlanarTriangle& t : plane.triangles())
+    triangles_[facet].push_back({vertices[t[0]], vertices[t[1]], vertices[t[2]]});
+}
+
+WantedSimplices<3> FacetPatches::wanted() const {
+  WantedSimplices<3> faces;
+  for (EntityId f = 0; f < triangles_.size(); ++f)
+    for (const Triangle& t : triangles_[f]) faces.add(t, f);
+  faces.index_by_first(mesh_->vertex_bound());
+  return faces;
+}
+
+void FacetPatches::find_present(WantedSimplices<3>& wanted) const {
+  for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) {
+    if (!mesh_->alive(CellId{i})) continue;
+    const auto& v = mesh_->cell(CellId{i}).vertices;
+    for (int f = 0; f < 4; ++f)
+      if (auto* face = wanted.find({v[(f + 1) & 3], v[(f + 2) & 3], v[(f + 3) & 3]})) face->present = true;
+  }
+}
+
+bool FacetPatches::recover_once() {
+  for (const EntityId s : chains_->take_changed())
+    for (const EntityId f : domain_->facets_of_segment(s)) changed_[f] = true;
+  for (EntityId f = 0; f < triangles_.size(); ++f) {
+    if (changed_[f]) triangulate(f);
+    changed_[f] = false;
+  }
+  WantedSimplices<3> faces = wanted();
+  find_present(faces);
+  std::vector<std::vector<Triangle>> missing(triangles_.size());
+  bool any = false;
+  for (EntityId f = 0; f < triangles_.size(); ++f)
+    for (const Triangle& t : triangles_[f])
+      if (!faces.find(t)->present) {
+        missing[f].push_back(t);
+        any = true;
+      }
+  for (EntityId f = 0; f < triangles_.size(); ++f)
+    if (!missing[f].empty()) recover_facet(f, std::move(missing[f]));
+  return any;
+}
+
+/// A subsegment of the facet whose diametral ball contains x, or that x lies beyond as seen from triangle t.
+auto FacetPatches::in_the_way(const std::vector<Subsegment>& rim, EntityId facet, const Triangle& t,
+                              const Point3& x) const -> std::optional<Subsegment> {
+  const int axis = domain_->facets()[facet].axis;
+  Point3 from{};
+  for (int i = 0; i < 3; ++i)
+    from[i] = mesh_->point(t[0])[i] / 3 + mesh_->point(t[1])[i] / 3 + mesh_->point(t[2])[i] / 3;
+  std::optional<Subsegment> encroached;
+  for (const Subsegment& s : rim) {
+    const Point3 &a = mesh_->point(s.a), &b = mesh_->point(s.b);
+    if (orient_projected(a, b, from, axis) != orient_projected(a, b, x, axis) &&
+        orient_projected(from, x, a, axis) != orient_projected(from, x, b, axis))
+      return s;
+    if (!encroached && in_diametral_ball<3>(a, b, x)) encroached = s;
+  }
+  return encroached;
+}
+
+/// Largest triangles first; a triangle that a point of this round has reached already waits for the next.
+void FacetPatches::recover_facet(EntityId facet, std::vector<Triangle> missing) {
+  struct Candidate {
+    Ball<3> ball;
+    Triangle triangle;
+  };
+  std::vector<Candidate> candidates;
+  for (const Triangle& t : missing)
+    candidates.push_back({equatorial_ball(mesh_->point(t[0]), mesh_->point(t[1]), mesh_->point(t[2])), t});
+  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    if (a.ball.squared_radius != b.ball.squared_radius) return a.ball.squared_radius > b.ball.squared_radius;
+    return lex_less(a.ball.center, b.ball.center);
+  });
+  const std::vector<Subsegment> rim = subsegments(facet);
+  std::vector<Point3> placed;
+  for (const Candidate& c : candidates) {
+    bool reached = false;
+    for (const Point3& p : placed) reached = reached || in_equatorial_ball(c.ball, p);
+    if (reached) continue;
+    const Point3 x = point_on_facet(*domain_, facet, c.ball.center);
+    if (const auto s = in_the_way(rim, facet, c.triangle, x)) {
+      if (!chains_->split(s->segment, s->a, s->b)) continue;  // another triangle has asked for it
+      placed.push_back(diametral_ball<3>(mesh_->point(s->a), mesh_->point(s->b)).center);
+      continue;
+    }
+    const VertexId v = delaunay_->insert(x, Home(EntityKind::facet, facet), c.triangle[0]);
+    const Home home = mesh_->vertex(v).home;
+    const bool own = home.kind() == EntityKind::facet && home.id() == facet;
+    if (!own || std::find(inner_points_[facet].begin(), inner_points_[facet].end(), v) != inner_points_[facet].end())
+      throw not_a_plane_graph(*domain_, facet, *mesh_, std::array{v});
+    inner_points_[facet].push_back(v);
+    placed.push_back(x);
+    changed_[facet] = true;
+    ++points_;
+  }
+}
+
+void FacetPatches::mark(Mesh<3>::Pools& pools) {
+  WantedSimplices<3> faces = wanted();
+  for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) {
+    const CellId c{i};
+    if (!mesh_->alive(c)) continue;
+    const auto v = mesh_->cell(c).vertices;
+    for (int f = 0; f < 4; ++f) {
+      const auto* face = faces.find({v[(f + 1) & 3], v[(f + 2) & 3], v[(f + 3) & 3]});
+      if (!face) continue;
+      auto& k = mesh_->ensure_constraints(pools, c);
+      k.faces |= static_cast<std::uint8_t>(1 << f);
+      k.face_entity[f] = face->entity;
+    }
+  }
+}
+
+}  // namespace pgdr::detail

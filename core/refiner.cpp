@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The lists of a region's refinement and the order in which they are worked off.
+#include "pgdr/refiner.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pgdr {
+
+template <int D>
+Refiner<D>::Refiner(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Domain<D>& domain,
+                    const RefineOptions<D>& options, CellBounds<D> bounds, std::uint64_t vertices_so_far,
+                    std::chrono::steady_clock::time_point start)
+    : mesh_(&mesh),
+      pools_(&pools),
+      domain_(&domain),
+      options_(&options),
+      bounds_(std::move(bounds)),
+      cavity_(mesh),
+      vertices_(vertices_so_far),
+      start_(start),
+      last_progress_(start_) {
+  double side = 0;
+  for (int i = 0; i < D; ++i) {
+    double low = domain.points()[0][i], high = low;
+    for (const Point<D>& p : domain.points()) {
+      low = std::min(low, p[i]);
+      high = std::max(high, p[i]);
+    }
+    side = std::max(side, high - low);
+  }
+  base_exponent_ = std::ilogb(side);
+}
+
+template <int D>
+int Refiner<D>::bucket_of(CellId c) const {
+  const double r2 = mesh_->cell(c).radius2;
+  if (!(r2 < std::numeric_limits<double>::infinity())) return 0;
+  // floor(log2(side / r)) up to one: ilogb of r^2 halved, rounding down.
+  const int e = std::ilogb(r2);
+  return std::clamp(base_exponent_ - (e >= 0 ? e / 2 : -((1 - e) / 2)), 0, buckets - 1);
+}
+
+template <int D>
+void Refiner<D>::list_poor(CellId c) {
+  const int b = bucket_of(c);
+  poor_[b].push_back(make_entry(c, 0));
+  first_bucket_ = std::min(first_bucket_, b);
+}
+
+template <int D>
+void Refiner<D>::list_entities(CellId c, const ConstraintRecord<D>& k) {
+  const auto& vertices = mesh_->cell(c).vertices;
+  for (int f = 0; f <= D; ++f)
+    if ((k.faces >> f & 1) && face_encroached_by(c, f, vertices[f])) faces_.push_back(make_entry(c, f));
+  if constexpr (D == 3) {
+    for (int e = 0; e < 6; ++e) {
+      if (!(k.edges >> e & 1)) continue;
+      const auto [a, b] = edge_ends[e];
+      const EntityRef segment{EntityKind::segment, k.edge_entity[e]};
+      for (int i = 0; i <= D; ++i) {
+        if (i == a || i == b || on_entity(vertices[i], segment)) continue;
+        if (!in_diametral_ball<D>(mesh_->point(vertices[a]), mesh_->point(vertices[b]), mesh_->point(vertices[i])))
+          continue;
+        edges_.push_back(make_entry(c, e));
+        break;
+      }
+    }
+  }
+}
+
+template <int D>
+void Refiner<D>::list_cell(CellId c) {
+  if (const auto* k = mesh_->constraints(c)) list_entities(c, *k);
+  if (bounds_.test(*mesh_, c)) list_poor(c);
+}
+
+template <int D>
+void Refiner<D>::list_all() {
+  for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i)
+    if (mesh_->alive(CellId{i})) list_cell(CellId{i});
+}
+
+template <int D>
+void Refiner<D>::committed(VertexId) {
+  ++counts_.committed;
+  ++vertices_;
+  for (const CellId c : cavity_.new_cells()) list_cell(c);
+}
+
+template <int D>
+std::optional<StopCause> Refiner<D>::budget() {
+  if (vertices_ >= options_->max_vertices) return StopCause::max_vertices;
+  if (counts_.committed + counts_.refused < commits_at_check_) return std::nullopt;
+  commits_at_check_ = counts_.committed + counts_.refused + 256;
+  if (options_->stop.stop_requested()) return StopCause::cancelled;
+  const auto now = std::chrono::steady_clock::now();
+  if (options_->time_limit && now - start_ >= *options_->time_limit) return StopCause::time_limit;
+  if (options_->progress && now - last_progress_ > std::chrono::milliseconds(200)) {
+    last_progress_ = now;
+    std::uint64_t waiting = edges_.size() + faces_.size();
+    for (const auto& bucket : poor_) waiting += bucket.size();
+    options_->progress({vertices_, waiting});
+  }
+  return std::nullopt;
+}
+
+template <int D>
+StopCause Refiner<D>::drain() {
+  while (true) {
+    if (const auto stop = budget()) return *stop;
+    auto next = [](std::deque<Entry>& list) {
+      const Entry e = list.front();
+      list.pop_front();
+      return e;
+    };
+    if (!edges_.empty()) {
+      const Entry e = next(edges_);
+      if constexpr (D == 3)
+        if (alive(e) && split_edge(e, nullptr) == Outcome::refused) refused_edges_.push_back(e);
+    } else if (!faces_.empty()) {
+      const Entry e = next(faces_);
+      if (alive(e) && split_face(e, nullptr) == Outcome::refused && alive(e)) refused_faces_.push_back(e);
+    } else {
+      while (first_bucket_ < buckets && poor_[first_bucket_].empty()) ++first_bucket_;
+      if (first_bucket_ == buckets) return StopCause::finished;
+      const Entry e = next(poor_[first_bucket_]);
+      if (alive(e)) treat_cell(e);
+    }
+  }
+}
+
+/// All that was refused, once more.
+template <int D>
+bool Refiner<D>::relist_refused() {
+  auto relist = [this](std::vector<Entry>& from, std::deque<Entry>& to) {
+    for (const Entry& e : from)
+      if (alive(e)) to.push_back(e);
+    from.clear();
+  };
+  relist(refused_edges_, edges_);
+  relist(refused_faces_, faces_);
+  for (const Entry& e : refused_cells_)
+    if (alive(e)) list_poor(e.cell);
+  refused_cells_.clear();
+  return !edges_.empty() || !faces_.empty() || first_bucket_ < buckets;
+}
+
+template <int D>
+StopCause Refiner<D>::run() {
+  while (true) {
+    const std::uint64_t before = counts_.committed;
+    if (const StopCause stop = drain(); stop != StopCause::finished) return stop;
+    if (counts_.committed == before || !relist_refused()) break;
+  }
+  return min_edge_hit_ ? StopCause::min_edge : StopCause::finished;
+}
+
+template class Refiner<2>;
+template class Refiner<3>;
+
+}  // namespace pgdr

@@ -1,0 +1,232 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Poor elements: where their point goes, what hides it, and why some stay poor.
+#include <algorithm>
+#include <cmath>
+
+#include "pgdr/refiner.hpp"
+
+namespace pgdr {
+namespace {
+
+/// Does the orthogonal projection of x to the hyperplane of the corners lie among them?
+template <int D>
+bool projects_into(const std::array<Point<D>, D>& corner, const Point<D>& x) {
+  if constexpr (D == 2) {
+    double along = 0, length = 0;
+    for (int i = 0; i < D; ++i) {
+      along += (x[i] - corner[0][i]) * (corner[1][i] - corner[0][i]);
+      length += (corner[1][i] - corner[0][i]) * (corner[1][i] - corner[0][i]);
+    }
+    return along >= 0 && along <= length;
+  } else {
+    auto minus = [](const Point<3>& p, const Point<3>& q) { return std::array{p[0] - q[0], p[1] - q[1], p[2] - q[2]}; };
+    auto cross = [](const std::array<double, 3>& u, const std::array<double, 3>& v) {
+      return std::array{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+    };
+    const auto normal = cross(minus(corner[1], corner[0]), minus(corner[2], corner[0]));
+    for (int i = 0; i < 3; ++i) {
+      const auto side = cross(minus(corner[(i + 1) % 3], corner[i]), minus(x, corner[i]));
+      if (side[0] * normal[0] + side[1] * normal[1] + side[2] * normal[2] < 0) return false;
+    }
+    return true;
+  }
+}
+
+}  // namespace
+
+template <int D>
+Point<D> Refiner<D>::steiner_point(CellId c, const CellVerdict& verdict) {
+  const Point<D> center =
+      mesh_->center_is_accurate(c) ? mesh_->cell(c).center : circumsphere<D>(mesh_->simplex(c)).center;
+  if (!options_->selector || !verdict.over_radius_edge) return center;
+  PoorElement<D> element;
+  element.corners = mesh_->simplex(c);
+  std::sort(element.corners.begin(), element.corners.end(), lex_less<D>);
+  element.circumcenter = center;
+  element.circumradius = std::sqrt(squared_distance(center, element.corners[0]));
+  element.shortest_edge = std::sqrt(shortest_edge_squared<D>(element.corners));
+  element.radius_edge_bound = options_->radius_edge_bound;
+  element.over_radius_edge = true;
+  element.disk = selection_disk<D>(element, options_->disk);
+  const Point<D> p = options_->selector(element);
+  if (p == center) return p;
+  const double r = element.disk.radius;
+  if (r > 0 && squared_distance(p, element.disk.center) < r * r) return p;
+  if (options_->outside == OutsidePolicy::error) {
+    Diagnostic d{Errc::bad_option, "the selector returned a point outside the selection disk", {}, 0, {}, {}};
+    for (const Point<D>& q : {p, element.disk.center}) d.points.push_back({q[0], q[1], D == 3 ? q[D - 1] : 0.0});
+    throw UsageError(std::move(d));
+  }
+  ++counts_.selector_outside;
+  return center;
+}
+
+template <int D>
+auto Refiner<D>::demand_of_cell(CellId c, const CellVerdict& verdict) const -> Demand {
+  double least = std::numeric_limits<double>::infinity();
+  const auto& v = mesh_->cell(c).vertices;
+  for (int i = 0; i <= D; ++i)
+    for (int j = i + 1; j <= D; ++j) {
+      const auto &a = mesh_->vertex(v[i]), &b = mesh_->vertex(v[j]);
+      double length = std::sqrt(squared_distance(a.point, b.point));
+      const float relaxed = std::min(a.relaxed_radius, b.relaxed_radius);
+      if (relaxed < std::numeric_limits<float>::infinity()) length = std::max(length, static_cast<double>(relaxed));
+      least = std::min(least, length);
+    }
+  if (!verdict.over_radius_edge) least = std::min(least, std::sqrt(mesh_->squared_radius_bounds(c).first) / 2);
+  return {least, 0};
+}
+
+/// A constrained face of the cavity's boundary in whose equatorial (diametral) ball x lies; one that x projects into, if
+/// there is one (Projection Lemma 2.6).
+template <int D>
+auto Refiner<D>::encroached_face(const Point<D>& x) const -> std::optional<Entry> {
+  std::optional<Entry> any;
+  for (const auto& f : cavity_.boundary()) {
+    if (!mesh_->constrained(f.cell, f.face)) continue;
+    std::array<Point<D>, D> corner;
+    for (int i = 0, n = 0; i <= D; ++i)
+      if (i != f.face) corner[n++] = mesh_->point(mesh_->cell(f.cell).vertices[i]);
+    bool inside;
+    if constexpr (D == 2) {
+      inside = in_diametral_ball<2>(corner[0], corner[1], x);
+    } else {
+      inside = in_equatorial_ball(equatorial_ball(corner[0], corner[1], corner[2]), x);
+    }
+    if (!inside) continue;
+    if (projects_into<D>(corner, x)) return make_entry(f.cell, f.face);
+    if (!any) any = make_entry(f.cell, f.face);
+  }
+  return any;
+}
+
+/// The constrained face that cuts x off from cell c, on a visibility walk through the cavity; none if x is reached.
+template <int D>
+auto Refiner<D>::blocking_face(CellId c, const Point<D>& x) const -> std::optional<Entry> {
+  int from = -1;
+  for (std::size_t steps = 0; steps <= cavity_.cells().size(); ++steps) {
+    const auto& k = mesh_->cell(c);
+    int exit = -1, wall = -1;
+    for (int i = 0; i <= D && exit < 0; ++i) {
+      if (i == from) continue;
+      Simplex<D> s = mesh_->simplex(c);
+      s[i] = x;
+      if (orient<D>(s) == Sign::positive) continue;
+      if (mesh_->constrained(c, i)) {
+        wall = i;
+      } else {
+        exit = i;
+      }
+    }
+    if (exit < 0) return wall < 0 ? std::nullopt : std::optional(make_entry(c, wall));
+    from = k.links[exit].face();
+    c = k.links[exit].cell();
+    if (!mesh_->marked(c)) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+template <int D>
+void Refiner<D>::treat_cell(const Entry& e) {
+  const CellId c = e.cell;
+  const CellVerdict verdict = bounds_.test(*mesh_, c);
+  const Point<D> x = steiner_point(c, verdict);
+  last_refusal_.reset();
+  if (cavity_.collect(x, c) != Cavity<D>::Status::ok) return cell_refused(e);
+
+  std::optional<Entry> edge, face;
+  if (cavity_.touches_constraints()) {
+    edge = encroached_edge(x);
+    if (!edge) face = encroached_face(x);
+  }
+  auto status = Cavity<D>::Status::ok;
+  if (!edge && !face) {
+    // Where x lies beyond a wall the cavity cannot be star-shaped about it; what is left of it is then of no use.
+    if (cavity_.touches_constraints()) face = blocking_face(c, x);
+    if (!face) status = cavity_.make_star_shaped();
+    if (status == Cavity<D>::Status::ok && (cavity_.shrunk() || cavity_.touches_constraints()) && !face)
+      status = cavity_.check_nothing_swallowed();
+  }
+  if (edge || face) {
+    const Demand demand = demand_of_cell(c, verdict);
+    cavity_.release();
+    const Outcome outcome = edge ? split_edge(*edge, &demand) : split_face(*face, &demand);
+    if (outcome == Outcome::refused) return cell_refused(e);
+    if (alive(e)) list_poor(c);
+    return;
+  }
+  if (status != Cavity<D>::Status::ok) return cell_refused(e);
+
+  // Unshrunk, the circumcentre's nearest vertices are the element's own.
+  const bool plain = !cavity_.shrunk() && !options_->selector;
+  const double r = plain ? std::sqrt(mesh_->squared_radius_bounds(c).first) : insertion_radius();
+  if (r < options_->min_edge) {
+    min_edge_hit_ = true;
+    return cell_refused(e);
+  }
+  bool ordinary = plain;
+  for (const VertexId v : e.vertices) ordinary = ordinary && mesh_->vertex(v).home.kind() == EntityKind::volume;
+  if (!ordinary && insertion_radius() < demand_of_cell(c, verdict).d) return cell_refused(e);
+  float radius = static_cast<float>(r);
+  if (static_cast<double>(radius) > r) radius = std::nextafter(radius, 0.0f);
+  committed(cavity_.commit(*pools_, Home(EntityKind::volume, 0), radius));
+}
+
+template <int D>
+void Refiner<D>::cell_refused(const Entry& e) {
+  cavity_.release();
+  ++counts_.refused;
+  refused_cells_.push_back(e);
+  if (last_refusal_) {
+    why_.insert_or_assign(e.vertices, *last_refusal_);
+  } else {
+    why_.erase(e.vertices);
+  }
+}
+
+template <int D>
+PoorReason Refiner<D>::explain(CellId c) const {
+  PoorReason reason;
+  if (options_->radius_edge_bound < smallest_proved_bound<D>()) reason.code = PoorReason::Code::beyond_theory;
+  std::vector<std::array<EntityRef, 2>> candidates;
+  if (const auto why = why_.find(mesh_->cell(c).vertices); why != why_.end()) {
+    candidates.push_back(why->second.entities);
+    candidates.push_back({why->second.entities[1], why->second.entities[0]});
+  }
+  // An edge made short by a small angle is relaxed: the homes of its ends are the pair.
+  const auto& v = mesh_->cell(c).vertices;
+  for (int i = 0; i <= D; ++i)
+    for (int j = 0; j <= D; ++j)
+      if (i != j) candidates.push_back({mesh_->vertex(v[i]).home.entity(), mesh_->vertex(v[j]).home.entity()});
+  for (const auto& pair : candidates) {
+    const bool segments = pair[0].kind == EntityKind::segment && pair[1].kind == EntityKind::segment;
+    auto has_extent = [](EntityRef e) { return e.kind == EntityKind::segment || e.kind == EntityKind::facet; };
+    if (!has_extent(pair[0]) || !has_extent(pair[1]) || pair[0] == pair[1]) continue;
+    const double angle = entity_angle<D>(*domain_, pair[0], pair[1]);
+    if (angle >= (segments ? 60 : 90)) continue;
+    reason.code = PoorReason::Code::small_angle;
+    reason.entities = pair;
+    reason.angle = angle;
+    return reason;
+  }
+  if (reason.code != PoorReason::Code::beyond_theory) reason.code = PoorReason::Code::rounding;
+  return reason;
+}
+
+template <int D>
+std::vector<PoorCell> Refiner<D>::poor_cells() {
+  std::vector<PoorCell> poor;
+  for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) {
+    const CellId c{i};
+    if (!mesh_->alive(c)) continue;
+    if (const CellVerdict verdict = bounds_.test(*mesh_, c)) poor.push_back({c, verdict.over_size, explain(c)});
+  }
+  return poor;
+}
+
+template class Refiner<2>;
+template class Refiner<3>;
+
+}  // namespace pgdr

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "pgdr/spatial_order.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <tuple>
+
+namespace pgdr {
+namespace {
+
+template <int D>
+inline constexpr int bits_per_axis = D == 2 ? 31 : 21;
+
+/// Hilbert index of integer coordinates, by the transposed Gray code of Skilling (2004, "Programming the Hilbert curve").
+template <int D>
+std::uint64_t hilbert_index(std::array<std::uint32_t, D> x) {
+  constexpr int bits = bits_per_axis<D>;
+  constexpr std::uint32_t top = 1u << (bits - 1);
+  for (std::uint32_t q = top; q > 1; q >>= 1) {
+    const std::uint32_t p = q - 1;
+    for (int i = 0; i < D; ++i) {
+      if (x[i] & q) {
+        x[0] ^= p;
+      } else {
+        const std::uint32_t t = (x[0] ^ x[i]) & p;
+        x[0] ^= t;
+        x[i] ^= t;
+      }
+    }
+  }
+  for (int i = 1; i < D; ++i) x[i] ^= x[i - 1];
+  std::uint32_t t = 0;
+  for (std::uint32_t q = top; q > 1; q >>= 1)
+    if (x[D - 1] & q) t ^= q - 1;
+  for (int i = 0; i < D; ++i) x[i] ^= t;
+  std::uint64_t key = 0;
+  for (int b = bits - 1; b >= 0; --b)
+    for (int i = 0; i < D; ++i) key = key << 1 | (x[i] >> b & 1);
+  return key;
+}
+
+template <int D>
+std::uint64_t coordinate_hash(const Point<D>& p) {
+  std::uint64_t h = 0x9e3779b97f4a7c15u;
+  for (int i = 0; i < D; ++i) {
+    h ^= std::bit_cast<std::uint64_t>(p[i] + 0.0);
+    h *= 0xbf58476d1ce4e5b9u;
+    h ^= h >> 29;
+  }
+  h *= 0x94d049bb133111ebu;
+  return h ^ h >> 32;
+}
+
+}  // namespace
+
+template <int D>
+HilbertCurve<D>::HilbertCurve(std::span<const Point<D>> points) {
+  if (points.empty()) return;
+  Point<D> low = points[0], high = points[0];
+  for (const Point<D>& p : points)
+    for (int i = 0; i < D; ++i) {
+      low[i] = std::min(low[i], p[i]);
+      high[i] = std::max(high[i], p[i]);
+    }
+  double side = 0;
+  for (int i = 0; i < D; ++i) side = std::max(side, high[i] - low[i]);
+  corner_ = low;
+  if (side > 0 && std::isfinite(side)) scale_ = std::ldexp(1.0, bits_per_axis<D> - 1 - std::ilogb(side));
+}
+
+template <int D>
+std::uint64_t HilbertCurve<D>::key(const Point<D>& p) const {
+  constexpr double most = static_cast<double>((1u << bits_per_axis<D>)-1);
+  std::array<std::uint32_t, D> x;
+  for (int i = 0; i < D; ++i)
+    x[i] = static_cast<std::uint32_t>(std::clamp((p[i] - corner_[i]) * scale_, 0.0, most));
+  return hilbert_index<D>(x);
+}
+
+template <int D>
+std::vector<std::uint32_t> insertion_order(std::span<const Point<D>> points) {
+  struct Entry {
+    int round;
+    std::uint64_t key;
+    std::uint32_t index;
+  };
+  const HilbertCurve<D> curve(points);
+  std::vector<Entry> entries(points.size());
+  // The last round holds half of the points, the one before a quarter, ...
+  const int rounds = std::max(1, static_cast<int>(std::bit_width(points.size() / 64)));
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    const int back = std::min(std::countr_zero(coordinate_hash(points[i]) | 1ull << 63), rounds - 1);
+    entries[i] = {rounds - 1 - back, curve.key(points[i]), i};
+  }
+  std::sort(entries.begin(), entries.end(), [&](const Entry& a, const Entry& b) {
+    if (a.round != b.round || a.key != b.key) return std::tie(a.round, a.key) < std::tie(b.round, b.key);
+    return lex_less(points[a.index], points[b.index]);
+  });
+  std::vector<std::uint32_t> order(points.size());
+  for (std::size_t i = 0; i < entries.size(); ++i) order[i] = entries[i].index;
+  return order;
+}
+
+template class HilbertCurve<2>;
+template class HilbertCurve<3>;
+template std::vector<std::uint32_t> insertion_order<2>(std::span<const Point<2>>);
+template std::vector<std::uint32_t> insertion_order<3>(std::span<const Point<3>>);
+
+}  // namespace pgdr

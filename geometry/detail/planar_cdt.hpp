@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Constrained Delaunay triangulation, without Steiner points, of points of one (nearly) plane of space, seen along a
+// coordinate axis; of the plane itself with axis = 2 and z = 0. The hull is closed by ghost triangles, so that every
+// edge has two sides. Constraint edges are forced by retriangulating the two polygons that they cut out (Anglada 1997),
+// everything else is Lawson's flips. Signs are exact. For points of one plane the result is unique: it is the constrained
+// Delaunay triangulation of that plane in space under the perturbation of predicates.hpp. For points that are a few
+// ulps off it is still a triangulation, all triangles positive in the projection. Problems are values, not exceptions.
+// One object belongs to one thread at a time.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "pgdr/types.hpp"
+
+namespace pgdr::detail {
+
+using PlanarEdge = std::array<std::uint32_t, 2>;
+using PlanarTriangle = std::array<std::uint32_t, 3>;
+
+enum class PlanarStatus : std::uint8_t {
+  ok,
+  collinear,      ///< fewer than three points, or all on one line of the projection
+  coincident,     ///< the points `edge` have the same projection
+  edges_cross,    ///< the constraint edges `edge` and `other` cross in their interiors
+  point_on_edge,  ///< point other[0] lies exactly inside the constraint edge `edge`
+  no_such_edge,   ///< `edge` is not an edge of the triangulation
+  outside,        ///< the point is not in the domain
+  on_constraint,  ///< the point is exactly on the constraint edge `edge`: see split_edge
+  inverted,       ///< no way was found to keep all triangles positive
+};
+
+/// What became of a request. Unless ok (and but for `build`), nothing was changed.
+struct PlanarResult {
+  PlanarStatus status = PlanarStatus::ok;
+  PlanarEdge edge{}, other{};
+  explicit operator bool() const { return status == PlanarStatus::ok; }
+};
+
+/// Net effect of one insertion on the triangles of the domain, by vertex ids, counter-clockwise.
+struct PlanarChange {
+  std::vector<PlanarTriangle> destroyed, created;
+};
+
+/// Vertices go by the ids that the caller gives them; any 32-bit number but 0xffffffff.
+class PlanarTriangulation {
+ public:
+  /// Triangulates points[v] for the v in `vertices` (distinct), with ids v, and all of `constraints` (pairs of those v).
+  /// All triangles of the convex hull are in the domain at first. Replaces what was there.
+  /// @return ok, collinear, coincident, edges_cross, point_on_edge or inverted; unless ok the object is empty.
+  PlanarResult build(std::span<const Point3> points, std::span<const std::uint32_t> vertices,
+                     std::span<const PlanarEdge> constraints, int axis);
+
+  /// Takes out of the domain what is reached from outside of the hull without crossing a constraint.
+  void carve_outside();
+  /// Takes out of the domain what is reached from p (projected) without crossing a constraint.
+  /// @return ok, outside (p is in no triangle of the domain), on_constraint (also for a vertex; `edge` says which).
+  PlanarResult carve_hole(const Point3& p);
+  /// Makes the domain the union of what is reached from the left sides of these directed constraint edges without
+  /// crossing a constraint; pairs that are no constraint edge are passed over.
+  void keep_left_of(std::span<const PlanarEdge> edges);
+
+  /// Makes a-b a constraint edge, if it lies in the domain.
+  /// @return ok, edges_cross, point_on_edge, outside, no_such_edge (a or b is no vertex), inverted.
+  PlanarResult constrain(std::uint32_t a, std::uint32_t b);
+  /// Adds a vertex inside the domain.  @return ok, outside, on_constraint, coincident (`edge` = id and the other).
+  PlanarResult insert(std::uint32_t id, const Point3& p, PlanarChange* change = nullptr);
+  /// Replaces edge a-b by a-id-b; the pieces are constraints if a-b was. p may be off the edge by its rounding: where a
+  /// triangle would be turned over thereby, unconstrained neighbours are taken into the retriangulation.
+  /// @return ok, no_such_edge, inverted.
+  PlanarResult split_edge(std::uint32_t a, std::uint32_t b, std::uint32_t id, const Point3& p,
+                          PlanarChange* change = nullptr);
+
+  /// The triangles of the domain, counter-clockwise in the projection, in an order that depends on the calls alone.
+  std::vector<PlanarTriangle> triangles() const;
+  /// Constraint edges with a triangle of the domain on at least one side; that side is the left of the first pair.
+  std::vector<PlanarEdge> domain_constraints() const;
+  bool has_vertex(std::uint32_t id) const { return local(id) != none; }
+  bool has_edge(std::uint32_t a, std::uint32_t b) const;
+  bool is_constraint(std::uint32_t a, std::uint32_t b) const;
+  bool has_triangle(const PlanarTriangle& t) const;  ///< in the domain, in any order of its vertices
+  int axis() const { return axis_; }
+  std::size_t vertex_count() const { return points_.size(); }
+
+  /// All links, orientations, constraint marks; and, unless `delaunay` is false, that no flip is due. For tests.
+  bool is_valid(bool delaunay = true) const;
+
+ private:
+  static constexpr std::uint32_t none = 0xffffffffu;
+  static constexpr std::uint32_t ghost = 0xfffffffeu;  // the vertex at infinity
+
+  // Edge i is opposite vertex i: from v[i+1] to v[i+2].
+  struct Cell {
+    std::array<std::uint32_t, 3> v{none, none, none};
+    std::array<std::uint32_t, 3> n{none, none, none};
+    std::uint8_t fixed = 0;  // bit i: edge i is a constraint
+    bool inside = false;
+  };
+  struct Side {  // edge i of cell t, seen from t
+    std::uint32_t t = none;
+    int i = 0;
+  };
+  struct RimEdge {  // an edge of the rim of a cavity, counter-clockwise, and what is behind it
+    std::uint32_t a, b;
+    Side outer;
+    bool fixed, inside;
+  };
+  struct Location {
+    std::uint32_t t = none;
+    int edge = -1, vertex = -1;  // index in t if the point is on an edge, resp. at a vertex
+  };
+  struct Crossing {  // the cells crossed by a new constraint, and the chains of edges on its two sides
+    std::vector<std::uint32_t> cells, left, right;
+    std::vector<Side> left_edges, right_edges;  // seen from the crossed cells
+  };
+  struct Apex {  // a triangle of a polygon: positions in the chain; up: 2 * triangle + (0, 1), or none for the base
+    std::uint32_t i, j, k, up;
+  };
+
+  // planar_cdt.cpp
+  std::uint32_t local(std::uint32_t id) const;
+  std::uint32_t add_vertex(std::uint32_t id, const Point3& p);
+  PlanarResult build_delaunay(std::span<const Point3> points, std::span<const std::uint32_t> vertices);
+  PlanarResult start(std::vector<std::uint32_t>& order);
+  PlanarResult insert_in_hull(std::uint32_t v);
+  Location locate(const Point3& p) const;
+  Location locate_in(std::uint32_t t, const std::array<Sign, 3>& side) const;
+  Location locate_by_scan(const Point3& p) const;
+  void flood(std::vector<std::uint32_t>& queue, bool inside);
+  // planar_cdt_flip.cpp
+  bool is_ghost(const Cell& c) const { return c.v[0] == ghost || c.v[1] == ghost || c.v[2] == ghost; }
+  int index_in(std::uint32_t t, std::uint32_t v) const;
+  int mirror(std::uint32_t t, int i) const;
+  Sign orient(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
+  bool in_circle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d, bool flat) const;
+  void link(Side a, Side b);
+  void set_cell(std::uint32_t t, const std::array<std::uint32_t, 3>& v, std::uint8_t fixed, bool inside);
+  void touch(std::uint32_t t);
+  bool flip_is_due(std::uint32_t t, int i, bool flat) const;
+  void flip(std::uint32_t t, int i);
+  void legalize(std::vector<Side>& stack, bool flat, bool around_vertex);
+  Side find_edge(std::uint32_t a, std::uint32_t b) const;
+  void begin_change(PlanarChange* change);
+  void end_change();
+  // planar_cdt_constrain.cpp
+  PlanarResult constrain_local(std::uint32_t a, std::uint32_t b, bool inside_only);
+  PlanarResult first_crossing(std::uint32_t a, std::uint32_t b, Side& at) const;
+  PlanarResult march(std::uint32_t a, std::uint32_t b, Side at, Crossing& crossing) const;
+  bool plan_polygon(const std::vector<std::uint32_t>& chain, std::vector<Apex>& apexes) const;
+  void fill_crossing(const Crossing& crossing, const std::vector<Apex>& left, const std::vector<Apex>& right);
+  PlanarResult problem(PlanarStatus status, std::uint32_t a, std::uint32_t b, std::uint32_t c = none,
+                       std::uint32_t d = none) const;
+  // planar_cdt_insert.cpp
+  std::vector<RimEdge> rim_of(Location where) const;
+  bool make_star_shaped(std::uint32_t p, std::vector<RimEdge>& rim, std::vector<std::uint32_t>& cells) const;
+  void fill_star(std::uint32_t p, const std::vector<RimEdge>& rim, const std::vector<std::uint32_t>& cells,
+                 PlanarEdge fixed_spokes, bool flat);
+  void forget_last_vertex();
+
+  int axis_ = 2;
+  std::vector<Point3> points_;        // by local number
+  std::vector<std::uint32_t> ids_;    // by local number
+  std::vector<std::uint32_t> cell_of_;  // some cell at each vertex
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> local_of_;  // (id, local number), sorted
+  std::vector<Cell> cells_;
+  std::uint32_t hint_ = 0;
+  // While an insertion is recorded: the cells touched, as they were.
+  PlanarChange* change_ = nullptr;
+  std::vector<std::pair<std::uint32_t, Cell>> touched_;
+  std::vector<std::uint32_t> touch_stamp_;
+  std::uint32_t stamp_ = 0;
+};
+
+}  // namespace pgdr::detail

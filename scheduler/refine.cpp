@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// From input to finished mesh: triangulate, recover the boundary, carve, refine, compact.
+#include "pgdr/refine.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string>
+
+#include "pgdr/cell_bounds.hpp"
+#include "pgdr/compact.hpp"
+#include "pgdr/delaunay.hpp"
+#include "pgdr/labeling.hpp"
+#include "pgdr/recovery.hpp"
+#include "pgdr/refiner.hpp"
+
+namespace pgdr {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
+
+[[noreturn]] void bad_option(const std::string& what) { throw UsageError({Errc::bad_option, what, {}, 0, {}, {}}); }
+
+template <int D>
+void validate(const RefineOptions<D>& options) {
+  if (!(options.radius_edge_bound > 0)) bad_option("the radius-edge bound must be positive");
+  if (options.size.is_constant() && !(options.size.at({}) > 0)) bad_option("the size must be positive");
+  if (!(options.max_volume > 0)) bad_option("the volume bound must be positive");
+  if (!(options.min_edge >= 0)) bad_option("the shortest edge allowed must not be negative");
+  if (options.time_limit && !(options.time_limit->count() >= 0)) bad_option("the time limit must not be negative");
+  const double delta = options.disk.delta;
+  if (delta != 0 && !(delta >= smallest_proved_bound<D>() / options.radius_edge_bound && delta <= 1))
+    bad_option("delta must lie between " + std::to_string(smallest_proved_bound<D>()) + " / radius-edge bound and 1");
+}
+
+/// Front-end Steiner points get the length of their shortest edge as relaxed insertion radius.
+template <int D>
+void set_relaxed_radii(Mesh<D>& mesh) {
+  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i) {
+    if (!mesh.alive(CellId{i})) continue;
+    const auto& v = mesh.cell(CellId{i}).vertices;
+    for (int a = 0; a <= D; ++a)
+      for (int b = a + 1; b <= D; ++b)
+        for (const VertexId u : {v[a], v[b]}) {
+          auto& record = mesh.vertex(u);
+          if (record.home.kind() == EntityKind::vertex) continue;
+          const double length = std::sqrt(squared_distance(mesh.point(v[a]), mesh.point(v[b])));
+          float f = static_cast<float>(length);
+          if (static_cast<double>(f) > length) f = std::nextafter(f, 0.0f);
+          if (record.relaxed_radius == 0 || f < record.relaxed_radius) record.relaxed_radius = f;
+        }
+  }
+}
+
+template <int D>
+CellBounds<D> bounds_of(const RefineOptions<D>& options, const RegionTable& regions) {
+  CellBounds<D> bounds;
+  bounds.radius_edge_bound = options.radius_edge_bound;
+  bounds.size = options.size;
+  bounds.max_measure = options.max_volume;
+  bounds.region_measure = regions.measure;
+  return bounds;
+}
+
+template <int D>
+RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
+  validate(options);
+  const auto start = Clock::now();
+  const PredicateCounts predicates_before = predicate_counts();
+  RefineResult<D> result;
+  result.repairs = domain.repairs();
+  result.warnings = domain.warnings();
+
+  Mesh<D> mesh;
+  auto pools = mesh.make_pools();
+  RegionTable regions;
+  {
+    Delaunay<D> delaunay(mesh, pools);
+    if (!delaunay.build(domain.points()))
+      throw InputError({Errc::no_volume, D == 3 ? "all points lie in one plane" : "all points lie on one line", {}, 0, {}, {}});
+    RecoveryCounts counts;
+    result.stop = recover_boundary<D>(mesh, pools, delaunay, domain, options, start, counts);
+    result.statistics.segment_points = counts.segment_points;
+    result.statistics.facet_points = counts.facet_points;
+    if (result.stop != StopCause::finished) {
+      result.statistics.seconds_mesh = result.statistics.seconds_initial = seconds_since(start);
+      return result;  // no boundary yet, so no mesh
+    }
+    regions = carve<D>(mesh, pools, delaunay, domain, result.warnings);
+  }
+  set_relaxed_radii<D>(mesh);
+  result.statistics.seconds_initial = seconds_since(start);
+
+  const auto refine_start = Clock::now();
+  const std::uint64_t vertices = domain.points().size() + result.statistics.segment_points + result.statistics.facet_points;
+  Refiner<D> refiner(mesh, pools, domain, options, bounds_of(options, regions), vertices, start);
+  if (options.refine) {
+    refiner.list_all();
+    result.stop = refiner.run();
+  }
+  result.statistics.insertions_committed = refiner.counts().committed;
+  result.statistics.insertions_refused = refiner.counts().refused;
+  result.statistics.selector_outside = refiner.counts().selector_outside;
+  const std::vector<PoorCell> poor = refiner.poor_cells();
+  result.statistics.seconds_refine = seconds_since(refine_start);
+
+  std::vector<double> attributes;
+  if (regions.labelled) attributes = regions.attribute;
+  Compacted<D> compacted = compact<D>(mesh, domain, attributes);
+  result.mesh = std::move(compacted.mesh);
+  result.poor_left = poor.size();
+  for (const PoorCell& p : poor) {
+    if (p.over_size) result.size_met = false;
+    PoorReason reason = p.reason;
+    reason.cell = compacted.cell_number[index(p.cell)];
+    result.reasons.push_back(reason);
+  }
+  std::sort(result.reasons.begin(), result.reasons.end(),
+            [](const PoorReason& a, const PoorReason& b) { return a.cell < b.cell; });
+  result.statistics.predicates = predicate_counts() - predicates_before;
+  result.statistics.seconds_mesh = seconds_since(start);
+  return result;
+}
+
+}  // namespace
+
+template <int D>
+RefineResult<D> refine(const Domain<D>& domain, const RefineOptions<D>& options) {
+  return run<D>(domain, options);
+}
+
+template <int D>
+RefineResult<D> refine(const Plc<D>& plc, const RefineOptions<D>& options) {
+  const auto start = Clock::now();
+  const Domain<D> domain(plc);
+  const double prepare = seconds_since(start);
+  RefineResult<D> result = run<D>(domain, options);
+  result.statistics.seconds_mesh += prepare;
+  result.statistics.seconds_initial += prepare;
+  return result;
+}
+
+template RefineResult<2> refine<2>(const Plc<2>&, const RefineOptions<2>&);
+template RefineResult<3> refine<3>(const Plc<3>&, const RefineOptions<3>&);
+template RefineResult<2> refine<2>(const Domain<2>&, const RefineOptions<2>&);
+template RefineResult<3> refine<3>(const Domain<3>&, const RefineOptions<3>&);
+
+}  // namespace pgdr

@@ -1,0 +1,55 @@
+# SPDX-FileCopyrightText: 2026 The pgdr authors
+# SPDX-License-Identifier: Apache-2.0
+"""Inputs that must be refused: name -> (content, the line that the message must name, or None where it has none)."""
+import struct
+
+POINTS = "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n"
+SIDES = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
+POLY = POINTS + "4 0\n" + "".join("1\n3 %d %d %d\n" % s for s in SIDES) + "0\n0\n"
+SMESH = POINTS + "4 0\n" + "".join("3 %d %d %d\n" % s for s in SIDES) + "0\n0\n"
+OFF = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n" + "".join("3 %d %d %d\n" % s for s in SIDES)
+FACET = "facet normal 0 0 0\nouter loop\n%svertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+STL = "solid s\n" + FACET % "" + "endsolid s\n"
+PSLG = "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n3 0\n1 1 2\n2 2 3\n3 3 1\n0\n"
+
+BAD_INPUTS = {
+    "empty.poly": ("", None),
+    "empty.smesh": ("", None),
+    "empty.node": ("", None),
+    "empty.off": ("", None),
+    "empty.stl": ("", None),
+    "blank.poly": ("# nothing\n\n", None),
+    "truncated.poly": (POLY[:60], None),
+    "truncated.smesh": (SMESH[:60], None),
+    "truncated.node": (POINTS[:30], None),
+    "truncated.off": (OFF[:40], None),
+    "truncated.stl": (STL[:60], None),
+    "truncated2d.poly": (PSLG[:36], None),
+    "billion.poly": (POLY.replace("4 3 0 0", "1000000000 3 0 0"), 1),
+    "billion_facets.poly": (POLY.replace("\n4 0\n", "\n1000000000 0\n"), 6),
+    "billion.smesh": (SMESH.replace("4 3 0 0", "1000000000 3 0 0"), 1),
+    "billion_corners.smesh": (SMESH.replace("\n3 0 2 1", "\n1000000000 0 2 1"), 7),
+    "billion.node": (POINTS.replace("4 3 0 0", "1000000000 3 0 0"), 1),
+    "billion.off": (OFF.replace("4 4 0", "1000000000 4 0"), 2),
+    "billion_facets.off": (OFF.replace("4 4 0", "4 1000000000 0"), 2),
+    "billion.stl": (b"\0" * 80 + struct.pack("<I", 10**9) + b"\0" * 50, None),
+    "nan.poly": (POLY.replace("\n1 1 0 0", "\n1 nan 0 0"), 3),
+    "nan.smesh": (SMESH.replace("\n1 1 0 0", "\n1 nan 0 0"), 3),
+    "infinite.node": (POINTS.replace("\n1 1 0 0", "\n1 inf 0 0"), 3),
+    "huge.node": (POINTS.replace("\n1 1 0 0", "\n1 1e999 0 0"), 3),
+    "nan.off": (OFF.replace("\n1 0 0", "\n1 nan 0"), 4),
+    "nan.stl": (STL.replace("vertex 1 0 0", "vertex nan 0 0"), 5),
+    "nan2d.poly": (PSLG.replace("\n2 1 0", "\n2 nan 0"), 3),
+    "index.poly": (POLY.replace("3 0 2 1", "3 0 2 4"), 8),
+    "index.smesh": (SMESH.replace("\n3 0 2 1", "\n3 0 2 4"), 7),
+    "negative_index.smesh": (SMESH.replace("\n3 0 2 1", "\n3 0 2 -1"), 7),
+    "index.off": (OFF.replace("\n3 0 2 1", "\n3 0 2 4"), 7),
+    "index2d.poly": (PSLG.replace("\n2 2 3", "\n2 2 4"), 7),
+    "word.poly": (POLY.replace("\n2 0 1 0", "\n2 0 one 0"), 4),
+    "word.off": (OFF.replace("\n0 1 0", "\n0 one 0"), 5),
+    "word.stl": (STL.replace("vertex 0 1 0", "vertex 0 1"), None),
+    "not_off.off": ("PLY\n4 4 0\n", 1),
+    "negative.node": (POINTS.replace("4 3 0 0", "-4 3 0 0"), 1),
+    "dimension.node": (POINTS.replace("4 3 0 0", "4 5 0 0"), 1),
+    "binary.poly": (bytes(range(256)) * 4, None),
+}

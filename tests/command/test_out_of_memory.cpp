@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The whole command with an allocator that fails: once, or from some allocation on. Whatever fails, the command ends
+// with exit code 7 and leaves no file behind. Under the address sanitizer, nothing leaks either.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <filesystem>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "command.hpp"
+
+namespace {
+
+std::atomic<long> allocations{0}, first_failure{-1}, last_failure{-1};
+
+void* allocate(std::size_t size, std::size_t alignment) noexcept {
+  const long n = allocations.fetch_add(1, std::memory_order_relaxed);
+  if (n >= first_failure.load(std::memory_order_relaxed) && n < last_failure.load(std::memory_order_relaxed)) return nullptr;
+  if (alignment <= alignof(std::max_align_t)) return std::malloc(size ? size : 1);
+  return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+}
+
+void* allocate_or_throw(std::size_t size, std::size_t alignment) {
+  if (void* p = allocate(size, alignment)) return p;
+  throw std::bad_alloc();
+}
+
+}  // namespace
+
+// The forms without alignment or array call these.
+void* operator new(std::size_t n) { return allocate_or_throw(n, 1); }
+void* operator new(std::size_t n, std::align_val_t a) { return allocate_or_throw(n, static_cast<std::size_t>(a)); }
+void* operator new(std::size_t n, const std::nothrow_t&) noexcept { return allocate(n, 1); }
+void* operator new(std::size_t n, std::align_val_t a, const std::nothrow_t&) noexcept {
+  return allocate(n, static_cast<std::size_t>(a));
+}
+void* operator new[](std::size_t n) { return allocate_or_throw(n, 1); }
+void* operator new[](std::size_t n, std::align_val_t a) { return allocate_or_throw(n, static_cast<std::size_t>(a)); }
+void* operator new[](std::size_t n, const std::nothrow_t&) noexcept { return allocate(n, 1); }
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+void operator delete(void* p, const std::nothrow_t&) noexcept { std::free(p); }
+void operator delete[](void* p) noexcept { std::free(p); }
+void operator delete[](void* p, std::size_t) noexcept { std::free(p); }
+void operator delete[](void* p, std::align_val_t) noexcept { std::free(p); }
+void operator delete[](void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+void operator delete[](void* p, const std::nothrow_t&) noexcept { std::free(p); }
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class OutOfMemory : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("pgdr_out_of_memory_" + std::to_string(getpid()));
+    fs::create_directory(folder_);
+    output_ = folder_ / "mesh.vtu";
+    report_ = folder_ / "report.json";
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// The exit code when allocations [first, last) of the run fail.
+  int run(const std::vector<std::string>& flags, long first, long last) {
+    std::vector<const char*> arguments{"pgdr", "mesh", model_.c_str(), "-o", output_.c_str()};
+    for (const std::string& f : flags) arguments.push_back(f.c_str());
+    allocations = 0;
+    first_failure = first;
+    last_failure = last;
+    const int code = pgdr::tool::run(static_cast<int>(arguments.size()), arguments.data());
+    used_ = allocations;
+    first_failure = last_failure = -1;
+    return code;
+  }
+
+  /// Fails allocation n (and all later ones if `lasting`) for about `tries` values of n.
+  void sweep(std::vector<std::string> flags, bool lasting, long tries) {
+    flags.push_back("--quiet");
+    ASSERT_EQ(run(flags, -1, -1), 0);
+    const long total = used_;
+    long failed = 0;
+    for (long i = 0; i < tries; ++i) {
+      // Every one of the first, where options and files are read, then evenly.
+      const long n = i < tries / 2 ? i * 7 : (i - tries / 2) * (total / (tries / 2)) + i;
+      fs::remove(output_);
+      fs::remove(report_);
+      const int code = run(flags, n, lasting ? total * 100 + 1000 : n + 1);
+      SCOPED_TRACE("allocation " + std::to_string(n) + " of " + std::to_string(total));
+      // A library may do without the memory that it did not get (a sort without a buffer does).
+      ASSERT_TRUE(code == 7 || code == 0) << code;
+      ASSERT_EQ(fs::exists(output_), code == 0);
+      for (const auto& entry : fs::directory_iterator(folder_))
+        ASSERT_TRUE(entry.path() == output_ || entry.path() == report_) << entry.path();
+      failed += code == 7;
+    }
+    EXPECT_GT(failed, tries / 2);
+  }
+
+  const std::string model_ = PGDR_TEST_MODELS "/plate.poly";
+  fs::path folder_, output_, report_;
+  long used_ = 0;
+};
+
+TEST_F(OutOfMemory, OnceEndsWithExitCode7) { sweep({"--size", "0.05"}, false, 60); }
+TEST_F(OutOfMemory, ForGoodEndsWithExitCode7) { sweep({"--size", "0.05"}, true, 60); }
+TEST_F(OutOfMemory, WithReportAndExpression) {
+  sweep({"--size", "0.05+0.01*x", "--report", report_.string()}, false, 60);
+}
+
+}  // namespace

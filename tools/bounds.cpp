@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "bounds.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "expression.hpp"
+#include "pgdr/error.hpp"
+
+namespace pgdr::tool {
+
+template <int D>
+Bounds<D> resolve(const BoundArguments& arguments, double default_radius_edge) {
+  const auto refuse = [](const char* sentence) {
+    throw UsageError({.code = Errc::bad_option, .message = sentence});
+  };
+  if (D == 2 && arguments.max_volume) refuse("--max-volume is for 3D; the area bound of a 2D mesh is --size");
+  if (D == 3 && arguments.min_angle) refuse("--min-angle is for 2D; use --radius-edge in 3D");
+
+  Bounds<D> bounds{default_radius_edge, {}, std::numeric_limits<double>::infinity()};
+  if (arguments.radius_edge) bounds.radius_edge = *arguments.radius_edge;
+  if (arguments.min_angle) bounds.radius_edge = 1 / (2 * std::sin(*arguments.min_angle * std::numbers::pi / 180));
+  if (arguments.size) bounds.size = parse_size<D>(*arguments.size, "--size");
+  if (arguments.max_volume) bounds.max_volume = *arguments.max_volume;
+  return bounds;
+}
+
+template Bounds<2> resolve<2>(const BoundArguments&, double);
+template Bounds<3> resolve<3>(const BoundArguments&, double);
+
+}  // namespace pgdr::tool

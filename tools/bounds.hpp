@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The bound flags as the library takes them, one reading for `mesh` and `check`.
+#pragma once
+
+#include "options.hpp"
+#include "pgdr/sizing.hpp"
+
+namespace pgdr::tool {
+
+template <int D>
+struct Bounds {
+  double radius_edge;
+  SizingField<D> size;
+  double max_volume;
+};
+
+/// @throws UsageError for a flag of the other dimension or a size that cannot be used.
+template <int D>
+Bounds<D> resolve(const BoundArguments& arguments, double default_radius_edge);
+
+}  // namespace pgdr::tool

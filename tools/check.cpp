@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// pgdr check: the verdict of the independent checker on a mesh file.
+#include "pgdr/check.hpp"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <nlohmann/json.hpp>
+
+#include "bounds.hpp"
+#include "command.hpp"
+#include "console.hpp"
+#include "pgdr/io.hpp"
+
+namespace pgdr::tool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+Json number_or_null(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
+
+template <int D>
+std::optional<Domain<D>> read_domain(const std::string& input) {
+  if (input.empty()) return std::nullopt;
+  if (file_dimension(input) != D)
+    throw UsageError({.code = Errc::bad_option, .message = format("the mesh is %dD, its input is not", D), .file = input});
+  return std::optional<Domain<D>>(std::in_place, read_plc<D>(input));
+}
+
+template <int D>
+void fill(Json& j, const OutputMesh<D>& mesh, const Bounds<D>& bounds, const std::optional<QualitySummary>& q,
+          const CheckReport& r) {
+  j["vertices"] = mesh.points.size();
+  j["cells"] = mesh.cells.size();
+  if (q) j["quality"] = to_json(*q);
+  j["quality"]["not_delaunay"] = {{"rounding", r.not_delaunay_rounding}, {"refused", r.not_delaunay_refused}};
+  j["bounds"] = {{"radius_edge", number_or_null(bounds.radius_edge)}, {"size_met", r.over_size == 0},
+                 {"over_radius_edge", r.over_radius_edge}, {"over_size", r.over_size}, {"explained", r.explained}};
+  j["verdict"] = r.exit_code();
+  j["finding_count"] = r.finding_count;
+  Json& findings = j["findings"] = Json::array();
+  for (const CheckFinding& f : r.findings) findings.push_back(to_json(f));
+}
+
+template <int D>
+void print_summary(const CheckArguments& a, const OutputMesh<D>& mesh, const Bounds<D>& bounds,
+                   const std::optional<QualitySummary>& q, const CheckReport& r) {
+  print_row("mesh", format("%s (%dD, %s, %s)", a.mesh.c_str(), D, count(mesh.points.size(), "vertex", "vertices").c_str(),
+                           count(mesh.cells.size(), D == 3 ? "tetrahedron" : "triangle",
+                                 D == 3 ? "tetrahedra" : "triangles").c_str()));
+  print_row("input", a.input.empty() ? "not given: conformity was not checked" : a.input);
+  if (q)
+    print_row("quality", format("radius-edge up to %.4f, %s %.2f to %.2f degrees", q->max_radius_edge,
+                                D == 3 ? "dihedral angles" : "angles", q->min_angle_deg, q->max_angle_deg));
+  if (bounds.radius_edge == unbounded) print_row("bounds", "no radius-edge bound was given");
+  if (r.over_radius_edge + r.over_size > 0)
+    print_row("bounds", format("%llu over the radius-edge bound, %llu over a size bound, %llu cells with a reason that holds",
+                               static_cast<unsigned long long>(r.over_radius_edge),
+                               static_cast<unsigned long long>(r.over_size),
+                               static_cast<unsigned long long>(r.explained)));
+  if (r.not_delaunay_rounding + r.not_delaunay_refused > 0)
+    print_row("delaunay", format("%llu local violations by rounding, %llu beside refused entities",
+                                 static_cast<unsigned long long>(r.not_delaunay_rounding),
+                                 static_cast<unsigned long long>(r.not_delaunay_refused)));
+  for (const CheckFinding& f : r.findings) print_row("found", std::string(name(f.kind)) + ": " + f.message);
+  if (r.finding_count > r.findings.size())
+    print_row("found", count(r.finding_count - r.findings.size(), "more", "more"));
+  const int code = r.exit_code();
+  print_row("verdict", code == exit_done        ? "everything holds"
+                       : code == exit_poor_left ? "sound; over a bound only where the reasons explain it"
+                                                : "FAILED");
+}
+
+template <int D>
+int check_as(const CheckArguments& a, Report& report) {
+  const Bounds<D> bounds = resolve<D>(a.bounds, unbounded);
+  const OutputMesh<D> mesh = read_mesh<D>(a.mesh);
+  const std::optional<Domain<D>> domain = read_domain<D>(a.input);
+  std::vector<PoorReason> reasons;
+  if (!a.reasons.empty()) reasons = read_reasons(a.reasons);
+
+  CheckOptions<D> options;
+  if (domain) options.domain = &*domain;
+  options.radius_edge_bound = bounds.radius_edge;
+  options.size = bounds.size;
+  options.max_measure = bounds.max_volume;
+  if (!a.reasons.empty()) options.reasons = &reasons;
+  const CheckReport verdict = pgdr::check(mesh, options);
+  std::optional<QualitySummary> quality;  // of a mesh whose numbers can be used at all
+  if (verdict.count(CheckFinding::Kind::bad_index) + verdict.count(CheckFinding::Kind::not_finite) == 0)
+    quality = summarize_quality(mesh);
+  fill(report.json(), mesh, bounds, quality, verdict);
+  if (!a.quiet) print_summary(a, mesh, bounds, quality, verdict);
+  return verdict.exit_code();
+}
+
+}  // namespace
+
+int check(const CheckArguments& arguments, Report& report) {
+  report.json()["mesh"] = arguments.mesh;
+  if (!arguments.input.empty()) report.json()["input"] = arguments.input;
+  const int dimension = file_dimension(arguments.mesh);
+  report.json()["dimension"] = dimension;
+  return dimension == 2 ? check_as<2>(arguments, report) : check_as<3>(arguments, report);
+}
+
+}  // namespace pgdr::tool

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "command.hpp"
+
+#include <cstdio>
+#include <memory>
+#include <new>
+#include <nlohmann/json.hpp>
+
+namespace pgdr::tool {
+namespace {
+
+void say(const char* what) noexcept { std::fprintf(stderr, "pgdr: error: %s\n", what); }
+
+/// Runs `action`, turns what it throws into words on stderr, an entry of the report, and an exit code.
+template <class Action>
+int guarded(Report& report, Action action) {
+  const auto fail = [&report](const Error& e, ExitCode code) {
+    say(e.what());
+    report.add_error(e.diagnostic());
+    return code;
+  };
+  const auto fail_untyped = [&](Errc code, const char* what) {
+    say(what);
+    report.add_error({.code = code, .message = what});
+    return exit_resource;
+  };
+  try {
+    return action();
+  } catch (const UsageError& e) {
+    return fail(e, exit_usage);
+  } catch (const InputError& e) {
+    return fail(e, exit_input);
+  } catch (const FileError& e) {
+    return fail(e, exit_file);
+  } catch (const Error& e) {
+    return fail(e, exit_resource);
+  } catch (const std::bad_alloc&) {
+    return fail_untyped(Errc::out_of_memory, "out of memory");
+  } catch (const std::exception& e) {
+    return fail_untyped(Errc::internal, e.what());
+  }
+}
+
+int run_parsed(const Arguments& arguments, Report& report) {
+  report.json()["version"] = PGDR_VERSION;
+  int code = guarded(report, [&] {
+    return std::visit(
+        [&report](const auto& a) {
+          using A = std::decay_t<decltype(a)>;
+          if constexpr (std::is_same_v<A, MeshArguments>) return mesh(a, report);
+          else if constexpr (std::is_same_v<A, CheckArguments>) return check(a, report);
+          else return info(a, report);
+        },
+        arguments);
+  });
+  const std::string& file = std::visit([](const auto& a) -> const std::string& { return a.report; }, arguments);
+  if (file.empty()) return code;
+  if (!report.json().contains("errors")) report.json()["errors"] = nlohmann::ordered_json::array();
+  const int written = guarded(report, [&] { return report.write(file), exit_done; });
+  return written == exit_done || (code != exit_done && written != exit_resource) ? code : written;
+}
+
+}  // namespace
+
+int run(int argc, const char* const* argv) noexcept {
+  std::unique_ptr<Report> report;
+  int code = exit_resource;
+  try {
+    report = std::make_unique<Report>();
+    const auto parsed = parse(argc, argv);
+    code = std::holds_alternative<int>(parsed) ? std::get<int>(parsed) : run_parsed(std::get<Arguments>(parsed), *report);
+  } catch (const std::bad_alloc&) {
+    say("out of memory");
+    code = exit_resource;
+  } catch (const std::exception& e) {
+    say(e.what());
+    code = exit_resource;
+  } catch (...) {
+    say("an unknown exception");
+    code = exit_resource;
+  }
+  if (code == exit_resource && report && !report->mesh_file.empty()) std::remove(report->mesh_file.c_str());
+  return code;
+}
+
+}  // namespace pgdr::tool

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "console.hpp"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cstdarg>
+#include <cstdio>
+
+namespace pgdr::tool {
+
+void print_row(std::string_view label, const std::string& text) {
+  std::printf("%-10.*s %s\n", static_cast<int>(label.size()), label.data(), text.c_str());
+}
+
+void print_warnings(const std::vector<Diagnostic>& warnings) {
+  constexpr std::size_t most = 5;
+  for (std::size_t i = 0; i < warnings.size() && i < most; ++i)
+    std::fprintf(stderr, "pgdr: warning: %s\n", Error(warnings[i]).what());
+  if (warnings.size() > most) std::fprintf(stderr, "pgdr: and %zu more warnings\n", warnings.size() - most);
+}
+
+std::string format(const char* pattern, ...) {
+  va_list arguments;
+  va_start(arguments, pattern);
+  char text[512];
+  std::vsnprintf(text, sizeof text, pattern, arguments);
+  va_end(arguments);
+  return text;
+}
+
+std::string count(std::uint64_t n, std::string_view one, std::string_view many) {
+  std::string digits = std::to_string(n);
+  for (auto i = static_cast<std::ptrdiff_t>(digits.size()) - 3; i > 0; i -= 3)
+    digits.insert(static_cast<std::size_t>(i), 1, ' ');
+  return digits.append(" ").append(n == 1 ? one : many);
+}
+
+ProgressLine::ProgressLine(bool wanted) : shown_(wanted && isatty(STDERR_FILENO)) {}
+
+void ProgressLine::operator()(const Progress& p) {
+  const auto now = std::chrono::steady_clock::now();
+  if (!shown_ || now < next_) return;
+  next_ = now + std::chrono::milliseconds(100);
+  dirty_ = true;
+  std::fprintf(stderr, "\r\033[K%llu vertices, %llu waiting", static_cast<unsigned long long>(p.vertices),
+               static_cast<unsigned long long>(p.waiting));
+  std::fflush(stderr);
+}
+
+void ProgressLine::clear() {
+  if (dirty_) std::fputs("\r\033[K", stderr);
+  dirty_ = false;
+}
+
+std::uint64_t peak_rss_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts kilobytes
+}
+
+}  // namespace pgdr::tool

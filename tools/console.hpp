@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What people see: a summary on stdout, errors, warnings and a progress line on stderr. And what is measured of the
+// process itself.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pgdr/error.hpp"
+#include "pgdr/refine.hpp"
+
+namespace pgdr::tool {
+
+/// `label      text` on stdout.
+void print_row(std::string_view label, const std::string& text);
+/// The first few as `pgdr: warning: ...` on stderr, and how many more there are.
+void print_warnings(const std::vector<Diagnostic>& warnings);
+/// printf into a string.
+[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...);
+/// 1 vertex, 2 vertices; thousands are set apart.
+std::string count(std::uint64_t n, std::string_view one, std::string_view many);
+
+/// One line on stderr that is written over; nothing at all if stderr is not a terminal.
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool wanted);
+  ~ProgressLine() { clear(); }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+  bool shown() const { return shown_; }
+  void operator()(const Progress& p);
+  void clear();
+
+ private:
+  bool shown_, dirty_ = false;
+  std::chrono::steady_clock::time_point next_{};
+};
+
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+std::uint64_t peak_rss_bytes();
+
+}  // namespace pgdr::tool

@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// pgdr info: what is in an input or a mesh, and whether pgdr mesh would take it.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "command.hpp"
+#include "console.hpp"
+#include "pgdr/domain.hpp"
+#include "pgdr/io.hpp"
+#include "pgdr/refine.hpp"
+
+namespace pgdr::tool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+bool is_mesh(const std::string& file) {
+  const auto extension = std::filesystem::path(file).extension();
+  return extension == ".vtu" || extension == ".mesh";
+}
+
+/// Edges that belong to one triangle only (3D), points that end one segment only (2D): 0 where all is closed.
+template <int D>
+std::uint64_t count_open(const Domain<D>& domain) {
+  std::uint64_t open = 0;
+  if constexpr (D == 3) {
+    std::vector<std::array<std::uint32_t, 2>> edges;
+    for (EntityId f = 0; f < domain.facets().size(); ++f)
+      for (const auto& t : domain.triangles(f))
+        for (std::size_t i = 0; i < 3; ++i) edges.push_back({std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])});
+    std::sort(edges.begin(), edges.end());
+    for (std::size_t i = 0, j = 0; i < edges.size(); i = j) {
+      while (j < edges.size() && edges[j] == edges[i]) ++j;
+      open += j - i == 1;
+    }
+  } else {
+    std::vector<std::uint32_t> degree(domain.points().size());
+    for (const DomainSegment& s : domain.segments())
+      for (const std::uint32_t p : s.points) ++degree[p];
+    open = static_cast<std::uint64_t>(std::count(degree.begin(), degree.end(), 1u));
+  }
+  return open;
+}
+
+/// The smallest angle, in degrees, between two segments with a common point, or two facets with a common segment.
+/// Points where more than `most` segments meet are left out: all pairs would take too long.
+template <int D>
+double smallest_angle(const Domain<D>& domain) {
+  constexpr std::size_t most = 1000;
+  double smallest = 180;
+  std::vector<std::vector<EntityId>> at(domain.points().size());
+  for (EntityId s = 0; s < domain.segments().size(); ++s)
+    for (const std::uint32_t p : domain.segments()[s].points) at[p].push_back(s);
+  const auto take = [&](EntityKind kind, std::span<const EntityId> ids) {
+    if (ids.size() > most) return;
+    for (std::size_t i = 0; i < ids.size(); ++i)
+      for (std::size_t k = i + 1; k < ids.size(); ++k)
+        smallest = std::min(smallest, entity_angle(domain, EntityRef{kind, ids[i]}, EntityRef{kind, ids[k]}));
+  };
+  for (const auto& segments : at) take(EntityKind::segment, segments);
+  if constexpr (D == 3)
+    for (EntityId s = 0; s < domain.segments().size(); ++s) take(EntityKind::facet, domain.facets_of_segment(s));
+  return smallest;
+}
+
+template <int D>
+int info_of_input(const InfoArguments& a, Report& report) {
+  Json& j = report.json();
+  const Plc<D> plc = read_plc<D>(a.file);
+  j["kind"] = "input";
+  Json& d = j["diagnosis"] = Json::object();
+  d["accepted"] = false;
+  d["points"] = plc.points.size();
+  d["segments"] = plc.segments.size();
+  if (D == 3) d["facets"] = plc.facets.size();
+  d["holes"] = plc.holes.size();
+  d["regions"] = plc.regions.size();
+  if (!a.quiet) {
+    print_row("input", format("%s (%dD)", a.file.c_str(), D));
+    std::string counts = count(plc.points.size(), "point", "points") + ", " +
+                         count(plc.segments.size(), "segment", "segments");
+    if (D == 3) counts += ", " + count(plc.facets.size(), "facet", "facets");
+    print_row("file", counts + ", " + count(plc.holes.size(), "hole", "holes") + ", " +
+                          count(plc.regions.size(), "region", "regions"));
+  }
+
+  const Domain<D> domain(plc);
+  const std::uint64_t open = count_open(domain);
+  const double angle = smallest_angle(domain);
+  d["distinct_points"] = domain.points().size();
+  d["maximal_segments"] = domain.segments().size();
+  if (D == 3) d["maximal_facets"] = domain.facets().size();
+  d["closed"] = open == 0;
+  d["open"] = open;
+  d["smallest_angle_deg"] = angle;
+  double defect = 0;
+  std::uint64_t warped = 0;
+  for (const DomainFacet& f : domain.facets()) {
+    warped += !f.planar;
+    defect = std::max(defect, f.planarity_defect);
+  }
+  if (D == 3) {
+    d["not_planar"] = warped;
+    d["planarity_defect"] = defect;
+  }
+  if (!a.quiet) {
+    std::string counts = count(domain.points().size(), "distinct point", "distinct points") + ", " +
+                         count(domain.segments().size(), "segment", "segments");
+    if (D == 3) counts += ", " + count(domain.facets().size(), "facet", "facets");
+    print_row("maximal", counts);
+    if (open == 0) print_row("closed", "yes");
+    else print_row("closed", "no: " + count(open, D == 3 ? "edge of one facet only" : "end of one segment only",
+                                            D == 3 ? "edges of one facet only" : "ends of one segment only"));
+    if (warped > 0) print_row("planar", count(warped, "facet is not, by up to ", "facets are not, by up to ") + format("%.3g", defect));
+    print_row("angles", format("%.3f degrees is the smallest between segments, or facets at a segment", angle));
+  }
+
+  // Boundary recovery alone decides the rest: entities that cross, seeds, whether anything is enclosed.
+  RefineOptions<D> options;
+  options.refine = false;
+  const RefineResult<D> result = refine(domain, options);
+  d["accepted"] = true;
+  j["warnings"] = to_json(result.warnings);
+  j["repairs"] = to_json(result.repairs);
+  if (!a.quiet) {
+    print_warnings(result.warnings);
+    if (!result.repairs.empty()) print_row("repaired", count(result.repairs.size(), "defect", "defects"));
+    print_row("verdict", "pgdr mesh takes it");
+  }
+  return exit_done;
+}
+
+template <int D>
+int info_of_mesh(const InfoArguments& a, Report& report) {
+  Json& j = report.json();
+  const OutputMesh<D> mesh = read_mesh<D>(a.file);
+  const QualitySummary q = summarize_quality(mesh);
+  j["kind"] = "mesh";
+  j["vertices"] = mesh.points.size();
+  j["cells"] = mesh.cells.size();
+  j["subsegments"] = mesh.subsegments.size();
+  if (D == 3) j["subfacets"] = mesh.subfacets.size();
+  std::vector<double> regions = mesh.regions;
+  std::sort(regions.begin(), regions.end());
+  regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
+  j["regions"] = std::max<std::size_t>(1, regions.size());
+  j["quality"] = to_json(q);
+  if (a.quiet) return exit_done;
+
+  print_row("mesh", format("%s (%dD)", a.file.c_str(), D));
+  std::string counts = count(mesh.points.size(), "vertex", "vertices") + ", " +
+                       count(mesh.cells.size(), D == 3 ? "tetrahedron" : "triangle", D == 3 ? "tetrahedra" : "triangles") +
+                       ", " + count(mesh.subsegments.size(), "subsegment", "subsegments");
+  if (D == 3) counts += ", " + count(mesh.subfacets.size(), "subfacet", "subfacets");
+  print_row("counts", counts);
+  print_row("quality", format("radius-edge up to %.4f, %s %.2f to %.2f degrees", q.max_radius_edge,
+                              D == 3 ? "dihedral angles" : "angles", q.min_angle_deg, q.max_angle_deg));
+  const std::uint64_t most = *std::max_element(q.histogram.begin(), q.histogram.end());
+  for (std::size_t i = 0; i < q.histogram.size(); ++i) {
+    const auto bar = most ? static_cast<std::size_t>(50 * q.histogram[i] / most) : 0;
+    print_row("", format("%3zu-%3zu %12llu ", 10 * i, 10 * i + 10, static_cast<unsigned long long>(q.histogram[i])) +
+                      std::string(bar, '#'));
+  }
+  return exit_done;
+}
+
+}  // namespace
+
+int info(const InfoArguments& arguments, Report& report) {
+  report.json()["input"] = arguments.file;
+  const int dimension = file_dimension(arguments.file);
+  report.json()["dimension"] = dimension;
+  if (is_mesh(arguments.file))
+    return dimension == 2 ? info_of_mesh<2>(arguments, report) : info_of_mesh<3>(arguments, report);
+  return dimension == 2 ? info_of_input<2>(arguments, report) : info_of_input<3>(arguments, report);
+}
+
+}  // namespace pgdr::tool

@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// pgdr mesh: read, refine, write, report.
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "bounds.hpp"
+#include "command.hpp"
+#include "console.hpp"
+#include "pgdr/io.hpp"
+#include "signals.hpp"
+
+namespace pgdr::tool {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// What can be known about the output file is said before the work, not after it.
+void require_writable(const std::string& output, const std::string& input) {
+  const fs::path path(output);
+  const auto extension = path.extension();
+  if (extension != ".vtu" && extension != ".mesh")
+    throw InputError({.code = Errc::unknown_format,
+                      .message = "meshes are written as .vtu or .mesh, not as \"" + extension.string() + '"',
+                      .file = output});
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored) || access(folder.c_str(), W_OK | X_OK) != 0 || fs::is_directory(path, ignored))
+    throw FileError({.code = Errc::cannot_write, .message = "no file can be written there", .file = output});
+  if (fs::equivalent(path, input, ignored))
+    throw UsageError({.code = Errc::bad_option, .message = "the output would replace the input", .file = output});
+}
+
+template <int D>
+RefineOptions<D> make_options(const MeshArguments& a, const Bounds<D>& bounds) {
+  RefineOptions<D> options;
+  options.radius_edge_bound = bounds.radius_edge;
+  options.size = bounds.size;
+  options.max_volume = bounds.max_volume;
+  options.disk = {a.type1 ? DiskType::type1 : DiskType::type2, a.delta};
+  options.min_edge = a.min_edge;
+  if (a.max_vertices) options.max_vertices = *a.max_vertices;
+  if (a.time_limit) options.time_limit = std::chrono::duration<double>(*a.time_limit);
+  return options;
+}
+
+const char* words(StopCause cause) {
+  switch (cause) {
+    case StopCause::max_vertices: return "at --max-vertices";
+    case StopCause::min_edge: return "at --min-edge";
+    case StopCause::time_limit: return "at --time-limit";
+    case StopCause::cancelled: return "by a signal";
+    case StopCause::finished: break;
+  }
+  return "";
+}
+
+template <int D>
+void fill(Json& j, const MeshArguments& a, const Bounds<D>& bounds, const RefineResult<D>& r, const QualitySummary& q) {
+  const RefineStatistics& s = r.statistics;
+  j["vertices"] = r.mesh.points.size();
+  j["cells"] = r.mesh.cells.size();
+  j["threads"] = {{"requested", a.threads.value_or(std::max(1u, std::thread::hardware_concurrency()))}, {"ran", 1}};
+  j["schedule"] = "reproducible";
+  j["reproducible"] = r.stop != StopCause::time_limit && r.stop != StopCause::cancelled;
+  j["selector"] = "circumcenter";
+  j["seconds"] = {{"read", 0.0}, {"mesh", s.seconds_mesh}, {"initial", s.seconds_initial},
+                  {"refine", s.seconds_refine}, {"write", 0.0}, {"total", 0.0}};
+  j["peak_rss_bytes"] = 0;
+  j["quality"] = to_json(q);
+  j["bounds"] = {{"radius_edge", bounds.radius_edge}, {"size_met", r.size_met}, {"poor_left", r.poor_left},
+                 {"reasons", to_json(r.reasons)}};
+  j["insertions"] = {{"committed", s.insertions_committed}, {"refused", s.insertions_refused}};
+  j["predicates"] = to_json(s.predicates);
+  j["selector_outside"] = s.selector_outside;
+  j["warnings"] = to_json(r.warnings);
+  j["repairs"] = to_json(r.repairs);
+}
+
+template <int D>
+void print_summary(const MeshArguments& a, const Plc<D>& plc, const Bounds<D>& bounds, const RefineResult<D>& r,
+                   const QualitySummary& q, const Json& seconds) {
+  print_row("input", format("%s (%dD, %s)", a.input.c_str(), D,
+                            count(plc.points.size(), "point", "points").c_str()));
+  if (!r.repairs.empty()) print_row("repaired", count(r.repairs.size(), "defect", "defects") + ", see --report");
+  print_row("mesh", count(r.mesh.points.size(), "vertex", "vertices") + ", " +
+                        count(r.mesh.cells.size(), D == 3 ? "tetrahedron" : "triangle",
+                              D == 3 ? "tetrahedra" : "triangles"));
+  if (!r.mesh.cells.empty())
+    print_row("quality", format("radius-edge up to %.4f (bound %.4g), %s %.2f to %.2f degrees", q.max_radius_edge,
+                                bounds.radius_edge, D == 3 ? "dihedral angles" : "angles", q.min_angle_deg,
+                                q.max_angle_deg));
+  if (r.stop != StopCause::finished)
+    print_row("stopped", format("%s: the mesh is valid, ", words(r.stop)) +
+                             count(r.poor_left, "element is poor", "elements are poor"));
+  else if (r.poor_left == 0)
+    print_row("bounds", r.size_met ? "every bound is met" : "the size bound is not met everywhere");
+  else {
+    std::array<std::uint64_t, 3> by_code{};
+    for (const PoorReason& reason : r.reasons) ++by_code[static_cast<std::size_t>(reason.code)];
+    std::string why;
+    for (std::size_t i = 0; i < by_code.size(); ++i)
+      if (by_code[i]) why += format("%s%llu %s", why.empty() ? "" : ", ", static_cast<unsigned long long>(by_code[i]),
+                                    name(static_cast<PoorReason::Code>(i)));
+    print_row("bounds", count(r.poor_left, "element stays poor", "elements stay poor") + ": " + why);
+  }
+  print_row("time", format("%.3f s meshing (%.3f s read, %.3f s write)", seconds["mesh"].get<double>(),
+                           seconds["read"].get<double>(), seconds["write"].get<double>()));
+  print_row("memory", format("%.1f MiB at most", static_cast<double>(peak_rss_bytes()) / (1 << 20)));
+  print_row("wrote", a.output);
+}
+
+template <int D>
+int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
+  Json& j = report.json();
+  const Bounds<D> bounds = resolve<D>(a.bounds, smallest_proved_bound<D>());
+  RefineOptions<D> options = make_options<D>(a, bounds);
+  const StopOnSignal signals;
+  options.stop = signals.token();
+
+  const Stopwatch reading;
+  const Plc<D> plc = read_plc<D>(a.input);
+  const double seconds_read = reading.seconds();
+
+  RefineResult<D> result;
+  {
+    ProgressLine line(!a.quiet);
+    if (line.shown()) options.progress = [&line](const Progress& p) { line(p); };
+    result = refine(plc, options);
+  }
+  if (!a.quiet) print_warnings(result.warnings);
+  const QualitySummary quality = summarize_quality(result.mesh);
+  fill(j, a, bounds, result, quality);
+
+  const Stopwatch writing;
+  report.mesh_file = a.output;
+  try {
+    write_mesh(result.mesh, a.output);
+  } catch (...) {
+    report.mesh_file.clear();
+    throw;
+  }
+  j["seconds"]["read"] = seconds_read;
+  j["seconds"]["write"] = writing.seconds();
+  j["seconds"]["total"] = total.seconds();
+  j["peak_rss_bytes"] = peak_rss_bytes();
+  if (!a.quiet) print_summary(a, plc, bounds, result, quality, j["seconds"]);
+
+  if (result.stop != StopCause::finished) return exit_stopped;
+  return result.poor_left == 0 && result.size_met ? exit_done : exit_poor_left;
+}
+
+}  // namespace
+
+int mesh(const MeshArguments& arguments, Report& report) {
+  const Stopwatch total;
+  report.json()["input"] = arguments.input;
+  require_writable(arguments.output, arguments.input);
+  const int dimension = file_dimension(arguments.input);
+  report.json()["dimension"] = dimension;
+  return dimension == 2 ? mesh_as<2>(arguments, report, total) : mesh_as<3>(arguments, report, total);
+}
+
+}  // namespace pgdr::tool

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <iostream>
+
+#include "command.hpp"
+
+namespace pgdr::tool {
+namespace {
+
+constexpr const char* exit_codes =
+    "Exit codes: 0 done and every bound met; 1 done, elements stayed poor for listed reasons; 2 wrong usage; "
+    "3 invalid input; 4 a file cannot be opened or written; 5 stopped by a budget or a signal, valid partial mesh "
+    "written; 6 a check failed; 7 out of memory or an internal error, no output file.";
+
+/// A number in the given range; `nan` is never one.
+CLI::Validator number(std::string range, bool (*accept)(double)) {
+  return {[range, accept](std::string& text) {
+            double value = 0;
+            const bool ok = CLI::detail::lexical_cast(text, value) && accept(value);
+            return ok ? std::string() : "must be a number " + range + ", not \"" + text + '"';
+          },
+          "", "number " + range};
+}
+
+bool positive(double v) { return v > 0; }
+bool not_negative(double v) { return v >= 0 && std::isfinite(v); }
+
+/// A flag of the contract whose values are not all there yet: it must say so, not look obeyed.
+CLI::Validator available(std::string value, std::string sentence) {
+  return {[value, sentence](std::string& text) { return text == value ? std::string() : sentence + ", not \"" + text + '"'; },
+          "", "available"};
+}
+CLI::Validator not_available() {
+  return {[](std::string&) { return std::string("is not available in this version"); }, "", "available"};
+}
+
+void add_bounds(CLI::App& app, BoundArguments& b) {
+  auto* radius_edge = app.add_option("--radius-edge", b.radius_edge,
+                                     "bound on circumradius over shortest edge (default 2 in 3D, sqrt 2 in 2D, the "
+                                     "smallest with a proof)")
+                          ->type_name("R")->check(number("> 0", positive));
+  app.add_option("--size", b.size,
+                 "bound on the circumradius (3D) or the area (2D), at the centroid: a number, or an expression in x, y, z")
+      ->type_name("S");
+  app.add_option("--max-volume", b.max_volume, "bound on the volume of every tetrahedron (3D)")
+      ->type_name("V")->check(number("> 0", positive));
+  app.add_option("--min-angle", b.min_angle, "2D: smallest angle in degrees, for --radius-edge 1/(2 sin A)")
+      ->type_name("A")->check(number("between 0 and 60", [](double v) { return v > 0 && v < 60; }))
+      ->excludes(radius_edge);
+}
+
+void add_report(CLI::App& app, std::string& report, bool& quiet) {
+  app.add_option("--report", report, "write what was done and found as one JSON object")->type_name("FILE.json");
+  app.add_flag("--quiet", quiet, "print errors only");
+}
+
+void add_mesh(CLI::App& app, MeshArguments& a) {
+  const auto fixed = [](const std::string&) {};  // a flag with one choice so far: checked, nothing to keep
+  app.add_option("INPUT", a.input, "what to mesh: .poly .smesh .node .off .stl")->required()->type_name("");
+  app.add_option("-o,--output", a.output, "the mesh: .vtu .mesh")->required()->type_name("OUTPUT");
+  add_bounds(app, a.bounds);
+  app.add_option_function<std::string>("--selector", fixed, "where new points go: circumcenter")->type_name("NAME")
+      ->check(available("circumcenter", "the selectors of this version: circumcenter"));
+  app.add_option_function<std::string>("--disk", [&a](const std::string& t) { a.type1 = t == "type1"; },
+                                       "selection disk: type1, or type2 (default)")
+      ->type_name("TYPE")->check(CLI::IsMember({"type1", "type2"}));
+  app.add_option("--delta", a.delta, "radius of a type 2 disk, 1 - D circumradii; 0 (default): as far as the bound allows")
+      ->type_name("D")->check(number("between 0 and 1", [](double v) { return v >= 0 && v <= 1; }));
+  app.add_option("--threads", a.threads, "threads to use; the mesh does not depend on it (this version runs one)")
+      ->type_name("N")->check(CLI::Range(1u, 65535u).description(""));
+  app.add_option_function<std::string>("--schedule", fixed, "reproducible: the same mesh for any number of threads")->type_name("NAME")
+      ->check(available("reproducible", "the schedules of this version: reproducible"));
+  app.add_option_function<std::string>("--granularity", fixed, "not available in this version")->type_name("G")->check(not_available());
+  app.add_option("--min-edge", a.min_edge, "refuse points that would make an edge shorter than this, and say so")
+      ->type_name("E")->check(number(">= 0", not_negative));
+  app.add_option("--max-vertices", a.max_vertices, "stop with a valid partial mesh beyond this number of vertices")
+      ->type_name("N");
+  app.add_option("--time-limit", a.time_limit, "stop with a valid partial mesh after this time")
+      ->type_name("SECONDS")->check(number(">= 0", not_negative));
+  add_report(app, a.report, a.quiet);
+  app.add_option_function<std::string>("--trace", fixed, "not available in this version")->type_name("FILE.json")->check(not_available());
+}
+
+void add_check(CLI::App& app, CheckArguments& a) {
+  app.add_option("MESH", a.mesh, "the mesh to check: .vtu .mesh")->required()->type_name("");
+  app.add_option("--input", a.input, "what it is a mesh of; without it, conformity is not checked")->type_name("INPUT");
+  add_bounds(app, a.bounds);
+  app.add_option("--reasons", a.reasons, "report of `pgdr mesh`, whose bounds.reasons explain poor cells")
+      ->type_name("REPORT.json")->needs("--input");
+  add_report(app, a.report, a.quiet);
+}
+
+void add_info(CLI::App& app, InfoArguments& a) {
+  app.add_option("FILE", a.file, "an input or a mesh")->required()->type_name("");
+  add_report(app, a.report, a.quiet);
+}
+
+}  // namespace
+
+std::variant<Arguments, int> parse(int argc, const char* const* argv) {
+  MeshArguments mesh;
+  CheckArguments check;
+  InfoArguments info;
+
+  CLI::App app("pgdr: Delaunay meshes with guaranteed quality, in 3D and 2D", "pgdr");
+  app.set_version_flag("--version", "pgdr " PGDR_VERSION);
+  app.require_subcommand(1);
+  app.footer(exit_codes);
+  auto* mesh_app = app.add_subcommand("mesh", "Mesh an input");
+  add_mesh(*mesh_app, mesh);
+  auto* check_app = app.add_subcommand("check", "Check a mesh with exact arithmetic, from the files alone");
+  add_check(*check_app, check);
+  add_info(*app.add_subcommand("info", "What is in an input or a mesh"), info);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& e) {  // --help, --version
+    app.exit(e);
+    return exit_done;
+  } catch (const CLI::ParseError& e) {
+    std::cerr << "pgdr: error: " << e.what() << "\nRun pgdr --help for the usage.\n";
+    return exit_usage;
+  }
+  if (mesh_app->parsed()) return Arguments(std::move(mesh));
+  if (check_app->parsed()) return Arguments(std::move(check));
+  return Arguments(std::move(info));
+}
+
+}  // namespace pgdr::tool

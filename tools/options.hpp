@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The arguments of the command as data. Flags are a fixed contract: they may be added, never changed.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+
+namespace pgdr::tool {
+
+/// The bounds that `mesh` makes and `check` verifies.
+struct BoundArguments {
+  std::optional<double> radius_edge;
+  std::optional<std::string> size;  ///< a number or an expression in x, y, z
+  std::optional<double> max_volume;
+  std::optional<double> min_angle;
+};
+
+struct MeshArguments {
+  std::string input, output;
+  BoundArguments bounds;
+  bool type1 = false;   ///< the selection disk; else type 2
+  double delta = 0;
+  std::optional<unsigned> threads;
+  double min_edge = 0;
+  std::optional<std::uint64_t> max_vertices;
+  std::optional<double> time_limit;
+  std::string report;   ///< empty: none
+  bool quiet = false;
+};
+
+struct CheckArguments {
+  std::string mesh, input;  ///< input empty: conformity is not checked
+  BoundArguments bounds;
+  std::string reasons;      ///< a report of `mesh`
+  std::string report;
+  bool quiet = false;
+};
+
+struct InfoArguments {
+  std::string file;
+  std::string report;
+  bool quiet = false;
+};
+
+using Arguments = std::variant<MeshArguments, CheckArguments, InfoArguments>;
+
+/// What the command line asks for, or, when there is nothing left to do (--help, --version, wrong usage: printed),
+/// the exit code.
+std::variant<Arguments, int> parse(int argc, const char* const* argv);
+
+}  // namespace pgdr::tool

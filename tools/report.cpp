@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "report.hpp"
+
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace pgdr::tool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<const char*, 3> code_names{"small_angle", "rounding", "beyond_theory"};
+constexpr std::array<const char*, 4> kind_names{"vertex", "segment", "facet", "volume"};
+
+Json to_json(const EntityRef& e) {
+  Json id = nullptr;
+  if (e.id != no_entity) id = e.id;
+  return {{"kind", name(e.kind)}, {"id", std::move(id)}};
+}
+
+/// The value of a word among `names`, by its place. @throws std::invalid_argument
+template <class Enum, std::size_t N>
+Enum parse_name(const std::string& word, const std::array<const char*, N>& names) {
+  for (std::size_t i = 0; i < N; ++i)
+    if (word == names[i]) return static_cast<Enum>(i);
+  throw std::invalid_argument("unknown word \"" + word + '"');
+}
+
+/// An unsigned number of 32 bits. @throws std::invalid_argument, nlohmann::json::exception
+std::uint32_t parse_id(const nlohmann::json& j) {
+  if (!j.is_number_unsigned() || j.get<std::uint64_t>() > 0xffffffffu)
+    throw std::invalid_argument("\"" + j.dump() + "\" is not an id");
+  return j.get<std::uint32_t>();
+}
+
+PoorReason parse_reason(const nlohmann::json& j) {
+  PoorReason r;
+  r.cell = parse_id(j.at("cell"));
+  r.code = parse_name<PoorReason::Code>(j.at("code").get<std::string>(), code_names);
+  const auto& entities = j.at("entities");
+  if (!entities.is_array() || entities.size() != 2) throw std::invalid_argument("\"entities\" are two");
+  for (std::size_t i = 0; i < 2; ++i) {
+    r.entities[i].kind = parse_name<EntityKind>(entities[i].at("kind").get<std::string>(), kind_names);
+    if (const auto& id = entities[i].at("id"); !id.is_null()) r.entities[i].id = parse_id(id);
+  }
+  if (const auto& angle = j.at("angle"); !angle.is_null()) r.angle = angle.get<double>();
+  return r;
+}
+
+}  // namespace
+
+const char* name(PoorReason::Code code) { return code_names[static_cast<std::size_t>(code)]; }
+const char* name(EntityKind kind) { return kind_names[static_cast<std::size_t>(kind)]; }
+
+Report::Report() : json_(std::make_unique<Json>(Json::object())) {}
+Report::~Report() = default;
+
+void Report::add_error(const Diagnostic& error) {
+  auto& errors = json()["errors"];
+  if (errors.is_null()) errors = Json::array();
+  errors.push_back(tool::to_json(error));
+}
+
+void Report::write(const std::string& file) const {
+  struct Temporary {
+    std::string name;
+    ~Temporary() { std::remove(name.c_str()); }  // gone already if all went well
+  } const temporary{file + '.' + std::to_string(getpid()) + ".tmp"};
+  std::ofstream out(temporary.name, std::ios::binary);
+  // File names need not be UTF-8; JSON is.
+  if (out) out << json_->dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+  out.close();
+  if (!out || std::rename(temporary.name.c_str(), file.c_str()) != 0)
+    throw FileError({.code = Errc::cannot_write, .message = "the report cannot be written", .file = file});
+}
+
+Json to_json(const Diagnostic& d) {
+  Json j{{"code", pgdr::name(d.code)}, {"message", d.message}};
+  j["file"] = d.file;
+  j["line"] = d.line;
+  j["ids"] = d.ids;
+  j["points"] = d.points;
+  return j;
+}
+
+Json to_json(const std::vector<Diagnostic>& list) {
+  Json j = Json::array();
+  for (const Diagnostic& d : list) j.push_back(to_json(d));
+  return j;
+}
+
+Json to_json(const QualitySummary& q) {
+  return {{"max_radius_edge", q.max_radius_edge},
+          {"min_angle_deg", q.min_angle_deg},
+          {"max_angle_deg", q.max_angle_deg},
+          {"histogram", q.histogram}};
+}
+
+Json to_json(const std::vector<PoorReason>& reasons) {
+  Json j = Json::array();
+  for (const PoorReason& r : reasons)
+    j.push_back({{"cell", r.cell},
+                 {"code", name(r.code)},
+                 {"entities", Json::array({to_json(r.entities[0]), to_json(r.entities[1])})},
+                 {"angle", r.angle}});
+  return j;
+}
+
+Json to_json(const PredicateCounts& c) {
+  const std::uint64_t calls = c.filter + c.expansion + c.exact + c.perturbed;  // each call counts at one stage
+  const auto share = [calls](std::uint64_t n) { return calls ? static_cast<double>(n) / static_cast<double>(calls) : 0.0; };
+  return {{"filter", share(c.filter)},
+          {"expansion", share(c.expansion)},
+          {"exact", share(c.exact)},
+          {"perturbed", share(c.perturbed)},
+          {"calls", calls}};
+}
+
+Json to_json(const CheckFinding& f) {
+  return {{"kind", pgdr::name(f.kind)}, {"message", f.message}, {"ids", f.ids}};
+}
+
+std::vector<PoorReason> read_reasons(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in || std::filesystem::is_directory(file))
+    throw FileError({.code = Errc::cannot_open, .message = "the report cannot be opened", .file = file});
+  std::vector<PoorReason> reasons;
+  try {
+    const auto report = nlohmann::json::parse(in);
+    for (const auto& j : report.at("bounds").at("reasons")) reasons.push_back(parse_reason(j));
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& e) {
+    throw InputError({.code = Errc::syntax,
+                      .message = "not a report of pgdr mesh with bounds.reasons: " + std::string(e.what()),
+                      .file = file});
+  }
+  return reasons;
+}
+
+}  // namespace pgdr::tool

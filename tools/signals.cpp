@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "signals.hpp"
+
+#include <pthread.h>
+
+namespace pgdr::tool {
+
+StopOnSignal::StopOnSignal() {
+  sigemptyset(&signals_);
+  sigaddset(&signals_, SIGINT);
+  sigaddset(&signals_, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &signals_, &before_);
+  try {
+    watcher_ = std::thread([this] {
+      int signal = 0;
+      if (sigwait(&signals_, &signal) != 0 || over_) return;
+      stop_.request_stop();
+      if (sigwait(&signals_, &signal) != 0 || over_) return;
+      std::signal(signal, SIG_DFL);
+      pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr);
+      std::raise(signal);
+    });
+  } catch (...) {
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+    throw;
+  }
+}
+
+StopOnSignal::~StopOnSignal() {
+  over_ = true;
+  pthread_kill(watcher_.native_handle(), SIGTERM);  // wakes it; blocked everywhere else
+  watcher_.join();
+  pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
+}  // namespace pgdr::tool
