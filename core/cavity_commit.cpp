@@ -21,7 +21,7 @@ std::array<VertexId, N> sorted(std::array<VertexId, N> r) {
 /// The vertices of cell k but numbers i and j.
 template <int D>
 std::array<VertexId, D - 1> ridge_without(const CellRecord<D>& k, int i, int j) {
-  std::array<VertexId, D - 1> r;
+  std::array<VertexId, D - 1> r{};
   int n = 0;
   for (int v = 0; v <= D; ++v)
     if (v != i && v != j) r[n++] = k.vertices[v];
@@ -173,7 +173,8 @@ void Cavity<D>::mark_split_entities(Pools& pools, VertexId v) {
   }
 }
 
-template VertexId Cavity<2>::commit(Pools&, Home, float);
-template VertexId Cavity<3>::commit(Pools&, Home, float);
+// The members defined in this file.
+template class Cavity<2>;
+template class Cavity<3>;
 
 }  // namespace pgdr

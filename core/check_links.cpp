@@ -73,7 +73,7 @@ class Linker {
         links_.bits[c] = 0x80;
       else
         findings_.add(Kind::inverted_cell, {c}, [&] {
-          return cell_words(mesh_, c) + " is flat or turned over, at " + words(mesh_.points[mesh_.cells[c][0]]) + ".";
+          return "The " + cell_words(mesh_, c) + " is flat or turned over, at " + words(mesh_.points[mesh_.cells[c][0]]) + ".";
         });
     }
   }

@@ -19,13 +19,19 @@ bool axis_aligned_segment(const Domain<D>& domain, EntityId segment) {
 }
 
 template <int D>
-double slack_of(const Domain<D>& domain, EntityRef home, int ulps) {
-  if (home.kind == EntityKind::segment && !axis_aligned_segment(domain, home.id))
-    return Tolerance{ulps, domain.segment_magnitude(home.id)}.width();
+std::vector<double> slack_of_vertices(const Domain<D>& domain, std::span<const EntityRef> home, int ulps) {
+  std::vector<double> segments(domain.segments().size(), 0), facets(domain.facets().size(), 0), slack;
+  for (EntityId s = 0; s < segments.size(); ++s)
+    if (!axis_aligned_segment(domain, s)) segments[s] = Tolerance{ulps, domain.segment_magnitude(s)}.width();
   if constexpr (D == 3)
-    if (home.kind == EntityKind::facet && !axis_aligned_facet(domain, home.id))
-      return Tolerance{ulps, domain.facet_magnitude(home.id)}.width();
-  return 0;
+    for (EntityId f = 0; f < facets.size(); ++f)
+      if (!axis_aligned_facet(domain, f)) facets[f] = Tolerance{ulps, domain.facet_magnitude(f)}.width();
+  slack.reserve(home.size());
+  for (const EntityRef& entity : home)
+    slack.push_back(entity.kind == EntityKind::segment ? segments[entity.id]
+                    : entity.kind == EntityKind::facet ? facets[entity.id]
+                                                       : 0);
+  return slack;
 }
 
 template <int D>
@@ -50,7 +56,7 @@ void match_points(const ConformityTask<D>& task, std::span<const std::uint32_t> 
       const int marker = mesh.point_markers.empty() ? 0 : mesh.point_markers[*at];
       if (marker == domain.point_markers()[p]) continue;
       task.findings.add(Kind::wrong_marker, {*at}, [&] {
-        return "Input point " + vertex_words(mesh, *at) + " has marker " + std::to_string(marker) + " instead of " +
+        return "Input point " + std::to_string(p) + ", " + vertex_words(mesh, *at) + ", has marker " + std::to_string(marker) + " instead of " +
                std::to_string(domain.point_markers()[p]) + ".";
       });
     } else if (task.input.wants_point(p)) {
@@ -288,7 +294,7 @@ void match_segments(const ConformityTask<D>& task, Conformity<D>& out) {
 
 #define PGDR_INSTANTIATE(D)                                                                                   \
   template bool axis_aligned_segment(const Domain<D>&, EntityId);                                             \
-  template double slack_of(const Domain<D>&, EntityRef, int);                                                 \
+  template std::vector<double> slack_of_vertices(const Domain<D>&, std::span<const EntityRef>, int);          \
   template void match_points(const ConformityTask<D>&, std::span<const std::uint32_t>, Conformity<D>&);       \
   template void match_segments(const ConformityTask<D>&, Conformity<D>&);
 PGDR_INSTANTIATE(2)

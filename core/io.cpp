@@ -6,6 +6,7 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "detail/file_input.hpp"
 #include "detail/file_output.hpp"
@@ -21,8 +22,8 @@ std::string lower_extension(const std::filesystem::path& file) {
 }
 
 [[noreturn]] void unknown_format(const std::filesystem::path& file, const std::string& what) {
-  const std::string extension = file.extension().empty() ? "no extension" : "the extension " + file.extension().string();
-  throw InputError(Diagnostic{Errc::unknown_format, extension + " is not that of " + what, file.string(), 0, {}, {}});
+  const std::string message = "the extension '" + file.extension().string() + "' is not that of " + what;
+  throw InputError(Diagnostic{Errc::unknown_format, message, file.string(), 0, {}, {}});
 }
 
 /// Runs `work`, and makes what the standard library throws for want of memory an error of ours.
@@ -51,6 +52,7 @@ Plc<D> read_plc(const std::filesystem::path& file) {
   if (extension == ".node") reader = detail::read_node<D>;
   if constexpr (D == 3) {
     if (extension == ".smesh") reader = detail::read_smesh;
+    if (extension == ".obj") reader = detail::read_obj;
     if (extension == ".off") reader = detail::read_off;
     if (extension == ".stl") reader = detail::read_stl;
   }
@@ -65,7 +67,9 @@ int file_dimension(const std::filesystem::path& file) {
   if (extension == ".poly" || extension == ".node") reader = detail::node_dimension;
   if (extension == ".mesh") reader = detail::medit_dimension;
   if (extension == ".vtu") reader = detail::vtu_dimension;
-  if (extension == ".smesh" || extension == ".off" || extension == ".stl") return 3;
+  for (const std::string_view spatial : {".smesh", ".obj", ".off", ".stl"}) {
+    if (extension == spatial) return 3;
+  }
   if (reader == nullptr) unknown_format(file, "a file that is read");
   return guarded(file, [&] { return reader(detail::read_whole_file(file), file); });
 }

@@ -32,7 +32,8 @@ class RegionReferences {
   int operator()(std::size_t cell) const {
     if (regions_.empty()) return 0;
     if (values_.empty()) return static_cast<int>(regions_[cell]);
-    return static_cast<int>(std::lower_bound(values_.begin(), values_.end(), regions_[cell], before) - values_.begin()) + 1;
+    const auto at = std::lower_bound(values_.begin(), values_.end(), regions_[cell], before);
+    return static_cast<int>(at - values_.begin()) + 1;
   }
 
  private:
@@ -131,9 +132,8 @@ class MeditReader {
     if (keyword == "MeshVersionFormatted") {
       integer({"the version"});
     } else if (keyword == "Dimension") {
-      const std::int64_t d = integer({"the dimension"});
-      if (d != D)
-        in_.fail(Errc::syntax, "the dimension is " + std::to_string(d) + ", but " + std::to_string(D) + " is asked for");
+      if (const std::int64_t d = integer({"the dimension"}); d != D)
+        in_.fail(Errc::syntax, "the dimension is " + std::to_string(d) + ", not " + std::to_string(D));
       dimension_known_ = true;
     } else if (keyword == "Vertices") {
       read_points();
@@ -194,10 +194,15 @@ class MeditReader {
       const Subject s{"cell", static_cast<std::int64_t>(i + 1)};
       read_vertices(mesh_.cells[i], s);
       const int reference = label(s);
-      if (!region_values_.empty() && (reference < 1 || static_cast<std::size_t>(reference) > region_values_.size()))
-        in_.fail(Errc::index_out_of_range, "no comment says what region " + std::to_string(reference) + " is", {s.id, reference});
-      mesh_.regions[i] = region_values_.empty() ? reference : region_values_[static_cast<std::size_t>(reference) - 1];
+      mesh_.regions[i] = region_values_.empty() ? reference : region_value(s, reference);
     }
+  }
+
+  double region_value(Subject s, int reference) const {
+    if (reference < 1 || static_cast<std::size_t>(reference) > region_values_.size())
+      in_.fail(Errc::index_out_of_range, "no comment says what region " + std::to_string(reference) + " is",
+               {s.id, reference});
+    return region_values_[static_cast<std::size_t>(reference) - 1];
   }
 
   /// The input points, if the list is what `write_medit` makes of them; other programs list other points.

@@ -65,12 +65,14 @@ void read_points(LineScanner& in, const NodeHeader& h, Plc<D>& plc) {
     in.require(s);
     const std::int64_t id = in.integer(s);
     if (i == 0) {
-      if (id != 0 && id != 1) in.fail(Errc::syntax, "the first point has number " + std::to_string(id) + ", not 0 or 1");
+      if (id != 0 && id != 1)
+        in.fail(Errc::syntax, "the first point has number " + std::to_string(id) + ", not 0 or 1");
       plc.first_index = static_cast<std::uint32_t>(id);
       s.id = id;
     }
     if (id != s.id)
-      in.fail(Errc::syntax, "point " + std::to_string(id) + " stands where point " + std::to_string(s.id) + " belongs", {id});
+      in.fail(Errc::syntax,
+              "point " + std::to_string(id) + " stands where point " + std::to_string(s.id) + " belongs", {id});
     plc.source.point_lines.push_back(static_cast<std::uint32_t>(in.line()));
     plc.points.push_back(read_coordinates<D>(in, s));
     for (std::size_t a = 0; a < h.attributes && in.more_on_line(); ++a) in.number(s, false);
@@ -135,7 +137,8 @@ void read_segments(LineScanner& in, Plc<2>& plc) {
 std::vector<std::uint32_t> read_polygon(LineScanner& in, Subject s, const Plc<3>& plc) {
   in.require(s);
   const std::size_t n = in.count(s, 2);
-  if (n == 0) in.fail(Errc::degenerate_facet, std::string(s.what) + " " + std::to_string(s.id) + " has a polygon without corners", {s.id});
+  if (n == 0)
+    in.fail(Errc::degenerate_facet, "facet " + std::to_string(s.id) + " has a polygon without corners", {s.id});
   std::vector<std::uint32_t> corners(n);
   for (auto& c : corners) {
     in.require(s);

@@ -176,11 +176,15 @@ void LineScanner::check_count(Subject s, std::uint64_t n, std::size_t bytes_each
   // The last thing of all needs no blank behind it, hence the one byte more.
   constexpr std::uint64_t most_ids = 0xfffffffe;
   if (n <= (remaining() + 1) / bytes_each && n <= most_ids) return;
+  // A count that is wrong and a file that was cut look the same; few things missing tell of a cut.
+  constexpr std::uint64_t few = 64;
+  const std::string left = std::to_string(remaining()) + " bytes";
+  if (n <= few)
+    fail(Errc::truncated,
+         "the file ends within " + described(s) + ": " + left + " are left for " + std::to_string(n), ids_of(s));
   const std::string promised = n == std::numeric_limits<std::uint64_t>::max() ? "that many" : std::to_string(n);
   fail(Errc::count_too_large,
-       "the file cannot hold " + promised + " entries of " + described(s) + ", only " + std::to_string(remaining()) +
-           " bytes are left",
-       ids_of(s));
+       "the file cannot hold " + promised + " entries of " + described(s) + " in " + left, ids_of(s));
 }
 
 std::uint32_t LineScanner::reference(Subject s, std::uint32_t first, std::size_t n) {
@@ -190,8 +194,8 @@ std::uint32_t LineScanner::reference(Subject s, std::uint32_t first, std::size_t
   if (offset < n) return static_cast<std::uint32_t>(offset);
   std::vector<std::int64_t> ids = ids_of(s);
   ids.push_back(id);
-  const std::string known =
-      n == 0 ? "there are none" : "they are numbered " + std::to_string(first) + " to " + std::to_string(first + n - 1);
+  const std::string range = std::to_string(first) + " to " + std::to_string(first + n - 1);
+  const std::string known = n == 0 ? "there are no points" : "points are numbered " + range;
   fail(Errc::index_out_of_range, described(s) + " refers to point " + std::to_string(id) + ", but " + known,
        std::move(ids));
 }

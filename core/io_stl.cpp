@@ -4,11 +4,13 @@
 // STL surfaces, binary and ASCII. Binary is whatever has the size that its count of triangles implies, since binary
 // headers that begin with "solid" are common. STL repeats a point for each triangle; equal coordinates (-0 is 0) become
 // one point here. Normals are not read: they are often wrong or NaN, and the corners say it all.
+#include <array>
 #include <bit>
 #include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "detail/io_formats.hpp"
 #include "detail/line_scanner.hpp"
@@ -128,7 +130,7 @@ class AsciiReader {
       for (;;) {
         in_.require({"a facet or the end of the solid"});
         const std::string_view word = in_.word(solid);
-        if (is(word, "endsolid")) break;
+        if (is_end(word, "endsolid", solid)) break;
         if (!is(word, "facet")) fail(word, "'facet' or 'endsolid'");
         read_facet();
       }
@@ -157,6 +159,17 @@ class AsciiReader {
     if (!is(word, keyword)) fail(word, quoted(keyword));
   }
 
+  /// Whether `word` is that keyword, or its first half: some programs write "end solid".
+  bool is_end(std::string_view word, std::string_view keyword, Subject s) {
+    if (!is(word, "end")) return is(word, keyword);
+    return is(in_.word(s), keyword.substr(3));
+  }
+  void expect_end(std::string_view keyword, Subject s) {
+    in_.require(s);
+    const std::string_view word = in_.word(s);
+    if (!is_end(word, keyword, s)) fail(word, quoted(keyword));
+  }
+
   void read_facet() {
     const Subject s{"facet", static_cast<std::int64_t>(plc_.facets.size())};
     plc_.source.facet_lines.push_back(static_cast<std::uint32_t>(in_.line()));
@@ -173,8 +186,8 @@ class AsciiReader {
       }
       c = index_.insert(p);
     }
-    expect("endloop", s);
-    expect("endfacet", s);
+    expect_end("endloop", s);
+    expect_end("endfacet", s);
     add_triangle(plc_, corners, solids_);
   }
 

@@ -85,8 +85,9 @@ PlanarResult PlanarTriangulation::build(std::span<const Point3> points, std::spa
   axis_ = axis;
   PlanarResult result = build_delaunay(points, vertices);
   for (std::size_t k = 0; result && k < constraints.size(); ++k) {
-    const auto [a, b] = constraints[k];
-    if (a != b) result = constrain_local(local(a), local(b), false);
+    const std::uint32_t a = local(constraints[k][0]), b = local(constraints[k][1]);
+    if (a == none || b == none) result = {PlanarStatus::no_such_edge, constraints[k], {}};
+    else if (a != b) result = constrain_local(a, b, false);
   }
   if (!result) {
     *this = {};

@@ -26,11 +26,6 @@ PlanarResult PlanarTriangulation::constrain(std::uint32_t a, std::uint32_t b) {
   const PlanarResult result = constrain_local(u, w, true);
   if (!result) return result;
   std::vector<Side> stack;
-  for (const auto& [p, q] : {std::pair{u, w}, std::pair{w, u}}) {
-    const std::uint32_t first = cell_of_[p];  // new edges end at chain vertices, too: sweep all, this is rare
-    static_cast<void>(first);
-    static_cast<void>(q);
-  }
   for (std::uint32_t t = 0; t < cells_.size(); ++t)
     for (int i = 0; i < 3; ++i) stack.push_back({t, i});
   legalize(stack, false, false);

@@ -102,12 +102,17 @@ void PlanarTriangulation::flip(std::uint32_t t, int i) {
   const Side bp{c.n[k(i + 1)], mirror(t, (i + 1) % 3)}, pa{c.n[k(i + 2)], mirror(t, (i + 2) % 3)};
   const Side aq{d.n[k(j + 1)], mirror(u, (j + 1) % 3)}, qb{d.n[k(j + 2)], mirror(u, (j + 2) % 3)};
   const auto bit = [](std::uint8_t fixed, std::size_t from, int to) { return (fixed >> from & 1) << to; };
-  // A pocket of the hull: the triangle without the ghost is new and belongs to the domain as the hull does.
+  // A pocket of the hull: the triangle without the ghost is new, and in the domain if nothing bounds it there.
   const bool hull = a == ghost || b == ghost;
+  const auto open = [&](const Cell& cell, std::size_t e) {
+    return (cell.fixed >> e & 1) == 0 && cells_[cell.n[e]].inside;
+  };
+  const bool t_inside = hull ? a != ghost && (open(d, k(j + 1)) || open(c, k(i + 2))) : c.inside;
+  const bool u_inside = hull ? b != ghost && (open(d, k(j + 2)) || open(c, k(i + 1))) : c.inside;
   set_cell(t, {p, a, q}, static_cast<std::uint8_t>(bit(d.fixed, k(j + 1), 0) | bit(c.fixed, k(i + 2), 2)),
-           hull ? a != ghost : c.inside);
+           t_inside);
   set_cell(u, {p, q, b}, static_cast<std::uint8_t>(bit(d.fixed, k(j + 2), 0) | bit(c.fixed, k(i + 1), 1)),
-           hull ? b != ghost : c.inside);
+           u_inside);
   link({t, 1}, {u, 2});
   link({t, 0}, aq);
   link({t, 2}, pa);

@@ -21,7 +21,8 @@ std::vector<PlanarTriangulation::RimEdge> PlanarTriangulation::rim_of(Location w
   const auto push = [&](std::uint32_t t, int i) {
     const Cell& c = cells_[t];
     const auto k = [](int x) { return static_cast<std::size_t>(x % 3); };
-    rim.push_back({c.v[k(i + 1)], c.v[k(i + 2)], {c.n[k(i)], mirror(t, i)}, (c.fixed >> i & 1) != 0, c.inside});
+    rim.push_back({c.v[k(i + 1)], c.v[k(i + 2)], {c.n[k(i)], mirror(t, i)}, (c.fixed >> i & 1) != 0, c.inside,
+                   is_ghost(c)});
   };
   const int first = where.edge < 0 ? 0 : where.edge + 1;
   for (int i = first; i < first + (where.edge < 0 ? 3 : 2); ++i) push(where.t, i % 3);
@@ -50,9 +51,9 @@ bool PlanarTriangulation::make_star_shaped(std::uint32_t p, std::vector<RimEdge>
     cells.push_back(edge.outer.t);
     // Behind a -> b the outer cell has b -> a; its other edges are a -> apex and apex -> b.
     const auto side = [&](int x) { return Side{c.n[k(x)], mirror(edge.outer.t, static_cast<int>(k(x)))}; };
-    rim[e] = {edge.a, apex, side(1), (c.fixed >> k(1) & 1u) != 0, edge.inside};
+    rim[e] = {edge.a, apex, side(1), (c.fixed >> k(1) & 1u) != 0, edge.inside, false};
     rim.insert(rim.begin() + static_cast<std::ptrdiff_t>(e) + 1,
-               {apex, edge.b, side(2), (c.fixed >> k(2) & 1u) != 0, edge.inside});
+               {apex, edge.b, side(2), (c.fixed >> k(2) & 1u) != 0, edge.inside, false});
   }
   return true;
 }
@@ -73,8 +74,10 @@ void PlanarTriangulation::fill_star(std::uint32_t p, const std::vector<RimEdge>&
   for (std::size_t k = 0; k < rim.size(); ++k) {
     const RimEdge& e = rim[k];
     const int fixed = (e.fixed ? 1 : 0) | (spoke(e.b) ? 2 : 0) | (spoke(e.a) ? 4 : 0);
-    // On the hull the point may lie outside of a ghost's edge: the cell without ghost vertex is in the hull, new.
-    set_cell(slots[k], {p, e.a, e.b}, static_cast<std::uint8_t>(fixed), e.inside);
+    // A real cell in place of a ghost: the hull has grown, the domain only if nothing bounds it there.
+    const bool real = e.a != ghost && e.b != ghost;
+    const bool inside = e.inside || (e.grown && !e.fixed && cells_[e.outer.t].inside);
+    set_cell(slots[k], {p, e.a, e.b}, static_cast<std::uint8_t>(fixed), real && inside);
     link({slots[k], 0}, e.outer);
     stack.push_back({slots[k], 0});
   }
@@ -92,7 +95,6 @@ void PlanarTriangulation::forget_last_vertex() {
 }
 
 PlanarResult PlanarTriangulation::insert(std::uint32_t id, const Point3& p, PlanarChange* change) {
-  begin_change(change);
   if (cells_.empty()) return {PlanarStatus::outside};
   const Location where = locate(p);
   const Cell& c = cells_[where.t];
@@ -107,6 +109,7 @@ PlanarResult PlanarTriangulation::insert(std::uint32_t id, const Point3& p, Plan
       return problem(PlanarStatus::on_constraint, at(where.edge + 1), at(where.edge + 2));
   }
   if (!inside) return {PlanarStatus::outside};
+  begin_change(change);
   fill_star(add_vertex(id, p), rim_of(where), cells, {none, none}, false);
   end_change();
   return {};
@@ -114,7 +117,6 @@ PlanarResult PlanarTriangulation::insert(std::uint32_t id, const Point3& p, Plan
 
 PlanarResult PlanarTriangulation::split_edge(std::uint32_t a, std::uint32_t b, std::uint32_t id, const Point3& p,
                                              PlanarChange* change) {
-  begin_change(change);
   const std::uint32_t u = local(a), w = local(b);
   const Side s = u == none || w == none || u == w ? Side{} : find_edge(u, w);
   if (s.t == none) return {PlanarStatus::no_such_edge, {a, b}, {}};
@@ -126,6 +128,7 @@ PlanarResult PlanarTriangulation::split_edge(std::uint32_t a, std::uint32_t b, s
     forget_last_vertex();
     return {PlanarStatus::inverted, {a, b}, {}};
   }
+  begin_change(change);
   fill_star(v, rim, cells, fixed ? PlanarEdge{u, w} : PlanarEdge{none, none}, false);
   end_change();
   return {};

@@ -58,7 +58,8 @@ int run_parsed(const Arguments& arguments, Report& report) {
   if (file.empty()) return code;
   if (!report.json().contains("errors")) report.json()["errors"] = nlohmann::ordered_json::array();
   const int written = guarded(report, [&] { return report.write(file), exit_done; });
-  return written == exit_done || (code != exit_done && written != exit_resource) ? code : written;
+  if (written == exit_done) return code;
+  return code == exit_done || code == exit_poor_left || written == exit_resource ? written : code;
 }
 
 }  // namespace

@@ -4,13 +4,11 @@
 // pgdr info: what is in an input or a mesh, and whether pgdr mesh would take it.
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <filesystem>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "command.hpp"
 #include "console.hpp"
+#include "files.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/refine.hpp"
@@ -19,11 +17,6 @@ namespace pgdr::tool {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-bool is_mesh(const std::string& file) {
-  const auto extension = std::filesystem::path(file).extension();
-  return extension == ".vtu" || extension == ".mesh";
-}
 
 /// Edges that belong to one triangle only (3D), points that end one segment only (2D): 0 where all is closed.
 template <int D>
@@ -176,7 +169,7 @@ int info(const InfoArguments& arguments, Report& report) {
   report.json()["input"] = arguments.file;
   const int dimension = file_dimension(arguments.file);
   report.json()["dimension"] = dimension;
-  if (is_mesh(arguments.file))
+  if (is_mesh_file(arguments.file))
     return dimension == 2 ? info_of_mesh<2>(arguments, report) : info_of_mesh<3>(arguments, report);
   return dimension == 2 ? info_of_input<2>(arguments, report) : info_of_input<3>(arguments, report);
 }

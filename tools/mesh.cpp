@@ -2,41 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // pgdr mesh: read, refine, write, report.
-#include <unistd.h>
-
+#include <algorithm>
 #include <array>
-#include <cmath>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "bounds.hpp"
 #include "command.hpp"
 #include "console.hpp"
+#include "files.hpp"
 #include "pgdr/io.hpp"
 #include "signals.hpp"
 
 namespace pgdr::tool {
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-/// What can be known about the output file is said before the work, not after it.
-void require_writable(const std::string& output, const std::string& input) {
-  const fs::path path(output);
-  const auto extension = path.extension();
-  if (extension != ".vtu" && extension != ".mesh")
-    throw InputError({.code = Errc::unknown_format,
-                      .message = "meshes are written as .vtu or .mesh, not as \"" + extension.string() + '"',
-                      .file = output});
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  std::error_code ignored;
-  if (!fs::is_directory(folder, ignored) || access(folder.c_str(), W_OK | X_OK) != 0 || fs::is_directory(path, ignored))
-    throw FileError({.code = Errc::cannot_write, .message = "no file can be written there", .file = output});
-  if (fs::equivalent(path, input, ignored))
-    throw UsageError({.code = Errc::bad_option, .message = "the output would replace the input", .file = output});
-}
 
 template <int D>
 RefineOptions<D> make_options(const MeshArguments& a, const Bounds<D>& bounds) {
@@ -97,7 +78,9 @@ void print_summary(const MeshArguments& a, const Plc<D>& plc, const Bounds<D>& b
     print_row("quality", format("radius-edge up to %.4f (bound %.4g), %s %.2f to %.2f degrees", q.max_radius_edge,
                                 bounds.radius_edge, D == 3 ? "dihedral angles" : "angles", q.min_angle_deg,
                                 q.max_angle_deg));
-  if (r.stop != StopCause::finished)
+  if (r.stop != StopCause::finished && r.mesh.cells.empty())
+    print_row("stopped", format("%s, before the boundary was there: there is no mesh to write", words(r.stop)));
+  else if (r.stop != StopCause::finished)
     print_row("stopped", format("%s: the mesh is valid, ", words(r.stop)) +
                              count(r.poor_left, "element is poor", "elements are poor"));
   else if (r.poor_left == 0)
@@ -114,7 +97,7 @@ void print_summary(const MeshArguments& a, const Plc<D>& plc, const Bounds<D>& b
   print_row("time", format("%.3f s meshing (%.3f s read, %.3f s write)", seconds["mesh"].get<double>(),
                            seconds["read"].get<double>(), seconds["write"].get<double>()));
   print_row("memory", format("%.1f MiB at most", static_cast<double>(peak_rss_bytes()) / (1 << 20)));
-  print_row("wrote", a.output);
+  if (!r.mesh.cells.empty()) print_row("wrote", a.output);
 }
 
 template <int D>
@@ -140,12 +123,10 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
   fill(j, a, bounds, result, quality);
 
   const Stopwatch writing;
-  report.mesh_file = a.output;
-  try {
+  if (!result.mesh.cells.empty()) {
+    std::string mesh_file = a.output;
     write_mesh(result.mesh, a.output);
-  } catch (...) {
-    report.mesh_file.clear();
-    throw;
+    report.mesh_file = std::move(mesh_file);
   }
   j["seconds"]["read"] = seconds_read;
   j["seconds"]["write"] = writing.seconds();

@@ -3,8 +3,10 @@
 #include "options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cmath>
 #include <iostream>
+#include <limits>
 
 #include "command.hpp"
 
@@ -24,6 +26,18 @@ CLI::Validator number(std::string range, bool (*accept)(double)) {
             return ok ? std::string() : "must be a number " + range + ", not \"" + text + '"';
           },
           "", "number " + range};
+}
+
+/// A whole number in decimal digits, which CLI11 alone would let wrap round zero.
+CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
+  return {[least, most](std::string& text) {
+            std::uint64_t value = 0;
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+            const bool ok = error == std::errc() && end == text.data() + text.size() && value >= least && value <= most;
+            return ok ? std::string() : "must be a whole number from " + std::to_string(least) + " to " +
+                                            std::to_string(most) + ", not \"" + text + '"';
+          },
+          "", "whole number"};
 }
 
 bool positive(double v) { return v > 0; }
@@ -71,14 +85,14 @@ void add_mesh(CLI::App& app, MeshArguments& a) {
   app.add_option("--delta", a.delta, "radius of a type 2 disk, 1 - D circumradii; 0 (default): as far as the bound allows")
       ->type_name("D")->check(number("between 0 and 1", [](double v) { return v >= 0 && v <= 1; }));
   app.add_option("--threads", a.threads, "threads to use; the mesh does not depend on it (this version runs one)")
-      ->type_name("N")->check(CLI::Range(1u, 65535u).description(""));
+      ->type_name("N")->check(whole_number(1, 65535));
   app.add_option_function<std::string>("--schedule", fixed, "reproducible: the same mesh for any number of threads")->type_name("NAME")
       ->check(available("reproducible", "the schedules of this version: reproducible"));
   app.add_option_function<std::string>("--granularity", fixed, "not available in this version")->type_name("G")->check(not_available());
   app.add_option("--min-edge", a.min_edge, "refuse points that would make an edge shorter than this, and say so")
       ->type_name("E")->check(number(">= 0", not_negative));
-  app.add_option("--max-vertices", a.max_vertices, "stop with a valid partial mesh beyond this number of vertices")
-      ->type_name("N");
+  app.add_option("--max-vertices", a.max_vertices, "stop with a valid partial mesh at this number of vertices")
+      ->type_name("N")->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
   app.add_option("--time-limit", a.time_limit, "stop with a valid partial mesh after this time")
       ->type_name("SECONDS")->check(number(">= 0", not_negative));
   add_report(app, a.report, a.quiet);

@@ -4,6 +4,8 @@
 
 #include <pthread.h>
 
+#include <chrono>
+
 namespace pgdr::tool {
 
 StopOnSignal::StopOnSignal() {
@@ -16,7 +18,11 @@ StopOnSignal::StopOnSignal() {
       int signal = 0;
       if (sigwait(&signals_, &signal) != 0 || over_) return;
       stop_.request_stop();
-      if (sigwait(&signals_, &signal) != 0 || over_) return;
+      // The same request may come twice: timeout(1) signals its child, and then the group of both.
+      const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+      do {
+        if (sigwait(&signals_, &signal) != 0 || over_) return;
+      } while (std::chrono::steady_clock::now() < patience);
       std::signal(signal, SIG_DFL);
       pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr);
       std::raise(signal);

@@ -11,7 +11,8 @@
 
 namespace pgdr::tool {
 
-/// While it lives, the first SIGINT or SIGTERM requests a stop, and a second one ends the process.
+/// While it lives, the first SIGINT or SIGTERM requests a stop, and another one, a second later or
+/// more, ends the process.
 class StopOnSignal {
  public:
   StopOnSignal();

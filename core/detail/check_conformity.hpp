@@ -67,9 +67,9 @@ template <int D>
 bool axis_aligned_segment(const Domain<D>& domain, EntityId segment);
 bool axis_aligned_facet(const Domain<3>& domain, EntityId facet);
 
-/// How far a vertex may be off its entity, per coordinate and in distance: 0 for input points, volume points, and
+/// How far each vertex may be off its entity, per coordinate and in distance: 0 for input points, volume points, and
 /// points of axis-aligned entities.
 template <int D>
-double slack_of(const Domain<D>& domain, EntityRef home, int ulps);
+std::vector<double> slack_of_vertices(const Domain<D>& domain, std::span<const EntityRef> home, int ulps);
 
 }  // namespace pgdr::checking

@@ -19,6 +19,7 @@ Plc<D> read_poly(std::string_view text, const std::filesystem::path& file);
 template <int D>
 Plc<D> read_node(std::string_view text, const std::filesystem::path& file);
 Plc<3> read_smesh(std::string_view text, const std::filesystem::path& file);
+Plc<3> read_obj(std::string_view text, const std::filesystem::path& file);
 Plc<3> read_off(std::string_view text, const std::filesystem::path& file);
 Plc<3> read_stl(std::string_view text, const std::filesystem::path& file);
 

@@ -58,7 +58,8 @@ class LineScanner {
   int marker(Subject s);
   /// Any number; infinities and NaN only if `finite` is false. @throws syntax, not_finite
   double number(Subject s, bool finite = true);
-  /// A count of things of which each takes at least `bytes_each` bytes of the text. @throws count_too_large, syntax
+  /// A count of things of which each takes at least `bytes_each` bytes of the text. @throws count_too_large
+  /// (truncated if the count is small), syntax
   std::size_t count(Subject s, std::size_t bytes_each);
   /// A reference to one of `n` points numbered from `first`; returned from 0. @throws index_out_of_range, syntax
   std::uint32_t reference(Subject s, std::uint32_t first, std::size_t n);

@@ -20,6 +20,7 @@ inline constexpr double unit_roundoff = 0x1p-53;
 struct Bounded {
   double value = 0, error = 0;
 
+  Bounded() = default;
   explicit Bounded(double v) : value(v) {}
   Bounded(double v, double e) : value(v), error(e * (1 + 8 * unit_roundoff)) {}
 };

@@ -95,4 +95,12 @@ auto in_circle_det(const Matrix<T, 2, 3>& d, const std::array<T, 3>& drop, const
   return lifted_det(d, height(0), height(1), height(2));
 }
 
+/// 4 (v.w)^2 - |v|^2 |w|^2: zero where the angle between v and w is 60 or 120 degrees. Four times by two sums.
+template <class T, std::size_t D>
+auto angle_60_det(const std::array<T, D>& v, const std::array<T, D>& w) {
+  const auto d = dot(v, w);
+  const auto twice = add(d, d);
+  return sub(mul(twice, twice), mul(squared_norm(v), squared_norm(w)));
+}
+
 }  // namespace pgdr::detail

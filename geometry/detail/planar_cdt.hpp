@@ -109,6 +109,7 @@ class PlanarTriangulation {
     std::uint32_t a, b;
     Side outer;
     bool fixed, inside;
+    bool grown;  // the cell of the cavity is a ghost
   };
   struct Location {
     std::uint32_t t = none;

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The checker's stages in order. Each one survives whatever the earlier ones found, except indices and coordinates that
+// cannot be used at all.
+#include "pgdr/check.hpp"
+
+#include "detail/check_bounds.hpp"
+
+namespace pgdr {
+namespace {
+
+using namespace checking;
+
+/// Without the input: a loose vertex is a finding only where the input's points are known to be others.
+template <int D>
+void check_loose_points(const OutputMesh<D>& mesh, Findings& findings) {
+  if (mesh.input_points == 0) return;
+  std::vector<std::uint8_t> in_cell(mesh.points.size(), 0);
+  for (const auto& cell : mesh.cells)
+    for (const std::uint32_t v : cell) in_cell[v] = 1;
+  for (std::uint32_t v = static_cast<std::uint32_t>(mesh.input_points); v < mesh.points.size(); ++v)
+    if (!in_cell[v])
+      findings.add(Kind::unreferenced_point, {v}, [&] { return "The " + vertex_words(mesh, v) + " is in no cell."; });
+}
+
+template <int D>
+void check_against_input(const OutputMesh<D>& mesh, const CheckOptions<D>& options, const Links<D>& links,
+                         std::span<const std::uint32_t> sorted, Components& components, Findings& findings) {
+  const Domain<D>& domain = *options.domain;
+  const InputVolumes<D> input(domain);
+  const ConformityTask<D> task{mesh, input, options.conformity_ulps, findings};
+  const Conformity<D> conformity = check_conformity(task, sorted);
+  check_regions(task, links, conformity, components);
+  Reasons<D> reasons(mesh, options, &conformity, findings);
+  check_delaunay<D>(mesh, links, slack_of_vertices<D>(domain, conformity.home, options.conformity_ulps),
+                    reasons.vertices_at_refused(input), findings);
+  check_bounds(mesh, options, links, components, &input, reasons, findings);
+}
+
+}  // namespace
+
+template <int D>
+CheckReport check(const OutputMesh<D>& mesh, const CheckOptions<D>& options) {
+  CheckReport report;
+  Findings findings(report, options.max_listed);
+  if (!check_indices(mesh, findings)) return report;
+  const auto sorted = sort_points(mesh, findings);
+  const Links<D> links = link_cells(mesh, findings);
+  check_subsegments_used(mesh, findings);
+  if (findings.clean()) check_stars(mesh, links, findings);
+  Components components = flood_cells(mesh, links, findings);
+  if (options.domain) {
+    check_against_input(mesh, options, links, sorted, components, findings);
+    return report;
+  }
+  check_loose_points(mesh, findings);
+  Reasons<D> reasons(mesh, options, nullptr, findings);
+  check_delaunay<D>(mesh, links, slack_without_input(mesh, options.conformity_ulps), {}, findings);
+  check_bounds<D>(mesh, options, links, components, nullptr, reasons, findings);
+  return report;
+}
+
+template CheckReport check(const OutputMesh<2>&, const CheckOptions<2>&);
+template CheckReport check(const OutputMesh<3>&, const CheckOptions<3>&);
+
+}  // namespace pgdr

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Bounds, with the exact functions that the refiner uses, and the local Delaunay property of unconstrained faces.
+#include "detail/check_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pgdr/circumsphere.hpp"
+#include "pgdr/predicates.hpp"
+
+namespace pgdr::checking {
+namespace {
+
+template <int D>
+double size_at(const SizingField<D>& field, const Point<D>& x) {
+  const double size = field.at(x);
+  if (size > 0) return size;
+  std::array<double, 3> where{};
+  std::copy(x.x.begin(), x.x.end(), where.begin());
+  throw UsageError({Errc::bad_size, "The size is " + words(size) + " at " + words(x) + "; it must be positive.", {}, 0,
+                    {}, {where}});
+}
+
+template <int D>
+bool measure_over(const Simplex<D>& s, double bound) {
+  return bound < std::numeric_limits<double>::infinity() && !measure_within<D>(s, bound);
+}
+
+template <int D>
+bool size_over(const Simplex<D>& s, const SizingField<D>& field) {
+  if (!field.bounded()) return false;
+  const double size = size_at(field, centroid<D>(s));
+  if constexpr (D == 2)
+    return measure_over<2>(s, size);
+  else
+    return size < std::numeric_limits<double>::infinity() && !circumradius_within<3>(s, size);
+}
+
+}  // namespace
+
+template <int D>
+void check_bounds(const OutputMesh<D>& mesh, const CheckOptions<D>& options, const Links<D>& links,
+                  const Components& components, const InputVolumes<D>* input, Reasons<D>& reasons, Findings& findings) {
+  CheckReport& report = findings.report();
+  const double ratio = options.radius_edge_bound;
+  for (std::uint32_t c = 0; c < mesh.cells.size(); ++c) {
+    if (!links.positive(c)) continue;
+    const Simplex<D> s = corners_of(mesh, c);
+    const std::uint32_t volume = input ? components.volume[components.of_cell[c]] : none;
+    const bool thin = ratio < std::numeric_limits<double>::infinity() && !radius_edge_within<D>(s, ratio);
+    const bool large = size_over<D>(s, options.size) || measure_over<D>(s, options.max_measure) ||
+                       (volume != none && measure_over<D>(s, input->volumes()[volume].size));
+    report.over_radius_edge += thin;
+    report.over_size += large;
+    if (!thin && !large) continue;
+    std::string why;
+    const auto verdict = reasons.judge(c, why);
+    if (verdict == Reasons<D>::Verdict::holds) {
+      ++report.explained;
+    } else if (verdict == Reasons<D>::Verdict::fails) {
+      findings.add(Kind::bad_reason, {c},
+                   [&] { return "The reason given for " + cell_words(mesh, c) + " does not hold: " + why + "."; });
+    } else {
+      findings.add(thin ? Kind::over_radius_edge : Kind::over_size, {c}, [&] {
+        return "The " + cell_words(mesh, c) + " at " + words(centroid<D>(s)) + " is over the " +
+               (thin ? "radius-edge bound" : "size bound") + ", without a reason.";
+      });
+    }
+  }
+  if (reasons.rounded() * 10000 > mesh.cells.size())
+    findings.add(Kind::bad_reason, {}, [&] {
+      return "Rounding is given as the reason for " + std::to_string(reasons.rounded()) + " of " +
+             std::to_string(mesh.cells.size()) + " cells, more than 0.01 %.";
+    });
+}
+
+template <int D>
+void check_delaunay(const OutputMesh<D>& mesh, const Links<D>& links, std::span<const double> slack,
+                    std::span<const std::uint8_t> refused, Findings& findings) {
+  CheckReport& report = findings.report();
+  const auto touches_refused = [&](std::uint32_t cell) {
+    const auto& v = mesh.cells[cell];
+    return !refused.empty() && std::any_of(v.begin(), v.end(), [&](std::uint32_t u) { return refused[u]; });
+  };
+  for (std::uint32_t face = 0; face < links.neighbour.size(); ++face) {
+    const std::uint32_t back = links.neighbour[face], cell = face / (D + 1), other = back / (D + 1);
+    if (back == none || back < face || links.is_wall(face) || !links.positive(cell) || !links.positive(other)) continue;
+    const std::uint32_t apex = mesh.cells[other][back % (D + 1)];
+    const Simplex<D> s = corners_of(mesh, cell);
+    if (in_sphere<D>(s, mesh.points[apex]) != Sign::positive) continue;
+    std::array<double, D + 2> delta;
+    for (int i = 0; i <= D; ++i) delta[i] = slack[mesh.cells[cell][i]];
+    delta[D + 1] = slack[apex];
+    if (rounding_cancels<D>(s, mesh.points[apex], delta)) {
+      ++report.not_delaunay_rounding;
+    } else if (touches_refused(cell) || touches_refused(other)) {
+      ++report.not_delaunay_refused;
+    } else {
+      findings.add(Kind::not_delaunay, {cell, other}, [&] {
+        return "The " + vertex_words(mesh, apex) + " of cell " + std::to_string(other) +
+               " lies inside the circumsphere of its neighbour " + cell_words(mesh, cell) + ".";
+      });
+    }
+  }
+}
+
+template <int D>
+std::vector<double> slack_without_input(const OutputMesh<D>& mesh, int ulps) {
+  double magnitude = 0;
+  for (const Point<D>& p : mesh.points)
+    for (const double x : p.x) magnitude = std::max(magnitude, std::abs(x));
+  const double width = Tolerance{ulps, magnitude}.width();
+  std::vector<double> slack(mesh.points.size(), 0);
+  const auto mark = [&](const auto& constraints, int aligned_axes) {
+    for (const auto& constraint : constraints) {
+      const auto& v = constraint.vertices;
+      int equal = 0;
+      for (int i = 0; i < D; ++i)
+        equal += std::all_of(v.begin(), v.end(), [&](std::uint32_t u) { return mesh.points[u][i] == mesh.points[v[0]][i]; });
+      if (equal >= aligned_axes) continue;
+      for (const std::uint32_t u : v)
+        if (u >= mesh.input_points) slack[u] = width;
+    }
+  };
+  mark(mesh.subsegments, D - 1);
+  mark(mesh.subfacets, 1);
+  return slack;
+}
+
+#define PGDR_INSTANTIATE(D)                                                                                          \
+  template void check_bounds(const OutputMesh<D>&, const CheckOptions<D>&, const Links<D>&, const Components&,       \
+                             const InputVolumes<D>*, Reasons<D>&, Findings&);                                        \
+  template void check_delaunay(const OutputMesh<D>&, const Links<D>&, std::span<const double>,                       \
+                               std::span<const std::uint8_t>, Findings&);                                            \
+  template std::vector<double> slack_without_input(const OutputMesh<D>&, int);
+PGDR_INSTANTIATE(2)
+PGDR_INSTANTIATE(3)
+#undef PGDR_INSTANTIATE
+
+}  // namespace pgdr::checking

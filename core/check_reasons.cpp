@@ -1,0 +1,296 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Angles between input entities, decided exactly: of two segments below 60 degrees, otherwise below 90. A direction into
+// a facet at one of its points is a positive combination of the edges of its triangles there, and the product of two
+// positive combinations is positive for some choice iff it is for a pair of edges: so edges decide.
+#include "detail/check_reasons.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "pgdr/circumsphere.hpp"
+#include "pgdr/point_selector.hpp"
+#include "pgdr/predicates.hpp"
+
+namespace pgdr::checking {
+namespace {
+
+/// Ends of the edges that span the cones of the entity at a point of it: none if the point is not a corner of it.
+template <int D>
+std::vector<std::uint32_t> edges_at(const Domain<D>& domain, EntityRef entity, std::uint32_t point) {
+  std::vector<std::uint32_t> ends;
+  if (entity.kind == EntityKind::segment) {
+    const auto& p = domain.segments()[entity.id].points;
+    if (p[0] == point) ends.push_back(p[1]);
+    if (p[1] == point) ends.push_back(p[0]);
+  }
+  if constexpr (D == 3)
+    if (entity.kind == EntityKind::facet)
+      for (const auto& t : domain.triangles(entity.id))
+        for (int i = 0; i < 3; ++i)
+          if (t[i] == point) ends.insert(ends.end(), {t[(i + 1) % 3], t[(i + 2) % 3]});
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  return ends;
+}
+
+template <int D>
+std::vector<std::uint32_t> points_of(const Domain<D>& domain, EntityRef entity) {
+  std::vector<std::uint32_t> points;
+  if (entity.kind == EntityKind::segment) {
+    const auto& p = domain.segments()[entity.id].points;
+    points.assign(p.begin(), p.end());
+  }
+  if constexpr (D == 3)
+    if (entity.kind == EntityKind::facet) {
+      const auto p = domain.facet_points(entity.id);
+      points.assign(p.begin(), p.end());
+    }
+  std::sort(points.begin(), points.end());
+  return points;
+}
+
+template <int D>
+std::vector<std::uint32_t> common_points(const Domain<D>& domain, EntityRef a, EntityRef b) {
+  const auto of_a = points_of(domain, a), of_b = points_of(domain, b);
+  std::vector<std::uint32_t> common;
+  std::set_intersection(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(), std::back_inserter(common));
+  return common;
+}
+
+template <int D>
+bool below_at(const Domain<D>& domain, EntityRef a, EntityRef b, std::uint32_t point) {
+  const auto points = domain.points();
+  const bool both_segments = a.kind == EntityKind::segment && b.kind == EntityKind::segment;
+  for (const std::uint32_t p : edges_at(domain, a, point))
+    for (const std::uint32_t q : edges_at(domain, b, point))
+      if (both_segments ? angle_below_60<D>(points[point], points[p], points[q])
+                        : angle_below_90<D>(points[point], points[p], points[q]))
+        return true;
+  return false;
+}
+
+/// The points opposite an edge in the triangles of a facet.
+std::vector<std::uint32_t> apexes(const Domain<3>& domain, EntityId facet, std::array<std::uint32_t, 2> edge) {
+  std::vector<std::uint32_t> out;
+  for (const auto& t : domain.triangles(facet))
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t a = t[(i + 1) % 3], b = t[(i + 2) % 3];
+      if ((a == edge[0] && b == edge[1]) || (a == edge[1] && b == edge[0])) out.push_back(t[i]);
+    }
+  return out;
+}
+
+/// Two facets with a common segment: their dihedral angle there. Ends of common segments are marked in `on_common`.
+bool dihedral_below(const Domain<3>& domain, EntityId a, EntityId b, std::vector<std::uint32_t>& on_common) {
+  const auto points = domain.points();
+  const auto of_b = domain.facet_segments(b);
+  for (const EntityId s : domain.facet_segments(a)) {
+    if (std::find(of_b.begin(), of_b.end(), s) == of_b.end()) continue;
+    const auto& edge = domain.segments()[s].points;
+    on_common.insert(on_common.end(), edge.begin(), edge.end());
+    for (const std::uint32_t c : apexes(domain, a, edge))
+      for (const std::uint32_t d : apexes(domain, b, edge))
+        if (dihedral_below_90(points[edge[0]], points[edge[1]], points[c], points[d])) return true;
+  }
+  return false;
+}
+
+bool contains_segment(const Domain<3>& domain, EntityRef facet, EntityRef segment) {
+  if (facet.kind != EntityKind::facet || segment.kind != EntityKind::segment) return false;
+  const auto list = domain.facet_segments(facet.id);
+  return std::find(list.begin(), list.end(), segment.id) != list.end();
+}
+
+template <int D>
+Point<D> along(const Point<D>& a, const Point<D>& b, double t) {
+  Point<D> p;
+  for (int i = 0; i < D; ++i) p[i] = a[i] + t * (b[i] - a[i]);
+  return p;
+}
+
+template <int D>
+double product(const Point<D>& o, const Point<D>& a, const Point<D>& b) {
+  double s = 0;
+  for (int i = 0; i < D; ++i) s += (a[i] - o[i]) * (b[i] - o[i]);
+  return s;
+}
+
+template <int D>
+double distance_to_edge(const Point<D>& x, const Point<D>& a, const Point<D>& b) {
+  const double t = std::clamp(product(a, x, b) / squared_distance(a, b), 0.0, 1.0);
+  return std::sqrt(squared_distance(x, along(a, b, t)));
+}
+
+double distance_to_triangle(const Point3& x, const Point3& a, const Point3& b, const Point3& c) {
+  const double least = std::min({distance_to_edge(x, a, b), distance_to_edge(x, b, c), distance_to_edge(x, c, a)});
+  // The foot of x in the plane, in barycentric coordinates from the Gram matrix of the edges at a.
+  const double bb = product(a, b, b), bc = product(a, b, c), cc = product(a, c, c);
+  const double xb = product(a, x, b), xc = product(a, x, c), det = bb * cc - bc * bc;
+  const double v = (cc * xb - bc * xc) / det, w = (bb * xc - bc * xb) / det;
+  if (!(v >= 0 && w >= 0 && v + w <= 1)) return least;
+  Point3 foot;
+  for (int i = 0; i < 3; ++i) foot[i] = a[i] + v * (b[i] - a[i]) + w * (c[i] - a[i]);
+  return std::min(least, std::sqrt(squared_distance(x, foot)));
+}
+
+}  // namespace
+
+template <int D>
+Reasons<D>::Reasons(const OutputMesh<D>& mesh, const CheckOptions<D>& options, const Conformity<D>* conformity,
+                    Findings& findings)
+    : mesh_(mesh), options_(options), conformity_(conformity) {
+  if (!options.reasons) return;
+  for (std::uint32_t i = 0; i < options.reasons->size(); ++i) {
+    const std::uint32_t cell = (*options.reasons)[i].cell;
+    if (cell < mesh.cells.size()) {
+      by_cell_.push_back(i);
+      continue;
+    }
+    findings.add(Kind::bad_reason, {cell}, [&] {
+      return "Reason " + std::to_string(i) + " names cell " + std::to_string(cell) + ", which does not exist.";
+    });
+  }
+  std::stable_sort(by_cell_.begin(), by_cell_.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return (*options.reasons)[a].cell < (*options.reasons)[b].cell;
+  });
+}
+
+template <int D>
+auto Reasons<D>::judge(std::uint32_t cell, std::string& why) -> Verdict {
+  if (!options_.reasons) return Verdict::absent;
+  const auto& reasons = *options_.reasons;
+  auto i = std::lower_bound(by_cell_.begin(), by_cell_.end(), cell,
+                            [&](std::uint32_t r, std::uint32_t c) { return reasons[r].cell < c; });
+  if (i == by_cell_.end() || reasons[*i].cell != cell) return Verdict::absent;
+  for (; i != by_cell_.end() && reasons[*i].cell == cell; ++i)
+    if (holds(reasons[*i], why)) {
+      rounded_ += reasons[*i].code == PoorReason::Code::rounding;
+      return Verdict::holds;
+    }
+  return Verdict::fails;
+}
+
+template <int D>
+bool Reasons<D>::holds(const PoorReason& reason, std::string& why) {
+  const auto fail = [&](std::string text) {
+    why = std::move(text);
+    return false;
+  };
+  switch (reason.code) {
+    case PoorReason::Code::rounding: return true;
+    case PoorReason::Code::beyond_theory:
+      return options_.radius_edge_bound < smallest_proved_bound<D>() ||
+             fail("the radius-edge bound is not below the proved one");
+    case PoorReason::Code::small_angle: break;
+  }
+  if (!options_.domain) return fail("an angle of the input cannot be measured without the input");
+  const auto& [a, b] = reason.entities;
+  if (!exists(a) || !exists(b)) return fail("it names an entity that does not exist");
+  if (!small_angle(a, b)) return fail(words(a) + " and " + words(b) + " meet at no small angle");
+  return near(reason.cell, a) || fail("its circumball, doubled, does not meet " + words(a));
+}
+
+template <int D>
+bool Reasons<D>::exists(EntityRef entity) const {
+  switch (entity.kind) {
+    case EntityKind::vertex: return entity.id < options_.domain->points().size();
+    case EntityKind::segment: return entity.id < options_.domain->segments().size();
+    case EntityKind::facet: return entity.id < options_.domain->facets().size();
+    default: return false;
+  }
+}
+
+template <int D>
+bool Reasons<D>::small_angle(EntityRef a, EntityRef b) {
+  const auto code = [](EntityRef e) { return std::uint64_t{static_cast<std::uint8_t>(e.kind)} << 32 | e.id; };
+  const auto [at, fresh] = angles_.try_emplace({code(a), code(b)}, false);
+  if (fresh) at->second = measure_angle(a, b);
+  return at->second;
+}
+
+template <int D>
+bool Reasons<D>::measure_angle(EntityRef a, EntityRef b) const {
+  const Domain<D>& domain = *options_.domain;
+  if (a == b) return false;
+  if (a.kind == EntityKind::vertex) return small_at_point(a.id, b);
+  if (b.kind == EntityKind::vertex) return small_at_point(b.id, a);
+  std::vector<std::uint32_t> on_common;  // two facets with a common segment make no other angle at its ends
+  if constexpr (D == 3) {
+    if (contains_segment(domain, a, b) || contains_segment(domain, b, a)) return false;
+    if (a.kind == EntityKind::facet && b.kind == EntityKind::facet && dihedral_below(domain, a.id, b.id, on_common))
+      return true;
+  }
+  for (const std::uint32_t p : common_points(domain, a, b))
+    if (std::find(on_common.begin(), on_common.end(), p) == on_common.end() && below_at(domain, a, b, p)) return true;
+  return false;
+}
+
+/// An input point stands for what meets there: some other entity makes a small angle with b at it.
+template <int D>
+bool Reasons<D>::small_at_point(std::uint32_t point, EntityRef b) const {
+  const Domain<D>& domain = *options_.domain;
+  if (edges_at(domain, b, point).empty()) return false;
+  const auto meets = [&](EntityRef c) { return !(c == b) && !edges_at(domain, c, point).empty() && measure_angle(c, b); };
+  for (EntityId s = 0; s < domain.segments().size(); ++s)
+    if (meets({EntityKind::segment, s})) return true;
+  for (EntityId f = 0; f < domain.facets().size(); ++f)
+    if (meets({EntityKind::facet, f})) return true;
+  return false;
+}
+
+template <int D>
+bool Reasons<D>::near(std::uint32_t cell, EntityRef entity) const {
+  const auto ball = circumsphere<D>(corners_of(mesh_, cell));
+  const double reach = 2 * std::sqrt(ball.squared_radius) * (1 + 0x1p-30) + ball.center_error;
+  return within(ball.center, reach, entity);
+}
+
+template <int D>
+bool Reasons<D>::within(const Point<D>& x, double distance, EntityRef entity) const {
+  const Domain<D>& domain = *options_.domain;
+  const auto points = domain.points();
+  if (entity.kind == EntityKind::vertex) return std::sqrt(squared_distance(x, points[entity.id])) <= distance;
+  if (entity.kind == EntityKind::segment) {
+    const auto& ends = domain.segments()[entity.id].points;
+    return distance_to_edge(x, points[ends[0]], points[ends[1]]) <= distance;
+  }
+  if constexpr (D == 3)
+    for (const auto& t : domain.triangles(entity.id))
+      if (distance_to_triangle(x, points[t[0]], points[t[1]], points[t[2]]) <= distance) return true;
+  return false;
+}
+
+template <int D>
+std::vector<std::uint8_t> Reasons<D>::vertices_at_refused(const InputVolumes<D>& input) {
+  if (!options_.reasons || !conformity_) return {};
+  std::vector<std::uint8_t> at(mesh_.points.size(), 0), segment(options_.domain->segments().size(), 0),
+      facet(options_.domain->facets().size(), 0);
+  for (const PoorReason& r : *options_.reasons) {
+    const auto& [a, b] = r.entities;
+    if (r.code != PoorReason::Code::small_angle || !exists(a) || !exists(b) || !small_angle(a, b)) continue;
+    for (const EntityRef e : r.entities) {
+      if (e.kind == EntityKind::segment) segment[e.id] = 1;
+      if (e.kind == EntityKind::facet) facet[e.id] = 1;
+      if (e.kind == EntityKind::vertex)
+        if (const std::uint32_t v = conformity_->vertex_of_point[e.id]; v != none) at[v] = 1;
+    }
+  }
+  const auto mark = [&](const auto& vertices) {
+    for (const std::uint32_t v : vertices) at[v] = 1;
+  };
+  for (std::size_t i = 0; i < mesh_.subsegments.size(); ++i)
+    if (const auto s = conformity_->segment_of[i].entity; s != none && segment[s]) mark(mesh_.subsegments[i].vertices);
+  if constexpr (D == 3)
+    for (std::size_t i = 0; i < mesh_.subfacets.size(); ++i)
+      if (const auto p = conformity_->patch_of[i].entity; p != none && facet[input.patches()[p].entity])
+        mark(mesh_.subfacets[i].vertices);
+  return at;
+}
+
+template class Reasons<2>;
+template class Reasons<3>;
+
+}  // namespace pgdr::checking

@@ -1,0 +1,260 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A component of cells fills the volume of the input that the walls round it bound. Every wall of a kept volume must
+// have a cell on that side, no wall of the outside or a hole may; then seeds and measures are compared.
+#include "detail/check_regions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "pgdr/predicates.hpp"
+
+namespace pgdr::checking {
+
+template <int D>
+Components flood_cells(const OutputMesh<D>& mesh, const Links<D>& links, Findings& findings) {
+  Components out;
+  out.of_cell.assign(mesh.cells.size(), none);
+  std::vector<std::uint32_t> stack;
+  for (std::uint32_t start = 0; start < mesh.cells.size(); ++start) {
+    if (out.of_cell[start] != none) continue;
+    const auto number = static_cast<std::uint32_t>(out.volume.size());
+    out.volume.push_back(none);
+    out.of_cell[start] = number;
+    stack.push_back(start);
+    while (!stack.empty()) {
+      const std::uint32_t c = stack.back();
+      stack.pop_back();
+      for (std::uint32_t face = (D + 1) * c; face < (D + 1) * (c + 1); ++face) {
+        if (links.neighbour[face] == none || links.is_wall(face)) continue;
+        const std::uint32_t other = links.neighbour[face] / (D + 1);
+        if (!mesh.regions.empty() && other > c && mesh.regions[other] != mesh.regions[c])
+          findings.add(Kind::wrong_region, {c, other}, [&] {
+            return "The label changes from " + words(mesh.regions[c]) + " to " + words(mesh.regions[other]) + " between " +
+                   cell_words(mesh, c) + " and " + cell_words(mesh, other) + ", with no constraint between them.";
+          });
+        if (out.of_cell[other] != none) continue;
+        out.of_cell[other] = number;
+        stack.push_back(other);
+      }
+    }
+  }
+  return out;
+}
+
+namespace {
+
+template <int D>
+class RegionChecker {
+ public:
+  RegionChecker(const ConformityTask<D>& task, const Links<D>& links, const Conformity<D>& conformity,
+                Components& components)
+      : task_(task), mesh_(task.mesh), input_(task.input), links_(links), conformity_(conformity),
+        components_(components) {}
+
+  void run() {
+    bad_side_.assign(components_.volume.size(), 0);
+    boundary_slack_.assign(input_.volumes().size(), 0);
+    for (std::uint32_t w = 0; w < walls(mesh_).size(); ++w)
+      if (conformity_.patch_of[w].entity != none) check_wall(w);
+    check_measures();
+    check_seeds();
+  }
+
+ private:
+  void check_wall(std::uint32_t w) {
+    const Place place = conformity_.patch_of[w];
+    const Patch& patch = input_.patches()[place.entity];
+    for (const int side : {0, 1}) {
+      const std::uint32_t volume = patch.volume[side != place.reversed];
+      const std::uint32_t face = links_.wall_sides[w][side];
+      if (face != none && !links_.positive(face / (D + 1))) continue;  // reported, and its side means nothing
+      if (face != none)
+        enter(components_.of_cell[face / (D + 1)], volume, face);
+      else if (input_.volumes()[volume].kept)
+        report_empty_side(w);
+      boundary_slack_[volume] += slack(w, patch.entity);
+    }
+  }
+
+  void enter(std::uint32_t component, std::uint32_t volume, std::uint32_t face) {
+    std::uint32_t& known = components_.volume[component];
+    if (bad_side_[component]) return;
+    if (!input_.volumes()[volume].kept) {
+      bad_side_[component] = 1;
+      task_.findings.add(Kind::hole_filled, {face / (D + 1)}, [&] {
+        return "The " + cell_words(mesh_, face / (D + 1)) + (volume == 0 ? " lies outside the domain." : " lies in a hole.");
+      });
+    } else if (known == none) {
+      known = volume;
+    } else if (known != volume) {
+      bad_side_[component] = 1;
+      task_.findings.add(Kind::wrong_volume, {face / (D + 1)}, [&] {
+        return "Cells connected to " + cell_words(mesh_, face / (D + 1)) +
+               " without a constraint between them lie in two volumes of the input.";
+      });
+    }
+  }
+
+  void report_empty_side(std::uint32_t w) {
+    task_.findings.add(Kind::wrong_volume, {w}, [&] {
+      return std::string(D == 2 ? "Subsegment " : "Subfacet ") + std::to_string(w) + " (" +
+             list_words(walls(mesh_)[w].vertices) + ") has no cell on a side that belongs to the domain.";
+    });
+  }
+
+  // How much the measure of a volume changes if this wall's vertices move onto their entity, by at most t: the wall
+  // sweeps at most t * its measure, which itself changes by at most t * its boundary (and pi t^2); doubled. A facet that
+  // is planar only within rounding is met by subfacets across its folds, up to twice its defect away.
+  double slack(std::uint32_t w, EntityId entity) const {
+    const auto& v = walls(mesh_)[w].vertices;
+    if constexpr (D == 2) {
+      const double t = Tolerance{task_.ulps, input_.domain().segment_magnitude(entity)}.width();
+      return 2 * t * (std::sqrt(squared_distance(mesh_.points[v[0]], mesh_.points[v[1]])) + 2 * t);
+    } else {
+      const double t = Tolerance{task_.ulps, input_.domain().facet_magnitude(entity)}.width() +
+                       2 * input_.domain().facets()[entity].planarity_defect;
+      const auto &a = mesh_.points[v[0]], &b = mesh_.points[v[1]], &c = mesh_.points[v[2]];
+      const double longest = std::sqrt(std::max({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)}));
+      double doubled = 0;  // at most the sum of the three projections
+      for (int axis = 0; axis < 3; ++axis) {
+        const int j = (axis + 1) % 3, k = (axis + 2) % 3;
+        doubled += std::abs(signed_measure<2>({{{{a[j], a[k]}}, {{b[j], b[k]}}}}, {{c[j], c[k]}}).first);
+      }
+      return 2 * t * (doubled / 2 + 3 * longest * t + 4 * t * t);
+    }
+  }
+
+  void check_measures() {
+    constexpr double parts = D == 2 ? 2 : 6;
+    std::vector<CompensatedSum> sums(input_.volumes().size());
+    std::vector<double> errors(input_.volumes().size(), 0);
+    std::vector<std::uint32_t> components(input_.volumes().size(), 0);
+    for (const std::uint32_t v : components_.volume)
+      if (v != none) ++components[v];
+    for (std::uint32_t c = 0; c < mesh_.cells.size(); ++c) {
+      const std::uint32_t volume = components_.volume[components_.of_cell[c]];
+      if (volume == none) continue;
+      const Simplex<D> s = corners_of(mesh_, c);
+      std::array<Point<D>, D> base;
+      std::copy_n(s.begin(), D, base.begin());
+      const auto [value, error] = signed_measure<D>(base, s[D]);
+      sums[volume].add(value / parts);
+      errors[volume] += error / parts;
+    }
+    for (std::uint32_t v = 0; v < sums.size(); ++v) {
+      const Volume& wanted = input_.volumes()[v];
+      if (!wanted.kept) continue;
+      const double slack = errors[v] + sums[v].error() + wanted.measure_error + boundary_slack_[v];
+      if (components[v] == 1 && std::abs(sums[v].value() - wanted.measure) <= slack) continue;
+      task_.findings.add(Kind::wrong_volume, {v}, [&] {
+        return "Volume " + std::to_string(v) + " of the input measures " + words(wanted.measure) + " and is filled by " +
+               std::to_string(components[v]) + " connected sets of cells, which measure " + words(sums[v].value()) + ".";
+      });
+    }
+  }
+
+  // Every seed is located twice: in the input (its volume, by a line) and in the mesh (the cells that contain it).
+  void check_seeds() {
+    const auto& domain = input_.domain();
+    for (std::uint32_t i = 0; i < domain.regions().size(); ++i) {
+      seeds_.push_back({domain.regions()[i].point, i, false});
+      const auto volume = input_.region_volumes()[i];
+      if (!volume || !input_.volumes()[*volume].kept) report_seed(i, volume ? "outside the domain or in a hole" : "on a wall");
+    }
+    for (std::uint32_t i = 0; i < domain.holes().size(); ++i) seeds_.push_back({domain.holes()[i], i, true});
+    std::sort(seeds_.begin(), seeds_.end(), [](const Seed& a, const Seed& b) { return a.point[0] < b.point[0]; });
+    found_.assign(domain.regions().size(), false);
+    for (std::uint32_t c = 0; c < mesh_.cells.size() && !seeds_.empty(); ++c) visit_seeds(c);
+    for (std::uint32_t i = 0; i < domain.regions().size(); ++i)
+      if (!found_[i] && input_.region_volumes()[i] && input_.volumes()[*input_.region_volumes()[i]].kept)
+        report_seed(i, "in no cell");
+  }
+
+  void report_seed(std::uint32_t i, const char* where) {
+    task_.findings.add(Kind::wrong_region, {i}, [&] {
+      return "The seed of region " + std::to_string(i) + " " + words(input_.domain().regions()[i].point) + " lies " +
+             where + ".";
+    });
+  }
+
+  void visit_seeds(std::uint32_t c) {
+    const Simplex<D> s = corners_of(mesh_, c);
+    Point<D> low = s[0], high = s[0];
+    for (const Point<D>& x : s)
+      for (int i = 0; i < D; ++i) {
+        low[i] = std::min(low[i], x[i]);
+        high[i] = std::max(high[i], x[i]);
+      }
+    auto seed = std::lower_bound(seeds_.begin(), seeds_.end(), low[0],
+                                 [](const Seed& a, double x) { return a.point[0] < x; });
+    for (; seed != seeds_.end() && seed->point[0] <= high[0]; ++seed) {
+      bool in_box = true;
+      for (int i = 1; i < D; ++i) in_box &= low[i] <= seed->point[i] && seed->point[i] <= high[i];
+      if (in_box && contains(s, seed->point)) visit_seed(c, *seed);
+    }
+  }
+
+  static bool contains(const Simplex<D>& s, const Point<D>& p) {
+    for (int i = 0; i <= D; ++i) {
+      Simplex<D> t = s;
+      t[i] = p;
+      if (orient<D>(t) == Sign::negative) return false;
+    }
+    return true;
+  }
+
+  struct Seed {
+    Point<D> point;
+    std::uint32_t index;
+    bool hole;
+  };
+
+  void visit_seed(std::uint32_t c, const Seed& seed) {
+    if (seed.hole) {
+      task_.findings.add(Kind::hole_filled, {c, seed.index}, [&] {
+        return "The " + cell_words(mesh_, c) + " contains the seed of hole " + std::to_string(seed.index) + " " +
+               words(seed.point) + ".";
+      });
+      return;
+    }
+    found_[seed.index] = true;
+    const double label = mesh_.regions.empty() ? 0 : mesh_.regions[c];
+    const double wanted = input_.domain().regions()[seed.index].attribute;
+    if (label == wanted) return;
+    task_.findings.add(Kind::wrong_region, {c, seed.index}, [&] {
+      return "The " + cell_words(mesh_, c) + " contains the seed of region " + std::to_string(seed.index) +
+             " and has label " + words(label) + " instead of " + words(wanted) + ".";
+    });
+  }
+
+  const ConformityTask<D>& task_;
+  const OutputMesh<D>& mesh_;
+  const InputVolumes<D>& input_;
+  const Links<D>& links_;
+  const Conformity<D>& conformity_;
+  Components& components_;
+  std::vector<std::uint8_t> bad_side_;   ///< of each component: reported already
+  std::vector<double> boundary_slack_;   ///< of each volume
+  std::vector<Seed> seeds_;              ///< by x
+  std::vector<bool> found_;
+};
+
+}  // namespace
+
+template <int D>
+void check_regions(const ConformityTask<D>& task, const Links<D>& links, const Conformity<D>& conformity,
+                   Components& components) {
+  RegionChecker<D>(task, links, conformity, components).run();
+}
+
+#define PGDR_INSTANTIATE(D)                                                                                 \
+  template Components flood_cells(const OutputMesh<D>&, const Links<D>&, Findings&);                        \
+  template void check_regions(const ConformityTask<D>&, const Links<D>&, const Conformity<D>&, Components&);
+PGDR_INSTANTIATE(2)
+PGDR_INSTANTIATE(3)
+#undef PGDR_INSTANTIATE
+
+}  // namespace pgdr::checking

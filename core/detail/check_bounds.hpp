@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The last stages: bounds of shape and size with their reasons, and the local Delaunay property.
+#pragma once
+
+#include <span>
+
+#include "detail/check_reasons.hpp"
+#include "detail/check_regions.hpp"
+
+namespace pgdr::checking {
+
+/// Every cell is within its bounds, or a reason holds. @param input null if there is no domain.
+template <int D>
+void check_bounds(const OutputMesh<D>& mesh, const CheckOptions<D>& options, const Links<D>& links,
+                  const Components& components, const InputVolumes<D>* input, Reasons<D>& reasons, Findings& findings);
+
+/// No vertex opposite an unconstrained face lies inside the circumsphere of the cell on its other side.
+/// @param slack of each vertex: how far it may be off its entity by rounding.
+/// @param refused of each vertex: it lies on an entity whose split was refused; may be empty.
+template <int D>
+void check_delaunay(const OutputMesh<D>& mesh, const Links<D>& links, std::span<const double> slack,
+                    std::span<const std::uint8_t> refused, Findings& findings);
+
+/// The slack of vertices when the input is unknown: any vertex of a constraint that is not axis-aligned may be off by
+/// so many ulps of the largest coordinate of the mesh, unless it is known to be an input point.
+template <int D>
+std::vector<double> slack_without_input(const OutputMesh<D>& mesh, int ulps);
+
+}  // namespace pgdr::checking

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Radii of the selection disks of types I and II (Def. 2.4 to 2.9). Pure functions, any thread.
+#include <algorithm>
+
+#include "pgdr/point_selector.hpp"
+
+namespace pgdr {
+
+// An element that is only too big has no disk in the theory, and below the smallest proved bound the disks are empty:
+// both leave the centre alone.
+template <int D>
+SelectionDisk<D> selection_disk(const PoorElement<D>& element, const DiskOptions& options) {
+  constexpr double k = smallest_proved_bound<D>();
+  const double r = element.circumradius;
+  if (!element.over_radius_edge || !(element.radius_edge_bound >= k)) return {element.circumcenter, 0};
+  double radius = 0;
+  if (options.type == DiskType::type1) radius = r - k * element.shortest_edge;
+  else if (options.delta > 0) radius = r * (1 - options.delta);
+  else radius = r * (1 - k / element.radius_edge_bound);
+  return {element.circumcenter, std::max(radius, 0.0)};
+}
+
+template SelectionDisk<2> selection_disk<2>(const PoorElement<2>&, const DiskOptions&);
+template SelectionDisk<3> selection_disk<3>(const PoorElement<3>&, const DiskOptions&);
+
+}  // namespace pgdr

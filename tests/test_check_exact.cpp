@@ -1,0 +1,211 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The checker's own decisions: distances in ulps at their very limits, what rounding may explain, the volumes of an
+// input.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "detail/check_exact.hpp"
+#include "detail/check_input.hpp"
+#include "pgdr/predicates.hpp"
+#include "test_check_models.hpp"
+
+namespace {
+
+using namespace pgdr;
+using namespace pgdr::checking;
+using namespace pgdr::test;
+
+TEST(CheckExact, DistanceFromALineAtTheLimit) {
+  // 3-4-5: the point p + (-4, 3) t is 5 t from the line along (3, 4).
+  const Point2 p{{0, 0}}, q{{3, 4}};
+  const double t = 0x1p-52;
+  const Point2 x{{-4 * t, 3 * t}};
+  EXPECT_TRUE(near_line(p, q, x, {5, 1}));
+  EXPECT_FALSE(near_line(p, q, x, {4, 1}));
+  const Point2 beyond{{std::nextafter(-4 * t, -1), 3 * t}};
+  EXPECT_FALSE(near_line(p, q, beyond, {5, 1}));
+  EXPECT_TRUE(near_line(p, q, Point2{{300, 400}}, {0, 1}));
+  EXPECT_FALSE(near_line(p, q, Point2{{300, std::nextafter(400, 500)}}, {0, 1}));
+}
+
+TEST(CheckExact, DistanceFromAPlaneAtTheLimit) {
+  // The plane through the origin with normal (2, 3, 6), of length 7.
+  const std::array<Point3, 3> t{{{{0, 0, 0}}, {{3, -2, 0}}, {{0, 2, -1}}}};
+  const double u = 0x1p-52;
+  const Point3 x{{2 * u, 3 * u, 6 * u}};
+  EXPECT_TRUE(near_plane(t, x, {7, 1}));
+  EXPECT_FALSE(near_plane(t, x, {6, 1}));
+  EXPECT_FALSE(near_plane(t, Point3{{2 * u, 3 * u, std::nextafter(6 * u, 1)}}, {7, 1}));
+  EXPECT_TRUE(near_plane(t, Point3{{3, 0, -1}}, {0, 1}));
+  EXPECT_NEAR(distance_from_plane(t, x) / u, 7, 1e-12);
+}
+
+TEST(CheckExact, LineInSpace) {
+  const Point3 p{{1, 1, 1}}, q{{2, 3, 4}};
+  EXPECT_TRUE(near_line(p, q, Point3{{1.5, 2, 2.5}}, {0, 4}));
+  EXPECT_TRUE(near_line(p, q, Point3{{1.5, std::nextafter(2, 3), 2.5}}, {1, 4}));
+  EXPECT_FALSE(near_line(p, q, Point3{{1.5, 2 + 0x1p-48, 2.5}}, {2, 4}));
+  EXPECT_TRUE(advances(p, q, Point3{{1, 1, 1}}, Point3{{1, 1, std::nextafter(1, 2)}}));
+  EXPECT_FALSE(advances(p, q, p, p));
+}
+
+TEST(CheckExact, ScalesDoNotMatter) {
+  for (const double scale : {0x1p-300, 0x1p-60, 1.0, 0x1p300}) {
+    const Point2 p{{0, 0}}, q{{3 * scale, 4 * scale}}, x{{-4 * scale * 0x1p-52, 3 * scale * 0x1p-52}};
+    EXPECT_TRUE(near_line(p, q, x, {5, scale}));
+    EXPECT_FALSE(near_line(p, q, x, {4, scale}));
+  }
+}
+
+TEST(CheckExact, Dihedral) {
+  const Point3 a{{0, 0, 0}}, b{{0, 0, 1}}, c{{1, 0, 5}};
+  EXPECT_FALSE(dihedral_below_90(a, b, c, Point3{{0, 1, -7}}));
+  EXPECT_TRUE(dihedral_below_90(a, b, c, Point3{{0x1p-1000, 1, 3}}));
+  EXPECT_FALSE(dihedral_below_90(a, b, c, Point3{{-0x1p-1000, 1, 3}}));
+}
+
+// The bound of the change is sharp to first order: a violation of a hundredth of what a corner's move does is cancelled
+// by a move of a hundredth, not by much less.
+TEST(CheckExact, RoundingCancelsWhatItCanReach) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> coordinate(0, 1);
+  for (int trial = 0; trial < 200; ++trial) {
+    Simplex<3> s;
+    for (auto& p : s)
+      for (double& x : p.x) x = coordinate(random);
+    if (orient<3>(s) != Sign::positive) std::swap(s[0], s[1]);
+    // A point 2^-30 inside the sphere, beside a corner along the way to the centroid.
+    Point3 p, centroid{};
+    for (const auto& q : s)
+      for (int i = 0; i < 3; ++i) centroid[i] += q[i] / 4;
+    for (int i = 0; i < 3; ++i) p[i] = s[0][i] + 0x1p-30 * (centroid[i] - s[0][i]);
+    if (in_sphere<3>(s, p) != Sign::positive) continue;
+    std::array<double, 5> delta{};
+    EXPECT_FALSE(rounding_cancels<3>(s, p, delta));
+    delta[4] = 0x1p-30;
+    EXPECT_TRUE(rounding_cancels<3>(s, p, delta));
+    // The way out of the sphere is at most as long as the way back to the corner, which is on it.
+    delta[4] = 0;
+    delta[0] = 0x1p-30;
+    EXPECT_TRUE(rounding_cancels<3>(s, p, delta));
+    delta.fill(0x1p-80);
+    EXPECT_FALSE(rounding_cancels<3>(s, p, delta));
+  }
+}
+
+TEST(CheckExact, RoundingAtTheLimitInThePlane) {
+  // Unit circle about the origin; p = (1 - d, 0). With only p moving, out of the circle takes a move of d.
+  const Simplex<2> s{{{{0, -1}}, {{0, 1}}, {{-1, 0}}}};
+  const double d = 0x1p-40;
+  const Point2 p{{1 - d, 0}};
+  ASSERT_EQ(in_sphere<2>(s, p), Sign::positive);
+  EXPECT_TRUE(rounding_cancels<2>(s, p, {0, 0, 0, d * 1.001}));
+  EXPECT_FALSE(rounding_cancels<2>(s, p, {0, 0, 0, d * 0.999}));
+}
+
+TEST(CheckExact, OrderAlongALine) {
+  std::vector<std::array<Point2, 2>> walls{{{{{3, -1}}, {{3, 1}}}}, {{{{1, -1}}, {{1, 1}}}}, {{{{2, 1}}, {{2, -1}}}}};
+  EXPECT_EQ(order_along<2>({{0, 0}}, {{4, 0}}, walls), (std::vector<std::uint32_t>{1, 2, 0}));
+  EXPECT_EQ(order_along<2>({{4, 0}}, {{0, 0}}, walls), (std::vector<std::uint32_t>{0, 2, 1}));
+  walls.push_back({{{{0.5, -1}}, {{1.5, 1}}}});
+  EXPECT_TRUE(order_along<2>({{0, 0}}, {{4, 0}}, walls).empty());
+}
+
+template <class Tag>
+class CheckInput : public testing::Test {};
+template <int D>
+struct Dimension {
+  static constexpr int value = D;
+};
+using Dimensions = testing::Types<Dimension<2>, Dimension<3>>;
+TYPED_TEST_SUITE(CheckInput, Dimensions);
+
+template <int D>
+Lattice<D> all(int x) {
+  Lattice<D> i;
+  i.fill(x);
+  return i;
+}
+
+// Boxes inside each other touch nowhere: only lines tell which volume is between which.
+TYPED_TEST(CheckInput, NestedBoxes) {
+  constexpr int D = TypeParam::value;
+  for (const auto& map : {straight<D>(), slanted<D>()}) {
+    PlcMaker<D> maker(map);
+    for (int i = 0; i < 4; ++i) maker.box(all<D>(3 * i), all<D>(30 - 3 * i));
+    maker.plc.holes.push_back(map(all<D>(4)));
+    maker.plc.regions.push_back({map(all<D>(15)), 5, 0.25});
+    const Domain<D> domain(maker.plc);
+    const InputVolumes<D> input(domain);
+    ASSERT_EQ(input.volumes().size(), 5u);
+    const double cube = std::abs(signed_measure<D>([&] {
+                          std::array<Point<D>, D> s;
+                          for (int k = 0; k < D; ++k) {
+                            auto corner = all<D>(0);
+                            corner[k] = 3;
+                            s[k] = map(corner);
+                          }
+                          return s;
+                        }(), map(all<D>(0))).first);
+    const auto at = [&](int i) { return *input.locate(map(all<D>(i))); };
+    EXPECT_EQ(at(-1), 0u);
+    double inner = std::pow(4, D);
+    for (int i = 3; i >= 0; --i) {
+      const Volume& v = input.volumes()[at(3 * i + 1)];
+      const double whole = std::pow(10 - 2 * i, D);
+      EXPECT_EQ(v.kept, i != 1);
+      EXPECT_NEAR(v.measure, cube * (i == 3 ? whole : whole - inner), 1e-9 * cube);
+      EXPECT_LT(v.measure_error, 1e-9 * cube);
+      inner = whole;
+    }
+    EXPECT_EQ(input.volumes()[at(15)].seeds.size(), 1u);
+    EXPECT_EQ(input.volumes()[at(15)].size, 0.25);
+    EXPECT_FALSE(input.locate(map(all<D>(3))).has_value()) << "a corner of a box is on a wall";
+  }
+}
+
+TEST(CheckInput3, PagesOfABook) {
+  // k pages round one edge, closed by a lid, a bottom and a cover: k volumes. The angular order is all there is.
+  for (const int k : {3, 4, 7, 16}) {
+    Plc<3> plc;
+    plc.points = {{{0, 0, 0}}, {{0, 0, 1}}};
+    for (int i = 0; i < k; ++i)
+      for (const double z : {0.0, 1.0})
+        plc.points.push_back({{std::cos(0.3 + 6.283185307179586 * i / k), std::sin(0.3 + 6.283185307179586 * i / k), z}});
+    const auto facet = [&](std::vector<std::uint32_t> p) {
+      Plc<3>::Facet f;
+      f.polygons.push_back(std::move(p));
+      plc.facets.push_back(f);
+    };
+    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(k); ++i) {
+      const std::uint32_t a = 2 + 2 * i, b = 2 + 2 * ((i + 1) % static_cast<std::uint32_t>(k));
+      facet({0, a, a + 1, 1});
+      facet({a, b, b + 1, a + 1});
+      facet({0, a, b});
+      facet({1, a + 1, b + 1});
+    }
+    const Domain<3> domain(plc);
+    const InputVolumes<3> input(domain);
+    EXPECT_EQ(input.volumes().size(), static_cast<std::size_t>(k) + 1);
+    double sum = 0;
+    for (const Volume& v : input.volumes()) sum += v.kept ? v.measure : 0;
+    EXPECT_NEAR(sum, -input.volumes()[0].measure, 1e-12);
+  }
+}
+
+TEST(CheckInput2, OpenCurvesEncloseNothing) {
+  Plc<2> plc;
+  plc.points = {{{0, 0}}, {{1, 0}}, {{1, 1}}, {{0, 1}}};
+  plc.segments = {{{0, 1}, 0}, {{1, 2}, 0}, {{2, 3}, 0}};
+  const Domain<2> domain(plc);
+  const InputVolumes<2> input(domain);
+  EXPECT_EQ(input.volumes().size(), 1u);
+  EXPECT_FALSE(input.wants_segment(0));
+  EXPECT_FALSE(input.wants_point(2));
+}
+
+}  // namespace

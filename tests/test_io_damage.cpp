@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Damaged files: cut at every byte, and with bytes changed at random. Whatever the damage, the reader returns or throws
+// an InputError with the name of the file and a message; formats that say where they end are never believed when cut.
+#include <algorithm>
+#include <functional>
+
+#include "test_io_support.hpp"
+
+namespace pgdr::test {
+namespace {
+
+struct Format {
+  std::string name, file, bytes;
+  std::function<void(const std::filesystem::path&)> read;
+  bool says_its_end;  ///< no part of it is a valid file
+};
+
+void PrintTo(const Format& f, std::ostream* out) { *out << f.name; }
+
+template <int D>
+std::string mesh_bytes(const std::string& extension) {
+  const TempFolder folder;
+  write_mesh<D>(some_mesh<D>(2, 6), folder / ("a" + extension));
+  return content(folder / ("a" + extension));
+}
+
+template <int D>
+void read_input(const std::filesystem::path& file) {
+  const Plc<D> plc = read_plc<D>(file);
+  const auto in_range = [&](std::uint32_t id) { return id < plc.points.size(); };
+  for (const auto& s : plc.segments) ASSERT_TRUE(in_range(s.points[0]) && in_range(s.points[1]));
+  for (const auto& f : plc.facets) {
+    for (const auto& polygon : f.polygons) {
+      for (const std::uint32_t c : polygon) ASSERT_TRUE(in_range(c));
+    }
+  }
+}
+
+template <int D>
+void read_output(const std::filesystem::path& file) {
+  const OutputMesh<D> mesh = read_mesh<D>(file);
+  ASSERT_LE(mesh.input_points, mesh.points.size());
+  for (const auto& cell : mesh.cells) {
+    for (const std::uint32_t v : cell) ASSERT_LT(v, mesh.points.size());
+  }
+}
+
+std::vector<Format> formats() {
+  return {
+      {"poly_2d", "a.poly", triangle_poly, read_input<2>, false},
+      {"poly_3d", "a.poly", tetgen_poly, read_input<3>, false},
+      {"smesh", "a.smesh", tetgen_smesh, read_input<3>, false},
+      {"node", "a.node", "2 3 1 1\n1 0.5 1 2 3 4\n2 -1e5 0 0 7 5\n", read_input<3>, false},
+      {"off", "a.off", colour_off, read_input<3>, false},
+      {"obj", "a.obj", wavefront_obj, read_input<3>, false},
+      {"stl_ascii", "a.stl", ascii_stl, read_input<3>, false},
+      {"stl_binary", "a.stl", binary_stl("solid", {{1, 2, 3}, {4, 5, 6, 7, 8, 9}}), read_input<3>, true},
+      {"mesh_2d", "a.mesh", mesh_bytes<2>(".mesh"), read_output<2>, true},
+      {"mesh_3d", "a.mesh", mesh_bytes<3>(".mesh"), read_output<3>, true},
+      {"vtu_2d", "a.vtu", mesh_bytes<2>(".vtu"), read_output<2>, true},
+      {"vtu_3d", "a.vtu", mesh_bytes<3>(".vtu"), read_output<3>, true},
+  };
+}
+
+class Damage : public testing::TestWithParam<Format> {
+ protected:
+  /// Whether `bytes` is read as a file of the format; if not, the error must be a proper one.
+  bool accepted(const std::string& bytes) {
+    const Format& f = GetParam();
+    const auto file = folder_.put(f.file, bytes);
+    try {
+      f.read(file);
+      return true;
+    } catch (const InputError& e) {
+      EXPECT_EQ(e.diagnostic().file, file.string());
+      EXPECT_FALSE(e.diagnostic().message.empty());
+      EXPECT_LE(e.diagnostic().line, static_cast<std::uint64_t>(std::count(bytes.begin(), bytes.end(), '\n')) + 1);
+    } catch (const FileError& e) {
+      // A point count that became 0 sends the reader to the .node file beside it.
+      EXPECT_EQ(std::filesystem::path(e.diagnostic().file).extension(), ".node");
+    }
+    return false;
+  }
+
+ private:
+  TempFolder folder_;
+};
+
+TEST_P(Damage, ACutAtEveryByte) {
+  const Format& f = GetParam();
+  ASSERT_TRUE(accepted(f.bytes));
+  for (std::size_t n = 0; n < f.bytes.size(); ++n) {
+    const bool blank_lost = n + 1 == f.bytes.size() && f.bytes.back() == '\n';
+    const bool ok = accepted(f.bytes.substr(0, n));
+    if (f.says_its_end) {
+      EXPECT_EQ(ok, blank_lost);
+    }
+    ASSERT_FALSE(HasFailure()) << "cut after " << n << " bytes";
+  }
+}
+
+TEST_P(Damage, BytesChangedAtRandom) {
+  const Format& f = GetParam();
+  constexpr std::uint64_t seed = 20260101;
+  RecordProperty("seed", std::to_string(seed));
+  std::mt19937_64 random(seed);
+  const std::string likely = "0123456789.-+eE#\n\t ,\"<>/naif";
+  int refused = 0;
+  constexpr int trials = 2500;
+  for (int trial = 0; trial < trials; ++trial) {
+    std::string bytes = f.bytes;
+    for (std::uint64_t flips = 1 + random() % 3; flips > 0; --flips) {
+      char& c = bytes[random() % bytes.size()];
+      c = random() % 2 == 0 ? static_cast<char>(random()) : likely[random() % likely.size()];
+    }
+    refused += accepted(bytes) ? 0 : 1;
+    ASSERT_FALSE(HasFailure()) << "seed " << seed << ", trial " << trial << ":\n" << bytes;
+  }
+  EXPECT_GT(refused, 0);
+  EXPECT_LT(refused, trials);
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, Damage, testing::ValuesIn(formats()), [](const auto& i) { return i.param.name; });
+
+}  // namespace
+}  // namespace pgdr::test

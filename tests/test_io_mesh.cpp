@@ -1,0 +1,290 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Meshes in files: what is written reads back bit for bit, other programs' .mesh files are understood, mistakes are
+// named, and a write that fails leaves everything as it was.
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+
+#include "test_io_support.hpp"
+
+namespace pgdr::test {
+namespace {
+
+template <int D>
+void expect_round_trip(const OutputMesh<D>& mesh) {
+  const TempFolder folder;
+  for (const std::string extension : {".mesh", ".vtu", ".VTU"}) {
+    SCOPED_TRACE(extension);
+    const auto file = folder / ("mesh" + extension);
+    write_mesh<D>(mesh, file);
+    EXPECT_EQ(file_dimension(file), D);
+    expect_same(read_mesh<D>(file), mesh);
+    const std::string once = content(file);
+    write_mesh<D>(read_mesh<D>(file), file);
+    EXPECT_TRUE(content(file) == once) << "the file of the mesh that was read differs";
+  }
+  EXPECT_EQ(folder.files(), 3u) << "temporary files are left";
+}
+
+template <int D>
+void expect_round_trips() {
+  const OutputMesh<D> full = some_mesh<D>(D);
+  expect_round_trip<D>(full);
+  expect_round_trip<D>({});
+  expect_round_trip<D>(some_mesh<D>(5, 20000));  // many times the buffer
+
+  OutputMesh<D> bare = full;
+  bare.regions.clear();
+  bare.point_markers.clear();
+  bare.subsegments.clear();
+  bare.subfacets.clear();
+  bare.input_points = 0;
+  expect_round_trip<D>(bare);
+}
+
+TEST(MeshFiles, RoundTripBitForBitIn3D) { expect_round_trips<3>(); }
+TEST(MeshFiles, RoundTripBitForBitIn2D) { expect_round_trips<2>(); }
+
+TEST(MeshFiles, RegionsThatAreNoIntegersRoundTrip) {
+  OutputMesh<3> mesh = some_mesh<3>(3);
+  const double values[] = {0.1, -2, 1e300, 5e-324, -0.0, 0, 2147483648.0};
+  for (std::size_t i = 0; i < mesh.regions.size(); ++i) mesh.regions[i] = values[i % 7];
+  expect_round_trip<3>(mesh);
+  const TempFolder folder;
+  write_mesh<3>(mesh, folder / "a.mesh");
+  EXPECT_NE(content(folder / "a.mesh").find("# region 1 = -2\n# region 2 = -0\n# region 3 = 0\n"), std::string::npos);
+  std::fill(mesh.regions.begin(), mesh.regions.end(), 0.5);
+  expect_round_trip<3>(mesh);
+}
+
+TEST(MeshFiles, MeditTextIsWhatOthersExpect) {
+  OutputMesh<3> mesh;
+  mesh.points = {{{0, 0, 0}}, {{1, 0, 0}}, {{0, 1, 0}}, {{0, 0, 0.1}}};
+  mesh.input_points = 1;
+  mesh.cells = {{0, 1, 2, 3}};
+  mesh.regions = {7};
+  mesh.subfacets = {{{0, 1, 2}, -3}};
+  mesh.subsegments = {{{2, 3}, 4}};
+  const TempFolder folder;
+  write_mesh<3>(mesh, folder / "a.mesh");
+  EXPECT_EQ(content(folder / "a.mesh"),
+            "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 0.1 0\nEdges\n1\n3 4 4\n"
+            "Triangles\n1\n1 2 3 -3\nTetrahedra\n1\n1 2 3 4 7\nRequiredVertices\n1\n1\nEnd\n");
+}
+
+TEST(MeshFiles, OtherProgramsMeditFiles) {
+  const TempFolder folder;
+  const auto mesh = read_mesh<3>(folder.put("a.mesh",
+                                            " MeshVersionFormatted 2\n\n Dimension\n 3\n Vertices\n 4\n"
+                                            "    0     0   0    1\n 1 0 0 2\n 0 1 0 2\n 0 0 1.5e0 0\n"
+                                            " Corners\n 2\n 1\n 2\n Normals\n1\n0 -1 0.5\nQuadrilaterals 0\n"
+                                            " Triangles 1\n 1 2 3 6\nUnheardOf 2\n1 2 3\n4 5 6\n Ridges 1 1\n"
+                                            "RequiredVertices\n2\n3\n1\n Tetrahedra\n 1\n 1 2 3 4 0\n End\n"));
+  EXPECT_EQ(mesh.points.size(), 4u);
+  EXPECT_EQ(mesh.points.at(3), (Point3{{0, 0, 1.5}}));
+  EXPECT_EQ(mesh.point_markers, (std::vector<int>{1, 2, 2, 0}));
+  EXPECT_EQ(mesh.cells, (std::vector<std::array<std::uint32_t, 4>>{{0, 1, 2, 3}}));
+  EXPECT_TRUE(mesh.regions.empty());
+  ASSERT_EQ(mesh.subfacets.size(), 1u);
+  EXPECT_EQ(mesh.subfacets[0].marker, 6);
+  EXPECT_EQ(mesh.input_points, 0u);  // their required points are not our input points
+}
+
+struct Mistake {
+  std::string name, text;
+  Errc code;
+  std::uint64_t line;
+  std::string words;
+};
+
+void PrintTo(const Mistake& m, std::ostream* out) { *out << m.name; }
+
+class MeditMistake : public testing::TestWithParam<Mistake> {};
+
+TEST_P(MeditMistake, IsNamedWithItsLine) {
+  const Mistake& m = GetParam();
+  const TempFolder folder;
+  const auto file = folder.put("a.mesh", m.text);
+  const auto error = error_of<InputError>([&] { read_mesh<3>(file); });
+  EXPECT_EQ(name(error.code), name(m.code)) << error.message;
+  EXPECT_EQ(error.line, m.line) << error.message;
+  EXPECT_EQ(error.file, file.string());
+  EXPECT_NE(error.message.find(m.words), std::string::npos) << error.message;
+}
+
+const std::string medit = "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    Medit, MeditMistake,
+    testing::Values(
+        Mistake{"empty", "", Errc::truncated, 1, "section or End"},
+        Mistake{"no_end", medit, Errc::truncated, 9, "section or End"},
+        Mistake{"no_dimension", "Vertices\n0\nEnd\n", Errc::syntax, 4, "dimension"},
+        Mistake{"dimension", "Dimension 2\nEnd\n", Errc::syntax, 1, "2"},
+        Mistake{"points", "Dimension 3\nVertices\n1000000000\n0 0 0 0\nEnd\n", Errc::count_too_large, 3, "1000000000"},
+        Mistake{"points_cut", "Dimension 3\nVertices 2\n0 0 0 0\n1.000 1.0 ", Errc::truncated, 4, "point 2"},
+        Mistake{"not_finite", "Dimension 3\nVertices 1\n0 inf 0 0\nEnd\n", Errc::not_finite, 3, "point 1"},
+        Mistake{"word", "Dimension 3\nVertices 1\n0 here 0 0\nEnd\n", Errc::syntax, 3, "'here'"},
+        Mistake{"reference", medit + "Tetrahedra 1\n1 2 3 5 0\nEnd\n", Errc::index_out_of_range, 10, "point 5"},
+        Mistake{"reference_0", medit + "Edges 1\n1 0 0\nEnd\n", Errc::index_out_of_range, 10, "point 0"},
+        Mistake{"cells_first", "Dimension 3\nTetrahedra 1\n1 2 3 4 0\n" + medit,
+                Errc::index_out_of_range, 3, "no points"},
+        Mistake{"twice", medit + "Vertices 1\n0 0 0 0\nEnd\n", Errc::syntax, 9, "twice"},
+        Mistake{"marker", medit + "Edges 1\n1 2 1.5\nEnd\n", Errc::syntax, 10, "'1.5'"},
+        Mistake{"number", medit + "1 2 3\nEnd\n", Errc::syntax, 9, "'1'"},
+        Mistake{"hexahedra", medit + "Hexahedra 1\n1 2 3 4 1 2 3 4 0\nEnd\n", Errc::unknown_format, 9, "Hexahedra"},
+        Mistake{"behind", medit + "End\nmore\n", Errc::syntax, 10, "'more'"},
+        Mistake{"region", "# region 1 = 0.5\n" + medit + "Tetrahedra 1\n1 2 3 4 2\nEnd\n",
+                Errc::index_out_of_range, 11, "region 2"},
+        Mistake{"comment", "# region 2 = 0.5\n" + medit + "End\n", Errc::syntax, 1, "# region 2 = 0.5"}),
+    [](const auto& info) { return info.param.name; });
+
+/// A valid .vtu with `from` replaced by `to`, of the same length where it lies before the data.
+Diagnostic vtu_mistake(const std::string& from, const std::string& to) {
+  const TempFolder folder;
+  write_mesh<3>(some_mesh<3>(1, 10), folder / "a.vtu");
+  std::string text = content(folder / "a.vtu");
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  text.replace(at, from.size(), to);
+  folder.put("a.vtu", text);
+  return error_of<InputError>([&] { read_mesh<3>(folder / "a.vtu"); });
+}
+
+TEST(VtuMistake, IsNamedWithItsLine) {
+  const auto expect = [](const std::string& from, const std::string& to, Errc code, std::uint64_t line) {
+    const auto error = vtu_mistake(from, to);
+    EXPECT_EQ(name(error.code), name(code)) << from << ": " << error.message;
+    EXPECT_EQ(error.line, line) << from << ": " << error.message;
+  };
+  expect("\"LittleEndian\"", "\"BigEndian\"", Errc::unknown_format, 2);
+  expect("\"UInt64\"", "\"UInt32\"", Errc::unknown_format, 2);
+  expect("UnstructuredGrid", "PolyData", Errc::unknown_format, 2);
+  expect("header_type", "compressor=\"x\" header_type", Errc::unknown_format, 2);
+  expect("NumberOfPoints=\"10\"", "NumberOfPoints=\"99999999999\"", Errc::count_too_large, 8);
+  expect("NumberOfCells=\"60\"", "NumberOfCells=\"-1\"", Errc::syntax, 8);
+  expect("NumberOfPoints=\"10\"", "NumberOfPoints=\"11\"", Errc::syntax, 17);
+  expect("Name=\"types\"", "Name=\"typos\"", Errc::syntax, 27);
+  expect("type=\"Float64\" Name=\"Points\"", "type=\"Float32\" Name=\"Points\"", Errc::unknown_format, 17);
+  expect("format=\"appended\"", "format=\"ascii\"", Errc::unknown_format, 5);
+  expect("offset=\"0\"", "offset=\"999999999\"", Errc::truncated, 22);
+  expect("encoding=\"raw\"", "encoding=\"base64\"", Errc::unknown_format, 26);
+  expect("<?xml", "xml", Errc::syntax, 1);
+  expect("</VTKFile>", "", Errc::truncated, 0);
+  expect("</VTKFile>", "</VTKFile>more", Errc::syntax, 0);
+}
+
+TEST(VtuMistake, ContentIsChecked) {
+  const TempFolder folder;
+  const auto code_of = [&](OutputMesh<3> mesh) {
+    write_mesh<3>(mesh, folder / "a.vtu");
+    return error_of<InputError>([&] { read_mesh<3>(folder / "a.vtu"); }).code;
+  };
+  OutputMesh<3> mesh = some_mesh<3>(1, 10);
+  mesh.points[4][1] = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(code_of(mesh), Errc::not_finite);
+  mesh = some_mesh<3>(1, 10);
+  mesh.subfacets[3].vertices[1] = 10;
+  EXPECT_EQ(code_of(mesh), Errc::index_out_of_range);
+  mesh = some_mesh<3>(1, 10);
+  mesh.input_points = 11;
+  EXPECT_EQ(code_of(mesh), Errc::index_out_of_range);
+  EXPECT_EQ(error_of<InputError>([&] { read_mesh<2>(folder / "a.vtu"); }).code, Errc::syntax);
+}
+
+TEST(WriteMesh, RefusesWhatItCannotWriteAndLeavesNothing) {
+  const TempFolder folder;
+  const auto mesh = some_mesh<3>(1);
+  for (const std::string name : {"a.stl", "a", "a.vtuu"})
+    EXPECT_EQ(error_of<InputError>([&] { write_mesh<3>(mesh, folder / name); }).code, Errc::unknown_format);
+  EXPECT_EQ(error_of<InputError>([&] { read_mesh<3>(folder / "a.stl"); }).code, Errc::unknown_format);
+  EXPECT_EQ(error_of<FileError>([&] { read_mesh<3>(folder / "a.vtu"); }).code, Errc::cannot_open);
+
+  const auto error = error_of<FileError>([&] { write_mesh<3>(mesh, folder / "missing/a.vtu"); });
+  EXPECT_EQ(error.code, Errc::cannot_write);
+  EXPECT_EQ(error.file, (folder / "missing/a.vtu").string());
+  std::filesystem::create_directory(folder / "b.vtu");
+  EXPECT_EQ(error_of<FileError>([&] { write_mesh<3>(mesh, folder / "b.vtu"); }).code, Errc::cannot_write);
+  EXPECT_EQ(folder.files(), 1u);
+}
+
+TEST(WriteMesh, ReplacesAFileAndKeepsALink) {
+  const TempFolder folder;
+  folder.put("a.mesh", "old");
+  std::filesystem::create_symlink(folder / "a.mesh", folder / "link.mesh");
+  const auto mesh = some_mesh<2>(1);
+  write_mesh<2>(mesh, folder / "link.mesh");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.mesh"));
+  expect_same(read_mesh<2>(folder / "a.mesh"), mesh);
+  EXPECT_EQ(folder.files(), 2u);
+}
+
+/// Files cannot grow beyond `bytes` while this lives: what a full disk looks like to a program.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+TEST(WriteMesh, AFullDiskLeavesTheOldFileAndNoOther) {
+  const TempFolder folder;
+  const auto mesh = some_mesh<3>(1, 30000);
+  for (const std::string name : {"a.vtu", "a.mesh"}) {
+    folder.put(name, "old");
+    Diagnostic error;
+    for (const rlim_t bytes : {0, 100, 2000000}) {
+      {
+        const FullDisk full(bytes);
+        error = error_of<FileError>([&] { write_mesh<3>(mesh, folder / name); });
+      }
+      EXPECT_EQ(error.code, Errc::cannot_write);
+      EXPECT_EQ(error.file, (folder / name).string());
+      EXPECT_EQ(content(folder / name), "old");
+      EXPECT_EQ(folder.files(), 1u) << "a temporary file is left";
+    }
+    std::filesystem::remove(folder / name);
+  }
+}
+
+/// Meshio's opinion of our files, where a Python that has it can be found.
+TEST(MeshFiles, MeshioReadsThem) {
+  std::string python;
+  for (const std::string candidate : {"python3", "/usr/bin/python3"}) {
+    if (std::system((candidate + " -c 'import meshio' 2>/dev/null").c_str()) == 0) python = candidate;
+  }
+  if (python.empty()) GTEST_SKIP() << "no Python with meshio";
+  const TempFolder folder;
+  const auto mesh = some_mesh<3>(1, 10);
+  write_mesh<3>(mesh, folder / "a.vtu");
+  write_mesh<3>(mesh, folder / "a.mesh");
+  const auto script = folder.put("check.py",
+                                 "import meshio, sys\n"
+                                 "for name in sys.argv[1:]:\n"
+                                 "    mesh = meshio.read(name)\n"
+                                 "    count = {block.type: len(block.data) for block in mesh.cells}\n"
+                                 "    assert len(mesh.points) == 10, mesh\n"
+                                 "    assert count == {'tetra': 20, 'triangle': 20, 'line': 20}, count\n");
+  const std::string command =
+      python + " " + script.string() + " " + (folder / "a.vtu").string() + " " + (folder / "a.mesh").string();
+  EXPECT_EQ(std::system((command + " >/dev/null 2>&1").c_str()), 0) << command;
+}
+
+}  // namespace
+}  // namespace pgdr::test
