@@ -219,7 +219,6 @@ auto Cavity<D>::make_star_shaped() -> Status {
   while (true) {
     for (const BoundaryFace& f : boundary_) {
       if (!visible(f)) doomed.push_back(f.cell);
-      // A wall with a taken cell on either side: p can lie on one side of it only.
     }
     if (doomed.empty()) return Status::ok;
     if (const Status s = drop_cells(doomed); s != Status::ok) return s;
@@ -270,35 +269,36 @@ auto Cavity<D>::drop_cells(const std::vector<CellId>& doomed) -> Status {
 
 template <int D>
 auto Cavity<D>::check_nothing_swallowed() -> Status {
-  std::vector<VertexId> rim;
-  std::vector<std::array<VertexId, 2>> rim_edges;
-  auto edge_key = [](VertexId a, VertexId b) { return a < b ? std::array{a, b} : std::array{b, a}; };
+  auto edge_key = [](VertexId a, VertexId b) {
+    const std::uint64_t low = std::min(index(a), index(b)), high = std::max(index(a), index(b));
+    return high << 32 | low;  // never the key of a vertex, whose high half is zero and lies below any edge's
+  };
+  auto vertex_key = [](VertexId v) { return std::uint64_t{index(v)}; };
+  rim_keys_.reset(6 * boundary_.size());
   for (const BoundaryFace& f : boundary_) {
     const auto& k = mesh_->cell(f.cell);
     const Link out = k.links[f.face];
     if (out && mesh_->marked(out.cell())) return Status::not_star_shaped;
     for (int i = 0; i <= D; ++i) {
       if (i == f.face) continue;
-      rim.push_back(k.vertices[i]);
+      rim_keys_.insert(vertex_key(k.vertices[i]));
       if constexpr (D == 3)
         for (int j = i + 1; j <= D; ++j)
-          if (j != f.face) rim_edges.push_back(edge_key(k.vertices[i], k.vertices[j]));
+          if (j != f.face) rim_keys_.insert(edge_key(k.vertices[i], k.vertices[j]));
     }
   }
-  std::sort(rim.begin(), rim.end());
-  std::sort(rim_edges.begin(), rim_edges.end());
-  const auto split = edge_key(split_edge_[0], split_edge_[1]);
   for (const CellId c : cells_) {
     const auto& k = mesh_->cell(c);
     for (const VertexId v : k.vertices)
-      if (!std::binary_search(rim.begin(), rim.end(), v)) return Status::swallows;
+      if (!rim_keys_.contains(vertex_key(v))) return Status::swallows;
     if constexpr (D == 3) {
       const auto* constraints = mesh_->constraints(c);
       if (!constraints || !constraints->edges) continue;
       for (int e = 0; e < 6; ++e) {
         if (!(constraints->edges >> e & 1)) continue;
-        const auto key = edge_key(k.vertices[edge_ends[e][0]], k.vertices[edge_ends[e][1]]);
-        if (key != split && !std::binary_search(rim_edges.begin(), rim_edges.end(), key)) return Status::swallows;
+        const VertexId a = k.vertices[edge_ends[e][0]], b = k.vertices[edge_ends[e][1]];
+        const bool split = (a == split_edge_[0] && b == split_edge_[1]) || (a == split_edge_[1] && b == split_edge_[0]);
+        if (!split && !rim_keys_.contains(edge_key(a, b))) return Status::swallows;
       }
     }
   }

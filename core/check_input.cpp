@@ -191,10 +191,12 @@ class InputBuilder {
     for (const std::uint32_t root : first_of_component)
       for (std::uint64_t attempt = 0; !linked[root]; ++attempt) {
         if (attempt == 1000)
-          throw ResourceError({Errc::internal, "The checker found no line through a component of the input.", {}, 0, {}, {}});
+          throw InputError({Errc::entities_intersect, "Two walls of the input overlap.", {}, 0, {facet_or_segment(root)}, {}});
         cast_line(target(root, attempt), attempt, linked);
       }
   }
+
+  EntityId facet_or_segment(std::uint32_t simplex) const { return D == 2 ? simplex : facet_of_[simplex]; }
 
   /// The centroid of a wall of the component; of another one at each attempt.
   Point<D> target(std::uint32_t root, std::uint64_t attempt) {
@@ -255,7 +257,7 @@ class InputBuilder {
     std::vector<std::uint32_t> place(n);
     for (const std::uint32_t i : order) {
       if (simplices.empty() || patches_.find(i) != patches_.find(order[simplices.size() - 1]))
-        out_.patches_.push_back({D == 2 ? i : facet_of_[i], static_cast<std::uint32_t>(simplices.size()), 0,
+        out_.patches_.push_back({facet_or_segment(i), static_cast<std::uint32_t>(simplices.size()), 0,
                                  {volume_at(2 * i), volume_at(2 * i + 1)}});
       ++out_.patches_.back().count;
       place[i] = static_cast<std::uint32_t>(out_.patches_.size() - 1);

@@ -145,6 +145,7 @@ bool Refiner<D>::relist_refused() {
   for (const Entry& e : refused_cells_)
     if (alive(e)) list_poor(e.cell);
   refused_cells_.clear();
+  finished_ = false;
   return !edges_.empty() || !faces_.empty() || first_bucket_ < buckets;
 }
 
@@ -155,6 +156,7 @@ StopCause Refiner<D>::run() {
     if (const StopCause stop = drain(); stop != StopCause::finished) return stop;
     if (counts_.committed == before || !relist_refused()) break;
   }
+  finished_ = true;
   return min_edge_hit_ ? StopCause::min_edge : StopCause::finished;
 }
 

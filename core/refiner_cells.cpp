@@ -218,10 +218,16 @@ PoorReason Refiner<D>::explain(CellId c) const {
 template <int D>
 std::vector<PoorCell> Refiner<D>::poor_cells() {
   std::vector<PoorCell> poor;
-  for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) {
-    const CellId c{i};
-    if (!mesh_->alive(c)) continue;
+  auto look_at = [&](CellId c) {
+    if (!mesh_->alive(c)) return;
     if (const CellVerdict verdict = bounds_.test(*mesh_, c)) poor.push_back({c, verdict.over_size, explain(c)});
+  };
+  if (finished_) {
+    // Every poor cell was listed when it was made and is alive only because it was refused.
+    for (const Entry& e : refused_cells_)
+      if (alive(e)) look_at(e.cell);
+  } else {
+    for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) look_at(CellId{i});
   }
   return poor;
 }

@@ -219,7 +219,7 @@ void PlanarTriangulation::flood(std::vector<std::uint32_t>& queue, bool inside) 
     queue.pop_back();
     for (std::size_t i = 0; i < 3; ++i) {
       Cell& next = cells_[cells_[t].n[i]];
-      if ((cells_[t].fixed >> i & 1u) != 0 || next.inside == inside || is_ghost(next)) continue;
+      if (is_fixed(cells_[t], i) || next.inside == inside || is_ghost(next)) continue;
       next.inside = inside;
       queue.push_back(cells_[t].n[i]);
     }
@@ -241,7 +241,7 @@ PlanarResult PlanarTriangulation::carve_hole(const Point3& p) {
     const std::uint32_t v = c.v[static_cast<std::size_t>(where.vertex)];
     return problem(PlanarStatus::on_constraint, v, v);
   }
-  if (where.edge >= 0 && (c.fixed >> where.edge & 1) != 0)
+  if (where.edge >= 0 && is_fixed(c, where.edge))
     return problem(PlanarStatus::on_constraint, c.v[static_cast<std::size_t>((where.edge + 1) % 3)],
                    c.v[static_cast<std::size_t>((where.edge + 2) % 3)]);
   if (is_ghost(c) || !c.inside) return {PlanarStatus::outside};
@@ -258,7 +258,7 @@ void PlanarTriangulation::keep_left_of(std::span<const PlanarEdge> edges) {
     const std::uint32_t u = local(a), w = local(b);
     if (u == none || w == none) continue;
     const Side s = find_edge(u, w);
-    if (s.t == none || (cells_[s.t].fixed >> s.i & 1) == 0 || cells_[s.t].inside || is_ghost(cells_[s.t])) continue;
+    if (s.t == none || !is_fixed(cells_[s.t], s.i) || cells_[s.t].inside || is_ghost(cells_[s.t])) continue;
     cells_[s.t].inside = true;
     queue.push_back(s.t);
     flood(queue, true);
@@ -277,7 +277,7 @@ std::vector<PlanarEdge> PlanarTriangulation::domain_constraints() const {
   for (std::uint32_t t = 0; t < cells_.size(); ++t) {
     const Cell& c = cells_[t];
     for (std::size_t i = 0; c.inside && i < 3; ++i) {
-      if ((c.fixed >> i & 1u) == 0 || (cells_[c.n[i]].inside && c.n[i] < t)) continue;
+      if (!is_fixed(c, i) || (cells_[c.n[i]].inside && c.n[i] < t)) continue;
       out.push_back({ids_[c.v[(i + 1) % 3]], ids_[c.v[(i + 2) % 3]]});
     }
   }

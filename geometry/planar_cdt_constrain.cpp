@@ -83,7 +83,7 @@ PlanarResult PlanarTriangulation::march(std::uint32_t a, std::uint32_t b, Side a
   crossing.left_edges = {{at.t, (at.i + 1) % 3}};
   crossing.right_edges = {{at.t, (at.i + 2) % 3}};
   while (true) {
-    if ((cells_[at.t].fixed >> at.i & 1) != 0) return problem(PlanarStatus::edges_cross, a, b, r, l);
+    if (is_fixed(cells_[at.t], at.i)) return problem(PlanarStatus::edges_cross, a, b, r, l);
     const Side next{cells_[at.t].n[k(at.i)], mirror(at.t, at.i)};
     const std::uint32_t w = cells_[next.t].v[k(next.i)];  // the cell is (w, l, r)
     crossing.cells.push_back(next.t);
@@ -142,7 +142,7 @@ void PlanarTriangulation::fill_crossing(const Crossing& crossing, const std::vec
   for (const auto* edges : {&crossing.left_edges, &crossing.right_edges})
     for (const Side& e : *edges)
       behind[{e.t, e.i}] = {{cells_[e.t].n[static_cast<std::size_t>(e.i)], mirror(e.t, e.i)},
-                            (cells_[e.t].fixed >> e.i & 1) != 0};
+                            is_fixed(cells_[e.t], e.i)};
   std::size_t next = 0;
   Side base[2];
   for (const int side : {0, 1}) {

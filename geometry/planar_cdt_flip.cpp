@@ -80,7 +80,7 @@ void PlanarTriangulation::end_change() {
 bool PlanarTriangulation::flip_is_due(std::uint32_t t, int i, bool flat) const {
   const Cell& c = cells_[t];
   const auto at = [](const Cell& cell, int k) { return cell.v[static_cast<std::size_t>(k % 3)]; };
-  if ((c.fixed >> i & 1) != 0) return false;
+  if (is_fixed(c, i)) return false;
   const std::uint32_t p = at(c, i), a = at(c, i + 1), b = at(c, i + 2);
   const std::uint32_t q = at(cells_[c.n[static_cast<std::size_t>(i)]], mirror(t, i));
   if (p == ghost || q == ghost) return false;
@@ -101,17 +101,17 @@ void PlanarTriangulation::flip(std::uint32_t t, int i) {
   // Edges: b-p is i+1 of c, p-a is i+2 of c, a-q is j+1 of d, q-b is j+2 of d.
   const Side bp{c.n[k(i + 1)], mirror(t, (i + 1) % 3)}, pa{c.n[k(i + 2)], mirror(t, (i + 2) % 3)};
   const Side aq{d.n[k(j + 1)], mirror(u, (j + 1) % 3)}, qb{d.n[k(j + 2)], mirror(u, (j + 2) % 3)};
-  const auto bit = [](std::uint8_t fixed, std::size_t from, int to) { return (fixed >> from & 1) << to; };
+  const auto bit = [](const Cell& cell, std::size_t from, int to) { return is_fixed(cell, from) ? 1 << to : 0; };
   // A pocket of the hull: the triangle without the ghost is new, and in the domain if nothing bounds it there.
   const bool hull = a == ghost || b == ghost;
   const auto open = [&](const Cell& cell, std::size_t e) {
-    return (cell.fixed >> e & 1) == 0 && cells_[cell.n[e]].inside;
+    return !is_fixed(cell, e) && cells_[cell.n[e]].inside;
   };
   const bool t_inside = hull ? a != ghost && (open(d, k(j + 1)) || open(c, k(i + 2))) : c.inside;
   const bool u_inside = hull ? b != ghost && (open(d, k(j + 2)) || open(c, k(i + 1))) : c.inside;
-  set_cell(t, {p, a, q}, static_cast<std::uint8_t>(bit(d.fixed, k(j + 1), 0) | bit(c.fixed, k(i + 2), 2)),
+  set_cell(t, {p, a, q}, static_cast<std::uint8_t>(bit(d, k(j + 1), 0) | bit(c, k(i + 2), 2)),
            t_inside);
-  set_cell(u, {p, q, b}, static_cast<std::uint8_t>(bit(d.fixed, k(j + 2), 0) | bit(c.fixed, k(i + 1), 1)),
+  set_cell(u, {p, q, b}, static_cast<std::uint8_t>(bit(d, k(j + 2), 0) | bit(c, k(i + 1), 1)),
            u_inside);
   link({t, 1}, {u, 2});
   link({t, 0}, aq);
@@ -157,7 +157,7 @@ bool PlanarTriangulation::is_constraint(std::uint32_t a, std::uint32_t b) const 
   const std::uint32_t u = local(a), w = local(b);
   if (u == none || w == none || u == w) return false;
   const Side s = find_edge(u, w);
-  return s.t != none && (cells_[s.t].fixed >> s.i & 1) != 0;
+  return s.t != none && is_fixed(cells_[s.t], s.i);
 }
 
 bool PlanarTriangulation::has_triangle(const PlanarTriangle& t) const {
@@ -180,8 +180,8 @@ bool PlanarTriangulation::is_valid(bool delaunay) const {
       const Cell& d = cells_[c.n[i]];
       if (d.n[static_cast<std::size_t>(j)] != t || d.v[static_cast<std::size_t>((j + 2) % 3)] != c.v[(i + 1) % 3])
         return false;
-      const bool fixed = (c.fixed >> i & 1u) != 0;
-      if (fixed != ((d.fixed >> j & 1) != 0)) return false;
+      const bool fixed = is_fixed(c, i);
+      if (fixed != is_fixed(d, j)) return false;
       if (!fixed && c.inside != d.inside && !is_ghost(c) && !is_ghost(d)) return false;
       if (delaunay && flip_is_due(t, static_cast<int>(i), false)) return false;
     }

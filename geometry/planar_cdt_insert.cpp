@@ -21,7 +21,7 @@ std::vector<PlanarTriangulation::RimEdge> PlanarTriangulation::rim_of(Location w
   const auto push = [&](std::uint32_t t, int i) {
     const Cell& c = cells_[t];
     const auto k = [](int x) { return static_cast<std::size_t>(x % 3); };
-    rim.push_back({c.v[k(i + 1)], c.v[k(i + 2)], {c.n[k(i)], mirror(t, i)}, (c.fixed >> i & 1) != 0, c.inside,
+    rim.push_back({c.v[k(i + 1)], c.v[k(i + 2)], {c.n[k(i)], mirror(t, i)}, is_fixed(c, i), c.inside,
                    is_ghost(c)});
   };
   const int first = where.edge < 0 ? 0 : where.edge + 1;
@@ -51,9 +51,9 @@ bool PlanarTriangulation::make_star_shaped(std::uint32_t p, std::vector<RimEdge>
     cells.push_back(edge.outer.t);
     // Behind a -> b the outer cell has b -> a; its other edges are a -> apex and apex -> b.
     const auto side = [&](int x) { return Side{c.n[k(x)], mirror(edge.outer.t, static_cast<int>(k(x)))}; };
-    rim[e] = {edge.a, apex, side(1), (c.fixed >> k(1) & 1u) != 0, edge.inside, false};
+    rim[e] = {edge.a, apex, side(1), is_fixed(c, k(1)), edge.inside, false};
     rim.insert(rim.begin() + static_cast<std::ptrdiff_t>(e) + 1,
-               {apex, edge.b, side(2), (c.fixed >> k(2) & 1u) != 0, edge.inside, false});
+               {apex, edge.b, side(2), is_fixed(c, k(2)), edge.inside, false});
   }
   return true;
 }
@@ -105,7 +105,7 @@ PlanarResult PlanarTriangulation::insert(std::uint32_t id, const Point3& p, Plan
   if (where.edge >= 0) {
     cells.push_back(c.n[static_cast<std::size_t>(where.edge)]);
     inside = inside || cells_[cells[1]].inside;
-    if (inside && (c.fixed >> where.edge & 1) != 0)
+    if (inside && is_fixed(c, where.edge))
       return problem(PlanarStatus::on_constraint, at(where.edge + 1), at(where.edge + 2));
   }
   if (!inside) return {PlanarStatus::outside};
@@ -120,7 +120,7 @@ PlanarResult PlanarTriangulation::split_edge(std::uint32_t a, std::uint32_t b, s
   const std::uint32_t u = local(a), w = local(b);
   const Side s = u == none || w == none || u == w ? Side{} : find_edge(u, w);
   if (s.t == none) return {PlanarStatus::no_such_edge, {a, b}, {}};
-  const bool fixed = (cells_[s.t].fixed >> s.i & 1) != 0;
+  const bool fixed = is_fixed(cells_[s.t], s.i);
   std::vector<RimEdge> rim = rim_of({s.t, s.i, -1});
   std::vector<std::uint32_t> cells{s.t, cells_[s.t].n[static_cast<std::size_t>(s.i)]};
   const std::uint32_t v = add_vertex(id, p);

@@ -12,6 +12,7 @@
 
 #include <vector>
 
+#include "pgdr/key_set.hpp"
 #include "pgdr/mesh.hpp"
 
 namespace pgdr {
@@ -131,6 +132,7 @@ class Cavity {
     EntityId entity;
   };
   std::vector<RimRidge> rim_;
+  KeySet rim_keys_;
   std::array<VertexId, 2> split_edge_{no_vertex, no_vertex};  // 3D: the subsegment being split
   EntityId split_segment_ = no_entity;
   bool shrunk_ = false, touches_constraints_ = false, has_ghosts_ = false;

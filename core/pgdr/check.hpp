@@ -90,7 +90,8 @@ struct CheckReport {
 };
 
 /// Runs all checks for which `options` has the data. Bad indices and coordinates that are not finite end it early.
-/// @throws UsageError bad_size if the size function returns a value that is not positive; ResourceError.
+/// @throws UsageError bad_size if the size function returns a value that is not positive; InputError entities_intersect
+///   if walls of the input overlap so that no line crosses them one after the other; ResourceError.
 template <int D>
 CheckReport check(const OutputMesh<D>& mesh, const CheckOptions<D>& options);
 

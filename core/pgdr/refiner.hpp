@@ -54,7 +54,7 @@ class Refiner {
   void list_all();
   /// Treats what is listed, and what that brings forth, until nothing is left or a budget ends.
   StopCause run();
-  /// After `run` finished: every cell still over a bound, with its reason.
+  /// Every cell still over a bound, with its reason. After `run`, or without it.
   std::vector<PoorCell> poor_cells();
 
   const RefineCounts& counts() const { return counts_; }
@@ -126,7 +126,7 @@ class Refiner {
   std::map<std::array<VertexId, D + 1>, EntityPair> why_;  // of refused elements
   std::optional<EntityPair> last_refusal_;
   std::uint64_t vertices_, commits_at_check_ = 0;
-  bool min_edge_hit_ = false;
+  bool min_edge_hit_ = false, finished_ = false;
   RefineCounts counts_;
   std::chrono::steady_clock::time_point start_, last_progress_;
 };

@@ -1,0 +1,335 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The checker's bounds and reasons, the two counts of faces that are not Delaunay, and what may lie outside the mesh.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mesh_mutations.hpp"
+#include "pgdr/check.hpp"
+#include "test_check_models.hpp"
+
+namespace {
+
+using namespace pgdr;
+using namespace pgdr::test;
+using Kind = CheckFinding::Kind;
+using Code = PoorReason::Code;
+
+EntityRef segment(EntityId s) { return {EntityKind::segment, s}; }
+EntityRef facet(EntityId f) { return {EntityKind::facet, f}; }
+EntityRef point(EntityId p) { return {EntityKind::vertex, p}; }
+
+template <int D>
+CheckReport run(const Model<D>& model, CheckOptions<D> options, const std::vector<PoorReason>& reasons) {
+  const Domain<D> domain(model.plc);
+  options.domain = &domain;
+  options.reasons = &reasons;
+  return check(model.mesh, options);
+}
+
+/// Two triangles with an angle of about 20 degrees at a corner each, far from each other. The points of each: the corner, then its sides' ends;
+/// segments 0 and 2 (3 and 5) meet at the corner.
+Model<2> two_needles() {
+  Model<2> m;
+  for (const double x : {0.0, 100.0})
+    for (const Point2& p : {Point2{{x, 0}}, Point2{{x + 1, 0}}, Point2{{x + 0.9375, 0.34375}}}) m.plc.points.push_back(p);
+  for (const std::uint32_t i : {0u, 3u}) {
+    m.plc.segments.push_back({{i, i + 1}, 0});
+    m.plc.segments.push_back({{i + 1, i + 2}, 0});
+    m.plc.segments.push_back({{i, i + 2}, 0});
+    m.mesh.cells.push_back({i, i + 1, i + 2});
+    for (const auto& s : {std::array{i, i + 1}, std::array{i + 1, i + 2}, std::array{i, i + 2}})
+      m.mesh.subsegments.push_back({s, 0});
+  }
+  m.mesh.points = m.plc.points;
+  m.mesh.input_points = 6;
+  return m;
+}
+
+TEST(CheckBounds, SmallAnglesMustHold) {
+  const Model<2> m = two_needles();
+  CheckOptions<2> options;
+  options.radius_edge_bound = 1.41422;
+  const auto with = [&](std::vector<PoorReason> reasons) { return run(m, options, reasons); };
+  const auto none = with({});
+  EXPECT_EQ(none.exit_code(), 6);
+  EXPECT_EQ(none.over_radius_edge, 2u);
+  EXPECT_EQ(none.count(Kind::over_radius_edge), 2u);
+
+  const PoorReason first{0, Code::small_angle, {segment(0), segment(2)}, 20};
+  const auto good = with({first, {1, Code::small_angle, {segment(3), segment(5)}, 20}});
+  EXPECT_EQ(good.exit_code(), 1);
+  EXPECT_EQ(good.explained, 2u);
+
+  const std::vector<std::pair<const char*, PoorReason>> false_claims = {
+      {"an angle of 80 degrees", {1, Code::small_angle, {segment(3), segment(4)}, 20}},
+      {"segments that do not touch", {1, Code::small_angle, {segment(3), segment(0)}, 20}},
+      {"a small angle far away", {1, Code::small_angle, {segment(0), segment(2)}, 20}},
+      {"one segment twice", {1, Code::small_angle, {segment(3), segment(3)}, 20}},
+      {"no such segment", {1, Code::small_angle, {segment(3), segment(77)}, 20}},
+      {"no entity", {1, Code::small_angle, {EntityRef{}, segment(3)}, 20}},
+      {"rounding, for half of the cells", {1, Code::rounding, {}, 0}},
+      {"a bound above the proved one", {1, Code::beyond_theory, {}, 0}},
+  };
+  for (const auto& [what, reason] : false_claims) {
+    const auto report = with({first, reason});
+    EXPECT_EQ(report.exit_code(), 6) << what;
+    EXPECT_GT(report.count(Kind::bad_reason), 0u) << what;
+  }
+  EXPECT_EQ(with({first, {7, Code::rounding, {}, 0}}).count(Kind::bad_reason), 1u) << "no such cell";
+  EXPECT_EQ(with({first, {0, Code::rounding, {}, 0}}).count(Kind::over_radius_edge), 1u) << "a reason for another cell";
+  // Any of several reasons will do; an input point stands for what meets there.
+  EXPECT_EQ(with({first, {1, Code::beyond_theory, {}, 0}, {1, Code::small_angle, {segment(5), segment(3)}, 20}}).exit_code(), 1);
+  EXPECT_EQ(with({first, {1, Code::small_angle, {point(3), segment(3)}, 20}}).exit_code(), 1);
+  EXPECT_EQ(with({first, {1, Code::small_angle, {segment(3), point(4)}, 20}}).exit_code(), 6);
+}
+
+TEST(CheckBounds, BeyondTheoryBelowTheProvedBound) {
+  CheckOptions<2> options;
+  options.radius_edge_bound = 1.2;
+  const auto report = run(two_needles(), options, {{0, Code::beyond_theory, {}, 0}, {1, Code::beyond_theory, {}, 0}});
+  EXPECT_EQ(report.exit_code(), 1);
+}
+
+TEST(CheckBounds, ReasonsNeedTheInput) {
+  const Model<2> m = two_needles();
+  CheckOptions<2> options;
+  options.radius_edge_bound = 1.41422;
+  const std::vector<PoorReason> reasons{{0, Code::small_angle, {segment(0), segment(2)}, 20}};
+  options.reasons = &reasons;
+  const auto report = check(m.mesh, options);
+  EXPECT_EQ(report.count(Kind::bad_reason), 1u);
+  EXPECT_EQ(report.count(Kind::over_radius_edge), 1u);
+}
+
+TEST(CheckBounds, AnglesInSpace) {
+  // In the block all angles are right. In the slanted one the facets through a corner meet at 60 or 120 degrees.
+  CheckOptions<3> options;
+  options.radius_edge_bound = 0.5;  // below what any tetrahedron has
+  const auto claim = [&](const Model<3>& m, EntityRef a, EntityRef b) {
+    const auto report = run(m, options, {{0, Code::small_angle, {a, b}, 45}});
+    return report.explained == 1;
+  };
+  const auto straight_block = solid_block<3>("block", 2, straight<3>());
+  const auto slanted_block = solid_block<3>("block", 2, slanted<3>());
+  int straight_small = 0, slanted_facets = 0, slanted_mixed = 0;
+  for (EntityId a = 0; a < 12; ++a)
+    for (EntityId b = 0; b < 12; ++b) {
+      straight_small += claim(straight_block, segment(a), segment(b));
+      if (a < 6 && b < 6) straight_small += claim(straight_block, facet(a), facet(b));
+      if (b < 6) straight_small += claim(straight_block, segment(a), facet(b));
+      if (a < 6 && b < 6) slanted_facets += claim(slanted_block, facet(a), facet(b));
+      if (b < 6) slanted_mixed += claim(slanted_block, segment(a), facet(b));
+    }
+  EXPECT_EQ(straight_small, 0);
+  EXPECT_GT(slanted_facets, 0);
+  EXPECT_LE(slanted_facets, 12);  // half of the 12 pairs with a common edge, both ways
+  EXPECT_GT(slanted_mixed, 0);
+}
+
+TEST(CheckBounds, Sizes) {
+  auto m = two_regions<3>(straight<3>());  // cells of volume 1/6, circumradius sqrt(3)/2
+  CheckOptions<3> options;
+  const auto over = [&] { return run(m, options, {}).over_size; };
+  const std::uint64_t cells = m.mesh.cells.size();
+  options.size = std::sqrt(0.75);
+  const bool rounded_down = std::sqrt(0.75) * std::sqrt(0.75) < 0.75;
+  EXPECT_EQ(over(), rounded_down ? cells : 0u) << "the bound is met or missed by all alike";
+  options.size = 0.8660;
+  EXPECT_EQ(over(), cells);
+  options.size = [](const Point3& p) { return p[0] < 2 ? 0.8660 : 0.8661; };
+  EXPECT_EQ(over(), cells / 2);
+  options.size = {};
+  options.max_measure = 0.16;
+  EXPECT_EQ(over(), cells);
+  options.max_measure = 0.17;
+  EXPECT_EQ(over(), 0u);
+  m.plc.regions[1].size = 0.16;
+  EXPECT_EQ(over(), cells / 2) << "the bound of one region";
+  EXPECT_EQ(run(m, options, {}).exit_code(), 6);
+  options.size = [](const Point3&) { return std::nan(""); };
+  EXPECT_THROW(run(m, options, {}), UsageError);
+}
+
+TEST(CheckBounds, AreasInThePlane) {
+  const auto m = two_regions<2>(straight<2>());
+  CheckOptions<2> options;
+  options.size = 0.5;
+  EXPECT_EQ(run(m, options, {}).over_size, 0u);
+  options.size = 0.49;
+  EXPECT_EQ(run(m, options, {}).over_size, m.mesh.cells.size());
+}
+
+/// A strip of squares, turned so that Steiner points on its long sides are rounded.
+Model<2> turned_strip(int length) {
+  const AffineMap<2> map{{1000, 2000}, {{{4, 3}, {-3, 4}}}};
+  const Lattice<2> low{}, high{length, 3};
+  PlcMaker<2> maker(map);
+  maker.box(low, high);
+  Block<2> block{high, map};
+  block.marker = [=](int axis, const auto& corners) { return box_marker<2>(low, high, axis, corners); };
+  return {"turned_strip", maker.plc, BlockMesher<2>(block).run(maker.lattice)};
+}
+
+TEST(CheckDelaunay, RoundingIsCountedWhereOnlySlantedPointsAreConcerned) {
+  const auto m = turned_strip(30);
+  const auto report = run(m, {}, {});
+  // Volume points are nobody's rounding: a violation among them alone is a real one, however small.
+  const VertexKinds<2> kinds(m.mesh);
+  EXPECT_GT(report.not_delaunay_rounding, 0u);
+  EXPECT_GT(report.count(Kind::not_delaunay), 0u);
+  for (const auto& f : report.findings) EXPECT_EQ(f.kind, Kind::not_delaunay) << f.message;
+  EXPECT_EQ(report.not_delaunay_refused, 0u);
+
+  const AffineMap<2> map{{1000, 2000}, {{{4, 3}, {-3, 4}}}};
+  const Lattice<2> low{}, high{30, 1};
+  PlcMaker<2> maker(map);
+  maker.box(low, high);
+  Block<2> block{high, map};
+  block.marker = [=](int axis, const auto& corners) { return box_marker<2>(low, high, axis, corners); };
+  const Model<2> narrow{"narrow", maker.plc, BlockMesher<2>(block).run(maker.lattice)};
+  const auto rounding_alone = run(narrow, {}, {});
+  EXPECT_GT(rounding_alone.not_delaunay_rounding, 0u);
+  EXPECT_EQ(rounding_alone.exit_code(), 0);
+  CheckOptions<2> exact;
+  exact.conformity_ulps = 0;
+  const auto strict = run(narrow, exact, {});
+  EXPECT_EQ(strict.not_delaunay_rounding, 0u) << "without ulps nothing may move";
+}
+
+TEST(CheckDelaunay, RefusedOnlyBesideANamedEntity) {
+  auto m = two_needles();
+  // A square beside the needles, with its wrong diagonal after a push: points 6 to 9.
+  m.plc.points.insert(m.plc.points.end(), {{{0, 5}}, {{1, 5}}, {{1.25, 6.5}}, {{0, 6}}});
+  m.mesh.points = m.plc.points;
+  m.mesh.cells.push_back({6, 7, 8});
+  m.mesh.cells.push_back({6, 8, 9});
+  for (const auto& s : {std::array{6u, 7u}, std::array{7u, 8u}, std::array{8u, 9u}, std::array{6u, 9u}}) {
+    m.plc.segments.push_back({s, 0});
+    m.mesh.subsegments.push_back({s, 0});
+  }
+  m.mesh.input_points = 10;
+  EXPECT_EQ(run(m, {}, {}).count(Kind::not_delaunay), 1u);
+  const PoorReason elsewhere{0, Code::small_angle, {segment(0), segment(2)}, 20};
+  EXPECT_EQ(run(m, {}, {elsewhere}).count(Kind::not_delaunay), 1u);
+  const PoorReason no_angle{2, Code::small_angle, {segment(6), segment(7)}, 20};
+  EXPECT_EQ(run(m, {}, {no_angle}).count(Kind::not_delaunay), 1u) << "an entity named with a false angle";
+  // With a needle at the square's corner the same face is one beside a refused entity.
+  m.plc.points.push_back({{-1, 4.875}});
+  m.plc.points.push_back({{-1, 5.125}});
+  m.mesh.points = m.plc.points;
+  m.mesh.input_points = 12;
+  m.mesh.cells.push_back({6, 11, 10});
+  for (const auto& s : {std::array{6u, 10u}, std::array{6u, 11u}, std::array{10u, 11u}}) {
+    m.plc.segments.push_back({s, 0});
+    m.mesh.subsegments.push_back({s, 0});
+  }
+  const PoorReason beside{4, Code::small_angle, {segment(10), segment(11)}, 14};
+  const auto report = run(m, {}, {beside});
+  EXPECT_EQ(report.not_delaunay_refused, 1u);
+  EXPECT_EQ(report.exit_code(), 1);
+}
+
+template <class Tag>
+class CheckOutside : public testing::Test {};
+template <int D>
+struct Dimension {
+  static constexpr int value = D;
+};
+using Dimensions = testing::Types<Dimension<2>, Dimension<3>>;
+TYPED_TEST_SUITE(CheckOutside, Dimensions);
+
+TYPED_TEST(CheckOutside, FilledHolesAreFound) {
+  constexpr int D = TypeParam::value;
+  for (const auto& map : {straight<D>(), slanted<D>()}) {
+    const auto report = run(cavity<D>(map, true), {}, {});
+    EXPECT_EQ(report.exit_code(), 6);
+    EXPECT_GE(report.count(Kind::hole_filled), 2u) << "by its walls and by its seed";
+  }
+}
+
+TYPED_TEST(CheckOutside, MissingEntitiesOutsideAreFine) {
+  constexpr int D = TypeParam::value;
+  auto m = cavity<D>(straight<D>());
+  const auto add_point = [&](double x) {
+    Point<D> p;
+    for (int k = 0; k < D; ++k) p[k] = x + 0.0625 * k * k;
+    m.plc.points.push_back(p);
+    return static_cast<std::uint32_t>(m.plc.points.size() - 1);
+  };
+  const auto a = add_point(10), b = add_point(11), c = add_point(1.3), d = add_point(1.6);
+  m.plc.segments.push_back({{a, b}, 3});  // outside
+  m.plc.segments.push_back({{c, d}, 4});  // in the cavity
+  add_point(12);
+  EXPECT_EQ(run(m, {}, {}).exit_code(), 0);
+  // They may also stay among the points, as long as no cell needs them.
+  for (std::size_t i = m.mesh.input_points; i < m.plc.points.size(); ++i) m.mesh.points.push_back(m.plc.points[i]);
+  EXPECT_EQ(run(m, {}, {}).exit_code(), 0);
+  // The same inside the solid is missing.
+  add_point(2.25);
+  const auto report = run(m, {}, {});
+  EXPECT_EQ(report.count(Kind::missing_input_point), 1u);
+  const auto e = static_cast<std::uint32_t>(m.plc.points.size() - 1), f = add_point(2.5);
+  m.plc.segments.push_back({{e, f}, 0});
+  EXPECT_EQ(run(m, {}, {}).count(Kind::segment_not_conforming), 1u);
+}
+
+TYPED_TEST(CheckOutside, SeedsInTheWrongPlace) {
+  constexpr int D = TypeParam::value;
+  auto m = two_regions<D>(straight<D>());
+  m.plc.regions[0].point = m.plc.points[0];
+  EXPECT_GT(run(m, {}, {}).count(Kind::wrong_region), 0u) << "on a corner";
+  m.plc.regions[0].point[0] = -1;
+  EXPECT_GT(run(m, {}, {}).count(Kind::wrong_region), 0u) << "outside";
+  m = two_regions<D>(straight<D>());
+  std::swap(m.plc.regions[0].attribute, m.plc.regions[1].attribute);
+  EXPECT_GT(run(m, {}, {}).count(Kind::wrong_region), 0u) << "labels exchanged";
+}
+
+// Six triangles that turn round a vertex twice: every one is positive, all faces match, and the hull is a closed curve.
+TEST(CheckOverlap, AFanThatTurnsTwice) {
+  OutputMesh<2> mesh;
+  mesh.points.push_back({{0, 0}});
+  for (int i = 0; i < 6; ++i) {
+    const double angle = 6.283185307179586 * i / 3, radius = i < 3 ? 1 : 1.5;
+    mesh.points.push_back({{radius * std::cos(angle), radius * std::sin(angle)}});
+  }
+  for (std::uint32_t i = 0; i < 6; ++i) {
+    const std::uint32_t a = 1 + i, b = 1 + (i + 1) % 6;
+    mesh.cells.push_back({0, a, b});
+    mesh.subsegments.push_back({{a, b}, 0});
+  }
+  const auto report = check(mesh, CheckOptions<2>{});
+  EXPECT_EQ(report.count(Kind::overlapping), 1u);
+  EXPECT_EQ(report.count(Kind::bad_link), 0u);
+}
+
+TEST(CheckReport, CountsAllAndListsSome) {
+  auto m = solid_block<3>("block", 3, straight<3>());
+  for (auto& cell : m.mesh.cells) std::swap(cell[0], cell[1]);
+  CheckOptions<3> options;
+  options.max_listed = 5;
+  const auto report = run(m, options, {});
+  EXPECT_EQ(report.count(Kind::inverted_cell), m.mesh.cells.size());
+  EXPECT_GE(report.finding_count, m.mesh.cells.size());
+  EXPECT_EQ(std::count_if(report.findings.begin(), report.findings.end(),
+                          [](const auto& f) { return f.kind == Kind::inverted_cell; }),
+            5);
+  for (const auto& f : report.findings) {
+    EXPECT_EQ(f.message.back(), '.');
+    EXPECT_TRUE(std::isupper(static_cast<unsigned char>(f.message[0]))) << f.message;
+  }
+}
+
+TEST(CheckReport, EmptyMeshes) {
+  EXPECT_EQ(check(OutputMesh<3>{}, CheckOptions<3>{}).exit_code(), 0);
+  auto m = solid_block<3>("block", 1, straight<3>());
+  m.mesh = {};
+  const auto report = run(m, {}, {});
+  EXPECT_EQ(report.count(Kind::missing_input_point), 8u);
+  EXPECT_EQ(report.count(Kind::wrong_volume), 1u);
+}
+
+}  // namespace

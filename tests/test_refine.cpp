@@ -1,0 +1,280 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// From input to mesh on the shared models, plain and turned, each mesh through the independent checker.
+#include "pgdr/refine.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <thread>
+
+#include "model_plcs.hpp"
+#include "pgdr/io.hpp"
+#include "pgdr/quality.hpp"
+
+namespace pgdr {
+namespace {
+
+template <int D>
+struct Outcome {
+  RefineResult<D> result;
+  CheckReport report;
+};
+
+/// Refines and checks with the same bounds.
+template <int D>
+Outcome<D> refine_and_check(const Plc<D>& plc, const RefineOptions<D>& options) {
+  const Domain<D> domain(plc);
+  Outcome<D> outcome{refine<D>(domain, options), {}};
+  CheckOptions<D> check_options;
+  check_options.domain = &domain;
+  check_options.radius_edge_bound = options.radius_edge_bound;
+  check_options.size = options.size;
+  check_options.max_measure = options.max_volume;
+  check_options.reasons = &outcome.result.reasons;
+  outcome.report = check<D>(outcome.result.mesh, check_options);
+  return outcome;
+}
+
+std::string findings(const CheckReport& report) {
+  std::string text;
+  for (const auto& f : report.findings) text += std::string(name(f.kind)) + ": " + f.message + "\n";
+  return text;
+}
+
+struct Model {
+  const char* name;
+  Plc<3> (*make)();
+  double size;         ///< of the circumradius; infinity: none
+  double most_poor;    ///< share of the cells that may stay poor
+};
+
+const Model models[] = {
+    {"cube", test::cube, 0.12, 0},
+    {"cube_with_two_points", test::cube_with_two_points, INFINITY, 0},
+    {"two_region_cube", test::two_region_cube, INFINITY, 0},
+    {"block_with_cavity", test::block_with_cavity, 0.3, 0},
+    {"l_block", test::l_block, 0.25, 0},
+    {"u_block", test::u_block, INFINITY, 0},
+    {"plate_with_hole", test::plate_with_hole, INFINITY, 0},
+    {"cube_with_marked_facet", test::cube_with_marked_facet, INFINITY, 0},
+    {"icosahedron", [] { return test::icosphere(0); }, INFINITY, 0.001},
+    {"icosphere_1", [] { return test::icosphere(1); }, 0.3, 0.001},
+    {"icosphere_2", [] { return test::icosphere(2); }, INFINITY, 0.001},
+    {"icosphere_3", [] { return test::icosphere(3); }, INFINITY, 0.001},
+};
+
+class RefineModel : public ::testing::TestWithParam<std::tuple<Model, bool>> {};
+
+TEST_P(RefineModel, MeetsItsBoundsAndConforms) {
+  const auto& [model, is_turned] = GetParam();
+  const Plc<3> plc = is_turned ? test::turned<3>(model.make()) : model.make();
+  RefineOptions<3> options;
+  options.size = model.size;
+  const auto [result, report] = refine_and_check<3>(plc, options);
+  EXPECT_EQ(result.stop, StopCause::finished);
+  EXPECT_LE(report.exit_code(), 1) << findings(report);
+  EXPECT_LE(static_cast<double>(result.poor_left), model.most_poor * static_cast<double>(result.mesh.cells.size()));
+  EXPECT_EQ(result.reasons.size(), result.poor_left);
+  EXPECT_EQ(result.size_met, report.over_size == 0);
+  if (!is_turned && model.most_poor == 0) {
+    EXPECT_EQ(report.exit_code(), 0);
+    EXPECT_EQ(report.not_delaunay_rounding + report.not_delaunay_refused, 0u);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, RefineModel, ::testing::Combine(::testing::ValuesIn(models), ::testing::Bool()),
+                         [](const auto& info) {
+                           return std::string(std::get<0>(info.param).name) + (std::get<1>(info.param) ? "_turned" : "");
+                         });
+
+TEST(Refine, GradedOverFourOrdersOfVolume) {
+  RefineOptions<3> options;
+  // Sizes from 0.01 to 0.22: volumes differ by (22)^3 = 1e4.
+  options.size = [](const Point3& p) {
+    return 0.01 + 0.12 * std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+  };
+  for (const bool is_turned : {false, true}) {
+    const Plc<3> plc = is_turned ? test::turned<3>(test::cube(), 0) : test::cube();
+    const auto [result, report] = refine_and_check<3>(plc, options);
+    EXPECT_EQ(report.exit_code(), 0) << findings(report);
+    EXPECT_GT(result.mesh.cells.size(), 10000u);
+  }
+}
+
+TEST(Refine, SquareWithHoleAndInnerSegments) {
+  RefineOptions<2> options;
+  options.radius_edge_bound = 1 / (2 * std::sin(20.7 * std::numbers::pi / 180));
+  options.size = 0.01;
+  for (const bool is_turned : {false, true}) {
+    const Plc<2> plc = is_turned ? test::turned<2>(test::square_with_hole()) : test::square_with_hole();
+    const auto [result, report] = refine_and_check<2>(plc, options);
+    EXPECT_EQ(report.exit_code(), 0) << findings(report);
+    const QualitySummary quality = summarize_quality<2>(result.mesh);
+    EXPECT_GE(quality.min_angle_deg, 20.7 - 1e-9);
+    EXPECT_GT(result.mesh.cells.size(), 1000u);
+  }
+}
+
+TEST(Refine, VolumeBoundHolds) {
+  RefineOptions<3> options;
+  options.max_volume = 0.001;
+  const auto [result, report] = refine_and_check<3>(test::cube(), options);
+  EXPECT_EQ(report.exit_code(), 0) << findings(report);
+  EXPECT_GE(result.mesh.cells.size(), 1000u);
+}
+
+TEST(Refine, ScalingByPowersOfTwoScalesTheMesh) {
+  RefineOptions<3> options;
+  options.size = 0.3;
+  const auto plain = refine<3>(test::turned<3>(test::l_block(), 3), options);
+  for (const double factor : {0x1p-40, 0x1p60}) {
+    options.size = 0.3 * factor;
+    const auto big = refine<3>(test::scaled<3>(test::turned<3>(test::l_block(), 3), factor), options);
+    ASSERT_EQ(big.mesh.cells, plain.mesh.cells);
+    for (std::size_t i = 0; i < plain.mesh.points.size(); ++i)
+      for (int a = 0; a < 3; ++a) ASSERT_EQ(big.mesh.points[i][a], plain.mesh.points[i][a] * factor);
+  }
+}
+
+TEST(Refine, InputPointsAndMarkersAreKept) {
+  Plc<3> plc = test::cube_with_marked_facet();
+  for (std::size_t i = 0; i < plc.points.size(); ++i) plc.point_markers.push_back(static_cast<int>(100 + i));
+  RefineOptions<3> options;
+  options.size = 0.4;
+  const auto result = refine<3>(plc, options);
+  ASSERT_EQ(result.mesh.input_points, plc.points.size());
+  for (std::size_t i = 0; i < plc.points.size(); ++i) {
+    EXPECT_EQ(result.mesh.points[i], plc.points[i]);
+    EXPECT_EQ(result.mesh.point_markers[i], plc.point_markers[i]);
+  }
+  std::set<int> markers;
+  for (const auto& f : result.mesh.subfacets) markers.insert(f.marker);
+  EXPECT_EQ(markers, (std::set<int>{1, 2, 3, 4, 5, 6}));
+}
+
+TEST(Refine, RegionsKeepAttributesAndSizes) {
+  const auto [result, report] = refine_and_check<3>(test::two_region_cube(), {});
+  EXPECT_EQ(report.exit_code(), 0) << findings(report);
+  std::map<double, std::size_t> cells;
+  for (const double r : result.mesh.regions) ++cells[r];
+  ASSERT_EQ(cells.size(), 2u);
+  EXPECT_GE(cells[10], 1000u);  // half a unit of volume in cells of at most 0.0005
+  EXPECT_LT(cells[20], cells[10]);
+}
+
+TEST(Refine, BudgetsEndWithAValidMesh) {
+  RefineOptions<3> options;
+  options.size = 0.05;
+  options.max_vertices = 500;
+  auto outcome = refine_and_check<3>(test::cube(), options);
+  EXPECT_EQ(outcome.result.stop, StopCause::max_vertices);
+  EXPECT_LE(outcome.result.mesh.points.size(), 500u);
+  const auto valid_but_unfinished = [](const CheckReport& report) {
+    for (const auto& f : report.findings)
+      if (f.kind != CheckFinding::Kind::over_size && f.kind != CheckFinding::Kind::over_radius_edge &&
+          f.kind != CheckFinding::Kind::bad_reason)
+        return false;
+    return true;
+  };
+  EXPECT_TRUE(valid_but_unfinished(outcome.report)) << findings(outcome.report);
+
+  options.max_vertices = RefineOptions<3>{}.max_vertices;
+  options.min_edge = 0.2;
+  outcome = refine_and_check<3>(test::cube(), options);
+  EXPECT_EQ(outcome.result.stop, StopCause::min_edge);
+  EXPECT_TRUE(valid_but_unfinished(outcome.report)) << findings(outcome.report);
+
+  options.min_edge = 0;
+  options.size = 0.002;
+  options.time_limit = std::chrono::duration<double>(0.3);
+  EXPECT_EQ(refine<3>(test::cube(), options).stop, StopCause::time_limit);
+
+  options.time_limit.reset();
+  std::stop_source source;
+  options.stop = source.get_token();
+  std::uint64_t calls = 0;
+  options.progress = [&](const Progress& p) {
+    ++calls;
+    EXPECT_GT(p.vertices, 8u);
+    source.request_stop();
+  };
+  EXPECT_EQ(refine<3>(test::cube(), options).stop, StopCause::cancelled);
+  EXPECT_EQ(calls, 1u);
+}
+
+TEST(Refine, SelectorsPointsAreUsedAndChecked) {
+  RefineOptions<3> options;
+  options.radius_edge_bound = 4;
+  std::uint64_t calls = 0;
+  options.selector = [&](const PoorElement<3>& e) {
+    ++calls;
+    Point3 p = e.disk.center;
+    for (int i = 0; i < 3; ++i) p[i] += 0.5 * e.disk.radius / 2;  // inside the open disk
+    return p;
+  };
+  auto outcome = refine_and_check<3>(test::cube_with_two_points(), options);
+  EXPECT_LE(outcome.report.exit_code(), 1) << findings(outcome.report);
+  EXPECT_GT(calls, 0u);
+  EXPECT_EQ(outcome.result.statistics.selector_outside, 0u);
+
+  options.selector = [](const PoorElement<3>& e) {
+    return Point3{{e.circumcenter[0] + e.circumradius, e.circumcenter[1], e.circumcenter[2]}};
+  };
+  EXPECT_GT(refine<3>(test::cube_with_two_points(), options).statistics.selector_outside, 0u);
+  options.outside = OutsidePolicy::error;
+  EXPECT_THROW(refine<3>(test::cube_with_two_points(), options), UsageError);
+  options.selector = [](const PoorElement<3>&) -> Point3 { throw std::logic_error("mine"); };
+  EXPECT_THROW(refine<3>(test::cube_with_two_points(), options), std::logic_error);
+}
+
+TEST(Refine, BadOptionsAndSizesAreTypedErrors) {
+  const Plc<3> plc = test::cube();
+  auto code = [&](const RefineOptions<3>& options) {
+    try {
+      refine<3>(plc, options);
+    } catch (const UsageError& e) {
+      return e.code();
+    }
+    return Errc::internal;
+  };
+  RefineOptions<3> options;
+  options.size = -1;
+  EXPECT_EQ(code(options), Errc::bad_option);
+  options = {};
+  options.radius_edge_bound = NAN;
+  EXPECT_EQ(code(options), Errc::bad_option);
+  options = {};
+  options.size = [](const Point3& p) { return p[0] > 0.5 ? NAN : 1.0; };
+  EXPECT_EQ(code(options), Errc::bad_size);
+  options.size = [](const Point3&) { return 0.0; };
+  EXPECT_EQ(code(options), Errc::bad_size);
+}
+
+TEST(Refine, OpenSurfaceEnclosesNothing) {
+  Plc<3> plc = test::cube();
+  plc.facets.pop_back();
+  try {
+    refine<3>(plc, {});
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_EQ(e.code(), Errc::encloses_nothing);
+  }
+}
+
+TEST(Refine, SameInputSameMesh) {
+  for (const bool is_turned : {false, true}) {
+    const Plc<3> plc = is_turned ? test::turned<3>(test::plate_with_hole()) : test::plate_with_hole();
+    RefineOptions<3> options;
+    options.size = 0.2;
+    const auto a = refine<3>(plc, options), b = refine<3>(plc, options);
+    EXPECT_EQ(a.mesh.points, b.mesh.points);
+    EXPECT_EQ(a.mesh.cells, b.mesh.cells);
+  }
+}
+
+}  // namespace
+}  // namespace pgdr
