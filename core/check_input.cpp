@@ -78,6 +78,7 @@ class InputBuilder {
 
   void run() {
     collect_walls();
+    out_.box_simplices();
     collect_ridges();
     const auto n = static_cast<std::uint32_t>(out_.simplices_.size());
     sides_ = DisjointSets(2 * n + 1);  // side 2 i: positive, 2 i + 1: negative, 2 n: outside
@@ -89,6 +90,7 @@ class InputBuilder {
     }
     cast_lines();
     number_patches_and_volumes();
+    out_.box_simplices();
     place_seeds();
     collect_wanted();
     measure();

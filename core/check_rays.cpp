@@ -48,7 +48,17 @@ std::uint64_t mix(std::uint64_t x) {  // splitmix64
   return x ^ (x >> 31);
 }
 
-/// Distances of points from a line, along D - 1 directions normal to it, in doubles with a bound of their error.
+template <int D>
+void bounding_box(const std::array<Point<D>, D>& s, Point<D>& low, Point<D>& high) {
+  low = high = s[0];
+  for (const Point<D>& x : s)
+    for (int i = 0; i < D; ++i) {
+      low[i] = std::min(low[i], x[i]);
+      high[i] = std::max(high[i], x[i]);
+    }
+}
+
+/// Distances of boxes from a line, along D - 1 directions normal to it, in doubles with a bound of their error.
 template <int D>
 class Strip {
  public:
@@ -76,16 +86,14 @@ class Strip {
     slack_ = 0x1p-40 * (magnitude + length);
   }
 
-  bool may_cross(const std::array<Point<D>, D>& s) const {
+  bool may_cross(const Point<D>& low, const Point<D>& high) const {
     for (const auto& n : normal_) {
-      bool below = true, above = true;
-      for (const Point<D>& x : s) {
-        double height = 0;
-        for (int i = 0; i < D; ++i) height += n[i] * (x[i] - q_[i]);
-        below &= height < -slack_;
-        above &= height > slack_;
+      double height = 0, reach = slack_;
+      for (int i = 0; i < D; ++i) {
+        height += n[i] * ((low[i] - q_[i]) + (high[i] - q_[i])) / 2;
+        reach += std::abs(n[i]) * (high[i] - low[i]) / 2;
       }
-      if (below || above) return false;
+      if (std::abs(height) > reach) return false;
     }
     return true;
   }
@@ -106,6 +114,20 @@ std::array<Point<D>, D> InputVolumes<D>::simplex(std::uint32_t i) const {
 }
 
 template <int D>
+void InputVolumes<D>::box_simplices() {
+  boxes_.clear();
+  for (std::uint32_t i = 0; i < simplices_.size(); ++i) {
+    Box box;
+    bounding_box<D>(simplex(i), box.low, box.high);
+    if (i % boxed == 0) boxes_.push_back(box);
+    for (int k = 0; k < D; ++k) {
+      boxes_.back().low[k] = std::min(boxes_.back().low[k], box.low[k]);
+      boxes_.back().high[k] = std::max(boxes_.back().high[k], box.high[k]);
+    }
+  }
+}
+
+template <int D>
 std::optional<std::vector<std::uint32_t>> InputVolumes<D>::crossings(const Point<D>& q, const Point<D>& p) const {
   double magnitude = 0;
   for (const Point<D>& x : {q, p})
@@ -114,8 +136,14 @@ std::optional<std::vector<std::uint32_t>> InputVolumes<D>::crossings(const Point
   std::vector<std::uint32_t> hits;
   std::vector<std::array<Point<D>, D>> hit_simplices;
   for (std::uint32_t i = 0; i < simplices_.size(); ++i) {
+    if (i % boxed == 0 && !strip.may_cross(boxes_[i / boxed].low, boxes_[i / boxed].high)) {
+      i += boxed - 1;
+      continue;
+    }
     const auto s = simplex(i);
-    if (!strip.may_cross(s)) continue;
+    Point<D> low, high;
+    bounding_box<D>(s, low, high);
+    if (!strip.may_cross(low, high)) continue;
     const Crossing c = crossing<D>(s, q, p);
     if (c == Crossing::degenerate) return {};
     if (c == Crossing::miss) continue;

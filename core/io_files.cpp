@@ -70,8 +70,10 @@ FileOutput::FileOutput(const fs::path& target) : target_(target), buffer_(std::s
   if (fs::exists(target_, ec) && !fs::is_regular_file(target_, ec)) fail("it is not a regular file");
   constexpr int attempts = 100;
   for (int i = 0; i < attempts && stream_ == nullptr; ++i) {
+    std::string name(1, '.');
+    name.append(target_.filename().string(), 0, 200).append(1, '.').append(random_suffix()).append(".tmp");
     temporary_ = target_;
-    temporary_.replace_filename("." + target_.filename().string().substr(0, 200) + "." + random_suffix() + ".tmp");
+    temporary_.replace_filename(name);
     stream_ = std::fopen(temporary_.c_str(), "wbx");
     if (stream_ == nullptr && errno != EEXIST) break;
   }

@@ -17,7 +17,7 @@ constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 std::string described(Subject s) {
   std::string text(s.what);
-  if (s.id >= 0) text += " " + std::to_string(s.id);
+  if (s.id >= 0) text.append(" ").append(std::to_string(s.id));
   return text;
 }
 

@@ -5,6 +5,7 @@
 // their bits. Cells come first, then subfacets (3D), then subsegments; "region" means something for the cells and
 // "marker" for the others. Field data "dimension" and "input_points" let our reader restore the mesh.
 #include <functional>
+#include <initializer_list>
 #include <string>
 #include <utility>
 
@@ -117,13 +118,17 @@ void lay_out(std::vector<Block>& blocks) {
 
 /// The announcements of one section.
 void put_section(FileOutput& out, std::string_view section, const std::vector<Block>& blocks) {
-  std::string text = "<" + std::string(section) + ">\n";
+  const auto put = [&out](std::initializer_list<std::string_view> parts) {
+    for (const std::string_view part : parts) out.put(part);
+  };
+  put({"<", section, ">\n"});
   for (const Block& b : blocks) {
     if (b.section != section) continue;
-    text += "<DataArray type=\"" + std::string(b.type) + "\" Name=\"" + std::string(b.name) + "\"" +
-            std::string(b.shape) + " format=\"appended\" offset=\"" + std::to_string(b.offset) + "\"/>\n";
+    put({"<DataArray type=\"", b.type, "\" Name=\"", b.name, "\"", b.shape, " format=\"appended\" offset=\""});
+    out.put_number(b.offset);
+    out.put("\"/>\n");
   }
-  out.put(text + "</" + std::string(section) + ">\n");
+  put({"</", section, ">\n"});
 }
 
 }  // namespace

@@ -57,9 +57,10 @@ struct Offset {
 };
 
 // With w = n / (2 d), computed n and d off by e_n and e_d: the computed quotient is off by at most
-// (e_n/2 + e_d |w|) / |d| but for a factor 1 + 2^-20 (where the bound is accepted) and 3u|w| of its own. |w| = r is at
-// most the sum s of the magnitudes. 3D: u (26 M^4 + 12 M^3 r) / |d|, where M^3 r <= (M^4 + M^2 r^2) / 2: u (32 M^4 +
-// 6 M^2 s^2) / |d|. 2D: u (7.25 M^3 + 4.5 M^2 r) / |d| with M, a chord, at most 2r: 19u M^2 s / |d|. No root is needed.
+// (e_n/2 + e_d |w|) / |d| but for a factor 1 + 2^-20 (where the bound is accepted) and 3u|w| of its own. |w| is at most
+// the sum s of the magnitudes. 3D: u (26 M^4 + 12 M^3 s) / |d|, where M^3 s <= (M^4 + M^2 s^2) / 2 saves a root:
+// u (32 M^4 + 6 M^2 s^2) / |d|. 2D: u (7.25 M^3 + 4.5 M^2 s) / |d|. (M <= 2s must not be used here: where the computed
+// determinant is all error, s may be far below the radius.)
 template <int D>
 Offset<D> simplex_offset(const std::array<Point<D>, D>& d) {
   const detail::CircumTerms<D> t = detail::circum_terms(d);
@@ -67,7 +68,7 @@ Offset<D> simplex_offset(const std::array<Point<D>, D>& d) {
   Offset<D> o;
   for (int i = 0; i < D; ++i) o.w[i] = t.numerator[static_cast<std::size_t>(i)] * inverse;
   const double s = one_norm(o.w), m2 = t.longest2;
-  const double scaled = D == 3 ? m2 * (33 * m2 + 6.5 * (s * s)) : 20 * m2 * s;
+  const double scaled = D == 3 ? m2 * (33 * m2 + 6.5 * (s * s)) : m2 * (7.5 * std::sqrt(m2) + 5 * s);
   o.error = unit_roundoff * (scaled * std::fabs(2 * inverse) + 4 * s);
   if (!detail::in_safe_range(m2)) o.error = infinity;
   return o;

@@ -9,8 +9,7 @@ namespace {
 
 std::string located_message(const Diagnostic& d) {
   std::string s = d.file;
-  if (!s.empty() && d.line != 0) s += ":" + std::to_string(d.line);
-  if (s.empty() && d.line != 0) s = "line " + std::to_string(d.line);
+  if (d.line != 0) s.append(s.empty() ? "line " : ":").append(std::to_string(d.line));
   if (!s.empty()) s += ": ";
   return s + d.message;
 }

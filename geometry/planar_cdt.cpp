@@ -272,6 +272,13 @@ std::vector<PlanarTriangle> PlanarTriangulation::triangles() const {
   return out;
 }
 
+std::vector<std::uint8_t> PlanarTriangulation::constraint_masks() const {
+  std::vector<std::uint8_t> out;
+  for (const Cell& c : cells_)
+    if (c.inside) out.push_back(c.fixed);
+  return out;
+}
+
 std::vector<PlanarEdge> PlanarTriangulation::domain_constraints() const {
   std::vector<PlanarEdge> out;
   for (std::uint32_t t = 0; t < cells_.size(); ++t) {

@@ -59,6 +59,10 @@ TEST(MeshFiles, RegionsThatAreNoIntegersRoundTrip) {
   EXPECT_NE(content(folder / "a.mesh").find("# region 1 = -2\n# region 2 = -0\n# region 3 = 0\n"), std::string::npos);
   std::fill(mesh.regions.begin(), mesh.regions.end(), 0.5);
   expect_round_trip<3>(mesh);
+  // Integers but for one zero that has a sign.
+  std::fill(mesh.regions.begin(), mesh.regions.end(), 1);
+  mesh.regions[0] = -0.0;
+  expect_round_trip<3>(mesh);
 }
 
 TEST(MeshFiles, MeditTextIsWhatOthersExpect) {

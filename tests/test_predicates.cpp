@@ -127,14 +127,12 @@ TYPED_TEST(Predicates, StagesDecideWhatTheyAreFor) {
   EXPECT_EQ(detail::in_sphere_middle<D>(at(corner, 465), scaled(opposite, 464), Middle::expansion), std::nullopt);
   EXPECT_EQ(detail::in_sphere_middle<D>(at(corner, 465), scaled(opposite, 464), Middle::fixed_point), Sign::positive);
   // No common lattice: expansions; and not even those where a coordinate is 2^-700.
-  for (const auto& [moved, stage] : {std::pair{std::ldexp(1, -100), Middle::expansion}, {std::ldexp(1, -700), Middle::both}}) {
-    Point<D> p = opposite;
-    p.x[D - 1] = 0;
-    p.x[0] = D == 3 ? 1 : 0;  // on the sphere, a corner of the cube
+  for (const int k : {-100, -700}) {
     Simplex<D> s = corner;
-    s[0][0] = moved;          // and the simplex no longer through the origin
+    s[0][0] = std::ldexp(1, k);
+    EXPECT_EQ(detail::in_sphere_filter<D>(s, opposite), std::nullopt);
     EXPECT_EQ(detail::in_sphere_middle<D>(s, opposite, Middle::fixed_point), std::nullopt);
-    EXPECT_EQ(detail::in_sphere_middle<D>(s, opposite, Middle::expansion).has_value(), stage == Middle::expansion);
+    EXPECT_EQ(detail::in_sphere_middle<D>(s, opposite, Middle::expansion).has_value(), k == -100);
     EXPECT_EQ(in_sphere<D>(s, opposite), oracle::in_sphere<D>(s, opposite));
     EXPECT_NE(in_sphere<D>(s, opposite), Sign::zero);
   }
@@ -191,7 +189,7 @@ TYPED_TEST(Predicates, PerturbedAgreesWithHonestLittleNumbers) {
   int ties = 0;
   for (const oracle::Family<D>& family : oracle::families<D>()) {
     SCOPED_TRACE(family.name);
-    for (int round = 0; round < 3 * rounds; ++round) {
+    for (int round = 0; round < 2 * rounds; ++round) {
       Simplex<D> s;
       for (Point<D>& p : s) p = family.point(random);
       const Point<D> p = family.point(random);
@@ -200,8 +198,11 @@ TYPED_TEST(Predicates, PerturbedAgreesWithHonestLittleNumbers) {
       const Sign got = in_sphere_perturbed<D>(s, p);
       const Sign plain = in_sphere<D>(s, p);
       ties += plain == Sign::zero;
-      if (plain != Sign::zero) ASSERT_EQ(got, plain);
-      else if (family.tame) ASSERT_EQ(got, oracle::in_sphere<D>(s, p, true)) << print<D>({s.begin(), s.end()}) << print<D>({p});
+      if (plain != Sign::zero) {
+        ASSERT_EQ(got, plain);
+      } else if (family.tame) {
+        ASSERT_EQ(got, oracle::in_sphere<D>(s, p, true)) << print<D>({s.begin(), s.end()}) << print<D>({p});
+      }
       ASSERT_NE(got, Sign::zero);
       // The determinant is antisymmetric, ties included.
       for (std::size_t i = 0; i <= D; ++i) {
@@ -217,13 +218,12 @@ TYPED_TEST(Predicates, PerturbedAgreesWithHonestLittleNumbers) {
   EXPECT_GT(ties, 300);
 }
 
-// The four corners of a square, and the cube's: the lexicographically first point has the largest height, so it is cut
-// off by the others.
+// The lexicographically first corner has the largest height: the diagonal between its neighbours cuts it off.
 TEST(Perturbed, FirstCornerOfASquareIsHighest) {
   const Point2 a{{0, 0}}, b{{1, 0}}, c{{1, 1}}, d{{0, 1}};
   EXPECT_EQ(in_sphere_perturbed<2>({b, c, d}, a), Sign::negative);
   EXPECT_EQ(in_sphere_perturbed<2>({a, b, c}, d), Sign::positive);
-  EXPECT_EQ(in_sphere_perturbed<2>({a, b, d}, c), Sign::positive);
+  EXPECT_EQ(in_sphere_perturbed<2>({a, b, d}, c), Sign::negative);
   EXPECT_EQ(in_sphere_perturbed<2>({a, c, d}, b), Sign::positive);
 }
 
@@ -333,7 +333,7 @@ TYPED_TEST(Predicates, AnglesAgreeWithRationals) {
     }
   }
   EXPECT_GT(right, 100);
-  if (D == 3) EXPECT_GT(sixty, 20);
+  EXPECT_TRUE(D == 2 || sixty > 20) << sixty;
 }
 
 }  // namespace

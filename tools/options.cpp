@@ -74,7 +74,7 @@ void add_report(CLI::App& app, std::string& report, bool& quiet) {
 
 void add_mesh(CLI::App& app, MeshArguments& a) {
   const auto fixed = [](const std::string&) {};  // a flag with one choice so far: checked, nothing to keep
-  app.add_option("INPUT", a.input, "what to mesh: .poly .smesh .node .off .stl")->required()->type_name("");
+  app.add_option("INPUT", a.input, "what to mesh: .poly .smesh .node .off .obj .stl")->required()->type_name("");
   app.add_option("-o,--output", a.output, "the mesh: .vtu .mesh")->required()->type_name("OUTPUT");
   add_bounds(app, a.bounds);
   app.add_option_function<std::string>("--selector", fixed, "where new points go: circumcenter")->type_name("NAME")

@@ -72,12 +72,18 @@ class InputVolumes {
   /// Simplices crossed by the open segment from q to p, in order; empty optional if not in general position.
   std::optional<std::vector<std::uint32_t>> crossings(const Point<D>& q, const Point<D>& p) const;
   Point<D> far_from(const Point<D>& p, std::uint64_t attempt) const;
+  void box_simplices();
   std::uint32_t side_volume(std::uint32_t simplex, bool negative) const;
   bool keeps(const Point<D>& p) const;
 
   const Domain<D>* domain_;
   double span_ = 0;  ///< longer than the bounding box of the input
   std::vector<std::array<std::uint32_t, D>> simplices_;
+  struct Box {
+    Point<D> low, high;
+  };
+  std::vector<Box> boxes_;  ///< of `boxed` simplices each that follow each other: inputs are mostly listed by place
+  static constexpr std::uint32_t boxed = 32;
   std::vector<std::uint32_t> patch_of_;
   std::vector<Patch> patches_;
   std::vector<Bound> bounds_;

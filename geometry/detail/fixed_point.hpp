@@ -17,7 +17,8 @@
 
 namespace pgdr::detail {
 
-__extension__ using Word2 = unsigned __int128;  // of GCC and Clang on 64-bit machines
+__extension__ typedef __int128 SignedWord2;
+__extension__ typedef unsigned __int128 Word2;  // of GCC and Clang on 64-bit machines
 
 /// Two's complement in W words, least significant first. Operations wrap at the width of their result: sums keep the
 /// width of the wider operand, so a polynomial needs spare bits, and differences are held to 61 of 63 bits for that.
@@ -87,10 +88,9 @@ FixedInt<A + B> mul(const FixedInt<A>& a, const FixedInt<B>& b) {
   return r;
 }
 
-__extension__ using SignedWord2 = __int128;
-
 inline FixedInt<2> mul(const FixedInt<1>& a, const FixedInt<1>& b) {
-  const auto product = static_cast<SignedWord2>(static_cast<std::int64_t>(a.word[0])) * static_cast<std::int64_t>(b.word[0]);
+  const auto value = [](const FixedInt<1>& v) { return static_cast<SignedWord2>(static_cast<std::int64_t>(v.word[0])); };
+  const SignedWord2 product = value(a) * value(b);
   FixedInt<2> r;
   r.word = {static_cast<std::uint64_t>(product), static_cast<std::uint64_t>(product >> 64)};
   return r;

@@ -78,6 +78,8 @@ class PlanarTriangulation {
 
   /// The triangles of the domain, counter-clockwise in the projection, in an order that depends on the calls alone.
   std::vector<PlanarTriangle> triangles() const;
+  /// For each of triangles(): bit i is set if its edge i (from corner i + 1 to i + 2) is a constraint.
+  std::vector<std::uint8_t> constraint_masks() const;
   /// Constraint edges with a triangle of the domain on at least one side; that side is the left of the first pair.
   std::vector<PlanarEdge> domain_constraints() const;
   bool has_vertex(std::uint32_t id) const { return local(id) != none; }

@@ -10,6 +10,7 @@ SMESH = POINTS + "4 0\n" + "".join("3 %d %d %d\n" % s for s in SIDES) + "0\n0\n"
 OFF = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n" + "".join("3 %d %d %d\n" % s for s in SIDES)
 FACET = "facet normal 0 0 0\nouter loop\n%svertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
 STL = "solid s\n" + FACET % "" + "endsolid s\n"
+OBJ = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n" + "".join("f %d %d %d\n" % tuple(i + 1 for i in s) for s in SIDES)
 PSLG = "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n3 0\n1 1 2\n2 2 3\n3 3 1\n0\n"
 
 BAD_INPUTS = {
@@ -18,6 +19,7 @@ BAD_INPUTS = {
     "empty.node": ("", None),
     "empty.off": ("", None),
     "empty.stl": ("", None),
+    "empty.obj": ("", None),
     "blank.poly": ("# nothing\n\n", None),
     "truncated.poly": (POLY[:60], None),
     "truncated.smesh": (SMESH[:60], None),
@@ -38,6 +40,9 @@ BAD_INPUTS = {
     "infinite.node": (POINTS.replace("\n1 1 0 0", "\n1 inf 0 0"), 3),
     "huge.node": (POINTS.replace("\n1 1 0 0", "\n1 1e999 0 0"), 3),
     "nan.off": (OFF.replace("\n1 0 0", "\n1 nan 0"), 4),
+    "nan.obj": (OBJ.replace("v 1 0 0", "v nan 0 0"), 2),
+    "index.obj": (OBJ.replace("f 1 3 2", "f 1 3 5"), 5),
+    "word.obj": (OBJ.replace("v 0 1 0", "v 0 one 0"), 3),
     "nan.stl": (STL.replace("vertex 1 0 0", "vertex nan 0 0"), 5),
     "nan2d.poly": (PSLG.replace("\n2 1 0", "\n2 nan 0"), 3),
     "index.poly": (POLY.replace("3 0 2 1", "3 0 2 4"), 8),

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Makes a Domain of a Plc, in this order: points (finite, merged), indices, facets to triangles, repeated facets,
+// coplanar groups, segments, incidences. Each step is in a file of its own, domain_<step>.cpp. Everything is sorting and
+// hashing: n log n in the size of the input, but for the constraint edges of a facet that cross many triangles.
+// Used by one thread, once.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "detail/planar_cdt.hpp"
+#include "pgdr/domain.hpp"
+
+namespace pgdr {
+namespace detail {
+
+/// "(1, 2.5, -3)", shortest digits that read back to the same doubles.
+template <int D>
+std::string to_text(const Point<D>& p);
+
+/// `p` for a diagnostic.
+template <int D>
+std::array<double, 3> in_space(const Point<D>& p) {
+  if constexpr (D == 3) return p.x;
+  else return {p[0], p[1], 0};
+}
+
+/// Axes in the order of the size of this normal's components.
+std::array<int, 3> axes_by_size(const std::array<double, 3>& normal);
+/// (b - a) x (c - a), in doubles.
+std::array<double, 3> triangle_normal(const Point3& a, const Point3& b, const Point3& c);
+/// Distance of p from the plane of abc.
+double plane_distance(const Point3& a, const Point3& b, const Point3& c, const Point3& p);
+
+/// In words at most so many culprits of one kind of repair; all are counted, and in `ids`.
+inline constexpr std::size_t max_listed = 20;
+
+struct RepairList {
+  std::size_t count = 0;
+  std::string words;
+  Diagnostic diagnostic;
+  /// One more; `text` is asked for only while it is listed.
+  template <class Text>
+  void add(Text&& text, std::initializer_list<std::int64_t> ids) {
+    if (count < max_listed) words += (count == 0 ? "" : ", ") + text();
+    if (count == max_listed) words += ", ...";
+    ++count;
+    diagnostic.ids.insert(diagnostic.ids.end(), ids);
+  }
+  /// Appends "<count> <what>: <words>" if there were any.
+  void report(Errc code, const std::string& what, const std::string& file, std::vector<Diagnostic>& out);
+};
+
+/// An input facet as triangles, before grouping.
+struct TriangulatedFacet {
+  std::uint32_t input = 0;  ///< index in Plc::facets
+  std::uint32_t first = 0, count = 0;
+  int axis = 2;
+  bool planar = true;
+  double defect = 0;
+};
+
+/// An input facet by domain points.
+struct CleanFacet {
+  std::vector<std::vector<std::uint32_t>> loops;  ///< no two neighbours equal
+  std::vector<std::uint32_t> vertices;            ///< sorted, distinct
+  std::vector<PlanarEdge> edges;                  ///< sorted, distinct, smaller index first
+};
+
+/// One use of an edge; sorted, the uses of an edge stand together.
+struct EdgeUse {
+  enum class Kind : std::uint8_t { diagonal, rim, polygon, explicit_segment };  // rim: a constraint of its facet
+  std::uint64_t key;       // smaller index in the upper half
+  std::uint32_t owner;     // triangulated facet, or for explicit_segment its index in the Plc
+  std::uint32_t triangle;  // diagonal and rim only
+  Kind kind;
+  bool is_triangle() const { return kind == Kind::diagonal || kind == Kind::rim; }
+};
+
+}  // namespace detail
+
+template <int D>
+class DomainBuilder {
+ public:
+  DomainBuilder(const Plc<D>& plc, Domain<D>& domain) : plc_(plc), out_(domain) {}
+  void run();
+
+ private:
+  using Triangle = std::array<std::uint32_t, 3>;
+
+  // domain.cpp
+  std::int64_t number(std::size_t i) const { return static_cast<std::int64_t>(i) + plc_.first_index; }
+  std::int64_t point_number(std::uint32_t v) const { return number(out_.input_of_point_[v]); }
+  std::string point_words(std::uint32_t v) const;
+  [[noreturn]] void fail(Errc code, const std::string& message, const std::vector<std::uint32_t>& lines,
+                         std::size_t item, std::vector<std::int64_t> ids, std::vector<std::array<double, 3>> where) const;
+  void warn(Errc code, const std::string& message, const std::vector<std::uint32_t>& lines, std::size_t item,
+            std::vector<std::int64_t> ids);
+  void report_repairs();
+
+  // domain_points.cpp
+  void check_finite() const;
+  void check_indices() const;
+  void merge_points();
+  void check_segments();
+  void check_spans_space() const;
+
+  // domain_facets.cpp
+  void triangulate_facets() requires(D == 3);
+  detail::CleanFacet clean(std::uint32_t f) requires(D == 3);
+  bool add_triangle(std::uint32_t f) requires(D == 3);
+  void add_polygons(std::uint32_t f) requires(D == 3);
+  void carve(std::uint32_t f) requires(D == 3);
+  void constrain_explicit(const detail::CleanFacet& facet) requires(D == 3);
+  void measure_planarity(detail::TriangulatedFacet& facet, const detail::CleanFacet& clean) requires(D == 3);
+  std::array<double, 3> facet_normal(const detail::CleanFacet& facet) const requires(D == 3);
+  [[noreturn]] void fail_facet(std::uint32_t f, const detail::PlanarResult& result) const requires(D == 3);
+  [[noreturn]] void fail_degenerate(std::uint32_t f, const std::string& why,
+                                    const std::vector<std::uint32_t>& vertices) const requires(D == 3);
+
+  // domain_groups.cpp
+  void drop_repeated_facets() requires(D == 3);
+  void collect_edges();
+  void group_coplanar() requires(D == 3);
+  bool is_soft(std::span<const detail::EdgeUse> uses) const requires(D == 3);
+  std::uint32_t root(std::uint32_t f);
+  void write_facets() requires(D == 3);
+  void orient_group(DomainFacet& facet) requires(D == 3);
+
+  // domain_segments.cpp
+  void write_segments();
+  std::size_t uses_of(std::size_t begin) const;
+  void write_segment(std::size_t begin, std::size_t end);
+  void write_incidences();
+
+  const Plc<D>& plc_;
+  Domain<D>& out_;
+  std::vector<std::array<std::uint32_t, 2>> explicit_;           // domain points of Plc::segments
+  std::vector<std::uint32_t> explicit_begin_, explicit_at_;      // explicit segments by their first domain point
+  std::vector<detail::TriangulatedFacet> facets_;
+  std::vector<Triangle> triangles_;
+  std::vector<std::uint8_t> masks_;                              // bit i: edge i of the triangle is a constraint
+  std::vector<std::pair<detail::PlanarEdge, std::uint32_t>> polygon_edges_;  // of facets that are no single triangle
+  std::vector<detail::EdgeUse> uses_;
+  std::vector<bool> soft_;                                       // by position in uses_: no segment for this edge
+  std::vector<std::uint32_t> parent_;                            // union-find over facets_
+  std::vector<EntityId> group_of_;                               // domain facet of each of facets_
+  std::vector<std::pair<EntityId, EntityId>> facet_segment_;     // (facet, segment)
+  detail::PlanarTriangulation planar_;
+  detail::RepairList merged_, negative_zeros_, dropped_edges_, repeated_segments_, repeated_facets_;
+};
+
+}  // namespace pgdr

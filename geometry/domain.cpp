@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Domain: construction in its order, accessors, and the words of its diagnostics.
+#include "pgdr/domain.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "detail/domain_builder.hpp"
+
+namespace pgdr {
+namespace detail {
+
+template <int D>
+std::string to_text(const Point<D>& p) {
+  std::string s = "(";
+  for (int i = 0; i < D; ++i) {
+    char digits[40];
+    const auto end = std::to_chars(digits, digits + sizeof digits, p[i]).ptr;
+    s.append(i == 0 ? "" : ", ").append(digits, end);
+  }
+  return s + ")";
+}
+template std::string to_text<2>(const Point2&);
+template std::string to_text<3>(const Point3&);
+
+void RepairList::report(Errc code, const std::string& what, const std::string& file, std::vector<Diagnostic>& out) {
+  if (count == 0) return;
+  diagnostic.code = code;
+  diagnostic.file = file;
+  diagnostic.message = std::to_string(count) + " " + what + (words.empty() ? "" : ": " + words);
+  out.push_back(std::move(diagnostic));
+}
+
+}  // namespace detail
+
+template <int D>
+void DomainBuilder<D>::run() {
+  check_finite();
+  check_indices();
+  merge_points();
+  check_segments();
+  check_spans_space();
+  if constexpr (D == 3) {
+    triangulate_facets();
+    drop_repeated_facets();
+  }
+  collect_edges();
+  if constexpr (D == 3) {
+    group_coplanar();
+    write_facets();
+  }
+  write_segments();
+  write_incidences();
+  report_repairs();
+}
+
+template <int D>
+std::string DomainBuilder<D>::point_words(std::uint32_t v) const {
+  return std::to_string(point_number(v)) + " " + detail::to_text(out_.points_[v]);
+}
+
+template <int D>
+void DomainBuilder<D>::fail(Errc code, const std::string& message, const std::vector<std::uint32_t>& lines,
+                            std::size_t item, std::vector<std::int64_t> ids,
+                            std::vector<std::array<double, 3>> where) const {
+  Diagnostic d;
+  d.code = code;
+  d.message = message;
+  d.file = plc_.source.file;
+  d.line = item < lines.size() ? lines[item] : 0;
+  d.ids = std::move(ids);
+  d.points = std::move(where);
+  throw InputError(std::move(d));
+}
+
+template <int D>
+void DomainBuilder<D>::warn(Errc code, const std::string& message, const std::vector<std::uint32_t>& lines,
+                            std::size_t item, std::vector<std::int64_t> ids) {
+  Diagnostic d;
+  d.code = code;
+  d.message = message;
+  d.file = plc_.source.file;
+  d.line = item < lines.size() ? lines[item] : 0;
+  d.ids = std::move(ids);
+  out_.warnings_.push_back(std::move(d));
+}
+
+template <int D>
+void DomainBuilder<D>::report_repairs() {
+  const std::string& file = plc_.source.file;
+  merged_.report(Errc::degenerate_segment, "points repeat an earlier one exactly and were merged into it", file,
+                 out_.repairs_);
+  negative_zeros_.report(Errc::not_finite, "points had a coordinate -0, now 0", file, out_.repairs_);
+  dropped_edges_.report(Errc::degenerate_segment, "polygon edges of length zero were dropped (facet: points)", file,
+                        out_.repairs_);
+  repeated_segments_.report(Errc::degenerate_segment, "segments repeat an earlier one and were dropped", file,
+                            out_.repairs_);
+  repeated_facets_.report(Errc::degenerate_facet, "facets repeat an earlier one and were dropped", file,
+                          out_.repairs_);
+}
+
+template <int D>
+Domain<D>::Domain(const Plc<D>& plc) {
+  DomainBuilder<D>(plc, *this).run();
+}
+
+template <int D>
+std::span<const std::array<std::uint32_t, 3>> Domain<D>::triangles(EntityId f) const {
+  return std::span(triangles_).subspan(facets_[f].first_triangle, facets_[f].triangle_count);
+}
+
+template <int D>
+std::span<const EntityId> Domain<D>::facet_segments(EntityId f) const {
+  return std::span(facet_segments_).subspan(facets_[f].first_segment, facets_[f].segment_count);
+}
+
+template <int D>
+std::span<const std::uint32_t> Domain<D>::facet_points(EntityId f) const {
+  return std::span(facet_points_).subspan(facets_[f].first_point, facets_[f].point_count);
+}
+
+template <int D>
+std::span<const EntityId> Domain<D>::facets_of_segment(EntityId s) const {
+  const std::uint32_t begin = facets_of_segment_begin_[s];
+  return std::span(facets_of_segment_).subspan(begin, facets_of_segment_begin_[s + 1] - begin);
+}
+
+template <int D>
+double Domain<D>::segment_magnitude(EntityId s) const {
+  double m = 0;
+  for (const std::uint32_t v : segments_[s].points)
+    for (const double x : points_[v].x) m = std::max(m, std::fabs(x));
+  return m;
+}
+
+template <int D>
+double Domain<D>::facet_magnitude(EntityId f) const {
+  double m = 0;
+  for (const std::uint32_t v : facet_points(f))
+    for (const double x : points_[v].x) m = std::max(m, std::fabs(x));
+  return m;
+}
+
+template class Domain<2>;
+template class Domain<3>;
+// The steps are defined, and instantiated one by one, in files of their own.
+template void DomainBuilder<2>::run();
+template void DomainBuilder<3>::run();
+template std::string DomainBuilder<2>::point_words(std::uint32_t) const;
+template std::string DomainBuilder<3>::point_words(std::uint32_t) const;
+using Lines = std::vector<std::uint32_t>;
+using Ids = std::vector<std::int64_t>;
+template void DomainBuilder<2>::fail(Errc, const std::string&, const Lines&, std::size_t, Ids,
+                                     std::vector<std::array<double, 3>>) const;
+template void DomainBuilder<3>::fail(Errc, const std::string&, const Lines&, std::size_t, Ids,
+                                     std::vector<std::array<double, 3>>) const;
+template void DomainBuilder<2>::warn(Errc, const std::string&, const Lines&, std::size_t, Ids);
+template void DomainBuilder<3>::warn(Errc, const std::string&, const Lines&, std::size_t, Ids);
+
+}  // namespace pgdr

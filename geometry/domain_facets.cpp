@@ -1,0 +1,243 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Second step of a Domain (3D): each input facet becomes triangles, in the projection along the largest component of its
+// normal. A facet of three points is its triangle; any other goes through the planar triangulation, from which is taken
+// away what is reached from outside and from its hole seeds.
+#include <algorithm>
+#include <cmath>
+
+#include "detail/domain_builder.hpp"
+#include "pgdr/predicates.hpp"
+
+namespace pgdr {
+using detail::CleanFacet;
+using detail::PlanarEdge;
+using detail::PlanarResult;
+using detail::PlanarStatus;
+using detail::TriangulatedFacet;
+
+namespace detail {
+
+std::array<int, 3> axes_by_size(const std::array<double, 3>& normal) {
+  std::array<int, 3> axes{0, 1, 2};
+  std::stable_sort(axes.begin(), axes.end(), [&](int i, int j) {
+    return std::fabs(normal[static_cast<std::size_t>(i)]) > std::fabs(normal[static_cast<std::size_t>(j)]);
+  });
+  return axes;
+}
+
+std::array<double, 3> triangle_normal(const Point3& a, const Point3& b, const Point3& c) {
+  const double u[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, w[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+  return {u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]};
+}
+
+}  // namespace detail
+
+template <int D>
+void DomainBuilder<D>::triangulate_facets() requires(D == 3) {
+  facets_.reserve(plc_.facets.size());
+  for (std::uint32_t f = 0; f < plc_.facets.size(); ++f)
+    if (!add_triangle(f)) add_polygons(f);
+}
+
+template <int D>
+void DomainBuilder<D>::fail_degenerate(std::uint32_t f, const std::string& why,
+                                       const std::vector<std::uint32_t>& vertices) const requires(D == 3) {
+  std::string words;
+  std::vector<std::int64_t> ids{number(f)};
+  std::vector<std::array<double, 3>> where;
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
+    if (k < detail::max_listed) words += (k == 0 ? ": point " : ", ") + point_words(vertices[k]);
+    if (k == detail::max_listed) words += ", ...";
+    ids.push_back(point_number(vertices[k]));
+    where.push_back(out_.points_[vertices[k]].x);
+  }
+  fail(Errc::degenerate_facet, "facet " + std::to_string(number(f)) + " " + why + words, plc_.source.facet_lines, f,
+       std::move(ids), std::move(where));
+}
+
+template <int D>
+void DomainBuilder<D>::fail_facet(std::uint32_t f, const PlanarResult& result) const requires(D == 3) {
+  const std::string facet = "facet " + std::to_string(number(f)) + ": ";
+  const auto& p = out_.points_;
+  const auto edge = [&](const PlanarEdge& e) { return point_words(e[0]) + " - " + point_words(e[1]); };
+  std::vector<std::int64_t> ids{number(f), point_number(result.edge[0]), point_number(result.edge[1])};
+  std::vector<std::array<double, 3>> where{p[result.edge[0]].x, p[result.edge[1]].x};
+  Errc code = Errc::self_crossing_facet;
+  std::string message;
+  if (result.status == PlanarStatus::edges_cross || result.status == PlanarStatus::point_on_edge) {
+    const bool cross = result.status == PlanarStatus::edges_cross;
+    for (std::size_t k = 0; k < (cross ? 2u : 1u); ++k) {
+      ids.push_back(point_number(result.other[k]));
+      where.push_back(p[result.other[k]].x);
+    }
+    message = cross ? facet + "its edges " + edge(result.edge) + " and " + edge(result.other) + " cross"
+                    : facet + "its point " + point_words(result.other[0]) + " lies inside its edge " + edge(result.edge);
+  } else {  // coincident; no_such_edge and inverted do not happen
+    code = Errc::degenerate_facet;
+    message = facet + "its points " + edge(result.edge) + " are one behind the other: it is far from planar";
+  }
+  fail(code, message, plc_.source.facet_lines, f, std::move(ids), std::move(where));
+}
+
+// The facet if it is one triangle; false if it is something else.
+template <int D>
+bool DomainBuilder<D>::add_triangle(std::uint32_t f) requires(D == 3) {
+  const auto& facet = plc_.facets[f];
+  if (facet.polygons.size() != 1 || facet.polygons[0].size() != 3 || !facet.holes.empty()) return false;
+  Triangle t;
+  for (std::size_t k = 0; k < 3; ++k) t[k] = out_.point_of_input_[facet.polygons[0][k]];
+  if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) fail_degenerate(f, "has fewer than three distinct points", {t.begin(), t.end()});
+  const Point3 &a = out_.points_[t[0]], &b = out_.points_[t[1]], &c = out_.points_[t[2]];
+  for (const int axis : detail::axes_by_size(detail::triangle_normal(a, b, c))) {
+    const Sign side = orient_projected(a, b, c, axis);
+    if (side == Sign::zero) continue;
+    if (side == Sign::negative) std::swap(t[1], t[2]);
+    facets_.push_back({f, static_cast<std::uint32_t>(triangles_.size()), 1, axis, true, 0});
+    triangles_.push_back(t);
+    masks_.push_back(7);
+    return true;
+  }
+  fail_degenerate(f, "has all its points on one line", {t.begin(), t.end()});
+}
+
+template <int D>
+CleanFacet DomainBuilder<D>::clean(std::uint32_t f) requires(D == 3) {
+  CleanFacet facet;
+  for (const auto& polygon : plc_.facets[f].polygons) {
+    auto& loop = facet.loops.emplace_back();
+    const auto drop = [&](std::uint32_t i, std::uint32_t j) {
+      dropped_edges_.add(
+          [&] {
+            return std::to_string(number(f)) + ": " + std::to_string(number(i)) + " - " + std::to_string(number(j));
+          },
+          {number(f), number(i), number(j)});
+    };
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const std::uint32_t v = out_.point_of_input_[polygon[k]];
+      if (!loop.empty() && loop.back() == v) drop(polygon[k - 1], polygon[k]);
+      else loop.push_back(v);
+    }
+    while (loop.size() > 1 && polygon.size() > 2 && loop.front() == loop.back()) {
+      drop(polygon.back(), polygon.front());
+      loop.pop_back();
+    }
+    facet.vertices.insert(facet.vertices.end(), loop.begin(), loop.end());
+    const std::size_t n = loop.size();
+    for (std::size_t k = 0; k < (n > 2 ? n : n == 2 ? 1 : 0); ++k) {
+      const auto [a, b] = std::minmax(loop[k], loop[(k + 1) % n]);
+      facet.edges.push_back({a, b});
+    }
+  }
+  const auto make_set = [](auto& v) {
+    std::sort(v.begin(), v.end());
+    v.erase(std::unique(v.begin(), v.end()), v.end());
+  };
+  make_set(facet.vertices);
+  make_set(facet.edges);
+  return facet;
+}
+
+// Newell's normal of the polygon that has the largest.
+template <int D>
+std::array<double, 3> DomainBuilder<D>::facet_normal(const CleanFacet& facet) const requires(D == 3) {
+  std::array<double, 3> best{};
+  double best_size = -1;
+  for (const auto& loop : facet.loops) {
+    std::array<double, 3> sum{};
+    for (std::size_t k = 1; k + 1 < loop.size(); ++k) {  // from its first point: no cancellation far from the origin
+      const auto n = detail::triangle_normal(out_.points_[loop[0]], out_.points_[loop[k]], out_.points_[loop[k + 1]]);
+      for (std::size_t i = 0; i < 3; ++i) sum[i] += n[i];
+    }
+    const double size = std::fabs(sum[0]) + std::fabs(sum[1]) + std::fabs(sum[2]);
+    if (size > best_size) {
+      best = sum;
+      best_size = size;
+    }
+  }
+  return best;
+}
+
+template <int D>
+void DomainBuilder<D>::add_polygons(std::uint32_t f) requires(D == 3) {
+  const CleanFacet facet = clean(f);
+  if (facet.vertices.size() < 3) fail_degenerate(f, "has fewer than three distinct points", facet.vertices);
+  const Point3 &p = out_.points_[facet.vertices[0]], &q = out_.points_[facet.vertices[1]];
+  if (std::all_of(facet.vertices.begin() + 2, facet.vertices.end(),
+                  [&](std::uint32_t v) { return collinear<3>(p, q, out_.points_[v]); }))
+    fail_degenerate(f, "has all its points on one line", facet.vertices);
+  PlanarResult first;
+  for (const int axis : detail::axes_by_size(facet_normal(facet))) {
+    const PlanarResult result = planar_.build(out_.points_, facet.vertices, facet.edges, axis);
+    if (result) break;
+    // A wrong projection (the normal of a crossing polygon may be anything) makes points coincide or collinear.
+    if (first.status == PlanarStatus::ok || first.status == PlanarStatus::collinear) first = result;
+    if (result.status != PlanarStatus::collinear && result.status != PlanarStatus::coincident) {
+      first = result;
+      break;
+    }
+  }
+  if (planar_.vertex_count() == 0) fail_facet(f, first);
+  carve(f);
+  constrain_explicit(facet);
+  TriangulatedFacet out{f, static_cast<std::uint32_t>(triangles_.size()), 0, planar_.axis(), true, 0};
+  const auto triangles = planar_.triangles();
+  if (triangles.empty()) fail_degenerate(f, "encloses nothing: its polygons are not closed", facet.vertices);
+  const auto masks = planar_.constraint_masks();
+  triangles_.insert(triangles_.end(), triangles.begin(), triangles.end());
+  masks_.insert(masks_.end(), masks.begin(), masks.end());
+  out.count = static_cast<std::uint32_t>(triangles.size());
+  measure_planarity(out, facet);
+  for (const PlanarEdge& e : facet.edges) polygon_edges_.emplace_back(e, static_cast<std::uint32_t>(facets_.size()));
+  facets_.push_back(out);
+}
+
+template <int D>
+void DomainBuilder<D>::carve(std::uint32_t f) requires(D == 3) {
+  planar_.carve_outside();
+  for (const Point3& seed : plc_.facets[f].holes) {
+    const PlanarResult result = planar_.carve_hole(seed);
+    const std::string words = "facet " + std::to_string(number(f)) + ": its hole " + detail::to_text(seed);
+    if (result.status == PlanarStatus::on_constraint)
+      fail(Errc::seed_on_boundary, words + " lies on a point or an edge of its polygons", plc_.source.facet_lines, f,
+           {number(f)}, {seed.x});
+    if (result.status == PlanarStatus::outside)
+      warn(Errc::encloses_nothing, words + " lies outside of it or in another hole", plc_.source.facet_lines, f,
+           {number(f)});
+  }
+}
+
+// Segments of the input from one point of the facet to another that run through it belong to it. What does not fit
+// (crosses its edges, runs outside) is a matter of the intersection of entities, not of the facet.
+template <int D>
+void DomainBuilder<D>::constrain_explicit(const CleanFacet& facet) requires(D == 3) {
+  if (explicit_.empty()) return;
+  for (const std::uint32_t a : facet.vertices)
+    for (std::uint32_t k = explicit_begin_[a]; k < explicit_begin_[a + 1]; ++k) {
+      const std::uint32_t b = explicit_[explicit_at_[k]][1];
+      if (planar_.has_vertex(b) && !planar_.is_constraint(a, b)) planar_.constrain(a, b);
+    }
+}
+
+template <int D>
+void DomainBuilder<D>::measure_planarity(TriangulatedFacet& facet, const CleanFacet& clean) requires(D == 3) {
+  const auto area = [&](const Triangle& t) {
+    return std::fabs(detail::triangle_normal(out_.points_[t[0]], out_.points_[t[1]], out_.points_[t[2]])
+                         [static_cast<std::size_t>(facet.axis)]);
+  };
+  const auto begin = triangles_.begin() + facet.first;
+  const auto largest = std::max_element(begin, triangles_.end(),
+                                        [&](const Triangle& s, const Triangle& t) { return area(s) < area(t); });
+  const Point3 &a = out_.points_[(*largest)[0]], &b = out_.points_[(*largest)[1]], &c = out_.points_[(*largest)[2]];
+  for (const std::uint32_t v : clean.vertices) {
+    const Point3& p = out_.points_[v];
+    if (p == a || p == b || p == c || orient3d(a, b, c, p) == Sign::zero) continue;
+    facet.planar = false;
+    facet.defect = std::max(facet.defect, detail::plane_distance(a, b, c, p));
+  }
+}
+
+template void DomainBuilder<3>::triangulate_facets();
+
+}  // namespace pgdr

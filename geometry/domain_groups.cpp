@@ -1,0 +1,210 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Third step of a Domain (3D): facets given twice are dropped; facets that are exactly coplanar, share an edge of just
+// these two, and have equal markers become one (union-find; each such edge keeps the plane, so it is well defined).
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include "detail/domain_builder.hpp"
+#include "pgdr/predicates.hpp"
+
+namespace pgdr {
+using detail::EdgeUse;
+using detail::TriangulatedFacet;
+
+namespace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+Triangle sorted(Triangle t) {
+  std::sort(t.begin(), t.end());
+  return t;
+}
+
+std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
+  return static_cast<std::uint64_t>(std::min(a, b)) << 32 | std::max(a, b);
+}
+
+std::vector<Triangle> sorted_triangles(const TriangulatedFacet& f, const std::vector<Triangle>& triangles) {
+  std::vector<Triangle> out;
+  for (std::uint32_t k = 0; k < f.count; ++k) out.push_back(sorted(triangles[f.first + k]));
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+}  // namespace
+
+// Two facets are the same if they have the same triangles; those with equal smallest triangle are compared in full.
+template <int D>
+void DomainBuilder<D>::drop_repeated_facets() requires(D == 3) {
+  std::vector<std::pair<Triangle, std::uint32_t>> keys;
+  for (std::uint32_t f = 0; f < facets_.size(); ++f) {
+    Triangle least = sorted(triangles_[facets_[f].first]);
+    for (std::uint32_t k = 1; k < facets_[f].count; ++k)
+      least = std::min(least, sorted(triangles_[facets_[f].first + k]));
+    keys.emplace_back(least, f);
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<std::uint32_t> same(facets_.size(), no_entity);
+  for (std::size_t k = 1; k < keys.size(); ++k)
+    for (std::size_t j = k; j-- > 0 && keys[j].first == keys[k].first;) {
+      const std::uint32_t f = keys[k].second, g = keys[j].second;
+      if (same[g] != no_entity || facets_[f].count != facets_[g].count) continue;
+      if (sorted_triangles(facets_[f], triangles_) == sorted_triangles(facets_[g], triangles_)) same[f] = g;
+    }
+  std::vector<std::uint32_t> new_index(facets_.size());
+  std::size_t kept = 0;
+  for (std::uint32_t f = 0; f < facets_.size(); ++f) {
+    new_index[f] = static_cast<std::uint32_t>(kept);
+    if (same[f] == no_entity) {
+      facets_[kept++] = facets_[f];
+      continue;
+    }
+    const std::uint32_t mine = facets_[f].input, other = facets_[new_index[same[f]]].input;
+    const std::string words = std::to_string(number(mine)) + " = " + std::to_string(number(other));
+    repeated_facets_.add([&] { return words; }, {number(mine), number(other)});
+    if (plc_.facets[mine].marker != plc_.facets[other].marker)
+      warn(Errc::degenerate_facet, "facets " + words + ", but their markers differ; that of the latter is kept",
+           plc_.source.facet_lines, mine, {number(mine), number(other)});
+  }
+  std::erase_if(polygon_edges_, [&](const auto& e) { return same[e.second] != no_entity; });
+  for (auto& e : polygon_edges_) e.second = new_index[e.second];
+  facets_.resize(kept);
+}
+
+// Every use of an edge: by triangles, by polygons, by segments of the input.
+template <int D>
+void DomainBuilder<D>::collect_edges() {
+  using Kind = EdgeUse::Kind;
+  std::size_t count = explicit_.size() + polygon_edges_.size();
+  for (const auto& f : facets_) count += 3 * f.count;
+  uses_.reserve(count);
+  for (std::uint32_t f = 0; f < facets_.size(); ++f)
+    for (std::uint32_t t = facets_[f].first; t < facets_[f].first + facets_[f].count; ++t)
+      for (std::size_t i = 0; i < 3; ++i)
+        uses_.push_back({edge_key(triangles_[t][(i + 1) % 3], triangles_[t][(i + 2) % 3]), f, t,
+                         (masks_[t] & (1u << i)) != 0 ? Kind::rim : Kind::diagonal});
+  for (const auto& [e, f] : polygon_edges_) uses_.push_back({edge_key(e[0], e[1]), f, 0, Kind::polygon});
+  for (std::uint32_t s = 0; s < explicit_.size(); ++s)
+    uses_.push_back({edge_key(explicit_[s][0], explicit_[s][1]), s, 0, Kind::explicit_segment});
+  std::sort(uses_.begin(), uses_.end(), [](const EdgeUse& a, const EdgeUse& b) {
+    return std::tuple{a.key, a.kind, a.owner, a.triangle} < std::tuple{b.key, b.kind, b.owner, b.triangle};
+  });
+  soft_.assign(uses_.size(), false);
+}
+
+template <int D>
+std::uint32_t DomainBuilder<D>::root(std::uint32_t f) {
+  while (parent_[f] != f) f = parent_[f] = parent_[parent_[f]];
+  return f;
+}
+
+// The uses of one edge: two triangles, and nothing but the polygons of these.
+template <int D>
+bool DomainBuilder<D>::is_soft(std::span<const EdgeUse> uses) const requires(D == 3) {
+  using Kind = EdgeUse::Kind;
+  if (uses.size() < 2 || !uses[1].is_triangle()) return false;
+  const EdgeUse &a = uses[0], &b = uses[1];
+  for (const EdgeUse& use : uses.subspan(2))
+    if (use.kind != Kind::polygon || (use.owner != a.owner && use.owner != b.owner)) return false;
+  if (a.owner == b.owner) return a.kind == Kind::diagonal && b.kind == Kind::diagonal;
+  const TriangulatedFacet &f = facets_[a.owner], &g = facets_[b.owner];
+  if (!f.planar || !g.planar || plc_.facets[f.input].marker != plc_.facets[g.input].marker) return false;
+  const auto e0 = static_cast<std::uint32_t>(a.key >> 32), e1 = static_cast<std::uint32_t>(a.key);
+  const auto apex = [&](const EdgeUse& use) {
+    const Triangle& t = triangles_[use.triangle];
+    return t[0] ^ t[1] ^ t[2] ^ e0 ^ e1;
+  };
+  const auto& p = out_.points_;
+  const Point3 &c = p[apex(a)], &d = p[apex(b)];
+  if (orient3d(p[e0], p[e1], c, d) != Sign::zero) return false;
+  return orient_projected(p[e0], p[e1], c, f.axis) == -orient_projected(p[e0], p[e1], d, f.axis);
+}
+
+template <int D>
+void DomainBuilder<D>::group_coplanar() requires(D == 3) {
+  parent_.resize(facets_.size());
+  std::iota(parent_.begin(), parent_.end(), 0u);
+  for (std::size_t begin = 0, end; begin < uses_.size(); begin = end) {
+    end = begin + uses_of(begin);
+    if (!is_soft(std::span(uses_).subspan(begin, end - begin))) continue;
+    soft_[begin] = true;
+    const std::uint32_t f = root(uses_[begin].owner), g = root(uses_[begin + 1].owner);
+    parent_[std::max(f, g)] = std::min(f, g);
+  }
+}
+
+// The largest triangle first; one projection for all, each triangle positive in it.
+template <int D>
+void DomainBuilder<D>::orient_group(DomainFacet& facet) requires(D == 3) {
+  const auto& p = out_.points_;
+  Triangle* const t = out_.triangles_.data() + facet.first_triangle;
+  const auto normal = [&](const Triangle& s) { return detail::triangle_normal(p[s[0]], p[s[1]], p[s[2]]); };
+  const auto size = [&](const Triangle& s) { return std::fabs(normal(s)[static_cast<std::size_t>(facet.axis)]); };
+  std::uint32_t largest = 0;
+  double largest_size = -1;
+  for (std::uint32_t k = 0; k < facet.triangle_count; ++k)
+    if (const double s = size(t[k]); s > largest_size) {
+      largest = k;
+      largest_size = s;
+    }
+  std::swap(t[0], t[largest]);
+  if (facet.planar)
+    for (const int axis : detail::axes_by_size(normal(t[0]))) {
+      facet.axis = axis;
+      if (orient_projected(p[t[0][0]], p[t[0][1]], p[t[0][2]], axis) != Sign::zero) break;
+    }
+  for (std::uint32_t k = 0; k < facet.triangle_count; ++k)
+    if (orient_projected(p[t[k][0]], p[t[k][1]], p[t[k][2]], facet.axis) == Sign::negative) std::swap(t[k][1], t[k][2]);
+}
+
+// Facets in the order of their first input facet, with their triangles and points.
+template <int D>
+void DomainBuilder<D>::write_facets() requires(D == 3) {
+  group_of_.resize(facets_.size());
+  for (std::uint32_t f = 0; f < facets_.size(); ++f) {
+    if (const std::uint32_t r = root(f); r != f) {
+      group_of_[f] = group_of_[r];
+    } else {
+      group_of_[f] = static_cast<EntityId>(out_.facets_.size());
+      out_.facets_.push_back({plc_.facets[facets_[f].input].marker, facets_[f].axis, facets_[f].planar,
+                              facets_[f].defect, 0, 0, 0, 0, 0, 0});
+    }
+    out_.facets_[group_of_[f]].triangle_count += facets_[f].count;
+  }
+  std::uint32_t total = 0;
+  for (DomainFacet& f : out_.facets_) {
+    f.first_triangle = total;
+    total += std::exchange(f.triangle_count, 0);
+  }
+  out_.triangles_.resize(total);
+  for (std::uint32_t f = 0; f < facets_.size(); ++f) {
+    DomainFacet& group = out_.facets_[group_of_[f]];
+    std::copy_n(triangles_.begin() + facets_[f].first, facets_[f].count,
+                out_.triangles_.begin() + group.first_triangle + group.triangle_count);
+    group.triangle_count += facets_[f].count;
+  }
+  std::vector<std::uint32_t> points;
+  for (DomainFacet& f : out_.facets_) {
+    orient_group(f);
+    points.clear();
+    for (std::uint32_t k = f.first_triangle; k < f.first_triangle + f.triangle_count; ++k)
+      points.insert(points.end(), out_.triangles_[k].begin(), out_.triangles_[k].end());
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    f.first_point = static_cast<std::uint32_t>(out_.facet_points_.size());
+    f.point_count = static_cast<std::uint32_t>(points.size());
+    out_.facet_points_.insert(out_.facet_points_.end(), points.begin(), points.end());
+  }
+}
+
+template void DomainBuilder<2>::collect_edges();
+template void DomainBuilder<3>::collect_edges();
+template void DomainBuilder<3>::drop_repeated_facets();
+template void DomainBuilder<3>::group_coplanar();
+template void DomainBuilder<3>::write_facets();
+
+}  // namespace pgdr

@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// First step of a Domain: finite points, valid indices, exact duplicates merged (never anything within a distance),
+// segments of non-zero length, and points that are not all in one plane.
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "detail/domain_builder.hpp"
+#include "pgdr/predicates.hpp"
+
+namespace pgdr {
+namespace {
+
+template <int D>
+bool is_finite(const Point<D>& p) {
+  for (const double x : p.x)
+    if (!std::isfinite(x)) return false;
+  return true;
+}
+
+template <int D>
+Point<D> with_positive_zeros(Point<D> p) {
+  for (double& x : p.x) x += 0.0;
+  return p;
+}
+
+template <int D>
+std::size_t hash_of(const Point<D>& p) {
+  std::uint64_t h = 0x9e3779b97f4a7c15u;
+  for (const double x : p.x) {
+    h = (h ^ std::bit_cast<std::uint64_t>(x)) * 0xff51afd7ed558ccdu;
+    h ^= h >> 32;
+  }
+  return static_cast<std::size_t>(h);
+}
+
+}  // namespace
+
+template <int D>
+void DomainBuilder<D>::check_finite() const {
+  const auto check = [&](const Point<D>& p, const std::string& what, const std::vector<std::uint32_t>& lines,
+                         std::size_t i) {
+    if (!is_finite(p))
+      fail(Errc::not_finite, what + " " + std::to_string(number(i)) + " " + detail::to_text(p) + " is not finite",
+           lines, i, {number(i)}, {detail::in_space(p)});
+  };
+  for (std::size_t i = 0; i < plc_.points.size(); ++i) check(plc_.points[i], "point", plc_.source.point_lines, i);
+  for (std::size_t i = 0; i < plc_.holes.size(); ++i) check(plc_.holes[i], "hole", plc_.source.hole_lines, i);
+  for (std::size_t i = 0; i < plc_.regions.size(); ++i) {
+    const auto& r = plc_.regions[i];
+    check(r.point, "region", plc_.source.region_lines, i);
+    if (std::isnan(r.attribute) || std::isnan(r.size))
+      fail(Errc::not_finite, "region " + std::to_string(number(i)) + " has an attribute or a size that is no number",
+           plc_.source.region_lines, i, {number(i)}, {detail::in_space(r.point)});
+  }
+  for (std::size_t f = 0; f < plc_.facets.size(); ++f)
+    for (const Point<D>& p : plc_.facets[f].holes) check(p, "hole of facet", plc_.source.facet_lines, f);
+}
+
+template <int D>
+void DomainBuilder<D>::check_indices() const {
+  const std::size_t n = plc_.points.size();
+  if (n >= std::numeric_limits<std::uint32_t>::max() - 2)
+    throw ResourceError(Diagnostic{Errc::ids_exhausted, "more than 2^32 - 3 points", plc_.source.file, 0, {}, {}});
+  const auto check = [&](std::uint32_t v, const std::string& what, const std::vector<std::uint32_t>& lines,
+                         std::size_t i) {
+    if (v < n) return;
+    const std::string range = n == 0 ? "there are no points"
+                                     : "the points are " + std::to_string(number(0)) + " to " +
+                                           std::to_string(number(n - 1));
+    fail(Errc::index_out_of_range,
+         what + " " + std::to_string(number(i)) + " refers to point " + std::to_string(number(v)) + "; " + range, lines,
+         i, {number(i), number(v)}, {});
+  };
+  for (std::size_t s = 0; s < plc_.segments.size(); ++s)
+    for (const std::uint32_t v : plc_.segments[s].points) check(v, "segment", plc_.source.segment_lines, s);
+  for (std::size_t f = 0; f < plc_.facets.size(); ++f)
+    for (const auto& polygon : plc_.facets[f].polygons)
+      for (const std::uint32_t v : polygon) check(v, "facet", plc_.source.facet_lines, f);
+  if (D == 2 && !plc_.facets.empty())
+    fail(Errc::degenerate_facet, "a planar straight line graph has no facets", plc_.source.facet_lines, 0, {number(0)},
+         {});
+}
+
+template <int D>
+void DomainBuilder<D>::merge_points() {
+  const std::size_t n = plc_.points.size(), size = std::bit_ceil(2 * n + 1);
+  std::vector<std::uint32_t> table(size, no_entity);
+  out_.points_.reserve(n);
+  out_.point_of_input_.resize(n);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const Point<D> p = with_positive_zeros(plc_.points[i]);
+    for (const double x : plc_.points[i].x)
+      if (x == 0 && std::signbit(x)) {
+        negative_zeros_.add([&] { return std::to_string(number(i)); }, {number(i)});
+        break;
+      }
+    std::size_t at = hash_of(p) & (size - 1);
+    while (table[at] != no_entity && !(out_.points_[table[at]] == p)) at = (at + 1) & (size - 1);
+    const auto marker = i < plc_.point_markers.size() ? plc_.point_markers[i] : 0;
+    if (table[at] == no_entity) {
+      table[at] = static_cast<std::uint32_t>(out_.points_.size());
+      out_.points_.push_back(p);
+      out_.input_of_point_.push_back(i);
+      out_.point_markers_.push_back(marker);
+    } else {
+      const std::int64_t first = point_number(table[at]);
+      merged_.add([&] { return std::to_string(number(i)) + " = " + std::to_string(first); }, {number(i), first});
+    }
+    out_.point_of_input_[i] = table[at];
+  }
+  for (const Point<D>& p : plc_.holes) out_.holes_.push_back(with_positive_zeros(p));
+  for (RegionSeed<D> r : plc_.regions) {
+    r.point = with_positive_zeros(r.point);
+    out_.regions_.push_back(r);
+  }
+}
+
+template <int D>
+void DomainBuilder<D>::check_segments() {
+  explicit_begin_.assign(out_.points_.size() + 1, 0);
+  for (std::size_t s = 0; s < plc_.segments.size(); ++s) {
+    const auto [i, j] = plc_.segments[s].points;
+    const std::uint32_t a = out_.point_of_input_[i], b = out_.point_of_input_[j];
+    if (a == b)
+      fail(Errc::degenerate_segment,
+           "segment " + std::to_string(number(s)) + ": its ends, points " + std::to_string(number(i)) + " and " +
+               std::to_string(number(j)) + ", are both at " + detail::to_text(out_.points_[a]),
+           plc_.source.segment_lines, s, {number(s), number(i), number(j)}, {detail::in_space(out_.points_[a])});
+    explicit_.push_back({a, b});
+    ++explicit_begin_[a + 1];
+  }
+  if constexpr (D == 3) {
+    for (std::size_t v = 1; v < explicit_begin_.size(); ++v) explicit_begin_[v] += explicit_begin_[v - 1];
+    std::vector<std::uint32_t> next(explicit_begin_);
+    explicit_at_.resize(explicit_.size());
+    for (std::uint32_t s = 0; s < explicit_.size(); ++s) explicit_at_[next[explicit_[s][0]]++] = s;
+  }
+}
+
+// Exact: some D + 1 points span the space.
+template <int D>
+void DomainBuilder<D>::check_spans_space() const {
+  const auto& p = out_.points_;
+  const std::size_t n = p.size();
+  std::size_t c = 2;
+  while (c < n && collinear<D>(p[0], p[1], p[c])) ++c;
+  bool spans = c < n;
+  if constexpr (D == 3) {
+    std::size_t d = c + 1;
+    while (spans && d < n && orient3d(p[0], p[1], p[c], p[d]) == Sign::zero) ++d;
+    spans = spans && d < n;
+  }
+  if (spans) return;
+  const std::string count = std::to_string(n) + " distinct points";
+  fail(Errc::no_volume, n <= D ? count + " are too few" : "all " + count + (D == 3 ? " lie in one plane" : " lie on one line"),
+       {}, 0, {}, {});
+}
+
+#define PGDR_INSTANTIATE(D)                              \
+  template void DomainBuilder<D>::check_finite() const;  \
+  template void DomainBuilder<D>::check_indices() const; \
+  template void DomainBuilder<D>::merge_points();        \
+  template void DomainBuilder<D>::check_segments();      \
+  template void DomainBuilder<D>::check_spans_space() const;
+PGDR_INSTANTIATE(2)
+PGDR_INSTANTIATE(3)
+#undef PGDR_INSTANTIATE
+
+}  // namespace pgdr
