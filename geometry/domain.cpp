@@ -30,7 +30,7 @@ void RepairList::report(Errc code, const std::string& what, const std::string& f
   if (count == 0) return;
   diagnostic.code = code;
   diagnostic.file = file;
-  diagnostic.message = std::to_string(count) + " " + what + (words.empty() ? "" : ": " + words);
+  diagnostic.message = what + ": " + std::to_string(count) + " (" + words + ")";
   out.push_back(std::move(diagnostic));
 }
 
@@ -91,14 +91,14 @@ void DomainBuilder<D>::warn(Errc code, const std::string& message, const std::ve
 template <int D>
 void DomainBuilder<D>::report_repairs() {
   const std::string& file = plc_.source.file;
-  merged_.report(Errc::degenerate_segment, "points repeat an earlier one exactly and were merged into it", file,
+  merged_.report(Errc::degenerate_segment, "points that repeat an earlier one exactly, merged into it", file,
                  out_.repairs_);
-  negative_zeros_.report(Errc::not_finite, "points had a coordinate -0, now 0", file, out_.repairs_);
-  dropped_edges_.report(Errc::degenerate_segment, "polygon edges of length zero were dropped (facet: points)", file,
+  negative_zeros_.report(Errc::not_finite, "points with a coordinate -0, now 0", file, out_.repairs_);
+  dropped_edges_.report(Errc::degenerate_segment, "polygon edges of length zero, dropped", file,
                         out_.repairs_);
-  repeated_segments_.report(Errc::degenerate_segment, "segments repeat an earlier one and were dropped", file,
+  repeated_segments_.report(Errc::degenerate_segment, "segments that repeat an earlier one, dropped", file,
                             out_.repairs_);
-  repeated_facets_.report(Errc::degenerate_facet, "facets repeat an earlier one and were dropped", file,
+  repeated_facets_.report(Errc::degenerate_facet, "facets that repeat an earlier one, dropped", file,
                           out_.repairs_);
 }
 

@@ -110,7 +110,7 @@ CleanFacet DomainBuilder<D>::clean(std::uint32_t f) requires(D == 3) {
     const auto drop = [&](std::uint32_t i, std::uint32_t j) {
       dropped_edges_.add(
           [&] {
-            return std::to_string(number(f)) + ": " + std::to_string(number(i)) + " - " + std::to_string(number(j));
+            return std::to_string(number(i)) + " - " + std::to_string(number(j)) + " of facet " + std::to_string(number(f));
           },
           {number(f), number(i), number(j)});
     };

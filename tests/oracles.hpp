@@ -253,6 +253,16 @@ std::vector<Family<D>> families() {
       {"uniform, 1e-250", [=](Random& r) { return scaled(random(r), -830); }, false},
       {"sphere, 1e-250", [=](Random& r) { return scaled(on_sphere<D>(r), -830); }, false},
       {"nudged sphere, 1e-60", [=](Random& r) { return scaled(nudge(r, on_sphere<D>(r)), -200); }, false},
+      // Products of D resp. D+2 coordinates are fractions of the least denormal.
+      {"underflowing minors",
+       [=](Random& r) {
+         Point<D> p = each<D>([&] { return std::ldexp(below(r, 8), D == 3 ? -538 : -269); });
+         if (D == 3) p[2] = below(r, 8);
+         return p;
+       },
+       false},
+      {"underflowing determinants",
+       [=](Random& r) { return each<D>([&] { return std::ldexp(below(r, 8), D == 3 ? -216 : -270); }); }, false},
       {"uniform, 1e140", [=](Random& r) { return scaled(random(r), 465); }, false},
       {"sphere, 1e140", [=](Random& r) { return scaled(on_sphere<D>(r), 465); }, false},
       {"sphere, overflowing", [=](Random& r) { return scaled(on_sphere<D>(r), 1016); }, false},

@@ -21,6 +21,15 @@ EntityRef segment(EntityId s) { return {EntityKind::segment, s}; }
 EntityRef facet(EntityId f) { return {EntityKind::facet, f}; }
 EntityRef point(EntityId p) { return {EntityKind::vertex, p}; }
 
+/// The segment between two input points of a model.
+EntityRef between(const Model<2>& model, std::uint32_t a, std::uint32_t b) {
+  const Domain<2> domain(model.plc);
+  for (EntityId s = 0; s < domain.segments().size(); ++s)
+    if (const auto& p = domain.segments()[s].points; (p[0] == a && p[1] == b) || (p[0] == b && p[1] == a))
+      return segment(s);
+  return {};
+}
+
 template <int D>
 CheckReport run(const Model<D>& model, CheckOptions<D> options, const std::vector<PoorReason>& reasons) {
   const Domain<D> domain(model.plc);
@@ -29,8 +38,7 @@ CheckReport run(const Model<D>& model, CheckOptions<D> options, const std::vecto
   return check(model.mesh, options);
 }
 
-/// Two triangles with an angle of about 20 degrees at a corner each, far from each other. The points of each: the corner, then its sides' ends;
-/// segments 0 and 2 (3 and 5) meet at the corner.
+/// Two triangles far from each other, each with an angle of about 20 degrees at its first point (0 and 3).
 Model<2> two_needles() {
   Model<2> m;
   for (const double x : {0.0, 100.0})
@@ -50,6 +58,8 @@ Model<2> two_needles() {
 
 TEST(CheckBounds, SmallAnglesMustHold) {
   const Model<2> m = two_needles();
+  const EntityRef a = between(m, 0, 1), b = between(m, 0, 2);
+  const EntityRef c = between(m, 3, 4), d = between(m, 3, 5), opposite = between(m, 4, 5);
   CheckOptions<2> options;
   options.radius_edge_bound = 1.41422;
   const auto with = [&](std::vector<PoorReason> reasons) { return run(m, options, reasons); };
@@ -58,18 +68,18 @@ TEST(CheckBounds, SmallAnglesMustHold) {
   EXPECT_EQ(none.over_radius_edge, 2u);
   EXPECT_EQ(none.count(Kind::over_radius_edge), 2u);
 
-  const PoorReason first{0, Code::small_angle, {segment(0), segment(2)}, 20};
-  const auto good = with({first, {1, Code::small_angle, {segment(3), segment(5)}, 20}});
+  const PoorReason first{0, Code::small_angle, {a, b}, 20};
+  const auto good = with({first, {1, Code::small_angle, {c, d}, 20}});
   EXPECT_EQ(good.exit_code(), 1);
   EXPECT_EQ(good.explained, 2u);
 
   const std::vector<std::pair<const char*, PoorReason>> false_claims = {
-      {"an angle of 80 degrees", {1, Code::small_angle, {segment(3), segment(4)}, 20}},
-      {"segments that do not touch", {1, Code::small_angle, {segment(3), segment(0)}, 20}},
-      {"a small angle far away", {1, Code::small_angle, {segment(0), segment(2)}, 20}},
-      {"one segment twice", {1, Code::small_angle, {segment(3), segment(3)}, 20}},
-      {"no such segment", {1, Code::small_angle, {segment(3), segment(77)}, 20}},
-      {"no entity", {1, Code::small_angle, {EntityRef{}, segment(3)}, 20}},
+      {"an angle of 80 degrees", {1, Code::small_angle, {c, opposite}, 20}},
+      {"segments that do not touch", {1, Code::small_angle, {c, a}, 20}},
+      {"a small angle far away", {1, Code::small_angle, {a, b}, 20}},
+      {"one segment twice", {1, Code::small_angle, {c, c}, 20}},
+      {"no such segment", {1, Code::small_angle, {c, segment(77)}, 20}},
+      {"no entity", {1, Code::small_angle, {EntityRef{}, c}, 20}},
       {"rounding, for half of the cells", {1, Code::rounding, {}, 0}},
       {"a bound above the proved one", {1, Code::beyond_theory, {}, 0}},
   };
@@ -81,9 +91,9 @@ TEST(CheckBounds, SmallAnglesMustHold) {
   EXPECT_EQ(with({first, {7, Code::rounding, {}, 0}}).count(Kind::bad_reason), 1u) << "no such cell";
   EXPECT_EQ(with({first, {0, Code::rounding, {}, 0}}).count(Kind::over_radius_edge), 1u) << "a reason for another cell";
   // Any of several reasons will do; an input point stands for what meets there.
-  EXPECT_EQ(with({first, {1, Code::beyond_theory, {}, 0}, {1, Code::small_angle, {segment(5), segment(3)}, 20}}).exit_code(), 1);
-  EXPECT_EQ(with({first, {1, Code::small_angle, {point(3), segment(3)}, 20}}).exit_code(), 1);
-  EXPECT_EQ(with({first, {1, Code::small_angle, {segment(3), point(4)}, 20}}).exit_code(), 6);
+  EXPECT_EQ(with({first, {1, Code::beyond_theory, {}, 0}, {1, Code::small_angle, {d, c}, 20}}).exit_code(), 1);
+  EXPECT_EQ(with({first, {1, Code::small_angle, {point(3), c}, 20}}).exit_code(), 1);
+  EXPECT_EQ(with({first, {1, Code::small_angle, {c, point(4)}, 20}}).exit_code(), 6);
 }
 
 TEST(CheckBounds, BeyondTheoryBelowTheProvedBound) {
@@ -97,7 +107,7 @@ TEST(CheckBounds, ReasonsNeedTheInput) {
   const Model<2> m = two_needles();
   CheckOptions<2> options;
   options.radius_edge_bound = 1.41422;
-  const std::vector<PoorReason> reasons{{0, Code::small_angle, {segment(0), segment(2)}, 20}};
+  const std::vector<PoorReason> reasons{{0, Code::small_angle, {between(m, 0, 1), between(m, 0, 2)}, 20}};
   options.reasons = &reasons;
   const auto report = check(m.mesh, options);
   EXPECT_EQ(report.count(Kind::bad_reason), 1u);
@@ -213,9 +223,9 @@ TEST(CheckDelaunay, RefusedOnlyBesideANamedEntity) {
   }
   m.mesh.input_points = 10;
   EXPECT_EQ(run(m, {}, {}).count(Kind::not_delaunay), 1u);
-  const PoorReason elsewhere{0, Code::small_angle, {segment(0), segment(2)}, 20};
+  const PoorReason elsewhere{0, Code::small_angle, {between(m, 0, 1), between(m, 0, 2)}, 20};
   EXPECT_EQ(run(m, {}, {elsewhere}).count(Kind::not_delaunay), 1u);
-  const PoorReason no_angle{2, Code::small_angle, {segment(6), segment(7)}, 20};
+  const PoorReason no_angle{2, Code::small_angle, {between(m, 6, 7), between(m, 7, 8)}, 20};
   EXPECT_EQ(run(m, {}, {no_angle}).count(Kind::not_delaunay), 1u) << "an entity named with a false angle";
   // With a needle at the square's corner the same face is one beside a refused entity.
   m.plc.points.push_back({{-1, 4.875}});
@@ -227,7 +237,7 @@ TEST(CheckDelaunay, RefusedOnlyBesideANamedEntity) {
     m.plc.segments.push_back({s, 0});
     m.mesh.subsegments.push_back({s, 0});
   }
-  const PoorReason beside{4, Code::small_angle, {segment(10), segment(11)}, 14};
+  const PoorReason beside{4, Code::small_angle, {between(m, 6, 10), between(m, 6, 11)}, 14};
   const auto report = run(m, {}, {beside});
   EXPECT_EQ(report.not_delaunay_refused, 1u);
   EXPECT_EQ(report.exit_code(), 1);

@@ -65,6 +65,8 @@ struct Block {
   std::function<int(const Lattice<D>&)> region = [](const Lattice<D>&) { return 0; };
   /// The marker of a wall in the plane x_axis = at; also walls inside a region, where it is not 0.
   std::function<int(int axis, const std::vector<Lattice<D>>& corners)> marker = [](int, const auto&) { return 0; };
+  /// 3D: the marker of an edge that is part of a segment of its own; 0: none.
+  std::function<int(const Lattice<D>& a, const Lattice<D>& b)> edge_marker = [](const auto&, const auto&) { return 0; };
 };
 
 template <int D>
@@ -177,10 +179,16 @@ class BlockMesher {
     }
   }
 
-  /// Edges where other than two walls of one plane and marker meet.
+  /// Edges where other than two walls of one plane and marker meet, and those of segments of their own.
   void add_subsegments() {
-    for (const auto& [edge, walls] : edges_)
-      if (walls.size() != 2 || walls[0] != walls[1]) mesh_.subsegments.push_back({edge, 0});
+    for (const auto& cell : mesh_.cells)
+      for (int i = 0; i < D; ++i)
+        for (int j = i + 1; j <= D; ++j) edges_[{std::min(cell[i], cell[j]), std::max(cell[i], cell[j])}];
+    for (const auto& [edge, walls] : edges_) {
+      const int marker = block_.edge_marker(lattice_[edge[0]], lattice_[edge[1]]);
+      const bool at_walls = !walls.empty() && (walls.size() != 2 || walls[0] != walls[1]);
+      if (marker || at_walls) mesh_.subsegments.push_back({edge, marker});
+    }
   }
 
   Block<D> block_;
@@ -354,12 +362,76 @@ Model<D> loose_wall(const AffineMap<D>& map) {
   return {"loose_wall", maker.plc, BlockMesher<D>(block).run(maker.lattice)};
 }
 
+/// A block whose facets have all that a facet may have. Top: a frame (marker 6) round a square (8). Bottom: a loose
+/// segment (11) and a loose point inside. Side x = 0: two rectangles with equal markers, which are one facet; side
+/// x = 3: two with different ones (2, 12). A loose segment (13) in the volume. All input points are multiples of `u`
+/// steps of the lattice: 3 of a slanted one, where they must be exact for facets to be planar.
+inline Model<3> patchwork(const AffineMap<3>& map, int u) {
+  PlcMaker<3> maker(map);
+  const auto scaled = [u](std::vector<Lattice<3>> corners) {
+    for (auto& c : corners)
+      for (int& x : c) x *= u;
+    return corners;
+  };
+  const auto polygon = [&](const std::vector<Lattice<3>>& corners, int marker) { maker.polygon(scaled(corners), marker); };
+  const auto point = [&](int x, int y, int z) { return maker.point({u * x, u * y, u * z}); };
+  polygon({{0, 0, 0}, {0, 1, 0}, {0, 1, 3}, {0, 0, 3}}, 1);
+  polygon({{0, 1, 0}, {0, 3, 0}, {0, 3, 3}, {0, 1, 3}}, 1);
+  polygon({{3, 0, 0}, {3, 1, 0}, {3, 1, 3}, {3, 0, 3}}, 2);
+  polygon({{3, 1, 0}, {3, 3, 0}, {3, 3, 3}, {3, 1, 3}}, 12);
+  polygon({{0, 0, 0}, {3, 0, 0}, {3, 0, 3}, {0, 0, 3}}, 3);
+  polygon({{0, 3, 0}, {3, 3, 0}, {3, 3, 3}, {0, 3, 3}}, 4);
+  const auto ring = [](int z) {
+    return std::vector<Lattice<3>>{{0, 0, z}, {3, 0, z}, {3, 1, z}, {3, 3, z}, {0, 3, z}, {0, 1, z}};
+  };
+  auto& plc = maker.plc;
+  polygon(ring(0), 5);
+  plc.facets.back().polygons.push_back({point(1, 1, 0), point(2, 1, 0)});
+  plc.facets.back().polygons.push_back({point(2, 2, 0)});
+  plc.segments.push_back({{point(1, 1, 0), point(2, 1, 0)}, 11});
+  const std::vector<Lattice<3>> square{{1, 1, 3}, {2, 1, 3}, {2, 2, 3}, {1, 2, 3}};
+  polygon(ring(3), 6);
+  auto& hole = plc.facets.back().polygons.emplace_back();
+  for (const auto& c : scaled(square)) hole.push_back(maker.point(c));
+  Point<3> seed;
+  for (int k = 0; k < 3; ++k) seed[k] = map(scaled(square)[0])[k] / 2 + map(scaled(square)[2])[k] / 2;
+  plc.facets.back().holes.push_back(seed);
+  polygon(square, 8);
+  plc.segments.push_back({{point(1, 1, 1), point(1, 1, 2)}, 13});
+  Block<3> block{{3 * u, 3 * u, 3 * u}, map};
+  block.marker = [u](int axis, const std::vector<Lattice<3>>& corners) {
+    bool far = true, middle = true;
+    for (const auto& c : corners) {
+      far &= c[1] >= u;
+      middle &= c[0] >= u && c[0] <= 2 * u && c[1] >= u && c[1] <= 2 * u;
+    }
+    const int marker = box_marker<3>({0, 0, 0}, {3 * u, 3 * u, 3 * u}, axis, corners);
+    return marker == 2 && far ? 12 : marker == 6 && middle ? 8 : marker;
+  };
+  block.edge_marker = [u](const Lattice<3>& a, const Lattice<3>& b) {
+    // The edge lies on the axis-parallel line through `from` within `u` steps of it.
+    const auto on = [&](const Lattice<3>& from, int axis) {
+      for (const auto& p : {a, b})
+        for (int k = 0; k < 3; ++k)
+          if (p[k] < from[k] || p[k] > from[k] + (k == axis ? u : 0)) return false;
+      return true;
+    };
+    return on({u, u, 0}, 0) ? 11 : on({u, u, u}, 2) ? 13 : 0;
+  };
+  return {"patchwork", plc, BlockMesher<3>(block).run(maker.lattice)};
+}
+
 template <int D>
 std::vector<Model<D>> all_models() {
-  return {solid_block<D>("block", 3, straight<D>()), solid_block<D>("slanted_block", 3, slanted<D>()),
+  std::vector<Model<D>> models = {solid_block<D>("block", 3, straight<D>()), solid_block<D>("slanted_block", 3, slanted<D>()),
           two_regions<D>(straight<D>()),             two_regions<D>(slanted<D>()),
           cavity<D>(straight<D>()),                  cavity<D>(slanted<D>()),
           loose_wall<D>(straight<D>()),              loose_wall<D>(slanted<D>())};
+  if constexpr (D == 3) {
+    models.push_back(patchwork(straight<3>(), 1));
+    models.push_back(patchwork(slanted<3>(), 3));
+  }
+  return models;
 }
 
 }  // namespace pgdr::test

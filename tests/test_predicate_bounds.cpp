@@ -106,6 +106,38 @@ TYPED_TEST(Bounds, AgreeWithRationals) {
   }
 }
 
+// Numerators that are all cancellation: needles (a corner beside another one), and in space slivers (four points near a
+// circle), whose radius is moderate while the volume vanishes.
+TYPED_TEST(Bounds, AgreeWithRationalsOnNeedlesAndSlivers) {
+  constexpr int D = TypeParam::value;
+  Random random(oracle::seed());
+  for (int k = 1; k < 50; ++k) {
+    for (int round = 0; round < 20; ++round) {
+      Simplex<D> needle, sliver;
+      for (Point<D>& p : needle) p = oracle::each<D>([&] { return oracle::uniform(random); });
+      sliver = needle;
+      for (int i = 0; i < D; ++i) needle[1][i] = needle[0][i] + std::ldexp(oracle::uniform(random), -k);
+      for (Point<D>& p : sliver) {
+        const double x = p[0] - 0.5, y = p[1] - 0.5, r = std::sqrt(x * x + y * y);
+        p[0] = x / r;
+        p[1] = y / r;
+        if (D == 3) p[2] = std::ldexp(oracle::uniform(random), -k);
+      }
+      for (const Simplex<D>& s : {needle, sliver})
+        if (oracle::orient<D>(s) != Sign::zero) check<D>(s, random);
+      ASSERT_FALSE(this->HasFailure()) << k;
+    }
+  }
+}
+
+// The square of the shortest edge is lost to underflow while everything else is of ordinary size.
+TEST(Bound, OfAShortestEdgeWithoutASquare) {
+  const double l = 0x1.8p-537;
+  const Simplex<2> s{Point2{{0, 0}}, {{l, 0}}, {{0.5, 1}}};
+  const double r = std::sqrt(CGAL::to_double(exact<2>(s).radius2));
+  for (const double factor : {0.99, 1 - 1e-12, 1 + 1e-12, 1.01}) expect_radius_edge<2>(s, factor * r / l, factor > 1);
+}
+
 // Corners on the sphere of radius 65 about the origin, the shortest edge of length 32: the ratio 65/32 is a double. The
 // determinants are multiples of 6 resp. 2.
 template <int D>

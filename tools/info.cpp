@@ -157,8 +157,8 @@ int info_of_mesh(const InfoArguments& a, Report& report) {
   const std::uint64_t most = *std::max_element(q.histogram.begin(), q.histogram.end());
   for (std::size_t i = 0; i < q.histogram.size(); ++i) {
     const auto bar = most ? static_cast<std::size_t>(50 * q.histogram[i] / most) : 0;
-    print_row("", format("%3zu-%3zu %12llu ", 10 * i, 10 * i + 10, static_cast<unsigned long long>(q.histogram[i])) +
-                      std::string(bar, '#'));
+    print_row("", format("%3zu-%3zu %12llu", 10 * i, 10 * i + 10, static_cast<unsigned long long>(q.histogram[i])) +
+                      (bar ? ' ' + std::string(bar, '#') : ""));
   }
   return exit_done;
 }

@@ -54,7 +54,7 @@ struct RepairList {
     ++count;
     diagnostic.ids.insert(diagnostic.ids.end(), ids);
   }
-  /// Appends "<count> <what>: <words>" if there were any.
+  /// Appends "<what>: <count> (<words>)" if there were any.
   void report(Errc code, const std::string& what, const std::string& file, std::vector<Diagnostic>& out);
 };
 

@@ -385,7 +385,7 @@ class Check(Case):
 
     def test_a_mesh_of_something_else(self):
         self.mesh(PLATE)
-        other = self.file("other.poly", PLATE.read_text().replace("6 2\n", "6 2.5\n"))
+        other = self.file("other.poly", PLATE.read_text().replace("\n3 6 2\n", "\n3 6 2.5\n", 1))
         self.pgdr("check", self.output, "--input", other, expect=6)
         self.pgdr("check", self.output, "--input", BRACKET, expect=2)
 

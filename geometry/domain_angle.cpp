@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which entities of a Domain touch, and at what angle. Cosines are formed in double-double, so that an angle of exactly
+// 60 or 90 degrees is not reported as less.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "detail/double_double.hpp"
+#include "pgdr/domain.hpp"
+
+namespace pgdr {
+namespace {
+
+using detail::cross;
+using detail::dot;
+using detail::DoubleDouble;
+using Vector = detail::DoubleDoubles<3>;
+
+// q - p, brought to size 1; z = 0 in the plane.
+template <int D>
+Vector direction(const Point<D>& p, const Point<D>& q) {
+  Vector v;
+  double m = 0;
+  for (int i = 0; i < D; ++i) {
+    auto& x = v[static_cast<std::size_t>(i)];
+    x = detail::difference(0.5 * q[i], 0.5 * p[i]);  // half: no overflow
+    m = std::max(m, std::fabs(x.hi));
+  }
+  const int e = m == 0 ? 0 : std::ilogb(m);
+  for (auto& x : v) x = {std::ldexp(x.hi, -e), std::ldexp(x.lo, -e)};
+  return v;
+}
+
+double degrees(double sine, double cosine) { return std::atan2(sine, cosine) * (180 / std::numbers::pi); }
+
+double angle_between(const Vector& u, const Vector& w) {
+  const DoubleDouble cosine = dot(u, w);
+  const Vector n = cross(u, w);
+  double a = degrees(std::sqrt(dot(n, n).hi), cosine.hi);
+  const auto settle = [&a](double limit, bool below) {  // atan2 must not contradict the better cosine
+    a = below ? std::min(a, std::nextafter(limit, 0.0)) : std::max(a, limit);
+  };
+  settle(90, cosine.hi > 0);
+  settle(60, cosine.hi > 0 && (DoubleDouble(4) * cosine * cosine - dot(u, u) * dot(w, w)).hi > 0);
+  return a;
+}
+
+// The smallest angle between r and a direction into the corner from b to c.
+double angle_to_corner(const Vector& r, const Vector& b, const Vector& c) {
+  const double rays = std::min(angle_between(r, b), angle_between(r, c));
+  const Vector n = cross(b, c);
+  if (!(dot(cross(n, b), r).hi > 0 && dot(cross(c, n), r).hi > 0)) return rays;
+  const Vector along = cross(n, r);
+  return std::min(rays, degrees(std::fabs(dot(n, r).hi), std::sqrt(dot(along, along).hi)));
+}
+
+struct Corner {
+  Vector b, c;
+};
+
+std::vector<Corner> corners_at(const Domain<3>& domain, EntityId f, std::uint32_t v) {
+  std::vector<Corner> out;
+  const auto p = domain.points();
+  for (const auto& t : domain.triangles(f))
+    for (std::size_t i = 0; i < 3; ++i)
+      if (t[i] == v) out.push_back({direction(p[v], p[t[(i + 1) % 3]]), direction(p[v], p[t[(i + 2) % 3]])});
+  return out;
+}
+
+// For each triangle of f at a segment the normal of its half-plane: angles of half-planes are angles of these.
+std::vector<Vector> half_planes(const Domain<3>& domain, EntityId f, const DomainSegment& s) {
+  std::vector<Vector> out;
+  const auto p = domain.points();
+  const auto [a, b] = s.points;
+  for (const auto& t : domain.triangles(f)) {
+    if (std::find(t.begin(), t.end(), a) == t.end() || std::find(t.begin(), t.end(), b) == t.end()) continue;
+    const std::uint32_t c = t[0] ^ t[1] ^ t[2] ^ a ^ b;
+    out.push_back(cross(direction(p[a], p[b]), direction(p[a], p[c])));
+  }
+  return out;
+}
+
+template <class Range>
+std::vector<std::uint32_t> common(const Range& a, const Range& b) {
+  std::vector<std::uint32_t> out;
+  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(out));
+  return out;
+}
+
+template <int D>
+double segment_angle(const Domain<D>& domain, EntityId s, EntityId t) {
+  const auto p = domain.points();
+  const auto &a = domain.segments()[s].points, &b = domain.segments()[t].points;
+  for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t j = 0; j < 2; ++j)
+      if (a[i] == b[j]) return angle_between(direction(p[a[i]], p[a[1 - i]]), direction(p[b[j]], p[b[1 - j]]));
+  return 180;
+}
+
+double segment_facet_angle(const Domain<3>& domain, EntityId s, EntityId f) {
+  const auto own = domain.facet_segments(f);
+  if (std::binary_search(own.begin(), own.end(), s)) return 180;  // part of it
+  const auto points = domain.facet_points(f);
+  const auto& ends = domain.segments()[s].points;
+  double least = 180;
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!std::binary_search(points.begin(), points.end(), ends[i])) continue;
+    const Vector r = direction(domain.points()[ends[i]], domain.points()[ends[1 - i]]);
+    for (const Corner& k : corners_at(domain, f, ends[i])) least = std::min(least, angle_to_corner(r, k.b, k.c));
+  }
+  return least;
+}
+
+double facet_angle(const Domain<3>& domain, EntityId f, EntityId g) {
+  double least = 180;
+  std::vector<std::uint32_t> done;
+  for (const EntityId s : common(domain.facet_segments(f), domain.facet_segments(g))) {
+    const DomainSegment& segment = domain.segments()[s];
+    done.insert(done.end(), segment.points.begin(), segment.points.end());
+    const auto with = half_planes(domain, g, segment);
+    for (const Vector& u : half_planes(domain, f, segment))
+      for (const Vector& w : with) least = std::min(least, angle_between(u, w));
+  }
+  for (const std::uint32_t v : common(domain.facet_points(f), domain.facet_points(g))) {
+    if (std::find(done.begin(), done.end(), v) != done.end()) continue;  // along the segment the angle is 0
+    const auto with = corners_at(domain, g, v);
+    for (const Corner& k : corners_at(domain, f, v))
+      for (const Corner& l : with)
+        least = std::min({least, angle_to_corner(k.b, l.b, l.c), angle_to_corner(k.c, l.b, l.c),
+                          angle_to_corner(l.b, k.b, k.c), angle_to_corner(l.c, k.b, k.c)});
+  }
+  return least;
+}
+
+// The input vertices of an entity, sorted.
+template <int D>
+std::vector<std::uint32_t> few_points(const Domain<D>& domain, EntityRef e) {
+  if (e.kind == EntityKind::vertex) return {e.id};
+  const auto& ends = domain.segments()[e.id].points;
+  return {std::min(ends[0], ends[1]), std::max(ends[0], ends[1])};
+}
+
+}  // namespace
+
+template <int D>
+bool entities_touch(const Domain<D>& domain, EntityRef a, EntityRef b) {
+  if (a.kind == EntityKind::volume || b.kind == EntityKind::volume) return false;
+  if (a.kind == EntityKind::facet) std::swap(a, b);
+  if constexpr (D == 3) {
+    if (b.kind == EntityKind::facet) {
+      auto many = domain.facet_points(b.id);
+      const auto on_many = [&](std::uint32_t v) { return std::binary_search(many.begin(), many.end(), v); };
+      if (a.kind != EntityKind::facet) return std::ranges::any_of(few_points(domain, a), on_many);
+      auto few = domain.facet_points(a.id);
+      if (few.size() > many.size()) std::swap(few, many);
+      return std::ranges::any_of(few, on_many);
+    }
+  }
+  return !common(few_points(domain, a), few_points(domain, b)).empty();
+}
+
+template <int D>
+double entity_angle(const Domain<D>& domain, EntityRef a, EntityRef b) {
+  if (a == b) return 180;
+  if (a.kind > b.kind) std::swap(a, b);
+  if (a.kind == EntityKind::segment && b.kind == EntityKind::segment) return segment_angle(domain, a.id, b.id);
+  if constexpr (D == 3) {
+    if (a.kind == EntityKind::segment && b.kind == EntityKind::facet) return segment_facet_angle(domain, a.id, b.id);
+    if (a.kind == EntityKind::facet && b.kind == EntityKind::facet) return facet_angle(domain, a.id, b.id);
+  }
+  return 180;
+}
+
+template bool entities_touch<2>(const Domain<2>&, EntityRef, EntityRef);
+template bool entities_touch<3>(const Domain<3>&, EntityRef, EntityRef);
+template double entity_angle<2>(const Domain<2>&, EntityRef, EntityRef);
+template double entity_angle<3>(const Domain<3>&, EntityRef, EntityRef);
+
+}  // namespace pgdr
