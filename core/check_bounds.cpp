@@ -117,8 +117,10 @@ std::vector<double> slack_without_input(const OutputMesh<D>& mesh, int ulps) {
     for (const auto& constraint : constraints) {
       const auto& v = constraint.vertices;
       int equal = 0;
-      for (int i = 0; i < D; ++i)
-        equal += std::all_of(v.begin(), v.end(), [&](std::uint32_t u) { return mesh.points[u][i] == mesh.points[v[0]][i]; });
+      for (int i = 0; i < D; ++i) {
+        const double first = mesh.points[v[0]][i];
+        equal += std::all_of(v.begin(), v.end(), [&](std::uint32_t u) { return mesh.points[u][i] == first; });
+      }
       if (equal >= aligned_axes) continue;
       for (const std::uint32_t u : v)
         if (u >= mesh.input_points) slack[u] = width;

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Facets of the input in the mesh. A patch (part of a facet that no segment divides) is covered exactly once if a piece
-// of subfacets has the patch's boundary as its boundary, edge by edge, and no subfacet is turned over in the projection:
-// the number of times a point is covered is then the winding number of that boundary round it. Both are tested, and,
-// per vertex, the distance from the plane.
+// of subfacets has the patch's boundary as its boundary, edge by edge, and no subfacet is turned over in the
+// projection: the number of times a point is covered is then the winding number of that boundary round it. Both are
+// tested, and, per vertex, the distance from the plane.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -33,7 +33,8 @@ std::pair<double, double> projected_area(const std::array<Point3, 3>& t, int axi
 }
 
 double longest_edge(const std::array<Point3, 3>& t) {
-  return std::sqrt(std::max({squared_distance(t[0], t[1]), squared_distance(t[1], t[2]), squared_distance(t[2], t[0])}));
+  return std::sqrt(
+      std::max({squared_distance(t[0], t[1]), squared_distance(t[1], t[2]), squared_distance(t[2], t[0])}));
 }
 
 class FacetMatcher {
@@ -101,7 +102,8 @@ class FacetMatcher {
           if (bound.reversed != (piece.bounds[i].reversed != against)) continue;
           Candidate c{bound.patch, against, 0};
           for (const std::uint32_t v : vertices) c.faults += !on_facet(bound.patch, v);
-          for (const PieceBound& b : piece.bounds) c.faults += !bound_of({bound.patch, b.segment, b.reversed != against});
+          for (const PieceBound& b : piece.bounds)
+            c.faults += !bound_of({bound.patch, b.segment, b.reversed != against});
           if (best.patch == none || c.faults < best.faults) best = c;
         }
     return best;
@@ -163,8 +165,8 @@ class FacetMatcher {
     return {domain_.points()[t[0]], domain_.points()[t[1]], domain_.points()[t[2]]};
   }
 
-  // A facet that is planar only within rounding is the union of its triangles; the one that contains x in the projection
-  // counts. Rounding may put x beyond all of them: then any whose box x is in, up to the tolerance.
+  // A facet that is planar only within rounding is the union of its triangles; the one that contains x in the
+  // projection counts. Rounding may put x beyond all of them: then any whose box x is in, up to the tolerance.
   bool on_bent_facet(std::uint32_t patch, const Point3& x) const {
     const EntityId f = facet(patch);
     const int axis = domain_.facets()[f].axis;
@@ -199,8 +201,8 @@ class FacetMatcher {
     sums.error += error;
     const Sign sense = orient_projected(s[0], s[1], s[2], data.axis);
     // Turned over by no more than what rounding of its vertices can do is the same facet up to k ulps.
-    const double width = tolerance(f).width();
-    if (sense != (reversed ? Sign::negative : Sign::positive) && std::abs(doubled) > 4 * width * longest_edge(s) + error)
+    const double rounding = 4 * tolerance(f).width() * longest_edge(s) + error;
+    if (sense != (reversed ? Sign::negative : Sign::positive) && std::abs(doubled) > rounding)
       task_.findings.add(Kind::facet_not_conforming, {t, f}, [&] {
         return "Subfacet " + std::to_string(t) + " (" + list_words(mesh_.subfacets[t].vertices) +
                ") is turned over in the projection of facet " + std::to_string(f) + ".";

@@ -60,8 +60,8 @@ class DisjointSets {
   std::vector<std::uint32_t> parent_;
 };
 
-/// A wall at a ridge: `ahead` is its side that a turn round the ridge, counter-clockwise seen against the direction from
-/// the ridge's smaller point to its larger (in 2D: in the plane), enters when it leaves the wall.
+/// A wall at a ridge: `ahead` is its side that a turn round the ridge, counter-clockwise seen against the direction
+/// from the ridge's smaller point to its larger (in 2D: in the plane), enters when it leaves the wall.
 struct AtRidge {
   std::array<std::uint32_t, 2> ridge;  ///< sorted; the second is 0 in 2D
   std::uint32_t simplex, apex;
@@ -193,7 +193,8 @@ class InputBuilder {
     for (const std::uint32_t root : first_of_component)
       for (std::uint64_t attempt = 0; !linked[root]; ++attempt) {
         if (attempt == 1000)
-          throw InputError({Errc::entities_intersect, "Two walls of the input overlap.", {}, 0, {facet_or_segment(root)}, {}});
+          throw InputError(
+              {Errc::entities_intersect, "Two walls of the input overlap.", {}, 0, {facet_or_segment(root)}, {}});
         cast_line(target(root, attempt), attempt, linked);
       }
   }

@@ -73,7 +73,8 @@ class Linker {
         links_.bits[c] = 0x80;
       else
         findings_.add(Kind::inverted_cell, {c}, [&] {
-          return "The " + cell_words(mesh_, c) + " is flat or turned over, at " + words(mesh_.points[mesh_.cells[c][0]]) + ".";
+          return "The " + cell_words(mesh_, c) + " is flat or turned over, at " +
+                 words(mesh_.points[mesh_.cells[c][0]]) + ".";
         });
     }
   }
@@ -100,7 +101,8 @@ class Linker {
 
   /// All cells and walls that share one face.
   void join(std::span<const Record> group) {
-    const auto first_wall = std::partition_point(group.begin(), group.end(), [](const Record& r) { return !r.is_wall(); });
+    const auto first_wall =
+        std::partition_point(group.begin(), group.end(), [](const Record& r) { return !r.is_wall(); });
     const std::span cells(group.begin(), first_wall);
     const std::span walls_here(first_wall, group.end());
     if (cells.size() == 2 && cells[0].odd() != cells[1].odd()) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lines through the input: which walls a line crosses and in which order. Exact; a line that meets a ridge, or lies in a
-// wall, is given up for another one.
+// Lines through the input: which walls a line crosses and in which order. Exact; a line that meets a ridge, or lies in
+// a wall, is given up for another one.
 #include <algorithm>
 #include <cmath>
 

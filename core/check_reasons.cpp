@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Angles between input entities, decided exactly: of two segments below 60 degrees, otherwise below 90. A direction into
-// a facet at one of its points is a positive combination of the edges of its triangles there, and the product of two
-// positive combinations is positive for some choice iff it is for a pair of edges: so edges decide.
+// Angles between input entities, decided exactly: of two segments below 60 degrees, otherwise below 90. A direction
+// into a facet at one of its points is a positive combination of the edges of its triangles there, and the product of
+// two positive combinations is positive for some choice iff it is for a pair of edges: so edges decide.
 #include "detail/check_reasons.hpp"
 
 #include <algorithm>
@@ -233,7 +233,9 @@ template <int D>
 bool Reasons<D>::small_at_point(std::uint32_t point, EntityRef b) const {
   const Domain<D>& domain = *options_.domain;
   if (edges_at(domain, b, point).empty()) return false;
-  const auto meets = [&](EntityRef c) { return !(c == b) && !edges_at(domain, c, point).empty() && measure_angle(c, b); };
+  const auto meets = [&](EntityRef c) {
+    return !(c == b) && !edges_at(domain, c, point).empty() && measure_angle(c, b);
+  };
   for (EntityId s = 0; s < domain.segments().size(); ++s)
     if (meets({EntityKind::segment, s})) return true;
   for (EntityId f = 0; f < domain.facets().size(); ++f)

@@ -32,8 +32,9 @@ Components flood_cells(const OutputMesh<D>& mesh, const Links<D>& links, Finding
         const std::uint32_t other = links.neighbour[face] / (D + 1);
         if (!mesh.regions.empty() && other > c && mesh.regions[other] != mesh.regions[c])
           findings.add(Kind::wrong_region, {c, other}, [&] {
-            return "The label changes from " + words(mesh.regions[c]) + " to " + words(mesh.regions[other]) + " between " +
-                   cell_words(mesh, c) + " and " + cell_words(mesh, other) + ", with no constraint between them.";
+            return "The label changes from " + words(mesh.regions[c]) + " to " + words(mesh.regions[other]) +
+                   " between " + cell_words(mesh, c) + " and " + cell_words(mesh, other) +
+                   ", with no constraint between them.";
           });
         if (out.of_cell[other] != none) continue;
         out.of_cell[other] = number;
@@ -85,7 +86,8 @@ class RegionChecker {
     if (!input_.volumes()[volume].kept) {
       bad_side_[component] = 1;
       task_.findings.add(Kind::hole_filled, {face / (D + 1)}, [&] {
-        return "The " + cell_words(mesh_, face / (D + 1)) + (volume == 0 ? " lies outside the domain." : " lies in a hole.");
+        return "The " + cell_words(mesh_, face / (D + 1)) +
+               (volume == 0 ? " lies outside the domain." : " lies in a hole.");
       });
     } else if (known == none) {
       known = volume;
@@ -106,8 +108,8 @@ class RegionChecker {
   }
 
   // How much the measure of a volume changes if this wall's vertices move onto their entity, by at most t: the wall
-  // sweeps at most t * its measure, which itself changes by at most t * its boundary (and pi t^2); doubled. A facet that
-  // is planar only within rounding is met by subfacets across its folds, up to twice its defect away.
+  // sweeps at most t * its measure, which itself changes by at most t * its boundary (and pi t^2); doubled. A facet
+  // that is planar only within rounding is met by subfacets across its folds, up to twice its defect away.
   double slack(std::uint32_t w, EntityId entity) const {
     const auto& v = walls(mesh_)[w].vertices;
     if constexpr (D == 2) {
@@ -117,7 +119,8 @@ class RegionChecker {
       const double t = Tolerance{task_.ulps, input_.domain().facet_magnitude(entity)}.width() +
                        2 * input_.domain().facets()[entity].planarity_defect;
       const auto &a = mesh_.points[v[0]], &b = mesh_.points[v[1]], &c = mesh_.points[v[2]];
-      const double longest = std::sqrt(std::max({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)}));
+      const double longest =
+          std::sqrt(std::max({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)}));
       double doubled = 0;  // at most the sum of the three projections
       for (int axis = 0; axis < 3; ++axis) {
         const int j = (axis + 1) % 3, k = (axis + 2) % 3;
@@ -150,8 +153,9 @@ class RegionChecker {
       const double slack = errors[v] + sums[v].error() + wanted.measure_error + boundary_slack_[v];
       if (components[v] == 1 && std::abs(sums[v].value() - wanted.measure) <= slack) continue;
       task_.findings.add(Kind::wrong_volume, {v}, [&] {
-        return "Volume " + std::to_string(v) + " of the input measures " + words(wanted.measure) + " and is filled by " +
-               std::to_string(components[v]) + " connected sets of cells, which measure " + words(sums[v].value()) + ".";
+        return "Volume " + std::to_string(v) + " of the input measures " + words(wanted.measure) +
+               " and is filled by " + std::to_string(components[v]) + " connected sets of cells, which measure " +
+               words(sums[v].value()) + ".";
       });
     }
   }
@@ -162,7 +166,8 @@ class RegionChecker {
     for (std::uint32_t i = 0; i < domain.regions().size(); ++i) {
       seeds_.push_back({domain.regions()[i].point, i, false});
       const auto volume = input_.region_volumes()[i];
-      if (!volume || !input_.volumes()[*volume].kept) report_seed(i, volume ? "outside the domain or in a hole" : "on a wall");
+      if (!volume || !input_.volumes()[*volume].kept)
+        report_seed(i, volume ? "outside the domain or in a hole" : "on a wall");
     }
     for (std::uint32_t i = 0; i < domain.holes().size(); ++i) seeds_.push_back({domain.holes()[i], i, true});
     std::sort(seeds_.begin(), seeds_.end(), [](const Seed& a, const Seed& b) { return a.point[0] < b.point[0]; });

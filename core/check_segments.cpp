@@ -56,7 +56,8 @@ void match_points(const ConformityTask<D>& task, std::span<const std::uint32_t> 
       const int marker = mesh.point_markers.empty() ? 0 : mesh.point_markers[*at];
       if (marker == domain.point_markers()[p]) continue;
       task.findings.add(Kind::wrong_marker, {*at}, [&] {
-        return "Input point " + std::to_string(p) + ", " + vertex_words(mesh, *at) + ", has marker " + std::to_string(marker) + " instead of " +
+        return "Input point " + std::to_string(p) + ", " + vertex_words(mesh, *at) + ", has marker " +
+               std::to_string(marker) + " instead of " +
                std::to_string(domain.point_markers()[p]) + ".";
       });
     } else if (task.input.wants_point(p)) {

@@ -43,7 +43,8 @@ bool check_vertices(const List& list, Vertices vertices, std::size_t points, con
 template <int D>
 bool check_indices(const OutputMesh<D>& mesh, Findings& findings) {
   if (mesh.cells.size() >= none / (D + 1) || mesh.points.size() >= none)
-    throw ResourceError({Errc::ids_exhausted, "The mesh has too many cells for 32-bit numbers of faces.", {}, 0, {}, {}});
+    throw ResourceError(
+        {Errc::ids_exhausted, "The mesh has too many cells for 32-bit numbers of faces.", {}, 0, {}, {}});
   bool usable = true;
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
     bool finite = true;
@@ -117,9 +118,9 @@ Sign normal_sign(const OutputMesh<D>& mesh, const std::array<std::uint32_t, D>& 
 
 // A fixed direction d = (1, e, e^2) is in no plane spanned by doubles, so that from each vertex it points into the
 // inside of a cell or out of the mesh. Seen from corner i of a cell it points into the cell iff the (inward) normals of
-// the faces at i have a positive product with it; as the four sum to zero, that is: the one of face i alone is negative.
-// If every cell is positive and faces match, the number of cells round an inner vertex that hold a direction is the same
-// for all directions, so that one direction is enough; on the hull it is a sample.
+// the faces at i have a positive product with it; as all normals sum to zero, that is: the one of face i alone is
+// negative. If every cell is positive and faces match, the number of cells round an inner vertex that hold a direction
+// is the same for all directions, so that one direction is enough; on the hull it is a sample.
 template <int D>
 void check_stars(const OutputMesh<D>& mesh, const Links<D>& links, Findings& findings) {
   std::vector<std::uint8_t> covered(mesh.points.size(), 0);  // 0, 1, 2 = more

@@ -120,8 +120,8 @@ Center<D> add_offset(const Point<D>& first, const Offset<D>& o) {
 // What the plain evaluation leaves: edges of extreme length, which are scaled by a power of two, and back; and the
 // ill-conditioned, in rationals.
 template <int D, std::size_t N, std::size_t Corners, class Function>
-[[gnu::noinline]] Center<D> difficult_center(const std::array<Point<D>, Corners>& corners, std::array<Point<D>, N> edges,
-                                             Function offset) {
+[[gnu::noinline]] Center<D> difficult_center(const std::array<Point<D>, Corners>& corners,
+                                             std::array<Point<D>, N> edges, Function offset) {
   double largest = 0;
   for (const Point<D>& v : edges)
     for (const double x : v.x) largest = std::max(largest, std::fabs(x));
@@ -141,7 +141,8 @@ template <int D, std::size_t N, std::size_t Corners, class Function>
 }
 
 template <int D, std::size_t N, std::size_t Corners, class Function>
-Center<D> center_of(const std::array<Point<D>, Corners>& corners, const std::array<Point<D>, N>& edges, Function offset) {
+Center<D> center_of(const std::array<Point<D>, Corners>& corners, const std::array<Point<D>, N>& edges,
+                    Function offset) {
   const Offset<D> o = offset(edges);
   if (accurate<D>(o)) [[likely]] return add_offset<D>(corners[0], o);
   return difficult_center<D>(corners, edges, offset);

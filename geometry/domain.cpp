@@ -43,6 +43,7 @@ void DomainBuilder<D>::run() {
   merge_points();
   check_segments();
   check_spans_space();
+  choose_scale();
   if constexpr (D == 3) {
     triangulate_facets();
     drop_repeated_facets();

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Second step of a Domain (3D): each input facet becomes triangles, in the projection along the largest component of its
-// normal. A facet of three points is its triangle; any other goes through the planar triangulation, from which is taken
-// away what is reached from outside and from its hole seeds.
+// Second step of a Domain (3D): each input facet becomes triangles, in the projection along the largest component of
+// its normal. A facet of three points is its triangle; any other goes through the planar triangulation, from which is
+// taken away what is reached from outside and from its hole seeds.
 #include <algorithm>
 #include <cmath>
 
@@ -27,12 +27,21 @@ std::array<int, 3> axes_by_size(const std::array<double, 3>& normal) {
   return axes;
 }
 
-std::array<double, 3> triangle_normal(const Point3& a, const Point3& b, const Point3& c) {
-  const double u[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, w[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+std::array<double, 3> triangle_normal(const Point3& a, const Point3& b, const Point3& c, double scale) {
+  double u[3], w[3];
+  for (int i = 0; i < 3; ++i) {
+    u[i] = scale * b[i] - scale * a[i];
+    w[i] = scale * c[i] - scale * a[i];
+  }
   return {u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]};
 }
 
 }  // namespace detail
+
+template <int D>
+std::array<double, 3> DomainBuilder<D>::normal(const Triangle& t) const requires(D == 3) {
+  return detail::triangle_normal(out_.points_[t[0]], out_.points_[t[1]], out_.points_[t[2]], scale_);
+}
 
 template <int D>
 void DomainBuilder<D>::triangulate_facets() requires(D == 3) {
@@ -73,7 +82,8 @@ void DomainBuilder<D>::fail_facet(std::uint32_t f, const PlanarResult& result) c
       where.push_back(p[result.other[k]].x);
     }
     message = cross ? facet + "its edges " + edge(result.edge) + " and " + edge(result.other) + " cross"
-                    : facet + "its point " + point_words(result.other[0]) + " lies inside its edge " + edge(result.edge);
+                    : facet + "its point " + point_words(result.other[0]) + " lies inside its edge " +
+                          edge(result.edge);
   } else {  // coincident; no_such_edge and inverted do not happen
     code = Errc::degenerate_facet;
     message = facet + "its points " + edge(result.edge) + " are one behind the other: it is far from planar";
@@ -88,9 +98,10 @@ bool DomainBuilder<D>::add_triangle(std::uint32_t f) requires(D == 3) {
   if (facet.polygons.size() != 1 || facet.polygons[0].size() != 3 || !facet.holes.empty()) return false;
   Triangle t;
   for (std::size_t k = 0; k < 3; ++k) t[k] = out_.point_of_input_[facet.polygons[0][k]];
-  if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) fail_degenerate(f, "has fewer than three distinct points", {t.begin(), t.end()});
+  if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
+    fail_degenerate(f, "has fewer than three distinct points", {t.begin(), t.end()});
   const Point3 &a = out_.points_[t[0]], &b = out_.points_[t[1]], &c = out_.points_[t[2]];
-  for (const int axis : detail::axes_by_size(detail::triangle_normal(a, b, c))) {
+  for (const int axis : detail::axes_by_size(normal(t))) {
     const Sign side = orient_projected(a, b, c, axis);
     if (side == Sign::zero) continue;
     if (side == Sign::negative) std::swap(t[1], t[2]);
@@ -110,7 +121,8 @@ CleanFacet DomainBuilder<D>::clean(std::uint32_t f) requires(D == 3) {
     const auto drop = [&](std::uint32_t i, std::uint32_t j) {
       dropped_edges_.add(
           [&] {
-            return std::to_string(number(i)) + " - " + std::to_string(number(j)) + " of facet " + std::to_string(number(f));
+            return std::to_string(number(i)) + " - " + std::to_string(number(j)) + " of facet " +
+                   std::to_string(number(f));
           },
           {number(f), number(i), number(j)});
     };
@@ -147,7 +159,7 @@ std::array<double, 3> DomainBuilder<D>::facet_normal(const CleanFacet& facet) co
   for (const auto& loop : facet.loops) {
     std::array<double, 3> sum{};
     for (std::size_t k = 1; k + 1 < loop.size(); ++k) {  // from its first point: no cancellation far from the origin
-      const auto n = detail::triangle_normal(out_.points_[loop[0]], out_.points_[loop[k]], out_.points_[loop[k + 1]]);
+      const auto n = normal({loop[0], loop[k], loop[k + 1]});
       for (std::size_t i = 0; i < 3; ++i) sum[i] += n[i];
     }
     const double size = std::fabs(sum[0]) + std::fabs(sum[1]) + std::fabs(sum[2]);
@@ -222,10 +234,7 @@ void DomainBuilder<D>::constrain_explicit(const CleanFacet& facet) requires(D ==
 
 template <int D>
 void DomainBuilder<D>::measure_planarity(TriangulatedFacet& facet, const CleanFacet& clean) requires(D == 3) {
-  const auto area = [&](const Triangle& t) {
-    return std::fabs(detail::triangle_normal(out_.points_[t[0]], out_.points_[t[1]], out_.points_[t[2]])
-                         [static_cast<std::size_t>(facet.axis)]);
-  };
+  const auto area = [&](const Triangle& t) { return std::fabs(normal(t)[static_cast<std::size_t>(facet.axis)]); };
   const auto begin = triangles_.begin() + facet.first;
   const auto largest = std::max_element(begin, triangles_.end(),
                                         [&](const Triangle& s, const Triangle& t) { return area(s) < area(t); });
@@ -239,5 +248,6 @@ void DomainBuilder<D>::measure_planarity(TriangulatedFacet& facet, const CleanFa
 }
 
 template void DomainBuilder<3>::triangulate_facets();
+template std::array<double, 3> DomainBuilder<3>::normal(const Triangle&) const;
 
 }  // namespace pgdr

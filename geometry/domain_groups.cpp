@@ -142,7 +142,6 @@ template <int D>
 void DomainBuilder<D>::orient_group(DomainFacet& facet) requires(D == 3) {
   const auto& p = out_.points_;
   Triangle* const t = out_.triangles_.data() + facet.first_triangle;
-  const auto normal = [&](const Triangle& s) { return detail::triangle_normal(p[s[0]], p[s[1]], p[s[2]]); };
   const auto size = [&](const Triangle& s) { return std::fabs(normal(s)[static_cast<std::size_t>(facet.axis)]); };
   std::uint32_t largest = 0;
   double largest_size = -1;

@@ -3,6 +3,7 @@
 //
 // First step of a Domain: finite points, valid indices, exact duplicates merged (never anything within a distance),
 // segments of non-zero length, and points that are not all in one plane.
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -155,8 +156,17 @@ void DomainBuilder<D>::check_spans_space() const {
   }
   if (spans) return;
   const std::string count = std::to_string(n) + " distinct points";
-  fail(Errc::no_volume, n <= D ? count + " are too few" : "all " + count + (D == 3 ? " lie in one plane" : " lie on one line"),
-       {}, 0, {}, {});
+  const std::string where = D == 3 ? " lie in one plane" : " lie on one line";
+  fail(Errc::no_volume, n <= D ? count + " are too few" : "all " + count + where, {}, 0, {}, {});
+}
+
+// Areas and normals are formed of coordinates below 2: they neither overflow nor depend on the unit of length.
+template <int D>
+void DomainBuilder<D>::choose_scale() {
+  double largest = 0;
+  for (const Point<D>& p : out_.points_)
+    for (const double x : p.x) largest = std::max(largest, std::fabs(x));
+  scale_ = std::ldexp(1.0, std::min(-std::ilogb(largest), 1022));
 }
 
 #define PGDR_INSTANTIATE(D)                              \
@@ -164,6 +174,7 @@ void DomainBuilder<D>::check_spans_space() const {
   template void DomainBuilder<D>::check_indices() const; \
   template void DomainBuilder<D>::merge_points();        \
   template void DomainBuilder<D>::check_segments();      \
+  template void DomainBuilder<D>::choose_scale();        \
   template void DomainBuilder<D>::check_spans_space() const;
 PGDR_INSTANTIATE(2)
 PGDR_INSTANTIATE(3)

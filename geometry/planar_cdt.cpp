@@ -42,19 +42,20 @@ std::uint32_t hilbert_index(std::uint32_t x, std::uint32_t y) {
 std::vector<std::uint32_t> insertion_order(std::span<const Point3> points, int axis) {
   const int u = (axis + 1) % 3, w = (axis + 2) % 3;
   double low[2] = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  double extent = 0;
+  double extent = 0;  // all halved: the largest doubles are allowed
   for (const Point3& p : points) {
-    low[0] = std::min(low[0], p[u]);
-    low[1] = std::min(low[1], p[w]);
+    low[0] = std::min(low[0], p[u] / 2);
+    low[1] = std::min(low[1], p[w] / 2);
   }
-  for (const Point3& p : points) extent = std::max({extent, p[u] - low[0], p[w] - low[1]});
+  for (const Point3& p : points) extent = std::max({extent, p[u] / 2 - low[0], p[w] / 2 - low[1]});
   // 65535 / extent may overflow for subnormal extents; the order then is any.
   const double scale = extent > 0 && std::isfinite(65535 / extent) ? 65535 / extent : 0;
   std::vector<std::pair<std::uint64_t, std::uint32_t>> keys(points.size());
   const auto grid = [scale](double d) { return static_cast<std::uint32_t>(std::clamp(d * scale, 0.0, 65535.0)); };
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     const std::uint64_t round = static_cast<std::uint64_t>(std::countr_zero(hash_of(i) | 0x10000u));
-    keys[i] = {((16 - round) << 32) | hilbert_index(grid(points[i][u] - low[0]), grid(points[i][w] - low[1])), i};
+    const std::uint32_t place = hilbert_index(grid(points[i][u] / 2 - low[0]), grid(points[i][w] / 2 - low[1]));
+    keys[i] = {((16 - round) << 32) | place, i};
   }
   std::sort(keys.begin(), keys.end());
   std::vector<std::uint32_t> order(points.size());
@@ -108,6 +109,7 @@ PlanarResult PlanarTriangulation::build_delaunay(std::span<const Point3> points,
   cells_.clear();
   local_of_.clear();
   touch_stamp_.clear();
+  outside_is_crooked_ = false;
   for (const std::uint32_t v : vertices) {
     local_of_.emplace_back(v, static_cast<std::uint32_t>(points_.size()));
     points_.push_back(points[v]);
@@ -167,9 +169,14 @@ PlanarTriangulation::Location PlanarTriangulation::locate_in(std::uint32_t t,
   return where;
 }
 
-// Walks towards p, leaving each cell through the first edge, from one of changing number, that has p behind it: that ends
-// in a Delaunay triangulation always, with constraints almost always; the scan is for the rest.
 PlanarTriangulation::Location PlanarTriangulation::locate(const Point3& p) const {
+  const Location where = walk_to(p);
+  return where.t == none || is_out(cells_[where.t]) ? locate_by_scan(p) : where;
+}
+
+// Walks towards p, leaving each cell through the first edge, from one of changing number, that has p behind it: that
+// ends in a Delaunay triangulation always, with constraints almost always; the scan is for the rest.
+PlanarTriangulation::Location PlanarTriangulation::walk_to(const Point3& p) const {
   std::uint32_t t = hint_ < cells_.size() ? hint_ : 0, random = 1;
   if (is_ghost(cells_[t])) {
     for (std::size_t i = 0; i < 3; ++i)
@@ -192,13 +199,17 @@ PlanarTriangulation::Location PlanarTriangulation::locate(const Point3& p) const
     if (out < 0) return locate_in(t, side);
     t = c.n[static_cast<std::size_t>(out)];
   }
-  return locate_by_scan(p);
+  return {};
 }
 
 PlanarTriangulation::Location PlanarTriangulation::locate_by_scan(const Point3& p) const {
-  Location beyond{};
+  Location beyond{0, -1, -1};
   for (std::uint32_t t = 0; t < cells_.size(); ++t) {
     const Cell& c = cells_[t];
+    if (is_out(c)) {
+      beyond = {t, -1, -1};
+      continue;
+    }
     std::array<Sign, 3> side{};
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t a = c.v[(i + 1) % 3], b = c.v[(i + 2) % 3];

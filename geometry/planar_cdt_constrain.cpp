@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Forcing a constraint edge. The cells that it crosses leave a polygon on each side of it (possibly with dangling edges,
-// so that a vertex may occur twice in its chain). Each is filled from the constraint outwards: the third corner of an
-// edge is the chain vertex whose circle through the edge holds no other one. Every chain vertex is joined to the
-// constraint by a crossed edge inside the polygon; hence no chain edge can cut such a triangle, and the rest of the chain
-// is again in that situation with respect to the two new edges. Nothing is written before the whole fill is known.
+// Forcing a constraint edge. The cells that it crosses leave a polygon on each side of it (possibly with dangling
+// edges, so that a vertex may occur twice in its chain). Each is filled from the constraint outwards: the third corner
+// of an edge is the chain vertex whose circle through the edge holds no other one. Every chain vertex is joined to the
+// constraint by a crossed edge inside the polygon; hence no chain edge can cut such a triangle, and the rest of the
+// chain is again in that situation with respect to the two new edges. Nothing is written before the fill is known.
 #include <algorithm>
 #include <map>
 

@@ -80,7 +80,7 @@ void PlanarTriangulation::end_change() {
 bool PlanarTriangulation::flip_is_due(std::uint32_t t, int i, bool flat) const {
   const Cell& c = cells_[t];
   const auto at = [](const Cell& cell, int k) { return cell.v[static_cast<std::size_t>(k % 3)]; };
-  if (is_fixed(c, i)) return false;
+  if (is_fixed(c, i) || is_out(c) || is_out(cells_[c.n[static_cast<std::size_t>(i)]])) return false;
   const std::uint32_t p = at(c, i), a = at(c, i + 1), b = at(c, i + 2);
   const std::uint32_t q = at(cells_[c.n[static_cast<std::size_t>(i)]], mirror(t, i));
   if (p == ghost || q == ghost) return false;
@@ -173,7 +173,7 @@ bool PlanarTriangulation::is_valid(bool delaunay) const {
     if (cell_of_[v] >= cells_.size() || index_in(cell_of_[v], v) < 0) return false;
   for (std::uint32_t t = 0; t < cells_.size(); ++t) {
     const Cell& c = cells_[t];
-    if (is_ghost(c) ? c.inside : orient(c.v[0], c.v[1], c.v[2]) != Sign::positive) return false;
+    if (is_ghost(c) ? c.inside : !is_out(c) && orient(c.v[0], c.v[1], c.v[2]) != Sign::positive) return false;
     for (std::size_t i = 0; i < 3; ++i) {
       if (c.n[i] >= cells_.size()) return false;
       const int j = mirror(t, static_cast<int>(i));

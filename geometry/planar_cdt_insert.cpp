@@ -39,7 +39,7 @@ bool PlanarTriangulation::make_star_shaped(std::uint32_t p, std::vector<RimEdge>
                                            std::vector<std::uint32_t>& cells) const {
   for (std::size_t e = 0; e < rim.size();) {
     const RimEdge edge = rim[e];
-    if (edge.a == ghost || edge.b == ghost || orient(p, edge.a, edge.b) == Sign::positive) {
+    if (!edge.inside || orient(p, edge.a, edge.b) == Sign::positive) {
       ++e;
       continue;
     }
@@ -128,6 +128,8 @@ PlanarResult PlanarTriangulation::split_edge(std::uint32_t a, std::uint32_t b, s
     forget_last_vertex();
     return {PlanarStatus::inverted, {a, b}, {}};
   }
+  const bool bounds = !cells_[cells[0]].inside || !cells_[cells[1]].inside;
+  outside_is_crooked_ = outside_is_crooked_ || (bounds && orient(u, w, v) != Sign::zero);
   begin_change(change);
   fill_star(v, rim, cells, fixed ? PlanarEdge{u, w} : PlanarEdge{none, none}, false);
   end_change();

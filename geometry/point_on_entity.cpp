@@ -75,13 +75,15 @@ Point3 project(const Point3& a, const Point3& b, const Point3& c, Point3 x) {
   return scaled(p, e);
 }
 
-// Squared distance of x from the edge a-b in the projection.
-double projected_distance(const Point3& a, const Point3& b, const Point3& x, int axis) {
+// Distance of x from the edge a-b in the projection.
+double projected_distance(Point3 a, Point3 b, Point3 x, int axis) {
+  const int e = excess_exponent(largest({a, b, x}));
+  for (Point3* p : {&a, &b, &x}) *p = scaled(*p, -e);
   const int u = (axis + 1) % 3, w = (axis + 2) % 3;
   const double du = b[u] - a[u], dw = b[w] - a[w];
   const double t = std::clamp(((x[u] - a[u]) * du + (x[w] - a[w]) * dw) / (du * du + dw * dw), 0.0, 1.0);
   const double ru = x[u] - (a[u] + t * du), rw = x[w] - (a[w] + t * dw);
-  return ru * ru + rw * rw;
+  return std::ldexp(std::sqrt(ru * ru + rw * rw), e);
 }
 
 bool holds(const Point3& a, const Point3& b, const Point3& c, const Point3& x, int axis) {
@@ -103,7 +105,8 @@ double detail::plane_distance(const Point3& a, const Point3& b, const Point3& c,
 
 template <int D>
 Point<D> point_on_segment(const Domain<D>& domain, EntityId s, double t) {
-  Point<D> p = domain.points()[domain.segments()[s].points[0]], q = domain.points()[domain.segments()[s].points[1]];
+  const auto& ends = domain.segments()[s].points;
+  Point<D> p = domain.points()[ends[0]], q = domain.points()[ends[1]];
   const int e = excess_exponent(largest({p, q}));
   p = scaled(p, -e);
   q = scaled(q, -e);
@@ -114,7 +117,8 @@ Point<D> point_on_segment(const Domain<D>& domain, EntityId s, double t) {
 
 template <int D>
 double segment_parameter(const Domain<D>& domain, EntityId s, const Point<D>& x) {
-  const Point<D>&p = domain.points()[domain.segments()[s].points[0]], &q = domain.points()[domain.segments()[s].points[1]];
+  const auto& ends = domain.segments()[s].points;
+  const Point<D>&p = domain.points()[ends[0]], &q = domain.points()[ends[1]];
   const int e = excess_exponent(largest({p, q, x}));
   const auto d = difference(scaled(q, -e), scaled(p, -e));
   const DoubleDouble length2 = detail::dot(d, d);

@@ -80,7 +80,8 @@ std::array<Twice, D> difference(const Point<D>& a, const Point<D>& b) {
 template <int D, std::size_t N>
 std::array<double, D * N> flat(const std::array<Point<D>, N>& points) {
   std::array<double, D * N> x;
-  for (std::size_t i = 0; i < N; ++i) std::copy_n(points[i].x.begin(), D, x.begin() + static_cast<std::ptrdiff_t>(D * i));
+  auto out = x.begin();
+  for (const Point<D>& p : points) out = std::copy_n(p.x.begin(), D, out);
   return x;
 }
 

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "pgdr/check.hpp"
+#include "pgdr/circumsphere.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr::test {
@@ -101,7 +102,8 @@ std::set<std::array<std::uint32_t, D>> wall_set(OutputMesh<D> mesh) {
 }
 
 /// Replaces two cells at an unconstrained face by the D cells round the edge between their apexes (2-2 flip in 2D, 2-3
-/// flip in 3D), where all are positive and an apex of the old ones was strictly outside the other's sphere.
+/// flip in 3D), where all are positive and an apex of the old ones was outside the other's sphere by more than
+/// rounding.
 template <int D>
 bool flip_to_non_delaunay(OutputMesh<D>& mesh) {
   const auto walls = wall_set(mesh);
@@ -111,7 +113,8 @@ bool flip_to_non_delaunay(OutputMesh<D>& mesh) {
     for (int k = 0; k < 2; ++k)
       for (const auto v : mesh.cells[cells[k]])
         if (std::find(face.begin(), face.end(), v) == face.end()) apex[k] = v;
-    if (in_sphere<D>(corners(mesh, mesh.cells[cells[0]]), mesh.points[apex[1]]) != Sign::negative) continue;
+    const auto ball = circumsphere<D>(corners(mesh, mesh.cells[cells[0]]));
+    if (squared_distance(mesh.points[apex[1]], ball.center) < ball.squared_radius * (1 + 0x1p-10)) continue;
     // Each vertex of the face in turn is replaced by the other apex in the first cell.
     std::vector<std::array<std::uint32_t, D + 1>> fresh;
     for (const auto v : face) {
@@ -182,7 +185,8 @@ std::vector<Mutation<D>> soundness_mutations() {
   list.push_back({"move a volume vertex through a face", {K::inverted_cell}, [](auto& m) {
                     const VertexKinds<D> kinds(m);
                     std::size_t v;
-                    if (!first_vertex(m, [&](auto u) { return kinds.in_volume(u) && u >= m.input_points; }, v)) return false;
+                    const auto inner = [&](auto u) { return kinds.in_volume(u) && u >= m.input_points; };
+                    if (!first_vertex(m, inner, v)) return false;
                     const auto cell = *std::find_if(m.cells.begin(), m.cells.end(), [&](const auto& c) {
                       return std::find(c.begin(), c.end(), v) != c.end();
                     });

@@ -42,7 +42,7 @@ CheckReport run(const Model<D>& model, CheckOptions<D> options, const std::vecto
 Model<2> two_needles() {
   Model<2> m;
   for (const double x : {0.0, 100.0})
-    for (const Point2& p : {Point2{{x, 0}}, Point2{{x + 1, 0}}, Point2{{x + 0.9375, 0.34375}}}) m.plc.points.push_back(p);
+    m.plc.points.insert(m.plc.points.end(), {{{x, 0}}, {{x + 1, 0}}, {{x + 0.9375, 0.34375}}});
   for (const std::uint32_t i : {0u, 3u}) {
     m.plc.segments.push_back({{i, i + 1}, 0});
     m.plc.segments.push_back({{i + 1, i + 2}, 0});

@@ -174,8 +174,10 @@ TEST(CheckInput3, PagesOfABook) {
     Plc<3> plc;
     plc.points = {{{0, 0, 0}}, {{0, 0, 1}}};
     for (int i = 0; i < k; ++i)
-      for (const double z : {0.0, 1.0})
-        plc.points.push_back({{std::cos(0.3 + 6.283185307179586 * i / k), std::sin(0.3 + 6.283185307179586 * i / k), z}});
+      for (const double z : {0.0, 1.0}) {
+        const double angle = 0.3 + 6.283185307179586 * i / k;
+        plc.points.push_back({{std::cos(angle), std::sin(angle), z}});
+      }
     const auto facet = [&](std::vector<std::uint32_t> p) {
       Plc<3>::Facet f;
       f.polygons.push_back(std::move(p));

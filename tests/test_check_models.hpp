@@ -223,7 +223,9 @@ struct PlcMaker {
     plc.points.push_back(map(i));
     return static_cast<std::uint32_t>(lattice.size() - 1);
   }
-  void segment(const Lattice<D>& a, const Lattice<D>& b, int marker = 0) { plc.segments.push_back({{point(a), point(b)}, marker}); }
+  void segment(const Lattice<D>& a, const Lattice<D>& b, int marker = 0) {
+    plc.segments.push_back({{point(a), point(b)}, marker});
+  }
   void polygon(const std::vector<Lattice<D>>& corners, int marker = 0) {
     typename Plc<D>::Facet facet;
     facet.polygons.emplace_back();
@@ -373,7 +375,9 @@ inline Model<3> patchwork(const AffineMap<3>& map, int u) {
       for (int& x : c) x *= u;
     return corners;
   };
-  const auto polygon = [&](const std::vector<Lattice<3>>& corners, int marker) { maker.polygon(scaled(corners), marker); };
+  const auto polygon = [&](const std::vector<Lattice<3>>& corners, int marker) {
+    maker.polygon(scaled(corners), marker);
+  };
   const auto point = [&](int x, int y, int z) { return maker.point({u * x, u * y, u * z}); };
   polygon({{0, 0, 0}, {0, 1, 0}, {0, 1, 3}, {0, 0, 3}}, 1);
   polygon({{0, 1, 0}, {0, 3, 0}, {0, 3, 3}, {0, 1, 3}}, 1);
@@ -423,10 +427,13 @@ inline Model<3> patchwork(const AffineMap<3>& map, int u) {
 
 template <int D>
 std::vector<Model<D>> all_models() {
-  std::vector<Model<D>> models = {solid_block<D>("block", 3, straight<D>()), solid_block<D>("slanted_block", 3, slanted<D>()),
-          two_regions<D>(straight<D>()),             two_regions<D>(slanted<D>()),
-          cavity<D>(straight<D>()),                  cavity<D>(slanted<D>()),
-          loose_wall<D>(straight<D>()),              loose_wall<D>(slanted<D>())};
+  std::vector<Model<D>> models;
+  for (const auto& map : {straight<D>(), slanted<D>()}) {
+    models.push_back(solid_block<D>("block", 3, map));
+    models.push_back(two_regions<D>(map));
+    models.push_back(cavity<D>(map));
+    models.push_back(loose_wall<D>(map));
+  }
   if constexpr (D == 3) {
     models.push_back(patchwork(straight<3>(), 1));
     models.push_back(patchwork(slanted<3>(), 3));

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Vertices added to a planar triangulation: the record of triangles created and destroyed, agreement with a construction
-// from scratch, and points of edges that are off them by their rounding.
+// Vertices added to a planar triangulation: the record of triangles created and destroyed, agreement with a
+// construction from scratch, and points of edges that are off them by their rounding.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -153,10 +153,10 @@ TEST_F(PlanarInsert, RoundedPointsOfAGenericPlane) {
   EXPECT_GT(inserted, 40 * 40);
 }
 
-// The point of the edge 0-1 lies beyond the flat triangle behind it: its neighbour is taken in, where no constraint is in
-// the way.
+// The point of the edge 0-1 lies beyond the flat triangle behind it: its neighbour is taken in, where no constraint is
+// in the way.
 TEST_F(PlanarInsert, APointOffItsEdgeTurnsNothingOver) {
-  const std::vector<Point3> points{{0, 0, 0}, {8, 0, 0}, {4, 4, 0}, {4, -0.125, 0}, {4, -4, 0}};
+  const std::vector<Point3> points{{0, 0, 0}, {8, 0, 0}, {4, 4, 0}, {6, -0.125, 0}, {4, -4, 0}};
   const Point3 off{3.5, -0.25, 0};
   std::vector<PlanarEdge> edges{{0, 1}, {0, 4}, {4, 1}, {1, 2}, {2, 0}};
   PlanarTriangulation t;

@@ -33,7 +33,8 @@ struct Exact {
 
 template <int D>
 Exact<D> exact(const Simplex<D>& s) {
-  return {oracle::circumsphere<D>(s).squared_radius, oracle::shortest_edge_squared<D>(s), abs(oracle::orient_det<D>(s))};
+  return {oracle::circumsphere<D>(s).squared_radius, oracle::shortest_edge_squared<D>(s),
+          abs(oracle::orient_det<D>(s))};
 }
 
 template <int D>

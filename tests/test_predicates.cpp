@@ -313,7 +313,8 @@ TYPED_TEST(Predicates, AnglesAgreeWithRationals) {
       oracle::Rational dot = 0, a2 = oracle::squared_distance<D>(oracle::exact<D>(v), a);
       const oracle::Rational b2 = oracle::squared_distance<D>(oracle::exact<D>(v), b);
       for (std::size_t i = 0; i < D; ++i)
-        dot += (oracle::Rational(a.x[i]) - oracle::Rational(v.x[i])) * (oracle::Rational(b.x[i]) - oracle::Rational(v.x[i]));
+        dot += (oracle::Rational(a.x[i]) - oracle::Rational(v.x[i])) *
+               (oracle::Rational(b.x[i]) - oracle::Rational(v.x[i]));
       const oracle::Rational excess = 4 * dot * dot - a2 * b2;
       const Sign dot_sign = oracle::sign(dot), excess_sign = oracle::sign(excess);
       expect_agrees("dot filter", detail::dot_filter<D>(v, a, b), dot_sign);

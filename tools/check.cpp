@@ -4,10 +4,8 @@
 // pgdr check: the verdict of the independent checker on a mesh file.
 #include "pgdr/check.hpp"
 
-#include <cmath>
 #include <limits>
 #include <optional>
-#include <nlohmann/json.hpp>
 
 #include "bounds.hpp"
 #include "command.hpp"
@@ -17,10 +15,7 @@
 namespace pgdr::tool {
 namespace {
 
-using Json = nlohmann::ordered_json;
 constexpr double unbounded = std::numeric_limits<double>::infinity();
-
-Json number_or_null(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
 
 template <int D>
 std::optional<Domain<D>> read_domain(const std::string& input) {
@@ -31,18 +26,21 @@ std::optional<Domain<D>> read_domain(const std::string& input) {
 }
 
 template <int D>
-void fill(Json& j, const OutputMesh<D>& mesh, const Bounds<D>& bounds, const std::optional<QualitySummary>& q,
+void fill(Report& report, const OutputMesh<D>& mesh, const Bounds<D>& bounds, const std::optional<QualitySummary>& q,
           const CheckReport& r) {
-  j["vertices"] = mesh.points.size();
-  j["cells"] = mesh.cells.size();
-  if (q) j["quality"] = to_json(*q);
-  j["quality"]["not_delaunay"] = {{"rounding", r.not_delaunay_rounding}, {"refused", r.not_delaunay_refused}};
-  j["bounds"] = {{"radius_edge", number_or_null(bounds.radius_edge)}, {"size_met", r.over_size == 0},
-                 {"over_radius_edge", r.over_radius_edge}, {"over_size", r.over_size}, {"explained", r.explained}};
-  j["verdict"] = r.exit_code();
-  j["finding_count"] = r.finding_count;
-  Json& findings = j["findings"] = Json::array();
-  for (const CheckFinding& f : r.findings) findings.push_back(to_json(f));
+  report.set("vertices", mesh.points.size());
+  report.set("cells", mesh.cells.size());
+  if (q) {
+    JsonObject quality = to_json(*q);
+    quality.set("not_delaunay", JsonObject{{"rounding", r.not_delaunay_rounding}, {"refused", r.not_delaunay_refused}});
+    report.set("quality", quality);
+  }
+  report.set("bounds", JsonObject{{"radius_edge", bounds.radius_edge}, {"size_met", r.over_size == 0},
+                                  {"over_radius_edge", r.over_radius_edge}, {"over_size", r.over_size},
+                                  {"explained", r.explained}});
+  report.set("verdict", r.exit_code());
+  report.set("finding_count", r.finding_count);
+  report.set("findings", to_json(r.findings));
 }
 
 template <int D>
@@ -92,7 +90,7 @@ int check_as(const CheckArguments& a, Report& report) {
   std::optional<QualitySummary> quality;  // of a mesh whose numbers can be used at all
   if (verdict.count(CheckFinding::Kind::bad_index) + verdict.count(CheckFinding::Kind::not_finite) == 0)
     quality = summarize_quality(mesh);
-  fill(report.json(), mesh, bounds, quality, verdict);
+  fill(report, mesh, bounds, quality, verdict);
   if (!a.quiet) print_summary(a, mesh, bounds, quality, verdict);
   return verdict.exit_code();
 }
@@ -100,10 +98,10 @@ int check_as(const CheckArguments& a, Report& report) {
 }  // namespace
 
 int check(const CheckArguments& arguments, Report& report) {
-  report.json()["mesh"] = arguments.mesh;
-  if (!arguments.input.empty()) report.json()["input"] = arguments.input;
+  report.set("mesh", arguments.mesh);
+  if (!arguments.input.empty()) report.set("input", arguments.input);
   const int dimension = file_dimension(arguments.mesh);
-  report.json()["dimension"] = dimension;
+  report.set("dimension", dimension);
   return dimension == 2 ? check_as<2>(arguments, report) : check_as<3>(arguments, report);
 }
 

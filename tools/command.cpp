@@ -3,9 +3,7 @@
 #include "command.hpp"
 
 #include <cstdio>
-#include <memory>
 #include <new>
-#include <nlohmann/json.hpp>
 
 namespace pgdr::tool {
 namespace {
@@ -42,9 +40,9 @@ int guarded(Report& report, Action action) {
   }
 }
 
-int run_parsed(const Arguments& arguments, Report& report) {
-  report.json()["version"] = PGDR_VERSION;
-  int code = guarded(report, [&] {
+int execute(const Arguments& arguments, Report& report) {
+  report.set("version", PGDR_VERSION);
+  const int code = guarded(report, [&] {
     return std::visit(
         [&report](const auto& a) {
           using A = std::decay_t<decltype(a)>;
@@ -56,33 +54,40 @@ int run_parsed(const Arguments& arguments, Report& report) {
   });
   const std::string& file = std::visit([](const auto& a) -> const std::string& { return a.report; }, arguments);
   if (file.empty()) return code;
-  if (!report.json().contains("errors")) report.json()["errors"] = nlohmann::ordered_json::array();
   const int written = guarded(report, [&] { return report.write(file), exit_done; });
   if (written == exit_done) return code;
   return code == exit_done || code == exit_poor_left || written == exit_resource ? written : code;
 }
 
-}  // namespace
-
-int run(int argc, const char* const* argv) noexcept {
-  std::unique_ptr<Report> report;
-  int code = exit_resource;
+/// Runs `action`; what it throws ends with exit_resource, without needing any memory.
+template <class Action>
+int last_resort(Action action) noexcept {
   try {
-    report = std::make_unique<Report>();
-    const auto parsed = parse(argc, argv);
-    code = std::holds_alternative<int>(parsed) ? std::get<int>(parsed) : run_parsed(std::get<Arguments>(parsed), *report);
+    return action();
   } catch (const std::bad_alloc&) {
     say("out of memory");
-    code = exit_resource;
   } catch (const std::exception& e) {
     say(e.what());
-    code = exit_resource;
   } catch (...) {
     say("an unknown exception");
-    code = exit_resource;
   }
-  if (code == exit_resource && report && !report->mesh_file.empty()) std::remove(report->mesh_file.c_str());
+  return exit_resource;
+}
+
+}  // namespace
+
+int execute(const Arguments& arguments) noexcept {
+  Report report;
+  const int code = last_resort([&] { return execute(arguments, report); });
+  if (code == exit_resource && !report.mesh_file.empty()) std::remove(report.mesh_file.c_str());
   return code;
+}
+
+int run(int argc, const char* const* argv) noexcept {
+  return last_resort([&] {
+    const auto parsed = parse(argc, argv);
+    return std::holds_alternative<int>(parsed) ? std::get<int>(parsed) : execute(std::get<Arguments>(parsed));
+  });
 }
 
 }  // namespace pgdr::tool

@@ -24,6 +24,9 @@ enum ExitCode : int {
 
 /// The whole command, from the arguments to the exit code. Never throws.
 int run(int argc, const char* const* argv) noexcept;
+/// What is left of it once the arguments are understood: this part survives any failure to allocate (CLI11, which
+/// reads the arguments, does not).
+int execute(const Arguments& arguments) noexcept;
 
 // The subcommands. They print their summary, fill the report, and return the exit code; errors are thrown.
 int mesh(const MeshArguments& arguments, Report& report);

@@ -4,7 +4,6 @@
 // pgdr info: what is in an input or a mesh, and whether pgdr mesh would take it.
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
 
 #include "command.hpp"
 #include "console.hpp"
@@ -15,8 +14,6 @@
 
 namespace pgdr::tool {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Edges that belong to one triangle only (3D), points that end one segment only (2D): 0 where all is closed.
 template <int D>
@@ -64,16 +61,16 @@ double smallest_angle(const Domain<D>& domain) {
 
 template <int D>
 int info_of_input(const InfoArguments& a, Report& report) {
-  Json& j = report.json();
   const Plc<D> plc = read_plc<D>(a.file);
-  j["kind"] = "input";
-  Json& d = j["diagnosis"] = Json::object();
-  d["accepted"] = false;
-  d["points"] = plc.points.size();
-  d["segments"] = plc.segments.size();
-  if (D == 3) d["facets"] = plc.facets.size();
-  d["holes"] = plc.holes.size();
-  d["regions"] = plc.regions.size();
+  report.set("kind", "input");
+  JsonObject d;
+  d.set("accepted", false);
+  d.set("points", plc.points.size());
+  d.set("segments", plc.segments.size());
+  if (D == 3) d.set("facets", plc.facets.size());
+  d.set("holes", plc.holes.size());
+  d.set("regions", plc.regions.size());
+  report.set("diagnosis", d);  // what is known so far, should the next step refuse the input
   if (!a.quiet) {
     print_row("input", format("%s (%dD)", a.file.c_str(), D));
     std::string counts = count(plc.points.size(), "point", "points") + ", " +
@@ -86,12 +83,12 @@ int info_of_input(const InfoArguments& a, Report& report) {
   const Domain<D> domain(plc);
   const std::uint64_t open = count_open(domain);
   const double angle = smallest_angle(domain);
-  d["distinct_points"] = domain.points().size();
-  d["maximal_segments"] = domain.segments().size();
-  if (D == 3) d["maximal_facets"] = domain.facets().size();
-  d["closed"] = open == 0;
-  d["open"] = open;
-  d["smallest_angle_deg"] = angle;
+  d.set("distinct_points", domain.points().size());
+  d.set("maximal_segments", domain.segments().size());
+  if (D == 3) d.set("maximal_facets", domain.facets().size());
+  d.set("closed", open == 0);
+  d.set("open", open);
+  d.set("smallest_angle_deg", angle);
   double defect = 0;
   std::uint64_t warped = 0;
   for (const DomainFacet& f : domain.facets()) {
@@ -99,9 +96,10 @@ int info_of_input(const InfoArguments& a, Report& report) {
     defect = std::max(defect, f.planarity_defect);
   }
   if (D == 3) {
-    d["not_planar"] = warped;
-    d["planarity_defect"] = defect;
+    d.set("not_planar", warped);
+    d.set("planarity_defect", defect);
   }
+  report.set("diagnosis", d);
   if (!a.quiet) {
     std::string counts = count(domain.points().size(), "distinct point", "distinct points") + ", " +
                          count(domain.segments().size(), "segment", "segments");
@@ -118,9 +116,10 @@ int info_of_input(const InfoArguments& a, Report& report) {
   RefineOptions<D> options;
   options.refine = false;
   const RefineResult<D> result = refine(domain, options);
-  d["accepted"] = true;
-  j["warnings"] = to_json(result.warnings);
-  j["repairs"] = to_json(result.repairs);
+  d.set("accepted", true);
+  report.set("diagnosis", d);
+  report.set("warnings", to_json(result.warnings));
+  report.set("repairs", to_json(result.repairs));
   if (!a.quiet) {
     print_warnings(result.warnings);
     if (!result.repairs.empty()) print_row("repaired", count(result.repairs.size(), "defect", "defects"));
@@ -131,19 +130,18 @@ int info_of_input(const InfoArguments& a, Report& report) {
 
 template <int D>
 int info_of_mesh(const InfoArguments& a, Report& report) {
-  Json& j = report.json();
   const OutputMesh<D> mesh = read_mesh<D>(a.file);
   const QualitySummary q = summarize_quality(mesh);
-  j["kind"] = "mesh";
-  j["vertices"] = mesh.points.size();
-  j["cells"] = mesh.cells.size();
-  j["subsegments"] = mesh.subsegments.size();
-  if (D == 3) j["subfacets"] = mesh.subfacets.size();
+  report.set("kind", "mesh");
+  report.set("vertices", mesh.points.size());
+  report.set("cells", mesh.cells.size());
+  report.set("subsegments", mesh.subsegments.size());
+  if (D == 3) report.set("subfacets", mesh.subfacets.size());
   std::vector<double> regions = mesh.regions;
   std::sort(regions.begin(), regions.end());
   regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
-  j["regions"] = std::max<std::size_t>(1, regions.size());
-  j["quality"] = to_json(q);
+  report.set("regions", std::max<std::size_t>(1, regions.size()));
+  report.set("quality", to_json(q));
   if (a.quiet) return exit_done;
 
   print_row("mesh", format("%s (%dD)", a.file.c_str(), D));
@@ -166,9 +164,9 @@ int info_of_mesh(const InfoArguments& a, Report& report) {
 }  // namespace
 
 int info(const InfoArguments& arguments, Report& report) {
-  report.json()["input"] = arguments.file;
+  report.set("input", arguments.file);
   const int dimension = file_dimension(arguments.file);
-  report.json()["dimension"] = dimension;
+  report.set("dimension", dimension);
   if (is_mesh_file(arguments.file))
     return dimension == 2 ? info_of_mesh<2>(arguments, report) : info_of_mesh<3>(arguments, report);
   return dimension == 2 ? info_of_input<2>(arguments, report) : info_of_input<3>(arguments, report);

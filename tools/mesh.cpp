@@ -4,7 +4,6 @@
 // pgdr mesh: read, refine, write, report.
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "bounds.hpp"
@@ -17,7 +16,6 @@
 namespace pgdr::tool {
 namespace {
 
-using Json = nlohmann::ordered_json;
 
 template <int D>
 RefineOptions<D> make_options(const MeshArguments& a, const Bounds<D>& bounds) {
@@ -43,31 +41,36 @@ const char* words(StopCause cause) {
   return "";
 }
 
+struct Seconds {
+  double read = 0, write = 0, total = 0;
+};
+
 template <int D>
-void fill(Json& j, const MeshArguments& a, const Bounds<D>& bounds, const RefineResult<D>& r, const QualitySummary& q) {
+void fill(Report& report, const MeshArguments& a, const Bounds<D>& bounds, const RefineResult<D>& r,
+          const QualitySummary& q) {
   const RefineStatistics& s = r.statistics;
-  j["vertices"] = r.mesh.points.size();
-  j["cells"] = r.mesh.cells.size();
-  j["threads"] = {{"requested", a.threads.value_or(std::max(1u, std::thread::hardware_concurrency()))}, {"ran", 1}};
-  j["schedule"] = "reproducible";
-  j["reproducible"] = r.stop != StopCause::time_limit && r.stop != StopCause::cancelled;
-  j["selector"] = "circumcenter";
-  j["seconds"] = {{"read", 0.0}, {"mesh", s.seconds_mesh}, {"initial", s.seconds_initial},
-                  {"refine", s.seconds_refine}, {"write", 0.0}, {"total", 0.0}};
-  j["peak_rss_bytes"] = 0;
-  j["quality"] = to_json(q);
-  j["bounds"] = {{"radius_edge", bounds.radius_edge}, {"size_met", r.size_met}, {"poor_left", r.poor_left},
-                 {"reasons", to_json(r.reasons)}};
-  j["insertions"] = {{"committed", s.insertions_committed}, {"refused", s.insertions_refused}};
-  j["predicates"] = to_json(s.predicates);
-  j["selector_outside"] = s.selector_outside;
-  j["warnings"] = to_json(r.warnings);
-  j["repairs"] = to_json(r.repairs);
+  report.set("vertices", r.mesh.points.size());
+  report.set("cells", r.mesh.cells.size());
+  report.set("threads", JsonObject{{"requested", a.threads.value_or(std::max(1u, std::thread::hardware_concurrency()))},
+                                   {"ran", 1}});
+  report.set("schedule", "reproducible");
+  report.set("reproducible", r.stop != StopCause::time_limit && r.stop != StopCause::cancelled);
+  report.set("selector", "circumcenter");
+  report.set("seconds", nullptr);  // their places; the values come last
+  report.set("peak_rss_bytes", nullptr);
+  report.set("quality", to_json(q));
+  report.set("bounds", JsonObject{{"radius_edge", bounds.radius_edge}, {"size_met", r.size_met},
+                                  {"poor_left", r.poor_left}, {"reasons", to_json(r.reasons)}});
+  report.set("insertions", JsonObject{{"committed", s.insertions_committed}, {"refused", s.insertions_refused}});
+  report.set("predicates", to_json(s.predicates));
+  report.set("selector_outside", s.selector_outside);
+  report.set("warnings", to_json(r.warnings));
+  report.set("repairs", to_json(r.repairs));
 }
 
 template <int D>
 void print_summary(const MeshArguments& a, const Plc<D>& plc, const Bounds<D>& bounds, const RefineResult<D>& r,
-                   const QualitySummary& q, const Json& seconds) {
+                   const QualitySummary& q, const Seconds& seconds) {
   print_row("input", format("%s (%dD, %s)", a.input.c_str(), D,
                             count(plc.points.size(), "point", "points").c_str()));
   if (!r.repairs.empty()) print_row("repaired", count(r.repairs.size(), "defect", "defects") + ", see --report");
@@ -94,15 +97,14 @@ void print_summary(const MeshArguments& a, const Plc<D>& plc, const Bounds<D>& b
                                     name(static_cast<PoorReason::Code>(i)));
     print_row("bounds", count(r.poor_left, "element stays poor", "elements stay poor") + ": " + why);
   }
-  print_row("time", format("%.3f s meshing (%.3f s read, %.3f s write)", seconds["mesh"].get<double>(),
-                           seconds["read"].get<double>(), seconds["write"].get<double>()));
+  print_row("time", format("%.3f s meshing (%.3f s read, %.3f s write)", r.statistics.seconds_mesh, seconds.read,
+                           seconds.write));
   print_row("memory", format("%.1f MiB at most", static_cast<double>(peak_rss_bytes()) / (1 << 20)));
   if (!r.mesh.cells.empty()) print_row("wrote", a.output);
 }
 
 template <int D>
 int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
-  Json& j = report.json();
   const Bounds<D> bounds = resolve<D>(a.bounds, smallest_proved_bound<D>());
   RefineOptions<D> options = make_options<D>(a, bounds);
   const StopOnSignal signals;
@@ -110,7 +112,8 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
 
   const Stopwatch reading;
   const Plc<D> plc = read_plc<D>(a.input);
-  const double seconds_read = reading.seconds();
+  Seconds seconds;
+  seconds.read = reading.seconds();
 
   RefineResult<D> result;
   {
@@ -120,7 +123,7 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
   }
   if (!a.quiet) print_warnings(result.warnings);
   const QualitySummary quality = summarize_quality(result.mesh);
-  fill(j, a, bounds, result, quality);
+  fill(report, a, bounds, result, quality);
 
   const Stopwatch writing;
   if (!result.mesh.cells.empty()) {
@@ -128,11 +131,14 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
     write_mesh(result.mesh, a.output);
     report.mesh_file = std::move(mesh_file);
   }
-  j["seconds"]["read"] = seconds_read;
-  j["seconds"]["write"] = writing.seconds();
-  j["seconds"]["total"] = total.seconds();
-  j["peak_rss_bytes"] = peak_rss_bytes();
-  if (!a.quiet) print_summary(a, plc, bounds, result, quality, j["seconds"]);
+  seconds.write = writing.seconds();
+  seconds.total = total.seconds();
+  report.set("seconds", JsonObject{{"read", seconds.read}, {"mesh", result.statistics.seconds_mesh},
+                                   {"initial", result.statistics.seconds_initial},
+                                   {"refine", result.statistics.seconds_refine}, {"write", seconds.write},
+                                   {"total", seconds.total}});
+  report.set("peak_rss_bytes", peak_rss_bytes());
+  if (!a.quiet) print_summary(a, plc, bounds, result, quality, seconds);
 
   if (result.stop != StopCause::finished) return exit_stopped;
   return result.poor_left == 0 && result.size_met ? exit_done : exit_poor_left;
@@ -142,10 +148,10 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
 
 int mesh(const MeshArguments& arguments, Report& report) {
   const Stopwatch total;
-  report.json()["input"] = arguments.input;
+  report.set("input", arguments.input);
   require_writable(arguments.output, arguments.input);
   const int dimension = file_dimension(arguments.input);
-  report.json()["dimension"] = dimension;
+  report.set("dimension", dimension);
   return dimension == 2 ? mesh_as<2>(arguments, report, total) : mesh_as<3>(arguments, report, total);
 }
 

@@ -13,15 +13,11 @@
 namespace pgdr::tool {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr std::array<const char*, 3> code_names{"small_angle", "rounding", "beyond_theory"};
 constexpr std::array<const char*, 4> kind_names{"vertex", "segment", "facet", "volume"};
 
 Json to_json(const EntityRef& e) {
-  Json id = nullptr;
-  if (e.id != no_entity) id = e.id;
-  return {{"kind", name(e.kind)}, {"id", std::move(id)}};
+  return JsonObject{{"kind", name(e.kind)}, {"id", e.id == no_entity ? Json(nullptr) : Json(e.id)}};
 }
 
 /// The value of a word among `names`, by its place. @throws std::invalid_argument
@@ -58,61 +54,41 @@ PoorReason parse_reason(const nlohmann::json& j) {
 const char* name(PoorReason::Code code) { return code_names[static_cast<std::size_t>(code)]; }
 const char* name(EntityKind kind) { return kind_names[static_cast<std::size_t>(kind)]; }
 
-Report::Report() : json_(std::make_unique<Json>(Json::object())) {}
-Report::~Report() = default;
+void Report::add_error(const Diagnostic& error) { errors_.push_back(error); }
 
-void Report::add_error(const Diagnostic& error) {
-  auto& errors = json()["errors"];
-  if (errors.is_null()) errors = Json::array();
-  errors.push_back(tool::to_json(error));
-}
-
-void Report::write(const std::string& file) const {
+void Report::write(const std::string& file) {
+  set("errors", tool::to_json(errors_));
   struct Temporary {
     std::string name;
     ~Temporary() { std::remove(name.c_str()); }  // gone already if all went well
   } const temporary{file + '.' + std::to_string(getpid()) + ".tmp"};
   std::ofstream out(temporary.name, std::ios::binary);
-  // File names need not be UTF-8; JSON is.
-  if (out) out << json_->dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+  if (out) out << pretty();
   out.close();
   if (!out || std::rename(temporary.name.c_str(), file.c_str()) != 0)
     throw FileError({.code = Errc::cannot_write, .message = "the report cannot be written", .file = file});
 }
 
-Json to_json(const Diagnostic& d) {
-  Json j{{"code", pgdr::name(d.code)}, {"message", d.message}};
-  j["file"] = d.file;
-  j["line"] = d.line;
-  j["ids"] = d.ids;
-  j["points"] = d.points;
-  return j;
+JsonObject to_json(const Diagnostic& d) {
+  return {{"code", pgdr::name(d.code)}, {"message", d.message}, {"file", d.file},
+          {"line", d.line},             {"ids", d.ids},         {"points", d.points}};
 }
 
-Json to_json(const std::vector<Diagnostic>& list) {
-  Json j = Json::array();
-  for (const Diagnostic& d : list) j.push_back(to_json(d));
-  return j;
-}
-
-Json to_json(const QualitySummary& q) {
+JsonObject to_json(const QualitySummary& q) {
   return {{"max_radius_edge", q.max_radius_edge},
           {"min_angle_deg", q.min_angle_deg},
           {"max_angle_deg", q.max_angle_deg},
           {"histogram", q.histogram}};
 }
 
-Json to_json(const std::vector<PoorReason>& reasons) {
-  Json j = Json::array();
-  for (const PoorReason& r : reasons)
-    j.push_back({{"cell", r.cell},
-                 {"code", name(r.code)},
-                 {"entities", Json::array({to_json(r.entities[0]), to_json(r.entities[1])})},
-                 {"angle", r.angle}});
-  return j;
+JsonObject to_json(const PoorReason& r) {
+  return {{"cell", r.cell},
+          {"code", name(r.code)},
+          {"entities", std::array{to_json(r.entities[0]), to_json(r.entities[1])}},
+          {"angle", r.angle}};
 }
 
-Json to_json(const PredicateCounts& c) {
+JsonObject to_json(const PredicateCounts& c) {
   const std::uint64_t calls = c.filter + c.expansion + c.exact + c.perturbed;  // each call counts at one stage
   const auto share = [calls](std::uint64_t n) { return calls ? static_cast<double>(n) / static_cast<double>(calls) : 0.0; };
   return {{"filter", share(c.filter)},
@@ -122,7 +98,7 @@ Json to_json(const PredicateCounts& c) {
           {"calls", calls}};
 }
 
-Json to_json(const CheckFinding& f) {
+JsonObject to_json(const CheckFinding& f) {
   return {{"kind", pgdr::name(f.kind)}, {"message", f.message}, {"ids", f.ids}};
 }
 

@@ -5,11 +5,10 @@
 // key is there only with a value that was measured.
 #pragma once
 
-#include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
+#include "json.hpp"
 #include "pgdr/check.hpp"
 #include "pgdr/error.hpp"
 #include "pgdr/quality.hpp"
@@ -17,32 +16,32 @@
 
 namespace pgdr::tool {
 
-class Report {
+/// The object, with `errors` and the writing of the file.
+class Report : public JsonObject {
  public:
-  Report();
-  ~Report();
-  Report(const Report&) = delete;
-  Report& operator=(const Report&) = delete;
-
-  /// The object itself; keys appear in the file in the order of their first use.
-  nlohmann::ordered_json& json() { return *json_; }
   void add_error(const Diagnostic& error);
   /// Writes to a temporary name beside `file` and renames it. @throws FileError cannot_write
-  void write(const std::string& file) const;
+  void write(const std::string& file);
 
   /// The mesh file that this run has written, if any. It goes again should the run still end with exit_resource.
   std::string mesh_file;
 
  private:
-  std::unique_ptr<nlohmann::ordered_json> json_;
+  std::vector<Diagnostic> errors_;
 };
 
-nlohmann::ordered_json to_json(const Diagnostic& d);
-nlohmann::ordered_json to_json(const std::vector<Diagnostic>& list);
-nlohmann::ordered_json to_json(const QualitySummary& q);
-nlohmann::ordered_json to_json(const std::vector<PoorReason>& reasons);
-nlohmann::ordered_json to_json(const PredicateCounts& counts);  ///< shares by stage, and `calls`
-nlohmann::ordered_json to_json(const CheckFinding& finding);
+JsonObject to_json(const Diagnostic& d);
+JsonObject to_json(const QualitySummary& q);
+JsonObject to_json(const PoorReason& r);
+JsonObject to_json(const PredicateCounts& counts);  ///< shares by stage, and `calls`
+JsonObject to_json(const CheckFinding& finding);
+/// The same of a list.
+template <class Value>
+Json to_json(const std::vector<Value>& list) {
+  std::vector<Json> values;
+  for (const Value& value : list) values.push_back(to_json(value));
+  return values;
+}
 
 const char* name(PoorReason::Code code);
 const char* name(EntityKind kind);

@@ -25,7 +25,7 @@ class Reasons {
   /// How many cells `judge` excused by rounding.
   std::uint64_t rounded() const { return rounded_; }
 
-  /// Of each vertex: it lies on an entity of a small angle that some reason names. @param patches null in 2D.
+  /// Of each vertex: it lies on an entity of a small angle that some reason names; empty if there are no reasons.
   std::vector<std::uint8_t> vertices_at_refused(const InputVolumes<D>& input);
 
  private:

@@ -113,6 +113,8 @@ class Cavity {
   void grow();
   void rebuild_boundary();
   bool visible(const BoundaryFace& f) const;
+  void find_broken_fans(std::vector<CellId>& doomed) const;
+  bool fan_is_broken(RidgeWalk<D> walk, EntityId entity) const;
   Status drop_cells(const std::vector<CellId>& doomed);
   void clear_part_bits();
   CellId make_cell(Pools& pools, const BoundaryFace& f, VertexId v);

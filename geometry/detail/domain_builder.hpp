@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Makes a Domain of a Plc, in this order: points (finite, merged), indices, facets to triangles, repeated facets,
-// coplanar groups, segments, incidences. Each step is in a file of its own, domain_<step>.cpp. Everything is sorting and
-// hashing: n log n in the size of the input, but for the constraint edges of a facet that cross many triangles.
+// coplanar groups, segments, incidences. Each step is in a file of its own, domain_<step>.cpp. Everything is sorting
+// and hashing: n log n in the size of the input, but for constraint edges of a facet that cross many triangles.
 // Used by one thread, once.
 #pragma once
 
@@ -34,8 +34,8 @@ std::array<double, 3> in_space(const Point<D>& p) {
 
 /// Axes in the order of the size of this normal's components.
 std::array<int, 3> axes_by_size(const std::array<double, 3>& normal);
-/// (b - a) x (c - a), in doubles.
-std::array<double, 3> triangle_normal(const Point3& a, const Point3& b, const Point3& c);
+/// (b - a) x (c - a), in doubles, of the points times `scale`.
+std::array<double, 3> triangle_normal(const Point3& a, const Point3& b, const Point3& c, double scale);
 /// Distance of p from the plane of abc.
 double plane_distance(const Point3& a, const Point3& b, const Point3& c, const Point3& p);
 
@@ -100,7 +100,8 @@ class DomainBuilder {
   std::int64_t point_number(std::uint32_t v) const { return number(out_.input_of_point_[v]); }
   std::string point_words(std::uint32_t v) const;
   [[noreturn]] void fail(Errc code, const std::string& message, const std::vector<std::uint32_t>& lines,
-                         std::size_t item, std::vector<std::int64_t> ids, std::vector<std::array<double, 3>> where) const;
+                         std::size_t item, std::vector<std::int64_t> ids,
+                         std::vector<std::array<double, 3>> where) const;
   void warn(Errc code, const std::string& message, const std::vector<std::uint32_t>& lines, std::size_t item,
             std::vector<std::int64_t> ids);
   void report_repairs();
@@ -111,6 +112,7 @@ class DomainBuilder {
   void merge_points();
   void check_segments();
   void check_spans_space() const;
+  void choose_scale();
 
   // domain_facets.cpp
   void triangulate_facets() requires(D == 3);
@@ -124,6 +126,7 @@ class DomainBuilder {
   [[noreturn]] void fail_facet(std::uint32_t f, const detail::PlanarResult& result) const requires(D == 3);
   [[noreturn]] void fail_degenerate(std::uint32_t f, const std::string& why,
                                     const std::vector<std::uint32_t>& vertices) const requires(D == 3);
+  std::array<double, 3> normal(const Triangle& t) const requires(D == 3);
 
   // domain_groups.cpp
   void drop_repeated_facets() requires(D == 3);
@@ -142,6 +145,7 @@ class DomainBuilder {
 
   const Plc<D>& plc_;
   Domain<D>& out_;
+  double scale_ = 1;                                             // 1 / the largest coordinate, a power of two
   std::vector<std::array<std::uint32_t, 2>> explicit_;           // domain points of Plc::segments
   std::vector<std::uint32_t> explicit_begin_, explicit_at_;      // explicit segments by their first domain point
   std::vector<detail::TriangulatedFacet> facets_;

@@ -4,10 +4,10 @@
 // Constrained Delaunay triangulation, without Steiner points, of points of one (nearly) plane of space, seen along a
 // coordinate axis; of the plane itself with axis = 2 and z = 0. The hull is closed by ghost triangles, so that every
 // edge has two sides. Constraint edges are forced by retriangulating the two polygons that they cut out (Anglada 1997),
-// everything else is Lawson's flips. Signs are exact. For points of one plane the result is unique: it is the constrained
-// Delaunay triangulation of that plane in space under the perturbation of predicates.hpp. For points that are a few
-// ulps off it is still a triangulation, all triangles positive in the projection. Problems are values, not exceptions.
-// One object belongs to one thread at a time.
+// everything else is Lawson's flips. Signs are exact. For points of one plane the result is unique: it is the
+// constrained Delaunay triangulation of that plane in space under the perturbation of predicates.hpp. For points that
+// are a few ulps off it is still a triangulation, all triangles positive in the projection. Problems are values, not
+// exceptions. One object belongs to one thread at a time.
 #pragma once
 
 #include <array>
@@ -55,12 +55,14 @@ struct PlanarChange {
 /// Vertices go by the ids that the caller gives them; any 32-bit number but 0xffffffff.
 class PlanarTriangulation {
  public:
-  /// Triangulates points[v] for the v in `vertices` (distinct), with ids v, and all of `constraints` (pairs of those v).
+  /// Triangulates points[v] for the v in `vertices` (distinct), with ids v, and all of `constraints` (pairs of those
+  /// v; such with equal ends are passed over).
   /// All triangles of the convex hull are in the domain at first. Replaces what was there.
   /// @return ok, collinear, coincident, edges_cross, point_on_edge or inverted; unless ok the object is empty.
   PlanarResult build(std::span<const Point3> points, std::span<const std::uint32_t> vertices,
                      std::span<const PlanarEdge> constraints, int axis);
 
+  // Choosing the domain: before the first split_edge, after which cells outside of it may be turned over.
   /// Takes out of the domain what is reached from outside of the hull without crossing a constraint.
   void carve_outside();
   /// Takes out of the domain what is reached from p (projected) without crossing a constraint.
@@ -76,7 +78,7 @@ class PlanarTriangulation {
   /// Adds a vertex inside the domain.  @return ok, outside, on_constraint, coincident (`edge` = id and the other).
   PlanarResult insert(std::uint32_t id, const Point3& p, PlanarChange* change = nullptr);
   /// Replaces edge a-b by a-id-b; the pieces are constraints if a-b was. p may be off the edge by its rounding: where a
-  /// triangle would be turned over thereby, unconstrained neighbours are taken into the retriangulation.
+  /// triangle of the domain would be turned over thereby, unconstrained neighbours are taken into the retriangulation.
   /// @return ok, no_such_edge, inverted.
   PlanarResult split_edge(std::uint32_t a, std::uint32_t b, std::uint32_t id, const Point3& p,
                           PlanarChange* change = nullptr);
@@ -137,6 +139,7 @@ class PlanarTriangulation {
   PlanarResult start(std::vector<std::uint32_t>& order);
   PlanarResult insert_in_hull(std::uint32_t v);
   Location locate(const Point3& p) const;
+  Location walk_to(const Point3& p) const;
   Location locate_in(std::uint32_t t, const std::array<Sign, 3>& side) const;
   Location locate_by_scan(const Point3& p) const;
   void flood(std::vector<std::uint32_t>& queue, bool inside);
@@ -146,6 +149,7 @@ class PlanarTriangulation {
   static bool is_fixed(const Cell& c, Index i) {
     return (c.fixed & (1u << static_cast<unsigned>(i))) != 0;
   }
+  bool is_out(const Cell& c) const { return !c.inside && outside_is_crooked_; }
   bool is_ghost(const Cell& c) const { return c.v[0] == ghost || c.v[1] == ghost || c.v[2] == ghost; }
   int index_in(std::uint32_t t, std::uint32_t v) const;
   int mirror(std::uint32_t t, int i) const;
@@ -176,12 +180,15 @@ class PlanarTriangulation {
   void forget_last_vertex();
 
   int axis_ = 2;
-  std::vector<Point3> points_;        // by local number
-  std::vector<std::uint32_t> ids_;    // by local number
+  std::vector<Point3> points_;          // by local number
+  std::vector<std::uint32_t> ids_;      // by local number
   std::vector<std::uint32_t> cell_of_;  // some cell at each vertex
   std::vector<std::pair<std::uint32_t, std::uint32_t>> local_of_;  // (id, local number), sorted
   std::vector<Cell> cells_;
   std::uint32_t hint_ = 0;
+  // A point was added off an edge that bounds the domain: cells outside of it may be turned over, and are left as they
+  // are. Location then trusts the cells of the domain alone.
+  bool outside_is_crooked_ = false;
   // While an insertion is recorded: the cells touched, as they were.
   PlanarChange* change_ = nullptr;
   std::vector<std::pair<std::uint32_t, Cell>> touched_;
@@ -189,9 +196,9 @@ class PlanarTriangulation {
   std::uint32_t stamp_ = 0;
 };
 
-/// Builds the triangulation of facet f of the domain: its points by their domain index, its segments as constraints, and
-/// what its triangles cover as the domain. For a planar facet these are other triangles than those of the Domain in
-/// general (Delaunay in the whole facet), with the same union.
+/// Builds the triangulation of facet f of the domain: its points by their domain index, its segments as constraints,
+/// and what its triangles cover as the domain. For a planar facet these are other triangles than those of the Domain
+/// in general (Delaunay in the whole facet), with the same union.
 PlanarResult triangulate_facet(const Domain<3>& domain, std::uint32_t f, PlanarTriangulation& out);
 
 }  // namespace pgdr::detail

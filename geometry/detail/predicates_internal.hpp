@@ -36,13 +36,15 @@ Sign in_circle_exact(const Triangle3& t, const Point3& p, int axis);
 
 /// Sign of (a-v).(b-v).
 template <int D> MaybeSign dot_filter(const Point<D>& v, const Point<D>& a, const Point<D>& b);
-template <int D> MaybeSign dot_middle(const Point<D>& v, const Point<D>& a, const Point<D>& b, Middle stage = Middle::both);
+template <int D>
+MaybeSign dot_middle(const Point<D>& v, const Point<D>& a, const Point<D>& b, Middle stage = Middle::both);
 template <int D> Sign dot_exact(const Point<D>& v, const Point<D>& a, const Point<D>& b);
 template <int D> Sign dot_sign(const Point<D>& v, const Point<D>& a, const Point<D>& b);  ///< all stages, counted
 
 /// Sign of 4 ((a-v).(b-v))^2 - |a-v|^2 |b-v|^2.
 template <int D> MaybeSign angle_60_filter(const Point<D>& v, const Point<D>& a, const Point<D>& b);
-template <int D> MaybeSign angle_60_middle(const Point<D>& v, const Point<D>& a, const Point<D>& b, Middle stage = Middle::both);
+template <int D>
+MaybeSign angle_60_middle(const Point<D>& v, const Point<D>& a, const Point<D>& b, Middle stage = Middle::both);
 template <int D> Sign angle_60_exact(const Point<D>& v, const Point<D>& a, const Point<D>& b);
 
 /// The bounds; `exact` has the same preconditions as the public functions, but no shortcut.

@@ -7,8 +7,10 @@
 // Definitions (3D). A polygon is the union of the triangles of one deterministic triangulation in its projection; its
 // planarity defect is reported. Facets that are exactly coplanar, share an edge used by just these two, and have equal
 // markers, are one facet. A segment is an edge that bounds a facet, is used by one or by more than two triangles, is
-// explicit in the input, or lies between two facets. Diagonals inside one input polygon are never segments, also where
-// the polygon is not exactly planar.
+// explicit in the input (a segment, or an edge of a polygon: also one inside its facet), or lies between two facets.
+// Diagonals inside one input polygon are never segments, also where the polygon is not exactly planar. A segment of the
+// input from one point of a polygon facet to another, through the inside of the facet, is one of its segments. What
+// else meets without a common point or edge is not looked for here.
 #pragma once
 
 #include <cstdint>
@@ -46,11 +48,14 @@ struct DomainFacet {
 template <int D>
 class Domain {
  public:
-  /// Checks and prepares. What can be repaired without changing the geometry (exact duplicates of points, repeated
-  /// segments and facets with the same vertices, -0) is, and is reported in `repairs()`.
+  /// Checks and prepares. What can be repaired without changing the geometry (exact duplicates of points, polygon edges
+  /// between such, repeated segments and facets of the same triangles, -0) is, and is reported in `repairs()`, one
+  /// entry a kind: `ids` has all of them (pairs: the dropped one, the kept one), the message at most twenty; `code` is
+  /// that of the error which it would have been.
   /// @throws InputError with ids, coordinates, and file and line if known: not_finite, index_out_of_range,
-  ///   degenerate_segment (both ends equal), degenerate_facet (fewer than three distinct points, or all collinear),
-  ///   self_crossing_facet (two polygon edges cross, or a vertex lies inside an edge), no_volume.
+  ///   degenerate_segment (both ends equal), degenerate_facet (fewer than three distinct points, all collinear, or
+  ///   enclosing nothing), self_crossing_facet (two polygon edges cross, or a vertex lies inside an edge),
+  ///   seed_on_boundary (the hole of a facet lies on its polygons), no_volume.
   explicit Domain(const Plc<D>& plc);
 
   std::span<const Point<D>> points() const { return points_; }
@@ -106,10 +111,12 @@ double segment_parameter(const Domain<D>& domain, EntityId s, const Point<D>& p)
 /// projection (nearest one if none does), in double-double, rounded once; exactly on it where axis-aligned.
 Point<3> point_on_facet(const Domain<3>& domain, EntityId f, const Point<3>& x);
 
-/// The smallest angle, in degrees, between two entities that share an input vertex; 180 if they share none or are
-/// the same. Segments: between their directions at the shared vertex. Otherwise the smallest angle between a direction
-/// into the one and a direction into the other at a shared vertex, and, for two facets with a common segment, their
-/// dihedral angle there. Doubles; for reports and reasons.
+/// The smallest angle, in degrees, between two entities that share an input vertex; 180 if they share none, are the
+/// same, or one is part of the other (a segment of the facet), and for a vertex or the volume. Segments: between their
+/// directions at the shared vertex. Two facets: their dihedral angles at common segments, each between the half-planes
+/// there, and at common vertices that are on no common segment the smallest angle between a direction into the one and
+/// a direction into the other; so for a segment and a facet. Not below 60 or 90 where it is exactly that. Takes time
+/// proportional to the triangles of the facets; for reports and reasons.
 enum class EntityKind : std::uint8_t { vertex, segment, facet, volume };
 struct EntityRef {
   EntityKind kind = EntityKind::volume;

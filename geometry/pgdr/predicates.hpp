@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Exact signs of orientation and in-sphere determinants, and the symbolic perturbation of the lifted heights.
-// Four stages: a floating-point filter with a derived bound, expansion arithmetic without allocation, exact rationals
-// (CGAL), and, for `in_sphere_perturbed` alone, the perturbation. All functions are pure and may be called from any
-// thread; rounding must be to nearest, without flush-to-zero. Coordinates must be finite.
+// Four stages: a floating-point filter with a derived bound; exact arithmetic without allocation (integers of a few words
+// where the points lie on a common lattice, else expansions); exact rationals (CGAL); and, for the perturbed functions
+// alone, the perturbation. All functions are pure and may be called from any thread; rounding must be to nearest, without
+// flush-to-zero. Coordinates must be finite, and may be of any magnitude.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +26,7 @@ inline Sign orient3d(const Point3& a, const Point3& b, const Point3& c, const Po
 }
 
 /// Where p lies about the sphere through the corners of s: positive inside, zero on it, negative outside.
-/// @pre orient(s) is positive.
+/// @pre orient(s) is positive (where it is negative, so is the answer).
 template <int D>
 Sign in_sphere(const Simplex<D>& s, const Point<D>& p);
 
@@ -39,7 +40,10 @@ Sign in_sphere_perturbed(const Simplex<D>& s, const Point<D>& p);
 
 /// In-circle of four points of one plane of space: the coordinate `axis` (0, 1, 2) is dropped, heights are |x|^2 of all
 /// three coordinates (so the circle is that of the plane in space), with the same perturbation. Positive: p inside the
-/// circumcircle of a, b, c. Never zero for pairwise distinct points.
+/// circumcircle of a, b, c. Never zero for pairwise distinct points. For exactly coplanar points this is
+/// in_sphere_perturbed in their plane, ties included. Otherwise it is still the test of one regular triangulation of the
+/// projected points (the heights depend on nothing but the point), so flips by it end; it differs from the circle by
+/// about (distance from the plane) * (dropped coordinate), so keep the origin near where points are far off the plane.
 /// @pre orient_projected(a, b, c, axis) is positive; the four points are (nearly) coplanar.
 Sign in_circle_perturbed(const Point3& a, const Point3& b, const Point3& c, const Point3& p, int axis);
 
@@ -57,16 +61,18 @@ template <int D>
 bool collinear(const Point<D>& a, const Point<D>& b, const Point<D>& c);
 
 /// The two bounds, shared by refiner and checker; exact where the filter cannot decide.
-/// radius-edge: r^2 <= bound^2 * l^2 (l the shortest edge); size: r^2 <= size^2. Only points decide, in canonical order.
+/// radius-edge: r^2 <= bound^2 * l^2 (l the shortest edge); size: r^2 <= size^2. Exact, so the order of corners does not
+/// matter. Infinite bounds hold; bounds that are NaN or not positive don't, nor any finite one on a flat simplex.
 template <int D>
 bool radius_edge_within(const Simplex<D>& s, double bound);
 template <int D>
 bool circumradius_within(const Simplex<D>& s, double size);
-/// |volume| (area in 2D) <= bound, exactly.
+/// |volume| (area in 2D) <= bound, exactly; bound >= 0.
 template <int D>
 bool measure_within(const Simplex<D>& s, double bound);
 
-/// How often each stage decided, per thread, since the thread began: summed by whoever owns the threads.
+/// How often each stage decided, per thread, since the thread began: summed by whoever owns the threads. `expansion` is
+/// the second stage, `perturbed` counts ties on top of what found them (and the orientations that break them count, too).
 struct PredicateCounts {
   std::uint64_t filter = 0, expansion = 0, exact = 0, perturbed = 0;
   PredicateCounts& operator+=(const PredicateCounts& o);
