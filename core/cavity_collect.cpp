@@ -341,6 +341,35 @@ auto Cavity<D>::check_nothing_swallowed() -> Status {
   return Status::ok;
 }
 
+template <int D>
+VertexId nearest_vertex(const Mesh<D>& mesh, const Cavity<D>& cavity, std::span<const VertexId> excluded) {
+  VertexId nearest = no_vertex;
+  double least = std::numeric_limits<double>::infinity();
+  for (const CellId c : cavity.cells())
+    for (const VertexId v : mesh.cell(c).vertices) {
+      if (v == infinite_vertex || v == nearest) continue;
+      const double d2 = squared_distance(cavity.point(), mesh.point(v));
+      if (d2 > least || std::find(excluded.begin(), excluded.end(), v) != excluded.end()) continue;
+      if (d2 == least && nearest != no_vertex && !lex_less(mesh.point(v), mesh.point(nearest))) continue;
+      least = d2;
+      nearest = v;
+    }
+  return nearest;
+}
+
+template <int D>
+double insertion_radius(const Mesh<D>& mesh, const Cavity<D>& cavity) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const CellId c : cavity.cells())
+    for (const VertexId v : mesh.cell(c).vertices)
+      if (v != infinite_vertex) least = std::min(least, squared_distance(cavity.point(), mesh.point(v)));
+  return std::sqrt(least);
+}
+
+template VertexId nearest_vertex<2>(const Mesh<2>&, const Cavity<2>&, std::span<const VertexId>);
+template VertexId nearest_vertex<3>(const Mesh<3>&, const Cavity<3>&, std::span<const VertexId>);
+template double insertion_radius<2>(const Mesh<2>&, const Cavity<2>&);
+template double insertion_radius<3>(const Mesh<3>&, const Cavity<3>&);
 template class Cavity<2>;
 template class Cavity<3>;
 

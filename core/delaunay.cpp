@@ -121,7 +121,8 @@ bool Delaunay<D>::build(std::span<const Point<D>> points) {
   CellId hint = cell_at(vertices_[corners[0]]);
   for (const std::uint32_t i : insertion_order<D>(points)) {
     if (vertices_[i] != no_vertex) continue;
-    vertices_[i] = insert_from(points[i], Home(EntityKind::vertex, i), hint);
+    if (prepare_from(points[i], hint) != no_vertex) broken("two input points coincide");
+    vertices_[i] = commit(Home(EntityKind::vertex, i), std::numeric_limits<float>::infinity());
     hint = cell_at(vertices_[i]);
   }
   return true;
@@ -129,21 +130,27 @@ bool Delaunay<D>::build(std::span<const Point<D>> points) {
 
 template <int D>
 VertexId Delaunay<D>::insert(const Point<D>& p, Home home, VertexId near) {
-  return insert_from(p, home, cell_at(near));
+  if (const VertexId there = prepare(p, near); there != no_vertex) return there;
+  return commit(home, rounded_down(insertion_radius<D>(*mesh_, cavity_)));
 }
 
 template <int D>
-VertexId Delaunay<D>::insert_from(const Point<D>& p, Home home, CellId hint) {
+VertexId Delaunay<D>::prepare_from(const Point<D>& p, CellId hint) {
   const CellId seed = locate<D>(*mesh_, p, hint);
   for (const VertexId v : mesh_->cell(seed).vertices)
     if (v != infinite_vertex && mesh_->point(v) == p) return v;
-  const float radius = home.kind() == EntityKind::vertex ? std::numeric_limits<float>::infinity() : 0.0f;
   if (cavity_.collect(p, seed) != Cavity<D>::Status::ok) broken("a located point is not in conflict with its cell");
   // Perturbed heights make the cavity star-shaped whatever the input; asserted, not tested.
 #ifndef NDEBUG
-  assert(cavity_.make_star_shaped() == Cavity<D>::Status::ok && !cavity_.shrunk());
+  const auto status = cavity_.make_star_shaped();
+  assert(status == Cavity<D>::Status::ok && !cavity_.shrunk());
 #endif
-  const VertexId v = cavity_.commit(*pools_, home, radius);
+  return no_vertex;
+}
+
+template <int D>
+VertexId Delaunay<D>::commit(Home home, float relaxed_radius) {
+  const VertexId v = cavity_.commit(*pools_, home, relaxed_radius);
   note_cells(v);
   return v;
 }

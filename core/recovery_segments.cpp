@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "detail/recovery_state.hpp"
+#include "pgdr/insertion_rule.hpp"
 
 namespace pgdr::detail {
 namespace {
@@ -64,20 +65,33 @@ WantedSimplices<2> SegmentChains<D>::wanted() const {
 }
 
 template <int D>
-auto SegmentChains<D>::missing() const -> std::vector<Subsegment> {
+auto SegmentChains<D>::missing_or_encroached(bool encroached) const -> std::vector<Subsegment> {
   WantedSimplices<2> edges = wanted();
+  std::vector<bool> is_encroached(edges.items().size(), false);
   for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) {
     if (!mesh_->alive(CellId{i})) continue;
     const auto& v = mesh_->cell(CellId{i}).vertices;
     for (int a = 0; a <= D; ++a)
-      for (int b = a + 1; b <= D; ++b)
-        if (auto* edge = edges.find({v[a], v[b]})) edge->present = true;
+      for (int b = a + 1; b <= D; ++b) {
+        auto* edge = edges.find({v[a], v[b]});
+        if (!edge) continue;
+        edge->present = true;
+        const auto number = static_cast<std::size_t>(edge - edges.items().data());
+        if (!encroached || is_encroached[number]) continue;
+        for (const VertexId q : v)
+          if (q != infinite_vertex && q != v[a] && q != v[b] &&
+              in_diametral_ball<D>(mesh_->point(v[a]), mesh_->point(v[b]), mesh_->point(q)) &&
+              !lies_on<D>(*domain_, mesh_->vertex(q).home, {EntityKind::segment, edge->entity}))
+            is_encroached[number] = true;
+      }
   }
   std::vector<Subsegment> list;
   for (EntityId s = 0; s < chains_.size(); ++s)
     for (std::size_t i = 1; i < chains_[s].size(); ++i) {
       const VertexId a = chains_[s][i - 1].vertex, b = chains_[s][i].vertex;
-      if (!edges.find({a, b})->present) list.push_back({s, a, b});
+      const auto* edge = edges.find({a, b});
+      if (!edge->present) list.push_back({s, a, b, true});
+      if (is_encroached[static_cast<std::size_t>(edge - edges.items().data())]) list.push_back({s, a, b, false});
     }
   return list;
 }
@@ -98,13 +112,48 @@ double SegmentChains<D>::split_parameter(EntityId segment, const Link& a, const 
   return at_first ? t : 1 - t;  // both: the lexicographically smaller end, which is the first
 }
 
+/// Place of b in the chain if ab is a subsegment, else 0.
+template <int D>
+std::size_t SegmentChains<D>::position(EntityId segment, VertexId a, VertexId b) const {
+  const auto& chain = chains_[segment];
+  for (std::size_t i = 1; i < chain.size(); ++i)
+    if (chain[i - 1].vertex == a && chain[i].vertex == b) return i;
+  return 0;
+}
+
+template <int D>
+void SegmentChains<D>::add(EntityId segment, std::size_t position, VertexId v, double t) {
+  auto& chain = chains_[segment];
+  chain.insert(chain.begin() + static_cast<std::ptrdiff_t>(position), {v, t});
+  changed_.push_back(segment);
+  ++points_;
+}
+
+template <int D>
+bool SegmentChains<D>::split_encroached(EntityId segment, VertexId a, VertexId b) {
+  const std::size_t i = position(segment, a, b);
+  if (i == 0) return false;
+  const double t = split_parameter(segment, chains_[segment][i - 1], chains_[segment][i]);
+  const Point<D> p = point_on_segment<D>(*domain_, segment, t);
+  if (delaunay_->prepare(p, a) != no_vertex) return false;
+  const std::array<VertexId, 2> own{a, b};
+  const VertexId q = nearest_vertex<D>(*mesh_, delaunay_->cavity(), own);
+  const EntityRef entity{EntityKind::segment, segment};
+  const Demand demand = q == no_vertex ? Demand{} : encroachment_demand<D>(*domain_, entity, mesh_->vertex(q));
+  const double r = insertion_radius<D>(*mesh_, delaunay_->cavity());
+  if (r < demand.d) {
+    delaunay_->cancel();
+    return false;
+  }
+  add(segment, i, delaunay_->commit(Home(EntityKind::segment, segment), rounded_down(std::max(r, demand.h))), t);
+  return true;
+}
+
 template <int D>
 bool SegmentChains<D>::split(EntityId segment, VertexId a, VertexId b) {
-  auto& chain = chains_[segment];
-  std::size_t i = 1;
-  while (i < chain.size() && !(chain[i - 1].vertex == a && chain[i].vertex == b)) ++i;
-  if (i == chain.size()) return false;
-  const double t = split_parameter(segment, chain[i - 1], chain[i]);
+  const std::size_t i = position(segment, a, b);
+  if (i == 0) return false;
+  const double t = split_parameter(segment, chains_[segment][i - 1], chains_[segment][i]);
   const Point<D> p = point_on_segment<D>(*domain_, segment, t);
   const VertexId v = delaunay_->insert(p, Home(EntityKind::segment, segment), a);
   const Home home = mesh_->vertex(v).home;
@@ -122,9 +171,7 @@ bool SegmentChains<D>::split(EntityId segment, VertexId a, VertexId b) {
     d.points = {in_space<D>(p)};
     throw InputError(std::move(d));
   }
-  chain.insert(chain.begin() + static_cast<std::ptrdiff_t>(i), {v, t});
-  changed_.push_back(segment);
-  ++points_;
+  add(segment, i, v, t);
   return true;
 }
 

@@ -61,7 +61,7 @@ void Refiner<D>::list_entities(CellId c, const ConstraintRecord<D>& k) {
       const auto [a, b] = edge_ends[e];
       const EntityRef segment{EntityKind::segment, k.edge_entity[e]};
       for (int i = 0; i <= D; ++i) {
-        if (i == a || i == b || on_entity(vertices[i], segment)) continue;
+        if (i == a || i == b || lies_on<D>(*domain_, mesh_->vertex(vertices[i]).home, segment)) continue;
         if (!in_diametral_ball<D>(mesh_->point(vertices[a]), mesh_->point(vertices[b]), mesh_->point(vertices[i])))
           continue;
         edges_.push_back(make_entry(c, e));

@@ -161,17 +161,15 @@ void Refiner<D>::treat_cell(const Entry& e) {
 
   // Unshrunk, the circumcentre's nearest vertices are the element's own.
   const bool plain = !cavity_.shrunk() && !options_->selector;
-  const double r = plain ? std::sqrt(mesh_->squared_radius_bounds(c).first) : insertion_radius();
+  const double r = plain ? std::sqrt(mesh_->squared_radius_bounds(c).first) : insertion_radius<D>(*mesh_, cavity_);
   if (r < options_->min_edge) {
     min_edge_hit_ = true;
     return cell_refused(e);
   }
   bool ordinary = plain;
   for (const VertexId v : e.vertices) ordinary = ordinary && mesh_->vertex(v).home.kind() == EntityKind::volume;
-  if (!ordinary && insertion_radius() < demand_of_cell(c, verdict).d) return cell_refused(e);
-  float radius = static_cast<float>(r);
-  if (static_cast<double>(radius) > r) radius = std::nextafter(radius, 0.0f);
-  committed(cavity_.commit(*pools_, Home(EntityKind::volume, 0), radius));
+  if (!ordinary && insertion_radius<D>(*mesh_, cavity_) < demand_of_cell(c, verdict).d) return cell_refused(e);
+  committed(cavity_.commit(*pools_, Home(EntityKind::volume, 0), rounded_down(r)));
 }
 
 template <int D>

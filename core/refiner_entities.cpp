@@ -8,33 +8,6 @@
 #include "pgdr/refiner.hpp"
 
 namespace pgdr {
-namespace {
-
-float rounded_down(double v) {
-  float f = static_cast<float>(v);
-  if (static_cast<double>(f) > v) f = std::nextafter(f, 0.0f);
-  return f;
-}
-
-}  // namespace
-
-template <int D>
-bool Refiner<D>::on_entity(VertexId v, EntityRef entity) const {
-  const EntityRef home = mesh_->vertex(v).home.entity();
-  if (home == entity) return true;
-  if (entity.kind == EntityKind::segment) {
-    const auto& ends = domain_->segments()[entity.id].points;
-    return home.kind == EntityKind::vertex && (home.id == ends[0] || home.id == ends[1]);
-  }
-  if (home.kind == EntityKind::segment) {
-    const auto facets = domain_->facets_of_segment(home.id);
-    return std::binary_search(facets.begin(), facets.end(), entity.id);
-  }
-  if (home.kind != EntityKind::vertex) return false;
-  const auto points = domain_->facet_points(entity.id);
-  return std::binary_search(points.begin(), points.end(), home.id);
-}
-
 /// Vertices of the entity itself never encroach upon it, though rounding may put them some ulps inside a ball.
 template <int D>
 bool Refiner<D>::face_encroached_by(CellId c, int face, VertexId v) const {
@@ -43,11 +16,11 @@ bool Refiner<D>::face_encroached_by(CellId c, int face, VertexId v) const {
   if constexpr (D == 2) {
     const VertexId a = k[(face + 1) % 3], b = k[(face + 2) % 3];
     return in_diametral_ball<2>(mesh_->point(a), mesh_->point(b), mesh_->point(v)) &&
-           !on_entity(v, {EntityKind::segment, id});
+           !lies_on<D>(*domain_, mesh_->vertex(v).home, {EntityKind::segment, id});
   } else {
     const Ball<3> ball = equatorial_ball(mesh_->point(k[(face + 1) & 3]), mesh_->point(k[(face + 2) & 3]),
                                          mesh_->point(k[(face + 3) & 3]));
-    return in_equatorial_ball(ball, mesh_->point(v)) && !on_entity(v, {EntityKind::facet, id});
+    return in_equatorial_ball(ball, mesh_->point(v)) && !lies_on<D>(*domain_, mesh_->vertex(v).home, {EntityKind::facet, id});
   }
 }
 
@@ -109,46 +82,19 @@ auto Refiner<D>::edge_beyond(const Point<D>& x) const -> std::optional<Entry> {
   return std::nullopt;
 }
 
+/// @pre the cavity of x is collected.
 template <int D>
-VertexId Refiner<D>::nearest_in_cavity(const Point<D>& x, std::span<const VertexId> excluded) const {
-  VertexId nearest = no_vertex;
-  double least = std::numeric_limits<double>::infinity();
-  for (const CellId c : cavity_.cells())
-    for (const VertexId v : mesh_->cell(c).vertices) {
-      const double d2 = squared_distance(x, mesh_->point(v));
-      if (d2 > least || v == nearest || std::find(excluded.begin(), excluded.end(), v) != excluded.end()) continue;
-      if (d2 == least && !lex_less(mesh_->point(v), mesh_->point(nearest))) continue;
-      least = d2;
-      nearest = v;
-    }
-  return nearest;
-}
-
-template <int D>
-double Refiner<D>::insertion_radius() const {
-  double least = std::numeric_limits<double>::infinity();
-  for (const CellId c : cavity_.cells())
-    for (const VertexId v : mesh_->cell(c).vertices)
-      least = std::min(least, squared_distance(cavity_.point(), mesh_->point(v)));
-  return std::sqrt(least);
-}
-
-/// What an encroached entity may ask for (see the header). @pre the cavity of x is collected.
-template <int D>
-auto Refiner<D>::demand_of(EntityRef entity, const Point<D>& x, std::span<const VertexId> own, bool pass_on) -> Demand {
-  const VertexId q = nearest_in_cavity(x, own);
+auto Refiner<D>::demand_of(EntityRef entity, std::span<const VertexId> own, bool pass_on) const -> Demand {
+  const VertexId q = nearest_vertex<D>(*mesh_, cavity_, own);
   if (q == no_vertex) return {};
-  const auto& record = mesh_->vertex(q);
-  const EntityRef home = record.home.entity();
-  const bool honest = home.kind == EntityKind::vertex ||
-                      (home.kind != EntityKind::volume && !entities_touch<D>(*domain_, home, entity));
-  if (honest) return {pass_on ? std::sqrt(squared_distance(x, record.point)) / 2 : 0.0, 0.0};
-  return {inheritance * record.relaxed_radius, record.relaxed_radius};
+  Demand demand = encroachment_demand<D>(*domain_, entity, mesh_->vertex(q));
+  if (pass_on && demand.h == 0) demand.d = std::sqrt(squared_distance(cavity_.point(), mesh_->point(q))) / 2;
+  return demand;
 }
 
 template <int D>
-auto Refiner<D>::refuse(EntityRef entity, const Point<D>& x, std::span<const VertexId> own) -> Outcome {
-  const VertexId q = nearest_in_cavity(x, own);
+auto Refiner<D>::refuse(EntityRef entity, std::span<const VertexId> own) -> Outcome {
+  const VertexId q = nearest_vertex<D>(*mesh_, cavity_, own);
   last_refusal_ = EntityPair{{entity, q == no_vertex ? EntityRef{} : mesh_->vertex(q).home.entity()}};
   cavity_.release();
   ++counts_.refused;
@@ -156,17 +102,17 @@ auto Refiner<D>::refuse(EntityRef entity, const Point<D>& x, std::span<const Ver
 }
 
 template <int D>
-auto Refiner<D>::decide(EntityRef entity, const Point<D>& x, std::span<const VertexId> own, const Demand* cause)
+auto Refiner<D>::decide(EntityRef entity, std::span<const VertexId> own, const Demand* cause)
     -> Outcome {
   auto status = cavity_.make_star_shaped();
   if (status == Cavity<D>::Status::ok) status = cavity_.check_nothing_swallowed();
-  if (status != Cavity<D>::Status::ok) return refuse(entity, x, own);
-  const Demand demand = cause ? *cause : demand_of(entity, x, own, false);
-  const double r = insertion_radius();
-  if (r < demand.d) return refuse(entity, x, own);
+  if (status != Cavity<D>::Status::ok) return refuse(entity, own);
+  const Demand demand = cause ? *cause : demand_of(entity, own, false);
+  const double r = insertion_radius<D>(*mesh_, cavity_);
+  if (r < demand.d) return refuse(entity, own);
   if (r < options_->min_edge) {
     min_edge_hit_ = true;
-    return refuse(entity, x, own);
+    return refuse(entity, own);
   }
   committed(cavity_.commit(*pools_, Home(entity.kind, entity.id), rounded_down(std::max(r, demand.h))));
   return Outcome::committed;
@@ -180,12 +126,12 @@ auto Refiner<D>::split_face(const Entry& e, const Demand* cause) -> Outcome {
   for (int i = 0, n = 0; i <= D; ++i)
     if (i != e.which) own[n++] = e.vertices[i];
   const Point<D> x = face_point(e.cell, e.which);
-  if (cavity_.collect_on_face(x, e.cell, e.which) != Cavity<D>::Status::ok) return refuse(entity, x, own);
+  if (cavity_.collect_on_face(x, e.cell, e.which) != Cavity<D>::Status::ok) return refuse(entity, own);
   if constexpr (D == 3) {
     auto edge = edge_beyond(x);
     if (!edge) edge = encroached_edge(x);
     if (edge) {
-      const Demand demand = cause ? *cause : demand_of(entity, x, own, true);
+      const Demand demand = cause ? *cause : demand_of(entity, own, true);
       cavity_.release();
       const Outcome outcome = split_edge(*edge, &demand);
       // The face is looked at again if the split left it as it was.
@@ -193,7 +139,7 @@ auto Refiner<D>::split_face(const Entry& e, const Demand* cause) -> Outcome {
       return outcome;
     }
   }
-  return decide(entity, x, own, cause);
+  return decide(entity, own, cause);
 }
 
 template <int D>
@@ -203,8 +149,8 @@ auto Refiner<D>::split_edge(const Entry& e, const Demand* cause) -> Outcome {
     const std::array<VertexId, 2> own{e.vertices[edge_ends[e.which][0]], e.vertices[edge_ends[e.which][1]]};
     const Point<D> x = segment_midpoint(s, own[0], own[1]);
     const EntityRef entity{EntityKind::segment, s};
-    if (cavity_.collect_on_edge(x, e.cell, e.which) != Cavity<D>::Status::ok) return refuse(entity, x, own);
-    return decide(entity, x, own, cause);
+    if (cavity_.collect_on_edge(x, e.cell, e.which) != Cavity<D>::Status::ok) return refuse(entity, own);
+    return decide(entity, own, cause);
   } else {
     static_cast<void>(e);
     static_cast<void>(cause);

@@ -8,7 +8,7 @@ Usage: picture.py MESH.mesh PICTURE.png [--cut NX NY NZ D] [--view AZIMUTH ELEVA
 Cells whose centroid x has N.x > D are left out. Faces of the surface are blue, faces of inner cells orange.
 The README's picture:
     build/release/pgdr mesh tests/models/bracket.poly --radius-edge 2 --size 0.15 -o out/bracket.mesh
-    docs/picture.py out/bracket.mesh docs/images/bracket.png
+    docs/picture.py out/bracket.mesh docs/images/bracket.png --width 800
 """
 import argparse
 import math

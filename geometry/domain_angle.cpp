@@ -4,8 +4,11 @@
 // Which entities of a Domain touch, and at what angle. Cosines are formed in double-double, so that an angle of exactly
 // 60 or 90 degrees is not reported as less.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "detail/double_double.hpp"
@@ -135,12 +138,11 @@ double facet_angle(const Domain<3>& domain, EntityId f, EntityId g) {
   return least;
 }
 
-// The input vertices of an entity, sorted.
+// The input vertices of a vertex (twice the same) or a segment.
 template <int D>
-std::vector<std::uint32_t> few_points(const Domain<D>& domain, EntityRef e) {
-  if (e.kind == EntityKind::vertex) return {e.id};
-  const auto& ends = domain.segments()[e.id].points;
-  return {std::min(ends[0], ends[1]), std::max(ends[0], ends[1])};
+std::array<std::uint32_t, 2> few_points(const Domain<D>& domain, EntityRef e) {
+  if (e.kind == EntityKind::vertex) return {e.id, e.id};
+  return domain.segments()[e.id].points;
 }
 
 }  // namespace
@@ -159,7 +161,8 @@ bool entities_touch(const Domain<D>& domain, EntityRef a, EntityRef b) {
       return std::ranges::any_of(few, on_many);
     }
   }
-  return !common(few_points(domain, a), few_points(domain, b)).empty();
+  const auto p = few_points(domain, a), q = few_points(domain, b);
+  return p[0] == q[0] || p[0] == q[1] || p[1] == q[0] || p[1] == q[1];
 }
 
 template <int D>

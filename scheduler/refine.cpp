@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <string>
 
 #include "pgdr/cell_bounds.hpp"
@@ -35,25 +34,6 @@ void validate(const RefineOptions<D>& options) {
   const double delta = options.disk.delta;
   if (delta != 0 && !(delta >= smallest_proved_bound<D>() / options.radius_edge_bound && delta <= 1))
     bad_option("delta must lie between " + std::to_string(smallest_proved_bound<D>()) + " / radius-edge bound and 1");
-}
-
-/// Front-end Steiner points get the length of their shortest edge as relaxed insertion radius.
-template <int D>
-void set_relaxed_radii(Mesh<D>& mesh) {
-  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i) {
-    if (!mesh.alive(CellId{i})) continue;
-    const auto& v = mesh.cell(CellId{i}).vertices;
-    for (int a = 0; a <= D; ++a)
-      for (int b = a + 1; b <= D; ++b)
-        for (const VertexId u : {v[a], v[b]}) {
-          auto& record = mesh.vertex(u);
-          if (record.home.kind() == EntityKind::vertex) continue;
-          const double length = std::sqrt(squared_distance(mesh.point(v[a]), mesh.point(v[b])));
-          float f = static_cast<float>(length);
-          if (static_cast<double>(f) > length) f = std::nextafter(f, 0.0f);
-          if (record.relaxed_radius == 0 || f < record.relaxed_radius) record.relaxed_radius = f;
-        }
-  }
 }
 
 template <int D>
@@ -92,7 +72,6 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
     }
     regions = carve<D>(mesh, pools, delaunay, domain, result.warnings);
   }
-  set_relaxed_radii<D>(mesh);
   result.statistics.seconds_initial = seconds_since(start);
 
   const auto refine_start = Clock::now();

@@ -21,7 +21,8 @@ template <int D>
 std::optional<Domain<D>> read_domain(const std::string& input) {
   if (input.empty()) return std::nullopt;
   if (file_dimension(input) != D)
-    throw UsageError({.code = Errc::bad_option, .message = format("the mesh is %dD, its input is not", D), .file = input});
+    throw UsageError(
+        {.code = Errc::bad_option, .message = format("the mesh is %dD, its input is not", D), .file = input});
   return std::optional<Domain<D>>(std::in_place, read_plc<D>(input));
 }
 
@@ -46,23 +47,20 @@ void fill(Report& report, const OutputMesh<D>& mesh, const Bounds<D>& bounds, co
 template <int D>
 void print_summary(const CheckArguments& a, const OutputMesh<D>& mesh, const Bounds<D>& bounds,
                    const std::optional<QualitySummary>& q, const CheckReport& r) {
-  print_row("mesh", format("%s (%dD, %s, %s)", a.mesh.c_str(), D, count(mesh.points.size(), "vertex", "vertices").c_str(),
-                           count(mesh.cells.size(), D == 3 ? "tetrahedron" : "triangle",
-                                 D == 3 ? "tetrahedra" : "triangles").c_str()));
+  print_row("mesh", format("%s (%dD, ", a.mesh.c_str(), D) + count(mesh.points.size(), "vertex", "vertices") + ", " +
+                        count_cells<D>(mesh.cells.size()) + ')');
   print_row("input", a.input.empty() ? "not given: conformity was not checked" : a.input);
   if (q)
     print_row("quality", format("radius-edge up to %.4f, %s %.2f to %.2f degrees", q->max_radius_edge,
                                 D == 3 ? "dihedral angles" : "angles", q->min_angle_deg, q->max_angle_deg));
   if (bounds.radius_edge == unbounded) print_row("bounds", "no radius-edge bound was given");
   if (r.over_radius_edge + r.over_size > 0)
-    print_row("bounds", format("%llu over the radius-edge bound, %llu over a size bound, %llu cells with a reason that holds",
-                               static_cast<unsigned long long>(r.over_radius_edge),
-                               static_cast<unsigned long long>(r.over_size),
-                               static_cast<unsigned long long>(r.explained)));
+    print_row("bounds", count(r.over_radius_edge, "cell", "cells") + " over the radius-edge bound, " +
+                            count(r.over_size, "cell", "cells") + " over a size bound, " +
+                            count(r.explained, "cell", "cells") + " with a reason that holds");
   if (r.not_delaunay_rounding + r.not_delaunay_refused > 0)
-    print_row("delaunay", format("%llu local violations by rounding, %llu beside refused entities",
-                                 static_cast<unsigned long long>(r.not_delaunay_rounding),
-                                 static_cast<unsigned long long>(r.not_delaunay_refused)));
+    print_row("delaunay", count(r.not_delaunay_rounding, "local violation", "local violations") + " by rounding, " +
+                              std::to_string(r.not_delaunay_refused) + " beside refused entities");
   for (const CheckFinding& f : r.findings) print_row("found", std::string(name(f.kind)) + ": " + f.message);
   if (r.finding_count > r.findings.size())
     print_row("found", count(r.finding_count - r.findings.size(), "more", "more"));

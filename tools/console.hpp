@@ -25,6 +25,12 @@ void print_warnings(const std::vector<Diagnostic>& warnings);
 /// 1 vertex, 2 vertices; thousands are set apart.
 std::string count(std::uint64_t n, std::string_view one, std::string_view many);
 
+/// 1 triangle, 2 tetrahedra.
+template <int D>
+std::string count_cells(std::uint64_t n) {
+  return D == 3 ? count(n, "tetrahedron", "tetrahedra") : count(n, "triangle", "triangles");
+}
+
 /// One line on stderr that is written over; nothing at all if stderr is not a terminal.
 class ProgressLine {
  public:

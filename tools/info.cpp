@@ -23,7 +23,10 @@ std::uint64_t count_open(const Domain<D>& domain) {
     std::vector<std::array<std::uint32_t, 2>> edges;
     for (EntityId f = 0; f < domain.facets().size(); ++f)
       for (const auto& t : domain.triangles(f))
-        for (std::size_t i = 0; i < 3; ++i) edges.push_back({std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])});
+        for (std::size_t i = 0; i < 3; ++i) {
+          const auto [a, b] = std::minmax(t[i], t[(i + 1) % 3]);
+          edges.push_back({a, b});
+        }
     std::sort(edges.begin(), edges.end());
     for (std::size_t i = 0, j = 0; i < edges.size(); i = j) {
       while (j < edges.size() && edges[j] == edges[i]) ++j;
@@ -108,7 +111,8 @@ int info_of_input(const InfoArguments& a, Report& report) {
     if (open == 0) print_row("closed", "yes");
     else print_row("closed", "no: " + count(open, D == 3 ? "edge of one facet only" : "end of one segment only",
                                             D == 3 ? "edges of one facet only" : "ends of one segment only"));
-    if (warped > 0) print_row("planar", count(warped, "facet is not, by up to ", "facets are not, by up to ") + format("%.3g", defect));
+    if (warped > 0)
+      print_row("planar", count(warped, "facet is not", "facets are not") + format(", by up to %.3g", defect));
     print_row("angles", format("%.3f degrees is the smallest between segments, or facets at a segment", angle));
   }
 
@@ -146,8 +150,8 @@ int info_of_mesh(const InfoArguments& a, Report& report) {
 
   print_row("mesh", format("%s (%dD)", a.file.c_str(), D));
   std::string counts = count(mesh.points.size(), "vertex", "vertices") + ", " +
-                       count(mesh.cells.size(), D == 3 ? "tetrahedron" : "triangle", D == 3 ? "tetrahedra" : "triangles") +
-                       ", " + count(mesh.subsegments.size(), "subsegment", "subsegments");
+                       count_cells<D>(mesh.cells.size()) + ", " +
+                       count(mesh.subsegments.size(), "subsegment", "subsegments");
   if (D == 3) counts += ", " + count(mesh.subfacets.size(), "subfacet", "subfacets");
   print_row("counts", counts);
   print_row("quality", format("radius-edge up to %.4f, %s %.2f to %.2f degrees", q.max_radius_edge,

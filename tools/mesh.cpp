@@ -75,8 +75,7 @@ void print_summary(const MeshArguments& a, const Plc<D>& plc, const Bounds<D>& b
                             count(plc.points.size(), "point", "points").c_str()));
   if (!r.repairs.empty()) print_row("repaired", count(r.repairs.size(), "defect", "defects") + ", see --report");
   print_row("mesh", count(r.mesh.points.size(), "vertex", "vertices") + ", " +
-                        count(r.mesh.cells.size(), D == 3 ? "tetrahedron" : "triangle",
-                              D == 3 ? "tetrahedra" : "triangles"));
+                        count_cells<D>(r.mesh.cells.size()));
   if (!r.mesh.cells.empty())
     print_row("quality", format("radius-edge up to %.4f (bound %.4g), %s %.2f to %.2f degrees", q.max_radius_edge,
                                 bounds.radius_edge, D == 3 ? "dihedral angles" : "angles", q.min_angle_deg,

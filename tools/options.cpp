@@ -45,7 +45,9 @@ bool not_negative(double v) { return v >= 0 && std::isfinite(v); }
 
 /// A flag of the contract whose values are not all there yet: it must say so, not look obeyed.
 CLI::Validator available(std::string value, std::string sentence) {
-  return {[value, sentence](std::string& text) { return text == value ? std::string() : sentence + ", not \"" + text + '"'; },
+  return {[value, sentence](std::string& text) {
+            return text == value ? std::string() : sentence + ", not \"" + text + '"';
+          },
           "", "available"};
 }
 CLI::Validator not_available() {
@@ -58,7 +60,8 @@ void add_bounds(CLI::App& app, BoundArguments& b) {
                                      "smallest with a proof)")
                           ->type_name("R")->check(number("> 0", positive));
   app.add_option("--size", b.size,
-                 "bound on the circumradius (3D) or the area (2D), at the centroid: a number, or an expression in x, y, z")
+                 "bound on the circumradius (3D) or the area (2D), at the centroid: a number, or an expression in x, "
+                 "y, z")
       ->type_name("S");
   app.add_option("--max-volume", b.max_volume, "bound on the volume of every tetrahedron (3D)")
       ->type_name("V")->check(number("> 0", positive));
@@ -82,13 +85,16 @@ void add_mesh(CLI::App& app, MeshArguments& a) {
   app.add_option_function<std::string>("--disk", [&a](const std::string& t) { a.type1 = t == "type1"; },
                                        "selection disk: type1, or type2 (default)")
       ->type_name("TYPE")->check(CLI::IsMember({"type1", "type2"}));
-  app.add_option("--delta", a.delta, "radius of a type 2 disk, 1 - D circumradii; 0 (default): as far as the bound allows")
+  app.add_option("--delta", a.delta,
+                 "radius of a type 2 disk, 1 - D circumradii; 0 (default): as far as the bound allows")
       ->type_name("D")->check(number("between 0 and 1", [](double v) { return v >= 0 && v <= 1; }));
   app.add_option("--threads", a.threads, "threads to use; the mesh does not depend on it (this version runs one)")
       ->type_name("N")->check(whole_number(1, 65535));
-  app.add_option_function<std::string>("--schedule", fixed, "reproducible: the same mesh for any number of threads")->type_name("NAME")
+  app.add_option_function<std::string>("--schedule", fixed, "reproducible: the same mesh for any number of threads")
+      ->type_name("NAME")
       ->check(available("reproducible", "the schedules of this version: reproducible"));
-  app.add_option_function<std::string>("--granularity", fixed, "not available in this version")->type_name("G")->check(not_available());
+  app.add_option_function<std::string>("--granularity", fixed, "not available in this version")
+      ->type_name("G")->check(not_available());
   app.add_option("--min-edge", a.min_edge, "refuse points that would make an edge shorter than this, and say so")
       ->type_name("E")->check(number(">= 0", not_negative));
   app.add_option("--max-vertices", a.max_vertices, "stop with a valid partial mesh at this number of vertices")
@@ -96,7 +102,8 @@ void add_mesh(CLI::App& app, MeshArguments& a) {
   app.add_option("--time-limit", a.time_limit, "stop with a valid partial mesh after this time")
       ->type_name("SECONDS")->check(number(">= 0", not_negative));
   add_report(app, a.report, a.quiet);
-  app.add_option_function<std::string>("--trace", fixed, "not available in this version")->type_name("FILE.json")->check(not_available());
+  app.add_option_function<std::string>("--trace", fixed, "not available in this version")
+      ->type_name("FILE.json")->check(not_available());
 }
 
 void add_check(CLI::App& app, CheckArguments& a) {

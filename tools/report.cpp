@@ -90,7 +90,9 @@ JsonObject to_json(const PoorReason& r) {
 
 JsonObject to_json(const PredicateCounts& c) {
   const std::uint64_t calls = c.filter + c.expansion + c.exact + c.perturbed;  // each call counts at one stage
-  const auto share = [calls](std::uint64_t n) { return calls ? static_cast<double>(n) / static_cast<double>(calls) : 0.0; };
+  const auto share = [calls](std::uint64_t n) {
+    return calls ? static_cast<double>(n) / static_cast<double>(calls) : 0.0;
+  };
   return {{"filter", share(c.filter)},
           {"expansion", share(c.expansion)},
           {"exact", share(c.exact)},

@@ -10,6 +10,9 @@
 // A Cavity is the workspace of one visit: one thread at a time; reused from insertion to insertion.
 #pragma once
 
+#include <cmath>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "pgdr/key_set.hpp"
@@ -139,6 +142,19 @@ class Cavity {
   EntityId split_segment_ = no_entity;
   bool shrunk_ = false, touches_constraints_ = false, has_ghosts_ = false;
 };
+
+/// The cavity's vertex nearest to its point, but for the excluded ones (ties: lexicographically first); no_vertex if none.
+template <int D>
+VertexId nearest_vertex(const Mesh<D>& mesh, const Cavity<D>& cavity, std::span<const VertexId> excluded);
+/// Distance from the cavity's point to its nearest vertex.
+template <int D>
+double insertion_radius(const Mesh<D>& mesh, const Cavity<D>& cavity);
+
+/// The largest float that is not above v.
+inline float rounded_down(double v) {
+  const float f = static_cast<float>(v);
+  return static_cast<double>(f) > v ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
+}
 
 extern template class Cavity<2>;
 extern template class Cavity<3>;

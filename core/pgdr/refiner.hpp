@@ -4,20 +4,8 @@
 // Delaunay refinement of one region, serial: encroached subsegments first, then subfacets, then poor elements, largest
 // circumradius first by buckets of a factor of two, first in first out within a bucket (dissertation, sections 2.1, 3.4).
 //
-// Every run ends, whatever the input angles. Each vertex p has a home (the input vertex, segment or facet it lies on, or
-// the volume) and a relaxed insertion radius R(p): infinity for input vertices. The relaxed length of an edge uv is |uv|
-// between input vertices, else max(|uv|, min(R(u), R(v))). Let r(x) be the distance from a new point x to the nearest
-// vertex of its cavity. x is inserted only if r(x) >= d, and gets R(x) = max(r(x), h), where
-//   * for a poor element, or an entity that it encroaches upon or that hides its point: d is the least relaxed length
-//     of the element's edges (of an element only too big, at most half its circumradius); h = 0;
-//   * for an entity encroached upon by q, the cavity's nearest vertex that is none of the entity's: if q is an input
-//     vertex or the entities of q and x do not touch, d = h = 0 (r(x) is then at least the least distance of disjoint
-//     entities); else d = c R(q), h = R(q), c = 1/2.
-// Since R is inherited along a chain of small angles the factor c is paid once, not once a link: with
-// lambda = min(half the least distance of disjoint entities, the shortest edge of the initial mesh, half the least size)
-// every Steiner point has R >= lambda and r >= c lambda, by induction over the insertions. Mutually visible vertices are
-// thus c lambda apart, and the domain is bounded. Without inheritance c would have to be 1.
-// What is refused stays, and elements that stay poor name the two input entities that meet at the small angle.
+// Every run ends, whatever the input angles: see insertion_rule.hpp. What is refused stays, and elements that stay poor
+// name the two input entities that meet at the small angle.
 #pragma once
 
 #include <deque>
@@ -28,6 +16,7 @@
 #include "pgdr/cavity.hpp"
 #include "pgdr/cell_bounds.hpp"
 #include "pgdr/check.hpp"
+#include "pgdr/insertion_rule.hpp"
 #include "pgdr/refine_options.hpp"
 
 namespace pgdr {
@@ -65,15 +54,11 @@ class Refiner {
     std::array<VertexId, D + 1> vertices;
     int which;  // face or edge; unused for elements
   };
-  struct Demand {
-    double d = 0, h = 0;
-  };
   struct EntityPair {
     std::array<EntityRef, 2> entities;
   };
   enum class Outcome { committed, refused };
   static constexpr int buckets = 64;
-  static constexpr double inheritance = 0.5;  // c
 
   // refiner.cpp: the lists
   Entry make_entry(CellId c, int which) const { return {c, mesh_->cell(c).vertices, which}; }
@@ -94,12 +79,9 @@ class Refiner {
   Point<D> segment_midpoint(EntityId s, VertexId a, VertexId b) const;
   std::optional<Entry> encroached_edge(const Point<D>& x) const;
   std::optional<Entry> edge_beyond(const Point<D>& x) const;
-  Demand demand_of(EntityRef entity, const Point<D>& x, std::span<const VertexId> own, bool pass_on);
-  Outcome decide(EntityRef entity, const Point<D>& x, std::span<const VertexId> own, const Demand* cause);
-  Outcome refuse(EntityRef entity, const Point<D>& x, std::span<const VertexId> own);
-  bool on_entity(VertexId v, EntityRef entity) const;
-  VertexId nearest_in_cavity(const Point<D>& x, std::span<const VertexId> excluded) const;
-  double insertion_radius() const;
+  Demand demand_of(EntityRef entity, std::span<const VertexId> own, bool pass_on) const;
+  Outcome decide(EntityRef entity, std::span<const VertexId> own, const Demand* cause);
+  Outcome refuse(EntityRef entity, std::span<const VertexId> own);
 
   // refiner_cells.cpp: poor elements
   void treat_cell(const Entry& e);

@@ -111,18 +111,19 @@ double segment_parameter(const Domain<D>& domain, EntityId s, const Point<D>& p)
 /// projection (nearest one if none does), in double-double, rounded once; exactly on it where axis-aligned.
 Point<3> point_on_facet(const Domain<3>& domain, EntityId f, const Point<3>& x);
 
-/// The smallest angle, in degrees, between two entities that share an input vertex; 180 if they share none, are the
-/// same, or one is part of the other (a segment of the facet), and for a vertex or the volume. Segments: between their
-/// directions at the shared vertex. Two facets: their dihedral angles at common segments, each between the half-planes
-/// there, and at common vertices that are on no common segment the smallest angle between a direction into the one and
-/// a direction into the other; so for a segment and a facet. Not below 60 or 90 where it is exactly that. Takes time
-/// proportional to the triangles of the facets; for reports and reasons.
+/// An entity of a Domain; a vertex by its domain point.
 enum class EntityKind : std::uint8_t { vertex, segment, facet, volume };
 struct EntityRef {
   EntityKind kind = EntityKind::volume;
   EntityId id = no_entity;
   friend bool operator==(const EntityRef&, const EntityRef&) = default;
 };
+/// The smallest angle, in degrees, between two entities that share an input vertex; 180 if they share none, are the
+/// same, or one is part of the other (a segment of the facet), and for a vertex or the volume. Segments: between their
+/// directions at the shared vertex. Two facets: their dihedral angles at common segments, each between the half-planes
+/// there, and at common vertices that are on no common segment the smallest angle between a direction into the one and
+/// a direction into the other; so for a segment and a facet. Not below 60 or 90 where it is exactly that. Takes time
+/// proportional to the triangles of the facets; for reports and reasons.
 template <int D>
 double entity_angle(const Domain<D>& domain, EntityRef a, EntityRef b);
 /// True iff both are segments or facets (or an input vertex of one) with a common input vertex.

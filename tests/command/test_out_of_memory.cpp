@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The command, from the understood arguments on, with an allocator that fails: once, or from some allocation on. Whatever fails, the command ends
-// with exit code 7 and leaves no file behind. Under the address sanitizer, nothing leaks either.
+// The command, from the understood arguments on, with an allocator that fails: once, or from some allocation on.
+// Whatever fails, the command ends with exit code 7 and leaves no file behind. Under the address sanitizer, nothing
+// leaks either.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -22,7 +23,7 @@ std::atomic<long> allocations{0}, first_failure{-1}, last_failure{-1};
 
 void* allocate(std::size_t size, std::size_t alignment) noexcept {
   const long n = allocations.fetch_add(1, std::memory_order_relaxed);
-  if (n >= first_failure.load(std::memory_order_relaxed) && n < last_failure.load(std::memory_order_relaxed)) return nullptr;
+  if (n >= first_failure && n < last_failure) return nullptr;
   if (alignment <= alignof(std::max_align_t)) return std::malloc(size ? size : 1);
   return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
 }

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "pgdr/insertion_rule.hpp"
+
+#include <algorithm>
+
+namespace pgdr {
+
+template <int D>
+bool lies_on(const Domain<D>& domain, Home home_of_vertex, EntityRef entity) {
+  const EntityRef home = home_of_vertex.entity();
+  if (home == entity) return true;
+  if (entity.kind == EntityKind::segment) {
+    const auto& ends = domain.segments()[entity.id].points;
+    return home.kind == EntityKind::vertex && (home.id == ends[0] || home.id == ends[1]);
+  }
+  if (home.kind == EntityKind::segment) {
+    const auto facets = domain.facets_of_segment(home.id);
+    return std::binary_search(facets.begin(), facets.end(), entity.id);
+  }
+  if (home.kind != EntityKind::vertex) return false;
+  const auto points = domain.facet_points(entity.id);
+  return std::binary_search(points.begin(), points.end(), home.id);
+}
+
+template <int D>
+Demand encroachment_demand(const Domain<D>& domain, EntityRef entity, const VertexRecord<D>& q) {
+  const EntityRef home = q.home.entity();
+  const bool honest = home.kind == EntityKind::vertex ||
+                      (home.kind != EntityKind::volume && !entities_touch<D>(domain, home, entity));
+  if (honest) return {};
+  return {inherited_fraction * q.relaxed_radius, q.relaxed_radius};
+}
+
+template bool lies_on<2>(const Domain<2>&, Home, EntityRef);
+template bool lies_on<3>(const Domain<3>&, Home, EntityRef);
+template Demand encroachment_demand<2>(const Domain<2>&, EntityRef, const VertexRecord<2>&);
+template Demand encroachment_demand<3>(const Domain<3>&, EntityRef, const VertexRecord<3>&);
+
+}  // namespace pgdr

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// When a Steiner point may be inserted, so that every run ends, whatever the input angles.
+//
+// Each vertex p has a home (the input vertex, segment or facet it lies on, or the volume) and a relaxed insertion radius
+// R(p): infinity for input vertices. The relaxed length of an edge uv is |uv| between input vertices, else
+// max(|uv|, min(R(u), R(v))). Let r(x) be the distance from a new point x to the nearest vertex of its cavity. x is
+// inserted only if r(x) >= d, and gets R(x) = max(r(x), h), where
+//   * for a poor element, or an entity that it encroaches upon or that hides its point: d is the least relaxed length
+//     of the element's edges (of an element only too big, at most half its circumradius); h = 0;
+//   * for an entity encroached upon by q, the cavity's nearest vertex that is none of the entity's: if q is an input
+//     vertex or the entities of q and x do not touch, d = h = 0 (r(x) is then at least the least distance of disjoint
+//     entities; passed on from a facet to a segment, d = |xq| / 2); else d = c R(q), h = R(q), c = 1/2;
+//   * for a missing subsegment or subfacet of the boundary recovery: d = h = 0.
+// Since R is inherited along a chain of small angles the factor c is paid once, not once a link: with
+// lambda = min(half the least distance of disjoint entities, the shortest edge of the recovered mesh, half the least size)
+// every Steiner point of the refinement has R >= lambda and r >= c lambda, by induction over the insertions. Mutually
+// visible vertices are thus c lambda apart, and the domain is bounded: finitely many insertions. Without inheritance c
+// would have to be 1. Pure functions; any thread.
+#pragma once
+
+#include "pgdr/mesh.hpp"
+
+namespace pgdr {
+
+inline constexpr double inherited_fraction = 0.5;  // c
+
+/// What an insertion asks for: r(x) >= d, and R(x) is at least h.
+struct Demand {
+  double d = 0, h = 0;
+};
+
+/// Does a vertex with this home lie on the entity (a segment or facet)?
+template <int D>
+bool lies_on(const Domain<D>& domain, Home home, EntityRef entity);
+
+/// The demand of an entity encroached upon by q.
+template <int D>
+Demand encroachment_demand(const Domain<D>& domain, EntityRef entity, const VertexRecord<D>& q);
+
+}  // namespace pgdr
