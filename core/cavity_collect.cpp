@@ -274,17 +274,40 @@ auto Cavity<D>::drop_cells(const std::vector<CellId>& doomed) -> Status {
     }
     mesh_->unmark(c);
   }
-  // Part faces next to a cell given back leave the part.
-  const auto old_part = part_;
+  // A part face with a cell given back leaves the part, which may cut off further cells, and so on.
+  do {
+    keep_whole_part_faces();
+    keep_connected_cells();
+  } while (!part_is_whole());
+  rebuild_boundary();
+  return Status::ok;
+}
+
+template <int D>
+bool Cavity<D>::is_whole(const PartFace& f) const {
+  const Link across = mesh_->cell(f.cell).links[f.face];
+  return mesh_->marked(f.cell) && (!across || mesh_->marked(across.cell()));
+}
+
+template <int D>
+bool Cavity<D>::part_is_whole() const {
+  return std::all_of(part_.begin(), part_.end(), [this](const PartFace& f) { return is_whole(f); });
+}
+
+template <int D>
+void Cavity<D>::keep_whole_part_faces() {
   clear_part_bits();
-  part_.clear();
-  for (const PartFace& f : old_part) {
-    const Link across = mesh_->cell(f.cell).links[f.face];
-    if (!mesh_->marked(f.cell) || (across && !mesh_->marked(across.cell()))) continue;
-    part_.push_back(f);
+  std::erase_if(part_, [this](const PartFace& f) { return !is_whole(f); });
+  for (const PartFace& f : part_) {
     mesh_->constraints(f.cell)->part |= static_cast<std::uint8_t>(1 << f.face);
-    if (across) mesh_->constraints(across.cell())->part |= static_cast<std::uint8_t>(1 << across.face());
+    if (const Link across = mesh_->cell(f.cell).links[f.face])
+      mesh_->constraints(across.cell())->part |= static_cast<std::uint8_t>(1 << across.face());
   }
+}
+
+/// Of the marked cells those that the protected ones reach through faces; the others lose their mark.
+template <int D>
+void Cavity<D>::keep_connected_cells() {
   std::vector<CellId> kept = protected_;
   for (const CellId c : kept) mesh_->unmark(c);
   for (std::size_t i = 0; i < kept.size(); ++i) {
@@ -299,8 +322,6 @@ auto Cavity<D>::drop_cells(const std::vector<CellId>& doomed) -> Status {
   for (const CellId c : cells_) mesh_->unmark(c);
   for (const CellId c : kept) mesh_->mark(c);
   cells_ = std::move(kept);
-  rebuild_boundary();
-  return Status::ok;
 }
 
 template <int D>

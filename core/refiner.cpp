@@ -19,6 +19,7 @@ Refiner<D>::Refiner(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Domain<
       options_(&options),
       bounds_(std::move(bounds)),
       cavity_(mesh),
+      flips_(mesh),
       vertices_(vertices_so_far),
       start_(start),
       last_progress_(start_) {
@@ -84,10 +85,33 @@ void Refiner<D>::list_all() {
 }
 
 template <int D>
-void Refiner<D>::committed(VertexId) {
+void Refiner<D>::committed() {
   ++counts_.committed;
   ++vertices_;
   for (const CellId c : cavity_.new_cells()) list_cell(c);
+  // Away from walls an unshrunk cavity keeps every face locally Delaunay.
+  if (cavity_.touches_constraints() || cavity_.shrunk()) list_violations(cavity_.new_cells());
+}
+
+template <int D>
+void Refiner<D>::list_violations(std::span<const CellId> cells) {
+  for (const CellId c : cells)
+    for (int f = 0; f <= D; ++f)
+      if (flips_.violates(c, f)) {
+        not_delaunay_.push_back(make_entry(c, f));
+        flips_left_ += 16;  // an allowance, so that flips that trade violations end
+      }
+}
+
+template <int D>
+void Refiner<D>::flip(const Entry& e) {
+  if (flips_left_ == 0 || !flips_.repair(*pools_, e.cell, e.which)) return;
+  --flips_left_;
+  const std::vector<CellId> made = flips_.new_cells();
+  for (const CellId c : made) list_cell(c);
+  for (const CellId c : made)
+    for (int f = 0; f <= D; ++f)
+      if (flips_.violates(c, f)) not_delaunay_.push_back(make_entry(c, f));
 }
 
 template <int D>
@@ -123,6 +147,9 @@ StopCause Refiner<D>::drain() {
     } else if (!faces_.empty()) {
       const Entry e = next(faces_);
       if (alive(e) && split_face(e, nullptr) == Outcome::refused && alive(e)) refused_faces_.push_back(e);
+    } else if (!not_delaunay_.empty()) {
+      const Entry e = next(not_delaunay_);
+      if (alive(e)) flip(e);
     } else {
       while (first_bucket_ < buckets && poor_[first_bucket_].empty()) ++first_bucket_;
       if (first_bucket_ == buckets) return StopCause::finished;

@@ -169,7 +169,8 @@ void Refiner<D>::treat_cell(const Entry& e) {
   bool ordinary = plain;
   for (const VertexId v : e.vertices) ordinary = ordinary && mesh_->vertex(v).home.kind() == EntityKind::volume;
   if (!ordinary && insertion_radius<D>(*mesh_, cavity_) < demand_of_cell(c, verdict).d) return cell_refused(e);
-  committed(cavity_.commit(*pools_, Home(EntityKind::volume, 0), rounded_down(r)));
+  cavity_.commit(*pools_, Home(EntityKind::volume, 0), rounded_down(r));
+  committed();
 }
 
 template <int D>

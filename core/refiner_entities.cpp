@@ -114,7 +114,8 @@ auto Refiner<D>::decide(EntityRef entity, std::span<const VertexId> own, const D
     min_edge_hit_ = true;
     return refuse(entity, own);
   }
-  committed(cavity_.commit(*pools_, Home(entity.kind, entity.id), rounded_down(std::max(r, demand.h))));
+  cavity_.commit(*pools_, Home(entity.kind, entity.id), rounded_down(std::max(r, demand.h)));
+  committed();
   return Outcome::committed;
 }
 

@@ -119,6 +119,10 @@ class Cavity {
   void find_broken_fans(std::vector<CellId>& doomed) const;
   bool fan_is_broken(RidgeWalk<D> walk, EntityId entity) const;
   Status drop_cells(const std::vector<CellId>& doomed);
+  bool is_whole(const PartFace& f) const;
+  bool part_is_whole() const;
+  void keep_whole_part_faces();
+  void keep_connected_cells();
   void clear_part_bits();
   CellId make_cell(Pools& pools, const BoundaryFace& f, VertexId v);
   void inherit_constraints(Pools& pools, const BoundaryFace& f, CellId c);

@@ -17,6 +17,7 @@
 #include "pgdr/cell_bounds.hpp"
 #include "pgdr/check.hpp"
 #include "pgdr/insertion_rule.hpp"
+#include "pgdr/local_flips.hpp"
 #include "pgdr/refine_options.hpp"
 
 namespace pgdr {
@@ -92,7 +93,9 @@ class Refiner {
   void cell_refused(const Entry& e);
   PoorReason explain(CellId c) const;
 
-  void committed(VertexId v);
+  void committed();
+  void list_violations(std::span<const CellId> cells);
+  void flip(const Entry& e);
 
   Mesh<D>* mesh_;
   typename Mesh<D>::Pools* pools_;
@@ -100,8 +103,11 @@ class Refiner {
   const RefineOptions<D>* options_;
   CellBounds<D> bounds_;
   Cavity<D> cavity_;
+  LocalFlips<D> flips_;
   int base_exponent_;  // of the bucket 0: circumradii of the size of the domain and above
   std::deque<Entry> edges_, faces_;
+  std::deque<Entry> not_delaunay_;  ///< faces to flip away
+  std::uint64_t flips_left_ = 0;
   std::array<std::deque<Entry>, buckets> poor_;
   int first_bucket_ = 0;
   std::vector<Entry> refused_edges_, refused_faces_, refused_cells_;
