@@ -121,7 +121,7 @@ bool Delaunay<D>::build(std::span<const Point<D>> points) {
   CellId hint = cell_at(vertices_[corners[0]]);
   for (const std::uint32_t i : insertion_order<D>(points)) {
     if (vertices_[i] != no_vertex) continue;
-    if (prepare_from(points[i], hint) != no_vertex) broken("two input points coincide");
+    if (prepare(points[i], hint) != no_vertex) broken("two input points coincide");
     vertices_[i] = commit(Home(EntityKind::vertex, i), std::numeric_limits<float>::infinity());
     hint = cell_at(vertices_[i]);
   }
@@ -130,12 +130,12 @@ bool Delaunay<D>::build(std::span<const Point<D>> points) {
 
 template <int D>
 VertexId Delaunay<D>::insert(const Point<D>& p, Home home, VertexId near) {
-  if (const VertexId there = prepare(p, near); there != no_vertex) return there;
+  if (const VertexId there = prepare(p, cell_at(near)); there != no_vertex) return there;
   return commit(home, rounded_down(insertion_radius<D>(*mesh_, cavity_)));
 }
 
 template <int D>
-VertexId Delaunay<D>::prepare_from(const Point<D>& p, CellId hint) {
+VertexId Delaunay<D>::prepare(const Point<D>& p, CellId hint) {
   const CellId seed = locate<D>(*mesh_, p, hint);
   for (const VertexId v : mesh_->cell(seed).vertices)
     if (v != infinite_vertex && mesh_->point(v) == p) return v;

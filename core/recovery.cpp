@@ -38,7 +38,7 @@ StopCause recover_boundary(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, Delaun
     detail::FacetPatches patches(mesh, delaunay, domain, chains);
     do {
       ++counts.rounds;
-      if (stop() || !chains.recover(options.refine, stop)) break;
+      if (stop() || !chains.recover(stop)) break;
       const bool again = patches.recover_once();
       facet_points = patches.points();
       if (!again) {
@@ -48,7 +48,7 @@ StopCause recover_boundary(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, Delaun
       }
     } while (true);
   } else {
-    if (!stop() && chains.recover(options.refine, stop)) chains.mark(pools);
+    if (!stop() && chains.recover(stop)) chains.mark(pools);
     counts.rounds = 1;
   }
   counts.segment_points = chains.points();

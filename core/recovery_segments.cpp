@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "detail/recovery_state.hpp"
-#include "pgdr/insertion_rule.hpp"
 
 namespace pgdr::detail {
 namespace {
@@ -65,33 +64,20 @@ WantedSimplices<2> SegmentChains<D>::wanted() const {
 }
 
 template <int D>
-auto SegmentChains<D>::missing_or_encroached(bool encroached) const -> std::vector<Subsegment> {
+auto SegmentChains<D>::missing() const -> std::vector<Subsegment> {
   WantedSimplices<2> edges = wanted();
-  std::vector<bool> is_encroached(edges.items().size(), false);
   for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) {
     if (!mesh_->alive(CellId{i})) continue;
     const auto& v = mesh_->cell(CellId{i}).vertices;
     for (int a = 0; a <= D; ++a)
-      for (int b = a + 1; b <= D; ++b) {
-        auto* edge = edges.find({v[a], v[b]});
-        if (!edge) continue;
-        edge->present = true;
-        const auto number = static_cast<std::size_t>(edge - edges.items().data());
-        if (!encroached || is_encroached[number]) continue;
-        for (const VertexId q : v)
-          if (q != infinite_vertex && q != v[a] && q != v[b] &&
-              in_diametral_ball<D>(mesh_->point(v[a]), mesh_->point(v[b]), mesh_->point(q)) &&
-              !lies_on<D>(*domain_, mesh_->vertex(q).home, {EntityKind::segment, edge->entity}))
-            is_encroached[number] = true;
-      }
+      for (int b = a + 1; b <= D; ++b)
+        if (auto* edge = edges.find({v[a], v[b]})) edge->present = true;
   }
   std::vector<Subsegment> list;
   for (EntityId s = 0; s < chains_.size(); ++s)
     for (std::size_t i = 1; i < chains_[s].size(); ++i) {
       const VertexId a = chains_[s][i - 1].vertex, b = chains_[s][i].vertex;
-      const auto* edge = edges.find({a, b});
-      if (!edge->present) list.push_back({s, a, b, true});
-      if (is_encroached[static_cast<std::size_t>(edge - edges.items().data())]) list.push_back({s, a, b, false});
+      if (!edges.find({a, b})->present) list.push_back({s, a, b});
     }
   return list;
 }
@@ -127,26 +113,6 @@ void SegmentChains<D>::add(EntityId segment, std::size_t position, VertexId v, d
   chain.insert(chain.begin() + static_cast<std::ptrdiff_t>(position), {v, t});
   changed_.push_back(segment);
   ++points_;
-}
-
-template <int D>
-bool SegmentChains<D>::split_encroached(EntityId segment, VertexId a, VertexId b) {
-  const std::size_t i = position(segment, a, b);
-  if (i == 0) return false;
-  const double t = split_parameter(segment, chains_[segment][i - 1], chains_[segment][i]);
-  const Point<D> p = point_on_segment<D>(*domain_, segment, t);
-  if (delaunay_->prepare(p, a) != no_vertex) return false;
-  const std::array<VertexId, 2> own{a, b};
-  const VertexId q = nearest_vertex<D>(*mesh_, delaunay_->cavity(), own);
-  const EntityRef entity{EntityKind::segment, segment};
-  const Demand demand = q == no_vertex ? Demand{} : encroachment_demand<D>(*domain_, entity, mesh_->vertex(q));
-  const double r = insertion_radius<D>(*mesh_, delaunay_->cavity());
-  if (r < demand.d) {
-    delaunay_->cancel();
-    return false;
-  }
-  add(segment, i, delaunay_->commit(Home(EntityKind::segment, segment), rounded_down(std::max(r, demand.h))), t);
-  return true;
 }
 
 template <int D>

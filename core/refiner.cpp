@@ -45,9 +45,9 @@ int Refiner<D>::bucket_of(CellId c) const {
 }
 
 template <int D>
-void Refiner<D>::list_poor(CellId c) {
+void Refiner<D>::list_poor(CellId c, int why) {
   const int b = bucket_of(c);
-  poor_[b].push_back(make_entry(c, 0));
+  poor_[b].push_back(make_entry(c, why));
   first_bucket_ = std::min(first_bucket_, b);
 }
 
@@ -105,7 +105,10 @@ void Refiner<D>::list_violations(std::span<const CellId> cells) {
 
 template <int D>
 void Refiner<D>::flip(const Entry& e) {
-  if (flips_left_ == 0 || !flips_.repair(*pools_, e.cell, e.which)) return;
+  if (flips_left_ == 0 || !flips_.repair(*pools_, e.cell, e.which)) {
+    if (flips_.violates(e.cell, e.which)) list_poor(e.cell, not_delaunay);
+    return;
+  }
   --flips_left_;
   const std::vector<CellId> made = flips_.new_cells();
   for (const CellId c : made) list_cell(c);
@@ -170,9 +173,8 @@ bool Refiner<D>::relist_refused() {
   relist(refused_edges_, edges_);
   relist(refused_faces_, faces_);
   for (const Entry& e : refused_cells_)
-    if (alive(e)) list_poor(e.cell);
+    if (alive(e)) list_poor(e.cell, e.which);
   refused_cells_.clear();
-  finished_ = false;
   return !edges_.empty() || !faces_.empty() || first_bucket_ < buckets;
 }
 
@@ -183,7 +185,6 @@ StopCause Refiner<D>::run() {
     if (const StopCause stop = drain(); stop != StopCause::finished) return stop;
     if (counts_.committed == before || !relist_refused()) break;
   }
-  finished_ = true;
   return min_edge_hit_ ? StopCause::min_edge : StopCause::finished;
 }
 

@@ -131,8 +131,10 @@ auto Refiner<D>::blocking_face(CellId c, const Point<D>& x) const -> std::option
 template <int D>
 void Refiner<D>::treat_cell(const Entry& e) {
   const CellId c = e.cell;
-  const CellVerdict verdict = bounds_.test(*mesh_, c);
+  CellVerdict verdict = bounds_.test(*mesh_, c);
   const Point<D> x = steiner_point(c, verdict);
+  // A cell with a face that no flip makes locally Delaunay asks for as much as one with a poor shape.
+  if (e.which == not_delaunay) verdict.over_radius_edge = true;
   last_refusal_.reset();
   if (cavity_.collect(x, c) != Cavity<D>::Status::ok) return cell_refused(e);
 
@@ -154,7 +156,7 @@ void Refiner<D>::treat_cell(const Entry& e) {
     cavity_.release();
     const Outcome outcome = edge ? split_edge(*edge, &demand) : split_face(*face, &demand);
     if (outcome == Outcome::refused) return cell_refused(e);
-    if (alive(e)) list_poor(c);
+    if (alive(e)) list_poor(c, e.which);
     return;
   }
   if (status != Cavity<D>::Status::ok) return cell_refused(e);
@@ -183,52 +185,6 @@ void Refiner<D>::cell_refused(const Entry& e) {
   } else {
     why_.erase(e.vertices);
   }
-}
-
-template <int D>
-PoorReason Refiner<D>::explain(CellId c) const {
-  PoorReason reason;
-  if (options_->radius_edge_bound < smallest_proved_bound<D>()) reason.code = PoorReason::Code::beyond_theory;
-  std::vector<std::array<EntityRef, 2>> candidates;
-  if (const auto why = why_.find(mesh_->cell(c).vertices); why != why_.end()) {
-    candidates.push_back(why->second.entities);
-    candidates.push_back({why->second.entities[1], why->second.entities[0]});
-  }
-  // An edge made short by a small angle is relaxed: the homes of its ends are the pair.
-  const auto& v = mesh_->cell(c).vertices;
-  for (int i = 0; i <= D; ++i)
-    for (int j = 0; j <= D; ++j)
-      if (i != j) candidates.push_back({mesh_->vertex(v[i]).home.entity(), mesh_->vertex(v[j]).home.entity()});
-  for (const auto& pair : candidates) {
-    const bool segments = pair[0].kind == EntityKind::segment && pair[1].kind == EntityKind::segment;
-    auto has_extent = [](EntityRef e) { return e.kind == EntityKind::segment || e.kind == EntityKind::facet; };
-    if (!has_extent(pair[0]) || !has_extent(pair[1]) || pair[0] == pair[1]) continue;
-    const double angle = entity_angle<D>(*domain_, pair[0], pair[1]);
-    if (angle >= (segments ? 60 : 90)) continue;
-    reason.code = PoorReason::Code::small_angle;
-    reason.entities = pair;
-    reason.angle = angle;
-    return reason;
-  }
-  if (reason.code != PoorReason::Code::beyond_theory) reason.code = PoorReason::Code::rounding;
-  return reason;
-}
-
-template <int D>
-std::vector<PoorCell> Refiner<D>::poor_cells() {
-  std::vector<PoorCell> poor;
-  auto look_at = [&](CellId c) {
-    if (!mesh_->alive(c)) return;
-    if (const CellVerdict verdict = bounds_.test(*mesh_, c)) poor.push_back({c, verdict.over_size, explain(c)});
-  };
-  if (finished_) {
-    // Every poor cell was listed when it was made and is alive only because it was refused.
-    for (const Entry& e : refused_cells_)
-      if (alive(e)) look_at(e.cell);
-  } else {
-    for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) look_at(CellId{i});
-  }
-  return poor;
 }
 
 template class Refiner<2>;

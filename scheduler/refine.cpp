@@ -91,8 +91,8 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   if (regions.labelled) attributes = regions.attribute;
   Compacted<D> compacted = compact<D>(mesh, domain, attributes);
   result.mesh = std::move(compacted.mesh);
-  result.poor_left = poor.size();
   for (const PoorCell& p : poor) {
+    if (p.over_bound) ++result.poor_left;
     if (p.over_size) result.size_met = false;
     PoorReason reason = p.reason;
     reason.cell = compacted.cell_number[index(p.cell)];

@@ -24,23 +24,17 @@ class SegmentChains {
 
   SegmentChains(Mesh<D>& mesh, Delaunay<D>& delaunay, const Domain<D>& domain);
 
-  /// Splits every subsegment that is no edge of the mesh, until none is missing; if `encroached` is set also those that
-  /// a vertex encroaches upon, as far as the insertion rule allows. False if `stop` says so.
+  /// Splits every subsegment that is no edge of the mesh, until none is missing. False if `stop` says so.
   template <class Stop>
-  bool recover(bool encroached, const Stop& stop) {
-    while (true) {
-      const std::vector<Subsegment> to_split = missing_or_encroached(encroached);
-      const std::uint64_t before = points_;
-      for (const Subsegment& s : to_split) {
+  bool recover(const Stop& stop) {
+    for (bool again = true; again;) {
+      again = false;
+      for (const Subsegment& s : missing()) {
         if (stop()) return false;
-        if (s.missing) {
-          split(s.segment, s.a, s.b);
-        } else {
-          split_encroached(s.segment, s.a, s.b);
-        }
+        again = split(s.segment, s.a, s.b) || again;
       }
-      if (points_ == before) return true;
     }
+    return true;
   }
   /// Splits the subsegment ab of the segment, if it is one; false otherwise.
   bool split(EntityId segment, VertexId a, VertexId b);
@@ -55,10 +49,8 @@ class SegmentChains {
   struct Subsegment {
     EntityId segment;
     VertexId a, b;
-    bool missing;
   };
-  std::vector<Subsegment> missing_or_encroached(bool encroached) const;
-  bool split_encroached(EntityId segment, VertexId a, VertexId b);
+  std::vector<Subsegment> missing() const;
   std::size_t position(EntityId segment, VertexId a, VertexId b) const;
   void add(EntityId segment, std::size_t position, VertexId v, double t);
   double split_parameter(EntityId segment, const Link& a, const Link& b) const;

@@ -32,13 +32,6 @@ class Delaunay {
   /// there already, if there is one.
   VertexId insert(const Point<D>& p, Home home, VertexId near);
 
-  /// The same in two steps: `prepare` collects the cavity of p (or returns the vertex that is there already), then
-  /// `commit` inserts it or `cancel` gives it up.
-  VertexId prepare(const Point<D>& p, VertexId near) { return prepare_from(p, cell_at(near)); }
-  const Cavity<D>& cavity() const { return cavity_; }
-  VertexId commit(Home home, float relaxed_radius);
-  void cancel() { cavity_.release(); }
-
   /// Vertices in the order of `points`.
   const std::vector<VertexId>& vertices() const { return vertices_; }
   /// A cell at v (v < vertex bound).
@@ -47,7 +40,9 @@ class Delaunay {
  private:
   bool first_simplex(std::span<const Point<D>> points, std::array<std::uint32_t, D + 1>& corners) const;
   void make_first_cells(std::span<const Point<D>> points, const std::array<std::uint32_t, D + 1>& corners);
-  VertexId prepare_from(const Point<D>& p, CellId hint);
+  /// Collects the cavity of p, or returns the vertex that is there already.
+  VertexId prepare(const Point<D>& p, CellId hint);
+  VertexId commit(Home home, float relaxed_radius);
   void note_cells(VertexId v);
 
   Mesh<D>* mesh_;

@@ -26,10 +26,10 @@ struct RefineCounts {
   std::uint64_t committed = 0, refused = 0, selector_outside = 0;
 };
 
-/// An element that stays poor: its vertices and why. `PoorReason::cell` is filled when the mesh is compacted.
+/// An element that stays poor or beside a face that is not locally Delaunay, and why. `PoorReason::cell` is filled when the mesh is compacted.
 struct PoorCell {
   CellId cell;
-  bool over_size = false;
+  bool over_bound = false, over_size = false;
   PoorReason reason;
 };
 
@@ -44,7 +44,8 @@ class Refiner {
   void list_all();
   /// Treats what is listed, and what that brings forth, until nothing is left or a budget ends.
   StopCause run();
-  /// Every cell still over a bound, with its reason. After `run`, or without it.
+  /// Every cell still over a bound, and every cell with a face that is not locally Delaunay for other reasons than
+  /// rounding, each with its reason. After `run`, or without it.
   std::vector<PoorCell> poor_cells();
 
   const RefineCounts& counts() const { return counts_; }
@@ -53,19 +54,20 @@ class Refiner {
   struct Entry {
     CellId cell;
     std::array<VertexId, D + 1> vertices;
-    int which;  // face or edge; unused for elements
+    int which;  // face or edge; for elements, why
   };
   struct EntityPair {
     std::array<EntityRef, 2> entities;
   };
   enum class Outcome { committed, refused };
+  static constexpr int over_bound = 0, not_delaunay = 1;  // Entry::which of elements
   static constexpr int buckets = 64;
 
   // refiner.cpp: the lists
   Entry make_entry(CellId c, int which) const { return {c, mesh_->cell(c).vertices, which}; }
   bool alive(const Entry& e) const { return mesh_->cell(e.cell).vertices == e.vertices; }
   void list_cell(CellId c);
-  void list_poor(CellId c);
+  void list_poor(CellId c, int why = over_bound);
   void list_entities(CellId c, const ConstraintRecord<D>& k);
   int bucket_of(CellId c) const;
   std::optional<StopCause> budget();
@@ -91,7 +93,11 @@ class Refiner {
   std::optional<Entry> encroached_face(const Point<D>& x) const;
   std::optional<Entry> blocking_face(CellId c, const Point<D>& x) const;
   void cell_refused(const Entry& e);
+
+  // refiner_reasons.cpp: why some stay
   PoorReason explain(CellId c) const;
+  bool explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, PoorReason& reason) const;
+  void add_entities(CellId c, std::vector<EntityRef>& list) const;
 
   void committed();
   void list_violations(std::span<const CellId> cells);
@@ -111,10 +117,11 @@ class Refiner {
   std::array<std::deque<Entry>, buckets> poor_;
   int first_bucket_ = 0;
   std::vector<Entry> refused_edges_, refused_faces_, refused_cells_;
+  std::vector<std::vector<EntityId>> segments_at_;  ///< of each input point; made for the reasons
   std::map<std::array<VertexId, D + 1>, EntityPair> why_;  // of refused elements
   std::optional<EntityPair> last_refusal_;
   std::uint64_t vertices_, commits_at_check_ = 0;
-  bool min_edge_hit_ = false, finished_ = false;
+  bool min_edge_hit_ = false;
   RefineCounts counts_;
   std::chrono::steady_clock::time_point start_, last_progress_;
 };

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Distance of a point from an input entity, in doubles, for reports.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "pgdr/domain.hpp"
+
+namespace pgdr::detail {
+
+template <int D>
+double squared_distance_to_edge(const Point<D>& a, const Point<D>& b, const Point<D>& x) {
+  double along = 0, length = 0;
+  for (int i = 0; i < D; ++i) {
+    along += (x[i] - a[i]) * (b[i] - a[i]);
+    length += (b[i] - a[i]) * (b[i] - a[i]);
+  }
+  const double t = length > 0 ? std::clamp(along / length, 0.0, 1.0) : 0.0;
+  Point<D> foot;
+  for (int i = 0; i < D; ++i) foot[i] = a[i] + t * (b[i] - a[i]);
+  return squared_distance(foot, x);
+}
+
+inline double squared_distance_to_triangle(const Point3& a, const Point3& b, const Point3& c, const Point3& x) {
+  const double edges = std::min({squared_distance_to_edge(a, b, x), squared_distance_to_edge(b, c, x),
+                                 squared_distance_to_edge(c, a, x)});
+  auto minus = [](const Point3& p, const Point3& q) { return Point3{{p[0] - q[0], p[1] - q[1], p[2] - q[2]}}; };
+  auto dot = [](const Point3& p, const Point3& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; };
+  auto cross = [](const Point3& u, const Point3& v) {
+    return Point3{{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]}};
+  };
+  const Point3 normal = cross(minus(b, a), minus(c, a));
+  const bool above = dot(cross(minus(b, a), minus(x, a)), normal) >= 0 &&
+                     dot(cross(minus(c, b), minus(x, b)), normal) >= 0 &&
+                     dot(cross(minus(a, c), minus(x, c)), normal) >= 0;
+  const double square = dot(normal, normal);
+  if (!above || !(square > 0)) return edges;
+  const double height = dot(minus(x, a), normal);
+  return std::min(edges, height * height / square);
+}
+
+/// @pre a segment or a facet.
+template <int D>
+double squared_distance_to(const Domain<D>& domain, EntityRef entity, const Point<D>& x) {
+  const auto points = domain.points();
+  if (entity.kind == EntityKind::segment) {
+    const auto& ends = domain.segments()[entity.id].points;
+    return squared_distance_to_edge<D>(points[ends[0]], points[ends[1]], x);
+  }
+  double least = std::numeric_limits<double>::infinity();
+  if constexpr (D == 3)
+    for (const auto& t : domain.triangles(entity.id))
+      least = std::min(least, squared_distance_to_triangle(points[t[0]], points[t[1]], points[t[2]], x));
+  return least;
+}
+
+}  // namespace pgdr::detail

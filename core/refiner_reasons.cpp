@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Why elements stay poor: the two input entities that meet at a small angle next to them. What refused the element's
+// insertion is named if it is such a pair, else a pair among the entities that the element and its neighbours touch.
+#include <algorithm>
+#include <vector>
+
+#include "detail/entity_distance.hpp"
+#include "pgdr/refiner.hpp"
+
+namespace pgdr {
+namespace {
+
+bool has_extent(EntityRef e) { return e.kind == EntityKind::segment || e.kind == EntityKind::facet; }
+
+}  // namespace
+
+/// As the checker will ask: do they meet at less than 60 (two segments) or 90 degrees, the first within the ball?
+template <int D>
+bool Refiner<D>::explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, PoorReason& reason) const {
+  if (!has_extent(pair[0]) || !has_extent(pair[1]) || pair[0] == pair[1]) return false;
+  if (!entities_touch<D>(*domain_, pair[0], pair[1])) return false;
+  const bool segments = pair[0].kind == EntityKind::segment && pair[1].kind == EntityKind::segment;
+  const double angle = entity_angle<D>(*domain_, pair[0], pair[1]);
+  if (angle >= (segments ? 60 : 90)) return false;
+  for (const auto& order : {pair, std::array{pair[1], pair[0]}}) {
+    if (detail::squared_distance_to<D>(*domain_, order[0], doubled.center) > doubled.squared_radius) continue;
+    reason = {0, PoorReason::Code::small_angle, order, angle};
+    return true;
+  }
+  return false;
+}
+
+/// Adds the entities that the cell's vertices lie on, and those constrained on it.
+template <int D>
+void Refiner<D>::add_entities(CellId c, std::vector<EntityRef>& list) const {
+  auto add = [&](EntityKind kind, EntityId id) {
+    const EntityRef e{kind, id};
+    if (std::find(list.begin(), list.end(), e) == list.end()) list.push_back(e);
+  };
+  auto add_segment = [&](EntityId s) {
+    add(EntityKind::segment, s);
+    for (const EntityId f : domain_->facets_of_segment(s)) add(EntityKind::facet, f);
+  };
+  for (const VertexId v : mesh_->cell(c).vertices) {
+    const EntityRef home = mesh_->vertex(v).home.entity();
+    if (home.kind == EntityKind::facet) add(home.kind, home.id);
+    if (home.kind == EntityKind::segment) add_segment(home.id);
+    if (home.kind == EntityKind::vertex)
+      for (const EntityId s : segments_at_[home.id]) add_segment(s);
+  }
+  if (const auto* k = mesh_->constraints(c))
+    for (int f = 0; f <= D; ++f)
+      if (k->faces >> f & 1) add(D == 3 ? EntityKind::facet : EntityKind::segment, k->face_entity[f]);
+}
+
+/// What refused the element if that is a pair with a small angle, else the first such pair among the entities of ever
+/// more cells round it.
+template <int D>
+PoorReason Refiner<D>::explain(CellId c) const {
+  const auto sphere = circumsphere<D>(mesh_->simplex(c));
+  // A hair less than doubled, so that another's rounding cannot disagree.
+  const Ball<D> doubled{sphere.center, 4 * sphere.squared_radius * (1 - 0x1p-20)};
+  PoorReason reason;
+  if (const auto why = why_.find(mesh_->cell(c).vertices); why != why_.end())
+    if (explains(why->second.entities, doubled, reason)) return reason;
+  constexpr std::size_t most_cells = 256;
+  std::vector<CellId> cells{c};
+  std::vector<EntityRef> near;
+  for (std::size_t i = 0, tried = 0; i < cells.size() && i < most_cells; ++i) {
+    add_entities(cells[i], near);
+    for (; tried < near.size(); ++tried)
+      for (std::size_t j = 0; j < tried; ++j)
+        if (explains({near[tried], near[j]}, doubled, reason)) return reason;
+    for (const Link link : mesh_->cell(cells[i]).links)
+      if (link && cells.size() < most_cells && std::find(cells.begin(), cells.end(), link.cell()) == cells.end())
+        cells.push_back(link.cell());
+  }
+  reason.code = options_->radius_edge_bound < smallest_proved_bound<D>() ? PoorReason::Code::beyond_theory
+                                                                         : PoorReason::Code::rounding;
+  return reason;
+}
+
+template <int D>
+std::vector<PoorCell> Refiner<D>::poor_cells() {
+  segments_at_.assign(domain_->points().size(), {});
+  for (EntityId s = 0; s < domain_->segments().size(); ++s)
+    for (const std::uint32_t p : domain_->segments()[s].points) segments_at_[p].push_back(s);
+  std::vector<PoorCell> poor;
+  auto is_violated = [&](CellId c) {
+    for (int f = 0; f <= D; ++f)
+      if (flips_.violates(c, f)) return true;
+    return false;
+  };
+  for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) {
+    const CellId c{i};
+    if (!mesh_->alive(c)) continue;
+    const CellVerdict verdict = bounds_.test(*mesh_, c);
+    if (verdict) {
+      poor.push_back({c, true, verdict.over_size, explain(c)});
+    } else if (is_violated(c)) {
+      // Without a small angle nearby the violation is one of rounding, which needs no reason.
+      const PoorReason reason = explain(c);
+      if (reason.code == PoorReason::Code::small_angle) poor.push_back({c, false, false, reason});
+    }
+  }
+  return poor;
+}
+
+template class Refiner<2>;
+template class Refiner<3>;
+
+}  // namespace pgdr
