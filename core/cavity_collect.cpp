@@ -220,6 +220,7 @@ auto Cavity<D>::make_star_shaped() -> Status {
     for (const BoundaryFace& f : boundary_)
       if (!visible(f)) doomed.push_back(f.cell);
     if (doomed.empty()) find_broken_fans(doomed);
+    if (doomed.empty()) find_turned_over(doomed);
     if (doomed.empty()) return Status::ok;
     if (const Status s = drop_cells(doomed); s != Status::ok) return s;
     doomed.clear();
@@ -260,6 +261,50 @@ bool Cavity<D>::fan_is_broken(RidgeWalk<D> walk, EntityId entity) const {
     left = left || !mesh_->marked(walk.cell);
   }
   return left && in_part(walk.cell, walk.exit) && mesh_->constraints(walk.cell)->face_entity[walk.exit] == entity;
+}
+
+/// The facet's part must be star-shaped about p too, in the facet's projection: where p, by its rounding, lies on or
+/// beyond a ridge of the part's rim, the face at that ridge leaves the part. The split subsegment itself is no rim.
+template <int D>
+void Cavity<D>::find_turned_over(std::vector<CellId>& doomed) const {
+  if constexpr (D == 3) {
+    for (const PartFace& f : part_) {
+      const auto& v = mesh_->cell(f.cell).vertices;
+      const int axis = domain_->facets()[f.entity].axis;
+      for (int corner = 0; corner <= D; ++corner) {
+        if (corner == f.face) continue;
+        int ends[2], n = 0;
+        for (int j = 0; j <= D; ++j)
+          if (j != f.face && j != corner) ends[n++] = j;
+        const VertexId a = v[ends[0]], b = v[ends[1]];
+        const bool split = (a == split_edge_[0] && b == split_edge_[1]) || (a == split_edge_[1] && b == split_edge_[0]);
+        if (split || !is_rim(f, a, b)) continue;
+        const Point<D>&p = mesh_->point(a), &q = mesh_->point(b);
+        const Sign inside = orient_projected(p, q, mesh_->point(v[corner]), axis);
+        if (orient_projected(p, q, point_, axis) == inside) continue;
+        doomed.push_back(f.cell);
+        if (const Link across = mesh_->cell(f.cell).links[f.face]) doomed.push_back(across.cell());
+        return;  // what is left is looked at anew
+      }
+    }
+  }
+}
+
+/// Is no other face of the part and of f's entity at the ridge ab?
+template <int D>
+bool Cavity<D>::is_rim(const PartFace& f, VertexId a, VertexId b) const {
+  for (const PartFace& g : part_) {
+    if (g.entity != f.entity || (g.cell == f.cell && g.face == f.face)) continue;
+    const auto& v = mesh_->cell(g.cell).vertices;
+    bool has_a = false, has_b = false;
+    for (int j = 0; j <= D; ++j) {
+      if (j == g.face) continue;
+      has_a = has_a || v[j] == a;
+      has_b = has_b || v[j] == b;
+    }
+    if (has_a && has_b) return false;
+  }
+  return true;
 }
 
 /// Gives the doomed cells back, and what is no longer connected to the protected cells through faces.

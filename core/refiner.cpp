@@ -18,7 +18,7 @@ Refiner<D>::Refiner(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Domain<
       domain_(&domain),
       options_(&options),
       bounds_(std::move(bounds)),
-      cavity_(mesh),
+      cavity_(mesh, &domain),
       flips_(mesh),
       vertices_(vertices_so_far),
       start_(start),

@@ -63,7 +63,8 @@ class Cavity {
     swallows,         ///< a vertex or a subsegment would vanish
   };
 
-  explicit Cavity(Mesh<D>& mesh) : mesh_(&mesh) {}
+  /// `domain` may be null where no insertion splits a facet.
+  explicit Cavity(Mesh<D>& mesh, const Domain<D>* domain = nullptr) : mesh_(&mesh), domain_(domain) {}
   ~Cavity() { release(); }
   Cavity(const Cavity&) = delete;
   Cavity& operator=(const Cavity&) = delete;
@@ -117,6 +118,8 @@ class Cavity {
   void rebuild_boundary();
   bool visible(const BoundaryFace& f) const;
   void find_broken_fans(std::vector<CellId>& doomed) const;
+  void find_turned_over(std::vector<CellId>& doomed) const;
+  bool is_rim(const PartFace& f, VertexId a, VertexId b) const;
   bool fan_is_broken(RidgeWalk<D> walk, EntityId entity) const;
   Status drop_cells(const std::vector<CellId>& doomed);
   bool is_whole(const PartFace& f) const;
@@ -130,6 +133,7 @@ class Cavity {
   void mark_split_entities(Pools& pools, VertexId v);
 
   Mesh<D>* mesh_;
+  const Domain<D>* domain_;
   Point<D> point_;
   std::vector<CellId> cells_, new_cells_;
   std::vector<CellId> protected_;
