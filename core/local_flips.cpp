@@ -67,73 +67,122 @@ bool LocalFlips<D>::try_two_cells(Pools& pools, CellId c, int face) {
   const auto& k = mesh_->cell(c);
   const Link link = k.links[face];
   const VertexId apex = mesh_->cell(link.cell()).vertices[link.face()];
-  std::vector<Vertices> cells;
+  std::vector<NewCell> cells;
   for (int i = 0; i <= D; ++i) {
     if (i == face) continue;
     Vertices v = k.vertices;
     v[i] = apex;
     if (!positive(v)) return false;
-    cells.push_back(v);
+    cells.push_back({v, mesh_->region(c)});
   }
-  if (!take_old({c, link.cell()}) || violations_of(cells) > violations()) return false;
+  take_old({c, link.cell()});
+  if (violations_of(cells) > violations()) return false;
   replace(pools, cells);
   return true;
 }
 
-/// The ring of cells round an edge becomes two fans about one vertex of the ring; the edge vanishes.
+/// The cells round edge ab of c, in order, and the constrained faces among them: none, or two of one facet, between which
+/// the edge may be flipped within the facet. At the hull the ring is open, from the one to the other.
 template <int D>
-bool LocalFlips<D>::try_edge(Pools& pools, CellId c, int a, int b) {
-  if constexpr (D == 3) {
-    const VertexId u = mesh_->cell(c).vertices[a], w = mesh_->cell(c).vertices[b];
-    if (const auto* k = mesh_->constraints(c); k && (k->edges >> edge_of_ends[a][b] & 1)) return false;
-    int others[2], n = 0;
-    for (int i = 0; i <= D; ++i)
-      if (i != a && i != b) others[n++] = i;
-    std::vector<CellId> ring;
-    RidgeWalk<D> walk{c, others[0], others[1]};
-    do {
-      ring.push_back(walk.cell);
-      if (ring.size() > longest_ring || mesh_->constrained(walk.cell, walk.exit) || !walk.link(*mesh_)) return false;
+bool LocalFlips<D>::take_ring(CellId c, int a, int b, Ring& ring) const {
+  int others[2], n = 0;
+  for (int i = 0; i <= D; ++i)
+    if (i != a && i != b) others[n++] = i;
+  auto note_wall = [&](CellId cell, int face, VertexId tip) {
+    const EntityId entity = mesh_->constraints(cell)->face_entity[face];
+    if (!ring.tips.empty() && entity != ring.entity) return false;
+    ring.entity = entity;
+    ring.tips.push_back(tip);
+    return true;
+  };
+  bool closed = false;
+  for (const int way : {0, 1}) {
+    RidgeWalk<D> walk{c, others[1 - way], others[way]};
+    while (true) {
+      if (walk.cell != c || way == 0) ring.cells.push_back(walk.cell);
+      if (ring.cells.size() > longest_ring) return false;
+      // The face opposite `exit` has the ridge and the vertex `entry`.
+      if (mesh_->constrained(walk.cell, walk.exit) &&
+          !note_wall(walk.cell, walk.exit, mesh_->cell(walk.cell).vertices[walk.entry]))
+        return false;
+      if (!walk.link(*mesh_)) break;
       walk.step(*mesh_);
-    } while (walk.cell != c);
-    if (!take_old(ring)) return false;
-    const int before = violations();
-    for (const CellId first : ring)
-      for (const VertexId hub : mesh_->cell(first).vertices) {
-        if (hub == u || hub == w) continue;
-        std::vector<Vertices> cells;
-        bool good = true;
-        for (const CellId r : ring) {
-          const Vertices& v = mesh_->cell(r).vertices;
-          if (has(v, hub)) continue;
-          for (const VertexId gone : {u, w}) {
-            Vertices fan = v;
-            *std::find(fan.begin(), fan.end(), gone) = hub;
-            good = good && positive(fan);
-            cells.push_back(fan);
-          }
-        }
-        if (!good) continue;
-        const int after = violations_of(cells);
-        if (after > before || (after == before && ring.size() > 3)) continue;
-        replace(pools, cells);
-        return true;
-      }
-  } else {
-    static_cast<void>(pools);
-    static_cast<void>(c);
-    static_cast<void>(a);
-    static_cast<void>(b);
+      closed = walk.cell == c;
+      if (closed) break;
+    }
+    if (closed) break;
+  }
+  return ring.tips.empty() || (ring.tips.size() == 2 && ring.tips[0] != ring.tips[1]);
+}
+
+/// In the facet's projection the edge uw and the edge between the tips cross.
+template <int D>
+bool LocalFlips<D>::crosses_in_facet(const Ring& ring, VertexId u, VertexId w) const {
+  if constexpr (D == 3) {
+    const int axis = domain_->facets()[ring.entity].axis;
+    const Point<D>&x = mesh_->point(ring.tips[0]), &y = mesh_->point(ring.tips[1]);
+    const Sign of_u = orient_projected(x, y, mesh_->point(u), axis), of_w = orient_projected(x, y, mesh_->point(w), axis);
+    return of_u != Sign::zero && of_u == -of_w;
   }
   return false;
 }
 
-/// Records the outer faces and subsegments of the cells. False if a constrained face lies between two of them.
+/// The ring of cells round an edge becomes two fans about one vertex of the ring; the edge vanishes. Where the edge lies
+/// inside a facet the fans are about a tip of its two subfacets there, which are flipped with it.
 template <int D>
-bool LocalFlips<D>::take_old(std::vector<CellId> cells) {
+bool LocalFlips<D>::try_edge(Pools& pools, CellId c, int a, int b) {
+  const VertexId u = mesh_->cell(c).vertices[a], w = mesh_->cell(c).vertices[b];
+  if (const auto* k = mesh_->constraints(c); k && (k->edges >> edge_of_ends[a][b] & 1)) return false;
+  Ring ring;
+  if (!take_ring(c, a, b, ring)) return false;
+  if (!ring.tips.empty() && !crosses_in_facet(ring, u, w)) return false;
+  take_old(ring.cells);
+  if (!ring.tips.empty())
+    for (const VertexId end : {u, w}) {
+      Face wall{};
+      wall[0] = ring.tips[0];
+      wall[1] = ring.tips[1];
+      wall[D - 1] = end;
+      std::sort(wall.begin(), wall.end());
+      new_walls_.push_back(wall);
+    }
+  wall_entity_ = ring.entity;
+  const int before = violations();
+  std::vector<VertexId> hubs = ring.tips;
+  if (hubs.empty())
+    for (const CellId r : ring.cells)
+      for (const VertexId v : mesh_->cell(r).vertices)
+        if (v != u && v != w && std::find(hubs.begin(), hubs.end(), v) == hubs.end()) hubs.push_back(v);
+  for (const VertexId hub : hubs) {
+    std::vector<NewCell> cells;
+    bool good = true;
+    for (const CellId r : ring.cells) {
+      const Vertices& v = mesh_->cell(r).vertices;
+      if (has(v, hub)) continue;
+      for (const VertexId gone : {u, w}) {
+        Vertices fan = v;
+        *std::find(fan.begin(), fan.end(), gone) = hub;
+        good = good && positive(fan);
+        cells.push_back({fan, mesh_->region(r)});
+      }
+    }
+    if (!good || cells.empty() || !walls_are_free()) continue;
+    const int after = violations_of(cells);
+    if (after > before || (after == before && ring.cells.size() > 3)) continue;
+    replace(pools, cells);
+    return true;
+  }
+  return false;
+}
+
+/// Records the outer faces and subsegments of the cells, and the constrained faces between them.
+template <int D>
+void LocalFlips<D>::take_old(std::vector<CellId> cells) {
   old_ = std::move(cells);
   outer_.clear();
   subsegments_.clear();
+  old_walls_.clear();
+  new_walls_.clear();
   for (const CellId c : old_) {
     const auto& k = mesh_->cell(c);
     const auto* constraints = mesh_->constraints(c);
@@ -141,7 +190,7 @@ bool LocalFlips<D>::take_old(std::vector<CellId> cells) {
       const bool constrained = mesh_->constrained(c, f);
       const Link link = k.links[f];
       const bool inner = link && std::find(old_.begin(), old_.end(), link.cell()) != old_.end();
-      if (inner && constrained) return false;
+      if (inner && constrained) old_walls_.push_back(face_without<D>(k.vertices, f));
       if (!inner)
         outer_.push_back({face_without<D>(k.vertices, f), link, constrained,
                           constrained ? constraints->face_entity[f] : no_entity});
@@ -153,7 +202,6 @@ bool LocalFlips<D>::take_old(std::vector<CellId> cells) {
           subsegments_.push_back({k.vertices[edge_ends[e][0]], k.vertices[edge_ends[e][1]], constraints->edge_entity[e]});
     }
   }
-  return true;
 }
 
 template <int D>
@@ -165,39 +213,56 @@ auto LocalFlips<D>::outer(const Face& f) const -> const OuterFace* {
 
 template <int D>
 int LocalFlips<D>::violations() const {
-  std::vector<Vertices> cells;
-  for (const CellId c : old_) cells.push_back(mesh_->cell(c).vertices);
+  std::vector<NewCell> cells;
+  for (const CellId c : old_) cells.push_back({mesh_->cell(c).vertices, 0});
   return violations_of(cells);
+}
+
+/// No new wall is a constrained face already.
+template <int D>
+bool LocalFlips<D>::walls_are_free() const {
+  return std::none_of(new_walls_.begin(), new_walls_.end(), [this](const Face& f) {
+    const OuterFace* o = outer(f);
+    return o && o->constrained;
+  });
+}
+
+template <int D>
+bool LocalFlips<D>::is_wall(const Face& f) const {
+  return std::find(old_walls_.begin(), old_walls_.end(), f) != old_walls_.end() ||
+         std::find(new_walls_.begin(), new_walls_.end(), f) != new_walls_.end();
 }
 
 /// Violating faces that these cells would have, in place of the old ones; inner faces count from both sides.
 template <int D>
-int LocalFlips<D>::violations_of(const std::vector<Vertices>& cells) const {
+int LocalFlips<D>::violations_of(const std::vector<NewCell>& cells) const {
   int count = 0;
-  for (const Vertices& v : cells)
+  for (const NewCell& cell : cells)
     for (int f = 0; f <= D; ++f) {
-      const Face face = face_without<D>(v, f);
+      const Face face = face_without<D>(cell.vertices, f);
+      if (is_wall(face)) continue;
       VertexId apex = no_vertex;
       if (const OuterFace* o = outer(face)) {
         if (!o->link || o->constrained) continue;
         apex = mesh_->cell(o->link.cell()).vertices[o->link.face()];
       } else {
-        for (const Vertices& w : cells)
+        for (const NewCell& other : cells)
           for (int g = 0; g <= D; ++g)
-            if (w != v && face_without<D>(w, g) == face) apex = w[g];
+            if (other.vertices != cell.vertices && face_without<D>(other.vertices, g) == face) apex = other.vertices[g];
       }
-      if (apex != no_vertex && in_sphere<D>(simplex(v), mesh_->point(apex)) == Sign::positive) ++count;
+      if (apex != no_vertex && in_sphere<D>(simplex(cell.vertices), mesh_->point(apex)) == Sign::positive) ++count;
     }
   return count;
 }
 
 template <int D>
-CellId LocalFlips<D>::make_cell(Pools& pools, const Vertices& v) {
+CellId LocalFlips<D>::make_cell(Pools& pools, const NewCell& cell) {
+  const Vertices& v = cell.vertices;
   const CellId c = mesh_->new_cell(pools);
   auto& k = mesh_->cell(c);
   k.vertices = v;
   k.links.fill(Link{});
-  mesh_->set_region(c, mesh_->region(old_[0]));
+  mesh_->set_region(c, cell.region);
   mesh_->set_sphere(c, circumsphere<D>(mesh_->simplex(c)));
   for (int f = 0; f <= D; ++f) {
     const OuterFace* o = outer(face_without<D>(v, f));
@@ -223,18 +288,29 @@ CellId LocalFlips<D>::make_cell(Pools& pools, const Vertices& v) {
 }
 
 template <int D>
-void LocalFlips<D>::replace(Pools& pools, const std::vector<Vertices>& cells) {
+void LocalFlips<D>::replace(Pools& pools, const std::vector<NewCell>& cells) {
   new_cells_.clear();
-  for (const Vertices& v : cells) new_cells_.push_back(make_cell(pools, v));
+  for (const NewCell& cell : cells) new_cells_.push_back(make_cell(pools, cell));
+  auto constrain = [&](CellId c, int f) {
+    auto& constraints = mesh_->ensure_constraints(pools, c);
+    constraints.faces |= static_cast<std::uint8_t>(1 << f);
+    constraints.face_entity[f] = wall_entity_;
+  };
   for (const CellId c : new_cells_)
     for (int f = 0; f <= D; ++f) {
-      if (mesh_->cell(c).links[f] || outer(face_without<D>(mesh_->cell(c).vertices, f))) continue;
       const Face face = face_without<D>(mesh_->cell(c).vertices, f);
-      for (const CellId other : new_cells_)
-        for (int g = 0; g <= D; ++g)
-          if (other != c && face_without<D>(mesh_->cell(other).vertices, g) == face)
-            mesh_->cell(c).links[f] = Link(other, g);
-      assert(mesh_->cell(c).links[f]);
+      const bool wall = std::find(new_walls_.begin(), new_walls_.end(), face) != new_walls_.end();
+      if (!outer(face))
+        for (const CellId other : new_cells_)
+          for (int g = 0; g <= D; ++g)
+            if (other != c && face_without<D>(mesh_->cell(other).vertices, g) == face)
+              mesh_->cell(c).links[f] = Link(other, g);
+      const Link link = mesh_->cell(c).links[f];
+      assert(link || wall || mesh_->constrained(c, f));
+      if (!wall) continue;
+      // Across the wall may lie an old neighbour, where the cell between the subfacets was a flat one.
+      constrain(c, f);
+      if (link) constrain(link.cell(), link.face());
     }
   for (const CellId c : old_) mesh_->free_cell(pools, c);
 }

@@ -19,7 +19,7 @@ Refiner<D>::Refiner(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Domain<
       options_(&options),
       bounds_(std::move(bounds)),
       cavity_(mesh, &domain),
-      flips_(mesh),
+      flips_(mesh, domain),
       vertices_(vertices_so_far),
       start_(start),
       last_progress_(start_) {

@@ -5,7 +5,7 @@
 // triangulation of space need not exist while a subsegment is encroached upon from behind a wall: the cavity is then cut
 // back, and a face of its rim may have a vertex of the one side in the sphere of the other. Once the subsegment is split
 // such faces are flipped away: two triangles for two in 2D; two tetrahedra for three, or an edge taken out of a ring of
-// up to seven, in 3D. A workspace of one visit, as the cavity.
+// up to seven, in 3D, if need be together with the two subfacets of one facet that it lies between. A workspace of one visit, as the cavity.
 #pragma once
 
 #include <vector>
@@ -19,7 +19,7 @@ class LocalFlips {
  public:
   using Pools = typename Mesh<D>::Pools;
 
-  explicit LocalFlips(Mesh<D>& mesh) : mesh_(&mesh) {}
+  LocalFlips(Mesh<D>& mesh, const Domain<D>& domain) : mesh_(&mesh), domain_(&domain) {}
 
   /// Is the face unconstrained, and the vertex beyond it strictly inside the (unperturbed) circumsphere of c?
   bool violates(CellId c, int face) const;
@@ -42,21 +42,38 @@ class LocalFlips {
     EntityId entity;
   };
 
+  struct NewCell {
+    Vertices vertices;
+    std::uint16_t region;
+  };
+  struct Ring {
+    std::vector<CellId> cells;
+    std::vector<VertexId> tips;  ///< far corners of the two subfacets at the edge, if it lies inside a facet
+    EntityId entity = no_entity;
+  };
+
   bool try_two_cells(Pools& pools, CellId c, int face);
   bool try_edge(Pools& pools, CellId c, int a, int b);
-  bool take_old(std::vector<CellId> cells);
+  bool take_ring(CellId c, int a, int b, Ring& ring) const;
+  bool crosses_in_facet(const Ring& ring, VertexId u, VertexId w) const;
+  void take_old(std::vector<CellId> cells);
   int violations() const;
   bool positive(const Vertices& v) const;
   Simplex<D> simplex(const Vertices& v) const;
-  int violations_of(const std::vector<Vertices>& cells) const;
-  void replace(Pools& pools, const std::vector<Vertices>& cells);
-  CellId make_cell(Pools& pools, const Vertices& v);
+  bool is_wall(const Face& f) const;
+  bool walls_are_free() const;
+  int violations_of(const std::vector<NewCell>& cells) const;
+  void replace(Pools& pools, const std::vector<NewCell>& cells);
+  CellId make_cell(Pools& pools, const NewCell& cell);
   const OuterFace* outer(const Face& f) const;
 
   Mesh<D>* mesh_;
+  const Domain<D>* domain_;
   std::vector<CellId> old_, new_cells_;
   std::vector<OuterFace> outer_;
   std::vector<Subsegment> subsegments_;
+  std::vector<Face> old_walls_, new_walls_;  ///< constrained faces between the old, resp. of the new cells
+  EntityId wall_entity_ = no_entity;
 };
 
 extern template class LocalFlips<2>;
