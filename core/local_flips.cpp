@@ -34,7 +34,9 @@ bool LocalFlips<D>::violates(CellId c, int face) const {
   const Link link = mesh_->cell(c).links[face];
   if (!link || mesh_->constrained(c, face)) return false;
   const VertexId apex = mesh_->cell(link.cell()).vertices[link.face()];
-  return in_sphere<D>(mesh_->simplex(c), mesh_->point(apex)) == Sign::positive;
+  const Point<D>& p = mesh_->point(apex);
+  // The cached sphere says no nearly always; what it leaves may be a tie, which is no violation.
+  return mesh_->conflicts(c, p) && in_sphere<D>(mesh_->simplex(c), p) == Sign::positive;
 }
 
 template <int D>

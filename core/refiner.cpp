@@ -98,6 +98,7 @@ void Refiner<D>::list_violations(std::span<const CellId> cells) {
   for (const CellId c : cells)
     for (int f = 0; f <= D; ++f)
       if (flips_.violates(c, f)) {
+        violations_seen_ = true;
         not_delaunay_.push_back(make_entry(c, f));
         flips_left_ += 16;  // an allowance, so that flips that trade violations end
       }
@@ -175,7 +176,7 @@ bool Refiner<D>::relist_refused() {
   for (const Entry& e : refused_cells_)
     if (alive(e)) list_poor(e.cell, e.which);
   refused_cells_.clear();
-  return !edges_.empty() || !faces_.empty() || first_bucket_ < buckets;
+  return !edges_.empty() || !faces_.empty() || !not_delaunay_.empty() || first_bucket_ < buckets;
 }
 
 template <int D>
@@ -183,7 +184,12 @@ StopCause Refiner<D>::run() {
   while (true) {
     const std::uint64_t before = counts_.committed;
     if (const StopCause stop = drain(); stop != StopCause::finished) return stop;
-    if (counts_.committed == before || !relist_refused()) break;
+    if (counts_.committed == before) break;
+    // A violation left standing may have moved off the walls, where insertions do not look for it.
+    if (violations_seen_)
+      for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i)
+        if (const CellId c{i}; mesh_->alive(c)) list_violations(std::span(&c, 1));
+    if (!relist_refused()) break;
   }
   return min_edge_hit_ ? StopCause::min_edge : StopCause::finished;
 }

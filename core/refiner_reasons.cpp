@@ -56,15 +56,19 @@ void Refiner<D>::add_entities(CellId c, std::vector<EntityRef>& list) const {
 }
 
 /// What refused the element if that is a pair with a small angle, else the first such pair among the entities of ever
-/// more cells round it.
+/// more cells round it; if `beside` is set, one of which has a vertex of the cell.
 template <int D>
-PoorReason Refiner<D>::explain(CellId c) const {
+PoorReason Refiner<D>::explain(CellId c, bool beside) const {
+  auto touches = [&](EntityRef e) {
+    return std::any_of(mesh_->cell(c).vertices.begin(), mesh_->cell(c).vertices.end(),
+                       [&](VertexId v) { return lies_on<D>(*domain_, mesh_->vertex(v).home, e); });
+  };
   const auto sphere = circumsphere<D>(mesh_->simplex(c));
   // A hair less than doubled, so that another's rounding cannot disagree.
   const Ball<D> doubled{sphere.center, 4 * sphere.squared_radius * (1 - 0x1p-20)};
   PoorReason reason;
   if (const auto why = why_.find(mesh_->cell(c).vertices); why != why_.end())
-    if (explains(why->second.entities, doubled, reason)) return reason;
+    if (!beside && explains(why->second.entities, doubled, reason)) return reason;
   constexpr std::size_t most_cells = 256;
   std::vector<CellId> cells{c};
   std::vector<EntityRef> near;
@@ -72,7 +76,8 @@ PoorReason Refiner<D>::explain(CellId c) const {
     add_entities(cells[i], near);
     for (; tried < near.size(); ++tried)
       for (std::size_t j = 0; j < tried; ++j)
-        if (explains({near[tried], near[j]}, doubled, reason)) return reason;
+        if ((!beside || touches(near[tried]) || touches(near[j])) && explains({near[tried], near[j]}, doubled, reason))
+          return reason;
     for (const Link link : mesh_->cell(cells[i]).links)
       if (link && cells.size() < most_cells && std::find(cells.begin(), cells.end(), link.cell()) == cells.end())
         cells.push_back(link.cell());
@@ -97,13 +102,11 @@ std::vector<PoorCell> Refiner<D>::poor_cells() {
     const CellId c{i};
     if (!mesh_->alive(c)) continue;
     const CellVerdict verdict = bounds_.test(*mesh_, c);
-    if (verdict) {
-      poor.push_back({c, true, verdict.over_size, explain(c)});
-    } else if (is_violated(c)) {
-      // Without a small angle nearby the violation is one of rounding, which needs no reason.
-      const PoorReason reason = explain(c);
-      if (reason.code == PoorReason::Code::small_angle) poor.push_back({c, false, false, reason});
-    }
+    // Without a small angle nearby a violation is one of rounding, which needs no reason.
+    PoorReason reason;
+    const bool beside = is_violated(c) && (reason = explain(c, true)).code == PoorReason::Code::small_angle;
+    if (verdict && !beside) reason = explain(c, false);
+    if (verdict || beside) poor.push_back({c, static_cast<bool>(verdict), verdict.over_size, reason});
   }
   return poor;
 }

@@ -95,7 +95,7 @@ class Refiner {
   void cell_refused(const Entry& e);
 
   // refiner_reasons.cpp: why some stay
-  PoorReason explain(CellId c) const;
+  PoorReason explain(CellId c, bool beside) const;
   bool explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, PoorReason& reason) const;
   void add_entities(CellId c, std::vector<EntityRef>& list) const;
 
@@ -121,7 +121,7 @@ class Refiner {
   std::map<std::array<VertexId, D + 1>, EntityPair> why_;  // of refused elements
   std::optional<EntityPair> last_refusal_;
   std::uint64_t vertices_, commits_at_check_ = 0;
-  bool min_edge_hit_ = false;
+  bool min_edge_hit_ = false, violations_seen_ = false;
   RefineCounts counts_;
   std::chrono::steady_clock::time_point start_, last_progress_;
 };
