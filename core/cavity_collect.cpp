@@ -195,6 +195,18 @@ void Cavity<D>::rebuild_boundary() {
     }
 }
 
+/// Is edge ij of the cell another piece of the subsegment being split? p is on its line, whatever rounding made of it.
+template <int D>
+bool Cavity<D>::in_line(CellId c, int i, int j) const {
+  if constexpr (D == 3) {
+    if (split_segment_ == no_entity) return false;
+    const auto* k = mesh_->constraints(c);
+    const int e = edge_of_ends[i][j];
+    return k && (k->edges >> e & 1) && k->edge_entity[e] == split_segment_;
+  }
+  return false;
+}
+
 /// Does p see the inner side of the face? Ghosts' own faces at infinity are always seen.
 template <int D>
 bool Cavity<D>::visible(const BoundaryFace& f) const {
@@ -210,6 +222,10 @@ bool Cavity<D>::visible(const BoundaryFace& f) const {
       if (s[i] == point_) return false;
     }
   }
+  if (split_segment_ != no_entity)
+    for (int i = 0; i <= D; ++i)
+      for (int j = i + 1; j <= D; ++j)
+        if (i != f.face && j != f.face && in_line(f.cell, i, j)) return false;
   return orient<D>(s) == Sign::positive;
 }
 
@@ -281,7 +297,7 @@ void Cavity<D>::find_turned_over(std::vector<CellId>& doomed) const {
         if (split || !is_rim(f, a, b)) continue;
         const Point<D>&p = mesh_->point(a), &q = mesh_->point(b);
         const Sign inside = orient_projected(p, q, mesh_->point(v[corner]), axis);
-        if (orient_projected(p, q, point_, axis) == inside) continue;
+        if (!in_line(f.cell, ends[0], ends[1]) && orient_projected(p, q, point_, axis) == inside) continue;
         doomed.push_back(f.cell);
         if (const Link across = mesh_->cell(f.cell).links[f.face]) doomed.push_back(across.cell());
         return;  // what is left is looked at anew
