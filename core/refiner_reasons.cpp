@@ -88,7 +88,7 @@ PoorReason Refiner<D>::explain(CellId c, bool beside) const {
 }
 
 template <int D>
-std::vector<PoorCell> Refiner<D>::poor_cells() {
+std::vector<PoorCell> Refiner<D>::poor_cells(bool with_reasons) {
   segments_at_.assign(domain_->points().size(), {});
   for (EntityId s = 0; s < domain_->segments().size(); ++s)
     for (const std::uint32_t p : domain_->segments()[s].points) segments_at_[p].push_back(s);
@@ -102,6 +102,10 @@ std::vector<PoorCell> Refiner<D>::poor_cells() {
     const CellId c{i};
     if (!mesh_->alive(c)) continue;
     const CellVerdict verdict = bounds_.test(*mesh_, c);
+    if (!with_reasons) {
+      if (verdict) poor.push_back({c, true, verdict.over_size, {}});
+      continue;
+    }
     // Without a small angle nearby a violation is one of rounding, which needs no reason.
     PoorReason reason;
     const bool beside = is_violated(c) && (reason = explain(c, true)).code == PoorReason::Code::small_angle;

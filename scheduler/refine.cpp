@@ -84,7 +84,7 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   result.statistics.insertions_committed = refiner.counts().committed;
   result.statistics.insertions_refused = refiner.counts().refused;
   result.statistics.selector_outside = refiner.counts().selector_outside;
-  const std::vector<PoorCell> poor = refiner.poor_cells();
+  const std::vector<PoorCell> poor = refiner.poor_cells(options.refine && result.stop == StopCause::finished);
   result.statistics.seconds_refine = seconds_since(refine_start);
 
   std::vector<double> attributes;
@@ -94,6 +94,7 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   for (const PoorCell& p : poor) {
     if (p.over_bound) ++result.poor_left;
     if (p.over_size) result.size_met = false;
+    if (result.stop != StopCause::finished || !options.refine) continue;
     PoorReason reason = p.reason;
     reason.cell = compacted.cell_number[index(p.cell)];
     result.reasons.push_back(reason);
