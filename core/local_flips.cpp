@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "pgdr/cavity.hpp"
+#include "pgdr/insertion_rule.hpp"
 
 namespace pgdr {
 namespace {
@@ -117,10 +118,23 @@ bool LocalFlips<D>::take_ring(CellId c, int a, int b, Ring& ring) const {
   return ring.tips.empty() || (ring.tips.size() == 2 && ring.tips[0] != ring.tips[1]);
 }
 
+/// Do the three lie on one input segment, that is on a line, whatever rounding made of it?
+template <int D>
+bool LocalFlips<D>::in_line(VertexId a, VertexId b, VertexId c) const {
+  for (const VertexId v : {a, b, c}) {
+    const EntityRef home = mesh_->vertex(v).home.entity();
+    if (home.kind == EntityKind::segment && lies_on<D>(*domain_, mesh_->vertex(a).home, home) &&
+        lies_on<D>(*domain_, mesh_->vertex(b).home, home) && lies_on<D>(*domain_, mesh_->vertex(c).home, home))
+      return true;
+  }
+  return false;
+}
+
 /// In the facet's projection the edge uw and the edge between the tips cross.
 template <int D>
 bool LocalFlips<D>::crosses_in_facet(const Ring& ring, VertexId u, VertexId w) const {
   if constexpr (D == 3) {
+    if (in_line(ring.tips[0], ring.tips[1], u) || in_line(ring.tips[0], ring.tips[1], w)) return false;
     const int axis = domain_->facets()[ring.entity].axis;
     const Point<D>&x = mesh_->point(ring.tips[0]), &y = mesh_->point(ring.tips[1]);
     const Sign of_u = orient_projected(x, y, mesh_->point(u), axis), of_w = orient_projected(x, y, mesh_->point(w), axis);

@@ -55,6 +55,7 @@ class LocalFlips {
   bool try_two_cells(Pools& pools, CellId c, int face);
   bool try_edge(Pools& pools, CellId c, int a, int b);
   bool take_ring(CellId c, int a, int b, Ring& ring) const;
+  bool in_line(VertexId a, VertexId b, VertexId c) const;
   bool crosses_in_facet(const Ring& ring, VertexId u, VertexId w) const;
   void take_old(std::vector<CellId> cells);
   int violations() const;
