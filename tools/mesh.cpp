@@ -68,6 +68,25 @@ void fill(Report& report, const MeshArguments& a, const Bounds<D>& bounds, const
   report.set("repairs", to_json(r.repairs));
 }
 
+/// How the bounds were met. Reasons are given for poor cells, and for cells that are not Delaunay.
+template <int D>
+std::string verdict(const RefineResult<D>& r) {
+  std::string text = !r.size_met && r.poor_left == 0 ? "the size bound is not met everywhere"
+                     : r.poor_left == 0              ? "every bound is met"
+                                                     : count(r.poor_left, "element stays poor", "elements stay poor");
+  if (r.reasons.size() > r.poor_left)
+    text += ", " + count(r.reasons.size() - r.poor_left, "is", "are") + " not Delaunay";
+  std::array<std::uint64_t, 3> by_code{};
+  for (const PoorReason& reason : r.reasons) ++by_code[static_cast<std::size_t>(reason.code)];
+  const char* separator = ": ";
+  for (std::size_t i = 0; i < by_code.size(); ++i) {
+    if (by_code[i] == 0) continue;
+    text += separator + std::to_string(by_code[i]) + ' ' + name(static_cast<PoorReason::Code>(i));
+    separator = ", ";
+  }
+  return text;
+}
+
 template <int D>
 void print_summary(const MeshArguments& a, const Plc<D>& plc, const Bounds<D>& bounds, const RefineResult<D>& r,
                    const QualitySummary& q, const Seconds& seconds) {
@@ -85,17 +104,8 @@ void print_summary(const MeshArguments& a, const Plc<D>& plc, const Bounds<D>& b
   else if (r.stop != StopCause::finished)
     print_row("stopped", format("%s: the mesh is valid, ", words(r.stop)) +
                              count(r.poor_left, "element is poor", "elements are poor"));
-  else if (r.poor_left == 0)
-    print_row("bounds", r.size_met ? "every bound is met" : "the size bound is not met everywhere");
-  else {
-    std::array<std::uint64_t, 3> by_code{};
-    for (const PoorReason& reason : r.reasons) ++by_code[static_cast<std::size_t>(reason.code)];
-    std::string why;
-    for (std::size_t i = 0; i < by_code.size(); ++i)
-      if (by_code[i]) why += format("%s%llu %s", why.empty() ? "" : ", ", static_cast<unsigned long long>(by_code[i]),
-                                    name(static_cast<PoorReason::Code>(i)));
-    print_row("bounds", count(r.poor_left, "element stays poor", "elements stay poor") + ": " + why);
-  }
+  else
+    print_row("bounds", verdict(r));
   print_row("time", format("%.3f s meshing (%.3f s read, %.3f s write)", r.statistics.seconds_mesh, seconds.read,
                            seconds.write));
   print_row("memory", format("%.1f MiB at most", static_cast<double>(peak_rss_bytes()) / (1 << 20)));
