@@ -60,20 +60,19 @@ std::string read_whole_file(const fs::path& file) {
   return text;
 }
 
-FileOutput::FileOutput(const fs::path& target) : target_(target), buffer_(std::size_t{1} << 20) {
+FileOutput::FileOutput(const fs::path& target) : target_(target.native()), buffer_(std::size_t{1} << 20) {
   std::error_code ec;
   // A link keeps pointing at the file that is replaced.
   if (fs::is_symlink(target_, ec)) {
     fs::path resolved = fs::canonical(target_, ec);
-    if (!ec) target_ = std::move(resolved);
+    if (!ec) target_ = resolved.native();
   }
   if (fs::exists(target_, ec) && !fs::is_regular_file(target_, ec)) fail("it is not a regular file");
   constexpr int attempts = 100;
   for (int i = 0; i < attempts && stream_ == nullptr; ++i) {
-    std::string name(1, '.');
-    name.append(target_.filename().string(), 0, 200).append(1, '.').append(random_suffix()).append(".tmp");
-    temporary_ = target_;
-    temporary_.replace_filename(name);
+    const std::size_t folder = target_.rfind('/') + 1;  // 0 if there is none
+    std::string name = target_.substr(0, folder).append(1, '.').append(target_, folder, 200);
+    temporary_ = name.append(1, '.').append(random_suffix()).append(".tmp");
     stream_ = std::fopen(temporary_.c_str(), "wbx");
     if (stream_ == nullptr && errno != EEXIST) break;
   }
@@ -83,8 +82,7 @@ FileOutput::FileOutput(const fs::path& target) : target_(target), buffer_(std::s
 
 FileOutput::~FileOutput() {
   if (stream_ != nullptr) std::fclose(stream_);
-  std::error_code ec;
-  if (!temporary_.empty()) fs::remove(temporary_, ec);
+  if (!temporary_.empty()) std::remove(temporary_.c_str());
 }
 
 void FileOutput::put_long(std::string_view text) {
@@ -105,14 +103,12 @@ void FileOutput::write(std::string_view bytes) {
 void FileOutput::commit() {
   flush();
   if (std::fclose(std::exchange(stream_, nullptr)) != 0) fail(reason(errno));
-  std::error_code ec;
-  fs::rename(temporary_, target_, ec);
-  if (ec) fail(ec.message());
+  if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail(reason(errno));
   temporary_.clear();
 }
 
 void FileOutput::fail(const std::string& why) const {
-  throw FileError(Diagnostic{Errc::cannot_write, "cannot be written: " + why, target_.string(), 0, {}, {}});
+  throw FileError(Diagnostic{Errc::cannot_write, "cannot be written: " + why, target_, 0, {}, {}});
 }
 
 }  // namespace pgdr::detail

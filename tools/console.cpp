@@ -22,11 +22,17 @@ void print_warnings(const std::vector<Diagnostic>& warnings) {
 }
 
 std::string format(const char* pattern, ...) {
-  va_list arguments;
+  va_list arguments, again;
   va_start(arguments, pattern);
-  char text[512];
-  std::vsnprintf(text, sizeof text, pattern, arguments);
+  va_copy(again, arguments);
+  const int length = std::vsnprintf(nullptr, 0, pattern, arguments);
   va_end(arguments);
+  std::string text;
+  if (length > 0) {
+    text.resize(static_cast<std::size_t>(length));
+    std::vsnprintf(text.data(), text.size() + 1, pattern, again);
+  }
+  va_end(again);
   return text;
 }
 

@@ -72,7 +72,7 @@ class FileOutput {
   void write(std::string_view bytes);
   [[noreturn]] void fail(const std::string& why) const;
 
-  std::filesystem::path target_, temporary_;
+  std::string target_, temporary_;  // strings: libstdc++'s path does not survive a failing allocation
   std::FILE* stream_ = nullptr;
   std::vector<char> buffer_;
   std::size_t used_ = 0;
