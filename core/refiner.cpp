@@ -89,8 +89,8 @@ void Refiner<D>::committed() {
   ++counts_.committed;
   ++vertices_;
   for (const CellId c : cavity_.new_cells()) list_cell(c);
-  // Away from walls an unshrunk cavity keeps every face locally Delaunay, if all were.
-  if (cavity_.touches_constraints() || cavity_.shrunk() || violations_seen_) list_violations(cavity_.new_cells());
+  // A cavity that was not cut back keeps every face locally Delaunay, if all were.
+  if (cavity_.shrunk() || violations_seen_) list_violations(cavity_.new_cells());
 }
 
 template <int D>

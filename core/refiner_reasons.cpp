@@ -98,20 +98,31 @@ std::vector<PoorCell> Refiner<D>::poor_cells(bool with_reasons) {
       if (flips_.violates(c, f)) return true;
     return false;
   };
-  for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) {
-    const CellId c{i};
-    if (!mesh_->alive(c)) continue;
+  auto look_at = [&](CellId c) {
     const CellVerdict verdict = bounds_.test(*mesh_, c);
     if (!with_reasons) {
       if (verdict) poor.push_back({c, true, verdict.over_size, {}});
-      continue;
+      return;
     }
     // Without a small angle nearby a violation is one of rounding, which needs no reason.
     PoorReason reason;
-    const bool beside = is_violated(c) && (reason = explain(c, true)).code == PoorReason::Code::small_angle;
+    const bool beside =
+        violations_seen_ && is_violated(c) && (reason = explain(c, true)).code == PoorReason::Code::small_angle;
     if (verdict && !beside) reason = explain(c, false);
     if (verdict || beside) poor.push_back({c, static_cast<bool>(verdict), verdict.over_size, reason});
+  };
+  std::vector<CellId> cells;
+  if (with_reasons && !violations_seen_) {
+    // After a run to the end a poor cell is alive only because it was refused.
+    for (const Entry& e : refused_cells_)
+      if (alive(e)) cells.push_back(e.cell);
+    std::sort(cells.begin(), cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  } else {
+    for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i)
+      if (mesh_->alive(CellId{i})) cells.push_back(CellId{i});
   }
+  for (const CellId c : cells) look_at(c);
   return poor;
 }
 

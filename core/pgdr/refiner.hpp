@@ -45,7 +45,8 @@ class Refiner {
   /// Treats what is listed, and what that brings forth, until nothing is left or a budget ends.
   StopCause run();
   /// Every cell still over a bound, and every cell with a face that is not locally Delaunay for other reasons than
-  /// rounding, each with its reason. Without reasons (a run that a budget ended has none to give): those over a bound.
+  /// rounding, each with its reason. @pre `run` has finished. Without reasons (a run that a budget ended, or no run, has
+  /// none to give): those over a bound.
   std::vector<PoorCell> poor_cells(bool with_reasons);
 
   const RefineCounts& counts() const { return counts_; }
