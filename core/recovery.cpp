@@ -39,7 +39,10 @@ StopCause recover_boundary(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, Delaun
     do {
       ++counts.rounds;
       if (stop() || !chains.recover(stop)) break;
-      const bool again = patches.recover_once();
+      const bool again = patches.recover_once([&] {
+        facet_points = patches.points();
+        return stop();
+      });
       facet_points = patches.points();
       if (!again) {
         patches.mark(pools);

@@ -117,7 +117,7 @@ void FacetPatches::find_present(WantedSimplices<3>& wanted) const {
   }
 }
 
-bool FacetPatches::recover_once() {
+bool FacetPatches::recover_once(const std::function<bool()>& stop) {
   for (const EntityId s : chains_->take_changed())
     for (const EntityId f : domain_->facets_of_segment(s)) changed_[f] = true;
   for (EntityId f = 0; f < triangles_.size(); ++f) {
@@ -135,7 +135,7 @@ bool FacetPatches::recover_once() {
         any = true;
       }
   for (EntityId f = 0; f < triangles_.size(); ++f)
-    if (!missing[f].empty()) recover_facet(f, std::move(missing[f]));
+    if (!missing[f].empty() && !stop()) recover_facet(f, std::move(missing[f]));
   return any;
 }
 

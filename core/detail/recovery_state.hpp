@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -74,8 +75,8 @@ class FacetPatches {
  public:
   FacetPatches(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>& domain, SegmentChains<3>& chains);
 
-  /// Puts points where triangles are missing, one round. False if none was missing.
-  bool recover_once();
+  /// Puts points where triangles are missing, one round. False if none was missing. Ends early if `stop` says so.
+  bool recover_once(const std::function<bool()>& stop);
   std::uint64_t points() const { return points_; }
   void mark(Mesh<3>::Pools& pools);
 
