@@ -11,7 +11,7 @@ namespace pgdr {
 template <int D>
 void Cavity<D>::begin(const Point<D>& p) {
   point_ = p;
-  shrunk_ = touches_constraints_ = has_ghosts_ = false;
+  shrunk_ = touches_constraints_ = false;
   split_edge_ = {no_vertex, no_vertex};
   split_segment_ = no_entity;
 }

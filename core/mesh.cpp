@@ -87,11 +87,6 @@ VertexId Mesh<D>::new_vertex(Pools& pools, const Point<D>& p, Home home, float r
 }
 
 template <int D>
-void Mesh<D>::free_vertex(Pools& pools, VertexId v) {
-  pools.vertices.give(index(v));
-}
-
-template <int D>
 ConstraintRecord<D>& Mesh<D>::ensure_constraints(Pools& pools, CellId c) {
   if (ConstraintRecord<D>* k = constraints(c)) return *k;
   const std::uint32_t id = pools.constraints.take();

@@ -168,7 +168,8 @@ void Refiner<D>::treat_cell(const Entry& e) {
     min_edge_hit_ = true;
     return cell_refused(e);
   }
-  bool ordinary = plain;
+  // Among volume vertices r >= d holds by itself, but for bounds below one and elements that are not poor in shape.
+  bool ordinary = plain && e.which == over_bound && (options_->radius_edge_bound >= 1 || !verdict.over_radius_edge);
   for (const VertexId v : e.vertices) ordinary = ordinary && mesh_->vertex(v).home.kind() == EntityKind::volume;
   if (!ordinary && insertion_radius<D>(*mesh_, cavity_) < demand_of_cell(c, verdict).d) return cell_refused(e);
   cavity_.commit(*pools_, Home(EntityKind::volume, 0), rounded_down(r));

@@ -255,6 +255,18 @@ TEST(Refine, BadOptionsAndSizesAreTypedErrors) {
   EXPECT_EQ(code(options), Errc::bad_size);
 }
 
+// With a bound below one a circumcentre can be nearer to the element than its edges are long: without the insertion rule
+// such a run makes ever shorter edges and never ends.
+TEST(Refine, BoundsThatNoMeshCanMeetEnd) {
+  RefineOptions<3> options;
+  options.radius_edge_bound = 0.62;
+  options.max_vertices = 100000;
+  const auto [result, report] = refine_and_check<3>(test::cube_with_two_points(), options);
+  EXPECT_EQ(result.stop, StopCause::finished);
+  EXPECT_EQ(report.exit_code(), 1) << findings(report);
+  EXPECT_GT(result.poor_left, 0u);
+}
+
 TEST(Refine, OpenSurfaceEnclosesNothing) {
   Plc<3> plc = test::cube();
   plc.facets.pop_back();

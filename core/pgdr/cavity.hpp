@@ -149,7 +149,7 @@ class Cavity {
   KeySet rim_keys_;
   std::array<VertexId, 2> split_edge_{no_vertex, no_vertex};  // 3D: the subsegment being split
   EntityId split_segment_ = no_entity;
-  bool shrunk_ = false, touches_constraints_ = false, has_ghosts_ = false;
+  bool shrunk_ = false, touches_constraints_ = false;
 };
 
 /// The cavity's vertex nearest to its point, but for the excluded ones (ties: lexicographically first); no_vertex if none.

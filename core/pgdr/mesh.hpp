@@ -163,7 +163,6 @@ class Mesh {
   }
   void free_cell(Pools& pools, CellId c);
   VertexId new_vertex(Pools& pools, const Point<D>& p, Home home, float relaxed_radius);
-  void free_vertex(Pools& pools, VertexId v);
   /// The constraints of c, made if it has none yet.
   ConstraintRecord<D>& ensure_constraints(Pools& pools, CellId c);
 

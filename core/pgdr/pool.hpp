@@ -104,12 +104,6 @@ class IdPool {
     return next_++;
   }
   void give(std::uint32_t id) { free_.push_back(id); }
-  /// Takes over what another pool holds (the pool of a departed thread).
-  void adopt(IdPool& other) {
-    free_.insert(free_.end(), other.free_.begin(), other.free_.end());
-    other.free_.clear();
-    for (; other.next_ != other.end_; ++other.next_) free_.push_back(other.next_);
-  }
 
  private:
   IdSource* source_;

@@ -26,7 +26,8 @@ struct RefineCounts {
   std::uint64_t committed = 0, refused = 0, selector_outside = 0;
 };
 
-/// An element that stays poor or beside a face that is not locally Delaunay, and why. `PoorReason::cell` is filled when the mesh is compacted.
+/// An element that stays poor, or has a face that is not locally Delaunay, and why. `PoorReason::cell` is filled when
+/// the mesh is compacted.
 struct PoorCell {
   CellId cell;
   bool over_bound = false, over_size = false;
