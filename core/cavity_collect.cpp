@@ -39,28 +39,33 @@ template <int D>
 auto Cavity<D>::collect(const Point<D>& p, CellId seed) -> Status {
   begin(p);
   if (!mesh_->conflicts(seed, p)) return Status::not_in_conflict;
+  if (!owns(seed) || !owns_point()) return Status::not_owned;
   take(seed);
   protected_.push_back(seed);
-  grow();
-  return Status::ok;
+  return grow();
 }
 
 template <int D>
-void Cavity<D>::add_part_face(CellId cell, int face, EntityId entity) {
-  if (in_part(cell, face)) return;
+auto Cavity<D>::add_part_face(CellId cell, int face, EntityId entity) -> Status {
+  if (in_part(cell, face)) return Status::ok;
+  const Link across = mesh_->cell(cell).links[face];
+  if (!owns(cell) || (across && !owns(across.cell()))) return Status::not_owned;
   part_.push_back({cell, face, entity});
   mesh_->constraints(cell)->part |= static_cast<std::uint8_t>(1 << face);
   take(cell);
-  if (const Link across = mesh_->cell(cell).links[face]) {
+  if (across) {
     mesh_->constraints(across.cell())->part |= static_cast<std::uint8_t>(1 << across.face());
     take(across.cell());
   }
+  return Status::ok;
 }
 
 /// The other constrained face of `entity` at the ridge of face `face` of `cell` that leaves out vertex `corner`, looked
-/// for by walking round the ridge, first the one way, then (where that ends at the hull) the other.
+/// for by walking round the ridge, first the one way, then (where that ends at the hull) the other. `owned` becomes false
+/// where the walk would have to step on from a cell that is not.
 template <int D>
-static Link entity_face_round_ridge(const Mesh<D>& mesh, CellId cell, int face, int corner, EntityId entity) {
+Link Cavity<D>::entity_face_round_ridge(CellId cell, int face, int corner, EntityId entity, bool& owned) const {
+  const Mesh<D>& mesh = *mesh_;
   auto belongs = [&](CellId c, int f) {
     const auto* k = mesh.constraints(c);
     return k && (k->faces >> f & 1) && k->face_entity[f] == entity;
@@ -76,6 +81,8 @@ static Link entity_face_round_ridge(const Mesh<D>& mesh, CellId cell, int face, 
     const RidgeWalk<D> start = walk;
     do {
       if (belongs(walk.cell, walk.exit)) return Link(walk.cell, walk.exit);
+      owned = owned && owns(walk.cell);
+      if (!owned) return {};
       if (!walk.link(mesh)) break;
       walk.step(mesh);
     } while (walk.cell != start.cell);
@@ -83,11 +90,11 @@ static Link entity_face_round_ridge(const Mesh<D>& mesh, CellId cell, int face, 
   return {};
 }
 
-/// Breadth first over the entity's faces from part_[from], across ridges that are no subsegments.
+/// Breadth first over the entity's faces, across ridges that are no subsegments.
 template <int D>
-void Cavity<D>::grow_part(std::size_t from) {
+auto Cavity<D>::grow_part() -> Status {
   if constexpr (D == 3) {
-    for (std::size_t i = from; i < part_.size(); ++i) {
+    for (std::size_t i = 0; i < part_.size(); ++i) {
       const PartFace f = part_[i];
       for (int corner = 0; corner <= D; ++corner) {
         if (corner == f.face) continue;
@@ -95,14 +102,26 @@ void Cavity<D>::grow_part(std::size_t from) {
         for (int j = 0; j <= D; ++j)
           if (j != f.face && j != corner) ends[n++] = j;
         if (mesh_->constraints(f.cell)->edges >> edge_of_ends[ends[0]][ends[1]] & 1) continue;
-        const Link other = entity_face_round_ridge<D>(*mesh_, f.cell, f.face, corner, f.entity);
+        bool owned = true;
+        const Link other = entity_face_round_ridge(f.cell, f.face, corner, f.entity, owned);
+        if (!owned) return Status::not_owned;
         if (!other || in_part(other.cell(), other.face())) continue;
+        if (!owns(other.cell())) return Status::not_owned;
         const Link back = mesh_->cell(other.cell()).links[other.face()];
         if (mesh_->conflicts(other.cell(), point_) || (back && mesh_->conflicts(back.cell(), point_)))
-          add_part_face(other.cell(), other.face(), f.entity);
+          if (const Status status = add_part_face(other.cell(), other.face(), f.entity); status != Status::ok) return status;
       }
     }
   }
+  return Status::ok;
+}
+
+/// The rest of a cavity whose first part faces and cells are there.
+template <int D>
+auto Cavity<D>::collect_all() -> Status {
+  if (!owns_point()) return Status::not_owned;
+  const Status status = grow_part();
+  return status == Status::ok ? grow() : status;
 }
 
 template <int D>
@@ -110,12 +129,11 @@ auto Cavity<D>::collect_on_face(const Point<D>& p, CellId cell, int face) -> Sta
   begin(p);
   const Link across = mesh_->cell(cell).links[face];
   if (!mesh_->conflicts(cell, p) && !(across && mesh_->conflicts(across.cell(), p))) return Status::not_in_conflict;
-  add_part_face(cell, face, mesh_->constraints(cell)->face_entity[face]);
+  const Status status = add_part_face(cell, face, mesh_->constraints(cell)->face_entity[face]);
+  if (status != Status::ok) return status;
   protected_.push_back(cell);
   if (across) protected_.push_back(across.cell());
-  grow_part(0);
-  grow();
-  return Status::ok;
+  return collect_all();
 }
 
 template <int D>
@@ -134,9 +152,12 @@ auto Cavity<D>::collect_on_edge(const Point<D>& p, CellId cell, int edge) -> Sta
     RidgeWalk<D> walk{cell, others[1 - way], others[way]};
     bool closed = false;
     while (true) {
+      if (!owns(walk.cell)) return Status::not_owned;
       take(walk.cell);
       const auto* k = mesh_->constraints(walk.cell);
-      if (k && (k->faces >> walk.exit & 1)) add_part_face(walk.cell, walk.exit, k->face_entity[walk.exit]);
+      if (k && (k->faces >> walk.exit & 1))
+        if (const Status status = add_part_face(walk.cell, walk.exit, k->face_entity[walk.exit]); status != Status::ok)
+          return status;
       if (!walk.link(*mesh_)) break;
       walk.step(*mesh_);
       if (walk.cell == cell) {
@@ -150,13 +171,11 @@ auto Cavity<D>::collect_on_edge(const Point<D>& p, CellId cell, int edge) -> Sta
   bool conflict = false;
   for (const CellId c : protected_) conflict = conflict || mesh_->conflicts(c, p);
   if (!conflict) return Status::not_in_conflict;
-  grow_part(0);
-  grow();
-  return Status::ok;
+  return collect_all();
 }
 
 template <int D>
-void Cavity<D>::grow() {
+auto Cavity<D>::grow() -> Status {
   boundary_.clear();
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const CellId c = cells_[i];
@@ -175,6 +194,7 @@ void Cavity<D>::grow() {
         continue;  // a subfacet of the part, at the hull
       } else if (!mesh_->marked(next.cell())) {
         if (mesh_->conflicts(next.cell(), point_)) {
+          if (!owns(next.cell())) return Status::not_owned;
           take(next.cell());
         } else {
           boundary_.push_back({c, f});
@@ -182,6 +202,7 @@ void Cavity<D>::grow() {
       }
     }
   }
+  return Status::ok;
 }
 
 template <int D>
@@ -235,7 +256,8 @@ auto Cavity<D>::make_star_shaped() -> Status {
   while (true) {
     for (const BoundaryFace& f : boundary_)
       if (!visible(f)) doomed.push_back(f.cell);
-    if (doomed.empty()) find_broken_fans(doomed);
+    if (doomed.empty())
+      if (const Status s = find_broken_fans(doomed); s != Status::ok) return s;
     if (doomed.empty()) find_turned_over(doomed);
     if (doomed.empty()) return Status::ok;
     if (const Status s = drop_cells(doomed); s != Status::ok) return s;
@@ -247,7 +269,7 @@ auto Cavity<D>::make_star_shaped() -> Status {
 /// plane this follows from the empty spheres; some ulps off it, or after cells were given back, it need not hold. Then
 /// the face that was reached later leaves the part, with the cells at it.
 template <int D>
-void Cavity<D>::find_broken_fans(std::vector<CellId>& doomed) const {
+auto Cavity<D>::find_broken_fans(std::vector<CellId>& doomed) const -> Status {
   if constexpr (D == 3) {
     for (std::size_t i = 1; i < part_.size(); ++i) {
       const PartFace& f = part_[i];
@@ -256,27 +278,31 @@ void Cavity<D>::find_broken_fans(std::vector<CellId>& doomed) const {
       for (const Link side : {Link(f.cell, f.face), across}) {
         if (!side) continue;
         for (int corner = 0; corner <= D && !broken; ++corner)
-          if (corner != side.face()) broken = fan_is_broken({side.cell(), side.face(), corner}, f.entity);
+          if (corner != side.face())
+            if (const Status s = look_at_fan({side.cell(), side.face(), corner}, f.entity, broken); s != Status::ok) return s;
       }
       if (!broken) continue;
       doomed.push_back(f.cell);
       if (across) doomed.push_back(across.cell());
-      return;  // what is left is looked at anew
+      return Status::ok;  // what is left is looked at anew
     }
   }
+  return Status::ok;
 }
 
 /// Walks from a face of the part to the next constrained face at the ridge or out of the cavity. Broken: it leaves the
 /// cavity although the next constrained face would be one of the part and of the same entity.
 template <int D>
-bool Cavity<D>::fan_is_broken(RidgeWalk<D> walk, EntityId entity) const {
+auto Cavity<D>::look_at_fan(RidgeWalk<D> walk, EntityId entity, bool& broken) const -> Status {
   bool left = false;
   while (!mesh_->constrained(walk.cell, walk.exit)) {
-    if (!walk.link(*mesh_)) return false;
+    if (left && !owns(walk.cell)) return Status::not_owned;
+    if (!walk.link(*mesh_)) return Status::ok;
     walk.step(*mesh_);
     left = left || !mesh_->marked(walk.cell);
   }
-  return left && in_part(walk.cell, walk.exit) && mesh_->constraints(walk.cell)->face_entity[walk.exit] == entity;
+  broken = left && in_part(walk.cell, walk.exit) && mesh_->constraints(walk.cell)->face_entity[walk.exit] == entity;
+  return Status::ok;
 }
 
 /// The facet's part must be star-shaped about p too, in the facet's projection: where p, by its rounding, lies on or

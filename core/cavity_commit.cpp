@@ -76,8 +76,9 @@ CellId Cavity<D>::make_cell(Pools& pools, const BoundaryFace& f, VertexId v) {
   const CellId c = mesh_->new_cell(pools);
   const CellRecord<D>& old = mesh_->cell(f.cell);
   CellRecord<D>& k = mesh_->cell(c);
-  k.vertices = old.vertices;
-  k.vertices[f.face] = v;
+  auto vertices = old.vertices;
+  vertices[f.face] = v;
+  mesh_->set_vertices(c, vertices);
   k.links.fill(Link{});
   const Link outside = old.links[f.face];
   k.links[f.face] = outside;

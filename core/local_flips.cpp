@@ -53,15 +53,17 @@ bool LocalFlips<D>::positive(const Vertices& v) const {
 }
 
 template <int D>
-bool LocalFlips<D>::repair(Pools& pools, CellId c, int face) {
-  if (!violates(c, face)) return false;
-  if (try_two_cells(pools, c, face)) return true;
+auto LocalFlips<D>::repair(Pools& pools, CellId c, int face) -> Outcome {
+  if (!violates(c, face)) return Outcome::stuck;
+  if (!owns(c) || !owns(mesh_->cell(c).links[face].cell())) return Outcome::not_owned;
+  if (try_two_cells(pools, c, face)) return Outcome::flipped;
   if constexpr (D == 3) {
     for (int a = 0; a <= D; ++a)
       for (int b = a + 1; b <= D; ++b)
-        if (a != face && b != face && try_edge(pools, c, a, b)) return true;
+        if (a != face && b != face)
+          if (const Outcome outcome = try_edge(pools, c, a, b); outcome != Outcome::stuck) return outcome;
   }
-  return false;
+  return Outcome::stuck;
 }
 
 /// The cells on both sides of the face become D cells round the edge between their apexes.
@@ -85,9 +87,9 @@ bool LocalFlips<D>::try_two_cells(Pools& pools, CellId c, int face) {
 }
 
 /// The cells round edge ab of c, in order, and the constrained faces among them: none, or two of one facet, between which
-/// the edge may be flipped within the facet. At the hull the ring is open, from the one to the other.
+/// the edge may be flipped within the facet. At the hull the ring is open, from the one to the other. Stuck: the edge must stay.
 template <int D>
-bool LocalFlips<D>::take_ring(CellId c, int a, int b, Ring& ring) const {
+auto LocalFlips<D>::take_ring(CellId c, int a, int b, Ring& ring) const -> Outcome {
   int others[2], n = 0;
   for (int i = 0; i <= D; ++i)
     if (i != a && i != b) others[n++] = i;
@@ -103,11 +105,12 @@ bool LocalFlips<D>::take_ring(CellId c, int a, int b, Ring& ring) const {
     RidgeWalk<D> walk{c, others[1 - way], others[way]};
     while (true) {
       if (walk.cell != c || way == 0) ring.cells.push_back(walk.cell);
-      if (ring.cells.size() > longest_ring) return false;
+      if (ring.cells.size() > longest_ring) return Outcome::stuck;
+      if (!owns(walk.cell)) return Outcome::not_owned;
       // The face opposite `exit` has the ridge and the vertex `entry`.
       if (mesh_->constrained(walk.cell, walk.exit) &&
           !note_wall(walk.cell, walk.exit, mesh_->cell(walk.cell).vertices[walk.entry]))
-        return false;
+        return Outcome::stuck;
       if (!walk.link(*mesh_)) break;
       walk.step(*mesh_);
       closed = walk.cell == c;
@@ -115,7 +118,8 @@ bool LocalFlips<D>::take_ring(CellId c, int a, int b, Ring& ring) const {
     }
     if (closed) break;
   }
-  return ring.tips.empty() || (ring.tips.size() == 2 && ring.tips[0] != ring.tips[1]);
+  const bool whole = ring.tips.empty() || (ring.tips.size() == 2 && ring.tips[0] != ring.tips[1]);
+  return whole ? Outcome::flipped : Outcome::stuck;
 }
 
 /// Do the three lie on one input segment, that is on a line, whatever rounding made of it?
@@ -146,12 +150,12 @@ bool LocalFlips<D>::crosses_in_facet(const Ring& ring, VertexId u, VertexId w) c
 /// The ring of cells round an edge becomes two fans about one vertex of the ring; the edge vanishes. Where the edge lies
 /// inside a facet the fans are about a tip of its two subfacets there, which are flipped with it.
 template <int D>
-bool LocalFlips<D>::try_edge(Pools& pools, CellId c, int a, int b) {
+auto LocalFlips<D>::try_edge(Pools& pools, CellId c, int a, int b) -> Outcome {
   const VertexId u = mesh_->cell(c).vertices[a], w = mesh_->cell(c).vertices[b];
-  if (const auto* k = mesh_->constraints(c); k && (k->edges >> edge_of_ends[a][b] & 1)) return false;
+  if (const auto* k = mesh_->constraints(c); k && (k->edges >> edge_of_ends[a][b] & 1)) return Outcome::stuck;
   Ring ring;
-  if (!take_ring(c, a, b, ring)) return false;
-  if (!ring.tips.empty() && !crosses_in_facet(ring, u, w)) return false;
+  if (const Outcome outcome = take_ring(c, a, b, ring); outcome != Outcome::flipped) return outcome;
+  if (!ring.tips.empty() && !crosses_in_facet(ring, u, w)) return Outcome::stuck;
   take_old(ring.cells);
   if (!ring.tips.empty())
     for (const VertexId end : {u, w}) {
@@ -186,9 +190,9 @@ bool LocalFlips<D>::try_edge(Pools& pools, CellId c, int a, int b) {
     const int after = violations_of(cells);
     if (after > before || (after == before && ring.cells.size() > 3)) continue;
     replace(pools, cells);
-    return true;
+    return Outcome::flipped;
   }
-  return false;
+  return Outcome::stuck;
 }
 
 /// Records the outer faces and subsegments of the cells, and the constrained faces between them.
@@ -276,7 +280,7 @@ CellId LocalFlips<D>::make_cell(Pools& pools, const NewCell& cell) {
   const Vertices& v = cell.vertices;
   const CellId c = mesh_->new_cell(pools);
   auto& k = mesh_->cell(c);
-  k.vertices = v;
+  mesh_->set_vertices(c, v);
   k.links.fill(Link{});
   mesh_->set_region(c, cell.region);
   mesh_->set_sphere(c, circumsphere<D>(mesh_->simplex(c)));

@@ -75,7 +75,7 @@ template <int D>
 void Mesh<D>::free_cell(Pools& pools, CellId c) {
   const std::uint32_t tag = tags_[index(c)] & ~mark_bit;
   if (tag != 0) pools.constraints.give(tag - 1);
-  cell(c).vertices[0] = no_vertex;
+  std::atomic_ref(cell(c).vertices[0]).store(no_vertex, std::memory_order_relaxed);
   pools.cells.give(index(c));
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The lists of a region's refinement and the order in which they are worked off.
+// The lists of a visit and the order in which they are worked off.
 #include "pgdr/refiner.hpp"
 
 #include <algorithm>
@@ -10,19 +10,15 @@
 namespace pgdr {
 
 template <int D>
-Refiner<D>::Refiner(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Domain<D>& domain,
-                    const RefineOptions<D>& options, CellBounds<D> bounds, std::uint64_t vertices_so_far,
-                    std::chrono::steady_clock::time_point start)
-    : mesh_(&mesh),
-      pools_(&pools),
-      domain_(&domain),
-      options_(&options),
-      bounds_(std::move(bounds)),
-      cavity_(mesh, &domain),
-      flips_(mesh, domain),
-      vertices_(vertices_so_far),
-      start_(start),
-      last_progress_(start_) {
+RefineContext<D>::RefineContext(Mesh<D>& m, const Domain<D>& d, const RefineOptions<D>& o, CellBounds<D> b,
+                                std::uint64_t vertices_so_far, std::chrono::steady_clock::time_point start_time)
+    : mesh(m),
+      domain(d),
+      options(o),
+      bounds(std::move(b)),
+      start(start_time),
+      vertices(vertices_so_far),
+      last_progress(start_time) {
   double side = 0;
   for (int i = 0; i < D; ++i) {
     double low = domain.points()[0][i], high = low;
@@ -32,30 +28,52 @@ Refiner<D>::Refiner(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Domain<
     }
     side = std::max(side, high - low);
   }
-  base_exponent_ = std::ilogb(side);
+  base_exponent = std::ilogb(side);
 }
 
 template <int D>
-int Refiner<D>::bucket_of(CellId c) const {
-  const double r2 = mesh_->cell(c).radius2;
+int RefineContext<D>::bucket_of(CellId c) const {
+  const double r2 = mesh.cell(c).radius2;
   if (!(r2 < std::numeric_limits<double>::infinity())) return 0;
   // floor(log2(side / r)) up to one: ilogb of r^2 halved, rounding down.
   const int e = std::ilogb(r2);
-  return std::clamp(base_exponent_ - (e >= 0 ? e / 2 : -((1 - e) / 2)), 0, buckets - 1);
+  return std::clamp(base_exponent - (e >= 0 ? e / 2 : -((1 - e) / 2)), 0, buckets - 1);
 }
 
 template <int D>
-void Refiner<D>::list_poor(CellId c, int why) {
-  const int b = bucket_of(c);
-  poor_[b].push_back(make_entry(c, why));
-  first_bucket_ = std::min(first_bucket_, b);
+double RefineContext<D>::largest_radius(int bucket) const {
+  return bucket == 0 ? std::numeric_limits<double>::infinity() : std::ldexp(1.0, base_exponent - bucket + 1);
+}
+
+template <int D>
+Refiner<D>::Refiner(RefineContext<D>& context, Pools pools)
+    : context_(&context),
+      mesh_(&context.mesh),
+      domain_(&context.domain),
+      options_(&context.options),
+      pools_(std::move(pools)),
+      cavity_(context.mesh, &context.domain),
+      flips_(context.mesh, context.domain) {}
+
+template <int D>
+void Refiner<D>::list_poor(CellId c, std::uint8_t why) {
+  Item e = make_entry(c, EntryKind::cell, why);
+  e.bucket = static_cast<std::uint8_t>(context_->bucket_of(c));
+  const Point<D>& center = mesh_->cell(c).center;
+  if (!visit_->area || visit_->area->is_home(center)) return visit_->list->push(e);
+  const std::uint32_t leaf = visit_->area->leaf_of(center);
+  auto& boxes = visit_->outboxes;
+  auto box = std::find_if(boxes.rbegin(), boxes.rend(), [leaf](const auto& o) { return o.leaf == leaf; });
+  if (box != boxes.rend()) return box->entries.push_back(e);
+  boxes.push_back({leaf, {e}});
 }
 
 template <int D>
 void Refiner<D>::list_entities(CellId c, const ConstraintRecord<D>& k) {
   const auto& vertices = mesh_->cell(c).vertices;
   for (int f = 0; f <= D; ++f)
-    if ((k.faces >> f & 1) && face_encroached_by(c, f, vertices[f])) faces_.push_back(make_entry(c, f));
+    if ((k.faces >> f & 1) && face_encroached_by(c, f, vertices[f]))
+      visit_->list->push(make_entry(c, EntryKind::face, f));
   if constexpr (D == 3) {
     for (int e = 0; e < 6; ++e) {
       if (!(k.edges >> e & 1)) continue;
@@ -65,7 +83,7 @@ void Refiner<D>::list_entities(CellId c, const ConstraintRecord<D>& k) {
         if (i == a || i == b || lies_on<D>(*domain_, mesh_->vertex(vertices[i]).home, segment)) continue;
         if (!in_diametral_ball<D>(mesh_->point(vertices[a]), mesh_->point(vertices[b]), mesh_->point(vertices[i])))
           continue;
-        edges_.push_back(make_entry(c, e));
+        visit_->list->push(make_entry(c, EntryKind::edge, e));
         break;
       }
     }
@@ -75,125 +93,146 @@ void Refiner<D>::list_entities(CellId c, const ConstraintRecord<D>& k) {
 template <int D>
 void Refiner<D>::list_cell(CellId c) {
   if (const auto* k = mesh_->constraints(c)) list_entities(c, *k);
-  if (bounds_.test(*mesh_, c)) list_poor(c);
+  if (context_->bounds.test(*mesh_, c)) list_poor(c, Item::over_bound);
 }
 
 template <int D>
-void Refiner<D>::list_all() {
-  for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i)
-    if (mesh_->alive(CellId{i})) list_cell(CellId{i});
+void Refiner<D>::list_violations(CellId c) {
+  for (int f = 0; f <= D; ++f)
+    if (flips_.violates(c, f)) {
+      visit_->violations_seen = true;
+      visit_->list->flips.push(make_entry(c, EntryKind::flip, f));
+      flips_left_ += 16;  // an allowance, so that flips that trade violations end
+    }
 }
 
 template <int D>
 void Refiner<D>::committed() {
-  ++counts_.committed;
-  ++vertices_;
+  ++visit_->counts.committed;
   for (const CellId c : cavity_.new_cells()) list_cell(c);
   // A cavity that was not cut back keeps every face locally Delaunay, if all were.
-  if (cavity_.shrunk() || violations_seen_) list_violations(cavity_.new_cells());
+  if (cavity_.shrunk() || visit_->violations_seen)
+    for (const CellId c : cavity_.new_cells()) list_violations(c);
 }
 
 template <int D>
-void Refiner<D>::list_violations(std::span<const CellId> cells) {
-  for (const CellId c : cells)
-    for (int f = 0; f <= D; ++f)
-      if (flips_.violates(c, f)) {
-        violations_seen_ = true;
-        not_delaunay_.push_back(make_entry(c, f));
-        flips_left_ += 16;  // an allowance, so that flips that trade violations end
-      }
-}
-
-template <int D>
-void Refiner<D>::flip(const Entry& e) {
-  if (flips_left_ == 0 || !flips_.repair(*pools_, e.cell, e.which)) {
-    if (flips_.violates(e.cell, e.which)) list_poor(e.cell, not_delaunay);
-    return;
-  }
+void Refiner<D>::flip(const Item& e) {
+  if (!flips_.violates(e.cell, e.which)) return;
+  const auto outcome = flips_left_ == 0 ? LocalFlips<D>::Outcome::stuck : flips_.repair(pools_, e.cell, e.which);
+  if (outcome == LocalFlips<D>::Outcome::not_owned) return visit_->set_aside.push_back(e);
+  if (outcome == LocalFlips<D>::Outcome::stuck) return list_poor(e.cell, Item::not_delaunay);
   --flips_left_;
   const std::vector<CellId> made = flips_.new_cells();
   for (const CellId c : made) list_cell(c);
   for (const CellId c : made)
     for (int f = 0; f <= D; ++f)
-      if (flips_.violates(c, f)) not_delaunay_.push_back(make_entry(c, f));
+      if (flips_.violates(c, f)) visit_->list->flips.push(make_entry(c, EntryKind::flip, f));
 }
 
 template <int D>
-std::optional<StopCause> Refiner<D>::budget() {
-  if (vertices_ >= options_->max_vertices) return StopCause::max_vertices;
-  if (counts_.committed + counts_.refused < commits_at_check_) return std::nullopt;
-  commits_at_check_ = counts_.committed + counts_.refused + 256;
-  if (options_->stop.stop_requested()) return StopCause::cancelled;
+void Refiner<D>::look_at_budget() {
+  const auto& counts = visit_->counts;
+  if (counts.committed + counts.refused < checked_at_) return;
+  checked_at_ = counts.committed + counts.refused + 256;
+  const std::uint64_t vertices = context_->vertices.fetch_add(counts.committed - reported_) + counts.committed - reported_;
+  reported_ = counts.committed;
   const auto now = std::chrono::steady_clock::now();
-  if (options_->time_limit && now - start_ >= *options_->time_limit) return StopCause::time_limit;
-  if (options_->progress && now - last_progress_ > std::chrono::milliseconds(200)) {
-    last_progress_ = now;
-    std::uint64_t waiting = edges_.size() + faces_.size();
-    for (const auto& bucket : poor_) waiting += bucket.size();
-    options_->progress({vertices_, waiting});
+  if (options_->stop.stop_requested()) {
+    context_->stop = static_cast<int>(StopCause::cancelled);
+  } else if (options_->time_limit && now - context_->start >= *options_->time_limit) {
+    context_->stop = static_cast<int>(StopCause::time_limit);
   }
-  return std::nullopt;
+  if (!options_->progress) return;
+  const std::unique_lock lock(context_->progress_mutex, std::try_to_lock);
+  if (!lock || now - context_->last_progress < std::chrono::milliseconds(200)) return;
+  context_->last_progress = now;
+  options_->progress({vertices, visit_->list->size()});
 }
 
 template <int D>
-StopCause Refiner<D>::drain() {
-  while (true) {
-    if (const auto stop = budget()) return *stop;
-    auto next = [](std::deque<Entry>& list) {
-      const Entry e = list.front();
-      list.pop_front();
-      return e;
-    };
-    if (!edges_.empty()) {
-      const Entry e = next(edges_);
-      if constexpr (D == 3)
-        if (alive(e) && split_edge(e, nullptr) == Outcome::refused) refused_edges_.push_back(e);
-    } else if (!faces_.empty()) {
-      const Entry e = next(faces_);
-      if (alive(e) && split_face(e, nullptr) == Outcome::refused && alive(e)) refused_faces_.push_back(e);
-    } else if (!not_delaunay_.empty()) {
-      const Entry e = next(not_delaunay_);
-      if (alive(e)) flip(e);
+bool Refiner<D>::may_go_on() {
+  look_at_budget();
+  return context_->stop.load(std::memory_order_relaxed) == 0 && visit_->counts.committed < visit_->most_insertions;
+}
+
+template <int D>
+void Refiner<D>::record_refusal(const Item& e) {
+  visit_->list->refused.push_back({e, last_refusal_});
+}
+
+/// One entry. Whether its slot is alive may be asked only if the visit owns its vertices: else it depends on timing.
+template <int D>
+void Refiner<D>::treat(const Item& e) {
+  if (visit_->area && !visit_->area->owns(*mesh_, e.vertices)) return visit_->set_aside.push_back(e);
+  if (!alive(e)) return;
+  last_refusal_.reset();
+  Outcome outcome = Outcome::committed;
+  switch (e.kind) {
+    case EntryKind::edge: outcome = split_edge(e, nullptr); break;
+    case EntryKind::face: outcome = split_face(e, nullptr); break;
+    case EntryKind::flip: return flip(e);
+    case EntryKind::cell: outcome = treat_cell(e); break;
+  }
+  if (outcome == Outcome::refused && alive(e)) record_refusal(e);
+  if (outcome == Outcome::not_owned) visit_->set_aside.push_back(e);
+}
+
+template <int D>
+void Refiner<D>::treat_entities() {
+  WorkList<D>& list = *visit_->list;
+  while (may_go_on()) {
+    if (!list.edges.empty()) {
+      treat(list.edges.pop());
+    } else if (!list.faces.empty()) {
+      treat(list.faces.pop());
+    } else if (!list.flips.empty()) {
+      treat(list.flips.pop());
     } else {
-      while (first_bucket_ < buckets && poor_[first_bucket_].empty()) ++first_bucket_;
-      if (first_bucket_ == buckets) return StopCause::finished;
-      const Entry e = next(poor_[first_bucket_]);
-      if (alive(e)) treat_cell(e);
+      return;
     }
   }
 }
 
-/// All that was refused, once more.
 template <int D>
-bool Refiner<D>::relist_refused() {
-  auto relist = [this](std::vector<Entry>& from, std::deque<Entry>& to) {
-    for (const Entry& e : from)
-      if (alive(e)) to.push_back(e);
-    from.clear();
-  };
-  relist(refused_edges_, edges_);
-  relist(refused_faces_, faces_);
-  for (const Entry& e : refused_cells_)
-    if (alive(e)) list_poor(e.cell, e.which);
-  refused_cells_.clear();
-  return !edges_.empty() || !faces_.empty() || !not_delaunay_.empty() || first_bucket_ < buckets;
+void Refiner<D>::begin(RegionVisit<D>& visit) {
+  visit_ = &visit;
+  cavity_.set_area(visit.area);
+  flips_.set_area(visit.area);
+  flips_left_ = 0;
+  checked_at_ = reported_ = 0;
 }
 
 template <int D>
-StopCause Refiner<D>::run() {
-  while (true) {
-    const std::uint64_t before = counts_.committed;
-    if (const StopCause stop = drain(); stop != StopCause::finished) return stop;
-    if (counts_.committed == before) break;
-    // A violation left standing may have moved off the walls, where insertions do not look for it.
-    if (violations_seen_)
-      for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i)
-        if (const CellId c{i}; mesh_->alive(c)) list_violations(std::span(&c, 1));
-    if (!relist_refused()) break;
+void Refiner<D>::run(RegionVisit<D>& visit) {
+  begin(visit);
+  WorkList<D>& list = *visit.list;
+  // An allowance for the faces that wait from before.
+  flips_left_ += 16 * list.flips.size();
+  for (const Item& e : visit.given) flips_left_ += e.kind == EntryKind::flip ? 16 : 0;
+  treat_entities();
+  for (std::size_t i = 0; i < visit.given.size(); ++i) {
+    if (may_go_on()) {
+      treat(visit.given[i]);
+      treat_entities();
+    } else {
+      visit.set_aside.push_back(visit.given[i]);
+    }
   }
-  return min_edge_hit_ ? StopCause::min_edge : StopCause::finished;
+  int last_bucket = std::numeric_limits<int>::max();
+  if (list.poor() > 0 && visit.granularity < RefineContext<D>::buckets) last_bucket = list.first_bucket() + visit.granularity;
+  while (visit.treat_list && list.poor() > 0 && may_go_on()) {
+    const int bucket = list.first_bucket();
+    if (bucket > last_bucket) break;
+    if (list.poor() >= visit.floor && context_->largest_radius(bucket) <= visit.small_radius) break;
+    treat(list.pop_poor());
+    treat_entities();
+  }
+  context_->vertices += visit.counts.committed - reported_;
+  visit_ = nullptr;
 }
 
+template struct RefineContext<2>;
+template struct RefineContext<3>;
 template class Refiner<2>;
 template class Refiner<3>;
 

@@ -59,7 +59,7 @@ Point<D> Refiner<D>::steiner_point(CellId c, const CellVerdict& verdict) {
     for (const Point<D>& q : {p, element.disk.center}) d.points.push_back({q[0], q[1], D == 3 ? q[D - 1] : 0.0});
     throw UsageError(std::move(d));
   }
-  ++counts_.selector_outside;
+  ++visit_->counts.selector_outside;
   return center;
 }
 
@@ -82,8 +82,8 @@ auto Refiner<D>::demand_of_cell(CellId c, const CellVerdict& verdict) const -> D
 /// A constrained face of the cavity's boundary in whose equatorial (diametral) ball x lies; one that x projects into, if
 /// there is one (Projection Lemma 2.6).
 template <int D>
-auto Refiner<D>::encroached_face(const Point<D>& x) const -> std::optional<Entry> {
-  std::optional<Entry> any;
+auto Refiner<D>::encroached_face(const Point<D>& x) const -> std::optional<Item> {
+  std::optional<Item> any;
   for (const auto& f : cavity_.boundary()) {
     if (!mesh_->constrained(f.cell, f.face)) continue;
     std::array<Point<D>, D> corner;
@@ -96,15 +96,15 @@ auto Refiner<D>::encroached_face(const Point<D>& x) const -> std::optional<Entry
       inside = in_equatorial_ball(equatorial_ball(corner[0], corner[1], corner[2]), x);
     }
     if (!inside) continue;
-    if (projects_into<D>(corner, x)) return make_entry(f.cell, f.face);
-    if (!any) any = make_entry(f.cell, f.face);
+    if (projects_into<D>(corner, x)) return make_entry(f.cell, EntryKind::face, f.face);
+    if (!any) any = make_entry(f.cell, EntryKind::face, f.face);
   }
   return any;
 }
 
 /// The constrained face that cuts x off from cell c, on a visibility walk through the cavity; none if x is reached.
 template <int D>
-auto Refiner<D>::blocking_face(CellId c, const Point<D>& x) const -> std::optional<Entry> {
+auto Refiner<D>::blocking_face(CellId c, const Point<D>& x) const -> std::optional<Item> {
   int from = -1;
   for (std::size_t steps = 0; steps <= cavity_.cells().size(); ++steps) {
     const auto& k = mesh_->cell(c);
@@ -120,7 +120,7 @@ auto Refiner<D>::blocking_face(CellId c, const Point<D>& x) const -> std::option
         exit = i;
       }
     }
-    if (exit < 0) return wall < 0 ? std::nullopt : std::optional(make_entry(c, wall));
+    if (exit < 0) return wall < 0 ? std::nullopt : std::optional(make_entry(c, EntryKind::face, wall));
     from = k.links[exit].face();
     c = k.links[exit].cell();
     if (!mesh_->marked(c)) return std::nullopt;
@@ -129,63 +129,59 @@ auto Refiner<D>::blocking_face(CellId c, const Point<D>& x) const -> std::option
 }
 
 template <int D>
-void Refiner<D>::treat_cell(const Entry& e) {
+auto Refiner<D>::treat_cell(const Item& e) -> Outcome {
   const CellId c = e.cell;
-  CellVerdict verdict = bounds_.test(*mesh_, c);
+  CellVerdict verdict = context_->bounds.test(*mesh_, c);
   const Point<D> x = steiner_point(c, verdict);
   // A cell with a face that no flip makes locally Delaunay asks for as much as one with a poor shape.
-  if (e.which == not_delaunay) verdict.over_radius_edge = true;
-  last_refusal_.reset();
-  if (cavity_.collect(x, c) != Cavity<D>::Status::ok) return cell_refused(e);
+  if (e.which == Item::not_delaunay) verdict.over_radius_edge = true;
+  const auto status = cavity_.collect(x, c);
+  if (status == Cavity<D>::Status::not_owned) return give_up(Outcome::not_owned);
+  Outcome outcome = Outcome::refused;
+  if (status == Cavity<D>::Status::ok) {
+    std::optional<Item> edge, face;
+    if (cavity_.touches_constraints()) {
+      edge = encroached_edge(x);
+      if (!edge) face = encroached_face(x);
+      // Where x lies beyond a wall the cavity cannot be star-shaped about it; what is left of it is then of no use.
+      if (!edge && !face) face = blocking_face(c, x);
+    }
+    if (!edge && !face) {
+      outcome = insert_point(e, verdict);
+    } else {
+      const Demand demand = demand_of_cell(c, verdict);
+      cavity_.release();
+      outcome = edge ? split_edge(*edge, &demand) : split_face(*face, &demand);
+      // The element is looked at again if the split left it as it was.
+      if (outcome == Outcome::committed && alive(e)) list_poor(c, e.which);
+    }
+  }
+  if (outcome == Outcome::refused) ++visit_->counts.refused;
+  return give_up(outcome);
+}
 
-  std::optional<Entry> edge, face;
-  if (cavity_.touches_constraints()) {
-    edge = encroached_edge(x);
-    if (!edge) face = encroached_face(x);
-  }
-  auto status = Cavity<D>::Status::ok;
-  if (!edge && !face) {
-    // Where x lies beyond a wall the cavity cannot be star-shaped about it; what is left of it is then of no use.
-    if (cavity_.touches_constraints()) face = blocking_face(c, x);
-    if (!face) status = cavity_.make_star_shaped();
-    if (status == Cavity<D>::Status::ok && (cavity_.shrunk() || cavity_.touches_constraints()) && !face)
-      status = cavity_.check_nothing_swallowed();
-  }
-  if (edge || face) {
-    const Demand demand = demand_of_cell(c, verdict);
-    cavity_.release();
-    const Outcome outcome = edge ? split_edge(*edge, &demand) : split_face(*face, &demand);
-    if (outcome == Outcome::refused) return cell_refused(e);
-    if (alive(e)) list_poor(c, e.which);
-    return;
-  }
-  if (status != Cavity<D>::Status::ok) return cell_refused(e);
+/// The collected point, if the insertion rule allows.
+template <int D>
+auto Refiner<D>::insert_point(const Item& e, const CellVerdict& verdict) -> Outcome {
+  using Status = typename Cavity<D>::Status;
+  auto status = cavity_.make_star_shaped();
+  if (status == Status::ok && (cavity_.shrunk() || cavity_.touches_constraints())) status = cavity_.check_nothing_swallowed();
+  if (status != Status::ok) return status == Status::not_owned ? Outcome::not_owned : Outcome::refused;
 
   // Unshrunk, the circumcentre's nearest vertices are the element's own.
   const bool plain = !cavity_.shrunk() && !options_->selector;
-  const double r = plain ? std::sqrt(mesh_->squared_radius_bounds(c).first) : insertion_radius<D>(*mesh_, cavity_);
+  const double r = plain ? std::sqrt(mesh_->squared_radius_bounds(e.cell).first) : insertion_radius<D>(*mesh_, cavity_);
   if (r < options_->min_edge) {
-    min_edge_hit_ = true;
-    return cell_refused(e);
+    visit_->min_edge_hit = true;
+    return Outcome::refused;
   }
   // Among volume vertices r >= d holds by itself, but for bounds below one and elements that are not poor in shape.
-  bool ordinary = plain && e.which == over_bound && (options_->radius_edge_bound >= 1 || !verdict.over_radius_edge);
+  bool ordinary = plain && e.which == Item::over_bound && (options_->radius_edge_bound >= 1 || !verdict.over_radius_edge);
   for (const VertexId v : e.vertices) ordinary = ordinary && mesh_->vertex(v).home.kind() == EntityKind::volume;
-  if (!ordinary && insertion_radius<D>(*mesh_, cavity_) < demand_of_cell(c, verdict).d) return cell_refused(e);
-  cavity_.commit(*pools_, Home(EntityKind::volume, 0), rounded_down(r));
+  if (!ordinary && insertion_radius<D>(*mesh_, cavity_) < demand_of_cell(e.cell, verdict).d) return Outcome::refused;
+  cavity_.commit(pools_, Home(EntityKind::volume, 0), rounded_down(r));
   committed();
-}
-
-template <int D>
-void Refiner<D>::cell_refused(const Entry& e) {
-  cavity_.release();
-  ++counts_.refused;
-  refused_cells_.push_back(e);
-  if (last_refusal_) {
-    why_.insert_or_assign(e.vertices, *last_refusal_);
-  } else {
-    why_.erase(e.vertices);
-  }
+  return Outcome::committed;
 }
 
 template class Refiner<2>;

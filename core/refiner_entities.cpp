@@ -46,7 +46,7 @@ Point<D> Refiner<D>::face_point(CellId c, int face) const {
 
 /// A subsegment on a cell of the cavity in whose diametral ball x lies.
 template <int D>
-auto Refiner<D>::encroached_edge(const Point<D>& x) const -> std::optional<Entry> {
+auto Refiner<D>::encroached_edge(const Point<D>& x) const -> std::optional<Item> {
   if constexpr (D == 3) {
     for (const CellId c : cavity_.cells()) {
       const auto* k = mesh_->constraints(c);
@@ -55,7 +55,7 @@ auto Refiner<D>::encroached_edge(const Point<D>& x) const -> std::optional<Entry
       for (int e = 0; e < 6; ++e)
         if ((k->edges >> e & 1) && in_diametral_ball<D>(mesh_->point(vertices[edge_ends[e][0]]),
                                                         mesh_->point(vertices[edge_ends[e][1]]), x))
-          return make_entry(c, e);
+          return make_entry(c, EntryKind::edge, e);
     }
   }
   return std::nullopt;
@@ -63,7 +63,7 @@ auto Refiner<D>::encroached_edge(const Point<D>& x) const -> std::optional<Entry
 
 /// A subsegment at the rim of the facet's part of the cavity that cuts x off from it, in the facet's projection.
 template <int D>
-auto Refiner<D>::edge_beyond(const Point<D>& x) const -> std::optional<Entry> {
+auto Refiner<D>::edge_beyond(const Point<D>& x) const -> std::optional<Item> {
   if constexpr (D == 3) {
     for (const auto& part : cavity_.part()) {
       const auto* k = mesh_->constraints(part.cell);
@@ -75,7 +75,7 @@ auto Refiner<D>::edge_beyond(const Point<D>& x) const -> std::optional<Entry> {
           const int corner = 6 - part.face - i - j;
           const Point<D>&a = mesh_->point(vertices[i]), &b = mesh_->point(vertices[j]);
           const Sign inside = orient_projected(a, b, mesh_->point(vertices[corner]), axis);
-          if (orient_projected(a, b, x, axis) != inside) return make_entry(part.cell, edge_of_ends[i][j]);
+          if (orient_projected(a, b, x, axis) != inside) return make_entry(part.cell, EntryKind::edge, edge_of_ends[i][j]);
         }
     }
   }
@@ -97,7 +97,7 @@ auto Refiner<D>::refuse(EntityRef entity, std::span<const VertexId> own) -> Outc
   const VertexId q = nearest_vertex<D>(*mesh_, cavity_, own);
   last_refusal_ = EntityPair{{entity, q == no_vertex ? EntityRef{} : mesh_->vertex(q).home.entity()}};
   cavity_.release();
-  ++counts_.refused;
+  ++visit_->counts.refused;
   return Outcome::refused;
 }
 
@@ -106,28 +106,31 @@ auto Refiner<D>::decide(EntityRef entity, std::span<const VertexId> own, const D
     -> Outcome {
   auto status = cavity_.make_star_shaped();
   if (status == Cavity<D>::Status::ok) status = cavity_.check_nothing_swallowed();
+  if (status == Cavity<D>::Status::not_owned) return give_up(Outcome::not_owned);
   if (status != Cavity<D>::Status::ok) return refuse(entity, own);
   const Demand demand = cause ? *cause : demand_of(entity, own, false);
   const double r = insertion_radius<D>(*mesh_, cavity_);
   if (r < demand.d) return refuse(entity, own);
   if (r < options_->min_edge) {
-    min_edge_hit_ = true;
+    visit_->min_edge_hit = true;
     return refuse(entity, own);
   }
-  cavity_.commit(*pools_, Home(entity.kind, entity.id), rounded_down(std::max(r, demand.h)));
+  cavity_.commit(pools_, Home(entity.kind, entity.id), rounded_down(std::max(r, demand.h)));
   committed();
   return Outcome::committed;
 }
 
 template <int D>
-auto Refiner<D>::split_face(const Entry& e, const Demand* cause) -> Outcome {
+auto Refiner<D>::split_face(const Item& e, const Demand* cause) -> Outcome {
   const EntityRef entity{D == 3 ? EntityKind::facet : EntityKind::segment,
                          mesh_->constraints(e.cell)->face_entity[e.which]};
   std::array<VertexId, D> own;
   for (int i = 0, n = 0; i <= D; ++i)
     if (i != e.which) own[n++] = e.vertices[i];
   const Point<D> x = face_point(e.cell, e.which);
-  if (cavity_.collect_on_face(x, e.cell, e.which) != Cavity<D>::Status::ok) return refuse(entity, own);
+  const auto status = cavity_.collect_on_face(x, e.cell, e.which);
+  if (status == Cavity<D>::Status::not_owned) return give_up(Outcome::not_owned);
+  if (status != Cavity<D>::Status::ok) return refuse(entity, own);
   if constexpr (D == 3) {
     auto edge = edge_beyond(x);
     if (!edge) edge = encroached_edge(x);
@@ -136,7 +139,7 @@ auto Refiner<D>::split_face(const Entry& e, const Demand* cause) -> Outcome {
       cavity_.release();
       const Outcome outcome = split_edge(*edge, &demand);
       // The face is looked at again if the split left it as it was.
-      if (outcome == Outcome::committed && !cause && alive(e)) faces_.push_back(e);
+      if (outcome == Outcome::committed && !cause && alive(e)) visit_->list->push(e);
       return outcome;
     }
   }
@@ -144,13 +147,15 @@ auto Refiner<D>::split_face(const Entry& e, const Demand* cause) -> Outcome {
 }
 
 template <int D>
-auto Refiner<D>::split_edge(const Entry& e, const Demand* cause) -> Outcome {
+auto Refiner<D>::split_edge(const Item& e, const Demand* cause) -> Outcome {
   if constexpr (D == 3) {
     const EntityId s = mesh_->constraints(e.cell)->edge_entity[e.which];
     const std::array<VertexId, 2> own{e.vertices[edge_ends[e.which][0]], e.vertices[edge_ends[e.which][1]]};
     const Point<D> x = segment_midpoint(s, own[0], own[1]);
     const EntityRef entity{EntityKind::segment, s};
-    if (cavity_.collect_on_edge(x, e.cell, e.which) != Cavity<D>::Status::ok) return refuse(entity, own);
+    const auto status = cavity_.collect_on_edge(x, e.cell, e.which);
+    if (status == Cavity<D>::Status::not_owned) return give_up(Outcome::not_owned);
+    if (status != Cavity<D>::Status::ok) return refuse(entity, own);
     return decide(entity, own, cause);
   } else {
     static_cast<void>(e);

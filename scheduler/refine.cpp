@@ -12,8 +12,10 @@
 #include "pgdr/compact.hpp"
 #include "pgdr/delaunay.hpp"
 #include "pgdr/labeling.hpp"
+#include "detail/arena.hpp"
+#include "detail/generations.hpp"
+#include "pgdr/poor_reasons.hpp"
 #include "pgdr/recovery.hpp"
-#include "pgdr/refiner.hpp"
 
 namespace pgdr {
 namespace {
@@ -76,15 +78,26 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
 
   const auto refine_start = Clock::now();
   const std::uint64_t vertices = domain.points().size() + result.statistics.segment_points + result.statistics.facet_points;
-  Refiner<D> refiner(mesh, pools, domain, options, bounds_of(options, regions), vertices, start);
+  RefineContext<D> context(mesh, domain, options, bounds_of(options, regions), vertices, start);
+  PoorReasons<D> reasons(mesh, domain, context.bounds);
+  bool violations_seen = false;
   if (options.refine) {
-    refiner.list_all();
-    result.stop = refiner.run();
+    detail::Generations<D> generations(context, std::move(pools), vertices);
+    result.stop = generations.run();
+    violations_seen = generations.violations_seen();
+    generations.for_each_refused([&](std::span<const Refusal<D>> refused) { reasons.add(refused); });
+    const RefineCounts& counts = generations.counts();
+    result.statistics.insertions_committed = counts.committed;
+    result.statistics.insertions_refused = counts.refused;
+    result.statistics.selector_outside = counts.selector_outside;
+    result.scheduler = generations.statistics();
+    result.scheduler.threads = options.schedule.executor == Executor::flow_graph ? detail::arena_threads(options.schedule.threads)
+                               : options.schedule.executor == Executor::threads  ? std::max(options.schedule.threads, 1)
+                                                                                 : 1;
+    result.trace = generations.take_trace();
   }
-  result.statistics.insertions_committed = refiner.counts().committed;
-  result.statistics.insertions_refused = refiner.counts().refused;
-  result.statistics.selector_outside = refiner.counts().selector_outside;
-  const std::vector<PoorCell> poor = refiner.poor_cells(options.refine && result.stop == StopCause::finished);
+  const bool finished = options.refine && result.stop == StopCause::finished;
+  const std::vector<PoorCell> poor = finished ? reasons.explained(violations_seen) : reasons.without_reasons();
   result.statistics.seconds_refine = seconds_since(refine_start);
 
   std::vector<double> attributes;

@@ -7,6 +7,9 @@
 // both sides are taken as soon as one of them is in conflict. Then it is cut back, by exact orientation, to its
 // largest star-shaped part; the cells next to the split entity, or the seed, are never given up.
 //
+// Ownership is part of collect: a cell in conflict that the visit does not own ends the attempt before any neighbour of it
+// is read, and walks round a ridge step from owned cells only (visit_area.hpp).
+//
 // A Cavity is the workspace of one visit: one thread at a time; reused from insertion to insertion.
 #pragma once
 
@@ -17,6 +20,7 @@
 
 #include "pgdr/key_set.hpp"
 #include "pgdr/mesh.hpp"
+#include "pgdr/visit_area.hpp"
 
 namespace pgdr {
 
@@ -61,11 +65,14 @@ class Cavity {
     not_star_shaped,  ///< a cell that must go cannot be seen from the point
     duplicate,        ///< the point is a vertex already
     swallows,         ///< a vertex or a subsegment would vanish
+    not_owned,        ///< the visit's claim is too small
   };
 
   /// `domain` may be null where no insertion splits a facet.
   explicit Cavity(Mesh<D>& mesh, const Domain<D>* domain = nullptr) : mesh_(&mesh), domain_(domain) {}
   ~Cavity() { release(); }
+  /// What the visit may change; null: everything.
+  void set_area(const VisitArea<D>* area) { area_ = area; }
   Cavity(const Cavity&) = delete;
   Cavity& operator=(const Cavity&) = delete;
 
@@ -108,20 +115,24 @@ class Cavity {
     cells_.push_back(c);
     return true;
   }
-  void grow_part(std::size_t from);
-  void add_part_face(CellId cell, int face, EntityId entity);
+  bool owns(CellId c) const { return !area_ || area_->owns(*mesh_, c); }
+  bool owns_point() const { return !area_ || area_->owns(point_); }
+  Status collect_all();
+  Status grow_part();
+  Status add_part_face(CellId cell, int face, EntityId entity);
+  Link entity_face_round_ridge(CellId cell, int face, int corner, EntityId entity, bool& owned) const;
   bool in_part(CellId cell, int face) const {
     const auto* k = mesh_->constraints(cell);
     return k && (k->part >> face & 1);
   }
-  void grow();
+  Status grow();
   void rebuild_boundary();
   bool visible(const BoundaryFace& f) const;
   bool in_line(CellId c, int i, int j) const;
-  void find_broken_fans(std::vector<CellId>& doomed) const;
+  Status find_broken_fans(std::vector<CellId>& doomed) const;
   void find_turned_over(std::vector<CellId>& doomed) const;
   bool is_rim(const PartFace& f, VertexId a, VertexId b) const;
-  bool fan_is_broken(RidgeWalk<D> walk, EntityId entity) const;
+  Status look_at_fan(RidgeWalk<D> walk, EntityId entity, bool& broken) const;
   Status drop_cells(const std::vector<CellId>& doomed);
   bool is_whole(const PartFace& f) const;
   bool part_is_whole() const;
@@ -135,6 +146,7 @@ class Cavity {
 
   Mesh<D>* mesh_;
   const Domain<D>* domain_;
+  const VisitArea<D>* area_ = nullptr;
   Point<D> point_;
   std::vector<CellId> cells_, new_cells_;
   std::vector<CellId> protected_;

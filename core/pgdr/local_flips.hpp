@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "pgdr/mesh.hpp"
+#include "pgdr/visit_area.hpp"
 
 namespace pgdr {
 
@@ -18,13 +19,18 @@ template <int D>
 class LocalFlips {
  public:
   using Pools = typename Mesh<D>::Pools;
+  enum class Outcome { flipped, stuck, not_owned };
 
   LocalFlips(Mesh<D>& mesh, const Domain<D>& domain) : mesh_(&mesh), domain_(&domain) {}
 
+  /// What the visit may change; null: everything.
+  void set_area(const VisitArea<D>* area) { area_ = area; }
+
   /// Is the face unconstrained, and the vertex beyond it strictly inside the (unperturbed) circumsphere of c?
   bool violates(CellId c, int face) const;
-  /// Replaces the cells at the violating face by others with fewer violations. False if no flip does that.
-  bool repair(Pools& pools, CellId c, int face);
+  /// Replaces the cells at the violating face by others with fewer violations. Stuck: no flip does that. Not owned: to find
+  /// that out would need cells that the visit does not own.
+  Outcome repair(Pools& pools, CellId c, int face);
   /// The cells made by the last successful repair.
   const std::vector<CellId>& new_cells() const { return new_cells_; }
 
@@ -52,9 +58,10 @@ class LocalFlips {
     EntityId entity = no_entity;
   };
 
+  bool owns(CellId c) const { return !area_ || area_->owns(*mesh_, c); }
   bool try_two_cells(Pools& pools, CellId c, int face);
-  bool try_edge(Pools& pools, CellId c, int a, int b);
-  bool take_ring(CellId c, int a, int b, Ring& ring) const;
+  Outcome try_edge(Pools& pools, CellId c, int a, int b);
+  Outcome take_ring(CellId c, int a, int b, Ring& ring) const;
   bool in_line(VertexId a, VertexId b, VertexId c) const;
   bool crosses_in_facet(const Ring& ring, VertexId u, VertexId w) const;
   void take_old(std::vector<CellId> cells);
@@ -70,6 +77,7 @@ class LocalFlips {
 
   Mesh<D>* mesh_;
   const Domain<D>* domain_;
+  const VisitArea<D>* area_ = nullptr;
   std::vector<CellId> old_, new_cells_;
   std::vector<OuterFace> outer_;
   std::vector<Subsegment> subsegments_;

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cstdint>
 #include <limits>
@@ -93,6 +94,18 @@ class Mesh {
   const CellRecord<D>& cell(CellId c) const { return cells_[index(c)]; }
 
   bool alive(CellId c) const { return cell(c).vertices[0] != no_vertex; }
+  /// Does the slot hold a cell with these vertices, in this order? From any thread that owns their positions: the slot may
+  /// be in use by another meanwhile, so that ids are loaded and stored as relaxed atomics (plain moves on x86).
+  bool holds(CellId c, const std::array<VertexId, D + 1>& vertices) const {
+    auto& slot = const_cast<std::array<VertexId, D + 1>&>(cell(c).vertices);
+    for (int i = 0; i <= D; ++i)
+      if (std::atomic_ref(slot[i]).load(std::memory_order_relaxed) != vertices[i]) return false;
+    return true;
+  }
+  void set_vertices(CellId c, const std::array<VertexId, D + 1>& vertices) {
+    auto& slot = cell(c).vertices;
+    for (int i = 0; i <= D; ++i) std::atomic_ref(slot[i]).store(vertices[i], std::memory_order_relaxed);
+  }
   bool is_ghost(CellId c) const {
     for (const VertexId v : cell(c).vertices)
       if (v == infinite_vertex) return true;

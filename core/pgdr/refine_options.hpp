@@ -22,6 +22,29 @@ struct Progress {
   std::uint64_t waiting = 0;   ///< entries in the lists of what is to be treated
 };
 
+/// How leaves of the tree are visited. `reproducible`: the same mesh, bit for bit, for any number of threads.
+enum class Schedule { reproducible };
+/// What runs the visits: a oneTBB flow graph in the caller's arena; plain threads (for thread sanitizers, which do not see
+/// through TBB); or the calling thread alone. The mesh does not depend on it.
+enum class Executor { flow_graph, threads, serial };
+
+struct ScheduleOptions {
+  Schedule schedule = Schedule::reproducible;
+  Executor executor = Executor::flow_graph;
+  /// Threads to ask for; 0: all that the caller's arena has. Never more run than TBB allows the program.
+  int threads = 0;
+  /// A visit ends after this many buckets (factors of two) of circumradius below its largest, if the leaf still holds work.
+  int granularity = std::numeric_limits<int>::max();
+  /// A leaf splits once no poor element in it has a circumradius above split_ratio times its children's side ...
+  double split_ratio = 0.5;
+  /// ... and this many poor elements wait in it at least.
+  std::size_t floor = 500;
+  /// A visit of leaf L claims {L} and BUF^claim_order(L).
+  std::uint32_t claim_order = 1;
+  /// Record when each visit ran, and where (`RefineResult::trace`).
+  bool trace = false;
+};
+
 template <int D>
 struct RefineOptions {
   /// Upper bound on circumradius over shortest edge. Proved for >= 2 (3D), >= sqrt 2 (2D).
@@ -36,6 +59,7 @@ struct RefineOptions {
   std::uint64_t max_vertices = std::numeric_limits<std::uint64_t>::max();
   std::optional<std::chrono::duration<double>> time_limit;
   std::stop_token stop;
+  ScheduleOptions schedule;
   std::function<void(const Progress&)> progress;  ///< from one thread at a time, a few times a second at most
 };
 

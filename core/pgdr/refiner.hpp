@@ -1,133 +1,169 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Delaunay refinement of one region, serial: encroached subsegments first, then subfacets, then poor elements, largest
+// Delaunay refinement of one region: encroached subsegments first, then subfacets, then poor elements, largest
 // circumradius first by buckets of a factor of two, first in first out within a bucket (dissertation, sections 2.1, 3.4).
+// The whole mesh refined as one region is the sequential algorithm.
 //
 // Every run ends, whatever the input angles: see insertion_rule.hpp. What is refused stays, and elements that stay poor
-// name the two input entities that meet at the small angle.
+// name the two input entities that meet at the small angle (poor_reasons.hpp).
 #pragma once
 
-#include <deque>
-#include <map>
+#include <atomic>
+#include <chrono>
+#include <mutex>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "pgdr/cavity.hpp"
 #include "pgdr/cell_bounds.hpp"
-#include "pgdr/check.hpp"
 #include "pgdr/insertion_rule.hpp"
 #include "pgdr/local_flips.hpp"
 #include "pgdr/refine_options.hpp"
+#include "pgdr/visit_area.hpp"
+#include "pgdr/work_list.hpp"
 
 namespace pgdr {
 
 struct RefineCounts {
   std::uint64_t committed = 0, refused = 0, selector_outside = 0;
+
+  RefineCounts& operator+=(const RefineCounts& o) {
+    committed += o.committed;
+    refused += o.refused;
+    selector_outside += o.selector_outside;
+    return *this;
+  }
 };
 
-/// An element that stays poor, or has a face that is not locally Delaunay, and why. `PoorReason::cell` is filled when
-/// the mesh is compacted.
-struct PoorCell {
-  CellId cell;
-  bool over_bound = false, over_size = false;
-  PoorReason reason;
+/// What all visits of a run share. The atomics alone change during a generation; they tell a visit to end and count for
+/// the progress report, and decide nothing else.
+template <int D>
+struct RefineContext {
+  /// `start`: when the caller's time limit began to run.
+  RefineContext(Mesh<D>& m, const Domain<D>& d, const RefineOptions<D>& o, CellBounds<D> b, std::uint64_t vertices_so_far,
+                std::chrono::steady_clock::time_point start_time);
+
+  int bucket_of(CellId c) const;
+  /// No circumradius of this bucket or a later one is larger.
+  double largest_radius(int bucket) const;
+
+  Mesh<D>& mesh;
+  const Domain<D>& domain;
+  const RefineOptions<D>& options;
+  const CellBounds<D> bounds;
+  const std::chrono::steady_clock::time_point start;
+  int base_exponent = 0;  ///< of bucket 0: circumradii of the size of the domain and above
+  static constexpr int buckets = 64;
+
+  std::atomic<int> stop{0};  ///< a StopCause other than `finished`, once there is one
+  std::atomic<std::uint64_t> vertices;
+  std::mutex progress_mutex;
+  std::chrono::steady_clock::time_point last_progress;  ///< under the mutex
 };
 
+/// What one visit is asked to do, and what it did.
+template <int D>
+struct RegionVisit {
+  // asked
+  const VisitArea<D>* area = nullptr;   ///< null: everything
+  WorkList<D>* list = nullptr;          ///< of the region
+  std::vector<Entry<D>> given;          ///< set aside by earlier visits: these alone are treated, and what they bring
+  bool treat_list = true;               ///< false: `given` only
+  double small_radius = 0;              ///< end once no poor element is larger ...
+  std::size_t floor = 0;                ///< ... and this many wait at least
+  int granularity = std::numeric_limits<int>::max();  ///< end this many buckets after the first
+  std::uint64_t most_insertions = std::numeric_limits<std::uint64_t>::max();
+  bool violations_seen = false;         ///< look for faces that are not locally Delaunay at every insertion
+  // done
+  struct Outbox {
+    std::uint32_t leaf;
+    std::vector<Entry<D>> entries;
+  };
+  std::vector<Outbox> outboxes;         ///< elements with their circumcentre in other regions
+  std::vector<Entry<D>> set_aside;      ///< would have changed cells that the visit does not own
+  RefineCounts counts;
+  bool min_edge_hit = false;
+};
+
+/// The workspace of a worker: one thread at a time.
 template <int D>
 class Refiner {
  public:
-  /// `start`: when the caller's time limit began to run.
-  Refiner(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Domain<D>& domain, const RefineOptions<D>& options,
-          CellBounds<D> bounds, std::uint64_t vertices_so_far, std::chrono::steady_clock::time_point start);
+  using Pools = typename Mesh<D>::Pools;
 
-  /// Lists what is encroached or poor among all cells of the mesh.
-  void list_all();
-  /// Treats what is listed, and what that brings forth, until nothing is left or a budget ends.
-  StopCause run();
-  /// Every cell still over a bound, and every cell with a face that is not locally Delaunay for other reasons than
-  /// rounding, each with its reason. @pre `run` has finished. Without reasons (a run that a budget ended, or no run, has
-  /// none to give): those over a bound.
-  std::vector<PoorCell> poor_cells(bool with_reasons);
+  Refiner(RefineContext<D>& context, Pools pools);
 
-  const RefineCounts& counts() const { return counts_; }
+  /// Treats what waits, and what that brings forth, until nothing is left that the visit may treat or the run is stopped.
+  /// @throws what a callback throws; the mesh is whole then.
+  void run(RegionVisit<D>& visit);
+
+  /// Lists what is encroached or poor at a cell that the visit owns.
+  void list_cell(CellId c);
+  /// Lists the faces of the cell that are not locally Delaunay.
+  void list_violations(CellId c);
+  /// Makes `visit` the one that list_cell lists for.
+  void begin(RegionVisit<D>& visit);
 
  private:
-  struct Entry {
-    CellId cell;
-    std::array<VertexId, D + 1> vertices;
-    int which;  // face or edge; for elements, why
-  };
-  struct EntityPair {
-    std::array<EntityRef, 2> entities;
-  };
-  enum class Outcome { committed, refused };
-  static constexpr int over_bound = 0, not_delaunay = 1;  // Entry::which of elements
-  static constexpr int buckets = 64;
+  enum class Outcome { committed, refused, not_owned };
+  using Item = Entry<D>;
 
   // refiner.cpp: the lists
-  Entry make_entry(CellId c, int which) const { return {c, mesh_->cell(c).vertices, which}; }
-  bool alive(const Entry& e) const { return mesh_->cell(e.cell).vertices == e.vertices; }
-  void list_cell(CellId c);
-  void list_poor(CellId c, int why = over_bound);
+  Item make_entry(CellId c, EntryKind kind, int which) const {
+    return {c, mesh_->cell(c).vertices, kind, static_cast<std::uint8_t>(which), 0};
+  }
+  bool alive(const Item& e) const { return mesh_->holds(e.cell, e.vertices); }
+  void list_poor(CellId c, std::uint8_t why);
   void list_entities(CellId c, const ConstraintRecord<D>& k);
-  int bucket_of(CellId c) const;
-  std::optional<StopCause> budget();
-  bool relist_refused();
-  StopCause drain();
+  void treat_entities();
+  void treat(const Item& e);
+  bool may_go_on();
+  void look_at_budget();
+  void record_refusal(const Item& e);
 
   // refiner_entities.cpp: encroached entities
   bool face_encroached_by(CellId c, int face, VertexId v) const;
-  Outcome split_face(const Entry& e, const Demand* cause);
-  Outcome split_edge(const Entry& e, const Demand* cause);
+  Outcome split_face(const Item& e, const Demand* cause);
+  Outcome split_edge(const Item& e, const Demand* cause);
   Point<D> face_point(CellId c, int face) const;
   Point<D> segment_midpoint(EntityId s, VertexId a, VertexId b) const;
-  std::optional<Entry> encroached_edge(const Point<D>& x) const;
-  std::optional<Entry> edge_beyond(const Point<D>& x) const;
+  std::optional<Item> encroached_edge(const Point<D>& x) const;
+  std::optional<Item> edge_beyond(const Point<D>& x) const;
   Demand demand_of(EntityRef entity, std::span<const VertexId> own, bool pass_on) const;
   Outcome decide(EntityRef entity, std::span<const VertexId> own, const Demand* cause);
   Outcome refuse(EntityRef entity, std::span<const VertexId> own);
 
   // refiner_cells.cpp: poor elements
-  void treat_cell(const Entry& e);
+  Outcome treat_cell(const Item& e);
+  Outcome insert_point(const Item& e, const CellVerdict& verdict);
   Point<D> steiner_point(CellId c, const CellVerdict& verdict);
   Demand demand_of_cell(CellId c, const CellVerdict& verdict) const;
-  std::optional<Entry> encroached_face(const Point<D>& x) const;
-  std::optional<Entry> blocking_face(CellId c, const Point<D>& x) const;
-  void cell_refused(const Entry& e);
-
-  // refiner_reasons.cpp: why some stay
-  PoorReason explain(CellId c, bool beside) const;
-  bool explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, PoorReason& reason) const;
-  void add_entities(CellId c, std::vector<EntityRef>& list) const;
+  std::optional<Item> encroached_face(const Point<D>& x) const;
+  std::optional<Item> blocking_face(CellId c, const Point<D>& x) const;
 
   void committed();
-  void list_violations(std::span<const CellId> cells);
-  void flip(const Entry& e);
+  void flip(const Item& e);
+  Outcome give_up(Outcome outcome) {
+    cavity_.release();
+    return outcome;
+  }
 
+  RefineContext<D>* context_;
   Mesh<D>* mesh_;
-  typename Mesh<D>::Pools* pools_;
   const Domain<D>* domain_;
   const RefineOptions<D>* options_;
-  CellBounds<D> bounds_;
+  Pools pools_;
   Cavity<D> cavity_;
   LocalFlips<D> flips_;
-  int base_exponent_;  // of the bucket 0: circumradii of the size of the domain and above
-  std::deque<Entry> edges_, faces_;
-  std::deque<Entry> not_delaunay_;  ///< faces to flip away
-  std::uint64_t flips_left_ = 0;
-  std::array<std::deque<Entry>, buckets> poor_;
-  int first_bucket_ = 0;
-  std::vector<Entry> refused_edges_, refused_faces_, refused_cells_;
-  std::vector<std::vector<EntityId>> segments_at_;  ///< of each input point; made for the reasons
-  std::map<std::array<VertexId, D + 1>, EntityPair> why_;  // of refused elements
+  RegionVisit<D>* visit_ = nullptr;
+  std::uint64_t flips_left_ = 0, checked_at_ = 0, reported_ = 0;
   std::optional<EntityPair> last_refusal_;
-  std::uint64_t vertices_, commits_at_check_ = 0;
-  bool min_edge_hit_ = false, violations_seen_ = false;
-  RefineCounts counts_;
-  std::chrono::steady_clock::time_point start_, last_progress_;
 };
 
+extern template struct RefineContext<2>;
+extern template struct RefineContext<3>;
 extern template class Refiner<2>;
 extern template class Refiner<3>;
 

@@ -27,6 +27,26 @@ struct RefineStatistics {
   PredicateCounts predicates;
 };
 
+/// How the visits went (design notes, "Scheduler").
+struct SchedulerStatistics {
+  std::uint64_t leaves = 1, generations = 0, visits = 0, set_aside = 0;  ///< set_aside: attempts
+  std::uint32_t max_concurrent = 0;         ///< most visits that ran at one time
+  int threads = 1;                          ///< threads that visits could run on
+  double serial_seconds = 0;                ///< of the refinement outside visits
+  double work_seconds = 0;                  ///< all visits and serial_seconds
+  double critical_path_seconds = 0;         ///< serial_seconds and, of each generation, the longest chain of visits
+  double seconds_in_generations = 0;        ///< from the start of each generation's first visit to the end of its last
+  std::vector<double> busy_seconds;         ///< in visits, of each thread that ran any
+};
+
+/// One visit, as it ran. Seconds since the meshing began.
+struct VisitTrace {
+  std::uint32_t thread;
+  double start, end;
+  std::uint32_t leaf, level, order;         ///< order: of its claim, BUF^order; 0xffffffff for the whole tree
+  std::uint64_t generation, committed, set_aside;
+};
+
 template <int D>
 struct RefineResult {
   OutputMesh<D> mesh;
@@ -35,6 +55,8 @@ struct RefineResult {
   bool size_met = true;               ///< every cell within the size and measure bounds
   std::vector<PoorReason> reasons;    ///< one for every poor cell when finished
   RefineStatistics statistics;
+  SchedulerStatistics scheduler;
+  std::vector<VisitTrace> trace;      ///< if asked for; in the order in which the visits ended
   std::vector<Diagnostic> repairs, warnings;
 };
 

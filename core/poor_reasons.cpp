@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Why elements stay poor: the two input entities that meet at a small angle next to them. What refused the element's
-// insertion is named if it is such a pair, else a pair among the entities that the element and its neighbours touch.
+#include "pgdr/poor_reasons.hpp"
+
 #include <algorithm>
-#include <vector>
 
 #include "detail/entity_distance.hpp"
-#include "pgdr/refiner.hpp"
+#include "pgdr/insertion_rule.hpp"
+#include "pgdr/refine_options.hpp"
 
 namespace pgdr {
 namespace {
@@ -18,7 +18,7 @@ bool has_extent(EntityRef e) { return e.kind == EntityKind::segment || e.kind ==
 
 /// As the checker will ask: do they meet at less than 60 (two segments) or 90 degrees, the first within the ball?
 template <int D>
-bool Refiner<D>::explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, PoorReason& reason) const {
+bool PoorReasons<D>::explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, PoorReason& reason) const {
   if (!has_extent(pair[0]) || !has_extent(pair[1]) || pair[0] == pair[1]) return false;
   if (!entities_touch<D>(*domain_, pair[0], pair[1])) return false;
   const bool segments = pair[0].kind == EntityKind::segment && pair[1].kind == EntityKind::segment;
@@ -34,7 +34,7 @@ bool Refiner<D>::explains(const std::array<EntityRef, 2>& pair, const Ball<D>& d
 
 /// Adds the entities that the cell's vertices lie on, and those constrained on it.
 template <int D>
-void Refiner<D>::add_entities(CellId c, std::vector<EntityRef>& list) const {
+void PoorReasons<D>::add_entities(CellId c, std::vector<EntityRef>& list) const {
   auto add = [&](EntityKind kind, EntityId id) {
     const EntityRef e{kind, id};
     if (std::find(list.begin(), list.end(), e) == list.end()) list.push_back(e);
@@ -58,7 +58,7 @@ void Refiner<D>::add_entities(CellId c, std::vector<EntityRef>& list) const {
 /// What refused the element if that is a pair with a small angle, else the first such pair among the entities of ever
 /// more cells round it; if `beside` is set, one of which has a vertex of the cell.
 template <int D>
-PoorReason Refiner<D>::explain(CellId c, bool beside) const {
+PoorReason PoorReasons<D>::explain(CellId c, bool beside) const {
   auto touches = [&](EntityRef e) {
     return std::any_of(mesh_->cell(c).vertices.begin(), mesh_->cell(c).vertices.end(),
                        [&](VertexId v) { return lies_on<D>(*domain_, mesh_->vertex(v).home, e); });
@@ -67,8 +67,8 @@ PoorReason Refiner<D>::explain(CellId c, bool beside) const {
   // A hair less than doubled, so that another's rounding cannot disagree.
   const Ball<D> doubled{sphere.center, 4 * sphere.squared_radius * (1 - 0x1p-20)};
   PoorReason reason;
-  if (const auto why = why_.find(mesh_->cell(c).vertices); why != why_.end())
-    if (!beside && explains(why->second.entities, doubled, reason)) return reason;
+  if (const auto why = why_.find(index(c)); why != why_.end() && why->second)
+    if (!beside && explains(why->second->entities, doubled, reason)) return reason;
   constexpr std::size_t most_cells = 256;
   std::vector<CellId> cells{c};
   std::vector<EntityRef> near;
@@ -82,51 +82,67 @@ PoorReason Refiner<D>::explain(CellId c, bool beside) const {
       if (link && cells.size() < most_cells && std::find(cells.begin(), cells.end(), link.cell()) == cells.end())
         cells.push_back(link.cell());
   }
-  reason.code = options_->radius_edge_bound < smallest_proved_bound<D>() ? PoorReason::Code::beyond_theory
+  reason.code = bounds_->radius_edge_bound < smallest_proved_bound<D>() ? PoorReason::Code::beyond_theory
                                                                          : PoorReason::Code::rounding;
   return reason;
 }
 
 template <int D>
-std::vector<PoorCell> Refiner<D>::poor_cells(bool with_reasons) {
-  segments_at_.assign(domain_->points().size(), {});
-  for (EntityId s = 0; s < domain_->segments().size(); ++s)
-    for (const std::uint32_t p : domain_->segments()[s].points) segments_at_[p].push_back(s);
+PoorReasons<D>::PoorReasons(Mesh<D>& mesh, const Domain<D>& domain, const CellBounds<D>& bounds)
+    : mesh_(&mesh), domain_(&domain), bounds_(&bounds), flips_(mesh, domain), segments_at_(domain.points().size()) {
+  for (EntityId s = 0; s < domain.segments().size(); ++s)
+    for (const std::uint32_t p : domain.segments()[s].points) segments_at_[p].push_back(s);
+}
+
+template <int D>
+void PoorReasons<D>::add(std::span<const Refusal<D>> refused) {
+  for (const Refusal<D>& r : refused)
+    if (r.entry.kind == EntryKind::cell && mesh_->holds(r.entry.cell, r.entry.vertices))
+      why_.insert_or_assign(index(r.entry.cell), r.pair);
+}
+
+template <int D>
+bool PoorReasons<D>::is_violated(CellId c) const {
+  for (int f = 0; f <= D; ++f)
+    if (flips_.violates(c, f)) return true;
+  return false;
+}
+
+template <int D>
+void PoorReasons<D>::look_at(CellId c, bool violations_seen, std::vector<PoorCell>& poor) const {
+  const CellVerdict verdict = bounds_->test(*mesh_, c);
+  // Without a small angle nearby a violation is one of rounding, which needs no reason.
+  PoorReason reason;
+  const bool beside =
+      violations_seen && is_violated(c) && (reason = explain(c, true)).code == PoorReason::Code::small_angle;
+  if (verdict && !beside) reason = explain(c, false);
+  if (verdict || beside) poor.push_back({c, static_cast<bool>(verdict), verdict.over_size, reason});
+}
+
+template <int D>
+std::vector<PoorCell> PoorReasons<D>::without_reasons() const {
   std::vector<PoorCell> poor;
-  auto is_violated = [&](CellId c) {
-    for (int f = 0; f <= D; ++f)
-      if (flips_.violates(c, f)) return true;
-    return false;
-  };
-  auto look_at = [&](CellId c) {
-    const CellVerdict verdict = bounds_.test(*mesh_, c);
-    if (!with_reasons) {
-      if (verdict) poor.push_back({c, true, verdict.over_size, {}});
-      return;
-    }
-    // Without a small angle nearby a violation is one of rounding, which needs no reason.
-    PoorReason reason;
-    const bool beside =
-        violations_seen_ && is_violated(c) && (reason = explain(c, true)).code == PoorReason::Code::small_angle;
-    if (verdict && !beside) reason = explain(c, false);
-    if (verdict || beside) poor.push_back({c, static_cast<bool>(verdict), verdict.over_size, reason});
-  };
-  std::vector<CellId> cells;
-  if (with_reasons && !violations_seen_) {
-    // After a run to the end a poor cell is alive only because it was refused.
-    for (const Entry& e : refused_cells_)
-      if (alive(e)) cells.push_back(e.cell);
-    std::sort(cells.begin(), cells.end());
-    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-  } else {
-    for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i)
-      if (mesh_->alive(CellId{i})) cells.push_back(CellId{i});
+  for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) {
+    if (!mesh_->alive(CellId{i})) continue;
+    if (const CellVerdict verdict = bounds_->test(*mesh_, CellId{i})) poor.push_back({CellId{i}, true, verdict.over_size, {}});
   }
-  for (const CellId c : cells) look_at(c);
   return poor;
 }
 
-template class Refiner<2>;
-template class Refiner<3>;
+template <int D>
+std::vector<PoorCell> PoorReasons<D>::explained(bool violations_seen) const {
+  std::vector<PoorCell> poor;
+  if (violations_seen) {
+    for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i)
+      if (mesh_->alive(CellId{i})) look_at(CellId{i}, true, poor);
+  } else {
+    // After a run to the end a poor cell is alive only because it was refused.
+    for (const auto& why : why_) look_at(CellId{why.first}, false, poor);
+  }
+  return poor;
+}
+
+template class PoorReasons<2>;
+template class PoorReasons<3>;
 
 }  // namespace pgdr

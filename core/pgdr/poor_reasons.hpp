@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Why elements stay poor: the two input entities that meet at a small angle next to them. What refused the element's
+// insertion is named if it is such a pair, else a pair among the entities that the element and its neighbours touch.
+// Reads the whole mesh; one thread, nothing else running.
+#pragma once
+
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "pgdr/cell_bounds.hpp"
+#include "pgdr/check.hpp"
+#include "pgdr/local_flips.hpp"
+#include "pgdr/work_list.hpp"
+
+namespace pgdr {
+
+/// An element that stays poor, or has a face that is not locally Delaunay, and why. `PoorReason::cell` is filled when
+/// the mesh is compacted.
+struct PoorCell {
+  CellId cell;
+  bool over_bound = false, over_size = false;
+  PoorReason reason;
+};
+
+template <int D>
+class PoorReasons {
+ public:
+  PoorReasons(Mesh<D>& mesh, const Domain<D>& domain, const CellBounds<D>& bounds);
+
+  /// What was refused in one region.
+  void add(std::span<const Refusal<D>> refused);
+
+  /// Every cell over a bound, without reasons: of a run that a budget ended, or of none.
+  std::vector<PoorCell> without_reasons() const;
+  /// Every cell over a bound, and every cell with a face that is not locally Delaunay for other reasons than rounding,
+  /// each with its reason. @pre the refinement has finished. `violations_seen`: there may be such faces.
+  std::vector<PoorCell> explained(bool violations_seen) const;
+
+ private:
+  using EntityIds = std::vector<EntityId>;
+
+  PoorReason explain(CellId c, bool beside) const;
+  bool explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, PoorReason& reason) const;
+  void add_entities(CellId c, std::vector<EntityRef>& list) const;
+  void look_at(CellId c, bool violations_seen, std::vector<PoorCell>& poor) const;
+  bool is_violated(CellId c) const;
+
+  const Mesh<D>* mesh_;
+  const Domain<D>* domain_;
+  const CellBounds<D>* bounds_;
+  LocalFlips<D> flips_;
+  std::vector<EntityIds> segments_at_;  ///< of each input point
+  /// Of the refused elements that are still there: by what; no entities if no pair was at fault.
+  std::unordered_map<std::uint32_t, std::optional<EntityPair>> why_;
+};
+
+extern template class PoorReasons<2>;
+extern template class PoorReasons<3>;
+
+}  // namespace pgdr

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What one visit may change. A visit owns the cells all of whose vertices lie in the part of space that it has claimed;
+// the claims of concurrent visits are disjoint. It deletes only cells that it owns, and reads only these and the cells
+// that share a face with one: such a cell has D vertices in this claim, so that no other claim can hold D of its D+1
+// vertices too, and no other visit comes near it (2D > D+1).
+#pragma once
+
+#include <cstdint>
+
+#include "pgdr/mesh.hpp"
+
+namespace pgdr {
+
+/// Immutable during a visit. `claimed` and `leaf_of` are called by the visit's thread alone.
+template <int D>
+class VisitArea {
+ public:
+  virtual ~VisitArea() = default;
+
+  /// An element belongs to the visit if its circumcentre lies in this half-open box (unbounded where space ends).
+  Point<D> home_low, home_high;
+  /// A half-open box wholly claimed: a quick yes.
+  Point<D> inner_low, inner_high;
+
+  /// Is the point in the claimed part of space? Asked beyond the inner box.
+  virtual bool claimed(const Point<D>& p) const = 0;
+  /// The region that an element with its circumcentre at p belongs to.
+  virtual std::uint32_t leaf_of(const Point<D>& p) const = 0;
+
+  bool is_home(const Point<D>& p) const {
+    for (int i = 0; i < D; ++i)
+      if (!(p[i] >= home_low[i] && p[i] < home_high[i])) return false;
+    return true;
+  }
+  bool owns(const Point<D>& p) const {
+    for (int i = 0; i < D; ++i)
+      if (!(p[i] >= inner_low[i] && p[i] < inner_high[i])) return claimed(p);
+    return true;
+  }
+  bool owns(const Mesh<D>& mesh, const std::array<VertexId, D + 1>& vertices) const {
+    for (const VertexId v : vertices)
+      if (!owns(mesh.point(v))) return false;
+    return true;
+  }
+  /// A cell whose circumball lies in the inner box has its vertices there.
+  bool owns(const Mesh<D>& mesh, CellId c) const {
+    const auto& k = mesh.cell(c);
+    const double r2 = mesh.squared_radius_bounds(c).second;
+    bool inside = true;
+    for (int i = 0; i < D && inside; ++i) {
+      const double below = k.center[i] - inner_low[i], above = inner_high[i] - k.center[i];
+      inside = below > 0 && above > 0 && below * below > r2 && above * above > r2;
+    }
+    return inside || owns(mesh, k.vertices);
+  }
+};
+
+}  // namespace pgdr

@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What waits to be treated in one region: encroached subsegments, then subfacets, then faces to be flipped, then poor
+// elements by buckets of their circumradius; first in first out within each. Plain containers; one thread at a time.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "pgdr/mesh.hpp"
+
+namespace pgdr {
+
+enum class EntryKind : std::uint8_t { edge, face, flip, cell };
+
+/// An entity or element as the D+1 vertices of its cell and which of its edges or faces. The entry is dead when the
+/// slot `cell` no longer holds these vertices: whatever took its place has been listed anew.
+template <int D>
+struct Entry {
+  static constexpr std::uint8_t over_bound = 0, not_delaunay = 1;  ///< `which` of kind cell: why it is listed
+
+  CellId cell;
+  std::array<VertexId, D + 1> vertices;
+  EntryKind kind;
+  std::uint8_t which;
+  std::uint8_t bucket;  ///< kind cell: floor(log2(side of the domain / circumradius)), clamped
+};
+
+/// First in, first out; storage that was read is given up once it is the larger half.
+template <class T>
+class Fifo {
+ public:
+  bool empty() const { return head_ == items_.size(); }
+  std::size_t size() const { return items_.size() - head_; }
+  void push(const T& item) { items_.push_back(item); }
+  T pop() {
+    T item = items_[head_++];
+    if (head_ == items_.size()) {
+      items_.clear();
+      head_ = 0;
+    } else if (head_ >= 1024 && 2 * head_ >= items_.size()) {
+      items_.erase(items_.begin(), items_.begin() + static_cast<std::ptrdiff_t>(head_));
+      head_ = 0;
+    }
+    return item;
+  }
+  /// Calls f for each in order, and empties the list.
+  template <class F>
+  void drain(F f) {
+    for (std::size_t i = head_; i < items_.size(); ++i) f(items_[i]);
+    items_ = {};
+    head_ = 0;
+  }
+
+ private:
+  std::vector<T> items_;
+  std::size_t head_ = 0;
+};
+
+/// Two input entities that meet where something was refused.
+struct EntityPair {
+  std::array<EntityRef, 2> entities;
+};
+
+/// An entry that was refused, and by what; nothing if no pair of entities was at fault.
+template <int D>
+struct Refusal {
+  Entry<D> entry;
+  std::optional<EntityPair> pair;
+};
+
+template <int D>
+class WorkList {
+ public:
+  Fifo<Entry<D>> edges, faces, flips;
+  std::vector<Refusal<D>> refused;
+
+  void push(const Entry<D>& e) {
+    switch (e.kind) {
+      case EntryKind::edge: return edges.push(e);
+      case EntryKind::face: return faces.push(e);
+      case EntryKind::flip: return flips.push(e);
+      case EntryKind::cell: break;
+    }
+    while (first_ + static_cast<int>(poor_.size()) <= e.bucket) poor_.emplace_back();
+    if (e.bucket < first_) {
+      poor_.insert(poor_.begin(), static_cast<std::size_t>(first_ - e.bucket), {});
+      first_ = e.bucket;
+    }
+    poor_[static_cast<std::size_t>(e.bucket - first_)].push(e);
+    ++waiting_;
+  }
+
+  bool empty() const { return edges.empty() && faces.empty() && flips.empty() && waiting_ == 0; }
+  std::size_t size() const { return edges.size() + faces.size() + flips.size() + waiting_; }
+  /// Poor elements, dead ones among them.
+  std::size_t poor() const { return waiting_; }
+  /// Bucket of the largest poor element. @pre poor() > 0
+  int first_bucket() {
+    while (poor_.front().empty()) {
+      poor_.erase(poor_.begin());
+      ++first_;
+    }
+    return first_;
+  }
+  /// One of the largest. @pre poor() > 0
+  Entry<D> pop_poor() {
+    --waiting_;
+    return poor_[static_cast<std::size_t>(first_bucket() - first_)].pop();
+  }
+  /// Calls f for every entry that waits, in the order in which they would be treated, and empties the list.
+  template <class F>
+  void drain(F f) {
+    edges.drain(f);
+    faces.drain(f);
+    flips.drain(f);
+    for (auto& bucket : poor_) bucket.drain(f);
+    poor_ = {};
+    first_ = 0;
+    waiting_ = 0;
+  }
+
+ private:
+  std::vector<Fifo<Entry<D>>> poor_;  ///< of the buckets from first_ on
+  int first_ = 0;
+  std::size_t waiting_ = 0;
+};
+
+}  // namespace pgdr

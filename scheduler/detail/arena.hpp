@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Where visits run: in the caller's task arena, or in one of fewer threads.
+#pragma once
+
+#include <functional>
+
+namespace pgdr::detail {
+
+/// Threads that `in_arena(threads, ...)` has: what is asked for (0: all of the caller's arena), but no more than TBB allows
+/// the program, so that TBB has nothing to warn of on stderr.
+int arena_threads(int threads);
+
+/// Calls f in the caller's arena if that has as many threads as asked for, else in an arena of its own.
+void in_arena(int threads, const std::function<void()>& f);
+
+}  // namespace pgdr::detail

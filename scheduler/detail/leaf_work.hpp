@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What waits in each leaf of the tree, and how it moves when leaves split. One thread at a time, except that the visit of a
+// leaf alone uses that leaf's work during a generation.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "pgdr/orthtree.hpp"
+#include "pgdr/refiner.hpp"
+
+namespace pgdr::detail {
+
+/// Claims of visits for what was set aside: BUF^2, BUF^4; then the whole tree, which is nobody's leaf.
+inline constexpr std::array<std::uint32_t, 2> set_aside_orders{2, 4};
+
+template <int D>
+struct LeafWork {
+  WorkList<D> list;
+  std::vector<std::vector<Entry<D>>> inbox;  ///< from visits of other leaves, in their order; not looked at yet
+  std::array<std::vector<Entry<D>>, set_aside_orders.size()> set_aside;
+  std::uint64_t since = 0;                   ///< generation in which the list last became non-empty
+  std::array<std::uint64_t, set_aside_orders.size()> set_aside_since{};
+
+  bool has_list() const { return !list.empty() || !inbox.empty(); }
+  /// Moves the inbox into the list.
+  void open_inbox() {
+    for (const auto& letter : inbox)
+      for (const Entry<D>& e : letter) list.push(e);
+    inbox.clear();
+  }
+};
+
+template <int D>
+class LeafWorks {
+ public:
+  using Node = typename Orthtree<D>::Node;
+
+  explicit LeafWorks(const Orthtree<D>& tree) : tree_(&tree) { grow(); }
+
+  LeafWork<D>& operator[](Node n) { return *works_[n]; }
+  /// Makes room for all nodes of the tree.
+  void grow() {
+    while (works_.size() < tree_->node_count()) works_.push_back(std::make_unique<LeafWork<D>>());
+  }
+  /// Hands all that waits at a node that was split to its children, by the circumcentres of the cells. What was set aside
+  /// starts again as ordinary. The entries of different parents may be handed down at once.
+  void hand_down(const Mesh<D>& mesh, Node parent, std::uint64_t generation);
+
+ private:
+  const Orthtree<D>* tree_;
+  std::vector<std::unique_ptr<LeafWork<D>>> works_;
+};
+
+extern template class LeafWorks<2>;
+extern template class LeafWorks<3>;
+
+}  // namespace pgdr::detail

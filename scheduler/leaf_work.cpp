@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "detail/leaf_work.hpp"
+
+namespace pgdr::detail {
+
+template <int D>
+void LeafWorks<D>::hand_down(const Mesh<D>& mesh, Node parent, std::uint64_t generation) {
+  LeafWork<D>& from = *works_[parent];
+  auto pass_on = [&](const Entry<D>& e) {
+    if (!mesh.holds(e.cell, e.vertices)) return;
+    LeafWork<D>& to = *works_[tree_->leaf_at(mesh.cell(e.cell).center)];
+    to.list.push(e);
+    to.since = generation;
+  };
+  from.open_inbox();
+  from.list.drain(pass_on);
+  for (auto& entries : from.set_aside) {
+    for (const Entry<D>& e : entries) pass_on(e);
+    entries = {};
+  }
+}
+
+template class LeafWorks<2>;
+template class LeafWorks<3>;
+
+}  // namespace pgdr::detail
