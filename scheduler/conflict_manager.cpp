@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "pgdr/conflict_manager.hpp"
+
+#include <algorithm>
+#include <string>
+#include <tuple>
+
+#include "pgdr/error.hpp"
+
+namespace pgdr {
+
+namespace {
+
+constexpr VisitGraph::Visit nobody = 0xffffffffu;
+
+[[noreturn]] void fail(std::string message) {
+  throw ResourceError({Errc::internal, std::move(message), {}, 0, {}, {}});
+}
+
+}  // namespace
+
+template <int D>
+ConflictManager<D>::ConflictManager(const Orthtree<D>& tree, std::uint32_t ordinary_order)
+    : tree_(&tree), ordinary_order_(std::max(ordinary_order, 1u)) {}
+
+template <int D>
+auto ConflictManager<D>::buffer(Node leaf) -> const std::vector<Node>& {
+  if (cache_.size() < tree_->node_count()) cache_.resize(tree_->node_count());
+  Cached& cached = cache_[leaf];
+  if (cached.node_count == tree_->node_count()) return cached.zone;
+  // A split changes BUF(leaf) only if it splits one of its leaves.
+  const auto split = [this](Node l) { return !tree_->is_leaf(l); };
+  if (cached.node_count == 0 || std::any_of(cached.zone.begin(), cached.zone.end(), split))
+    cached.zone = tree_->buffer(leaf);
+  cached.node_count = tree_->node_count();
+  return cached.zone;
+}
+
+template <int D>
+std::vector<VisitRequest> ConflictManager<D>::in_order(std::span<const VisitRequest> requests) const {
+  // Equal colours have disjoint claims in a uniform tree; the cap keeps the colour in 64 bits.
+  const auto colour = [this](const VisitRequest& r) {
+    const std::uint64_t period = r.order == whole_tree ? 1 : 2 * std::uint64_t{claim_order(r)} + 1;
+    return tree_->colour(r.leaf, static_cast<std::uint32_t>(std::min<std::uint64_t>(period, 1u << 21)));
+  };
+  std::vector<std::pair<Node, std::uint32_t>> names;
+  for (const VisitRequest& r : requests) names.emplace_back(r.leaf, r.order);
+  std::sort(names.begin(), names.end());
+  if (const auto twice = std::adjacent_find(names.begin(), names.end()); twice != names.end())
+    fail("leaf " + std::to_string(twice->first) + " is to be visited twice with the same order");
+  using Key = std::tuple<std::uint32_t, int, std::uint64_t, std::uint64_t, std::uint64_t>;
+  std::vector<std::pair<Key, std::size_t>> keys;
+  keys.reserve(requests.size());
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    const VisitRequest& r = requests[i];
+    if (r.leaf >= tree_->node_count() || !tree_->is_leaf(r.leaf) || r.order == 0)
+      fail("node " + std::to_string(r.leaf) + " cannot be visited: no leaf, or no order");
+    keys.push_back({{r.order, tree_->level(r.leaf), r.generation, colour(r), tree_->morton(r.leaf)}, i});
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<VisitRequest> sorted;
+  sorted.reserve(keys.size());
+  for (const auto& [key, i] : keys) sorted.push_back(requests[i]);
+  return sorted;
+}
+
+template <int D>
+Claim<D> ConflictManager<D>::claim_of(const VisitRequest& r) {
+  if (r.order == whole_tree) return Claim<D>::whole(*tree_, r.leaf);
+  const std::uint32_t order = claim_order(r);
+  if (order == 1) return Claim<D>(*tree_, r.leaf, buffer(r.leaf), 1);
+  // BUF^i by breadth-first search: only leaves reached for the first time can add anything.
+  reached_.resize(tree_->node_count(), 0);
+  ++search_;
+  reached_[r.leaf] = search_;
+  std::vector<Node> zone{r.leaf};
+  std::size_t fresh = 0;
+  for (std::uint32_t step = 0; step < order && fresh < zone.size(); ++step)
+    for (const std::size_t end = zone.size(); fresh < end; ++fresh)
+      for (const Node l : buffer(zone[fresh]))
+        if (reached_[l] != search_) {
+          reached_[l] = search_;
+          zone.push_back(l);
+        }
+  return Claim<D>(*tree_, r.leaf, std::span(zone).subspan(1), order);
+}
+
+template <int D>
+Generation<D> ConflictManager<D>::plan(std::span<const VisitRequest> requests) {
+  Generation<D> generation;
+  const std::vector<VisitRequest> sorted = in_order(requests);
+  const auto count = static_cast<VisitGraph::Visit>(sorted.size());
+  generation.visits.reserve(count);
+
+  // The claimants of one leaf form a chain, so that any two of them have a path between them.
+  std::vector<VisitGraph::Visit> last_claimant(tree_->node_count(), nobody);
+  std::vector<VisitGraph::Visit> predecessors, waits_for(count, nobody), has_successor(count, 0);
+  const auto wait = [&](VisitGraph::Visit v, VisitGraph::Visit earlier) {
+    if (waits_for[earlier] == v) return;
+    waits_for[earlier] = v;
+    has_successor[earlier] = 1;
+    predecessors.push_back(earlier);
+  };
+  for (VisitGraph::Visit v = 0; v < count; ++v) {
+    const VisitRequest& r = sorted[v];
+    generation.visits.push_back({r, claim_of(r)});
+    predecessors.clear();
+    const Claim<D>& claim = generation.visits.back().claim;
+    if (claim.whole()) {
+      // Whoever has no successor yet: everybody earlier leads to one of them. Only whole trees follow in the order.
+      for (VisitGraph::Visit earlier = 0; earlier < v; ++earlier)
+        if (!has_successor[earlier]) wait(v, earlier);
+    }
+    for (const Node leaf : claim.leaves()) {
+      if (last_claimant[leaf] != nobody) wait(v, last_claimant[leaf]);
+      last_claimant[leaf] = v;
+    }
+    std::sort(predecessors.begin(), predecessors.end());
+    generation.graph.add_visit(predecessors);
+  }
+  return generation;
+}
+
+template class ConflictManager<2>;
+template class ConflictManager<3>;
+
+}  // namespace pgdr

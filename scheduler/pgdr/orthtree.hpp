@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The quadtree (D = 2) or octree (D = 3) whose leaves are refined concurrently, and the buffer zones of its leaves
+// (Chernikov, definitions 3.3-3.5, 3.7, 3.8). Leaves are half-open boxes; coordinates beyond the root are clamped, so
+// that every point has exactly one leaf. Borders are positions of one integer grid, rounded once: two leaves that meet
+// agree on the double between them, and the tree may have any grading.
+// Threads: const members from any thread while nobody splits.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "pgdr/types.hpp"
+
+namespace pgdr {
+
+template <int D>
+class Orthtree {
+ public:
+  using Node = std::uint32_t;
+  static constexpr Node root = 0;
+  static constexpr Node none = 0xffffffffu;
+  static constexpr int children = 1 << D;
+  /// Integer coordinates of the finest level fill a Morton key of 64 bits.
+  static constexpr int max_level = D == 2 ? 31 : 21;
+  /// A node's place among the nodes of its own level, counted from the root's low corner.
+  using Place = std::array<std::uint32_t, D>;
+
+  /// Half-open: low <= x < high on every axis.
+  struct Box {
+    Point<D> low, high;
+    bool contains(const Point<D>& p) const {
+      for (int i = 0; i < D; ++i)
+        if (!(p[i] >= low[i] && p[i] < high[i])) return false;
+      return true;
+    }
+    friend bool operator==(const Box&, const Box&) = default;
+  };
+
+  /// A tree of one leaf over the bounding box [low, high] of the points: a cube whose side is a power of two, larger than
+  /// the box on all sides, placed so that neither the box's faces nor the dyadic fractions of it are borders of leaves.
+  /// Scaling the box by a power of two scales the tree exactly. @throws InputError not_finite (also: too large)
+  Orthtree(const Point<D>& low, const Point<D>& high);
+
+  /// The leaf that holds the point; of a point outside the root, the leaf nearest to it; of a NaN, some leaf.
+  Node leaf_at(const Point<D>& p) const {
+    Node node = root;
+    while (const Node first = nodes_[node].first_child) {
+      unsigned child = 0;
+      for (int i = 0; i < D; ++i) child |= static_cast<unsigned>(p[i] >= nodes_[node].centre[i]) << i;
+      node = first + child;
+    }
+    return node;
+  }
+
+  bool is_leaf(Node node) const { return nodes_[node].first_child == 0; }
+  Node first_child(Node node) const { return nodes_[node].first_child; }
+  Node parent(Node node) const { return nodes_[node].parent; }  ///< `none` for the root
+  int level(Node node) const { return places_[node].level; }    ///< 0 for the root
+  const Place& place(Node node) const { return places_[node].at; }
+  const Point<D>& centre(Node node) const { return nodes_[node].centre; }
+  double side(Node node) const { return side_[static_cast<std::size_t>(level(node))]; }
+  Box box(Node node) const;
+
+  /// All nodes ever made have smaller numbers.
+  Node node_count() const { return static_cast<Node>(nodes_.size()); }
+  std::size_t leaf_count() const { return leaf_count_; }
+  std::vector<Node> leaves() const;  ///< in Morton order
+
+  /// False at the greatest depth, or where the doubles are too coarse to halve the box.
+  bool can_split(Node leaf) const;
+  /// Makes 2^D children, numbered one after the other; bit i of a child's rank says that it is the upper half on axis i.
+  /// @returns the first; `none`, and nothing is done, if the leaf cannot be split.
+  Node split(Node leaf);
+
+  /// Position of the low corner on the finest level, bits interleaved: different for all leaves of a tree, and a function
+  /// of the box alone, not of the order of splits.
+  std::uint64_t morton(Node node) const;
+  /// The place modulo `period` on every axis, as one number. Among leaves of one size equal colours are equal, or at
+  /// least `period` leaves apart on some axis: in a uniform tree the sets {L} + BUF^i(L) of leaves of equal
+  /// colour are disjoint for period 2i + 1.
+  std::uint64_t colour(Node node, std::uint32_t period = 3) const;
+
+  /// Leaves that share a face (a piece of positive area) with `leaf`; side 0 = below on that axis, 1 = above.
+  /// Empty at the root's border.
+  std::vector<Node> face_neighbours(Node leaf, int axis, int side) const;
+  void append_face_neighbours(Node leaf, int axis, int side, std::vector<Node>& out) const;
+
+  /// BUF(leaf), sorted: its face neighbours, their face neighbours along the axes not used yet, and so on, for every
+  /// order of the axes. Holds every leaf that touches `leaf`. The leaf itself is not in it. (No chain that uses each
+  /// axis at most once comes back to it, in any grading.) Symmetric: a in BUF(b) if and only if b in BUF(a). A split
+  /// changes BUF(L) only if the leaf that split was in it.
+  std::vector<Node> buffer(Node leaf) const;
+  /// BUF^order(leaf), sorted: BUF^i = BUF^(i-1) and the BUF of all its leaves. By that definition the leaf itself would be in it from
+  /// BUF^2 on; here it is left out for every order. Order 0 is empty.
+  std::vector<Node> buffer(Node leaf, std::uint32_t order) const;
+
+  /// The double at a position of the finest grid, 0 .. 2^max_level from the root's low border to its high one.
+  double border(int axis, std::uint64_t position) const { return low_[axis] + static_cast<double>(position) * unit_; }
+  /// Positions of a node's low border and of its extent on the finest grid.
+  std::uint64_t position(Node node, int axis) const {
+    return std::uint64_t{place(node)[static_cast<std::size_t>(axis)]} << (max_level - level(node));
+  }
+  std::uint64_t extent(Node node) const { return std::uint64_t{1} << (max_level - level(node)); }
+
+ private:
+  struct Descent {  // all that leaf_at reads
+    Point<D> centre;
+    Node first_child = 0;  // 0 = leaf: the root is nobody's child
+    Node parent = none;
+  };
+  struct Position {
+    Place at{};
+    std::uint8_t level = 0;
+  };
+
+  Node append(Node parent, const Place& at, int level);
+  Node node_at(const Place& at, int level) const;
+  void append_face(Node node, int axis, unsigned bit, std::vector<Node>& out) const;
+
+  std::vector<Descent> nodes_;
+  std::vector<Position> places_;
+  std::array<double, max_level + 1> side_{};
+  Point<D> low_;
+  double unit_ = 0;
+  std::size_t leaf_count_ = 0;
+};
+
+extern template class Orthtree<2>;
+extern template class Orthtree<3>;
+
+}  // namespace pgdr

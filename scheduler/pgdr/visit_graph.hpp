@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which visits of a generation wait for which, and three ways to run them: one after the other, as nodes of a oneTBB flow
+// graph, and on plain threads (so that a thread sanitizer sees our code without the reports of TBB's own). The graph
+// only wires: a visit is a number, its body one call.
+//
+//      visit 0 ----> visit 2 ----> visit 4        an edge u -> v, always u < v: v starts when u has ended
+//              \--> visit 3 --/
+//      visit 1 ----/
+//
+// Every executor runs `body(v)` once for each visit v, after the bodies of all its predecessors; what a body wrote is
+// visible to the bodies that depend on it. Bodies may run at once on any thread, and take their workspaces themselves.
+// If a body throws, no further visit starts, those that run end, and then the exception comes out as it is; if several
+// threw, the one of the lowest visit number among them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace pgdr {
+
+/// Visits 0, 1, 2, ... in their total order. Threads: const members from any thread.
+class VisitGraph {
+ public:
+  using Visit = std::uint32_t;
+
+  /// Adds the next visit, which waits for `predecessors`: earlier visits, each named once. @returns its number
+  Visit add_visit(std::span<const Visit> predecessors = {});
+
+  Visit visits() const { return static_cast<Visit>(first_.size() - 1); }
+  std::size_t edges() const { return predecessors_.size(); }
+  std::span<const Visit> predecessors(Visit v) const {
+    return std::span(predecessors_).subspan(first_[v], first_[v + 1] - first_[v]);
+  }
+
+ private:
+  std::vector<std::size_t> first_{0};
+  std::vector<Visit> predecessors_;
+};
+
+struct VisitRun {
+  std::uint32_t visits_planned = 0;
+  std::uint32_t visits_run = 0;
+  std::uint32_t max_concurrent = 0;  ///< most bodies that ran at one time
+  /// False if somebody cancelled the task group in which the caller runs: the rest was not run, and nothing was thrown.
+  bool complete() const { return visits_run == visits_planned; }
+};
+
+using VisitBody = std::function<void(VisitGraph::Visit)>;
+
+/// In the order of the numbers, on the calling thread.
+VisitRun run_serial(const VisitGraph& graph, const VisitBody& body);
+
+/// In the caller's task arena. Parallel work inside a body never starts another visit on top of it.
+VisitRun run_flow_graph(const VisitGraph& graph, const VisitBody& body);
+
+/// On `threads` threads of its own (at least one); lower numbers first among those that are free to run.
+VisitRun run_threads(const VisitGraph& graph, const VisitBody& body, unsigned threads);
+
+/// The longest chain of visits, where visit v takes `seconds[v]`.
+double critical_path(const VisitGraph& graph, std::span<const double> seconds);
+
+}  // namespace pgdr
