@@ -30,14 +30,18 @@ class VisitLog {
       body(v);
       run_.fetch_add(1, std::memory_order_relaxed);
     } catch (...) {
-      std::lock_guard lock(mutex_);
-      if (!exception_ || v < thrower_) {
-        exception_ = std::current_exception();
-        thrower_ = v;
-      }
-      stopped_.store(true, std::memory_order_relaxed);
+      fail(v);
     }
     running_.fetch_sub(1, std::memory_order_relaxed);
+  }
+  /// Within a handler: keeps the exception of visit v, and stops.
+  void fail(VisitGraph::Visit v) noexcept {
+    std::lock_guard lock(mutex_);
+    if (!exception_ || v < thrower_) {
+      exception_ = std::current_exception();
+      thrower_ = v;
+    }
+    stopped_.store(true, std::memory_order_relaxed);
   }
   bool stopped() const noexcept { return stopped_.load(std::memory_order_relaxed); }
 
