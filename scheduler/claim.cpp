@@ -78,8 +78,8 @@ void Claim<D>::make_table() {
 // leaves that touch B and reach beyond that side. The larger box is covered by these leaves: take a point q of it, the
 // point q' of B nearest to q, and the leaf K that holds the points just after q' on the way to q. K touches B, and on
 // every axis where q lies beyond B it reaches beyond B, so at least as far as the box was grown. A leaf that touches
-// the larger box touches, at a common point, one of those that cover it, and so is that leaf or in its BUF. So BUF, which holds
-// every leaf that touches L, allows one such step from L's own box, and BUF^i allows i.
+// the larger box touches, at a common point, one of those that cover it, and so is that leaf or in its BUF. So BUF, which
+// holds every leaf that touches L, allows one such step from L's own box, and BUF^i allows i.
 template <int D>
 void Claim<D>::grow_inner(std::uint32_t order) {
   GridBox<D> box = grid_box(*tree_, leaf_);

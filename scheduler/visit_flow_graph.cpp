@@ -8,8 +8,8 @@
 //
 // start[v] is a continue_node that counts the predecessors of v as they end, and then hands the visit to a task group;
 // end[v] tells those that wait for v. The graph's own tasks and wait cannot be used: wait_for_all goes through
-// task_arena::execute, which drops the isolation of the thread that waits (oneTBB 2021.8), so that it would start tasks of the
-// caller, or visits of an outer graph, on top of what the caller is doing. A task group keeps the isolation.
+// task_arena::execute, which drops the isolation of the thread that waits (oneTBB 2021.8), so that it would start tasks
+// of the caller, or visits of an outer graph, on top of what the caller is doing. A task group keeps the isolation.
 #include <tbb/flow_graph.h>
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>

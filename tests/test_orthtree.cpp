@@ -315,8 +315,8 @@ TYPED_TEST(OrthtreeTest, ClaimsHoldWhatTheySay) {
   constexpr int D = TypeParam::value;
   std::mt19937_64 random(seed + 7);
   std::size_t grown = 0, infinite = 0;
-  for (int trial = 0; trial < 8; ++trial) {
-    const Orthtree<D> tree = trees::graded<D>(random, D == 2 ? 60 : 30);
+  for (int trial = 0; trial < 5; ++trial) {
+    const Orthtree<D> tree = trees::graded<D>(random, D == 2 ? 60 : 20);
     const trees::Boxes<D> boxes(tree);
     const auto root = tree.box(0);
     for (const auto leaf : boxes.leaves)

@@ -145,7 +145,8 @@ TEST(VisitGraphTest, EveryVisitOnceAfterItsPredecessors) {
   for (const auto& executor : executors())
     for (std::uint64_t round = 0; round < 4; ++round) {
       SCOPED_TRACE(executor.name);
-      const VisitGraph graph = random_graph(3000, 1 + 3 * static_cast<std::uint32_t>(round), round == 0 ? 3000 : 60, seed + round);
+      const auto most = 1 + 3 * static_cast<std::uint32_t>(round);
+      const VisitGraph graph = random_graph(3000, most, round == 0 ? 3000 : 60, seed + round);
       Recorder expected(graph), recorder(graph);
       run_serial(graph, std::ref(expected));
       const VisitRun run = executor.run(graph, std::ref(recorder));

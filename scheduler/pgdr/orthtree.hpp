@@ -93,8 +93,8 @@ class Orthtree {
   /// axis at most once comes back to it, in any grading.) Symmetric: a in BUF(b) if and only if b in BUF(a). A split
   /// changes BUF(L) only if the leaf that split was in it.
   std::vector<Node> buffer(Node leaf) const;
-  /// BUF^order(leaf), sorted: BUF^i = BUF^(i-1) and the BUF of all its leaves. By that definition the leaf itself would be in it from
-  /// BUF^2 on; here it is left out for every order. Order 0 is empty.
+  /// BUF^order(leaf), sorted: BUF^i = BUF^(i-1) and the BUF of all its leaves. By that definition the leaf itself would be
+  /// in it from BUF^2 on; here it is left out for every order. Order 0 is empty.
   std::vector<Node> buffer(Node leaf, std::uint32_t order) const;
 
   /// The double at a position of the finest grid, 0 .. 2^max_level from the root's low border to its high one.
