@@ -20,14 +20,14 @@ template <int D>
 Mesh<D>::Mesh()
     : cells_(capacity),
       tags_(capacity),
-      regions_(capacity),
+      labels_(capacity),
       vertices_(capacity),
       constraints_(capacity),
       cell_source_("cells", capacity,
                    [this](std::uint32_t n) {
                      cells_.grow_to(n);
                      tags_.grow_to(n);
-                     regions_.grow_to(n);
+                     labels_.grow_to(n);
                      // Slots of a block that are never taken must read as dead.
                      for (std::uint32_t i = n - IdSource::block; i < n; ++i) cells_[i].vertices[0] = no_vertex;
                    }),

@@ -50,20 +50,31 @@ void Generations<D>::list_everything() {
   check_in(std::move(worker));
 }
 
-/// A violation left standing may have moved off the walls, where insertions do not look for it.
+/// A violation left standing may have moved off the walls, where insertions do not look for it. The slots of cells depend
+/// on timing, so the faces are put in the order of their cells' vertices.
 template <int D>
 void Generations<D>::list_violations_everywhere() {
   Worker worker = check_out();
+  WorkList<D> found;
   RegionVisit<D> listing;
+  listing.list = &found;
   worker.refiner->begin(listing);
   const Mesh<D>& mesh = context_.mesh;
-  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i) {
-    const CellId c{i};
-    if (!mesh.alive(c)) continue;
-    listing.list = &works_[tree_.leaf_at(mesh.cell(c).center)].list;
-    worker.refiner->list_violations(c);
-  }
+  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i)
+    if (mesh.alive(CellId{i})) worker.refiner->list_violations(CellId{i});
   check_in(std::move(worker));
+  std::vector<Entry<D>> faces;
+  found.drain([&](const Entry<D>& e) { faces.push_back(e); });
+  std::sort(faces.begin(), faces.end(), [&mesh](const Entry<D>& a, const Entry<D>& b) {
+    for (int i = 0; i <= D; ++i)
+      if (a.vertices[i] != b.vertices[i]) return lex_less<D>(mesh.point(a.vertices[i]), mesh.point(b.vertices[i]));
+    return a.which < b.which;
+  });
+  for (const Entry<D>& e : faces) {
+    LeafWork<D>& work = works_[tree_.leaf_at(mesh.cell(e.cell).center)];
+    if (!work.has_list()) work.since = generation_;
+    work.list.push(e);
+  }
 }
 
 /// All that was refused, once more.
@@ -73,7 +84,7 @@ bool Generations<D>::relist_refused() {
   for (Node n = 0; n <= tree_.node_count(); ++n) {
     auto& list = n == tree_.node_count() ? whole_list_ : works_[n].list;
     for (Refusal<D>& r : std::exchange(list.refused, {})) {
-      if (!mesh.holds(r.entry.cell, r.entry.vertices)) continue;
+      if (!r.entry.alive(mesh)) continue;
       LeafWork<D>& work = works_[tree_.leaf_at(mesh.cell(r.entry.cell).center)];
       if (!work.has_list()) work.since = generation_;
       work.list.push(r.entry);

@@ -8,8 +8,9 @@ template <int D>
 void LeafWorks<D>::hand_down(const Mesh<D>& mesh, Node parent, std::uint64_t generation) {
   LeafWork<D>& from = *works_[parent];
   auto pass_on = [&](const Entry<D>& e) {
-    if (!mesh.holds(e.cell, e.vertices)) return;
-    LeafWork<D>& to = *works_[tree_->leaf_at(mesh.cell(e.cell).center)];
+    if (!e.alive(mesh)) return;
+    // To a child of this parent, though an entity that was set aside may be on a cell with its centre elsewhere.
+    LeafWork<D>& to = *works_[tree_->child_at(parent, mesh.cell(e.cell).center)];
     to.list.push(e);
     to.since = generation;
   };

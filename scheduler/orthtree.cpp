@@ -15,7 +15,7 @@ namespace {
 // Shares of the free room that lie below the box: off the middle, so that the centres differ, and with long binary
 // expansions, different on every axis, so that planes of a symmetric model are not borders of large leaves.
 constexpr double share_below[3] = {0.4103179, 0.3819660, 0.4371523};
-// The root's corner is a multiple of side * 2^-corner_bits: borders are then exact doubles to great depth.
+// The root's corner is a multiple of 2^-corner_bits of its side or less: borders are then exact doubles to great depth.
 constexpr int corner_bits = 24;
 constexpr double smallest_margin = 1.0 / 16;
 // Beyond this the numbers above, or those of the finest level, leave the range of double.
@@ -35,12 +35,13 @@ Orthtree<D>::Orthtree(const Point<D>& low, const Point<D>& high) {
     throw InputError({Errc::not_finite, "the bounding box of the input is not finite, or too large", {}, 0, {}, {}});
   if (longest == 0) longest = largest == 0 ? 1.0 : largest;
 
-  int exponent = std::max(std::ilogb(longest) + 1, -max_exponent + max_level);
-  if (std::ldexp(1.0, exponent) < longest * (1 + smallest_margin)) ++exponent;
+  // Sixteen to thirty-two sixteenths of a power of two: five bits, so that multiples of the unit are exact.
+  const int exponent = std::max(std::ilogb(longest), -max_exponent + max_level);
+  const double step = std::ldexp(1.0, exponent - 4);
+  double side = std::max(std::ceil(longest * (1 + smallest_margin) / step), 16.0) * step;
   bool larger = false;
-  for (; !larger; ++exponent) {  // again only where the box is some ulps of its coordinates wide
-    const double side = std::ldexp(1.0, exponent);
-    const double grid = std::ldexp(side, -corner_bits);
+  for (; !larger; side *= 2) {  // again only where the box is some ulps of its coordinates wide
+    const double grid = std::ldexp(1.0, std::ilogb(side) - corner_bits);
     larger = true;
     for (int i = 0; i < D; ++i) {
       const double corner = low[i] - share_below[i] * (side - (high[i] - low[i]));

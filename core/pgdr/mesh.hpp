@@ -94,13 +94,14 @@ class Mesh {
   const CellRecord<D>& cell(CellId c) const { return cells_[index(c)]; }
 
   bool alive(CellId c) const { return cell(c).vertices[0] != no_vertex; }
-  /// Does the slot hold a cell with these vertices, in this order? From any thread that owns their positions: the slot may
-  /// be in use by another meanwhile, so that ids are loaded and stored as relaxed atomics (plain moves on x86).
-  bool holds(CellId c, const std::array<VertexId, D + 1>& vertices) const {
+  /// Does the slot still hold the cell with these vertices that was born there? From any thread that owns their positions:
+  /// the slot may be in use by another meanwhile, so that ids are loaded and stored as relaxed atomics (plain moves on
+  /// x86); if they agree the cell is the caller's. A flip may bring a cell back, in whatever slot: it is another one.
+  bool holds(CellId c, const std::array<VertexId, D + 1>& vertices, std::uint16_t born) const {
     auto& slot = const_cast<std::array<VertexId, D + 1>&>(cell(c).vertices);
     for (int i = 0; i <= D; ++i)
       if (std::atomic_ref(slot[i]).load(std::memory_order_relaxed) != vertices[i]) return false;
-    return true;
+    return birth(c) == born;
   }
   void set_vertices(CellId c, const std::array<VertexId, D + 1>& vertices) {
     auto& slot = cell(c).vertices;
@@ -132,8 +133,10 @@ class Mesh {
     const auto* k = constraints(c);
     return k && (k->faces >> face & 1);
   }
-  std::uint16_t region(CellId c) const { return regions_[index(c)]; }
-  void set_region(CellId c, std::uint16_t r) { regions_[index(c)] = r; }
+  std::uint16_t region(CellId c) const { return labels_[index(c)].region; }
+  void set_region(CellId c, std::uint16_t r) { labels_[index(c)].region = r; }
+  /// Counts the cells that the slot has held, modulo 2^16.
+  std::uint16_t birth(CellId c) const { return labels_[index(c)].birth; }
 
   /// Stores the circumsphere as the filter of `conflicts`. Ghosts: `set_ghost_sphere`.
   void set_sphere(CellId c, const Circumsphere<D>& sphere);
@@ -172,6 +175,7 @@ class Mesh {
   CellId new_cell(Pools& pools) {
     const std::uint32_t id = pools.cells.take();
     tags_[id] = 0;
+    ++labels_[id].birth;
     return CellId{id};
   }
   void free_cell(Pools& pools, CellId c);
@@ -189,7 +193,10 @@ class Mesh {
 
   ChunkedArray<CellRecord<D>, 14> cells_;
   ChunkedArray<std::uint32_t, 14> tags_;
-  ChunkedArray<std::uint16_t, 14> regions_;
+  struct Label {
+    std::uint16_t region = 0, birth = 0;
+  };
+  ChunkedArray<Label, 14> labels_;
   ChunkedArray<VertexRecord<D>, 14> vertices_;
   ChunkedArray<ConstraintRecord<D>, 12> constraints_;
   IdSource cell_source_, vertex_source_, constraint_source_;

@@ -112,9 +112,11 @@ class Refiner {
 
   // refiner.cpp: the lists
   Item make_entry(CellId c, EntryKind kind, int which) const {
-    return {c, mesh_->cell(c).vertices, kind, static_cast<std::uint8_t>(which), 0};
+    Item e{c, mesh_->cell(c).vertices, kind, 0, 0, mesh_->birth(c)};
+    e.which = static_cast<std::uint8_t>(which) & 15;
+    return e;
   }
-  bool alive(const Item& e) const { return mesh_->holds(e.cell, e.vertices); }
+  bool alive(const Item& e) const { return e.alive(*mesh_); }
   void list_poor(CellId c, std::uint8_t why);
   void list_entities(CellId c, const ConstraintRecord<D>& k);
   void treat_entities();

@@ -17,17 +17,21 @@ namespace pgdr {
 enum class EntryKind : std::uint8_t { edge, face, flip, cell };
 
 /// An entity or element as the D+1 vertices of its cell and which of its edges or faces. The entry is dead when the
-/// slot `cell` no longer holds these vertices: whatever took its place has been listed anew.
+/// slot `cell` no longer holds that cell: whatever took its place has been listed anew.
 template <int D>
 struct Entry {
   static constexpr std::uint8_t over_bound = 0, not_delaunay = 1;  ///< `which` of kind cell: why it is listed
 
   CellId cell;
   std::array<VertexId, D + 1> vertices;
-  EntryKind kind;
-  std::uint8_t which;
+  EntryKind kind : 4;
+  std::uint8_t which : 4;
   std::uint8_t bucket;  ///< kind cell: floor(log2(side of the domain / circumradius)), clamped
+  std::uint16_t birth;  ///< of the cell
+
+  bool alive(const Mesh<D>& mesh) const { return mesh.holds(cell, vertices, birth); }
 };
+static_assert(sizeof(Entry<3>) == 24);
 
 /// First in, first out; storage that was read is given up once it is the larger half.
 template <class T>

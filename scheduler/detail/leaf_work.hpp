@@ -48,7 +48,7 @@ class LeafWorks {
     while (works_.size() < tree_->node_count()) works_.push_back(std::make_unique<LeafWork<D>>());
   }
   /// Hands all that waits at a node that was split to its children, by the circumcentres of the cells. What was set aside
-  /// starts again as ordinary. The entries of different parents may be handed down at once.
+  /// starts again as ordinary. Threads: different parents at once.
   void hand_down(const Mesh<D>& mesh, Node parent, std::uint64_t generation);
 
  private:

@@ -39,20 +39,22 @@ class Orthtree {
     friend bool operator==(const Box&, const Box&) = default;
   };
 
-  /// A tree of one leaf over the bounding box [low, high] of the points: a cube whose side is a power of two, larger than
-  /// the box on all sides, placed so that neither the box's faces nor the dyadic fractions of it are borders of leaves.
+  /// A tree of one leaf over the bounding box [low, high] of the points: a cube whose side has few bits, 1/16 to 1/8 larger than
+  /// the box and beyond it on all sides, placed so that neither the box's faces nor the dyadic fractions of it are borders of leaves.
   /// Scaling the box by a power of two scales the tree exactly. @throws InputError not_finite (also: too large)
   Orthtree(const Point<D>& low, const Point<D>& high);
 
   /// The leaf that holds the point; of a point outside the root, the leaf nearest to it; of a NaN, some leaf.
   Node leaf_at(const Point<D>& p) const {
     Node node = root;
-    while (const Node first = nodes_[node].first_child) {
-      unsigned child = 0;
-      for (int i = 0; i < D; ++i) child |= static_cast<unsigned>(p[i] >= nodes_[node].centre[i]) << i;
-      node = first + child;
-    }
+    while (!is_leaf(node)) node = child_at(node, p);
     return node;
+  }
+  /// The child of a node that is no leaf in whose half of it p lies on every axis; p may lie outside the node.
+  Node child_at(Node node, const Point<D>& p) const {
+    unsigned child = 0;
+    for (int i = 0; i < D; ++i) child |= static_cast<unsigned>(p[i] >= nodes_[node].centre[i]) << i;
+    return nodes_[node].first_child + child;
   }
 
   bool is_leaf(Node node) const { return nodes_[node].first_child == 0; }
