@@ -110,7 +110,7 @@ void Diagnoser<D>::note_segment_angles(std::uint32_t v) {
   };
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = i + 1; j < n; ++j) {
-      const auto [a, b] = std::minmax(far_end(here[i]), far_end(here[j]));
+      const auto [a, b] = std::minmax({far_end(here[i]), far_end(here[j])});
       if (angle_below_60<D>(p_[v], p_[a], p_[b]))
         below_60_.add({sine2(direction<D>(p_[v], p_[a]), direction<D>(p_[v], p_[b])), {v, a, b, 0}});
     }
