@@ -49,6 +49,25 @@ std::uint64_t place(const Box<D>& box, const Box<D>& all) {
 
 template <int D>
 BoxTree<D>::BoxTree(std::span<const Box<D>> boxes) {
+  build(boxes);
+}
+
+template <int D>
+BoxTree<D>::BoxTree(std::span<const Corners> corners, std::span<const Point<D>> points) {
+  std::vector<Box<D>> boxes;
+  boxes.reserve(corners.size());
+  for (const Corners& simplex : corners) {
+    Box<D> box = empty_box<D>();
+    for (const std::uint32_t v : simplex)
+      if (v != no_corner) enclose(box, Box<D>::around(points[v]));
+    boxes.push_back(box);
+  }
+  build(boxes);
+  find_anchors(corners, points);
+}
+
+template <int D>
+void BoxTree<D>::build(std::span<const Box<D>> boxes) {
   Box<D> all = empty_box<D>();
   for (const Box<D>& b : boxes) enclose(all, b);
   std::vector<std::pair<std::uint64_t, std::uint32_t>> order(boxes.size());
@@ -64,6 +83,52 @@ BoxTree<D>::BoxTree(std::span<const Box<D>> boxes) {
   for (std::uint32_t node = leaves_; node-- > 1;) {
     enclose(nodes_[node], nodes_[2 * node]);
     enclose(nodes_[node], nodes_[2 * node + 1]);
+  }
+}
+
+// From the leaves up: which corners all simplices of a node share; where that is one alone, the box opposite it. A fan
+// of k simplices has k log k of them below its nodes.
+template <int D>
+void BoxTree<D>::find_anchors(std::span<const Corners> corners, std::span<const Point<D>> points) {
+  constexpr Corners none{no_corner, no_corner, no_corner};
+  std::vector<Corners> common(nodes_.size(), none);
+  std::vector<bool> any(nodes_.size(), false);  // holds something
+  const auto keep_common = [](Corners& mine, const Corners& other) {
+    for (std::uint32_t& v : mine)
+      if (std::find(other.begin(), other.end(), v) == other.end()) v = no_corner;
+  };
+  for (std::uint32_t node = 2 * leaves_; node-- > 1;) {
+    const auto take = [&](const Corners& c) {
+      if (any[node]) keep_common(common[node], c);
+      else common[node] = c;
+      any[node] = true;
+    };
+    if (is_leaf(node)) {
+      for (const Item& item : items_of(node)) take(corners[item.index]);
+    } else {
+      for (const std::uint32_t child : {2 * node, 2 * node + 1})
+        if (any[child]) take(common[child]);
+    }
+  }
+  anchors_.resize(nodes_.size());
+  const auto items_below = [&](std::uint32_t node) {
+    std::uint32_t first = node, last = node;
+    while (!is_leaf(first)) {
+      first = 2 * first;
+      last = 2 * last + 1;
+    }
+    const auto begin = items_of(first), end = items_of(last);
+    return std::span(begin.data(), end.data() + end.size());
+  };
+  for (std::uint32_t node = 1; node < nodes_.size(); ++node) {
+    const Corners& c = common[node];
+    if ((c[0] != no_corner) + (c[1] != no_corner) + (c[2] != no_corner) != 1) continue;
+    Anchor& anchor = anchors_[node];
+    anchor.corner = std::min({c[0], c[1], c[2]});
+    anchor.opposite = empty_box<D>();
+    for (const Item& item : items_below(node))
+      for (const std::uint32_t v : corners[item.index])
+        if (v != no_corner && v != anchor.corner) enclose(anchor.opposite, Box<D>::around(points[v]));
   }
 }
 

@@ -32,14 +32,10 @@ void Diagnoser<D>::collect_pieces() {
 
 template <int D>
 void Diagnoser<D>::find_meetings() {
-  std::vector<Box<D>> boxes;
-  boxes.reserve(pieces_.size());
-  for (const Piece& piece : pieces_) {
-    Box<D> box = Box<D>::around(p_[piece.corners[0]]);
-    for (std::size_t i = 1; i < piece.count; ++i) box.add(p_[piece.corners[i]]);
-    boxes.push_back(box);
-  }
-  BoxTree<D>(boxes).self_pairs([this](std::uint32_t i, std::uint32_t j) { note(i, j); });
+  std::vector<std::array<std::uint32_t, 3>> corners;
+  corners.reserve(pieces_.size());
+  for (const Piece& piece : pieces_) corners.push_back(piece.corners);
+  BoxTree<D>(corners, p_).self_pairs([this](std::uint32_t i, std::uint32_t j) { note(i, j); });
   report_meetings(facet_facet_, 3, 3);
   report_meetings(segment_facet_, 2, 3);
   report_meetings(segment_segment_, 2, 2);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "detail/box_tree.hpp"
@@ -62,6 +63,53 @@ void compare_many() {
 
 TEST(BoxTree, AllPairs2) { compare_many<2>(); }
 TEST(BoxTree, AllPairs3) { compare_many<3>(); }
+
+// Pairs of simplices without a common corner are all there; a fan of many has few pairs.
+TEST(BoxTree, Simplices) {
+  std::mt19937_64 random(3);
+  for (const std::uint32_t n : {1u, 10u, 100u, 1000u}) {
+    std::vector<Point3> points;
+    for (std::uint32_t k = 0; k < n + 3; ++k)
+      points.push_back({static_cast<double>(random() % 9), static_cast<double>(random() % 9), 0.125 * static_cast<double>(random() % 9)});
+    std::vector<std::array<std::uint32_t, 3>> corners;
+    for (std::uint32_t k = 0; k < n; ++k) {
+      const auto a = static_cast<std::uint32_t>(random() % 3), b = static_cast<std::uint32_t>(3 + random() % n);
+      corners.push_back({a, b == k + 3 ? no_corner : k + 3, b});
+      if (corners.back()[1] == no_corner) std::swap(corners.back()[1], corners.back()[2]);
+    }
+    Pairs found, expected;
+    BoxTree<3>(corners, points).self_pairs([&](std::uint32_t i, std::uint32_t j) { found.emplace_back(i, j); });
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(std::adjacent_find(found.begin(), found.end()), found.end());
+    const auto box = [&](std::uint32_t i) {
+      Box<3> b = Box<3>::around(points[corners[i][0]]);
+      for (const std::uint32_t v : corners[i])
+        if (v != no_corner) b.add(points[v]);
+      return b;
+    };
+    const auto share = [&](std::uint32_t i, std::uint32_t j) {
+      return std::any_of(corners[i].begin(), corners[i].end(), [&](std::uint32_t v) {
+        return v != no_corner && std::find(corners[j].begin(), corners[j].end(), v) != corners[j].end();
+      });
+    };
+    for (std::uint32_t i = 0; i < n; ++i)
+      for (std::uint32_t j = i + 1; j < n; ++j)
+        if (!share(i, j) && box(i).meets(box(j))) {
+          EXPECT_TRUE(std::binary_search(found.begin(), found.end(), std::pair{i, j}));
+        }
+  }
+  const std::uint32_t n = 20000;  // a disc
+  std::vector<Point3> points{{0, 0, 0}};
+  std::vector<std::array<std::uint32_t, 3>> corners;
+  for (std::uint32_t k = 0; k < n; ++k) {
+    points.push_back({std::cos(2 * std::acos(-1) * k / n), std::sin(2 * std::acos(-1) * k / n), 0});
+    corners.push_back({0, 1 + k, 1 + (k + 1) % n});
+  }
+  std::size_t pairs = 0;
+  BoxTree<3>(corners, points).self_pairs([&](std::uint32_t, std::uint32_t) { ++pairs; });
+  EXPECT_GE(pairs, n);
+  EXPECT_LT(pairs, 40 * n);
+}
 
 TEST(BoxTree, OneOverlapsAll) {
   std::mt19937_64 random(2);

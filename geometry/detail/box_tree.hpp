@@ -5,6 +5,11 @@
 // without pointers (node 1 is the root, 2i and 2i + 1 are the children of i). Building takes n log n time, finding k
 // pairs about n log n + k for boxes as surfaces have them. Which pairs are found, and in which order, depends on the
 // boxes alone. Immutable once made; any number of threads may search it.
+//
+// Boxes of simplices that share a corner all meet there: k^2/2 pairs for a fan of k triangles. So the tree may be told
+// of the corners. Two simplices with a common corner v have more than v in common only if the side of one opposite v
+// meets the other (follow the ray from v through a common point until it leaves one of them). Where all of two nodes
+// share v, neither of these opposite sides need to meet the other node, or the pair of nodes is passed over.
 #pragma once
 
 #include <array>
@@ -35,13 +40,18 @@ struct Box {
   }
 };
 
+inline constexpr std::uint32_t no_corner = 0xffffffffu;
+
 template <int D>
 class BoxTree {
  public:
   /// @pre boxes are not empty, coordinates finite; at most 2^31 boxes.
   explicit BoxTree(std::span<const Box<D>> boxes);
+  /// The boxes of simplices, by their corners (as many of three as there are, then no_corner).
+  BoxTree(std::span<const std::array<std::uint32_t, 3>> corners, std::span<const Point<D>> points);
 
-  /// Calls visit(i, j), i < j, once for every pair of boxes that meet (common borders count).
+  /// Calls visit(i, j), i < j, once for every pair of boxes that meet (common borders count). Of simplices, pairs that
+  /// share a corner and meet nowhere else may be left out.
   template <class Visit>
   void self_pairs(Visit&& visit) const;
   /// Calls visit(i, j) once for every box i of this tree and box j of the other that meet.
@@ -54,7 +64,20 @@ class BoxTree {
     std::uint32_t index;
   };
   using NodePair = std::array<std::uint32_t, 2>;
+  using Corners = std::array<std::uint32_t, 3>;
+  /// Of a node all of whose simplices share this corner and no other: the box of their sides opposite it.
+  struct Anchor {
+    std::uint32_t corner = no_corner;
+    Box<D> opposite;
+  };
 
+  void build(std::span<const Box<D>> boxes);
+  void find_anchors(std::span<const Corners> corners, std::span<const Point<D>> points);
+  bool apart(std::uint32_t a, std::uint32_t b) const {
+    if (!nodes_[a].meets(nodes_[b])) return true;
+    if (anchors_.empty() || anchors_[a].corner == no_corner || anchors_[a].corner != anchors_[b].corner) return false;
+    return !anchors_[a].opposite.meets(nodes_[b]) && !anchors_[b].opposite.meets(nodes_[a]);
+  }
   bool is_leaf(std::uint32_t node) const { return node >= leaves_; }
   std::span<const Item> items_of(std::uint32_t leaf) const {
     const std::uint64_t n = items_.size(), k = leaf - leaves_;
@@ -65,6 +88,7 @@ class BoxTree {
   std::uint32_t leaves_ = 1;     // a power of two
   std::vector<Item> items_;      // along the curve
   std::vector<Box<D>> nodes_;    // 2 * leaves_, the first unused
+  std::vector<Anchor> anchors_;  // of nodes, for simplices
 };
 
 template <int D>
@@ -79,7 +103,7 @@ void BoxTree<D>::self_pairs(Visit&& visit) const {
   while (!stack.empty()) {
     const auto [a, b] = stack.back();
     stack.pop_back();
-    if (a != b && !nodes_[a].meets(nodes_[b])) continue;
+    if (a != b && apart(a, b)) continue;
     if (!is_leaf(a)) {
       if (a == b) stack.insert(stack.end(), {{2 * a, 2 * a}, {2 * a + 1, 2 * a + 1}, {2 * a, 2 * a + 1}});
       else stack.insert(stack.end(), {{2 * a, 2 * b}, {2 * a, 2 * b + 1}, {2 * a + 1, 2 * b}, {2 * a + 1, 2 * b + 1}});
