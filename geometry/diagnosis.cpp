@@ -51,8 +51,8 @@ std::string Diagnoser<D>::point_words(std::uint32_t v) const {
 template <int D>
 std::string Diagnoser<D>::segment_words(EntityId s) const {
   const DomainSegment& segment = domain_.segments()[s];
-  const std::string words = segment.input == no_entity ? "the edge " : "segment " + std::to_string(number(segment.input)) + " ";
-  return words + edge_words(segment.points);
+  if (segment.input == no_entity) return "the edge " + edge_words(segment.points);
+  return "segment " + std::to_string(number(segment.input)) + " " + edge_words(segment.points);
 }
 
 template <int D>

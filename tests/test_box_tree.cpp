@@ -69,8 +69,8 @@ TEST(BoxTree, Simplices) {
   std::mt19937_64 random(3);
   for (const std::uint32_t n : {1u, 10u, 100u, 1000u}) {
     std::vector<Point3> points;
-    for (std::uint32_t k = 0; k < n + 3; ++k)
-      points.push_back({static_cast<double>(random() % 9), static_cast<double>(random() % 9), 0.125 * static_cast<double>(random() % 9)});
+    const auto coordinate = [&] { return static_cast<double>(random() % 9); };
+    for (std::uint32_t k = 0; k < n + 3; ++k) points.push_back({coordinate(), coordinate(), 0.125 * coordinate()});
     std::vector<std::array<std::uint32_t, 3>> corners;
     for (std::uint32_t k = 0; k < n; ++k) {
       const auto a = static_cast<std::uint32_t>(random() % 3), b = static_cast<std::uint32_t>(3 + random() % n);

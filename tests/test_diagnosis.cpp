@@ -196,7 +196,7 @@ TEST(Diagnosis, NotManifold) {
 TEST(Diagnosis, Orientation) {
   Plc<3> plc = triangulated(box());
   EXPECT_EQ(diagnose(plc)[Finding::inconsistent_orientation].count, 4u);  // its bottom and top point up both
-  for (int k = 0; k < 2; ++k) std::swap(plc.facets[static_cast<std::size_t>(k)].polygons[0][1], plc.facets[static_cast<std::size_t>(k)].polygons[0][2]);
+  for (std::size_t k = 0; k < 2; ++k) std::swap(plc.facets[k].polygons[0][1], plc.facets[k].polygons[0][2]);
   EXPECT_EQ(diagnose(plc)[Finding::inconsistent_orientation].count, 0u);
   EXPECT_EQ(diagnose(turned(plc))[Finding::inconsistent_orientation].count, 0u);
   std::swap(plc.facets[5].polygons[0][0], plc.facets[5].polygons[0][1]);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnosis.hpp"
 
+#include <array>
 #include <cstdio>
 
 #include "command.hpp"
@@ -10,11 +11,31 @@
 namespace pgdr::tool {
 namespace {
 
-std::string words(Finding kind) {
-  std::string text(name(kind));
-  for (char& c : text)
-    if (c == '_') c = ' ';
-  return text;
+/// Of one, and of many.
+std::array<const char*, 2> words(Finding kind) {
+  switch (kind) {
+    case Finding::invalid_entity: return {"entity that cannot be", "entities that cannot be"};
+    case Finding::facets_cross: return {"pair of facets that intersect", "pairs of facets that intersect"};
+    case Finding::facets_overlap: return {"pair of facets that overlap", "pairs of facets that overlap"};
+    case Finding::segment_crosses_facet: return {"segment through a facet", "segments through facets"};
+    case Finding::segments_cross: return {"pair of segments that cross", "pairs of segments that cross"};
+    case Finding::point_on_facet: return {"point inside a facet", "points inside facets"};
+    case Finding::point_on_segment: return {"point inside an edge", "points inside edges"};
+    case Finding::encloses_nothing: return {"input without an inside", "inputs without an inside"};
+    case Finding::duplicate_point: return {"point given twice, merged", "points given twice, merged"};
+    case Finding::unreferenced_point: return {"point that belongs to nothing", "points that belong to nothing"};
+    case Finding::repeated_facet: return {"facet given twice, dropped", "facets given twice, dropped"};
+    case Finding::open_boundary: return {"open boundary", "open boundaries"};
+    case Finding::non_manifold_edge: return {"edge of more than two facets", "edges of more than two facets"};
+    case Finding::non_manifold_point: return {"point where surfaces touch", "points where surfaces touch"};
+    case Finding::inconsistent_orientation: return {"edge of ill-oriented facets", "edges of ill-oriented facets"};
+    case Finding::segments_below_60: return {"angle of segments below 60 degrees", "angles of segments below 60 degrees"};
+    case Finding::segment_facet_below_90:
+      return {"angle of segment and facet below 90 degrees", "angles of segments and facets below 90 degrees"};
+    case Finding::facets_below_90:
+      return {"dihedral angle of facets below 90 degrees", "dihedral angles of facets below 90 degrees"};
+  }
+  return {"", ""};
 }
 
 bool has_measure(Finding kind) { return kind == Finding::open_boundary || kind >= Finding::segments_below_60; }
@@ -42,8 +63,12 @@ void print_findings(const Diagnosis<D>& diagnosis) {
     const auto kind = static_cast<Finding>(k);
     const FindingList& found = diagnosis[kind];
     if (found.count == 0) continue;
-    print_row(is_error(kind) ? "error" : "found", words(kind) + ": " + count(found.count, "", ""));
-    if (!found.listed.empty()) print_row("", Error(found.listed[0].what).what());
+    const auto [one, many] = words(kind);
+    print_row(is_error(kind) ? "error" : "found", count(found.count, one, many));
+    if (found.listed.empty()) continue;
+    const Diagnostic& first = found.listed[0].what;
+    const std::string place = first.line == 0 ? "" : "line " + std::to_string(first.line) + ": ";
+    print_row("", (found.count == 1 ? "" : kind >= Finding::segments_below_60 ? "least: " : "first: ") + place + first.message);
   }
 }
 
