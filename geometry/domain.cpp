@@ -38,11 +38,15 @@ void RepairList::report(Errc code, const std::string& what, const std::string& f
 
 template <int D>
 void DomainBuilder<D>::run() {
+  out_.first_index_ = plc_.first_index;
+  out_.source_ = plc_.source;
   check_finite();
   check_indices();
+  if (refused_ != nullptr && !refused_->empty()) return;
   merge_points();
   check_segments();
-  check_spans_space();
+  attempt([this] { check_spans_space(); });
+  if (out_.points_.empty()) return;
   choose_scale();
   if constexpr (D == 3) {
     triangulate_facets();
@@ -106,6 +110,18 @@ void DomainBuilder<D>::report_repairs() {
 template <int D>
 Domain<D>::Domain(const Plc<D>& plc) {
   DomainBuilder<D>(plc, *this).run();
+}
+
+template <int D>
+Domain<D> Domain<D>::without_invalid(const Plc<D>& plc, std::vector<Diagnostic>& refused) {
+  Domain<D> domain;
+  DomainBuilder<D>(plc, domain, &refused).run();
+  return domain;
+}
+
+template <int D>
+std::span<const TriangleOrigin> Domain<D>::triangle_origins(EntityId f) const {
+  return std::span(triangle_origins_).subspan(facets_[f].first_triangle, facets_[f].triangle_count);
 }
 
 template <int D>

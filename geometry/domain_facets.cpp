@@ -47,7 +47,9 @@ template <int D>
 void DomainBuilder<D>::triangulate_facets() requires(D == 3) {
   facets_.reserve(plc_.facets.size());
   for (std::uint32_t f = 0; f < plc_.facets.size(); ++f)
-    if (!add_triangle(f)) add_polygons(f);
+    attempt([&] {
+      if (!add_triangle(f)) add_polygons(f);
+    });
 }
 
 template <int D>
@@ -105,7 +107,7 @@ bool DomainBuilder<D>::add_triangle(std::uint32_t f) requires(D == 3) {
     const Sign side = orient_projected(a, b, c, axis);
     if (side == Sign::zero) continue;
     if (side == Sign::negative) std::swap(t[1], t[2]);
-    facets_.push_back({f, static_cast<std::uint32_t>(triangles_.size()), 1, axis, true, 0});
+    facets_.push_back({f, static_cast<std::uint32_t>(triangles_.size()), 1, axis, true, 0, side == Sign::negative});
     triangles_.push_back(t);
     masks_.push_back(7);
     return true;
@@ -149,6 +151,17 @@ CleanFacet DomainBuilder<D>::clean(std::uint32_t f) requires(D == 3) {
   make_set(facet.vertices);
   make_set(facet.edges);
   return facet;
+}
+
+// Of the triangulation at hand: the first edge of the first polygon has its triangle on its left, or on its right.
+template <int D>
+bool DomainBuilder<D>::is_reversed(const CleanFacet& facet) const requires(D == 3) {
+  if (facet.loops.empty() || facet.loops[0].size() < 3) return false;
+  const std::uint32_t a = facet.loops[0][0], b = facet.loops[0][1];
+  for (const Triangle& t : planar_.triangles())
+    for (std::size_t i = 0; i < 3; ++i)
+      if (t[i] == b && t[(i + 1) % 3] == a) return true;
+  return false;
 }
 
 // Newell's normal of the polygon that has the largest.
@@ -201,6 +214,7 @@ void DomainBuilder<D>::add_polygons(std::uint32_t f) requires(D == 3) {
   masks_.insert(masks_.end(), masks.begin(), masks.end());
   out.count = static_cast<std::uint32_t>(triangles.size());
   measure_planarity(out, facet);
+  out.reversed = is_reversed(facet);
   for (const PlanarEdge& e : facet.edges) polygon_edges_.emplace_back(e, static_cast<std::uint32_t>(facets_.size()));
   facets_.push_back(out);
 }
@@ -228,7 +242,7 @@ void DomainBuilder<D>::constrain_explicit(const CleanFacet& facet) requires(D ==
   for (const std::uint32_t a : facet.vertices)
     for (std::uint32_t k = explicit_begin_[a]; k < explicit_begin_[a + 1]; ++k) {
       const std::uint32_t b = explicit_[explicit_at_[k]][1];
-      if (planar_.has_vertex(b) && !planar_.is_constraint(a, b)) planar_.constrain(a, b);
+      if (a != b && planar_.has_vertex(b) && !planar_.is_constraint(a, b)) planar_.constrain(a, b);
     }
 }
 

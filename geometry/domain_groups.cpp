@@ -89,7 +89,8 @@ void DomainBuilder<D>::collect_edges() {
                          (masks_[t] & (1u << i)) != 0 ? Kind::rim : Kind::diagonal});
   for (const auto& [e, f] : polygon_edges_) uses_.push_back({edge_key(e[0], e[1]), f, 0, Kind::polygon});
   for (std::uint32_t s = 0; s < explicit_.size(); ++s)
-    uses_.push_back({edge_key(explicit_[s][0], explicit_[s][1]), s, 0, Kind::explicit_segment});
+    if (explicit_[s][0] != explicit_[s][1])  // else it was refused
+      uses_.push_back({edge_key(explicit_[s][0], explicit_[s][1]), s, 0, Kind::explicit_segment});
   std::sort(uses_.begin(), uses_.end(), [](const EdgeUse& a, const EdgeUse& b) {
     return std::tuple{a.key, a.kind, a.owner, a.triangle} < std::tuple{b.key, b.kind, b.owner, b.triangle};
   });
@@ -150,14 +151,19 @@ void DomainBuilder<D>::orient_group(DomainFacet& facet) requires(D == 3) {
       largest = k;
       largest_size = s;
     }
+  TriangleOrigin* const origin = out_.triangle_origins_.data() + facet.first_triangle;
   std::swap(t[0], t[largest]);
+  std::swap(origin[0], origin[largest]);
   if (facet.planar)
     for (const int axis : detail::axes_by_size(normal(t[0]))) {
       facet.axis = axis;
       if (orient_projected(p[t[0][0]], p[t[0][1]], p[t[0][2]], axis) != Sign::zero) break;
     }
   for (std::uint32_t k = 0; k < facet.triangle_count; ++k)
-    if (orient_projected(p[t[k][0]], p[t[k][1]], p[t[k][2]], facet.axis) == Sign::negative) std::swap(t[k][1], t[k][2]);
+    if (orient_projected(p[t[k][0]], p[t[k][1]], p[t[k][2]], facet.axis) == Sign::negative) {
+      std::swap(t[k][1], t[k][2]);
+      origin[k].reversed = !origin[k].reversed;
+    }
 }
 
 // Facets in the order of their first input facet, with their triangles and points.
@@ -180,10 +186,13 @@ void DomainBuilder<D>::write_facets() requires(D == 3) {
     total += std::exchange(f.triangle_count, 0);
   }
   out_.triangles_.resize(total);
+  out_.triangle_origins_.resize(total);
   for (std::uint32_t f = 0; f < facets_.size(); ++f) {
     DomainFacet& group = out_.facets_[group_of_[f]];
     std::copy_n(triangles_.begin() + facets_[f].first, facets_[f].count,
                 out_.triangles_.begin() + group.first_triangle + group.triangle_count);
+    std::fill_n(out_.triangle_origins_.begin() + group.first_triangle + group.triangle_count, facets_[f].count,
+                TriangleOrigin{facets_[f].input, facets_[f].reversed});
     group.triangle_count += facets_[f].count;
   }
   std::vector<std::uint32_t> points;

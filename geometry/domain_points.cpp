@@ -43,18 +43,22 @@ template <int D>
 void DomainBuilder<D>::check_finite() const {
   const auto check = [&](const Point<D>& p, const std::string& what, const std::vector<std::uint32_t>& lines,
                          std::size_t i) {
-    if (!is_finite(p))
+    if (is_finite(p)) return;
+    attempt([&] {
       fail(Errc::not_finite, what + " " + std::to_string(number(i)) + " " + detail::to_text(p) + " is not finite",
            lines, i, {number(i)}, {detail::in_space(p)});
+    });
   };
   for (std::size_t i = 0; i < plc_.points.size(); ++i) check(plc_.points[i], "point", plc_.source.point_lines, i);
   for (std::size_t i = 0; i < plc_.holes.size(); ++i) check(plc_.holes[i], "hole", plc_.source.hole_lines, i);
   for (std::size_t i = 0; i < plc_.regions.size(); ++i) {
     const auto& r = plc_.regions[i];
     check(r.point, "region", plc_.source.region_lines, i);
-    if (std::isnan(r.attribute) || std::isnan(r.size))
+    if (!std::isnan(r.attribute) && !std::isnan(r.size)) continue;
+    attempt([&] {
       fail(Errc::not_finite, "region " + std::to_string(number(i)) + " has an attribute or a size that is no number",
            plc_.source.region_lines, i, {number(i)}, {detail::in_space(r.point)});
+    });
   }
   for (std::size_t f = 0; f < plc_.facets.size(); ++f)
     for (const Point<D>& p : plc_.facets[f].holes) check(p, "hole of facet", plc_.source.facet_lines, f);
@@ -71,9 +75,11 @@ void DomainBuilder<D>::check_indices() const {
     const std::string range = n == 0 ? "there are no points"
                                      : "the points are " + std::to_string(number(0)) + " to " +
                                            std::to_string(number(n - 1));
-    fail(Errc::index_out_of_range,
-         what + " " + std::to_string(number(i)) + " refers to point " + std::to_string(number(v)) + "; " + range, lines,
-         i, {number(i), number(v)}, {});
+    attempt([&] {
+      fail(Errc::index_out_of_range,
+           what + " " + std::to_string(number(i)) + " refers to point " + std::to_string(number(v)) + "; " + range,
+           lines, i, {number(i), number(v)}, {});
+    });
   };
   for (std::size_t s = 0; s < plc_.segments.size(); ++s)
     for (const std::uint32_t v : plc_.segments[s].points) check(v, "segment", plc_.source.segment_lines, s);
@@ -81,8 +87,10 @@ void DomainBuilder<D>::check_indices() const {
     for (const auto& polygon : plc_.facets[f].polygons)
       for (const std::uint32_t v : polygon) check(v, "facet", plc_.source.facet_lines, f);
   if (D == 2 && !plc_.facets.empty())
-    fail(Errc::degenerate_facet, "a planar straight line graph has no facets", plc_.source.facet_lines, 0, {number(0)},
-         {});
+    attempt([this] {
+      fail(Errc::degenerate_facet, "a planar straight line graph has no facets", plc_.source.facet_lines, 0,
+           {number(0)}, {});
+    });
 }
 
 template <int D>
@@ -125,13 +133,15 @@ void DomainBuilder<D>::check_segments() {
   for (std::size_t s = 0; s < plc_.segments.size(); ++s) {
     const auto [i, j] = plc_.segments[s].points;
     const std::uint32_t a = out_.point_of_input_[i], b = out_.point_of_input_[j];
-    if (a == b)
+    explicit_.push_back({a, b});
+    ++explicit_begin_[a + 1];
+    if (a != b) continue;
+    attempt([&] {
       fail(Errc::degenerate_segment,
            "segment " + std::to_string(number(s)) + ": its ends, points " + std::to_string(number(i)) + " and " +
                std::to_string(number(j)) + ", are both at " + detail::to_text(out_.points_[a]),
            plc_.source.segment_lines, s, {number(s), number(i), number(j)}, {detail::in_space(out_.points_[a])});
-    explicit_.push_back({a, b});
-    ++explicit_begin_[a + 1];
+    });
   }
   if constexpr (D == 3) {
     for (std::size_t v = 1; v < explicit_begin_.size(); ++v) explicit_begin_[v] += explicit_begin_[v - 1];

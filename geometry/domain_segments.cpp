@@ -32,6 +32,7 @@ void DomainBuilder<D>::write_segment(std::size_t begin, std::size_t end) {
     if (!segment.explicit_in_input) {
       segment.explicit_in_input = true;
       segment.marker = marker;
+      segment.input = use.owner;
       first = use.owner;
       continue;
     }

@@ -11,6 +11,7 @@
 #include "pgdr/cell_bounds.hpp"
 #include "pgdr/compact.hpp"
 #include "pgdr/delaunay.hpp"
+#include "pgdr/diagnosis.hpp"
 #include "pgdr/labeling.hpp"
 #include "detail/arena.hpp"
 #include "detail/generations.hpp"
@@ -52,6 +53,7 @@ template <int D>
 RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   validate(options);
   const auto start = Clock::now();
+  require_no_errors(domain);
   const PredicateCounts predicates_before = predicate_counts();
   RefineResult<D> result;
   result.repairs = domain.repairs();

@@ -7,6 +7,7 @@
 
 #include "command.hpp"
 #include "console.hpp"
+#include "diagnosis.hpp"
 #include "files.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/io.hpp"
@@ -83,6 +84,12 @@ int info_of_input(const InfoArguments& a, Report& report) {
                           count(plc.regions.size(), "region", "regions"));
   }
 
+  const Diagnosis<D> diagnosis = diagnose(plc);
+  set_findings(d, diagnosis);
+  report.set("diagnosis", d);
+  if (!a.quiet) print_findings(diagnosis);
+  if (diagnosis.error_count() > 0) return refuse(diagnosis, report);
+
   const Domain<D> domain(plc);
   const std::uint64_t open = count_open(domain);
   const double angle = smallest_angle(domain);
@@ -116,7 +123,7 @@ int info_of_input(const InfoArguments& a, Report& report) {
     print_row("angles", format("%.3f degrees is the smallest between segments, or facets at a segment", angle));
   }
 
-  // Boundary recovery alone decides the rest: entities that cross, seeds, whether anything is enclosed.
+  // Boundary recovery alone decides the rest: seeds, whether anything is enclosed.
   RefineOptions<D> options;
   options.refine = false;
   const RefineResult<D> result = refine(domain, options);

@@ -9,6 +9,7 @@
 #include "bounds.hpp"
 #include "command.hpp"
 #include "console.hpp"
+#include "diagnosis.hpp"
 #include "files.hpp"
 #include "pgdr/io.hpp"
 #include "signals.hpp"
@@ -125,10 +126,17 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
   seconds.read = reading.seconds();
 
   RefineResult<D> result;
-  {
+  try {
     ProgressLine line(!a.quiet);
     if (line.shown()) options.progress = [&line](const Progress& p) { line(p); };
     result = refine(plc, options);
+  } catch (const InputError&) {  // which names one culprit: find them all
+    const Diagnosis<D> diagnosis = diagnose(plc);
+    JsonObject findings;
+    set_findings(findings, diagnosis);
+    report.set("diagnosis", findings);
+    if (diagnosis.error_count() == 0) throw;
+    return refuse(diagnosis, report);
   }
   if (!a.quiet) print_warnings(result.warnings);
   const QualitySummary quality = summarize_quality(result.mesh);

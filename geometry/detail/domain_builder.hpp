@@ -65,6 +65,7 @@ struct TriangulatedFacet {
   int axis = 2;
   bool planar = true;
   double defect = 0;
+  bool reversed = false;  ///< its triangles run against its first polygon
 };
 
 /// An input facet by domain points.
@@ -89,7 +90,9 @@ struct EdgeUse {
 template <int D>
 class DomainBuilder {
  public:
-  DomainBuilder(const Plc<D>& plc, Domain<D>& domain) : plc_(plc), out_(domain) {}
+  /// `refused`: where to name what is invalid and go on without it; none: it is thrown.
+  DomainBuilder(const Plc<D>& plc, Domain<D>& domain, std::vector<Diagnostic>* refused = nullptr)
+      : plc_(plc), out_(domain), refused_(refused) {}
   void run();
 
  private:
@@ -102,6 +105,15 @@ class DomainBuilder {
   [[noreturn]] void fail(Errc code, const std::string& message, const std::vector<std::uint32_t>& lines,
                          std::size_t item, std::vector<std::int64_t> ids,
                          std::vector<std::array<double, 3>> where) const;
+  template <class Action>
+  void attempt(Action&& action) const {
+    if (refused_ == nullptr) return action();
+    try {
+      action();
+    } catch (const InputError& e) {
+      refused_->push_back(e.diagnostic());
+    }
+  }
   void warn(Errc code, const std::string& message, const std::vector<std::uint32_t>& lines, std::size_t item,
             std::vector<std::int64_t> ids);
   void report_repairs();
@@ -122,6 +134,7 @@ class DomainBuilder {
   void carve(std::uint32_t f) requires(D == 3);
   void constrain_explicit(const detail::CleanFacet& facet) requires(D == 3);
   void measure_planarity(detail::TriangulatedFacet& facet, const detail::CleanFacet& clean) requires(D == 3);
+  bool is_reversed(const detail::CleanFacet& facet) const requires(D == 3);
   std::array<double, 3> facet_normal(const detail::CleanFacet& facet) const requires(D == 3);
   [[noreturn]] void fail_facet(std::uint32_t f, const detail::PlanarResult& result) const requires(D == 3);
   [[noreturn]] void fail_degenerate(std::uint32_t f, const std::string& why,
@@ -145,6 +158,7 @@ class DomainBuilder {
 
   const Plc<D>& plc_;
   Domain<D>& out_;
+  std::vector<Diagnostic>* refused_;
   double scale_ = 1;                                             // 1 / the largest coordinate, a power of two
   std::vector<std::array<std::uint32_t, 2>> explicit_;           // domain points of Plc::segments
   std::vector<std::uint32_t> explicit_begin_, explicit_at_;      // explicit segments by their first domain point

@@ -31,6 +31,13 @@ struct DomainSegment {
   std::array<std::uint32_t, 2> points;  ///< indices into Domain::points, lexicographically smaller coordinates first
   int marker = 0;
   bool explicit_in_input = false;
+  std::uint32_t input = no_entity;  ///< index in Plc::segments of the first such segment; no_entity: not explicit
+};
+
+/// Where a triangle of a facet comes from.
+struct TriangleOrigin {
+  std::uint32_t facet;    ///< index in Plc::facets
+  bool reversed = false;  ///< its corners run against those of the facet's first polygon
 };
 
 struct DomainFacet {
@@ -57,6 +64,10 @@ class Domain {
   ///   enclosing nothing), self_crossing_facet (two polygon edges cross, or a vertex lies inside an edge),
   ///   seed_on_boundary (the hole of a facet lies on its polygons), no_volume.
   explicit Domain(const Plc<D>& plc);
+  /// The same without the entities that cannot be: each is left out, and named in `refused`, as the exception that the
+  /// constructor would have thrown. Empty if points are not finite or do not exist. For diagnosis only: if anything was
+  /// refused, what is said of Domains here need not hold.
+  static Domain without_invalid(const Plc<D>& plc, std::vector<Diagnostic>& refused);
 
   std::span<const Point<D>> points() const { return points_; }
   /// Domain point of each Plc point (exact duplicates share one). Distinct points keep the order of the input.
@@ -68,12 +79,17 @@ class Domain {
   std::span<const DomainFacet> facets() const { return facets_; }
   /// The triangles that define facet f, resp. its segments, resp. its points (inner points included).
   std::span<const std::array<std::uint32_t, 3>> triangles(EntityId f) const;
+  std::span<const TriangleOrigin> triangle_origins(EntityId f) const;
   std::span<const EntityId> facet_segments(EntityId f) const;
   std::span<const std::uint32_t> facet_points(EntityId f) const;
   /// Facets that have segment s among theirs, ascending.
   std::span<const EntityId> facets_of_segment(EntityId s) const;
   std::span<const Point<D>> holes() const { return holes_; }
   std::span<const RegionSeed<D>> regions() const { return regions_; }
+
+  /// As in the Plc: the number of its first point, and file and lines.
+  std::uint32_t first_index() const { return first_index_; }
+  const PlcSource& source() const { return source_; }
 
   /// Largest |coordinate| of the entity's points: the yardstick of "k ulps".
   double segment_magnitude(EntityId s) const;
@@ -85,18 +101,22 @@ class Domain {
  private:
   template <int>
   friend class DomainBuilder;
+  Domain() = default;
   std::vector<Point<D>> points_;
   std::vector<std::uint32_t> point_of_input_, input_of_point_;
   std::vector<int> point_markers_;
   std::vector<DomainSegment> segments_;
   std::vector<DomainFacet> facets_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
+  std::vector<TriangleOrigin> triangle_origins_;
   std::vector<EntityId> facet_segments_;
   std::vector<std::uint32_t> facet_points_;
   std::vector<std::uint32_t> facets_of_segment_begin_;
   std::vector<EntityId> facets_of_segment_;
   std::vector<Point<D>> holes_;
   std::vector<RegionSeed<D>> regions_;
+  std::uint32_t first_index_ = 0;
+  PlcSource source_;
   std::vector<Diagnostic> repairs_, warnings_;
 };
 

@@ -31,11 +31,22 @@ enum class Errc {
   degenerate_facet,
   self_crossing_facet,
   entities_intersect,  ///< two input entities meet where neither has a vertex or an edge in common
+  facets_overlap,      ///< two facets have an area of one plane in common
+  point_on_facet,      ///< a point lies inside a facet that it does not belong to
+  point_on_segment,    ///< a point lies inside a segment, or an edge of a facet
   encloses_nothing,
   seed_on_boundary,
   conflicting_seeds,
   no_volume,  ///< all points lie in one plane (3D) or on one line (2D)
   boundary_not_recovered,
+  // input: found, and taken as it is
+  duplicate_point,
+  unreferenced_point,
+  repeated_facet,
+  open_boundary,
+  non_manifold,
+  inconsistent_orientation,
+  small_angle,
   // files
   cannot_open,
   cannot_write,

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "pgdr/check.hpp"
+#include "pgdr/diagnosis.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/error.hpp"
 #include "pgdr/io.hpp"

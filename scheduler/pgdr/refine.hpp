@@ -61,8 +61,8 @@ struct RefineResult {
 };
 
 /// Meshes the input.
-/// @throws UsageError (bad option or size), InputError (see Domain; encloses_nothing, seeds), ResourceError. An
-///   exception of a callback comes out as it is.
+/// @throws UsageError (bad option or size), InputError (see Domain; the first error of its diagnosis, found
+///   before anything is meshed; seeds), ResourceError. An exception of a callback comes out as it is.
 template <int D>
 RefineResult<D> refine(const Plc<D>& plc, const RefineOptions<D>& options);
 /// The same for an input already prepared.

@@ -436,6 +436,50 @@ class Info(Case):
         self.assertNotEqual(self.json()["errors"], [])
 
 
+class Diagnosis(Case):
+    """Refused before any meshing, by the facets of the file; what is only reported is reported."""
+
+    TETRAHEDRON = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
+
+    def off(self, name, points, faces):
+        return self.file(name, f"OFF\n{len(points)} {len(faces)} 0\n" + "".join("%r %r %r\n" % p for p in points) +
+                         "".join("3 %d %d %d\n" % f for f in faces))
+
+    def two_tetrahedra(self, x):
+        points = [(0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4)]
+        points += [(x, 1, 1), (x + 0.25, 1, 1), (x, 1.25, 1), (x, 1, 1.25)]
+        return self.off("two.off", points, self.TETRAHEDRON + [tuple(v + 4 for v in f) for f in self.TETRAHEDRON])
+
+    def test_facets_that_cross_are_named(self):
+        path = self.two_tetrahedra(-0.125)  # the second one through the wall x = 0, facet 3
+        for command in (lambda: self.mesh(path, "--report", self.report, expect=3),
+                        lambda: self.pgdr("info", path, "--report", self.report, expect=3)):
+            done = command()
+            self.assert_only("report.json", "two.off")
+            r = self.json()
+            self.assertEqual([e["ids"] for e in r["errors"]], [[3, 4], [3, 5], [3, 6]])
+            for e in r["errors"]:
+                self.assertEqual((e["code"], e["line"], len(e["points"])), ("entities_intersect", 14, 2))
+                self.assertEqual([p[0] for p in e["points"]], [0, 0])
+            self.assertEqual(r["diagnosis"]["facets_cross"]["count"], 3)
+            self.assertIn(f"{path}:14: facets 3 and 4 intersect from (0, ", done.stderr)
+
+    def test_what_is_open_is_told(self):
+        path = self.off("open.off", [(0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4)], self.TETRAHEDRON[1:])
+        self.mesh(path, "--report", self.report, expect=3)
+        r = self.json()
+        self.assertEqual((r["errors"][0]["code"], r["errors"][0]["ids"]), ("encloses_nothing", [0, 1, 2]))
+        self.assertEqual(r["diagnosis"]["open_boundaries"]["listed"][0]["ids"], [0, 1, 2])
+
+    def test_what_is_taken(self):
+        path = self.two_tetrahedra(0.125)
+        self.pgdr("info", path, "--report", self.report, expect=0)
+        d = self.json()["diagnosis"]
+        self.assertEqual(d["facets_cross"], {"count": 0, "listed": []})
+        self.assertEqual(d["facets_below_90"]["count"], 6)
+        self.assertAlmostEqual(d["facets_below_90"]["listed"][0]["measure"], 54.7356, 3)
+
+
 class Memory(Case):
     def test_address_space(self):
         if SANITIZE:

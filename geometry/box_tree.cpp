@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "detail/box_tree.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <utility>
+
+namespace pgdr::detail {
+namespace {
+
+constexpr std::size_t boxes_a_leaf = 4;
+
+template <int D>
+Box<D> empty_box() {
+  Box<D> box;
+  box.low.x.fill(std::numeric_limits<double>::infinity());
+  box.high.x.fill(-std::numeric_limits<double>::infinity());
+  return box;
+}
+
+template <int D>
+void enclose(Box<D>& box, const Box<D>& other) {
+  for (int i = 0; i < D; ++i) {
+    box.low[i] = std::min(box.low[i], other.low[i]);
+    box.high[i] = std::max(box.high[i], other.high[i]);
+  }
+}
+
+/// The place of the box's centre along the Morton curve through `all`. Halves: sums of large numbers would overflow.
+template <int D>
+std::uint64_t place(const Box<D>& box, const Box<D>& all) {
+  constexpr int bits = 63 / D;
+  std::uint64_t key = 0;
+  std::array<std::uint64_t, D> cell{};
+  for (int i = 0; i < D; ++i) {
+    const double low = all.low[i] / 2, range = all.high[i] / 2 - low;
+    const double at = range > 0 ? ((box.low[i] / 2 - low) + (box.high[i] / 2 - low)) / 2 / range : 0;
+    const double top = static_cast<double>(std::uint64_t{1} << bits);
+    cell[static_cast<std::size_t>(i)] = static_cast<std::uint64_t>(std::clamp(at * top, 0.0, top - 1));
+  }
+  for (int b = bits; b-- > 0;)
+    for (const std::uint64_t c : cell) key = key << 1 | (c >> b & 1);
+  return key;
+}
+
+}  // namespace
+
+template <int D>
+BoxTree<D>::BoxTree(std::span<const Box<D>> boxes) {
+  build(boxes);
+}
+
+template <int D>
+BoxTree<D>::BoxTree(std::span<const Corners> corners, std::span<const Point<D>> points) {
+  std::vector<Box<D>> boxes;
+  boxes.reserve(corners.size());
+  for (const Corners& simplex : corners) {
+    Box<D> box = empty_box<D>();
+    for (const std::uint32_t v : simplex)
+      if (v != no_corner) enclose(box, Box<D>::around(points[v]));
+    boxes.push_back(box);
+  }
+  build(boxes);
+  find_anchors(corners, points);
+}
+
+template <int D>
+void BoxTree<D>::build(std::span<const Box<D>> boxes) {
+  Box<D> all = empty_box<D>();
+  for (const Box<D>& b : boxes) enclose(all, b);
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> order(boxes.size());
+  for (std::uint32_t i = 0; i < boxes.size(); ++i) order[i] = {place(boxes[i], all), i};
+  std::sort(order.begin(), order.end());
+  items_.reserve(boxes.size());
+  for (const auto& [key, i] : order) items_.push_back({boxes[i], i});
+
+  leaves_ = static_cast<std::uint32_t>(std::bit_ceil(std::max<std::size_t>(1, boxes.size() / boxes_a_leaf)));
+  nodes_.assign(2 * std::size_t{leaves_}, empty_box<D>());
+  for (std::uint32_t leaf = leaves_; leaf < 2 * leaves_; ++leaf)
+    for (const Item& item : items_of(leaf)) enclose(nodes_[leaf], item.box);
+  for (std::uint32_t node = leaves_; node-- > 1;) {
+    enclose(nodes_[node], nodes_[2 * node]);
+    enclose(nodes_[node], nodes_[2 * node + 1]);
+  }
+}
+
+// From the leaves up: which corners all simplices of a node share; where that is one alone, the box opposite it. A fan
+// of k simplices has k log k of them below its nodes.
+template <int D>
+void BoxTree<D>::find_anchors(std::span<const Corners> corners, std::span<const Point<D>> points) {
+  constexpr Corners none{no_corner, no_corner, no_corner};
+  std::vector<Corners> common(nodes_.size(), none);
+  std::vector<bool> any(nodes_.size(), false);  // holds something
+  const auto keep_common = [](Corners& mine, const Corners& other) {
+    for (std::uint32_t& v : mine)
+      if (std::find(other.begin(), other.end(), v) == other.end()) v = no_corner;
+  };
+  for (std::uint32_t node = 2 * leaves_; node-- > 1;) {
+    const auto take = [&](const Corners& c) {
+      if (any[node]) keep_common(common[node], c);
+      else common[node] = c;
+      any[node] = true;
+    };
+    if (is_leaf(node)) {
+      for (const Item& item : items_of(node)) take(corners[item.index]);
+    } else {
+      for (const std::uint32_t child : {2 * node, 2 * node + 1})
+        if (any[child]) take(common[child]);
+    }
+  }
+  anchors_.resize(nodes_.size());
+  const auto items_below = [&](std::uint32_t node) {
+    std::uint32_t first = node, last = node;
+    while (!is_leaf(first)) {
+      first = 2 * first;
+      last = 2 * last + 1;
+    }
+    const auto begin = items_of(first), end = items_of(last);
+    return std::span(begin.data(), end.data() + end.size());
+  };
+  for (std::uint32_t node = 1; node < nodes_.size(); ++node) {
+    const Corners& c = common[node];
+    if ((c[0] != no_corner) + (c[1] != no_corner) + (c[2] != no_corner) != 1) continue;
+    Anchor& anchor = anchors_[node];
+    anchor.corner = std::min({c[0], c[1], c[2]});
+    anchor.opposite = empty_box<D>();
+    for (const Item& item : items_below(node))
+      for (const std::uint32_t v : corners[item.index])
+        if (v != no_corner && v != anchor.corner) enclose(anchor.opposite, Box<D>::around(points[v]));
+  }
+}
+
+template class BoxTree<2>;
+template class BoxTree<3>;
+
+}  // namespace pgdr::detail

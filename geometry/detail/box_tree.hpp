@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which of many axis-parallel boxes meet: a binary tree over the boxes in the order of a space-filling curve, stored
+// without pointers (node 1 is the root, 2i and 2i + 1 are the children of i). Building takes n log n time, finding k
+// pairs about n log n + k for boxes as surfaces have them. Which pairs are found, and in which order, depends on the
+// boxes alone. Immutable once made; any number of threads may search it.
+//
+// Boxes of simplices that share a corner all meet there: k^2/2 pairs for a fan of k triangles. So the tree may be told
+// of the corners. Two simplices with a common corner v have more than v in common only if the side of one opposite v
+// meets the other (follow the ray from v through a common point until it leaves one of them). Where all of two nodes
+// share v, neither of these opposite sides need to meet the other node, or the pair of nodes is passed over.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "pgdr/types.hpp"
+
+namespace pgdr::detail {
+
+/// A closed box. `low` above `high`: empty, meets nothing.
+template <int D>
+struct Box {
+  Point<D> low, high;
+
+  static Box around(const Point<D>& p) { return {p, p}; }
+  void add(const Point<D>& p) {
+    for (int i = 0; i < D; ++i) {
+      if (p[i] < low[i]) low[i] = p[i];
+      if (high[i] < p[i]) high[i] = p[i];
+    }
+  }
+  bool meets(const Box& o) const {
+    for (int i = 0; i < D; ++i)
+      if (!(low[i] <= o.high[i] && o.low[i] <= high[i])) return false;
+    return true;
+  }
+};
+
+inline constexpr std::uint32_t no_corner = 0xffffffffu;
+
+template <int D>
+class BoxTree {
+ public:
+  /// @pre boxes are not empty, coordinates finite; at most 2^31 boxes.
+  explicit BoxTree(std::span<const Box<D>> boxes);
+  /// The boxes of simplices, by their corners (as many of three as there are, then no_corner).
+  BoxTree(std::span<const std::array<std::uint32_t, 3>> corners, std::span<const Point<D>> points);
+
+  /// Calls visit(i, j), i < j, once for every pair of boxes that meet (common borders count). Of simplices, pairs that
+  /// share a corner and meet nowhere else may be left out.
+  template <class Visit>
+  void self_pairs(Visit&& visit) const;
+  /// Calls visit(i, j) once for every box i of this tree and box j of the other that meet.
+  template <class Visit>
+  void pairs(const BoxTree& other, Visit&& visit) const;
+
+ private:
+  struct Item {
+    Box<D> box;
+    std::uint32_t index;
+  };
+  using NodePair = std::array<std::uint32_t, 2>;
+  using Corners = std::array<std::uint32_t, 3>;
+  /// Of a node all of whose simplices share this corner and no other: the box of their sides opposite it.
+  struct Anchor {
+    std::uint32_t corner = no_corner;
+    Box<D> opposite;
+  };
+
+  void build(std::span<const Box<D>> boxes);
+  void find_anchors(std::span<const Corners> corners, std::span<const Point<D>> points);
+  bool apart(std::uint32_t a, std::uint32_t b) const {
+    if (!nodes_[a].meets(nodes_[b])) return true;
+    if (anchors_.empty() || anchors_[a].corner == no_corner || anchors_[a].corner != anchors_[b].corner) return false;
+    return !anchors_[a].opposite.meets(nodes_[b]) && !anchors_[b].opposite.meets(nodes_[a]);
+  }
+  bool is_leaf(std::uint32_t node) const { return node >= leaves_; }
+  std::span<const Item> items_of(std::uint32_t leaf) const {
+    const std::uint64_t n = items_.size(), k = leaf - leaves_;
+    const std::uint64_t begin = k * n / leaves_, end = (k + 1) * n / leaves_;
+    return std::span(items_).subspan(begin, end - begin);
+  }
+
+  std::uint32_t leaves_ = 1;     // a power of two
+  std::vector<Item> items_;      // along the curve
+  std::vector<Box<D>> nodes_;    // 2 * leaves_, the first unused
+  std::vector<Anchor> anchors_;  // of nodes, for simplices
+};
+
+template <int D>
+template <class Visit>
+void BoxTree<D>::self_pairs(Visit&& visit) const {
+  const auto report = [&](const Item& a, const Item& b) {
+    if (!a.box.meets(b.box)) return;
+    if (a.index < b.index) visit(a.index, b.index);
+    else visit(b.index, a.index);
+  };
+  std::vector<NodePair> stack{{1, 1}};  // both of a pair are on one level
+  while (!stack.empty()) {
+    const auto [a, b] = stack.back();
+    stack.pop_back();
+    if (a != b && apart(a, b)) continue;
+    if (!is_leaf(a)) {
+      if (a == b) stack.insert(stack.end(), {{2 * a, 2 * a}, {2 * a + 1, 2 * a + 1}, {2 * a, 2 * a + 1}});
+      else stack.insert(stack.end(), {{2 * a, 2 * b}, {2 * a, 2 * b + 1}, {2 * a + 1, 2 * b}, {2 * a + 1, 2 * b + 1}});
+      continue;
+    }
+    const auto first = items_of(a), second = items_of(b);
+    for (std::size_t i = 0; i < first.size(); ++i)
+      for (std::size_t j = a == b ? i + 1 : 0; j < second.size(); ++j) report(first[i], second[j]);
+  }
+}
+
+template <int D>
+template <class Visit>
+void BoxTree<D>::pairs(const BoxTree& other, Visit&& visit) const {
+  std::vector<NodePair> stack{{1, 1}};
+  while (!stack.empty()) {
+    const auto [a, b] = stack.back();
+    stack.pop_back();
+    if (!nodes_[a].meets(other.nodes_[b])) continue;
+    const bool leaf = is_leaf(a), other_leaf = other.is_leaf(b);
+    if (leaf && other_leaf) {
+      for (const Item& i : items_of(a))
+        for (const Item& j : other.items_of(b))
+          if (i.box.meets(j.box)) visit(i.index, j.index);
+    } else if (other_leaf || (!leaf && a <= b)) {  // the one nearer to its root
+      stack.insert(stack.end(), {{2 * a, b}, {2 * a + 1, b}});
+    } else {
+      stack.insert(stack.end(), {{a, 2 * b}, {a, 2 * b + 1}});
+    }
+  }
+}
+
+}  // namespace pgdr::detail

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Makes a Diagnosis of a Domain: what meets where it should not (diagnosis_pairs.cpp), how facets hang together
+// (diagnosis_topology.cpp), small angles (diagnosis_angles.cpp). Used by one thread, once.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "detail/contact.hpp"
+#include "pgdr/diagnosis.hpp"
+
+namespace pgdr::detail {
+
+/// The `most` least of what is added, ascending.
+template <class Entry>
+class Least {
+ public:
+  explicit Least(std::size_t most) : most_(most) {}
+  void add(const Entry& e) {
+    ++count_;
+    if (kept_.size() == most_) {
+      if (most_ == 0 || !(e < kept_.back())) return;
+      kept_.pop_back();
+    }
+    kept_.insert(std::upper_bound(kept_.begin(), kept_.end(), e), e);
+  }
+  std::uint64_t count() const { return count_; }
+  const std::vector<Entry>& kept() const { return kept_; }
+
+ private:
+  std::size_t most_;
+  std::uint64_t count_ = 0;
+  std::vector<Entry> kept_;
+};
+
+template <int D>
+class Diagnoser {
+ public:
+  Diagnoser(const Domain<D>& domain, const DiagnosisOptions& options, Diagnosis<D>& out)
+      : domain_(domain), options_(options), out_(out), p_(domain.points()) {}
+  void run();
+
+ private:
+  using Ids = std::vector<std::int64_t>;
+  using Edge = std::array<std::uint32_t, 2>;
+
+  struct Triangle {
+    std::array<std::uint32_t, 3> corners;
+    EntityId facet;
+    TriangleOrigin origin;
+  };
+  /// A use of an edge by a triangle; sorted, the uses of an edge stand together.
+  struct EdgeUse {
+    std::uint64_t key;  // smaller point in the upper half
+    std::uint32_t triangle;
+    Edge edge() const { return {static_cast<std::uint32_t>(key >> 32), static_cast<std::uint32_t>(key)}; }
+    friend auto operator<=>(const EdgeUse&, const EdgeUse&) = default;
+  };
+  /// Two pieces that meet, by the input entities that they belong to.
+  struct Meeting {
+    std::uint32_t first, second;              // input facet, domain segment
+    std::array<std::uint32_t, 2> pieces;
+    bool overlap;
+    friend auto operator<=>(const Meeting&, const Meeting&) = default;
+  };
+  /// A point on an edge, or (second no_entity) on an input facet.
+  struct Resting {
+    std::uint32_t point, first, second;
+    friend auto operator<=>(const Resting&, const Resting&) = default;
+  };
+  /// An angle: the square of its sine, then what makes its order definite: points and triangles.
+  struct Angle {
+    double sine2;
+    std::array<std::uint32_t, 4> at;
+    friend bool operator<(const Angle& a, const Angle& b) {
+      return a.sine2 != b.sine2 ? a.sine2 < b.sine2 : a.at < b.at;
+    }
+  };
+
+  // diagnosis.cpp
+  static std::uint64_t key(std::uint32_t a, std::uint32_t b) {
+    return static_cast<std::uint64_t>(std::min(a, b)) << 32 | std::max(a, b);
+  }
+  std::int64_t number(std::size_t i) const { return static_cast<std::int64_t>(i) + domain_.first_index(); }
+  std::int64_t point_number(std::uint32_t v) const { return number(domain_.input_of_point()[v]); }
+  std::string point_words(std::uint32_t v) const;  ///< its number and coordinates
+  std::string facet_words(std::uint32_t f) const { return std::to_string(number(f)); }
+  std::string edge_words(const Edge& e) const { return "from point " + point_words(e[0]) + " to " + point_words(e[1]); }
+  std::string segment_words(EntityId s) const;
+  std::uint32_t segment_line(EntityId s) const;
+  std::uint32_t facet_line(std::uint32_t f) const { return line(domain_.source().facet_lines, f); }
+  std::uint32_t point_line(std::uint32_t v) const {
+    return line(domain_.source().point_lines, domain_.input_of_point()[v]);
+  }
+  static std::uint32_t line(const std::vector<std::uint32_t>& lines, std::size_t i) {
+    return i < lines.size() ? lines[i] : 0;
+  }
+  bool wants_more(Finding kind) const { return out_[kind].listed.size() < options_.most_listed; }
+  void list(Finding kind, Errc code, std::string message, std::uint32_t line, Ids ids,
+            const std::vector<Point<D>>& where, double measure = 0);
+  std::vector<Point<D>> points_of(std::span<const std::uint32_t> vertices) const;
+  void collect_triangles();
+  std::span<const EdgeUse> uses_at(std::size_t begin) const;
+  bool is_segment(const Edge& e) const;
+
+  // diagnosis_pairs.cpp
+  void collect_pieces();
+  void find_meetings();
+  void note(std::uint32_t i, std::uint32_t j);
+  std::uint32_t owner(std::uint32_t piece) const;
+  void note_resting(const Contact::Corner& corner, std::uint32_t on_piece);
+  void report_meetings(std::vector<Meeting>& meetings, std::size_t first_corners, std::size_t second_corners);
+  void list_meeting(std::span<const Meeting> same, std::size_t first_corners, std::size_t second_corners, Finding kind);
+  void report_resting();
+  void list_resting(const Resting& r);
+
+  // diagnosis_topology.cpp
+  void find_repairs();
+  void find_unreferenced();
+  void find_open_boundary();
+  void find_open_loops() requires(D == 3);
+  void list_open_loop(const std::vector<std::uint32_t>& loop);
+  void find_non_manifold_edges() requires(D == 3);
+  void find_non_manifold_points() requires(D == 3);
+  void find_orientation() requires(D == 3);
+  void find_encloses_nothing();
+  bool all_collapses() const;
+
+  // diagnosis_angles.cpp
+  void find_angles();
+  void segments_at_points();
+  void corners_at_points() requires(D == 3);
+  void facets_at_segments() requires(D == 3);
+  void note_segment_angles(std::uint32_t v);
+  void note_facet_angles(std::uint32_t v) requires(D == 3);
+  void report_angles();
+
+  const Domain<D>& domain_;
+  const DiagnosisOptions& options_;
+  Diagnosis<D>& out_;
+  std::span<const Point<D>> p_;
+  std::vector<Triangle> triangles_;   // all facets'
+  std::vector<EdgeUse> uses_;
+  std::vector<Piece> pieces_;         // the triangles, then segments of no facet, then points of neither
+  std::vector<EntityId> piece_segments_;
+  std::vector<Meeting> facet_facet_, segment_facet_, segment_segment_;
+  std::vector<Resting> resting_;
+  std::vector<std::uint32_t> segment_begin_, corner_begin_;   // by point
+  std::vector<std::uint32_t> corner_at_;                      // 3 * triangle + corner
+  std::vector<EntityId> segment_at_;
+  Least<Angle> below_60_{0}, segment_facet_90_{0}, facets_90_{0};
+};
+
+}  // namespace pgdr::detail

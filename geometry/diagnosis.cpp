@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Diagnosis: its order, its words, its errors.
+#include "pgdr/diagnosis.hpp"
+
+#include <algorithm>
+
+#include "detail/diagnoser.hpp"
+#include "detail/domain_builder.hpp"
+
+namespace pgdr {
+
+std::string_view name(Finding kind) {
+  constexpr std::array<std::string_view, finding_kinds> names{
+      "invalid_entities",   "facets_cross",       "facets_overlap",      "segments_cross_facets",
+      "segments_cross",     "points_on_facets",   "points_on_segments",  "encloses_nothing",
+      "duplicate_points",   "unreferenced_points", "repeated_facets",    "open_boundaries",
+      "non_manifold_edges", "non_manifold_points", "inconsistent_orientation",
+      "segments_below_60",  "segment_facet_below_90", "facets_below_90"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+namespace detail {
+
+template <int D>
+void Diagnoser<D>::run() {
+  if (p_.empty()) return;
+  collect_triangles();
+  collect_pieces();
+  find_meetings();
+  if (!options_.errors_only) {
+    find_repairs();
+    find_unreferenced();
+    if constexpr (D == 3) {
+      find_non_manifold_edges();
+      find_non_manifold_points();
+      find_orientation();
+    }
+    find_angles();
+  }
+  find_open_boundary();
+  find_encloses_nothing();
+}
+
+template <int D>
+std::string Diagnoser<D>::point_words(std::uint32_t v) const {
+  return std::to_string(point_number(v)) + " " + to_text(p_[v]);
+}
+
+template <int D>
+std::string Diagnoser<D>::segment_words(EntityId s) const {
+  const DomainSegment& segment = domain_.segments()[s];
+  if (segment.input == no_entity) return "the edge " + edge_words(segment.points);
+  return "segment " + std::to_string(number(segment.input)) + " " + edge_words(segment.points);
+}
+
+template <int D>
+std::uint32_t Diagnoser<D>::segment_line(EntityId s) const {
+  const std::uint32_t input = domain_.segments()[s].input;
+  return input == no_entity ? 0 : line(domain_.source().segment_lines, input);
+}
+
+template <int D>
+void Diagnoser<D>::list(Finding kind, Errc code, std::string message, std::uint32_t line, Ids ids,
+                        const std::vector<Point<D>>& where, double measure) {
+  FindingList::Item item;
+  item.what.code = code;
+  item.what.message = std::move(message);
+  item.what.file = domain_.source().file;
+  item.what.line = line;
+  item.what.ids = std::move(ids);
+  for (const Point<D>& q : where) item.what.points.push_back(in_space(q));
+  item.measure = measure;
+  out_[kind].listed.push_back(std::move(item));
+}
+
+template <int D>
+std::vector<Point<D>> Diagnoser<D>::points_of(std::span<const std::uint32_t> vertices) const {
+  std::vector<Point<D>> out;
+  for (const std::uint32_t v : vertices) out.push_back(p_[v]);
+  return out;
+}
+
+template <int D>
+void Diagnoser<D>::collect_triangles() {
+  if constexpr (D == 3) {
+    for (EntityId f = 0; f < domain_.facets().size(); ++f) {
+      const auto triangles = domain_.triangles(f);
+      const auto origins = domain_.triangle_origins(f);
+      for (std::size_t k = 0; k < triangles.size(); ++k) triangles_.push_back({triangles[k], f, origins[k]});
+    }
+    uses_.reserve(3 * triangles_.size());
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t)
+      for (std::size_t i = 0; i < 3; ++i)
+        uses_.push_back({key(triangles_[t].corners[i], triangles_[t].corners[(i + 1) % 3]), t});
+    std::sort(uses_.begin(), uses_.end());
+  }
+}
+
+template <int D>
+auto Diagnoser<D>::uses_at(std::size_t begin) const -> std::span<const EdgeUse> {
+  std::size_t end = begin + 1;
+  while (end < uses_.size() && uses_[end].key == uses_[begin].key) ++end;
+  return std::span(uses_).subspan(begin, end - begin);
+}
+
+// A Domain has its segments in the order of the keys of their points.
+template <int D>
+bool Diagnoser<D>::is_segment(const Edge& e) const {
+  const auto segments = domain_.segments();
+  const auto key_of = [](const DomainSegment& s) { return key(s.points[0], s.points[1]); };
+  const std::uint64_t wanted = key(e[0], e[1]);
+  const auto at = std::partition_point(segments.begin(), segments.end(),
+                                       [&](const DomainSegment& s) { return key_of(s) < wanted; });
+  return at != segments.end() && key_of(*at) == wanted;
+}
+
+#define PGDR_INSTANTIATE(D)                                                                                  \
+  template std::string Diagnoser<D>::point_words(std::uint32_t) const;                                       \
+  template std::string Diagnoser<D>::segment_words(EntityId) const;                                          \
+  template std::uint32_t Diagnoser<D>::segment_line(EntityId) const;                                         \
+  template void Diagnoser<D>::list(Finding, Errc, std::string, std::uint32_t, Ids, const std::vector<Point<D>>&, \
+                                   double);                                                                  \
+  template std::vector<Point<D>> Diagnoser<D>::points_of(std::span<const std::uint32_t>) const;              \
+  template auto Diagnoser<D>::uses_at(std::size_t) const -> std::span<const EdgeUse>;                        \
+  template bool Diagnoser<D>::is_segment(const Edge&) const;
+PGDR_INSTANTIATE(2)
+PGDR_INSTANTIATE(3)
+#undef PGDR_INSTANTIATE
+
+}  // namespace detail
+
+template <int D>
+std::uint64_t Diagnosis<D>::error_count() const {
+  std::uint64_t sum = 0;
+  for (std::size_t k = 0; k < finding_kinds; ++k)
+    if (is_error(static_cast<Finding>(k))) sum += found[k].count;
+  return sum;
+}
+
+template <int D>
+std::vector<Diagnostic> Diagnosis<D>::errors() const {
+  std::vector<Diagnostic> out;
+  for (std::size_t k = 0; k < finding_kinds; ++k)
+    if (is_error(static_cast<Finding>(k)))
+      for (const FindingList::Item& item : found[k].listed) out.push_back(item.what);
+  return out;
+}
+
+template <int D>
+Diagnosis<D> diagnose(const Domain<D>& domain, const DiagnosisOptions& options) {
+  Diagnosis<D> out;
+  detail::Diagnoser<D>(domain, options, out).run();
+  return out;
+}
+
+template <int D>
+Diagnosis<D> diagnose(const Plc<D>& plc, const DiagnosisOptions& options) {
+  Diagnosis<D> out;
+  std::vector<Diagnostic> refused;
+  const Domain<D> domain = Domain<D>::without_invalid(plc, refused);
+  FindingList& invalid = out[Finding::invalid_entity];
+  invalid.count = refused.size();
+  for (std::size_t k = 0; k < refused.size() && k < options.most_listed; ++k)
+    invalid.listed.push_back({std::move(refused[k]), 0});
+  detail::Diagnoser<D>(domain, options, out).run();
+  return out;
+}
+
+template <int D>
+void require_no_errors(const Domain<D>& domain) {
+  const Diagnosis<D> diagnosis = diagnose(domain, {.most_listed = 1, .errors_only = true});
+  const std::uint64_t count = diagnosis.error_count();
+  if (count == 0) return;
+  Diagnostic first = diagnosis.errors().front();
+  if (count > 1) first.message += " (the first of " + std::to_string(count) + " such errors)";
+  throw InputError(std::move(first));
+}
+
+#define PGDR_INSTANTIATE(D)                                                       \
+  template std::uint64_t Diagnosis<D>::error_count() const;                       \
+  template std::vector<Diagnostic> Diagnosis<D>::errors() const;                  \
+  template Diagnosis<D> diagnose<D>(const Domain<D>&, const DiagnosisOptions&);   \
+  template Diagnosis<D> diagnose<D>(const Plc<D>&, const DiagnosisOptions&);      \
+  template void require_no_errors<D>(const Domain<D>&);
+PGDR_INSTANTIATE(2)
+PGDR_INSTANTIATE(3)
+#undef PGDR_INSTANTIATE
+
+}  // namespace pgdr

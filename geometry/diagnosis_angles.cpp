@@ -1,0 +1,204 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Diagnosis: small angles of the input, counted exactly, ordered by the sine in doubles. Segments and facets at a point,
+// facets at a segment. At a point where very many segments meet (fans of thousands) only the first are compared.
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+#include "detail/diagnoser.hpp"
+#include "detail/dihedral_sign.hpp"
+#include "pgdr/predicates.hpp"
+
+namespace pgdr::detail {
+namespace {
+
+constexpr std::size_t most_at_a_point = 2000;
+
+using Vector = std::array<double, 3>;
+
+template <int D>
+Vector direction(const Point<D>& from, const Point<D>& to) {
+  Vector v{};
+  for (std::size_t i = 0; i < D; ++i) v[i] = to.x[i] - from.x[i];
+  return v;
+}
+double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+double ratio(double a, double b) {
+  const double q = a / b;
+  return q >= 0 && q < 1 ? q : 1;  // also where products under- or overflow
+}
+
+double sine2(const Vector& u, const Vector& w) {
+  const Vector n = cross(u, w);
+  return ratio(dot(n, n), dot(u, u) * dot(w, w));
+}
+
+// Between r and the nearest direction of the corner from b to c; `near_b`: r and b make less than a right angle.
+double sine2_to_corner(const Vector& r, const Vector& b, const Vector& c, bool near_b, bool near_c) {
+  double least = 1;
+  if (near_b) least = std::min(least, sine2(r, b));
+  if (near_c) least = std::min(least, sine2(r, c));
+  const Vector n = cross(b, c);
+  if (dot(cross(n, b), r) > 0 && dot(cross(c, n), r) > 0) {
+    const double height = dot(n, r);
+    least = std::min(least, ratio(height * height, dot(n, n) * dot(r, r)));
+  }
+  return least;
+}
+
+double degrees(double sine2) { return std::asin(std::sqrt(sine2)) * (180 / std::numbers::pi); }
+
+std::string in_words(double angle) {
+  char text[40];
+  return {text, std::to_chars(text, text + sizeof text, angle, std::chars_format::general, 6).ptr};
+}
+
+}  // namespace
+
+template <int D>
+void Diagnoser<D>::find_angles() {
+  below_60_ = segment_facet_90_ = facets_90_ = Least<Angle>(options_.most_listed);
+  segments_at_points();
+  if constexpr (D == 3) corners_at_points();
+  for (std::uint32_t v = 0; v < p_.size(); ++v) {
+    note_segment_angles(v);
+    if constexpr (D == 3) note_facet_angles(v);
+  }
+  if constexpr (D == 3) facets_at_segments();
+  report_angles();
+}
+
+template <int D>
+void Diagnoser<D>::segments_at_points() {
+  const auto segments = domain_.segments();
+  segment_begin_.assign(p_.size() + 1, 0);
+  for (const DomainSegment& s : segments)
+    for (const std::uint32_t v : s.points) ++segment_begin_[v + 1];
+  for (std::size_t v = 1; v < segment_begin_.size(); ++v) segment_begin_[v] += segment_begin_[v - 1];
+  segment_at_.resize(2 * segments.size());
+  std::vector<std::uint32_t> next(segment_begin_);
+  for (EntityId s = 0; s < segments.size(); ++s)
+    for (const std::uint32_t v : segments[s].points) segment_at_[next[v]++] = s;
+}
+
+template <int D>
+void Diagnoser<D>::corners_at_points() requires(D == 3) {
+  corner_begin_.assign(p_.size() + 1, 0);
+  for (const Triangle& t : triangles_)
+    for (const std::uint32_t v : t.corners) ++corner_begin_[v + 1];
+  for (std::size_t v = 1; v < corner_begin_.size(); ++v) corner_begin_[v] += corner_begin_[v - 1];
+  corner_at_.resize(3 * triangles_.size());
+  std::vector<std::uint32_t> next(corner_begin_);
+  for (std::uint32_t t = 0; t < triangles_.size(); ++t)
+    for (std::uint32_t i = 0; i < 3; ++i) corner_at_[next[triangles_[t].corners[i]]++] = 3 * t + i;
+}
+
+template <int D>
+void Diagnoser<D>::note_segment_angles(std::uint32_t v) {
+  const auto here = std::span(segment_at_).subspan(segment_begin_[v], segment_begin_[v + 1] - segment_begin_[v]);
+  const std::size_t n = std::min(here.size(), most_at_a_point);
+  const auto far_end = [&](EntityId s) {
+    const auto& ends = domain_.segments()[s].points;
+    return ends[0] == v ? ends[1] : ends[0];
+  };
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 1; j < n; ++j) {
+      const auto [a, b] = std::minmax({far_end(here[i]), far_end(here[j])});
+      if (angle_below_60<D>(p_[v], p_[a], p_[b]))
+        below_60_.add({sine2(direction<D>(p_[v], p_[a]), direction<D>(p_[v], p_[b])), {v, a, b, 0}});
+    }
+}
+
+// The corners at a point are in the order of their facets.
+template <int D>
+void Diagnoser<D>::note_facet_angles(std::uint32_t v) requires(D == 3) {
+  const auto segments = std::span(segment_at_).subspan(segment_begin_[v], segment_begin_[v + 1] - segment_begin_[v]);
+  const auto corners = std::span(corner_at_).subspan(corner_begin_[v], corner_begin_[v + 1] - corner_begin_[v]);
+  for (const EntityId s : segments.first(std::min(segments.size(), most_at_a_point))) {
+    const auto& ends = domain_.segments()[s].points;
+    const std::uint32_t end = ends[0] == v ? ends[1] : ends[0];
+    const auto own = domain_.facets_of_segment(s);
+    const Vector r = direction<D>(p_[v], p_[end]);
+    for (std::size_t k = 0, next; k < corners.size() && k < most_at_a_point; k = next) {
+      const EntityId f = triangles_[corners[k] / 3].facet;
+      Angle least{2, {v, end, 0, 0}};
+      const bool part = std::find(own.begin(), own.end(), f) != own.end();
+      for (next = k; next < corners.size() && triangles_[corners[next] / 3].facet == f; ++next) {
+        if (part) continue;
+        const Triangle& t = triangles_[corners[next] / 3];
+        const std::uint32_t i = corners[next] % 3, b = t.corners[(i + 1) % 3], c = t.corners[(i + 2) % 3];
+        const bool near_b = angle_below_90<D>(p_[v], p_[end], p_[b]), near_c = angle_below_90<D>(p_[v], p_[end], p_[c]);
+        if (!near_b && !near_c) continue;
+        const double sine2 =
+            sine2_to_corner(r, direction<D>(p_[v], p_[b]), direction<D>(p_[v], p_[c]), near_b, near_c);
+        if (sine2 < least.sine2) least = {sine2, {v, end, t.origin.facet, 0}};
+      }
+      if (least.sine2 <= 1) segment_facet_90_.add(least);
+    }
+  }
+}
+
+template <int D>
+void Diagnoser<D>::facets_at_segments() requires(D == 3) {
+  for (std::size_t begin = 0, n; begin < uses_.size(); begin += n) {
+    const auto uses = uses_at(begin);
+    n = uses.size();
+    const auto [a, b] = uses[0].edge();
+    const auto apex = [&, a = a, b = b](const EdgeUse& use) {
+      const auto& t = triangles_[use.triangle].corners;
+      return t[0] ^ t[1] ^ t[2] ^ a ^ b;
+    };
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = i + 1; j < n; ++j) {
+        const Triangle &s = triangles_[uses[i].triangle], &t = triangles_[uses[j].triangle];
+        if (s.facet == t.facet) continue;
+        const std::uint32_t c = apex(uses[i]), d = apex(uses[j]);
+        if (dihedral_sign(p_[a], p_[b], p_[c], p_[d]) != Sign::positive) continue;
+        const Vector e = direction<D>(p_[a], p_[b]);
+        const Vector u = cross(e, direction<D>(p_[a], p_[c])), w = cross(e, direction<D>(p_[a], p_[d]));
+        const auto [f, g] = std::minmax(s.origin.facet, t.origin.facet);
+        facets_90_.add({sine2(u, w), {a, b, f, g}});
+      }
+  }
+}
+
+template <int D>
+void Diagnoser<D>::report_angles() {
+  out_[Finding::segments_below_60].count = below_60_.count();
+  for (const auto& [s2, at] : below_60_.kept()) {
+    const double angle = degrees(s2);
+    list(Finding::segments_below_60, Errc::small_angle,
+         "the segments from point " + point_words(at[0]) + " to points " + point_words(at[1]) + " and " +
+             point_words(at[2]) + " meet at " + in_words(angle) + " degrees",
+         point_line(at[0]), {point_number(at[0]), point_number(at[1]), point_number(at[2])}, {p_[at[0]]}, angle);
+  }
+  out_[Finding::segment_facet_below_90].count = segment_facet_90_.count();
+  for (const auto& [s2, at] : segment_facet_90_.kept()) {
+    const double angle = degrees(s2);
+    list(Finding::segment_facet_below_90, Errc::small_angle,
+         "the segment from point " + point_words(at[0]) + " to " + point_words(at[1]) + " meets facet " +
+             facet_words(at[2]) + " at " + in_words(angle) + " degrees",
+         facet_line(at[2]), {point_number(at[0]), point_number(at[1]), number(at[2])}, {p_[at[0]]}, angle);
+  }
+  out_[Finding::facets_below_90].count = facets_90_.count();
+  for (const auto& [s2, at] : facets_90_.kept()) {
+    const double angle = degrees(s2);
+    list(Finding::facets_below_90, Errc::small_angle,
+         "facets " + facet_words(at[2]) + " and " + facet_words(at[3]) + " meet at " + in_words(angle) +
+             " degrees at the edge " + edge_words({at[0], at[1]}),
+         facet_line(at[2]), {number(at[2]), number(at[3]), point_number(at[0]), point_number(at[1])},
+         {p_[at[0]], p_[at[1]]}, angle);
+  }
+}
+
+template void Diagnoser<2>::find_angles();
+template void Diagnoser<3>::find_angles();
+
+}  // namespace pgdr::detail

@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Diagnosis: facets, segments of no facet, and points that meet where they have no corner in common. A box tree finds the
+// pairs to look at; pairs of triangles are told as pairs of input facets, touching ones by the point that lies on the
+// other alone.
+#include <algorithm>
+
+#include "detail/box_tree.hpp"
+#include "detail/diagnoser.hpp"
+#include "detail/domain_builder.hpp"
+
+namespace pgdr::detail {
+
+template <int D>
+void Diagnoser<D>::collect_pieces() {
+  std::vector<bool> used(p_.size(), false);
+  for (const Triangle& t : triangles_) {
+    pieces_.push_back({t.corners, 3, static_cast<std::uint8_t>(domain_.facets()[t.facet].axis)});
+    for (const std::uint32_t v : t.corners) used[v] = true;
+  }
+  for (EntityId s = 0; s < domain_.segments().size(); ++s) {
+    const auto [a, b] = domain_.segments()[s].points;
+    used[a] = used[b] = true;
+    if (!domain_.facets_of_segment(s).empty()) continue;
+    pieces_.push_back({{a, b, no_entity}, 2, 0});
+    piece_segments_.push_back(s);
+  }
+  for (std::uint32_t v = 0; v < p_.size(); ++v)
+    if (!used[v]) pieces_.push_back({{v, no_entity, no_entity}, 1, 0});
+}
+
+template <int D>
+void Diagnoser<D>::find_meetings() {
+  std::vector<std::array<std::uint32_t, 3>> corners;
+  corners.reserve(pieces_.size());
+  for (const Piece& piece : pieces_) corners.push_back(piece.corners);
+  BoxTree<D>(corners, p_).self_pairs([this](std::uint32_t i, std::uint32_t j) { note(i, j); });
+  report_meetings(facet_facet_, 3, 3);
+  report_meetings(segment_facet_, 2, 3);
+  report_meetings(segment_segment_, 2, 2);
+  report_resting();
+}
+
+/// Input facet of a triangle, domain segment of a segment.
+template <int D>
+std::uint32_t Diagnoser<D>::owner(std::uint32_t piece) const {
+  if (piece < triangles_.size()) return triangles_[piece].origin.facet;
+  return piece_segments_[piece - triangles_.size()];
+}
+
+template <int D>
+void Diagnoser<D>::note(std::uint32_t i, std::uint32_t j) {
+  bool same_plane = false;
+  if (j < triangles_.size()) {
+    const Triangle &s = triangles_[i], &t = triangles_[j];
+    if (s.origin.facet == t.origin.facet) return;  // of one planar triangulation
+    same_plane = s.facet == t.facet && domain_.facets()[s.facet].planar;
+  }
+  const Contact c = contact<D>(p_, pieces_[i], pieces_[j], same_plane);
+  if (c.kind == Contact::Kind::none) return;
+  for (const Contact::Corner& corner : c.corners) note_resting(corner, corner.of_second ? i : j);
+  if (c.kind == Contact::Kind::touch) return;
+  std::uint32_t a = i, b = j;  // triangles come first; segments are named before facets
+  if (pieces_[a].count > pieces_[b].count) std::swap(a, b);
+  if (pieces_[a].count == pieces_[b].count && owner(a) > owner(b)) std::swap(a, b);
+  auto& meetings = pieces_[a].count == 3 ? facet_facet_ : pieces_[b].count == 3 ? segment_facet_ : segment_segment_;
+  meetings.push_back({owner(a), owner(b), {a, b}, c.kind == Contact::Kind::overlap});
+}
+
+// On an edge: unless it is a diagonal inside of one input facet, which the input does not have.
+template <int D>
+void Diagnoser<D>::note_resting(const Contact::Corner& corner, std::uint32_t on_piece) {
+  bool on_edge = corner.edge[0] != no_entity;
+  if (on_edge && on_piece < triangles_.size() && !is_segment(corner.edge)) {
+    const EdgeUse wanted{key(corner.edge[0], corner.edge[1]), 0};
+    const auto at = std::lower_bound(uses_.begin(), uses_.end(), wanted);
+    const auto uses = uses_at(static_cast<std::size_t>(at - uses_.begin()));
+    on_edge = std::any_of(uses.begin(), uses.end(), [&](const EdgeUse& u) {
+      return triangles_[u.triangle].origin.facet != owner(on_piece);
+    });
+  }
+  if (on_edge)
+    resting_.push_back({corner.point, std::min(corner.edge[0], corner.edge[1]), std::max(corner.edge[0], corner.edge[1])});
+  else
+    resting_.push_back({corner.point, owner(on_piece), no_entity});
+}
+
+template <int D>
+void Diagnoser<D>::report_meetings(std::vector<Meeting>& meetings, std::size_t first_corners,
+                                   std::size_t second_corners) {
+  std::sort(meetings.begin(), meetings.end());
+  for (std::size_t begin = 0, end; begin < meetings.size(); begin = end) {
+    bool overlap = false;
+    for (end = begin; end < meetings.size() && meetings[end].first == meetings[begin].first &&
+                      meetings[end].second == meetings[begin].second;
+         ++end)
+      overlap = overlap || meetings[end].overlap;
+    const Finding kind = overlap              ? Finding::facets_overlap
+                         : first_corners == 3  ? Finding::facets_cross
+                         : second_corners == 3 ? Finding::segment_crosses_facet
+                                               : Finding::segments_cross;
+    ++out_[kind].count;
+    if (wants_more(kind))
+      list_meeting(std::span(meetings).subspan(begin, end - begin), first_corners, second_corners, kind);
+  }
+}
+
+template <int D>
+void Diagnoser<D>::list_meeting(std::span<const Meeting> same, std::size_t first_corners, std::size_t second_corners,
+                                Finding kind) {
+  std::vector<Point<D>> where;
+  for (const Meeting& m : same) {
+    const auto more = contact_points<D>(p_, contact<D>(p_, pieces_[m.pieces[0]], pieces_[m.pieces[1]]));
+    where.insert(where.end(), more.begin(), more.end());
+  }
+  std::sort(where.begin(), where.end(), lex_less<D>);
+  where.erase(std::unique(where.begin(), where.end()), where.end());
+  // Points of one line: in lexicographic order the first and the last are its ends.
+  if (kind != Finding::facets_overlap && where.size() > 2) where = {where.front(), where.back()};
+  if (where.size() > max_listed) where.resize(max_listed);
+
+  const std::uint32_t a = same[0].first, b = same[0].second;
+  const auto name_of = [&](std::uint32_t e, std::size_t corners) {
+    return corners == 3 ? "facet " + facet_words(e) : segment_words(e);
+  };
+  std::string message = first_corners == 3 ? "facets " + facet_words(a) + " and " + facet_words(b)
+                                           : name_of(a, 2) + " and " + name_of(b, second_corners);
+  message += kind == Finding::facets_overlap ? " lie in one plane and overlap"
+             : first_corners == 3            ? " intersect"
+                                             : " cross";
+  if (where.size() == 1) message += " at " + to_text(where[0]);
+  if (where.size() > 1)
+    message += (where.size() == 2 ? " from " : ", between ") + to_text(where.front()) +
+               (where.size() == 2 ? " to " : " and ") + to_text(where.back());
+  Ids ids;
+  for (const auto& [e, corners] : {std::pair{a, first_corners}, {b, second_corners}}) {
+    if (corners == 3) ids.push_back(number(e));
+    else
+      for (const std::uint32_t v : domain_.segments()[e].points) ids.push_back(point_number(v));
+  }
+  list(kind, kind == Finding::facets_overlap ? Errc::facets_overlap : Errc::entities_intersect, std::move(message),
+       first_corners == 3 ? facet_line(a) : segment_line(a), std::move(ids), where);
+}
+
+template <int D>
+void Diagnoser<D>::report_resting() {
+  std::sort(resting_.begin(), resting_.end());
+  resting_.erase(std::unique(resting_.begin(), resting_.end()), resting_.end());
+  for (const Resting& r : resting_) {
+    const Finding kind = r.second == no_entity ? Finding::point_on_facet : Finding::point_on_segment;
+    ++out_[kind].count;
+    if (wants_more(kind)) list_resting(r);
+  }
+}
+
+template <int D>
+void Diagnoser<D>::list_resting(const Resting& r) {
+  const std::string words = "point " + point_words(r.point) + " lies inside ";
+  if (r.second == no_entity)
+    list(Finding::point_on_facet, Errc::point_on_facet, words + "facet " + facet_words(r.first), point_line(r.point),
+         {point_number(r.point), number(r.first)}, {p_[r.point]});
+  else
+    list(Finding::point_on_segment, Errc::point_on_segment, words + "the edge " + edge_words({r.first, r.second}),
+         point_line(r.point), {point_number(r.point), point_number(r.first), point_number(r.second)}, {p_[r.point]});
+}
+
+template void Diagnoser<2>::collect_pieces();
+template void Diagnoser<3>::collect_pieces();
+template void Diagnoser<2>::find_meetings();
+template void Diagnoser<3>::find_meetings();
+
+}  // namespace pgdr::detail

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What is wrong with an input, and where: everything at once, for a person who is to repair it. Decisions are exact and
+// without tolerance; coordinates of intersections, lengths and angles are rounded. Of each kind all are counted and the
+// first few listed, in an order that depends on the input alone. Near-linear time but for inputs of long thin triangles
+// whose boxes all overlap. Pure functions.
+//
+// Meant are the facets as their triangles (see domain.hpp), the segments that no facet has, and the points; two of these
+// may have common corners, and the edge between these, and nothing else in common.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "pgdr/domain.hpp"
+#include "pgdr/error.hpp"
+#include "pgdr/plc.hpp"
+
+namespace pgdr {
+
+/// Kinds of findings. Those up to `encloses_nothing` are errors: no mesh has these entities.
+enum class Finding : std::uint8_t {
+  invalid_entity,         ///< what Domain refuses, by its own codes; found by diagnose(Plc) alone
+  facets_cross,           ///< pairs of facets; where: along which segment
+  facets_overlap,         ///< pairs of facets with an area of one plane in common
+  segment_crosses_facet,  ///< a segment of no facet
+  segments_cross,         ///< of no facet (2D: all)
+  point_on_facet,         ///< inside it, without being a point of it
+  point_on_segment,       ///< inside a segment, or an edge of a facet
+  encloses_nothing,       ///< facets (2D: segments) none of which could bound a volume (area); see open_boundary
+  // Reported only.
+  duplicate_point,           ///< merged; ids: it, and the first at its place
+  unreferenced_point,        ///< of no facet and no segment
+  repeated_facet,            ///< or segment (2D); left out
+  open_boundary,             ///< loop (or path) of edges of one facet each: its points; measure: its length. 2D: a point
+                             ///< where one segment ends
+  non_manifold_edge,         ///< of more than two facets
+  non_manifold_point,        ///< whose facets hang together there at this point alone
+  inconsistent_orientation,  ///< an edge that its two facets run through in the same direction
+  segments_below_60,         ///< two segments at a point; measure, here and below: the angle in degrees, least first
+  segment_facet_below_90,    ///< a segment and a facet at a point
+  facets_below_90,           ///< two facets at a segment
+};
+inline constexpr std::size_t finding_kinds = 18;
+
+/// The stable snake_case word of the JSON report.
+std::string_view name(Finding kind);
+constexpr bool is_error(Finding kind) { return kind <= Finding::encloses_nothing; }
+
+struct FindingList {
+  struct Item {
+    Diagnostic what;     ///< ids, points, line: as everywhere
+    double measure = 0;  ///< of an angle or an open boundary
+  };
+  std::uint64_t count = 0;
+  std::vector<Item> listed;  ///< the first of them
+};
+
+struct DiagnosisOptions {
+  std::size_t most_listed = 20;  ///< of each kind
+  bool errors_only = false;      ///< look for nothing that is reported only
+};
+
+template <int D>
+struct Diagnosis {
+  std::array<FindingList, finding_kinds> found;
+
+  const FindingList& operator[](Finding kind) const { return found[static_cast<std::size_t>(kind)]; }
+  FindingList& operator[](Finding kind) { return found[static_cast<std::size_t>(kind)]; }
+  std::uint64_t error_count() const;
+  /// The listed errors, kind by kind.
+  std::vector<Diagnostic> errors() const;
+};
+
+template <int D>
+Diagnosis<D> diagnose(const Domain<D>& domain, const DiagnosisOptions& options = {});
+/// Of an input that Domain may refuse: its reasons first, then what is wrong with the rest.
+template <int D>
+Diagnosis<D> diagnose(const Plc<D>& plc, const DiagnosisOptions& options = {});
+
+/// @throws InputError the first error, if there is one, and how many more there are.
+template <int D>
+void require_no_errors(const Domain<D>& domain);
+
+}  // namespace pgdr

@@ -1,0 +1,269 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Diagnosis: a case of each kind, with its ids, lines and places; also turned and scaled.
+#include "pgdr/diagnosis.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "domain_plcs.hpp"
+#include "pgdr/refine.hpp"
+
+namespace pgdr {
+namespace {
+
+using test::box;
+using test::triangulated;
+using test::turned;
+using Ids = std::vector<std::int64_t>;
+
+// A box numbered from 1, with lines.
+Plc<3> numbered(Plc<3> plc) {
+  plc.first_index = 1;
+  plc.source.file = "box.poly";
+  for (std::uint32_t k = 0; k < 100; ++k) {
+    plc.source.point_lines.push_back(100 + k);
+    plc.source.segment_lines.push_back(300 + k);
+    plc.source.facet_lines.push_back(500 + k);
+  }
+  return plc;
+}
+
+// Adds a triangle of new points.
+std::uint32_t add_triangle(Plc<3>& plc, const Point3& a, const Point3& b, const Point3& c) {
+  const auto n = static_cast<std::uint32_t>(plc.points.size());
+  plc.points.insert(plc.points.end(), {a, b, c});
+  plc.facets.push_back({{{n, n + 1, n + 2}}, {}, 0});
+  return n;
+}
+
+std::uint64_t others(const Diagnosis<3>& d, Finding kind) { return d.error_count() - d[kind].count; }
+
+double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+TEST(Diagnosis, ABoxHasNothing) {
+  for (const Plc<3>& plc : {box(), triangulated(box()), test::plate_with_hole()}) {
+    const Diagnosis<3> d = diagnose(plc);
+    EXPECT_EQ(d.error_count(), 0u);
+    for (const Finding kind : {Finding::open_boundary, Finding::non_manifold_edge, Finding::non_manifold_point,
+                               Finding::unreferenced_point, Finding::duplicate_point, Finding::segments_below_60,
+                               Finding::facets_below_90, Finding::segment_facet_below_90})
+      EXPECT_EQ(d[kind].count, 0u) << name(kind);
+    EXPECT_EQ(diagnose(turned(plc)).error_count(), 0u);
+    EXPECT_NO_THROW(require_no_errors(Domain<3>(plc)));
+  }
+}
+
+TEST(Diagnosis, FacetsThatCross) {
+  Plc<3> plc = numbered(box());
+  add_triangle(plc, {1, -1, 1}, {1, 0.5, 1}, {1, 0.5, 2});  // through the front, y = 0, from z = 1 to 5/3
+  for (const double factor : {1.0, 0x1p-30, 0x1p40}) {
+    Plc<3> scaled = plc;
+    for (Point3& p : scaled.points)
+      for (double& x : p.x) x *= factor;
+    const Diagnosis<3> d = diagnose(scaled);
+    const FindingList& found = d[Finding::facets_cross];
+    ASSERT_EQ(found.count, 1u);
+    EXPECT_EQ(others(d, Finding::facets_cross), 0u);
+    const Diagnostic& what = found.listed.at(0).what;
+    EXPECT_EQ(what.code, Errc::entities_intersect);
+    EXPECT_EQ(what.ids, (Ids{3, 7}));
+    EXPECT_EQ(what.line, 502u);
+    EXPECT_EQ(what.file, "box.poly");
+    ASSERT_EQ(what.points.size(), 2u);
+    EXPECT_EQ(what.points[0], (std::array<double, 3>{factor, 0, factor}));
+    EXPECT_LE(distance(what.points[1], {factor, 0, factor * 5 / 3}), 1e-15 * factor);
+  }
+  EXPECT_EQ(diagnose(turned(plc))[Finding::facets_cross].listed.at(0).what.ids, (Ids{3, 7}));
+}
+
+TEST(Diagnosis, FacetsThatOverlap) {
+  Plc<3> plc = box();
+  add_triangle(plc, {0.5, 0.25, 0}, {1.5, 0.25, 0}, {1, 0.75, 0});  // in the bottom
+  Diagnosis<3> d = diagnose(plc);
+  EXPECT_EQ(d[Finding::facets_overlap].listed.at(0).what.ids, (Ids{0, 6}));
+  EXPECT_EQ(d[Finding::facets_overlap].listed.at(0).what.code, Errc::facets_overlap);
+  EXPECT_EQ(d[Finding::point_on_facet].count, 3u);
+  EXPECT_EQ(d[Finding::facets_cross].count, 0u);
+  plc = box();
+  plc.facets.push_back({{{0, 1, 2}}, {}, 0});  // half of the bottom, with its points
+  d = diagnose(plc);
+  EXPECT_EQ(d[Finding::facets_overlap].count, 1u);
+  EXPECT_EQ(others(d, Finding::facets_overlap), 0u);
+  plc = box();
+  plc.facets.push_back({{{1, 2, 3, 0}}, {}, 0});  // all of it: repaired
+  d = diagnose(plc);
+  EXPECT_EQ(d.error_count(), 0u);
+  EXPECT_EQ(d[Finding::repeated_facet].listed.at(0).what.ids, (Ids{6, 0}));
+}
+
+TEST(Diagnosis, Segments) {
+  Plc<3> plc = numbered(box());
+  plc.points.insert(plc.points.end(), {{1, -1, 1}, {1, 2, 1}, {1, 0.5, 0.5}, {1, 0.5, 2}, {1, 0.5, 1}});
+  plc.segments = {{{8, 9}, 0}};
+  Diagnosis<3> d = diagnose(plc);  // point 13 inside it, front and back crossed
+  EXPECT_EQ(d[Finding::segment_crosses_facet].count, 2u);
+  const Diagnostic& first = d[Finding::segment_crosses_facet].listed.at(0).what;
+  EXPECT_EQ(first.ids, (Ids{9, 10, 3}));
+  EXPECT_EQ(first.line, 300u);
+  EXPECT_EQ(first.points.at(0), (std::array<double, 3>{1, 0, 1}));
+  EXPECT_EQ(d[Finding::point_on_segment].listed.at(0).what.ids, (Ids{13, 9, 10}));
+  EXPECT_EQ(d[Finding::point_on_segment].listed.at(0).what.line, 112u);
+  EXPECT_EQ(d[Finding::unreferenced_point].count, 3u);
+  plc.points[8] = {0.5, 0.5, 1};
+  plc.points[9] = {1.5, 0.5, 1};
+  plc.points.pop_back();
+  plc.segments.push_back({{10, 11}, 0});  // the two cross
+  d = diagnose(plc);
+  EXPECT_EQ(d.error_count(), 1u);
+  EXPECT_EQ(d[Finding::segments_cross].listed.at(0).what.ids, (Ids{9, 10, 11, 12}));
+  EXPECT_EQ(d[Finding::segments_cross].listed.at(0).what.points, (std::vector<std::array<double, 3>>{{1, 0.5, 1}}));
+}
+
+TEST(Diagnosis, PointsOnEntities) {
+  Plc<3> plc = numbered(triangulated(box()));
+  plc.points.insert(plc.points.end(), {{1, 0.25, 0}, {2, 0, 1}, {0.5, 0.25, 3}, {1, 0.5, 1}});  // the third on a diagonal
+  const Diagnosis<3> d = diagnose(plc);
+  EXPECT_EQ(d.error_count(), 3u);
+  EXPECT_EQ(d[Finding::point_on_facet].count, 1u);
+  EXPECT_EQ(d[Finding::point_on_facet].listed.at(0).what.ids, (Ids{9, 1}));
+  ASSERT_EQ(d[Finding::point_on_segment].count, 2u);
+  EXPECT_EQ(d[Finding::point_on_segment].listed.at(0).what.ids, (Ids{10, 2, 6}));
+  EXPECT_EQ(d[Finding::point_on_segment].listed.at(1).what.ids, (Ids{11, 5, 7}));
+  EXPECT_EQ(d[Finding::unreferenced_point].count, 4u);
+
+  plc = numbered(box());  // of a polygon, a diagonal is no edge
+  plc.points.push_back({1, 0.5, 3});
+  EXPECT_EQ(diagnose(plc)[Finding::point_on_facet].listed.at(0).what.ids, (Ids{9, 2}));
+  plc.facets[1].polygons.push_back({8});
+  EXPECT_EQ(diagnose(plc).error_count(), 0u);
+}
+
+TEST(Diagnosis, OpenBoundary) {
+  Plc<3> plc = numbered(box());
+  plc.facets.erase(plc.facets.begin() + 1);  // the lid
+  Diagnosis<3> d = diagnose(plc);
+  ASSERT_EQ(d[Finding::open_boundary].count, 1u);
+  EXPECT_EQ(d[Finding::open_boundary].listed.at(0).what.ids, (Ids{5, 6, 7, 8}));
+  EXPECT_EQ(d[Finding::open_boundary].listed.at(0).measure, 6);
+  EXPECT_EQ(d[Finding::encloses_nothing].count, 1u);
+  EXPECT_EQ(d[Finding::encloses_nothing].listed.at(0).what.ids, (Ids{5, 6, 7, 8}));
+  plc.facets.erase(plc.facets.begin());  // the bottom
+  EXPECT_EQ(diagnose(plc)[Finding::open_boundary].count, 2u);
+  plc = box();
+  add_triangle(plc, {0.5, 0.5, 1}, {1, 0.5, 1}, {1, 0.5, 2});  // inside, dangling
+  d = diagnose(plc);
+  EXPECT_EQ(d.error_count(), 0u);
+  EXPECT_EQ(d[Finding::open_boundary].listed.at(0).what.ids, (Ids{8, 9, 10}));
+
+  Plc<2> flat;
+  flat.points = {{0, 0}, {1, 0}, {1, 1}, {3, 3}};
+  flat.segments = {{{0, 1}, 0}, {{1, 2}, 0}, {{2, 0}, 0}, {{2, 3}, 0}};
+  EXPECT_EQ(diagnose(flat).error_count(), 0u);
+  EXPECT_EQ(diagnose(flat)[Finding::open_boundary].listed.at(0).what.ids, (Ids{3}));
+  flat.segments.pop_back();
+  flat.segments.pop_back();
+  EXPECT_EQ(diagnose(flat)[Finding::encloses_nothing].count, 1u);
+}
+
+TEST(Diagnosis, NotManifold) {
+  Plc<3> plc = numbered(box());
+  Plc<3> both = plc;
+  for (const Point3& p : plc.points) both.points.push_back({p[0] + 2, p[1] + 1, p[2]});
+  for (const auto& f : plc.facets) {
+    auto polygon = f.polygons[0];
+    for (auto& v : polygon) v += 8;
+    both.facets.push_back({{polygon}, {}, 0});
+  }
+  Diagnosis<3> d = diagnose(both);  // an edge in common, (2, 1, 0) - (2, 1, 3)
+  EXPECT_EQ(d.error_count(), 0u);
+  ASSERT_EQ(d[Finding::non_manifold_edge].count, 1u);
+  EXPECT_EQ(d[Finding::non_manifold_edge].listed.at(0).what.ids, (Ids{3, 7, 4, 5, 9, 12}));
+  EXPECT_EQ(d[Finding::non_manifold_point].count, 0u);
+  EXPECT_EQ(d[Finding::duplicate_point].listed.at(0).what.ids, (Ids{9, 3}));
+  for (std::size_t i = 8; i < 16; ++i) both.points[i][2] += 3;
+  d = diagnose(both);  // a point, (2, 1, 3)
+  EXPECT_EQ(d[Finding::non_manifold_edge].count, 0u);
+  ASSERT_EQ(d[Finding::non_manifold_point].count, 1u);
+  EXPECT_EQ(d[Finding::non_manifold_point].listed.at(0).what.ids, (Ids{7}));
+}
+
+TEST(Diagnosis, Orientation) {
+  Plc<3> plc = triangulated(box());
+  EXPECT_EQ(diagnose(plc)[Finding::inconsistent_orientation].count, 4u);  // its bottom and top point up both
+  for (std::size_t k = 0; k < 2; ++k) std::swap(plc.facets[k].polygons[0][1], plc.facets[k].polygons[0][2]);
+  EXPECT_EQ(diagnose(plc)[Finding::inconsistent_orientation].count, 0u);
+  EXPECT_EQ(diagnose(turned(plc))[Finding::inconsistent_orientation].count, 0u);
+  std::swap(plc.facets[5].polygons[0][0], plc.facets[5].polygons[0][1]);
+  const Diagnosis<3> d = diagnose(plc);
+  EXPECT_EQ(d[Finding::inconsistent_orientation].count, 3u);
+  EXPECT_EQ(d.error_count(), 0u);
+  plc = box();
+  std::reverse(plc.facets[0].polygons[0].begin(), plc.facets[0].polygons[0].end());
+  EXPECT_EQ(diagnose(plc)[Finding::inconsistent_orientation].count, 0u);
+  EXPECT_EQ(diagnose(turned(plc))[Finding::inconsistent_orientation].count, 0u);
+}
+
+TEST(Diagnosis, Angles) {
+  Plc<3> plc;  // a wedge: 20 degrees at the edge x = y = 0
+  const double c = std::cos(std::acos(-1.0) / 9), s = std::sin(std::acos(-1.0) / 9);
+  plc.points = {{0, 0, 0}, {1, 0, 0}, {c, s, 0}, {0, 0, 1}, {1, 0, 1}, {c, s, 1}};
+  plc.facets = {{{{0, 1, 2}}}, {{{3, 4, 5}}}, {{{0, 1, 4, 3}}}, {{{1, 2, 5, 4}}}, {{{2, 0, 3, 5}}}};
+  const Diagnosis<3> d = diagnose(plc);
+  EXPECT_EQ(d.error_count(), 0u);
+  ASSERT_EQ(d[Finding::segments_below_60].count, 2u);
+  EXPECT_NEAR(d[Finding::segments_below_60].listed.at(0).measure, 20, 1e-12);
+  EXPECT_EQ(d[Finding::segments_below_60].listed.at(0).what.ids.at(0) % 3, 0);
+  ASSERT_EQ(d[Finding::facets_below_90].count, 3u);
+  EXPECT_NEAR(d[Finding::facets_below_90].listed.at(0).measure, 20, 1e-12);
+  EXPECT_EQ(d[Finding::facets_below_90].listed.at(0).what.ids, (Ids{2, 4, 0, 3}));
+  EXPECT_NEAR(d[Finding::facets_below_90].listed.at(1).measure, 80, 1e-12);
+  EXPECT_GE(d[Finding::segment_facet_below_90].count, 6u);
+  EXPECT_NEAR(d[Finding::segment_facet_below_90].listed.at(0).measure, 20, 1e-12);
+}
+
+TEST(Diagnosis, CountsAllAndListsAFew) {
+  Plc<3> plc = box();
+  for (int k = 0; k < 50; ++k) add_triangle(plc, {1, -1, 0.01 * k + 1}, {1, 0.5, 0.01 * k + 1}, {1.5, 0.5, 0.01 * k + 1});
+  Diagnosis<3> d = diagnose(plc);
+  EXPECT_EQ(d[Finding::facets_cross].count, 50u);
+  EXPECT_EQ(d[Finding::facets_cross].listed.size(), 20u);
+  EXPECT_EQ(d.errors().size(), 20u);
+  EXPECT_EQ(diagnose(plc, {.most_listed = 3}).errors().size(), 3u);
+  try {
+    refine(plc, RefineOptions<3>{});
+    FAIL() << "meshed";
+  } catch (const InputError& e) {
+    EXPECT_EQ(e.code(), Errc::entities_intersect);
+    EXPECT_EQ(e.diagnostic().ids, (Ids{2, 6}));
+    EXPECT_NE(e.diagnostic().message.find("the first of 50"), std::string::npos) << e.what();
+  }
+}
+
+TEST(Diagnosis, AllThatADomainRefuses) {
+  Plc<3> plc = numbered(box());
+  plc.points.insert(plc.points.end(), {{1, 1, 1}, {2, 2, 2}, {3, 3, 3}});
+  plc.facets.push_back({{{8, 9, 10}}, {}, 0});
+  plc.facets.push_back({{{0, 0, 1}}, {}, 0});
+  plc.facets.push_back({{{4, 6, 5, 7}}, {}, 0});
+  plc.segments.push_back({{3, 3}, 0});
+  const Diagnosis<3> d = diagnose(plc);
+  ASSERT_EQ(d[Finding::invalid_entity].count, 4u);
+  EXPECT_EQ(d[Finding::invalid_entity].listed[0].what.code, Errc::degenerate_segment);
+  EXPECT_EQ(d[Finding::invalid_entity].listed[1].what.code, Errc::degenerate_facet);
+  EXPECT_EQ(d[Finding::invalid_entity].listed[2].what.ids.at(0), 8);
+  EXPECT_EQ(d[Finding::invalid_entity].listed[3].what.code, Errc::self_crossing_facet);
+  plc.facets[0].polygons[0][0] = 99;
+  plc.points[0][1] = std::nan("");
+  EXPECT_EQ(diagnose(plc)[Finding::invalid_entity].count, 2u);
+  EXPECT_GT(diagnose(Plc<3>{}).error_count(), 0u);
+  EXPECT_GT(diagnose(Plc<2>{}).error_count(), 0u);
+}
+
+}  // namespace
+}  // namespace pgdr

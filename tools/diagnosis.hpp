@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A diagnosis in words and as JSON.
+#pragma once
+
+#include "pgdr/diagnosis.hpp"
+#include "report.hpp"
+
+namespace pgdr::tool {
+
+/// Sets a member for every kind of finding that there is: {count, listed [an error, or one with `measure`]}.
+template <int D>
+void set_findings(JsonObject& object, const Diagnosis<D>& diagnosis);
+
+/// A row for every kind of finding, with the first of each.
+template <int D>
+void print_findings(const Diagnosis<D>& diagnosis);
+
+/// Puts all listed errors into the report and a few on stderr. Returns exit_input.
+template <int D>
+int refuse(const Diagnosis<D>& diagnosis, Report& report);
+
+}  // namespace pgdr::tool
