@@ -43,6 +43,7 @@ class LeafWorks {
   explicit LeafWorks(const Orthtree<D>& tree) : tree_(&tree) { grow(); }
 
   LeafWork<D>& operator[](Node n) { return *works_[n]; }
+  const LeafWork<D>& operator[](Node n) const { return *works_[n]; }
   /// Makes room for all nodes of the tree.
   void grow() {
     while (works_.size() < tree_->node_count()) works_.push_back(std::make_unique<LeafWork<D>>());

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the schedules share: the tree and the work of its leaves, the workers, the passes over the whole mesh, the counts.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "detail/leaf_work.hpp"
+#include "pgdr/conflict_manager.hpp"
+#include "pgdr/refine.hpp"
+#include "pgdr/refiner.hpp"
+
+namespace pgdr::detail {
+
+template <int D>
+class LeafRefinement {
+ public:
+  using Node = typename Orthtree<D>::Node;
+
+  /// `pools`: those that made the mesh so far; they go to the first worker.
+  LeafRefinement(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices_so_far);
+  virtual ~LeafRefinement() = default;
+
+  /// Lists the whole mesh and refines it. @throws what a callback throws
+  StopCause run();
+
+  const RefineCounts& counts() const { return counts_; }
+  const SchedulerStatistics& statistics() const { return statistics_; }
+  std::vector<VisitTrace> take_trace() { return std::move(trace_); }
+  /// Were there ever faces that are not locally Delaunay?
+  bool violations_seen() const { return violations_seen_; }
+  /// Calls f with the refusals of each leaf.
+  void for_each_refused(const std::function<void(std::span<const Refusal<D>>)>& f);
+
+ protected:
+  using Clock = std::chrono::steady_clock;
+  using Worker = std::unique_ptr<Refiner<D>>;
+
+  /// Treats all that waits in the leaves.
+  virtual StopCause drain() = 0;
+
+  /// What would run now, one request for each leaf and order.
+  std::vector<VisitRequest> requests() const;
+  /// Fills in what the visit is asked to do; moves what was set aside for it out of the lists.
+  void prepare(const VisitRequest& request, RegionVisit<D>& visit);
+  /// Runs it in `area`, on a worker of its own; returns its seconds.
+  double visit(const VisitRequest& request, const VisitArea<D>& area, RegionVisit<D>& visit);
+  /// Adds up what a visit did, and puts off what it set aside.
+  void account(const VisitRequest& request, RegionVisit<D>& visit);
+  void post(Node leaf, std::vector<Entry<D>>&& entries);
+  bool wants_split(Node leaf);
+  double small_radius(Node leaf) const { return options_.split_ratio * tree_.side(leaf) / 2; }
+
+  RefineContext<D>& context_;
+  const ScheduleOptions& options_;
+  Orthtree<D> tree_;
+  LeafWorks<D> works_;
+  std::uint64_t generation_ = 0, vertices_;
+  bool violations_seen_ = false;
+  SchedulerStatistics statistics_;
+
+ private:
+  void list_everything();
+  void list_violations_everywhere();
+  bool relist_refused();
+  void relist(const Entry<D>& e);
+  void put_off(const VisitRequest& request, const std::vector<Entry<D>>& entries);
+  Worker check_out();
+  void check_in(Worker worker);
+  double record(const VisitRequest& request, const RegionVisit<D>& visit, Clock::time_point start);
+
+  WorkList<D> whole_list_;               ///< entities that visits of the whole tree come upon
+  std::vector<Entry<D>> whole_set_aside_;
+  bool min_edge_hit_ = false;
+  RefineCounts counts_;
+  std::mutex workers_mutex_;             ///< of the members below
+  std::vector<Worker> workers_;
+  std::vector<std::pair<std::thread::id, double>> busy_;  ///< seconds, by thread
+  std::vector<VisitTrace> trace_;
+};
+
+extern template class LeafRefinement<2>;
+extern template class LeafRefinement<3>;
+
+}  // namespace pgdr::detail

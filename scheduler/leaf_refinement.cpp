@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The passes over the whole mesh, and what waits where.
+#include "detail/leaf_refinement.hpp"
+
+#include <algorithm>
+
+namespace pgdr::detail {
+namespace {
+
+template <int D>
+Orthtree<D> tree_over(std::span<const Point<D>> points) {
+  Point<D> low = points[0], high = points[0];
+  for (const Point<D>& p : points)
+    for (int i = 0; i < D; ++i) {
+      low[i] = std::min(low[i], p[i]);
+      high[i] = std::max(high[i], p[i]);
+    }
+  return Orthtree<D>(low, high);
+}
+
+}  // namespace
+
+template <int D>
+LeafRefinement<D>::LeafRefinement(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices_so_far)
+    : context_(context),
+      options_(context.options.schedule),
+      tree_(tree_over<D>(context.domain.points())),
+      works_(tree_),
+      vertices_(vertices_so_far) {
+  workers_.push_back(std::make_unique<Refiner<D>>(context, std::move(pools)));
+}
+
+template <int D>
+void LeafRefinement<D>::list_everything() {
+  Worker worker = check_out();
+  RegionVisit<D> listing;
+  listing.list = &works_[Orthtree<D>::root].list;
+  worker->begin(listing);
+  const Mesh<D>& mesh = context_.mesh;
+  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i)
+    if (mesh.alive(CellId{i})) worker->list_cell(CellId{i});
+  check_in(std::move(worker));
+}
+
+/// A violation left standing may have moved off the walls, where insertions do not look for it. The slots of cells depend
+/// on timing, so the faces are put in the order of their cells' vertices.
+template <int D>
+void LeafRefinement<D>::list_violations_everywhere() {
+  Worker worker = check_out();
+  WorkList<D> found;
+  RegionVisit<D> listing;
+  listing.list = &found;
+  worker->begin(listing);
+  const Mesh<D>& mesh = context_.mesh;
+  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i)
+    if (mesh.alive(CellId{i})) worker->list_violations(CellId{i});
+  check_in(std::move(worker));
+  std::vector<Entry<D>> faces;
+  found.drain([&](const Entry<D>& e) { faces.push_back(e); });
+  std::sort(faces.begin(), faces.end(), [&mesh](const Entry<D>& a, const Entry<D>& b) {
+    for (int i = 0; i <= D; ++i)
+      if (a.vertices[i] != b.vertices[i]) return lex_less<D>(mesh.point(a.vertices[i]), mesh.point(b.vertices[i]));
+    return a.which < b.which;
+  });
+  for (const Entry<D>& e : faces) relist(e);
+}
+
+template <int D>
+void LeafRefinement<D>::relist(const Entry<D>& e) {
+  LeafWork<D>& work = works_[tree_.leaf_at(context_.mesh.cell(e.cell).center)];
+  if (!work.has_list()) work.since = generation_;
+  work.list.push(e);
+}
+
+/// All that was refused, once more.
+template <int D>
+bool LeafRefinement<D>::relist_refused() {
+  for (Node n = 0; n <= tree_.node_count(); ++n) {
+    auto& list = n == tree_.node_count() ? whole_list_ : works_[n].list;
+    for (const Refusal<D>& r : std::exchange(list.refused, {}))
+      if (r.entry.alive(context_.mesh)) relist(r.entry);
+  }
+  return !requests().empty();
+}
+
+template <int D>
+StopCause LeafRefinement<D>::run() {
+  const auto start = Clock::now();
+  list_everything();
+  StopCause stop = StopCause::finished;
+  while (true) {
+    const std::uint64_t before = counts_.committed;
+    stop = drain();
+    if (stop != StopCause::finished || counts_.committed == before) break;
+    if (violations_seen_) list_violations_everywhere();
+    if (!relist_refused()) break;
+  }
+  statistics_.leaves = tree_.leaf_count();
+  for (const auto& [thread, seconds] : busy_) statistics_.busy_seconds.push_back(seconds);
+  double in_visits = 0;
+  for (const double s : statistics_.busy_seconds) in_visits += s;
+  statistics_.serial_seconds = std::chrono::duration<double>(Clock::now() - start).count() - statistics_.seconds_in_generations;
+  statistics_.work_seconds = in_visits + statistics_.serial_seconds;
+  statistics_.critical_path_seconds += statistics_.serial_seconds;
+  if (stop == StopCause::finished && min_edge_hit_) return StopCause::min_edge;
+  return stop;
+}
+
+template <int D>
+std::vector<VisitRequest> LeafRefinement<D>::requests() const {
+  std::vector<VisitRequest> r;
+  for (Node n = 0; n < tree_.node_count(); ++n) {
+    if (!tree_.is_leaf(n)) continue;
+    const LeafWork<D>& work = works_[n];
+    if (work.has_list()) r.push_back({n, 1, work.since});
+    for (std::size_t level = 0; level < set_aside_orders.size(); ++level)
+      if (!work.set_aside[level].empty()) r.push_back({n, set_aside_orders[level], work.set_aside_since[level]});
+  }
+  if (!whole_set_aside_.empty() || !whole_list_.empty())
+    r.push_back({tree_.leaf_at(context_.domain.points()[0]), whole_tree, 0});
+  return r;
+}
+
+template <int D>
+void LeafRefinement<D>::prepare(const VisitRequest& request, RegionVisit<D>& visit) {
+  visit.violations_seen = violations_seen_;
+  visit.floor = options_.floor;
+  visit.granularity = options_.granularity;
+  visit.treat_list = request.order == 1;
+  if (request.order == whole_tree) {
+    visit.list = &whole_list_;
+    visit.given = std::exchange(whole_set_aside_, {});
+    return;
+  }
+  visit.list = &works_[request.leaf].list;
+  if (request.order == 1 && tree_.can_split(request.leaf)) visit.small_radius = small_radius(request.leaf);
+  for (std::size_t level = 0; level < set_aside_orders.size(); ++level)
+    if (set_aside_orders[level] == request.order) visit.given = std::exchange(works_[request.leaf].set_aside[level], {});
+}
+
+template <int D>
+void LeafRefinement<D>::account(const VisitRequest& request, RegionVisit<D>& visit) {
+  counts_ += visit.counts;
+  vertices_ += visit.counts.committed;
+  violations_seen_ = violations_seen_ || visit.violations_seen;
+  min_edge_hit_ = min_edge_hit_ || visit.min_edge_hit;
+  statistics_.set_aside += visit.set_aside.size();
+  put_off(request, visit.set_aside);
+}
+
+template <int D>
+void LeafRefinement<D>::post(Node leaf, std::vector<Entry<D>>&& entries) {
+  LeafWork<D>& to = works_[leaf];
+  if (!to.has_list()) to.since = generation_;
+  to.inbox.push_back(std::move(entries));
+}
+
+template <int D>
+void LeafRefinement<D>::put_off(const VisitRequest& request, const std::vector<Entry<D>>& entries) {
+  if (entries.empty()) return;
+  for (std::size_t level = 0; level < set_aside_orders.size(); ++level) {
+    if (set_aside_orders[level] <= request.order || set_aside_orders[level] <= options_.claim_order) continue;
+    auto& waiting = works_[request.leaf].set_aside[level];
+    if (waiting.empty()) works_[request.leaf].set_aside_since[level] = generation_;
+    waiting.insert(waiting.end(), entries.begin(), entries.end());
+    return;
+  }
+  whole_set_aside_.insert(whole_set_aside_.end(), entries.begin(), entries.end());
+}
+
+template <int D>
+bool LeafRefinement<D>::wants_split(Node leaf) {
+  WorkList<D>& list = works_[leaf].list;
+  return tree_.can_split(leaf) && list.poor() > 0 && list.poor() >= options_.floor &&
+         context_.largest_radius(list.first_bucket()) <= small_radius(leaf);
+}
+
+template <int D>
+void LeafRefinement<D>::for_each_refused(const std::function<void(std::span<const Refusal<D>>)>& f) {
+  for (Node n = 0; n < tree_.node_count(); ++n) f(works_[n].list.refused);
+  f(whole_list_.refused);
+}
+
+template class LeafRefinement<2>;
+template class LeafRefinement<3>;
+
+}  // namespace pgdr::detail

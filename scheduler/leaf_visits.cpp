@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// How a visit runs.
+#include <algorithm>
+
+#include "detail/leaf_refinement.hpp"
+
+namespace pgdr::detail {
+
+template <int D>
+auto LeafRefinement<D>::check_out() -> Worker {
+  {
+    const std::lock_guard lock(workers_mutex_);
+    if (!workers_.empty()) {
+      Worker worker = std::move(workers_.back());
+      workers_.pop_back();
+      return worker;
+    }
+  }
+  return std::make_unique<Refiner<D>>(context_, context_.mesh.make_pools());
+}
+
+template <int D>
+void LeafRefinement<D>::check_in(Worker worker) {
+  const std::lock_guard lock(workers_mutex_);
+  workers_.push_back(std::move(worker));
+}
+
+template <int D>
+double LeafRefinement<D>::visit(const VisitRequest& request, const VisitArea<D>& area, RegionVisit<D>& visit) {
+  if (context_.stop.load(std::memory_order_relaxed) != 0) return 0;
+  const auto start = Clock::now();
+  Worker worker = check_out();
+  try {
+    visit.area = &area;
+    if (request.order == 1) works_[request.leaf].open_inbox();
+    worker->run(visit);
+    visit.area = nullptr;
+  } catch (...) {
+    check_in(std::move(worker));
+    throw;
+  }
+  check_in(std::move(worker));
+  return record(request, visit, start);
+}
+
+template <int D>
+double LeafRefinement<D>::record(const VisitRequest& request, const RegionVisit<D>& visit, Clock::time_point start) {
+  const auto end = Clock::now();
+  const double seconds = std::chrono::duration<double>(end - start).count();
+  const std::lock_guard lock(workers_mutex_);
+  ++statistics_.visits;
+  const auto self = std::this_thread::get_id();
+  auto thread = std::find_if(busy_.begin(), busy_.end(), [self](const auto& t) { return t.first == self; });
+  if (thread == busy_.end()) thread = busy_.insert(thread, {self, 0.0});
+  thread->second += seconds;
+  if (!options_.trace) return seconds;
+  auto since_start = [this](Clock::time_point t) { return std::chrono::duration<double>(t - context_.start).count(); };
+  trace_.push_back({static_cast<std::uint32_t>(thread - busy_.begin()), since_start(start), since_start(end), request.leaf,
+                    static_cast<std::uint32_t>(tree_.level(request.leaf)), request.order, generation_,
+                    visit.counts.committed, visit.set_aside.size()});
+  return seconds;
+}
+
+template class LeafRefinement<2>;
+template class LeafRefinement<3>;
+
+}  // namespace pgdr::detail
