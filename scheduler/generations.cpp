@@ -40,6 +40,7 @@ bool Generations<D>::one_generation() {
   const auto start = Clock::now();
   execute(generation.graph, [&](VisitGraph::Visit v) {
     const ClaimedArea<D> area(tree_, generation.visits[v].claim);
+    if (generation.visits[v].request.order == 1) works_[generation.visits[v].request.leaf].open_inbox();
     planned[v].seconds = Base::visit(generation.visits[v].request, area, planned[v].work);
   });
   statistics_.seconds_in_generations += std::chrono::duration<double>(Clock::now() - start).count();

@@ -109,18 +109,20 @@ StopCause LeafRefinement<D>::run() {
 }
 
 template <int D>
+void LeafRefinement<D>::append_requests(Node leaf, std::vector<VisitRequest>& out) const {
+  const LeafWork<D>& work = works_[leaf];
+  if (work.has_list()) out.push_back({leaf, 1, work.since});
+  for (std::size_t level = 0; level < set_aside_orders.size(); ++level)
+    if (!work.set_aside[level].empty()) out.push_back({leaf, set_aside_orders[level], work.set_aside_since[level]});
+}
+
+template <int D>
 std::vector<VisitRequest> LeafRefinement<D>::requests() const {
-  std::vector<VisitRequest> r;
-  for (Node n = 0; n < tree_.node_count(); ++n) {
-    if (!tree_.is_leaf(n)) continue;
-    const LeafWork<D>& work = works_[n];
-    if (work.has_list()) r.push_back({n, 1, work.since});
-    for (std::size_t level = 0; level < set_aside_orders.size(); ++level)
-      if (!work.set_aside[level].empty()) r.push_back({n, set_aside_orders[level], work.set_aside_since[level]});
-  }
-  if (!whole_set_aside_.empty() || !whole_list_.empty())
-    r.push_back({tree_.leaf_at(context_.domain.points()[0]), whole_tree, 0});
-  return r;
+  std::vector<VisitRequest> all;
+  for (Node n = 0; n < tree_.node_count(); ++n)
+    if (tree_.is_leaf(n)) append_requests(n, all);
+  if (whole_tree_waits()) all.push_back({whole_tree_leaf(), whole_tree, 0});
+  return all;
 }
 
 template <int D>
@@ -129,6 +131,7 @@ void LeafRefinement<D>::prepare(const VisitRequest& request, RegionVisit<D>& vis
   visit.floor = options_.floor;
   visit.granularity = options_.granularity;
   visit.treat_list = request.order == 1;
+  visit.level = static_cast<std::uint32_t>(tree_.level(request.leaf));
   if (request.order == whole_tree) {
     visit.list = &whole_list_;
     visit.given = std::exchange(whole_set_aside_, {});

@@ -34,7 +34,6 @@ double LeafRefinement<D>::visit(const VisitRequest& request, const VisitArea<D>&
   Worker worker = check_out();
   try {
     visit.area = &area;
-    if (request.order == 1) works_[request.leaf].open_inbox();
     worker->run(visit);
     visit.area = nullptr;
   } catch (...) {
@@ -58,7 +57,7 @@ double LeafRefinement<D>::record(const VisitRequest& request, const RegionVisit<
   if (!options_.trace) return seconds;
   auto since_start = [this](Clock::time_point t) { return std::chrono::duration<double>(t - context_.start).count(); };
   trace_.push_back({static_cast<std::uint32_t>(thread - busy_.begin()), since_start(start), since_start(end), request.leaf,
-                    static_cast<std::uint32_t>(tree_.level(request.leaf)), request.order, generation_,
+                    visit.level, request.order, generation_,
                     visit.counts.committed, visit.set_aside.size()});
   return seconds;
 }

@@ -15,6 +15,7 @@
 #include "pgdr/labeling.hpp"
 #include "detail/arena.hpp"
 #include "detail/generations.hpp"
+#include "detail/greedy.hpp"
 #include "pgdr/poor_reasons.hpp"
 #include "pgdr/recovery.hpp"
 
@@ -47,6 +48,25 @@ CellBounds<D> bounds_of(const RefineOptions<D>& options, const RegionTable& regi
   bounds.max_measure = options.max_volume;
   bounds.region_measure = regions.measure;
   return bounds;
+}
+
+/// Threads that visits can run on.
+int threads_of(const ScheduleOptions& options) {
+  switch (options.executor) {
+    case Executor::flow_graph: return detail::arena_threads(options.threads);
+    case Executor::threads: return std::max(options.threads, 1);
+    case Executor::serial: break;
+  }
+  return 1;
+}
+
+template <int D>
+std::unique_ptr<detail::LeafRefinement<D>> make_refinement(RefineContext<D>& context, typename Mesh<D>::Pools pools,
+                                                           std::uint64_t vertices) {
+  const ScheduleOptions& options = context.options.schedule;
+  if (options.schedule == Schedule::greedy)
+    return std::make_unique<detail::Greedy<D>>(context, std::move(pools), vertices, threads_of(options));
+  return std::make_unique<detail::Generations<D>>(context, std::move(pools), vertices);
 }
 
 template <int D>
@@ -84,19 +104,17 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   PoorReasons<D> reasons(mesh, domain, context.bounds);
   bool violations_seen = false;
   if (options.refine) {
-    detail::Generations<D> generations(context, std::move(pools), vertices);
-    result.stop = generations.run();
-    violations_seen = generations.violations_seen();
-    generations.for_each_refused([&](std::span<const Refusal<D>> refused) { reasons.add(refused); });
-    const RefineCounts& counts = generations.counts();
+    const auto refinement = make_refinement<D>(context, std::move(pools), vertices);
+    result.stop = refinement->run();
+    violations_seen = refinement->violations_seen();
+    refinement->for_each_refused([&](std::span<const Refusal<D>> refused) { reasons.add(refused); });
+    const RefineCounts& counts = refinement->counts();
     result.statistics.insertions_committed = counts.committed;
     result.statistics.insertions_refused = counts.refused;
     result.statistics.selector_outside = counts.selector_outside;
-    result.scheduler = generations.statistics();
-    result.scheduler.threads = options.schedule.executor == Executor::flow_graph ? detail::arena_threads(options.schedule.threads)
-                               : options.schedule.executor == Executor::threads  ? std::max(options.schedule.threads, 1)
-                                                                                 : 1;
-    result.trace = generations.take_trace();
+    result.scheduler = refinement->statistics();
+    result.scheduler.threads = threads_of(options.schedule);
+    result.trace = refinement->take_trace();
   }
   const bool finished = options.refine && result.stop == StopCause::finished;
   const std::vector<PoorCell> poor = finished ? reasons.explained(violations_seen) : reasons.without_reasons();

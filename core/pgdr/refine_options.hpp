@@ -22,10 +22,11 @@ struct Progress {
   std::uint64_t waiting = 0;   ///< entries in the lists of what is to be treated
 };
 
-/// How leaves of the tree are visited. `reproducible`: the same mesh, bit for bit, for any number of threads.
-enum class Schedule { reproducible };
+/// How leaves of the tree are visited. `reproducible`: the same mesh, bit for bit, for any number of threads. `greedy`:
+/// whatever is free runs next, and the mesh depends on timing; it shows what reproducibility costs.
+enum class Schedule { reproducible, greedy };
 /// What runs the visits: a oneTBB flow graph in the caller's arena; plain threads (for thread sanitizers, which do not see
-/// through TBB); or the calling thread alone. The mesh does not depend on it.
+/// through TBB); or the calling thread alone. A reproducible mesh does not depend on it.
 enum class Executor { flow_graph, threads, serial };
 
 struct ScheduleOptions {

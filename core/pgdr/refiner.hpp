@@ -71,6 +71,7 @@ struct RegionVisit {
   WorkList<D>* list = nullptr;          ///< of the region
   std::vector<Entry<D>> given;          ///< set aside by earlier visits: these alone are treated, and what they bring
   bool treat_list = true;               ///< false: `given` only
+  std::uint32_t level = 0;              ///< of the region in its tree, for the record
   double small_radius = 0;              ///< end once no poor element is larger ...
   std::size_t floor = 0;                ///< ... and this many wait at least
   int granularity = std::numeric_limits<int>::max();  ///< end this many buckets after the first

@@ -15,22 +15,30 @@ template <int D>
 class ClaimedArea final : public VisitArea<D> {
  public:
   ClaimedArea(const Orthtree<D>& tree, const Claim<D>& claim) : tree_(&tree), claim_(&claim) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     this->inner_low = claim.inner().low;
     this->inner_high = claim.inner().high;
-    const auto box = tree.box(claim.leaf());
+    const auto box = unbounded_box(tree, claim.leaf());
+    this->home_low = box.low;
+    this->home_high = box.high;
+    // A visit of the whole tree has no leaf of its own.
+    if (claim.whole()) this->home_low[0] = infinity;
+  }
+  /// The box of all points that belong to the leaf: what lies beyond the root counts for the leaf nearest to it.
+  static typename Orthtree<D>::Box unbounded_box(const Orthtree<D>& tree, std::uint32_t leaf) {
+    auto box = tree.box(leaf);
     for (int i = 0; i < D; ++i) {
-      const std::uint64_t low = tree.position(claim.leaf(), i), end = tree.extent(Orthtree<D>::root);
-      this->home_low[i] = low == 0 ? -infinity : box.low[i];
-      this->home_high[i] = low + tree.extent(claim.leaf()) == end ? infinity : box.high[i];
-      // A visit of the whole tree has no leaf of its own.
-      if (claim.whole()) this->home_low[i] = infinity;
+      const std::uint64_t low = tree.position(leaf, i);
+      if (low == 0) box.low[i] = -infinity;
+      if (low + tree.extent(leaf) == tree.extent(Orthtree<D>::root)) box.high[i] = infinity;
     }
+    return box;
   }
   bool claimed(const Point<D>& p) const override { return claim_->contains(p); }
   std::uint32_t leaf_of(const Point<D>& p) const override { return tree_->leaf_at(p); }
 
  private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
   const Orthtree<D>* tree_;
   const Claim<D>* claim_;
 };

@@ -45,8 +45,12 @@ class LeafRefinement {
   /// Treats all that waits in the leaves.
   virtual StopCause drain() = 0;
 
-  /// What would run now, one request for each leaf and order.
+  /// What waits, one request for each leaf and order; for the whole tree one, last.
   std::vector<VisitRequest> requests() const;
+  void append_requests(Node leaf, std::vector<VisitRequest>& out) const;
+  bool whole_tree_waits() const { return !whole_set_aside_.empty() || !whole_list_.empty(); }
+  /// Any leaf: the whole tree is nobody's.
+  Node whole_tree_leaf() const { return tree_.leaf_at(context_.domain.points()[0]); }
   /// Fills in what the visit is asked to do; moves what was set aside for it out of the lists.
   void prepare(const VisitRequest& request, RegionVisit<D>& visit);
   /// Runs it in `area`, on a worker of its own; returns its seconds.

@@ -53,6 +53,8 @@ class ConflictManager {
   /// A leaf may be asked for once per order. @throws ResourceError internal otherwise, or if it is no leaf
   Generation<D> plan(std::span<const VisitRequest> requests);
 
+  /// The claim of a visit, as `plan` would make it.
+  Claim<D> claim_of(const VisitRequest& r);
   /// BUF(leaf), sorted, from the cache. Valid until the next call of a member.
   const std::vector<Node>& buffer(Node leaf);
 
@@ -63,7 +65,6 @@ class ConflictManager {
   };
   std::uint32_t claim_order(const VisitRequest& r) const { return r.order == 1 ? ordinary_order_ : r.order; }
   std::vector<VisitRequest> in_order(std::span<const VisitRequest> requests) const;
-  Claim<D> claim_of(const VisitRequest& r);
 
   const Orthtree<D>* tree_;
   std::uint32_t ordinary_order_;

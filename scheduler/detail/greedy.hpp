@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The greedy schedule (dissertation, fig. 3.15): whatever is free runs next, the largest leaf first, first in first out
+// among equals. Leaves are claimed, handed work and split under one lock, as soon as a visit ends, so that the mesh depends
+// on timing. A running visit reads a copy of the boxes that it has claimed and never the tree. It exists to measure
+// what reproducibility costs.
+#pragma once
+
+#include <condition_variable>
+#include <set>
+#include <tuple>
+
+#include "detail/leaf_refinement.hpp"
+
+namespace pgdr::detail {
+
+template <int D>
+class Greedy final : public LeafRefinement<D> {
+ public:
+  using Base = LeafRefinement<D>;
+  using typename Base::Node;
+
+  /// `threads`: visits that may run at once.
+  Greedy(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices_so_far, int threads);
+
+ private:
+  using typename Base::Clock;
+  struct Running;
+  /// Level, arrival, order, leaf: the order of the pool.
+  using Waiting = std::tuple<int, std::uint64_t, std::uint32_t, Node>;
+
+  StopCause drain() override;
+  void run_in_arena();
+  void run_on_threads();
+  // Under the lock:
+  void pool(Node leaf);
+  void pool(const VisitRequest& request, int level);
+  std::unique_ptr<Running> pick();
+  bool claim(Running& visit, bool nothing_else);
+  void end(Running& visit);
+  void hand_over(Running& visit);
+  void split(Node leaf);
+  bool done() const { return running_ == 0 && (pool_.empty() || context_.stop != 0); }
+
+  using Base::context_, Base::generation_, Base::options_, Base::statistics_, Base::tree_, Base::vertices_, Base::works_;
+  ConflictManager<D> conflicts_;
+  const int threads_;
+  std::mutex mutex_;  ///< of all below, and of the tree, the inboxes and the counts
+  std::condition_variable ended_;
+  std::set<Waiting> pool_;
+  std::set<std::pair<Node, std::uint32_t>> pooled_;  ///< leaf and order of what is in the pool
+  std::vector<char> claimed_;  ///< by node
+  std::uint64_t arrivals_ = 0, reserved_ = 0;
+  int running_ = 0;
+};
+
+extern template class Greedy<2>;
+extern template class Greedy<3>;
+
+}  // namespace pgdr::detail

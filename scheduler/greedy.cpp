@@ -1,0 +1,248 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "detail/greedy.hpp"
+
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
+
+#include <algorithm>
+#include <exception>
+
+#include "detail/arena.hpp"
+#include "detail/claimed_area.hpp"
+
+namespace pgdr::detail {
+namespace {
+
+/// A claim as the boxes that it had when it was made: the tree may be split meanwhile.
+template <int D>
+class CopiedArea final : public VisitArea<D> {
+ public:
+  CopiedArea(const Orthtree<D>& tree, const Claim<D>& claim) {
+    const ClaimedArea<D> area(tree, claim);
+    static_cast<VisitArea<D>&>(*this) = area;
+    whole_ = claim.whole();
+    for (const std::uint32_t leaf : claim.leaves()) boxes_.push_back(ClaimedArea<D>::unbounded_box(tree, leaf));
+  }
+  bool claimed(const Point<D>& p) const override {
+    return whole_ || std::any_of(boxes_.begin(), boxes_.end(), [&p](const auto& box) { return box.contains(p); });
+  }
+  /// Found out when the visit has ended.
+  std::uint32_t leaf_of(const Point<D>&) const override { return 0; }
+
+ private:
+  bool whole_ = false;
+  std::vector<typename Orthtree<D>::Box> boxes_;
+};
+
+}  // namespace
+
+template <int D>
+struct Greedy<D>::Running {
+  VisitRequest request;
+  RegionVisit<D> work;
+  std::unique_ptr<CopiedArea<D>> area;
+  std::vector<Node> leaves;  ///< claimed
+};
+
+template <int D>
+Greedy<D>::Greedy(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices_so_far, int threads)
+    : Base(context, std::move(pools), vertices_so_far), conflicts_(tree_, options_.claim_order), threads_(threads) {}
+
+/// Puts the leaf's work, of every order, into the pool. What is there already keeps its place.
+template <int D>
+void Greedy<D>::pool(Node leaf) {
+  std::vector<VisitRequest> requests;
+  Base::append_requests(leaf, requests);
+  for (const VisitRequest& r : requests) pool(r, tree_.level(leaf));
+}
+
+template <int D>
+void Greedy<D>::pool(const VisitRequest& request, int level) {
+  if (pooled_.insert({request.leaf, request.order}).second) pool_.insert({level, arrivals_++, request.order, request.leaf});
+}
+
+/// Are the leaves free that the visit needs? Then they are its own.
+template <int D>
+bool Greedy<D>::claim(Running& visit, bool nothing_else) {
+  const VisitRequest& r = visit.request;
+  if (r.order == whole_tree) {
+    if (running_ > 0 || !nothing_else) return false;
+  } else if (claimed_[r.leaf]) {
+    return false;
+  }
+  const Claim<D> claim = conflicts_.claim_of(r);
+  for (const Node leaf : claim.leaves())
+    if (claimed_[leaf]) return false;
+  visit.leaves = claim.leaves();
+  for (const Node leaf : visit.leaves) claimed_[leaf] = 1;
+  visit.area = std::make_unique<CopiedArea<D>>(tree_, claim);
+  return true;
+}
+
+/// The first in the pool that can run now; null if none can.
+template <int D>
+auto Greedy<D>::pick() -> std::unique_ptr<Running> {
+  const std::uint64_t left = context_.options.max_vertices - std::min(context_.options.max_vertices, vertices_ + reserved_);
+  if (running_ >= threads_ || context_.stop != 0 || left == 0) return nullptr;
+  claimed_.resize(tree_.node_count(), 0);
+  for (auto next = pool_.begin(); next != pool_.end(); ++next) {
+    auto visit = std::make_unique<Running>();
+    visit->request = {std::get<3>(*next), std::get<2>(*next), 0};
+    if (!claim(*visit, pool_.size() == 1)) continue;
+    pool_.erase(next);
+    pooled_.erase({visit->request.leaf, visit->request.order});
+    Base::prepare(visit->request, visit->work);
+    if (visit->request.order == 1) works_[visit->request.leaf].open_inbox();
+    visit->work.most_insertions = std::max<std::uint64_t>(left / static_cast<std::uint64_t>(threads_), 1);
+    reserved_ += visit->work.most_insertions;
+    ++running_;
+    statistics_.max_concurrent = std::max(statistics_.max_concurrent, static_cast<std::uint32_t>(running_));
+    return visit;
+  }
+  return nullptr;
+}
+
+/// Elements that belong to other leaves, found now that the visit has ended and still owns their cells.
+template <int D>
+void Greedy<D>::hand_over(Running& visit) {
+  for (auto& box : visit.work.outboxes) {
+    std::vector<std::pair<Node, std::vector<Entry<D>>>> letters;
+    for (const Entry<D>& e : box.entries) {
+      if (!e.alive(context_.mesh)) continue;
+      const Node leaf = tree_.leaf_at(context_.mesh.cell(e.cell).center);
+      auto letter = std::find_if(letters.rbegin(), letters.rend(), [leaf](const auto& l) { return l.first == leaf; });
+      if (letter == letters.rend()) {
+        letters.push_back({leaf, {e}});
+      } else {
+        letter->second.push_back(e);
+      }
+    }
+    for (auto& [leaf, entries] : letters) {
+      Base::post(leaf, std::move(entries));
+      if (leaf != visit.request.leaf) pool(leaf);
+    }
+  }
+}
+
+template <int D>
+void Greedy<D>::split(Node leaf) {
+  std::vector<Node> candidates{leaf};
+  while (!candidates.empty()) {
+    const Node parent = candidates.back();
+    candidates.pop_back();
+    if (!Base::wants_split(parent) || tree_.split(parent) == Orthtree<D>::none) {
+      pool(parent);
+      continue;
+    }
+    works_.grow();
+    works_.hand_down(context_.mesh, parent, generation_);
+    std::erase_if(pool_, [parent](const Waiting& w) { return std::get<3>(w) == parent && std::get<2>(w) != whole_tree; });
+    std::erase_if(pooled_, [parent](const auto& p) { return p.first == parent && p.second != whole_tree; });
+    for (Node child = 0; child < Orthtree<D>::children; ++child) candidates.push_back(tree_.first_child(parent) + child);
+  }
+}
+
+template <int D>
+void Greedy<D>::end(Running& visit) {
+  reserved_ -= std::min(reserved_, visit.work.most_insertions);
+  Base::account(visit.request, visit.work);
+  hand_over(visit);
+  for (const Node leaf : visit.leaves) claimed_[leaf] = 0;
+  --running_;
+  if (visit.request.order == 1) {
+    split(visit.request.leaf);
+  } else if (visit.request.order != whole_tree) {
+    pool(visit.request.leaf);
+  }
+  if (Base::whole_tree_waits() && !std::any_of(pool_.begin(), pool_.end(), [](const Waiting& w) { return std::get<2>(w) == whole_tree; }))
+    pool({Base::whole_tree_leaf(), whole_tree, 0}, Orthtree<D>::max_level + 1);
+  ended_.notify_all();
+}
+
+template <int D>
+void Greedy<D>::run_on_threads() {
+  std::exception_ptr error;
+  auto work = [&] {
+    std::unique_lock lock(mutex_);
+    while (!done() && !error) {
+      auto visit = pick();
+      if (!visit) {
+        if (running_ == 0) return;
+        ended_.wait(lock);
+        continue;
+      }
+      lock.unlock();
+      std::exception_ptr thrown;
+      try {
+        Base::visit(visit->request, *visit->area, visit->work);
+      } catch (...) {
+        thrown = std::current_exception();
+      }
+      lock.lock();
+      if (thrown && !error) error = thrown;
+      end(*visit);
+    }
+    ended_.notify_all();
+  };
+  std::vector<std::thread> threads;
+  for (int i = 1; i < threads_; ++i) threads.emplace_back(work);
+  work();
+  for (std::thread& t : threads) t.join();
+  if (error) std::rethrow_exception(error);
+}
+
+template <int D>
+void Greedy<D>::run_in_arena() {
+  in_arena(options_.threads, [this] {
+    tbb::task_group group;
+    std::function<void()> start_ready = [&] {
+      const std::lock_guard lock(mutex_);
+      while (std::shared_ptr<Running> visit = pick())
+        group.run([this, visit, &start_ready] {
+          try {
+            // Isolated: a callback that waits for parallel work of its own must not pick up another visit meanwhile.
+            tbb::this_task_arena::isolate([&] { Base::visit(visit->request, *visit->area, visit->work); });
+          } catch (...) {
+            context_.stop = static_cast<int>(StopCause::cancelled);
+            const std::lock_guard end_lock(mutex_);
+            end(*visit);
+            throw;
+          }
+          {
+            const std::lock_guard end_lock(mutex_);
+            end(*visit);
+          }
+          start_ready();
+        });
+    };
+    tbb::this_task_arena::isolate([&] {
+      start_ready();
+      group.wait();
+    });
+  });
+}
+
+template <int D>
+StopCause Greedy<D>::drain() {
+  ++generation_;
+  ++statistics_.generations;
+  const auto start = Clock::now();
+  for (const VisitRequest& r : Base::requests())
+    pool(r, r.order == whole_tree ? Orthtree<D>::max_level + 1 : tree_.level(r.leaf));
+  if (options_.executor == Executor::flow_graph) {
+    run_in_arena();
+  } else {
+    run_on_threads();
+  }
+  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  statistics_.seconds_in_generations += seconds;
+  statistics_.critical_path_seconds += seconds;
+  if (const int stop = context_.stop; stop != 0) return static_cast<StopCause>(stop);
+  return vertices_ >= context_.options.max_vertices && !pool_.empty() ? StopCause::max_vertices : StopCause::finished;
+}
+
+template class Greedy<2>;
+template class Greedy<3>;
+
+}  // namespace pgdr::detail
