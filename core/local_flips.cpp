@@ -60,6 +60,10 @@ bool LocalFlips<D>::repair(Pools& pools, CellId c, int face) {
     for (int a = 0; a <= D; ++a)
       for (int b = a + 1; b <= D; ++b)
         if (a != face && b != face && try_edge(pools, c, a, b)) return true;
+    if (rewrap_.repair(pools, c, face)) {
+      new_cells_ = rewrap_.new_cells();
+      return true;
+    }
   }
   return false;
 }

@@ -8,8 +8,10 @@
 // up to seven, in 3D, if need be together with the two subfacets of one facet that it lies between. A workspace of one visit, as the cavity.
 #pragma once
 
+#include <type_traits>
 #include <vector>
 
+#include "pgdr/local_rewrap.hpp"
 #include "pgdr/mesh.hpp"
 
 namespace pgdr {
@@ -19,7 +21,7 @@ class LocalFlips {
  public:
   using Pools = typename Mesh<D>::Pools;
 
-  LocalFlips(Mesh<D>& mesh, const Domain<D>& domain) : mesh_(&mesh), domain_(&domain) {}
+  LocalFlips(Mesh<D>& mesh, const Domain<D>& domain) : mesh_(&mesh), domain_(&domain), rewrap_(mesh) {}
 
   /// Is the face unconstrained, and the vertex beyond it strictly inside the (unperturbed) circumsphere of c?
   bool violates(CellId c, int face) const;
@@ -68,8 +70,13 @@ class LocalFlips {
   CellId make_cell(Pools& pools, const NewCell& cell);
   const OuterFace* outer(const Face& f) const;
 
+  struct NoRewrap {
+    explicit NoRewrap(Mesh<D>&) {}
+  };
+
   Mesh<D>* mesh_;
   const Domain<D>* domain_;
+  std::conditional_t<D == 3, LocalRewrap, NoRewrap> rewrap_;
   std::vector<CellId> old_, new_cells_;
   std::vector<OuterFace> outer_;
   std::vector<Subsegment> subsegments_;
