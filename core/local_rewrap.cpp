@@ -13,20 +13,21 @@ constexpr std::size_t most_cells = 96;  // of a region; the larger ones are thos
 }  // namespace
 
 bool LocalRewrap::repair(Pools& pools, CellId c, int face) {
-  const Link link = mesh_->cell(c).links[face];
-  const bool grown = grow(c, link.cell());
+  begin(c, mesh_->cell(c).links[face].cell());
   bool repaired = false;
-  if (grown) {
-    find_rim();
-    std::vector<GiftWrap::Face> front;
-    for (const RimFace& f : rim_) front.push_back(f.vertices);
-    if (wrap_.fill(points_, front, 2 * most_cells) && keeps_subsegments() && violations_after() < violations_before()) {
-      replace(pools);
-      repaired = true;
-    }
-  }
+  while (!repaired && grow()) repaired = wrap_again(pools);
   release();
   return repaired;
+}
+
+bool LocalRewrap::wrap_again(Pools& pools) {
+  find_rim();
+  front_.clear();
+  for (const RimFace& f : rim_) front_.push_back(f.vertices);
+  if (!wrap_.fill(points_, front_, 2 * most_cells) || !keeps_subsegments()) return false;
+  if (violations_after() >= violations_before()) return false;
+  replace(pools);
+  return true;
 }
 
 void LocalRewrap::release() {
@@ -57,25 +58,25 @@ bool LocalRewrap::in_conflict(CellId c) const {
   return false;
 }
 
-/// False if the region would become too large.
-bool LocalRewrap::grow(CellId c, CellId d) {
+void LocalRewrap::begin(CellId c, CellId d) {
   vertices_.clear();
   points_.clear();
   region_ = mesh_->region(c);
   take(c);
   take(d);
-  // New vertices may bring the neighbours of earlier cells into conflict.
-  for (std::size_t vertices = 0; vertices != vertices_.size();) {
-    vertices = vertices_.size();
-    for (std::size_t i = 0; i < old_.size(); ++i)
-      for (int f = 0; f < 4; ++f) {
-        const Link next = mesh_->cell(old_[i]).links[f];
-        if (!next || mesh_->constrained(old_[i], f) || mesh_->marked(next.cell()) || !in_conflict(next.cell())) continue;
-        if (old_.size() == most_cells) return false;
-        take(next.cell());
-      }
-  }
-  return true;
+}
+
+/// Adds the neighbours that are in conflict with a vertex of the region. False if there are none, or too many.
+bool LocalRewrap::grow() {
+  const std::size_t before = old_.size();
+  for (std::size_t i = 0; i < before; ++i)
+    for (int f = 0; f < 4; ++f) {
+      const Link next = mesh_->cell(old_[i]).links[f];
+      if (!next || mesh_->constrained(old_[i], f) || mesh_->marked(next.cell()) || !in_conflict(next.cell())) continue;
+      if (old_.size() == most_cells) return false;
+      take(next.cell());
+    }
+  return old_.size() != before;
 }
 
 void LocalRewrap::find_rim() {
@@ -112,7 +113,7 @@ bool LocalRewrap::violates(const GiftWrap::Cell& cell, const Point3& apex) const
   return in_sphere<3>({points_[cell[0]], points_[cell[1]], points_[cell[2]], points_[cell[3]]}, apex) == Sign::positive;
 }
 
-/// Violating faces of the old cells; those between two of them are counted twice.
+/// Violating faces of the old cells, each counted twice.
 int LocalRewrap::violations_before() const {
   int count = 0;
   for (const CellId c : old_)
@@ -120,7 +121,8 @@ int LocalRewrap::violations_before() const {
       const Link link = mesh_->cell(c).links[f];
       if (!link || mesh_->constrained(c, f)) continue;
       const Point3& apex = mesh_->point(mesh_->cell(link.cell()).vertices[link.face()]);
-      count += mesh_->conflicts(c, apex) && in_sphere<3>(mesh_->simplex(c), apex) == Sign::positive;
+      if (mesh_->conflicts(c, apex) && in_sphere<3>(mesh_->simplex(c), apex) == Sign::positive)
+        count += mesh_->marked(link.cell()) ? 1 : 2;
     }
   return count;
 }
@@ -133,7 +135,7 @@ int LocalRewrap::violations_after() const {
       const GiftWrap::Face face = GiftWrap::face_of(cell, f), back = GiftWrap::turned_over(face);
       if (const RimFace* r = rim_face(face)) {
         if (r->constrained) continue;
-        count += violates(cell, mesh_->point(mesh_->cell(r->link.cell()).vertices[r->link.face()]));
+        count += 2 * violates(cell, mesh_->point(mesh_->cell(r->link.cell()).vertices[r->link.face()]));
         continue;
       }
       for (const GiftWrap::Cell& other : wrap_.cells())

@@ -45,7 +45,9 @@ class LocalRewrap {
     EntityId entity;
   };
 
-  bool grow(CellId c, CellId d);
+  void begin(CellId c, CellId d);
+  bool grow();
+  bool wrap_again(Pools& pools);
   void take(CellId c);
   bool in_conflict(CellId c) const;
   Index number(VertexId v);
@@ -65,6 +67,7 @@ class LocalRewrap {
   std::vector<VertexId> vertices_;  ///< of the region; gift wrapping knows them by their place here
   std::vector<Point3> points_;
   std::vector<RimFace> rim_;
+  std::vector<GiftWrap::Face> front_;
   std::vector<Subsegment> subsegments_;
   std::uint16_t region_ = 0;
 };
