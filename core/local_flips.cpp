@@ -60,10 +60,16 @@ bool LocalFlips<D>::repair(Pools& pools, CellId c, int face) {
     for (int a = 0; a <= D; ++a)
       for (int b = a + 1; b <= D; ++b)
         if (a != face && b != face && try_edge(pools, c, a, b)) return true;
-    if (rewrap_.repair(pools, c, face)) {
-      new_cells_ = rewrap_.new_cells();
-      return true;
-    }
+  }
+  return false;
+}
+
+template <int D>
+bool LocalFlips<D>::rewrap(Pools& pools, CellId c, int face, std::size_t most_cells) {
+  if constexpr (D == 3) {
+    if (!violates(c, face) || !rewrap_.repair(pools, c, face, most_cells)) return false;
+    new_cells_ = rewrap_.new_cells();
+    return true;
   }
   return false;
 }

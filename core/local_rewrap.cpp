@@ -6,13 +6,9 @@
 #include <cassert>
 
 namespace pgdr {
-namespace {
 
-constexpr std::size_t most_cells = 96;  // of a region; the larger ones are those that hidden vertices let grow
-
-}  // namespace
-
-bool LocalRewrap::repair(Pools& pools, CellId c, int face) {
+bool LocalRewrap::repair(Pools& pools, CellId c, int face, std::size_t most_cells) {
+  most_cells_ = most_cells;
   begin(c, mesh_->cell(c).links[face].cell());
   bool repaired = false;
   while (!repaired && grow()) repaired = wrap_again(pools);
@@ -24,7 +20,7 @@ bool LocalRewrap::wrap_again(Pools& pools) {
   find_rim();
   front_.clear();
   for (const RimFace& f : rim_) front_.push_back(f.vertices);
-  if (!wrap_.fill(points_, front_, 2 * most_cells) || !keeps_subsegments()) return false;
+  if (!wrap_.fill(points_, front_, 2 * most_cells_) || !keeps_subsegments()) return false;
   if (violations_after() >= violations_before()) return false;
   replace(pools);
   return true;
@@ -73,7 +69,7 @@ bool LocalRewrap::grow() {
     for (int f = 0; f < 4; ++f) {
       const Link next = mesh_->cell(old_[i]).links[f];
       if (!next || mesh_->constrained(old_[i], f) || mesh_->marked(next.cell()) || !in_conflict(next.cell())) continue;
-      if (old_.size() == most_cells) return false;
+      if (old_.size() == most_cells_) return false;
       take(next.cell());
     }
   return old_.size() != before;
@@ -109,20 +105,30 @@ bool LocalRewrap::keeps_subsegments() const {
   });
 }
 
-bool LocalRewrap::violates(const GiftWrap::Cell& cell, const Point3& apex) const {
-  return in_sphere<3>({points_[cell[0]], points_[cell[1]], points_[cell[2]], points_[cell[3]]}, apex) == Sign::positive;
+/// What a violation counts. One that no entity is beside counts for more than all others, so that what cannot be mended
+/// moves to the walls that hide what is in its way.
+int LocalRewrap::weight(const std::array<VertexId, 4>& cell, VertexId apex) const {
+  auto in_volume = [this](VertexId v) { return mesh_->vertex(v).home.kind() == EntityKind::volume; };
+  return in_volume(apex) && std::all_of(cell.begin(), cell.end(), in_volume) ? 10000 : 1;
 }
 
-/// Violating faces of the old cells, each counted twice.
+int LocalRewrap::violation(const GiftWrap::Cell& cell, VertexId apex) const {
+  const Simplex<3> s{points_[cell[0]], points_[cell[1]], points_[cell[2]], points_[cell[3]]};
+  if (in_sphere<3>(s, mesh_->point(apex)) != Sign::positive) return 0;
+  return weight({vertices_[cell[0]], vertices_[cell[1]], vertices_[cell[2]], vertices_[cell[3]]}, apex);
+}
+
+/// Violating faces of the old cells by their weights, each counted twice.
 int LocalRewrap::violations_before() const {
   int count = 0;
   for (const CellId c : old_)
     for (int f = 0; f < 4; ++f) {
       const Link link = mesh_->cell(c).links[f];
       if (!link || mesh_->constrained(c, f)) continue;
-      const Point3& apex = mesh_->point(mesh_->cell(link.cell()).vertices[link.face()]);
-      if (mesh_->conflicts(c, apex) && in_sphere<3>(mesh_->simplex(c), apex) == Sign::positive)
-        count += mesh_->marked(link.cell()) ? 1 : 2;
+      const VertexId apex = mesh_->cell(link.cell()).vertices[link.face()];
+      const Point3& p = mesh_->point(apex);
+      if (mesh_->conflicts(c, p) && in_sphere<3>(mesh_->simplex(c), p) == Sign::positive)
+        count += weight(mesh_->cell(c).vertices, apex) * (mesh_->marked(link.cell()) ? 1 : 2);
     }
   return count;
 }
@@ -135,12 +141,12 @@ int LocalRewrap::violations_after() const {
       const GiftWrap::Face face = GiftWrap::face_of(cell, f), back = GiftWrap::turned_over(face);
       if (const RimFace* r = rim_face(face)) {
         if (r->constrained) continue;
-        count += 2 * violates(cell, mesh_->point(mesh_->cell(r->link.cell()).vertices[r->link.face()]));
+        count += 2 * violation(cell, mesh_->cell(r->link.cell()).vertices[r->link.face()]);
         continue;
       }
       for (const GiftWrap::Cell& other : wrap_.cells())
         for (int g = 0; g < 4; ++g)
-          if (GiftWrap::face_of(other, g) == back) count += violates(cell, points_[other[g]]);
+          if (GiftWrap::face_of(other, g) == back) count += violation(cell, vertices_[other[g]]);
     }
   return count;
 }

@@ -8,6 +8,13 @@
 #include <cmath>
 
 namespace pgdr {
+namespace {
+
+// Most cells that are made anew about a face that no flip mends: where it is one of very many, resp. of a few.
+constexpr std::size_t small_region = 12, large_region = 512;
+constexpr int most_rounds = 32;  // of the latter, each with fewer violations than the one before but for insertions
+
+}  // namespace
 
 template <int D>
 Refiner<D>::Refiner(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Domain<D>& domain,
@@ -106,16 +113,45 @@ void Refiner<D>::list_violations(std::span<const CellId> cells) {
 
 template <int D>
 void Refiner<D>::flip(const Entry& e) {
-  if (flips_left_ == 0 || !flips_.repair(*pools_, e.cell, e.which)) {
+  const bool mended = flips_left_ > 0 && (flips_.repair(*pools_, e.cell, e.which) ||
+                                          (later_pass_ && flips_.rewrap(*pools_, e.cell, e.which, small_region)));
+  if (!mended) {
     if (flips_.violates(e.cell, e.which)) list_poor(e.cell, not_delaunay);
     return;
   }
   --flips_left_;
+  flipped();
+}
+
+/// Lists what the last flip, or rewrapping, has made.
+template <int D>
+void Refiner<D>::flipped() {
   const std::vector<CellId> made = flips_.new_cells();
   for (const CellId c : made) list_cell(c);
   for (const CellId c : made)
     for (int f = 0; f <= D; ++f)
       if (flips_.violates(c, f)) not_delaunay_.push_back(make_entry(c, f));
+}
+
+/// At the end, when the mesh changes no more: violations that no entity is beside, which nothing excuses, are mended, or
+/// moved to the walls, in as large a region as that takes.
+template <int D>
+bool Refiner<D>::mend_far_from_walls() {
+  auto at_wall = [this](CellId c) {
+    const auto& v = mesh_->cell(c).vertices;
+    return std::any_of(v.begin(), v.end(),
+                       [this](VertexId x) { return mesh_->vertex(x).home.kind() != EntityKind::volume; });
+  };
+  bool any = false;
+  for (std::uint32_t i = 0; violations_seen_ && i < mesh_->cell_bound(); ++i)
+    for (int f = 0; f <= D; ++f) {
+      const CellId c{i};
+      if (!mesh_->alive(c) || !flips_.violates(c, f) || at_wall(c) || at_wall(mesh_->cell(c).links[f].cell())) continue;
+      if (!flips_.rewrap(*pools_, c, f, large_region)) continue;
+      any = true;
+      flipped();
+    }
+  return any;
 }
 
 template <int D>
@@ -185,12 +221,16 @@ StopCause Refiner<D>::run() {
     const std::uint64_t before = counts_.committed;
     if (const StopCause stop = drain(); stop != StopCause::finished) return stop;
     if (counts_.committed == before) break;
+    later_pass_ = true;
     // A violation left standing may have moved off the walls, where insertions do not look for it.
     if (violations_seen_)
       for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i)
         if (const CellId c{i}; mesh_->alive(c)) list_violations(std::span(&c, 1));
     if (!relist_refused()) break;
   }
+  // What was refused is not looked at again for the few cells that change here.
+  for (int round = 0; round < most_rounds && mend_far_from_walls(); ++round)
+    if (const StopCause stop = drain(); stop != StopCause::finished) return stop;
   return min_edge_hit_ ? StopCause::min_edge : StopCause::finished;
 }
 

@@ -27,7 +27,7 @@ class LocalRewrap {
   LocalRewrap& operator=(const LocalRewrap&) = delete;
 
   /// Replaces cells about the unconstrained face by others with fewer violating faces. False if that cannot be done.
-  bool repair(Pools& pools, CellId c, int face);
+  bool repair(Pools& pools, CellId c, int face, std::size_t most_cells);
   /// The cells made by the last successful repair.
   const std::vector<CellId>& new_cells() const { return new_cells_; }
 
@@ -55,7 +55,8 @@ class LocalRewrap {
   bool keeps_subsegments() const;
   int violations_before() const;
   int violations_after() const;
-  bool violates(const GiftWrap::Cell& cell, const Point3& apex) const;
+  int weight(const std::array<VertexId, 4>& cell, VertexId apex) const;
+  int violation(const GiftWrap::Cell& cell, VertexId apex) const;
   void replace(Pools& pools);
   CellId make_cell(Pools& pools, const GiftWrap::Cell& cell);
   const RimFace* rim_face(const GiftWrap::Face& f) const;
@@ -69,6 +70,7 @@ class LocalRewrap {
   std::vector<RimFace> rim_;
   std::vector<GiftWrap::Face> front_;
   std::vector<Subsegment> subsegments_;
+  std::size_t most_cells_ = 0;
   std::uint16_t region_ = 0;
 };
 
