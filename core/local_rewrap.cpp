@@ -4,8 +4,14 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstdlib>
+#include <random>
 
 namespace pgdr {
+namespace {
+const int most_orders = getenv("RWO")?atoi(getenv("RWO")):16;
+constexpr std::size_t single_order_up_to=100;
+}
 
 bool LocalRewrap::repair(Pools& pools, CellId c, int face, std::size_t most_cells) {
   most_cells_ = most_cells;
@@ -16,14 +22,22 @@ bool LocalRewrap::repair(Pools& pools, CellId c, int face, std::size_t most_cell
   return repaired;
 }
 
+/// Where the constrained Delaunay triangulation exists, every order of the front leads to it; where it does not, another
+/// order may lead to a better mesh, or to one at all.
 bool LocalRewrap::wrap_again(Pools& pools) {
   find_rim();
   front_.clear();
   for (const RimFace& f : rim_) front_.push_back(f.vertices);
-  if (!wrap_.fill(points_, front_, 2 * most_cells_) || !keeps_subsegments()) return false;
-  if (violations_after() >= violations_before()) return false;
-  replace(pools);
-  return true;
+  const int before = violations_before(), orders = most_cells_ <= single_order_up_to ? 1 : most_orders;
+  std::minstd_rand random;
+  for (int order = 0; order < orders; ++order) {
+    if (wrap_.fill(points_, front_, 2 * most_cells_) && keeps_subsegments() && violations_after() < before) {
+      replace(pools);
+      return true;
+    }
+    for (std::size_t i = front_.size(); i > 1; --i) std::swap(front_[i - 1], front_[random() % i]);
+  }
+  return false;
 }
 
 void LocalRewrap::release() {

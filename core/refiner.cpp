@@ -11,7 +11,7 @@ namespace pgdr {
 namespace {
 
 // Most cells that are made anew about a face that no flip mends: where it is one of very many, resp. of a few.
-constexpr std::size_t small_region = 12, large_region = 512;
+constexpr std::size_t small_region = 20, large_region = 512;
 constexpr int most_rounds = 32;  // of the latter, each with fewer violations than the one before but for insertions
 
 }  // namespace
@@ -112,9 +112,15 @@ void Refiner<D>::list_violations(std::span<const CellId> cells) {
 }
 
 template <int D>
+void Refiner<D>::list_all_violations() {
+  for (std::uint32_t i = 0; violations_seen_ && i < mesh_->cell_bound(); ++i)
+    if (const CellId c{i}; mesh_->alive(c)) list_violations(std::span(&c, 1));
+}
+
+template <int D>
 void Refiner<D>::flip(const Entry& e) {
   const bool mended = flips_left_ > 0 && (flips_.repair(*pools_, e.cell, e.which) ||
-                                          (later_pass_ && flips_.rewrap(*pools_, e.cell, e.which, small_region)));
+                                          (rewraps_ && flips_.rewrap(*pools_, e.cell, e.which, small_region)));
   if (!mended) {
     if (flips_.violates(e.cell, e.which)) list_poor(e.cell, not_delaunay);
     return;
@@ -221,16 +227,18 @@ StopCause Refiner<D>::run() {
     const std::uint64_t before = counts_.committed;
     if (const StopCause stop = drain(); stop != StopCause::finished) return stop;
     if (counts_.committed == before) break;
-    later_pass_ = true;
     // A violation left standing may have moved off the walls, where insertions do not look for it.
-    if (violations_seen_)
-      for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i)
-        if (const CellId c{i}; mesh_->alive(c)) list_violations(std::span(&c, 1));
+    list_all_violations();
     if (!relist_refused()) break;
   }
   // What was refused is not looked at again for the few cells that change here.
-  for (int round = 0; round < most_rounds && mend_far_from_walls(); ++round)
+  rewraps_ = true;
+  list_all_violations();
+  relist_refused();
+  for (int round = 0; round < most_rounds; ++round) {
     if (const StopCause stop = drain(); stop != StopCause::finished) return stop;
+    if (!mend_far_from_walls()) break;
+  }
   return min_edge_hit_ ? StopCause::min_edge : StopCause::finished;
 }
 

@@ -103,6 +103,7 @@ class Refiner {
 
   void committed();
   void list_violations(std::span<const CellId> cells);
+  void list_all_violations();
   void flip(const Entry& e);
   void flipped();
   bool mend_far_from_walls();
@@ -125,7 +126,7 @@ class Refiner {
   std::map<std::array<VertexId, D + 1>, EntityPair> why_;  // of refused elements
   std::optional<EntityPair> last_refusal_;
   std::uint64_t vertices_, commits_at_check_ = 0;
-  bool min_edge_hit_ = false, violations_seen_ = false, later_pass_ = false;
+  bool min_edge_hit_ = false, violations_seen_ = false, rewraps_ = false;
   RefineCounts counts_;
   std::chrono::steady_clock::time_point start_, last_progress_;
 };
