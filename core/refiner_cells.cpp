@@ -70,10 +70,7 @@ auto Refiner<D>::demand_of_cell(CellId c, const CellVerdict& verdict) const -> D
   for (int i = 0; i <= D; ++i)
     for (int j = i + 1; j <= D; ++j) {
       const auto &a = mesh_->vertex(v[i]), &b = mesh_->vertex(v[j]);
-      double length = std::sqrt(squared_distance(a.point, b.point));
-      const float relaxed = std::min(a.relaxed_radius, b.relaxed_radius);
-      if (relaxed < std::numeric_limits<float>::infinity()) length = std::max(length, static_cast<double>(relaxed));
-      least = std::min(least, length);
+      least = std::min(least, relaxed_length<D>(*domain_, a, b));
     }
   if (!verdict.over_radius_edge) least = std::min(least, std::sqrt(mesh_->squared_radius_bounds(c).first) / 2);
   return {least, 0};

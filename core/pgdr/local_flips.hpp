@@ -62,12 +62,12 @@ class LocalFlips {
   bool in_line(VertexId a, VertexId b, VertexId c) const;
   bool crosses_in_facet(const Ring& ring, VertexId u, VertexId w) const;
   void take_old(std::vector<CellId> cells);
-  int violations() const;
+  int violations();
   bool positive(const Vertices& v) const;
   Simplex<D> simplex(const Vertices& v) const;
   bool is_wall(const Face& f) const;
   bool walls_are_free() const;
-  int violations_of(const std::vector<NewCell>& cells) const;
+  int violations_of(const std::vector<NewCell>& cells);
   void replace(Pools& pools, const std::vector<NewCell>& cells);
   CellId make_cell(Pools& pools, const NewCell& cell);
   const OuterFace* outer(const Face& f) const;
@@ -82,6 +82,7 @@ class LocalFlips {
   std::vector<CellId> old_, new_cells_;
   std::vector<OuterFace> outer_;
   std::vector<Subsegment> subsegments_;
+  std::vector<Face> faces_;  ///< of the cells whose violations are counted
   std::vector<Face> old_walls_, new_walls_;  ///< constrained faces between the old, resp. of the new cells
   EntityId wall_entity_ = no_entity;
 };
