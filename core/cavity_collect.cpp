@@ -57,10 +57,8 @@ void Cavity<D>::add_part_face(CellId cell, int face, EntityId entity) {
   }
 }
 
-/// The other constrained face of `entity` at the ridge of face `face` of `cell` that leaves out vertex `corner`, looked
-/// for by walking round the ridge, first the one way, then (where that ends at the hull) the other.
 template <int D>
-static Link entity_face_round_ridge(const Mesh<D>& mesh, CellId cell, int face, int corner, EntityId entity) {
+Link entity_face_round_ridge(const Mesh<D>& mesh, CellId cell, int face, int corner, EntityId entity) {
   auto belongs = [&](CellId c, int f) {
     const auto* k = mesh.constraints(c);
     return k && (k->faces >> f & 1) && k->face_entity[f] == entity;
@@ -448,6 +446,7 @@ double insertion_radius(const Mesh<D>& mesh, const Cavity<D>& cavity) {
   return std::sqrt(least);
 }
 
+template Link entity_face_round_ridge<3>(const Mesh<3>&, CellId, int, int, EntityId);
 template VertexId nearest_vertex<2>(const Mesh<2>&, const Cavity<2>&, std::span<const VertexId>);
 template VertexId nearest_vertex<3>(const Mesh<3>&, const Cavity<3>&, std::span<const VertexId>);
 template double insertion_radius<2>(const Mesh<2>&, const Cavity<2>&);

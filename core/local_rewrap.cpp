@@ -4,14 +4,16 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstdlib>
 #include <random>
 
 namespace pgdr {
 namespace {
-const int most_orders = getenv("RWO")?atoi(getenv("RWO")):16;
-constexpr std::size_t single_order_up_to=100;
-}
+
+// Orders of the front that are tried: one where regions are to be small, because there are many, or where one is large.
+constexpr int most_orders = 16;
+constexpr std::size_t small_limit = 64, large_size = 256;
+
+}  // namespace
 
 bool LocalRewrap::repair(Pools& pools, CellId c, int face, std::size_t most_cells) {
   most_cells_ = most_cells;
@@ -28,7 +30,7 @@ bool LocalRewrap::wrap_again(Pools& pools) {
   find_rim();
   front_.clear();
   for (const RimFace& f : rim_) front_.push_back(f.vertices);
-  const int before = violations_before(), orders = most_cells_ <= single_order_up_to ? 1 : most_orders;
+  const int before = violations_before(), orders = most_cells_ <= small_limit || old_.size() > large_size ? 1 : most_orders;
   std::minstd_rand random;
   for (int order = 0; order < orders; ++order) {
     if (wrap_.fill(points_, front_, 2 * most_cells_) && keeps_subsegments() && violations_after() < before) {

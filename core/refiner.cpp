@@ -153,7 +153,11 @@ bool Refiner<D>::mend_far_from_walls() {
     for (int f = 0; f <= D; ++f) {
       const CellId c{i};
       if (!mesh_->alive(c) || !flips_.violates(c, f) || at_wall(c) || at_wall(mesh_->cell(c).links[f].cell())) continue;
-      if (!flips_.rewrap(*pools_, c, f, large_region)) continue;
+      if (std::find(hopeless_.begin(), hopeless_.end(), mesh_->cell(c).vertices) != hopeless_.end()) continue;
+      if (!flips_.rewrap(*pools_, c, f, large_region)) {
+        hopeless_.push_back(mesh_->cell(c).vertices);
+        continue;
+      }
       any = true;
       flipped();
     }

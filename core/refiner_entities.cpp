@@ -8,6 +8,12 @@
 #include "pgdr/refiner.hpp"
 
 namespace pgdr {
+namespace {
+
+constexpr int most_steps = 1000;  // of a walk in a facet; it can run in a circle where the facet is not Delaunay
+
+}  // namespace
+
 /// Vertices of the entity itself never encroach upon it, though rounding may put them some ulps inside a ball.
 template <int D>
 bool Refiner<D>::face_encroached_by(CellId c, int face, VertexId v) const {
@@ -82,6 +88,41 @@ auto Refiner<D>::edge_beyond(const Point<D>& x) const -> std::optional<Entry> {
   return std::nullopt;
 }
 
+/// The subsegment that cuts x off from the subfacet, or else the subfacet of the same facet that x lies in, on a walk in
+/// the facet's projection. Where the facet's triangulation is not Delaunay the part of a cavity need not reach either.
+template <int D>
+auto Refiner<D>::walk_in_facet(const Entry& e, const Point<D>& x) const -> FacetWalk {
+  if constexpr (D == 3) {
+    const EntityId entity = mesh_->constraints(e.cell)->face_entity[e.which];
+    const int axis = domain_->facets()[entity].axis;
+    Link at(e.cell, e.which);
+    for (int steps = 0; steps < most_steps; ++steps) {
+      const CellId c = at.cell();
+      const auto& v = mesh_->cell(c).vertices;
+      std::optional<Entry> edge;
+      Link next;
+      for (int corner = 0; corner <= D && !next; ++corner) {
+        if (corner == at.face()) continue;
+        int ends[2], n = 0;
+        for (int i = 0; i <= D; ++i)
+          if (i != at.face() && i != corner) ends[n++] = i;
+        const Point<D>&a = mesh_->point(v[ends[0]]), &b = mesh_->point(v[ends[1]]);
+        const Sign inside = orient_projected(a, b, mesh_->point(v[corner]), axis);
+        if (inside == Sign::zero || orient_projected(a, b, x, axis) != -inside) continue;
+        const int ridge = edge_of_ends[ends[0]][ends[1]];
+        if (mesh_->constraints(c)->edges >> ridge & 1) {
+          edge = make_entry(c, ridge);
+        } else {
+          next = entity_face_round_ridge<D>(*mesh_, c, at.face(), corner, entity);
+        }
+      }
+      if (!next) return edge ? FacetWalk{edge, {}} : FacetWalk{{}, make_entry(c, at.face())};
+      at = next;
+    }
+  }
+  return {};
+}
+
 /// @pre the cavity of x is collected.
 template <int D>
 auto Refiner<D>::demand_of(EntityRef entity, std::span<const VertexId> own, bool pass_on) const -> Demand {
@@ -131,6 +172,14 @@ auto Refiner<D>::split_face(const Entry& e, const Demand* cause) -> Outcome {
   if constexpr (D == 3) {
     auto edge = edge_beyond(x);
     if (!edge) edge = encroached_edge(x);
+    if (!edge && cavity_.make_star_shaped() != Cavity<D>::Status::ok) {
+      const auto [beyond, around] = walk_in_facet(e, x);
+      edge = beyond;
+      const Entry& from = around ? *around : e;
+      cavity_.release();
+      if (cavity_.collect_on_face(x, from.cell, from.which) != Cavity<D>::Status::ok) return refuse(entity, own);
+      if (!edge && around) edge = encroached_edge(x);
+    }
     if (edge) {
       const Demand demand = cause ? *cause : demand_of(entity, own, true);
       cavity_.release();

@@ -152,6 +152,10 @@ class Cavity {
   bool shrunk_ = false, touches_constraints_ = false;
 };
 
+/// The other constrained face of `entity` at the ridge of face `face` of `cell` that leaves out vertex `corner`, looked
+/// for by walking round the ridge, first the one way, then (where that ends at the hull) the other.
+template <int D>
+Link entity_face_round_ridge(const Mesh<D>& mesh, CellId cell, int face, int corner, EntityId entity);
 /// The cavity's vertex nearest to its point, but for the excluded ones (ties: lexicographically first); no_vertex if none.
 template <int D>
 VertexId nearest_vertex(const Mesh<D>& mesh, const Cavity<D>& cavity, std::span<const VertexId> excluded);

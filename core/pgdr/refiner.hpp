@@ -84,6 +84,10 @@ class Refiner {
   Point<D> segment_midpoint(EntityId s, VertexId a, VertexId b) const;
   std::optional<Entry> encroached_edge(const Point<D>& x) const;
   std::optional<Entry> edge_beyond(const Point<D>& x) const;
+  struct FacetWalk {
+    std::optional<Entry> edge, face;
+  };
+  FacetWalk walk_in_facet(const Entry& e, const Point<D>& x) const;
   Demand demand_of(EntityRef entity, std::span<const VertexId> own, bool pass_on) const;
   Outcome decide(EntityRef entity, std::span<const VertexId> own, const Demand* cause);
   Outcome refuse(EntityRef entity, std::span<const VertexId> own);
@@ -119,6 +123,7 @@ class Refiner {
   std::deque<Entry> edges_, faces_;
   std::deque<Entry> not_delaunay_;  ///< faces to flip away
   std::uint64_t flips_left_ = 0;
+  std::vector<std::array<VertexId, D + 1>> hopeless_;  ///< cells with a violation far from walls that cannot be mended
   std::array<std::deque<Entry>, buckets> poor_;
   int first_bucket_ = 0;
   std::vector<Entry> refused_edges_, refused_faces_, refused_cells_;
