@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <random>
 
 namespace pgdr {
 namespace {
@@ -17,12 +16,26 @@ constexpr std::size_t small_limit = 64, large_size = 256;
 
 bool LocalRewrap::repair(Pools& pools, CellId c, int face, std::size_t most_cells) {
   most_cells_ = most_cells;
-  begin(c, mesh_->cell(c).links[face].cell());
-  bool repaired = false;
+  random_.seed();
+  const CellId d = mesh_->cell(c).links[face].cell();
+  if (repair_without(pools, c, d, no_vertex)) return true;
+  if (most_cells <= small_limit) return false;
+  std::vector<VertexId> corners(mesh_->cell(c).vertices.begin(), mesh_->cell(c).vertices.end());
+  corners.push_back(mesh_->cell(d).vertices[mesh_->cell(c).links[face].face()]);
+  return std::any_of(corners.begin(), corners.end(), [&](VertexId v) {
+    return in_volume(v) && repair_without(pools, c, d, v);
+  });
+}
+
+bool LocalRewrap::repair_without(Pools& pools, CellId c, CellId d, VertexId left_out) {
+  begin(c, d, left_out);
+  bool repaired = left_out != no_vertex && wrap_again(pools);
   while (!repaired && grow()) repaired = wrap_again(pools);
   release();
   return repaired;
 }
+
+bool LocalRewrap::in_volume(VertexId v) const { return mesh_->vertex(v).home.kind() == EntityKind::volume; }
 
 /// Where the constrained Delaunay triangulation exists, every order of the front leads to it; where it does not, another
 /// order may lead to a better mesh, or to one at all.
@@ -31,13 +44,12 @@ bool LocalRewrap::wrap_again(Pools& pools) {
   front_.clear();
   for (const RimFace& f : rim_) front_.push_back(f.vertices);
   const int before = violations_before(), orders = most_cells_ <= small_limit || old_.size() > large_size ? 1 : most_orders;
-  std::minstd_rand random;
   for (int order = 0; order < orders; ++order) {
     if (wrap_.fill(points_, front_, 2 * most_cells_) && keeps_subsegments() && violations_after() < before) {
       replace(pools);
       return true;
     }
-    for (std::size_t i = front_.size(); i > 1; --i) std::swap(front_[i - 1], front_[random() % i]);
+    for (std::size_t i = front_.size(); i > 1; --i) std::swap(front_[i - 1], front_[random_() % i]);
   }
   return false;
 }
@@ -48,6 +60,7 @@ void LocalRewrap::release() {
 }
 
 auto LocalRewrap::number(VertexId v) -> Index {
+  if (v == left_out_) return no_index;  // inside the region: never asked for a face of the rim
   const auto at = std::find(vertices_.begin(), vertices_.end(), v);
   if (at == vertices_.end()) {
     vertices_.push_back(v);
@@ -70,12 +83,23 @@ bool LocalRewrap::in_conflict(CellId c) const {
   return false;
 }
 
-void LocalRewrap::begin(CellId c, CellId d) {
+void LocalRewrap::begin(CellId c, CellId d, VertexId left_out) {
   vertices_.clear();
   points_.clear();
   region_ = mesh_->region(c);
+  left_out_ = left_out;
   take(c);
   take(d);
+  if (left_out == no_vertex) return;
+  for (std::size_t i = 0; i < old_.size(); ++i) {
+    const auto& k = mesh_->cell(old_[i]);
+    for (int f = 0; f < 4; ++f) {
+      const Link next = k.links[f];
+      if (!next || mesh_->constrained(old_[i], f) || mesh_->marked(next.cell())) continue;
+      const auto& v = mesh_->cell(next.cell()).vertices;
+      if (std::find(v.begin(), v.end(), left_out) != v.end()) take(next.cell());
+    }
+  }
 }
 
 /// Adds the neighbours that are in conflict with a vertex of the region. False if there are none, or too many.
@@ -124,8 +148,8 @@ bool LocalRewrap::keeps_subsegments() const {
 /// What a violation counts. One that no entity is beside counts for more than all others, so that what cannot be mended
 /// moves to the walls that hide what is in its way.
 int LocalRewrap::weight(const std::array<VertexId, 4>& cell, VertexId apex) const {
-  auto in_volume = [this](VertexId v) { return mesh_->vertex(v).home.kind() == EntityKind::volume; };
-  return in_volume(apex) && std::all_of(cell.begin(), cell.end(), in_volume) ? 10000 : 1;
+  const bool far = in_volume(apex) && std::all_of(cell.begin(), cell.end(), [this](VertexId v) { return in_volume(v); });
+  return far ? 10000 : 1;
 }
 
 int LocalRewrap::violation(const GiftWrap::Cell& cell, VertexId apex) const {

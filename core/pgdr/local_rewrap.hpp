@@ -10,6 +10,7 @@
 // so that they are faces of the new triangulation, but where vertices hide behind walls. A workspace of one visit.
 #pragma once
 
+#include <random>
 #include <vector>
 
 #include "pgdr/gift_wrap.hpp"
@@ -45,7 +46,11 @@ class LocalRewrap {
     EntityId entity;
   };
 
-  void begin(CellId c, CellId d);
+  static constexpr Index no_index = 0xffff;
+
+  bool repair_without(Pools& pools, CellId c, CellId d, VertexId left_out);
+  bool in_volume(VertexId v) const;
+  void begin(CellId c, CellId d, VertexId left_out);
   bool grow();
   bool wrap_again(Pools& pools);
   void take(CellId c);
@@ -71,6 +76,8 @@ class LocalRewrap {
   std::vector<GiftWrap::Face> front_;
   std::vector<Subsegment> subsegments_;
   std::size_t most_cells_ = 0;
+  std::minstd_rand random_;
+  VertexId left_out_ = no_vertex;
   std::uint16_t region_ = 0;
 };
 
