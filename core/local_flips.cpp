@@ -65,9 +65,9 @@ bool LocalFlips<D>::repair(Pools& pools, CellId c, int face) {
 }
 
 template <int D>
-bool LocalFlips<D>::rewrap(Pools& pools, CellId c, int face, std::size_t most_cells) {
+bool LocalFlips<D>::rewrap(Pools& pools, CellId c, int face, bool thorough) {
   if constexpr (D == 3) {
-    if (!violates(c, face) || !rewrap_.repair(pools, c, face, most_cells)) return false;
+    if (!violates(c, face) || !rewrap_.repair(pools, c, face, thorough)) return false;
     new_cells_ = rewrap_.new_cells();
     return true;
   }

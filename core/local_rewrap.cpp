@@ -8,23 +8,34 @@
 namespace pgdr {
 namespace {
 
-// Orders of the front that are tried: one where regions are to be small, because there are many, or where one is large.
-constexpr int most_orders = 16;
-constexpr std::size_t small_limit = 64, large_size = 256;
+// Cells of a region, and orders of the front that are tried in it: few where this is done for very many faces.
+struct Attempt {
+  std::size_t most_cells;
+  int orders;
+};
+constexpr Attempt quick{20, 1}, wide{192, 1}, deep{64, 8};
+constexpr int far_weight = 10000;  // of a violation that no entity is beside
 
 }  // namespace
 
-bool LocalRewrap::repair(Pools& pools, CellId c, int face, std::size_t most_cells) {
-  most_cells_ = most_cells;
+bool LocalRewrap::repair(Pools& pools, CellId c, int face, bool thorough) {
   random_.seed();
-  const CellId d = mesh_->cell(c).links[face].cell();
-  if (repair_without(pools, c, d, no_vertex)) return true;
-  if (most_cells <= small_limit) return false;
-  std::vector<VertexId> corners(mesh_->cell(c).vertices.begin(), mesh_->cell(c).vertices.end());
-  corners.push_back(mesh_->cell(d).vertices[mesh_->cell(c).links[face].face()]);
-  return std::any_of(corners.begin(), corners.end(), [&](VertexId v) {
-    return in_volume(v) && repair_without(pools, c, d, v);
-  });
+  const Link link = mesh_->cell(c).links[face];
+  const CellId d = link.cell();
+  least_gain_ = thorough ? far_weight : 0;
+  std::vector<VertexId> left_out{no_vertex};
+  if (thorough) {
+    for (const VertexId v : mesh_->cell(c).vertices)
+      if (in_volume(v)) left_out.push_back(v);
+    if (const VertexId v = mesh_->cell(d).vertices[link.face()]; in_volume(v)) left_out.push_back(v);
+  }
+  for (const Attempt& attempt : thorough ? std::vector{wide, deep} : std::vector{quick}) {
+    most_cells_ = attempt.most_cells;
+    orders_ = attempt.orders;
+    for (const VertexId v : left_out)
+      if (repair_without(pools, c, d, v)) return true;
+  }
+  return false;
 }
 
 bool LocalRewrap::repair_without(Pools& pools, CellId c, CellId d, VertexId left_out) {
@@ -43,9 +54,9 @@ bool LocalRewrap::wrap_again(Pools& pools) {
   find_rim();
   front_.clear();
   for (const RimFace& f : rim_) front_.push_back(f.vertices);
-  const int before = violations_before(), orders = most_cells_ <= small_limit || old_.size() > large_size ? 1 : most_orders;
-  for (int order = 0; order < orders; ++order) {
-    if (wrap_.fill(points_, front_, 2 * most_cells_) && keeps_subsegments() && violations_after() < before) {
+  const int before = violations_before();
+  for (int order = 0; order < orders_; ++order) {
+    if (wrap_.fill(points_, front_, 2 * most_cells_) && keeps_subsegments() && violations_after() + least_gain_ < before) {
       replace(pools);
       return true;
     }
@@ -149,7 +160,7 @@ bool LocalRewrap::keeps_subsegments() const {
 /// moves to the walls that hide what is in its way.
 int LocalRewrap::weight(const std::array<VertexId, 4>& cell, VertexId apex) const {
   const bool far = in_volume(apex) && std::all_of(cell.begin(), cell.end(), [this](VertexId v) { return in_volume(v); });
-  return far ? 10000 : 1;
+  return far ? far_weight : 1;
 }
 
 int LocalRewrap::violation(const GiftWrap::Cell& cell, VertexId apex) const {

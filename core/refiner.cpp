@@ -10,9 +10,7 @@
 namespace pgdr {
 namespace {
 
-// Most cells that are made anew about a face that no flip mends: where it is one of very many, resp. of a few.
-constexpr std::size_t small_region = 20, large_region = 512;
-constexpr int most_rounds = 32;  // of the latter, each with fewer violations than the one before but for insertions
+constexpr int most_rounds = 32;  // of mending far from walls, each of which ends with fewer violations but for insertions
 
 }  // namespace
 
@@ -120,7 +118,7 @@ void Refiner<D>::list_all_violations() {
 template <int D>
 void Refiner<D>::flip(const Entry& e) {
   const bool mended = flips_left_ > 0 && (flips_.repair(*pools_, e.cell, e.which) ||
-                                          (rewraps_ && flips_.rewrap(*pools_, e.cell, e.which, small_region)));
+                                          (rewraps_ && flips_.rewrap(*pools_, e.cell, e.which, false)));
   if (!mended) {
     if (flips_.violates(e.cell, e.which)) list_poor(e.cell, not_delaunay);
     return;
@@ -154,13 +152,14 @@ bool Refiner<D>::mend_far_from_walls() {
       const CellId c{i};
       if (!mesh_->alive(c) || !flips_.violates(c, f) || at_wall(c) || at_wall(mesh_->cell(c).links[f].cell())) continue;
       if (std::find(hopeless_.begin(), hopeless_.end(), mesh_->cell(c).vertices) != hopeless_.end()) continue;
-      if (!flips_.rewrap(*pools_, c, f, large_region)) {
+      if (!flips_.rewrap(*pools_, c, f, true)) {
         hopeless_.push_back(mesh_->cell(c).vertices);
         continue;
       }
       any = true;
       flipped();
     }
+  if(getenv("RWDBG")) fprintf(stderr,"mend any %d hopeless %zu\n",(int)any,hopeless_.size());
   return any;
 }
 
@@ -242,6 +241,7 @@ StopCause Refiner<D>::run() {
   for (int round = 0; round < most_rounds; ++round) {
     if (const StopCause stop = drain(); stop != StopCause::finished) return stop;
     if (!mend_far_from_walls()) break;
+    mending_ = true;
   }
   return min_edge_hit_ ? StopCause::min_edge : StopCause::finished;
 }

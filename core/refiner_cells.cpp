@@ -157,6 +157,8 @@ void Refiner<D>::treat_cell(const Entry& e) {
     return;
   }
   if (status != Cavity<D>::Status::ok) return cell_refused(e);
+  // The point may be one that was taken out, to mend what its cut-back cavity had brought.
+  if (mending_ && cavity_.shrunk()) return cell_refused(e);
 
   // Unshrunk, the circumcentre's nearest vertices are the element's own.
   const bool plain = !cavity_.shrunk() && !options_->selector;

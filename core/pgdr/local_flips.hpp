@@ -27,8 +27,8 @@ class LocalFlips {
   bool violates(CellId c, int face) const;
   /// Replaces the cells at the violating face by others with fewer violations. False if no flip does that.
   bool repair(Pools& pools, CellId c, int face);
-  /// 3D: the same by gift wrapping in a region of at most so many cells (local_rewrap.hpp); slower.
-  bool rewrap(Pools& pools, CellId c, int face, std::size_t most_cells);
+  /// 3D: the same by gift wrapping (local_rewrap.hpp); slower.
+  bool rewrap(Pools& pools, CellId c, int face, bool thorough);
   /// The cells made by the last successful repair.
   const std::vector<CellId>& new_cells() const { return new_cells_; }
 

@@ -28,7 +28,7 @@ class LocalRewrap {
   LocalRewrap& operator=(const LocalRewrap&) = delete;
 
   /// Replaces cells about the unconstrained face by others with fewer violating faces. False if that cannot be done.
-  bool repair(Pools& pools, CellId c, int face, std::size_t most_cells);
+  bool repair(Pools& pools, CellId c, int face, bool thorough);
   /// The cells made by the last successful repair.
   const std::vector<CellId>& new_cells() const { return new_cells_; }
 
@@ -76,6 +76,7 @@ class LocalRewrap {
   std::vector<GiftWrap::Face> front_;
   std::vector<Subsegment> subsegments_;
   std::size_t most_cells_ = 0;
+  int orders_ = 1, least_gain_ = 0;
   std::minstd_rand random_;
   VertexId left_out_ = no_vertex;
   std::uint16_t region_ = 0;

@@ -131,7 +131,7 @@ class Refiner {
   std::map<std::array<VertexId, D + 1>, EntityPair> why_;  // of refused elements
   std::optional<EntityPair> last_refusal_;
   std::uint64_t vertices_, commits_at_check_ = 0;
-  bool min_edge_hit_ = false, violations_seen_ = false, rewraps_ = false;
+  bool min_edge_hit_ = false, violations_seen_ = false, rewraps_ = false, mending_ = false;
   RefineCounts counts_;
   std::chrono::steady_clock::time_point start_, last_progress_;
 };
