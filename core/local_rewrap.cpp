@@ -13,7 +13,7 @@ struct Attempt {
   std::size_t most_cells;
   int orders;
 };
-constexpr Attempt quick{20, 1}, wide{192, 1}, deep{64, 8};
+constexpr Attempt quick{20, 1}, wide{512, 1}, deep{96, 16};
 constexpr int far_weight = 10000;  // of a violation that no entity is beside
 
 }  // namespace
