@@ -60,9 +60,6 @@ auto Cavity<D>::add_part_face(CellId cell, int face, EntityId entity) -> Status 
   return Status::ok;
 }
 
-/// The other constrained face of `entity` at the ridge of face `face` of `cell` that leaves out vertex `corner`, looked
-/// for by walking round the ridge, first the one way, then (where that ends at the hull) the other. `owned` becomes false
-/// where the walk would have to step on from a cell that is not.
 template <int D>
 Link Cavity<D>::entity_face_round_ridge(CellId cell, int face, int corner, EntityId entity, bool& owned) const {
   const Mesh<D>& mesh = *mesh_;

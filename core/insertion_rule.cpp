@@ -3,6 +3,8 @@
 #include "pgdr/insertion_rule.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace pgdr {
 
@@ -32,9 +34,21 @@ Demand encroachment_demand(const Domain<D>& domain, EntityRef entity, const Vert
   return {inherited_fraction * q.relaxed_radius, q.relaxed_radius};
 }
 
+template <int D>
+double relaxed_length(const Domain<D>& domain, const VertexRecord<D>& u, const VertexRecord<D>& v) {
+  const double length = std::sqrt(squared_distance(u.point, v.point));
+  const double relaxed = std::min(u.relaxed_radius, v.relaxed_radius);
+  if (relaxed <= length || relaxed == std::numeric_limits<double>::infinity()) return length;
+  const EntityRef a = u.home.entity(), b = v.home.entity();
+  const bool honest = a.kind != EntityKind::volume && b.kind != EntityKind::volume && !entities_touch<D>(domain, a, b);
+  return honest ? length : relaxed;
+}
+
 template bool lies_on<2>(const Domain<2>&, Home, EntityRef);
 template bool lies_on<3>(const Domain<3>&, Home, EntityRef);
 template Demand encroachment_demand<2>(const Domain<2>&, EntityRef, const VertexRecord<2>&);
 template Demand encroachment_demand<3>(const Domain<3>&, EntityRef, const VertexRecord<3>&);
+template double relaxed_length<2>(const Domain<2>&, const VertexRecord<2>&, const VertexRecord<2>&);
+template double relaxed_length<3>(const Domain<3>&, const VertexRecord<3>&, const VertexRecord<3>&);
 
 }  // namespace pgdr

@@ -66,6 +66,16 @@ auto LocalFlips<D>::repair(Pools& pools, CellId c, int face) -> Outcome {
   return Outcome::stuck;
 }
 
+template <int D>
+bool LocalFlips<D>::rewrap(Pools& pools, CellId c, int face, bool thorough) {
+  if constexpr (D == 3) {
+    if (!violates(c, face) || !rewrap_.repair(pools, c, face, thorough)) return false;
+    new_cells_ = rewrap_.new_cells();
+    return true;
+  }
+  return false;
+}
+
 /// The cells on both sides of the face become D cells round the edge between their apexes.
 template <int D>
 bool LocalFlips<D>::try_two_cells(Pools& pools, CellId c, int face) {
@@ -232,7 +242,7 @@ auto LocalFlips<D>::outer(const Face& f) const -> const OuterFace* {
 }
 
 template <int D>
-int LocalFlips<D>::violations() const {
+int LocalFlips<D>::violations() {
   std::vector<NewCell> cells;
   for (const CellId c : old_) cells.push_back({mesh_->cell(c).vertices, 0});
   return violations_of(cells);
@@ -255,23 +265,24 @@ bool LocalFlips<D>::is_wall(const Face& f) const {
 
 /// Violating faces that these cells would have, in place of the old ones; inner faces count from both sides.
 template <int D>
-int LocalFlips<D>::violations_of(const std::vector<NewCell>& cells) const {
+int LocalFlips<D>::violations_of(const std::vector<NewCell>& cells) {
   int count = 0;
+  faces_.clear();
   for (const NewCell& cell : cells)
-    for (int f = 0; f <= D; ++f) {
-      const Face face = face_without<D>(cell.vertices, f);
-      if (is_wall(face)) continue;
-      VertexId apex = no_vertex;
-      if (const OuterFace* o = outer(face)) {
-        if (!o->link || o->constrained) continue;
-        apex = mesh_->cell(o->link.cell()).vertices[o->link.face()];
-      } else {
-        for (const NewCell& other : cells)
-          for (int g = 0; g <= D; ++g)
-            if (other.vertices != cell.vertices && face_without<D>(other.vertices, g) == face) apex = other.vertices[g];
-      }
-      if (apex != no_vertex && in_sphere<D>(simplex(cell.vertices), mesh_->point(apex)) == Sign::positive) ++count;
+    for (int f = 0; f <= D; ++f) faces_.push_back(face_without<D>(cell.vertices, f));
+  for (std::size_t i = 0; i < faces_.size(); ++i) {
+    if (is_wall(faces_[i])) continue;
+    VertexId apex = no_vertex;
+    if (const OuterFace* o = outer(faces_[i])) {
+      if (!o->link || o->constrained) continue;
+      apex = mesh_->cell(o->link.cell()).vertices[o->link.face()];
+    } else {
+      for (std::size_t j = 0; j < faces_.size(); ++j)
+        if (j != i && faces_[j] == faces_[i]) apex = cells[j / (D + 1)].vertices[j % (D + 1)];
     }
+    if (apex == no_vertex) continue;
+    count += in_sphere<D>(simplex(cells[i / (D + 1)].vertices), mesh_->point(apex)) == Sign::positive;
+  }
   return count;
 }
 

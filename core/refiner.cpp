@@ -118,15 +118,38 @@ void Refiner<D>::committed() {
 template <int D>
 void Refiner<D>::flip(const Item& e) {
   if (!flips_.violates(e.cell, e.which)) return;
-  const auto outcome = flips_left_ == 0 ? LocalFlips<D>::Outcome::stuck : flips_.repair(pools_, e.cell, e.which);
+  auto outcome = flips_left_ == 0 ? LocalFlips<D>::Outcome::stuck : flips_.repair(pools_, e.cell, e.which);
+  if (outcome == LocalFlips<D>::Outcome::stuck && flips_left_ > 0 && visit_->rewraps &&
+      flips_.rewrap(pools_, e.cell, e.which, false))
+    outcome = LocalFlips<D>::Outcome::flipped;
   if (outcome == LocalFlips<D>::Outcome::not_owned) return visit_->set_aside.push_back(e);
   if (outcome == LocalFlips<D>::Outcome::stuck) return list_poor(e.cell, Item::not_delaunay);
   --flips_left_;
+  flipped();
+}
+
+/// Lists what the last flip, or rewrapping, has made.
+template <int D>
+void Refiner<D>::flipped() {
   const std::vector<CellId> made = flips_.new_cells();
   for (const CellId c : made) list_cell(c);
   for (const CellId c : made)
     for (int f = 0; f <= D; ++f)
       if (flips_.violates(c, f)) visit_->list->flips.push(make_entry(c, EntryKind::flip, f));
+}
+
+template <int D>
+bool Refiner<D>::is_far_from_walls(const Item& e) const {
+  auto in_volume = [this](VertexId v) { return mesh_->vertex(v).home.kind() == EntityKind::volume; };
+  const auto& beyond = mesh_->cell(mesh_->cell(e.cell).links[e.which].cell()).vertices;
+  return std::all_of(e.vertices.begin(), e.vertices.end(), in_volume) && std::all_of(beyond.begin(), beyond.end(), in_volume);
+}
+
+template <int D>
+bool Refiner<D>::mend(const Item& e) {
+  if (!flips_.rewrap(pools_, e.cell, e.which, true)) return false;
+  flipped();
+  return true;
 }
 
 template <int D>

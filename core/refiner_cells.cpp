@@ -70,10 +70,7 @@ auto Refiner<D>::demand_of_cell(CellId c, const CellVerdict& verdict) const -> D
   for (int i = 0; i <= D; ++i)
     for (int j = i + 1; j <= D; ++j) {
       const auto &a = mesh_->vertex(v[i]), &b = mesh_->vertex(v[j]);
-      double length = std::sqrt(squared_distance(a.point, b.point));
-      const float relaxed = std::min(a.relaxed_radius, b.relaxed_radius);
-      if (relaxed < std::numeric_limits<float>::infinity()) length = std::max(length, static_cast<double>(relaxed));
-      least = std::min(least, length);
+      least = std::min(least, relaxed_length<D>(*domain_, a, b));
     }
   if (!verdict.over_radius_edge) least = std::min(least, std::sqrt(mesh_->squared_radius_bounds(c).first) / 2);
   return {least, 0};
@@ -167,6 +164,9 @@ auto Refiner<D>::insert_point(const Item& e, const CellVerdict& verdict) -> Outc
   auto status = cavity_.make_star_shaped();
   if (status == Status::ok && (cavity_.shrunk() || cavity_.touches_constraints())) status = cavity_.check_nothing_swallowed();
   if (status != Status::ok) return status == Status::not_owned ? Outcome::not_owned : Outcome::refused;
+
+  // The point may be one that was taken out, to mend what its cut-back cavity had brought.
+  if (visit_->mends && cavity_.shrunk()) return Outcome::refused;
 
   // Unshrunk, the circumcentre's nearest vertices are the element's own.
   const bool plain = !cavity_.shrunk() && !options_->selector;

@@ -8,6 +8,12 @@
 #include "pgdr/refiner.hpp"
 
 namespace pgdr {
+namespace {
+
+constexpr int most_steps = 1000;  // of a walk in a facet; it can run in a circle where the facet is not Delaunay
+
+}  // namespace
+
 /// Vertices of the entity itself never encroach upon it, though rounding may put them some ulps inside a ball.
 template <int D>
 bool Refiner<D>::face_encroached_by(CellId c, int face, VertexId v) const {
@@ -82,6 +88,44 @@ auto Refiner<D>::edge_beyond(const Point<D>& x) const -> std::optional<Item> {
   return std::nullopt;
 }
 
+/// The subsegment that cuts x off from the subfacet, or else the subfacet of the same facet that x lies in, on a walk in
+/// the facet's projection. Where the facet's triangulation is not Delaunay the part of a cavity need not reach either.
+template <int D>
+auto Refiner<D>::walk_in_facet(const Item& e, const Point<D>& x) const -> FacetWalk {
+  if constexpr (D == 3) {
+    const EntityId entity = mesh_->constraints(e.cell)->face_entity[e.which];
+    const int axis = domain_->facets()[entity].axis;
+    Link at(e.cell, e.which);
+    for (int steps = 0; steps < most_steps; ++steps) {
+      const CellId c = at.cell();
+      if (!cavity_.owns(c)) return {{}, {}, false};
+      const auto& v = mesh_->cell(c).vertices;
+      std::optional<Item> edge;
+      Link next;
+      for (int corner = 0; corner <= D && !next; ++corner) {
+        if (corner == at.face()) continue;
+        int ends[2], n = 0;
+        for (int i = 0; i <= D; ++i)
+          if (i != at.face() && i != corner) ends[n++] = i;
+        const Point<D>&a = mesh_->point(v[ends[0]]), &b = mesh_->point(v[ends[1]]);
+        const Sign inside = orient_projected(a, b, mesh_->point(v[corner]), axis);
+        if (inside == Sign::zero || orient_projected(a, b, x, axis) != -inside) continue;
+        const int ridge = edge_of_ends[ends[0]][ends[1]];
+        if (mesh_->constraints(c)->edges >> ridge & 1) {
+          edge = make_entry(c, EntryKind::edge, ridge);
+        } else {
+          bool owned = true;
+          next = cavity_.entity_face_round_ridge(c, at.face(), corner, entity, owned);
+          if (!owned) return {{}, {}, false};
+        }
+      }
+      if (!next) return edge ? FacetWalk{edge, {}} : FacetWalk{{}, make_entry(c, EntryKind::face, at.face())};
+      at = next;
+    }
+  }
+  return {};
+}
+
 /// @pre the cavity of x is collected.
 template <int D>
 auto Refiner<D>::demand_of(EntityRef entity, std::span<const VertexId> own, bool pass_on) const -> Demand {
@@ -134,6 +178,19 @@ auto Refiner<D>::split_face(const Item& e, const Demand* cause) -> Outcome {
   if constexpr (D == 3) {
     auto edge = edge_beyond(x);
     if (!edge) edge = encroached_edge(x);
+    const auto star = edge ? Cavity<D>::Status::ok : cavity_.make_star_shaped();
+    if (star == Cavity<D>::Status::not_owned) return give_up(Outcome::not_owned);
+    if (star != Cavity<D>::Status::ok) {
+      const auto [beyond, around, owned] = walk_in_facet(e, x);
+      if (!owned) return give_up(Outcome::not_owned);
+      edge = beyond;
+      const Item& from = around ? *around : e;
+      cavity_.release();
+      const auto again = cavity_.collect_on_face(x, from.cell, from.which);
+      if (again == Cavity<D>::Status::not_owned) return give_up(Outcome::not_owned);
+      if (again != Cavity<D>::Status::ok) return refuse(entity, own);
+      if (!edge && around) edge = encroached_edge(x);
+    }
     if (edge) {
       const Demand demand = cause ? *cause : demand_of(entity, own, true);
       cavity_.release();

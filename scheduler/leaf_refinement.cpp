@@ -47,7 +47,7 @@ void LeafRefinement<D>::list_everything() {
 /// A violation left standing may have moved off the walls, where insertions do not look for it. The slots of cells depend
 /// on timing, so the faces are put in the order of their cells' vertices.
 template <int D>
-void LeafRefinement<D>::list_violations_everywhere() {
+std::vector<Entry<D>> LeafRefinement<D>::violations_everywhere() {
   Worker worker = check_out();
   WorkList<D> found;
   RegionVisit<D> listing;
@@ -64,7 +64,7 @@ void LeafRefinement<D>::list_violations_everywhere() {
       if (a.vertices[i] != b.vertices[i]) return lex_less<D>(mesh.point(a.vertices[i]), mesh.point(b.vertices[i]));
     return a.which < b.which;
   });
-  for (const Entry<D>& e : faces) relist(e);
+  return faces;
 }
 
 template <int D>
@@ -74,14 +74,22 @@ void LeafRefinement<D>::relist(const Entry<D>& e) {
   work.list.push(e);
 }
 
-/// All that was refused, once more.
+/// All that was refused and is still there; the lists of it are emptied.
 template <int D>
-bool LeafRefinement<D>::relist_refused() {
+std::vector<Entry<D>> LeafRefinement<D>::take_refused() {
+  std::vector<Entry<D>> entries;
   for (Node n = 0; n <= tree_.node_count(); ++n) {
     auto& list = n == tree_.node_count() ? whole_list_ : works_[n].list;
     for (const Refusal<D>& r : std::exchange(list.refused, {}))
-      if (r.entry.alive(context_.mesh)) relist(r.entry);
+      if (r.entry.alive(context_.mesh)) entries.push_back(r.entry);
   }
+  return entries;
+}
+
+/// All that was refused, once more.
+template <int D>
+bool LeafRefinement<D>::relist_refused() {
+  for (const Entry<D>& e : take_refused()) relist(e);
   return !requests().empty();
 }
 
@@ -94,9 +102,11 @@ StopCause LeafRefinement<D>::run() {
     const std::uint64_t before = counts_.committed;
     stop = drain();
     if (stop != StopCause::finished || counts_.committed == before) break;
-    if (violations_seen_) list_violations_everywhere();
+    if (violations_seen_)
+      for (const Entry<D>& e : violations_everywhere()) relist(e);
     if (!relist_refused()) break;
   }
+  if (stop == StopCause::finished && violations_seen_) stop = mend();
   statistics_.leaves = tree_.leaf_count();
   for (const auto& [thread, seconds] : busy_) statistics_.busy_seconds.push_back(seconds);
   double in_visits = 0;

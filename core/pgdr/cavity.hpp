@@ -98,6 +98,13 @@ class Cavity {
   bool shrunk() const { return shrunk_; }
   bool touches_constraints() const { return touches_constraints_; }
 
+  // ---- looking round -----------------------------------------------------------------------------------------------
+  bool owns(CellId c) const { return !area_ || area_->owns(*mesh_, c); }
+  /// The other constrained face of `entity` at the ridge of face `face` of `cell` that leaves out vertex `corner`, looked
+  /// for by walking round the ridge, first the one way, then (where that ends at the hull) the other. `owned` becomes
+  /// false where the walk would have to step on from a cell that is not.
+  Link entity_face_round_ridge(CellId cell, int face, int corner, EntityId entity, bool& owned) const;
+
   // ---- commit ------------------------------------------------------------------------------------------------------
   /// Writes the star of the new vertex. Its entity's new subfacets and subsegments are marked.
   VertexId commit(Pools& pools, Home home, float relaxed_radius);
@@ -115,12 +122,10 @@ class Cavity {
     cells_.push_back(c);
     return true;
   }
-  bool owns(CellId c) const { return !area_ || area_->owns(*mesh_, c); }
   bool owns_point() const { return !area_ || area_->owns(point_); }
   Status collect_all();
   Status grow_part();
   Status add_part_face(CellId cell, int face, EntityId entity);
-  Link entity_face_round_ridge(CellId cell, int face, int corner, EntityId entity, bool& owned) const;
   bool in_part(CellId cell, int face) const {
     const auto* k = mesh_->constraints(cell);
     return k && (k->part >> face & 1);

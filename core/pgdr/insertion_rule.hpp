@@ -4,8 +4,10 @@
 // When a Steiner point may be inserted, so that every run ends, whatever the input angles.
 //
 // Each vertex p has a home (the input vertex, segment or facet it lies on, or the volume) and a relaxed insertion radius
-// R(p): infinity for input vertices. The relaxed length of an edge uv is |uv| between input vertices, else
-// max(|uv|, min(R(u), R(v))). Let r(x) be the distance from a new point x to the nearest vertex of its cavity. x is
+// R(p): infinity for input vertices. The relaxed length of an edge uv is |uv| between input vertices and between vertices
+// of entities that do not touch, else max(|uv|, min(R(u), R(v))). (Between entities that do not touch an edge is no child
+// of a small angle, though both ends may have inherited a large R from one: asked for more, the cells of a thin wall
+// would stay poor without a small angle anywhere near.) Let r(x) be the distance from a new point x to the nearest vertex of its cavity. x is
 // inserted only if r(x) >= d, and gets R(x) = max(r(x), h), where
 //   * for a poor element, or an entity that it encroaches upon or that hides its point: d is the least relaxed length
 //     of the element's edges (of an element only too big, at most half its circumradius); h = 0;
@@ -15,7 +17,7 @@
 //   * for a missing subsegment or subfacet of the boundary recovery: d = h = 0.
 // Since R is inherited along a chain of small angles the factor c is paid once, not once a link: with
 // lambda = min(half the least distance of disjoint entities, the shortest edge of the recovered mesh, half the least size)
-// every Steiner point of the refinement has R >= lambda and r >= c lambda, by induction over the insertions. Mutually
+// relaxed lengths are at least lambda as long as R is, and every Steiner point of the refinement has R >= lambda and r >= c lambda, by induction over the insertions. Mutually
 // visible vertices are thus c lambda apart, and the domain is bounded: finitely many insertions. Without inheritance c
 // would have to be 1. Pure functions; any thread.
 #pragma once
@@ -34,6 +36,10 @@ struct Demand {
 /// Does a vertex with this home lie on the entity (a segment or facet)?
 template <int D>
 bool lies_on(const Domain<D>& domain, Home home, EntityRef entity);
+
+/// The relaxed length of the edge between two vertices.
+template <int D>
+double relaxed_length(const Domain<D>& domain, const VertexRecord<D>& u, const VertexRecord<D>& v);
 
 /// The demand of an entity encroached upon by q.
 template <int D>

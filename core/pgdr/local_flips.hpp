@@ -8,8 +8,10 @@
 // up to seven, in 3D, if need be together with the two subfacets of one facet that it lies between. A workspace of one visit, as the cavity.
 #pragma once
 
+#include <type_traits>
 #include <vector>
 
+#include "pgdr/local_rewrap.hpp"
 #include "pgdr/mesh.hpp"
 #include "pgdr/visit_area.hpp"
 
@@ -21,7 +23,7 @@ class LocalFlips {
   using Pools = typename Mesh<D>::Pools;
   enum class Outcome { flipped, stuck, not_owned };
 
-  LocalFlips(Mesh<D>& mesh, const Domain<D>& domain) : mesh_(&mesh), domain_(&domain) {}
+  LocalFlips(Mesh<D>& mesh, const Domain<D>& domain) : mesh_(&mesh), domain_(&domain), rewrap_(mesh) {}
 
   /// What the visit may change; null: everything.
   void set_area(const VisitArea<D>* area) { area_ = area; }
@@ -31,6 +33,8 @@ class LocalFlips {
   /// Replaces the cells at the violating face by others with fewer violations. Stuck: no flip does that. Not owned: to find
   /// that out would need cells that the visit does not own.
   Outcome repair(Pools& pools, CellId c, int face);
+  /// 3D: the same by gift wrapping (local_rewrap.hpp); slower. Only where the visit may change everything.
+  bool rewrap(Pools& pools, CellId c, int face, bool thorough);
   /// The cells made by the last successful repair.
   const std::vector<CellId>& new_cells() const { return new_cells_; }
 
@@ -65,22 +69,28 @@ class LocalFlips {
   bool in_line(VertexId a, VertexId b, VertexId c) const;
   bool crosses_in_facet(const Ring& ring, VertexId u, VertexId w) const;
   void take_old(std::vector<CellId> cells);
-  int violations() const;
+  int violations();
   bool positive(const Vertices& v) const;
   Simplex<D> simplex(const Vertices& v) const;
   bool is_wall(const Face& f) const;
   bool walls_are_free() const;
-  int violations_of(const std::vector<NewCell>& cells) const;
+  int violations_of(const std::vector<NewCell>& cells);
   void replace(Pools& pools, const std::vector<NewCell>& cells);
   CellId make_cell(Pools& pools, const NewCell& cell);
   const OuterFace* outer(const Face& f) const;
 
+  struct NoRewrap {
+    explicit NoRewrap(Mesh<D>&) {}
+  };
+
   Mesh<D>* mesh_;
   const Domain<D>* domain_;
   const VisitArea<D>* area_ = nullptr;
+  std::conditional_t<D == 3, LocalRewrap, NoRewrap> rewrap_;
   std::vector<CellId> old_, new_cells_;
   std::vector<OuterFace> outer_;
   std::vector<Subsegment> subsegments_;
+  std::vector<Face> faces_;  ///< of the cells whose violations are counted
   std::vector<Face> old_walls_, new_walls_;  ///< constrained faces between the old, resp. of the new cells
   EntityId wall_entity_ = no_entity;
 };

@@ -77,6 +77,8 @@ struct RegionVisit {
   int granularity = std::numeric_limits<int>::max();  ///< end this many buckets after the first
   std::uint64_t most_insertions = std::numeric_limits<std::uint64_t>::max();
   bool violations_seen = false;         ///< look for faces that are not locally Delaunay at every insertion
+  bool rewraps = false;                 ///< make cells anew where no flip helps; only with everything owned
+  bool mends = false;                   ///< no volume point whose cavity is cut back any more
   // done
   struct Outbox {
     std::uint32_t leaf;
@@ -104,6 +106,12 @@ class Refiner {
   void list_cell(CellId c);
   /// Lists the faces of the cell that are not locally Delaunay.
   void list_violations(CellId c);
+  /// Mends or moves a violation that no entity is beside in as large a region as that takes; everything must be owned.
+  /// False if that cannot be done.
+  bool mend(const Entry<D>& e);
+  /// Is this violating face between volume vertices alone?
+  bool is_far_from_walls(const Entry<D>& e) const;
+  bool violates(const Entry<D>& e) const { return flips_.violates(e.cell, e.which); }
   /// Makes `visit` the one that list_cell lists for.
   void begin(RegionVisit<D>& visit);
 
@@ -134,6 +142,11 @@ class Refiner {
   Point<D> segment_midpoint(EntityId s, VertexId a, VertexId b) const;
   std::optional<Item> encroached_edge(const Point<D>& x) const;
   std::optional<Item> edge_beyond(const Point<D>& x) const;
+  struct FacetWalk {
+    std::optional<Item> edge, face;
+    bool owned = true;
+  };
+  FacetWalk walk_in_facet(const Item& e, const Point<D>& x) const;
   Demand demand_of(EntityRef entity, std::span<const VertexId> own, bool pass_on) const;
   Outcome decide(EntityRef entity, std::span<const VertexId> own, const Demand* cause);
   Outcome refuse(EntityRef entity, std::span<const VertexId> own);
@@ -147,6 +160,7 @@ class Refiner {
   std::optional<Item> blocking_face(CellId c, const Point<D>& x) const;
 
   void committed();
+  void flipped();
   void flip(const Item& e);
   Outcome give_up(Outcome outcome) {
     cavity_.release();

@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <thread>
 #include <vector>
 
@@ -71,7 +72,10 @@ class LeafRefinement {
 
  private:
   void list_everything();
-  void list_violations_everywhere();
+  std::vector<Entry<D>> violations_everywhere();
+  StopCause mend();
+  bool mend_far_from_walls(Refiner<D>& worker, std::set<std::array<VertexId, D + 1>>& hopeless);
+  std::vector<Entry<D>> take_refused();
   bool relist_refused();
   void relist(const Entry<D>& e);
   void put_off(const VisitRequest& request, const std::vector<Entry<D>>& entries);

@@ -1,0 +1,262 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "pgdr/local_rewrap.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace pgdr {
+namespace {
+
+// Cells of a region, and orders of the front that are tried in it: few where this is done for very many faces.
+struct Attempt {
+  std::size_t most_cells;
+  int orders;
+};
+constexpr Attempt quick{20, 1}, wide{512, 1}, deep{96, 16};
+constexpr int far_weight = 10000;  // of a violation that no entity is beside
+
+}  // namespace
+
+bool LocalRewrap::repair(Pools& pools, CellId c, int face, bool thorough) {
+  random_.seed();
+  const Link link = mesh_->cell(c).links[face];
+  const CellId d = link.cell();
+  least_gain_ = thorough ? far_weight : 0;
+  std::vector<VertexId> left_out{no_vertex};
+  if (thorough) {
+    for (const VertexId v : mesh_->cell(c).vertices)
+      if (in_volume(v)) left_out.push_back(v);
+    if (const VertexId v = mesh_->cell(d).vertices[link.face()]; in_volume(v)) left_out.push_back(v);
+  }
+  for (const Attempt& attempt : thorough ? std::vector{wide, deep} : std::vector{quick}) {
+    most_cells_ = attempt.most_cells;
+    orders_ = attempt.orders;
+    for (const VertexId v : left_out)
+      if (repair_without(pools, c, d, v)) return true;
+  }
+  return false;
+}
+
+bool LocalRewrap::repair_without(Pools& pools, CellId c, CellId d, VertexId left_out) {
+  begin(c, d, left_out);
+  bool repaired = left_out != no_vertex && wrap_again(pools);
+  while (!repaired && grow()) repaired = wrap_again(pools);
+  release();
+  return repaired;
+}
+
+bool LocalRewrap::in_volume(VertexId v) const { return mesh_->vertex(v).home.kind() == EntityKind::volume; }
+
+/// Where the constrained Delaunay triangulation exists, every order of the front leads to it; where it does not, another
+/// order may lead to a better mesh, or to one at all.
+bool LocalRewrap::wrap_again(Pools& pools) {
+  find_rim();
+  front_.clear();
+  for (const RimFace& f : rim_) front_.push_back(f.vertices);
+  const int before = violations_before();
+  for (int order = 0; order < orders_; ++order) {
+    if (wrap_.fill(points_, front_, 2 * most_cells_) && keeps_subsegments() && violations_after() + least_gain_ < before) {
+      replace(pools);
+      return true;
+    }
+    for (std::size_t i = front_.size(); i > 1; --i) std::swap(front_[i - 1], front_[random_() % i]);
+  }
+  return false;
+}
+
+void LocalRewrap::release() {
+  for (const CellId c : old_) mesh_->unmark(c);
+  old_.clear();
+}
+
+auto LocalRewrap::number(VertexId v) -> Index {
+  if (v == left_out_) return no_index;  // inside the region: never asked for a face of the rim
+  const auto at = std::find(vertices_.begin(), vertices_.end(), v);
+  if (at == vertices_.end()) {
+    vertices_.push_back(v);
+    points_.push_back(mesh_->point(v));
+    return static_cast<Index>(vertices_.size() - 1);
+  }
+  return static_cast<Index>(at - vertices_.begin());
+}
+
+void LocalRewrap::take(CellId c) {
+  mesh_->mark(c);
+  old_.push_back(c);
+  for (const VertexId v : mesh_->cell(c).vertices) number(v);
+}
+
+bool LocalRewrap::in_conflict(CellId c) const {
+  const auto& own = mesh_->cell(c).vertices;
+  for (std::size_t i = 0; i < vertices_.size(); ++i)
+    if (std::find(own.begin(), own.end(), vertices_[i]) == own.end() && mesh_->conflicts(c, points_[i])) return true;
+  return false;
+}
+
+void LocalRewrap::begin(CellId c, CellId d, VertexId left_out) {
+  vertices_.clear();
+  points_.clear();
+  region_ = mesh_->region(c);
+  left_out_ = left_out;
+  take(c);
+  take(d);
+  if (left_out == no_vertex) return;
+  for (std::size_t i = 0; i < old_.size(); ++i) {
+    const auto& k = mesh_->cell(old_[i]);
+    for (int f = 0; f < 4; ++f) {
+      const Link next = k.links[f];
+      if (!next || mesh_->constrained(old_[i], f) || mesh_->marked(next.cell())) continue;
+      const auto& v = mesh_->cell(next.cell()).vertices;
+      if (std::find(v.begin(), v.end(), left_out) != v.end()) take(next.cell());
+    }
+  }
+}
+
+/// Adds the neighbours that are in conflict with a vertex of the region. False if there are none, or too many.
+bool LocalRewrap::grow() {
+  const std::size_t before = old_.size();
+  for (std::size_t i = 0; i < before; ++i)
+    for (int f = 0; f < 4; ++f) {
+      const Link next = mesh_->cell(old_[i]).links[f];
+      if (!next || mesh_->constrained(old_[i], f) || mesh_->marked(next.cell()) || !in_conflict(next.cell())) continue;
+      if (old_.size() == most_cells_) return false;
+      take(next.cell());
+    }
+  return old_.size() != before;
+}
+
+void LocalRewrap::find_rim() {
+  rim_.clear();
+  subsegments_.clear();
+  for (const CellId c : old_) {
+    const auto& k = mesh_->cell(c);
+    const auto* constraints = mesh_->constraints(c);
+    GiftWrap::Cell cell{};
+    for (int i = 0; i < 4; ++i) cell[i] = number(k.vertices[i]);
+    for (int f = 0; f < 4; ++f) {
+      const bool constrained = mesh_->constrained(c, f);
+      if (!constrained && mesh_->marked(k.links[f].cell())) continue;
+      rim_.push_back({GiftWrap::face_of(cell, f), k.links[f], constrained,
+                      constrained ? constraints->face_entity[f] : no_entity});
+    }
+    if (!constraints) continue;
+    for (int e = 0; e < 6; ++e)
+      if (constraints->edges >> e & 1)
+        subsegments_.push_back({cell[edge_ends[e][0]], cell[edge_ends[e][1]], constraints->edge_entity[e]});
+  }
+}
+
+/// A subsegment inside the region that bounds no facet must be an edge of the new cells, too.
+bool LocalRewrap::keeps_subsegments() const {
+  auto has = [](const GiftWrap::Cell& cell, Index v) { return std::find(cell.begin(), cell.end(), v) != cell.end(); };
+  return std::all_of(subsegments_.begin(), subsegments_.end(), [&](const Subsegment& s) {
+    return std::any_of(wrap_.cells().begin(), wrap_.cells().end(),
+                       [&](const GiftWrap::Cell& cell) { return has(cell, s.a) && has(cell, s.b); });
+  });
+}
+
+/// What a violation counts. One that no entity is beside counts for more than all others, so that what cannot be mended
+/// moves to the walls that hide what is in its way.
+int LocalRewrap::weight(const std::array<VertexId, 4>& cell, VertexId apex) const {
+  const bool far = in_volume(apex) && std::all_of(cell.begin(), cell.end(), [this](VertexId v) { return in_volume(v); });
+  return far ? far_weight : 1;
+}
+
+int LocalRewrap::violation(const GiftWrap::Cell& cell, VertexId apex) const {
+  const Simplex<3> s{points_[cell[0]], points_[cell[1]], points_[cell[2]], points_[cell[3]]};
+  if (in_sphere<3>(s, mesh_->point(apex)) != Sign::positive) return 0;
+  return weight({vertices_[cell[0]], vertices_[cell[1]], vertices_[cell[2]], vertices_[cell[3]]}, apex);
+}
+
+/// Violating faces of the old cells by their weights, each counted twice.
+int LocalRewrap::violations_before() const {
+  int count = 0;
+  for (const CellId c : old_)
+    for (int f = 0; f < 4; ++f) {
+      const Link link = mesh_->cell(c).links[f];
+      if (!link || mesh_->constrained(c, f)) continue;
+      const VertexId apex = mesh_->cell(link.cell()).vertices[link.face()];
+      const Point3& p = mesh_->point(apex);
+      if (mesh_->conflicts(c, p) && in_sphere<3>(mesh_->simplex(c), p) == Sign::positive)
+        count += weight(mesh_->cell(c).vertices, apex) * (mesh_->marked(link.cell()) ? 1 : 2);
+    }
+  return count;
+}
+
+/// The same of the new ones.
+int LocalRewrap::violations_after() const {
+  int count = 0;
+  for (const GiftWrap::Cell& cell : wrap_.cells())
+    for (int f = 0; f < 4; ++f) {
+      const GiftWrap::Face face = GiftWrap::face_of(cell, f), back = GiftWrap::turned_over(face);
+      if (const RimFace* r = rim_face(face)) {
+        if (r->constrained) continue;
+        count += 2 * violation(cell, mesh_->cell(r->link.cell()).vertices[r->link.face()]);
+        continue;
+      }
+      for (const GiftWrap::Cell& other : wrap_.cells())
+        for (int g = 0; g < 4; ++g)
+          if (GiftWrap::face_of(other, g) == back) count += violation(cell, vertices_[other[g]]);
+    }
+  return count;
+}
+
+auto LocalRewrap::rim_face(const GiftWrap::Face& f) const -> const RimFace* {
+  for (const RimFace& r : rim_)
+    if (r.vertices == f) return &r;
+  return nullptr;
+}
+
+CellId LocalRewrap::make_cell(Pools& pools, const GiftWrap::Cell& cell) {
+  const CellId c = mesh_->new_cell(pools);
+  auto& k = mesh_->cell(c);
+  for (int i = 0; i < 4; ++i) k.vertices[i] = vertices_[cell[i]];
+  k.links.fill(Link{});
+  mesh_->set_region(c, region_);
+  mesh_->set_sphere(c, circumsphere<3>(mesh_->simplex(c)));
+  for (int f = 0; f < 4; ++f) {
+    const RimFace* r = rim_face(GiftWrap::face_of(cell, f));
+    if (!r || !r->constrained) continue;
+    auto& constraints = mesh_->ensure_constraints(pools, c);
+    constraints.faces |= static_cast<std::uint8_t>(1 << f);
+    constraints.face_entity[f] = r->entity;
+  }
+  for (const Subsegment& s : subsegments_) {
+    const auto a = std::find(cell.begin(), cell.end(), s.a), b = std::find(cell.begin(), cell.end(), s.b);
+    if (a == cell.end() || b == cell.end()) continue;
+    const int e = edge_of_ends[a - cell.begin()][b - cell.begin()];
+    auto& constraints = mesh_->ensure_constraints(pools, c);
+    constraints.edges |= static_cast<std::uint8_t>(1 << e);
+    constraints.edge_entity[e] = s.entity;
+  }
+  return c;
+}
+
+void LocalRewrap::replace(Pools& pools) {
+  new_cells_.clear();
+  for (const GiftWrap::Cell& cell : wrap_.cells()) new_cells_.push_back(make_cell(pools, cell));
+  const auto& cells = wrap_.cells();
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    for (int f = 0; f < 4; ++f) {
+      const GiftWrap::Face face = GiftWrap::face_of(cells[i], f);
+      Link& link = mesh_->cell(new_cells_[i]).links[f];
+      // Rim faces whose other side is a constrained face of the region, too, meet a new cell there.
+      if (const RimFace* r = rim_face(face); r && !(r->link && mesh_->marked(r->link.cell()))) {
+        link = r->link;
+        if (link) mesh_->cell(link.cell()).links[link.face()] = Link(new_cells_[i], f);
+        continue;
+      }
+      for (std::size_t j = 0; j < cells.size(); ++j)
+        for (int g = 0; g < 4; ++g)
+          if (GiftWrap::face_of(cells[j], g) == GiftWrap::turned_over(face)) link = Link(new_cells_[j], g);
+      assert(link);
+    }
+  for (const CellId c : old_) {
+    mesh_->unmark(c);
+    mesh_->free_cell(pools, c);
+  }
+  old_.clear();
+}
+
+}  // namespace pgdr

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Where no single flip makes a face locally Delaunay: the cells about it are made anew, as the constrained Delaunay
+// triangulation of their vertices. Flips in three dimensions can get stuck although this exists, at an edge whose ring
+// is not that of any flip; gift wrapping cannot.
+//
+// The region grows from the two cells at the face: over every face that is not constrained, to a cell whose sphere
+// contains a vertex of the region. Where that ends, the faces of the rim have spheres without vertices of the region,
+// so that they are faces of the new triangulation, but where vertices hide behind walls. A workspace of one visit.
+#pragma once
+
+#include <random>
+#include <vector>
+
+#include "pgdr/gift_wrap.hpp"
+#include "pgdr/mesh.hpp"
+
+namespace pgdr {
+
+class LocalRewrap {
+ public:
+  using Pools = Mesh<3>::Pools;
+
+  explicit LocalRewrap(Mesh<3>& mesh) : mesh_(&mesh) {}
+  ~LocalRewrap() { release(); }
+  LocalRewrap(const LocalRewrap&) = delete;
+  LocalRewrap& operator=(const LocalRewrap&) = delete;
+
+  /// Replaces cells about the unconstrained face by others with fewer violating faces. False if that cannot be done.
+  bool repair(Pools& pools, CellId c, int face, bool thorough);
+  /// The cells made by the last successful repair.
+  const std::vector<CellId>& new_cells() const { return new_cells_; }
+
+ private:
+  using Index = GiftWrap::Index;
+  /// A face of the region's rim, or one side of a constrained face inside the region.
+  struct RimFace {
+    GiftWrap::Face vertices;
+    Link link;
+    bool constrained;
+    EntityId entity;
+  };
+  struct Subsegment {
+    Index a, b;
+    EntityId entity;
+  };
+
+  static constexpr Index no_index = 0xffff;
+
+  bool repair_without(Pools& pools, CellId c, CellId d, VertexId left_out);
+  bool in_volume(VertexId v) const;
+  void begin(CellId c, CellId d, VertexId left_out);
+  bool grow();
+  bool wrap_again(Pools& pools);
+  void take(CellId c);
+  bool in_conflict(CellId c) const;
+  Index number(VertexId v);
+  void find_rim();
+  bool keeps_subsegments() const;
+  int violations_before() const;
+  int violations_after() const;
+  int weight(const std::array<VertexId, 4>& cell, VertexId apex) const;
+  int violation(const GiftWrap::Cell& cell, VertexId apex) const;
+  void replace(Pools& pools);
+  CellId make_cell(Pools& pools, const GiftWrap::Cell& cell);
+  const RimFace* rim_face(const GiftWrap::Face& f) const;
+  void release();
+
+  Mesh<3>* mesh_;
+  GiftWrap wrap_;
+  std::vector<CellId> old_, new_cells_;
+  std::vector<VertexId> vertices_;  ///< of the region; gift wrapping knows them by their place here
+  std::vector<Point3> points_;
+  std::vector<RimFace> rim_;
+  std::vector<GiftWrap::Face> front_;
+  std::vector<Subsegment> subsegments_;
+  std::size_t most_cells_ = 0;
+  int orders_ = 1, least_gain_ = 0;
+  std::minstd_rand random_;
+  VertexId left_out_ = no_vertex;
+  std::uint16_t region_ = 0;
+};
+
+}  // namespace pgdr

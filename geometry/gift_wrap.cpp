@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "pgdr/gift_wrap.hpp"
+
+#include <algorithm>
+
+#include "pgdr/predicates.hpp"
+
+namespace pgdr {
+namespace {
+
+using Face = GiftWrap::Face;
+
+constexpr int inner_faces[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
+
+Face smallest_first(Face f) {
+  std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
+  return f;
+}
+
+}  // namespace
+
+Face GiftWrap::face_of(const Cell& cell, int i) {
+  return smallest_first({cell[inner_faces[i][0]], cell[inner_faces[i][1]], cell[inner_faces[i][2]]});
+}
+
+bool GiftWrap::fill(std::span<const Point3> points, std::span<const Face> front, std::size_t most_cells) {
+  points_ = points;
+  cells_.clear();
+  front_.clear();
+  for (const Face& f : front) front_.push_back(smallest_first(f));
+  while (!front_.empty())
+    if (cells_.size() >= most_cells || !wrap(front_.back())) return false;
+  return true;
+}
+
+/// Puts a cell on the face, which leaves the front.
+bool GiftWrap::wrap(const Face& f) {
+  find_candidates(f);
+  while (!candidates_.empty()) {
+    const std::size_t first = first_candidate(f);
+    const Cell cell{f[0], f[1], f[2], candidates_[first]};
+    if (!blocked(cell)) {
+      cells_.push_back(cell);
+      return replace_in_front(cell);
+    }
+    candidates_[first] = candidates_.back();
+    candidates_.pop_back();
+  }
+  return false;
+}
+
+void GiftWrap::find_candidates(const Face& f) {
+  candidates_.clear();
+  for (std::size_t v = 0; v < points_.size(); ++v)
+    if (orient3d(points_[f[0]], points_[f[1]], points_[f[2]], points_[v]) == Sign::positive)
+      candidates_.push_back(static_cast<Index>(v));
+}
+
+/// The candidate whose sphere with the face has no other inside on the face's positive side.
+std::size_t GiftWrap::first_candidate(const Face& f) const {
+  std::size_t first = 0;
+  for (std::size_t i = 1; i < candidates_.size(); ++i) {
+    const Simplex<3> s{points_[f[0]], points_[f[1]], points_[f[2]], points_[candidates_[first]]};
+    if (in_sphere_perturbed<3>(s, points_[candidates_[i]]) == Sign::positive) first = i;
+  }
+  return first;
+}
+
+/// Does a triangle of the front meet the inside of the cell?
+bool GiftWrap::blocked(const Cell& cell) {
+  outside_.assign(points_.size(), 0);
+  for (int i = 0; i < 4; ++i) {
+    const Face f = face_of(cell, i);
+    for (std::size_t v = 0; v < points_.size(); ++v) {
+      const bool corner = v == cell[0] || v == cell[1] || v == cell[2] || v == cell[3];
+      const bool beyond = corner ? v != cell[i]
+                                 : orient3d(points_[f[0]], points_[f[1]], points_[f[2]], points_[v]) != Sign::positive;
+      if (beyond) outside_[v] |= static_cast<std::uint8_t>(1 << i);
+    }
+  }
+  return std::any_of(front_.begin(), front_.end(), [&](const Face& f) {
+    return (outside_[f[0]] & outside_[f[1]] & outside_[f[2]]) == 0 && meets(cell, f);
+  });
+}
+
+/// Two convex sets, one with an inside, keep out of each other's inside iff some plane keeps them apart; turned until it
+/// can turn no further, such a plane goes through three corners that are on no line. The planes of the cell's faces
+/// have been tried.
+bool GiftWrap::meets(const Cell& cell, const Face& face) const {
+  std::array<Index, 7> corner{};
+  std::size_t n = 0;
+  for (const Index v : cell) corner[n++] = v;
+  for (const Index v : face)
+    if (std::find(cell.begin(), cell.end(), v) == cell.end()) corner[n++] = v;
+  auto keeps_apart = [&](Index a, Index b, Index c) {
+    auto side = [&](Index v) {
+      if (v == a || v == b || v == c) return Sign::zero;
+      return orient3d(points_[a], points_[b], points_[c], points_[v]);
+    };
+    Sign of_cell = Sign::zero;
+    for (const Index v : cell) {
+      const Sign s = side(v);
+      if (s == Sign::zero) continue;
+      if (of_cell == -s) return false;
+      of_cell = s;
+    }
+    // Zero: the three are on one line.
+    return of_cell != Sign::zero && std::all_of(face.begin(), face.end(), [&](Index v) { return side(v) != of_cell; });
+  };
+  for (std::size_t c = 4; c < n; ++c)  // at least one corner is the face's own
+    for (std::size_t b = 1; b < c; ++b)
+      for (std::size_t a = 0; a < b; ++a)
+        if (keeps_apart(corner[a], corner[b], corner[c])) return false;
+  return true;
+}
+
+/// The cell's faces leave the front or, turned over, enter it.
+bool GiftWrap::replace_in_front(const Cell& cell) {
+  for (int i = 0; i < 4; ++i) {
+    const Face f = face_of(cell, i);
+    if (const auto at = std::find(front_.begin(), front_.end(), f); at != front_.end()) {
+      *at = front_.back();
+      front_.pop_back();
+      continue;
+    }
+    const Face back = smallest_first(turned_over(f));
+    if (std::find(front_.begin(), front_.end(), back) != front_.end()) return false;
+    front_.push_back(back);
+  }
+  return true;
+}
+
+}  // namespace pgdr
