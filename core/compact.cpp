@@ -3,8 +3,10 @@
 #include "pgdr/compact.hpp"
 
 #include <algorithm>
-#include <tuple>
+#include <atomic>
+#include <type_traits>
 
+#include "detail/bulk.hpp"
 #include "pgdr/spatial_order.hpp"
 
 namespace pgdr {
@@ -14,8 +16,15 @@ constexpr std::uint32_t none = 0xffffffffu;
 
 /// Number of each vertex in the output (by index(VertexId)); fills mesh.points.
 template <int D>
-std::vector<std::uint32_t> number_vertices(const Mesh<D>& mesh, const Domain<D>& domain, OutputMesh<D>& out) {
+std::vector<std::uint32_t> number_vertices(const Mesh<D>& mesh, const Domain<D>& domain, const detail::Bulk& bulk,
+                                           OutputMesh<D>& out) {
+  constexpr std::uint32_t used = 0;
   std::vector<std::uint32_t> number(mesh.vertex_bound(), none);
+  bulk.each(mesh.cell_bound(), [&](std::size_t i) {
+    const CellId c{static_cast<std::uint32_t>(i)};
+    if (!mesh.alive(c)) return;
+    for (const VertexId v : mesh.cell(c).vertices) std::atomic_ref(number[index(v)]).store(used, std::memory_order_relaxed);
+  });
   out.points.assign(domain.points().begin(), domain.points().end());
   out.input_points = out.points.size();
   struct Steiner {
@@ -23,28 +32,21 @@ std::vector<std::uint32_t> number_vertices(const Mesh<D>& mesh, const Domain<D>&
     std::uint32_t vertex;
   };
   const HilbertCurve<D> curve(domain.points());
-  std::vector<Steiner> steiner;
-  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i) {
-    if (!mesh.alive(CellId{i})) continue;
-    for (const VertexId v : mesh.cell(CellId{i}).vertices) {
-      if (number[index(v)] != none) continue;
-      const auto& record = mesh.vertex(v);
-      number[index(v)] = record.home.id();
-      if (record.home.kind() != EntityKind::vertex) {
-        number[index(v)] = 0;
-        steiner.push_back({curve.key(record.point), index(v)});
-      }
-    }
-  }
-  std::sort(steiner.begin(), steiner.end(), [&](const Steiner& a, const Steiner& b) {
+  auto steiner = bulk.gather<Steiner>(number.size(), [&](std::size_t i, std::vector<Steiner>& found) {
+    if (number[i] == none) return;
+    const auto& record = mesh.vertex(VertexId{static_cast<std::uint32_t>(i)});
+    number[i] = record.home.id();
+    if (record.home.kind() != EntityKind::vertex) found.push_back({curve.key(record.point), static_cast<std::uint32_t>(i)});
+  });
+  bulk.sort(steiner, [&](const Steiner& a, const Steiner& b) {
     if (a.key != b.key) return a.key < b.key;
     return lex_less(mesh.point(VertexId{a.vertex}), mesh.point(VertexId{b.vertex}));
   });
-  out.points.reserve(out.points.size() + steiner.size());
-  for (const Steiner& s : steiner) {
-    number[s.vertex] = static_cast<std::uint32_t>(out.points.size());
-    out.points.push_back(mesh.point(VertexId{s.vertex}));
-  }
+  out.points.resize(out.input_points + steiner.size());
+  bulk.each(steiner.size(), [&](std::size_t i) {
+    number[steiner[i].vertex] = static_cast<std::uint32_t>(out.input_points + i);
+    out.points[out.input_points + i] = mesh.point(VertexId{steiner[i].vertex});
+  });
   return number;
 }
 
@@ -62,7 +64,8 @@ std::array<std::uint32_t, N> canonical(std::array<std::uint32_t, N> v) {
 }
 
 template <int D>
-void number_cells(const Mesh<D>& mesh, const std::vector<std::uint32_t>& vertex_number, Compacted<D>& out) {
+void number_cells(const Mesh<D>& mesh, const std::vector<std::uint32_t>& vertex_number, const detail::Bulk& bulk,
+                  Compacted<D>& out) {
   struct Cell {
     std::array<std::uint32_t, D + 1> vertices;
     std::uint32_t id;
@@ -74,83 +77,102 @@ void number_cells(const Mesh<D>& mesh, const std::vector<std::uint32_t>& vertex_
     for (int j = 0; j <= D; ++j) v[j] = vertex_number[index(mesh.cell(CellId{i}).vertices[j])];
     return canonical(v);
   };
-  std::size_t count = 0;
-  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i)
-    if (mesh.alive(CellId{i})) {
-      ++begin[numbers(i)[0] + 1];
-      ++count;
-    }
+  auto each_cell = [&](auto f) {
+    bulk.each(mesh.cell_bound(), [&](std::size_t i) {
+      if (const auto id = static_cast<std::uint32_t>(i); mesh.alive(CellId{id})) f(id);
+    });
+  };
+  auto next = [](std::uint32_t& counter) { return std::atomic_ref(counter).fetch_add(1, std::memory_order_relaxed); };
+  each_cell([&](std::uint32_t i) { next(begin[numbers(i)[0] + 1]); });
   for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
-  std::vector<Cell> cells(count);
+  std::vector<Cell> cells(begin.back());
   auto place = begin;
-  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i)
-    if (mesh.alive(CellId{i})) {
-      const auto v = numbers(i);
-      cells[place[v[0]]++] = {v, i};
-    }
+  each_cell([&](std::uint32_t i) {
+    const auto v = numbers(i);
+    cells[next(place[v[0]])] = {v, i};
+  });
   out.cell_number.assign(mesh.cell_bound(), none);
-  out.mesh.cells.resize(count);
-  for (std::size_t b = 0; b + 1 < begin.size(); ++b)
+  out.mesh.cells.resize(cells.size());
+  bulk.each(begin.size() - 1, [&](std::size_t b) {
     std::sort(cells.begin() + begin[b], cells.begin() + begin[b + 1],
               [](const Cell& x, const Cell& y) { return x.vertices < y.vertices; });
-  for (std::size_t i = 0; i < count; ++i) {
-    out.mesh.cells[i] = cells[i].vertices;
-    out.cell_number[cells[i].id] = static_cast<std::uint32_t>(i);
+    for (std::uint32_t i = begin[b]; i < begin[b + 1]; ++i) {
+      out.mesh.cells[i] = cells[i].vertices;
+      out.cell_number[cells[i].id] = i;
+    }
+  });
+}
+
+/// The vertices of face f of a cell, counter-clockwise seen from outside where it is on the hull, else sorted.
+template <int D>
+std::array<std::uint32_t, D> face_vertices(const CellRecord<D>& cell, int f, const std::vector<std::uint32_t>& number) {
+  std::array<std::uint32_t, D> face;
+  for (int j = 0, n = 0; j <= D; ++j)
+    if (j != f) face[n++] = number[index(cell.vertices[j])];
+  if constexpr (D == 3) {
+    if (f % 2 == 1) std::swap(face[1], face[2]);
+    if (cell.links[f]) std::sort(face.begin(), face.end());
+    std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
+  } else {
+    if (f == 1) std::swap(face[0], face[1]);
+    if (cell.links[f]) std::sort(face.begin(), face.end());
   }
+  return face;
 }
 
 /// Subsegments and subfacets, each once, sorted by their vertices; hull subfacets (subsegments) face outwards.
 template <int D>
 void collect_constraints(const Mesh<D>& mesh, const Domain<D>& domain, const std::vector<std::uint32_t>& number,
-                         OutputMesh<D>& out) {
+                         const detail::Bulk& bulk, OutputMesh<D>& out) {
   auto by_vertices = [](const auto& a, const auto& b) { return a.vertices < b.vertices; };
   auto same = [](const auto& a, const auto& b) { return a.vertices == b.vertices; };
-  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i) {
-    const CellId c{i};
-    if (!mesh.alive(c)) continue;
-    const auto* k = mesh.constraints(c);
-    if (!k) continue;
-    const auto& cell = mesh.cell(c);
-    for (int f = 0; f <= D; ++f) {
-      if (!(k->faces >> f & 1)) continue;
-      const bool hull = !cell.links[f];
-      if (!hull && cell.links[f].cell() < c) continue;
-      // The face of a positive cell opposite f, seen from outside, is counter-clockwise in this order.
-      std::array<std::uint32_t, D> face;
-      for (int j = 0, n = 0; j <= D; ++j)
-        if (j != f) face[n++] = number[index(cell.vertices[j])];
-      if constexpr (D == 3) {
-        if (f % 2 == 1) std::swap(face[1], face[2]);
-        if (!hull) std::sort(face.begin(), face.end());
-        std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
-        out.subfacets.push_back({face, domain.facets()[k->face_entity[f]].marker});
-      } else {
-        if (f == 1) std::swap(face[0], face[1]);
-        if (!hull) std::sort(face.begin(), face.end());
-        out.subsegments.push_back({face, domain.segments()[k->face_entity[f]].marker});
-      }
-    }
-    if constexpr (D == 3) {
-      for (int e = 0; e < 6; ++e) {
+  auto each_face = [&](std::size_t i, auto f) {
+    const CellId c{static_cast<std::uint32_t>(i)};
+    const auto* k = mesh.alive(c) ? mesh.constraints(c) : nullptr;
+    if (!k) return;
+    for (int face = 0; face <= D; ++face)
+      if ((k->faces >> face & 1) && !(mesh.cell(c).links[face] && mesh.cell(c).links[face].cell() < c))
+        f(mesh.cell(c), face, k->face_entity[face]);
+  };
+  using Subsegment = typename std::decay_t<decltype(out.subsegments)>::value_type;
+  if constexpr (D == 3) {
+    using Subfacet = typename std::decay_t<decltype(out.subfacets)>::value_type;
+    out.subfacets = bulk.gather<Subfacet>(mesh.cell_bound(), [&](std::size_t i, auto& found) {
+      each_face(i, [&](const CellRecord<D>& cell, int f, EntityId facet) {
+        found.push_back({face_vertices<D>(cell, f, number), domain.facets()[facet].marker});
+      });
+    });
+    bulk.sort(out.subfacets, by_vertices);
+    out.subsegments = bulk.gather<Subsegment>(mesh.cell_bound(), [&](std::size_t i, auto& found) {
+      const CellId c{static_cast<std::uint32_t>(i)};
+      const auto* k = mesh.alive(c) ? mesh.constraints(c) : nullptr;
+      for (int e = 0; k && e < 6; ++e) {
         if (!(k->edges >> e & 1)) continue;
-        auto a = number[index(cell.vertices[edge_ends[e][0]])], b = number[index(cell.vertices[edge_ends[e][1]])];
-        out.subsegments.push_back({{std::min(a, b), std::max(a, b)}, domain.segments()[k->edge_entity[e]].marker});
+        const auto& v = mesh.cell(c).vertices;
+        const auto a = number[index(v[edge_ends[e][0]])], b = number[index(v[edge_ends[e][1]])];
+        found.push_back({{std::min(a, b), std::max(a, b)}, domain.segments()[k->edge_entity[e]].marker});
       }
-    }
+    });
+  } else {
+    out.subsegments = bulk.gather<Subsegment>(mesh.cell_bound(), [&](std::size_t i, auto& found) {
+      each_face(i, [&](const CellRecord<D>& cell, int f, EntityId segment) {
+        found.push_back({face_vertices<D>(cell, f, number), domain.segments()[segment].marker});
+      });
+    });
   }
-  std::sort(out.subsegments.begin(), out.subsegments.end(), by_vertices);
+  bulk.sort(out.subsegments, by_vertices);
   out.subsegments.erase(std::unique(out.subsegments.begin(), out.subsegments.end(), same), out.subsegments.end());
-  std::sort(out.subfacets.begin(), out.subfacets.end(), by_vertices);
 }
 
 }  // namespace
 
 template <int D>
-Compacted<D> compact(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes) {
+Compacted<D> compact(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes, bool parallel) {
+  const detail::Bulk bulk(parallel);
   Compacted<D> out;
-  const auto number = number_vertices<D>(mesh, domain, out.mesh);
-  number_cells<D>(mesh, number, out);
-  collect_constraints<D>(mesh, domain, number, out.mesh);
+  const auto number = number_vertices<D>(mesh, domain, bulk, out.mesh);
+  number_cells<D>(mesh, number, bulk, out);
+  collect_constraints<D>(mesh, domain, number, bulk, out.mesh);
   const auto markers = domain.point_markers();
   if (!markers.empty()) {
     out.mesh.point_markers.assign(markers.begin(), markers.end());
@@ -158,13 +180,15 @@ Compacted<D> compact(const Mesh<D>& mesh, const Domain<D>& domain, std::span<con
   }
   if (!region_attributes.empty()) {
     out.mesh.regions.resize(out.mesh.cells.size());
-    for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i)
-      if (out.cell_number[i] != none) out.mesh.regions[out.cell_number[i]] = region_attributes[mesh.region(CellId{i})];
+    bulk.each(mesh.cell_bound(), [&](std::size_t i) {
+      if (out.cell_number[i] == none) return;
+      out.mesh.regions[out.cell_number[i]] = region_attributes[mesh.region(CellId{static_cast<std::uint32_t>(i)})];
+    });
   }
   return out;
 }
 
-template Compacted<2> compact<2>(const Mesh<2>&, const Domain<2>&, std::span<const double>);
-template Compacted<3> compact<3>(const Mesh<3>&, const Domain<3>&, std::span<const double>);
+template Compacted<2> compact<2>(const Mesh<2>&, const Domain<2>&, std::span<const double>, bool);
+template Compacted<3> compact<3>(const Mesh<3>&, const Domain<3>&, std::span<const double>, bool);
 
 }  // namespace pgdr

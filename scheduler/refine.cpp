@@ -122,7 +122,12 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
 
   std::vector<double> attributes;
   if (regions.labelled) attributes = regions.attribute;
-  Compacted<D> compacted = compact<D>(mesh, domain, attributes);
+  Compacted<D> compacted;
+  if (options.schedule.executor == Executor::flow_graph) {
+    detail::in_arena(options.schedule.threads, [&] { compacted = compact<D>(mesh, domain, attributes, true); });
+  } else {
+    compacted = compact<D>(mesh, domain, attributes, false);
+  }
   result.mesh = std::move(compacted.mesh);
   for (const PoorCell& p : poor) {
     if (p.over_bound) ++result.poor_left;

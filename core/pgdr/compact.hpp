@@ -20,7 +20,8 @@ struct Compacted {
 };
 
 /// @param region_attributes  attribute of each region number; empty: do not label.
+/// @param parallel  on the threads of the caller's task arena; the result is the same.
 template <int D>
-Compacted<D> compact(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes);
+Compacted<D> compact(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes, bool parallel);
 
 }  // namespace pgdr

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Bulk loops over arrays, in the caller's task arena or on the calling thread: the one place where core uses TBB.
+#pragma once
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace pgdr::detail {
+
+class Bulk {
+ public:
+  explicit Bulk(bool parallel) : parallel_(parallel) {}
+
+  /// Calls f(first, last) for blocks that cover [0, count). With `parallel`, several at once; isolated, so that the
+  /// thread that waits does not pick up other tasks of the caller.
+  template <class F>
+  void blocks(std::size_t count, const F& f) const {
+    if (!parallel_) return f(std::size_t{0}, count);
+    tbb::this_task_arena::isolate([&] {
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
+                        [&](const tbb::blocked_range<std::size_t>& r) { f(r.begin(), r.end()); });
+    });
+  }
+  /// Calls f(i) for i in [0, count).
+  template <class F>
+  void each(std::size_t count, const F& f) const {
+    blocks(count, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) f(i);
+    });
+  }
+  /// What f(i, out) appends to `out` for i in [0, count), in the order of the i.
+  template <class T, class F>
+  std::vector<T> gather(std::size_t count, const F& f) const {
+    const std::size_t parts = (count + grain - 1) / grain;
+    std::vector<std::vector<T>> found(parts);
+    each_part(parts, [&](std::size_t part) {
+      for (std::size_t i = part * grain; i < std::min(count, (part + 1) * grain); ++i) f(i, found[part]);
+    });
+    std::size_t total = 0;
+    for (const auto& part : found) total += part.size();
+    std::vector<T> all;
+    all.reserve(total);
+    for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+    return all;
+  }
+  template <class T, class Less>
+  void sort(std::vector<T>& items, const Less& less) const {
+    if (!parallel_) return std::sort(items.begin(), items.end(), less);
+    tbb::this_task_arena::isolate([&] { tbb::parallel_sort(items.begin(), items.end(), less); });
+  }
+
+ private:
+  static constexpr std::size_t grain = 8192;
+
+  template <class F>
+  void each_part(std::size_t parts, const F& f) const {
+    if (!parallel_) {
+      for (std::size_t i = 0; i < parts; ++i) f(i);
+      return;
+    }
+    tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, parts, f); });
+  }
+
+  bool parallel_;
+};
+
+}  // namespace pgdr::detail
