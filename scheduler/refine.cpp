@@ -86,7 +86,7 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   if (options.refine) {
     detail::Generations<D> generations(context, std::move(pools), vertices);
     result.stop = generations.run();
-    violations_seen = generations.violations_seen();
+    result.violations_seen = violations_seen = generations.violations_seen();
     generations.for_each_refused([&](std::span<const Refusal<D>> refused) { reasons.add(refused); });
     const RefineCounts& counts = generations.counts();
     result.statistics.insertions_committed = counts.committed;
@@ -136,6 +136,10 @@ RefineResult<D> refine(const Plc<D>& plc, const RefineOptions<D>& options) {
   RefineResult<D> result = run<D>(domain, options);
   result.statistics.seconds_mesh += prepare;
   result.statistics.seconds_initial += prepare;
+  for (VisitTrace& v : result.trace) {
+    v.start += prepare;
+    v.end += prepare;
+  }
   return result;
 }
 
