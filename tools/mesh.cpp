@@ -198,7 +198,11 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
                                    {"total", seconds.total}});
   report.set("peak_rss_bytes", peak_rss_bytes());
   if (!a.quiet) print_summary(a, plc, bounds, result, quality, seconds);
-  if (!a.trace.empty()) write_trace(a, result, seconds);
+  if (!a.trace.empty()) {
+    std::string trace_file = a.trace;
+    write_trace(a, result, seconds);
+    report.trace_file = std::move(trace_file);
+  }
 
   if (result.stop != StopCause::finished) return exit_stopped;
   return result.poor_left == 0 && result.size_met ? exit_done : exit_poor_left;
