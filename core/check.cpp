@@ -61,6 +61,17 @@ CheckReport check(const OutputMesh<D>& mesh, const CheckOptions<D>& options) {
   return report;
 }
 
+template <int D>
+NotDelaunay count_not_delaunay(const OutputMesh<D>& mesh) {
+  CheckReport report;
+  Findings findings(report, 0);
+  check_delaunay<D>(mesh, link_cells(mesh, findings), slack_without_input(mesh, CheckOptions<D>{}.conformity_ulps), {},
+                    findings);
+  return {report.not_delaunay_rounding, report.count(Kind::not_delaunay)};
+}
+
+template NotDelaunay count_not_delaunay(const OutputMesh<2>&);
+template NotDelaunay count_not_delaunay(const OutputMesh<3>&);
 template CheckReport check(const OutputMesh<2>&, const CheckOptions<2>&);
 template CheckReport check(const OutputMesh<3>&, const CheckOptions<3>&);
 

@@ -31,6 +31,7 @@ template <int D>
 double LeafRefinement<D>::visit(const VisitRequest& request, const VisitArea<D>& area, RegionVisit<D>& visit) {
   if (context_.stop.load(std::memory_order_relaxed) != 0) return 0;
   const auto start = Clock::now();
+  const PredicateCounts predicates_before = predicate_counts();
   Worker worker = check_out();
   try {
     visit.area = &area;
@@ -41,16 +42,18 @@ double LeafRefinement<D>::visit(const VisitRequest& request, const VisitArea<D>&
     throw;
   }
   check_in(std::move(worker));
-  return record(request, visit, start);
+  return record(request, visit, start, predicates_before);
 }
 
 template <int D>
-double LeafRefinement<D>::record(const VisitRequest& request, const RegionVisit<D>& visit, Clock::time_point start) {
+double LeafRefinement<D>::record(const VisitRequest& request, const RegionVisit<D>& visit, Clock::time_point start,
+                                 const PredicateCounts& predicates_before) {
   const auto end = Clock::now();
   const double seconds = std::chrono::duration<double>(end - start).count();
   const std::lock_guard lock(workers_mutex_);
   ++statistics_.visits;
   const auto self = std::this_thread::get_id();
+  if (self != home_thread_) predicates_elsewhere_ += predicate_counts() - predicates_before;
   auto thread = std::find_if(busy_.begin(), busy_.end(), [self](const auto& t) { return t.first == self; });
   if (thread == busy_.end()) thread = busy_.insert(thread, {self, 0.0});
   thread->second += seconds;

@@ -106,7 +106,7 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   if (options.refine) {
     const auto refinement = make_refinement<D>(context, std::move(pools), vertices);
     result.stop = refinement->run();
-    violations_seen = refinement->violations_seen();
+    result.violations_seen = violations_seen = refinement->violations_seen();
     refinement->for_each_refused([&](std::span<const Refusal<D>> refused) { reasons.add(refused); });
     const RefineCounts& counts = refinement->counts();
     result.statistics.insertions_committed = counts.committed;
@@ -115,6 +115,7 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
     result.scheduler = refinement->statistics();
     result.scheduler.threads = threads_of(options.schedule);
     result.trace = refinement->take_trace();
+    result.statistics.predicates += refinement->predicates_elsewhere();
   }
   const bool finished = options.refine && result.stop == StopCause::finished;
   const std::vector<PoorCell> poor = finished ? reasons.explained(violations_seen) : reasons.without_reasons();
@@ -139,7 +140,7 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   }
   std::sort(result.reasons.begin(), result.reasons.end(),
             [](const PoorReason& a, const PoorReason& b) { return a.cell < b.cell; });
-  result.statistics.predicates = predicate_counts() - predicates_before;
+  result.statistics.predicates += predicate_counts() - predicates_before;
   result.statistics.seconds_mesh = seconds_since(start);
   return result;
 }
@@ -159,6 +160,10 @@ RefineResult<D> refine(const Plc<D>& plc, const RefineOptions<D>& options) {
   RefineResult<D> result = run<D>(domain, options);
   result.statistics.seconds_mesh += prepare;
   result.statistics.seconds_initial += prepare;
+  for (VisitTrace& v : result.trace) {
+    v.start += prepare;
+    v.end += prepare;
+  }
   return result;
 }
 

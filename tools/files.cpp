@@ -5,13 +5,26 @@
 #include <strings.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <filesystem>
+#include <fstream>
 
 #include "pgdr/error.hpp"
 
 namespace pgdr::tool {
 
 namespace fs = std::filesystem;
+namespace {
+
+void require_place(const std::string& file) {
+  const fs::path path(file);
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored) || !fs::is_directory(folder, ignored) || access(folder.c_str(), W_OK | X_OK) != 0)
+    throw FileError({.code = Errc::cannot_write, .message = "no file can be written there", .file = file});
+}
+
+}  // namespace
 
 bool is_mesh_file(const std::string& file) {
   const std::string extension = fs::path(file).extension().string();
@@ -21,13 +34,31 @@ bool is_mesh_file(const std::string& file) {
 void require_writable(const std::string& output, const std::string& input) {
   if (!is_mesh_file(output))
     throw InputError({.code = Errc::unknown_format, .message = "meshes are written as .vtu or .mesh", .file = output});
-  const fs::path path(output);
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  require_place(output);
   std::error_code ignored;
-  if (fs::is_directory(path, ignored) || !fs::is_directory(folder, ignored) || access(folder.c_str(), W_OK | X_OK) != 0)
-    throw FileError({.code = Errc::cannot_write, .message = "no file can be written there", .file = output});
-  if (fs::equivalent(path, input, ignored))
+  if (fs::equivalent(output, input, ignored))
     throw UsageError({.code = Errc::bad_option, .message = "the output would replace the input", .file = output});
+}
+
+void require_writable(const std::string& file, const std::vector<std::string>& others) {
+  require_place(file);
+  std::error_code ignored;
+  for (const std::string& other : others)  // of which some do not exist yet
+    if (!other.empty() && fs::weakly_canonical(file, ignored) == fs::weakly_canonical(other, ignored))
+      throw UsageError({.code = Errc::bad_option, .message = "two files of one name", .file = file});
+}
+
+void write_whole(const std::string& file, const char* what, const std::function<void(std::ostream&)>& write) {
+  struct Temporary {
+    std::string name;
+    ~Temporary() { std::remove(name.c_str()); }  // gone already if all went well
+  } const temporary{file + '.' + std::to_string(getpid()) + ".tmp"};
+  std::ofstream out(temporary.name, std::ios::binary);
+  if (out) write(out);
+  out.close();
+  if (!out || std::rename(temporary.name.c_str(), file.c_str()) != 0)
+    throw FileError(
+        {.code = Errc::cannot_write, .message = std::string(what) + " cannot be written", .file = file});
 }
 
 }  // namespace pgdr::tool

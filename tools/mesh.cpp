@@ -4,7 +4,6 @@
 // pgdr mesh: read, refine, write, report.
 #include <algorithm>
 #include <array>
-#include <thread>
 
 #include "bounds.hpp"
 #include "command.hpp"
@@ -13,10 +12,11 @@
 #include "files.hpp"
 #include "pgdr/io.hpp"
 #include "signals.hpp"
+#include "threads.hpp"
+#include "trace.hpp"
 
 namespace pgdr::tool {
 namespace {
-
 
 template <int D>
 RefineOptions<D> make_options(const MeshArguments& a, const Bounds<D>& bounds) {
@@ -27,6 +27,10 @@ RefineOptions<D> make_options(const MeshArguments& a, const Bounds<D>& bounds) {
   options.disk = {a.type1 ? DiskType::type1 : DiskType::type2, a.delta};
   options.min_edge = a.min_edge;
   if (a.max_vertices) options.max_vertices = *a.max_vertices;
+  options.schedule.threads = a.threads.value_or(0);
+  options.schedule.schedule = a.schedule;
+  if (a.granularity) options.schedule.granularity = *a.granularity;
+  options.schedule.trace = !a.trace.empty();
   if (a.time_limit) options.time_limit = std::chrono::duration<double>(*a.time_limit);
   return options;
 }
@@ -42,26 +46,43 @@ const char* words(StopCause cause) {
   return "";
 }
 
+/// Seconds that each part took, and when it began, since the command did.
 struct Seconds {
   double read = 0, write = 0, total = 0;
+  double read_at = 0, mesh_at = 0, write_at = 0;
 };
 
+/// Threads that have run any visit. What comes before the visits runs on one.
 template <int D>
-void fill(Report& report, const MeshArguments& a, const Bounds<D>& bounds, const RefineResult<D>& r,
-          const QualitySummary& q) {
+std::size_t threads_that_ran(const RefineResult<D>& r) {
+  return std::max<std::size_t>(r.scheduler.busy_seconds.size(), 1);
+}
+
+/// A look at every face, which takes more than a tenth of the time of meshing: only where there may be one to find.
+template <int D>
+JsonObject not_delaunay(const RefineResult<D>& r) {
+  const NotDelaunay n = r.violations_seen ? count_not_delaunay(r.mesh) : NotDelaunay{};
+  return {{"rounding", n.rounding}, {"refused", n.other}};
+}
+
+template <int D>
+void fill(Report& report, const MeshArguments& a, const Threads& threads, const Bounds<D>& bounds,
+          const RefineResult<D>& r, const QualitySummary& q) {
   const RefineStatistics& s = r.statistics;
   report.set("vertices", r.mesh.points.size());
   report.set("cells", r.mesh.cells.size());
-  report.set("threads", JsonObject{{"requested", a.threads.value_or(std::max(1u, std::thread::hardware_concurrency()))},
-                                   {"ran", 1}});
-  report.set("schedule", "reproducible");
-  report.set("reproducible", r.stop != StopCause::time_limit && r.stop != StopCause::cancelled);
+  report.set("threads", JsonObject{{"requested", threads.requested()}, {"ran", threads_that_ran(r)}});
+  report.set("schedule", name(a.schedule));
+  report.set("reproducible", a.schedule == Schedule::reproducible && r.stop != StopCause::time_limit && r.stop != StopCause::cancelled);
   report.set("selector", "circumcenter");
   report.set("seconds", nullptr);  // their places; the values come last
   report.set("peak_rss_bytes", nullptr);
-  report.set("quality", to_json(q));
+  JsonObject quality = to_json(q);
+  quality.set("not_delaunay", not_delaunay(r));
+  report.set("quality", quality);
   report.set("bounds", JsonObject{{"radius_edge", bounds.radius_edge}, {"size_met", r.size_met},
                                   {"poor_left", r.poor_left}, {"reasons", to_json(r.reasons)}});
+  report.set("scheduler", to_json(r.scheduler));
   report.set("insertions", JsonObject{{"committed", s.insertions_committed}, {"refused", s.insertions_refused}});
   report.set("predicates", to_json(s.predicates));
   report.set("selector_outside", s.selector_outside);
@@ -88,6 +109,12 @@ std::string verdict(const RefineResult<D>& r) {
   return text;
 }
 
+std::string words(const SchedulerStatistics& s, std::size_t threads) {
+  return count(threads, "thread", "threads") + ", " + count(s.visits, "visit", "visits") + " of " +
+         count(s.leaves, "leaf", "leaves") + " in " + count(s.generations, "generation", "generations") +
+         format(", at most %u at once", s.max_concurrent);
+}
+
 template <int D>
 void print_summary(const MeshArguments& a, const Plc<D>& plc, const Bounds<D>& bounds, const RefineResult<D>& r,
                    const QualitySummary& q, const Seconds& seconds) {
@@ -109,8 +136,21 @@ void print_summary(const MeshArguments& a, const Plc<D>& plc, const Bounds<D>& b
     print_row("bounds", verdict(r));
   print_row("time", format("%.3f s meshing (%.3f s read, %.3f s write)", r.statistics.seconds_mesh, seconds.read,
                            seconds.write));
+  print_row("threads", words(r.scheduler, threads_that_ran(r)));
   print_row("memory", format("%.1f MiB at most", static_cast<double>(peak_rss_bytes()) / (1 << 20)));
   if (!r.mesh.cells.empty()) print_row("wrote", a.output);
+}
+
+template <int D>
+void write_trace(const MeshArguments& a, const RefineResult<D>& r, const Seconds& seconds) {
+  const RefineStatistics& s = r.statistics;
+  const double refine_at = seconds.mesh_at + s.seconds_initial, compact_at = refine_at + s.seconds_refine;
+  std::vector<Phase> phases{{"read", seconds.read_at, seconds.read_at + seconds.read},
+                            {"initial", seconds.mesh_at, refine_at},
+                            {"refine", refine_at, compact_at},
+                            {"compact", compact_at, seconds.mesh_at + s.seconds_mesh},
+                            {"write", seconds.write_at, seconds.write_at + seconds.write}};
+  write_trace(a.trace, phases, r.trace, seconds.mesh_at);
 }
 
 template <int D>
@@ -118,12 +158,14 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
   const Bounds<D> bounds = resolve<D>(a.bounds, smallest_proved_bound<D>());
   RefineOptions<D> options = make_options<D>(a, bounds);
   const StopOnSignal signals;
+  const Threads threads(a.threads);
   options.stop = signals.token();
 
-  const Stopwatch reading;
-  const Plc<D> plc = read_plc<D>(a.input);
   Seconds seconds;
-  seconds.read = reading.seconds();
+  seconds.read_at = total.seconds();
+  const Plc<D> plc = read_plc<D>(a.input);
+  seconds.mesh_at = total.seconds();
+  seconds.read = seconds.mesh_at - seconds.read_at;
 
   RefineResult<D> result;
   try {
@@ -140,22 +182,27 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
   }
   if (!a.quiet) print_warnings(result.warnings);
   const QualitySummary quality = summarize_quality(result.mesh);
-  fill(report, a, bounds, result, quality);
+  fill(report, a, threads, bounds, result, quality);
 
-  const Stopwatch writing;
+  seconds.write_at = total.seconds();
   if (!result.mesh.cells.empty()) {
     std::string mesh_file = a.output;
     write_mesh(result.mesh, a.output);
     report.mesh_file = std::move(mesh_file);
   }
-  seconds.write = writing.seconds();
   seconds.total = total.seconds();
+  seconds.write = seconds.total - seconds.write_at;
   report.set("seconds", JsonObject{{"read", seconds.read}, {"mesh", result.statistics.seconds_mesh},
                                    {"initial", result.statistics.seconds_initial},
                                    {"refine", result.statistics.seconds_refine}, {"write", seconds.write},
                                    {"total", seconds.total}});
   report.set("peak_rss_bytes", peak_rss_bytes());
   if (!a.quiet) print_summary(a, plc, bounds, result, quality, seconds);
+  if (!a.trace.empty()) {
+    std::string trace_file = a.trace;
+    write_trace(a, result, seconds);
+    report.trace_file = std::move(trace_file);
+  }
 
   if (result.stop != StopCause::finished) return exit_stopped;
   return result.poor_left == 0 && result.size_met ? exit_done : exit_poor_left;
@@ -167,6 +214,8 @@ int mesh(const MeshArguments& arguments, Report& report) {
   const Stopwatch total;
   report.set("input", arguments.input);
   require_writable(arguments.output, arguments.input);
+  if (!arguments.trace.empty())
+    require_writable(arguments.trace, {arguments.input, arguments.output, arguments.report});
   const int dimension = file_dimension(arguments.input);
   report.set("dimension", dimension);
   return dimension == 2 ? mesh_as<2>(arguments, report, total) : mesh_as<3>(arguments, report, total);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
+#include <map>
 
 #include "command.hpp"
 
@@ -40,8 +41,25 @@ CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
           "", "whole number"};
 }
 
+constexpr int most_threads = 1024;  // what TBB starts, it starts all at once: too many would take a machine down
+
 bool positive(double v) { return v > 0; }
 bool not_negative(double v) { return v >= 0 && std::isfinite(v); }
+
+const std::map<std::string, Schedule> schedules{{"reproducible", Schedule::reproducible},
+                                                {"greedy", Schedule::greedy}};
+
+/// One of the words of a map from words to values. Words of the contract may be missing in it: it says what there is.
+template <class Value>
+CLI::Validator one_of(const std::map<std::string, Value>& words, std::string what) {
+  return {[&words, what](std::string& text) {
+            if (words.count(text)) return std::string();
+            std::string list;
+            for (const auto& [word, value] : words) list += (list.empty() ? "" : ", ") + word;
+            return "the " + what + " of this version: " + list + ", not \"" + text + '"';
+          },
+          "", what};
+}
 
 /// A flag of the contract whose values are not all there yet: it must say so, not look obeyed.
 CLI::Validator available(std::string value, std::string sentence) {
@@ -49,9 +67,6 @@ CLI::Validator available(std::string value, std::string sentence) {
             return text == value ? std::string() : sentence + ", not \"" + text + '"';
           },
           "", "available"};
-}
-CLI::Validator not_available() {
-  return {[](std::string&) { return std::string("is not available in this version"); }, "", "available"};
 }
 
 void add_bounds(CLI::App& app, BoundArguments& b) {
@@ -88,13 +103,16 @@ void add_mesh(CLI::App& app, MeshArguments& a) {
   app.add_option("--delta", a.delta,
                  "radius of a type 2 disk, 1 - D circumradii; 0 (default): as far as the bound allows")
       ->type_name("D")->check(number("between 0 and 1", [](double v) { return v >= 0 && v <= 1; }));
-  app.add_option("--threads", a.threads, "threads to use; the mesh does not depend on it (this version runs one)")
-      ->type_name("N")->check(whole_number(1, 65535));
-  app.add_option_function<std::string>("--schedule", fixed, "reproducible: the same mesh for any number of threads")
-      ->type_name("NAME")
-      ->check(available("reproducible", "the schedules of this version: reproducible"));
-  app.add_option_function<std::string>("--granularity", fixed, "not available in this version")
-      ->type_name("G")->check(not_available());
+  app.add_option("--threads", a.threads, "threads to use (default: one a core); the mesh does not depend on it")
+      ->type_name("N")->check(whole_number(1, most_threads));
+  app.add_option_function<std::string>("--schedule", [&a](const std::string& t) { a.schedule = schedules.at(t); },
+                                       "reproducible (default): the same mesh for any number of threads; greedy: whatever is free "
+                                       "runs next, and the mesh depends on timing")
+      ->type_name("NAME")->check(one_of(schedules, "schedules"));
+  app.add_option("--granularity", a.granularity,
+                 "a visit of a leaf ends this many halvings of the circumradius below its largest (default: when the "
+                 "leaf has no work left); the mesh depends on it")
+      ->type_name("G")->check(whole_number(1, std::numeric_limits<int>::max()));
   app.add_option("--min-edge", a.min_edge, "refuse points that would make an edge shorter than this, and say so")
       ->type_name("E")->check(number(">= 0", not_negative));
   app.add_option("--max-vertices", a.max_vertices, "stop with a valid partial mesh at this number of vertices")
@@ -102,8 +120,8 @@ void add_mesh(CLI::App& app, MeshArguments& a) {
   app.add_option("--time-limit", a.time_limit, "stop with a valid partial mesh after this time")
       ->type_name("SECONDS")->check(number(">= 0", not_negative));
   add_report(app, a.report, a.quiet);
-  app.add_option_function<std::string>("--trace", fixed, "not available in this version")
-      ->type_name("FILE.json")->check(not_available());
+  app.add_option("--trace", a.trace, "write when each leaf was visited, and by which thread, as Chrome trace events")
+      ->type_name("FILE.json");
 }
 
 void add_check(CLI::App& app, CheckArguments& a) {
@@ -121,6 +139,12 @@ void add_info(CLI::App& app, InfoArguments& a) {
 }
 
 }  // namespace
+
+const char* name(Schedule schedule) {
+  for (const auto& [word, value] : schedules)
+    if (value == schedule) return word.c_str();
+  return "";
+}
 
 std::variant<Arguments, int> parse(int argc, const char* const* argv) {
   MeshArguments mesh;

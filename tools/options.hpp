@@ -9,6 +9,8 @@
 #include <string>
 #include <variant>
 
+#include "pgdr/refine_options.hpp"
+
 namespace pgdr::tool {
 
 /// The bounds that `mesh` makes and `check` verifies.
@@ -24,11 +26,14 @@ struct MeshArguments {
   BoundArguments bounds;
   bool type1 = false;   ///< the selection disk; else type 2
   double delta = 0;
-  std::optional<unsigned> threads;
+  std::optional<int> threads;      ///< none: one a core
+  Schedule schedule = Schedule::reproducible;
+  std::optional<int> granularity;  ///< none: a visit ends when its leaf has no work left
   double min_edge = 0;
   std::optional<std::uint64_t> max_vertices;
   std::optional<double> time_limit;
   std::string report;   ///< empty: none
+  std::string trace;    ///< likewise
   bool quiet = false;
 };
 
@@ -47,6 +52,9 @@ struct InfoArguments {
 };
 
 using Arguments = std::variant<MeshArguments, CheckArguments, InfoArguments>;
+
+/// The word of --schedule.
+const char* name(Schedule schedule);
 
 /// What the command line asks for, or, when there is nothing left to do (--help, --version, wrong usage: printed),
 /// the exit code.

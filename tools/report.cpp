@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report.hpp"
 
-#include <unistd.h>
-
 #include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+
+#include "files.hpp"
 
 namespace pgdr::tool {
 namespace {
@@ -58,15 +57,7 @@ void Report::add_error(const Diagnostic& error) { errors_.push_back(error); }
 
 void Report::write(const std::string& file) {
   set("errors", tool::to_json(errors_));
-  struct Temporary {
-    std::string name;
-    ~Temporary() { std::remove(name.c_str()); }  // gone already if all went well
-  } const temporary{file + '.' + std::to_string(getpid()) + ".tmp"};
-  std::ofstream out(temporary.name, std::ios::binary);
-  if (out) out << pretty();
-  out.close();
-  if (!out || std::rename(temporary.name.c_str(), file.c_str()) != 0)
-    throw FileError({.code = Errc::cannot_write, .message = "the report cannot be written", .file = file});
+  write_whole(file, "the report", [this](std::ostream& out) { out << pretty(); });
 }
 
 JsonObject to_json(const Diagnostic& d) {
@@ -98,6 +89,18 @@ JsonObject to_json(const PredicateCounts& c) {
           {"exact", share(c.exact)},
           {"perturbed", share(c.perturbed)},
           {"calls", calls}};
+}
+
+JsonObject to_json(const SchedulerStatistics& s) {
+  return {{"leaves", s.leaves},
+          {"generations", s.generations},
+          {"visits", s.visits},
+          {"set_aside", s.set_aside},
+          {"serial_seconds", s.serial_seconds},
+          {"work_seconds", s.work_seconds},
+          {"critical_path_seconds", s.critical_path_seconds},
+          {"max_concurrent", s.max_concurrent},
+          {"busy_seconds", s.busy_seconds}};
 }
 
 JsonObject to_json(const CheckFinding& f) {

@@ -23,8 +23,8 @@ class Report : public JsonObject {
   /// Writes to a temporary name beside `file` and renames it. @throws FileError cannot_write
   void write(const std::string& file);
 
-  /// The mesh file that this run has written, if any. It goes again should the run still end with exit_resource.
-  std::string mesh_file;
+  /// Files that this run has written, if any. They go again should it still end with exit_resource.
+  std::string mesh_file, trace_file;
 
  private:
   std::vector<Diagnostic> errors_;
@@ -34,6 +34,7 @@ JsonObject to_json(const Diagnostic& d);
 JsonObject to_json(const QualitySummary& q);
 JsonObject to_json(const PoorReason& r);
 JsonObject to_json(const PredicateCounts& counts);  ///< shares by stage, and `calls`
+JsonObject to_json(const SchedulerStatistics& s);
 JsonObject to_json(const CheckFinding& finding);
 /// The same of a list.
 template <class Value>

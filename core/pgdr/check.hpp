@@ -89,6 +89,16 @@ struct CheckReport {
   int exit_code() const;
 };
 
+/// Unconstrained faces with the vertex beyond them strictly inside the circumsphere of the cell on their other side.
+struct NotDelaunay {
+  std::uint64_t rounding = 0;  ///< those that moving slanted points by CheckOptions::conformity_ulps cancels
+  std::uint64_t other = 0;
+};
+/// Counts them without the input, so that a point on any slanted entity may be off by ulps of the largest coordinate.
+/// @pre a sound mesh, e.g. one that `refine` made
+template <int D>
+NotDelaunay count_not_delaunay(const OutputMesh<D>& mesh);
+
 /// Runs all checks for which `options` has the data. Bad indices and coordinates that are not finite end it early.
 /// @throws UsageError bad_size if the size function returns a value that is not positive; InputError entities_intersect
 ///   if walls of the input overlap so that no line crosses them one after the other; ResourceError.

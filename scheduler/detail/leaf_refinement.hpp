@@ -14,6 +14,7 @@
 
 #include "detail/leaf_work.hpp"
 #include "pgdr/conflict_manager.hpp"
+#include "pgdr/predicates.hpp"
 #include "pgdr/refine.hpp"
 #include "pgdr/refiner.hpp"
 
@@ -34,6 +35,8 @@ class LeafRefinement {
   const RefineCounts& counts() const { return counts_; }
   const SchedulerStatistics& statistics() const { return statistics_; }
   std::vector<VisitTrace> take_trace() { return std::move(trace_); }
+  /// Of visits that ran on other threads than the one that made this object.
+  const PredicateCounts& predicates_elsewhere() const { return predicates_elsewhere_; }
   /// Were there ever faces that are not locally Delaunay?
   bool violations_seen() const { return violations_seen_; }
   /// Calls f with the refusals of each leaf.
@@ -81,7 +84,8 @@ class LeafRefinement {
   void put_off(const VisitRequest& request, const std::vector<Entry<D>>& entries);
   Worker check_out();
   void check_in(Worker worker);
-  double record(const VisitRequest& request, const RegionVisit<D>& visit, Clock::time_point start);
+  double record(const VisitRequest& request, const RegionVisit<D>& visit, Clock::time_point start,
+                const PredicateCounts& predicates_before);
 
   WorkList<D> whole_list_;               ///< entities that visits of the whole tree come upon
   std::vector<Entry<D>> whole_set_aside_;
@@ -91,6 +95,8 @@ class LeafRefinement {
   std::vector<Worker> workers_;
   std::vector<std::pair<std::thread::id, double>> busy_;  ///< seconds, by thread
   std::vector<VisitTrace> trace_;
+  PredicateCounts predicates_elsewhere_;
+  const std::thread::id home_thread_ = std::this_thread::get_id();
 };
 
 extern template class LeafRefinement<2>;

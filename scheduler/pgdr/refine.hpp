@@ -56,6 +56,7 @@ struct RefineResult {
   std::vector<PoorReason> reasons;    ///< one for every poor cell when finished
   RefineStatistics statistics;
   SchedulerStatistics scheduler;
+  bool violations_seen = false;       ///< faces that are not locally Delaunay were met; without, none is left
   std::vector<VisitTrace> trace;      ///< if asked for; in the order in which the visits ended
   std::vector<Diagnostic> repairs, warnings;
 };

@@ -67,6 +67,7 @@ class OutOfMemory : public testing::Test {
     fs::create_directory(folder_);
     output_ = folder_ / "mesh.vtu";
     report_ = folder_ / "report.json";
+    trace_ = folder_ / "trace.json";
   }
   void TearDown() override { fs::remove_all(folder_); }
 
@@ -95,6 +96,7 @@ class OutOfMemory : public testing::Test {
       const long n = i < tries / 2 ? i * 7 : (i - tries / 2) * (total / (tries / 2)) + i;
       fs::remove(output_);
       fs::remove(report_);
+      fs::remove(trace_);
       const int code = run(arguments, n, lasting ? total * 100 + 1000 : n + 1);
       SCOPED_TRACE("allocation " + std::to_string(n) + " of " + std::to_string(total));
       // A library may do without the memory that it did not get (a sort without a buffer does).
@@ -102,15 +104,16 @@ class OutOfMemory : public testing::Test {
       const bool misread = code == 2 && std::find(flags.begin(), flags.end(), expression) != flags.end();
       ASSERT_TRUE(code == 7 || code == 0 || misread) << code;
       ASSERT_EQ(fs::exists(output_), code == 0);
+      ASSERT_LE(fs::exists(trace_), code == 0);
       for (const auto& entry : fs::directory_iterator(folder_))
-        ASSERT_TRUE(entry.path() == output_ || entry.path() == report_) << entry.path();
+        ASSERT_TRUE(entry.path() == output_ || entry.path() == report_ || entry.path() == trace_) << entry.path();
       failed += code == 7;
     }
     EXPECT_GT(failed, tries / 2);
   }
 
   inline static const std::string expression = "0.05+0.01*x";
-  fs::path folder_, output_, report_;
+  fs::path folder_, output_, report_, trace_;
   long used_ = 0;
 };
 
@@ -123,6 +126,9 @@ TEST_F(OutOfMemory, OnceIn3D) { sweep(bracket, {"--size", "0.5"}, false, 100); }
 TEST_F(OutOfMemory, ForGoodIn3D) { sweep(bracket, {"--size", "0.5"}, true, 100); }
 TEST_F(OutOfMemory, WithReportAndExpression) {
   sweep(plate, {"--size", expression, "--report", report_.string()}, false, 200);
+}
+TEST_F(OutOfMemory, WithThreadsAndTrace) {
+  sweep(plate, {"--size", "0.05", "--threads", "3", "--trace", trace_.string(), "--report", report_.string()}, false, 200);
 }
 
 }  // namespace
