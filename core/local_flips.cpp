@@ -65,12 +65,18 @@ bool LocalFlips<D>::repair(Pools& pools, CellId c, int face) {
 }
 
 template <int D>
-bool LocalFlips<D>::rewrap(Pools& pools, CellId c, int face, bool thorough) {
+bool LocalFlips<D>::rewrap(Pools& pools, CellId c, int face, LocalRewrap::Effort effort) {
   if constexpr (D == 3) {
-    if (!violates(c, face) || !rewrap_.repair(pools, c, face, thorough)) return false;
+    if (!violates(c, face) || !rewrap_.repair(pools, c, face, effort)) return false;
     new_cells_ = rewrap_.new_cells();
     return true;
   }
+  return false;
+}
+
+template <int D>
+bool LocalFlips<D>::rewrap_pays(std::uint64_t allowance) const {
+  if constexpr (D == 3) return rewrap_.lost_work() <= allowance + 2 * rewrap_.useful_work();
   return false;
 }
 

@@ -18,24 +18,27 @@ constexpr int far_weight = 10000;  // of a violation that no entity is beside
 
 }  // namespace
 
-bool LocalRewrap::repair(Pools& pools, CellId c, int face, bool thorough) {
+bool LocalRewrap::repair(Pools& pools, CellId c, int face, Effort effort) {
   random_.seed();
   const Link link = mesh_->cell(c).links[face];
   const CellId d = link.cell();
+  const bool thorough = effort == Effort::thorough;
   least_gain_ = thorough ? far_weight : 0;
+  work_ = 0;
   std::vector<VertexId> left_out{no_vertex};
   if (thorough) {
     for (const VertexId v : mesh_->cell(c).vertices)
       if (in_volume(v)) left_out.push_back(v);
     if (const VertexId v = mesh_->cell(d).vertices[link.face()]; in_volume(v)) left_out.push_back(v);
   }
-  for (const Attempt& attempt : thorough ? std::vector{wide, deep} : std::vector{quick}) {
+  bool repaired = false;
+  for (const Attempt& attempt : thorough ? std::vector{wide, deep} : std::vector{effort == Effort::quick ? quick : wide}) {
     most_cells_ = attempt.most_cells;
     orders_ = attempt.orders;
-    for (const VertexId v : left_out)
-      if (repair_without(pools, c, d, v)) return true;
+    for (const VertexId v : left_out) repaired = repaired || repair_without(pools, c, d, v);
   }
-  return false;
+  (repaired ? useful_work_ : lost_work_) += work_;
+  return repaired;
 }
 
 bool LocalRewrap::repair_without(Pools& pools, CellId c, CellId d, VertexId left_out) {
@@ -55,6 +58,7 @@ bool LocalRewrap::wrap_again(Pools& pools) {
   front_.clear();
   for (const RimFace& f : rim_) front_.push_back(f.vertices);
   const int before = violations_before();
+  work_ += old_.size() * vertices_.size();
   for (int order = 0; order < orders_; ++order) {
     if (wrap_.fill(points_, front_, 2 * most_cells_) && keeps_subsegments() && violations_after() + least_gain_ < before) {
       replace(pools);

@@ -10,6 +10,7 @@
 namespace pgdr {
 namespace {
 
+constexpr std::uint64_t most_lost_work = 20'000'000;  // of rewrapping large regions: some seconds
 constexpr int most_rounds = 32;  // of mending far from walls, each of which ends with fewer violations but for insertions
 
 }  // namespace
@@ -117,8 +118,13 @@ void Refiner<D>::list_all_violations() {
 
 template <int D>
 void Refiner<D>::flip(const Entry& e) {
-  const bool mended = flips_left_ > 0 && (flips_.repair(*pools_, e.cell, e.which) ||
-                                          (rewraps_ && flips_.rewrap(*pools_, e.cell, e.which, false)));
+  using Effort = LocalRewrap::Effort;
+  bool mended = flips_left_ > 0 && flips_.repair(*pools_, e.cell, e.which);
+  // While no entity has been refused a constrained Delaunay triangulation should exist, if in a large region.
+  const bool should_exist = refused_edges_.empty() && refused_faces_.empty() && flips_.rewrap_pays(most_lost_work);
+  if (!mended && flips_left_ > 0 && should_exist)
+    mended = flips_.rewrap(*pools_, e.cell, e.which, Effort::wide);
+  if (!mended && flips_left_ > 0 && rewraps_) mended = flips_.rewrap(*pools_, e.cell, e.which, Effort::quick);
   if (!mended) {
     if (flips_.violates(e.cell, e.which)) list_poor(e.cell, not_delaunay);
     return;
@@ -152,7 +158,7 @@ bool Refiner<D>::mend_far_from_walls() {
       const CellId c{i};
       if (!mesh_->alive(c) || !flips_.violates(c, f) || at_wall(c) || at_wall(mesh_->cell(c).links[f].cell())) continue;
       if (std::find(hopeless_.begin(), hopeless_.end(), mesh_->cell(c).vertices) != hopeless_.end()) continue;
-      if (!flips_.rewrap(*pools_, c, f, true)) {
+      if (!flips_.rewrap(*pools_, c, f, LocalRewrap::Effort::thorough)) {
         hopeless_.push_back(mesh_->cell(c).vertices);
         continue;
       }

@@ -28,7 +28,9 @@ class LocalFlips {
   /// Replaces the cells at the violating face by others with fewer violations. False if no flip does that.
   bool repair(Pools& pools, CellId c, int face);
   /// 3D: the same by gift wrapping (local_rewrap.hpp); slower.
-  bool rewrap(Pools& pools, CellId c, int face, bool thorough);
+  bool rewrap(Pools& pools, CellId c, int face, LocalRewrap::Effort effort);
+  /// Has it, so far, been worth its while in large regions? `allowance`: what may be spent in vain.
+  bool rewrap_pays(std::uint64_t allowance) const;
   /// The cells made by the last successful repair.
   const std::vector<CellId>& new_cells() const { return new_cells_; }
 

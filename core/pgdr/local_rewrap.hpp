@@ -22,15 +22,23 @@ class LocalRewrap {
  public:
   using Pools = Mesh<3>::Pools;
 
+  /// Small regions only; or large ones; or every region and order, vertices of the volume taken out, too, where a violation
+  /// is far from walls.
+  enum class Effort { quick, wide, thorough };
+
   explicit LocalRewrap(Mesh<3>& mesh) : mesh_(&mesh) {}
   ~LocalRewrap() { release(); }
   LocalRewrap(const LocalRewrap&) = delete;
   LocalRewrap& operator=(const LocalRewrap&) = delete;
 
   /// Replaces cells about the unconstrained face by others with fewer violating faces. False if that cannot be done.
-  bool repair(Pools& pools, CellId c, int face, bool thorough);
+  bool repair(Pools& pools, CellId c, int face, Effort effort);
   /// The cells made by the last successful repair.
   const std::vector<CellId>& new_cells() const { return new_cells_; }
+
+  /// What repairs have cost so far (cells times vertices), those that did nothing and the others.
+  std::uint64_t lost_work() const { return lost_work_; }
+  std::uint64_t useful_work() const { return useful_work_; }
 
  private:
   using Index = GiftWrap::Index;
@@ -79,6 +87,7 @@ class LocalRewrap {
   int orders_ = 1, least_gain_ = 0;
   std::minstd_rand random_;
   VertexId left_out_ = no_vertex;
+  std::uint64_t work_ = 0, lost_work_ = 0, useful_work_ = 0;
   std::uint16_t region_ = 0;
 };
 
