@@ -32,7 +32,8 @@ bool LocalRewrap::repair(Pools& pools, CellId c, int face, Effort effort) {
     if (const VertexId v = mesh_->cell(d).vertices[link.face()]; in_volume(v)) left_out.push_back(v);
   }
   bool repaired = false;
-  for (const Attempt& attempt : thorough ? std::vector{wide, deep} : std::vector{effort == Effort::quick ? quick : wide}) {
+  const auto attempts = thorough ? std::vector{wide, deep} : std::vector{effort == Effort::quick ? quick : wide};
+  for (const Attempt& attempt : attempts) {
     most_cells_ = attempt.most_cells;
     orders_ = attempt.orders;
     for (const VertexId v : left_out) repaired = repaired || repair_without(pools, c, d, v);

@@ -165,7 +165,6 @@ bool Refiner<D>::mend_far_from_walls() {
       any = true;
       flipped();
     }
-  if(getenv("RWDBG")) fprintf(stderr,"mend any %d hopeless %zu\n",(int)any,hopeless_.size());
   return any;
 }
 

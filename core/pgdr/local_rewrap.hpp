@@ -22,8 +22,8 @@ class LocalRewrap {
  public:
   using Pools = Mesh<3>::Pools;
 
-  /// Small regions only; or large ones; or every region and order, vertices of the volume taken out, too, where a violation
-  /// is far from walls.
+  /// Small regions only; or large ones; or, of violations that no entity is beside, large regions and many orders, and
+  /// vertices of the volume may be taken out.
   enum class Effort { quick, wide, thorough };
 
   explicit LocalRewrap(Mesh<3>& mesh) : mesh_(&mesh) {}
@@ -86,7 +86,7 @@ class LocalRewrap {
   std::size_t most_cells_ = 0;
   int orders_ = 1, least_gain_ = 0;
   std::minstd_rand random_;
-  VertexId left_out_ = no_vertex;
+  VertexId left_out_ = no_vertex;  ///< the vertex that is taken out; the region has all its cells
   std::uint64_t work_ = 0, lost_work_ = 0, useful_work_ = 0;
   std::uint16_t region_ = 0;
 };
