@@ -67,12 +67,19 @@ auto LocalFlips<D>::repair(Pools& pools, CellId c, int face) -> Outcome {
 }
 
 template <int D>
-bool LocalFlips<D>::rewrap(Pools& pools, CellId c, int face, bool thorough) {
+auto LocalFlips<D>::rewrap(Pools& pools, CellId c, int face, LocalRewrap::Effort effort) -> Outcome {
   if constexpr (D == 3) {
-    if (!violates(c, face) || !rewrap_.repair(pools, c, face, thorough)) return false;
-    new_cells_ = rewrap_.new_cells();
-    return true;
+    if (!violates(c, face)) return Outcome::stuck;
+    const bool repaired = rewrap_.repair(pools, c, face, effort);
+    if (repaired) new_cells_ = rewrap_.new_cells();
+    return repaired ? Outcome::flipped : rewrap_.reached_border() ? Outcome::not_owned : Outcome::stuck;
   }
+  return Outcome::stuck;
+}
+
+template <int D>
+bool LocalFlips<D>::rewrap_pays(std::uint64_t allowance) const {
+  if constexpr (D == 3) return rewrap_.lost_work() <= allowance + 2 * rewrap_.useful_work();
   return false;
 }
 

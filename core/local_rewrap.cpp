@@ -18,30 +18,36 @@ constexpr int far_weight = 10000;  // of a violation that no entity is beside
 
 }  // namespace
 
-bool LocalRewrap::repair(Pools& pools, CellId c, int face, bool thorough) {
+bool LocalRewrap::repair(Pools& pools, CellId c, int face, Effort effort) {
   random_.seed();
   const Link link = mesh_->cell(c).links[face];
   const CellId d = link.cell();
+  reached_border_ = !owns(c) || !owns(d);
+  if (reached_border_) return false;
+  const bool thorough = effort == Effort::thorough;
   least_gain_ = thorough ? far_weight : 0;
+  work_ = 0;
   std::vector<VertexId> left_out{no_vertex};
   if (thorough) {
     for (const VertexId v : mesh_->cell(c).vertices)
       if (in_volume(v)) left_out.push_back(v);
     if (const VertexId v = mesh_->cell(d).vertices[link.face()]; in_volume(v)) left_out.push_back(v);
   }
-  for (const Attempt& attempt : thorough ? std::vector{wide, deep} : std::vector{quick}) {
+  bool repaired = false;
+  const auto attempts = thorough ? std::vector{wide, deep} : std::vector{effort == Effort::quick ? quick : wide};
+  for (const Attempt& attempt : attempts) {
     most_cells_ = attempt.most_cells;
     orders_ = attempt.orders;
-    for (const VertexId v : left_out)
-      if (repair_without(pools, c, d, v)) return true;
+    for (const VertexId v : left_out) repaired = repaired || (!reached_border_ && repair_without(pools, c, d, v));
   }
-  return false;
+  (repaired ? useful_work_ : lost_work_) += work_;
+  return repaired;
 }
 
 bool LocalRewrap::repair_without(Pools& pools, CellId c, CellId d, VertexId left_out) {
   begin(c, d, left_out);
-  bool repaired = left_out != no_vertex && wrap_again(pools);
-  while (!repaired && grow()) repaired = wrap_again(pools);
+  bool repaired = left_out != no_vertex && !reached_border_ && wrap_again(pools);
+  while (!repaired && !reached_border_ && grow()) repaired = wrap_again(pools);
   release();
   return repaired;
 }
@@ -55,6 +61,7 @@ bool LocalRewrap::wrap_again(Pools& pools) {
   front_.clear();
   for (const RimFace& f : rim_) front_.push_back(f.vertices);
   const int before = violations_before();
+  work_ += old_.size() * vertices_.size();
   for (int order = 0; order < orders_; ++order) {
     if (wrap_.fill(points_, front_, 2 * most_cells_) && keeps_subsegments() && violations_after() + least_gain_ < before) {
       replace(pools);
@@ -108,7 +115,10 @@ void LocalRewrap::begin(CellId c, CellId d, VertexId left_out) {
       const Link next = k.links[f];
       if (!next || mesh_->constrained(old_[i], f) || mesh_->marked(next.cell())) continue;
       const auto& v = mesh_->cell(next.cell()).vertices;
-      if (std::find(v.begin(), v.end(), left_out) != v.end()) take(next.cell());
+      if (std::find(v.begin(), v.end(), left_out) == v.end()) continue;
+      reached_border_ = reached_border_ || !owns(next.cell());
+      if (reached_border_) return;
+      take(next.cell());
     }
   }
 }
@@ -121,6 +131,8 @@ bool LocalRewrap::grow() {
       const Link next = mesh_->cell(old_[i]).links[f];
       if (!next || mesh_->constrained(old_[i], f) || mesh_->marked(next.cell()) || !in_conflict(next.cell())) continue;
       if (old_.size() == most_cells_) return false;
+      reached_border_ = !owns(next.cell());
+      if (reached_border_) return false;
       take(next.cell());
     }
   return old_.size() != before;
@@ -211,7 +223,7 @@ auto LocalRewrap::rim_face(const GiftWrap::Face& f) const -> const RimFace* {
 CellId LocalRewrap::make_cell(Pools& pools, const GiftWrap::Cell& cell) {
   const CellId c = mesh_->new_cell(pools);
   auto& k = mesh_->cell(c);
-  for (int i = 0; i < 4; ++i) k.vertices[i] = vertices_[cell[i]];
+  mesh_->set_vertices(c, {vertices_[cell[0]], vertices_[cell[1]], vertices_[cell[2]], vertices_[cell[3]]});
   k.links.fill(Link{});
   mesh_->set_region(c, region_);
   mesh_->set_sphere(c, circumsphere<3>(mesh_->simplex(c)));

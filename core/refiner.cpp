@@ -8,6 +8,11 @@
 #include <cmath>
 
 namespace pgdr {
+namespace {
+
+constexpr std::uint64_t most_lost_work = 20'000'000;  // of rewrapping large regions in one visit: some seconds
+
+}  // namespace
 
 template <int D>
 RefineContext<D>::RefineContext(Mesh<D>& m, const Domain<D>& d, const RefineOptions<D>& o, CellBounds<D> b,
@@ -109,6 +114,7 @@ void Refiner<D>::list_violations(CellId c) {
 template <int D>
 void Refiner<D>::committed() {
   ++visit_->counts.committed;
+  visit_->changed_mesh = true;
   for (const CellId c : cavity_.new_cells()) list_cell(c);
   // A cavity that was not cut back keeps every face locally Delaunay, if all were.
   if (cavity_.shrunk() || visit_->violations_seen)
@@ -118,10 +124,14 @@ void Refiner<D>::committed() {
 template <int D>
 void Refiner<D>::flip(const Item& e) {
   if (!flips_.violates(e.cell, e.which)) return;
-  auto outcome = flips_left_ == 0 ? LocalFlips<D>::Outcome::stuck : flips_.repair(pools_, e.cell, e.which);
-  if (outcome == LocalFlips<D>::Outcome::stuck && flips_left_ > 0 && visit_->rewraps &&
-      flips_.rewrap(pools_, e.cell, e.which, false))
-    outcome = LocalFlips<D>::Outcome::flipped;
+  using Effort = LocalRewrap::Effort;
+  auto outcome = LocalFlips<D>::Outcome::stuck;
+  auto still_stuck = [&] { return flips_left_ > 0 && outcome == LocalFlips<D>::Outcome::stuck; };
+  if (still_stuck()) outcome = flips_.repair(pools_, e.cell, e.which);
+  // While no entity has been refused a constrained Delaunay triangulation should exist, if in a large region.
+  if (still_stuck() && !visit_->entities_refused && flips_.rewrap_pays(most_lost_work))
+    outcome = flips_.rewrap(pools_, e.cell, e.which, Effort::wide);
+  if (still_stuck() && visit_->rewraps) outcome = flips_.rewrap(pools_, e.cell, e.which, Effort::quick);
   if (outcome == LocalFlips<D>::Outcome::not_owned) return visit_->set_aside.push_back(e);
   if (outcome == LocalFlips<D>::Outcome::stuck) return list_poor(e.cell, Item::not_delaunay);
   --flips_left_;
@@ -131,6 +141,7 @@ void Refiner<D>::flip(const Item& e) {
 /// Lists what the last flip, or rewrapping, has made.
 template <int D>
 void Refiner<D>::flipped() {
+  visit_->changed_mesh = true;
   const std::vector<CellId> made = flips_.new_cells();
   for (const CellId c : made) list_cell(c);
   for (const CellId c : made)
@@ -147,7 +158,7 @@ bool Refiner<D>::is_far_from_walls(const Item& e) const {
 
 template <int D>
 bool Refiner<D>::mend(const Item& e) {
-  if (!flips_.rewrap(pools_, e.cell, e.which, true)) return false;
+  if (flips_.rewrap(pools_, e.cell, e.which, LocalRewrap::Effort::thorough) != LocalFlips<D>::Outcome::flipped) return false;
   flipped();
   return true;
 }
@@ -180,7 +191,8 @@ bool Refiner<D>::may_go_on() {
 
 template <int D>
 void Refiner<D>::record_refusal(const Item& e) {
-  visit_->list->refused.push_back({e, last_refusal_});
+  visit_->list->refused.push_back({e, last_refusal_, visit_->order, visit_->generation});
+  visit_->entities_refused = visit_->entities_refused || e.kind != EntryKind::cell;
 }
 
 /// One entry. Whether its slot is alive may be asked only if the visit owns its vertices: else it depends on timing.

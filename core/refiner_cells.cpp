@@ -125,6 +125,28 @@ auto Refiner<D>::blocking_face(CellId c, const Point<D>& x) const -> std::option
   return std::nullopt;
 }
 
+/// The constrained face that cuts x off from cell c, on a visibility walk; none if the walk leaves the claim before.
+template <int D>
+auto Refiner<D>::wall_before(CellId c, const Point<D>& x) const -> std::optional<Item> {
+  constexpr int most_steps = 256;
+  int from = -1;
+  for (int steps = 0; steps < most_steps && cavity_.owns(c); ++steps) {
+    const auto& k = mesh_->cell(c);
+    int exit = -1, wall = -1;
+    for (int i = 0; i <= D && exit < 0; ++i) {
+      if (i == from) continue;
+      Simplex<D> s = mesh_->simplex(c);
+      s[i] = x;
+      if (orient<D>(s) == Sign::positive) continue;
+      (mesh_->constrained(c, i) ? wall : exit) = i;
+    }
+    if (exit < 0) return wall < 0 ? std::nullopt : std::optional(make_entry(c, EntryKind::face, wall));
+    from = k.links[exit].face();
+    c = k.links[exit].cell();
+  }
+  return std::nullopt;
+}
+
 template <int D>
 auto Refiner<D>::treat_cell(const Item& e) -> Outcome {
   const CellId c = e.cell;
@@ -133,8 +155,16 @@ auto Refiner<D>::treat_cell(const Item& e) -> Outcome {
   // A cell with a face that no flip makes locally Delaunay asks for as much as one with a poor shape.
   if (e.which == Item::not_delaunay) verdict.over_radius_edge = true;
   const auto status = cavity_.collect(x, c);
-  if (status == Cavity<D>::Status::not_owned) return give_up(Outcome::not_owned);
   Outcome outcome = Outcome::refused;
+  if (status == Cavity<D>::Status::not_owned) {
+    // A point that a wall of the claim cuts off asks for no larger claim: the wall does.
+    cavity_.release();
+    const auto wall = wall_before(c, x);
+    if (!wall) return Outcome::not_owned;
+    const Demand demand = demand_of_cell(c, verdict);
+    outcome = split_face(*wall, &demand);
+    if (outcome == Outcome::committed && alive(e)) list_poor(c, e.which);
+  }
   if (status == Cavity<D>::Status::ok) {
     std::optional<Item> edge, face;
     if (cavity_.touches_constraints()) {

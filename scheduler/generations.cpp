@@ -55,7 +55,7 @@ void Generations<D>::finish(Generation<D>& generation, std::vector<Planned>& pla
   for (std::size_t v = 0; v < planned.size(); ++v) {
     const VisitRequest& request = generation.visits[v].request;
     seconds.push_back(planned[v].seconds);
-    Base::account(request, planned[v].work);
+    Base::account(request, planned[v].work, generation.visits[v].claim.leaves());
     for (auto& box : planned[v].work.outboxes) Base::post(box.leaf, std::move(box.entries));
     if (request.order == 1) candidates.push_back(request.leaf);
   }

@@ -146,7 +146,7 @@ void Greedy<D>::split(Node leaf) {
 template <int D>
 void Greedy<D>::end(Running& visit) {
   reserved_ -= std::min(reserved_, visit.work.most_insertions);
-  Base::account(visit.request, visit.work);
+  Base::account(visit.request, visit.work, visit.leaves);
   hand_over(visit);
   for (const Node leaf : visit.leaves) claimed_[leaf] = 0;
   --running_;

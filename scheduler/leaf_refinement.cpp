@@ -74,23 +74,53 @@ void LeafRefinement<D>::relist(const Entry<D>& e) {
   work.list.push(e);
 }
 
-/// All that was refused and is still there; the lists of it are emptied.
+/// Has anything changed that the visit could see? `work`: of the leaf that was visited; null: the whole tree.
 template <int D>
-std::vector<Entry<D>> LeafRefinement<D>::take_refused() {
-  std::vector<Entry<D>> entries;
-  for (Node n = 0; n <= tree_.node_count(); ++n) {
-    auto& list = n == tree_.node_count() ? whole_list_ : works_[n].list;
-    for (const Refusal<D>& r : std::exchange(list.refused, {}))
-      if (r.entry.alive(context_.mesh)) entries.push_back(r.entry);
-  }
-  return entries;
+bool LeafRefinement<D>::may_have_changed(const LeafWork<D>* work, const Refusal<D>& refusal) const {
+  if (!work || refusal.order == whole_tree) return last_change_ >= refusal.generation;
+  if (whole_changed_ >= refusal.generation) return true;
+  const auto zone = work->zones.find(refusal.order);
+  return zone == work->zones.end() || std::any_of(zone->second.begin(), zone->second.end(), [&](Node n) {
+           return works_[n].changed >= refusal.generation;
+         });
 }
 
-/// All that was refused, once more.
+/// What was refused, is still there and may be decided otherwise now (or all of it); taken off the lists.
+template <int D>
+std::vector<Refusal<D>> LeafRefinement<D>::take_refused(bool all) {
+  std::vector<Refusal<D>> refused, kept;
+  for (Node n = 0; n <= tree_.node_count(); ++n) {
+    const LeafWork<D>* work = n == tree_.node_count() ? nullptr : &works_[n];
+    auto& list = work ? works_[n].list.refused : whole_list_.refused;
+    for (const Refusal<D>& r : list)
+      if (r.entry.alive(context_.mesh)) (all || may_have_changed(work, r) ? refused : kept).push_back(r);
+    list = std::exchange(kept, {});
+  }
+  return refused;
+}
+
+/// What was refused, once more where the mesh has changed since, with the claim that it took to refuse it.
 template <int D>
 bool LeafRefinement<D>::relist_refused() {
-  for (const Entry<D>& e : take_refused()) relist(e);
+  for (const Refusal<D>& r : take_refused(false)) {
+    const Node leaf = tree_.leaf_at(context_.mesh.cell(r.entry.cell).center);
+    if (r.order == 1) {
+      relist(r.entry);
+    } else {
+      set_aside(leaf, r.order, r.entry);
+    }
+  }
   return !requests().empty();
+}
+
+/// Marks the leaves, and the nodes above them, so that a node knows of changes in any of its parts.
+template <int D>
+void LeafRefinement<D>::note_change(std::span<const Node> claim) {
+  last_change_ = generation_;
+  if (claim.empty()) whole_changed_ = generation_;
+  for (const Node leaf : claim)
+    for (Node n = leaf; n != Orthtree<D>::none && works_[n].changed != generation_; n = tree_.parent(n))
+      works_[n].changed = generation_;
 }
 
 template <int D>
@@ -138,9 +168,12 @@ std::vector<VisitRequest> LeafRefinement<D>::requests() const {
 template <int D>
 void LeafRefinement<D>::prepare(const VisitRequest& request, RegionVisit<D>& visit) {
   visit.violations_seen = violations_seen_;
+  visit.entities_refused = entities_refused_;
   visit.floor = options_.floor;
   visit.granularity = options_.granularity;
   visit.treat_list = request.order == 1;
+  visit.order = request.order;
+  visit.generation = generation_;
   visit.level = static_cast<std::uint32_t>(tree_.level(request.leaf));
   if (request.order == whole_tree) {
     visit.list = &whole_list_;
@@ -154,10 +187,14 @@ void LeafRefinement<D>::prepare(const VisitRequest& request, RegionVisit<D>& vis
 }
 
 template <int D>
-void LeafRefinement<D>::account(const VisitRequest& request, RegionVisit<D>& visit) {
+void LeafRefinement<D>::account(const VisitRequest& request, RegionVisit<D>& visit, std::span<const Node> claim) {
+  if (visit.changed_mesh) note_change(claim);
+  if (!claim.empty() && visit.counts.refused > 0)
+    works_[request.leaf].zones.try_emplace(request.order, claim.begin(), claim.end());
   counts_ += visit.counts;
   vertices_ += visit.counts.committed;
   violations_seen_ = violations_seen_ || visit.violations_seen;
+  entities_refused_ = entities_refused_ || visit.entities_refused;
   min_edge_hit_ = min_edge_hit_ || visit.min_edge_hit;
   statistics_.set_aside += visit.set_aside.size();
   put_off(request, visit.set_aside);
@@ -172,15 +209,22 @@ void LeafRefinement<D>::post(Node leaf, std::vector<Entry<D>>&& entries) {
 
 template <int D>
 void LeafRefinement<D>::put_off(const VisitRequest& request, const std::vector<Entry<D>>& entries) {
-  if (entries.empty()) return;
+  std::uint32_t order = whole_tree;
+  for (const std::uint32_t larger : set_aside_orders)
+    if (larger > request.order && larger > options_.claim_order) order = std::min(order, larger);
+  for (const Entry<D>& e : entries) set_aside(request.leaf, order, e);
+}
+
+/// For a visit of the leaf, or of the whole tree, with the claim of that order.
+template <int D>
+void LeafRefinement<D>::set_aside(Node leaf, std::uint32_t order, const Entry<D>& e) {
   for (std::size_t level = 0; level < set_aside_orders.size(); ++level) {
-    if (set_aside_orders[level] <= request.order || set_aside_orders[level] <= options_.claim_order) continue;
-    auto& waiting = works_[request.leaf].set_aside[level];
-    if (waiting.empty()) works_[request.leaf].set_aside_since[level] = generation_;
-    waiting.insert(waiting.end(), entries.begin(), entries.end());
-    return;
+    if (set_aside_orders[level] != order) continue;
+    auto& waiting = works_[leaf].set_aside[level];
+    if (waiting.empty()) works_[leaf].set_aside_since[level] = generation_;
+    return waiting.push_back(e);
   }
-  whole_set_aside_.insert(whole_set_aside_.end(), entries.begin(), entries.end());
+  whole_set_aside_.push_back(e);
 }
 
 template <int D>

@@ -14,6 +14,8 @@ void LeafWorks<D>::hand_down(const Mesh<D>& mesh, Node parent, std::uint64_t gen
     to.list.push(e);
     to.since = generation;
   };
+  for (Node child = 0; child < Orthtree<D>::children; ++child)
+    works_[tree_->first_child(parent) + child]->changed = from.changed;
   from.open_inbox();
   from.list.drain(pass_on);
   for (auto& entries : from.set_aside) {

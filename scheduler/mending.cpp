@@ -15,8 +15,7 @@ constexpr int most_rounds = 32;  // each of which ends with fewer violations but
 template <int D>
 StopCause LeafRefinement<D>::mend() {
   std::vector<Entry<D>> waiting = violations_everywhere();
-  const auto refused = take_refused();
-  waiting.insert(waiting.end(), refused.begin(), refused.end());
+  for (const Refusal<D>& r : take_refused(true)) waiting.push_back(r.entry);
   for (const Entry<D>& e : waiting) whole_list_.push(e);
   std::set<std::array<VertexId, D + 1>> hopeless;
   for (int round = 0; round < most_rounds; ++round) {
@@ -24,11 +23,14 @@ StopCause LeafRefinement<D>::mend() {
     visit.list = &whole_list_;
     visit.violations_seen = visit.rewraps = true;
     visit.mends = round > 0;
+    visit.order = whole_tree;
+    visit.generation = generation_;
+    visit.entities_refused = entities_refused_;
     visit.most_insertions = context_.options.max_vertices - vertices_;
     Worker worker = check_out();
     worker->run(visit);
     const VisitRequest everything{whole_tree_leaf(), whole_tree, 0};
-    account(everything, visit);
+    account(everything, visit, {});
     bool go_on = context_.stop == 0 && whole_list_.empty();
     if (go_on) {
       RegionVisit<D> mending;

@@ -121,6 +121,32 @@ inline Plc<3> plate_with_hole() {
   return plc;
 }
 
+/// A pipe along the y axis with `sides` sides inside and outside: no angle below 90 degrees, many long subsegments close
+/// to one another across the wall.
+inline Plc<3> pipe(Index sides, double inner, double outer) {
+  Plc<3> plc;
+  for (const double y : {-0.5, 0.5})
+    for (const double radius : {inner, outer})
+      for (Index i = 0; i < sides; ++i) {
+        const double angle = 2 * 3.141592653589793 * i / sides;
+        plc.points.push_back({{radius * std::cos(angle), y, radius * std::sin(angle)}});
+      }
+  for (Index end = 0; end < 2; ++end) {
+    Plc<3>::Facet facet;
+    facet.polygons.resize(2);
+    for (Index ring = 0; ring < 2; ++ring)
+      for (Index i = 0; i < sides; ++i) facet.polygons[ring].push_back((2 * end + ring) * sides + i);
+    facet.holes = {{{0, end ? 0.5 : -0.5, 0}}};
+    plc.facets.push_back(facet);
+  }
+  for (Index ring = 0; ring < 2; ++ring)
+    for (Index i = 0; i < sides; ++i) {
+      const Index a = ring * sides + i, b = ring * sides + (i + 1) % sides;
+      add_polygon(plc, {a, b, 2 * sides + b, 2 * sides + a});
+    }
+  return plc;
+}
+
 /// A cube one of whose facets has an inner segment and an isolated point.
 inline Plc<3> cube_with_marked_facet() {
   Plc<3> plc = cube();

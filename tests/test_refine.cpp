@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "model_plcs.hpp"
+#include "pgdr/insertion_rule.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/quality.hpp"
 
@@ -91,6 +92,38 @@ INSTANTIATE_TEST_SUITE_P(Models, RefineModel, ::testing::Combine(::testing::Valu
                          [](const auto& info) {
                            return std::string(std::get<0>(info.param).name) + (std::get<1>(info.param) ? "_turned" : "");
                          });
+
+/// Long subsegments close to one another across a thin wall: their first splits cannot keep the mesh Delaunay, flips get
+/// stuck, and large regions must be made anew. Without that 128 of its cells stayed poor, with no small angle anywhere.
+TEST(Refine, PipeWithoutSmallAnglesHasNoPoorCell) {
+  const auto [result, report] = refine_and_check<3>(test::pipe(40, 0.17, 0.311), {});
+  EXPECT_EQ(report.exit_code(), 0) << findings(report);
+  EXPECT_EQ(result.statistics.insertions_refused, 0u);
+}
+
+/// Facets across a thin wall do not touch: an edge between them has its own length, however large the radii that its ends
+/// have inherited from small angles elsewhere.
+TEST(Refine, RelaxedLengthsAreOfEntitiesThatTouch) {
+  const Domain<3> box([] {
+    Plc<3> plc;
+    test::add_box(plc, {{0, 0, 0}}, {{1, 1, 0.25}});
+    return plc;
+  }());
+  auto at = [](const Point3& p, EntityKind kind, EntityId id) { return VertexRecord<3>{p, Home(kind, id), 0.75f}; };
+  auto facet_at = [&](const Point3& p, int axis, double value) {
+    for (EntityId f = 0; f < box.facets().size(); ++f) {
+      bool in_plane = true;
+      for (const auto v : box.facet_points(f)) in_plane = in_plane && box.points()[v][axis] == value;
+      if (in_plane) return at(p, EntityKind::facet, f);
+    }
+    throw std::logic_error("no such facet");
+  };
+  const auto low = facet_at({{0.5, 0.5, 0}}, 2, 0), high = facet_at({{0.5, 0.5, 0.25}}, 2, 0.25),
+             side = facet_at({{0, 0.5, 0.125}}, 0, 0), inside = at({{0.5, 0.5, 0.125}}, EntityKind::volume, 0);
+  EXPECT_EQ(relaxed_length<3>(box, low, high), 0.25);
+  EXPECT_EQ(relaxed_length<3>(box, low, side), 0.75);
+  EXPECT_EQ(relaxed_length<3>(box, low, inside), 0.75);
+}
 
 TEST(Refine, GradedOverFourOrdersOfVolume) {
   RefineOptions<3> options;

@@ -7,8 +7,8 @@
 // R(p): infinity for input vertices. The relaxed length of an edge uv is |uv| between input vertices and between vertices
 // of entities that do not touch, else max(|uv|, min(R(u), R(v))). (Between entities that do not touch an edge is no child
 // of a small angle, though both ends may have inherited a large R from one: asked for more, the cells of a thin wall
-// would stay poor without a small angle anywhere near.) Let r(x) be the distance from a new point x to the nearest vertex of its cavity. x is
-// inserted only if r(x) >= d, and gets R(x) = max(r(x), h), where
+// would stay poor without a small angle anywhere near.) Let r(x) be the distance from a new point x to the nearest vertex
+// of its cavity. x is inserted only if r(x) >= d, and gets R(x) = max(r(x), h), where
 //   * for a poor element, or an entity that it encroaches upon or that hides its point: d is the least relaxed length
 //     of the element's edges (of an element only too big, at most half its circumradius); h = 0;
 //   * for an entity encroached upon by q, the cavity's nearest vertex that is none of the entity's: if q is an input
@@ -17,9 +17,10 @@
 //   * for a missing subsegment or subfacet of the boundary recovery: d = h = 0.
 // Since R is inherited along a chain of small angles the factor c is paid once, not once a link: with
 // lambda = min(half the least distance of disjoint entities, the shortest edge of the recovered mesh, half the least size)
-// relaxed lengths are at least lambda as long as R is, and every Steiner point of the refinement has R >= lambda and r >= c lambda, by induction over the insertions. Mutually
-// visible vertices are thus c lambda apart, and the domain is bounded: finitely many insertions. Without inheritance c
-// would have to be 1. Pure functions; any thread.
+// relaxed lengths are at least lambda as long as R is, and every Steiner point of the refinement has R >= lambda and
+// r >= c lambda, by induction over the insertions. Mutually visible vertices are thus c lambda apart, and the domain is
+// bounded: finitely many insertions. Vertices of the volume that are taken out again (local_rewrap.hpp) are finitely many,
+// too. Without inheritance c would have to be 1. Pure functions; any thread.
 #pragma once
 
 #include "pgdr/mesh.hpp"

@@ -26,15 +26,20 @@ class LocalFlips {
   LocalFlips(Mesh<D>& mesh, const Domain<D>& domain) : mesh_(&mesh), domain_(&domain), rewrap_(mesh) {}
 
   /// What the visit may change; null: everything.
-  void set_area(const VisitArea<D>* area) { area_ = area; }
+  void set_area(const VisitArea<D>* area) {
+    area_ = area;
+    rewrap_.begin_visit(area);
+  }
 
   /// Is the face unconstrained, and the vertex beyond it strictly inside the (unperturbed) circumsphere of c?
   bool violates(CellId c, int face) const;
   /// Replaces the cells at the violating face by others with fewer violations. Stuck: no flip does that. Not owned: to find
   /// that out would need cells that the visit does not own.
   Outcome repair(Pools& pools, CellId c, int face);
-  /// 3D: the same by gift wrapping (local_rewrap.hpp); slower. Only where the visit may change everything.
-  bool rewrap(Pools& pools, CellId c, int face, bool thorough);
+  /// 3D: the same by gift wrapping (local_rewrap.hpp); slower.
+  Outcome rewrap(Pools& pools, CellId c, int face, LocalRewrap::Effort effort);
+  /// Has it, so far in this visit, been worth its while in large regions? `allowance`: what may be spent in vain.
+  bool rewrap_pays(std::uint64_t allowance) const;
   /// The cells made by the last successful repair.
   const std::vector<CellId>& new_cells() const { return new_cells_; }
 
@@ -81,6 +86,7 @@ class LocalFlips {
 
   struct NoRewrap {
     explicit NoRewrap(Mesh<D>&) {}
+    void begin_visit(const VisitArea<D>*) {}
   };
 
   Mesh<D>* mesh_;

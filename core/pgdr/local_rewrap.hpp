@@ -15,6 +15,7 @@
 
 #include "pgdr/gift_wrap.hpp"
 #include "pgdr/mesh.hpp"
+#include "pgdr/visit_area.hpp"
 
 namespace pgdr {
 
@@ -22,15 +23,30 @@ class LocalRewrap {
  public:
   using Pools = Mesh<3>::Pools;
 
+  /// Small regions only; or large ones; or, of violations that no entity is beside, large regions and many orders, and
+  /// vertices of the volume may be taken out.
+  enum class Effort { quick, wide, thorough };
+
   explicit LocalRewrap(Mesh<3>& mesh) : mesh_(&mesh) {}
   ~LocalRewrap() { release(); }
   LocalRewrap(const LocalRewrap&) = delete;
   LocalRewrap& operator=(const LocalRewrap&) = delete;
 
   /// Replaces cells about the unconstrained face by others with fewer violating faces. False if that cannot be done.
-  bool repair(Pools& pools, CellId c, int face, bool thorough);
+  bool repair(Pools& pools, CellId c, int face, Effort effort);
+  /// What the visit may change; null: everything.
+  void begin_visit(const VisitArea<3>* area) {
+    area_ = area;
+    lost_work_ = useful_work_ = 0;
+  }
+  /// Did the last repair end because it would have needed cells that the visit does not own?
+  bool reached_border() const { return reached_border_; }
   /// The cells made by the last successful repair.
   const std::vector<CellId>& new_cells() const { return new_cells_; }
+
+  /// What repairs have cost in this visit (cells times vertices), those that did nothing and the others.
+  std::uint64_t lost_work() const { return lost_work_; }
+  std::uint64_t useful_work() const { return useful_work_; }
 
  private:
   using Index = GiftWrap::Index;
@@ -53,6 +69,7 @@ class LocalRewrap {
   void begin(CellId c, CellId d, VertexId left_out);
   bool grow();
   bool wrap_again(Pools& pools);
+  bool owns(CellId c) const { return !area_ || area_->owns(*mesh_, c); }
   void take(CellId c);
   bool in_conflict(CellId c) const;
   Index number(VertexId v);
@@ -68,6 +85,8 @@ class LocalRewrap {
   void release();
 
   Mesh<3>* mesh_;
+  const VisitArea<3>* area_ = nullptr;
+  bool reached_border_ = false;
   GiftWrap wrap_;
   std::vector<CellId> old_, new_cells_;
   std::vector<VertexId> vertices_;  ///< of the region; gift wrapping knows them by their place here
@@ -78,7 +97,8 @@ class LocalRewrap {
   std::size_t most_cells_ = 0;
   int orders_ = 1, least_gain_ = 0;
   std::minstd_rand random_;
-  VertexId left_out_ = no_vertex;
+  VertexId left_out_ = no_vertex;  ///< the vertex that is taken out; the region has all its cells
+  std::uint64_t work_ = 0, lost_work_ = 0, useful_work_ = 0;
   std::uint16_t region_ = 0;
 };
 

@@ -72,12 +72,15 @@ struct RegionVisit {
   std::vector<Entry<D>> given;          ///< set aside by earlier visits: these alone are treated, and what they bring
   bool treat_list = true;               ///< false: `given` only
   std::uint32_t level = 0;              ///< of the region in its tree, for the record
+  std::uint32_t order = 1;              ///< of the claim, likewise
+  std::uint64_t generation = 0;         ///< likewise
   double small_radius = 0;              ///< end once no poor element is larger ...
   std::size_t floor = 0;                ///< ... and this many wait at least
   int granularity = std::numeric_limits<int>::max();  ///< end this many buckets after the first
   std::uint64_t most_insertions = std::numeric_limits<std::uint64_t>::max();
   bool violations_seen = false;         ///< look for faces that are not locally Delaunay at every insertion
-  bool rewraps = false;                 ///< make cells anew where no flip helps; only with everything owned
+  bool rewraps = false;                 ///< make cells anew where no flip helps
+  bool entities_refused = false;        ///< by any visit before; after the visit, by this one too
   bool mends = false;                   ///< no volume point whose cavity is cut back any more
   // done
   struct Outbox {
@@ -87,6 +90,7 @@ struct RegionVisit {
   std::vector<Outbox> outboxes;         ///< elements with their circumcentre in other regions
   std::vector<Entry<D>> set_aside;      ///< would have changed cells that the visit does not own
   RefineCounts counts;
+  bool changed_mesh = false;
   bool min_edge_hit = false;
 };
 
@@ -158,6 +162,7 @@ class Refiner {
   Demand demand_of_cell(CellId c, const CellVerdict& verdict) const;
   std::optional<Item> encroached_face(const Point<D>& x) const;
   std::optional<Item> blocking_face(CellId c, const Point<D>& x) const;
+  std::optional<Item> wall_before(CellId c, const Point<D>& x) const;
 
   void committed();
   void flipped();

@@ -74,6 +74,8 @@ template <int D>
 struct Refusal {
   Entry<D> entry;
   std::optional<EntityPair> pair;
+  std::uint32_t order = 1;       ///< of the claim that it took to find out
+  std::uint64_t generation = 0;  ///< in which
 };
 
 template <int D>

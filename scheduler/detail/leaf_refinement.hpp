@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <set>
+#include <span>
 #include <thread>
 #include <vector>
 
@@ -59,8 +60,8 @@ class LeafRefinement {
   void prepare(const VisitRequest& request, RegionVisit<D>& visit);
   /// Runs it in `area`, on a worker of its own; returns its seconds.
   double visit(const VisitRequest& request, const VisitArea<D>& area, RegionVisit<D>& visit);
-  /// Adds up what a visit did, and puts off what it set aside.
-  void account(const VisitRequest& request, RegionVisit<D>& visit);
+  /// Adds up what a visit did, and puts off what it set aside. `claim`: its leaves; none for the whole tree.
+  void account(const VisitRequest& request, RegionVisit<D>& visit, std::span<const Node> claim);
   void post(Node leaf, std::vector<Entry<D>>&& entries);
   bool wants_split(Node leaf);
   double small_radius(Node leaf) const { return options_.split_ratio * tree_.side(leaf) / 2; }
@@ -78,7 +79,10 @@ class LeafRefinement {
   std::vector<Entry<D>> violations_everywhere();
   StopCause mend();
   bool mend_far_from_walls(Refiner<D>& worker, std::set<std::array<VertexId, D + 1>>& hopeless);
-  std::vector<Entry<D>> take_refused();
+  void note_change(std::span<const Node> claim);
+  bool may_have_changed(const LeafWork<D>* work, const Refusal<D>& refusal) const;
+  std::vector<Refusal<D>> take_refused(bool all);
+  void set_aside(Node leaf, std::uint32_t order, const Entry<D>& e);
   bool relist_refused();
   void relist(const Entry<D>& e);
   void put_off(const VisitRequest& request, const std::vector<Entry<D>>& entries);
@@ -89,7 +93,8 @@ class LeafRefinement {
 
   WorkList<D> whole_list_;               ///< entities that visits of the whole tree come upon
   std::vector<Entry<D>> whole_set_aside_;
-  bool min_edge_hit_ = false;
+  std::uint64_t whole_changed_ = 0, last_change_ = 0;  ///< generation: of a visit of the whole tree; of any
+  bool min_edge_hit_ = false, entities_refused_ = false;
   RefineCounts counts_;
   std::mutex workers_mutex_;             ///< of the members below
   std::vector<Worker> workers_;

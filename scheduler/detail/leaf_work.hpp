@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -25,6 +26,9 @@ struct LeafWork {
   std::array<std::vector<Entry<D>>, set_aside_orders.size()> set_aside;
   std::uint64_t since = 0;                   ///< generation in which the list last became non-empty
   std::array<std::uint64_t, set_aside_orders.size()> set_aside_since{};
+  std::uint64_t changed = 0;                 ///< generation in which a visit that had claimed it last changed the mesh
+  /// Claims with which something was refused here, by order, as they were first: later ones lie within, as leaves split.
+  std::map<std::uint32_t, std::vector<std::uint32_t>> zones;
 
   bool has_list() const { return !list.empty() || !inbox.empty(); }
   /// Moves the inbox into the list.
