@@ -60,6 +60,7 @@ void Generations<D>::check_in(Worker worker) {
 template <int D>
 void Generations<D>::visit(const Visit<D>& v, Planned& planned) {
   if (context_.stop.load(std::memory_order_relaxed) != 0) return;
+  const HeldClaim<D> held(registry_, v.claim);
   const auto start = Clock::now();
   Worker worker = check_out();
   try {

@@ -5,7 +5,10 @@
 #include "detail/generations.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
+
+#include "detail/mesh_whole.hpp"
 
 namespace pgdr::detail {
 namespace {
@@ -156,6 +159,7 @@ bool Generations<D>::one_generation() {
     planned[v].work.most_insertions = left / n + (v < left % n ? 1 : 0);
     prepare(generation.visits[v], planned[v]);
   }
+  registry_.reset(tree_.node_count());  // grows geometrically; of use to debug builds alone
   const auto start = Clock::now();
   execute(generation.graph, [&](VisitGraph::Visit v) { visit(generation.visits[v], planned[v]); });
   statistics_.seconds_in_generations += seconds_between(start, Clock::now());
@@ -185,8 +189,15 @@ void Generations<D>::prepare(const Visit<D>& v, Planned& planned) {
     if (set_aside_orders[level] == v.request.order) work.given = std::exchange(works_[leaf].set_aside[level], {});
 }
 
+/// For assertions: large meshes are not looked at, lest debug builds take for ever.
+template <int D>
+bool Generations<D>::looks_whole() const {
+  return context_.mesh.cell_bound() > 200000 || is_whole<D>(context_.mesh);
+}
+
 template <int D>
 void Generations<D>::finish(Generation<D>& generation, std::vector<Planned>& planned) {
+  assert(looks_whole());
   const std::uint64_t before = counts_.committed;
   std::vector<double> seconds;
   std::vector<Node> candidates;

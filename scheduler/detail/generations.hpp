@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "detail/claim_registry.hpp"
 #include "detail/leaf_work.hpp"
 #include "pgdr/conflict_manager.hpp"
 #include "pgdr/refine.hpp"
@@ -57,6 +58,7 @@ class Generations {
   void prepare(const Visit<D>& v, Planned& planned);
   void execute(const VisitGraph& graph, const VisitBody& body);
   void finish(Generation<D>& generation, std::vector<Planned>& planned);
+  bool looks_whole() const;
   void deliver(const VisitRequest& request, Planned& planned);
   void set_aside(const VisitRequest& request, std::vector<Entry<D>>& entries);
   bool wants_split(Node leaf);
@@ -73,6 +75,7 @@ class Generations {
   Orthtree<D> tree_;
   LeafWorks<D> works_;
   ConflictManager<D> conflicts_;
+  ClaimRegistry<D> registry_;
   WorkList<D> whole_list_;               ///< entities that visits of the whole tree come upon
   std::vector<Entry<D>> whole_set_aside_;
   std::uint64_t generation_ = 0, vertices_;
