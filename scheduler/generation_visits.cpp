@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "detail/arena.hpp"
+#include "detail/float_environment.hpp"
 #include "detail/generations.hpp"
 
 namespace pgdr::detail {
@@ -60,6 +61,7 @@ void Generations<D>::check_in(Worker worker) {
 template <int D>
 void Generations<D>::visit(const Visit<D>& v, Planned& planned) {
   if (context_.stop.load(std::memory_order_relaxed) != 0) return;
+  const DefaultFloats floats;
   const HeldClaim<D> held(registry_, v.claim);
   const auto start = Clock::now();
   Worker worker = check_out();

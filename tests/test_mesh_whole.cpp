@@ -6,6 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <utility>
+
 #include "detail/claim_registry.hpp"
 #include "model_plcs.hpp"
 #include "pgdr/delaunay.hpp"

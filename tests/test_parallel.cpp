@@ -5,9 +5,14 @@
 // turned, and for any way to divide them into leaves.
 #include <gtest/gtest.h>
 
+#include <cfenv>
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#ifdef __SSE2__
+#include <xmmintrin.h>
+#endif
 
 #include "parallel_support.hpp"
 #include "pgdr/io.hpp"
@@ -25,10 +30,19 @@ class ParallelModel : public ::testing::TestWithParam<std::tuple<Model, bool>> {
 TEST_P(ParallelModel, SameBytesForAnyThreads) {
   const auto& [model, is_turned] = GetParam();
   RefineOptions<3> options;
-  options.size = model.size;
-  options.schedule.floor = 30;
-  const auto result = expect_reproducible<3>(is_turned ? test::turned<3>(model.make()) : model.make(), options, model.name);
+  const Plc<3> plc = is_turned ? test::turned<3>(model.make()) : model.make();
+  options.size = model.fine;
+  options.schedule.floor = 20;
+  const auto result = expect_reproducible<3>(plc, options, model.name);
   EXPECT_LE(static_cast<double>(result.poor_left), model.most_poor * static_cast<double>(result.mesh.cells.size()));
+  EXPECT_GT(result.scheduler.leaves, 16u);
+  // As large as the model is itself; and in leaves so small that many insertions reach beyond a claim.
+  options.schedule.floor = 5;
+  options.size = model.size;
+  expect_reproducible<3>(plc, options, std::string(model.name) + ", coarse", eight_threads);
+  options.size = model.fine;
+  options.schedule.split_ratio = 1.5;
+  EXPECT_GT(expect_reproducible<3>(plc, options, std::string(model.name) + ", small leaves", eight_threads).scheduler.set_aside, 0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, ParallelModel,
@@ -65,7 +79,7 @@ TEST(Parallel, Plane) {
 TEST(Parallel, GradedCube) {
   RefineOptions<3> options;
   options.size = [](const Point3& p) {
-    return 0.015 + 0.15 * std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+    return 0.01 + 0.15 * std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
   };
   options.schedule.floor = 20;
   expect_reproducible<3>(test::cube(), options, "cube", eight_threads);
@@ -79,7 +93,7 @@ TEST(Parallel, GradedCube) {
 TEST(Parallel, AnyWayToDivideTheWork) {
   const Plc<3> plc = test::turned<3>(test::plate_with_hole());
   RefineOptions<3> options;
-  options.size = 0.15;
+  options.size = 0.2;
   const ScheduleOptions ordinary = options.schedule;
   const auto run = [&](auto change, const char* what) {
     options.schedule = ordinary;
@@ -91,7 +105,7 @@ TEST(Parallel, AnyWayToDivideTheWork) {
   EXPECT_EQ(one.leaves, 1u);
   EXPECT_EQ(one.set_aside, 0u);
   const auto small = run([](ScheduleOptions& s) { s.floor = 1; }, "no floor");
-  EXPECT_GT(small.leaves, 200u);
+  EXPECT_GT(small.leaves, 16u);
   run([](ScheduleOptions& s) { s.split_ratio = 1.0 / 6; }, "split ratio 1/6");
   const auto early = run([](ScheduleOptions& s) { s.split_ratio = 2; s.floor = 5; }, "split ratio 2");
   EXPECT_GT(early.set_aside, 0u);
@@ -99,6 +113,34 @@ TEST(Parallel, AnyWayToDivideTheWork) {
   run([](ScheduleOptions& s) { s.claim_order = 4; s.floor = 10; }, "claim order 4");
   run([](ScheduleOptions& s) { s.claim_order = 9; }, "claim order 9");
   run([](ScheduleOptions& s) { s.granularity = 1; }, "granularity 1");
+}
+
+// A caller's rounding mode, or its denormals flushed to zero, are those of its own thread alone.
+TEST(Parallel, CallersFloatingPointModeDoesNotMatter) {
+  const Plc<3> plc = test::turned<3>(test::l_block());
+  RefineOptions<3> options;
+  options.size = 0.3;
+  options.schedule.floor = 20;
+  const test::AllowThreads allow(8);
+  const auto expected = refine<3>(plc, test::with<3>(options, test::serial));
+  for (const int mode : {FE_UPWARD, FE_TOWARDZERO}) {
+    std::vector<RefineResult<3>> results;
+    std::fesetround(mode);
+    results.push_back(refine<3>(plc, test::with<3>(options, test::serial)));
+    for (const test::Runner& runner : eight_threads) results.push_back(refine<3>(plc, test::with<3>(options, runner)));
+    const int after = std::fegetround();
+    std::fesetround(FE_TONEAREST);
+    EXPECT_EQ(after, mode);
+    for (const auto& result : results) expect_same<3>(expected, result, "rounding mode " + std::to_string(mode));
+  }
+#ifdef __SSE2__
+  const unsigned before = _mm_getcsr();
+  _mm_setcsr(before | 0x8040);  // flush to zero, denormals are zero
+  const auto result = refine<3>(plc, test::with<3>(options, test::serial));
+  EXPECT_EQ(_mm_getcsr() & 0x8040, 0x8040u);
+  _mm_setcsr(before);
+  expect_same<3>(expected, result, "flushed to zero");
+#endif
 }
 
 // Eight threads at one time in the visits of one mesh: a size function that waits for all of them.

@@ -83,7 +83,6 @@ TEST(ParallelEmbedding, TheCallersArenaIsUsed) {
       expect_same<3>(c.expected, result, "arena of " + std::to_string(slots));
       EXPECT_EQ(result.scheduler.threads, slots);
       EXPECT_LE(result.scheduler.max_concurrent, static_cast<std::uint32_t>(slots));
-      EXPECT_LE(result.scheduler.busy_seconds.size(), static_cast<std::size_t>(slots) + 7);
     }
 }
 
@@ -123,23 +122,25 @@ TEST(ParallelEmbedding, CallbacksThatWorkInParallel) {
 TEST(ParallelEmbedding, CancelledWithTheCallersTasks) {
   const test::AllowThreads allow(8);
   RefineOptions<3> options;
-  options.schedule = {.executor = Executor::flow_graph, .threads = 8, .floor = 5};
+  options.schedule.floor = 5;
   std::atomic<int> calls{0};
   tbb::task_group group;
   options.size = [&](const Point3&) {
     if (++calls == 20000) group.cancel();
     return 0.1;
   };
+  const Plc<3> plc = test::turned<3>(test::cube());
   test::Outcome<3> outcome;
   std::atomic<bool> done{false};
-  group.run([&] {
-    outcome.result = refine<3>(test::turned<3>(test::cube()), options);
-    done = true;
+  tbb::task_arena(8).execute([&] {
+    group.run([&] {
+      outcome.result = refine<3>(plc, options);
+      done = true;
+    });
+    group.wait();
   });
-  group.wait();
   ASSERT_TRUE(done);
   EXPECT_FALSE(outcome.result.mesh.cells.empty());
-  const Plc<3> plc = test::turned<3>(test::cube());
   const Domain<3> domain(plc);
   CheckOptions<3> check_options;
   check_options.domain = &domain;

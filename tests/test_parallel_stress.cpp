@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <memory>
 #include <stdexcept>
+#include <stop_token>
 
 #include "parallel_support.hpp"
 
@@ -20,15 +22,15 @@ using test::refine_and_check;
 using test::Runner;
 using test::serial;
 
-constexpr double size = 0.07;
+constexpr double size = 0.09;
 
-/// A cube in tiny leaves.
+/// A cube in more than a thousand leaves, so small that every second insertion reaches beyond a claim.
 Plc<3> model() { return test::turned<3>(test::cube()); }
 RefineOptions<3> tiny_leaves() {
   RefineOptions<3> options;
   options.size = size;
   options.schedule.floor = 1;
-  options.schedule.split_ratio = 1;
+  options.schedule.split_ratio = 2;
   return options;
 }
 
@@ -68,9 +70,12 @@ void expect_valid(const test::Outcome<3>& outcome, const char* what) {
 }
 
 TEST(ParallelStress, ThousandsOfTinyLeaves) {
-  const auto result = test::expect_reproducible<3>(model(), tiny_leaves(), "tiny leaves");
-  EXPECT_GT(result.scheduler.leaves, 2000u);
-  EXPECT_GT(result.scheduler.set_aside, 0u);
+  auto options = tiny_leaves();
+  EXPECT_GT(test::expect_reproducible<3>(model(), options, "tiny leaves").scheduler.leaves, 1000u);
+  options.schedule.split_ratio = 4;
+  const auto result = test::expect_reproducible<3>(model(), options, "tinier leaves", eight_threads);
+  EXPECT_GT(result.scheduler.leaves, 5000u);
+  EXPECT_GT(result.scheduler.set_aside, 1000u);
 }
 
 TEST(ParallelStress, CancelledInFlight) {
@@ -178,7 +183,6 @@ TEST(ParallelStress, BadSizeInFlight) {
   const test::AllowThreads allow(8);
   for (const Runner& runner : eight_threads) {
     auto options = test::with<3>(tiny_leaves(), runner);
-    AtCall never(0, [] {});
     std::atomic<std::uint64_t> calls{0};
     options.size = [&](const Point3&) { return ++calls == calls_in_all() / 2 ? -1.0 : size; };
     EXPECT_THROW(refine<3>(model(), options), UsageError) << runner.name;
@@ -187,7 +191,7 @@ TEST(ParallelStress, BadSizeInFlight) {
 
 TEST(ParallelStress, VertexBudgetIsDividedBeforehand) {
   const test::AllowThreads allow(8);
-  for (const std::uint64_t budget : {8, 9, 100, 555, 1200}) {
+  for (const std::uint64_t budget : {40, 100, 555, 1200}) {
     auto options = tiny_leaves();
     options.schedule.floor = 5;
     options.max_vertices = budget;
