@@ -199,7 +199,7 @@ TEST(ParallelStress, VertexBudgetIsDividedBeforehand) {
     EXPECT_EQ(expected.result.stop, StopCause::max_vertices);
     EXPECT_LE(expected.result.mesh.points.size(), budget);
     expect_valid(expected, "budget");
-    for (const Runner& runner : test::concurrent_runners)
+    for (const Runner& runner : eight_threads)
       expect_same<3>(expected.result, refine<3>(model(), test::with<3>(options, runner)),
                      std::to_string(budget) + ", " + runner.name);
   }
