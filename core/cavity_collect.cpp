@@ -77,6 +77,7 @@ Link Cavity<D>::entity_face_round_ridge(CellId cell, int face, int corner, Entit
     }
     const RidgeWalk<D> start = walk;
     do {
+      assert(may_read(walk.cell));
       if (belongs(walk.cell, walk.exit)) return Link(walk.cell, walk.exit);
       owned = owned && owns(walk.cell);
       if (!owned) return {};
@@ -125,6 +126,7 @@ template <int D>
 auto Cavity<D>::collect_on_face(const Point<D>& p, CellId cell, int face) -> Status {
   begin(p);
   const Link across = mesh_->cell(cell).links[face];
+  assert(owns(cell) && (!across || may_read(across.cell())));
   if (!mesh_->conflicts(cell, p) && !(across && mesh_->conflicts(across.cell(), p))) return Status::not_in_conflict;
   const Status status = add_part_face(cell, face, mesh_->constraints(cell)->face_entity[face]);
   if (status != Status::ok) return status;
@@ -149,6 +151,7 @@ auto Cavity<D>::collect_on_edge(const Point<D>& p, CellId cell, int edge) -> Sta
     RidgeWalk<D> walk{cell, others[1 - way], others[way]};
     bool closed = false;
     while (true) {
+      assert(may_read(walk.cell));
       if (!owns(walk.cell)) return Status::not_owned;
       take(walk.cell);
       const auto* k = mesh_->constraints(walk.cell);
@@ -185,6 +188,7 @@ auto Cavity<D>::grow() -> Status {
     }
     for (int f = 0; f <= D; ++f) {
       const Link next = k.links[f];
+      assert(!next || may_read(next.cell()));
       if (closed >> f & 1) {
         boundary_.push_back({c, f});
       } else if (!next) {
@@ -296,6 +300,7 @@ auto Cavity<D>::look_at_fan(RidgeWalk<D> walk, EntityId entity, bool& broken) co
     if (left && !owns(walk.cell)) return Status::not_owned;
     if (!walk.link(*mesh_)) return Status::ok;
     walk.step(*mesh_);
+    assert(may_read(walk.cell));
     left = left || !mesh_->marked(walk.cell);
   }
   broken = left && in_part(walk.cell, walk.exit) && mesh_->constraints(walk.cell)->face_entity[walk.exit] == entity;

@@ -32,6 +32,8 @@ std::array<VertexId, D - 1> ridge_without(const CellRecord<D>& k, int i, int j) 
 
 template <int D>
 VertexId Cavity<D>::commit(Pools& pools, Home home, float relaxed_radius) {
+  assert(owns_point());
+  assert(std::all_of(cells_.begin(), cells_.end(), [this](CellId c) { return mesh_->alive(c) && owns(c); }));
   const VertexId v = mesh_->new_vertex(pools, point_, home, relaxed_radius);
   // The rim of the part: ridges of one part face of their entity alone, the split subsegment itself left out.
   rim_.clear();
@@ -78,10 +80,12 @@ CellId Cavity<D>::make_cell(Pools& pools, const BoundaryFace& f, VertexId v) {
   CellRecord<D>& k = mesh_->cell(c);
   auto vertices = old.vertices;
   vertices[f.face] = v;
+  assert(!area_ || area_->owns(*mesh_, vertices));
   mesh_->set_vertices(c, vertices);
   k.links.fill(Link{});
   const Link outside = old.links[f.face];
   k.links[f.face] = outside;
+  assert(!outside || may_read(outside.cell()));
   if (outside) mesh_->cell(outside.cell()).links[outside.face()] = Link(c, f.face);
   mesh_->set_region(c, mesh_->region(f.cell));
   if (touches_constraints_) inherit_constraints(pools, f, c);
@@ -131,6 +135,7 @@ void Cavity<D>::link_new_cells(Pools& pools) {
       Link partner;  // none: a new subfacet at the hull
       if (next) {
         partner = Link(next.cell(), walk.entry);
+        assert(owns(partner.cell()) && "a new cell");
         mesh_->cell(c).links[j] = partner;
         mesh_->cell(partner.cell()).links[partner.face()] = Link(c, j);
       }

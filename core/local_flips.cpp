@@ -32,8 +32,10 @@ bool has(const std::array<VertexId, N>& v, VertexId x) {
 
 template <int D>
 bool LocalFlips<D>::violates(CellId c, int face) const {
+  assert(owns(c));
   const Link link = mesh_->cell(c).links[face];
   if (!link || mesh_->constrained(c, face)) return false;
+  assert(may_read(link.cell()));
   const VertexId apex = mesh_->cell(link.cell()).vertices[link.face()];
   const Point<D>& p = mesh_->point(apex);
   // The cached sphere says no nearly always; what it leaves may be a tie, which is no violation.
@@ -123,6 +125,7 @@ auto LocalFlips<D>::take_ring(CellId c, int a, int b, Ring& ring) const -> Outco
     while (true) {
       if (walk.cell != c || way == 0) ring.cells.push_back(walk.cell);
       if (ring.cells.size() > longest_ring) return Outcome::stuck;
+      assert(may_read(walk.cell));
       if (!owns(walk.cell)) return Outcome::not_owned;
       // The face opposite `exit` has the ridge and the vertex `entry`.
       if (mesh_->constrained(walk.cell, walk.exit) &&
@@ -296,6 +299,7 @@ int LocalFlips<D>::violations_of(const std::vector<NewCell>& cells) {
 template <int D>
 CellId LocalFlips<D>::make_cell(Pools& pools, const NewCell& cell) {
   const Vertices& v = cell.vertices;
+  assert(!area_ || area_->owns(*mesh_, v));
   const CellId c = mesh_->new_cell(pools);
   auto& k = mesh_->cell(c);
   mesh_->set_vertices(c, v);
@@ -306,6 +310,7 @@ CellId LocalFlips<D>::make_cell(Pools& pools, const NewCell& cell) {
     const OuterFace* o = outer(face_without<D>(v, f));
     if (!o) continue;
     k.links[f] = o->link;
+    assert(!o->link || may_read(o->link.cell()));
     if (o->link) mesh_->cell(o->link.cell()).links[o->link.face()] = Link(c, f);
     if (!o->constrained) continue;
     auto& constraints = mesh_->ensure_constraints(pools, c);
@@ -327,9 +332,11 @@ CellId LocalFlips<D>::make_cell(Pools& pools, const NewCell& cell) {
 
 template <int D>
 void LocalFlips<D>::replace(Pools& pools, const std::vector<NewCell>& cells) {
+  assert(std::all_of(old_.begin(), old_.end(), [this](CellId c) { return mesh_->alive(c) && owns(c); }));
   new_cells_.clear();
   for (const NewCell& cell : cells) new_cells_.push_back(make_cell(pools, cell));
   auto constrain = [&](CellId c, int f) {
+    assert(may_read(c));
     auto& constraints = mesh_->ensure_constraints(pools, c);
     constraints.faces |= static_cast<std::uint8_t>(1 << f);
     constraints.face_entity[f] = wall_entity_;

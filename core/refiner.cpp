@@ -5,6 +5,7 @@
 #include "pgdr/refiner.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace pgdr {
@@ -62,6 +63,7 @@ Refiner<D>::Refiner(RefineContext<D>& context, Pools pools)
 
 template <int D>
 void Refiner<D>::list_poor(CellId c, std::uint8_t why) {
+  assert(!visit_->area || visit_->area->owns(*mesh_, c));
   Item e = make_entry(c, EntryKind::cell, why);
   e.bucket = static_cast<std::uint8_t>(context_->bucket_of(c));
   const Point<D>& center = mesh_->cell(c).center;

@@ -3,9 +3,11 @@
 #include "detail/generations.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include "detail/arena.hpp"
 #include "detail/claimed_area.hpp"
+#include "detail/mesh_whole.hpp"
 
 namespace pgdr::detail {
 
@@ -37,8 +39,10 @@ bool Generations<D>::one_generation() {
     planned[v].work.most_insertions = left / n + (v < left % n ? 1 : 0);
     Base::prepare(generation.visits[v].request, planned[v].work);
   }
+  registry_.reset(tree_.node_count());  // grows geometrically; of use to debug builds alone
   const auto start = Clock::now();
   execute(generation.graph, [&](VisitGraph::Visit v) {
+    const HeldClaim<D> held(registry_, generation.visits[v].claim);
     const ClaimedArea<D> area(tree_, generation.visits[v].claim);
     if (generation.visits[v].request.order == 1) works_[generation.visits[v].request.leaf].open_inbox();
     planned[v].seconds = Base::visit(generation.visits[v].request, area, planned[v].work);
@@ -48,8 +52,15 @@ bool Generations<D>::one_generation() {
   return true;
 }
 
+/// For assertions: large meshes are not looked at, lest debug builds take for ever.
+template <int D>
+bool Generations<D>::looks_whole() const {
+  return context_.mesh.cell_bound() > 200000 || is_whole<D>(context_.mesh);
+}
+
 template <int D>
 void Generations<D>::finish(Generation<D>& generation, std::vector<Planned>& planned) {
+  assert(looks_whole());
   std::vector<double> seconds;
   std::vector<Node> candidates;
   for (std::size_t v = 0; v < planned.size(); ++v) {

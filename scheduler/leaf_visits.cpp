@@ -4,6 +4,7 @@
 // How a visit runs.
 #include <algorithm>
 
+#include "detail/float_environment.hpp"
 #include "detail/leaf_refinement.hpp"
 
 namespace pgdr::detail {
@@ -30,6 +31,7 @@ void LeafRefinement<D>::check_in(Worker worker) {
 template <int D>
 double LeafRefinement<D>::visit(const VisitRequest& request, const VisitArea<D>& area, RegionVisit<D>& visit) {
   if (context_.stop.load(std::memory_order_relaxed) != 0) return 0;
+  const DefaultFloats floats;
   const auto start = Clock::now();
   const PredicateCounts predicates_before = predicate_counts();
   Worker worker = check_out();

@@ -14,6 +14,7 @@
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/labeling.hpp"
 #include "detail/arena.hpp"
+#include "detail/float_environment.hpp"
 #include "detail/generations.hpp"
 #include "detail/greedy.hpp"
 #include "pgdr/poor_reasons.hpp"
@@ -149,12 +150,14 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
 
 template <int D>
 RefineResult<D> refine(const Domain<D>& domain, const RefineOptions<D>& options) {
+  const detail::DefaultFloats floats;
   return run<D>(domain, options);
 }
 
 template <int D>
 RefineResult<D> refine(const Plc<D>& plc, const RefineOptions<D>& options) {
   const auto start = Clock::now();
+  const detail::DefaultFloats floats;
   const Domain<D> domain(plc);
   const double prepare = seconds_since(start);
   RefineResult<D> result = run<D>(domain, options);

@@ -12,62 +12,17 @@
 #include <set>
 #include <stdexcept>
 
-#include "model_plcs.hpp"
 #include "pgdr/insertion_rule.hpp"
-#include "pgdr/io.hpp"
 #include "pgdr/quality.hpp"
+#include "refined_models.hpp"
 
 namespace pgdr {
 namespace {
 
-template <int D>
-struct Outcome {
-  RefineResult<D> result;
-  CheckReport report;
-};
-
-/// Refines and checks with the same bounds.
-template <int D>
-Outcome<D> refine_and_check(const Plc<D>& plc, const RefineOptions<D>& options) {
-  const Domain<D> domain(plc);
-  Outcome<D> outcome{refine<D>(domain, options), {}};
-  CheckOptions<D> check_options;
-  check_options.domain = &domain;
-  check_options.radius_edge_bound = options.radius_edge_bound;
-  check_options.size = options.size;
-  check_options.max_measure = options.max_volume;
-  check_options.reasons = &outcome.result.reasons;
-  outcome.report = check<D>(outcome.result.mesh, check_options);
-  return outcome;
-}
-
-std::string findings(const CheckReport& report) {
-  std::string text;
-  for (const auto& f : report.findings) text += std::string(name(f.kind)) + ": " + f.message + "\n";
-  return text;
-}
-
-struct Model {
-  const char* name;
-  Plc<3> (*make)();
-  double size;         ///< of the circumradius; infinity: none
-  double most_poor;    ///< share of the cells that may stay poor
-};
-
-const Model models[] = {
-    {"cube", test::cube, 0.12, 0},
-    {"cube_with_two_points", test::cube_with_two_points, INFINITY, 0},
-    {"two_region_cube", test::two_region_cube, INFINITY, 0},
-    {"block_with_cavity", test::block_with_cavity, 0.3, 0},
-    {"l_block", test::l_block, 0.25, 0},
-    {"u_block", test::u_block, INFINITY, 0},
-    {"plate_with_hole", test::plate_with_hole, INFINITY, 0},
-    {"cube_with_marked_facet", test::cube_with_marked_facet, INFINITY, 0},
-    {"icosahedron", [] { return test::icosphere(0); }, INFINITY, 0.001},
-    {"icosphere_1", [] { return test::icosphere(1); }, 0.3, 0.001},
-    {"icosphere_2", [] { return test::icosphere(2); }, INFINITY, 0.001},
-    {"icosphere_3", [] { return test::icosphere(3); }, INFINITY, 0.001},
-};
+using test::findings;
+using test::Model;
+using test::refine_and_check;
+using test::unfinished_but_valid;
 
 class RefineModel : public ::testing::TestWithParam<std::tuple<Model, bool>> {};
 
@@ -88,7 +43,7 @@ TEST_P(RefineModel, MeetsItsBoundsAndConforms) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, RefineModel, ::testing::Combine(::testing::ValuesIn(models), ::testing::Bool()),
+INSTANTIATE_TEST_SUITE_P(Models, RefineModel, ::testing::Combine(::testing::ValuesIn(test::refined_models), ::testing::Bool()),
                          [](const auto& info) {
                            return std::string(std::get<0>(info.param).name) + (std::get<1>(info.param) ? "_turned" : "");
                          });
@@ -207,20 +162,13 @@ TEST(Refine, BudgetsEndWithAValidMesh) {
   auto outcome = refine_and_check<3>(test::cube(), options);
   EXPECT_EQ(outcome.result.stop, StopCause::max_vertices);
   EXPECT_LE(outcome.result.mesh.points.size(), 500u);
-  const auto valid_but_unfinished = [](const CheckReport& report) {
-    for (const auto& f : report.findings)
-      if (f.kind != CheckFinding::Kind::over_size && f.kind != CheckFinding::Kind::over_radius_edge &&
-          f.kind != CheckFinding::Kind::bad_reason)
-        return false;
-    return true;
-  };
-  EXPECT_TRUE(valid_but_unfinished(outcome.report)) << findings(outcome.report);
+  EXPECT_TRUE(unfinished_but_valid(outcome.report)) << findings(outcome.report);
 
   options.max_vertices = RefineOptions<3>{}.max_vertices;
   options.min_edge = 0.2;
   outcome = refine_and_check<3>(test::cube(), options);
   EXPECT_EQ(outcome.result.stop, StopCause::min_edge);
-  EXPECT_TRUE(valid_but_unfinished(outcome.report)) << findings(outcome.report);
+  EXPECT_TRUE(unfinished_but_valid(outcome.report)) << findings(outcome.report);
 
   options.min_edge = 0;
   options.size = 0.002;

@@ -13,6 +13,7 @@
 // A Cavity is the workspace of one visit: one thread at a time; reused from insertion to insertion.
 #pragma once
 
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -117,11 +118,13 @@ class Cavity {
  private:
   void begin(const Point<D>& p);
   bool take(CellId c) {
+    assert(owns(c));
     if (mesh_->marked(c)) return false;
     mesh_->mark(c);
     cells_.push_back(c);
     return true;
   }
+  bool may_read(CellId c) const { return !area_ || area_->may_read(*mesh_, c); }  ///< for assertions
   bool owns_point() const { return !area_ || area_->owns(point_); }
   Status collect_all();
   Status grow_part();

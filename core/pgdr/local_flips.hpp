@@ -68,6 +68,7 @@ class LocalFlips {
   };
 
   bool owns(CellId c) const { return !area_ || area_->owns(*mesh_, c); }
+  bool may_read(CellId c) const { return !area_ || area_->may_read(*mesh_, c); }  ///< for assertions
   bool try_two_cells(Pools& pools, CellId c, int face);
   Outcome try_edge(Pools& pools, CellId c, int a, int b);
   Outcome take_ring(CellId c, int a, int b, Ring& ring) const;

@@ -55,6 +55,16 @@ class VisitArea {
     }
     return inside || owns(mesh, k.vertices);
   }
+  /// Does the cell live, and is it owned or does it share a face with an owned cell? Such cells no other visit comes near.
+  /// What debug builds assert; a visit does not ask it.
+  bool may_read(const Mesh<D>& mesh, CellId c) const {
+    int owned = 0;
+    for (const VertexId v : mesh.cell(c).vertices) {
+      if (v == no_vertex) return false;
+      owned += owns(mesh.point(v)) ? 1 : 0;
+    }
+    return owned >= D;
+  }
 };
 
 }  // namespace pgdr

@@ -7,6 +7,7 @@
 // other leaves, what they set aside, and splits take effect at the end of the generation, in the order of the visits.
 #pragma once
 
+#include "detail/claim_registry.hpp"
 #include "detail/leaf_refinement.hpp"
 
 namespace pgdr::detail {
@@ -30,10 +31,12 @@ class Generations final : public LeafRefinement<D> {
   bool one_generation();
   void execute(const VisitGraph& graph, const VisitBody& body);
   void finish(Generation<D>& generation, std::vector<Planned>& planned);
+  bool looks_whole() const;
   void split_leaves(std::vector<Node> candidates);
 
   using Base::context_, Base::generation_, Base::options_, Base::statistics_, Base::tree_, Base::vertices_, Base::works_;
   ConflictManager<D> conflicts_;
+  ClaimRegistry<D> registry_;
 };
 
 extern template class Generations<2>;

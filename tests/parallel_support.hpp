@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The executors that a mesh must not depend on, and the comparison of results to the last bit. What runs on oneTBB is
+// left out under the thread sanitizer, which reports TBB's own synchronisation.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstring>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "refined_models.hpp"
+
+#if defined(__SANITIZE_THREAD__)
+#define PGDR_TEST_TBB 0
+#elif defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define PGDR_TEST_TBB 0
+#endif
+#endif
+#ifndef PGDR_TEST_TBB
+#define PGDR_TEST_TBB 1
+#endif
+
+#if PGDR_TEST_TBB
+#include <tbb/global_control.h>
+#endif
+
+namespace pgdr::test {
+
+#if PGDR_TEST_TBB
+/// Lets TBB start as many threads, whatever the machine has.
+class AllowThreads {
+ public:
+  explicit AllowThreads(std::size_t n) : control_(tbb::global_control::max_allowed_parallelism, n) {}
+
+ private:
+  tbb::global_control control_;
+};
+#else
+class AllowThreads {
+ public:
+  explicit AllowThreads(std::size_t) {}
+};
+#endif
+
+struct Runner {
+  const char* name;
+  Executor executor;
+  int threads;
+};
+
+inline constexpr Runner serial{"serial", Executor::serial, 1};
+/// All others; those of eight threads last.
+inline const std::vector<Runner> concurrent_runners = {
+    {"threads 1", Executor::threads, 1},
+    {"threads 2", Executor::threads, 2},
+#if PGDR_TEST_TBB
+    {"flow graph 2", Executor::flow_graph, 2},
+    {"flow graph 8", Executor::flow_graph, 8},
+#endif
+    {"threads 8", Executor::threads, 8},
+};
+inline const std::vector<Runner> eight_threads(concurrent_runners.end() - (PGDR_TEST_TBB ? 2 : 1), concurrent_runners.end());
+
+template <int D>
+RefineOptions<D> with(RefineOptions<D> options, const Runner& runner) {
+  options.schedule.executor = runner.executor;
+  options.schedule.threads = runner.threads;
+  return options;
+}
+
+template <class T>
+bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+template <int D>
+void expect_same_mesh(const OutputMesh<D>& a, const OutputMesh<D>& b) {
+  EXPECT_EQ(a.input_points, b.input_points);
+  EXPECT_EQ(a.points.size(), b.points.size());
+  EXPECT_TRUE(same_bytes(a.points, b.points));
+  EXPECT_TRUE(same_bytes(a.point_markers, b.point_markers));
+  EXPECT_EQ(a.cells.size(), b.cells.size());
+  EXPECT_TRUE(same_bytes(a.cells, b.cells));
+  EXPECT_TRUE(same_bytes(a.regions, b.regions));
+  EXPECT_TRUE(same_bytes(a.subsegments, b.subsegments));
+  EXPECT_TRUE(same_bytes(a.subfacets, b.subfacets));
+}
+
+/// The mesh, why cells stayed poor, and all that was counted.
+template <int D>
+void expect_same(const RefineResult<D>& a, const RefineResult<D>& b, const std::string& what) {
+  const testing::ScopedTrace trace(__FILE__, __LINE__, what);
+  expect_same_mesh<D>(a.mesh, b.mesh);
+  EXPECT_EQ(a.stop, b.stop);
+  EXPECT_EQ(a.poor_left, b.poor_left);
+  EXPECT_EQ(a.size_met, b.size_met);
+  ASSERT_EQ(a.reasons.size(), b.reasons.size());
+  for (std::size_t i = 0; i < a.reasons.size(); ++i) {
+    EXPECT_EQ(a.reasons[i].cell, b.reasons[i].cell);
+    EXPECT_EQ(a.reasons[i].code, b.reasons[i].code);
+    EXPECT_EQ(a.reasons[i].entities, b.reasons[i].entities);
+    EXPECT_EQ(a.reasons[i].angle, b.reasons[i].angle);
+  }
+  EXPECT_EQ(a.statistics.insertions_committed, b.statistics.insertions_committed);
+  EXPECT_EQ(a.statistics.insertions_refused, b.statistics.insertions_refused);
+  EXPECT_EQ(a.statistics.selector_outside, b.statistics.selector_outside);
+  EXPECT_EQ(a.scheduler.leaves, b.scheduler.leaves);
+  EXPECT_EQ(a.scheduler.generations, b.scheduler.generations);
+  EXPECT_EQ(a.scheduler.visits, b.scheduler.visits);
+  EXPECT_EQ(a.scheduler.set_aside, b.scheduler.set_aside);
+}
+
+/// Refined by the calling thread alone, and checked; then by all of `runners`, with the same result.
+template <int D>
+RefineResult<D> expect_reproducible(const Plc<D>& plc, const RefineOptions<D>& options, const std::string& what,
+                                    const std::vector<Runner>& runners = concurrent_runners) {
+  const AllowThreads allow(8);
+  const Outcome<D> first = refine_and_check<D>(plc, with<D>(options, serial));
+  EXPECT_EQ(first.result.stop, StopCause::finished) << what;
+  EXPECT_LE(first.report.exit_code(), 1) << what << "\n" << findings(first.report);
+  for (const Runner& runner : runners) {
+    const RefineResult<D> again = refine<D>(plc, with<D>(options, runner));
+    expect_same<D>(first.result, again, what + ", " + runner.name);
+    EXPECT_LE(again.scheduler.max_concurrent, static_cast<std::uint32_t>(runner.threads));
+  }
+  return first.result;
+}
+
+/// For a callback that shows how many threads are in it at one time: now and then one waits a little for the others, until
+/// once all were there, or too much time has passed.
+class Gathering {
+ public:
+  explicit Gathering(int wanted) : wanted_(wanted) {}
+
+  void arrive() {
+    if (over_.load(std::memory_order_relaxed)) return;
+    std::unique_lock lock(mutex_);
+    // Its own thread runs the serial phases too: it joins others, but is never the first.
+    const bool may_begin = ++calls_ % 256 == 0 && std::this_thread::get_id() != home_;
+    if (over_ || (here_ == 0 && !may_begin)) return;
+    most_ = std::max(most_, ++here_);
+    if (here_ == wanted_) {
+      over_ = true;
+      all_.notify_all();
+    }
+    all_.wait_for(lock, std::chrono::milliseconds(30), [this] { return over_.load(); });
+    --here_;
+    if (std::chrono::steady_clock::now() - start_ > std::chrono::seconds(60)) over_ = true;
+  }
+  int most() const { return most_; }
+
+ private:
+  const int wanted_;
+  const std::thread::id home_ = std::this_thread::get_id();
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::atomic<bool> over_{false};
+  std::mutex mutex_;
+  std::condition_variable all_;
+  int here_ = 0, most_ = 0;
+  unsigned calls_ = 0;
+};
+
+}  // namespace pgdr::test

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The shared models with the sizes they are refined to, and a refinement that goes through the independent checker.
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include "model_plcs.hpp"
+#include "pgdr/check.hpp"
+#include "pgdr/domain.hpp"
+#include "pgdr/refine.hpp"
+
+namespace pgdr::test {
+
+template <int D>
+struct Outcome {
+  RefineResult<D> result;
+  CheckReport report;
+};
+
+/// Refines and checks with the same bounds.
+template <int D>
+Outcome<D> refine_and_check(const Plc<D>& plc, const RefineOptions<D>& options) {
+  const Domain<D> domain(plc);
+  Outcome<D> outcome{refine<D>(domain, options), {}};
+  CheckOptions<D> check_options;
+  check_options.domain = &domain;
+  check_options.radius_edge_bound = options.radius_edge_bound;
+  check_options.size = options.size;
+  check_options.max_measure = options.max_volume;
+  check_options.reasons = &outcome.result.reasons;
+  outcome.report = check<D>(outcome.result.mesh, check_options);
+  return outcome;
+}
+
+inline std::string findings(const CheckReport& report) {
+  std::string text;
+  for (const auto& f : report.findings) text += std::string(name(f.kind)) + ": " + f.message + "\n";
+  return text;
+}
+
+struct Model {
+  const char* name;
+  Plc<3> (*make)();
+  double size;         ///< of the circumradius; infinity: none
+  double most_poor;    ///< share of the cells that may stay poor
+  double fine;         ///< a size for some thousands of cells
+};
+
+inline const Model refined_models[] = {
+    {"cube", cube, 0.12, 0, 0.11},
+    {"cube_with_two_points", cube_with_two_points, INFINITY, 0, 0.11},
+    {"two_region_cube", two_region_cube, INFINITY, 0, 0.11},
+    {"block_with_cavity", block_with_cavity, 0.3, 0, 0.19},
+    {"l_block", l_block, 0.25, 0, 0.155},
+    {"u_block", u_block, INFINITY, 0, 0.185},
+    {"plate_with_hole", plate_with_hole, INFINITY, 0, 0.18},
+    {"cube_with_marked_facet", cube_with_marked_facet, INFINITY, 0, 0.11},
+    {"icosahedron", [] { return icosphere(0); }, INFINITY, 0.001, 0.12},
+    {"icosphere_1", [] { return icosphere(1); }, 0.3, 0.001, 0.17},
+    {"icosphere_2", [] { return icosphere(2); }, INFINITY, 0.001, 0.17},
+    {"icosphere_3", [] { return icosphere(3); }, INFINITY, 0.001, 0.17},
+};
+
+/// Nothing but bounds that are not met yet.
+inline bool unfinished_but_valid(const CheckReport& report) {
+  for (const auto& f : report.findings)
+    if (f.kind != CheckFinding::Kind::over_size && f.kind != CheckFinding::Kind::over_radius_edge &&
+        f.kind != CheckFinding::Kind::bad_reason)
+      return false;
+  return true;
+}
+
+}  // namespace pgdr::test
