@@ -38,6 +38,7 @@ struct DomainSegment {
 struct TriangleOrigin {
   std::uint32_t facet;    ///< index in Plc::facets
   bool reversed = false;  ///< its corners run against those of the facet's first polygon
+  bool mixed = false;     ///< the facet is one of several in one plane that were triangulated anew, together
 };
 
 struct DomainFacet {
@@ -97,11 +98,14 @@ class Domain {
 
   const std::vector<Diagnostic>& repairs() const { return repairs_; }
   const std::vector<Diagnostic>& warnings() const { return warnings_; }
+  /// Known: no two of facets, segments and points meet outside of their common points and edges.
+  bool nothing_meets() const { return nothing_meets_; }
 
  private:
   template <int>
   friend class DomainBuilder;
   Domain() = default;
+  bool nothing_meets_ = false;
   std::vector<Point<D>> points_;
   std::vector<std::uint32_t> point_of_input_, input_of_point_;
   std::vector<int> point_markers_;
