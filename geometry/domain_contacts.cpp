@@ -16,20 +16,11 @@ namespace pgdr {
 using detail::Contact;
 using detail::edge_key;
 using detail::edge_of;
+using detail::make_set;
 using detail::OwnedEdge;
 using detail::PlanarEdge;
 using detail::PointOn;
 using detail::TriangulatedFacet;
-
-namespace {
-
-template <class T>
-void make_set(std::vector<T>& v) {
-  std::sort(v.begin(), v.end());
-  v.erase(std::unique(v.begin(), v.end()), v.end());
-}
-
-}  // namespace
 
 template <int D>
 void DomainBuilder<D>::resolve_contacts() {

@@ -160,12 +160,8 @@ CleanFacet DomainBuilder<D>::clean(std::uint32_t f) requires(D == 3) {
       facet.edges.push_back({a, b});
     }
   }
-  const auto make_set = [](auto& v) {
-    std::sort(v.begin(), v.end());
-    v.erase(std::unique(v.begin(), v.end()), v.end());
-  };
-  make_set(facet.vertices);
-  make_set(facet.edges);
+  detail::make_set(facet.vertices);
+  detail::make_set(facet.edges);
   return facet;
 }
 

@@ -16,6 +16,7 @@ using detail::Contact;
 using detail::edge_key;
 using detail::edge_of;
 using detail::EdgeUse;
+using detail::make_set;
 using detail::PlanarEdge;
 
 namespace {
@@ -41,10 +42,10 @@ void DomainBuilder<D>::constrain_inner_edges() requires(D == 3) {
     patches.emplace_back(root(t), t);
     edges.emplace_back(root(t), key);
   }
-  for (auto* v : {&patches}) std::sort(v->begin(), v->end());
-  patches.erase(std::unique(patches.begin(), patches.end()), patches.end());
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  make_set(patches);
+  make_set(edges);
+  made_ = triangles_;  // the uses of edges go on to speak of the old ones
+  made_masks_ = masks_;
   auto edge = edges.begin();
   for (auto begin = patches.begin(), end = begin; begin != patches.end(); begin = end) {
     std::vector<std::uint32_t> patch;
@@ -53,6 +54,8 @@ void DomainBuilder<D>::constrain_inner_edges() requires(D == 3) {
     for (; edge != edges.end() && edge->first == begin->first; ++edge) inner.push_back(edge->second);
     retriangulate(patch, inner);
   }
+  triangles_ = std::move(made_);
+  masks_ = std::move(made_masks_);
 }
 
 template <int D>
@@ -70,8 +73,7 @@ void DomainBuilder<D>::find_inner_edges() requires(D == 3) {
     look(first, second);
     look(second, first);
   }
-  std::sort(inner_edges_.begin(), inner_edges_.end());
-  inner_edges_.erase(std::unique(inner_edges_.begin(), inner_edges_.end()), inner_edges_.end());
+  make_set(inner_edges_);
 }
 
 // In the plane of the triangle, and no line through an edge of either has them on different sides.
@@ -153,8 +155,7 @@ void DomainBuilder<D>::retriangulate(std::span<const std::uint32_t> patch, std::
   const int axis = facets_[facet_of_[patch[0]]].axis;
   std::vector<std::uint32_t> vertices;
   for (const std::uint32_t t : patch) vertices.insert(vertices.end(), triangles_[t].begin(), triangles_[t].end());
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  make_set(vertices);
   std::vector<std::uint64_t> fixed;
   for (const std::uint32_t t : patch)
     for (std::size_t i = 0; i < 3; ++i) {
@@ -187,11 +188,11 @@ void DomainBuilder<D>::replace(std::span<const std::uint32_t> patch, const std::
   for (std::size_t k = 0; k < patch.size(); ++k) {
     detail::TriangulatedFacet& facet = facets_[facet_of_[patch[k]]];
     facet.mixed |= mixed;
-    Triangle& t = triangles_[patch[k]];
+    Triangle& t = made_[patch[k]];
     t = triangles[k];
     const auto& p = out_.points_;
     if (orient_projected(p[t[0]], p[t[1]], p[t[2]], facet.axis) == Sign::negative) std::swap(t[1], t[2]);
-    masks_[patch[k]] = mask_of(t, fixed);
+    made_masks_[patch[k]] = mask_of(t, fixed);
   }
   for (const std::uint64_t key : edges) {
     const std::int64_t a = point_number(edge_of(key)[0]), b = point_number(edge_of(key)[1]);

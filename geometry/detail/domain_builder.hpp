@@ -89,6 +89,13 @@ struct FoundContact {
   Contact what;
 };
 
+/// Sorted, each once.
+template <class T>
+void make_set(std::vector<T>& v) {
+  std::sort(v.begin(), v.end());
+  v.erase(std::unique(v.begin(), v.end()), v.end());
+}
+
 /// A point, and the key of an edge (or the number of a triangle) with the point inside.
 using PointOn = std::pair<std::uint64_t, std::uint32_t>;
 
@@ -234,6 +241,8 @@ class DomainBuilder {
   std::vector<detail::PointOn> on_edges_, in_triangles_;         // sorted, distinct
   std::vector<std::array<std::uint32_t, 3>> split_edges_, attached_;  // for the report: point, edge; point, facet, 0
   std::vector<std::pair<std::uint32_t, std::uint64_t>> inner_edges_;  // (triangle, edge that runs inside it)
+  std::vector<Triangle> made_;                                   // triangles_ and masks_ as they will be
+  std::vector<std::uint8_t> made_masks_;
   std::vector<std::uint64_t> blocked_;                           // of these, edges that cross what is fixed
   std::vector<detail::EdgeUse> uses_;
   std::vector<bool> soft_;                                       // by position in uses_: no segment for this edge
