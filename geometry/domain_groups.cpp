@@ -114,7 +114,9 @@ bool DomainBuilder<D>::is_soft(std::span<const EdgeUse> uses) const requires(D =
   if (uses.size() < 2 || !uses[1].is_triangle()) return false;
   const EdgeUse &a = uses[0], &b = uses[1];
   for (const EdgeUse& use : uses.subspan(2))
-    if (use.kind != Kind::polygon || (use.owner != a.owner && use.owner != b.owner)) return false;
+    if (use.kind != Kind::polygon ||
+        (use.owner != a.owner && use.owner != b.owner && !facets_[use.owner].mixed))
+      return false;
   if (a.owner == b.owner) return a.kind == Kind::diagonal && b.kind == Kind::diagonal;
   const TriangulatedFacet &f = facets_[a.owner], &g = facets_[b.owner];
   if (!f.planar || !g.planar || plc_.facets[f.input].marker != plc_.facets[g.input].marker) return false;

@@ -54,6 +54,10 @@ void DomainBuilder<D>::constrain_inner_edges() requires(D == 3) {
     for (; edge != edges.end() && edge->first == begin->first; ++edge) inner.push_back(edge->second);
     retriangulate(patch, inner);
   }
+  make_set(given_up_);
+  std::erase_if(polygon_edges_, [&](const auto& e) {
+    return std::ranges::binary_search(given_up_, edge_key(e.edge[0], e.edge[1]));
+  });
   triangles_ = std::move(made_);
   masks_ = std::move(made_masks_);
 }
@@ -176,7 +180,13 @@ void DomainBuilder<D>::retriangulate(std::span<const std::uint32_t> patch, std::
     done.push_back(key);
   }
   std::sort(fixed.begin(), fixed.end());
-  if (planar_.triangles().size() == patch.size()) replace(patch, fixed, done);
+  if (planar_.triangles().size() != patch.size()) return;
+  for (const std::uint32_t t : patch)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint64_t key = edge_key(triangles_[t][i], triangles_[t][(i + 1) % 3]);
+      if (!std::ranges::binary_search(rim_keys, key)) given_up_.push_back(key);
+    }
+  replace(patch, fixed, done);
 }
 
 template <int D>

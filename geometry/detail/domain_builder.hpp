@@ -244,6 +244,7 @@ class DomainBuilder {
   std::vector<Triangle> made_;                                   // triangles_ and masks_ as they will be
   std::vector<std::uint8_t> made_masks_;
   std::vector<std::uint64_t> blocked_;                           // of these, edges that cross what is fixed
+  std::vector<std::uint64_t> given_up_;                          // edges that were inside of what was triangulated anew
   std::vector<detail::EdgeUse> uses_;
   std::vector<bool> soft_;                                       // by position in uses_: no segment for this edge
   std::vector<std::uint32_t> parent_;                            // union-find over facets_ (or, before, triangles_)
