@@ -8,6 +8,7 @@
 
 #include <cstdlib>
 
+#include "domain_plcs.hpp"
 #include "pgdr/check.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/refine.hpp"
@@ -26,6 +27,24 @@ std::string findings(const CheckReport& report) {
   return text;
 }
 
+double area(const Plc<3>& plc, const std::vector<std::uint32_t>& polygon) {
+  double sum = 0;  // convex
+  for (std::size_t k = 1; k + 1 < polygon.size(); ++k)
+    sum += test::area(plc.points[polygon[0]], plc.points[polygon[k]], plc.points[polygon[k + 1]]);
+  return sum;
+}
+
+// Facets cover after their repair what they covered before.
+void expect_same_area(const Plc<3>& plc, const Domain<3>& domain) {
+  for (const Diagnostic& d : domain.repairs())
+    if (d.code == Errc::repeated_facet) return;
+  double given = 0, now = 0;
+  for (const auto& f : plc.facets) given += area(plc, f.polygons[0]);
+  for (EntityId f = 0; f < domain.facets().size(); ++f) now += test::area(domain, f);
+  EXPECT_NEAR(given, now, 1e-12 * given);
+}
+void expect_same_area(const Plc<2>&, const Domain<2>&) {}
+
 template <int D>
 void mesh(const Plc<D>& plc, Tally& tally) {
   const Diagnosis<D> diagnosis = diagnose(plc);
@@ -33,6 +52,7 @@ void mesh(const Plc<D>& plc, Tally& tally) {
   EXPECT_EQ(diagnosis[Finding::point_on_facet].count, 0u);
   try {
     const Domain<D> domain(plc);
+    expect_same_area(plc, domain);
     RefineOptions<D> options;
     options.max_vertices = 3000;
     const auto result = refine<D>(domain, options);

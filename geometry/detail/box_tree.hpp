@@ -53,7 +53,7 @@ class BoxTree {
   BoxTree(std::span<const std::array<std::uint32_t, 3>> corners, std::span<const Point<D>> points);
 
   /// Calls visit(i, j), i < j, once for every pair of boxes that meet (common borders count). Of simplices, pairs that
-  /// share a corner and meet nowhere else may be left out.
+  /// meet nowhere but at a common corner may be left out.
   template <class Visit>
   void self_pairs(Visit&& visit) const;
   /// Calls visit(i, j) once for every box i of this tree and box j of the other that meet.
