@@ -29,6 +29,26 @@ Plc<D> moved(Plc<D> plc, int by, int exponent, double offset) {
   return plc;
 }
 
+/// Turned by the angles of the triangle 3, 4, 5 and enlarged, without rounding: no facet is parallel to an axis.
+template <int D>
+Plc<D> oblique(Plc<D> plc) {
+  const auto turn = [](Point<D>& p) {
+    for (int i = 0; i + 1 < D; ++i) {
+      const double x = p[i], y = p[i + 1];
+      p[i] = 3 * x - 4 * y;
+      p[i + 1] = 4 * x + 3 * y;
+      for (int j = 0; j < D; ++j)
+        if (j != i && j != i + 1) p[j] *= 5;
+    }
+  };
+  for (auto& p : plc.points) turn(p);
+  for (auto& p : plc.holes) turn(p);
+  for (auto& r : plc.regions) turn(r.point);
+  for (auto& f : plc.facets)
+    for (auto& p : f.holes) turn(p);
+  return plc;
+}
+
 class GridPlcs {
  public:
   explicit GridPlcs(std::uint64_t seed) : random_(seed) {}

@@ -33,7 +33,7 @@ template <int D>
 void expect_meshed(const Plc<D>& plc) {
   for (const auto& [by, exponent, offset] :
        {std::tuple{0, 0, 0.0}, {1, 0, 0.0}, {2, -30, 0.0}, {0, 12, 0.375}, {1, 40, -3.25}}) {
-    const Domain<D> domain(moved(plc, by, exponent, offset));
+    const Domain<D> domain(moved(exponent == 12 ? test::oblique(plc) : plc, by, exponent, offset));
     EXPECT_EQ(diagnose(domain).error_count(), 0u);
     const RefineOptions<D> options;
     const auto result = refine<D>(domain, options);

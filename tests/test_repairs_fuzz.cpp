@@ -85,7 +85,8 @@ void run(int n, Make&& make, Tally& tally) {
     const auto seed = static_cast<std::uint64_t>(k);
     SCOPED_TRACE("seed " + std::to_string(seed));
     test::GridPlcs plcs(seed);
-    const auto plc = make(plcs);
+    auto plc = make(plcs);
+    if (k % 5 == 0) plc = test::oblique(plc);
     mesh(k % 3 == 0 ? test::moved(plc, k, k % 41 - 20, k % 2 * 0.375) : plc, tally);
   }
   std::cout << tally.meshed << " meshed, " << tally.repaired << " repaired, " << tally.refused << " refused\n";
