@@ -151,7 +151,7 @@ Point<D> BoxTree<D>::farthest(const Hull& h, const Point<D>& direction) {
 template <int D>
 bool BoxTree<D>::separable(const Hull& a, const Hull& b) {
   if (a.apex == nullptr && b.apex == nullptr) return !a.box.meets(b.box);
-  constexpr int most_steps = 8;
+  constexpr int most_steps = 16;
   Point<D> d;
   for (int i = 0; i < D; ++i)
     d[i] = (b.box.low[i] / 2 + b.box.high[i] / 2) - (a.box.low[i] / 2 + a.box.high[i] / 2);
