@@ -143,6 +143,16 @@ TEST(Repairs, AWallOnAFloorOfTriangles) {
   }
 }
 
+// Segments that enclose a part of a facet which does not touch its rim.
+TEST(Repairs, ATriangleOfSegmentsOnAFloor) {
+  for (Plc<3> plc : {box(), triangulated(box())}) {
+    const auto a = add(plc, {0.25, 0.75, 0}), b = add(plc, {1.75, 0.125, 0}), c = add(plc, {1.75, 0.75, 0});
+    plc.segments = {{{a, b}, 1}, {{b, c}, 1}, {{c, a}, 1}};
+    EXPECT_EQ(Domain<3>(plc).facets().size(), 6u);
+    expect_meshed(plc);
+  }
+}
+
 // A segment across facets of different markers crosses the edge between them.
 TEST(Repairs, WhatCannotBeRepairedIsRefused) {
   Plc<3> plc = triangulated(box());
