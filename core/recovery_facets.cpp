@@ -9,15 +9,14 @@
 namespace pgdr::detail {
 namespace {
 
-/// Edges of the facet's defining triangles that only one of them has, directed so that the facet is on their left.
-std::vector<std::array<std::uint32_t, 2>> directed_rim(const Domain<3>& domain, EntityId f) {
-  std::vector<std::array<std::uint32_t, 2>> edges, rim;
+/// Sorted edges of the facet's defining triangles, directed so that the facet is on their left: both ways where it is on
+/// both sides, as segments inside of the facet may enclose a part of it that the rim does not touch.
+std::vector<std::array<std::uint32_t, 2>> directed_edges(const Domain<3>& domain, EntityId f) {
+  std::vector<std::array<std::uint32_t, 2>> edges;
   for (const auto& t : domain.triangles(f))
     for (int i = 0; i < 3; ++i) edges.push_back({t[i], t[(i + 1) % 3]});
   std::sort(edges.begin(), edges.end());
-  for (const auto& e : edges)
-    if (!std::binary_search(edges.begin(), edges.end(), std::array{e[1], e[0]})) rim.push_back(e);
-  return rim;
+  return edges;
 }
 
 InputError not_a_plane_graph(const Domain<3>& domain, EntityId f, const Mesh<3>& mesh, std::span<const VertexId> at) {
@@ -73,7 +72,7 @@ void FacetPatches::triangulate(EntityId facet) {
   for (const std::uint32_t p : domain_->facet_points(facet)) add(delaunay_->vertices()[p]);
   for (const VertexId v : inner_points_[facet]) add(v);
   std::vector<PlanarEdge> constraints, rim;
-  const auto directed = directed_rim(*domain_, facet);
+  const auto directed = directed_edges(*domain_, facet);
   for (const EntityId s : domain_->facet_segments(facet)) {
     const auto& ends = domain_->segments()[s].points;
     const bool forward = std::binary_search(directed.begin(), directed.end(), std::array{ends[0], ends[1]});

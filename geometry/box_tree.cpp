@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -125,11 +126,57 @@ void BoxTree<D>::find_anchors(std::span<const Corners> corners, std::span<const 
     if ((c[0] != no_corner) + (c[1] != no_corner) + (c[2] != no_corner) != 1) continue;
     Anchor& anchor = anchors_[node];
     anchor.corner = std::min({c[0], c[1], c[2]});
+    anchor.apex = points[anchor.corner];
     anchor.opposite = empty_box<D>();
     for (const Item& item : items_below(node))
       for (const std::uint32_t v : corners[item.index])
         if (v != no_corner && v != anchor.corner) enclose(anchor.opposite, Box<D>::around(points[v]));
   }
+}
+
+template <int D>
+Point<D> BoxTree<D>::farthest(const Hull& h, const Point<D>& direction) {
+  Point<D> p;
+  double at_box = 0, at_apex = 0;
+  for (int i = 0; i < D; ++i) {
+    p[i] = direction[i] > 0 ? h.box.high[i] : h.box.low[i];
+    at_box += direction[i] * p[i];
+    if (h.apex != nullptr) at_apex += direction[i] * (*h.apex)[i];
+  }
+  return h.apex != nullptr && at_apex > at_box ? *h.apex : p;
+}
+
+// Goes from the difference of two points towards that of the two nearest ones (Gilbert 1966) until the direction tells
+// the hulls apart beyond all rounding; overflow and not-a-number tell nothing.
+template <int D>
+bool BoxTree<D>::separable(const Hull& a, const Hull& b) {
+  if (a.apex == nullptr && b.apex == nullptr) return !a.box.meets(b.box);
+  constexpr int most_steps = 16;
+  Point<D> d;
+  for (int i = 0; i < D; ++i)
+    d[i] = (b.box.low[i] / 2 + b.box.high[i] / 2) - (a.box.low[i] / 2 + a.box.high[i] / 2);
+  for (int step = 0; step < most_steps; ++step) {
+    Point<D> back, w;
+    for (int i = 0; i < D; ++i) back[i] = -d[i];
+    const Point<D> p = farthest(a, d), q = farthest(b, back);
+    double gap = 0, size = 0, change = 0, towards = 0;
+    for (int i = 0; i < D; ++i) {
+      gap += d[i] * q[i] - d[i] * p[i];
+      size += std::fabs(d[i] * q[i]) + std::fabs(d[i] * p[i]);
+      for (const Hull* h : {&a, &b}) {
+        size += std::fabs(d[i] * h->box.low[i]) + std::fabs(d[i] * h->box.high[i]);
+        if (h->apex != nullptr) size += std::fabs(d[i] * (*h->apex)[i]);
+      }
+      w[i] = (q[i] - p[i]) - d[i];
+      change += w[i] * w[i];
+      towards -= d[i] * w[i];
+    }
+    if (gap > 0x1p-47 * size + 0x1p-1000) return true;
+    if (!(towards > 0 && change > 0)) return false;
+    const double t = std::min(1.0, towards / change);
+    for (int i = 0; i < D; ++i) d[i] += t * w[i];
+  }
+  return false;
 }
 
 template class BoxTree<2>;

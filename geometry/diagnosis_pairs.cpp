@@ -32,6 +32,7 @@ void Diagnoser<D>::collect_pieces() {
 
 template <int D>
 void Diagnoser<D>::find_meetings() {
+  if (domain_.nothing_meets()) return;
   std::vector<std::array<std::uint32_t, 3>> corners;
   corners.reserve(pieces_.size());
   for (const Piece& piece : pieces_) corners.push_back(piece.corners);
@@ -54,7 +55,7 @@ void Diagnoser<D>::note(std::uint32_t i, std::uint32_t j) {
   bool same_plane = false;
   if (j < triangles_.size()) {
     const Triangle &s = triangles_[i], &t = triangles_[j];
-    if (s.origin.facet == t.origin.facet) return;  // of one planar triangulation
+    if (s.origin.facet == t.origin.facet && !s.origin.mixed) return;  // of one planar triangulation
     same_plane = s.facet == t.facet && domain_.facets()[s.facet].planar;
   }
   const Contact c = contact<D>(p_, pieces_[i], pieces_[j], same_plane);

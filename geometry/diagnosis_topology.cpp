@@ -26,7 +26,7 @@ void Diagnoser<D>::find_repairs() {
   }
   if constexpr (D == 3)
     for (const Diagnostic& repair : domain_.repairs()) {
-      if (repair.code != Errc::degenerate_facet) continue;  // else not of repeated facets
+      if (repair.code != Errc::repeated_facet) continue;
       for (std::size_t k = 0; k + 1 < repair.ids.size(); k += 2) {
         const std::int64_t f = repair.ids[k], first = repair.ids[k + 1];
         ++out_[Finding::repeated_facet].count;

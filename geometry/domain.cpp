@@ -52,8 +52,10 @@ void DomainBuilder<D>::run() {
     triangulate_facets();
     drop_repeated_facets();
   }
+  resolve_contacts();
   collect_edges();
   if constexpr (D == 3) {
+    drop_flat_facets();
     group_coplanar();
     write_facets();
   }
@@ -103,8 +105,14 @@ void DomainBuilder<D>::report_repairs() {
                         out_.repairs_);
   repeated_segments_.report(Errc::degenerate_segment, "segments that repeat an earlier one, dropped", file,
                             out_.repairs_);
-  repeated_facets_.report(Errc::degenerate_facet, "facets that repeat an earlier one, dropped", file,
+  repeated_facets_.report(Errc::repeated_facet, "facets that repeat an earlier one, dropped", file,
                           out_.repairs_);
+  points_on_edges_.report(Errc::point_on_segment, "points inside an edge, which is split there", file, out_.repairs_);
+  points_in_facets_.report(Errc::point_on_facet, "points inside a facet, now points of it", file, out_.repairs_);
+  edges_in_facets_.report(Errc::entities_intersect, "edges that run inside a facet, now segments of it", file,
+                          out_.repairs_);
+  dropped_flat_.report(Errc::degenerate_facet, "facets with all their points on edges of others, dropped", file,
+                       out_.repairs_);
 }
 
 template <int D>

@@ -48,8 +48,26 @@ void DomainBuilder<D>::triangulate_facets() requires(D == 3) {
   facets_.reserve(plc_.facets.size());
   for (std::uint32_t f = 0; f < plc_.facets.size(); ++f)
     attempt([&] {
-      if (!add_triangle(f)) add_polygons(f);
+      if (!set_flat_aside(f) && !add_triangle(f)) add_polygons(f);
     });
+}
+
+// A facet of one polygon with all its points on one line: whether it may be dropped is seen when the rest is done.
+template <int D>
+bool DomainBuilder<D>::set_flat_aside(std::uint32_t f) requires(D == 3) {
+  const auto& facet = plc_.facets[f];
+  if (facet.polygons.size() != 1 || facet.polygons[0].size() < 3 || !facet.holes.empty()) return false;
+  const auto& p = out_.points_;
+  const auto at = [&](std::size_t k) { return out_.point_of_input_[facet.polygons[0][k]]; };
+  const std::size_t n = facet.polygons[0].size();
+  std::size_t second = 1;
+  while (second < n && at(second) == at(0)) ++second;
+  for (std::size_t k = second + 1; k < n; ++k)
+    if (at(k) != at(0) && at(k) != at(second) && !collinear<3>(p[at(0)], p[at(second)], p[at(k)])) return false;
+  detail::FlatFacet flat{f, {}};
+  for (std::size_t k = 0; k < n; ++k) flat.vertices.push_back(at(k));
+  flat_facets_.push_back(std::move(flat));
+  return true;
 }
 
 template <int D>
@@ -100,8 +118,6 @@ bool DomainBuilder<D>::add_triangle(std::uint32_t f) requires(D == 3) {
   if (facet.polygons.size() != 1 || facet.polygons[0].size() != 3 || !facet.holes.empty()) return false;
   Triangle t;
   for (std::size_t k = 0; k < 3; ++k) t[k] = out_.point_of_input_[facet.polygons[0][k]];
-  if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
-    fail_degenerate(f, "has fewer than three distinct points", {t.begin(), t.end()});
   const Point3 &a = out_.points_[t[0]], &b = out_.points_[t[1]], &c = out_.points_[t[2]];
   for (const int axis : detail::axes_by_size(normal(t))) {
     const Sign side = orient_projected(a, b, c, axis);
@@ -112,7 +128,7 @@ bool DomainBuilder<D>::add_triangle(std::uint32_t f) requires(D == 3) {
     masks_.push_back(7);
     return true;
   }
-  fail_degenerate(f, "has all its points on one line", {t.begin(), t.end()});
+  return false;  // not reached: it would be flat
 }
 
 template <int D>
@@ -144,12 +160,8 @@ CleanFacet DomainBuilder<D>::clean(std::uint32_t f) requires(D == 3) {
       facet.edges.push_back({a, b});
     }
   }
-  const auto make_set = [](auto& v) {
-    std::sort(v.begin(), v.end());
-    v.erase(std::unique(v.begin(), v.end()), v.end());
-  };
-  make_set(facet.vertices);
-  make_set(facet.edges);
+  detail::make_set(facet.vertices);
+  detail::make_set(facet.edges);
   return facet;
 }
 
@@ -215,7 +227,7 @@ void DomainBuilder<D>::add_polygons(std::uint32_t f) requires(D == 3) {
   out.count = static_cast<std::uint32_t>(triangles.size());
   measure_planarity(out, facet);
   out.reversed = is_reversed(facet);
-  for (const PlanarEdge& e : facet.edges) polygon_edges_.emplace_back(e, static_cast<std::uint32_t>(facets_.size()));
+  for (const PlanarEdge& e : facet.edges) polygon_edges_.push_back({e, static_cast<std::uint32_t>(facets_.size())});
   facets_.push_back(out);
 }
 
@@ -262,6 +274,8 @@ void DomainBuilder<D>::measure_planarity(TriangulatedFacet& facet, const CleanFa
 }
 
 template void DomainBuilder<3>::triangulate_facets();
+template void DomainBuilder<3>::fail_degenerate(std::uint32_t, const std::string&,
+                                                const std::vector<std::uint32_t>&) const;
 template std::array<double, 3> DomainBuilder<3>::normal(const Triangle&) const;
 
 }  // namespace pgdr

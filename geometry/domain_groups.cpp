@@ -12,6 +12,7 @@
 #include "pgdr/predicates.hpp"
 
 namespace pgdr {
+using detail::edge_key;
 using detail::EdgeUse;
 using detail::TriangulatedFacet;
 
@@ -22,10 +23,6 @@ using Triangle = std::array<std::uint32_t, 3>;
 Triangle sorted(Triangle t) {
   std::sort(t.begin(), t.end());
   return t;
-}
-
-std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
-  return static_cast<std::uint64_t>(std::min(a, b)) << 32 | std::max(a, b);
 }
 
 std::vector<Triangle> sorted_triangles(const TriangulatedFacet& f, const std::vector<Triangle>& triangles) {
@@ -70,17 +67,26 @@ void DomainBuilder<D>::drop_repeated_facets() requires(D == 3) {
       warn(Errc::degenerate_facet, "facets " + words + ", but their markers differ; that of the latter is kept",
            plc_.source.facet_lines, mine, {number(mine), number(other)});
   }
-  std::erase_if(polygon_edges_, [&](const auto& e) { return same[e.second] != no_entity; });
-  for (auto& e : polygon_edges_) e.second = new_index[e.second];
+  std::erase_if(polygon_edges_, [&](const auto& e) { return same[e.owner] != no_entity; });
+  for (auto& e : polygon_edges_) e.owner = new_index[e.owner];
   facets_.resize(kept);
+  std::uint32_t end = 0;
+  for (TriangulatedFacet& f : facets_) {
+    std::copy_n(triangles_.begin() + f.first, f.count, triangles_.begin() + end);
+    std::copy_n(masks_.begin() + f.first, f.count, masks_.begin() + end);
+    f.first = std::exchange(end, end + f.count);
+  }
+  triangles_.resize(end);
+  masks_.resize(end);
 }
 
 // Every use of an edge: by triangles, by polygons, by segments of the input.
 template <int D>
 void DomainBuilder<D>::collect_edges() {
   using Kind = EdgeUse::Kind;
-  std::size_t count = explicit_.size() + polygon_edges_.size();
+  std::size_t count = segment_edges_.size() + polygon_edges_.size();
   for (const auto& f : facets_) count += 3 * f.count;
+  uses_.clear();
   uses_.reserve(count);
   for (std::uint32_t f = 0; f < facets_.size(); ++f)
     for (std::uint32_t t = facets_[f].first; t < facets_[f].first + facets_[f].count; ++t)
@@ -88,9 +94,7 @@ void DomainBuilder<D>::collect_edges() {
         uses_.push_back({edge_key(triangles_[t][(i + 1) % 3], triangles_[t][(i + 2) % 3]), f, t,
                          (masks_[t] & (1u << i)) != 0 ? Kind::rim : Kind::diagonal});
   for (const auto& [e, f] : polygon_edges_) uses_.push_back({edge_key(e[0], e[1]), f, 0, Kind::polygon});
-  for (std::uint32_t s = 0; s < explicit_.size(); ++s)
-    if (explicit_[s][0] != explicit_[s][1])  // else it was refused
-      uses_.push_back({edge_key(explicit_[s][0], explicit_[s][1]), s, 0, Kind::explicit_segment});
+  for (const auto& [e, s] : segment_edges_) uses_.push_back({edge_key(e[0], e[1]), s, 0, Kind::explicit_segment});
   std::sort(uses_.begin(), uses_.end(), [](const EdgeUse& a, const EdgeUse& b) {
     return std::tuple{a.key, a.kind, a.owner, a.triangle} < std::tuple{b.key, b.kind, b.owner, b.triangle};
   });
@@ -110,7 +114,9 @@ bool DomainBuilder<D>::is_soft(std::span<const EdgeUse> uses) const requires(D =
   if (uses.size() < 2 || !uses[1].is_triangle()) return false;
   const EdgeUse &a = uses[0], &b = uses[1];
   for (const EdgeUse& use : uses.subspan(2))
-    if (use.kind != Kind::polygon || (use.owner != a.owner && use.owner != b.owner)) return false;
+    if (use.kind != Kind::polygon ||
+        (use.owner != a.owner && use.owner != b.owner && !facets_[use.owner].mixed))
+      return false;
   if (a.owner == b.owner) return a.kind == Kind::diagonal && b.kind == Kind::diagonal;
   const TriangulatedFacet &f = facets_[a.owner], &g = facets_[b.owner];
   if (!f.planar || !g.planar || plc_.facets[f.input].marker != plc_.facets[g.input].marker) return false;
@@ -192,7 +198,7 @@ void DomainBuilder<D>::write_facets() requires(D == 3) {
     std::copy_n(triangles_.begin() + facets_[f].first, facets_[f].count,
                 out_.triangles_.begin() + group.first_triangle + group.triangle_count);
     std::fill_n(out_.triangle_origins_.begin() + group.first_triangle + group.triangle_count, facets_[f].count,
-                TriangleOrigin{facets_[f].input, facets_[f].reversed});
+                TriangleOrigin{facets_[f].input, facets_[f].reversed, facets_[f].mixed});
     group.triangle_count += facets_[f].count;
   }
   std::vector<std::uint32_t> points;
@@ -213,6 +219,8 @@ template void DomainBuilder<2>::collect_edges();
 template void DomainBuilder<3>::collect_edges();
 template void DomainBuilder<3>::drop_repeated_facets();
 template void DomainBuilder<3>::group_coplanar();
+template std::uint32_t DomainBuilder<3>::root(std::uint32_t);
+template bool DomainBuilder<3>::is_soft(std::span<const EdgeUse>) const;
 template void DomainBuilder<3>::write_facets();
 
 }  // namespace pgdr

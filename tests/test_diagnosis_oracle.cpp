@@ -203,7 +203,7 @@ Findings found_by(const Diagnosis<D>& d, const Domain<D>& domain) {
 }
 
 struct Tally {
-  int valid = 0, cross = 0, overlap = 0, segment_facet = 0, segments = 0, on_facet = 0, on_edge = 0;
+  int valid = 0, cross = 0, overlap = 0, segment_facet = 0, segments = 0, on_facet = 0, on_edge = 0, inner_edges = 0;
 };
 
 template <int D>
@@ -224,8 +224,12 @@ void compare(const Plc<D>& plc, Tally& tally) {
   tally.overlap += !expected.overlap.empty();
   tally.segment_facet += !expected.segment_facet.empty();
   tally.segments += !expected.segments_cross.empty();
-  tally.on_facet += !expected.on_facet.empty();
-  tally.on_edge += !expected.on_edge.empty();
+  EXPECT_TRUE(expected.on_facet.empty() && expected.on_edge.empty());  // the Domain has repaired these
+  for (const Diagnostic& repair : domain.repairs()) {
+    tally.on_facet += repair.code == Errc::point_on_facet;
+    tally.on_edge += repair.code == Errc::point_on_segment;
+    tally.inner_edges += repair.code == Errc::entities_intersect;
+  }
 }
 
 // On the grid {0 .. steps}^D; points distinct.
@@ -267,6 +271,7 @@ TEST(DiagnosisOracle, SpaceWithFewCoordinates) {
   for (const int n : {tally.valid, tally.cross, tally.overlap, tally.segment_facet, tally.segments, tally.on_facet,
                       tally.on_edge})
     EXPECT_GT(n, 30);
+  EXPECT_GT(tally.inner_edges, 10);
 }
 
 TEST(DiagnosisOracle, PlaneWithFewCoordinates) {

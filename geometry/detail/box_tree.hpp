@@ -9,7 +9,9 @@
 // Boxes of simplices that share a corner all meet there: k^2/2 pairs for a fan of k triangles. So the tree may be told
 // of the corners. Two simplices with a common corner v have more than v in common only if the side of one opposite v
 // meets the other (follow the ray from v through a common point until it leaves one of them). Where all of two nodes
-// share v, neither of these opposite sides need to meet the other node, or the pair of nodes is passed over.
+// share v, one of these opposite sides needs to meet the other node, or the pair of nodes is passed over. And a node all
+// of which shares v lies in the hull of v and the box of the opposite sides: long thin triangles of two fans, whose boxes
+// all meet, are told apart by planes between such hulls.
 #pragma once
 
 #include <array>
@@ -51,7 +53,7 @@ class BoxTree {
   BoxTree(std::span<const std::array<std::uint32_t, 3>> corners, std::span<const Point<D>> points);
 
   /// Calls visit(i, j), i < j, once for every pair of boxes that meet (common borders count). Of simplices, pairs that
-  /// share a corner and meet nowhere else may be left out.
+  /// meet nowhere but at a common corner may be left out.
   template <class Visit>
   void self_pairs(Visit&& visit) const;
   /// Calls visit(i, j) once for every box i of this tree and box j of the other that meet.
@@ -68,6 +70,7 @@ class BoxTree {
   /// Of a node all of whose simplices share this corner and no other: the box of their sides opposite it.
   struct Anchor {
     std::uint32_t corner = no_corner;
+    Point<D> apex;  // where the corner is
     Box<D> opposite;
   };
 
@@ -75,9 +78,24 @@ class BoxTree {
   void find_anchors(std::span<const Corners> corners, std::span<const Point<D>> points);
   bool apart(std::uint32_t a, std::uint32_t b) const {
     if (!nodes_[a].meets(nodes_[b])) return true;
-    if (anchors_.empty() || anchors_[a].corner == no_corner || anchors_[a].corner != anchors_[b].corner) return false;
-    return !anchors_[a].opposite.meets(nodes_[b]) && !anchors_[b].opposite.meets(nodes_[a]);
+    if (anchors_.empty() || (anchors_[a].corner == no_corner && anchors_[b].corner == no_corner)) return false;
+    if (anchors_[a].corner != anchors_[b].corner) return separable(hull_of(a), hull_of(b));
+    const Hull side_a{nullptr, anchors_[a].opposite}, side_b{nullptr, anchors_[b].opposite};
+    return separable(side_a, hull_of(b)) && separable(hull_of(a), side_b);
   }
+  /// The hull of a box and, if there is one, a point.
+  struct Hull {
+    const Point<D>* apex;
+    const Box<D>& box;
+  };
+  Hull hull_of(std::uint32_t node) const {
+    const Anchor& anchor = anchors_[node];
+    if (anchor.corner == no_corner) return {nullptr, nodes_[node]};
+    return {&anchor.apex, anchor.opposite};
+  }
+  /// True only if a plane was found that has them strictly on its two sides; not all that are apart are found to be.
+  static bool separable(const Hull& a, const Hull& b);
+  static Point<D> farthest(const Hull& h, const Point<D>& direction);
   bool is_leaf(std::uint32_t node) const { return node >= leaves_; }
   std::span<const Item> items_of(std::uint32_t leaf) const {
     const std::uint64_t n = items_.size(), k = leaf - leaves_;

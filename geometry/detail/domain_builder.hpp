@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Makes a Domain of a Plc, in this order: points (finite, merged), indices, facets to triangles, repeated facets,
-// coplanar groups, segments, incidences. Each step is in a file of its own, domain_<step>.cpp. Everything is sorting
+// points and edges that lie on what they do not belong to, coplanar groups, segments, incidences. Each step is in a file of its own, domain_<step>.cpp. Everything is sorting
 // and hashing: n log n in the size of the input, but for constraint edges of a facet that cross many triangles.
 // Used by one thread, once.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <initializer_list>
@@ -15,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "detail/contact.hpp"
 #include "detail/planar_cdt.hpp"
 #include "pgdr/domain.hpp"
 
@@ -66,7 +68,43 @@ struct TriangulatedFacet {
   bool planar = true;
   double defect = 0;
   bool reversed = false;  ///< its triangles run against its first polygon
+  bool mixed = false;     ///< some triangles were made anew together with those of other facets
 };
+
+/// A facet all of whose points lie on one line, by these points along it.
+struct FlatFacet {
+  std::uint32_t input;
+  std::vector<std::uint32_t> vertices;
+};
+
+/// An edge of an input facet or segment.
+struct OwnedEdge {
+  PlanarEdge edge;
+  std::uint32_t owner;
+};
+
+/// Two pieces that meet where they should not: triangles, then edges of no triangle, then points of neither.
+struct FoundContact {
+  std::uint32_t first, second;
+  Contact what;
+};
+
+/// Sorted, each once.
+template <class T>
+void make_set(std::vector<T>& v) {
+  std::sort(v.begin(), v.end());
+  v.erase(std::unique(v.begin(), v.end()), v.end());
+}
+
+/// A point, and the key of an edge (or the number of a triangle) with the point inside.
+using PointOn = std::pair<std::uint64_t, std::uint32_t>;
+
+inline std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
+  return static_cast<std::uint64_t>(std::min(a, b)) << 32 | std::max(a, b);
+}
+inline PlanarEdge edge_of(std::uint64_t key) {
+  return {static_cast<std::uint32_t>(key >> 32), static_cast<std::uint32_t>(key)};
+}
 
 /// An input facet by domain points.
 struct CleanFacet {
@@ -130,6 +168,7 @@ class DomainBuilder {
   void triangulate_facets() requires(D == 3);
   detail::CleanFacet clean(std::uint32_t f) requires(D == 3);
   bool add_triangle(std::uint32_t f) requires(D == 3);
+  bool set_flat_aside(std::uint32_t f) requires(D == 3);
   void add_polygons(std::uint32_t f) requires(D == 3);
   void carve(std::uint32_t f) requires(D == 3);
   void constrain_explicit(const detail::CleanFacet& facet) requires(D == 3);
@@ -140,6 +179,34 @@ class DomainBuilder {
   [[noreturn]] void fail_degenerate(std::uint32_t f, const std::string& why,
                                     const std::vector<std::uint32_t>& vertices) const requires(D == 3);
   std::array<double, 3> normal(const Triangle& t) const requires(D == 3);
+
+  // domain_contacts.cpp
+  void resolve_contacts();
+  bool find_contacts();
+  void collect_pieces();
+  void split_at_points();
+  std::vector<std::uint32_t> chain(std::uint32_t a, std::uint32_t b) const;
+  std::span<const detail::PointOn> on_edge(std::uint64_t key) const;
+  void split_edges(std::vector<detail::OwnedEdge>& edges);
+  void split_triangles() requires(D == 3);
+  void split_triangle(const detail::TriangulatedFacet& facet, std::span<const detail::PointOn> inside) requires(D == 3);
+  static std::uint8_t mask_of(const Triangle& t, const std::vector<std::uint64_t>& fixed);
+  void report_points();
+
+  // domain_inner.cpp
+  void constrain_inner_edges() requires(D == 3);
+  void find_inner_edges() requires(D == 3);
+  bool runs_inside(std::uint32_t a, std::uint32_t b, std::uint32_t t) const requires(D == 3);
+  void join_crossed(std::uint64_t key, std::uint32_t t) requires(D == 3);
+  std::uint32_t other_side(std::uint64_t key, std::uint32_t t) const requires(D == 3);
+  void retriangulate(std::span<const std::uint32_t> patch, std::span<const std::uint64_t> edges) requires(D == 3);
+  std::vector<detail::PlanarEdge> rim_of(std::span<const std::uint32_t> patch, int axis) const requires(D == 3);
+  void replace(std::span<const std::uint32_t> patch, const std::vector<std::uint64_t>& fixed,
+               const std::vector<std::uint64_t>& edges) requires(D == 3);
+
+  // domain_flat.cpp
+  void drop_flat_facets() requires(D == 3);
+  bool is_covered(const detail::FlatFacet& facet, const std::vector<detail::PlanarEdge>& edges) const requires(D == 3);
 
   // domain_groups.cpp
   void drop_repeated_facets() requires(D == 3);
@@ -165,14 +232,27 @@ class DomainBuilder {
   std::vector<detail::TriangulatedFacet> facets_;
   std::vector<Triangle> triangles_;
   std::vector<std::uint8_t> masks_;                              // bit i: edge i of the triangle is a constraint
-  std::vector<std::pair<detail::PlanarEdge, std::uint32_t>> polygon_edges_;  // of facets that are no single triangle
+  std::vector<detail::OwnedEdge> polygon_edges_;                 // of facets that are no single triangle
+  std::vector<detail::OwnedEdge> segment_edges_;                 // explicit segments, or what they were split into
+  std::vector<detail::FlatFacet> flat_facets_;
+  std::vector<std::uint32_t> facet_of_;                          // of each triangle, in facets_
+  std::vector<detail::Piece> pieces_;
+  std::vector<detail::FoundContact> contacts_;
+  std::vector<detail::PointOn> on_edges_, in_triangles_;         // sorted, distinct
+  std::vector<std::array<std::uint32_t, 3>> split_edges_, attached_;  // for the report: point, edge; point, facet, 0
+  std::vector<std::pair<std::uint32_t, std::uint64_t>> inner_edges_;  // (triangle, edge that runs inside it)
+  std::vector<Triangle> made_;                                   // triangles_ and masks_ as they will be
+  std::vector<std::uint8_t> made_masks_;
+  std::vector<std::uint64_t> blocked_;                           // of these, edges that cross what is fixed
+  std::vector<std::uint64_t> given_up_;                          // edges that were inside of what was triangulated anew
   std::vector<detail::EdgeUse> uses_;
   std::vector<bool> soft_;                                       // by position in uses_: no segment for this edge
-  std::vector<std::uint32_t> parent_;                            // union-find over facets_
+  std::vector<std::uint32_t> parent_;                            // union-find over facets_ (or, before, triangles_)
   std::vector<EntityId> group_of_;                               // domain facet of each of facets_
   std::vector<std::pair<EntityId, EntityId>> facet_segment_;     // (facet, segment)
   detail::PlanarTriangulation planar_;
-  detail::RepairList merged_, negative_zeros_, dropped_edges_, repeated_segments_, repeated_facets_;
+  detail::RepairList merged_, negative_zeros_, dropped_edges_, repeated_segments_, repeated_facets_, points_on_edges_,
+      points_in_facets_, edges_in_facets_, dropped_flat_;
 };
 
 }  // namespace pgdr

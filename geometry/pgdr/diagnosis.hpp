@@ -4,7 +4,7 @@
 // What is wrong with an input, and where: everything at once, for a person who is to repair it. Decisions are exact and
 // without tolerance; coordinates of intersections, lengths and angles are rounded. Of each kind all are counted and the
 // first few listed, in an order that depends on the input alone. Near-linear time but for inputs of long thin triangles
-// whose boxes all overlap. Pure functions.
+// whose boxes all overlap and that are in no fans. Pure functions.
 //
 // Meant are the facets as their triangles (see domain.hpp), the segments that no facet has, and the points; two of these
 // may have common corners, and the edge between these, and nothing else in common.

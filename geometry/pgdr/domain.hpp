@@ -9,8 +9,13 @@
 // markers, are one facet. A segment is an edge that bounds a facet, is used by one or by more than two triangles, is
 // explicit in the input (a segment, or an edge of a polygon: also one inside its facet), or lies between two facets.
 // Diagonals inside one input polygon are never segments, also where the polygon is not exactly planar. A segment of the
-// input from one point of a polygon facet to another, through the inside of the facet, is one of its segments. What
-// else meets without a common point or edge is not looked for here.
+// input from one point of a polygon facet to another, through the inside of the facet, is one of its segments.
+//
+// Pieces that meet exactly where they have no corner in common are fitted to each other, which changes no point of the
+// union of all: a point inside a segment or an edge of a facet splits it, and the facets with it; a point inside a facet
+// becomes a point of it; an edge or a segment that runs inside of a facet, between points of it, becomes one of its
+// segments, unless it crosses others; a facet all of whose points lie on a line is dropped where edges of others cover
+// it. What meets otherwise (see diagnosis.hpp) is not refused here. No point is added, and none is moved.
 #pragma once
 
 #include <cstdint>
@@ -38,6 +43,7 @@ struct DomainSegment {
 struct TriangleOrigin {
   std::uint32_t facet;    ///< index in Plc::facets
   bool reversed = false;  ///< its corners run against those of the facet's first polygon
+  bool mixed = false;     ///< the facet is one of several in one plane that were triangulated anew, together
 };
 
 struct DomainFacet {
@@ -56,9 +62,11 @@ template <int D>
 class Domain {
  public:
   /// Checks and prepares. What can be repaired without changing the geometry (exact duplicates of points, polygon edges
-  /// between such, repeated segments and facets of the same triangles, -0) is, and is reported in `repairs()`, one
-  /// entry a kind: `ids` has all of them (pairs: the dropped one, the kept one), the message at most twenty; `code` is
-  /// that of the error which it would have been.
+  /// between such, repeated segments and facets of the same triangles, -0, and what is said above) is, and is reported
+  /// in `repairs()`, one entry a kind: `ids` has all of them (pairs: the dropped one, the kept one; a point and the ends
+  /// of its edge, point_on_segment; a point and a facet, point_on_facet; the ends of an edge and a facet,
+  /// entities_intersect; a flat facet, degenerate_facet), the message at most twenty; `code` is that of the error which
+  /// it would have been.
   /// @throws InputError with ids, coordinates, and file and line if known: not_finite, index_out_of_range,
   ///   degenerate_segment (both ends equal), degenerate_facet (fewer than three distinct points, all collinear, or
   ///   enclosing nothing), self_crossing_facet (two polygon edges cross, or a vertex lies inside an edge),
@@ -97,11 +105,14 @@ class Domain {
 
   const std::vector<Diagnostic>& repairs() const { return repairs_; }
   const std::vector<Diagnostic>& warnings() const { return warnings_; }
+  /// Known: no two of facets, segments and points meet outside of their common points and edges.
+  bool nothing_meets() const { return nothing_meets_; }
 
  private:
   template <int>
   friend class DomainBuilder;
   Domain() = default;
+  bool nothing_meets_ = false;
   std::vector<Point<D>> points_;
   std::vector<std::uint32_t> point_of_input_, input_of_point_;
   std::vector<int> point_markers_;

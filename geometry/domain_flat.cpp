@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Continues the fourth step of a Domain (3D): a facet all of whose points lie on one line adds nothing to the union of
+// all facets and segments if the edges of these cover it. Then it is dropped, else refused. Edges have no points inside
+// by now, so that a walk from one end along the line sees it.
+#include <algorithm>
+
+#include "detail/domain_builder.hpp"
+#include "pgdr/predicates.hpp"
+
+namespace pgdr {
+using detail::EdgeUse;
+using detail::PlanarEdge;
+
+template <int D>
+void DomainBuilder<D>::drop_flat_facets() requires(D == 3) {
+  if (flat_facets_.empty()) return;
+  std::vector<PlanarEdge> edges;  // both ways
+  for (const EdgeUse& use : uses_) {
+    const auto [a, b] = detail::edge_of(use.key);
+    edges.insert(edges.end(), {{a, b}, {b, a}});
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  for (const detail::FlatFacet& flat : flat_facets_) {
+    if (is_covered(flat, edges)) {
+      dropped_flat_.add([&] { return std::to_string(number(flat.input)); }, {number(flat.input)});
+      continue;
+    }
+    auto distinct = flat.vertices;
+    std::sort(distinct.begin(), distinct.end());
+    const auto count = std::unique(distinct.begin(), distinct.end()) - distinct.begin();
+    attempt([&] {
+      fail_degenerate(flat.input, count < 3 ? "has fewer than three distinct points" : "has all its points on one line",
+                      flat.vertices);
+    });
+  }
+}
+
+template <int D>
+bool DomainBuilder<D>::is_covered(const detail::FlatFacet& facet, const std::vector<PlanarEdge>& edges) const
+    requires(D == 3) {
+  const auto& p = out_.points_;
+  const auto less = [&](std::uint32_t v, std::uint32_t w) { return lex_less(p[v], p[w]); };
+  const auto [low, high] = std::ranges::minmax(facet.vertices, less);
+  std::uint32_t at = low;
+  const auto first_at = [&](std::uint32_t v) { return std::ranges::lower_bound(edges, PlanarEdge{v, 0}); };
+  if (low == high) return first_at(at) != edges.end() && (*first_at(at))[0] == at;
+  while (at != high) {
+    std::uint32_t next = no_entity;
+    for (auto e = first_at(at); e != edges.end() && (*e)[0] == at && next == no_entity; ++e) {
+      const std::uint32_t v = (*e)[1];
+      if (v == high || (less(at, v) && less(v, high) && collinear<3>(p[at], p[high], p[v]))) next = v;
+    }
+    if (next == no_entity) return false;
+    at = next;
+  }
+  return true;
+}
+
+template void DomainBuilder<3>::drop_flat_facets();
+
+}  // namespace pgdr
