@@ -69,7 +69,9 @@ PoorReason PoorReasons<D>::explain(CellId c, bool beside) const {
   PoorReason reason;
   if (const auto why = why_.find(index(c)); why != why_.end() && why->second)
     if (!beside && explains(why->second->entities, doubled, reason)) return reason;
-  constexpr std::size_t most_cells = 256;
+  // Below the proved bound most cells have no small angle to name, and need none.
+  const bool proved = bounds_->radius_edge_bound >= smallest_proved_bound<D>();
+  const std::size_t most_cells = proved ? 256 : 16;
   std::vector<CellId> cells{c};
   std::vector<EntityRef> near;
   for (std::size_t i = 0, tried = 0; i < cells.size() && i < most_cells; ++i) {
@@ -82,8 +84,7 @@ PoorReason PoorReasons<D>::explain(CellId c, bool beside) const {
       if (link && cells.size() < most_cells && std::find(cells.begin(), cells.end(), link.cell()) == cells.end())
         cells.push_back(link.cell());
   }
-  reason.code = bounds_->radius_edge_bound < smallest_proved_bound<D>() ? PoorReason::Code::beyond_theory
-                                                                         : PoorReason::Code::rounding;
+  reason.code = proved ? PoorReason::Code::rounding : PoorReason::Code::beyond_theory;
   return reason;
 }
 
