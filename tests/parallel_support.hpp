@@ -152,7 +152,7 @@ class Gathering {
       over_ = true;
       all_.notify_all();
     }
-    all_.wait_for(lock, std::chrono::milliseconds(30), [this] { return over_.load(); });
+    all_.wait_for(lock, std::chrono::milliseconds(60), [this] { return over_.load(); });
     --here_;
     if (std::chrono::steady_clock::now() - start_ > std::chrono::seconds(60)) over_ = true;
   }

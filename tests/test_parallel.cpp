@@ -147,14 +147,14 @@ TEST(Parallel, CallersFloatingPointModeDoesNotMatter) {
 TEST(Parallel, EightThreadsReallyRun) {
   const test::AllowThreads allow(8);
   RefineOptions<3> options;
-  options.schedule.floor = 100;
-  options.size = 0.05;
+  options.schedule.floor = 30;  // many small leaves, so that eight are free for long
+  options.size = 0.04;
   const auto expected = refine<3>(test::cube(), test::with<3>(options, test::serial));
   for (const test::Runner& runner : eight_threads) {
     test::Gathering gathering(8);
     options.size = [&](const Point3&) {
       gathering.arrive();
-      return 0.05;
+      return 0.04;
     };
     const auto result = refine<3>(test::cube(), test::with<3>(options, runner));
     expect_same<3>(expected, result, runner.name);
