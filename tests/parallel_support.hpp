@@ -135,38 +135,4 @@ RefineResult<D> expect_reproducible(const Plc<D>& plc, const RefineOptions<D>& o
   return first.result;
 }
 
-/// For a callback that shows how many threads are in it at one time: now and then one waits a little for the others, until
-/// once all were there, or too much time has passed.
-class Gathering {
- public:
-  explicit Gathering(int wanted) : wanted_(wanted) {}
-
-  void arrive() {
-    if (over_.load(std::memory_order_relaxed)) return;
-    std::unique_lock lock(mutex_);
-    // Its own thread runs the serial phases too: it joins others, but is never the first.
-    const bool may_begin = ++calls_ % 256 == 0 && std::this_thread::get_id() != home_;
-    if (over_ || (here_ == 0 && !may_begin)) return;
-    most_ = std::max(most_, ++here_);
-    if (here_ == wanted_) {
-      over_ = true;
-      all_.notify_all();
-    }
-    all_.wait_for(lock, std::chrono::milliseconds(60), [this] { return over_.load(); });
-    --here_;
-    if (std::chrono::steady_clock::now() - start_ > std::chrono::seconds(60)) over_ = true;
-  }
-  int most() const { return most_; }
-
- private:
-  const int wanted_;
-  const std::thread::id home_ = std::this_thread::get_id();
-  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::atomic<bool> over_{false};
-  std::mutex mutex_;
-  std::condition_variable all_;
-  int here_ = 0, most_ = 0;
-  unsigned calls_ = 0;
-};
-
 }  // namespace pgdr::test
