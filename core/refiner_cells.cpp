@@ -99,38 +99,14 @@ auto Refiner<D>::encroached_face(const Point<D>& x) const -> std::optional<Item>
   return any;
 }
 
-/// The constrained face that cuts x off from cell c, on a visibility walk through the cavity; none if x is reached.
+/// The constrained face that cuts x off from cell c, on a visibility walk through cells that `may_enter` allows; none if x
+/// is reached or the walk leaves these before.
 template <int D>
-auto Refiner<D>::blocking_face(CellId c, const Point<D>& x) const -> std::optional<Item> {
+template <class MayEnter>
+auto Refiner<D>::wall_before(CellId c, const Point<D>& x, MayEnter may_enter) const -> std::optional<Item> {
+  const std::size_t most_steps = 256 + cavity_.cells().size();  // where cells are not Delaunay a walk can run in a circle
   int from = -1;
-  for (std::size_t steps = 0; steps <= cavity_.cells().size(); ++steps) {
-    const auto& k = mesh_->cell(c);
-    int exit = -1, wall = -1;
-    for (int i = 0; i <= D && exit < 0; ++i) {
-      if (i == from) continue;
-      Simplex<D> s = mesh_->simplex(c);
-      s[i] = x;
-      if (orient<D>(s) == Sign::positive) continue;
-      if (mesh_->constrained(c, i)) {
-        wall = i;
-      } else {
-        exit = i;
-      }
-    }
-    if (exit < 0) return wall < 0 ? std::nullopt : std::optional(make_entry(c, EntryKind::face, wall));
-    from = k.links[exit].face();
-    c = k.links[exit].cell();
-    if (!mesh_->marked(c)) return std::nullopt;
-  }
-  return std::nullopt;
-}
-
-/// The constrained face that cuts x off from cell c, on a visibility walk; none if the walk leaves the claim before.
-template <int D>
-auto Refiner<D>::wall_before(CellId c, const Point<D>& x) const -> std::optional<Item> {
-  constexpr int most_steps = 256;
-  int from = -1;
-  for (int steps = 0; steps < most_steps && cavity_.owns(c); ++steps) {
+  for (std::size_t steps = 0; steps < most_steps && may_enter(c); ++steps) {
     const auto& k = mesh_->cell(c);
     int exit = -1, wall = -1;
     for (int i = 0; i <= D && exit < 0; ++i) {
@@ -147,9 +123,25 @@ auto Refiner<D>::wall_before(CellId c, const Point<D>& x) const -> std::optional
   return std::nullopt;
 }
 
+/// Splits the entity that hides the element's point, or that the point encroaches upon, in its place.
+template <int D>
+auto Refiner<D>::split_instead(const Item& entity, const Item& e, const CellVerdict& verdict) -> Outcome {
+  const Demand demand = demand_of_cell(e.cell, verdict);
+  cavity_.release();
+  const Outcome outcome = entity.kind == EntryKind::edge ? split_edge(entity, &demand) : split_face(entity, &demand);
+  // The element is looked at again if the split left it as it was.
+  if (outcome == Outcome::committed && alive(e)) list_poor(e.cell, e.which);
+  return outcome;
+}
+
 template <int D>
 auto Refiner<D>::treat_cell(const Item& e) -> Outcome {
   const CellId c = e.cell;
+  if (const auto outcome = flips_.take_off_flat(pools_, c); outcome != LocalFlips<D>::Outcome::stuck) {
+    if (outcome == LocalFlips<D>::Outcome::not_owned) return Outcome::not_owned;
+    flipped();
+    return Outcome::committed;
+  }
   CellVerdict verdict = context_->bounds.test(*mesh_, c);
   const Point<D> x = steiner_point(c, verdict);
   // A cell with a face that no flip makes locally Delaunay asks for as much as one with a poor shape.
@@ -159,29 +151,19 @@ auto Refiner<D>::treat_cell(const Item& e) -> Outcome {
   if (status == Cavity<D>::Status::not_owned) {
     // A point that a wall of the claim cuts off asks for no larger claim: the wall does.
     cavity_.release();
-    const auto wall = wall_before(c, x);
+    const auto wall = wall_before(c, x, [this](CellId k) { return cavity_.owns(k); });
     if (!wall) return Outcome::not_owned;
-    const Demand demand = demand_of_cell(c, verdict);
-    outcome = split_face(*wall, &demand);
-    if (outcome == Outcome::committed && alive(e)) list_poor(c, e.which);
+    outcome = split_instead(*wall, e, verdict);
   }
   if (status == Cavity<D>::Status::ok) {
-    std::optional<Item> edge, face;
+    std::optional<Item> entity;
     if (cavity_.touches_constraints()) {
-      edge = encroached_edge(x);
-      if (!edge) face = encroached_face(x);
+      entity = encroached_edge(x);
+      if (!entity) entity = encroached_face(x);
       // Where x lies beyond a wall the cavity cannot be star-shaped about it; what is left of it is then of no use.
-      if (!edge && !face) face = blocking_face(c, x);
+      if (!entity) entity = wall_before(c, x, [this](CellId k) { return mesh_->marked(k); });
     }
-    if (!edge && !face) {
-      outcome = insert_point(e, verdict);
-    } else {
-      const Demand demand = demand_of_cell(c, verdict);
-      cavity_.release();
-      outcome = edge ? split_edge(*edge, &demand) : split_face(*face, &demand);
-      // The element is looked at again if the split left it as it was.
-      if (outcome == Outcome::committed && alive(e)) list_poor(c, e.which);
-    }
+    outcome = entity ? split_instead(*entity, e, verdict) : insert_point(e, verdict);
   }
   if (outcome == Outcome::refused) ++visit_->counts.refused;
   return give_up(outcome);

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <type_traits>
+#include <optional>
 #include <vector>
 
 #include "pgdr/local_rewrap.hpp"
@@ -38,9 +39,12 @@ class LocalFlips {
   Outcome repair(Pools& pools, CellId c, int face);
   /// 3D: the same by gift wrapping (local_rewrap.hpp); slower.
   Outcome rewrap(Pools& pools, CellId c, int face, LocalRewrap::Effort effort);
+  /// A cell with all its vertices on one facet, at the mesh's hull, is flat but for rounding: takes it off, if it shows two
+  /// of its faces, which flips the facet's triangulation there. Stuck: c is no such cell.
+  Outcome take_off_flat(Pools& pools, CellId c);
   /// Has it, so far in this visit, been worth its while in large regions? `allowance`: what may be spent in vain.
   bool rewrap_pays(std::uint64_t allowance) const;
-  /// The cells made by the last successful repair.
+  /// The cells made, or laid bare, by the last success.
   const std::vector<CellId>& new_cells() const { return new_cells_; }
 
  private:
@@ -72,6 +76,7 @@ class LocalFlips {
   bool try_two_cells(Pools& pools, CellId c, int face);
   Outcome try_edge(Pools& pools, CellId c, int a, int b);
   Outcome take_ring(CellId c, int a, int b, Ring& ring) const;
+  std::optional<std::array<int, 2>> faces_of_flat(CellId c) const;
   bool in_line(VertexId a, VertexId b, VertexId c) const;
   bool crosses_in_facet(const Ring& ring, VertexId u, VertexId w) const;
   void take_old(std::vector<CellId> cells);

@@ -161,8 +161,9 @@ class Refiner {
   Point<D> steiner_point(CellId c, const CellVerdict& verdict);
   Demand demand_of_cell(CellId c, const CellVerdict& verdict) const;
   std::optional<Item> encroached_face(const Point<D>& x) const;
-  std::optional<Item> blocking_face(CellId c, const Point<D>& x) const;
-  std::optional<Item> wall_before(CellId c, const Point<D>& x) const;
+  template <class MayEnter>
+  std::optional<Item> wall_before(CellId c, const Point<D>& x, MayEnter may_enter) const;
+  Outcome split_instead(const Item& entity, const Item& e, const CellVerdict& verdict);
 
   void committed();
   void flipped();

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Flat cells at the hull. Points of a slanted facet are off its plane by their rounding, so that four of them may be the
+// corners of a cell of positive volume, between a pair of subfacets and the pair that a flip within the facet would make
+// of them. Its circumsphere is huge, and no point makes it better.
+#include <bit>
+#include <cassert>
+
+#include "pgdr/insertion_rule.hpp"
+#include "pgdr/local_flips.hpp"
+
+namespace pgdr {
+
+/// The two faces that c shows at the hull, subfacets of the one facet that all its vertices lie on; if they are such.
+template <int D>
+std::optional<std::array<int, 2>> LocalFlips<D>::faces_of_flat(CellId c) const {
+  const auto* k = mesh_->constraints(c);
+  if (D != 3 || !k || std::popcount(k->faces) != 2) return std::nullopt;
+  const int i = std::countr_zero(k->faces), j = 7 - std::countl_zero(k->faces);
+  const auto& cell = mesh_->cell(c);
+  if (cell.links[i] || cell.links[j] || k->face_entity[i] != k->face_entity[j]) return std::nullopt;
+  for (const VertexId v : cell.vertices)
+    if (!lies_on<D>(*domain_, mesh_->vertex(v).home, {EntityKind::facet, k->face_entity[i]})) return std::nullopt;
+  return std::array{i, j};
+}
+
+template <int D>
+auto LocalFlips<D>::take_off_flat(Pools& pools, CellId c) -> Outcome {
+  if constexpr (D == 3) {
+    assert(owns(c));
+    const auto tips = faces_of_flat(c);
+    if (!tips) return Outcome::stuck;
+    const auto [i, j] = *tips;
+    const auto cell = mesh_->cell(c);
+    const auto old = *mesh_->constraints(c);
+    std::array<int, 2> ends;
+    for (int k = 0, n = 0; k <= D; ++k)
+      if (k != i && k != j) ends[n++] = k;
+    // The ridge between the two faces may be no segment, nor the one that takes its place.
+    if ((old.edges >> edge_of_ends[i][j] & 1) || (old.edges >> edge_of_ends[ends[0]][ends[1]] & 1)) return Outcome::stuck;
+    const Ring ring{{c}, {cell.vertices[i], cell.vertices[j]}, old.face_entity[i]};
+    if (!crosses_in_facet(ring, cell.vertices[ends[0]], cell.vertices[ends[1]])) return Outcome::stuck;
+    for (const int end : ends) {
+      if (!cell.links[end]) return Outcome::stuck;
+      assert(may_read(cell.links[end].cell()));
+      if (!owns(cell.links[end].cell())) return Outcome::not_owned;
+    }
+    new_cells_.clear();
+    for (const int end : ends) {
+      const Link beyond = cell.links[end];
+      auto& constraints = mesh_->ensure_constraints(pools, beyond.cell());
+      constraints.faces |= static_cast<std::uint8_t>(1 << beyond.face());
+      constraints.face_entity[beyond.face()] = ring.entity;
+      mesh_->cell(beyond.cell()).links[beyond.face()] = Link{};
+      new_cells_.push_back(beyond.cell());
+    }
+    mesh_->free_cell(pools, c);
+    return Outcome::flipped;
+  }
+  return Outcome::stuck;
+}
+
+template class LocalFlips<2>;
+template class LocalFlips<3>;
+
+}  // namespace pgdr
