@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "detail/entity_distance.hpp"
 #include "pgdr/refiner.hpp"
 
 namespace pgdr {
@@ -156,17 +157,65 @@ auto Refiner<D>::treat_cell(const Item& e) -> Outcome {
     outcome = split_instead(*wall, e, verdict);
   }
   if (status == Cavity<D>::Status::ok) {
-    std::optional<Item> entity;
+    std::optional<Item> encroached, wall;
     if (cavity_.touches_constraints()) {
-      entity = encroached_edge(x);
-      if (!entity) entity = encroached_face(x);
+      encroached = encroached_edge(x);
+      if (!encroached) encroached = encroached_face(x);
       // Where x lies beyond a wall the cavity cannot be star-shaped about it; what is left of it is then of no use.
-      if (!entity) entity = wall_before(c, x, [this](CellId k) { return mesh_->marked(k); });
+      wall = wall_before(c, x, [this](CellId k) { return mesh_->marked(k); });
     }
-    outcome = entity ? split_instead(*entity, e, verdict) : insert_point(e, verdict);
+    if (encroached || wall) {
+      outcome = split_instead(encroached ? *encroached : *wall, e, verdict);
+      if (outcome == Outcome::refused && !wall) outcome = insert_beside_refused(x, e, verdict);
+    } else {
+      outcome = insert_point(e, verdict);
+    }
   }
   if (outcome == Outcome::refused) ++visit_->counts.refused;
   return give_up(outcome);
+}
+
+/// The element's point, though it encroaches upon an entity that stays as it is, if it is far from all such: two
+/// circumradii, so that points become sparse towards the entity, and an element that stays poor is beside one.
+template <int D>
+auto Refiner<D>::insert_beside_refused(const Point<D>& x, const Item& e, const CellVerdict& verdict) -> Outcome {
+  if (!alive(e)) return Outcome::refused;
+  const auto status = cavity_.collect(x, e.cell);
+  if (status == Cavity<D>::Status::not_owned) return Outcome::not_owned;
+  if (status != Cavity<D>::Status::ok) return Outcome::refused;
+  const double circumradius2 = mesh_->squared_radius_bounds(e.cell).second;
+  return is_clear_of_encroached(x, 4 * circumradius2) ? insert_point(e, verdict) : Outcome::refused;
+}
+
+/// Is x at least so far from all constrained faces and edges of its cavity that it encroaches upon?
+template <int D>
+bool Refiner<D>::is_clear_of_encroached(const Point<D>& x, double squared) const {
+  auto is_clear = [&](double distance2, const Ball<D>& ball) {
+    return distance2 >= squared || squared_distance(ball.center, x) >= ball.squared_radius;
+  };
+  for (const CellId c : cavity_.cells()) {
+    const auto* k = mesh_->constraints(c);
+    if (!k) continue;
+    const Simplex<D> s = mesh_->simplex(c);
+    for (int f = 0; f <= D; ++f) {
+      if (!(k->faces >> f & 1)) continue;
+      if constexpr (D == 2) {
+        const Point2 &p = s[(f + 1) % 3], &q = s[(f + 2) % 3];
+        if (!is_clear(detail::squared_distance_to_edge<2>(p, q, x), diametral_ball<D>(p, q))) return false;
+      } else {
+        const Point3 &p = s[(f + 1) & 3], &q = s[(f + 2) & 3], &r = s[(f + 3) & 3];
+        if (!is_clear(detail::squared_distance_to_triangle(p, q, r, x), equatorial_ball(p, q, r))) return false;
+      }
+    }
+    if constexpr (D == 3) {
+      for (int i = 0; i < 6; ++i) {
+        if (!(k->edges >> i & 1)) continue;
+        const Point3 &p = s[edge_ends[i][0]], &q = s[edge_ends[i][1]];
+        if (!is_clear(detail::squared_distance_to_edge<3>(p, q, x), diametral_ball<D>(p, q))) return false;
+      }
+    }
+  }
+  return true;
 }
 
 /// The collected point, if the insertion rule allows.
@@ -188,7 +237,7 @@ auto Refiner<D>::insert_point(const Item& e, const CellVerdict& verdict) -> Outc
     return Outcome::refused;
   }
   // Among volume vertices r >= d holds by itself, but for bounds below one and elements that are not poor in shape.
-  bool ordinary = plain && e.which == Item::over_bound && (options_->radius_edge_bound >= 1 || !verdict.over_radius_edge);
+  bool ordinary = plain && e.which == Item::over_bound && !last_refusal_ && (options_->radius_edge_bound >= 1 || !verdict.over_radius_edge);
   for (const VertexId v : e.vertices) ordinary = ordinary && mesh_->vertex(v).home.kind() == EntityKind::volume;
   if (!ordinary && insertion_radius<D>(*mesh_, cavity_) < demand_of_cell(e.cell, verdict).d) return Outcome::refused;
   cavity_.commit(pools_, Home(EntityKind::volume, 0), rounded_down(r));

@@ -157,6 +157,8 @@ class Refiner {
 
   // refiner_cells.cpp: poor elements
   Outcome treat_cell(const Item& e);
+  Outcome insert_beside_refused(const Point<D>& x, const Item& e, const CellVerdict& verdict);
+  bool is_clear_of_encroached(const Point<D>& x, double squared) const;
   Outcome insert_point(const Item& e, const CellVerdict& verdict);
   Point<D> steiner_point(CellId c, const CellVerdict& verdict);
   Demand demand_of_cell(CellId c, const CellVerdict& verdict) const;
