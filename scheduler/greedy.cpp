@@ -150,7 +150,9 @@ void Greedy<D>::split(Node leaf) {
     }
     works_.grow();
     works_.hand_down(context_.mesh, parent, generation_);
-    std::erase_if(pool_, [parent](const auto& w) { return std::get<3>(w.first) == parent && std::get<2>(w.first) != whole_tree; });
+    std::erase_if(pool_, [parent](const auto& w) {
+      return std::get<3>(w.first) == parent && std::get<2>(w.first) != whole_tree;
+    });
     std::erase_if(pooled_, [parent](const auto& p) { return p.first == parent && p.second != whole_tree; });
     for (Node child = 0; child < Orthtree<D>::children; ++child) candidates.push_back(tree_.first_child(parent) + child);
   }
@@ -168,7 +170,8 @@ void Greedy<D>::end(Running& visit) {
   } else if (visit.request.order != whole_tree) {
     pool(visit.request.leaf);
   }
-  if (Base::whole_tree_waits() && !std::any_of(pool_.begin(), pool_.end(), [](const auto& w) { return std::get<2>(w.first) == whole_tree; }))
+  const auto of_whole_tree = [](const auto& w) { return std::get<2>(w.first) == whole_tree; };
+  if (Base::whole_tree_waits() && std::none_of(pool_.begin(), pool_.end(), of_whole_tree))
     pool({Base::whole_tree_leaf(), whole_tree, 0}, Orthtree<D>::max_level + 1);
   ended_.notify_all();
 }

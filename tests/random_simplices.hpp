@@ -22,7 +22,7 @@ void check_simplices(int rounds, Check check) {
     for (int round = 0; round < rounds; ++round) {
       Simplex<D> s;
       for (Point<D>& p : s) p = family.point(random);
-      if (orient<D>(s) == Sign::zero) continue;
+      if (oracle::orient<D>(s) == Sign::zero) continue;
       check(s, random);
       if (testing::Test::HasFailure()) {
         for (const Point<D>& p : s)
