@@ -133,9 +133,9 @@ TYPED_TEST(Independence, CriterionIsThatOfTheDefinition) {
   std::mt19937_64 random(oracle::seed());
   const BruteForce<D>& brute = small_mesh<D>();
   int independent = 0, cavities_apart = 0;
-  const int pairs = 150;
+  const int pairs = 300;
   for (int k = 0; k < pairs; ++k) {
-    const Point<D> p = beside(random_point<D>(random), 0.0, random), q = beside(p, 0.03 + 0.01 * (k % 20), random);
+    const Point<D> p = beside(random_point<D>(random), 0.0, random), q = beside(p, 0.03 + 0.015 * (k % 25), random);
     const Cavity<D> of_p = brute.cavity(p), of_q = brute.cavity(q);
     const bool want = can_be_inserted_at_once(brute, p, of_p, q, of_q);
     EXPECT_EQ(are_independent(brute, p, of_p, q, of_q), want);
@@ -198,8 +198,8 @@ struct Candidate {
   Cavity<D> cavity;
 };
 
-/// The circumcentres in the leaf that are the first and the last along each axis and one diagonal, and all that may take
-/// their places.
+/// The circumcentres in the leaf that are the first and the last along each axis and diagonal, and all that may take their
+/// places.
 template <int D>
 std::vector<Candidate<D>> candidates(const ProvedTree<D>& proved, typename Orthtree<D>::Node leaf) {
   const auto& [mesh, spheres] = std::tie(proved.brute.mesh, proved.brute.spheres);
@@ -211,10 +211,12 @@ std::vector<Candidate<D>> candidates(const ProvedTree<D>& proved, typename Ortht
     if (inside) centres.push_back(s.center);
   }
   std::vector<Point<D>> chosen;
-  for (int direction = 0; direction <= D && !centres.empty(); ++direction) {
+  constexpr int diagonals = 1 << (D - 1);
+  for (int direction = 0; direction < diagonals + D && !centres.empty(); ++direction) {
     const auto along = [direction](const Point<D>& p) {
+      if (direction >= diagonals) return p[direction - diagonals];
       double sum = 0;
-      for (int i = 0; i < D; ++i) sum += direction == D || i == direction ? p[i] : 0;
+      for (int i = 0; i < D; ++i) sum += direction >> i & 1 ? -p[i] : p[i];
       return sum;
     };
     const auto before = [&along](const Point<D>& a, const Point<D>& b) { return along(a) < along(b); };
