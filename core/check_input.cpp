@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "pgdr/bounding_box.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr::checking {
@@ -99,16 +100,9 @@ class InputBuilder {
  private:
   void collect_walls() {
     const auto points = domain_.points();
-    Point<D> low{}, high{};
-    for (std::size_t i = 0; i < points.size(); ++i)
-      for (int k = 0; k < D; ++k) {
-        low[k] = i ? std::min(low[k], points[i][k]) : points[i][k];
-        high[k] = i ? std::max(high[k], points[i][k]) : points[i][k];
-      }
-    for (int k = 0; k < D; ++k) {
-      out_.span_ = std::max(out_.span_, high[k] - low[k]);
-      centre_[k] = low[k] + (high[k] - low[k]) / 2;
-    }
+    const BoundingBox<D> box = bounding_box<D>(points);
+    out_.span_ = std::max(out_.span_, box.longest_side());
+    for (int k = 0; k < D; ++k) centre_[k] = box.low[k] + (box.high[k] - box.low[k]) / 2;
     if constexpr (D == 2) {
       for (const DomainSegment& s : domain_.segments()) out_.simplices_.push_back(s.points);
     } else {

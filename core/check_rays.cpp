@@ -48,16 +48,6 @@ std::uint64_t mix(std::uint64_t x) {  // splitmix64
   return x ^ (x >> 31);
 }
 
-template <int D>
-void bounding_box(const std::array<Point<D>, D>& s, Point<D>& low, Point<D>& high) {
-  low = high = s[0];
-  for (const Point<D>& x : s)
-    for (int i = 0; i < D; ++i) {
-      low[i] = std::min(low[i], x[i]);
-      high[i] = std::max(high[i], x[i]);
-    }
-}
-
 /// Distances of boxes from a line, along D - 1 directions normal to it, in doubles with a bound of their error.
 template <int D>
 class Strip {
@@ -117,8 +107,7 @@ template <int D>
 void InputVolumes<D>::box_simplices() {
   boxes_.clear();
   for (std::uint32_t i = 0; i < simplices_.size(); ++i) {
-    Box box;
-    bounding_box<D>(simplex(i), box.low, box.high);
+    const BoundingBox<D> box = bounding_box<D>(simplex(i));
     if (i % boxed == 0) boxes_.push_back(box);
     for (int k = 0; k < D; ++k) {
       boxes_.back().low[k] = std::min(boxes_.back().low[k], box.low[k]);
@@ -141,9 +130,8 @@ std::optional<std::vector<std::uint32_t>> InputVolumes<D>::crossings(const Point
       continue;
     }
     const auto s = simplex(i);
-    Point<D> low, high;
-    bounding_box<D>(s, low, high);
-    if (!strip.may_cross(low, high)) continue;
+    const BoundingBox<D> box = bounding_box<D>(s);
+    if (!strip.may_cross(box.low, box.high)) continue;
     const Crossing c = crossing<D>(s, q, p);
     if (c == Crossing::degenerate) return {};
     if (c == Crossing::miss) continue;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "pgdr/bounding_box.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr::checking {
@@ -187,12 +188,7 @@ class RegionChecker {
 
   void visit_seeds(std::uint32_t c) {
     const Simplex<D> s = corners_of(mesh_, c);
-    Point<D> low = s[0], high = s[0];
-    for (const Point<D>& x : s)
-      for (int i = 0; i < D; ++i) {
-        low[i] = std::min(low[i], x[i]);
-        high[i] = std::max(high[i], x[i]);
-      }
+    const auto [low, high] = bounding_box<D>(s);
     auto seed = std::lower_bound(seeds_.begin(), seeds_.end(), low[0],
                                  [](const Seed& a, double x) { return a.point[0] < x; });
     for (; seed != seeds_.end() && seed->point[0] <= high[0]; ++seed) {

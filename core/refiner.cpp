@@ -8,6 +8,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "pgdr/bounding_box.hpp"
+
 namespace pgdr {
 namespace {
 
@@ -25,16 +27,7 @@ RefineContext<D>::RefineContext(Mesh<D>& m, const Domain<D>& d, const RefineOpti
       start(start_time),
       vertices(vertices_so_far),
       last_progress(start_time) {
-  double side = 0;
-  for (int i = 0; i < D; ++i) {
-    double low = domain.points()[0][i], high = low;
-    for (const Point<D>& p : domain.points()) {
-      low = std::min(low, p[i]);
-      high = std::max(high, p[i]);
-    }
-    side = std::max(side, high - low);
-  }
-  base_exponent = std::ilogb(side);
+  base_exponent = std::ilogb(bounding_box<D>(domain.points()).longest_side());
 }
 
 template <int D>

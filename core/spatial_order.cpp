@@ -7,6 +7,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "pgdr/bounding_box.hpp"
+
 namespace pgdr {
 namespace {
 
@@ -58,15 +60,9 @@ std::uint64_t coordinate_hash(const Point<D>& p) {
 template <int D>
 HilbertCurve<D>::HilbertCurve(std::span<const Point<D>> points) {
   if (points.empty()) return;
-  Point<D> low = points[0], high = points[0];
-  for (const Point<D>& p : points)
-    for (int i = 0; i < D; ++i) {
-      low[i] = std::min(low[i], p[i]);
-      high[i] = std::max(high[i], p[i]);
-    }
-  double side = 0;
-  for (int i = 0; i < D; ++i) side = std::max(side, high[i] - low[i]);
-  corner_ = low;
+  const BoundingBox<D> box = bounding_box<D>(points);
+  const double side = box.longest_side();
+  corner_ = box.low;
   if (side > 0 && std::isfinite(side)) scale_ = std::ldexp(1.0, bits_per_axis<D> - 1 - std::ilogb(side));
 }
 

@@ -60,6 +60,20 @@ std::string in_words(double angle) {
   return {text, std::to_chars(text, text + sizeof text, angle, std::chars_format::general, 6).ptr};
 }
 
+// The items at point v, in their order, become at[begin[v]] ... at[begin[v + 1] - 1]; points_of(k): where item k lies.
+template <class PointsOf>
+void sort_by_points(std::size_t points, std::size_t items, const PointsOf& points_of, std::vector<std::uint32_t>& begin,
+                    std::vector<std::uint32_t>& at) {
+  begin.assign(points + 1, 0);
+  for (std::uint32_t k = 0; k < items; ++k)
+    for (const std::uint32_t v : points_of(k)) ++begin[v + 1];
+  for (std::size_t v = 1; v <= points; ++v) begin[v] += begin[v - 1];
+  at.resize(begin[points]);
+  std::vector<std::uint32_t> next(begin);
+  for (std::uint32_t k = 0; k < items; ++k)
+    for (const std::uint32_t v : points_of(k)) at[next[v]++] = k;
+}
+
 }  // namespace
 
 template <int D>
@@ -78,26 +92,14 @@ void Diagnoser<D>::find_angles() {
 template <int D>
 void Diagnoser<D>::segments_at_points() {
   const auto segments = domain_.segments();
-  segment_begin_.assign(p_.size() + 1, 0);
-  for (const DomainSegment& s : segments)
-    for (const std::uint32_t v : s.points) ++segment_begin_[v + 1];
-  for (std::size_t v = 1; v < segment_begin_.size(); ++v) segment_begin_[v] += segment_begin_[v - 1];
-  segment_at_.resize(2 * segments.size());
-  std::vector<std::uint32_t> next(segment_begin_);
-  for (EntityId s = 0; s < segments.size(); ++s)
-    for (const std::uint32_t v : segments[s].points) segment_at_[next[v]++] = s;
+  const auto ends = [&](std::uint32_t s) { return segments[s].points; };
+  sort_by_points(p_.size(), segments.size(), ends, segment_begin_, segment_at_);
 }
 
 template <int D>
 void Diagnoser<D>::corners_at_points() requires(D == 3) {
-  corner_begin_.assign(p_.size() + 1, 0);
-  for (const Triangle& t : triangles_)
-    for (const std::uint32_t v : t.corners) ++corner_begin_[v + 1];
-  for (std::size_t v = 1; v < corner_begin_.size(); ++v) corner_begin_[v] += corner_begin_[v - 1];
-  corner_at_.resize(3 * triangles_.size());
-  std::vector<std::uint32_t> next(corner_begin_);
-  for (std::uint32_t t = 0; t < triangles_.size(); ++t)
-    for (std::uint32_t i = 0; i < 3; ++i) corner_at_[next[triangles_[t].corners[i]]++] = 3 * t + i;
+  const auto corner = [&](std::uint32_t k) { return std::array{triangles_[k / 3].corners[k % 3]}; };
+  sort_by_points(p_.size(), 3 * triangles_.size(), corner, corner_begin_, corner_at_);
 }
 
 template <int D>
@@ -171,31 +173,37 @@ void Diagnoser<D>::facets_at_segments() requires(D == 3) {
 
 template <int D>
 void Diagnoser<D>::report_angles() {
-  out_[Finding::segments_below_60].count = below_60_.count();
-  for (const auto& [s2, at] : below_60_.kept()) {
-    const double angle = degrees(s2);
-    list(Finding::segments_below_60, Errc::small_angle,
-         "the segments from point " + point_words(at[0]) + " to points " + point_words(at[1]) + " and " +
-             point_words(at[2]) + " meet at " + in_words(angle) + " degrees",
-         point_line(at[0]), {point_number(at[0]), point_number(at[1]), point_number(at[2])}, {p_[at[0]]}, angle);
-  }
-  out_[Finding::segment_facet_below_90].count = segment_facet_90_.count();
-  for (const auto& [s2, at] : segment_facet_90_.kept()) {
-    const double angle = degrees(s2);
-    list(Finding::segment_facet_below_90, Errc::small_angle,
-         "the segment from point " + point_words(at[0]) + " to " + point_words(at[1]) + " meets facet " +
-             facet_words(at[2]) + " at " + in_words(angle) + " degrees",
-         facet_line(at[2]), {point_number(at[0]), point_number(at[1]), number(at[2])}, {p_[at[0]]}, angle);
-  }
-  out_[Finding::facets_below_90].count = facets_90_.count();
-  for (const auto& [s2, at] : facets_90_.kept()) {
-    const double angle = degrees(s2);
-    list(Finding::facets_below_90, Errc::small_angle,
-         "facets " + facet_words(at[2]) + " and " + facet_words(at[3]) + " meet at " + in_words(angle) +
-             " degrees at the edge " + edge_words({at[0], at[1]}),
-         facet_line(at[2]), {number(at[2]), number(at[3]), point_number(at[0]), point_number(at[1])},
-         {p_[at[0]], p_[at[1]]}, angle);
-  }
+  using At = std::array<std::uint32_t, 4>;
+  struct Account {
+    std::string words;
+    std::uint32_t line;
+    Ids ids;
+    std::vector<Point<D>> where;
+  };
+  const auto report = [this](Finding kind, const Least<Angle>& found, auto account) {
+    out_[kind].count = found.count();
+    for (const auto& [s2, at] : found.kept()) {
+      const double angle = degrees(s2);
+      Account a = account(at, in_words(angle) + " degrees");
+      list(kind, Errc::small_angle, std::move(a.words), a.line, std::move(a.ids), a.where, angle);
+    }
+  };
+  report(Finding::segments_below_60, below_60_, [this](const At& at, const std::string& angle) -> Account {
+    return {"the segments from point " + point_words(at[0]) + " to points " + point_words(at[1]) + " and " +
+                point_words(at[2]) + " meet at " + angle,
+            point_line(at[0]), {point_number(at[0]), point_number(at[1]), point_number(at[2])}, {p_[at[0]]}};
+  });
+  report(Finding::segment_facet_below_90, segment_facet_90_, [this](const At& at, const std::string& angle) -> Account {
+    return {"the segment from point " + point_words(at[0]) + " to " + point_words(at[1]) + " meets facet " +
+                facet_words(at[2]) + " at " + angle,
+            facet_line(at[2]), {point_number(at[0]), point_number(at[1]), number(at[2])}, {p_[at[0]]}};
+  });
+  report(Finding::facets_below_90, facets_90_, [this](const At& at, const std::string& angle) -> Account {
+    return {"facets " + facet_words(at[2]) + " and " + facet_words(at[3]) + " meet at " + angle + " at the edge " +
+                edge_words({at[0], at[1]}),
+            facet_line(at[2]), {number(at[2]), number(at[3]), point_number(at[0]), point_number(at[1])},
+            {p_[at[0]], p_[at[1]]}};
+  });
 }
 
 template void Diagnoser<2>::find_angles();

@@ -5,8 +5,6 @@
 // (u.w) - (e.u)(e.w)/(e.e): its sign, in three arithmetics.
 #include "detail/dihedral_sign.hpp"
 
-#include <CGAL/Exact_rational.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,18 +13,10 @@
 #include "detail/bounded.hpp"
 #include "detail/expansion.hpp"
 #include "detail/fixed_point.hpp"
+#include "detail/rational.hpp"
 
 namespace pgdr::detail {
 namespace {
-
-using Number = CGAL::Exact_rational;
-
-struct Rational {
-  Number q = 0;
-};
-Rational add(const Rational& a, const Rational& b) { return {Number(a.q + b.q)}; }
-Rational sub(const Rational& a, const Rational& b) { return {Number(a.q - b.q)}; }
-Rational mul(const Rational& a, const Rational& b) { return {Number(a.q * b.q)}; }
 
 template <class T>
 using Vector = std::array<T, 3>;
@@ -75,8 +65,8 @@ Sign dihedral_sign(const Point3& a, const Point3& b, const Point3& c, const Poin
   const auto v = vectors<Bounded>(p, [](double x, double y) { return sub(Bounded(x), Bounded(y)); });
   if (const auto s = sign(polynomial(v[0], v[1], v[2]))) return *s;
   if (const auto s = by_integers(p)) return *s;
-  const auto q = vectors<Rational>(p, [](double x, double y) { return Rational{Number(Number(x) - Number(y))}; });
-  return sign_of(polynomial(q[0], q[1], q[2]).q.sign());
+  const auto q = vectors<Rational>(p, rational_difference);
+  return sign(polynomial(q[0], q[1], q[2]));
 }
 
 }  // namespace pgdr::detail

@@ -3,35 +3,23 @@
 //
 // The last arithmetic stage: the same polynomials in rationals (CGAL's Exact_rational over GMP), of any exponent; the
 // bounds, and circumcentres rounded to nearest. Slow (microseconds, allocates), so only what the other stages leave.
-#include <CGAL/Exact_rational.h>
-
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "detail/determinants.hpp"
 #include "detail/predicates_internal.hpp"
+#include "detail/rational.hpp"
 
 namespace pgdr::detail {
 namespace {
 
-using Number = CGAL::Exact_rational;
-
-// A type of this namespace, for argument-dependent lookup and against expression templates behind `auto`.
-struct Rational {
-  Number q = 0;
-};
-
-Rational add(const Rational& a, const Rational& b) { return {Number(a.q + b.q)}; }
-Rational sub(const Rational& a, const Rational& b) { return {Number(a.q - b.q)}; }
-Rational mul(const Rational& a, const Rational& b) { return {Number(a.q * b.q)}; }
-Rational difference(double a, double b) { return {Number(Number(a) - Number(b))}; }
-Sign sign(const Rational& a) { return sign_of(a.q.sign()); }
+using Number = Rational::Number;
 
 template <int D>
 std::array<Rational, D> difference(const Point<D>& a, const Point<D>& b) {
   std::array<Rational, D> d;
-  for (std::size_t i = 0; i < D; ++i) d[i] = difference(a.x[i], b.x[i]);
+  for (std::size_t i = 0; i < D; ++i) d[i] = rational_difference(a.x[i], b.x[i]);
   return d;
 }
 
@@ -61,9 +49,9 @@ Sign in_circle_exact(const Triangle3& t, const Point3& p, int axis) {
   Matrix<Rational, 2, 3> d;
   std::array<Rational, 3> drop, drop_sum;
   for (std::size_t k = 0; k < 3; ++k) {
-    d[k] = {difference(t[k][i], p[i]), difference(t[k][j], p[j])};
-    drop[k] = difference(t[k][axis], p[axis]);
-    drop_sum[k] = difference(t[k][axis], -p[axis]);
+    d[k] = {rational_difference(t[k][i], p[i]), rational_difference(t[k][j], p[j])};
+    drop[k] = rational_difference(t[k][axis], p[axis]);
+    drop_sum[k] = rational_difference(t[k][axis], -p[axis]);
   }
   return sign(in_circle_det(d, drop, drop_sum));
 }

@@ -23,4 +23,6 @@ void in_arena(int threads, const std::function<void()>& f) {
   arena.execute(f);
 }
 
+int arena_slot() { return tbb::this_task_arena::current_thread_index(); }
+
 }  // namespace pgdr::detail

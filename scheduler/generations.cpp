@@ -100,6 +100,7 @@ void Generations<D>::execute(const VisitGraph& graph, const VisitBody& body) {
   if (graph.visits() == 1 || options_.executor == Executor::serial) {
     run = run_serial(graph, body);
   } else if (options_.executor == Executor::threads) {
+    Base::threads_are_new();
     run = run_threads(graph, body, static_cast<unsigned>(std::max(options_.threads, 1)));
   } else {
     in_arena(options_.threads, [&] { run = run_flow_graph(graph, body); });

@@ -59,25 +59,36 @@ void Greedy<D>::pool(Node leaf) {
 
 template <int D>
 void Greedy<D>::pool(const VisitRequest& request, int level) {
-  if (pooled_.insert({request.leaf, request.order}).second) pool_.insert({level, arrivals_++, request.order, request.leaf});
+  if (pooled_.insert({request.leaf, request.order}).second) pool_.try_emplace({level, arrivals_++, request.order, request.leaf});
 }
 
-/// Are the leaves free that the visit needs? Then they are its own.
+/// Could the visit run now? Asked of the whole pool whenever a visit ends: leaves are looked up once, and again only when
+/// some of them were split.
 template <int D>
-bool Greedy<D>::claim(Running& visit, bool nothing_else) {
-  const VisitRequest& r = visit.request;
-  if (r.order == whole_tree) {
-    if (running_ > 0 || !nothing_else) return false;
-  } else if (claimed_[r.leaf]) {
-    return false;
+bool Greedy<D>::is_free(const VisitRequest& r, Wanted& wanted) {
+  if (r.order == whole_tree) return running_ == 0 && pool_.size() == 1;
+  if (claimed_[r.leaf]) return false;
+  if (wanted.tree_nodes != tree_.node_count()) {
+    const auto was_split = [this](Node leaf) { return !tree_.is_leaf(leaf); };
+    if (wanted.tree_nodes == 0 || std::any_of(wanted.claim.begin(), wanted.claim.end(), was_split)) {
+      wanted.claim = conflicts_.claim_of(r).leaves();
+      wanted.held = Orthtree<D>::none;
+    }
+    wanted.tree_nodes = tree_.node_count();
   }
-  const Claim<D> claim = conflicts_.claim_of(r);
-  for (const Node leaf : claim.leaves())
-    if (claimed_[leaf]) return false;
+  if (wanted.held != Orthtree<D>::none && claimed_[wanted.held]) return false;
+  const auto held = std::find_if(wanted.claim.begin(), wanted.claim.end(), [this](Node leaf) { return claimed_[leaf] != 0; });
+  if (held == wanted.claim.end()) return true;
+  wanted.held = *held;
+  return false;
+}
+
+template <int D>
+void Greedy<D>::claim(Running& visit) {
+  const Claim<D> claim = conflicts_.claim_of(visit.request);
   visit.leaves = claim.leaves();
   for (const Node leaf : visit.leaves) claimed_[leaf] = 1;
   visit.area = std::make_unique<CopiedArea<D>>(tree_, claim);
-  return true;
 }
 
 /// The first in the pool that can run now; null if none can.
@@ -87,10 +98,12 @@ auto Greedy<D>::pick() -> std::unique_ptr<Running> {
   if (running_ >= threads_ || context_.stop != 0 || left == 0) return nullptr;
   claimed_.resize(tree_.node_count(), 0);
   for (auto next = pool_.begin(); next != pool_.end(); ++next) {
-    auto visit = std::make_unique<Running>();
-    visit->request = {std::get<3>(*next), std::get<2>(*next), 0};
-    if (!claim(*visit, pool_.size() == 1)) continue;
+    const VisitRequest request{std::get<3>(next->first), std::get<2>(next->first), 0};
+    if (!is_free(request, next->second)) continue;
     pool_.erase(next);
+    auto visit = std::make_unique<Running>();
+    visit->request = request;
+    claim(*visit);
     pooled_.erase({visit->request.leaf, visit->request.order});
     Base::prepare(visit->request, visit->work);
     if (visit->request.order == 1) works_[visit->request.leaf].open_inbox();
@@ -137,7 +150,9 @@ void Greedy<D>::split(Node leaf) {
     }
     works_.grow();
     works_.hand_down(context_.mesh, parent, generation_);
-    std::erase_if(pool_, [parent](const Waiting& w) { return std::get<3>(w) == parent && std::get<2>(w) != whole_tree; });
+    std::erase_if(pool_, [parent](const auto& w) {
+      return std::get<3>(w.first) == parent && std::get<2>(w.first) != whole_tree;
+    });
     std::erase_if(pooled_, [parent](const auto& p) { return p.first == parent && p.second != whole_tree; });
     for (Node child = 0; child < Orthtree<D>::children; ++child) candidates.push_back(tree_.first_child(parent) + child);
   }
@@ -155,7 +170,8 @@ void Greedy<D>::end(Running& visit) {
   } else if (visit.request.order != whole_tree) {
     pool(visit.request.leaf);
   }
-  if (Base::whole_tree_waits() && !std::any_of(pool_.begin(), pool_.end(), [](const Waiting& w) { return std::get<2>(w) == whole_tree; }))
+  const auto of_whole_tree = [](const auto& w) { return std::get<2>(w.first) == whole_tree; };
+  if (Base::whole_tree_waits() && std::none_of(pool_.begin(), pool_.end(), of_whole_tree))
     pool({Base::whole_tree_leaf(), whole_tree, 0}, Orthtree<D>::max_level + 1);
   ended_.notify_all();
 }
@@ -185,6 +201,7 @@ void Greedy<D>::run_on_threads() {
     }
     ended_.notify_all();
   };
+  Base::threads_are_new();
   std::vector<std::thread> threads;
   for (int i = 1; i < threads_; ++i) threads.emplace_back(work);
   work();

@@ -6,18 +6,15 @@
 
 #include <algorithm>
 
+#include "pgdr/bounding_box.hpp"
+
 namespace pgdr::detail {
 namespace {
 
 template <int D>
 Orthtree<D> tree_over(std::span<const Point<D>> points) {
-  Point<D> low = points[0], high = points[0];
-  for (const Point<D>& p : points)
-    for (int i = 0; i < D; ++i) {
-      low[i] = std::min(low[i], p[i]);
-      high[i] = std::max(high[i], p[i]);
-    }
-  return Orthtree<D>(low, high);
+  const BoundingBox<D> box = bounding_box<D>(points);
+  return Orthtree<D>(box.low, box.high);
 }
 
 }  // namespace
@@ -28,7 +25,8 @@ LeafRefinement<D>::LeafRefinement(RefineContext<D>& context, typename Mesh<D>::P
       options_(context.options.schedule),
       tree_(tree_over<D>(context.domain.points())),
       works_(tree_),
-      vertices_(vertices_so_far) {
+      vertices_(vertices_so_far),
+      numbers_(options_.executor) {
   workers_.push_back(std::make_unique<Refiner<D>>(context, std::move(pools)));
 }
 
@@ -138,7 +136,7 @@ StopCause LeafRefinement<D>::run() {
   }
   if (stop == StopCause::finished && violations_seen_) stop = mend();
   statistics_.leaves = tree_.leaf_count();
-  for (const auto& [thread, seconds] : busy_) statistics_.busy_seconds.push_back(seconds);
+  statistics_.busy_seconds = busy_;
   double in_visits = 0;
   for (const double s : statistics_.busy_seconds) in_visits += s;
   statistics_.serial_seconds = std::chrono::duration<double>(Clock::now() - start).count() - statistics_.seconds_in_generations;

@@ -54,15 +54,13 @@ double LeafRefinement<D>::record(const VisitRequest& request, const RegionVisit<
   const double seconds = std::chrono::duration<double>(end - start).count();
   const std::lock_guard lock(workers_mutex_);
   ++statistics_.visits;
-  const auto self = std::this_thread::get_id();
-  if (self != home_thread_) predicates_elsewhere_ += predicate_counts() - predicates_before;
-  auto thread = std::find_if(busy_.begin(), busy_.end(), [self](const auto& t) { return t.first == self; });
-  if (thread == busy_.end()) thread = busy_.insert(thread, {self, 0.0});
-  thread->second += seconds;
+  if (!numbers_.at_home()) predicates_elsewhere_ += predicate_counts() - predicates_before;
+  const std::uint32_t thread = numbers_.of_this_one();
+  if (thread == busy_.size()) busy_.push_back(0);
+  busy_[thread] += seconds;
   if (!options_.trace) return seconds;
   auto since_start = [this](Clock::time_point t) { return std::chrono::duration<double>(t - context_.start).count(); };
-  trace_.push_back({static_cast<std::uint32_t>(thread - busy_.begin()), since_start(start), since_start(end), request.leaf,
-                    visit.level, request.order, generation_,
+  trace_.push_back({thread, since_start(start), since_start(end), request.leaf, visit.level, request.order, generation_,
                     visit.counts.committed, visit.set_aside.size()});
   return seconds;
 }

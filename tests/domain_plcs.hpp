@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "pgdr/domain.hpp"
+#include "plc_points.hpp"
 
 namespace pgdr::test {
 
@@ -43,6 +44,20 @@ inline Plc<3> triangulated(const Plc<3>& plc) {
   return out;
 }
 
+/// Numbered from 1, with lines: points from 100, segments from 300, facets from 500, holes from 700, regions from 900.
+inline Plc<3> numbered(Plc<3> plc) {
+  plc.first_index = 1;
+  plc.source.file = "box.poly";
+  for (std::uint32_t k = 0; k < 100; ++k) {
+    plc.source.point_lines.push_back(100 + k);
+    plc.source.segment_lines.push_back(300 + k);
+    plc.source.facet_lines.push_back(500 + k);
+    plc.source.hole_lines.push_back(700 + k);
+    plc.source.region_lines.push_back(900 + k);
+  }
+  return plc;
+}
+
 /// A square plate of side 6 with a pentagonal hole of radius 1 through it.
 inline Plc<3> plate_with_hole() {
   Plc<3> plc;
@@ -63,19 +78,14 @@ inline Plc<3> plate_with_hole() {
 
 /// By a generic rotation, its coordinates rounded, and shifted.
 inline Plc<3> turned(Plc<3> plc, double angle = 0.7) {
-  const auto turn = [&](Point3& p) {
+  for_each_point(plc, [&](Point3& p) {
     for (const auto& [i, j, a] : {std::tuple{0, 1, angle}, {1, 2, 1.1 * angle}, {2, 0, 0.6}}) {
       const double x = p[i], y = p[j];
       p[i] = std::cos(a) * x - std::sin(a) * y;
       p[j] = std::sin(a) * x + std::cos(a) * y;
     }
     p[0] += 1.25;
-  };
-  for (auto& p : plc.points) turn(p);
-  for (auto& p : plc.holes) turn(p);
-  for (auto& r : plc.regions) turn(r.point);
-  for (auto& f : plc.facets)
-    for (auto& p : f.holes) turn(p);
+  });
   return plc;
 }
 

@@ -45,6 +45,19 @@ Orthtree<D> graded(std::mt19937_64& random, int splits) {
   return tree;
 }
 
+/// The same boxes, split in random order.
+template <int D>
+Orthtree<D> split_otherwise(const Orthtree<D>& tree, std::mt19937_64& random) {
+  Orthtree<D> other = over_unit_cube<D>();
+  for (;;) {
+    std::vector<std::uint32_t> todo;
+    for (const auto leaf : other.leaves())
+      if (tree.level(tree.leaf_at(other.centre(leaf))) > other.level(leaf)) todo.push_back(leaf);
+    if (todo.empty()) return other;
+    other.split(todo[random() % todo.size()]);
+  }
+}
+
 template <int D>
 using Set = std::set<typename Orthtree<D>::Node>;
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "pgdr/plc.hpp"
+#include "plc_points.hpp"
 
 namespace pgdr::test {
 
@@ -237,28 +238,17 @@ inline Point2 turned(const Point2& p, double shift) {
 /// The model turned generically, then shifted by `shift` along every axis.
 template <int D>
 Plc<D> turned(Plc<D> plc, double shift = 1000) {
-  for (auto& p : plc.points) p = turned(p, shift);
-  for (auto& p : plc.holes) p = turned(p, shift);
-  for (auto& r : plc.regions) r.point = turned(r.point, shift);
-  for (auto& f : plc.facets)
-    for (auto& p : f.holes) p = turned(p, shift);
+  for_each_point(plc, [shift](Point<D>& p) { p = turned(p, shift); });
   return plc;
 }
 
 /// The model scaled by a power of two.
 template <int D>
 Plc<D> scaled(Plc<D> plc, double factor) {
-  auto scale = [factor](Point<D>& p) {
+  for_each_point(plc, [factor](Point<D>& p) {
     for (int i = 0; i < D; ++i) p[i] *= factor;
-  };
-  for (auto& p : plc.points) scale(p);
-  for (auto& p : plc.holes) scale(p);
-  for (auto& r : plc.regions) {
-    scale(r.point);
-    r.size *= D == 3 ? factor * factor * factor : factor * factor;
-  }
-  for (auto& f : plc.facets)
-    for (auto& p : f.holes) scale(p);
+  });
+  for (auto& r : plc.regions) r.size *= D == 3 ? factor * factor * factor : factor * factor;
   return plc;
 }
 

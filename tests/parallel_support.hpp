@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The executors that a mesh must not depend on, and the comparison of results to the last bit. What runs on oneTBB is
-// left out under the thread sanitizer, which reports TBB's own synchronisation.
+// The executors that a mesh must not depend on, and the comparison of results to the last bit.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,40 +15,10 @@
 #include <thread>
 #include <vector>
 
+#include "allow_threads.hpp"
 #include "refined_models.hpp"
 
-#if defined(__SANITIZE_THREAD__)
-#define PGDR_TEST_TBB 0
-#elif defined(__has_feature)
-#if __has_feature(thread_sanitizer)
-#define PGDR_TEST_TBB 0
-#endif
-#endif
-#ifndef PGDR_TEST_TBB
-#define PGDR_TEST_TBB 1
-#endif
-
-#if PGDR_TEST_TBB
-#include <tbb/global_control.h>
-#endif
-
 namespace pgdr::test {
-
-#if PGDR_TEST_TBB
-/// Lets TBB start as many threads, whatever the machine has.
-class AllowThreads {
- public:
-  explicit AllowThreads(std::size_t n) : control_(tbb::global_control::max_allowed_parallelism, n) {}
-
- private:
-  tbb::global_control control_;
-};
-#else
-class AllowThreads {
- public:
-  explicit AllowThreads(std::size_t) {}
-};
-#endif
 
 struct Runner {
   const char* name;
@@ -131,6 +100,7 @@ RefineResult<D> expect_reproducible(const Plc<D>& plc, const RefineOptions<D>& o
     const RefineResult<D> again = refine<D>(plc, with<D>(options, runner));
     expect_same<D>(first.result, again, what + ", " + runner.name);
     EXPECT_LE(again.scheduler.max_concurrent, static_cast<std::uint32_t>(runner.threads));
+    EXPECT_LE(again.scheduler.busy_seconds.size(), static_cast<std::size_t>(runner.threads)) << runner.name;
   }
   return first.result;
 }

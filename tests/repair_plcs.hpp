@@ -10,29 +10,25 @@
 #include <vector>
 
 #include "pgdr/plc.hpp"
+#include "plc_points.hpp"
 
 namespace pgdr::test {
 
 /// Every axis goes to the next but `by`, coordinates times 2^exponent, plus `offset` (before scaling; of few bits).
 template <int D>
 Plc<D> moved(Plc<D> plc, int by, int exponent, double offset) {
-  const auto move = [&](Point<D>& p) {
+  for_each_point(plc, [&](Point<D>& p) {
     Point<D> q;
     for (int i = 0; i < D; ++i) q[(i + by) % D] = std::ldexp(p[i] + offset * (i + 1), exponent);
     p = q;
-  };
-  for (auto& p : plc.points) move(p);
-  for (auto& p : plc.holes) move(p);
-  for (auto& r : plc.regions) move(r.point);
-  for (auto& f : plc.facets)
-    for (auto& p : f.holes) move(p);
+  });
   return plc;
 }
 
 /// Turned by the angles of the triangle 3, 4, 5 and enlarged, without rounding: no facet is parallel to an axis.
 template <int D>
 Plc<D> oblique(Plc<D> plc) {
-  const auto turn = [](Point<D>& p) {
+  for_each_point(plc, [](Point<D>& p) {
     for (int i = 0; i + 1 < D; ++i) {
       const double x = p[i], y = p[i + 1];
       p[i] = 3 * x - 4 * y;
@@ -40,12 +36,7 @@ Plc<D> oblique(Plc<D> plc) {
       for (int j = 0; j < D; ++j)
         if (j != i && j != i + 1) p[j] *= 5;
     }
-  };
-  for (auto& p : plc.points) turn(p);
-  for (auto& p : plc.holes) turn(p);
-  for (auto& r : plc.regions) turn(r.point);
-  for (auto& f : plc.facets)
-    for (auto& p : f.holes) turn(p);
+  });
   return plc;
 }
 

@@ -4,6 +4,7 @@
 // The checker on meshes made by hand: sound ones pass, each kind of damage is found as what it is.
 #include <gtest/gtest.h>
 
+#include "dimensions.hpp"
 #include "mesh_mutations.hpp"
 #include "pgdr/check.hpp"
 #include "test_check_models.hpp"
@@ -31,12 +32,7 @@ std::string listed(const CheckReport& report) {
 
 template <class Tag>
 class Check : public testing::Test {};
-template <int D>
-struct Dimension {
-  static constexpr int value = D;
-};
-using Dimensions = testing::Types<Dimension<2>, Dimension<3>>;
-TYPED_TEST_SUITE(Check, Dimensions);
+TYPED_TEST_SUITE(Check, test::Dimensions);
 
 TYPED_TEST(Check, SoundMeshesPass) {
   constexpr int D = TypeParam::value;

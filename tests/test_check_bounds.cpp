@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "dimensions.hpp"
 #include "mesh_mutations.hpp"
 #include "pgdr/check.hpp"
 #include "test_check_models.hpp"
@@ -245,12 +246,7 @@ TEST(CheckDelaunay, RefusedOnlyBesideANamedEntity) {
 
 template <class Tag>
 class CheckOutside : public testing::Test {};
-template <int D>
-struct Dimension {
-  static constexpr int value = D;
-};
-using Dimensions = testing::Types<Dimension<2>, Dimension<3>>;
-TYPED_TEST_SUITE(CheckOutside, Dimensions);
+TYPED_TEST_SUITE(CheckOutside, test::Dimensions);
 
 TYPED_TEST(CheckOutside, FilledHolesAreFound) {
   constexpr int D = TypeParam::value;

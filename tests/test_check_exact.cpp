@@ -10,6 +10,7 @@
 
 #include "detail/check_exact.hpp"
 #include "detail/check_input.hpp"
+#include "dimensions.hpp"
 #include "pgdr/predicates.hpp"
 #include "test_check_models.hpp"
 
@@ -117,12 +118,7 @@ TEST(CheckExact, OrderAlongALine) {
 
 template <class Tag>
 class CheckInput : public testing::Test {};
-template <int D>
-struct Dimension {
-  static constexpr int value = D;
-};
-using Dimensions = testing::Types<Dimension<2>, Dimension<3>>;
-TYPED_TEST_SUITE(CheckInput, Dimensions);
+TYPED_TEST_SUITE(CheckInput, test::Dimensions);
 
 template <int D>
 Lattice<D> all(int x) {

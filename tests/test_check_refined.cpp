@@ -5,6 +5,7 @@
 // slanted and far from the origin, where points of segments and facets are rounded.
 #include <gtest/gtest.h>
 
+#include "dimensions.hpp"
 #include "mesh_mutations.hpp"
 #include "pgdr/check.hpp"
 #include "pgdr/refine.hpp"
@@ -18,12 +19,7 @@ using Kind = CheckFinding::Kind;
 
 template <class Tag>
 class CheckRefined : public testing::Test {};
-template <int D>
-struct Dimension {
-  static constexpr int value = D;
-};
-using Dimensions = testing::Types<Dimension<2>, Dimension<3>>;
-TYPED_TEST_SUITE(CheckRefined, Dimensions);
+TYPED_TEST_SUITE(CheckRefined, test::Dimensions);
 
 std::string listed(const CheckReport& report) {
   std::string text;

@@ -11,8 +11,9 @@
 #include <limits>
 
 #include "detail/predicates_internal.hpp"
-#include "oracles.hpp"
+#include "dimensions.hpp"
 #include "pgdr/predicates.hpp"
+#include "random_simplices.hpp"
 
 namespace pgdr {
 namespace {
@@ -24,11 +25,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <class Dimension>
 class Spheres : public testing::Test {};
-
-template <int D>
-using Dim = std::integral_constant<int, D>;
-using Dimensions = testing::Types<Dim<2>, Dim<3>>;
-TYPED_TEST_SUITE(Spheres, Dimensions);
+TYPED_TEST_SUITE(Spheres, test::Dimensions);
 
 template <int D>
 bool finite(const Point<D>& p) {
@@ -92,21 +89,7 @@ void check_sphere(const Simplex<D>& s) {
 
 TYPED_TEST(Spheres, ErrorBoundHolds) {
   constexpr int D = TypeParam::value;
-  Random random(oracle::seed());
-  for (const oracle::Family<D>& family : oracle::families<D>()) {
-    SCOPED_TRACE(family.name);
-    for (int round = 0; round < 300; ++round) {
-      Simplex<D> s;
-      for (Point<D>& p : s) p = family.point(random);
-      if (oracle::orient<D>(s) == Sign::zero) continue;
-      check_sphere<D>(s);
-      if (this->HasFailure()) {
-        for (const Point<D>& p : s)
-          for (const double x : p.x) std::cout << std::hexfloat << x << ' ';
-        FAIL();
-      }
-    }
-  }
+  oracle::check_simplices<D>(300, [](const Simplex<D>& s, Random&) { check_sphere<D>(s); });
 }
 
 // Corner simplex, with its last corner pushed down to a height of 2^-k above the opposite face.
@@ -170,27 +153,20 @@ TEST(Sphere, OfWellShapedTetrahedraNeedsNoRationals) {
 
 TYPED_TEST(Spheres, DependOnTheVertexSetAlone) {
   constexpr int D = TypeParam::value;
-  Random random(oracle::seed());
-  for (const oracle::Family<D>& family : oracle::families<D>()) {
-    SCOPED_TRACE(family.name);
-    for (int round = 0; round < 20; ++round) {
-      Simplex<D> s;
-      for (Point<D>& p : s) p = family.point(random);
-      if (oracle::orient<D>(s) == Sign::zero) continue;
-      std::sort(s.begin(), s.end(), lex_less<D>);
-      const Circumsphere<D> want = circumsphere<D>(s);
-      const Point<D> center = centroid<D>(s);
-      const double shortest = shortest_edge_squared<D>(s);
-      while (std::next_permutation(s.begin(), s.end(), lex_less<D>)) {
-        const Circumsphere<D> got = circumsphere<D>(s);
-        ASSERT_TRUE(same_bits<D>(got.center, want.center));
-        ASSERT_EQ(got.squared_radius, want.squared_radius);
-        ASSERT_EQ(got.center_error, want.center_error);
-        ASSERT_TRUE(same_bits<D>(centroid<D>(s), center));
-        ASSERT_EQ(shortest_edge_squared<D>(s), shortest);
-      }
+  oracle::check_simplices<D>(20, [](Simplex<D> s, Random&) {
+    std::sort(s.begin(), s.end(), lex_less<D>);
+    const Circumsphere<D> want = circumsphere<D>(s);
+    const Point<D> center = centroid<D>(s);
+    const double shortest = shortest_edge_squared<D>(s);
+    while (std::next_permutation(s.begin(), s.end(), lex_less<D>)) {
+      const Circumsphere<D> got = circumsphere<D>(s);
+      ASSERT_TRUE(same_bits<D>(got.center, want.center));
+      ASSERT_EQ(got.squared_radius, want.squared_radius);
+      ASSERT_EQ(got.center_error, want.center_error);
+      ASSERT_TRUE(same_bits<D>(centroid<D>(s), center));
+      ASSERT_EQ(shortest_edge_squared<D>(s), shortest);
     }
-  }
+  });
 }
 
 TYPED_TEST(Spheres, ScaleWithPowersOfTwo) {

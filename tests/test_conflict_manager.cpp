@@ -11,6 +11,7 @@
 #include <memory>
 #include <tuple>
 
+#include "dimensions.hpp"
 #include "graded_trees.hpp"
 #include "pgdr/error.hpp"
 
@@ -21,10 +22,7 @@ constexpr std::uint64_t seed = 20270302;
 
 template <class>
 class ConflictManagerTest : public ::testing::Test {};
-template <int N>
-struct Dimension { static constexpr int value = N; };
-using Dimensions = ::testing::Types<Dimension<2>, Dimension<3>>;
-TYPED_TEST_SUITE(ConflictManagerTest, Dimensions);
+TYPED_TEST_SUITE(ConflictManagerTest, test::Dimensions);
 
 template <int D>
 std::vector<VisitRequest> random_requests(const Orthtree<D>& tree, std::mt19937_64& random) {
@@ -130,14 +128,7 @@ TYPED_TEST(ConflictManagerTest, PlanIsAFunctionOfBoxesAndRequests) {
   constexpr int D = TypeParam::value;
   std::mt19937_64 random(seed + 3);
   const Orthtree<D> a = trees::graded<D>(random, 50);
-  Orthtree<D> b = trees::over_unit_cube<D>();
-  for (;;) {
-    std::vector<std::uint32_t> todo;
-    for (const auto leaf : b.leaves())
-      if (a.level(a.leaf_at(b.centre(leaf))) > b.level(leaf)) todo.push_back(leaf);
-    if (todo.empty()) break;
-    b.split(todo[random() % todo.size()]);
-  }
+  const Orthtree<D> b = trees::split_otherwise<D>(a, random);
   auto requests = random_requests(a, random);
   auto translated = requests;
   for (VisitRequest& r : translated) r.leaf = b.leaf_at(a.centre(r.leaf));

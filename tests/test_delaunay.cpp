@@ -6,6 +6,7 @@
 
 #include <set>
 
+#include "dimensions.hpp"
 #include "pgdr/delaunay.hpp"
 #include "point_sets.hpp"
 
@@ -16,10 +17,7 @@ constexpr std::uint64_t seed = 20261121;
 
 template <class>
 class DelaunayTest : public ::testing::Test {};
-template <int N>
-struct Dimension { static constexpr int value = N; };
-using Dimensions = ::testing::Types<Dimension<2>, Dimension<3>>;
-TYPED_TEST_SUITE(DelaunayTest, Dimensions);
+TYPED_TEST_SUITE(DelaunayTest, test::Dimensions);
 
 /// Cells as sorted corner coordinates: comparable between meshes.
 template <int D>

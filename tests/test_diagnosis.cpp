@@ -16,21 +16,10 @@ namespace pgdr {
 namespace {
 
 using test::box;
+using test::numbered;
 using test::triangulated;
 using test::turned;
 using Ids = std::vector<std::int64_t>;
-
-// A box numbered from 1, with lines.
-Plc<3> numbered(Plc<3> plc) {
-  plc.first_index = 1;
-  plc.source.file = "box.poly";
-  for (std::uint32_t k = 0; k < 100; ++k) {
-    plc.source.point_lines.push_back(100 + k);
-    plc.source.segment_lines.push_back(300 + k);
-    plc.source.facet_lines.push_back(500 + k);
-  }
-  return plc;
-}
 
 // Adds a triangle of new points.
 std::uint32_t add_triangle(Plc<3>& plc, const Point3& a, const Point3& b, const Point3& c) {

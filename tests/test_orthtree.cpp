@@ -12,6 +12,7 @@
 #include <map>
 #include <numeric>
 
+#include "dimensions.hpp"
 #include "graded_trees.hpp"
 #include "pgdr/claim.hpp"
 #include "pgdr/error.hpp"
@@ -24,10 +25,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <class>
 class OrthtreeTest : public ::testing::Test {};
-template <int N>
-struct Dimension { static constexpr int value = N; };
-using Dimensions = ::testing::Types<Dimension<2>, Dimension<3>>;
-TYPED_TEST_SUITE(OrthtreeTest, Dimensions);
+TYPED_TEST_SUITE(OrthtreeTest, test::Dimensions);
 
 template <int D>
 Point<D> random_point(std::mt19937_64& random, double low, double high) {
@@ -209,15 +207,7 @@ TYPED_TEST(OrthtreeTest, OrderAndBoxesDoNotDependOnTheOrderOfSplits) {
   constexpr int D = TypeParam::value;
   std::mt19937_64 random(seed + 4);
   const Orthtree<D> a = trees::graded<D>(random, 60);
-  // The same boxes, split in random order.
-  Orthtree<D> b = trees::over_unit_cube<D>();
-  for (;;) {
-    std::vector<std::uint32_t> todo;
-    for (const auto leaf : b.leaves())
-      if (a.level(a.leaf_at(b.centre(leaf))) > b.level(leaf)) todo.push_back(leaf);
-    if (todo.empty()) break;
-    b.split(todo[random() % todo.size()]);
-  }
+  const Orthtree<D> b = trees::split_otherwise<D>(a, random);
   const auto in_a = a.leaves(), in_b = b.leaves();
   ASSERT_EQ(in_a.size(), in_b.size());
   EXPECT_NE(in_a, in_b) << "the numbers of the nodes may differ, and do here";

@@ -7,8 +7,9 @@
 #include <limits>
 
 #include "detail/predicates_internal.hpp"
-#include "oracles.hpp"
+#include "dimensions.hpp"
 #include "pgdr/predicates.hpp"
+#include "random_simplices.hpp"
 
 namespace pgdr {
 namespace {
@@ -20,11 +21,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <class Dimension>
 class Bounds : public testing::Test {};
-
-template <int D>
-using Dim = std::integral_constant<int, D>;
-using Dimensions = testing::Types<Dim<2>, Dim<3>>;
-TYPED_TEST_SUITE(Bounds, Dimensions);
+TYPED_TEST_SUITE(Bounds, test::Dimensions);
 
 template <int D>
 struct Exact {
@@ -90,21 +87,7 @@ void check(const Simplex<D>& s, Random& random) {
 
 TYPED_TEST(Bounds, AgreeWithRationals) {
   constexpr int D = TypeParam::value;
-  Random random(oracle::seed());
-  for (const oracle::Family<D>& family : oracle::families<D>()) {
-    SCOPED_TRACE(family.name);
-    for (int round = 0; round < 150; ++round) {
-      Simplex<D> s;
-      for (Point<D>& p : s) p = family.point(random);
-      if (oracle::orient<D>(s) == Sign::zero) continue;
-      check<D>(s, random);
-      if (this->HasFailure()) {
-        for (const Point<D>& p : s)
-          for (const double x : p.x) std::cout << std::hexfloat << x << ' ';
-        FAIL();
-      }
-    }
-  }
+  oracle::check_simplices<D>(150, check<D>);
 }
 
 // Numerators that are all cancellation: needles (a corner beside another one), and in space slivers (four points near a

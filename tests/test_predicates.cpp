@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "detail/predicates_internal.hpp"
+#include "dimensions.hpp"
 #include "oracles.hpp"
 
 namespace pgdr {
@@ -43,11 +44,7 @@ void expect_agrees(const char* stage, MaybeSign got, Sign want) {
 
 template <class Dimension>
 class Predicates : public testing::Test {};
-
-template <int D>
-using Dim = std::integral_constant<int, D>;
-using Dimensions = testing::Types<Dim<2>, Dim<3>>;
-TYPED_TEST_SUITE(Predicates, Dimensions);
+TYPED_TEST_SUITE(Predicates, test::Dimensions);
 
 template <int D>
 void check_orient(const Simplex<D>& s, Random& random) {

@@ -4,6 +4,7 @@
 // Radii of the selection disks: the formulas of both types in both dimensions, and where there is no disk.
 #include <gtest/gtest.h>
 
+#include "dimensions.hpp"
 #include "pgdr/point_selector.hpp"
 
 namespace pgdr {
@@ -11,11 +12,7 @@ namespace {
 
 template <class Dimension>
 class Disks : public testing::Test {};
-
-template <int D>
-using Dim = std::integral_constant<int, D>;
-using Dimensions = testing::Types<Dim<2>, Dim<3>>;
-TYPED_TEST_SUITE(Disks, Dimensions);
+TYPED_TEST_SUITE(Disks, test::Dimensions);
 
 template <int D>
 PoorElement<D> poor_element(double radius, double shortest, double bound) {

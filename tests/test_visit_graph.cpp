@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The executors of a visit graph: every visit once, after its predecessors, with the exceptions of its bodies. What runs
-// on oneTBB is left out under the thread sanitizer, which reports TBB's own synchronisation.
+// The executors of a visit graph: every visit once, after its predecessors, with the exceptions of its bodies.
 #include "pgdr/visit_graph.hpp"
 
 #include <gtest/gtest.h>
@@ -17,21 +16,10 @@
 #include <string>
 #include <thread>
 
+#include "allow_threads.hpp"
 #include "pgdr/error.hpp"
 
-#if defined(__SANITIZE_THREAD__)
-#define PGDR_TEST_TBB 0
-#elif defined(__has_feature)
-#if __has_feature(thread_sanitizer)
-#define PGDR_TEST_TBB 0
-#endif
-#endif
-#ifndef PGDR_TEST_TBB
-#define PGDR_TEST_TBB 1
-#endif
-
 #if PGDR_TEST_TBB
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
@@ -86,9 +74,9 @@ struct Executor {
 };
 
 #if PGDR_TEST_TBB
-/// TBB with eight threads, on any machine: without global_control it gives no more than there are cores.
+/// TBB with eight threads, on any machine.
 VisitRun flow_on_eight(const VisitGraph& graph, const VisitBody& body) {
-  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, eight);
+  const test::AllowThreads allow(eight);
   tbb::task_arena arena(eight);
   VisitRun run;
   arena.execute([&] { run = run_flow_graph(graph, body); });
@@ -325,7 +313,7 @@ TEST(VisitFlowGraphTest, AGraphInABodyStartsNoVisitOfTheOuterOne) {
 
 TEST(VisitFlowGraphTest, TheWaitRunsNoneOfTheCallersOtherTasks) {
   // A caller that holds something while it refines must not be handed its own other work by our wait.
-  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, eight);
+  const test::AllowThreads allow(eight);
   tbb::task_arena arena(eight);
   std::atomic<int> stolen{0};
   arena.execute([&] {
@@ -339,7 +327,7 @@ TEST(VisitFlowGraphTest, TheWaitRunsNoneOfTheCallersOtherTasks) {
 }
 
 TEST(VisitFlowGraphTest, RunsInTheCallersArena) {
-  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, eight);
+  const test::AllowThreads allow(eight);
   tbb::task_arena arena(3);
   const VisitGraph graph = random_graph(2000, 1, 2000, seed + 40);
   std::atomic<int> elsewhere{0};
@@ -355,7 +343,7 @@ TEST(VisitFlowGraphTest, RunsInTheCallersArena) {
 }
 
 TEST(VisitFlowGraphTest, SeveralGraphsAtOnce) {
-  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, eight);
+  const test::AllowThreads allow(eight);
   std::vector<std::jthread> callers;
   for (std::uint64_t c = 0; c < 4; ++c)
     callers.emplace_back([c] {
@@ -367,7 +355,7 @@ TEST(VisitFlowGraphTest, SeveralGraphsAtOnce) {
 }
 
 TEST(VisitFlowGraphTest, NoticesThatTheCallerWasCancelled) {
-  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 2);
+  const test::AllowThreads allow(2);
   VisitGraph chain;
   chain.add_visit();
   for (std::uint32_t v = 1; v < 200; ++v) chain.add_visit(std::vector<std::uint32_t>{v - 1});

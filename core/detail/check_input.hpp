@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "pgdr/bounding_box.hpp"
 #include "pgdr/domain.hpp"
 
 namespace pgdr::checking {
@@ -79,10 +80,7 @@ class InputVolumes {
   const Domain<D>* domain_;
   double span_ = 0;  ///< longer than the bounding box of the input
   std::vector<std::array<std::uint32_t, D>> simplices_;
-  struct Box {
-    Point<D> low, high;
-  };
-  std::vector<Box> boxes_;  ///< of `boxed` simplices each that follow each other: inputs are mostly listed by place
+  std::vector<BoundingBox<D>> boxes_;  ///< of `boxed` simplices each that follow each other: inputs are mostly listed by place
   static constexpr std::uint32_t boxed = 32;
   std::vector<std::uint32_t> patch_of_;
   std::vector<Patch> patches_;

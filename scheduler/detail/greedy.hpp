@@ -8,6 +8,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <map>
 #include <set>
 #include <tuple>
 
@@ -29,6 +30,12 @@ class Greedy final : public LeafRefinement<D> {
   struct Running;
   /// Level, arrival, order, leaf: the order of the pool.
   using Waiting = std::tuple<int, std::uint64_t, std::uint32_t, Node>;
+  /// What was found out when the pool was last looked through.
+  struct Wanted {
+    std::vector<Node> claim;              ///< leaves; none yet if `tree_nodes` is 0
+    std::uint32_t tree_nodes = 0;         ///< of the tree when the claim was last found to hold
+    Node held = Orthtree<D>::none;        ///< a leaf of the claim that another visit held
+  };
 
   StopCause drain() override;
   void run_in_arena();
@@ -37,7 +44,8 @@ class Greedy final : public LeafRefinement<D> {
   void pool(Node leaf);
   void pool(const VisitRequest& request, int level);
   std::unique_ptr<Running> pick();
-  bool claim(Running& visit, bool nothing_else);
+  bool is_free(const VisitRequest& r, Wanted& wanted);
+  void claim(Running& visit);
   void end(Running& visit);
   void hand_over(Running& visit);
   void split(Node leaf);
@@ -48,7 +56,7 @@ class Greedy final : public LeafRefinement<D> {
   const int threads_;
   std::mutex mutex_;  ///< of all below, and of the tree, the inboxes and the counts
   std::condition_variable ended_;
-  std::set<Waiting> pool_;
+  std::map<Waiting, Wanted> pool_;
   std::set<std::pair<Node, std::uint32_t>> pooled_;  ///< leaf and order of what is in the pool
   std::vector<char> claimed_;  ///< by node
   std::uint64_t arrivals_ = 0, reserved_ = 0;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "detail/leaf_work.hpp"
+#include "detail/thread_numbers.hpp"
 #include "pgdr/conflict_manager.hpp"
 #include "pgdr/predicates.hpp"
 #include "pgdr/refine.hpp"
@@ -63,6 +64,8 @@ class LeafRefinement {
   /// Adds up what a visit did, and puts off what it set aside. `claim`: its leaves; none for the whole tree.
   void account(const VisitRequest& request, RegionVisit<D>& visit, std::span<const Node> claim);
   void post(Node leaf, std::vector<Entry<D>>&& entries);
+  /// Other threads than before will run visits. While none runs.
+  void threads_are_new() { numbers_.others_have_ended(); }
   bool wants_split(Node leaf);
   double small_radius(Node leaf) const { return options_.split_ratio * tree_.side(leaf) / 2; }
 
@@ -98,10 +101,10 @@ class LeafRefinement {
   RefineCounts counts_;
   std::mutex workers_mutex_;             ///< of the members below
   std::vector<Worker> workers_;
-  std::vector<std::pair<std::thread::id, double>> busy_;  ///< seconds, by thread
+  ThreadNumbers numbers_;
+  std::vector<double> busy_;             ///< seconds, by number of thread
   std::vector<VisitTrace> trace_;
   PredicateCounts predicates_elsewhere_;
-  const std::thread::id home_thread_ = std::this_thread::get_id();
 };
 
 extern template class LeafRefinement<2>;

@@ -27,7 +27,8 @@ struct LeafWork {
   std::uint64_t since = 0;                   ///< generation in which the list last became non-empty
   std::array<std::uint64_t, set_aside_orders.size()> set_aside_since{};
   std::uint64_t changed = 0;                 ///< generation in which a visit that had claimed it last changed the mesh
-  /// Claims with which something was refused here, by order, as they were first: later ones lie within, as leaves split.
+  /// Claims with which something was refused here, one for each order, as they were first: later ones lie within, as
+  /// leaves split.
   std::map<std::uint32_t, std::vector<std::uint32_t>> zones;
 
   bool has_list() const { return !list.empty() || !inbox.empty(); }

@@ -36,7 +36,7 @@ struct SchedulerStatistics {
   double work_seconds = 0;                  ///< all visits and serial_seconds
   double critical_path_seconds = 0;         ///< serial_seconds and, of each generation, the longest chain of visits
   double seconds_in_generations = 0;        ///< from the start of each generation's first visit to the end of its last
-  std::vector<double> busy_seconds;         ///< in visits, of each thread that ran any
+  std::vector<double> busy_seconds;         ///< in visits, of each thread that ran any; a thread that ended has a successor
 };
 
 /// One visit, as it ran. Seconds since the meshing began.
