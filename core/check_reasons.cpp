@@ -184,6 +184,7 @@ bool Reasons<D>::holds(const PoorReason& reason, std::string& why) {
     case PoorReason::Code::beyond_theory:
       return options_.radius_edge_bound < smallest_proved_bound<D>() ||
              fail("the radius-edge bound is not below the proved one");
+    case PoorReason::Code::kept_boundary: return beside_kept(reason, why);
     case PoorReason::Code::small_angle: break;
   }
   if (!options_.domain) return fail("an angle of the input cannot be measured without the input");
@@ -191,6 +192,25 @@ bool Reasons<D>::holds(const PoorReason& reason, std::string& why) {
   if (!exists(a) || !exists(b)) return fail("it names an entity that does not exist");
   if (!small_angle(a, b)) return fail(words(a) + " and " + words(b) + " meet at no small angle");
   return near(reason.cell, a) || fail("its circumball, doubled, does not meet " + words(a));
+}
+
+/// A segment in one piece that meets the cell's circumball, doubled, or has its centre in the diametral ball.
+template <int D>
+bool Reasons<D>::beside_kept(const PoorReason& reason, std::string& why) const {
+  const auto fail = [&](std::string text) {
+    why = std::move(text);
+    return false;
+  };
+  const EntityRef s = reason.entities[0];
+  if (!options_.domain || !conformity_) return fail("whether a segment was kept cannot be seen without the input");
+  if (D != 2 || s.kind != EntityKind::segment || !exists(s)) return fail("it names no segment of a planar input");
+  if (conformity_->pieces[s.id] != 1) return fail(words(s) + " has points of its own");
+  const auto& ends = options_.domain->segments()[s.id].points;
+  const Point<D> middle = along(options_.domain->points()[ends[0]], options_.domain->points()[ends[1]], 0.5);
+  const auto ball = circumsphere<D>(corners_of(mesh_, reason.cell));
+  const double reach = std::sqrt(squared_distance(middle, options_.domain->points()[ends[0]]));
+  const bool encroached = std::sqrt(squared_distance(middle, ball.center)) <= reach * (1 + 0x1p-30) + ball.center_error;
+  return encroached || near(reason.cell, s) || fail("its circumcentre is not beside " + words(s));
 }
 
 template <int D>

@@ -23,18 +23,18 @@ int corner_at_infinity(const CellRecord<D>& k) {
 }  // namespace
 
 // In a Delaunay triangulation, perturbed or not, a visibility walk cannot cycle (Edelsbrunner 1990), whichever of the
-// faces that hide p it crosses.
+// faces that hide p it crosses. In another one it ends if that is left to chance (Devillers, Pion, Teillaud 2002).
 template <int D>
 CellId locate(const Mesh<D>& mesh, const Point<D>& p, CellId hint) {
   CellId c = hint;
   if (const int i = corner_at_infinity<D>(mesh.cell(c)); i >= 0) c = mesh.cell(c).links[i].cell();
   int from = -1;
-  for (unsigned step = 0;; ++step) {
+  for (std::uint32_t random = 1;; random = random * 1664525 + 1013904223) {
     const CellRecord<D>& k = mesh.cell(c);
     const Simplex<D> corners = mesh.simplex(c);
     int exit = -1;
     for (int j = 0; j <= D && exit < 0; ++j) {
-      const int i = static_cast<int>((j + step) % (D + 1));
+      const int i = static_cast<int>((j + (random >> 16)) % (D + 1));
       if (i == from) continue;
       Simplex<D> s = corners;
       s[i] = p;

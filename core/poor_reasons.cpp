@@ -32,6 +32,15 @@ bool PoorReasons<D>::explains(const std::array<EntityRef, 2>& pair, const Ball<D
   return false;
 }
 
+/// As the checker will ask: does the segment meet the ball, or have its centre in the diametral ball?
+template <int D>
+bool PoorReasons<D>::is_beside(EntityRef segment, const Ball<D>& doubled) const {
+  if (segment.kind != EntityKind::segment) return false;
+  const auto& ends = domain_->segments()[segment.id].points;
+  return in_diametral_ball<D>(domain_->points()[ends[0]], domain_->points()[ends[1]], doubled.center) ||
+         detail::squared_distance_to<D>(*domain_, segment, doubled.center) <= doubled.squared_radius;
+}
+
 /// Adds the entities that the cell's vertices lie on, and those constrained on it.
 template <int D>
 void PoorReasons<D>::add_entities(CellId c, std::vector<EntityRef>& list) const {
@@ -85,12 +94,16 @@ PoorReason PoorReasons<D>::explain(CellId c, bool beside) const {
         cells.push_back(link.cell());
   }
   reason.code = proved ? PoorReason::Code::rounding : PoorReason::Code::beyond_theory;
+  if (!keep_boundary_ || beside) return reason;
+  if (const auto why = why_.find(index(c)); why != why_.end() && why->second) near.insert(near.begin(), why->second->entities[0]);
+  for (const EntityRef e : near)
+    if (is_beside(e, doubled)) return {0, PoorReason::Code::kept_boundary, {e, {}}, 0};
   return reason;
 }
 
 template <int D>
-PoorReasons<D>::PoorReasons(Mesh<D>& mesh, const Domain<D>& domain, const CellBounds<D>& bounds)
-    : mesh_(&mesh), domain_(&domain), bounds_(&bounds), flips_(mesh, domain), segments_at_(domain.points().size()) {
+PoorReasons<D>::PoorReasons(Mesh<D>& mesh, const Domain<D>& domain, const CellBounds<D>& bounds, bool keep_boundary)
+    : mesh_(&mesh), domain_(&domain), bounds_(&bounds), keep_boundary_(keep_boundary), flips_(mesh, domain), segments_at_(domain.points().size()) {
   for (EntityId s = 0; s < domain.segments().size(); ++s)
     for (const std::uint32_t p : domain.segments()[s].points) segments_at_[p].push_back(s);
 }

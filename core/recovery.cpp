@@ -3,6 +3,7 @@
 #include "pgdr/recovery.hpp"
 
 #include "detail/recovery_state.hpp"
+#include "detail/segment_insertion.hpp"
 
 namespace pgdr {
 namespace {
@@ -17,45 +18,42 @@ template <int D>
 StopCause recover_boundary(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, Delaunay<D>& delaunay,
                            const Domain<D>& domain, const RefineOptions<D>& options,
                            std::chrono::steady_clock::time_point start, RecoveryCounts& counts) {
-  detail::SegmentChains<D> chains(mesh, delaunay, domain);
   StopCause cause = StopCause::finished;
-  const std::uint64_t most = most_points(domain.points().size());
-  std::uint64_t facet_points = 0;
-  auto stop = [&] {
-    const std::uint64_t steiner = chains.points() + facet_points;
-    if (steiner > most)
-      throw InputError({Errc::boundary_not_recovered,
-                        "the boundary is not recovered after " + std::to_string(steiner) +
-                            " Steiner points; facets meet at very small angles or intersect",
-                        {}, 0, {}, {}});
+  auto stopped = [&] {
     if (options.stop.stop_requested()) cause = StopCause::cancelled;
-    if (domain.points().size() + steiner >= options.max_vertices) cause = StopCause::max_vertices;
     if (options.time_limit && std::chrono::steady_clock::now() - start >= *options.time_limit)
       cause = StopCause::time_limit;
     return cause != StopCause::finished;
   };
   if constexpr (D == 3) {
+    detail::SegmentChains chains(mesh, delaunay, domain);
     detail::FacetPatches patches(mesh, delaunay, domain, chains);
+    const std::uint64_t most = most_points(domain.points().size());
+    auto stop = [&] {
+      const std::uint64_t steiner = chains.points() + patches.points();
+      if (steiner > most)
+        throw InputError({Errc::boundary_not_recovered,
+                          "the boundary is not recovered after " + std::to_string(steiner) +
+                              " Steiner points; facets meet at very small angles or intersect",
+                          {}, 0, {}, {}});
+      if (domain.points().size() + steiner >= options.max_vertices) cause = StopCause::max_vertices;
+      return stopped();
+    };
     do {
       ++counts.rounds;
       if (stop() || !chains.recover(stop)) break;
-      const bool again = patches.recover_once([&] {
-        facet_points = patches.points();
-        return stop();
-      });
-      facet_points = patches.points();
-      if (!again) {
+      if (!patches.recover_once(stop)) {
         patches.mark(pools);
         chains.mark(pools);
         break;
       }
     } while (true);
+    counts.segment_points = chains.points();
+    counts.facet_points = patches.points();
   } else {
-    if (!stop() && chains.recover(stop)) chains.mark(pools);
+    if (!stopped()) detail::SegmentInsertion(mesh, pools, delaunay, domain).run(stopped);
     counts.rounds = 1;
   }
-  counts.segment_points = chains.points();
-  counts.facet_points = facet_points;
   return cause;
 }
 

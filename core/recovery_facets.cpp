@@ -30,7 +30,7 @@ InputError not_a_plane_graph(const Domain<3>& domain, EntityId f, const Mesh<3>&
 
 }  // namespace
 
-FacetPatches::FacetPatches(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>& domain, SegmentChains<3>& chains)
+FacetPatches::FacetPatches(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>& domain, SegmentChains& chains)
     : mesh_(&mesh),
       delaunay_(&delaunay),
       domain_(&domain),

@@ -25,6 +25,7 @@ RefineContext<D>::RefineContext(Mesh<D>& m, const Domain<D>& d, const RefineOpti
       options(o),
       bounds(std::move(b)),
       start(start_time),
+      shells(d),
       vertices(vertices_so_far),
       last_progress(start_time) {
   base_exponent = std::ilogb(bounding_box<D>(domain.points()).longest_side());
@@ -70,6 +71,7 @@ void Refiner<D>::list_poor(CellId c, std::uint8_t why) {
 
 template <int D>
 void Refiner<D>::list_entities(CellId c, const ConstraintRecord<D>& k) {
+  if (options_->keep_boundary) return;
   const auto& vertices = mesh_->cell(c).vertices;
   for (int f = 0; f <= D; ++f)
     if ((k.faces >> f & 1) && face_encroached_by(c, f, vertices[f]))

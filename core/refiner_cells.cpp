@@ -74,6 +74,9 @@ auto Refiner<D>::demand_of_cell(CellId c, const CellVerdict& verdict) const -> D
       least = std::min(least, relaxed_length<D>(*domain_, a, b));
     }
   if (!verdict.over_radius_edge) least = std::min(least, std::sqrt(mesh_->squared_radius_bounds(c).first) / 2);
+  // Without it a point may come nearer than the element's edges are long only beside a small angle or below the proved
+  // bound. There a little of that, with the radius inherited, makes elements good that would stay poor.
+  if (D == 2) return {inherited_fraction * least, least};
   return {least, 0};
 }
 
@@ -124,9 +127,32 @@ auto Refiner<D>::wall_before(CellId c, const Point<D>& x, MayEnter may_enter) co
   return std::nullopt;
 }
 
+/// Where the boundary is kept: a subsegment of the cavity's boundary with which x would make a triangle so flat that it has
+/// an angle below the bound, whatever comes after. (A point that merely encroaches upon it does more good than harm.)
+template <int D>
+auto Refiner<D>::flattened_face(const Point<D>& x) const -> std::optional<Item> {
+  if constexpr (D == 2) {
+    // An angle at x above 180 degrees less twice the bound: cosine below -(1 - 2 sin^2).
+    const double rho = options_->radius_edge_bound, limit = 1 - 1 / (2 * rho * rho);
+    for (const auto& f : cavity_.boundary()) {
+      if (!mesh_->constrained(f.cell, f.face)) continue;
+      const auto& v = mesh_->cell(f.cell).vertices;
+      const Point<D>&a = mesh_->point(v[(f.face + 1) % 3]), &b = mesh_->point(v[(f.face + 2) % 3]);
+      const double product = (a[0] - x[0]) * (b[0] - x[0]) + (a[1] - x[1]) * (b[1] - x[1]);
+      const double cosine = product / std::sqrt(squared_distance(a, x) * squared_distance(b, x));
+      if (!(cosine >= -limit)) return make_entry(f.cell, EntryKind::face, f.face);
+    }
+  }
+  return std::nullopt;
+}
+
 /// Splits the entity that hides the element's point, or that the point encroaches upon, in its place.
 template <int D>
 auto Refiner<D>::split_instead(const Item& entity, const Item& e, const CellVerdict& verdict) -> Outcome {
+  if (options_->keep_boundary) {
+    last_refusal_ = EntityPair{{EntityRef{EntityKind::segment, mesh_->constraints(entity.cell)->face_entity[entity.which]}, {}}};
+    return Outcome::refused;
+  }
   const Demand demand = demand_of_cell(e.cell, verdict);
   cavity_.release();
   const Outcome outcome = entity.kind == EntryKind::edge ? split_edge(entity, &demand) : split_face(entity, &demand);
@@ -160,7 +186,7 @@ auto Refiner<D>::treat_cell(const Item& e) -> Outcome {
     std::optional<Item> encroached, wall;
     if (cavity_.touches_constraints()) {
       encroached = encroached_edge(x);
-      if (!encroached) encroached = encroached_face(x);
+      if (!encroached) encroached = options_->keep_boundary ? flattened_face(x) : encroached_face(x);
       // Where x lies beyond a wall the cavity cannot be star-shaped about it; what is left of it is then of no use.
       wall = wall_before(c, x, [this](CellId k) { return mesh_->marked(k); });
     }
@@ -239,8 +265,12 @@ auto Refiner<D>::insert_point(const Item& e, const CellVerdict& verdict) -> Outc
   // Among volume vertices r >= d holds by itself, but for bounds below one and elements that are not poor in shape.
   bool ordinary = plain && e.which == Item::over_bound && !last_refusal_ && (options_->radius_edge_bound >= 1 || !verdict.over_radius_edge);
   for (const VertexId v : e.vertices) ordinary = ordinary && mesh_->vertex(v).home.kind() == EntityKind::volume;
-  if (!ordinary && insertion_radius<D>(*mesh_, cavity_) < demand_of_cell(e.cell, verdict).d) return Outcome::refused;
-  cavity_.commit(pools_, Home(EntityKind::volume, 0), rounded_down(r));
+  Demand demand;
+  if (!ordinary) {
+    demand = demand_of_cell(e.cell, verdict);
+    if (insertion_radius<D>(*mesh_, cavity_) < demand.d) return Outcome::refused;
+  }
+  cavity_.commit(pools_, Home(EntityKind::volume, 0), rounded_down(std::max(r, demand.h)));
   committed();
   return Outcome::committed;
 }

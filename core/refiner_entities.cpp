@@ -37,12 +37,49 @@ Point<D> Refiner<D>::segment_midpoint(EntityId s, VertexId a, VertexId b) const 
   return point_on_segment<D>(*domain_, s, ta + (tb - ta) / 2);
 }
 
+/// Where the two vertices lie on the segment, the smaller parameter first; its ends at 0 and 1.
+template <int D>
+std::array<double, 2> Refiner<D>::piece(EntityId s, VertexId a, VertexId b) const {
+  const auto parameter = [&](VertexId v) {
+    const Home home = mesh_->vertex(v).home;
+    if (home.kind() != EntityKind::vertex) return segment_parameter<D>(*domain_, s, mesh_->point(v));
+    return home.id() == domain_->segments()[s].points[0] ? 0.0 : 1.0;
+  };
+  const double ta = parameter(a), tb = parameter(b);
+  return {std::min(ta, tb), std::max(ta, tb)};
+}
+
+/// A point on a shell goes in where the first one of its end does, or one no farther from the end, on another segment there,
+/// is q; however near that is. (Of the former there are finitely many; a chain of the latter never comes nearer to the end,
+/// so that their distances are bounded by the least angle there.)
+template <int D>
+bool Refiner<D>::may_be_near(EntityId s, std::span<const VertexId> own, VertexId q) const {
+  if constexpr (D == 2) {
+    const auto [t0, t1] = piece(s, own[0], own[1]);
+    const int end = context_->shells.end_of(s, t0, t1);
+    if (end < 0) return false;
+    const std::uint32_t id = domain_->segments()[s].points[end];
+    const Point<D>& v = domain_->points()[id];
+    const VertexId far = mesh_->point(own[0]) == v ? own[1] : own[0];
+    if (!context_->shells.is_radius(s, std::sqrt(squared_distance(v, mesh_->point(far))))) return true;
+    if (q == no_vertex) return false;
+    const EntityRef home = mesh_->vertex(q).home.entity();
+    if (home.kind != EntityKind::segment || home.id == s) return false;
+    const auto& ends = domain_->segments()[home.id].points;
+    if (ends[0] != id && ends[1] != id) return false;
+    const double radius = std::sqrt(squared_distance(v, cavity_.point()));
+    return radius >= std::sqrt(squared_distance(v, mesh_->point(q))) - 2 * context_->shells.rounding(s);
+  }
+  return false;
+}
+
 template <int D>
 Point<D> Refiner<D>::face_point(CellId c, int face) const {
   const auto& k = mesh_->cell(c).vertices;
   const EntityId id = mesh_->constraints(c)->face_entity[face];
   if constexpr (D == 2) {
-    return segment_midpoint(id, k[(face + 1) % 3], k[(face + 2) % 3]);
+    const auto [t0, t1] = piece(id, k[(face + 1) % 3], k[(face + 2) % 3]);
+    return point_on_segment<D>(*domain_, id, context_->shells.split_parameter(id, t0, t1));
   } else {
     const Ball<3> ball = equatorial_ball(mesh_->point(k[(face + 1) & 3]), mesh_->point(k[(face + 2) & 3]),
                                          mesh_->point(k[(face + 3) & 3]));
@@ -152,9 +189,14 @@ auto Refiner<D>::decide(EntityRef entity, std::span<const VertexId> own, const D
   if (status == Cavity<D>::Status::ok) status = cavity_.check_nothing_swallowed();
   if (status == Cavity<D>::Status::not_owned) return give_up(Outcome::not_owned);
   if (status != Cavity<D>::Status::ok) return refuse(entity, own);
-  const Demand demand = cause ? *cause : demand_of(entity, own, false);
+  Demand demand = cause ? *cause : demand_of(entity, own, false);
   const double r = insertion_radius<D>(*mesh_, cavity_);
-  if (r < demand.d) return refuse(entity, own);
+  if (r < demand.d) {
+    const VertexId q = nearest_vertex<D>(*mesh_, cavity_, own);
+    if (entity.kind != EntityKind::segment || !may_be_near(entity.id, own, q)) return refuse(entity, own);
+    if (q != no_vertex && mesh_->vertex(q).home.kind() != EntityKind::vertex)
+      demand.h = std::max(demand.h, double{mesh_->vertex(q).relaxed_radius});
+  }
   if (r < options_->min_edge) {
     visit_->min_edge_hit = true;
     return refuse(entity, own);

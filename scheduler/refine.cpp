@@ -36,6 +36,7 @@ void validate(const RefineOptions<D>& options) {
   if (!(options.max_volume > 0)) bad_option("the volume bound must be positive");
   if (!(options.min_edge >= 0)) bad_option("the shortest edge allowed must not be negative");
   if (options.time_limit && !(options.time_limit->count() >= 0)) bad_option("the time limit must not be negative");
+  if (D == 3 && options.keep_boundary) bad_option("the boundary can be kept as it is in 2D only");
   const double delta = options.disk.delta;
   if (delta != 0 && !(delta >= smallest_proved_bound<D>() / options.radius_edge_bound && delta <= 1))
     bad_option("delta must lie between " + std::to_string(smallest_proved_bound<D>()) + " / radius-edge bound and 1");
@@ -79,6 +80,11 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   RefineResult<D> result;
   result.repairs = domain.repairs();
   result.warnings = domain.warnings();
+  if (D == 2 && options.radius_edge_bound < smallest_proved_bound<D>() && options.refine)
+    result.warnings.push_back({Errc::beyond_theory,
+                               "the bound on circumradius over shortest edge is below sqrt 2 (angles above 20.7 degrees): the "
+                               "refinement ends, but elements may stay poor without a small angle of the input",
+                               {}, 0, {}, {}});
 
   Mesh<D> mesh;
   auto pools = mesh.make_pools();
@@ -102,7 +108,7 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   const auto refine_start = Clock::now();
   const std::uint64_t vertices = domain.points().size() + result.statistics.segment_points + result.statistics.facet_points;
   RefineContext<D> context(mesh, domain, options, bounds_of(options, regions), vertices, start);
-  PoorReasons<D> reasons(mesh, domain, context.bounds);
+  PoorReasons<D> reasons(mesh, domain, context.bounds, options.keep_boundary);
   bool violations_seen = false;
   if (options.refine) {
     const auto refinement = make_refinement<D>(context, std::move(pools), vertices);

@@ -11,6 +11,7 @@
 #include "command.hpp"
 #include "console.hpp"
 #include "pgdr/io.hpp"
+#include "planar.hpp"
 
 namespace pgdr::tool {
 namespace {
@@ -18,12 +19,13 @@ namespace {
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 template <int D>
-std::optional<Domain<D>> read_domain(const std::string& input) {
+std::optional<Domain<D>> read_domain(const std::string& input, const PlanarArguments& planar) {
   if (input.empty()) return std::nullopt;
   if (file_dimension(input) != D)
     throw UsageError(
         {.code = Errc::bad_option, .message = format("the mesh is %dD, its input is not", D), .file = input});
-  return std::optional<Domain<D>>(std::in_place, read_plc<D>(input));
+  std::vector<Diagnostic> repairs;
+  return std::optional<Domain<D>>(std::in_place, read_input<D>(input, planar, repairs));
 }
 
 template <int D>
@@ -74,7 +76,7 @@ template <int D>
 int check_as(const CheckArguments& a, Report& report) {
   const Bounds<D> bounds = resolve<D>(a.bounds, unbounded);
   const OutputMesh<D> mesh = read_mesh<D>(a.mesh);
-  const std::optional<Domain<D>> domain = read_domain<D>(a.input);
+  const std::optional<Domain<D>> domain = read_domain<D>(a.input, a.planar);
   std::vector<PoorReason> reasons;
   if (!a.reasons.empty()) reasons = read_reasons(a.reasons);
 

@@ -11,6 +11,7 @@
 #include "files.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/io.hpp"
+#include "planar.hpp"
 #include "pgdr/refine.hpp"
 
 namespace pgdr::tool {
@@ -65,7 +66,8 @@ double smallest_angle(const Domain<D>& domain) {
 
 template <int D>
 int info_of_input(const InfoArguments& a, Report& report) {
-  const Plc<D> plc = read_plc<D>(a.file);
+  std::vector<Diagnostic> repairs;
+  const Plc<D> plc = read_input<D>(a.file, a.planar, repairs);
   report.set("kind", "input");
   JsonObject d;
   d.set("accepted", false);
@@ -130,10 +132,11 @@ int info_of_input(const InfoArguments& a, Report& report) {
   d.set("accepted", true);
   report.set("diagnosis", d);
   report.set("warnings", to_json(result.warnings));
-  report.set("repairs", to_json(result.repairs));
+  repairs.insert(repairs.end(), result.repairs.begin(), result.repairs.end());
+  report.set("repairs", to_json(repairs));
   if (!a.quiet) {
     print_warnings(result.warnings);
-    if (!result.repairs.empty()) print_row("repaired", count(result.repairs.size(), "defect", "defects"));
+    if (!repairs.empty()) print_row("repaired", count(repairs.size(), "defect", "defects"));
     print_row("verdict", "pgdr mesh takes it");
   }
   return exit_done;

@@ -11,12 +11,15 @@
 #include "diagnosis.hpp"
 #include "files.hpp"
 #include "pgdr/io.hpp"
+#include "planar.hpp"
 #include "signals.hpp"
 #include "threads.hpp"
 #include "trace.hpp"
 
 namespace pgdr::tool {
 namespace {
+
+constexpr double most_min_angle = 34;  // degrees; beyond, the number of points explodes
 
 template <int D>
 RefineOptions<D> make_options(const MeshArguments& a, const Bounds<D>& bounds) {
@@ -25,6 +28,7 @@ RefineOptions<D> make_options(const MeshArguments& a, const Bounds<D>& bounds) {
   options.size = bounds.size;
   options.max_volume = bounds.max_volume;
   options.disk = {a.type1 ? DiskType::type1 : DiskType::type2, a.delta};
+  options.keep_boundary = a.keep_boundary;
   options.min_edge = a.min_edge;
   if (a.max_vertices) options.max_vertices = *a.max_vertices;
   options.schedule.threads = a.threads.value_or(0);
@@ -98,7 +102,7 @@ std::string verdict(const RefineResult<D>& r) {
                                                      : count(r.poor_left, "element stays poor", "elements stay poor");
   if (r.reasons.size() > r.poor_left)
     text += ", " + count(r.reasons.size() - r.poor_left, "is", "are") + " not Delaunay";
-  std::array<std::uint64_t, 3> by_code{};
+  std::array<std::uint64_t, 4> by_code{};
   for (const PoorReason& reason : r.reasons) ++by_code[static_cast<std::size_t>(reason.code)];
   const char* separator = ": ";
   for (std::size_t i = 0; i < by_code.size(); ++i) {
@@ -156,6 +160,9 @@ void write_trace(const MeshArguments& a, const RefineResult<D>& r, const Seconds
 template <int D>
 int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
   const Bounds<D> bounds = resolve<D>(a.bounds, smallest_proved_bound<D>());
+  if (D == 2 && a.bounds.min_angle.value_or(0) > most_min_angle)
+    throw UsageError({.code = Errc::bad_option,
+                      .message = format("--min-angle takes up to %.0f degrees: few elements meet more", most_min_angle)});
   RefineOptions<D> options = make_options<D>(a, bounds);
   const StopOnSignal signals;
   const Threads threads(a.threads);
@@ -163,7 +170,8 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
 
   Seconds seconds;
   seconds.read_at = total.seconds();
-  const Plc<D> plc = read_plc<D>(a.input);
+  std::vector<Diagnostic> repairs;
+  const Plc<D> plc = read_input<D>(a.input, a.planar, repairs);
   seconds.mesh_at = total.seconds();
   seconds.read = seconds.mesh_at - seconds.read_at;
 
@@ -180,6 +188,7 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
     if (diagnosis.error_count() == 0) throw;
     return refuse(diagnosis, report);
   }
+  result.repairs.insert(result.repairs.begin(), repairs.begin(), repairs.end());
   if (!a.quiet) print_warnings(result.warnings);
   const QualitySummary quality = summarize_quality(result.mesh);
   fill(report, a, threads, bounds, result, quality);

@@ -21,9 +21,16 @@ struct BoundArguments {
   std::optional<double> min_angle;
 };
 
+/// What `mesh` and `check` do to a planar input before anything else.
+struct PlanarArguments {
+  bool resolve_crossings = false, convex_hull = false;
+};
+
 struct MeshArguments {
   std::string input, output;
   BoundArguments bounds;
+  PlanarArguments planar;
+  bool keep_boundary = false;
   bool type1 = false;   ///< the selection disk; else type 2
   double delta = 0;
   std::optional<int> threads;      ///< none: one a core
@@ -40,6 +47,7 @@ struct MeshArguments {
 struct CheckArguments {
   std::string mesh, input;  ///< input empty: conformity is not checked
   BoundArguments bounds;
+  PlanarArguments planar;
   std::string reasons;      ///< a report of `mesh`
   std::string report;
   bool quiet = false;
@@ -47,6 +55,7 @@ struct CheckArguments {
 
 struct InfoArguments {
   std::string file;
+  PlanarArguments planar;
   std::string report;
   bool quiet = false;
 };

@@ -12,7 +12,7 @@
 namespace pgdr::tool {
 namespace {
 
-constexpr std::array<const char*, 3> code_names{"small_angle", "rounding", "beyond_theory"};
+constexpr std::array<const char*, 4> code_names{"small_angle", "rounding", "beyond_theory", "kept_boundary"};
 constexpr std::array<const char*, 4> kind_names{"vertex", "segment", "facet", "volume"};
 
 Json to_json(const EntityRef& e) {

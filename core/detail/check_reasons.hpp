@@ -30,6 +30,7 @@ class Reasons {
 
  private:
   bool holds(const PoorReason& reason, std::string& why);
+  bool beside_kept(const PoorReason& reason, std::string& why) const;
   bool small_angle(EntityRef a, EntityRef b);
   bool measure_angle(EntityRef a, EntityRef b) const;
   bool small_at_point(std::uint32_t point, EntityRef b) const;

@@ -11,11 +11,11 @@
 
 #include "detail/wanted_simplices.hpp"
 #include "pgdr/recovery.hpp"
+#include "pgdr/shells.hpp"
 
 namespace pgdr::detail {
 
-/// The subsegments of every segment, and where to split them.
-template <int D>
+/// 3D: the subsegments of every segment, and where to split them.
 class SegmentChains {
  public:
   struct Link {
@@ -23,7 +23,7 @@ class SegmentChains {
     double t;  ///< parameter on the segment
   };
 
-  SegmentChains(Mesh<D>& mesh, Delaunay<D>& delaunay, const Domain<D>& domain);
+  SegmentChains(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>& domain);
 
   /// Splits every subsegment that is no edge of the mesh, until none is missing. False if `stop` says so.
   template <class Stop>
@@ -44,7 +44,7 @@ class SegmentChains {
   /// Segments whose chain has changed since the last call.
   std::vector<EntityId> take_changed();
   std::uint64_t points() const { return points_; }
-  void mark(typename Mesh<D>::Pools& pools);
+  void mark(Mesh<3>::Pools& pools);
 
  private:
   struct Subsegment {
@@ -54,26 +54,21 @@ class SegmentChains {
   std::vector<Subsegment> missing() const;
   std::size_t position(EntityId segment, VertexId a, VertexId b) const;
   void add(EntityId segment, std::size_t position, VertexId v, double t);
-  double split_parameter(EntityId segment, const Link& a, const Link& b) const;
-  void find_shells();
   WantedSimplices<2> wanted() const;
 
-  Mesh<D>* mesh_;
-  Delaunay<D>* delaunay_;
-  const Domain<D>* domain_;
+  Mesh<3>* mesh_;
+  Delaunay<3>* delaunay_;
+  const Domain<3>* domain_;
   std::vector<std::vector<Link>> chains_;
-  std::vector<std::array<bool, 2>> shell_;  ///< another segment makes less than 60 degrees at this end
+  Shells<3> shells_;
   std::vector<EntityId> changed_;
   std::uint64_t points_ = 0;
 };
 
-extern template class SegmentChains<2>;
-extern template class SegmentChains<3>;
-
 /// The triangulation of every facet in its plane.
 class FacetPatches {
  public:
-  FacetPatches(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>& domain, SegmentChains<3>& chains);
+  FacetPatches(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>& domain, SegmentChains& chains);
 
   /// Puts points where triangles are missing, one round. False if none was missing. Ends early if `stop` says so.
   bool recover_once(const std::function<bool()>& stop);
@@ -97,7 +92,7 @@ class FacetPatches {
   Mesh<3>* mesh_;
   Delaunay<3>* delaunay_;
   const Domain<3>* domain_;
-  SegmentChains<3>* chains_;
+  SegmentChains* chains_;
   std::vector<std::vector<Triangle>> triangles_;
   std::vector<std::vector<VertexId>> inner_points_;  ///< Steiner points inside each facet
   std::vector<bool> changed_;

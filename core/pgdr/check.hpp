@@ -26,7 +26,9 @@ namespace pgdr {
 
 /// Why a cell stayed over a bound; one entry of the report's `bounds.reasons`.
 struct PoorReason {
-  enum class Code { small_angle, rounding, beyond_theory };
+  /// kept_boundary: the first entity is a segment without points of its own, which hides the circumcentre or is encroached
+  /// upon by it (RefineOptions::keep_boundary).
+  enum class Code { small_angle, rounding, beyond_theory, kept_boundary };
   std::uint32_t cell = 0;  ///< index into OutputMesh::cells
   Code code = Code::small_angle;
   std::array<EntityRef, 2> entities;  ///< input entities (of the Domain) that meet at the angle

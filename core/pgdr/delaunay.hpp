@@ -14,7 +14,7 @@
 namespace pgdr {
 
 /// The cell that contains p (closed), or the ghost beyond whose hull face p lies, by a visibility walk from `hint`.
-/// @pre the mesh is a Delaunay triangulation closed by ghosts.
+/// @pre the mesh is a triangulation, Delaunay or not, closed by ghosts.
 template <int D>
 CellId locate(const Mesh<D>& mesh, const Point<D>& p, CellId hint);
 

@@ -10,15 +10,19 @@
 // would stay poor without a small angle anywhere near.) Let r(x) be the distance from a new point x to the nearest vertex
 // of its cavity. x is inserted only if r(x) >= d, and gets R(x) = max(r(x), h), where
 //   * for a poor element, or an entity that it encroaches upon or that hides its point: d is the least relaxed length
-//     of the element's edges (of an element only too big, at most half its circumradius); h = 0;
+//     of the element's edges (of an element only too big, at most half its circumradius); h = 0. In 2D c times that
+//     length is d, and that length is h;
 //   * for an entity encroached upon by q, the cavity's nearest vertex that is none of the entity's: if q is an input
 //     vertex or the entities of q and x do not touch, d = h = 0 (r(x) is then at least the least distance of disjoint
 //     entities; passed on from a facet to a segment, d = |xq| / 2); else d = c R(q), h = R(q), c = 1/2;
-//   * for a missing subsegment or subfacet of the boundary recovery: d = h = 0.
+//   * for a missing subsegment or subfacet of the boundary recovery: d = h = 0;
+//   * 2D: for a point of a subsegment on a shell (shells.hpp), the first at its end or no nearer to it than q, on another
+//     segment there, d = 0 in any case, and h is at least R(q).
 // Since R is inherited along a chain of small angles the factor c is paid once, not once a link: with
-// lambda = min(half the least distance of disjoint entities, the shortest edge of the recovered mesh, half the least size)
-// relaxed lengths are at least lambda as long as R is, and every Steiner point of the refinement has R >= lambda and
-// r >= c lambda, by induction over the insertions. Mutually visible vertices are thus c lambda apart, and the domain is
+// lambda = min(half the least distance of disjoint entities, the shortest edge of the recovered mesh, half the least size,
+// the least first shell) relaxed lengths are at least lambda as long as R is, and every Steiner point of the refinement has
+// R >= lambda and r >= c lambda, by induction over the insertions (on shells: r >= c lambda min(1, 2 sin(a / 2)), a the
+// least angle between segments, as distances from their end do not shrink from one shell to the other). Mutually visible vertices are thus c lambda apart, and the domain is
 // bounded: finitely many insertions. Vertices of the volume that are taken out again (local_rewrap.hpp) are finitely many,
 // too. Without inheritance c would have to be 1. Pure functions; any thread.
 #pragma once

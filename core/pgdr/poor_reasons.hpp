@@ -28,7 +28,8 @@ struct PoorCell {
 template <int D>
 class PoorReasons {
  public:
-  PoorReasons(Mesh<D>& mesh, const Domain<D>& domain, const CellBounds<D>& bounds);
+  /// `keep_boundary`: no segment was split (RefineOptions).
+  PoorReasons(Mesh<D>& mesh, const Domain<D>& domain, const CellBounds<D>& bounds, bool keep_boundary = false);
 
   /// What was refused in one region.
   void add(std::span<const Refusal<D>> refused);
@@ -44,6 +45,7 @@ class PoorReasons {
 
   PoorReason explain(CellId c, bool beside) const;
   bool explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, PoorReason& reason) const;
+  bool is_beside(EntityRef segment, const Ball<D>& doubled) const;
   void add_entities(CellId c, std::vector<EntityRef>& list) const;
   void look_at(CellId c, bool violations_seen, std::vector<PoorCell>& poor) const;
   bool is_violated(CellId c) const;
@@ -51,6 +53,7 @@ class PoorReasons {
   const Mesh<D>* mesh_;
   const Domain<D>* domain_;
   const CellBounds<D>* bounds_;
+  bool keep_boundary_;
   LocalFlips<D> flips_;
   std::vector<EntityIds> segments_at_;  ///< of each input point
   /// Of the refused elements that are still there: by what; no entities if no pair was at fault.

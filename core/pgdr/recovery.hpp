@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Boundary recovery: makes every segment and facet of the domain a union of edges and faces of the Delaunay
-// triangulation, by Steiner points on segments and facets, then marks them. What comes out is conforming Delaunay.
-// The rest of the project knows `recover_boundary` alone, so that another front end can take its place.
+// Boundary recovery: makes every segment and facet of the domain a union of edges and faces of the triangulation, and
+// marks them. The rest of the project knows `recover_boundary` alone, so that another front end can take its place.
 //
-// Segments (after Shewchuk; Si): a missing subsegment is split at its middle, but next to an end where another segment
+// 2D: without any Steiner point; what comes out is the constrained Delaunay triangulation (detail/segment_insertion.hpp).
+// 3D: by Steiner points on segments and facets; what comes out is conforming Delaunay. Segments (after Shewchuk; Si): a missing subsegment is split at its middle, but next to an end where another segment
 // makes an angle below 60 degrees on a sphere about that end whose radius is a power of two, so that points of
 // neighbouring segments meet on common spheres. Facets: each keeps the constrained Delaunay triangulation of its
 // points in its plane; a triangle that is no face of the mesh gets a point at its circumcentre, unless that
@@ -25,7 +25,7 @@ struct RecoveryCounts {
 /// @pre `delaunay` has built the triangulation of domain.points(), in that order.
 /// @throws InputError boundary_not_recovered, entities_intersect, with the entities' ids and coordinates.
 /// @returns a StopCause other than finished if options.max_vertices, the time limit or the stop token ended it early; the
-///   mesh is then a Delaunay triangulation without marks.
+///   mesh is then without marks.
 template <int D>
 StopCause recover_boundary(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, Delaunay<D>& delaunay,
                            const Domain<D>& domain, const RefineOptions<D>& options,

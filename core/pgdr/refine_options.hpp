@@ -56,6 +56,8 @@ struct RefineOptions {
   DiskOptions disk;
   OutsidePolicy outside = OutsidePolicy::replace_by_circumcenter;
   bool refine = true;             ///< false: boundary recovery alone
+  /// 2D: no new point on any segment. Elements that this leaves poor have the reason kept_boundary.
+  bool keep_boundary = false;
   double min_edge = 0;            ///< insertions that would make an edge shorter than this are refused
   std::uint64_t max_vertices = std::numeric_limits<std::uint64_t>::max();
   std::optional<std::chrono::duration<double>> time_limit;

@@ -21,6 +21,7 @@
 #include "pgdr/insertion_rule.hpp"
 #include "pgdr/local_flips.hpp"
 #include "pgdr/refine_options.hpp"
+#include "pgdr/shells.hpp"
 #include "pgdr/visit_area.hpp"
 #include "pgdr/work_list.hpp"
 
@@ -54,6 +55,7 @@ struct RefineContext {
   const RefineOptions<D>& options;
   const CellBounds<D> bounds;
   const std::chrono::steady_clock::time_point start;
+  const Shells<D> shells;  ///< of 2D alone: in 3D the front end splits on them
   int base_exponent = 0;  ///< of bucket 0: circumradii of the size of the domain and above
   static constexpr int buckets = 64;
 
@@ -144,6 +146,8 @@ class Refiner {
   Outcome split_edge(const Item& e, const Demand* cause);
   Point<D> face_point(CellId c, int face) const;
   Point<D> segment_midpoint(EntityId s, VertexId a, VertexId b) const;
+  std::array<double, 2> piece(EntityId s, VertexId a, VertexId b) const;
+  bool may_be_near(EntityId s, std::span<const VertexId> own, VertexId q) const;
   std::optional<Item> encroached_edge(const Point<D>& x) const;
   std::optional<Item> edge_beyond(const Point<D>& x) const;
   struct FacetWalk {
@@ -166,6 +170,8 @@ class Refiner {
   template <class MayEnter>
   std::optional<Item> wall_before(CellId c, const Point<D>& x, MayEnter may_enter) const;
   Outcome split_instead(const Item& entity, const Item& e, const CellVerdict& verdict);
+
+  std::optional<Item> flattened_face(const Point<D>& x) const;
 
   void committed();
   void flipped();

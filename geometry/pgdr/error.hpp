@@ -47,6 +47,7 @@ enum class Errc {
   non_manifold,
   inconsistent_orientation,
   small_angle,
+  beyond_theory,  ///< a bound below the proved one is asked for
   // files
   cannot_open,
   cannot_write,
