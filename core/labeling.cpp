@@ -111,6 +111,29 @@ std::vector<std::uint16_t> assign_regions(const Labeling<D>& labeling, const Dom
   return region;
 }
 
+/// Names the points at which one segment alone ends (2D), where the gaps are.
+template <int D>
+[[noreturn]] void fail_nothing_left(const Domain<D>& domain) {
+  Diagnostic d{Errc::encloses_nothing,
+               std::string("the ") + (D == 3 ? "facets" : "segments") +
+                   " enclose nothing: the outside, or a hole, reaches every part of the input's convex hull through gaps",
+               domain.source().file, 0, {}, {}};
+  if constexpr (D == 2) {
+    constexpr std::size_t most = 20;
+    std::vector<int> segments(domain.points().size(), 0);
+    for (const DomainSegment& s : domain.segments())
+      for (const std::uint32_t v : s.points) ++segments[v];
+    for (std::uint32_t v = 0; v < segments.size() && d.ids.size() < most; ++v) {
+      if (segments[v] != 1) continue;
+      d.message += (d.ids.empty() ? "; one segment alone ends at points " : ", ");
+      d.ids.push_back(std::int64_t{domain.input_of_point()[v]} + domain.first_index());
+      d.points.push_back({domain.points()[v][0], domain.points()[v][1], 0});
+      d.message += std::to_string(d.ids.back());
+    }
+  }
+  throw InputError(std::move(d));
+}
+
 }  // namespace
 
 template <int D>
@@ -128,11 +151,7 @@ RegionTable carve(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Delaunay<
   const std::vector<std::uint16_t> region = assign_regions<D>(labeling, domain, table, warnings);
   bool nothing_left = true;
   for (std::size_t c = 0; c < removed.size(); ++c) nothing_left = nothing_left && removed[c];
-  if (nothing_left)
-    throw InputError({Errc::encloses_nothing,
-                      std::string("the ") + (D == 3 ? "facets" : "segments") +
-                          " enclose nothing: the outside reaches every part of the input's convex hull through gaps",
-                      {}, 0, {}, {}});
+  if (nothing_left) fail_nothing_left(domain);
 
   const std::uint32_t bound = mesh.cell_bound();
   auto doomed = [&](CellId c) { return removed[labeling.component(c)]; };

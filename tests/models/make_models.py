@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The pgdr authors
 # SPDX-License-Identifier: Apache-2.0
-"""Makes the models that ship with the project: bracket.poly (3D, TetGen) and plate.poly (2D, Triangle).
+"""Makes the models that ship with the project: bracket.poly (3D, TetGen), plate.poly and river.poly (2D, Triangle).
 
 Usage: make_models.py [FOLDER]     (default: the folder of this script)
 
@@ -85,13 +85,11 @@ def bracket():
     return s
 
 
-def plate(path):
-    """A plate with two holes; its angles are 90 degrees or more."""
-    outline = [(0, 0), (6, 0), (6, 2), (4.5, 2), (3.5, 3), (0, 3)]
-    loops = [outline, arc(1.5, 1.5, 0.75, 0, 360, 16)[:-1], arc(5, 1, 0.4, 0, 360, 12)[:-1]]
+def write_loops(path, comment, loops, holes):
+    """Closed polygons, one marker each, in Triangle's .poly."""
     points = [p for loop in loops for p in loop]
     with open(path, "w", encoding="ascii") as out:
-        out.write("# A plate with two holes (Triangle's .poly). Made by make_models.py\n")
+        out.write(comment)
         out.write(f"{len(points)} 2 0 0\n")
         for i, (x, y) in enumerate(points, 1):
             out.write(f"{i} {x:g} {y:g}\n")
@@ -102,7 +100,34 @@ def plate(path):
                 out.write(f"{number} {first + i} {first + (i + 1) % len(loop)} {marker}\n")
                 number += 1
             first += len(loop)
-        out.write("2\n1 1.5 1.5\n2 5 1\n")
+        out.write(f"{len(holes)}\n" + "".join(f"{i} {x:g} {y:g}\n" for i, (x, y) in enumerate(holes, 1)))
+
+
+def plate(path):
+    """A plate with two holes; its angles are 90 degrees or more."""
+    outline = [(0, 0), (6, 0), (6, 2), (4.5, 2), (3.5, 3), (0, 3)]
+    loops = [outline, arc(1.5, 1.5, 0.75, 0, 360, 16)[:-1], arc(5, 1, 0.4, 0, 360, 12)[:-1]]
+    write_loops(path, "# A plate with two holes (Triangle's .poly). Made by make_models.py\n", loops, [(1.5, 1.5), (5, 1)])
+
+
+def river(path):
+    """A winding river with an island and two piers of a bridge, about 400 long."""
+    def bank(x, side):
+        middle = 200 + 55 * math.sin(x / 45) + 9 * math.sin(x / 13)
+        return (x, round(middle + side * (22 + 7 * math.sin(x / 29 + side)), 3))
+
+    steps = range(0, 401, 8)
+    outline = [bank(x, -1) for x in steps] + [bank(x, 1) for x in reversed(steps)]
+    mid = (bank(200, -1)[1] + bank(200, 1)[1]) / 2
+    island = [(round(200 + 24 * math.cos(a), 3), round(mid + (6 + 2 * math.sin(3 * a)) * math.sin(a), 3))
+              for a in (2 * math.pi * i / 28 for i in range(28))]
+    piers, seeds = [], [(200, mid)]
+    for x in (96, 104):
+        y = (bank(x, -1)[1] + bank(x, 1)[1]) / 2 + (x - 100)
+        piers.append([(x - 1, y - 2), (x + 1, y - 2), (x + 1, y + 2), (x, y + 3), (x - 1, y + 2)])
+        seeds.append((x, y))
+    write_loops(path, "# A river with an island and two piers (Triangle's .poly). Made by make_models.py\n",
+                [outline, island] + piers, seeds)
 
 
 if __name__ == "__main__":
@@ -110,3 +135,4 @@ if __name__ == "__main__":
     bracket().write(os.path.join(folder, "bracket.poly"),
                     "# An angle bracket with three holes (TetGen's .poly). Made by make_models.py\n")
     plate(os.path.join(folder, "plate.poly"))
+    river(os.path.join(folder, "river.poly"))

@@ -1,0 +1,303 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Planar straight line graphs from the triangulation of their segments to the refined mesh.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "parallel_support.hpp"
+#include "pgdr/io.hpp"
+#include "pgdr/quality.hpp"
+#include "planar_plcs.hpp"
+
+namespace pgdr {
+namespace {
+
+using namespace test;
+
+double bound_of(double degrees) { return 1 / (2 * std::sin(degrees * std::numbers::pi / 180)); }
+
+RefineOptions<2> to_angle(double degrees) {
+  RefineOptions<2> options;
+  options.radius_edge_bound = bound_of(degrees);
+  return options;
+}
+
+RefineOptions<2> unrefined() {
+  RefineOptions<2> options;
+  options.refine = false;
+  return options;
+}
+
+/// The triangles by their corners' coordinates, for comparison of triangulations of the same points in another order.
+std::vector<std::array<Point2, 3>> triangles(const OutputMesh<2>& mesh) {
+  std::vector<std::array<Point2, 3>> all;
+  for (const auto& c : mesh.cells) {
+    std::array<Point2, 3> t{mesh.points[c[0]], mesh.points[c[1]], mesh.points[c[2]]};
+    std::sort(t.begin(), t.end(), lex_less<2>);
+    all.push_back(t);
+  }
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), lex_less<2>);
+  });
+  return all;
+}
+
+template <class Random>
+Plc<2> in_other_order(const Plc<2>& plc, Random& random) {
+  std::vector<std::uint32_t> place(plc.points.size());
+  for (std::uint32_t i = 0; i < place.size(); ++i) place[i] = i;
+  std::shuffle(place.begin(), place.end(), random);
+  Plc<2> other = plc;
+  for (std::size_t i = 0; i < place.size(); ++i) other.points[place[i]] = plc.points[i];
+  for (auto& s : other.segments) {
+    for (auto& v : s.points) v = place[v];
+    if (random() & 1) std::swap(s.points[0], s.points[1]);
+  }
+  std::shuffle(other.segments.begin(), other.segments.end(), random);
+  return other;
+}
+
+/// No point is added, the segments are edges, and every other edge is locally Delaunay: the checker says so.
+void expect_constrained_delaunay(const Plc<2>& plc, std::uint64_t seed) {
+  CheckOptions<2> options;
+  const Domain<2> domain(plc);
+  options.domain = &domain;
+  const auto result = refine<2>(domain, unrefined());
+  EXPECT_EQ(result.mesh.points.size(), domain.points().size());
+  EXPECT_EQ(result.mesh.subsegments.size(), domain.segments().size());
+  const CheckReport report = check<2>(result.mesh, options);
+  EXPECT_EQ(report.exit_code(), 0) << "seed " << seed << "\n" << findings(report);
+  EXPECT_EQ(report.not_delaunay_rounding, 0u) << "seed " << seed;
+  Random random(seed);
+  for (int k = 0; k < 3; ++k) {
+    const auto again = refine<2>(in_other_order(plc, random), unrefined());
+    EXPECT_EQ(triangles(result.mesh), triangles(again.mesh)) << "seed " << seed << " depends on the order";
+  }
+}
+
+TEST(ConstrainedDelaunay, RandomPoints) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) expect_constrained_delaunay(random_graph(60, 80, 0, seed), seed);
+  expect_constrained_delaunay(random_graph(1500, 800, 0, 41), 41);
+}
+
+TEST(ConstrainedDelaunay, GridsFullOfCocircularPoints) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) expect_constrained_delaunay(random_graph(60, 80, 12, seed), seed);
+  expect_constrained_delaunay(random_graph(1000, 600, 40, 41), 41);
+}
+
+TEST(ConstrainedDelaunay, OneSegmentThroughAll) {
+  Plc<2> plc = random_graph(400, 0, 0, 7);
+  const auto first = static_cast<std::uint32_t>(plc.points.size());
+  plc.points.insert(plc.points.end(), {{{-0.5, 0.5000001}}, {{1.5, 0.5000002}}});
+  add_segment(plc, first, first + 1);
+  expect_constrained_delaunay(plc, 7);
+}
+
+/// Segments whose one end lies beside a crossed one: their polygons have edges that dangle, and vertices twice.
+TEST(ConstrainedDelaunay, DanglingEdgesBesideASegment) {
+  Plc<2> plc;
+  add_square(plc, -10, 10);
+  plc.points.insert(plc.points.end(), {{{-9, 0}}, {{9, 0}}});
+  add_segment(plc, 4, 5);
+  for (std::uint32_t i = 0; i < 30; ++i) {
+    const double x = -8 + 0.5 * i, sign = i % 2 ? -1 : 1;
+    plc.points.insert(plc.points.end(), {{{x, sign * (3 + i % 5)}}, {{x + 0.1, sign * (0.05 + 0.02 * (i % 7))}}});
+    add_segment(plc, 6 + 2 * i, 7 + 2 * i);
+  }
+  expect_constrained_delaunay(plc, 3);
+}
+
+TEST(ConstrainedDelaunay, HairyPolygonsAndFans) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    expect_constrained_delaunay(hairy_polygon(200, seed), seed);
+    expect_constrained_delaunay(fan(60, 1.5, seed), seed);
+  }
+}
+
+TEST(ConstrainedDelaunay, WhatCrossesIsRefusedByName) {
+  Plc<2> plc;
+  add_square(plc, 0, 4);
+  plc.points.insert(plc.points.end(), {{{1, 1}}, {{3, 3}}, {{1, 3}}, {{3, 1}}});
+  add_segment(plc, 4, 5);
+  add_segment(plc, 6, 7);
+  try {
+    refine<2>(plc, unrefined());
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_EQ(e.code(), Errc::entities_intersect);
+    EXPECT_EQ(e.diagnostic().ids, (std::vector<std::int64_t>{4, 5, 6, 7}));
+  }
+}
+
+/// Checked, reproducible, and no angle smaller than theory allows beside the least angle of the input (Miller, Pav,
+/// Walkington 2003), nor larger than the bound allows.
+void expect_refined(const Plc<2>& plc, double degrees, const std::string& what) {
+  const auto result = expect_reproducible<2>(plc, to_angle(degrees), what + " to " + std::to_string(degrees));
+  const double phi = std::min(least_angle(plc), 60.0) * std::numbers::pi / 180;
+  const double beside = std::atan(std::sin(phi) / (2 - std::cos(phi))) * 180 / std::numbers::pi;
+  const QualitySummary quality = summarize_quality<2>(result.mesh);
+  EXPECT_GE(quality.min_angle_deg, std::min(degrees, beside) * (1 - 1e-6)) << what;
+  for (const PoorReason& reason : result.reasons) EXPECT_EQ(reason.code, PoorReason::Code::small_angle) << what;
+}
+
+TEST(PlanarRefinement, GraphsWithSmallAngles) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    expect_refined(fan(5, 11, seed), 20.7, "a fan");
+    expect_refined(fan(2, 1, seed), 20.7, "a needle");
+  }
+  expect_refined(fan(3, 31, 4), 30, "a wide fan");
+}
+
+TEST(PlanarRefinement, EveryInputEnds) {
+  const std::vector<Runner> some{{"threads 2", Executor::threads, 2}, {"threads 8", Executor::threads, 8}};
+  for (const double degrees : {20.7, 30.0}) {
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      expect_reproducible<2>(random_graph(40, 40, 0, seed), to_angle(degrees), "random", some);
+      expect_reproducible<2>(random_graph(40, 40, 9, seed), to_angle(degrees), "on a grid", some);
+      expect_reproducible<2>(turned(random_graph(40, 40, 9, seed)), to_angle(degrees), "on a turned grid", some);
+    }
+    expect_reproducible<2>(hairy_polygon(60, 5), to_angle(degrees), "hairy", some);
+    expect_reproducible<2>(fan(40, 0.5, 6), to_angle(degrees), "a narrow fan", some);
+  }
+}
+
+TEST(PlanarRefinement, ScalesWithTheInput) {
+  const Plc<2> plc = fan(4, 13, 9);
+  const auto result = refine<2>(plc, to_angle(25)), large = refine<2>(scaled<2>(plc, 1024), to_angle(25));
+  ASSERT_EQ(result.mesh.cells, large.mesh.cells);
+  for (std::size_t i = 0; i < result.mesh.points.size(); ++i)
+    for (int k = 0; k < 2; ++k) EXPECT_EQ(1024 * result.mesh.points[i][k], large.mesh.points[i][k]);
+}
+
+struct Counts {
+  const char* model;
+  double degrees;
+  std::size_t triangle;  ///< Triangle 1.6 with circumcentres
+};
+
+class LookAlikes : public testing::TestWithParam<Counts> {};
+
+/// At most a tenth more triangles than Triangle, every bound met.
+TEST_P(LookAlikes, AsFewTrianglesAsTriangle) {
+  const auto& [model, degrees, triangle] = GetParam();
+  const Plc<2> plc = read_plc<2>(std::string(PGDR_TEST_MODELS "/planar/") + model + ".poly");
+  const auto result = expect_reproducible<2>(plc, to_angle(degrees), model, {{"threads 2", Executor::threads, 2}});
+  EXPECT_EQ(result.poor_left, 0u);
+  EXPECT_LE(static_cast<double>(result.mesh.cells.size()), 1.1 * static_cast<double>(triangle));
+  RecordProperty("triangles", static_cast<int>(result.mesh.cells.size()));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, LookAlikes,
+    testing::Values(Counts{"cylinder_like", 10, 190}, Counts{"cylinder_like", 20, 305}, Counts{"cylinder_like", 30, 847},
+                    Counts{"pipe_like", 10, 4964}, Counts{"pipe_like", 20, 8368}, Counts{"pipe_like", 30, 16880},
+                    Counts{"key_like", 10, 80}, Counts{"key_like", 20, 136}, Counts{"key_like", 30, 189},
+                    Counts{"square1000", 10, 2412}, Counts{"square1000", 20, 3781}, Counts{"square1000", 30, 10567}),
+    [](const auto& info) { return std::string(info.param.model) + "_" + std::to_string(static_cast<int>(info.param.degrees)); });
+
+void expect_boundary_kept(const Plc<2>& plc, RefineOptions<2> options, const std::string& what) {
+  options.keep_boundary = true;
+  const auto result = expect_reproducible<2>(plc, options, what);
+  EXPECT_EQ(result.mesh.subsegments.size(), Domain<2>(plc).segments().size()) << what;
+  EXPECT_GT(result.statistics.insertions_committed, 0u) << what;
+}
+
+TEST(KeptBoundary, NoPointOnAnySegment) {
+  RefineOptions<2> sized = to_angle(20.7);
+  sized.size = 0.02;
+  expect_boundary_kept(square_with_hole(), sized, "square");
+  expect_boundary_kept(turned(square_with_hole()), sized, "turned square");
+  expect_boundary_kept(random_graph(40, 30, 0, 3), to_angle(20.7), "random");
+  expect_boundary_kept(fan(6, 9, 3), to_angle(30), "fan");
+  expect_boundary_kept(hairy_polygon(80, 3), to_angle(20.7), "hairy");
+}
+
+TEST(KeptBoundary, LongSidesExcuseLittle) {
+  Plc<2> plc;
+  add_square(plc, 0, 1);
+  RefineOptions<2> options = to_angle(20.7);
+  options.size = 0.001;
+  options.keep_boundary = true;
+  const auto [result, report] = refine_and_check<2>(plc, options);
+  EXPECT_LE(report.exit_code(), 1) << findings(report);
+  EXPECT_EQ(result.mesh.subsegments.size(), 4u);
+  EXPECT_GT(result.mesh.cells.size(), 500u);  // the inside is refined as it would be
+  for (const PoorReason& reason : result.reasons) EXPECT_EQ(reason.code, PoorReason::Code::kept_boundary);
+}
+
+/// A reason that the boundary was kept does not hold where it was not, or elsewhere.
+TEST(KeptBoundary, ReasonsAreVerified) {
+  Plc<2> plc;
+  add_square(plc, 0, 8);
+  const Domain<2> domain(plc);
+  RefineOptions<2> options = to_angle(20.7);
+  options.size = 0.5;
+  options.keep_boundary = true;
+  RefineResult<2> result = refine<2>(domain, options);
+  ASSERT_FALSE(result.reasons.empty());
+  CheckOptions<2> check_options;
+  check_options.domain = &domain;
+  check_options.radius_edge_bound = options.radius_edge_bound;
+  check_options.size = options.size;
+  check_options.reasons = &result.reasons;
+  EXPECT_EQ(check<2>(result.mesh, check_options).exit_code(), 1);
+  for (PoorReason& reason : result.reasons) reason.entities[0].id = 7;  // there are four segments
+  EXPECT_EQ(check<2>(result.mesh, check_options).exit_code(), 6);
+  options.keep_boundary = false;
+  options.radius_edge_bound = 10;
+  options.size = {};
+  options.size = 8.0;
+  result = refine<2>(domain, options);
+  check_options.radius_edge_bound = 0.1;  // all cells are over this
+  std::vector<PoorReason> claims;
+  for (std::uint32_t c = 0; c < result.mesh.cells.size(); ++c)
+    claims.push_back({c, PoorReason::Code::kept_boundary, {EntityRef{EntityKind::segment, 0}, {}}, 0});
+  check_options.reasons = &claims;
+  ASSERT_GT(result.mesh.subsegments.size(), 4u);
+  EXPECT_EQ(check<2>(result.mesh, check_options).exit_code(), 6);
+}
+
+TEST(KeptBoundary, NotIn3D) {
+  RefineOptions<3> options;
+  options.keep_boundary = true;
+  EXPECT_THROW(refine<3>(cube(), options), UsageError);
+}
+
+TEST(BeyondTheory, IsWarnedOf) {
+  const auto codes = [](const RefineResult<2>& r) {
+    std::vector<Errc> c;
+    for (const Diagnostic& d : r.warnings) c.push_back(d.code);
+    return c;
+  };
+  EXPECT_TRUE(codes(refine<2>(square_with_hole(), to_angle(20.7))).empty());
+  EXPECT_EQ(codes(refine<2>(square_with_hole(), to_angle(30))), std::vector{Errc::beyond_theory});
+}
+
+/// Every valid .poly in the folder pslg of PGDR_MODELS is meshed to both angles, checked, and the same for all threads;
+/// every other one is refused with names.
+TEST(PlanarModels, OfTheCollection) {
+  const char* folder = std::getenv("PGDR_MODELS");
+  if (!folder) GTEST_SKIP() << "PGDR_MODELS is not set";
+  std::size_t meshed = 0, refused = 0;
+  for (const auto& file : std::filesystem::directory_iterator(std::filesystem::path(folder) / "pslg")) {
+    if (file.path().extension() != ".poly") continue;
+    const Plc<2> plc = read_plc<2>(file.path());
+    try {
+      static_cast<void>(refine<2>(plc, unrefined()));
+    } catch (const InputError& e) {
+      ++refused;
+      EXPECT_FALSE(std::string(e.what()).empty());
+      continue;
+    }
+    ++meshed;
+    for (const double degrees : {20.7, 30.0})
+      expect_reproducible<2>(plc, to_angle(degrees), file.path().filename().string(), eight_threads);
+  }
+  EXPECT_GE(meshed, 30u);
+  EXPECT_LE(refused, 6u);
+}
+
+}  // namespace
+}  // namespace pgdr
