@@ -36,19 +36,30 @@ class Bulk {
       for (std::size_t i = first; i < last; ++i) f(i);
     });
   }
+  /// Calls f(part) for parts in [0, parts), each of which is much work.
+  template <class F>
+  void parts(std::size_t parts, const F& f) const {
+    if (!parallel_) {
+      for (std::size_t i = 0; i < parts; ++i) f(i);
+      return;
+    }
+    tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, parts, f); });
+  }
   /// What f(i, out) appends to `out` for i in [0, count), in the order of the i.
   template <class T, class F>
   std::vector<T> gather(std::size_t count, const F& f) const {
-    const std::size_t parts = (count + grain - 1) / grain;
-    std::vector<std::vector<T>> found(parts);
-    each_part(parts, [&](std::size_t part) {
+    std::vector<std::vector<T>> found((count + grain - 1) / grain);
+    parts(found.size(), [&](std::size_t part) {
       for (std::size_t i = part * grain; i < std::min(count, (part + 1) * grain); ++i) f(i, found[part]);
     });
     std::size_t total = 0;
     for (const auto& part : found) total += part.size();
     std::vector<T> all;
     all.reserve(total);
-    for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+    for (auto& part : found) {
+      all.insert(all.end(), part.begin(), part.end());
+      part = {};  // the storage of both is never needed whole
+    }
     return all;
   }
   template <class T, class Less>
@@ -59,15 +70,6 @@ class Bulk {
 
  private:
   static constexpr std::size_t grain = 8192;
-
-  template <class F>
-  void each_part(std::size_t parts, const F& f) const {
-    if (!parallel_) {
-      for (std::size_t i = 0; i < parts; ++i) f(i);
-      return;
-    }
-    tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, parts, f); });
-  }
 
   bool parallel_;
 };

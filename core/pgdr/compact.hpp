@@ -19,9 +19,11 @@ struct Compacted {
   std::vector<std::uint32_t> cell_number;  ///< by index(CellId); 0xffffffff for dead cells
 };
 
+/// Takes the mesh apart: its cells, vertices and constraints are gone afterwards, so that the peak of memory is that of the
+/// refinement.
 /// @param region_attributes  attribute of each region number; empty: do not label.
 /// @param parallel  on the threads of the caller's task arena; the result is the same.
 template <int D>
-Compacted<D> compact(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes, bool parallel);
+Compacted<D> compact(Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes, bool parallel);
 
 }  // namespace pgdr

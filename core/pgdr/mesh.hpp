@@ -166,6 +166,16 @@ class Mesh {
   std::uint32_t cell_bound() const { return cell_source_.bound(); }
   std::uint32_t vertex_bound() const { return vertex_source_.bound(); }
 
+  // Taking apart, so that what is made of the mesh takes the place of the mesh: nothing is asked of the parts any more.
+  static constexpr std::uint32_t cells_of_chunk = ChunkedArray<CellRecord<D>, 14>::chunk_size;
+  void release_cells(std::uint32_t chunk) { cells_.release_chunk(chunk); }
+  void release_constraints() {
+    tags_.release();
+    constraints_.release();
+  }
+  void release_vertices() { vertices_.release(); }
+  void release_labels() { labels_.release(); }
+
   /// The pools of one thread.
   struct Pools {
     IdPool cells, vertices, constraints;

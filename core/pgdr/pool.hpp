@@ -41,6 +41,12 @@ class ChunkedArray {
     return table_[i >> log_chunk].load(std::memory_order_relaxed)[i & (chunk_size - 1)];
   }
 
+  /// Gives the storage of a chunk back. None of its slots may be touched after that, or while it goes on.
+  void release_chunk(std::uint32_t chunk) { delete[] table_[chunk].exchange(nullptr, std::memory_order_relaxed); }
+  void release() {
+    for (std::uint32_t c = 0; c < chunks_; ++c) release_chunk(c);
+  }
+
   /// Makes the slots [0, count) exist. @throws std::bad_alloc
   void grow_to(std::uint32_t count) {
     if (count == 0) return;
