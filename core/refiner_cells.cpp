@@ -146,12 +146,35 @@ auto Refiner<D>::flattened_face(const Point<D>& x) const -> std::optional<Item> 
   return std::nullopt;
 }
 
+/// Where the boundary is kept: the incentre of an element too big whose circumcentre the boundary hides.
+template <int D>
+auto Refiner<D>::insert_inside(const Item& e, const CellVerdict& verdict) -> Outcome {
+  if constexpr (D == 2) {
+    Simplex<D> s = mesh_->simplex(e.cell);
+    std::sort(s.begin(), s.end(), lex_less<D>);
+    Point<D> x{};
+    double whole = 0;
+    for (int i = 0; i <= D; ++i) {
+      const double weight = std::sqrt(squared_distance(s[(i + 1) % 3], s[(i + 2) % 3]));
+      for (int k = 0; k < D; ++k) x[k] += weight * (s[i][k] - s[0][k]);
+      whole += weight;
+    }
+    for (int k = 0; k < D; ++k) x[k] = s[0][k] + x[k] / whole;
+    cavity_.release();
+    const auto status = cavity_.collect(x, e.cell);
+    if (status == Cavity<D>::Status::not_owned) return Outcome::not_owned;
+    if (status == Cavity<D>::Status::ok && !flattened_face(x))
+      if (const Outcome outcome = insert_point(e, verdict, false); outcome != Outcome::refused) return outcome;
+  }
+  return give_up(Outcome::refused);
+}
+
 /// Splits the entity that hides the element's point, or that the point encroaches upon, in its place.
 template <int D>
 auto Refiner<D>::split_instead(const Item& entity, const Item& e, const CellVerdict& verdict) -> Outcome {
   if (options_->keep_boundary) {
     last_refusal_ = EntityPair{{EntityRef{EntityKind::segment, mesh_->constraints(entity.cell)->face_entity[entity.which]}, {}}};
-    return Outcome::refused;
+    return verdict.over_size ? insert_inside(e, verdict) : Outcome::refused;
   }
   const Demand demand = demand_of_cell(e.cell, verdict);
   cavity_.release();
@@ -244,9 +267,9 @@ bool Refiner<D>::is_clear_of_encroached(const Point<D>& x, double squared) const
   return true;
 }
 
-/// The collected point, if the insertion rule allows.
+/// The collected point, if the insertion rule allows. `at_center`: it is the circumcentre, where there is no selector.
 template <int D>
-auto Refiner<D>::insert_point(const Item& e, const CellVerdict& verdict) -> Outcome {
+auto Refiner<D>::insert_point(const Item& e, const CellVerdict& verdict, bool at_center) -> Outcome {
   using Status = typename Cavity<D>::Status;
   auto status = cavity_.make_star_shaped();
   if (status == Status::ok && (cavity_.shrunk() || cavity_.touches_constraints())) status = cavity_.check_nothing_swallowed();
@@ -256,7 +279,7 @@ auto Refiner<D>::insert_point(const Item& e, const CellVerdict& verdict) -> Outc
   if (visit_->mends && cavity_.shrunk()) return Outcome::refused;
 
   // Unshrunk, the circumcentre's nearest vertices are the element's own.
-  const bool plain = !cavity_.shrunk() && !options_->selector;
+  const bool plain = at_center && !cavity_.shrunk() && !options_->selector;
   const double r = plain ? std::sqrt(mesh_->squared_radius_bounds(e.cell).first) : insertion_radius<D>(*mesh_, cavity_);
   if (r < options_->min_edge) {
     visit_->min_edge_hit = true;

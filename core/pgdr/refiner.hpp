@@ -163,15 +163,15 @@ class Refiner {
   Outcome treat_cell(const Item& e);
   Outcome insert_beside_refused(const Point<D>& x, const Item& e, const CellVerdict& verdict);
   bool is_clear_of_encroached(const Point<D>& x, double squared) const;
-  Outcome insert_point(const Item& e, const CellVerdict& verdict);
+  Outcome insert_point(const Item& e, const CellVerdict& verdict, bool at_center = true);
+  Outcome insert_inside(const Item& e, const CellVerdict& verdict);
   Point<D> steiner_point(CellId c, const CellVerdict& verdict);
   Demand demand_of_cell(CellId c, const CellVerdict& verdict) const;
   std::optional<Item> encroached_face(const Point<D>& x) const;
   template <class MayEnter>
   std::optional<Item> wall_before(CellId c, const Point<D>& x, MayEnter may_enter) const;
-  Outcome split_instead(const Item& entity, const Item& e, const CellVerdict& verdict);
-
   std::optional<Item> flattened_face(const Point<D>& x) const;
+  Outcome split_instead(const Item& entity, const Item& e, const CellVerdict& verdict);
 
   void committed();
   void flipped();
