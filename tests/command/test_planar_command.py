@@ -1,0 +1,77 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The pgdr authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the pgdr command does in 2D alone, from outside. Usage: test_planar_command.py [Class[.test]...]"""
+import unittest
+
+from test_command import BRACKET, MODELS, PLATE, Case
+
+RIVER = MODELS / "river.poly"
+SQUARE = "0 0 0\n1 4 0\n2 4 4\n3 0 4\n"
+# A square with two diagonals that cross in its middle; counts from 0.
+CROSSED = "4 2 0 0\n" + SQUARE + "6 1\n0 0 1 1\n1 1 2 1\n2 2 3 1\n3 3 0 1\n4 0 2 2\n5 1 3 3\n0\n"
+
+
+class Planar(Case):
+    def checked(self, model, bounds, *flags, expect=0):
+        """Meshes, checks with the same flags, and returns the report of the mesh."""
+        self.mesh(model, *bounds, *flags, "--report", self.report, expect=expect)
+        shared = [f for f in flags if f != "--keep-boundary"]
+        self.pgdr("check", self.output, "--input", model, *bounds, *shared, "--reasons", self.report, expect=expect)
+        return self.json()
+
+    def test_the_example_of_the_manual(self):
+        size = "0.4*sqrt((x-200)^2+(y-200)^2)+1"
+        report = self.checked(RIVER, ["--min-angle", 25, "--size", size])
+        self.assertEqual(report["bounds"]["poor_left"], 0)
+        self.assertGreaterEqual(report["quality"]["min_angle_deg"], 25 - 1e-9)
+        self.assertEqual([w["code"] for w in report["warnings"]], ["beyond_theory"])
+
+    def test_least_angles(self):
+        self.assertEqual(self.checked(PLATE, ["--min-angle", 20.7])["warnings"], [])
+        self.checked(PLATE, ["--min-angle", 34])
+        done = self.pgdr("mesh", PLATE, "-o", self.output, "--min-angle", 34.5, expect=2)
+        self.assertIn("34", done.stderr)
+
+    def test_crossings(self):
+        model = self.file("crossed.poly", CROSSED)
+        done = self.mesh(model, "--report", self.report, expect=3)
+        self.assertIn("cross at (2, 2)", done.stderr)
+        self.assertEqual(sorted(self.json()["errors"][0]["ids"]), [0, 1, 2, 3])
+        self.assertFalse(self.output.exists())
+        report = self.checked(model, ["--size", 1], "--resolve-crossings")
+        repair, = report["repairs"]
+        self.assertEqual((repair["code"], repair["ids"], repair["points"]), ("entities_intersect", [4, 5], [[2, 2, 0]]))
+        self.pgdr("check", self.output, "--input", model, expect=6)
+        self.pgdr("info", model, expect=3)
+        self.pgdr("info", model, "--resolve-crossings", expect=0)
+
+    def test_convex_hull(self):
+        points = self.file("points.node", "5 2 0 0\n" + SQUARE + "4 1 1.5\n")
+        done = self.mesh(points, expect=3)
+        self.assertIn("enclose nothing", done.stderr)
+        self.checked(points, ["--min-angle", 20], "--convex-hull")
+
+    def test_open_ends_are_named(self):
+        model = self.file("open.poly", "4 2 0 0\n" + SQUARE + "3 0\n0 0 1\n1 1 2\n2 2 3\n0\n")
+        done = self.mesh(model, expect=3)
+        self.assertIn("enclose nothing", done.stderr)
+
+    def test_keep_boundary(self):
+        report = self.checked(PLATE, ["--size", 0.02], "--keep-boundary", expect=1)
+        self.assertGreater(report["cells"], 300)
+        codes = {r["code"] for r in report["bounds"]["reasons"]}
+        self.assertEqual(codes, {"kept_boundary"})
+        for reason in report["bounds"]["reasons"]:
+            self.assertEqual(reason["entities"][0]["kind"], "segment")
+        self.pgdr("info", self.output, "--report", self.report, expect=0)
+        self.assertEqual(self.json()["subsegments"], 6 + 16 + 12)
+
+    def test_flags_are_for_2d(self):
+        for flag in ("--keep-boundary", "--resolve-crossings", "--convex-hull"):
+            done = self.pgdr("mesh", BRACKET, "-o", self.output, flag, expect=2)
+            self.assertIn("2D", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
