@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "pgdr/bounding_box.hpp"
 
@@ -16,13 +17,12 @@ template <int D>
 inline constexpr int bits_per_axis = D == 2 ? 31 : 21;
 
 /// Hilbert index of integer coordinates, by the transposed Gray code of Skilling (2004, "Programming the Hilbert curve").
-template <int D>
-std::uint64_t hilbert_index(std::array<std::uint32_t, D> x) {
-  constexpr int bits = bits_per_axis<D>;
+std::uint64_t hilbert_index(std::array<std::uint32_t, 3> x) {
+  constexpr int bits = bits_per_axis<3>;
   constexpr std::uint32_t top = 1u << (bits - 1);
   for (std::uint32_t q = top; q > 1; q >>= 1) {
     const std::uint32_t p = q - 1;
-    for (int i = 0; i < D; ++i) {
+    for (int i = 0; i < 3; ++i) {
       if (x[i] & q) {
         x[0] ^= p;
       } else {
@@ -32,14 +32,68 @@ std::uint64_t hilbert_index(std::array<std::uint32_t, D> x) {
       }
     }
   }
-  for (int i = 1; i < D; ++i) x[i] ^= x[i - 1];
+  for (int i = 1; i < 3; ++i) x[i] ^= x[i - 1];
   std::uint32_t t = 0;
   for (std::uint32_t q = top; q > 1; q >>= 1)
-    if (x[D - 1] & q) t ^= q - 1;
-  for (int i = 0; i < D; ++i) x[i] ^= t;
+    if (x[2] & q) t ^= q - 1;
+  for (int i = 0; i < 3; ++i) x[i] ^= t;
   std::uint64_t key = 0;
   for (int b = bits - 1; b >= 0; --b)
-    for (int i = 0; i < D; ++i) key = key << 1 | (x[i] >> b & 1);
+    for (int i = 0; i < 3; ++i) key = key << 1 | (x[i] >> b & 1);
+  return key;
+}
+
+/// The same in the plane, level by level from the top: what the levels above have done to the lower bits of x and y
+/// (complemented the one, the other, exchanged them), and the parity of the Gray code so far, is a state of four bits.
+struct HilbertStep {
+  std::uint8_t state, digits;
+};
+constexpr HilbertStep hilbert_step(unsigned state, unsigned x, unsigned y) {
+  unsigned flip0 = state & 1, flip1 = state >> 1 & 1, swapped = state >> 2 & 1, parity = state >> 3;
+  const unsigned b0 = (swapped ? y : x) ^ flip0, b1 = (swapped ? x : y) ^ flip1, gray = b0 ^ b1;
+  const unsigned digits = (b0 ^ parity) << 1 | (gray ^ parity);
+  flip0 ^= b0;
+  if (b1) {
+    flip0 ^= 1;
+  } else {
+    swapped ^= 1;
+    std::swap(flip0, flip1);
+  }
+  parity ^= gray;
+  return {static_cast<std::uint8_t>(flip0 | flip1 << 1 | swapped << 2 | parity << 3), static_cast<std::uint8_t>(digits)};
+}
+
+/// Four levels at once: by state, four bits of x, four of y.
+constexpr auto hilbert_steps = [] {
+  std::array<std::array<HilbertStep, 256>, 16> table{};
+  for (unsigned state = 0; state < 16; ++state)
+    for (unsigned xy = 0; xy < 256; ++xy) {
+      HilbertStep all{static_cast<std::uint8_t>(state), 0};
+      for (int b = 3; b >= 0; --b) {
+        const HilbertStep one = hilbert_step(all.state, xy >> (4 + b) & 1, xy >> b & 1);
+        all = {one.state, static_cast<std::uint8_t>(all.digits << 2 | one.digits)};
+      }
+      table[state][xy] = all;
+    }
+  return table;
+}();
+
+std::uint64_t hilbert_index(std::array<std::uint32_t, 2> x) {
+  std::uint64_t key = 0;
+  unsigned state = 0;
+  int b = bits_per_axis<2>;
+  while (b % 4 != 0) {
+    --b;
+    const HilbertStep step = hilbert_step(state, x[0] >> b & 1, x[1] >> b & 1);
+    key = key << 2 | step.digits;
+    state = step.state;
+  }
+  while (b > 0) {
+    b -= 4;
+    const HilbertStep step = hilbert_steps[state][(x[0] >> b & 15) << 4 | (x[1] >> b & 15)];
+    key = key << 8 | step.digits;
+    state = step.state;
+  }
   return key;
 }
 
@@ -72,7 +126,7 @@ std::uint64_t HilbertCurve<D>::key(const Point<D>& p) const {
   std::array<std::uint32_t, D> x;
   for (int i = 0; i < D; ++i)
     x[i] = static_cast<std::uint32_t>(std::clamp((p[i] - corner_[i]) * scale_, 0.0, most));
-  return hilbert_index<D>(x);
+  return hilbert_index(x);
 }
 
 template <int D>

@@ -9,6 +9,7 @@
 #include "parallel_support.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/quality.hpp"
+#include "pgdr/spatial_order.hpp"
 #include "planar_plcs.hpp"
 
 namespace pgdr {
@@ -169,6 +170,18 @@ TEST(PlanarRefinement, ScalesWithTheInput) {
   ASSERT_EQ(result.mesh.cells, large.mesh.cells);
   for (std::size_t i = 0; i < result.mesh.points.size(); ++i)
     for (int k = 0; k < 2; ++k) EXPECT_EQ(1024 * result.mesh.points[i][k], large.mesh.points[i][k]);
+}
+
+/// The points of a grid, in the order of their keys, are a path of single steps.
+TEST(HilbertCurve, GoesFromNeighbourToNeighbour) {
+  for (const int side : {2, 4, 64, 256}) {
+    std::vector<Point2> points;
+    for (int x = 0; x < side; ++x)
+      for (int y = 0; y < side; ++y) points.push_back({{static_cast<double>(x), static_cast<double>(y)}});
+    const HilbertCurve<2> curve(points);
+    std::sort(points.begin(), points.end(), [&](const Point2& a, const Point2& b) { return curve.key(a) < curve.key(b); });
+    for (std::size_t i = 1; i < points.size(); ++i) ASSERT_EQ(squared_distance(points[i - 1], points[i]), 1) << side << " " << i;
+  }
 }
 
 struct Counts {
