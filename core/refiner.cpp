@@ -25,7 +25,7 @@ RefineContext<D>::RefineContext(Mesh<D>& m, const Domain<D>& d, const RefineOpti
       options(o),
       bounds(std::move(b)),
       start(start_time),
-      shells(d),
+      shells(d, D == 2),
       vertices(vertices_so_far),
       last_progress(start_time) {
   base_exponent = std::ilogb(bounding_box<D>(domain.points()).longest_side());

@@ -11,9 +11,10 @@
 namespace pgdr {
 
 template <int D>
-Shells<D>::Shells(const Domain<D>& domain) : domain_(&domain) {
+Shells<D>::Shells(const Domain<D>& domain, bool any) : domain_(&domain) {
   const auto segments = domain_->segments();
   at_end_.assign(segments.size(), {false, false});
+  if (!any) return;
   struct Use {
     std::uint32_t point;
     EntityId segment;

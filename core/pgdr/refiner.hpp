@@ -55,7 +55,7 @@ struct RefineContext {
   const RefineOptions<D>& options;
   const CellBounds<D> bounds;
   const std::chrono::steady_clock::time_point start;
-  const Shells<D> shells;  ///< of 2D alone: in 3D the front end splits on them
+  const Shells<D> shells;  ///< none in 3D, where the front end alone splits on them
   int base_exponent = 0;  ///< of bucket 0: circumradii of the size of the domain and above
   static constexpr int buckets = 64;
 

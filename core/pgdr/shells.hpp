@@ -16,7 +16,8 @@ namespace pgdr {
 template <int D>
 class Shells {
  public:
-  explicit Shells(const Domain<D>& domain);
+  /// `any`: false if no end is to have shells.
+  explicit Shells(const Domain<D>& domain, bool any = true);
 
   /// Parameter, on the segment, of the point that splits its piece from t0 to t1, 0 <= t0 < t1 <= 1: the middle, but next
   /// to an end with a shell the one on a shell between a third and two thirds of the piece.
