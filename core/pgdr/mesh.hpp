@@ -119,13 +119,13 @@ class Mesh {
   }
 
   // Marks of a cavity under construction: owner of the cell alone.
-  bool marked(CellId c) const { return tags_[index(c)] & mark_bit; }
-  void mark(CellId c) { tags_[index(c)] |= mark_bit; }
-  void unmark(CellId c) { tags_[index(c)] &= ~mark_bit; }
+  bool marked(CellId c) const { return tags_[index(c)].constraints & mark_bit; }
+  void mark(CellId c) { tags_[index(c)].constraints |= mark_bit; }
+  void unmark(CellId c) { tags_[index(c)].constraints &= ~mark_bit; }
 
   /// Constraints of c, or null if none of its faces or edges is constrained.
   ConstraintRecord<D>* constraints(CellId c) {
-    const std::uint32_t id = tags_[index(c)] & ~mark_bit;
+    const std::uint32_t id = tags_[index(c)].constraints & ~mark_bit;
     return id == 0 ? nullptr : &constraints_[id - 1];
   }
   const ConstraintRecord<D>* constraints(CellId c) const { return const_cast<Mesh*>(this)->constraints(c); }
@@ -133,10 +133,10 @@ class Mesh {
     const auto* k = constraints(c);
     return k && (k->faces >> face & 1);
   }
-  std::uint16_t region(CellId c) const { return labels_[index(c)].region; }
-  void set_region(CellId c, std::uint16_t r) { labels_[index(c)].region = r; }
+  std::uint16_t region(CellId c) const { return tags_[index(c)].region; }
+  void set_region(CellId c, std::uint16_t r) { tags_[index(c)].region = r; }
   /// Counts the cells that the slot has held, modulo 2^16.
-  std::uint16_t birth(CellId c) const { return labels_[index(c)].birth; }
+  std::uint16_t birth(CellId c) const { return tags_[index(c)].birth; }
 
   /// Stores the circumsphere as the filter of `conflicts`. Ghosts: `set_ghost_sphere`.
   void set_sphere(CellId c, const Circumsphere<D>& sphere);
@@ -174,8 +174,9 @@ class Mesh {
 
   CellId new_cell(Pools& pools) {
     const std::uint32_t id = pools.cells.take();
-    tags_[id] = 0;
-    ++labels_[id].birth;
+    Tag& tag = tags_[id];
+    tag.constraints = 0;
+    ++tag.birth;
     return CellId{id};
   }
   void free_cell(Pools& pools, CellId c);
@@ -185,20 +186,20 @@ class Mesh {
 
  private:
   static constexpr std::uint32_t mark_bit = 1u << 31;
-  static constexpr std::uint32_t capacity = (1u << 30) - 1024;
   struct Band { double inner, outer; };
   static const std::array<Band, 16> bands;
 
   bool conflicts_exactly(CellId c, const Point<D>& p) const;
 
-  ChunkedArray<CellRecord<D>, 14> cells_;
-  ChunkedArray<std::uint32_t, 14> tags_;
-  struct Label {
+  struct Tag {
+    std::uint32_t constraints = 0;  ///< number of the side record, from 1, and the mark
     std::uint16_t region = 0, birth = 0;
   };
-  ChunkedArray<Label, 14> labels_;
-  ChunkedArray<VertexRecord<D>, 14> vertices_;
-  ChunkedArray<ConstraintRecord<D>, 12> constraints_;
+  std::uint32_t capacity_;
+  ReservedArray<CellRecord<D>> cells_;
+  ReservedArray<Tag> tags_;
+  ReservedArray<VertexRecord<D>> vertices_;
+  ReservedArray<ConstraintRecord<D>> constraints_;
   IdSource cell_source_, vertex_source_, constraint_source_;
 };
 
