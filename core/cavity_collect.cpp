@@ -11,7 +11,7 @@ namespace pgdr {
 template <int D>
 void Cavity<D>::begin(const Point<D>& p) {
   point_ = p;
-  shrunk_ = touches_constraints_ = false;
+  shrunk_ = touches_constraints_ = shapes_known_ = false;
   split_edge_ = {no_vertex, no_vertex};
   split_segment_ = no_entity;
 }
@@ -208,6 +208,7 @@ auto Cavity<D>::grow() -> Status {
 
 template <int D>
 void Cavity<D>::rebuild_boundary() {
+  shapes_known_ = false;
   boundary_.clear();
   for (const CellId c : cells_)
     for (int f = 0; f <= D; ++f) {
@@ -227,43 +228,6 @@ bool Cavity<D>::in_line(CellId c, int i, int j) const {
     return k && (k->edges >> e & 1) && k->edge_entity[e] == split_segment_;
   }
   return false;
-}
-
-/// Does p see the inner side of the face? Ghosts' own faces at infinity are always seen.
-template <int D>
-bool Cavity<D>::visible(const BoundaryFace& f) const {
-  const CellRecord<D>& k = mesh_->cell(f.cell);
-  Simplex<D> s;
-  for (int i = 0; i <= D; ++i) {
-    if (i == f.face) {
-      s[i] = point_;
-    } else if (k.vertices[i] == infinite_vertex) {
-      return true;
-    } else {
-      s[i] = mesh_->point(k.vertices[i]);
-      if (s[i] == point_) return false;
-    }
-  }
-  if (split_segment_ != no_entity)
-    for (int i = 0; i <= D; ++i)
-      for (int j = i + 1; j <= D; ++j)
-        if (i != f.face && j != f.face && in_line(f.cell, i, j)) return false;
-  return orient<D>(s) == Sign::positive;
-}
-
-template <int D>
-auto Cavity<D>::make_star_shaped() -> Status {
-  std::vector<CellId> doomed;
-  while (true) {
-    for (const BoundaryFace& f : boundary_)
-      if (!visible(f)) doomed.push_back(f.cell);
-    if (doomed.empty())
-      if (const Status s = find_broken_fans(doomed); s != Status::ok) return s;
-    if (doomed.empty()) find_turned_over(doomed);
-    if (doomed.empty()) return Status::ok;
-    if (const Status s = drop_cells(doomed); s != Status::ok) return s;
-    doomed.clear();
-  }
 }
 
 /// A ridge between two faces of the part vanishes, so that all cells between these faces must be in the cavity. In one

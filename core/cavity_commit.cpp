@@ -55,8 +55,12 @@ VertexId Cavity<D>::commit(Pools& pools, Home home, float relaxed_radius) {
     rim_ = std::move(once);
   }
 
+  if (!shapes_known_) look_at_shapes();
   new_cells_.clear();
-  for (const BoundaryFace& f : boundary_) new_cells_.push_back(make_cell(pools, f, v));
+  for (std::size_t i = 0; i < boundary_.size(); ++i) {
+    new_cells_.push_back(make_cell(pools, boundary_[i], v));
+    set_sphere(new_cells_[i], i);
+  }
   // Only now do old cells point to their successors: make_cell reads the old links.
   for (std::size_t i = 0; i < boundary_.size(); ++i)
     mesh_->cell(boundary_[i].cell).links[boundary_[i].face] = Link(new_cells_[i], boundary_[i].face);
@@ -89,11 +93,6 @@ CellId Cavity<D>::make_cell(Pools& pools, const BoundaryFace& f, VertexId v) {
   if (outside) mesh_->cell(outside.cell()).links[outside.face()] = Link(c, f.face);
   mesh_->set_region(c, mesh_->region(f.cell));
   if (touches_constraints_) inherit_constraints(pools, f, c);
-  if (mesh_->is_ghost(c)) {
-    mesh_->set_ghost_sphere(c);
-  } else {
-    mesh_->set_sphere(c, circumsphere<D>(mesh_->simplex(c)));
-  }
   return c;
 }
 

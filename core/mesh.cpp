@@ -40,15 +40,16 @@ Mesh<D>::Mesh()
 // levels below the last imply. Evaluating both squares costs less than 8 u relative each, and the four bits taken from
 // r~^2 cost 2^-48: 2^-46 covers these.
 template <int D>
-void Mesh<D>::set_sphere(CellId c, const Circumsphere<D>& sphere) {
+void Mesh<D>::set_sphere(CellId c, const Circumsphere<D>& sphere, double radius) {
   CellRecord<D>& k = cell(c);
   k.center = sphere.center;
-  const double band = 6 * sphere.center_error / std::sqrt(sphere.squared_radius) + 0x1p-46;
+  const double band = 6 * sphere.center_error / radius + 0x1p-46;
   int level = 15;
   if (band <= 0x1p-44) {
     level = 0;
   } else if (band <= 0x1p-3) {
-    level = (44 + std::ilogb(band) + 1 + 2) / 3;
+    const int exponent = static_cast<int>(std::bit_cast<std::uint64_t>(band) >> 52) - 1023;  // of a normal number
+    level = (44 + exponent + 1 + 2) / 3;
   }
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(sphere.squared_radius);
   k.radius2 = std::bit_cast<double>((bits & ~std::uint64_t{15}) | static_cast<std::uint64_t>(level));

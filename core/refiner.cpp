@@ -110,7 +110,11 @@ template <int D>
 void Refiner<D>::committed() {
   ++visit_->counts.committed;
   visit_->changed_mesh = true;
-  for (const CellId c : cavity_.new_cells()) list_cell(c);
+  const std::vector<CellId>& made = cavity_.new_cells();
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    if (const auto* k = mesh_->constraints(made[i])) list_entities(made[i], *k);
+    if (context_->bounds.test(*mesh_, made[i], cavity_.shape_of_new(i))) list_poor(made[i], Item::over_bound);
+  }
   // A cavity that was not cut back keeps every face locally Delaunay, if all were.
   if (cavity_.shrunk() || visit_->violations_seen)
     for (const CellId c : cavity_.new_cells()) list_violations(c);

@@ -19,8 +19,10 @@
 #include <span>
 #include <vector>
 
+#include "pgdr/cell_bounds.hpp"
 #include "pgdr/key_set.hpp"
 #include "pgdr/mesh.hpp"
+#include "pgdr/simplex_shapes.hpp"
 #include "pgdr/visit_area.hpp"
 
 namespace pgdr {
@@ -111,6 +113,12 @@ class Cavity {
   VertexId commit(Pools& pools, Home home, float relaxed_radius);
   /// The cells made by the last commit.
   const std::vector<CellId>& new_cells() const { return new_cells_; }
+  /// What is known of the i-th of them.
+  CellShape shape_of_new(std::size_t i) const {
+    const ShapeBlock<D>& block = shapes_[i / shape_lanes];
+    const std::size_t lane = i % shape_lanes;
+    return {block.shortest_edge_squared[lane], block.det[lane], block.det_error[lane]};
+  }
 
   /// Gives up what was collected. Free.
   void release();
@@ -135,7 +143,10 @@ class Cavity {
   }
   Status grow();
   void rebuild_boundary();
-  bool visible(const BoundaryFace& f) const;
+  void look_at_shapes();
+  bool visible(std::size_t i) const;
+  bool visible_exactly(const BoundaryFace& f) const;
+  void set_sphere(CellId c, std::size_t i);
   bool in_line(CellId c, int i, int j) const;
   Status find_broken_fans(std::vector<CellId>& doomed) const;
   void find_turned_over(std::vector<CellId>& doomed) const;
@@ -159,6 +170,9 @@ class Cavity {
   std::vector<CellId> cells_, new_cells_;
   std::vector<CellId> protected_;
   std::vector<BoundaryFace> boundary_;
+  std::vector<SimplexBlock<D>> prospects_;  ///< the cells that the boundary faces make with the point, in their order
+  std::vector<ShapeBlock<D>> shapes_;       ///< of the prospects; none of faces at infinity
+  bool shapes_known_ = false;               ///< for the boundary as it is
   std::vector<PartFace> part_;
   /// Rim of the part: ridges that get a new constrained face with the new vertex, and of which entity.
   struct RimRidge {

@@ -12,6 +12,12 @@
 
 namespace pgdr {
 
+/// What is known of a cell besides its circumsphere.
+struct CellShape {
+  double shortest_edge_squared;
+  double det, det_error;  ///< of orient(), see ShapeBlock; an infinite error: not known
+};
+
 struct CellVerdict {
   bool over_radius_edge = false, over_size = false;
   explicit operator bool() const { return over_radius_edge || over_size; }
@@ -28,9 +34,12 @@ class CellBounds {
 
   /// @throws UsageError bad_size if the size function returns a value that is not positive.
   CellVerdict test(const Mesh<D>& mesh, CellId c) const;
+  /// The same of a cell whose shape is known.
+  CellVerdict test(const Mesh<D>& mesh, CellId c, const CellShape& shape) const;
 
  private:
-  bool over_size(const Mesh<D>& mesh, CellId c, const Simplex<D>& s) const;
+  bool within_measure(const Mesh<D>& mesh, CellId c, const CellShape& shape, double bound) const;
+  bool over_size(const Mesh<D>& mesh, CellId c, const CellShape& shape) const;
 };
 
 extern template class CellBounds<2>;

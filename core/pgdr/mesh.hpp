@@ -13,6 +13,7 @@
 #include <array>
 #include <atomic>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -139,7 +140,8 @@ class Mesh {
   std::uint16_t birth(CellId c) const { return tags_[index(c)].birth; }
 
   /// Stores the circumsphere as the filter of `conflicts`. Ghosts: `set_ghost_sphere`.
-  void set_sphere(CellId c, const Circumsphere<D>& sphere);
+  void set_sphere(CellId c, const Circumsphere<D>& sphere) { set_sphere(c, sphere, std::sqrt(sphere.squared_radius)); }
+  void set_sphere(CellId c, const Circumsphere<D>& sphere, double radius);
   void set_ghost_sphere(CellId c) { cell(c).radius2 = std::numeric_limits<double>::quiet_NaN(); }
 
   /// Exactly: is p inside the (perturbed) circumsphere of c? For a ghost: beyond its hull face, or in that face's plane
