@@ -61,10 +61,11 @@ VertexId Cavity<D>::commit(Pools& pools, Home home, float relaxed_radius) {
     new_cells_.push_back(make_cell(pools, boundary_[i], v));
     set_sphere(new_cells_[i], i);
   }
-  // Only now do old cells point to their successors: make_cell reads the old links.
-  for (std::size_t i = 0; i < boundary_.size(); ++i)
-    mesh_->cell(boundary_[i].cell).links[boundary_[i].face] = Link(new_cells_[i], boundary_[i].face);
-  link_new_cells(pools);
+  if (rim_.empty()) {
+    link_by_ridges();
+  } else {
+    link_by_walks(pools);
+  }
   if (split_segment_ != no_entity) mark_split_entities(pools, v);
   part_.clear();
   for (const CellId c : cells_) {
@@ -117,9 +118,49 @@ void Cavity<D>::inherit_constraints(Pools& pools, const BoundaryFace& f, CellId 
   if (edges) k.edge_entity = old->edge_entity;
 }
 
-/// Neighbours among the new cells, found by walking round each ridge of the boundary through the old cells.
+/// Neighbours among the new cells where no constrained face is made: the rim of a star-shaped cavity is a closed surface, two
+/// faces of which meet at each ridge.
 template <int D>
-void Cavity<D>::link_new_cells(Pools& pools) {
+void Cavity<D>::link_by_ridges() {
+  ridges_.reset(boundary_.size() * D / 2 + 1);
+  for (std::size_t i = 0; i < boundary_.size(); ++i) {
+    const int face = boundary_[i].face;
+    const CellId c = new_cells_[i];
+    CellRecord<D>& k = mesh_->cell(c);
+    for (int j = 0; j <= D; ++j) {
+      if (j == face) continue;
+      std::uint64_t key;
+      if constexpr (D == 3) {
+        constexpr std::uint8_t others[4][4][2] = {{{0, 0}, {2, 3}, {1, 3}, {1, 2}},
+                                                  {{2, 3}, {0, 0}, {0, 3}, {0, 2}},
+                                                  {{1, 3}, {0, 3}, {0, 0}, {0, 1}},
+                                                  {{1, 2}, {0, 2}, {0, 1}, {0, 0}}};
+        const std::uint64_t a = index(k.vertices[others[face][j][0]]), b = index(k.vertices[others[face][j][1]]);
+        key = a < b ? b << 32 | a : a << 32 | b;
+      } else {
+        key = index(k.vertices[3 - face - j]);
+      }
+      const Link self(c, j);
+      const Link first = Link::from_code(ridges_.find_or_insert(key, self.code));
+      if (first == self) continue;
+      assert(!mesh_->cell(first.cell()).links[first.face()] && "two faces meet at a ridge");
+      k.links[j] = first;
+      mesh_->cell(first.cell()).links[first.face()] = self;
+    }
+  }
+#ifndef NDEBUG
+  for (const CellId c : new_cells_)
+    for (int j = 0; j <= D; ++j) assert(mesh_->cell(c).links[j] || mesh_->constrained(c, j));
+#endif
+}
+
+/// Neighbours among the new cells, found by walking round each ridge of the boundary through the old cells: what lies
+/// between the two is a new constrained face, or the hull, at the rim of the part.
+template <int D>
+void Cavity<D>::link_by_walks(Pools& pools) {
+  // Only now do old cells point to their successors: make_cell reads the old links.
+  for (std::size_t i = 0; i < boundary_.size(); ++i)
+    mesh_->cell(boundary_[i].cell).links[boundary_[i].face] = Link(new_cells_[i], boundary_[i].face);
   for (std::size_t i = 0; i < boundary_.size(); ++i) {
     const auto [old, face] = boundary_[i];
     const CellId c = new_cells_[i];
@@ -137,10 +178,6 @@ void Cavity<D>::link_new_cells(Pools& pools) {
         assert(owns(partner.cell()) && "a new cell");
         mesh_->cell(c).links[j] = partner;
         mesh_->cell(partner.cell()).links[partner.face()] = Link(c, j);
-      }
-      if (rim_.empty()) {
-        assert(next && "the hull opens at a point that splits no boundary entity");
-        continue;
       }
       const auto ridge = ridge_without<D>(mesh_->cell(old), face, j);
       const auto rim = std::lower_bound(rim_.begin(), rim_.end(), ridge,

@@ -160,7 +160,8 @@ class Cavity {
   void clear_part_bits();
   CellId make_cell(Pools& pools, const BoundaryFace& f, VertexId v);
   void inherit_constraints(Pools& pools, const BoundaryFace& f, CellId c);
-  void link_new_cells(Pools& pools);
+  void link_by_ridges();
+  void link_by_walks(Pools& pools);
   void mark_split_entities(Pools& pools, VertexId v);
 
   Mesh<D>* mesh_;
@@ -181,6 +182,7 @@ class Cavity {
   };
   std::vector<RimRidge> rim_;
   KeySet rim_keys_;
+  RidgeMap ridges_;
   std::array<VertexId, 2> split_edge_{no_vertex, no_vertex};  // 3D: the subsegment being split
   EntityId split_segment_ = no_entity;
   bool shrunk_ = false, touches_constraints_ = false;

@@ -34,6 +34,11 @@ struct Link {
 
   Link() = default;
   Link(CellId cell, int face) : code(index(cell) << 2 | static_cast<std::uint32_t>(face)) {}
+  static Link from_code(std::uint32_t code) {
+    Link l;
+    l.code = code;
+    return l;
+  }
   explicit operator bool() const { return code != 0xffffffffu; }
   CellId cell() const { return CellId{code >> 2}; }
   int face() const { return static_cast<int>(code & 3u); }
