@@ -80,19 +80,18 @@ VertexId Cavity<D>::commit(Pools& pools, Home home, float relaxed_radius) {
 
 template <int D>
 CellId Cavity<D>::make_cell(Pools& pools, const BoundaryFace& f, VertexId v) {
-  const CellId c = mesh_->new_cell(pools);
+  const CellId c = mesh_->new_cell(pools, mesh_->region(f.cell));
   const CellRecord<D>& old = mesh_->cell(f.cell);
   CellRecord<D>& k = mesh_->cell(c);
   auto vertices = old.vertices;
+  const Link outside = old.links[f.face];
   vertices[f.face] = v;
   assert(!area_ || area_->owns(*mesh_, vertices));
   mesh_->set_vertices(c, vertices);
   k.links.fill(Link{});
-  const Link outside = old.links[f.face];
   k.links[f.face] = outside;
   assert(!outside || may_read(outside.cell()));
   if (outside) mesh_->cell(outside.cell()).links[outside.face()] = Link(c, f.face);
-  mesh_->set_region(c, mesh_->region(f.cell));
   if (touches_constraints_) inherit_constraints(pools, f, c);
   return c;
 }
@@ -122,36 +121,46 @@ void Cavity<D>::inherit_constraints(Pools& pools, const BoundaryFace& f, CellId 
 /// faces of which meet at each ridge.
 template <int D>
 void Cavity<D>::link_by_ridges() {
+  Mesh<D>& mesh = *mesh_;
   ridges_.reset(boundary_.size() * D / 2 + 1);
+  new_faces_.resize(boundary_.size() * D);
+  NewFace* out = new_faces_.data();
   for (std::size_t i = 0; i < boundary_.size(); ++i) {
-    const int face = boundary_[i].face;
     const CellId c = new_cells_[i];
-    CellRecord<D>& k = mesh_->cell(c);
+    const auto& vertices = mesh.cell(c).vertices;
+    std::uint64_t hash[D + 1], all = 0;
+    for (int k = 0; k <= D; ++k) all ^= hash[k] = k == boundary_[i].face ? 0 : index(vertices[k]) * 0x9e3779b97f4a7c15u;
     for (int j = 0; j <= D; ++j) {
-      if (j == face) continue;
-      std::uint64_t key;
-      if constexpr (D == 3) {
-        constexpr std::uint8_t others[4][4][2] = {{{0, 0}, {2, 3}, {1, 3}, {1, 2}},
-                                                  {{2, 3}, {0, 0}, {0, 3}, {0, 2}},
-                                                  {{1, 3}, {0, 3}, {0, 0}, {0, 1}},
-                                                  {{1, 2}, {0, 2}, {0, 1}, {0, 0}}};
-        const std::uint64_t a = index(k.vertices[others[face][j][0]]), b = index(k.vertices[others[face][j][1]]);
-        key = a < b ? b << 32 | a : a << 32 | b;
-      } else {
-        key = index(k.vertices[3 - face - j]);
-      }
-      const Link self(c, j);
-      const Link first = Link::from_code(ridges_.find_or_insert(key, self.code));
-      if (first == self) continue;
-      assert(!mesh_->cell(first.cell()).links[first.face()] && "two faces meet at a ridge");
-      k.links[j] = first;
-      mesh_->cell(first.cell()).links[first.face()] = self;
+      if (j == boundary_[i].face) continue;
+      const std::size_t slot = ridges_.slot_of(all ^ hash[j]);
+      *out = {Link(c, j).code, static_cast<std::uint32_t>(slot)};
+      ridges_.add(slot, out->code);
+      ++out;
     }
   }
-#ifndef NDEBUG
-  for (const CellId c : new_cells_)
-    for (int j = 0; j <= D; ++j) assert(mesh_->cell(c).links[j] || mesh_->constrained(c, j));
-#endif
+  for (std::size_t i = 0; i < new_faces_.size(); ++i) {
+    const auto [code, slot] = new_faces_[i];
+    const Link self = Link::from_code(code);
+    mesh.cell(self.cell()).links[self.face()] =
+        ridges_.is_pair(slot) ? Link::from_code(ridges_.partner(slot, code)) : across_ridge(i);
+  }
+}
+
+/// The other new face at the ridge of the i-th: where several ridges share a slot.
+template <int D>
+Link Cavity<D>::across_ridge(std::size_t i) const {
+  const Link self = Link::from_code(new_faces_[i].code);
+  const auto ridge_of = [this](Link l) {
+    auto vertices = mesh_->cell(l.cell()).vertices;
+    vertices[static_cast<std::size_t>(l.face())] = no_vertex;
+    return sorted(vertices);
+  };
+  const auto ridge = ridge_of(self);
+  for (const NewFace& f : new_faces_)
+    if (f.slot == new_faces_[i].slot && f.code != self.code && ridge_of(Link::from_code(f.code)) == ridge)
+      return Link::from_code(f.code);
+  assert(false && "two faces meet at a ridge");
+  return {};
 }
 
 /// Neighbours among the new cells, found by walking round each ridge of the boundary through the old cells: what lies

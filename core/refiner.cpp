@@ -258,7 +258,7 @@ void Refiner<D>::run(RegionVisit<D>& visit) {
     const int bucket = list.first_bucket();
     if (bucket > last_bucket) break;
     if (list.poor() >= visit.floor && context_->largest_radius(bucket) <= visit.small_radius) break;
-    treat(list.pop_poor());
+    treat(list.pop_poor(*mesh_));
     treat_entities();
   }
   context_->vertices += visit.counts.committed - reported_;

@@ -130,6 +130,7 @@ class Cavity {
     if (mesh_->marked(c)) return false;
     mesh_->mark(c);
     cells_.push_back(c);
+    for (const Link next : mesh_->cell(c).links) mesh_->prefetch(next.cell());
     return true;
   }
   bool may_read(CellId c) const { return !area_ || area_->may_read(*mesh_, c); }  ///< for assertions
@@ -161,6 +162,7 @@ class Cavity {
   CellId make_cell(Pools& pools, const BoundaryFace& f, VertexId v);
   void inherit_constraints(Pools& pools, const BoundaryFace& f, CellId c);
   void link_by_ridges();
+  Link across_ridge(std::size_t i) const;
   void link_by_walks(Pools& pools);
   void mark_split_entities(Pools& pools, VertexId v);
 
@@ -182,7 +184,12 @@ class Cavity {
   };
   std::vector<RimRidge> rim_;
   KeySet rim_keys_;
-  RidgeMap ridges_;
+  struct NewFace {
+    std::uint32_t code;  ///< Link
+    std::uint32_t slot;
+  };
+  std::vector<NewFace> new_faces_;  ///< of new cells, at the ridges of the boundary
+  PairTable ridges_;
   std::array<VertexId, 2> split_edge_{no_vertex, no_vertex};  // 3D: the subsegment being split
   EntityId split_segment_ = no_entity;
   bool shrunk_ = false, touches_constraints_ = false;

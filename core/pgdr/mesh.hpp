@@ -99,6 +99,13 @@ class Mesh {
   CellRecord<D>& cell(CellId c) { return cells_[index(c)]; }
   const CellRecord<D>& cell(CellId c) const { return cells_[index(c)]; }
 
+  /// A hint that the cell is about to be read; any id will do.
+  void prefetch(CellId c) const {
+    __builtin_prefetch(&cells_[index(c)]);
+    __builtin_prefetch(&tags_[index(c)]);
+  }
+  void prefetch(VertexId v) const { __builtin_prefetch(&vertices_[index(v)]); }
+
   bool alive(CellId c) const { return cell(c).vertices[0] != no_vertex; }
   /// Does the slot still hold the cell with these vertices that was born there? From any thread that owns their positions:
   /// the slot may be in use by another meanwhile, so that ids are loaded and stored as relaxed atomics (plain moves on
@@ -179,11 +186,9 @@ class Mesh {
   };
   Pools make_pools() { return {IdPool(cell_source_), IdPool(vertex_source_), IdPool(constraint_source_)}; }
 
-  CellId new_cell(Pools& pools) {
+  CellId new_cell(Pools& pools, std::uint16_t region = 0) {
     const std::uint32_t id = pools.cells.take();
-    Tag& tag = tags_[id];
-    tag.constraints = 0;
-    ++tag.birth;
+    tags_[id] = {0, region, static_cast<std::uint16_t>(tags_[id].birth + 1)};
     return CellId{id};
   }
   void free_cell(Pools& pools, CellId c);

@@ -51,6 +51,8 @@ class Fifo {
     }
     return item;
   }
+  /// The n-th from the front, 0 being the next; null if there are fewer.
+  const T* ahead(std::size_t n) const { return head_ + n < items_.size() ? &items_[head_ + n] : nullptr; }
   /// Calls f for each in order, and empties the list.
   template <class F>
   void drain(F f) {
@@ -112,10 +114,15 @@ class WorkList {
     }
     return first_;
   }
-  /// One of the largest. @pre poor() > 0
-  Entry<D> pop_poor() {
+  /// One of the largest. Those that come soon after are fetched into the cache. @pre poor() > 0
+  Entry<D> pop_poor(const Mesh<D>& mesh) {
     --waiting_;
-    return poor_[static_cast<std::size_t>(first_bucket() - first_)].pop();
+    auto& bucket = poor_[static_cast<std::size_t>(first_bucket() - first_)];
+    if (const Entry<D>* e = bucket.ahead(fetched_ahead)) {
+      mesh.prefetch(e->cell);
+      for (const VertexId v : e->vertices) mesh.prefetch(v);
+    }
+    return bucket.pop();
   }
   /// Calls f for every entry that waits, in the order in which they would be treated, and empties the list.
   template <class F>
@@ -130,6 +137,8 @@ class WorkList {
   }
 
  private:
+  static constexpr std::size_t fetched_ahead = 4;
+
   std::vector<Fifo<Entry<D>>> poor_;  ///< of the buckets from first_ on
   int first_ = 0;
   std::size_t waiting_ = 0;
