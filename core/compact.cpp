@@ -64,43 +64,37 @@ std::array<std::uint32_t, N> canonical(std::array<std::uint32_t, N> v) {
 }
 
 template <int D>
-void number_cells(const Mesh<D>& mesh, const std::vector<std::uint32_t>& vertex_number, const detail::Bulk& bulk,
-                  Compacted<D>& out) {
-  struct Cell {
-    std::array<std::uint32_t, D + 1> vertices;
-    std::uint32_t id;
-  };
-  // Bucketed by the smallest vertex, sorted within a bucket: the smallest is first, except in 2D triangles' last two.
-  std::vector<std::uint32_t> begin(out.mesh.points.size() + 1, 0);
-  auto numbers = [&](std::uint32_t i) {
-    std::array<std::uint32_t, D + 1> v;
-    for (int j = 0; j <= D; ++j) v[j] = vertex_number[index(mesh.cell(CellId{i}).vertices[j])];
-    return canonical(v);
-  };
+std::array<std::uint32_t, D + 1> numbers_of(const Mesh<D>& mesh, CellId c, const std::vector<std::uint32_t>& vertex_number) {
+  std::array<std::uint32_t, D + 1> v;
+  for (int j = 0; j <= D; ++j) v[j] = vertex_number[index(mesh.cell(c).vertices[j])];
+  return v;
+}
+
+/// Bucketed by the smallest vertex, which is the first, and sorted within a bucket: in place, so that nothing but the result
+/// takes memory for each cell.
+template <int D>
+void number_cells(const Mesh<D>& mesh, const detail::Bulk& bulk, Compacted<D>& out) {
+  using Cell = std::array<std::uint32_t, D + 1>;
+  std::vector<std::uint32_t>& begin = out.first_cell;
+  begin.assign(out.mesh.points.size() + 1, 0);
   auto each_cell = [&](auto f) {
     bulk.each(mesh.cell_bound(), [&](std::size_t i) {
-      if (const auto id = static_cast<std::uint32_t>(i); mesh.alive(CellId{id})) f(id);
+      if (const CellId c{static_cast<std::uint32_t>(i)}; mesh.alive(c)) f(numbers_of<D>(mesh, c, out.vertex_number));
     });
   };
-  auto next = [](std::uint32_t& counter) { return std::atomic_ref(counter).fetch_add(1, std::memory_order_relaxed); };
-  each_cell([&](std::uint32_t i) { next(begin[numbers(i)[0] + 1]); });
+  auto next = [&](std::uint32_t& counter) {
+    return bulk.parallel() ? std::atomic_ref(counter).fetch_add(1, std::memory_order_relaxed) : counter++;
+  };
+  each_cell([&](const Cell& v) { next(begin[*std::min_element(v.begin(), v.end()) + 1]); });
   for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
-  std::vector<Cell> cells(begin.back());
+  auto& cells = out.mesh.cells;
+  cells.resize(begin.back());
   auto place = begin;
-  each_cell([&](std::uint32_t i) {
-    const auto v = numbers(i);
-    cells[next(place[v[0]])] = {v, i};
+  each_cell([&](const Cell& v) {
+    const Cell sorted = canonical(v);
+    cells[next(place[sorted[0]])] = sorted;
   });
-  out.cell_number.assign(mesh.cell_bound(), none);
-  out.mesh.cells.resize(cells.size());
-  bulk.each(begin.size() - 1, [&](std::size_t b) {
-    std::sort(cells.begin() + begin[b], cells.begin() + begin[b + 1],
-              [](const Cell& x, const Cell& y) { return x.vertices < y.vertices; });
-    for (std::uint32_t i = begin[b]; i < begin[b + 1]; ++i) {
-      out.mesh.cells[i] = cells[i].vertices;
-      out.cell_number[cells[i].id] = i;
-    }
-  });
+  bulk.each(begin.size() - 1, [&](std::size_t b) { std::sort(cells.begin() + begin[b], cells.begin() + begin[b + 1]); });
 }
 
 /// The vertices of face f of a cell, counter-clockwise seen from outside where it is on the hull, else sorted.
@@ -170,9 +164,9 @@ template <int D>
 Compacted<D> compact(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes, bool parallel) {
   const detail::Bulk bulk(parallel);
   Compacted<D> out;
-  const auto number = number_vertices<D>(mesh, domain, bulk, out.mesh);
-  number_cells<D>(mesh, number, bulk, out);
-  collect_constraints<D>(mesh, domain, number, bulk, out.mesh);
+  out.vertex_number = number_vertices<D>(mesh, domain, bulk, out.mesh);
+  number_cells<D>(mesh, bulk, out);
+  collect_constraints<D>(mesh, domain, out.vertex_number, bulk, out.mesh);
   const auto markers = domain.point_markers();
   if (!markers.empty()) {
     out.mesh.point_markers.assign(markers.begin(), markers.end());
@@ -181,13 +175,22 @@ Compacted<D> compact(const Mesh<D>& mesh, const Domain<D>& domain, std::span<con
   if (!region_attributes.empty()) {
     out.mesh.regions.resize(out.mesh.cells.size());
     bulk.each(mesh.cell_bound(), [&](std::size_t i) {
-      if (out.cell_number[i] == none) return;
-      out.mesh.regions[out.cell_number[i]] = region_attributes[mesh.region(CellId{static_cast<std::uint32_t>(i)})];
+      if (const CellId c{static_cast<std::uint32_t>(i)}; mesh.alive(c))
+        out.mesh.regions[out.cell_number(mesh, c)] = region_attributes[mesh.region(c)];
     });
   }
   return out;
 }
 
+template <int D>
+std::uint32_t Compacted<D>::cell_number(const Mesh<D>& refined, CellId c) const {
+  const auto v = canonical(numbers_of<D>(refined, c, vertex_number));
+  const auto first = mesh.cells.begin() + first_cell[v[0]], last = mesh.cells.begin() + first_cell[v[0] + 1];
+  return static_cast<std::uint32_t>(std::lower_bound(first, last, v) - mesh.cells.begin());
+}
+
+template struct Compacted<2>;
+template struct Compacted<3>;
 template Compacted<2> compact<2>(const Mesh<2>&, const Domain<2>&, std::span<const double>, bool);
 template Compacted<3> compact<3>(const Mesh<3>&, const Domain<3>&, std::span<const double>, bool);
 

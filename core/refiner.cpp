@@ -261,6 +261,7 @@ void Refiner<D>::run(RegionVisit<D>& visit) {
     treat(list.pop_poor(*mesh_));
     treat_entities();
   }
+  list.release_empty();
   context_->vertices += visit.counts.committed - reported_;
   visit_ = nullptr;
 }

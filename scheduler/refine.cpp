@@ -130,15 +130,15 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   } else {
     compacted = compact<D>(mesh, domain, attributes, false);
   }
-  result.mesh = std::move(compacted.mesh);
   for (const PoorCell& p : poor) {
     if (p.over_bound) ++result.poor_left;
     if (p.over_size) result.size_met = false;
     if (result.stop != StopCause::finished || !options.refine) continue;
     PoorReason reason = p.reason;
-    reason.cell = compacted.cell_number[index(p.cell)];
+    reason.cell = compacted.cell_number(mesh, p.cell);
     result.reasons.push_back(reason);
   }
+  result.mesh = std::move(compacted.mesh);
   std::sort(result.reasons.begin(), result.reasons.end(),
             [](const PoorReason& a, const PoorReason& b) { return a.cell < b.cell; });
   result.statistics.predicates += predicate_counts() - predicates_before;

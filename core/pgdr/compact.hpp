@@ -16,7 +16,10 @@ namespace pgdr {
 template <int D>
 struct Compacted {
   OutputMesh<D> mesh;
-  std::vector<std::uint32_t> cell_number;  ///< by index(CellId); 0xffffffff for dead cells
+  std::vector<std::uint32_t> vertex_number;  ///< by index(VertexId); 0xffffffff where no cell has the vertex
+  std::vector<std::uint32_t> first_cell;     ///< the first of the cells with vertex v as their smallest, and so on
+  /// Of a cell that is alive in the mesh that was compacted.
+  std::uint32_t cell_number(const Mesh<D>& mesh, CellId c) const;
 };
 
 /// @param region_attributes  attribute of each region number; empty: do not label.

@@ -51,6 +51,10 @@ class Fifo {
     }
     return item;
   }
+  /// Gives the storage of an empty list back.
+  void release_if_empty() {
+    if (empty()) items_ = {};
+  }
   /// The n-th from the front, 0 being the next; null if there are fewer.
   const T* ahead(std::size_t n) const { return head_ + n < items_.size() ? &items_[head_ + n] : nullptr; }
   /// Calls f for each in order, and empties the list.
@@ -123,6 +127,13 @@ class WorkList {
       for (const VertexId v : e->vertices) mesh.prefetch(v);
     }
     return bucket.pop();
+  }
+  /// Gives back what empty lists hold: of thousands of regions that would be as much as the mesh.
+  void release_empty() {
+    edges.release_if_empty();
+    faces.release_if_empty();
+    flips.release_if_empty();
+    for (auto& bucket : poor_) bucket.release_if_empty();
   }
   /// Calls f for every entry that waits, in the order in which they would be treated, and empties the list.
   template <class F>
