@@ -53,7 +53,7 @@ class Fifo {
   }
   /// Gives the storage of an empty list back.
   void release_if_empty() {
-    if (empty()) items_ = {};
+    if (empty()) std::vector<T>().swap(items_);  // assigning {} would keep the storage
   }
   /// The n-th from the front, 0 being the next; null if there are fewer.
   const T* ahead(std::size_t n) const { return head_ + n < items_.size() ? &items_[head_ + n] : nullptr; }
@@ -61,7 +61,7 @@ class Fifo {
   template <class F>
   void drain(F f) {
     for (std::size_t i = head_; i < items_.size(); ++i) f(items_[i]);
-    items_ = {};
+    std::vector<T>().swap(items_);
     head_ = 0;
   }
 
@@ -142,7 +142,7 @@ class WorkList {
     faces.drain(f);
     flips.drain(f);
     for (auto& bucket : poor_) bucket.drain(f);
-    poor_ = {};
+    poor_.clear();
     first_ = 0;
     waiting_ = 0;
   }
