@@ -10,6 +10,7 @@
 
 #include "detail/circum_terms.hpp"
 #include "detail/lanes.hpp"
+#include "detail/simplex_shapes.hpp"
 
 namespace pgdr {
 namespace {
@@ -107,12 +108,6 @@ template <class Lanes, int D>
   store<Lanes>(out.det_error + at, select<Lanes>(safe, detail::det_error<D> * power, none));
 }
 
-template <int D>
-void shapes_anywhere(std::span<const SimplexBlock<D>> in, std::span<ShapeBlock<D>> out) {
-  for (std::size_t b = 0; b < in.size(); ++b)
-    for (std::size_t at = 0; at < shape_lanes; at += 2) shape_of<detail::Two, D>(in[b], out[b], at);
-}
-
 #if defined(__x86_64__)
 template <int D>
 [[gnu::target("avx2")]] void shapes_avx2(std::span<const SimplexBlock<D>> in, std::span<ShapeBlock<D>> out) {
@@ -125,13 +120,21 @@ const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
 }  // namespace
 
 template <int D>
+void detail::simplex_shapes_anywhere(std::span<const SimplexBlock<D>> in, std::span<ShapeBlock<D>> out) {
+  for (std::size_t b = 0; b < in.size(); ++b)
+    for (std::size_t at = 0; at < shape_lanes; at += 2) shape_of<detail::Two, D>(in[b], out[b], at);
+}
+
+template <int D>
 void simplex_shapes(std::span<const SimplexBlock<D>> in, std::span<ShapeBlock<D>> out) {
 #if defined(__x86_64__)
   if (has_avx2) return shapes_avx2<D>(in, out);
 #endif
-  shapes_anywhere<D>(in, out);
+  detail::simplex_shapes_anywhere<D>(in, out);
 }
 
+template void detail::simplex_shapes_anywhere<2>(std::span<const SimplexBlock<2>>, std::span<ShapeBlock<2>>);
+template void detail::simplex_shapes_anywhere<3>(std::span<const SimplexBlock<3>>, std::span<ShapeBlock<3>>);
 template void simplex_shapes<2>(std::span<const SimplexBlock<2>>, std::span<ShapeBlock<2>>);
 template void simplex_shapes<3>(std::span<const SimplexBlock<3>>, std::span<ShapeBlock<3>>);
 

@@ -4,6 +4,10 @@
 // From input to finished mesh: triangulate, recover the boundary, carve, refine, compact.
 #include "pgdr/refine.hpp"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include <algorithm>
 #include <chrono>
 #include <string>
@@ -121,6 +125,9 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   const bool finished = options.refine && result.stop == StopCause::finished;
   const std::vector<PoorCell> poor = finished ? reasons.explained(violations_seen) : reasons.without_reasons();
   result.statistics.seconds_refine = seconds_since(refine_start);
+#ifdef __GLIBC__
+  malloc_trim(0);  // the lists have left small pieces, which the long arrays of the result have no use for
+#endif
 
   std::vector<double> attributes;
   if (regions.labelled) attributes = regions.attribute;

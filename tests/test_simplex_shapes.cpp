@@ -10,6 +10,7 @@
 #include <cmath>
 #include <vector>
 
+#include "detail/simplex_shapes.hpp"
 #include "oracles.hpp"
 #include "pgdr/circumsphere.hpp"
 #include "pgdr/predicates.hpp"
@@ -54,8 +55,8 @@ Simplex<D> random_simplex(Random& random) {
   return s;
 }
 
-TYPED_TEST(SimplexShapes, AreThoseOfEachOne) {
-  constexpr int D = TypeParam::value;
+template <int D>
+void expect_shapes_of_each(void (*shapes)(std::span<const SimplexBlock<D>>, std::span<ShapeBlock<D>>)) {
   Random random(20261121);
   constexpr std::size_t count = 4000;
   std::vector<SimplexBlock<D>> in(count / shape_lanes);
@@ -65,7 +66,7 @@ TYPED_TEST(SimplexShapes, AreThoseOfEachOne) {
     simplices.push_back(random_simplex<D>(random));
     for (int k = 0; k <= D; ++k) in[i / shape_lanes].set(i % shape_lanes, k, simplices[i][k]);
   }
-  simplex_shapes<D>(in, out);
+  shapes(in, out);
   std::size_t spheres = 0, oriented = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const Simplex<D>& s = simplices[i];
@@ -91,6 +92,16 @@ TYPED_TEST(SimplexShapes, AreThoseOfEachOne) {
   }
   EXPECT_GT(spheres, count / 3);
   EXPECT_GT(oriented, count / 3);
+}
+
+TYPED_TEST(SimplexShapes, AreThoseOfEachOne) {
+  constexpr int D = TypeParam::value;
+  expect_shapes_of_each<D>(simplex_shapes<D>);
+}
+
+TYPED_TEST(SimplexShapes, AreThoseOfEachOneOnAnyProcessor) {
+  constexpr int D = TypeParam::value;
+  expect_shapes_of_each<D>(detail::simplex_shapes_anywhere<D>);
 }
 
 }  // namespace
