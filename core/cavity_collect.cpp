@@ -384,18 +384,23 @@ auto Cavity<D>::check_nothing_swallowed() -> Status {
     return high << 32 | low;  // never the key of a vertex, whose high half is zero and lies below any edge's
   };
   auto vertex_key = [](VertexId v) { return std::uint64_t{index(v)}; };
-  rim_keys_.reset(6 * boundary_.size());
+  bool any_edges = false;
+  if constexpr (D == 3)
+    for (const CellId c : cells_) {
+      const auto* k = mesh_->constraints(c);
+      any_edges = any_edges || (k && k->edges);
+    }
+  rim_keys_.reset((any_edges ? 6 : 3) * boundary_.size());
   for (const BoundaryFace& f : boundary_) {
     const auto& k = mesh_->cell(f.cell);
     const Link out = k.links[f.face];
     if (out && mesh_->marked(out.cell())) return Status::not_star_shaped;
-    for (int i = 0; i <= D; ++i) {
-      if (i == f.face) continue;
-      rim_keys_.insert(vertex_key(k.vertices[i]));
-      if constexpr (D == 3)
-        for (int j = i + 1; j <= D; ++j)
-          if (j != f.face) rim_keys_.insert(edge_key(k.vertices[i], k.vertices[j]));
-    }
+    for (int i = 0; i <= D; ++i)
+      if (i != f.face) rim_keys_.insert(vertex_key(k.vertices[i]));
+    if (!any_edges) continue;
+    for (int i = 0; i <= D; ++i)
+      for (int j = i + 1; j <= D; ++j)
+        if (i != f.face && j != f.face) rim_keys_.insert(edge_key(k.vertices[i], k.vertices[j]));
   }
   for (const CellId c : cells_) {
     const auto& k = mesh_->cell(c);

@@ -155,10 +155,10 @@ Link Cavity<D>::across_ridge(std::size_t i) const {
     vertices[static_cast<std::size_t>(l.face())] = no_vertex;
     return sorted(vertices);
   };
+  const std::uint32_t slot = new_faces_[i].slot;
   const auto ridge = ridge_of(self);
   for (const NewFace& f : new_faces_)
-    if (f.slot == new_faces_[i].slot && f.code != self.code && ridge_of(Link::from_code(f.code)) == ridge)
-      return Link::from_code(f.code);
+    if (f.slot == slot && f.code != self.code && ridge_of(Link::from_code(f.code)) == ridge) return Link::from_code(f.code);
   assert(false && "two faces meet at a ridge");
   return {};
 }

@@ -94,7 +94,12 @@ void number_cells(const Mesh<D>& mesh, const detail::Bulk& bulk, Compacted<D>& o
     const Cell sorted = canonical(v);
     cells[next(place[sorted[0]])] = sorted;
   });
-  bulk.each(begin.size() - 1, [&](std::size_t b) { std::sort(cells.begin() + begin[b], cells.begin() + begin[b + 1]); });
+  // Within a bucket the first vertex is the same; the next two are compared as one number.
+  auto less = [](const Cell& a, const Cell& b) {
+    const std::uint64_t x = std::uint64_t{a[1]} << 32 | a[2], y = std::uint64_t{b[1]} << 32 | b[2];
+    return x != y ? x < y : a[D] < b[D];
+  };
+  bulk.each(begin.size() - 1, [&](std::size_t b) { std::sort(cells.begin() + begin[b], cells.begin() + begin[b + 1], less); });
 }
 
 /// The vertices of face f of a cell, counter-clockwise seen from outside where it is on the hull, else sorted.

@@ -44,10 +44,19 @@ void ReservedMemory::grow(std::size_t bytes) {
   usable_.store(wanted, std::memory_order_release);
 }
 
+// Half of what there is, so that others have some. The limit counts, and what the kernel (or what stands between) gives.
 std::size_t ReservedMemory::affordable_elements(std::size_t elements) {
   rlimit limit{};
-  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return elements;
-  return std::min(elements, static_cast<std::size_t>(limit.rlim_cur) / 2 / bytes_an_element);
+  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+    elements = std::min(elements, static_cast<std::size_t>(limit.rlim_cur) / 2 / bytes_an_element);
+  for (bool first = true; elements > (std::size_t{1} << 16); elements /= 2, first = false) {
+    const std::size_t bytes = elements * bytes_an_element;
+    void* const p = mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (p == MAP_FAILED) continue;
+    munmap(p, bytes);
+    return first ? elements : elements / 2;
+  }
+  return elements;
 }
 
 }  // namespace pgdr

@@ -46,7 +46,7 @@ class PairTable {
   /// Empties the table and makes room for `most` keys.
   void reset(std::size_t most) {
     std::size_t size = slots_.size();
-    while (size < 16 * most) size = size == 0 ? 1024 : 2 * size;
+    while (size < 32 * most) size = size == 0 ? 2048 : 2 * size;
     if (size != slots_.size() || stamp_ >= last_stamp) {
       slots_.assign(size, {});
       stamp_ = 0;

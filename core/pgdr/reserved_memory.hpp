@@ -24,7 +24,7 @@ class ReservedMemory {
   void grow_to(std::size_t bytes) {
     if (bytes > usable_.load(std::memory_order_acquire)) grow(bytes);
   }
-  /// Of `elements` with all that belongs to them, as many as the process's limit on addresses has room for.
+  /// Of `elements` with all that belongs to them, as many as there are addresses for.
   static std::size_t affordable_elements(std::size_t elements);
 
  private:

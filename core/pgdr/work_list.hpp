@@ -39,7 +39,10 @@ class Fifo {
  public:
   bool empty() const { return head_ == items_.size(); }
   std::size_t size() const { return items_.size() - head_; }
-  void push(const T& item) { items_.push_back(item); }
+  void push(const T& item) {
+    if (items_.capacity() == 0) items_.reserve(32);
+    items_.push_back(item);
+  }
   T pop() {
     T item = items_[head_++];
     if (head_ == items_.size()) {
