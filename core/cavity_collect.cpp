@@ -11,7 +11,7 @@ namespace pgdr {
 template <int D>
 void Cavity<D>::begin(const Point<D>& p) {
   point_ = p;
-  shrunk_ = touches_constraints_ = false;
+  shrunk_ = touches_constraints_ = shapes_known_ = false;
   split_edge_ = {no_vertex, no_vertex};
   split_segment_ = no_entity;
 }
@@ -208,6 +208,7 @@ auto Cavity<D>::grow() -> Status {
 
 template <int D>
 void Cavity<D>::rebuild_boundary() {
+  shapes_known_ = false;
   boundary_.clear();
   for (const CellId c : cells_)
     for (int f = 0; f <= D; ++f) {
@@ -227,43 +228,6 @@ bool Cavity<D>::in_line(CellId c, int i, int j) const {
     return k && (k->edges >> e & 1) && k->edge_entity[e] == split_segment_;
   }
   return false;
-}
-
-/// Does p see the inner side of the face? Ghosts' own faces at infinity are always seen.
-template <int D>
-bool Cavity<D>::visible(const BoundaryFace& f) const {
-  const CellRecord<D>& k = mesh_->cell(f.cell);
-  Simplex<D> s;
-  for (int i = 0; i <= D; ++i) {
-    if (i == f.face) {
-      s[i] = point_;
-    } else if (k.vertices[i] == infinite_vertex) {
-      return true;
-    } else {
-      s[i] = mesh_->point(k.vertices[i]);
-      if (s[i] == point_) return false;
-    }
-  }
-  if (split_segment_ != no_entity)
-    for (int i = 0; i <= D; ++i)
-      for (int j = i + 1; j <= D; ++j)
-        if (i != f.face && j != f.face && in_line(f.cell, i, j)) return false;
-  return orient<D>(s) == Sign::positive;
-}
-
-template <int D>
-auto Cavity<D>::make_star_shaped() -> Status {
-  std::vector<CellId> doomed;
-  while (true) {
-    for (const BoundaryFace& f : boundary_)
-      if (!visible(f)) doomed.push_back(f.cell);
-    if (doomed.empty())
-      if (const Status s = find_broken_fans(doomed); s != Status::ok) return s;
-    if (doomed.empty()) find_turned_over(doomed);
-    if (doomed.empty()) return Status::ok;
-    if (const Status s = drop_cells(doomed); s != Status::ok) return s;
-    doomed.clear();
-  }
 }
 
 /// A ridge between two faces of the part vanishes, so that all cells between these faces must be in the cavity. In one
@@ -420,18 +384,23 @@ auto Cavity<D>::check_nothing_swallowed() -> Status {
     return high << 32 | low;  // never the key of a vertex, whose high half is zero and lies below any edge's
   };
   auto vertex_key = [](VertexId v) { return std::uint64_t{index(v)}; };
-  rim_keys_.reset(6 * boundary_.size());
+  bool any_edges = false;
+  if constexpr (D == 3)
+    for (const CellId c : cells_) {
+      const auto* k = mesh_->constraints(c);
+      any_edges = any_edges || (k && k->edges);
+    }
+  rim_keys_.reset((any_edges ? 6 : 3) * boundary_.size());
   for (const BoundaryFace& f : boundary_) {
     const auto& k = mesh_->cell(f.cell);
     const Link out = k.links[f.face];
     if (out && mesh_->marked(out.cell())) return Status::not_star_shaped;
-    for (int i = 0; i <= D; ++i) {
-      if (i == f.face) continue;
-      rim_keys_.insert(vertex_key(k.vertices[i]));
-      if constexpr (D == 3)
-        for (int j = i + 1; j <= D; ++j)
-          if (j != f.face) rim_keys_.insert(edge_key(k.vertices[i], k.vertices[j]));
-    }
+    for (int i = 0; i <= D; ++i)
+      if (i != f.face) rim_keys_.insert(vertex_key(k.vertices[i]));
+    if (!any_edges) continue;
+    for (int i = 0; i <= D; ++i)
+      for (int j = i + 1; j <= D; ++j)
+        if (i != f.face && j != f.face) rim_keys_.insert(edge_key(k.vertices[i], k.vertices[j]));
   }
   for (const CellId c : cells_) {
     const auto& k = mesh_->cell(c);

@@ -55,12 +55,17 @@ VertexId Cavity<D>::commit(Pools& pools, Home home, float relaxed_radius) {
     rim_ = std::move(once);
   }
 
+  if (!shapes_known_) look_at_shapes();
   new_cells_.clear();
-  for (const BoundaryFace& f : boundary_) new_cells_.push_back(make_cell(pools, f, v));
-  // Only now do old cells point to their successors: make_cell reads the old links.
-  for (std::size_t i = 0; i < boundary_.size(); ++i)
-    mesh_->cell(boundary_[i].cell).links[boundary_[i].face] = Link(new_cells_[i], boundary_[i].face);
-  link_new_cells(pools);
+  for (std::size_t i = 0; i < boundary_.size(); ++i) {
+    new_cells_.push_back(make_cell(pools, boundary_[i], v));
+    set_sphere(new_cells_[i], i);
+  }
+  if (rim_.empty()) {
+    link_by_ridges();
+  } else {
+    link_by_walks(pools);
+  }
   if (split_segment_ != no_entity) mark_split_entities(pools, v);
   part_.clear();
   for (const CellId c : cells_) {
@@ -75,25 +80,19 @@ VertexId Cavity<D>::commit(Pools& pools, Home home, float relaxed_radius) {
 
 template <int D>
 CellId Cavity<D>::make_cell(Pools& pools, const BoundaryFace& f, VertexId v) {
-  const CellId c = mesh_->new_cell(pools);
+  const CellId c = mesh_->new_cell(pools, mesh_->region(f.cell));
   const CellRecord<D>& old = mesh_->cell(f.cell);
   CellRecord<D>& k = mesh_->cell(c);
   auto vertices = old.vertices;
+  const Link outside = old.links[f.face];
   vertices[f.face] = v;
   assert(!area_ || area_->owns(*mesh_, vertices));
   mesh_->set_vertices(c, vertices);
   k.links.fill(Link{});
-  const Link outside = old.links[f.face];
   k.links[f.face] = outside;
   assert(!outside || may_read(outside.cell()));
   if (outside) mesh_->cell(outside.cell()).links[outside.face()] = Link(c, f.face);
-  mesh_->set_region(c, mesh_->region(f.cell));
   if (touches_constraints_) inherit_constraints(pools, f, c);
-  if (mesh_->is_ghost(c)) {
-    mesh_->set_ghost_sphere(c);
-  } else {
-    mesh_->set_sphere(c, circumsphere<D>(mesh_->simplex(c)));
-  }
   return c;
 }
 
@@ -118,9 +117,59 @@ void Cavity<D>::inherit_constraints(Pools& pools, const BoundaryFace& f, CellId 
   if (edges) k.edge_entity = old->edge_entity;
 }
 
-/// Neighbours among the new cells, found by walking round each ridge of the boundary through the old cells.
+/// Neighbours among the new cells where no constrained face is made: the rim of a star-shaped cavity is a closed surface, two
+/// faces of which meet at each ridge.
 template <int D>
-void Cavity<D>::link_new_cells(Pools& pools) {
+void Cavity<D>::link_by_ridges() {
+  Mesh<D>& mesh = *mesh_;
+  ridges_.reset(boundary_.size() * D / 2 + 1);
+  new_faces_.resize(boundary_.size() * D);
+  NewFace* out = new_faces_.data();
+  for (std::size_t i = 0; i < boundary_.size(); ++i) {
+    const CellId c = new_cells_[i];
+    const auto& vertices = mesh.cell(c).vertices;
+    std::uint64_t hash[D + 1], all = 0;
+    for (int k = 0; k <= D; ++k) all ^= hash[k] = k == boundary_[i].face ? 0 : index(vertices[k]) * 0x9e3779b97f4a7c15u;
+    for (int j = 0; j <= D; ++j) {
+      if (j == boundary_[i].face) continue;
+      const std::size_t slot = ridges_.slot_of(all ^ hash[j]);
+      *out = {Link(c, j).code, static_cast<std::uint32_t>(slot)};
+      ridges_.add(slot, out->code);
+      ++out;
+    }
+  }
+  for (std::size_t i = 0; i < new_faces_.size(); ++i) {
+    const auto [code, slot] = new_faces_[i];
+    const Link self = Link::from_code(code);
+    mesh.cell(self.cell()).links[self.face()] =
+        ridges_.is_pair(slot) ? Link::from_code(ridges_.partner(slot, code)) : across_ridge(i);
+  }
+}
+
+/// The other new face at the ridge of the i-th: where several ridges share a slot.
+template <int D>
+Link Cavity<D>::across_ridge(std::size_t i) const {
+  const Link self = Link::from_code(new_faces_[i].code);
+  const auto ridge_of = [this](Link l) {
+    auto vertices = mesh_->cell(l.cell()).vertices;
+    vertices[static_cast<std::size_t>(l.face())] = no_vertex;
+    return sorted(vertices);
+  };
+  const std::uint32_t slot = new_faces_[i].slot;
+  const auto ridge = ridge_of(self);
+  for (const NewFace& f : new_faces_)
+    if (f.slot == slot && f.code != self.code && ridge_of(Link::from_code(f.code)) == ridge) return Link::from_code(f.code);
+  assert(false && "two faces meet at a ridge");
+  return {};
+}
+
+/// Neighbours among the new cells, found by walking round each ridge of the boundary through the old cells: what lies
+/// between the two is a new constrained face, or the hull, at the rim of the part.
+template <int D>
+void Cavity<D>::link_by_walks(Pools& pools) {
+  // Only now do old cells point to their successors: make_cell reads the old links.
+  for (std::size_t i = 0; i < boundary_.size(); ++i)
+    mesh_->cell(boundary_[i].cell).links[boundary_[i].face] = Link(new_cells_[i], boundary_[i].face);
   for (std::size_t i = 0; i < boundary_.size(); ++i) {
     const auto [old, face] = boundary_[i];
     const CellId c = new_cells_[i];
@@ -138,10 +187,6 @@ void Cavity<D>::link_new_cells(Pools& pools) {
         assert(owns(partner.cell()) && "a new cell");
         mesh_->cell(c).links[j] = partner;
         mesh_->cell(partner.cell()).links[partner.face()] = Link(c, j);
-      }
-      if (rim_.empty()) {
-        assert(next && "the hull opens at a point that splits no boundary entity");
-        continue;
       }
       const auto ridge = ridge_without<D>(mesh_->cell(old), face, j);
       const auto rim = std::lower_bound(rim_.begin(), rim_.end(), ridge,

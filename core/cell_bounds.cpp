@@ -3,6 +3,7 @@
 #include "pgdr/cell_bounds.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "pgdr/error.hpp"
@@ -26,35 +27,49 @@ double checked_size(const SizingField<D>& size, const Point<D>& x) {
 // relative error 2 |d| / r of r^2, and 2^-46 the roundings here), so outside the band around the bound it decides.
 template <int D>
 CellVerdict CellBounds<D>::test(const Mesh<D>& mesh, CellId c) const {
-  const Simplex<D> s = mesh.simplex(c);
-  CellVerdict verdict;
-  const auto [low, high] = mesh.squared_radius_bounds(c);
-  const double limit = radius_edge_bound * radius_edge_bound * shortest_edge_squared<D>(s);
-  if (low > limit) {
-    verdict.over_radius_edge = true;
-  } else if (!(high < limit)) {
-    verdict.over_radius_edge = !radius_edge_within<D>(s, radius_edge_bound);
-  }
-  verdict.over_size = over_size(mesh, c, s);
-  return verdict;
+  const double unknown = std::numeric_limits<double>::infinity();
+  return test(mesh, c, {shortest_edge_squared<D>(mesh.simplex(c)), 0, unknown});
 }
 
 template <int D>
-bool CellBounds<D>::over_size(const Mesh<D>& mesh, CellId c, const Simplex<D>& s) const {
+CellVerdict CellBounds<D>::test(const Mesh<D>& mesh, CellId c, const CellShape& shape) const {
+  CellVerdict verdict;
+  const auto [low, high] = mesh.squared_radius_bounds(c);
+  const double limit = radius_edge_bound * radius_edge_bound * shape.shortest_edge_squared;
+  if (low > limit) {
+    verdict.over_radius_edge = true;
+  } else if (!(high < limit)) {
+    verdict.over_radius_edge = !radius_edge_within<D>(mesh.simplex(c), radius_edge_bound);
+  }
+  verdict.over_size = over_size(mesh, c, shape);
+  return verdict;
+}
+
+// The determinant is D! times the measure; the right side is rounded once.
+template <int D>
+bool CellBounds<D>::within_measure(const Mesh<D>& mesh, CellId c, const CellShape& shape, double bound) const {
+  const double det = std::fabs(shape.det), limit = bound * (D == 3 ? 6 : 2);
+  if (det + shape.det_error <= limit * (1 - 0x1p-51)) return true;
+  if (det - shape.det_error > limit * (1 + 0x1p-51)) return false;
+  return measure_within<D>(mesh.simplex(c), bound);
+}
+
+template <int D>
+bool CellBounds<D>::over_size(const Mesh<D>& mesh, CellId c, const CellShape& shape) const {
   if (size.bounded()) {
-    const double bound = size.is_constant() ? size.at({}) : checked_size<D>(size, centroid<D>(s));
+    const double bound = size.is_constant() ? size.at({}) : checked_size<D>(size, centroid<D>(mesh.simplex(c)));
     if constexpr (D == 3) {
       const auto [low, high] = mesh.squared_radius_bounds(c);
       const double limit = bound * bound;
       if (low > limit) return true;
-      if (!(high < limit) && !circumradius_within<D>(s, bound)) return true;
+      if (!(high < limit) && !circumradius_within<D>(mesh.simplex(c), bound)) return true;
     } else {
-      if (!measure_within<D>(s, bound)) return true;
+      if (!within_measure(mesh, c, shape, bound)) return true;
     }
   }
   double measure = max_measure;
   if (!region_measure.empty()) measure = std::min(measure, region_measure[mesh.region(c)]);
-  return measure != std::numeric_limits<double>::infinity() && !measure_within<D>(s, measure);
+  return measure != std::numeric_limits<double>::infinity() && !within_measure(mesh, c, shape, measure);
 }
 
 template class CellBounds<2>;

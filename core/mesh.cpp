@@ -18,24 +18,20 @@ const std::array<typename Mesh<D>::Band, 16> Mesh<D>::bands = [] {
 
 template <int D>
 Mesh<D>::Mesh()
-    : cells_(capacity),
-      tags_(capacity),
-      labels_(capacity),
-      vertices_(capacity),
-      constraints_(capacity),
-      cell_source_("cells", capacity,
+    : capacity_(static_cast<std::uint32_t>(ReservedMemory::affordable_elements(IdSource::most))),
+      cells_(capacity_),
+      tags_(capacity_),
+      vertices_(capacity_),
+      constraints_(capacity_),
+      cell_source_("cells", capacity_,
                    [this](std::uint32_t n) {
                      cells_.grow_to(n);
                      tags_.grow_to(n);
-                     labels_.grow_to(n);
                      // Slots of a block that are never taken must read as dead.
                      for (std::uint32_t i = n - IdSource::block; i < n; ++i) cells_[i].vertices[0] = no_vertex;
                    }),
-      vertex_source_("vertices", capacity,
-                     [this](std::uint32_t n) {
-                       vertices_.grow_to(n);
-                     }),
-      constraint_source_("constrained cells", capacity, [this](std::uint32_t n) { constraints_.grow_to(n); }) {}
+      vertex_source_("vertices", capacity_, [this](std::uint32_t n) { vertices_.grow_to(n); }),
+      constraint_source_("constrained cells", capacity_, [this](std::uint32_t n) { constraints_.grow_to(n); }) {}
 
 // Let c~ be the computed centre, d = c - c~ its error, r~ = |v0 - c~|. For any p,
 //   (|p-c|^2 - |v0-c|^2) = (|p-c~|^2 - r~^2) - 2 d.(p - v0),
@@ -44,15 +40,16 @@ Mesh<D>::Mesh()
 // levels below the last imply. Evaluating both squares costs less than 8 u relative each, and the four bits taken from
 // r~^2 cost 2^-48: 2^-46 covers these.
 template <int D>
-void Mesh<D>::set_sphere(CellId c, const Circumsphere<D>& sphere) {
+void Mesh<D>::set_sphere(CellId c, const Circumsphere<D>& sphere, double radius) {
   CellRecord<D>& k = cell(c);
   k.center = sphere.center;
-  const double band = 6 * sphere.center_error / std::sqrt(sphere.squared_radius) + 0x1p-46;
+  const double band = 6 * sphere.center_error / radius + 0x1p-46;
   int level = 15;
   if (band <= 0x1p-44) {
     level = 0;
   } else if (band <= 0x1p-3) {
-    level = (44 + std::ilogb(band) + 1 + 2) / 3;
+    const int exponent = static_cast<int>(std::bit_cast<std::uint64_t>(band) >> 52) - 1023;  // of a normal number
+    level = (44 + exponent + 1 + 2) / 3;
   }
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(sphere.squared_radius);
   k.radius2 = std::bit_cast<double>((bits & ~std::uint64_t{15}) | static_cast<std::uint64_t>(level));
@@ -73,7 +70,7 @@ bool Mesh<D>::conflicts_exactly(CellId c, const Point<D>& p) const {
 
 template <int D>
 void Mesh<D>::free_cell(Pools& pools, CellId c) {
-  const std::uint32_t tag = tags_[index(c)] & ~mark_bit;
+  const std::uint32_t tag = tags_[index(c)].constraints & ~mark_bit;
   if (tag != 0) pools.constraints.give(tag - 1);
   std::atomic_ref(cell(c).vertices[0]).store(no_vertex, std::memory_order_relaxed);
   pools.cells.give(index(c));
@@ -91,7 +88,7 @@ ConstraintRecord<D>& Mesh<D>::ensure_constraints(Pools& pools, CellId c) {
   if (ConstraintRecord<D>* k = constraints(c)) return *k;
   const std::uint32_t id = pools.constraints.take();
   constraints_[id] = {};
-  tags_[index(c)] = (tags_[index(c)] & mark_bit) | (id + 1);
+  tags_[index(c)].constraints = (tags_[index(c)].constraints & mark_bit) | (id + 1);
   return constraints_[id];
 }
 

@@ -5,6 +5,7 @@
 #include "pgdr/refiner.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 
@@ -35,8 +36,9 @@ template <int D>
 int RefineContext<D>::bucket_of(CellId c) const {
   const double r2 = mesh.cell(c).radius2;
   if (!(r2 < std::numeric_limits<double>::infinity())) return 0;
-  // floor(log2(side / r)) up to one: ilogb of r^2 halved, rounding down.
-  const int e = std::ilogb(r2);
+  // floor(log2(side / r)) up to one: ilogb of r^2 halved, rounding down. Of a normal number ilogb is in its bits.
+  const int biased = static_cast<int>(std::bit_cast<std::uint64_t>(r2) >> 52);
+  const int e = biased > 0 ? biased - 1023 : std::ilogb(r2);
   return std::clamp(base_exponent - (e >= 0 ? e / 2 : -((1 - e) / 2)), 0, buckets - 1);
 }
 
@@ -112,7 +114,13 @@ template <int D>
 void Refiner<D>::committed() {
   ++visit_->counts.committed;
   visit_->changed_mesh = true;
-  for (const CellId c : cavity_.new_cells()) list_cell(c);
+  const std::vector<CellId>& made = cavity_.new_cells();
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    if (const auto* k = mesh_->constraints(made[i])) list_entities(made[i], *k);
+    const CellShape shape = cavity_.shape_of_new(i);
+    if (context_->bounds.surely_within(*mesh_, made[i], shape)) continue;
+    if (context_->bounds.test(*mesh_, made[i], shape)) list_poor(made[i], Item::over_bound);
+  }
   // A cavity that was not cut back keeps every face locally Delaunay, if all were.
   if (cavity_.shrunk() || visit_->violations_seen)
     for (const CellId c : cavity_.new_cells()) list_violations(c);
@@ -256,7 +264,7 @@ void Refiner<D>::run(RegionVisit<D>& visit) {
     const int bucket = list.first_bucket();
     if (bucket > last_bucket) break;
     if (list.poor() >= visit.floor && context_->largest_radius(bucket) <= visit.small_radius) break;
-    treat(list.pop_poor());
+    treat(list.pop_poor(*mesh_));
     treat_entities();
   }
   context_->vertices += visit.counts.committed - reported_;

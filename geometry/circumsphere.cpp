@@ -41,58 +41,37 @@ std::array<Point<D>, N> sorted(const std::array<Point<D>, N>& s) {
   return result;
 }
 
+using detail::one_norm;
 template <int D>
-double one_norm(const Point<D>& v) {
-  double sum = 0;
-  for (const double x : v.x) sum += std::fabs(x);
-  return sum;
-}
+using Offset = detail::CircumOffset<D>;
 
-/// Offset of the centre from the first corner and a bound on its error, not counting the last addition; infinite where
-/// the edges are too long or too short for the bound to hold.
 template <int D>
-struct Offset {
-  Point<D> w;
-  double error;
-};
-
-// With w = n / (2 d), computed n and d off by e_n and e_d: the computed quotient is off by at most
-// (e_n/2 + e_d |w|) / |d| but for a factor 1 + 2^-20 (where the bound is accepted) and 3u|w| of its own. |w| is at most
-// the sum s of the magnitudes. 3D: u (26 M^4 + 12 M^3 s) / |d|, where M^3 s <= (M^4 + M^2 s^2) / 2 saves a root:
-// u (32 M^4 + 6 M^2 s^2) / |d|. 2D: u (7.25 M^3 + 4.5 M^2 s) / |d|. (M <= 2s must not be used here: where the computed
-// determinant is all error, s may be far below the radius.)
-template <int D>
-Offset<D> simplex_offset(const std::array<Point<D>, D>& d) {
+Offset<D> simplex_offset(const std::array<std::array<double, D>, D>& d) {
   const detail::CircumTerms<D> t = detail::circum_terms(d);
-  const double inverse = 0.5 / t.det;
-  Offset<D> o;
-  for (int i = 0; i < D; ++i) o.w[i] = t.numerator[static_cast<std::size_t>(i)] * inverse;
-  const double s = one_norm(o.w), m2 = t.longest2;
-  const double scaled = D == 3 ? m2 * (33 * m2 + 6.5 * (s * s)) : m2 * (7.5 * std::sqrt(m2) + 5 * s);
-  o.error = unit_roundoff * (scaled * std::fabs(2 * inverse) + 4 * s);
-  if (!detail::in_safe_range(m2)) o.error = infinity;
+  Offset<D> o = detail::circum_offset<D>(t);
+  if (!detail::in_safe_range(t.longest2)) o.error = infinity;
   return o;
 }
 
 // The circumcentre of a triangle with edges b, c at the first corner: (|c|^2 n x b + |b|^2 c x n) / (2 |n|^2), n = b x c.
 // With q = M^2 / |n|: n is off by 5.7u M^2, the numerator by (11.4 q + 23) u M^3 |n|, |n|^2 by (11.4 q + 5) u |n|^2;
 // with M <= 2r the quotient is off by u r (11.4 q^2 + 35 q + 7) < 54u q^2 r. That is below 2^-20 r for q^2 < 2^27.
-Offset<3> triangle_offset(const std::array<Point3, 2>& d) {
-  const Point3 &b = d[0], &c = d[1];
-  const Point3 n = detail::cross(b, c), nb = detail::cross(n, b), cn = detail::cross(c, n);
+Offset<3> triangle_offset(const std::array<std::array<double, 3>, 2>& d) {
+  const auto &b = d[0], &c = d[1];
+  const auto n = detail::cross(b, c), nb = detail::cross(n, b), cn = detail::cross(c, n);
   const double b2 = detail::norm2(b), c2 = detail::norm2(c), n2 = detail::norm2(n), m2 = std::max(b2, c2);
   if (!(0x1p27 * n2 > m2 * m2) || !detail::in_safe_range(m2)) return {{}, infinity};
   const double inverse = 0.5 / n2;
   Offset<3> o{};
-  for (int i = 0; i < 3; ++i) o.w[i] = (c2 * nb[i] + b2 * cn[i]) * inverse;
+  for (std::size_t i = 0; i < 3; ++i) o.w[i] = (c2 * nb[i] + b2 * cn[i]) * inverse;
   return o;
 }
 
 template <int D>
 bool accurate(const Offset<D>& o) {
   double largest = 0;  // at most r, and within sqrt(D) of it; no squares, which might underflow
-  for (const double x : o.w.x) largest = std::max(largest, std::fabs(x));
-  return o.error <= 0x1p-20 * largest && largest < infinity;
+  for (const double x : o.w) largest = std::max(largest, std::fabs(x));
+  return o.error <= detail::accepted_error * largest && largest < infinity;
 }
 
 /// The centre first + o.w, rounded, and what bounds its error.
@@ -102,17 +81,16 @@ struct Center {
   double error;
 };
 
-// The last rounding is at most u times each coordinate.
 template <int D>
 double error_with_last_rounding(const Point<D>& center, double error) {
-  const double sum = error + (1 + 8 * unit_roundoff) * unit_roundoff * one_norm(center);
+  const double sum = detail::error_with_last_rounding(center.x, error);
   return sum < infinity ? sum : infinity;
 }
 
 template <int D>
 Center<D> add_offset(const Point<D>& first, const Offset<D>& o) {
   Center<D> c;
-  for (int i = 0; i < D; ++i) c.point[i] = first[i] + o.w[i];
+  for (int i = 0; i < D; ++i) c.point[i] = first[i] + o.w[static_cast<std::size_t>(i)];
   c.error = error_with_last_rounding(c.point, o.error);
   return c;
 }
@@ -121,17 +99,17 @@ Center<D> add_offset(const Point<D>& first, const Offset<D>& o) {
 // ill-conditioned, in rationals.
 template <int D, std::size_t N, std::size_t Corners, class Function>
 [[gnu::noinline]] Center<D> difficult_center(const std::array<Point<D>, Corners>& corners,
-                                             std::array<Point<D>, N> edges, Function offset) {
+                                             std::array<std::array<double, D>, N> edges, Function offset) {
   double largest = 0;
-  for (const Point<D>& v : edges)
-    for (const double x : v.x) largest = std::max(largest, std::fabs(x));
+  for (const auto& v : edges)
+    for (const double x : v) largest = std::max(largest, std::fabs(x));
   if (largest > 0 && largest < infinity) {
     const int k = std::ilogb(largest);
-    for (Point<D>& v : edges)
-      for (double& x : v.x) x = std::scalbn(x, -k);
+    for (auto& v : edges)
+      for (double& x : v) x = std::scalbn(x, -k);
     Offset<D> o = offset(edges);
     if (accurate<D>(o)) {
-      for (double& x : o.w.x) x = std::scalbn(x, k);
+      for (double& x : o.w) x = std::scalbn(x, k);
       o.error = std::scalbn(o.error, k) + 0x1p-1070;
       return add_offset<D>(corners[0], o);
     }
@@ -141,11 +119,11 @@ template <int D, std::size_t N, std::size_t Corners, class Function>
 }
 
 template <int D, std::size_t N, std::size_t Corners, class Function>
-Center<D> center_of(const std::array<Point<D>, Corners>& corners, const std::array<Point<D>, N>& edges,
+Center<D> center_of(const std::array<Point<D>, Corners>& corners, const std::array<std::array<double, D>, N>& edges,
                     Function offset) {
   const Offset<D> o = offset(edges);
   if (accurate<D>(o)) [[likely]] return add_offset<D>(corners[0], o);
-  return difficult_center<D>(corners, edges, offset);
+  return difficult_center<D, N>(corners, edges, offset);
 }
 
 }  // namespace
@@ -154,7 +132,7 @@ template <int D>
 Circumsphere<D> circumsphere(const Simplex<D>& s) {
   const Simplex<D> corners = sorted<D + 1, D>(s);
   const Center<D> c = center_of<D>(corners, detail::edges_from_first<D>(corners),
-                                   [](const std::array<Point<D>, D>& d) { return simplex_offset<D>(d); });
+                                   [](const auto& d) { return simplex_offset<D>(d); });
   return {c.point, squared_distance(c.point, corners[0]), c.error};
 }
 
@@ -187,7 +165,9 @@ Ball<D> diametral_ball(const Point<D>& a, const Point<D>& b) {
 
 Ball<3> equatorial_ball(const Point3& a, const Point3& b, const Point3& c) {
   const std::array<Point3, 3> p = sorted<3, 3>({a, b, c});
-  const auto edge = [&](std::size_t i) { return Point3{{p[i][0] - p[0][0], p[i][1] - p[0][1], p[i][2] - p[0][2]}}; };
+  const auto edge = [&](std::size_t i) {
+    return std::array{p[i][0] - p[0][0], p[i][1] - p[0][1], p[i][2] - p[0][2]};
+  };
   const Center<3> center = center_of<3, 2>(p, {edge(1), edge(2)}, triangle_offset);
   return {center.point, squared_distance(center.point, p[0])};
 }

@@ -20,7 +20,7 @@ void LeafWorks<D>::hand_down(const Mesh<D>& mesh, Node parent, std::uint64_t gen
   from.list.drain(pass_on);
   for (auto& entries : from.set_aside) {
     for (const Entry<D>& e : entries) pass_on(e);
-    entries = {};
+    std::vector<Entry<D>>().swap(entries);
   }
 }
 

@@ -4,6 +4,10 @@
 // From input to finished mesh: triangulate, recover the boundary, carve, refine, compact.
 #include "pgdr/refine.hpp"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include <algorithm>
 #include <chrono>
 #include <string>
@@ -127,6 +131,9 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   const bool finished = options.refine && result.stop == StopCause::finished;
   const std::vector<PoorCell> poor = finished ? reasons.explained(violations_seen) : reasons.without_reasons();
   result.statistics.seconds_refine = seconds_since(refine_start);
+#ifdef __GLIBC__
+  malloc_trim(0);  // the lists have left small pieces, which the long arrays of the result have no use for
+#endif
 
   std::vector<double> attributes;
   if (regions.labelled) attributes = regions.attribute;
@@ -136,15 +143,15 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   } else {
     compacted = compact<D>(mesh, domain, attributes, false);
   }
-  result.mesh = std::move(compacted.mesh);
   for (const PoorCell& p : poor) {
     if (p.over_bound) ++result.poor_left;
     if (p.over_size) result.size_met = false;
     if (result.stop != StopCause::finished || !options.refine) continue;
     PoorReason reason = p.reason;
-    reason.cell = compacted.cell_number[index(p.cell)];
+    reason.cell = compacted.cell_number(mesh, p.cell);
     result.reasons.push_back(reason);
   }
+  result.mesh = std::move(compacted.mesh);
   std::sort(result.reasons.begin(), result.reasons.end(),
             [](const PoorReason& a, const PoorReason& b) { return a.cell < b.cell; });
   result.statistics.predicates += predicate_counts() - predicates_before;

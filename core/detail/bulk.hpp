@@ -17,7 +17,9 @@ namespace pgdr::detail {
 
 class Bulk {
  public:
-  explicit Bulk(bool parallel) : parallel_(parallel) {}
+  explicit Bulk(bool parallel) : parallel_(parallel && tbb::this_task_arena::max_concurrency() > 1) {}
+
+  bool parallel() const { return parallel_; }
 
   /// Calls f(first, last) for blocks that cover [0, count). With `parallel`, several at once; isolated, so that the
   /// thread that waits does not pick up other tasks of the caller.

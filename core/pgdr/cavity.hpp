@@ -19,8 +19,10 @@
 #include <span>
 #include <vector>
 
+#include "pgdr/cell_bounds.hpp"
 #include "pgdr/key_set.hpp"
 #include "pgdr/mesh.hpp"
+#include "pgdr/simplex_shapes.hpp"
 #include "pgdr/visit_area.hpp"
 
 namespace pgdr {
@@ -111,6 +113,12 @@ class Cavity {
   VertexId commit(Pools& pools, Home home, float relaxed_radius);
   /// The cells made by the last commit.
   const std::vector<CellId>& new_cells() const { return new_cells_; }
+  /// What is known of the i-th of them.
+  CellShape shape_of_new(std::size_t i) const {
+    const ShapeBlock<D>& block = shapes_[i / shape_lanes];
+    const std::size_t lane = i % shape_lanes;
+    return {block.shortest_edge_squared[lane], block.det[lane], block.det_error[lane]};
+  }
 
   /// Gives up what was collected. Free.
   void release();
@@ -122,6 +130,7 @@ class Cavity {
     if (mesh_->marked(c)) return false;
     mesh_->mark(c);
     cells_.push_back(c);
+    for (const Link next : mesh_->cell(c).links) mesh_->prefetch(next.cell());
     return true;
   }
   bool may_read(CellId c) const { return !area_ || area_->may_read(*mesh_, c); }  ///< for assertions
@@ -135,7 +144,10 @@ class Cavity {
   }
   Status grow();
   void rebuild_boundary();
-  bool visible(const BoundaryFace& f) const;
+  void look_at_shapes();
+  bool visible(std::size_t i) const;
+  bool visible_exactly(const BoundaryFace& f) const;
+  void set_sphere(CellId c, std::size_t i);
   bool in_line(CellId c, int i, int j) const;
   Status find_broken_fans(std::vector<CellId>& doomed) const;
   void find_turned_over(std::vector<CellId>& doomed) const;
@@ -149,7 +161,9 @@ class Cavity {
   void clear_part_bits();
   CellId make_cell(Pools& pools, const BoundaryFace& f, VertexId v);
   void inherit_constraints(Pools& pools, const BoundaryFace& f, CellId c);
-  void link_new_cells(Pools& pools);
+  void link_by_ridges();
+  Link across_ridge(std::size_t i) const;
+  void link_by_walks(Pools& pools);
   void mark_split_entities(Pools& pools, VertexId v);
 
   Mesh<D>* mesh_;
@@ -159,6 +173,9 @@ class Cavity {
   std::vector<CellId> cells_, new_cells_;
   std::vector<CellId> protected_;
   std::vector<BoundaryFace> boundary_;
+  std::vector<SimplexBlock<D>> prospects_;  ///< the cells that the boundary faces make with the point, in their order
+  std::vector<ShapeBlock<D>> shapes_;       ///< of the prospects; none of faces at infinity
+  bool shapes_known_ = false;               ///< for the boundary as it is
   std::vector<PartFace> part_;
   /// Rim of the part: ridges that get a new constrained face with the new vertex, and of which entity.
   struct RimRidge {
@@ -167,6 +184,12 @@ class Cavity {
   };
   std::vector<RimRidge> rim_;
   KeySet rim_keys_;
+  struct NewFace {
+    std::uint32_t code;  ///< Link
+    std::uint32_t slot;
+  };
+  std::vector<NewFace> new_faces_;  ///< of new cells, at the ridges of the boundary
+  PairTable ridges_;
   std::array<VertexId, 2> split_edge_{no_vertex, no_vertex};  // 3D: the subsegment being split
   EntityId split_segment_ = no_entity;
   bool shrunk_ = false, touches_constraints_ = false;

@@ -12,6 +12,12 @@
 
 namespace pgdr {
 
+/// What is known of a cell besides its circumsphere.
+struct CellShape {
+  double shortest_edge_squared;
+  double det, det_error;  ///< of orient(), see ShapeBlock; an infinite error: not known
+};
+
 struct CellVerdict {
   bool over_radius_edge = false, over_size = false;
   explicit operator bool() const { return over_radius_edge || over_size; }
@@ -20,17 +26,28 @@ struct CellVerdict {
 template <int D>
 class CellBounds {
  public:
-  double radius_edge_bound = std::numeric_limits<double>::infinity();
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  double radius_edge_bound = infinity;
   SizingField<D> size;
-  double max_measure = std::numeric_limits<double>::infinity();
+  double max_measure = infinity;
   /// Measure bound of each region (by region number); infinity for none. Empty: none at all.
   std::vector<double> region_measure;
 
   /// @throws UsageError bad_size if the size function returns a value that is not positive.
   CellVerdict test(const Mesh<D>& mesh, CellId c) const;
+  /// A quick look that most cells within their bounds pass, in 3D without bounds on the measure.
+  bool surely_within(const Mesh<D>& mesh, CellId c, const CellShape& shape) const {
+    if (D == 2 || !size.is_constant() || !region_measure.empty() || max_measure != infinity) return false;
+    const double bound = size.at({}), high = mesh.squared_radius_bounds(c).second;
+    return high < bound * bound && high < radius_edge_bound * radius_edge_bound * shape.shortest_edge_squared;
+  }
+  /// The same of a cell whose shape is known.
+  CellVerdict test(const Mesh<D>& mesh, CellId c, const CellShape& shape) const;
 
  private:
-  bool over_size(const Mesh<D>& mesh, CellId c, const Simplex<D>& s) const;
+  bool within_measure(const Mesh<D>& mesh, CellId c, const CellShape& shape, double bound) const;
+  bool over_size(const Mesh<D>& mesh, CellId c, const CellShape& shape) const;
 };
 
 extern template class CellBounds<2>;

@@ -16,14 +16,15 @@ namespace pgdr {
 template <int D>
 struct Compacted {
   OutputMesh<D> mesh;
-  std::vector<std::uint32_t> cell_number;  ///< by index(CellId); 0xffffffff for dead cells
+  std::vector<std::uint32_t> vertex_number;  ///< by index(VertexId); 0xffffffff where no cell has the vertex
+  std::vector<std::uint32_t> first_cell;     ///< the first of the cells with vertex v as their smallest, and so on
+  /// Of a cell that is alive in the mesh that was compacted.
+  std::uint32_t cell_number(const Mesh<D>& mesh, CellId c) const;
 };
 
-/// Takes the mesh apart: its cells, vertices and constraints are gone afterwards, so that the peak of memory is that of the
-/// refinement.
 /// @param region_attributes  attribute of each region number; empty: do not label.
 /// @param parallel  on the threads of the caller's task arena; the result is the same.
 template <int D>
-Compacted<D> compact(Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes, bool parallel);
+Compacted<D> compact(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes, bool parallel);
 
 }  // namespace pgdr

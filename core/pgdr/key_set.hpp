@@ -39,4 +39,40 @@ class KeySet {
   std::uint32_t stamp_ = 0;
 };
 
+/// Pairs up what comes twice: of each key that two values are added for, either value finds the other. No branch depends on
+/// the data but where two keys share a slot, which the caller must then tell apart. Emptied at no cost; one thread.
+class PairTable {
+ public:
+  /// Empties the table and makes room for `most` keys.
+  void reset(std::size_t most) {
+    std::size_t size = slots_.size();
+    while (size < 32 * most) size = size == 0 ? 2048 : 2 * size;
+    if (size != slots_.size() || stamp_ >= last_stamp) {
+      slots_.assign(size, {});
+      stamp_ = 0;
+    }
+    stamp_ += most_count + 1;
+  }
+  std::size_t slot_of(std::uint64_t hash) const { return (hash >> 24) & (slots_.size() - 1); }
+  void add(std::size_t slot, std::uint32_t value) {
+    Slot& s = slots_[slot];
+    const bool fresh = s.tag < stamp_;
+    const std::uint32_t tag = fresh ? stamp_ : s.tag, others = fresh ? 0 : s.values;
+    s = {tag + ((tag & most_count) < most_count ? 1 : 0), others ^ value};
+  }
+  /// Is the slot one pair's alone?
+  bool is_pair(std::size_t slot) const { return slots_[slot].tag == stamp_ + 2; }
+  /// @pre is_pair
+  std::uint32_t partner(std::size_t slot, std::uint32_t value) const { return slots_[slot].values ^ value; }
+
+ private:
+  static constexpr std::uint32_t most_count = 63, last_stamp = 0xffffff00u;
+  struct Slot {
+    std::uint32_t tag = 0;     // the stamp, and how many were added, up to most_count
+    std::uint32_t values = 0;  // exclusive or
+  };
+  std::vector<Slot> slots_;
+  std::uint32_t stamp_ = 0;
+};
+
 }  // namespace pgdr

@@ -13,6 +13,7 @@
 #include <array>
 #include <atomic>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -33,6 +34,11 @@ struct Link {
 
   Link() = default;
   Link(CellId cell, int face) : code(index(cell) << 2 | static_cast<std::uint32_t>(face)) {}
+  static Link from_code(std::uint32_t code) {
+    Link l;
+    l.code = code;
+    return l;
+  }
   explicit operator bool() const { return code != 0xffffffffu; }
   CellId cell() const { return CellId{code >> 2}; }
   int face() const { return static_cast<int>(code & 3u); }
@@ -93,6 +99,13 @@ class Mesh {
   CellRecord<D>& cell(CellId c) { return cells_[index(c)]; }
   const CellRecord<D>& cell(CellId c) const { return cells_[index(c)]; }
 
+  /// A hint that the cell is about to be read; any id will do.
+  void prefetch(CellId c) const {
+    __builtin_prefetch(&cells_[index(c)]);
+    __builtin_prefetch(&tags_[index(c)]);
+  }
+  void prefetch(VertexId v) const { __builtin_prefetch(&vertices_[index(v)]); }
+
   bool alive(CellId c) const { return cell(c).vertices[0] != no_vertex; }
   /// Does the slot still hold the cell with these vertices that was born there? From any thread that owns their positions:
   /// the slot may be in use by another meanwhile, so that ids are loaded and stored as relaxed atomics (plain moves on
@@ -119,13 +132,13 @@ class Mesh {
   }
 
   // Marks of a cavity under construction: owner of the cell alone.
-  bool marked(CellId c) const { return tags_[index(c)] & mark_bit; }
-  void mark(CellId c) { tags_[index(c)] |= mark_bit; }
-  void unmark(CellId c) { tags_[index(c)] &= ~mark_bit; }
+  bool marked(CellId c) const { return tags_[index(c)].constraints & mark_bit; }
+  void mark(CellId c) { tags_[index(c)].constraints |= mark_bit; }
+  void unmark(CellId c) { tags_[index(c)].constraints &= ~mark_bit; }
 
   /// Constraints of c, or null if none of its faces or edges is constrained.
   ConstraintRecord<D>* constraints(CellId c) {
-    const std::uint32_t id = tags_[index(c)] & ~mark_bit;
+    const std::uint32_t id = tags_[index(c)].constraints & ~mark_bit;
     return id == 0 ? nullptr : &constraints_[id - 1];
   }
   const ConstraintRecord<D>* constraints(CellId c) const { return const_cast<Mesh*>(this)->constraints(c); }
@@ -133,13 +146,14 @@ class Mesh {
     const auto* k = constraints(c);
     return k && (k->faces >> face & 1);
   }
-  std::uint16_t region(CellId c) const { return labels_[index(c)].region; }
-  void set_region(CellId c, std::uint16_t r) { labels_[index(c)].region = r; }
+  std::uint16_t region(CellId c) const { return tags_[index(c)].region; }
+  void set_region(CellId c, std::uint16_t r) { tags_[index(c)].region = r; }
   /// Counts the cells that the slot has held, modulo 2^16.
-  std::uint16_t birth(CellId c) const { return labels_[index(c)].birth; }
+  std::uint16_t birth(CellId c) const { return tags_[index(c)].birth; }
 
   /// Stores the circumsphere as the filter of `conflicts`. Ghosts: `set_ghost_sphere`.
-  void set_sphere(CellId c, const Circumsphere<D>& sphere);
+  void set_sphere(CellId c, const Circumsphere<D>& sphere) { set_sphere(c, sphere, std::sqrt(sphere.squared_radius)); }
+  void set_sphere(CellId c, const Circumsphere<D>& sphere, double radius);
   void set_ghost_sphere(CellId c) { cell(c).radius2 = std::numeric_limits<double>::quiet_NaN(); }
 
   /// Exactly: is p inside the (perturbed) circumsphere of c? For a ghost: beyond its hull face, or in that face's plane
@@ -166,26 +180,15 @@ class Mesh {
   std::uint32_t cell_bound() const { return cell_source_.bound(); }
   std::uint32_t vertex_bound() const { return vertex_source_.bound(); }
 
-  // Taking apart, so that what is made of the mesh takes the place of the mesh: nothing is asked of the parts any more.
-  static constexpr std::uint32_t cells_of_chunk = ChunkedArray<CellRecord<D>, 14>::chunk_size;
-  void release_cells(std::uint32_t chunk) { cells_.release_chunk(chunk); }
-  void release_constraints() {
-    tags_.release();
-    constraints_.release();
-  }
-  void release_vertices() { vertices_.release(); }
-  void release_labels() { labels_.release(); }
-
   /// The pools of one thread.
   struct Pools {
     IdPool cells, vertices, constraints;
   };
   Pools make_pools() { return {IdPool(cell_source_), IdPool(vertex_source_), IdPool(constraint_source_)}; }
 
-  CellId new_cell(Pools& pools) {
+  CellId new_cell(Pools& pools, std::uint16_t region = 0) {
     const std::uint32_t id = pools.cells.take();
-    tags_[id] = 0;
-    ++labels_[id].birth;
+    tags_[id] = {0, region, static_cast<std::uint16_t>(tags_[id].birth + 1)};
     return CellId{id};
   }
   void free_cell(Pools& pools, CellId c);
@@ -195,20 +198,20 @@ class Mesh {
 
  private:
   static constexpr std::uint32_t mark_bit = 1u << 31;
-  static constexpr std::uint32_t capacity = (1u << 30) - 1024;
   struct Band { double inner, outer; };
   static const std::array<Band, 16> bands;
 
   bool conflicts_exactly(CellId c, const Point<D>& p) const;
 
-  ChunkedArray<CellRecord<D>, 14> cells_;
-  ChunkedArray<std::uint32_t, 14> tags_;
-  struct Label {
+  struct Tag {
+    std::uint32_t constraints = 0;  ///< number of the side record, from 1, and the mark
     std::uint16_t region = 0, birth = 0;
   };
-  ChunkedArray<Label, 14> labels_;
-  ChunkedArray<VertexRecord<D>, 14> vertices_;
-  ChunkedArray<ConstraintRecord<D>, 12> constraints_;
+  std::uint32_t capacity_;
+  ReservedArray<CellRecord<D>> cells_;
+  ReservedArray<Tag> tags_;
+  ReservedArray<VertexRecord<D>> vertices_;
+  ReservedArray<ConstraintRecord<D>> constraints_;
   IdSource cell_source_, vertex_source_, constraint_source_;
 };
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Storage that grows without moving, and the per-thread pools of ids that hand its slots out. An `IdSource` is shared:
-// it deals out blocks of ids and makes the storage behind them (one atomic per block, a lock per chunk). An `IdPool`
+// it deals out blocks of ids and makes the storage behind them (one atomic per block, a lock per growth). An `IdPool`
 // belongs to one thread at a time: ids it is given back are handed out again by the same pool, last in first out, while
 // they are still in the cache. No element carries a lock; who may touch a slot is decided above (see mesh.hpp).
 #pragma once
@@ -10,63 +10,42 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
-#include <memory>
-#include <mutex>
+#include <new>
+#include <type_traits>
 #include <vector>
 
 #include "pgdr/error.hpp"
+#include "pgdr/reserved_memory.hpp"
 
 namespace pgdr {
 
-/// An array in chunks of 2^log_chunk elements; references stay valid while it grows.
+/// An array whose elements never move; fresh ones are zero bytes.
 /// Threads: operator[] from any thread for slots that exist; grow_to from any thread.
-template <class T, int log_chunk>
-class ChunkedArray {
+template <class T>
+class ReservedArray {
  public:
-  static constexpr std::uint32_t chunk_size = 1u << log_chunk;
+  static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
 
-  explicit ChunkedArray(std::uint32_t capacity)
-      : chunks_((capacity >> log_chunk) + 1), table_(new std::atomic<T*>[chunks_]()) {}
-  ~ChunkedArray() {
-    for (std::uint32_t c = 0; c < chunks_; ++c) delete[] table_[c].load(std::memory_order_relaxed);
-  }
-  ChunkedArray(const ChunkedArray&) = delete;
-  ChunkedArray& operator=(const ChunkedArray&) = delete;
+  explicit ReservedArray(std::uint32_t capacity)
+      : memory_(std::size_t{capacity} * sizeof(T)), items_(static_cast<T*>(memory_.base())) {}
 
-  T& operator[](std::uint32_t i) {
-    // Relaxed: an id reaches another thread only through a synchronising operation that came after its chunk was made.
-    return table_[i >> log_chunk].load(std::memory_order_relaxed)[i & (chunk_size - 1)];
-  }
-  const T& operator[](std::uint32_t i) const {
-    return table_[i >> log_chunk].load(std::memory_order_relaxed)[i & (chunk_size - 1)];
-  }
-
-  /// Gives the storage of a chunk back. None of its slots may be touched after that, or while it goes on.
-  void release_chunk(std::uint32_t chunk) { delete[] table_[chunk].exchange(nullptr, std::memory_order_relaxed); }
-  void release() {
-    for (std::uint32_t c = 0; c < chunks_; ++c) release_chunk(c);
-  }
+  T& operator[](std::uint32_t i) { return items_[i]; }
+  const T& operator[](std::uint32_t i) const { return items_[i]; }
 
   /// Makes the slots [0, count) exist. @throws std::bad_alloc
-  void grow_to(std::uint32_t count) {
-    if (count == 0) return;
-    const std::uint32_t last = (count - 1) >> log_chunk;
-    if (table_[last].load(std::memory_order_acquire)) return;
-    std::lock_guard lock(mutex_);
-    for (std::uint32_t c = 0; c <= last; ++c)
-      if (!table_[c].load(std::memory_order_relaxed)) table_[c].store(new T[chunk_size], std::memory_order_release);
-  }
+  void grow_to(std::uint32_t count) { memory_.grow_to(std::size_t{count} * sizeof(T)); }
 
  private:
-  std::uint32_t chunks_;
-  std::unique_ptr<std::atomic<T*>[]> table_;
-  std::mutex mutex_;
+  ReservedMemory memory_;
+  T* items_;
 };
 
-/// Deals out ids 0, 1, 2, ... in blocks, below a capacity.
+/// Deals out ids 0, 1, 2, ... in blocks, below a capacity; `most` were it not for want of memory.
 class IdSource {
  public:
   static constexpr std::uint32_t block = 512;
+
+  static constexpr std::uint32_t most = (1u << 30) - 1024;
 
   /// `grow(n)` is called before any id below n is handed out; from any thread.
   IdSource(const char* what, std::uint32_t capacity, std::function<void(std::uint32_t)> grow)
@@ -75,8 +54,9 @@ class IdSource {
   /// First id of a fresh block. @throws ResourceError ids_exhausted, std::bad_alloc
   std::uint32_t take_block() {
     const std::uint32_t first = next_.fetch_add(block, std::memory_order_relaxed);
-    if (first > capacity_ - block) {
+    if (first + block > capacity_) {
       next_.fetch_sub(block, std::memory_order_relaxed);
+      if (capacity_ < most) throw std::bad_alloc();
       throw ResourceError({Errc::ids_exhausted, std::string("more than 2^30 ") + what_ + " are needed", {}, 0, {}, {}});
     }
     grow_(first + block);

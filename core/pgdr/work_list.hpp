@@ -5,6 +5,7 @@
 // elements by buckets of their circumradius; first in first out within each. Plain containers; one thread at a time.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -33,35 +34,75 @@ struct Entry {
 };
 static_assert(sizeof(Entry<3>) == 24);
 
-/// First in, first out; storage that was read is given up once it is the larger half.
+/// First in, first out, in blocks: what was read is given back at once and used again while it is in the cache.
 template <class T>
 class Fifo {
  public:
-  bool empty() const { return head_ == items_.size(); }
-  std::size_t size() const { return items_.size() - head_; }
-  void push(const T& item) { items_.push_back(item); }
+  Fifo() = default;
+  Fifo(Fifo&& o) noexcept { swap(o); }
+  Fifo& operator=(Fifo&& o) noexcept {
+    swap(o);
+    return *this;
+  }
+  ~Fifo() { clear(); }
+
+  bool empty() const { return size_ == 0; }
+  std::size_t size() const { return size_; }
+  void push(const T& item) {
+    if (!last_) {
+      first_ = last_ = new Block;
+      head_ = tail_ = 0;
+    } else if (tail_ == block_items) {
+      last_ = last_->next = new Block;
+      tail_ = 0;
+    }
+    last_->items[tail_++] = item;
+    ++size_;
+  }
+  /// @pre !empty()
   T pop() {
-    T item = items_[head_++];
-    if (head_ == items_.size()) {
-      items_.clear();
-      head_ = 0;
-    } else if (head_ >= 1024 && 2 * head_ >= items_.size()) {
-      items_.erase(items_.begin(), items_.begin() + static_cast<std::ptrdiff_t>(head_));
+    const T item = first_->items[head_++];
+    --size_;
+    if (size_ == 0) {
+      clear();
+    } else if (head_ == block_items) {
+      delete std::exchange(first_, first_->next);
       head_ = 0;
     }
     return item;
   }
+  /// The n-th from the front, 0 being the next; null if there are fewer in its block.
+  const T* ahead(std::size_t n) const {
+    return n < size_ && head_ + n < block_items ? &first_->items[head_ + n] : nullptr;
+  }
   /// Calls f for each in order, and empties the list.
   template <class F>
   void drain(F f) {
-    for (std::size_t i = head_; i < items_.size(); ++i) f(items_[i]);
-    items_ = {};
-    head_ = 0;
+    while (!empty()) f(pop());
   }
 
  private:
-  std::vector<T> items_;
-  std::size_t head_ = 0;
+  static constexpr std::size_t block_items = (1024 - 2 * sizeof(void*)) / sizeof(T);
+  struct Block {
+    Block* next = nullptr;
+    std::array<T, block_items> items;
+  };
+
+  void clear() {
+    while (first_) delete std::exchange(first_, first_->next);
+    last_ = nullptr;
+    size_ = 0;
+  }
+  void swap(Fifo& o) {
+    std::swap(first_, o.first_);
+    std::swap(last_, o.last_);
+    std::swap(head_, o.head_);
+    std::swap(tail_, o.tail_);
+    std::swap(size_, o.size_);
+  }
+
+  Block *first_ = nullptr, *last_ = nullptr;
+  std::size_t head_ = 0, tail_ = 0, size_ = 0;  ///< head_ in the first block, tail_ in the last
 };
 
 /// Two input entities that meet where something was refused.
@@ -92,10 +133,7 @@ class WorkList {
       case EntryKind::cell: break;
     }
     while (first_ + static_cast<int>(poor_.size()) <= e.bucket) poor_.emplace_back();
-    if (e.bucket < first_) {
-      poor_.insert(poor_.begin(), static_cast<std::size_t>(first_ - e.bucket), {});
-      first_ = e.bucket;
-    }
+    for (; first_ > e.bucket; --first_) poor_.emplace(poor_.begin());
     poor_[static_cast<std::size_t>(e.bucket - first_)].push(e);
     ++waiting_;
   }
@@ -112,10 +150,15 @@ class WorkList {
     }
     return first_;
   }
-  /// One of the largest. @pre poor() > 0
-  Entry<D> pop_poor() {
+  /// One of the largest. Those that come soon after are fetched into the cache. @pre poor() > 0
+  Entry<D> pop_poor(const Mesh<D>& mesh) {
     --waiting_;
-    return poor_[static_cast<std::size_t>(first_bucket() - first_)].pop();
+    auto& bucket = poor_[static_cast<std::size_t>(first_bucket() - first_)];
+    if (const Entry<D>* e = bucket.ahead(fetched_ahead)) {
+      mesh.prefetch(e->cell);
+      for (const VertexId v : e->vertices) mesh.prefetch(v);
+    }
+    return bucket.pop();
   }
   /// Calls f for every entry that waits, in the order in which they would be treated, and empties the list.
   template <class F>
@@ -124,12 +167,14 @@ class WorkList {
     faces.drain(f);
     flips.drain(f);
     for (auto& bucket : poor_) bucket.drain(f);
-    poor_ = {};
+    poor_.clear();
     first_ = 0;
     waiting_ = 0;
   }
 
  private:
+  static constexpr std::size_t fetched_ahead = 4;
+
   std::vector<Fifo<Entry<D>>> poor_;  ///< of the buckets from first_ on
   int first_ = 0;
   std::size_t waiting_ = 0;

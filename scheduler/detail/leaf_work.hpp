@@ -36,7 +36,7 @@ struct LeafWork {
   void open_inbox() {
     for (const auto& letter : inbox)
       for (const Entry<D>& e : letter) list.push(e);
-    inbox.clear();
+    std::vector<std::vector<Entry<D>>>().swap(inbox);
   }
 };
 

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Judging a cavity by the cells that it would make: is it star-shaped about the point?
+#include <algorithm>
+
+#include "pgdr/cavity.hpp"
+
+namespace pgdr {
+
+/// The cells that the boundary faces would make with the point, several side by side: whether they are positively oriented,
+/// and the spheres and edges that a commit will ask for.
+template <int D>
+void Cavity<D>::look_at_shapes() {
+  const std::size_t blocks = (boundary_.size() + shape_lanes - 1) / shape_lanes;
+  if (blocks > shapes_.size()) {
+    prospects_.resize(2 * blocks);
+    shapes_.resize(2 * blocks);
+  }
+  const Mesh<D>& mesh = *mesh_;
+  const Point<D> p = point_;
+  for (std::size_t i = 0; i < blocks * shape_lanes; ++i) {
+    const BoundaryFace f = boundary_[std::min(i, boundary_.size() - 1)];
+    const auto& vertices = mesh.cell(f.cell).vertices;
+    SimplexBlock<D>& block = prospects_[i / shape_lanes];
+    for (int k = 0; k <= D; ++k) {
+      const VertexId v = vertices[k];
+      block.set(i % shape_lanes, k, k == f.face || v == infinite_vertex ? p : mesh.point(v));
+    }
+  }
+  simplex_shapes<D>({prospects_.data(), blocks}, {shapes_.data(), blocks});
+  shapes_known_ = true;
+}
+
+template <int D>
+bool Cavity<D>::visible(std::size_t i) const {
+  const ShapeBlock<D>& block = shapes_[i / shape_lanes];
+  const std::size_t lane = i % shape_lanes;
+  const double det = block.det[lane], error = block.det_error[lane];
+  if (split_segment_ == no_entity) {
+    if (det > error) [[likely]] return true;
+    if (det < -error) return false;
+  }
+  return visible_exactly(boundary_[i]);
+}
+
+/// Does p see the inner side of the face? Ghosts' own faces at infinity are always seen.
+template <int D>
+bool Cavity<D>::visible_exactly(const BoundaryFace& f) const {
+  const CellRecord<D>& k = mesh_->cell(f.cell);
+  Simplex<D> s;
+  for (int i = 0; i <= D; ++i) {
+    if (i == f.face) {
+      s[i] = point_;
+    } else if (k.vertices[i] == infinite_vertex) {
+      return true;
+    } else {
+      s[i] = mesh_->point(k.vertices[i]);
+      if (s[i] == point_) return false;
+    }
+  }
+  if (split_segment_ != no_entity)
+    for (int i = 0; i <= D; ++i)
+      for (int j = i + 1; j <= D; ++j)
+        if (i != f.face && j != f.face && in_line(f.cell, i, j)) return false;
+  return orient<D>(s) == Sign::positive;
+}
+
+template <int D>
+auto Cavity<D>::make_star_shaped() -> Status {
+  std::vector<CellId> doomed;
+  while (true) {
+    look_at_shapes();
+    for (std::size_t i = 0; i < boundary_.size(); ++i)
+      if (!visible(i)) doomed.push_back(boundary_[i].cell);
+    if (doomed.empty())
+      if (const Status s = find_broken_fans(doomed); s != Status::ok) return s;
+    if (doomed.empty()) find_turned_over(doomed);
+    if (doomed.empty()) return Status::ok;
+    if (const Status s = drop_cells(doomed); s != Status::ok) return s;
+    doomed.clear();
+  }
+}
+
+/// Of new cell c on the i-th boundary face.
+template <int D>
+void Cavity<D>::set_sphere(CellId c, std::size_t i) {
+  const ShapeBlock<D>& block = shapes_[i / shape_lanes];
+  const std::size_t lane = i % shape_lanes;
+  if (!(block.center_error[lane] < std::numeric_limits<double>::infinity())) {
+    if (mesh_->is_ghost(c)) return mesh_->set_ghost_sphere(c);
+    return mesh_->set_sphere(c, circumsphere<D>(mesh_->simplex(c)));
+  }
+  Circumsphere<D> sphere;
+  for (int k = 0; k < D; ++k) sphere.center[k] = block.center[k][lane];
+  sphere.squared_radius = block.squared_radius[lane];
+  sphere.center_error = block.center_error[lane];
+  mesh_->set_sphere(c, sphere, block.radius[lane]);
+}
+
+// The members defined in this file.
+template class Cavity<2>;
+template class Cavity<3>;
+
+}  // namespace pgdr

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A range of addresses whose pages come as it grows: what makes an array grow without moving and without a table of
+// chunks between an id and its element. Fresh memory is zero. Huge pages are asked for where it is large.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <mutex>
+
+namespace pgdr {
+
+class ReservedMemory {
+ public:
+  /// Reserves addresses, no memory. @throws std::bad_alloc
+  explicit ReservedMemory(std::size_t bytes);
+  ~ReservedMemory();
+  ReservedMemory(const ReservedMemory&) = delete;
+  ReservedMemory& operator=(const ReservedMemory&) = delete;
+
+  void* base() const { return base_; }
+  /// Makes the first `bytes` usable; from any thread. @throws std::bad_alloc @pre bytes <= what is reserved
+  void grow_to(std::size_t bytes) {
+    if (bytes > usable_.load(std::memory_order_acquire)) grow(bytes);
+  }
+  /// Of `elements` with all that belongs to them, as many as there are addresses for.
+  static std::size_t affordable_elements(std::size_t elements);
+
+ private:
+  void grow(std::size_t bytes);
+
+  void* mapped_;
+  std::byte* base_;
+  std::size_t reserved_;
+  std::atomic<std::size_t> usable_{0};
+  std::mutex mutex_;
+};
+
+}  // namespace pgdr

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "pgdr/reserved_memory.hpp"
+
+#include <sys/mman.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <new>
+
+namespace pgdr {
+namespace {
+
+constexpr std::size_t huge_page = std::size_t{1} << 21;
+constexpr std::size_t first_step = std::size_t{1} << 16;
+constexpr std::size_t bytes_an_element = 200;  // what a mesh reserves for each of its ids, or a little more
+
+constexpr std::size_t rounded_up(std::size_t bytes, std::size_t unit) { return (bytes + unit - 1) / unit * unit; }
+
+}  // namespace
+
+// Pages without access count against nothing but the limit on addresses.
+ReservedMemory::ReservedMemory(std::size_t bytes) : reserved_(rounded_up(bytes, huge_page)) {
+  mapped_ = mmap(nullptr, reserved_ + huge_page, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (mapped_ == MAP_FAILED) throw std::bad_alloc();
+  const auto address = reinterpret_cast<std::uintptr_t>(mapped_);
+  base_ = static_cast<std::byte*>(mapped_) + (rounded_up(address, huge_page) - address);
+}
+
+ReservedMemory::~ReservedMemory() { munmap(mapped_, reserved_ + huge_page); }
+
+// Steps grow with the array, so that there are few; from the first huge page on they are huge pages.
+void ReservedMemory::grow(std::size_t bytes) {
+  const std::lock_guard lock(mutex_);
+  const std::size_t usable = usable_.load(std::memory_order_relaxed);
+  if (bytes <= usable) return;
+  std::size_t wanted = std::max({bytes, usable + usable / 8, first_step});
+  wanted = std::min(rounded_up(wanted, wanted < huge_page ? first_step : huge_page), reserved_);
+  if (mprotect(base_ + usable, wanted - usable, PROT_READ | PROT_WRITE) != 0) throw std::bad_alloc();
+#ifdef MADV_HUGEPAGE
+  if (wanted > huge_page) madvise(base_ + usable, wanted - usable, MADV_HUGEPAGE);  // a hint: whatever it says
+#endif
+  usable_.store(wanted, std::memory_order_release);
+}
+
+// Half of what there is, so that others have some. The limit counts, and what the kernel (or what stands between) gives.
+std::size_t ReservedMemory::affordable_elements(std::size_t elements) {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+    elements = std::min(elements, static_cast<std::size_t>(limit.rlim_cur) / 2 / bytes_an_element);
+  for (bool first = true; elements > (std::size_t{1} << 16); elements /= 2, first = false) {
+    const std::size_t bytes = elements * bytes_an_element;
+    void* const p = mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (p == MAP_FAILED) continue;
+    munmap(p, bytes);
+    return first ? elements : elements / 2;
+  }
+  return elements;
+}
+
+}  // namespace pgdr

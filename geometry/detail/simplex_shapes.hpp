@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What simplex_shapes() does on processors that are not known to do more: apart, so that tests can compare.
+#pragma once
+
+#include "pgdr/simplex_shapes.hpp"
+
+namespace pgdr::detail {
+
+template <int D>
+void simplex_shapes_anywhere(std::span<const SimplexBlock<D>> in, std::span<ShapeBlock<D>> out);
+
+}  // namespace pgdr::detail
