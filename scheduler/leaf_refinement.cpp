@@ -186,7 +186,6 @@ void LeafRefinement<D>::prepare(const VisitRequest& request, RegionVisit<D>& vis
 
 template <int D>
 void LeafRefinement<D>::account(const VisitRequest& request, RegionVisit<D>& visit, std::span<const Node> claim) {
-  if (visit.list->empty()) visit.list->drain([](const Entry<D>&) {});  // thousands of leaves would keep their storage
   if (visit.changed_mesh) note_change(claim);
   if (!claim.empty() && visit.counts.refused > 0)
     works_[request.leaf].zones.try_emplace(request.order, claim.begin(), claim.end());
