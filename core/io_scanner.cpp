@@ -118,6 +118,25 @@ void LineScanner::skip_line() {
   while (pos_ < text_.size() && text_[pos_] != '\n') ++pos_;
 }
 
+std::string_view LineScanner::rest_of_line() {
+  const std::size_t begin = pos_;
+  skip_line();
+  return text_.substr(begin, pos_ - begin);
+}
+
+void LineScanner::enter_bytes(Subject s) {
+  end_line(s);
+  bytes(s, 1);
+}
+
+std::string_view LineScanner::bytes(Subject s, std::size_t n) {
+  if (n > remaining()) fail(Errc::truncated, "the file ends within " + described(s), ids_of(s));
+  const std::string_view taken = text_.substr(pos_, n);
+  pos_ += n;
+  line_ += static_cast<std::uint64_t>(std::count(taken.begin(), taken.end(), '\n'));
+  return taken;
+}
+
 bool LineScanner::accept(std::string_view literal) {
   if (!text_.substr(pos_).starts_with(literal)) return false;
   pos_ += literal.size();
