@@ -118,26 +118,33 @@ template OutputMesh<3> read_mesh_from<3>(std::string_view, const Path&);
 
 namespace {
 
-/// A file of unknown extension is not opened: what it is would not help.
+template <int D>
+bool is_input_format(const std::string& extension) {
+  constexpr std::string_view formats[] = {".poly", ".node", ".mesh", ".msh", ".smesh", ".obj", ".off", ".ply", ".stl"};
+  constexpr std::ptrdiff_t in_2d = 4;
+  const auto end = D == 2 ? std::begin(formats) + in_2d : std::end(formats);
+  return std::find(std::begin(formats), end, extension) != end;
+}
+
+/// A file of unknown format is not opened.
 template <class Work>
-auto with_bytes(const Path& file, Work work) {
-  constexpr std::string_view known[] = {".poly", ".node", ".smesh", ".obj", ".off", ".ply", ".stl", ".mesh", ".msh", ".vtu"};
-  const std::string extension = lower_extension(file);
-  const bool is_known = std::find(std::begin(known), std::end(known), extension) != std::end(known);
-  return guarded(file, [&] { return work(is_known ? detail::read_whole_file(file) : std::string()); });
+auto with_bytes(const Path& file, bool known, Work work) {
+  return guarded(file, [&] { return work(known ? detail::read_whole_file(file) : std::string()); });
 }
 
 }  // namespace
 
 template <int D>
 Plc<D> read_plc(const Path& file) {
-  return with_bytes(file, [&](const std::string& bytes) { return detail::read_plc_from<D>(bytes, file); });
+  return with_bytes(file, is_input_format<D>(lower_extension(file)),
+                    [&](const std::string& bytes) { return detail::read_plc_from<D>(bytes, file); });
 }
 
 template <int D>
 OutputMesh<D> read_mesh(const Path& file) {
   if (is_tetgen_mesh(lower_extension(file))) return guarded(file, [&] { return read_tetgen_files<D>(file); });
-  return with_bytes(file, [&](const std::string& bytes) { return detail::read_mesh_from<D>(bytes, file); });
+  return with_bytes(file, is_mesh_format(file),
+                    [&](const std::string& bytes) { return detail::read_mesh_from<D>(bytes, file); });
 }
 
 int file_dimension(const Path& file) {

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "detail/byte_order.hpp"
@@ -68,6 +69,7 @@ struct Element {
   std::string_view name;
   std::size_t count = 0;
   std::vector<Property> properties;
+  std::uint64_t line = 0;
 };
 
 enum class Encoding { text, little, big };
@@ -129,6 +131,7 @@ class HeaderReader {
   void read_element() {
     Element element;
     element.name = in_.word(subject);
+    element.line = in_.line();
     for (const Element& other : header_.elements) {
       if (other.name == element.name) in_.fail(Errc::syntax, "the element " + quoted(element.name) + " comes twice");
     }
@@ -240,7 +243,7 @@ class PlyReader {
   void read() {
     for (const Element& e : header_.elements) {
       if (e.name == "vertex") points_ = e.count;
-      if (e.name == "tristrips") in_.fail(Errc::unknown_format, "strips of triangles are not read");
+      if (e.name == "tristrips") fail(e, Errc::unknown_format, "strips of triangles are not read");
     }
     for (const Element& e : header_.elements) {
       if (e.name == "vertex")
@@ -326,19 +329,24 @@ class PlyReader {
     }
   }
 
+  /// An error of the header.
+  [[noreturn]] void fail(const Element& e, Errc code, std::string message) const {
+    throw InputError(Diagnostic{code, std::move(message), plc_.source.file, e.line, {}, {}});
+  }
+
   /// The column of a property that must be there, and be a list of integers or a number.
   std::size_t find(const Element& e, std::string_view name, bool list) const {
     std::size_t found = e.properties.size();
     for (std::size_t c = 0; c < e.properties.size(); ++c) {
       if (e.properties[c].name != name) continue;
-      if (found != e.properties.size()) in_.fail(Errc::syntax, "the property " + quoted(name) + " comes twice");
+      if (found != e.properties.size()) fail(e, Errc::syntax, "the property " + quoted(name) + " comes twice");
       found = c;
     }
     const std::string what = "the element " + quoted(e.name);
-    if (found == e.properties.size()) in_.fail(Errc::syntax, what + " has no property " + quoted(name));
+    if (found == e.properties.size()) fail(e, Errc::syntax, what + " has no property " + quoted(name));
     const Property& p = e.properties[found];
     if (p.list != list || (list && !is_integer(p.type)))
-      in_.fail(Errc::syntax, what + " has a property " + quoted(name) + " of the wrong type");
+      fail(e, Errc::syntax, what + " has a property " + quoted(name) + " of the wrong type");
     return found;
   }
 
