@@ -135,7 +135,7 @@ class HeaderReader {
     for (const Element& other : header_.elements) {
       if (other.name == element.name) in_.fail(Errc::syntax, "the element " + quoted(element.name) + " comes twice");
     }
-    element.count = in_.count({"an element"}, 1);
+    element.count = in_.count({element.name}, 1);
     header_.elements.push_back(element);
   }
 

@@ -7,6 +7,7 @@ gmsh, tetgen and meshio are asked where they are installed; a test that lacks on
 Environment and usage: as test_command.py.
 """
 import collections
+import functools
 import json
 import shutil
 import struct
@@ -88,9 +89,10 @@ SQUARES = """6 2 0 1
 """
 
 
-def python_with_meshio():
+@functools.lru_cache(maxsize=None)
+def python_with(module):
     for python in (sys.executable, "/usr/bin/python3"):
-        if subprocess.run([python, "-c", "import meshio"], capture_output=True).returncode == 0:
+        if subprocess.run([python, "-c", "import " + module], capture_output=True).returncode == 0:
             return python
     return None
 
@@ -232,7 +234,7 @@ class Gmsh(FormatCase):
         Physical Curve("edge", 4) = {1,2,3,4};
         Physical Point("corner", 8) = {1};
         """
-    PLANE = GEOMETRY + 'Physical Curve("rim", 6) = {1,2,3,4}; Physical Surface("face", 2) = {1};'
+    PLANE = GEOMETRY + 'Physical Curve("rim", 6) = {1,2,3,4}; Physical Surface("face", 2) = {1};\n'
 
     def test_its_meshes_are_inputs(self):
         """Geometry meshed by gmsh in each variant and meshed again here: the groups are markers and regions."""
@@ -301,7 +303,7 @@ class Tetgen(FormatCase):
                 self.assertRegex(finding["message"], "^Subsegment .* has marker 1, its segment .* has 0")
 
 
-@unittest.skipUnless(python_with_meshio(), "no Python has meshio")
+@unittest.skipUnless(python_with("meshio"), "no Python has meshio")
 class Meshio(FormatCase):
     SCRIPT = """
 import collections, json, sys
@@ -319,7 +321,7 @@ print(json.dumps({"points": len(mesh.points), "counts": counts, "labels": labels
 
     def seen(self, path):
         script = self.file("script.py", self.SCRIPT)
-        return json.loads(self.run_ok(python_with_meshio(), script, path).strip().split("\n")[-1])
+        return json.loads(self.run_ok(python_with("meshio"), script, path).strip().split("\n")[-1])
 
     def test_counts_and_labels(self):
         for model, dimension in self.inputs():
@@ -369,5 +371,54 @@ print(json.dumps({"points": len(mesh.points), "counts": counts, "labels": labels
         self.assertEqual(set(seen["labels"]["tetgen:ref/tetra"]), {"2.0", "-3.0"})
 
 
+@unittest.skipUnless(python_with("vtk"), "no Python has VTK")
+class Vtk(FormatCase):
+    SCRIPT = """
+import collections, json, sys
+import vtk
+reader = vtk.vtkXMLUnstructuredGridReader()
+reader.SetFileName(sys.argv[1])
+reader.Update()
+grid = reader.GetOutput()
+data = grid.GetCellData()
+counts = collections.Counter()
+for i in range(grid.GetNumberOfCells()):
+    kind = grid.GetCellType(i)
+    array = data.GetArray("region" if kind == (10 if sys.argv[2] == "3" else 5) else "marker")
+    counts["%d: %r" % (kind, array.GetTuple1(i))] += 1
+corners = collections.Counter(grid.GetPointData().GetArray("marker").GetTuple1(i) for i in range(grid.GetNumberOfPoints()))
+print(json.dumps({"bounds": grid.GetBounds(), "counts": counts, "markers": {repr(k): v for k, v in corners.items()}}))
+"""
+
+    def test_counts_and_labels(self):
+        script = self.file("script.py", self.SCRIPT)
+        for model, dimension in self.inputs():
+            path = self.made(model, "vtu")
+            self.pgdr("info", path, "--report", self.report, expect=0)
+            seen = json.loads(self.run_ok(python_with("vtk"), script, path, dimension))
+            counts = collections.Counter()
+            labels = collections.defaultdict(set)
+            for key, n in seen["counts"].items():
+                kind, label = key.split(": ")
+                counts[int(kind)] += n
+                labels[int(kind)].add(float(label))
+            r = self.json()
+            self.assertEqual(counts[10 if dimension == 3 else 5], r["cells"])
+            self.assertEqual(counts[3], r["subsegments"])
+            if dimension == 3:
+                self.assertEqual(counts[5], r["subfacets"])
+                self.assertEqual(labels[5], {1, -2, 0, 4, 5, 6, 2147483647})
+                self.assertEqual(labels[10], {2.5, -3})
+            else:
+                self.assertEqual(labels[3], {1, -2, 0, 5, 3, 2147483647})
+                self.assertEqual(labels[5], {2, 3})
+            self.assertEqual((seen["markers"]["7.0"], seen["markers"]["-4.0"]), (1, 1))
+            self.assertEqual(seen["bounds"], [0, 2, 0, 1, 0, 1 if dimension == 3 else 0])
+
+
 if __name__ == "__main__":
-    unittest.main(verbosity=2)
+    run = unittest.main(verbosity=2, exit=False).result
+    if run.testsRun == len(run.skipped) and run.wasSuccessful():
+        print("skipped:", run.skipped[0][1])
+        sys.exit(77)
+    sys.exit(not run.wasSuccessful())
