@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "pgdr/predicates.hpp"
@@ -20,24 +19,6 @@ struct Face {
   std::array<std::uint32_t, D> corners;
   std::uint32_t cell;
   bool operator<(const Face& o) const { return corners != o.corners ? corners < o.corners : cell < o.cell; }
-};
-
-/// Disjoint sets of cells; the smallest cell names its set.
-class Parts {
- public:
-  explicit Parts(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  std::uint32_t find(std::uint32_t c) {
-    while (parent_[c] != c) c = parent_[c] = parent_[parent_[c]];
-    return c;
-  }
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
 };
 
 template <int D>
@@ -68,6 +49,9 @@ std::optional<Point<D>> inner_centroid(const Simplex<D>& s) {
   for (const Point<D>& p : s) {
     for (int k = 0; k < D; ++k) centre[k] += p[k] / (D + 1);
   }
+  for (const double x : centre.x) {
+    if (!std::isfinite(x)) return std::nullopt;
+  }
   const Sign side = orient<D>(s);
   if (side == Sign::zero) return std::nullopt;
   for (std::size_t i = 0; i <= D; ++i) {
@@ -96,7 +80,7 @@ double measure(const Simplex<D>& s) {
 
 template <int D>
 std::vector<RegionSeed<D>> seeds_of(const std::vector<Point<D>>& points, const std::vector<LabelledCell<D>>& cells,
-                                    Parts& parts) {
+                                    DisjointSets& parts) {
   struct Largest {
     double measure = -1;
     Point<D> centre;
@@ -124,19 +108,22 @@ template <int D>
 CellSurface<D> surface_of(const std::vector<Point<D>>& points, const std::vector<LabelledCell<D>>& cells,
                           const std::vector<std::array<std::uint32_t, D>>& walls) {
   CellSurface<D> surface;
-  Parts parts(cells.size());
+  std::vector<HullFace<D>> hull;
+  DisjointSets parts(cells.size());
   const std::vector<Face<D>> faces = sorted_faces<D>(cells, walls);
   for (std::size_t begin = 0, end; begin < faces.size(); begin = end) {
     end = begin + 1;
     while (end < faces.size() && faces[end].corners == faces[begin].corners) ++end;
-    if (faces[end - 1].cell == wall) continue;
     const std::uint32_t a = faces[begin].cell, b = faces[end - 1].cell;
+    if (a != wall && (end - begin == 1 || faces[begin + 1].cell == wall)) hull.push_back({faces[begin].corners, a});
+    if (b == wall) continue;
     if (end - begin == 2 && cells[a].label == cells[b].label)
       parts.unite(a, b);
     else
       surface.faces.push_back(faces[begin].corners);
   }
   surface.seeds = seeds_of<D>(points, cells, parts);
+  surface.holes = points_in_voids<D>(points, cells, hull);
   return surface;
 }
 

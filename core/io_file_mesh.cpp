@@ -141,6 +141,7 @@ class PlcBuilder {
       }
     }
     plc_.regions = std::move(surface.seeds);
+    plc_.holes = std::move(surface.holes);
   }
 
   /// Points that cells have and nothing that is kept has. What no cell has either was put into the file on its own.

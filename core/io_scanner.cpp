@@ -127,13 +127,13 @@ std::string_view LineScanner::rest_of_line() {
 void LineScanner::enter_bytes(Subject s) {
   end_line(s);
   bytes(s, 1);
+  ++line_;
 }
 
 std::string_view LineScanner::bytes(Subject s, std::size_t n) {
   if (n > remaining()) fail(Errc::truncated, "the file ends within " + described(s), ids_of(s));
   const std::string_view taken = text_.substr(pos_, n);
   pos_ += n;
-  line_ += static_cast<std::uint64_t>(std::count(taken.begin(), taken.end(), '\n'));
   return taken;
 }
 
@@ -224,7 +224,10 @@ void LineScanner::fail_at(Errc code, Subject s, std::string_view token, std::str
 }
 
 void LineScanner::fail(Errc code, std::string message, std::vector<std::int64_t> ids) const {
-  throw InputError(Diagnostic{code, std::move(message), file_, line_, std::move(ids), {}});
+  // Counted anew, since `bytes` counts none.
+  const auto ends = std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(pos_), '\n');
+  throw InputError(
+      Diagnostic{code, std::move(message), file_, static_cast<std::uint64_t>(ends) + 1, std::move(ids), {}});
 }
 
 }  // namespace pgdr::detail

@@ -55,7 +55,8 @@ int dimension_of(const FileMesh& mesh);
 bool has_cells(const FileMesh& mesh);
 
 /// The surface and the edges. Cells add what of their boundary, and of the faces between different labels, the surface
-/// lacks; a region seed for each label, in each part that facets enclose; and are dropped, with the points of them alone.
+/// lacks; a region seed for each label, in each part that facets enclose; a hole in each void; and are dropped, with the
+/// points of them alone.
 /// @throws InputError syntax (another dimension), unknown_format (cells that are no simplices, and no surface)
 template <int D>
 Plc<D> to_plc(FileMesh&& mesh);

@@ -4,7 +4,7 @@
 // Words and numbers out of a text that lies in memory, line by line, with errors that name the line and the culprit.
 // Blank lines and '#' comments are never seen by the caller, commas count as blanks (TetGen's readers skip them, and
 // files with them exist). No locale, no allocation but for errors. Formats that put binary parts into a text take these
-// with `bytes`; lines are counted through them, as an editor would. One thread a scanner.
+// with `bytes`; errors count the lines through them, as an editor would. One thread a scanner.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ class LineScanner {
   /// Views `text`, which must outlive the scanner. A byte order mark is skipped.
   LineScanner(std::string_view text, std::string file);
 
-  std::uint64_t line() const { return line_; }
+  std::uint64_t line() const { return line_; }  ///< of a text without binary parts before
   /// Bytes from here to the end of the text.
   std::size_t remaining() const { return text_.size() - pos_; }
   /// The same bytes, to look ahead.
