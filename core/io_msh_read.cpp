@@ -144,7 +144,8 @@ class MshReader {
       return in_.number(s);
     }
     const auto x = take<double>(s);
-    if (!std::isfinite(x)) in_.fail(Errc::not_finite, "a coordinate of node " + std::to_string(s.id) + " is not finite", {s.id});
+    if (!std::isfinite(x))
+      in_.fail(Errc::not_finite, "a coordinate of node " + std::to_string(s.id) + " is not finite", {s.id});
     return x;
   }
   /// A count of things of which each takes so many bytes at least.
@@ -221,7 +222,8 @@ class MshReader {
     for (std::size_t i = 0; i < groups; ++i) {
       const std::int32_t physical = integer(s);
       // A sign tells of orientation.
-      if (i == 0) elements_.set_physical(dimension, tag, physical < 0 && physical != std::numeric_limits<std::int32_t>::min() ? -physical : physical);
+      const bool reversed = physical < 0 && physical != std::numeric_limits<std::int32_t>::min();
+      if (i == 0) elements_.set_physical(dimension, tag, reversed ? -physical : physical);
     }
     if (dimension == 0) return;
     const std::size_t bounding = count(s, 2, int_bytes);
@@ -288,7 +290,8 @@ class MshReader {
     for (int k = 0; k < parameters; ++k) skip_number(s);
     mesh_.points.push_back(p);
     if (p[2] == 0) return;
-    if (mesh_.dimension == 2) in_.fail(Errc::syntax, "node " + std::to_string(s.id) + " has a third coordinate, in 2D", {s.id});
+    if (mesh_.dimension == 2)
+      in_.fail(Errc::syntax, "node " + std::to_string(s.id) + " has a third coordinate, in 2D", {s.id});
     decided_ = only_dimension_;
   }
 

@@ -290,8 +290,8 @@ class MshWriter {
         blocks += layer.buckets.begin[g] != layer.buckets.begin[g + 1] ? 1 : 0;
     }
     out_.put("$Elements\n");
-    for (const std::size_t n : {blocks, elements, std::min<std::size_t>(1, elements), static_cast<std::size_t>(elements_end_ - 1)})
-      put_size(n);
+    const auto last = static_cast<std::size_t>(elements_end_ - 1);
+    for (const std::size_t n : {blocks, elements, std::min<std::size_t>(1, elements), last}) put_size(n);
     for (const Layer& layer : layers_) {
       for (std::size_t g = 0; g < layer.groups.count(); ++g) put_block(layer, g);
     }

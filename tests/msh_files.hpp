@@ -97,7 +97,9 @@ class MshText {
   MshVariant v_;
 };
 
-inline int msh_dimension(int type) { return type == 15 ? 0 : type == 1 || type == 8 ? 1 : type == 2 || type == 3 || type == 9 ? 2 : 3; }
+inline int msh_dimension(int type) {
+  return type == 15 ? 0 : type == 1 || type == 8 ? 1 : type == 2 || type == 3 || type == 9 ? 2 : 3;
+}
 
 inline void put_nodes_2(MshText& out, const MshModel& m) {
   out.line("$Nodes");

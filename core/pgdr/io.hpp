@@ -31,8 +31,8 @@
 // - .node, .ele: X.node, X.ele, X.face (3D, subfacets) and X.edge (subsegments), numbered from 1, written all or none.
 //   The latter two may be missing when read; attributes of points are dropped.
 // - .mesh and .msh as inputs: cells (tetrahedra, hexahedra, ...; in 2D triangles) are dropped, with the points that they
-//   alone have, but faces of simplices that bound them, or lie between labels, become facets where the file has none,
-//   and each label becomes a region seed. A file without cells whose points all have z = 0 is 2D, whatever it states.
+//   alone have, but faces of simplices that bound them, or lie between labels, become facets where the file has none;
+//   labels become region seeds, the voids that the cells enclose holes. A file without cells whose points all have z = 0 is 2D, whatever it states.
 // - .vtu: cells, then subfacets, then subsegments; cell data "region" (of the cells) and "marker" (of the others), point
 //   data "marker", field data "dimension" and "input_points"; raw appended data.
 #pragma once
