@@ -254,6 +254,41 @@ TEST(ReadMsh, SectionsThatAreUnknownAreSkipped) {
   EXPECT_EQ(error_of<InputError>([&] { detail::read_mesh_from<3>(msh_file(m, {}), "a.msh"); }).code, Errc::syntax);
 }
 
+TEST(ReadMedit, VoidsOfCellsAreHoles) {
+  // A ring of eight triangles, and a part of its own inside of it.
+  std::string text = "MeshVersionFormatted 2\nDimension 2\nVertices 11\n";
+  for (const int side : {3, 1}) {
+    const int low = side == 3 ? 0 : 1, high = low + side;
+    for (const auto& [x, y] : {std::pair{low, low}, {high, low}, {high, high}, {low, high}})
+      text += std::to_string(x) + " " + std::to_string(y) + " 0\n";
+  }
+  text += "1.25 1.25 0\n1.5 1.25 0\n1.25 1.5 0\nTriangles 9\n";
+  for (int i = 0; i < 4; ++i) {
+    const int j = (i + 1) % 4, a = i + 1, b = j + 1, c = i + 5, d = j + 5;
+    for (const auto& t : {std::array{a, b, d}, std::array{a, d, c}}) {
+      for (const int v : t) text += std::to_string(v) + " ";
+      text += "5\n";
+    }
+  }
+  text += "9 10 11 6\nEnd\n";
+  const Plc<2> plc = detail::read_plc_from<2>(text, "a.mesh");
+  EXPECT_EQ(plc.segments.size(), 11u);
+  ASSERT_EQ(plc.regions.size(), 2u);
+  EXPECT_EQ(plc.regions[1].attribute, 6);
+  ASSERT_EQ(plc.holes.size(), 1u);  // the ring encloses a void; what lies in the void encloses none
+  const Point2 hole = plc.holes[0];
+  EXPECT_TRUE(hole[0] > 1 && hole[0] < 2 && hole[1] > 1 && hole[1] < 2);
+  EXPECT_FALSE(hole[0] >= 1.25 && hole[1] >= 1.25 && hole[0] + hole[1] <= 2.75);
+
+  // The void without the part, with its walls listed: the same.
+  const std::size_t at = text.find("9 10 11 6");
+  std::string listed = text.substr(0, at) + "Edges 4\n5 6 7\n6 7 7\n7 8 7\n8 5 7\nEnd\n";
+  listed.replace(listed.find("Triangles 9"), 11, "Triangles 8");
+  const Plc<2> again = detail::read_plc_from<2>(listed, "a.mesh");
+  EXPECT_EQ(again.segments.size(), 8u);
+  EXPECT_EQ(again.holes.size(), 1u);
+}
+
 const std::string medit_surface =
     "MeshVersionFormatted 2\nDimension 3\nVertices 5\n0 0 0 1\n4 0 0 2\n0 4 0 3\n0 0 4 4\n1 1 1 5\n"
     "Edges 1\n1 2 9\nTriangles 3\n1 3 2 -5\n1 2 4 6\n1 4 3 7\nQuadrilaterals 1\n2 3 5 4 8\n";

@@ -32,7 +32,8 @@
 //   The latter two may be missing when read; attributes of points are dropped.
 // - .mesh and .msh as inputs: cells (tetrahedra, hexahedra, ...; in 2D triangles) are dropped, with the points that they
 //   alone have, but faces of simplices that bound them, or lie between labels, become facets where the file has none;
-//   labels become region seeds, the voids that the cells enclose holes. A file without cells whose points all have z = 0 is 2D, whatever it states.
+//   labels become region seeds, the voids that the cells enclose holes. A file whose points all have z = 0 is 2D, if it
+//   has no cells of volume.
 // - .vtu: cells, then subfacets, then subsegments; cell data "region" (of the cells) and "marker" (of the others), point
 //   data "marker", field data "dimension" and "input_points"; raw appended data.
 #pragma once
