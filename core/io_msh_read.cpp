@@ -209,7 +209,11 @@ class MshReader {
 
   void read_entities() {
     std::array<std::size_t, 4> n;
-    for (std::size_t d = 0; d < 4; ++d) n[d] = count({"the entities"}, d == 0 ? 10 : 18, d == 0 ? 36 : 68);
+    for (std::size_t d = 0; d < 4; ++d) {
+      const std::size_t lists = d == 0 ? 1 : 2;  // of groups, of bounding entities
+      const std::size_t bytes = int_bytes + lists * (3 * double_bytes + size_bytes_);
+      n[d] = count({"the entities"}, d == 0 ? 10 : 18, bytes);  // "1 0 0 0 0\n"
+    }
     for (int d = 0; d < 4; ++d) {
       for (std::size_t i = 0; i < n[static_cast<std::size_t>(d)]; ++i) read_entity(d);
     }
