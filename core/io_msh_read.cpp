@@ -32,7 +32,8 @@ class MshReader {
 
   FileMesh read() {
     in_.require({"$MeshFormat"});
-    if (in_.word({}) != "$MeshFormat") in_.fail(Errc::syntax, "the file does not begin with $MeshFormat");
+    if (in_.word({}) != "$MeshFormat")
+      in_.fail(Errc::unknown_format, "the file does not begin with $MeshFormat: it is not gmsh's, or older than version 2");
     read_format();
     expect_end("$MeshFormat");
     while (!decided_ && in_.advance()) {

@@ -221,7 +221,7 @@ TEST(ReadMsh, MistakesAreNamed) {
     EXPECT_GE(error.line, line) << error.message;
     EXPECT_LE(error.line, line + later) << error.message;
   };
-  expect(2, "$MeshFormat", "$MeshFromat", Errc::syntax);
+  expect(2, "$MeshFormat", "$MeshFromat", Errc::unknown_format);
   expect(2, "2.2 0 8", "1.0 0 8", Errc::unknown_format);
   expect(2, "2.2 0 8", "2.2 2 8", Errc::syntax);
   expect(2, "2.2 0 8", "2.2 0 4", Errc::syntax);
