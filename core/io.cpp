@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pgdr/io.hpp"
 
+#include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -13,7 +16,7 @@
 #include "detail/io_formats.hpp"
 
 namespace pgdr {
-namespace {
+namespace detail {
 
 std::string lower_extension(const std::filesystem::path& file) {
   std::string e = file.extension().string();
@@ -21,14 +24,21 @@ std::string lower_extension(const std::filesystem::path& file) {
   return e;
 }
 
-[[noreturn]] void unknown_format(const std::filesystem::path& file, const std::string& what) {
+}  // namespace detail
+namespace {
+
+using detail::lower_extension;
+using detail::Purpose;
+using Path = std::filesystem::path;
+
+[[noreturn]] void unknown_format(const Path& file, const std::string& what) {
   const std::string message = "the extension '" + file.extension().string() + "' is not that of " + what;
   throw InputError(Diagnostic{Errc::unknown_format, message, file.string(), 0, {}, {}});
 }
 
 /// Runs `work`, and makes what the standard library throws for want of memory an error of ours.
 template <class Work>
-auto guarded(const std::filesystem::path& file, Work work) {
+auto guarded(const Path& file, Work work) {
   const auto fail = [&file]() {
     return ResourceError(Diagnostic{Errc::out_of_memory, "out of memory", file.string(), 0, {}, {}});
   };
@@ -41,56 +51,149 @@ auto guarded(const std::filesystem::path& file, Work work) {
   }
 }
 
+/// The reader of a format that is input and mesh alike; null for others.
+using FileMeshReader = detail::FileMesh (*)(std::string_view, const Path&, detail::Want);
+FileMeshReader file_mesh_reader(const std::string& extension) {
+  if (extension == ".mesh") return detail::read_medit;
+  if (extension == ".msh") return detail::read_msh;
+  return nullptr;
+}
+
+bool is_tetgen_mesh(const std::string& extension) { return extension == ".node" || extension == ".ele"; }
+
+/// The texts of the mesh that a .node or .ele file belongs to.
+template <int D>
+OutputMesh<D> read_tetgen_files(const Path& file) {
+  const auto text = [&file](std::string_view extension) {
+    return detail::read_whole_file(detail::tetgen_name(file, extension));
+  };
+  const auto optional_text = [&](std::string_view extension) {
+    std::error_code ignored;
+    const bool there = std::filesystem::exists(detail::tetgen_name(file, extension), ignored);
+    return there ? std::optional<std::string>(text(extension)) : std::nullopt;
+  };
+  const std::string node = text(".node"), ele = text(".ele");
+  const std::optional<std::string> face = optional_text(".face"), edge = optional_text(".edge");
+  return detail::read_tetgen<D>({node, ele, face ? &*face : nullptr, edge ? &*edge : nullptr}, file);
+}
+
+}  // namespace
+
+namespace detail {
+
+template <int D>
+Plc<D> read_plc_from(std::string_view bytes, const Path& name) {
+  const std::string extension = lower_extension(name);
+  if (const FileMeshReader read = file_mesh_reader(extension)) return to_plc<D>(read(bytes, name, {Purpose::input, D}));
+  using Reader = Plc<D> (*)(std::string_view, const Path&);
+  Reader reader = nullptr;
+  if (extension == ".poly") reader = read_poly<D>;
+  if (extension == ".node") reader = read_node<D>;
+  if constexpr (D == 3) {
+    if (extension == ".smesh") reader = read_smesh;
+    if (extension == ".obj") reader = read_obj;
+    if (extension == ".off") reader = read_off;
+    if (extension == ".ply") reader = read_ply;
+    if (extension == ".stl") reader = read_stl;
+  }
+  if (reader == nullptr) unknown_format(name, "an input in " + std::to_string(D) + "D");
+  return reader(bytes, name);
+}
+
+template <int D>
+OutputMesh<D> read_mesh_from(std::string_view bytes, const Path& name) {
+  const std::string extension = lower_extension(name);
+  if (const FileMeshReader read = file_mesh_reader(extension))
+    return to_output_mesh<D>(read(bytes, name, {Purpose::mesh, D}));
+  if (extension == ".vtu") return read_vtu<D>(bytes, name);
+  unknown_format(name, "a mesh");
+}
+
+template Plc<2> read_plc_from<2>(std::string_view, const Path&);
+template Plc<3> read_plc_from<3>(std::string_view, const Path&);
+template OutputMesh<2> read_mesh_from<2>(std::string_view, const Path&);
+template OutputMesh<3> read_mesh_from<3>(std::string_view, const Path&);
+
+}  // namespace detail
+
+namespace {
+
+template <int D>
+bool is_input_format(const std::string& extension) {
+  constexpr std::string_view formats[] = {".poly", ".node", ".mesh", ".msh", ".smesh", ".obj", ".off", ".ply", ".stl"};
+  constexpr std::ptrdiff_t in_2d = 4;
+  const auto end = D == 2 ? std::begin(formats) + in_2d : std::end(formats);
+  return std::find(std::begin(formats), end, extension) != end;
+}
+
+/// A file of unknown format is not opened.
+template <class Work>
+auto with_bytes(const Path& file, bool known, Work work) {
+  return guarded(file, [&] { return work(known ? detail::read_whole_file(file) : std::string()); });
+}
+
 }  // namespace
 
 template <int D>
-Plc<D> read_plc(const std::filesystem::path& file) {
-  const std::string extension = lower_extension(file);
-  using Reader = Plc<D> (*)(std::string_view, const std::filesystem::path&);
-  Reader reader = nullptr;
-  if (extension == ".poly") reader = detail::read_poly<D>;
-  if (extension == ".node") reader = detail::read_node<D>;
-  if constexpr (D == 3) {
-    if (extension == ".smesh") reader = detail::read_smesh;
-    if (extension == ".obj") reader = detail::read_obj;
-    if (extension == ".off") reader = detail::read_off;
-    if (extension == ".stl") reader = detail::read_stl;
-  }
-  if (reader == nullptr) unknown_format(file, "an input in " + std::to_string(D) + "D");
-  return guarded(file, [&] { return reader(detail::read_whole_file(file), file); });
+Plc<D> read_plc(const Path& file) {
+  return with_bytes(file, is_input_format<D>(lower_extension(file)),
+                    [&](const std::string& bytes) { return detail::read_plc_from<D>(bytes, file); });
 }
 
-int file_dimension(const std::filesystem::path& file) {
+template <int D>
+OutputMesh<D> read_mesh(const Path& file) {
+  if (is_tetgen_mesh(lower_extension(file))) return guarded(file, [&] { return read_tetgen_files<D>(file); });
+  return with_bytes(file, is_mesh_format(file),
+                    [&](const std::string& bytes) { return detail::read_mesh_from<D>(bytes, file); });
+}
+
+int file_dimension(const Path& file) {
   const std::string extension = lower_extension(file);
-  using Reader = int (*)(std::string_view, const std::filesystem::path&);
-  Reader reader = nullptr;
-  if (extension == ".poly" || extension == ".node") reader = detail::node_dimension;
-  if (extension == ".mesh") reader = detail::medit_dimension;
-  if (extension == ".vtu") reader = detail::vtu_dimension;
-  for (const std::string_view spatial : {".smesh", ".obj", ".off", ".stl"}) {
+  for (const std::string_view spatial : {".smesh", ".obj", ".off", ".ply", ".stl"}) {
     if (extension == spatial) return 3;
   }
-  if (reader == nullptr) unknown_format(file, "a file that is read");
-  return guarded(file, [&] { return reader(detail::read_whole_file(file), file); });
+  return guarded(file, [&] {
+    if (const FileMeshReader read = file_mesh_reader(extension))
+      return dimension_of(read(detail::read_whole_file(file), file, {Purpose::dimension, 0}));
+    if (extension == ".ele") {
+      const Path node = detail::tetgen_name(file, ".node");
+      return detail::node_dimension(detail::read_whole_file(node), node);
+    }
+    if (extension == ".poly" || extension == ".node")
+      return detail::node_dimension(detail::read_whole_file(file), file);
+    if (extension == ".vtu") return detail::vtu_dimension(detail::read_whole_file(file), file);
+    unknown_format(file, "a file that is read");
+  });
+}
+
+bool holds_cells(const Path& file) {
+  const std::string extension = lower_extension(file);
+  if (const FileMeshReader read = file_mesh_reader(extension))
+    return guarded(file, [&] { return has_cells(read(detail::read_whole_file(file), file, {Purpose::mesh, 0})); });
+  return extension == ".vtu" || extension == ".ele";
+}
+
+bool is_mesh_format(const Path& file) {
+  const std::string extension = lower_extension(file);
+  return file_mesh_reader(extension) != nullptr || is_tetgen_mesh(extension) || extension == ".vtu";
+}
+
+std::vector<std::string> files_of_mesh(const Path& file) {
+  if (!is_tetgen_mesh(lower_extension(file))) return {file.native()};
+  std::vector<std::string> files;
+  for (const std::string_view extension : {".node", ".ele", ".face", ".edge"})
+    files.push_back(detail::tetgen_name(file, extension));
+  return files;
 }
 
 template <int D>
-OutputMesh<D> read_mesh(const std::filesystem::path& file) {
+void write_mesh(const OutputMesh<D>& mesh, const Path& file) {
   const std::string extension = lower_extension(file);
-  using Reader = OutputMesh<D> (*)(std::string_view, const std::filesystem::path&);
-  Reader reader = nullptr;
-  if (extension == ".mesh") reader = detail::read_medit<D>;
-  if (extension == ".vtu") reader = detail::read_vtu<D>;
-  if (reader == nullptr) unknown_format(file, "a mesh");
-  return guarded(file, [&] { return reader(detail::read_whole_file(file), file); });
-}
-
-template <int D>
-void write_mesh(const OutputMesh<D>& mesh, const std::filesystem::path& file) {
-  const std::string extension = lower_extension(file);
+  if (is_tetgen_mesh(extension)) return guarded(file, [&] { detail::write_tetgen<D>(mesh, file); });
   using Writer = void (*)(const OutputMesh<D>&, detail::FileOutput&);
   Writer writer = nullptr;
   if (extension == ".mesh") writer = detail::write_medit<D>;
+  if (extension == ".msh") writer = detail::write_msh<D>;
   if (extension == ".vtu") writer = detail::write_vtu<D>;
   if (writer == nullptr) unknown_format(file, "a mesh that can be written");
   guarded(file, [&] {
@@ -100,11 +203,11 @@ void write_mesh(const OutputMesh<D>& mesh, const std::filesystem::path& file) {
   });
 }
 
-template Plc<2> read_plc<2>(const std::filesystem::path&);
-template Plc<3> read_plc<3>(const std::filesystem::path&);
-template OutputMesh<2> read_mesh<2>(const std::filesystem::path&);
-template OutputMesh<3> read_mesh<3>(const std::filesystem::path&);
-template void write_mesh<2>(const OutputMesh<2>&, const std::filesystem::path&);
-template void write_mesh<3>(const OutputMesh<3>&, const std::filesystem::path&);
+template Plc<2> read_plc<2>(const Path&);
+template Plc<3> read_plc<3>(const Path&);
+template OutputMesh<2> read_mesh<2>(const Path&);
+template OutputMesh<3> read_mesh<3>(const Path&);
+template void write_mesh<2>(const OutputMesh<2>&, const Path&);
+template void write_mesh<3>(const OutputMesh<3>&, const Path&);
 
 }  // namespace pgdr

@@ -5,6 +5,7 @@
 #include <random>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "detail/file_input.hpp"
 #include "detail/file_output.hpp"
@@ -26,6 +27,14 @@ std::string random_suffix() {
   std::string suffix;
   for (int i = 0; i < 12; ++i) suffix += letters[device() % letters.size()];
   return suffix;
+}
+
+/// A name in the same folder that nothing has yet. Strings all along: libstdc++'s path does not survive a failing
+/// allocation.
+std::string name_beside(const std::string& target) {
+  const std::size_t folder = target.rfind('/') + 1;  // 0 if there is none
+  std::string name = target.substr(0, folder).append(1, '.').append(target, folder, 200);
+  return name.append(1, '.').append(random_suffix()).append(".tmp");
 }
 
 }  // namespace
@@ -70,9 +79,7 @@ FileOutput::FileOutput(const fs::path& target) : target_(target.native()), buffe
   if (fs::exists(target_, ec) && !fs::is_regular_file(target_, ec)) fail("it is not a regular file");
   constexpr int attempts = 100;
   for (int i = 0; i < attempts && stream_ == nullptr; ++i) {
-    const std::size_t folder = target_.rfind('/') + 1;  // 0 if there is none
-    std::string name = target_.substr(0, folder).append(1, '.').append(target_, folder, 200);
-    temporary_ = name.append(1, '.').append(random_suffix()).append(".tmp");
+    temporary_ = name_beside(target_);
     stream_ = std::fopen(temporary_.c_str(), "wbx");
     if (stream_ == nullptr && errno != EEXIST) break;
   }
@@ -100,11 +107,42 @@ void FileOutput::write(std::string_view bytes) {
   if (std::fwrite(bytes.data(), 1, bytes.size(), stream_) != bytes.size()) fail(reason(errno));
 }
 
-void FileOutput::commit() {
+void FileOutput::finish() {
   flush();
   if (std::fclose(std::exchange(stream_, nullptr)) != 0) fail(reason(errno));
+}
+
+void FileOutput::publish() {
   if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail(reason(errno));
   temporary_.clear();
+}
+
+void FileOutput::commit() {
+  finish();
+  publish();
+}
+
+void commit_together(std::span<const std::unique_ptr<FileOutput>> files) {
+  for (const auto& f : files) f->finish();
+  std::vector<std::string> aside(files.size());  // where the older files are meanwhile
+  for (std::size_t i = 0; i < files.size(); ++i) aside[i] = name_beside(files[i]->target_);
+  std::size_t kept = files.size(), published = 0;  // files[kept...] are aside, those before `published` are new
+  try {
+    for (; kept > 0; --kept) {
+      const std::string& target = files[kept - 1]->target_;
+      if (std::rename(target.c_str(), aside[kept - 1].c_str()) == 0) continue;
+      if (errno != ENOENT) files[kept - 1]->fail(reason(errno));
+      aside[kept - 1].clear();
+    }
+    for (; published < files.size(); ++published) files[published]->publish();
+  } catch (...) {
+    for (std::size_t i = 0; i < published; ++i) std::remove(files[i]->target_.c_str());
+    for (std::size_t i = kept; i < files.size(); ++i)
+      if (!aside[i].empty()) std::rename(aside[i].c_str(), files[i]->target_.c_str());
+    throw;
+  }
+  for (const std::string& name : aside)
+    if (!name.empty()) std::remove(name.c_str());
 }
 
 void FileOutput::fail(const std::string& why) const {

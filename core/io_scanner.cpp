@@ -118,6 +118,25 @@ void LineScanner::skip_line() {
   while (pos_ < text_.size() && text_[pos_] != '\n') ++pos_;
 }
 
+std::string_view LineScanner::rest_of_line() {
+  const std::size_t begin = pos_;
+  skip_line();
+  return text_.substr(begin, pos_ - begin);
+}
+
+void LineScanner::enter_bytes(Subject s) {
+  end_line(s);
+  bytes(s, 1);
+  ++line_;
+}
+
+std::string_view LineScanner::bytes(Subject s, std::size_t n) {
+  if (n > remaining()) fail(Errc::truncated, "the file ends within " + described(s), ids_of(s));
+  const std::string_view taken = text_.substr(pos_, n);
+  pos_ += n;
+  return taken;
+}
+
 bool LineScanner::accept(std::string_view literal) {
   if (!text_.substr(pos_).starts_with(literal)) return false;
   pos_ += literal.size();
@@ -205,7 +224,10 @@ void LineScanner::fail_at(Errc code, Subject s, std::string_view token, std::str
 }
 
 void LineScanner::fail(Errc code, std::string message, std::vector<std::int64_t> ids) const {
-  throw InputError(Diagnostic{code, std::move(message), file_, line_, std::move(ids), {}});
+  // Counted anew, since `bytes` counts none.
+  const auto ends = std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(pos_), '\n');
+  throw InputError(
+      Diagnostic{code, std::move(message), file_, static_cast<std::uint64_t>(ends) + 1, std::move(ids), {}});
 }
 
 }  // namespace pgdr::detail

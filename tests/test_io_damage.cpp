@@ -5,7 +5,11 @@
 // an InputError with the name of the file and a message; formats that say where they end are never believed when cut.
 #include <algorithm>
 #include <functional>
+#include <memory>
 
+#include "detail/io_formats.hpp"
+#include "msh_files.hpp"
+#include "ply_files.hpp"
 #include "test_io_support.hpp"
 
 namespace pgdr::test {
@@ -39,16 +43,42 @@ void read_input(const std::filesystem::path& file) {
 }
 
 template <int D>
-void read_output(const std::filesystem::path& file) {
-  const OutputMesh<D> mesh = read_mesh<D>(file);
+void expect_in_range(const OutputMesh<D>& mesh) {
   ASSERT_LE(mesh.input_points, mesh.points.size());
-  for (const auto& cell : mesh.cells) {
-    for (const std::uint32_t v : cell) ASSERT_LT(v, mesh.points.size());
-  }
+  const auto expect = [&mesh](const auto& corners) {
+    for (const std::uint32_t v : corners) ASSERT_LT(v, mesh.points.size());
+  };
+  for (const auto& cell : mesh.cells) expect(cell);
+  for (const auto& s : mesh.subsegments) expect(s.vertices);
+  for (const auto& f : mesh.subfacets) expect(f.vertices);
+  ASSERT_TRUE(mesh.regions.empty() || mesh.regions.size() == mesh.cells.size());
+  ASSERT_TRUE(mesh.point_markers.empty() || mesh.point_markers.size() == mesh.points.size());
+}
+
+template <int D>
+void read_output(const std::filesystem::path& file) {
+  expect_in_range<D>(read_mesh<D>(file));
+}
+
+/// One file of a mesh in TetGen's files; the others are whole.
+template <int D>
+Format tetgen_file(const std::string& extension) {
+  const auto folder = std::make_shared<TempFolder>();
+  write_mesh<D>(some_mesh<D>(2, 6), *folder / "a.ele");
+  const std::string bytes = content(*folder / ("a" + extension));
+  const auto read = [folder, extension](const std::filesystem::path& file) {
+    const auto text = [&](const std::string& e) {
+      return content(e == extension ? file : std::filesystem::path(*folder / ("a" + e)));
+    };
+    const std::string face = text(".face"), edge = text(".edge");
+    const auto mesh = detail::read_tetgen<D>({text(".node"), text(".ele"), &face, &edge}, file);
+    expect_in_range<D>(mesh);
+  };
+  return {"tetgen" + extension.substr(1) + std::to_string(D), "a" + extension, bytes, read, false};
 }
 
 std::vector<Format> formats() {
-  return {
+  std::vector<Format> all{
       {"poly_2d", "a.poly", triangle_poly, read_input<2>, false},
       {"poly_3d", "a.poly", tetgen_poly, read_input<3>, false},
       {"smesh", "a.smesh", tetgen_smesh, read_input<3>, false},
@@ -61,7 +91,21 @@ std::vector<Format> formats() {
       {"mesh_3d", "a.mesh", mesh_bytes<3>(".mesh"), read_output<3>, true},
       {"vtu_2d", "a.vtu", mesh_bytes<2>(".vtu"), read_output<2>, true},
       {"vtu_3d", "a.vtu", mesh_bytes<3>(".vtu"), read_output<3>, true},
+      {"msh_2d", "a.msh", mesh_bytes<2>(".msh"), read_output<2>, true},
+      {"msh_3d", "a.msh", mesh_bytes<3>(".msh"), read_output<3>, true},
+      {"mesh_as_input_2d", "a.mesh", mesh_bytes<2>(".mesh"), read_input<2>, true},
+      {"mesh_as_input_3d", "a.mesh", mesh_bytes<3>(".mesh"), read_input<3>, true},
+      {"msh_as_input_2d", "a.msh", mesh_bytes<2>(".msh"), read_input<2>, true},
   };
+  for (const PlyEncoding encoding : ply_encodings)
+    all.push_back({"ply_" + ply_name(encoding), "a.ply", ply_file(encoding), read_input<3>, encoding != PlyEncoding::text});
+  for (const MshVariant& v : msh_variants) {
+    all.push_back({v.name(), "a.msh", msh_file(two_tetrahedra(), v), read_output<3>, true});
+    all.push_back({v.name() + "_as_input", "a.msh", msh_file(two_tetrahedra(), v), read_input<3>, true});
+  }
+  for (const std::string extension : {".node", ".ele", ".face", ".edge"}) all.push_back(tetgen_file<3>(extension));
+  for (const std::string extension : {".node", ".ele", ".edge"}) all.push_back(tetgen_file<2>(extension));
+  return all;
 }
 
 class Damage : public testing::TestWithParam<Format> {
@@ -91,6 +135,9 @@ class Damage : public testing::TestWithParam<Format> {
 TEST_P(Damage, ACutAtEveryByte) {
   const Format& f = GetParam();
   ASSERT_TRUE(accepted(f.bytes));
+  if (f.says_its_end) {
+    EXPECT_FALSE(accepted(f.bytes + "more"));
+  }
   for (std::size_t n = 0; n < f.bytes.size(); ++n) {
     const bool blank_lost = n + 1 == f.bytes.size() && f.bytes.back() == '\n';
     const bool ok = accepted(f.bytes.substr(0, n));

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <csignal>
-#include <cstdlib>
 
 #include "test_io_support.hpp"
 
@@ -17,7 +16,7 @@ namespace {
 template <int D>
 void expect_round_trip(const OutputMesh<D>& mesh) {
   const TempFolder folder;
-  for (const std::string extension : {".mesh", ".vtu", ".VTU"}) {
+  for (const std::string extension : {".mesh", ".vtu", ".VTU", ".msh", ".node", ".ele", ".NODE"}) {
     SCOPED_TRACE(extension);
     const auto file = folder / ("mesh" + extension);
     write_mesh<D>(mesh, file);
@@ -27,7 +26,8 @@ void expect_round_trip(const OutputMesh<D>& mesh) {
     write_mesh<D>(read_mesh<D>(file), file);
     EXPECT_TRUE(content(file) == once) << "the file of the mesh that was read differs";
   }
-  EXPECT_EQ(folder.files(), 3u) << "temporary files are left";
+  // Those of .node and .ele are the same; beside .NODE are .ele, .edge and, in 3D, .face.
+  EXPECT_EQ(folder.files(), 4u + (D == 3 ? 5u : 4u)) << "temporary files are left";
 }
 
 template <int D>
@@ -250,7 +250,7 @@ class FullDisk {
 TEST(WriteMesh, AFullDiskLeavesTheOldFileAndNoOther) {
   const TempFolder folder;
   const auto mesh = some_mesh<3>(1, 30000);
-  for (const std::string name : {"a.vtu", "a.mesh"}) {
+  for (const std::string name : {"a.vtu", "a.mesh", "a.msh"}) {
     folder.put(name, "old");
     Diagnostic error;
     for (const rlim_t bytes : {0, 100, 2000000}) {
@@ -267,27 +267,32 @@ TEST(WriteMesh, AFullDiskLeavesTheOldFileAndNoOther) {
   }
 }
 
-/// Meshio's opinion of our files, where a Python that has it can be found.
-TEST(MeshFiles, MeshioReadsThem) {
-  std::string python;
-  for (const std::string candidate : {"python3", "/usr/bin/python3"}) {
-    if (std::system((candidate + " -c 'import meshio' 2>/dev/null").c_str()) == 0) python = candidate;
-  }
-  if (python.empty()) GTEST_SKIP() << "no Python with meshio";
+TEST(WriteMesh, TheFourFilesOfTetgenAreReplacedTogetherOrNotAtAll) {
   const TempFolder folder;
-  const auto mesh = some_mesh<3>(1, 10);
-  write_mesh<3>(mesh, folder / "a.vtu");
-  write_mesh<3>(mesh, folder / "a.mesh");
-  const auto script = folder.put("check.py",
-                                 "import meshio, sys\n"
-                                 "for name in sys.argv[1:]:\n"
-                                 "    mesh = meshio.read(name)\n"
-                                 "    count = {block.type: len(block.data) for block in mesh.cells}\n"
-                                 "    assert len(mesh.points) == 10, mesh\n"
-                                 "    assert count == {'tetra': 20, 'triangle': 20, 'line': 20}, count\n");
-  const std::string command =
-      python + " " + script.string() + " " + (folder / "a.vtu").string() + " " + (folder / "a.mesh").string();
-  EXPECT_EQ(std::system((command + " >/dev/null 2>&1").c_str()), 0) << command;
+  const auto mesh = some_mesh<3>(1, 30000), other = some_mesh<3>(2, 20);
+  write_mesh<3>(other, folder / "a.ele");
+  const std::vector<std::string> names{"a.node", "a.ele", "a.face", "a.edge"};
+  std::vector<std::string> before;
+  for (const auto& name : names) before.push_back(content(folder / name));
+  const auto expect_unchanged = [&](std::size_t files) {
+    for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(content(folder / names[i]), before[i]) << names[i];
+    EXPECT_EQ(folder.files(), files) << "a temporary file is left";
+  };
+  for (const rlim_t bytes : {0, 100, 1500000, 2500000}) {
+    const FullDisk full(bytes);
+    EXPECT_EQ(error_of<FileError>([&] { write_mesh<3>(mesh, folder / "a.node"); }).code, Errc::cannot_write);
+    expect_unchanged(4);
+  }
+  // One that cannot be replaced.
+  before[3] = "";
+  std::filesystem::remove(folder / "a.edge");
+  std::filesystem::create_directory(folder / "a.edge");
+  EXPECT_EQ(error_of<FileError>([&] { write_mesh<3>(mesh, folder / "a.node"); }).file, (folder / "a.edge").string());
+  expect_unchanged(4);
+  std::filesystem::remove(folder / "a.edge");
+  write_mesh<3>(mesh, folder / "a.node");
+  expect_same(read_mesh<3>(folder / "a.ele"), mesh);
+  EXPECT_EQ(folder.files(), 4u);
 }
 
 }  // namespace

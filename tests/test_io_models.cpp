@@ -32,7 +32,7 @@ std::vector<Model> models() {
     for (std::string cell; std::getline(cells, cell, '\t');) columns.push_back(cell);
     if (columns.size() < 7) continue;
     const std::string format = columns[4].substr(0, columns[4].find_first_of("-("));
-    for (const std::string read : {"off", "stl", "obj", "poly", "smesh", "node"}) {
+    for (const std::string read : {"off", "stl", "obj", "ply", "poly", "smesh", "node"}) {
       if (format == read) all.push_back({columns[0], columns[1], format, columns[5], columns[6]});
     }
   }
@@ -49,7 +49,7 @@ void expect_counts(const Model& m, const Plc<3>& plc) {
       triangles += polygon.size() - 2;
     }
   }
-  const bool surface = m.format == "off" || m.format == "stl" || m.format == "obj";
+  const bool surface = m.format == "off" || m.format == "stl" || m.format == "obj" || m.format == "ply";
   EXPECT_EQ(std::to_string(surface ? distinct.size() : plc.points.size()), m.vertices);
   EXPECT_EQ(std::to_string(surface ? triangles : plc.facets.size()), m.faces);
 }

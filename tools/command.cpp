@@ -79,9 +79,10 @@ int last_resort(Action action) noexcept {
 int execute(const Arguments& arguments) noexcept {
   Report report;
   const int code = last_resort([&] { return execute(arguments, report); });
-  if (code == exit_resource)
-    for (const std::string* file : {&report.mesh_file, &report.trace_file})
-      if (!file->empty()) std::remove(file->c_str());
+  if (code == exit_resource) {
+    for (const std::string& file : report.mesh_files) std::remove(file.c_str());
+    if (!report.trace_file.empty()) std::remove(report.trace_file.c_str());
+  }
   return code;
 }
 

@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "pgdr/error.hpp"
+#include "pgdr/io.hpp"
 
 namespace pgdr::tool {
 
@@ -26,18 +27,21 @@ void require_place(const std::string& file) {
 
 }  // namespace
 
-bool is_mesh_file(const std::string& file) {
-  const std::string extension = fs::path(file).extension().string();
-  return strcasecmp(extension.c_str(), ".vtu") == 0 || strcasecmp(extension.c_str(), ".mesh") == 0;
-}
-
 void require_writable(const std::string& output, const std::string& input) {
-  if (!is_mesh_file(output))
-    throw InputError({.code = Errc::unknown_format, .message = "meshes are written as .vtu or .mesh", .file = output});
-  require_place(output);
-  std::error_code ignored;
-  if (fs::equivalent(output, input, ignored))
-    throw UsageError({.code = Errc::bad_option, .message = "the output would replace the input", .file = output});
+  if (!is_mesh_format(output))
+    throw InputError({.code = Errc::unknown_format,
+                      .message = "meshes are written as .vtu, .msh, .mesh, or .node with .ele", .file = output});
+  const std::string extension = fs::path(input).extension().string();
+  fs::path points;  // a .poly or .smesh may leave its points to a .node file
+  if (strcasecmp(extension.c_str(), ".poly") == 0 || strcasecmp(extension.c_str(), ".smesh") == 0)
+    points = fs::path(input).replace_extension(".node");
+  for (const std::string& file : files_of_mesh(output)) {
+    require_place(file);
+    std::error_code ignored;
+    if (fs::equivalent(file, input, ignored) || fs::equivalent(file, points, ignored))
+      throw UsageError(
+          {.code = Errc::bad_option, .message = "the output would replace the input", .file = file});
+  }
 }
 
 void require_writable(const std::string& file, const std::vector<std::string>& others) {

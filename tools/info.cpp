@@ -8,7 +8,6 @@
 #include "command.hpp"
 #include "console.hpp"
 #include "diagnosis.hpp"
-#include "files.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/io.hpp"
 #include "planar.hpp"
@@ -181,7 +180,7 @@ int info(const InfoArguments& arguments, Report& report) {
   report.set("input", arguments.file);
   const int dimension = file_dimension(arguments.file);
   report.set("dimension", dimension);
-  if (is_mesh_file(arguments.file))
+  if (holds_cells(arguments.file))
     return dimension == 2 ? info_of_mesh<2>(arguments, report) : info_of_mesh<3>(arguments, report);
   return dimension == 2 ? info_of_input<2>(arguments, report) : info_of_input<3>(arguments, report);
 }

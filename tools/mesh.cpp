@@ -195,9 +195,9 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
 
   seconds.write_at = total.seconds();
   if (!result.mesh.cells.empty()) {
-    std::string mesh_file = a.output;
+    std::vector<std::string> mesh_files = files_of_mesh(a.output);
     write_mesh(result.mesh, a.output);
-    report.mesh_file = std::move(mesh_file);
+    report.mesh_files = std::move(mesh_files);
   }
   seconds.total = total.seconds();
   seconds.write = seconds.total - seconds.write_at;

@@ -98,8 +98,8 @@ void add_report(CLI::App& app, std::string& report, bool& quiet) {
 
 void add_mesh(CLI::App& app, MeshArguments& a) {
   const auto fixed = [](const std::string&) {};  // a flag with one choice so far: checked, nothing to keep
-  app.add_option("INPUT", a.input, "what to mesh: .poly .smesh .node .off .obj .stl")->required()->type_name("");
-  app.add_option("-o,--output", a.output, "the mesh: .vtu .mesh")->required()->type_name("OUTPUT");
+  app.add_option("INPUT", a.input, "what to mesh: .poly .smesh .node .off .obj .ply .stl .mesh .msh")->required()->type_name("");
+  app.add_option("-o,--output", a.output, "the mesh: .vtu .msh .mesh .node .ele")->required()->type_name("OUTPUT");
   add_bounds(app, a.bounds);
   add_planar(app, a.planar);
   app.add_flag("--keep-boundary", a.keep_boundary, "2D: no new points on segments");
@@ -133,7 +133,7 @@ void add_mesh(CLI::App& app, MeshArguments& a) {
 }
 
 void add_check(CLI::App& app, CheckArguments& a) {
-  app.add_option("MESH", a.mesh, "the mesh to check: .vtu .mesh")->required()->type_name("");
+  app.add_option("MESH", a.mesh, "the mesh to check: .vtu .msh .mesh .node .ele")->required()->type_name("");
   app.add_option("--input", a.input, "what it is a mesh of; without it, conformity is not checked")->type_name("INPUT");
   add_bounds(app, a.bounds);
   add_planar(app, a.planar);

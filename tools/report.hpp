@@ -24,7 +24,8 @@ class Report : public JsonObject {
   void write(const std::string& file);
 
   /// Files that this run has written, if any. They go again should it still end with exit_resource.
-  std::string mesh_file, trace_file;
+  std::vector<std::string> mesh_files;
+  std::string trace_file;
 
  private:
   std::vector<Diagnostic> errors_;

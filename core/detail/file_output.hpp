@@ -3,7 +3,7 @@
 //
 // A file that appears under its name complete or not at all: it grows under a temporary name in the same folder and is
 // renamed by `commit`. Numbers are formatted straight into the buffer by std::to_chars, since for millions of them
-// that is most of the time of writing. One thread a file.
+// that is most of the time of writing. Files that mean something only together are committed together. One thread a file.
 #pragma once
 
 #include <algorithm>
@@ -14,6 +14,8 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -61,7 +63,17 @@ class FileOutput {
   /// Writes what is buffered, closes, renames. The only way to make the file appear. @throws FileError cannot_write
   void commit();
 
+  /// Makes all the files appear, or none: what was there before stays, or comes back, if one cannot be. The last file is
+  /// away from before the first is replaced until all are, so that its presence means a whole set even if the process is
+  /// killed. @throws FileError cannot_write
+  friend void commit_together(std::span<const std::unique_ptr<FileOutput>> files);
+
  private:
+  /// Writes what is buffered and closes.
+  void finish();
+  /// Renames what is finished.
+  void publish();
+
   static constexpr std::size_t longest_number = 32;  // -1.7976931348623157e+308 has 24 characters
 
   void reserve(std::size_t n) {
@@ -77,5 +89,7 @@ class FileOutput {
   std::vector<char> buffer_;
   std::size_t used_ = 0;
 };
+
+void commit_together(std::span<const std::unique_ptr<FileOutput>> files);
 
 }  // namespace pgdr::detail

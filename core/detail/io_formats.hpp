@@ -2,17 +2,28 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // One function a format and direction; io.cpp chooses by extension. All readers take the whole text of the file and
-// its name (for messages, and for a file beside it); all throw what io.hpp says.
+// its name (for messages, and for a file beside it); all throw what io.hpp says. Those of formats that are inputs and
+// meshes alike say what there is (file_mesh.hpp makes of it what is wanted).
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
+#include "detail/file_mesh.hpp"
 #include "detail/file_output.hpp"
 #include "pgdr/output_mesh.hpp"
 #include "pgdr/plc.hpp"
 
 namespace pgdr::detail {
+
+/// Reads as `read_plc` does, from memory. The extension of `name` says what it is; a file of that name need not exist
+/// (a .poly or .smesh of 0 points looks for the .node file beside it).
+template <int D>
+Plc<D> read_plc_from(std::string_view bytes, const std::filesystem::path& name);
+/// As `read_mesh`, but for .node and .ele, which are several files (read_tetgen).
+template <int D>
+OutputMesh<D> read_mesh_from(std::string_view bytes, const std::filesystem::path& name);
 
 template <int D>
 Plc<D> read_poly(std::string_view text, const std::filesystem::path& file);
@@ -21,20 +32,49 @@ Plc<D> read_node(std::string_view text, const std::filesystem::path& file);
 Plc<3> read_smesh(std::string_view text, const std::filesystem::path& file);
 Plc<3> read_obj(std::string_view text, const std::filesystem::path& file);
 Plc<3> read_off(std::string_view text, const std::filesystem::path& file);
+Plc<3> read_ply(std::string_view text, const std::filesystem::path& file);
 Plc<3> read_stl(std::string_view text, const std::filesystem::path& file);
 
-template <int D>
-OutputMesh<D> read_medit(std::string_view text, const std::filesystem::path& file);
+enum class Purpose {
+  input,     ///< lines are kept
+  mesh,
+  dimension  ///< what is read may end where the dimension is known
+};
+struct Want {
+  Purpose purpose = Purpose::mesh;
+  int dimension = 0;  ///< 2, 3, or any: what else is stated may be refused at once
+};
+FileMesh read_medit(std::string_view text, const std::filesystem::path& file, Want want);
+FileMesh read_msh(std::string_view text, const std::filesystem::path& file, Want want);
+
 template <int D>
 OutputMesh<D> read_vtu(std::string_view text, const std::filesystem::path& file);
 template <int D>
 void write_medit(const OutputMesh<D>& mesh, FileOutput& out);
 template <int D>
+void write_msh(const OutputMesh<D>& mesh, FileOutput& out);
+template <int D>
 void write_vtu(const OutputMesh<D>& mesh, FileOutput& out);
+
+/// A mesh as TetGen and Triangle have it: one text a file, named `file` with another extension. Null: there is none.
+struct TetgenTexts {
+  std::string_view node, ele;
+  const std::string* face = nullptr;  ///< subfacets
+  const std::string* edge = nullptr;  ///< subsegments
+};
+/// The name of the file of that family with an extension: `file` itself if it is the one.
+std::string tetgen_name(const std::filesystem::path& file, std::string_view extension);
+template <int D>
+OutputMesh<D> read_tetgen(const TetgenTexts& texts, const std::filesystem::path& file);
+/// Writes .node, .face (3D), .edge and .ele, all or none.
+template <int D>
+void write_tetgen(const OutputMesh<D>& mesh, const std::filesystem::path& file);
 
 /// The dimension that the header states; anything but 2 and 3 is a syntax error.
 int node_dimension(std::string_view text, const std::filesystem::path& file);  ///< .node, .poly
-int medit_dimension(std::string_view text, const std::filesystem::path& file);
 int vtu_dimension(std::string_view text, const std::filesystem::path& file);
+
+/// In lower case, with its dot.
+std::string lower_extension(const std::filesystem::path& file);
 
 }  // namespace pgdr::detail

@@ -3,7 +3,8 @@
 //
 // Words and numbers out of a text that lies in memory, line by line, with errors that name the line and the culprit.
 // Blank lines and '#' comments are never seen by the caller, commas count as blanks (TetGen's readers skip them, and
-// files with them exist). No locale, no allocation but for errors. One thread a scanner.
+// files with them exist). No locale, no allocation but for errors. Formats that put binary parts into a text take these
+// with `bytes`; errors count the lines through them, as an editor would. One thread a scanner.
 #pragma once
 
 #include <cstdint>
@@ -30,9 +31,11 @@ class LineScanner {
   /// Views `text`, which must outlive the scanner. A byte order mark is skipped.
   LineScanner(std::string_view text, std::string file);
 
-  std::uint64_t line() const { return line_; }
+  std::uint64_t line() const { return line_; }  ///< of a text without binary parts before
   /// Bytes from here to the end of the text.
   std::size_t remaining() const { return text_.size() - pos_; }
+  /// The same bytes, to look ahead.
+  std::string_view rest() const { return text_.substr(pos_); }
 
   /// Whether another word follows on this line.
   bool more_on_line();
@@ -46,6 +49,12 @@ class LineScanner {
   void end_line(Subject s);
   /// Leaves the line, whatever it still holds.
   void skip_line();
+  /// What is left of the line as it stands, comments and all.
+  std::string_view rest_of_line();
+  /// Leaves a line that must be used up and stands at the first byte behind it. @throws syntax, truncated
+  void enter_bytes(Subject s);
+  /// The next `n` bytes, whatever they are. @throws truncated
+  std::string_view bytes(Subject s, std::size_t n);
 
   /// The next character, behind `advance`.
   char peek() const { return pos_ < text_.size() ? text_[pos_] : '\0'; }
@@ -61,6 +70,8 @@ class LineScanner {
   /// A count of things of which each takes at least `bytes_each` bytes of the text. @throws count_too_large
   /// (truncated if the count is small), syntax
   std::size_t count(Subject s, std::size_t bytes_each);
+  /// The same of a count that is known already.
+  void check_count(Subject s, std::uint64_t n, std::size_t bytes_each) const;
   /// A reference to one of `n` points numbered from `first`; returned from 0. @throws index_out_of_range, syntax
   std::uint32_t reference(Subject s, std::uint32_t first, std::size_t n);
 
@@ -70,7 +81,6 @@ class LineScanner {
  private:
   void skip_blanks();
   std::string_view take();
-  void check_count(Subject s, std::uint64_t n, std::size_t bytes_each) const;
   [[noreturn]] void fail_at(Errc code, Subject s, std::string_view token, std::string_view why) const;
 
   std::string_view text_;

@@ -6,28 +6,41 @@
 // run leaves no half file; text formats print doubles that read back to the same bits. Any thread; no global state
 // (the C locale is never consulted).
 //
-// | extension        | read as Plc<2>     | read as Plc<3>              | read mesh | write mesh |
-// | .poly            | Triangle's         | TetGen's                    |           |            |
-// | .smesh           |                    | TetGen's                    |           |            |
-// | .node            | points             | points                      |           |            |
-// | .off, .obj, .stl |                    | triangles/polygons          |           |            |
-// | .mesh            |                    |                             | Medit     | Medit      |
-// | .vtu             |                    |                             | ours      | VTK XML    |
+// | extension              | read as Plc<2>     | read as Plc<3>      | read mesh   | write mesh |
+// | .poly                  | Triangle's         | TetGen's            |             |            |
+// | .smesh                 |                    | TetGen's            |             |            |
+// | .node                  | points             | points              | with .ele   | with .ele  |
+// | .ele                   |                    |                     | with .node  | with .node |
+// | .off .obj .ply .stl    |                    | triangles, polygons |             |            |
+// | .mesh                  | edges              | triangles, quads    | Medit       | Medit      |
+// | .msh                   | lines              | triangles, quads    | 2.x and 4.1 | 4.1 binary |
+// | .vtu                   |                    |                     | ours        | VTK XML    |
 //
-// Choices that the formats leave open:
+// docs/formats.md has what each format keeps. Choices that the formats leave open:
 // - A .poly or .smesh that lists 0 points takes them from the .node file beside it. Point numbers start at 0 or 1 and
 //   are consecutive. A region with one number behind its point has it as attribute and, in 2D, as bound of the area too
 //   (Triangle's manual); in 3D as attribute alone. Holes are mandatory, regions may be missing.
 // - .stl: equal points become one. If an ASCII file has several solids, markers number them from 1.
-// - .off, .obj: normals, colours, textures and groups are dropped; .obj counts points and faces from 1.
+// - .off, .obj, .ply: normals, colours, textures and groups are dropped; .obj counts points and faces from 1. The edges
+//   of a .ply are not read.
 // - .mesh: references are markers and region attributes; attributes that are not integers are numbered, and comments
 //   "# region <n> = <value>" tell which is which. Labels that are all 0 read back as none. RequiredVertices lists the
-//   input points. Sections that OutputMesh has no place for are skipped, cells that are no simplices are refused.
+//   input points. Sections that a mesh has no place for are skipped.
+// - .msh: the first physical group of an element is its label; groups of labels that are no positive integers have the
+//   names "pgdr marker <m>" and "pgdr region <a>". Node and element tags are their places from 1 (cells come first).
+// - .node, .ele: X.node, X.ele, X.face (3D, subfacets) and X.edge (subsegments), numbered from 1, written all or none.
+//   The latter two may be missing when read; attributes of points are dropped.
+// - .mesh and .msh as inputs: cells (tetrahedra, hexahedra, ...; in 2D triangles) are dropped, with the points that they
+//   alone have, but faces of simplices that bound them, or lie between labels, become facets where the file has none;
+//   labels become region seeds, the voids that the cells enclose holes. A file whose points all have z = 0 is 2D, if it
+//   has no cells of volume.
 // - .vtu: cells, then subfacets, then subsegments; cell data "region" (of the cells) and "marker" (of the others), point
 //   data "marker", field data "dimension" and "input_points"; raw appended data.
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "pgdr/error.hpp"
 #include "pgdr/output_mesh.hpp"
@@ -40,15 +53,25 @@ namespace pgdr {
 template <int D>
 Plc<D> read_plc(const std::filesystem::path& file);
 
-/// The dimension of a .poly/.node/.mesh/.vtu file from its header (2 or 3); 3 for .smesh, .off, .obj, .stl, which are
-/// not opened. @throws as read_plc
+/// The dimension of a file (2 or 3) from its header, or from its points where the header does not tell; 3 for .smesh,
+/// .off, .obj, .ply, .stl, which are not opened. @throws as read_plc
 int file_dimension(const std::filesystem::path& file);
+
+/// Whether a file has cells (those of volume in 3D, triangles in 2D), so that `read_mesh` gives more than its surface.
+/// Always so for .vtu and .ele, never for formats of inputs alone; .node counts as points. @throws as read_plc
+bool holds_cells(const std::filesystem::path& file);
+
+/// Whether `read_mesh` and `write_mesh` know the extension. The file is not opened.
+bool is_mesh_format(const std::filesystem::path& file);
+/// The files that `write_mesh` to this name replaces: itself, but for .node and .ele, which come as four.
+std::vector<std::string> files_of_mesh(const std::filesystem::path& file);
 
 /// Vertex indices are in range; whether the cells are a mesh is the checker's business. @throws as read_plc
 template <int D>
 OutputMesh<D> read_mesh(const std::filesystem::path& file);
 
-/// Replaces a file of that name when all is written, not before.
+/// Replaces a file of that name when all is written, not before (.node and .ele: the files of both and of .face and
+/// .edge; a process that is killed in the middle leaves no .ele).
 /// @throws FileError cannot_write (nothing is left behind, an older file is as it was), InputError unknown_format
 template <int D>
 void write_mesh(const OutputMesh<D>& mesh, const std::filesystem::path& file);

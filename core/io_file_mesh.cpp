@@ -1,0 +1,246 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "detail/file_mesh.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
+#include "detail/cell_surface.hpp"
+#include "pgdr/error.hpp"
+
+namespace pgdr::detail {
+namespace {
+
+[[noreturn]] void fail(const FileMesh& mesh, Errc code, std::string message, std::uint64_t line) {
+  throw InputError(Diagnostic{code, std::move(message), mesh.file, line, {}, {}});
+}
+
+void require_dimension(const FileMesh& mesh, int wanted) {
+  const int d = dimension_of(mesh);
+  if (d != wanted)
+    fail(mesh, Errc::syntax, "the dimension is " + std::to_string(d) + ", not " + std::to_string(wanted),
+         mesh.dimension_line);
+}
+
+[[noreturn]] void refuse_cells(const FileMesh& mesh, const std::string& what, std::uint64_t line) {
+  fail(mesh, Errc::unknown_format, what + " cannot be read: only simplices are", line);
+}
+
+std::uint64_t first_of(const std::vector<std::uint32_t>& lines) { return lines.empty() ? 0 : lines.front(); }
+
+int marker_of(const FileMesh& mesh, double label) {
+  if (!(label >= -2147483648.0 && label <= 2147483647.0) || label != std::floor(label))
+    fail(mesh, Errc::syntax, "the label " + std::to_string(label) + " is no marker: markers are integers", 0);
+  return static_cast<int>(label);
+}
+
+template <int D>
+Point<D> flattened(const Point3& p) {
+  Point<D> q;
+  for (int k = 0; k < D; ++k) q[k] = p[k];
+  return q;
+}
+
+/// Empty if all are 0, since files that cannot do without markers state 0 where there is none.
+std::vector<int> markers_if_any(std::vector<int> markers) {
+  if (std::all_of(markers.begin(), markers.end(), [](int m) { return m == 0; })) markers.clear();
+  return markers;
+}
+
+/// One step of the way from a FileMesh to a Plc.
+template <int D>
+class PlcBuilder {
+ public:
+  explicit PlcBuilder(FileMesh&& mesh) : mesh_(std::move(mesh)) {}
+
+  Plc<D> build() {
+    if (!mesh_.other_cells.empty() && facet_count() == 0)
+      fail(mesh_, Errc::unknown_format, mesh_.other_cells + " have no surface here: the file must list it",
+           mesh_.other_line);
+    plc_.source.file = mesh_.file;
+    plc_.first_index = mesh_.first_index;
+    for (const Point3& p : mesh_.points) plc_.points.push_back(flattened<D>(p));
+    add_segments();
+    if constexpr (D == 3) add_facets();
+    if (has_cells(mesh_)) {
+      if (mesh_.other_cells.empty() && (D == 3 || mesh_.quadrilaterals.empty())) add_surface_of_cells();
+      drop_points_of_cells();
+    }
+    plc_.point_markers = markers_if_any(std::move(mesh_.point_markers));
+    plc_.source.point_lines = std::move(mesh_.point_lines);
+    return std::move(plc_);
+  }
+
+ private:
+  std::size_t facet_count() const {
+    return D == 2 ? mesh_.edges.size() : mesh_.triangles.size() + mesh_.quadrilaterals.size();
+  }
+
+  void add_segments() {
+    plc_.segments.reserve(mesh_.edges.size());
+    for (const auto& e : mesh_.edges) plc_.segments.push_back({e.corners, marker_of(mesh_, e.label)});
+    plc_.source.segment_lines = std::move(mesh_.edge_lines);
+  }
+
+  template <class Corners>
+  void add_facet(const Corners& corners, int marker) {
+    auto& facet = plc_.facets.emplace_back();
+    facet.polygons.emplace_back(corners.begin(), corners.end());
+    facet.marker = marker;
+  }
+  void add_facets() {
+    plc_.facets.reserve(facet_count());
+    for (const auto& t : mesh_.triangles) add_facet(t.corners, marker_of(mesh_, t.label));
+    for (const auto& q : mesh_.quadrilaterals) add_facet(q.corners, marker_of(mesh_, q.label));
+    auto& lines = plc_.source.facet_lines = std::move(mesh_.triangle_lines);
+    lines.insert(lines.end(), mesh_.quadrilateral_lines.begin(), mesh_.quadrilateral_lines.end());
+  }
+
+  static std::array<std::uint32_t, D> sorted(std::array<std::uint32_t, D> face) {
+    std::sort(face.begin(), face.end());
+    return face;
+  }
+
+  /// A quadrilateral is the wall between triangles on either of its diagonals.
+  std::vector<std::array<std::uint32_t, D>> walls() const {
+    std::vector<std::array<std::uint32_t, D>> walls;
+    if constexpr (D == 2) {
+      for (const auto& e : mesh_.edges) walls.push_back(sorted(e.corners));
+    } else {
+      for (const auto& t : mesh_.triangles) walls.push_back(sorted(t.corners));
+      for (const auto& q : mesh_.quadrilaterals) {
+        const auto& [a, b, c, d] = q.corners;
+        for (const auto& t : {std::array{a, b, c}, std::array{a, c, d}, std::array{a, b, d}, std::array{b, c, d}})
+          walls.push_back(sorted(t));
+      }
+    }
+    return walls;
+  }
+
+  void add_surface_of_cells() {
+    std::vector<LabelledCell<D>> cells;
+    const auto add = [&cells](const auto& list) {
+      cells.reserve(list.size());
+      for (const auto& c : list) cells.push_back({c.corners, c.label});
+    };
+    if constexpr (D == 2)
+      add(mesh_.triangles);
+    else
+      add(mesh_.tetrahedra);
+    CellSurface<D> surface = surface_of<D>(plc_.points, cells, walls());
+    for (const auto& face : surface.faces) {
+      if constexpr (D == 2) {
+        plc_.segments.push_back({face, 0});
+        if (!plc_.source.segment_lines.empty()) plc_.source.segment_lines.push_back(0);
+      } else {
+        add_facet(face, 0);
+        if (!plc_.source.facet_lines.empty()) plc_.source.facet_lines.push_back(0);
+      }
+    }
+    plc_.regions = std::move(surface.seeds);
+    plc_.holes = std::move(surface.holes);
+  }
+
+  /// Points that cells have and nothing that is kept has. What no cell has either was put into the file on its own.
+  void drop_points_of_cells() {
+    std::vector<std::uint8_t> kept(plc_.points.size(), 1);
+    const auto mark = [&kept](const auto& corners, std::uint8_t value) {
+      for (const std::uint32_t v : corners) kept[v] = value;
+    };
+    for (const auto& c : mesh_.tetrahedra) mark(c.corners, 0);
+    mark(mesh_.other_corners, 0);
+    if constexpr (D == 2) {
+      for (const auto& c : mesh_.triangles) mark(c.corners, 0);
+      for (const auto& c : mesh_.quadrilaterals) mark(c.corners, 0);
+    }
+    for (const auto& s : plc_.segments) mark(s.points, 1);
+    for (const auto& f : plc_.facets) mark(f.polygons.front(), 1);
+    for (std::size_t i = 0; i < mesh_.required.size(); ++i) kept[i] |= mesh_.required[i];
+
+    std::vector<std::uint32_t> number(kept.size());
+    std::uint32_t n = 0;
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      number[i] = n;
+      if (kept[i] == 0) continue;
+      plc_.points[n] = plc_.points[i];
+      mesh_.point_markers[n] = mesh_.point_markers[i];
+      if (!mesh_.point_lines.empty()) mesh_.point_lines[n] = mesh_.point_lines[i];
+      ++n;
+    }
+    plc_.points.resize(n);
+    mesh_.point_markers.resize(n);
+    if (!mesh_.point_lines.empty()) mesh_.point_lines.resize(n);
+    for (auto& s : plc_.segments) {
+      for (auto& v : s.points) v = number[v];
+    }
+    for (auto& f : plc_.facets) {
+      for (auto& v : f.polygons.front()) v = number[v];
+    }
+  }
+
+  FileMesh mesh_;
+  Plc<D> plc_;
+};
+
+}  // namespace
+
+int dimension_of(const FileMesh& mesh) {
+  if (mesh.dimension == 2 || mesh.dimension_certain || mesh.points.empty()) return mesh.dimension;
+  if (!mesh.tetrahedra.empty() || !mesh.other_cells.empty()) return 3;
+  const bool flat = std::all_of(mesh.points.begin(), mesh.points.end(), [](const Point3& p) { return p[2] == 0; });
+  return flat ? 2 : 3;
+}
+
+bool has_cells(const FileMesh& mesh) {
+  if (!mesh.tetrahedra.empty() || !mesh.other_cells.empty()) return true;
+  return dimension_of(mesh) == 2 && !(mesh.triangles.empty() && mesh.quadrilaterals.empty());
+}
+
+template <int D>
+Plc<D> to_plc(FileMesh&& mesh) {
+  require_dimension(mesh, D);
+  return PlcBuilder<D>(std::move(mesh)).build();
+}
+
+template <int D>
+OutputMesh<D> to_output_mesh(FileMesh&& mesh) {
+  require_dimension(mesh, D);
+  if (!mesh.quadrilaterals.empty()) refuse_cells(mesh, "Quadrilaterals", first_of(mesh.quadrilateral_lines));
+  if (!mesh.other_cells.empty()) refuse_cells(mesh, mesh.other_cells, mesh.other_line);
+  OutputMesh<D> out;
+  out.points.reserve(mesh.points.size());
+  for (const Point3& p : mesh.points) out.points.push_back(flattened<D>(p));
+  out.input_points = mesh.input_points;
+  out.point_markers = markers_if_any(std::move(mesh.point_markers));
+  const auto add_cells = [&out](const auto& list) {
+    out.cells.reserve(list.size());
+    out.regions.reserve(list.size());
+    for (const auto& c : list) {
+      out.cells.push_back(c.corners);
+      out.regions.push_back(c.label);
+    }
+  };
+  if constexpr (D == 2)
+    add_cells(mesh.triangles);
+  else
+    add_cells(mesh.tetrahedra);
+  if (std::all_of(out.regions.begin(), out.regions.end(), [](double r) { return std::bit_cast<std::uint64_t>(r) == 0; }))
+    out.regions.clear();
+  out.subsegments.reserve(mesh.edges.size());
+  for (const auto& e : mesh.edges) out.subsegments.push_back({e.corners, marker_of(mesh, e.label)});
+  if constexpr (D == 3) {
+    out.subfacets.reserve(mesh.triangles.size());
+    for (const auto& t : mesh.triangles) out.subfacets.push_back({t.corners, marker_of(mesh, t.label)});
+  }
+  return out;
+}
+
+template Plc<2> to_plc<2>(FileMesh&&);
+template Plc<3> to_plc<3>(FileMesh&&);
+template OutputMesh<2> to_output_mesh<2>(FileMesh&&);
+template OutputMesh<3> to_output_mesh<3>(FileMesh&&);
+
+}  // namespace pgdr::detail
