@@ -160,12 +160,19 @@ class Refiner {
   Outcome insert_beside_refused(const Point<D>& x, const Item& e, const CellVerdict& verdict);
   bool is_clear_of_encroached(const Point<D>& x, double squared) const;
   Outcome insert_point(const Item& e, const CellVerdict& verdict);
-  Point<D> steiner_point(CellId c, const CellVerdict& verdict);
+  Outcome treat_cell_at(const Item& e, const Point<D>& x, const CellVerdict& verdict);
   Demand demand_of_cell(CellId c, const CellVerdict& verdict) const;
   std::optional<Item> encroached_face(const Point<D>& x) const;
   template <class MayEnter>
   std::optional<Item> wall_before(CellId c, const Point<D>& x, MayEnter may_enter) const;
+  std::optional<Item> encroached_entity(const Point<D>& x) const;
+  std::optional<Item> hiding_wall(CellId c, const Point<D>& x) const;
   Outcome split_instead(const Item& entity, const Item& e, const CellVerdict& verdict);
+
+  // refiner_selectors.cpp
+  class View;
+  /// Where the selector puts the point of a cell over the radius-edge bound; nothing if the claim is too small to tell.
+  std::optional<Point<D>> selected_point(CellId c, const Point<D>& center);
 
   void committed();
   void flipped();
