@@ -228,7 +228,7 @@ auto Refiner<D>::insert_point(const Item& e, const CellVerdict& verdict) -> Outc
     return Outcome::refused;
   }
   // Among volume vertices r >= d holds by itself, but for bounds below one and elements that are not poor in shape.
-  bool ordinary = plain && e.which == Item::over_bound && !last_refusal_ && (options_->radius_edge_bound >= 1 || !verdict.over_radius_edge);
+  bool ordinary = plain && e.which != Item::not_delaunay && !last_refusal_ && (options_->radius_edge_bound >= 1 || !verdict.over_radius_edge);
   for (const VertexId v : e.vertices) ordinary = ordinary && mesh_->vertex(v).home.kind() == EntityKind::volume;
   if (!ordinary && insertion_radius<D>(*mesh_, cavity_) < demand_of_cell(e.cell, verdict).d) return Outcome::refused;
   cavity_.commit(pools_, Home(EntityKind::volume, 0), rounded_down(r));
