@@ -50,6 +50,15 @@ auto Refiner<D>::demand_of_cell(CellId c, const CellVerdict& verdict) const -> D
   return {least, 0};
 }
 
+/// What it asks of an entity that is split for it. Below the smallest proved bound a midpoint may be nearer to its
+/// neighbours than the element's edges are long, as beside a small angle.
+template <int D>
+auto Refiner<D>::demand_on_entity(CellId c, const CellVerdict& verdict) const -> Demand {
+  const Demand demand = demand_of_cell(c, verdict);
+  if (options_->radius_edge_bound >= smallest_proved_bound<D>() || !verdict.over_radius_edge) return demand;
+  return {inherited_fraction * demand.d, demand.d};
+}
+
 /// A constrained face of the cavity's boundary in whose equatorial (diametral) ball x lies; one that x projects into, if
 /// there is one (Projection Lemma 2.6).
 template <int D>
@@ -116,7 +125,7 @@ auto Refiner<D>::hiding_wall(CellId c, const Point<D>& x) const -> std::optional
 /// Splits the entity that hides the element's point, or that the point encroaches upon, in its place.
 template <int D>
 auto Refiner<D>::split_instead(const Item& entity, const Item& e, const CellVerdict& verdict) -> Outcome {
-  const Demand demand = demand_of_cell(e.cell, verdict);
+  const Demand demand = demand_on_entity(e.cell, verdict);
   cavity_.release();
   const Outcome outcome = entity.kind == EntryKind::edge ? split_edge(entity, &demand) : split_face(entity, &demand);
   // The element is looked at again if the split left it as it was.

@@ -117,11 +117,13 @@ class LeastLoss {
   int least_ = 0;
 };
 
+constexpr double arc_factor = 0.999;  // so that rounding leaves the new triangle within the bound
+
 /// On the arc Gamma, a circle of radius R about a, the point at angle 2 atan(t) from the off-centre.
 Point2 best_on_arc(const PoorElement<2>& e, Neighborhood<2>& neighborhood, int samples) {
   const Axis<2> axis(e);
   const double l = e.shortest_edge;
-  const double h = off_center_distance(e, axis, default_off_center_factor<2>());
+  const double h = off_center_distance(e, axis, arc_factor);
   if (!(e.disk.radius > 0) || !(h > 0)) return e.circumcenter;
   LeastLoss<2> best(neighborhood, e.circumcenter);
   const double radius = (h * h + l * l / 4) / (2 * h);
@@ -129,7 +131,7 @@ Point2 best_on_arc(const PoorElement<2>& e, Neighborhood<2>& neighborhood, int s
   const double s = axis.to_center - (h - radius);  // from a to the circumcentre
   // Where the arc leaves the disk: the cosine of the angle there, and from it t.
   const double cosine = (s * s + radius * radius - e.disk.radius * e.disk.radius) / (2 * s * radius);
-  if (cosine >= 1) return off_center_of<2>(e, default_off_center_factor<2>());
+  if (cosine >= 1) return off_center_of<2>(e, arc_factor);
   const double most = std::sqrt((1 - cosine) / (1 + std::max(cosine, -0.5)));
   const Vector<2> across{-axis.direction[1], axis.direction[0]};
   const double side = across[0] * axis.edge[0] + across[1] * axis.edge[1] < 0 ? -1 : 1;

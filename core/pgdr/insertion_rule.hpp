@@ -10,7 +10,9 @@
 // would stay poor without a small angle anywhere near.) Let r(x) be the distance from a new point x to the nearest vertex
 // of its cavity. x is inserted only if r(x) >= d, and gets R(x) = max(r(x), h), where
 //   * for a poor element, or an entity that it encroaches upon or that hides its point: d is the least relaxed length
-//     of the element's edges (of an element only too big, at most half its circumradius); h = 0;
+//     of the element's edges (of an element only too big, at most half its circumradius); h = 0; but for an entity that is
+//     split for an element of poor shape, where the radius-edge bound is below the smallest proved one, half that length
+//     and h = that length;
 //   * for an entity encroached upon by q, the cavity's nearest vertex that is none of the entity's: if q is an input
 //     vertex or the entities of q and x do not touch, d = h = 0 (r(x) is then at least the least distance of disjoint
 //     entities; passed on from a facet to a segment, d = |xq| / 2); else d = c R(q), h = R(q), c = 1/2;

@@ -163,6 +163,7 @@ class Refiner {
   Outcome insert_point(const Item& e, const CellVerdict& verdict);
   Outcome treat_cell_at(const Item& e, const Point<D>& x, const CellVerdict& verdict);
   Demand demand_of_cell(CellId c, const CellVerdict& verdict) const;
+  Demand demand_on_entity(CellId c, const CellVerdict& verdict) const;
   std::optional<Item> encroached_face(const Point<D>& x) const;
   template <class MayEnter>
   std::optional<Item> wall_before(CellId c, const Point<D>& x, MayEnter may_enter) const;

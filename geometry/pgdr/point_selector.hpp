@@ -102,10 +102,8 @@ class PointSelector {
               std::is_invocable_r_v<Point<D>, std::decay_t<F>&, const PoorElement<D>&, Neighborhood<D>&>))
   PointSelector(F&& f) {
     if constexpr (std::is_invocable_r_v<Point<D>, std::decay_t<F>&, const PoorElement<D>&>) {
-      if constexpr (requires { static_cast<bool>(f == nullptr); }) {
-        if (f == nullptr) return;
-      }
-      call_ = [g = std::forward<F>(f)](const PoorElement<D>& e, Neighborhood<D>&) mutable -> Point<D> { return g(e); };
+      std::function<Point<D>(const PoorElement<D>&)> simple(std::forward<F>(f));
+      if (simple) call_ = [simple = std::move(simple)](const PoorElement<D>& e, Neighborhood<D>&) { return simple(e); };
     } else {
       call_ = std::forward<F>(f);
     }
