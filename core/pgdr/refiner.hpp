@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Delaunay refinement of one region: encroached subsegments first, then subfacets, then poor elements, largest
-// circumradius first by buckets of a factor of two, first in first out within a bucket (dissertation, sections 2.1, 3.4).
+// Delaunay refinement of one region: encroached subsegments first, then subfacets, then poor elements, those that are too
+// big by buckets of a factor of two of the circumradius, largest first, then those of poor shape, shortest edge first
+// (work_list.hpp; dissertation, sections 2.1, 3.4).
 // The whole mesh refined as one region is the sequential algorithm.
 //
 // Every run ends, whatever the input angles: see insertion_rule.hpp. What is refused stays, and elements that stay poor
