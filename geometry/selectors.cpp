@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "pgdr/error.hpp"
@@ -90,7 +91,8 @@ Point<D> off_center_of(const PoorElement<D>& e, double factor) {
   return inside(e.disk, q) ? q : e.circumcenter;
 }
 
-/// Keeps the candidate that deletes the fewest good cells less poor ones; the first of equals.
+/// Keeps the candidate that deletes the fewest good cells less poor ones; the first of equals. One in whose place an entity
+/// would be split does not delete what it is credited with: it is kept only if all are.
 template <int D>
 class LeastLoss {
  public:
@@ -101,7 +103,7 @@ class LeastLoss {
     const Preview<D> preview = neighborhood_->count(p);
     if (preview.status == Preview<D>::Status::unknown) return false;
     if (preview.status == Preview<D>::Status::impossible) return true;
-    const int loss = preview.good - preview.poor;
+    const std::pair loss(preview.status == Preview<D>::Status::encroaches, preview.good - preview.poor);
     if (any_ && loss >= least_) return true;
     any_ = true;
     least_ = loss;
@@ -114,7 +116,7 @@ class LeastLoss {
   Neighborhood<D>* neighborhood_;
   Point<D> best_;
   bool any_ = false;
-  int least_ = 0;
+  std::pair<bool, int> least_;
 };
 
 constexpr double arc_factor = 0.999;  // so that rounding leaves the new triangle within the bound

@@ -151,6 +151,13 @@ TYPED_TEST(Selectors, OptimizedTakesTheFirstOfTheLeastLosses) {
       return p == best ? preview<D>(4, 3) : preview<D>(1, 3);
     });
     EXPECT_EQ(optimized<D>(100)(e, one), best);
+    // A candidate in whose place an entity would be split is the last choice.
+    Scripted<D> splits([&](const Point<D>& p) {
+      Preview<D> answer = p == best ? preview<D>(0, 9) : preview<D>(5, 0);
+      if (!(p == best)) answer.status = Preview<D>::Status::encroaches;
+      return answer;
+    });
+    EXPECT_EQ(optimized<D>(100)(e, splits), best);
     // Nothing more is asked once there is no answer.
     Scripted<D> ends([&](const Point<D>& p) { return p == best ? Preview<D>{} : preview<D>(1, 3); });
     optimized<D>(100)(e, ends);

@@ -29,7 +29,8 @@ PointSelector<D> off_center(double factor = default_off_center_factor<D>());
 /// The point that deletes the fewest good cells less poor ones, of `samples` candidates. In 2D these lie on the arc Gamma of
 /// section 2.2.2: the circle through the ends of the shortest edge and the off-centre, inside the disk. In 3D they lie in
 /// the disk, uniformly in spherical coordinates about its centre (section 2.3.2). Among equals the first: the off-centre,
-/// then those along the arc from there (2D); the circumcentre, then outwards (3D). Costs about `samples` insertions.
+/// then those along the arc from there (2D); the circumcentre, then outwards (3D). Candidates that encroach upon an entity
+/// are taken only if all do. Costs about `samples` insertions.
 /// @throws UsageError bad_option unless 1 <= samples <= 1000000
 template <int D>
 PointSelector<D> optimized(int samples = D == 2 ? 64 : 1000);
