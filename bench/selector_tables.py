@@ -114,11 +114,10 @@ def quality(command, model, *bounds):
         quantile = lambda q: f"{least[int(q * len(least))]:.2f}"
         poor = report["bounds"]["poor_left"]
         ratio = f"{report['quality']['max_radius_edge']:.3g}"
-        rows.append([selector, report["cells"], poor, ratio, f"{least[0]:.2f}", quantile(0.01), quantile(0.05), quantile(0.1),
-                     f"{report['seconds']['mesh']:.2f}"])
+        rows.append([selector, report["cells"], poor, ratio, f"{least[0]:.2f}", quantile(0.01), quantile(0.05), quantile(0.1)])
         histogram = report["quality"]["histogram"]
         classes.append([selector] + [f"{100 * n / sum(histogram):.1f}" for n in histogram])
-    print_table(["selector", "tetrahedra", "poor", "worst ratio", "smallest dihedral angle", "1 %", "5 %", "10 %", "s"], rows)
+    print_table(["selector", "tetrahedra", "poor", "worst ratio", "smallest dihedral angle", "1 %", "5 %", "10 %"], rows)
     print_table(["% of dihedral angles from"] + [f"{10 * i}°" for i in range(18)], classes)
 
 

@@ -66,7 +66,7 @@ TYPED_TEST(SelectorsRefine, SameBytesForAnyThreads) {
   constexpr int D = TypeParam::value;
   for (const auto& [name, selector] : selectors<D>())
     for (const bool is_turned : {false, true}) {
-      const Plc<D> box = box_with_pairs<D>(D == 2 ? 150 : 25, 0.002, 5);
+      const Plc<D> box = box_with_pairs<D>(D == 2 ? 100 : 12, 0.002, 5);
       const Plc<D> plc = is_turned ? test::turned<D>(box) : box;
       RefineOptions<D> options;
       options.selector = selector;
@@ -305,6 +305,28 @@ TYPED_TEST(SelectorsRefine, PointsOutsideTheDisk) {
     } catch (const UsageError& e) {
       EXPECT_EQ(e.code(), Errc::bad_option);
     }
+  }
+}
+
+// A selector that takes its time, now and then, on eight threads.
+TYPED_TEST(SelectorsRefine, SlowSelectors) {
+  constexpr int D = TypeParam::value;
+  const test::AllowThreads allow(8);
+  const Plc<D> plc = box_with_pairs<D>(D == 2 ? 60 : 15, 0.005, 2);
+  RefineOptions<D> options;
+  options.schedule.floor = 5;
+  options.disk.type = DiskType::type1;
+  options.selector = off_center<D>();
+  const auto expected = refine<D>(plc, test::with<D>(options, test::serial));
+  std::atomic<unsigned> calls{0};
+  options.selector = [&calls, quick = off_center<D>()](const PoorElement<D>& e, Neighborhood<D>& n) {
+    if (++calls % 16 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return quick(e, n);
+  };
+  for (const auto& runner : test::eight_threads) {
+    const auto result = refine<D>(plc, test::with<D>(options, runner));
+    test::expect_same<D>(expected, result, runner.name);
+    EXPECT_GT(result.scheduler.max_concurrent, 1u) << runner.name;
   }
 }
 
