@@ -90,9 +90,7 @@ class Usage(Case):
     def test_numbers(self):
         for flag, values in {"--radius-edge": "nan 0 -1 x", "--max-volume": "0 -1 nan", "--min-edge": "-1 nan inf",
                              "--max-vertices": "-1 x", "--time-limit": "-1 nan inf", "--threads": "0 -1 1.5",
-                             "--delta": "-0.1 1.1 nan", "--disk": "type3", "--schedule": "random",
-                             "--selector": "nearest circumcenter:1 off-center: off-center:0 off-center:nan off-center:0.6x "
-                                           "optimized:0 optimized:1.5 optimized:1000001 sliver-avoiding:-1 sliver-avoiding:x"}.items():
+                             "--delta": "-0.1 1.1 nan", "--disk": "type3", "--schedule": "random"}.items():
             for value in values.split():
                 self.refused("mesh", BRACKET, "-o", self.output, flag + "=" + value, saying=flag)
 
@@ -282,32 +280,6 @@ class Sizes(Case):
                 self.mesh(model, *flags)
                 done = self.pgdr("check", self.output, "--input", model, *flags, expect=0)
                 self.assertIn("everything holds", done.stdout)
-
-    def test_selectors(self):
-        """Every selector, with its parameter and without, gives another mesh that holds; the report repeats its name."""
-        for model in (BRACKET, PLATE):
-            seen = set()
-            for name in ("circumcenter", "off-center", "off-center:0.3", "optimized", "optimized:20", "sliver-avoiding",
-                         "sliver-avoiding:3"):
-                with self.subTest(model=model, selector=name):
-                    bound = ["--radius-edge", "3"]
-                    self.mesh(model, "--selector", name, "--report", self.report, *bound)
-                    self.assertEqual(self.json()["selector"], name)
-                    self.assertEqual(self.json()["selector_outside"], 0)
-                    self.pgdr("check", self.output, "--input", model, *bound, expect=0)
-                    seen.add(self.output.read_bytes())
-            self.assertGreaterEqual(len(seen), 4)
-
-    def test_disks(self):
-        """Selectors other than the circumcentre get the disk of type 1 unless a disk, or a delta, is asked for."""
-        def mesh(*flags):
-            self.mesh(BRACKET, "--radius-edge", "4", "--selector", "off-center", *flags)
-            return self.output.read_bytes()
-        usual, type1, type2, graded = mesh(), mesh("--disk", "type1"), mesh("--disk", "type2"), mesh("--delta", "0.9")
-        self.assertEqual(usual, type1)
-        self.assertNotEqual(usual, type2)
-        self.assertEqual(mesh("--disk", "type2", "--delta", "0.9"), graded)
-        self.assertNotEqual(type2, graded)
 
     def test_smaller_means_more(self):
         self.assertGreater(self.cells(BRACKET, "--size", "0.25"), 2 * self.cells(BRACKET, "--size", "0.5"))
