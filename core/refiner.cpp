@@ -62,6 +62,7 @@ void Refiner<D>::list_poor(CellId c, std::uint8_t why) {
   assert(!visit_->area || visit_->area->owns(*mesh_, c));
   Item e = make_entry(c, EntryKind::cell, why);
   e.bucket = static_cast<std::uint8_t>(context_->bucket_of(c));
+  if (why == Item::over_radius_edge) e.order = order_of(c);
   const Point<D>& center = mesh_->cell(c).center;
   if (!visit_->area || visit_->area->is_home(center)) return visit_->list->push(e);
   const std::uint32_t leaf = visit_->area->leaf_of(center);
@@ -69,6 +70,16 @@ void Refiner<D>::list_poor(CellId c, std::uint8_t why) {
   auto box = std::find_if(boxes.rbegin(), boxes.rend(), [leaf](const auto& o) { return o.leaf == leaf; });
   if (box != boxes.rend()) return box->entries.push_back(e);
   boxes.push_back({leaf, {e}});
+}
+
+/// The shortest edge, shortest first, then the circumradius: smallest first, but largest first below the smallest proved
+/// bound, where it makes the smaller meshes (docs/selectors.md). Of both squares the exponent and four bits of the mantissa.
+template <int D>
+std::uint32_t Refiner<D>::order_of(CellId c) const {
+  auto leading = [](double v) { return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(v) >> 48); };
+  const std::uint32_t edge = leading(shortest_edge_squared<D>(mesh_->simplex(c))), radius = leading(mesh_->cell(c).radius2);
+  const bool proved = options_->radius_edge_bound >= smallest_proved_bound<D>();
+  return edge << 16 | (proved ? radius : 0xffffu - radius);
 }
 
 template <int D>
@@ -97,7 +108,8 @@ void Refiner<D>::list_entities(CellId c, const ConstraintRecord<D>& k) {
 template <int D>
 void Refiner<D>::list_cell(CellId c) {
   if (const auto* k = mesh_->constraints(c)) list_entities(c, *k);
-  if (context_->bounds.test(*mesh_, c)) list_poor(c, Item::over_bound);
+  const CellVerdict verdict = context_->bounds.test(*mesh_, c);
+  if (verdict) list_poor(c, verdict.over_size ? Item::over_size : Item::over_radius_edge);
 }
 
 template <int D>
@@ -263,8 +275,11 @@ void Refiner<D>::run(RegionVisit<D>& visit) {
   while (visit.treat_list && list.poor() > 0 && may_go_on()) {
     const int bucket = list.first_bucket();
     if (bucket > last_bucket) break;
-    if (list.poor() >= visit.floor && context_->largest_radius(bucket) <= visit.small_radius) break;
-    treat(list.pop_poor(*mesh_));
+    const bool crowded = list.poor() >= visit.floor;
+    if (crowded && context_->largest_radius(bucket) <= visit.small_radius) break;
+    // The largest go first where the region is to be split, or where the visit is to end by size.
+    const bool by_size = (crowded && visit.small_radius > 0) || last_bucket < std::numeric_limits<int>::max();
+    treat(by_size ? list.pop_largest(*mesh_) : list.pop_poor(*mesh_));
     treat_entities();
   }
   context_->vertices += visit.counts.committed - reported_;

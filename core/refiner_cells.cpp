@@ -38,33 +38,6 @@ bool projects_into(const std::array<Point<D>, D>& corner, const Point<D>& x) {
 }  // namespace
 
 template <int D>
-Point<D> Refiner<D>::steiner_point(CellId c, const CellVerdict& verdict) {
-  const Point<D> center =
-      mesh_->center_is_accurate(c) ? mesh_->cell(c).center : circumsphere<D>(mesh_->simplex(c)).center;
-  if (!options_->selector || !verdict.over_radius_edge) return center;
-  PoorElement<D> element;
-  element.corners = mesh_->simplex(c);
-  std::sort(element.corners.begin(), element.corners.end(), lex_less<D>);
-  element.circumcenter = center;
-  element.circumradius = std::sqrt(squared_distance(center, element.corners[0]));
-  element.shortest_edge = std::sqrt(shortest_edge_squared<D>(element.corners));
-  element.radius_edge_bound = options_->radius_edge_bound;
-  element.over_radius_edge = true;
-  element.disk = selection_disk<D>(element, options_->disk);
-  const Point<D> p = options_->selector(element);
-  if (p == center) return p;
-  const double r = element.disk.radius;
-  if (r > 0 && squared_distance(p, element.disk.center) < r * r) return p;
-  if (options_->outside == OutsidePolicy::error) {
-    Diagnostic d{Errc::bad_option, "the selector returned a point outside the selection disk", {}, 0, {}, {}};
-    for (const Point<D>& q : {p, element.disk.center}) d.points.push_back({q[0], q[1], D == 3 ? q[D - 1] : 0.0});
-    throw UsageError(std::move(d));
-  }
-  ++visit_->counts.selector_outside;
-  return center;
-}
-
-template <int D>
 auto Refiner<D>::demand_of_cell(CellId c, const CellVerdict& verdict) const -> Demand {
   double least = std::numeric_limits<double>::infinity();
   const auto& v = mesh_->cell(c).vertices;
@@ -78,6 +51,15 @@ auto Refiner<D>::demand_of_cell(CellId c, const CellVerdict& verdict) const -> D
   // bound. There a little of that, with the radius inherited, makes elements good that would stay poor.
   if (D == 2) return {inherited_fraction * least, least};
   return {least, 0};
+}
+
+/// What it asks of an entity that is split for it. Below the smallest proved bound a midpoint may be nearer to its
+/// neighbours than the element's edges are long, as beside a small angle.
+template <int D>
+auto Refiner<D>::demand_on_entity(CellId c, const CellVerdict& verdict) const -> Demand {
+  const Demand demand = demand_of_cell(c, verdict);
+  if (D == 2 || options_->radius_edge_bound >= smallest_proved_bound<D>() || !verdict.over_radius_edge) return demand;
+  return {inherited_fraction * demand.d, demand.d};
 }
 
 /// A constrained face of the cavity's boundary in whose equatorial (diametral) ball x lies; one that x projects into, if
@@ -169,6 +151,22 @@ auto Refiner<D>::insert_inside(const Item& e, const CellVerdict& verdict) -> Out
   return give_up(Outcome::refused);
 }
 
+/// An entity that the collected point encroaches upon.
+template <int D>
+auto Refiner<D>::encroached_entity(const Point<D>& x) const -> std::optional<Item> {
+  if (!cavity_.touches_constraints()) return std::nullopt;
+  if (auto edge = encroached_edge(x)) return edge;
+  return options_->keep_boundary ? flattened_face(x) : encroached_face(x);
+}
+
+/// The wall beyond which the collected point of cell c lies. The cavity cannot be star-shaped about it then, and what is left
+/// of it is of no use.
+template <int D>
+auto Refiner<D>::hiding_wall(CellId c, const Point<D>& x) const -> std::optional<Item> {
+  if (!cavity_.touches_constraints()) return std::nullopt;
+  return wall_before(c, x, [this](CellId k) { return mesh_->marked(k); });
+}
+
 /// Splits the entity that hides the element's point, or that the point encroaches upon, in its place.
 template <int D>
 auto Refiner<D>::split_instead(const Item& entity, const Item& e, const CellVerdict& verdict) -> Outcome {
@@ -176,7 +174,7 @@ auto Refiner<D>::split_instead(const Item& entity, const Item& e, const CellVerd
     last_refusal_ = EntityPair{{EntityRef{EntityKind::segment, mesh_->constraints(entity.cell)->face_entity[entity.which]}, {}}};
     return verdict.over_size ? insert_inside(e, verdict) : Outcome::refused;
   }
-  const Demand demand = demand_of_cell(e.cell, verdict);
+  const Demand demand = demand_on_entity(e.cell, verdict);
   cavity_.release();
   const Outcome outcome = entity.kind == EntryKind::edge ? split_edge(entity, &demand) : split_face(entity, &demand);
   // The element is looked at again if the split left it as it was.
@@ -193,35 +191,37 @@ auto Refiner<D>::treat_cell(const Item& e) -> Outcome {
     return Outcome::committed;
   }
   CellVerdict verdict = context_->bounds.test(*mesh_, c);
-  const Point<D> x = steiner_point(c, verdict);
+  const Point<D> center =
+      mesh_->center_is_accurate(c) ? mesh_->cell(c).center : circumsphere<D>(mesh_->simplex(c)).center;
+  std::optional<Point<D>> x = center;
+  if (options_->selector && verdict.over_radius_edge) x = selected_point(c, center);
+  if (!x) return Outcome::not_owned;
   // A cell with a face that no flip makes locally Delaunay asks for as much as one with a poor shape.
   if (e.which == Item::not_delaunay) verdict.over_radius_edge = true;
-  const auto status = cavity_.collect(x, c);
-  Outcome outcome = Outcome::refused;
-  if (status == Cavity<D>::Status::not_owned) {
-    // A point that a wall of the claim cuts off asks for no larger claim: the wall does.
+  Outcome outcome = treat_cell_at(e, *x, verdict);
+  if (outcome == Outcome::refused && !(*x == center) && alive(e)) {
     cavity_.release();
-    const auto wall = wall_before(c, x, [this](CellId k) { return cavity_.owns(k); });
-    if (!wall) return Outcome::not_owned;
-    outcome = split_instead(*wall, e, verdict);
-  }
-  if (status == Cavity<D>::Status::ok) {
-    std::optional<Item> encroached, wall;
-    if (cavity_.touches_constraints()) {
-      encroached = encroached_edge(x);
-      if (!encroached) encroached = options_->keep_boundary ? flattened_face(x) : encroached_face(x);
-      // Where x lies beyond a wall the cavity cannot be star-shaped about it; what is left of it is then of no use.
-      wall = wall_before(c, x, [this](CellId k) { return mesh_->marked(k); });
-    }
-    if (encroached || wall) {
-      outcome = split_instead(encroached ? *encroached : *wall, e, verdict);
-      if (outcome == Outcome::refused && !wall) outcome = insert_beside_refused(x, e, verdict);
-    } else {
-      outcome = insert_point(e, verdict);
-    }
+    outcome = treat_cell_at(e, center, verdict);
   }
   if (outcome == Outcome::refused) ++visit_->counts.refused;
   return give_up(outcome);
+}
+
+/// Inserts x for the element, or splits the entity that it encroaches upon or that hides it.
+template <int D>
+auto Refiner<D>::treat_cell_at(const Item& e, const Point<D>& x, const CellVerdict& verdict) -> Outcome {
+  const auto status = cavity_.collect(x, e.cell);
+  if (status == Cavity<D>::Status::not_owned) {
+    // A point that a wall of the claim cuts off asks for no larger claim: the wall does.
+    cavity_.release();
+    const auto wall = wall_before(e.cell, x, [this](CellId k) { return cavity_.owns(k); });
+    return wall ? split_instead(*wall, e, verdict) : Outcome::not_owned;
+  }
+  if (status != Cavity<D>::Status::ok) return Outcome::refused;
+  const auto encroached = encroached_entity(x), wall = hiding_wall(e.cell, x);
+  if (!encroached && !wall) return insert_point(e, verdict);
+  const Outcome outcome = split_instead(encroached ? *encroached : *wall, e, verdict);
+  return outcome == Outcome::refused && !wall ? insert_beside_refused(x, e, verdict) : outcome;
 }
 
 /// The element's point, though it encroaches upon an entity that stays as it is, if it is far from all such: two
@@ -286,7 +286,7 @@ auto Refiner<D>::insert_point(const Item& e, const CellVerdict& verdict, bool at
     return Outcome::refused;
   }
   // Among volume vertices r >= d holds by itself, but for bounds below one and elements that are not poor in shape.
-  bool ordinary = plain && e.which == Item::over_bound && !last_refusal_ && (options_->radius_edge_bound >= 1 || !verdict.over_radius_edge);
+  bool ordinary = plain && e.which != Item::not_delaunay && !last_refusal_ && (options_->radius_edge_bound >= 1 || !verdict.over_radius_edge);
   for (const VertexId v : e.vertices) ordinary = ordinary && mesh_->vertex(v).home.kind() == EntityKind::volume;
   Demand demand;
   if (!ordinary) {

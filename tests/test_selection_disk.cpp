@@ -57,10 +57,13 @@ TYPED_TEST(Disks, NoDiskWithoutATheorem) {
     big.over_radius_edge = false;
     EXPECT_EQ(selection_disk<D>(big, {type}).radius, 0);
     EXPECT_EQ(selection_disk<D>(big, {type}).center, big.circumcenter);
-    EXPECT_EQ(selection_disk<D>(poor_element<D>(10, 1, 0.99 * k_of(D)), {type}).radius, 0);
   }
+  EXPECT_EQ(selection_disk<D>(poor_element<D>(10, 1, 0.99 * k_of(D)), {DiskType::type2}).radius, 0);
+  EXPECT_EQ(selection_disk<D>(poor_element<D>(1, 0.99, 0.5), {DiskType::type1}).radius, 0);
   EXPECT_EQ(selection_disk<D>(poor_element<D>(10, 1, k_of(D)), {DiskType::type2}).radius, 0);
   EXPECT_GT(selection_disk<D>(poor_element<D>(10, 1, k_of(D)), {DiskType::type1}).radius, 0);
+  // That of type I does not depend on the bound: the insertion rule sees to the end of the run.
+  EXPECT_EQ(selection_disk<D>(poor_element<D>(10, 1, 0.5), {DiskType::type1}).radius, 10 - k_of(D));
 }
 
 TYPED_TEST(Disks, ScaleWithTheElement) {

@@ -12,6 +12,7 @@
 #include "files.hpp"
 #include "pgdr/io.hpp"
 #include "planar.hpp"
+#include "selector.hpp"
 #include "signals.hpp"
 #include "threads.hpp"
 #include "trace.hpp"
@@ -27,7 +28,8 @@ RefineOptions<D> make_options(const MeshArguments& a, const Bounds<D>& bounds) {
   options.radius_edge_bound = bounds.radius_edge;
   options.size = bounds.size;
   options.max_volume = bounds.max_volume;
-  options.disk = {a.type1 ? DiskType::type1 : DiskType::type2, a.delta};
+  options.selector = make_selector<D>(a.selector);
+  options.disk = {a.disk.value_or(a.delta > 0 ? DiskType::type2 : usual_disk(a.selector)), a.delta};
   options.keep_boundary = a.keep_boundary;
   options.min_edge = a.min_edge;
   if (a.max_vertices) options.max_vertices = *a.max_vertices;
@@ -78,7 +80,7 @@ void fill(Report& report, const MeshArguments& a, const Threads& threads, const 
   report.set("threads", JsonObject{{"requested", threads.requested()}, {"ran", threads_that_ran(r)}});
   report.set("schedule", name(a.schedule));
   report.set("reproducible", a.schedule == Schedule::reproducible && r.stop != StopCause::time_limit && r.stop != StopCause::cancelled);
-  report.set("selector", "circumcenter");
+  report.set("selector", a.selector);
   report.set("seconds", nullptr);  // their places; the values come last
   report.set("peak_rss_bytes", nullptr);
   JsonObject quality = to_json(q);

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "command.hpp"
+#include "selector.hpp"
 
 namespace pgdr::tool {
 namespace {
@@ -61,14 +62,6 @@ CLI::Validator one_of(const std::map<std::string, Value>& words, std::string wha
           "", what};
 }
 
-/// A flag of the contract whose values are not all there yet: it must say so, not look obeyed.
-CLI::Validator available(std::string value, std::string sentence) {
-  return {[value, sentence](std::string& text) {
-            return text == value ? std::string() : sentence + ", not \"" + text + '"';
-          },
-          "", "available"};
-}
-
 void add_bounds(CLI::App& app, BoundArguments& b) {
   auto* radius_edge = app.add_option("--radius-edge", b.radius_edge,
                                      "bound on circumradius over shortest edge (default 2 in 3D, sqrt 2 in 2D, the "
@@ -97,16 +90,18 @@ void add_report(CLI::App& app, std::string& report, bool& quiet) {
 }
 
 void add_mesh(CLI::App& app, MeshArguments& a) {
-  const auto fixed = [](const std::string&) {};  // a flag with one choice so far: checked, nothing to keep
   app.add_option("INPUT", a.input, "what to mesh: .poly .smesh .node .off .obj .ply .stl .mesh .msh")->required()->type_name("");
   app.add_option("-o,--output", a.output, "the mesh: .vtu .msh .mesh .node .ele")->required()->type_name("OUTPUT");
   add_bounds(app, a.bounds);
   add_planar(app, a.planar);
   app.add_flag("--keep-boundary", a.keep_boundary, "2D: no new points on segments");
-  app.add_option_function<std::string>("--selector", fixed, "where new points go: circumcenter")->type_name("NAME")
-      ->check(available("circumcenter", "the selectors of this version: circumcenter"));
-  app.add_option_function<std::string>("--disk", [&a](const std::string& t) { a.type1 = t == "type1"; },
-                                       "selection disk: type1, or type2 (default)")
+  app.add_option("--selector", a.selector,
+                 "where new points go: circumcenter (default), off-center[:FACTOR], optimized[:SAMPLES], "
+                 "sliver-avoiding[:CANDIDATES]")
+      ->type_name("NAME")->check(CLI::Validator([](std::string& text) { return selector_error(text); }, "", "selector"));
+  app.add_option_function<std::string>("--disk", [&a](const std::string& t) { a.disk = t == "type1" ? DiskType::type1 : DiskType::type2; },
+                                       "selection disk: type1 or type2 (default: type2, or type1 for a --selector other "
+                                       "than circumcenter without --delta)")
       ->type_name("TYPE")->check(CLI::IsMember({"type1", "type2"}));
   app.add_option("--delta", a.delta,
                  "radius of a type 2 disk, 1 - D circumradii; 0 (default): as far as the bound allows")

@@ -31,7 +31,8 @@ struct MeshArguments {
   BoundArguments bounds;
   PlanarArguments planar;
   bool keep_boundary = false;
-  bool type1 = false;   ///< the selection disk; else type 2
+  std::string selector = "circumcenter";  ///< NAME or NAME:PARAMETER (selector.hpp)
+  std::optional<DiskType> disk;           ///< none: as usual for the selector
   double delta = 0;
   std::optional<int> threads;      ///< none: one a core
   Schedule schedule = Schedule::reproducible;

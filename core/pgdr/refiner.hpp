@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Delaunay refinement of one region: encroached subsegments first, then subfacets, then poor elements, largest
-// circumradius first by buckets of a factor of two, first in first out within a bucket (dissertation, sections 2.1, 3.4).
+// Delaunay refinement of one region: encroached subsegments first, then subfacets, then poor elements, those that are too
+// big by buckets of a factor of two of the circumradius, largest first, then those of poor shape, shortest edge first
+// (work_list.hpp; dissertation, sections 2.1, 3.4).
 // The whole mesh refined as one region is the sequential algorithm.
 //
 // Every run ends, whatever the input angles: see insertion_rule.hpp. What is refused stays, and elements that stay poor
@@ -133,6 +134,7 @@ class Refiner {
   }
   bool alive(const Item& e) const { return e.alive(*mesh_); }
   void list_poor(CellId c, std::uint8_t why);
+  std::uint32_t order_of(CellId c) const;
   void list_entities(CellId c, const ConstraintRecord<D>& k);
   void treat_entities();
   void treat(const Item& e);
@@ -165,13 +167,21 @@ class Refiner {
   bool is_clear_of_encroached(const Point<D>& x, double squared) const;
   Outcome insert_point(const Item& e, const CellVerdict& verdict, bool at_center = true);
   Outcome insert_inside(const Item& e, const CellVerdict& verdict);
-  Point<D> steiner_point(CellId c, const CellVerdict& verdict);
+  Outcome treat_cell_at(const Item& e, const Point<D>& x, const CellVerdict& verdict);
   Demand demand_of_cell(CellId c, const CellVerdict& verdict) const;
+  Demand demand_on_entity(CellId c, const CellVerdict& verdict) const;
   std::optional<Item> encroached_face(const Point<D>& x) const;
   template <class MayEnter>
   std::optional<Item> wall_before(CellId c, const Point<D>& x, MayEnter may_enter) const;
   std::optional<Item> flattened_face(const Point<D>& x) const;
+  std::optional<Item> encroached_entity(const Point<D>& x) const;
+  std::optional<Item> hiding_wall(CellId c, const Point<D>& x) const;
   Outcome split_instead(const Item& entity, const Item& e, const CellVerdict& verdict);
+
+  // refiner_selectors.cpp
+  class View;
+  /// Where the selector puts the point of a cell over the radius-edge bound; nothing if the claim is too small to tell.
+  std::optional<Point<D>> selected_point(CellId c, const Point<D>& center);
 
   void committed();
   void flipped();

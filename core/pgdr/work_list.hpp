@@ -1,10 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What waits to be treated in one region: encroached subsegments, then subfacets, then faces to be flipped, then poor
-// elements by buckets of their circumradius; first in first out within each. Plain containers; one thread at a time.
+// What waits to be treated in one region: encroached subsegments, then subfacets, then faces to be flipped, each first in
+// first out, then poor elements. Of these, those that are too big go by buckets of their circumradius, largest first; those
+// of poor shape alone go by their shortest edge, shortest first, which makes meshes up to a third smaller than the largest
+// circumradius first (docs/selectors.md), or, where a region must become fit to be split, by buckets too.
+// Plain containers; one thread at a time.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -21,7 +25,8 @@ enum class EntryKind : std::uint8_t { edge, face, flip, cell };
 /// slot `cell` no longer holds that cell: whatever took its place has been listed anew.
 template <int D>
 struct Entry {
-  static constexpr std::uint8_t over_bound = 0, not_delaunay = 1;  ///< `which` of kind cell: why it is listed
+  /// `which` of kind cell, why it is listed: too big, whatever its shape; beside a face that no flip mends; poor in shape.
+  static constexpr std::uint8_t over_size = 0, not_delaunay = 1, over_radius_edge = 2;
 
   CellId cell;
   std::array<VertexId, D + 1> vertices;
@@ -29,10 +34,11 @@ struct Entry {
   std::uint8_t which : 4;
   std::uint8_t bucket;  ///< kind cell: floor(log2(side of the domain / circumradius)), clamped
   std::uint16_t birth;  ///< of the cell
+  std::uint32_t order = 0;  ///< of cells over the radius-edge bound alone: the least goes first
 
   bool alive(const Mesh<D>& mesh) const { return mesh.holds(cell, vertices, birth); }
 };
-static_assert(sizeof(Entry<3>) == 24);
+static_assert(sizeof(Entry<3>) == 28);
 
 /// First in, first out, in blocks: what was read is given back at once and used again while it is in the cache.
 template <class T>
@@ -105,6 +111,33 @@ class Fifo {
   std::size_t head_ = 0, tail_ = 0, size_ = 0;  ///< head_ in the first block, tail_ in the last
 };
 
+/// Least `order` first; ties in an order that depends on what was pushed and popped alone.
+template <int D>
+class EntryHeap {
+ public:
+  bool empty() const { return items_.empty(); }
+  const Entry<D>& top() const { return items_.front(); }
+  void push(const Entry<D>& e) {
+    items_.push_back(e);
+    std::push_heap(items_.begin(), items_.end(), later);
+  }
+  Entry<D> pop() {
+    std::pop_heap(items_.begin(), items_.end(), later);
+    const Entry<D> e = items_.back();
+    items_.pop_back();
+    return e;
+  }
+  template <class F>
+  void drain(F f) {
+    for (const Entry<D>& e : items_) f(e);
+    items_ = {};
+  }
+
+ private:
+  static bool later(const Entry<D>& a, const Entry<D>& b) { return a.order > b.order; }
+  std::vector<Entry<D>> items_;
+};
+
 /// Two input entities that meet where something was refused.
 struct EntityPair {
   std::array<EntityRef, 2> entities;
@@ -134,7 +167,13 @@ class WorkList {
     }
     while (first_ + static_cast<int>(poor_.size()) <= e.bucket) poor_.emplace_back();
     for (; first_ > e.bucket; --first_) poor_.emplace(poor_.begin());
-    poor_[static_cast<std::size_t>(e.bucket - first_)].push(e);
+    Bucket& bucket = poor_[static_cast<std::size_t>(e.bucket - first_)];
+    if (e.which == Entry<D>::over_radius_edge) {
+      bucket.by_shape.push(e);
+    } else {
+      bucket.others.push(e);
+      ++others_;
+    }
     ++waiting_;
   }
 
@@ -151,33 +190,60 @@ class WorkList {
     return first_;
   }
   /// One of the largest. Those that come soon after are fetched into the cache. @pre poor() > 0
-  Entry<D> pop_poor(const Mesh<D>& mesh) {
-    --waiting_;
-    auto& bucket = poor_[static_cast<std::size_t>(first_bucket() - first_)];
-    if (const Entry<D>* e = bucket.ahead(fetched_ahead)) {
-      mesh.prefetch(e->cell);
-      for (const VertexId v : e->vertices) mesh.prefetch(v);
-    }
-    return bucket.pop();
+  Entry<D> pop_largest(const Mesh<D>& mesh) {
+    Bucket& bucket = poor_[static_cast<std::size_t>(first_bucket() - first_)];
+    return bucket.others.empty() ? pop(bucket.by_shape) : pop_other(bucket, mesh);
   }
-  /// Calls f for every entry that waits, in the order in which they would be treated, and empties the list.
+  /// One of the largest that are too big, or else the one of poor shape that goes first. @pre poor() > 0
+  Entry<D> pop_poor(const Mesh<D>& mesh) {
+    Bucket* best = nullptr;
+    for (Bucket& bucket : poor_) {
+      if (others_ > 0 && !bucket.others.empty()) return pop_other(bucket, mesh);
+      if (others_ == 0 && !bucket.by_shape.empty() && (!best || bucket.by_shape.top().order < best->by_shape.top().order))
+        best = &bucket;
+    }
+    return pop(best->by_shape);
+  }
+  /// Calls f for every entry that waits, in an order that depends on what was pushed and popped alone; empties the list.
   template <class F>
   void drain(F f) {
     edges.drain(f);
     faces.drain(f);
     flips.drain(f);
-    for (auto& bucket : poor_) bucket.drain(f);
+    for (Bucket& bucket : poor_) {
+      bucket.others.drain(f);
+      bucket.by_shape.drain(f);
+    }
     poor_.clear();
     first_ = 0;
-    waiting_ = 0;
+    waiting_ = others_ = 0;
   }
 
  private:
   static constexpr std::size_t fetched_ahead = 4;
 
-  std::vector<Fifo<Entry<D>>> poor_;  ///< of the buckets from first_ on
+  struct Bucket {
+    Fifo<Entry<D>> others;
+    EntryHeap<D> by_shape;  ///< over the radius-edge bound alone
+    bool empty() const { return others.empty() && by_shape.empty(); }
+  };
+  Entry<D> pop(EntryHeap<D>& heap) {
+    --waiting_;
+    return heap.pop();
+  }
+  Entry<D> pop_other(Bucket& bucket, const Mesh<D>& mesh) {
+    --waiting_;
+    --others_;
+    if (const Entry<D>* e = bucket.others.ahead(fetched_ahead)) {
+      mesh.prefetch(e->cell);
+      for (const VertexId v : e->vertices) mesh.prefetch(v);
+    }
+    return bucket.others.pop();
+  }
+
+  std::vector<Bucket> poor_;  ///< of the buckets from first_ on
   int first_ = 0;
-  std::size_t waiting_ = 0;
+  std::size_t waiting_ = 0, others_ = 0;
 };
 
 }  // namespace pgdr

@@ -5,21 +5,30 @@
 // concurrently from any worker, must be a deterministic function of its argument, may use TBB, may throw.
 #pragma once
 
+#include <concepts>
+#include <cstddef>
 #include <functional>
+#include <type_traits>
+#include <utility>
 
 #include "pgdr/types.hpp"
 
 namespace pgdr {
 
-/// The open ball (disk) in which the theory allows a Steiner point. radius <= 0: the centre alone.
+/// The open ball (disk) in which a Steiner point may lie. radius <= 0: the centre alone.
 template <int D>
 struct SelectionDisk {
   Point<D> center;
   double radius = 0;
 };
 
+template <int D>
+constexpr bool inside(const SelectionDisk<D>& disk, const Point<D>& p) {
+  return disk.radius > 0 && squared_distance(p, disk.center) < disk.radius * disk.radius;
+}
+
 enum class DiskType {
-  type1,  ///< radius r - k l: termination (Def. 2.4, 2.7)
+  type1,  ///< radius r - k l: termination (Def. 2.4, 2.7); below the smallest proved bound the insertion rule sees to that
   type2,  ///< radius r (1 - k / bound), or r (1 - delta): termination and good grading (Def. 2.5, 2.8)
 };
 
@@ -49,8 +58,66 @@ struct PoorElement {
 template <int D>
 SelectionDisk<D> selection_disk(const PoorElement<D>& element, const DiskOptions& options);
 
+/// What the insertion of a candidate point would do.
 template <int D>
-using PointSelector = std::function<Point<D>(const PoorElement<D>&)>;
+struct Preview {
+  enum class Status {
+    possible,    ///< all that is below is set
+    encroaches,  ///< an entity would be split instead; the numbers of cells are those that the point itself would delete
+    impossible,  ///< not inside the element's circumsphere, or its star could not be made
+    unknown,     ///< the visit's claim ends before the answer: what the selector returns now is not used, it is asked again
+  };
+  Status status = Status::unknown;
+  int poor = 0, good = 0;  ///< cells deleted, over and within their bounds
+  /// Cosine of the smallest angle (2D) or dihedral angle (3D) of all cells made: 1 for a flat one. By correctly rounded
+  /// operations alone, so that a choice by it is the same everywhere. Set by `Neighborhood::measure`.
+  double sharpest_cosine = 1;
+};
+
+/// The mesh about a poor element, while its selector runs: to be asked by the selector's thread, during the call.
+/// A question costs about as much as the insertion itself.
+template <int D>
+class Neighborhood {
+ public:
+  /// Which cells would be deleted.
+  virtual Preview<D> count(const Point<D>& candidate) = 0;
+  /// That, and the angles of the cells that would be made.
+  virtual Preview<D> measure(const Point<D>& candidate) = 0;
+
+ protected:
+  ~Neighborhood() = default;
+};
+
+/// Where the point of a poor element goes. Holds any `Point<D>(const PoorElement<D>&)`, or, to look at the mesh about the
+/// element, `Point<D>(const PoorElement<D>&, Neighborhood<D>&)`; empty: the circumcentre. See selectors.hpp for those that
+/// come with the library.
+template <int D>
+class PointSelector {
+ public:
+  PointSelector() = default;
+  PointSelector(std::nullptr_t) {}
+  template <class F>
+    requires(!std::same_as<std::remove_cvref_t<F>, PointSelector> &&
+             (std::is_invocable_r_v<Point<D>, std::decay_t<F>&, const PoorElement<D>&> ||
+              std::is_invocable_r_v<Point<D>, std::decay_t<F>&, const PoorElement<D>&, Neighborhood<D>&>))
+  PointSelector(F&& f) {
+    if constexpr (std::is_invocable_r_v<Point<D>, std::decay_t<F>&, const PoorElement<D>&>) {
+      std::function<Point<D>(const PoorElement<D>&)> simple(std::forward<F>(f));
+      if (simple) call_ = [simple = std::move(simple)](const PoorElement<D>& e, Neighborhood<D>&) { return simple(e); };
+    } else {
+      call_ = std::forward<F>(f);
+    }
+  }
+
+  explicit operator bool() const { return static_cast<bool>(call_); }
+  /// @pre not empty.
+  Point<D> operator()(const PoorElement<D>& element, Neighborhood<D>& neighborhood) const {
+    return call_(element, neighborhood);
+  }
+
+ private:
+  std::function<Point<D>(const PoorElement<D>&, Neighborhood<D>&)> call_;
+};
 
 /// What to do with a selector's point outside its disk.
 enum class OutsidePolicy { replace_by_circumcenter, error };

@@ -14,5 +14,6 @@
 #include "pgdr/point_selector.hpp"
 #include "pgdr/quality.hpp"
 #include "pgdr/refine.hpp"
+#include "pgdr/selectors.hpp"
 #include "pgdr/sizing.hpp"
 #include "pgdr/types.hpp"

@@ -90,12 +90,9 @@ class Usage(Case):
     def test_numbers(self):
         for flag, values in {"--radius-edge": "nan 0 -1 x", "--max-volume": "0 -1 nan", "--min-edge": "-1 nan inf",
                              "--max-vertices": "-1 x", "--time-limit": "-1 nan inf", "--threads": "0 -1 1.5",
-                             "--delta": "-0.1 1.1 nan", "--disk": "type3", "--schedule": "random", "--selector": "nearest"}.items():
+                             "--delta": "-0.1 1.1 nan", "--disk": "type3", "--schedule": "random"}.items():
             for value in values.split():
                 self.refused("mesh", BRACKET, "-o", self.output, flag + "=" + value, saying=flag)
-
-    def test_flags_that_are_not_there_yet(self):
-        self.refused("mesh", BRACKET, "-o", self.output, "--selector", "off-center", saying="version")
 
     def test_flags_of_the_other_dimension(self):
         self.refused("mesh", PLATE, "-o", self.output, "--max-volume", "1", saying="--max-volume")

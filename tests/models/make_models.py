@@ -1,13 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The pgdr authors
 # SPDX-License-Identifier: Apache-2.0
-"""Makes the models that ship with the project: bracket.poly (3D, TetGen), plate.poly and river.poly (2D, Triangle).
+"""Makes the models that ship with the project: bracket.poly, rocket.poly (3D, TetGen), plate.poly and river.poly
+(2D, Triangle).
 
 Usage: make_models.py [FOLDER]     (default: the folder of this script)
 
 bracket: an angle bracket, an L profile with rounded inner corner and chamfered outer edges, extruded along y, with two
 round holes in its base and one in its upright. Polygons stand for arcs. Every angle between facets, and between edges,
 is 90 degrees or more, so every bound of the theory can be met.
+
+rocket: a rocket in a box of air: an octagonal body with a blunt nose and a nozzle, and four fins, sheets without thickness
+that meet the body in its edges. Both the rocket (region 1) and the air (region 2) are meshed.
 """
 import math
 import os
@@ -24,7 +28,7 @@ class Solid:
     """Points without duplicates, and facets: a list of polygons, seeds of their holes, a marker."""
 
     def __init__(self):
-        self.points, self.number, self.facets = [], {}, []
+        self.points, self.number, self.facets, self.regions = [], {}, [], []
 
     def point(self, p):
         if p not in self.number:
@@ -48,7 +52,9 @@ class Solid:
                     out.write(f"{len(polygon)} " + " ".join(map(str, polygon)) + "\n")
                 for i, hole in enumerate(holes):
                     out.write(f"{i} " + " ".join(f"{c:g}" for c in hole) + "\n")
-            out.write("0\n0\n")
+            out.write(f"0\n{len(self.regions)}\n")
+            for i, (seed, attribute) in enumerate(self.regions):
+                out.write(f"{i} " + " ".join(f"{c:g}" for c in seed) + f" {attribute}\n")
 
 
 def bracket():
@@ -82,6 +88,33 @@ def bracket():
     for hole in upright_holes:
         for (y0, z0), (y1, z1) in zip(hole, hole[1:] + hole[:1]):
             s.facet([[(0.0, y0, z0), (0.0, y1, z1), (thick, y1, z1), (thick, y0, z0)]], [], 7)
+    return s
+
+
+def rocket():
+    octagon = [(1.0, 0.5), (0.5, 1.0), (-0.5, 1.0), (-1.0, 0.5), (-1.0, -0.5), (-0.5, -1.0), (0.5, -1.0), (1.0, -0.5)]
+    at = lambda i, scale, z: (scale * octagon[i][0], scale * octagon[i][1], z)
+    ring = lambda scale, z: [at(i, scale, z) for i in range(8)]  # binary fractions, so that every facet is planar
+    exhaust, throat, base, shoulder, nose = ring(0.375, -1.0), ring(0.5, 0.0), ring(1.0, 0.0), ring(1.0, 6.0), ring(0.25, 7.5)
+    s = Solid()
+    s.facet([exhaust], [], 1)
+    s.facet([base, throat], [(0.0, 0.0, 0.0)], 1)
+    s.facet([nose], [], 1)
+    for low, high in ((exhaust, throat), (shoulder, nose)):
+        for i in range(8):
+            j = (i + 1) % 8
+            s.facet([[low[i], low[j], high[j], high[i]]], [], 1)
+    for i in range(8):  # the body's sides, with the fins' upper ends on every other edge
+        j = (i + 1) % 8
+        right = [at(j, 1.0, 2.0)] if j % 2 == 0 else []
+        left = [at(i, 1.0, 2.0)] if i % 2 == 0 else []
+        s.facet([[base[i], base[j]] + right + [shoulder[j], shoulder[i]] + left], [], 1)
+        if i % 2 == 0:
+            s.facet([[base[i], at(i, 2.0, -0.5), at(i, 2.0, 1.75), at(i, 1.0, 2.0)]], [], 2)
+    corner = lambda i: (4.0 if i & 1 else -4.0, 4.0 if i & 2 else -4.0, 10.0 if i & 4 else -3.0)
+    for face in ((0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6)):
+        s.facet([[corner(i) for i in face]], [], 3)
+    s.regions = [((0.0, 0.0, 3.0), 1), ((3.5, 3.5, 9.5), 2)]
     return s
 
 
@@ -134,5 +167,7 @@ if __name__ == "__main__":
     folder = sys.argv[1] if len(sys.argv) > 1 else os.path.dirname(os.path.abspath(__file__))
     bracket().write(os.path.join(folder, "bracket.poly"),
                     "# An angle bracket with three holes (TetGen's .poly). Made by make_models.py\n")
+    rocket().write(os.path.join(folder, "rocket.poly"),
+                   "# A rocket in a box of air (TetGen's .poly). Made by make_models.py\n")
     plate(os.path.join(folder, "plate.poly"))
     river(os.path.join(folder, "river.poly"))

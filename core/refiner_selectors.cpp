@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a selector is told, what it may ask, and what becomes of the point that it returns.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "pgdr/refiner.hpp"
+
+namespace pgdr {
+namespace {
+
+template <int D>
+std::array<double, D> difference(const Point<D>& a, const Point<D>& b) {
+  std::array<double, D> d;
+  for (int i = 0; i < D; ++i) d[i] = a[i] - b[i];
+  return d;
+}
+
+/// The largest cosine of an angle between two of the faces, from vectors normal to them that point all outwards or all
+/// inwards. 1 where one has no length.
+template <int D>
+double largest_cosine(const std::array<std::array<double, D>, D + 1>& normal) {
+  auto dot = [&](int i, int j) {
+    double s = 0;
+    for (int a = 0; a < D; ++a) s += normal[i][a] * normal[j][a];
+    return s;
+  };
+  double largest = -1;
+  for (int i = 0; i <= D; ++i)
+    for (int j = i + 1; j <= D; ++j) {
+      const double lengths = std::sqrt(dot(i, i)) * std::sqrt(dot(j, j));
+      largest = std::max(largest, lengths > 0 ? -dot(i, j) / lengths : 1);
+    }
+  return largest;
+}
+
+/// The cosine of the smallest (dihedral) angle; corners in lexicographic order.
+template <int D>
+double sharpest_cosine(const Simplex<D>& s) {
+  const auto u = difference(s[1], s[0]), v = difference(s[2], s[0]);
+  if constexpr (D == 2) {
+    const auto w = difference(s[2], s[1]);
+    return largest_cosine<2>({{{-u[1], u[0]}, {-w[1], w[0]}, {v[1], -v[0]}}});
+  } else {
+    auto cross = [](const std::array<double, 3>& a, const std::array<double, 3>& b) {
+      return std::array{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    };
+    const auto w = difference(s[3], s[0]);
+    const auto a = cross(u, v), b = cross(v, w), c = cross(w, u), d = cross(difference(s[3], s[1]), difference(s[2], s[1]));
+    return largest_cosine<3>({a, b, c, d});
+  }
+}
+
+}  // namespace
+
+/// Collects in the refiner's own cavity, which is empty while a selector runs, so that it obeys the claim as an insertion
+/// does: where that would step on from a cell that the visit does not own, there is no answer, now or to later questions.
+template <int D>
+class Refiner<D>::View final : public Neighborhood<D> {
+ public:
+  using Status = typename Preview<D>::Status;
+
+  View(Refiner& refiner, CellId seed, const SelectionDisk<D>& disk) : refiner_(&refiner), seed_(seed), disk_(disk) {}
+
+  Preview<D> count(const Point<D>& p) override {
+    const Preview<D> preview = collect(p);
+    refiner_->cavity_.release();
+    return preview;
+  }
+
+  Preview<D> measure(const Point<D>& p) override {
+    using Collected = typename Cavity<D>::Status;
+    Preview<D> preview = collect(p);
+    Cavity<D>& cavity = refiner_->cavity_;
+    if (preview.status == Status::possible) {
+      const Collected status = cavity.make_star_shaped();
+      if (status != Collected::ok) preview.status = status == Collected::not_owned ? end() : Status::impossible;
+    }
+    if (preview.status == Status::possible) preview.sharpest_cosine = sharpest_made(p);
+    cavity.release();
+    return preview;
+  }
+
+  bool ended() const { return ended_; }
+
+ private:
+  Status end() {
+    ended_ = true;
+    return Status::unknown;
+  }
+
+  Preview<D> collect(const Point<D>& p) {
+    using Collected = typename Cavity<D>::Status;
+    Preview<D> preview;
+    if (ended_) return preview;
+    preview.status = Status::impossible;
+    if (!(p == disk_.center) && !inside(disk_, p)) return preview;
+    Cavity<D>& cavity = refiner_->cavity_;
+    const Collected status = cavity.collect(p, seed_);
+    if (status == Collected::not_owned) preview.status = end();
+    if (status != Collected::ok) return preview;
+    for (const CellId c : cavity.cells()) ++(refiner_->context_->bounds.test(*refiner_->mesh_, c) ? preview.poor : preview.good);
+    preview.status = refiner_->encroached_entity(p) || refiner_->hiding_wall(seed_, p) ? Status::encroaches : Status::possible;
+    return preview;
+  }
+
+  double sharpest_made(const Point<D>& p) const {
+    const Mesh<D>& mesh = *refiner_->mesh_;
+    double largest = -1;
+    for (const auto& f : refiner_->cavity_.boundary()) {
+      Simplex<D> s = mesh.simplex(f.cell);
+      s[f.face] = p;
+      std::sort(s.begin(), s.end(), lex_less<D>);
+      largest = std::max(largest, sharpest_cosine<D>(s));
+    }
+    return largest;
+  }
+
+  Refiner* refiner_;
+  CellId seed_;
+  const SelectionDisk<D>& disk_;
+  bool ended_ = false;
+};
+
+template <int D>
+std::optional<Point<D>> Refiner<D>::selected_point(CellId c, const Point<D>& center) {
+  PoorElement<D> element;
+  element.corners = mesh_->simplex(c);
+  std::sort(element.corners.begin(), element.corners.end(), lex_less<D>);
+  element.circumcenter = center;
+  element.circumradius = std::sqrt(squared_distance(center, element.corners[0]));
+  element.shortest_edge = std::sqrt(shortest_edge_squared<D>(element.corners));
+  element.radius_edge_bound = options_->radius_edge_bound;
+  element.over_radius_edge = true;
+  element.disk = selection_disk<D>(element, options_->disk);
+  View view(*this, c, element.disk);
+  const Point<D> p = options_->selector(element, view);
+  if (view.ended()) return std::nullopt;
+  if (p == center || inside(element.disk, p)) return p;
+  if (options_->outside == OutsidePolicy::error) {
+    Diagnostic d{Errc::bad_option, "the selector returned a point outside the selection disk", {}, 0, {}, {}};
+    for (const Point<D>& q : {p, element.disk.center}) d.points.push_back({q[0], q[1], D == 3 ? q[D - 1] : 0.0});
+    throw UsageError(std::move(d));
+  }
+  ++visit_->counts.selector_outside;
+  return center;
+}
+
+template std::optional<Point<2>> Refiner<2>::selected_point(CellId, const Point<2>&);
+template std::optional<Point<3>> Refiner<3>::selected_point(CellId, const Point<3>&);
+
+}  // namespace pgdr

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The order in which a region's poor elements are treated.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+#include "pgdr/work_list.hpp"
+
+namespace pgdr {
+namespace {
+
+using Item = Entry<3>;
+
+Item poor(int bucket, std::uint8_t why, std::uint32_t order = 0, std::uint32_t id = 0) {
+  Item e{CellId{id}, {}, EntryKind::cell, 0, static_cast<std::uint8_t>(bucket), 0};
+  e.which = why & 15;
+  e.order = order;
+  return e;
+}
+Item big(int bucket, std::uint32_t id = 0) { return poor(bucket, Item::over_size, 0, id); }
+Item skinny(int bucket, std::uint32_t order) { return poor(bucket, Item::over_radius_edge, order); }
+
+TEST(WorkList, TooBigOnesGoFirstLargestFirst) {
+  WorkList<3> list;
+  for (const Item& e : {skinny(2, 5), big(7, 1), big(4, 2), skinny(1, 9), big(7, 3), poor(5, Item::not_delaunay, 0, 4)}) list.push(e);
+  EXPECT_EQ(list.poor(), 6u);
+  EXPECT_EQ(list.first_bucket(), 1);
+  std::vector<std::uint32_t> ids;
+  for (int i = 0; i < 4; ++i) ids.push_back(index(list.pop_poor().cell));
+  EXPECT_EQ(ids, (std::vector<std::uint32_t>{2, 4, 1, 3}));
+  EXPECT_EQ(list.pop_poor().order, 5u);  // then by shape, whatever the bucket
+  EXPECT_EQ(list.first_bucket(), 1);
+  EXPECT_EQ(list.pop_poor().order, 9u);
+  EXPECT_TRUE(list.empty());
+}
+
+TEST(WorkList, LargestFirstWhereARegionIsToBeSplit) {
+  WorkList<3> list;
+  for (const Item& e : {skinny(4, 1), big(3), skinny(2, 9), skinny(2, 6), big(4)}) list.push(e);
+  std::vector<int> buckets;
+  std::vector<std::uint32_t> orders;
+  while (list.poor() > 0) {
+    const Item e = list.pop_largest();
+    buckets.push_back(e.bucket);
+    orders.push_back(e.order);
+  }
+  EXPECT_EQ(buckets, (std::vector<int>{2, 2, 3, 4, 4}));
+  EXPECT_EQ(orders, (std::vector<std::uint32_t>{6, 9, 0, 0, 1}));
+}
+
+// Against a plain sorted list, with pushes and both pops mixed.
+TEST(WorkList, AgreesWithASortedList) {
+  std::mt19937 random(3);
+  WorkList<3> list;
+  std::vector<Item> all;
+  for (std::uint32_t i = 0; i < 20000; ++i) {
+    if (all.empty() || random() % 5 < 3) {
+      const int bucket = static_cast<int>(random() % 12);
+      const Item e = random() % 2 ? big(bucket, i) : skinny(bucket, random() % 100000);
+      list.push(e);
+      all.push_back(e);
+      continue;
+    }
+    const bool largest = random() % 2;
+    auto before = [largest](const Item& a, const Item& b) {
+      const bool a_big = a.which == Item::over_size, b_big = b.which == Item::over_size;
+      if (largest && a.bucket != b.bucket) return a.bucket < b.bucket;
+      if (a_big != b_big) return a_big;
+      if (a_big) return a.bucket != b.bucket ? a.bucket < b.bucket : index(a.cell) < index(b.cell);
+      return a.order < b.order;
+    };
+    ASSERT_EQ(list.poor(), all.size());
+    const auto expected = std::min_element(all.begin(), all.end(), before);
+    const Item e = largest ? list.pop_largest() : list.pop_poor();
+    ASSERT_EQ(e.which, expected->which);
+    ASSERT_EQ(e.order, expected->order);
+    ASSERT_TRUE(e.which != Item::over_size || e.cell == expected->cell);
+    ASSERT_FALSE(before(*expected, e) || before(e, *expected));
+    const auto same = std::find_if(all.begin(), all.end(), [&](const Item& x) {
+      return x.which == e.which && x.order == e.order && x.bucket == e.bucket && x.cell == e.cell;
+    });
+    ASSERT_NE(same, all.end());
+    all.erase(same);
+  }
+  std::size_t drained = 0;
+  list.drain([&](const Item&) { ++drained; });
+  EXPECT_EQ(drained, all.size());
+  EXPECT_TRUE(list.empty());
+}
+
+}  // namespace
+}  // namespace pgdr
