@@ -24,6 +24,7 @@ RefineOptions<D> make_options(const MeshArguments& a, const Bounds<D>& bounds) {
   options.radius_edge_bound = bounds.radius_edge;
   options.size = bounds.size;
   options.max_volume = bounds.max_volume;
+  options.regions = a.regions;
   options.disk = {a.type1 ? DiskType::type1 : DiskType::type2, a.delta};
   options.min_edge = a.min_edge;
   if (a.max_vertices) options.max_vertices = *a.max_vertices;

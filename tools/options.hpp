@@ -24,6 +24,7 @@ struct BoundArguments {
 struct MeshArguments {
   std::string input, output;
   BoundArguments bounds;
+  RegionMode regions = RegionMode::seeds;
   bool type1 = false;   ///< the selection disk; else type 2
   double delta = 0;
   std::optional<int> threads;      ///< none: one a core
@@ -40,6 +41,7 @@ struct MeshArguments {
 struct CheckArguments {
   std::string mesh, input;  ///< input empty: conformity is not checked
   BoundArguments bounds;
+  RegionMode regions = RegionMode::seeds;
   std::string reasons;      ///< a report of `mesh`
   std::string report;
   bool quiet = false;
