@@ -135,23 +135,17 @@ auto Cavity<D>::collect_on_face(const Point<D>& p, CellId cell, int face) -> Sta
   return collect_all();
 }
 
+/// All cells round the edge between corners a and b, the one way and, where that ends at the hull, the other.
 template <int D>
-auto Cavity<D>::collect_on_edge(const Point<D>& p, CellId cell, int edge) -> Status
+auto Cavity<D>::take_fan(CellId cell, int a, int b) -> Status
   requires(D == 3)
 {
-  begin(p);
-  const auto [a, b] = edge_ends[edge];
-  split_edge_ = {mesh_->cell(cell).vertices[a], mesh_->cell(cell).vertices[b]};
-  split_segment_ = mesh_->constraints(cell)->edge_entity[edge];
   int others[2], n = 0;
   for (int j = 0; j <= D; ++j)
     if (j != a && j != b) others[n++] = j;
-  // All cells round the edge, the one way and, where that ends at the hull, the other.
   for (const int way : {0, 1}) {
     RidgeWalk<D> walk{cell, others[1 - way], others[way]};
-    bool closed = false;
     while (true) {
-      assert(may_read(walk.cell));
       if (!owns(walk.cell)) return Status::not_owned;
       take(walk.cell);
       const auto* k = mesh_->constraints(walk.cell);
@@ -160,13 +154,29 @@ auto Cavity<D>::collect_on_edge(const Point<D>& p, CellId cell, int edge) -> Sta
           return status;
       if (!walk.link(*mesh_)) break;
       walk.step(*mesh_);
-      if (walk.cell == cell) {
-        closed = true;
-        break;
-      }
+      assert(may_read(walk.cell));
+      if (walk.cell == cell) return Status::ok;
     }
-    if (closed) break;
   }
+  return Status::ok;
+}
+
+template <int D>
+auto Cavity<D>::collect_on_edge(const Point<D>& p, CellId cell, int edge) -> Status
+  requires(D == 3)
+{
+  begin(p);
+  const auto [a, b] = edge_ends[edge];
+  split_edge_ = {mesh_->cell(cell).vertices[a], mesh_->cell(cell).vertices[b]};
+  split_segment_ = mesh_->constraints(cell)->edge_entity[edge];
+  if (const Status status = take_fan(cell, a, b); status != Status::ok) return status;
+  if (const PinchedEdges* pinched = mesh_->pinched_edges(); pinched && pinched->has(split_segment_))
+    for (const CellId c : pinched->cells(split_edge_[0], split_edge_[1])) {
+      if (mesh_->marked(c)) continue;
+      const auto& v = mesh_->cell(c).vertices;  // its ends are claimed, so that no other visit changes it
+      const auto at = [&](VertexId x) { return static_cast<int>(std::find(v.begin(), v.end(), x) - v.begin()); };
+      if (const Status status = take_fan(c, at(split_edge_[0]), at(split_edge_[1])); status != Status::ok) return status;
+    }
   protected_ = cells_;
   bool conflict = false;
   for (const CellId c : protected_) conflict = conflict || mesh_->conflicts(c, p);

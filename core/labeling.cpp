@@ -227,6 +227,7 @@ RegionTable carve(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Delaunay<
   }
   for (std::uint32_t i = 0; i < bound; ++i)
     if (mesh.alive(CellId{i}) && doomed(CellId{i})) mesh.free_cell(pools, CellId{i});
+  mesh.find_pinched_edges(domain.segments().size());
   return table;
 }
 

@@ -104,11 +104,13 @@ TEST_P(Structures, AutomaticRegions) {
     const auto out = refined<3>(s.plc, RegionMode::automatic, how);
     // A motion that turns changes the order of the labels, nothing else.
     const bool same_order = how == "plain" || how == "permuted" || how == "small";
-    std::vector<double> labels;
     for (const auto& probe : s.probes) {
       const double label = label_at<3>(out.result.mesh, probe.at);
-      if (same_order) EXPECT_EQ(label, probe.label) << how << ' ' << probe.at[0] << ' ' << probe.at[1] << ' ' << probe.at[2];
-      else EXPECT_EQ(label > 0, probe.label > 0) << how;
+      if (same_order) {
+        EXPECT_EQ(label, probe.label) << how << ' ' << probe.at[0] << ' ' << probe.at[1] << ' ' << probe.at[2];
+      } else {
+        EXPECT_EQ(label > 0, probe.label > 0) << how;
+      }
     }
     std::vector<double> used = out.result.mesh.regions;
     std::sort(used.begin(), used.end());

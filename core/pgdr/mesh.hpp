@@ -15,10 +15,12 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "pgdr/circumsphere.hpp"
 #include "pgdr/domain.hpp"
+#include "pgdr/pinched_edges.hpp"
 #include "pgdr/pool.hpp"
 #include "pgdr/predicates.hpp"
 #include "pgdr/types.hpp"
@@ -183,6 +185,15 @@ class Mesh {
   /// The constraints of c, made if it has none yet.
   ConstraintRecord<D>& ensure_constraints(Pools& pools, CellId c);
 
+  /// 3D, once the exterior is gone: finds the subsegments with several fans of cells, and lists the cells at them from
+  /// now on. Whoever makes a cell then calls `enlist` when its constraints are there.
+  void find_pinched_edges(std::size_t segments);
+  void enlist(CellId c) {
+    if (pinched_) change_pinched(c, true);
+  }
+  /// null: no subsegment has several fans
+  const PinchedEdges* pinched_edges() const { return pinched_.get(); }
+
  private:
   static constexpr std::uint32_t mark_bit = 1u << 31;
   static constexpr std::uint32_t capacity = (1u << 30) - 1024;
@@ -190,7 +201,9 @@ class Mesh {
   static const std::array<Band, 16> bands;
 
   bool conflicts_exactly(CellId c, const Point<D>& p) const;
+  void change_pinched(CellId c, bool add);
 
+  std::unique_ptr<PinchedEdges> pinched_;
   ChunkedArray<CellRecord<D>, 14> cells_;
   ChunkedArray<std::uint32_t, 14> tags_;
   struct Label {
