@@ -276,7 +276,17 @@ auto Cavity<D>::make_star_shaped() -> Status {
   }
 }
 
-/// A ridge between two faces of the part vanishes, so that all cells between these faces must be in the cavity. In one
+/// Is the ridge of the cell that lacks the two corners a subsegment?
+template <int D>
+bool Cavity<D>::is_subsegment(CellId cell, int i, int j) const {
+  int ends[2] = {0, 0}, n = 0;
+  for (int k = 0; k <= D; ++k)
+    if (k != i && k != j) ends[n++ % 2] = k;
+  return mesh_->constraints(cell)->edges >> edge_of_ends[ends[0]][ends[1]] & 1;
+}
+
+/// A ridge between two faces of the part (no subsegment: about the free rim of a facet its two sides see each other, with
+/// nothing of the cavity between) vanishes, so that all cells between these faces must be in the cavity. In one
 /// plane this follows from the empty spheres; some ulps off it, or after cells were given back, it need not hold. Then
 /// the face that was reached later leaves the part, with the cells at it.
 template <int D>
@@ -289,7 +299,7 @@ auto Cavity<D>::find_broken_fans(std::vector<CellId>& doomed) const -> Status {
       for (const Link side : {Link(f.cell, f.face), across}) {
         if (!side) continue;
         for (int corner = 0; corner <= D && !broken; ++corner)
-          if (corner != side.face())
+          if (corner != side.face() && !is_subsegment(side.cell(), side.face(), corner))
             if (const Status s = look_at_fan({side.cell(), side.face(), corner}, f.entity, broken); s != Status::ok) return s;
       }
       if (!broken) continue;

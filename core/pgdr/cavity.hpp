@@ -139,6 +139,7 @@ class Cavity {
   void rebuild_boundary();
   bool visible(const BoundaryFace& f) const;
   bool in_line(CellId c, int i, int j) const;
+  bool is_subsegment(CellId cell, int i, int j) const;
   Status find_broken_fans(std::vector<CellId>& doomed) const;
   void find_turned_over(std::vector<CellId>& doomed) const;
   bool is_rim(const PartFace& f, VertexId a, VertexId b) const;
