@@ -434,44 +434,6 @@ void Cavity<D>::keep_connected_cells() {
 }
 
 template <int D>
-auto Cavity<D>::check_nothing_swallowed() -> Status {
-  auto edge_key = [](VertexId a, VertexId b) {
-    const std::uint64_t low = std::min(index(a), index(b)), high = std::max(index(a), index(b));
-    return high << 32 | low;  // never the key of a vertex, whose high half is zero and lies below any edge's
-  };
-  auto vertex_key = [](VertexId v) { return std::uint64_t{index(v)}; };
-  rim_keys_.reset(6 * boundary_.size());
-  for (const BoundaryFace& f : boundary_) {
-    const auto& k = mesh_->cell(f.cell);
-    const Link out = k.links[f.face];
-    if (out && mesh_->marked(out.cell())) return Status::not_star_shaped;
-    for (int i = 0; i <= D; ++i) {
-      if (i == f.face) continue;
-      rim_keys_.insert(vertex_key(k.vertices[i]));
-      if constexpr (D == 3)
-        for (int j = i + 1; j <= D; ++j)
-          if (j != f.face) rim_keys_.insert(edge_key(k.vertices[i], k.vertices[j]));
-    }
-  }
-  for (const CellId c : cells_) {
-    const auto& k = mesh_->cell(c);
-    for (const VertexId v : k.vertices)
-      if (!rim_keys_.contains(vertex_key(v))) return Status::swallows;
-    if constexpr (D == 3) {
-      const auto* constraints = mesh_->constraints(c);
-      if (!constraints || !constraints->edges) continue;
-      for (int e = 0; e < 6; ++e) {
-        if (!(constraints->edges >> e & 1)) continue;
-        const VertexId a = k.vertices[edge_ends[e][0]], b = k.vertices[edge_ends[e][1]];
-        const bool split = (a == split_edge_[0] && b == split_edge_[1]) || (a == split_edge_[1] && b == split_edge_[0]);
-        if (!split && !rim_keys_.contains(edge_key(a, b))) return Status::swallows;
-      }
-    }
-  }
-  return Status::ok;
-}
-
-template <int D>
 VertexId nearest_vertex(const Mesh<D>& mesh, const Cavity<D>& cavity, std::span<const VertexId> excluded) {
   VertexId nearest = no_vertex;
   double least = std::numeric_limits<double>::infinity();

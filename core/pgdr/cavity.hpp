@@ -88,7 +88,8 @@ class Cavity {
 
   /// Cuts back to the star-shaped part. After `collect...` said ok.
   Status make_star_shaped();
-  /// Would a vertex or subsegment vanish? Asked of cavities next to constraints or cut back; costs a pass over all cells.
+  /// Would a vertex or subsegment vanish? Cuts back further where that keeps the subsegment. Asked of cavities next to
+  /// constraints or cut back; costs a pass over all cells.
   Status check_nothing_swallowed();
 
   // ---- what was collected ------------------------------------------------------------------------------------------
@@ -144,6 +145,8 @@ class Cavity {
   void find_turned_over(std::vector<CellId>& doomed) const;
   bool is_rim(const PartFace& f, VertexId a, VertexId b) const;
   Status look_at_fan(RidgeWalk<D> walk, EntityId entity, bool& broken) const;
+  Status find_swallowed(std::vector<CellId>& behind);
+  void find_behind(VertexId a, VertexId b, std::vector<CellId>& behind) const;
   Status drop_cells(const std::vector<CellId>& doomed);
   bool is_whole(const PartFace& f) const;
   bool part_is_whole() const;
