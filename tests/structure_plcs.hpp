@@ -182,7 +182,7 @@ inline std::vector<Structure> inner_structures() {
     add_rectangle(plc, 2, 1, {{0.5, 0.5}}, {{1.5, 1.5}}, 7);  // touches nothing
     out.push_back({"floating_facet", plc, {{{{0.25, 0.25, 0.25}}, 1}}});
     add_rectangle(plc, 1, 1, {{0.75, 0.25}}, {{1.25, 0.75}}, 8);
-    out.push_back({"floating_facets", plc, {{{{0.25, 0.25, 0.25}}, 1}}, true, false});
+    out.push_back({"floating_facets", plc, {{{{0.25, 0.25, 0.25}}, 1}}});
   }
   {
     // Outside: a fin, a facet apart, a segment, a point; none of them is in the mesh.
@@ -234,7 +234,7 @@ inline std::vector<Structure> inner_structures() {
     const std::vector<std::pair<double, double>> ends{{3, 0}, {-2, 2}, {0, -3}, {2, 2}, {0, 3}, {-3, 0}, {-2, -2}};
     for (const auto& [x, y] : std::vector(ends.begin(), ends.begin() + pages))
       add_facet(plc, {{{0, 0, 0.5}}, {{x, y, 0.5}}, {{x, y, 1.5}}, {{0, 0, 1.5}}}, 7);
-    out.push_back({"book_of_" + std::to_string(pages), plc, {{{{3.5, 3.5, 1}}, 1}}, true, pages == 3});
+    out.push_back({"book_of_" + std::to_string(pages), plc, {{{{3.5, 3.5, 1}}, 1}}});
     }
   }
   {
