@@ -152,6 +152,135 @@ TEST_P(Structures, SameBytesForAnyThreads) {
     test::expect_same<3>(first, refine<3>(GetParam().plc, test::with<3>(options, runner)), runner.name);
 }
 
+// ---- seeds -----------------------------------------------------------------------------------------------------------
+
+Plc<3> three_nested_boxes() { return test::boxes({{{{0, 0, 0}}, {{6, 6, 6}}}, {{{1, 1, 1}}, {{5, 5, 5}}}, {{{2, 2, 2}}, {{4, 4, 4}}}}); }
+const Point3 outer{{0.5, 3, 3}}, middle{{1.5, 3, 3}}, inner{{3, 3, 3}};
+
+TEST(Seeds, WinOverNesting) {
+  struct Case {
+    std::vector<Point3> holes;
+    std::vector<RegionSeed<3>> regions;
+    double automatic[3], seeds[3];
+    std::size_t warnings = 0;
+  };
+  const std::vector<Case> cases{
+      {{}, {}, {1, 0, 2}, {-1, -1, -1}},
+      {{outer}, {}, {0, 0, 1}, {0, -1, -1}},
+      {{middle}, {}, {1, 0, 2}, {-1, 0, -1}},
+      {{}, {{middle, 5, 0}}, {1, 5, 2}, {0, 5, 0}},
+      {{}, {{outer, 1, 0}}, {1, 0, 2}, {1, 0, 0}},
+      {{}, {{inner, 1, 0}}, {2, 0, 1}, {0, 0, 1}},
+      {{}, {{inner, -2.5, 0}, {outer, 2, 0}}, {2, 0, -2.5}, {2, 0, -2.5}},
+      {{inner}, {{{{3.5, 3, 3}}, 4, 0}}, {1, 0, 0}, {0, 0, 0}, 1},          // a hole wins over a region
+      {{}, {{{{-1, 3, 3}}, 4, 0}, {inner, 3, 0}}, {1, 0, 3}, {0, 0, 3}, 1},  // outside
+  };
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    SCOPED_TRACE(i);
+    Plc<3> plc = three_nested_boxes();
+    plc.holes = cases[i].holes;
+    plc.regions = cases[i].regions;
+    for (const bool automatic : {true, false}) {
+      const auto out = refined<3>(plc, automatic ? RegionMode::automatic : RegionMode::seeds, automatic ? "automatic" : "seeds");
+      const auto& wanted = automatic ? cases[i].automatic : cases[i].seeds;
+      std::size_t volumes = 0;
+      for (int k = 0; k < 3; ++k) {
+        const auto& holes = cases[i].holes;
+        const Point3 p = std::array{outer, middle, inner}[k];
+        const bool hole = std::find(holes.begin(), holes.end(), p) != holes.end();
+        volumes += !hole;
+        if (!automatic && !hole && wanted[k] == 0) {
+          bool found = false;  // label 0 is that of cells without seed
+          for (std::size_t c = 0; c < out.result.mesh.cells.size(); ++c) found = found || holds<3>(out.result.mesh, c, p);
+          EXPECT_TRUE(found);
+        }
+        EXPECT_EQ(label_at<3>(out.result.mesh, p), wanted[k]) << k << automatic;
+      }
+      EXPECT_EQ(out.result.warnings.size(), cases[i].warnings);
+    }
+  }
+}
+
+TEST(Seeds, SizesOfRegionsHoldInAutomaticMode) {
+  Plc<3> plc = three_nested_boxes();
+  plc.regions = {{middle, 7, 0.05}};
+  const auto out = refined<3>(plc, RegionMode::automatic, "sizes");
+  std::array<std::size_t, 8> cells{};
+  for (const double label : out.result.mesh.regions) ++cells[static_cast<std::size_t>(label)];
+  EXPECT_GT(cells[7], 98 / 0.05);
+  EXPECT_EQ(cells[1] + cells[2] + cells[7], out.result.mesh.cells.size());
+}
+
+TEST(Seeds, NothingLeft) {
+  Plc<3> plc = three_nested_boxes();
+  plc.holes = {outer, middle, inner};
+  for (const RegionMode mode : {RegionMode::seeds, RegionMode::automatic}) {
+    RefineOptions<3> options;
+    options.regions = mode;
+    try {
+      refine<3>(plc, options);
+      ADD_FAILURE();
+    } catch (const InputError& e) {
+      EXPECT_EQ(e.code(), Errc::encloses_nothing);
+      EXPECT_NE(e.diagnostic().message.find("hole seed"), std::string::npos);
+    }
+  }
+}
+
+TEST(Seeds, OpenSurfaceNamesItsBoundary) {
+  Plc<3> plc = test::boxes({{{{0, 0, 0}}, {{2, 2, 2}}}});
+  plc.facets.pop_back();  // z high
+  test::append(plc, test::icosphere(0), 0.25, {{5, 5, 5}});
+  plc.facets.pop_back();
+  for (const RegionMode mode : {RegionMode::seeds, RegionMode::automatic}) {
+    RefineOptions<3> options;
+    options.regions = mode;
+    try {
+      refine<3>(plc, options);
+      ADD_FAILURE();
+    } catch (const InputError& e) {
+      EXPECT_EQ(e.code(), Errc::encloses_nothing);
+      EXPECT_EQ(e.diagnostic().ids, (std::vector<std::int64_t>{4, 5, 7, 6}));
+      EXPECT_EQ(e.diagnostic().points.size(), 4u);
+      EXPECT_NE(e.diagnostic().message.find("open boundaries: 2"), std::string::npos) << e.what();
+    }
+  }
+}
+
+// ---- the plane -------------------------------------------------------------------------------------------------------
+
+TEST(Plane, NestedAndTouchingSquares) {
+  Plc<2> plc;
+  const auto square = [&](double low, double high, double y) {
+    const auto b = static_cast<std::uint32_t>(plc.points.size());
+    plc.points.insert(plc.points.end(), {{low, y + low}, {high, y + low}, {high, y + high}, {low, y + high}});
+    for (std::uint32_t i = 0; i < 4; ++i) plc.segments.push_back({{b + i, b + (i + 1) % 4}, 1});
+  };
+  square(0, 9, 0);
+  square(1, 8, 0);
+  square(2, 7, 0);
+  square(3, 6, 0);
+  square(9, 10, 0);  // at a point of the first
+  for (const bool turn : {false, true}) {
+    const auto motion = [&](Point2 p) { return turn ? test::turned(p, 100) : p; };
+    Plc<2> moved = plc;
+    for (Point2& p : moved.points) p = motion(p);
+    for (const bool divided : {false, true}) {
+      if (divided) moved.segments.push_back({{12, 14}, 3});  // the innermost
+      // Seen from the ring of the third square, both halves of the innermost are void.
+      const auto out = refined<2>(moved, RegionMode::automatic, "plane");
+      for (const auto& [p, solid] : {std::pair{Point2{{0.5, 4}}, true}, {Point2{{1.5, 4}}, false}, {Point2{{2.5, 4}}, true},
+                                     {Point2{{4, 5}}, false}, {Point2{{5, 4}}, false}, {Point2{{9.5, 9.25}}, true}})
+        EXPECT_EQ(label_at<2>(out.result.mesh, motion(p)) > 0, solid) << p[0] << ' ' << p[1];
+      if (!turn) {
+        EXPECT_EQ(label_at<2>(out.result.mesh, {{0.5, 4}}), 1);
+        EXPECT_EQ(label_at<2>(out.result.mesh, {{2.5, 4}}), 2);
+        EXPECT_EQ(label_at<2>(out.result.mesh, {{9.5, 9.25}}), 3);
+      }
+    }
+  }
+}
+
 // Fine enough that edges at which bodies or voids touch are split.
 TEST_P(Structures, Fine) {
   for (const auto& [how, s] : variants(GetParam()))
