@@ -207,7 +207,7 @@ TEST(Seeds, SizesOfRegionsHoldInAutomaticMode) {
   const auto out = refined<3>(plc, RegionMode::automatic, "sizes");
   std::array<std::size_t, 8> cells{};
   for (const double label : out.result.mesh.regions) ++cells[static_cast<std::size_t>(label)];
-  EXPECT_GT(cells[7], 98 / 0.05);
+  EXPECT_GT(cells[7], 56 / 0.05);
   EXPECT_EQ(cells[1] + cells[2] + cells[7], out.result.mesh.cells.size());
 }
 
