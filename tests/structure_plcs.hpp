@@ -79,30 +79,48 @@ inline std::vector<Structure> nested_structures() {
   {
     Structure s{"five_nested_spheres", {}, {}};
     for (const double r : {16.0, 8.0, 4.0, 2.0, 1.0}) append(s.plc, icosphere(1), r, {});
-    s.probes = {{{{20, 0, 0}}, 0}, {{{0, 12, 0}}, 1}, {{{0, 6, 0}}, 0}, {{{0, 3, 0}}, 2}, {{{0, 0.1, 1.5}}, 0}, {{{0, 0, 0}}, 3}};
+    s.probes = {{{{20, 0, 0}}, 0}, {{{0, 12, 0}}, 1},    {{{0, 6, 0}}, 0},
+                {{{0, 3, 0}}, 2},  {{{0, 0.1, 1.5}}, 0}, {{{0, 0, 0}}, 3}};
     out.push_back(s);
   }
-  out.push_back({"boxes_side_by_side", boxes({{{{4, 0, 0}}, {{5, 1, 1}}}, {{{0, 0, 0}}, {{1, 1, 1}}}}),
+  out.push_back({"boxes_side_by_side",
+                 boxes({{{{4, 0, 0}}, {{5, 1, 1}}}, {{{0, 0, 0}}, {{1, 1, 1}}}}),
                  {{{{0.5, 0.5, 0.5}}, 1}, {{{4.5, 0.5, 0.5}}, 2}, {{{2, 0.5, 0.5}}, 0}}});
-  out.push_back({"two_cavities", boxes({{{{0, 0, 0}}, {{5, 2, 2}}}, {{{3, 0.5, 0.5}}, {{4, 1.5, 1.5}}}, {{{1, 0.5, 0.5}}, {{2, 1.5, 1.5}}}}),
-                 {{{{0.5, 0.5, 0.5}}, 1}, {{{3.5, 1, 1}}, 0}, {{{1.5, 1, 1}}, 0}}});
+  out.push_back(
+      {"two_cavities",
+       boxes({{{{0, 0, 0}}, {{5, 2, 2}}}, {{{3, 0.5, 0.5}}, {{4, 1.5, 1.5}}}, {{{1, 0.5, 0.5}}, {{2, 1.5, 1.5}}}}),
+       {{{{0.5, 0.5, 0.5}}, 1}, {{{3.5, 1, 1}}, 0}, {{{1.5, 1, 1}}, 0}}});
   {
     // A body of two materials in a cavity is solid again; the wall between its halves makes it a group.
-    Structure s{"divided_box_in_a_cavity", boxes({{{{0, 0, 0}}, {{6, 6, 6}}}, {{{1, 1, 1}}, {{5, 5, 5}}}, {{{2, 2, 2}}, {{3, 4, 4}}}, {{{3, 2, 2}}, {{4, 4, 4}}}}), {}};
+    Structure s{"divided_box_in_a_cavity",
+                boxes({{{{0, 0, 0}}, {{6, 6, 6}}},
+                       {{{1, 1, 1}}, {{5, 5, 5}}},
+                       {{{2, 2, 2}}, {{3, 4, 4}}},
+                       {{{3, 2, 2}}, {{4, 4, 4}}}}),
+                {}};
     s.probes = {{{{0.5, 3, 3}}, 1}, {{{1.5, 3, 3}}, 0}, {{{2.5, 3, 3}}, 2}, {{{3.5, 3, 3}}, 3}};
     out.push_back(s);
   }
-  out.push_back({"divided_void_in_a_box", boxes({{{{0, 0, 0}}, {{6, 6, 6}}}, {{{2, 2, 2}}, {{3, 4, 4}}}, {{{3, 2, 2}}, {{4, 4, 4}}}}),
-                 {{{{0.5, 3, 3}}, 1}, {{{2.5, 3, 3}}, 0}, {{{3.5, 3, 3}}, 0}}, true, false});
+  out.push_back({"divided_void_in_a_box",
+                 boxes({{{{0, 0, 0}}, {{6, 6, 6}}}, {{{2, 2, 2}}, {{3, 4, 4}}}, {{{3, 2, 2}}, {{4, 4, 4}}}}),
+                 {{{{0.5, 3, 3}}, 1}, {{{2.5, 3, 3}}, 0}, {{{3.5, 3, 3}}, 0}},
+                 true,
+                 false});
   return out;
 }
 
 inline std::vector<Structure> touching_structures() {
   std::vector<Structure> out;
   const Point3 o{{0, 0, 0}}, e{{1, 1, 1}};
-  out.push_back({"cubes_at_a_vertex", boxes({{o, e}, {e, {{2, 2, 2}}}}), {{{{0.5, 0.5, 0.5}}, 1}, {{{1.5, 1.5, 1.5}}, 2}, {{{0.5, 1.5, 0.5}}, 0}}});
-  out.push_back({"cubes_at_an_edge", boxes({{o, e}, {{{1, 1, 0}}, {{2, 2, 1}}}}), {{{{0.5, 0.5, 0.5}}, 1}, {{{1.5, 1.5, 0.5}}, 2}, {{{0.5, 1.5, 0.5}}, 0}}});
-  out.push_back({"cubes_at_a_face", boxes({{o, e}, {{{1, 0, 0}}, {{2, 1, 1}}}}), {{{{0.5, 0.5, 0.5}}, 1}, {{{1.5, 0.5, 0.5}}, 2}}});
+  out.push_back({"cubes_at_a_vertex",
+                 boxes({{o, e}, {e, {{2, 2, 2}}}}),
+                 {{{{0.5, 0.5, 0.5}}, 1}, {{{1.5, 1.5, 1.5}}, 2}, {{{0.5, 1.5, 0.5}}, 0}}});
+  out.push_back({"cubes_at_an_edge",
+                 boxes({{o, e}, {{{1, 1, 0}}, {{2, 2, 1}}}}),
+                 {{{{0.5, 0.5, 0.5}}, 1}, {{{1.5, 1.5, 0.5}}, 2}, {{{0.5, 1.5, 0.5}}, 0}}});
+  out.push_back({"cubes_at_a_face",
+                 boxes({{o, e}, {{{1, 0, 0}}, {{2, 1, 1}}}}),
+                 {{{{0.5, 0.5, 0.5}}, 1}, {{{1.5, 0.5, 0.5}}, 2}}});
   {
     // Half a face in common: the common half is one facet, the other half another.
     Plc<3> plc;
@@ -115,31 +133,36 @@ inline std::vector<Structure> touching_structures() {
     add_rectangle(plc, 0, 1, {{0, 1}}, {{1, 1.5}}, 3);
     for (const double y : {0.0, 1.0}) add_rectangle(plc, 1, y, {{1, 0.5}}, {{2, 1.5}}, 4);
     for (const double z : {0.5, 1.5}) add_rectangle(plc, 2, z, {{1, 0}}, {{2, 1}}, 5);
-    out.push_back({"cubes_at_half_a_face", plc, {{{{0.5, 0.5, 0.5}}, 1}, {{{1.5, 0.5, 1}}, 2}, {{{1.5, 0.5, 0.25}}, 0}}, false});
+    out.push_back(
+        {"cubes_at_half_a_face", plc, {{{{0.5, 0.5, 0.5}}, 1}, {{{1.5, 0.5, 1}}, 2}, {{{1.5, 0.5, 0.25}}, 0}}, false});
   }
   {
     // From within: at a vertex and at an edge a void, with a part of a facet in common a body of its own.
     Plc<3> plc = boxes({{o, {{4, 4, 4}}}});
     const std::vector<Point3> tip = {{{0, 0, 0}}, {{2, 1, 1}}, {{1, 2, 1}}, {{1, 1, 2}}};
-    for (const auto& [a, b, c] : {std::array{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 2, 3}}) add_facet(plc, {tip[a], tip[b], tip[c]}, 9);
+    for (const auto& [a, b, c] : {std::array{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 2, 3}})
+      add_facet(plc, {tip[a], tip[b], tip[c]}, 9);
     out.push_back({"void_at_a_vertex", plc, {{{{3, 3, 3}}, 1}, {{{1, 1, 1}}, 0}}});
   }
   {
     Plc<3> plc = boxes({{o, {{4, 4, 4}}}});
     const std::vector<Point3> wedge = {{{0, 0, 0}}, {{4, 0, 0}}, {{2, 2, 1}}, {{2, 1, 2}}};
-    for (const auto& [a, b, c] : {std::array{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 2, 3}}) add_facet(plc, {wedge[a], wedge[b], wedge[c]}, 9);
+    for (const auto& [a, b, c] : {std::array{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 2, 3}})
+      add_facet(plc, {wedge[a], wedge[b], wedge[c]}, 9);
     out.push_back({"void_at_an_edge", plc, {{{{3.5, 3.5, 3.5}}, 1}, {{{2, 0.75, 0.75}}, 0}}});
   }
   {
     Plc<3> plc;
     add_box(plc, o, {{4, 4, 4}});
     plc.facets[4].polygons.push_back({});  // z low: with the floor of the inner box as a hole, and as a facet
-    for (const Point3& p : {Point3{{1, 1, 0}}, {{2, 1, 0}}, {{2, 2, 0}}, {{1, 2, 0}}}) plc.facets[4].polygons[1].push_back(add_point(plc, p));
+    for (const Point3& p : {Point3{{1, 1, 0}}, {{2, 1, 0}}, {{2, 2, 0}}, {{1, 2, 0}}})
+      plc.facets[4].polygons[1].push_back(add_point(plc, p));
     plc.facets[4].holes = {{{1.5, 1.5, 0}}};
     add_box(plc, {{1, 1, 0}}, {{2, 2, 1}}, 11);
     out.push_back({"body_on_a_floor", plc, {{{{3, 3, 3}}, 1}, {{{1.5, 1.5, 0.5}}, 2}}});
   }
-  out.push_back({"spheres_at_a_vertex", [] {
+  out.push_back({"spheres_at_a_vertex",
+                 [] {
                    Plc<3> plc = icosphere(1);
                    Point3 most = plc.points[0];
                    for (const Point3& p : plc.points)
@@ -149,14 +172,24 @@ inline std::vector<Structure> touching_structures() {
                      for (int i = 0; i < 3; ++i) p[i] = 2 * most[i] - p[i];
                    append(plc, mirrored, 1, {});
                    return plc;
-                 }(), {{{{0, 0, 0}}, 1}}});
+                 }(),
+                 {{{{0, 0, 0}}, 1}}});
   {
     // A ring of four boxes, each two with a common edge: what they enclose is void, and no seed says so.
-    Plc<3> plc = boxes({{{{0, 1, 0}}, {{1, 2, 1}}}, {{{1, 0, 0}}, {{2, 1, 1}}}, {{{2, 1, 0}}, {{3, 2, 1}}}, {{{1, 2, 0}}, {{2, 3, 1}}}});
+    Plc<3> plc = boxes({{{{0, 1, 0}}, {{1, 2, 1}}},
+                        {{{1, 0, 0}}, {{2, 1, 1}}},
+                        {{{2, 1, 0}}, {{3, 2, 1}}},
+                        {{{1, 2, 0}}, {{2, 3, 1}}}});
     add_rectangle(plc, 2, 0, {{1, 1}}, {{2, 2}}, 9);
     add_rectangle(plc, 2, 1, {{1, 1}}, {{2, 2}}, 9);
     // Its lids lie between it and the outside: that it were void is not consistent. Five bodies.
-    out.push_back({"ring_with_lids", plc, {{{{0.5, 1.5, 0.5}}, 1}, {{{1.5, 0.5, 0.5}}, 2}, {{{1.5, 1.5, 0.5}}, 3}, {{{1.5, 2.5, 0.5}}, 4}, {{{2.5, 1.5, 0.5}}, 5}}});
+    out.push_back({"ring_with_lids",
+                   plc,
+                   {{{{0.5, 1.5, 0.5}}, 1},
+                    {{{1.5, 0.5, 0.5}}, 2},
+                    {{{1.5, 1.5, 0.5}}, 3},
+                    {{{1.5, 2.5, 0.5}}, 4},
+                    {{{2.5, 1.5, 0.5}}, 5}}});
   }
   return out;
 }
@@ -175,7 +208,10 @@ inline std::vector<Structure> inner_structures() {
     add_rectangle(plc, 0, 4, {{0, 0}}, {{4, 4}}, 7);
     add_rectangle(plc, 2, 2, {{4, 0}}, {{6, 4}}, 8);
     add_rectangle(plc, 1, 2, {{3, 1}}, {{3.5, 3}}, 8);
-    out.push_back({"wall_void_and_fins", plc, {{{{0.5, 0.5, 0.5}}, 1}, {{{5, 1, 1}}, 2}, {{{5, 1, 3}}, 2}, {{{2, 2, 2}}, 0}}, false});
+    out.push_back({"wall_void_and_fins",
+                   plc,
+                   {{{{0.5, 0.5, 0.5}}, 1}, {{{5, 1, 1}}, 2}, {{{5, 1, 3}}, 2}, {{{2, 2, 2}}, 0}},
+                   false});
   }
   {
     Plc<3> plc = boxes({{o, e}});
@@ -211,7 +247,8 @@ inline std::vector<Structure> inner_structures() {
     auto& lid = plc.facets[5];
     const auto ring = [&](double low, double high, double z) {
       std::vector<Index> ids;
-      for (const auto& [x, y] : {std::pair{low, low}, {high, low}, {high, high}, {low, high}}) ids.push_back(add_point(plc, {{x, y, z}}));
+      for (const auto& [x, y] : {std::pair{low, low}, {high, low}, {high, high}, {low, high}})
+        ids.push_back(add_point(plc, {{x, y, z}}));
       return ids;
     };
     lid.polygons.push_back(ring(1, 7, 4));
@@ -221,7 +258,8 @@ inline std::vector<Structure> inner_structures() {
     middle.holes = {{{4, 4, 4}}};
     middle.marker = 21;
     Plc<3>::Facet island;
-    island.polygons = {ring(2, 6, 4), {add_point(plc, {{3, 3, 4}}), add_point(plc, {{5, 5, 4}})}, {add_point(plc, {{5, 3, 4}})}};
+    island.polygons = {
+        ring(2, 6, 4), {add_point(plc, {{3, 3, 4}}), add_point(plc, {{5, 5, 4}})}, {add_point(plc, {{5, 3, 4}})}};
     island.marker = 22;
     plc.facets.push_back(middle);
     plc.facets.push_back(island);
@@ -230,26 +268,32 @@ inline std::vector<Structure> inner_structures() {
   {
     // Pages of a book in a box: facets that meet at one segment, and end inside.
     for (const int pages : {3, 7}) {
-    Plc<3> plc = boxes({{{{-4, -4, 0}}, {{4, 4, 2}}}});
-    const std::vector<std::pair<double, double>> ends{{3, 0}, {-2, 2}, {0, -3}, {2, 2}, {0, 3}, {-3, 0}, {-2, -2}};
-    for (const auto& [x, y] : std::vector(ends.begin(), ends.begin() + pages))
-      add_facet(plc, {{{0, 0, 0.5}}, {{x, y, 0.5}}, {{x, y, 1.5}}, {{0, 0, 1.5}}}, 7);
-    out.push_back({"book_of_" + std::to_string(pages), plc, {{{{3.5, 3.5, 1}}, 1}}});
+      Plc<3> plc = boxes({{{{-4, -4, 0}}, {{4, 4, 2}}}});
+      const std::vector<std::pair<double, double>> ends{{3, 0}, {-2, 2}, {0, -3}, {2, 2}, {0, 3}, {-3, 0}, {-2, -2}};
+      for (const auto& [x, y] : std::vector(ends.begin(), ends.begin() + pages))
+        add_facet(plc, {{{0, 0, 0.5}}, {{x, y, 0.5}}, {{x, y, 1.5}}, {{0, 0, 1.5}}}, 7);
+      out.push_back({"book_of_" + std::to_string(pages), plc, {{{{3.5, 3.5, 1}}, 1}}});
     }
   }
   {
     // Pages that reach the cover divide the box.
     Plc<3> plc;
-    for (const auto& [a, b] : {std::pair{Point2{{-1, -1}}, Point2{{1, -1}}}, {{{1, -1}}, {{1, 1}}}, {{{1, 1}}, {{-1, 1}}}, {{{-1, 1}}, {{-1, -1}}}}) {
+    for (const auto& [a, b] : {std::pair{Point2{{-1, -1}}, Point2{{1, -1}}},
+                               {{{1, -1}}, {{1, 1}}},
+                               {{{1, 1}}, {{-1, 1}}},
+                               {{{-1, 1}}, {{-1, -1}}}}) {
       add_facet(plc, {{{a[0], a[1], 0}}, {{b[0], b[1], 0}}, {{b[0], b[1], 1}}, {{a[0], a[1], 1}}}, 1);
       add_facet(plc, {{{0, 0, 0}}, {{a[0], a[1], 0}}, {{a[0], a[1], 1}}, {{0, 0, 1}}}, 2);
       for (const double z : {0.0, 1.0}) add_facet(plc, {{{0, 0, z}}, {{a[0], a[1], z}}, {{b[0], b[1], z}}}, 3);
     }
-    out.push_back({"divided_by_pages", plc, {{{{-0.5, 0, 0.5}}, 1}, {{{0, -0.5, 0.5}}, 2}, {{{0, 0.5, 0.5}}, 3}, {{{0.5, 0, 0.5}}, 4}}});
+    out.push_back({"divided_by_pages",
+                   plc,
+                   {{{{-0.5, 0, 0.5}}, 1}, {{{0, -0.5, 0.5}}, 2}, {{{0, 0.5, 0.5}}, 3}, {{{0.5, 0, 0.5}}, 4}}});
   }
   for (const int k : {5, 12}) {
     const double gap = std::ldexp(1.0, -k);
-    out.push_back({"thin_walls_" + std::to_string(k), boxes({{o, {{1, 1, 0.25}}}, {{{0, 0, 0.25 + gap}}, {{1, 1, 0.5}}}}),
+    out.push_back({"thin_walls_" + std::to_string(k),
+                   boxes({{o, {{1, 1, 0.25}}}, {{{0, 0, 0.25 + gap}}, {{1, 1, 0.5}}}}),
                    {{{{0.5, 0.5, 0.125}}, 1}, {{{0.5, 0.5, 0.375}}, 2}, {{{0.5, 0.5, 0.25 + gap / 2}}, 0}}});
   }
   return out;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Inputs with inner structure, with and without automatic regions; plain, turned and scaled. Labels against those written
-// down beside the inputs, and all of it through the checker.
+// Inputs with inner structure, with and without automatic regions; plain, turned and scaled. Labels against those
+// written down beside the inputs, and all of it through the checker.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,7 +40,8 @@ double label_at(const OutputMesh<D>& mesh, const Point<D>& p) {
 }
 
 template <int D>
-test::Outcome<D> refined(const Plc<D>& plc, RegionMode mode, const std::string& what, bool mended = true, double size = INFINITY) {
+test::Outcome<D> refined(const Plc<D>& plc, RegionMode mode, const std::string& what, bool mended = true,
+                         double size = INFINITY) {
   const Domain<D> domain(plc);
   EXPECT_EQ(diagnose(domain).error_count(), 0u) << what;
   RefineOptions<D> options;
@@ -57,7 +58,8 @@ test::Outcome<D> refined(const Plc<D>& plc, RegionMode mode, const std::string& 
   EXPECT_EQ(out.result.stop, StopCause::finished) << what;
   EXPECT_LE(out.report.exit_code(), mended ? 1 : 6) << what << "\n" << test::findings(out.report);
   for (const auto& f : out.report.findings)
-    EXPECT_TRUE(f.kind == CheckFinding::Kind::not_delaunay || f.kind == CheckFinding::Kind::bad_reason) << what << ' ' << f.message;
+    EXPECT_TRUE(f.kind == CheckFinding::Kind::not_delaunay || f.kind == CheckFinding::Kind::bad_reason)
+        << what << ' ' << f.message;
   return out;
 }
 
@@ -96,7 +98,10 @@ std::vector<std::pair<std::string, Structure>> variants(const Structure& s) {
   std::vector<std::pair<std::string, Structure>> out{
       {"plain", s},
       {"permuted", permuted(s)},
-      {"small", moved(s, [](Point3 p) { return Point3{{p[0] * 0x1p-40, p[1] * 0x1p-40, p[2] * 0x1p-40}}; })},
+      {"small", moved(s,
+                      [](Point3 p) {
+                        return Point3{{p[0] * 0x1p-40, p[1] * 0x1p-40, p[2] * 0x1p-40}};
+                      })},
       {"oblique", moved(s, oblique)}};
   if (s.turns) out.emplace_back("turned", moved(s, [](Point3 p) { return test::turned(p, 1000); }));
   return out;
@@ -152,9 +157,12 @@ TEST_P(Structures, SameBytesForAnyThreads) {
     test::expect_same<3>(first, refine<3>(GetParam().plc, test::with<3>(options, runner)), runner.name);
 }
 
-// ---- seeds -----------------------------------------------------------------------------------------------------------
+// ---- seeds
+// -----------------------------------------------------------------------------------------------------------
 
-Plc<3> three_nested_boxes() { return test::boxes({{{{0, 0, 0}}, {{6, 6, 6}}}, {{{1, 1, 1}}, {{5, 5, 5}}}, {{{2, 2, 2}}, {{4, 4, 4}}}}); }
+Plc<3> three_nested_boxes() {
+  return test::boxes({{{{0, 0, 0}}, {{6, 6, 6}}}, {{{1, 1, 1}}, {{5, 5, 5}}}, {{{2, 2, 2}}, {{4, 4, 4}}}});
+}
 const Point3 outer{{0.5, 3, 3}}, middle{{1.5, 3, 3}}, inner{{3, 3, 3}};
 
 TEST(Seeds, WinOverNesting) {
@@ -172,7 +180,7 @@ TEST(Seeds, WinOverNesting) {
       {{}, {{outer, 1, 0}}, {1, 0, 2}, {1, 0, 0}},
       {{}, {{inner, 1, 0}}, {2, 0, 1}, {0, 0, 1}},
       {{}, {{inner, -2.5, 0}, {outer, 2, 0}}, {2, 0, -2.5}, {2, 0, -2.5}},
-      {{inner}, {{{{3.5, 3, 3}}, 4, 0}}, {1, 0, 0}, {0, 0, 0}, 1},          // a hole wins over a region
+      {{inner}, {{{{3.5, 3, 3}}, 4, 0}}, {1, 0, 0}, {0, 0, 0}, 1},           // a hole wins over a region
       {{}, {{{{-1, 3, 3}}, 4, 0}, {inner, 3, 0}}, {1, 0, 3}, {0, 0, 3}, 1},  // outside
   };
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -181,7 +189,8 @@ TEST(Seeds, WinOverNesting) {
     plc.holes = cases[i].holes;
     plc.regions = cases[i].regions;
     for (const bool automatic : {true, false}) {
-      const auto out = refined<3>(plc, automatic ? RegionMode::automatic : RegionMode::seeds, automatic ? "automatic" : "seeds");
+      const auto out =
+          refined<3>(plc, automatic ? RegionMode::automatic : RegionMode::seeds, automatic ? "automatic" : "seeds");
       const auto& wanted = automatic ? cases[i].automatic : cases[i].seeds;
       std::size_t volumes = 0;
       for (int k = 0; k < 3; ++k) {
@@ -191,7 +200,8 @@ TEST(Seeds, WinOverNesting) {
         volumes += !hole;
         if (!automatic && !hole && wanted[k] == 0) {
           bool found = false;  // label 0 is that of cells without seed
-          for (std::size_t c = 0; c < out.result.mesh.cells.size(); ++c) found = found || holds<3>(out.result.mesh, c, p);
+          for (std::size_t c = 0; c < out.result.mesh.cells.size(); ++c)
+            found = found || holds<3>(out.result.mesh, c, p);
           EXPECT_TRUE(found);
         }
         EXPECT_EQ(label_at<3>(out.result.mesh, p), wanted[k]) << k << automatic;
@@ -247,7 +257,8 @@ TEST(Seeds, OpenSurfaceNamesItsBoundary) {
   }
 }
 
-// ---- the plane -------------------------------------------------------------------------------------------------------
+// ---- the plane
+// -------------------------------------------------------------------------------------------------------
 
 TEST(Plane, NestedAndTouchingSquares) {
   Plc<2> plc;
@@ -269,8 +280,12 @@ TEST(Plane, NestedAndTouchingSquares) {
       if (divided) moved.segments.push_back({{12, 14}, 3});  // the innermost
       // Seen from the ring of the third square, both halves of the innermost are void.
       const auto out = refined<2>(moved, RegionMode::automatic, "plane");
-      for (const auto& [p, solid] : {std::pair{Point2{{0.5, 4}}, true}, {Point2{{1.5, 4}}, false}, {Point2{{2.5, 4}}, true},
-                                     {Point2{{4, 5}}, false}, {Point2{{5, 4}}, false}, {Point2{{9.5, 9.25}}, true}})
+      for (const auto& [p, solid] : {std::pair{Point2{{0.5, 4}}, true},
+                                     {Point2{{1.5, 4}}, false},
+                                     {Point2{{2.5, 4}}, true},
+                                     {Point2{{4, 5}}, false},
+                                     {Point2{{5, 4}}, false},
+                                     {Point2{{9.5, 9.25}}, true}})
         EXPECT_EQ(label_at<2>(out.result.mesh, motion(p)) > 0, solid) << p[0] << ' ' << p[1];
       if (!turn) {
         EXPECT_EQ(label_at<2>(out.result.mesh, {{0.5, 4}}), 1);
@@ -284,8 +299,7 @@ TEST(Plane, NestedAndTouchingSquares) {
 // Fine enough that edges at which bodies or voids touch are split.
 TEST_P(Structures, Fine) {
   for (const auto& [how, s] : variants(GetParam()))
-    if (how == "plain" || how == "turned")
-      refined<3>(s.plc, RegionMode::automatic, how, s.mended, span_of(s.plc) / 16);
+    if (how == "plain" || how == "turned") refined<3>(s.plc, RegionMode::automatic, how, s.mended, span_of(s.plc) / 16);
 }
 
 INSTANTIATE_TEST_SUITE_P(Inputs, Structures, testing::ValuesIn(test::all_structures()),
