@@ -63,7 +63,7 @@ class RegionChecker {
       if (conformity_.patch_of[w].entity != none) check_wall(w);
     check_measures();
     check_seeds();
-    check_automatic_labels();
+    check_labels_without_seed();
   }
 
  private:
@@ -178,17 +178,20 @@ class RegionChecker {
         report_seed(i, "in no cell");
   }
 
-  // What flood_cells found to be one component has one label, or was reported.
-  void check_automatic_labels() {
+  // What flood_cells found to be one component has one label, or was reported. Without automatic regions it is 0 where no
+  // seed is; an input without any seed says nothing of labels.
+  void check_labels_without_seed() {
     std::vector<double> label_of(components_.volume.size(), 0);
     for (std::uint32_t c = 0; c < mesh_.cells.size() && !mesh_.regions.empty(); ++c)
       label_of[components_.of_cell[c]] = mesh_.regions[c];
     std::vector<double> used;
     for (std::uint32_t i = 0; i < label_of.size(); ++i) {
       if (components_.volume[i] == none) continue;
-      const auto& wanted = input_.volumes()[components_.volume[i]].automatic;
+      const Volume& volume = input_.volumes()[components_.volume[i]];
+      std::optional<std::array<double, 2>> wanted = volume.automatic;
+      if (!wanted && volume.seeds.empty() && !input_.domain().regions().empty()) wanted = {0, 0};
       if (!wanted) continue;
-      used.push_back(label_of[i]);
+      if (volume.automatic) used.push_back(label_of[i]);
       if (label_of[i] >= (*wanted)[0] && label_of[i] <= (*wanted)[1]) continue;
       task_.findings.add(Kind::wrong_region, {components_.volume[i]}, [&] {
         return "Volume " + std::to_string(components_.volume[i]) + " of the input has label " + words(label_of[i]) +
