@@ -135,23 +135,17 @@ auto Cavity<D>::collect_on_face(const Point<D>& p, CellId cell, int face) -> Sta
   return collect_all();
 }
 
+/// All cells round the edge between corners a and b, the one way and, where that ends at the hull, the other.
 template <int D>
-auto Cavity<D>::collect_on_edge(const Point<D>& p, CellId cell, int edge) -> Status
+auto Cavity<D>::take_fan(CellId cell, int a, int b) -> Status
   requires(D == 3)
 {
-  begin(p);
-  const auto [a, b] = edge_ends[edge];
-  split_edge_ = {mesh_->cell(cell).vertices[a], mesh_->cell(cell).vertices[b]};
-  split_segment_ = mesh_->constraints(cell)->edge_entity[edge];
   int others[2], n = 0;
   for (int j = 0; j <= D; ++j)
     if (j != a && j != b) others[n++] = j;
-  // All cells round the edge, the one way and, where that ends at the hull, the other.
   for (const int way : {0, 1}) {
     RidgeWalk<D> walk{cell, others[1 - way], others[way]};
-    bool closed = false;
     while (true) {
-      assert(may_read(walk.cell));
       if (!owns(walk.cell)) return Status::not_owned;
       take(walk.cell);
       const auto* k = mesh_->constraints(walk.cell);
@@ -160,13 +154,29 @@ auto Cavity<D>::collect_on_edge(const Point<D>& p, CellId cell, int edge) -> Sta
           return status;
       if (!walk.link(*mesh_)) break;
       walk.step(*mesh_);
-      if (walk.cell == cell) {
-        closed = true;
-        break;
-      }
+      assert(may_read(walk.cell));
+      if (walk.cell == cell) return Status::ok;
     }
-    if (closed) break;
   }
+  return Status::ok;
+}
+
+template <int D>
+auto Cavity<D>::collect_on_edge(const Point<D>& p, CellId cell, int edge) -> Status
+  requires(D == 3)
+{
+  begin(p);
+  const auto [a, b] = edge_ends[edge];
+  split_edge_ = {mesh_->cell(cell).vertices[a], mesh_->cell(cell).vertices[b]};
+  split_segment_ = mesh_->constraints(cell)->edge_entity[edge];
+  if (const Status status = take_fan(cell, a, b); status != Status::ok) return status;
+  if (const PinchedEdges* pinched = mesh_->pinched_edges(); pinched && pinched->has(split_segment_))
+    for (const CellId c : pinched->cells(split_edge_[0], split_edge_[1])) {
+      if (mesh_->marked(c)) continue;
+      const auto& v = mesh_->cell(c).vertices;  // its ends are claimed, so that no other visit changes it
+      const auto at = [&](VertexId x) { return static_cast<int>(std::find(v.begin(), v.end(), x) - v.begin()); };
+      if (const Status status = take_fan(c, at(split_edge_[0]), at(split_edge_[1])); status != Status::ok) return status;
+    }
   protected_ = cells_;
   bool conflict = false;
   for (const CellId c : protected_) conflict = conflict || mesh_->conflicts(c, p);
@@ -230,7 +240,17 @@ bool Cavity<D>::in_line(CellId c, int i, int j) const {
   return false;
 }
 
-/// A ridge between two faces of the part vanishes, so that all cells between these faces must be in the cavity. In one
+/// Is the ridge of the cell that lacks the two corners a subsegment?
+template <int D>
+bool Cavity<D>::is_subsegment(CellId cell, int i, int j) const {
+  int ends[2] = {0, 0}, n = 0;
+  for (int k = 0; k <= D; ++k)
+    if (k != i && k != j) ends[n++ % 2] = k;
+  return mesh_->constraints(cell)->edges >> edge_of_ends[ends[0]][ends[1]] & 1;
+}
+
+/// A ridge between two faces of the part (no subsegment: about the free rim of a facet its two sides see each other, with
+/// nothing of the cavity between) vanishes, so that all cells between these faces must be in the cavity. In one
 /// plane this follows from the empty spheres; some ulps off it, or after cells were given back, it need not hold. Then
 /// the face that was reached later leaves the part, with the cells at it.
 template <int D>
@@ -243,7 +263,7 @@ auto Cavity<D>::find_broken_fans(std::vector<CellId>& doomed) const -> Status {
       for (const Link side : {Link(f.cell, f.face), across}) {
         if (!side) continue;
         for (int corner = 0; corner <= D && !broken; ++corner)
-          if (corner != side.face())
+          if (corner != side.face() && !is_subsegment(side.cell(), side.face(), corner))
             if (const Status s = look_at_fan({side.cell(), side.face(), corner}, f.entity, broken); s != Status::ok) return s;
       }
       if (!broken) continue;
@@ -375,49 +395,6 @@ void Cavity<D>::keep_connected_cells() {
   for (const CellId c : cells_) mesh_->unmark(c);
   for (const CellId c : kept) mesh_->mark(c);
   cells_ = std::move(kept);
-}
-
-template <int D>
-auto Cavity<D>::check_nothing_swallowed() -> Status {
-  auto edge_key = [](VertexId a, VertexId b) {
-    const std::uint64_t low = std::min(index(a), index(b)), high = std::max(index(a), index(b));
-    return high << 32 | low;  // never the key of a vertex, whose high half is zero and lies below any edge's
-  };
-  auto vertex_key = [](VertexId v) { return std::uint64_t{index(v)}; };
-  bool any_edges = false;
-  if constexpr (D == 3)
-    for (const CellId c : cells_) {
-      const auto* k = mesh_->constraints(c);
-      any_edges = any_edges || (k && k->edges);
-    }
-  rim_keys_.reset((any_edges ? 6 : 3) * boundary_.size());
-  for (const BoundaryFace& f : boundary_) {
-    const auto& k = mesh_->cell(f.cell);
-    const Link out = k.links[f.face];
-    if (out && mesh_->marked(out.cell())) return Status::not_star_shaped;
-    for (int i = 0; i <= D; ++i)
-      if (i != f.face) rim_keys_.insert(vertex_key(k.vertices[i]));
-    if (!any_edges) continue;
-    for (int i = 0; i <= D; ++i)
-      for (int j = i + 1; j <= D; ++j)
-        if (i != f.face && j != f.face) rim_keys_.insert(edge_key(k.vertices[i], k.vertices[j]));
-  }
-  for (const CellId c : cells_) {
-    const auto& k = mesh_->cell(c);
-    for (const VertexId v : k.vertices)
-      if (!rim_keys_.contains(vertex_key(v))) return Status::swallows;
-    if constexpr (D == 3) {
-      const auto* constraints = mesh_->constraints(c);
-      if (!constraints || !constraints->edges) continue;
-      for (int e = 0; e < 6; ++e) {
-        if (!(constraints->edges >> e & 1)) continue;
-        const VertexId a = k.vertices[edge_ends[e][0]], b = k.vertices[edge_ends[e][1]];
-        const bool split = (a == split_edge_[0] && b == split_edge_[1]) || (a == split_edge_[1] && b == split_edge_[0]);
-        if (!split && !rim_keys_.contains(edge_key(a, b))) return Status::swallows;
-      }
-    }
-  }
-  return Status::ok;
 }
 
 template <int D>

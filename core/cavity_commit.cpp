@@ -67,6 +67,8 @@ VertexId Cavity<D>::commit(Pools& pools, Home home, float relaxed_radius) {
     link_by_walks(pools);
   }
   if (split_segment_ != no_entity) mark_split_entities(pools, v);
+  if (touches_constraints_)
+    for (const CellId c : new_cells_) mesh_->enlist(c);
   part_.clear();
   for (const CellId c : cells_) {
     mesh_->unmark(c);

@@ -28,7 +28,7 @@ template <int D>
 void check_against_input(const OutputMesh<D>& mesh, const CheckOptions<D>& options, const Links<D>& links,
                          std::span<const std::uint32_t> sorted, Components& components, Findings& findings) {
   const Domain<D>& domain = *options.domain;
-  const InputVolumes<D> input(domain);
+  const InputVolumes<D> input(domain, options.regions);
   const ConformityTask<D> task{mesh, input, options.conformity_ulps, findings};
   const Conformity<D> conformity = check_conformity(task, sorted);
   check_regions(task, links, conformity, components);

@@ -77,7 +77,7 @@ class InputBuilder {
   explicit InputBuilder(InputVolumes<D>& out)
       : out_(out), domain_(*out.domain_), sides_(0), patches_(0), components_(0) {}
 
-  void run() {
+  void run(RegionMode mode) {
     collect_walls();
     out_.box_simplices();
     collect_ridges();
@@ -93,6 +93,10 @@ class InputBuilder {
     number_patches_and_volumes();
     out_.box_simplices();
     place_seeds();
+    if (mode == RegionMode::automatic) {
+      out_.nest();
+      out_.number();
+    }
     collect_wanted();
     measure();
   }
@@ -325,8 +329,8 @@ class InputBuilder {
 };
 
 template <int D>
-InputVolumes<D>::InputVolumes(const Domain<D>& domain) : domain_(&domain) {
-  InputBuilder<D>(*this).run();
+InputVolumes<D>::InputVolumes(const Domain<D>& domain, RegionMode mode) : domain_(&domain) {
+  InputBuilder<D>(*this).run(mode);
 }
 
 template <int D>

@@ -63,6 +63,7 @@ class RegionChecker {
       if (conformity_.patch_of[w].entity != none) check_wall(w);
     check_measures();
     check_seeds();
+    check_labels_without_seed();
   }
 
  private:
@@ -166,9 +167,7 @@ class RegionChecker {
     const auto& domain = input_.domain();
     for (std::uint32_t i = 0; i < domain.regions().size(); ++i) {
       seeds_.push_back({domain.regions()[i].point, i, false});
-      const auto volume = input_.region_volumes()[i];
-      if (!volume || !input_.volumes()[*volume].kept)
-        report_seed(i, volume ? "outside the domain or in a hole" : "on a wall");
+      if (!input_.region_volumes()[i]) report_seed(i, "on a wall");  // outside or in a hole, it has no say
     }
     for (std::uint32_t i = 0; i < domain.holes().size(); ++i) seeds_.push_back({domain.holes()[i], i, true});
     std::sort(seeds_.begin(), seeds_.end(), [](const Seed& a, const Seed& b) { return a.point[0] < b.point[0]; });
@@ -177,6 +176,31 @@ class RegionChecker {
     for (std::uint32_t i = 0; i < domain.regions().size(); ++i)
       if (!found_[i] && input_.region_volumes()[i] && input_.volumes()[*input_.region_volumes()[i]].kept)
         report_seed(i, "in no cell");
+  }
+
+  // What flood_cells found to be one component has one label, or was reported. Without automatic regions it is 0 where no
+  // seed is; an input without any seed says nothing of labels.
+  void check_labels_without_seed() {
+    std::vector<double> label_of(components_.volume.size(), 0);
+    for (std::uint32_t c = 0; c < mesh_.cells.size() && !mesh_.regions.empty(); ++c)
+      label_of[components_.of_cell[c]] = mesh_.regions[c];
+    std::vector<double> used;
+    for (std::uint32_t i = 0; i < label_of.size(); ++i) {
+      if (components_.volume[i] == none) continue;
+      const Volume& volume = input_.volumes()[components_.volume[i]];
+      std::optional<std::array<double, 2>> wanted = volume.automatic;
+      if (!wanted && volume.seeds.empty() && !input_.domain().regions().empty()) wanted = {0, 0};
+      if (!wanted) continue;
+      if (volume.automatic) used.push_back(label_of[i]);
+      if (label_of[i] >= (*wanted)[0] && label_of[i] <= (*wanted)[1]) continue;
+      task_.findings.add(Kind::wrong_region, {components_.volume[i]}, [&] {
+        return "Volume " + std::to_string(components_.volume[i]) + " of the input has label " + words(label_of[i]) +
+               " instead of " + words((*wanted)[0]) + ".";
+      });
+    }
+    std::sort(used.begin(), used.end());
+    if (const auto twice = std::adjacent_find(used.begin(), used.end()); twice != used.end())
+      task_.findings.add(Kind::wrong_region, {}, [&] { return "Two volumes have the label " + words(*twice) + "."; });
   }
 
   void report_seed(std::uint32_t i, const char* where) {

@@ -327,6 +327,7 @@ CellId LocalFlips<D>::make_cell(Pools& pools, const NewCell& cell) {
       constraints.edge_entity[e] = s.entity;
     }
   }
+  mesh_->enlist(c);
   return c;
 }
 

@@ -242,6 +242,7 @@ CellId LocalRewrap::make_cell(Pools& pools, const GiftWrap::Cell& cell) {
     constraints.edges |= static_cast<std::uint8_t>(1 << e);
     constraints.edge_entity[e] = s.entity;
   }
+  mesh_->enlist(c);
   return c;
 }
 

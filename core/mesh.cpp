@@ -71,6 +71,7 @@ bool Mesh<D>::conflicts_exactly(CellId c, const Point<D>& p) const {
 template <int D>
 void Mesh<D>::free_cell(Pools& pools, CellId c) {
   const std::uint32_t tag = tags_[index(c)].constraints & ~mark_bit;
+  if (pinched_ && tag != 0) change_pinched(c, false);
   if (tag != 0) pools.constraints.give(tag - 1);
   std::atomic_ref(cell(c).vertices[0]).store(no_vertex, std::memory_order_relaxed);
   pools.cells.give(index(c));
@@ -90,6 +91,49 @@ ConstraintRecord<D>& Mesh<D>::ensure_constraints(Pools& pools, CellId c) {
   constraints_[id] = {};
   tags_[index(c)].constraints = (tags_[index(c)].constraints & mark_bit) | (id + 1);
   return constraints_[id];
+}
+
+// The fans at a subsegment end at the hull: of each, two faces with the subsegment have nothing beyond.
+template <int D>
+void Mesh<D>::find_pinched_edges(std::size_t segments) {
+  if constexpr (D == 3) {
+    std::vector<std::pair<std::array<VertexId, 2>, EntityId>> ends;
+    for (std::uint32_t i = 0; i < cell_bound(); ++i) {
+      const auto* k = alive(CellId{i}) ? constraints(CellId{i}) : nullptr;
+      if (k == nullptr || k->edges == 0) continue;
+      for (std::size_t e = 0; e < 6; ++e) {
+        if ((k->edges >> e & 1) == 0) continue;
+        std::array<VertexId, 2> v{cell(CellId{i}).vertices[edge_ends[e][0]], cell(CellId{i}).vertices[edge_ends[e][1]]};
+        std::sort(v.begin(), v.end());
+        for (int f = 0; f <= D; ++f)
+          if (f != edge_ends[e][0] && f != edge_ends[e][1] && !cell(CellId{i}).links[f]) ends.emplace_back(v, k->edge_entity[e]);
+      }
+    }
+    std::sort(ends.begin(), ends.end());
+    std::vector<bool> pinched(segments, false);
+    bool any = false;
+    for (std::size_t i = 2; i < ends.size(); ++i)
+      if (ends[i].first == ends[i - 2].first) any = pinched[ends[i].second] = true;
+    if (!any) return;
+    pinched_ = std::make_unique<PinchedEdges>(std::move(pinched));
+    for (std::uint32_t i = 0; i < cell_bound(); ++i)
+      if (alive(CellId{i})) enlist(CellId{i});
+  }
+}
+
+template <int D>
+void Mesh<D>::change_pinched(CellId c, bool add) {
+  if constexpr (D == 3) {
+    const auto* k = constraints(c);
+    if (k == nullptr || k->edges == 0) return;
+    const auto& v = cell(c).vertices;
+    for (std::size_t e = 0; e < 6; ++e) {
+      if ((k->edges >> e & 1) == 0 || !pinched_->has(k->edge_entity[e])) continue;
+      const VertexId a = v[edge_ends[e][0]], b = v[edge_ends[e][1]];
+      if (add) pinched_->add(a, b, c);
+      else pinched_->remove(a, b, c);
+    }
+  }
 }
 
 template class Mesh<2>;

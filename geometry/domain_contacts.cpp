@@ -27,7 +27,7 @@ void DomainBuilder<D>::resolve_contacts() {
   for (std::uint32_t s = 0; s < explicit_.size(); ++s)
     if (explicit_[s][0] != explicit_[s][1]) segment_edges_.push_back({explicit_[s], s});  // else it was refused
   out_.nothing_meets_ = !find_contacts();
-  if (out_.nothing_meets_) return;
+  if (out_.nothing_meets_) return report_points();
   split_at_points();
   if constexpr (D == 3) {
     if (find_contacts()) constrain_inner_edges();

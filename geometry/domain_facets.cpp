@@ -196,9 +196,51 @@ std::array<double, 3> DomainBuilder<D>::facet_normal(const CleanFacet& facet) co
   return best;
 }
 
+// Points of the facet that lie exactly inside one of its edges split it, in space: where they do so in the projection
+// alone, the facet stays as it was. True if any did.
+template <int D>
+bool DomainBuilder<D>::split_at_own_points(CleanFacet& facet) requires(D == 3) {
+  const auto& p = out_.points_;
+  std::vector<std::uint32_t> by_place = facet.vertices;
+  const auto before = [&](std::uint32_t v, std::uint32_t w) { return lex_less(p[v], p[w]); };
+  std::sort(by_place.begin(), by_place.end(), before);
+  const auto inside_of = [&](std::uint32_t a, std::uint32_t b) {  // from a to b
+    const auto [low, high] = before(a, b) ? std::pair{a, b} : std::pair{b, a};
+    std::vector<std::uint32_t> out;
+    for (auto v = std::upper_bound(by_place.begin(), by_place.end(), low, before); *v != high; ++v)
+      if (collinear<3>(p[low], p[high], p[*v])) out.push_back(*v);
+    if (low != a) std::reverse(out.begin(), out.end());
+    return out;
+  };
+  std::vector<PlanarEdge> edges;
+  for (const auto& [a, b] : facet.edges) {
+    std::uint32_t last = a;
+    for (const std::uint32_t v : inside_of(a, b)) {
+      split_edges_.push_back({v, std::min(a, b), std::max(a, b)});
+      edges.push_back({std::min(last, v), std::max(last, v)});
+      last = v;
+    }
+    edges.push_back({std::min(last, b), std::max(last, b)});
+  }
+  detail::make_set(edges);
+  if (edges == facet.edges) return false;
+  facet.edges = std::move(edges);
+  for (auto& loop : facet.loops) {
+    if (loop.size() < 3) continue;
+    std::vector<std::uint32_t> finer;
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      finer.push_back(loop[k]);
+      const auto inside = inside_of(loop[k], loop[(k + 1) % loop.size()]);
+      finer.insert(finer.end(), inside.begin(), inside.end());
+    }
+    loop = std::move(finer);
+  }
+  return true;
+}
+
 template <int D>
 void DomainBuilder<D>::add_polygons(std::uint32_t f) requires(D == 3) {
-  const CleanFacet facet = clean(f);
+  CleanFacet facet = clean(f);
   if (facet.vertices.size() < 3) fail_degenerate(f, "has fewer than three distinct points", facet.vertices);
   const Point3 &p = out_.points_[facet.vertices[0]], &q = out_.points_[facet.vertices[1]];
   if (std::all_of(facet.vertices.begin() + 2, facet.vertices.end(),
@@ -206,7 +248,9 @@ void DomainBuilder<D>::add_polygons(std::uint32_t f) requires(D == 3) {
     fail_degenerate(f, "has all its points on one line", facet.vertices);
   PlanarResult first;
   for (const int axis : detail::axes_by_size(facet_normal(facet))) {
-    const PlanarResult result = planar_.build(out_.points_, facet.vertices, facet.edges, axis);
+    PlanarResult result = planar_.build(out_.points_, facet.vertices, facet.edges, axis);
+    if (result.status == PlanarStatus::point_on_edge && split_at_own_points(facet))
+      result = planar_.build(out_.points_, facet.vertices, facet.edges, axis);
     if (result) break;
     // A wrong projection (the normal of a crossing polygon may be anything) makes points coincide or collinear.
     if (first.status == PlanarStatus::ok || first.status == PlanarStatus::collinear) first = result;

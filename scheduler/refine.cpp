@@ -105,7 +105,7 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
       result.statistics.seconds_mesh = result.statistics.seconds_initial = seconds_since(start);
       return result;  // no boundary yet, so no mesh
     }
-    regions = carve<D>(mesh, pools, delaunay, domain, result.warnings);
+    regions = carve<D>(mesh, pools, delaunay, domain, options.regions, result.warnings);
   }
   result.statistics.seconds_initial = seconds_since(start);
 

@@ -30,7 +30,7 @@ struct Cube {
     RecoveryCounts counts;
     recover_boundary<3>(mesh, pools, delaunay, domain, {}, std::chrono::steady_clock::now(), counts);
     std::vector<Diagnostic> warnings;
-    carve<3>(mesh, pools, delaunay, domain, warnings);
+    carve<3>(mesh, pools, delaunay, domain, RegionMode::seeds, warnings);
   }
   /// A living cell, and a face of it with a neighbour.
   std::pair<CellId, int> inner_face() const {

@@ -66,6 +66,33 @@ TEST(Repairs, APointInsideAnEdge) {
   }
 }
 
+// Of a polygon, on an edge of the same facet: a point, the end of a segment, a corner of a hole, of an island, a spike.
+TEST(Repairs, APointOfAFacetOnItsOwnEdge) {
+  for (const int kind : {0, 1, 2, 3, 4, 5}) {
+    SCOPED_TRACE(kind);
+    Plc<3> plc = box();
+    const auto m = add(plc, {1, 0, 0}), inner = add(plc, {1, 0.5, 0}), other = add(plc, {1.5, 0.5, 0});
+    auto& floor = plc.facets[0];
+    if (kind == 0) floor.polygons.push_back({m});
+    if (kind == 1) floor.polygons.push_back({m, inner});
+    if (kind == 2 || kind == 3) floor.polygons.push_back({m, other, inner});
+    if (kind == 2) {  // the hole is closed by a facet of its own
+      floor.holes = {{1.2, 0.3, 0}};
+      plc.facets.push_back({{{m, other, inner}}, {}, 7});
+    }
+    if (kind == 4) floor.polygons.push_back({m, 1});  // a segment along the edge
+    if (kind == 5) floor.polygons[0] = {0, 3, 2, 1, m, 1};  // there and back
+    const Ids ids = repaired(plc, Errc::point_on_segment);
+    EXPECT_EQ(ids, (Ids{8, 0, 1}));
+    const Domain<3> d(plc);
+    EXPECT_EQ(d.facets().size(), kind == 2 ? 7u : 6u);
+    EXPECT_TRUE(test::has_segment(d, 0, m));
+    EXPECT_TRUE(test::has_segment(d, m, 1));
+    EXPECT_FALSE(test::has_segment(d, 0, 1));
+    expect_meshed(plc);
+  }
+}
+
 // The front is two rectangles; the bottom, the lid and the sides do not know.
 TEST(Repairs, TJunctionsOfFacets) {
   Plc<3> plc = box();

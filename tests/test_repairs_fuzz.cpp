@@ -46,7 +46,7 @@ void expect_same_area(const Plc<3>& plc, const Domain<3>& domain) {
 void expect_same_area(const Plc<2>&, const Domain<2>&) {}
 
 template <int D>
-void mesh(const Plc<D>& plc, Tally& tally) {
+void mesh(const Plc<D>& plc, RegionMode regions, Tally& tally) {
   const Diagnosis<D> diagnosis = diagnose(plc);
   EXPECT_EQ(diagnosis[Finding::point_on_segment].count, 0u);
   EXPECT_EQ(diagnosis[Finding::point_on_facet].count, 0u);
@@ -55,10 +55,12 @@ void mesh(const Plc<D>& plc, Tally& tally) {
     expect_same_area(plc, domain);
     RefineOptions<D> options;
     options.max_vertices = 3000;
+    options.regions = regions;
     const auto result = refine<D>(domain, options);
     EXPECT_EQ(diagnosis.error_count(), 0u);
     CheckOptions<D> check_options;
     check_options.domain = &domain;
+    check_options.regions = regions;
     if (result.stop == StopCause::finished) check_options.radius_edge_bound = options.radius_edge_bound;
     check_options.reasons = &result.reasons;
     const CheckReport report = check<D>(result.mesh, check_options);
@@ -87,7 +89,8 @@ void run(int n, Make&& make, Tally& tally) {
     test::GridPlcs plcs(seed);
     auto plc = make(plcs);
     if (k % 5 == 0) plc = test::oblique(plc);
-    mesh(k % 3 == 0 ? test::moved(plc, k, k % 41 - 20, k % 2 * 0.375) : plc, tally);
+    mesh(k % 3 == 0 ? test::moved(plc, k, k % 41 - 20, k % 2 * 0.375) : plc,
+         k % 4 < 2 ? RegionMode::automatic : RegionMode::seeds, tally);
   }
   std::cout << tally.meshed << " meshed, " << tally.repaired << " repaired, " << tally.refused << " refused\n";
 }

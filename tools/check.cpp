@@ -85,6 +85,7 @@ int check_as(const CheckArguments& a, Report& report) {
   options.radius_edge_bound = bounds.radius_edge;
   options.size = bounds.size;
   options.max_measure = bounds.max_volume;
+  options.regions = a.regions;
   if (!a.reasons.empty()) options.reasons = &reasons;
   const CheckReport verdict = pgdr::check(mesh, options);
   std::optional<QualitySummary> quality;  // of a mesh whose numbers can be used at all

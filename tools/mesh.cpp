@@ -31,6 +31,7 @@ RefineOptions<D> make_options(const MeshArguments& a, const Bounds<D>& bounds) {
   options.selector = make_selector<D>(a.selector);
   options.disk = {a.disk.value_or(a.delta > 0 ? DiskType::type2 : usual_disk(a.selector)), a.delta};
   options.keep_boundary = a.keep_boundary;
+  options.regions = a.regions;
   options.min_edge = a.min_edge;
   if (a.max_vertices) options.max_vertices = *a.max_vertices;
   options.schedule.threads = a.threads.value_or(0);

@@ -50,6 +50,8 @@ bool not_negative(double v) { return v >= 0 && std::isfinite(v); }
 const std::map<std::string, Schedule> schedules{{"reproducible", Schedule::reproducible},
                                                 {"greedy", Schedule::greedy}};
 
+const std::map<std::string, RegionMode> region_modes{{"seeds", RegionMode::seeds}, {"auto", RegionMode::automatic}};
+
 /// One of the words of a map from words to values. Words of the contract may be missing in it: it says what there is.
 template <class Value>
 CLI::Validator one_of(const std::map<std::string, Value>& words, std::string what) {
@@ -84,6 +86,13 @@ void add_planar(CLI::App& app, PlanarArguments& p) {
   app.add_flag("--convex-hull", p.convex_hull, "2D: the edges of the convex hull of all points are segments, too");
 }
 
+void add_regions(CLI::App& app, RegionMode& mode) {
+  app.add_option_function<std::string>("--regions", [&mode](const std::string& t) { mode = region_modes.at(t); },
+                                       "seeds (default): the hole and region seeds of the input say what is meshed and "
+                                       "labelled; auto: voids by nesting, and a label for each volume")
+      ->type_name("NAME")->check(one_of(region_modes, "ways to tell regions"));
+}
+
 void add_report(CLI::App& app, std::string& report, bool& quiet) {
   app.add_option("--report", report, "write what was done and found as one JSON object")->type_name("FILE.json");
   app.add_flag("--quiet", quiet, "print errors only");
@@ -94,6 +103,7 @@ void add_mesh(CLI::App& app, MeshArguments& a) {
   app.add_option("-o,--output", a.output, "the mesh: .vtu .msh .mesh .node .ele")->required()->type_name("OUTPUT");
   add_bounds(app, a.bounds);
   add_planar(app, a.planar);
+  add_regions(app, a.regions);
   app.add_flag("--keep-boundary", a.keep_boundary, "2D: no new points on segments");
   app.add_option("--selector", a.selector,
                  "where new points go: circumcenter (default), off-center[:FACTOR], optimized[:SAMPLES], "
@@ -132,6 +142,7 @@ void add_check(CLI::App& app, CheckArguments& a) {
   app.add_option("--input", a.input, "what it is a mesh of; without it, conformity is not checked")->type_name("INPUT");
   add_bounds(app, a.bounds);
   add_planar(app, a.planar);
+  add_regions(app, a.regions);
   app.add_option("--reasons", a.reasons, "report of `pgdr mesh`, whose bounds.reasons explain poor cells")
       ->type_name("REPORT.json")->needs("--input");
   add_report(app, a.report, a.quiet);

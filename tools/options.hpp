@@ -33,6 +33,7 @@ struct MeshArguments {
   bool keep_boundary = false;
   std::string selector = "circumcenter";  ///< NAME or NAME:PARAMETER (selector.hpp)
   std::optional<DiskType> disk;           ///< none: as usual for the selector
+  RegionMode regions = RegionMode::seeds;
   double delta = 0;
   std::optional<int> threads;      ///< none: one a core
   Schedule schedule = Schedule::reproducible;
@@ -49,6 +50,7 @@ struct CheckArguments {
   std::string mesh, input;  ///< input empty: conformity is not checked
   BoundArguments bounds;
   PlanarArguments planar;
+  RegionMode regions = RegionMode::seeds;
   std::string reasons;      ///< a report of `mesh`
   std::string report;
   bool quiet = false;

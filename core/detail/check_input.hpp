@@ -14,6 +14,7 @@
 
 #include "pgdr/bounding_box.hpp"
 #include "pgdr/domain.hpp"
+#include "pgdr/region_mode.hpp"
 
 namespace pgdr::checking {
 
@@ -33,16 +34,18 @@ struct Bound {
 };
 
 struct Volume {
-  bool kept = true;            ///< to be meshed: neither outside nor a hole
+  bool kept = true;            ///< to be meshed: neither outside nor a hole, and not void by nesting
   std::vector<std::uint32_t> seeds;  ///< region seeds in it
   double size = std::numeric_limits<double>::infinity();  ///< measure bound of its cells
   double measure = 0, measure_error = 0;
+  /// Its label if RegionMode::automatic gives it one: between these (equal but for volumes with the same segments).
+  std::optional<std::array<double, 2>> automatic;
 };
 
 template <int D>
 class InputVolumes {
  public:
-  explicit InputVolumes(const Domain<D>& domain);
+  explicit InputVolumes(const Domain<D>& domain, RegionMode mode = RegionMode::seeds);
 
   const Domain<D>& domain() const { return *domain_; }
   /// Points of the walls, grouped by patch; in 3D all of a facet run the same way in its projection.
@@ -74,6 +77,8 @@ class InputVolumes {
   std::optional<std::vector<std::uint32_t>> crossings(const Point<D>& q, const Point<D>& p) const;
   Point<D> far_from(const Point<D>& p, std::uint64_t attempt) const;
   void box_simplices();
+  void nest();    ///< RegionMode::automatic: which are kept
+  void number();  ///< and their labels
   std::uint32_t side_volume(std::uint32_t simplex, bool negative) const;
   bool keeps(const Point<D>& p) const;
 

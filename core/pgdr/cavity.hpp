@@ -90,7 +90,8 @@ class Cavity {
 
   /// Cuts back to the star-shaped part. After `collect...` said ok.
   Status make_star_shaped();
-  /// Would a vertex or subsegment vanish? Asked of cavities next to constraints or cut back; costs a pass over all cells.
+  /// Would a vertex or subsegment vanish? Cuts back further where that keeps the subsegment. Asked of cavities next to
+  /// constraints or cut back; costs a pass over all cells.
   Status check_nothing_swallowed();
 
   // ---- what was collected ------------------------------------------------------------------------------------------
@@ -136,6 +137,8 @@ class Cavity {
   bool may_read(CellId c) const { return !area_ || area_->may_read(*mesh_, c); }  ///< for assertions
   bool owns_point() const { return !area_ || area_->owns(point_); }
   Status collect_all();
+  Status take_fan(CellId cell, int a, int b)
+    requires(D == 3);
   Status grow_part();
   Status add_part_face(CellId cell, int face, EntityId entity);
   bool in_part(CellId cell, int face) const {
@@ -149,10 +152,13 @@ class Cavity {
   bool visible_exactly(const BoundaryFace& f) const;
   void set_sphere(CellId c, std::size_t i);
   bool in_line(CellId c, int i, int j) const;
+  bool is_subsegment(CellId cell, int i, int j) const;
   Status find_broken_fans(std::vector<CellId>& doomed) const;
   void find_turned_over(std::vector<CellId>& doomed) const;
   bool is_rim(const PartFace& f, VertexId a, VertexId b) const;
   Status look_at_fan(RidgeWalk<D> walk, EntityId entity, bool& broken) const;
+  Status find_swallowed(std::vector<CellId>& behind);
+  void find_behind(VertexId a, VertexId b, std::vector<CellId>& behind) const;
   Status drop_cells(const std::vector<CellId>& doomed);
   bool is_whole(const PartFace& f) const;
   bool part_is_whole() const;

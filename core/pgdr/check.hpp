@@ -20,6 +20,7 @@
 
 #include "pgdr/domain.hpp"
 #include "pgdr/output_mesh.hpp"
+#include "pgdr/region_mode.hpp"
 #include "pgdr/sizing.hpp"
 
 namespace pgdr {
@@ -38,6 +39,7 @@ struct PoorReason {
 template <int D>
 struct CheckOptions {
   const Domain<D>* domain = nullptr;  ///< null: no conformity, no regions
+  RegionMode regions = RegionMode::seeds;   ///< what the mesh was made with
   double radius_edge_bound = std::numeric_limits<double>::infinity();
   SizingField<D> size;                ///< circumradius (3D) or area (2D) bound at the centroid
   double max_measure = std::numeric_limits<double>::infinity();  ///< volume (3D) bound of all cells
@@ -64,7 +66,7 @@ struct CheckFinding {
     facet_not_conforming,    ///< not the union of its subfacets, or a vertex off its plane
     wrong_marker,            ///< of an input point, a subsegment or a subfacet
     stray_constraint,        ///< a subsegment or subfacet that no entity owns or no cell has
-    wrong_region,            ///< label not constant in a volume, or not that of its seed
+    wrong_region,            ///< label not constant in a volume, or not that of its seed, or not the automatic one
     wrong_volume,            ///< a volume without cells, only partly filled, or of another measure
     hole_filled,             ///< cells outside the domain or in a hole
     over_radius_edge,        ///< without a reason that holds

@@ -9,20 +9,22 @@
 #include "pgdr/delaunay.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/mesh.hpp"
+#include "pgdr/region_mode.hpp"
 
 namespace pgdr {
 
 struct RegionTable {
   std::vector<double> attribute{0.0};  ///< by region number; 0 is what no seed labels
   std::vector<double> measure;         ///< bound of each region, infinity for none; empty if no region has one
-  bool labelled = false;               ///< the input has region seeds
+  bool labelled = false;               ///< cells have labels: the input has region seeds, or they are automatic
 };
 
-/// Floods the cells through unconstrained faces: what reaches the ghosts is outside, what a hole seed reaches is a hole.
-/// Frees these cells and all ghosts; the faces left open have no link.
-/// @throws InputError encloses_nothing, seed_on_boundary, conflicting_seeds; `warnings` gets seeds that lie outside.
+/// Floods the cells through unconstrained faces: what reaches the ghosts is outside, what a hole seed reaches is a hole,
+/// and so is what `mode` makes void. Frees these cells and all ghosts; the faces left open have no link.
+/// @throws InputError encloses_nothing (with the open boundaries of the input), seed_on_boundary, conflicting_seeds;
+///   ResourceError ids_exhausted. `warnings` gets seeds that lie outside, and region seeds in holes.
 template <int D>
 RegionTable carve(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Delaunay<D>& delaunay, const Domain<D>& domain,
-                  std::vector<Diagnostic>& warnings);
+                  RegionMode mode, std::vector<Diagnostic>& warnings);
 
 }  // namespace pgdr

@@ -16,10 +16,12 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "pgdr/circumsphere.hpp"
 #include "pgdr/domain.hpp"
+#include "pgdr/pinched_edges.hpp"
 #include "pgdr/pool.hpp"
 #include "pgdr/predicates.hpp"
 #include "pgdr/types.hpp"
@@ -196,13 +198,24 @@ class Mesh {
   /// The constraints of c, made if it has none yet.
   ConstraintRecord<D>& ensure_constraints(Pools& pools, CellId c);
 
+  /// 3D, once the exterior is gone: finds the subsegments with several fans of cells, and lists the cells at them from
+  /// now on. Whoever makes a cell then calls `enlist` when its constraints are there.
+  void find_pinched_edges(std::size_t segments);
+  void enlist(CellId c) {
+    if (pinched_) change_pinched(c, true);
+  }
+  /// null: no subsegment has several fans
+  const PinchedEdges* pinched_edges() const { return pinched_.get(); }
+
  private:
   static constexpr std::uint32_t mark_bit = 1u << 31;
   struct Band { double inner, outer; };
   static const std::array<Band, 16> bands;
 
   bool conflicts_exactly(CellId c, const Point<D>& p) const;
+  void change_pinched(CellId c, bool add);
 
+  std::unique_ptr<PinchedEdges> pinched_;
   struct Tag {
     std::uint32_t constraints = 0;  ///< number of the side record, from 1, and the mark
     std::uint16_t region = 0, birth = 0;

@@ -13,6 +13,7 @@
 
 #include "pgdr/point_selector.hpp"
 #include "pgdr/predicates.hpp"
+#include "pgdr/region_mode.hpp"
 #include "pgdr/sizing.hpp"
 
 namespace pgdr {
@@ -52,6 +53,7 @@ struct RefineOptions {
   double radius_edge_bound = smallest_proved_bound<D>();
   SizingField<D> size;            ///< circumradius (3D) or area (2D) bound at the centroid
   double max_volume = std::numeric_limits<double>::infinity();  ///< 3D: volume bound of all cells
+  RegionMode regions = RegionMode::seeds;  ///< what is meshed, and how it is labelled
   PointSelector<D> selector;      ///< empty: circumcentre
   DiskOptions disk;
   OutsidePolicy outside = OutsidePolicy::replace_by_circumcenter;

@@ -170,6 +170,7 @@ class DomainBuilder {
   bool add_triangle(std::uint32_t f) requires(D == 3);
   bool set_flat_aside(std::uint32_t f) requires(D == 3);
   void add_polygons(std::uint32_t f) requires(D == 3);
+  bool split_at_own_points(detail::CleanFacet& facet) requires(D == 3);
   void carve(std::uint32_t f) requires(D == 3);
   void constrain_explicit(const detail::CleanFacet& facet) requires(D == 3);
   void measure_planarity(detail::TriangulatedFacet& facet, const detail::CleanFacet& clean) requires(D == 3);

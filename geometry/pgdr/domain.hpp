@@ -69,8 +69,8 @@ class Domain {
   /// it would have been.
   /// @throws InputError with ids, coordinates, and file and line if known: not_finite, index_out_of_range,
   ///   degenerate_segment (both ends equal), degenerate_facet (fewer than three distinct points, all collinear, or
-  ///   enclosing nothing), self_crossing_facet (two polygon edges cross, or a vertex lies inside an edge),
-  ///   seed_on_boundary (the hole of a facet lies on its polygons), no_volume.
+  ///   enclosing nothing), self_crossing_facet (two polygon edges cross, or a vertex lies inside an edge, though in the
+  ///   projection alone), seed_on_boundary (the hole of a facet lies on its polygons), no_volume.
   explicit Domain(const Plc<D>& plc);
   /// The same without the entities that cannot be: each is left out, and named in `refused`, as the exception that the
   /// constructor would have thrown. Empty if points are not finite or do not exist. For diagnosis only: if anything was

@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Biconnected components by depth-first search (Hopcroft, Tarjan 1973), without recursion: there may be as many volumes
+// as the input has room for.
+#include "detail/automatic_regions.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace pgdr::detail {
+namespace {
+
+using Pair = std::array<std::uint32_t, 2>;
+constexpr std::uint32_t unseen = 0xffffffffu;
+
+void make_set(auto& v) {
+  std::sort(v.begin(), v.end());
+  v.erase(std::unique(v.begin(), v.end()), v.end());
+}
+
+class Nesting {
+ public:
+  Nesting(std::uint32_t volumes, std::vector<Pair> neighbours)
+      : begin_(volumes + 1, 0), number_(volumes, unseen), low_(volumes), solid_(volumes, false) {
+    for (Pair& e : neighbours) std::sort(e.begin(), e.end());
+    make_set(neighbours);
+    for (const auto& [a, b] : neighbours) {
+      ++begin_[a + 1];
+      ++begin_[b + 1];
+    }
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+    ends_.resize(2 * neighbours.size());
+    for (const auto& [a, b] : neighbours) {
+      ends_[next[a]++] = b;
+      ends_[next[b]++] = a;
+    }
+  }
+
+  std::vector<bool> run() {
+    find_blocks();
+    // A block is complete before the one through which it is reached.
+    for (auto block = blocks_.rbegin(); block != blocks_.rend(); ++block) judge(*block);
+    return std::move(solid_);
+  }
+
+ private:
+  struct Block {
+    std::uint32_t entry;
+    std::vector<Pair> edges;
+  };
+  struct Step {
+    std::uint32_t at, from, next;
+  };
+
+  void find_blocks() {
+    std::vector<Step> path{{0, unseen, begin_[0]}};
+    std::vector<Pair> open;
+    number_[0] = low_[0] = count_++;
+    while (!path.empty()) {
+      Step& step = path.back();
+      if (step.next == begin_[step.at + 1]) {
+        const auto [at, from, unused] = step;
+        path.pop_back();
+        if (from == unseen) return;
+        low_[from] = std::min(low_[from], low_[at]);
+        if (low_[at] >= number_[from]) close({from, at}, open);
+        continue;
+      }
+      const std::uint32_t at = step.at, to = ends_[step.next++];
+      if (to == step.from) continue;
+      if (number_[to] == unseen) {
+        open.push_back({at, to});
+        number_[to] = low_[to] = count_++;
+        path.push_back({to, at, begin_[to]});
+      } else if (number_[to] < number_[at]) {
+        open.push_back({at, to});
+        low_[at] = std::min(low_[at], number_[to]);
+      }
+    }
+  }
+
+  void close(const Pair& edge, std::vector<Pair>& open) {
+    const auto first = std::find(open.rbegin(), open.rend(), edge).base() - 1;
+    blocks_.push_back({edge[0], {first, open.end()}});
+    open.erase(first, open.end());
+  }
+
+  // The edges of a block are in the order of the search: of each, one end is known. Its first is the entry's.
+  void judge(const Block& block) {
+    bool consistent = true;
+    for (const auto& [at, to] : block.edges) {
+      const bool forward = number_[to] > number_[at];
+      if (forward) solid_[to] = !solid_[at];
+      else consistent &= solid_[to] != solid_[at];
+    }
+    if (consistent) return;
+    for (const auto& [at, to] : block.edges)
+      if (number_[to] > number_[at]) solid_[to] = !solid_[block.entry];
+  }
+
+  std::vector<std::uint32_t> begin_, ends_;  ///< neighbours of each volume
+  std::vector<std::uint32_t> number_, low_;  ///< order of the search; the least number that its subtree is joined to
+  std::uint32_t count_ = 0;
+  std::vector<Block> blocks_;
+  std::vector<bool> solid_;
+};
+
+}  // namespace
+
+std::vector<bool> solid_by_nesting(std::uint32_t volumes, std::vector<Pair> neighbours) {
+  return Nesting(volumes, std::move(neighbours)).run();
+}
+
+template <int D>
+std::vector<Pair> neighbouring_components(const Mesh<D>& mesh, std::span<const std::uint32_t> component) {
+  std::vector<Pair> out;
+  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i) {
+    if (!mesh.alive(CellId{i}) || mesh.constraints(CellId{i}) == nullptr) continue;
+    for (int f = 0; f <= D; ++f) {
+      if (!mesh.constrained(CellId{i}, f)) continue;
+      const std::uint32_t a = component[i], b = component[index(mesh.cell(CellId{i}).links[f].cell())];
+      if (a < b) out.push_back({a, b});
+    }
+  }
+  make_set(out);
+  return out;
+}
+
+template <int D>
+std::vector<std::uint32_t> components_in_order(const Mesh<D>& mesh, const Domain<D>& domain,
+                                               std::span<const std::uint32_t> component, std::uint32_t count) {
+  const auto points = domain.points();
+  std::vector<std::uint32_t> by_place(points.size()), rank(points.size());
+  std::iota(by_place.begin(), by_place.end(), 0u);
+  std::sort(by_place.begin(), by_place.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return lex_less(points[a], points[b]); });
+  for (std::uint32_t i = 0; i < by_place.size(); ++i) rank[by_place[i]] = i;
+
+  std::vector<std::pair<std::uint32_t, std::uint64_t>> keys;  // of a component: its segments
+  const auto add = [&](std::uint32_t c, EntityId segment) {
+    const auto& ends = domain.segments()[segment].points;  // the lesser first
+    keys.emplace_back(c, std::uint64_t{rank[ends[0]]} << 32 | rank[ends[1]]);
+  };
+  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i) {
+    const auto* k = mesh.alive(CellId{i}) ? mesh.constraints(CellId{i}) : nullptr;
+    if (k == nullptr) continue;
+    for (int f = 0; f <= D; ++f) {
+      if ((k->faces >> f & 1) == 0) continue;
+      if constexpr (D == 2) {
+        add(component[i], k->face_entity[static_cast<std::size_t>(f)]);
+      } else {
+        for (std::size_t e = 0; e < 6; ++e)
+          if ((k->edges >> e & 1) != 0 && edge_ends[e][0] != f && edge_ends[e][1] != f)
+            add(component[i], k->edge_entity[e]);
+      }
+    }
+  }
+  make_set(keys);
+  std::vector<std::size_t> begin(count + 1, 0);
+  for (const auto& key : keys) ++begin[key.first + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<std::uint32_t> order(count);
+  std::iota(order.begin(), order.end(), 0u);
+  const auto of = [&](std::uint32_t c) { return std::span(keys).subspan(begin[c], begin[c + 1] - begin[c]); };
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return std::ranges::lexicographical_compare(of(a), of(b), {}, &decltype(keys)::value_type::second,
+                                                &decltype(keys)::value_type::second);
+  });
+  return order;
+}
+
+#define PGDR_INSTANTIATE(D)                                                                                    \
+  template std::vector<Pair> neighbouring_components(const Mesh<D>&, std::span<const std::uint32_t>);          \
+  template std::vector<std::uint32_t> components_in_order(const Mesh<D>&, const Domain<D>&,                    \
+                                                          std::span<const std::uint32_t>, std::uint32_t);
+PGDR_INSTANTIATE(2)
+PGDR_INSTANTIATE(3)
+#undef PGDR_INSTANTIATE
+
+}  // namespace pgdr::detail

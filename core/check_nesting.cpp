@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// RegionMode::automatic (region_mode.hpp) from the input alone. Biconnected components by the cycles that a breadth-first
+// tree makes with each other edge: two edges are in one component iff a chain of such cycles, each with an edge of the
+// next, joins them; and a component is consistent iff all its cycles have an even number of edges.
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+#include "detail/check_input.hpp"
+
+namespace pgdr::checking {
+namespace {
+
+constexpr std::uint32_t none = 0xffffffffu;
+using Neighbours = std::vector<std::set<std::uint32_t>>;
+
+/// A breadth-first tree of the volumes from the outside; its edges go by their ends away from the outside.
+class NestingTree {
+ public:
+  explicit NestingTree(const Neighbours& neighbours)
+      : parent_(neighbours.size(), none), depth_(neighbours.size(), 0), class_(neighbours.size()),
+        odd_(neighbours.size(), 0) {
+    std::iota(class_.begin(), class_.end(), 0u);
+    order_.push_back(0);
+    for (std::size_t i = 0; i < order_.size(); ++i)
+      for (const std::uint32_t v : neighbours[order_[i]]) {
+        if (v == 0 || parent_[v] != none) continue;
+        parent_[v] = order_[i];
+        depth_[v] = depth_[order_[i]] + 1;
+        order_.push_back(v);
+      }
+    for (std::uint32_t v = 0; v < neighbours.size(); ++v)
+      for (const std::uint32_t w : neighbours[v])
+        if (v < w && parent_[v] != w && parent_[w] != v) close_cycle(v, w);
+  }
+
+  std::vector<bool> solids() {
+    std::vector<bool> solid(parent_.size(), false);
+    std::vector<std::uint32_t> entry(parent_.size(), none);  // of a class: its volume nearest to the outside
+    for (const std::uint32_t v : order_) {
+      if (v == 0) continue;
+      const std::uint32_t c = find(v);
+      if (entry[c] == none) entry[c] = parent_[v];
+      solid[v] = !solid[odd_[c] ? entry[c] : parent_[v]];
+    }
+    return solid;
+  }
+
+ private:
+  std::uint32_t find(std::uint32_t v) {
+    while (class_[v] != v) v = class_[v] = class_[class_[v]];
+    return v;
+  }
+
+  void join(std::uint32_t v, std::uint32_t w) {
+    v = find(v);
+    w = find(w);
+    class_[v] = w;
+    odd_[w] |= odd_[v];
+  }
+
+  void close_cycle(std::uint32_t v, std::uint32_t w) {
+    const bool odd = depth_[v] % 2 == depth_[w] % 2;
+    const std::uint32_t some = depth_[v] > depth_[w] ? v : w;  // not the outside
+    while (v != w) {
+      if (depth_[v] < depth_[w]) std::swap(v, w);
+      join(v, some);
+      v = parent_[v];
+    }
+    if (odd) odd_[find(some)] = 1;
+  }
+
+  std::vector<std::uint32_t> parent_, depth_, order_, class_;
+  std::vector<std::uint8_t> odd_;
+};
+
+}  // namespace
+
+template <int D>
+void InputVolumes<D>::nest() {
+  Neighbours neighbours(volumes_.size());
+  for (const Patch& patch : patches_) {
+    const auto [a, b] = patch.volume;
+    if (a == b) continue;
+    neighbours[a].insert(b);
+    neighbours[b].insert(a);
+  }
+  const std::vector<bool> solid = NestingTree(neighbours).solids();
+  for (std::size_t v = 0; v < volumes_.size(); ++v)
+    if (!solid[v] && volumes_[v].seeds.empty()) volumes_[v].kept = false;
+}
+
+template <int D>
+void InputVolumes<D>::number() {
+  using Ends = std::pair<Point<D>, Point<D>>;
+  const auto less = [](const Ends& a, const Ends& b) {
+    return a.first == b.first ? lex_less(a.second, b.second) : lex_less(a.first, b.first);
+  };
+  std::vector<std::vector<Ends>> segments(volumes_.size());
+  const auto add = [&](EntityId s, const Patch& patch) {
+    const auto& ends = domain_->segments()[s].points;
+    for (const std::uint32_t v : patch.volume) segments[v].emplace_back(domain_->points()[ends[0]], domain_->points()[ends[1]]);
+  };
+  if constexpr (D == 2) {
+    for (const Patch& patch : patches_) add(patch.entity, patch);
+  } else {
+    for (const Bound& b : bounds_) add(b.segment, patches_[b.patch]);
+  }
+  std::vector<std::uint32_t> order;
+  std::vector<double> of_seeds;
+  for (std::uint32_t v = 0; v < volumes_.size(); ++v) {
+    auto& own = segments[v];
+    std::sort(own.begin(), own.end(), less);
+    own.erase(std::unique(own.begin(), own.end()), own.end());
+    if (!volumes_[v].kept) continue;
+    if (volumes_[v].seeds.empty()) order.push_back(v);
+    for (const std::uint32_t seed : volumes_[v].seeds) of_seeds.push_back(domain_->regions()[seed].attribute);
+  }
+  const auto before = [&](std::uint32_t v, std::uint32_t w) {
+    return std::ranges::lexicographical_compare(segments[v], segments[w], less);
+  };
+  std::stable_sort(order.begin(), order.end(), before);
+  std::vector<double> labels;
+  for (double label = 1; labels.size() < order.size(); ++label)
+    if (std::find(of_seeds.begin(), of_seeds.end(), label) == of_seeds.end()) labels.push_back(label);
+  for (std::size_t i = 0, j; i < order.size(); i = j) {
+    for (j = i + 1; j < order.size() && !before(order[i], order[j]);) ++j;
+    for (std::size_t k = i; k < j; ++k) volumes_[order[k]].automatic = {labels[i], labels[j - 1]};
+  }
+}
+
+template void InputVolumes<2>::nest();
+template void InputVolumes<3>::nest();
+template void InputVolumes<2>::number();
+template void InputVolumes<3>::number();
+
+}  // namespace pgdr::checking
