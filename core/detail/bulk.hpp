@@ -11,22 +11,31 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <stop_token>
+#include <utility>
 #include <vector>
 
 namespace pgdr::detail {
 
 class Bulk {
  public:
-  explicit Bulk(bool parallel) : parallel_(parallel) {}
+  /// Once `stop` is requested blocks are left out, so that what was to be made is nothing to use.
+  explicit Bulk(bool parallel, std::stop_token stop = {}) : parallel_(parallel), stop_(std::move(stop)) {}
+  bool stopped() const { return stop_.stop_requested(); }
 
   /// Calls f(first, last) for blocks that cover [0, count). With `parallel`, several at once; isolated, so that the
   /// thread that waits does not pick up other tasks of the caller.
   template <class F>
   void blocks(std::size_t count, const F& f) const {
-    if (!parallel_) return f(std::size_t{0}, count);
+    if (!parallel_) {
+      for (std::size_t first = 0; first < count && !stopped(); first += grain) f(first, std::min(count, first + grain));
+      return;
+    }
     tbb::this_task_arena::isolate([&] {
       tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
-                        [&](const tbb::blocked_range<std::size_t>& r) { f(r.begin(), r.end()); });
+                        [&](const tbb::blocked_range<std::size_t>& r) {
+                          if (!stopped()) f(r.begin(), r.end());
+                        });
     });
   }
   /// Calls f(i) for i in [0, count).
@@ -42,6 +51,7 @@ class Bulk {
     const std::size_t parts = (count + grain - 1) / grain;
     std::vector<std::vector<T>> found(parts);
     each_part(parts, [&](std::size_t part) {
+      if (stopped()) return;
       for (std::size_t i = part * grain; i < std::min(count, (part + 1) * grain); ++i) f(i, found[part]);
     });
     std::size_t total = 0;
@@ -70,6 +80,7 @@ class Bulk {
   }
 
   bool parallel_;
+  std::stop_token stop_;
 };
 
 }  // namespace pgdr::detail

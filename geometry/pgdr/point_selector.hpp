@@ -7,9 +7,10 @@
 
 #include <functional>
 
+#include "pgdr/export.hpp"
 #include "pgdr/types.hpp"
 
-namespace pgdr {
+namespace pgdr PGDR_API {
 
 /// The open ball (disk) in which the theory allows a Steiner point. radius <= 0: the centre alone.
 template <int D>
