@@ -1,29 +1,41 @@
 # SPDX-FileCopyrightText: 2026 The pgdr authors
 # SPDX-License-Identifier: Apache-2.0
-# Installs headers, static libraries, the command, and the package files for find_package(pgdr CONFIG).
+# Installs headers, the library, the command, and the package files for find_package(pgdr CONFIG) and pkg-config. The kind
+# of library that BUILD_SHARED_LIBS did not ask for is installed by its component alone: cmake --install BUILD --component
+# pgdr_shared (pgdr_static), headers and package files included.
 include(CMakePackageConfigHelpers)
 
-get_property(layers GLOBAL PROPERTY PGDR_LAYERS)
-set(PGDR_NEEDS_TBB FALSE)
-foreach(layer IN LISTS layers)
-  get_target_property(links ${layer} LINK_LIBRARIES)
-  if("${links}" MATCHES "TBB::")
-    set(PGDR_NEEDS_TBB TRUE)
-  endif()
-endforeach()
-
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/pgdr)
-install(TARGETS ${layers} pgdr_all EXPORT pgdr
-  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(EXPORT pgdr NAMESPACE pgdr:: FILE pgdrTargets.cmake DESTINATION ${package_dir})
+set(pc_dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+file(RELATIVE_PATH PC_PREFIX /prefix/${pc_dir} /prefix)  # where the prefix is, seen from the .pc file
+
+foreach(kind IN ITEMS static shared)
+  set(where COMPONENT pgdr_${kind})
+  if(NOT kind STREQUAL pgdr_kind)
+    list(APPEND where EXCLUDE_FROM_ALL)
+  endif()
+  # A static library leaves its own libraries to the programs that link it.
+  set(PGDR_IS_STATIC FALSE)
+  set(PC_STATIC_LIBS "")
+  if(kind STREQUAL static)
+    set(PGDR_IS_STATIC TRUE)
+    set(PC_STATIC_LIBS " -ltbb -lmpfr -lgmp")
+  endif()
+  install(TARGETS pgdr_${kind} EXPORT pgdr_${kind}
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} ${where}
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ${where} NAMELINK_COMPONENT pgdr_${kind}
+    FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${where})
+  install(EXPORT pgdr_${kind} NAMESPACE pgdr:: FILE pgdrTargets_${kind}.cmake DESTINATION ${package_dir} ${where})
+  set(made ${PROJECT_BINARY_DIR}/package/${kind})
+  configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/pgdrConfig.cmake.in ${made}/pgdrConfig.cmake
+    INSTALL_DESTINATION ${package_dir})
+  write_basic_package_version_file(${made}/pgdrConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/pgdr.pc.in ${made}/pgdr.pc @ONLY)
+  install(FILES ${made}/pgdrConfig.cmake ${made}/pgdrConfigVersion.cmake ${CMAKE_CURRENT_LIST_DIR}/pgdr_numbers.cmake
+    DESTINATION ${package_dir} ${where})
+  install(FILES ${made}/pgdr.pc DESTINATION ${pc_dir} ${where})
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR} ${where})
+endforeach()
 if(PGDR_TOOLS)
   install(TARGETS pgdr_command RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
-
-configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/pgdrConfig.cmake.in ${PROJECT_BINARY_DIR}/pgdrConfig.cmake
-  INSTALL_DESTINATION ${package_dir})
-write_basic_package_version_file(${PROJECT_BINARY_DIR}/pgdrConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${PROJECT_BINARY_DIR}/pgdrConfig.cmake ${PROJECT_BINARY_DIR}/pgdrConfigVersion.cmake
-  ${CMAKE_CURRENT_LIST_DIR}/pgdr_numbers.cmake DESTINATION ${package_dir})
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -23,17 +23,21 @@ function(pgdr_settings target)
   endif()
 endfunction()
 
-# A layer: a static library that exposes its own folder alone, and links downwards alone.
+# A layer: a static library, for what is built here, that exposes its own folder alone, and links downwards alone.
 # pgdr_layer(<name> HEADERS <public headers...> SOURCES <files...> LINKS <lower layers...>)
 function(pgdr_layer name)
   cmake_parse_arguments(arg "" "" "HEADERS;SOURCES;LINKS" ${ARGN})
   add_library(pgdr_${name} STATIC ${arg_SOURCES})
   add_library(pgdr::${name} ALIAS pgdr_${name})
   pgdr_settings(pgdr_${name})
+  # What a shared library exports is still inlined and called directly within it.
+  target_compile_options(pgdr_${name} PRIVATE -fno-semantic-interposition)
   set_target_properties(pgdr_${name} PROPERTIES EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON)
   target_sources(pgdr_${name} PUBLIC FILE_SET HEADERS
     BASE_DIRS ${CMAKE_CURRENT_SOURCE_DIR} FILES ${arg_HEADERS})
   target_include_directories(pgdr_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   target_link_libraries(pgdr_${name} PUBLIC ${arg_LINKS})
   set_property(GLOBAL APPEND PROPERTY PGDR_LAYERS pgdr_${name})
+  list(TRANSFORM arg_HEADERS PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  set_property(GLOBAL APPEND PROPERTY PGDR_HEADERS ${arg_HEADERS})
 endfunction()

@@ -70,9 +70,9 @@ NotDelaunay count_not_delaunay(const OutputMesh<D>& mesh) {
   return {report.not_delaunay_rounding, report.count(Kind::not_delaunay)};
 }
 
-template NotDelaunay count_not_delaunay(const OutputMesh<2>&);
-template NotDelaunay count_not_delaunay(const OutputMesh<3>&);
-template CheckReport check(const OutputMesh<2>&, const CheckOptions<2>&);
-template CheckReport check(const OutputMesh<3>&, const CheckOptions<3>&);
+template PGDR_API NotDelaunay count_not_delaunay(const OutputMesh<2>&);
+template PGDR_API NotDelaunay count_not_delaunay(const OutputMesh<3>&);
+template PGDR_API CheckReport check(const OutputMesh<2>&, const CheckOptions<2>&);
+template PGDR_API CheckReport check(const OutputMesh<3>&, const CheckOptions<3>&);
 
 }  // namespace pgdr

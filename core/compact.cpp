@@ -166,11 +166,13 @@ void collect_constraints(const Mesh<D>& mesh, const Domain<D>& domain, const std
 }  // namespace
 
 template <int D>
-Compacted<D> compact(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes, bool parallel) {
-  const detail::Bulk bulk(parallel);
+Compacted<D> compact(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes, bool parallel,
+                     std::stop_token stop) {
+  const detail::Bulk bulk(parallel, std::move(stop));
   Compacted<D> out;
   out.vertex_number = number_vertices<D>(mesh, domain, bulk, out.mesh);
-  number_cells<D>(mesh, bulk, out);
+  if (!bulk.stopped()) number_cells<D>(mesh, bulk, out);
+  if (bulk.stopped()) return {};
   collect_constraints<D>(mesh, domain, out.vertex_number, bulk, out.mesh);
   const auto markers = domain.point_markers();
   if (!markers.empty()) {
@@ -196,7 +198,7 @@ std::uint32_t Compacted<D>::cell_number(const Mesh<D>& refined, CellId c) const 
 
 template struct Compacted<2>;
 template struct Compacted<3>;
-template Compacted<2> compact<2>(const Mesh<2>&, const Domain<2>&, std::span<const double>, bool);
-template Compacted<3> compact<3>(const Mesh<3>&, const Domain<3>&, std::span<const double>, bool);
+template Compacted<2> compact<2>(const Mesh<2>&, const Domain<2>&, std::span<const double>, bool, std::stop_token);
+template Compacted<3> compact<3>(const Mesh<3>&, const Domain<3>&, std::span<const double>, bool, std::stop_token);
 
 }  // namespace pgdr

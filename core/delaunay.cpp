@@ -113,14 +113,16 @@ void Delaunay<D>::make_first_cells(std::span<const Point<D>> points, const std::
 }
 
 template <int D>
-bool Delaunay<D>::build(std::span<const Point<D>> points) {
+bool Delaunay<D>::build(std::span<const Point<D>> points, const std::stop_token& stop) {
   vertices_.assign(points.size(), no_vertex);
   std::array<std::uint32_t, D + 1> corners;
   if (!first_simplex(points, corners)) return false;
   make_first_cells(points, corners);
   CellId hint = cell_at(vertices_[corners[0]]);
+  std::size_t inserted = 0;
   for (const std::uint32_t i : insertion_order<D>(points)) {
     if (vertices_[i] != no_vertex) continue;
+    if (++inserted % 1024 == 0 && stop.stop_requested()) break;
     if (prepare(points[i], hint) != no_vertex) broken("two input points coincide");
     vertices_[i] = commit(Home(EntityKind::vertex, i), std::numeric_limits<float>::infinity());
     hint = cell_at(vertices_[i]);

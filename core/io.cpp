@@ -203,11 +203,11 @@ void write_mesh(const OutputMesh<D>& mesh, const Path& file) {
   });
 }
 
-template Plc<2> read_plc<2>(const Path&);
-template Plc<3> read_plc<3>(const Path&);
-template OutputMesh<2> read_mesh<2>(const Path&);
-template OutputMesh<3> read_mesh<3>(const Path&);
-template void write_mesh<2>(const OutputMesh<2>&, const Path&);
-template void write_mesh<3>(const OutputMesh<3>&, const Path&);
+template PGDR_API Plc<2> read_plc<2>(const Path&);
+template PGDR_API Plc<3> read_plc<3>(const Path&);
+template PGDR_API OutputMesh<2> read_mesh<2>(const Path&);
+template PGDR_API OutputMesh<3> read_mesh<3>(const Path&);
+template PGDR_API void write_mesh<2>(const OutputMesh<2>&, const Path&);
+template PGDR_API void write_mesh<3>(const OutputMesh<3>&, const Path&);
 
 }  // namespace pgdr

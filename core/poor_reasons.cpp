@@ -134,24 +134,31 @@ void PoorReasons<D>::look_at(CellId c, bool violations_seen, std::vector<PoorCel
 }
 
 template <int D>
-std::vector<PoorCell> PoorReasons<D>::without_reasons() const {
-  std::vector<PoorCell> poor;
-  for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) {
+PoorCount PoorReasons<D>::count(std::uint32_t first, std::uint32_t last) const {
+  PoorCount poor;
+  for (std::uint32_t i = first; i < last; ++i) {
     if (!mesh_->alive(CellId{i})) continue;
-    if (const CellVerdict verdict = bounds_->test(*mesh_, CellId{i})) poor.push_back({CellId{i}, true, verdict.over_size, {}});
+    const CellVerdict verdict = bounds_->test(*mesh_, CellId{i});
+    poor.cells += verdict ? 1 : 0;
+    poor.over_size = poor.over_size || verdict.over_size;
   }
   return poor;
 }
 
 template <int D>
-std::vector<PoorCell> PoorReasons<D>::explained(bool violations_seen) const {
+std::vector<PoorCell> PoorReasons<D>::explained(bool violations_seen, const std::stop_token& stop) const {
   std::vector<PoorCell> poor;
   if (violations_seen) {
-    for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i)
+    for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) {
+      if (i % 1024 == 0 && stop.stop_requested()) break;
       if (mesh_->alive(CellId{i})) look_at(CellId{i}, true, poor);
+    }
   } else {
     // After a run to the end a poor cell is alive only because it was refused.
-    for (const auto& why : why_) look_at(CellId{why.first}, false, poor);
+    for (const auto& why : why_) {
+      if (stop.stop_requested()) break;
+      look_at(CellId{why.first}, false, poor);
+    }
   }
   return poor;
 }

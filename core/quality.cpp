@@ -84,9 +84,9 @@ QualitySummary summarize_quality(const OutputMesh<D>& mesh) {
   return q;
 }
 
-template std::array<double, 3> angles_deg<2>(const Simplex<2>&);
-template std::array<double, 6> angles_deg<3>(const Simplex<3>&);
-template QualitySummary summarize_quality<2>(const OutputMesh<2>&);
-template QualitySummary summarize_quality<3>(const OutputMesh<3>&);
+template PGDR_API std::array<double, 3> angles_deg<2>(const Simplex<2>&);
+template PGDR_API std::array<double, 6> angles_deg<3>(const Simplex<3>&);
+template PGDR_API QualitySummary summarize_quality<2>(const OutputMesh<2>&);
+template PGDR_API QualitySummary summarize_quality<3>(const OutputMesh<3>&);
 
 }  // namespace pgdr

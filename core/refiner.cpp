@@ -183,14 +183,17 @@ bool Refiner<D>::mend(const Item& e) {
 template <int D>
 void Refiner<D>::look_at_budget() {
   const auto& counts = visit_->counts;
+  if (options_->stop.stop_requested()) context_->stop = static_cast<int>(StopCause::cancelled);
   if (counts.committed + counts.refused < checked_at_) return;
-  checked_at_ = counts.committed + counts.refused + 256;
   const std::uint64_t vertices = context_->vertices.fetch_add(counts.committed - reported_) + counts.committed - reported_;
   reported_ = counts.committed;
   const auto now = std::chrono::steady_clock::now();
-  if (options_->stop.stop_requested()) {
-    context_->stop = static_cast<int>(StopCause::cancelled);
-  } else if (options_->time_limit && now - context_->start >= *options_->time_limit) {
+  // Callbacks may be slow: the clock is looked at about every other millisecond.
+  stride_ = now - checked_time_ > std::chrono::milliseconds(2) ? std::max<std::uint64_t>(stride_ / 4, 1)
+                                                               : std::min<std::uint64_t>(stride_ * 2, 256);
+  checked_at_ = counts.committed + counts.refused + stride_;
+  checked_time_ = now;
+  if (context_->stop == 0 && options_->time_limit && now - context_->start >= *options_->time_limit) {
     context_->stop = static_cast<int>(StopCause::time_limit);
   }
   if (!options_->progress) return;

@@ -181,15 +181,15 @@ bool in_equatorial_ball(const Ball<3>& ball, const Point3& x) {
   return squared_distance(ball.center, x) < ball.squared_radius;
 }
 
-template Circumsphere<2> circumsphere<2>(const Simplex<2>&);
-template Circumsphere<3> circumsphere<3>(const Simplex<3>&);
-template double shortest_edge_squared<2>(const Simplex<2>&);
-template double shortest_edge_squared<3>(const Simplex<3>&);
-template Point2 centroid<2>(const Simplex<2>&);
-template Point3 centroid<3>(const Simplex<3>&);
-template Ball<2> diametral_ball<2>(const Point2&, const Point2&);
-template Ball<3> diametral_ball<3>(const Point3&, const Point3&);
-template bool in_diametral_ball<2>(const Point2&, const Point2&, const Point2&);
-template bool in_diametral_ball<3>(const Point3&, const Point3&, const Point3&);
+template PGDR_API Circumsphere<2> circumsphere<2>(const Simplex<2>&);
+template PGDR_API Circumsphere<3> circumsphere<3>(const Simplex<3>&);
+template PGDR_API double shortest_edge_squared<2>(const Simplex<2>&);
+template PGDR_API double shortest_edge_squared<3>(const Simplex<3>&);
+template PGDR_API Point2 centroid<2>(const Simplex<2>&);
+template PGDR_API Point3 centroid<3>(const Simplex<3>&);
+template PGDR_API Ball<2> diametral_ball<2>(const Point2&, const Point2&);
+template PGDR_API Ball<3> diametral_ball<3>(const Point3&, const Point3&);
+template PGDR_API bool in_diametral_ball<2>(const Point2&, const Point2&, const Point2&);
+template PGDR_API bool in_diametral_ball<3>(const Point3&, const Point3&, const Point3&);
 
 }  // namespace pgdr

@@ -178,12 +178,12 @@ void require_no_errors(const Domain<D>& domain) {
   throw InputError(std::move(first));
 }
 
-#define PGDR_INSTANTIATE(D)                                                       \
-  template std::uint64_t Diagnosis<D>::error_count() const;                       \
-  template std::vector<Diagnostic> Diagnosis<D>::errors() const;                  \
-  template Diagnosis<D> diagnose<D>(const Domain<D>&, const DiagnosisOptions&);   \
-  template Diagnosis<D> diagnose<D>(const Plc<D>&, const DiagnosisOptions&);      \
-  template void require_no_errors<D>(const Domain<D>&);
+#define PGDR_INSTANTIATE(D)                                                                \
+  template std::uint64_t Diagnosis<D>::error_count() const;                                \
+  template std::vector<Diagnostic> Diagnosis<D>::errors() const;                           \
+  template PGDR_API Diagnosis<D> diagnose<D>(const Domain<D>&, const DiagnosisOptions&);   \
+  template PGDR_API Diagnosis<D> diagnose<D>(const Plc<D>&, const DiagnosisOptions&);      \
+  template PGDR_API void require_no_errors<D>(const Domain<D>&);
 PGDR_INSTANTIATE(2)
 PGDR_INSTANTIATE(3)
 #undef PGDR_INSTANTIATE

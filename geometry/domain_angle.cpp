@@ -177,9 +177,9 @@ double entity_angle(const Domain<D>& domain, EntityRef a, EntityRef b) {
   return 180;
 }
 
-template bool entities_touch<2>(const Domain<2>&, EntityRef, EntityRef);
-template bool entities_touch<3>(const Domain<3>&, EntityRef, EntityRef);
-template double entity_angle<2>(const Domain<2>&, EntityRef, EntityRef);
-template double entity_angle<3>(const Domain<3>&, EntityRef, EntityRef);
+template PGDR_API bool entities_touch<2>(const Domain<2>&, EntityRef, EntityRef);
+template PGDR_API bool entities_touch<3>(const Domain<3>&, EntityRef, EntityRef);
+template PGDR_API double entity_angle<2>(const Domain<2>&, EntityRef, EntityRef);
+template PGDR_API double entity_angle<3>(const Domain<3>&, EntityRef, EntityRef);
 
 }  // namespace pgdr

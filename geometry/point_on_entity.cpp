@@ -149,9 +149,9 @@ Point<3> point_on_facet(const Domain<3>& domain, EntityId f, const Point<3>& x) 
   return project(points[triangles[best][0]], points[triangles[best][1]], points[triangles[best][2]], x);
 }
 
-template Point2 point_on_segment<2>(const Domain<2>&, EntityId, double);
-template Point3 point_on_segment<3>(const Domain<3>&, EntityId, double);
-template double segment_parameter<2>(const Domain<2>&, EntityId, const Point2&);
-template double segment_parameter<3>(const Domain<3>&, EntityId, const Point3&);
+template PGDR_API Point2 point_on_segment<2>(const Domain<2>&, EntityId, double);
+template PGDR_API Point3 point_on_segment<3>(const Domain<3>&, EntityId, double);
+template PGDR_API double segment_parameter<2>(const Domain<2>&, EntityId, const Point2&);
+template PGDR_API double segment_parameter<3>(const Domain<3>&, EntityId, const Point3&);
 
 }  // namespace pgdr

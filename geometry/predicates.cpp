@@ -285,17 +285,17 @@ PredicateCounts PredicateCounts::operator-(const PredicateCounts& o) const {
 
 PredicateCounts predicate_counts() { return detail::counts; }
 
-template Sign orient<2>(const Simplex<2>&);
-template Sign orient<3>(const Simplex<3>&);
-template Sign in_sphere<2>(const Simplex<2>&, const Point2&);
-template Sign in_sphere<3>(const Simplex<3>&, const Point3&);
-template Sign in_sphere_perturbed<2>(const Simplex<2>&, const Point2&);
-template Sign in_sphere_perturbed<3>(const Simplex<3>&, const Point3&);
-template bool angle_below_60<2>(const Point2&, const Point2&, const Point2&);
-template bool angle_below_60<3>(const Point3&, const Point3&, const Point3&);
-template bool angle_below_90<2>(const Point2&, const Point2&, const Point2&);
-template bool angle_below_90<3>(const Point3&, const Point3&, const Point3&);
-template bool collinear<2>(const Point2&, const Point2&, const Point2&);
-template bool collinear<3>(const Point3&, const Point3&, const Point3&);
+template PGDR_API Sign orient<2>(const Simplex<2>&);
+template PGDR_API Sign orient<3>(const Simplex<3>&);
+template PGDR_API Sign in_sphere<2>(const Simplex<2>&, const Point2&);
+template PGDR_API Sign in_sphere<3>(const Simplex<3>&, const Point3&);
+template PGDR_API Sign in_sphere_perturbed<2>(const Simplex<2>&, const Point2&);
+template PGDR_API Sign in_sphere_perturbed<3>(const Simplex<3>&, const Point3&);
+template PGDR_API bool angle_below_60<2>(const Point2&, const Point2&, const Point2&);
+template PGDR_API bool angle_below_60<3>(const Point3&, const Point3&, const Point3&);
+template PGDR_API bool angle_below_90<2>(const Point2&, const Point2&, const Point2&);
+template PGDR_API bool angle_below_90<3>(const Point3&, const Point3&, const Point3&);
+template PGDR_API bool collinear<2>(const Point2&, const Point2&, const Point2&);
+template PGDR_API bool collinear<3>(const Point3&, const Point3&, const Point3&);
 
 }  // namespace pgdr

@@ -100,11 +100,11 @@ bool measure_within(const Simplex<D>& s, double bound) {
   return b ? *b : detail::measure_exact<D>(s, bound);
 }
 
-template bool radius_edge_within<2>(const Simplex<2>&, double);
-template bool radius_edge_within<3>(const Simplex<3>&, double);
-template bool circumradius_within<2>(const Simplex<2>&, double);
-template bool circumradius_within<3>(const Simplex<3>&, double);
-template bool measure_within<2>(const Simplex<2>&, double);
-template bool measure_within<3>(const Simplex<3>&, double);
+template PGDR_API bool radius_edge_within<2>(const Simplex<2>&, double);
+template PGDR_API bool radius_edge_within<3>(const Simplex<3>&, double);
+template PGDR_API bool circumradius_within<2>(const Simplex<2>&, double);
+template PGDR_API bool circumradius_within<3>(const Simplex<3>&, double);
+template PGDR_API bool measure_within<2>(const Simplex<2>&, double);
+template PGDR_API bool measure_within<3>(const Simplex<3>&, double);
 
 }  // namespace pgdr

@@ -24,7 +24,7 @@ SelectionDisk<D> selection_disk(const PoorElement<D>& element, const DiskOptions
   return {element.circumcenter, std::max(radius, 0.0)};
 }
 
-template SelectionDisk<2> selection_disk<2>(const PoorElement<2>&, const DiskOptions&);
-template SelectionDisk<3> selection_disk<3>(const PoorElement<3>&, const DiskOptions&);
+template PGDR_API SelectionDisk<2> selection_disk<2>(const PoorElement<2>&, const DiskOptions&);
+template PGDR_API SelectionDisk<3> selection_disk<3>(const PoorElement<3>&, const DiskOptions&);
 
 }  // namespace pgdr

@@ -4,6 +4,7 @@
 
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 
 #include <algorithm>
 
@@ -21,6 +22,14 @@ void in_arena(int threads, const std::function<void()>& f) {
   if (wanted == tbb::this_task_arena::max_concurrency()) return f();
   tbb::task_arena arena(wanted);
   arena.execute(f);
+}
+
+void in_arena_to_the_end(int threads, const std::function<void()>& f) {
+  in_arena(threads, [&] {
+    tbb::task_group_context own(tbb::task_group_context::isolated);
+    tbb::task_group group(own);
+    group.run_and_wait(f);
+  });
 }
 
 int arena_slot() { return tbb::this_task_arena::current_thread_index(); }

@@ -37,7 +37,7 @@ void LeafRefinement<D>::list_everything() {
   listing.list = &works_[Orthtree<D>::root].list;
   worker->begin(listing);
   const Mesh<D>& mesh = context_.mesh;
-  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i)
+  for (std::uint32_t i = 0; i < mesh.cell_bound() && !cancelled(i); ++i)
     if (mesh.alive(CellId{i})) worker->list_cell(CellId{i});
   check_in(std::move(worker));
 }
@@ -52,7 +52,7 @@ std::vector<Entry<D>> LeafRefinement<D>::violations_everywhere() {
   listing.list = &found;
   worker->begin(listing);
   const Mesh<D>& mesh = context_.mesh;
-  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i)
+  for (std::uint32_t i = 0; i < mesh.cell_bound() && !cancelled(i); ++i)
     if (mesh.alive(CellId{i})) worker->list_violations(CellId{i});
   check_in(std::move(worker));
   std::vector<Entry<D>> faces;
@@ -135,6 +135,7 @@ StopCause LeafRefinement<D>::run() {
     if (!relist_refused()) break;
   }
   if (stop == StopCause::finished && violations_seen_) stop = mend();
+  if (stop == StopCause::finished) stop = static_cast<StopCause>(context_.stop.load());
   statistics_.leaves = tree_.leaf_count();
   statistics_.busy_seconds = busy_;
   double in_visits = 0;

@@ -52,6 +52,7 @@ template <int D>
 bool LeafRefinement<D>::mend_far_from_walls(Refiner<D>& worker, std::set<std::array<VertexId, D + 1>>& hopeless) {
   bool any = false;
   for (const Entry<D>& e : violations_everywhere()) {
+    if (cancelled(0)) return false;
     if (!e.alive(context_.mesh) || !worker.is_far_from_walls(e) || hopeless.contains(e.vertices)) continue;
     if (worker.mend(e)) {
       any = true;

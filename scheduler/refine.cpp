@@ -75,6 +75,61 @@ std::unique_ptr<detail::LeafRefinement<D>> make_refinement(RefineContext<D>& con
   return std::make_unique<detail::Generations<D>>(context, std::move(pools), vertices);
 }
 
+/// The cells over a bound, counted in parts by the same executor as the visits.
+template <int D>
+PoorCount count_poor(const PoorReasons<D>& reasons, std::uint32_t cells, const ScheduleOptions& options) {
+  constexpr std::uint32_t each = 1 << 15;
+  std::vector<PoorCount> parts(cells / each + 1);
+  VisitGraph independent;
+  for (std::size_t i = 0; i < parts.size(); ++i) independent.add_visit();
+  const VisitBody count = [&](VisitGraph::Visit v) {
+    const detail::DefaultFloats floats;
+    parts[v] = reasons.count(v * each, std::min(cells, (v + 1) * each));
+  };
+  switch (options.executor) {
+    case Executor::flow_graph:
+      detail::in_arena_to_the_end(options.threads, [&] { run_flow_graph(independent, count); });
+      break;
+    case Executor::threads: run_threads(independent, count, static_cast<unsigned>(threads_of(options))); break;
+    case Executor::serial: run_serial(independent, count); break;
+  }
+  PoorCount poor;
+  for (const PoorCount& part : parts) {
+    poor.cells += part.cells;
+    poor.over_size = poor.over_size || part.over_size;
+  }
+  return poor;
+}
+
+/// What may end the steps behind the refinement: nothing where a mesh is wanted in any case.
+template <int D>
+std::stop_token token_of(const RefineOptions<D>& options) {
+  return options.partial_mesh ? std::stop_token{} : options.stop;
+}
+
+template <int D>
+Compacted<D> compact_mesh(const Mesh<D>& mesh, const Domain<D>& domain, const RegionTable& regions,
+                          const RefineOptions<D>& options) {
+  std::vector<double> attributes;
+  if (regions.labelled) attributes = regions.attribute;
+  const std::stop_token stop = token_of(options);
+  if (options.schedule.executor != Executor::flow_graph) return compact<D>(mesh, domain, attributes, false, stop);
+  Compacted<D> compacted;
+  detail::in_arena_to_the_end(options.schedule.threads, [&] { compacted = compact<D>(mesh, domain, attributes, true, stop); });
+  return compacted;
+}
+
+/// What a run that was cancelled returns where no partial mesh is wanted.
+template <int D>
+RefineResult<D> without_mesh(RefineResult<D> result, Clock::time_point start) {
+  result.mesh = {};
+  result.reasons.clear();
+  result.stop = StopCause::cancelled;
+  result.size_met = false;
+  result.statistics.seconds_mesh = seconds_since(start);
+  return result;
+}
+
 template <int D>
 RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   validate(options);
@@ -95,13 +150,18 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   RegionTable regions;
   {
     Delaunay<D> delaunay(mesh, pools);
-    if (!delaunay.build(domain.points()))
+    if (!delaunay.build(domain.points(), options.stop))
       throw InputError({Errc::no_volume, D == 3 ? "all points lie in one plane" : "all points lie on one line", {}, 0, {}, {}});
     RecoveryCounts counts;
-    result.stop = recover_boundary<D>(mesh, pools, delaunay, domain, options, start, counts);
+    if (options.stop.stop_requested()) {
+      result.stop = StopCause::cancelled;  // the triangulation may lack points
+    } else {
+      result.stop = recover_boundary<D>(mesh, pools, delaunay, domain, options, start, counts);
+    }
     result.statistics.segment_points = counts.segment_points;
     result.statistics.facet_points = counts.facet_points;
     if (result.stop != StopCause::finished) {
+      result.size_met = false;
       result.statistics.seconds_mesh = result.statistics.seconds_initial = seconds_since(start);
       return result;  // no boundary yet, so no mesh
     }
@@ -128,25 +188,31 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
     result.trace = refinement->take_trace();
     result.statistics.predicates += refinement->predicates_elsewhere();
   }
-  const bool finished = options.refine && result.stop == StopCause::finished;
-  const std::vector<PoorCell> poor = finished ? reasons.explained(violations_seen) : reasons.without_reasons();
+  const auto dropped = [&] {
+    return !options.partial_mesh && (options.stop.stop_requested() || result.stop == StopCause::cancelled);
+  };
+  if (dropped()) return without_mesh(std::move(result), start);
+  std::vector<PoorCell> poor;
+  if (options.refine && result.stop == StopCause::finished) {
+    poor = reasons.explained(violations_seen, token_of(options));
+    if (dropped()) return without_mesh(std::move(result), start);
+    for (const PoorCell& p : poor) {
+      result.poor_left += p.over_bound ? 1 : 0;
+      result.size_met = result.size_met && !p.over_size;
+    }
+  } else {
+    const PoorCount count = count_poor(reasons, mesh.cell_bound(), options.schedule);
+    result.poor_left = count.cells;
+    result.size_met = !count.over_size;
+  }
   result.statistics.seconds_refine = seconds_since(refine_start);
 #ifdef __GLIBC__
   malloc_trim(0);  // the lists have left small pieces, which the long arrays of the result have no use for
 #endif
 
-  std::vector<double> attributes;
-  if (regions.labelled) attributes = regions.attribute;
-  Compacted<D> compacted;
-  if (options.schedule.executor == Executor::flow_graph) {
-    detail::in_arena(options.schedule.threads, [&] { compacted = compact<D>(mesh, domain, attributes, true); });
-  } else {
-    compacted = compact<D>(mesh, domain, attributes, false);
-  }
+  Compacted<D> compacted = compact_mesh(mesh, domain, regions, options);
+  if (dropped()) return without_mesh(std::move(result), start);
   for (const PoorCell& p : poor) {
-    if (p.over_bound) ++result.poor_left;
-    if (p.over_size) result.size_met = false;
-    if (result.stop != StopCause::finished || !options.refine) continue;
     PoorReason reason = p.reason;
     reason.cell = compacted.cell_number(mesh, p.cell);
     result.reasons.push_back(reason);
@@ -183,9 +249,9 @@ RefineResult<D> refine(const Plc<D>& plc, const RefineOptions<D>& options) {
   return result;
 }
 
-template RefineResult<2> refine<2>(const Plc<2>&, const RefineOptions<2>&);
-template RefineResult<3> refine<3>(const Plc<3>&, const RefineOptions<3>&);
-template RefineResult<2> refine<2>(const Domain<2>&, const RefineOptions<2>&);
-template RefineResult<3> refine<3>(const Domain<3>&, const RefineOptions<3>&);
+template PGDR_API RefineResult<2> refine<2>(const Plc<2>&, const RefineOptions<2>&);
+template PGDR_API RefineResult<3> refine<3>(const Plc<3>&, const RefineOptions<3>&);
+template PGDR_API RefineResult<2> refine<2>(const Domain<2>&, const RefineOptions<2>&);
+template PGDR_API RefineResult<3> refine<3>(const Domain<3>&, const RefineOptions<3>&);
 
 }  // namespace pgdr

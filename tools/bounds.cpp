@@ -8,8 +8,22 @@
 
 #include "expression.hpp"
 #include "pgdr/error.hpp"
+#include "pgdr/io.hpp"
+#include "pgdr/size_fields.hpp"
 
 namespace pgdr::tool {
+
+namespace {
+
+template <int D>
+SizingField<D> background_sizes(const std::filesystem::path& file, std::optional<double> growth) {
+  const OutputMesh<D> mesh = read_mesh<D>(file);
+  std::vector<double> values = read_vertex_values(std::filesystem::path(file).replace_extension(".sol"), D);
+  if (growth) values = limit_growth<D>(mesh, values, *growth);
+  return sizes_on_mesh<D>(mesh, values);
+}
+
+}  // namespace
 
 template <int D>
 Bounds<D> resolve(const BoundArguments& arguments, double default_radius_edge) {
@@ -23,6 +37,8 @@ Bounds<D> resolve(const BoundArguments& arguments, double default_radius_edge) {
   if (arguments.radius_edge) bounds.radius_edge = *arguments.radius_edge;
   if (arguments.min_angle) bounds.radius_edge = 1 / (2 * std::sin(*arguments.min_angle * std::numbers::pi / 180));
   if (arguments.size) bounds.size = parse_size<D>(*arguments.size, "--size");
+  if (!arguments.size_mesh.empty())
+    bounds.size = smallest<D>({bounds.size, background_sizes<D>(arguments.size_mesh, arguments.size_growth)});
   if (arguments.max_volume) bounds.max_volume = *arguments.max_volume;
   return bounds;
 }

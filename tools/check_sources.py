@@ -8,6 +8,7 @@
   * a public header (<layer>/pgdr/) includes public headers alone, and no two layers have one of the same name;
   * tools and bench see public headers alone;
   * CGAL and Eigen are included by .cpp files and private headers of the layers only;
+  * function templates of headers whose namespace bears PGDR_API have it where they are instantiated (export.hpp);
   * a public header is listed in the CMakeLists.txt of its layer, so that it is installed and compiled alone.
 
 Usage: check_sources.py [ROOT]     (default: the repository of this script)
@@ -17,6 +18,9 @@ import re
 import sys
 
 LAYERS = ["geometry", "core", "scheduler"]
+# A declaration of a function template, to its semicolon; an explicit instantiation.
+TEMPLATE = re.compile(r"^template <int D>\n(?!struct|class|using)[^;{(]*?\b(\w+)\([^;{]*;", re.MULTILINE)
+INSTANTIATION = re.compile(r"^\s*template (?!<|class|struct)[^;(]*?\b(\w+)(?:<[23D]>)?\(")
 SOURCES = {".cpp", ".hpp", ".py", ".cmake", ".sh"}
 SCRIPTS = ["demo", "run-tests", ".ci/run", ".ci/install-packages"]
 MOST_LINES = 500
@@ -67,6 +71,23 @@ def check_includes(root, path, text, layer_of):
             yield f"includes {name}: only the inside of a layer may"
 
 
+def exported_templates(root):
+    """Names of function templates that are declared, and not defined, where the namespace bears PGDR_API."""
+    names = set()
+    for name, layer in public_headers(root):
+        text = (root / layer / name).read_text(encoding="utf-8")
+        if "namespace pgdr PGDR_API {" in text:
+            names.update(TEMPLATE.findall(text))
+    return names
+
+
+def check_exports(path, text, exported):
+    for line in text.splitlines() if path.suffix == ".cpp" else ():
+        instance = INSTANTIATION.match(line)
+        if instance and instance.group(1) in exported and not line.strip().startswith("template PGDR_API "):
+            yield f"lacks PGDR_API: {line.strip()}"
+
+
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent).resolve()
     complaints = []
@@ -77,11 +98,13 @@ def main():
         layer_of[name] = layer
         if name not in (root / layer / "CMakeLists.txt").read_text(encoding="utf-8").split():
             complaints.append(f"{layer}/{name}: not listed in {layer}/CMakeLists.txt")
+    exported = exported_templates(root)
     number = 0
     for path in sources(root):
         text = path.read_text(encoding="utf-8")
         number += 1
-        for complaint in [*check_text(path, text), *check_includes(root, path, text, layer_of)]:
+        for complaint in [*check_text(path, text), *check_includes(root, path, text, layer_of),
+                          *check_exports(path, text, exported)]:
             complaints.append(f"{path.relative_to(root)}: {complaint}")
     for complaint in complaints:
         print(complaint)

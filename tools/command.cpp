@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <new>
 
+#include "pgdr/version.hpp"
+
 namespace pgdr::tool {
 namespace {
 
@@ -41,7 +43,7 @@ int guarded(Report& report, Action action) {
 }
 
 int execute(const Arguments& arguments, Report& report) {
-  report.set("version", PGDR_VERSION);
+  report.set("version", PGDR_VERSION_STRING);
   const int code = guarded(report, [&] {
     return std::visit(
         [&report](const auto& a) {

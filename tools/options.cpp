@@ -10,6 +10,7 @@
 #include <map>
 
 #include "command.hpp"
+#include "pgdr/version.hpp"
 #include "selector.hpp"
 
 namespace pgdr::tool {
@@ -73,6 +74,13 @@ void add_bounds(CLI::App& app, BoundArguments& b) {
                  "bound on the circumradius (3D) or the area (2D), at the centroid: a number, or an expression in x, "
                  "y, z")
       ->type_name("S");
+  auto* size_mesh = app.add_option("--size-mesh", b.size_mesh,
+                                   "as --size, from a background mesh (.mesh, .vtu): a size for each vertex in the .sol "
+                                   "file beside it, interpolated linearly; with --size the smaller counts")
+                        ->type_name("MESH");
+  app.add_option("--size-growth", b.size_growth,
+                 "most that sizes of --size-mesh may grow a unit of length along an edge (2D: their square roots)")
+      ->type_name("G")->check(number(">= 0", not_negative))->needs(size_mesh);
   app.add_option("--max-volume", b.max_volume, "bound on the volume of every tetrahedron (3D)")
       ->type_name("V")->check(number("> 0", positive));
   app.add_option("--min-angle", b.min_angle, "2D: smallest angle in degrees, for --radius-edge 1/(2 sin A); proved up to 20.7, `mesh` takes "
@@ -168,7 +176,7 @@ std::variant<Arguments, int> parse(int argc, const char* const* argv) {
   InfoArguments info;
 
   CLI::App app("pgdr: Delaunay meshes with guaranteed quality, in 3D and 2D", "pgdr");
-  app.set_version_flag("--version", "pgdr " PGDR_VERSION);
+  app.set_version_flag("--version", "pgdr " PGDR_VERSION_STRING);
   app.require_subcommand(1);
   app.footer(exit_codes);
   auto* mesh_app = app.add_subcommand("mesh", "Mesh an input");

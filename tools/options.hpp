@@ -17,6 +17,8 @@ namespace pgdr::tool {
 struct BoundArguments {
   std::optional<double> radius_edge;
   std::optional<std::string> size;  ///< a number or an expression in x, y, z
+  std::string size_mesh;             ///< a background mesh, with its sizes in a .sol file beside it; empty: none
+  std::optional<double> size_growth; ///< of these sizes; none: as they are
   std::optional<double> max_volume;
   std::optional<double> min_angle;
 };

@@ -11,24 +11,34 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <stop_token>
+#include <utility>
 #include <vector>
 
 namespace pgdr::detail {
 
 class Bulk {
  public:
-  explicit Bulk(bool parallel) : parallel_(parallel && tbb::this_task_arena::max_concurrency() > 1) {}
+  /// Once `stop` is requested blocks are left out, so that what was to be made is nothing to use.
+  explicit Bulk(bool parallel, std::stop_token stop = {})
+      : parallel_(parallel && tbb::this_task_arena::max_concurrency() > 1), stop_(std::move(stop)) {}
 
   bool parallel() const { return parallel_; }
+  bool stopped() const { return stop_.stop_requested(); }
 
   /// Calls f(first, last) for blocks that cover [0, count). With `parallel`, several at once; isolated, so that the
   /// thread that waits does not pick up other tasks of the caller.
   template <class F>
   void blocks(std::size_t count, const F& f) const {
-    if (!parallel_) return f(std::size_t{0}, count);
+    if (!parallel_) {
+      for (std::size_t first = 0; first < count && !stopped(); first += grain) f(first, std::min(count, first + grain));
+      return;
+    }
     tbb::this_task_arena::isolate([&] {
       tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
-                        [&](const tbb::blocked_range<std::size_t>& r) { f(r.begin(), r.end()); });
+                        [&](const tbb::blocked_range<std::size_t>& r) {
+                          if (!stopped()) f(r.begin(), r.end());
+                        });
     });
   }
   /// Calls f(i) for i in [0, count).
@@ -52,6 +62,7 @@ class Bulk {
   std::vector<T> gather(std::size_t count, const F& f) const {
     std::vector<std::vector<T>> found((count + grain - 1) / grain);
     parts(found.size(), [&](std::size_t part) {
+      if (stopped()) return;
       for (std::size_t i = part * grain; i < std::min(count, (part + 1) * grain); ++i) f(i, found[part]);
     });
     std::size_t total = 0;
@@ -74,6 +85,7 @@ class Bulk {
   static constexpr std::size_t grain = 8192;
 
   bool parallel_;
+  std::stop_token stop_;
 };
 
 }  // namespace pgdr::detail

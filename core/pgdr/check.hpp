@@ -19,11 +19,12 @@
 #include <vector>
 
 #include "pgdr/domain.hpp"
+#include "pgdr/export.hpp"
 #include "pgdr/output_mesh.hpp"
 #include "pgdr/region_mode.hpp"
 #include "pgdr/sizing.hpp"
 
-namespace pgdr {
+namespace pgdr PGDR_API {
 
 /// Why a cell stayed over a bound; one entry of the report's `bounds.reasons`.
 struct PoorReason {

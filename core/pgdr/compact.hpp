@@ -6,6 +6,7 @@
 #pragma once
 
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "pgdr/mesh.hpp"
@@ -22,9 +23,11 @@ struct Compacted {
   std::uint32_t cell_number(const Mesh<D>& mesh, CellId c) const;
 };
 
-/// @param region_attributes  attribute of each region number; empty: do not label.
-/// @param parallel  on the threads of the caller's task arena; the result is the same.
+/// The finished mesh. `region_attributes`: the attribute of each region number; empty: do not label. `parallel`: on the
+/// threads of the caller's task arena; the result is the same. `stop`: once it is requested the result is nothing to use,
+/// and comes soon.
 template <int D>
-Compacted<D> compact(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes, bool parallel);
+Compacted<D> compact(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes, bool parallel,
+                     std::stop_token stop = {});
 
 }  // namespace pgdr

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "pgdr/cavity.hpp"
@@ -25,8 +26,8 @@ class Delaunay {
   Delaunay(Mesh<D>& mesh, typename Mesh<D>::Pools& pools) : mesh_(&mesh), pools_(&pools), cavity_(mesh) {}
 
   /// Triangulates distinct points; vertex k of the result is points[k], at home at input vertex k. False (and no cell)
-  /// if the points lie in one line (2D) or plane (3D).
-  bool build(std::span<const Point<D>> points);
+  /// if the points lie in one line (2D) or plane (3D). Ends early, with some of the points, once `stop` is requested.
+  bool build(std::span<const Point<D>> points, const std::stop_token& stop = {});
 
   /// Inserts one more point, searched for from the star of vertex `near`, with its insertion radius. Returns the vertex
   /// there already, if there is one.

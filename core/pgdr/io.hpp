@@ -43,10 +43,11 @@
 #include <vector>
 
 #include "pgdr/error.hpp"
+#include "pgdr/export.hpp"
 #include "pgdr/output_mesh.hpp"
 #include "pgdr/plc.hpp"
 
-namespace pgdr {
+namespace pgdr PGDR_API {
 
 /// @throws FileError if the file cannot be opened; InputError (unknown_format, syntax, truncated, count_too_large,
 ///   not_finite, index_out_of_range, ...) with file and line.

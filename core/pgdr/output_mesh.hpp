@@ -9,18 +9,20 @@
 #include <cstdint>
 #include <vector>
 
+#include "pgdr/export.hpp"
 #include "pgdr/types.hpp"
 
-namespace pgdr {
+namespace pgdr PGDR_API {
 
+/// Vertices, cells and constraints. Its arrays may be moved out, or seen as flat spans (flat_arrays.hpp).
 template <int D>
 struct OutputMesh {
-  using Index = std::uint32_t;
+  using Index = std::uint32_t;  ///< into `points`
   /// Sub-simplex of a constraint: a subsegment (2 vertices) or, in 3D, a subfacet (3 vertices), with its marker.
   template <int K>
   struct Constraint {
-    std::array<Index, K> vertices;
-    int marker = 0;
+    std::array<Index, K> vertices;  ///< those on the hull face outwards, the others are sorted
+    int marker = 0;                 ///< of its segment or facet
   };
 
   /// The distinct input points in the order of the input, then Steiner points along a Hilbert curve.
@@ -29,7 +31,7 @@ struct OutputMesh {
   std::vector<int> point_markers;         ///< empty, or one a point
   std::vector<std::array<Index, D + 1>> cells;  ///< positively oriented
   std::vector<double> regions;            ///< empty (one region), or the attribute of each cell
-  std::vector<Constraint<2>> subsegments;
+  std::vector<Constraint<2>> subsegments; ///< each once, sorted by vertices; so are the subfacets
   std::vector<Constraint<3>> subfacets;   ///< 3D only
 };
 

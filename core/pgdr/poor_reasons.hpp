@@ -3,10 +3,11 @@
 //
 // Why elements stay poor: the two input entities that meet at a small angle next to them. What refused the element's
 // insertion is named if it is such a pair, else a pair among the entities that the element and its neighbours touch.
-// Reads the whole mesh; one thread, nothing else running.
+// Reads the whole mesh, while nothing else is running; one thread where nothing else is said.
 #pragma once
 
 #include <span>
+#include <stop_token>
 #include <unordered_map>
 #include <vector>
 
@@ -25,6 +26,12 @@ struct PoorCell {
   PoorReason reason;
 };
 
+/// Cells over a bound.
+struct PoorCount {
+  std::uint64_t cells = 0;
+  bool over_size = false;  ///< any of them
+};
+
 template <int D>
 class PoorReasons {
  public:
@@ -34,11 +41,13 @@ class PoorReasons {
   /// What was refused in one region.
   void add(std::span<const Refusal<D>> refused);
 
-  /// Every cell over a bound, without reasons: of a run that a budget ended, or of none.
-  std::vector<PoorCell> without_reasons() const;
+  /// How many of the cells numbered [first, last) are over a bound: of a run that a budget ended, or of none. Several
+  /// threads at once.
+  PoorCount count(std::uint32_t first, std::uint32_t last) const;
   /// Every cell over a bound, and every cell with a face that is not locally Delaunay for other reasons than rounding,
   /// each with its reason. @pre the refinement has finished. `violations_seen`: there may be such faces.
-  std::vector<PoorCell> explained(bool violations_seen) const;
+  /// Ends early, with some of them, once `stop` is requested.
+  std::vector<PoorCell> explained(bool violations_seen, const std::stop_token& stop = {}) const;
 
  private:
   using EntityIds = std::vector<EntityId>;

@@ -8,13 +8,16 @@
 #include <array>
 #include <cstdint>
 
+#include "pgdr/export.hpp"
 #include "pgdr/output_mesh.hpp"
 
-namespace pgdr {
+namespace pgdr PGDR_API {
 
+/// Of all cells of a mesh.
 struct QualitySummary {
-  double max_radius_edge = 0;
-  double min_angle_deg = 180, max_angle_deg = 0;  ///< angles of triangles in 2D, dihedral angles in 3D
+  double max_radius_edge = 0;                     ///< circumradius over shortest edge
+  double min_angle_deg = 180;                     ///< of the angles of triangles in 2D, dihedral angles in 3D
+  double max_angle_deg = 0;                       ///< likewise
   std::array<std::uint64_t, 18> histogram{};      ///< number of those angles in [10 i, 10 i + 10) degrees
 };
 
@@ -22,6 +25,7 @@ struct QualitySummary {
 template <int D>
 std::array<double, D == 2 ? 3 : 6> angles_deg(const Simplex<D>& s);
 
+/// Linear time, on the calling thread.
 template <int D>
 QualitySummary summarize_quality(const OutputMesh<D>& mesh);
 

@@ -11,13 +11,15 @@
 #include <optional>
 #include <stop_token>
 
+#include "pgdr/export.hpp"
 #include "pgdr/point_selector.hpp"
 #include "pgdr/predicates.hpp"
 #include "pgdr/region_mode.hpp"
 #include "pgdr/sizing.hpp"
 
-namespace pgdr {
+namespace pgdr PGDR_API {
 
+/// How far a run is, for a progress line. Approximate.
 struct Progress {
   std::uint64_t vertices = 0;  ///< so far
   std::uint64_t waiting = 0;   ///< entries in the lists of what is to be treated
@@ -30,9 +32,11 @@ enum class Schedule { reproducible, greedy };
 /// through TBB); or the calling thread alone. A reproducible mesh does not depend on it.
 enum class Executor { flow_graph, threads, serial };
 
+/// How the work is divided. The defaults are good; a reproducible mesh depends on `granularity`, `split_ratio`, `floor`
+/// and `claim_order`, and on nothing else here.
 struct ScheduleOptions {
-  Schedule schedule = Schedule::reproducible;
-  Executor executor = Executor::flow_graph;
+  Schedule schedule = Schedule::reproducible;  ///< order of the visits
+  Executor executor = Executor::flow_graph;    ///< what runs them
   /// Threads to ask for; 0: all that the caller's arena has. Never more run than TBB allows the program.
   int threads = 0;
   /// A visit ends after this many buckets (factors of two) of circumradius below its largest, if the leaf still holds work.
@@ -47,6 +51,7 @@ struct ScheduleOptions {
   bool trace = false;
 };
 
+/// What `refine` is asked for. A plain value: the callbacks in it are copied with it, and are called from several threads.
 template <int D>
 struct RefineOptions {
   /// Upper bound on circumradius over shortest edge. Proved for >= 2 (3D), >= sqrt 2 (2D).
@@ -55,19 +60,27 @@ struct RefineOptions {
   double max_volume = std::numeric_limits<double>::infinity();  ///< 3D: volume bound of all cells
   RegionMode regions = RegionMode::seeds;  ///< what is meshed, and how it is labelled
   PointSelector<D> selector;      ///< empty: circumcentre
-  DiskOptions disk;
-  OutsidePolicy outside = OutsidePolicy::replace_by_circumcenter;
+  DiskOptions disk;               ///< in which the selector may put a point
+  OutsidePolicy outside = OutsidePolicy::replace_by_circumcenter;  ///< of the selector's points outside of it (and NaN)
   bool refine = true;             ///< false: boundary recovery alone
   /// 2D: no new point on any segment. Elements that this leaves poor have the reason kept_boundary.
   bool keep_boundary = false;
   double min_edge = 0;            ///< insertions that would make an edge shorter than this are refused
-  std::uint64_t max_vertices = std::numeric_limits<std::uint64_t>::max();
-  std::optional<std::chrono::duration<double>> time_limit;
+  std::uint64_t max_vertices = std::numeric_limits<std::uint64_t>::max();  ///< a budget; input points count
+  std::optional<std::chrono::duration<double>> time_limit;  ///< seconds from the call; then the mesh so far is returned
+  /// Cancels the run, from any thread. Each visit ends with the insertion that it is at; then the mesh so far is numbered
+  /// and returned, unless `partial_mesh` says no.
   std::stop_token stop;
-  ScheduleOptions schedule;
-  std::function<void(const Progress&)> progress;  ///< from one thread at a time, a few times a second at most
+  /// What a run that was cancelled (by `stop`, or as part of the caller's tasks) returns. True: the mesh so far, valid; a
+  /// cancellation that comes when only the last step, the numbering, is left has no effect. False: no mesh, as soon as
+  /// possible, in every step.
+  bool partial_mesh = true;
+  ScheduleOptions schedule;       ///< threads, and how work is divided among them
+  /// Called by one thread at a time, a few times a second at most, from any of the threads. May throw.
+  std::function<void(const Progress&)> progress;
 };
 
+/// Why a run ended.
 enum class StopCause { finished, max_vertices, min_edge, time_limit, cancelled };
 
 }  // namespace pgdr

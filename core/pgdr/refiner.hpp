@@ -200,6 +200,8 @@ class Refiner {
   LocalFlips<D> flips_;
   RegionVisit<D>* visit_ = nullptr;
   std::uint64_t flips_left_ = 0, checked_at_ = 0, reported_ = 0;
+  std::uint64_t stride_ = 1;  ///< insertions between two looks at the clock
+  std::chrono::steady_clock::time_point checked_time_;
   std::optional<EntityPair> last_refusal_;
 };
 

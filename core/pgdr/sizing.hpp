@@ -1,31 +1,40 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How large elements may be: the circumradius bound in 3D, the area bound in 2D, at the centroid; and a measure
-// (volume in 3D, area in 2D) bound, constant and per region. A constant costs no call.
+// How large elements may be: the circumradius bound in 3D, the area bound in 2D, at the centroid. A constant, or a function
+// of position; made of others, of points, or of a background mesh in size_fields.hpp. A constant costs no call, a function
+// one a cell that is made, so that a slow one (above some 100 ns) is what a refinement waits for. Bounds of single regions
+// are volumes (areas), of their seeds: RegionSeed::size; where several bounds apply, all are met.
 #pragma once
 
 #include <functional>
 #include <limits>
-#include <variant>
+#include <type_traits>
+#include <utility>
 
+#include "pgdr/export.hpp"
 #include "pgdr/types.hpp"
 
-namespace pgdr {
+namespace pgdr PGDR_API {
 
 /// A function of position is called concurrently from any worker: it must be deterministic and thread-safe, may throw.
 template <int D>
 using SizeFunction = std::function<double(const Point<D>&)>;
 
+/// A bound everywhere. A value; copies of a function share what it points to.
 template <int D>
 class SizingField {
  public:
   SizingField() = default;                              ///< no bound
+  /// The same everywhere, in units of the input (3D) or their squares (2D).
   SizingField(double constant) : constant_(constant) {} // NOLINT: implicit by design
+  /// f(x), for any point x of the domain; see SizeFunction.
   template <class F>
     requires std::is_invocable_r_v<double, F, const Point<D>&>
   SizingField(F f) : function_(std::move(f)) {}         // NOLINT
+  /// Can any cell be too large?
   bool bounded() const { return function_ || constant_ != std::numeric_limits<double>::infinity(); }
+  /// No function; at() is the same everywhere.
   bool is_constant() const { return !function_; }
   /// The bound at x. Not validated here: the caller turns a value that is not positive into Errc::bad_size.
   double at(const Point<D>& x) const { return function_ ? function_(x) : constant_; }

@@ -7,9 +7,10 @@
 
 #include <span>
 
+#include "pgdr/export.hpp"
 #include "pgdr/types.hpp"
 
-namespace pgdr {
+namespace pgdr PGDR_API {
 
 /// Circumsphere of a full-dimensional simplex. `center_error` bounds |computed centre - exact centre| (Euclidean);
 /// infinity if the doubles could not even bound it. `squared_radius` is |center - lexicographically first corner|^2

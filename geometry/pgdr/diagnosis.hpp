@@ -18,9 +18,10 @@
 
 #include "pgdr/domain.hpp"
 #include "pgdr/error.hpp"
+#include "pgdr/export.hpp"
 #include "pgdr/plc.hpp"
 
-namespace pgdr {
+namespace pgdr PGDR_API {
 
 /// Kinds of findings. Those up to `encloses_nothing` are errors: no mesh has these entities.
 enum class Finding : std::uint8_t {

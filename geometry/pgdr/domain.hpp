@@ -24,10 +24,11 @@
 #include <vector>
 
 #include "pgdr/error.hpp"
+#include "pgdr/export.hpp"
 #include "pgdr/plc.hpp"
 #include "pgdr/types.hpp"
 
-namespace pgdr {
+namespace pgdr PGDR_API {
 
 using EntityId = std::uint32_t;
 inline constexpr EntityId no_entity = 0xffffffffu;

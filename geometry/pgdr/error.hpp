@@ -12,7 +12,9 @@
 #include <string_view>
 #include <vector>
 
-namespace pgdr {
+#include "pgdr/export.hpp"
+
+namespace pgdr PGDR_API {
 
 /// What went wrong. `name(code)` is the stable snake_case word of the JSON report.
 enum class Errc {
@@ -57,11 +59,12 @@ enum class Errc {
   internal,
 };
 
+/// The stable snake_case word of the JSON report.
 std::string_view name(Errc code);
 
 /// One error or warning, as data. Ids are those of the input file or spans (its own numbering, see `Plc::first_index`).
 struct Diagnostic {
-  Errc code = Errc::internal;
+  Errc code = Errc::internal;                ///< what kind it is
   std::string message;                       ///< one sentence that names the culprit
   std::string file;                          ///< empty if the input came from memory
   std::uint64_t line = 0;                    ///< 1-based; 0 = unknown
@@ -72,9 +75,10 @@ struct Diagnostic {
 /// Base of all exceptions of the library. `what()` is file:line: message.
 class Error : public std::exception {
  public:
-  explicit Error(Diagnostic d);
-  const Diagnostic& diagnostic() const noexcept { return diagnostic_; }
-  Errc code() const noexcept { return diagnostic_.code; }
+  explicit Error(Diagnostic d);  ///< keeps d, and composes what()
+  const Diagnostic& diagnostic() const noexcept { return diagnostic_; }  ///< all that is known
+  Errc code() const noexcept { return diagnostic_.code; }                ///< of the diagnostic
+  /// "file:line: message", without what is not known. Valid as long as this object.
   const char* what() const noexcept override { return what_.c_str(); }
 
  private:

@@ -9,48 +9,56 @@
 #include <string>
 #include <vector>
 
+#include "pgdr/export.hpp"
 #include "pgdr/types.hpp"
 
-namespace pgdr {
+namespace pgdr PGDR_API {
 
 /// A point that stands for the volume (area) around it, up to the facets (segments): a hole, or a region.
 template <int D>
 struct RegionSeed {
-  Point<D> point;
+  Point<D> point;        ///< strictly inside
   double attribute = 0;  ///< label of the region's cells in the output
   double size = 0;       ///< largest volume (3D) or area (2D) of the region's cells; <= 0: no bound
 };
 
 /// Where things stood in the file, for messages. Empty vectors: unknown.
 struct PlcSource {
-  std::string file;
-  std::vector<std::uint32_t> point_lines, segment_lines, facet_lines, hole_lines, region_lines;
+  std::string file;  ///< as it was opened
+  std::vector<std::uint32_t> point_lines;    ///< line of each point, counted from 1
+  std::vector<std::uint32_t> segment_lines;  ///< of each segment
+  std::vector<std::uint32_t> facet_lines;    ///< of each facet
+  std::vector<std::uint32_t> hole_lines;     ///< of each hole
+  std::vector<std::uint32_t> region_lines;   ///< of each region
 };
 
+/// The input. Coordinates are in the user's units; all indices count from 0, whatever `first_index` is. From flat arrays:
+/// flat_arrays.hpp.
 template <int D>
 struct Plc {
+  /// A straight edge that must be a union of edges of the mesh.
   struct Segment {
-    std::array<std::uint32_t, 2> points;
-    int marker = 0;
+    std::array<std::uint32_t, 2> points;  ///< its ends, indices into Plc::points
+    int marker = 0;                       ///< handed on to its subsegments
   };
   /// A planar facet (3D only): one outer polygon, then any of: polygons of holes or of inner constraints, two-point
   /// polygons (inner segments), one-point polygons (inner points). What a hole seed reaches without crossing a polygon
   /// is not part of the facet. As in TetGen's .poly.
   struct Facet {
-    std::vector<std::vector<std::uint32_t>> polygons;
+    std::vector<std::vector<std::uint32_t>> polygons;  ///< closed, without repeating the first point; into Plc::points
     std::vector<Point<D>> holes;  ///< seeds, in space, projected as the facet is
-    int marker = 0;
+    int marker = 0;               ///< handed on to its subfacets
   };
 
-  std::vector<Point<D>> points;
+  std::vector<Point<D>> points;    ///< exact duplicates become one vertex
   std::vector<int> point_markers;  ///< empty, or one a point
-  std::vector<Segment> segments;
-  std::vector<Facet> facets;
-  std::vector<Point<D>> holes;
-  std::vector<RegionSeed<D>> regions;
+  std::vector<Segment> segments;   ///< 2D: the boundary and inner constraints; 3D: those that no facet has
+  std::vector<Facet> facets;       ///< 3D: the boundary and inner constraints; 2D: must be empty
+  std::vector<Point<D>> holes;     ///< a point in each volume (area) that is to stay empty
+  std::vector<RegionSeed<D>> regions;  ///< labels and bounds of volumes (areas)
 
   std::uint32_t first_index = 0;  ///< the number the source gives its first point (0 or 1), for messages
-  PlcSource source;
+  PlcSource source;                ///< for messages
 };
 
 }  // namespace pgdr

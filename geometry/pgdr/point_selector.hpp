@@ -11,9 +11,10 @@
 #include <type_traits>
 #include <utility>
 
+#include "pgdr/export.hpp"
 #include "pgdr/types.hpp"
 
-namespace pgdr {
+namespace pgdr PGDR_API {
 
 /// The open ball (disk) in which a Steiner point may lie. radius <= 0: the centre alone.
 template <int D>

@@ -10,9 +10,10 @@
 
 #include <cstdint>
 
+#include "pgdr/export.hpp"
 #include "pgdr/types.hpp"
 
-namespace pgdr {
+namespace pgdr PGDR_API {
 
 /// Sign of det[p1-p0; ...; pD-p0]: positive for a counter-clockwise triangle, for a tetrahedron whose fourth point sees
 /// the first three clockwise ((0,0,0),(1,0,0),(0,1,0),(0,0,1) is positive). Swapping two points negates it; zero iff

@@ -10,21 +10,26 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace pgdr {
+#include "pgdr/export.hpp"
+
+namespace pgdr PGDR_API {
 
 /// A point of the plane (D = 2) or of space (D = 3); coordinates in the units of the input.
 template <int D>
 struct Point {
   static_assert(D == 2 || D == 3);
-  std::array<double, D> x{};
+  std::array<double, D> x{};  ///< the coordinates
 
+  /// Coordinate i, 0 <= i < D, not checked.
   constexpr double& operator[](int i) { return x[static_cast<std::size_t>(i)]; }
+  /// Coordinate i, likewise.
   constexpr double operator[](int i) const { return x[static_cast<std::size_t>(i)]; }
+  /// Equal coordinates (so -0 equals 0).
   friend constexpr bool operator==(const Point&, const Point&) = default;
 };
 
-using Point2 = Point<2>;
-using Point3 = Point<3>;
+using Point2 = Point<2>;  ///< of the plane
+using Point3 = Point<3>;  ///< of space
 
 /// Lexicographic order of coordinates: the one total order of points that decisions rest on (never ids).
 template <int D>
@@ -51,18 +56,23 @@ using Simplex = std::array<Point<D>, D + 1>;
 /// Exact signs. For orientations: positive = counter-clockwise (2D), det[b-a; c-a; d-a] > 0 (3D).
 enum class Sign : int { negative = -1, zero = 0, positive = 1 };
 
+/// The opposite sign.
 constexpr Sign operator-(Sign s) { return static_cast<Sign>(-static_cast<int>(s)); }
+/// Of a number; zero for a NaN.
 template <class Number>
 constexpr Sign sign_of(const Number& v) {
   return v > 0 ? Sign::positive : v < 0 ? Sign::negative : Sign::zero;
 }
 
-/// Typed 32-bit ids; converted explicitly where an array is indexed, nowhere else.
+/// Typed 32-bit ids of the mesh under refinement; converted explicitly where an array is indexed, nowhere else. (A finished
+/// mesh has plain indices, see OutputMesh.)
 enum class VertexId : std::uint32_t {};
+/// Likewise, of cells.
 enum class CellId : std::uint32_t {};
-inline constexpr VertexId no_vertex{0xffffffffu};
-inline constexpr CellId no_cell{0xffffffffu};
+inline constexpr VertexId no_vertex{0xffffffffu};  ///< no vertex has this id
+inline constexpr CellId no_cell{0xffffffffu};      ///< no cell has this id
 
+/// Where an array is indexed by an id.
 template <class Id>
   requires std::same_as<Id, VertexId> || std::same_as<Id, CellId>
 constexpr std::uint32_t index(Id id) {

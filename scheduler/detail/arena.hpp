@@ -15,6 +15,9 @@ int arena_threads(int threads);
 /// Calls f in the caller's arena if that has as many threads as asked for, else in an arena of its own.
 void in_arena(int threads, const std::function<void()>& f);
 
+/// The same for work that must not stay undone: somebody who cancels the caller's tasks does not cancel it.
+void in_arena_to_the_end(int threads, const std::function<void()>& f);
+
 /// The place of the calling thread in its arena: no two threads that run there at one time have the same.
 int arena_slot();
 

@@ -78,6 +78,12 @@ class LeafRefinement {
   SchedulerStatistics statistics_;
 
  private:
+  /// For loops over all cells, which end then: has the run been cancelled? Asked for every 1024th. It is stopped with that.
+  bool cancelled(std::uint32_t i) {
+    if (i % 1024 != 0 || !context_.options.stop.stop_requested()) return false;
+    context_.stop = static_cast<int>(StopCause::cancelled);
+    return true;
+  }
   void list_everything();
   std::vector<Entry<D>> violations_everywhere();
   StopCause mend();

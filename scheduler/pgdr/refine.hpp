@@ -11,6 +11,7 @@
 
 #include "pgdr/check.hpp"
 #include "pgdr/domain.hpp"
+#include "pgdr/export.hpp"
 #include "pgdr/output_mesh.hpp"
 #include "pgdr/plc.hpp"
 #include "pgdr/point_selector.hpp"
@@ -18,18 +19,27 @@
 #include "pgdr/refine_options.hpp"
 #include "pgdr/sizing.hpp"
 
-namespace pgdr {
+namespace pgdr PGDR_API {
 
+/// What was done. Times are of the clock on the wall.
 struct RefineStatistics {
-  double seconds_mesh = 0, seconds_initial = 0, seconds_refine = 0;
-  std::uint64_t segment_points = 0, facet_points = 0;  ///< Steiner points of the boundary recovery
-  std::uint64_t insertions_committed = 0, insertions_refused = 0, selector_outside = 0;
-  PredicateCounts predicates;
+  double seconds_mesh = 0;     ///< from the input in memory to the finished mesh in memory
+  double seconds_initial = 0;  ///< of these, until the boundary is there
+  double seconds_refine = 0;   ///< of these, the refinement
+  std::uint64_t segment_points = 0;  ///< Steiner points on segments, of the boundary recovery
+  std::uint64_t facet_points = 0;    ///< likewise, on facets
+  std::uint64_t insertions_committed = 0;  ///< points that the refinement inserted
+  std::uint64_t insertions_refused = 0;    ///< beside small angles, or with `min_edge`
+  std::uint64_t selector_outside = 0;      ///< points of the selector outside their disk, replaced
+  PredicateCounts predicates;              ///< of all threads
 };
 
 /// How the visits went (design notes, "Scheduler").
 struct SchedulerStatistics {
-  std::uint64_t leaves = 1, generations = 0, visits = 0, set_aside = 0;  ///< set_aside: attempts
+  std::uint64_t leaves = 1;                 ///< of the tree, in the end
+  std::uint64_t generations = 0;            ///< of visits
+  std::uint64_t visits = 0;                 ///< all
+  std::uint64_t set_aside = 0;              ///< attempts that were left to a visit that claims more
   std::uint32_t max_concurrent = 0;         ///< most visits that ran at one time
   int threads = 1;                          ///< threads that visits could run on
   double serial_seconds = 0;                ///< of the refinement outside visits
@@ -41,24 +51,32 @@ struct SchedulerStatistics {
 
 /// One visit, as it ran. Seconds since the meshing began.
 struct VisitTrace {
-  std::uint32_t thread;
-  double start, end;
-  std::uint32_t leaf, level, order;         ///< order: of its claim, BUF^order; 0xffffffff for the whole tree
-  std::uint64_t generation, committed, set_aside;
+  std::uint32_t thread;      ///< as in SchedulerStatistics::busy_seconds
+  double start;              ///< seconds
+  double end;                ///< seconds
+  std::uint32_t leaf;        ///< node of the tree
+  std::uint32_t level;       ///< of the leaf; 0 is the root
+  std::uint32_t order;       ///< of its claim, BUF^order; 0xffffffff for the whole tree
+  std::uint64_t generation;  ///< counted from 1
+  std::uint64_t committed;   ///< insertions
+  std::uint64_t set_aside;   ///< attempts left to a visit that claims more
 };
 
+/// A mesh and all that is known about how it came to be. `mesh` and its arrays may be moved out.
 template <int D>
 struct RefineResult {
-  OutputMesh<D> mesh;
-  StopCause stop = StopCause::finished;  ///< ended before the boundary was recovered: `mesh` is empty
-  std::uint64_t poor_left = 0;
-  bool size_met = true;               ///< every cell within the size and measure bounds
+  OutputMesh<D> mesh;                 ///< valid, whatever `stop` says; empty as said there
+  /// Ended before the boundary was recovered, or cancelled without wish for a partial mesh: `mesh` is empty.
+  StopCause stop = StopCause::finished;
+  std::uint64_t poor_left = 0;        ///< cells over a bound
+  bool size_met = true;               ///< every cell within the size and measure bounds; false without a mesh
   std::vector<PoorReason> reasons;    ///< one for every poor cell when finished
-  RefineStatistics statistics;
-  SchedulerStatistics scheduler;
+  RefineStatistics statistics;        ///< counts and times
+  SchedulerStatistics scheduler;      ///< how the visits went
   bool violations_seen = false;       ///< faces that are not locally Delaunay were met; without, none is left
   std::vector<VisitTrace> trace;      ///< if asked for; in the order in which the visits ended
-  std::vector<Diagnostic> repairs, warnings;
+  std::vector<Diagnostic> repairs;    ///< of the input, see Domain
+  std::vector<Diagnostic> warnings;   ///< likewise, and seeds that lie outside
 };
 
 /// Meshes the input.
@@ -66,7 +84,7 @@ struct RefineResult {
 ///   before anything is meshed; seeds), ResourceError. An exception of a callback comes out as it is.
 template <int D>
 RefineResult<D> refine(const Plc<D>& plc, const RefineOptions<D>& options);
-/// The same for an input already prepared.
+/// The same for an input already prepared, which may be shared by several calls at once.
 template <int D>
 RefineResult<D> refine(const Domain<D>& domain, const RefineOptions<D>& options);
 

@@ -1,17 +1,18 @@
 # SPDX-FileCopyrightText: 2026 The pgdr authors
 # SPDX-License-Identifier: Apache-2.0
-# Installs the build into a fresh folder, builds the consumer against it, and runs it.
-# cmake -DBUILD=<build folder> -DSOURCE=<repository> -DWORK=<scratch folder> -DFLAGS=<compiler flags> -P run.cmake
+# Installs the build into a fresh folder, builds the consumer against it, with CMake and with pkg-config, and runs it.
+# cmake -DBUILD=<build folder> -DSOURCE=<repository> -DWORK=<scratch folder> -DFLAGS=<compiler flags> -DKIND=static|shared
+#   -DCXX=<compiler> -DPKG_CONFIG=<pkg-config> -P run.cmake
 function(run)
   execute_process(COMMAND ${ARGV} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
 file(REMOVE_RECURSE ${WORK})
-run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix --component pgdr_${KIND})
 
 # The package must work where it has been moved to, and name no folder of this machine's build.
 file(RENAME ${WORK}/prefix ${WORK}/moved)
-file(GLOB_RECURSE package ${WORK}/moved/*.cmake)
+file(GLOB_RECURSE package ${WORK}/moved/*.cmake ${WORK}/moved/*.pc)
 foreach(file IN LISTS package)
   file(READ ${file} text)
   foreach(folder IN ITEMS ${BUILD} ${SOURCE})
@@ -35,10 +36,39 @@ foreach(file IN LISTS headers)
   endif()
 endforeach()
 
+# A shared library shows names of namespace pgdr and nothing else.
+file(GLOB_RECURSE library ${WORK}/moved/libpgdr.*)
+list(GET library 0 library)
+if(KIND STREQUAL shared)
+  execute_process(COMMAND nm -D --defined-only ${library} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX MATCHALL "[^\n]+" symbols "${symbols}")
+  list(LENGTH symbols count)
+  if(count LESS 30)
+    message(FATAL_ERROR "only ${count} symbols are exported")
+  endif()
+  foreach(symbol IN LISTS symbols)
+    if(NOT symbol MATCHES " (_ZNK?|_ZT[ISV]N)4pgdr" OR symbol MATCHES "4pgdr6detail|4pgdr[0-9]+(Cavity|Mesh|Refiner|Orthtree)I")
+      message(FATAL_ERROR "exported, and should not be: ${symbol}")
+    endif()
+  endforeach()
+  message(STATUS "${count} exported symbols")
+endif()
+
 run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${SOURCE}/tests/install -B ${WORK}/build -DCMAKE_BUILD_TYPE=Debug
-  "-DCMAKE_CXX_FLAGS=${FLAGS}" "-Dpgdr_ROOT=${WORK}/moved")
+  -DCMAKE_CXX_COMPILER=${CXX} "-DCMAKE_CXX_FLAGS=${FLAGS}" "-Dpgdr_ROOT=${WORK}/moved")
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/consumer)
+
+# Without CMake.
+cmake_path(GET library PARENT_PATH libraries)
+set(ENV{PKG_CONFIG_PATH} ${libraries}/pkgconfig)
+execute_process(COMMAND ${PKG_CONFIG} --cflags --libs pgdr OUTPUT_VARIABLE words OUTPUT_STRIP_TRAILING_WHITESPACE
+  COMMAND_ERROR_IS_FATAL ANY)
+separate_arguments(words UNIX_COMMAND "${words}")
+separate_arguments(flags UNIX_COMMAND "${FLAGS}")
+run(${CXX} -std=c++20 ${flags} ${SOURCE}/tests/install/consumer.cpp -o ${WORK}/with_pkg_config ${words})
+set(ENV{LD_LIBRARY_PATH} ${libraries})
+run(${WORK}/with_pkg_config)
 
 # The README's ten lines are this program.
 file(READ ${SOURCE}/tests/install/readme_example.cpp example)

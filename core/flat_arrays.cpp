@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "pgdr/flat_arrays.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "pgdr/error.hpp"
+
+namespace pgdr {
+namespace {
+
+[[noreturn]] void bad_length(const std::string& what) { throw UsageError({Errc::bad_option, what, {}, 0, {}, {}}); }
+
+template <int D>
+std::vector<Point<D>> points_of(std::span<const double> coordinates) {
+  if (coordinates.size() % D != 0)
+    bad_length(std::to_string(coordinates.size()) + " coordinates, which is no multiple of " + std::to_string(D));
+  std::vector<Point<D>> points(coordinates.size() / D);
+  for (std::size_t i = 0; i < points.size(); ++i) std::copy_n(coordinates.begin() + i * D, D, points[i].x.begin());
+  return points;
+}
+
+/// N indices each, all of them below `points`.
+template <std::size_t N>
+std::vector<std::array<std::uint32_t, N>> simplices_of(std::span<const std::uint32_t> indices, std::size_t points) {
+  if (indices.size() % N != 0)
+    bad_length(std::to_string(indices.size()) + " indices, which is no multiple of " + std::to_string(N));
+  std::vector<std::array<std::uint32_t, N>> simplices(indices.size() / N);
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    if (indices[i] >= points)
+      throw InputError({Errc::index_out_of_range,
+                        "simplex " + std::to_string(i / N) + " has index " + std::to_string(indices[i]) + ", there are " +
+                            std::to_string(points) + " points",
+                        {}, 0, {static_cast<std::int64_t>(i / N), indices[i]}, {}});
+    simplices[i / N][i % N] = indices[i];
+  }
+  return simplices;
+}
+
+}  // namespace
+
+template <int D>
+Plc<D> plc_from_arrays(std::span<const double> coordinates, std::span<const std::uint32_t> simplices,
+                       std::span<const int> markers) {
+  Plc<D> plc;
+  plc.points = points_of<D>(coordinates);
+  const auto faces = simplices_of<D>(simplices, plc.points.size());
+  if (!markers.empty() && markers.size() != faces.size())
+    bad_length(std::to_string(markers.size()) + " markers for " + std::to_string(faces.size()) + " simplices");
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const int marker = markers.empty() ? 0 : markers[i];
+    if constexpr (D == 2) {
+      plc.segments.push_back({faces[i], marker});
+    } else {
+      plc.facets.push_back({{{faces[i].begin(), faces[i].end()}}, {}, marker});
+    }
+  }
+  return plc;
+}
+
+template <int D>
+OutputMesh<D> mesh_from_arrays(std::span<const double> coordinates, std::span<const std::uint32_t> cells) {
+  OutputMesh<D> mesh;
+  mesh.points = points_of<D>(coordinates);
+  mesh.cells = simplices_of<D + 1>(cells, mesh.points.size());
+  return mesh;
+}
+
+template PGDR_API Plc<2> plc_from_arrays<2>(std::span<const double>, std::span<const std::uint32_t>, std::span<const int>);
+template PGDR_API Plc<3> plc_from_arrays<3>(std::span<const double>, std::span<const std::uint32_t>, std::span<const int>);
+template PGDR_API OutputMesh<2> mesh_from_arrays<2>(std::span<const double>, std::span<const std::uint32_t>);
+template PGDR_API OutputMesh<3> mesh_from_arrays<3>(std::span<const double>, std::span<const std::uint32_t>);
+
+}  // namespace pgdr

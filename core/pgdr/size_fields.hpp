@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Sizing fields made of others, of points, or of a background mesh. All copy what they are given, may be called from any
+// number of threads at once, and return the same bits for the same point, whoever asks. Sizes are what SizingField takes:
+// circumradius bounds in 3D, area bounds in 2D. Growth is a slope of lengths over lengths, in 2D of the square root of the
+// area: 0.2 lets sizes grow by a fifth of the distance.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "pgdr/export.hpp"
+#include "pgdr/output_mesh.hpp"
+#include "pgdr/sizing.hpp"
+#include "pgdr/types.hpp"
+
+namespace pgdr PGDR_API {
+
+/// The smallest of the fields at every point; no bound if there are none. A value that is NaN or not positive comes through,
+/// so that the refinement can name the point. Constants among them cost no call.
+template <int D>
+SizingField<D> smallest(std::vector<SizingField<D>> fields);
+
+/// Sizes given at points, which grow with the distance from them: min over i of sizes[i] + growth |x - points[i]| (in 2D the
+/// square of min sqrt(sizes[i]) + growth |x - points[i]|). This is the largest field that no point's size exceeds and whose
+/// slope is `growth` at most; exactly the minimum, found by branch and bound in about log n steps where points are few
+/// near x. Growth 0: the smallest size everywhere.
+/// @throws UsageError bad_option: no points, not one size a point, growth negative or not finite; bad_size: a size that is
+///   not positive and finite (ids: the point's number). InputError not_finite: a coordinate.
+template <int D>
+SizingField<D> sizes_at_points(std::span<const Point<D>> points, std::span<const double> sizes, double growth);
+
+/// Sizes given at the vertices of a background mesh, interpolated linearly (barycentric) in the cell that x lies in; outside
+/// of the mesh the value at the nearest point of its boundary. Which cell x lies in is decided exactly; on faces that
+/// cells share, and where cells overlap, the one with the smallest number counts. Never beyond the values of the vertices
+/// that it is interpolated from. Flat cells and the orientation of cells do not matter; markers and constraints are not read.
+/// About log n steps, more where long thin cells overlap with their boxes. For values that change too fast: limit_growth.
+/// @throws UsageError bad_option: no cell that is not flat, or not one value a vertex; bad_size: a value that is not
+///   positive and finite (ids: the vertex). InputError index_out_of_range (ids: the cell), not_finite.
+template <int D>
+SizingField<D> sizes_on_mesh(const OutputMesh<D>& mesh, std::span<const double> values);
+
+/// Values at the vertices of a mesh, lowered where they grow faster than `growth` along an edge: the largest values, none
+/// above its old one, that do not. n log n. Values far below their neighbours' thus have the say, as usual.
+/// @throws as sizes_on_mesh, and UsageError bad_option: growth negative or not finite
+template <int D>
+std::vector<double> limit_growth(const OutputMesh<D>& mesh, std::span<const double> values, double growth);
+
+/// One number a vertex from a Medit solution file (.sol, ASCII: MeshVersionFormatted, Dimension, SolAtVertices with one
+/// scalar), as mmg and others write it beside a .mesh file. Further sections are not read.
+/// @param file  the .sol
+/// @param dimension  2 or 3: what the file must say
+/// @throws FileError cannot_open; InputError syntax, truncated, count_too_large, not_finite, with file and line
+std::vector<double> read_vertex_values(const std::filesystem::path& file, int dimension);
+
+}  // namespace pgdr

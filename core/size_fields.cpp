@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Fields made of others and of points, growth along edges, and .sol files.
+#include "pgdr/size_fields.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <queue>
+#include <string>
+
+#include "detail/file_input.hpp"
+#include "detail/line_scanner.hpp"
+#include "detail/search_tree.hpp"
+#include "detail/size_checks.hpp"
+
+namespace pgdr {
+
+template <int D>
+SizingField<D> smallest(std::vector<SizingField<D>> fields) {
+  double constant = std::numeric_limits<double>::infinity();
+  std::vector<SizingField<D>> functions;
+  for (SizingField<D>& f : fields) {
+    if (!f.is_constant()) {
+      functions.push_back(std::move(f));
+      continue;
+    }
+    const double value = f.at({});
+    if (!(value >= constant) && !std::isnan(constant)) constant = value;  // a NaN comes through
+  }
+  if (functions.empty() || std::isnan(constant)) return constant;
+  if (functions.size() == 1 && constant == std::numeric_limits<double>::infinity()) return functions[0];
+  return [constant, functions = std::make_shared<const std::vector<SizingField<D>>>(std::move(functions))](const Point<D>& x) {
+    double least = constant;
+    for (const SizingField<D>& f : *functions) {
+      const double value = f.at(x);
+      if (std::isnan(value)) return value;
+      least = std::min(least, value);
+    }
+    return least;
+  };
+}
+
+template <int D>
+SizingField<D> sizes_at_points(std::span<const Point<D>> points, std::span<const double> sizes, double growth) {
+  if (points.empty()) throw UsageError({Errc::bad_option, "a sizing field of points needs points", {}, 0, {}, {}});
+  detail::require_growth(growth);
+  detail::require_sizes<D>(points, sizes);
+  struct Source {
+    std::vector<Point<D>> points;
+    std::vector<double> lengths;
+    detail::SearchTree<D> tree;
+  };
+  std::vector<detail::SearchBox<D>> boxes;
+  std::vector<double> lengths;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    lengths.push_back(detail::length_of<D>(sizes[i]));
+    boxes.push_back({points[i], points[i], lengths.back()});
+  }
+  const auto source = std::make_shared<const Source>(
+      Source{{points.begin(), points.end()}, std::move(lengths), detail::SearchTree<D>(std::move(boxes))});
+  return [source, growth](const Point<D>& x) {
+    double least = std::numeric_limits<double>::infinity();
+    source->tree.search(
+        [&](const detail::SearchBox<D>& box) { return box.least + growth * std::sqrt(box.squared_distance_to(x)); },
+        [&](std::uint32_t i) {
+          least = std::min(least, source->lengths[i] + growth * std::sqrt(squared_distance(x, source->points[i])));
+          return least;
+        });
+    return detail::size_of_length<D>(least);
+  };
+}
+
+template <int D>
+std::vector<double> limit_growth(const OutputMesh<D>& mesh, std::span<const double> values, double growth) {
+  detail::require_growth(growth);
+  detail::require_sizes<D>(mesh.points, values);
+  detail::require_indices<D>(mesh);
+  // The edges at each vertex; an edge may occur several times.
+  std::vector<std::uint32_t> begin(mesh.points.size() + 1, 0);
+  for (const auto& cell : mesh.cells)
+    for (const std::uint32_t v : cell) begin[v + 1] += D;
+  for (std::size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];
+  std::vector<std::uint32_t> other(begin.back()), place(begin.begin(), begin.end() - 1);
+  for (const auto& cell : mesh.cells)
+    for (int i = 0; i <= D; ++i)
+      for (int j = 0; j <= D; ++j)
+        if (i != j) other[place[cell[i]]++] = cell[j];
+  // Dijkstra: each vertex is settled at its final value, the smallest first.
+  std::vector<double> length(values.size());
+  using Waiting = std::pair<double, std::uint32_t>;
+  std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> queue;
+  for (std::uint32_t v = 0; v < values.size(); ++v) queue.push({length[v] = detail::length_of<D>(values[v]), v});
+  std::vector<double> limited(values.begin(), values.end());
+  while (!queue.empty()) {
+    const auto [from, v] = queue.top();
+    queue.pop();
+    if (from > length[v]) continue;
+    for (std::uint32_t e = begin[v]; e < begin[v + 1]; ++e) {
+      const std::uint32_t w = other[e];
+      const double most = from + growth * std::sqrt(squared_distance(mesh.points[v], mesh.points[w]));
+      if (!(most < length[w])) continue;
+      length[w] = most;
+      limited[w] = std::min(values[w], detail::size_of_length<D>(most));
+      queue.push({most, w});
+    }
+  }
+  return limited;
+}
+
+std::vector<double> read_vertex_values(const std::filesystem::path& file, int dimension) {
+  const std::string text = detail::read_whole_file(file);
+  detail::LineScanner scanner(text, file.string());
+  while (scanner.advance()) {
+    const std::string_view keyword = scanner.word({"the keyword of a section"});
+    if (keyword == "MeshVersionFormatted") {
+      scanner.require({"the version"});
+      scanner.integer({"the version"});
+    } else if (keyword == "Dimension") {
+      scanner.require({"the dimension"});
+      if (const auto d = scanner.integer({"the dimension"}); d != dimension)
+        scanner.fail(Errc::syntax, "the dimension is " + std::to_string(d) + ", not that of the mesh");
+    } else if (keyword == "SolAtVertices") {
+      scanner.require({"the number of values"});
+      std::vector<double> values(scanner.count({"the number of values"}, 2));
+      for (const char* what : {"the number of fields", "the kind of the field"}) {
+        scanner.require({what});
+        if (scanner.integer({what}) != 1) scanner.fail(Errc::syntax, "only one scalar a vertex can be read");
+      }
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        const detail::Subject value{"value", static_cast<std::int64_t>(i + 1)};
+        scanner.require(value);
+        values[i] = scanner.number(value);
+      }
+      return values;
+    } else if (keyword == "End") {
+      break;
+    } else {
+      scanner.fail(Errc::syntax, "unknown section " + detail::quoted(keyword) + " before SolAtVertices");
+    }
+  }
+  scanner.fail(Errc::truncated, "there is no section SolAtVertices");
+}
+
+template PGDR_API SizingField<2> smallest<2>(std::vector<SizingField<2>>);
+template PGDR_API SizingField<3> smallest<3>(std::vector<SizingField<3>>);
+template PGDR_API SizingField<2> sizes_at_points<2>(std::span<const Point<2>>, std::span<const double>, double);
+template PGDR_API SizingField<3> sizes_at_points<3>(std::span<const Point<3>>, std::span<const double>, double);
+template PGDR_API std::vector<double> limit_growth<2>(const OutputMesh<2>&, std::span<const double>, double);
+template PGDR_API std::vector<double> limit_growth<3>(const OutputMesh<3>&, std::span<const double>, double);
+
+}  // namespace pgdr
