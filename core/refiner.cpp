@@ -108,7 +108,11 @@ void Refiner<D>::list_entities(CellId c, const ConstraintRecord<D>& k) {
 template <int D>
 void Refiner<D>::list_cell(CellId c) {
   if (const auto* k = mesh_->constraints(c)) list_entities(c, *k);
-  const CellVerdict verdict = context_->bounds.test(*mesh_, c);
+  list_if_poor(c, context_->bounds.test(*mesh_, c));
+}
+
+template <int D>
+void Refiner<D>::list_if_poor(CellId c, const CellVerdict& verdict) {
   if (verdict) list_poor(c, verdict.over_size ? Item::over_size : Item::over_radius_edge);
 }
 
@@ -131,7 +135,7 @@ void Refiner<D>::committed() {
     if (const auto* k = mesh_->constraints(made[i])) list_entities(made[i], *k);
     const CellShape shape = cavity_.shape_of_new(i);
     if (context_->bounds.surely_within(*mesh_, made[i], shape)) continue;
-    if (context_->bounds.test(*mesh_, made[i], shape)) list_poor(made[i], Item::over_bound);
+    list_if_poor(made[i], context_->bounds.test(*mesh_, made[i], shape));
   }
   // A cavity that was not cut back keeps every face locally Delaunay, if all were.
   if (cavity_.shrunk() || visit_->violations_seen)

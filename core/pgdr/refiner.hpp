@@ -134,6 +134,7 @@ class Refiner {
   }
   bool alive(const Item& e) const { return e.alive(*mesh_); }
   void list_poor(CellId c, std::uint8_t why);
+  void list_if_poor(CellId c, const CellVerdict& verdict);
   std::uint32_t order_of(CellId c) const;
   void list_entities(CellId c, const ConstraintRecord<D>& k);
   void treat_entities();
