@@ -18,6 +18,8 @@ int corner_at_infinity(const CellRecord<D>& k) {
   return -1;
 }
 
+constexpr unsigned in_turn = 10000;  // steps of a walk before chance takes over
+
 [[noreturn]] void broken(const char* what) { throw ResourceError({Errc::internal, what, {}, 0, {}, {}}); }
 
 }  // namespace
@@ -29,12 +31,15 @@ CellId locate(const Mesh<D>& mesh, const Point<D>& p, CellId hint) {
   CellId c = hint;
   if (const int i = corner_at_infinity<D>(mesh.cell(c)); i >= 0) c = mesh.cell(c).links[i].cell();
   int from = -1;
-  for (std::uint32_t random = 1;; random = random * 1664525 + 1013904223) {
+  std::uint32_t random = 1;
+  for (unsigned step = 0;; ++step) {
+    random = random * 1664525 + 1013904223;
+    const unsigned turn = step < in_turn ? step : random >> 16;
     const CellRecord<D>& k = mesh.cell(c);
     const Simplex<D> corners = mesh.simplex(c);
     int exit = -1;
     for (int j = 0; j <= D && exit < 0; ++j) {
-      const int i = static_cast<int>((j + (random >> 16)) % (D + 1));
+      const int i = static_cast<int>((j + turn) % (D + 1));
       if (i == from) continue;
       Simplex<D> s = corners;
       s[i] = p;
