@@ -21,6 +21,8 @@ Item poor(int bucket, std::uint8_t why, std::uint32_t order = 0, std::uint32_t i
   e.order = order;
   return e;
 }
+const Mesh<3> mesh;  // what is fetched ahead need not be there
+
 Item big(int bucket, std::uint32_t id = 0) { return poor(bucket, Item::over_size, 0, id); }
 Item skinny(int bucket, std::uint32_t order) { return poor(bucket, Item::over_radius_edge, order); }
 
@@ -30,11 +32,11 @@ TEST(WorkList, TooBigOnesGoFirstLargestFirst) {
   EXPECT_EQ(list.poor(), 6u);
   EXPECT_EQ(list.first_bucket(), 1);
   std::vector<std::uint32_t> ids;
-  for (int i = 0; i < 4; ++i) ids.push_back(index(list.pop_poor().cell));
+  for (int i = 0; i < 4; ++i) ids.push_back(index(list.pop_poor(mesh).cell));
   EXPECT_EQ(ids, (std::vector<std::uint32_t>{2, 4, 1, 3}));
-  EXPECT_EQ(list.pop_poor().order, 5u);  // then by shape, whatever the bucket
+  EXPECT_EQ(list.pop_poor(mesh).order, 5u);  // then by shape, whatever the bucket
   EXPECT_EQ(list.first_bucket(), 1);
-  EXPECT_EQ(list.pop_poor().order, 9u);
+  EXPECT_EQ(list.pop_poor(mesh).order, 9u);
   EXPECT_TRUE(list.empty());
 }
 
@@ -44,7 +46,7 @@ TEST(WorkList, LargestFirstWhereARegionIsToBeSplit) {
   std::vector<int> buckets;
   std::vector<std::uint32_t> orders;
   while (list.poor() > 0) {
-    const Item e = list.pop_largest();
+    const Item e = list.pop_largest(mesh);
     buckets.push_back(e.bucket);
     orders.push_back(e.order);
   }
@@ -75,7 +77,7 @@ TEST(WorkList, AgreesWithASortedList) {
     };
     ASSERT_EQ(list.poor(), all.size());
     const auto expected = std::min_element(all.begin(), all.end(), before);
-    const Item e = largest ? list.pop_largest() : list.pop_poor();
+    const Item e = largest ? list.pop_largest(mesh) : list.pop_poor(mesh);
     ASSERT_EQ(e.which, expected->which);
     ASSERT_EQ(e.order, expected->order);
     ASSERT_TRUE(e.which != Item::over_size || e.cell == expected->cell);
