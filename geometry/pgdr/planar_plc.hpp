@@ -16,6 +16,7 @@ namespace pgdr {
 /// pieces may leave the line of their segment by an ulp. What that makes cross is split in turn, at points that are there
 /// already where the rounded intersection is one of them, until nothing crosses. The pieces keep the marker, and take the
 /// segment's place in the list. Segments that touch or overlap are left to Domain, which splits them without new points.
+/// @param plc the input.
 /// @param repairs gets one entry entities_intersect, if anything crosses: `ids` are pairs of segments, in the numbering of
 ///   the input, `points` the new points.
 /// @throws InputError entities_intersect if there is no end of it, which no input is known to cause.
