@@ -32,5 +32,6 @@ int execute(const Arguments& arguments) noexcept;
 int mesh(const MeshArguments& arguments, Report& report);
 int check(const CheckArguments& arguments, Report& report);
 int info(const InfoArguments& arguments, Report& report);
+int view(const ViewArguments& arguments, Report& report);
 
 }  // namespace pgdr::tool

@@ -53,6 +53,34 @@ const std::map<std::string, Schedule> schedules{{"reproducible", Schedule::repro
 
 const std::map<std::string, RegionMode> region_modes{{"seeds", RegionMode::seeds}, {"auto", RegionMode::automatic}};
 
+const std::map<std::string, ViewColor> view_colors{{"quality", ViewColor::quality}, {"region", ViewColor::region}};
+
+/// Finite numbers between commas; none if the text is anything else.
+std::vector<double> numbers(const std::string& text) {
+  std::vector<double> list;
+  for (const std::string& word : CLI::detail::split(text, ',')) {
+    double value = 0;
+    if (!CLI::detail::lexical_cast(word, value) || !std::isfinite(value)) return {};
+    list.push_back(value);
+  }
+  return list;
+}
+
+bool is_direction(const std::string& text) {
+  const std::vector<double> v = numbers(text);
+  const double square = v.size() == 3 ? v[0] * v[0] + v[1] * v[1] + v[2] * v[2] : 0;
+  return std::isnormal(square);
+}
+
+bool is_plane(const std::string& text) {
+  return text.size() > 2 && text[0] >= 'x' && text[0] <= 'z' && text[1] == '=' && numbers(text.substr(2)).size() == 1;
+}
+
+CLI::Validator shaped(bool (*accept)(const std::string&), std::string what) {
+  return {[accept, what](std::string& text) { return accept(text) ? std::string() : "must be " + what + ", not \"" + text + '"'; },
+          "", what};
+}
+
 /// One of the words of a map from words to values. Words of the contract may be missing in it: it says what there is.
 template <class Value>
 CLI::Validator one_of(const std::map<std::string, Value>& words, std::string what) {
@@ -162,6 +190,27 @@ void add_info(CLI::App& app, InfoArguments& a) {
   add_report(app, a.report, a.quiet);
 }
 
+void add_view(CLI::App& app, ViewArguments& a) {
+  app.add_option("MESH", a.mesh, "the mesh: .vtu .msh .mesh .node .ele")->required()->type_name("");
+  app.add_option("-o,--output", a.output, "the picture: .svg .png")->required()->type_name("PICTURE");
+  app.add_option_function<std::string>("--color", [&a](const std::string& t) { a.color = view_colors.at(t); },
+                                       "quality (default): by the smallest (dihedral) angle, red is poor; in 3D of the "
+                                       "cells that a cut opens; region: by label")
+      ->type_name("NAME")->check(one_of(view_colors, "colourings"));
+  app.add_option_function<std::string>("--cut", [&a](const std::string& t) { a.cut = CutPlane{t[0] - 'x', numbers(t.substr(2))[0]}; },
+                                       "3D: leave out the cells on this side of a plane, e.g. x=0.5")
+      ->type_name("PLANE")->check(shaped(is_plane, "x=, y= or z= and a number"));
+  app.add_option_function<std::string>("--from",
+                                       [&a](const std::string& t) {
+                                         const std::vector<double> v = numbers(t);
+                                         a.from = Point3{{v[0], v[1], v[2]}};
+                                       },
+                                       "3D: the direction towards the eye (default 1,-1.5,0.8)")
+      ->type_name("X,Y,Z")->check(shaped(is_direction, "three numbers with commas, not all 0"));
+  app.add_option("--size", a.width, "width of the picture (default 1000)")->type_name("PIXELS")->check(whole_number(16, 8000));
+  add_report(app, a.report, a.quiet);
+}
+
 }  // namespace
 
 const char* name(Schedule schedule) {
@@ -174,6 +223,7 @@ std::variant<Arguments, int> parse(int argc, const char* const* argv) {
   MeshArguments mesh;
   CheckArguments check;
   InfoArguments info;
+  ViewArguments view;
 
   CLI::App app("pgdr: Delaunay meshes with guaranteed quality, in 3D and 2D", "pgdr");
   app.set_version_flag("--version", "pgdr " PGDR_VERSION_STRING);
@@ -184,6 +234,8 @@ std::variant<Arguments, int> parse(int argc, const char* const* argv) {
   auto* check_app = app.add_subcommand("check", "Check a mesh with exact arithmetic, from the files alone");
   add_check(*check_app, check);
   add_info(*app.add_subcommand("info", "What is in an input or a mesh"), info);
+  auto* view_app = app.add_subcommand("view", "Draw a mesh");
+  add_view(*view_app, view);
 
   try {
     app.parse(argc, argv);
@@ -196,6 +248,7 @@ std::variant<Arguments, int> parse(int argc, const char* const* argv) {
   }
   if (mesh_app->parsed()) return Arguments(std::move(mesh));
   if (check_app->parsed()) return Arguments(std::move(check));
+  if (view_app->parsed()) return Arguments(std::move(view));
   return Arguments(std::move(info));
 }
 

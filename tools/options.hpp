@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "pgdr/refine_options.hpp"
+#include "pgdr/types.hpp"
 
 namespace pgdr::tool {
 
@@ -65,7 +66,25 @@ struct InfoArguments {
   bool quiet = false;
 };
 
-using Arguments = std::variant<MeshArguments, CheckArguments, InfoArguments>;
+enum class ViewColor { quality, region };
+
+/// The plane where coordinate `axis` has this value.
+struct CutPlane {
+  int axis;
+  double value;
+};
+
+struct ViewArguments {
+  std::string mesh, output;
+  ViewColor color = ViewColor::quality;
+  std::optional<CutPlane> cut;  ///< 3D
+  std::optional<Point3> from;   ///< 3D: towards the eye, not the origin; none: as usual
+  int width = 1000;             ///< in pixels
+  std::string report;
+  bool quiet = false;
+};
+
+using Arguments = std::variant<MeshArguments, CheckArguments, InfoArguments, ViewArguments>;
 
 /// The word of --schedule.
 const char* name(Schedule schedule);

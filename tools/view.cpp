@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// pgdr view: a picture of a mesh.
+#include <strings.h>
+
+#include <filesystem>
+
+#include "command.hpp"
+#include "console.hpp"
+#include "files.hpp"
+#include "pgdr/io.hpp"
+#include "picture.hpp"
+
+namespace pgdr::tool {
+namespace {
+
+template <int D>
+int view_mesh(const ViewArguments& a, bool png, Report& report) {
+  const OutputMesh<D> mesh = read_mesh<D>(a.mesh);
+  report.set("cells", mesh.cells.size());
+  const Picture picture = draw(mesh, a);
+  report.set("triangles_drawn", picture.triangles.size());
+  report.set("width", picture.width);
+  report.set("height", picture.height);
+  write_whole(a.output, "the picture", [&](std::ostream& out) { png ? write_png(picture, out) : write_svg(picture, out); });
+  report.mesh_files = {a.output};
+  if (a.quiet) return exit_done;
+  print_row("mesh", format("%s (%dD), ", a.mesh.c_str(), D) + count_cells<D>(mesh.cells.size()));
+  print_row("picture", format("%s, %d x %d pixels, ", a.output.c_str(), picture.width, picture.height) +
+                           count(picture.triangles.size(), "triangle", "triangles"));
+  return exit_done;
+}
+
+}  // namespace
+
+int view(const ViewArguments& a, Report& report) {
+  report.set("input", a.mesh);
+  report.set("output", a.output);
+  const std::string suffix = std::filesystem::path(a.output).extension().string();
+  const bool png = strcasecmp(suffix.c_str(), ".png") == 0;
+  if (!png && strcasecmp(suffix.c_str(), ".svg") != 0)
+    throw InputError({.code = Errc::unknown_format, .message = "pictures are written as .svg or .png", .file = a.output});
+  if (png && !has_png())
+    throw UsageError({.code = Errc::bad_option, .message = "this pgdr was built without Cairo: pictures are .svg alone",
+                      .file = a.output});
+  require_writable(a.output, std::vector<std::string>{a.mesh, a.report});
+  const int dimension = file_dimension(a.mesh);
+  report.set("dimension", dimension);
+  if (!holds_cells(a.mesh))
+    throw InputError({.code = Errc::unknown_format, .message = "this is no mesh: there are no cells to draw", .file = a.mesh});
+  return dimension == 2 ? view_mesh<2>(a, png, report) : view_mesh<3>(a, png, report);
+}
+
+}  // namespace pgdr::tool
