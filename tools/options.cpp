@@ -77,7 +77,9 @@ bool is_plane(const std::string& text) {
 }
 
 CLI::Validator shaped(bool (*accept)(const std::string&), std::string what) {
-  return {[accept, what](std::string& text) { return accept(text) ? std::string() : "must be " + what + ", not \"" + text + '"'; },
+  return {[accept, what](std::string& text) {
+            return accept(text) ? std::string() : "must be " + what + ", not \"" + text + '"';
+          },
           "", what};
 }
 
@@ -197,8 +199,11 @@ void add_view(CLI::App& app, ViewArguments& a) {
                                        "quality (default): by the smallest (dihedral) angle, red is poor; in 3D of the "
                                        "cells that a cut opens; region: by label")
       ->type_name("NAME")->check(one_of(view_colors, "colourings"));
-  app.add_option_function<std::string>("--cut", [&a](const std::string& t) { a.cut = CutPlane{t[0] - 'x', numbers(t.substr(2))[0]}; },
-                                       "3D: leave out the cells on this side of a plane, e.g. x=0.5")
+  app.add_option_function<std::string>("--cut",
+                                       [&a](const std::string& t) {
+                                         a.cut = CutPlane{t[0] - 'x', numbers(t.substr(2))[0]};
+                                       },
+                                       "3D: leave out the cells on the eye's side of a plane, e.g. x=0.5")
       ->type_name("PLANE")->check(shaped(is_plane, "x=, y= or z= and a number"));
   app.add_option_function<std::string>("--from",
                                        [&a](const std::string& t) {

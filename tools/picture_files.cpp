@@ -45,8 +45,8 @@ void write_svg(const Picture& picture, std::ostream& out) {
       << "<g stroke-width=\"" << edge_width << "\" stroke-linejoin=\"round\">\n";
   std::string line;
   for (const Picture::Triangle& t : picture.triangles) {
-    line = "<polygon fill=\"";
-    line.append(hex(t.fill)).append("\" stroke=\"").append(hex(t.edge)).append("\" points=\"");
+    line.clear();
+    line.append("<polygon fill=\"").append(hex(t.fill)).append("\" stroke=\"").append(hex(t.edge)).append("\" points=\"");
     for (std::size_t i = 0; i < 3; ++i) {
       if (i > 0) line += ' ';
       append(line, t.corners[i]);
@@ -58,7 +58,7 @@ void write_svg(const Picture& picture, std::ostream& out) {
     out << "<path fill=\"none\" stroke=\"" << hex(ink) << "\" stroke-width=\"" << line_width
         << "\" stroke-linecap=\"round\" d=\"";
     for (const auto& [from, to] : picture.lines) {
-      line = "M";
+      line.assign(1, 'M');
       append(line, from);
       line += 'L';
       append(line, to);
