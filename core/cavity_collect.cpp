@@ -137,9 +137,7 @@ auto Cavity<D>::collect_on_face(const Point<D>& p, CellId cell, int face) -> Sta
 
 /// All cells round the edge between corners a and b, the one way and, where that ends at the hull, the other.
 template <int D>
-auto Cavity<D>::take_fan(CellId cell, int a, int b) -> Status
-  requires(D == 3)
-{
+auto Cavity<D>::take_fan(CellId cell, int a, int b) -> Status {
   int others[2], n = 0;
   for (int j = 0; j <= D; ++j)
     if (j != a && j != b) others[n++] = j;

@@ -6,7 +6,6 @@
 // no point of any facet moves, also where a facet is not planar. What meets is found as the diagnosis finds it; where
 // nothing does, that is known from here on.
 #include <algorithm>
-#include <ranges>
 
 #include "detail/box_tree.hpp"
 #include "detail/domain_builder.hpp"
@@ -55,8 +54,10 @@ void DomainBuilder<D>::collect_pieces() {
     }
   make_set(loose);
   if (!loose.empty()) {
-    for (const auto& [a, b, c] : pieces_ | std::views::transform(&detail::Piece::corners))
+    for (const detail::Piece& piece : pieces_) {
+      const auto& [a, b, c] = piece.corners;
       of_triangles.insert(of_triangles.end(), {edge_key(a, b), edge_key(b, c), edge_key(c, a)});
+    }
     make_set(of_triangles);
   }
   for (const std::uint64_t key : loose)
@@ -197,14 +198,15 @@ void DomainBuilder<D>::report_points() {
   make_set(attached_);
   for (const auto& [v, a, b] : split_edges_)
     points_on_edges_.add(
-        [&] {
+        [&, v = v, a = a, b = b] {  // copies: Clang before 16 captures no structured binding
           return std::to_string(point_number(v)) + " on " + std::to_string(point_number(a)) + " - " +
                  std::to_string(point_number(b));
         },
         {point_number(v), point_number(a), point_number(b)});
   for (const auto& [v, f, unused] : attached_)
-    points_in_facets_.add([&] { return std::to_string(point_number(v)) + " in " + std::to_string(number(f)); },
-                          {point_number(v), number(f)});
+    points_in_facets_.add(
+        [&, v = v, f = f] { return std::to_string(point_number(v)) + " in " + std::to_string(number(f)); },
+        {point_number(v), number(f)});
 }
 
 template void DomainBuilder<2>::resolve_contacts();

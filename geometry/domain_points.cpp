@@ -136,7 +136,7 @@ void DomainBuilder<D>::check_segments() {
     explicit_.push_back({a, b});
     ++explicit_begin_[a + 1];
     if (a != b) continue;
-    attempt([&] {
+    attempt([&, i = i, j = j] {
       fail(Errc::degenerate_segment,
            "segment " + std::to_string(number(s)) + ": its ends, points " + std::to_string(number(i)) + " and " +
                std::to_string(number(j)) + ", are both at " + detail::to_text(out_.points_[a]),

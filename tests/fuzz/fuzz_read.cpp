@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Any bytes as a file of the format PGDR_FUZZ_EXTENSION, in each dimension, as input and as mesh. The reader returns what
+// has no bad index, or throws an InputError that names the file, a line it has, and what is wrong. A small mesh that was
+// read goes through the checker, which has no say here but must not fail.
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "detail/io_formats.hpp"
+#include "expect.hpp"
+#include "pgdr/check.hpp"
+#include "pgdr/error.hpp"
+
+namespace pgdr {
+namespace {
+
+constexpr std::string_view extension = PGDR_FUZZ_EXTENSION;
+constexpr bool spatial = extension == ".smesh" || extension == ".obj" || extension == ".off" || extension == ".ply" ||
+                         extension == ".stl";
+constexpr bool tetgen = extension == ".ele";
+constexpr bool input = !tetgen && extension != ".vtu";
+constexpr bool mesh = tetgen || extension == ".vtu" || extension == ".mesh" || extension == ".msh";
+constexpr std::size_t most_cells = 30;  // for the checker
+
+/// In a folder that does not exist: what refers to a file beside it finds none.
+const std::string name = "no_such_folder_of_pgdr/a" + std::string(extension);
+
+template <class Read>
+void guarded(std::string_view bytes, Read read) {
+  try {
+    read();
+  } catch (const InputError& e) {
+    const Diagnostic& d = e.diagnostic();
+    FUZZ_EXPECT(tetgen || d.file == name, d.file);
+    FUZZ_EXPECT(!d.message.empty());
+    FUZZ_EXPECT(d.line <= static_cast<std::uint64_t>(std::count(bytes.begin(), bytes.end(), '\n')) + 1, e.what());
+  } catch (const FileError& e) {
+    // No points here: they are in the .node file beside it.
+    FUZZ_EXPECT(extension == ".poly" || extension == ".smesh", e.what());
+    FUZZ_EXPECT(e.code() == Errc::cannot_open, e.what());
+  }
+}
+
+template <int D>
+void expect_in_range(const Plc<D>& plc) {
+  const auto expect = [n = plc.points.size()](std::uint32_t v) { FUZZ_EXPECT(v < n); };
+  for (const auto& s : plc.segments)
+    for (const std::uint32_t v : s.points) expect(v);
+  for (const auto& f : plc.facets)
+    for (const auto& polygon : f.polygons)
+      for (const std::uint32_t v : polygon) expect(v);
+  FUZZ_EXPECT(plc.point_markers.empty() || plc.point_markers.size() == plc.points.size());
+}
+
+template <int D>
+void expect_in_range(const OutputMesh<D>& m) {
+  const auto expect = [&m](const auto& corners) {
+    for (const std::uint32_t v : corners) FUZZ_EXPECT(v < m.points.size());
+  };
+  FUZZ_EXPECT(m.input_points <= m.points.size());
+  for (const auto& cell : m.cells) expect(cell);
+  for (const auto& s : m.subsegments) expect(s.vertices);
+  for (const auto& f : m.subfacets) expect(f.vertices);
+  FUZZ_EXPECT(m.regions.empty() || m.regions.size() == m.cells.size());
+  FUZZ_EXPECT(m.point_markers.empty() || m.point_markers.size() == m.points.size());
+}
+
+template <int D>
+void look_at(const OutputMesh<D>& m) {
+  expect_in_range<D>(m);
+  if (m.cells.size() + m.subsegments.size() + m.subfacets.size() <= most_cells) check<D>(m, CheckOptions<D>{});
+}
+
+/// The texts of the files .node, .ele, .face and .edge, in this order, with a byte 0 between; the last may be missing.
+template <int D>
+void read_tetgen_texts(std::string_view bytes) {
+  std::string texts[4];
+  std::size_t n = 0;
+  for (const char c : bytes) {
+    if (c == '\0' && n < 3) ++n;
+    else texts[n] += c;
+  }
+  look_at<D>(detail::read_tetgen<D>({texts[0], texts[1], n >= 2 ? &texts[2] : nullptr, n >= 3 ? &texts[3] : nullptr}, name));
+}
+
+template <int D>
+void read(std::string_view bytes) {
+  if constexpr (input)
+    guarded(bytes, [&] { expect_in_range<D>(detail::read_plc_from<D>(bytes, name)); });
+  if constexpr (tetgen) guarded(bytes, [&] { read_tetgen_texts<D>(bytes); });
+  else if constexpr (mesh) guarded(bytes, [&] { look_at<D>(detail::read_mesh_from<D>(bytes, name)); });
+}
+
+}  // namespace
+}  // namespace pgdr
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  // A copy of its own: the sanitizer sees a read beyond its end.
+  const std::string bytes(reinterpret_cast<const char*>(data), size);
+  if constexpr (!pgdr::spatial) pgdr::read<2>(bytes);
+  pgdr::read<3>(bytes);
+  return 0;
+}
