@@ -271,11 +271,11 @@ PointSelector<D> sliver_avoiding(int candidates) {
   return [candidates](const PoorElement<D>& e, Neighborhood<D>& n) { return sharpest_avoided<D>(e, n, candidates); };
 }
 
-template PointSelector<2> off_center<2>(double);
-template PointSelector<3> off_center<3>(double);
-template PointSelector<2> optimized<2>(int);
-template PointSelector<3> optimized<3>(int);
-template PointSelector<2> sliver_avoiding<2>(int);
-template PointSelector<3> sliver_avoiding<3>(int);
+template PGDR_API PointSelector<2> off_center<2>(double);
+template PGDR_API PointSelector<3> off_center<3>(double);
+template PGDR_API PointSelector<2> optimized<2>(int);
+template PGDR_API PointSelector<3> optimized<3>(int);
+template PGDR_API PointSelector<2> sliver_avoiding<2>(int);
+template PGDR_API PointSelector<3> sliver_avoiding<3>(int);
 
 }  // namespace pgdr

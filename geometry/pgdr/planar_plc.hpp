@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "pgdr/error.hpp"
+#include "pgdr/export.hpp"
 #include "pgdr/plc.hpp"
 
-namespace pgdr {
+namespace pgdr PGDR_API {
 
 /// Splits segments where they cross, at new points (behind those of the input), each the exact intersection rounded once:
 /// pieces may leave the line of their segment by an ulp. What that makes cross is split in turn, at points that are there

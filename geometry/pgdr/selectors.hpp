@@ -7,9 +7,10 @@
 // there is. Any thread; each call as one thread.
 #pragma once
 
+#include "pgdr/export.hpp"
 #include "pgdr/point_selector.hpp"
 
-namespace pgdr {
+namespace pgdr PGDR_API {
 
 /// The factor that off-centres are best taken with: 0.6 in 3D, as Üngör suggests; in 2D a little below one, so that rounding
 /// leaves the new triangle within its bound, and 0.95 makes the smaller meshes at about 20 degrees (docs/selectors.md).

@@ -66,6 +66,13 @@ void functors(pgdr::Plc<D> plc) {
   pgdr::RefineOptions<D> options;
   options.radius_edge_bound = 4;
   mesh<D>(plc, options, "circumcentres");
+  options.disk.type = pgdr::DiskType::type1;
+  for (const auto& [name, selector] : {std::pair{"off-centres", pgdr::off_center<D>()}, {"optimised points", pgdr::optimized<D>()},
+                                       {"points that avoid slivers", pgdr::sliver_avoiding<D>()}}) {
+    options.selector = selector;
+    mesh<D>(plc, options, name);
+  }
+  options.disk.type = pgdr::DiskType::type2;
   options.size = [](const pgdr::Point<D>& p) { return 0.05 + 0.1 * p[0]; };
   int asked = 0;
   options.schedule.executor = pgdr::Executor::serial;  // so that the count needs no lock
