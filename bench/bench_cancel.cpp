@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "pgdr/pgdr.hpp"
+#include "unit_cube.hpp"
 
 namespace {
 
@@ -42,13 +43,6 @@ Arguments parse(int argc, char** argv) {
     else std::exit((std::fprintf(stderr, "bench_cancel: unknown flag %s\n", argv[i]), 2));
   }
   return a;
-}
-
-Plc<3> unit_cube() {
-  const double points[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1};
-  const std::uint32_t triangles[] = {0, 1, 3, 0, 3, 2, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
-                                     2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 3, 7, 1, 7, 5};
-  return plc_from_arrays<3>(points, triangles);
 }
 
 double milliseconds(Clock::duration d) { return std::chrono::duration<double, std::milli>(d).count(); }

@@ -11,7 +11,7 @@ namespace pgdr {
 template <int D>
 void Cavity<D>::begin(const Point<D>& p) {
   point_ = p;
-  shrunk_ = touches_constraints_ = shapes_known_ = false;
+  shrunk_ = touches_constraints_ = shapes_known_ = star_shaped_ = false;
   split_edge_ = {no_vertex, no_vertex};
   split_segment_ = no_entity;
 }
@@ -216,7 +216,7 @@ auto Cavity<D>::grow() -> Status {
 
 template <int D>
 void Cavity<D>::rebuild_boundary() {
-  shapes_known_ = false;
+  shapes_known_ = star_shaped_ = false;
   boundary_.clear();
   for (const CellId c : cells_)
     for (int f = 0; f <= D; ++f) {

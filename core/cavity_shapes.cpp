@@ -69,17 +69,19 @@ bool Cavity<D>::visible_exactly(const BoundaryFace& f) const {
 template <int D>
 auto Cavity<D>::make_star_shaped() -> Status {
   std::vector<CellId> doomed;
-  while (true) {
+  while (!star_shaped_) {
     look_at_shapes();
     for (std::size_t i = 0; i < boundary_.size(); ++i)
       if (!visible(i)) doomed.push_back(boundary_[i].cell);
     if (doomed.empty())
       if (const Status s = find_broken_fans(doomed); s != Status::ok) return s;
     if (doomed.empty()) find_turned_over(doomed);
-    if (doomed.empty()) return Status::ok;
+    star_shaped_ = doomed.empty();
+    if (star_shaped_) break;
     if (const Status s = drop_cells(doomed); s != Status::ok) return s;
     doomed.clear();
   }
+  return Status::ok;
 }
 
 /// Of new cell c on the i-th boundary face.

@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "detail/disjoint_sets.hpp"
 #include "pgdr/bounding_box.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr::checking {
+
+using detail::DisjointSets;
 
 void CompensatedSum::add(double x) {
   const double t = sum_ + x;
@@ -43,23 +45,6 @@ std::pair<double, double> signed_measure(const std::array<Point<D>, D>& s, const
 }
 
 namespace {
-
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /// A wall at a ridge: `ahead` is its side that a turn round the ridge, counter-clockwise seen against the direction
 /// from the ridge's smaller point to its larger (in 2D: in the plane), enters when it leaves the wall.
@@ -163,8 +148,8 @@ class InputBuilder {
       });
     for (std::size_t i = 0; i < walls.size(); ++i) {
       const AtRidge &w = walls[i], &next = walls[(i + 1) % walls.size()];
-      sides_.join(2 * w.simplex + w.ahead_negative, 2 * next.simplex + !next.ahead_negative);
-      components_.join(w.simplex, next.simplex);
+      sides_.unite(2 * w.simplex + w.ahead_negative, 2 * next.simplex + !next.ahead_negative);
+      components_.unite(w.simplex, next.simplex);
     }
     if constexpr (D == 3) note_bounds(walls);
   }
@@ -173,7 +158,7 @@ class InputBuilder {
     const auto at = std::lower_bound(segments_.begin(), segments_.end(), std::pair{walls[0].ridge, EntityId{0}});
     if (at == segments_.end() || at->first != walls[0].ridge) {
       if (walls.size() == 2 && facet_of_[walls[0].simplex] == facet_of_[walls[1].simplex])
-        patches_.join(walls[0].simplex, walls[1].simplex);
+        patches_.unite(walls[0].simplex, walls[1].simplex);
       return;
     }
     // ahead_negative: the triangle runs from the larger point number to the smaller.
@@ -223,11 +208,11 @@ class InputBuilder {
     std::uint32_t open = 2 * static_cast<std::uint32_t>(out_.simplices_.size());
     for (const std::uint32_t i : *hits) {
       const bool from_negative = side_of(i, q) == Sign::negative;
-      sides_.join(open, 2 * i + from_negative);
+      sides_.unite(open, 2 * i + from_negative);
       open = 2 * i + !from_negative;
       linked[components_.find(i)] = 1;
     }
-    sides_.join(open, 2 * static_cast<std::uint32_t>(out_.simplices_.size()));
+    sides_.unite(open, 2 * static_cast<std::uint32_t>(out_.simplices_.size()));
   }
 
   Sign side_of(std::uint32_t i, const Point<D>& x) const {

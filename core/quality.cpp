@@ -6,28 +6,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "detail/vectors.hpp"
 #include "pgdr/circumsphere.hpp"
 
 namespace pgdr {
 namespace {
 
-template <int D>
-std::array<double, D> difference(const Point<D>& a, const Point<D>& b) {
-  std::array<double, D> d;
-  for (int i = 0; i < D; ++i) d[i] = a[i] - b[i];
-  return d;
-}
-
-std::array<double, 3> cross(const std::array<double, 3>& u, const std::array<double, 3>& v) {
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
-
-template <std::size_t N>
-double dot(const std::array<double, N>& u, const std::array<double, N>& v) {
-  double s = 0;
-  for (std::size_t i = 0; i < N; ++i) s += u[i] * v[i];
-  return s;
-}
+using detail::cross;
+using detail::difference;
+using detail::dot;
 
 constexpr double degrees = 180 / std::numbers::pi;
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "detail/entity_distance.hpp"
+#include "detail/vectors.hpp"
 #include "pgdr/refiner.hpp"
 
 namespace pgdr {
@@ -22,15 +23,11 @@ bool projects_into(const std::array<Point<D>, D>& corner, const Point<D>& x) {
     }
     return along >= 0 && along <= length;
   } else {
-    auto minus = [](const Point<3>& p, const Point<3>& q) { return std::array{p[0] - q[0], p[1] - q[1], p[2] - q[2]}; };
-    auto cross = [](const std::array<double, 3>& u, const std::array<double, 3>& v) {
-      return std::array{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-    };
-    const auto normal = cross(minus(corner[1], corner[0]), minus(corner[2], corner[0]));
-    for (int i = 0; i < 3; ++i) {
-      const auto side = cross(minus(corner[(i + 1) % 3], corner[i]), minus(x, corner[i]));
-      if (side[0] * normal[0] + side[1] * normal[1] + side[2] * normal[2] < 0) return false;
-    }
+    using detail::difference;
+    const auto normal = detail::cross(difference(corner[1], corner[0]), difference(corner[2], corner[0]));
+    for (int i = 0; i < 3; ++i)
+      if (detail::dot(detail::cross(difference(corner[(i + 1) % 3], corner[i]), difference(x, corner[i])), normal) < 0)
+        return false;
     return true;
   }
 }
@@ -218,10 +215,12 @@ auto Refiner<D>::treat_cell_at(const Item& e, const Point<D>& x, const CellVerdi
     return wall ? split_instead(*wall, e, verdict) : Outcome::not_owned;
   }
   if (status != Cavity<D>::Status::ok) return Outcome::refused;
-  const auto encroached = encroached_entity(x), wall = hiding_wall(e.cell, x);
-  if (!encroached && !wall) return insert_point(e, verdict);
-  const Outcome outcome = split_instead(encroached ? *encroached : *wall, e, verdict);
-  return outcome == Outcome::refused && !wall ? insert_beside_refused(x, e, verdict) : outcome;
+  if (const auto encroached = encroached_entity(x)) {
+    const Outcome outcome = split_instead(*encroached, e, verdict);
+    return outcome == Outcome::refused ? insert_beside_refused(x, e, verdict) : outcome;
+  }
+  if (const auto wall = hiding_wall(e.cell, x)) return split_instead(*wall, e, verdict);
+  return insert_point(e, verdict);
 }
 
 /// The element's point, though it encroaches upon an entity that stays as it is, if it is far from all such: two
@@ -231,7 +230,7 @@ auto Refiner<D>::insert_beside_refused(const Point<D>& x, const Item& e, const C
   if (!alive(e)) return Outcome::refused;
   const auto status = cavity_.collect(x, e.cell);
   if (status == Cavity<D>::Status::not_owned) return Outcome::not_owned;
-  if (status != Cavity<D>::Status::ok) return Outcome::refused;
+  if (status != Cavity<D>::Status::ok || hiding_wall(e.cell, x)) return Outcome::refused;
   const double circumradius2 = mesh_->squared_radius_bounds(e.cell).second;
   return is_clear_of_encroached(x, 4 * circumradius2) ? insert_point(e, verdict) : Outcome::refused;
 }

@@ -30,13 +30,6 @@ bool Refiner<D>::face_encroached_by(CellId c, int face, VertexId v) const {
   }
 }
 
-template <int D>
-Point<D> Refiner<D>::segment_midpoint(EntityId s, VertexId a, VertexId b) const {
-  const double ta = segment_parameter<D>(*domain_, s, mesh_->point(a));
-  const double tb = segment_parameter<D>(*domain_, s, mesh_->point(b));
-  return point_on_segment<D>(*domain_, s, ta + (tb - ta) / 2);
-}
-
 /// Where the two vertices lie on the segment, the smaller parameter first; its ends at 0 and 1.
 template <int D>
 std::array<double, 2> Refiner<D>::piece(EntityId s, VertexId a, VertexId b) const {
@@ -49,28 +42,32 @@ std::array<double, 2> Refiner<D>::piece(EntityId s, VertexId a, VertexId b) cons
   return {std::min(ta, tb), std::max(ta, tb)};
 }
 
+/// The point that splits the subsegment ab.
+template <int D>
+Point<D> Refiner<D>::split_point(EntityId s, VertexId a, VertexId b) const {
+  const auto [t0, t1] = piece(s, a, b);
+  return point_on_segment<D>(*domain_, s, context_->shells.split_parameter(s, t0, t1));
+}
+
 /// A point on a shell goes in where the first one of its end does, or one no farther from the end, on another segment there,
 /// is q; however near that is. (Of the former there are finitely many; a chain of the latter never comes nearer to the end,
 /// so that their distances are bounded by the least angle there.)
 template <int D>
 bool Refiner<D>::may_be_near(EntityId s, std::span<const VertexId> own, VertexId q) const {
-  if constexpr (D == 2) {
-    const auto [t0, t1] = piece(s, own[0], own[1]);
-    const int end = context_->shells.end_of(s, t0, t1);
-    if (end < 0) return false;
-    const std::uint32_t id = domain_->segments()[s].points[end];
-    const Point<D>& v = domain_->points()[id];
-    const VertexId far = mesh_->point(own[0]) == v ? own[1] : own[0];
-    if (!context_->shells.is_radius(s, std::sqrt(squared_distance(v, mesh_->point(far))))) return true;
-    if (q == no_vertex) return false;
-    const EntityRef home = mesh_->vertex(q).home.entity();
-    if (home.kind != EntityKind::segment || home.id == s) return false;
-    const auto& ends = domain_->segments()[home.id].points;
-    if (ends[0] != id && ends[1] != id) return false;
-    const double radius = std::sqrt(squared_distance(v, cavity_.point()));
-    return radius >= std::sqrt(squared_distance(v, mesh_->point(q))) - 2 * context_->shells.rounding(s);
-  }
-  return false;
+  const auto [t0, t1] = piece(s, own[0], own[1]);
+  const int end = context_->shells.end_of(s, t0, t1);
+  if (end < 0) return false;
+  const std::uint32_t id = domain_->segments()[s].points[end];
+  const Point<D>& v = domain_->points()[id];
+  const VertexId far = mesh_->point(own[0]) == v ? own[1] : own[0];
+  if (!context_->shells.is_radius(s, std::sqrt(squared_distance(v, mesh_->point(far))))) return true;
+  if (q == no_vertex) return false;
+  const EntityRef home = mesh_->vertex(q).home.entity();
+  if (home.kind != EntityKind::segment || home.id == s) return false;
+  const auto& ends = domain_->segments()[home.id].points;
+  if (ends[0] != id && ends[1] != id) return false;
+  const double radius = std::sqrt(squared_distance(v, cavity_.point()));
+  return radius >= std::sqrt(squared_distance(v, mesh_->point(q))) - 2 * context_->shells.rounding(s);
 }
 
 template <int D>
@@ -78,8 +75,7 @@ Point<D> Refiner<D>::face_point(CellId c, int face) const {
   const auto& k = mesh_->cell(c).vertices;
   const EntityId id = mesh_->constraints(c)->face_entity[face];
   if constexpr (D == 2) {
-    const auto [t0, t1] = piece(id, k[(face + 1) % 3], k[(face + 2) % 3]);
-    return point_on_segment<D>(*domain_, id, context_->shells.split_parameter(id, t0, t1));
+    return split_point(id, k[(face + 1) % 3], k[(face + 2) % 3]);
   } else {
     const Ball<3> ball = equatorial_ball(mesh_->point(k[(face + 1) & 3]), mesh_->point(k[(face + 2) & 3]),
                                          mesh_->point(k[(face + 3) & 3]));
@@ -250,7 +246,7 @@ auto Refiner<D>::split_edge(const Item& e, const Demand* cause) -> Outcome {
   if constexpr (D == 3) {
     const EntityId s = mesh_->constraints(e.cell)->edge_entity[e.which];
     const std::array<VertexId, 2> own{e.vertices[edge_ends[e.which][0]], e.vertices[edge_ends[e.which][1]]};
-    const Point<D> x = segment_midpoint(s, own[0], own[1]);
+    const Point<D> x = split_point(s, own[0], own[1]);
     const EntityRef entity{EntityKind::segment, s};
     const auto status = cavity_.collect_on_edge(x, e.cell, e.which);
     if (status == Cavity<D>::Status::not_owned) return give_up(Outcome::not_owned);

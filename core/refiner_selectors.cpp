@@ -6,32 +6,25 @@
 #include <array>
 #include <cmath>
 
+#include "detail/vectors.hpp"
 #include "pgdr/refiner.hpp"
 
 namespace pgdr {
 namespace {
 
-template <int D>
-std::array<double, D> difference(const Point<D>& a, const Point<D>& b) {
-  std::array<double, D> d;
-  for (int i = 0; i < D; ++i) d[i] = a[i] - b[i];
-  return d;
-}
+using detail::cross;
+using detail::difference;
+using detail::dot;
 
 /// The largest cosine of an angle between two of the faces, from vectors normal to them that point all outwards or all
 /// inwards. 1 where one has no length.
 template <int D>
 double largest_cosine(const std::array<std::array<double, D>, D + 1>& normal) {
-  auto dot = [&](int i, int j) {
-    double s = 0;
-    for (int a = 0; a < D; ++a) s += normal[i][a] * normal[j][a];
-    return s;
-  };
   double largest = -1;
   for (int i = 0; i <= D; ++i)
     for (int j = i + 1; j <= D; ++j) {
-      const double lengths = std::sqrt(dot(i, i)) * std::sqrt(dot(j, j));
-      largest = std::max(largest, lengths > 0 ? -dot(i, j) / lengths : 1);
+      const double lengths = std::sqrt(dot(normal[i], normal[i])) * std::sqrt(dot(normal[j], normal[j]));
+      largest = std::max(largest, lengths > 0 ? -dot(normal[i], normal[j]) / lengths : 1);
     }
   return largest;
 }
@@ -44,9 +37,6 @@ double sharpest_cosine(const Simplex<D>& s) {
     const auto w = difference(s[2], s[1]);
     return largest_cosine<2>({{{-u[1], u[0]}, {-w[1], w[0]}, {v[1], -v[0]}}});
   } else {
-    auto cross = [](const std::array<double, 3>& a, const std::array<double, 3>& b) {
-      return std::array{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-    };
     const auto w = difference(s[3], s[0]);
     const auto a = cross(u, v), b = cross(v, w), c = cross(w, u), d = cross(difference(s[3], s[1]), difference(s[2], s[1]));
     return largest_cosine<3>({a, b, c, d});

@@ -131,6 +131,69 @@ RefineResult<D> without_mesh(RefineResult<D> result, Clock::time_point start) {
 }
 
 template <int D>
+void note_what_theory_lacks(const RefineOptions<D>& options, std::vector<Diagnostic>& warnings) {
+  if (D == 2 && options.radius_edge_bound < smallest_proved_bound<D>() && options.refine)
+    warnings.push_back({Errc::beyond_theory,
+                        "the bound on circumradius over shortest edge is below sqrt 2 (angles above 20.7 degrees): the "
+                        "refinement ends, but elements may stay poor without a small angle of the input",
+                        {}, 0, {}, {}});
+}
+
+/// The mesh before its refinement. Where the run is stopped before the boundary is there, `result.stop` says why.
+template <int D>
+RegionTable make_initial(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Domain<D>& domain, const RefineOptions<D>& options,
+                         Clock::time_point start, RefineResult<D>& result) {
+  Delaunay<D> delaunay(mesh, pools);
+  if (!delaunay.build(domain.points(), options.stop))
+    throw InputError({Errc::no_volume, D == 3 ? "all points lie in one plane" : "all points lie on one line", {}, 0, {}, {}});
+  RecoveryCounts counts;
+  if (options.stop.stop_requested()) {
+    result.stop = StopCause::cancelled;  // the triangulation may lack points
+  } else {
+    result.stop = recover_boundary<D>(mesh, pools, delaunay, domain, options, start, counts);
+  }
+  result.statistics.segment_points = counts.segment_points;
+  result.statistics.facet_points = counts.facet_points;
+  if (result.stop != StopCause::finished) return {};
+  return carve<D>(mesh, pools, delaunay, domain, options.regions, result.warnings);
+}
+
+template <int D>
+void refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices, PoorReasons<D>& reasons,
+                 RefineResult<D>& result) {
+  const auto refinement = make_refinement<D>(context, std::move(pools), vertices);
+  result.stop = refinement->run();
+  result.violations_seen = refinement->violations_seen();
+  refinement->for_each_refused([&](std::span<const Refusal<D>> refused) { reasons.add(refused); });
+  const RefineCounts& counts = refinement->counts();
+  result.statistics.insertions_committed = counts.committed;
+  result.statistics.insertions_refused = counts.refused;
+  result.statistics.selector_outside = counts.selector_outside;
+  result.statistics.predicates += refinement->predicates_elsewhere();
+  result.scheduler = refinement->statistics();
+  result.scheduler.threads = threads_of(context.options.schedule);
+  result.trace = refinement->take_trace();
+}
+
+/// Looks at every cell once more. The poor ones, each with its reason, if the refinement came to its end; else they are counted.
+template <int D>
+std::vector<PoorCell> find_poor(const Mesh<D>& mesh, PoorReasons<D>& reasons, const RefineOptions<D>& options,
+                                RefineResult<D>& result) {
+  if (!options.refine || result.stop != StopCause::finished) {
+    const PoorCount count = count_poor(reasons, mesh.cell_bound(), options.schedule);
+    result.poor_left = count.cells;
+    result.size_met = !count.over_size;
+    return {};
+  }
+  std::vector<PoorCell> poor = reasons.explained(result.violations_seen, token_of(options));
+  for (const PoorCell& p : poor) {
+    result.poor_left += p.over_bound ? 1 : 0;
+    result.size_met = result.size_met && !p.over_size;
+  }
+  return poor;
+}
+
+template <int D>
 RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   validate(options);
   const auto start = Clock::now();
@@ -139,72 +202,29 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   RefineResult<D> result;
   result.repairs = domain.repairs();
   result.warnings = domain.warnings();
-  if (D == 2 && options.radius_edge_bound < smallest_proved_bound<D>() && options.refine)
-    result.warnings.push_back({Errc::beyond_theory,
-                               "the bound on circumradius over shortest edge is below sqrt 2 (angles above 20.7 degrees): the "
-                               "refinement ends, but elements may stay poor without a small angle of the input",
-                               {}, 0, {}, {}});
+  note_what_theory_lacks(options, result.warnings);
 
   Mesh<D> mesh;
   auto pools = mesh.make_pools();
-  RegionTable regions;
-  {
-    Delaunay<D> delaunay(mesh, pools);
-    if (!delaunay.build(domain.points(), options.stop))
-      throw InputError({Errc::no_volume, D == 3 ? "all points lie in one plane" : "all points lie on one line", {}, 0, {}, {}});
-    RecoveryCounts counts;
-    if (options.stop.stop_requested()) {
-      result.stop = StopCause::cancelled;  // the triangulation may lack points
-    } else {
-      result.stop = recover_boundary<D>(mesh, pools, delaunay, domain, options, start, counts);
-    }
-    result.statistics.segment_points = counts.segment_points;
-    result.statistics.facet_points = counts.facet_points;
-    if (result.stop != StopCause::finished) {
-      result.size_met = false;
-      result.statistics.seconds_mesh = result.statistics.seconds_initial = seconds_since(start);
-      return result;  // no boundary yet, so no mesh
-    }
-    regions = carve<D>(mesh, pools, delaunay, domain, options.regions, result.warnings);
-  }
+  const RegionTable regions = make_initial<D>(mesh, pools, domain, options, start, result);
   result.statistics.seconds_initial = seconds_since(start);
+  if (result.stop != StopCause::finished) {
+    result.size_met = false;
+    result.statistics.seconds_mesh = result.statistics.seconds_initial;
+    return result;  // no boundary yet, so no mesh
+  }
 
   const auto refine_start = Clock::now();
   const std::uint64_t vertices = domain.points().size() + result.statistics.segment_points + result.statistics.facet_points;
   RefineContext<D> context(mesh, domain, options, bounds_of(options, regions), vertices, start);
   PoorReasons<D> reasons(mesh, domain, context.bounds, options.keep_boundary);
-  bool violations_seen = false;
-  if (options.refine) {
-    const auto refinement = make_refinement<D>(context, std::move(pools), vertices);
-    result.stop = refinement->run();
-    result.violations_seen = violations_seen = refinement->violations_seen();
-    refinement->for_each_refused([&](std::span<const Refusal<D>> refused) { reasons.add(refused); });
-    const RefineCounts& counts = refinement->counts();
-    result.statistics.insertions_committed = counts.committed;
-    result.statistics.insertions_refused = counts.refused;
-    result.statistics.selector_outside = counts.selector_outside;
-    result.scheduler = refinement->statistics();
-    result.scheduler.threads = threads_of(options.schedule);
-    result.trace = refinement->take_trace();
-    result.statistics.predicates += refinement->predicates_elsewhere();
-  }
+  if (options.refine) refine_mesh<D>(context, std::move(pools), vertices, reasons, result);
   const auto dropped = [&] {
     return !options.partial_mesh && (options.stop.stop_requested() || result.stop == StopCause::cancelled);
   };
   if (dropped()) return without_mesh(std::move(result), start);
-  std::vector<PoorCell> poor;
-  if (options.refine && result.stop == StopCause::finished) {
-    poor = reasons.explained(violations_seen, token_of(options));
-    if (dropped()) return without_mesh(std::move(result), start);
-    for (const PoorCell& p : poor) {
-      result.poor_left += p.over_bound ? 1 : 0;
-      result.size_met = result.size_met && !p.over_size;
-    }
-  } else {
-    const PoorCount count = count_poor(reasons, mesh.cell_bound(), options.schedule);
-    result.poor_left = count.cells;
-    result.size_met = !count.over_size;
-  }
+  const std::vector<PoorCell> poor = find_poor<D>(mesh, reasons, options, result);
+  if (dropped()) return without_mesh(std::move(result), start);
   result.statistics.seconds_refine = seconds_since(refine_start);
 #ifdef __GLIBC__
   malloc_trim(0);  // the lists have left small pieces, which the long arrays of the result have no use for

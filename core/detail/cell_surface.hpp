@@ -8,33 +8,12 @@
 
 #include <array>
 #include <cstdint>
-#include <numeric>
 #include <vector>
 
+#include "detail/disjoint_sets.hpp"
 #include "pgdr/plc.hpp"
 
 namespace pgdr::detail {
-
-/// Disjoint sets of numbers; the smallest one names its set.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  std::uint32_t find(std::uint32_t c) {
-    while (parent_[c] != c) c = parent_[c] = parent_[parent_[c]];
-    return c;
-  }
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    if (a < b)
-      parent_[b] = a;
-    else
-      parent_[a] = b;
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 template <int D>
 struct LabelledCell {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "detail/vectors.hpp"
 #include "pgdr/domain.hpp"
 
 namespace pgdr::detail {
@@ -27,18 +28,13 @@ double squared_distance_to_edge(const Point<D>& a, const Point<D>& b, const Poin
 inline double squared_distance_to_triangle(const Point3& a, const Point3& b, const Point3& c, const Point3& x) {
   const double edges = std::min({squared_distance_to_edge(a, b, x), squared_distance_to_edge(b, c, x),
                                  squared_distance_to_edge(c, a, x)});
-  auto minus = [](const Point3& p, const Point3& q) { return Point3{{p[0] - q[0], p[1] - q[1], p[2] - q[2]}}; };
-  auto dot = [](const Point3& p, const Point3& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; };
-  auto cross = [](const Point3& u, const Point3& v) {
-    return Point3{{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]}};
-  };
-  const Point3 normal = cross(minus(b, a), minus(c, a));
-  const bool above = dot(cross(minus(b, a), minus(x, a)), normal) >= 0 &&
-                     dot(cross(minus(c, b), minus(x, b)), normal) >= 0 &&
-                     dot(cross(minus(a, c), minus(x, c)), normal) >= 0;
+  const auto normal = cross(difference(b, a), difference(c, a));
+  const bool above = dot(cross(difference(b, a), difference(x, a)), normal) >= 0 &&
+                     dot(cross(difference(c, b), difference(x, b)), normal) >= 0 &&
+                     dot(cross(difference(a, c), difference(x, c)), normal) >= 0;
   const double square = dot(normal, normal);
   if (!above || !(square > 0)) return edges;
-  const double height = dot(minus(x, a), normal);
+  const double height = dot(difference(x, a), normal);
   return std::min(edges, height * height / square);
 }
 

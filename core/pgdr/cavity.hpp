@@ -181,6 +181,7 @@ class Cavity {
   std::vector<SimplexBlock<D>> prospects_;  ///< the cells that the boundary faces make with the point, in their order
   std::vector<ShapeBlock<D>> shapes_;       ///< of the prospects; none of faces at infinity
   bool shapes_known_ = false;               ///< for the boundary as it is
+  bool star_shaped_ = false;                ///< likewise, found by make_star_shaped
   std::vector<PartFace> part_;
   /// Rim of the part: ridges that get a new constrained face with the new vertex, and of which entity.
   struct RimRidge {

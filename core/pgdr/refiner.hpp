@@ -148,7 +148,7 @@ class Refiner {
   Outcome split_face(const Item& e, const Demand* cause);
   Outcome split_edge(const Item& e, const Demand* cause);
   Point<D> face_point(CellId c, int face) const;
-  Point<D> segment_midpoint(EntityId s, VertexId a, VertexId b) const;
+  Point<D> split_point(EntityId s, VertexId a, VertexId b) const;
   std::array<double, 2> piece(EntityId s, VertexId a, VertexId b) const;
   bool may_be_near(EntityId s, std::span<const VertexId> own, VertexId q) const;
   std::optional<Item> encroached_edge(const Point<D>& x) const;
