@@ -74,11 +74,11 @@ void print_summary(const CheckArguments& a, const OutputMesh<D>& mesh, const Bou
 
 template <int D>
 int check_as(const CheckArguments& a, Report& report) {
-  const Bounds<D> bounds = resolve<D>(a.bounds, unbounded);
+  ReportedBounds reported;
+  if (!a.reasons.empty()) reported = read_bounds(a.reasons);
+  const Bounds<D> bounds = resolve<D>(a.bounds, reported.radius_edge.value_or(unbounded));
   const OutputMesh<D> mesh = read_mesh<D>(a.mesh);
   const std::optional<Domain<D>> domain = read_domain<D>(a.input, a.planar);
-  std::vector<PoorReason> reasons;
-  if (!a.reasons.empty()) reasons = read_reasons(a.reasons);
 
   CheckOptions<D> options;
   if (domain) options.domain = &*domain;
@@ -86,7 +86,7 @@ int check_as(const CheckArguments& a, Report& report) {
   options.size = bounds.size;
   options.max_measure = bounds.max_volume;
   options.regions = a.regions;
-  if (!a.reasons.empty()) options.reasons = &reasons;
+  if (!a.reasons.empty()) options.reasons = &reported.reasons;
   const CheckReport verdict = pgdr::check(mesh, options);
   std::optional<QualitySummary> quality;  // of a mesh whose numbers can be used at all
   if (verdict.count(CheckFinding::Kind::bad_index) + verdict.count(CheckFinding::Kind::not_finite) == 0)

@@ -95,10 +95,10 @@ CLI::Validator one_of(const std::map<std::string, Value>& words, std::string wha
           "", what};
 }
 
-void add_bounds(CLI::App& app, BoundArguments& b) {
+/// @param without  what holds if --radius-edge is not given
+void add_bounds(CLI::App& app, BoundArguments& b, const std::string& without) {
   auto* radius_edge = app.add_option("--radius-edge", b.radius_edge,
-                                     "bound on circumradius over shortest edge (default 2 in 3D, sqrt 2 in 2D, the "
-                                     "smallest with a proof)")
+                                     "bound on circumradius over shortest edge (default " + without + ")")
                           ->type_name("R")->check(number("> 0", positive));
   app.add_option("--size", b.size,
                  "bound on the circumradius (3D) or the area (2D), at the centroid: a number, or an expression in x, "
@@ -139,7 +139,7 @@ void add_report(CLI::App& app, std::string& report, bool& quiet) {
 void add_mesh(CLI::App& app, MeshArguments& a) {
   app.add_option("INPUT", a.input, "what to mesh: .poly .smesh .node .off .obj .ply .stl .mesh .msh")->required()->type_name("");
   app.add_option("-o,--output", a.output, "the mesh: .vtu .msh .mesh .node .ele")->required()->type_name("OUTPUT");
-  add_bounds(app, a.bounds);
+  add_bounds(app, a.bounds, "2 in 3D, sqrt 2 in 2D, the smallest with a proof");
   add_planar(app, a.planar);
   add_regions(app, a.regions);
   app.add_flag("--keep-boundary", a.keep_boundary, "2D: no new points on segments");
@@ -178,7 +178,7 @@ void add_mesh(CLI::App& app, MeshArguments& a) {
 void add_check(CLI::App& app, CheckArguments& a) {
   app.add_option("MESH", a.mesh, "the mesh to check: .vtu .msh .mesh .node .ele")->required()->type_name("");
   app.add_option("--input", a.input, "what it is a mesh of; without it, conformity is not checked")->type_name("INPUT");
-  add_bounds(app, a.bounds);
+  add_bounds(app, a.bounds, "that of the report of --reasons; none without one");
   add_planar(app, a.planar);
   add_regions(app, a.regions);
   app.add_option("--reasons", a.reasons, "report of `pgdr mesh`, whose bounds.reasons explain poor cells")

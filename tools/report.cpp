@@ -107,14 +107,29 @@ JsonObject to_json(const CheckFinding& f) {
   return {{"kind", pgdr::name(f.kind)}, {"message", f.message}, {"ids", f.ids}};
 }
 
-std::vector<PoorReason> read_reasons(const std::string& file) {
+const char* name(StopCause cause) {
+  switch (cause) {
+    case StopCause::max_vertices: return "max_vertices";
+    case StopCause::min_edge: return "min_edge";
+    case StopCause::time_limit: return "time_limit";
+    case StopCause::cancelled: return "cancelled";
+    case StopCause::finished: break;
+  }
+  return "finished";
+}
+
+ReportedBounds read_bounds(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in || std::filesystem::is_directory(file))
     throw FileError({.code = Errc::cannot_open, .message = "the report cannot be opened", .file = file});
-  std::vector<PoorReason> reasons;
+  ReportedBounds read;
   try {
     const auto report = nlohmann::json::parse(in);
-    for (const auto& j : report.at("bounds").at("reasons")) reasons.push_back(parse_reason(j));
+    const auto& bounds = report.at("bounds");
+    for (const auto& j : bounds.at("reasons")) read.reasons.push_back(parse_reason(j));
+    const auto bound = bounds.find("radius_edge");
+    if (bound != bounds.end() && bound->is_number() && report.value("stop", "finished") == "finished")
+      read.radius_edge = bound->get<double>();
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
@@ -122,7 +137,7 @@ std::vector<PoorReason> read_reasons(const std::string& file) {
                       .message = "not a report of pgdr mesh with bounds.reasons: " + std::string(e.what()),
                       .file = file});
   }
-  return reasons;
+  return read;
 }
 
 }  // namespace pgdr::tool

@@ -5,6 +5,7 @@
 // key is there only with a value that was measured.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,9 +48,15 @@ Json to_json(const std::vector<Value>& list) {
 
 const char* name(PoorReason::Code code);
 const char* name(EntityKind kind);
+const char* name(StopCause cause);
 
-/// `bounds.reasons` of a report that `pgdr mesh` wrote.
+/// What a report that `pgdr mesh` wrote says of poor cells.
+struct ReportedBounds {
+  std::vector<PoorReason> reasons;
+  std::optional<double> radius_edge;  ///< the bound of a run that was not stopped
+};
+
 /// @throws FileError if it cannot be opened, InputError if it is not such a report.
-std::vector<PoorReason> read_reasons(const std::string& file);
+ReportedBounds read_bounds(const std::string& file);
 
 }  // namespace pgdr::tool

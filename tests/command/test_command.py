@@ -357,6 +357,7 @@ class PoorLeft(Case):
         check = ["check", self.output, "--input", model, *bound]
         self.pgdr(*check, "--reasons", self.report, expect=1)
         self.pgdr(*check, expect=6)
+        self.pgdr("check", self.output, "--input", model, "--reasons", self.report, expect=1)  # the report's bound
 
     def test_reasons_that_are_none(self):
         model = self.file("wedge.poly", WEDGE)
