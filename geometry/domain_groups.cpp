@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Third step of a Domain (3D): facets given twice are dropped; facets that are exactly coplanar, share an edge of just
-// these two, and have equal markers become one (union-find; each such edge keeps the plane, so it is well defined).
+// Third step of a Domain (3D): facets given twice are dropped; the uses of all edges are collected; the groups of facets
+// that lie in one plane (domain_coplanar.cpp) become one facet each.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 
 #include "detail/domain_builder.hpp"
@@ -107,43 +106,6 @@ std::uint32_t DomainBuilder<D>::root(std::uint32_t f) {
   return f;
 }
 
-// The uses of one edge: two triangles, and nothing but the polygons of these.
-template <int D>
-bool DomainBuilder<D>::is_soft(std::span<const EdgeUse> uses) const requires(D == 3) {
-  using Kind = EdgeUse::Kind;
-  if (uses.size() < 2 || !uses[1].is_triangle()) return false;
-  const EdgeUse &a = uses[0], &b = uses[1];
-  for (const EdgeUse& use : uses.subspan(2))
-    if (use.kind != Kind::polygon ||
-        (use.owner != a.owner && use.owner != b.owner && !facets_[use.owner].mixed))
-      return false;
-  if (a.owner == b.owner) return a.kind == Kind::diagonal && b.kind == Kind::diagonal;
-  const TriangulatedFacet &f = facets_[a.owner], &g = facets_[b.owner];
-  if (!f.planar || !g.planar || plc_.facets[f.input].marker != plc_.facets[g.input].marker) return false;
-  const auto e0 = static_cast<std::uint32_t>(a.key >> 32), e1 = static_cast<std::uint32_t>(a.key);
-  const auto apex = [&](const EdgeUse& use) {
-    const Triangle& t = triangles_[use.triangle];
-    return t[0] ^ t[1] ^ t[2] ^ e0 ^ e1;
-  };
-  const auto& p = out_.points_;
-  const Point3 &c = p[apex(a)], &d = p[apex(b)];
-  if (orient3d(p[e0], p[e1], c, d) != Sign::zero) return false;
-  return orient_projected(p[e0], p[e1], c, f.axis) == -orient_projected(p[e0], p[e1], d, f.axis);
-}
-
-template <int D>
-void DomainBuilder<D>::group_coplanar() requires(D == 3) {
-  parent_.resize(facets_.size());
-  std::iota(parent_.begin(), parent_.end(), 0u);
-  for (std::size_t begin = 0, end; begin < uses_.size(); begin = end) {
-    end = begin + uses_of(begin);
-    if (!is_soft(std::span(uses_).subspan(begin, end - begin))) continue;
-    soft_[begin] = true;
-    const std::uint32_t f = root(uses_[begin].owner), g = root(uses_[begin + 1].owner);
-    parent_[std::max(f, g)] = std::min(f, g);
-  }
-}
-
 // The largest triangle first; one projection for all, each triangle positive in it.
 template <int D>
 void DomainBuilder<D>::orient_group(DomainFacet& facet) requires(D == 3) {
@@ -212,15 +174,25 @@ void DomainBuilder<D>::write_facets() requires(D == 3) {
     f.first_point = static_cast<std::uint32_t>(out_.facet_points_.size());
     f.point_count = static_cast<std::uint32_t>(points.size());
     out_.facet_points_.insert(out_.facet_points_.end(), points.begin(), points.end());
+    if (!f.planar) measure_defect(f, points);
   }
+}
+
+/// Of a facet of which some corners are not exactly in one plane.
+template <int D>
+void DomainBuilder<D>::measure_defect(DomainFacet& f, std::span<const std::uint32_t> points) const requires(D == 3) {
+  const auto& p = out_.points_;
+  const auto& [a, b, c] = out_.triangles_[f.first_triangle];
+  f.planarity_defect = 0;
+  for (const std::uint32_t v : points)
+    if (v != a && v != b && v != c)
+      f.planarity_defect = std::max(f.planarity_defect, detail::plane_distance(p[a], p[b], p[c], p[v]));
 }
 
 template void DomainBuilder<2>::collect_edges();
 template void DomainBuilder<3>::collect_edges();
 template void DomainBuilder<3>::drop_repeated_facets();
-template void DomainBuilder<3>::group_coplanar();
 template std::uint32_t DomainBuilder<3>::root(std::uint32_t);
-template bool DomainBuilder<3>::is_soft(std::span<const EdgeUse>) const;
 template void DomainBuilder<3>::write_facets();
 
 }  // namespace pgdr

@@ -212,11 +212,21 @@ class DomainBuilder {
   // domain_groups.cpp
   void drop_repeated_facets() requires(D == 3);
   void collect_edges();
-  void group_coplanar() requires(D == 3);
-  bool is_soft(std::span<const detail::EdgeUse> uses) const requires(D == 3);
   std::uint32_t root(std::uint32_t f);
   void write_facets() requires(D == 3);
   void orient_group(DomainFacet& facet) requires(D == 3);
+  void measure_defect(DomainFacet& facet, std::span<const std::uint32_t> points) const requires(D == 3);
+
+  // domain_coplanar.cpp
+  void group_coplanar() requires(D == 3);
+  void find_joints() requires(D == 3);
+  void grow_plane(std::uint32_t seed) requires(D == 3);
+  std::pair<std::uint32_t, double> largest_triangle(std::uint32_t f) const requires(D == 3);
+  bool is_joint(std::span<const detail::EdgeUse> uses) const requires(D == 3);
+  bool is_soft(std::span<const detail::EdgeUse> uses) const requires(D == 3);
+  bool is_flat(std::span<const detail::EdgeUse> joint) const requires(D == 3);
+  bool opens(std::span<const detail::EdgeUse> joint, int axis) const requires(D == 3);
+  std::array<Point<D>, 4> corners(std::span<const detail::EdgeUse> joint) const requires(D == 3);
 
   // domain_segments.cpp
   void write_segments();
@@ -248,6 +258,8 @@ class DomainBuilder {
   std::vector<std::uint64_t> given_up_;                          // edges that were inside of what was triangulated anew
   std::vector<detail::EdgeUse> uses_;
   std::vector<bool> soft_;                                       // by position in uses_: no segment for this edge
+  std::vector<std::uint32_t> joint_begin_, joints_;              // of each of facets_: positions in uses_
+  std::vector<std::uint8_t> grouped_;                            // of each: none yet, exactly in its group's plane, near it
   std::vector<std::uint32_t> parent_;                            // union-find over facets_ (or, before, triangles_)
   std::vector<EntityId> group_of_;                               // domain facet of each of facets_
   std::vector<std::pair<EntityId, EntityId>> facet_segment_;     // (facet, segment)

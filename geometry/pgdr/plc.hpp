@@ -57,6 +57,10 @@ struct Plc {
   std::vector<Point<D>> holes;     ///< a point in each volume (area) that is to stay empty
   std::vector<RegionSeed<D>> regions;  ///< labels and bounds of volumes (areas)
 
+  /// 3D: facets that meet at an edge, with all their points within `precision` times the largest of their coordinates
+  /// of one plane, count as coplanar. For the rounding of coordinates that were turned or shifted: 16 ulps.
+  double precision = 0x1p-48;
+
   std::uint32_t first_index = 0;  ///< the number the source gives its first point (0 or 1), for messages
   PlcSource source;                ///< for messages
 };
