@@ -7,6 +7,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "detail/bent_facets.hpp"
 #include "detail/domain_builder.hpp"
 #include "pgdr/predicates.hpp"
 
@@ -176,6 +177,10 @@ void DomainBuilder<D>::write_facets() requires(D == 3) {
     out_.facet_points_.insert(out_.facet_points_.end(), points.begin(), points.end());
     if (!f.planar) measure_defect(f, points);
   }
+  auto bent = std::make_shared<detail::BentFacets>();
+  for (EntityId f = 0; f < out_.facets_.size(); ++f)
+    if (!out_.facets_[f].planar) bent->add(f, {out_.triangles(f), out_.points_, out_.facets_[f].axis});
+  out_.bent_facets_ = std::move(bent);
 }
 
 /// Of a facet of which some corners are not exactly in one plane.

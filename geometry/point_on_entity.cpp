@@ -10,6 +10,7 @@
 
 #include "detail/domain_builder.hpp"
 #include "detail/double_double.hpp"
+#include "detail/bent_facets.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/predicates.hpp"
 
@@ -93,6 +94,23 @@ bool holds(const Point3& a, const Point3& b, const Point3& c, const Point3& x, i
          orient_projected(c, a, x, axis) != Sign::negative;
 }
 
+/// In the projection.
+std::size_t nearest_triangle(std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const Point3> points,
+                             const Point3& x, int axis) {
+  std::size_t best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < triangles.size(); ++k) {
+    const Point3 &a = points[triangles[k][0]], &b = points[triangles[k][1]], &c = points[triangles[k][2]];
+    const double d = std::min({projected_distance(a, b, x, axis), projected_distance(b, c, x, axis),
+                               projected_distance(c, a, x, axis)});
+    if (d < least) {
+      least = d;
+      best = k;
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 double detail::plane_distance(const Point3& a, const Point3& b, const Point3& c, const Point3& p) {
@@ -131,20 +149,12 @@ Point<3> point_on_facet(const Domain<3>& domain, EntityId f, const Point<3>& x) 
   const auto points = domain.points();
   const auto triangles = domain.triangles(f);
   std::size_t best = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; !facet.planar && k < triangles.size(); ++k) {
-    const auto& t = triangles[k];
-    const Point3 &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
-    if (holds(a, b, c, x, facet.axis)) {
-      best = k;
-      break;
-    }
-    const double d = std::min({projected_distance(a, b, x, facet.axis), projected_distance(b, c, x, facet.axis),
-                               projected_distance(c, a, x, facet.axis)});
-    if (d < least) {
-      least = d;
-      best = k;
-    }
+  if (!facet.planar) {
+    const auto holding = domain.bent_facets_->find(f)->first(x, [&](std::uint32_t k) {
+      const auto& [a, b, c] = triangles[k];
+      return holds(points[a], points[b], points[c], x, facet.axis);
+    });
+    best = holding ? *holding : nearest_triangle(triangles, points, x, facet.axis);
   }
   return project(points[triangles[best][0]], points[triangles[best][1]], points[triangles[best][2]], x);
 }

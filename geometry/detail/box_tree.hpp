@@ -56,6 +56,9 @@ class BoxTree {
   /// meet nowhere but at a common corner may be left out.
   template <class Visit>
   void self_pairs(Visit&& visit) const;
+  /// Calls visit(i) once for every box that holds p (its border counts).
+  template <class Visit>
+  void at(const Point<D>& p, Visit&& visit) const;
   /// Calls visit(i, j) once for every box i of this tree and box j of the other that meet.
   template <class Visit>
   void pairs(const BoxTree& other, Visit&& visit) const;
@@ -151,6 +154,24 @@ void BoxTree<D>::pairs(const BoxTree& other, Visit&& visit) const {
     } else {
       stack.insert(stack.end(), {{a, 2 * b}, {a, 2 * b + 1}});
     }
+  }
+}
+
+template <int D>
+template <class Visit>
+void BoxTree<D>::at(const Point<D>& p, Visit&& visit) const {
+  const Box<D> here = Box<D>::around(p);
+  std::vector<std::uint32_t> stack{1};
+  while (!stack.empty()) {
+    const std::uint32_t node = stack.back();
+    stack.pop_back();
+    if (!nodes_[node].meets(here)) continue;
+    if (!is_leaf(node)) {
+      stack.insert(stack.end(), {2 * node, 2 * node + 1});
+      continue;
+    }
+    for (const Item& item : items_of(node))
+      if (item.box.meets(here)) visit(item.index);
   }
 }
 

@@ -5,8 +5,8 @@
 // refines or checks a mesh speaks of the entities of a Domain. Immutable once made; any number of threads may read it.
 //
 // Definitions (3D). A polygon is the union of the triangles of one deterministic triangulation in its projection; its
-// planarity defect is reported. Facets that are exactly coplanar, share an edge used by just these two, and have equal
-// markers, are one facet. A segment is an edge that bounds a facet, is used by one or by more than two triangles, is
+// planarity defect is reported. Facets that are coplanar, exactly or up to Plc::precision, share an edge used by just
+// these two, and have equal markers, are one facet. A segment is an edge that bounds a facet, is used by one or by more than two triangles, is
 // explicit in the input (a segment, or an edge of a polygon: also one inside its facet), or lies between two facets.
 // Diagonals inside one input polygon are never segments, also where the polygon is not exactly planar. A segment of the
 // input from one point of a polygon facet to another, through the inside of the facet, is one of its segments.
@@ -20,6 +20,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,10 @@
 #include "pgdr/types.hpp"
 
 namespace pgdr PGDR_API {
+
+namespace detail {
+class BentFacets;
+}
 
 using EntityId = std::uint32_t;
 inline constexpr EntityId no_entity = 0xffffffffu;
@@ -58,6 +63,12 @@ struct DomainFacet {
   std::uint32_t first_segment = 0, segment_count = 0;    ///< into Domain::facet_segments: bounding and inner ones
   std::uint32_t first_point = 0, point_count = 0;        ///< into Domain::facet_points: all, sorted by index
 };
+
+template <int D>
+class Domain;
+/// x projected to facet f: orthogonally to the plane of the defining triangle that contains x in the facet's
+/// projection (nearest one if none does), in double-double, rounded once; exactly on it where axis-aligned.
+Point<3> point_on_facet(const Domain<3>& domain, EntityId f, const Point<3>& x);
 
 template <int D>
 class Domain {
@@ -112,6 +123,7 @@ class Domain {
  private:
   template <int>
   friend class DomainBuilder;
+  friend Point<3> point_on_facet(const Domain<3>& domain, EntityId f, const Point<3>& x);
   Domain() = default;
   bool nothing_meets_ = false;
   std::vector<Point<D>> points_;
@@ -130,6 +142,7 @@ class Domain {
   std::uint32_t first_index_ = 0;
   PlcSource source_;
   std::vector<Diagnostic> repairs_, warnings_;
+  std::shared_ptr<const detail::BentFacets> bent_facets_;  // 3D; copies share it
 };
 
 /// The point P + t (Q - P) of segment s (P, Q its ends, in that order), evaluated in double-double and rounded once
@@ -139,9 +152,6 @@ Point<D> point_on_segment(const Domain<D>& domain, EntityId s, double t);
 /// The parameter t of a point on (near) segment s, in [0, 1].
 template <int D>
 double segment_parameter(const Domain<D>& domain, EntityId s, const Point<D>& p);
-/// x projected to facet f: orthogonally to the plane of the defining triangle that contains x in the facet's
-/// projection (nearest one if none does), in double-double, rounded once; exactly on it where axis-aligned.
-Point<3> point_on_facet(const Domain<3>& domain, EntityId f, const Point<3>& x);
 
 /// An entity of a Domain; a vertex by its domain point.
 enum class EntityKind : std::uint8_t { vertex, segment, facet, volume };

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which triangle of a facet holds a point in the facet's projection, for facets that are planar within rounding alone:
+// there the plane of that triangle is meant. Made once; any number of threads may ask.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "detail/box_tree.hpp"
+#include "pgdr/domain.hpp"
+
+namespace pgdr::detail {
+
+/// p without coordinate `axis`.
+inline Point2 projected(const Point3& p, int axis) { return {p[(axis + 1) % 3], p[(axis + 2) % 3]}; }
+
+class BentFacet {
+ public:
+  using Triangle = std::array<std::uint32_t, 3>;
+
+  BentFacet(std::span<const Triangle> triangles, std::span<const Point3> points, int axis)
+      : axis_(axis), tree_(boxes(triangles, points, axis)) {}
+
+  /// The first triangle (by its place) for which `holds(k)` is true, of those whose projected boxes have x.
+  template <class Holds>
+  std::optional<std::uint32_t> first(const Point3& x, Holds&& holds) const {
+    std::optional<std::uint32_t> found;
+    tree_.at(projected(x, axis_), [&](std::uint32_t k) {
+      if ((!found || k < *found) && holds(k)) found = k;
+    });
+    return found;
+  }
+
+ private:
+  static std::vector<Box<2>> boxes(std::span<const Triangle> triangles, std::span<const Point3> points, int axis) {
+    std::vector<Box<2>> out;
+    for (const Triangle& t : triangles) {
+      Box<2> box = Box<2>::around(projected(points[t[0]], axis));
+      for (const std::uint32_t v : t) box.add(projected(points[v], axis));
+      out.push_back(box);
+    }
+    return out;
+  }
+
+  int axis_;
+  BoxTree<2> tree_;
+};
+
+/// Of facets; none for those that are exactly planar.
+class BentFacets {
+ public:
+  void add(EntityId f, BentFacet facet) { facets_.emplace_back(f, std::move(facet)); }  ///< by ascending f
+  const BentFacet* find(EntityId f) const {
+    const auto at = std::lower_bound(facets_.begin(), facets_.end(), f, [](const auto& a, EntityId b) { return a.first < b; });
+    return at != facets_.end() && at->first == f ? &at->second : nullptr;
+  }
+
+ private:
+  std::vector<std::pair<EntityId, BentFacet>> facets_;
+};
+
+}  // namespace pgdr::detail
