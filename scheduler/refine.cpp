@@ -22,6 +22,7 @@
 #include "detail/float_environment.hpp"
 #include "detail/generations.hpp"
 #include "detail/greedy.hpp"
+#include "detail/region_sizes.hpp"
 #include "pgdr/poor_reasons.hpp"
 #include "pgdr/recovery.hpp"
 
@@ -38,6 +39,9 @@ template <int D>
 void validate(const RefineOptions<D>& options) {
   if (!(options.radius_edge_bound > 0)) bad_option("the radius-edge bound must be positive");
   if (options.size.is_constant() && !(options.size.at({}) > 0)) bad_option("the size must be positive");
+  for (const RegionSize<D>& s : options.region_sizes)
+    if (s.size.is_constant() && !(s.size.at({}) > 0))
+      bad_option("the size of the region with label " + detail::label_words(s.label) + " must be positive");
   if (!(options.max_volume > 0)) bad_option("the volume bound must be positive");
   if (!(options.min_edge >= 0)) bad_option("the shortest edge allowed must not be negative");
   if (options.time_limit && !(options.time_limit->count() >= 0)) bad_option("the time limit must not be negative");
@@ -54,6 +58,10 @@ CellBounds<D> bounds_of(const RefineOptions<D>& options, const RegionTable& regi
   bounds.size = options.size;
   bounds.max_measure = options.max_volume;
   bounds.region_measure = regions.measure;
+  detail::require_labels<D>(options.region_sizes, regions.attribute);
+  if (!options.region_sizes.empty())
+    for (const double label : regions.attribute)
+      bounds.region_size.push_back(detail::sizes_of_label<D>(options.region_sizes, label));
   return bounds;
 }
 
@@ -217,12 +225,16 @@ template <int D>
 RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   validate(options);
   const auto start = Clock::now();
-  require_no_errors(domain);
   const PredicateCounts predicates_before = predicate_counts();
   RefineResult<D> result;
   result.repairs = domain.repairs();
   result.warnings = domain.warnings();
   note_what_theory_lacks(options, result.warnings);
+  try {
+    require_no_errors(domain, options.stop);
+  } catch (const CancelledError&) {
+    return without_mesh(std::move(result), start);
+  }
 
   Mesh<D> mesh;
   auto pools = mesh.make_pools();
@@ -279,9 +291,14 @@ template <int D>
 RefineResult<D> refine(const Plc<D>& plc, const RefineOptions<D>& options) {
   const auto start = Clock::now();
   const detail::DefaultFloats floats;
-  const Domain<D> domain(plc);
+  std::optional<Domain<D>> domain;
+  try {
+    domain.emplace(plc, options.stop);
+  } catch (const CancelledError&) {
+    return without_mesh(RefineResult<D>{}, start);
+  }
   const double prepare = seconds_since(start);
-  RefineResult<D> result = run<D>(domain, options);
+  RefineResult<D> result = run<D>(*domain, options);
   result.statistics.seconds_mesh += prepare;
   result.statistics.seconds_initial += prepare;
   for (VisitTrace& v : result.trace) {

@@ -29,8 +29,10 @@ class CellBounds {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
   double radius_edge_bound = infinity;
-  SizingField<D> size;
-  double max_measure = infinity;
+  SizingField<D> size;            ///< of all cells
+  /// Further ones of each region (by region number). Empty: none at all.
+  std::vector<SizingField<D>> region_size;
+  double max_measure = infinity;  ///< of all cells
   /// Measure bound of each region (by region number); infinity for none. Empty: none at all.
   std::vector<double> region_measure;
 
@@ -38,7 +40,7 @@ class CellBounds {
   CellVerdict test(const Mesh<D>& mesh, CellId c) const;
   /// A quick look that most cells within their bounds pass, in 3D without bounds on the measure.
   bool surely_within(const Mesh<D>& mesh, CellId c, const CellShape& shape) const {
-    if (D == 2 || !size.is_constant() || !region_measure.empty() || max_measure != infinity) return false;
+    if (D == 2 || !size.is_constant() || !region_size.empty() || !region_measure.empty() || max_measure != infinity) return false;
     const double bound = size.at({}), high = mesh.squared_radius_bounds(c).second;
     return high < bound * bound && high < radius_edge_bound * radius_edge_bound * shape.shortest_edge_squared;
   }
@@ -46,6 +48,7 @@ class CellBounds {
   CellVerdict test(const Mesh<D>& mesh, CellId c, const CellShape& shape) const;
 
  private:
+  double size_of(const Mesh<D>& mesh, CellId c) const;
   bool within_measure(const Mesh<D>& mesh, CellId c, const CellShape& shape, double bound) const;
   bool over_size(const Mesh<D>& mesh, CellId c, const CellShape& shape) const;
 };

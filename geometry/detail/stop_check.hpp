@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Ends what the caller has cancelled, by an exception: asked between steps, and in loops over the whole input.
+#pragma once
+
+#include <stop_token>
+#include <utility>
+
+#include "pgdr/error.hpp"
+
+namespace pgdr::detail {
+
+class StopCheck {
+ public:
+  explicit StopCheck(std::stop_token stop) : stop_(std::move(stop)) {}
+
+  /// @throws CancelledError once the token is requested
+  void operator()() const {
+    if (stop_.stop_requested()) throw CancelledError({Errc::cancelled, "cancelled by the caller", {}, 0, {}, {}});
+  }
+
+ private:
+  std::stop_token stop_;
+};
+
+}  // namespace pgdr::detail
