@@ -50,6 +50,7 @@ std::vector<std::uint32_t> number_vertices(const Mesh<D>& mesh, const Domain<D>&
     if (a.key != b.key) return a.key < b.key;
     return lex_less(mesh.point(VertexId{a.vertex}), mesh.point(VertexId{b.vertex}));
   });
+  if (bulk.stopped()) return number;
   out.points.resize(out.input_points + steiner.size());
   bulk.each(steiner.size(), [&](std::size_t i) {
     number[steiner[i].vertex] = static_cast<std::uint32_t>(out.input_points + i);

@@ -78,6 +78,7 @@ class Bulk {
 
   template <class T, class Less>
   void sort(std::vector<T>& items, const Less& less) const {
+    if (stopped()) return;
     if (!parallel_) return std::sort(items.begin(), items.end(), less);
     tbb::this_task_arena::isolate([&] { tbb::parallel_sort(items.begin(), items.end(), less); });
   }

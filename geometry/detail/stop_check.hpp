@@ -4,6 +4,9 @@
 // Ends what the caller has cancelled, by an exception: asked between steps, and in loops over the whole input.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+#include <functional>
 #include <stop_token>
 #include <utility>
 
@@ -18,6 +21,15 @@ class StopCheck {
   /// @throws CancelledError once the token is requested
   void operator()() const {
     if (stop_.stop_requested()) throw CancelledError({Errc::cancelled, "cancelled by the caller", {}, 0, {}, {}});
+  }
+  /// std::sort that asks now and then.
+  template <class Items, class Less = std::less<>>
+  void sort(Items& items, const Less& less = {}) const {
+    std::uint32_t compared = 0;
+    std::sort(items.begin(), items.end(), [&](const auto& a, const auto& b) {
+      if (++compared % 65536 == 0) (*this)();
+      return less(a, b);
+    });
   }
 
  private:
