@@ -14,21 +14,25 @@ namespace pgdr {
 
 /// What is known of a cell besides its circumsphere.
 struct CellShape {
-  double shortest_edge_squared;
-  double det, det_error;  ///< of orient(), see ShapeBlock; an infinite error: not known
+  double shortest_edge_squared;  ///< as circumsphere.hpp has it
+  double det;        ///< of orient(), see ShapeBlock
+  double det_error;  ///< its error; infinite: not known
 };
 
+/// Which bounds a cell is over.
 struct CellVerdict {
-  bool over_radius_edge = false, over_size = false;
-  explicit operator bool() const { return over_radius_edge || over_size; }
+  bool over_radius_edge = false;  ///< of shape
+  bool over_size = false;         ///< of size, volume or area
+  explicit operator bool() const { return over_radius_edge || over_size; }  ///< any of them
 };
 
+/// All bounds that cells have to meet. A value; copies of functions share what these point to.
 template <int D>
 class CellBounds {
  public:
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  static constexpr double infinity = std::numeric_limits<double>::infinity();  ///< no bound
 
-  double radius_edge_bound = infinity;
+  double radius_edge_bound = infinity;  ///< on circumradius over shortest edge
   SizingField<D> size;            ///< of all cells
   /// Further ones of each region (by region number). Empty: none at all.
   std::vector<SizingField<D>> region_size;
