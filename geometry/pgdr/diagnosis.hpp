@@ -3,8 +3,8 @@
 //
 // What is wrong with an input, and where: everything at once, for a person who is to repair it. Decisions are exact and
 // without tolerance; coordinates of intersections, lengths and angles are rounded. Of each kind all are counted and the
-// first few listed, in an order that depends on the input alone. Near-linear time (a million triangles take about two
-// seconds) but for inputs of long thin triangles whose boxes all overlap and that are in no fans. Pure functions, each on the
+// first few listed, in an order that depends on the input alone. Near-linear time (a million triangles take about
+// a second) but for inputs of long thin triangles whose boxes all overlap and that are in no fans. Pure functions, each on the
 // calling thread alone; any number may run at once.
 //
 // Meant are the facets as their triangles (see domain.hpp), the segments that no facet has, and the points; two of these
@@ -70,8 +70,8 @@ struct FindingList {
 struct DiagnosisOptions {
   std::size_t most_listed = 20;  ///< of each kind
   bool errors_only = false;      ///< look for nothing that is reported only
-  /// Ends it, from any thread, by a CancelledError: in some milliseconds, but for sorting, which takes up to a tenth of a
-  /// second on a million triangles.
+  /// Ends it, from any thread, by a CancelledError: in some milliseconds, but for the making of a search tree, which takes up to
+  /// a fifth of a second for a million triangles.
   std::stop_token stop = {};
 };
 
