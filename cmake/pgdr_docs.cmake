@@ -1,20 +1,11 @@
 # SPDX-FileCopyrightText: 2026 The pgdr authors
 # SPDX-License-Identifier: Apache-2.0
-# `docs`: pages of the public headers, by doxygen, in <build>/docs/html. A warning is an error. Of the headers that users need
-# first, every member must have its words (Doxyfile.strict, for the tests).
+# `docs`: pages of the public headers, by doxygen, in <build>/docs/html. A warning is an error, and a member without words is one.
 find_package(Doxygen 1.9 QUIET)
 find_package(Python3 3.9 QUIET COMPONENTS Interpreter)
 if(DOXYGEN_FOUND AND Python3_FOUND)
   set(PGDR_DOCS_DIR ${PROJECT_BINARY_DIR}/docs)
   file(MAKE_DIRECTORY ${PGDR_DOCS_DIR})
   configure_file(${PROJECT_SOURCE_DIR}/docs/Doxyfile.in ${PGDR_DOCS_DIR}/Doxyfile @ONLY)
-  set(inputs "")
-  foreach(header IN ITEMS geometry/pgdr/error geometry/pgdr/export geometry/pgdr/plc geometry/pgdr/types geometry/pgdr/version
-      core/pgdr/flat_arrays core/pgdr/io core/pgdr/output_mesh core/pgdr/quality core/pgdr/refine_options
-      core/pgdr/size_fields core/pgdr/sizing scheduler/pgdr/refine)
-    string(APPEND inputs " \"${PROJECT_SOURCE_DIR}/${header}.hpp\"")
-  endforeach()
-  file(WRITE ${PGDR_DOCS_DIR}/Doxyfile.strict
-    "@INCLUDE = ${PGDR_DOCS_DIR}/Doxyfile\nINPUT = ${inputs}\nEXTRACT_ALL = NO\nHTML_OUTPUT = html.strict\n")
   add_custom_target(docs COMMAND ${DOXYGEN_EXECUTABLE} ${PGDR_DOCS_DIR}/Doxyfile VERBATIM)
 endif()

@@ -54,10 +54,20 @@ bool CellBounds<D>::within_measure(const Mesh<D>& mesh, CellId c, const CellShap
   return measure_within<D>(mesh.simplex(c), bound);
 }
 
+/// The least of the sizes that apply; infinity if there are none.
+template <int D>
+double CellBounds<D>::size_of(const Mesh<D>& mesh, CellId c) const {
+  const SizingField<D>* of_region = region_size.empty() ? &size : &region_size[mesh.region(c)];
+  if (size.is_constant() && of_region->is_constant()) return std::min(size.at({}), of_region->at({}));
+  const Point<D> x = centroid<D>(mesh.simplex(c));
+  const double least = checked_size<D>(size, x);
+  return of_region == &size ? least : std::min(least, checked_size<D>(*of_region, x));
+}
+
 template <int D>
 bool CellBounds<D>::over_size(const Mesh<D>& mesh, CellId c, const CellShape& shape) const {
-  if (size.bounded()) {
-    const double bound = size.is_constant() ? size.at({}) : checked_size<D>(size, centroid<D>(mesh.simplex(c)));
+  if (size.bounded() || !region_size.empty()) {
+    const double bound = size_of(mesh, c);
     if constexpr (D == 3) {
       const auto [low, high] = mesh.squared_radius_bounds(c);
       const double limit = bound * bound;

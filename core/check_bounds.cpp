@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "detail/region_sizes.hpp"
 #include "pgdr/circumsphere.hpp"
 #include "pgdr/predicates.hpp"
 
@@ -28,6 +29,29 @@ bool measure_over(const Simplex<D>& s, double bound) {
   return bound < std::numeric_limits<double>::infinity() && !measure_within<D>(s, bound);
 }
 
+/// The sizes of single regions, by label.
+template <int D>
+class LabelledSizes {
+ public:
+  LabelledSizes(const OutputMesh<D>& mesh, const RegionSizes<D>& sizes) : mesh_(mesh) {
+    if (sizes.empty()) return;
+    std::vector<double> labels = detail::labels_of(mesh);
+    detail::require_labels<D>(sizes, labels);
+    for (const RegionSize<D>& s : sizes) fields_.push_back({s.label, detail::sizes_of_label<D>(sizes, s.label)});
+  }
+  /// Those of the cell's label; null if it has none of its own.
+  const SizingField<D>* of_cell(std::uint32_t c) const {
+    if (fields_.empty()) return nullptr;
+    const double label = mesh_.regions.empty() ? 0 : mesh_.regions[c];
+    const auto at = std::find_if(fields_.begin(), fields_.end(), [label](const auto& f) { return f.label == label; });
+    return at == fields_.end() ? nullptr : &at->size;
+  }
+
+ private:
+  const OutputMesh<D>& mesh_;
+  std::vector<RegionSize<D>> fields_;
+};
+
 template <int D>
 bool size_over(const Simplex<D>& s, const SizingField<D>& field) {
   if (!field.bounded()) return false;
@@ -45,13 +69,15 @@ void check_bounds(const OutputMesh<D>& mesh, const CheckOptions<D>& options, con
                   const Components& components, const InputVolumes<D>* input, Reasons<D>& reasons, Findings& findings) {
   CheckReport& report = findings.report();
   const double ratio = options.radius_edge_bound;
+  const LabelledSizes<D> of_labels(mesh, options.region_sizes);
   for (std::uint32_t c = 0; c < mesh.cells.size(); ++c) {
     if (!links.positive(c)) continue;
     const Simplex<D> s = corners_of(mesh, c);
     const std::uint32_t volume = input ? components.volume[components.of_cell[c]] : none;
     const bool thin = ratio < std::numeric_limits<double>::infinity() && !radius_edge_within<D>(s, ratio);
-    const bool large = size_over<D>(s, options.size) || measure_over<D>(s, options.max_measure) ||
-                       (volume != none && measure_over<D>(s, input->volumes()[volume].size));
+    const SizingField<D>* of_region = of_labels.of_cell(c);
+    const bool large = size_over<D>(s, options.size) || (of_region && size_over<D>(s, *of_region)) ||
+                       measure_over<D>(s, options.max_measure) || (volume != none && measure_over<D>(s, input->volumes()[volume].size));
     report.over_radius_edge += thin;
     report.over_size += large;
     if (!thin && !large) continue;

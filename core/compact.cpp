@@ -14,6 +14,15 @@ namespace {
 
 constexpr std::uint32_t none = 0xffffffffu;
 
+/// A block of slots, so many that a loop over it is much work.
+constexpr std::uint32_t slots_a_part = 1 << 15;
+
+template <int D>
+void copy_input_points(const Domain<D>& domain, OutputMesh<D>& out) {
+  out.points.assign(domain.points().begin(), domain.points().end());
+  out.input_points = out.points.size();
+}
+
 /// Number of each vertex in the output (by index(VertexId)); fills mesh.points.
 template <int D>
 std::vector<std::uint32_t> number_vertices(const Mesh<D>& mesh, const Domain<D>& domain, const detail::Bulk& bulk,
@@ -25,8 +34,7 @@ std::vector<std::uint32_t> number_vertices(const Mesh<D>& mesh, const Domain<D>&
     if (!mesh.alive(c)) return;
     for (const VertexId v : mesh.cell(c).vertices) std::atomic_ref(number[index(v)]).store(used, std::memory_order_relaxed);
   });
-  out.points.assign(domain.points().begin(), domain.points().end());
-  out.input_points = out.points.size();
+  copy_input_points(domain, out);
   struct Steiner {
     std::uint64_t key;
     std::uint32_t vertex;
@@ -42,6 +50,7 @@ std::vector<std::uint32_t> number_vertices(const Mesh<D>& mesh, const Domain<D>&
     if (a.key != b.key) return a.key < b.key;
     return lex_less(mesh.point(VertexId{a.vertex}), mesh.point(VertexId{b.vertex}));
   });
+  if (bulk.stopped()) return number;
   out.points.resize(out.input_points + steiner.size());
   bulk.each(steiner.size(), [&](std::size_t i) {
     number[steiner[i].vertex] = static_cast<std::uint32_t>(out.input_points + i);
@@ -102,6 +111,53 @@ void number_cells(const Mesh<D>& mesh, const detail::Bulk& bulk, Compacted<D>& o
   bulk.each(begin.size() - 1, [&](std::size_t b) { std::sort(cells.begin() + begin[b], cells.begin() + begin[b + 1], less); });
 }
 
+/// Vertices and cells in the order of their slots, in two passes over the cells.
+template <int D>
+void number_hastily(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes,
+                    const detail::Bulk& bulk, Compacted<D>& out) {
+  constexpr std::uint32_t used = 0;
+  auto& number = out.vertex_number;
+  number.assign(mesh.vertex_bound(), none);
+  const std::size_t parts = mesh.cell_bound() / slots_a_part + 1;
+  auto each_cell = [&](std::size_t part, auto f) {
+    const auto first = static_cast<std::uint32_t>(part) * slots_a_part, last = std::min(mesh.cell_bound(), first + slots_a_part);
+    for (std::uint32_t i = first; i < last; ++i)
+      if (mesh.alive(CellId{i})) f(CellId{i});
+  };
+  std::vector<std::size_t> begin(parts + 1, 0);
+  bulk.parts(parts, [&](std::size_t part) {
+    std::size_t count = 0;
+    each_cell(part, [&](CellId c) {
+      ++count;
+      for (const VertexId v : mesh.cell(c).vertices) std::atomic_ref(number[index(v)]).store(used, std::memory_order_relaxed);
+    });
+    begin[part + 1] = count;
+  });
+  for (std::size_t i = 0; i < parts; ++i) begin[i + 1] += begin[i];
+
+  copy_input_points(domain, out.mesh);
+  out.mesh.points.reserve(number.size());
+  for (std::uint32_t i = 0; i < number.size(); ++i) {
+    if (number[i] == none) continue;
+    const auto& record = mesh.vertex(VertexId{i});
+    number[i] = record.home.id();
+    if (record.home.kind() == EntityKind::vertex) continue;
+    number[i] = static_cast<std::uint32_t>(out.mesh.points.size());
+    out.mesh.points.push_back(record.point);
+  }
+
+  out.mesh.cells.resize(begin.back());
+  if (!region_attributes.empty()) out.mesh.regions.resize(begin.back());
+  bulk.parts(parts, [&](std::size_t part) {
+    std::size_t at = begin[part];
+    each_cell(part, [&](CellId c) {
+      out.mesh.cells[at] = numbers_of<D>(mesh, c, number);
+      if (!region_attributes.empty()) out.mesh.regions[at] = region_attributes[mesh.region(c)];
+      ++at;
+    });
+  });
+}
+
 /// The vertices of face f of a cell, counter-clockwise seen from outside where it is on the hull, else sorted.
 template <int D>
 std::array<std::uint32_t, D> face_vertices(const CellRecord<D>& cell, int f, const std::vector<std::uint32_t>& number) {
@@ -127,8 +183,8 @@ void collect_constraints(const Mesh<D>& mesh, const Domain<D>& domain, const std
   auto same = [](const auto& a, const auto& b) { return a.vertices == b.vertices; };
   auto each_face = [&](std::size_t i, auto f) {
     const CellId c{static_cast<std::uint32_t>(i)};
-    const auto* k = mesh.alive(c) ? mesh.constraints(c) : nullptr;
-    if (!k) return;
+    const auto* k = mesh.constraints(c);  // few have any, which is asked first: it does not touch the cell itself
+    if (!k || !mesh.alive(c)) return;
     for (int face = 0; face <= D; ++face)
       if ((k->faces >> face & 1) && !(mesh.cell(c).links[face] && mesh.cell(c).links[face].cell() < c))
         f(mesh.cell(c), face, k->face_entity[face]);
@@ -144,8 +200,9 @@ void collect_constraints(const Mesh<D>& mesh, const Domain<D>& domain, const std
     bulk.sort(out.subfacets, by_vertices);
     out.subsegments = bulk.gather<Subsegment>(mesh.cell_bound(), [&](std::size_t i, auto& found) {
       const CellId c{static_cast<std::uint32_t>(i)};
-      const auto* k = mesh.alive(c) ? mesh.constraints(c) : nullptr;
-      for (int e = 0; k && e < 6; ++e) {
+      const auto* k = mesh.constraints(c);
+      if (!k || !mesh.alive(c)) return;
+      for (int e = 0; e < 6; ++e) {
         if (!(k->edges >> e & 1)) continue;
         const auto& v = mesh.cell(c).vertices;
         const auto a = number[index(v[edge_ends[e][0]])], b = number[index(v[edge_ends[e][1]])];
@@ -167,11 +224,15 @@ void collect_constraints(const Mesh<D>& mesh, const Domain<D>& domain, const std
 
 template <int D>
 Compacted<D> compact(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes, bool parallel,
-                     std::stop_token stop) {
+                     std::stop_token stop, Numbering numbering) {
   const detail::Bulk bulk(parallel, std::move(stop));
   Compacted<D> out;
-  out.vertex_number = number_vertices<D>(mesh, domain, bulk, out.mesh);
-  if (!bulk.stopped()) number_cells<D>(mesh, bulk, out);
+  if (numbering == Numbering::hasty) {
+    number_hastily<D>(mesh, domain, region_attributes, bulk, out);
+  } else {
+    out.vertex_number = number_vertices<D>(mesh, domain, bulk, out.mesh);
+    if (!bulk.stopped()) number_cells<D>(mesh, bulk, out);
+  }
   if (bulk.stopped()) return {};
   collect_constraints<D>(mesh, domain, out.vertex_number, bulk, out.mesh);
   const auto markers = domain.point_markers();
@@ -179,7 +240,7 @@ Compacted<D> compact(const Mesh<D>& mesh, const Domain<D>& domain, std::span<con
     out.mesh.point_markers.assign(markers.begin(), markers.end());
     out.mesh.point_markers.resize(out.mesh.points.size(), 0);
   }
-  if (!region_attributes.empty()) {
+  if (numbering == Numbering::canonical && !region_attributes.empty()) {
     out.mesh.regions.resize(out.mesh.cells.size());
     bulk.each(mesh.cell_bound(), [&](std::size_t i) {
       if (const CellId c{static_cast<std::uint32_t>(i)}; mesh.alive(c))
@@ -198,7 +259,9 @@ std::uint32_t Compacted<D>::cell_number(const Mesh<D>& refined, CellId c) const 
 
 template struct Compacted<2>;
 template struct Compacted<3>;
-template Compacted<2> compact<2>(const Mesh<2>&, const Domain<2>&, std::span<const double>, bool, std::stop_token);
-template Compacted<3> compact<3>(const Mesh<3>&, const Domain<3>&, std::span<const double>, bool, std::stop_token);
+template Compacted<2> compact<2>(const Mesh<2>&, const Domain<2>&, std::span<const double>, bool, std::stop_token,
+                                   Numbering);
+template Compacted<3> compact<3>(const Mesh<3>&, const Domain<3>&, std::span<const double>, bool, std::stop_token,
+                                   Numbering);
 
 }  // namespace pgdr

@@ -12,6 +12,7 @@
 
 #include "detail/file_input.hpp"
 #include "detail/line_scanner.hpp"
+#include "detail/region_sizes.hpp"
 #include "detail/search_tree.hpp"
 #include "detail/size_checks.hpp"
 
@@ -109,6 +110,37 @@ std::vector<double> limit_growth(const OutputMesh<D>& mesh, std::span<const doub
   return limited;
 }
 
+template <int D>
+std::vector<double> sizes_of_regions(const OutputMesh<D>& mesh, const RegionSizes<D>& sizes, double otherwise) {
+  detail::require_indices<D>(mesh);
+  if (!(otherwise > 0) || !std::isfinite(otherwise))
+    throw UsageError({Errc::bad_option, "the size beside the regions must be positive and finite", {}, 0, {}, {}});
+  if (!mesh.regions.empty() && mesh.regions.size() != mesh.cells.size())
+    throw InputError({Errc::index_out_of_range, "the labels are not one a cell", {}, 0, {}, {}});
+  const std::vector<double> labels = mesh.regions.empty() ? std::vector<double>{0} : detail::labels_of(mesh);
+  detail::require_labels<D>(sizes, labels);
+  std::vector<double> values(mesh.points.size(), std::numeric_limits<double>::infinity());
+  for (const double label : labels) {
+    const SizingField<D> field = detail::sizes_of_label<D>(sizes, label);
+    if (!field.bounded()) continue;
+    std::vector<bool> done(values.size());
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+      if (!mesh.regions.empty() && mesh.regions[c] != label) continue;
+      for (const std::uint32_t v : mesh.cells[c]) {
+        if (done[v]) continue;
+        done[v] = true;
+        const double size = field.at(mesh.points[v]);
+        if (!(size > 0)) values[v] = size;  // said of the vertex below
+        else if (values[v] > 0) values[v] = std::min(values[v], size);
+      }
+    }
+  }
+  for (double& value : values)
+    if (value == std::numeric_limits<double>::infinity()) value = otherwise;
+  detail::require_sizes<D>(mesh.points, values);
+  return values;
+}
+
 std::vector<double> read_vertex_values(const std::filesystem::path& file, int dimension) {
   const std::string text = detail::read_whole_file(file);
   detail::LineScanner scanner(text, file.string());
@@ -148,6 +180,8 @@ template PGDR_API SizingField<3> smallest<3>(std::vector<SizingField<3>>);
 template PGDR_API SizingField<2> sizes_at_points<2>(std::span<const Point<2>>, std::span<const double>, double);
 template PGDR_API SizingField<3> sizes_at_points<3>(std::span<const Point<3>>, std::span<const double>, double);
 template PGDR_API std::vector<double> limit_growth<2>(const OutputMesh<2>&, std::span<const double>, double);
+template PGDR_API std::vector<double> sizes_of_regions<2>(const OutputMesh<2>&, const RegionSizes<2>&, double);
+template PGDR_API std::vector<double> sizes_of_regions<3>(const OutputMesh<3>&, const RegionSizes<3>&, double);
 template PGDR_API std::vector<double> limit_growth<3>(const OutputMesh<3>&, std::span<const double>, double);
 
 }  // namespace pgdr

@@ -26,19 +26,24 @@ namespace detail {
 template <int D>
 void Diagnoser<D>::run() {
   if (p_.empty()) return;
+  stop_check_();
   collect_triangles();
   collect_pieces();
+  stop_check_();
   find_meetings();
   if (!options_.errors_only) {
     find_repairs();
     find_unreferenced();
     if constexpr (D == 3) {
       find_non_manifold_edges();
+      stop_check_();
       find_non_manifold_points();
+      stop_check_();
       find_orientation();
     }
     find_angles();
   }
+  stop_check_();
   find_open_boundary();
   find_encloses_nothing();
 }
@@ -94,7 +99,7 @@ void Diagnoser<D>::collect_triangles() {
     for (std::uint32_t t = 0; t < triangles_.size(); ++t)
       for (std::size_t i = 0; i < 3; ++i)
         uses_.push_back({key(triangles_[t].corners[i], triangles_[t].corners[(i + 1) % 3]), t});
-    std::sort(uses_.begin(), uses_.end());
+    stop_check_.sort(uses_);
   }
 }
 
@@ -159,7 +164,7 @@ template <int D>
 Diagnosis<D> diagnose(const Plc<D>& plc, const DiagnosisOptions& options) {
   Diagnosis<D> out;
   std::vector<Diagnostic> refused;
-  const Domain<D> domain = Domain<D>::without_invalid(plc, refused);
+  const Domain<D> domain = Domain<D>::without_invalid(plc, refused, options.stop);
   FindingList& invalid = out[Finding::invalid_entity];
   invalid.count = refused.size();
   for (std::size_t k = 0; k < refused.size() && k < options.most_listed; ++k)
@@ -169,8 +174,8 @@ Diagnosis<D> diagnose(const Plc<D>& plc, const DiagnosisOptions& options) {
 }
 
 template <int D>
-void require_no_errors(const Domain<D>& domain) {
-  const Diagnosis<D> diagnosis = diagnose(domain, {.most_listed = 1, .errors_only = true});
+void require_no_errors(const Domain<D>& domain, std::stop_token stop) {
+  const Diagnosis<D> diagnosis = diagnose(domain, {.most_listed = 1, .errors_only = true, .stop = std::move(stop)});
   const std::uint64_t count = diagnosis.error_count();
   if (count == 0) return;
   Diagnostic first = diagnosis.errors().front();
@@ -183,7 +188,7 @@ void require_no_errors(const Domain<D>& domain) {
   template std::vector<Diagnostic> Diagnosis<D>::errors() const;                           \
   template PGDR_API Diagnosis<D> diagnose<D>(const Domain<D>&, const DiagnosisOptions&);   \
   template PGDR_API Diagnosis<D> diagnose<D>(const Plc<D>&, const DiagnosisOptions&);      \
-  template PGDR_API void require_no_errors<D>(const Domain<D>&);
+  template PGDR_API void require_no_errors<D>(const Domain<D>&, std::stop_token);
 PGDR_INSTANTIATE(2)
 PGDR_INSTANTIATE(3)
 #undef PGDR_INSTANTIATE

@@ -82,6 +82,7 @@ void Diagnoser<D>::find_angles() {
   segments_at_points();
   if constexpr (D == 3) corners_at_points();
   for (std::uint32_t v = 0; v < p_.size(); ++v) {
+    stop_check_();
     note_segment_angles(v);
     if constexpr (D == 3) note_facet_angles(v);
   }

@@ -52,6 +52,7 @@ std::uint32_t Diagnoser<D>::owner(std::uint32_t piece) const {
 
 template <int D>
 void Diagnoser<D>::note(std::uint32_t i, std::uint32_t j) {
+  stop_check_();
   bool same_plane = false;
   if (j < triangles_.size()) {
     const Triangle &s = triangles_[i], &t = triangles_[j];

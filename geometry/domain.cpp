@@ -40,10 +40,12 @@ template <int D>
 void DomainBuilder<D>::run() {
   out_.first_index_ = plc_.first_index;
   out_.source_ = plc_.source;
+  stop_check_();
   check_finite();
   check_indices();
   if (refused_ != nullptr && !refused_->empty()) return;
   merge_points();
+  stop_check_();
   check_segments();
   attempt([this] { check_spans_space(); });
   if (out_.points_.empty()) return;
@@ -52,13 +54,18 @@ void DomainBuilder<D>::run() {
     triangulate_facets();
     drop_repeated_facets();
   }
+  stop_check_();
   resolve_contacts();
+  stop_check_();
   collect_edges();
   if constexpr (D == 3) {
+    stop_check_();
     drop_flat_facets();
     group_coplanar();
+    stop_check_();
     write_facets();
   }
+  stop_check_();
   write_segments();
   write_incidences();
   report_repairs();
@@ -116,14 +123,14 @@ void DomainBuilder<D>::report_repairs() {
 }
 
 template <int D>
-Domain<D>::Domain(const Plc<D>& plc) {
-  DomainBuilder<D>(plc, *this).run();
+Domain<D>::Domain(const Plc<D>& plc, std::stop_token stop) {
+  DomainBuilder<D>(plc, *this, std::move(stop)).run();
 }
 
 template <int D>
-Domain<D> Domain<D>::without_invalid(const Plc<D>& plc, std::vector<Diagnostic>& refused) {
+Domain<D> Domain<D>::without_invalid(const Plc<D>& plc, std::vector<Diagnostic>& refused, std::stop_token stop) {
   Domain<D> domain;
-  DomainBuilder<D>(plc, domain, &refused).run();
+  DomainBuilder<D>(plc, domain, std::move(stop), &refused).run();
   return domain;
 }
 

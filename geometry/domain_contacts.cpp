@@ -76,6 +76,7 @@ bool DomainBuilder<D>::find_contacts() {
   for (const detail::Piece& piece : pieces_) corners.push_back(piece.corners);
   const detail::BoxTree<D> tree(corners, out_.points_);
   tree.self_pairs([&](std::uint32_t i, std::uint32_t j) {
+    stop_check_();
     if (j < facet_of_.size() && facet_of_[i] == facet_of_[j]) return;  // of one planar triangulation
     Contact c = detail::contact<D>(out_.points_, pieces_[i], pieces_[j]);
     if (c.kind != Contact::Kind::none) contacts_.push_back({i, j, std::move(c)});

@@ -124,9 +124,13 @@ void DomainBuilder<D>::group_coplanar() requires(D == 3) {
     if (joint_begin_[f] != joint_begin_[f + 1]) seeds.emplace_back(-largest_triangle(f).second, f);
   std::sort(seeds.begin(), seeds.end());
   for (const auto& [size, f] : seeds)
-    if (grouped_[f] == 0) grow_plane(f);
+    if (grouped_[f] == 0) {
+      stop_check_();
+      grow_plane(f);
+    }
 
   for (std::size_t begin = 0, end; begin < uses_.size(); begin = end) {
+    stop_check_();
     end = begin + uses_of(begin);
     const auto uses = std::span(uses_).subspan(begin, end - begin);
     if (!is_joint(uses)) continue;

@@ -48,6 +48,7 @@ void DomainBuilder<D>::triangulate_facets() requires(D == 3) {
   facets_.reserve(plc_.facets.size());
   for (std::uint32_t f = 0; f < plc_.facets.size(); ++f)
     attempt([&] {
+      stop_check_();
       if (!set_flat_aside(f) && !add_triangle(f)) add_polygons(f);
     });
 }

@@ -44,7 +44,7 @@ void DomainBuilder<D>::drop_repeated_facets() requires(D == 3) {
       least = std::min(least, sorted(triangles_[facets_[f].first + k]));
     keys.emplace_back(least, f);
   }
-  std::sort(keys.begin(), keys.end());
+  stop_check_.sort(keys);
   std::vector<std::uint32_t> same(facets_.size(), no_entity);
   for (std::size_t k = 1; k < keys.size(); ++k)
     for (std::size_t j = k; j-- > 0 && keys[j].first == keys[k].first;) {
@@ -95,7 +95,7 @@ void DomainBuilder<D>::collect_edges() {
                          (masks_[t] & (1u << i)) != 0 ? Kind::rim : Kind::diagonal});
   for (const auto& [e, f] : polygon_edges_) uses_.push_back({edge_key(e[0], e[1]), f, 0, Kind::polygon});
   for (const auto& [e, s] : segment_edges_) uses_.push_back({edge_key(e[0], e[1]), s, 0, Kind::explicit_segment});
-  std::sort(uses_.begin(), uses_.end(), [](const EdgeUse& a, const EdgeUse& b) {
+  stop_check_.sort(uses_, [](const EdgeUse& a, const EdgeUse& b) {
     return std::tuple{a.key, a.kind, a.owner, a.triangle} < std::tuple{b.key, b.kind, b.owner, b.triangle};
   });
   soft_.assign(uses_.size(), false);
@@ -166,6 +166,7 @@ void DomainBuilder<D>::write_facets() requires(D == 3) {
   }
   std::vector<std::uint32_t> points;
   for (DomainFacet& f : out_.facets_) {
+    stop_check_();
     orient_group(f);
     points.clear();
     for (std::uint32_t k = f.first_triangle; k < f.first_triangle + f.triangle_count; ++k)

@@ -57,7 +57,7 @@ void DomainBuilder<D>::write_segments() {
 template <int D>
 void DomainBuilder<D>::write_incidences() {
   auto& pairs = facet_segment_;
-  std::sort(pairs.begin(), pairs.end());
+  stop_check_.sort(pairs);
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   for (const auto& [f, s] : pairs) {
     DomainFacet& facet = out_.facets_[f];

@@ -48,6 +48,7 @@ std::string_view name(Errc code) {
     case Errc::inconsistent_orientation: return "inconsistent_orientation";
     case Errc::small_angle: return "small_angle";
     case Errc::beyond_theory: return "beyond_theory";
+    case Errc::cancelled: return "cancelled";
     case Errc::cannot_open: return "cannot_open";
     case Errc::cannot_write: return "cannot_write";
     case Errc::out_of_memory: return "out_of_memory";

@@ -242,6 +242,7 @@ void Greedy<D>::run_in_arena() {
 
 template <int D>
 StopCause Greedy<D>::drain() {
+  Base::all_listed_ = false;  // the work of a visit is lost if somebody cancels the caller's tasks
   ++generation_;
   ++statistics_.generations;
   const auto start = Clock::now();

@@ -40,6 +40,7 @@ void LeafRefinement<D>::list_everything() {
   for (std::uint32_t i = 0; i < mesh.cell_bound() && !cancelled(i); ++i)
     if (mesh.alive(CellId{i})) worker->list_cell(CellId{i});
   check_in(std::move(worker));
+  all_listed_ = context_.stop == 0;
 }
 
 /// A violation left standing may have moved off the walls, where insertions do not look for it. The slots of cells depend
@@ -197,6 +198,7 @@ void LeafRefinement<D>::account(const VisitRequest& request, RegionVisit<D>& vis
   min_edge_hit_ = min_edge_hit_ || visit.min_edge_hit;
   statistics_.set_aside += visit.set_aside.size();
   put_off(request, visit.set_aside);
+  if (context_.stop != 0) left_over_.insert(left_over_.end(), visit.given.begin(), visit.given.end());
 }
 
 template <int D>
@@ -237,6 +239,45 @@ template <int D>
 void LeafRefinement<D>::for_each_refused(const std::function<void(std::span<const Refusal<D>>)>& f) {
   for (Node n = 0; n < tree_.node_count(); ++n) f(works_[n].list.refused);
   f(whole_list_.refused);
+}
+
+template <int D>
+std::optional<PoorCount> LeafRefinement<D>::take_poor() {
+  if (!all_listed_) return std::nullopt;
+  PoorCount poor;
+  std::vector<bool> counted(context_.mesh.cell_bound());
+  // A poor cell that is listed for a face that is not locally Delaunay was listed, or refused, as poor as well.
+  std::vector<Entry<D>> fetched;  // into the cache, many at a time
+  const auto count_fetched = [&] {
+    for (const Entry<D>& e : fetched) {
+      if (!e.alive(context_.mesh)) continue;
+      poor.over_size = poor.over_size || e.which == Entry<D>::over_size;
+      poor.cells += counted[index(e.cell)] ? 0 : 1;
+      counted[index(e.cell)] = true;
+    }
+    fetched.clear();
+  };
+  const auto count = [&](const Entry<D>& e) {
+    if (e.kind != EntryKind::cell || e.which == Entry<D>::not_delaunay) return;
+    if (context_.mesh.birth(e.cell) != e.birth) return;  // most are dead, which the small array of births tells of most
+    context_.mesh.prefetch(e.cell);
+    fetched.push_back(e);
+    if (fetched.size() == 64) count_fetched();
+  };
+  const auto count_all = [&](const auto& entries) { std::for_each(entries.begin(), entries.end(), count); };
+  for (Node n = 0; n < tree_.node_count(); ++n) {
+    works_[n].list.drain(count);
+    for (const auto& letter : works_[n].inbox) count_all(letter);
+    for (const auto& entries : works_[n].set_aside) count_all(entries);
+  }
+  whole_list_.drain(count);
+  count_all(whole_set_aside_);
+  count_all(left_over_);
+  for_each_refused([&](std::span<const Refusal<D>> refused) {
+    for (const Refusal<D>& r : refused) count(r.entry);
+  });
+  count_fetched();
+  return poor;
 }
 
 template class LeafRefinement<2>;

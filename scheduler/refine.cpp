@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <string>
 
 #include "pgdr/cell_bounds.hpp"
@@ -21,6 +22,7 @@
 #include "detail/float_environment.hpp"
 #include "detail/generations.hpp"
 #include "detail/greedy.hpp"
+#include "detail/region_sizes.hpp"
 #include "pgdr/poor_reasons.hpp"
 #include "pgdr/recovery.hpp"
 
@@ -37,6 +39,9 @@ template <int D>
 void validate(const RefineOptions<D>& options) {
   if (!(options.radius_edge_bound > 0)) bad_option("the radius-edge bound must be positive");
   if (options.size.is_constant() && !(options.size.at({}) > 0)) bad_option("the size must be positive");
+  for (const RegionSize<D>& s : options.region_sizes)
+    if (s.size.is_constant() && !(s.size.at({}) > 0))
+      bad_option("the size of the region with label " + detail::label_words(s.label) + " must be positive");
   if (!(options.max_volume > 0)) bad_option("the volume bound must be positive");
   if (!(options.min_edge >= 0)) bad_option("the shortest edge allowed must not be negative");
   if (options.time_limit && !(options.time_limit->count() >= 0)) bad_option("the time limit must not be negative");
@@ -53,6 +58,10 @@ CellBounds<D> bounds_of(const RefineOptions<D>& options, const RegionTable& regi
   bounds.size = options.size;
   bounds.max_measure = options.max_volume;
   bounds.region_measure = regions.measure;
+  detail::require_labels<D>(options.region_sizes, regions.attribute);
+  if (!options.region_sizes.empty())
+    for (const double label : regions.attribute)
+      bounds.region_size.push_back(detail::sizes_of_label<D>(options.region_sizes, label));
   return bounds;
 }
 
@@ -101,22 +110,33 @@ PoorCount count_poor(const PoorReasons<D>& reasons, std::uint32_t cells, const S
   return poor;
 }
 
-/// What may end the steps behind the refinement: nothing where a mesh is wanted in any case.
-template <int D>
-std::stop_token token_of(const RefineOptions<D>& options) {
-  return options.partial_mesh ? std::stop_token{} : options.stop;
-}
+/// Was the run ended by a clock or a person, who wants it to return now? The mesh is chance then, and so may its numbering be.
+bool in_haste(StopCause stop) { return stop == StopCause::cancelled || stop == StopCause::time_limit; }
 
 template <int D>
 Compacted<D> compact_mesh(const Mesh<D>& mesh, const Domain<D>& domain, const RegionTable& regions,
-                          const RefineOptions<D>& options) {
+                          const RefineOptions<D>& options, Numbering numbering, const std::stop_token& stop) {
   std::vector<double> attributes;
   if (regions.labelled) attributes = regions.attribute;
-  const std::stop_token stop = token_of(options);
-  if (options.schedule.executor != Executor::flow_graph) return compact<D>(mesh, domain, attributes, false, stop);
+  if (options.schedule.executor != Executor::flow_graph) return compact<D>(mesh, domain, attributes, false, stop, numbering);
   Compacted<D> compacted;
-  detail::in_arena_to_the_end(options.schedule.threads, [&] { compacted = compact<D>(mesh, domain, attributes, true, stop); });
+  detail::in_arena_to_the_end(options.schedule.threads,
+                              [&] { compacted = compact<D>(mesh, domain, attributes, true, stop, numbering); });
   return compacted;
+}
+
+/// The canonical numbering if there is time for it. Of a run that is cancelled meanwhile nothing but the mesh is known.
+template <int D>
+Compacted<D> compact_in_time(const Mesh<D>& mesh, const Domain<D>& domain, const RegionTable& regions,
+                             const RefineOptions<D>& options, std::vector<PoorCell>& poor, RefineResult<D>& result) {
+  if (!in_haste(result.stop)) {
+    Compacted<D> compacted = compact_mesh(mesh, domain, regions, options, Numbering::canonical, options.stop);
+    if (!options.stop.stop_requested()) return compacted;
+    result.stop = StopCause::cancelled;
+    poor.clear();
+    if (!options.partial_mesh) return {};
+  }
+  return compact_mesh(mesh, domain, regions, options, Numbering::hasty, {});
 }
 
 /// What a run that was cancelled returns where no partial mesh is wanted.
@@ -158,13 +178,15 @@ RegionTable make_initial(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Do
   return carve<D>(mesh, pools, delaunay, domain, options.regions, result.warnings);
 }
 
+/// How many cells are poor, where the lists tell.
 template <int D>
-void refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices, PoorReasons<D>& reasons,
-                 RefineResult<D>& result) {
+std::optional<PoorCount> refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices,
+                                     PoorReasons<D>& reasons, RefineResult<D>& result) {
   const auto refinement = make_refinement<D>(context, std::move(pools), vertices);
   result.stop = refinement->run();
   result.violations_seen = refinement->violations_seen();
-  refinement->for_each_refused([&](std::span<const Refusal<D>> refused) { reasons.add(refused); });
+  if (result.stop == StopCause::finished)
+    refinement->for_each_refused([&](std::span<const Refusal<D>> refused) { reasons.add(refused); });
   const RefineCounts& counts = refinement->counts();
   result.statistics.insertions_committed = counts.committed;
   result.statistics.insertions_refused = counts.refused;
@@ -173,36 +195,46 @@ void refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::
   result.scheduler = refinement->statistics();
   result.scheduler.threads = threads_of(context.options.schedule);
   result.trace = refinement->take_trace();
+  if (!context.options.partial_mesh && result.stop == StopCause::cancelled) return std::nullopt;
+  return refinement->take_poor();
 }
 
-/// Looks at every cell once more. The poor ones, each with its reason, if the refinement came to its end; else they are counted.
+/// The poor cells, each with its reason, if the refinement came to its end and nobody cancels meanwhile; else they are
+/// counted, by a look at every cell unless `known` has their number.
 template <int D>
 std::vector<PoorCell> find_poor(const Mesh<D>& mesh, PoorReasons<D>& reasons, const RefineOptions<D>& options,
-                                RefineResult<D>& result) {
-  if (!options.refine || result.stop != StopCause::finished) {
-    const PoorCount count = count_poor(reasons, mesh.cell_bound(), options.schedule);
-    result.poor_left = count.cells;
-    result.size_met = !count.over_size;
-    return {};
+                                const std::optional<PoorCount>& known, RefineResult<D>& result) {
+  std::vector<PoorCell> poor;
+  if (options.refine && result.stop == StopCause::finished) {
+    poor = reasons.explained(result.violations_seen, options.stop);
+    for (const PoorCell& p : poor) {
+      result.poor_left += p.over_bound ? 1 : 0;
+      result.size_met = result.size_met && !p.over_size;
+    }
+    if (!options.stop.stop_requested()) return poor;
+    result.stop = StopCause::cancelled;
+    if (!options.partial_mesh) return {};
   }
-  std::vector<PoorCell> poor = reasons.explained(result.violations_seen, token_of(options));
-  for (const PoorCell& p : poor) {
-    result.poor_left += p.over_bound ? 1 : 0;
-    result.size_met = result.size_met && !p.over_size;
-  }
-  return poor;
+  const PoorCount count = known && in_haste(result.stop) ? *known : count_poor(reasons, mesh.cell_bound(), options.schedule);
+  result.poor_left = count.cells;
+  result.size_met = !count.over_size;
+  return {};
 }
 
 template <int D>
 RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   validate(options);
   const auto start = Clock::now();
-  require_no_errors(domain);
   const PredicateCounts predicates_before = predicate_counts();
   RefineResult<D> result;
   result.repairs = domain.repairs();
   result.warnings = domain.warnings();
   note_what_theory_lacks(options, result.warnings);
+  try {
+    require_no_errors(domain, options.stop);
+  } catch (const CancelledError&) {
+    return without_mesh(std::move(result), start);
+  }
 
   Mesh<D> mesh;
   auto pools = mesh.make_pools();
@@ -218,19 +250,21 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   const std::uint64_t vertices = domain.points().size() + result.statistics.segment_points + result.statistics.facet_points;
   RefineContext<D> context(mesh, domain, options, bounds_of(options, regions), vertices, start);
   PoorReasons<D> reasons(mesh, domain, context.bounds, options.keep_boundary);
-  if (options.refine) refine_mesh<D>(context, std::move(pools), vertices, reasons, result);
+  std::optional<PoorCount> known;
+  if (options.refine) known = refine_mesh<D>(context, std::move(pools), vertices, reasons, result);
   const auto dropped = [&] {
     return !options.partial_mesh && (options.stop.stop_requested() || result.stop == StopCause::cancelled);
   };
   if (dropped()) return without_mesh(std::move(result), start);
-  const std::vector<PoorCell> poor = find_poor<D>(mesh, reasons, options, result);
+  std::vector<PoorCell> poor = find_poor<D>(mesh, reasons, options, known, result);
   if (dropped()) return without_mesh(std::move(result), start);
   result.statistics.seconds_refine = seconds_since(refine_start);
 #ifdef __GLIBC__
-  malloc_trim(0);  // the lists have left small pieces, which the long arrays of the result have no use for
+  // The lists have left small pieces, which the long arrays of the result have no use for.
+  if (!in_haste(result.stop)) malloc_trim(0);
 #endif
 
-  Compacted<D> compacted = compact_mesh(mesh, domain, regions, options);
+  Compacted<D> compacted = compact_in_time(mesh, domain, regions, options, poor, result);
   if (dropped()) return without_mesh(std::move(result), start);
   for (const PoorCell& p : poor) {
     PoorReason reason = p.reason;
@@ -257,9 +291,14 @@ template <int D>
 RefineResult<D> refine(const Plc<D>& plc, const RefineOptions<D>& options) {
   const auto start = Clock::now();
   const detail::DefaultFloats floats;
-  const Domain<D> domain(plc);
+  std::optional<Domain<D>> domain;
+  try {
+    domain.emplace(plc, options.stop);
+  } catch (const CancelledError&) {
+    return without_mesh(RefineResult<D>{}, start);
+  }
   const double prepare = seconds_since(start);
-  RefineResult<D> result = run<D>(domain, options);
+  RefineResult<D> result = run<D>(*domain, options);
   result.statistics.seconds_mesh += prepare;
   result.statistics.seconds_initial += prepare;
   for (VisitTrace& v : result.trace) {

@@ -29,6 +29,7 @@ Outcome<D> refine_and_check(const Plc<D>& plc, const RefineOptions<D>& options) 
   check_options.domain = &domain;
   check_options.radius_edge_bound = options.radius_edge_bound;
   check_options.size = options.size;
+  check_options.region_sizes = options.region_sizes;
   check_options.max_measure = options.max_volume;
   check_options.reasons = &outcome.result.reasons;
   outcome.report = check<D>(outcome.result.mesh, check_options);

@@ -33,10 +33,14 @@ Bounds<D> resolve(const BoundArguments& arguments, double default_radius_edge) {
   if (D == 2 && arguments.max_volume) refuse("--max-volume is for 3D; the area bound of a 2D mesh is --size");
   if (D == 3 && arguments.min_angle) refuse("--min-angle is for 2D; use --radius-edge in 3D");
 
-  Bounds<D> bounds{default_radius_edge, {}, std::numeric_limits<double>::infinity()};
+  Bounds<D> bounds{default_radius_edge, {}, {}, std::numeric_limits<double>::infinity()};
   if (arguments.radius_edge) bounds.radius_edge = *arguments.radius_edge;
   if (arguments.min_angle) bounds.radius_edge = 1 / (2 * std::sin(*arguments.min_angle * std::numbers::pi / 180));
   if (arguments.size) bounds.size = parse_size<D>(*arguments.size, "--size");
+  for (const std::string& text : arguments.region_sizes) {
+    const auto [label, size] = split_region_size(text).value();
+    bounds.region_sizes.push_back({label, parse_size<D>(size, "--region-size")});
+  }
   if (!arguments.size_mesh.empty())
     bounds.size = smallest<D>({bounds.size, background_sizes<D>(arguments.size_mesh, arguments.size_growth)});
   if (arguments.max_volume) bounds.max_volume = *arguments.max_volume;

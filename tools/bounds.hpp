@@ -13,6 +13,7 @@ template <int D>
 struct Bounds {
   double radius_edge;
   SizingField<D> size;
+  RegionSizes<D> region_sizes;
   double max_volume;
 };
 

@@ -84,6 +84,7 @@ int check_as(const CheckArguments& a, Report& report) {
   if (domain) options.domain = &*domain;
   options.radius_edge_bound = bounds.radius_edge;
   options.size = bounds.size;
+  options.region_sizes = bounds.region_sizes;
   options.max_measure = bounds.max_volume;
   options.regions = a.regions;
   if (!a.reasons.empty()) options.reasons = &reported.reasons;

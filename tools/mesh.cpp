@@ -27,6 +27,7 @@ RefineOptions<D> make_options(const MeshArguments& a, const Bounds<D>& bounds) {
   RefineOptions<D> options;
   options.radius_edge_bound = bounds.radius_edge;
   options.size = bounds.size;
+  options.region_sizes = bounds.region_sizes;
   options.max_volume = bounds.max_volume;
   options.selector = make_selector<D>(a.selector);
   options.disk = {a.disk.value_or(a.delta > 0 ? DiskType::type2 : usual_disk(a.selector)), a.delta};

@@ -76,6 +76,8 @@ bool is_plane(const std::string& text) {
   return text.size() > 2 && text[0] >= 'x' && text[0] <= 'z' && text[1] == '=' && numbers(text.substr(2)).size() == 1;
 }
 
+bool is_region_size(const std::string& text) { return split_region_size(text).has_value(); }
+
 CLI::Validator shaped(bool (*accept)(const std::string&), std::string what) {
   return {[accept, what](std::string& text) {
             return accept(text) ? std::string() : "must be " + what + ", not \"" + text + '"';
@@ -104,6 +106,10 @@ void add_bounds(CLI::App& app, BoundArguments& b, const std::string& without) {
                  "bound on the circumradius (3D) or the area (2D), at the centroid: a number, or an expression in x, "
                  "y, z")
       ->type_name("S");
+  app.add_option("--region-size", b.region_sizes,
+                 "as --size, for the cells of the region with this label alone; repeatable, and all bounds are met")
+      ->type_name("LABEL=S")->allow_extra_args(false)
+      ->check(shaped(is_region_size, "LABEL=S: a region's label, and a size"));
   auto* size_mesh = app.add_option("--size-mesh", b.size_mesh,
                                    "as --size, from a background mesh (.mesh, .vtu): a size for each vertex in the .sol "
                                    "file beside it, interpolated linearly; with --size the smaller counts")
@@ -217,6 +223,15 @@ void add_view(CLI::App& app, ViewArguments& a) {
 }
 
 }  // namespace
+
+std::optional<std::pair<double, std::string>> split_region_size(const std::string& text) {
+  const std::size_t at = text.find('=');
+  if (at == std::string::npos || at + 1 == text.size()) return std::nullopt;
+  double label = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + at, label);
+  if (error != std::errc() || end != text.data() + at || !std::isfinite(label)) return std::nullopt;
+  return std::pair{label, text.substr(at + 1)};
+}
 
 const char* name(Schedule schedule) {
   for (const auto& [word, value] : schedules)

@@ -7,7 +7,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "pgdr/refine_options.hpp"
 #include "pgdr/types.hpp"
@@ -18,6 +20,7 @@ namespace pgdr::tool {
 struct BoundArguments {
   std::optional<double> radius_edge;
   std::optional<std::string> size;  ///< a number or an expression in x, y, z
+  std::vector<std::string> region_sizes;  ///< LABEL=S each, S as above
   std::string size_mesh;             ///< a background mesh, with its sizes in a .sol file beside it; empty: none
   std::optional<double> size_growth; ///< of these sizes; none: as they are
   std::optional<double> max_volume;
@@ -85,6 +88,9 @@ struct ViewArguments {
 };
 
 using Arguments = std::variant<MeshArguments, CheckArguments, InfoArguments, ViewArguments>;
+
+/// Label and size of a --region-size; none if it has no finite label before a "=" and something behind it.
+std::optional<std::pair<double, std::string>> split_region_size(const std::string& text);
 
 /// The word of --schedule.
 const char* name(Schedule schedule);

@@ -66,15 +66,6 @@ class Bulk {
     }
     return all;
   }
-  template <class T, class Less>
-  void sort(std::vector<T>& items, const Less& less) const {
-    if (!parallel_) return std::sort(items.begin(), items.end(), less);
-    tbb::this_task_arena::isolate([&] { tbb::parallel_sort(items.begin(), items.end(), less); });
-  }
-
- private:
-  static constexpr std::size_t grain = 8192;
-
   /// Calls f(part) for parts in [0, parts), each of which is much work.
   template <class F>
   void parts(std::size_t parts, const F& f) const {
@@ -84,6 +75,16 @@ class Bulk {
     }
     tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, parts, f); });
   }
+
+  template <class T, class Less>
+  void sort(std::vector<T>& items, const Less& less) const {
+    if (stopped()) return;
+    if (!parallel_) return std::sort(items.begin(), items.end(), less);
+    tbb::this_task_arena::isolate([&] { tbb::parallel_sort(items.begin(), items.end(), less); });
+  }
+
+ private:
+  static constexpr std::size_t grain = 8192;
 
   bool parallel_;
   std::stop_token stop_;

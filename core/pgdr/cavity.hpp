@@ -31,10 +31,11 @@ namespace pgdr {
 /// vertices of the cell that are not on the ridge; the next cell lies across the face opposite `exit`.
 template <int D>
 struct RidgeWalk {
-  CellId cell;
-  int entry, exit;
+  CellId cell;  ///< where the walk is
+  int entry;  ///< as said above
+  int exit;   ///< likewise
 
-  Link link(const Mesh<D>& mesh) const { return mesh.cell(cell).links[exit]; }
+  Link link(const Mesh<D>& mesh) const { return mesh.cell(cell).links[exit]; }  ///< where a step leads
   /// @pre link() leads somewhere.
   void step(const Mesh<D>& mesh) {
     const auto& k = mesh.cell(cell);
@@ -48,20 +49,23 @@ struct RidgeWalk {
   }
 };
 
+/// What one insertion deletes and makes: see above. A workspace of one thread.
 template <int D>
 class Cavity {
  public:
-  using Pools = typename Mesh<D>::Pools;
+  using Pools = typename Mesh<D>::Pools;  ///< of the worker
+  /// A face of the cavity's boundary, seen from inside.
   struct BoundaryFace {
     CellId cell;  ///< inside
-    int face;
+    int face;  ///< opposite this vertex of the cell
   };
   /// A subfacet (2D: subsegment) that the insertion splits, seen from one side.
   struct PartFace {
-    CellId cell;
-    int face;
-    EntityId entity;
+    CellId cell;  ///< on that side
+    int face;  ///< opposite this vertex of the cell
+    EntityId entity;  ///< the facet (2D: segment)
   };
+  /// Why a point may not go in.
   enum class Status {
     ok,
     not_in_conflict,  ///< the rounded point does not lie in the seed's circumsphere
@@ -95,15 +99,15 @@ class Cavity {
   Status check_nothing_swallowed();
 
   // ---- what was collected ------------------------------------------------------------------------------------------
-  const Point<D>& point() const { return point_; }
-  const std::vector<CellId>& cells() const { return cells_; }
-  const std::vector<BoundaryFace>& boundary() const { return boundary_; }
-  const std::vector<PartFace>& part() const { return part_; }
-  bool shrunk() const { return shrunk_; }
-  bool touches_constraints() const { return touches_constraints_; }
+  const Point<D>& point() const { return point_; }  ///< to be inserted
+  const std::vector<CellId>& cells() const { return cells_; }  ///< to be deleted
+  const std::vector<BoundaryFace>& boundary() const { return boundary_; }  ///< of these, constrained faces of the part left out
+  const std::vector<PartFace>& part() const { return part_; }  ///< what of the point's own facet (segment) it splits
+  bool shrunk() const { return shrunk_; }  ///< was it cut back?
+  bool touches_constraints() const { return touches_constraints_; }  ///< has a cell of it any?
 
   // ---- looking round -----------------------------------------------------------------------------------------------
-  bool owns(CellId c) const { return !area_ || area_->owns(*mesh_, c); }
+  bool owns(CellId c) const { return !area_ || area_->owns(*mesh_, c); }  ///< may the visit change the cell?
   /// The other constrained face of `entity` at the ridge of face `face` of `cell` that leaves out vertex `corner`, looked
   /// for by walking round the ridge, first the one way, then (where that ends at the hull) the other. `owned` becomes
   /// false where the walk would have to step on from a cell that is not.

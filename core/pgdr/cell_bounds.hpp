@@ -14,23 +14,29 @@ namespace pgdr {
 
 /// What is known of a cell besides its circumsphere.
 struct CellShape {
-  double shortest_edge_squared;
-  double det, det_error;  ///< of orient(), see ShapeBlock; an infinite error: not known
+  double shortest_edge_squared;  ///< as circumsphere.hpp has it
+  double det;        ///< of orient(), see ShapeBlock
+  double det_error;  ///< its error; infinite: not known
 };
 
+/// Which bounds a cell is over.
 struct CellVerdict {
-  bool over_radius_edge = false, over_size = false;
-  explicit operator bool() const { return over_radius_edge || over_size; }
+  bool over_radius_edge = false;  ///< of shape
+  bool over_size = false;         ///< of size, volume or area
+  explicit operator bool() const { return over_radius_edge || over_size; }  ///< any of them
 };
 
+/// All bounds that cells have to meet. A value; copies of functions share what these point to.
 template <int D>
 class CellBounds {
  public:
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  static constexpr double infinity = std::numeric_limits<double>::infinity();  ///< no bound
 
-  double radius_edge_bound = infinity;
-  SizingField<D> size;
-  double max_measure = infinity;
+  double radius_edge_bound = infinity;  ///< on circumradius over shortest edge
+  SizingField<D> size;            ///< of all cells
+  /// Further ones of each region (by region number). Empty: none at all.
+  std::vector<SizingField<D>> region_size;
+  double max_measure = infinity;  ///< of all cells
   /// Measure bound of each region (by region number); infinity for none. Empty: none at all.
   std::vector<double> region_measure;
 
@@ -38,7 +44,7 @@ class CellBounds {
   CellVerdict test(const Mesh<D>& mesh, CellId c) const;
   /// A quick look that most cells within their bounds pass, in 3D without bounds on the measure.
   bool surely_within(const Mesh<D>& mesh, CellId c, const CellShape& shape) const {
-    if (D == 2 || !size.is_constant() || !region_measure.empty() || max_measure != infinity) return false;
+    if (D == 2 || !size.is_constant() || !region_size.empty() || !region_measure.empty() || max_measure != infinity) return false;
     const double bound = size.at({}), high = mesh.squared_radius_bounds(c).second;
     return high < bound * bound && high < radius_edge_bound * radius_edge_bound * shape.shortest_edge_squared;
   }
@@ -46,6 +52,7 @@ class CellBounds {
   CellVerdict test(const Mesh<D>& mesh, CellId c, const CellShape& shape) const;
 
  private:
+  double size_of(const Mesh<D>& mesh, CellId c) const;
   bool within_measure(const Mesh<D>& mesh, CellId c, const CellShape& shape, double bound) const;
   bool over_size(const Mesh<D>& mesh, CellId c, const CellShape& shape) const;
 };

@@ -28,30 +28,35 @@ namespace pgdr PGDR_API {
 
 /// Why a cell stayed over a bound; one entry of the report's `bounds.reasons`.
 struct PoorReason {
-  /// kept_boundary: the first entity is a segment without points of its own, which hides the circumcentre or is encroached
-  /// upon by it (RefineOptions::keep_boundary).
+  /// small_angle: of the input, between the two entities. rounding: none of the others, and few. beyond_theory: the bound
+  /// asked for is below the smallest proved one. kept_boundary: the first entity is a segment without points of its own,
+  /// which hides the circumcentre or is encroached upon by it (RefineOptions::keep_boundary).
   enum class Code { small_angle, rounding, beyond_theory, kept_boundary };
   std::uint32_t cell = 0;  ///< index into OutputMesh::cells
-  Code code = Code::small_angle;
+  Code code = Code::small_angle;      ///< what kind of reason
   std::array<EntityRef, 2> entities;  ///< input entities (of the Domain) that meet at the angle
   double angle = 0;                   ///< degrees
 };
 
+/// What is checked.
 template <int D>
 struct CheckOptions {
   const Domain<D>* domain = nullptr;  ///< null: no conformity, no regions
   RegionMode regions = RegionMode::seeds;   ///< what the mesh was made with
-  double radius_edge_bound = std::numeric_limits<double>::infinity();
+  double radius_edge_bound = std::numeric_limits<double>::infinity();  ///< on circumradius over shortest edge
   SizingField<D> size;                ///< circumradius (3D) or area (2D) bound at the centroid
+  RegionSizes<D> region_sizes;        ///< further ones of the cells with these labels
   double max_measure = std::numeric_limits<double>::infinity();  ///< volume (3D) bound of all cells
-  const std::vector<PoorReason>* reasons = nullptr;
+  const std::vector<PoorReason>* reasons = nullptr;  ///< of poor cells, each of which is verified; null: there are none
   /// Widest distance, in ulps of the entity's largest coordinate, of a vertex from the line or plane it is on.
   /// One ulp is 2^-52 times that coordinate. Axis-aligned entities must be met exactly.
   int conformity_ulps = 2;
   std::size_t max_listed = 20;        ///< at most so many findings of one kind in words; all are counted
 };
 
+/// Something that makes the check fail.
 struct CheckFinding {
+  /// Each is counted by itself.
   enum class Kind {
     not_finite,              ///< a coordinate is infinite or not a number
     bad_index,               ///< a vertex that does not exist, or labels that are not one a cell (marker: a point)
@@ -74,21 +79,25 @@ struct CheckFinding {
     over_size,               ///< without a reason that holds
     bad_reason,              ///< a reason that does not hold
   };
-  static constexpr std::size_t kinds = static_cast<std::size_t>(Kind::bad_reason) + 1;
-  Kind kind;
+  static constexpr std::size_t kinds = static_cast<std::size_t>(Kind::bad_reason) + 1;  ///< so many
+  Kind kind;                      ///< what is wrong
   std::string message;            ///< one sentence; numbers of points, cells and entities count from 0
   std::vector<std::int64_t> ids;  ///< the cells, vertices or entities of the message, in its order
 };
+/// The stable snake_case word of the JSON report.
 std::string_view name(CheckFinding::Kind kind);
 
+/// The verdict, and what it rests on.
 struct CheckReport {
   std::uint64_t not_delaunay_rounding = 0;  ///< local violations that moving slanted points by conformity_ulps cancels
   std::uint64_t not_delaunay_refused = 0;   ///< other violations, beside an entity whose split was refused (in reasons)
-  std::uint64_t over_radius_edge = 0, over_size = 0;  ///< cells over a bound
+  std::uint64_t over_radius_edge = 0;                 ///< cells over the radius-edge bound
+  std::uint64_t over_size = 0;                        ///< cells over a bound of size, volume or area
   std::uint64_t explained = 0;                        ///< cells over a bound with a reason that holds
   std::vector<CheckFinding> findings;                 ///< what makes the check fail, at most max_listed a kind
   std::uint64_t finding_count = 0;                    ///< all of them
-  std::array<std::uint64_t, CheckFinding::kinds> count_of_kind{};
+  std::array<std::uint64_t, CheckFinding::kinds> count_of_kind{};  ///< findings, by kind
+  /// Findings of one kind.
   std::uint64_t count(CheckFinding::Kind kind) const { return count_of_kind[static_cast<std::size_t>(kind)]; }
   /// 0: everything holds; 1: sound and conforming, over a bound only where the reasons explain it; 6: anything else.
   int exit_code() const;
@@ -97,7 +106,7 @@ struct CheckReport {
 /// Unconstrained faces with the vertex beyond them strictly inside the circumsphere of the cell on their other side.
 struct NotDelaunay {
   std::uint64_t rounding = 0;  ///< those that moving slanted points by CheckOptions::conformity_ulps cancels
-  std::uint64_t other = 0;
+  std::uint64_t other = 0;     ///< all else
 };
 /// Counts them without the input, so that a point on any slanted entity may be off by ulps of the largest coordinate.
 /// @pre a sound mesh, e.g. one that `refine` made
@@ -105,7 +114,9 @@ template <int D>
 NotDelaunay count_not_delaunay(const OutputMesh<D>& mesh);
 
 /// Runs all checks for which `options` has the data. Bad indices and coordinates that are not finite end it early.
-/// @throws UsageError bad_size if the size function returns a value that is not positive; InputError entities_intersect
+/// About 5 microseconds a cell, on the calling thread.
+/// @throws UsageError bad_size if a size function returns a value that is not positive, bad_option if no cell has the label
+///   of a region size (but 0); InputError entities_intersect
 ///   if walls of the input overlap so that no line crosses them one after the other; ResourceError.
 template <int D>
 CheckReport check(const OutputMesh<D>& mesh, const CheckOptions<D>& options);

@@ -19,6 +19,7 @@ namespace pgdr {
 template <int D>
 CellId locate(const Mesh<D>& mesh, const Point<D>& p, CellId hint);
 
+/// Triangulates points one after the other, with cavities. One thread.
 template <int D>
 class Delaunay {
  public:

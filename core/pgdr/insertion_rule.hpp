@@ -32,11 +32,12 @@
 
 namespace pgdr {
 
-inline constexpr double inherited_fraction = 0.5;  // c
+inline constexpr double inherited_fraction = 0.5;  ///< c
 
 /// What an insertion asks for: r(x) >= d, and R(x) is at least h.
 struct Demand {
-  double d = 0, h = 0;
+  double d = 0;  ///< least distance from the cavity's vertices
+  double h = 0;  ///< least relaxed radius
 };
 
 /// Does a vertex with this home lie on the entity (a segment or facet)?

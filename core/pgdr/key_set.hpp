@@ -9,6 +9,7 @@
 
 namespace pgdr {
 
+/// A set of keys that is emptied at no cost. One thread.
 class KeySet {
  public:
   /// Empties the set and makes room for `most` keys.
@@ -20,7 +21,8 @@ class KeySet {
       stamp_ = 1;
     }
   }
-  void insert(std::uint64_t key) { slots_[find(key)] = {key, stamp_}; }
+  void insert(std::uint64_t key) { slots_[find(key)] = {key, stamp_}; }  ///< into the set
+  /// Since the last time that it was emptied.
   bool contains(std::uint64_t key) const { return slots_[find(key)].stamp == stamp_; }
 
  private:
@@ -53,7 +55,8 @@ class PairTable {
     }
     stamp_ += most_count + 1;
   }
-  std::size_t slot_of(std::uint64_t hash) const { return (hash >> 24) & (slots_.size() - 1); }
+  std::size_t slot_of(std::uint64_t hash) const { return (hash >> 24) & (slots_.size() - 1); }  ///< of a key with this hash
+  /// Adds a value for the key of the slot.
   void add(std::size_t slot, std::uint32_t value) {
     Slot& s = slots_[slot];
     const bool fresh = s.tag < stamp_;

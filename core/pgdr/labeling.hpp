@@ -13,6 +13,7 @@
 
 namespace pgdr {
 
+/// What is known of the regions.
 struct RegionTable {
   std::vector<double> attribute{0.0};  ///< by region number; 0 is what no seed labels
   std::vector<double> measure;         ///< bound of each region, infinity for none; empty if no region has one

@@ -18,12 +18,15 @@
 
 namespace pgdr {
 
+/// Mends faces that are not locally Delaunay: see above.
 template <int D>
 class LocalFlips {
  public:
-  using Pools = typename Mesh<D>::Pools;
+  using Pools = typename Mesh<D>::Pools;  ///< of the worker
+  /// As `repair` says.
   enum class Outcome { flipped, stuck, not_owned };
 
+  /// Both must outlive it.
   LocalFlips(Mesh<D>& mesh, const Domain<D>& domain) : mesh_(&mesh), domain_(&domain), rewrap_(mesh) {}
 
   /// What the visit may change; null: everything.

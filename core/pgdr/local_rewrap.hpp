@@ -19,15 +19,16 @@
 
 namespace pgdr {
 
+/// Makes the cells of a region anew: see above. A workspace of one thread.
 class LocalRewrap {
  public:
-  using Pools = Mesh<3>::Pools;
+  using Pools = Mesh<3>::Pools;  ///< of the worker
 
   /// Small regions only; or large ones; or, of violations that no entity is beside, large regions and many orders, and
   /// vertices of the volume may be taken out.
   enum class Effort { quick, wide, thorough };
 
-  explicit LocalRewrap(Mesh<3>& mesh) : mesh_(&mesh) {}
+  explicit LocalRewrap(Mesh<3>& mesh) : mesh_(&mesh) {}  ///< the mesh must outlive it
   ~LocalRewrap() { release(); }
   LocalRewrap(const LocalRewrap&) = delete;
   LocalRewrap& operator=(const LocalRewrap&) = delete;
@@ -46,7 +47,7 @@ class LocalRewrap {
 
   /// What repairs have cost in this visit (cells times vertices), those that did nothing and the others.
   std::uint64_t lost_work() const { return lost_work_; }
-  std::uint64_t useful_work() const { return useful_work_; }
+  std::uint64_t useful_work() const { return useful_work_; }  ///< likewise, of those that did something
 
  private:
   using Index = GiftWrap::Index;

@@ -28,56 +28,60 @@
 
 namespace pgdr {
 
-inline constexpr VertexId infinite_vertex{0xfffffffeu};
+inline constexpr VertexId infinite_vertex{0xfffffffeu};  ///< of ghosts
 
 /// A face seen from a cell: the cell beyond it and the number of the same face there; or nothing.
 struct Link {
-  std::uint32_t code = 0xffffffffu;
+  std::uint32_t code = 0xffffffffu;  ///< cell and face, packed; all ones: nothing
 
   Link() = default;
-  Link(CellId cell, int face) : code(index(cell) << 2 | static_cast<std::uint32_t>(face)) {}
+  Link(CellId cell, int face) : code(index(cell) << 2 | static_cast<std::uint32_t>(face)) {}  ///< to that face of that cell
+  /// The link with this code.
   static Link from_code(std::uint32_t code) {
     Link l;
     l.code = code;
     return l;
   }
-  explicit operator bool() const { return code != 0xffffffffu; }
-  CellId cell() const { return CellId{code >> 2}; }
-  int face() const { return static_cast<int>(code & 3u); }
-  friend bool operator==(Link, Link) = default;
+  explicit operator bool() const { return code != 0xffffffffu; }  ///< does it lead anywhere?
+  CellId cell() const { return CellId{code >> 2}; }  ///< the cell beyond
+  int face() const { return static_cast<int>(code & 3u); }  ///< the number of the face there
+  friend bool operator==(Link, Link) = default;  ///< the same cell and face
 };
 
 /// What a vertex lies on, packed: two bits of EntityKind, thirty of id.
 struct Home {
-  std::uint32_t code = 0;
+  std::uint32_t code = 0;  ///< kind and id
 
   Home() = default;
+  /// The entity, or of a vertex of the input its domain point.
   Home(EntityKind kind, EntityId id) : code(static_cast<std::uint32_t>(kind) << 30 | (id & 0x3fffffffu)) {}
-  EntityKind kind() const { return static_cast<EntityKind>(code >> 30); }
-  EntityId id() const { return code & 0x3fffffffu; }
-  EntityRef entity() const { return {kind(), kind() == EntityKind::volume ? no_entity : id()}; }
+  EntityKind kind() const { return static_cast<EntityKind>(code >> 30); }  ///< of the entity
+  EntityId id() const { return code & 0x3fffffffu; }  ///< of the entity, or the domain point
+  EntityRef entity() const { return {kind(), kind() == EntityKind::volume ? no_entity : id()}; }  ///< both; the volume has no id
 };
 
 /// `relaxed_radius` is R(p) of the small-angle rule (refiner.hpp), rounded down; infinity for input vertices.
 template <int D>
 struct VertexRecord {
-  Point<D> point;
-  Home home;
-  float relaxed_radius = std::numeric_limits<float>::infinity();
+  Point<D> point;  ///< where it is
+  Home home;  ///< what it lies on
+  float relaxed_radius = std::numeric_limits<float>::infinity();  ///< as said above
 };
 
+/// A cell, in 3D one cache line.
 template <int D>
 struct alignas(D == 3 ? 64 : 16) CellRecord {
-  std::array<VertexId, D + 1> vertices;
+  std::array<VertexId, D + 1> vertices;  ///< positively oriented; the first is no_vertex in a slot that is free
   std::array<Link, D + 1> links;  ///< links[i]: across the face opposite vertices[i]
   Point<D> center;                ///< of the circumsphere, rounded
   double radius2;                 ///< squared; its lowest four bits are the level of the filter's error band
 };
 static_assert(sizeof(CellRecord<3>) == 64);
 
-inline constexpr int edge_count(int dimension) { return dimension == 3 ? 6 : 3; }
+inline constexpr int edge_count(int dimension) { return dimension == 3 ? 6 : 3; }  ///< of a simplex
 /// The two ends of edge e of a tetrahedron, and e of two corners.
 inline constexpr std::array<std::array<int, 2>, 6> edge_ends = {{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+/// The number of the edge between two corners of a tetrahedron.
 inline constexpr int edge_of_ends[4][4] = {{-1, 0, 1, 2}, {0, -1, 3, 4}, {1, 3, -1, 5}, {2, 4, 5, -1}};
 
 /// Which faces and edges of a cell are constrained, and by what. In 2D the faces are the subsegments.
@@ -87,28 +91,29 @@ struct ConstraintRecord {
   std::uint8_t edges = 0;                     ///< 3D, bit e: edge e is a subsegment
   std::uint8_t part = 0;                      ///< scratch of a cavity: bit i: face i is being split
   std::array<EntityId, D + 1> face_entity{};  ///< facet (3D) or segment (2D)
-  std::array<EntityId, D == 3 ? 6 : 1> edge_entity{};
+  std::array<EntityId, D == 3 ? 6 : 1> edge_entity{};  ///< segment of each constrained edge, 3D
 };
 
+/// Vertices and cells by their ids: see above.
 template <int D>
 class Mesh {
  public:
   Mesh();
 
-  VertexRecord<D>& vertex(VertexId v) { return vertices_[index(v)]; }
-  const VertexRecord<D>& vertex(VertexId v) const { return vertices_[index(v)]; }
-  const Point<D>& point(VertexId v) const { return vertices_[index(v)].point; }
-  CellRecord<D>& cell(CellId c) { return cells_[index(c)]; }
-  const CellRecord<D>& cell(CellId c) const { return cells_[index(c)]; }
+  VertexRecord<D>& vertex(VertexId v) { return vertices_[index(v)]; }  ///< by its id
+  const VertexRecord<D>& vertex(VertexId v) const { return vertices_[index(v)]; }  ///< by its id
+  const Point<D>& point(VertexId v) const { return vertices_[index(v)].point; }  ///< where the vertex is
+  CellRecord<D>& cell(CellId c) { return cells_[index(c)]; }  ///< by its id
+  const CellRecord<D>& cell(CellId c) const { return cells_[index(c)]; }  ///< by its id
 
   /// A hint that the cell is about to be read; any id will do.
   void prefetch(CellId c) const {
     __builtin_prefetch(&cells_[index(c)]);
     __builtin_prefetch(&tags_[index(c)]);
   }
-  void prefetch(VertexId v) const { __builtin_prefetch(&vertices_[index(v)]); }
+  void prefetch(VertexId v) const { __builtin_prefetch(&vertices_[index(v)]); }  ///< likewise
 
-  bool alive(CellId c) const { return cell(c).vertices[0] != no_vertex; }
+  bool alive(CellId c) const { return cell(c).vertices[0] != no_vertex; }  ///< does the slot hold a cell?
   /// Does the slot still hold the cell with these vertices that was born there? From any thread that owns their positions:
   /// the slot may be in use by another meanwhile, so that ids are loaded and stored as relaxed atomics (plain moves on
   /// x86); if they agree the cell is the caller's. A flip may bring a cell back, in whatever slot: it is another one.
@@ -118,15 +123,18 @@ class Mesh {
       if (std::atomic_ref(slot[i]).load(std::memory_order_relaxed) != vertices[i]) return false;
     return birth(c) == born;
   }
+  /// Puts a cell into its slot.
   void set_vertices(CellId c, const std::array<VertexId, D + 1>& vertices) {
     auto& slot = cell(c).vertices;
     for (int i = 0; i <= D; ++i) std::atomic_ref(slot[i]).store(vertices[i], std::memory_order_relaxed);
   }
+  /// Does it stand for what is beyond the hull?
   bool is_ghost(CellId c) const {
     for (const VertexId v : cell(c).vertices)
       if (v == infinite_vertex) return true;
     return false;
   }
+  /// The points of the cell's vertices, in its order.
   Simplex<D> simplex(CellId c) const {
     Simplex<D> s;
     for (int i = 0; i <= D; ++i) s[i] = point(cell(c).vertices[i]);
@@ -134,29 +142,30 @@ class Mesh {
   }
 
   // Marks of a cavity under construction: owner of the cell alone.
-  bool marked(CellId c) const { return tags_[index(c)].constraints & mark_bit; }
-  void mark(CellId c) { tags_[index(c)].constraints |= mark_bit; }
-  void unmark(CellId c) { tags_[index(c)].constraints &= ~mark_bit; }
+  bool marked(CellId c) const { return tags_[index(c)].constraints & mark_bit; }  ///< is it?
+  void mark(CellId c) { tags_[index(c)].constraints |= mark_bit; }  ///< marks it
+  void unmark(CellId c) { tags_[index(c)].constraints &= ~mark_bit; }  ///< takes the mark off
 
   /// Constraints of c, or null if none of its faces or edges is constrained.
   ConstraintRecord<D>* constraints(CellId c) {
     const std::uint32_t id = tags_[index(c)].constraints & ~mark_bit;
     return id == 0 ? nullptr : &constraints_[id - 1];
   }
-  const ConstraintRecord<D>* constraints(CellId c) const { return const_cast<Mesh*>(this)->constraints(c); }
+  const ConstraintRecord<D>* constraints(CellId c) const { return const_cast<Mesh*>(this)->constraints(c); }  ///< likewise
+  /// Is the face a subfacet (2D: subsegment)?
   bool constrained(CellId c, int face) const {
     const auto* k = constraints(c);
     return k && (k->faces >> face & 1);
   }
-  std::uint16_t region(CellId c) const { return tags_[index(c)].region; }
-  void set_region(CellId c, std::uint16_t r) { tags_[index(c)].region = r; }
+  std::uint16_t region(CellId c) const { return tags_[index(c)].region; }  ///< its number
+  void set_region(CellId c, std::uint16_t r) { tags_[index(c)].region = r; }  ///< of the cell's owner alone
   /// Counts the cells that the slot has held, modulo 2^16.
   std::uint16_t birth(CellId c) const { return tags_[index(c)].birth; }
 
   /// Stores the circumsphere as the filter of `conflicts`. Ghosts: `set_ghost_sphere`.
   void set_sphere(CellId c, const Circumsphere<D>& sphere) { set_sphere(c, sphere, std::sqrt(sphere.squared_radius)); }
-  void set_sphere(CellId c, const Circumsphere<D>& sphere, double radius);
-  void set_ghost_sphere(CellId c) { cell(c).radius2 = std::numeric_limits<double>::quiet_NaN(); }
+  void set_sphere(CellId c, const Circumsphere<D>& sphere, double radius);  ///< the same, the root being known
+  void set_ghost_sphere(CellId c) { cell(c).radius2 = std::numeric_limits<double>::quiet_NaN(); }  ///< which answers nothing
 
   /// Exactly: is p inside the (perturbed) circumsphere of c? For a ghost: beyond its hull face, or in that face's plane
   /// and inside the sphere of the cell behind it. p must not be a vertex of c.
@@ -180,27 +189,32 @@ class Mesh {
 
   /// Ids below these bounds may be alive; `alive` tells for cells.
   std::uint32_t cell_bound() const { return cell_source_.bound(); }
-  std::uint32_t vertex_bound() const { return vertex_source_.bound(); }
+  std::uint32_t vertex_bound() const { return vertex_source_.bound(); }  ///< likewise, whether any cell has them or not
 
   /// The pools of one thread.
   struct Pools {
-    IdPool cells, vertices, constraints;
+    IdPool cells;        ///< ids of cells
+    IdPool vertices;     ///< ids of vertices
+    IdPool constraints;  ///< numbers of side records
   };
+  /// For one more thread.
   Pools make_pools() { return {IdPool(cell_source_), IdPool(vertex_source_), IdPool(constraint_source_)}; }
 
+  /// A slot without constraints, to be filled.
   CellId new_cell(Pools& pools, std::uint16_t region = 0) {
     const std::uint32_t id = pools.cells.take();
     tags_[id] = {0, region, static_cast<std::uint16_t>(tags_[id].birth + 1)};
     return CellId{id};
   }
-  void free_cell(Pools& pools, CellId c);
-  VertexId new_vertex(Pools& pools, const Point<D>& p, Home home, float relaxed_radius);
+  void free_cell(Pools& pools, CellId c);  ///< and its constraints
+  VertexId new_vertex(Pools& pools, const Point<D>& p, Home home, float relaxed_radius);  ///< a vertex that no cell has yet
   /// The constraints of c, made if it has none yet.
   ConstraintRecord<D>& ensure_constraints(Pools& pools, CellId c);
 
   /// 3D, once the exterior is gone: finds the subsegments with several fans of cells, and lists the cells at them from
   /// now on. Whoever makes a cell then calls `enlist` when its constraints are there.
   void find_pinched_edges(std::size_t segments);
+  /// Lists a cell that has its constraints now.
   void enlist(CellId c) {
     if (pinched_) change_pinched(c, true);
   }

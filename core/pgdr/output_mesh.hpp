@@ -25,7 +25,8 @@ struct OutputMesh {
     int marker = 0;                 ///< of its segment or facet
   };
 
-  /// The distinct input points in the order of the input, then Steiner points along a Hilbert curve.
+  /// The distinct input points in the order of the input, then Steiner points along a Hilbert curve (in no particular order
+  /// if the run was cancelled, or ended by its time limit).
   std::vector<Point<D>> points;
   std::size_t input_points = 0;           ///< how many of `points` are the input's (0: unknown, e.g. read from a file)
   std::vector<int> point_markers;         ///< empty, or one a point

@@ -21,14 +21,15 @@
 
 namespace pgdr {
 
+/// The cells at such subsegments: see above.
 class PinchedEdges {
  public:
   /// `segments`: of each segment of the Domain, whether its subsegments are such.
   explicit PinchedEdges(std::vector<bool> segments) : segments_(std::move(segments)) {}
 
-  bool has(EntityId segment) const { return segments_[segment]; }
-  void add(VertexId a, VertexId b, CellId c);
-  void remove(VertexId a, VertexId b, CellId c);
+  bool has(EntityId segment) const { return segments_[segment]; }  ///< are its subsegments such?
+  void add(VertexId a, VertexId b, CellId c);  ///< a cell with the subsegment ab
+  void remove(VertexId a, VertexId b, CellId c);  ///< when it dies
   /// The cells with this subsegment, of all fans.
   std::vector<CellId> cells(VertexId a, VertexId b) const;
 

@@ -26,11 +26,12 @@ class ReservedArray {
  public:
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
 
+  /// Reserves addresses for so many; none exists yet.
   explicit ReservedArray(std::uint32_t capacity)
       : memory_(std::size_t{capacity} * sizeof(T)), items_(static_cast<T*>(memory_.base())) {}
 
-  T& operator[](std::uint32_t i) { return items_[i]; }
-  const T& operator[](std::uint32_t i) const { return items_[i]; }
+  T& operator[](std::uint32_t i) { return items_[i]; }  ///< slot i
+  const T& operator[](std::uint32_t i) const { return items_[i]; }  ///< slot i
 
   /// Makes the slots [0, count) exist. @throws std::bad_alloc
   void grow_to(std::uint32_t count) { memory_.grow_to(std::size_t{count} * sizeof(T)); }
@@ -43,9 +44,9 @@ class ReservedArray {
 /// Deals out ids 0, 1, 2, ... in blocks, below a capacity; `most` were it not for want of memory.
 class IdSource {
  public:
-  static constexpr std::uint32_t block = 512;
+  static constexpr std::uint32_t block = 512;  ///< ids dealt out at once
 
-  static constexpr std::uint32_t most = (1u << 30) - 1024;
+  static constexpr std::uint32_t most = (1u << 30) - 1024;  ///< ids, were it not for want of memory
 
   /// `grow(n)` is called before any id below n is handed out; from any thread.
   IdSource(const char* what, std::uint32_t capacity, std::function<void(std::uint32_t)> grow)
@@ -75,8 +76,9 @@ class IdSource {
 /// One thread's ids. Not thread-safe.
 class IdPool {
  public:
-  explicit IdPool(IdSource& source) : source_(&source) {}
+  explicit IdPool(IdSource& source) : source_(&source) {}  ///< which must outlive it
 
+  /// An id that nobody has. @throws as IdSource::take_block.
   std::uint32_t take() {
     if (!free_.empty()) {
       const std::uint32_t id = free_.back();
@@ -89,7 +91,7 @@ class IdPool {
     }
     return next_++;
   }
-  void give(std::uint32_t id) { free_.push_back(id); }
+  void give(std::uint32_t id) { free_.push_back(id); }  ///< back, to be taken again
 
  private:
   IdSource* source_;

@@ -21,17 +21,19 @@ namespace pgdr {
 /// An element that stays poor, or has a face that is not locally Delaunay, and why. `PoorReason::cell` is filled when
 /// the mesh is compacted.
 struct PoorCell {
-  CellId cell;
-  bool over_bound = false, over_size = false;
-  PoorReason reason;
+  CellId cell;  ///< which
+  bool over_bound = false;  ///< over any bound
+  bool over_size = false;   ///< over one of size, volume or area
+  PoorReason reason;  ///< why
 };
 
 /// Cells over a bound.
 struct PoorCount {
-  std::uint64_t cells = 0;
+  std::uint64_t cells = 0;  ///< so many
   bool over_size = false;  ///< any of them
 };
 
+/// Finds the reasons: see above.
 template <int D>
 class PoorReasons {
  public:

@@ -18,8 +18,11 @@
 
 namespace pgdr {
 
+/// What the boundary recovery did.
 struct RecoveryCounts {
-  std::uint64_t segment_points = 0, facet_points = 0, rounds = 0;
+  std::uint64_t segment_points = 0;  ///< Steiner points on segments
+  std::uint64_t facet_points = 0;    ///< Steiner points on facets
+  std::uint64_t rounds = 0;          ///< over all that was missing
 };
 
 /// @pre `delaunay` has built the triangulation of domain.points(), in that order.

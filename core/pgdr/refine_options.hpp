@@ -57,6 +57,7 @@ struct RefineOptions {
   /// Upper bound on circumradius over shortest edge. Proved for >= 2 (3D), >= sqrt 2 (2D).
   double radius_edge_bound = smallest_proved_bound<D>();
   SizingField<D> size;            ///< circumradius (3D) or area (2D) bound at the centroid
+  RegionSizes<D> region_sizes;    ///< further ones of the cells of single regions
   double max_volume = std::numeric_limits<double>::infinity();  ///< 3D: volume bound of all cells
   RegionMode regions = RegionMode::seeds;  ///< what is meshed, and how it is labelled
   PointSelector<D> selector;      ///< empty: circumcentre
@@ -68,12 +69,11 @@ struct RefineOptions {
   double min_edge = 0;            ///< insertions that would make an edge shorter than this are refused
   std::uint64_t max_vertices = std::numeric_limits<std::uint64_t>::max();  ///< a budget; input points count
   std::optional<std::chrono::duration<double>> time_limit;  ///< seconds from the call; then the mesh so far is returned
-  /// Cancels the run, from any thread. Each visit ends with the insertion that it is at; then the mesh so far is numbered
-  /// and returned, unless `partial_mesh` says no.
+  /// Cancels the run, from any thread. Each visit ends with the insertion that it is at; then the mesh so far is returned,
+  /// unless `partial_mesh` says no.
   std::stop_token stop;
-  /// What a run that was cancelled (by `stop`, or as part of the caller's tasks) returns. True: the mesh so far, valid; a
-  /// cancellation that comes when only the last step, the numbering, is left has no effect. False: no mesh, as soon as
-  /// possible, in every step.
+  /// What a run that was cancelled (by `stop`, or as part of the caller's tasks) returns. True: the mesh so far, valid, its
+  /// Steiner points and cells in no particular order (as after the time limit), without reasons. False: no mesh, sooner.
   bool partial_mesh = true;
   ScheduleOptions schedule;       ///< threads, and how work is divided among them
   /// Called by one thread at a time, a few times a second at most, from any of the threads. May throw.

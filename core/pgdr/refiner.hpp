@@ -28,9 +28,13 @@
 
 namespace pgdr {
 
+/// What was done, in one visit or in all.
 struct RefineCounts {
-  std::uint64_t committed = 0, refused = 0, selector_outside = 0;
+  std::uint64_t committed = 0;         ///< insertions
+  std::uint64_t refused = 0;           ///< entries that the insertion rule refused
+  std::uint64_t selector_outside = 0;  ///< points of the selector outside their disk
 
+  /// Adds each.
   RefineCounts& operator+=(const RefineCounts& o) {
     committed += o.committed;
     refused += o.refused;
@@ -47,22 +51,22 @@ struct RefineContext {
   RefineContext(Mesh<D>& m, const Domain<D>& d, const RefineOptions<D>& o, CellBounds<D> b, std::uint64_t vertices_so_far,
                 std::chrono::steady_clock::time_point start_time);
 
-  int bucket_of(CellId c) const;
+  int bucket_of(CellId c) const;  ///< by its circumradius, 0 being the largest
   /// No circumradius of this bucket or a later one is larger.
   double largest_radius(int bucket) const;
 
-  Mesh<D>& mesh;
-  const Domain<D>& domain;
-  const RefineOptions<D>& options;
-  const CellBounds<D> bounds;
-  const std::chrono::steady_clock::time_point start;
+  Mesh<D>& mesh;  ///< which visits change
+  const Domain<D>& domain;  ///< the input
+  const RefineOptions<D>& options;  ///< as the caller gave them
+  const CellBounds<D> bounds;  ///< of cells
+  const std::chrono::steady_clock::time_point start;  ///< of the time limit
   const Shells<D> shells;  ///< none in 3D, where the front end alone splits on them
   int base_exponent = 0;  ///< of bucket 0: circumradii of the size of the domain and above
-  static constexpr int buckets = 64;
+  static constexpr int buckets = 64;  ///< of circumradii
 
   std::atomic<int> stop{0};  ///< a StopCause other than `finished`, once there is one
-  std::atomic<std::uint64_t> vertices;
-  std::mutex progress_mutex;
+  std::atomic<std::uint64_t> vertices;  ///< in all, for the progress report
+  std::mutex progress_mutex;  ///< held while the caller's function runs
   std::chrono::steady_clock::time_point last_progress;  ///< under the mutex
 };
 
@@ -80,30 +84,31 @@ struct RegionVisit {
   double small_radius = 0;              ///< end once no poor element is larger ...
   std::size_t floor = 0;                ///< ... and this many wait at least
   int granularity = std::numeric_limits<int>::max();  ///< end this many buckets after the first
-  std::uint64_t most_insertions = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t most_insertions = std::numeric_limits<std::uint64_t>::max();  ///< share of the budget
   bool violations_seen = false;         ///< look for faces that are not locally Delaunay at every insertion
   bool rewraps = false;                 ///< make cells anew where no flip helps
   bool entities_refused = false;        ///< by any visit before; after the visit, by this one too
   bool mends = false;                   ///< no volume point whose cavity is cut back any more
   // done
+  /// Entries for another region.
   struct Outbox {
-    std::uint32_t leaf;
-    std::vector<Entry<D>> entries;
+    std::uint32_t leaf;  ///< which
+    std::vector<Entry<D>> entries;  ///< in the order in which they were found
   };
   std::vector<Outbox> outboxes;         ///< elements with their circumcentre in other regions
   std::vector<Entry<D>> set_aside;      ///< would have changed cells that the visit does not own
-  RefineCounts counts;
-  bool changed_mesh = false;
-  bool min_edge_hit = false;
+  RefineCounts counts;  ///< of this visit
+  bool changed_mesh = false;  ///< by an insertion or a flip
+  bool min_edge_hit = false;  ///< something was refused for `min_edge`
 };
 
 /// The workspace of a worker: one thread at a time.
 template <int D>
 class Refiner {
  public:
-  using Pools = typename Mesh<D>::Pools;
+  using Pools = typename Mesh<D>::Pools;  ///< of this worker
 
-  Refiner(RefineContext<D>& context, Pools pools);
+  Refiner(RefineContext<D>& context, Pools pools);  ///< the context must outlive it
 
   /// Treats what waits, and what that brings forth, until nothing is left that the visit may treat or the run is stopped.
   /// @throws what a callback throws; the mesh is whole then.
@@ -118,7 +123,7 @@ class Refiner {
   bool mend(const Entry<D>& e);
   /// Is this violating face between volume vertices alone?
   bool is_far_from_walls(const Entry<D>& e) const;
-  bool violates(const Entry<D>& e) const { return flips_.violates(e.cell, e.which); }
+  bool violates(const Entry<D>& e) const { return flips_.violates(e.cell, e.which); }  ///< is the face not locally Delaunay?
   /// Makes `visit` the one that list_cell lists for.
   void begin(RegionVisit<D>& visit);
 

@@ -19,6 +19,7 @@
 
 namespace pgdr {
 
+/// See above.
 enum class RegionMode { seeds, automatic };
 
 }  // namespace pgdr

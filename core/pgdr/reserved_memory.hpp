@@ -11,6 +11,7 @@
 
 namespace pgdr {
 
+/// See above.
 class ReservedMemory {
  public:
   /// Reserves addresses, no memory. @throws std::bad_alloc
@@ -19,7 +20,7 @@ class ReservedMemory {
   ReservedMemory(const ReservedMemory&) = delete;
   ReservedMemory& operator=(const ReservedMemory&) = delete;
 
-  void* base() const { return base_; }
+  void* base() const { return base_; }  ///< where the range begins, for good
   /// Makes the first `bytes` usable; from any thread. @throws std::bad_alloc @pre bytes <= what is reserved
   void grow_to(std::size_t bytes) {
     if (bytes > usable_.load(std::memory_order_acquire)) grow(bytes);

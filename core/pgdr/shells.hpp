@@ -13,6 +13,7 @@
 
 namespace pgdr {
 
+/// Splits at ends with small angles: see above. Immutable.
 template <int D>
 class Shells {
  public:
@@ -28,6 +29,7 @@ class Shells {
   }
   /// Is this distance from an end of the segment the radius of a shell, but for the rounding of a point on it?
   bool is_radius(EntityId segment, double distance) const;
+  /// How far a rounded point on it may be off its place.
   double rounding(EntityId segment) const { return 0x1p-50 * domain_->segment_magnitude(segment); }
 
  private:

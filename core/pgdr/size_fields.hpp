@@ -48,6 +48,17 @@ SizingField<D> sizes_on_mesh(const OutputMesh<D>& mesh, std::span<const double> 
 template <int D>
 std::vector<double> limit_growth(const OutputMesh<D>& mesh, std::span<const double> values, double growth);
 
+/// Values at the vertices of a labelled mesh by the sizes of its regions: the smallest of the sizes, at the vertex, of all
+/// regions that meet there; `otherwise` at vertices of none of them. By `limit_growth` and `sizes_on_mesh` they become sizes
+/// that grow gradually from a fine region into its neighbours. A mesh without labels has the label 0. Linear time.
+/// @param mesh  a background mesh, e.g. what `refine` makes of the same input without any size
+/// @param sizes  of regions that the mesh has
+/// @param otherwise  positive and finite
+/// @throws UsageError bad_option: `otherwise`, or no cell has a label (but 0); bad_size: a size that is not positive and
+///   finite (ids: the vertex). InputError index_out_of_range (ids: the cell). What a size function throws.
+template <int D>
+std::vector<double> sizes_of_regions(const OutputMesh<D>& mesh, const RegionSizes<D>& sizes, double otherwise);
+
 /// One number a vertex from a Medit solution file (.sol, ASCII: MeshVersionFormatted, Dimension, SolAtVertices with one
 /// scalar), as mmg and others write it beside a .mesh file. Further sections are not read.
 /// @param file  the .sol

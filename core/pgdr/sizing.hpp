@@ -3,14 +3,16 @@
 //
 // How large elements may be: the circumradius bound in 3D, the area bound in 2D, at the centroid. A constant, or a function
 // of position; made of others, of points, or of a background mesh in size_fields.hpp. A constant costs no call, a function
-// one a cell that is made, so that a slow one (above some 100 ns) is what a refinement waits for. Bounds of single regions
-// are volumes (areas), of their seeds: RegionSeed::size; where several bounds apply, all are met.
+// one a cell that is made, so that a slow one (above some 100 ns) is what a refinement waits for. Single regions may have
+// sizes of their own (RegionSizes), and bounds of volume (area) by their seeds (RegionSeed::size). Where several bounds apply,
+// all are met.
 #pragma once
 
 #include <functional>
 #include <limits>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "pgdr/export.hpp"
 #include "pgdr/types.hpp"
@@ -43,5 +45,16 @@ class SizingField {
   double constant_ = std::numeric_limits<double>::infinity();
   SizeFunction<D> function_;
 };
+
+/// The sizes of one region.
+template <int D>
+struct RegionSize {
+  double label = 0;      ///< of its cells: the attribute of its seed, its number with RegionMode::automatic, 0 without either
+  SizingField<D> size;   ///< as RefineOptions::size, asked at the centroids of the region's cells alone
+};
+
+/// Sizes by region. Those of several entries with one label are all met.
+template <int D>
+using RegionSizes = std::vector<RegionSize<D>>;
 
 }  // namespace pgdr

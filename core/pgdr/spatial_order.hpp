@@ -19,7 +19,7 @@ class HilbertCurve {
  public:
   /// The cube spans the bounding box of `points`, its side rounded up to a power of two.
   explicit HilbertCurve(std::span<const Point<D>> points);
-  std::uint64_t key(const Point<D>& p) const;
+  std::uint64_t key(const Point<D>& p) const;  ///< position along the curve
 
  private:
   Point<D> corner_{};

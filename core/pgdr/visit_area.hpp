@@ -20,25 +20,30 @@ class VisitArea {
   virtual ~VisitArea() = default;
 
   /// An element belongs to the visit if its circumcentre lies in this half-open box (unbounded where space ends).
-  Point<D> home_low, home_high;
+  Point<D> home_low;   ///< its low corner
+  Point<D> home_high;  ///< its high corner
   /// A half-open box wholly claimed: a quick yes.
-  Point<D> inner_low, inner_high;
+  Point<D> inner_low;   ///< its low corner
+  Point<D> inner_high;  ///< its high corner
 
   /// Is the point in the claimed part of space? Asked beyond the inner box.
   virtual bool claimed(const Point<D>& p) const = 0;
   /// The region that an element with its circumcentre at p belongs to.
   virtual std::uint32_t leaf_of(const Point<D>& p) const = 0;
 
+  /// Does an element with this circumcentre belong to the visit?
   bool is_home(const Point<D>& p) const {
     for (int i = 0; i < D; ++i)
       if (!(p[i] >= home_low[i] && p[i] < home_high[i])) return false;
     return true;
   }
+  /// Is the point claimed?
   bool owns(const Point<D>& p) const {
     for (int i = 0; i < D; ++i)
       if (!(p[i] >= inner_low[i] && p[i] < inner_high[i])) return claimed(p);
     return true;
   }
+  /// Are all of these vertices?
   bool owns(const Mesh<D>& mesh, const std::array<VertexId, D + 1>& vertices) const {
     for (const VertexId v : vertices)
       if (!owns(mesh.point(v))) return false;

@@ -19,6 +19,7 @@
 
 namespace pgdr {
 
+/// What waits: a subsegment, a subfacet, a face that is not locally Delaunay, a poor element.
 enum class EntryKind : std::uint8_t { edge, face, flip, cell };
 
 /// An entity or element as the D+1 vertices of its cell and which of its edges or faces. The entry is dead when the
@@ -26,17 +27,19 @@ enum class EntryKind : std::uint8_t { edge, face, flip, cell };
 template <int D>
 struct Entry {
   /// `which` of kind cell, why it is listed: too big, whatever its shape; beside a face that no flip mends; poor in shape.
-  static constexpr std::uint8_t over_size = 0, not_delaunay = 1, over_radius_edge = 2;
+  static constexpr std::uint8_t over_size = 0;         ///< too big
+  static constexpr std::uint8_t not_delaunay = 1;      ///< beside such a face
+  static constexpr std::uint8_t over_radius_edge = 2;  ///< poor in shape alone
 
-  CellId cell;
-  std::array<VertexId, D + 1> vertices;
-  EntryKind kind : 4;
-  std::uint8_t which : 4;
+  CellId cell;  ///< its slot
+  std::array<VertexId, D + 1> vertices;  ///< of the cell
+  EntryKind kind : 4;  ///< what it is
+  std::uint8_t which : 4;  ///< edge or face of the cell; why, of kind cell
   std::uint8_t bucket;  ///< kind cell: floor(log2(side of the domain / circumradius)), clamped
   std::uint16_t birth;  ///< of the cell
   std::uint32_t order = 0;  ///< of cells over the radius-edge bound alone: the least goes first
 
-  bool alive(const Mesh<D>& mesh) const { return mesh.holds(cell, vertices, birth); }
+  bool alive(const Mesh<D>& mesh) const { return mesh.holds(cell, vertices, birth); }  ///< is the cell still there?
 };
 static_assert(sizeof(Entry<3>) == 28);
 
@@ -45,15 +48,17 @@ template <class T>
 class Fifo {
  public:
   Fifo() = default;
-  Fifo(Fifo&& o) noexcept { swap(o); }
+  Fifo(Fifo&& o) noexcept { swap(o); }  ///< takes what o has
+  /// Trades with o.
   Fifo& operator=(Fifo&& o) noexcept {
     swap(o);
     return *this;
   }
   ~Fifo() { clear(); }
 
-  bool empty() const { return size_ == 0; }
-  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }  ///< nothing waits
+  std::size_t size() const { return size_; }  ///< so many wait
+  /// Puts it behind all others.
   void push(const T& item) {
     if (!last_) {
       first_ = last_ = new Block;
@@ -115,18 +120,21 @@ class Fifo {
 template <int D>
 class EntryHeap {
  public:
-  bool empty() const { return items_.empty(); }
-  const Entry<D>& top() const { return items_.front(); }
+  bool empty() const { return items_.empty(); }  ///< nothing waits
+  const Entry<D>& top() const { return items_.front(); }  ///< the least. @pre !empty()
+  /// Adds it.
   void push(const Entry<D>& e) {
     items_.push_back(e);
     std::push_heap(items_.begin(), items_.end(), later);
   }
+  /// Takes the least out. @pre !empty().
   Entry<D> pop() {
     std::pop_heap(items_.begin(), items_.end(), later);
     const Entry<D> e = items_.back();
     items_.pop_back();
     return e;
   }
+  /// Calls f for each, and empties the heap.
   template <class F>
   void drain(F f) {
     for (const Entry<D>& e : items_) f(e);
@@ -140,24 +148,28 @@ class EntryHeap {
 
 /// Two input entities that meet where something was refused.
 struct EntityPair {
-  std::array<EntityRef, 2> entities;
+  std::array<EntityRef, 2> entities;  ///< of the Domain
 };
 
 /// An entry that was refused, and by what; nothing if no pair of entities was at fault.
 template <int D>
 struct Refusal {
-  Entry<D> entry;
-  std::optional<EntityPair> pair;
+  Entry<D> entry;  ///< what
+  std::optional<EntityPair> pair;  ///< by what
   std::uint32_t order = 1;       ///< of the claim that it took to find out
   std::uint64_t generation = 0;  ///< in which
 };
 
+/// What waits in one region, and what was refused there.
 template <int D>
 class WorkList {
  public:
-  Fifo<Entry<D>> edges, faces, flips;
-  std::vector<Refusal<D>> refused;
+  Fifo<Entry<D>> edges;  ///< encroached subsegments
+  Fifo<Entry<D>> faces;  ///< encroached subfacets
+  Fifo<Entry<D>> flips;  ///< faces that are not locally Delaunay
+  std::vector<Refusal<D>> refused;  ///< for good, unless the mesh changes
 
+  /// Puts it where its kind waits.
   void push(const Entry<D>& e) {
     switch (e.kind) {
       case EntryKind::edge: return edges.push(e);
@@ -177,7 +189,9 @@ class WorkList {
     ++waiting_;
   }
 
+  /// Nothing waits.
   bool empty() const { return edges.empty() && faces.empty() && flips.empty() && waiting_ == 0; }
+  /// So many wait, dead ones among them.
   std::size_t size() const { return edges.size() + faces.size() + flips.size() + waiting_; }
   /// Poor elements, dead ones among them.
   std::size_t poor() const { return waiting_; }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "detail/contact.hpp"
+#include "detail/stop_check.hpp"
 #include "pgdr/diagnosis.hpp"
 
 namespace pgdr::detail {
@@ -43,7 +44,7 @@ template <int D>
 class Diagnoser {
  public:
   Diagnoser(const Domain<D>& domain, const DiagnosisOptions& options, Diagnosis<D>& out)
-      : domain_(domain), options_(options), out_(out), p_(domain.points()) {}
+      : domain_(domain), options_(options), stop_check_(options.stop), out_(out), p_(domain.points()) {}
   void run();
 
  private:
@@ -143,6 +144,7 @@ class Diagnoser {
 
   const Domain<D>& domain_;
   const DiagnosisOptions& options_;
+  const StopCheck stop_check_;
   Diagnosis<D>& out_;
   std::span<const Point<D>> p_;
   std::vector<Triangle> triangles_;   // all facets'

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Makes a Domain of a Plc, in this order: points (finite, merged), indices, facets to triangles, repeated facets,
-// points and edges that lie on what they do not belong to, coplanar groups, segments, incidences. Each step is in a file of its own, domain_<step>.cpp. Everything is sorting
-// and hashing: n log n in the size of the input, but for constraint edges of a facet that cross many triangles.
+// points and edges that lie on what they do not belong to, coplanar groups, segments, incidences. Each step is in a file of
+// its own, domain_<step>.cpp. Everything is sorting and hashing: n log n in the size of the input, but for constraint edges
+// of a facet that cross many triangles.
 // Used by one thread, once.
 #pragma once
 
@@ -18,6 +19,7 @@
 
 #include "detail/contact.hpp"
 #include "detail/planar_cdt.hpp"
+#include "detail/stop_check.hpp"
 #include "pgdr/domain.hpp"
 
 namespace pgdr {
@@ -128,9 +130,9 @@ struct EdgeUse {
 template <int D>
 class DomainBuilder {
  public:
-  /// `refused`: where to name what is invalid and go on without it; none: it is thrown.
-  DomainBuilder(const Plc<D>& plc, Domain<D>& domain, std::vector<Diagnostic>* refused = nullptr)
-      : plc_(plc), out_(domain), refused_(refused) {}
+  /// `refused`: where to name what is invalid and go on without it; null: it is thrown.
+  DomainBuilder(const Plc<D>& plc, Domain<D>& domain, std::stop_token stop, std::vector<Diagnostic>* refused = nullptr)
+      : plc_(plc), out_(domain), stop_check_(std::move(stop)), refused_(refused) {}
   void run();
 
  private:
@@ -236,6 +238,7 @@ class DomainBuilder {
 
   const Plc<D>& plc_;
   Domain<D>& out_;
+  const detail::StopCheck stop_check_;
   std::vector<Diagnostic>* refused_;
   double scale_ = 1;                                             // 1 / the largest coordinate, a power of two
   std::vector<std::array<std::uint32_t, 2>> explicit_;           // domain points of Plc::segments

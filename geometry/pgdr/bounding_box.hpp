@@ -14,7 +14,8 @@ namespace pgdr {
 /// Closed; the smallest and the largest coordinate of each axis.
 template <int D>
 struct BoundingBox {
-  Point<D> low, high;
+  Point<D> low;   ///< smallest coordinates
+  Point<D> high;  ///< largest coordinates
 
   /// Length of the longest side, rounded.
   double longest_side() const {

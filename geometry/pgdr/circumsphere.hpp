@@ -18,9 +18,9 @@ namespace pgdr PGDR_API {
 /// in expansions or rationals and rounded; it is non-finite only if it overflows.
 template <int D>
 struct Circumsphere {
-  Point<D> center;
-  double squared_radius = 0;
-  double center_error = 0;
+  Point<D> center;            ///< rounded; in units of the input
+  double squared_radius = 0;  ///< of the ball about `center`; their squares
+  double center_error = 0;    ///< as said above
 };
 
 /// @pre the corners are affinely independent (exactly).
@@ -38,11 +38,13 @@ Point<D> centroid(const Simplex<D>& s);
 /// Smallest ball through the two ends of an edge, or the three corners of a triangle in space (diametral, equatorial).
 template <int D>
 struct Ball {
-  Point<D> center;
-  double squared_radius = 0;
+  Point<D> center;            ///< in units of the input
+  double squared_radius = 0;  ///< in their squares
 };
+/// The ball on which a-b is a diameter, rounded; the same whichever end is a.
 template <int D>
 Ball<D> diametral_ball(const Point<D>& a, const Point<D>& b);
+/// The ball about the circumcentre of abc with its circumradius, rounded; the same in any order. @pre not on one line
 Ball<3> equatorial_ball(const Point3& a, const Point3& b, const Point3& c);
 
 /// x strictly inside the ball on which a-b is a diameter: (a-x).(b-x) < 0, exact.

@@ -3,8 +3,9 @@
 //
 // What is wrong with an input, and where: everything at once, for a person who is to repair it. Decisions are exact and
 // without tolerance; coordinates of intersections, lengths and angles are rounded. Of each kind all are counted and the
-// first few listed, in an order that depends on the input alone. Near-linear time but for inputs of long thin triangles
-// whose boxes all overlap and that are in no fans. Pure functions.
+// first few listed, in an order that depends on the input alone. Near-linear time (a million triangles take about
+// a second) but for inputs of long thin triangles whose boxes all overlap and that are in no fans. Pure functions, each on the
+// calling thread alone; any number may run at once.
 //
 // Meant are the facets as their triangles (see domain.hpp), the segments that no facet has, and the points; two of these
 // may have common corners, and the edge between these, and nothing else in common.
@@ -13,6 +14,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <stop_token>
 #include <string_view>
 #include <vector>
 
@@ -46,45 +48,57 @@ enum class Finding : std::uint8_t {
   segment_facet_below_90,    ///< a segment and a facet at a point
   facets_below_90,           ///< two facets at a segment
 };
-inline constexpr std::size_t finding_kinds = 18;
+inline constexpr std::size_t finding_kinds = 18;  ///< so many
 
 /// The stable snake_case word of the JSON report.
 std::string_view name(Finding kind);
+/// Does an input with such a finding have no mesh?
 constexpr bool is_error(Finding kind) { return kind <= Finding::encloses_nothing; }
 
+/// The findings of one kind.
 struct FindingList {
+  /// One of them.
   struct Item {
     Diagnostic what;     ///< ids, points, line: as everywhere
-    double measure = 0;  ///< of an angle or an open boundary
+    double measure = 0;  ///< degrees of an angle, length of an open boundary
   };
-  std::uint64_t count = 0;
+  std::uint64_t count = 0;   ///< all of them
   std::vector<Item> listed;  ///< the first of them
 };
 
+/// How much is to be found out.
 struct DiagnosisOptions {
   std::size_t most_listed = 20;  ///< of each kind
   bool errors_only = false;      ///< look for nothing that is reported only
+  /// Ends it, from any thread, by a CancelledError: in some milliseconds, but for the making of a search tree, which takes up to
+  /// a fifth of a second for a million triangles.
+  std::stop_token stop = {};
 };
 
+/// What was found. A value.
 template <int D>
 struct Diagnosis {
-  std::array<FindingList, finding_kinds> found;
+  std::array<FindingList, finding_kinds> found;  ///< by kind
 
-  const FindingList& operator[](Finding kind) const { return found[static_cast<std::size_t>(kind)]; }
-  FindingList& operator[](Finding kind) { return found[static_cast<std::size_t>(kind)]; }
-  std::uint64_t error_count() const;
+  const FindingList& operator[](Finding kind) const { return found[static_cast<std::size_t>(kind)]; }  ///< of one kind
+  FindingList& operator[](Finding kind) { return found[static_cast<std::size_t>(kind)]; }              ///< likewise
+  std::uint64_t error_count() const;  ///< all errors, listed or not
   /// The listed errors, kind by kind.
   std::vector<Diagnostic> errors() const;
 };
 
+/// All that is wrong with a prepared input.
+/// @throws CancelledError
 template <int D>
 Diagnosis<D> diagnose(const Domain<D>& domain, const DiagnosisOptions& options = {});
 /// Of an input that Domain may refuse: its reasons first, then what is wrong with the rest.
+/// @throws CancelledError
 template <int D>
 Diagnosis<D> diagnose(const Plc<D>& plc, const DiagnosisOptions& options = {});
 
-/// @throws InputError the first error, if there is one, and how many more there are.
+/// What `refine` asks first. Takes no time to speak of where the Domain knows already that nothing meets.
+/// @throws InputError the first error, if there is one, and how many more there are; CancelledError.
 template <int D>
-void require_no_errors(const Domain<D>& domain);
+void require_no_errors(const Domain<D>& domain, std::stop_token stop = {});
 
 }  // namespace pgdr

@@ -54,6 +54,7 @@ enum class Errc {
   cannot_open,
   cannot_write,
   // resources and the rest
+  cancelled,  ///< the caller's stop token said so
   out_of_memory,
   ids_exhausted,
   internal,
@@ -92,6 +93,8 @@ struct UsageError : Error { using Error::Error; };
 struct InputError : Error { using Error::Error; };
 /// A file that cannot be opened or written (exit code 4).
 struct FileError : Error { using Error::Error; };
+/// The caller's stop token was requested where there is nothing to return: while a Domain or a Diagnosis is made.
+struct CancelledError : Error { using Error::Error; };
 /// Memory or ids exhausted, or a broken invariant (exit code 7).
 struct ResourceError : Error { using Error::Error; };
 

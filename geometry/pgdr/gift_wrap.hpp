@@ -19,9 +19,10 @@
 
 namespace pgdr {
 
+/// See above.
 class GiftWrap {
  public:
-  using Index = std::uint16_t;
+  using Index = std::uint16_t;  ///< into the points
   using Face = std::array<Index, 3>;  ///< orient3d of the three and a point of the region beside them is positive
   using Cell = std::array<Index, 4>;  ///< positively oriented
 
@@ -33,7 +34,7 @@ class GiftWrap {
 
   /// Face i of a positive cell, seen from inside it: orient3d of face and corner i is positive. Smallest index first.
   static Face face_of(const Cell& cell, int i);
-  static Face turned_over(const Face& f) { return {f[0], f[2], f[1]}; }
+  static Face turned_over(const Face& f) { return {f[0], f[2], f[1]}; }  ///< the same seen from the other side
 
  private:
   bool wrap(const Face& f);

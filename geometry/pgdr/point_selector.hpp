@@ -19,15 +19,17 @@ namespace pgdr PGDR_API {
 /// The open ball (disk) in which a Steiner point may lie. radius <= 0: the centre alone.
 template <int D>
 struct SelectionDisk {
-  Point<D> center;
-  double radius = 0;
+  Point<D> center;    ///< the circumcentre
+  double radius = 0;  ///< in units of the input
 };
 
+/// Is p strictly inside? In doubles, as the refinement asks.
 template <int D>
 constexpr bool inside(const SelectionDisk<D>& disk, const Point<D>& p) {
   return disk.radius > 0 && squared_distance(p, disk.center) < disk.radius * disk.radius;
 }
 
+/// How large the disk of an element is: circumradius r, shortest edge l.
 enum class DiskType {
   type1,  ///< radius r - k l: termination (Def. 2.4, 2.7); below the smallest proved bound the insertion rule sees to that
   type2,  ///< radius r (1 - k / bound), or r (1 - delta): termination and good grading (Def. 2.5, 2.8)
@@ -39,8 +41,9 @@ constexpr double smallest_proved_bound() {
   return D == 2 ? 1.4142135623730951 : 2.0;
 }
 
+/// Which disk, and how large.
 struct DiskOptions {
-  DiskType type = DiskType::type2;
+  DiskType type = DiskType::type2;  ///< type 1 is the larger; type 2 grades well, too
   double delta = 0;  ///< 0: as far as the bound allows, delta = k / bound; else k / bound <= delta <= 1 (Def. 2.6, 2.9)
 };
 
@@ -48,28 +51,31 @@ struct DiskOptions {
 template <int D>
 struct PoorElement {
   Simplex<D> corners;  ///< in lexicographic order
-  Point<D> circumcenter;
-  double circumradius = 0, shortest_edge = 0;
-  double radius_edge_bound = 0;
-  SelectionDisk<D> disk;
+  Point<D> circumcenter;          ///< rounded
+  double circumradius = 0;        ///< rounded; lengths in units of the input
+  double shortest_edge = 0;       ///< its length, rounded
+  double radius_edge_bound = 0;   ///< RefineOptions::radius_edge_bound
+  SelectionDisk<D> disk;          ///< where the point may be
   bool over_radius_edge = false;  ///< else it is only too big
 };
 
-/// @pre element fields other than `disk` are set.
+/// The disk of an element. @pre element fields other than `disk` are set.
 template <int D>
 SelectionDisk<D> selection_disk(const PoorElement<D>& element, const DiskOptions& options);
 
 /// What the insertion of a candidate point would do.
 template <int D>
 struct Preview {
+  /// Whether there is an answer.
   enum class Status {
     possible,    ///< all that is below is set
     encroaches,  ///< an entity would be split instead; the numbers of cells are those that the point itself would delete
     impossible,  ///< not inside the element's circumsphere, or its star could not be made
     unknown,     ///< the visit's claim ends before the answer: what the selector returns now is not used, it is asked again
   };
-  Status status = Status::unknown;
-  int poor = 0, good = 0;  ///< cells deleted, over and within their bounds
+  Status status = Status::unknown;  ///< what of the rest is set
+  int poor = 0;  ///< cells deleted that are over a bound
+  int good = 0;  ///< cells deleted that are within their bounds
   /// Cosine of the smallest angle (2D) or dihedral angle (3D) of all cells made: 1 for a flat one. By correctly rounded
   /// operations alone, so that a choice by it is the same everywhere. Set by `Neighborhood::measure`.
   double sharpest_cosine = 1;
@@ -95,8 +101,9 @@ class Neighborhood {
 template <int D>
 class PointSelector {
  public:
-  PointSelector() = default;
-  PointSelector(std::nullptr_t) {}
+  PointSelector() = default;        ///< empty: circumcentres
+  PointSelector(std::nullptr_t) {}  ///< empty
+  /// Holds a copy of f, which is called from several threads at once; empty if f is an empty std::function.
   template <class F>
     requires(!std::same_as<std::remove_cvref_t<F>, PointSelector> &&
              (std::is_invocable_r_v<Point<D>, std::decay_t<F>&, const PoorElement<D>&> ||
@@ -110,8 +117,8 @@ class PointSelector {
     }
   }
 
-  explicit operator bool() const { return static_cast<bool>(call_); }
-  /// @pre not empty.
+  explicit operator bool() const { return static_cast<bool>(call_); }  ///< is there a function?
+  /// Where the function puts the point; throws what it throws. @pre not empty.
   Point<D> operator()(const PoorElement<D>& element, Neighborhood<D>& neighborhood) const {
     return call_(element, neighborhood);
   }

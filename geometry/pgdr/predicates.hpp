@@ -21,7 +21,9 @@ namespace pgdr PGDR_API {
 template <int D>
 Sign orient(const Simplex<D>& s);
 
+/// orient<2>({a, b, c})
 inline Sign orient2d(const Point2& a, const Point2& b, const Point2& c) { return orient<2>({a, b, c}); }
+/// orient<3>({a, b, c, d})
 inline Sign orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
   return orient<3>({a, b, c, d});
 }
@@ -51,9 +53,10 @@ Sign in_circle_perturbed(const Point3& a, const Point3& b, const Point3& c, cons
 /// orient2d of the points without coordinate `axis`; the two kept axes in cyclic order ((axis+1)%3, (axis+2)%3).
 Sign orient_projected(const Point3& a, const Point3& b, const Point3& c, int axis);
 
-/// True iff the angle at v between the directions to a and b is (strictly) below 60 degrees, resp. 90 degrees. Exact.
+/// True iff the angle at v between the directions to a and b is (strictly) below 60 degrees. Exact.
 template <int D>
 bool angle_below_60(const Point<D>& v, const Point<D>& a, const Point<D>& b);
+/// The same for 90 degrees.
 template <int D>
 bool angle_below_90(const Point<D>& v, const Point<D>& a, const Point<D>& b);
 
@@ -61,11 +64,12 @@ bool angle_below_90(const Point<D>& v, const Point<D>& a, const Point<D>& b);
 template <int D>
 bool collinear(const Point<D>& a, const Point<D>& b, const Point<D>& c);
 
-/// The two bounds, shared by refiner and checker; exact where the filter cannot decide.
-/// radius-edge: r^2 <= bound^2 * l^2 (l the shortest edge); size: r^2 <= size^2. Exact, so the order of corners does not
-/// matter. Infinite bounds hold; bounds that are NaN or not positive don't, nor any finite one on a flat simplex.
+/// Circumradius over shortest edge within the bound: r^2 <= bound^2 * l^2, one test for refiner and checker. Exact where the
+/// filter cannot decide, so the order of corners does not matter. Infinite bounds hold; bounds that are NaN or not positive
+/// don't, nor any finite one on a flat simplex.
 template <int D>
 bool radius_edge_within(const Simplex<D>& s, double bound);
+/// The circumradius within the size: r^2 <= size^2; likewise.
 template <int D>
 bool circumradius_within(const Simplex<D>& s, double size);
 /// |volume| (area in 2D) <= bound, exactly; bound >= 0.
@@ -75,9 +79,12 @@ bool measure_within(const Simplex<D>& s, double bound);
 /// How often each stage decided, per thread, since the thread began: summed by whoever owns the threads. `expansion` is
 /// the second stage, `perturbed` counts ties on top of what found them (and the orientations that break them count, too).
 struct PredicateCounts {
-  std::uint64_t filter = 0, expansion = 0, exact = 0, perturbed = 0;
-  PredicateCounts& operator+=(const PredicateCounts& o);
-  PredicateCounts operator-(const PredicateCounts& o) const;
+  std::uint64_t filter = 0;     ///< decided by the floating-point filter
+  std::uint64_t expansion = 0;  ///< by integers or expansions
+  std::uint64_t exact = 0;      ///< by rationals
+  std::uint64_t perturbed = 0;  ///< ties that the perturbation broke
+  PredicateCounts& operator+=(const PredicateCounts& o);       ///< adds each
+  PredicateCounts operator-(const PredicateCounts& o) const;  ///< what came since o was read
 };
 PredicateCounts predicate_counts();  ///< of the calling thread
 

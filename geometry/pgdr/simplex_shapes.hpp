@@ -12,13 +12,14 @@
 
 namespace pgdr {
 
-inline constexpr std::size_t shape_lanes = 4;
+inline constexpr std::size_t shape_lanes = 4;  ///< simplices side by side
 
 /// Corners of `shape_lanes` simplices; every lane must hold a simplex or a copy of one, with distinct corners.
 template <int D>
 struct alignas(32) SimplexBlock {
-  double corner[D + 1][D][shape_lanes];
+  double corner[D + 1][D][shape_lanes];  ///< coordinates, by corner, axis and simplex
 
+  /// Corner i of one simplex.
   void set(std::size_t lane, int i, const Point<D>& p) {
     for (int k = 0; k < D; ++k) corner[i][k][lane] = p[k];
   }
@@ -28,10 +29,13 @@ struct alignas(32) SimplexBlock {
 /// orient() up to `det_error`, which may be infinite; `radius` is the root of `squared_radius`.
 template <int D>
 struct alignas(32) ShapeBlock {
-  double center[D][shape_lanes];
-  double squared_radius[shape_lanes], radius[shape_lanes], center_error[shape_lanes];
-  double shortest_edge_squared[shape_lanes];
-  double det[shape_lanes], det_error[shape_lanes];
+  double center[D][shape_lanes];  ///< of the circumsphere, by axis
+  double squared_radius[shape_lanes];  ///< of the circumsphere
+  double radius[shape_lanes];          ///< its root
+  double center_error[shape_lanes];    ///< as Circumsphere has it
+  double shortest_edge_squared[shape_lanes];  ///< length of the shortest edge
+  double det[shape_lanes];        ///< D! times the measure
+  double det_error[shape_lanes];  ///< its error
 };
 
 /// @pre out.size() == in.size()

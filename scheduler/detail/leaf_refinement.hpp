@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <span>
 #include <thread>
@@ -16,6 +17,7 @@
 #include "detail/leaf_work.hpp"
 #include "detail/thread_numbers.hpp"
 #include "pgdr/conflict_manager.hpp"
+#include "pgdr/poor_reasons.hpp"
 #include "pgdr/predicates.hpp"
 #include "pgdr/refine.hpp"
 #include "pgdr/refiner.hpp"
@@ -43,6 +45,9 @@ class LeafRefinement {
   bool violations_seen() const { return violations_seen_; }
   /// Calls f with the refusals of each leaf.
   void for_each_refused(const std::function<void(std::span<const Refusal<D>>)>& f);
+  /// At the end of a run, or where it was stopped: the cells over a bound, by what waits and what was refused, without a look
+  /// at the others and without a call of the size function. Nothing where some may be on no list.
+  std::optional<PoorCount> take_poor();
 
  protected:
   using Clock = std::chrono::steady_clock;
@@ -75,6 +80,7 @@ class LeafRefinement {
   LeafWorks<D> works_;
   std::uint64_t generation_ = 0, vertices_;
   bool violations_seen_ = false;
+  bool all_listed_ = false;  ///< every poor cell is on a list, between visits
   SchedulerStatistics statistics_;
 
  private:
@@ -102,6 +108,7 @@ class LeafRefinement {
 
   WorkList<D> whole_list_;               ///< entities that visits of the whole tree come upon
   std::vector<Entry<D>> whole_set_aside_;
+  std::vector<Entry<D>> left_over_;      ///< given to visits that the end of the run has overtaken
   std::uint64_t whole_changed_ = 0, last_change_ = 0;  ///< generation: of a visit of the whole tree; of any
   bool min_edge_hit_ = false, entities_refused_ = false;
   RefineCounts counts_;

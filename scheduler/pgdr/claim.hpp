@@ -17,25 +17,27 @@ namespace pgdr {
 /// The order of a claim that is the whole tree; otherwise a claim of order i is {L} + BUF^i(L).
 inline constexpr std::uint32_t whole_tree = 0xffffffffu;
 
+/// The leaves that a visit holds. Immutable.
 template <int D>
 class Claim {
  public:
-  using Node = typename Orthtree<D>::Node;
-  using Box = typename Orthtree<D>::Box;
+  using Node = typename Orthtree<D>::Node;  ///< of the tree
+  using Box = typename Orthtree<D>::Box;  ///< half-open
 
   /// {leaf} + `zone`, where `zone` is BUF^order(leaf) without the leaf, in any order; order >= 1.
   Claim(const Orthtree<D>& tree, Node leaf, std::span<const Node> zone, std::uint32_t order);
   /// The whole tree, for a visit of `leaf`.
   static Claim whole(const Orthtree<D>& tree, Node leaf);
 
-  bool whole() const { return leaves_.empty(); }
-  Node leaf() const { return leaf_; }
+  bool whole() const { return leaves_.empty(); }  ///< is it the whole tree?
+  Node leaf() const { return leaf_; }  ///< which is visited
   /// Sorted; empty if the claim is the whole tree.
   const std::vector<Node>& leaves() const { return leaves_; }
   /// A box around the visit's leaf that holds points of claimed leaves only; what lies beyond the root counts for the
   /// leaf nearest to it, so that a side at the root's border is at infinity. All of space for the whole tree.
   const Box& inner() const { return inner_; }
 
+  /// Is the leaf claimed? A constant number of steps.
   bool contains_leaf(Node leaf) const {
     if (whole()) return true;
     for (std::size_t i = slot(leaf);; i = (i + 1) & mask_) {
@@ -43,6 +45,7 @@ class Claim {
       if (table_[i] == Orthtree<D>::none) return false;
     }
   }
+  /// Does the point lie in a claimed leaf?
   bool contains(const Point<D>& p) const {
     return inner_.contains(p) || whole() || contains_leaf(tree_->leaf_at(p));
   }

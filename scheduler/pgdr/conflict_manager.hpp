@@ -18,7 +18,7 @@ namespace pgdr {
 
 /// A leaf that has work.
 struct VisitRequest {
-  std::uint32_t leaf = 0;
+  std::uint32_t leaf = 0;  ///< node of the tree
   /// 1 for an ordinary visit; 2, 4, ... for one that handles what was set aside, with the claim {L} + BUF^order(L);
   /// `whole_tree` for the last resort.
   std::uint32_t order = 1;
@@ -26,23 +26,25 @@ struct VisitRequest {
   std::uint64_t generation = 0;
 };
 
+/// A visit that is to run.
 template <int D>
 struct Visit {
-  VisitRequest request;
-  Claim<D> claim;
+  VisitRequest request;  ///< what for
+  Claim<D> claim;  ///< what it holds meanwhile
 };
 
 /// Visits in their total order: the number of a visit in `graph` is its index.
 template <int D>
 struct Generation {
-  std::vector<Visit<D>> visits;
-  VisitGraph graph;
+  std::vector<Visit<D>> visits;  ///< in their order
+  VisitGraph graph;  ///< which waits for which
 };
 
+/// Orders visits so that those whose claims meet run one after the other. One thread.
 template <int D>
 class ConflictManager {
  public:
-  using Node = typename Orthtree<D>::Node;
+  using Node = typename Orthtree<D>::Node;  ///< of the tree
 
   /// Claims of ordinary visits are {L} + BUF^ordinary_order(L): 1 keeps the leaves that run at once BUF^2-apart, 2 is
   /// stricter. The tree must outlive the manager; it may be split between calls of `plan`.

@@ -16,13 +16,14 @@
 
 namespace pgdr {
 
+/// A quadtree or octree. Any number of threads may read it while none splits.
 template <int D>
 class Orthtree {
  public:
-  using Node = std::uint32_t;
-  static constexpr Node root = 0;
-  static constexpr Node none = 0xffffffffu;
-  static constexpr int children = 1 << D;
+  using Node = std::uint32_t;  ///< a leaf, or an inner node
+  static constexpr Node root = 0;  ///< the first
+  static constexpr Node none = 0xffffffffu;  ///< no node
+  static constexpr int children = 1 << D;  ///< of an inner node
   /// Integer coordinates of the finest level fill a Morton key of 64 bits.
   static constexpr int max_level = D == 2 ? 31 : 21;
   /// A node's place among the nodes of its own level, counted from the root's low corner.
@@ -30,13 +31,15 @@ class Orthtree {
 
   /// Half-open: low <= x < high on every axis.
   struct Box {
-    Point<D> low, high;
+    Point<D> low;   ///< in it
+    Point<D> high;  ///< not in it
+    /// Does the point lie in it?
     bool contains(const Point<D>& p) const {
       for (int i = 0; i < D; ++i)
         if (!(p[i] >= low[i] && p[i] < high[i])) return false;
       return true;
     }
-    friend bool operator==(const Box&, const Box&) = default;
+    friend bool operator==(const Box&, const Box&) = default;  ///< equal corners
   };
 
   /// A tree of one leaf over the bounding box [low, high] of the points: a cube whose side has few bits, 1/16 to 1/8 larger than
@@ -57,18 +60,18 @@ class Orthtree {
     return nodes_[node].first_child + child;
   }
 
-  bool is_leaf(Node node) const { return nodes_[node].first_child == 0; }
-  Node first_child(Node node) const { return nodes_[node].first_child; }
+  bool is_leaf(Node node) const { return nodes_[node].first_child == 0; }  ///< has it no children?
+  Node first_child(Node node) const { return nodes_[node].first_child; }  ///< the others follow
   Node parent(Node node) const { return nodes_[node].parent; }  ///< `none` for the root
   int level(Node node) const { return places_[node].level; }    ///< 0 for the root
-  const Place& place(Node node) const { return places_[node].at; }
-  const Point<D>& centre(Node node) const { return nodes_[node].centre; }
-  double side(Node node) const { return side_[static_cast<std::size_t>(level(node))]; }
-  Box box(Node node) const;
+  const Place& place(Node node) const { return places_[node].at; }  ///< on its level
+  const Point<D>& centre(Node node) const { return nodes_[node].centre; }  ///< where its children meet
+  double side(Node node) const { return side_[static_cast<std::size_t>(level(node))]; }  ///< length, exact
+  Box box(Node node) const;  ///< half-open
 
   /// All nodes ever made have smaller numbers.
   Node node_count() const { return static_cast<Node>(nodes_.size()); }
-  std::size_t leaf_count() const { return leaf_count_; }
+  std::size_t leaf_count() const { return leaf_count_; }  ///< of the tree
   std::vector<Node> leaves() const;  ///< in Morton order
 
   /// False at the greatest depth, or where the doubles are too coarse to halve the box.
@@ -88,7 +91,7 @@ class Orthtree {
   /// Leaves that share a face (a piece of positive area) with `leaf`; side 0 = below on that axis, 1 = above.
   /// Empty at the root's border.
   std::vector<Node> face_neighbours(Node leaf, int axis, int side) const;
-  void append_face_neighbours(Node leaf, int axis, int side, std::vector<Node>& out) const;
+  void append_face_neighbours(Node leaf, int axis, int side, std::vector<Node>& out) const;  ///< likewise, behind what is there
 
   /// BUF(leaf), sorted: its face neighbours, their face neighbours along the axes not used yet, and so on, for every
   /// order of the axes. Holds every leaf that touches `leaf`. The leaf itself is not in it. (No chain that uses each
@@ -105,6 +108,7 @@ class Orthtree {
   std::uint64_t position(Node node, int axis) const {
     return std::uint64_t{place(node)[static_cast<std::size_t>(axis)]} << (max_level - level(node));
   }
+  /// How many positions it extends over.
   std::uint64_t extent(Node node) const { return std::uint64_t{1} << (max_level - level(node)); }
 
  private:

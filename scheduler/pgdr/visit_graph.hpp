@@ -26,13 +26,14 @@ namespace pgdr {
 /// Visits 0, 1, 2, ... in their total order. Threads: const members from any thread.
 class VisitGraph {
  public:
-  using Visit = std::uint32_t;
+  using Visit = std::uint32_t;  ///< its number
 
   /// Adds the next visit, which waits for `predecessors`: earlier visits, each named once. @returns its number
   Visit add_visit(std::span<const Visit> predecessors = {});
 
-  Visit visits() const { return static_cast<Visit>(first_.size() - 1); }
-  std::size_t edges() const { return predecessors_.size(); }
+  Visit visits() const { return static_cast<Visit>(first_.size() - 1); }  ///< so many
+  std::size_t edges() const { return predecessors_.size(); }  ///< pairs of a visit and one that it waits for
+  /// The visits that v waits for.
   std::span<const Visit> predecessors(Visit v) const {
     return std::span(predecessors_).subspan(first_[v], first_[v + 1] - first_[v]);
   }
@@ -42,15 +43,16 @@ class VisitGraph {
   std::vector<Visit> predecessors_;
 };
 
+/// How a graph was worked off.
 struct VisitRun {
-  std::uint32_t visits_planned = 0;
-  std::uint32_t visits_run = 0;
+  std::uint32_t visits_planned = 0;  ///< of the graph
+  std::uint32_t visits_run = 0;  ///< of these
   std::uint32_t max_concurrent = 0;  ///< most bodies that ran at one time
   /// False if somebody cancelled the task group in which the caller runs: the rest was not run, and nothing was thrown.
   bool complete() const { return visits_run == visits_planned; }
 };
 
-using VisitBody = std::function<void(VisitGraph::Visit)>;
+using VisitBody = std::function<void(VisitGraph::Visit)>;  ///< runs one visit; may throw
 
 /// In the order of the numbers, on the calling thread.
 VisitRun run_serial(const VisitGraph& graph, const VisitBody& body);

@@ -47,6 +47,7 @@ pgdr::OutputMesh<D> mesh(const pgdr::Plc<D>& plc, const pgdr::RefineOptions<D>& 
   check.domain = &domain;
   check.radius_edge_bound = options.radius_edge_bound;
   check.size = options.size;
+  check.region_sizes = options.region_sizes;
   const pgdr::CheckReport report = pgdr::check(result.mesh, check);
   std::printf("%-28s %7zu cells, %llu poor, verdict %d\n", what, result.mesh.cells.size(),
               static_cast<unsigned long long>(result.poor_left), report.exit_code());
@@ -102,6 +103,11 @@ void fields(const pgdr::Plc<D>& plc) {
                                     pgdr::sizes_at_points<D>(points, std::vector<double>{0.02}, 0.3)});
   const pgdr::OutputMesh<D> fine = mesh<D>(plc, options, "fields combined");
   expect(fine.cells.size() > 2 * coarse.cells.size(), "sizes are met");
+  options = {};
+  options.region_sizes = {{0, 0.2}};
+  expect(mesh<D>(plc, options, "size of a region").cells.size() > coarse.cells.size(), "sizes of regions are met");
+  values = pgdr::sizes_of_regions<D>(coarse, options.region_sizes, 1);
+  expect(values == std::vector<double>(coarse.points.size(), 0.2), "sizes of regions at the vertices");
   expect(pgdr::summarize_quality(fine).max_radius_edge <= options.radius_edge_bound * 1.0000001, "quality");
 }
 
@@ -141,6 +147,13 @@ void errors() {
   options = {};
   options.stop = source.get_token();
   expect(pgdr::refine(cube(), options).stop == pgdr::StopCause::cancelled, "cancelled");
+  bool cancelled = false;
+  try {
+    pgdr::Domain<3>(cube(), options.stop);
+  } catch (const pgdr::CancelledError&) {
+    cancelled = true;
+  }
+  expect(cancelled, "a CancelledError");
 }
 
 /// All other functions that pgdr.hpp declares for users, so that they link.
