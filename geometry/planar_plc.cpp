@@ -74,7 +74,8 @@ class CrossingResolver {
     }
   }
 
-  /// True if anything was split.
+  /// True if anything was split. Edges are split first where points lie on them: as pieces of what was split at a rounded
+  /// point they would miss these by an ulp, and segments that overlap would enclose slivers.
   bool split_once() {
     std::vector<std::uint64_t> keys;
     for (const detail::OwnedEdge& e : edges_)
@@ -82,33 +83,61 @@ class CrossingResolver {
     detail::make_set(keys);
     std::vector<std::array<std::uint32_t, 3>> corners;
     for (const std::uint64_t key : keys) corners.push_back({detail::edge_of(key)[0], detail::edge_of(key)[1], no_entity});
+    for (const std::uint32_t v : loose_points()) corners.push_back({v, no_entity, no_entity});
     std::vector<std::array<std::uint32_t, 2>> crossing;
-    const detail::BoxTree<2> tree(corners, points_);
-    tree.self_pairs([&](std::uint32_t i, std::uint32_t j) {
-      const detail::Piece a{corners[i], 2, 0}, b{corners[j], 2, 0};
-      if (detail::contact<2>(points_, a, b).kind == Contact::Kind::cross) crossing.push_back({i, j});
-    });
-    std::sort(crossing.begin(), crossing.end());
     inside_.clear();
-    for (const auto& [i, j] : crossing) split_at(keys[i], keys[j]);
-    if (inside_.empty()) return false;
+    const detail::BoxTree<2> tree(corners, points_);
+    const auto piece = [&](std::uint32_t i) { return detail::Piece{corners[i], i < keys.size() ? std::uint8_t{2} : std::uint8_t{1}, 0}; };
+    tree.self_pairs([&](std::uint32_t i, std::uint32_t j) {
+      if (i >= keys.size() && j >= keys.size()) return;
+      const Contact contact = detail::contact<2>(points_, piece(i), piece(j));
+      if (contact.kind == Contact::Kind::cross) crossing.push_back({i, j});
+      for (const Contact::Corner& c : contact.corners)
+        if (c.edge[0] != no_entity) inside_.emplace_back(detail::edge_key(c.edge[0], c.edge[1]), c.point);
+    });
+    if (crossing.empty()) return false;
     detail::make_set(inside_);
+    if (inside_.empty()) {
+      std::sort(crossing.begin(), crossing.end());
+      for (const auto& [i, j] : crossing) split_at(keys[i], keys[j]);
+      detail::make_set(inside_);
+    } else {
+      touching_.insert(touching_.end(), inside_.begin(), inside_.end());
+    }
     replace_edges();
     return true;
   }
 
+  /// Points, and edges, or pieces of such, that had them inside before they were crossed.
+  const std::vector<detail::PointOn>& touching() const { return touching_; }
   const std::vector<Point2>& points() const { return points_; }
   const std::vector<detail::OwnedEdge>& edges() const { return edges_; }
+  /// Of the new points, in their order: the ends of the edge that each was made on. These may be new points before it.
+  const std::vector<std::array<std::uint32_t, 2>>& origins() const { return origins_; }
   /// Pairs of segments that crossed, by their indices.
   const std::set<std::pair<std::uint32_t, std::uint32_t>>& pairs() const { return pairs_; }
 
  private:
+  /// The first point at each place, but for the ends of edges.
+  std::vector<std::uint32_t> loose_points() const {
+    std::vector<bool> used(points_.size());
+    for (const detail::OwnedEdge& e : edges_)
+      for (const std::uint32_t v : e.edge) used[v] = true;
+    std::vector<std::uint32_t> loose;
+    for (const auto& [point, v] : at_)
+      if (!used[v]) loose.push_back(v);
+    return loose;
+  }
+
   void split_at(std::uint64_t first, std::uint64_t second) {
     const auto [a, b] = detail::edge_of(first);
     const auto [c, d] = detail::edge_of(second);
     const Point2 x = intersection(points_[a], points_[b], points_[c], points_[d]);
     const auto [at, is_new] = at_.try_emplace(x, static_cast<std::uint32_t>(points_.size()));
-    if (is_new) points_.push_back(x);
+    if (is_new) {
+      points_.push_back(x);
+      origins_.push_back({a, b});
+    }
     const std::uint32_t v = at->second;
     if (v != a && v != b) inside_.emplace_back(first, v);
     if (v != c && v != d) inside_.emplace_back(second, v);
@@ -157,6 +186,8 @@ class CrossingResolver {
   std::vector<Point2> points_;
   std::map<Point2, std::uint32_t, LexLess> at_;  ///< the first point at each place
   std::vector<detail::OwnedEdge> edges_;
+  std::vector<std::array<std::uint32_t, 2>> origins_;
+  std::vector<detail::PointOn> touching_;
   std::vector<detail::PointOn> inside_;          ///< of this round, sorted
   std::vector<std::pair<std::uint64_t, std::uint64_t>> crossed_;
   std::set<std::pair<std::uint32_t, std::uint32_t>> pairs_;
@@ -171,7 +202,29 @@ void report(const CrossingResolver& resolved, const Plc<2>& plc, std::vector<Dia
   }
   for (std::size_t i = plc.points.size(); i < resolved.points().size(); ++i)
     list.diagnostic.points.push_back(detail::in_space(resolved.points()[i]));
+  detail::RepairList touching;
+  for (const auto& [edge, v] : resolved.touching()) {
+    const std::int64_t point = number(v), from = number(detail::edge_of(edge)[0]), to = number(detail::edge_of(edge)[1]);
+    touching.add([&] { return std::to_string(point) + " in " + std::to_string(from) + "-" + std::to_string(to); }, {point, from, to});
+  }
+  touching.report(Errc::point_on_segment, "points inside a segment, which is split there", plc.source.file, repairs);
   list.report(Errc::entities_intersect, "segments that cross, now split there", plc.source.file, repairs);
+}
+
+/// Those of the new points: linear along the edge that they were made on.
+void append_attributes(const CrossingResolver& resolved, Plc<2>& plc, std::size_t old_points) {
+  const std::size_t columns = old_points == 0 ? 0 : plc.point_attributes.size() / old_points;
+  if (columns * old_points != plc.point_attributes.size()) return;  // Domain refuses it
+  const auto& p = resolved.points();
+  for (std::size_t i = 0; i < resolved.origins().size(); ++i) {
+    const auto [a, b] = resolved.origins()[i];
+    const int axis = std::fabs(p[b][0] - p[a][0]) >= std::fabs(p[b][1] - p[a][1]) ? 0 : 1;
+    const double t = std::clamp((p[old_points + i][axis] - p[a][axis]) / (p[b][axis] - p[a][axis]), 0.0, 1.0);
+    for (std::size_t k = 0; k < columns; ++k) {
+      const double from = plc.point_attributes[a * columns + k], to = plc.point_attributes[b * columns + k];
+      plc.point_attributes.push_back((1 - t) * from + t * to);
+    }
+  }
 }
 
 }  // namespace
@@ -188,6 +241,7 @@ Plc<2> resolve_crossings(const Plc<2>& plc, std::vector<Diagnostic>& repairs) {
   Plc<2> out = plc;
   out.points = resolver.points();
   if (!out.point_markers.empty()) out.point_markers.resize(out.points.size(), 0);
+  append_attributes(resolver, out, plc.points.size());
   out.segments.clear();
   out.source.segment_lines.clear();
   for (const detail::OwnedEdge& e : resolver.edges()) {

@@ -17,6 +17,7 @@
 #include "pgdr/delaunay.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/labeling.hpp"
+#include "pgdr/point_data.hpp"
 #include "detail/arena.hpp"
 #include "detail/float_environment.hpp"
 #include "detail/generations.hpp"
@@ -108,15 +109,34 @@ std::stop_token token_of(const RefineOptions<D>& options) {
 }
 
 template <int D>
-Compacted<D> compact_mesh(const Mesh<D>& mesh, const Domain<D>& domain, const RegionTable& regions,
+Compacted<D> compact_mesh(const Mesh<D>& mesh, const Domain<D>& domain, const RegionTable& regions, const PointData<D>& data,
                           const RefineOptions<D>& options) {
   std::vector<double> attributes;
   if (regions.labelled) attributes = regions.attribute;
   const std::stop_token stop = token_of(options);
-  if (options.schedule.executor != Executor::flow_graph) return compact<D>(mesh, domain, attributes, false, stop);
   Compacted<D> compacted;
-  detail::in_arena_to_the_end(options.schedule.threads, [&] { compacted = compact<D>(mesh, domain, attributes, true, stop); });
+  const auto make = [&](bool parallel) {
+    compacted = compact<D>(mesh, domain, attributes, parallel, stop);
+    if (!stop.stop_requested()) data.fill(mesh, compacted, parallel, stop);
+  };
+  if (options.schedule.executor != Executor::flow_graph)
+    make(false);
+  else
+    detail::in_arena_to_the_end(options.schedule.threads, [&] { make(true); });
   return compacted;
+}
+
+/// Of each cell of the mesh, the leaf that holds its circumcentre.
+template <int D>
+std::vector<std::uint32_t> leaves_of(const OutputMesh<D>& mesh, const Orthtree<D>& tree) {
+  std::vector<std::uint32_t> leaves;
+  leaves.reserve(mesh.cells.size());
+  for (const auto& cell : mesh.cells) {
+    Simplex<D> s;
+    for (int i = 0; i <= D; ++i) s[i] = mesh.points[cell[i]];
+    leaves.push_back(tree.leaf_at(circumsphere<D>(s).center));
+  }
+  return leaves;
 }
 
 /// What a run that was cancelled returns where no partial mesh is wanted.
@@ -158,9 +178,10 @@ RegionTable make_initial(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Do
   return carve<D>(mesh, pools, delaunay, domain, options.regions, result.warnings);
 }
 
+/// Returns the tree, as it is in the end, if the leaves of cells are asked for.
 template <int D>
-void refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices, PoorReasons<D>& reasons,
-                 RefineResult<D>& result) {
+std::optional<Orthtree<D>> refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices,
+                                       PoorReasons<D>& reasons, RefineResult<D>& result) {
   const auto refinement = make_refinement<D>(context, std::move(pools), vertices);
   result.stop = refinement->run();
   result.violations_seen = refinement->violations_seen();
@@ -173,6 +194,7 @@ void refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::
   result.scheduler = refinement->statistics();
   result.scheduler.threads = threads_of(context.options.schedule);
   result.trace = refinement->take_trace();
+  return context.options.leaves ? std::optional(refinement->take_tree()) : std::nullopt;
 }
 
 /// Looks at every cell once more. The poor ones, each with its reason, if the refinement came to its end; else they are counted.
@@ -215,10 +237,12 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   }
 
   const auto refine_start = Clock::now();
+  const PointData<D> data(mesh, domain);
   const std::uint64_t vertices = domain.points().size() + result.statistics.segment_points + result.statistics.facet_points;
   RefineContext<D> context(mesh, domain, options, bounds_of(options, regions), vertices, start);
   PoorReasons<D> reasons(mesh, domain, context.bounds, options.keep_boundary);
-  if (options.refine) refine_mesh<D>(context, std::move(pools), vertices, reasons, result);
+  std::optional<Orthtree<D>> tree;
+  if (options.refine) tree = refine_mesh<D>(context, std::move(pools), vertices, reasons, result);
   const auto dropped = [&] {
     return !options.partial_mesh && (options.stop.stop_requested() || result.stop == StopCause::cancelled);
   };
@@ -230,7 +254,7 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   malloc_trim(0);  // the lists have left small pieces, which the long arrays of the result have no use for
 #endif
 
-  Compacted<D> compacted = compact_mesh(mesh, domain, regions, options);
+  Compacted<D> compacted = compact_mesh(mesh, domain, regions, data, options);
   if (dropped()) return without_mesh(std::move(result), start);
   for (const PoorCell& p : poor) {
     PoorReason reason = p.reason;
@@ -238,6 +262,7 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
     result.reasons.push_back(reason);
   }
   result.mesh = std::move(compacted.mesh);
+  if (tree) result.mesh.leaves = leaves_of(result.mesh, *tree);
   std::sort(result.reasons.begin(), result.reasons.end(),
             [](const PoorReason& a, const PoorReason& b) { return a.cell < b.cell; });
   result.statistics.predicates += predicate_counts() - predicates_before;

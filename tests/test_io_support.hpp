@@ -77,6 +77,8 @@ void expect_same(const OutputMesh<D>& a, const OutputMesh<D>& b) {
   EXPECT_TRUE(same_bytes(a.points, b.points)) << "points";
   EXPECT_EQ(a.input_points, b.input_points);
   EXPECT_EQ(a.point_markers, b.point_markers);
+  EXPECT_TRUE(same_bytes(a.point_attributes, b.point_attributes)) << "attributes";
+  EXPECT_EQ(a.leaves, b.leaves);
   EXPECT_TRUE(same_bytes(a.cells, b.cells)) << "cells";
   EXPECT_TRUE(same_bytes(a.regions, b.regions)) << "regions";
   EXPECT_TRUE(same_bytes(a.subsegments, b.subsegments)) << "subsegments";

@@ -31,6 +31,7 @@ RefineOptions<D> make_options(const MeshArguments& a, const Bounds<D>& bounds) {
   options.selector = make_selector<D>(a.selector);
   options.disk = {a.disk.value_or(a.delta > 0 ? DiskType::type2 : usual_disk(a.selector)), a.delta};
   options.keep_boundary = a.keep_boundary;
+  options.leaves = a.leaves;
   options.regions = a.regions;
   options.min_edge = a.min_edge;
   if (a.max_vertices) options.max_vertices = *a.max_vertices;
@@ -40,6 +41,29 @@ RefineOptions<D> make_options(const MeshArguments& a, const Bounds<D>& bounds) {
   options.schedule.trace = !a.trace.empty();
   if (a.time_limit) options.time_limit = std::chrono::duration<double>(*a.time_limit);
   return options;
+}
+
+/// As the input is numbered, if it is one of the formats that number at will.
+template <int D>
+WriteOptions write_options(const MeshArguments& a, const Plc<D>& plc) {
+  WriteOptions options;
+  if (a.first_index)
+    options.first_index = static_cast<std::uint32_t>(*a.first_index);
+  else if (has_extension(a.input, {".poly", ".smesh", ".node"}))
+    options.first_index = plc.first_index;
+  options.edges = a.edges;
+  options.neighbors = a.neighbors;
+  return options;
+}
+
+/// What only some formats can hold is refused for the others.
+void require_format(const MeshArguments& a) {
+  const auto refuse = [&a](const char* what) {
+    throw UsageError({.code = Errc::bad_option, .message = what, .file = a.output});
+  };
+  if ((a.neighbors || a.edges || a.first_index) && !has_extension(a.output, {".node", ".ele"}))
+    refuse("--neighbors, --edges and --first-index are for .node and .ele");
+  if (a.leaves && !has_extension(a.output, {".vtu"})) refuse("--leaves is for .vtu");
 }
 
 const char* words(StopCause cause) {
@@ -199,8 +223,9 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
 
   seconds.write_at = total.seconds();
   if (!result.mesh.cells.empty()) {
-    std::vector<std::string> mesh_files = files_of_mesh(a.output);
-    write_mesh(result.mesh, a.output);
+    const WriteOptions how = write_options(a, plc);
+    std::vector<std::string> mesh_files = files_of_mesh(a.output, how);
+    write_mesh(result.mesh, a.output, how);
     report.mesh_files = std::move(mesh_files);
   }
   seconds.total = total.seconds();
@@ -227,6 +252,7 @@ int mesh(const MeshArguments& arguments, Report& report) {
   const Stopwatch total;
   report.set("input", arguments.input);
   require_writable(arguments.output, arguments.input);
+  require_format(arguments);
   if (!arguments.trace.empty())
     require_writable(arguments.trace, {arguments.input, arguments.output, arguments.report});
   const int dimension = file_dimension(arguments.input);

@@ -23,7 +23,7 @@ struct Compacted {
   std::uint32_t cell_number(const Mesh<D>& mesh, CellId c) const;
 };
 
-/// The finished mesh. `region_attributes`: the attribute of each region number; empty: do not label. `parallel`: on the
+/// The finished mesh, but for the data of its points (point_data.hpp). `region_attributes`: the attribute of each region number; empty: do not label. `parallel`: on the
 /// threads of the caller's task arena; the result is the same. `stop`: once it is requested the result is nothing to use,
 /// and comes soon.
 template <int D>

@@ -75,6 +75,7 @@ struct RefineOptions {
   /// cancellation that comes when only the last step, the numbering, is left has no effect. False: no mesh, as soon as
   /// possible, in every step.
   bool partial_mesh = true;
+  bool leaves = false;            ///< say of each cell which leaf of the tree holds its circumcentre (OutputMesh::leaves)
   ScheduleOptions schedule;       ///< threads, and how work is divided among them
   /// Called by one thread at a time, a few times a second at most, from any of the threads. May throw.
   std::function<void(const Progress&)> progress;
