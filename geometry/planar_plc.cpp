@@ -21,7 +21,12 @@ namespace {
 using detail::Contact;
 using detail::DoubleDouble;
 
-constexpr int most_rounds = 1000;  // three are many: each brings points to edges that rounding has moved by an ulp
+constexpr int most_rounds = 1000;
+/// Of these three are many: each brings points to edges that rounding has moved by an ulp. Bundles of segments that are
+/// nearly of one line cross ever anew, at ever more places. Once there are so many times the points that the first crossings
+/// made, edges go through the points that they pass nearly.
+constexpr std::size_t most_growth = 4;
+constexpr int near = -50;  // nearly: within 2^near of the largest coordinate's power of two
 
 struct LexLess {
   bool operator()(const Point2& a, const Point2& b) const { return lex_less(a, b); }
@@ -65,7 +70,7 @@ Point2 intersection(Point2 a, Point2 b, Point2 c, Point2 d) {
 /// Makes the segments of a PLC cross no more, round by round.
 class CrossingResolver {
  public:
-  explicit CrossingResolver(const Plc<2>& plc) : points_(plc.points) {
+  explicit CrossingResolver(const Plc<2>& plc) : points_(plc.points), first_new_(plc.points.size()) {
     const auto first = first_at_place(points_);
     for (std::uint32_t i = 0; i < points_.size(); ++i) at_.try_emplace(points_[i], first[i]);
     for (std::uint32_t s = 0; s < plc.segments.size(); ++s) {
@@ -87,7 +92,9 @@ class CrossingResolver {
     std::vector<std::array<std::uint32_t, 2>> crossing;
     inside_.clear();
     const detail::BoxTree<2> tree(corners, points_);
-    const auto piece = [&](std::uint32_t i) { return detail::Piece{corners[i], i < keys.size() ? std::uint8_t{2} : std::uint8_t{1}, 0}; };
+    const auto piece = [&](std::uint32_t i) {
+      return detail::Piece{corners[i], static_cast<std::uint8_t>(i < keys.size() ? 2 : 1), 0};
+    };
     tree.self_pairs([&](std::uint32_t i, std::uint32_t j) {
       if (i >= keys.size() && j >= keys.size()) return;
       const Contact contact = detail::contact<2>(points_, piece(i), piece(j));
@@ -96,10 +103,12 @@ class CrossingResolver {
         if (c.edge[0] != no_entity) inside_.emplace_back(detail::edge_key(c.edge[0], c.edge[1]), c.point);
     });
     if (crossing.empty()) return false;
+    if (points_.size() - first_new_ > most_growth * first_made_) collect_near(keys);
     detail::make_set(inside_);
     if (inside_.empty()) {
       std::sort(crossing.begin(), crossing.end());
       for (const auto& [i, j] : crossing) split_at(keys[i], keys[j]);
+      if (first_made_ == 0) first_made_ = points_.size() - first_new_;
       detail::make_set(inside_);
     } else {
       touching_.insert(touching_.end(), inside_.begin(), inside_.end());
@@ -127,6 +136,46 @@ class CrossingResolver {
     for (const auto& [point, v] : at_)
       if (!used[v]) loose.push_back(v);
     return loose;
+  }
+
+  /// Points that edges pass nearly, much farther along them than off them: so the pieces are shorter than the edge, and
+  /// this comes to an end.
+  void collect_near(const std::vector<std::uint64_t>& keys) {
+    double largest = 0;
+    for (const Point2& p : points_)
+      for (const double x : p.x) largest = std::max(largest, std::fabs(x));
+    const int e = std::ilogb(largest);
+    const double distance = std::ldexp(1.0, near);
+    std::vector<Point2> scaled(points_);
+    for (Point2& p : scaled)
+      for (double& x : p.x) x = std::ldexp(x, -e);
+    std::vector<detail::Box<2>> boxes;
+    for (const std::uint64_t key : keys) {
+      detail::Box<2>& box = boxes.emplace_back();
+      const auto [a, b] = detail::edge_of(key);
+      for (int i = 0; i < 2; ++i) {
+        box.low[i] = std::min(scaled[a][i], scaled[b][i]) - distance;
+        box.high[i] = std::max(scaled[a][i], scaled[b][i]) + distance;
+      }
+    }
+    std::vector<std::uint32_t> vertices;
+    for (const auto& [point, v] : at_) {
+      vertices.push_back(v);
+      boxes.push_back({scaled[v], scaled[v]});
+    }
+    detail::BoxTree<2>(boxes).self_pairs([&](std::uint32_t i, std::uint32_t j) {
+      if (i >= keys.size() || j < keys.size()) return;
+      const auto [a, b] = detail::edge_of(keys[i]);
+      const std::uint32_t v = vertices[j - keys.size()];
+      if (v == a || v == b) return;
+      const Point2 &p = scaled[a], &q = scaled[b], &x = scaled[v];
+      const double length2 = squared_distance(p, q);
+      const double along = (x[0] - p[0]) * (q[0] - p[0]) + (x[1] - p[1]) * (q[1] - p[1]);
+      const double off = (x[0] - p[0]) * (q[1] - p[1]) - (x[1] - p[1]) * (q[0] - p[0]), off2 = off * off / length2;
+      if (along > 0 && along < length2 && off2 <= distance * distance &&
+          4 * off2 <= std::min(squared_distance(p, x), squared_distance(q, x)))
+        inside_.emplace_back(keys[i], v);
+    });
   }
 
   void split_at(std::uint64_t first, std::uint64_t second) {
@@ -191,6 +240,7 @@ class CrossingResolver {
   std::vector<detail::PointOn> inside_;          ///< of this round, sorted
   std::vector<std::pair<std::uint64_t, std::uint64_t>> crossed_;
   std::set<std::pair<std::uint32_t, std::uint32_t>> pairs_;
+  std::size_t first_new_, first_made_ = 0;  ///< number of the first new point; how many the first crossings made
 };
 
 void report(const CrossingResolver& resolved, const Plc<2>& plc, std::vector<Diagnostic>& repairs) {
@@ -205,7 +255,8 @@ void report(const CrossingResolver& resolved, const Plc<2>& plc, std::vector<Dia
   detail::RepairList touching;
   for (const auto& [edge, v] : resolved.touching()) {
     const std::int64_t point = number(v), from = number(detail::edge_of(edge)[0]), to = number(detail::edge_of(edge)[1]);
-    touching.add([&] { return std::to_string(point) + " in " + std::to_string(from) + "-" + std::to_string(to); }, {point, from, to});
+    const auto words = [&] { return std::to_string(point) + " in " + std::to_string(from) + "-" + std::to_string(to); };
+    touching.add(words, {point, from, to});
   }
   touching.report(Errc::point_on_segment, "points inside a segment, which is split there", plc.source.file, repairs);
   list.report(Errc::entities_intersect, "segments that cross, now split there", plc.source.file, repairs);

@@ -194,6 +194,34 @@ TEST(ResolveCrossings, WhatTouchesIsSplitBefore) {
   EXPECT_LT(result.mesh.cells.size(), 500u);
 }
 
+/// Bundles of segments nearly of one line, by rounding, cross ever anew, at ever more places, if each crossing is rounded
+/// by itself.
+TEST(ResolveCrossings, BundlesComeToAnEnd) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Random random(seed);
+    Plc<2> plc;
+    add_square(plc, -1.2e9, 1.2e9);
+    const double unit = 16576771.999842852;
+    for (int i = 0; i < 60; ++i) {
+      const double place = 0.5 * (static_cast<double>(below(random, 7)) - 3);
+      for (int end = 0; end < 2; ++end) {
+        const double at = static_cast<double>(below(random, 9)) - 9 * (1 - end) + 0.5;
+        plc.points.push_back({{(0.1 * at + place) * unit, 0.3 * at * unit}});
+      }
+      const auto last = static_cast<std::uint32_t>(plc.points.size());
+      add_segment(plc, last - 2, last - 1);
+    }
+    std::vector<Diagnostic> repairs;
+    const Plc<2> out = resolve_crossings(plc, repairs);
+    EXPECT_LT(out.points.size(), plc.points.size() + 1000) << "seed " << seed;
+    RefineOptions<2> options;
+    options.refine = false;
+    options.radius_edge_bound = 1e18;
+    const auto [result, report] = refine_and_check<2>(out, options);
+    EXPECT_LE(report.exit_code(), 1) << findings(report);
+  }
+}
+
 /// The hull's edges are those with all points on one side, or on them.
 TEST(ConvexHull, AgainstAllPairs) {
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
