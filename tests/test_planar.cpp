@@ -152,6 +152,20 @@ TEST(PlanarRefinement, GraphsWithSmallAngles) {
   expect_refined(fan(3, 31, 4), 30, "a wide fan");
 }
 
+/// A point inside a wedge of a thousandth of a degree, beside the end of a shorter segment: what is small there does not go
+/// on along the wedge, which would take 1e5 triangles for each of its width.
+TEST(PlanarRefinement, SmallFeaturesDoNotFillAWedge) {
+  Plc<2> plc;
+  add_square(plc, -3, 3);
+  plc.points.insert(plc.points.end(), {{{0, 0}}, {{1, 1.5e-5}}, {{1, 3.2e-5}}, {{0.55, 2.5e-5}}, {{1, 6.5e-5}}, {{1, 9.4e-5}},
+                                       {{1, 8.5e-5}}});
+  for (const std::uint32_t end : {5u, 6u, 7u, 8u, 9u}) add_segment(plc, 4, end);
+  for (const double degrees : {5.0, 20.7, 28.0}) {
+    const auto result = expect_reproducible<2>(plc, to_angle(degrees), "wedge to " + std::to_string(degrees));
+    EXPECT_LT(result.mesh.cells.size(), 2000u);
+  }
+}
+
 TEST(PlanarRefinement, EveryInputEnds) {
   const std::vector<Runner> some{{"threads 2", Executor::threads, 2}, {"threads 8", Executor::threads, 8}};
   for (const double degrees : {20.7, 30.0}) {
@@ -358,7 +372,8 @@ TEST(PlanarModels, OfTheCollection) {
       expect_reproducible<2>(plc, to_angle(degrees), name, eight_threads);
       expect_reproducible<2>(scaled<2>(plc, 1e-6), to_angle(degrees), name + ", small", eight_threads);
       expect_reproducible<2>(scaled<2>(plc, 1e6), to_angle(degrees), name + ", large", eight_threads);
-      if (is_valid(about_the_origin)) expect_reproducible<2>(about_the_origin, to_angle(degrees), name + ", turned", eight_threads);
+      if (is_valid(about_the_origin))
+        expect_reproducible<2>(about_the_origin, to_angle(degrees), name + ", turned", eight_threads);
       if (is_valid(far)) expect_reproducible<2>(far, to_angle(degrees), name + ", far", eight_threads);
     }
   }
