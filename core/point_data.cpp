@@ -14,16 +14,20 @@ namespace {
 
 constexpr std::uint32_t none = 0xffffffffu;
 
-/// Calls f(number, record) for each Steiner point of the finished mesh.
+/// What each vertex of a mesh is numbered, by index(VertexId); `none` if it is not.
+using Numbers = std::span<const std::uint32_t>;
+
+/// Calls f(number, record) for each numbered vertex that is no input point.
 template <int D, class F>
-void each_steiner_point(const Mesh<D>& mesh, const Compacted<D>& out, const detail::Bulk& bulk, const F& f) {
-  bulk.each(out.vertex_number.size(), [&](std::size_t i) {
-    const std::uint32_t number = out.vertex_number[i];
-    if (number != none && number >= out.mesh.input_points) f(number, mesh.vertex(VertexId{static_cast<std::uint32_t>(i)}));
+void each_steiner_point(const Mesh<D>& mesh, Numbers numbers, const detail::Bulk& bulk, const F& f) {
+  bulk.each(numbers.size(), [&](std::size_t i) {
+    if (numbers[i] == none) return;
+    const VertexRecord<D>& v = mesh.vertex(VertexId{static_cast<std::uint32_t>(i)});
+    if (v.home.kind() != EntityKind::vertex) f(numbers[i], v);
   });
 }
 
-/// Rows of attributes of points: those of the domain's are there from the start.
+/// Rows of attributes of points, by their number.
 class Rows {
  public:
   Rows(std::vector<double>& values, std::size_t columns) : values_(&values), columns_(columns) {}
@@ -85,48 +89,41 @@ class FacetInterpolation {
 };
 
 /// Attributes of the Steiner points on facets, facet by facet.
-void fill_on_facets(const Mesh<3>& mesh, const Domain<3>& domain, const Compacted<3>& out, const detail::Bulk& bulk,
-                    const Rows& rows) {
+void fill_on_facets(const Mesh<3>& mesh, const Domain<3>& domain, Numbers numbers, const detail::Bulk& bulk, const Rows& rows) {
   struct OnFacet {
     EntityId facet;
     std::uint32_t number;
+    Point3 point;
   };
-  auto list = bulk.gather<OnFacet>(out.vertex_number.size(), [&](std::size_t i, std::vector<OnFacet>& found) {
-    if (out.vertex_number[i] == none || out.vertex_number[i] < out.mesh.input_points) return;
-    const Home home = mesh.vertex(VertexId{static_cast<std::uint32_t>(i)}).home;
-    if (home.kind() == EntityKind::facet) found.push_back({home.id(), out.vertex_number[i]});
+  auto list = bulk.gather<OnFacet>(numbers.size(), [&](std::size_t i, std::vector<OnFacet>& found) {
+    if (numbers[i] == none) return;
+    const VertexRecord<3>& v = mesh.vertex(VertexId{static_cast<std::uint32_t>(i)});
+    if (v.home.kind() == EntityKind::facet) found.push_back({v.home.id(), numbers[i], v.point});
   });
   bulk.sort(list, [](const OnFacet& a, const OnFacet& b) { return a.facet < b.facet; });
   for (std::size_t i = 0, j; i < list.size() && !bulk.stopped(); i = j) {
     for (j = i; j < list.size() && list[j].facet == list[i].facet;) ++j;
     const FacetInterpolation facet(domain, list[i].facet);
     bulk.each(j - i, [&](std::size_t k) {
-      const std::uint32_t number = list[i + k].number;
-      rows.set(number, facet.at(out.mesh.points[number]), domain.point_attributes());
+      rows.set(list[i + k].number, facet.at(list[i + k].point), domain.point_attributes());
     });
   }
 }
 
-/// The attributes of all points of a mesh in compact form. `unrefined`: what those inside are interpolated on.
+/// Sets the attributes of all numbered points but those of the input. `unrefined`: what those inside are interpolated on.
 template <int D>
-std::vector<double> attributes_of(const Mesh<D>& mesh, const Domain<D>& domain, const Compacted<D>& out,
-                                  const detail::Bulk& bulk, const detail::MeshInterpolation<D>* unrefined,
-                                  std::span<const double> of_unrefined) {
-  const auto input = domain.point_attributes();
-  const std::size_t columns = domain.attributes_per_point();
-  std::vector<double> values(input.begin(), input.end());
-  values.resize(out.mesh.points.size() * columns);
-  const Rows rows(values, columns);
-  each_steiner_point<D>(mesh, out, bulk, [&](std::uint32_t number, const VertexRecord<D>& v) {
+void fill_attributes(const Mesh<D>& mesh, const Domain<D>& domain, Numbers numbers, const detail::Bulk& bulk,
+                     const detail::MeshInterpolation<D>* unrefined, std::span<const double> of_unrefined, const Rows& rows) {
+  each_steiner_point<D>(mesh, numbers, bulk, [&](std::uint32_t number, const VertexRecord<D>& v) {
     if (v.home.kind() == EntityKind::segment) {
       const double t = segment_parameter<D>(domain, v.home.id(), v.point);
-      rows.set(number, detail::WeightedCorners<2>{domain.segments()[v.home.id()].points, {1 - t, t}}, input);
+      const detail::WeightedCorners<2> place{domain.segments()[v.home.id()].points, {1 - t, t}};
+      rows.set(number, place, domain.point_attributes());
     } else if (v.home.kind() == EntityKind::volume && unrefined) {
       rows.set(number, unrefined->at(v.point), of_unrefined);
     }
   });
-  if constexpr (D == 3) fill_on_facets(mesh, domain, out, bulk, rows);
-  return values;
+  if constexpr (D == 3) fill_on_facets(mesh, domain, numbers, bulk, rows);
 }
 
 /// Of a segment, or, in 3D where it has none, of the first of its facets that has one.
@@ -145,10 +142,33 @@ int marker_of(const Domain<D>& domain, Home home) {
 
 template <int D>
 PointData<D>::PointData(const Mesh<D>& unrefined, const Domain<D>& domain) : domain_(&domain) {
-  if (domain.attributes_per_point() == 0) return;
-  const Compacted<D> compacted = compact<D>(unrefined, domain, {}, false);
-  attributes_ = attributes_of<D>(unrefined, domain, compacted, detail::Bulk(false), nullptr, {});
-  unrefined_ = std::make_unique<detail::MeshInterpolation<D>>(compacted.mesh.points, compacted.mesh.cells);
+  const std::size_t columns = domain.attributes_per_point();
+  if (columns == 0) return;
+  std::vector<std::uint32_t> numbers(unrefined.vertex_bound(), none);
+  std::vector<Point<D>> points(numbers.size());
+  std::vector<std::array<std::uint32_t, D + 1>> cells;
+  attributes_.resize(numbers.size() * columns);
+  for (std::uint32_t c = 0; c < unrefined.cell_bound(); ++c) {
+    if (!unrefined.alive(CellId{c})) continue;
+    auto& cell = cells.emplace_back();
+    for (int i = 0; i <= D; ++i) {
+      const VertexId v = unrefined.cell(CellId{c}).vertices[i];
+      cell[i] = numbers[index(v)] = index(v);
+      points[index(v)] = unrefined.point(v);
+      const Home home = unrefined.vertex(v).home;
+      if (home.kind() == EntityKind::vertex)
+        std::copy_n(domain.point_attributes().begin() + home.id() * columns, columns, attributes_.begin() + index(v) * columns);
+    }
+    std::sort(cell.begin(), cell.end(), [&](std::uint32_t v, std::uint32_t w) { return lex_less(points[v], points[w]); });
+  }
+  // The cell with the smallest number counts where several hold a point: numbers that are no matter of chance.
+  std::sort(cells.begin(), cells.end(), [&](const auto& a, const auto& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(),
+                                        [&](std::uint32_t v, std::uint32_t w) { return lex_less(points[v], points[w]); });
+  });
+  const Rows rows(attributes_, columns);
+  fill_attributes<D>(unrefined, domain, numbers, detail::Bulk(false), nullptr, {}, rows);
+  unrefined_ = std::make_unique<detail::MeshInterpolation<D>>(std::move(points), cells);
 }
 
 template <int D>
@@ -166,7 +186,7 @@ void PointData<D>::fill_markers(const Mesh<D>& refined, const detail::Bulk& bulk
   if (std::none_of(domain_->segments().begin(), domain_->segments().end(), is_marked) &&
       std::none_of(domain_->facets().begin(), domain_->facets().end(), is_marked))
     return;
-  each_steiner_point<D>(refined, out, bulk, [&](std::uint32_t number, const VertexRecord<D>& v) {
+  each_steiner_point<D>(refined, out.vertex_number, bulk, [&](std::uint32_t number, const VertexRecord<D>& v) {
     markers[number] = marker_of<D>(*domain_, v.home);
   });
   if constexpr (D == 2)
@@ -179,8 +199,12 @@ template <int D>
 void PointData<D>::fill(const Mesh<D>& refined, Compacted<D>& out, bool parallel, std::stop_token stop) const {
   const detail::Bulk bulk(parallel, std::move(stop));
   fill_markers(refined, bulk, out);
-  if (unrefined_)
-    out.mesh.point_attributes = attributes_of<D>(refined, *domain_, out, bulk, unrefined_.get(), attributes_);
+  if (!unrefined_) return;
+  const std::size_t columns = domain_->attributes_per_point();
+  auto& values = out.mesh.point_attributes;
+  values.assign(domain_->point_attributes().begin(), domain_->point_attributes().end());
+  values.resize(out.mesh.points.size() * columns);
+  fill_attributes<D>(refined, *domain_, out.vertex_number, bulk, unrefined_.get(), attributes_, Rows(values, columns));
 }
 
 template class PointData<2>;
