@@ -31,6 +31,7 @@ RefineOptions<D> make_options(const MeshArguments& a, const Bounds<D>& bounds) {
   options.selector = make_selector<D>(a.selector);
   options.disk = {a.disk.value_or(a.delta > 0 ? DiskType::type2 : usual_disk(a.selector)), a.delta};
   options.keep_boundary = a.keep_boundary;
+  options.refine = !a.no_refine;
   options.leaves = a.leaves;
   options.regions = a.regions;
   options.min_edge = a.min_edge;
@@ -164,6 +165,8 @@ void print_summary(const MeshArguments& a, const Plc<D>& plc, const Bounds<D>& b
   else if (r.stop != StopCause::finished)
     print_row("stopped", format("%s: the mesh is valid, ", words(r.stop)) +
                              count(r.poor_left, "element is poor", "elements are poor"));
+  else if (a.no_refine)
+    print_row("bounds", "not refined: " + count(r.poor_left, "element is", "elements are") + " over a bound");
   else
     print_row("bounds", verdict(r));
   print_row("time", format("%.3f s meshing (%.3f s read, %.3f s write)", r.statistics.seconds_mesh, seconds.read,
@@ -243,7 +246,7 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
   }
 
   if (result.stop != StopCause::finished) return exit_stopped;
-  return result.poor_left == 0 && result.size_met ? exit_done : exit_poor_left;
+  return a.no_refine || (result.poor_left == 0 && result.size_met) ? exit_done : exit_poor_left;
 }
 
 }  // namespace

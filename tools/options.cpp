@@ -153,6 +153,8 @@ void add_mesh(CLI::App& app, MeshArguments& a) {
   add_planar(app, a.planar);
   add_regions(app, a.regions);
   app.add_flag("--keep-boundary", a.keep_boundary, "2D: no new points on segments");
+  app.add_flag("--no-refine", a.no_refine, "2D: the constrained Delaunay triangulation, without new points; 3D: the "
+               "triangulation with its boundary recovered");
   app.add_option("--selector", a.selector,
                  "where new points go: circumcenter (default), off-center[:FACTOR], optimized[:SAMPLES], "
                  "sliver-avoiding[:CANDIDATES]")

@@ -35,7 +35,7 @@ struct MeshArguments {
   bool edges = false, neighbors = false, leaves = false;  ///< what is written beside the mesh
   BoundArguments bounds;
   PlanarArguments planar;
-  bool keep_boundary = false;
+  bool keep_boundary = false, no_refine = false;
   std::string selector = "circumcenter";  ///< NAME or NAME:PARAMETER (selector.hpp)
   std::optional<DiskType> disk;           ///< none: as usual for the selector
   RegionMode regions = RegionMode::seeds;

@@ -114,6 +114,16 @@ class Planar(Case):
             self.assertEqual({e[3] for e in edge[1:]}, {0, 8, 9})
             self.pgdr("check", self.output, "--input", model, "--min-angle", 30, expect=0)
 
+    def test_no_refinement(self):
+        self.mesh(PLATE, "--no-refine", "--report", self.report, expect=0)
+        self.pgdr("check", self.output, "--input", PLATE, expect=0)
+        self.pgdr("info", self.output, "--report", self.report, expect=0)
+        corners = self.json()["vertices"]
+        lines = [line for line in PLATE.read_text().splitlines() if line and not line.startswith("#")]
+        self.assertEqual(corners, int(lines[0].split()[0]))
+        self.mesh(BRACKET, "--no-refine", expect=0)
+        self.pgdr("check", self.output, "--input", BRACKET, expect=0)
+
     def test_output_flags_have_their_formats(self):
         for flags, name in ((["--neighbors"], "out.vtu"), (["--edges"], "out.msh"), (["--first-index", 0], "out.mesh"),
                             (["--leaves"], "out.node"), (["--first-index", 2], "out.node")):
