@@ -21,7 +21,7 @@ void expect_round_trip(const OutputMesh<D>& mesh) {
     const auto file = folder / ("mesh" + extension);
     write_mesh<D>(mesh, file);
     EXPECT_EQ(file_dimension(file), D);
-    expect_same(read_mesh<D>(file), mesh);
+    expect_same(read_mesh<D>(file), extension == ".msh" ? as_msh<D>(mesh) : mesh);
     const std::string once = content(file);
     write_mesh<D>(read_mesh<D>(file), file);
     EXPECT_TRUE(content(file) == once) << "the file of the mesh that was read differs";

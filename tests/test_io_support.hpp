@@ -85,6 +85,14 @@ void expect_same(const OutputMesh<D>& a, const OutputMesh<D>& b) {
   EXPECT_TRUE(same_bytes(a.subfacets, b.subfacets)) << "subfacets";
 }
 
+/// What a .msh keeps of a mesh: not the markers of points that are none of the input's, where it is known which these are.
+template <int D>
+OutputMesh<D> as_msh(OutputMesh<D> mesh) {
+  if (mesh.input_points != 0 && !mesh.point_markers.empty())
+    std::fill(mesh.point_markers.begin() + static_cast<std::ptrdiff_t>(mesh.input_points), mesh.point_markers.end(), 0);
+  return mesh;
+}
+
 /// Points of all magnitudes, among them -0, the smallest and the largest double; all labels in use. The cells are no
 /// mesh: files do not care.
 template <int D>
