@@ -4,6 +4,8 @@
 // Points and segments of the input in the mesh. Subsegments form paths between input points, since every other vertex
 // of theirs joins exactly two; a segment's chain is the path between its ends.
 #include <algorithm>
+#include <set>
+#include <utility>
 
 #include "detail/check_conformity.hpp"
 #include "pgdr/predicates.hpp"
@@ -41,6 +43,11 @@ void match_points(const ConformityTask<D>& task, std::span<const std::uint32_t> 
   std::vector<std::uint8_t> in_cell(mesh.points.size(), 0);
   for (const auto& cell : mesh.cells)
     for (const std::uint32_t v : cell) in_cell[v] = 1;
+  // A point without a marker may have that of a segment that ends there, as Triangle has it.
+  std::set<std::pair<std::uint32_t, int>> handed_on;
+  for (const DomainSegment& s : domain.segments())
+    for (const std::uint32_t p : s.points)
+      if (s.marker != 0 && domain.point_markers()[p] == 0) handed_on.emplace(p, s.marker);
   out.home.assign(mesh.points.size(), {});
   out.vertex_of_point.assign(domain.points().size(), none);
   for (std::uint32_t p = 0; p < domain.points().size(); ++p) {
@@ -54,7 +61,7 @@ void match_points(const ConformityTask<D>& task, std::span<const std::uint32_t> 
     }
     if (found && in_cell[*at]) {
       const int marker = mesh.point_markers.empty() ? 0 : mesh.point_markers[*at];
-      if (marker == domain.point_markers()[p]) continue;
+      if (marker == domain.point_markers()[p] || (domain.point_markers()[p] == 0 && handed_on.count({p, marker}) > 0)) continue;
       task.findings.add(Kind::wrong_marker, {*at}, [&] {
         return "Input point " + std::to_string(p) + ", " + vertex_words(mesh, *at) + ", has marker " +
                std::to_string(marker) + " instead of " +

@@ -235,11 +235,6 @@ Compacted<D> compact(const Mesh<D>& mesh, const Domain<D>& domain, std::span<con
   }
   if (bulk.stopped()) return {};
   collect_constraints<D>(mesh, domain, out.vertex_number, bulk, out.mesh);
-  const auto markers = domain.point_markers();
-  if (!markers.empty()) {
-    out.mesh.point_markers.assign(markers.begin(), markers.end());
-    out.mesh.point_markers.resize(out.mesh.points.size(), 0);
-  }
   if (numbering == Numbering::canonical && !region_attributes.empty()) {
     out.mesh.regions.resize(out.mesh.cells.size());
     bulk.each(mesh.cell_bound(), [&](std::size_t i) {

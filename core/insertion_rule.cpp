@@ -3,6 +3,7 @@
 #include "pgdr/insertion_rule.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -42,6 +43,26 @@ double relaxed_length(const Domain<D>& domain, const VertexRecord<D>& u, const V
   const EntityRef a = u.home.entity(), b = v.home.entity();
   const bool honest = a.kind != EntityKind::volume && b.kind != EntityKind::volume && !entities_touch<D>(domain, a, b);
   return honest ? length : relaxed;
+}
+
+std::optional<EntityPair> small_angle_across(const Domain<2>& domain, const std::array<const VertexRecord<2>*, 3>& corners,
+                                             double bound) {
+  int opposite = 0;
+  auto squared_edge = [&](int i) { return squared_distance(corners[(i + 1) % 3]->point, corners[(i + 2) % 3]->point); };
+  for (int i = 1; i < 3; ++i)
+    if (squared_edge(i) < squared_edge(opposite)) opposite = i;
+  const VertexRecord<2>&u = *corners[(opposite + 1) % 3], &v = *corners[(opposite + 2) % 3];
+  if (u.home.kind() != EntityKind::segment || v.home.kind() != EntityKind::segment || u.home.id() == v.home.id()) return {};
+  const auto &a = domain.segments()[u.home.id()].points, &b = domain.segments()[v.home.id()].points;
+  for (const std::uint32_t p : a) {
+    if (p != b[0] && p != b[1]) continue;
+    const double to_u = squared_distance(domain.points()[p], u.point), to_v = squared_distance(domain.points()[p], v.point);
+    if (!(to_u <= 1.002 * to_v && to_v <= 1.002 * to_u)) continue;
+    // The angle at p is below the bound: |uv| < 2 sin(bound / 2) |pu|.
+    const double sine = 1 / (2 * bound), cosine = std::sqrt(std::max(0.0, 1 - sine * sine));
+    if (squared_edge(opposite) < 2 * (1 - cosine) * to_u) return EntityPair{{u.home.entity(), v.home.entity()}};
+  }
+  return {};
 }
 
 template bool lies_on<2>(const Domain<2>&, Home, EntityRef);

@@ -178,18 +178,21 @@ bool is_mesh_format(const Path& file) {
   return file_mesh_reader(extension) != nullptr || is_tetgen_mesh(extension) || extension == ".vtu";
 }
 
-std::vector<std::string> files_of_mesh(const Path& file) {
+std::vector<std::string> files_of_mesh(const Path& file, const WriteOptions& options) {
   if (!is_tetgen_mesh(lower_extension(file))) return {file.native()};
   std::vector<std::string> files;
   for (const std::string_view extension : {".node", ".ele", ".face", ".edge"})
     files.push_back(detail::tetgen_name(file, extension));
+  if (options.neighbors) files.push_back(detail::tetgen_name(file, ".neigh"));
   return files;
 }
 
 template <int D>
-void write_mesh(const OutputMesh<D>& mesh, const Path& file) {
+void write_mesh(const OutputMesh<D>& mesh, const Path& file, const WriteOptions& options) {
+  if (options.first_index > 1)
+    throw UsageError(Diagnostic{Errc::bad_option, "points are numbered from 0 or 1", file.string(), 0, {}, {}});
   const std::string extension = lower_extension(file);
-  if (is_tetgen_mesh(extension)) return guarded(file, [&] { detail::write_tetgen<D>(mesh, file); });
+  if (is_tetgen_mesh(extension)) return guarded(file, [&] { detail::write_tetgen<D>(mesh, file, options); });
   using Writer = void (*)(const OutputMesh<D>&, detail::FileOutput&);
   Writer writer = nullptr;
   if (extension == ".mesh") writer = detail::write_medit<D>;
@@ -207,7 +210,7 @@ template PGDR_API Plc<2> read_plc<2>(const Path&);
 template PGDR_API Plc<3> read_plc<3>(const Path&);
 template PGDR_API OutputMesh<2> read_mesh<2>(const Path&);
 template PGDR_API OutputMesh<3> read_mesh<3>(const Path&);
-template PGDR_API void write_mesh<2>(const OutputMesh<2>&, const Path&);
-template PGDR_API void write_mesh<3>(const OutputMesh<3>&, const Path&);
+template PGDR_API void write_mesh<2>(const OutputMesh<2>&, const Path&, const WriteOptions&);
+template PGDR_API void write_mesh<3>(const OutputMesh<3>&, const Path&, const WriteOptions&);
 
 }  // namespace pgdr

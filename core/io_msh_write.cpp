@@ -147,14 +147,16 @@ class MshWriter {
   }
 
  private:
+  /// Of the input points, if it is known which these are: the others' markers are those of the curves and surfaces.
   Layer point_layer() const {
+    const std::size_t known = mesh_.input_points == 0 ? mesh_.point_markers.size() : mesh_.input_points;
+    const auto marker = [&](std::size_t i) { return i < known ? mesh_.point_markers[i] : 0; };
     std::vector<double> labels;
-    for (const int m : mesh_.point_markers) {
-      if (m != 0) labels.push_back(m);
-    }
+    for (std::size_t i = 0; i < mesh_.point_markers.size(); ++i)
+      if (marker(i) != 0) labels.push_back(marker(i));
     Layer layer{Groups(0, std::move(labels)), 15, 1, {}};
-    for (const int m : mesh_.point_markers)
-      layer.group.push_back(m == 0 ? none : static_cast<std::uint32_t>(layer.groups.group_of(m)));
+    for (std::size_t i = 0; i < mesh_.point_markers.size(); ++i)
+      layer.group.push_back(marker(i) == 0 ? none : static_cast<std::uint32_t>(layer.groups.group_of(marker(i))));
     return layer;
   }
   template <class Constraints>

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The formats of Triangle and TetGen: .poly, .smesh, .node. Where their manuals leave room the two programs decide: a
-// marker that the header announces may be missing (0), one that it does not announce is ignored, point numbers start
+// marker or attribute that the header announces may be missing (0), one that it does not announce is ignored, point numbers start
 // at 0 or 1, whatever follows the regions is not read. Unlike them, the point numbers must be consecutive, since a file
 // where they are not would silently become another shape.
+#include <algorithm>
 #include <cstdint>
 #include <string>
 
@@ -34,7 +35,7 @@ NodeHeader read_node_header(LineScanner& in) {
   } else if (h.points != 0) {
     in.fail(Errc::syntax, "the header of the points states no dimension");
   }
-  if (in.more_on_line()) h.attributes = in.count({"attributes of a point"}, 1);
+  if (in.more_on_line()) h.attributes = in.count({"attributes of a point"}, std::max<std::size_t>(2 * h.points, 1));
   if (in.more_on_line()) h.markers = in.integer(header) != 0;
   in.end_line({"the list of points"});
   return h;
@@ -75,7 +76,8 @@ void read_points(LineScanner& in, const NodeHeader& h, Plc<D>& plc) {
               "point " + std::to_string(id) + " stands where point " + std::to_string(s.id) + " belongs", {id});
     plc.source.point_lines.push_back(static_cast<std::uint32_t>(in.line()));
     plc.points.push_back(read_coordinates<D>(in, s));
-    for (std::size_t a = 0; a < h.attributes && in.more_on_line(); ++a) in.number(s, false);
+    for (std::size_t a = 0; a < h.attributes; ++a)
+      plc.point_attributes.push_back(in.more_on_line() ? in.number(s, false) : 0);
     const int marker = in.more_on_line() ? in.marker(s) : 0;
     if (h.markers) plc.point_markers.push_back(marker);
     in.end_line({"the end of a point"});
@@ -93,6 +95,7 @@ void read_point_section(LineScanner& in, const std::filesystem::path& file, Plc<
   Plc<D> nodes = read_node<D>(read_whole_file(beside), beside);
   plc.points = std::move(nodes.points);
   plc.point_markers = std::move(nodes.point_markers);
+  plc.point_attributes = std::move(nodes.point_attributes);
   plc.first_index = nodes.first_index;
 }
 

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Meshes as TetGen (3D) and Triangle (2D) have them: X.node and X.ele, and, where they are there, X.face (subfacets)
-// and X.edge (subsegments). Ours are numbered from 1; those that are read may be from 0. The attribute of a cell is its
-// region. A comment at the head of X.node, "# pgdr input_points <n>", tells the input points from the others.
+// and X.edge (subsegments). They are numbered from 0 or 1. The attribute of a cell is its region. A comment at the head of
+// X.node, "# pgdr input_points <n>", tells the input points from the others; one at the head of X.edge,
+// "# pgdr subsegments <n>", the subsegments, which come first, from the other edges.
 #include <string>
 
 #include "detail/io_formats.hpp"
@@ -12,15 +13,15 @@
 namespace pgdr::detail {
 namespace {
 
-constexpr std::string_view input_points_comment = "# pgdr input_points ";
-
-std::size_t read_input_points(std::string_view text, std::size_t points, const std::string& file) {
-  if (!text.starts_with(input_points_comment)) return 0;
+/// The number in a comment at the head of a file; `otherwise` if it is not there.
+std::size_t read_comment(std::string_view text, std::string_view comment, std::size_t otherwise, std::size_t most,
+                         const std::string& file) {
+  if (!text.starts_with(comment)) return otherwise;
   const std::string_view line = text.substr(0, text.find('\n'));
-  const auto n = parse_integer(line.substr(input_points_comment.size()));
-  if (!n || *n < 0 || static_cast<std::uint64_t>(*n) > points)
-    throw InputError(
-        Diagnostic{Errc::syntax, "the comment " + quoted(line) + " names no number of points", file, 1, {}, {}});
+  const auto n = parse_integer(line.substr(comment.size()));
+  if (!n || *n < 0 || static_cast<std::uint64_t>(*n) > most)
+    throw InputError(Diagnostic{
+        Errc::syntax, "the comment " + quoted(line) + " has no number from 0 to " + std::to_string(most), file, 1, {}, {}});
   return static_cast<std::size_t>(*n);
 }
 
@@ -92,67 +93,6 @@ void read_constraints(const std::string& text, const std::string& file, const Nu
   require_end(in);
 }
 
-/// "<i> <vertex> ... ", all counted from 1.
-template <std::size_t N>
-void put_simplex(FileOutput& out, std::size_t i, const std::array<std::uint32_t, N>& vertices) {
-  out.put_number(i + 1);
-  for (const std::uint32_t v : vertices) {
-    out.put(' ');
-    out.put_number(std::uint64_t{v} + 1);
-  }
-}
-
-template <int D>
-void put_node(FileOutput& out, const OutputMesh<D>& mesh) {
-  if (mesh.input_points != 0) {
-    out.put(input_points_comment);
-    out.put_number(mesh.input_points);
-    out.put('\n');
-  }
-  out.put_number(mesh.points.size());
-  out.put(D == 2 ? " 2 0 " : " 3 0 ");
-  out.put(mesh.point_markers.empty() ? "0\n" : "1\n");
-  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-    out.put_number(i + 1);
-    for (int k = 0; k < D; ++k) {
-      out.put(' ');
-      out.put_number(mesh.points[i][k]);
-    }
-    if (!mesh.point_markers.empty()) {
-      out.put(' ');
-      out.put_number(mesh.point_markers[i]);
-    }
-    out.put('\n');
-  }
-}
-
-template <int D>
-void put_ele(FileOutput& out, const OutputMesh<D>& mesh) {
-  out.put_number(mesh.cells.size());
-  out.put(D == 2 ? " 3 " : " 4 ");
-  out.put(mesh.regions.empty() ? "0\n" : "1\n");
-  for (std::size_t i = 0; i < mesh.cells.size(); ++i) {
-    put_simplex(out, i, mesh.cells[i]);
-    if (!mesh.regions.empty()) {
-      out.put(' ');
-      out.put_number(mesh.regions[i]);
-    }
-    out.put('\n');
-  }
-}
-
-template <class Constraints>
-void put_constraints(FileOutput& out, const Constraints& constraints) {
-  out.put_number(constraints.size());
-  out.put(" 1\n");
-  for (std::size_t i = 0; i < constraints.size(); ++i) {
-    put_simplex(out, i, constraints[i].vertices);
-    out.put(' ');
-    out.put_number(constraints[i].marker);
-    out.put('\n');
-  }
-}
-
 }  // namespace
 
 std::string tetgen_name(const std::filesystem::path& file, std::string_view extension) {
@@ -169,11 +109,15 @@ OutputMesh<D> read_tetgen(const TetgenTexts& texts, const std::filesystem::path&
   OutputMesh<D> mesh;
   mesh.points = std::move(nodes.points);
   mesh.point_markers = std::move(nodes.point_markers);
-  mesh.input_points = read_input_points(texts.node, mesh.points.size(), name(".node"));
+  mesh.point_attributes = std::move(nodes.point_attributes);
+  mesh.input_points = read_comment(texts.node, input_points_comment, 0, mesh.points.size(), name(".node"));
   const Numbering numbering{nodes.first_index, mesh.points.size()};
   read_ele<D>(texts.ele, name(".ele"), numbering, mesh);
-  if (texts.edge != nullptr)
+  if (texts.edge != nullptr) {
     read_constraints<2, D>(*texts.edge, name(".edge"), numbering, mesh.subsegments);
+    const std::size_t edges = mesh.subsegments.size();
+    mesh.subsegments.resize(read_comment(*texts.edge, subsegments_comment, edges, edges, name(".edge")));
+  }
   if constexpr (D == 3) {
     if (texts.face != nullptr)
       read_constraints<3, D>(*texts.face, name(".face"), numbering, mesh.subfacets);
@@ -181,22 +125,7 @@ OutputMesh<D> read_tetgen(const TetgenTexts& texts, const std::filesystem::path&
   return mesh;
 }
 
-template <int D>
-void write_tetgen(const OutputMesh<D>& mesh, const std::filesystem::path& file) {
-  std::vector<std::unique_ptr<FileOutput>> files;
-  const auto open = [&](std::string_view extension) -> FileOutput& {
-    return *files.emplace_back(std::make_unique<FileOutput>(tetgen_name(file, extension)));
-  };
-  put_node<D>(open(".node"), mesh);
-  if constexpr (D == 3) put_constraints(open(".face"), mesh.subfacets);
-  put_constraints(open(".edge"), mesh.subsegments);
-  put_ele<D>(open(".ele"), mesh);
-  commit_together(files);
-}
-
 template OutputMesh<2> read_tetgen<2>(const TetgenTexts&, const std::filesystem::path&);
 template OutputMesh<3> read_tetgen<3>(const TetgenTexts&, const std::filesystem::path&);
-template void write_tetgen<2>(const OutputMesh<2>&, const std::filesystem::path&);
-template void write_tetgen<3>(const OutputMesh<3>&, const std::filesystem::path&);
 
 }  // namespace pgdr::detail

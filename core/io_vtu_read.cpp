@@ -177,14 +177,21 @@ class Arrays {
     const Array& a = it->second;
     if (a.type != type) fail(Errc::unknown_format, name, " is not of type " + std::string(type));
     constexpr std::size_t prefix = sizeof(std::uint64_t);
-    if (head_.data.size() < prefix || a.offset > head_.data.size() - prefix)
-      fail(Errc::truncated, name, " lies behind the end of the file");
-    const std::string_view rest = head_.data.substr(static_cast<std::size_t>(a.offset));
-    if (little_endian<std::uint64_t>(rest, 0) != n * bytes_each)
+    if (size(name) != n * bytes_each)
       fail(Errc::syntax, name, " has not the size that the counts of points and cells imply");
+    const std::string_view rest = head_.data.substr(static_cast<std::size_t>(a.offset));
     if (rest.size() - prefix < n * bytes_each) fail(Errc::truncated, name, " reaches beyond the end of the file");
     end_ = std::max(end_, static_cast<std::size_t>(a.offset) + prefix + n * bytes_each);
     return rest.substr(prefix, n * bytes_each);
+  }
+
+  /// The number of bytes that an array says it has.
+  std::uint64_t size(const std::string& name) const {
+    const Array& a = head_.arrays.at(name);
+    constexpr std::size_t prefix = sizeof(std::uint64_t);
+    if (head_.data.size() < prefix || a.offset > head_.data.size() - prefix)
+      fail(Errc::truncated, name, " lies behind the end of the file");
+    return little_endian<std::uint64_t>(head_.data.substr(static_cast<std::size_t>(a.offset)), 0);
   }
 
   /// After the last array was asked for: the end tags must follow.
@@ -254,11 +261,24 @@ class GridReader {
           arrays_.fail(Errc::syntax, "Points/Points", " has a third coordinate that is not 0, in 2D");
       }
     }
+    read_point_attributes();
     if (!arrays_.has("PointData/marker")) return;
     const std::string_view markers = arrays_.bytes("PointData/marker", "Int32", arrays_.points(), sizeof(std::int32_t));
     mesh_.point_markers.resize(arrays_.points());
     for (std::size_t i = 0; i < mesh_.point_markers.size(); ++i)
       mesh_.point_markers[i] = little_endian<std::int32_t>(markers, i);
+  }
+
+  void read_point_attributes() {
+    const std::string name = "PointData/attributes";
+    if (!arrays_.has(name)) return;
+    const std::uint64_t count = arrays_.size(name) / sizeof(double);
+    if (arrays_.points() == 0 || count % arrays_.points() != 0)
+      arrays_.fail(Errc::syntax, name, " has not as many numbers for each point");
+    const std::string_view values = arrays_.bytes(name, "Float64", static_cast<std::size_t>(count), sizeof(double));
+    mesh_.point_attributes.resize(static_cast<std::size_t>(count));
+    for (std::size_t i = 0; i < mesh_.point_attributes.size(); ++i)
+      mesh_.point_attributes[i] = little_endian<double>(values, i);
   }
 
   void read_input_points() {
@@ -320,10 +340,23 @@ class GridReader {
     std::size_t at = mesh_.cells.size();
     for (auto& c : mesh_.subfacets) c.marker = little_endian<std::int32_t>(markers, at++);
     for (auto& c : mesh_.subsegments) c.marker = little_endian<std::int32_t>(markers, at++);
+    read_leaves();
     if (!arrays_.has("CellData/region")) return;
     const std::string_view regions = arrays_.bytes("CellData/region", "Float64", arrays_.cells(), sizeof(double));
     mesh_.regions.resize(mesh_.cells.size());
     for (std::size_t i = 0; i < mesh_.regions.size(); ++i) mesh_.regions[i] = little_endian<double>(regions, i);
+  }
+
+  void read_leaves() {
+    const std::string name = "CellData/leaf";
+    if (!arrays_.has(name)) return;
+    const std::string_view leaves = arrays_.bytes(name, "Int64", arrays_.cells(), sizeof(std::int64_t));
+    mesh_.leaves.resize(mesh_.cells.size());
+    for (std::size_t i = 0; i < mesh_.leaves.size(); ++i) {
+      const auto leaf = little_endian<std::int64_t>(leaves, i);
+      if (leaf < 0 || leaf > std::int64_t{0xffffffff}) arrays_.fail(Errc::index_out_of_range, name, " has no leaf of a cell");
+      mesh_.leaves[i] = static_cast<std::uint32_t>(leaf);
+    }
   }
 
   Arrays& arrays_;

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // VTK's XML file of an unstructured grid, all arrays appended as raw bytes, so that writing is copying and doubles keep
-// their bits. Cells come first, then subfacets (3D), then subsegments; "region" means something for the cells and
-// "marker" for the others. Field data "dimension" and "input_points" let our reader restore the mesh.
+// their bits. Cells come first, then subfacets (3D), then subsegments; "region" and "leaf" (-1 elsewhere) mean something for
+// the cells and "marker" for the others. Field data "dimension" and "input_points" let our reader restore the mesh.
 #include <functional>
 #include <initializer_list>
 #include <string>
@@ -16,7 +16,8 @@ namespace {
 
 /// One array of the file: how it is announced, how large it is, and what puts its bytes.
 struct Block {
-  std::string_view section, type, name, shape;  ///< shape: an attribute of the announcement, or empty
+  std::string_view section, type, name;
+  std::string shape;  ///< an attribute of the announcement, or empty
   std::uint64_t bytes;
   std::function<void(FileOutput&)> put;
   std::uint64_t offset = 0;  ///< in the appended data
@@ -75,6 +76,12 @@ void put_regions(const OutputMesh<D>& mesh, FileOutput& out) {
 }
 
 template <int D>
+void put_leaves(const OutputMesh<D>& mesh, FileOutput& out) {
+  for (const std::uint32_t leaf : mesh.leaves) out.put_binary(std::int64_t{leaf});
+  for (std::size_t i = mesh.cells.size(); i < grid_cells(mesh); ++i) out.put_binary(std::int64_t{-1});
+}
+
+template <int D>
 void put_markers(const OutputMesh<D>& mesh, FileOutput& out) {
   for (std::size_t i = 0; i < mesh.cells.size(); ++i) out.put_binary(std::int32_t{0});
   for (const auto& c : mesh.subfacets) out.put_binary(std::int32_t{c.marker});
@@ -85,17 +92,25 @@ template <int D>
 std::vector<Block> blocks_of(const OutputMesh<D>& mesh) {
   const std::uint64_t points = mesh.points.size(), cells = grid_cells(mesh);
   const std::uint64_t corners = (D + 1) * mesh.cells.size() + 3 * mesh.subfacets.size() + 2 * mesh.subsegments.size();
-  constexpr std::string_view scalar = " NumberOfTuples=\"1\"", vector = " NumberOfComponents=\"3\"";
+  const std::string scalar = " NumberOfTuples=\"1\"", vector = " NumberOfComponents=\"3\"";
   std::vector<Block> blocks;
   const auto add = [&blocks](std::string_view section, std::string_view type, std::string_view name,
-                             std::string_view shape, std::uint64_t bytes, std::function<void(FileOutput&)> put) {
-    blocks.push_back({section, type, name, shape, bytes, std::move(put)});
+                             std::string shape, std::uint64_t bytes, std::function<void(FileOutput&)> put) {
+    blocks.push_back({section, type, name, std::move(shape), bytes, std::move(put)});
   };
   add("FieldData", "Int64", "dimension", scalar, 8, [](auto& out) { out.put_binary(std::int64_t{D}); });
   add("FieldData", "Int64", "input_points", scalar, 8,
       [&mesh](auto& out) { out.put_binary(static_cast<std::int64_t>(mesh.input_points)); });
   if (!mesh.point_markers.empty())
     add("PointData", "Int32", "marker", "", 4 * points, [&mesh](auto& out) { put_point_markers(mesh, out); });
+  if (!mesh.point_attributes.empty())
+    add("PointData", "Float64", "attributes",
+        " NumberOfComponents=\"" + std::to_string(mesh.point_attributes.size() / points) + "\"",
+        8 * mesh.point_attributes.size(), [&mesh](auto& out) {
+          for (const double a : mesh.point_attributes) out.put_binary(a);
+        });
+  if (!mesh.leaves.empty())
+    add("CellData", "Int64", "leaf", "", 8 * cells, [&mesh](auto& out) { put_leaves(mesh, out); });
   if (!mesh.regions.empty())
     add("CellData", "Float64", "region", "", 8 * cells, [&mesh](auto& out) { put_regions(mesh, out); });
   add("CellData", "Int32", "marker", "", 4 * cells, [&mesh](auto& out) { put_markers(mesh, out); });

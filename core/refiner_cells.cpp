@@ -188,6 +188,16 @@ auto Refiner<D>::treat_cell(const Item& e) -> Outcome {
     return Outcome::committed;
   }
   CellVerdict verdict = context_->bounds.test(*mesh_, c);
+  if constexpr (D == 2) {
+    if (!verdict.over_size && e.which != Item::not_delaunay) {
+      const auto vertex = [&](int i) { return &mesh_->vertex(e.vertices[i]); };
+      last_refusal_ = small_angle_across(*domain_, {vertex(0), vertex(1), vertex(2)}, options_->radius_edge_bound);
+      if (last_refusal_) {
+        ++visit_->counts.refused;
+        return Outcome::refused;
+      }
+    }
+  }
   const Point<D> center =
       mesh_->center_is_accurate(c) ? mesh_->cell(c).center : circumsphere<D>(mesh_->simplex(c)).center;
   std::optional<Point<D>> x = center;

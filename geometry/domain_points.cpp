@@ -99,6 +99,11 @@ void DomainBuilder<D>::merge_points() {
   std::vector<std::uint32_t> table(size, no_entity);
   out_.points_.reserve(n);
   out_.point_of_input_.resize(n);
+  const std::size_t attributes = n == 0 ? 0 : plc_.point_attributes.size() / n;
+  if (attributes * n != plc_.point_attributes.size())
+    throw UsageError({Errc::bad_option,
+                      std::to_string(plc_.point_attributes.size()) + " attributes for " + std::to_string(n) + " points",
+                      plc_.source.file, 0, {}, {}});
   for (std::uint32_t i = 0; i < n; ++i) {
     const Point<D> p = with_positive_zeros(plc_.points[i]);
     for (const double x : plc_.points[i].x)
@@ -114,6 +119,8 @@ void DomainBuilder<D>::merge_points() {
       out_.points_.push_back(p);
       out_.input_of_point_.push_back(i);
       out_.point_markers_.push_back(marker);
+      const auto first = plc_.point_attributes.begin() + static_cast<std::ptrdiff_t>(i * attributes);
+      out_.point_attributes_.insert(out_.point_attributes_.end(), first, first + static_cast<std::ptrdiff_t>(attributes));
     } else {
       const std::int64_t first = point_number(table[at]);
       merged_.add([&] { return std::to_string(number(i)) + " = " + std::to_string(first); }, {number(i), first});

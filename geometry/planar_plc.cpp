@@ -21,7 +21,12 @@ namespace {
 using detail::Contact;
 using detail::DoubleDouble;
 
-constexpr int most_rounds = 1000;  // three are many: each brings points to edges that rounding has moved by an ulp
+constexpr int most_rounds = 1000;
+/// Of these three are many: each brings points to edges that rounding has moved by an ulp. Bundles of segments that are
+/// nearly of one line cross ever anew, at ever more places. Once there are so many times the points that the first crossings
+/// made, edges go through the points that they pass nearly.
+constexpr std::size_t most_growth = 4;
+constexpr int near = -50;  // nearly: within 2^near of the largest coordinate's power of two
 
 struct LexLess {
   bool operator()(const Point2& a, const Point2& b) const { return lex_less(a, b); }
@@ -65,7 +70,7 @@ Point2 intersection(Point2 a, Point2 b, Point2 c, Point2 d) {
 /// Makes the segments of a PLC cross no more, round by round.
 class CrossingResolver {
  public:
-  explicit CrossingResolver(const Plc<2>& plc) : points_(plc.points) {
+  explicit CrossingResolver(const Plc<2>& plc) : points_(plc.points), first_new_(plc.points.size()) {
     const auto first = first_at_place(points_);
     for (std::uint32_t i = 0; i < points_.size(); ++i) at_.try_emplace(points_[i], first[i]);
     for (std::uint32_t s = 0; s < plc.segments.size(); ++s) {
@@ -74,7 +79,8 @@ class CrossingResolver {
     }
   }
 
-  /// True if anything was split.
+  /// True if anything was split. Edges are split first where points lie on them: as pieces of what was split at a rounded
+  /// point they would miss these by an ulp, and segments that overlap would enclose slivers.
   bool split_once() {
     std::vector<std::uint64_t> keys;
     for (const detail::OwnedEdge& e : edges_)
@@ -82,33 +88,105 @@ class CrossingResolver {
     detail::make_set(keys);
     std::vector<std::array<std::uint32_t, 3>> corners;
     for (const std::uint64_t key : keys) corners.push_back({detail::edge_of(key)[0], detail::edge_of(key)[1], no_entity});
+    for (const std::uint32_t v : loose_points()) corners.push_back({v, no_entity, no_entity});
     std::vector<std::array<std::uint32_t, 2>> crossing;
-    const detail::BoxTree<2> tree(corners, points_);
-    tree.self_pairs([&](std::uint32_t i, std::uint32_t j) {
-      const detail::Piece a{corners[i], 2, 0}, b{corners[j], 2, 0};
-      if (detail::contact<2>(points_, a, b).kind == Contact::Kind::cross) crossing.push_back({i, j});
-    });
-    std::sort(crossing.begin(), crossing.end());
     inside_.clear();
-    for (const auto& [i, j] : crossing) split_at(keys[i], keys[j]);
-    if (inside_.empty()) return false;
+    const detail::BoxTree<2> tree(corners, points_);
+    const auto piece = [&](std::uint32_t i) {
+      return detail::Piece{corners[i], static_cast<std::uint8_t>(i < keys.size() ? 2 : 1), 0};
+    };
+    tree.self_pairs([&](std::uint32_t i, std::uint32_t j) {
+      if (i >= keys.size() && j >= keys.size()) return;
+      const Contact contact = detail::contact<2>(points_, piece(i), piece(j));
+      if (contact.kind == Contact::Kind::cross) crossing.push_back({i, j});
+      for (const Contact::Corner& c : contact.corners)
+        if (c.edge[0] != no_entity) inside_.emplace_back(detail::edge_key(c.edge[0], c.edge[1]), c.point);
+    });
+    if (crossing.empty()) return false;
+    if (points_.size() - first_new_ > most_growth * first_made_) collect_near(keys);
     detail::make_set(inside_);
+    if (inside_.empty()) {
+      std::sort(crossing.begin(), crossing.end());
+      for (const auto& [i, j] : crossing) split_at(keys[i], keys[j]);
+      if (first_made_ == 0) first_made_ = points_.size() - first_new_;
+      detail::make_set(inside_);
+    } else {
+      touching_.insert(touching_.end(), inside_.begin(), inside_.end());
+    }
     replace_edges();
     return true;
   }
 
+  /// Points, and edges, or pieces of such, that had them inside before they were crossed.
+  const std::vector<detail::PointOn>& touching() const { return touching_; }
   const std::vector<Point2>& points() const { return points_; }
   const std::vector<detail::OwnedEdge>& edges() const { return edges_; }
+  /// Of the new points, in their order: the ends of the edge that each was made on. These may be new points before it.
+  const std::vector<std::array<std::uint32_t, 2>>& origins() const { return origins_; }
   /// Pairs of segments that crossed, by their indices.
   const std::set<std::pair<std::uint32_t, std::uint32_t>>& pairs() const { return pairs_; }
 
  private:
+  /// The first point at each place, but for the ends of edges.
+  std::vector<std::uint32_t> loose_points() const {
+    std::vector<bool> used(points_.size());
+    for (const detail::OwnedEdge& e : edges_)
+      for (const std::uint32_t v : e.edge) used[v] = true;
+    std::vector<std::uint32_t> loose;
+    for (const auto& [point, v] : at_)
+      if (!used[v]) loose.push_back(v);
+    return loose;
+  }
+
+  /// Points that edges pass nearly, much farther along them than off them: so the pieces are shorter than the edge, and
+  /// this comes to an end.
+  void collect_near(const std::vector<std::uint64_t>& keys) {
+    double largest = 0;
+    for (const Point2& p : points_)
+      for (const double x : p.x) largest = std::max(largest, std::fabs(x));
+    const int e = std::ilogb(largest);
+    const double distance = std::ldexp(1.0, near);
+    std::vector<Point2> scaled(points_);
+    for (Point2& p : scaled)
+      for (double& x : p.x) x = std::ldexp(x, -e);
+    std::vector<detail::Box<2>> boxes;
+    for (const std::uint64_t key : keys) {
+      detail::Box<2>& box = boxes.emplace_back();
+      const auto [a, b] = detail::edge_of(key);
+      for (int i = 0; i < 2; ++i) {
+        box.low[i] = std::min(scaled[a][i], scaled[b][i]) - distance;
+        box.high[i] = std::max(scaled[a][i], scaled[b][i]) + distance;
+      }
+    }
+    std::vector<std::uint32_t> vertices;
+    for (const auto& [point, v] : at_) {
+      vertices.push_back(v);
+      boxes.push_back({scaled[v], scaled[v]});
+    }
+    detail::BoxTree<2>(boxes).self_pairs([&](std::uint32_t i, std::uint32_t j) {
+      if (i >= keys.size() || j < keys.size()) return;
+      const auto [a, b] = detail::edge_of(keys[i]);
+      const std::uint32_t v = vertices[j - keys.size()];
+      if (v == a || v == b) return;
+      const Point2 &p = scaled[a], &q = scaled[b], &x = scaled[v];
+      const double length2 = squared_distance(p, q);
+      const double along = (x[0] - p[0]) * (q[0] - p[0]) + (x[1] - p[1]) * (q[1] - p[1]);
+      const double off = (x[0] - p[0]) * (q[1] - p[1]) - (x[1] - p[1]) * (q[0] - p[0]), off2 = off * off / length2;
+      if (along > 0 && along < length2 && off2 <= distance * distance &&
+          4 * off2 <= std::min(squared_distance(p, x), squared_distance(q, x)))
+        inside_.emplace_back(keys[i], v);
+    });
+  }
+
   void split_at(std::uint64_t first, std::uint64_t second) {
     const auto [a, b] = detail::edge_of(first);
     const auto [c, d] = detail::edge_of(second);
     const Point2 x = intersection(points_[a], points_[b], points_[c], points_[d]);
     const auto [at, is_new] = at_.try_emplace(x, static_cast<std::uint32_t>(points_.size()));
-    if (is_new) points_.push_back(x);
+    if (is_new) {
+      points_.push_back(x);
+      origins_.push_back({a, b});
+    }
     const std::uint32_t v = at->second;
     if (v != a && v != b) inside_.emplace_back(first, v);
     if (v != c && v != d) inside_.emplace_back(second, v);
@@ -157,9 +235,12 @@ class CrossingResolver {
   std::vector<Point2> points_;
   std::map<Point2, std::uint32_t, LexLess> at_;  ///< the first point at each place
   std::vector<detail::OwnedEdge> edges_;
+  std::vector<std::array<std::uint32_t, 2>> origins_;
+  std::vector<detail::PointOn> touching_;
   std::vector<detail::PointOn> inside_;          ///< of this round, sorted
   std::vector<std::pair<std::uint64_t, std::uint64_t>> crossed_;
   std::set<std::pair<std::uint32_t, std::uint32_t>> pairs_;
+  std::size_t first_new_, first_made_ = 0;  ///< number of the first new point; how many the first crossings made
 };
 
 void report(const CrossingResolver& resolved, const Plc<2>& plc, std::vector<Diagnostic>& repairs) {
@@ -171,7 +252,30 @@ void report(const CrossingResolver& resolved, const Plc<2>& plc, std::vector<Dia
   }
   for (std::size_t i = plc.points.size(); i < resolved.points().size(); ++i)
     list.diagnostic.points.push_back(detail::in_space(resolved.points()[i]));
+  detail::RepairList touching;
+  for (const auto& [edge, v] : resolved.touching()) {
+    const std::int64_t point = number(v), from = number(detail::edge_of(edge)[0]), to = number(detail::edge_of(edge)[1]);
+    const auto words = [&] { return std::to_string(point) + " in " + std::to_string(from) + "-" + std::to_string(to); };
+    touching.add(words, {point, from, to});
+  }
+  touching.report(Errc::point_on_segment, "points inside a segment, which is split there", plc.source.file, repairs);
   list.report(Errc::entities_intersect, "segments that cross, now split there", plc.source.file, repairs);
+}
+
+/// Those of the new points: linear along the edge that they were made on.
+void append_attributes(const CrossingResolver& resolved, Plc<2>& plc, std::size_t old_points) {
+  const std::size_t columns = old_points == 0 ? 0 : plc.point_attributes.size() / old_points;
+  if (columns * old_points != plc.point_attributes.size()) return;  // Domain refuses it
+  const auto& p = resolved.points();
+  for (std::size_t i = 0; i < resolved.origins().size(); ++i) {
+    const auto [a, b] = resolved.origins()[i];
+    const int axis = std::fabs(p[b][0] - p[a][0]) >= std::fabs(p[b][1] - p[a][1]) ? 0 : 1;
+    const double t = std::clamp((p[old_points + i][axis] - p[a][axis]) / (p[b][axis] - p[a][axis]), 0.0, 1.0);
+    for (std::size_t k = 0; k < columns; ++k) {
+      const double from = plc.point_attributes[a * columns + k], to = plc.point_attributes[b * columns + k];
+      plc.point_attributes.push_back((1 - t) * from + t * to);
+    }
+  }
 }
 
 }  // namespace
@@ -188,6 +292,7 @@ Plc<2> resolve_crossings(const Plc<2>& plc, std::vector<Diagnostic>& repairs) {
   Plc<2> out = plc;
   out.points = resolver.points();
   if (!out.point_markers.empty()) out.point_markers.resize(out.points.size(), 0);
+  append_attributes(resolver, out, plc.points.size());
   out.segments.clear();
   out.source.segment_lines.clear();
   for (const detail::OwnedEdge& e : resolver.edges()) {

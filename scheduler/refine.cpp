@@ -18,6 +18,7 @@
 #include "pgdr/delaunay.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/labeling.hpp"
+#include "pgdr/point_data.hpp"
 #include "detail/arena.hpp"
 #include "detail/float_environment.hpp"
 #include "detail/generations.hpp"
@@ -114,29 +115,47 @@ PoorCount count_poor(const PoorReasons<D>& reasons, std::uint32_t cells, const S
 bool in_haste(StopCause stop) { return stop == StopCause::cancelled || stop == StopCause::time_limit; }
 
 template <int D>
-Compacted<D> compact_mesh(const Mesh<D>& mesh, const Domain<D>& domain, const RegionTable& regions,
+Compacted<D> compact_mesh(const Mesh<D>& mesh, const Domain<D>& domain, const RegionTable& regions, const PointData<D>& data,
                           const RefineOptions<D>& options, Numbering numbering, const std::stop_token& stop) {
   std::vector<double> attributes;
   if (regions.labelled) attributes = regions.attribute;
-  if (options.schedule.executor != Executor::flow_graph) return compact<D>(mesh, domain, attributes, false, stop, numbering);
   Compacted<D> compacted;
-  detail::in_arena_to_the_end(options.schedule.threads,
-                              [&] { compacted = compact<D>(mesh, domain, attributes, true, stop, numbering); });
+  const auto make = [&](bool parallel) {
+    compacted = compact<D>(mesh, domain, attributes, parallel, stop, numbering);
+    if (!stop.stop_requested()) data.fill(mesh, compacted, parallel, stop);
+  };
+  if (options.schedule.executor != Executor::flow_graph)
+    make(false);
+  else
+    detail::in_arena_to_the_end(options.schedule.threads, [&] { make(true); });
   return compacted;
 }
 
 /// The canonical numbering if there is time for it. Of a run that is cancelled meanwhile nothing but the mesh is known.
 template <int D>
-Compacted<D> compact_in_time(const Mesh<D>& mesh, const Domain<D>& domain, const RegionTable& regions,
+Compacted<D> compact_in_time(const Mesh<D>& mesh, const Domain<D>& domain, const RegionTable& regions, const PointData<D>& data,
                              const RefineOptions<D>& options, std::vector<PoorCell>& poor, RefineResult<D>& result) {
   if (!in_haste(result.stop)) {
-    Compacted<D> compacted = compact_mesh(mesh, domain, regions, options, Numbering::canonical, options.stop);
+    Compacted<D> compacted = compact_mesh(mesh, domain, regions, data, options, Numbering::canonical, options.stop);
     if (!options.stop.stop_requested()) return compacted;
     result.stop = StopCause::cancelled;
     poor.clear();
     if (!options.partial_mesh) return {};
   }
-  return compact_mesh(mesh, domain, regions, options, Numbering::hasty, {});
+  return compact_mesh(mesh, domain, regions, data, options, Numbering::hasty, {});
+}
+
+/// Of each cell of the mesh, the leaf that holds its circumcentre.
+template <int D>
+std::vector<std::uint32_t> leaves_of(const OutputMesh<D>& mesh, const Orthtree<D>& tree) {
+  std::vector<std::uint32_t> leaves;
+  leaves.reserve(mesh.cells.size());
+  for (const auto& cell : mesh.cells) {
+    Simplex<D> s;
+    for (int i = 0; i <= D; ++i) s[i] = mesh.points[cell[i]];
+    leaves.push_back(tree.leaf_at(circumsphere<D>(s).center));
+  }
+  return leaves;
 }
 
 /// What a run that was cancelled returns where no partial mesh is wanted.
@@ -178,10 +197,16 @@ RegionTable make_initial(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Do
   return carve<D>(mesh, pools, delaunay, domain, options.regions, result.warnings);
 }
 
-/// How many cells are poor, where the lists tell.
+/// What is known of the refinement once it has ended.
 template <int D>
-std::optional<PoorCount> refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices,
-                                     PoorReasons<D>& reasons, RefineResult<D>& result) {
+struct Refined {
+  std::optional<PoorCount> poor;    ///< how many cells are poor, where the lists tell
+  std::optional<Orthtree<D>> tree;  ///< as it is in the end, if the leaves of cells are asked for
+};
+
+template <int D>
+Refined<D> refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices,
+                       PoorReasons<D>& reasons, RefineResult<D>& result) {
   const auto refinement = make_refinement<D>(context, std::move(pools), vertices);
   result.stop = refinement->run();
   result.violations_seen = refinement->violations_seen();
@@ -195,8 +220,10 @@ std::optional<PoorCount> refine_mesh(RefineContext<D>& context, typename Mesh<D>
   result.scheduler = refinement->statistics();
   result.scheduler.threads = threads_of(context.options.schedule);
   result.trace = refinement->take_trace();
-  if (!context.options.partial_mesh && result.stop == StopCause::cancelled) return std::nullopt;
-  return refinement->take_poor();
+  if (!context.options.partial_mesh && result.stop == StopCause::cancelled) return {};
+  Refined<D> refined{refinement->take_poor(), {}};
+  if (context.options.leaves) refined.tree = refinement->take_tree();
+  return refined;
 }
 
 /// The poor cells, each with its reason, if the refinement came to its end and nobody cancels meanwhile; else they are
@@ -247,16 +274,17 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   }
 
   const auto refine_start = Clock::now();
+  const PointData<D> data(mesh, domain);
   const std::uint64_t vertices = domain.points().size() + result.statistics.segment_points + result.statistics.facet_points;
   RefineContext<D> context(mesh, domain, options, bounds_of(options, regions), vertices, start);
   PoorReasons<D> reasons(mesh, domain, context.bounds, options.keep_boundary);
-  std::optional<PoorCount> known;
-  if (options.refine) known = refine_mesh<D>(context, std::move(pools), vertices, reasons, result);
+  Refined<D> refined;
+  if (options.refine) refined = refine_mesh<D>(context, std::move(pools), vertices, reasons, result);
   const auto dropped = [&] {
     return !options.partial_mesh && (options.stop.stop_requested() || result.stop == StopCause::cancelled);
   };
   if (dropped()) return without_mesh(std::move(result), start);
-  std::vector<PoorCell> poor = find_poor<D>(mesh, reasons, options, known, result);
+  std::vector<PoorCell> poor = find_poor<D>(mesh, reasons, options, refined.poor, result);
   if (dropped()) return without_mesh(std::move(result), start);
   result.statistics.seconds_refine = seconds_since(refine_start);
 #ifdef __GLIBC__
@@ -264,7 +292,7 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   if (!in_haste(result.stop)) malloc_trim(0);
 #endif
 
-  Compacted<D> compacted = compact_in_time(mesh, domain, regions, options, poor, result);
+  Compacted<D> compacted = compact_in_time(mesh, domain, regions, data, options, poor, result);
   if (dropped()) return without_mesh(std::move(result), start);
   for (const PoorCell& p : poor) {
     PoorReason reason = p.reason;
@@ -272,6 +300,7 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
     result.reasons.push_back(reason);
   }
   result.mesh = std::move(compacted.mesh);
+  if (refined.tree) result.mesh.leaves = leaves_of(result.mesh, *refined.tree);
   std::sort(result.reasons.begin(), result.reasons.end(),
             [](const PoorReason& a, const PoorReason& b) { return a.cell < b.cell; });
   result.statistics.predicates += predicate_counts() - predicates_before;

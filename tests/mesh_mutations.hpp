@@ -257,7 +257,7 @@ std::vector<Mutation<D>> conformity_mutations() {
                   }});
   list.push_back({"change the marker of an input point", {K::wrong_marker}, [](auto& m) {
                     m.point_markers.resize(m.points.size(), 0);
-                    m.point_markers[0] += 1;
+                    m.point_markers[0] += 77;
                     return true;
                   }});
   list.push_back({"drop a subsegment", {K::segment_not_conforming}, [](auto& m) {

@@ -57,6 +57,8 @@ void expect_same_mesh(const OutputMesh<D>& a, const OutputMesh<D>& b) {
   EXPECT_EQ(a.points.size(), b.points.size());
   EXPECT_TRUE(same_bytes(a.points, b.points));
   EXPECT_TRUE(same_bytes(a.point_markers, b.point_markers));
+  EXPECT_TRUE(same_bytes(a.point_attributes, b.point_attributes));
+  EXPECT_TRUE(same_bytes(a.leaves, b.leaves));
   EXPECT_EQ(a.cells.size(), b.cells.size());
   EXPECT_TRUE(same_bytes(a.cells, b.cells));
   EXPECT_TRUE(same_bytes(a.regions, b.regions));

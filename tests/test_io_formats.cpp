@@ -387,7 +387,29 @@ TEST(WriteTetgen, TextIsWhatOthersExpect) {
   EXPECT_EQ(content(folder / "a.b.face"), "1 1\n1 1 2 3 -3\n");
   EXPECT_EQ(content(folder / "a.b.edge"), "1 1\n1 3 4 4\n");
   EXPECT_EQ(files_of_mesh(folder / "a.b.ele").size(), 4u);
+  EXPECT_EQ(files_of_mesh(folder / "a.b.ele", {1, false, true}).back(), (folder / "a.b.neigh").string());
+  mesh.point_attributes = {0.5, 1, -1, 2, 0, 3, 1e100, 4};
+  write_mesh<3>(mesh, folder / "a.b.node", {0, true, true});
+  EXPECT_EQ(content(folder / "a.b.node"),
+            "# pgdr input_points 4\n4 3 2 1\n0 0 0 0 0.5 1 1\n1 1 0 0 -1 2 0\n2 0 1 0 0 3 0\n3 0 0 0.1 1e+100 4 -2\n");
+  EXPECT_EQ(content(folder / "a.b.ele"), "1 4 1\n0 0 1 2 3 7.5\n");
+  EXPECT_EQ(content(folder / "a.b.edge"),
+            "# pgdr subsegments 1\n6 1\n0 2 3 4\n1 0 1 0\n2 0 2 0\n3 0 3 0\n4 1 2 0\n5 1 3 0\n");
+  EXPECT_EQ(content(folder / "a.b.neigh"), "1 4\n0 -1 -1 -1 -1\n");
   EXPECT_EQ(files_of_mesh(folder / "a.b.vtu"), (std::vector<std::string>{(folder / "a.b.vtu").string()}));
+}
+
+/// Triangle's: the first neighbour is opposite the first corner, and so on.
+TEST(WriteTetgen, NeighborsAreOppositeTheCorners) {
+  OutputMesh<2> mesh;
+  mesh.points = {{{0, 0}}, {{1, 0}}, {{1, 1}}, {{0, 1}}, {{0.5, 0.5}}};
+  mesh.cells = {{4, 0, 1}, {4, 1, 2}, {2, 3, 4}, {0, 4, 3}};
+  const TempFolder folder;
+  write_mesh<2>(mesh, folder / "a.ele", {1, false, true});
+  EXPECT_EQ(content(folder / "a.neigh"), "4 3\n1 -1 2 4\n2 -1 3 1\n3 4 2 -1\n4 3 -1 1\n");
+  std::filesystem::remove(folder / "a.neigh");
+  write_mesh<2>(mesh, folder / "a.ele");
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.neigh"));
 }
 
 /// Any mesh, through any formats one after the other, stays what it was, but for labels that are all 0.
@@ -413,9 +435,11 @@ void expect_to_survive_all_formats() {
     if (trial % 7 == 0) mesh.point_markers.clear();
     OutputMesh<D> copy = mesh;
     for (int step = 0; step < 4; ++step) {
-      const auto file = folder / ("a" + extensions[random() % 4]);
+      const std::string extension = extensions[random() % 4];
+      const auto file = folder / ("a" + extension);
       write_mesh<D>(copy, file);
       copy = read_mesh<D>(file);
+      if (extension == ".msh") mesh = as_msh<D>(mesh);
     }
     expect_same(copy, mesh);
     ASSERT_FALSE(testing::Test::HasFailure()) << "seed " << seed;

@@ -21,7 +21,7 @@ void expect_round_trip(const OutputMesh<D>& mesh) {
     const auto file = folder / ("mesh" + extension);
     write_mesh<D>(mesh, file);
     EXPECT_EQ(file_dimension(file), D);
-    expect_same(read_mesh<D>(file), mesh);
+    expect_same(read_mesh<D>(file), extension == ".msh" ? as_msh<D>(mesh) : mesh);
     const std::string once = content(file);
     write_mesh<D>(read_mesh<D>(file), file);
     EXPECT_TRUE(content(file) == once) << "the file of the mesh that was read differs";
@@ -48,6 +48,33 @@ void expect_round_trips() {
 
 TEST(MeshFiles, RoundTripBitForBitIn3D) { expect_round_trips<3>(); }
 TEST(MeshFiles, RoundTripBitForBitIn2D) { expect_round_trips<2>(); }
+
+/// What .vtu and .node alone keep, and .vtu alone.
+template <int D>
+void expect_point_attributes_and_leaves_to_survive() {
+  const TempFolder folder;
+  for (const std::size_t columns : {1, 3}) {
+    OutputMesh<D> mesh = some_mesh<D>(columns);
+    std::mt19937_64 random(columns);
+    for (std::size_t i = 0; i < columns * mesh.points.size(); ++i)
+      mesh.point_attributes.push_back(std::ldexp(static_cast<double>(random()) - 0x1p63, static_cast<int>(random() % 300) - 150));
+    for (const std::string extension : {".node", ".vtu"}) {
+      if (extension == ".vtu")
+        for (std::size_t c = 0; c < mesh.cells.size(); ++c) mesh.leaves.push_back(static_cast<std::uint32_t>(random()));
+      for (const std::uint32_t first : {0u, 1u}) {
+        write_mesh<D>(mesh, folder / ("a" + extension), {first, true, true});
+        expect_same(read_mesh<D>(folder / ("a" + extension)), mesh);
+      }
+    }
+  }
+  OutputMesh<D> none;
+  write_mesh<D>(none, folder / "b.node", {0, true, true});
+  expect_same(read_mesh<D>(folder / "b.ele"), none);
+  EXPECT_EQ(error_of<UsageError>([&] { write_mesh<D>(none, folder / "c.node", {2, false, false}); }).code, Errc::bad_option);
+}
+
+TEST(MeshFiles, PointAttributesAndLeavesIn3D) { expect_point_attributes_and_leaves_to_survive<3>(); }
+TEST(MeshFiles, PointAttributesAndLeavesIn2D) { expect_point_attributes_and_leaves_to_survive<2>(); }
 
 TEST(MeshFiles, RegionsThatAreNoIntegersRoundTrip) {
   OutputMesh<3> mesh = some_mesh<3>(3);

@@ -77,10 +77,20 @@ void expect_same(const OutputMesh<D>& a, const OutputMesh<D>& b) {
   EXPECT_TRUE(same_bytes(a.points, b.points)) << "points";
   EXPECT_EQ(a.input_points, b.input_points);
   EXPECT_EQ(a.point_markers, b.point_markers);
+  EXPECT_TRUE(same_bytes(a.point_attributes, b.point_attributes)) << "attributes";
+  EXPECT_EQ(a.leaves, b.leaves);
   EXPECT_TRUE(same_bytes(a.cells, b.cells)) << "cells";
   EXPECT_TRUE(same_bytes(a.regions, b.regions)) << "regions";
   EXPECT_TRUE(same_bytes(a.subsegments, b.subsegments)) << "subsegments";
   EXPECT_TRUE(same_bytes(a.subfacets, b.subfacets)) << "subfacets";
+}
+
+/// What a .msh keeps of a mesh: not the markers of points that are none of the input's, where it is known which these are.
+template <int D>
+OutputMesh<D> as_msh(OutputMesh<D> mesh) {
+  if (mesh.input_points != 0 && !mesh.point_markers.empty())
+    std::fill(mesh.point_markers.begin() + static_cast<std::ptrdiff_t>(mesh.input_points), mesh.point_markers.end(), 0);
+  return mesh;
 }
 
 /// Points of all magnitudes, among them -0, the smallest and the largest double; all labels in use. The cells are no

@@ -9,6 +9,7 @@
 #include "parallel_support.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/quality.hpp"
+#include "pgdr/selectors.hpp"
 #include "pgdr/spatial_order.hpp"
 #include "planar_plcs.hpp"
 
@@ -151,6 +152,20 @@ TEST(PlanarRefinement, GraphsWithSmallAngles) {
   expect_refined(fan(3, 31, 4), 30, "a wide fan");
 }
 
+/// A point inside a wedge of a thousandth of a degree, beside the end of a shorter segment: what is small there does not go
+/// on along the wedge, which would take 1e5 triangles for each of its width.
+TEST(PlanarRefinement, SmallFeaturesDoNotFillAWedge) {
+  Plc<2> plc;
+  add_square(plc, -3, 3);
+  plc.points.insert(plc.points.end(), {{{0, 0}}, {{1, 1.5e-5}}, {{1, 3.2e-5}}, {{0.55, 2.5e-5}}, {{1, 6.5e-5}}, {{1, 9.4e-5}},
+                                       {{1, 8.5e-5}}});
+  for (const std::uint32_t end : {5u, 6u, 7u, 8u, 9u}) add_segment(plc, 4, end);
+  for (const double degrees : {5.0, 20.7, 28.0}) {
+    const auto result = expect_reproducible<2>(plc, to_angle(degrees), "wedge to " + std::to_string(degrees));
+    EXPECT_LT(result.mesh.cells.size(), 2000u);
+  }
+}
+
 TEST(PlanarRefinement, EveryInputEnds) {
   const std::vector<Runner> some{{"threads 2", Executor::threads, 2}, {"threads 8", Executor::threads, 8}};
   for (const double degrees : {20.7, 30.0}) {
@@ -184,31 +199,72 @@ TEST(HilbertCurve, GoesFromNeighbourToNeighbour) {
   }
 }
 
+/// Tables 2.1 and 2.2 of the dissertation on models that look like its own: triangles by selector.
 struct Counts {
   const char* model;
   double degrees;
-  std::size_t triangle;  ///< Triangle 1.6 with circumcentres
+  std::size_t circumcenters, off_centers;  ///< those of Triangle 1.6, without a bound on the area
 };
 
 class LookAlikes : public testing::TestWithParam<Counts> {};
 
-/// At most a tenth more triangles than Triangle, every bound met.
+Plc<2> look_alike(const std::string& model) { return read_plc<2>(std::string(PGDR_TEST_MODELS "/planar/") + model + ".poly"); }
+
+/// Refined, reproducibly; every bound is met but by a few elements above 25 degrees (the optimised points).
+double triangles_made(const Plc<2>& plc, RefineOptions<2> options, const PointSelector<2>& selector, const std::string& what) {
+  options.selector = selector;
+  if (selector) options.disk.type = DiskType::type1;
+  const auto result = expect_reproducible<2>(plc, options, what, {{"threads 2", Executor::threads, 2}});
+  EXPECT_TRUE(result.size_met);
+  if (!selector || options.radius_edge_bound > bound_of(25.5)) {
+    EXPECT_EQ(result.poor_left, 0u) << what;
+  }
+  EXPECT_LE(result.poor_left, 3u) << what;
+  testing::Test::RecordProperty(what.substr(what.find(", ") + 2), static_cast<int>(result.mesh.cells.size()));
+  return static_cast<double>(result.mesh.cells.size());
+}
+
+/// Circumcentres at most a tenth above Triangle's circumcentres, off-centres 15 % above its off-centres.
 TEST_P(LookAlikes, AsFewTrianglesAsTriangle) {
-  const auto& [model, degrees, triangle] = GetParam();
-  const Plc<2> plc = read_plc<2>(std::string(PGDR_TEST_MODELS "/planar/") + model + ".poly");
-  const auto result = expect_reproducible<2>(plc, to_angle(degrees), model, {{"threads 2", Executor::threads, 2}});
-  EXPECT_EQ(result.poor_left, 0u);
-  EXPECT_LE(static_cast<double>(result.mesh.cells.size()), 1.1 * static_cast<double>(triangle));
-  RecordProperty("triangles", static_cast<int>(result.mesh.cells.size()));
+  const auto& [model, degrees, triangle_circumcenters, triangle_off_centers] = GetParam();
+  const Plc<2> plc = look_alike(model);
+  const std::string name = std::string(model) + " at " + std::to_string(degrees) + ", ";
+  const double circumcenters = triangles_made(plc, to_angle(degrees), {}, name + "circumcenters");
+  const double off_centers = triangles_made(plc, to_angle(degrees), off_center<2>(), name + "off_centers");
+  const double optimized = triangles_made(plc, to_angle(degrees), pgdr::optimized<2>(), name + "optimized");
+  EXPECT_LE(circumcenters, 1.1 * static_cast<double>(triangle_circumcenters));
+  EXPECT_LE(off_centers, 1.15 * static_cast<double>(triangle_off_centers));
+  EXPECT_LE(optimized, circumcenters < 1000 ? circumcenters + 5 : 1.02 * circumcenters);
+  if (degrees == 30 && (std::string(model) == "pipe_like" || std::string(model) == "cylinder_like")) {
+    EXPECT_LT(optimized, circumcenters);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(
     All, LookAlikes,
-    testing::Values(Counts{"cylinder_like", 10, 190}, Counts{"cylinder_like", 20, 305},
-                    Counts{"pipe_like", 10, 4964}, Counts{"pipe_like", 20, 8368}, Counts{"pipe_like", 30, 16880},
-                    Counts{"key_like", 10, 80}, Counts{"key_like", 20, 136}, Counts{"key_like", 30, 189},
-                    Counts{"square1000", 10, 2412}, Counts{"square1000", 20, 3781}, Counts{"square1000", 30, 10567}),
+    testing::Values(Counts{"cylinder_like", 10, 190, 157}, Counts{"cylinder_like", 20, 305, 235},
+                    Counts{"cylinder_like", 25, 466, 297}, Counts{"cylinder_like", 30, 847, 556},
+                    Counts{"pipe_like", 10, 4964, 4902}, Counts{"pipe_like", 20, 8368, 7376},
+                    Counts{"pipe_like", 25, 11754, 11068}, Counts{"pipe_like", 30, 16880, 15032},
+                    Counts{"key_like", 10, 80, 82}, Counts{"key_like", 20, 136, 130}, Counts{"key_like", 25, 157, 145},
+                    Counts{"key_like", 30, 189, 191}, Counts{"square1000", 10, 2412, 2336},
+                    Counts{"square1000", 20, 3781, 3311}, Counts{"square1000", 25, 5371, 4178},
+                    Counts{"square1000", 30, 10567, 5932}),
     [](const auto& info) { return std::string(info.param.model) + "_" + std::to_string(static_cast<int>(info.param.degrees)); });
+
+/// Where an area bound decides, the selector does not matter: the optimised points make no more triangles.
+TEST(LookAlikesOfBoundedArea, OptimizedIsNoLarger) {
+  for (const auto& [model, area] : {std::pair("pipe_like", 10.0), std::pair("cylinder_like", 0.1)})
+    for (const double degrees : {10.0, 20.0, 30.0}) {
+      const Plc<2> plc = look_alike(model);
+      RefineOptions<2> options = to_angle(degrees);
+      options.size = area;
+      const std::string name = std::string(model) + " at " + std::to_string(degrees) + ", ";
+      const double circumcenters = triangles_made(plc, options, {}, name + "circumcenters");
+      EXPECT_LE(triangles_made(plc, options, off_center<2>(), name + "off_centers"), 1.02 * circumcenters);
+      EXPECT_LE(triangles_made(plc, options, pgdr::optimized<2>(), name + "optimized"), 1.02 * circumcenters);
+    }
+}
 
 void expect_boundary_kept(const Plc<2>& plc, RefineOptions<2> options, const std::string& what) {
   options.keep_boundary = true;
@@ -288,28 +344,41 @@ TEST(BeyondTheory, IsWarnedOf) {
   EXPECT_EQ(codes(refine<2>(square_with_hole(), to_angle(30))), std::vector{Errc::beyond_theory});
 }
 
-/// Every valid .poly in the folder pslg of PGDR_MODELS is meshed to both angles, checked, and the same for all threads;
-/// every other one is refused with names.
+/// Every valid .poly in the folder pslg of PGDR_MODELS is meshed to both angles, checked, and the same for all threads, as
+/// it is, turned, scaled and shifted; every other one is refused with names.
 TEST(PlanarModels, OfTheCollection) {
   const char* folder = std::getenv("PGDR_MODELS");
   if (!folder) GTEST_SKIP() << "PGDR_MODELS is not set";
+  const auto is_valid = [](const Plc<2>& plc) {
+    try {
+      static_cast<void>(refine<2>(plc, unrefined()));
+      return true;
+    } catch (const InputError& e) {
+      EXPECT_FALSE(std::string(e.what()).empty());
+      EXPECT_TRUE(!e.diagnostic().ids.empty() || e.code() == Errc::encloses_nothing) << e.what();
+      return false;
+    }
+  };
   std::size_t meshed = 0, refused = 0;
   for (const auto& file : std::filesystem::directory_iterator(std::filesystem::path(folder) / "pslg")) {
     if (file.path().extension() != ".poly") continue;
+    const std::string name = file.path().filename().string();
     const Plc<2> plc = read_plc<2>(file.path());
-    try {
-      static_cast<void>(refine<2>(plc, unrefined()));
-    } catch (const InputError& e) {
-      ++refused;
-      EXPECT_FALSE(std::string(e.what()).empty());
-      continue;
+    ++(is_valid(plc) ? meshed : refused);
+    if (!is_valid(plc)) continue;
+    // Segments that overlap do so no more when they are turned and rounded.
+    const Plc<2> about_the_origin = turned(plc, 0), far = turned(plc, 1e5);
+    for (const double degrees : {20.7, 30.0}) {
+      expect_reproducible<2>(plc, to_angle(degrees), name, eight_threads);
+      expect_reproducible<2>(scaled<2>(plc, 1e-6), to_angle(degrees), name + ", small", eight_threads);
+      expect_reproducible<2>(scaled<2>(plc, 1e6), to_angle(degrees), name + ", large", eight_threads);
+      if (is_valid(about_the_origin))
+        expect_reproducible<2>(about_the_origin, to_angle(degrees), name + ", turned", eight_threads);
+      if (is_valid(far)) expect_reproducible<2>(far, to_angle(degrees), name + ", far", eight_threads);
     }
-    ++meshed;
-    for (const double degrees : {20.7, 30.0})
-      expect_reproducible<2>(plc, to_angle(degrees), file.path().filename().string(), eight_threads);
   }
-  EXPECT_GE(meshed, 30u);
-  EXPECT_LE(refused, 6u);
+  EXPECT_GE(meshed, 29u);
+  EXPECT_LE(refused, 7u);
 }
 
 }  // namespace

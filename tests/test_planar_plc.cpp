@@ -170,6 +170,58 @@ TEST(ResolveCrossings, IsMeshed) {
   }
 }
 
+/// Two segments of one line overlap, one of them passes through a loose point, and another segment crosses them at a point
+/// that is rounded: split there first, their pieces would leave each other by an ulp, with slivers all along between.
+TEST(ResolveCrossings, WhatTouchesIsSplitBefore) {
+  Plc<2> plc;
+  plc.points = {{{0, 0}}, {{9, 3}}, {{3, 1}}, {{6, 2}}, {{4, 1}}, {{5, 3}}, {{7.5, 2.5}}};
+  add_segment(plc, 0, 1);
+  add_segment(plc, 2, 3);
+  add_segment(plc, 4, 5);
+  plc.first_index = 1;
+  std::vector<Diagnostic> repairs;
+  const Plc<2> out = resolve_crossings(plc, repairs);
+  ASSERT_EQ(repairs.size(), 2u);
+  EXPECT_EQ(repairs[0].code, Errc::point_on_segment);
+  EXPECT_EQ(repairs[0].ids, (std::vector<std::int64_t>{3, 1, 2, 4, 1, 2, 7, 1, 2}));
+  EXPECT_EQ(repairs[1].code, Errc::entities_intersect);
+  ASSERT_EQ(out.points.size(), 8u);
+  std::set<std::array<std::uint32_t, 2>> edges;
+  for (const auto& s : out.segments) edges.insert({std::min(s.points[0], s.points[1]), std::max(s.points[0], s.points[1])});
+  EXPECT_EQ(edges, (std::set<std::array<std::uint32_t, 2>>{{0, 2}, {2, 7}, {3, 7}, {3, 6}, {1, 6}, {4, 7}, {5, 7}}));
+  const auto [result, report] = refine_and_check<2>(with_convex_hull(out), {});
+  EXPECT_LE(report.exit_code(), 1) << findings(report);
+  EXPECT_LT(result.mesh.cells.size(), 500u);
+}
+
+/// Bundles of segments nearly of one line, by rounding, cross ever anew, at ever more places, if each crossing is rounded
+/// by itself.
+TEST(ResolveCrossings, BundlesComeToAnEnd) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Random random(seed);
+    Plc<2> plc;
+    add_square(plc, -1.2e9, 1.2e9);
+    const double unit = 16576771.999842852;
+    for (int i = 0; i < 60; ++i) {
+      const double place = 0.5 * (static_cast<double>(below(random, 7)) - 3);
+      for (int end = 0; end < 2; ++end) {
+        const double at = static_cast<double>(below(random, 9)) - 9 * (1 - end) + 0.5;
+        plc.points.push_back({{(0.1 * at + place) * unit, 0.3 * at * unit}});
+      }
+      const auto last = static_cast<std::uint32_t>(plc.points.size());
+      add_segment(plc, last - 2, last - 1);
+    }
+    std::vector<Diagnostic> repairs;
+    const Plc<2> out = resolve_crossings(plc, repairs);
+    EXPECT_LT(out.points.size(), plc.points.size() + 1000) << "seed " << seed;
+    RefineOptions<2> options;
+    options.refine = false;
+    options.radius_edge_bound = 1e18;
+    const auto [result, report] = refine_and_check<2>(out, options);
+    EXPECT_LE(report.exit_code(), 1) << findings(report);
+  }
+}
+
 /// The hull's edges are those with all points on one side, or on them.
 TEST(ConvexHull, AgainstAllPairs) {
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {

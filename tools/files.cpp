@@ -5,6 +5,7 @@
 #include <strings.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -27,13 +28,18 @@ void require_place(const std::string& file) {
 
 }  // namespace
 
+bool has_extension(const std::string& file, std::initializer_list<const char*> extensions) {
+  const std::string own = fs::path(file).extension().string();
+  return std::any_of(extensions.begin(), extensions.end(),
+                     [&own](const char* extension) { return strcasecmp(own.c_str(), extension) == 0; });
+}
+
 void require_writable(const std::string& output, const std::string& input) {
   if (!is_mesh_format(output))
     throw InputError({.code = Errc::unknown_format,
                       .message = "meshes are written as .vtu, .msh, .mesh, or .node with .ele", .file = output});
-  const std::string extension = fs::path(input).extension().string();
   fs::path points;  // a .poly or .smesh may leave its points to a .node file
-  if (strcasecmp(extension.c_str(), ".poly") == 0 || strcasecmp(extension.c_str(), ".smesh") == 0)
+  if (has_extension(input, {".poly", ".smesh"}))
     points = fs::path(input).replace_extension(".node");
   for (const std::string& file : files_of_mesh(output)) {
     require_place(file);

@@ -5,12 +5,15 @@
 #pragma once
 
 #include <functional>
+#include <initializer_list>
 #include <iosfwd>
 #include <string>
 #include <vector>
 
 namespace pgdr::tool {
 
+/// Upper or lower case.
+bool has_extension(const std::string& file, std::initializer_list<const char*> extensions);
 /// What can be known of the output file without writing it is said before the work, not after it.
 /// @throws InputError unknown_format, FileError cannot_write, UsageError if it would replace the input.
 void require_writable(const std::string& output, const std::string& input);

@@ -32,6 +32,8 @@ RefineOptions<D> make_options(const MeshArguments& a, const Bounds<D>& bounds) {
   options.selector = make_selector<D>(a.selector);
   options.disk = {a.disk.value_or(a.delta > 0 ? DiskType::type2 : usual_disk(a.selector)), a.delta};
   options.keep_boundary = a.keep_boundary;
+  options.refine = !a.no_refine;
+  options.leaves = a.leaves;
   options.regions = a.regions;
   options.min_edge = a.min_edge;
   if (a.max_vertices) options.max_vertices = *a.max_vertices;
@@ -41,6 +43,29 @@ RefineOptions<D> make_options(const MeshArguments& a, const Bounds<D>& bounds) {
   options.schedule.trace = !a.trace.empty();
   if (a.time_limit) options.time_limit = std::chrono::duration<double>(*a.time_limit);
   return options;
+}
+
+/// As the input is numbered, if it is one of the formats that number at will.
+template <int D>
+WriteOptions write_options(const MeshArguments& a, const Plc<D>& plc) {
+  WriteOptions options;
+  if (a.first_index)
+    options.first_index = static_cast<std::uint32_t>(*a.first_index);
+  else if (has_extension(a.input, {".poly", ".smesh", ".node"}))
+    options.first_index = plc.first_index;
+  options.edges = a.edges;
+  options.neighbors = a.neighbors;
+  return options;
+}
+
+/// What only some formats can hold is refused for the others.
+void require_format(const MeshArguments& a) {
+  const auto refuse = [&a](const char* what) {
+    throw UsageError({.code = Errc::bad_option, .message = what, .file = a.output});
+  };
+  if ((a.neighbors || a.edges || a.first_index) && !has_extension(a.output, {".node", ".ele"}))
+    refuse("--neighbors, --edges and --first-index are for .node and .ele");
+  if (a.leaves && !has_extension(a.output, {".vtu"})) refuse("--leaves is for .vtu");
 }
 
 const char* words(StopCause cause) {
@@ -141,6 +166,8 @@ void print_summary(const MeshArguments& a, const Plc<D>& plc, const Bounds<D>& b
   else if (r.stop != StopCause::finished)
     print_row("stopped", format("%s: the mesh is valid, ", words(r.stop)) +
                              count(r.poor_left, "element is poor", "elements are poor"));
+  else if (a.no_refine)
+    print_row("bounds", "not refined: " + count(r.poor_left, "element is", "elements are") + " over a bound");
   else
     print_row("bounds", verdict(r));
   print_row("time", format("%.3f s meshing (%.3f s read, %.3f s write)", r.statistics.seconds_mesh, seconds.read,
@@ -200,8 +227,9 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
 
   seconds.write_at = total.seconds();
   if (!result.mesh.cells.empty()) {
-    std::vector<std::string> mesh_files = files_of_mesh(a.output);
-    write_mesh(result.mesh, a.output);
+    const WriteOptions how = write_options(a, plc);
+    std::vector<std::string> mesh_files = files_of_mesh(a.output, how);
+    write_mesh(result.mesh, a.output, how);
     report.mesh_files = std::move(mesh_files);
   }
   seconds.total = total.seconds();
@@ -219,7 +247,7 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
   }
 
   if (result.stop != StopCause::finished) return exit_stopped;
-  return result.poor_left == 0 && result.size_met ? exit_done : exit_poor_left;
+  return a.no_refine || (result.poor_left == 0 && result.size_met) ? exit_done : exit_poor_left;
 }
 
 }  // namespace
@@ -228,6 +256,7 @@ int mesh(const MeshArguments& arguments, Report& report) {
   const Stopwatch total;
   report.set("input", arguments.input);
   require_writable(arguments.output, arguments.input);
+  require_format(arguments);
   if (!arguments.trace.empty())
     require_writable(arguments.trace, {arguments.input, arguments.output, arguments.report});
   const int dimension = file_dimension(arguments.input);

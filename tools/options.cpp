@@ -53,7 +53,8 @@ const std::map<std::string, Schedule> schedules{{"reproducible", Schedule::repro
 
 const std::map<std::string, RegionMode> region_modes{{"seeds", RegionMode::seeds}, {"auto", RegionMode::automatic}};
 
-const std::map<std::string, ViewColor> view_colors{{"quality", ViewColor::quality}, {"region", ViewColor::region}};
+const std::map<std::string, ViewColor> view_colors{
+    {"quality", ViewColor::quality}, {"region", ViewColor::region}, {"leaf", ViewColor::leaf}};
 
 /// Finite numbers between commas; none if the text is anything else.
 std::vector<double> numbers(const std::string& text) {
@@ -142,13 +143,24 @@ void add_report(CLI::App& app, std::string& report, bool& quiet) {
   app.add_flag("--quiet", quiet, "print errors only");
 }
 
+void add_output(CLI::App& app, MeshArguments& a) {
+  app.add_option("-o,--output", a.output, "the mesh: .vtu .msh .mesh .node .ele")->required()->type_name("OUTPUT");
+  app.add_flag("--neighbors", a.neighbors, ".node, .ele: write X.neigh, too, the neighbours of each cell");
+  app.add_flag("--edges", a.edges, ".node, .ele: all edges in X.edge, not the subsegments alone");
+  app.add_option("--first-index", a.first_index, ".node, .ele: count from 0 or 1 (default: as a .poly, .smesh or .node input; 1)")
+      ->type_name("N")->check(whole_number(0, 1));
+  app.add_flag("--leaves", a.leaves, ".vtu: say of each cell which leaf of the tree it was refined in");
+}
+
 void add_mesh(CLI::App& app, MeshArguments& a) {
   app.add_option("INPUT", a.input, "what to mesh: .poly .smesh .node .off .obj .ply .stl .mesh .msh")->required()->type_name("");
-  app.add_option("-o,--output", a.output, "the mesh: .vtu .msh .mesh .node .ele")->required()->type_name("OUTPUT");
+  add_output(app, a);
   add_bounds(app, a.bounds, "2 in 3D, sqrt 2 in 2D, the smallest with a proof");
   add_planar(app, a.planar);
   add_regions(app, a.regions);
   app.add_flag("--keep-boundary", a.keep_boundary, "2D: no new points on segments");
+  app.add_flag("--no-refine", a.no_refine, "2D: the constrained Delaunay triangulation, without new points; 3D: the "
+               "triangulation with its boundary recovered");
   app.add_option("--selector", a.selector,
                  "where new points go: circumcenter (default), off-center[:FACTOR], optimized[:SAMPLES], "
                  "sliver-avoiding[:CANDIDATES]")
@@ -203,7 +215,8 @@ void add_view(CLI::App& app, ViewArguments& a) {
   app.add_option("-o,--output", a.output, "the picture: .svg .png")->required()->type_name("PICTURE");
   app.add_option_function<std::string>("--color", [&a](const std::string& t) { a.color = view_colors.at(t); },
                                        "quality (default): by the smallest (dihedral) angle, red is poor; in 3D of the "
-                                       "cells that a cut opens; region: by label")
+                                       "cells that a cut opens; region: by label; leaf: by leaf of the tree, of a mesh made "
+                                       "with --leaves")
       ->type_name("NAME")->check(one_of(view_colors, "colourings"));
   app.add_option_function<std::string>("--cut",
                                        [&a](const std::string& t) {

@@ -34,9 +34,11 @@ struct PlanarArguments {
 
 struct MeshArguments {
   std::string input, output;
+  std::optional<int> first_index;  ///< of .node and .ele; none: as in the input, or 1
+  bool edges = false, neighbors = false, leaves = false;  ///< what is written beside the mesh
   BoundArguments bounds;
   PlanarArguments planar;
-  bool keep_boundary = false;
+  bool keep_boundary = false, no_refine = false;
   std::string selector = "circumcenter";  ///< NAME or NAME:PARAMETER (selector.hpp)
   std::optional<DiskType> disk;           ///< none: as usual for the selector
   RegionMode regions = RegionMode::seeds;
@@ -69,7 +71,7 @@ struct InfoArguments {
   bool quiet = false;
 };
 
-enum class ViewColor { quality, region };
+enum class ViewColor { quality, region, leaf };
 
 /// The plane where coordinate `axis` has this value.
 struct CutPlane {

@@ -106,13 +106,15 @@ template <int D>
 class Colors {
  public:
   Colors(const OutputMesh<D>& mesh, ViewColor by) : mesh_(mesh), by_(by), labels_(mesh.regions) {
+    if (by == ViewColor::leaf) labels_.assign(mesh.leaves.begin(), mesh.leaves.end());
     std::sort(labels_.begin(), labels_.end());
     labels_.erase(std::unique(labels_.begin(), labels_.end()), labels_.end());
   }
   Color of(std::size_t cell) const {
     if (by_ == ViewColor::quality) return quality_color(quality(simplex(mesh_, cell)));
-    if (mesh_.regions.empty()) return region_color(0);
-    const auto at = std::lower_bound(labels_.begin(), labels_.end(), mesh_.regions[cell]);
+    if (labels_.empty()) return region_color(0);
+    const double label = by_ == ViewColor::leaf ? static_cast<double>(mesh_.leaves[cell]) : mesh_.regions[cell];
+    const auto at = std::lower_bound(labels_.begin(), labels_.end(), label);
     return region_color(static_cast<std::size_t>(at - labels_.begin()));
   }
 
@@ -281,7 +283,7 @@ Picture draw_space(const OutputMesh<3>& mesh, const ViewArguments& a) {
   picture.triangles.reserve(order.size());
   for (const auto& [nearness, f] : order) {
     const Simplex<3> s = simplex(mesh, faces[f].cell);
-    const bool colored = faces[f].opened || a.color == ViewColor::region;
+    const bool colored = faces[f].opened || a.color != ViewColor::quality;
     const double brightness = 0.62 + 0.38 * std::max(0.0, dot(normals[f], light));
     const Color fill = mix({}, colored ? colors.of(faces[f].cell) : plain, faces[f].opened ? 0.8 + 0.2 * brightness : brightness);
     std::array<Pixel, 3> corners;

@@ -2,10 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // pgdr view: a picture of a mesh.
-#include <strings.h>
-
-#include <filesystem>
-
 #include "command.hpp"
 #include "console.hpp"
 #include "files.hpp"
@@ -18,6 +14,8 @@ namespace {
 template <int D>
 int view_mesh(const ViewArguments& a, bool png, Report& report) {
   const OutputMesh<D> mesh = read_mesh<D>(a.mesh);
+  if (a.color == ViewColor::leaf && mesh.leaves.empty())
+    throw UsageError({.code = Errc::bad_option, .message = "--color leaf is for meshes made with --leaves", .file = a.mesh});
   report.set("cells", mesh.cells.size());
   const Picture picture = draw(mesh, a);
   report.set("triangles_drawn", picture.triangles.size());
@@ -37,9 +35,8 @@ int view_mesh(const ViewArguments& a, bool png, Report& report) {
 int view(const ViewArguments& a, Report& report) {
   report.set("input", a.mesh);
   report.set("output", a.output);
-  const std::string suffix = std::filesystem::path(a.output).extension().string();
-  const bool png = strcasecmp(suffix.c_str(), ".png") == 0;
-  if (!png && strcasecmp(suffix.c_str(), ".svg") != 0)
+  const bool png = has_extension(a.output, {".png"});
+  if (!has_extension(a.output, {".png", ".svg"}))
     throw InputError({.code = Errc::unknown_format, .message = "pictures are written as .svg or .png", .file = a.output});
   if (png && !has_png())
     throw UsageError({.code = Errc::bad_option, .message = "this pgdr was built without Cairo: pictures are .svg alone",

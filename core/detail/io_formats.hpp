@@ -12,6 +12,7 @@
 
 #include "detail/file_mesh.hpp"
 #include "detail/file_output.hpp"
+#include "pgdr/io.hpp"
 #include "pgdr/output_mesh.hpp"
 #include "pgdr/plc.hpp"
 
@@ -62,13 +63,15 @@ struct TetgenTexts {
   const std::string* face = nullptr;  ///< subfacets
   const std::string* edge = nullptr;  ///< subsegments
 };
+/// Comments at the head of .node and .edge, with a number.
+inline constexpr std::string_view input_points_comment = "# pgdr input_points ", subsegments_comment = "# pgdr subsegments ";
 /// The name of the file of that family with an extension: `file` itself if it is the one.
 std::string tetgen_name(const std::filesystem::path& file, std::string_view extension);
 template <int D>
 OutputMesh<D> read_tetgen(const TetgenTexts& texts, const std::filesystem::path& file);
-/// Writes .node, .face (3D), .edge and .ele, all or none.
+/// Writes .node, .face (3D), .edge, .neigh (on request) and .ele, all or none.
 template <int D>
-void write_tetgen(const OutputMesh<D>& mesh, const std::filesystem::path& file);
+void write_tetgen(const OutputMesh<D>& mesh, const std::filesystem::path& file, const WriteOptions& options);
 
 /// The dimension that the header states; anything but 2 and 3 is a syntax error.
 int node_dimension(std::string_view text, const std::filesystem::path& file);  ///< .node, .poly

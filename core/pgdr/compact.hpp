@@ -30,9 +30,9 @@ struct Compacted {
   std::uint32_t cell_number(const Mesh<D>& mesh, CellId c) const;
 };
 
-/// The finished mesh. `region_attributes`: the attribute of each region number; empty: do not label. `parallel`: on the
-/// threads of the caller's task arena; the result is the same. `stop`: once it is requested the result is nothing to use,
-/// and comes soon.
+/// The finished mesh, but for the data of its points (point_data.hpp). `region_attributes`: the attribute of each region
+/// number; empty: do not label. `parallel`: on the threads of the caller's task arena; the result is the same. `stop`: once
+/// it is requested the result is nothing to use, and comes soon.
 template <int D>
 Compacted<D> compact(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes, bool parallel,
                      std::stop_token stop = {}, Numbering numbering = Numbering::canonical);

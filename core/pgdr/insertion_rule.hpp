@@ -28,7 +28,10 @@
 // too. Without inheritance c would have to be 1. Pure functions; any thread.
 #pragma once
 
-#include "pgdr/mesh.hpp"
+#include <array>
+#include <optional>
+
+#include "pgdr/work_list.hpp"
 
 namespace pgdr {
 
@@ -47,6 +50,13 @@ bool lies_on(const Domain<D>& domain, Home home, EntityRef entity);
 /// The relaxed length of the edge between two vertices.
 template <int D>
 double relaxed_length(const Domain<D>& domain, const VertexRecord<D>& u, const VertexRecord<D>& v);
+
+/// 2D: the two segments between which the shortest edge of a triangle of these corners lies, if they meet at an angle below
+/// the bound and its ends are equally far from there (by a thousandth). Such a triangle is not split for its shape (after
+/// Shewchuk 1997): its neighbours along the segments would have to be as small, up to where they meet. `bound`: on
+/// circumradius over shortest edge.
+std::optional<EntityPair> small_angle_across(const Domain<2>& domain, const std::array<const VertexRecord<2>*, 3>& corners,
+                                             double bound);
 
 /// The demand of an entity encroached upon by q.
 template <int D>

@@ -28,14 +28,15 @@
 //   input points. Sections that a mesh has no place for are skipped.
 // - .msh: the first physical group of an element is its label; groups of labels that are no positive integers have the
 //   names "pgdr marker <m>" and "pgdr region <a>". Node and element tags are their places from 1 (cells come first).
-// - .node, .ele: X.node, X.ele, X.face (3D, subfacets) and X.edge (subsegments), numbered from 1, written all or none.
-//   The latter two may be missing when read; attributes of points are dropped.
+// - .node, .ele: X.node, X.ele, X.face (3D, subfacets) and X.edge (subsegments), numbered from 1 unless WriteOptions say
+//   0, written all or none. The latter two may be missing when read. X.edge may have all edges, and X.neigh the
+//   neighbours of each cell.
 // - .mesh and .msh as inputs: cells (tetrahedra, hexahedra, ...; in 2D triangles) are dropped, with the points that they
 //   alone have, but faces of simplices that bound them, or lie between labels, become facets where the file has none;
 //   labels become region seeds, the voids that the cells enclose holes. A file whose points all have z = 0 is 2D, if it
 //   has no cells of volume.
-// - .vtu: cells, then subfacets, then subsegments; cell data "region" (of the cells) and "marker" (of the others), point
-//   data "marker", field data "dimension" and "input_points"; raw appended data.
+// - .vtu: cells, then subfacets, then subsegments; cell data "region", "leaf" (of the cells) and "marker" (of the others),
+//   point data "marker" and "attributes", field data "dimension" and "input_points"; raw appended data.
 #pragma once
 
 #include <filesystem>
@@ -62,10 +63,17 @@ int file_dimension(const std::filesystem::path& file);
 /// Always so for .vtu and .ele, never for formats of inputs alone; .node counts as points. @throws as read_plc
 bool holds_cells(const std::filesystem::path& file);
 
+/// What the files of TetGen and Triangle leave open. Other formats take no notice of it.
+struct WriteOptions {
+  std::uint32_t first_index = 1;  ///< number of the first point, cell, ...: 0 or 1
+  bool edges = false;      ///< X.edge has all edges: first the subsegments, which a comment counts, then the others, marker 0
+  bool neighbors = false;  ///< write X.neigh, too: of each cell, in the order of its corners, the cell opposite; -1: none
+};
+
 /// Whether `read_mesh` and `write_mesh` know the extension. The file is not opened.
 bool is_mesh_format(const std::filesystem::path& file);
-/// The files that `write_mesh` to this name replaces: itself, but for .node and .ele, which come as four.
-std::vector<std::string> files_of_mesh(const std::filesystem::path& file);
+/// The files that `write_mesh` to this name replaces: itself, but for .node and .ele, which come as four or five.
+std::vector<std::string> files_of_mesh(const std::filesystem::path& file, const WriteOptions& options = {});
 
 /// Vertex indices are in range; whether the cells are a mesh is the checker's business. @throws as read_plc
 template <int D>
@@ -73,8 +81,9 @@ OutputMesh<D> read_mesh(const std::filesystem::path& file);
 
 /// Replaces a file of that name when all is written, not before (.node and .ele: the files of both and of .face and
 /// .edge; a process that is killed in the middle leaves no .ele).
-/// @throws FileError cannot_write (nothing is left behind, an older file is as it was), InputError unknown_format
+/// @throws FileError cannot_write (nothing is left behind, an older file is as it was), InputError unknown_format,
+///   UsageError bad_option (a first index other than 0 and 1)
 template <int D>
-void write_mesh(const OutputMesh<D>& mesh, const std::filesystem::path& file);
+void write_mesh(const OutputMesh<D>& mesh, const std::filesystem::path& file, const WriteOptions& options = {});
 
 }  // namespace pgdr

@@ -75,6 +75,7 @@ struct RefineOptions {
   /// What a run that was cancelled (by `stop`, or as part of the caller's tasks) returns. True: the mesh so far, valid, its
   /// Steiner points and cells in no particular order (as after the time limit), without reasons. False: no mesh, sooner.
   bool partial_mesh = true;
+  bool leaves = false;            ///< say of each cell which leaf of the tree holds its circumcentre (OutputMesh::leaves)
   ScheduleOptions schedule;       ///< threads, and how work is divided among them
   /// Called by one thread at a time, a few times a second at most, from any of the threads. May throw.
   std::function<void(const Progress&)> progress;

@@ -103,6 +103,10 @@ class Domain {
   /// First Plc point of each domain point.
   std::span<const std::uint32_t> input_of_point() const { return input_of_point_; }
   std::span<const int> point_markers() const { return point_markers_; }        ///< one a domain point, or empty
+  /// points().size() times attributes_per_point(), one point after the other.
+  std::span<const double> point_attributes() const { return point_attributes_; }
+  /// How many attributes each point has.
+  std::size_t attributes_per_point() const { return points_.empty() ? 0 : point_attributes_.size() / points_.size(); }
   std::span<const DomainSegment> segments() const { return segments_; }        ///< by EntityId
   std::span<const DomainFacet> facets() const { return facets_; }              ///< by EntityId; 2D: none
   std::span<const std::array<std::uint32_t, 3>> triangles(EntityId f) const;   ///< that define facet f, by domain points
@@ -134,6 +138,7 @@ class Domain {
   std::vector<Point<D>> points_;
   std::vector<std::uint32_t> point_of_input_, input_of_point_;
   std::vector<int> point_markers_;
+  std::vector<double> point_attributes_;
   std::vector<DomainSegment> segments_;
   std::vector<DomainFacet> facets_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;

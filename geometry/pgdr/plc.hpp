@@ -52,6 +52,7 @@ struct Plc {
 
   std::vector<Point<D>> points;    ///< exact duplicates become one vertex
   std::vector<int> point_markers;  ///< empty, or one a point
+  std::vector<double> point_attributes;  ///< of the first point, of the second, ...: equally many each, or none at all
   std::vector<Segment> segments;   ///< 2D: the boundary and inner constraints; 3D: those that no facet has
   std::vector<Facet> facets;       ///< 3D: the boundary and inner constraints; 2D: must be empty
   std::vector<Point<D>> holes;     ///< a point in each volume (area) that is to stay empty

@@ -39,6 +39,7 @@ class LeafRefinement {
   const RefineCounts& counts() const { return counts_; }
   const SchedulerStatistics& statistics() const { return statistics_; }
   std::vector<VisitTrace> take_trace() { return std::move(trace_); }
+  Orthtree<D> take_tree() { return std::move(tree_); }
   /// Of visits that ran on other threads than the one that made this object.
   const PredicateCounts& predicates_elsewhere() const { return predicates_elsewhere_; }
   /// Were there ever faces that are not locally Delaunay?

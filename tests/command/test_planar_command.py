@@ -16,7 +16,7 @@ class Planar(Case):
     def checked(self, model, bounds, *flags, expect=0):
         """Meshes, checks with the same flags, and returns the report of the mesh."""
         self.mesh(model, *bounds, *flags, "--report", self.report, expect=expect)
-        shared = [f for f in flags if f != "--keep-boundary"]
+        shared = [f for f in flags if f not in ("--keep-boundary", "--neighbors", "--edges")]
         self.pgdr("check", self.output, "--input", model, *bounds, *shared, "--reasons", self.report, expect=expect)
         return self.json()
 
@@ -71,6 +71,64 @@ class Planar(Case):
         for flag in ("--keep-boundary", "--resolve-crossings", "--convex-hull"):
             done = self.pgdr("mesh", BRACKET, "-o", self.output, flag, expect=2)
             self.assertIn("2D", done.stderr)
+
+    def rows(self, suffix):
+        """Numbers of the lines of one of the files of the mesh, its header first."""
+        lines = self.output.with_suffix(suffix).read_text().splitlines()
+        return [[float(w) for w in line.split()] for line in lines if not line.startswith("#")]
+
+    def test_files_as_triangle_writes_them(self):
+        # Counts from 0; two attributes, of which the first is x + 10; markers; a region of attribute 7 and area 1.
+        points = ((0, 0, 3), (4, 0, 0), (4, 4, 0), (0, 4, 0), (1, 2, 0))
+        model = self.file("square.poly", "5 2 2 1\n" + "".join(
+            f"{i} {x} {y} {x + 10} 5 {m}\n" for i, (x, y, m) in enumerate(points)) +
+            "4 1\n0 0 1 8\n1 1 2 0\n2 2 3 0\n3 3 0 9\n0\n1\n0 1 1 7 1\n")
+        self.output = self.folder / "out.node"
+        self.checked(model, ["--min-angle", 30], "--neighbors", "--edges")
+        for first, flags in ((0, []), (1, ["--first-index", 1]), (0, ["--first-index", 0])):
+            self.mesh(model, "--min-angle", 30, "--neighbors", "--edges", *flags, expect=0)
+            node, ele, edge, neigh = (self.rows(s) for s in (".node", ".ele", ".edge", ".neigh"))
+            self.assertEqual(node[0][1:], [2, 2, 1])
+            self.assertEqual([n[0] for n in node[1:]], list(range(first, first + len(node) - 1)))
+            for _, x, y, a, b, marker in node[1:]:
+                self.assertAlmostEqual(a, x + 10, 12)
+                self.assertEqual(b, 5)
+                wanted = 3 if (x, y) == (0, 0) else 8 if y == 0 else 9 if x == 0 else 0
+                self.assertEqual(marker, wanted, (x, y))
+            corners = [tuple(c[1:4]) for c in ele[1:]]
+            self.assertEqual(ele[0], [len(corners), 3, 1])
+            self.assertEqual({c[4] for c in ele[1:]}, {7})
+            self.assertEqual((neigh[0], [c[0] for c in neigh[1:]]), ([len(corners), 3], [c[0] for c in ele[1:]]))
+            sides, place = {}, {i + first: c for i, c in enumerate(corners)}
+            for i, c in place.items():
+                (x0, y0), (x1, y1), (x2, y2) = (node[int(v) - first + 1][1:3] for v in c)
+                area = ((x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0)) / 2
+                self.assertTrue(0 < area <= 1)
+                for k in range(3):
+                    sides.setdefault(frozenset((c[k - 1], c[k - 2])), []).append(i)
+            for i, *others in neigh[1:]:
+                for k, other in enumerate(others):
+                    side = frozenset((place[i][k - 1], place[i][k - 2]))
+                    self.assertEqual(sorted(sides[side]), sorted([i] if other == -1 else [i, other]))
+            self.assertEqual(sorted(tuple(sorted(e[1:3])) for e in edge[1:]), sorted(tuple(sorted(s)) for s in sides))
+            self.assertEqual({e[3] for e in edge[1:]}, {0, 8, 9})
+            self.pgdr("check", self.output, "--input", model, "--min-angle", 30, expect=0)
+
+    def test_no_refinement(self):
+        self.mesh(PLATE, "--no-refine", "--report", self.report, expect=0)
+        self.pgdr("check", self.output, "--input", PLATE, expect=0)
+        self.pgdr("info", self.output, "--report", self.report, expect=0)
+        corners = self.json()["vertices"]
+        lines = [line for line in PLATE.read_text().splitlines() if line and not line.startswith("#")]
+        self.assertEqual(corners, int(lines[0].split()[0]))
+        self.mesh(BRACKET, "--no-refine", expect=0)
+        self.pgdr("check", self.output, "--input", BRACKET, expect=0)
+
+    def test_output_flags_have_their_formats(self):
+        for flags, name in ((["--neighbors"], "out.vtu"), (["--edges"], "out.msh"), (["--first-index", 0], "out.mesh"),
+                            (["--leaves"], "out.node"), (["--first-index", 2], "out.node")):
+            done = self.pgdr("mesh", PLATE, "-o", self.folder / name, *flags, expect=2)
+            self.assertIn(flags[0], done.stderr)
 
 
 if __name__ == "__main__":

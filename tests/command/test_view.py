@@ -2,6 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The pgdr authors
 # SPDX-License-Identifier: Apache-2.0
 """Pictures that `pgdr view` draws, from outside. Usage: test_view.py [Class[.test]...]"""
+import json
 import struct
 import unittest
 import xml.etree.ElementTree as ElementTree
@@ -128,6 +129,15 @@ class View(Case):
         self.view(self.output, "--cut", "x=100", "--from", "-1,0,0", name="none.svg", expect=2)
         everything = self.polygons(self.view(self.output, "--cut", "x=100"))
         self.assertEqual([p.attrib for p in everything], [p.attrib for p in whole])
+
+    def test_leaves(self):
+        self.mesh(PLATE, "--size", 0.0005, expect=0)
+        self.view(self.output, "--color", "leaf", expect=2)
+        self.mesh(PLATE, "--size", 0.0005, "--leaves", "--report", self.folder / "mesh.json", expect=0)
+        leaves = json.loads((self.folder / "mesh.json").read_text())["scheduler"]["leaves"]
+        self.assertGreater(leaves, 3)
+        fills = {p.get("fill") for p in self.polygons(self.view(self.output, "--color", "leaf"))}
+        self.assertTrue(3 < len(fills) <= leaves, (len(fills), leaves))
 
     def test_wrong_flags(self):
         plane, space = self.file("two.mesh", TWO), self.file("stack.mesh", STACK)

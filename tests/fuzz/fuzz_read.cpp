@@ -53,6 +53,7 @@ void expect_in_range(const Plc<D>& plc) {
     for (const auto& polygon : f.polygons)
       for (const std::uint32_t v : polygon) expect(v);
   FUZZ_EXPECT(plc.point_markers.empty() || plc.point_markers.size() == plc.points.size());
+  FUZZ_EXPECT(plc.point_attributes.empty() || plc.point_attributes.size() % plc.points.size() == 0);
 }
 
 template <int D>
@@ -66,6 +67,8 @@ void expect_in_range(const OutputMesh<D>& m) {
   for (const auto& f : m.subfacets) expect(f.vertices);
   FUZZ_EXPECT(m.regions.empty() || m.regions.size() == m.cells.size());
   FUZZ_EXPECT(m.point_markers.empty() || m.point_markers.size() == m.points.size());
+  FUZZ_EXPECT(m.point_attributes.empty() || m.point_attributes.size() % m.points.size() == 0);
+  FUZZ_EXPECT(m.leaves.empty() || m.leaves.size() == m.cells.size());
 }
 
 template <int D>

@@ -1,0 +1,213 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "pgdr/point_data.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "detail/bulk.hpp"
+#include "detail/interpolation.hpp"
+
+namespace pgdr {
+namespace {
+
+constexpr std::uint32_t none = 0xffffffffu;
+
+/// What each vertex of a mesh is numbered, by index(VertexId); `none` if it is not.
+using Numbers = std::span<const std::uint32_t>;
+
+/// Calls f(number, record) for each numbered vertex that is no input point.
+template <int D, class F>
+void each_steiner_point(const Mesh<D>& mesh, Numbers numbers, const detail::Bulk& bulk, const F& f) {
+  bulk.each(numbers.size(), [&](std::size_t i) {
+    if (numbers[i] == none) return;
+    const VertexRecord<D>& v = mesh.vertex(VertexId{static_cast<std::uint32_t>(i)});
+    if (v.home.kind() != EntityKind::vertex) f(numbers[i], v);
+  });
+}
+
+/// Rows of attributes of points, by their number.
+class Rows {
+ public:
+  Rows(std::vector<double>& values, std::size_t columns) : values_(&values), columns_(columns) {}
+
+  template <std::size_t N>
+  void set(std::size_t row, const detail::WeightedCorners<N>& place, std::span<const double> from) const {
+    for (std::size_t k = 0; k < columns_; ++k)
+      (*values_)[row * columns_ + k] = place.mean([&](std::uint32_t v) { return from[v * columns_ + k]; });
+  }
+
+ private:
+  std::vector<double>* values_;
+  std::size_t columns_;
+};
+
+/// The triangles that define a facet, by what is next to them.
+class FacetInterpolation {
+ public:
+  FacetInterpolation(const Domain<3>& domain, EntityId facet)
+      : points_(domain.points()), triangles_(domain.triangles(facet)), tree_(boxes()) {}
+
+  detail::WeightedCorners<3> at(const Point3& x) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    std::uint32_t best = none;
+    detail::WeightedCorners<3> place{triangles_[0], {1, 0, 0}};
+    tree_.search([&](const Box& box) { return box.squared_distance_to(x) * (1 - 0x1p-40); },
+                 [&](std::uint32_t t) {
+                   const auto& v = triangles_[t];
+                   const auto weight = detail::nearest_weights({points_[v[0]], points_[v[1]], points_[v[2]]}, x);
+                   Point3 p{};
+                   for (std::size_t i = 0; i < 3; ++i)
+                     for (int k = 0; k < 3; ++k) p[k] += weight[i] * points_[v[i]][k];
+                   const double d = squared_distance(p, x);
+                   if (d < nearest || (d == nearest && t < best)) {
+                     nearest = d;
+                     best = t;
+                     place = {v, weight};
+                   }
+                   return nearest;
+                 });
+    return place;
+  }
+
+ private:
+  using Box = detail::SearchBox<3>;
+  std::vector<Box> boxes() const {
+    std::vector<Box> all;
+    for (const auto& t : triangles_) {
+      Box box = Box::empty();
+      for (const std::uint32_t v : t) box.add(points_[v]);
+      all.push_back(box);
+    }
+    return all;
+  }
+
+  std::span<const Point3> points_;
+  std::span<const std::array<std::uint32_t, 3>> triangles_;
+  detail::SearchTree<3> tree_;
+};
+
+/// Attributes of the Steiner points on facets, facet by facet.
+void fill_on_facets(const Mesh<3>& mesh, const Domain<3>& domain, Numbers numbers, const detail::Bulk& bulk, const Rows& rows) {
+  struct OnFacet {
+    EntityId facet;
+    std::uint32_t number;
+    Point3 point;
+  };
+  auto list = bulk.gather<OnFacet>(numbers.size(), [&](std::size_t i, std::vector<OnFacet>& found) {
+    if (numbers[i] == none) return;
+    const VertexRecord<3>& v = mesh.vertex(VertexId{static_cast<std::uint32_t>(i)});
+    if (v.home.kind() == EntityKind::facet) found.push_back({v.home.id(), numbers[i], v.point});
+  });
+  bulk.sort(list, [](const OnFacet& a, const OnFacet& b) { return a.facet < b.facet; });
+  for (std::size_t i = 0, j; i < list.size() && !bulk.stopped(); i = j) {
+    for (j = i; j < list.size() && list[j].facet == list[i].facet;) ++j;
+    const FacetInterpolation facet(domain, list[i].facet);
+    bulk.each(j - i, [&](std::size_t k) {
+      rows.set(list[i + k].number, facet.at(list[i + k].point), domain.point_attributes());
+    });
+  }
+}
+
+/// Sets the attributes of all numbered points but those of the input. `unrefined`: what those inside are interpolated on.
+template <int D>
+void fill_attributes(const Mesh<D>& mesh, const Domain<D>& domain, Numbers numbers, const detail::Bulk& bulk,
+                     const detail::MeshInterpolation<D>* unrefined, std::span<const double> of_unrefined, const Rows& rows) {
+  each_steiner_point<D>(mesh, numbers, bulk, [&](std::uint32_t number, const VertexRecord<D>& v) {
+    if (v.home.kind() == EntityKind::segment) {
+      const double t = segment_parameter<D>(domain, v.home.id(), v.point);
+      const detail::WeightedCorners<2> place{domain.segments()[v.home.id()].points, {1 - t, t}};
+      rows.set(number, place, domain.point_attributes());
+    } else if (v.home.kind() == EntityKind::volume && unrefined) {
+      rows.set(number, unrefined->at(v.point), of_unrefined);
+    }
+  });
+  if constexpr (D == 3) fill_on_facets(mesh, domain, numbers, bulk, rows);
+}
+
+/// Of a segment, or, in 3D where it has none, of the first of its facets that has one.
+template <int D>
+int marker_of(const Domain<D>& domain, Home home) {
+  if (D == 3 && home.kind() == EntityKind::facet) return domain.facets()[home.id()].marker;
+  if (home.kind() != EntityKind::segment) return 0;
+  int marker = domain.segments()[home.id()].marker;
+  if constexpr (D == 3)
+    for (const EntityId f : domain.facets_of_segment(home.id()))
+      if (marker == 0) marker = domain.facets()[f].marker;
+  return marker;
+}
+
+}  // namespace
+
+template <int D>
+PointData<D>::PointData(const Mesh<D>& unrefined, const Domain<D>& domain) : domain_(&domain) {
+  const std::size_t columns = domain.attributes_per_point();
+  if (columns == 0) return;
+  std::vector<std::uint32_t> numbers(unrefined.vertex_bound(), none);
+  std::vector<Point<D>> points(numbers.size());
+  std::vector<std::array<std::uint32_t, D + 1>> cells;
+  attributes_.resize(numbers.size() * columns);
+  for (std::uint32_t c = 0; c < unrefined.cell_bound(); ++c) {
+    if (!unrefined.alive(CellId{c})) continue;
+    auto& cell = cells.emplace_back();
+    for (int i = 0; i <= D; ++i) {
+      const VertexId v = unrefined.cell(CellId{c}).vertices[i];
+      cell[i] = numbers[index(v)] = index(v);
+      points[index(v)] = unrefined.point(v);
+      const Home home = unrefined.vertex(v).home;
+      if (home.kind() == EntityKind::vertex)
+        std::copy_n(domain.point_attributes().begin() + home.id() * columns, columns, attributes_.begin() + index(v) * columns);
+    }
+    std::sort(cell.begin(), cell.end(), [&](std::uint32_t v, std::uint32_t w) { return lex_less(points[v], points[w]); });
+  }
+  // The cell with the smallest number counts where several hold a point: numbers that are no matter of chance.
+  std::sort(cells.begin(), cells.end(), [&](const auto& a, const auto& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(),
+                                        [&](std::uint32_t v, std::uint32_t w) { return lex_less(points[v], points[w]); });
+  });
+  const Rows rows(attributes_, columns);
+  fill_attributes<D>(unrefined, domain, numbers, detail::Bulk(false), nullptr, {}, rows);
+  unrefined_ = std::make_unique<detail::MeshInterpolation<D>>(std::move(points), cells);
+}
+
+template <int D>
+PointData<D>::PointData(PointData&&) noexcept = default;
+template <int D>
+PointData<D>::~PointData() = default;
+
+template <int D>
+void PointData<D>::fill_markers(const Mesh<D>& refined, const detail::Bulk& bulk, Compacted<D>& out) const {
+  auto& markers = out.mesh.point_markers;
+  const auto input = domain_->point_markers();
+  markers.assign(input.begin(), input.end());
+  markers.resize(out.mesh.points.size(), 0);
+  const auto is_marked = [](const auto& entity) { return entity.marker != 0; };
+  if (std::none_of(domain_->segments().begin(), domain_->segments().end(), is_marked) &&
+      std::none_of(domain_->facets().begin(), domain_->facets().end(), is_marked))
+    return;
+  each_steiner_point<D>(refined, out.vertex_number, bulk, [&](std::uint32_t number, const VertexRecord<D>& v) {
+    markers[number] = marker_of<D>(*domain_, v.home);
+  });
+  if constexpr (D == 2)
+    for (const DomainSegment& s : domain_->segments())
+      for (const std::uint32_t v : s.points)
+        if (markers[v] == 0) markers[v] = s.marker;
+}
+
+template <int D>
+void PointData<D>::fill(const Mesh<D>& refined, Compacted<D>& out, bool parallel, std::stop_token stop) const {
+  const detail::Bulk bulk(parallel, std::move(stop));
+  fill_markers(refined, bulk, out);
+  if (!unrefined_) return;
+  const std::size_t columns = domain_->attributes_per_point();
+  auto& values = out.mesh.point_attributes;
+  values.assign(domain_->point_attributes().begin(), domain_->point_attributes().end());
+  values.resize(out.mesh.points.size() * columns);
+  fill_attributes<D>(refined, *domain_, out.vertex_number, bulk, unrefined_.get(), attributes_, Rows(values, columns));
+}
+
+template class PointData<2>;
+template class PointData<3>;
+
+}  // namespace pgdr
