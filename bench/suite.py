@@ -57,7 +57,7 @@ def arguments():
     add("--peers", default="tetgen,gmsh", help="other programs, run where they are installed; default: %(default)s")
     add("--limit", type=float, default=3600, help="seconds for one run of a program; default: %(default)s")
     add("--bench-diagnosis", default="", help="default: bench/bench_diagnosis beside the command, if it is there")
-    add("--out", type=pathlib.Path, default=pathlib.Path("bench_results"), help="folder of the results; default: %(default)s")
+    add("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="folder of the results; default: %(default)s")
     return parser.parse_args()
 
 
@@ -195,6 +195,9 @@ def main():
         if not programs[p]:
             print(f"{p} is not installed, and left out", file=sys.stderr)
     a.out.mkdir(parents=True, exist_ok=True)
+    for name in ["runs.csv", "summary.csv", "diagnosis.csv", "results.json", "wrong.txt"]:
+        (a.out / name).unlink(missing_ok=True)
+    suite_plots.remove(a.out)
     record = suite_machine.record(suite_models.ROOT, pgdr)
     if record["machine"]["load_before"] > 0.3 and not a.quick:
         print("the machine is busy: compare cpu seconds, if anything", file=sys.stderr)

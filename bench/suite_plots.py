@@ -4,10 +4,10 @@
 import shutil
 import subprocess
 
-HEAD = """set terminal svg size 640,440 noenhanced font "sans-serif,13" background "white"
+HEAD = """set terminal svg size 760,520 noenhanced font "sans-serif,13" background "white"
 set encoding utf8
-set key outside right top reverse Left
-set grid ytics lc rgb "#dddddd"
+set key below reverse Left maxcols 2
+set grid ytics lt 1 lw 1 lc rgb "#dddddd"
 set border 3
 set tics nomirror
 """
@@ -65,6 +65,13 @@ def label(row):
     return words
 
 
+def remove(folder):
+    """Plots of an earlier suite."""
+    names = ["efficiency", "work_path", "bytes_per_cell", "rate", "diagnosis"]
+    for file in [folder / (n + ".svg") for n in names] + list(folder.glob("time_*.svg")):
+        file.unlink(missing_ok=True)
+
+
 def draw(folder, summary, diagnosis):
     """The files that were drawn. @throws NoGnuplot"""
     measured = [r for r in summary if r["seconds_mesh"]]
@@ -89,8 +96,8 @@ def draw(folder, summary, diagnosis):
                                 models, pick("work_over_path", own))
     least = [r for r in measured if r["threads"] == min(x["threads"] for x in measured if x["program"] == r["program"])]
     scripts["bytes_per_cell"] = bars("peak memory of the program", "bytes a cell", models, pick("bytes_per_cell", least))
-    rate = {k: v / 1e6 for k, v in pick("cells_per_second", measured).items()}
-    scripts["rate"] = bars("cells a second of meshing", "million cells a second", models, rate)
+    rate = {k: v / 1e6 for k, v in pick("cells_per_second", least).items()}
+    scripts["rate"] = bars("cells a second of meshing, fewest threads", "million cells a second", models, rate)
     curves = {}
     for r in diagnosis:
         curves.setdefault(r["surface"], []).append((r["triangles"], r["processor_seconds"]))

@@ -84,7 +84,7 @@ class BenchSuite(unittest.TestCase):
     def test_plots(self):
         self.suite("--models", "cube", "--threads", "1,2", "--repeat", "1", "--peers", "")
         for name, words in {"time_cube": {"cube: seconds of meshing", "pgdr, greedy", "threads"},
-                            "efficiency": {"cube", "threads"}, "rate": {"pgdr, greedy, 2"},
+                            "efficiency": {"cube", "threads"}, "rate": {"pgdr, greedy, 1"},
                             "work_path": {"pgdr, reproducible, 1"}, "bytes_per_cell": {"bytes a cell"}}.items():
             root = ElementTree.parse(self.out / (name + ".svg")).getroot()
             self.assertEqual(root.tag, SVG + "svg")
