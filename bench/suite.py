@@ -15,6 +15,7 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import statistics
 import sys
 import tempfile
@@ -167,13 +168,65 @@ def prepare_inputs(models, a, folder):
     return inputs, kept
 
 
-def versions(programs):
-    found = {"pgdr": suite_machine.said([programs["pgdr"], "--version"])}
-    if programs["tetgen"]:
-        found["TetGen"] = programs["tetgen"]  # 1.5 cannot be asked for its version
-    if programs["gmsh"]:
-        found["gmsh"] = suite_machine.said([programs["gmsh"], "--version"])
+def run_all(suite, todo, a, runs):
+    """Appends to runs. False if Ctrl-C (or SIGTERM) ended it: what there is then is summed up."""
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        for number in range(1, a.repeat + 1):
+            for i, c in enumerate(todo, 1):
+                row = suite.run(c, number)
+                runs.append(row)
+                shown = f"{row['seconds_mesh']:.3f} s" if row["seconds_mesh"] is not None else row["remark"] or "no mesh"
+                print(f"round {number}, {i}/{len(todo)}: {c.model.name}, {suite_plots.label(row)}, {c.threads}: {shown}",
+                      flush=True)
+                write_csv(a.out / "runs.csv", COLUMNS, runs)
+    except KeyboardInterrupt:
+        print("ended by Ctrl-C", file=sys.stderr)
+        return False
+    return True
+
+
+def versions(pgdr, peers):
+    found = {"pgdr": suite_machine.said([pgdr, "--version"])}
+    if "tetgen" in peers:
+        found["TetGen"] = peers["tetgen"]  # 1.5 cannot be asked for its version
+    if "gmsh" in peers:
+        found["gmsh"] = suite_machine.said([peers["gmsh"], "--version"])
     return found
+
+
+def chosen(a):
+    """What the flags ask for: models, schedules, threads, and the programs of the peers that are installed."""
+    by_name = {m.name: m for m in suite_models.MODELS}
+    models = [by_name[n] for n in names_of(a.models, by_name, "model")] or [m for m in suite_models.MODELS if m.usual]
+    programs = {}
+    for peer in names_of(a.peers, ["tetgen", "gmsh"], "peer"):
+        programs[peer] = shutil.which(peer)
+        if not programs[peer]:
+            print(f"{peer} is not installed, and left out", file=sys.stderr)
+    return ([m for m in models if m.quick or not a.quick], names_of(a.schedules, ["reproducible", "greedy"], "schedule"),
+            list(dict.fromkeys(int(t) for t in a.threads.split(","))), {p: f for p, f in programs.items() if f})
+
+
+def remove_old(folder):
+    """Results of an earlier suite."""
+    for name in ["runs.csv", "summary.csv", "diagnosis.csv", "results.json", "wrong.txt"]:
+        (folder / name).unlink(missing_ok=True)
+    suite_plots.remove(folder)
+
+
+def write_results(folder, record):
+    write_csv(folder / "runs.csv", COLUMNS, record["runs"])
+    write_csv(folder / "summary.csv", SUMMARY, record["summary"])
+    if record["diagnosis"]:
+        write_csv(folder / "diagnosis.csv", list(record["diagnosis"][0]), record["diagnosis"])
+    (folder / "results.json").write_text(json.dumps(record, indent=1) + "\n")
+    (folder / "wrong.txt").write_text("".join(w + "\n" for w in record["wrong"]))
+    print_table(record["summary"])
+    try:
+        suite_plots.draw(folder, record["summary"], record["diagnosis"])
+    except suite_plots.NoGnuplot as error:
+        print(error, file=sys.stderr)
 
 
 def main():
@@ -183,21 +236,9 @@ def main():
         return usage(f"there is no {a.pgdr}: build it first (cmake --preset release && cmake --build --preset release)")
     if a.repeat < 1 or not re.fullmatch(r"[1-9]\d*(,[1-9]\d*)*", a.threads):
         return usage("--repeat and --threads take positive whole numbers")
-    by_name = {m.name: m for m in suite_models.MODELS}
-    models = [by_name[n] for n in names_of(a.models, by_name, "model")] or [m for m in suite_models.MODELS if m.usual]
-    models = [m for m in models if m.quick or not a.quick]
-    schedules = names_of(a.schedules, ["reproducible", "greedy"], "schedule")
-    threads = list(dict.fromkeys(int(t) for t in a.threads.split(",")))
-    asked = names_of(a.peers, ["tetgen", "gmsh"], "peer")
-    programs = {"pgdr": pgdr, **{p: shutil.which(p) if p in asked else None for p in ("tetgen", "gmsh")}}
-    peers = [p for p in asked if programs[p]]
-    for p in asked:
-        if not programs[p]:
-            print(f"{p} is not installed, and left out", file=sys.stderr)
+    models, schedules, threads, peers = chosen(a)
     a.out.mkdir(parents=True, exist_ok=True)
-    for name in ["runs.csv", "summary.csv", "diagnosis.csv", "results.json", "wrong.txt"]:
-        (a.out / name).unlink(missing_ok=True)
-    suite_plots.remove(a.out)
+    remove_old(a.out)
     record = suite_machine.record(suite_models.ROOT, pgdr)
     if record["machine"]["load_before"] > 0.3 and not a.quick:
         print("the machine is busy: compare cpu seconds, if anything", file=sys.stderr)
@@ -205,32 +246,16 @@ def main():
     runs = []
     with tempfile.TemporaryDirectory(prefix="pgdr_suite_") as folder:
         inputs, models = prepare_inputs(models, a, pathlib.Path(folder))
+        if not models:
+            return usage("none of these models is there")
         sizes = {m.name: m.quick if a.quick else m.size for m in models}
-        suite = Suite(pgdr, inputs, sizes, a.limit, programs["tetgen"], programs["gmsh"])
-        todo = list(configurations(models, threads, schedules, peers))
-        for number in range(1, a.repeat + 1):
-            for i, c in enumerate(todo, 1):
-                row = suite.run(c, number)
-                runs.append(row)
-                shown = f"{row['seconds_mesh']:.3f} s" if row["seconds_mesh"] is not None else row["remark"] or "no mesh"
-                print(f"round {number}, {i}/{len(todo)}: {c.model.name}, {suite_plots.label(row)}, {c.threads}: {shown}",
-                      flush=True)
-                write_csv(a.out / "runs.csv", COLUMNS, runs)  # what there is, should the rest be ended
-    diagnosis, wrong = run_diagnosis(a)
+        suite = Suite(pgdr, inputs, sizes, a.limit, peers.get("tetgen"), peers.get("gmsh"))
+        ended = run_all(suite, list(configurations(models, threads, schedules, peers)), a, runs)
+    diagnosis, wrong = run_diagnosis(a) if ended else ([], ["ended by Ctrl-C"])
     wrong = list(wrong_runs(runs)) + wrong
-    summary = summarize(runs)
-    write_csv(a.out / "summary.csv", SUMMARY, summary)
-    if diagnosis:
-        write_csv(a.out / "diagnosis.csv", list(diagnosis[0]), diagnosis)
-    record.update(programs=versions(programs), quick=a.quick, repeat=a.repeat, sizes=sizes, wrong=wrong, summary=summary,
-                  diagnosis=diagnosis, runs=runs)
-    (a.out / "results.json").write_text(json.dumps(record, indent=1) + "\n")
-    print_table(summary)
-    try:
-        suite_plots.draw(a.out, summary, diagnosis)
-    except suite_plots.NoGnuplot as error:
-        print(error, file=sys.stderr)
-    (a.out / "wrong.txt").write_text("".join(w + "\n" for w in wrong))
+    record.update(programs=versions(pgdr, peers), quick=a.quick, repeat=a.repeat, sizes=sizes, wrong=wrong,
+                  summary=summarize(runs), diagnosis=diagnosis, runs=runs)
+    write_results(a.out, record)
     for w in wrong:
         print("WRONG: " + w)
     return 1 if wrong else 0

@@ -38,8 +38,14 @@ def measure(command, folder, limit, environment=None):
     result = folder / "measured.json"
     with tempfile.TemporaryFile() as said:
         launcher = [sys.executable, "-I", "-S", pathlib.Path(__file__).with_name("suite_measure.py"), result, limit]
-        subprocess.run([str(c) for c in launcher + list(command)], cwd=folder, stdout=said, stderr=subprocess.STDOUT,
-                       stdin=subprocess.DEVNULL, env={**os.environ, **(environment or {})}, check=True)
+        process = subprocess.Popen([str(c) for c in launcher + list(command)], cwd=folder, stdout=said,
+                                   stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
+                                   env={**os.environ, **(environment or {})})
+        try:
+            process.wait()
+        finally:  # if this is interrupted: the launcher ends the command
+            process.terminate()
+            process.wait()
         said.seek(0)
         words = said.read().decode(errors="replace")
     own = json.loads(result.read_text())

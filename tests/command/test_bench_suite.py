@@ -11,6 +11,7 @@ import stat
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import xml.etree.ElementTree as ElementTree
 
@@ -120,14 +121,33 @@ class BenchSuite(unittest.TestCase):
     def test_peers_may_fail(self):
         self.script("tetgen", "echo it breaks; exit 3\n")
         self.script("gmsh", "case $1 in --version) echo 1; exit;; esac\nexec sleep 100\n")
-        self.suite("--models", "cube", "--threads", "1", "--repeat", "1", "--schedules", "reproducible", "--limit", "5",
+        self.suite("--models", "cube", "--threads", "1", "--repeat", "1", "--schedules", "reproducible", "--limit", "15",
                    path=f"{self.folder}:{os.environ['PATH']}")
         remarks = {r["program"]: r["remark"] for r in self.rows("runs.csv")}
         self.assertEqual(remarks, {"pgdr": "", "TetGen": "no mesh: it breaks", "gmsh HXT": "out of time"})
 
+    def test_interrupted(self):
+        """What ran is summed up."""
+        number = self.folder / "pid"
+        slow = self.script("pgdr", f'case "$*" in mesh*greedy*) echo $$ >{number}; exec sleep 100;; esac\nexec {COMMAND} "$@"\n')
+        command = [sys.executable, "-B", SUITE, slow, "--quick", "--out", self.out, "--models", "cube", "--threads", "1",
+                   "--peers", ""]
+        with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+            self.assertIn("round 1, 1/2", process.stdout.readline())
+            while not number.exists() or not number.read_text().strip():
+                time.sleep(0.01)
+            process.terminate()  # this one alone: it has to end the others
+            said, errors = process.communicate(timeout=100)
+        self.assertEqual(process.returncode, 1, said + errors)
+        self.assertEqual([s["schedule"] for s in self.rows("summary.csv")], ["reproducible"])
+        self.assertEqual((self.out / "wrong.txt").read_text(), "ended by Ctrl-C\n")
+        with self.assertRaises(ProcessLookupError):
+            os.kill(int(number.read_text()), 0)
+
     def test_usage(self):
         for flags in (["--models", "sphere"], ["--threads", "0"], ["--repeat", "0"], ["--schedules", "fast"], ["--peers", "x"]):
             self.assertIn("suite.py: ", self.suite(*flags, expect=2).stderr)
+        self.assertIn("none of these", self.suite("--models", "elephant", "--model-folder", self.folder, expect=2).stderr)
         self.assertIn("build it first", self.suite(command="/nowhere/pgdr", expect=2).stderr)
 
 
