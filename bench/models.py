@@ -6,31 +6,40 @@
     bench/models.py build/release/pgdr FOLDER... [--limit SECONDS] [--tetgen tetgen] [--only PART] [--table FILE.md]
 
 A row is complete only if `pgdr check --reasons` ends with the code of `pgdr mesh`, and the run fails (exit 1) otherwise.
-The time of pgdr is that of the whole command, as is TetGen's; `pgdr check` counts the poor cells of both, from their files.
+Seconds are the processor's, of the whole commands, on one thread; `pgdr check` counts the poor cells of both, from their files.
 """
 import argparse
 import json
+import math
 import pathlib
 import resource
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
-import time
 
 READABLE = {".off", ".obj", ".stl", ".ply", ".poly", ".smesh", ".mesh", ".msh"}
 TETGEN_READS = {".off", ".stl", ".ply", ".poly", ".smesh", ".mesh"}
+WAIT = 20  # times the limit on the wall, should a command sleep
 TETGEN_BYTES = 8 << 30  # where it does not end, it may take all memory
 
 
-def run(command, limit, before=None):
-    start = time.time()
+def run(command, limit, memory=resource.RLIM_INFINITY):
+    """(exit code, seconds, what it said) of a command; exit code None if it took more than `limit` seconds. All seconds are the
+    processor's: those on the wall depend on what else the machine does."""
+    def limits():
+        resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(limit), math.ceil(limit) + 5))
+        resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
+    used = lambda: sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
+    start = used()
     try:
-        done = subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=limit,
-                              preexec_fn=before)
-        return done.returncode, time.time() - start, done.stdout + done.stderr
+        done = subprocess.run(command, capture_output=True, text=True, errors="replace", preexec_fn=limits,
+                              timeout=WAIT * limit)
     except subprocess.TimeoutExpired:
-        return None, limit, ""
+        return None, used() - start, ""
+    late = done.returncode in (-signal.SIGXCPU, -signal.SIGKILL)
+    return None if late else done.returncode, used() - start, done.stdout + done.stderr
 
 
 def as_off(model, folder):
@@ -62,12 +71,11 @@ def tetgen(args, model, folder):
     copy = pathlib.Path(as_off(model, folder) if model.suffix == ".obj" else shutil.copy(model, folder))
     if copy.suffix not in TETGEN_READS:
         return {"failure": "cannot read it"}
-    limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (TETGEN_BYTES, TETGEN_BYTES))
     volumes = "aA" if copy.suffix in {".poly", ".smesh"} else ""  # bounds of regions, which pgdr always heeds
-    code, seconds, _ = run([args.tetgen, f"-pq{args.bound:g}{volumes}BF", copy], 2 * args.limit, limit)
+    code, seconds, _ = run([args.tetgen, f"-pq{args.bound:g}{volumes}BF", copy], args.limit, TETGEN_BYTES)
     mesh = copy.with_suffix(".1.ele")
     if code is None:
-        return {"failure": f"over {seconds:g} s"}
+        return {"failure": f"over {args.limit:g} s"}
     if code < 0:
         return {"failure": f"signal {-code}"}
     if code or not mesh.exists():
@@ -82,7 +90,9 @@ def tetgen(args, model, folder):
 def one(args, model, folder):
     mesh, report = folder / "m.vtu", folder / "m.json"
     code, seconds, said = run([args.pgdr, "mesh", model, "-o", mesh, "--report", report, "--radius-edge", f"{args.bound:g}",
-                               "--quiet"], args.limit)
+                               "--threads", "1", "--quiet"], args.limit)
+    if code is None:
+        said = f"over {args.limit:g} s"
     row = {"model": model.name, "mesh": code, "seconds": seconds, "check": None, "said": said.strip()[:200]}
     if code in (0, 1):
         data = json.loads(report.read_text())
