@@ -131,6 +131,14 @@ def remarks(r):
         yield "more than 10 times TetGen's seconds"
 
 
+def write_table(file, lines):
+    """In place of what is between the marks of the file, which is kept otherwise."""
+    begin, end = "<!-- begin of the table -->", "<!-- end of the table -->"
+    old = file.read_text() if file.exists() else ""
+    before, after = (old.split(begin)[0], old.split(end)[1]) if begin in old and end in old else ("", "\n")
+    file.write_text(before + "\n".join([begin, ""] + lines + ["", end]) + after)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("pgdr")
@@ -160,7 +168,7 @@ def main():
         looks += [f"{r['model']}: {remark}" for remark in remarks(r)]
     print("\n".join(looks))
     if args.table:
-        args.table.write_text("\n".join(lines) + "\n")
+        write_table(args.table, lines + [""] + [f"* {look}" for look in looks])
     print(f"{len(models)} models, {bad} not as they should be")
     return bad > 0
 
