@@ -1,19 +1,24 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where the time of a run goes, on one thread (seconds; processor: the processor's, which counts where the machine is shared):
-// the phases of whole runs (the unit cube, each size given), then those of an
-// insertion (points of a Delaunay triangulation, in Hilbert order, through the same cavities as refinement).
+// Where the time of a run goes, on one thread: the phases of whole runs, each size given, as the command has them, and the
+// mesh read again; then those of an insertion (points of a Delaunay triangulation, in Hilbert order, through the same
+// cavities as refinement). Seconds; "user" and "system" are the processor's, of meshing alone, which count where the machine
+// is shared. The file that is written goes to the folder for temporary files, or to --folder.
 //
-//   bench_phases [--sizes 0.03,0.0135] [--points 200000]
+//   bench_phases [--model cube|FILE] [--sizes 0.03,0.0135] [--points 200000] [--folder FOLDER]
+//
+// Sizes that make some 0.2, 2, 10 and 30 million tetrahedra of the cube: 0.029,0.0133,0.0078,0.00538.
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <ctime>
+#include <filesystem>
 #include <random>
 #include <string>
 #include <vector>
@@ -33,6 +38,8 @@ using Clock = std::chrono::steady_clock;
 struct Arguments {
   std::vector<double> sizes{0.03, 0.0135};
   int points = 200000;
+  std::string model = "cube";
+  std::filesystem::path folder = std::filesystem::temp_directory_path();
 };
 
 [[noreturn]] void usage(const char* what) {
@@ -47,6 +54,10 @@ Arguments parse(int argc, char** argv) {
     const std::string flag = argv[i];
     if (flag == "--points") {
       a.points = std::max(100, std::atoi(argv[i + 1]));
+    } else if (flag == "--model") {
+      a.model = argv[i + 1];
+    } else if (flag == "--folder") {
+      a.folder = argv[i + 1];
     } else if (flag == "--sizes") {
       a.sizes.clear();
       for (const char* p = argv[i + 1]; *p; p += std::strcspn(p, ","), p += *p == ',') a.sizes.push_back(std::atof(p));
@@ -64,23 +75,60 @@ double peak_bytes() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-void whole_runs(const std::vector<double>& sizes) {
-  std::printf("%10s %9s %9s %9s %9s %9s %9s %9s %9s\n", "tetrahedra", "initial", "visits", "serial", "compact",
-              "mesh s", "processor", "M tets/s", "bytes/tet");
-  for (const double size : sizes) {
-    RefineOptions<3> options;
-    options.size = size;
-    options.schedule.threads = 1;
-    const std::clock_t start = std::clock();
-    const auto result = refine(unit_cube(), options);
-    const double processor = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-    const auto& s = result.statistics;
-    const double cells = static_cast<double>(result.mesh.cells.size());
-    std::printf("%10.0f %9.3f %9.3f %9.3f %9.3f %9.3f %9.3f %9.3f %9.1f\n", cells, s.seconds_initial,
-                result.scheduler.work_seconds - result.scheduler.serial_seconds, result.scheduler.serial_seconds,
-                s.seconds_mesh - s.seconds_initial - s.seconds_refine, s.seconds_mesh, processor, cells / processor / 1e6,
-                peak_bytes() / cells);
+/// Seconds of the processor so far, of this process in the program and in the kernel.
+std::array<double, 2> processor() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  return {seconds(usage.ru_utime), seconds(usage.ru_stime)};
+}
+
+double now() { return std::chrono::duration<double>(Clock::now().time_since_epoch()).count(); }
+
+/// The file is removed with it, whatever happens.
+struct TemporaryFile {
+  std::filesystem::path path;
+  ~TemporaryFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
   }
+};
+
+/// False: the mesh that was read is not the one that was written.
+bool whole_run(const Arguments& a, double size) {
+  const TemporaryFile file{a.folder / ("bench_phases." + std::to_string(getpid()) + ".vtu")};
+  const double begin = now();
+  const Plc<3> plc = a.model == "cube" ? unit_cube() : read_plc<3>(a.model);
+  const double meshing = now();
+  RefineOptions<3> options;
+  if (size > 0) options.size = size;
+  options.schedule.threads = 1;
+  const auto start = processor();
+  auto result = refine(plc, options);
+  const auto end = processor();
+  const double user = end[0] - start[0], system = end[1] - start[1];
+  const double summing = now();
+  const QualitySummary quality = summarize_quality(result.mesh);
+  const double writing = now();
+  write_mesh(result.mesh, file.path);
+  const double written = now(), peak = peak_bytes(), cells = static_cast<double>(result.mesh.cells.size());
+  const double reading = now();
+  const OutputMesh<3> again = read_mesh<3>(file.path);
+  const double ended = now();
+  const auto& s = result.statistics;
+  std::printf("%10.0f %7.3f %8.3f %8.3f %7.3f %8.3f %8.3f %7.3f %9.3f %8.3f %8.3f %8.3f %8.3f %9.1f\n", cells, meshing - begin,
+              s.seconds_initial, result.scheduler.work_seconds - result.scheduler.serial_seconds,
+              result.scheduler.serial_seconds, s.seconds_mesh - s.seconds_initial - s.seconds_refine, writing - summing,
+              written - writing, ended - reading, s.seconds_mesh, user, system, 1e6 * (user + system) / cells,
+              peak / cells);
+  std::fflush(stdout);
+  return again.cells == result.mesh.cells && quality.max_radius_edge > 0;
+}
+
+bool whole_runs(const Arguments& a) {
+  std::printf("%10s %7s %8s %8s %7s %8s %8s %7s %9s %8s %8s %8s %8s %9s\n", "tetrahedra", "read", "initial", "visits", "serial",
+              "compact", "summary", "write", "read mesh", "mesh", "user", "system", "us/tet", "bytes/tet");
+  return std::all_of(a.sizes.begin(), a.sizes.end(), [&](double size) { return whole_run(a, size); });
 }
 
 /// Sums up what passes between one call and the next, less what the clock itself takes.
@@ -165,7 +213,10 @@ bool insertions(int count) {
 
 int main(int argc, char** argv) {
   const Arguments a = parse(argc, argv);
-  whole_runs(a.sizes);
+  if (!whole_runs(a)) {
+    std::fprintf(stderr, "bench_phases: the mesh that was read is not the one that was written\n");
+    return 1;
+  }
   if (insertions(a.points)) return 0;
   std::fprintf(stderr, "bench_phases: an insertion failed\n");
   return 1;

@@ -6,29 +6,40 @@
     bench/models.py build/release/pgdr FOLDER... [--limit SECONDS] [--tetgen tetgen] [--only PART] [--table FILE.md]
 
 A row is complete only if `pgdr check --reasons` ends with the code of `pgdr mesh`, and the run fails (exit 1) otherwise.
-The time of pgdr is that of the whole command, as is TetGen's.
+Seconds are the processor's, of the whole commands, on one thread; `pgdr check` counts the poor cells of both, from their files.
 """
 import argparse
 import json
+import math
 import pathlib
-import re
+import resource
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
-import time
 
 READABLE = {".off", ".obj", ".stl", ".ply", ".poly", ".smesh", ".mesh", ".msh"}
 TETGEN_READS = {".off", ".stl", ".ply", ".poly", ".smesh", ".mesh"}
+WAIT = 20  # times the limit on the wall, should a command sleep
+TETGEN_BYTES = 8 << 30  # where it does not end, it may take all memory
 
 
-def run(command, limit):
-    start = time.time()
+def run(command, limit, memory=resource.RLIM_INFINITY):
+    """(exit code, seconds, what it said) of a command; exit code None if it took more than `limit` seconds. All seconds are the
+    processor's: those on the wall depend on what else the machine does."""
+    def limits():
+        resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(limit), math.ceil(limit) + 5))
+        resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
+    used = lambda: sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
+    start = used()
     try:
-        done = subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=limit)
-        return done.returncode, time.time() - start, done.stdout + done.stderr
+        done = subprocess.run(command, capture_output=True, text=True, errors="replace", preexec_fn=limits,
+                              timeout=WAIT * limit)
     except subprocess.TimeoutExpired:
-        return None, limit, ""
+        return None, used() - start, ""
+    late = done.returncode in (-signal.SIGXCPU, -signal.SIGKILL)
+    return None if late else done.returncode, used() - start, done.stdout + done.stderr
 
 
 def as_off(model, folder):
@@ -47,44 +58,85 @@ def as_off(model, folder):
     return copy
 
 
-def tetgen(program, model, folder, bound, limit):
-    """(what to print, cells, cells over the bound) of TetGen -pq<bound>."""
-    copy = as_off(model, folder) if model.suffix == ".obj" else shutil.copy(model, folder)
-    if pathlib.Path(copy).suffix not in TETGEN_READS:
-        return "cannot read it", 0, 0
-    code, seconds, said = run([program, f"-pq{bound:g}BEFNV", str(copy)], limit)
+def checked(pgdr, mesh, report, bound, limit, *more):
+    """(exit code, report) of `pgdr check`; (None, {}) if it did not end in time."""
+    code, _, _ = run([pgdr, "check", mesh, "--radius-edge", f"{bound:g}", "--report", report, "--quiet", *more], limit)
+    return code, json.loads(report.read_text()) if report.exists() else {}
+
+
+def tetgen(args, model, folder):
+    """TetGen -pq<bound> of a model: what it said, or the seconds, the cells, those over the bound and the worst of them.
+
+    The last two are `pgdr check`'s, of the files that TetGen wrote: its own statistics have other measures."""
+    copy = pathlib.Path(as_off(model, folder) if model.suffix == ".obj" else shutil.copy(model, folder))
+    if copy.suffix not in TETGEN_READS:
+        return {"failure": "cannot read it"}
+    volumes = "aA" if copy.suffix in {".poly", ".smesh"} else ""  # bounds of regions, which pgdr always heeds
+    code, seconds, _ = run([args.tetgen, f"-pq{args.bound:g}{volumes}BF", copy], args.limit, TETGEN_BYTES)
+    mesh = copy.with_suffix(".1.ele")
     if code is None:
-        return f"over {limit:g} s", 0, 0
-    cells = re.search(r"Mesh tetrahedra: (\d+)", said)
+        return {"failure": f"over {args.limit:g} s"}
     if code < 0:
-        return f"signal {-code}", 0, 0
-    if code or not cells:
-        return f"fails (exit {code})", 0, 0
-    worst = re.search(r"Circumradius/shortest edge|Radius-edge ratio", said)
-    over = 0
-    block = re.search(r"Aspect ratio histogram.*?\n\n", said, re.S)
-    largest = re.search(r"Largest radius-edge ratio: *([\d.eE+]+)", said) if worst else None
-    ratio = f", {float(largest.group(1)):.3g}" if largest else ""
-    return f"{int(cells.group(1)):,}, {seconds:.1f} s{ratio}", int(cells.group(1)), over if block else 0
+        return {"failure": f"signal {-code}"}
+    if code or not mesh.exists():
+        return {"failure": f"no mesh, exit {code}"}
+    code, report = checked(args.pgdr, mesh, folder / "t.json", args.bound, 10 * args.limit)
+    if "cells" not in report or "quality" not in report:
+        return {"failure": f"a mesh that the checker cannot read, exit {code}"}
+    return {"seconds": seconds, "cells": report["cells"], "poor": report["bounds"]["over_radius_edge"],
+            "worst": report["quality"]["max_radius_edge"]}
 
 
 def one(args, model, folder):
-    mesh, report, checked = folder / "m.vtu", folder / "m.json", folder / "c.json"
-    for file in (mesh, report, checked):
-        file.unlink(missing_ok=True)
-    flags = ["--radius-edge", f"{args.bound:g}", "--quiet"]
-    code, seconds, said = run([args.pgdr, "mesh", model, "-o", mesh, "--report", report] + flags, args.limit)
+    mesh, report = folder / "m.vtu", folder / "m.json"
+    code, seconds, said = run([args.pgdr, "mesh", model, "-o", mesh, "--report", report, "--radius-edge", f"{args.bound:g}",
+                               "--threads", "1", "--quiet"], args.limit)
+    if code is None:
+        said = f"over {args.limit:g} s"
     row = {"model": model.name, "mesh": code, "seconds": seconds, "check": None, "said": said.strip()[:200]}
     if code in (0, 1):
         data = json.loads(report.read_text())
         row.update(cells=data["cells"], poor=data["bounds"]["poor_left"], worst=data["quality"]["max_radius_edge"])
-        row["check"], _, said = run([args.pgdr, "check", mesh, "--input", model, "--reasons", report, "--report", checked]
-                                    + flags, 10 * args.limit)
-        if checked.exists():
-            row["findings"] = json.loads(checked.read_text()).get("finding_count", 0)
+        row["check"], verdict = checked(args.pgdr, mesh, folder / "c.json", args.bound, 10 * args.limit,
+                                        "--input", model, "--reasons", report)
+        row["findings"] = verdict.get("finding_count", 0)
     if args.tetgen:
-        row["tetgen"], row["tetgen_cells"], _ = tetgen(args.tetgen, model, folder, args.bound, 2 * args.limit)
+        row["tetgen"] = tetgen(args, model, folder)
     return row
+
+
+def numbers(r):
+    return f"{r['cells']:,} | {r['poor']:,} | {r['worst']:.3g} | {r['seconds']:.1f}"
+
+
+def line_of(r, beside_tetgen):
+    own = numbers(r) if "cells" in r else f"{r['said'][:90]} | | | {r['seconds']:.1f}"
+    line = f"| {r['model']} | {own} | {r['mesh']} | {r['check']}"
+    line += f" ({r['findings']} findings) |" if r.get("findings") else " |"
+    if beside_tetgen:
+        line += f" {numbers(r['tetgen'])} |" if "cells" in r["tetgen"] else f" {r['tetgen']['failure']} | | | |"
+    return line
+
+
+def remarks(r):
+    """What is worth a second look, though the mesh is right."""
+    other = r.get("tetgen", {})
+    if "cells" not in r:
+        return
+    if r["poor"] > max(0.01 * r["cells"], other.get("poor", 0)):
+        yield f"{r['poor']:,} poor cells: more than 1 % of all, and than TetGen leaves"
+    if r["cells"] > 10 * other.get("cells", r["cells"]):
+        yield "more than 10 times TetGen's cells"
+    if r["seconds"] > 10 * max(other.get("seconds", r["seconds"]), 0.1):
+        yield "more than 10 times TetGen's seconds"
+
+
+def write_table(file, lines):
+    """In place of what is between the marks of the file, which is kept otherwise."""
+    begin, end = "<!-- begin of the table -->", "<!-- end of the table -->"
+    old = file.read_text() if file.exists() else ""
+    before, after = (old.split(begin)[0], old.split(end)[1]) if begin in old and end in old else ("", "\n")
+    file.write_text(before + "\n".join([begin, ""] + lines + ["", end]) + after)
 
 
 def main():
@@ -99,8 +151,10 @@ def main():
     args = parser.parse_args()
     models = sorted(f for d in args.folders for f in ([d] if d.is_file() else d.iterdir())
                     if f.suffix in READABLE and args.only in f.name)
-    head = "| model | cells | poor | worst ratio | seconds | mesh | check |" + (" TetGen |" if args.tetgen else "")
-    lines = [head, "|" + " --- |" * (head.count("|") - 1)]
+    head = "| model | cells | poor | worst ratio | seconds | mesh | check |"
+    if args.tetgen:
+        head += " TetGen: cells | poor | worst ratio | seconds |"
+    lines, looks = [head, "|" + " --- |" * (head.count("|") - 1)], []
     bad = 0
     print("\n".join(lines), flush=True)
     for model in models:
@@ -108,13 +162,13 @@ def main():
             r = one(args, model, pathlib.Path(folder))
         good = r["mesh"] in (0, 1) and r["check"] == r["mesh"]
         bad += not good
-        numbers = f"{r['cells']:,} | {r['poor']:,} | {r['worst']:.3g}" if "cells" in r else f"{r['said'][:90]} | |"
-        line = f"| {r['model']} | {numbers} | {r['seconds']:.1f} | {r['mesh']} | {r['check']}"
-        line += (f" ({r['findings']} findings) |" if r.get("findings") else " |") + (f" {r['tetgen']} |" if args.tetgen else "")
+        line = line_of(r, args.tetgen)
         print(line, flush=True)
         lines.append(line)
+        looks += [f"{r['model']}: {remark}" for remark in remarks(r)]
+    print("\n".join(looks))
     if args.table:
-        args.table.write_text("\n".join(lines) + "\n")
+        write_table(args.table, lines + [""] + [f"* {look}" for look in looks])
     print(f"{len(models)} models, {bad} not as they should be")
     return bad > 0
 
