@@ -108,14 +108,15 @@ std::stop_token token_of(const RefineOptions<D>& options) {
 }
 
 template <int D>
-Compacted<D> compact_mesh(const Mesh<D>& mesh, const Domain<D>& domain, const RegionTable& regions,
+Compacted<D> compact_mesh(Mesh<D>&& mesh, const Domain<D>& domain, const RegionTable& regions,
                           const RefineOptions<D>& options) {
   std::vector<double> attributes;
   if (regions.labelled) attributes = regions.attribute;
   const std::stop_token stop = token_of(options);
-  if (options.schedule.executor != Executor::flow_graph) return compact<D>(mesh, domain, attributes, false, stop);
+  if (options.schedule.executor != Executor::flow_graph) return compact<D>(std::move(mesh), domain, attributes, false, stop);
   Compacted<D> compacted;
-  detail::in_arena_to_the_end(options.schedule.threads, [&] { compacted = compact<D>(mesh, domain, attributes, true, stop); });
+  detail::in_arena_to_the_end(options.schedule.threads,
+                              [&] { compacted = compact<D>(std::move(mesh), domain, attributes, true, stop); });
   return compacted;
 }
 
@@ -230,11 +231,13 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   malloc_trim(0);  // the lists have left small pieces, which the long arrays of the result have no use for
 #endif
 
-  Compacted<D> compacted = compact_mesh(mesh, domain, regions, options);
+  std::vector<std::array<VertexId, D + 1>> poor_vertices;
+  for (const PoorCell& p : poor) poor_vertices.push_back(mesh.cell(p.cell).vertices);
+  Compacted<D> compacted = compact_mesh(std::move(mesh), domain, regions, options);
   if (dropped()) return without_mesh(std::move(result), start);
-  for (const PoorCell& p : poor) {
-    PoorReason reason = p.reason;
-    reason.cell = compacted.cell_number(mesh, p.cell);
+  for (std::size_t i = 0; i < poor.size(); ++i) {
+    PoorReason reason = poor[i].reason;
+    reason.cell = compacted.cell_number(poor_vertices[i]);
     result.reasons.push_back(reason);
   }
   result.mesh = std::move(compacted.mesh);

@@ -182,6 +182,13 @@ class Mesh {
   std::uint32_t cell_bound() const { return cell_source_.bound(); }
   std::uint32_t vertex_bound() const { return vertex_source_.bound(); }
 
+  // What compaction does to a mesh that nobody needs any more, bit by bit.
+  std::byte* memory_of(CellId c) { return reinterpret_cast<std::byte*>(&cells_[index(c)]); }
+  /// Gives back most of the memory of the cells numbered [first, last), but for the first `kept` bytes.
+  void discard_cells(std::uint32_t first, std::uint32_t last, std::size_t kept) { cells_.discard(first, last, kept); }
+  void discard_tags() { tags_.discard(0, cell_bound()); }
+  void discard_vertices() { vertices_.discard(0, vertex_bound()); }
+
   /// The pools of one thread.
   struct Pools {
     IdPool cells, vertices, constraints;
