@@ -261,6 +261,17 @@ void Refiner<D>::begin(RegionVisit<D>& visit) {
   checked_at_ = reported_ = 0;
 }
 
+/// Most elements that belong elsewhere did not live until the end of the visit, which owns their cells and so can tell.
+template <int D>
+void Refiner<D>::close_outboxes() {
+  auto& boxes = visit_->outboxes;
+  for (auto& box : boxes) {
+    std::erase_if(box.entries, [this](const Item& e) { return !alive(e); });
+    box.entries.shrink_to_fit();
+  }
+  std::erase_if(boxes, [](const auto& box) { return box.entries.empty(); });
+}
+
 template <int D>
 void Refiner<D>::run(RegionVisit<D>& visit) {
   begin(visit);
@@ -290,6 +301,7 @@ void Refiner<D>::run(RegionVisit<D>& visit) {
     treat_entities();
   }
   context_->vertices += visit.counts.committed - reported_;
+  close_outboxes();
   visit_ = nullptr;
 }
 

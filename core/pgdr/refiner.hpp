@@ -90,7 +90,7 @@ struct RegionVisit {
     std::uint32_t leaf;
     std::vector<Entry<D>> entries;
   };
-  std::vector<Outbox> outboxes;         ///< elements with their circumcentre in other regions
+  std::vector<Outbox> outboxes;         ///< elements with their circumcentre in other regions, alive at the end
   std::vector<Entry<D>> set_aside;      ///< would have changed cells that the visit does not own
   RefineCounts counts;
   bool changed_mesh = false;
@@ -142,6 +142,7 @@ class Refiner {
   bool may_go_on();
   void look_at_budget();
   void record_refusal(const Item& e);
+  void close_outboxes();
 
   // refiner_entities.cpp: encroached entities
   bool face_encroached_by(CellId c, int face, VertexId v) const;
