@@ -4,10 +4,6 @@
 // From input to finished mesh: triangulate, recover the boundary, carve, refine, compact.
 #include "pgdr/refine.hpp"
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
-
 #include <algorithm>
 #include <chrono>
 #include <string>
@@ -227,9 +223,6 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   const std::vector<PoorCell> poor = find_poor<D>(mesh, reasons, options, result);
   if (dropped()) return without_mesh(std::move(result), start);
   result.statistics.seconds_refine = seconds_since(refine_start);
-#ifdef __GLIBC__
-  malloc_trim(0);  // the lists have left small pieces, which the long arrays of the result have no use for
-#endif
 
   std::vector<std::array<VertexId, D + 1>> poor_vertices;
   for (const PoorCell& p : poor) poor_vertices.push_back(mesh.cell(p.cell).vertices);

@@ -142,7 +142,7 @@ class Refiner {
   bool may_go_on();
   void look_at_budget();
   void record_refusal(const Item& e);
-  void close_outboxes();
+  void send_abroad();
 
   // refiner_entities.cpp: encroached entities
   bool face_encroached_by(CellId c, int face, VertexId v) const;
@@ -201,6 +201,7 @@ class Refiner {
   Cavity<D> cavity_;
   LocalFlips<D> flips_;
   RegionVisit<D>* visit_ = nullptr;
+  std::vector<Item> abroad_;  ///< elements with their circumcentre in other regions
   std::uint64_t flips_left_ = 0, checked_at_ = 0, reported_ = 0;
   std::uint64_t stride_ = 1;  ///< insertions between two looks at the clock
   std::chrono::steady_clock::time_point checked_time_;
