@@ -64,7 +64,7 @@ class Fifo {
       first_ = last_ = new_block(least_items);
       head_ = tail_ = 0;
     } else if (tail_ == last_->capacity) {
-      last_ = last_->next = new_block(std::min(2 * last_->capacity, most_items));
+      last_ = last_->next = new_block(static_cast<std::uint32_t>(std::clamp<std::size_t>(size_ / 2, least_items, most_items)));
       tail_ = 0;
     }
     last_->items()[tail_++] = item;
