@@ -93,8 +93,8 @@ void number_cells(const detail::StrippedCells<D>& stripped, const detail::Bulk& 
 
 template <int D>
 std::uint32_t position_of(const Compacted<D>& out, const std::array<std::uint32_t, D + 1>& cell) {
-  const auto first = out.mesh.cells.begin() + out.first_cell[cell[0]], last = out.mesh.cells.begin() + out.first_cell[cell[0] + 1];
-  return static_cast<std::uint32_t>(std::lower_bound(first, last, cell) - out.mesh.cells.begin());
+  const auto begin = out.mesh.cells.begin(), last = begin + out.first_cell[cell[0] + 1];
+  return static_cast<std::uint32_t>(std::lower_bound(begin + out.first_cell[cell[0]], last, cell) - begin);
 }
 
 /// A constrained face as a cell has it, and a constrained edge.

@@ -40,7 +40,8 @@ class StrippedCells {
   void each(const F& f) const {
     bulk_->parts(blocks_.size(), [&](std::size_t i) {
       const Block& block = blocks_[i];
-      for (std::uint32_t k = 0; k < block.count; ++k) f(block.cells[k], block.regions.empty() ? std::uint16_t{0} : block.regions[k]);
+      for (std::uint32_t k = 0; k < block.count; ++k)
+        f(block.cells[k], block.regions.empty() ? std::uint16_t{0} : block.regions[k]);
     });
   }
 

@@ -23,9 +23,9 @@ struct Compacted {
   std::uint32_t cell_number(const std::array<VertexId, D + 1>& vertices) const;
 };
 
-/// The finished mesh, made in the place of the one that was refined, of which nothing is left to use. `region_attributes`: the attribute of each region number; empty: do not label. `parallel`: on the
-/// threads of the caller's task arena; the result is the same. `stop`: once it is requested the result is nothing to use,
-/// and comes soon.
+/// The finished mesh, made in the place of the one that was refined, of which nothing is left to use. `region_attributes`: the
+/// attribute of each region number; empty: do not label. `parallel`: on the threads of the caller's task arena; the result is
+/// the same. `stop`: once it is requested the result is nothing to use, and comes soon.
 template <int D>
 Compacted<D> compact(Mesh<D>&& mesh, const Domain<D>& domain, std::span<const double> region_attributes, bool parallel,
                      std::stop_token stop = {});
