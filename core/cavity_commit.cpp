@@ -140,29 +140,40 @@ void Cavity<D>::link_by_ridges() {
       ++out;
     }
   }
-  for (std::size_t i = 0; i < new_faces_.size(); ++i) {
-    const auto [code, slot] = new_faces_[i];
+  shared_slots_.clear();
+  for (const auto [code, slot] : new_faces_) {
+    if (!ridges_.is_pair(slot)) {
+      shared_slots_.push_back(code);
+      continue;
+    }
     const Link self = Link::from_code(code);
-    mesh.cell(self.cell()).links[self.face()] =
-        ridges_.is_pair(slot) ? Link::from_code(ridges_.partner(slot, code)) : across_ridge(i);
+    mesh.cell(self.cell()).links[self.face()] = Link::from_code(ridges_.partner(slot, code));
   }
+  link_shared_slots();
 }
 
-/// The other new face at the ridge of the i-th: where several ridges share a slot.
+/// The new faces at ridges that share a slot, few.
 template <int D>
-Link Cavity<D>::across_ridge(std::size_t i) const {
-  const Link self = Link::from_code(new_faces_[i].code);
+void Cavity<D>::link_shared_slots() {
   const auto ridge_of = [this](Link l) {
     auto vertices = mesh_->cell(l.cell()).vertices;
     vertices[static_cast<std::size_t>(l.face())] = no_vertex;
     return sorted(vertices);
   };
-  const std::uint32_t slot = new_faces_[i].slot;
-  const auto ridge = ridge_of(self);
-  for (const NewFace& f : new_faces_)
-    if (f.slot == slot && f.code != self.code && ridge_of(Link::from_code(f.code)) == ridge) return Link::from_code(f.code);
-  assert(false && "two faces meet at a ridge");
-  return {};
+  while (!shared_slots_.empty()) {
+    const Link one = Link::from_code(shared_slots_.back());
+    shared_slots_.pop_back();
+    const auto ridge = ridge_of(one);
+    const auto at = std::find_if(shared_slots_.begin(), shared_slots_.end(),
+                                 [&](std::uint32_t code) { return ridge_of(Link::from_code(code)) == ridge; });
+    assert(at != shared_slots_.end() && "two faces meet at a ridge");
+    if (at == shared_slots_.end()) continue;
+    const Link other = Link::from_code(*at);
+    *at = shared_slots_.back();
+    shared_slots_.pop_back();
+    mesh_->cell(one.cell()).links[one.face()] = other;
+    mesh_->cell(other.cell()).links[other.face()] = one;
+  }
 }
 
 /// Neighbours among the new cells, found by walking round each ridge of the boundary through the old cells: what lies

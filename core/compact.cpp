@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "detail/bulk.hpp"
+#include "detail/stripped_cells.hpp"
 #include "pgdr/spatial_order.hpp"
 
 namespace pgdr {
@@ -25,14 +26,12 @@ void copy_input_points(const Domain<D>& domain, OutputMesh<D>& out) {
 
 /// Number of each vertex in the output (by index(VertexId)); fills mesh.points.
 template <int D>
-std::vector<std::uint32_t> number_vertices(const Mesh<D>& mesh, const Domain<D>& domain, const detail::Bulk& bulk,
-                                           OutputMesh<D>& out) {
+std::vector<std::uint32_t> number_vertices(const Mesh<D>& mesh, const detail::StrippedCells<D>& cells, const Domain<D>& domain,
+                                           const detail::Bulk& bulk, OutputMesh<D>& out) {
   constexpr std::uint32_t used = 0;
   std::vector<std::uint32_t> number(mesh.vertex_bound(), none);
-  bulk.each(mesh.cell_bound(), [&](std::size_t i) {
-    const CellId c{static_cast<std::uint32_t>(i)};
-    if (!mesh.alive(c)) return;
-    for (const VertexId v : mesh.cell(c).vertices) std::atomic_ref(number[index(v)]).store(used, std::memory_order_relaxed);
+  cells.each([&](const auto& cell, std::uint16_t) {
+    for (const std::uint32_t v : cell) std::atomic_ref(number[v]).store(used, std::memory_order_relaxed);
   });
   copy_input_points(domain, out);
   struct Steiner {
@@ -72,37 +71,27 @@ std::array<std::uint32_t, N> canonical(std::array<std::uint32_t, N> v) {
   return v;
 }
 
-template <int D>
-std::array<std::uint32_t, D + 1> numbers_of(const Mesh<D>& mesh, CellId c, const std::vector<std::uint32_t>& vertex_number) {
-  std::array<std::uint32_t, D + 1> v;
-  for (int j = 0; j <= D; ++j) v[j] = vertex_number[index(mesh.cell(c).vertices[j])];
-  return v;
-}
-
 /// Bucketed by the smallest vertex, which is the first, and sorted within a bucket: in place, so that nothing but the result
 /// takes memory for each cell.
 template <int D>
-void number_cells(const Mesh<D>& mesh, const detail::Bulk& bulk, Compacted<D>& out) {
+void number_cells(const detail::StrippedCells<D>& stripped, const detail::Bulk& bulk, Compacted<D>& out) {
   using Cell = std::array<std::uint32_t, D + 1>;
+  // While the cells are counted, then placed, that of vertex v is begin[v + 2], then begin[v + 1].
   std::vector<std::uint32_t>& begin = out.first_cell;
-  begin.assign(out.mesh.points.size() + 1, 0);
-  auto each_cell = [&](auto f) {
-    bulk.each(mesh.cell_bound(), [&](std::size_t i) {
-      if (const CellId c{static_cast<std::uint32_t>(i)}; mesh.alive(c)) f(numbers_of<D>(mesh, c, out.vertex_number));
-    });
-  };
+  begin.assign(out.mesh.points.size() + 2, 0);
   auto next = [&](std::uint32_t& counter) {
     return bulk.parallel() ? std::atomic_ref(counter).fetch_add(1, std::memory_order_relaxed) : counter++;
   };
-  each_cell([&](const Cell& v) { next(begin[*std::min_element(v.begin(), v.end()) + 1]); });
+  stripped.each([&](Cell& cell, std::uint16_t) {
+    for (std::uint32_t& v : cell) v = out.vertex_number[v];
+    cell = canonical(cell);
+    next(begin[cell[0] + 2]);
+  });
   for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
   auto& cells = out.mesh.cells;
   cells.resize(begin.back());
-  auto place = begin;
-  each_cell([&](const Cell& v) {
-    const Cell sorted = canonical(v);
-    cells[next(place[sorted[0]])] = sorted;
-  });
+  stripped.each([&](const Cell& cell, std::uint16_t) { cells[next(begin[cell[0] + 1])] = cell; });
+  begin.pop_back();
   // Within a bucket the first vertex is the same; the next two are compared as one number.
   auto less = [](const Cell& a, const Cell& b) {
     const std::uint64_t x = std::uint64_t{a[1]} << 32 | a[2], y = std::uint64_t{b[1]} << 32 | b[2];
@@ -151,70 +140,113 @@ void number_hastily(const Mesh<D>& mesh, const Domain<D>& domain, std::span<cons
   bulk.parts(parts, [&](std::size_t part) {
     std::size_t at = begin[part];
     each_cell(part, [&](CellId c) {
-      out.mesh.cells[at] = numbers_of<D>(mesh, c, number);
+      auto& cell = out.mesh.cells[at];
+      for (int j = 0; j <= D; ++j) cell[j] = number[index(mesh.cell(c).vertices[j])];
+      cell = canonical(cell);
       if (!region_attributes.empty()) out.mesh.regions[at] = region_attributes[mesh.region(c)];
       ++at;
     });
   });
 }
 
-/// The vertices of face f of a cell, counter-clockwise seen from outside where it is on the hull, else sorted.
 template <int D>
-std::array<std::uint32_t, D> face_vertices(const CellRecord<D>& cell, int f, const std::vector<std::uint32_t>& number) {
-  std::array<std::uint32_t, D> face;
+std::uint32_t position_of(const Compacted<D>& out, const std::array<std::uint32_t, D + 1>& cell) {
+  const auto begin = out.mesh.cells.begin(), last = begin + out.first_cell[cell[0] + 1];
+  return static_cast<std::uint32_t>(std::lower_bound(begin + out.first_cell[cell[0]], last, cell) - begin);
+}
+
+/// A constrained face as a cell has it, and a constrained edge.
+template <int D>
+struct MarkedFaces {
+  struct Face {
+    std::array<VertexId, D> vertices;  ///< counter-clockwise seen from outside the cell
+    int marker;
+    bool on_hull;
+  };
+  struct Edge {
+    std::array<VertexId, 2> vertices;
+    int marker;
+  };
+  std::vector<Face> faces;  ///< each once
+  std::vector<Edge> edges;  ///< 3D: subsegments, from every cell that has them
+};
+
+template <int D>
+std::array<VertexId, D> face_vertices(const CellRecord<D>& cell, int f) {
+  std::array<VertexId, D> face;
   for (int j = 0, n = 0; j <= D; ++j)
-    if (j != f) face[n++] = number[index(cell.vertices[j])];
-  if constexpr (D == 3) {
-    if (f % 2 == 1) std::swap(face[1], face[2]);
-    if (cell.links[f]) std::sort(face.begin(), face.end());
-    std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
-  } else {
-    if (f == 1) std::swap(face[0], face[1]);
-    if (cell.links[f]) std::sort(face.begin(), face.end());
-  }
+    if (j != f) face[n++] = cell.vertices[j];
+  if (f % 2 == 1) std::swap(face[D - 2], face[D - 1]);
   return face;
+}
+
+template <int D>
+MarkedFaces<D> gather_constraints(const Mesh<D>& mesh, const Domain<D>& domain, const detail::Bulk& bulk) {
+  using Face = typename MarkedFaces<D>::Face;
+  using Edge = typename MarkedFaces<D>::Edge;
+  // Few cells have constraints: those that are dead are asked last.
+  auto constraints = [&](CellId c) {
+    const auto* k = mesh.constraints(c);
+    return k && mesh.alive(c) ? k : nullptr;
+  };
+  auto marker = [&](EntityId entity) {
+    if constexpr (D == 3) return domain.facets()[entity].marker;
+    else return domain.segments()[entity].marker;
+  };
+  MarkedFaces<D> found;
+  found.faces = bulk.gather<Face>(mesh.cell_bound(), [&](std::size_t i, std::vector<Face>& faces) {
+    const CellId c{static_cast<std::uint32_t>(i)};
+    const auto* k = constraints(c);
+    for (int f = 0; k && f <= D; ++f) {
+      const Link beyond = mesh.cell(c).links[f];
+      if ((k->faces >> f & 1) && !(beyond && beyond.cell() < c))
+        faces.push_back({face_vertices<D>(mesh.cell(c), f), marker(k->face_entity[f]), !beyond});
+    }
+  });
+  if constexpr (D == 3)
+    found.edges = bulk.gather<Edge>(mesh.cell_bound(), [&](std::size_t i, std::vector<Edge>& edges) {
+      const CellId c{static_cast<std::uint32_t>(i)};
+      const auto* k = constraints(c);
+      for (int e = 0; k && e < 6; ++e) {
+        if (!(k->edges >> e & 1)) continue;
+        const auto& v = mesh.cell(c).vertices;
+        edges.push_back({{v[edge_ends[e][0]], v[edge_ends[e][1]]}, domain.segments()[k->edge_entity[e]].marker});
+      }
+    });
+  return found;
 }
 
 /// Subsegments and subfacets, each once, sorted by their vertices; hull subfacets (subsegments) face outwards.
 template <int D>
-void collect_constraints(const Mesh<D>& mesh, const Domain<D>& domain, const std::vector<std::uint32_t>& number,
-                         const detail::Bulk& bulk, OutputMesh<D>& out) {
+void number_constraints(const MarkedFaces<D>& found, const std::vector<std::uint32_t>& number, const detail::Bulk& bulk,
+                        OutputMesh<D>& out) {
+  auto numbered = [&]<std::size_t N>(const std::array<VertexId, N>& v) {
+    std::array<std::uint32_t, N> n;
+    for (std::size_t j = 0; j < N; ++j) n[j] = number[index(v[j])];
+    return n;
+  };
+  auto number_faces = [&](auto& constraints) {
+    for (const auto& f : found.faces) {
+      auto v = numbered(f.vertices);
+      if (!f.on_hull) std::sort(v.begin(), v.end());
+      if (D == 3) std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
+      constraints.push_back({v, f.marker});
+    }
+  };
   auto by_vertices = [](const auto& a, const auto& b) { return a.vertices < b.vertices; };
   auto same = [](const auto& a, const auto& b) { return a.vertices == b.vertices; };
-  auto each_face = [&](std::size_t i, auto f) {
-    const CellId c{static_cast<std::uint32_t>(i)};
-    const auto* k = mesh.constraints(c);  // few have any, which is asked first: it does not touch the cell itself
-    if (!k || !mesh.alive(c)) return;
-    for (int face = 0; face <= D; ++face)
-      if ((k->faces >> face & 1) && !(mesh.cell(c).links[face] && mesh.cell(c).links[face].cell() < c))
-        f(mesh.cell(c), face, k->face_entity[face]);
-  };
-  using Subsegment = typename std::decay_t<decltype(out.subsegments)>::value_type;
   if constexpr (D == 3) {
-    using Subfacet = typename std::decay_t<decltype(out.subfacets)>::value_type;
-    out.subfacets = bulk.gather<Subfacet>(mesh.cell_bound(), [&](std::size_t i, auto& found) {
-      each_face(i, [&](const CellRecord<D>& cell, int f, EntityId facet) {
-        found.push_back({face_vertices<D>(cell, f, number), domain.facets()[facet].marker});
-      });
-    });
+    out.subfacets.reserve(found.faces.size());
+    number_faces(out.subfacets);
     bulk.sort(out.subfacets, by_vertices);
-    out.subsegments = bulk.gather<Subsegment>(mesh.cell_bound(), [&](std::size_t i, auto& found) {
-      const CellId c{static_cast<std::uint32_t>(i)};
-      const auto* k = mesh.constraints(c);
-      if (!k || !mesh.alive(c)) return;
-      for (int e = 0; e < 6; ++e) {
-        if (!(k->edges >> e & 1)) continue;
-        const auto& v = mesh.cell(c).vertices;
-        const auto a = number[index(v[edge_ends[e][0]])], b = number[index(v[edge_ends[e][1]])];
-        found.push_back({{std::min(a, b), std::max(a, b)}, domain.segments()[k->edge_entity[e]].marker});
-      }
-    });
+    for (const auto& e : found.edges) {
+      auto v = numbered(e.vertices);
+      std::sort(v.begin(), v.end());
+      out.subsegments.push_back({v, e.marker});
+    }
   } else {
-    out.subsegments = bulk.gather<Subsegment>(mesh.cell_bound(), [&](std::size_t i, auto& found) {
-      each_face(i, [&](const CellRecord<D>& cell, int f, EntityId segment) {
-        found.push_back({face_vertices<D>(cell, f, number), domain.segments()[segment].marker});
-      });
-    });
+    out.subsegments.reserve(found.faces.size());
+    number_faces(out.subsegments);
   }
   bulk.sort(out.subsegments, by_vertices);
   out.subsegments.erase(std::unique(out.subsegments.begin(), out.subsegments.end(), same), out.subsegments.end());
@@ -223,40 +255,53 @@ void collect_constraints(const Mesh<D>& mesh, const Domain<D>& domain, const std
 }  // namespace
 
 template <int D>
-Compacted<D> compact(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes, bool parallel,
-                     std::stop_token stop, Numbering numbering) {
+Compacted<D> compact(Mesh<D>&& mesh, const Domain<D>& domain, std::span<const double> region_attributes, bool parallel,
+                     std::stop_token stop, const FillPoints<D>& fill) {
   const detail::Bulk bulk(parallel, std::move(stop));
   Compacted<D> out;
-  if (numbering == Numbering::hasty) {
-    number_hastily<D>(mesh, domain, region_attributes, bulk, out);
-  } else {
-    out.vertex_number = number_vertices<D>(mesh, domain, bulk, out.mesh);
-    if (!bulk.stopped()) number_cells<D>(mesh, bulk, out);
-  }
+  const MarkedFaces<D> constraints = gather_constraints<D>(mesh, domain, bulk);
+  const detail::StrippedCells<D> stripped(mesh, bulk, !region_attributes.empty());
   if (bulk.stopped()) return {};
-  collect_constraints<D>(mesh, domain, out.vertex_number, bulk, out.mesh);
-  if (numbering == Numbering::canonical && !region_attributes.empty()) {
+  out.vertex_number = number_vertices<D>(mesh, stripped, domain, bulk, out.mesh);
+  if (fill && !bulk.stopped()) fill(mesh, out);
+  mesh.discard_vertices();
+  if (!bulk.stopped()) number_cells<D>(stripped, bulk, out);
+  if (bulk.stopped()) return {};
+  number_constraints<D>(constraints, out.vertex_number, bulk, out.mesh);
+  if (!region_attributes.empty()) {
     out.mesh.regions.resize(out.mesh.cells.size());
-    bulk.each(mesh.cell_bound(), [&](std::size_t i) {
-      if (const CellId c{static_cast<std::uint32_t>(i)}; mesh.alive(c))
-        out.mesh.regions[out.cell_number(mesh, c)] = region_attributes[mesh.region(c)];
+    stripped.each([&](const auto& cell, std::uint16_t region) {
+      out.mesh.regions[position_of<D>(out, cell)] = region_attributes[region];
     });
   }
   return out;
 }
 
 template <int D>
-std::uint32_t Compacted<D>::cell_number(const Mesh<D>& refined, CellId c) const {
-  const auto v = canonical(numbers_of<D>(refined, c, vertex_number));
-  const auto first = mesh.cells.begin() + first_cell[v[0]], last = mesh.cells.begin() + first_cell[v[0] + 1];
-  return static_cast<std::uint32_t>(std::lower_bound(first, last, v) - mesh.cells.begin());
+Compacted<D> compact_hastily(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes, bool parallel,
+                             const FillPoints<D>& fill) {
+  const detail::Bulk bulk(parallel, {});
+  Compacted<D> out;
+  number_hastily<D>(mesh, domain, region_attributes, bulk, out);
+  if (fill) fill(mesh, out);
+  number_constraints<D>(gather_constraints<D>(mesh, domain, bulk), out.vertex_number, bulk, out.mesh);
+  return out;
+}
+
+template <int D>
+std::uint32_t Compacted<D>::cell_number(const std::array<VertexId, D + 1>& vertices) const {
+  std::array<std::uint32_t, D + 1> v;
+  for (int j = 0; j <= D; ++j) v[j] = vertex_number[index(vertices[j])];
+  return position_of<D>(*this, canonical(v));
 }
 
 template struct Compacted<2>;
 template struct Compacted<3>;
-template Compacted<2> compact<2>(const Mesh<2>&, const Domain<2>&, std::span<const double>, bool, std::stop_token,
-                                   Numbering);
-template Compacted<3> compact<3>(const Mesh<3>&, const Domain<3>&, std::span<const double>, bool, std::stop_token,
-                                   Numbering);
+template Compacted<2> compact<2>(Mesh<2>&&, const Domain<2>&, std::span<const double>, bool, std::stop_token,
+                                 const FillPoints<2>&);
+template Compacted<3> compact<3>(Mesh<3>&&, const Domain<3>&, std::span<const double>, bool, std::stop_token,
+                                 const FillPoints<3>&);
+template Compacted<2> compact_hastily<2>(const Mesh<2>&, const Domain<2>&, std::span<const double>, bool, const FillPoints<2>&);
+template Compacted<3> compact_hastily<3>(const Mesh<3>&, const Domain<3>&, std::span<const double>, bool, const FillPoints<3>&);
 
 }  // namespace pgdr

@@ -21,12 +21,14 @@ Mesh<D>::Mesh()
     : capacity_(static_cast<std::uint32_t>(ReservedMemory::affordable_elements(IdSource::most))),
       cells_(capacity_),
       tags_(capacity_),
+      regions_(capacity_),
       vertices_(capacity_),
       constraints_(capacity_),
       cell_source_("cells", capacity_,
                    [this](std::uint32_t n) {
                      cells_.grow_to(n);
                      tags_.grow_to(n);
+                     regions_.grow_to(n);
                      // Slots of a block that are never taken must read as dead.
                      for (std::uint32_t i = n - IdSource::block; i < n; ++i) cells_[i].vertices[0] = no_vertex;
                    }),
@@ -70,7 +72,7 @@ bool Mesh<D>::conflicts_exactly(CellId c, const Point<D>& p) const {
 
 template <int D>
 void Mesh<D>::free_cell(Pools& pools, CellId c) {
-  const std::uint32_t tag = tags_[index(c)].constraints & ~mark_bit;
+  const std::uint32_t tag = tags_[index(c)].get() & ~mark_bit;
   if (pinched_ && tag != 0) change_pinched(c, false);
   if (tag != 0) pools.constraints.give(tag - 1);
   std::atomic_ref(cell(c).vertices[0]).store(no_vertex, std::memory_order_relaxed);
@@ -89,7 +91,7 @@ ConstraintRecord<D>& Mesh<D>::ensure_constraints(Pools& pools, CellId c) {
   if (ConstraintRecord<D>* k = constraints(c)) return *k;
   const std::uint32_t id = pools.constraints.take();
   constraints_[id] = {};
-  tags_[index(c)].constraints = (tags_[index(c)].constraints & mark_bit) | (id + 1);
+  tags_[index(c)].set((tags_[index(c)].get() & mark_bit) | (id + 1));
   return constraints_[id];
 }
 

@@ -63,13 +63,8 @@ void Refiner<D>::list_poor(CellId c, std::uint8_t why) {
   Item e = make_entry(c, EntryKind::cell, why);
   e.bucket = static_cast<std::uint8_t>(context_->bucket_of(c));
   if (why == Item::over_radius_edge) e.order = order_of(c);
-  const Point<D>& center = mesh_->cell(c).center;
-  if (!visit_->area || visit_->area->is_home(center)) return visit_->list->push(e);
-  const std::uint32_t leaf = visit_->area->leaf_of(center);
-  auto& boxes = visit_->outboxes;
-  auto box = std::find_if(boxes.rbegin(), boxes.rend(), [leaf](const auto& o) { return o.leaf == leaf; });
-  if (box != boxes.rend()) return box->entries.push_back(e);
-  boxes.push_back({leaf, {e}});
+  if (!visit_->area || visit_->area->is_home(mesh_->cell(c).center)) return visit_->list->push(e);
+  abroad_.push_back(e);
 }
 
 /// The shortest edge, shortest first, then the circumradius: smallest first, but largest first below the smallest proved
@@ -255,10 +250,29 @@ void Refiner<D>::treat_entities() {
 template <int D>
 void Refiner<D>::begin(RegionVisit<D>& visit) {
   visit_ = &visit;
+  abroad_.clear();
   cavity_.set_area(visit.area);
   flips_.set_area(visit.area);
   flips_left_ = 0;
   checked_at_ = reported_ = 0;
+}
+
+/// To the leaves that they belong to. Most do not live until the end of the visit, which owns their cells and so can tell.
+template <int D>
+void Refiner<D>::send_abroad() {
+  auto& boxes = visit_->outboxes;
+  for (const Item& e : abroad_) {
+    if (!alive(e)) continue;
+    const std::uint32_t leaf = visit_->area->leaf_of(mesh_->cell(e.cell).center);
+    auto box = std::find_if(boxes.rbegin(), boxes.rend(), [leaf](const auto& o) { return o.leaf == leaf; });
+    if (box != boxes.rend()) {
+      box->entries.push_back(e);
+    } else {
+      boxes.push_back({leaf, {e}});
+    }
+  }
+  abroad_.clear();
+  for (auto& box : boxes) box.entries.shrink_to_fit();
 }
 
 template <int D>
@@ -290,6 +304,7 @@ void Refiner<D>::run(RegionVisit<D>& visit) {
     treat_entities();
   }
   context_->vertices += visit.counts.committed - reported_;
+  send_abroad();
   visit_ = nullptr;
 }
 

@@ -44,6 +44,12 @@ void ReservedMemory::grow(std::size_t bytes) {
   usable_.store(wanted, std::memory_order_release);
 }
 
+void ReservedMemory::discard(std::size_t first, std::size_t last) {
+  first = rounded_up(first, huge_page);
+  last = std::min(last, usable_.load(std::memory_order_relaxed)) / huge_page * huge_page;
+  if (first < last) madvise(base_ + first, last - first, MADV_DONTNEED);
+}
+
 // Half of what there is, so that others have some. The limit counts, and what the kernel (or what stands between) gives.
 std::size_t ReservedMemory::affordable_elements(std::size_t elements) {
   rlimit limit{};

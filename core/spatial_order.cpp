@@ -16,35 +16,71 @@ namespace {
 template <int D>
 inline constexpr int bits_per_axis = D == 2 ? 31 : 21;
 
-/// Hilbert index of integer coordinates, by the transposed Gray code of Skilling (2004, "Programming the Hilbert curve").
-std::uint64_t hilbert_index(std::array<std::uint32_t, 3> x) {
-  constexpr int bits = bits_per_axis<3>;
-  constexpr std::uint32_t top = 1u << (bits - 1);
-  for (std::uint32_t q = top; q > 1; q >>= 1) {
-    const std::uint32_t p = q - 1;
-    for (int i = 0; i < 3; ++i) {
-      if (x[i] & q) {
-        x[0] ^= p;
+// Hilbert index of integer coordinates, by the transposed Gray code of Skilling (2004, "Programming the Hilbert curve"), level
+// by level from the top: what the levels above have done to the lower bits (complemented those of one coordinate, exchanged
+// those of two), and the parity of the Gray code so far, is a state.
+
+/// In space: which coordinate stands in each of the three places, which of these are complemented, and the parity.
+struct SpaceState {
+  std::array<std::uint8_t, 3> place{0, 1, 2};
+  std::array<bool, 3> flipped{};
+  bool parity = false;
+
+  constexpr bool operator==(const SpaceState&) const = default;
+  /// Three digits of the key; x, y and z are bits 2, 1 and 0 of `bits`.
+  constexpr unsigned step(unsigned bits) {
+    std::array<bool, 3> b{}, gray{};
+    for (std::size_t i = 0; i < 3; ++i) b[i] = ((bits >> (2 - place[i]) & 1) != 0) != flipped[i];
+    for (std::size_t i = 0; i < 3; ++i) gray[i] = i == 0 ? b[0] : b[i] != gray[i - 1];
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (b[i]) {
+        flipped[0] = !flipped[0];
       } else {
-        const std::uint32_t t = (x[0] ^ x[i]) & p;
-        x[0] ^= t;
-        x[i] ^= t;
+        std::swap(place[0], place[i]);
+        std::swap(flipped[0], flipped[i]);
       }
     }
+    unsigned digits = 0;
+    for (const bool g : gray) digits = digits << 1 | (g != parity ? 1u : 0u);
+    parity = parity != gray[2];
+    return digits;
   }
-  for (int i = 1; i < 3; ++i) x[i] ^= x[i - 1];
-  std::uint32_t t = 0;
-  for (std::uint32_t q = top; q > 1; q >>= 1)
-    if (x[2] & q) t ^= q - 1;
-  for (int i = 0; i < 3; ++i) x[i] ^= t;
+};
+
+struct SpaceStep {
+  std::uint8_t state, digits;
+};
+constexpr std::size_t most_space_states = 96;
+
+/// By state, as they are reached from the first, and bits of one level.
+constexpr auto space_steps = [] {
+  std::array<std::array<SpaceStep, 8>, most_space_states> table{};
+  std::array<SpaceState, most_space_states> states{};
+  std::size_t known = 1;
+  for (std::size_t s = 0; s < known; ++s)
+    for (unsigned bits = 0; bits < 8; ++bits) {
+      SpaceState next = states[s];
+      const unsigned digits = next.step(bits);
+      std::size_t n = 0;
+      while (n < known && !(states[n] == next)) ++n;
+      if (n == known) states[known++] = next;
+      table[s][bits] = {static_cast<std::uint8_t>(n), static_cast<std::uint8_t>(digits)};
+    }
+  return table;
+}();
+
+std::uint64_t hilbert_index(std::array<std::uint32_t, 3> x) {
   std::uint64_t key = 0;
-  for (int b = bits - 1; b >= 0; --b)
-    for (int i = 0; i < 3; ++i) key = key << 1 | (x[i] >> b & 1);
+  std::uint8_t state = 0;
+  for (int b = bits_per_axis<3> - 1; b >= 0; --b) {
+    const SpaceStep step = space_steps[state][(x[0] >> b & 1) << 2 | (x[1] >> b & 1) << 1 | (x[2] >> b & 1)];
+    key = key << 3 | step.digits;
+    state = step.state;
+  }
   return key;
 }
 
-/// The same in the plane, level by level from the top: what the levels above have done to the lower bits of x and y
-/// (complemented the one, the other, exchanged them), and the parity of the Gray code so far, is a state of four bits.
+/// In the plane a state is four bits: the one complemented, the other, exchanged, the parity.
 struct HilbertStep {
   std::uint8_t state, digits;
 };

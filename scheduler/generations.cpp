@@ -86,7 +86,17 @@ void Generations<D>::split_leaves(std::vector<Node> candidates) {
         independent.add_visit();
       }
     works_.grow();
-    execute(independent, [&](VisitGraph::Visit v) { works_.hand_down(context_.mesh, parents[v], generation_); });
+    std::vector<double> seconds(parents.size(), 0.0);
+    const auto start = Clock::now();
+    auto since = [](Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); };
+    execute(independent, [&](VisitGraph::Visit v) {
+      const auto split_start = Clock::now();
+      works_.hand_down(context_.mesh, parents[v], generation_);
+      seconds[v] = since(split_start);
+    });
+    // All of it counts as serial, but on the critical path the longest alone, since no split waits for another.
+    statistics_.critical_path_seconds -= since(start);
+    if (!seconds.empty()) statistics_.critical_path_seconds += *std::max_element(seconds.begin(), seconds.end());
     candidates.clear();
     for (const Node parent : parents)
       for (Node child = 0; child < Orthtree<D>::children; ++child) candidates.push_back(tree_.first_child(parent) + child);

@@ -4,10 +4,6 @@
 // From input to finished mesh: triangulate, recover the boundary, carve, refine, compact.
 #include "pgdr/refine.hpp"
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
-
 #include <algorithm>
 #include <chrono>
 #include <optional>
@@ -115,34 +111,23 @@ PoorCount count_poor(const PoorReasons<D>& reasons, std::uint32_t cells, const S
 bool in_haste(StopCause stop) { return stop == StopCause::cancelled || stop == StopCause::time_limit; }
 
 template <int D>
-Compacted<D> compact_mesh(const Mesh<D>& mesh, const Domain<D>& domain, const RegionTable& regions, const PointData<D>& data,
-                          const RefineOptions<D>& options, Numbering numbering, const std::stop_token& stop) {
+Compacted<D> compact_mesh(Mesh<D>& mesh, const Domain<D>& domain, const RegionTable& regions, const PointData<D>& data,
+                          const RefineOptions<D>& options, bool in_haste) {
   std::vector<double> attributes;
   if (regions.labelled) attributes = regions.attribute;
+  // The mesh is used up: where a partial one is wanted its numbering goes on to the end.
+  const std::stop_token stop = options.partial_mesh ? std::stop_token{} : options.stop;
   Compacted<D> compacted;
   const auto make = [&](bool parallel) {
-    compacted = compact<D>(mesh, domain, attributes, parallel, stop, numbering);
-    if (!stop.stop_requested()) data.fill(mesh, compacted, parallel, stop);
+    const FillPoints<D> fill = [&](const Mesh<D>& m, Compacted<D>& out) { data.fill(m, out, parallel, stop); };
+    compacted = in_haste ? compact_hastily<D>(mesh, domain, attributes, parallel, fill)
+                         : compact<D>(std::move(mesh), domain, attributes, parallel, stop, fill);
   };
   if (options.schedule.executor != Executor::flow_graph)
     make(false);
   else
     detail::in_arena_to_the_end(options.schedule.threads, [&] { make(true); });
   return compacted;
-}
-
-/// The canonical numbering if there is time for it. Of a run that is cancelled meanwhile nothing but the mesh is known.
-template <int D>
-Compacted<D> compact_in_time(const Mesh<D>& mesh, const Domain<D>& domain, const RegionTable& regions, const PointData<D>& data,
-                             const RefineOptions<D>& options, std::vector<PoorCell>& poor, RefineResult<D>& result) {
-  if (!in_haste(result.stop)) {
-    Compacted<D> compacted = compact_mesh(mesh, domain, regions, data, options, Numbering::canonical, options.stop);
-    if (!options.stop.stop_requested()) return compacted;
-    result.stop = StopCause::cancelled;
-    poor.clear();
-    if (!options.partial_mesh) return {};
-  }
-  return compact_mesh(mesh, domain, regions, data, options, Numbering::hasty, {});
 }
 
 /// Of each cell of the mesh, the leaf that holds its circumcentre.
@@ -287,16 +272,18 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   std::vector<PoorCell> poor = find_poor<D>(mesh, reasons, options, refined.poor, result);
   if (dropped()) return without_mesh(std::move(result), start);
   result.statistics.seconds_refine = seconds_since(refine_start);
-#ifdef __GLIBC__
-  // The lists have left small pieces, which the long arrays of the result have no use for.
-  if (!in_haste(result.stop)) malloc_trim(0);
-#endif
 
-  Compacted<D> compacted = compact_in_time(mesh, domain, regions, data, options, poor, result);
+  std::vector<std::array<VertexId, D + 1>> poor_vertices;
+  for (const PoorCell& p : poor) poor_vertices.push_back(mesh.cell(p.cell).vertices);
+  Compacted<D> compacted = compact_mesh(mesh, domain, regions, data, options, in_haste(result.stop));
+  if (options.stop.stop_requested()) {
+    result.stop = StopCause::cancelled;
+    poor.clear();
+  }
   if (dropped()) return without_mesh(std::move(result), start);
-  for (const PoorCell& p : poor) {
-    PoorReason reason = p.reason;
-    reason.cell = compacted.cell_number(mesh, p.cell);
+  for (std::size_t i = 0; i < poor.size(); ++i) {
+    PoorReason reason = poor[i].reason;
+    reason.cell = compacted.cell_number(poor_vertices[i]);
     result.reasons.push_back(reason);
   }
   result.mesh = std::move(compacted.mesh);

@@ -199,6 +199,17 @@ TEST(HilbertCurve, GoesFromNeighbourToNeighbour) {
   }
 }
 
+TEST(HilbertCurve, InSpaceToo) {
+  for (const int side : {2, 4, 32}) {
+    std::vector<Point3> points;
+    for (int i = 0; i < side * side * side; ++i)
+      points.push_back({{double(i % side), double(i / side % side), double(i / side / side)}});
+    const HilbertCurve<3> curve(points);
+    std::sort(points.begin(), points.end(), [&](const Point3& a, const Point3& b) { return curve.key(a) < curve.key(b); });
+    for (std::size_t i = 1; i < points.size(); ++i) ASSERT_EQ(squared_distance(points[i - 1], points[i]), 1) << side << " " << i;
+  }
+}
+
 /// Tables 2.1 and 2.2 of the dissertation on models that look like its own: triangles by selector.
 struct Counts {
   const char* model;

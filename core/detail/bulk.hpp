@@ -48,12 +48,23 @@ class Bulk {
       for (std::size_t i = first; i < last; ++i) f(i);
     });
   }
+  /// Calls f(part) for parts in [0, parts), each of which is much work.
+  template <class F>
+  void parts(std::size_t parts, const F& f) const {
+    auto one = [&](std::size_t i) {
+      if (!stopped()) f(i);
+    };
+    if (!parallel_) {
+      for (std::size_t i = 0; i < parts; ++i) one(i);
+      return;
+    }
+    tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, parts, one); });
+  }
   /// What f(i, out) appends to `out` for i in [0, count), in the order of the i.
   template <class T, class F>
   std::vector<T> gather(std::size_t count, const F& f) const {
     std::vector<std::vector<T>> found((count + grain - 1) / grain);
     parts(found.size(), [&](std::size_t part) {
-      if (stopped()) return;
       for (std::size_t i = part * grain; i < std::min(count, (part + 1) * grain); ++i) f(i, found[part]);
     });
     std::size_t total = 0;
@@ -66,16 +77,6 @@ class Bulk {
     }
     return all;
   }
-  /// Calls f(part) for parts in [0, parts), each of which is much work.
-  template <class F>
-  void parts(std::size_t parts, const F& f) const {
-    if (!parallel_) {
-      for (std::size_t i = 0; i < parts; ++i) f(i);
-      return;
-    }
-    tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, parts, f); });
-  }
-
   template <class T, class Less>
   void sort(std::vector<T>& items, const Less& less) const {
     if (stopped()) return;

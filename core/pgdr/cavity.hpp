@@ -171,7 +171,7 @@ class Cavity {
   CellId make_cell(Pools& pools, const BoundaryFace& f, VertexId v);
   void inherit_constraints(Pools& pools, const BoundaryFace& f, CellId c);
   void link_by_ridges();
-  Link across_ridge(std::size_t i) const;
+  void link_shared_slots();
   void link_by_walks(Pools& pools);
   void mark_split_entities(Pools& pools, VertexId v);
 
@@ -199,6 +199,7 @@ class Cavity {
     std::uint32_t slot;
   };
   std::vector<NewFace> new_faces_;  ///< of new cells, at the ridges of the boundary
+  std::vector<std::uint32_t> shared_slots_;  ///< links to those of them whose slot in the table is not theirs alone
   PairTable ridges_;
   std::array<VertexId, 2> split_edge_{no_vertex, no_vertex};  // 3D: the subsegment being split
   EntityId split_segment_ = no_entity;

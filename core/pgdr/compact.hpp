@@ -5,6 +5,7 @@
 // in the order of the input, Steiner points along a Hilbert curve (ties by coordinates), cells by their sorted vertex numbers.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <stop_token>
 #include <vector>
@@ -14,27 +15,31 @@
 
 namespace pgdr {
 
-/// How Steiner points and cells are numbered.
-enum class Numbering : std::uint8_t {
-  canonical,  ///< as said above
-  hasty,      ///< as their slots come, in a fifth of the time: of a run that was stopped, when the mesh is chance anyway
-};
-
 /// The finished mesh, and where its vertices and cells come from.
 template <int D>
 struct Compacted {
   OutputMesh<D> mesh;                        ///< the mesh
   std::vector<std::uint32_t> vertex_number;  ///< by index(VertexId); 0xffffffff where no cell has the vertex
   std::vector<std::uint32_t> first_cell;     ///< the first of the cells with vertex v as their smallest, and so on
-  /// Of a cell that is alive in the mesh that was compacted. @pre the numbering is canonical
-  std::uint32_t cell_number(const Mesh<D>& mesh, CellId c) const;
+  /// Of the cell of the mesh that was compacted, by its vertices there. @pre the numbering is the usual one
+  std::uint32_t cell_number(const std::array<VertexId, D + 1>& vertices) const;
 };
 
-/// The finished mesh, but for the data of its points (point_data.hpp). `region_attributes`: the attribute of each region
-/// number; empty: do not label. `parallel`: on the threads of the caller's task arena; the result is the same. `stop`: once
-/// it is requested the result is nothing to use, and comes soon.
+/// What is added to numbered points from the records of their vertices (point_data.hpp).
 template <int D>
-Compacted<D> compact(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes, bool parallel,
-                     std::stop_token stop = {}, Numbering numbering = Numbering::canonical);
+using FillPoints = std::function<void(const Mesh<D>&, Compacted<D>&)>;
+
+/// The finished mesh, made in the place of the one that was refined, of which nothing is left to use. `region_attributes`: the
+/// attribute of each region number; empty: do not label. `parallel`: on the threads of the caller's task arena; the result is
+/// the same. `stop`: once it is requested the result is nothing to use, and comes soon. `fill` may be empty.
+template <int D>
+Compacted<D> compact(Mesh<D>&& mesh, const Domain<D>& domain, std::span<const double> region_attributes, bool parallel,
+                     std::stop_token stop = {}, const FillPoints<D>& fill = {});
+
+/// The same of a run that was stopped, when the mesh is chance anyway: Steiner points and cells are numbered as their slots
+/// come, in a fifth of the time.
+template <int D>
+Compacted<D> compact_hastily(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes, bool parallel,
+                             const FillPoints<D>& fill = {});
 
 }  // namespace pgdr

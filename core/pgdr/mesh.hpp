@@ -142,13 +142,13 @@ class Mesh {
   }
 
   // Marks of a cavity under construction: owner of the cell alone.
-  bool marked(CellId c) const { return tags_[index(c)].constraints & mark_bit; }  ///< is it?
-  void mark(CellId c) { tags_[index(c)].constraints |= mark_bit; }  ///< marks it
-  void unmark(CellId c) { tags_[index(c)].constraints &= ~mark_bit; }  ///< takes the mark off
+  bool marked(CellId c) const { return tags_[index(c)].get() & mark_bit; }                ///< is it?
+  void mark(CellId c) { tags_[index(c)].set(tags_[index(c)].get() | mark_bit); }     ///< marks it
+  void unmark(CellId c) { tags_[index(c)].set(tags_[index(c)].get() & ~mark_bit); }  ///< takes the mark off
 
   /// Constraints of c, or null if none of its faces or edges is constrained.
   ConstraintRecord<D>* constraints(CellId c) {
-    const std::uint32_t id = tags_[index(c)].constraints & ~mark_bit;
+    const std::uint32_t id = tags_[index(c)].get() & ~mark_bit;
     return id == 0 ? nullptr : &constraints_[id - 1];
   }
   const ConstraintRecord<D>* constraints(CellId c) const { return const_cast<Mesh*>(this)->constraints(c); }  ///< likewise
@@ -157,8 +157,13 @@ class Mesh {
     const auto* k = constraints(c);
     return k && (k->faces >> face & 1);
   }
-  std::uint16_t region(CellId c) const { return tags_[index(c)].region; }  ///< its number
-  void set_region(CellId c, std::uint16_t r) { tags_[index(c)].region = r; }  ///< of the cell's owner alone
+  /// The number of its region.
+  std::uint16_t region(CellId c) const { return several_regions_ ? regions_[index(c)] : std::uint16_t{0}; }
+  /// Of the cell's owner alone; the first of a region other than 0: on one thread.
+  void set_region(CellId c, std::uint16_t r) {
+    if (r != 0 && !several_regions_) several_regions_ = true;
+    if (several_regions_) regions_[index(c)] = r;
+  }
   /// Counts the cells that the slot has held, modulo 2^16.
   std::uint16_t birth(CellId c) const { return tags_[index(c)].birth; }
 
@@ -191,6 +196,16 @@ class Mesh {
   std::uint32_t cell_bound() const { return cell_source_.bound(); }
   std::uint32_t vertex_bound() const { return vertex_source_.bound(); }  ///< likewise, whether any cell has them or not
 
+  // What compaction does to a mesh that nobody needs any more, bit by bit.
+  /// Where the slot's record is.
+  std::byte* memory_of(CellId c) { return reinterpret_cast<std::byte*>(&cells_[index(c)]); }
+  /// Gives back most of the memory of the cells numbered [first, last), but for the first `kept` bytes.
+  void discard_cells(std::uint32_t first, std::uint32_t last, std::size_t kept) { cells_.discard(first, last, kept); }
+  /// Gives back the memory of what is known of cells beside their records.
+  void discard_tags() { tags_.discard(0, cell_bound()); }
+  /// Gives back the memory of all vertices.
+  void discard_vertices() { vertices_.discard(0, vertex_bound()); }
+
   /// The pools of one thread.
   struct Pools {
     IdPool cells;        ///< ids of cells
@@ -203,7 +218,9 @@ class Mesh {
   /// A slot without constraints, to be filled.
   CellId new_cell(Pools& pools, std::uint16_t region = 0) {
     const std::uint32_t id = pools.cells.take();
-    tags_[id] = {0, region, static_cast<std::uint16_t>(tags_[id].birth + 1)};
+    tags_[id].set(0);
+    ++tags_[id].birth;
+    set_region(CellId{id}, region);
     return CellId{id};
   }
   void free_cell(Pools& pools, CellId c);  ///< and its constraints
@@ -230,13 +247,21 @@ class Mesh {
   void change_pinched(CellId c, bool add);
 
   std::unique_ptr<PinchedEdges> pinched_;
-  struct Tag {
-    std::uint32_t constraints = 0;  ///< number of the side record, from 1, and the mark
-    std::uint16_t region = 0, birth = 0;
+  /// In 2D without padding, which is 3 % of the memory; in 3D with it, which is faster.
+  struct alignas(D == 3 ? 8 : 2) Tag {
+    std::array<std::uint16_t, 2> constraints;  ///< one number, in halves
+    std::uint16_t birth;
+
+    /// Number of the side record, from 1, and the mark.
+    std::uint32_t get() const { return std::bit_cast<std::uint32_t>(constraints); }
+    void set(std::uint32_t v) { constraints = std::bit_cast<std::array<std::uint16_t, 2>>(v); }
   };
+  static_assert(sizeof(Tag) == (D == 3 ? 8 : 6));
   std::uint32_t capacity_;
   ReservedArray<CellRecord<D>> cells_;
   ReservedArray<Tag> tags_;
+  ReservedArray<std::uint16_t> regions_;  ///< takes memory only once there are several
+  bool several_regions_ = false;
   ReservedArray<VertexRecord<D>> vertices_;
   ReservedArray<ConstraintRecord<D>> constraints_;
   IdSource cell_source_, vertex_source_, constraint_source_;

@@ -35,6 +35,10 @@ class ReservedArray {
 
   /// Makes the slots [0, count) exist. @throws std::bad_alloc
   void grow_to(std::uint32_t count) { memory_.grow_to(std::size_t{count} * sizeof(T)); }
+  /// Gives back most of the memory of the slots [first, last), but for the first `kept` bytes. While nobody uses them.
+  void discard(std::uint32_t first, std::uint32_t last, std::size_t kept = 0) {
+    memory_.discard(std::size_t{first} * sizeof(T) + kept, std::size_t{last} * sizeof(T));
+  }
 
  private:
   ReservedMemory memory_;

@@ -95,7 +95,7 @@ struct RegionVisit {
     std::uint32_t leaf;  ///< which
     std::vector<Entry<D>> entries;  ///< in the order in which they were found
   };
-  std::vector<Outbox> outboxes;         ///< elements with their circumcentre in other regions
+  std::vector<Outbox> outboxes;         ///< elements with their circumcentre in other regions, alive at the end
   std::vector<Entry<D>> set_aside;      ///< would have changed cells that the visit does not own
   RefineCounts counts;  ///< of this visit
   bool changed_mesh = false;  ///< by an insertion or a flip
@@ -147,6 +147,7 @@ class Refiner {
   bool may_go_on();
   void look_at_budget();
   void record_refusal(const Item& e);
+  void send_abroad();
 
   // refiner_entities.cpp: encroached entities
   bool face_encroached_by(CellId c, int face, VertexId v) const;
@@ -205,6 +206,7 @@ class Refiner {
   Cavity<D> cavity_;
   LocalFlips<D> flips_;
   RegionVisit<D>* visit_ = nullptr;
+  std::vector<Item> abroad_;  ///< elements with their circumcentre in other regions
   std::uint64_t flips_left_ = 0, checked_at_ = 0, reported_ = 0;
   std::uint64_t stride_ = 1;  ///< insertions between two looks at the clock
   std::chrono::steady_clock::time_point checked_time_;

@@ -25,6 +25,8 @@ class ReservedMemory {
   void grow_to(std::size_t bytes) {
     if (bytes > usable_.load(std::memory_order_acquire)) grow(bytes);
   }
+  /// Gives the whole huge pages among the bytes [first, last) back; what is in these bytes is lost. While nobody uses them.
+  void discard(std::size_t first, std::size_t last);
   /// Of `elements` with all that belongs to them, as many as there are addresses for.
   static std::size_t affordable_elements(std::size_t elements);
 

@@ -11,7 +11,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <new>
 #include <optional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -43,10 +45,13 @@ struct Entry {
 };
 static_assert(sizeof(Entry<3>) == 28);
 
-/// First in, first out, in blocks: what was read is given back at once and used again while it is in the cache.
+/// First in, first out, in blocks: what was read is given back at once and used again while it is in the cache. The first
+/// block of a list is small, since a tree has thousands of lists with few entries.
 template <class T>
 class Fifo {
  public:
+  static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= 8);
+
   Fifo() = default;
   Fifo(Fifo&& o) noexcept { swap(o); }  ///< takes what o has
   /// Trades with o.
@@ -61,30 +66,30 @@ class Fifo {
   /// Puts it behind all others.
   void push(const T& item) {
     if (!last_) {
-      first_ = last_ = new Block;
+      first_ = last_ = new_block(least_items);
       head_ = tail_ = 0;
-    } else if (tail_ == block_items) {
-      last_ = last_->next = new Block;
+    } else if (tail_ == last_->capacity) {
+      last_ = last_->next = new_block(static_cast<std::uint32_t>(std::clamp<std::size_t>(size_ / 2, least_items, most_items)));
       tail_ = 0;
     }
-    last_->items[tail_++] = item;
+    last_->items()[tail_++] = item;
     ++size_;
   }
   /// @pre !empty()
   T pop() {
-    const T item = first_->items[head_++];
+    const T item = first_->items()[head_++];
     --size_;
     if (size_ == 0) {
       clear();
-    } else if (head_ == block_items) {
-      delete std::exchange(first_, first_->next);
+    } else if (head_ == first_->capacity) {
+      drop_first();
       head_ = 0;
     }
     return item;
   }
   /// The n-th from the front, 0 being the next; null if there are fewer in its block.
   const T* ahead(std::size_t n) const {
-    return n < size_ && head_ + n < block_items ? &first_->items[head_ + n] : nullptr;
+    return n < size_ && head_ + n < first_->capacity ? &first_->items()[head_ + n] : nullptr;
   }
   /// Calls f for each in order, and empties the list.
   template <class F>
@@ -93,14 +98,19 @@ class Fifo {
   }
 
  private:
-  static constexpr std::size_t block_items = (1024 - 2 * sizeof(void*)) / sizeof(T);
-  struct Block {
-    Block* next = nullptr;
-    std::array<T, block_items> items;
+  struct alignas(8) Block {
+    Block* next;
+    std::uint32_t capacity;
+    T* items() { return std::launder(reinterpret_cast<T*>(this + 1)); }
   };
+  static constexpr std::uint32_t most_items = (1024 - 8 - sizeof(Block)) / sizeof(T), least_items = most_items / 5;
 
+  static Block* new_block(std::uint32_t capacity) {
+    return new (::operator new(sizeof(Block) + capacity * sizeof(T))) Block{nullptr, capacity};
+  }
+  void drop_first() { ::operator delete(std::exchange(first_, first_->next)); }
   void clear() {
-    while (first_) delete std::exchange(first_, first_->next);
+    while (first_) drop_first();
     last_ = nullptr;
     size_ = 0;
   }
@@ -113,7 +123,8 @@ class Fifo {
   }
 
   Block *first_ = nullptr, *last_ = nullptr;
-  std::size_t head_ = 0, tail_ = 0, size_ = 0;  ///< head_ in the first block, tail_ in the last
+  std::uint32_t head_ = 0, tail_ = 0;  ///< head_ in the first block, tail_ in the last
+  std::size_t size_ = 0;
 };
 
 /// Least `order` first; ties in an order that depends on what was pushed and popped alone.
@@ -132,13 +143,14 @@ class EntryHeap {
     std::pop_heap(items_.begin(), items_.end(), later);
     const Entry<D> e = items_.back();
     items_.pop_back();
+    if (items_.empty()) std::vector<Entry<D>>().swap(items_);
     return e;
   }
   /// Calls f for each, and empties the heap.
   template <class F>
   void drain(F f) {
     for (const Entry<D>& e : items_) f(e);
-    items_ = {};
+    std::vector<Entry<D>>().swap(items_);
   }
 
  private:
@@ -177,6 +189,7 @@ class WorkList {
       case EntryKind::flip: return flips.push(e);
       case EntryKind::cell: break;
     }
+    if (poor_.empty()) first_ = e.bucket;
     while (first_ + static_cast<int>(poor_.size()) <= e.bucket) poor_.emplace_back();
     for (; first_ > e.bucket; --first_) poor_.emplace(poor_.begin());
     Bucket& bucket = poor_[static_cast<std::size_t>(e.bucket - first_)];
@@ -228,8 +241,7 @@ class WorkList {
       bucket.others.drain(f);
       bucket.by_shape.drain(f);
     }
-    poor_.clear();
-    first_ = 0;
+    std::vector<Bucket>().swap(poor_);
     waiting_ = others_ = 0;
   }
 
