@@ -144,19 +144,33 @@ double segment_parameter(const Domain<D>& domain, EntityId s, const Point<D>& x)
   return std::clamp((detail::dot(difference(scaled(x, -e), scaled(p, -e)), d) / length2).rounded(), 0.0, 1.0);
 }
 
+// Of a bent facet, the projection to the plane of the triangle that has x may lie in another triangle: then that one's
+// plane is meant, and so on; on either side of a fold each may send to the other, but the point is on both planes there.
 Point<3> point_on_facet(const Domain<3>& domain, EntityId f, const Point<3>& x) {
   const DomainFacet& facet = domain.facets()[f];
   const auto points = domain.points();
   const auto triangles = domain.triangles(f);
-  std::size_t best = 0;
-  if (!facet.planar) {
-    const auto holding = domain.bent_facets_->find(f)->first(x, [&](std::uint32_t k) {
-      const auto& [a, b, c] = triangles[k];
-      return holds(points[a], points[b], points[c], x, facet.axis);
-    });
-    best = holding ? *holding : nearest_triangle(triangles, points, x, facet.axis);
+  const auto projected = [&](const Point3& p, std::size_t k) {
+    return project(points[triangles[k][0]], points[triangles[k][1]], points[triangles[k][2]], p);
+  };
+  if (facet.planar) return projected(x, 0);
+  const auto has = [&](std::size_t k, const Point3& p) {
+    return holds(points[triangles[k][0]], points[triangles[k][1]], points[triangles[k][2]], p, facet.axis);
+  };
+  const auto holding = [&](const Point3& p) {
+    return domain.bent_facets_->find(f)->first(p, [&](std::uint32_t k) { return has(k, p); });
+  };
+  const auto first = holding(x);
+  std::size_t at = first ? *first : nearest_triangle(triangles, points, x, facet.axis);
+  Point3 p = projected(x, at);
+  constexpr int most_times = 8;
+  for (int n = 0; n < most_times && !has(at, p); ++n) {
+    const auto next = holding(p);
+    if (!next) break;
+    at = *next;
+    p = projected(p, at);
   }
-  return project(points[triangles[best][0]], points[triangles[best][1]], points[triangles[best][2]], x);
+  return p;
 }
 
 template PGDR_API Point2 point_on_segment<2>(const Domain<2>&, EntityId, double);

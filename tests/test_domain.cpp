@@ -129,10 +129,28 @@ TEST(Domain, CoplanarTrianglesOfOneMarkerAreOneFacet) {
 
 TEST(Domain, NearlyCoplanarTrianglesStayApart) {
   Plc<3> plc = triangulated(box());
-  plc.points[0][2] = -0x1p-52;
+  plc.points[0][2] = -0x1p-40;
   const Domain<3> d(plc);
   expect_consistent(d);
   EXPECT_GT(d.facets().size(), 6u);
+}
+
+TEST(Domain, TrianglesThatAreCoplanarUpToRoundingAreOneFacet) {
+  Plc<3> plc = triangulated(box());
+  plc.points[0][2] = -0x1p-52;
+  const Domain<3> d(plc);
+  expect_consistent(d);
+  EXPECT_EQ(d.facets().size(), 6u);
+  EXPECT_EQ(d.segments().size(), 12u);
+  double defect = 0;
+  for (const auto& f : d.facets()) {
+    EXPECT_EQ(f.planar, f.planarity_defect == 0);
+    defect = std::max(defect, f.planarity_defect);
+  }
+  EXPECT_GT(defect, 0x1p-54);
+  EXPECT_LT(defect, 0x1p-51);
+  plc.precision = 0;
+  EXPECT_GT(Domain<3>(plc).facets().size(), 6u);
 }
 
 // Two boxes on one another: the face between them, given twice, is one facet; edges round it have four triangles.

@@ -11,7 +11,7 @@
 #include "command.hpp"
 #include "console.hpp"
 #include "pgdr/io.hpp"
-#include "planar.hpp"
+#include "input.hpp"
 
 namespace pgdr::tool {
 namespace {
@@ -19,13 +19,13 @@ namespace {
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 template <int D>
-std::optional<Domain<D>> read_domain(const std::string& input, const PlanarArguments& planar) {
+std::optional<Domain<D>> read_domain(const std::string& input, const InputArguments& reading) {
   if (input.empty()) return std::nullopt;
   if (file_dimension(input) != D)
     throw UsageError(
         {.code = Errc::bad_option, .message = format("the mesh is %dD, its input is not", D), .file = input});
   std::vector<Diagnostic> repairs;
-  return std::optional<Domain<D>>(std::in_place, read_input<D>(input, planar, repairs));
+  return std::optional<Domain<D>>(std::in_place, read_input<D>(input, reading, repairs));
 }
 
 template <int D>
@@ -78,7 +78,7 @@ int check_as(const CheckArguments& a, Report& report) {
   if (!a.reasons.empty()) reported = read_bounds(a.reasons);
   const Bounds<D> bounds = resolve<D>(a.bounds, reported.radius_edge.value_or(unbounded));
   const OutputMesh<D> mesh = read_mesh<D>(a.mesh);
-  const std::optional<Domain<D>> domain = read_domain<D>(a.input, a.planar);
+  const std::optional<Domain<D>> domain = read_domain<D>(a.input, a.reading);
 
   CheckOptions<D> options;
   if (domain) options.domain = &*domain;

@@ -10,7 +10,7 @@
 #include "diagnosis.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/io.hpp"
-#include "planar.hpp"
+#include "input.hpp"
 #include "pgdr/refine.hpp"
 
 namespace pgdr::tool {
@@ -66,7 +66,7 @@ double smallest_angle(const Domain<D>& domain) {
 template <int D>
 int info_of_input(const InfoArguments& a, Report& report) {
   std::vector<Diagnostic> repairs;
-  const Plc<D> plc = read_input<D>(a.file, a.planar, repairs);
+  const Plc<D> plc = read_input<D>(a.file, a.reading, repairs);
   report.set("kind", "input");
   JsonObject d;
   d.set("accepted", false);

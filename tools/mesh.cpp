@@ -11,7 +11,7 @@
 #include "diagnosis.hpp"
 #include "files.hpp"
 #include "pgdr/io.hpp"
-#include "planar.hpp"
+#include "input.hpp"
 #include "selector.hpp"
 #include "signals.hpp"
 #include "threads.hpp"
@@ -203,7 +203,7 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
   Seconds seconds;
   seconds.read_at = total.seconds();
   std::vector<Diagnostic> repairs;
-  const Plc<D> plc = read_input<D>(a.input, a.planar, repairs);
+  const Plc<D> plc = read_input<D>(a.input, a.reading, repairs);
   seconds.mesh_at = total.seconds();
   seconds.read = seconds.mesh_at - seconds.read_at;
 

@@ -126,7 +126,11 @@ void add_bounds(CLI::App& app, BoundArguments& b, const std::string& without) {
       ->excludes(radius_edge);
 }
 
-void add_planar(CLI::App& app, PlanarArguments& p) {
+void add_input(CLI::App& app, InputArguments& p) {
+  app.add_option("--precision", p.precision,
+                 "3D: facets that meet at an edge and lie in one plane within R times their largest coordinate are one "
+                 "(default 3.6e-15, 16 ulps: rounding; more where the file has few digits, which moves the surface by so much)")
+      ->type_name("R")->check(number("between 0 and 0.01", [](double v) { return v >= 0 && v <= 0.01; }));
   app.add_flag("--resolve-crossings", p.resolve_crossings, "2D: split segments that cross, at new points");
   app.add_flag("--convex-hull", p.convex_hull, "2D: the edges of the convex hull of all points are segments, too");
 }
@@ -156,7 +160,7 @@ void add_mesh(CLI::App& app, MeshArguments& a) {
   app.add_option("INPUT", a.input, "what to mesh: .poly .smesh .node .off .obj .ply .stl .mesh .msh")->required()->type_name("");
   add_output(app, a);
   add_bounds(app, a.bounds, "2 in 3D, sqrt 2 in 2D, the smallest with a proof");
-  add_planar(app, a.planar);
+  add_input(app, a.reading);
   add_regions(app, a.regions);
   app.add_flag("--keep-boundary", a.keep_boundary, "2D: no new points on segments");
   app.add_flag("--no-refine", a.no_refine, "2D: the constrained Delaunay triangulation, without new points; 3D: the "
@@ -197,7 +201,7 @@ void add_check(CLI::App& app, CheckArguments& a) {
   app.add_option("MESH", a.mesh, "the mesh to check: .vtu .msh .mesh .node .ele")->required()->type_name("");
   app.add_option("--input", a.input, "what it is a mesh of; without it, conformity is not checked")->type_name("INPUT");
   add_bounds(app, a.bounds, "that of the report of --reasons; none without one");
-  add_planar(app, a.planar);
+  add_input(app, a.reading);
   add_regions(app, a.regions);
   app.add_option("--reasons", a.reasons, "report of `pgdr mesh`, whose bounds.reasons explain poor cells")
       ->type_name("REPORT.json")->needs("--input");
@@ -206,7 +210,7 @@ void add_check(CLI::App& app, CheckArguments& a) {
 
 void add_info(CLI::App& app, InfoArguments& a) {
   app.add_option("FILE", a.file, "an input or a mesh")->required()->type_name("");
-  add_planar(app, a.planar);
+  add_input(app, a.reading);
   add_report(app, a.report, a.quiet);
 }
 

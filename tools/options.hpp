@@ -27,9 +27,10 @@ struct BoundArguments {
   std::optional<double> min_angle;
 };
 
-/// What `mesh` and `check` do to a planar input before anything else.
-struct PlanarArguments {
+/// How an input is read, and what is done to it before anything else.
+struct InputArguments {
   bool resolve_crossings = false, convex_hull = false;
+  std::optional<double> precision;  ///< none: that of Plc
 };
 
 struct MeshArguments {
@@ -37,7 +38,7 @@ struct MeshArguments {
   std::optional<int> first_index;  ///< of .node and .ele; none: as in the input, or 1
   bool edges = false, neighbors = false, leaves = false;  ///< what is written beside the mesh
   BoundArguments bounds;
-  PlanarArguments planar;
+  InputArguments reading;
   bool keep_boundary = false, no_refine = false;
   std::string selector = "circumcenter";  ///< NAME or NAME:PARAMETER (selector.hpp)
   std::optional<DiskType> disk;           ///< none: as usual for the selector
@@ -57,7 +58,7 @@ struct MeshArguments {
 struct CheckArguments {
   std::string mesh, input;  ///< input empty: conformity is not checked
   BoundArguments bounds;
-  PlanarArguments planar;
+  InputArguments reading;
   RegionMode regions = RegionMode::seeds;
   std::string reasons;      ///< a report of `mesh`
   std::string report;
@@ -66,7 +67,7 @@ struct CheckArguments {
 
 struct InfoArguments {
   std::string file;
-  PlanarArguments planar;
+  InputArguments reading;
   std::string report;
   bool quiet = false;
 };

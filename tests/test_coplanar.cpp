@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Planar faces of many triangles, turned and shifted so that rounding bends them: they are facets all the same, and the
+// edges between their triangles are no segments, at small angles with each other. (Turned copies of mechanical parts, as
+// triangles, came out with up to half of their elements poor, where the straight ones had none.)
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "parallel_support.hpp"
+
+namespace pgdr {
+namespace {
+
+using test::for_each_point;
+using test::turned;
+
+/// A box of which each face is a grid of n x n rectangles, each of two triangles.
+Plc<3> gridded_box(int n) {
+  Plc<3> plc;
+  const Point3 size{{4, 3, 0.25}};
+  std::map<std::array<double, 3>, std::uint32_t> numbers;
+  const auto point = [&](int axis, bool far, int i, int j) {
+    Point3 p;
+    p[axis] = far ? size[axis] : 0;
+    p[(axis + 1) % 3] = i * size[(axis + 1) % 3] / n;
+    p[(axis + 2) % 3] = j * size[(axis + 2) % 3] / n;
+    const auto [at, is_new] = numbers.try_emplace(p.x, static_cast<std::uint32_t>(plc.points.size()));
+    if (is_new) plc.points.push_back(p);
+    return at->second;
+  };
+  for (int axis = 0; axis < 3; ++axis)
+    for (const bool far : {false, true})
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+          const auto a = point(axis, far, i, j), b = point(axis, far, i + 1, j), c = point(axis, far, i + 1, j + 1),
+                     d = point(axis, far, i, j + 1);
+          plc.facets.push_back({{{a, b, c}}, {}, 0});
+          plc.facets.push_back({{{a, c, d}}, {}, 0});
+        }
+  return plc;
+}
+
+class Turned : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Coplanar, Turned, testing::Values(0, 1000), testing::PrintToStringParamName());
+
+TEST_P(Turned, BoxOfTrianglesHasSixFacetsAndNoPoorElement) {
+  const Plc<3> plc = turned(gridded_box(5), GetParam());
+  const Domain<3> domain(plc);
+  EXPECT_EQ(domain.facets().size(), 6u);
+  EXPECT_EQ(domain.segments().size(), 60u);
+  Plc<3> exact = plc;
+  exact.precision = 0;
+  EXPECT_GT(Domain<3>(exact).facets().size(), 50u);
+  const auto result = test::expect_reproducible<3>(plc, {}, "turned box");
+  EXPECT_EQ(result.poor_left, 0u);
+}
+
+TEST_P(Turned, PipeOfTrianglesHasNoPoorElement) {
+  Plc<3> plc;
+  const Plc<3> pipe = test::pipe(12, 1, 2);
+  plc.points = pipe.points;
+  const Domain<3> straight(pipe);
+  for (EntityId f = 0; f < straight.facets().size(); ++f)
+    for (const auto& t : straight.triangles(f)) plc.facets.push_back({{{t[0], t[1], t[2]}}, {}, 0});
+  plc = turned(plc, GetParam());
+  EXPECT_EQ(Domain<3>(plc).facets().size(), straight.facets().size());
+  const auto outcome = test::refine_and_check<3>(plc, {});
+  EXPECT_EQ(outcome.report.exit_code(), 0) << test::findings(outcome.report);
+  EXPECT_EQ(outcome.result.poor_left, 0u);
+}
+
+TEST(Coplanar, MarkersKeepFacetsApart) {
+  Plc<3> plc = turned(gridded_box(4), 0);
+  for (std::size_t k = 0; k < 16; ++k) plc.facets[k].marker = 5;  // half of the first face
+  const Domain<3> domain(plc);
+  EXPECT_EQ(domain.facets().size(), 7u);
+}
+
+TEST(Coplanar, SmoothSurfacesStayAsTheyAre) {
+  Plc<3> plc = turned(test::icosphere(4), 0);
+  EXPECT_EQ(Domain<3>(plc).facets().size(), plc.facets.size());
+  plc.precision = 1e-6;
+  EXPECT_EQ(Domain<3>(plc).facets().size(), plc.facets.size());
+}
+
+// As many programs write them.
+TEST(Coplanar, SixDigitsAndAPrecisionToMatch) {
+  Plc<3> plc = turned(gridded_box(5), 0);
+  for_each_point(plc, [](Point3& p) {
+    for (double& x : p.x) x = std::round(x * 1e6) / 1e6;
+  });
+  EXPECT_GT(Domain<3>(plc).facets().size(), 50u);
+  plc.precision = 2e-6;
+  EXPECT_EQ(Domain<3>(plc).facets().size(), 6u);
+  const auto outcome = test::refine_and_check<3>(plc, {});
+  EXPECT_EQ(outcome.report.exit_code(), 0) << test::findings(outcome.report);
+  EXPECT_EQ(outcome.result.poor_left, 0u);
+}
+
+}  // namespace
+}  // namespace pgdr
