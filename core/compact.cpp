@@ -27,7 +27,7 @@ void copy_input_points(const Domain<D>& domain, OutputMesh<D>& out) {
 /// Number of each vertex in the output (by index(VertexId)); fills mesh.points.
 template <int D>
 std::vector<std::uint32_t> number_vertices(const Mesh<D>& mesh, const detail::StrippedCells<D>& cells, const Domain<D>& domain,
-                                           const detail::Bulk& bulk, OutputMesh<D>& out) {
+                                           const detail::Bulk& bulk, const std::stop_token& hurry, OutputMesh<D>& out) {
   constexpr std::uint32_t used = 0;
   std::vector<std::uint32_t> number(mesh.vertex_bound(), none);
   cells.each([&](const auto& cell, std::uint16_t) {
@@ -45,10 +45,11 @@ std::vector<std::uint32_t> number_vertices(const Mesh<D>& mesh, const detail::St
     number[i] = record.home.id();
     if (record.home.kind() != EntityKind::vertex) found.push_back({curve.key(record.point), static_cast<std::uint32_t>(i)});
   });
-  bulk.sort(steiner, [&](const Steiner& a, const Steiner& b) {
+  auto along_curve = [&](const Steiner& a, const Steiner& b) {
     if (a.key != b.key) return a.key < b.key;
     return lex_less(mesh.point(VertexId{a.vertex}), mesh.point(VertexId{b.vertex}));
-  });
+  };
+  if (!hurry.stop_requested()) bulk.sort(steiner, along_curve);
   if (bulk.stopped()) return number;
   out.points.resize(out.input_points + steiner.size());
   bulk.each(steiner.size(), [&](std::size_t i) {
@@ -74,7 +75,8 @@ std::array<std::uint32_t, N> canonical(std::array<std::uint32_t, N> v) {
 /// Bucketed by the smallest vertex, which is the first, and sorted within a bucket: in place, so that nothing but the result
 /// takes memory for each cell.
 template <int D>
-void number_cells(const detail::StrippedCells<D>& stripped, const detail::Bulk& bulk, Compacted<D>& out) {
+void number_cells(const detail::StrippedCells<D>& stripped, const detail::Bulk& bulk, const std::stop_token& hurry,
+                  Compacted<D>& out) {
   using Cell = std::array<std::uint32_t, D + 1>;
   // While the cells are counted, then placed, that of vertex v is begin[v + 2], then begin[v + 1].
   std::vector<std::uint32_t>& begin = out.first_cell;
@@ -97,7 +99,9 @@ void number_cells(const detail::StrippedCells<D>& stripped, const detail::Bulk& 
     const std::uint64_t x = std::uint64_t{a[1]} << 32 | a[2], y = std::uint64_t{b[1]} << 32 | b[2];
     return x != y ? x < y : a[D] < b[D];
   };
-  bulk.each(begin.size() - 1, [&](std::size_t b) { std::sort(cells.begin() + begin[b], cells.begin() + begin[b + 1], less); });
+  bulk.each(begin.size() - 1, [&](std::size_t b) {
+    if (!hurry.stop_requested()) std::sort(cells.begin() + begin[b], cells.begin() + begin[b + 1], less);
+  });
 }
 
 /// Vertices and cells in the order of their slots, in two passes over the cells.
@@ -256,16 +260,17 @@ void number_constraints(const MarkedFaces<D>& found, const std::vector<std::uint
 
 template <int D>
 Compacted<D> compact(Mesh<D>&& mesh, const Domain<D>& domain, std::span<const double> region_attributes, bool parallel,
-                     std::stop_token stop, const FillPoints<D>& fill) {
+                     std::stop_token stop, const FillPoints<D>& fill, std::stop_token hurry) {
+  if (!region_attributes.empty()) hurry = {};  // cells are looked up to label them
   const detail::Bulk bulk(parallel, std::move(stop));
   Compacted<D> out;
   const MarkedFaces<D> constraints = gather_constraints<D>(mesh, domain, bulk);
   const detail::StrippedCells<D> stripped(mesh, bulk, !region_attributes.empty());
   if (bulk.stopped()) return {};
-  out.vertex_number = number_vertices<D>(mesh, stripped, domain, bulk, out.mesh);
+  out.vertex_number = number_vertices<D>(mesh, stripped, domain, bulk, hurry, out.mesh);
   if (fill && !bulk.stopped()) fill(mesh, out);
   mesh.discard_vertices();
-  if (!bulk.stopped()) number_cells<D>(stripped, bulk, out);
+  if (!bulk.stopped()) number_cells<D>(stripped, bulk, hurry, out);
   if (bulk.stopped()) return {};
   number_constraints<D>(constraints, out.vertex_number, bulk, out.mesh);
   if (!region_attributes.empty()) {
@@ -278,8 +283,8 @@ Compacted<D> compact(Mesh<D>&& mesh, const Domain<D>& domain, std::span<const do
 }
 
 template <int D>
-Compacted<D> compact_hastily(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes, bool parallel,
-                             const FillPoints<D>& fill) {
+Compacted<D> compact_hastily(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes,
+                             bool parallel, const FillPoints<D>& fill) {
   const detail::Bulk bulk(parallel, {});
   Compacted<D> out;
   number_hastily<D>(mesh, domain, region_attributes, bulk, out);
@@ -298,9 +303,9 @@ std::uint32_t Compacted<D>::cell_number(const std::array<VertexId, D + 1>& verti
 template struct Compacted<2>;
 template struct Compacted<3>;
 template Compacted<2> compact<2>(Mesh<2>&&, const Domain<2>&, std::span<const double>, bool, std::stop_token,
-                                 const FillPoints<2>&);
+                                 const FillPoints<2>&, std::stop_token);
 template Compacted<3> compact<3>(Mesh<3>&&, const Domain<3>&, std::span<const double>, bool, std::stop_token,
-                                 const FillPoints<3>&);
+                                 const FillPoints<3>&, std::stop_token);
 template Compacted<2> compact_hastily<2>(const Mesh<2>&, const Domain<2>&, std::span<const double>, bool, const FillPoints<2>&);
 template Compacted<3> compact_hastily<3>(const Mesh<3>&, const Domain<3>&, std::span<const double>, bool, const FillPoints<3>&);
 

@@ -115,13 +115,14 @@ Compacted<D> compact_mesh(Mesh<D>& mesh, const Domain<D>& domain, const RegionTa
                           const RefineOptions<D>& options, bool in_haste) {
   std::vector<double> attributes;
   if (regions.labelled) attributes = regions.attribute;
-  // The mesh is used up: where a partial one is wanted its numbering goes on to the end.
-  const std::stop_token stop = options.partial_mesh ? std::stop_token{} : options.stop;
+  // The mesh is used up: where a partial one is wanted its numbering goes on to the end, in haste.
+  const std::stop_token none, stop = options.partial_mesh ? none : options.stop;
+  const std::stop_token hurry = options.partial_mesh ? options.stop : none;
   Compacted<D> compacted;
   const auto make = [&](bool parallel) {
     const FillPoints<D> fill = [&](const Mesh<D>& m, Compacted<D>& out) { data.fill(m, out, parallel, stop); };
     compacted = in_haste ? compact_hastily<D>(mesh, domain, attributes, parallel, fill)
-                         : compact<D>(std::move(mesh), domain, attributes, parallel, stop, fill);
+                         : compact<D>(std::move(mesh), domain, attributes, parallel, stop, fill, hurry);
   };
   if (options.schedule.executor != Executor::flow_graph)
     make(false);

@@ -31,15 +31,16 @@ using FillPoints = std::function<void(const Mesh<D>&, Compacted<D>&)>;
 
 /// The finished mesh, made in the place of the one that was refined, of which nothing is left to use. `region_attributes`: the
 /// attribute of each region number; empty: do not label. `parallel`: on the threads of the caller's task arena; the result is
-/// the same. `stop`: once it is requested the result is nothing to use, and comes soon. `fill` may be empty.
+/// the same. `stop`: once it is requested the result is nothing to use, and comes soon. `fill` may be empty. `hurry`: once it is
+/// requested what is left is numbered as it comes, and cell_number() is not to be asked.
 template <int D>
 Compacted<D> compact(Mesh<D>&& mesh, const Domain<D>& domain, std::span<const double> region_attributes, bool parallel,
-                     std::stop_token stop = {}, const FillPoints<D>& fill = {});
+                     std::stop_token stop = {}, const FillPoints<D>& fill = {}, std::stop_token hurry = {});
 
 /// The same of a run that was stopped, when the mesh is chance anyway: Steiner points and cells are numbered as their slots
 /// come, in a fifth of the time.
 template <int D>
-Compacted<D> compact_hastily(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes, bool parallel,
-                             const FillPoints<D>& fill = {});
+Compacted<D> compact_hastily(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes,
+                             bool parallel, const FillPoints<D>& fill = {});
 
 }  // namespace pgdr
