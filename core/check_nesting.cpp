@@ -5,10 +5,10 @@
 // tree makes with each other edge: two edges are in one component iff a chain of such cycles, each with an edge of the
 // next, joins them; and a component is consistent iff all its cycles have an even number of edges.
 #include <algorithm>
-#include <numeric>
 #include <set>
 
 #include "detail/check_input.hpp"
+#include "detail/disjoint_sets.hpp"
 
 namespace pgdr::checking {
 namespace {
@@ -20,9 +20,8 @@ using Neighbours = std::vector<std::set<std::uint32_t>>;
 class NestingTree {
  public:
   explicit NestingTree(const Neighbours& neighbours)
-      : parent_(neighbours.size(), none), depth_(neighbours.size(), 0), class_(neighbours.size()),
+      : parent_(neighbours.size(), none), depth_(neighbours.size(), 0), classes_(neighbours.size()),
         odd_(neighbours.size(), 0) {
-    std::iota(class_.begin(), class_.end(), 0u);
     order_.push_back(0);
     for (std::size_t i = 0; i < order_.size(); ++i)
       for (const std::uint32_t v : neighbours[order_[i]]) {
@@ -41,7 +40,7 @@ class NestingTree {
     std::vector<std::uint32_t> entry(parent_.size(), none);  // of a class: its volume nearest to the outside
     for (const std::uint32_t v : order_) {
       if (v == 0) continue;
-      const std::uint32_t c = find(v);
+      const std::uint32_t c = classes_.find(v);
       if (entry[c] == none) entry[c] = parent_[v];
       solid[v] = !solid[odd_[c] ? entry[c] : parent_[v]];
     }
@@ -49,16 +48,10 @@ class NestingTree {
   }
 
  private:
-  std::uint32_t find(std::uint32_t v) {
-    while (class_[v] != v) v = class_[v] = class_[class_[v]];
-    return v;
-  }
-
   void join(std::uint32_t v, std::uint32_t w) {
-    v = find(v);
-    w = find(w);
-    class_[v] = w;
-    odd_[w] |= odd_[v];
+    const std::uint8_t odd = odd_[classes_.find(v)] | odd_[classes_.find(w)];
+    classes_.unite(v, w);
+    odd_[classes_.find(v)] = odd;
   }
 
   void close_cycle(std::uint32_t v, std::uint32_t w) {
@@ -69,10 +62,11 @@ class NestingTree {
       join(v, some);
       v = parent_[v];
     }
-    if (odd) odd_[find(some)] = 1;
+    if (odd) odd_[classes_.find(some)] = 1;
   }
 
-  std::vector<std::uint32_t> parent_, depth_, order_, class_;
+  std::vector<std::uint32_t> parent_, depth_, order_;
+  detail::DisjointSets classes_;
   std::vector<std::uint8_t> odd_;
 };
 

@@ -15,18 +15,17 @@
 #include <numeric>
 
 #include "detail/domain_builder.hpp"
+#include "detail/vectors.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr {
+using detail::dot;
 using detail::EdgeUse;
-using detail::TriangulatedFacet;
 
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
-using Vector = std::array<double, 3>;
-
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+using Vector = detail::Vector<3>;
 
 /// The plane of triangles, in coordinates of at most 1. The first one added should not be thin.
 class FittedPlane {

@@ -11,26 +11,18 @@
 #include <utility>
 #include <vector>
 
+#include "detail/vectors.hpp"
 #include "pgdr/error.hpp"
 
 namespace pgdr {
 namespace {
 
-template <int D>
-using Vector = std::array<double, D>;
-
-template <int D>
-Vector<D> difference(const Point<D>& a, const Point<D>& b) {
-  Vector<D> d;
-  for (int i = 0; i < D; ++i) d[i] = a[i] - b[i];
-  return d;
-}
+using detail::difference;
+using detail::Vector;
 
 template <int D>
 double length(const Vector<D>& v) {
-  double s = 0;
-  for (int i = 0; i < D; ++i) s += v[i] * v[i];
-  return std::sqrt(s);
+  return std::sqrt(detail::dot(v, v));
 }
 
 template <int D>

@@ -10,8 +10,8 @@
 #include "bounds.hpp"
 #include "command.hpp"
 #include "console.hpp"
-#include "pgdr/io.hpp"
 #include "input.hpp"
+#include "pgdr/io.hpp"
 
 namespace pgdr::tool {
 namespace {

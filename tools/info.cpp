@@ -8,9 +8,9 @@
 #include "command.hpp"
 #include "console.hpp"
 #include "diagnosis.hpp"
+#include "input.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/io.hpp"
-#include "input.hpp"
 #include "pgdr/refine.hpp"
 
 namespace pgdr::tool {

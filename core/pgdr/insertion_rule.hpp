@@ -24,8 +24,8 @@
 // the least first shell) relaxed lengths are at least lambda as long as R is, and every Steiner point of the refinement has
 // R >= lambda and r >= c lambda, by induction over the insertions (on shells: r >= c lambda min(1, 2 sin(a / 2)), a the
 // least angle between segments, as distances from their end do not shrink from one shell to the other). Mutually visible
-// vertices are thus c lambda apart, and the domain is bounded: finitely many insertions. Vertices of the volume that are taken out again (local_rewrap.hpp) are finitely many,
-// too. Without inheritance c would have to be 1. Pure functions; any thread.
+// vertices are thus c lambda apart, and the domain is bounded: finitely many insertions. Vertices of the volume that are taken
+// out again (local_rewrap.hpp) are finitely many, too. Without inheritance c would have to be 1. Pure functions; any thread.
 #pragma once
 
 #include <array>
