@@ -192,7 +192,7 @@ bool insertions(int count) {
     for (std::size_t n = 0; n < cells.size(); ++n)
       if (!mesh.is_ghost(cells[n]) && bounds.test(mesh, cells[n], cavity.shape_of_new(n))) poor.push_back(cells[n]);
     split.end(4);
-    for (const CellId c : poor) list.push(Entry<3>{c, mesh.cell(c).vertices, EntryKind::cell, 0, 10, mesh.birth(c)});
+    for (const CellId c : poor) list.push(Entry<3>{c, mesh.birth(c), EntryKind::cell, Entry<3>::over_size, 10});
     for (std::size_t n = 0; n < poor.size(); ++n) listed += list.pop_poor(mesh).alive(mesh) ? 1 : 0;
     split.end(5);
     made += static_cast<double>(cells.size());

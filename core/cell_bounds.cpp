@@ -33,16 +33,20 @@ CellVerdict CellBounds<D>::test(const Mesh<D>& mesh, CellId c) const {
 
 template <int D>
 CellVerdict CellBounds<D>::test(const Mesh<D>& mesh, CellId c, const CellShape& shape) const {
-  CellVerdict verdict;
+  return {over_radius_edge(mesh, c, shape.shortest_edge_squared), over_size(mesh, c, shape)};
+}
+
+template <int D>
+bool CellBounds<D>::over_radius_edge(const Mesh<D>& mesh, CellId c) const {
+  return over_radius_edge(mesh, c, shortest_edge_squared<D>(mesh.simplex(c)));
+}
+
+template <int D>
+bool CellBounds<D>::over_radius_edge(const Mesh<D>& mesh, CellId c, double shortest_squared) const {
   const auto [low, high] = mesh.squared_radius_bounds(c);
-  const double limit = radius_edge_bound * radius_edge_bound * shape.shortest_edge_squared;
-  if (low > limit) {
-    verdict.over_radius_edge = true;
-  } else if (!(high < limit)) {
-    verdict.over_radius_edge = !radius_edge_within<D>(mesh.simplex(c), radius_edge_bound);
-  }
-  verdict.over_size = over_size(mesh, c, shape);
-  return verdict;
+  const double limit = radius_edge_bound * radius_edge_bound * shortest_squared;
+  if (low > limit) return true;
+  return !(high < limit) && !radius_edge_within<D>(mesh.simplex(c), radius_edge_bound);
 }
 
 // The determinant is D! times the measure; the right side is rounded once.

@@ -29,7 +29,8 @@ template <int D>
 std::vector<std::uint32_t> number_vertices(const Mesh<D>& mesh, const detail::StrippedCells<D>& cells, const Domain<D>& domain,
                                            const detail::Bulk& bulk, const std::stop_token& hurry, OutputMesh<D>& out) {
   constexpr std::uint32_t used = 0;
-  std::vector<std::uint32_t> number(mesh.vertex_bound(), none);
+  auto number = detail::vector_of_capacity<std::uint32_t>(mesh.vertex_bound());
+  number.resize(mesh.vertex_bound(), none);
   cells.each([&](const auto& cell, std::uint16_t) {
     for (const std::uint32_t v : cell) std::atomic_ref(number[v]).store(used, std::memory_order_relaxed);
   });
@@ -51,6 +52,9 @@ std::vector<std::uint32_t> number_vertices(const Mesh<D>& mesh, const detail::St
   };
   if (!hurry.stop_requested()) bulk.sort(steiner, along_curve);
   if (bulk.stopped()) return number;
+  auto points = detail::vector_of_capacity<Point<D>>(out.input_points + steiner.size());
+  points.assign(out.points.begin(), out.points.end());
+  out.points = std::move(points);
   out.points.resize(out.input_points + steiner.size());
   bulk.each(steiner.size(), [&](std::size_t i) {
     number[steiner[i].vertex] = static_cast<std::uint32_t>(out.input_points + i);
@@ -80,7 +84,8 @@ void number_cells(const detail::StrippedCells<D>& stripped, const detail::Bulk& 
   using Cell = std::array<std::uint32_t, D + 1>;
   // While the cells are counted, then placed, that of vertex v is begin[v + 2], then begin[v + 1].
   std::vector<std::uint32_t>& begin = out.first_cell;
-  begin.assign(out.mesh.points.size() + 2, 0);
+  begin = detail::vector_of_capacity<std::uint32_t>(out.mesh.points.size() + 2);
+  begin.resize(out.mesh.points.size() + 2, 0);
   auto next = [&](std::uint32_t& counter) {
     return bulk.parallel() ? std::atomic_ref(counter).fetch_add(1, std::memory_order_relaxed) : counter++;
   };
@@ -91,6 +96,7 @@ void number_cells(const detail::StrippedCells<D>& stripped, const detail::Bulk& 
   });
   for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
   auto& cells = out.mesh.cells;
+  cells = detail::vector_of_capacity<Cell>(begin.back());
   cells.resize(begin.back());
   stripped.each([&](const Cell& cell, std::uint16_t) { cells[next(begin[cell[0] + 1])] = cell; });
   begin.pop_back();

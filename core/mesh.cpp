@@ -75,8 +75,10 @@ void Mesh<D>::free_cell(Pools& pools, CellId c) {
   const std::uint32_t tag = tags_[index(c)].get() & ~mark_bit;
   if (pinched_ && tag != 0) change_pinched(c, false);
   if (tag != 0) pools.constraints.give(tag - 1);
-  std::atomic_ref(cell(c).vertices[0]).store(no_vertex, std::memory_order_relaxed);
-  pools.cells.give(index(c));
+  atomic(cell(c).vertices[0]).store(no_vertex, std::memory_order_relaxed);
+  const auto next = static_cast<std::uint16_t>(birth(c) + 1);
+  atomic(tags_[index(c)].birth).store(next, std::memory_order_relaxed);
+  if (next != last_birth) pools.cells.give(index(c));
 }
 
 template <int D>

@@ -111,7 +111,7 @@ PoorReasons<D>::PoorReasons(Mesh<D>& mesh, const Domain<D>& domain, const CellBo
 template <int D>
 void PoorReasons<D>::add(std::span<const Refusal<D>> refused) {
   for (const Refusal<D>& r : refused)
-    if (r.entry.kind == EntryKind::cell && r.entry.alive(*mesh_))
+    if (r.entry.kind() == EntryKind::cell && r.entry.alive(*mesh_))
       why_.insert_or_assign(index(r.entry.cell), r.pair);
 }
 

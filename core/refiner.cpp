@@ -58,11 +58,9 @@ Refiner<D>::Refiner(RefineContext<D>& context, Pools pools)
       flips_(context.mesh, context.domain) {}
 
 template <int D>
-void Refiner<D>::list_poor(CellId c, std::uint8_t why) {
+void Refiner<D>::list_poor(CellId c, int why) {
   assert(!visit_->area || visit_->area->owns(*mesh_, c));
-  Item e = make_entry(c, EntryKind::cell, why);
-  e.bucket = static_cast<std::uint8_t>(context_->bucket_of(c));
-  if (why == Item::over_radius_edge) e.order = order_of(c);
+  const Item e = make_entry(c, EntryKind::cell, why, context_->bucket_of(c), why == Item::over_radius_edge ? order_of(c) : 0);
   if (!visit_->area || visit_->area->is_home(mesh_->cell(c).center)) return visit_->list->push(e);
   abroad_.push_back(e);
 }
@@ -139,15 +137,15 @@ void Refiner<D>::committed() {
 
 template <int D>
 void Refiner<D>::flip(const Item& e) {
-  if (!flips_.violates(e.cell, e.which)) return;
+  if (!flips_.violates(e.cell, e.which())) return;
   using Effort = LocalRewrap::Effort;
   auto outcome = LocalFlips<D>::Outcome::stuck;
   auto still_stuck = [&] { return flips_left_ > 0 && outcome == LocalFlips<D>::Outcome::stuck; };
-  if (still_stuck()) outcome = flips_.repair(pools_, e.cell, e.which);
+  if (still_stuck()) outcome = flips_.repair(pools_, e.cell, e.which());
   // While no entity has been refused a constrained Delaunay triangulation should exist, if in a large region.
   if (still_stuck() && !visit_->entities_refused && flips_.rewrap_pays(most_lost_work))
-    outcome = flips_.rewrap(pools_, e.cell, e.which, Effort::wide);
-  if (still_stuck() && visit_->rewraps) outcome = flips_.rewrap(pools_, e.cell, e.which, Effort::quick);
+    outcome = flips_.rewrap(pools_, e.cell, e.which(), Effort::wide);
+  if (still_stuck() && visit_->rewraps) outcome = flips_.rewrap(pools_, e.cell, e.which(), Effort::quick);
   if (outcome == LocalFlips<D>::Outcome::not_owned) return visit_->set_aside.push_back(e);
   if (outcome == LocalFlips<D>::Outcome::stuck) return list_poor(e.cell, Item::not_delaunay);
   --flips_left_;
@@ -168,13 +166,14 @@ void Refiner<D>::flipped() {
 template <int D>
 bool Refiner<D>::is_far_from_walls(const Item& e) const {
   auto in_volume = [this](VertexId v) { return mesh_->vertex(v).home.kind() == EntityKind::volume; };
-  const auto& beyond = mesh_->cell(mesh_->cell(e.cell).links[e.which].cell()).vertices;
-  return std::all_of(e.vertices.begin(), e.vertices.end(), in_volume) && std::all_of(beyond.begin(), beyond.end(), in_volume);
+  const auto& beyond = mesh_->cell(mesh_->cell(e.cell).links[e.which()].cell()).vertices;
+  const auto& vertices = mesh_->cell(e.cell).vertices;
+  return std::all_of(vertices.begin(), vertices.end(), in_volume) && std::all_of(beyond.begin(), beyond.end(), in_volume);
 }
 
 template <int D>
 bool Refiner<D>::mend(const Item& e) {
-  if (flips_.rewrap(pools_, e.cell, e.which, LocalRewrap::Effort::thorough) != LocalFlips<D>::Outcome::flipped) return false;
+  if (flips_.rewrap(pools_, e.cell, e.which(), LocalRewrap::Effort::thorough) != LocalFlips<D>::Outcome::flipped) return false;
   flipped();
   return true;
 }
@@ -211,17 +210,19 @@ bool Refiner<D>::may_go_on() {
 template <int D>
 void Refiner<D>::record_refusal(const Item& e) {
   visit_->list->refused.push_back({e, last_refusal_, visit_->order, visit_->generation});
-  visit_->entities_refused = visit_->entities_refused || e.kind != EntryKind::cell;
+  visit_->entities_refused = visit_->entities_refused || e.kind() != EntryKind::cell;
 }
 
-/// One entry. Whether its slot is alive may be asked only if the visit owns its vertices: else it depends on timing.
+/// One entry. Whether one that the visit does not own is still alive depends on timing: of those set aside, what is dead by
+/// the end of the generation is left out (put_off), so that what remains does not.
 template <int D>
 void Refiner<D>::treat(const Item& e) {
-  if (visit_->area && !visit_->area->owns(*mesh_, e.vertices)) return visit_->set_aside.push_back(e);
-  if (!alive(e)) return;
+  std::array<VertexId, D + 1> vertices;
+  if (!mesh_->read_vertices(e.cell, e.birth, vertices)) return;
+  if (visit_->area && !visit_->area->owns(*mesh_, vertices)) return visit_->set_aside.push_back(e);
   last_refusal_.reset();
   Outcome outcome = Outcome::committed;
-  switch (e.kind) {
+  switch (e.kind()) {
     case EntryKind::edge: outcome = split_edge(e, nullptr); break;
     case EntryKind::face: outcome = split_face(e, nullptr); break;
     case EntryKind::flip: return flip(e);
@@ -281,7 +282,7 @@ void Refiner<D>::run(RegionVisit<D>& visit) {
   WorkList<D>& list = *visit.list;
   // An allowance for the faces that wait from before.
   flips_left_ += 16 * list.flips.size();
-  for (const Item& e : visit.given) flips_left_ += e.kind == EntryKind::flip ? 16 : 0;
+  for (const Item& e : visit.given) flips_left_ += e.kind() == EntryKind::flip ? 16 : 0;
   treat_entities();
   for (std::size_t i = 0; i < visit.given.size(); ++i) {
     if (may_go_on()) {

@@ -168,15 +168,24 @@ auto Refiner<D>::hiding_wall(CellId c, const Point<D>& x) const -> std::optional
 template <int D>
 auto Refiner<D>::split_instead(const Item& entity, const Item& e, const CellVerdict& verdict) -> Outcome {
   if (options_->keep_boundary) {
-    last_refusal_ = EntityPair{{EntityRef{EntityKind::segment, mesh_->constraints(entity.cell)->face_entity[entity.which]}, {}}};
+    last_refusal_ = EntityPair{{EntityRef{EntityKind::segment, mesh_->constraints(entity.cell)->face_entity[entity.which()]}, {}}};
     return verdict.over_size ? insert_inside(e, verdict) : Outcome::refused;
   }
   const Demand demand = demand_on_entity(e.cell, verdict);
   cavity_.release();
-  const Outcome outcome = entity.kind == EntryKind::edge ? split_edge(entity, &demand) : split_face(entity, &demand);
+  const Outcome outcome = entity.kind() == EntryKind::edge ? split_edge(entity, &demand) : split_face(entity, &demand);
   // The element is looked at again if the split left it as it was.
-  if (outcome == Outcome::committed && alive(e)) list_poor(e.cell, e.which);
+  if (outcome == Outcome::committed && alive(e)) list_poor(e.cell, e.which());
   return outcome;
+}
+
+/// As much of it as is not known from why the cell is listed: sizes may be slow functions.
+template <int D>
+CellVerdict Refiner<D>::verdict_of(const Item& e) const {
+  const auto& bounds = context_->bounds;
+  if (e.which() == Item::over_size) return {bounds.over_radius_edge(*mesh_, e.cell), true};
+  if (e.which() == Item::over_radius_edge) return {true, false};
+  return bounds.test(*mesh_, e.cell);
 }
 
 template <int D>
@@ -187,10 +196,10 @@ auto Refiner<D>::treat_cell(const Item& e) -> Outcome {
     flipped();
     return Outcome::committed;
   }
-  CellVerdict verdict = context_->bounds.test(*mesh_, c);
+  CellVerdict verdict = verdict_of(e);
   if constexpr (D == 2) {
-    if (!verdict.over_size && e.which != Item::not_delaunay) {
-      const auto vertex = [&](int i) { return &mesh_->vertex(e.vertices[i]); };
+    if (!verdict.over_size && e.which() != Item::not_delaunay) {
+      const auto vertex = [&](int i) { return &mesh_->vertex(mesh_->cell(e.cell).vertices[i]); };
       last_refusal_ = small_angle_across(*domain_, {vertex(0), vertex(1), vertex(2)}, options_->radius_edge_bound);
       if (last_refusal_) {
         ++visit_->counts.refused;
@@ -204,7 +213,7 @@ auto Refiner<D>::treat_cell(const Item& e) -> Outcome {
   if (options_->selector && verdict.over_radius_edge) x = selected_point(c, center);
   if (!x) return Outcome::not_owned;
   // A cell with a face that no flip makes locally Delaunay asks for as much as one with a poor shape.
-  if (e.which == Item::not_delaunay) verdict.over_radius_edge = true;
+  if (e.which() == Item::not_delaunay) verdict.over_radius_edge = true;
   Outcome outcome = treat_cell_at(e, *x, verdict);
   if (outcome == Outcome::refused && !(*x == center) && alive(e)) {
     cavity_.release();
@@ -295,8 +304,8 @@ auto Refiner<D>::insert_point(const Item& e, const CellVerdict& verdict, bool at
     return Outcome::refused;
   }
   // Among volume vertices r >= d holds by itself, but for bounds below one and elements that are not poor in shape.
-  bool ordinary = plain && e.which != Item::not_delaunay && !last_refusal_ && (options_->radius_edge_bound >= 1 || !verdict.over_radius_edge);
-  for (const VertexId v : e.vertices) ordinary = ordinary && mesh_->vertex(v).home.kind() == EntityKind::volume;
+  bool ordinary = plain && e.which() != Item::not_delaunay && !last_refusal_ && (options_->radius_edge_bound >= 1 || !verdict.over_radius_edge);
+  for (const VertexId v : mesh_->cell(e.cell).vertices) ordinary = ordinary && mesh_->vertex(v).home.kind() == EntityKind::volume;
   Demand demand;
   if (!ordinary) {
     demand = demand_of_cell(e.cell, verdict);

@@ -126,9 +126,9 @@ auto Refiner<D>::edge_beyond(const Point<D>& x) const -> std::optional<Item> {
 template <int D>
 auto Refiner<D>::walk_in_facet(const Item& e, const Point<D>& x) const -> FacetWalk {
   if constexpr (D == 3) {
-    const EntityId entity = mesh_->constraints(e.cell)->face_entity[e.which];
+    const EntityId entity = mesh_->constraints(e.cell)->face_entity[e.which()];
     const int axis = domain_->facets()[entity].axis;
-    Link at(e.cell, e.which);
+    Link at(e.cell, e.which());
     for (int steps = 0; steps < most_steps; ++steps) {
       const CellId c = at.cell();
       if (!cavity_.owns(c)) return {{}, {}, false};
@@ -205,12 +205,12 @@ auto Refiner<D>::decide(EntityRef entity, std::span<const VertexId> own, const D
 template <int D>
 auto Refiner<D>::split_face(const Item& e, const Demand* cause) -> Outcome {
   const EntityRef entity{D == 3 ? EntityKind::facet : EntityKind::segment,
-                         mesh_->constraints(e.cell)->face_entity[e.which]};
+                         mesh_->constraints(e.cell)->face_entity[e.which()]};
   std::array<VertexId, D> own;
   for (int i = 0, n = 0; i <= D; ++i)
-    if (i != e.which) own[n++] = e.vertices[i];
-  const Point<D> x = face_point(e.cell, e.which);
-  const auto status = cavity_.collect_on_face(x, e.cell, e.which);
+    if (i != e.which()) own[n++] = mesh_->cell(e.cell).vertices[i];
+  const Point<D> x = face_point(e.cell, e.which());
+  const auto status = cavity_.collect_on_face(x, e.cell, e.which());
   if (status == Cavity<D>::Status::not_owned) return give_up(Outcome::not_owned);
   if (status != Cavity<D>::Status::ok) return refuse(entity, own);
   if constexpr (D == 3) {
@@ -224,7 +224,7 @@ auto Refiner<D>::split_face(const Item& e, const Demand* cause) -> Outcome {
       edge = beyond;
       const Item& from = around ? *around : e;
       cavity_.release();
-      const auto again = cavity_.collect_on_face(x, from.cell, from.which);
+      const auto again = cavity_.collect_on_face(x, from.cell, from.which());
       if (again == Cavity<D>::Status::not_owned) return give_up(Outcome::not_owned);
       if (again != Cavity<D>::Status::ok) return refuse(entity, own);
       if (!edge && around) edge = encroached_edge(x);
@@ -244,11 +244,12 @@ auto Refiner<D>::split_face(const Item& e, const Demand* cause) -> Outcome {
 template <int D>
 auto Refiner<D>::split_edge(const Item& e, const Demand* cause) -> Outcome {
   if constexpr (D == 3) {
-    const EntityId s = mesh_->constraints(e.cell)->edge_entity[e.which];
-    const std::array<VertexId, 2> own{e.vertices[edge_ends[e.which][0]], e.vertices[edge_ends[e.which][1]]};
+    const EntityId s = mesh_->constraints(e.cell)->edge_entity[e.which()];
+    const auto& vertices = mesh_->cell(e.cell).vertices;
+    const std::array<VertexId, 2> own{vertices[edge_ends[e.which()][0]], vertices[edge_ends[e.which()][1]]};
     const Point<D> x = split_point(s, own[0], own[1]);
     const EntityRef entity{EntityKind::segment, s};
-    const auto status = cavity_.collect_on_edge(x, e.cell, e.which);
+    const auto status = cavity_.collect_on_edge(x, e.cell, e.which());
     if (status == Cavity<D>::Status::not_owned) return give_up(Outcome::not_owned);
     if (status != Cavity<D>::Status::ok) return refuse(entity, own);
     return decide(entity, own, cause);

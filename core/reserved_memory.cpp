@@ -20,6 +20,14 @@ constexpr std::size_t rounded_up(std::size_t bytes, std::size_t unit) { return (
 
 }  // namespace
 
+void ask_for_huge_pages(void* memory, std::size_t bytes) {
+#ifdef MADV_HUGEPAGE
+  const auto address = reinterpret_cast<std::uintptr_t>(memory);
+  const std::uintptr_t first = rounded_up(address, huge_page), last = (address + bytes) / huge_page * huge_page;
+  if (first < last) madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
+#endif
+}
+
 // Pages without access count against nothing but the limit on addresses.
 ReservedMemory::ReservedMemory(std::size_t bytes) : reserved_(rounded_up(bytes, huge_page)) {
   mapped_ = mmap(nullptr, reserved_ + huge_page, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
@@ -38,9 +46,7 @@ void ReservedMemory::grow(std::size_t bytes) {
   std::size_t wanted = std::max({bytes, usable + usable / 8, first_step});
   wanted = std::min(rounded_up(wanted, wanted < huge_page ? first_step : huge_page), reserved_);
   if (mprotect(base_ + usable, wanted - usable, PROT_READ | PROT_WRITE) != 0) throw std::bad_alloc();
-#ifdef MADV_HUGEPAGE
-  if (wanted > huge_page) madvise(base_ + usable, wanted - usable, MADV_HUGEPAGE);  // a hint: whatever it says
-#endif
+  if (wanted > huge_page) ask_for_huge_pages(base_ + usable, wanted - usable);
   usable_.store(wanted, std::memory_order_release);
 }
 

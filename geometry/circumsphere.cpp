@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "detail/circum_terms.hpp"
@@ -145,13 +146,30 @@ double shortest_edge_squared(const Simplex<D>& s) {
   return shortest;
 }
 
+// Each coordinate is summed from its least value to its largest: a sorting network, without branches.
 template <int D>
 Point<D> centroid(const Simplex<D>& s) {
-  const Simplex<D> corners = sorted<D + 1, D>(s);
-  Point<D> c = corners[0];
-  for (std::size_t i = 1; i <= D; ++i)
-    for (int k = 0; k < D; ++k) c[k] += corners[i][k];
-  for (double& x : c.x) x /= D + 1;
+  Point<D> c;
+  for (int k = 0; k < D; ++k) {
+    std::array<double, D + 1> v;
+    for (std::size_t i = 0; i <= D; ++i) v[i] = s[i][k];
+    auto order = [&v](std::size_t i, std::size_t j) {
+      const double low = std::min(v[i], v[j]), high = std::max(v[i], v[j]);
+      v[i] = low;
+      v[j] = high;
+    };
+    order(0, 1);
+    if constexpr (D == 2) {
+      order(1, 2);
+      order(0, 1);
+    } else {
+      order(2, 3);
+      order(0, 2);
+      order(1, 3);
+      order(1, 2);
+    }
+    c[k] = std::accumulate(v.begin() + 1, v.end(), v[0]) / (D + 1);
+  }
   return c;
 }
 

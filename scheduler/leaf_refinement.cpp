@@ -59,9 +59,10 @@ std::vector<Entry<D>> LeafRefinement<D>::violations_everywhere() {
   std::vector<Entry<D>> faces;
   found.drain([&](const Entry<D>& e) { faces.push_back(e); });
   std::sort(faces.begin(), faces.end(), [&mesh](const Entry<D>& a, const Entry<D>& b) {
+    const auto &u = mesh.cell(a.cell).vertices, &v = mesh.cell(b.cell).vertices;
     for (int i = 0; i <= D; ++i)
-      if (a.vertices[i] != b.vertices[i]) return lex_less<D>(mesh.point(a.vertices[i]), mesh.point(b.vertices[i]));
-    return a.which < b.which;
+      if (u[i] != v[i]) return lex_less<D>(mesh.point(u[i]), mesh.point(v[i]));
+    return a.which() < b.which();
   });
   return faces;
 }
@@ -196,7 +197,6 @@ void LeafRefinement<D>::account(const VisitRequest& request, RegionVisit<D>& vis
   violations_seen_ = violations_seen_ || visit.violations_seen;
   entities_refused_ = entities_refused_ || visit.entities_refused;
   min_edge_hit_ = min_edge_hit_ || visit.min_edge_hit;
-  statistics_.set_aside += visit.set_aside.size();
   put_off(request, visit.set_aside);
   if (context_.stop != 0) left_over_.insert(left_over_.end(), visit.given.begin(), visit.given.end());
 }
@@ -208,12 +208,17 @@ void LeafRefinement<D>::post(Node leaf, std::vector<Entry<D>>&& entries) {
   to.inbox.push_back(std::move(entries));
 }
 
+/// For a larger claim, what is still alive now that the visits that ran beside this one have ended.
 template <int D>
 void LeafRefinement<D>::put_off(const VisitRequest& request, const std::vector<Entry<D>>& entries) {
   std::uint32_t order = whole_tree;
   for (const std::uint32_t larger : set_aside_orders)
     if (larger > request.order && larger > options_.claim_order) order = std::min(order, larger);
-  for (const Entry<D>& e : entries) set_aside(request.leaf, order, e);
+  for (const Entry<D>& e : entries) {
+    if (!e.alive(context_.mesh)) continue;
+    ++statistics_.set_aside;
+    set_aside(request.leaf, order, e);
+  }
 }
 
 /// For a visit of the leaf, or of the whole tree, with the claim of that order.
@@ -247,22 +252,12 @@ std::optional<PoorCount> LeafRefinement<D>::take_poor() {
   PoorCount poor;
   std::vector<bool> counted(context_.mesh.cell_bound());
   // A poor cell that is listed for a face that is not locally Delaunay was listed, or refused, as poor as well.
-  std::vector<Entry<D>> fetched;  // into the cache, many at a time
-  const auto count_fetched = [&] {
-    for (const Entry<D>& e : fetched) {
-      if (!e.alive(context_.mesh)) continue;
-      poor.over_size = poor.over_size || e.which == Entry<D>::over_size;
-      poor.cells += counted[index(e.cell)] ? 0 : 1;
-      counted[index(e.cell)] = true;
-    }
-    fetched.clear();
-  };
   const auto count = [&](const Entry<D>& e) {
-    if (e.kind != EntryKind::cell || e.which == Entry<D>::not_delaunay) return;
-    if (context_.mesh.birth(e.cell) != e.birth) return;  // most are dead, which the small array of births tells of most
-    context_.mesh.prefetch(e.cell);
-    fetched.push_back(e);
-    if (fetched.size() == 64) count_fetched();
+    if (e.kind() != EntryKind::cell || e.which() == Entry<D>::not_delaunay) return;
+    if (!e.alive(context_.mesh)) return;
+    poor.over_size = poor.over_size || e.which() == Entry<D>::over_size;
+    poor.cells += counted[index(e.cell)] ? 0 : 1;
+    counted[index(e.cell)] = true;
   };
   const auto count_all = [&](const auto& entries) { std::for_each(entries.begin(), entries.end(), count); };
   for (Node n = 0; n < tree_.node_count(); ++n) {
@@ -276,7 +271,6 @@ std::optional<PoorCount> LeafRefinement<D>::take_poor() {
   for_each_refused([&](std::span<const Refusal<D>> refused) {
     for (const Refusal<D>& r : refused) count(r.entry);
   });
-  count_fetched();
   return poor;
 }
 

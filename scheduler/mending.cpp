@@ -53,11 +53,13 @@ bool LeafRefinement<D>::mend_far_from_walls(Refiner<D>& worker, std::set<std::ar
   bool any = false;
   for (const Entry<D>& e : violations_everywhere()) {
     if (cancelled(0)) return false;
-    if (!e.alive(context_.mesh) || !worker.is_far_from_walls(e) || hopeless.contains(e.vertices)) continue;
+    if (!e.alive(context_.mesh) || !worker.is_far_from_walls(e)) continue;
+    const auto vertices = context_.mesh.cell(e.cell).vertices;
+    if (hopeless.contains(vertices)) continue;
     if (worker.mend(e)) {
       any = true;
     } else if (worker.violates(e)) {
-      hopeless.insert(e.vertices);
+      hopeless.insert(vertices);
     }
   }
   return any;

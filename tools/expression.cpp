@@ -7,9 +7,9 @@
 #include <array>
 #include <atomic>
 #include <charconv>
+#include <cmath>
 #include <memory>
-#include <new>
-#include <thread>
+#include <vector>
 
 #include "pgdr/error.hpp"
 
@@ -22,19 +22,29 @@ constexpr std::array<const char*, 3> variables{"x", "y", "z"};
   throw UsageError({.code = Errc::bad_option, .message = flag + " \"" + text + "\": " + why});
 }
 
-/// One parser and the variables it reads; owned by the call that set `busy`.
-template <int D>
-struct alignas(64) Slot {
-  std::atomic_flag busy;
-  Point<D> at;
-  std::unique_ptr<mu::Parser> parser;  // made by the first call that comes here
+/// muParser's own has pow() for every exponent but those of a bare variable; a square is what sizes are made of.
+double power(double base, double exponent) { return exponent == 2 ? base * base : std::pow(base, exponent); }
 
-  void compile(const std::string& text) {
-    auto made = std::make_unique<mu::Parser>();
-    for (int i = 0; i < D; ++i) made->DefineVar(variables[static_cast<std::size_t>(i)], &at[i]);
-    made->SetExpr(text);
-    parser = std::move(made);
+/// A parser and the variables it reads.
+template <int D>
+class Evaluator {
+ public:
+  explicit Evaluator(const std::string& text) {
+    for (int i = 0; i < D; ++i) parser_.DefineVar(variables[static_cast<std::size_t>(i)], &at_[i]);
+    parser_.DefineOprt(power_sign, power, mu::prPOW, mu::oaRIGHT, true);
+    parser_.SetExpr(text);
   }
+  double at(const Point<D>& p) {
+    at_ = p;
+    return parser_.Eval();
+  }
+  bool constant() const { return parser_.GetUsedVar().empty(); }
+
+  static constexpr const char* power_sign = "**";
+
+ private:
+  Point<D> at_{};
+  mu::Parser parser_;
 };
 
 template <int D>
@@ -42,38 +52,28 @@ class Expression {
  public:
   Expression(std::string text, std::string flag) : text_(std::move(text)), flag_(std::move(flag)) {
     try {
-      slots_[0].compile(text_);
-      slots_[0].parser->Eval();  // compiles: names and syntax are decided here
-      constant_ = slots_[0].parser->GetUsedVar().empty();
+      Evaluator<D> evaluator(text_);
+      evaluator.at({});  // compiles: names and syntax are decided here
+      constant_ = evaluator.constant();
     } catch (const mu::Parser::exception_type& e) {
       refuse(text_, flag_, explain(e));
     }
+    for (std::size_t i = text_.find('^'); i != std::string::npos; i = text_.find('^', i + 1))
+      text_.replace(i, 1, Evaluator<D>::power_sign);
   }
 
   bool constant() const { return constant_; }
 
-  double operator()(const Point<D>& p) {
-    // A thread starts at its own slot and so meets another there only by chance.
-    static std::atomic<unsigned> threads{0};
-    thread_local const unsigned first = threads.fetch_add(1, std::memory_order_relaxed);
-    for (unsigned i = first;; ++i) {
-      Slot<D>& slot = slots_[i % slots_.size()];
-      // acquire/release: the last owner's parser and variables are ours to use
-      if (slot.busy.test_and_set(std::memory_order_acquire)) {
-        if (i % slots_.size() == first % slots_.size() && i != first) std::this_thread::yield();
-        continue;
-      }
-      struct Release {
-        std::atomic_flag& busy;
-        ~Release() { busy.clear(std::memory_order_release); }
-      } release{slot.busy};
-      try {
-        if (!slot.parser) slot.compile(text_);
-        slot.at = p;
-        return slot.parser->Eval();
-      } catch (const mu::Parser::exception_type& e) {
-        refuse(text_, flag_, explain(e));
-      }
+  /// Each thread has an evaluator of its own for each expression of the command.
+  double operator()(const Point<D>& p) const {
+    thread_local std::vector<std::unique_ptr<Evaluator<D>>> evaluators;
+    try {
+      if (evaluators.size() <= id_) evaluators.resize(id_ + 1);
+      auto& evaluator = evaluators[id_];
+      if (!evaluator) evaluator = std::make_unique<Evaluator<D>>(text_);
+      return evaluator->at(p);
+    } catch (const mu::Parser::exception_type& e) {
+      refuse(text_, flag_, explain(e));
     }
   }
 
@@ -81,9 +81,13 @@ class Expression {
   static std::string explain(const mu::Parser::exception_type& e) {
     return e.GetMsg() + (D == 2 ? " (variables: x, y)" : " (variables: x, y, z)");
   }
+  static std::size_t next_id() {
+    static std::atomic<std::size_t> ids{0};
+    return ids++;
+  }
 
   std::string text_, flag_;
-  std::array<Slot<D>, 64> slots_;
+  std::size_t id_ = next_id();
   bool constant_ = false;
 };
 

@@ -15,7 +15,18 @@
 #include <utility>
 #include <vector>
 
+#include "pgdr/reserved_memory.hpp"
+
 namespace pgdr::detail {
+
+/// An empty vector with room for so many, on huge pages where that is much.
+template <class T>
+std::vector<T> vector_of_capacity(std::size_t count) {
+  std::vector<T> v;
+  v.reserve(count);
+  ask_for_huge_pages(v.data(), count * sizeof(T));
+  return v;
+}
 
 class Bulk {
  public:
@@ -69,8 +80,7 @@ class Bulk {
     });
     std::size_t total = 0;
     for (const auto& part : found) total += part.size();
-    std::vector<T> all;
-    all.reserve(total);
+    auto all = vector_of_capacity<T>(total);
     for (auto& part : found) {
       all.insert(all.end(), part.begin(), part.end());
       part = {};  // the storage of both is never needed whole

@@ -50,8 +50,11 @@ class CellBounds {
   }
   /// The same of a cell whose shape is known.
   CellVerdict test(const Mesh<D>& mesh, CellId c, const CellShape& shape) const;
+  /// Is it over the bound of shape?
+  bool over_radius_edge(const Mesh<D>& mesh, CellId c) const;
 
  private:
+  bool over_radius_edge(const Mesh<D>& mesh, CellId c, double shortest_squared) const;
   double size_of(const Mesh<D>& mesh, CellId c) const;
   bool within_measure(const Mesh<D>& mesh, CellId c, const CellShape& shape, double bound) const;
   bool over_size(const Mesh<D>& mesh, CellId c, const CellShape& shape) const;

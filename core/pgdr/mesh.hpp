@@ -111,22 +111,28 @@ class Mesh {
     __builtin_prefetch(&cells_[index(c)]);
     __builtin_prefetch(&tags_[index(c)]);
   }
+  /// The same of the vertices of whatever cell is in that slot.
+  void prefetch_vertices(CellId c) const {
+    for (const VertexId& v : cell(c).vertices) prefetch(atomic(v).load(std::memory_order_relaxed));
+  }
   void prefetch(VertexId v) const { __builtin_prefetch(&vertices_[index(v)]); }  ///< likewise
 
   bool alive(CellId c) const { return cell(c).vertices[0] != no_vertex; }  ///< does the slot hold a cell?
-  /// Does the slot still hold the cell with these vertices that was born there? From any thread that owns their positions:
-  /// the slot may be in use by another meanwhile, so that ids are loaded and stored as relaxed atomics (plain moves on
-  /// x86); if they agree the cell is the caller's. A flip may bring a cell back, in whatever slot: it is another one.
-  bool holds(CellId c, const std::array<VertexId, D + 1>& vertices, std::uint16_t born) const {
-    auto& slot = const_cast<std::array<VertexId, D + 1>&>(cell(c).vertices);
-    for (int i = 0; i <= D; ++i)
-      if (std::atomic_ref(slot[i]).load(std::memory_order_relaxed) != vertices[i]) return false;
+  /// Counts the cells that the slot has held: with the slot it names a cell for good, since a slot whose count is full holds
+  /// no other. A flip may bring a cell back, in whatever slot: it is another one. From any thread.
+  std::uint16_t birth(CellId c) const { return atomic(tags_[index(c)].birth).load(std::memory_order_relaxed); }
+  /// The vertices of the cell that was born there; false if it is dead. From any thread: the slot may be in use by another
+  /// meanwhile, so that what the caller does not own may die any moment. (Whoever reads a vertex of a later cell has seen
+  /// the birth counted before it, by release and acquire: plain moves on x86.)
+  bool read_vertices(CellId c, std::uint16_t born, std::array<VertexId, D + 1>& vertices) const {
+    if (birth(c) != born) return false;
+    for (int i = 0; i <= D; ++i) vertices[i] = atomic(cell(c).vertices[i]).load(std::memory_order_acquire);
     return birth(c) == born;
   }
   /// Puts a cell into its slot.
   void set_vertices(CellId c, const std::array<VertexId, D + 1>& vertices) {
     auto& slot = cell(c).vertices;
-    for (int i = 0; i <= D; ++i) std::atomic_ref(slot[i]).store(vertices[i], std::memory_order_relaxed);
+    for (int i = 0; i <= D; ++i) atomic(slot[i]).store(vertices[i], std::memory_order_release);
   }
   /// Does it stand for what is beyond the hull?
   bool is_ghost(CellId c) const {
@@ -164,8 +170,6 @@ class Mesh {
     if (r != 0 && !several_regions_) several_regions_ = true;
     if (several_regions_) regions_[index(c)] = r;
   }
-  /// Counts the cells that the slot has held, modulo 2^16.
-  std::uint16_t birth(CellId c) const { return tags_[index(c)].birth; }
 
   /// Stores the circumsphere as the filter of `conflicts`. Ghosts: `set_ghost_sphere`.
   void set_sphere(CellId c, const Circumsphere<D>& sphere) { set_sphere(c, sphere, std::sqrt(sphere.squared_radius)); }
@@ -219,7 +223,6 @@ class Mesh {
   CellId new_cell(Pools& pools, std::uint16_t region = 0) {
     const std::uint32_t id = pools.cells.take();
     tags_[id].set(0);
-    ++tags_[id].birth;
     set_region(CellId{id}, region);
     return CellId{id};
   }
@@ -240,6 +243,10 @@ class Mesh {
 
  private:
   static constexpr std::uint32_t mark_bit = 1u << 31;
+  static constexpr std::uint16_t last_birth = 0xffff;  ///< no cell has it
+
+  template <class T>
+  static std::atomic_ref<T> atomic(const T& v) { return std::atomic_ref<T>(const_cast<T&>(v)); }
   struct Band { double inner, outer; };
   static const std::array<Band, 16> bands;
 

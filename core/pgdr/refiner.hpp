@@ -123,7 +123,7 @@ class Refiner {
   bool mend(const Entry<D>& e);
   /// Is this violating face between volume vertices alone?
   bool is_far_from_walls(const Entry<D>& e) const;
-  bool violates(const Entry<D>& e) const { return flips_.violates(e.cell, e.which); }  ///< is the face not locally Delaunay?
+  bool violates(const Entry<D>& e) const { return flips_.violates(e.cell, e.which()); }  ///< is the face not locally Delaunay?
   /// Makes `visit` the one that list_cell lists for.
   void begin(RegionVisit<D>& visit);
 
@@ -132,13 +132,11 @@ class Refiner {
   using Item = Entry<D>;
 
   // refiner.cpp: the lists
-  Item make_entry(CellId c, EntryKind kind, int which) const {
-    Item e{c, mesh_->cell(c).vertices, kind, 0, 0, mesh_->birth(c)};
-    e.which = static_cast<std::uint8_t>(which) & 15;
-    return e;
+  Item make_entry(CellId c, EntryKind kind, int which, int bucket = 0, std::uint32_t order = 0) const {
+    return {c, mesh_->birth(c), kind, which, bucket, order};
   }
   bool alive(const Item& e) const { return e.alive(*mesh_); }
-  void list_poor(CellId c, std::uint8_t why);
+  void list_poor(CellId c, int why);
   void list_if_poor(CellId c, const CellVerdict& verdict);
   std::uint32_t order_of(CellId c) const;
   void list_entities(CellId c, const ConstraintRecord<D>& k);
@@ -169,6 +167,7 @@ class Refiner {
   Outcome refuse(EntityRef entity, std::span<const VertexId> own);
 
   // refiner_cells.cpp: poor elements
+  CellVerdict verdict_of(const Item& e) const;
   Outcome treat_cell(const Item& e);
   Outcome insert_beside_refused(const Point<D>& x, const Item& e, const CellVerdict& verdict);
   bool is_clear_of_encroached(const Point<D>& x, double squared) const;

@@ -11,6 +11,9 @@
 
 namespace pgdr {
 
+/// Asks for huge pages where [memory, memory + bytes), which nothing has been written to, is large: a hint.
+void ask_for_huge_pages(void* memory, std::size_t bytes);
+
 /// See above.
 class ReservedMemory {
  public:

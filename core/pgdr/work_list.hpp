@@ -24,26 +24,36 @@ namespace pgdr {
 /// What waits: a subsegment, a subfacet, a face that is not locally Delaunay, a poor element.
 enum class EntryKind : std::uint8_t { edge, face, flip, cell };
 
-/// An entity or element as the D+1 vertices of its cell and which of its edges or faces. The entry is dead when the
-/// slot `cell` no longer holds that cell: whatever took its place has been listed anew.
+/// An entity or element as its cell and which of its edges or faces. The entry is dead when the slot `cell` no longer holds
+/// that cell: whatever took its place has been listed anew.
 template <int D>
 struct Entry {
   /// `which` of kind cell, why it is listed: too big, whatever its shape; beside a face that no flip mends; poor in shape.
-  static constexpr std::uint8_t over_size = 0;         ///< too big
-  static constexpr std::uint8_t not_delaunay = 1;      ///< beside such a face
-  static constexpr std::uint8_t over_radius_edge = 2;  ///< poor in shape alone
+  static constexpr int over_size = 0;         ///< too big
+  static constexpr int not_delaunay = 1;      ///< beside such a face
+  static constexpr int over_radius_edge = 2;  ///< poor in shape alone
 
-  CellId cell;  ///< its slot
-  std::array<VertexId, D + 1> vertices;  ///< of the cell
-  EntryKind kind : 4;  ///< what it is
-  std::uint8_t which : 4;  ///< edge or face of the cell; why, of kind cell
-  std::uint8_t bucket;  ///< kind cell: floor(log2(side of the domain / circumradius)), clamped
+  /// `place` is its order.
+  Entry(CellId slot, std::uint16_t born, EntryKind kind, int which, int size_bucket = 0, std::uint32_t place = 0)
+      : cell(slot),
+        order(place),
+        birth(born),
+        bucket(static_cast<std::uint8_t>(size_bucket)),
+        what_(static_cast<std::uint8_t>(static_cast<int>(kind) << 4 | which)) {}
+
+  CellId cell;          ///< its slot
+  std::uint32_t order;  ///< of cells over the radius-edge bound alone: the least goes first
   std::uint16_t birth;  ///< of the cell
-  std::uint32_t order = 0;  ///< of cells over the radius-edge bound alone: the least goes first
+  std::uint8_t bucket;  ///< kind cell: floor(log2(side of the domain / circumradius)), clamped
 
-  bool alive(const Mesh<D>& mesh) const { return mesh.holds(cell, vertices, birth); }  ///< is the cell still there?
+  EntryKind kind() const { return static_cast<EntryKind>(what_ >> 4); }  ///< what it is
+  int which() const { return what_ & 15; }  ///< edge or face of the cell; why, of kind cell
+  bool alive(const Mesh<D>& mesh) const { return mesh.birth(cell) == birth; }  ///< is the cell still there?
+
+ private:
+  std::uint8_t what_;  // kind and which, four bits each
 };
-static_assert(sizeof(Entry<3>) == 28);
+static_assert(sizeof(Entry<3>) == 12 && sizeof(Entry<2>) == 12);
 
 /// First in, first out, in blocks: what was read is given back at once and used again while it is in the cache. The first
 /// block of a list is small, since a tree has thousands of lists with few entries.
@@ -87,9 +97,13 @@ class Fifo {
     }
     return item;
   }
-  /// The n-th from the front, 0 being the next; null if there are fewer in its block.
+  /// The n-th from the front, 0 being the next; null if there are fewer, or if it is beyond the second block.
   const T* ahead(std::size_t n) const {
-    return n < size_ && head_ + n < first_->capacity ? &first_->items()[head_ + n] : nullptr;
+    if (n >= size_) return nullptr;
+    std::size_t i = head_ + n;
+    if (i < first_->capacity) return &first_->items()[i];
+    i -= first_->capacity;
+    return i < first_->next->capacity ? &first_->next->items()[i] : nullptr;
   }
   /// Calls f for each in order, and empties the list.
   template <class F>
@@ -183,7 +197,7 @@ class WorkList {
 
   /// Puts it where its kind waits.
   void push(const Entry<D>& e) {
-    switch (e.kind) {
+    switch (e.kind()) {
       case EntryKind::edge: return edges.push(e);
       case EntryKind::face: return faces.push(e);
       case EntryKind::flip: return flips.push(e);
@@ -193,7 +207,7 @@ class WorkList {
     while (first_ + static_cast<int>(poor_.size()) <= e.bucket) poor_.emplace_back();
     for (; first_ > e.bucket; --first_) poor_.emplace(poor_.begin());
     Bucket& bucket = poor_[static_cast<std::size_t>(e.bucket - first_)];
-    if (e.which == Entry<D>::over_radius_edge) {
+    if (e.which() == Entry<D>::over_radius_edge) {
       bucket.by_shape.push(e);
     } else {
       bucket.others.push(e);
@@ -246,7 +260,7 @@ class WorkList {
   }
 
  private:
-  static constexpr std::size_t fetched_ahead = 4;
+  static constexpr std::size_t fetched_ahead = 4, cells_fetched_ahead = 12;
 
   struct Bucket {
     Fifo<Entry<D>> others;
@@ -260,10 +274,8 @@ class WorkList {
   Entry<D> pop_other(Bucket& bucket, const Mesh<D>& mesh) {
     --waiting_;
     --others_;
-    if (const Entry<D>* e = bucket.others.ahead(fetched_ahead)) {
-      mesh.prefetch(e->cell);
-      for (const VertexId v : e->vertices) mesh.prefetch(v);
-    }
+    if (const Entry<D>* e = bucket.others.ahead(cells_fetched_ahead)) mesh.prefetch(e->cell);
+    if (const Entry<D>* e = bucket.others.ahead(fetched_ahead)) mesh.prefetch_vertices(e->cell);
     return bucket.others.pop();
   }
 

@@ -31,7 +31,7 @@ Circumsphere<D> circumsphere(const Simplex<D>& s);
 template <int D>
 double shortest_edge_squared(const Simplex<D>& s);
 
-/// Centroid, in canonical vertex order.
+/// Centroid, the same for every order of the vertices.
 template <int D>
 Point<D> centroid(const Simplex<D>& s);
 
