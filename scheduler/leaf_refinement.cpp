@@ -170,7 +170,7 @@ template <int D>
 void LeafRefinement<D>::prepare(const VisitRequest& request, RegionVisit<D>& visit) {
   visit.violations_seen = violations_seen_;
   visit.entities_refused = entities_refused_;
-  visit.floor = options_.floor;
+  visit.floor = floor();
   visit.granularity = options_.granularity;
   visit.treat_list = request.order == 1;
   visit.order = request.order;
@@ -236,7 +236,7 @@ void LeafRefinement<D>::set_aside(Node leaf, std::uint32_t order, const Entry<D>
 template <int D>
 bool LeafRefinement<D>::wants_split(Node leaf) {
   WorkList<D>& list = works_[leaf].list;
-  return tree_.can_split(leaf) && list.poor() > 0 && list.poor() >= options_.floor &&
+  return tree_.can_split(leaf) && list.poor() > 0 && list.poor() >= floor() &&
          context_.largest_radius(list.first_bucket()) <= small_radius(leaf);
 }
 

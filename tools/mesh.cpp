@@ -91,10 +91,10 @@ std::size_t threads_that_ran(const RefineResult<D>& r) {
   return std::max<std::size_t>(r.scheduler.busy_seconds.size(), 1);
 }
 
-/// A look at every face, which takes more than a tenth of the time of meshing: only where there may be one to find.
+/// A look at every face would take more than a tenth of the time of meshing.
 template <int D>
 JsonObject not_delaunay(const RefineResult<D>& r) {
-  const NotDelaunay n = r.violations_seen ? count_not_delaunay(r.mesh) : NotDelaunay{};
+  const NotDelaunay n = count_not_delaunay(r.mesh, r.violations_seen);
   return {{"rounding", n.rounding}, {"refused", n.other}};
 }
 

@@ -109,9 +109,10 @@ struct NotDelaunay {
   std::uint64_t other = 0;     ///< all else
 };
 /// Counts them without the input, so that a point on any slanted entity may be off by ulps of the largest coordinate.
+/// Not `everywhere`: only beside such points, which is enough where `RefineResult::violations_seen` is false.
 /// @pre a sound mesh, e.g. one that `refine` made
 template <int D>
-NotDelaunay count_not_delaunay(const OutputMesh<D>& mesh);
+NotDelaunay count_not_delaunay(const OutputMesh<D>& mesh, bool everywhere = true);
 
 /// Runs all checks for which `options` has the data. Bad indices and coordinates that are not finite end it early.
 /// About 5 microseconds a cell, on the calling thread.

@@ -73,6 +73,7 @@ class LeafRefinement {
   /// Other threads than before will run visits. While none runs.
   void threads_are_new() { numbers_.others_have_ended(); }
   bool wants_split(Node leaf);
+  std::size_t floor() const { return options_.floor != 0 ? options_.floor : D == 3 ? 1000 : 2000; }
   double small_radius(Node leaf) const { return options_.split_ratio * tree_.side(leaf) / 2; }
 
   RefineContext<D>& context_;

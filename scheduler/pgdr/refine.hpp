@@ -73,7 +73,8 @@ struct RefineResult {
   std::vector<PoorReason> reasons;    ///< one for every poor cell when finished
   RefineStatistics statistics;        ///< counts and times
   SchedulerStatistics scheduler;      ///< how the visits went
-  bool violations_seen = false;       ///< faces that are not locally Delaunay were met; without, none is left
+  /// Faces that are not locally Delaunay were met. Without, none is left but by rounding, beside slanted entities.
+  bool violations_seen = false;
   std::vector<VisitTrace> trace;      ///< if asked for; in the order in which the visits ended
   std::vector<Diagnostic> repairs;    ///< of the input, see Domain
   std::vector<Diagnostic> warnings;   ///< likewise, and seeds that lie outside

@@ -228,7 +228,7 @@ class Mesh(Case):
             self.assert_only("out.vtu", "report.json")
 
     def test_summary_and_quiet(self):
-        done = self.mesh(BRACKET)
+        done = self.mesh(BRACKET, "--size", "0.1")
         self.assertEqual(done.stderr, "")
         for word in ("tetrahedra", "leaves", "radius-edge", "dihedral", "every bound is met", str(self.output)):
             self.assertIn(word, done.stdout)

@@ -67,9 +67,9 @@ class Threads(Case):
         wedge = self.file("wedge.poly", WEDGE)
         many = 0
         for arguments, expect in (((BRACKET, "--size", "0.12"), 0), ((BRACKET, "--size", "0.1+0.1*z"), 0),
-                                  ((PLATE, "--size", "0.0005"), 0), ((PLATE, "--size", "0.0002+0.001*x^2"), 0),
-                                  ((box, "--size", "0.06"), None), ((tetrahedron, "--size", "0.15"), None),
-                                  ((wedge, "--min-angle", "20", "--size", "0.001"), 1)):
+                                  ((PLATE, "--size", "0.0005"), 0), ((PLATE, "--size", "0.0001+0.0002*x^2"), 0),
+                                  ((box, "--size", "0.06"), None), ((tetrahedron, "--size", "0.08"), None),
+                                  ((wedge, "--min-angle", "20", "--size", "0.0002"), 1)):
             with self.subTest(arguments):
                 many += self.assert_same_for_all(*arguments, expect=expect)["scheduler"]["leaves"] > 20
         self.assertGreater(many, 5)
