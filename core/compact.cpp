@@ -40,11 +40,12 @@ std::vector<std::uint32_t> number_vertices(const Mesh<D>& mesh, const detail::St
     std::uint32_t vertex;
   };
   const HilbertCurve<D> curve(domain.points());
-  auto steiner = bulk.gather<Steiner>(number.size(), [&](std::size_t i, std::vector<Steiner>& found) {
-    if (number[i] == none) return;
-    const auto& record = mesh.vertex(VertexId{static_cast<std::uint32_t>(i)});
-    number[i] = record.home.id();
-    if (record.home.kind() != EntityKind::vertex) found.push_back({curve.key(record.point), static_cast<std::uint32_t>(i)});
+  const auto record = [&](std::size_t i) -> const auto& { return mesh.vertex(VertexId{static_cast<std::uint32_t>(i)}); };
+  auto steiner = bulk.collect<Steiner>(
+      number.size(), [&](std::size_t i) { return number[i] != none && record(i).home.kind() != EntityKind::vertex; },
+      [&](std::size_t i) { return Steiner{curve.key(record(i).point), static_cast<std::uint32_t>(i)}; });
+  bulk.each(number.size(), [&](std::size_t i) {
+    if (number[i] != none) number[i] = record(i).home.id();
   });
   auto along_curve = [&](const Steiner& a, const Steiner& b) {
     if (a.key != b.key) return a.key < b.key;

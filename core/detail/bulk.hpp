@@ -87,6 +87,24 @@ class Bulk {
     }
     return all;
   }
+  /// make(i) for each i in [0, count) that is_wanted(i), in order: two passes, so that each element is stored once.
+  template <class T, class IsWanted, class Make>
+  std::vector<T> collect(std::size_t count, const IsWanted& is_wanted, const Make& make) const {
+    const std::size_t blocks = (count + grain - 1) / grain;
+    std::vector<std::size_t> begin(blocks + 1, 0);
+    parts(blocks, [&](std::size_t part) {
+      for (std::size_t i = part * grain; i < std::min(count, (part + 1) * grain); ++i) begin[part + 1] += is_wanted(i);
+    });
+    for (std::size_t part = 0; part < blocks; ++part) begin[part + 1] += begin[part];
+    auto all = vector_of_capacity<T>(begin.back());
+    all.resize(begin.back());
+    parts(blocks, [&](std::size_t part) {
+      std::size_t at = begin[part];
+      for (std::size_t i = part * grain; i < std::min(count, (part + 1) * grain); ++i)
+        if (is_wanted(i)) all[at++] = make(i);
+    });
+    return all;
+  }
   template <class T, class Less>
   void sort(std::vector<T>& items, const Less& less) const {
     if (stopped()) return;
