@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pgdr/recovery.hpp"
 
+#include <algorithm>
+#include <limits>
+
 #include "detail/recovery_state.hpp"
 #include "detail/segment_insertion.hpp"
 
@@ -28,6 +31,9 @@ StopCause recover_boundary(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, Delaun
   if constexpr (D == 3) {
     detail::SegmentChains chains(mesh, delaunay, domain);
     detail::FacetPatches patches(mesh, delaunay, domain, chains);
+    // What is a bound on tetrahedra is one on their faces; below two, facets need more than these.
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const double bound = options.refine ? std::max(options.radius_edge_bound, 2.0) : infinity;
     const std::uint64_t most = most_points(domain.points().size());
     auto stop = [&] {
       const std::uint64_t steiner = chains.points() + patches.points();
@@ -43,6 +49,7 @@ StopCause recover_boundary(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, Delaun
       ++counts.rounds;
       if (stop() || !chains.recover(stop)) break;
       if (!patches.recover_once(stop)) {
+        if (bound < infinity && patches.improve_once(bound, options.min_edge, stop)) continue;
         patches.mark(pools);
         chains.mark(pools);
         break;

@@ -1,13 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <unordered_map>
 
 #include "detail/planar_cdt.hpp"
 #include "detail/recovery_state.hpp"
+#include "detail/vectors.hpp"
 
 namespace pgdr::detail {
 namespace {
+
+// Triangles times segments of a facet that is improved: each triangle looks at all of them.
+constexpr std::size_t most_improved = 1'000'000;
 
 /// Sorted edges of the facet's defining triangles, directed so that the facet is on their left: both ways where it is on
 /// both sides, as segments inside of the facet may enclose a part of it that the rim does not touch.
@@ -17,6 +22,22 @@ std::vector<std::array<std::uint32_t, 2>> directed_edges(const Domain<3>& domain
     for (int i = 0; i < 3; ++i) edges.push_back({t[i], t[(i + 1) % 3]});
   std::sort(edges.begin(), edges.end());
   return edges;
+}
+
+std::array<std::uint32_t, 2> sorted_ends(std::array<std::uint32_t, 2> ends) {
+  if (ends[1] < ends[0]) std::swap(ends[0], ends[1]);
+  return ends;
+}
+
+/// Of length one, square to ab, towards c.
+Vector<3> direction_into(const Point3& a, const Point3& b, const Point3& c) {
+  const auto along = difference(b, a), up = difference(c, a);
+  const double part = dot(up, along) / dot(along, along);
+  Vector<3> d;
+  for (std::size_t i = 0; i < 3; ++i) d[i] = up[i] - part * along[i];
+  const double length = std::sqrt(dot(d, d));
+  for (double& x : d) x /= length;
+  return d;
 }
 
 InputError not_a_plane_graph(const Domain<3>& domain, EntityId f, const Mesh<3>& mesh, std::span<const VertexId> at) {
@@ -125,16 +146,16 @@ bool FacetPatches::recover_once(const std::function<bool()>& stop) {
   }
   WantedSimplices<3> faces = wanted();
   find_present(faces);
-  std::vector<std::vector<Triangle>> missing(triangles_.size());
+  std::vector<std::vector<Candidate>> missing(triangles_.size());
   bool any = false;
   for (EntityId f = 0; f < triangles_.size(); ++f)
     for (const Triangle& t : triangles_[f])
       if (!faces.find(t)->present) {
-        missing[f].push_back(t);
+        missing[f].push_back({equatorial_ball(mesh_->point(t[0]), mesh_->point(t[1]), mesh_->point(t[2])), t, 0});
         any = true;
       }
   for (EntityId f = 0; f < triangles_.size(); ++f)
-    if (!missing[f].empty() && !stop()) recover_facet(f, std::move(missing[f]));
+    if (!missing[f].empty() && !stop()) split_triangles(f, std::move(missing[f]));
   return any;
 }
 
@@ -157,14 +178,7 @@ auto FacetPatches::in_the_way(const std::vector<Subsegment>& rim, EntityId facet
 }
 
 /// Largest triangles first; a triangle that a point of this round has reached already waits for the next.
-void FacetPatches::recover_facet(EntityId facet, std::vector<Triangle> missing) {
-  struct Candidate {
-    Ball<3> ball;
-    Triangle triangle;
-  };
-  std::vector<Candidate> candidates;
-  for (const Triangle& t : missing)
-    candidates.push_back({equatorial_ball(mesh_->point(t[0]), mesh_->point(t[1]), mesh_->point(t[2])), t});
+bool FacetPatches::split_triangles(EntityId facet, std::vector<Candidate> candidates) {
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     if (a.ball.squared_radius != b.ball.squared_radius) return a.ball.squared_radius > b.ball.squared_radius;
     return lex_less(a.ball.center, b.ball.center);
@@ -177,11 +191,13 @@ void FacetPatches::recover_facet(EntityId facet, std::vector<Triangle> missing) 
     if (reached) continue;
     const Point3 x = point_on_facet(*domain_, facet, c.ball.center);
     if (const auto s = in_the_way(rim, facet, c.triangle, x)) {
-      if (!chains_->split(s->segment, s->a, s->b)) continue;  // another triangle has asked for it
+      if (c.least > 0 && !may_split(*s)) continue;
+      if (!chains_->split(s->segment, s->a, s->b, c.least)) continue;  // another triangle has asked for it, or it is too near
       placed.push_back(diametral_ball<3>(mesh_->point(s->a), mesh_->point(s->b)).center);
       continue;
     }
-    const VertexId v = delaunay_->insert(x, Home(EntityKind::facet, facet), c.triangle[0]);
+    const VertexId v = delaunay_->insert(x, Home(EntityKind::facet, facet), c.triangle[0], c.least);
+    if (v == no_vertex) continue;
     const Home home = mesh_->vertex(v).home;
     const bool own = home.kind() == EntityKind::facet && home.id() == facet;
     if (!own || std::find(inner_points_[facet].begin(), inner_points_[facet].end(), v) != inner_points_[facet].end())
@@ -191,6 +207,79 @@ void FacetPatches::recover_facet(EntityId facet, std::vector<Triangle> missing) 
     changed_[facet] = true;
     ++points_;
   }
+  return !placed.empty();
+}
+
+/// No segment of a calm facet makes less than 60 degrees with another segment, nor do two facets there; and it is plane but
+/// for rounding.
+void FacetPatches::find_calm() {
+  const auto segments = domain_->segments();
+  std::vector<std::pair<std::array<std::uint32_t, 2>, EntityId>> by_ends;
+  for (EntityId s = 0; s < segments.size(); ++s) by_ends.push_back({sorted_ends(segments[s].points), s});
+  std::sort(by_ends.begin(), by_ends.end());
+  std::vector<std::vector<Vector<3>>> into(segments.size());  // directions from each segment into its facets
+  for (EntityId f = 0; f < triangles_.size(); ++f)
+    for (const auto& t : domain_->triangles(f))
+      for (int i = 0; i < 3; ++i) {
+        const std::uint32_t a = t[i], b = t[(i + 1) % 3];
+        const auto ends = sorted_ends({a, b});
+        const auto at = std::lower_bound(by_ends.begin(), by_ends.end(), std::pair(ends, EntityId{0}));
+        if (at == by_ends.end() || at->first != ends) continue;
+        const auto points = domain_->points();
+        into[at->second].push_back(direction_into(points[a], points[b], points[t[(i + 2) % 3]]));
+      }
+  std::vector<bool> wide(segments.size());
+  for (EntityId s = 0; s < segments.size(); ++s) {
+    wide[s] = !chains_->at_small_angle(s);
+    for (std::size_t i = 0; i < into[s].size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) wide[s] = wide[s] && dot(into[s][i], into[s][j]) <= 0.5;
+  }
+  for (EntityId f = 0; f < triangles_.size(); ++f) {
+    const auto own = domain_->facet_segments(f);
+    calm_.push_back(std::all_of(own.begin(), own.end(), [&](EntityId s) {
+      return wide[s] && domain_->facets()[f].planarity_defect <= 0x1p-44 * domain_->segment_magnitude(s);
+    }));
+  }
+}
+
+bool FacetPatches::may_split(const Subsegment& s) const {
+  const std::array<VertexId, 2> edge{std::min(s.a, s.b), std::max(s.a, s.b)};
+  return !std::binary_search(fragile_.begin(), fragile_.end(), edge);
+}
+
+/// A rounded point of an edge is off it by some 2^-50 of the coordinates.
+void FacetPatches::find_fragile() {
+  fragile_.clear();
+  for (const auto& triangles : triangles_)
+    for (const Triangle& t : triangles)
+      for (int i = 0; i < 3; ++i) {
+        const VertexId v = t[i], w = t[(i + 1) % 3];
+        const Point3 &a = mesh_->point(v), &b = mesh_->point(w), &c = mesh_->point(t[(i + 2) % 3]);
+        double magnitude = 0;
+        for (int k = 0; k < 3; ++k) magnitude = std::max({magnitude, std::fabs(a[k]), std::fabs(b[k]), std::fabs(c[k])});
+        const auto ab = difference(b, a), normal = cross(ab, difference(c, a));
+        const double least = 0x1p-36 * magnitude;
+        if (dot(normal, normal) < least * least * dot(ab, ab)) fragile_.push_back({std::min(v, w), std::max(v, w)});
+      }
+  std::sort(fragile_.begin(), fragile_.end());
+}
+
+bool FacetPatches::improve_once(double bound, double min_edge, const std::function<bool()>& stop) {
+  if (calm_.empty()) find_calm();
+  find_fragile();
+  bool any = false;
+  for (EntityId f = 0; f < triangles_.size(); ++f) {
+    if (!calm_[f] || triangles_[f].size() * domain_->facet_segments(f).size() > most_improved) continue;
+    std::vector<Candidate> poor;
+    for (const Triangle& t : triangles_[f]) {
+      const Point3 &a = mesh_->point(t[0]), &b = mesh_->point(t[1]), &c = mesh_->point(t[2]);
+      const double shortest = std::min({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)});
+      const Ball<3> ball = equatorial_ball(a, b, c);
+      if (ball.squared_radius > bound * bound * shortest) poor.push_back({ball, t, std::max(std::sqrt(shortest), min_edge)});
+    }
+    if (!poor.empty() && !stop()) any = split_triangles(f, std::move(poor)) || any;
+  }
+  return any;
 }
 
 void FacetPatches::mark(Mesh<3>::Pools& pools) {

@@ -55,12 +55,13 @@ void SegmentChains::add(EntityId segment, std::size_t position, VertexId v, doub
   ++points_;
 }
 
-bool SegmentChains::split(EntityId segment, VertexId a, VertexId b) {
+bool SegmentChains::split(EntityId segment, VertexId a, VertexId b, double least) {
   const std::size_t i = position(segment, a, b);
   if (i == 0) return false;
   const double t = shells_.split_parameter(segment, chains_[segment][i - 1].t, chains_[segment][i].t);
   const Point<3> p = point_on_segment<3>(*domain_, segment, t);
-  const VertexId v = delaunay_->insert(p, Home(EntityKind::segment, segment), a);
+  const VertexId v = delaunay_->insert(p, Home(EntityKind::segment, segment), a, least);
+  if (v == no_vertex) return false;
   const Home home = mesh_->vertex(v).home;
   if (!(home.kind() == EntityKind::segment && home.id() == segment) || v == a || v == b) {
     const auto& ends = domain_->segments()[segment].points;

@@ -14,6 +14,7 @@
 namespace pgdr {
 namespace {
 
+constexpr std::uint64_t price_of_repetition = 100;  // in flips
 constexpr std::uint64_t most_lost_work = 20'000'000;  // of rewrapping large regions in one visit: some seconds
 
 }  // namespace
@@ -145,11 +146,26 @@ void Refiner<D>::flip(const Item& e) {
   // While no entity has been refused a constrained Delaunay triangulation should exist, if in a large region.
   if (still_stuck() && !visit_->entities_refused && flips_.rewrap_pays(most_lost_work))
     outcome = flips_.rewrap(pools_, e.cell, e.which(), Effort::wide);
-  if (still_stuck() && visit_->rewraps) outcome = flips_.rewrap(pools_, e.cell, e.which(), Effort::quick);
+  if (still_stuck() && visit_->rewraps) {
+    outcome = flips_.rewrap(pools_, e.cell, e.which(), Effort::quick);
+    if (outcome == LocalFlips<D>::Outcome::flipped && made_before()) flips_left_ -= std::min(flips_left_ - 1, price_of_repetition);
+  }
   if (outcome == LocalFlips<D>::Outcome::not_owned) return visit_->set_aside.push_back(e);
   if (outcome == LocalFlips<D>::Outcome::stuck) return list_poor(e.cell, Item::not_delaunay);
   --flips_left_;
   flipped();
+}
+
+/// Has this visit made the cells of the last rewrapping already? Flips, which may trade violations, have undone it then, and
+/// may do so again.
+template <int D>
+bool Refiner<D>::made_before() {
+  std::vector<VertexId> key;
+  for (const CellId c : flips_.new_cells()) {
+    const auto& v = mesh_->cell(c).vertices;
+    key.insert(key.end(), v.begin(), v.end());
+  }
+  return !rewrapped_.insert(std::move(key)).second;
 }
 
 /// Lists what the last flip, or rewrapping, has made.
@@ -255,6 +271,7 @@ void Refiner<D>::begin(RegionVisit<D>& visit) {
   cavity_.set_area(visit.area);
   flips_.set_area(visit.area);
   flips_left_ = 0;
+  rewrapped_.clear();
   checked_at_ = reported_ = 0;
 }
 

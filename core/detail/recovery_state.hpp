@@ -37,10 +37,14 @@ class SegmentChains {
     }
     return true;
   }
-  /// Splits the subsegment ab of the segment, if it is one; false otherwise.
-  bool split(EntityId segment, VertexId a, VertexId b);
+  /// Splits the subsegment ab of the segment, if it is one and no vertex is nearer to the point than `least`; false otherwise.
+  bool split(EntityId segment, VertexId a, VertexId b, double least = 0);
 
   const std::vector<Link>& chain(EntityId segment) const { return chains_[segment]; }
+  /// Does the segment make less than 60 degrees with another one?
+  bool at_small_angle(EntityId segment) const {
+    return shells_.end_of(segment, 0, 0.5) >= 0 || shells_.end_of(segment, 0.5, 1) >= 0;
+  }
   /// Segments whose chain has changed since the last call.
   std::vector<EntityId> take_changed();
   std::uint64_t points() const { return points_; }
@@ -72,6 +76,9 @@ class FacetPatches {
 
   /// Puts points where triangles are missing, one round. False if none was missing. Ends early if `stop` says so.
   bool recover_once(const std::function<bool()>& stop);
+  /// Splits triangles of a radius-edge ratio above the bound, one round, in facets without small angles, where no edge below
+  /// `min_edge` comes of it. False if none was split. @pre none is missing
+  bool improve_once(double bound, double min_edge, const std::function<bool()>& stop);
   std::uint64_t points() const { return points_; }
   void mark(Mesh<3>::Pools& pools);
 
@@ -82,7 +89,15 @@ class FacetPatches {
     VertexId a, b;
   };
   void triangulate(EntityId facet);
-  void recover_facet(EntityId facet, std::vector<Triangle> missing);
+  struct Candidate {
+    Ball<3> ball;
+    Triangle triangle;
+    double least;  ///< how near its point may be to others
+  };
+  bool split_triangles(EntityId facet, std::vector<Candidate> candidates);
+  bool may_split(const Subsegment& s) const;
+  void find_calm();
+  void find_fragile();
   std::optional<Subsegment> in_the_way(const std::vector<Subsegment>& rim, EntityId facet, const Triangle& t,
                                        const Point3& x) const;
   std::vector<Subsegment> subsegments(EntityId facet) const;
@@ -95,7 +110,8 @@ class FacetPatches {
   SegmentChains* chains_;
   std::vector<std::vector<Triangle>> triangles_;
   std::vector<std::vector<VertexId>> inner_points_;  ///< Steiner points inside each facet
-  std::vector<bool> changed_;
+  std::vector<bool> changed_, calm_;  ///< calm: no segment of the facet is at a small angle
+  std::vector<std::array<VertexId, 2>> fragile_;  ///< sorted: edges at triangles so flat that rounding may turn them over
   std::uint64_t points_ = 0;
 };
 

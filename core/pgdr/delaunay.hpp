@@ -30,9 +30,9 @@ class Delaunay {
   /// if the points lie in one line (2D) or plane (3D). Ends early, with some of the points, once `stop` is requested.
   bool build(std::span<const Point<D>> points, const std::stop_token& stop = {});
 
-  /// Inserts one more point, searched for from the star of vertex `near`, with its insertion radius. Returns the vertex
-  /// there already, if there is one.
-  VertexId insert(const Point<D>& p, Home home, VertexId near);
+  /// Inserts one more point, searched for from the star of vertex `near`, with its insertion radius. Returns no_vertex, and
+  /// does nothing, if the next vertex is nearer than `least`; else the vertex there already, if there is one.
+  VertexId insert(const Point<D>& p, Home home, VertexId near, double least = 0);
 
   /// Vertices in the order of `points`.
   const std::vector<VertexId>& vertices() const { return vertices_; }

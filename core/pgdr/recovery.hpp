@@ -5,11 +5,18 @@
 // marks them. The rest of the project knows `recover_boundary` alone, so that another front end can take its place.
 //
 // 2D: without any Steiner point; what comes out is the constrained Delaunay triangulation (detail/segment_insertion.hpp).
-// 3D: by Steiner points on segments and facets; what comes out is conforming Delaunay. Segments (after Shewchuk; Si): a missing subsegment is split at its middle, but next to an end where another segment
-// makes an angle below 60 degrees on a sphere about that end whose radius is a power of two, so that points of
-// neighbouring segments meet on common spheres. Facets: each keeps the constrained Delaunay triangulation of its
-// points in its plane; a triangle that is no face of the mesh gets a point at its circumcentre, unless that
-// encroaches upon a subsegment of the facet, which is split instead. Serial.
+// 3D: by Steiner points on segments and facets; what comes out is conforming Delaunay. Segments (after Shewchuk; Si): a
+// missing subsegment is split at its middle, but next to an end where another segment makes an angle below 60 degrees on a
+// sphere about that end whose radius is a power of two, so that points of neighbouring segments meet on common spheres.
+// Facets: each keeps the constrained Delaunay triangulation of its points in its plane; a triangle that is no face of the
+// mesh gets a point at its circumcentre, unless that encroaches upon a subsegment of the facet, which is split instead.
+//
+// Where no angle between segments or facets is below 60 degrees, triangles over the radius-edge bound (of two at least) are
+// then split likewise. All faces of a tetrahedron within the bound are within it, so that the refinement would have to; but
+// its cavities are hidden by the facets, and at long strips side by side, all of whose segments are encroached, they are cut
+// back until the facets are not Delaunay in their planes any more, which nothing mends. Here no cavity is. Such a point keeps
+// the length of the triangle's shortest edge from all others, so that the least distance never shrinks and the splitting
+// ends. Serial.
 #pragma once
 
 #include "pgdr/delaunay.hpp"

@@ -14,6 +14,7 @@
 #include <chrono>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -192,6 +193,7 @@ class Refiner {
   void committed();
   void flipped();
   void flip(const Item& e);
+  bool made_before();
   Outcome give_up(Outcome outcome) {
     cavity_.release();
     return outcome;
@@ -206,6 +208,7 @@ class Refiner {
   LocalFlips<D> flips_;
   RegionVisit<D>* visit_ = nullptr;
   std::vector<Item> abroad_;  ///< elements with their circumcentre in other regions
+  std::set<std::vector<VertexId>> rewrapped_;  ///< cells that small rewrappings of this visit have made, by their vertices
   std::uint64_t flips_left_ = 0, checked_at_ = 0, reported_ = 0;
   std::uint64_t stride_ = 1;  ///< insertions between two looks at the clock
   std::chrono::steady_clock::time_point checked_time_;
