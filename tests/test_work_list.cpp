@@ -5,7 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
+#include <optional>
 #include <random>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "pgdr/work_list.hpp"
@@ -98,6 +102,33 @@ TEST(WorkList, AgreesWithASortedList) {
   list.drain([&](const Item&) { ++drained; });
   EXPECT_EQ(drained, all.size());
   EXPECT_TRUE(list.empty());
+}
+
+// A slot is given up before its births repeat: no entry of a dead cell is taken for one of the cells after it.
+TEST(Entry, ASlotAndItsBirthNameACellForGood) {
+  class Cells : public Mesh<3> {
+   public:
+    Pools pools = make_pools();
+  } cells;
+  std::set<std::pair<CellId, std::uint16_t>> names;
+  std::optional<Item> last;
+  const std::array<VertexId, 4> vertices{VertexId{3}, VertexId{1}, VertexId{2}, VertexId{0}};
+  for (int i = 0; i < 150000; ++i) {
+    const CellId c = cells.new_cell(cells.pools);
+    cells.set_vertices(c, vertices);
+    const Item entry(c, cells.birth(c), EntryKind::cell, Item::over_size);
+    ASSERT_TRUE(names.insert({entry.cell, entry.birth}).second) << i;
+    ASSERT_TRUE(entry.alive(cells));
+    ASSERT_FALSE(last && last->alive(cells));
+    std::array<VertexId, 4> read{};
+    ASSERT_TRUE(cells.read_vertices(c, entry.birth, read));
+    ASSERT_EQ(read, vertices);
+    cells.free_cell(cells.pools, c);
+    ASSERT_FALSE(entry.alive(cells));
+    ASSERT_FALSE(cells.read_vertices(c, entry.birth, read));
+    last = entry;
+  }
+  EXPECT_EQ(std::prev(names.end())->first, CellId{2});  // two slots were given up, after 65 535 cells each
 }
 
 }  // namespace
