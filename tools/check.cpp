@@ -78,7 +78,9 @@ int check_as(const CheckArguments& a, Report& report) {
   if (!a.reasons.empty()) reported = read_bounds(a.reasons);
   const Bounds<D> bounds = resolve<D>(a.bounds, reported.radius_edge.value_or(unbounded));
   const OutputMesh<D> mesh = read_mesh<D>(a.mesh);
-  const std::optional<Domain<D>> domain = read_domain<D>(a.input, a.reading);
+  InputArguments reading = a.reading;
+  if (D == 3 && !reading.precision) reading.precision = reported.precision;
+  const std::optional<Domain<D>> domain = read_domain<D>(a.input, reading);
 
   CheckOptions<D> options;
   if (domain) options.domain = &*domain;

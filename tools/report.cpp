@@ -130,6 +130,9 @@ ReportedBounds read_bounds(const std::string& file) {
     const auto bound = bounds.find("radius_edge");
     if (bound != bounds.end() && bound->is_number() && report.value("stop", "finished") == "finished")
       read.radius_edge = bound->get<double>();
+    const auto precision = report.find("precision");
+    if (precision != report.end() && precision->is_number() && *precision >= 0.0 && *precision <= 0.01)
+      read.precision = precision->get<double>();
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {

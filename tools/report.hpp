@@ -54,6 +54,7 @@ const char* name(StopCause cause);
 struct ReportedBounds {
   std::vector<PoorReason> reasons;
   std::optional<double> radius_edge;  ///< the bound of a run that was not stopped
+  std::optional<double> precision;    ///< of the facets, 3D
 };
 
 /// @throws FileError if it cannot be opened, InputError if it is not such a report.

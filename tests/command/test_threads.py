@@ -123,6 +123,17 @@ class Threads(Case):
             checked = checked["quality"]["not_delaunay"]
             self.assertEqual(sum(made.values()), sum(checked.values()) + beyond, name)
 
+    def test_the_checker_takes_the_precision_from_the_report(self):
+        exact = box_stl(2, 1, 0.5)
+        digits = "".join("vertex %.5f %.5f %.5f\n" % tuple(float(x) for x in line.split()[1:]) if line.startswith("vertex")
+                         else line + "\n" for line in exact.splitlines())
+        box = self.file("box.stl", digits)
+        self.mesh(box, "--precision", "1e-5", "--size", "0.2", "--report", self.report, expect=0)
+        self.assertEqual(self.json()["precision"], 1e-5)
+        self.pgdr("check", self.output, "--input", box, "--reasons", self.report, expect=0)
+        self.pgdr("check", self.output, "--input", box, "--precision", "1e-5", expect=0)
+        self.pgdr("check", self.output, "--input", box, expect=6)  # the diagonals of the faces are segments then
+
     def test_granularity(self):
         whole, r = self.made(BRACKET, "--size", "0.12", threads=2)
         for g in ("1", "3"):
