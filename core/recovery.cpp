@@ -31,9 +31,9 @@ StopCause recover_boundary(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, Delaun
   if constexpr (D == 3) {
     detail::SegmentChains chains(mesh, delaunay, domain);
     detail::FacetPatches patches(mesh, delaunay, domain, chains);
-    // What is a bound on tetrahedra is one on their faces; below two, facets need more than these.
+    // Triangles up to twice the bound are left to the refinement, which splits them in the order that makes few points.
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    const double bound = options.refine ? std::max(options.radius_edge_bound, 2.0) : infinity;
+    const double bound = options.refine ? 2 * std::max(options.radius_edge_bound, 2.0) : infinity;
     const std::uint64_t most = most_points(domain.points().size());
     auto stop = [&] {
       const std::uint64_t steiner = chains.points() + patches.points();

@@ -11,8 +11,8 @@
 // Facets: each keeps the constrained Delaunay triangulation of its points in its plane; a triangle that is no face of the
 // mesh gets a point at its circumcentre, unless that encroaches upon a subsegment of the facet, which is split instead.
 //
-// Where no angle between segments or facets is below 60 degrees, triangles over the radius-edge bound (of two at least) are
-// then split likewise. All faces of a tetrahedron within the bound are within it, so that the refinement would have to; but
+// Where no angle between segments or facets is below 60 degrees, triangles over twice the radius-edge bound (of two at least)
+// are then split likewise. All faces of a tetrahedron within the bound are within it, so that the refinement would have to; but
 // its cavities are hidden by the facets, and at long strips side by side, all of whose segments are encroached, they are cut
 // back until the facets are not Delaunay in their planes any more, which nothing mends. Here no cavity is. Such a point keeps
 // the length of the triangle's shortest edge from all others, so that the least distance never shrinks and the splitting
