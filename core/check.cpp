@@ -38,6 +38,25 @@ void check_against_input(const OutputMesh<D>& mesh, const CheckOptions<D>& optio
   check_bounds(mesh, options, links, components, &input, reasons, findings);
 }
 
+/// The cells with a point that may be off its entity, those that share a face with one, and few more.
+template <int D>
+OutputMesh<D> part_beside_slanted_points(const OutputMesh<D>& mesh, const std::vector<double>& slack) {
+  const auto slanted = [&](std::uint32_t v) { return slack[v] > 0; };
+  std::vector<bool> near(mesh.points.size());
+  for (const auto& cell : mesh.cells)
+    if (std::any_of(cell.begin(), cell.end(), slanted))
+      for (const std::uint32_t v : cell) near[v] = true;
+  OutputMesh<D> part;
+  for (const auto& cell : mesh.cells)
+    if (std::count_if(cell.begin(), cell.end(), [&](std::uint32_t v) { return near[v]; }) >= D) part.cells.push_back(cell);
+  if (part.cells.empty()) return part;
+  part.points = mesh.points;
+  part.input_points = mesh.input_points;
+  part.subfacets = mesh.subfacets;
+  part.subsegments = mesh.subsegments;
+  return part;
+}
+
 }  // namespace
 
 template <int D>
@@ -59,25 +78,6 @@ CheckReport check(const OutputMesh<D>& mesh, const CheckOptions<D>& options) {
   check_delaunay<D>(mesh, links, slack_without_input(mesh, options.conformity_ulps), {}, findings);
   check_bounds<D>(mesh, options, links, components, nullptr, reasons, findings);
   return report;
-}
-
-/// The cells with a point that may be off its entity, those that share a face with one, and few more.
-template <int D>
-OutputMesh<D> part_beside_slanted_points(const OutputMesh<D>& mesh, const std::vector<double>& slack) {
-  const auto slanted = [&](std::uint32_t v) { return slack[v] > 0; };
-  std::vector<bool> near(mesh.points.size());
-  for (const auto& cell : mesh.cells)
-    if (std::any_of(cell.begin(), cell.end(), slanted))
-      for (const std::uint32_t v : cell) near[v] = true;
-  OutputMesh<D> part;
-  for (const auto& cell : mesh.cells)
-    if (std::count_if(cell.begin(), cell.end(), [&](std::uint32_t v) { return near[v]; }) >= D) part.cells.push_back(cell);
-  if (part.cells.empty()) return part;
-  part.points = mesh.points;
-  part.input_points = mesh.input_points;
-  part.subfacets = mesh.subfacets;
-  part.subsegments = mesh.subsegments;
-  return part;
 }
 
 template <int D>

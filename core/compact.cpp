@@ -18,8 +18,10 @@ constexpr std::uint32_t none = 0xffffffffu;
 /// A block of slots, so many that a loop over it is much work.
 constexpr std::uint32_t slots_a_part = 1 << 15;
 
+/// With room for so many more.
 template <int D>
-void copy_input_points(const Domain<D>& domain, OutputMesh<D>& out) {
+void copy_input_points(const Domain<D>& domain, std::size_t more, OutputMesh<D>& out) {
+  out.points = detail::vector_of_capacity<Point<D>>(domain.points().size() + more);
   out.points.assign(domain.points().begin(), domain.points().end());
   out.input_points = out.points.size();
 }
@@ -34,7 +36,6 @@ std::vector<std::uint32_t> number_vertices(const Mesh<D>& mesh, const detail::St
   cells.each([&](const auto& cell, std::uint16_t) {
     for (const std::uint32_t v : cell) std::atomic_ref(number[v]).store(used, std::memory_order_relaxed);
   });
-  copy_input_points(domain, out);
   struct Steiner {
     std::uint64_t key;
     std::uint32_t vertex;
@@ -53,9 +54,7 @@ std::vector<std::uint32_t> number_vertices(const Mesh<D>& mesh, const detail::St
   };
   if (!hurry.stop_requested()) bulk.sort(steiner, along_curve);
   if (bulk.stopped()) return number;
-  auto points = detail::vector_of_capacity<Point<D>>(out.input_points + steiner.size());
-  points.assign(out.points.begin(), out.points.end());
-  out.points = std::move(points);
+  copy_input_points(domain, steiner.size(), out);
   out.points.resize(out.input_points + steiner.size());
   bulk.each(steiner.size(), [&](std::size_t i) {
     number[steiner[i].vertex] = static_cast<std::uint32_t>(out.input_points + i);
@@ -135,8 +134,7 @@ void number_hastily(const Mesh<D>& mesh, const Domain<D>& domain, std::span<cons
   });
   for (std::size_t i = 0; i < parts; ++i) begin[i + 1] += begin[i];
 
-  copy_input_points(domain, out.mesh);
-  out.mesh.points.reserve(number.size());
+  copy_input_points(domain, number.size() - std::min(number.size(), domain.points().size()), out.mesh);
   for (std::uint32_t i = 0; i < number.size(); ++i) {
     if (number[i] == none) continue;
     const auto& record = mesh.vertex(VertexId{i});

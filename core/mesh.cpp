@@ -75,9 +75,10 @@ void Mesh<D>::free_cell(Pools& pools, CellId c) {
   const std::uint32_t tag = tags_[index(c)].get() & ~mark_bit;
   if (pinched_ && tag != 0) change_pinched(c, false);
   if (tag != 0) pools.constraints.give(tag - 1);
-  atomic(cell(c).vertices[0]).store(no_vertex, std::memory_order_relaxed);
   const auto next = static_cast<std::uint16_t>(birth(c) + 1);
   atomic(tags_[index(c)].birth).store(next, std::memory_order_relaxed);
+  // After the birth: whoever reads no_vertex then sees that the cell is another one (read_vertices).
+  atomic(cell(c).vertices[0]).store(no_vertex, std::memory_order_release);
   if (next != last_birth) pools.cells.give(index(c));
 }
 

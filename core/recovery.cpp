@@ -35,21 +35,31 @@ StopCause recover_boundary(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, Delaun
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const double bound = options.refine ? 2 * std::max(options.radius_edge_bound, 2.0) : infinity;
     const std::uint64_t most = most_points(domain.points().size());
+    std::uint64_t improving = 0;  // points that nothing was missing for
+    auto steiner = [&] { return chains.points() + patches.points(); };
+    auto ended = [&] {
+      if (domain.points().size() + steiner() >= options.max_vertices) cause = StopCause::max_vertices;
+      return stopped();
+    };
     auto stop = [&] {
-      const std::uint64_t steiner = chains.points() + patches.points();
-      if (steiner > most)
+      if (steiner() - improving > most)
         throw InputError({Errc::boundary_not_recovered,
-                          "the boundary is not recovered after " + std::to_string(steiner) +
+                          "the boundary is not recovered after " + std::to_string(steiner() - improving) +
                               " Steiner points; facets meet at very small angles or intersect",
                           {}, 0, {}, {}});
-      if (domain.points().size() + steiner >= options.max_vertices) cause = StopCause::max_vertices;
-      return stopped();
+      return ended();
+    };
+    auto improve = [&] {
+      const std::uint64_t before = steiner();
+      const bool any = patches.improve_once(bound, options.min_edge, ended);
+      improving += steiner() - before;
+      return any;
     };
     do {
       ++counts.rounds;
       if (stop() || !chains.recover(stop)) break;
       if (!patches.recover_once(stop)) {
-        if (bound < infinity && patches.improve_once(bound, options.min_edge, stop)) continue;
+        if (bound < infinity && improve()) continue;
         patches.mark(pools);
         chains.mark(pools);
         break;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <unordered_map>
 
 #include "detail/planar_cdt.hpp"
@@ -10,9 +11,6 @@
 
 namespace pgdr::detail {
 namespace {
-
-// Triangles times segments of a facet that is improved: each triangle looks at all of them.
-constexpr std::size_t most_improved = 1'000'000;
 
 /// Sorted edges of the facet's defining triangles, directed so that the facet is on their left: both ways where it is on
 /// both sides, as segments inside of the facet may enclose a part of it that the rim does not touch.
@@ -24,22 +22,6 @@ std::vector<std::array<std::uint32_t, 2>> directed_edges(const Domain<3>& domain
   return edges;
 }
 
-std::array<std::uint32_t, 2> sorted_ends(std::array<std::uint32_t, 2> ends) {
-  if (ends[1] < ends[0]) std::swap(ends[0], ends[1]);
-  return ends;
-}
-
-/// Of length one, square to ab, towards c.
-Vector<3> direction_into(const Point3& a, const Point3& b, const Point3& c) {
-  const auto along = difference(b, a), up = difference(c, a);
-  const double part = dot(up, along) / dot(along, along);
-  Vector<3> d;
-  for (std::size_t i = 0; i < 3; ++i) d[i] = up[i] - part * along[i];
-  const double length = std::sqrt(dot(d, d));
-  for (double& x : d) x /= length;
-  return d;
-}
-
 InputError not_a_plane_graph(const Domain<3>& domain, EntityId f, const Mesh<3>& mesh, std::span<const VertexId> at) {
   Diagnostic d;
   d.code = Errc::boundary_not_recovered;
@@ -47,6 +29,21 @@ InputError not_a_plane_graph(const Domain<3>& domain, EntityId f, const Mesh<3>&
   for (const std::uint32_t p : domain.facet_points(f)) d.ids.push_back(domain.input_of_point()[p]);
   for (const VertexId v : at) d.points.push_back(mesh.point(v).x);
   return InputError(std::move(d));
+}
+
+Point2 projected(const Point3& p, int axis) { return {p[(axis + 1) % 3], p[(axis + 2) % 3]}; }
+
+/// Holds the ball, and what rounding may take for a part of it; all of space if the ball is not finite.
+Box<3> box_around(const Ball<3>& ball) {
+  const double radius = std::sqrt(ball.squared_radius);
+  Box<3> box;
+  for (int i = 0; i < 3; ++i) {
+    const double reach = radius + 0x1p-40 * (radius + std::fabs(ball.center[i]));
+    const double low = ball.center[i] - reach, high = ball.center[i] + reach;
+    box.low[i] = std::isfinite(low) ? low : std::numeric_limits<double>::lowest();
+    box.high[i] = std::isfinite(high) ? high : std::numeric_limits<double>::max();
+  }
+  return box;
 }
 
 }  // namespace
@@ -72,9 +69,18 @@ auto FacetPatches::subsegments(EntityId facet) const -> std::vector<Subsegment> 
   std::vector<Subsegment> list;
   for (const EntityId s : domain_->facet_segments(facet)) {
     const auto& chain = chains_->chain(s);
-    for (std::size_t i = 1; i < chain.size(); ++i) list.push_back({s, chain[i - 1].vertex, chain[i].vertex});
+    for (std::size_t i = 1; i < chain.size(); ++i) list.push_back({s, chain[i - 1].vertex, chain[i].vertex, chain[i - 1].t});
   }
   return list;
+}
+
+BoxTree<2> FacetPatches::tree_of_diametral_balls(const std::vector<Subsegment>& rim, int axis) const {
+  std::vector<Box<2>> boxes;
+  for (const Subsegment& s : rim) {
+    const Box<3> ball = box_around(diametral_ball<3>(mesh_->point(s.a), mesh_->point(s.b)));
+    boxes.push_back({projected(ball.low, axis), projected(ball.high, axis)});
+  }
+  return BoxTree<2>(boxes);
 }
 
 /// Anew, from the points and subsegments that the facet has now.
@@ -159,125 +165,71 @@ bool FacetPatches::recover_once(const std::function<bool()>& stop) {
   return any;
 }
 
-/// A subsegment of the facet whose diametral ball contains x, or that x lies beyond as seen from triangle t.
-auto FacetPatches::in_the_way(const std::vector<Subsegment>& rim, EntityId facet, const Triangle& t,
+/// The first subsegment of the facet that x lies beyond as seen from triangle t, else the first whose diametral ball contains
+/// x. `tree` is over the rim's balls in the facet's projection.
+auto FacetPatches::in_the_way(const std::vector<Subsegment>& rim, const BoxTree<2>& tree, EntityId facet, const Triangle& t,
                               const Point3& x) const -> std::optional<Subsegment> {
   const int axis = domain_->facets()[facet].axis;
   Point3 from{};
   for (int i = 0; i < 3; ++i)
     from[i] = mesh_->point(t[0])[i] / 3 + mesh_->point(t[1])[i] / 3 + mesh_->point(t[2])[i] / 3;
-  std::optional<Subsegment> encroached;
-  for (const Subsegment& s : rim) {
-    const Point3 &a = mesh_->point(s.a), &b = mesh_->point(s.b);
+  std::size_t crossed = rim.size(), encroached = rim.size();
+  auto sight = Box<2>::around(projected(from, axis));
+  sight.add(projected(x, axis));
+  tree.meeting(sight, [&](std::size_t i) {
+    const Point3 &a = mesh_->point(rim[i].a), &b = mesh_->point(rim[i].b);
     if (orient_projected(a, b, from, axis) != orient_projected(a, b, x, axis) &&
         orient_projected(from, x, a, axis) != orient_projected(from, x, b, axis))
-      return s;
-    if (!encroached && in_diametral_ball<3>(a, b, x)) encroached = s;
-  }
-  return encroached;
+      crossed = std::min(crossed, i);
+    if (in_diametral_ball<3>(a, b, x)) encroached = std::min(encroached, i);
+  });
+  const std::size_t first = crossed < rim.size() ? crossed : encroached;
+  if (first == rim.size()) return std::nullopt;
+  return rim[first];
 }
 
-/// Largest triangles first; a triangle that a point of this round has reached already waits for the next.
+/// A vertex inside the facet, at x.
+void FacetPatches::add_inner_point(EntityId facet, const Point3& x, VertexId v) {
+  auto& inner = inner_points_[facet];
+  const Home home = mesh_->vertex(v).home;
+  const bool own = home.kind() == EntityKind::facet && home.id() == facet;
+  // New vertices have larger ids than all before.
+  if (!own || (!inner.empty() && v <= inner.back())) throw not_a_plane_graph(*domain_, facet, *mesh_, std::array{v});
+  inner.push_back(v);
+  changed_[facet] = true;
+  ++points_;
+}
+
+/// Largest triangles first; a triangle that a point of this round has reached already waits for the next. Trees of boxes say
+/// what is near a point: strips have many triangles, and the same facet many rounds.
 bool FacetPatches::split_triangles(EntityId facet, std::vector<Candidate> candidates) {
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     if (a.ball.squared_radius != b.ball.squared_radius) return a.ball.squared_radius > b.ball.squared_radius;
     return lex_less(a.ball.center, b.ball.center);
   });
   const std::vector<Subsegment> rim = subsegments(facet);
-  std::vector<Point3> placed;
-  for (const Candidate& c : candidates) {
-    bool reached = false;
-    for (const Point3& p : placed) reached = reached || in_equatorial_ball(c.ball, p);
-    if (reached) continue;
-    const Point3 x = point_on_facet(*domain_, facet, c.ball.center);
-    if (const auto s = in_the_way(rim, facet, c.triangle, x)) {
-      if (c.least > 0 && !may_split(*s)) continue;
-      if (!chains_->split(s->segment, s->a, s->b, c.least)) continue;  // another triangle has asked for it, or it is too near
-      placed.push_back(diametral_ball<3>(mesh_->point(s->a), mesh_->point(s->b)).center);
-      continue;
-    }
-    const VertexId v = delaunay_->insert(x, Home(EntityKind::facet, facet), c.triangle[0], c.least);
-    if (v == no_vertex) continue;
-    const Home home = mesh_->vertex(v).home;
-    const bool own = home.kind() == EntityKind::facet && home.id() == facet;
-    if (!own || std::find(inner_points_[facet].begin(), inner_points_[facet].end(), v) != inner_points_[facet].end())
-      throw not_a_plane_graph(*domain_, facet, *mesh_, std::array{v});
-    inner_points_[facet].push_back(v);
-    placed.push_back(x);
-    changed_[facet] = true;
-    ++points_;
-  }
-  return !placed.empty();
-}
-
-/// No segment of a calm facet makes less than 60 degrees with another segment, nor do two facets there; and it is plane but
-/// for rounding.
-void FacetPatches::find_calm() {
-  const auto segments = domain_->segments();
-  std::vector<std::pair<std::array<std::uint32_t, 2>, EntityId>> by_ends;
-  for (EntityId s = 0; s < segments.size(); ++s) by_ends.push_back({sorted_ends(segments[s].points), s});
-  std::sort(by_ends.begin(), by_ends.end());
-  std::vector<std::vector<Vector<3>>> into(segments.size());  // directions from each segment into its facets
-  for (EntityId f = 0; f < triangles_.size(); ++f)
-    for (const auto& t : domain_->triangles(f))
-      for (int i = 0; i < 3; ++i) {
-        const std::uint32_t a = t[i], b = t[(i + 1) % 3];
-        const auto ends = sorted_ends({a, b});
-        const auto at = std::lower_bound(by_ends.begin(), by_ends.end(), std::pair(ends, EntityId{0}));
-        if (at == by_ends.end() || at->first != ends) continue;
-        const auto points = domain_->points();
-        into[at->second].push_back(direction_into(points[a], points[b], points[t[(i + 2) % 3]]));
-      }
-  std::vector<bool> wide(segments.size());
-  for (EntityId s = 0; s < segments.size(); ++s) {
-    wide[s] = !chains_->at_small_angle(s);
-    for (std::size_t i = 0; i < into[s].size(); ++i)
-      for (std::size_t j = 0; j < i; ++j) wide[s] = wide[s] && dot(into[s][i], into[s][j]) <= 0.5;
-  }
-  for (EntityId f = 0; f < triangles_.size(); ++f) {
-    const auto own = domain_->facet_segments(f);
-    calm_.push_back(std::all_of(own.begin(), own.end(), [&](EntityId s) {
-      return wide[s] && domain_->facets()[f].planarity_defect <= 0x1p-44 * domain_->segment_magnitude(s);
-    }));
-  }
-}
-
-bool FacetPatches::may_split(const Subsegment& s) const {
-  const std::array<VertexId, 2> edge{std::min(s.a, s.b), std::max(s.a, s.b)};
-  return !std::binary_search(fragile_.begin(), fragile_.end(), edge);
-}
-
-/// A rounded point of an edge is off it by some 2^-50 of the coordinates.
-void FacetPatches::find_fragile() {
-  fragile_.clear();
-  for (const auto& triangles : triangles_)
-    for (const Triangle& t : triangles)
-      for (int i = 0; i < 3; ++i) {
-        const VertexId v = t[i], w = t[(i + 1) % 3];
-        const Point3 &a = mesh_->point(v), &b = mesh_->point(w), &c = mesh_->point(t[(i + 2) % 3]);
-        double magnitude = 0;
-        for (int k = 0; k < 3; ++k) magnitude = std::max({magnitude, std::fabs(a[k]), std::fabs(b[k]), std::fabs(c[k])});
-        const auto ab = difference(b, a), normal = cross(ab, difference(c, a));
-        const double least = 0x1p-36 * magnitude;
-        if (dot(normal, normal) < least * least * dot(ab, ab)) fragile_.push_back({std::min(v, w), std::max(v, w)});
-      }
-  std::sort(fragile_.begin(), fragile_.end());
-}
-
-bool FacetPatches::improve_once(double bound, double min_edge, const std::function<bool()>& stop) {
-  if (calm_.empty()) find_calm();
-  find_fragile();
+  const BoxTree<2> rim_tree = tree_of_diametral_balls(rim, domain_->facets()[facet].axis);
+  std::vector<Box<3>> boxes;
+  for (const Candidate& c : candidates) boxes.push_back(box_around(c.ball));
+  const BoxTree<3> tree(boxes);
+  std::vector<bool> reached(candidates.size(), false);
   bool any = false;
-  for (EntityId f = 0; f < triangles_.size(); ++f) {
-    if (!calm_[f] || triangles_[f].size() * domain_->facet_segments(f).size() > most_improved) continue;
-    std::vector<Candidate> poor;
-    for (const Triangle& t : triangles_[f]) {
-      const Point3 &a = mesh_->point(t[0]), &b = mesh_->point(t[1]), &c = mesh_->point(t[2]);
-      const double shortest = std::min({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)});
-      const Ball<3> ball = equatorial_ball(a, b, c);
-      if (ball.squared_radius > bound * bound * shortest) poor.push_back({ball, t, std::max(std::sqrt(shortest), min_edge)});
+  auto place = [&](const Point3& p) {
+    any = true;
+    tree.at(p, [&](std::size_t i) { reached[i] = reached[i] || in_equatorial_ball(candidates[i].ball, p); });
+  };
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const Candidate& c = candidates[i];
+    if (reached[i]) continue;
+    const Point3 x = point_on_facet(*domain_, facet, c.ball.center);
+    if (const auto s = in_the_way(rim, rim_tree, facet, c.triangle, x)) {
+      if (c.least > 0 && !may_split(*s)) continue;
+      if (!chains_->split(*s, c.least)) continue;  // another triangle has asked for it, or it is too near
+      place(diametral_ball<3>(mesh_->point(s->a), mesh_->point(s->b)).center);
+    } else if (const VertexId v = delaunay_->insert(x, Home(EntityKind::facet, facet), c.triangle[0], c.least); v != no_vertex) {
+      add_inner_point(facet, x, v);
+      place(x);
     }
-    if (!poor.empty() && !stop()) any = split_triangles(f, std::move(poor)) || any;
   }
   return any;
 }

@@ -22,7 +22,7 @@ WantedSimplices<2> SegmentChains::wanted() const {
   return edges;
 }
 
-auto SegmentChains::missing() const -> std::vector<Subsegment> {
+std::vector<Subsegment> SegmentChains::missing() const {
   WantedSimplices<2> edges = wanted();
   for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) {
     if (!mesh_->alive(CellId{i})) continue;
@@ -35,17 +35,17 @@ auto SegmentChains::missing() const -> std::vector<Subsegment> {
   for (EntityId s = 0; s < chains_.size(); ++s)
     for (std::size_t i = 1; i < chains_[s].size(); ++i) {
       const VertexId a = chains_[s][i - 1].vertex, b = chains_[s][i].vertex;
-      if (!edges.find({a, b})->present) list.push_back({s, a, b});
+      if (!edges.find({a, b})->present) list.push_back({s, a, b, chains_[s][i - 1].t});
     }
   return list;
 }
 
 /// Place of b in the chain if ab is a subsegment, else 0.
-std::size_t SegmentChains::position(EntityId segment, VertexId a, VertexId b) const {
-  const auto& chain = chains_[segment];
-  for (std::size_t i = 1; i < chain.size(); ++i)
-    if (chain[i - 1].vertex == a && chain[i].vertex == b) return i;
-  return 0;
+std::size_t SegmentChains::position(const Subsegment& s) const {
+  const auto& chain = chains_[s.segment];
+  const auto at = std::lower_bound(chain.begin(), chain.end(), s.t, [](const Link& link, double t) { return link.t < t; });
+  const auto i = static_cast<std::size_t>(at - chain.begin());
+  return i + 1 < chain.size() && chain[i].vertex == s.a && chain[i + 1].vertex == s.b ? i + 1 : 0;
 }
 
 void SegmentChains::add(EntityId segment, std::size_t position, VertexId v, double t) {
@@ -55,10 +55,11 @@ void SegmentChains::add(EntityId segment, std::size_t position, VertexId v, doub
   ++points_;
 }
 
-bool SegmentChains::split(EntityId segment, VertexId a, VertexId b, double least) {
-  const std::size_t i = position(segment, a, b);
+bool SegmentChains::split(const Subsegment& s, double least) {
+  const std::size_t i = position(s);
   if (i == 0) return false;
-  const double t = shells_.split_parameter(segment, chains_[segment][i - 1].t, chains_[segment][i].t);
+  const auto& [segment, a, b, begin] = s;
+  const double t = shells_.split_parameter(segment, begin, chains_[segment][i].t);
   const Point<3> p = point_on_segment<3>(*domain_, segment, t);
   const VertexId v = delaunay_->insert(p, Home(EntityKind::segment, segment), a, least);
   if (v == no_vertex) return false;

@@ -9,11 +9,18 @@
 #include <optional>
 #include <vector>
 
+#include "detail/box_tree.hpp"
 #include "detail/wanted_simplices.hpp"
 #include "pgdr/recovery.hpp"
 #include "pgdr/shells.hpp"
 
 namespace pgdr::detail {
+
+struct Subsegment {
+  EntityId segment;
+  VertexId a, b;
+  double t;  ///< parameter of a on the segment
+};
 
 /// 3D: the subsegments of every segment, and where to split them.
 class SegmentChains {
@@ -32,13 +39,13 @@ class SegmentChains {
       again = false;
       for (const Subsegment& s : missing()) {
         if (stop()) return false;
-        again = split(s.segment, s.a, s.b) || again;
+        again = split(s) || again;
       }
     }
     return true;
   }
-  /// Splits the subsegment ab of the segment, if it is one and no vertex is nearer to the point than `least`; false otherwise.
-  bool split(EntityId segment, VertexId a, VertexId b, double least = 0);
+  /// Splits the subsegment, if it is still one and no vertex is nearer to the point than `least`; false otherwise.
+  bool split(const Subsegment& s, double least = 0);
 
   const std::vector<Link>& chain(EntityId segment) const { return chains_[segment]; }
   /// Does the segment make less than 60 degrees with another one?
@@ -51,12 +58,8 @@ class SegmentChains {
   void mark(Mesh<3>::Pools& pools);
 
  private:
-  struct Subsegment {
-    EntityId segment;
-    VertexId a, b;
-  };
   std::vector<Subsegment> missing() const;
-  std::size_t position(EntityId segment, VertexId a, VertexId b) const;
+  std::size_t position(const Subsegment& s) const;
   void add(EntityId segment, std::size_t position, VertexId v, double t);
   WantedSimplices<2> wanted() const;
 
@@ -84,10 +87,6 @@ class FacetPatches {
 
  private:
   using Triangle = std::array<VertexId, 3>;
-  struct Subsegment {
-    EntityId segment;
-    VertexId a, b;
-  };
   void triangulate(EntityId facet);
   struct Candidate {
     Ball<3> ball;
@@ -98,9 +97,11 @@ class FacetPatches {
   bool may_split(const Subsegment& s) const;
   void find_calm();
   void find_fragile();
-  std::optional<Subsegment> in_the_way(const std::vector<Subsegment>& rim, EntityId facet, const Triangle& t,
-                                       const Point3& x) const;
+  void add_inner_point(EntityId facet, const Point3& x, VertexId v);
+  std::optional<Subsegment> in_the_way(const std::vector<Subsegment>& rim, const BoxTree<2>& tree, EntityId facet,
+                                       const Triangle& t, const Point3& x) const;
   std::vector<Subsegment> subsegments(EntityId facet) const;
+  BoxTree<2> tree_of_diametral_balls(const std::vector<Subsegment>& rim, int axis) const;
   WantedSimplices<3> wanted() const;
   void find_present(WantedSimplices<3>& wanted) const;
 

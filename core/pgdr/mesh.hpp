@@ -122,8 +122,8 @@ class Mesh {
   /// no other. A flip may bring a cell back, in whatever slot: it is another one. From any thread.
   std::uint16_t birth(CellId c) const { return atomic(tags_[index(c)].birth).load(std::memory_order_relaxed); }
   /// The vertices of the cell that was born there; false if it is dead. From any thread: the slot may be in use by another
-  /// meanwhile, so that what the caller does not own may die any moment. (Whoever reads a vertex of a later cell has seen
-  /// the birth counted before it, by release and acquire: plain moves on x86.)
+  /// meanwhile, so that what the caller does not own may die any moment. (Whoever reads a vertex of a later cell, or the one
+  /// that stands for none, has seen the birth counted before it, by release and acquire: plain moves on x86.)
   bool read_vertices(CellId c, std::uint16_t born, std::array<VertexId, D + 1>& vertices) const {
     if (birth(c) != born) return false;
     for (int i = 0; i <= D; ++i) vertices[i] = atomic(cell(c).vertices[i]).load(std::memory_order_acquire);

@@ -15,8 +15,9 @@
 // are then split likewise. All faces of a tetrahedron within the bound are within it, so that the refinement would have to; but
 // its cavities are hidden by the facets, and at long strips side by side, all of whose segments are encroached, they are cut
 // back until the facets are not Delaunay in their planes any more, which nothing mends. Here no cavity is. Such a point keeps
-// the length of the triangle's shortest edge from all others, so that the least distance never shrinks and the splitting
-// ends. Serial.
+// the length of the triangle's shortest edge from all others: of themselves these points never make the least distance
+// smaller, so that there is room for finitely many. A point for a face that goes missing between them may be nearer; that
+// is the recovery above, which is counted and limited as it is before any improvement. Serial.
 #pragma once
 
 #include "pgdr/delaunay.hpp"

@@ -56,9 +56,14 @@ class BoxTree {
   /// meet nowhere but at a common corner may be left out.
   template <class Visit>
   void self_pairs(Visit&& visit) const;
+  /// Calls visit(i) once for every box that meets this one (borders count).
+  template <class Visit>
+  void meeting(const Box<D>& box, Visit&& visit) const;
   /// Calls visit(i) once for every box that holds p (its border counts).
   template <class Visit>
-  void at(const Point<D>& p, Visit&& visit) const;
+  void at(const Point<D>& p, Visit&& visit) const {
+    meeting(Box<D>::around(p), visit);
+  }
   /// Calls visit(i, j) once for every box i of this tree and box j of the other that meet.
   template <class Visit>
   void pairs(const BoxTree& other, Visit&& visit) const;
@@ -159,8 +164,7 @@ void BoxTree<D>::pairs(const BoxTree& other, Visit&& visit) const {
 
 template <int D>
 template <class Visit>
-void BoxTree<D>::at(const Point<D>& p, Visit&& visit) const {
-  const Box<D> here = Box<D>::around(p);
+void BoxTree<D>::meeting(const Box<D>& here, Visit&& visit) const {
   std::vector<std::uint32_t> stack{1};
   while (!stack.empty()) {
     const std::uint32_t node = stack.back();
