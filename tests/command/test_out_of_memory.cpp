@@ -57,7 +57,7 @@ void operator delete[](void* p, std::size_t, std::align_val_t) noexcept { std::f
 void operator delete[](void* p, const std::nothrow_t&) noexcept { std::free(p); }
 
 // oneTBB 2021.8: a node of a flow graph whose second inner allocation fails does not give back its first (24 bytes).
-extern "C" const char* __lsan_default_suppressions() { return "leak:tbb::detail::d1::continue_input<\n"; }
+extern "C" __attribute__((visibility("default"))) const char* __lsan_default_suppressions() { return "leak:continue_input<\n"; }
 
 namespace {
 
