@@ -1,19 +1,24 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Thread scaling in one run: a model meshed with different numbers of threads, by turns, and as one region by the
-// sequential algorithm; medians and ratios. Every mesh goes through the independent checker, and the reproducible ones
-// must have the same bytes. Exit code 1 if anything is wrong.
+// Scaling in one run: a model meshed with different numbers of threads and of elements, by turns, and as one region by the
+// sequential algorithm; medians and ratios. Every kind of mesh goes through the independent checker, and the reproducible
+// ones of a size must have the same bytes. Exit code 1 if anything is wrong, 2 for wrong usage or input.
 //
-//   bench_threads [--model cube|graded|FILE] [--size S] [--threads 1,2,8] [--repeat N] [--greedy] [--split-ratio R]
+//   bench_threads [--model cube|graded|FILE] [--size S,...] [--threads 1,2,8] [--repeat N] [--greedy] [--leaves-only]
+//                 [--split-ratio R]
+//
+// A file may be 2D; sizes are then areas. 0: no bound. --leaves-only leaves the sequential algorithm out. "ratio" is how many
+// times as fast as the size's first row by leaves, "growth" how many times as long an element takes as in such a row of the
+// first size.
 #include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
-#include <map>
+#include <exception>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -26,10 +31,11 @@ using namespace pgdr;
 
 struct Arguments {
   std::string model = "cube";
-  double size = 0.0135, split_ratio = 0.5;
+  std::vector<double> sizes{0.0135};
+  double split_ratio = 0.5;
   std::vector<int> threads{1, 2};
   int repeat = 3;
-  bool greedy = false;
+  bool greedy = false, leaves_only = false;
 };
 
 [[noreturn]] void usage(const char* what) {
@@ -37,36 +43,48 @@ struct Arguments {
   std::exit(2);
 }
 
+/// Of a list with commas.
+template <class T, class Read>
+std::vector<T> values(const std::string& list, const Read& read) {
+  std::vector<T> v;
+  for (std::size_t at = 0; at <= list.size(); at = std::min(list.find(',', at), list.size()) + 1)
+    v.push_back(static_cast<T>(read(list.c_str() + at)));
+  return v;
+}
+
 Arguments parse(int argc, char** argv) {
   Arguments a;
   for (int i = 1; i < argc; ++i) {
     const std::string flag = argv[i];
-    if (flag == "--greedy") {
-      a.greedy = true;
+    if (flag == "--greedy" || flag == "--leaves-only") {
+      (flag == "--greedy" ? a.greedy : a.leaves_only) = true;
       continue;
     }
     if (++i == argc) usage("a flag lacks its value");
     const char* value = argv[i];
     if (flag == "--model") a.model = value;
-    else if (flag == "--size") a.size = std::atof(value);
+    else if (flag == "--size") a.sizes = values<double>(value, std::atof);
     else if (flag == "--split-ratio") a.split_ratio = std::atof(value);
     else if (flag == "--repeat") a.repeat = std::max(1, std::atoi(value));
-    else if (flag == "--threads") {
-      a.threads.clear();
-      for (const char* p = value; *p; p += std::strcspn(p, ","), p += *p == ',') a.threads.push_back(std::atoi(p));
-    } else usage("unknown flag");
+    else if (flag == "--threads") a.threads = values<int>(value, std::atoi);
+    else usage("unknown flag");
   }
+  for (const int t : a.threads)
+    if (t < 1) usage("not a number of threads");
   return a;
 }
 
-std::uint64_t fingerprint(const OutputMesh<3>& mesh) {
+template <int D>
+std::uint64_t fingerprint(const OutputMesh<D>& mesh) {
   std::uint64_t h = 14695981039346656037u;
-  auto add = [&h](const void* p, std::size_t n) {
-    for (std::size_t i = 0; i < n; ++i) h = (h ^ static_cast<const unsigned char*>(p)[i]) * 1099511628211u;
+  auto add = [&h](const auto& list) {
+    const auto* p = reinterpret_cast<const unsigned char*>(list.data());
+    for (std::size_t i = 0; i < list.size() * sizeof list[0]; ++i) h = (h ^ p[i]) * 1099511628211u;
   };
-  add(mesh.points.data(), mesh.points.size() * sizeof mesh.points[0]);
-  add(mesh.cells.data(), mesh.cells.size() * sizeof mesh.cells[0]);
-  add(mesh.subfacets.data(), mesh.subfacets.size() * sizeof mesh.subfacets[0]);
+  add(mesh.points);
+  add(mesh.cells);
+  if constexpr (D == 3) add(mesh.subfacets);
+  add(mesh.subsegments);
   return h;
 }
 
@@ -75,71 +93,126 @@ double median(std::vector<double> v) {
   return v[v.size() / 2];
 }
 
+template <int D>
 struct Row {
   std::string name;
-  RefineOptions<3> options;
+  std::size_t size;  ///< number of it
+  RefineOptions<D> options;
   std::vector<double> mesh, refine;
-  RefineResult<3> last;
-  std::uint64_t bytes = 0;
+  std::size_t cells = 0;
+  SchedulerStatistics scheduler;
+  std::uint64_t committed = 0, bytes = 0;
+  int checked = 0;
+
+  bool reproducible() const { return options.schedule.schedule == Schedule::reproducible; }
+  double seconds_a_cell() const { return median(mesh) / static_cast<double>(cells); }
 };
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  const Arguments a = parse(argc, argv);
-  const Domain<3> domain(a.model == "cube" || a.model == "graded" ? unit_cube() : read_plc<3>(a.model));
-  RefineOptions<3> base;
-  base.schedule.split_ratio = a.split_ratio;
+template <int D>
+RefineOptions<D> options_of(const Arguments& a, double size) {
+  RefineOptions<D> options;
+  options.schedule.split_ratio = a.split_ratio;
   if (a.model == "graded") {
     // Edges from s to 21.5 s across the diagonal: four orders of magnitude of volume.
-    base.size = [s = a.size](const Point<3>& p) {
-      return s * (1 + 20.5 * std::sqrt((p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) / 3));
+    options.size = [size](const Point<D>& p) {
+      double square = 0;
+      for (int i = 0; i < D; ++i) square += p[i] * p[i];
+      return size * (1 + 20.5 * std::sqrt(square / D));
     };
-  } else if (a.size > 0) {
-    base.size = a.size;
+  } else if (size > 0) {
+    options.size = size;
   }
-  std::vector<Row> rows;
-  rows.push_back({"one region", base, {}, {}, {}, 0});
-  rows.back().options.schedule.executor = Executor::serial;
-  rows.back().options.schedule.floor = std::numeric_limits<std::size_t>::max();
-  for (const bool greedy : {false, true})
-    for (const int t : a.threads) {
-      if (greedy && !a.greedy) continue;
-      rows.push_back({(greedy ? "greedy, " : "reproducible, ") + std::to_string(t), base, {}, {}, {}, 0});
-      rows.back().options.schedule.threads = t;
-      if (greedy) rows.back().options.schedule.schedule = Schedule::greedy;
+  return options;
+}
+
+template <int D>
+std::vector<Row<D>> make_rows(const Arguments& a) {
+  std::vector<Row<D>> rows;
+  for (std::size_t k = 0; k < a.sizes.size(); ++k) {
+    const RefineOptions<D> base = options_of<D>(a, a.sizes[k]);
+    auto add = [&](std::string name) -> ScheduleOptions& {
+      Row<D> row;
+      row.name = std::move(name);
+      row.size = k;
+      row.options = base;
+      rows.push_back(std::move(row));
+      return rows.back().options.schedule;
+    };
+    if (!a.leaves_only) {
+      ScheduleOptions& schedule = add("one region");
+      schedule.executor = Executor::serial;
+      schedule.floor = std::numeric_limits<std::size_t>::max();
     }
-  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(*std::max_element(a.threads.begin(), a.threads.end())));
+    for (const bool greedy : {false, true})
+      for (const int t : a.threads) {
+        if (greedy && !a.greedy) continue;
+        ScheduleOptions& schedule = add((greedy ? "greedy, " : "reproducible, ") + std::to_string(t));
+        schedule.threads = t;
+        if (greedy) schedule.schedule = Schedule::greedy;
+      }
+  }
+  return rows;
+}
+
+/// Meshes once more, and checks the last round's mesh. False if the bytes are not those of the rounds before.
+template <int D>
+bool run(const Domain<D>& domain, bool last, Row<D>& row) {
+  const RefineResult<D> result = refine(domain, row.options);
+  row.mesh.push_back(result.statistics.seconds_mesh);
+  row.refine.push_back(result.statistics.seconds_refine);
+  row.cells = result.mesh.cells.size();
+  row.scheduler = result.scheduler;
+  row.committed = result.statistics.insertions_committed;
+  const std::uint64_t bytes = fingerprint(result.mesh);
+  const bool same = row.mesh.size() == 1 || bytes == row.bytes;
+  row.bytes = bytes;
+  if (last) {
+    CheckOptions<D> options;
+    options.domain = &domain;
+    options.radius_edge_bound = row.options.radius_edge_bound;
+    options.size = row.options.size;
+    options.reasons = &result.reasons;
+    row.checked = check<D>(result.mesh, options).exit_code();
+  }
+  return same || !row.reproducible();
+}
+
+template <int D>
+int bench(const Arguments& a, const Plc<D>& plc) {
+  const Domain<D> domain(plc);
+  std::vector<Row<D>> rows = make_rows<D>(a);
   bool good = true;
   for (int round = 0; round < a.repeat; ++round)
-    for (Row& row : rows) {
-      row.last = refine(domain, row.options);
-      row.mesh.push_back(row.last.statistics.seconds_mesh);
-      row.refine.push_back(row.last.statistics.seconds_refine);
-      const std::uint64_t bytes = fingerprint(row.last.mesh);
-      if (row.options.schedule.schedule == Schedule::reproducible && round > 0 && bytes != row.bytes) good = false;
-      row.bytes = bytes;
-    }
-  std::printf("%-18s %10s %8s %8s %6s %7s %7s %9s %6s %6s  %s\n", "schedule, threads", "tetrahedra", "mesh s", "refine s",
-              "leaves", "visits", "aside %", "work/path", "ratio", "check", "bytes");
-  for (Row& row : rows) {
-    CheckOptions<3> check_options;
-    check_options.domain = &domain;
-    check_options.radius_edge_bound = row.options.radius_edge_bound;
-    check_options.size = row.options.size;
-    check_options.reasons = &row.last.reasons;
-    const int checked = check<3>(row.last.mesh, check_options).exit_code();
-    const auto& s = row.last.scheduler;
-    std::printf("%-18s %10zu %8.3f %8.3f %6llu %7llu %7.2f %9.1f %6.2f %6d  %016llx\n", row.name.c_str(),
-                row.last.mesh.cells.size(), median(row.mesh), median(row.refine),
-                static_cast<unsigned long long>(s.leaves), static_cast<unsigned long long>(s.visits),
-                100.0 * double(s.set_aside) / double(std::max<std::uint64_t>(row.last.statistics.insertions_committed, 1)),
-                s.work_seconds / s.critical_path_seconds, median(rows[1].mesh) / median(row.mesh), checked,
+    for (Row<D>& row : rows) good = run(domain, round + 1 == a.repeat, row) && good;
+  std::printf("%-18s %10s %8s %8s %6s %7s %7s %9s %6s %6s %6s %6s  %s\n", "schedule, threads", "elements", "mesh s", "refine s",
+              "leaves", "visits", "aside %", "work/path", "M/s", "ratio", "growth", "check", "bytes");
+  const std::size_t first = a.leaves_only ? 0 : 1, rows_a_size = rows.size() / a.sizes.size();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Row<D>& row = rows[i];
+    const Row<D>& base = rows[row.size * rows_a_size + first];
+    const auto& s = row.scheduler;
+    std::printf("%-18s %10zu %8.3f %8.3f %6llu %7llu %7.2f %9.1f %6.2f %6.2f %6.2f %6d  %016llx\n", row.name.c_str(), row.cells,
+                median(row.mesh), median(row.refine), static_cast<unsigned long long>(s.leaves),
+                static_cast<unsigned long long>(s.visits),
+                100.0 * double(s.set_aside) / double(std::max<std::uint64_t>(row.committed, 1)),
+                s.work_seconds / s.critical_path_seconds, 1e-6 / row.seconds_a_cell(), median(base.mesh) / median(row.mesh),
+                row.seconds_a_cell() / rows[i % rows_a_size].seconds_a_cell(), row.checked,
                 static_cast<unsigned long long>(row.bytes));
-    good = good && checked <= 1;
-    if (&row != &rows[0] && row.options.schedule.schedule == Schedule::reproducible) good = good && row.bytes == rows[1].bytes;
+    const bool by_leaves = i % rows_a_size >= first;
+    good = good && row.checked <= 1 && (!by_leaves || !row.reproducible() || row.bytes == base.bytes);
   }
   if (!good) std::printf("WRONG: a mesh did not pass the checker, or bytes differ\n");
   return good ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  const Arguments a = parse(argc, argv);
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(*std::max_element(a.threads.begin(), a.threads.end())));
+  if (a.model == "cube" || a.model == "graded") return bench<3>(a, unit_cube());
+  return file_dimension(a.model) == 2 ? bench<2>(a, read_plc<2>(a.model)) : bench<3>(a, read_plc<3>(a.model));
+} catch (const std::exception& e) {
+  usage(e.what());
 }

@@ -188,8 +188,8 @@ auto FacetPatches::in_the_way(const std::vector<Subsegment>& rim, const BoxTree<
   return rim[first];
 }
 
-/// A vertex inside the facet, at x.
-void FacetPatches::add_inner_point(EntityId facet, const Point3& x, VertexId v) {
+/// A vertex that was made inside the facet.
+void FacetPatches::add_inner_point(EntityId facet, VertexId v) {
   auto& inner = inner_points_[facet];
   const Home home = mesh_->vertex(v).home;
   const bool own = home.kind() == EntityKind::facet && home.id() == facet;
@@ -227,7 +227,7 @@ bool FacetPatches::split_triangles(EntityId facet, std::vector<Candidate> candid
       if (!chains_->split(*s, c.least)) continue;  // another triangle has asked for it, or it is too near
       place(diametral_ball<3>(mesh_->point(s->a), mesh_->point(s->b)).center);
     } else if (const VertexId v = delaunay_->insert(x, Home(EntityKind::facet, facet), c.triangle[0], c.least); v != no_vertex) {
-      add_inner_point(facet, x, v);
+      add_inner_point(facet, v);
       place(x);
     }
   }

@@ -97,7 +97,7 @@ class FacetPatches {
   bool may_split(const Subsegment& s) const;
   void find_calm();
   void find_fragile();
-  void add_inner_point(EntityId facet, const Point3& x, VertexId v);
+  void add_inner_point(EntityId facet, VertexId v);
   std::optional<Subsegment> in_the_way(const std::vector<Subsegment>& rim, const BoxTree<2>& tree, EntityId facet,
                                        const Triangle& t, const Point3& x) const;
   std::vector<Subsegment> subsegments(EntityId facet) const;
