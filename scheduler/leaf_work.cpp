@@ -17,7 +17,7 @@ void LeafWorks<D>::hand_down(const Mesh<D>& mesh, Node parent, std::uint64_t gen
   for (Node child = 0; child < Orthtree<D>::children; ++child)
     works_[tree_->first_child(parent) + child]->changed = from.changed;
   from.open_inbox();
-  from.list.drain(pass_on);
+  from.list.drain(pass_on, [&mesh](const Entry<D>& e) { mesh.prefetch(e.cell); });
   for (auto& entries : from.set_aside) {
     for (const Entry<D>& e : entries) pass_on(e);
     std::vector<Entry<D>>().swap(entries);

@@ -109,6 +109,7 @@ class Mesh {
   /// A hint that the cell is about to be read; any id will do.
   void prefetch(CellId c) const {
     __builtin_prefetch(&cells_[index(c)]);
+    if constexpr (D == 2) __builtin_prefetch(&cells_[index(c)].radius2);
     __builtin_prefetch(&tags_[index(c)]);
   }
   /// The same of the vertices of whatever cell is in that slot.

@@ -105,13 +105,22 @@ class Fifo {
     i -= first_->capacity;
     return i < first_->next->capacity ? &first_->next->items()[i] : nullptr;
   }
+  /// Calls f for each in order, and empties the list; `soon(item)` some turns before.
+  template <class F, class Soon>
+  void drain(F f, Soon soon) {
+    while (!empty()) {
+      if (const T* item = ahead(drained_ahead)) soon(*item);
+      f(pop());
+    }
+  }
   /// Calls f for each in order, and empties the list.
   template <class F>
   void drain(F f) {
-    while (!empty()) f(pop());
+    drain(f, [](const T&) {});
   }
 
  private:
+  static constexpr std::size_t drained_ahead = 12;
   struct alignas(8) Block {
     Block* next;
     std::uint32_t capacity;
@@ -246,17 +255,23 @@ class WorkList {
     return pop(best->by_shape);
   }
   /// Calls f for every entry that waits, in an order that depends on what was pushed and popped alone; empties the list.
-  template <class F>
-  void drain(F f) {
+  /// `soon(entry)` some turns before, of most.
+  template <class F, class Soon>
+  void drain(F f, Soon soon) {
     edges.drain(f);
     faces.drain(f);
     flips.drain(f);
     for (Bucket& bucket : poor_) {
-      bucket.others.drain(f);
+      bucket.others.drain(f, soon);
       bucket.by_shape.drain(f);
     }
     std::vector<Bucket>().swap(poor_);
     waiting_ = others_ = 0;
+  }
+  /// Without a word before.
+  template <class F>
+  void drain(F f) {
+    drain(f, [](const Entry<D>&) {});
   }
 
  private:
