@@ -149,7 +149,7 @@ def run_diagnosis(a):
     if not pathlib.Path(program).exists():
         return [], [f"{program} is not there"] if a.bench_diagnosis else []
     flags = ["--json", "--repeat", "1", "--triangles", "1000,4000"] if a.quick else ["--json", "--repeat", str(a.repeat)]
-    said = suite_machine.said([program, *flags])
+    said = suite_machine.said([program, *flags], a.limit)
     return (json.loads(said)["rows"], []) if said else ([], ["bench_diagnosis fails"])
 
 

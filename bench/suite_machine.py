@@ -9,10 +9,10 @@ import re
 import subprocess
 
 
-def said(command, **more):
-    """What a program prints, stripped; "" where there is no such program or it fails."""
+def said(command, seconds=60, **more):
+    """What a program prints, stripped; "" where there is no such program, it fails or takes longer."""
     try:
-        done = subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=60, **more)
+        done = subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=seconds, **more)
         return (done.stdout + done.stderr).strip() if done.returncode == 0 else ""
     except (OSError, subprocess.TimeoutExpired):
         return ""
