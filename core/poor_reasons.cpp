@@ -146,19 +146,22 @@ PoorCount PoorReasons<D>::count(std::uint32_t first, std::uint32_t last) const {
 }
 
 template <int D>
-std::vector<PoorCell> PoorReasons<D>::explained(bool violations_seen, const std::stop_token& stop) const {
+std::vector<PoorCell> PoorReasons<D>::of_cells(std::uint32_t first, std::uint32_t last, const std::stop_token& stop) const {
   std::vector<PoorCell> poor;
-  if (violations_seen) {
-    for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) {
-      if (i % 1024 == 0 && stop.stop_requested()) break;
-      if (mesh_->alive(CellId{i})) look_at(CellId{i}, true, poor);
-    }
-  } else {
-    // After a run to the end a poor cell is alive only because it was refused.
-    for (const auto& why : why_) {
-      if (stop.stop_requested()) break;
-      look_at(CellId{why.first}, false, poor);
-    }
+  for (std::uint32_t i = first; i < last; ++i) {
+    if (i % 1024 == 0 && stop.stop_requested()) break;
+    if (mesh_->alive(CellId{i})) look_at(CellId{i}, true, poor);
+  }
+  return poor;
+}
+
+// After a run to the end a poor cell is alive only because it was refused.
+template <int D>
+std::vector<PoorCell> PoorReasons<D>::of_refused(const std::stop_token& stop) const {
+  std::vector<PoorCell> poor;
+  for (const auto& why : why_) {
+    if (stop.stop_requested()) break;
+    look_at(CellId{why.first}, false, poor);
   }
   return poor;
 }

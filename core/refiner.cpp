@@ -111,6 +111,12 @@ void Refiner<D>::list_if_poor(CellId c, const CellVerdict& verdict) {
 }
 
 template <int D>
+void Refiner<D>::add_violations(CellId c, std::vector<Entry<D>>& to) const {
+  for (int f = 0; f <= D; ++f)
+    if (flips_.violates(c, f)) to.push_back(make_entry(c, EntryKind::flip, f));
+}
+
+template <int D>
 void Refiner<D>::list_violations(CellId c) {
   for (int f = 0; f <= D; ++f)
     if (flips_.violates(c, f)) {

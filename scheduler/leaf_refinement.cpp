@@ -5,7 +5,9 @@
 #include "detail/leaf_refinement.hpp"
 
 #include <algorithm>
+#include <utility>
 
+#include "detail/cell_parts.hpp"
 #include "pgdr/bounding_box.hpp"
 
 namespace pgdr::detail {
@@ -43,28 +45,49 @@ void LeafRefinement<D>::list_everything() {
   all_listed_ = context_.stop == 0;
 }
 
+/// The cells that are others than when violations were last looked for everywhere, or beside such: nothing else can have
+/// a violation that was not found then.
+template <int D>
+std::vector<bool> LeafRefinement<D>::changed_surroundings() {
+  const Mesh<D>& mesh = context_.mesh;
+  std::vector<bool> changed(mesh.cell_bound(), false);
+  births_looked_at_.resize(mesh.cell_bound(), Mesh<D>::last_birth);
+  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i) {
+    const CellId c{i};
+    const std::uint16_t born = mesh.alive(c) ? mesh.birth(c) : Mesh<D>::last_birth;
+    if (std::exchange(births_looked_at_[i], born) == born || born == Mesh<D>::last_birth) continue;
+    changed[i] = true;
+    for (const Link next : mesh.cell(c).links)
+      if (next) changed[index(next.cell())] = true;
+  }
+  return changed;
+}
+
 /// A violation left standing may have moved off the walls, where insertions do not look for it. The slots of cells depend
 /// on timing, so the faces are put in the order of their cells' vertices.
 template <int D>
 std::vector<Entry<D>> LeafRefinement<D>::violations_everywhere() {
-  Worker worker = check_out();
-  WorkList<D> found;
-  RegionVisit<D> listing;
-  listing.list = &found;
-  worker->begin(listing);
   const Mesh<D>& mesh = context_.mesh;
-  for (std::uint32_t i = 0; i < mesh.cell_bound() && !cancelled(i); ++i)
-    if (mesh.alive(CellId{i})) worker->list_violations(CellId{i});
+  const std::vector<bool> changed = changed_surroundings();
+  std::erase_if(violations_, [&](const Entry<D>& e) { return !e.alive(mesh) || changed[index(e.cell)]; });
+  Worker worker = check_out();
+  RegionVisit<D> looking;
+  worker->begin(looking);
+  std::vector<std::vector<Entry<D>>> parts(count_parts(mesh.cell_bound()));
+  each_part(mesh.cell_bound(), options_, [&](const CellPart& part) {
+    for (std::uint32_t i = part.first; i < part.last && !context_.options.stop.stop_requested(); ++i)
+      if (changed[i]) worker->add_violations(CellId{i}, parts[part.number]);
+  });
   check_in(std::move(worker));
-  std::vector<Entry<D>> faces;
-  found.drain([&](const Entry<D>& e) { faces.push_back(e); });
-  std::sort(faces.begin(), faces.end(), [&mesh](const Entry<D>& a, const Entry<D>& b) {
+  cancelled(0);
+  for (const auto& part : parts) violations_.insert(violations_.end(), part.begin(), part.end());
+  std::sort(violations_.begin(), violations_.end(), [&mesh](const Entry<D>& a, const Entry<D>& b) {
     const auto &u = mesh.cell(a.cell).vertices, &v = mesh.cell(b.cell).vertices;
     for (int i = 0; i <= D; ++i)
       if (u[i] != v[i]) return lex_less<D>(mesh.point(u[i]), mesh.point(v[i]));
     return a.which() < b.which();
   });
-  return faces;
+  return violations_;
 }
 
 template <int D>

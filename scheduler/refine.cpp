@@ -16,6 +16,7 @@
 #include "pgdr/labeling.hpp"
 #include "pgdr/point_data.hpp"
 #include "detail/arena.hpp"
+#include "detail/cell_parts.hpp"
 #include "detail/float_environment.hpp"
 #include "detail/generations.hpp"
 #include "detail/greedy.hpp"
@@ -62,48 +63,40 @@ CellBounds<D> bounds_of(const RefineOptions<D>& options, const RegionTable& regi
   return bounds;
 }
 
-/// Threads that visits can run on.
-int threads_of(const ScheduleOptions& options) {
-  switch (options.executor) {
-    case Executor::flow_graph: return detail::arena_threads(options.threads);
-    case Executor::threads: return std::max(options.threads, 1);
-    case Executor::serial: break;
-  }
-  return 1;
-}
-
 template <int D>
 std::unique_ptr<detail::LeafRefinement<D>> make_refinement(RefineContext<D>& context, typename Mesh<D>::Pools pools,
                                                            std::uint64_t vertices) {
   const ScheduleOptions& options = context.options.schedule;
   if (options.schedule == Schedule::greedy)
-    return std::make_unique<detail::Greedy<D>>(context, std::move(pools), vertices, threads_of(options));
+    return std::make_unique<detail::Greedy<D>>(context, std::move(pools), vertices, detail::threads_of(options));
   return std::make_unique<detail::Generations<D>>(context, std::move(pools), vertices);
 }
 
-/// The cells over a bound, counted in parts by the same executor as the visits.
+/// The cells over a bound.
 template <int D>
 PoorCount count_poor(const PoorReasons<D>& reasons, std::uint32_t cells, const ScheduleOptions& options) {
-  constexpr std::uint32_t each = 1 << 15;
-  std::vector<PoorCount> parts(cells / each + 1);
-  VisitGraph independent;
-  for (std::size_t i = 0; i < parts.size(); ++i) independent.add_visit();
-  const VisitBody count = [&](VisitGraph::Visit v) {
-    const detail::DefaultFloats floats;
-    parts[v] = reasons.count(v * each, std::min(cells, (v + 1) * each));
-  };
-  switch (options.executor) {
-    case Executor::flow_graph:
-      detail::in_arena_to_the_end(options.threads, [&] { run_flow_graph(independent, count); });
-      break;
-    case Executor::threads: run_threads(independent, count, static_cast<unsigned>(threads_of(options))); break;
-    case Executor::serial: run_serial(independent, count); break;
-  }
+  std::vector<PoorCount> parts(detail::count_parts(cells));
+  detail::each_part(cells, options,
+                    [&](const detail::CellPart& part) { parts[part.number] = reasons.count(part.first, part.last); });
   PoorCount poor;
   for (const PoorCount& part : parts) {
     poor.cells += part.cells;
     poor.over_size = poor.over_size || part.over_size;
   }
+  return poor;
+}
+
+/// What is poor, with its reasons. Unless there may be violations, nothing is but what was refused.
+template <int D>
+std::vector<PoorCell> explain_poor(const PoorReasons<D>& reasons, std::uint32_t cells, bool violations_seen,
+                                   const RefineOptions<D>& options) {
+  if (!violations_seen) return reasons.of_refused(options.stop);
+  std::vector<std::vector<PoorCell>> parts(detail::count_parts(cells));
+  detail::each_part(cells, options.schedule, [&](const detail::CellPart& part) {
+    parts[part.number] = reasons.of_cells(part.first, part.last, options.stop);
+  });
+  std::vector<PoorCell> poor;
+  for (const auto& part : parts) poor.insert(poor.end(), part.begin(), part.end());
   return poor;
 }
 
@@ -204,7 +197,7 @@ Refined<D> refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools,
   result.statistics.selector_outside = counts.selector_outside;
   result.statistics.predicates += refinement->predicates_elsewhere();
   result.scheduler = refinement->statistics();
-  result.scheduler.threads = threads_of(context.options.schedule);
+  result.scheduler.threads = detail::threads_of(context.options.schedule);
   result.trace = refinement->take_trace();
   if (!context.options.partial_mesh && result.stop == StopCause::cancelled) return {};
   Refined<D> refined{refinement->take_poor(), {}};
@@ -219,7 +212,7 @@ std::vector<PoorCell> find_poor(const Mesh<D>& mesh, PoorReasons<D>& reasons, co
                                 const std::optional<PoorCount>& known, RefineResult<D>& result) {
   std::vector<PoorCell> poor;
   if (options.refine && result.stop == StopCause::finished) {
-    poor = reasons.explained(result.violations_seen, options.stop);
+    poor = explain_poor(reasons, mesh.cell_bound(), result.violations_seen, options);
     for (const PoorCell& p : poor) {
       result.poor_left += p.over_bound ? 1 : 0;
       result.size_met = result.size_met && !p.over_size;

@@ -119,6 +119,7 @@ class Mesh {
   void prefetch(VertexId v) const { __builtin_prefetch(&vertices_[index(v)]); }  ///< likewise
 
   bool alive(CellId c) const { return cell(c).vertices[0] != no_vertex; }  ///< does the slot hold a cell?
+  static constexpr std::uint16_t last_birth = 0xffff;  ///< no cell has it
   /// Counts the cells that the slot has held: with the slot it names a cell for good, since a slot whose count is full holds
   /// no other. A flip may bring a cell back, in whatever slot: it is another one. From any thread.
   std::uint16_t birth(CellId c) const { return atomic(tags_[index(c)].birth).load(std::memory_order_relaxed); }
@@ -244,7 +245,6 @@ class Mesh {
 
  private:
   static constexpr std::uint32_t mark_bit = 1u << 31;
-  static constexpr std::uint16_t last_birth = 0xffff;  ///< no cell has it
 
   template <class T>
   static std::atomic_ref<T> atomic(const T& v) { return std::atomic_ref<T>(const_cast<T&>(v)); }

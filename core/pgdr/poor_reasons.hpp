@@ -46,10 +46,12 @@ class PoorReasons {
   /// How many of the cells numbered [first, last) are over a bound: of a run that a budget ended, or of none. Several
   /// threads at once.
   PoorCount count(std::uint32_t first, std::uint32_t last) const;
-  /// Every cell over a bound, and every cell with a face that is not locally Delaunay for other reasons than rounding,
-  /// each with its reason. @pre the refinement has finished. `violations_seen`: there may be such faces.
-  /// Ends early, with some of them, once `stop` is requested.
-  std::vector<PoorCell> explained(bool violations_seen, const std::stop_token& stop = {}) const;
+  /// Of the cells numbered [first, last) every one over a bound, and every one with a face that is not locally Delaunay for
+  /// other reasons than rounding, each with its reason. @pre the refinement has finished. Several threads at once. Ends
+  /// early, with some of them, once `stop` is requested.
+  std::vector<PoorCell> of_cells(std::uint32_t first, std::uint32_t last, const std::stop_token& stop = {}) const;
+  /// The same of the cells that were refused: all there are where every face is locally Delaunay.
+  std::vector<PoorCell> of_refused(const std::stop_token& stop = {}) const;
 
  private:
   using EntityIds = std::vector<EntityId>;

@@ -117,8 +117,8 @@ class Refiner {
 
   /// Lists what is encroached or poor at a cell that the visit owns.
   void list_cell(CellId c);
-  /// Lists the faces of the cell that are not locally Delaunay.
-  void list_violations(CellId c);
+  /// Adds the faces of the cell that are not locally Delaunay. Several threads at once.
+  void add_violations(CellId c, std::vector<Entry<D>>& to) const;
   /// Mends or moves a violation that no entity is beside in as large a region as that takes; everything must be owned.
   /// False if that cannot be done.
   bool mend(const Entry<D>& e);
@@ -137,6 +137,7 @@ class Refiner {
     return {c, mesh_->birth(c), kind, which, bucket, order};
   }
   bool alive(const Item& e) const { return e.alive(*mesh_); }
+  void list_violations(CellId c);
   void list_poor(CellId c, int why);
   void list_if_poor(CellId c, const CellVerdict& verdict);
   std::uint32_t order_of(CellId c) const;

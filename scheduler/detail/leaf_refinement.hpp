@@ -93,6 +93,7 @@ class LeafRefinement {
     return true;
   }
   void list_everything();
+  std::vector<bool> changed_surroundings();
   std::vector<Entry<D>> violations_everywhere();
   StopCause mend();
   bool mend_far_from_walls(Refiner<D>& worker, std::set<std::array<VertexId, D + 1>>& hopeless);
@@ -112,6 +113,8 @@ class LeafRefinement {
   std::vector<Entry<D>> whole_set_aside_;
   std::vector<Entry<D>> left_over_;      ///< given to visits that the end of the run has overtaken
   std::uint64_t whole_changed_ = 0, last_change_ = 0;  ///< generation: of a visit of the whole tree; of any
+  std::vector<std::uint16_t> births_looked_at_;  ///< by slot: of the cell when violations were last looked for everywhere
+  std::vector<Entry<D>> violations_;             ///< that were there then
   bool min_edge_hit_ = false, entities_refused_ = false;
   RefineCounts counts_;
   std::mutex workers_mutex_;             ///< of the members below
