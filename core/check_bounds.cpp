@@ -148,8 +148,7 @@ std::vector<double> slack_without_input(const OutputMesh<D>& mesh, int ulps) {
         equal += std::all_of(v.begin(), v.end(), [&](std::uint32_t u) { return mesh.points[u][i] == first; });
       }
       if (equal >= aligned_axes) continue;
-      for (const std::uint32_t u : v)
-        if (u >= mesh.input_points) slack[u] = width;
+      for (const std::uint32_t u : v) slack[u] = width;
     }
   };
   mark(mesh.subsegments, D - 1);

@@ -22,17 +22,25 @@ bool axis_aligned_segment(const Domain<D>& domain, EntityId segment) {
 
 template <int D>
 std::vector<double> slack_of_vertices(const Domain<D>& domain, std::span<const EntityRef> home, int ulps) {
-  std::vector<double> segments(domain.segments().size(), 0), facets(domain.facets().size(), 0), slack;
+  std::vector<double> points(domain.points().size(), 0), segments(domain.segments().size(), 0), facets(domain.facets().size(), 0);
   for (EntityId s = 0; s < segments.size(); ++s)
     if (!axis_aligned_segment(domain, s)) segments[s] = Tolerance{ulps, domain.segment_magnitude(s)}.width();
   if constexpr (D == 3)
-    for (EntityId f = 0; f < facets.size(); ++f)
-      if (!axis_aligned_facet(domain, f)) facets[f] = Tolerance{ulps, domain.facet_magnitude(f)}.width();
+    for (EntityId f = 0; f < facets.size(); ++f) {
+      if (axis_aligned_facet(domain, f)) continue;
+      const double defect = domain.facets()[f].planarity_defect;
+      facets[f] = std::max(Tolerance{ulps, domain.facet_magnitude(f)}.width(), defect);
+      if (defect == 0) continue;
+      for (const std::uint32_t p : domain.facet_points(f)) points[p] = std::max(points[p], facets[f]);
+      for (const EntityId s : domain.facet_segments(f)) segments[s] = std::max(segments[s], facets[f]);
+    }
+  std::vector<double> slack;
   slack.reserve(home.size());
   for (const EntityRef& entity : home)
-    slack.push_back(entity.kind == EntityKind::segment ? segments[entity.id]
-                    : entity.kind == EntityKind::facet ? facets[entity.id]
-                                                       : 0);
+    slack.push_back(entity.kind == EntityKind::vertex    ? points[entity.id]
+                    : entity.kind == EntityKind::segment ? segments[entity.id]
+                    : entity.kind == EntityKind::facet   ? facets[entity.id]
+                                                         : 0);
   return slack;
 }
 

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Flat cells at the hull. Points of a slanted facet are off its plane by their rounding, so that four of them may be the
+// Flat cells at facets. Points of a slanted facet are off its plane by their rounding, so that four of them may be the
 // corners of a cell of positive volume, between a pair of subfacets and the pair that a flip within the facet would make
-// of them. Its circumsphere is huge, and no point makes it better.
+// of them. Its circumsphere is huge, and no point makes it better. At the hull it is left out; inside, the ring of cells about
+// the edge between the two subfacets becomes one without that edge, and so without the flat cell.
 #include <bit>
 #include <cassert>
 
@@ -12,14 +13,16 @@
 
 namespace pgdr {
 
-/// The two faces that c shows at the hull, subfacets of the one facet that all its vertices lie on; if they are such.
+/// The two faces of c that are subfacets of the one facet that all its vertices lie on, both at the hull or neither; if they
+/// are such.
 template <int D>
 std::optional<std::array<int, 2>> LocalFlips<D>::faces_of_flat(CellId c) const {
   const auto* k = mesh_->constraints(c);
   if (D != 3 || !k || std::popcount(k->faces) != 2) return std::nullopt;
   const int i = std::countr_zero(k->faces), j = 7 - std::countl_zero(k->faces);
   const auto& cell = mesh_->cell(c);
-  if (cell.links[i] || cell.links[j] || k->face_entity[i] != k->face_entity[j]) return std::nullopt;
+  if (static_cast<bool>(cell.links[i]) != static_cast<bool>(cell.links[j]) || k->face_entity[i] != k->face_entity[j])
+    return std::nullopt;
   for (const VertexId v : cell.vertices)
     if (!lies_on<D>(*domain_, mesh_->vertex(v).home, {EntityKind::facet, k->face_entity[i]})) return std::nullopt;
   return std::array{i, j};
@@ -37,6 +40,7 @@ auto LocalFlips<D>::take_off_flat(Pools& pools, CellId c) -> Outcome {
     std::array<int, 2> ends;
     for (int k = 0, n = 0; k <= D; ++k)
       if (k != i && k != j) ends[n++] = k;
+    if (cell.links[i]) return try_edge(pools, c, ends[0], ends[1], Condition::no_worse);
     // The ridge between the two faces may be no segment, nor the one that takes its place.
     if ((old.edges >> edge_of_ends[i][j] & 1) || (old.edges >> edge_of_ends[ends[0]][ends[1]] & 1)) return Outcome::stuck;
     const Ring ring{{c}, {cell.vertices[i], cell.vertices[j]}, old.face_entity[i]};

@@ -63,7 +63,7 @@ auto LocalFlips<D>::repair(Pools& pools, CellId c, int face) -> Outcome {
     for (int a = 0; a <= D; ++a)
       for (int b = a + 1; b <= D; ++b)
         if (a != face && b != face)
-          if (const Outcome outcome = try_edge(pools, c, a, b); outcome != Outcome::stuck) return outcome;
+          if (const Outcome outcome = try_edge(pools, c, a, b, Condition::better); outcome != Outcome::stuck) return outcome;
   }
   return Outcome::stuck;
 }
@@ -170,7 +170,7 @@ bool LocalFlips<D>::crosses_in_facet(const Ring& ring, VertexId u, VertexId w) c
 /// The ring of cells round an edge becomes two fans about one vertex of the ring; the edge vanishes. Where the edge lies
 /// inside a facet the fans are about a tip of its two subfacets there, which are flipped with it.
 template <int D>
-auto LocalFlips<D>::try_edge(Pools& pools, CellId c, int a, int b) -> Outcome {
+auto LocalFlips<D>::try_edge(Pools& pools, CellId c, int a, int b, Condition condition) -> Outcome {
   const VertexId u = mesh_->cell(c).vertices[a], w = mesh_->cell(c).vertices[b];
   if (const auto* k = mesh_->constraints(c); k && (k->edges >> edge_of_ends[a][b] & 1)) return Outcome::stuck;
   Ring ring;
@@ -208,7 +208,7 @@ auto LocalFlips<D>::try_edge(Pools& pools, CellId c, int a, int b) -> Outcome {
     }
     if (!good || cells.empty() || !walls_are_free()) continue;
     const int after = violations_of(cells);
-    if (after > before || (after == before && ring.cells.size() > 3)) continue;
+    if (after > before || (condition == Condition::better && after == before && ring.cells.size() > 3)) continue;
     replace(pools, cells);
     return Outcome::flipped;
   }

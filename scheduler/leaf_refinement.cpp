@@ -69,7 +69,9 @@ template <int D>
 std::vector<Entry<D>> LeafRefinement<D>::violations_everywhere() {
   const Mesh<D>& mesh = context_.mesh;
   const std::vector<bool> changed = changed_surroundings();
-  std::erase_if(violations_, [&](const Entry<D>& e) { return !e.alive(mesh) || changed[index(e.cell)]; });
+  std::erase_if(violations_, [&](const Entry<D>& e) {
+    return !e.alive(mesh) || changed[index(e.cell)] || mesh.constrained(e.cell, e.which());  // a flat cell beside it was taken off
+  });
   Worker worker = check_out();
   RegionVisit<D> looking;
   worker->begin(looking);

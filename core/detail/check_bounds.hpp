@@ -24,7 +24,7 @@ void check_delaunay(const OutputMesh<D>& mesh, const Links<D>& links, std::span<
                     std::span<const std::uint8_t> refused, Findings& findings);
 
 /// The slack of vertices when the input is unknown: any vertex of a constraint that is not axis-aligned may be off by
-/// so many ulps of the largest coordinate of the mesh, unless it is known to be an input point.
+/// so many ulps of the largest coordinate of the mesh; an input point may be one of a facet that is planar within rounding.
 template <int D>
 std::vector<double> slack_without_input(const OutputMesh<D>& mesh, int ulps);
 

@@ -42,8 +42,8 @@ class LocalFlips {
   Outcome repair(Pools& pools, CellId c, int face);
   /// 3D: the same by gift wrapping (local_rewrap.hpp); slower.
   Outcome rewrap(Pools& pools, CellId c, int face, LocalRewrap::Effort effort);
-  /// A cell with all its vertices on one facet, at the mesh's hull, is flat but for rounding: takes it off, if it shows two
-  /// of its faces, which flips the facet's triangulation there. Stuck: c is no such cell.
+  /// A cell with all its vertices on one facet, and two subfacets of it, is flat but for rounding: takes it out, which flips
+  /// the facet's triangulation there. Stuck: c is no such cell, or cannot be taken out.
   Outcome take_off_flat(Pools& pools, CellId c);
   /// Has it, so far in this visit, been worth its while in large regions? `allowance`: what may be spent in vain.
   bool rewrap_pays(std::uint64_t allowance) const;
@@ -77,7 +77,9 @@ class LocalFlips {
   bool owns(CellId c) const { return !area_ || area_->owns(*mesh_, c); }
   bool may_read(CellId c) const { return !area_ || area_->may_read(*mesh_, c); }  ///< for assertions
   bool try_two_cells(Pools& pools, CellId c, int face);
-  Outcome try_edge(Pools& pools, CellId c, int a, int b);
+  /// Of the number of violations: fewer, or as many in a smaller ring; at most as many.
+  enum class Condition { better, no_worse };
+  Outcome try_edge(Pools& pools, CellId c, int a, int b, Condition condition);
   Outcome take_ring(CellId c, int a, int b, Ring& ring) const;
   std::optional<std::array<int, 2>> faces_of_flat(CellId c) const;
   bool in_line(VertexId a, VertexId b, VertexId c) const;
