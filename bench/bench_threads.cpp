@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Scaling in one run: a model meshed with different numbers of threads and of elements, by turns, and as one region by the
-// sequential algorithm; medians and ratios. Every kind of mesh goes through the independent checker, and the reproducible
-// ones of a size must have the same bytes. Exit code 1 if anything is wrong, 2 for wrong usage or input.
+// sequential algorithm; medians and ratios. The last round's meshes go through the independent checker, and the reproducible
+// ones of a size must have the same bytes in all rounds. Exit code 1 if anything is wrong, 2 for wrong usage or input.
 //
 //   bench_threads [--model cube|graded|FILE] [--size S,...] [--threads 1,2,8] [--repeat N] [--greedy] [--leaves-only]
 //                 [--split-ratio R]

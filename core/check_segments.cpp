@@ -28,11 +28,9 @@ std::vector<double> slack_of_vertices(const Domain<D>& domain, std::span<const E
   if constexpr (D == 3)
     for (EntityId f = 0; f < facets.size(); ++f) {
       if (axis_aligned_facet(domain, f)) continue;
-      const double defect = domain.facets()[f].planarity_defect;
-      facets[f] = std::max(Tolerance{ulps, domain.facet_magnitude(f)}.width(), defect);
-      if (defect == 0) continue;
+      facets[f] = Tolerance{ulps, domain.facet_magnitude(f)}.width();
+      if (domain.facets()[f].planar) continue;
       for (const std::uint32_t p : domain.facet_points(f)) points[p] = std::max(points[p], facets[f]);
-      for (const EntityId s : domain.facet_segments(f)) segments[s] = std::max(segments[s], facets[f]);
     }
   std::vector<double> slack;
   slack.reserve(home.size());

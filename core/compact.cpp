@@ -134,7 +134,7 @@ void number_hastily(const Mesh<D>& mesh, const Domain<D>& domain, std::span<cons
   });
   for (std::size_t i = 0; i < parts; ++i) begin[i + 1] += begin[i];
 
-  copy_input_points(domain, number.size() - std::min(number.size(), domain.points().size()), out.mesh);
+  copy_input_points(domain, number.size(), out.mesh);
   for (std::uint32_t i = 0; i < number.size(); ++i) {
     if (number[i] == none) continue;
     const auto& record = mesh.vertex(VertexId{i});

@@ -116,14 +116,13 @@ void Refiner<D>::add_violations(CellId c, std::vector<Entry<D>>& to) const {
     if (flips_.violates(c, f)) to.push_back(make_entry(c, EntryKind::flip, f));
 }
 
+/// Into the visit's list; as many as that were.
 template <int D>
-void Refiner<D>::list_violations(CellId c) {
-  for (int f = 0; f <= D; ++f)
-    if (flips_.violates(c, f)) {
-      visit_->violations_seen = true;
-      visit_->list->flips.push(make_entry(c, EntryKind::flip, f));
-      flips_left_ += 16;  // an allowance, so that flips that trade violations end
-    }
+std::uint64_t Refiner<D>::list_violations(std::span<const CellId> cells) {
+  found_.clear();
+  for (const CellId c : cells) add_violations(c, found_);
+  for (const Item& e : found_) visit_->list->flips.push(e);
+  return found_.size();
 }
 
 template <int D>
@@ -138,8 +137,10 @@ void Refiner<D>::committed() {
     list_if_poor(made[i], context_->bounds.test(*mesh_, made[i], shape));
   }
   // A cavity that was not cut back keeps every face locally Delaunay, if all were.
-  if (cavity_.shrunk() || visit_->violations_seen)
-    for (const CellId c : cavity_.new_cells()) list_violations(c);
+  if (!cavity_.shrunk() && !visit_->violations_seen) return;
+  const std::uint64_t found = list_violations(made);
+  visit_->violations_seen = visit_->violations_seen || found > 0;
+  flips_left_ += 16 * found;  // an allowance, so that flips that trade violations end
 }
 
 template <int D>
@@ -180,9 +181,7 @@ void Refiner<D>::flipped() {
   visit_->changed_mesh = true;
   const std::vector<CellId> made = flips_.new_cells();
   for (const CellId c : made) list_cell(c);
-  for (const CellId c : made)
-    for (int f = 0; f <= D; ++f)
-      if (flips_.violates(c, f)) visit_->list->flips.push(make_entry(c, EntryKind::flip, f));
+  list_violations(made);
 }
 
 template <int D>

@@ -67,9 +67,9 @@ template <int D>
 bool axis_aligned_segment(const Domain<D>& domain, EntityId segment);
 bool axis_aligned_facet(const Domain<3>& domain, EntityId facet);
 
-/// How far each vertex may be off its entity, per coordinate and in distance: 0 for volume points, points of axis-aligned
-/// entities, and input points, but where these have a facet of theirs planar only within `--precision`: which plane it stands
-/// for, and so where circles through its points lie, is then as uncertain as that.
+/// How far rounding may have moved each vertex off its entity, per coordinate and in distance: 0 for volume points, points of
+/// axis-aligned entities, and input points but those of a facet that is not exactly planar. As much for these as for points
+/// put on the facet, however far off its plane they are.
 template <int D>
 std::vector<double> slack_of_vertices(const Domain<D>& domain, std::span<const EntityRef> home, int ulps);
 

@@ -137,7 +137,7 @@ class Refiner {
     return {c, mesh_->birth(c), kind, which, bucket, order};
   }
   bool alive(const Item& e) const { return e.alive(*mesh_); }
-  void list_violations(CellId c);
+  std::uint64_t list_violations(std::span<const CellId> cells);
   void list_poor(CellId c, int why);
   void list_if_poor(CellId c, const CellVerdict& verdict);
   std::uint32_t order_of(CellId c) const;
@@ -210,6 +210,7 @@ class Refiner {
   RegionVisit<D>* visit_ = nullptr;
   std::vector<Item> abroad_;  ///< elements with their circumcentre in other regions
   std::set<std::vector<VertexId>> rewrapped_;  ///< cells that small rewrappings of this visit have made, by their vertices
+  std::vector<Item> found_;  ///< violations at new cells, before they are listed
   std::uint64_t flips_left_ = 0, checked_at_ = 0, reported_ = 0;
   std::uint64_t stride_ = 1;  ///< insertions between two looks at the clock
   std::chrono::steady_clock::time_point checked_time_;
