@@ -11,7 +11,7 @@
 namespace pgdr {
 namespace {
 
-constexpr std::size_t longest_ring = 7;
+constexpr std::size_t longest_ring = 7, longest_open_ring = 64;
 
 template <int D>
 std::array<VertexId, D> face_without(const std::array<VertexId, D + 1>& v, int i) {
@@ -108,7 +108,7 @@ bool LocalFlips<D>::try_two_cells(Pools& pools, CellId c, int face) {
 /// The cells round edge ab of c, in order, and the constrained faces among them: none, or two of one facet, between which
 /// the edge may be flipped within the facet. At the hull the ring is open, from the one to the other. Stuck: the edge must stay.
 template <int D>
-auto LocalFlips<D>::take_ring(CellId c, int a, int b, Ring& ring) const -> Outcome {
+auto LocalFlips<D>::take_ring(CellId c, int a, int b, std::size_t longest, Ring& ring) const -> Outcome {
   int others[2], n = 0;
   for (int i = 0; i <= D; ++i)
     if (i != a && i != b) others[n++] = i;
@@ -124,7 +124,7 @@ auto LocalFlips<D>::take_ring(CellId c, int a, int b, Ring& ring) const -> Outco
     RidgeWalk<D> walk{c, others[1 - way], others[way]};
     while (true) {
       if (walk.cell != c || way == 0) ring.cells.push_back(walk.cell);
-      if (ring.cells.size() > longest_ring) return Outcome::stuck;
+      if (ring.cells.size() > longest) return Outcome::stuck;
       assert(may_read(walk.cell));
       if (!owns(walk.cell)) return Outcome::not_owned;
       // The face opposite `exit` has the ridge and the vertex `entry`.
@@ -167,6 +167,55 @@ bool LocalFlips<D>::crosses_in_facet(const Ring& ring, VertexId u, VertexId w) c
   return false;
 }
 
+/// Is there nothing beyond the two subfacets at the edge uw?
+template <int D>
+bool LocalFlips<D>::is_open(const Ring& ring, VertexId u, VertexId w) const {
+  int open = 0;
+  for (const CellId c : ring.cells)
+    for (int f = 0; f <= D; ++f) {
+      const auto& v = mesh_->cell(c).vertices;
+      open += mesh_->constrained(c, f) && !mesh_->cell(c).links[f] && v[f] != u && v[f] != w && has(v, u) && has(v, w);
+    }
+  return open == 2;
+}
+
+/// Does the far corner of the one subfacet at the edge uw lie inside the circumcircle of the other?
+template <int D>
+bool LocalFlips<D>::in_circle_of_tip(const Ring& ring, VertexId u, VertexId w) const {
+  if constexpr (D == 3) {
+    const int axis = domain_->facets()[ring.entity].axis;
+    const Point<D>&a = mesh_->point(u), &b = mesh_->point(w), &c = mesh_->point(ring.tips[0]), &d = mesh_->point(ring.tips[1]);
+    const Sign turn = orient_projected(a, b, c, axis);
+    if (turn == Sign::zero) return false;
+    return (turn == Sign::positive ? in_circle_perturbed(a, b, c, d, axis) : in_circle_perturbed(b, a, c, d, axis)) == Sign::positive;
+  }
+  return false;
+}
+
+template <int D>
+auto LocalFlips<D>::flip_in_facet(Pools& pools, CellId c, int face) -> Outcome {
+  if constexpr (D == 3) {
+    const Vertices vertices = mesh_->cell(c).vertices;
+    for (int a = 0; a <= D; ++a)
+      for (int b = a + 1; b <= D; ++b) {
+        if (a == face || b == face) continue;
+        if (const auto* k = mesh_->constraints(c); k && (k->edges >> edge_of_ends[a][b] & 1)) continue;
+        Ring ring;
+        const Outcome outcome = take_ring(c, a, b, longest_open_ring, ring);
+        if (outcome == Outcome::not_owned) return outcome;
+        const VertexId u = vertices[a], w = vertices[b];
+        if (outcome == Outcome::stuck || ring.tips.empty() || !is_open(ring, u, w)) continue;
+        if (!crosses_in_facet(ring, u, w) || !in_circle_of_tip(ring, u, w)) continue;
+        if (rewrap_.repair_facet(pools, ring.cells)) {
+          new_cells_ = rewrap_.new_cells();
+          return Outcome::flipped;
+        }
+        if (rewrap_.reached_border()) return Outcome::not_owned;
+      }
+  }
+  return Outcome::stuck;
+}
+
 /// The ring of cells round an edge becomes two fans about one vertex of the ring; the edge vanishes. Where the edge lies
 /// inside a facet the fans are about a tip of its two subfacets there, which are flipped with it.
 template <int D>
@@ -174,7 +223,7 @@ auto LocalFlips<D>::try_edge(Pools& pools, CellId c, int a, int b, Condition con
   const VertexId u = mesh_->cell(c).vertices[a], w = mesh_->cell(c).vertices[b];
   if (const auto* k = mesh_->constraints(c); k && (k->edges >> edge_of_ends[a][b] & 1)) return Outcome::stuck;
   Ring ring;
-  if (const Outcome outcome = take_ring(c, a, b, ring); outcome != Outcome::flipped) return outcome;
+  if (const Outcome outcome = take_ring(c, a, b, longest_ring, ring); outcome != Outcome::flipped) return outcome;
   if (!ring.tips.empty() && !crosses_in_facet(ring, u, w)) return Outcome::stuck;
   take_old(ring.cells);
   if (!ring.tips.empty())

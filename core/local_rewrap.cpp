@@ -13,7 +13,7 @@ struct Attempt {
   std::size_t most_cells;
   int orders;
 };
-constexpr Attempt quick{20, 1}, wide{512, 1}, deep{96, 16};
+constexpr Attempt quick{20, 1}, wide{512, 1}, deep{96, 16}, facet{96, 4};
 constexpr int far_weight = 10000;  // of a violation that no entity is beside
 
 }  // namespace
@@ -50,6 +50,90 @@ bool LocalRewrap::repair_without(Pools& pools, CellId c, CellId d, VertexId left
   while (!repaired && !reached_border_ && grow()) repaired = wrap_again(pools);
   release();
   return repaired;
+}
+
+bool LocalRewrap::repair_facet(Pools& pools, std::span<const CellId> ring) {
+  reached_border_ = !std::all_of(ring.begin(), ring.end(), [this](CellId c) { return owns(c); });
+  if (reached_border_) return false;
+  vertices_.clear();
+  points_.clear();
+  region_ = mesh_->region(ring[0]);
+  left_out_ = no_vertex;
+  most_cells_ = facet.most_cells;
+  random_.seed();
+  for (const CellId c : ring) take(c);
+  bool repaired = false;
+  do {
+    find_rim();
+    if (!make_rim_delaunay()) break;
+    front_.clear();
+    for (const RimFace& f : rim_) front_.push_back(f.vertices);
+    for (int order = 0; order < facet.orders && !repaired; ++order) {
+      repaired = wrap_.fill(points_, front_, 2 * most_cells_) && keeps_subsegments();
+      for (std::size_t i = front_.size(); i > 1; --i) std::swap(front_[i - 1], front_[random_() % i]);
+    }
+    if (repaired) replace(pools);
+  } while (!repaired && grow());
+  release();
+  return repaired;
+}
+
+bool LocalRewrap::is_subsegment(Index a, Index b) const {
+  return std::any_of(subsegments_.begin(), subsegments_.end(),
+                     [&](const Subsegment& s) { return (s.a == a && s.b == b) || (s.a == b && s.b == a); });
+}
+
+/// Flips the subfacets of the rim that are at the hull, until they are Delaunay in their facets where the region has all cells
+/// at the edge between them (Lawson). False if there is nothing to flip.
+bool LocalRewrap::make_rim_delaunay() {
+  std::vector<std::size_t> hull;
+  for (std::size_t i = 0; i < rim_.size(); ++i)
+    if (rim_[i].constrained && !rim_[i].link) hull.push_back(i);
+  bool any = false;
+  std::size_t left = 4 * hull.size() * hull.size();  // for facets bent by rounding
+  for (bool again = true; again;) {
+    again = false;
+    for (std::size_t i = 0; i < hull.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (left > 0 && turn(hull[i], hull[j])) {
+          --left;
+          any = again = true;
+        }
+  }
+  return any;
+}
+
+/// Flips the edge between two faces of the rim if they are subfacets of one facet and not Delaunay in it.
+bool LocalRewrap::turn(std::size_t i, std::size_t j) {
+  RimFace &f = rim_[i], &g = rim_[j];
+  if (f.entity != g.entity) return false;
+  for (int k = 0; k < 3; ++k) {
+    const Index a = f.vertices[k], b = f.vertices[(k + 1) % 3], c = f.vertices[(k + 2) % 3];
+    const auto at = std::find(g.vertices.begin(), g.vertices.end(), b) - g.vertices.begin();
+    if (at == 3 || g.vertices[(at + 1) % 3] != a) continue;
+    const Index d = g.vertices[(at + 2) % 3];
+    if (c == d || is_subsegment(a, b)) return false;
+    const int axis = domain_->facets()[f.entity].axis;
+    const Point3 &p = points_[a], &q = points_[b], &r = points_[c], &s = points_[d];
+    const Sign sense = orient_projected(p, q, r, axis);
+    if (sense == Sign::zero || orient_projected(r, s, q, axis) != sense || orient_projected(s, r, p, axis) != sense) return false;
+    const Sign inside = sense == Sign::positive ? in_circle_perturbed(p, q, r, s, axis) : in_circle_perturbed(q, p, r, s, axis);
+    if (inside != Sign::positive) return false;
+    const auto has = [](const GiftWrap::Face& face, Index v) { return std::find(face.begin(), face.end(), v) != face.end(); };
+    for (const RimFace& o : rim_) {
+      if (&o == &f || &o == &g) continue;
+      if (has(o.vertices, a) && has(o.vertices, b)) return false;  // cells at the edge lie outside
+      if (has(o.vertices, c) && has(o.vertices, d) && (has(o.vertices, a) || has(o.vertices, b))) return false;
+    }
+    const auto first_least = [](GiftWrap::Face face) {
+      std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
+      return face;
+    };
+    f.vertices = first_least({c, a, d});
+    g.vertices = first_least({d, b, c});
+    return true;
+  }
+  return false;
 }
 
 bool LocalRewrap::in_volume(VertexId v) const { return mesh_->vertex(v).home.kind() == EntityKind::volume; }

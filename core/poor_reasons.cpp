@@ -4,6 +4,8 @@
 #include "pgdr/poor_reasons.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <unordered_set>
 
 #include "detail/entity_distance.hpp"
 #include "pgdr/insertion_rule.hpp"
@@ -11,6 +13,47 @@
 
 namespace pgdr {
 namespace {
+
+template <std::size_t N>
+using Rows = std::array<std::array<double, N>, N>;
+
+template <std::size_t N>
+double determinant(const Rows<N>& m) {
+  if constexpr (N == 1) {
+    return m[0][0];
+  } else {
+    double sum = 0;
+    for (std::size_t column = 0; column < N; ++column) {
+      Rows<N - 1> minor;
+      for (std::size_t i = 1; i < N; ++i)
+        for (std::size_t j = 0; j + 1 < N; ++j) minor[i - 1][j] = m[i][j + (j >= column)];
+      sum += (column % 2 ? -m[0][column] : m[0][column]) * determinant(minor);
+    }
+    return sum;
+  }
+}
+
+/// Is the in-sphere determinant further from zero than moving each point (the corners, then p) by so much in every
+/// coordinate can bring it, to first order and with a margin?
+template <int D>
+bool exceeds_rounding(const Simplex<D>& s, const Point<D>& p, const std::array<double, D + 2>& moved) {
+  constexpr double margin = 4;
+  Rows<D + 1> rows;
+  for (int i = 0; i <= D; ++i) {
+    for (int j = 0; j < D; ++j) rows[i][j] = s[i][j] - p[j];
+    rows[i][D] = squared_distance(s[i], p);
+  }
+  double change = 0;
+  for (int i = 0; i <= D; ++i)
+    for (int j = 0; j < D; ++j) {
+      Rows<D + 1> derivative = rows;
+      derivative[i] = {};
+      derivative[i][j] = 1;
+      derivative[i][D] = 2 * rows[i][j];
+      change += (moved[i] + moved[D + 1]) * std::abs(determinant(derivative));
+    }
+  return std::abs(determinant(rows)) > margin * change;
+}
 
 bool has_extent(EntityRef e) { return e.kind == EntityKind::segment || e.kind == EntityKind::facet; }
 
@@ -104,6 +147,8 @@ PoorReason PoorReasons<D>::explain(CellId c, bool beside) const {
 template <int D>
 PoorReasons<D>::PoorReasons(Mesh<D>& mesh, const Domain<D>& domain, const CellBounds<D>& bounds, bool keep_boundary)
     : mesh_(&mesh), domain_(&domain), bounds_(&bounds), keep_boundary_(keep_boundary), flips_(mesh, domain), segments_at_(domain.points().size()) {
+  for (const Point<D>& p : domain.points())
+    for (const double x : p.x) rounding_ = std::max(rounding_, 2 * std::abs(x) * 0x1p-52);
   for (EntityId s = 0; s < domain.segments().size(); ++s)
     for (const std::uint32_t p : domain.segments()[s].points) segments_at_[p].push_back(s);
 }
@@ -122,23 +167,60 @@ bool PoorReasons<D>::is_violated(CellId c) const {
   return false;
 }
 
+/// Not so that moving the corners on the boundary by some ulps of the input could mend it.
 template <int D>
-void PoorReasons<D>::look_at(CellId c, bool violations_seen, std::vector<PoorCell>& poor) const {
-  const CellVerdict verdict = bounds_->test(*mesh_, c);
-  // Without a small angle nearby a violation is one of rounding, which needs no reason.
-  PoorReason reason;
-  const bool beside =
-      violations_seen && is_violated(c) && (reason = explain(c, true)).code == PoorReason::Code::small_angle;
-  if (verdict && !beside) reason = explain(c, false);
-  if (verdict || beside) poor.push_back({c, static_cast<bool>(verdict), verdict.over_size, reason});
+bool PoorReasons<D>::is_violated_beyond_rounding(CellId c) const {
+  for (int f = 0; f <= D; ++f) {
+    if (!flips_.violates(c, f)) continue;
+    const Link beyond = mesh_->cell(c).links[f];
+    const VertexId apex = mesh_->cell(beyond.cell()).vertices[beyond.face()];
+    const auto slack = [this](VertexId v) { return mesh_->vertex(v).home.kind() == EntityKind::volume ? 0 : rounding_; };
+    std::array<double, D + 2> moved;
+    for (int i = 0; i <= D; ++i) moved[i] = slack(mesh_->cell(c).vertices[i]);
+    moved[D + 1] = slack(apex);
+    if (exceeds_rounding<D>(mesh_->simplex(c), mesh_->point(apex), moved)) return true;
+  }
+  return false;
 }
 
 template <int D>
-PoorCount PoorReasons<D>::count(std::uint32_t first, std::uint32_t last) const {
+void PoorReasons<D>::look_at(CellId c, bool violations_seen, PoorFindings& found) const {
+  const CellVerdict verdict = bounds_->test(*mesh_, c);
+  const bool violated = violations_seen && is_violated(c);
+  PoorReason reason;
+  // Without a small angle nearby a violation is one of rounding, which needs no reason.
+  const bool beside = violated && (reason = explain(c, true)).code == PoorReason::Code::small_angle;
+  if (verdict && !beside) reason = explain(c, false);
+  if (verdict || beside) found.poor.push_back({c, static_cast<bool>(verdict), verdict.over_size, reason});
+  if (verdict && reason.code == PoorReason::Code::rounding) {
+    found.unexplained.push_back(c);
+  } else if (violated && !beside && is_violated_beyond_rounding(c)) {
+    found.violated.push_back(c);
+  }
+}
+
+template <int D>
+void PoorReasons<D>::leave_out_excused(PoorFindings& found) const {
+  const auto code = [](EntityRef e) { return std::uint64_t{static_cast<std::uint8_t>(e.kind)} << 32 | e.id; };
+  std::unordered_set<std::uint64_t> named;
+  for (const PoorCell& p : found.poor)
+    if (p.reason.code == PoorReason::Code::small_angle)
+      for (const EntityRef e : p.reason.entities) named.insert(code(e));
+  std::erase_if(found.violated, [&](CellId c) {
+    std::vector<EntityRef> entities;
+    add_entities(c, entities);
+    for (int f = 0; f <= D; ++f)
+      if (flips_.violates(c, f)) add_entities(mesh_->cell(c).links[f].cell(), entities);
+    return std::any_of(entities.begin(), entities.end(), [&](EntityRef e) { return named.contains(code(e)); });
+  });
+}
+
+template <int D>
+PoorCount count_poor_cells(const Mesh<D>& mesh, const CellBounds<D>& bounds, std::uint32_t first, std::uint32_t last) {
   PoorCount poor;
   for (std::uint32_t i = first; i < last; ++i) {
-    if (!mesh_->alive(CellId{i})) continue;
-    const CellVerdict verdict = bounds_->test(*mesh_, CellId{i});
+    if (!mesh.alive(CellId{i})) continue;
+    const CellVerdict verdict = bounds.test(mesh, CellId{i});
     poor.cells += verdict ? 1 : 0;
     poor.over_size = poor.over_size || verdict.over_size;
   }
@@ -146,26 +228,28 @@ PoorCount PoorReasons<D>::count(std::uint32_t first, std::uint32_t last) const {
 }
 
 template <int D>
-std::vector<PoorCell> PoorReasons<D>::of_cells(std::uint32_t first, std::uint32_t last, const std::stop_token& stop) const {
-  std::vector<PoorCell> poor;
+PoorFindings PoorReasons<D>::of_cells(std::uint32_t first, std::uint32_t last, const std::stop_token& stop) const {
+  PoorFindings found;
   for (std::uint32_t i = first; i < last; ++i) {
     if (i % 1024 == 0 && stop.stop_requested()) break;
-    if (mesh_->alive(CellId{i})) look_at(CellId{i}, true, poor);
+    if (mesh_->alive(CellId{i})) look_at(CellId{i}, true, found);
   }
-  return poor;
+  return found;
 }
 
 // After a run to the end a poor cell is alive only because it was refused.
 template <int D>
-std::vector<PoorCell> PoorReasons<D>::of_refused(const std::stop_token& stop) const {
-  std::vector<PoorCell> poor;
+PoorFindings PoorReasons<D>::of_refused(const std::stop_token& stop) const {
+  PoorFindings found;
   for (const auto& why : why_) {
     if (stop.stop_requested()) break;
-    look_at(CellId{why.first}, false, poor);
+    look_at(CellId{why.first}, false, found);
   }
-  return poor;
+  return found;
 }
 
+template PoorCount count_poor_cells(const Mesh<2>&, const CellBounds<2>&, std::uint32_t, std::uint32_t);
+template PoorCount count_poor_cells(const Mesh<3>&, const CellBounds<3>&, std::uint32_t, std::uint32_t);
 template class PoorReasons<2>;
 template class PoorReasons<3>;
 

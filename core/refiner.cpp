@@ -150,6 +150,7 @@ void Refiner<D>::flip(const Item& e) {
   auto outcome = LocalFlips<D>::Outcome::stuck;
   auto still_stuck = [&] { return flips_left_ > 0 && outcome == LocalFlips<D>::Outcome::stuck; };
   if (still_stuck()) outcome = flips_.repair(pools_, e.cell, e.which());
+  if (still_stuck() && visit_->repairs_facets) outcome = flips_.flip_in_facet(pools_, e.cell, e.which());
   // While no entity has been refused a constrained Delaunay triangulation should exist, if in a large region.
   if (still_stuck() && !visit_->entities_refused && flips_.rewrap_pays(most_lost_work))
     outcome = flips_.rewrap(pools_, e.cell, e.which(), Effort::wide);

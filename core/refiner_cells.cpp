@@ -45,8 +45,9 @@ auto Refiner<D>::demand_of_cell(CellId c, const CellVerdict& verdict) const -> D
     }
   if (!verdict.over_radius_edge) least = std::min(least, std::sqrt(mesh_->squared_radius_bounds(c).first) / 2);
   // Without it a point may come nearer than the element's edges are long only beside a small angle or below the proved
-  // bound. There a little of that, with the radius inherited, makes elements good that would stay poor.
-  if (D == 2) return {inherited_fraction * least, least};
+  // bound. There a little of that, with the radius inherited, makes elements good that would stay poor; in 3D it is for those
+  // alone that stay poor for no reason.
+  if (D == 2 || unexplained_) return {inherited_fraction * least, least};
   return {least, 0};
 }
 
@@ -55,7 +56,7 @@ auto Refiner<D>::demand_of_cell(CellId c, const CellVerdict& verdict) const -> D
 template <int D>
 auto Refiner<D>::demand_on_entity(CellId c, const CellVerdict& verdict) const -> Demand {
   const Demand demand = demand_of_cell(c, verdict);
-  if (D == 2 || options_->radius_edge_bound >= smallest_proved_bound<D>() || !verdict.over_radius_edge) return demand;
+  if (D == 2 || unexplained_ || options_->radius_edge_bound >= smallest_proved_bound<D>() || !verdict.over_radius_edge) return demand;
   return {inherited_fraction * demand.d, demand.d};
 }
 

@@ -63,8 +63,7 @@ std::vector<bool> LeafRefinement<D>::changed_surroundings() {
   return changed;
 }
 
-/// A violation left standing may have moved off the walls, where insertions do not look for it. The slots of cells depend
-/// on timing, so the faces are put in the order of their cells' vertices.
+/// A violation left standing may have moved off the walls, where insertions do not look for it.
 template <int D>
 std::vector<Entry<D>> LeafRefinement<D>::violations_everywhere() {
   const Mesh<D>& mesh = context_.mesh;
@@ -83,13 +82,20 @@ std::vector<Entry<D>> LeafRefinement<D>::violations_everywhere() {
   check_in(std::move(worker));
   cancelled(0);
   for (const auto& part : parts) violations_.insert(violations_.end(), part.begin(), part.end());
-  std::sort(violations_.begin(), violations_.end(), [&mesh](const Entry<D>& a, const Entry<D>& b) {
+  sort_by_vertices(violations_);
+  return violations_;
+}
+
+/// In an order that does not depend on timing, as the slots of cells do.
+template <int D>
+void LeafRefinement<D>::sort_by_vertices(std::vector<Entry<D>>& entries) const {
+  const Mesh<D>& mesh = context_.mesh;
+  std::sort(entries.begin(), entries.end(), [&mesh](const Entry<D>& a, const Entry<D>& b) {
     const auto &u = mesh.cell(a.cell).vertices, &v = mesh.cell(b.cell).vertices;
     for (int i = 0; i <= D; ++i)
       if (u[i] != v[i]) return lex_less<D>(mesh.point(u[i]), mesh.point(v[i]));
     return a.which() < b.which();
   });
-  return violations_;
 }
 
 template <int D>

@@ -12,6 +12,19 @@ constexpr int most_rounds = 32;  // each of which ends with fewer violations but
 
 }  // namespace
 
+/// Of the whole mesh, all by itself.
+template <int D>
+RegionVisit<D> LeafRefinement<D>::mending_visit() {
+  RegionVisit<D> visit;
+  visit.list = &whole_list_;
+  visit.violations_seen = visit.rewraps = true;
+  visit.order = whole_tree;
+  visit.generation = generation_;
+  visit.entities_refused = entities_refused_;
+  visit.most_insertions = context_.options.max_vertices - vertices_;
+  return visit;
+}
+
 template <int D>
 StopCause LeafRefinement<D>::mend() {
   std::vector<Entry<D>> waiting = violations_everywhere();
@@ -19,18 +32,11 @@ StopCause LeafRefinement<D>::mend() {
   for (const Entry<D>& e : waiting) whole_list_.push(e);
   std::set<std::array<VertexId, D + 1>> hopeless;
   for (int round = 0; round < most_rounds; ++round) {
-    RegionVisit<D> visit;
-    visit.list = &whole_list_;
-    visit.violations_seen = visit.rewraps = true;
+    RegionVisit<D> visit = mending_visit();
     visit.mends = round > 0;
-    visit.order = whole_tree;
-    visit.generation = generation_;
-    visit.entities_refused = entities_refused_;
-    visit.most_insertions = context_.options.max_vertices - vertices_;
     Worker worker = check_out();
     worker->run(visit);
-    const VisitRequest everything{whole_tree_leaf(), whole_tree, 0};
-    account(everything, visit, {});
+    account({whole_tree_leaf(), whole_tree, 0}, visit, {});
     bool go_on = context_.stop == 0 && whole_list_.empty();
     if (go_on) {
       RegionVisit<D> mending;

@@ -74,29 +74,17 @@ std::unique_ptr<detail::LeafRefinement<D>> make_refinement(RefineContext<D>& con
 
 /// The cells over a bound.
 template <int D>
-PoorCount count_poor(const PoorReasons<D>& reasons, std::uint32_t cells, const ScheduleOptions& options) {
+PoorCount count_poor(const RefineContext<D>& context) {
+  const std::uint32_t cells = context.mesh.cell_bound();
   std::vector<PoorCount> parts(detail::count_parts(cells));
-  detail::each_part(cells, options,
-                    [&](const detail::CellPart& part) { parts[part.number] = reasons.count(part.first, part.last); });
+  detail::each_part(cells, context.options.schedule, [&](const detail::CellPart& part) {
+    parts[part.number] = count_poor_cells<D>(context.mesh, context.bounds, part.first, part.last);
+  });
   PoorCount poor;
   for (const PoorCount& part : parts) {
     poor.cells += part.cells;
     poor.over_size = poor.over_size || part.over_size;
   }
-  return poor;
-}
-
-/// What is poor, with its reasons. Unless there may be violations, nothing is but what was refused.
-template <int D>
-std::vector<PoorCell> explain_poor(const PoorReasons<D>& reasons, std::uint32_t cells, bool violations_seen,
-                                   const RefineOptions<D>& options) {
-  if (!violations_seen) return reasons.of_refused(options.stop);
-  std::vector<std::vector<PoorCell>> parts(detail::count_parts(cells));
-  detail::each_part(cells, options.schedule, [&](const detail::CellPart& part) {
-    parts[part.number] = reasons.of_cells(part.first, part.last, options.stop);
-  });
-  std::vector<PoorCell> poor;
-  for (const auto& part : parts) poor.insert(poor.end(), part.begin(), part.end());
   return poor;
 }
 
@@ -179,18 +167,18 @@ RegionTable make_initial(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Do
 /// What is known of the refinement once it has ended.
 template <int D>
 struct Refined {
-  std::optional<PoorCount> poor;    ///< how many cells are poor, where the lists tell
-  std::optional<Orthtree<D>> tree;  ///< as it is in the end, if the leaves of cells are asked for
+  std::vector<PoorCell> poor;        ///< with their reasons, if it came to its end
+  std::optional<PoorCount> counted;  ///< else how many there are, where the lists tell
+  std::optional<Orthtree<D>> tree;   ///< as it is in the end, if the leaves of cells are asked for
 };
 
 template <int D>
-Refined<D> refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices,
-                       PoorReasons<D>& reasons, RefineResult<D>& result) {
+Refined<D> refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices, RefineResult<D>& result) {
   const auto refinement = make_refinement<D>(context, std::move(pools), vertices);
+  Refined<D> refined;
   result.stop = refinement->run();
+  if (result.stop == StopCause::finished) refined.poor = refinement->explain(result.stop);
   result.violations_seen = refinement->violations_seen();
-  if (result.stop == StopCause::finished)
-    refinement->for_each_refused([&](std::span<const Refusal<D>> refused) { reasons.add(refused); });
   const RefineCounts& counts = refinement->counts();
   result.statistics.insertions_committed = counts.committed;
   result.statistics.insertions_refused = counts.refused;
@@ -200,28 +188,24 @@ Refined<D> refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools,
   result.scheduler.threads = detail::threads_of(context.options.schedule);
   result.trace = refinement->take_trace();
   if (!context.options.partial_mesh && result.stop == StopCause::cancelled) return {};
-  Refined<D> refined{refinement->take_poor(), {}};
+  refined.counted = refinement->take_poor();
   if (context.options.leaves) refined.tree = refinement->take_tree();
   return refined;
 }
 
-/// The poor cells, each with its reason, if the refinement came to its end and nobody cancels meanwhile; else they are
-/// counted, by a look at every cell unless `known` has their number.
+/// The poor cells with their reasons, if the refinement came to its end; else they are counted, by a look at every cell unless
+/// it is known how many there are.
 template <int D>
-std::vector<PoorCell> find_poor(const Mesh<D>& mesh, PoorReasons<D>& reasons, const RefineOptions<D>& options,
-                                const std::optional<PoorCount>& known, RefineResult<D>& result) {
-  std::vector<PoorCell> poor;
+std::vector<PoorCell> take_poor(const RefineContext<D>& context, Refined<D>& refined, RefineResult<D>& result) {
+  const RefineOptions<D>& options = context.options;
   if (options.refine && result.stop == StopCause::finished) {
-    poor = explain_poor(reasons, mesh.cell_bound(), result.violations_seen, options);
-    for (const PoorCell& p : poor) {
+    for (const PoorCell& p : refined.poor) {
       result.poor_left += p.over_bound ? 1 : 0;
       result.size_met = result.size_met && !p.over_size;
     }
-    if (!options.stop.stop_requested()) return poor;
-    result.stop = StopCause::cancelled;
-    if (!options.partial_mesh) return {};
+    return std::move(refined.poor);
   }
-  const PoorCount count = known && in_haste(result.stop) ? *known : count_poor(reasons, mesh.cell_bound(), options.schedule);
+  const PoorCount count = refined.counted && in_haste(result.stop) ? *refined.counted : count_poor(context);
   result.poor_left = count.cells;
   result.size_met = !count.over_size;
   return {};
@@ -256,15 +240,13 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   const PointData<D> data(mesh, domain);
   const std::uint64_t vertices = domain.points().size() + result.statistics.segment_points + result.statistics.facet_points;
   RefineContext<D> context(mesh, domain, options, bounds_of(options, regions), vertices, start);
-  PoorReasons<D> reasons(mesh, domain, context.bounds, options.keep_boundary);
   Refined<D> refined;
-  if (options.refine) refined = refine_mesh<D>(context, std::move(pools), vertices, reasons, result);
+  if (options.refine) refined = refine_mesh<D>(context, std::move(pools), vertices, result);
   const auto dropped = [&] {
     return !options.partial_mesh && (options.stop.stop_requested() || result.stop == StopCause::cancelled);
   };
   if (dropped()) return without_mesh(std::move(result), start);
-  std::vector<PoorCell> poor = find_poor<D>(mesh, reasons, options, refined.poor, result);
-  if (dropped()) return without_mesh(std::move(result), start);
+  std::vector<PoorCell> poor = take_poor<D>(context, refined, result);
   result.statistics.seconds_refine = seconds_since(refine_start);
 
   std::vector<std::array<VertexId, D + 1>> poor_vertices;

@@ -27,7 +27,7 @@ class LocalFlips {
   enum class Outcome { flipped, stuck, not_owned };
 
   /// Both must outlive it.
-  LocalFlips(Mesh<D>& mesh, const Domain<D>& domain) : mesh_(&mesh), domain_(&domain), rewrap_(mesh) {}
+  LocalFlips(Mesh<D>& mesh, const Domain<D>& domain) : mesh_(&mesh), domain_(&domain), rewrap_(mesh, domain) {}
 
   /// What the visit may change; null: everything.
   void set_area(const VisitArea<D>* area) {
@@ -42,6 +42,9 @@ class LocalFlips {
   Outcome repair(Pools& pools, CellId c, int face);
   /// 3D: the same by gift wrapping (local_rewrap.hpp); slower.
   Outcome rewrap(Pools& pools, CellId c, int face, LocalRewrap::Effort effort);
+  /// 3D: flips an edge of the face that lies inside a facet at the hull, if its two subfacets are not Delaunay in the facet, and
+  /// makes the cells about it anew. Stuck: there is no such edge, or it must stay.
+  Outcome flip_in_facet(Pools& pools, CellId c, int face);
   /// A cell with all its vertices on one facet, and two subfacets of it, is flat but for rounding: takes it out, which flips
   /// the facet's triangulation there. Stuck: c is no such cell, or cannot be taken out.
   Outcome take_off_flat(Pools& pools, CellId c);
@@ -80,7 +83,9 @@ class LocalFlips {
   /// Of the number of violations: fewer, or as many in a smaller ring; at most as many.
   enum class Condition { better, no_worse };
   Outcome try_edge(Pools& pools, CellId c, int a, int b, Condition condition);
-  Outcome take_ring(CellId c, int a, int b, Ring& ring) const;
+  Outcome take_ring(CellId c, int a, int b, std::size_t longest, Ring& ring) const;
+  bool is_open(const Ring& ring, VertexId u, VertexId w) const;
+  bool in_circle_of_tip(const Ring& ring, VertexId u, VertexId w) const;
   std::optional<std::array<int, 2>> faces_of_flat(CellId c) const;
   bool in_line(VertexId a, VertexId b, VertexId c) const;
   bool crosses_in_facet(const Ring& ring, VertexId u, VertexId w) const;
@@ -96,7 +101,7 @@ class LocalFlips {
   const OuterFace* outer(const Face& f) const;
 
   struct NoRewrap {
-    explicit NoRewrap(Mesh<D>&) {}
+    NoRewrap(Mesh<D>&, const Domain<D>&) {}
     void begin_visit(const VisitArea<D>*) {}
   };
 

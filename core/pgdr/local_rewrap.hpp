@@ -11,6 +11,7 @@
 #pragma once
 
 #include <random>
+#include <span>
 #include <vector>
 
 #include "pgdr/gift_wrap.hpp"
@@ -28,13 +29,16 @@ class LocalRewrap {
   /// vertices of the volume may be taken out.
   enum class Effort { quick, wide, thorough };
 
-  explicit LocalRewrap(Mesh<3>& mesh) : mesh_(&mesh) {}  ///< the mesh must outlive it
+  LocalRewrap(Mesh<3>& mesh, const Domain<3>& domain) : mesh_(&mesh), domain_(&domain) {}  ///< both must outlive it
   ~LocalRewrap() { release(); }
   LocalRewrap(const LocalRewrap&) = delete;
   LocalRewrap& operator=(const LocalRewrap&) = delete;
 
   /// Replaces cells about the unconstrained face by others with fewer violating faces. False if that cannot be done.
   bool repair(Pools& pools, CellId c, int face, Effort effort);
+  /// Makes the cells of the ring about an edge inside a facet at the hull anew, more if need be, so that the facet is Delaunay
+  /// there. False if that cannot be done.
+  bool repair_facet(Pools& pools, std::span<const CellId> ring);
   /// What the visit may change; null: everything.
   void begin_visit(const VisitArea<3>* area) {
     area_ = area;
@@ -70,6 +74,9 @@ class LocalRewrap {
   void begin(CellId c, CellId d, VertexId left_out);
   bool grow();
   bool wrap_again(Pools& pools);
+  bool make_rim_delaunay();
+  bool turn(std::size_t i, std::size_t j);
+  bool is_subsegment(Index a, Index b) const;
   bool owns(CellId c) const { return !area_ || area_->owns(*mesh_, c); }
   void take(CellId c);
   bool in_conflict(CellId c) const;
@@ -86,6 +93,7 @@ class LocalRewrap {
   void release();
 
   Mesh<3>* mesh_;
+  const Domain<3>* domain_;
   const VisitArea<3>* area_ = nullptr;
   bool reached_border_ = false;
   GiftWrap wrap_;

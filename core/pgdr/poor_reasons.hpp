@@ -27,11 +27,31 @@ struct PoorCell {
   PoorReason reason;  ///< why
 };
 
+/// What a look at cells has found.
+struct PoorFindings {
+  std::vector<PoorCell> poor;  ///< those of which something is to be said
+  std::vector<CellId> unexplained;  ///< poor, with no reason but rounding
+  /// With a face that is not locally Delaunay by more than rounding, beside no small angle.
+  std::vector<CellId> violated;
+
+  /// Appends what another look has found.
+  void append(const PoorFindings& o) {
+    poor.insert(poor.end(), o.poor.begin(), o.poor.end());
+    unexplained.insert(unexplained.end(), o.unexplained.begin(), o.unexplained.end());
+    violated.insert(violated.end(), o.violated.begin(), o.violated.end());
+  }
+};
+
 /// Cells over a bound.
 struct PoorCount {
   std::uint64_t cells = 0;  ///< so many
   bool over_size = false;  ///< any of them
 };
+
+/// How many of the cells numbered [first, last) are over a bound: of a run that a budget ended, or of none. Several
+/// threads at once.
+template <int D>
+PoorCount count_poor_cells(const Mesh<D>& mesh, const CellBounds<D>& bounds, std::uint32_t first, std::uint32_t last);
 
 /// Finds the reasons: see above.
 template <int D>
@@ -40,18 +60,20 @@ class PoorReasons {
   /// `keep_boundary`: no segment was split (RefineOptions).
   PoorReasons(Mesh<D>& mesh, const Domain<D>& domain, const CellBounds<D>& bounds, bool keep_boundary = false);
 
+  /// What was added before is no longer so.
+  void forget() { why_.clear(); }
   /// What was refused in one region.
   void add(std::span<const Refusal<D>> refused);
 
-  /// How many of the cells numbered [first, last) are over a bound: of a run that a budget ended, or of none. Several
-  /// threads at once.
-  PoorCount count(std::uint32_t first, std::uint32_t last) const;
   /// Of the cells numbered [first, last) every one over a bound, and every one with a face that is not locally Delaunay for
   /// other reasons than rounding, each with its reason. @pre the refinement has finished. Several threads at once. Ends
   /// early, with some of them, once `stop` is requested.
-  std::vector<PoorCell> of_cells(std::uint32_t first, std::uint32_t last, const std::stop_token& stop = {}) const;
+  PoorFindings of_cells(std::uint32_t first, std::uint32_t last, const std::stop_token& stop = {}) const;
   /// The same of the cells that were refused: all there are where every face is locally Delaunay.
-  std::vector<PoorCell> of_refused(const std::stop_token& stop = {}) const;
+  PoorFindings of_refused(const std::stop_token& stop = {}) const;
+  /// Leaves out of `found.violated` what has a vertex, or whose neighbour has one, on an entity that is named as a reason: its
+  /// refusal excuses that. @pre all cells were looked at.
+  void leave_out_excused(PoorFindings& found) const;
 
  private:
   using EntityIds = std::vector<EntityId>;
@@ -60,14 +82,16 @@ class PoorReasons {
   bool explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, PoorReason& reason) const;
   bool is_beside(EntityRef segment, const Ball<D>& doubled) const;
   void add_entities(CellId c, std::vector<EntityRef>& list) const;
-  void look_at(CellId c, bool violations_seen, std::vector<PoorCell>& poor) const;
+  void look_at(CellId c, bool violations_seen, PoorFindings& found) const;
   bool is_violated(CellId c) const;
+  bool is_violated_beyond_rounding(CellId c) const;
 
   const Mesh<D>* mesh_;
   const Domain<D>* domain_;
   const CellBounds<D>* bounds_;
   bool keep_boundary_;
   LocalFlips<D> flips_;
+  double rounding_ = 0;  ///< how far a point may be off its entity
   std::vector<EntityIds> segments_at_;  ///< of each input point
   /// Of the refused elements that are still there: by what; no entities if no pair was at fault.
   std::unordered_map<std::uint32_t, std::optional<EntityPair>> why_;

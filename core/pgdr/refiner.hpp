@@ -88,6 +88,7 @@ struct RegionVisit {
   std::uint64_t most_insertions = std::numeric_limits<std::uint64_t>::max();  ///< share of the budget
   bool violations_seen = false;         ///< look for faces that are not locally Delaunay at every insertion
   bool rewraps = false;                 ///< make cells anew where no flip helps
+  bool repairs_facets = false;          ///< flip subfacets, too, where no flip of cells helps: slow
   bool entities_refused = false;        ///< by any visit before; after the visit, by this one too
   bool mends = false;                   ///< no volume point whose cavity is cut back any more
   // done
@@ -122,6 +123,12 @@ class Refiner {
   /// Mends or moves a violation that no entity is beside in as large a region as that takes; everything must be owned.
   /// False if that cannot be done.
   bool mend(const Entry<D>& e);
+  /// Lists the faces of the cell and its neighbours that are not locally Delaunay. False if there are none.
+  bool list_violations_about(CellId c);
+  /// For an element that stays poor, or beside a face that is not locally Delaunay, for no reason: inserts its circumcentre,
+  /// splits an entity for it, or inserts a point inside of it, with the least distances that the insertion rule has for such.
+  /// False if none may go in. Everything must be owned, and `begin` have been called.
+  bool insert_within(const Entry<D>& e);
   /// Is this violating face between volume vertices alone?
   bool is_far_from_walls(const Entry<D>& e) const;
   bool violates(const Entry<D>& e) const { return flips_.violates(e.cell, e.which()); }  ///< is the face not locally Delaunay?
@@ -186,6 +193,11 @@ class Refiner {
   std::optional<Item> hiding_wall(CellId c, const Point<D>& x) const;
   Outcome split_instead(const Item& entity, const Item& e, const CellVerdict& verdict);
 
+  // refiner_within.cpp
+  double room_for(const Point<D>& x, CellId c);
+  double squared_distance_to_walls(const Point<D>& x) const;
+  bool insert_mean_of_corners(const Item& e);
+
   // refiner_selectors.cpp
   class View;
   /// Where the selector puts the point of a cell over the radius-edge bound; nothing if the claim is too small to tell.
@@ -215,6 +227,7 @@ class Refiner {
   std::uint64_t stride_ = 1;  ///< insertions between two looks at the clock
   std::chrono::steady_clock::time_point checked_time_;
   std::optional<EntityPair> last_refusal_;
+  bool unexplained_ = false;  ///< is the element treated one that stays poor for no reason?
 };
 
 extern template struct RefineContext<2>;

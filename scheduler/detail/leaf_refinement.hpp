@@ -36,6 +36,10 @@ class LeafRefinement {
   /// Lists the whole mesh and refines it. @throws what a callback throws
   StopCause run();
 
+  /// Of every cell over a bound, or beside a face that is not locally Delaunay, why. Where nothing explains it, points are
+  /// tried that ask for less room before it is left at that. @pre run() said finished. `stop` becomes what ends this early.
+  std::vector<PoorCell> explain(StopCause& stop);
+
   const RefineCounts& counts() const { return counts_; }
   const SchedulerStatistics& statistics() const { return statistics_; }
   std::vector<VisitTrace> take_trace() { return std::move(trace_); }
@@ -44,8 +48,6 @@ class LeafRefinement {
   const PredicateCounts& predicates_elsewhere() const { return predicates_elsewhere_; }
   /// Were there ever faces that are not locally Delaunay?
   bool violations_seen() const { return violations_seen_; }
-  /// Calls f with the refusals of each leaf.
-  void for_each_refused(const std::function<void(std::span<const Refusal<D>>)>& f);
   /// At the end of a run, or where it was stopped: the cells over a bound, by what waits and what was refused, without a look
   /// at the others and without a call of the size function. Nothing where some may be on no list.
   std::optional<PoorCount> take_poor();
@@ -93,8 +95,15 @@ class LeafRefinement {
     return true;
   }
   void list_everything();
+  /// Calls f with the refusals of each leaf.
+  void for_each_refused(const std::function<void(std::span<const Refusal<D>>)>& f);
+  PoorFindings look_for_poor(PoorReasons<D>& reasons);
+  void help_unexplained(PoorReasons<D>& reasons, PoorFindings& found);
+  bool insert_within(std::span<const CellId> cells);
   std::vector<bool> changed_surroundings();
   std::vector<Entry<D>> violations_everywhere();
+  void sort_by_vertices(std::vector<Entry<D>>& entries) const;
+  RegionVisit<D> mending_visit();
   StopCause mend();
   bool mend_far_from_walls(Refiner<D>& worker, std::set<std::array<VertexId, D + 1>>& hopeless);
   void note_change(std::span<const Node> claim);

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Points for elements that stay poor although no small angle of the input explains it.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "detail/entity_distance.hpp"
+#include "pgdr/refiner.hpp"
+
+namespace pgdr {
+namespace {
+
+/// The mean of the corners whose bits are set.
+template <int D>
+Point<D> mean(const Simplex<D>& s, unsigned corners) {
+  Point<D> x{};
+  for (int k = 0; k < D; ++k)
+    for (int i = 0; i <= D; ++i) x[k] += corners >> i & 1 ? s[i][k] / std::popcount(corners) : 0;
+  return x;
+}
+
+}  // namespace
+
+/// From x to the nearest constrained face of the collected cavity.
+template <int D>
+double Refiner<D>::squared_distance_to_walls(const Point<D>& x) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& f : cavity_.boundary()) {
+    if (!mesh_->constrained(f.cell, f.face)) continue;
+    const Simplex<D> s = mesh_->simplex(f.cell);
+    const auto corner = [&](int i) { return s[(f.face + i) % (D + 1)]; };
+    if constexpr (D == 2) {
+      least = std::min(least, detail::squared_distance_to_edge<2>(corner(1), corner(2), x));
+    } else {
+      least = std::min(least, detail::squared_distance_to_triangle(corner(1), corner(2), corner(3), x));
+    }
+  }
+  return least;
+}
+
+/// Collects the cavity of x. Its distance from vertices there, or twice that from walls, if that is less (half way between two
+/// of them there is as much room as they are apart); 0 if x may not go in.
+template <int D>
+double Refiner<D>::room_for(const Point<D>& x, CellId c) {
+  using Status = typename Cavity<D>::Status;
+  cavity_.release();
+  if (cavity_.collect(x, c) != Status::ok || cavity_.make_star_shaped() != Status::ok) return 0;
+  if (cavity_.check_nothing_swallowed() != Status::ok) return 0;
+  return std::min(insertion_radius<D>(*mesh_, cavity_), 2 * std::sqrt(squared_distance_to_walls(x)));
+}
+
+/// Inserts the midpoint of an edge, or the centroid of a face or of the element, that has the most room.
+template <int D>
+bool Refiner<D>::insert_mean_of_corners(const Item& e) {
+  const Demand demand = demand_of_cell(e.cell, verdict_of(e));
+  Simplex<D> s = mesh_->simplex(e.cell);
+  std::sort(s.begin(), s.end(), lex_less<D>);
+  double most = 0;
+  Point<D> best{};
+  for (unsigned corners = 1; corners < 2u << D; ++corners) {
+    if (std::has_single_bit(corners)) continue;
+    const Point<D> x = mean<D>(s, corners);
+    const double room = room_for(x, e.cell);
+    if (room <= most) continue;
+    most = room;
+    best = x;
+  }
+  if (!(most > 0) || most < demand.d || most < options_->min_edge) return false;
+  room_for(best, e.cell);
+  const double r = insertion_radius<D>(*mesh_, cavity_);
+  cavity_.commit(pools_, Home(EntityKind::volume, 0), rounded_down(std::max(r, demand.h)));
+  committed();
+  return true;
+}
+
+template <int D>
+bool Refiner<D>::list_violations_about(CellId c) {
+  std::vector<CellId> cells{c};
+  for (const Link next : mesh_->cell(c).links)
+    if (next) cells.push_back(next.cell());
+  return list_violations(cells) > 0;
+}
+
+template <int D>
+bool Refiner<D>::insert_within(const Item& e) {
+  if (!may_go_on()) return false;
+  const struct Guard {
+    explicit Guard(Refiner& refiner) : r(refiner) { r.unexplained_ = true; }
+    ~Guard() {
+      r.unexplained_ = false;
+      r.cavity_.release();
+    }
+    Refiner& r;
+  } guard(*this);
+  last_refusal_.reset();
+  CellVerdict verdict = verdict_of(e);
+  verdict.over_radius_edge = true;
+  if (treat_cell_at(e, circumsphere<D>(mesh_->simplex(e.cell)).center, verdict) == Outcome::committed) return true;
+  cavity_.release();
+  return alive(e) && insert_mean_of_corners(e);
+}
+
+template class Refiner<2>;
+template class Refiner<3>;
+
+}  // namespace pgdr

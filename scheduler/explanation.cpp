@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The end of a run: why elements stay poor. Where walls have cut back cavities so far that the mesh is a tangle, with cells
+// through half of it, elements stay poor beside no small angle. Flips within facets and a few points inside of these elements,
+// nearer to others than the rule for poor elements allows, let the rest be refined as everywhere else. One visit after the
+// other, of the whole mesh.
+#include <algorithm>
+#include <utility>
+
+#include "detail/cell_parts.hpp"
+#include "detail/leaf_refinement.hpp"
+
+namespace pgdr::detail {
+namespace {
+
+constexpr int most_rounds = 16;
+constexpr int most_rounds_in_vain = 4;  // that explain no more than the best before
+
+}  // namespace
+
+/// Unless there may be violations, nothing is poor but what was refused.
+template <int D>
+PoorFindings LeafRefinement<D>::look_for_poor(PoorReasons<D>& reasons) {
+  reasons.forget();
+  for_each_refused([&](std::span<const Refusal<D>> refused) { reasons.add(refused); });
+  const std::stop_token& stop = context_.options.stop;
+  if (!violations_seen_) return reasons.of_refused(stop);
+  const std::uint32_t cells = context_.mesh.cell_bound();
+  std::vector<PoorFindings> parts(count_parts(cells));
+  each_part(cells, options_, [&](const CellPart& part) { parts[part.number] = reasons.of_cells(part.first, part.last, stop); });
+  PoorFindings all;
+  for (const PoorFindings& part : parts) all.append(part);
+  reasons.leave_out_excused(all);
+  all.unexplained.insert(all.unexplained.end(), all.violated.begin(), all.violated.end());
+  return all;
+}
+
+template <int D>
+std::vector<PoorCell> LeafRefinement<D>::explain(StopCause& stop) {
+  PoorReasons<D> reasons(context_.mesh, context_.domain, context_.bounds, context_.options.keep_boundary);
+  PoorFindings found = look_for_poor(reasons);
+  help_unexplained(reasons, found);
+  cancelled(0);
+  stop = static_cast<StopCause>(context_.stop.load());
+  if (stop == StopCause::finished && min_edge_hit_) stop = StopCause::min_edge;
+  if (stop == StopCause::finished && vertices_ >= context_.options.max_vertices && !whole_list_.empty()) stop = StopCause::max_vertices;
+  return std::move(found.poor);
+}
+
+template <int D>
+void LeafRefinement<D>::help_unexplained(PoorReasons<D>& reasons, PoorFindings& found) {
+  std::size_t least = found.unexplained.size();
+  for (int round = 0, in_vain = 0; round < most_rounds && in_vain < most_rounds_in_vain && !cancelled(0); ++round) {
+    if (found.unexplained.empty() || !insert_within(found.unexplained) || context_.stop != 0) break;
+    found = look_for_poor(reasons);
+    in_vain = found.unexplained.size() < least ? 0 : in_vain + 1;
+    least = std::min(least, found.unexplained.size());
+  }
+}
+
+/// Mends what can be mended about these cells, or inserts points inside of them. False if the mesh is as it was.
+template <int D>
+bool LeafRefinement<D>::insert_within(std::span<const CellId> cells) {
+  std::vector<Entry<D>> entries;
+  for (const CellId c : cells) entries.emplace_back(c, context_.mesh.birth(c), EntryKind::cell, Entry<D>::not_delaunay);
+  sort_by_vertices(entries);
+  bool changed = false;
+  const auto visit_whole = [&](const auto& begun) {
+    RegionVisit<D> visit = mending_visit();
+    visit.repairs_facets = true;
+    Worker worker = check_out();
+    worker->begin(visit);
+    if (begun(*worker)) worker->run(visit);
+    check_in(std::move(worker));
+    account({whole_tree_leaf(), whole_tree, 0}, visit, {});
+    changed = changed || visit.changed_mesh;
+  };
+  for (const Entry<D>& e : entries) {
+    const auto waits = [&] { return context_.stop == 0 && e.alive(context_.mesh); };
+    if (waits()) visit_whole([&](Refiner<D>& worker) { return worker.list_violations_about(e.cell); });
+    if (waits()) visit_whole([&](Refiner<D>& worker) { return worker.insert_within(e); });
+  }
+  return changed;
+}
+
+template class LeafRefinement<2>;
+template class LeafRefinement<3>;
+
+}  // namespace pgdr::detail

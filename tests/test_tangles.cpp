@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Thin plates whose sides are cut along their diagonals and whose faces are triangles of different markers. Segments that
+// stay encroached, beside the small angles of the sides, cut back cavities all over the plate: the facets were no longer
+// Delaunay in their planes, points of facets came near segments unnoticed, and cells through half of the plate stayed poor with
+// no small angle near them. `pgdr check` ended with 6 on each of these.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "parallel_support.hpp"
+
+namespace pgdr {
+namespace {
+
+struct Plate {
+  const char* name;
+  Point<2> inner;
+  double thickness;
+  bool bottom_02, top_02;  ///< the diagonals of bottom and top, before the inner points divide one of their triangles
+};
+
+std::ostream& operator<<(std::ostream& out, const Plate& plate) { return out << plate.name; }
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// The rectangle 20 by 12, its two triangles, and a point inside of one.
+std::vector<Triangle> divided(const Point<2>& inner, bool diagonal_02) {
+  const Point<2> corner[] = {{{0, 0}}, {{20, 0}}, {{20, 12}}, {{0, 12}}};
+  std::vector<Triangle> triangles;
+  for (const Triangle& t : diagonal_02 ? std::array<Triangle, 2>{{{0, 1, 2}, {0, 2, 3}}} : std::array<Triangle, 2>{{{0, 1, 3}, {1, 2, 3}}}) {
+    const auto left = [&](int i) { return orient<2>({corner[t[i]], corner[t[(i + 1) % 3]], inner}) == Sign::positive; };
+    if (!(left(0) && left(1) && left(2))) {
+      triangles.push_back(t);
+      continue;
+    }
+    for (int i = 0; i < 3; ++i) triangles.push_back({t[i], t[(i + 1) % 3], 4});
+  }
+  return triangles;
+}
+
+Plc<3> make(const Plate& plate) {
+  Plc<3> plc;
+  for (const double z : {0.0, plate.thickness})
+    for (const Point<2>& p : {Point<2>{{0, 0}}, Point<2>{{20, 0}}, Point<2>{{20, 12}}, Point<2>{{0, 12}}, plate.inner})
+      plc.points.push_back({{p[0], p[1], z}});
+  int marker = 0;
+  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) { plc.facets.push_back({{{a, b, c}}, {}, ++marker}); };
+  for (const Triangle& t : divided(plate.inner, plate.bottom_02)) add(t[0], t[1], t[2]);
+  for (const Triangle& t : divided(plate.inner, plate.top_02)) add(t[0] + 5, t[1] + 5, t[2] + 5);
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const std::uint32_t j = (i + 1) % 4;
+    add(i, j, j + 5);
+    add(i, j + 5, i + 5);
+  }
+  return plc;
+}
+
+class Tangle : public ::testing::TestWithParam<Plate> {};
+
+TEST_P(Tangle, IsUndone) {
+  const RefineResult<3> result = test::expect_reproducible<3>(make(GetParam()), {}, GetParam().name, test::eight_threads);
+  for (const PoorReason& reason : result.reasons) EXPECT_EQ(reason.code, PoorReason::Code::small_angle);
+}
+
+INSTANTIATE_TEST_SUITE_P(Plates, Tangle,
+                         ::testing::Values(Plate{"one_cell", {{15, 9.5}}, 0.5, false, true},
+                                           Plate{"fifty_cells", {{3.5, 10}}, 1, false, false},
+                                           Plate{"thin", {{12, 8}}, 0.2, true, true}),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+}  // namespace
+}  // namespace pgdr
