@@ -187,7 +187,8 @@ bool LocalFlips<D>::in_circle_of_tip(const Ring& ring, VertexId u, VertexId w) c
     const Point<D>&a = mesh_->point(u), &b = mesh_->point(w), &c = mesh_->point(ring.tips[0]), &d = mesh_->point(ring.tips[1]);
     const Sign turn = orient_projected(a, b, c, axis);
     if (turn == Sign::zero) return false;
-    return (turn == Sign::positive ? in_circle_perturbed(a, b, c, d, axis) : in_circle_perturbed(b, a, c, d, axis)) == Sign::positive;
+    const Sign inside = turn == Sign::positive ? in_circle_perturbed(a, b, c, d, axis) : in_circle_perturbed(b, a, c, d, axis);
+    return inside == Sign::positive;
   }
   return false;
 }

@@ -56,7 +56,8 @@ auto Refiner<D>::demand_of_cell(CellId c, const CellVerdict& verdict) const -> D
 template <int D>
 auto Refiner<D>::demand_on_entity(CellId c, const CellVerdict& verdict) const -> Demand {
   const Demand demand = demand_of_cell(c, verdict);
-  if (D == 2 || unexplained_ || options_->radius_edge_bound >= smallest_proved_bound<D>() || !verdict.over_radius_edge) return demand;
+  if (D == 2 || unexplained_ || !verdict.over_radius_edge) return demand;
+  if (options_->radius_edge_bound >= smallest_proved_bound<D>()) return demand;
   return {inherited_fraction * demand.d, demand.d};
 }
 

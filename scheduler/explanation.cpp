@@ -44,7 +44,8 @@ std::vector<PoorCell> LeafRefinement<D>::explain(StopCause& stop) {
   cancelled(0);
   stop = static_cast<StopCause>(context_.stop.load());
   if (stop == StopCause::finished && min_edge_hit_) stop = StopCause::min_edge;
-  if (stop == StopCause::finished && vertices_ >= context_.options.max_vertices && !whole_list_.empty()) stop = StopCause::max_vertices;
+  const bool budget_spent = vertices_ >= context_.options.max_vertices && !whole_list_.empty();
+  if (stop == StopCause::finished && budget_spent) stop = StopCause::max_vertices;
   return std::move(found.poor);
 }
 

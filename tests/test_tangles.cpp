@@ -28,8 +28,9 @@ using Triangle = std::array<std::uint32_t, 3>;
 /// The rectangle 20 by 12, its two triangles, and a point inside of one.
 std::vector<Triangle> divided(const Point<2>& inner, bool diagonal_02) {
   const Point<2> corner[] = {{{0, 0}}, {{20, 0}}, {{20, 12}}, {{0, 12}}};
+  const std::array<Triangle, 2> halves[] = {{{{0, 1, 3}, {1, 2, 3}}}, {{{0, 1, 2}, {0, 2, 3}}}};
   std::vector<Triangle> triangles;
-  for (const Triangle& t : diagonal_02 ? std::array<Triangle, 2>{{{0, 1, 2}, {0, 2, 3}}} : std::array<Triangle, 2>{{{0, 1, 3}, {1, 2, 3}}}) {
+  for (const Triangle& t : halves[diagonal_02 ? 1 : 0]) {
     const auto left = [&](int i) { return orient<2>({corner[t[i]], corner[t[(i + 1) % 3]], inner}) == Sign::positive; };
     if (!(left(0) && left(1) && left(2))) {
       triangles.push_back(t);
