@@ -49,6 +49,7 @@ void DomainBuilder<D>::triangulate_facets() requires(D == 3) {
   for (std::uint32_t f = 0; f < plc_.facets.size(); ++f)
     attempt([&] {
       stop_check_();
+      if (std::binary_search(line_facets_.begin(), line_facets_.end(), f)) return;
       if (!set_flat_aside(f) && !add_triangle(f)) add_polygons(f);
     });
 }

@@ -151,10 +151,25 @@ void DomainBuilder<D>::check_segments() {
     });
   }
   if constexpr (D == 3) {
+    take_line_facets();
     for (std::size_t v = 1; v < explicit_begin_.size(); ++v) explicit_begin_[v] += explicit_begin_[v - 1];
     std::vector<std::uint32_t> next(explicit_begin_);
     explicit_at_.resize(explicit_.size());
     for (std::uint32_t s = 0; s < explicit_.size(); ++s) explicit_at_[next[explicit_[s][0]]++] = s;
+  }
+}
+
+// A facet of one polygon of two corners is a segment, as TetGen's files have loose ones.
+template <int D>
+void DomainBuilder<D>::take_line_facets() requires(D == 3) {
+  for (std::uint32_t f = 0; f < plc_.facets.size(); ++f) {
+    const auto& facet = plc_.facets[f];
+    if (facet.polygons.size() != 1 || facet.polygons[0].size() != 2 || !facet.holes.empty()) continue;
+    const std::uint32_t a = out_.point_of_input_[facet.polygons[0][0]], b = out_.point_of_input_[facet.polygons[0][1]];
+    if (a == b) continue;
+    explicit_.push_back({a, b});
+    ++explicit_begin_[a + 1];
+    line_facets_.push_back(f);
   }
 }
 

@@ -28,21 +28,39 @@ void DomainBuilder<D>::write_segment(std::size_t begin, std::size_t end) {
     const EdgeUse& use = uses_[k];
     if (use.is_triangle()) facet_segment_.emplace_back(group_of_[use.owner], id);
     if (use.kind != EdgeUse::Kind::explicit_segment) continue;
-    const int marker = plc_.segments[use.owner].marker;
+    const int marker = marker_of(use.owner);
     if (!segment.explicit_in_input) {
       segment.explicit_in_input = true;
       segment.marker = marker;
-      segment.input = use.owner;
+      if (is_in_plc(use.owner)) segment.input = use.owner;
       first = use.owner;
       continue;
     }
-    const std::string words = std::to_string(number(use.owner)) + " = " + std::to_string(number(first));
-    repeated_segments_.add([&] { return words; }, {number(use.owner), number(first)});
-    if (marker != segment.marker)
-      warn(Errc::degenerate_segment, "segments " + words + ", but their markers differ; that of the latter is kept",
-           plc_.source.segment_lines, use.owner, {number(use.owner), number(first)});
+    note_repeated(use.owner, first);
   }
   out_.segments_.push_back(segment);
+}
+
+template <int D>
+void DomainBuilder<D>::note_repeated(std::uint32_t segment, std::uint32_t first) {
+  const bool differ = marker_of(segment) != marker_of(first);
+  const std::string kept = ", but their markers differ; that of the latter is kept";
+  if (is_in_plc(segment) && is_in_plc(first)) {
+    const std::string words = std::to_string(number(segment)) + " = " + std::to_string(number(first));
+    repeated_segments_.add([&] { return words; }, {number(segment), number(first)});
+    if (differ)
+      warn(Errc::degenerate_segment, "segments " + words + kept, plc_.source.segment_lines, segment, {number(segment), number(first)});
+    return;
+  }
+  if constexpr (D == 3) {
+    const auto facet = [&](std::uint32_t s) { return line_facets_[s - plc_.segments.size()]; };
+    const std::uint32_t f = facet(segment);  // facets come last
+    const std::int64_t other = number(is_in_plc(first) ? first : facet(first));
+    const std::string words = std::to_string(number(f)) + " is a segment = " + (is_in_plc(first) ? "segment " : "facet ") +
+                              std::to_string(other);
+    repeated_segments_.add([&] { return "facet " + words; }, {number(f), other});
+    if (differ) warn(Errc::degenerate_segment, "facet " + words + kept, plc_.source.facet_lines, f, {number(f), other});
+  }
 }
 
 // An edge of a polygon that no triangle has (outside of its facet, or in a hole of it) is a segment, too.

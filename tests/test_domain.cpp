@@ -230,6 +230,32 @@ TEST(Domain, InnerSegmentAndIsolatedPoint) {
     EXPECT_TRUE(d.segments()[s].marker != 5 || d.facets_of_segment(s).empty());
 }
 
+// As .poly files have loose segments. The facets behind it keep their numbers.
+TEST(Domain, AFacetOfTwoCornersIsASegment) {
+  Plc<3> plc = box();
+  plc.points.insert(plc.points.end(), {{0.5, 0.25, 0.25}, {1.5, 0.25, 0.75}});
+  plc.facets.insert(plc.facets.begin() + 2, {{{8, 9}}, {}, 7});
+  {
+    const Domain<3> d(plc);
+    expect_consistent(d);
+    EXPECT_EQ(d.facets().size(), 6u);
+    EXPECT_EQ(d.triangle_origins(2)[0].facet, 3u);
+    EXPECT_EQ(d.segments().size(), 13u);
+    ASSERT_TRUE(has_segment(d, 8, 9));
+    for (const DomainSegment& s : d.segments()) EXPECT_EQ(s.marker, s.points[0] == 8 ? 7 : 0);
+    EXPECT_TRUE(d.repairs().empty());
+  }
+  plc.facets.push_back({{{9, 8}}, {}, 7});
+  plc.segments.push_back({{8, 9}, 5});
+  const Domain<3> d(plc);
+  EXPECT_EQ(d.segments().size(), 13u);
+  for (const DomainSegment& s : d.segments()) EXPECT_EQ(s.marker, s.points[0] == 8 ? 5 : 0);
+  ASSERT_EQ(d.repairs().size(), 1u);
+  EXPECT_NE(d.repairs()[0].message.find("2 (facet 2 is a segment = segment 0, facet 7 is a segment = segment 0)"), std::string::npos)
+      << d.repairs()[0].message;
+  EXPECT_EQ(d.warnings().size(), 2u);
+}
+
 // A segment of the input from corner to corner through a polygon divides its triangles, but not the facet; on the other
 // diagonal it is there as well.
 TEST(Domain, SegmentsOfTheInputThroughAFacet) {

@@ -94,7 +94,7 @@ TEST(DomainErrors, DegenerateFacet) {
   for (const auto& polygons : std::vector<std::vector<std::vector<std::uint32_t>>>{
            {},                                  // nothing
            {{}},                                // a polygon of nothing
-           {{8, 9}},                            // two points
+           {{8, 12}},                           // two points at one place
            {{8, 9, 12}},                        // three, two of them at one place
            {{8, 8, 9, 9}},                      //
            {{8, 9, 10}},                        // on a line

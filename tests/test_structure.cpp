@@ -237,6 +237,19 @@ TEST(Seeds, NothingLeft) {
   }
 }
 
+TEST(Segments, LooseOnesOfAPolyFileKeepTheirMarkers) {
+  Plc<3> plc = test::cube();
+  plc.points.push_back({{0.25, 0.25, 0.5}});
+  plc.points.push_back({{0.75, 0.5, 0.5}});
+  plc.facets.insert(plc.facets.begin(), {{{8, 9}}, {}, 7});
+  const auto [result, report] = test::refine_and_check<3>(plc, {});
+  EXPECT_EQ(report.exit_code(), 0) << test::findings(report);
+  double length = 0;
+  for (const auto& s : result.mesh.subsegments)
+    if (s.marker == 7) length += std::sqrt(squared_distance(result.mesh.points[s.vertices[0]], result.mesh.points[s.vertices[1]]));
+  EXPECT_NEAR(length, std::sqrt(0.3125), 1e-12);
+}
+
 TEST(Seeds, OpenSurfaceNamesItsBoundary) {
   Plc<3> plc = test::boxes({{{{0, 0, 0}}, {{2, 2, 2}}}});
   plc.facets.pop_back();  // z high

@@ -163,6 +163,7 @@ class DomainBuilder {
   void check_indices() const;
   void merge_points();
   void check_segments();
+  void take_line_facets() requires(D == 3);
   void check_spans_space() const;
   void choose_scale();
 
@@ -234,6 +235,13 @@ class DomainBuilder {
   void write_segments();
   std::size_t uses_of(std::size_t begin) const;
   void write_segment(std::size_t begin, std::size_t end);
+  bool is_in_plc(std::uint32_t segment) const { return segment < plc_.segments.size(); }
+  int marker_of(std::uint32_t segment) const {
+    if (is_in_plc(segment)) return plc_.segments[segment].marker;
+    if constexpr (D == 3) return plc_.facets[line_facets_[segment - plc_.segments.size()]].marker;
+    return 0;
+  }
+  void note_repeated(std::uint32_t segment, std::uint32_t first);
   void write_incidences();
 
   const Plc<D>& plc_;
@@ -241,7 +249,8 @@ class DomainBuilder {
   const detail::StopCheck stop_check_;
   std::vector<Diagnostic>* refused_;
   double scale_ = 1;                                             // 1 / the largest coordinate, a power of two
-  std::vector<std::array<std::uint32_t, 2>> explicit_;           // domain points of Plc::segments
+  std::vector<std::array<std::uint32_t, 2>> explicit_;           // domain points of Plc::segments, then of line_facets_
+  std::vector<std::uint32_t> line_facets_;                       // of each further segment its facet
   std::vector<std::uint32_t> explicit_begin_, explicit_at_;      // explicit segments by their first domain point
   std::vector<detail::TriangulatedFacet> facets_;
   std::vector<Triangle> triangles_;

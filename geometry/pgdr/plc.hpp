@@ -43,7 +43,7 @@ struct Plc {
   };
   /// A planar facet (3D only): one outer polygon, then any of: polygons of holes or of inner constraints, two-point
   /// polygons (inner segments), one-point polygons (inner points). What a hole seed reaches without crossing a polygon
-  /// is not part of the facet. As in TetGen's .poly.
+  /// is not part of the facet. As in TetGen's .poly. A facet of one two-point polygon alone is a segment with its marker.
   struct Facet {
     std::vector<std::vector<std::uint32_t>> polygons;  ///< closed, without repeating the first point; into Plc::points
     std::vector<Point<D>> holes;  ///< seeds, in space, projected as the facet is
