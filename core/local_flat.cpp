@@ -8,6 +8,7 @@
 #include <bit>
 #include <cassert>
 
+#include "pgdr/facet_flip.hpp"
 #include "pgdr/insertion_rule.hpp"
 #include "pgdr/local_flips.hpp"
 
@@ -43,8 +44,8 @@ auto LocalFlips<D>::take_off_flat(Pools& pools, CellId c) -> Outcome {
     if (cell.links[i]) return try_edge(pools, c, ends[0], ends[1], Condition::no_worse);
     // The ridge between the two faces may be no segment, nor the one that takes its place.
     if ((old.edges >> edge_of_ends[i][j] & 1) || (old.edges >> edge_of_ends[ends[0]][ends[1]] & 1)) return Outcome::stuck;
-    const Ring ring{{c}, {cell.vertices[i], cell.vertices[j]}, old.face_entity[i]};
-    if (!crosses_in_facet(ring, cell.vertices[ends[0]], cell.vertices[ends[1]])) return Outcome::stuck;
+    const std::array edge{cell.vertices[ends[0]], cell.vertices[ends[1]]}, across{cell.vertices[i], cell.vertices[j]};
+    if (!crosses_in_facet<D>(*mesh_, *domain_, old.face_entity[i], edge, across)) return Outcome::stuck;
     for (const int end : ends) {
       if (!cell.links[end]) return Outcome::stuck;
       assert(may_read(cell.links[end].cell()));
@@ -55,7 +56,7 @@ auto LocalFlips<D>::take_off_flat(Pools& pools, CellId c) -> Outcome {
       const Link beyond = cell.links[end];
       auto& constraints = mesh_->ensure_constraints(pools, beyond.cell());
       constraints.faces |= static_cast<std::uint8_t>(1 << beyond.face());
-      constraints.face_entity[beyond.face()] = ring.entity;
+      constraints.face_entity[beyond.face()] = old.face_entity[i];
       mesh_->cell(beyond.cell()).links[beyond.face()] = Link{};
       new_cells_.push_back(beyond.cell());
     }

@@ -6,7 +6,7 @@
 #include <cassert>
 
 #include "pgdr/cavity.hpp"
-#include "pgdr/insertion_rule.hpp"
+#include "pgdr/facet_flip.hpp"
 
 namespace pgdr {
 namespace {
@@ -142,31 +142,6 @@ auto LocalFlips<D>::take_ring(CellId c, int a, int b, std::size_t longest, Ring&
   return whole ? Outcome::flipped : Outcome::stuck;
 }
 
-/// Do the three lie on one input segment, that is on a line, whatever rounding made of it?
-template <int D>
-bool LocalFlips<D>::in_line(VertexId a, VertexId b, VertexId c) const {
-  for (const VertexId v : {a, b, c}) {
-    const EntityRef home = mesh_->vertex(v).home.entity();
-    if (home.kind == EntityKind::segment && lies_on<D>(*domain_, mesh_->vertex(a).home, home) &&
-        lies_on<D>(*domain_, mesh_->vertex(b).home, home) && lies_on<D>(*domain_, mesh_->vertex(c).home, home))
-      return true;
-  }
-  return false;
-}
-
-/// In the facet's projection the edge uw and the edge between the tips cross.
-template <int D>
-bool LocalFlips<D>::crosses_in_facet(const Ring& ring, VertexId u, VertexId w) const {
-  if constexpr (D == 3) {
-    if (in_line(ring.tips[0], ring.tips[1], u) || in_line(ring.tips[0], ring.tips[1], w)) return false;
-    const int axis = domain_->facets()[ring.entity].axis;
-    const Point<D>&x = mesh_->point(ring.tips[0]), &y = mesh_->point(ring.tips[1]);
-    const Sign of_u = orient_projected(x, y, mesh_->point(u), axis), of_w = orient_projected(x, y, mesh_->point(w), axis);
-    return of_u != Sign::zero && of_u == -of_w;
-  }
-  return false;
-}
-
 /// Is there nothing beyond the two subfacets at the edge uw?
 template <int D>
 bool LocalFlips<D>::is_open(const Ring& ring, VertexId u, VertexId w) const {
@@ -177,20 +152,6 @@ bool LocalFlips<D>::is_open(const Ring& ring, VertexId u, VertexId w) const {
       open += mesh_->constrained(c, f) && !mesh_->cell(c).links[f] && v[f] != u && v[f] != w && has(v, u) && has(v, w);
     }
   return open == 2;
-}
-
-/// Does the far corner of the one subfacet at the edge uw lie inside the circumcircle of the other?
-template <int D>
-bool LocalFlips<D>::in_circle_of_tip(const Ring& ring, VertexId u, VertexId w) const {
-  if constexpr (D == 3) {
-    const int axis = domain_->facets()[ring.entity].axis;
-    const Point<D>&a = mesh_->point(u), &b = mesh_->point(w), &c = mesh_->point(ring.tips[0]), &d = mesh_->point(ring.tips[1]);
-    const Sign turn = orient_projected(a, b, c, axis);
-    if (turn == Sign::zero) return false;
-    const Sign inside = turn == Sign::positive ? in_circle_perturbed(a, b, c, d, axis) : in_circle_perturbed(b, a, c, d, axis);
-    return inside == Sign::positive;
-  }
-  return false;
 }
 
 template <int D>
@@ -206,7 +167,9 @@ auto LocalFlips<D>::flip_in_facet(Pools& pools, CellId c, int face) -> Outcome {
         if (outcome == Outcome::not_owned) return outcome;
         const VertexId u = vertices[a], w = vertices[b];
         if (outcome == Outcome::stuck || ring.tips.empty() || !is_open(ring, u, w)) continue;
-        if (!crosses_in_facet(ring, u, w) || !in_circle_of_tip(ring, u, w)) continue;
+        const std::array edge{u, w}, tips{ring.tips[0], ring.tips[1]};
+        if (!crosses_in_facet<D>(*mesh_, *domain_, ring.entity, edge, tips)) continue;
+        if (!tip_in_circle(*mesh_, *domain_, ring.entity, edge, tips)) continue;
         if (rewrap_.repair_facet(pools, ring.cells)) {
           new_cells_ = rewrap_.new_cells();
           return Outcome::flipped;
@@ -225,7 +188,8 @@ auto LocalFlips<D>::try_edge(Pools& pools, CellId c, int a, int b, Condition con
   if (const auto* k = mesh_->constraints(c); k && (k->edges >> edge_of_ends[a][b] & 1)) return Outcome::stuck;
   Ring ring;
   if (const Outcome outcome = take_ring(c, a, b, longest_ring, ring); outcome != Outcome::flipped) return outcome;
-  if (!ring.tips.empty() && !crosses_in_facet(ring, u, w)) return Outcome::stuck;
+  if (!ring.tips.empty() && !crosses_in_facet<D>(*mesh_, *domain_, ring.entity, {u, w}, {ring.tips[0], ring.tips[1]}))
+    return Outcome::stuck;
   take_old(ring.cells);
   if (!ring.tips.empty())
     for (const VertexId end : {u, w}) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "pgdr/facet_flip.hpp"
+
 namespace pgdr {
 namespace {
 
@@ -45,7 +47,7 @@ bool LocalRewrap::repair(Pools& pools, CellId c, int face, Effort effort) {
 }
 
 bool LocalRewrap::repair_without(Pools& pools, CellId c, CellId d, VertexId left_out) {
-  begin(c, d, left_out);
+  begin(std::array{c, d}, left_out);
   bool repaired = left_out != no_vertex && !reached_border_ && wrap_again(pools);
   while (!repaired && !reached_border_ && grow()) repaired = wrap_again(pools);
   release();
@@ -55,25 +57,12 @@ bool LocalRewrap::repair_without(Pools& pools, CellId c, CellId d, VertexId left
 bool LocalRewrap::repair_facet(Pools& pools, std::span<const CellId> ring) {
   reached_border_ = !std::all_of(ring.begin(), ring.end(), [this](CellId c) { return owns(c); });
   if (reached_border_) return false;
-  vertices_.clear();
-  points_.clear();
-  region_ = mesh_->region(ring[0]);
-  left_out_ = no_vertex;
-  most_cells_ = facet.most_cells;
   random_.seed();
-  for (const CellId c : ring) take(c);
-  bool repaired = false;
-  do {
-    find_rim();
-    if (!make_rim_delaunay()) break;
-    front_.clear();
-    for (const RimFace& f : rim_) front_.push_back(f.vertices);
-    for (int order = 0; order < facet.orders && !repaired; ++order) {
-      repaired = wrap_.fill(points_, front_, 2 * most_cells_) && keeps_subsegments();
-      for (std::size_t i = front_.size(); i > 1; --i) std::swap(front_[i - 1], front_[random_() % i]);
-    }
-    if (repaired) replace(pools);
-  } while (!repaired && grow());
+  most_cells_ = facet.most_cells;
+  orders_ = facet.orders;
+  begin(ring, no_vertex);
+  bool repaired = wrap_again(pools, true);
+  while (!repaired && grow()) repaired = wrap_again(pools, true);
   release();
   return repaired;
 }
@@ -113,12 +102,9 @@ bool LocalRewrap::turn(std::size_t i, std::size_t j) {
     if (at == 3 || g.vertices[(at + 1) % 3] != a) continue;
     const Index d = g.vertices[(at + 2) % 3];
     if (c == d || is_subsegment(a, b)) return false;
-    const int axis = domain_->facets()[f.entity].axis;
-    const Point3 &p = points_[a], &q = points_[b], &r = points_[c], &s = points_[d];
-    const Sign sense = orient_projected(p, q, r, axis);
-    if (sense == Sign::zero || orient_projected(r, s, q, axis) != sense || orient_projected(s, r, p, axis) != sense) return false;
-    const Sign inside = sense == Sign::positive ? in_circle_perturbed(p, q, r, s, axis) : in_circle_perturbed(q, p, r, s, axis);
-    if (inside != Sign::positive) return false;
+    const std::array edge{vertices_[a], vertices_[b]}, tips{vertices_[c], vertices_[d]};
+    if (!crosses_in_facet<3>(*mesh_, *domain_, f.entity, edge, tips)) return false;
+    if (!tip_in_circle(*mesh_, *domain_, f.entity, edge, tips)) return false;
     const auto has = [](const GiftWrap::Face& face, Index v) { return std::find(face.begin(), face.end(), v) != face.end(); };
     for (const RimFace& o : rim_) {
       if (&o == &f || &o == &g) continue;
@@ -140,14 +126,16 @@ bool LocalRewrap::in_volume(VertexId v) const { return mesh_->vertex(v).home.kin
 
 /// Where the constrained Delaunay triangulation exists, every order of the front leads to it; where it does not, another
 /// order may lead to a better mesh, or to one at all.
-bool LocalRewrap::wrap_again(Pools& pools) {
+bool LocalRewrap::wrap_again(Pools& pools, bool turns_facets) {
   find_rim();
+  if (turns_facets && !make_rim_delaunay()) return false;
   front_.clear();
   for (const RimFace& f : rim_) front_.push_back(f.vertices);
   const int before = violations_before();
   work_ += old_.size() * vertices_.size();
   for (int order = 0; order < orders_; ++order) {
-    if (wrap_.fill(points_, front_, 2 * most_cells_) && keeps_subsegments() && violations_after() + least_gain_ < before) {
+    if (wrap_.fill(points_, front_, 2 * most_cells_) && keeps_subsegments() &&
+        (turns_facets || violations_after() + least_gain_ < before)) {
       replace(pools);
       return true;
     }
@@ -185,13 +173,12 @@ bool LocalRewrap::in_conflict(CellId c) const {
   return false;
 }
 
-void LocalRewrap::begin(CellId c, CellId d, VertexId left_out) {
+void LocalRewrap::begin(std::span<const CellId> cells, VertexId left_out) {
   vertices_.clear();
   points_.clear();
-  region_ = mesh_->region(c);
+  region_ = mesh_->region(cells[0]);
   left_out_ = left_out;
-  take(c);
-  take(d);
+  for (const CellId c : cells) take(c);
   if (left_out == no_vertex) return;
   for (std::size_t i = 0; i < old_.size(); ++i) {
     const auto& k = mesh_->cell(old_[i]);

@@ -7,53 +7,13 @@
 #include <cmath>
 #include <unordered_set>
 
+#include "detail/check_exact.hpp"
 #include "detail/entity_distance.hpp"
 #include "pgdr/insertion_rule.hpp"
 #include "pgdr/refine_options.hpp"
 
 namespace pgdr {
 namespace {
-
-template <std::size_t N>
-using Rows = std::array<std::array<double, N>, N>;
-
-template <std::size_t N>
-double determinant(const Rows<N>& m) {
-  if constexpr (N == 1) {
-    return m[0][0];
-  } else {
-    double sum = 0;
-    for (std::size_t column = 0; column < N; ++column) {
-      Rows<N - 1> minor;
-      for (std::size_t i = 1; i < N; ++i)
-        for (std::size_t j = 0; j + 1 < N; ++j) minor[i - 1][j] = m[i][j + (j >= column)];
-      sum += (column % 2 ? -m[0][column] : m[0][column]) * determinant(minor);
-    }
-    return sum;
-  }
-}
-
-/// Is the in-sphere determinant further from zero than moving each point (the corners, then p) by so much in every
-/// coordinate can bring it, to first order and with a margin?
-template <int D>
-bool exceeds_rounding(const Simplex<D>& s, const Point<D>& p, const std::array<double, D + 2>& moved) {
-  constexpr double margin = 4;
-  Rows<D + 1> rows;
-  for (int i = 0; i <= D; ++i) {
-    for (int j = 0; j < D; ++j) rows[i][j] = s[i][j] - p[j];
-    rows[i][D] = squared_distance(s[i], p);
-  }
-  double change = 0;
-  for (int i = 0; i <= D; ++i)
-    for (int j = 0; j < D; ++j) {
-      Rows<D + 1> derivative = rows;
-      derivative[i] = {};
-      derivative[i][j] = 1;
-      derivative[i][D] = 2 * rows[i][j];
-      change += (moved[i] + moved[D + 1]) * std::abs(determinant(derivative));
-    }
-  return std::abs(determinant(rows)) > margin * change;
-}
 
 bool has_extent(EntityRef e) { return e.kind == EntityKind::segment || e.kind == EntityKind::facet; }
 
@@ -148,7 +108,7 @@ template <int D>
 PoorReasons<D>::PoorReasons(Mesh<D>& mesh, const Domain<D>& domain, const CellBounds<D>& bounds, bool keep_boundary)
     : mesh_(&mesh), domain_(&domain), bounds_(&bounds), keep_boundary_(keep_boundary), flips_(mesh, domain), segments_at_(domain.points().size()) {
   for (const Point<D>& p : domain.points())
-    for (const double x : p.x) rounding_ = std::max(rounding_, 2 * std::abs(x) * 0x1p-52);
+    for (const double x : p.x) rounding_ = std::max(rounding_, 8 * std::abs(x) * 0x1p-52);
   for (EntityId s = 0; s < domain.segments().size(); ++s)
     for (const std::uint32_t p : domain.segments()[s].points) segments_at_[p].push_back(s);
 }
@@ -178,7 +138,7 @@ bool PoorReasons<D>::is_violated_beyond_rounding(CellId c) const {
     std::array<double, D + 2> moved;
     for (int i = 0; i <= D; ++i) moved[i] = slack(mesh_->cell(c).vertices[i]);
     moved[D + 1] = slack(apex);
-    if (exceeds_rounding<D>(mesh_->simplex(c), mesh_->point(apex), moved)) return true;
+    if (!checking::rounding_cancels<D>(mesh_->simplex(c), mesh_->point(apex), moved)) return true;
   }
   return false;
 }

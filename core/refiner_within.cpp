@@ -54,8 +54,8 @@ double Refiner<D>::room_for(const Point<D>& x, CellId c) {
 
 /// Inserts the midpoint of an edge, or the centroid of a face or of the element, that has the most room.
 template <int D>
-bool Refiner<D>::insert_mean_of_corners(const Item& e) {
-  const Demand demand = demand_of_cell(e.cell, verdict_of(e));
+bool Refiner<D>::insert_mean_of_corners(const Item& e, const CellVerdict& verdict) {
+  const Demand demand = demand_of_cell(e.cell, verdict);
   Simplex<D> s = mesh_->simplex(e.cell);
   std::sort(s.begin(), s.end(), lex_less<D>);
   double most = 0;
@@ -87,20 +87,16 @@ bool Refiner<D>::list_violations_about(CellId c) {
 template <int D>
 bool Refiner<D>::insert_within(const Item& e) {
   if (!may_go_on()) return false;
-  const struct Guard {
-    explicit Guard(Refiner& refiner) : r(refiner) { r.unexplained_ = true; }
-    ~Guard() {
-      r.unexplained_ = false;
-      r.cavity_.release();
-    }
-    Refiner& r;
-  } guard(*this);
   last_refusal_.reset();
   CellVerdict verdict = verdict_of(e);
   verdict.over_radius_edge = true;
-  if (treat_cell_at(e, circumsphere<D>(mesh_->simplex(e.cell)).center, verdict) == Outcome::committed) return true;
+  unexplained_ = true;  // what throws meanwhile ends the run, and this with it
+  bool inserted = treat_cell_at(e, circumsphere<D>(mesh_->simplex(e.cell)).center, verdict) == Outcome::committed;
   cavity_.release();
-  return alive(e) && insert_mean_of_corners(e);
+  inserted = inserted || (alive(e) && insert_mean_of_corners(e, verdict));
+  cavity_.release();
+  unexplained_ = false;
+  return inserted;
 }
 
 template class Refiner<2>;

@@ -56,13 +56,16 @@ std::string Diagnoser<D>::point_words(std::uint32_t v) const {
 template <int D>
 std::string Diagnoser<D>::segment_words(EntityId s) const {
   const DomainSegment& segment = domain_.segments()[s];
+  if (segment.input_facet != no_entity)
+    return "facet " + std::to_string(number(segment.input_facet)) + ", the segment " + edge_words(segment.points);
   if (segment.input == no_entity) return "the edge " + edge_words(segment.points);
   return "segment " + std::to_string(number(segment.input)) + " " + edge_words(segment.points);
 }
 
 template <int D>
 std::uint32_t Diagnoser<D>::segment_line(EntityId s) const {
-  const std::uint32_t input = domain_.segments()[s].input;
+  const std::uint32_t input = domain_.segments()[s].input, facet = domain_.segments()[s].input_facet;
+  if (facet != no_entity) return line(domain_.source().facet_lines, facet);
   return input == no_entity ? 0 : line(domain_.source().segment_lines, input);
 }
 

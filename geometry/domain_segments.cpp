@@ -32,7 +32,7 @@ void DomainBuilder<D>::write_segment(std::size_t begin, std::size_t end) {
     if (!segment.explicit_in_input) {
       segment.explicit_in_input = true;
       segment.marker = marker;
-      if (is_in_plc(use.owner)) segment.input = use.owner;
+      (is_in_plc(use.owner) ? segment.input : segment.input_facet) = item_of(use.owner);
       first = use.owner;
       continue;
     }
@@ -41,26 +41,16 @@ void DomainBuilder<D>::write_segment(std::size_t begin, std::size_t end) {
   out_.segments_.push_back(segment);
 }
 
+// A segment that is a facet of the input goes by the facet's number.
 template <int D>
 void DomainBuilder<D>::note_repeated(std::uint32_t segment, std::uint32_t first) {
-  const bool differ = marker_of(segment) != marker_of(first);
-  const std::string kept = ", but their markers differ; that of the latter is kept";
-  if (is_in_plc(segment) && is_in_plc(first)) {
-    const std::string words = std::to_string(number(segment)) + " = " + std::to_string(number(first));
-    repeated_segments_.add([&] { return words; }, {number(segment), number(first)});
-    if (differ)
-      warn(Errc::degenerate_segment, "segments " + words + kept, plc_.source.segment_lines, segment, {number(segment), number(first)});
-    return;
-  }
-  if constexpr (D == 3) {
-    const auto facet = [&](std::uint32_t s) { return line_facets_[s - plc_.segments.size()]; };
-    const std::uint32_t f = facet(segment);  // facets come last
-    const std::int64_t other = number(is_in_plc(first) ? first : facet(first));
-    const std::string words = std::to_string(number(f)) + " is a segment = " + (is_in_plc(first) ? "segment " : "facet ") +
-                              std::to_string(other);
-    repeated_segments_.add([&] { return "facet " + words; }, {number(f), other});
-    if (differ) warn(Errc::degenerate_segment, "facet " + words + kept, plc_.source.facet_lines, f, {number(f), other});
-  }
+  const auto name = [&](std::uint32_t s) { return (is_in_plc(s) ? "" : "facet ") + std::to_string(number(item_of(s))); };
+  const std::string words = name(segment) + " = " + name(first);
+  const std::initializer_list<std::int64_t> ids{number(item_of(segment)), number(item_of(first))};
+  repeated_segments_.add([&] { return words; }, ids);
+  if (marker_of(segment) != marker_of(first))
+    warn(Errc::degenerate_segment, "segments " + words + ", but their markers differ; that of the latter is kept",
+         is_in_plc(segment) ? plc_.source.segment_lines : plc_.source.facet_lines, item_of(segment), ids);
 }
 
 // An edge of a polygon that no triangle has (outside of its facet, or in a hole of it) is a segment, too.

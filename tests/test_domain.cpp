@@ -251,7 +251,7 @@ TEST(Domain, AFacetOfTwoCornersIsASegment) {
   EXPECT_EQ(d.segments().size(), 13u);
   for (const DomainSegment& s : d.segments()) EXPECT_EQ(s.marker, s.points[0] == 8 ? 5 : 0);
   ASSERT_EQ(d.repairs().size(), 1u);
-  EXPECT_NE(d.repairs()[0].message.find("2 (facet 2 is a segment = segment 0, facet 7 is a segment = segment 0)"), std::string::npos)
+  EXPECT_NE(d.repairs()[0].message.find("2 (facet 2 = 0, facet 7 = 0)"), std::string::npos)
       << d.repairs()[0].message;
   EXPECT_EQ(d.warnings().size(), 2u);
 }

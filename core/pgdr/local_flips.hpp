@@ -85,10 +85,7 @@ class LocalFlips {
   Outcome try_edge(Pools& pools, CellId c, int a, int b, Condition condition);
   Outcome take_ring(CellId c, int a, int b, std::size_t longest, Ring& ring) const;
   bool is_open(const Ring& ring, VertexId u, VertexId w) const;
-  bool in_circle_of_tip(const Ring& ring, VertexId u, VertexId w) const;
   std::optional<std::array<int, 2>> faces_of_flat(CellId c) const;
-  bool in_line(VertexId a, VertexId b, VertexId c) const;
-  bool crosses_in_facet(const Ring& ring, VertexId u, VertexId w) const;
   void take_old(std::vector<CellId> cells);
   int violations();
   bool positive(const Vertices& v) const;

@@ -71,9 +71,9 @@ class LocalRewrap {
 
   bool repair_without(Pools& pools, CellId c, CellId d, VertexId left_out);
   bool in_volume(VertexId v) const;
-  void begin(CellId c, CellId d, VertexId left_out);
+  void begin(std::span<const CellId> cells, VertexId left_out);
   bool grow();
-  bool wrap_again(Pools& pools);
+  bool wrap_again(Pools& pools, bool turns_facets = false);
   bool make_rim_delaunay();
   bool turn(std::size_t i, std::size_t j);
   bool is_subsegment(Index a, Index b) const;

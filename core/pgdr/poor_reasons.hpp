@@ -91,7 +91,7 @@ class PoorReasons {
   const CellBounds<D>* bounds_;
   bool keep_boundary_;
   LocalFlips<D> flips_;
-  double rounding_ = 0;  ///< how far a point may be off its entity
+  double rounding_ = 0;  ///< some ulps of the input
   std::vector<EntityIds> segments_at_;  ///< of each input point
   /// Of the refused elements that are still there: by what; no entities if no pair was at fault.
   std::unordered_map<std::uint32_t, std::optional<EntityPair>> why_;

@@ -196,7 +196,7 @@ class Refiner {
   // refiner_within.cpp
   double room_for(const Point<D>& x, CellId c);
   double squared_distance_to_walls(const Point<D>& x) const;
-  bool insert_mean_of_corners(const Item& e);
+  bool insert_mean_of_corners(const Item& e, const CellVerdict& verdict);
 
   // refiner_selectors.cpp
   class View;

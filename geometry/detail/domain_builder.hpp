@@ -236,10 +236,11 @@ class DomainBuilder {
   std::size_t uses_of(std::size_t begin) const;
   void write_segment(std::size_t begin, std::size_t end);
   bool is_in_plc(std::uint32_t segment) const { return segment < plc_.segments.size(); }
+  std::uint32_t item_of(std::uint32_t segment) const {
+    return is_in_plc(segment) ? segment : line_facets_[segment - plc_.segments.size()];
+  }
   int marker_of(std::uint32_t segment) const {
-    if (is_in_plc(segment)) return plc_.segments[segment].marker;
-    if constexpr (D == 3) return plc_.facets[line_facets_[segment - plc_.segments.size()]].marker;
-    return 0;
+    return is_in_plc(segment) ? plc_.segments[segment].marker : plc_.facets[item_of(segment)].marker;
   }
   void note_repeated(std::uint32_t segment, std::uint32_t first);
   void write_incidences();

@@ -44,7 +44,8 @@ struct DomainSegment {
   std::array<std::uint32_t, 2> points;  ///< indices into Domain::points, lexicographically smaller coordinates first
   int marker = 0;                  ///< of the first such segment of the input; 0 of an edge of facets alone
   bool explicit_in_input = false;  ///< one of Plc::segments, or a facet of one polygon of two corners
-  std::uint32_t input = no_entity;  ///< index in Plc::segments of the first such segment; no_entity: in none
+  std::uint32_t input = no_entity;  ///< index in Plc::segments of the first such segment; no_entity: none
+  std::uint32_t input_facet = no_entity;  ///< in its place, index in Plc::facets where the first one is such a facet
 };
 
 /// Where a triangle of a facet comes from.

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "pgdr/facet_flip.hpp"
+
+#include "pgdr/insertion_rule.hpp"
+#include "pgdr/predicates.hpp"
+
+namespace pgdr {
+namespace {
+
+template <int D>
+bool in_line(const Mesh<D>& mesh, const Domain<D>& domain, VertexId a, VertexId b, VertexId c) {
+  for (const VertexId v : {a, b, c}) {
+    const EntityRef home = mesh.vertex(v).home.entity();
+    if (home.kind == EntityKind::segment && lies_on<D>(domain, mesh.vertex(a).home, home) &&
+        lies_on<D>(domain, mesh.vertex(b).home, home) && lies_on<D>(domain, mesh.vertex(c).home, home))
+      return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+template <int D>
+bool crosses_in_facet(const Mesh<D>& mesh, const Domain<D>& domain, EntityId facet, std::array<VertexId, 2> edge,
+                      std::array<VertexId, 2> tips) {
+  if constexpr (D == 3) {
+    if (in_line(mesh, domain, tips[0], tips[1], edge[0]) || in_line(mesh, domain, tips[0], tips[1], edge[1])) return false;
+    const int axis = domain.facets()[facet].axis;
+    const auto side = [&](VertexId v) { return orient_projected(mesh.point(tips[0]), mesh.point(tips[1]), mesh.point(v), axis); };
+    const Sign first = side(edge[0]);
+    return first != Sign::zero && first == -side(edge[1]);
+  }
+  return false;
+}
+
+bool tip_in_circle(const Mesh<3>& mesh, const Domain<3>& domain, EntityId facet, std::array<VertexId, 2> edge,
+                   std::array<VertexId, 2> tips) {
+  const int axis = domain.facets()[facet].axis;
+  const Point3 *a = &mesh.point(edge[0]), *b = &mesh.point(edge[1]), &c = mesh.point(tips[0]), &d = mesh.point(tips[1]);
+  const Sign turn = orient_projected(*a, *b, c, axis);
+  if (turn == Sign::negative) std::swap(a, b);
+  return turn != Sign::zero && in_circle_perturbed(*a, *b, c, d, axis) == Sign::positive;
+}
+
+template bool crosses_in_facet<2>(const Mesh<2>&, const Domain<2>&, EntityId, std::array<VertexId, 2>, std::array<VertexId, 2>);
+template bool crosses_in_facet<3>(const Mesh<3>&, const Domain<3>&, EntityId, std::array<VertexId, 2>, std::array<VertexId, 2>);
+
+}  // namespace pgdr

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// May the edge between two subfacets of one facet be flipped within the facet, and should it? Exact, in the facet's
+// projection. Pure functions; any thread that may read the vertices.
+#pragma once
+
+#include <array>
+
+#include "pgdr/mesh.hpp"
+
+namespace pgdr {
+
+/// Do the edge and the edge between the tips (the far corners of the two subfacets at it) cross? Three that lie on one input
+/// segment are on a line, whatever rounding made of it.
+template <int D>
+bool crosses_in_facet(const Mesh<D>& mesh, const Domain<D>& domain, EntityId facet, std::array<VertexId, 2> edge,
+                      std::array<VertexId, 2> tips);
+
+/// Does the one tip lie inside the (perturbed) circumcircle of the other and the edge?
+bool tip_in_circle(const Mesh<3>& mesh, const Domain<3>& domain, EntityId facet, std::array<VertexId, 2> edge,
+                   std::array<VertexId, 2> tips);
+
+}  // namespace pgdr
