@@ -3,11 +3,14 @@
 #include "pgdr/labeling.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <span>
 
 #include "detail/automatic_regions.hpp"
+#include "detail/entity_distance.hpp"
+#include "pgdr/bounding_box.hpp"
 #include "pgdr/diagnosis.hpp"
 
 namespace pgdr {
@@ -26,9 +29,76 @@ std::string coordinates(const Point<D>& p) {
   return text;
 }
 
+/// A hole or region seed of the input; one that is in the wrong place is named by its number there.
 template <int D>
-Diagnostic about_seed(Errc code, const std::string& what, const Point<D>& p) {
-  return {code, what + " at " + coordinates<D>(p), {}, 0, {}, {{p[0], p[1], D == 3 ? p[D - 1] : 0.0}}};
+struct Seed {
+  Point<D> point;
+  bool of_hole;
+  std::uint32_t index;  ///< in Plc::holes or Plc::regions
+
+  Diagnostic diagnostic(const Domain<D>& domain, Errc code, const std::string& what) const {
+    const auto& lines = of_hole ? domain.source().hole_lines : domain.source().region_lines;
+    const std::int64_t number = static_cast<std::int64_t>(index) + domain.first_index();
+    const std::string words = (of_hole ? "hole seed " : "region seed ") + std::to_string(number) + " at " + coordinates<D>(point);
+    return {code, words + " " + what, domain.source().file, index < lines.size() ? lines[index] : 0, {number},
+            {{point[0], point[1], D == 3 ? point[D - 1] : 0.0}}};
+  }
+};
+
+template <int D>
+std::vector<Seed<D>> seeds_of(const Domain<D>& domain) {
+  std::vector<Seed<D>> seeds;
+  for (std::uint32_t i = 0; i < domain.holes().size(); ++i) seeds.push_back({domain.holes()[i], true, i});
+  for (std::uint32_t i = 0; i < domain.regions().size(); ++i) seeds.push_back({domain.regions()[i].point, false, i});
+  return seeds;
+}
+
+/// In coordinates of at most 2: squares of others might be 0.
+template <int D>
+bool is_within(std::array<Point<D>, D> s, Point<D> x, double width) {
+  double largest = 0;
+  for (const Point<D>& p : s)
+    for (const double coordinate : p.x) largest = std::max(largest, std::abs(coordinate));
+  const double scale = std::ldexp(1.0, std::min(-std::ilogb(largest), 1022));
+  for (Point<D>& p : s)
+    for (double& coordinate : p.x) coordinate *= scale;
+  for (double& coordinate : x.x) coordinate *= scale;
+  const double scaled = width * scale;
+  return detail::squared_distance_to_simplex<D>(s, x) <= scaled * scaled;
+}
+
+/// Where Steiner points have rounded a wall, a seed on it or some ulps beside it may be on either side of its mesh: the side
+/// would not be the one on which it is in the input.
+/// @throws InputError seed_on_boundary
+template <int D>
+void refuse_seeds_on_walls(const Domain<D>& domain, std::vector<Seed<D>> seeds) {
+  if (seeds.empty()) return;
+  std::stable_sort(seeds.begin(), seeds.end(), [](const Seed<D>& a, const Seed<D>& b) { return a.point[0] < b.point[0]; });
+  const auto visit = [&](const std::array<std::uint32_t, D>& corners, double width, const std::string& wall) {
+    std::array<Point<D>, D> s;
+    for (std::size_t k = 0; k < D; ++k) s[k] = domain.points()[corners[k]];
+    const BoundingBox<D> box = bounding_box<D>(s);
+    auto seed = std::lower_bound(seeds.begin(), seeds.end(), box.low[0] - width,
+                                 [](const Seed<D>& a, double x) { return a.point[0] < x; });
+    for (; seed != seeds.end() && seed->point[0] <= box.high[0] + width; ++seed) {
+      bool near = true;
+      for (int i = 1; i < D; ++i) near &= box.low[i] - width <= seed->point[i] && seed->point[i] <= box.high[i] + width;
+      if (near && is_within<D>(s, seed->point, width))
+        throw InputError(seed->diagnostic(domain, Errc::seed_on_boundary, "lies on " + wall));
+    }
+  };
+  constexpr double ulps = 16 * 0x1p-52;
+  if constexpr (D == 3) {
+    for (EntityId f = 0; f < domain.facets().size(); ++f) {
+      const double width = ulps * domain.facet_magnitude(f) + 2 * domain.facets()[f].planarity_defect;
+      const auto origins = domain.triangle_origins(f);
+      for (std::size_t k = 0; k < origins.size(); ++k)
+        visit(domain.triangles(f)[k], width, "facet " + std::to_string(origins[k].facet + domain.first_index()));
+    }
+  } else {
+    for (EntityId e = 0; e < domain.segments().size(); ++e)
+      visit(domain.segments()[e].points, ulps * domain.segment_magnitude(e), "a segment");
+  }
 }
 
 template <int D>
@@ -47,17 +117,9 @@ class Labeling {
   std::uint32_t component(CellId c) const { return component_[index(c)]; }
   std::span<const std::uint32_t> of_cells() const { return component_; }
 
-  /// Component of the seed; 0 if it lies outside.
-  std::uint32_t find(const Point<D>& seed, const char* what) const {
-    const CellId c = locate<D>(mesh_, seed, delaunay_.cell_at(delaunay_.vertices()[0]));
-    if (!mesh_.is_ghost(c))
-      for (int i = 0; i <= D; ++i) {
-        Simplex<D> s = mesh_.simplex(c);
-        s[i] = seed;
-        if (mesh_.constrained(c, i) && orient<D>(s) == Sign::zero)
-          throw InputError(about_seed<D>(Errc::seed_on_boundary, std::string(what) + " lies on a facet or segment,", seed));
-      }
-    return component(c);
+  /// Component of a point that is on no wall; 0 if it lies outside.
+  std::uint32_t find(const Point<D>& p) const {
+    return component(locate<D>(mesh_, p, delaunay_.cell_at(delaunay_.vertices()[0])));
   }
 
  private:
@@ -96,8 +158,13 @@ class Regions {
   }
 
   RegionTable run(RegionMode mode) {
-    place_holes();
-    place_regions();
+    const std::vector<Seed<D>> seeds = seeds_of(domain_);
+    refuse_seeds_on_walls(domain_, seeds);
+    for (const Seed<D>& seed : seeds) {
+      const std::uint32_t c = labeling_.find(seed.point);
+      if (seed.of_hole) place_hole(seed, c);
+      else place_region(seed, c);
+    }
     if (mode == RegionMode::automatic) {
       remove_voids();
       require_something();
@@ -115,34 +182,27 @@ class Regions {
  private:
   static constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-  void warn(const char* what, const Point<D>& p) {
-    warnings_.push_back(about_seed<D>(Errc::seed_on_boundary, what, p));
+  void warn(const Seed<D>& seed, const char* what) {
+    warnings_.push_back(seed.diagnostic(domain_, Errc::seed_on_boundary, what));
   }
 
-  void place_holes() {
-    for (const Point<D>& hole : domain_.holes()) {
-      const std::uint32_t c = labeling_.find(hole, "the hole seed");
-      if (c == 0) warn("the hole seed lies outside; it was left out,", hole);
-      removed_[c] = true;
-    }
+  void place_hole(const Seed<D>& seed, std::uint32_t c) {
+    if (c == 0) warn(seed, "lies outside; it was left out");
+    removed_[c] = true;
   }
 
-  void place_regions() {
-    for (const RegionSeed<D>& seed : domain_.regions()) {
-      table_.labelled = true;
-      const std::uint32_t c = labeling_.find(seed.point, "the region seed");
-      if (removed_[c]) {
-        warn(c == 0 ? "the region seed lies outside; it was left out,"
-                    : "the region seed lies in a hole; it was left out,", seed.point);
-      } else if (region_[c] == 0) {
-        region_[c] = add(seed.attribute, seed.size > 0 ? seed.size : unbounded);
-        bounded_ = bounded_ || seed.size > 0;
-      } else if (table_.attribute[region_[c]] != seed.attribute) {
-        throw InputError(about_seed<D>(Errc::conflicting_seeds,
-                                       "two region seeds with attributes " + std::to_string(table_.attribute[region_[c]]) +
-                                           " and " + std::to_string(seed.attribute) + " share a region, the second",
-                                       seed.point));
-      }
+  void place_region(const Seed<D>& seed, std::uint32_t c) {
+    table_.labelled = true;
+    const auto& [point, attribute, size] = domain_.regions()[seed.index];
+    if (removed_[c]) {
+      warn(seed, c == 0 ? "lies outside; it was left out" : "lies in a hole; it was left out");
+    } else if (region_[c] == 0) {
+      region_[c] = add(attribute, size > 0 ? size : unbounded);
+      bounded_ = bounded_ || size > 0;
+    } else if (table_.attribute[region_[c]] != attribute) {
+      throw InputError(seed.diagnostic(domain_, Errc::conflicting_seeds,
+                                       "has the attribute " + std::to_string(attribute) + ", another seed in its region " +
+                                           std::to_string(table_.attribute[region_[c]])));
     }
   }
 

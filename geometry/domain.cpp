@@ -118,6 +118,8 @@ void DomainBuilder<D>::report_repairs() {
   points_in_facets_.report(Errc::point_on_facet, "points inside a facet, now points of it", file, out_.repairs_);
   edges_in_facets_.report(Errc::entities_intersect, "edges that run inside a facet, now segments of it", file,
                           out_.repairs_);
+  bent_facets_.report(Errc::bent_facet, "facets that are far from planar, taken as triangles with segments between them",
+                      file, out_.warnings_);
   dropped_flat_.report(Errc::degenerate_facet, "facets with all their points on edges of others, dropped", file,
                        out_.repairs_);
 }

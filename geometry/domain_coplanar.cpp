@@ -70,8 +70,9 @@ bool DomainBuilder<D>::is_joint(std::span<const EdgeUse> uses) const requires(D 
   using Kind = EdgeUse::Kind;
   if (uses.size() < 2 || !uses[1].is_triangle()) return false;
   const EdgeUse &a = uses[0], &b = uses[1];
+  const bool within_facet = a.owner != b.owner && facets_[a.owner].input == facets_[b.owner].input;
   for (const EdgeUse& use : uses.subspan(2))
-    if (use.kind != Kind::polygon ||
+    if (use.kind != Kind::polygon || within_facet ||
         (use.owner != a.owner && use.owner != b.owner && !facets_[use.owner].mixed))
       return false;
   if (a.owner == b.owner) return a.kind == Kind::diagonal && b.kind == Kind::diagonal;
@@ -96,13 +97,13 @@ bool DomainBuilder<D>::is_flat(std::span<const EdgeUse> joint) const requires(D 
 /// The ends of a joint's edge, and the corners opposite it.
 template <int D>
 std::array<Point<D>, 4> DomainBuilder<D>::corners(std::span<const EdgeUse> joint) const requires(D == 3) {
-  const auto [e0, e1] = detail::edge_of(joint[0].key);
+  const detail::PlanarEdge e = detail::edge_of(joint[0].key);
   const auto apex = [&](const EdgeUse& use) {
     const Triangle& t = triangles_[use.triangle];
-    return t[0] ^ t[1] ^ t[2] ^ e0 ^ e1;
+    return t[0] ^ t[1] ^ t[2] ^ e[0] ^ e[1];
   };
   const auto& p = out_.points_;
-  return {p[e0], p[e1], p[apex(joint[0])], p[apex(joint[1])]};
+  return {p[e[0]], p[e[1]], p[apex(joint[0])], p[apex(joint[1])]};
 }
 
 template <int D>

@@ -11,6 +11,13 @@
 #include "pgdr/predicates.hpp"
 
 namespace pgdr {
+namespace {
+
+// A polygon may be off its plane by this part of its extent, as files with few digits leave it; what is bent by more is
+// several facets. TetGen takes triangles for coplanar that meet at up to 0.1 degrees, about 1.7e-3 of their extent.
+constexpr double most_bend = 1e-4;
+
+}  // namespace
 using detail::CleanFacet;
 using detail::PlanarEdge;
 using detail::PlanarResult;
@@ -120,17 +127,22 @@ bool DomainBuilder<D>::add_triangle(std::uint32_t f) requires(D == 3) {
   if (facet.polygons.size() != 1 || facet.polygons[0].size() != 3 || !facet.holes.empty()) return false;
   Triangle t;
   for (std::size_t k = 0; k < 3; ++k) t[k] = out_.point_of_input_[facet.polygons[0][k]];
-  const Point3 &a = out_.points_[t[0]], &b = out_.points_[t[1]], &c = out_.points_[t[2]];
-  for (const int axis : detail::axes_by_size(normal(t))) {
-    const Sign side = orient_projected(a, b, c, axis);
-    if (side == Sign::zero) continue;
-    if (side == Sign::negative) std::swap(t[1], t[2]);
-    facets_.push_back({f, static_cast<std::uint32_t>(triangles_.size()), 1, axis, true, 0, side == Sign::negative});
-    triangles_.push_back(t);
-    masks_.push_back(7);
-    return true;
-  }
-  return false;  // not reached: it would be flat
+  const auto [axis, side] = visible_side(t);
+  if (side < 0) std::swap(t[1], t[2]);
+  facets_.push_back({f, static_cast<std::uint32_t>(triangles_.size()), 1, axis, true, 0, side < 0});
+  triangles_.push_back(t);
+  masks_.push_back(7);
+  return true;
+}
+
+/// The axis along which most is seen of a triangle that is not flat, and its orientation then: 1 or -1.
+template <int D>
+std::pair<int, int> DomainBuilder<D>::visible_side(const Triangle& t) const requires(D == 3) {
+  const auto& p = out_.points_;
+  for (const int axis : detail::axes_by_size(normal(t)))
+    if (const Sign side = orient_projected(p[t[0]], p[t[1]], p[t[2]], axis); side != Sign::zero)
+      return {axis, side == Sign::positive ? 1 : -1};
+  throw ResourceError({.code = Errc::internal, .message = "a triangle of a facet is flat"});
 }
 
 template <int D>
@@ -273,6 +285,7 @@ void DomainBuilder<D>::add_polygons(std::uint32_t f) requires(D == 3) {
   out.count = static_cast<std::uint32_t>(triangles.size());
   measure_planarity(out, facet);
   out.reversed = is_reversed(facet);
+  if (out.defect > most_bend * extent(facet)) return add_pieces(out, facet);
   for (const PlanarEdge& e : facet.edges) polygon_edges_.push_back({e, static_cast<std::uint32_t>(facets_.size())});
   facets_.push_back(out);
 }
@@ -304,24 +317,10 @@ void DomainBuilder<D>::constrain_explicit(const CleanFacet& facet) requires(D ==
     }
 }
 
-template <int D>
-void DomainBuilder<D>::measure_planarity(TriangulatedFacet& facet, const CleanFacet& clean) requires(D == 3) {
-  const auto area = [&](const Triangle& t) { return std::fabs(normal(t)[static_cast<std::size_t>(facet.axis)]); };
-  const auto begin = triangles_.begin() + facet.first;
-  const auto largest = std::max_element(begin, triangles_.end(),
-                                        [&](const Triangle& s, const Triangle& t) { return area(s) < area(t); });
-  const Point3 &a = out_.points_[(*largest)[0]], &b = out_.points_[(*largest)[1]], &c = out_.points_[(*largest)[2]];
-  for (const std::uint32_t v : clean.vertices) {
-    const Point3& p = out_.points_[v];
-    if (p == a || p == b || p == c || orient3d(a, b, c, p) == Sign::zero) continue;
-    facet.planar = false;
-    facet.defect = std::max(facet.defect, detail::plane_distance(a, b, c, p));
-  }
-}
-
 template void DomainBuilder<3>::triangulate_facets();
 template void DomainBuilder<3>::fail_degenerate(std::uint32_t, const std::string&,
                                                 const std::vector<std::uint32_t>&) const;
 template std::array<double, 3> DomainBuilder<3>::normal(const Triangle&) const;
+template std::pair<int, int> DomainBuilder<3>::visible_side(const Triangle&) const;
 
 }  // namespace pgdr

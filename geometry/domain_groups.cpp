@@ -54,6 +54,7 @@ void DomainBuilder<D>::drop_repeated_facets() requires(D == 3) {
     }
   std::vector<std::uint32_t> new_index(facets_.size());
   std::size_t kept = 0;
+  std::uint32_t last = no_entity;
   for (std::uint32_t f = 0; f < facets_.size(); ++f) {
     new_index[f] = static_cast<std::uint32_t>(kept);
     if (same[f] == no_entity) {
@@ -61,6 +62,7 @@ void DomainBuilder<D>::drop_repeated_facets() requires(D == 3) {
       continue;
     }
     const std::uint32_t mine = facets_[f].input, other = facets_[new_index[same[f]]].input;
+    if (std::exchange(last, mine) == mine) continue;  // another part of it
     const std::string words = std::to_string(number(mine)) + " = " + std::to_string(number(other));
     repeated_facets_.add([&] { return words; }, {number(mine), number(other)});
     if (plc_.facets[mine].marker != plc_.facets[other].marker)

@@ -198,7 +198,7 @@ void DomainBuilder<D>::choose_scale() {
   double largest = 0;
   for (const Point<D>& p : out_.points_)
     for (const double x : p.x) largest = std::max(largest, std::fabs(x));
-  scale_ = std::ldexp(1.0, std::min(-std::ilogb(largest), 1022));
+  if (largest > 0) scale_ = std::ldexp(1.0, std::min(-std::ilogb(largest), 1022));
 }
 
 #define PGDR_INSTANTIATE(D)                              \

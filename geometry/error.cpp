@@ -46,6 +46,7 @@ std::string_view name(Errc code) {
     case Errc::open_boundary: return "open_boundary";
     case Errc::non_manifold: return "non_manifold";
     case Errc::inconsistent_orientation: return "inconsistent_orientation";
+    case Errc::bent_facet: return "bent_facet";
     case Errc::small_angle: return "small_angle";
     case Errc::beyond_theory: return "beyond_theory";
     case Errc::cancelled: return "cancelled";

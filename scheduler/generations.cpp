@@ -88,7 +88,7 @@ void Generations<D>::split_leaves(std::vector<Node> candidates) {
     works_.grow();
     std::vector<double> seconds(parents.size(), 0.0);
     const auto start = Clock::now();
-    auto since = [](Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); };
+    auto since = [](typename Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); };
     execute(independent, [&](VisitGraph::Visit v) {
       const auto split_start = Clock::now();
       works_.hand_down(context_.mesh, parents[v], generation_);

@@ -207,11 +207,11 @@ TEST(CheckInput2, OpenCurvesEncloseNothing) {
   EXPECT_FALSE(input.wants_point(2));
 }
 
-// A polygon may be far off its plane. That its points are uncertain says rounding alone, or no violation beside it would count.
+// A polygon may be off its plane by far more than rounding. That its points are uncertain says rounding alone, or no violation beside it would count.
 TEST(SlackOfVertices, OfABentFacetIsRoundingHoweverBentItIs) {
   Plc<3> plc;
   for (int i = 0; i < 8; ++i) plc.points.push_back({{double(i & 1), double(i >> 1 & 1), double(i >> 2 & 1)}});
-  plc.points[7][2] = 1.25;
+  plc.points[7][2] = 1 + 0x1p-14;
   for (const auto& f : {std::array{0u, 1u, 3u, 2u}, {4u, 5u, 7u, 6u}, {0u, 1u, 5u, 4u}, {2u, 3u, 7u, 6u}, {0u, 2u, 6u, 4u}, {1u, 3u, 7u, 5u}})
     plc.facets.push_back({{{f.begin(), f.end()}}, {}, 0});
   const Domain<3> domain(plc);
@@ -219,13 +219,13 @@ TEST(SlackOfVertices, OfABentFacetIsRoundingHoweverBentItIs) {
   for (EntityId f = 0; f < domain.facets().size(); ++f)
     if (!domain.facets()[f].planar) bent = f;
   ASSERT_NE(bent, no_entity);
-  EXPECT_GT(domain.facets()[bent].planarity_defect, 0.1);
+  EXPECT_GT(domain.facets()[bent].planarity_defect, 0x1p-16);
   const std::vector<EntityRef> homes{{EntityKind::vertex, 0}, {EntityKind::vertex, 7}, {EntityKind::facet, bent}};
   const auto slack = checking::slack_of_vertices<3>(domain, homes, 2);
   EXPECT_EQ(slack[0], 0);
   EXPECT_EQ(slack[1], slack[2]);
   EXPECT_GT(slack[1], 0);
-  EXPECT_LE(slack[1], 2 * 1.25 * 0x1p-52);
+  EXPECT_LE(slack[1], 2 * (1 + 0x1p-14) * 0x1p-52);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "detail/planar_cdt.hpp"
 #include "domain_plcs.hpp"
+#include "pgdr/diagnosis.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/predicates.hpp"
 
@@ -231,6 +232,47 @@ TEST(Domain, InnerSegmentAndIsolatedPoint) {
 }
 
 // As .poly files have loose segments. The facets behind it keep their numbers.
+TEST(Domain, AFacetThatIsFarFromPlanarIsItsTriangles) {
+  Plc<3> plc = box();
+  plc.facets[1].marker = 4;
+  plc.points[6][2] = 3 + 0x1p-14;
+  Domain<3> d(plc);
+  EXPECT_EQ(d.facets().size(), 6u);
+  EXPECT_TRUE(d.warnings().empty());
+  plc.points[6][2] = 3.5;
+  for (const bool twice : {false, true}) {
+    if (twice) plc.facets.push_back(plc.facets[1]);
+    d = Domain<3>(plc);
+    expect_consistent(d);
+    EXPECT_EQ(d.facets().size(), 7u);
+    EXPECT_EQ(d.segments().size(), 13u);
+    for (const DomainFacet& f : d.facets()) EXPECT_TRUE(f.planar);
+    EXPECT_EQ(std::ranges::count(d.facets(), 4, &DomainFacet::marker), 2);
+    ASSERT_EQ(d.warnings().size(), 1u);
+    EXPECT_EQ(d.warnings()[0].code, Errc::bent_facet);
+    EXPECT_EQ(d.warnings()[0].ids[0], 1);
+    EXPECT_EQ(d.repairs().size(), twice ? 1u : 0u);
+  }
+  EXPECT_EQ(d.repairs()[0].ids, (std::vector<std::int64_t>{6, 1}));
+}
+
+// A house whose roof is one polygon, bent at its valley.
+TEST(Domain, WhatIsPlanarOfABentFacetStaysOne) {
+  Plc<3> plc = box();
+  plc.points.push_back({1, 0, 2.5});
+  plc.points.push_back({1, 1, 2.5});
+  plc.facets.clear();
+  for (const std::vector<std::uint32_t>& polygon : std::initializer_list<std::vector<std::uint32_t>>{
+           {3, 2, 1, 0}, {4, 8, 5, 6, 9, 7}, {0, 1, 5, 8, 4}, {2, 3, 7, 9, 6}, {1, 2, 6, 5}, {3, 0, 4, 7}})
+    plc.facets.push_back({{polygon}, {}, 0});
+  const Domain<3> d(plc);
+  expect_consistent(d);
+  EXPECT_EQ(d.facets().size(), 7u);
+  EXPECT_TRUE(has_segment(d, 8, 9));
+  EXPECT_EQ(d.warnings().size(), 1u);
+  EXPECT_EQ(diagnose(d)[Finding::inconsistent_orientation].count, 0u);
+}
+
 TEST(Domain, AFacetOfTwoCornersIsASegment) {
   Plc<3> plc = box();
   plc.points.insert(plc.points.end(), {{0.5, 0.25, 0.25}, {1.5, 0.25, 0.75}});

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "parallel_support.hpp"
 #include "pgdr/diagnosis.hpp"
@@ -234,6 +235,67 @@ TEST(Seeds, NothingLeft) {
       EXPECT_EQ(e.code(), Errc::encloses_nothing);
       EXPECT_NE(e.diagnostic().message.find("hole seed"), std::string::npos);
     }
+  }
+}
+
+// The first refused with a mesh that the checker did not agree with: the seed is on an edge of a triangle inside, in rounded
+// Steiner points no more.
+TEST(Seeds, OnWallsAreRefused) {
+  Plc<3> plc = test::boxes({{{{0, 0, 0}}, {{2, 2, 2}}}});
+  for (const Point3& p : {Point3{{0, 0, 0}}, Point3{{1, 1, 1}}, Point3{{2, 1, 0}}}) plc.points.push_back(p);
+  const auto n = static_cast<std::uint32_t>(plc.points.size());
+  plc.facets.push_back({{{n - 3, n - 2, n - 1}}, {}, 1});
+  plc.source.file = "walls.poly";
+  plc.source.hole_lines = {30};
+  plc.source.region_lines = {40, 41};
+  plc.first_index = 1;
+  const auto refusal = [&](const Point3& p, bool hole, double scale) -> std::optional<Diagnostic> {
+    Plc<3> with = plc;
+    if (hole) with.holes = {p};
+    else with.regions = {{{{0.5, 1.5, 1.5}}, 5, 0}, {p, 5, 0}};
+    with = test::oblique(with);
+    test::for_each_point(with, [&](Point3& q) {
+      for (double& x : q.x) x *= scale;
+    });
+    try {
+      RefineOptions<3> options;
+      options.max_vertices = 200;
+      refine<3>(with, options);
+      return {};
+    } catch (const InputError& e) {
+      return e.diagnostic();
+    }
+  };
+  for (const double scale : {1.0, 0x1p-700, 0x1p+700})
+    for (const bool hole : {false, true}) {
+      for (const Point3& p : {Point3{{0.25, 0.25, 0.25}}, Point3{{1, 0.75, 0.5}}, Point3{{2, 0.5, 0.5}}, Point3{{2, 2, 1}},
+                              Point3{{1 + 0x1p-51, 0.75, 0.5}}}) {
+        const auto d = refusal(p, hole, scale);
+        ASSERT_TRUE(d) << p[0];
+        EXPECT_EQ(d->code, Errc::seed_on_boundary);
+        EXPECT_EQ(d->file, "walls.poly");
+        EXPECT_EQ(d->line, hole ? 30u : 41u);
+        EXPECT_EQ(d->ids, (std::vector<std::int64_t>{hole ? 1 : 2}));
+      }
+      EXPECT_EQ(refusal({{1, 0.75, 0.5 + 0x1p-40}}, false, scale), std::nullopt);
+    }
+}
+
+// A polygon far from planar is the union of two triangles; a mesh that cut across their fold had another volume.
+TEST(Facets, TheFoldOfABentOneIsKept) {
+  Plc<3> plc = test::boxes({{{{0, 0, 0}}, {{1, 1, 1}}}});
+  for (Point3& p : plc.points)
+    if (p == Point3{{1, 1, 1}}) p[2] = 1.3;
+  for (const double size : {0.1, 0.4}) {
+    const auto out = refined<3>(plc, RegionMode::automatic, "bent", true, size);
+    double volume = 0;
+    for (const auto& c : out.result.mesh.cells) {
+      const auto side = [&](int k, int i) { return out.result.mesh.points[c[k]][i % 3] - out.result.mesh.points[c[0]][i % 3]; };
+      double det = 0;
+      for (int i = 0; i < 3; ++i) det += side(1, i) * (side(2, i + 1) * side(3, i + 2) - side(2, i + 2) * side(3, i + 1));
+      volume += std::abs(det) / 6;
+    }
+    EXPECT_TRUE(std::abs(volume - 1.05) < 1e-12 || std::abs(volume - 1.1) < 1e-12) << volume;
   }
 }
 

@@ -38,6 +38,13 @@ inline double squared_distance_to_triangle(const Point3& a, const Point3& b, con
   return std::min(edges, height * height / square);
 }
 
+/// Of an edge (2D) or a triangle (3D).
+template <int D>
+double squared_distance_to_simplex(const std::array<Point<D>, D>& s, const Point<D>& x) {
+  if constexpr (D == 2) return squared_distance_to_edge<2>(s[0], s[1], x);
+  else return squared_distance_to_triangle(s[0], s[1], s[2], x);
+}
+
 /// @pre a segment or a facet.
 template <int D>
 double squared_distance_to(const Domain<D>& domain, EntityRef entity, const Point<D>& x) {

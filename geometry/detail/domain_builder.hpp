@@ -62,7 +62,7 @@ struct RepairList {
   void report(Errc code, const std::string& what, const std::string& file, std::vector<Diagnostic>& out);
 };
 
-/// An input facet as triangles, before grouping.
+/// An input facet as triangles, or a planar part of one that is bent, before grouping.
 struct TriangulatedFacet {
   std::uint32_t input = 0;  ///< index in Plc::facets
   std::uint32_t first = 0, count = 0;
@@ -176,13 +176,19 @@ class DomainBuilder {
   bool split_at_own_points(detail::CleanFacet& facet) requires(D == 3);
   void carve(std::uint32_t f) requires(D == 3);
   void constrain_explicit(const detail::CleanFacet& facet) requires(D == 3);
-  void measure_planarity(detail::TriangulatedFacet& facet, const detail::CleanFacet& clean) requires(D == 3);
   bool is_reversed(const detail::CleanFacet& facet) const requires(D == 3);
   std::array<double, 3> facet_normal(const detail::CleanFacet& facet) const requires(D == 3);
   [[noreturn]] void fail_facet(std::uint32_t f, const detail::PlanarResult& result) const requires(D == 3);
   [[noreturn]] void fail_degenerate(std::uint32_t f, const std::string& why,
                                     const std::vector<std::uint32_t>& vertices) const requires(D == 3);
   std::array<double, 3> normal(const Triangle& t) const requires(D == 3);
+  std::pair<int, int> visible_side(const Triangle& t) const requires(D == 3);
+
+  // domain_bent.cpp
+  void measure_planarity(detail::TriangulatedFacet& facet, const detail::CleanFacet& clean) requires(D == 3);
+  double extent(const detail::CleanFacet& clean) const requires(D == 3);
+  std::vector<std::uint32_t> planar_parts(const detail::TriangulatedFacet& whole) requires(D == 3);
+  void add_pieces(const detail::TriangulatedFacet& whole, const detail::CleanFacet& clean) requires(D == 3);
 
   // domain_contacts.cpp
   void resolve_contacts();
@@ -278,7 +284,7 @@ class DomainBuilder {
   std::vector<std::pair<EntityId, EntityId>> facet_segment_;     // (facet, segment)
   detail::PlanarTriangulation planar_;
   detail::RepairList merged_, negative_zeros_, dropped_edges_, repeated_segments_, repeated_facets_, points_on_edges_,
-      points_in_facets_, edges_in_facets_, dropped_flat_;
+      points_in_facets_, edges_in_facets_, dropped_flat_, bent_facets_;
 };
 
 }  // namespace pgdr

@@ -5,11 +5,13 @@
 // refines or checks a mesh speaks of the entities of a Domain. Immutable once made; any number of threads may read it.
 //
 // Definitions (3D). A polygon is the union of the triangles of one deterministic triangulation in its projection; its
-// planarity defect is reported. Facets that are coplanar, exactly or up to Plc::precision, share an edge used by just
-// these two, and have equal markers, are one facet. A segment is an edge that bounds a facet, is used by one or by more than two triangles, is
-// explicit in the input (a segment, or an edge of a polygon: also one inside its facet), or lies between two facets.
-// Diagonals inside one input polygon are never segments, also where the polygon is not exactly planar. A segment of the
-// input from one point of a polygon facet to another, through the inside of the facet, is one of its segments.
+// planarity defect is reported. A polygon with points off its plane by more than 1e-4 of its extent is several facets,
+// one for each exactly planar part of this union. Facets that are coplanar, exactly or up to Plc::precision, share an
+// edge used by just these two, and have equal markers, are one facet. A segment is an edge that bounds a facet, is used
+// by one or by more than two triangles, is explicit in the input (a segment, or an edge of a polygon: also one inside its
+// facet), or lies between two facets. Diagonals inside one input polygon that is one facet are never segments, also where
+// it is not exactly planar. A segment of the input from one point of a polygon facet to another, through the inside of
+// the facet, is one of its segments.
 //
 // Pieces that meet exactly where they have no corner in common are fitted to each other, which changes no point of the
 // union of all: a point inside a segment or an edge of a facet splits it, and the facets with it; a point inside a facet

@@ -48,6 +48,7 @@ enum class Errc {
   open_boundary,
   non_manifold,
   inconsistent_orientation,
+  bent_facet,  ///< a polygon whose points are far off any plane
   small_angle,
   beyond_theory,  ///< a bound below the proved one is asked for
   // files
