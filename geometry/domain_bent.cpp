@@ -66,8 +66,8 @@ std::vector<std::uint32_t> DomainBuilder<D>::planar_parts(const TriangulatedFace
     const Triangle& t = triangles_[whole.first + k / 3];
     const std::uint32_t across = triangles_[whole.first + j / 3][j % 3];
     if (orient3d(p[t[0]], p[t[1]], p[t[2]], p[across]) == Sign::zero) {
-      const auto [low, high] = std::minmax(root(k / 3), root(j / 3));
-      least[high] = low;
+      const std::uint32_t a = root(k / 3), b = root(j / 3);
+      least[std::max(a, b)] = std::min(a, b);
     } else {
       mask |= static_cast<std::uint8_t>(1u << k % 3);
       masks_[whole.first + j / 3] |= static_cast<std::uint8_t>(1u << j % 3);
