@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pgdr/facet_flip.hpp"
 
+#include <utility>
+
 #include "pgdr/insertion_rule.hpp"
 #include "pgdr/predicates.hpp"
 

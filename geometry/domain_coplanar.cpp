@@ -70,6 +70,7 @@ bool DomainBuilder<D>::is_joint(std::span<const EdgeUse> uses) const requires(D 
   using Kind = EdgeUse::Kind;
   if (uses.size() < 2 || !uses[1].is_triangle()) return false;
   const EdgeUse &a = uses[0], &b = uses[1];
+  // Both are planar parts of one bent polygon, of which an edge that is drawn inside of it is a segment.
   const bool within_facet = a.owner != b.owner && facets_[a.owner].input == facets_[b.owner].input;
   for (const EdgeUse& use : uses.subspan(2))
     if (use.kind != Kind::polygon || within_facet ||

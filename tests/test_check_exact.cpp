@@ -207,7 +207,8 @@ TEST(CheckInput2, OpenCurvesEncloseNothing) {
   EXPECT_FALSE(input.wants_point(2));
 }
 
-// A polygon may be off its plane by far more than rounding. That its points are uncertain says rounding alone, or no violation beside it would count.
+// A polygon may be off its plane by far more than rounding. That its points are uncertain says rounding alone, or no violation
+// beside it would count.
 TEST(SlackOfVertices, OfABentFacetIsRoundingHoweverBentItIs) {
   Plc<3> plc;
   for (int i = 0; i < 8; ++i) plc.points.push_back({{double(i & 1), double(i >> 1 & 1), double(i >> 2 & 1)}});

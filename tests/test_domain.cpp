@@ -231,7 +231,6 @@ TEST(Domain, InnerSegmentAndIsolatedPoint) {
     EXPECT_TRUE(d.segments()[s].marker != 5 || d.facets_of_segment(s).empty());
 }
 
-// As .poly files have loose segments. The facets behind it keep their numbers.
 TEST(Domain, AFacetThatIsFarFromPlanarIsItsTriangles) {
   Plc<3> plc = box();
   plc.facets[1].marker = 4;
@@ -273,6 +272,7 @@ TEST(Domain, WhatIsPlanarOfABentFacetStaysOne) {
   EXPECT_EQ(diagnose(d)[Finding::inconsistent_orientation].count, 0u);
 }
 
+// As .poly files have loose segments. The facets behind it keep their numbers.
 TEST(Domain, AFacetOfTwoCornersIsASegment) {
   Plc<3> plc = box();
   plc.points.insert(plc.points.end(), {{0.5, 0.25, 0.25}, {1.5, 0.25, 0.75}});
