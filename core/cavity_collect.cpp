@@ -333,17 +333,35 @@ bool Cavity<D>::is_rim(const PartFace& f, VertexId a, VertexId b) const {
   return true;
 }
 
-/// Gives the doomed cells back, and what is no longer connected to the protected cells through faces.
+/// Gives back the doomed cells, then those that have a face on the cavity's boundary thereby that p does not see, and so on.
+/// What is left is the same in any order: a face on the boundary stays there. False if a protected cell is among them.
 template <int D>
-auto Cavity<D>::drop_cells(const std::vector<CellId>& doomed) -> Status {
+bool Cavity<D>::peel(std::vector<CellId>& doomed) {
+  for (std::size_t i = 0; i < doomed.size(); ++i) {
+    const CellId c = doomed[i];
+    if (!mesh_->marked(c)) continue;
+    if (std::find(protected_.begin(), protected_.end(), c) != protected_.end()) return false;
+    mesh_->unmark(c);
+    for (int f = 0; f <= D; ++f) {
+      const Link next = mesh_->cell(c).links[f];
+      if (!next || !mesh_->marked(next.cell())) continue;
+      // A face of the part leaves it; another constrained face has been on the boundary before.
+      const bool known = mesh_->constrained(c, f) && !in_part(c, f);
+      if (!known && !visible_exactly({next.cell(), next.face()})) doomed.push_back(next.cell());
+    }
+  }
+  return true;
+}
+
+/// Gives the doomed cells back, and what they hide, or what is no longer connected to the protected cells through faces.
+template <int D>
+auto Cavity<D>::drop_cells(std::vector<CellId>& doomed) -> Status {
   shrunk_ = true;
-  for (const CellId c : doomed) {
-    if (std::find(protected_.begin(), protected_.end(), c) != protected_.end()) {
+  if (!peel(doomed)) {
+    for (const CellId c : protected_)
       for (const VertexId v : mesh_->cell(c).vertices)
         if (v != infinite_vertex && mesh_->point(v) == point_) return Status::duplicate;
-      return Status::not_star_shaped;
-    }
-    mesh_->unmark(c);
+    return Status::not_star_shaped;
   }
   // A part face with a cell given back leaves the part, which may cut off further cells, and so on.
   do {

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "detail/bent_facets.hpp"
 #include "pgdr/insertion_rule.hpp"
 #include "pgdr/predicates.hpp"
 
@@ -39,10 +40,12 @@ bool crosses_in_facet(const Mesh<D>& mesh, const Domain<D>& domain, EntityId fac
 bool tip_in_circle(const Mesh<3>& mesh, const Domain<3>& domain, EntityId facet, std::array<VertexId, 2> edge,
                    std::array<VertexId, 2> tips) {
   const int axis = domain.facets()[facet].axis;
-  const Point3 *a = &mesh.point(edge[0]), *b = &mesh.point(edge[1]), &c = mesh.point(tips[0]), &d = mesh.point(tips[1]);
-  const Sign turn = orient_projected(*a, *b, c, axis);
+  const auto point = [&](VertexId v) { return detail::levelled(domain, facet, mesh.point(v)); };
+  Point3 a = point(edge[0]), b = point(edge[1]);
+  const Point3 c = point(tips[0]), d = point(tips[1]);
+  const Sign turn = orient_projected(a, b, c, axis);
   if (turn == Sign::negative) std::swap(a, b);
-  return turn != Sign::zero && in_circle_perturbed(*a, *b, c, d, axis) == Sign::positive;
+  return turn != Sign::zero && in_circle_perturbed(a, b, c, d, axis) == Sign::positive;
 }
 
 template bool crosses_in_facet<2>(const Mesh<2>&, const Domain<2>&, EntityId, std::array<VertexId, 2>, std::array<VertexId, 2>);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <unordered_map>
 
+#include "detail/bent_facets.hpp"
 #include "detail/planar_cdt.hpp"
 #include "detail/recovery_state.hpp"
 #include "detail/vectors.hpp"
@@ -30,8 +31,6 @@ InputError not_a_plane_graph(const Domain<3>& domain, EntityId f, const Mesh<3>&
   for (const VertexId v : at) d.points.push_back(mesh.point(v).x);
   return InputError(std::move(d));
 }
-
-Point2 projected(const Point3& p, int axis) { return {p[(axis + 1) % 3], p[(axis + 2) % 3]}; }
 
 /// Holds the ball, and what rounding may take for a part of it; all of space if the ball is not finite.
 Box<3> box_around(const Ball<3>& ball) {
@@ -91,7 +90,7 @@ void FacetPatches::triangulate(EntityId facet) {
   auto add = [&](VertexId v) {
     const auto [at, fresh] = local.try_emplace(index(v), static_cast<std::uint32_t>(points.size()));
     if (fresh) {
-      points.push_back(mesh_->point(v));
+      points.push_back(levelled(*domain_, facet, mesh_->point(v)));
       vertices.push_back(v);
     }
     return at->second;
@@ -165,14 +164,18 @@ bool FacetPatches::recover_once(const std::function<bool()>& stop) {
   return any;
 }
 
+Point3 FacetPatches::centroid_of(const Triangle& t) const {
+  Point3 c;
+  for (int i = 0; i < 3; ++i) c[i] = mesh_->point(t[0])[i] / 3 + mesh_->point(t[1])[i] / 3 + mesh_->point(t[2])[i] / 3;
+  return c;
+}
+
 /// The first subsegment of the facet that x lies beyond as seen from triangle t, else the first whose diametral ball contains
 /// x. `tree` is over the rim's balls in the facet's projection.
 auto FacetPatches::in_the_way(const std::vector<Subsegment>& rim, const BoxTree<2>& tree, EntityId facet, const Triangle& t,
                               const Point3& x) const -> std::optional<Subsegment> {
   const int axis = domain_->facets()[facet].axis;
-  Point3 from{};
-  for (int i = 0; i < 3; ++i)
-    from[i] = mesh_->point(t[0])[i] / 3 + mesh_->point(t[1])[i] / 3 + mesh_->point(t[2])[i] / 3;
+  const Point3 from = centroid_of(t);
   std::size_t crossed = rim.size(), encroached = rim.size();
   auto sight = Box<2>::around(projected(from, axis));
   sight.add(projected(x, axis));
@@ -198,6 +201,16 @@ void FacetPatches::add_inner_point(EntityId facet, VertexId v) {
   inner.push_back(v);
   changed_[facet] = true;
   ++points_;
+}
+
+/// At x, the triangle's circumcentre; where this is a vertex of the facet already, as in facets that are planar only within
+/// rounding, whose triangles need not have empty circles, at the centroid.
+VertexId FacetPatches::insert_inside(EntityId facet, const Candidate& c, const Point3& x) {
+  const Home home(EntityKind::facet, facet);
+  const VertexId v = delaunay_->insert(x, home, c.triangle[0], c.least);
+  const auto& inner = inner_points_[facet];
+  if (v == no_vertex || !std::binary_search(inner.begin(), inner.end(), v)) return v;
+  return delaunay_->insert(point_on_facet(*domain_, facet, centroid_of(c.triangle)), home, c.triangle[0], c.least);
 }
 
 /// Largest triangles first; a triangle that a point of this round has reached already waits for the next. Trees of boxes say
@@ -226,9 +239,9 @@ bool FacetPatches::split_triangles(EntityId facet, std::vector<Candidate> candid
       if (c.least > 0 && !may_split(*s)) continue;
       if (!chains_->split(*s, c.least)) continue;  // another triangle has asked for it, or it is too near
       place(diametral_ball<3>(mesh_->point(s->a), mesh_->point(s->b)).center);
-    } else if (const VertexId v = delaunay_->insert(x, Home(EntityKind::facet, facet), c.triangle[0], c.least); v != no_vertex) {
+    } else if (const VertexId v = insert_inside(facet, c, x); v != no_vertex) {
       add_inner_point(facet, v);
-      place(x);
+      place(mesh_->point(v));
     }
   }
   return any;

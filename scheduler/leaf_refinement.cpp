@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "detail/bent_facets.hpp"
 #include "detail/cell_parts.hpp"
 #include "pgdr/bounding_box.hpp"
 
@@ -19,6 +20,16 @@ Orthtree<D> tree_over(std::span<const Point<D>> points) {
   return Orthtree<D>(box.low, box.high);
 }
 
+/// Subfacets that are Delaunay in the projection of an uneven facet may have violations beside them though no cavity was cut
+/// back.
+template <int D>
+bool has_uneven_facets(const Domain<D>& domain) {
+  if constexpr (D == 3)
+    for (EntityId f = 0; f < domain.facets().size(); ++f)
+      if (is_uneven(domain, f)) return true;
+  return false;
+}
+
 }  // namespace
 
 template <int D>
@@ -28,6 +39,7 @@ LeafRefinement<D>::LeafRefinement(RefineContext<D>& context, typename Mesh<D>::P
       tree_(tree_over<D>(context.domain.points())),
       works_(tree_),
       vertices_(vertices_so_far),
+      uneven_(has_uneven_facets(context.domain)),
       numbers_(options_.executor) {
   workers_.push_back(std::make_unique<Refiner<D>>(context, std::move(pools)));
 }
@@ -84,6 +96,15 @@ std::vector<Entry<D>> LeafRefinement<D>::violations_everywhere() {
   for (const auto& part : parts) violations_.insert(violations_.end(), part.begin(), part.end());
   sort_by_vertices(violations_);
   return violations_;
+}
+
+/// Of a run that has seen any, or should look for them.
+template <int D>
+std::vector<Entry<D>> LeafRefinement<D>::known_violations() {
+  if (!violations_seen_ && !uneven_) return {};
+  std::vector<Entry<D>> all = violations_everywhere();
+  violations_seen_ = violations_seen_ || !all.empty();
+  return all;
 }
 
 /// In an order that does not depend on timing, as the slots of cells do.
@@ -163,10 +184,10 @@ StopCause LeafRefinement<D>::run() {
     const std::uint64_t before = counts_.committed;
     stop = drain();
     if (stop != StopCause::finished || counts_.committed == before) break;
-    if (violations_seen_)
-      for (const Entry<D>& e : violations_everywhere()) relist(e);
+    for (const Entry<D>& e : known_violations()) relist(e);
     if (!relist_refused()) break;
   }
+  if (stop == StopCause::finished) known_violations();
   if (stop == StopCause::finished && violations_seen_) stop = mend();
   if (stop == StopCause::finished) stop = static_cast<StopCause>(context_.stop.load());
   statistics_.leaves = tree_.leaf_count();

@@ -67,7 +67,7 @@ void print_summary(const CheckArguments& a, const OutputMesh<D>& mesh, const Bou
   if (r.finding_count > r.findings.size())
     print_row("found", count(r.finding_count - r.findings.size(), "more", "more"));
   const int code = r.exit_code();
-  print_row("verdict", code == exit_done        ? "everything holds"
+  print_row("verdict", code == exit_done        ? r.not_delaunay_refused == 0 ? "everything holds" : "every bound holds"
                        : code == exit_poor_left ? "sound; over a bound only where the reasons explain it"
                                                 : "FAILED");
 }

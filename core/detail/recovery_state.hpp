@@ -97,6 +97,8 @@ class FacetPatches {
   bool may_split(const Subsegment& s) const;
   void find_calm();
   void find_fragile();
+  Point3 centroid_of(const Triangle& t) const;
+  VertexId insert_inside(EntityId facet, const Candidate& c, const Point3& x);
   void add_inner_point(EntityId facet, VertexId v);
   std::optional<Subsegment> in_the_way(const std::vector<Subsegment>& rim, const BoxTree<2>& tree, EntityId facet,
                                        const Triangle& t, const Point3& x) const;

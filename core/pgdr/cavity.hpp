@@ -162,7 +162,8 @@ class Cavity {
   Status look_at_fan(RidgeWalk<D> walk, EntityId entity, bool& broken) const;
   Status find_swallowed(std::vector<CellId>& behind);
   void find_behind(VertexId a, VertexId b, std::vector<CellId>& behind) const;
-  Status drop_cells(const std::vector<CellId>& doomed);
+  bool peel(std::vector<CellId>& doomed);
+  Status drop_cells(std::vector<CellId>& doomed);
   bool is_whole(const PartFace& f) const;
   bool part_is_whole() const;
   void keep_whole_part_faces();

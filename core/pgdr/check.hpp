@@ -99,7 +99,8 @@ struct CheckReport {
   std::array<std::uint64_t, CheckFinding::kinds> count_of_kind{};  ///< findings, by kind
   /// Findings of one kind.
   std::uint64_t count(CheckFinding::Kind kind) const { return count_of_kind[static_cast<std::size_t>(kind)]; }
-  /// 0: everything holds; 1: sound and conforming, over a bound only where the reasons explain it; 6: anything else.
+  /// 0: sound, conforming and within all bounds; 1: over a bound, where the reasons explain it alone; 6: anything else. Faces
+  /// that are not locally Delaunay, but for causes that are counted above, change nothing.
   int exit_code() const;
 };
 

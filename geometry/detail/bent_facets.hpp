@@ -19,6 +19,22 @@ namespace pgdr::detail {
 /// p without coordinate `axis`.
 inline Point2 projected(const Point3& p, int axis) { return {p[(axis + 1) % 3], p[(axis + 2) % 3]}; }
 
+/// Is the facet off its plane by more than the doubles of its corners, as in files of few digits? Then what holds in a plane,
+/// or after a rotation, need not hold up to rounding.
+inline bool is_uneven(const Domain<3>& domain, EntityId f) {
+  constexpr double rounding = 0x1p-48;
+  return domain.facets()[f].planarity_defect > rounding * domain.facet_magnitude(f);
+}
+
+/// A point of the facet for in-circle tests. Their heights are |x|^2, in which a bend counts the more the farther away the
+/// origin is; of an uneven facet the dropped coordinate is taken from one of its points instead (the others are compared by
+/// differences alone).
+inline Point3 levelled(const Domain<3>& domain, EntityId f, Point3 p) {
+  const int axis = domain.facets()[f].axis;
+  if (is_uneven(domain, f)) p[axis] -= domain.points()[domain.triangles(f)[0][0]][axis];
+  return p;
+}
+
 class BentFacet {
  public:
   using Triangle = std::array<std::uint32_t, 3>;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include "pgdr/types.hpp"
 
@@ -53,6 +54,27 @@ auto dot(const std::array<T, 2>& v, const std::array<T, 2>& w) {
 template <class T>
 auto dot(const std::array<T, 3>& v, const std::array<T, 3>& w) {
   return add(add(mul(v[0], w[0]), mul(v[1], w[1])), mul(v[2], w[2]));
+}
+
+template <class T, class U>
+auto cross(const std::array<T, 3>& a, const std::array<U, 3>& b) {
+  const auto minor = [&](std::size_t i, std::size_t j) { return sub(mul(a[i], b[j]), mul(a[j], b[i])); };
+  return std::array{minor(1, 2), minor(2, 0), minor(0, 1)};
+}
+
+/// Twice the determinant of the rows p1-p0, ..., pD-p0 times (circumcentre - p0).
+template <class T>
+auto circum_numerator(const Matrix<T, 2, 2>& m) {
+  const auto a2 = squared_norm(m[0]), b2 = squared_norm(m[1]);
+  return std::array{sub(mul(a2, m[1][1]), mul(b2, m[0][1])), sub(mul(b2, m[0][0]), mul(a2, m[1][0]))};
+}
+
+template <class T>
+auto circum_numerator(const Matrix<T, 3, 3>& m) {
+  const auto a2 = squared_norm(m[0]), b2 = squared_norm(m[1]), c2 = squared_norm(m[2]);
+  const auto bc = cross(m[1], m[2]), ca = cross(m[2], m[0]), ab = cross(m[0], m[1]);
+  const auto of = [&](std::size_t i) { return add(add(mul(a2, bc[i]), mul(b2, ca[i])), mul(c2, ab[i])); };
+  return std::array{of(0), of(1), of(2)};
 }
 
 // In-sphere: with p as the origin, sum of h(s_i) * orient(s with s_i replaced by p), which divided by orient(s) is the

@@ -84,6 +84,7 @@ class LeafRefinement {
   LeafWorks<D> works_;
   std::uint64_t generation_ = 0, vertices_;
   bool violations_seen_ = false;
+  const bool uneven_;  ///< there may be some that no insertion brings
   bool all_listed_ = false;  ///< every poor cell is on a list, between visits
   SchedulerStatistics statistics_;
 
@@ -102,6 +103,7 @@ class LeafRefinement {
   bool insert_within(std::span<const CellId> cells);
   std::vector<bool> changed_surroundings();
   std::vector<Entry<D>> violations_everywhere();
+  std::vector<Entry<D>> known_violations();
   void sort_by_vertices(std::vector<Entry<D>>& entries) const;
   RegionVisit<D> mending_visit();
   StopCause mend();
