@@ -18,6 +18,7 @@ void Cavity<D>::begin(const Point<D>& p) {
 
 template <int D>
 void Cavity<D>::release() {
+  note_seen();
   clear_part_bits();
   for (const CellId c : cells_) mesh_->unmark(c);
   cells_.clear();
@@ -356,6 +357,7 @@ bool Cavity<D>::peel(std::vector<CellId>& doomed) {
 /// Gives the doomed cells back, and what they hide, or what is no longer connected to the protected cells through faces.
 template <int D>
 auto Cavity<D>::drop_cells(std::vector<CellId>& doomed) -> Status {
+  note_seen();
   shrunk_ = true;
   if (!peel(doomed)) {
     for (const CellId c : protected_)

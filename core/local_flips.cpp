@@ -100,7 +100,7 @@ bool LocalFlips<D>::try_two_cells(Pools& pools, CellId c, int face) {
     cells.push_back({v, mesh_->region(c)});
   }
   take_old({c, link.cell()});
-  if (violations_of(cells) > violations()) return false;
+  if (const int before = violations(); violations_of(cells, before) > before) return false;
   replace(pools, cells);
   return true;
 }
@@ -190,43 +190,57 @@ auto LocalFlips<D>::try_edge(Pools& pools, CellId c, int a, int b, Condition con
   if (const Outcome outcome = take_ring(c, a, b, longest_ring, ring); outcome != Outcome::flipped) return outcome;
   if (!ring.tips.empty() && !crosses_in_facet<D>(*mesh_, *domain_, ring.entity, {u, w}, {ring.tips[0], ring.tips[1]}))
     return Outcome::stuck;
-  take_old(ring.cells);
-  if (!ring.tips.empty())
-    for (const VertexId end : {u, w}) {
-      Face wall{};
-      wall[0] = ring.tips[0];
-      wall[1] = ring.tips[1];
-      wall[D - 1] = end;
-      std::sort(wall.begin(), wall.end());
-      new_walls_.push_back(wall);
-    }
-  wall_entity_ = ring.entity;
-  const int before = violations();
   std::vector<VertexId> hubs = ring.tips;
   if (hubs.empty())
     for (const CellId r : ring.cells)
       for (const VertexId v : mesh_->cell(r).vertices)
         if (v != u && v != w && std::find(hubs.begin(), hubs.end(), v) == hubs.end()) hubs.push_back(v);
+  int most = -1;  // of violations; most hubs have no fans and need none counted
   for (const VertexId hub : hubs) {
-    std::vector<NewCell> cells;
-    bool good = true;
-    for (const CellId r : ring.cells) {
-      const Vertices& v = mesh_->cell(r).vertices;
-      if (has(v, hub)) continue;
-      for (const VertexId gone : {u, w}) {
-        Vertices fan = v;
-        *std::find(fan.begin(), fan.end(), gone) = hub;
-        good = good && positive(fan);
-        cells.push_back({fan, mesh_->region(r)});
-      }
+    const std::vector<NewCell> cells = fans(ring, u, w, hub);
+    if (cells.empty()) continue;
+    if (most < 0) {
+      take_old(ring.cells);
+      add_walls(ring, u, w);
+      most = violations() - (condition == Condition::better && ring.cells.size() > 3);
     }
-    if (!good || cells.empty() || !walls_are_free()) continue;
-    const int after = violations_of(cells);
-    if (after > before || (condition == Condition::better && after == before && ring.cells.size() > 3)) continue;
+    if (most < 0 || !walls_are_free() || violations_of(cells, most) > most) continue;
     replace(pools, cells);
     return Outcome::flipped;
   }
   return Outcome::stuck;
+}
+
+/// The cells about the hub that take the place of the ring about uw; none if one of them would be turned over.
+template <int D>
+auto LocalFlips<D>::fans(const Ring& ring, VertexId u, VertexId w, VertexId hub) const -> std::vector<NewCell> {
+  std::vector<NewCell> cells;
+  for (const CellId r : ring.cells) {
+    const Vertices& v = mesh_->cell(r).vertices;
+    if (has(v, hub)) continue;
+    for (const VertexId gone : {u, w}) {
+      Vertices fan = v;
+      *std::find(fan.begin(), fan.end(), gone) = hub;
+      if (!positive(fan)) return {};
+      cells.push_back({fan, mesh_->region(r)});
+    }
+  }
+  return cells;
+}
+
+/// The two subfacets that the flip of an edge inside a facet makes.
+template <int D>
+void LocalFlips<D>::add_walls(const Ring& ring, VertexId u, VertexId w) {
+  wall_entity_ = ring.entity;
+  if (ring.tips.empty()) return;
+  for (const VertexId end : {u, w}) {
+    Face wall{};
+    wall[0] = ring.tips[0];
+    wall[1] = ring.tips[1];
+    wall[D - 1] = end;
+    std::sort(wall.begin(), wall.end());
+    new_walls_.push_back(wall);
+  }
 }
 
 /// Records the outer faces and subsegments of the cells, and the constrained faces between them.
@@ -265,11 +279,13 @@ auto LocalFlips<D>::outer(const Face& f) const -> const OuterFace* {
   return nullptr;
 }
 
+/// Violating faces of the old cells; inner faces count from both sides.
 template <int D>
-int LocalFlips<D>::violations() {
-  std::vector<NewCell> cells;
-  for (const CellId c : old_) cells.push_back({mesh_->cell(c).vertices, 0});
-  return violations_of(cells);
+int LocalFlips<D>::violations() const {
+  int count = 0;
+  for (const CellId c : old_)
+    for (int f = 0; f <= D; ++f) count += violates(c, f) && !is_wall(face_without<D>(mesh_->cell(c).vertices, f));
+  return count;
 }
 
 /// No new wall is a constrained face already.
@@ -287,14 +303,14 @@ bool LocalFlips<D>::is_wall(const Face& f) const {
          std::find(new_walls_.begin(), new_walls_.end(), f) != new_walls_.end();
 }
 
-/// Violating faces that these cells would have, in place of the old ones; inner faces count from both sides.
+/// The same that these cells would have, in place of the old ones; no more are counted than one above `most`.
 template <int D>
-int LocalFlips<D>::violations_of(const std::vector<NewCell>& cells) {
+int LocalFlips<D>::violations_of(const std::vector<NewCell>& cells, int most) {
   int count = 0;
   faces_.clear();
   for (const NewCell& cell : cells)
     for (int f = 0; f <= D; ++f) faces_.push_back(face_without<D>(cell.vertices, f));
-  for (std::size_t i = 0; i < faces_.size(); ++i) {
+  for (std::size_t i = 0; i < faces_.size() && count <= most; ++i) {
     if (is_wall(faces_[i])) continue;
     VertexId apex = no_vertex;
     if (const OuterFace* o = outer(faces_[i])) {

@@ -135,7 +135,7 @@ bool LocalRewrap::wrap_again(Pools& pools, bool turns_facets) {
   work_ += old_.size() * vertices_.size();
   for (int order = 0; order < orders_; ++order) {
     if (wrap_.fill(points_, front_, 2 * most_cells_) && keeps_subsegments() &&
-        (turns_facets || violations_after() + least_gain_ < before)) {
+        (turns_facets || violations_after(before - least_gain_) + least_gain_ < before)) {
       replace(pools);
       return true;
     }
@@ -267,11 +267,11 @@ int LocalRewrap::violations_before() const {
   return count;
 }
 
-/// The same of the new ones.
-int LocalRewrap::violations_after() const {
+/// The same of the new ones; no further than to `enough`.
+int LocalRewrap::violations_after(int enough) const {
   int count = 0;
   for (const GiftWrap::Cell& cell : wrap_.cells())
-    for (int f = 0; f < 4; ++f) {
+    for (int f = 0; f < 4 && count < enough; ++f) {
       const GiftWrap::Face face = GiftWrap::face_of(cell, f), back = GiftWrap::turned_over(face);
       if (const RimFace* r = rim_face(face)) {
         if (r->constrained) continue;

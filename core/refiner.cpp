@@ -56,7 +56,9 @@ Refiner<D>::Refiner(RefineContext<D>& context, Pools pools)
       options_(&context.options),
       pools_(std::move(pools)),
       cavity_(context.mesh, &context.domain),
-      flips_(context.mesh, context.domain) {}
+      flips_(context.mesh, context.domain) {
+  cavity_.set_seen(&seen_);
+}
 
 template <int D>
 void Refiner<D>::list_poor(CellId c, int why) {
@@ -229,9 +231,19 @@ bool Refiner<D>::may_go_on() {
   return context_->stop.load(std::memory_order_relaxed) == 0 && visit_->counts.committed < visit_->most_insertions;
 }
 
+/// That it took to decide about e; a selector may look at others.
+template <int D>
+std::vector<CellId> Refiner<D>::cells_seen(const Item& e) {
+  if (options_->selector) return {};
+  seen_.push_back(e.cell);
+  distinct_.reset(seen_.size());
+  std::erase_if(seen_, [this](CellId c) { return !distinct_.insert(index(c)); });
+  return {seen_.begin(), seen_.end()};
+}
+
 template <int D>
 void Refiner<D>::record_refusal(const Item& e) {
-  visit_->list->refused.push_back({e, last_refusal_, visit_->order, visit_->generation});
+  visit_->list->refused.push_back({e, last_refusal_, visit_->order, visit_->generation, cells_seen(e)});
   visit_->entities_refused = visit_->entities_refused || e.kind() != EntryKind::cell;
 }
 
@@ -243,6 +255,7 @@ void Refiner<D>::treat(const Item& e) {
   if (!mesh_->read_vertices(e.cell, e.birth, vertices)) return;
   if (visit_->area && !visit_->area->owns(*mesh_, vertices)) return visit_->set_aside.push_back(e);
   last_refusal_.reset();
+  seen_.clear();
   Outcome outcome = Outcome::committed;
   switch (e.kind()) {
     case EntryKind::edge: outcome = split_edge(e, nullptr); break;
@@ -274,6 +287,7 @@ template <int D>
 void Refiner<D>::begin(RegionVisit<D>& visit) {
   visit_ = &visit;
   abroad_.clear();
+  seen_.clear();
   cavity_.set_area(visit.area);
   flips_.set_area(visit.area);
   flips_left_ = 0;

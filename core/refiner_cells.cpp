@@ -93,6 +93,7 @@ auto Refiner<D>::wall_before(CellId c, const Point<D>& x, MayEnter may_enter) co
   int from = -1;
   for (std::size_t steps = 0; steps < most_steps && may_enter(c); ++steps) {
     const auto& k = mesh_->cell(c);
+    seen_.push_back(c);
     int exit = -1, wall = -1;
     for (int i = 0; i <= D && exit < 0; ++i) {
       if (i == from) continue;

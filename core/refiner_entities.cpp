@@ -132,6 +132,7 @@ auto Refiner<D>::walk_in_facet(const Item& e, const Point<D>& x) const -> FacetW
     for (int steps = 0; steps < most_steps; ++steps) {
       const CellId c = at.cell();
       if (!cavity_.owns(c)) return {{}, {}, false};
+      seen_.push_back(c);
       const auto& v = mesh_->cell(c).vertices;
       std::optional<Item> edge;
       Link next;

@@ -30,6 +30,23 @@ bool has_uneven_facets(const Domain<D>& domain) {
   return false;
 }
 
+/// The slots with another cell than at the last call, whose births these are, or with none now, or with a cell beside such.
+template <int D>
+std::vector<bool> changed_surroundings(const Mesh<D>& mesh, std::vector<std::uint16_t>& births) {
+  std::vector<bool> changed(mesh.cell_bound(), false);
+  births.resize(mesh.cell_bound(), Mesh<D>::last_birth);
+  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i) {
+    const CellId c{i};
+    const std::uint16_t born = mesh.alive(c) ? mesh.birth(c) : Mesh<D>::last_birth;
+    if (std::exchange(births[i], born) == born) continue;
+    changed[i] = true;
+    if (born == Mesh<D>::last_birth) continue;
+    for (const Link next : mesh.cell(c).links)
+      if (next) changed[index(next.cell())] = true;
+  }
+  return changed;
+}
+
 }  // namespace
 
 template <int D>
@@ -57,31 +74,17 @@ void LeafRefinement<D>::list_everything() {
   all_listed_ = context_.stop == 0;
 }
 
-/// The cells that are others than when violations were last looked for everywhere, or beside such: nothing else can have
-/// a violation that was not found then.
-template <int D>
-std::vector<bool> LeafRefinement<D>::changed_surroundings() {
-  const Mesh<D>& mesh = context_.mesh;
-  std::vector<bool> changed(mesh.cell_bound(), false);
-  births_looked_at_.resize(mesh.cell_bound(), Mesh<D>::last_birth);
-  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i) {
-    const CellId c{i};
-    const std::uint16_t born = mesh.alive(c) ? mesh.birth(c) : Mesh<D>::last_birth;
-    if (std::exchange(births_looked_at_[i], born) == born || born == Mesh<D>::last_birth) continue;
-    changed[i] = true;
-    for (const Link next : mesh.cell(c).links)
-      if (next) changed[index(next.cell())] = true;
-  }
-  return changed;
-}
 
-/// A violation left standing may have moved off the walls, where insertions do not look for it.
+/// A violation left standing may have moved off the walls, where insertions do not look for it. Returned: those with other
+/// surroundings than at the last look.
 template <int D>
-std::vector<Entry<D>> LeafRefinement<D>::violations_everywhere() {
+std::vector<Entry<D>> LeafRefinement<D>::look_for_violations() {
   const Mesh<D>& mesh = context_.mesh;
-  const std::vector<bool> changed = changed_surroundings();
+  // Nothing but what is new since then, or beside such, can have a violation that was not found.
+  const std::vector<bool> changed = changed_surroundings(mesh, births_looked_at_);
   std::erase_if(violations_, [&](const Entry<D>& e) {
-    return !e.alive(mesh) || changed[index(e.cell)] || mesh.constrained(e.cell, e.which());  // a flat cell beside it was taken off
+    if (!e.alive(mesh) || mesh.constrained(e.cell, e.which())) return true;  // constrained: a flat cell beside it was taken off
+    return changed[index(e.cell)];
   });
   Worker worker = check_out();
   RegionVisit<D> looking;
@@ -89,22 +92,31 @@ std::vector<Entry<D>> LeafRefinement<D>::violations_everywhere() {
   std::vector<std::vector<Entry<D>>> parts(count_parts(mesh.cell_bound()));
   each_part(mesh.cell_bound(), options_, [&](const CellPart& part) {
     for (std::uint32_t i = part.first; i < part.last && !context_.options.stop.stop_requested(); ++i)
-      if (changed[i]) worker->add_violations(CellId{i}, parts[part.number]);
+      if (changed[i] && mesh.alive(CellId{i})) worker->add_violations(CellId{i}, parts[part.number]);
   });
   check_in(std::move(worker));
   cancelled(0);
-  for (const auto& part : parts) violations_.insert(violations_.end(), part.begin(), part.end());
+  std::vector<Entry<D>> found;
+  for (const auto& part : parts) found.insert(found.end(), part.begin(), part.end());
+  sort_by_vertices(found);
+  violations_.insert(violations_.end(), found.begin(), found.end());
+  return found;
+}
+
+template <int D>
+std::vector<Entry<D>> LeafRefinement<D>::violations_everywhere() {
+  look_for_violations();
   sort_by_vertices(violations_);
   return violations_;
 }
 
-/// Of a run that has seen any, or should look for them.
+/// Of a run that has seen any, or should look for them, those with other surroundings than at the last look.
 template <int D>
-std::vector<Entry<D>> LeafRefinement<D>::known_violations() {
+std::vector<Entry<D>> LeafRefinement<D>::new_violations() {
   if (!violations_seen_ && !uneven_) return {};
-  std::vector<Entry<D>> all = violations_everywhere();
-  violations_seen_ = violations_seen_ || !all.empty();
-  return all;
+  std::vector<Entry<D>> found = look_for_violations();
+  violations_seen_ = violations_seen_ || !found.empty();
+  return found;
 }
 
 /// In an order that does not depend on timing, as the slots of cells do.
@@ -137,15 +149,23 @@ bool LeafRefinement<D>::may_have_changed(const LeafWork<D>* work, const Refusal<
          });
 }
 
-/// What was refused, is still there and may be decided otherwise now (or all of it); taken off the lists.
+/// What was refused, is still there and may be decided otherwise now; taken off the lists.
 template <int D>
-std::vector<Refusal<D>> LeafRefinement<D>::take_refused(bool all) {
+std::vector<Refusal<D>> LeafRefinement<D>::take_refused() {
+  bool any = false;
+  for_each_refused([&any](std::span<const Refusal<D>> refused) { any = any || !refused.empty(); });
+  if (!any) return {};
+  const std::vector<bool> changed = changed_surroundings(context_.mesh, births_at_refusal_);
+  const auto is_changed = [&changed](CellId c) { return changed[index(c)]; };
   std::vector<Refusal<D>> refused, kept;
   for (Node n = 0; n <= tree_.node_count(); ++n) {
     const LeafWork<D>* work = n == tree_.node_count() ? nullptr : &works_[n];
     auto& list = work ? works_[n].list.refused : whole_list_.refused;
-    for (const Refusal<D>& r : list)
-      if (r.entry.alive(context_.mesh)) (all || may_have_changed(work, r) ? refused : kept).push_back(r);
+    for (Refusal<D>& r : list) {
+      if (!r.entry.alive(context_.mesh)) continue;
+      const bool again = may_have_changed(work, r) && (r.seen.empty() || std::any_of(r.seen.begin(), r.seen.end(), is_changed));
+      (again ? refused : kept).push_back(std::move(r));
+    }
     list = std::exchange(kept, {});
   }
   return refused;
@@ -154,7 +174,7 @@ std::vector<Refusal<D>> LeafRefinement<D>::take_refused(bool all) {
 /// What was refused, once more where the mesh has changed since, with the claim that it took to refuse it.
 template <int D>
 bool LeafRefinement<D>::relist_refused() {
-  for (const Refusal<D>& r : take_refused(false)) {
+  for (const Refusal<D>& r : take_refused()) {
     const Node leaf = tree_.leaf_at(context_.mesh.cell(r.entry.cell).center);
     if (r.order == 1) {
       relist(r.entry);
@@ -184,10 +204,10 @@ StopCause LeafRefinement<D>::run() {
     const std::uint64_t before = counts_.committed;
     stop = drain();
     if (stop != StopCause::finished || counts_.committed == before) break;
-    for (const Entry<D>& e : known_violations()) relist(e);
+    for (const Entry<D>& e : new_violations()) relist(e);
     if (!relist_refused()) break;
   }
-  if (stop == StopCause::finished) known_violations();
+  if (stop == StopCause::finished) new_violations();
   if (stop == StopCause::finished && violations_seen_) stop = mend();
   if (stop == StopCause::finished) stop = static_cast<StopCause>(context_.stop.load());
   statistics_.leaves = tree_.leaf_count();

@@ -27,47 +27,47 @@ RegionVisit<D> LeafRefinement<D>::mending_visit() {
 
 template <int D>
 StopCause LeafRefinement<D>::mend() {
-  std::vector<Entry<D>> waiting = violations_everywhere();
-  for (const Refusal<D>& r : take_refused(true)) waiting.push_back(r.entry);
-  for (const Entry<D>& e : waiting) whole_list_.push(e);
+  for (const Entry<D>& e : violations_everywhere()) whole_list_.push(e);
   std::set<std::array<VertexId, D + 1>> hopeless;
   for (int round = 0; round < most_rounds; ++round) {
-    RegionVisit<D> visit = mending_visit();
-    visit.mends = round > 0;
-    Worker worker = check_out();
-    worker->run(visit);
-    account({whole_tree_leaf(), whole_tree, 0}, visit, {});
-    bool go_on = context_.stop == 0 && whole_list_.empty();
-    if (go_on) {
-      RegionVisit<D> mending;
-      mending.list = &whole_list_;
-      worker->begin(mending);
-      go_on = mend_far_from_walls(*worker, hopeless);
-    }
-    check_in(std::move(worker));
-    if (const int stop = context_.stop; stop != 0) return static_cast<StopCause>(stop);
-    if (vertices_ >= context_.options.max_vertices && !whole_list_.empty()) return StopCause::max_vertices;
-    if (!go_on) break;
+    do {
+      RegionVisit<D> visit = mending_visit();
+      visit.mends = round > 0;
+      Worker worker = check_out();
+      worker->run(visit);
+      check_in(std::move(worker));
+      account({whole_tree_leaf(), whole_tree, 0}, visit, {});
+      if (const int stop = context_.stop; stop != 0) return static_cast<StopCause>(stop);
+      if (vertices_ >= context_.options.max_vertices && !whole_list_.empty()) return StopCause::max_vertices;
+      if (!whole_list_.empty()) return StopCause::finished;
+      for (const Refusal<D>& r : take_refused()) whole_list_.push(r.entry);
+    } while (!whole_list_.empty());
+    if (!mend_far_from_walls(hopeless)) break;
   }
-  return StopCause::finished;
+  return static_cast<StopCause>(context_.stop.load());
 }
 
 /// Violations that no entity is beside, which nothing excuses, are mended, or moved to the walls, in as large a region as
 /// that takes. True if there was any such.
 template <int D>
-bool LeafRefinement<D>::mend_far_from_walls(Refiner<D>& worker, std::set<std::array<VertexId, D + 1>>& hopeless) {
+bool LeafRefinement<D>::mend_far_from_walls(std::set<std::array<VertexId, D + 1>>& hopeless) {
+  RegionVisit<D> mending;
+  mending.list = &whole_list_;
+  Worker worker = check_out();
+  worker->begin(mending);
   bool any = false;
   for (const Entry<D>& e : violations_everywhere()) {
-    if (cancelled(0)) return false;
-    if (!e.alive(context_.mesh) || !worker.is_far_from_walls(e)) continue;
+    if (cancelled(0)) break;
+    if (!e.alive(context_.mesh) || !worker->is_far_from_walls(e)) continue;
     const auto vertices = context_.mesh.cell(e.cell).vertices;
     if (hopeless.contains(vertices)) continue;
-    if (worker.mend(e)) {
+    if (worker->mend(e)) {
       any = true;
-    } else if (worker.violates(e)) {
+    } else if (worker->violates(e)) {
       hopeless.insert(vertices);
     }
   }
+  check_in(std::move(worker));
   return any;
 }
 

@@ -80,6 +80,8 @@ class Cavity {
   ~Cavity() { release(); }
   /// What the visit may change; null: everything.
   void set_area(const VisitArea<D>* area) { area_ = area; }
+  /// Where to add the cells that were collected and given up, with repetitions; null: nowhere.
+  void set_seen(std::vector<CellId>* seen) { seen_ = seen; }
   Cavity(const Cavity&) = delete;
   Cavity& operator=(const Cavity&) = delete;
 
@@ -130,6 +132,9 @@ class Cavity {
 
  private:
   void begin(const Point<D>& p);
+  void note_seen() const {
+    if (seen_) seen_->insert(seen_->end(), cells_.begin(), cells_.end());
+  }
   bool take(CellId c) {
     assert(owns(c));
     if (mesh_->marked(c)) return false;
@@ -179,6 +184,7 @@ class Cavity {
   Mesh<D>* mesh_;
   const Domain<D>* domain_;
   const VisitArea<D>* area_ = nullptr;
+  std::vector<CellId>* seen_ = nullptr;
   Point<D> point_;
   std::vector<CellId> cells_, new_cells_;
   std::vector<CellId> protected_;

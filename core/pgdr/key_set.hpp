@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace pgdr {
@@ -21,7 +22,8 @@ class KeySet {
       stamp_ = 1;
     }
   }
-  void insert(std::uint64_t key) { slots_[find(key)] = {key, stamp_}; }  ///< into the set
+  /// Into the set. False if it was there.
+  bool insert(std::uint64_t key) { return std::exchange(slots_[find(key)], Slot{key, stamp_}).stamp != stamp_; }
   /// Since the last time that it was emptied.
   bool contains(std::uint64_t key) const { return slots_[find(key)].stamp == stamp_; }
 

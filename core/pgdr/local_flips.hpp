@@ -87,12 +87,14 @@ class LocalFlips {
   bool is_open(const Ring& ring, VertexId u, VertexId w) const;
   std::optional<std::array<int, 2>> faces_of_flat(CellId c) const;
   void take_old(std::vector<CellId> cells);
-  int violations();
+  int violations() const;
+  std::vector<NewCell> fans(const Ring& ring, VertexId u, VertexId w, VertexId hub) const;
+  void add_walls(const Ring& ring, VertexId u, VertexId w);
   bool positive(const Vertices& v) const;
   Simplex<D> simplex(const Vertices& v) const;
   bool is_wall(const Face& f) const;
   bool walls_are_free() const;
-  int violations_of(const std::vector<NewCell>& cells);
+  int violations_of(const std::vector<NewCell>& cells, int most);
   void replace(Pools& pools, const std::vector<NewCell>& cells);
   CellId make_cell(Pools& pools, const NewCell& cell);
   const OuterFace* outer(const Face& f) const;

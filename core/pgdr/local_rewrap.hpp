@@ -84,7 +84,7 @@ class LocalRewrap {
   void find_rim();
   bool keeps_subsegments() const;
   int violations_before() const;
-  int violations_after() const;
+  int violations_after(int enough) const;
   int weight(const std::array<VertexId, 4>& cell, VertexId apex) const;
   int violation(const GiftWrap::Cell& cell, VertexId apex) const;
   void replace(Pools& pools);

@@ -21,6 +21,7 @@
 #include "pgdr/cavity.hpp"
 #include "pgdr/cell_bounds.hpp"
 #include "pgdr/insertion_rule.hpp"
+#include "pgdr/key_set.hpp"
 #include "pgdr/local_flips.hpp"
 #include "pgdr/refine_options.hpp"
 #include "pgdr/shells.hpp"
@@ -154,6 +155,7 @@ class Refiner {
   bool may_go_on();
   void look_at_budget();
   void record_refusal(const Item& e);
+  std::vector<CellId> cells_seen(const Item& e);
   void send_abroad();
 
   // refiner_entities.cpp: encroached entities
@@ -227,6 +229,8 @@ class Refiner {
   std::uint64_t stride_ = 1;  ///< insertions between two looks at the clock
   std::chrono::steady_clock::time_point checked_time_;
   std::optional<EntityPair> last_refusal_;
+  KeySet distinct_;
+  mutable std::vector<CellId> seen_;  ///< that it took to decide about the entry treated, with repetitions
   bool unexplained_ = false;  ///< is the element treated one that stays poor for no reason?
 };
 

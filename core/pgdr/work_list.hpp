@@ -193,6 +193,8 @@ struct Refusal {
   std::optional<EntityPair> pair;  ///< by what
   std::uint32_t order = 1;       ///< of the claim that it took to find out
   std::uint64_t generation = 0;  ///< in which
+  /// Of the cells that were looked at: while these and their neighbours stay, so does the decision. Empty: not known.
+  std::vector<CellId> seen;
 };
 
 /// What waits in one region, and what was refused there.
