@@ -48,8 +48,9 @@ bool LocalRewrap::repair(Pools& pools, CellId c, int face, Effort effort) {
 
 bool LocalRewrap::repair_without(Pools& pools, CellId c, CellId d, VertexId left_out) {
   begin(std::array{c, d}, left_out);
-  bool repaired = left_out != no_vertex && !reached_border_ && wrap_again(pools);
-  while (!repaired && !reached_border_ && grow()) repaired = wrap_again(pools);
+  // A vertex left out may have more cells than a region should.
+  bool repaired = left_out != no_vertex && !reached_border_ && old_.size() <= most_cells_ && wrap_again(pools);
+  while (!repaired && !reached_border_ && !is_ended() && grow()) repaired = wrap_again(pools);
   release();
   return repaired;
 }
@@ -130,11 +131,16 @@ bool LocalRewrap::wrap_again(Pools& pools, bool turns_facets) {
   find_rim();
   if (turns_facets && !make_rim_delaunay()) return false;
   front_.clear();
-  for (const RimFace& f : rim_) front_.push_back(f.vertices);
+  rim_by_face_.clear();
+  for (const RimFace& f : rim_) {
+    rim_by_face_.emplace_back(f.vertices, static_cast<std::uint32_t>(front_.size()));
+    front_.push_back(f.vertices);
+  }
+  std::sort(rim_by_face_.begin(), rim_by_face_.end());
   const int before = violations_before();
   work_ += old_.size() * vertices_.size();
-  for (int order = 0; order < orders_; ++order) {
-    if (wrap_.fill(points_, front_, 2 * most_cells_) && keeps_subsegments() &&
+  for (int order = 0; order < orders_ && !is_ended(); ++order) {
+    if (wrap_.fill(points_, front_, 2 * most_cells_, ended_) && keeps_subsegments() &&
         (turns_facets || violations_after(before - least_gain_) + least_gain_ < before)) {
       replace(pools);
       return true;
@@ -201,7 +207,7 @@ bool LocalRewrap::grow() {
     for (int f = 0; f < 4; ++f) {
       const Link next = mesh_->cell(old_[i]).links[f];
       if (!next || mesh_->constrained(old_[i], f) || mesh_->marked(next.cell()) || !in_conflict(next.cell())) continue;
-      if (old_.size() == most_cells_) return false;
+      if (old_.size() >= most_cells_) return false;
       reached_border_ = !owns(next.cell());
       if (reached_border_) return false;
       take(next.cell());
@@ -268,27 +274,29 @@ int LocalRewrap::violations_before() const {
 }
 
 /// The same of the new ones; no further than to `enough`.
-int LocalRewrap::violations_after(int enough) const {
+int LocalRewrap::violations_after(int enough) {
+  sides_.clear();
+  for (const GiftWrap::Cell& cell : wrap_.cells())
+    for (int f = 0; f < 4; ++f) sides_.push_back({GiftWrap::face_of(cell, f), vertices_[cell[f]]});
+  for (const RimFace& r : rim_)
+    if (!r.constrained) sides_.push_back({GiftWrap::turned_over(r.vertices), mesh_->cell(r.link.cell()).vertices[r.link.face()]});
+  const auto by_face = [](const Side& s, const Side& t) { return s.face < t.face; };
+  std::sort(sides_.begin(), sides_.end(), by_face);
   int count = 0;
   for (const GiftWrap::Cell& cell : wrap_.cells())
     for (int f = 0; f < 4 && count < enough; ++f) {
-      const GiftWrap::Face face = GiftWrap::face_of(cell, f), back = GiftWrap::turned_over(face);
-      if (const RimFace* r = rim_face(face)) {
-        if (r->constrained) continue;
-        count += 2 * violation(cell, mesh_->cell(r->link.cell()).vertices[r->link.face()]);
-        continue;
-      }
-      for (const GiftWrap::Cell& other : wrap_.cells())
-        for (int g = 0; g < 4; ++g)
-          if (GiftWrap::face_of(other, g) == back) count += violation(cell, vertices_[other[g]]);
+      const GiftWrap::Face face = GiftWrap::face_of(cell, f);
+      const RimFace* r = rim_face(face);
+      if (r && r->constrained) continue;
+      const auto [first, last] = std::equal_range(sides_.begin(), sides_.end(), Side{GiftWrap::turned_over(face), {}}, by_face);
+      for (auto side = first; side != last; ++side) count += (r ? 2 : 1) * violation(cell, side->apex);
     }
   return count;
 }
 
 auto LocalRewrap::rim_face(const GiftWrap::Face& f) const -> const RimFace* {
-  for (const RimFace& r : rim_)
-    if (r.vertices == f) return &r;
-  return nullptr;
+  const auto at = std::lower_bound(rim_by_face_.begin(), rim_by_face_.end(), std::pair(f, std::uint32_t{0}));
+  return at != rim_by_face_.end() && at->first == f ? &rim_[at->second] : nullptr;
 }
 
 CellId LocalRewrap::make_cell(Pools& pools, const GiftWrap::Cell& cell) {

@@ -58,6 +58,7 @@ Refiner<D>::Refiner(RefineContext<D>& context, Pools pools)
       cavity_(context.mesh, &context.domain),
       flips_(context.mesh, context.domain) {
   cavity_.set_seen(&seen_);
+  flips_.set_ended([this] { return ended(); });
 }
 
 template <int D>
@@ -203,6 +204,17 @@ bool Refiner<D>::mend(const Item& e) {
 }
 
 template <int D>
+bool Refiner<D>::ended() {
+  if (options_->stop.stop_requested()) {
+    context_->stop = static_cast<int>(StopCause::cancelled);
+  } else if (context_->stop == 0 && options_->time_limit &&
+             std::chrono::steady_clock::now() - context_->start >= *options_->time_limit) {
+    context_->stop = static_cast<int>(StopCause::time_limit);
+  }
+  return context_->stop != 0;
+}
+
+template <int D>
 void Refiner<D>::look_at_budget() {
   const auto& counts = visit_->counts;
   if (options_->stop.stop_requested()) context_->stop = static_cast<int>(StopCause::cancelled);
@@ -215,9 +227,7 @@ void Refiner<D>::look_at_budget() {
                                                                : std::min<std::uint64_t>(stride_ * 2, 256);
   checked_at_ = counts.committed + counts.refused + stride_;
   checked_time_ = now;
-  if (context_->stop == 0 && options_->time_limit && now - context_->start >= *options_->time_limit) {
-    context_->stop = static_cast<int>(StopCause::time_limit);
-  }
+  ended();
   if (!options_->progress) return;
   const std::unique_lock lock(context_->progress_mutex, std::try_to_lock);
   if (!lock || now - context_->last_progress < std::chrono::milliseconds(200)) return;

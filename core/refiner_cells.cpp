@@ -238,23 +238,23 @@ auto Refiner<D>::treat_cell_at(const Item& e, const Point<D>& x, const CellVerdi
   }
   if (status != Cavity<D>::Status::ok) return Outcome::refused;
   if (const auto encroached = encroached_entity(x)) {
+    // An entity that is refused leaves the mesh as it is: whether x is far enough can be seen now, with its cavity at hand.
+    const bool clear = is_clear_of_encroached(x, 4 * mesh_->squared_radius_bounds(e.cell).second);
     const Outcome outcome = split_instead(*encroached, e, verdict);
-    return outcome == Outcome::refused ? insert_beside_refused(x, e, verdict) : outcome;
+    return outcome == Outcome::refused && clear ? insert_beside_refused(x, e, verdict) : outcome;
   }
   if (const auto wall = hiding_wall(e.cell, x)) return split_instead(*wall, e, verdict);
   return insert_point(e, verdict);
 }
 
-/// The element's point, though it encroaches upon an entity that stays as it is, if it is far from all such: two
+/// The element's point, though it encroaches upon an entity that stays as it is, being far from all such: two
 /// circumradii, so that points become sparse towards the entity, and an element that stays poor is beside one.
 template <int D>
 auto Refiner<D>::insert_beside_refused(const Point<D>& x, const Item& e, const CellVerdict& verdict) -> Outcome {
   if (!alive(e)) return Outcome::refused;
   const auto status = cavity_.collect(x, e.cell);
   if (status == Cavity<D>::Status::not_owned) return Outcome::not_owned;
-  if (status != Cavity<D>::Status::ok || hiding_wall(e.cell, x)) return Outcome::refused;
-  const double circumradius2 = mesh_->squared_radius_bounds(e.cell).second;
-  return is_clear_of_encroached(x, 4 * circumradius2) ? insert_point(e, verdict) : Outcome::refused;
+  return status == Cavity<D>::Status::ok && !hiding_wall(e.cell, x) ? insert_point(e, verdict) : Outcome::refused;
 }
 
 /// Is x at least so far from all constrained faces and edges of its cavity that it encroaches upon?

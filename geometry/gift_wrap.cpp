@@ -24,27 +24,53 @@ Face GiftWrap::face_of(const Cell& cell, int i) {
   return smallest_first({cell[inner_faces[i][0]], cell[inner_faces[i][1]], cell[inner_faces[i][2]]});
 }
 
-bool GiftWrap::fill(std::span<const Point3> points, std::span<const Face> front, std::size_t most_cells) {
+bool GiftWrap::fill(std::span<const Point3> points, std::span<const Face> front, std::size_t most_cells,
+                    const std::function<bool()>& ended) {
   points_ = points;
   cells_.clear();
   front_.clear();
-  for (const Face& f : front) front_.push_back(smallest_first(f));
+  for (const Face& f : front) add_to_front(smallest_first(f));
   while (!front_.empty())
-    if (cells_.size() >= most_cells || !wrap(front_.back())) return false;
+    if (cells_.size() >= most_cells || (ended && ended()) || !wrap(Face(front_.back().vertices))) return false;
   return true;
 }
 
-/// Puts a cell on the face, which leaves the front.
+void GiftWrap::add_to_front(const Face& f) {
+  FrontFace entry{f, points_[f[0]], points_[f[0]]};
+  for (const Index v : {f[1], f[2]})
+    for (int k = 0; k < 3; ++k) {
+      entry.low[k] = std::min(entry.low[k], points_[v][k]);
+      entry.high[k] = std::max(entry.high[k], points_[v][k]);
+    }
+  front_.push_back(entry);
+}
+
+/// Puts a cell on the face, which leaves the front. Of the candidates the first is the one whose sphere with the face has no
+/// other inside on the face's positive side.
 bool GiftWrap::wrap(const Face& f) {
   find_candidates(f);
+  const auto later = [&](Index v, Index w) {
+    const Simplex<3> s{points_[f[0]], points_[f[1]], points_[f[2]], points_[v]};
+    return in_sphere_perturbed<3>(s, points_[w]) == Sign::positive;
+  };
+  const auto take = [&](Index v) {
+    const Cell cell{f[0], f[1], f[2], v};
+    if (blocked(cell)) return false;
+    cells_.push_back(cell);
+    return true;
+  };
+  if (candidates_.empty()) return false;
+  // The first mostly will do, and takes one pass; the others go into a heap.
+  auto first = candidates_.begin();
+  for (auto v = first + 1; v != candidates_.end(); ++v)
+    if (later(*first, *v)) first = v;
+  std::iter_swap(first, candidates_.end() - 1);
+  if (take(candidates_.back())) return replace_in_front(cells_.back());
+  candidates_.pop_back();
+  std::make_heap(candidates_.begin(), candidates_.end(), later);
   while (!candidates_.empty()) {
-    const std::size_t first = first_candidate(f);
-    const Cell cell{f[0], f[1], f[2], candidates_[first]};
-    if (!blocked(cell)) {
-      cells_.push_back(cell);
-      return replace_in_front(cell);
-    }
-    candidates_[first] = candidates_.back();
+    if (take(candidates_.front())) return replace_in_front(cells_.back());
+    std::pop_heap(candidates_.begin(), candidates_.end(), later);
     candidates_.pop_back();
   }
   return false;
@@ -57,30 +83,38 @@ void GiftWrap::find_candidates(const Face& f) {
       candidates_.push_back(static_cast<Index>(v));
 }
 
-/// The candidate whose sphere with the face has no other inside on the face's positive side.
-std::size_t GiftWrap::first_candidate(const Face& f) const {
-  std::size_t first = 0;
-  for (std::size_t i = 1; i < candidates_.size(); ++i) {
-    const Simplex<3> s{points_[f[0]], points_[f[1]], points_[f[2]], points_[candidates_[first]]};
-    if (in_sphere_perturbed<3>(s, points_[candidates_[i]]) == Sign::positive) first = i;
-  }
-  return first;
-}
-
-/// Does a triangle of the front meet the inside of the cell?
-bool GiftWrap::blocked(const Cell& cell) {
-  outside_.assign(points_.size(), 0);
+/// Bit i: the point lies weakly beyond face i.
+std::uint8_t GiftWrap::beyond_faces(const Cell& cell, Index v) const {
+  std::uint8_t beyond = 0;
+  const bool corner = std::find(cell.begin(), cell.end(), v) != cell.end();
   for (int i = 0; i < 4; ++i) {
     const Face f = face_of(cell, i);
-    for (std::size_t v = 0; v < points_.size(); ++v) {
-      const bool corner = v == cell[0] || v == cell[1] || v == cell[2] || v == cell[3];
-      const bool beyond = corner ? v != cell[i]
-                                 : orient3d(points_[f[0]], points_[f[1]], points_[f[2]], points_[v]) != Sign::positive;
-      if (beyond) outside_[v] |= static_cast<std::uint8_t>(1 << i);
-    }
+    const bool out = corner ? v != cell[static_cast<std::size_t>(i)]
+                            : orient3d(points_[f[0]], points_[f[1]], points_[f[2]], points_[v]) != Sign::positive;
+    if (out) beyond |= static_cast<std::uint8_t>(1 << i);
   }
-  return std::any_of(front_.begin(), front_.end(), [&](const Face& f) {
-    return (outside_[f[0]] & outside_[f[1]] & outside_[f[2]]) == 0 && meets(cell, f);
+  return beyond;
+}
+
+/// Does a triangle of the front meet the inside of the cell? Most are far away.
+bool GiftWrap::blocked(const Cell& cell) {
+  Point3 low = points_[cell[0]], high = low;
+  for (const Index v : cell)
+    for (int k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], points_[v][k]);
+      high[k] = std::max(high[k], points_[v][k]);
+    }
+  constexpr std::uint8_t unknown = 0xff;
+  beyond_.assign(points_.size(), unknown);
+  const auto beyond = [&](Index v) {
+    if (beyond_[v] == unknown) beyond_[v] = beyond_faces(cell, v);
+    return beyond_[v];
+  };
+  return std::any_of(front_.begin(), front_.end(), [&](const FrontFace& o) {
+    for (int k = 0; k < 3; ++k)
+      if (o.high[k] <= low[k] || high[k] <= o.low[k]) return false;
+    const Face& f = o.vertices;
+    return (beyond(f[0]) & beyond(f[1]) & beyond(f[2])) == 0 && meets(cell, f);
   });
 }
 
@@ -115,18 +149,22 @@ bool GiftWrap::meets(const Cell& cell, const Face& face) const {
   return true;
 }
 
+auto GiftWrap::find_in_front(const Face& f) -> std::vector<FrontFace>::iterator {
+  return std::find_if(front_.begin(), front_.end(), [&f](const FrontFace& o) { return o.vertices == f; });
+}
+
 /// The cell's faces leave the front or, turned over, enter it.
 bool GiftWrap::replace_in_front(const Cell& cell) {
   for (int i = 0; i < 4; ++i) {
     const Face f = face_of(cell, i);
-    if (const auto at = std::find(front_.begin(), front_.end(), f); at != front_.end()) {
+    if (const auto at = find_in_front(f); at != front_.end()) {
       *at = front_.back();
       front_.pop_back();
       continue;
     }
     const Face back = smallest_first(turned_over(f));
-    if (std::find(front_.begin(), front_.end(), back) != front_.end()) return false;
-    front_.push_back(back);
+    if (find_in_front(back) != front_.end()) return false;
+    add_to_front(back);
   }
   return true;
 }

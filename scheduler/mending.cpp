@@ -57,7 +57,7 @@ bool LeafRefinement<D>::mend_far_from_walls(std::set<std::array<VertexId, D + 1>
   worker->begin(mending);
   bool any = false;
   for (const Entry<D>& e : violations_everywhere()) {
-    if (cancelled(0)) break;
+    if (worker->ended()) break;
     if (!e.alive(context_.mesh) || !worker->is_far_from_walls(e)) continue;
     const auto vertices = context_.mesh.cell(e.cell).vertices;
     if (hopeless.contains(vertices)) continue;

@@ -137,5 +137,15 @@ TEST(GiftWrap, GivesUpAtItsLimit) {
   EXPECT_TRUE(wrap.fill(points, rim_of(cells), cells.size()));
 }
 
+TEST(GiftWrap, EndsWhenItIsToldTo) {
+  const auto points = some_points(24, false, 1);
+  const Cells cells = delaunay_cells(points);
+  GiftWrap wrap;
+  std::size_t asked = 0;
+  EXPECT_FALSE(wrap.fill(points, rim_of(cells), cells.size(), [&] { return ++asked == 5; }));
+  EXPECT_EQ(asked, 5u);
+  EXPECT_TRUE(wrap.fill(points, rim_of(cells), cells.size(), [] { return false; }));
+}
+
 }  // namespace
 }  // namespace pgdr

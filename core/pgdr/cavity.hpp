@@ -77,7 +77,10 @@ class Cavity {
 
   /// `domain` may be null where no insertion splits a facet.
   explicit Cavity(Mesh<D>& mesh, const Domain<D>* domain = nullptr) : mesh_(&mesh), domain_(domain) {}
-  ~Cavity() { release(); }
+  ~Cavity() {
+    seen_ = nullptr;
+    release();
+  }
   /// What the visit may change; null: everything.
   void set_area(const VisitArea<D>* area) { area_ = area; }
   /// Where to add the cells that were collected and given up, with repetitions; null: nowhere.

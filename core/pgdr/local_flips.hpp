@@ -9,7 +9,9 @@
 #pragma once
 
 #include <type_traits>
+#include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "pgdr/local_rewrap.hpp"
@@ -29,6 +31,8 @@ class LocalFlips {
   /// Both must outlive it.
   LocalFlips(Mesh<D>& mesh, const Domain<D>& domain) : mesh_(&mesh), domain_(&domain), rewrap_(mesh, domain) {}
 
+  /// Asked often by what is slow; once it says true, nothing more is mended by that.
+  void set_ended(std::function<bool()> ended) { rewrap_.set_ended(std::move(ended)); }
   /// What the visit may change; null: everything.
   void set_area(const VisitArea<D>* area) {
     area_ = area;
@@ -102,6 +106,7 @@ class LocalFlips {
   struct NoRewrap {
     NoRewrap(Mesh<D>&, const Domain<D>&) {}
     void begin_visit(const VisitArea<D>*) {}
+    void set_ended(const std::function<bool()>&) {}
   };
 
   Mesh<D>* mesh_;

@@ -10,8 +10,10 @@
 // so that they are faces of the new triangulation, but where vertices hide behind walls. A workspace of one visit.
 #pragma once
 
+#include <functional>
 #include <random>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "pgdr/gift_wrap.hpp"
@@ -39,6 +41,8 @@ class LocalRewrap {
   /// Makes the cells of the ring about an edge inside a facet at the hull anew, more if need be, so that the facet is Delaunay
   /// there. False if that cannot be done.
   bool repair_facet(Pools& pools, std::span<const CellId> ring);
+  /// Asked often; once it says true, nothing more is repaired.
+  void set_ended(std::function<bool()> ended) { ended_ = std::move(ended); }
   /// What the visit may change; null: everything.
   void begin_visit(const VisitArea<3>* area) {
     area_ = area;
@@ -70,6 +74,7 @@ class LocalRewrap {
   static constexpr Index no_index = 0xffff;
 
   bool repair_without(Pools& pools, CellId c, CellId d, VertexId left_out);
+  bool is_ended() const { return ended_ && ended_(); }
   bool in_volume(VertexId v) const;
   void begin(std::span<const CellId> cells, VertexId left_out);
   bool grow();
@@ -84,7 +89,7 @@ class LocalRewrap {
   void find_rim();
   bool keeps_subsegments() const;
   int violations_before() const;
-  int violations_after(int enough) const;
+  int violations_after(int enough);
   int weight(const std::array<VertexId, 4>& cell, VertexId apex) const;
   int violation(const GiftWrap::Cell& cell, VertexId apex) const;
   void replace(Pools& pools);
@@ -96,12 +101,19 @@ class LocalRewrap {
   const Domain<3>* domain_;
   const VisitArea<3>* area_ = nullptr;
   bool reached_border_ = false;
+  std::function<bool()> ended_;  ///< may be empty
   GiftWrap wrap_;
   std::vector<CellId> old_, new_cells_;
   std::vector<VertexId> vertices_;  ///< of the region; gift wrapping knows them by their place here
   std::vector<Point3> points_;
   std::vector<RimFace> rim_;
+  std::vector<std::pair<GiftWrap::Face, std::uint32_t>> rim_by_face_;  ///< sorted; places in rim_
   std::vector<GiftWrap::Face> front_;
+  struct Side {
+    GiftWrap::Face face;
+    VertexId apex;
+  };
+  std::vector<Side> sides_;  ///< of new cells, and of cells beyond the rim
   std::vector<Subsegment> subsegments_;
   std::size_t most_cells_ = 0;
   int orders_ = 1, least_gain_ = 0;

@@ -130,6 +130,8 @@ class Refiner {
   /// splits an entity for it, or inserts a point inside of it, with the least distances that the insertion rule has for such.
   /// False if none may go in. Everything must be owned, and `begin` have been called.
   bool insert_within(const Entry<D>& e);
+  /// Has the run been cancelled, or is its time up? It is stopped with that.
+  bool ended();
   /// Is this violating face between volume vertices alone?
   bool is_far_from_walls(const Entry<D>& e) const;
   bool violates(const Entry<D>& e) const { return flips_.violates(e.cell, e.which()); }  ///< is the face not locally Delaunay?

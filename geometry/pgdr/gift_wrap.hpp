@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -27,8 +28,9 @@ class GiftWrap {
   using Cell = std::array<Index, 4>;  ///< positively oriented
 
   /// The triangles must close the region; one may occur twice, turned over, where the region lies on both sides of it.
-  /// False if wrapping gets stuck, or after `most_cells` cells.
-  bool fill(std::span<const Point3> points, std::span<const Face> front, std::size_t most_cells);
+  /// False if wrapping gets stuck, or after `most_cells` cells, or once `ended`, asked for every cell, says so.
+  bool fill(std::span<const Point3> points, std::span<const Face> front, std::size_t most_cells,
+            const std::function<bool()>& ended = {});
   /// The cells made by the last fill that succeeded: they tile the region exactly.
   const std::vector<Cell>& cells() const { return cells_; }
 
@@ -37,18 +39,25 @@ class GiftWrap {
   static Face turned_over(const Face& f) { return {f[0], f[2], f[1]}; }  ///< the same seen from the other side
 
  private:
+  struct FrontFace {
+    Face vertices;
+    Point3 low, high;  // of its bounding box
+  };
+
   bool wrap(const Face& f);
   void find_candidates(const Face& f);
-  std::size_t first_candidate(const Face& f) const;
   bool blocked(const Cell& cell);
+  std::uint8_t beyond_faces(const Cell& cell, Index v) const;
   bool meets(const Cell& cell, const Face& face) const;
+  void add_to_front(const Face& f);
+  std::vector<FrontFace>::iterator find_in_front(const Face& f);
   bool replace_in_front(const Cell& cell);
 
   std::span<const Point3> points_;
-  std::vector<Face> front_;
+  std::vector<FrontFace> front_;
   std::vector<Cell> cells_;
   std::vector<Index> candidates_;
-  std::vector<std::uint8_t> outside_;  ///< of each point, bit i: weakly beyond face i of the cell looked at
+  std::vector<std::uint8_t> beyond_;  ///< of each point, bit i: weakly beyond face i of the cell looked at; `unknown`
 };
 
 }  // namespace pgdr
