@@ -91,11 +91,13 @@ std::size_t threads_that_ran(const RefineResult<D>& r) {
   return std::max<std::size_t>(r.scheduler.busy_seconds.size(), 1);
 }
 
-/// A look at every face would take more than a tenth of the time of meshing.
+/// A look at every face would take more than a tenth of the time of meshing. Who ends a run does not want to wait: there are
+/// many in a mesh that was not mended, decided in rationals.
 template <int D>
-JsonObject not_delaunay(const RefineResult<D>& r) {
+Json not_delaunay(const RefineResult<D>& r) {
+  if (r.stop == StopCause::cancelled || r.stop == StopCause::time_limit) return nullptr;
   const NotDelaunay n = count_not_delaunay(r.mesh, r.violations_seen);
-  return {{"rounding", n.rounding}, {"refused", n.other}};
+  return JsonObject{{"rounding", n.rounding}, {"refused", n.other}};
 }
 
 template <int D>

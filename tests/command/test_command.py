@@ -321,6 +321,7 @@ class Stopped(Case):
             self.assertLess(time.monotonic() - begin, 60)
             self.assertIn("--time-limit", done.stdout)
             self.assertFalse(self.json()["reproducible"])
+            self.assertIsNone(self.json()["quality"]["not_delaunay"])  # who sets a limit does not want to wait
             self.assert_partial(model)
 
     def test_min_edge(self):
