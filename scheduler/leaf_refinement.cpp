@@ -30,17 +30,19 @@ bool has_uneven_facets(const Domain<D>& domain) {
   return false;
 }
 
-/// The slots with another cell than at the last call, whose births these are, or with none now, or with a cell beside such.
+/// The slots with another cell than at the last call, whose births these are, or with none now, or with a cell beside such: of a
+/// given cell, born before or since, dead or alive, that says the same whatever slot it was given.
 template <int D>
 std::vector<bool> changed_surroundings(const Mesh<D>& mesh, std::vector<std::uint16_t>& births) {
   std::vector<bool> changed(mesh.cell_bound(), false);
   births.resize(mesh.cell_bound(), Mesh<D>::last_birth);
   for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i) {
     const CellId c{i};
-    const std::uint16_t born = mesh.alive(c) ? mesh.birth(c) : Mesh<D>::last_birth;
-    if (std::exchange(births[i], born) == born) continue;
+    const bool alive = mesh.alive(c);
+    const std::uint16_t born = alive ? mesh.birth(c) : Mesh<D>::last_birth;
+    if (std::exchange(births[i], born) == born && alive) continue;
     changed[i] = true;
-    if (born == Mesh<D>::last_birth) continue;
+    if (!alive) continue;
     for (const Link next : mesh.cell(c).links)
       if (next) changed[index(next.cell())] = true;
   }
