@@ -141,10 +141,15 @@ void Cavity<D>::link_by_ridges() {
       ++out;
     }
   }
+  const auto ridge_of = [&mesh](Link l) {
+    auto vertices = mesh.cell(l.cell()).vertices;
+    vertices[static_cast<std::size_t>(l.face())] = no_vertex;
+    return sorted(vertices);
+  };
   shared_slots_.clear();
   for (const auto [code, slot] : new_faces_) {
     if (!ridges_.is_pair(slot)) {
-      shared_slots_.push_back(code);
+      shared_slots_.emplace_back(ridge_of(Link::from_code(code)), code);
       continue;
     }
     const Link self = Link::from_code(code);
@@ -156,37 +161,13 @@ void Cavity<D>::link_by_ridges() {
 /// The new faces at ridges that share a slot: few, but in the cavities of many thousand cells that fans of needles have.
 template <int D>
 void Cavity<D>::link_shared_slots() {
-  const auto ridge_of = [this](Link l) {
-    auto vertices = mesh_->cell(l.cell()).vertices;
-    vertices[static_cast<std::size_t>(l.face())] = no_vertex;
-    return sorted(vertices);
-  };
-  const auto link = [this](Link one, Link other) {
+  std::sort(shared_slots_.begin(), shared_slots_.end());
+  assert(shared_slots_.size() % 2 == 0 && "two faces meet at a ridge");
+  for (std::size_t i = 0; i + 1 < shared_slots_.size(); i += 2) {
+    assert(shared_slots_[i].first == shared_slots_[i + 1].first && "two faces meet at a ridge");
+    const Link one = Link::from_code(shared_slots_[i].second), other = Link::from_code(shared_slots_[i + 1].second);
     mesh_->cell(one.cell()).links[one.face()] = other;
     mesh_->cell(other.cell()).links[other.face()] = one;
-  };
-  constexpr std::size_t few = 64;
-  if (shared_slots_.size() > few) {
-    std::vector<std::pair<std::array<VertexId, D + 1>, std::uint32_t>> faces;
-    for (const std::uint32_t code : shared_slots_) faces.emplace_back(ridge_of(Link::from_code(code)), code);
-    std::sort(faces.begin(), faces.end());
-    for (std::size_t i = 0; i + 1 < faces.size(); i += 2) {
-      assert(faces[i].first == faces[i + 1].first && "two faces meet at a ridge");
-      link(Link::from_code(faces[i].second), Link::from_code(faces[i + 1].second));
-    }
-    return;
-  }
-  while (!shared_slots_.empty()) {
-    const Link one = Link::from_code(shared_slots_.back());
-    shared_slots_.pop_back();
-    const auto ridge = ridge_of(one);
-    const auto at = std::find_if(shared_slots_.begin(), shared_slots_.end(),
-                                 [&](std::uint32_t code) { return ridge_of(Link::from_code(code)) == ridge; });
-    assert(at != shared_slots_.end() && "two faces meet at a ridge");
-    if (at == shared_slots_.end()) continue;
-    link(one, Link::from_code(*at));
-    *at = shared_slots_.back();
-    shared_slots_.pop_back();
   }
 }
 

@@ -35,15 +35,14 @@ bool GiftWrap::fill(std::span<const Point3> points, std::span<const Face> front,
   return true;
 }
 
-void GiftWrap::add_to_front(const Face& f) {
-  FrontFace entry{f, points_[f[0]], points_[f[0]]};
-  for (const Index v : {f[1], f[2]})
-    for (int k = 0; k < 3; ++k) {
-      entry.low[k] = std::min(entry.low[k], points_[v][k]);
-      entry.high[k] = std::max(entry.high[k], points_[v][k]);
-    }
-  front_.push_back(entry);
+template <std::size_t N>
+BoundingBox<3> GiftWrap::box_of(const std::array<Index, N>& corners) const {
+  std::array<Point3, N> points;
+  for (std::size_t i = 0; i < N; ++i) points[i] = points_[corners[i]];
+  return bounding_box<3>(points);
 }
+
+void GiftWrap::add_to_front(const Face& f) { front_.push_back({f, box_of(f)}); }
 
 /// Puts a cell on the face, which leaves the front. Of the candidates the first is the one whose sphere with the face has no
 /// other inside on the face's positive side.
@@ -53,23 +52,13 @@ bool GiftWrap::wrap(const Face& f) {
     const Simplex<3> s{points_[f[0]], points_[f[1]], points_[f[2]], points_[v]};
     return in_sphere_perturbed<3>(s, points_[w]) == Sign::positive;
   };
-  const auto take = [&](Index v) {
-    const Cell cell{f[0], f[1], f[2], v};
-    if (blocked(cell)) return false;
-    cells_.push_back(cell);
-    return true;
-  };
-  if (candidates_.empty()) return false;
-  // The first mostly will do, and takes one pass; the others go into a heap.
-  auto first = candidates_.begin();
-  for (auto v = first + 1; v != candidates_.end(); ++v)
-    if (later(*first, *v)) first = v;
-  std::iter_swap(first, candidates_.end() - 1);
-  if (take(candidates_.back())) return replace_in_front(cells_.back());
-  candidates_.pop_back();
   std::make_heap(candidates_.begin(), candidates_.end(), later);
   while (!candidates_.empty()) {
-    if (take(candidates_.front())) return replace_in_front(cells_.back());
+    const Cell cell{f[0], f[1], f[2], candidates_.front()};
+    if (!blocked(cell)) {
+      cells_.push_back(cell);
+      return replace_in_front(cell);
+    }
     std::pop_heap(candidates_.begin(), candidates_.end(), later);
     candidates_.pop_back();
   }
@@ -98,12 +87,7 @@ std::uint8_t GiftWrap::beyond_faces(const Cell& cell, Index v) const {
 
 /// Does a triangle of the front meet the inside of the cell? Most are far away.
 bool GiftWrap::blocked(const Cell& cell) {
-  Point3 low = points_[cell[0]], high = low;
-  for (const Index v : cell)
-    for (int k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], points_[v][k]);
-      high[k] = std::max(high[k], points_[v][k]);
-    }
+  const BoundingBox<3> box = box_of(cell);
   constexpr std::uint8_t unknown = 0xff;
   beyond_.assign(points_.size(), unknown);
   const auto beyond = [&](Index v) {
@@ -112,7 +96,7 @@ bool GiftWrap::blocked(const Cell& cell) {
   };
   return std::any_of(front_.begin(), front_.end(), [&](const FrontFace& o) {
     for (int k = 0; k < 3; ++k)
-      if (o.high[k] <= low[k] || high[k] <= o.low[k]) return false;
+      if (o.box.high[k] <= box.low[k] || box.high[k] <= o.box.low[k]) return false;
     const Face& f = o.vertices;
     return (beyond(f[0]) & beyond(f[1]) & beyond(f[2])) == 0 && meets(cell, f);
   });

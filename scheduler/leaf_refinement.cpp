@@ -209,7 +209,7 @@ StopCause LeafRefinement<D>::run() {
     for (const Entry<D>& e : new_violations()) relist(e);
     if (!relist_refused()) break;
   }
-  if (stop == StopCause::finished) new_violations();
+  if (stop == StopCause::finished) new_violations();  // that the last pass left, so that they are seen
   if (stop == StopCause::finished && violations_seen_) stop = mend();
   if (stop == StopCause::finished) stop = static_cast<StopCause>(context_.stop.load());
   statistics_.leaves = tree_.leaf_count();

@@ -6,6 +6,7 @@
 // of gears with six digits, 100 away from the origin, were refused, as a bend counted in proportion to that distance.)
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

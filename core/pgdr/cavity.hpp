@@ -209,7 +209,8 @@ class Cavity {
     std::uint32_t slot;
   };
   std::vector<NewFace> new_faces_;  ///< of new cells, at the ridges of the boundary
-  std::vector<std::uint32_t> shared_slots_;  ///< links to those of them whose slot in the table is not theirs alone
+  /// Those of them whose slot in the table is not theirs alone: their vertices but the new one, sorted, and links to them.
+  std::vector<std::pair<std::array<VertexId, D + 1>, std::uint32_t>> shared_slots_;
   PairTable ridges_;
   std::array<VertexId, 2> split_edge_{no_vertex, no_vertex};  // 3D: the subsegment being split
   EntityId split_segment_ = no_entity;

@@ -16,6 +16,7 @@
 #include <span>
 #include <vector>
 
+#include "pgdr/bounding_box.hpp"
 #include "pgdr/types.hpp"
 
 namespace pgdr {
@@ -41,12 +42,14 @@ class GiftWrap {
  private:
   struct FrontFace {
     Face vertices;
-    Point3 low, high;  // of its bounding box
+    BoundingBox<3> box;
   };
 
   bool wrap(const Face& f);
   void find_candidates(const Face& f);
   bool blocked(const Cell& cell);
+  template <std::size_t N>
+  BoundingBox<3> box_of(const std::array<Index, N>& corners) const;
   std::uint8_t beyond_faces(const Cell& cell, Index v) const;
   bool meets(const Cell& cell, const Face& face) const;
   void add_to_front(const Face& f);
