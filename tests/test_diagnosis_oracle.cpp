@@ -11,6 +11,7 @@
 #include "clipping_oracle.hpp"
 #include "domain_plcs.hpp"
 #include "pgdr/diagnosis.hpp"
+#include "sanitized.hpp"
 
 namespace pgdr {
 namespace {
@@ -102,7 +103,7 @@ Plc<D> random_plc(std::mt19937_64& random, int steps) {
 TEST(DiagnosisOracle, SpaceWithFewCoordinates) {
   std::mt19937_64 random(oracle::seed());
   Tally tally;
-  for (int k = 0; k < 10000 && !HasFatalFailure(); ++k) compare(random_plc<3>(random, 2), tally);
+  for (int k = 0; k < (test::sanitized ? 4000 : 10000) && !HasFatalFailure(); ++k) compare(random_plc<3>(random, 2), tally);
   for (const int n : {tally.valid, tally.cross, tally.overlap, tally.segment_facet, tally.segments, tally.on_facet,
                       tally.on_edge})
     EXPECT_GT(n, 30);
@@ -112,14 +113,14 @@ TEST(DiagnosisOracle, SpaceWithFewCoordinates) {
 TEST(DiagnosisOracle, PlaneWithFewCoordinates) {
   std::mt19937_64 random(oracle::seed() + 1);
   Tally tally;
-  for (int k = 0; k < 4000 && !HasFatalFailure(); ++k) compare(random_plc<2>(random, 3), tally);
+  for (int k = 0; k < (test::sanitized ? 1500 : 4000) && !HasFatalFailure(); ++k) compare(random_plc<2>(random, 3), tally);
   for (const int n : {tally.valid, tally.segments, tally.on_edge}) EXPECT_GT(n, 100);
 }
 
 TEST(DiagnosisOracle, ScaledAndTurned) {
   std::mt19937_64 random(oracle::seed() + 2);
   Tally tally;
-  for (int k = 0; k < 500 && !HasFatalFailure(); ++k) {
+  for (int k = 0; k < (test::sanitized ? 200 : 500) && !HasFatalFailure(); ++k) {
     Plc<3> plc = random_plc<3>(random, 2);
     compare(test::turned(plc), tally);
     if (HasFatalFailure()) return;

@@ -17,6 +17,7 @@
 #include "parallel_support.hpp"
 #include "pgdr/quality.hpp"
 #include "pgdr/selectors.hpp"
+#include "sanitized.hpp"
 #include "scattered_models.hpp"
 
 namespace pgdr {
@@ -62,11 +63,7 @@ using Dim = std::integral_constant<int, D>;
 using Dimensions = testing::Types<Dim<2>, Dim<3>>;
 TYPED_TEST_SUITE(SelectorsRefine, Dimensions);
 
-#ifdef __SANITIZE_ADDRESS__
-constexpr bool sanitized = true;  // and takes six times as long
-#else
-constexpr bool sanitized = false;
-#endif
+using test::sanitized;
 
 TYPED_TEST(SelectorsRefine, SameBytesForAnyThreads) {
   constexpr int D = TypeParam::value;
@@ -81,6 +78,7 @@ TYPED_TEST(SelectorsRefine, SameBytesForAnyThreads) {
       options.schedule.floor = 5;
       std::uint64_t set_aside = 0;
       for (const double ratio : {0.5, 1.5}) {
+        if (sanitized && ratio > 1) continue;
         options.schedule.split_ratio = ratio;
         const auto result = expect_reproducible<D>(plc, options, std::string(name) + (is_turned ? ", turned" : ""));
         EXPECT_EQ(result.poor_left, 0u) << name;
@@ -114,6 +112,7 @@ TYPED_TEST(SelectorsRefine, BoundsBelowTheProvedOneEnd) {
   constexpr int D = TypeParam::value;
   for (const double bound : {D == 2 ? 1.0 : 1.5, D == 2 ? 0.9 : 1.0})
     for (const auto& [name, selector] : selectors<D>()) {
+      if (sanitized && bound > 1) continue;
       RefineOptions<D> options;
       options.selector = selector;
       options.disk.type = DiskType::type1;

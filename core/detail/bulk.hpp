@@ -4,13 +4,12 @@
 // Bulk loops over arrays, in the caller's task arena or on the calling thread: the one place where core uses TBB.
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <stop_token>
 #include <utility>
 #include <vector>
@@ -41,16 +40,7 @@ class Bulk {
   /// thread that waits does not pick up other tasks of the caller.
   template <class F>
   void blocks(std::size_t count, const F& f) const {
-    if (!parallel_) {
-      for (std::size_t first = 0; first < count && !stopped(); first += grain) f(first, std::min(count, first + grain));
-      return;
-    }
-    tbb::this_task_arena::isolate([&] {
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
-                        [&](const tbb::blocked_range<std::size_t>& r) {
-                          if (!stopped()) f(r.begin(), r.end());
-                        });
-    });
+    run(count, grain, std::cref(f));
   }
   /// Calls f(i) for i in [0, count).
   template <class F>
@@ -62,14 +52,9 @@ class Bulk {
   /// Calls f(part) for parts in [0, parts), each of which is much work.
   template <class F>
   void parts(std::size_t parts, const F& f) const {
-    auto one = [&](std::size_t i) {
-      if (!stopped()) f(i);
-    };
-    if (!parallel_) {
-      for (std::size_t i = 0; i < parts; ++i) one(i);
-      return;
-    }
-    tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, parts, one); });
+    run(parts, 1, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last && !stopped(); ++i) f(i);
+    });
   }
   /// What f(i, out) appends to `out` for i in [0, count), in the order of the i.
   template <class T, class F>
@@ -114,6 +99,9 @@ class Bulk {
 
  private:
   static constexpr std::size_t grain = 8192;
+
+  /// Not a template: each loop that TBB gets a type of its own costs seconds of code generation.
+  void run(std::size_t count, std::size_t block, const std::function<void(std::size_t, std::size_t)>& f) const;
 
   bool parallel_;
   std::stop_token stop_;

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "detail/bulk.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+namespace pgdr::detail {
+
+void Bulk::run(std::size_t count, std::size_t block, const std::function<void(std::size_t, std::size_t)>& f) const {
+  if (!parallel_) {
+    for (std::size_t first = 0; first < count && !stopped(); first += block) f(first, std::min(count, first + block));
+    return;
+  }
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, block), [&](const tbb::blocked_range<std::size_t>& r) {
+      if (!stopped()) f(r.begin(), r.end());
+    });
+  });
+}
+
+}  // namespace pgdr::detail
