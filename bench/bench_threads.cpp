@@ -6,22 +6,25 @@
 // ones of a size must have the same bytes in all rounds. Exit code 1 if anything is wrong, 2 for wrong usage or input.
 //
 //   bench_threads [--model cube|graded|FILE] [--size S,...] [--threads 1,2,8] [--repeat N] [--greedy] [--leaves-only]
-//                 [--split-ratio R]
+//                 [--split-ratio R] [--pause SECONDS]
 //
 // A file may be 2D; sizes are then areas. 0: no bound. --leaves-only leaves the sequential algorithm out. "ratio" is how many
 // times as fast as the size's first row by leaves, "growth" how many times as long an element takes as in such a row of the
 // first size; "kernel s" is the kernel's part of the processor's seconds, most of it the clearing of pages: in a virtual
-// machine, memory that nobody has used for some seconds may cost twenty times as much to touch, which large runs have to pay.
+// machine, memory that nobody has used for some seconds may cost twenty times as much to touch, which large runs have to pay
+// and small ones that follow others have not. With --pause before every run all of them find such memory.
 #include <sys/resource.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <limits>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "pgdr/pgdr.hpp"
@@ -34,7 +37,7 @@ using namespace pgdr;
 struct Arguments {
   std::string model = "cube";
   std::vector<double> sizes{0.0135};
-  double split_ratio = 0.5;
+  double split_ratio = 0.5, pause = 0;
   std::vector<int> threads{1, 2};
   int repeat = 3;
   bool greedy = false, leaves_only = false;
@@ -67,6 +70,7 @@ Arguments parse(int argc, char** argv) {
     if (flag == "--model") a.model = value;
     else if (flag == "--size") a.sizes = values<double>(value, std::atof);
     else if (flag == "--split-ratio") a.split_ratio = std::atof(value);
+    else if (flag == "--pause") a.pause = std::atof(value);
     else if (flag == "--repeat") a.repeat = std::max(1, std::atoi(value));
     else if (flag == "--threads") a.threads = values<int>(value, std::atoi);
     else usage("unknown flag");
@@ -194,7 +198,10 @@ int bench(const Arguments& a, const Plc<D>& plc) {
   std::vector<Row<D>> rows = make_rows<D>(a);
   bool good = true;
   for (int round = 0; round < a.repeat; ++round)
-    for (Row<D>& row : rows) good = run(domain, round + 1 == a.repeat, row) && good;
+    for (Row<D>& row : rows) {
+      std::this_thread::sleep_for(std::chrono::duration<double>(a.pause));
+      good = run(domain, round + 1 == a.repeat, row) && good;
+    }
   std::printf("%-18s %10s %8s %8s %8s %6s %7s %7s %9s %6s %6s %6s %6s  %s\n", "schedule, threads", "elements", "mesh s",
               "refine s", "kernel s", "leaves", "visits", "aside %", "work/path", "M/s", "ratio", "growth", "check", "bytes");
   const std::size_t first = a.leaves_only ? 0 : 1, rows_a_size = rows.size() / a.sizes.size();

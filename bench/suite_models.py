@@ -49,6 +49,8 @@ MODELS = [
     Model("cube02", "unit cube, 0.2 million", 0.029, 0.2, usual=False, **CUBE),
     Model("cube10", "unit cube, 10 million", 0.0078, 0.09, usual=False, **CUBE),
     Model("cube30", "unit cube, 30 million", 0.00538, 0.08, usual=False, **CUBE),
+    Model("square30", "2D: square with 1000 points, 30 million", 5.1e-8, 1e-4, (PLANAR + "square1000.poly",), dimension=2,
+          usual=False),
 ]
 
 
