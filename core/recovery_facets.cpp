@@ -226,22 +226,29 @@ bool FacetPatches::split_triangles(EntityId facet, std::vector<Candidate> candid
   for (const Candidate& c : candidates) boxes.push_back(box_around(c.ball));
   const BoxTree<3> tree(boxes);
   std::vector<bool> reached(candidates.size(), false);
-  bool any = false;
   auto place = [&](const Point3& p) {
-    any = true;
     tree.at(p, [&](std::size_t i) { reached[i] = reached[i] || in_equatorial_ball(candidates[i].ball, p); });
   };
+  // What other facets have split in this round: to split it once more for a triangle that is gone would go on for ever
+  // about a point where segments meet at small angles, each facet halving what its neighbour has just halved.
+  for (const EntityId s : domain_->facet_segments(facet))
+    for (const auto& link : chains_->chain(s))
+      if (chains_->is_new(link)) place(mesh_->point(link.vertex));
+  bool any = false;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const Candidate& c = candidates[i];
     if (reached[i]) continue;
     const Point3 x = point_on_facet(*domain_, facet, c.ball.center);
     if (const auto s = in_the_way(rim, rim_tree, facet, c.triangle, x)) {
       if (c.least > 0 && !may_split(*s)) continue;
-      if (!chains_->split(*s, c.least)) continue;  // another triangle has asked for it, or it is too near
-      place(diametral_ball<3>(mesh_->point(s->a), mesh_->point(s->b)).center);
+      const VertexId v = chains_->split(*s, c.least);
+      if (v == no_vertex) continue;  // another triangle has asked for it, or it is too near
+      place(mesh_->point(v));
+      any = true;
     } else if (const VertexId v = insert_inside(facet, c, x); v != no_vertex) {
       add_inner_point(facet, v);
       place(mesh_->point(v));
+      any = true;
     }
   }
   return any;

@@ -50,19 +50,19 @@ std::size_t SegmentChains::position(const Subsegment& s) const {
 
 void SegmentChains::add(EntityId segment, std::size_t position, VertexId v, double t) {
   auto& chain = chains_[segment];
-  chain.insert(chain.begin() + static_cast<std::ptrdiff_t>(position), {v, t});
+  chain.insert(chain.begin() + static_cast<std::ptrdiff_t>(position), {v, t, round_});
   changed_.push_back(segment);
   ++points_;
 }
 
-bool SegmentChains::split(const Subsegment& s, double least) {
+VertexId SegmentChains::split(const Subsegment& s, double least) {
   const std::size_t i = position(s);
-  if (i == 0) return false;
+  if (i == 0) return no_vertex;
   const auto& [segment, a, b, begin] = s;
   const double t = shells_.split_parameter(segment, begin, chains_[segment][i].t);
   const Point<3> p = point_on_segment<3>(*domain_, segment, t);
   const VertexId v = delaunay_->insert(p, Home(EntityKind::segment, segment), a, least);
-  if (v == no_vertex) return false;
+  if (v == no_vertex) return no_vertex;
   const Home home = mesh_->vertex(v).home;
   if (!(home.kind() == EntityKind::segment && home.id() == segment) || v == a || v == b) {
     const auto& ends = domain_->segments()[segment].points;
@@ -79,12 +79,13 @@ bool SegmentChains::split(const Subsegment& s, double least) {
     throw InputError(std::move(d));
   }
   add(segment, i, v, t);
-  return true;
+  return v;
 }
 
 std::vector<EntityId> SegmentChains::take_changed() {
   std::sort(changed_.begin(), changed_.end());
   changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+  ++round_;
   return std::exchange(changed_, {});
 }
 

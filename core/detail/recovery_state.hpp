@@ -28,6 +28,7 @@ class SegmentChains {
   struct Link {
     VertexId vertex;
     double t;  ///< parameter on the segment
+    std::uint32_t round = 0;  ///< in which it was made
   };
 
   SegmentChains(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>& domain);
@@ -39,19 +40,21 @@ class SegmentChains {
       again = false;
       for (const Subsegment& s : missing()) {
         if (stop()) return false;
-        again = split(s) || again;
+        again = split(s) != no_vertex || again;
       }
     }
     return true;
   }
-  /// Splits the subsegment, if it is still one and no vertex is nearer to the point than `least`; false otherwise.
-  bool split(const Subsegment& s, double least = 0);
+  /// Splits the subsegment, if it is still one and no vertex is nearer to the point than `least`: the new vertex, or no_vertex.
+  VertexId split(const Subsegment& s, double least = 0);
 
   const std::vector<Link>& chain(EntityId segment) const { return chains_[segment]; }
   /// Does the segment make less than 60 degrees with another one?
   bool at_small_angle(EntityId segment) const {
     return shells_.end_of(segment, 0, 0.5) >= 0 || shells_.end_of(segment, 0.5, 1) >= 0;
   }
+  /// Was it made since the last call of take_changed()?
+  bool is_new(const Link& link) const { return link.round == round_; }
   /// Segments whose chain has changed since the last call.
   std::vector<EntityId> take_changed();
   std::uint64_t points() const { return points_; }
@@ -69,6 +72,7 @@ class SegmentChains {
   std::vector<std::vector<Link>> chains_;
   Shells<3> shells_;
   std::vector<EntityId> changed_;
+  std::uint32_t round_ = 1;
   std::uint64_t points_ = 0;
 };
 
