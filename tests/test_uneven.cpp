@@ -67,7 +67,8 @@ TEST_P(Uneven, CapsOfSixDigitsAreMeshed) {
 
 // Sixteen nearly coplanar facets about each hub. The recovery of the facets went on for ever there: a facet's triangle had
 // its edge split on a shell, and in the same round its neighbour, whose triangle was gone with that edge, had the new half
-// split once more; then the former's triangle between unequal shells was missing. One of nine that were refused, of 888 such plates.
+// split once more; then the former's triangle between unequal shells was missing. One of nine that were refused, of 888 such
+// plates.
 TEST(Fans, NeighboursDoNotHalveEdgesInTurns) {
   const Plc<3> plc = read_plc<3>(PGDR_TEST_MODELS "/star_plate.off");
   const auto outcome = test::refine_and_check<3>(plc, {});
