@@ -10,6 +10,7 @@
 
 #include "detail/diagnoser.hpp"
 #include "detail/dihedral_sign.hpp"
+#include "detail/sort_by_points.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr::detail {
@@ -60,20 +61,6 @@ std::string in_words(double angle) {
   return {text, std::to_chars(text, text + sizeof text, angle, std::chars_format::general, 6).ptr};
 }
 
-// The items at point v, in their order, become at[begin[v]] ... at[begin[v + 1] - 1]; points_of(k): where item k lies.
-template <class PointsOf>
-void sort_by_points(std::size_t points, std::size_t items, const PointsOf& points_of, std::vector<std::uint32_t>& begin,
-                    std::vector<std::uint32_t>& at) {
-  begin.assign(points + 1, 0);
-  for (std::uint32_t k = 0; k < items; ++k)
-    for (const std::uint32_t v : points_of(k)) ++begin[v + 1];
-  for (std::size_t v = 1; v <= points; ++v) begin[v] += begin[v - 1];
-  at.resize(begin[points]);
-  std::vector<std::uint32_t> next(begin);
-  for (std::uint32_t k = 0; k < items; ++k)
-    for (const std::uint32_t v : points_of(k)) at[next[v]++] = k;
-}
-
 }  // namespace
 
 template <int D>
@@ -94,13 +81,13 @@ template <int D>
 void Diagnoser<D>::segments_at_points() {
   const auto segments = domain_.segments();
   const auto ends = [&](std::uint32_t s) { return segments[s].points; };
-  sort_by_points(p_.size(), segments.size(), ends, segment_begin_, segment_at_);
+  detail::sort_by_points(p_.size(), segments.size(), ends, segment_begin_, segment_at_);
 }
 
 template <int D>
 void Diagnoser<D>::corners_at_points() requires(D == 3) {
   const auto corner = [&](std::uint32_t k) { return std::array{triangles_[k / 3].corners[k % 3]}; };
-  sort_by_points(p_.size(), 3 * triangles_.size(), corner, corner_begin_, corner_at_);
+  detail::sort_by_points(p_.size(), 3 * triangles_.size(), corner, corner_begin_, corner_at_);
 }
 
 template <int D>

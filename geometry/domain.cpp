@@ -147,6 +147,13 @@ std::span<const std::array<std::uint32_t, 3>> Domain<D>::triangles(EntityId f) c
 }
 
 template <int D>
+std::span<const std::uint32_t> Domain<D>::triangles_at(EntityId f, std::uint32_t point) const {
+  const auto begin = triangles_at_.begin() + triangles_at_begin_[point], end = triangles_at_.begin() + triangles_at_begin_[point + 1];
+  const std::uint32_t first = facets_[f].first_triangle, last = first + facets_[f].triangle_count;
+  return {std::lower_bound(begin, end, first), std::lower_bound(begin, end, last)};
+}
+
+template <int D>
 std::span<const EntityId> Domain<D>::facet_segments(EntityId f) const {
   return std::span(facet_segments_).subspan(facets_[f].first_segment, facets_[f].segment_count);
 }

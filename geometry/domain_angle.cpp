@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -67,9 +68,11 @@ struct Corner {
 std::vector<Corner> corners_at(const Domain<3>& domain, EntityId f, std::uint32_t v) {
   std::vector<Corner> out;
   const auto p = domain.points();
-  for (const auto& t : domain.triangles(f))
+  for (const std::uint32_t k : domain.triangles_at(f, v)) {
+    const auto& t = domain.triangles(f)[k - domain.facets()[f].first_triangle];
     for (std::size_t i = 0; i < 3; ++i)
       if (t[i] == v) out.push_back({direction(p[v], p[t[(i + 1) % 3]]), direction(p[v], p[t[(i + 2) % 3]])});
+  }
   return out;
 }
 
@@ -78,18 +81,21 @@ std::vector<Vector> half_planes(const Domain<3>& domain, EntityId f, const Domai
   std::vector<Vector> out;
   const auto p = domain.points();
   const auto [a, b] = s.points;
-  for (const auto& t : domain.triangles(f)) {
-    if (std::find(t.begin(), t.end(), a) == t.end() || std::find(t.begin(), t.end(), b) == t.end()) continue;
+  for (const std::uint32_t k : domain.triangles_at(f, a)) {
+    const auto& t = domain.triangles(f)[k - domain.facets()[f].first_triangle];
+    if (std::find(t.begin(), t.end(), b) == t.end()) continue;
     const std::uint32_t c = t[0] ^ t[1] ^ t[2] ^ a ^ b;
     out.push_back(cross(direction(p[a], p[b]), direction(p[a], p[c])));
   }
   return out;
 }
 
-template <class Range>
-std::vector<std::uint32_t> common(const Range& a, const Range& b) {
+// Of two sorted ranges, one of which may be much longer.
+std::vector<std::uint32_t> common(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
+  if (a.size() > b.size()) std::swap(a, b);
   std::vector<std::uint32_t> out;
-  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(out));
+  std::copy_if(a.begin(), a.end(), std::back_inserter(out),
+               [b](std::uint32_t id) { return std::binary_search(b.begin(), b.end(), id); });
   return out;
 }
 

@@ -9,6 +9,7 @@
 
 #include "detail/bent_facets.hpp"
 #include "detail/domain_builder.hpp"
+#include "detail/sort_by_points.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr {
@@ -180,6 +181,8 @@ void DomainBuilder<D>::write_facets() requires(D == 3) {
     out_.facet_points_.insert(out_.facet_points_.end(), points.begin(), points.end());
     if (!f.planar) measure_defect(f, points);
   }
+  detail::sort_by_points(out_.points_.size(), out_.triangles_.size(), [this](std::uint32_t t) { return out_.triangles_[t]; },
+                         out_.triangles_at_begin_, out_.triangles_at_);
   auto bent = std::make_shared<detail::BentFacets>();
   for (EntityId f = 0; f < out_.facets_.size(); ++f)
     if (!out_.facets_[f].planar) bent->add(f, {out_.triangles(f), out_.points_, out_.facets_[f].axis});

@@ -14,7 +14,7 @@
 namespace pgdr::detail {
 namespace {
 
-constexpr int most_rounds = 16;
+constexpr int most_rounds = 64;
 constexpr int most_rounds_in_vain = 4;  // that explain no more than the best before
 
 }  // namespace
@@ -25,13 +25,19 @@ PoorFindings LeafRefinement<D>::look_for_poor(PoorReasons<D>& reasons) {
   reasons.forget();
   for_each_refused([&](std::span<const Refusal<D>> refused) { reasons.add(refused); });
   const std::stop_token& stop = context_.options.stop;
-  if (!violations_seen_) return reasons.of_refused(stop);
+  if (!violations_seen_) {
+    PoorFindings found = reasons.of_refused(stop);
+    unexplained_poor_ = found.unexplained.size();
+    return found;
+  }
   const std::uint32_t cells = context_.mesh.cell_bound();
   std::vector<PoorFindings> parts(count_parts(cells));
   each_part(cells, options_, [&](const CellPart& part) { parts[part.number] = reasons.of_cells(part.first, part.last, stop); });
   PoorFindings all;
   for (const PoorFindings& part : parts) all.append(part);
   reasons.leave_out_excused(all);
+  unexplained_poor_ = all.unexplained.size();
+  unexplained_violations_ = all.violated.size();
   all.unexplained.insert(all.unexplained.end(), all.violated.begin(), all.violated.end());
   return all;
 }

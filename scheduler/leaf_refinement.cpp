@@ -112,10 +112,11 @@ std::vector<Entry<D>> LeafRefinement<D>::violations_everywhere() {
   return violations_;
 }
 
-/// Of a run that has seen any, or should look for them, those with other surroundings than at the last look.
+/// Of a run that has seen any, or should look for them, those with other surroundings than at the last look. Beside entities
+/// that were refused a constrained Delaunay triangulation need not exist, so that whole cavities may bring violations, too.
 template <int D>
 std::vector<Entry<D>> LeafRefinement<D>::new_violations() {
-  if (!violations_seen_ && !uneven_) return {};
+  if (!violations_seen_ && !uneven_ && !entities_refused_) return {};
   std::vector<Entry<D>> found = look_for_violations();
   violations_seen_ = violations_seen_ || !found.empty();
   return found;

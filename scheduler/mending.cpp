@@ -40,6 +40,8 @@ StopCause LeafRefinement<D>::mend() {
       if (const int stop = context_.stop; stop != 0) return static_cast<StopCause>(stop);
       if (vertices_ >= context_.options.max_vertices && !whole_list_.empty()) return StopCause::max_vertices;
       if (!whole_list_.empty()) return StopCause::finished;
+      // What a selector looks at is not known: refused once, its elements would be tried again for ever.
+      if (!visit.changed_mesh) break;
       for (const Refusal<D>& r : take_refused()) whole_list_.push(r.entry);
     } while (!whole_list_.empty());
     if (!mend_far_from_walls(hopeless)) break;

@@ -16,17 +16,20 @@
 //     (refiner_within.cpp), whether a point goes in at their circumcentre, inside of them, or on an entity;
 //   * for an entity encroached upon by q, the cavity's nearest vertex that is none of the entity's: if q is an input
 //     vertex or the entities of q and x do not touch, d = h = 0 (r(x) is then at least the least distance of disjoint
-//     entities; passed on from a facet to a segment, d = |xq| / 2); else d = c R(q), h = R(q), c = 1/2;
+//     entities; passed on from a facet to a segment, d = |xq| / 2); else d = c R(q), h = R(q); in 3D d = R(q) where the
+//     two meet at less than 60 degrees, unless such a run has left elements poor for no reason (scheduler/refine.cpp);
 //   * for a missing subsegment or subfacet of the boundary recovery: d = h = 0;
 //   * 2D: for a point of a subsegment on a shell (shells.hpp), the first at its end or no nearer to it than q, on another
 //     segment there, d = 0 in any case, and h is at least R(q).
-// Since R is inherited along a chain of small angles the factor c is paid once, not once a link: with
+// c = 1/2. Since R is inherited along a chain of small angles the factor c is paid once, not once a link: with
 // lambda = min(half the least distance of disjoint entities, the shortest edge of the recovered mesh, half the least size,
 // the least first shell) relaxed lengths are at least lambda as long as R is, and every Steiner point of the refinement has
 // R >= lambda and r >= c lambda, by induction over the insertions (on shells: r >= c lambda min(1, 2 sin(a / 2)), a the
 // least angle between segments, as distances from their end do not shrink from one shell to the other). Mutually visible
 // vertices are thus c lambda apart, and the domain is bounded: finitely many insertions. Vertices of the volume that are taken
-// out again (local_rewrap.hpp) are finitely many, too. Without inheritance c would have to be 1. Pure functions; any thread.
+// out again (local_rewrap.hpp) are finitely many, too. Without inheritance c would have to be 1, as it is at small angles in
+// 3D, where most of it is paid: with 1/2 surfaces have up to three times the cells, for as many poor ones (docs/performance.md).
+// In 2D shells do without. Pure functions; any thread.
 #pragma once
 
 #include <array>

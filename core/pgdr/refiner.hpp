@@ -12,10 +12,12 @@
 
 #include <atomic>
 #include <chrono>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <set>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "pgdr/cavity.hpp"
@@ -62,6 +64,8 @@ struct RefineContext {
   const RefineOptions<D>& options;  ///< as the caller gave them
   const CellBounds<D> bounds;  ///< of cells
   const std::chrono::steady_clock::time_point start;  ///< of the time limit
+  /// 3D: fewer points on entities that meet at less than 60 degrees (insertion_rule.hpp). Set before the run.
+  bool sparse_at_small_angles = true;
   const Shells<D> shells;  ///< none in 3D, where the front end alone splits on them
   int base_exponent = 0;  ///< of bucket 0: circumradii of the size of the domain and above
   static constexpr int buckets = 64;  ///< of circumradii
@@ -175,6 +179,7 @@ class Refiner {
     bool owned = true;
   };
   FacetWalk walk_in_facet(const Item& e, const Point<D>& x) const;
+  bool meet_at_small_angle(EntityRef a, EntityRef b) const;
   Demand demand_of(EntityRef entity, std::span<const VertexId> own, bool pass_on) const;
   Outcome decide(EntityRef entity, std::span<const VertexId> own, const Demand* cause);
   Outcome refuse(EntityRef entity, std::span<const VertexId> own);
@@ -232,6 +237,7 @@ class Refiner {
   std::chrono::steady_clock::time_point checked_time_;
   std::optional<EntityPair> last_refusal_;
   KeySet distinct_;
+  mutable std::map<std::pair<std::uint64_t, std::uint64_t>, bool> small_angles_;
   mutable std::vector<CellId> seen_;  ///< that it took to decide about the entry treated, with repetitions
   bool unexplained_ = false;  ///< is the element treated one that stays poor for no reason?
 };
