@@ -12,6 +12,8 @@
 namespace pgdr {
 namespace {
 
+constexpr double sharp_angle = 20;  // degrees
+
 /// Does the orthogonal projection of x to the hyperplane of the corners lie among them?
 template <int D>
 bool projects_into(const std::array<Point<D>, D>& corner, const Point<D>& x) {
@@ -46,9 +48,33 @@ auto Refiner<D>::demand_of_cell(CellId c, const CellVerdict& verdict) const -> D
   if (!verdict.over_radius_edge) least = std::min(least, std::sqrt(mesh_->squared_radius_bounds(c).first) / 2);
   // Without it a point may come nearer than the element's edges are long only beside a small angle or below the proved
   // bound. There a little of that, with the radius inherited, makes elements good that would stay poor; in 3D it is for those
-  // alone that stay poor for no reason.
-  if (D == 2 || unexplained_) return {inherited_fraction * least, least};
+  // alone that stayed so.
+  const bool asks_for_less = D == 2 || unexplained_ || (context_->last_resort && !is_at_sharp_angle(c));
+  if (asks_for_less) return {inherited_fraction * least, least};
   return {least, 0};
+}
+
+/// Do entities that the cell's corners, faces or edges lie on meet at so small an angle that less room does not help, but
+/// brings more poor cells? (Measured: of a cell between pages at an angle a, edges are 2 sin(a / 2) times as long as others.)
+template <int D>
+bool Refiner<D>::is_at_sharp_angle(CellId c) const {
+  std::vector<EntityRef> entities;
+  const auto add = [&entities](EntityRef e) {
+    const bool known = std::find(entities.begin(), entities.end(), e) != entities.end();
+    if (!known && (e.kind == EntityKind::segment || e.kind == EntityKind::facet)) entities.push_back(e);
+  };
+  for (const VertexId v : mesh_->cell(c).vertices) add(mesh_->vertex(v).home.entity());
+  if (const auto* k = mesh_->constraints(c)) {
+    for (int f = 0; f <= D; ++f)
+      if (k->faces >> f & 1) add({D == 3 ? EntityKind::facet : EntityKind::segment, k->face_entity[f]});
+    if constexpr (D == 3)
+      for (int e = 0; e < 6; ++e)
+        if (k->edges >> e & 1) add({EntityKind::segment, k->edge_entity[e]});
+  }
+  for (std::size_t i = 0; i < entities.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (meet_below(sharp_angle, entities[i], entities[j])) return true;
+  return false;
 }
 
 /// What it asks of an entity that is split for it. Below the smallest proved bound a midpoint may be nearer to its
@@ -56,7 +82,7 @@ auto Refiner<D>::demand_of_cell(CellId c, const CellVerdict& verdict) const -> D
 template <int D>
 auto Refiner<D>::demand_on_entity(CellId c, const CellVerdict& verdict) const -> Demand {
   const Demand demand = demand_of_cell(c, verdict);
-  if (D == 2 || unexplained_ || !verdict.over_radius_edge) return demand;
+  if (demand.h > 0 || !verdict.over_radius_edge) return demand;
   if (options_->radius_edge_bound >= smallest_proved_bound<D>()) return demand;
   return {inherited_fraction * demand.d, demand.d};
 }

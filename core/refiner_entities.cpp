@@ -160,13 +160,13 @@ auto Refiner<D>::walk_in_facet(const Item& e, const Point<D>& x) const -> FacetW
   return {};
 }
 
-/// At an angle below 60 degrees. Kept, as it takes microseconds, of large facets more.
+/// Do they meet at an angle below this, in degrees? Angles are kept, as each takes microseconds.
 template <int D>
-bool Refiner<D>::meet_at_small_angle(EntityRef a, EntityRef b) const {
+bool Refiner<D>::meet_below(double degrees, EntityRef a, EntityRef b) const {
   const auto key = [](EntityRef e) { return std::uint64_t{e.id} << 1 | (e.kind == EntityKind::facet ? 1 : 0); };
-  const auto [at, is_new] = small_angles_.try_emplace({key(a), key(b)});
-  if (is_new) at->second = entity_angle<D>(*domain_, a, b) < 60;
-  return at->second;
+  const auto [at, is_new] = angles_.try_emplace({key(a), key(b)});
+  if (is_new) at->second = entity_angle<D>(*domain_, a, b);
+  return at->second < degrees;
 }
 
 /// @pre the cavity of x is collected.
@@ -176,7 +176,7 @@ auto Refiner<D>::demand_of(EntityRef entity, std::span<const VertexId> own, bool
   if (q == no_vertex) return {};
   Demand demand = encroachment_demand<D>(*domain_, entity, mesh_->vertex(q));
   const EntityRef home = mesh_->vertex(q).home.entity();
-  if (D == 3 && demand.h > 0 && context_->sparse_at_small_angles && meet_at_small_angle(entity, home)) demand.d = demand.h;
+  if (D == 3 && demand.h > 0 && context_->sparse_at_small_angles && meet_below(60, entity, home)) demand.d = demand.h;
   if (pass_on && demand.h == 0) demand.d = std::sqrt(squared_distance(cavity_.point(), mesh_->point(q))) / 2;
   return demand;
 }

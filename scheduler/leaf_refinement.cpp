@@ -198,18 +198,45 @@ void LeafRefinement<D>::note_change(std::span<const Node> claim) {
       works_[n].changed = generation_;
 }
 
+/// Treats all that waits, and what was refused as often as its surroundings change.
+template <int D>
+StopCause LeafRefinement<D>::refine_to_the_end() {
+  while (true) {
+    const std::uint64_t before = counts_.committed;
+    const StopCause stop = drain();
+    if (stop != StopCause::finished || counts_.committed == before) return stop;
+    for (const Entry<D>& e : new_violations()) relist(e);
+    if (!relist_refused()) return stop;
+  }
+}
+
+/// What is poor beside small angles once more, for a part of the room that it asked for. In that order the meshes are smaller
+/// than where all ask for little. False if there is nothing poor, or where nothing proves that most is good by now.
+template <int D>
+bool LeafRefinement<D>::begin_last_resort() {
+  if (D == 2 || context_.options.radius_edge_bound < smallest_proved_bound<D>()) return false;
+  context_.last_resort = true;
+  std::vector<Refusal<D>> kept;
+  for (Node n = 0; n <= tree_.node_count(); ++n) {
+    auto& list = n < tree_.node_count() ? works_[n].list.refused : whole_list_.refused;
+    for (Refusal<D>& r : std::exchange(list, {})) {
+      if (!r.entry.alive(context_.mesh)) continue;
+      if (r.entry.kind() == EntryKind::cell)
+        relist(r.entry);
+      else
+        kept.push_back(std::move(r));
+    }
+    list = std::exchange(kept, {});
+  }
+  return !requests().empty();
+}
+
 template <int D>
 StopCause LeafRefinement<D>::run() {
   const auto start = Clock::now();
   list_everything();
-  StopCause stop = StopCause::finished;
-  while (true) {
-    const std::uint64_t before = counts_.committed;
-    stop = drain();
-    if (stop != StopCause::finished || counts_.committed == before) break;
-    for (const Entry<D>& e : new_violations()) relist(e);
-    if (!relist_refused()) break;
-  }
+  StopCause stop = refine_to_the_end();
+  if (stop == StopCause::finished && begin_last_resort()) stop = refine_to_the_end();
   if (stop == StopCause::finished) new_violations();  // that the last pass left, so that they are seen
   if (stop == StopCause::finished && violations_seen_) stop = mend();
   if (stop == StopCause::finished) stop = static_cast<StopCause>(context_.stop.load());

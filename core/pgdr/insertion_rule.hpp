@@ -12,8 +12,9 @@
 //   * for a poor element, or an entity that it encroaches upon or that hides its point: d is the least relaxed length
 //     of the element's edges (of an element only too big, at most half its circumradius); h = 0. In 2D c times that
 //     length is d, and that length is h; in 3D so for an entity that is split for an element of poor shape, where the
-//     radius-edge bound is below the smallest proved one, and for elements that at the end of a run stay poor for no reason
-//     (refiner_within.cpp), whether a point goes in at their circumcentre, inside of them, or on an entity;
+//     radius-edge bound is below the smallest proved one, and for what is poor once all else is done
+//     (but for elements at angles below 20 degrees),
+//     whether a point goes in at its circumcentre, inside of it (refiner_within.cpp), or on an entity;
 //   * for an entity encroached upon by q, the cavity's nearest vertex that is none of the entity's: if q is an input
 //     vertex or the entities of q and x do not touch, d = h = 0 (r(x) is then at least the least distance of disjoint
 //     entities; passed on from a facet to a segment, d = |xq| / 2); else d = c R(q), h = R(q); in 3D d = R(q) where the

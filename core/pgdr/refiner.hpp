@@ -66,6 +66,8 @@ struct RefineContext {
   const std::chrono::steady_clock::time_point start;  ///< of the time limit
   /// 3D: fewer points on entities that meet at less than 60 degrees (insertion_rule.hpp). Set before the run.
   bool sparse_at_small_angles = true;
+  /// 3D: what is poor now would stay so, and asks for c times the room. Set while no visit runs.
+  bool last_resort = false;
   const Shells<D> shells;  ///< none in 3D, where the front end alone splits on them
   int base_exponent = 0;  ///< of bucket 0: circumradii of the size of the domain and above
   static constexpr int buckets = 64;  ///< of circumradii
@@ -179,7 +181,8 @@ class Refiner {
     bool owned = true;
   };
   FacetWalk walk_in_facet(const Item& e, const Point<D>& x) const;
-  bool meet_at_small_angle(EntityRef a, EntityRef b) const;
+  bool meet_below(double degrees, EntityRef a, EntityRef b) const;
+  bool is_at_sharp_angle(CellId c) const;
   Demand demand_of(EntityRef entity, std::span<const VertexId> own, bool pass_on) const;
   Outcome decide(EntityRef entity, std::span<const VertexId> own, const Demand* cause);
   Outcome refuse(EntityRef entity, std::span<const VertexId> own);
@@ -237,7 +240,7 @@ class Refiner {
   std::chrono::steady_clock::time_point checked_time_;
   std::optional<EntityPair> last_refusal_;
   KeySet distinct_;
-  mutable std::map<std::pair<std::uint64_t, std::uint64_t>, bool> small_angles_;
+  mutable std::map<std::pair<std::uint64_t, std::uint64_t>, double> angles_;  ///< of pairs of entities, in degrees
   mutable std::vector<CellId> seen_;  ///< that it took to decide about the entry treated, with repetitions
   bool unexplained_ = false;  ///< is the element treated one that stays poor for no reason?
 };

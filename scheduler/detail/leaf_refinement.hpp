@@ -102,6 +102,8 @@ class LeafRefinement {
     return true;
   }
   void list_everything();
+  StopCause refine_to_the_end();
+  bool begin_last_resort();
   /// Calls f with the refusals of each leaf.
   void for_each_refused(const std::function<void(std::span<const Refusal<D>>)>& f);
   PoorFindings look_for_poor(PoorReasons<D>& reasons);
