@@ -157,18 +157,16 @@ void Refiner<D>::flip(const Item& e) {
   // While no entity has been refused a constrained Delaunay triangulation should exist, if in a large region.
   if (still_stuck() && !visit_->entities_refused && flips_.rewrap_pays(most_lost_work))
     outcome = flips_.rewrap(pools_, e.cell, e.which(), Effort::wide);
-  if (still_stuck() && visit_->rewraps) {
-    outcome = flips_.rewrap(pools_, e.cell, e.which(), Effort::quick);
-    if (outcome == LocalFlips<D>::Outcome::flipped && made_before()) flips_left_ -= std::min(flips_left_ - 1, price_of_repetition);
-  }
+  if (still_stuck() && visit_->rewraps) outcome = flips_.rewrap(pools_, e.cell, e.which(), Effort::quick);
   if (outcome == LocalFlips<D>::Outcome::not_owned) return visit_->set_aside.push_back(e);
   if (outcome == LocalFlips<D>::Outcome::stuck) return list_poor(e.cell, Item::not_delaunay);
+  if (visit_->rewraps && made_before()) flips_left_ -= std::min(flips_left_ - 1, price_of_repetition);
   --flips_left_;
   flipped();
 }
 
-/// Has this visit made the cells of the last rewrapping already? Flips, which may trade violations, have undone it then, and
-/// may do so again.
+/// Has this visit made the cells of the last flip, or rewrapping, already? Others, which may trade violations, have undone it
+/// then, and may do so again.
 template <int D>
 bool Refiner<D>::made_before() {
   std::vector<VertexId> key;
@@ -176,7 +174,7 @@ bool Refiner<D>::made_before() {
     const auto& v = mesh_->cell(c).vertices;
     key.insert(key.end(), v.begin(), v.end());
   }
-  return !rewrapped_.insert(std::move(key)).second;
+  return !flipped_.insert(std::move(key)).second;
 }
 
 /// Lists what the last flip, or rewrapping, has made.
@@ -301,7 +299,7 @@ void Refiner<D>::begin(RegionVisit<D>& visit) {
   cavity_.set_area(visit.area);
   flips_.set_area(visit.area);
   flips_left_ = 0;
-  rewrapped_.clear();
+  flipped_.clear();
   checked_at_ = reported_ = 0;
 }
 

@@ -233,7 +233,7 @@ class Refiner {
   LocalFlips<D> flips_;
   RegionVisit<D>* visit_ = nullptr;
   std::vector<Item> abroad_;  ///< elements with their circumcentre in other regions
-  std::set<std::vector<VertexId>> rewrapped_;  ///< cells that small rewrappings of this visit have made, by their vertices
+  std::set<std::vector<VertexId>> flipped_;  ///< cells that flips of a mending visit have made, by their vertices
   std::vector<Item> found_;  ///< violations at new cells, before they are listed
   std::uint64_t flips_left_ = 0, checked_at_ = 0, reported_ = 0;
   std::uint64_t stride_ = 1;  ///< insertions between two looks at the clock
