@@ -278,8 +278,8 @@ Attempt<D> attempt(const Domain<D>& domain, const RefineOptions<D>& options, boo
 }
 
 /// Few points beside small angles may leave a tangle where walls cut back most cavities, which more of them can prevent (or
-/// bring: of two hundred thin plates 10 are left so with the former rule, 5 with the latter, 1 with both). So what is left
-/// without a reason is meshed once more, all anew, unless the caller's limits end that before.
+/// bring, elsewhere). So where elements are left without a reason all is meshed once more, unless the caller's limits end that
+/// before; progress is then told from the start again.
 template <int D>
 RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   validate(options);

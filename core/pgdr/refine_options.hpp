@@ -19,7 +19,7 @@
 
 namespace pgdr PGDR_API {
 
-/// How far a run is, for a progress line. Approximate.
+/// How far a run is, for a progress line. Approximate; a run that makes its mesh once more (docs/design.md) starts again.
 struct Progress {
   std::uint64_t vertices = 0;  ///< so far
   std::uint64_t waiting = 0;   ///< entries in the lists of what is to be treated
