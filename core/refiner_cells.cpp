@@ -54,8 +54,8 @@ auto Refiner<D>::demand_of_cell(CellId c, const CellVerdict& verdict) const -> D
   return {least, 0};
 }
 
-/// Do entities that the cell's corners, faces or edges lie on meet at so small an angle that less room does not help, but
-/// brings more poor cells? (Measured: of a cell between pages at an angle a, edges are 2 sin(a / 2) times as long as others.)
+/// Do entities that the cell's corners, faces or edges lie on meet at so small an angle that less room brings more poor cells
+/// than it mends? (docs/performance.md)
 template <int D>
 bool Refiner<D>::is_at_sharp_angle(CellId c) const {
   std::vector<EntityRef> entities;

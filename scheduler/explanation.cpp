@@ -14,7 +14,7 @@
 namespace pgdr::detail {
 namespace {
 
-constexpr int most_rounds = 64;
+constexpr int most_rounds = 16;
 constexpr int most_rounds_in_vain = 4;  // that explain no more than the best before
 
 }  // namespace

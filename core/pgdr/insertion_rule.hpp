@@ -12,9 +12,9 @@
 //   * for a poor element, or an entity that it encroaches upon or that hides its point: d is the least relaxed length
 //     of the element's edges (of an element only too big, at most half its circumradius); h = 0. In 2D c times that
 //     length is d, and that length is h; in 3D so for an entity that is split for an element of poor shape, where the
-//     radius-edge bound is below the smallest proved one, and for what is poor once all else is done
-//     (but for elements at angles below 20 degrees),
-//     whether a point goes in at its circumcentre, inside of it (refiner_within.cpp), or on an entity;
+//     radius-edge bound is below the smallest proved one, and for what is poor once all else is done,
+//     but for elements at angles below 20 degrees that have a reason; whether a point goes in at the circumcentre, inside of the
+//     element (refiner_within.cpp), or on an entity;
 //   * for an entity encroached upon by q, the cavity's nearest vertex that is none of the entity's: if q is an input
 //     vertex or the entities of q and x do not touch, d = h = 0 (r(x) is then at least the least distance of disjoint
 //     entities; passed on from a facet to a segment, d = |xq| / 2); else d = c R(q), h = R(q); in 3D d = R(q) where the
@@ -28,9 +28,8 @@
 // R >= lambda and r >= c lambda, by induction over the insertions (on shells: r >= c lambda min(1, 2 sin(a / 2)), a the
 // least angle between segments, as distances from their end do not shrink from one shell to the other). Mutually visible
 // vertices are thus c lambda apart, and the domain is bounded: finitely many insertions. Vertices of the volume that are taken
-// out again (local_rewrap.hpp) are finitely many, too. Without inheritance c would have to be 1, as it is at small angles in
-// 3D, where most of it is paid: with 1/2 surfaces have up to three times the cells, for as many poor ones (docs/performance.md).
-// In 2D shells do without. Pure functions; any thread.
+// out again (local_rewrap.hpp) are finitely many, too. Without inheritance c would have to be 1. (That it is 1 at small
+// angles in 3D is for the size of the meshes, not for the proof: docs/performance.md.) Pure functions; any thread.
 #pragma once
 
 #include <array>
