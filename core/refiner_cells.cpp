@@ -265,7 +265,8 @@ auto Refiner<D>::treat_cell_at(const Item& e, const Point<D>& x, const CellVerdi
   if (status != Cavity<D>::Status::ok) return Outcome::refused;
   if (const auto encroached = encroached_entity(x)) {
     // An entity that is refused leaves the mesh as it is: whether x is far enough can be seen now, with its cavity at hand.
-    const bool clear = is_clear_of_encroached(x, 4 * mesh_->squared_radius_bounds(e.cell).second);
+    const double radii = context_->last_resort ? 1 : 2;
+    const bool clear = is_clear_of_encroached(x, radii * radii * mesh_->squared_radius_bounds(e.cell).second);
     const Outcome outcome = split_instead(*encroached, e, verdict);
     return outcome == Outcome::refused && clear ? insert_beside_refused(x, e, verdict) : outcome;
   }
@@ -274,7 +275,8 @@ auto Refiner<D>::treat_cell_at(const Item& e, const Point<D>& x, const CellVerdi
 }
 
 /// The element's point, though it encroaches upon an entity that stays as it is, being far from all such: two
-/// circumradii, so that points become sparse towards the entity, and an element that stays poor is beside one.
+/// circumradii, so that points become sparse towards the entity, and an element that stays poor is beside one; in the end,
+/// when nothing becomes sparser any more, one (docs/performance.md).
 template <int D>
 auto Refiner<D>::insert_beside_refused(const Point<D>& x, const Item& e, const CellVerdict& verdict) -> Outcome {
   if (!alive(e)) return Outcome::refused;
