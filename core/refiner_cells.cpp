@@ -12,8 +12,6 @@
 namespace pgdr {
 namespace {
 
-constexpr double sharp_angle = 20;  // degrees
-
 /// Does the orthogonal projection of x to the hyperplane of the corners lie among them?
 template <int D>
 bool projects_into(const std::array<Point<D>, D>& corner, const Point<D>& x) {
@@ -49,21 +47,27 @@ auto Refiner<D>::demand_of_cell(CellId c, const CellVerdict& verdict) const -> D
   // Without it a point may come nearer than the element's edges are long only beside a small angle or below the proved
   // bound. There a little of that, with the radius inherited, makes elements good that would stay poor; in 3D it is for those
   // alone that stayed so.
-  const bool asks_for_less = D == 2 || unexplained_ || (context_->last_resort && !is_at_sharp_angle(c));
+  const bool asks_for_less = D == 2 || unexplained_ || (context_->last_resort && may_ask_for_less(c));
   if (asks_for_less) return {inherited_fraction * least, least};
   return {least, 0};
 }
 
-/// Do entities that the cell's corners, faces or edges lie on meet at so small an angle that less room brings more poor cells
-/// than it mends? (docs/performance.md)
+/// In the last resort: may less room mend more cells than it makes poor? Not where two of the entities that the cell's corners,
+/// faces and edges lie on meet at a sharp angle, nor at an input vertex, where others may, unless two of these meet at a
+/// small one. (docs/performance.md)
 template <int D>
-bool Refiner<D>::is_at_sharp_angle(CellId c) const {
+bool Refiner<D>::may_ask_for_less(CellId c) const {
   std::vector<EntityRef> entities;
   const auto add = [&entities](EntityRef e) {
     const bool known = std::find(entities.begin(), entities.end(), e) != entities.end();
     if (!known && (e.kind == EntityKind::segment || e.kind == EntityKind::facet)) entities.push_back(e);
   };
-  for (const VertexId v : mesh_->cell(c).vertices) add(mesh_->vertex(v).home.entity());
+  bool at_input_vertex = false, small = false;
+  for (const VertexId v : mesh_->cell(c).vertices) {
+    const Home home = mesh_->vertex(v).home;
+    at_input_vertex = at_input_vertex || home.kind() == EntityKind::vertex;
+    add(home.entity());
+  }
   if (const auto* k = mesh_->constraints(c)) {
     for (int f = 0; f <= D; ++f)
       if (k->faces >> f & 1) add({D == 3 ? EntityKind::facet : EntityKind::segment, k->face_entity[f]});
@@ -72,9 +76,11 @@ bool Refiner<D>::is_at_sharp_angle(CellId c) const {
         if (k->edges >> e & 1) add({EntityKind::segment, k->edge_entity[e]});
   }
   for (std::size_t i = 0; i < entities.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (meet_below(sharp_angle, entities[i], entities[j])) return true;
-  return false;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (meet_below(sharp_angle, entities[i], entities[j])) return false;
+      small = small || meet_below(small_angle, entities[i], entities[j]);
+    }
+  return small || !at_input_vertex;
 }
 
 /// What it asks of an entity that is split for it. Below the smallest proved bound a midpoint may be nearer to its

@@ -176,7 +176,7 @@ auto Refiner<D>::demand_of(EntityRef entity, std::span<const VertexId> own, bool
   if (q == no_vertex) return {};
   Demand demand = encroachment_demand<D>(*domain_, entity, mesh_->vertex(q));
   const EntityRef home = mesh_->vertex(q).home.entity();
-  if (D == 3 && demand.h > 0 && context_->sparse_at_small_angles && meet_below(60, entity, home)) demand.d = demand.h;
+  if (D == 3 && demand.h > 0 && context_->sparse_at_small_angles && meet_below(small_angle, entity, home)) demand.d = demand.h;
   if (pass_on && demand.h == 0) demand.d = std::sqrt(squared_distance(cavity_.point(), mesh_->point(q))) / 2;
   return demand;
 }

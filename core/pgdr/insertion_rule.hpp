@@ -12,9 +12,9 @@
 //   * for a poor element, or an entity that it encroaches upon or that hides its point: d is the least relaxed length
 //     of the element's edges (of an element only too big, at most half its circumradius); h = 0. In 2D c times that
 //     length is d, and that length is h; in 3D so for an entity that is split for an element of poor shape, where the
-//     radius-edge bound is below the smallest proved one, and for what is poor once all else is done,
-//     but for elements at angles below 20 degrees that have a reason; whether a point goes in at the circumcentre, inside of the
-//     element (refiner_within.cpp), or on an entity;
+//     radius-edge bound is below the smallest proved one, and for what is poor once all else is done, but for elements
+//     at angles below 20 degrees, or at input vertices without one below 60, that have a reason; whether a point goes in at the
+//     circumcentre, inside of the element (refiner_within.cpp), or on an entity;
 //   * for an entity encroached upon by q, the cavity's nearest vertex that is none of the entity's: if q is an input
 //     vertex or the entities of q and x do not touch, d = h = 0 (r(x) is then at least the least distance of disjoint
 //     entities; passed on from a facet to a segment, d = |xq| / 2); else d = c R(q), h = R(q); in 3D d = R(q) where the
@@ -40,6 +40,8 @@
 namespace pgdr {
 
 inline constexpr double inherited_fraction = 0.5;  ///< c
+inline constexpr double small_angle = 60;  ///< degrees; 3D: entities that meet at less are split less often
+inline constexpr double sharp_angle = 20;  ///< degrees; 3D: there nothing asks for less in the end
 
 /// What an insertion asks for: r(x) >= d, and R(x) is at least h.
 struct Demand {

@@ -182,7 +182,7 @@ class Refiner {
   };
   FacetWalk walk_in_facet(const Item& e, const Point<D>& x) const;
   bool meet_below(double degrees, EntityRef a, EntityRef b) const;
-  bool is_at_sharp_angle(CellId c) const;
+  bool may_ask_for_less(CellId c) const;
   Demand demand_of(EntityRef entity, std::span<const VertexId> own, bool pass_on) const;
   Outcome decide(EntityRef entity, std::span<const VertexId> own, const Demand* cause);
   Outcome refuse(EntityRef entity, std::span<const VertexId> own);
