@@ -15,7 +15,7 @@ std::string_view name(Finding kind) {
   constexpr std::array<std::string_view, finding_kinds> names{
       "invalid_entities",   "facets_cross",       "facets_overlap",      "segments_cross_facets",
       "segments_cross",     "points_on_facets",   "points_on_segments",  "encloses_nothing",
-      "duplicate_points",   "unreferenced_points", "repeated_facets",    "open_boundaries",
+      "duplicate_points",   "unreferenced_points", "repeated_facets",    "open_boundaries",     "near_points",
       "non_manifold_edges", "non_manifold_points", "inconsistent_orientation",
       "segments_below_60",  "segment_facet_below_90", "facets_below_90"};
   return names[static_cast<std::size_t>(kind)];
@@ -45,6 +45,7 @@ void Diagnoser<D>::run() {
   }
   stop_check_();
   find_open_boundary();
+  if (!options_.errors_only) find_near_points();
   find_encloses_nothing();
 }
 

@@ -21,7 +21,7 @@ void Diagnoser<D>::find_repairs() {
     ++out_[Finding::duplicate_point].count;
     if (wants_more(Finding::duplicate_point))
       list(Finding::duplicate_point, Errc::duplicate_point,
-           "point " + std::to_string(number(i)) + " is at the place of point " + point_words(point_of[i]),
+           "point " + std::to_string(number(i)) + " and point " + point_words(point_of[i]) + " are one",
            line(domain_.source().point_lines, i), {number(i), number(first)}, {p_[point_of[i]]});
   }
   if constexpr (D == 3)

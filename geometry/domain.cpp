@@ -107,8 +107,9 @@ void DomainBuilder<D>::report_repairs() {
   const std::string& file = plc_.source.file;
   merged_.report(Errc::degenerate_segment, "points that repeat an earlier one exactly, merged into it", file,
                  out_.repairs_);
+  merged_near_.report(Errc::near_points, "points near an earlier one, merged into it", file, out_.repairs_);
   negative_zeros_.report(Errc::not_finite, "points with a coordinate -0, now 0", file, out_.repairs_);
-  dropped_edges_.report(Errc::degenerate_segment, "polygon edges of length zero, dropped", file,
+  dropped_edges_.report(Errc::degenerate_segment, "edges of polygons, and segments, of length zero, dropped", file,
                         out_.repairs_);
   repeated_segments_.report(Errc::degenerate_segment, "segments that repeat an earlier one, dropped", file,
                             out_.repairs_);

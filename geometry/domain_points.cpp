@@ -1,10 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// First step of a Domain: finite points, valid indices, exact duplicates merged (never anything within a distance),
-// segments of non-zero length, and points that are not all in one plane.
+// First step of a Domain: finite points, valid indices, segments of non-zero length, and points that are not all in one plane.
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -19,22 +17,6 @@ bool is_finite(const Point<D>& p) {
   for (const double x : p.x)
     if (!std::isfinite(x)) return false;
   return true;
-}
-
-template <int D>
-Point<D> with_positive_zeros(Point<D> p) {
-  for (double& x : p.x) x += 0.0;
-  return p;
-}
-
-template <int D>
-std::size_t hash_of(const Point<D>& p) {
-  std::uint64_t h = 0x9e3779b97f4a7c15u;
-  for (const double x : p.x) {
-    h = (h ^ std::bit_cast<std::uint64_t>(x)) * 0xff51afd7ed558ccdu;
-    h ^= h >> 32;
-  }
-  return static_cast<std::size_t>(h);
 }
 
 }  // namespace
@@ -94,47 +76,6 @@ void DomainBuilder<D>::check_indices() const {
 }
 
 template <int D>
-void DomainBuilder<D>::merge_points() {
-  const std::size_t n = plc_.points.size(), size = std::bit_ceil(2 * n + 1);
-  std::vector<std::uint32_t> table(size, no_entity);
-  out_.points_.reserve(n);
-  out_.point_of_input_.resize(n);
-  const std::size_t attributes = n == 0 ? 0 : plc_.point_attributes.size() / n;
-  if (attributes * n != plc_.point_attributes.size())
-    throw UsageError({Errc::bad_option,
-                      std::to_string(plc_.point_attributes.size()) + " attributes for " + std::to_string(n) + " points",
-                      plc_.source.file, 0, {}, {}});
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const Point<D> p = with_positive_zeros(plc_.points[i]);
-    for (const double x : plc_.points[i].x)
-      if (x == 0 && std::signbit(x)) {
-        negative_zeros_.add([&] { return std::to_string(number(i)); }, {number(i)});
-        break;
-      }
-    std::size_t at = hash_of(p) & (size - 1);
-    while (table[at] != no_entity && !(out_.points_[table[at]] == p)) at = (at + 1) & (size - 1);
-    const auto marker = i < plc_.point_markers.size() ? plc_.point_markers[i] : 0;
-    if (table[at] == no_entity) {
-      table[at] = static_cast<std::uint32_t>(out_.points_.size());
-      out_.points_.push_back(p);
-      out_.input_of_point_.push_back(i);
-      out_.point_markers_.push_back(marker);
-      const auto first = plc_.point_attributes.begin() + static_cast<std::ptrdiff_t>(i * attributes);
-      out_.point_attributes_.insert(out_.point_attributes_.end(), first, first + static_cast<std::ptrdiff_t>(attributes));
-    } else {
-      const std::int64_t first = point_number(table[at]);
-      merged_.add([&] { return std::to_string(number(i)) + " = " + std::to_string(first); }, {number(i), first});
-    }
-    out_.point_of_input_[i] = table[at];
-  }
-  for (const Point<D>& p : plc_.holes) out_.holes_.push_back(with_positive_zeros(p));
-  for (RegionSeed<D> r : plc_.regions) {
-    r.point = with_positive_zeros(r.point);
-    out_.regions_.push_back(r);
-  }
-}
-
-template <int D>
 void DomainBuilder<D>::check_segments() {
   explicit_begin_.assign(out_.points_.size() + 1, 0);
   for (std::size_t s = 0; s < plc_.segments.size(); ++s) {
@@ -143,6 +84,10 @@ void DomainBuilder<D>::check_segments() {
     explicit_.push_back({a, b});
     ++explicit_begin_[a + 1];
     if (a != b) continue;
+    if (!(plc_.points[i] == plc_.points[j])) {  // merged, as the caller wishes
+      dropped_edges_.add([&] { return "segment " + std::to_string(number(s)); }, {number(s), number(i), number(j)});
+      continue;
+    }
     attempt([&, i = i, j = j] {
       fail(Errc::degenerate_segment,
            "segment " + std::to_string(number(s)) + ": its ends, points " + std::to_string(number(i)) + " and " +
@@ -204,7 +149,6 @@ void DomainBuilder<D>::choose_scale() {
 #define PGDR_INSTANTIATE(D)                              \
   template void DomainBuilder<D>::check_finite() const;  \
   template void DomainBuilder<D>::check_indices() const; \
-  template void DomainBuilder<D>::merge_points();        \
   template void DomainBuilder<D>::check_segments();      \
   template void DomainBuilder<D>::choose_scale();        \
   template void DomainBuilder<D>::check_spans_space() const;

@@ -41,6 +41,7 @@ std::string_view name(Errc code) {
     case Errc::no_volume: return "no_volume";
     case Errc::boundary_not_recovered: return "boundary_not_recovered";
     case Errc::duplicate_point: return "duplicate_point";
+    case Errc::near_points: return "near_points";
     case Errc::unreferenced_point: return "unreferenced_point";
     case Errc::repeated_facet: return "repeated_facet";
     case Errc::open_boundary: return "open_boundary";

@@ -80,6 +80,7 @@ int check_as(const CheckArguments& a, Report& report) {
   const OutputMesh<D> mesh = read_mesh<D>(a.mesh);
   InputArguments reading = a.reading;
   if (D == 3 && !reading.precision) reading.precision = reported.precision;
+  if (!reading.merge_points) reading.merge_points = reported.merge_points;
   const std::optional<Domain<D>> domain = read_domain<D>(a.input, reading);
 
   CheckOptions<D> options;

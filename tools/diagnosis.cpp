@@ -26,6 +26,8 @@ std::array<const char*, 2> words(Finding kind) {
     case Finding::unreferenced_point: return {"point that belongs to nothing", "points that belong to nothing"};
     case Finding::repeated_facet: return {"facet given twice, dropped", "facets given twice, dropped"};
     case Finding::open_boundary: return {"open boundary", "open boundaries"};
+    case Finding::near_points:
+      return {"pair of points of open boundaries that nearly coincide", "pairs of points of open boundaries that nearly coincide"};
     case Finding::non_manifold_edge: return {"edge of more than two facets", "edges of more than two facets"};
     case Finding::non_manifold_point: return {"point where surfaces touch", "points where surfaces touch"};
     case Finding::inconsistent_orientation: return {"edge of ill-oriented facets", "edges of ill-oriented facets"};
@@ -38,7 +40,7 @@ std::array<const char*, 2> words(Finding kind) {
   return {"", ""};
 }
 
-bool has_measure(Finding kind) { return kind == Finding::open_boundary || kind >= Finding::segments_below_60; }
+bool has_measure(Finding kind) { return kind == Finding::open_boundary || kind == Finding::near_points || kind >= Finding::segments_below_60; }
 
 }  // namespace
 
@@ -68,7 +70,7 @@ void print_findings(const Diagnosis<D>& diagnosis) {
     if (found.listed.empty()) continue;
     const Diagnostic& first = found.listed[0].what;
     const std::string place = first.line == 0 ? "" : "line " + std::to_string(first.line) + ": ";
-    print_row("", (found.count == 1 ? "" : kind >= Finding::segments_below_60 ? "least: " : "first: ") + place + first.message);
+    print_row("", (found.count == 1 ? "" : kind >= Finding::segments_below_60 ? "least: " : kind == Finding::near_points ? "farthest: " : "first: ") + place + first.message);
   }
 }
 
@@ -82,6 +84,11 @@ int refuse(const Diagnosis<D>& diagnosis, Report& report) {
   }
   if (const std::uint64_t all = diagnosis.error_count(); all > most)
     std::fprintf(stderr, "pgdr: and %llu more errors\n", static_cast<unsigned long long>(all - most));
+  const FindingList& near = diagnosis[Finding::near_points];
+  if (!near.listed.empty())
+    std::fprintf(stderr, "pgdr: %s; --merge-points %.1e makes %s one\n",
+                 count(near.count, "pair of points of open boundaries nearly coincides", "pairs of points of open boundaries nearly coincide").c_str(),
+                 1.1 * near.listed[0].measure, near.count == 1 ? "it" : "each");
   return exit_input;
 }
 

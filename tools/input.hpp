@@ -21,10 +21,12 @@ Plc<D> read_input(const std::string& file, const InputArguments& reading, std::v
       throw UsageError({.code = Errc::bad_option, .message = "--resolve-crossings and --convex-hull are for 2D"});
     Plc<3> plc = read_plc<3>(file);
     if (reading.precision) plc.precision = *reading.precision;
+    if (reading.merge_points) plc.merge_within = *reading.merge_points;
     return plc;
   } else {
     if (reading.precision) throw UsageError({.code = Errc::bad_option, .message = "--precision is for 3D"});
     Plc<2> plc = read_plc<2>(file);
+    if (reading.merge_points) plc.merge_within = *reading.merge_points;
     if (reading.convex_hull) plc = with_convex_hull(plc);
     if (reading.resolve_crossings) plc = resolve_crossings(plc, repairs);
     return plc;

@@ -207,6 +207,7 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
   std::vector<Diagnostic> repairs;
   const Plc<D> plc = read_input<D>(a.input, a.reading, repairs);
   if constexpr (D == 3) report.set("precision", plc.precision);
+  report.set("merge_points", plc.merge_within);
   seconds.mesh_at = total.seconds();
   seconds.read = seconds.mesh_at - seconds.read_at;
 

@@ -131,6 +131,10 @@ void add_input(CLI::App& app, InputArguments& p) {
                  "3D: facets that meet at an edge and lie in one plane within R times their largest coordinate are one "
                  "(default 3.6e-15, 16 ulps: rounding; more where the file has few digits, which moves the surface by so much)")
       ->type_name("R")->check(number("between 0 and 0.01", [](double v) { return v >= 0 && v <= 0.01; }));
+  app.add_option("--merge-points", p.merge_points,
+                 "points within R times the largest coordinate are one: the nearest before them in the file (default 0: exact "
+                 "duplicates alone)")
+      ->type_name("R")->check(number("between 0 and 0.01", [](double v) { return v >= 0 && v <= 0.01; }));
   app.add_flag("--resolve-crossings", p.resolve_crossings, "2D: split segments that cross, at new points");
   app.add_flag("--convex-hull", p.convex_hull, "2D: the edges of the convex hull of all points are segments, too");
 }

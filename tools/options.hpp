@@ -30,7 +30,8 @@ struct BoundArguments {
 /// How an input is read, and what is done to it before anything else.
 struct InputArguments {
   bool resolve_crossings = false, convex_hull = false;
-  std::optional<double> precision;  ///< none: that of Plc
+  std::optional<double> precision;     ///< none: that of Plc
+  std::optional<double> merge_points;  ///< likewise
 };
 
 struct MeshArguments {

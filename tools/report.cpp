@@ -130,9 +130,13 @@ ReportedBounds read_bounds(const std::string& file) {
     const auto bound = bounds.find("radius_edge");
     if (bound != bounds.end() && bound->is_number() && report.value("stop", "finished") == "finished")
       read.radius_edge = bound->get<double>();
-    const auto precision = report.find("precision");
-    if (precision != report.end() && precision->is_number() && *precision >= 0.0 && *precision <= 0.01)
-      read.precision = precision->get<double>();
+    const auto part_of_coordinates = [&report](const char* key) -> std::optional<double> {
+      const auto found = report.find(key);
+      if (found == report.end() || !found->is_number() || !(*found >= 0.0 && *found <= 0.01)) return std::nullopt;
+      return found->get<double>();
+    };
+    read.precision = part_of_coordinates("precision");
+    read.merge_points = part_of_coordinates("merge_points");
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {

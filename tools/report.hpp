@@ -55,6 +55,7 @@ struct ReportedBounds {
   std::vector<PoorReason> reasons;
   std::optional<double> radius_edge;  ///< the bound of a run that was not stopped
   std::optional<double> precision;    ///< of the facets, 3D
+  std::optional<double> merge_points; ///< within which points were one
 };
 
 /// @throws FileError if it cannot be opened, InputError if it is not such a report.

@@ -133,6 +133,10 @@ class Diagnoser {
   void find_encloses_nothing();
   bool all_collapses() const;
 
+  // diagnosis_near.cpp
+  std::vector<std::uint32_t> open_points() const;
+  void find_near_points();
+
   // diagnosis_angles.cpp
   void find_angles();
   void segments_at_points();

@@ -161,11 +161,15 @@ class DomainBuilder {
   // domain_points.cpp
   void check_finite() const;
   void check_indices() const;
-  void merge_points();
   void check_segments();
   void take_line_facets() requires(D == 3);
   void check_spans_space() const;
   void choose_scale();
+
+  // domain_merge.cpp
+  std::size_t attributes_per_point() const;
+  void keep_point(std::uint32_t i, const Point<D>& p, std::size_t attributes);
+  void merge_points();
 
   // domain_facets.cpp
   void triangulate_facets() requires(D == 3);
@@ -284,7 +288,7 @@ class DomainBuilder {
   std::vector<std::pair<EntityId, EntityId>> facet_segment_;     // (facet, segment)
   detail::PlanarTriangulation planar_;
   detail::RepairList merged_, negative_zeros_, dropped_edges_, repeated_segments_, repeated_facets_, points_on_edges_,
-      points_in_facets_, edges_in_facets_, dropped_flat_, bent_facets_;
+      points_in_facets_, edges_in_facets_, dropped_flat_, bent_facets_, merged_near_;
 };
 
 }  // namespace pgdr

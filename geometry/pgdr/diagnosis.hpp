@@ -41,6 +41,8 @@ enum class Finding : std::uint8_t {
   repeated_facet,            ///< or segment (2D); left out
   open_boundary,             ///< loop (or path) of edges of one facet each: its points; measure: its length. 2D: a point
                              ///< where one segment ends
+  near_points,               ///< two on open boundaries, within a millionth of the extent (or four ulps of a float): they may
+                             ///< be meant to be one. measure: the Plc::merge_within that makes them one; greatest first
   non_manifold_edge,         ///< of more than two facets
   non_manifold_point,        ///< whose facets hang together there at this point alone
   inconsistent_orientation,  ///< an edge that its two facets run through in the same direction
@@ -48,7 +50,7 @@ enum class Finding : std::uint8_t {
   segment_facet_below_90,    ///< a segment and a facet at a point
   facets_below_90,           ///< two facets at a segment
 };
-inline constexpr std::size_t finding_kinds = 18;  ///< so many
+inline constexpr std::size_t finding_kinds = 19;  ///< so many
 
 /// The stable snake_case word of the JSON report.
 std::string_view name(Finding kind);

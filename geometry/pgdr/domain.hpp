@@ -101,7 +101,8 @@ class Domain {
   static Domain without_invalid(const Plc<D>& plc, std::vector<Diagnostic>& refused, std::stop_token stop = {});
 
   std::span<const Point<D>> points() const { return points_; }  ///< distinct; views live as long as the Domain
-  /// Domain point of each Plc point (exact duplicates share one). Distinct points keep the order of the input.
+  /// Domain point of each Plc point (exact duplicates, and what Plc::merge_within makes one, share one). Distinct points keep
+  /// the order of the input.
   std::span<const std::uint32_t> point_of_input() const { return point_of_input_; }
   /// First Plc point of each domain point.
   std::span<const std::uint32_t> input_of_point() const { return input_of_point_; }

@@ -43,6 +43,7 @@ enum class Errc {
   boundary_not_recovered,
   // input: found, and taken as it is
   duplicate_point,
+  near_points,  ///< two points that may be meant to be one
   unreferenced_point,
   repeated_facet,
   open_boundary,

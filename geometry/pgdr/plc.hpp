@@ -50,7 +50,7 @@ struct Plc {
     int marker = 0;               ///< handed on to its subfacets
   };
 
-  std::vector<Point<D>> points;    ///< exact duplicates become one vertex
+  std::vector<Point<D>> points;    ///< exact duplicates become one vertex; others, too, if merge_within says so
   std::vector<int> point_markers;  ///< empty, or one a point
   std::vector<double> point_attributes;  ///< of the first point, of the second, ...: equally many each, or none at all
   std::vector<Segment> segments;   ///< 2D: the boundary and inner constraints; 3D: those that no facet has
@@ -61,6 +61,9 @@ struct Plc {
   /// 3D: facets that meet at an edge, with all their points within `precision` times the largest of their coordinates
   /// of one plane, count as coplanar. For the rounding of coordinates that were turned or shifted: 16 ulps.
   double precision = 0x1p-48;
+  /// Points within this times the largest coordinate of all are one: each goes to the nearest kept one before it. 0, as it is
+  /// unless asked for: exact duplicates alone. Edges, segments and facets of which nothing is left go; 0.01 at most.
+  double merge_within = 0;
 
   std::uint32_t first_index = 0;  ///< the number the source gives its first point (0 or 1), for messages
   PlcSource source;                ///< for messages

@@ -4,6 +4,7 @@
 """Threads, schedule and trace of the pgdr command from outside. Usage: test_threads.py [Class[.test]...]"""
 import json
 import math
+import re
 import unittest
 
 from test_command import BRACKET, PLATE, WEDGE, Case
@@ -133,6 +134,31 @@ class Threads(Case):
         self.pgdr("check", self.output, "--input", box, "--reasons", self.report, expect=0)
         self.pgdr("check", self.output, "--input", box, "--precision", "1e-5", expect=0)
         self.pgdr("check", self.output, "--input", box, expect=6)  # the diagonals of the faces are segments then
+
+    def test_points_written_with_different_digits(self):
+        """Refused, with the distance that makes them one; taken with that, by the checker too."""
+        count = 0
+        lines = []
+        for line in box_stl(2, 1, 0.5).splitlines():
+            if line.startswith("vertex"):
+                x, y, z = (float(x) for x in line.split()[1:])
+                count += 1
+                line = "vertex %r %r %r" % (x + 1e-11 * (count % 3 - 1), y, z + 1e-11 * (count % 5 - 2))
+            lines.append(line)
+        box = self.file("box.stl", "\n".join(lines) + "\n")
+        done = self.mesh(box, "--report", self.report, expect=3)
+        self.assertGreater(self.json()["diagnosis"]["near_points"]["count"], 8)
+        within = re.search(r"--merge-points (\S+) makes", done.stderr).group(1)
+        self.assertLess(float(within), 1e-10)
+        self.mesh(box, "--merge-points", within, "--precision", "1e-9", "--size", "0.2", "--report", self.report, expect=0)
+        report = self.json()
+        self.assertEqual(report["merge_points"], float(within))
+        self.assertIn("near_points", [repair["code"] for repair in report["repairs"]])
+        self.pgdr("check", self.output, "--input", box, "--reasons", self.report, expect=0)
+        self.pgdr("check", self.output, "--input", box, "--precision", "1e-9", "--merge-points", within, expect=0)
+        self.pgdr("check", self.output, "--input", box, "--precision", "1e-9", expect=6)
+        self.pgdr("info", box, "--merge-points", within, expect=0)
+        self.mesh(box, "--merge-points", "0.02", expect=2)
 
     def test_granularity(self):
         whole, r = self.made(BRACKET, "--size", "0.12", threads=2)
