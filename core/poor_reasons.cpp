@@ -120,13 +120,6 @@ void PoorReasons<D>::add(std::span<const Refusal<D>> refused) {
       why_.insert_or_assign(index(r.entry.cell), r.pair);
 }
 
-template <int D>
-bool PoorReasons<D>::is_violated(CellId c) const {
-  for (int f = 0; f <= D; ++f)
-    if (flips_.violates(c, f)) return true;
-  return false;
-}
-
 /// Not so that moving the corners on the boundary by some ulps of the input could mend it.
 template <int D>
 bool PoorReasons<D>::is_violated_beyond_rounding(CellId c) const {
@@ -144,9 +137,8 @@ bool PoorReasons<D>::is_violated_beyond_rounding(CellId c) const {
 }
 
 template <int D>
-void PoorReasons<D>::look_at(CellId c, bool violations_seen, PoorFindings& found) const {
+void PoorReasons<D>::look_at(CellId c, bool violated, PoorFindings& found) const {
   const CellVerdict verdict = bounds_->test(*mesh_, c);
-  const bool violated = violations_seen && is_violated(c);
   PoorReason reason;
   // Without a small angle nearby a violation is one of rounding, which needs no reason.
   const bool beside = violated && (reason = explain(c, true)).code == PoorReason::Code::small_angle;
@@ -188,11 +180,12 @@ PoorCount count_poor_cells(const Mesh<D>& mesh, const CellBounds<D>& bounds, std
 }
 
 template <int D>
-PoorFindings PoorReasons<D>::of_cells(std::uint32_t first, std::uint32_t last, const std::stop_token& stop) const {
+PoorFindings PoorReasons<D>::of_cells(std::uint32_t first, std::uint32_t last, const std::vector<bool>& violated,
+                                      const std::stop_token& stop) const {
   PoorFindings found;
   for (std::uint32_t i = first; i < last; ++i) {
     if (i % 1024 == 0 && stop.stop_requested()) break;
-    if (mesh_->alive(CellId{i})) look_at(CellId{i}, true, found);
+    if (mesh_->alive(CellId{i})) look_at(CellId{i}, violated[i], found);
   }
   return found;
 }

@@ -119,6 +119,17 @@ void Refiner<D>::add_violations(CellId c, std::vector<Entry<D>>& to) const {
     if (flips_.violates(c, f)) to.push_back(make_entry(c, EntryKind::flip, f));
 }
 
+template <int D>
+void Refiner<D>::add_violations(CellId c, const std::vector<bool>& looked_at, std::vector<Entry<D>>& to) const {
+  for (int f = 0; f <= D; ++f) {
+    const Link beyond = mesh_->cell(c).links[f];
+    const bool both = beyond && looked_at[index(beyond.cell())];
+    if ((both && beyond.cell() < c) || !flips_.violates(c, f)) continue;
+    to.push_back(make_entry(c, EntryKind::flip, f));
+    if (both) to.push_back(make_entry(beyond.cell(), EntryKind::flip, beyond.face()));
+  }
+}
+
 /// Into the visit's list; as many as that were.
 template <int D>
 std::uint64_t Refiner<D>::list_violations(std::span<const CellId> cells) {

@@ -30,9 +30,14 @@ PoorFindings LeafRefinement<D>::look_for_poor(PoorReasons<D>& reasons) {
     unexplained_poor_ = found.unexplained.size();
     return found;
   }
+  look_for_violations();
   const std::uint32_t cells = context_.mesh.cell_bound();
+  std::vector<bool> violated(cells);
+  for (const Entry<D>& e : violations_) violated[index(e.cell)] = true;
   std::vector<PoorFindings> parts(count_parts(cells));
-  each_part(cells, options_, [&](const CellPart& part) { parts[part.number] = reasons.of_cells(part.first, part.last, stop); });
+  each_part(cells, options_, [&](const CellPart& part) {
+    parts[part.number] = reasons.of_cells(part.first, part.last, violated, stop);
+  });
   PoorFindings all;
   for (const PoorFindings& part : parts) all.append(part);
   reasons.leave_out_excused(all);

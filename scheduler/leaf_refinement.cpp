@@ -94,7 +94,7 @@ std::vector<Entry<D>> LeafRefinement<D>::look_for_violations() {
   std::vector<std::vector<Entry<D>>> parts(count_parts(mesh.cell_bound()));
   each_part(mesh.cell_bound(), options_, [&](const CellPart& part) {
     for (std::uint32_t i = part.first; i < part.last && !context_.options.stop.stop_requested(); ++i)
-      if (changed[i] && mesh.alive(CellId{i})) worker->add_violations(CellId{i}, parts[part.number]);
+      if (changed[i] && mesh.alive(CellId{i})) worker->add_violations(CellId{i}, changed, parts[part.number]);
   });
   check_in(std::move(worker));
   cancelled(0);

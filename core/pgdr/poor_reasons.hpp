@@ -66,9 +66,10 @@ class PoorReasons {
   void add(std::span<const Refusal<D>> refused);
 
   /// Of the cells numbered [first, last) every one over a bound, and every one with a face that is not locally Delaunay for
-  /// other reasons than rounding, each with its reason. @pre the refinement has finished. Several threads at once. Ends
-  /// early, with some of them, once `stop` is requested.
-  PoorFindings of_cells(std::uint32_t first, std::uint32_t last, const std::stop_token& stop = {}) const;
+  /// other reasons than rounding, each with its reason. `violated`, by cell: those with a face that is not locally Delaunay.
+  /// @pre the refinement has finished. Several threads at once. Ends early, with some of them, once `stop` is requested.
+  PoorFindings of_cells(std::uint32_t first, std::uint32_t last, const std::vector<bool>& violated,
+                        const std::stop_token& stop = {}) const;
   /// The same of the cells that were refused: all there are where every face is locally Delaunay.
   PoorFindings of_refused(const std::stop_token& stop = {}) const;
   /// Leaves out of `found.violated` what has a vertex, or whose neighbour has one, on an entity that is named as a reason: its
@@ -82,8 +83,7 @@ class PoorReasons {
   bool explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, PoorReason& reason) const;
   bool is_beside(EntityRef segment, const Ball<D>& doubled) const;
   void add_entities(CellId c, std::vector<EntityRef>& list) const;
-  void look_at(CellId c, bool violations_seen, PoorFindings& found) const;
-  bool is_violated(CellId c) const;
+  void look_at(CellId c, bool violated, PoorFindings& found) const;
   bool is_violated_beyond_rounding(CellId c) const;
 
   const Mesh<D>* mesh_;

@@ -127,6 +127,8 @@ class Refiner {
   void list_cell(CellId c);
   /// Adds the faces of the cell that are not locally Delaunay. Several threads at once.
   void add_violations(CellId c, std::vector<Entry<D>>& to) const;
+  /// The same where many cells are looked at: a face between two of them is decided from one, and added for both.
+  void add_violations(CellId c, const std::vector<bool>& looked_at, std::vector<Entry<D>>& to) const;
   /// Mends or moves a violation that no entity is beside in as large a region as that takes; everything must be owned.
   /// False if that cannot be done.
   bool mend(const Entry<D>& e);
