@@ -8,9 +8,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <optional>
 #include <tuple>
 
+#include "detail/box_tree.hpp"
 #include "detail/check_pieces.hpp"
 #include "pgdr/predicates.hpp"
 
@@ -25,6 +27,8 @@ bool axis_aligned_facet(const Domain<3>& domain, EntityId facet) {
 }
 
 namespace {
+
+constexpr std::uint32_t few_triangles = 32;  // are looked at one after the other
 
 /// Twice the area in the projection of the facet, and a bound of its error.
 std::pair<double, double> projected_area(const std::array<Point3, 3>& t, int axis) {
@@ -49,6 +53,7 @@ class FacetMatcher {
     uses_.assign(input_.bounds().size(), 0);
     facet_used_.assign(domain_.facets().size(), false);
     for (EntityId f = 0; f < domain_.facets().size(); ++f) aligned_.push_back(axis_aligned_facet(domain_, f));
+    plant_trees();
     for (const Piece& piece : pieces_.list) match(piece);
     for (std::uint32_t p = 0; p < input_.patches().size(); ++p)
       if (sums_[p].used)
@@ -165,28 +170,64 @@ class FacetMatcher {
     return {domain_.points()[t[0]], domain_.points()[t[1]], domain_.points()[t[2]]};
   }
 
+  // Of facets that are planar only within rounding and have many triangles: each vertex on one asks which of these it is on.
+  void plant_trees() {
+    trees_.resize(input_.patches().size());
+    for (std::uint32_t patch = 0; patch < trees_.size(); ++patch) {
+      const Patch& p = input_.patches()[patch];
+      if (p.count < few_triangles || domain_.facets()[p.entity].planar) continue;
+      std::vector<detail::Box<3>> boxes;
+      for (std::uint32_t i = p.first; i < p.first + p.count; ++i) {
+        const auto t = input_.simplex(i);
+        boxes.push_back(detail::Box<3>::around(t[0]));
+        boxes.back().add(t[1]);
+        boxes.back().add(t[2]);
+      }
+      trees_[patch] = std::make_unique<detail::BoxTree<3>>(boxes);
+    }
+  }
+
+  /// Calls visit(i) for all triangles of the patch that may be within `slack` of x in its projection, and maybe for others.
+  template <class Visit>
+  void triangles_near(std::uint32_t patch, const Point3& x, double slack, const Visit& visit) const {
+    const Patch& p = input_.patches()[patch];
+    if (!trees_[patch]) {
+      for (std::uint32_t i = p.first; i < p.first + p.count; ++i) visit(i);
+      return;
+    }
+    const int axis = domain_.facets()[p.entity].axis;
+    auto around = detail::Box<3>::around(x);
+    for (int k = 0; k < 3; ++k) {
+      const double reach = k == axis ? HUGE_VAL : 2 * slack;
+      around.low[k] -= reach;
+      around.high[k] += reach;
+    }
+    trees_[patch]->meeting(around, [&](std::uint32_t i) { visit(p.first + i); });
+  }
+
   // A facet that is planar only within rounding is the union of its triangles; the one that contains x in the
   // projection counts. Rounding may put x beyond all of them: then any whose box x is in, up to the tolerance.
   bool on_bent_facet(std::uint32_t patch, const Point3& x) const {
     const EntityId f = facet(patch);
     const int axis = domain_.facets()[f].axis;
+    const double width = tolerance(f).width();
     bool contained = false, near = false, near_box = false;
-    const Patch& p = input_.patches()[patch];
-    for (std::uint32_t i = p.first; i < p.first + p.count && !near; ++i) {
+    triangles_near(patch, x, width, [&](std::uint32_t i) {
+      if (near) return;
       const auto t = input_.simplex(i);
       bool in_box = true, in = true;
       for (int k = 0; k < 3; ++k) {
         const auto [low, high] = std::minmax({t[0][k], t[1][k], t[2][k]});
-        const double slack = k == axis ? HUGE_VAL : tolerance(f).width();
+        const double slack = k == axis ? HUGE_VAL : width;
         in_box &= x[k] >= low - slack && x[k] <= high + slack;
       }
-      if (!in_box) continue;
+      if (!in_box) return;
       for (int k = 0; k < 3; ++k) in &= orient_projected(t[k], t[(k + 1) % 3], x, axis) != Sign::negative;
       const bool close = near_plane(t, x, tolerance(f));
       contained |= in;
       near |= in && close;
       near_box |= close;
-    }
+    });
     return near || (!contained && near_box);
   }
 
@@ -319,6 +360,7 @@ class FacetMatcher {
   Pieces pieces_;
   std::vector<Sums> sums_;
   std::vector<bool> aligned_, facet_used_;
+  std::vector<std::unique_ptr<detail::BoxTree<3>>> trees_;  // of patches
   std::vector<std::uint32_t> uses_;               ///< of each Bound of the input: edges of pieces along it
   std::map<BoundKey, std::uint32_t> inner_uses_;  ///< along segments that are no bounds of the patch
   std::vector<std::pair<EntityId, std::uint32_t>> points_seen_;

@@ -178,14 +178,6 @@ double Domain<D>::segment_magnitude(EntityId s) const {
   return m;
 }
 
-template <int D>
-double Domain<D>::facet_magnitude(EntityId f) const {
-  double m = 0;
-  for (const std::uint32_t v : facet_points(f))
-    for (const double x : points_[v].x) m = std::max(m, std::fabs(x));
-  return m;
-}
-
 template class Domain<2>;
 template class Domain<3>;
 // The steps are defined, and instantiated one by one, in files of their own.

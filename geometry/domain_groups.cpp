@@ -179,6 +179,10 @@ void DomainBuilder<D>::write_facets() requires(D == 3) {
     f.first_point = static_cast<std::uint32_t>(out_.facet_points_.size());
     f.point_count = static_cast<std::uint32_t>(points.size());
     out_.facet_points_.insert(out_.facet_points_.end(), points.begin(), points.end());
+    double largest = 0;
+    for (const std::uint32_t v : points)
+      for (const double x : out_.points_[v].x) largest = std::max(largest, std::fabs(x));
+    out_.facet_magnitudes_.push_back(largest);
     if (!f.planar) measure_defect(f, points);
   }
   detail::sort_by_points(out_.points_.size(), out_.triangles_.size(), [this](std::uint32_t t) { return out_.triangles_[t]; },

@@ -145,5 +145,28 @@ TEST(Coplanar, SixDigitsAndAPrecisionToMatch) {
   EXPECT_EQ(outcome.result.poor_left, 0u);
 }
 
+// Each vertex on such a face asks which triangle it is on. (Of a tray whose bottom has 1,200 triangles, turned, the checker
+// looked at all of them, and at all points of the face for each: 71,000 cells took minutes.) One that leaves the face is found.
+TEST(Coplanar, AFaceOfManyTrianglesIsCheckedTriangleByTriangle) {
+  const Plc<3> plc = turned(gridded_box(16));
+  const Domain<3> domain(plc);
+  ASSERT_EQ(domain.facets().size(), 6u);
+  ASSERT_FALSE(domain.facets()[0].planar);
+  RefineOptions<3> options;
+  options.size = 0.1;
+  RefineResult<3> result = refine<3>(domain, options);
+  CheckOptions<3> check_options;
+  check_options.domain = &domain;
+  check_options.radius_edge_bound = options.radius_edge_bound;
+  const CheckReport report = check<3>(result.mesh, check_options);
+  EXPECT_EQ(report.exit_code(), 0) << test::findings(report);
+  const auto& subfacets = result.mesh.subfacets;
+  const auto at = std::find_if(subfacets.begin(), subfacets.end(), [&](const auto& t) { return t.vertices[2] >= result.mesh.input_points; });
+  ASSERT_NE(at, subfacets.end());
+  for (double& x : result.mesh.points[at->vertices[2]].x) x += 1e-12;
+  const CheckReport moved = check<3>(result.mesh, check_options);
+  EXPECT_GT(moved.count(CheckFinding::Kind::facet_not_conforming) + moved.count(CheckFinding::Kind::segment_not_conforming), 0u);
+}
+
 }  // namespace
 }  // namespace pgdr
