@@ -11,6 +11,7 @@ namespace pgdr {
 template <int D>
 void Cavity<D>::begin(const Point<D>& p) {
   point_ = p;
+  least_ = 0;
   shrunk_ = touches_constraints_ = shapes_known_ = star_shaped_ = false;
   split_edge_ = {no_vertex, no_vertex};
   split_segment_ = no_entity;
@@ -161,10 +162,11 @@ auto Cavity<D>::take_fan(CellId cell, int a, int b) -> Status {
 }
 
 template <int D>
-auto Cavity<D>::collect_on_edge(const Point<D>& p, CellId cell, int edge) -> Status
+auto Cavity<D>::collect_on_edge(const Point<D>& p, CellId cell, int edge, double least) -> Status
   requires(D == 3)
 {
   begin(p);
+  least_ = least;
   const auto [a, b] = edge_ends[edge];
   split_edge_ = {mesh_->cell(cell).vertices[a], mesh_->cell(cell).vertices[b]};
   split_segment_ = mesh_->constraints(cell)->edge_entity[edge];
@@ -206,6 +208,8 @@ auto Cavity<D>::grow() -> Status {
         if (mesh_->conflicts(next.cell(), point_)) {
           if (!owns(next.cell())) return Status::not_owned;
           take(next.cell());
+          const VertexId apex = mesh_->cell(next.cell()).vertices[next.face()];
+          if (least_ > 0 && std::sqrt(squared_distance(point_, mesh_->point(apex))) < least_) return Status::too_near;
         } else {
           boundary_.push_back({c, f});
         }

@@ -261,8 +261,27 @@ std::vector<CellId> Refiner<D>::cells_seen(const Item& e) {
 }
 
 template <int D>
+std::optional<std::uint64_t> surroundings_of(const Mesh<D>& mesh, std::span<const CellId> slots) {
+  std::uint64_t sum = 0;
+  // Of two multiplications, each a bijection of its operand: cells in another order make another number.
+  const auto add = [&](CellId c) {
+    const std::uint64_t cell = std::uint64_t{index(c)} << 16 | mesh.birth(c);
+    sum = (std::rotl(sum, 25) ^ cell * 0x9e3779b97f4a7c15u) * 0xbf58476d1ce4e5b9u;
+  };
+  for (const CellId c : slots) {
+    if (!mesh.alive(c)) return std::nullopt;
+    add(c);
+    for (const Link next : mesh.cell(c).links)
+      if (next) add(next.cell());
+  }
+  return sum;
+}
+
+template <int D>
 void Refiner<D>::record_refusal(const Item& e) {
-  visit_->list->refused.push_back({e, last_refusal_, visit_->order, visit_->generation, cells_seen(e)});
+  std::vector<CellId> seen = cells_seen(e);
+  const std::uint64_t surroundings = surroundings_of<D>(*mesh_, seen).value_or(0);
+  visit_->list->refused.push_back({e, last_refusal_, visit_->order, visit_->generation, std::move(seen), surroundings});
   visit_->entities_refused = visit_->entities_refused || e.kind() != EntryKind::cell;
 }
 
@@ -307,6 +326,7 @@ void Refiner<D>::begin(RegionVisit<D>& visit) {
   visit_ = &visit;
   abroad_.clear();
   seen_.clear();
+  memo_.clear();
   cavity_.set_area(visit.area);
   flips_.set_area(visit.area);
   flips_left_ = 0;
@@ -365,6 +385,8 @@ void Refiner<D>::run(RegionVisit<D>& visit) {
   visit_ = nullptr;
 }
 
+template std::optional<std::uint64_t> surroundings_of<2>(const Mesh<2>&, std::span<const CellId>);
+template std::optional<std::uint64_t> surroundings_of<3>(const Mesh<3>&, std::span<const CellId>);
 template struct RefineContext<2>;
 template struct RefineContext<3>;
 template class Refiner<2>;

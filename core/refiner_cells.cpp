@@ -272,7 +272,8 @@ auto Refiner<D>::treat_cell_at(const Item& e, const Point<D>& x, const CellVerdi
   if (const auto encroached = encroached_entity(x)) {
     // An entity that is refused leaves the mesh as it is: whether x is far enough can be seen now, with its cavity at hand.
     const double radii = context_->last_resort ? 1 : 2;
-    const bool clear = is_clear_of_encroached(x, radii * radii * mesh_->squared_radius_bounds(e.cell).second);
+    const double far = radii * radii * mesh_->squared_radius_bounds(e.cell).second;
+    const bool clear = is_clear_of(*encroached, x, far) && is_clear_of_encroached(x, far);
     const Outcome outcome = split_instead(*encroached, e, verdict);
     return outcome == Outcome::refused && clear ? insert_beside_refused(x, e, verdict) : outcome;
   }
@@ -291,33 +292,37 @@ auto Refiner<D>::insert_beside_refused(const Point<D>& x, const Item& e, const C
   return status == Cavity<D>::Status::ok && !hiding_wall(e.cell, x) ? insert_point(e, verdict) : Outcome::refused;
 }
 
-/// Is x at least so far from all constrained faces and edges of its cavity that it encroaches upon?
+/// Is x at least so far from this subsegment or subfacet, or does not encroach upon it?
 template <int D>
-bool Refiner<D>::is_clear_of_encroached(const Point<D>& x, double squared) const {
-  auto is_clear = [&](double distance2, const Ball<D>& ball) {
+bool Refiner<D>::is_clear_of(const Item& entity, const Point<D>& x, double squared) const {
+  const auto is_clear = [&](double distance2, const Ball<D>& ball) {
     return distance2 >= squared || squared_distance(ball.center, x) >= ball.squared_radius;
   };
+  const Simplex<D> s = mesh_->simplex(entity.cell);
+  const int i = entity.which();
+  if constexpr (D == 2) {
+    const Point2 &p = s[(i + 1) % 3], &q = s[(i + 2) % 3];
+    return is_clear(detail::squared_distance_to_edge<2>(p, q, x), diametral_ball<D>(p, q));
+  } else if (entity.kind() == EntryKind::face) {
+    const Point3 &p = s[(i + 1) & 3], &q = s[(i + 2) & 3], &r = s[(i + 3) & 3];
+    return is_clear(detail::squared_distance_to_triangle(p, q, r, x), equatorial_ball(p, q, r));
+  } else {
+    const Point3 &p = s[edge_ends[i][0]], &q = s[edge_ends[i][1]];
+    return is_clear(detail::squared_distance_to_edge<3>(p, q, x), diametral_ball<D>(p, q));
+  }
+}
+
+/// Of all constrained faces and edges of its cavity?
+template <int D>
+bool Refiner<D>::is_clear_of_encroached(const Point<D>& x, double squared) const {
   for (const CellId c : cavity_.cells()) {
     const auto* k = mesh_->constraints(c);
     if (!k) continue;
-    const Simplex<D> s = mesh_->simplex(c);
-    for (int f = 0; f <= D; ++f) {
-      if (!(k->faces >> f & 1)) continue;
-      if constexpr (D == 2) {
-        const Point2 &p = s[(f + 1) % 3], &q = s[(f + 2) % 3];
-        if (!is_clear(detail::squared_distance_to_edge<2>(p, q, x), diametral_ball<D>(p, q))) return false;
-      } else {
-        const Point3 &p = s[(f + 1) & 3], &q = s[(f + 2) & 3], &r = s[(f + 3) & 3];
-        if (!is_clear(detail::squared_distance_to_triangle(p, q, r, x), equatorial_ball(p, q, r))) return false;
-      }
-    }
-    if constexpr (D == 3) {
-      for (int i = 0; i < 6; ++i) {
-        if (!(k->edges >> i & 1)) continue;
-        const Point3 &p = s[edge_ends[i][0]], &q = s[edge_ends[i][1]];
-        if (!is_clear(detail::squared_distance_to_edge<3>(p, q, x), diametral_ball<D>(p, q))) return false;
-      }
-    }
+    for (int f = 0; f <= D; ++f)
+      if ((k->faces >> f & 1) && !is_clear_of(make_entry(c, EntryKind::face, f), x, squared)) return false;
+    if constexpr (D == 3)
+      for (int i = 0; i < 6; ++i)
+        if ((k->edges >> i & 1) && !is_clear_of(make_entry(c, EntryKind::edge, i), x, squared)) return false;
   }
   return true;
 }

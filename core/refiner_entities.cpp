@@ -221,6 +221,7 @@ auto Refiner<D>::split_face(const Item& e, const Demand* cause) -> Outcome {
   std::array<VertexId, D> own;
   for (int i = 0, n = 0; i <= D; ++i)
     if (i != e.which()) own[n++] = mesh_->cell(e.cell).vertices[i];
+  if (cause && is_refused_as_before(e, *cause)) return Outcome::refused;
   const Point<D> x = face_point(e.cell, e.which());
   const auto status = cavity_.collect_on_face(x, e.cell, e.which());
   if (status == Cavity<D>::Status::not_owned) return give_up(Outcome::not_owned);
@@ -247,10 +248,69 @@ auto Refiner<D>::split_face(const Item& e, const Demand* cause) -> Outcome {
       const Outcome outcome = split_edge(*edge, &demand);
       // The face is looked at again if the split left it as it was.
       if (outcome == Outcome::committed && !cause && alive(e)) visit_->list->push(e);
+      if (outcome == Outcome::refused) {
+        memo_.note_passed_on(e, *edge);
+        seen_.push_back(e.cell);
+      }
       return outcome;
     }
   }
   return decide(entity, own, cause);
+}
+
+/// A cell at the subsegment with a corner nearer than this to x on it. Such cells are in the cavity of x, whatever else is, and
+/// are found long before that is collected. Ends where the claim does.
+template <int D>
+auto Refiner<D>::cell_near_edge(const Item& e, const Point<D>& x, double distance) const -> std::optional<CellId> {
+  if constexpr (D == 3) {
+    int others[2], n = 0;
+    for (int i = 0; i <= D; ++i)
+      if (i != edge_ends[e.which()][0] && i != edge_ends[e.which()][1]) others[n++] = i;
+    for (const int way : {0, 1}) {
+      RidgeWalk<D> walk{e.cell, others[1 - way], others[way]};
+      while (cavity_.owns(walk.cell)) {
+        if (distance_to_corners(walk.cell, x) < distance) return walk.cell;
+        if (!walk.link(*mesh_)) break;
+        walk.step(*mesh_);
+        if (walk.cell == e.cell) return {};
+      }
+    }
+  }
+  return {};
+}
+
+template <int D>
+double Refiner<D>::distance_to_corners(CellId c, const Point<D>& x) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const VertexId v : mesh_->cell(c).vertices) least = std::min(least, squared_distance(mesh_->point(v), x));
+  return std::sqrt(least);
+}
+
+/// A subsegment whose middle is too near to a corner of this cell of its cavity. These two cells decide that: whatever was
+/// looked at before may change.
+template <int D>
+auto Refiner<D>::refuse_near(const Item& e, std::span<const VertexId> own, CellId near) -> Outcome {
+  const Outcome outcome = refuse({EntityKind::segment, mesh_->constraints(e.cell)->edge_entity[e.which()]}, own);
+  seen_.assign({e.cell, near});
+  return outcome;
+}
+
+/// A subfacet that has asked for the split of a subsegment that is refused: refused, if that still holds.
+template <int D>
+bool Refiner<D>::is_refused_as_before(const Item& face, const Demand& cause) {
+  if constexpr (D == 3) {
+    const auto edge = memo_.passed_on(*mesh_, face);
+    if (!edge) return false;
+    const auto& vertices = mesh_->cell(edge->cell).vertices;
+    const std::array<VertexId, 2> own{vertices[edge_ends[edge->which()][0]], vertices[edge_ends[edge->which()][1]]};
+    const auto near = memo_.nearer_than(*mesh_, own[0], own[1], cause.d);
+    if (!near) return false;
+    refuse_near(*edge, own, near->cell);
+    seen_.push_back(face.cell);
+    return true;
+  } else {
+    return false;
+  }
 }
 
 template <int D>
@@ -261,8 +321,17 @@ auto Refiner<D>::split_edge(const Item& e, const Demand* cause) -> Outcome {
     const std::array<VertexId, 2> own{vertices[edge_ends[e.which()][0]], vertices[edge_ends[e.which()][1]]};
     const Point<D> x = split_point(s, own[0], own[1]);
     const EntityRef entity{EntityKind::segment, s};
-    const auto status = cavity_.collect_on_edge(x, e.cell, e.which());
+    const double least = cause ? cause->d : 0;
+    if (const auto near = memo_.nearer_than(*mesh_, own[0], own[1], least)) return refuse_near(e, own, near->cell);
+    auto near = cause ? cell_near_edge(e, x, least) : std::nullopt;
+    auto status = Cavity<D>::Status::too_near;
+    if (!near) status = cavity_.collect_on_edge(x, e.cell, e.which(), least);
     if (status == Cavity<D>::Status::not_owned) return give_up(Outcome::not_owned);
+    if (status == Cavity<D>::Status::too_near) {
+      if (!near) near = cavity_.cells().back();
+      memo_.note_near(own[0], own[1], {*near, mesh_->birth(*near), distance_to_corners(*near, x)});
+      return refuse_near(e, own, *near);
+    }
     if (status != Cavity<D>::Status::ok) return refuse(entity, own);
     return decide(entity, own, cause);
   } else {

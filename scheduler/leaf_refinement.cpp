@@ -158,15 +158,16 @@ std::vector<Refusal<D>> LeafRefinement<D>::take_refused() {
   bool any = false;
   for_each_refused([&any](std::span<const Refusal<D>> refused) { any = any || !refused.empty(); });
   if (!any) return {};
-  const std::vector<bool> changed = changed_surroundings(context_.mesh, births_at_refusal_);
-  const auto is_changed = [&changed](CellId c) { return changed[index(c)]; };
+  const auto has_changed = [this](const Refusal<D>& r) {
+    return r.seen.empty() || surroundings_of<D>(context_.mesh, r.seen) != r.surroundings;
+  };
   std::vector<Refusal<D>> refused, kept;
   for (Node n = 0; n <= tree_.node_count(); ++n) {
     const LeafWork<D>* work = n == tree_.node_count() ? nullptr : &works_[n];
     auto& list = work ? works_[n].list.refused : whole_list_.refused;
     for (Refusal<D>& r : list) {
       if (!r.entry.alive(context_.mesh)) continue;
-      const bool again = may_have_changed(work, r) && (r.seen.empty() || std::any_of(r.seen.begin(), r.seen.end(), is_changed));
+      const bool again = may_have_changed(work, r) && has_changed(r);
       (again ? refused : kept).push_back(std::move(r));
     }
     list = std::exchange(kept, {});

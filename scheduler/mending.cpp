@@ -3,12 +3,16 @@
 //
 // The end of a run that saw faces which are not locally Delaunay: what flips could not mend is mended in larger regions.
 // One visit after the other, of the whole mesh: such regions know no leaves, and there are few of them.
+#include <algorithm>
+#include <limits>
+
 #include "detail/leaf_refinement.hpp"
 
 namespace pgdr::detail {
 namespace {
 
 constexpr int most_rounds = 32;  // each of which ends with fewer violations but for insertions
+constexpr int most_rounds_in_vain = 4;  // that find no fewer than the best before: what was taken out comes back
 
 }  // namespace
 
@@ -29,7 +33,8 @@ template <int D>
 StopCause LeafRefinement<D>::mend() {
   for (const Entry<D>& e : violations_everywhere()) whole_list_.push(e);
   std::set<std::array<VertexId, D + 1>> hopeless;
-  for (int round = 0; round < most_rounds; ++round) {
+  std::size_t least = std::numeric_limits<std::size_t>::max();
+  for (int round = 0, in_vain = 0; round < most_rounds && in_vain < most_rounds_in_vain; ++round) {
     do {
       RegionVisit<D> visit = mending_visit();
       visit.mends = round > 0;
@@ -44,25 +49,30 @@ StopCause LeafRefinement<D>::mend() {
       if (!visit.changed_mesh) break;
       for (const Refusal<D>& r : take_refused()) whole_list_.push(r.entry);
     } while (!whole_list_.empty());
-    if (!mend_far_from_walls(hopeless)) break;
+    const std::size_t found = mend_far_from_walls(hopeless);
+    if (found == 0) break;
+    in_vain = found < least ? 0 : in_vain + 1;
+    least = std::min(least, found);
   }
   return static_cast<StopCause>(context_.stop.load());
 }
 
 /// Violations that no entity is beside, which nothing excuses, are mended, or moved to the walls, in as large a region as
-/// that takes. True if there was any such.
+/// that takes. How many there were; 0 if none could be mended.
 template <int D>
-bool LeafRefinement<D>::mend_far_from_walls(std::set<std::array<VertexId, D + 1>>& hopeless) {
+std::size_t LeafRefinement<D>::mend_far_from_walls(std::set<std::array<VertexId, D + 1>>& hopeless) {
   RegionVisit<D> mending;
   mending.list = &whole_list_;
   Worker worker = check_out();
   worker->begin(mending);
   bool any = false;
+  std::size_t found = 0;
   for (const Entry<D>& e : violations_everywhere()) {
     if (worker->ended()) break;
     if (!e.alive(context_.mesh) || !worker->is_far_from_walls(e)) continue;
     const auto vertices = context_.mesh.cell(e.cell).vertices;
     if (hopeless.contains(vertices)) continue;
+    ++found;
     if (worker->mend(e)) {
       any = true;
     } else if (worker->violates(e)) {
@@ -70,7 +80,7 @@ bool LeafRefinement<D>::mend_far_from_walls(std::set<std::array<VertexId, D + 1>
     }
   }
   check_in(std::move(worker));
-  return any;
+  return any ? found : 0;
 }
 
 template class LeafRefinement<2>;

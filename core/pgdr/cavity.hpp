@@ -73,6 +73,7 @@ class Cavity {
     duplicate,        ///< the point is a vertex already
     swallows,         ///< a vertex or a subsegment would vanish
     not_owned,        ///< the visit's claim is too small
+    too_near,         ///< a vertex is nearer than asked for
   };
 
   /// `domain` may be null where no insertion splits a facet.
@@ -93,8 +94,8 @@ class Cavity {
   Status collect(const Point<D>& p, CellId seed);
   /// A point on the facet (2D: segment) that the constrained face belongs to, inside the face's circumcircle.
   Status collect_on_face(const Point<D>& p, CellId cell, int face);
-  /// 3D: a point on the subsegment that is edge `edge` of `cell`.
-  Status collect_on_edge(const Point<D>& p, CellId cell, int edge)
+  /// 3D: a point on the subsegment that is edge `edge` of `cell`. Ends as soon as a vertex is nearer than `least`.
+  Status collect_on_edge(const Point<D>& p, CellId cell, int edge, double least = 0)
     requires(D == 3);
 
   /// Cuts back to the star-shaped part. After `collect...` said ok.
@@ -189,6 +190,7 @@ class Cavity {
   const VisitArea<D>* area_ = nullptr;
   std::vector<CellId>* seen_ = nullptr;
   Point<D> point_;
+  double least_ = 0;  ///< distance that vertices must have
   std::vector<CellId> cells_, new_cells_;
   std::vector<CellId> protected_;
   std::vector<BoundaryFace> boundary_;

@@ -26,6 +26,7 @@
 #include "pgdr/key_set.hpp"
 #include "pgdr/local_flips.hpp"
 #include "pgdr/refine_options.hpp"
+#include "pgdr/refusal_memo.hpp"
 #include "pgdr/shells.hpp"
 #include "pgdr/visit_area.hpp"
 #include "pgdr/work_list.hpp"
@@ -172,6 +173,10 @@ class Refiner {
   bool face_encroached_by(CellId c, int face, VertexId v) const;
   Outcome split_face(const Item& e, const Demand* cause);
   Outcome split_edge(const Item& e, const Demand* cause);
+  std::optional<CellId> cell_near_edge(const Item& e, const Point<D>& x, double distance) const;
+  double distance_to_corners(CellId c, const Point<D>& x) const;
+  Outcome refuse_near(const Item& e, std::span<const VertexId> own, CellId near);
+  bool is_refused_as_before(const Item& face, const Demand& cause);
   Point<D> face_point(CellId c, int face) const;
   Point<D> split_point(EntityId s, VertexId a, VertexId b) const;
   std::array<double, 2> piece(EntityId s, VertexId a, VertexId b) const;
@@ -193,6 +198,7 @@ class Refiner {
   CellVerdict verdict_of(const Item& e) const;
   Outcome treat_cell(const Item& e);
   Outcome insert_beside_refused(const Point<D>& x, const Item& e, const CellVerdict& verdict);
+  bool is_clear_of(const Item& entity, const Point<D>& x, double squared) const;
   bool is_clear_of_encroached(const Point<D>& x, double squared) const;
   Outcome insert_point(const Item& e, const CellVerdict& verdict, bool at_center = true);
   Outcome insert_inside(const Item& e, const CellVerdict& verdict);
@@ -242,6 +248,7 @@ class Refiner {
   std::chrono::steady_clock::time_point checked_time_;
   std::optional<EntityPair> last_refusal_;
   KeySet distinct_;
+  RefusalMemo<D> memo_;  ///< of the visit
   mutable std::map<std::pair<std::uint64_t, std::uint64_t>, double> angles_;  ///< of pairs of entities, in degrees
   mutable std::vector<CellId> seen_;  ///< that it took to decide about the entry treated, with repetitions
   bool unexplained_ = false;  ///< is the element treated one that stays poor for no reason?

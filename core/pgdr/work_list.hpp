@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <new>
 #include <optional>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -195,7 +196,13 @@ struct Refusal {
   std::uint64_t generation = 0;  ///< in which
   /// Of the cells that were looked at: while these and their neighbours stay, so does the decision. Empty: not known.
   std::vector<CellId> seen;
+  std::uint64_t surroundings = 0;  ///< `surroundings_of` these, then
 };
+
+/// A number that says which cells are in these slots and beside them: another one, but for a chance of 2^-64, once any of
+/// them is another cell than before; nothing if one of the slots is empty. @pre no other thread writes to these cells
+template <int D>
+std::optional<std::uint64_t> surroundings_of(const Mesh<D>& mesh, std::span<const CellId> slots);
 
 /// What waits in one region, and what was refused there.
 template <int D>

@@ -115,7 +115,7 @@ class LeafRefinement {
   void sort_by_vertices(std::vector<Entry<D>>& entries) const;
   RegionVisit<D> mending_visit();
   StopCause mend();
-  bool mend_far_from_walls(std::set<std::array<VertexId, D + 1>>& hopeless);
+  std::size_t mend_far_from_walls(std::set<std::array<VertexId, D + 1>>& hopeless);
   void note_change(std::span<const Node> claim);
   bool may_have_changed(const LeafWork<D>* work, const Refusal<D>& refusal) const;
   std::vector<Refusal<D>> take_refused();
@@ -133,7 +133,6 @@ class LeafRefinement {
   std::vector<Entry<D>> left_over_;      ///< given to visits that the end of the run has overtaken
   std::uint64_t whole_changed_ = 0, last_change_ = 0;  ///< generation: of a visit of the whole tree; of any
   std::vector<std::uint16_t> births_looked_at_;  ///< by slot: of the cell when violations were last looked for everywhere
-  std::vector<std::uint16_t> births_at_refusal_; ///< when what was refused was last taken off the lists
   std::vector<Entry<D>> violations_;             ///< that were there then
   bool min_edge_hit_ = false, entities_refused_ = false;
   RefineCounts counts_;
