@@ -10,6 +10,7 @@
 #include <map>
 
 #include "parallel_support.hpp"
+#include "pgdr/written_precision.hpp"
 
 namespace pgdr {
 namespace {
@@ -143,6 +144,27 @@ TEST(Coplanar, SixDigitsAndAPrecisionToMatch) {
   const auto outcome = test::refine_and_check<3>(plc, {});
   EXPECT_EQ(outcome.report.exit_code(), 0) << test::findings(outcome.report);
   EXPECT_EQ(outcome.result.poor_left, 0u);
+}
+
+// As programs print them: six significant digits, and floats. That of people, of few digits, is meant as it is.
+TEST(Coplanar, ThePrecisionThatDigitsAllow) {
+  const double rounding = Plc<3>{}.precision;
+  EXPECT_EQ(written_precision({}), rounding);
+  EXPECT_EQ(written_precision(std::vector<Point3>{{{0, 1, -2.25}}, {{1e-3, 1200, 0.1}}}), rounding);
+  EXPECT_EQ(written_precision(std::vector<Point3>{{{0, 1, 0.12345}}}), 1e-4);
+  EXPECT_EQ(written_precision(std::vector<Point3>{{{0, 1, 123.456}}}), 1e-5);
+  EXPECT_EQ(written_precision(std::vector<Point3>{{{0, 1, -1.234567e-9}}}), 1e-6);
+  EXPECT_EQ(written_precision(std::vector<Point3>{{{0, 1, 1.23456789}}}), 0x1p-22);
+  EXPECT_EQ(written_precision(std::vector<Point3>{{{0, 1, double{1.0f / 3}}}}), 0x1p-22);
+  EXPECT_EQ(written_precision(std::vector<Point3>{{{0, double{1.0f / 3}, 1.0 / 3}}}), rounding);
+
+  Plc<3> plc = turned(gridded_box(5), 0);
+  for_each_point(plc, [](Point3& p) {
+    for (double& x : p.x) x = static_cast<float>(x);
+  });
+  EXPECT_GT(Domain<3>(plc).facets().size(), 50u);
+  plc.precision = written_precision(plc.points);
+  EXPECT_EQ(Domain<3>(plc).facets().size(), 6u);
 }
 
 // Each vertex on such a face asks which triangle it is on. (Of a tray whose bottom has 1,200 triangles, turned, the checker

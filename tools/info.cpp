@@ -12,6 +12,7 @@
 #include "pgdr/domain.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/refine.hpp"
+#include "precision_hint.hpp"
 
 namespace pgdr::tool {
 namespace {
@@ -123,6 +124,8 @@ int info_of_input(const InfoArguments& a, Report& report) {
       print_row("planar", count(warped, "facet is not", "facets are not") + format(", by up to %.3g", defect));
     print_row("angles", format("%.3f degrees is the smallest between segments, or facets at a segment", angle));
   }
+
+  hint_at_precision(plc, domain.facets().size(), a.reading, a.quiet, report);
 
   // Boundary recovery alone decides the rest: seeds, whether anything is enclosed.
   RefineOptions<D> options;

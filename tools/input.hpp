@@ -10,6 +10,7 @@
 #include "options.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/planar_plc.hpp"
+#include "pgdr/written_precision.hpp"
 
 namespace pgdr::tool {
 
@@ -21,10 +22,11 @@ Plc<D> read_input(const std::string& file, const InputArguments& reading, std::v
       throw UsageError({.code = Errc::bad_option, .message = "--resolve-crossings and --convex-hull are for 2D"});
     Plc<3> plc = read_plc<3>(file);
     if (reading.precision) plc.precision = *reading.precision;
+    if (reading.precision_as_written) plc.precision = written_precision(plc.points);
     if (reading.merge_points) plc.merge_within = *reading.merge_points;
     return plc;
   } else {
-    if (reading.precision) throw UsageError({.code = Errc::bad_option, .message = "--precision is for 3D"});
+    if (reading.precision || reading.precision_as_written) throw UsageError({.code = Errc::bad_option, .message = "--precision is for 3D"});
     Plc<2> plc = read_plc<2>(file);
     if (reading.merge_points) plc.merge_within = *reading.merge_points;
     if (reading.convex_hull) plc = with_convex_hull(plc);

@@ -31,6 +31,11 @@ CLI::Validator number(std::string range, bool (*accept)(double)) {
           "", "number " + range};
 }
 
+/// What the other validator takes, or the word.
+CLI::Validator auto_or(const CLI::Validator& other) {
+  return {[other](std::string& text) { return text == "auto" ? std::string() : other(text); }, "", "number or auto"};
+}
+
 /// A whole number in decimal digits, which CLI11 alone would let wrap round zero.
 CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
   return {[least, most](std::string& text) {
@@ -127,10 +132,15 @@ void add_bounds(CLI::App& app, BoundArguments& b, const std::string& without) {
 }
 
 void add_input(CLI::App& app, InputArguments& p) {
-  app.add_option("--precision", p.precision,
+  const auto set_precision = [&p](const std::string& text) {
+    p.precision_as_written = text == "auto";
+    if (double value = 0; !p.precision_as_written && CLI::detail::lexical_cast(text, value)) p.precision = value;
+  };
+  app.add_option_function<std::string>("--precision", set_precision,
                  "3D: facets that meet at an edge and lie in one plane within R times their largest coordinate are one "
-                 "(default 3.6e-15, 16 ulps: rounding; more where the file has few digits, which moves the surface by so much)")
-      ->type_name("R")->check(number("between 0 and 0.01", [](double v) { return v >= 0 && v <= 0.01; }));
+                 "(default 3.6e-15, 16 ulps: rounding; more where the file has few digits, which moves the surface by so much; "
+                 "auto: by the digits that its coordinates have)")
+      ->type_name("R|auto")->check(auto_or(number("between 0 and 0.01, or auto", [](double v) { return v >= 0 && v <= 0.01; })));
   app.add_option("--merge-points", p.merge_points,
                  "points within R times the largest coordinate are one: the nearest before them in the file (default 0: exact "
                  "duplicates alone)")

@@ -135,6 +135,18 @@ class Threads(Case):
         self.pgdr("check", self.output, "--input", box, "--precision", "1e-5", expect=0)
         self.pgdr("check", self.output, "--input", box, expect=6)  # the diagonals of the faces are segments then
 
+        # What fits the digits of the file, without being told; and where nothing was asked for, that it would help.
+        self.mesh(box, "--precision", "auto", "--size", "0.2", "--report", self.report, expect=0)
+        self.assertEqual(self.json()["precision"], 1e-5)
+        self.pgdr("check", self.output, "--input", box, "--precision", "auto", expect=0)
+        self.assertNotIn("hint", self.pgdr("info", box, "--precision", "auto", expect=0).stdout)
+        self.assertIn("--precision auto (1.0e-05, by the digits of the coordinates) makes 6 facets out of",
+                      self.pgdr("info", box, "--report", self.report, expect=0).stdout)
+        hint = self.json()["precision_hint"]
+        self.assertEqual((hint["precision"], hint["facets_then"]), (1e-5, 6))
+        self.assertGreater(hint["facets"], 6)
+        self.mesh(box, "--precision", "automatic", expect=2)
+
     def test_points_written_with_different_digits(self):
         """Refused, with the distance that makes them one; taken with that, by the checker too."""
         count = 0

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "precision_hint.hpp"
+
+#include <exception>
+
+#include "console.hpp"
+#include "pgdr/domain.hpp"
+#include "pgdr/written_precision.hpp"
+
+namespace pgdr::tool {
+
+template <int D>
+void hint_at_precision(const Plc<D>& plc, std::size_t facets, const InputArguments& reading, bool quiet, Report& report) {
+  if constexpr (D == 3) {
+    const double written = written_precision(plc.points);
+    if (reading.precision || reading.precision_as_written || written <= plc.precision) return;
+    std::size_t fewer;
+    try {
+      if (facets == 0) facets = Domain<3>(plc).facets().size();
+      Plc<3> merged = plc;
+      merged.precision = written;
+      fewer = Domain<3>(merged).facets().size();
+    } catch (const std::exception&) {
+      return;  // faces that their digits have bent so far are no better; and the mesh is there without a hint
+    }
+    if (10 * fewer > 9 * facets) return;
+    report.set("precision_hint", JsonObject{{"precision", written}, {"facets", facets}, {"facets_then", fewer}});
+    if (!quiet)
+      print_row("hint", format("--precision auto (%.1e, by the digits of the coordinates) makes %s out of %s", written,
+                               count(fewer, "facet", "facets").c_str(), count(facets, "facet", "facets").c_str()));
+  }
+}
+
+template void hint_at_precision<2>(const Plc<2>&, std::size_t, const InputArguments&, bool, Report&);
+template void hint_at_precision<3>(const Plc<3>&, std::size_t, const InputArguments&, bool, Report&);
+
+}  // namespace pgdr::tool

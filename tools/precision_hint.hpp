@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Whether small angles of an input are those of faces that lack digits, and what to do about it.
+#pragma once
+
+#include <cstddef>
+
+#include "options.hpp"
+#include "pgdr/plc.hpp"
+#include "report.hpp"
+
+namespace pgdr::tool {
+
+/// Where the digits of the coordinates make one face of many facets that the input as it is keeps apart: says so, in the
+/// report as `precision_hint`, and on the terminal unless `quiet`. Nothing if a precision was asked for, or for lack of memory.
+/// @param facets  of a Domain of `plc`; 0: not known
+template <int D>
+void hint_at_precision(const Plc<D>& plc, std::size_t facets, const InputArguments& reading, bool quiet, Report& report);
+
+}  // namespace pgdr::tool
