@@ -13,6 +13,7 @@
 #include "pgdr/compact.hpp"
 #include "pgdr/delaunay.hpp"
 #include "pgdr/diagnosis.hpp"
+#include "pgdr/folded_facets.hpp"
 #include "pgdr/labeling.hpp"
 #include "pgdr/point_data.hpp"
 #include "detail/arena.hpp"
@@ -161,7 +162,9 @@ RegionTable make_initial(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Do
   result.statistics.segment_points = counts.segment_points;
   result.statistics.facet_points = counts.facet_points;
   if (result.stop != StopCause::finished) return {};
-  return carve<D>(mesh, pools, delaunay, domain, options.regions, result.warnings);
+  RegionTable regions = carve<D>(mesh, pools, delaunay, domain, options.regions, result.warnings);
+  if constexpr (D == 3) require_unfolded(mesh, domain);
+  return regions;
 }
 
 /// What is known of the refinement once it has ended.

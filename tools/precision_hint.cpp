@@ -24,7 +24,7 @@ void hint_at_precision(const Plc<D>& plc, std::size_t facets, const InputArgumen
     } catch (const std::exception&) {
       return;  // faces that their digits have bent so far are no better; and the mesh is there without a hint
     }
-    if (10 * fewer > 9 * facets) return;
+    if (10 * fewer > 9 * facets || fewer < 4) return;
     report.set("precision_hint", JsonObject{{"precision", written}, {"facets", facets}, {"facets_then", fewer}});
     if (!quiet)
       print_row("hint", format("--precision auto (%.1e, by the digits of the coordinates) makes %s out of %s", written,
