@@ -325,7 +325,8 @@ auto Refiner<D>::split_edge(const Item& e, const Demand* cause) -> Outcome {
     if (const auto near = memo_.nearer_than(*mesh_, own[0], own[1], least)) return refuse_near(e, own, near->cell);
     auto near = cause ? cell_near_edge(e, x, least) : std::nullopt;
     auto status = Cavity<D>::Status::too_near;
-    if (!near) status = cavity_.collect_on_edge(x, e.cell, e.which(), least);
+    // In a tangle cavities are cut back, and the cut may leave a corner out: the second attempt at a mesh waits for that.
+    if (!near) status = cavity_.collect_on_edge(x, e.cell, e.which(), context_->sparse_at_small_angles ? least : 0);
     if (status == Cavity<D>::Status::not_owned) return give_up(Outcome::not_owned);
     if (status == Cavity<D>::Status::too_near) {
       if (!near) near = cavity_.cells().back();

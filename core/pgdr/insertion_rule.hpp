@@ -8,8 +8,8 @@
 // of entities that do not touch, else max(|uv|, min(R(u), R(v))). (Between entities that do not touch an edge is no child
 // of a small angle, though both ends may have inherited a large R from one: asked for more, the cells of a thin wall
 // would stay poor without a small angle anywhere near.) Let r(x) be the distance from a new point x to the nearest vertex
-// of its cavity (of a subsegment that is split for something else: of all cells in conflict with it, cut back or not). x is
-// inserted only if r(x) >= d, and gets R(x) = max(r(x), h), where
+// of its cavity (of a subsegment that is split for something else, in 3D: of all cells in conflict with it, cut back or not,
+// but at a second attempt at the mesh). x is inserted only if r(x) >= d, and gets R(x) = max(r(x), h), where
 //   * for a poor element, or an entity that it encroaches upon or that hides its point: d is the least relaxed length
 //     of the element's edges (of an element only too big, at most half its circumradius); h = 0. In 2D c times that
 //     length is d, and that length is h; in 3D so for an entity that is split for an element of poor shape, where the
