@@ -16,7 +16,7 @@ struct Attempt {
   int orders;
 };
 constexpr Attempt quick{20, 1}, wide{512, 1}, deep{96, 16}, facet{96, 4};
-constexpr int far_weight = 10000;  // of a violation that no entity is beside
+constexpr int far_weight = 10000;  // of a violation that nothing excuses
 
 }  // namespace
 
@@ -245,11 +245,16 @@ bool LocalRewrap::keeps_subsegments() const {
   });
 }
 
-/// What a violation counts. One that no entity is beside counts for more than all others, so that what cannot be mended
-/// moves to the walls that hide what is in its way.
+bool LocalRewrap::excuses(VertexId v) const {
+  if (!excusing_ || excusing_->empty()) return !in_volume(v);
+  return index(v) < excusing_->size() && (*excusing_)[index(v)];
+}
+
+/// What a violation counts. One that no entity is beside (later: none that was refused) counts for more than all others, so
+/// that what cannot be mended moves to the walls that hide what is in its way.
 int LocalRewrap::weight(const std::array<VertexId, 4>& cell, VertexId apex) const {
-  const bool far = in_volume(apex) && std::all_of(cell.begin(), cell.end(), [this](VertexId v) { return in_volume(v); });
-  return far ? far_weight : 1;
+  const bool excused = excuses(apex) || std::any_of(cell.begin(), cell.end(), [this](VertexId v) { return excuses(v); });
+  return excused ? 1 : far_weight;
 }
 
 int LocalRewrap::violation(const GiftWrap::Cell& cell, VertexId apex) const {

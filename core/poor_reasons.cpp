@@ -17,6 +17,27 @@ namespace {
 
 bool has_extent(EntityRef e) { return e.kind == EntityKind::segment || e.kind == EntityKind::facet; }
 
+void add_new(std::vector<EntityRef>& list, EntityRef e) {
+  if (std::find(list.begin(), list.end(), e) == list.end()) list.push_back(e);
+}
+
+/// A set of entities that are named as reasons.
+class NamedEntities {
+ public:
+  explicit NamedEntities(const PoorFindings& found) {
+    for (const PoorCell& p : found.poor)
+      if (p.reason.code == PoorReason::Code::small_angle)
+        for (const EntityRef e : p.reason.entities) codes_.insert(code(e));
+  }
+  bool has_any(std::span<const EntityRef> list) const {
+    return std::any_of(list.begin(), list.end(), [this](EntityRef e) { return codes_.contains(code(e)); });
+  }
+
+ private:
+  static std::uint64_t code(EntityRef e) { return std::uint64_t{static_cast<std::uint8_t>(e.kind)} << 32 | e.id; }
+  std::unordered_set<std::uint64_t> codes_;
+};
+
 }  // namespace
 
 /// As the checker will ask: do they meet at less than 60 (two segments) or 90 degrees, the first within the ball?
@@ -44,27 +65,27 @@ bool PoorReasons<D>::is_beside(EntityRef segment, const Ball<D>& doubled) const 
          detail::squared_distance_to<D>(*domain_, segment, doubled.center) <= doubled.squared_radius;
 }
 
+/// Adds the entities that the vertex lies on.
+template <int D>
+void PoorReasons<D>::add_entities_of(VertexId v, std::vector<EntityRef>& list) const {
+  const auto add_segment = [&](EntityId s) {
+    add_new(list, {EntityKind::segment, s});
+    for (const EntityId f : domain_->facets_of_segment(s)) add_new(list, {EntityKind::facet, f});
+  };
+  const EntityRef home = mesh_->vertex(v).home.entity();
+  if (home.kind == EntityKind::facet) add_new(list, home);
+  if (home.kind == EntityKind::segment) add_segment(home.id);
+  if (home.kind == EntityKind::vertex)
+    for (const EntityId s : segments_at_[home.id]) add_segment(s);
+}
+
 /// Adds the entities that the cell's vertices lie on, and those constrained on it.
 template <int D>
 void PoorReasons<D>::add_entities(CellId c, std::vector<EntityRef>& list) const {
-  auto add = [&](EntityKind kind, EntityId id) {
-    const EntityRef e{kind, id};
-    if (std::find(list.begin(), list.end(), e) == list.end()) list.push_back(e);
-  };
-  auto add_segment = [&](EntityId s) {
-    add(EntityKind::segment, s);
-    for (const EntityId f : domain_->facets_of_segment(s)) add(EntityKind::facet, f);
-  };
-  for (const VertexId v : mesh_->cell(c).vertices) {
-    const EntityRef home = mesh_->vertex(v).home.entity();
-    if (home.kind == EntityKind::facet) add(home.kind, home.id);
-    if (home.kind == EntityKind::segment) add_segment(home.id);
-    if (home.kind == EntityKind::vertex)
-      for (const EntityId s : segments_at_[home.id]) add_segment(s);
-  }
+  for (const VertexId v : mesh_->cell(c).vertices) add_entities_of(v, list);
   if (const auto* k = mesh_->constraints(c))
     for (int f = 0; f <= D; ++f)
-      if (k->faces >> f & 1) add(D == 3 ? EntityKind::facet : EntityKind::segment, k->face_entity[f]);
+      if (k->faces >> f & 1) add_new(list, {D == 3 ? EntityKind::facet : EntityKind::segment, k->face_entity[f]});
 }
 
 /// What refused the element if that is a pair with a small angle, else the first such pair among the entities of ever
@@ -153,18 +174,27 @@ void PoorReasons<D>::look_at(CellId c, bool violated, PoorFindings& found) const
 
 template <int D>
 void PoorReasons<D>::leave_out_excused(PoorFindings& found) const {
-  const auto code = [](EntityRef e) { return std::uint64_t{static_cast<std::uint8_t>(e.kind)} << 32 | e.id; };
-  std::unordered_set<std::uint64_t> named;
-  for (const PoorCell& p : found.poor)
-    if (p.reason.code == PoorReason::Code::small_angle)
-      for (const EntityRef e : p.reason.entities) named.insert(code(e));
+  const NamedEntities named(found);
   std::erase_if(found.violated, [&](CellId c) {
     std::vector<EntityRef> entities;
     add_entities(c, entities);
     for (int f = 0; f <= D; ++f)
       if (flips_.violates(c, f)) add_entities(mesh_->cell(c).links[f].cell(), entities);
-    return std::any_of(entities.begin(), entities.end(), [&](EntityRef e) { return named.contains(code(e)); });
+    return named.has_any(entities);
   });
+}
+
+template <int D>
+std::vector<bool> PoorReasons<D>::excusing_vertices(const PoorFindings& found) const {
+  const NamedEntities named(found);
+  std::vector<bool> excusing(mesh_->vertex_bound());
+  std::vector<EntityRef> entities;
+  for (std::uint32_t v = 0; v < excusing.size(); ++v) {
+    entities.clear();
+    add_entities_of(VertexId{v}, entities);
+    excusing[v] = named.has_any(entities);
+  }
+  return excusing;
 }
 
 template <int D>

@@ -59,6 +59,7 @@ Refiner<D>::Refiner(RefineContext<D>& context, Pools pools)
       flips_(context.mesh, context.domain) {
   cavity_.set_seen(&seen_);
   flips_.set_ended([this] { return ended(); });
+  flips_.set_excusing(&context.excusing);
 }
 
 template <int D>
@@ -140,6 +141,23 @@ std::uint64_t Refiner<D>::list_violations(std::span<const CellId> cells) {
 }
 
 template <int D>
+std::int64_t Refiner<D>::count_poor(std::span<const CellId> cells) const {
+  return std::count_if(cells.begin(), cells.end(), [this](CellId c) { return bool(context_->bounds.test(*mesh_, c)); });
+}
+
+/// The collected point, which is accepted. A last resort that makes as many elements poor as it mends has come to its end: what
+/// it goes on with would halve all edges about in vain.
+template <int D>
+void Refiner<D>::commit(EntityKind kind, EntityId id, double relaxed_radius) {
+  if (visit_->last_resort) visit_->resort += {count_poor(cavity_.cells()), 1};
+  cavity_.commit(pools_, Home(kind, id), rounded_down(relaxed_radius));
+  committed();
+  if (!visit_->last_resort) return;
+  visit_->resort.mended -= count_poor(cavity_.new_cells());
+  visit_->last_resort = visit_->resort.pays(few_in_leaf);
+}
+
+template <int D>
 void Refiner<D>::committed() {
   ++visit_->counts.committed;
   visit_->changed_mesh = true;
@@ -210,6 +228,13 @@ bool Refiner<D>::mend(const Item& e) {
   if (flips_.rewrap(pools_, e.cell, e.which(), LocalRewrap::Effort::thorough) != LocalFlips<D>::Outcome::flipped) return false;
   flipped();
   return true;
+}
+
+template <int D>
+bool Refiner<D>::mend_cell(CellId c) {
+  for (int f = 0; f <= D; ++f)
+    if (flips_.violates(c, f) && mend(make_entry(c, EntryKind::flip, f))) return true;
+  return false;
 }
 
 template <int D>

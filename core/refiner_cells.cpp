@@ -47,7 +47,7 @@ auto Refiner<D>::demand_of_cell(CellId c, const CellVerdict& verdict) const -> D
   // Without it a point may come nearer than the element's edges are long only beside a small angle or below the proved
   // bound. There a little of that, with the radius inherited, makes elements good that would stay poor; in 3D it is for those
   // alone that stayed so.
-  const bool asks_for_less = D == 2 || unexplained_ || (context_->last_resort && may_ask_for_less(c));
+  const bool asks_for_less = D == 2 || unexplained_ || (visit_->last_resort && may_ask_for_less(c));
   if (asks_for_less) return {inherited_fraction * least, least};
   return {least, 0};
 }
@@ -271,7 +271,7 @@ auto Refiner<D>::treat_cell_at(const Item& e, const Point<D>& x, const CellVerdi
   if (status != Cavity<D>::Status::ok) return Outcome::refused;
   if (const auto encroached = encroached_entity(x)) {
     // An entity that is refused leaves the mesh as it is: whether x is far enough can be seen now, with its cavity at hand.
-    const double radii = context_->last_resort ? 1 : 2;
+    const double radii = visit_->last_resort ? 1 : 2;
     const double far = radii * radii * mesh_->squared_radius_bounds(e.cell).second;
     const bool clear = is_clear_of(*encroached, x, far) && is_clear_of_encroached(x, far);
     const Outcome outcome = split_instead(*encroached, e, verdict);
@@ -353,8 +353,7 @@ auto Refiner<D>::insert_point(const Item& e, const CellVerdict& verdict, bool at
     demand = demand_of_cell(e.cell, verdict);
     if (insertion_radius<D>(*mesh_, cavity_) < demand.d) return Outcome::refused;
   }
-  cavity_.commit(pools_, Home(EntityKind::volume, 0), rounded_down(std::max(r, demand.h)));
-  committed();
+  commit(EntityKind::volume, 0, std::max(r, demand.h));
   return Outcome::committed;
 }
 

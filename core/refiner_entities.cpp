@@ -209,8 +209,7 @@ auto Refiner<D>::decide(EntityRef entity, std::span<const VertexId> own, const D
     visit_->min_edge_hit = true;
     return refuse(entity, own);
   }
-  cavity_.commit(pools_, Home(entity.kind, entity.id), rounded_down(std::max(r, demand.h)));
-  committed();
+  commit(entity.kind, entity.id, std::max(r, demand.h));
   return Outcome::committed;
 }
 

@@ -85,10 +85,18 @@ bool Refiner<D>::list_violations_about(CellId c) {
 }
 
 template <int D>
+bool Refiner<D>::violates_anywhere(CellId c) const {
+  for (int f = 0; f <= D; ++f)
+    if (flips_.violates(c, f)) return true;
+  return false;
+}
+
+template <int D>
 bool Refiner<D>::insert_within(const Item& e) {
   if (!may_go_on()) return false;
   last_refusal_.reset();
-  CellVerdict verdict = verdict_of(e);
+  CellVerdict verdict = context_->bounds.test(*mesh_, e.cell);
+  if (!verdict && !violates_anywhere(e.cell)) return false;  // mended by what was done for others
   verdict.over_radius_edge = true;
   unexplained_ = true;  // what throws meanwhile ends the run, and this with it
   bool inserted = treat_cell_at(e, circumsphere<D>(mesh_->simplex(e.cell)).center, verdict) == Outcome::committed;

@@ -15,7 +15,8 @@ namespace pgdr::detail {
 namespace {
 
 constexpr int most_rounds = 16;
-constexpr int most_rounds_in_vain = 4;  // that explain no more than the best before
+constexpr int most_rounds_in_vain = 6;  // that explain no more than the best before
+constexpr std::size_t most_to_help = 512;  // cells without a reason, at a first attempt at a mesh
 
 }  // namespace
 
@@ -47,6 +48,17 @@ PoorFindings LeafRefinement<D>::look_for_poor(PoorReasons<D>& reasons) {
   return all;
 }
 
+/// False if a first attempt at a mesh has left so many elements poor for no reason that a second one is better than all that
+/// helps them.
+template <int D>
+bool LeafRefinement<D>::look_for_hope() {
+  if (D == 2 || !context_.sparse_at_small_angles) return true;
+  PoorReasons<D> reasons(context_.mesh, context_.domain, context_.bounds, context_.options.keep_boundary);
+  for_each_refused([&](std::span<const Refusal<D>> refused) { reasons.add(refused); });
+  hopeless_ = reasons.of_refused(context_.options.stop).unexplained.size() > most_to_help;
+  return !hopeless_;
+}
+
 template <int D>
 std::vector<PoorCell> LeafRefinement<D>::explain(StopCause& stop) {
   PoorReasons<D> reasons(context_.mesh, context_.domain, context_.bounds, context_.options.keep_boundary);
@@ -63,8 +75,13 @@ std::vector<PoorCell> LeafRefinement<D>::explain(StopCause& stop) {
 template <int D>
 void LeafRefinement<D>::help_unexplained(PoorReasons<D>& reasons, PoorFindings& found) {
   std::size_t least = found.unexplained.size();
+  if (context_.sparse_at_small_angles && least > most_to_help) return;  // a second attempt at the mesh is quicker
   for (int round = 0, in_vain = 0; round < most_rounds && in_vain < most_rounds_in_vain && !cancelled(0); ++round) {
-    if (found.unexplained.empty() || !insert_within(found.unexplained) || context_.stop != 0) break;
+    if (found.unexplained.empty() || context_.stop != 0) break;
+    // What is mended by taking a vertex out may come back with it: then a point inside is better, or the other way round.
+    const bool mends = unexplained_violations_ > 0 && in_vain % 2 == 0;
+    context_.excusing = mends ? reasons.excusing_vertices(found) : std::vector<bool>{};
+    if (!insert_within(found.unexplained) || context_.stop != 0) break;
     found = look_for_poor(reasons);
     in_vain = found.unexplained.size() < least ? 0 : in_vain + 1;
     least = std::min(least, found.unexplained.size());
@@ -78,9 +95,10 @@ bool LeafRefinement<D>::insert_within(std::span<const CellId> cells) {
   for (const CellId c : cells) entries.emplace_back(c, context_.mesh.birth(c), EntryKind::cell, Entry<D>::not_delaunay);
   sort_by_vertices(entries);
   bool changed = false;
-  const auto visit_whole = [&](const auto& begun) {
+  const auto visit_whole = [&](bool mends, const auto& begun) {
     RegionVisit<D> visit = mending_visit();
     visit.repairs_facets = true;
+    visit.mends = mends;
     Worker worker = check_out();
     worker->begin(visit);
     if (begun(*worker)) worker->run(visit);
@@ -90,8 +108,10 @@ bool LeafRefinement<D>::insert_within(std::span<const CellId> cells) {
   };
   for (const Entry<D>& e : entries) {
     const auto waits = [&] { return context_.stop == 0 && e.alive(context_.mesh); };
-    if (waits()) visit_whole([&](Refiner<D>& worker) { return worker.list_violations_about(e.cell); });
-    if (waits()) visit_whole([&](Refiner<D>& worker) { return worker.insert_within(e); });
+    if (waits()) visit_whole(false, [&](Refiner<D>& worker) { return worker.list_violations_about(e.cell); });
+    // What is taken out now would come back at once, and the violation with it.
+    if (waits() && !context_.excusing.empty()) visit_whole(true, [&](Refiner<D>& worker) { return worker.mend_cell(e.cell); });
+    if (waits()) visit_whole(false, [&](Refiner<D>& worker) { return worker.insert_within(e); });
   }
   return changed;
 }

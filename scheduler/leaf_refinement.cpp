@@ -238,6 +238,7 @@ StopCause LeafRefinement<D>::run() {
   const auto start = Clock::now();
   list_everything();
   StopCause stop = refine_to_the_end();
+  if (stop == StopCause::finished && !look_for_hope()) return stop;
   if (stop == StopCause::finished && begin_last_resort()) stop = refine_to_the_end();
   if (stop == StopCause::finished) new_violations();  // that the last pass left, so that they are seen
   if (stop == StopCause::finished && violations_seen_) stop = mend();
@@ -279,6 +280,8 @@ void LeafRefinement<D>::prepare(const VisitRequest& request, RegionVisit<D>& vis
   visit.treat_list = request.order == 1;
   visit.order = request.order;
   visit.generation = generation_;
+  const bool spent = request.order != whole_tree && works_[request.leaf].spent;
+  visit.last_resort = context_.last_resort && resort_.pays(few_in_all) && !spent;
   visit.level = static_cast<std::uint32_t>(tree_.level(request.leaf));
   if (request.order == whole_tree) {
     visit.list = &whole_list_;
@@ -294,6 +297,7 @@ void LeafRefinement<D>::prepare(const VisitRequest& request, RegionVisit<D>& vis
 template <int D>
 void LeafRefinement<D>::account(const VisitRequest& request, RegionVisit<D>& visit, std::span<const Node> claim) {
   if (visit.changed_mesh) note_change(claim);
+  if (context_.last_resort) account_resort(request, visit);
   if (!claim.empty() && visit.counts.refused > 0)
     works_[request.leaf].zones.try_emplace(request.order, claim.begin(), claim.end());
   counts_ += visit.counts;
@@ -303,6 +307,16 @@ void LeafRefinement<D>::account(const VisitRequest& request, RegionVisit<D>& vis
   min_edge_hit_ = min_edge_hit_ || visit.min_edge_hit;
   put_off(request, visit.set_aside);
   if (context_.stop != 0) left_over_.insert(left_over_.end(), visit.given.begin(), visit.given.end());
+}
+
+/// Where a last resort was in vain it is not tried again, as it would halve all edges about for nothing.
+template <int D>
+void LeafRefinement<D>::account_resort(const VisitRequest& request, const RegionVisit<D>& visit) {
+  resort_ += visit.resort;
+  if (request.order == whole_tree) return;
+  LeafWork<D>& work = works_[request.leaf];
+  work.resort += visit.resort;
+  work.spent = work.spent || !visit.resort.pays(few_in_leaf) || !work.resort.pays(few_in_leaf);
 }
 
 template <int D>

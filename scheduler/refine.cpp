@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -174,13 +175,14 @@ struct Refined {
   std::optional<PoorCount> counted;  ///< else how many there are, where the lists tell
   std::optional<Orthtree<D>> tree;   ///< as it is in the end, if the leaves of cells are asked for
   std::uint64_t unexplained_poor = 0, unexplained_violations = 0;
+  bool hopeless = false;             ///< given up: all is to be meshed once more
 };
 
 /// What one attempt made.
 template <int D>
 struct Attempt {
   RefineResult<D> result;
-  std::uint64_t unexplained = 0;  ///< cells, where they are more than rounding may leave
+  std::uint64_t unexplained = 0;  ///< cells, where they are more than rounding may leave; all ones: given up, no mesh
 };
 
 template <int D>
@@ -188,6 +190,8 @@ Refined<D> refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools,
   const auto refinement = make_refinement<D>(context, std::move(pools), vertices);
   Refined<D> refined;
   result.stop = refinement->run();
+  refined.hopeless = refinement->is_hopeless();
+  if (refined.hopeless) return refined;
   if (result.stop == StopCause::finished) refined.poor = refinement->explain(result.stop);
   refined.unexplained_poor = refinement->unexplained_poor();
   refined.unexplained_violations = refinement->unexplained_violations();
@@ -256,6 +260,7 @@ Attempt<D> attempt(const Domain<D>& domain, const RefineOptions<D>& options, boo
     return !options.partial_mesh && (options.stop.stop_requested() || result.stop == StopCause::cancelled);
   };
   if (dropped()) return {without_mesh(std::move(result), start)};
+  if (refined.hopeless) return {std::move(result), std::numeric_limits<std::uint64_t>::max()};
   std::vector<PoorCell> poor = take_poor<D>(context, refined, result);
   result.statistics.seconds_refine = seconds_since(refine_start);
 
@@ -301,7 +306,8 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   if (D == 3 && made.unexplained > 0) {
     Attempt<D> again = attempt<D>(domain, options, false, start, Clock::now(), before);
     const StopCause stop = again.result.stop;
-    const bool better = stop == StopCause::finished && again.unexplained < made.unexplained;
+    const bool given_up = made.unexplained == std::numeric_limits<std::uint64_t>::max();
+    const bool better = given_up || (stop == StopCause::finished && again.unexplained < made.unexplained);
     if (better || stop == StopCause::cancelled) made = std::move(again);
   }
   RefineResult<D>& result = made.result;

@@ -43,6 +43,9 @@ class LocalRewrap {
   bool repair_facet(Pools& pools, std::span<const CellId> ring);
   /// Asked often; once it says true, nothing more is repaired.
   void set_ended(std::function<bool()> ended) { ended_ = std::move(ended); }
+  /// By vertex: those beside which violations do no harm, once that is known; empty: all that are not in the volume. Must
+  /// outlive it.
+  void set_excusing(const std::vector<bool>* vertices) { excusing_ = vertices; }
   /// What the visit may change; null: everything.
   void begin_visit(const VisitArea<3>* area) {
     area_ = area;
@@ -76,6 +79,7 @@ class LocalRewrap {
   bool repair_without(Pools& pools, CellId c, CellId d, VertexId left_out);
   bool is_ended() const { return ended_ && ended_(); }
   bool in_volume(VertexId v) const;
+  bool excuses(VertexId v) const;
   void begin(std::span<const CellId> cells, VertexId left_out);
   bool grow();
   bool wrap_again(Pools& pools, bool turns_facets = false);
@@ -100,6 +104,7 @@ class LocalRewrap {
   Mesh<3>* mesh_;
   const Domain<3>* domain_;
   const VisitArea<3>* area_ = nullptr;
+  const std::vector<bool>* excusing_ = nullptr;
   bool reached_border_ = false;
   std::function<bool()> ended_;  ///< may be empty
   GiftWrap wrap_;

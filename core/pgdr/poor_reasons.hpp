@@ -75,6 +75,8 @@ class PoorReasons {
   /// Leaves out of `found.violated` what has a vertex, or whose neighbour has one, on an entity that is named as a reason: its
   /// refusal excuses that. @pre all cells were looked at.
   void leave_out_excused(PoorFindings& found) const;
+  /// By vertex: those on such entities.
+  std::vector<bool> excusing_vertices(const PoorFindings& found) const;
 
  private:
   using EntityIds = std::vector<EntityId>;
@@ -83,6 +85,7 @@ class PoorReasons {
   bool explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, PoorReason& reason) const;
   bool is_beside(EntityRef segment, const Ball<D>& doubled) const;
   void add_entities(CellId c, std::vector<EntityRef>& list) const;
+  void add_entities_of(VertexId v, std::vector<EntityRef>& list) const;
   void look_at(CellId c, bool violated, PoorFindings& found) const;
   bool is_violated_beyond_rounding(CellId c) const;
 

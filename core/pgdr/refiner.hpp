@@ -69,6 +69,9 @@ struct RefineContext {
   bool sparse_at_small_angles = true;
   /// 3D: what is poor now would stay so, and asks for c times the room. Set while no visit runs.
   bool last_resort = false;
+  /// By vertex: those on entities that are named as reasons, which excuse violations beside them; empty before that is known. Set
+  /// while no visit runs.
+  std::vector<bool> excusing;
   const Shells<D> shells;  ///< none in 3D, where the front end alone splits on them
   int base_exponent = 0;  ///< of bucket 0: circumradii of the size of the domain and above
   static constexpr int buckets = 64;  ///< of circumradii
@@ -78,6 +81,26 @@ struct RefineContext {
   std::mutex progress_mutex;  ///< held while the caller's function runs
   std::chrono::steady_clock::time_point last_progress;  ///< under the mutex
 };
+
+/// What a last resort has come to.
+struct LastResort {
+  std::int64_t mended = 0;   ///< by how many its insertions made poor elements fewer
+  std::uint64_t points = 0;  ///< insertions
+
+  /// Adds both.
+  LastResort& operator+=(const LastResort& o) {
+    mended += o.mended;
+    points += o.points;
+    return *this;
+  }
+  /// Was it worth its points? (docs/performance.md) `few`: too few to tell.
+  bool pays(std::uint64_t few) const {
+    constexpr std::int64_t points_for_one = 8;
+    return points < few || points_for_one * mended >= static_cast<std::int64_t>(points);
+  }
+};
+inline constexpr std::uint64_t few_in_leaf = 512;  ///< points of a last resort, in a leaf, that tell nothing yet
+inline constexpr std::uint64_t few_in_all = 8192;  ///< the same in all
 
 /// What one visit is asked to do, and what it did.
 template <int D>
@@ -99,6 +122,7 @@ struct RegionVisit {
   bool repairs_facets = false;          ///< flip subfacets, too, where no flip of cells helps: slow
   bool entities_refused = false;        ///< by any visit before; after the visit, by this one too
   bool mends = false;                   ///< no volume point whose cavity is cut back any more
+  bool last_resort = false;             ///< 3D: what is poor asks for c times the room; false afterwards if that was in vain
   // done
   /// Entries for another region.
   struct Outbox {
@@ -108,6 +132,7 @@ struct RegionVisit {
   std::vector<Outbox> outboxes;         ///< elements with their circumcentre in other regions, alive at the end
   std::vector<Entry<D>> set_aside;      ///< would have changed cells that the visit does not own
   RefineCounts counts;  ///< of this visit
+  LastResort resort;  ///< what it came to in this visit
   bool changed_mesh = false;  ///< by an insertion or a flip
   bool min_edge_hit = false;  ///< something was refused for `min_edge`
 };
@@ -133,6 +158,8 @@ class Refiner {
   /// Mends or moves a violation that no entity is beside in as large a region as that takes; everything must be owned.
   /// False if that cannot be done.
   bool mend(const Entry<D>& e);
+  /// The same of the faces of a cell, until one is mended or moved.
+  bool mend_cell(CellId c);
   /// Lists the faces of the cell and its neighbours that are not locally Delaunay. False if there are none.
   bool list_violations_about(CellId c);
   /// For an element that stays poor, or beside a face that is not locally Delaunay, for no reason: inserts its circumcentre,
@@ -214,6 +241,7 @@ class Refiner {
   Outcome split_instead(const Item& entity, const Item& e, const CellVerdict& verdict);
 
   // refiner_within.cpp
+  bool violates_anywhere(CellId c) const;
   double room_for(const Point<D>& x, CellId c);
   double squared_distance_to_walls(const Point<D>& x) const;
   bool insert_mean_of_corners(const Item& e, const CellVerdict& verdict);
@@ -223,7 +251,9 @@ class Refiner {
   /// Where the selector puts the point of a cell over the radius-edge bound; nothing if the claim is too small to tell.
   std::optional<Point<D>> selected_point(CellId c, const Point<D>& center);
 
+  void commit(EntityKind kind, EntityId id, double relaxed_radius);
   void committed();
+  std::int64_t count_poor(std::span<const CellId> cells) const;
   void flipped();
   void flip(const Item& e);
   bool made_before();

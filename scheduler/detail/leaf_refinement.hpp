@@ -43,6 +43,8 @@ class LeafRefinement {
   /// After explain(): how many cells stay over a bound, or beside a face that is not locally Delaunay by more than rounding,
   /// although no small angle explains it. The former are within what rounding may do if they are few.
   std::uint64_t unexplained_poor() const { return unexplained_poor_; }
+  /// Has run() given up, so that all is to be meshed once more?
+  bool is_hopeless() const { return hopeless_; }
   std::uint64_t unexplained_violations() const { return unexplained_violations_; }
 
   const RefineCounts& counts() const { return counts_; }
@@ -76,6 +78,7 @@ class LeafRefinement {
   double visit(const VisitRequest& request, const VisitArea<D>& area, RegionVisit<D>& visit);
   /// Adds up what a visit did, and puts off what it set aside. `claim`: its leaves; none for the whole tree.
   void account(const VisitRequest& request, RegionVisit<D>& visit, std::span<const Node> claim);
+  void account_resort(const VisitRequest& request, const RegionVisit<D>& visit);
   void post(Node leaf, std::vector<Entry<D>>&& entries);
   /// Other threads than before will run visits. While none runs.
   void threads_are_new() { numbers_.others_have_ended(); }
@@ -89,7 +92,7 @@ class LeafRefinement {
   LeafWorks<D> works_;
   std::uint64_t generation_ = 0, vertices_;
   std::uint64_t unexplained_poor_ = 0, unexplained_violations_ = 0;
-  bool violations_seen_ = false;
+  bool violations_seen_ = false, hopeless_ = false;
   const bool uneven_;  ///< there may be some that no insertion brings
   bool all_listed_ = false;  ///< every poor cell is on a list, between visits
   SchedulerStatistics statistics_;
@@ -101,6 +104,7 @@ class LeafRefinement {
     context_.stop = static_cast<int>(StopCause::cancelled);
     return true;
   }
+  bool look_for_hope();
   void list_everything();
   StopCause refine_to_the_end();
   bool begin_last_resort();
@@ -136,6 +140,7 @@ class LeafRefinement {
   std::vector<Entry<D>> violations_;             ///< that were there then
   bool min_edge_hit_ = false, entities_refused_ = false;
   RefineCounts counts_;
+  LastResort resort_;                    ///< what it came to, in all
   std::mutex workers_mutex_;             ///< of the members below
   std::vector<Worker> workers_;
   ThreadNumbers numbers_;
