@@ -15,6 +15,48 @@ namespace {
 /// points it is given up with a typed error.
 std::uint64_t most_points(std::size_t input_points) { return 200000 + 100 * std::uint64_t{input_points}; }
 
+/// The least angle at which two facets of the segment meet, in degrees.
+double least_angle_at(const Domain<3>& domain, EntityId segment) {
+  const auto facets = domain.facets_of_segment(segment);
+  double least = 180;
+  for (std::size_t i = 0; i < facets.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      least = std::min(least, entity_angle<3>(domain, {EntityKind::facet, facets[i]}, {EntityKind::facet, facets[j]}));
+  return least;
+}
+
+/// Names the segment, or the facet, that has got the most points, by its points in the input.
+InputError not_recovered(const Domain<3>& domain, const detail::SegmentChains& chains, const detail::FacetPatches& patches,
+                         std::uint64_t points) {
+  EntityId segment = 0, facet = 0;
+  for (EntityId s = 0; s < domain.segments().size(); ++s)
+    if (chains.chain(s).size() > chains.chain(segment).size()) segment = s;
+  for (EntityId f = 0; f < domain.facets().size(); ++f)
+    if (patches.inner_points(f) > patches.inner_points(facet)) facet = f;
+  const std::size_t on_segment = domain.segments().empty() ? 0 : chains.chain(segment).size() - 2;
+  const bool is_facet = patches.inner_points(facet) > on_segment;
+  Diagnostic d;
+  d.code = Errc::boundary_not_recovered;
+  d.message = "the boundary is not recovered after " + std::to_string(points) +
+              " Steiner points: facets meet at very small angles, or nearly touch. The most, " +
+              std::to_string(is_facet ? patches.inner_points(facet) : on_segment) + ", are on the " +
+              (is_facet ? "facet through" : "segment between") + " points";
+  const auto name = [&](std::uint32_t p) {
+    d.ids.push_back(domain.input_of_point()[p]);
+    d.points.push_back(domain.points()[p].x);
+    if (d.ids.size() <= 3) d.message += (d.ids.size() == 1 ? " " : ", ") + std::to_string(d.ids.back());
+  };
+  if (is_facet) {
+    for (const std::uint32_t p : domain.facet_points(facet)) name(p);
+    if (d.ids.size() > 3) d.message += ", ...";
+  } else {
+    for (const std::uint32_t p : domain.segments()[segment].points) name(p);
+    if (const double angle = least_angle_at(domain, segment); angle < 180)
+      d.message += ", where facets meet at " + std::to_string(angle) + " degrees";
+  }
+  return InputError(std::move(d));
+}
+
 }  // namespace
 
 template <int D>
@@ -42,11 +84,7 @@ StopCause recover_boundary(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, Delaun
       return stopped();
     };
     auto stop = [&] {
-      if (steiner() - improving > most)
-        throw InputError({Errc::boundary_not_recovered,
-                          "the boundary is not recovered after " + std::to_string(steiner() - improving) +
-                              " Steiner points; facets meet at very small angles or intersect",
-                          {}, 0, {}, {}});
+      if (steiner() - improving > most) throw not_recovered(domain, chains, patches, steiner() - improving);
       return ended();
     };
     auto improve = [&] {

@@ -88,6 +88,7 @@ class FacetPatches {
   bool improve_once(double bound, double min_edge, const std::function<bool()>& stop);
   std::uint64_t points() const { return points_; }
   void mark(Mesh<3>::Pools& pools);
+  std::size_t inner_points(EntityId facet) const { return inner_points_[facet].size(); }  ///< Steiner points inside the facet
 
  private:
   using Triangle = std::array<VertexId, 3>;
