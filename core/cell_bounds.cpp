@@ -60,18 +60,41 @@ bool CellBounds<D>::within_measure(const Mesh<D>& mesh, CellId c, const CellShap
 
 /// The least of the sizes that apply; infinity if there are none.
 template <int D>
-double CellBounds<D>::size_of(const Mesh<D>& mesh, CellId c) const {
-  const SizingField<D>* of_region = region_size.empty() ? &size : &region_size[mesh.region(c)];
+double CellBounds<D>::size_of(const Simplex<D>& s, int region) const {
+  const SizingField<D>* of_region = region_size.empty() ? &size : &region_size[region];
   if (size.is_constant() && of_region->is_constant()) return std::min(size.at({}), of_region->at({}));
-  const Point<D> x = centroid<D>(mesh.simplex(c));
+  const Point<D> x = centroid<D>(s);
   const double least = checked_size<D>(size, x);
   return of_region == &size ? least : std::min(least, checked_size<D>(*of_region, x));
 }
 
 template <int D>
+double CellBounds<D>::measure_of(int region) const {
+  return region_measure.empty() ? max_measure : std::min(max_measure, region_measure[region]);
+}
+
+template <int D>
+double CellBounds<D>::excess(const Simplex<D>& s, int region) const {
+  constexpr double most_powers = 20, of_power = 1.0 / 16;
+  if (!radius_edge_within<D>(s, radius_edge_bound)) {
+    const double limit = radius_edge_bound * std::sqrt(shortest_edge_squared<D>(s));
+    const double powers = std::log2(std::sqrt(circumsphere<D>(s).squared_radius) / limit);
+    return 1 + of_power * (powers < most_powers ? std::max(powers, 0.0) : most_powers);  // of rounding's NaN: the most
+  }
+  if (!measure_within<D>(s, measure_of(region))) return 1;
+  if (!size.bounded() && region_size.empty()) return 0;
+  const double bound = size_of(s, region);
+  if constexpr (D == 3) {
+    return circumradius_within<D>(s, bound) ? 0 : 1;
+  } else {
+    return measure_within<D>(s, bound) ? 0 : 1;
+  }
+}
+
+template <int D>
 bool CellBounds<D>::over_size(const Mesh<D>& mesh, CellId c, const CellShape& shape) const {
   if (size.bounded() || !region_size.empty()) {
-    const double bound = size_of(mesh, c);
+    const double bound = size_of(mesh.simplex(c), mesh.region(c));
     if constexpr (D == 3) {
       const auto [low, high] = mesh.squared_radius_bounds(c);
       const double limit = bound * bound;
@@ -81,8 +104,7 @@ bool CellBounds<D>::over_size(const Mesh<D>& mesh, CellId c, const CellShape& sh
       if (!within_measure(mesh, c, shape, bound)) return true;
     }
   }
-  double measure = max_measure;
-  if (!region_measure.empty()) measure = std::min(measure, region_measure[mesh.region(c)]);
+  const double measure = measure_of(mesh.region(c));
   return measure != std::numeric_limits<double>::infinity() && !within_measure(mesh, c, shape, measure);
 }
 

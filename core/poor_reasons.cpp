@@ -4,6 +4,7 @@
 #include "pgdr/poor_reasons.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <unordered_set>
 
@@ -21,20 +22,30 @@ void add_new(std::vector<EntityRef>& list, EntityRef e) {
   if (std::find(list.begin(), list.end(), e) == list.end()) list.push_back(e);
 }
 
+std::uint64_t code_of(EntityRef e) { return std::uint64_t{static_cast<std::uint8_t>(e.kind)} << 32 | e.id; }
+
+/// A hair less than doubled, so that another's rounding cannot disagree.
+template <int D>
+Ball<D> doubled_ball(const Ball<D>& ball) {
+  return {ball.center, 4 * ball.squared_radius * (1 - 0x1p-20)};
+}
+
 /// A set of entities that are named as reasons.
 class NamedEntities {
  public:
+  NamedEntities() = default;
   explicit NamedEntities(const PoorFindings& found) {
-    for (const PoorCell& p : found.poor)
-      if (p.reason.code == PoorReason::Code::small_angle)
-        for (const EntityRef e : p.reason.entities) codes_.insert(code(e));
+    for (const PoorCell& p : found.poor) add(p);
+  }
+  void add(const PoorCell& p) {
+    if (p.reason.code == PoorReason::Code::small_angle)
+      for (const EntityRef e : p.reason.entities) codes_.insert(code_of(e));
   }
   bool has_any(std::span<const EntityRef> list) const {
-    return std::any_of(list.begin(), list.end(), [this](EntityRef e) { return codes_.contains(code(e)); });
+    return std::any_of(list.begin(), list.end(), [this](EntityRef e) { return codes_.contains(code_of(e)); });
   }
 
  private:
-  static std::uint64_t code(EntityRef e) { return std::uint64_t{static_cast<std::uint8_t>(e.kind)} << 32 | e.id; }
   std::unordered_set<std::uint64_t> codes_;
 };
 
@@ -65,14 +76,14 @@ bool PoorReasons<D>::is_beside(EntityRef segment, const Ball<D>& doubled) const 
          detail::squared_distance_to<D>(*domain_, segment, doubled.center) <= doubled.squared_radius;
 }
 
-/// Adds the entities that the vertex lies on.
+/// Adds the entities that a vertex of this home lies on.
 template <int D>
-void PoorReasons<D>::add_entities_of(VertexId v, std::vector<EntityRef>& list) const {
+void PoorReasons<D>::add_entities_of(Home of, std::vector<EntityRef>& list) const {
   const auto add_segment = [&](EntityId s) {
     add_new(list, {EntityKind::segment, s});
     for (const EntityId f : domain_->facets_of_segment(s)) add_new(list, {EntityKind::facet, f});
   };
-  const EntityRef home = mesh_->vertex(v).home.entity();
+  const EntityRef home = of.entity();
   if (home.kind == EntityKind::facet) add_new(list, home);
   if (home.kind == EntityKind::segment) add_segment(home.id);
   if (home.kind == EntityKind::vertex)
@@ -82,7 +93,7 @@ void PoorReasons<D>::add_entities_of(VertexId v, std::vector<EntityRef>& list) c
 /// Adds the entities that the cell's vertices lie on, and those constrained on it.
 template <int D>
 void PoorReasons<D>::add_entities(CellId c, std::vector<EntityRef>& list) const {
-  for (const VertexId v : mesh_->cell(c).vertices) add_entities_of(v, list);
+  for (const VertexId v : mesh_->cell(c).vertices) add_entities_of(mesh_->vertex(v).home, list);
   if (const auto* k = mesh_->constraints(c))
     for (int f = 0; f <= D; ++f)
       if (k->faces >> f & 1) add_new(list, {D == 3 ? EntityKind::facet : EntityKind::segment, k->face_entity[f]});
@@ -97,8 +108,7 @@ PoorReason PoorReasons<D>::explain(CellId c, bool beside) const {
                        [&](VertexId v) { return lies_on<D>(*domain_, mesh_->vertex(v).home, e); });
   };
   const auto sphere = circumsphere<D>(mesh_->simplex(c));
-  // A hair less than doubled, so that another's rounding cannot disagree.
-  const Ball<D> doubled{sphere.center, 4 * sphere.squared_radius * (1 - 0x1p-20)};
+  const Ball<D> doubled = doubled_ball<D>({sphere.center, sphere.squared_radius});
   PoorReason reason;
   if (const auto why = why_.find(index(c)); why != why_.end() && why->second)
     if (!beside && explains(why->second->entities, doubled, reason)) return reason;
@@ -138,7 +148,7 @@ template <int D>
 void PoorReasons<D>::add(std::span<const Refusal<D>> refused) {
   for (const Refusal<D>& r : refused)
     if (r.entry.kind() == EntryKind::cell && r.entry.alive(*mesh_))
-      why_.insert_or_assign(index(r.entry.cell), r.pair);
+      if (const auto [at, is_new] = why_.try_emplace(index(r.entry.cell), r.pair); !is_new && r.pair) at->second = r.pair;
 }
 
 /// Not so that moving the corners on the boundary by some ulps of the input could mend it.
@@ -172,16 +182,69 @@ void PoorReasons<D>::look_at(CellId c, bool violated, PoorFindings& found) const
   }
 }
 
+/// For each of its faces that is not locally Delaunay, those that the vertices of the two cells there lie on.
 template <int D>
-void PoorReasons<D>::leave_out_excused(PoorFindings& found) const {
-  const NamedEntities named(found);
-  std::erase_if(found.violated, [&](CellId c) {
-    std::vector<EntityRef> entities;
+std::vector<std::vector<EntityRef>> PoorReasons<D>::entities_about_violations(CellId c) const {
+  std::vector<std::vector<EntityRef>> of_faces;
+  for (int f = 0; f <= D; ++f) {
+    if (!flips_.violates(c, f)) continue;
+    std::vector<EntityRef>& entities = of_faces.emplace_back();
     add_entities(c, entities);
-    for (int f = 0; f <= D; ++f)
-      if (flips_.violates(c, f)) add_entities(mesh_->cell(c).links[f].cell(), entities);
-    return named.has_any(entities);
-  });
+    add_entities(mesh_->cell(c).links[f].cell(), entities);
+  }
+  return of_faces;
+}
+
+template <int D>
+void PoorReasons<D>::excuse(PoorFindings& found) const {
+  const NamedEntities named(found);
+  std::vector<CellId> not_excused;
+  for (const CellId c : found.violated) {
+    const auto of_faces = entities_about_violations(c);
+    const bool excused = std::all_of(of_faces.begin(), of_faces.end(), [&](const auto& entities) { return named.has_any(entities); });
+    (excused ? found.excused : not_excused).push_back(c);
+  }
+  found.violated = std::move(not_excused);
+}
+
+template <int D>
+std::vector<PoorCell> PoorReasons<D>::excusing_cells(const PoorFindings& found) const {
+  const auto is_before = [this](CellId a, CellId b) { return compare_vertices<D>(*mesh_, a, b) < 0; };
+  std::unordered_map<std::uint64_t, const PoorCell*> naming;
+  for (const PoorCell& p : found.poor) {
+    if (p.reason.code != PoorReason::Code::small_angle) continue;
+    for (const EntityRef e : p.reason.entities)
+      if (const auto [at, is_new] = naming.try_emplace(code_of(e), &p); !is_new && is_before(p.cell, at->second->cell)) at->second = &p;
+  }
+  std::vector<CellId> excused = found.excused;
+  std::sort(excused.begin(), excused.end(), is_before);
+  NamedEntities named;
+  std::vector<PoorCell> cells;
+  for (const CellId c : excused)
+    for (const auto& entities : entities_about_violations(c)) {
+      if (named.has_any(entities)) continue;
+      const auto e = std::find_if(entities.begin(), entities.end(), [&](EntityRef x) { return naming.contains(code_of(x)); });
+      assert(e != entities.end() && "excused");
+      named.add(*naming.at(code_of(*e)));
+      cells.push_back(*naming.at(code_of(*e)));
+    }
+  return cells;
+}
+
+template <int D>
+bool PoorReasons<D>::has_reason(std::span<const Home> homes, const Ball<D>& sphere) const {
+  constexpr std::size_t most_entities = 64;  // each pair of which takes microseconds
+  std::vector<EntityRef> near;
+  for (const Home home : homes) {
+    add_entities_of(home, near);
+    if (near.size() > most_entities) return false;
+  }
+  const Ball<D> doubled = doubled_ball(sphere);
+  PoorReason reason;
+  for (std::size_t i = 0; i < near.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (explains({near[i], near[j]}, doubled, reason)) return true;
+  return false;
 }
 
 template <int D>
@@ -191,7 +254,7 @@ std::vector<bool> PoorReasons<D>::excusing_vertices(const PoorFindings& found) c
   std::vector<EntityRef> entities;
   for (std::uint32_t v = 0; v < excusing.size(); ++v) {
     entities.clear();
-    add_entities_of(VertexId{v}, entities);
+    add_entities_of(mesh_->vertex(VertexId{v}).home, entities);
     excusing[v] = named.has_any(entities);
   }
   return excusing;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
+#include <string>
 
 #include "detail/recovery_state.hpp"
 #include "detail/segment_insertion.hpp"
@@ -28,32 +30,30 @@ double least_angle_at(const Domain<3>& domain, EntityId segment) {
 /// Names the segment, or the facet, that has got the most points, by its points in the input.
 InputError not_recovered(const Domain<3>& domain, const detail::SegmentChains& chains, const detail::FacetPatches& patches,
                          std::uint64_t points) {
-  EntityId segment = 0, facet = 0;
-  for (EntityId s = 0; s < domain.segments().size(); ++s)
-    if (chains.chain(s).size() > chains.chain(segment).size()) segment = s;
-  for (EntityId f = 0; f < domain.facets().size(); ++f)
-    if (patches.inner_points(f) > patches.inner_points(facet)) facet = f;
-  const std::size_t on_segment = domain.segments().empty() ? 0 : chains.chain(segment).size() - 2;
-  const bool is_facet = patches.inner_points(facet) > on_segment;
+  EntityRef most;
+  std::size_t on_it = 0;
+  const auto look_at = [&](EntityRef e, std::size_t n) {
+    if (n <= on_it) return;
+    most = e;
+    on_it = n;
+  };
+  for (EntityId s = 0; s < domain.segments().size(); ++s) look_at({EntityKind::segment, s}, chains.chain(s).size() - 2);
+  for (EntityId f = 0; f < domain.facets().size(); ++f) look_at({EntityKind::facet, f}, patches.inner_points(f));
+  const bool is_facet = most.kind == EntityKind::facet;
+  const std::span<const std::uint32_t> ends = is_facet ? domain.facet_points(most.id) : domain.segments()[most.id].points;
   Diagnostic d;
   d.code = Errc::boundary_not_recovered;
   d.message = "the boundary is not recovered after " + std::to_string(points) +
-              " Steiner points: facets meet at very small angles, or nearly touch. The most, " +
-              std::to_string(is_facet ? patches.inner_points(facet) : on_segment) + ", are on the " +
-              (is_facet ? "facet through" : "segment between") + " points";
-  const auto name = [&](std::uint32_t p) {
+              " Steiner points: facets meet at very small angles, or nearly touch. The most, " + std::to_string(on_it) +
+              ", are on the " + (is_facet ? "facet through points" : "segment between points");
+  for (const std::uint32_t p : ends) {
     d.ids.push_back(domain.input_of_point()[p]);
     d.points.push_back(domain.points()[p].x);
     if (d.ids.size() <= 3) d.message += (d.ids.size() == 1 ? " " : ", ") + std::to_string(d.ids.back());
-  };
-  if (is_facet) {
-    for (const std::uint32_t p : domain.facet_points(facet)) name(p);
-    if (d.ids.size() > 3) d.message += ", ...";
-  } else {
-    for (const std::uint32_t p : domain.segments()[segment].points) name(p);
-    if (const double angle = least_angle_at(domain, segment); angle < 180)
-      d.message += ", where facets meet at " + std::to_string(angle) + " degrees";
   }
+  if (d.ids.size() > 3) d.message += ", ...";
+  if (const double angle = is_facet ? 180 : least_angle_at(domain, most.id); angle < 180)
+    d.message += ", where facets meet at " + std::to_string(angle) + " degrees";
   return InputError(std::move(d));
 }
 

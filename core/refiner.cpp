@@ -141,23 +141,6 @@ std::uint64_t Refiner<D>::list_violations(std::span<const CellId> cells) {
 }
 
 template <int D>
-std::int64_t Refiner<D>::count_poor(std::span<const CellId> cells) const {
-  return std::count_if(cells.begin(), cells.end(), [this](CellId c) { return bool(context_->bounds.test(*mesh_, c)); });
-}
-
-/// The collected point, which is accepted. A last resort that makes as many elements poor as it mends has come to its end: what
-/// it goes on with would halve all edges about in vain.
-template <int D>
-void Refiner<D>::commit(EntityKind kind, EntityId id, double relaxed_radius) {
-  if (visit_->last_resort) visit_->resort += {count_poor(cavity_.cells()), 1};
-  cavity_.commit(pools_, Home(kind, id), rounded_down(relaxed_radius));
-  committed();
-  if (!visit_->last_resort) return;
-  visit_->resort.mended -= count_poor(cavity_.new_cells());
-  visit_->last_resort = visit_->resort.pays(few_in_leaf);
-}
-
-template <int D>
 void Refiner<D>::committed() {
   ++visit_->counts.committed;
   visit_->changed_mesh = true;
@@ -310,6 +293,13 @@ void Refiner<D>::record_refusal(const Item& e) {
   visit_->entities_refused = visit_->entities_refused || e.kind() != EntryKind::cell;
 }
 
+template <int D>
+auto Refiner<D>::treat_poor(const Item& e) -> Outcome {
+  if constexpr (D == 3)
+    if (context_->improvement) return improve(e);
+  return treat_cell(e);
+}
+
 /// One entry. Whether one that the visit does not own is still alive depends on timing: of those set aside, what is dead by
 /// the end of the generation is left out (put_off), so that what remains does not.
 template <int D>
@@ -324,7 +314,7 @@ void Refiner<D>::treat(const Item& e) {
     case EntryKind::edge: outcome = split_edge(e, nullptr); break;
     case EntryKind::face: outcome = split_face(e, nullptr); break;
     case EntryKind::flip: return flip(e);
-    case EntryKind::cell: outcome = treat_cell(e); break;
+    case EntryKind::cell: outcome = treat_poor(e); break;
   }
   if (outcome == Outcome::refused && alive(e)) record_refusal(e);
   if (outcome == Outcome::not_owned) visit_->set_aside.push_back(e);

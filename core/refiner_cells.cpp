@@ -47,7 +47,7 @@ auto Refiner<D>::demand_of_cell(CellId c, const CellVerdict& verdict) const -> D
   // Without it a point may come nearer than the element's edges are long only beside a small angle or below the proved
   // bound. There a little of that, with the radius inherited, makes elements good that would stay poor; in 3D it is for those
   // alone that stayed so.
-  const bool asks_for_less = D == 2 || unexplained_ || (visit_->last_resort && may_ask_for_less(c));
+  const bool asks_for_less = D == 2 || unexplained_ || (context_->last_resort && may_ask_for_less(c));
   if (asks_for_less) return {inherited_fraction * least, least};
   return {least, 0};
 }
@@ -139,6 +139,12 @@ auto Refiner<D>::wall_before(CellId c, const Point<D>& x, MayEnter may_enter) co
     c = k.links[exit].cell();
   }
   return std::nullopt;
+}
+
+/// That of the visit's claim.
+template <int D>
+auto Refiner<D>::wall_in_claim(CellId c, const Point<D>& x) const -> std::optional<Item> {
+  return wall_before(c, x, [this](CellId k) { return cavity_.owns(k); });
 }
 
 /// Where the boundary is kept: a subsegment of the cavity's boundary with which x would make a triangle so flat that it has
@@ -265,13 +271,13 @@ auto Refiner<D>::treat_cell_at(const Item& e, const Point<D>& x, const CellVerdi
   if (status == Cavity<D>::Status::not_owned) {
     // A point that a wall of the claim cuts off asks for no larger claim: the wall does.
     cavity_.release();
-    const auto wall = wall_before(e.cell, x, [this](CellId k) { return cavity_.owns(k); });
+    const auto wall = wall_in_claim(e.cell, x);
     return wall ? split_instead(*wall, e, verdict) : Outcome::not_owned;
   }
   if (status != Cavity<D>::Status::ok) return Outcome::refused;
   if (const auto encroached = encroached_entity(x)) {
     // An entity that is refused leaves the mesh as it is: whether x is far enough can be seen now, with its cavity at hand.
-    const double radii = visit_->last_resort ? 1 : 2;
+    const double radii = context_->last_resort ? 1 : 2;
     const double far = radii * radii * mesh_->squared_radius_bounds(e.cell).second;
     const bool clear = is_clear_of(*encroached, x, far) && is_clear_of_encroached(x, far);
     const Outcome outcome = split_instead(*encroached, e, verdict);
@@ -353,7 +359,8 @@ auto Refiner<D>::insert_point(const Item& e, const CellVerdict& verdict, bool at
     demand = demand_of_cell(e.cell, verdict);
     if (insertion_radius<D>(*mesh_, cavity_) < demand.d) return Outcome::refused;
   }
-  commit(EntityKind::volume, 0, std::max(r, demand.h));
+  cavity_.commit(pools_, Home(EntityKind::volume, 0), rounded_down(std::max(r, demand.h)));
+  committed();
   return Outcome::committed;
 }
 

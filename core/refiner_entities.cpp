@@ -209,7 +209,8 @@ auto Refiner<D>::decide(EntityRef entity, std::span<const VertexId> own, const D
     visit_->min_edge_hit = true;
     return refuse(entity, own);
   }
-  commit(entity.kind, entity.id, std::max(r, demand.h));
+  cavity_.commit(pools_, Home(entity.kind, entity.id), rounded_down(std::max(r, demand.h)));
+  committed();
   return Outcome::committed;
 }
 

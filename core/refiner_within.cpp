@@ -7,22 +7,11 @@
 #include <cmath>
 #include <limits>
 
+#include "detail/corner_means.hpp"
 #include "detail/entity_distance.hpp"
 #include "pgdr/refiner.hpp"
 
 namespace pgdr {
-namespace {
-
-/// The mean of the corners whose bits are set.
-template <int D>
-Point<D> mean(const Simplex<D>& s, unsigned corners) {
-  Point<D> x{};
-  for (int k = 0; k < D; ++k)
-    for (int i = 0; i <= D; ++i) x[k] += corners >> i & 1 ? s[i][k] / std::popcount(corners) : 0;
-  return x;
-}
-
-}  // namespace
 
 /// From x to the nearest constrained face of the collected cavity.
 template <int D>
@@ -62,7 +51,7 @@ bool Refiner<D>::insert_mean_of_corners(const Item& e, const CellVerdict& verdic
   Point<D> best{};
   for (unsigned corners = 1; corners < 2u << D; ++corners) {
     if (std::has_single_bit(corners)) continue;
-    const Point<D> x = mean<D>(s, corners);
+    const Point<D> x = detail::mean_of_corners<D>(s, corners);
     const double room = room_for(x, e.cell);
     if (room <= most) continue;
     most = room;
@@ -95,7 +84,7 @@ template <int D>
 bool Refiner<D>::insert_within(const Item& e) {
   if (!may_go_on()) return false;
   last_refusal_.reset();
-  CellVerdict verdict = context_->bounds.test(*mesh_, e.cell);
+  CellVerdict verdict = verdict_of(e);
   if (!verdict && !violates_anywhere(e.cell)) return false;  // mended by what was done for others
   verdict.over_radius_edge = true;
   unexplained_ = true;  // what throws meanwhile ends the run, and this with it

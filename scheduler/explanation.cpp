@@ -6,6 +6,7 @@
 // nearer to others than the rule for poor elements allows, let the rest be refined as everywhere else. One visit after the
 // other, of the whole mesh.
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "detail/cell_parts.hpp"
@@ -16,18 +17,32 @@ namespace {
 
 constexpr int most_rounds = 16;
 constexpr int most_rounds_in_vain = 6;  // that explain no more than the best before
-constexpr std::size_t most_to_help = 512;  // cells without a reason, at a first attempt at a mesh
 
 }  // namespace
+
+/// For an assertion: large meshes are not looked at, lest debug builds take for ever, nor those of a run that is cancelled.
+template <int D>
+bool LeafRefinement<D>::lists_all_poor(const PoorFindings& found) const {
+  const std::uint32_t cells = context_.mesh.cell_bound(), part = 1000;
+  if (cells > 200000) return true;
+  std::uint64_t poor = 0;
+  for (std::uint32_t c = 0; c < cells; c += part) {
+    if (context_.options.stop.stop_requested()) return true;
+    poor += count_poor_cells(context_.mesh, context_.bounds, c, std::min(c + part, cells)).cells;
+  }
+  return poor == found.poor.size();
+}
 
 /// Unless there may be violations, nothing is poor but what was refused.
 template <int D>
 PoorFindings LeafRefinement<D>::look_for_poor(PoorReasons<D>& reasons) {
   reasons.forget();
   for_each_refused([&](std::span<const Refusal<D>> refused) { reasons.add(refused); });
+  reasons.add(refused_before_);
   const std::stop_token& stop = context_.options.stop;
   if (!violations_seen_) {
     PoorFindings found = reasons.of_refused(stop);
+    assert(lists_all_poor(found));
     unexplained_poor_ = found.unexplained.size();
     return found;
   }
@@ -41,22 +56,11 @@ PoorFindings LeafRefinement<D>::look_for_poor(PoorReasons<D>& reasons) {
   });
   PoorFindings all;
   for (const PoorFindings& part : parts) all.append(part);
-  reasons.leave_out_excused(all);
+  reasons.excuse(all);
   unexplained_poor_ = all.unexplained.size();
   unexplained_violations_ = all.violated.size();
   all.unexplained.insert(all.unexplained.end(), all.violated.begin(), all.violated.end());
   return all;
-}
-
-/// False if a first attempt at a mesh has left so many elements poor for no reason that a second one is better than all that
-/// helps them.
-template <int D>
-bool LeafRefinement<D>::look_for_hope() {
-  if (D == 2 || !context_.sparse_at_small_angles) return true;
-  PoorReasons<D> reasons(context_.mesh, context_.domain, context_.bounds, context_.options.keep_boundary);
-  for_each_refused([&](std::span<const Refusal<D>> refused) { reasons.add(refused); });
-  hopeless_ = reasons.of_refused(context_.options.stop).unexplained.size() > most_to_help;
-  return !hopeless_;
 }
 
 template <int D>
@@ -65,7 +69,9 @@ std::vector<PoorCell> LeafRefinement<D>::explain(StopCause& stop) {
   PoorFindings found = look_for_poor(reasons);
   help_unexplained(reasons, found);
   cancelled(0);
-  stop = static_cast<StopCause>(context_.stop.load());
+  if (context_.stop == 0) stop = improve(reasons, found);
+  if (context_.stop != 0) stop = static_cast<StopCause>(context_.stop.load());
+  total_statistics();
   if (stop == StopCause::finished && min_edge_hit_) stop = StopCause::min_edge;
   const bool budget_spent = vertices_ >= context_.options.max_vertices && !whole_list_.empty();
   if (stop == StopCause::finished && budget_spent) stop = StopCause::max_vertices;
@@ -75,7 +81,6 @@ std::vector<PoorCell> LeafRefinement<D>::explain(StopCause& stop) {
 template <int D>
 void LeafRefinement<D>::help_unexplained(PoorReasons<D>& reasons, PoorFindings& found) {
   std::size_t least = found.unexplained.size();
-  if (context_.sparse_at_small_angles && least > most_to_help) return;  // a second attempt at the mesh is quicker
   for (int round = 0, in_vain = 0; round < most_rounds && in_vain < most_rounds_in_vain && !cancelled(0); ++round) {
     if (found.unexplained.empty() || context_.stop != 0) break;
     // What is mended by taking a vertex out may come back with it: then a point inside is better, or the other way round.

@@ -76,7 +76,6 @@ void LeafRefinement<D>::list_everything() {
   all_listed_ = context_.stop == 0;
 }
 
-
 /// A violation left standing may have moved off the walls, where insertions do not look for it. Returned: those with other
 /// surroundings than at the last look.
 template <int D>
@@ -127,10 +126,8 @@ template <int D>
 void LeafRefinement<D>::sort_by_vertices(std::vector<Entry<D>>& entries) const {
   const Mesh<D>& mesh = context_.mesh;
   std::sort(entries.begin(), entries.end(), [&mesh](const Entry<D>& a, const Entry<D>& b) {
-    const auto &u = mesh.cell(a.cell).vertices, &v = mesh.cell(b.cell).vertices;
-    for (int i = 0; i <= D; ++i)
-      if (u[i] != v[i]) return lex_less<D>(mesh.point(u[i]), mesh.point(v[i]));
-    return a.which() < b.which();
+    const int order = compare_vertices<D>(mesh, a.cell, b.cell);
+    return order != 0 ? order < 0 : a.which() < b.which();
   });
 }
 
@@ -216,7 +213,7 @@ StopCause LeafRefinement<D>::refine_to_the_end() {
 /// where points beside small angles are dense as it is.
 template <int D>
 bool LeafRefinement<D>::begin_last_resort() {
-  if (D == 2 || !context_.sparse_at_small_angles || context_.options.radius_edge_bound < smallest_proved_bound<D>()) return false;
+  if (D == 2 || !context_.has_last_resort || context_.options.radius_edge_bound < smallest_proved_bound<D>()) return false;
   context_.last_resort = true;
   std::vector<Refusal<D>> kept;
   for (Node n = 0; n <= tree_.node_count(); ++n) {
@@ -233,23 +230,29 @@ bool LeafRefinement<D>::begin_last_resort() {
   return !requests().empty();
 }
 
+/// Of what was done since run() began.
 template <int D>
-StopCause LeafRefinement<D>::run() {
-  const auto start = Clock::now();
-  list_everything();
-  StopCause stop = refine_to_the_end();
-  if (stop == StopCause::finished && !look_for_hope()) return stop;
-  if (stop == StopCause::finished && begin_last_resort()) stop = refine_to_the_end();
-  if (stop == StopCause::finished) new_violations();  // that the last pass left, so that they are seen
-  if (stop == StopCause::finished && violations_seen_) stop = mend();
-  if (stop == StopCause::finished) stop = static_cast<StopCause>(context_.stop.load());
+void LeafRefinement<D>::total_statistics() {
   statistics_.leaves = tree_.leaf_count();
   statistics_.busy_seconds = busy_;
   double in_visits = 0;
   for (const double s : statistics_.busy_seconds) in_visits += s;
-  statistics_.serial_seconds = std::chrono::duration<double>(Clock::now() - start).count() - statistics_.seconds_in_generations;
+  statistics_.critical_path_seconds -= statistics_.serial_seconds;
+  statistics_.serial_seconds = std::chrono::duration<double>(Clock::now() - start_).count() - statistics_.seconds_in_generations;
   statistics_.work_seconds = in_visits + statistics_.serial_seconds;
   statistics_.critical_path_seconds += statistics_.serial_seconds;
+}
+
+template <int D>
+StopCause LeafRefinement<D>::run() {
+  start_ = Clock::now();
+  list_everything();
+  StopCause stop = refine_to_the_end();
+  if (stop == StopCause::finished && begin_last_resort()) stop = refine_to_the_end();
+  if (stop == StopCause::finished) new_violations();  // that the last pass left, so that they are seen
+  if (stop == StopCause::finished && violations_seen_) stop = mend();
+  if (stop == StopCause::finished) stop = static_cast<StopCause>(context_.stop.load());
+  total_statistics();
   if (stop == StopCause::finished && min_edge_hit_) return StopCause::min_edge;
   return stop;
 }
@@ -280,8 +283,6 @@ void LeafRefinement<D>::prepare(const VisitRequest& request, RegionVisit<D>& vis
   visit.treat_list = request.order == 1;
   visit.order = request.order;
   visit.generation = generation_;
-  const bool spent = request.order != whole_tree && works_[request.leaf].spent;
-  visit.last_resort = context_.last_resort && resort_.pays(few_in_all) && !spent;
   visit.level = static_cast<std::uint32_t>(tree_.level(request.leaf));
   if (request.order == whole_tree) {
     visit.list = &whole_list_;
@@ -297,7 +298,6 @@ void LeafRefinement<D>::prepare(const VisitRequest& request, RegionVisit<D>& vis
 template <int D>
 void LeafRefinement<D>::account(const VisitRequest& request, RegionVisit<D>& visit, std::span<const Node> claim) {
   if (visit.changed_mesh) note_change(claim);
-  if (context_.last_resort) account_resort(request, visit);
   if (!claim.empty() && visit.counts.refused > 0)
     works_[request.leaf].zones.try_emplace(request.order, claim.begin(), claim.end());
   counts_ += visit.counts;
@@ -307,16 +307,6 @@ void LeafRefinement<D>::account(const VisitRequest& request, RegionVisit<D>& vis
   min_edge_hit_ = min_edge_hit_ || visit.min_edge_hit;
   put_off(request, visit.set_aside);
   if (context_.stop != 0) left_over_.insert(left_over_.end(), visit.given.begin(), visit.given.end());
-}
-
-/// Where a last resort was in vain it is not tried again, as it would halve all edges about for nothing.
-template <int D>
-void LeafRefinement<D>::account_resort(const VisitRequest& request, const RegionVisit<D>& visit) {
-  resort_ += visit.resort;
-  if (request.order == whole_tree) return;
-  LeafWork<D>& work = works_[request.leaf];
-  work.resort += visit.resort;
-  work.spent = work.spent || !visit.resort.pays(few_in_leaf) || !work.resort.pays(few_in_leaf);
 }
 
 template <int D>

@@ -5,8 +5,8 @@
 #include "pgdr/refine.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
-#include <limits>
 #include <optional>
 #include <string>
 
@@ -175,14 +175,13 @@ struct Refined {
   std::optional<PoorCount> counted;  ///< else how many there are, where the lists tell
   std::optional<Orthtree<D>> tree;   ///< as it is in the end, if the leaves of cells are asked for
   std::uint64_t unexplained_poor = 0, unexplained_violations = 0;
-  bool hopeless = false;             ///< given up: all is to be meshed once more
 };
 
 /// What one attempt made.
 template <int D>
 struct Attempt {
   RefineResult<D> result;
-  std::uint64_t unexplained = 0;  ///< cells, where they are more than rounding may leave; all ones: given up, no mesh
+  std::uint64_t unexplained = 0;  ///< cells, where they are more than rounding may leave
 };
 
 template <int D>
@@ -190,8 +189,6 @@ Refined<D> refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools,
   const auto refinement = make_refinement<D>(context, std::move(pools), vertices);
   Refined<D> refined;
   result.stop = refinement->run();
-  refined.hopeless = refinement->is_hopeless();
-  if (refined.hopeless) return refined;
   if (result.stop == StopCause::finished) refined.poor = refinement->explain(result.stop);
   refined.unexplained_poor = refinement->unexplained_poor();
   refined.unexplained_violations = refinement->unexplained_violations();
@@ -236,9 +233,17 @@ std::uint64_t too_many_unexplained(const Refined<D>& refined, const RefineResult
   return few ? 0 : refined.unexplained_violations + refined.unexplained_poor;
 }
 
+/// How points beside small angles are chosen at an attempt (RefineContext).
+struct Manner {
+  bool sparse = true, last_resort = true;
+};
+
+/// In this order, until one leaves nothing without a reason.
+constexpr std::array<Manner, 3> manners{{{true, true}, {false, false}, {true, false}}};
+
 /// The mesh of the domain. `result`: what is known before. `began`: when this attempt did; `start`: the whole run, for limits.
 template <int D>
-Attempt<D> attempt(const Domain<D>& domain, const RefineOptions<D>& options, bool sparse, Clock::time_point start,
+Attempt<D> attempt(const Domain<D>& domain, const RefineOptions<D>& options, Manner manner, Clock::time_point start,
                    Clock::time_point began, RefineResult<D> result) {
   Mesh<D> mesh;
   auto pools = mesh.make_pools();
@@ -253,14 +258,14 @@ Attempt<D> attempt(const Domain<D>& domain, const RefineOptions<D>& options, boo
   const PointData<D> data(mesh, domain);
   const std::uint64_t vertices = domain.points().size() + result.statistics.segment_points + result.statistics.facet_points;
   RefineContext<D> context(mesh, domain, options, bounds_of(options, regions), vertices, start);
-  context.sparse_at_small_angles = sparse;
+  context.sparse_at_small_angles = manner.sparse;
+  context.has_last_resort = manner.last_resort;
   Refined<D> refined;
   if (options.refine) refined = refine_mesh<D>(context, std::move(pools), vertices, result);
   const auto dropped = [&] {
     return !options.partial_mesh && (options.stop.stop_requested() || result.stop == StopCause::cancelled);
   };
   if (dropped()) return {without_mesh(std::move(result), start)};
-  if (refined.hopeless) return {std::move(result), std::numeric_limits<std::uint64_t>::max()};
   std::vector<PoorCell> poor = take_poor<D>(context, refined, result);
   result.statistics.seconds_refine = seconds_since(refine_start);
 
@@ -286,8 +291,8 @@ Attempt<D> attempt(const Domain<D>& domain, const RefineOptions<D>& options, boo
 }
 
 /// Few points beside small angles may leave a tangle where walls cut back most cavities, which more of them can prevent (or
-/// bring, elsewhere). So where elements are left without a reason all is meshed once more, unless the caller's limits end that
-/// before; progress is then told from the start again.
+/// bring, elsewhere). So where elements are left without a reason all is meshed once more, and maybe again, unless the caller's
+/// limits end that before; progress is then told from the start again.
 template <int D>
 RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   validate(options);
@@ -302,13 +307,13 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   } catch (const CancelledError&) {
     return without_mesh(std::move(before), start);
   }
-  Attempt<D> made = attempt<D>(domain, options, true, start, start, before);
-  if (D == 3 && made.unexplained > 0) {
-    Attempt<D> again = attempt<D>(domain, options, false, start, Clock::now(), before);
+  Attempt<D> made = attempt<D>(domain, options, manners[0], start, start, before);
+  for (std::size_t i = 1; D == 3 && i < manners.size() && made.unexplained > 0 && made.result.stop == StopCause::finished; ++i) {
+    Attempt<D> again = attempt<D>(domain, options, manners[i], start, Clock::now(), before);
     const StopCause stop = again.result.stop;
-    const bool given_up = made.unexplained == std::numeric_limits<std::uint64_t>::max();
-    const bool better = given_up || (stop == StopCause::finished && again.unexplained < made.unexplained);
+    const bool better = stop == StopCause::finished && again.unexplained < made.unexplained;
     if (better || stop == StopCause::cancelled) made = std::move(again);
+    if (stop != StopCause::finished) break;
   }
   RefineResult<D>& result = made.result;
   result.statistics.predicates += predicate_counts() - predicates_before;

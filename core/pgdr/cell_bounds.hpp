@@ -50,12 +50,16 @@ class CellBounds {
   }
   /// The same of a cell whose shape is known.
   CellVerdict test(const Mesh<D>& mesh, CellId c, const CellShape& shape) const;
+  /// How far a cell of these corners in the region would be over its bounds: 0 within; over any of them 1, and over that of shape a
+  /// sixteenth more for each power of two by which it is, up to 1.25 more. Called of cells that are not there, too.
+  double excess(const Simplex<D>& s, int region) const;
   /// Is it over the bound of shape?
   bool over_radius_edge(const Mesh<D>& mesh, CellId c) const;
 
  private:
   bool over_radius_edge(const Mesh<D>& mesh, CellId c, double shortest_squared) const;
-  double size_of(const Mesh<D>& mesh, CellId c) const;
+  double size_of(const Simplex<D>& s, int region) const;
+  double measure_of(int region) const;
   bool within_measure(const Mesh<D>& mesh, CellId c, const CellShape& shape, double bound) const;
   bool over_size(const Mesh<D>& mesh, CellId c, const CellShape& shape) const;
 };

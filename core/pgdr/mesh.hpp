@@ -58,6 +58,7 @@ struct Home {
   EntityKind kind() const { return static_cast<EntityKind>(code >> 30); }  ///< of the entity
   EntityId id() const { return code & 0x3fffffffu; }  ///< of the entity, or the domain point
   EntityRef entity() const { return {kind(), kind() == EntityKind::volume ? no_entity : id()}; }  ///< both; the volume has no id
+  bool operator==(const Home&) const = default;  ///< the same entity
 };
 
 /// `relaxed_radius` is R(p) of the small-angle rule (refiner.hpp), rounded down; infinity for input vertices.
@@ -274,6 +275,15 @@ class Mesh {
   ReservedArray<ConstraintRecord<D>> constraints_;
   IdSource cell_source_, vertex_source_, constraint_source_;
 };
+
+/// The order of two cells by the points of their vertices, which slots have no part in: below 0 if a comes before b, 0 if it is b.
+template <int D>
+int compare_vertices(const Mesh<D>& mesh, CellId a, CellId b) {
+  const auto &u = mesh.cell(a).vertices, &v = mesh.cell(b).vertices;
+  for (int i = 0; i <= D; ++i)
+    if (u[i] != v[i]) return lex_less<D>(mesh.point(u[i]), mesh.point(v[i])) ? -1 : 1;
+  return 0;
+}
 
 extern template class Mesh<2>;
 extern template class Mesh<3>;

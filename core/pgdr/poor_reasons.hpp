@@ -6,6 +6,7 @@
 // Reads the whole mesh, while nothing else is running; one thread where nothing else is said.
 #pragma once
 
+#include <cassert>
 #include <span>
 #include <stop_token>
 #include <unordered_map>
@@ -33,9 +34,12 @@ struct PoorFindings {
   std::vector<CellId> unexplained;  ///< poor, with no reason but rounding
   /// With a face that is not locally Delaunay by more than rounding, beside no small angle.
   std::vector<CellId> violated;
+  /// The same, but that an entity is named elsewhere that excuses it.
+  std::vector<CellId> excused;
 
   /// Appends what another look has found.
   void append(const PoorFindings& o) {
+    assert(o.excused.empty() && "found by a look at all");
     poor.insert(poor.end(), o.poor.begin(), o.poor.end());
     unexplained.insert(unexplained.end(), o.unexplained.begin(), o.unexplained.end());
     violated.insert(violated.end(), o.violated.begin(), o.violated.end());
@@ -62,7 +66,7 @@ class PoorReasons {
 
   /// What was added before is no longer so.
   void forget() { why_.clear(); }
-  /// What was refused in one region.
+  /// What was refused in one region. What is said of a cell last counts, if it names a pair.
   void add(std::span<const Refusal<D>> refused);
 
   /// Of the cells numbered [first, last) every one over a bound, and every one with a face that is not locally Delaunay for
@@ -72,9 +76,15 @@ class PoorReasons {
                         const std::stop_token& stop = {}) const;
   /// The same of the cells that were refused: all there are where every face is locally Delaunay.
   PoorFindings of_refused(const std::stop_token& stop = {}) const;
-  /// Leaves out of `found.violated` what has a vertex, or whose neighbour has one, on an entity that is named as a reason: its
-  /// refusal excuses that. @pre all cells were looked at.
-  void leave_out_excused(PoorFindings& found) const;
+  /// Moves from `found.violated` to `found.excused` what has at each of its faces that are not locally Delaunay a vertex, or whose
+  /// neighbour there has one, on an entity that is named as a reason: its refusal excuses that. @pre all cells were looked at.
+  void excuse(PoorFindings& found) const;
+  /// Of the cells in `found.poor`, some whose entities excuse all that is excused, in an order, and so chosen, that the slots of
+  /// cells do not matter.
+  std::vector<PoorCell> excusing_cells(const PoorFindings& found) const;
+  /// Would entities with vertices of these homes on them, of which two meet at a small angle near enough, explain an element
+  /// with this circumsphere? Several threads at once. (False where very many meet.)
+  bool has_reason(std::span<const Home> homes, const Ball<D>& sphere) const;
   /// By vertex: those on such entities.
   std::vector<bool> excusing_vertices(const PoorFindings& found) const;
 
@@ -85,7 +95,8 @@ class PoorReasons {
   bool explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, PoorReason& reason) const;
   bool is_beside(EntityRef segment, const Ball<D>& doubled) const;
   void add_entities(CellId c, std::vector<EntityRef>& list) const;
-  void add_entities_of(VertexId v, std::vector<EntityRef>& list) const;
+  void add_entities_of(Home home, std::vector<EntityRef>& list) const;
+  std::vector<std::vector<EntityRef>> entities_about_violations(CellId c) const;
   void look_at(CellId c, bool violated, PoorFindings& found) const;
   bool is_violated_beyond_rounding(CellId c) const;
 

@@ -33,6 +33,9 @@
 
 namespace pgdr {
 
+template <int D>
+struct Improvement;
+
 /// What was done, in one visit or in all.
 struct RefineCounts {
   std::uint64_t committed = 0;         ///< insertions
@@ -67,11 +70,16 @@ struct RefineContext {
   const std::chrono::steady_clock::time_point start;  ///< of the time limit
   /// 3D: fewer points on entities that meet at less than 60 degrees (insertion_rule.hpp). Set before the run.
   bool sparse_at_small_angles = true;
+  /// 3D: what is poor when nothing else waits asks for less room. Set before the run.
+  bool has_last_resort = true;
   /// 3D: what is poor now would stay so, and asks for c times the room. Set while no visit runs.
   bool last_resort = false;
   /// By vertex: those on entities that are named as reasons, which excuse violations beside them; empty before that is known. Set
   /// while no visit runs.
   std::vector<bool> excusing;
+  /// 3D: visits insert points for elements that stay poor, and treat nothing else (refiner_improvement.cpp). Set while no visit
+  /// runs.
+  const Improvement<D>* improvement = nullptr;
   const Shells<D> shells;  ///< none in 3D, where the front end alone splits on them
   int base_exponent = 0;  ///< of bucket 0: circumradii of the size of the domain and above
   static constexpr int buckets = 64;  ///< of circumradii
@@ -81,26 +89,6 @@ struct RefineContext {
   std::mutex progress_mutex;  ///< held while the caller's function runs
   std::chrono::steady_clock::time_point last_progress;  ///< under the mutex
 };
-
-/// What a last resort has come to.
-struct LastResort {
-  std::int64_t mended = 0;   ///< by how many its insertions made poor elements fewer
-  std::uint64_t points = 0;  ///< insertions
-
-  /// Adds both.
-  LastResort& operator+=(const LastResort& o) {
-    mended += o.mended;
-    points += o.points;
-    return *this;
-  }
-  /// Was it worth its points? (docs/performance.md) `few`: too few to tell.
-  bool pays(std::uint64_t few) const {
-    constexpr std::int64_t points_for_one = 8;
-    return points < few || points_for_one * mended >= static_cast<std::int64_t>(points);
-  }
-};
-inline constexpr std::uint64_t few_in_leaf = 512;  ///< points of a last resort, in a leaf, that tell nothing yet
-inline constexpr std::uint64_t few_in_all = 8192;  ///< the same in all
 
 /// What one visit is asked to do, and what it did.
 template <int D>
@@ -122,7 +110,6 @@ struct RegionVisit {
   bool repairs_facets = false;          ///< flip subfacets, too, where no flip of cells helps: slow
   bool entities_refused = false;        ///< by any visit before; after the visit, by this one too
   bool mends = false;                   ///< no volume point whose cavity is cut back any more
-  bool last_resort = false;             ///< 3D: what is poor asks for c times the room; false afterwards if that was in vain
   // done
   /// Entries for another region.
   struct Outbox {
@@ -132,7 +119,6 @@ struct RegionVisit {
   std::vector<Outbox> outboxes;         ///< elements with their circumcentre in other regions, alive at the end
   std::vector<Entry<D>> set_aside;      ///< would have changed cells that the visit does not own
   RefineCounts counts;  ///< of this visit
-  LastResort resort;  ///< what it came to in this visit
   bool changed_mesh = false;  ///< by an insertion or a flip
   bool min_edge_hit = false;  ///< something was refused for `min_edge`
 };
@@ -190,6 +176,7 @@ class Refiner {
   void list_entities(CellId c, const ConstraintRecord<D>& k);
   void treat_entities();
   void treat(const Item& e);
+  Outcome treat_poor(const Item& e);
   bool may_go_on();
   void look_at_budget();
   void record_refusal(const Item& e);
@@ -235,6 +222,7 @@ class Refiner {
   std::optional<Item> encroached_face(const Point<D>& x) const;
   template <class MayEnter>
   std::optional<Item> wall_before(CellId c, const Point<D>& x, MayEnter may_enter) const;
+  std::optional<Item> wall_in_claim(CellId c, const Point<D>& x) const;
   std::optional<Item> flattened_face(const Point<D>& x) const;
   std::optional<Item> encroached_entity(const Point<D>& x) const;
   std::optional<Item> hiding_wall(CellId c, const Point<D>& x) const;
@@ -246,14 +234,32 @@ class Refiner {
   double squared_distance_to_walls(const Point<D>& x) const;
   bool insert_mean_of_corners(const Item& e, const CellVerdict& verdict);
 
+  // refiner_improvement.cpp: what stays poor
+  /// Where a point may go, and on what.
+  struct Place {
+    Item at;  ///< a cell in conflict with it, or its face or edge
+    Point<D> x;
+    Home home;
+  };
+  Outcome improve(const Item& e);
+  std::vector<Place> places_for(CellId c);
+  void add_places_on_face(CellId c, int face, std::vector<Place>& places) const;
+  void add_places_on_edge(CellId c, int edge, std::vector<Place>& places) const;
+  typename Cavity<D>::Status collect_at(const Place& p);
+  bool is_cut_off(const Place& p);
+  Simplex<D> prospect(std::size_t n) const;
+  double gain_of_collected() const;
+  bool is_explained(const Place& p, std::size_t n, VertexId further) const;
+  bool poor_ones_are_explained(const Place& p) const;
+  std::vector<Home> homes_of_cavity() const;
+  bool violations_are_explained(const Place& p, bool& any) const;
+
   // refiner_selectors.cpp
   class View;
   /// Where the selector puts the point of a cell over the radius-edge bound; nothing if the claim is too small to tell.
   std::optional<Point<D>> selected_point(CellId c, const Point<D>& center);
 
-  void commit(EntityKind kind, EntityId id, double relaxed_radius);
   void committed();
-  std::int64_t count_poor(std::span<const CellId> cells) const;
   void flipped();
   void flip(const Item& e);
   bool made_before();

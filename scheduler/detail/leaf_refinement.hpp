@@ -37,14 +37,13 @@ class LeafRefinement {
   StopCause run();
 
   /// Of every cell over a bound, or beside a face that is not locally Delaunay, why. Where nothing explains it, points are
-  /// tried that ask for less room before it is left at that. @pre run() said finished. `stop` becomes what ends this early.
+  /// tried that ask for less room before it is left at that; then points that leave fewer such cells. @pre run() said finished.
+  /// `stop` becomes what ends this early.
   std::vector<PoorCell> explain(StopCause& stop);
 
   /// After explain(): how many cells stay over a bound, or beside a face that is not locally Delaunay by more than rounding,
   /// although no small angle explains it. The former are within what rounding may do if they are few.
   std::uint64_t unexplained_poor() const { return unexplained_poor_; }
-  /// Has run() given up, so that all is to be meshed once more?
-  bool is_hopeless() const { return hopeless_; }
   std::uint64_t unexplained_violations() const { return unexplained_violations_; }
 
   const RefineCounts& counts() const { return counts_; }
@@ -78,7 +77,6 @@ class LeafRefinement {
   double visit(const VisitRequest& request, const VisitArea<D>& area, RegionVisit<D>& visit);
   /// Adds up what a visit did, and puts off what it set aside. `claim`: its leaves; none for the whole tree.
   void account(const VisitRequest& request, RegionVisit<D>& visit, std::span<const Node> claim);
-  void account_resort(const VisitRequest& request, const RegionVisit<D>& visit);
   void post(Node leaf, std::vector<Entry<D>>&& entries);
   /// Other threads than before will run visits. While none runs.
   void threads_are_new() { numbers_.others_have_ended(); }
@@ -92,7 +90,7 @@ class LeafRefinement {
   LeafWorks<D> works_;
   std::uint64_t generation_ = 0, vertices_;
   std::uint64_t unexplained_poor_ = 0, unexplained_violations_ = 0;
-  bool violations_seen_ = false, hopeless_ = false;
+  bool violations_seen_ = false;
   const bool uneven_;  ///< there may be some that no insertion brings
   bool all_listed_ = false;  ///< every poor cell is on a list, between visits
   SchedulerStatistics statistics_;
@@ -104,15 +102,19 @@ class LeafRefinement {
     context_.stop = static_cast<int>(StopCause::cancelled);
     return true;
   }
-  bool look_for_hope();
   void list_everything();
   StopCause refine_to_the_end();
   bool begin_last_resort();
   /// Calls f with the refusals of each leaf.
   void for_each_refused(const std::function<void(std::span<const Refusal<D>>)>& f);
   PoorFindings look_for_poor(PoorReasons<D>& reasons);
+  bool lists_all_poor(const PoorFindings& found) const;
   void help_unexplained(PoorReasons<D>& reasons, PoorFindings& found);
   bool insert_within(std::span<const CellId> cells);
+  void list_for_improvement();
+  std::vector<bool> keep(std::span<const PoorCell> excusing);
+  StopCause improve(PoorReasons<D>& reasons, PoorFindings& found);
+  void total_statistics();
   std::vector<Entry<D>> violations_everywhere();
   std::vector<Entry<D>> look_for_violations();
   std::vector<Entry<D>> new_violations();
@@ -134,13 +136,14 @@ class LeafRefinement {
 
   WorkList<D> whole_list_;               ///< entities that visits of the whole tree come upon
   std::vector<Entry<D>> whole_set_aside_;
+  std::vector<Refusal<D>> refused_before_;  ///< poor elements, until they were improved
   std::vector<Entry<D>> left_over_;      ///< given to visits that the end of the run has overtaken
   std::uint64_t whole_changed_ = 0, last_change_ = 0;  ///< generation: of a visit of the whole tree; of any
   std::vector<std::uint16_t> births_looked_at_;  ///< by slot: of the cell when violations were last looked for everywhere
   std::vector<Entry<D>> violations_;             ///< that were there then
   bool min_edge_hit_ = false, entities_refused_ = false;
   RefineCounts counts_;
-  LastResort resort_;                    ///< what it came to, in all
+  Clock::time_point start_;              ///< of run()
   std::mutex workers_mutex_;             ///< of the members below
   std::vector<Worker> workers_;
   ThreadNumbers numbers_;

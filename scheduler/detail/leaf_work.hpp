@@ -26,8 +26,6 @@ struct LeafWork {
   std::array<std::vector<Entry<D>>, set_aside_orders.size()> set_aside;
   std::uint64_t since = 0;                   ///< generation in which the list last became non-empty
   std::array<std::uint64_t, set_aside_orders.size()> set_aside_since{};
-  LastResort resort;                         ///< what it came to here
-  bool spent = false;                        ///< was it in vain?
   std::uint64_t changed = 0;                 ///< generation in which a visit that had claimed it last changed the mesh
   /// Claims with which something was refused here, one for each order, as they were first: later ones lie within, as
   /// leaves split.

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The last visits of a run, which insert points for elements that stay poor (core/refiner_improvement.cpp): of leaves, as
+// those before them, with claims as large as it takes.
+#include <utility>
+
+#include "detail/leaf_refinement.hpp"
+#include "pgdr/improvement.hpp"
+
+namespace pgdr::detail {
+
+/// Takes what was refused off the lists, and what mending left there, and lists the poor elements among it anew.
+template <int D>
+void LeafRefinement<D>::list_for_improvement() {
+  std::vector<bool> listed(context_.mesh.cell_bound());
+  // A visit of the whole tree does not treat the poor elements of its list: it would wait for ever.
+  std::vector<Entry<D>> waiting;
+  whole_list_.drain([&](const Entry<D>& e) {
+    if (e.kind() == EntryKind::cell && e.alive(context_.mesh)) waiting.push_back(e);
+  });
+  for (const Entry<D>& e : waiting) {
+    if (!listed[index(e.cell)] && context_.bounds.test(context_.mesh, e.cell)) relist(e);
+    listed[index(e.cell)] = true;
+  }
+  for (Node n = 0; n <= tree_.node_count(); ++n) {
+    auto& list = n < tree_.node_count() ? works_[n].list.refused : whole_list_.refused;
+    for (Refusal<D>& r : std::exchange(list, {})) {
+      if (r.entry.kind() != EntryKind::cell || !r.entry.alive(context_.mesh)) continue;
+      const CellId c = r.entry.cell;
+      if (!listed[index(c)] && context_.bounds.test(context_.mesh, c)) relist(r.entry);
+      listed[index(c)] = true;
+      r.seen = {};
+      refused_before_.push_back(std::move(r));
+    }
+  }
+}
+
+/// Elements whose entities excuse others, and their neighbours, which may be why they are named.
+template <int D>
+std::vector<bool> LeafRefinement<D>::keep(std::span<const PoorCell> excusing) {
+  std::vector<bool> kept(excusing.empty() ? 0 : context_.mesh.cell_bound());
+  for (const PoorCell& p : excusing) {
+    kept[index(p.cell)] = true;
+    for (const Link next : context_.mesh.cell(p.cell).links)
+      if (next) kept[index(next.cell())] = true;
+    refused_before_.push_back({{p.cell, context_.mesh.birth(p.cell), EntryKind::cell, 0}, EntityPair{p.reason.entities}, 1, 0, {}, 0});
+  }
+  return kept;
+}
+
+template <int D>
+StopCause LeafRefinement<D>::improve(PoorReasons<D>& reasons, PoorFindings& found) {
+  if (D == 2 || context_.options.keep_boundary || found.poor.empty()) return StopCause::finished;
+  list_for_improvement();
+  const Improvement<D> improvement{reasons, keep(reasons.excusing_cells(found))};
+  const std::uint64_t before = counts_.committed;
+  context_.improvement = &improvement;
+  StopCause stop;
+  std::uint64_t committed;
+  do {
+    committed = counts_.committed;
+    stop = drain();
+  } while (stop == StopCause::finished && counts_.committed != committed && relist_refused());
+  context_.improvement = nullptr;
+  if (stop == StopCause::finished && counts_.committed != before) found = look_for_poor(reasons);
+  return stop;
+}
+
+template class LeafRefinement<2>;
+template class LeafRefinement<3>;
+
+}  // namespace pgdr::detail

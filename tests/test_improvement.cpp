@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The points that end a run: where elements stay poor, they leave fewer of these.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <ostream>
+
+#include "parallel_support.hpp"
+#include "pgdr/cell_bounds.hpp"
+
+namespace pgdr {
+namespace {
+
+/// A prism over an isosceles triangle with sides of 1 that meet at this angle, 1 high; the sides are cut along diagonals.
+Plc<3> wedge(double degrees) {
+  const double a = degrees * std::numbers::pi / 180;
+  Plc<3> plc;
+  for (const double y : {0.0, 1.0}) {
+    plc.points.push_back({{0, y, 0}});
+    plc.points.push_back({{1, y, 0}});
+    plc.points.push_back({{std::cos(a), y, std::sin(a)}});
+  }
+  const std::array<std::array<std::uint32_t, 3>, 8> triangles{
+      {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3}, {0, 3, 5}, {0, 5, 2}, {1, 2, 5}, {1, 5, 4}}};
+  for (const auto& t : triangles) plc.facets.push_back({{{t.begin(), t.end()}}, {}, 0});
+  return plc;
+}
+
+struct Case {
+  double degrees;
+  std::uint64_t most_poor;  ///< that may be left; without these points it were `before`
+  std::uint64_t before;
+};
+
+std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.degrees << " degrees"; }
+
+class Wedges : public testing::TestWithParam<Case> {};
+
+// Of 1 and 2 degrees also: a point on an entity beside an element that stays as it is left that element on no list, so that it
+// had no reason (check ended with 6).
+TEST_P(Wedges, KeepFewPoorCells) {
+  const RefineResult<3> result = test::expect_reproducible<3>(wedge(GetParam().degrees), {}, "wedge");
+  EXPECT_LE(result.poor_left, GetParam().most_poor) << "before: " << GetParam().before;
+  EXPECT_GE(result.reasons.size(), result.poor_left);
+}
+
+INSTANTIATE_TEST_SUITE_P(Improvement, Wedges,
+                         testing::Values(Case{1, 90, 171}, Case{2, 50, 75}, Case{5, 28, 40}, Case{10, 6, 10}),
+                         [](const auto& info) { return std::to_string(static_cast<int>(info.param.degrees)); });
+
+double shortest_edge(const OutputMesh<3>& mesh) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& cell : mesh.cells) {
+    Simplex<3> s;
+    for (int i = 0; i < 4; ++i) s[i] = mesh.points[cell[i]];
+    least = std::min(least, std::sqrt(shortest_edge_squared<3>(s)));
+  }
+  return least;
+}
+
+TEST(Improvement, HeedsTheShortestEdgeAllowed) {
+  RefineOptions<3> options;
+  EXPECT_LT(shortest_edge(test::refine_and_check<3>(wedge(2), options).result.mesh), 0.02);
+  options.min_edge = 0.02;
+  EXPECT_GE(shortest_edge(test::refine_and_check<3>(wedge(2), options).result.mesh), 0.02 * (1 - 1e-12));
+}
+
+TEST(Improvement, KeepsToTheBudget) {
+  const RefineResult<3> whole = refine<3>(wedge(1), {});
+  for (std::uint64_t vertices : {whole.mesh.points.size() - 1, whole.mesh.points.size() - 10}) {
+    RefineOptions<3> options;
+    options.max_vertices = vertices;
+    const test::Outcome<3> outcome = test::refine_and_check<3>(wedge(1), options);
+    EXPECT_LE(outcome.result.mesh.points.size(), vertices);
+    EXPECT_EQ(outcome.result.stop, StopCause::max_vertices);
+    EXPECT_GT(outcome.result.poor_left, 0u);
+  }
+}
+
+TEST(Excess, IsWhatBoundsSay) {
+  const Simplex<3> good{{{{0, 0, 0}}, {{1, 0, 0}}, {{0, 1, 0}}, {{0, 0, 1}}}};  // circumradius sqrt(3) / 2
+  const Simplex<3> needle{{{{0, 0, 0}}, {{0.0625, 0, 0}}, {{0, 1, 0}}, {{0, 0, 1}}}};
+  const Simplex<3> flat{{{{0, 0, 0}}, {{1, 0, 0}}, {{0, 1, 0}}, {{1, 1, 1e-300}}}};
+  CellBounds<3> bounds;
+  EXPECT_EQ(bounds.excess(needle, 0), 0);
+  bounds.radius_edge_bound = 2;
+  EXPECT_EQ(bounds.excess(good, 0), 0);
+  EXPECT_GT(bounds.excess(needle, 0), 1);
+  EXPECT_LT(bounds.excess(needle, 0), 1.25);
+  EXPECT_LE(bounds.excess(flat, 0), 2.25);
+  bounds.size = SizingField<3>(0.8);
+  EXPECT_EQ(bounds.excess(good, 0), 1);
+  bounds.size = SizingField<3>(0.9);
+  EXPECT_EQ(bounds.excess(good, 0), 0);
+  bounds.max_measure = 0.1;  // of 1/6
+  EXPECT_EQ(bounds.excess(good, 0), 1);
+  bounds.max_measure = 1;
+  bounds.region_measure = {1, 0.1};
+  EXPECT_EQ(bounds.excess(good, 0), 0);
+  EXPECT_EQ(bounds.excess(good, 1), 1);
+}
+
+}  // namespace
+}  // namespace pgdr
