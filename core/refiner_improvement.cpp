@@ -215,13 +215,6 @@ bool Refiner<D>::violations_are_explained(const Place& p, bool& any) const {
   return true;
 }
 
-/// Is a point that the visit does not own beyond a wall of its claim? Then no larger one helps.
-template <int D>
-bool Refiner<D>::is_cut_off(const Place& p) {
-  cavity_.release();
-  return p.at.kind() == EntryKind::cell && wall_in_claim(p.at.cell, p.x);
-}
-
 /// Inserts the point that makes the excess of all elements less by most, the first of those that do.
 template <int D>
 auto Refiner<D>::improve(const Item& e) -> Outcome {
@@ -232,7 +225,7 @@ auto Refiner<D>::improve(const Item& e) -> Outcome {
   for (const Place& p : places_for(e.cell)) {
     Status status = collect_at(p);
     if (status == Status::ok && gain_of_collected() > most) status = cavity_.check_nothing_swallowed();
-    if (status == Status::not_owned && !is_cut_off(p)) return give_up(Outcome::not_owned);
+    if (status == Status::not_owned) return give_up(Outcome::not_owned);
     if (status != Status::ok || insertion_radius<D>(*mesh_, cavity_) < options_->min_edge) continue;
     const double gain = gain_of_collected();  // the check may have cut it back
     bool any = false;

@@ -246,7 +246,6 @@ class Refiner {
   void add_places_on_face(CellId c, int face, std::vector<Place>& places) const;
   void add_places_on_edge(CellId c, int edge, std::vector<Place>& places) const;
   typename Cavity<D>::Status collect_at(const Place& p);
-  bool is_cut_off(const Place& p);
   Simplex<D> prospect(std::size_t n) const;
   double gain_of_collected() const;
   bool is_explained(const Place& p, std::size_t n, VertexId further) const;
