@@ -49,9 +49,18 @@ std::vector<bool> LeafRefinement<D>::keep(std::span<const PoorCell> excusing) {
   return kept;
 }
 
+/// Of bounds below what theory proves many elements may be over, for no reason but that: too many to be worth it.
+template <int D>
+bool LeafRefinement<D>::may_improve(const PoorFindings& found) const {
+  if (D == 2 || context_.options.keep_boundary || found.poor.empty()) return false;
+  constexpr std::size_t most_of_cells = 4;
+  return context_.options.radius_edge_bound >= smallest_proved_bound<D>() ||
+         most_of_cells * found.poor.size() <= context_.mesh.cell_bound();
+}
+
 template <int D>
 StopCause LeafRefinement<D>::improve(PoorReasons<D>& reasons, PoorFindings& found) {
-  if (D == 2 || context_.options.keep_boundary || found.poor.empty()) return StopCause::finished;
+  if (!may_improve(found)) return StopCause::finished;
   list_for_improvement();
   const Improvement<D> improvement{reasons, keep(reasons.excusing_cells(found))};
   const std::uint64_t before = counts_.committed;

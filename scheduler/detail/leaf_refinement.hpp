@@ -111,6 +111,7 @@ class LeafRefinement {
   bool lists_all_poor(const PoorFindings& found) const;
   void help_unexplained(PoorReasons<D>& reasons, PoorFindings& found);
   bool insert_within(std::span<const CellId> cells);
+  bool may_improve(const PoorFindings& found) const;
   void list_for_improvement();
   std::vector<bool> keep(std::span<const PoorCell> excusing);
   StopCause improve(PoorReasons<D>& reasons, PoorFindings& found);
