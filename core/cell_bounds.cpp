@@ -81,13 +81,18 @@ double CellBounds<D>::excess(const Simplex<D>& s, int region) const {
     const double powers = std::log2(std::sqrt(circumsphere<D>(s).squared_radius) / limit);
     return 1 + of_power * (powers < most_powers ? std::max(powers, 0.0) : most_powers);  // of rounding's NaN: the most
   }
-  if (!measure_within<D>(s, measure_of(region))) return 1;
-  if (!size.bounded() && region_size.empty()) return 0;
+  return within_size(s, region) ? 0 : 1;
+}
+
+template <int D>
+bool CellBounds<D>::within_size(const Simplex<D>& s, int region) const {
+  if (!measure_within<D>(s, measure_of(region))) return false;
+  if (!size.bounded() && region_size.empty()) return true;
   const double bound = size_of(s, region);
   if constexpr (D == 3) {
-    return circumradius_within<D>(s, bound) ? 0 : 1;
+    return circumradius_within<D>(s, bound);
   } else {
-    return measure_within<D>(s, bound) ? 0 : 1;
+    return measure_within<D>(s, bound);
   }
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pgdr/facet_flip.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "detail/bent_facets.hpp"
@@ -9,26 +10,22 @@
 #include "pgdr/predicates.hpp"
 
 namespace pgdr {
-namespace {
 
 template <int D>
-bool in_line(const Mesh<D>& mesh, const Domain<D>& domain, VertexId a, VertexId b, VertexId c) {
-  for (const VertexId v : {a, b, c}) {
+bool lie_in_line(const Mesh<D>& mesh, const Domain<D>& domain, const std::array<VertexId, 3>& vertices) {
+  return std::any_of(vertices.begin(), vertices.end(), [&](VertexId v) {
     const EntityRef home = mesh.vertex(v).home.entity();
-    if (home.kind == EntityKind::segment && lies_on<D>(domain, mesh.vertex(a).home, home) &&
-        lies_on<D>(domain, mesh.vertex(b).home, home) && lies_on<D>(domain, mesh.vertex(c).home, home))
-      return true;
-  }
-  return false;
+    const auto on = [&](VertexId w) { return lies_on<D>(domain, mesh.vertex(w).home, home); };
+    return home.kind == EntityKind::segment && std::all_of(vertices.begin(), vertices.end(), on);
+  });
 }
-
-}  // namespace
 
 template <int D>
 bool crosses_in_facet(const Mesh<D>& mesh, const Domain<D>& domain, EntityId facet, std::array<VertexId, 2> edge,
                       std::array<VertexId, 2> tips) {
   if constexpr (D == 3) {
-    if (in_line(mesh, domain, tips[0], tips[1], edge[0]) || in_line(mesh, domain, tips[0], tips[1], edge[1])) return false;
+    for (const VertexId v : edge)
+      if (lie_in_line<D>(mesh, domain, {tips[0], tips[1], v})) return false;
     const int axis = domain.facets()[facet].axis;
     const auto side = [&](VertexId v) { return orient_projected(mesh.point(tips[0]), mesh.point(tips[1]), mesh.point(v), axis); };
     const Sign first = side(edge[0]);
@@ -48,6 +45,7 @@ bool tip_in_circle(const Mesh<3>& mesh, const Domain<3>& domain, EntityId facet,
   return turn != Sign::zero && in_circle_perturbed(a, b, c, d, axis) == Sign::positive;
 }
 
+template bool lie_in_line(const Mesh<3>&, const Domain<3>&, const std::array<VertexId, 3>&);
 template bool crosses_in_facet<2>(const Mesh<2>&, const Domain<2>&, EntityId, std::array<VertexId, 2>, std::array<VertexId, 2>);
 template bool crosses_in_facet<3>(const Mesh<3>&, const Domain<3>&, EntityId, std::array<VertexId, 2>, std::array<VertexId, 2>);
 

@@ -56,7 +56,8 @@ Refiner<D>::Refiner(RefineContext<D>& context, Pools pools)
       options_(&context.options),
       pools_(std::move(pools)),
       cavity_(context.mesh, &context.domain),
-      flips_(context.mesh, context.domain) {
+      flips_(context.mesh, context.domain),
+      contraction_(context.mesh, context.domain) {
   cavity_.set_seen(&seen_);
   flips_.set_ended([this] { return ended(); });
   flips_.set_excusing(&context.excusing);
@@ -235,14 +236,15 @@ template <int D>
 void Refiner<D>::look_at_budget() {
   const auto& counts = visit_->counts;
   if (options_->stop.stop_requested()) context_->stop = static_cast<int>(StopCause::cancelled);
-  if (counts.committed + counts.refused < checked_at_) return;
+  const std::uint64_t treated = counts.committed + counts.taken_out + counts.refused;
+  if (treated < checked_at_) return;
   const std::uint64_t vertices = context_->vertices.fetch_add(counts.committed - reported_) + counts.committed - reported_;
   reported_ = counts.committed;
   const auto now = std::chrono::steady_clock::now();
   // Callbacks may be slow: the clock is looked at about every other millisecond.
   stride_ = now - checked_time_ > std::chrono::milliseconds(2) ? std::max<std::uint64_t>(stride_ / 4, 1)
                                                                : std::min<std::uint64_t>(stride_ * 2, 256);
-  checked_at_ = counts.committed + counts.refused + stride_;
+  checked_at_ = treated + stride_;
   checked_time_ = now;
   ended();
   if (!options_->progress) return;
@@ -342,8 +344,10 @@ void Refiner<D>::begin(RegionVisit<D>& visit) {
   abroad_.clear();
   seen_.clear();
   memo_.clear();
+  rooted_.clear();
   cavity_.set_area(visit.area);
   flips_.set_area(visit.area);
+  contraction_.set_area(visit.area);
   flips_left_ = 0;
   flipped_.clear();
   checked_at_ = reported_ = 0;

@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The last visits of a run, in 3D: points for elements that stay poor, wherever they leave fewer of these, or better ones.
+// The last visits of a run, in 3D: vertices are taken out (refiner_contraction.cpp) and points put in for elements that stay
+// poor, wherever that leaves fewer of these, or better ones.
 //
 // Let the excess of an element be 0 within its bounds, else at least 1 and at most 2.25 (CellBounds::excess). A point goes in
-// only if the elements that it makes have less excess than those that it takes the place of, by at least 1/16. All in all
-// there is at most 2.25 for each poor element when these visits begin, so that they insert at most 36 points for each. No
-// room is asked for, as nothing else follows from such a point: entities that it encroaches upon are left as they are.
+// only if the elements that it makes have less excess than those that it takes the place of, by at least 1/16, and a vertex
+// only if they have no more. All in all there is at most 2.25 for each poor element when these visits begin, so that they
+// insert at most 36 points for each; and they take out no more vertices than there were and come. No room is asked for, as
+// nothing else follows from such a point: entities that it encroaches upon are left as they are.
 //
 // What is new is explained as the rest is: a new element that is poor, and a new face that is not locally Delaunay, is allowed
 // only beside two entities that meet at a small angle and touch its own corners, so that no later point can take that away.
@@ -219,6 +221,11 @@ bool Refiner<D>::violations_are_explained(const Place& p, bool& any) const {
 template <int D>
 auto Refiner<D>::improve(const Item& e) -> Outcome {
   using Status = typename Cavity<D>::Status;
+  if (const Outcome outcome = take_out(e); outcome != Outcome::refused) return outcome;
+  if (!context_->improvement->inserts) {
+    ++visit_->counts.refused;
+    return Outcome::refused;
+  }
   std::optional<Place> best;
   double most = least_gain;
   bool violates = false;

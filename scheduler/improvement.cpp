@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The last visits of a run, which insert points for elements that stay poor (core/refiner_improvement.cpp): of leaves, as
-// those before them, with claims as large as it takes.
+// The last visits of a run, which take out vertices and insert points for elements that stay poor
+// (core/refiner_improvement.cpp): of leaves, as those before them, with claims as large as it takes. Vertices go before points
+// come: that leaves as few poor elements, and fewer of all.
 #include <utility>
 
 #include "detail/leaf_refinement.hpp"
@@ -58,21 +59,34 @@ bool LeafRefinement<D>::may_improve(const PoorFindings& found) const {
          most_of_cells * found.poor.size() <= context_.mesh.cell_bound();
 }
 
+/// Visits until nothing that was refused is worth another try.
+template <int D>
+StopCause LeafRefinement<D>::improve_listed() {
+  const auto changes = [this] { return counts_.committed + counts_.taken_out; };
+  StopCause stop;
+  std::uint64_t before;
+  do {
+    before = changes();
+    stop = drain();
+  } while (stop == StopCause::finished && changes() != before && relist_refused());
+  return stop;
+}
+
 template <int D>
 StopCause LeafRefinement<D>::improve(PoorReasons<D>& reasons, PoorFindings& found) {
   if (!may_improve(found)) return StopCause::finished;
-  list_for_improvement();
-  const Improvement<D> improvement{reasons, keep(reasons.excusing_cells(found))};
-  const std::uint64_t before = counts_.committed;
+  Improvement<D> improvement{reasons, false, keep(reasons.excusing_cells(found))};
+  const RefineCounts before = counts_;
   context_.improvement = &improvement;
-  StopCause stop;
-  std::uint64_t committed;
-  do {
-    committed = counts_.committed;
-    stop = drain();
-  } while (stop == StopCause::finished && counts_.committed != committed && relist_refused());
+  StopCause stop = StopCause::finished;
+  for (const bool inserts : {false, true}) {
+    improvement.inserts = inserts;
+    list_for_improvement();
+    if (stop == StopCause::finished) stop = improve_listed();
+  }
   context_.improvement = nullptr;
-  if (stop == StopCause::finished && counts_.committed != before) found = look_for_poor(reasons);
+  const bool changed = counts_.committed != before.committed || counts_.taken_out != before.taken_out;
+  if (stop == StopCause::finished && changed) found = look_for_poor(reasons);
   return stop;
 }
 

@@ -53,6 +53,8 @@ class CellBounds {
   /// How far a cell of these corners in the region would be over its bounds: 0 within; over any of them 1, and over that of shape a
   /// sixteenth more for each power of two by which it is, up to 1.25 more. Called of cells that are not there, too.
   double excess(const Simplex<D>& s, int region) const;
+  /// Would it be within those of size?
+  bool within_size(const Simplex<D>& s, int region) const;
   /// Is it over the bound of shape?
   bool over_radius_edge(const Mesh<D>& mesh, CellId c) const;
 

@@ -11,8 +11,11 @@
 
 namespace pgdr {
 
-/// Do the edge and the edge between the tips (the far corners of the two subfacets at it) cross? Three that lie on one input
-/// segment are on a line, whatever rounding made of it.
+/// Do the three lie on one input segment, on a line therefore, whatever rounding made of it? (Not asked of input vertices alone.)
+template <int D>
+bool lie_in_line(const Mesh<D>& mesh, const Domain<D>& domain, const std::array<VertexId, 3>& vertices);
+
+/// Do the edge and the edge between the tips (the far corners of the two subfacets at it) cross? Three in line have no sides.
 template <int D>
 bool crosses_in_facet(const Mesh<D>& mesh, const Domain<D>& domain, EntityId facet, std::array<VertexId, 2> edge,
                       std::array<VertexId, 2> tips);

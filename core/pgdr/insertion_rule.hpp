@@ -30,8 +30,8 @@
 // least angle between segments, as distances from their end do not shrink from one shell to the other). Mutually visible
 // vertices are thus c lambda apart, and the domain is bounded: finitely many insertions. Vertices of the volume that are taken
 // out again (local_rewrap.hpp) are finitely many, too. Without inheritance c would have to be 1. (That it is 1 at small
-// angles in 3D is for the size of the meshes, not for the proof: docs/performance.md.) The points that end a run in 3D follow a rule
-// of their own (refiner_improvement.cpp). Pure functions; any thread.
+// angles in 3D is for the size of the meshes, not for the proof: docs/performance.md.) What ends a run in 3D follows rules of its
+// own (refiner_improvement.cpp). Pure functions; any thread.
 #pragma once
 
 #include <array>

@@ -17,11 +17,14 @@
 #include <optional>
 #include <set>
 #include <span>
+#include <type_traits>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "pgdr/cavity.hpp"
 #include "pgdr/cell_bounds.hpp"
+#include "pgdr/contraction.hpp"
 #include "pgdr/insertion_rule.hpp"
 #include "pgdr/key_set.hpp"
 #include "pgdr/local_flips.hpp"
@@ -39,12 +42,14 @@ struct Improvement;
 /// What was done, in one visit or in all.
 struct RefineCounts {
   std::uint64_t committed = 0;         ///< insertions
+  std::uint64_t taken_out = 0;         ///< vertices, in the end
   std::uint64_t refused = 0;           ///< entries that the insertion rule refused
   std::uint64_t selector_outside = 0;  ///< points of the selector outside their disk
 
   /// Adds each.
   RefineCounts& operator+=(const RefineCounts& o) {
     committed += o.committed;
+    taken_out += o.taken_out;
     refused += o.refused;
     selector_outside += o.selector_outside;
     return *this;
@@ -253,6 +258,13 @@ class Refiner {
   std::vector<Home> homes_of_cavity() const;
   bool violations_are_explained(const Place& p, bool& any) const;
 
+  // refiner_contraction.cpp
+  Outcome take_out(const Item& e);
+  double excess_about_vertex() const;
+  std::optional<double> gain_of_contraction(double excess, double least) const;
+  std::vector<Home> homes_of_turned(std::size_t i) const;
+  bool contraction_is_explained(bool& any) const;
+
   // refiner_selectors.cpp
   class View;
   /// Where the selector puts the point of a cell over the radius-edge bound; nothing if the claim is too small to tell.
@@ -274,6 +286,11 @@ class Refiner {
   Pools pools_;
   Cavity<D> cavity_;
   LocalFlips<D> flips_;
+  struct NoContraction {
+    NoContraction(Mesh<D>&, const Domain<D>&) {}
+    void set_area(const VisitArea<D>*) {}
+  };
+  std::conditional_t<D == 3, Contraction, NoContraction> contraction_;
   RegionVisit<D>* visit_ = nullptr;
   std::vector<Item> abroad_;  ///< elements with their circumcentre in other regions
   std::set<std::vector<VertexId>> flipped_;  ///< cells that flips of a mending visit have made, by their vertices
@@ -284,6 +301,8 @@ class Refiner {
   std::optional<EntityPair> last_refusal_;
   KeySet distinct_;
   RefusalMemo<D> memo_;  ///< of the visit
+  /// Vertices that no contraction takes out, and what is about them (surroundings_of); of the visit.
+  std::unordered_map<std::uint32_t, std::uint64_t> rooted_;
   mutable std::map<std::pair<std::uint64_t, std::uint64_t>, double> angles_;  ///< of pairs of entities, in degrees
   mutable std::vector<CellId> seen_;  ///< that it took to decide about the entry treated, with repetitions
   bool unexplained_ = false;  ///< is the element treated one that stays poor for no reason?

@@ -114,6 +114,7 @@ class LeafRefinement {
   bool may_improve(const PoorFindings& found) const;
   void list_for_improvement();
   std::vector<bool> keep(std::span<const PoorCell> excusing);
+  StopCause improve_listed();
   StopCause improve(PoorReasons<D>& reasons, PoorFindings& found);
   void total_statistics();
   std::vector<Entry<D>> violations_everywhere();
