@@ -75,7 +75,7 @@ double CellBounds<D>::measure_of(int region) const {
 
 template <int D>
 double CellBounds<D>::excess(const Simplex<D>& s, int region) const {
-  constexpr double most_powers = 20, of_power = 1.0 / 16;
+  constexpr double most_powers = 20, of_power = 1.0 / 8;
   if (!radius_edge_within<D>(s, radius_edge_bound)) {
     const double limit = radius_edge_bound * std::sqrt(shortest_edge_squared<D>(s));
     const double powers = std::log2(std::sqrt(circumsphere<D>(s).squared_radius) / limit);

@@ -34,6 +34,23 @@ bool crosses_in_facet(const Mesh<D>& mesh, const Domain<D>& domain, EntityId fac
   return false;
 }
 
+std::vector<EntityId> facets_at(const Mesh<3>& mesh, std::span<const CellId> cells) {
+  std::vector<EntityId> facets;
+  for (const CellId c : cells)
+    if (const auto* k = mesh.constraints(c))
+      for (int f = 0; f < 4; ++f)
+        if ((k->faces >> f & 1) && std::find(facets.begin(), facets.end(), k->face_entity[f]) == facets.end())
+          facets.push_back(k->face_entity[f]);
+  return facets;
+}
+
+bool lie_on_one(const Domain<3>& domain, const std::array<Home, 4>& homes, std::span<const EntityId> facets) {
+  return std::any_of(facets.begin(), facets.end(), [&](EntityId facet) {
+    const auto on = [&](Home home) { return lies_on<3>(domain, home, {EntityKind::facet, facet}); };
+    return std::all_of(homes.begin(), homes.end(), on);
+  });
+}
+
 bool tip_in_circle(const Mesh<3>& mesh, const Domain<3>& domain, EntityId facet, std::array<VertexId, 2> edge,
                    std::array<VertexId, 2> tips) {
   const int axis = domain.facets()[facet].axis;

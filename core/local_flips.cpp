@@ -11,7 +11,7 @@
 namespace pgdr {
 namespace {
 
-constexpr std::size_t longest_ring = 7, longest_open_ring = 64;
+constexpr std::size_t longest_open_ring = 64;
 
 template <int D>
 std::array<VertexId, D> face_without(const std::array<VertexId, D + 1>& v, int i) {
@@ -85,9 +85,9 @@ bool LocalFlips<D>::rewrap_pays(std::uint64_t allowance) const {
   return false;
 }
 
-/// The cells on both sides of the face become D cells round the edge between their apexes.
+/// The D cells round the edge between the apexes that the cells on both sides of the face become; none if one is turned over.
 template <int D>
-bool LocalFlips<D>::try_two_cells(Pools& pools, CellId c, int face) {
+auto LocalFlips<D>::cells_across(CellId c, int face) const -> std::vector<NewCell> {
   const auto& k = mesh_->cell(c);
   const Link link = k.links[face];
   const VertexId apex = mesh_->cell(link.cell()).vertices[link.face()];
@@ -96,11 +96,18 @@ bool LocalFlips<D>::try_two_cells(Pools& pools, CellId c, int face) {
     if (i == face) continue;
     Vertices v = k.vertices;
     v[i] = apex;
-    if (!positive(v)) return false;
+    if (!positive(v)) return {};
     cells.push_back({v, mesh_->region(c)});
   }
-  take_old({c, link.cell()});
-  if (const int before = violations(); violations_of(cells, before) > before) return false;
+  return cells;
+}
+
+template <int D>
+bool LocalFlips<D>::try_two_cells(Pools& pools, CellId c, int face) {
+  const std::vector<NewCell> cells = cells_across(c, face);
+  if (cells.empty()) return false;
+  take_old({c, mesh_->cell(c).links[face].cell()});
+  if (const int before = violations(); violations_of(cells, before).size() > static_cast<std::size_t>(before)) return false;
   replace(pools, cells);
   return true;
 }
@@ -190,13 +197,8 @@ auto LocalFlips<D>::try_edge(Pools& pools, CellId c, int a, int b, Condition con
   if (const Outcome outcome = take_ring(c, a, b, longest_ring, ring); outcome != Outcome::flipped) return outcome;
   if (!ring.tips.empty() && !crosses_in_facet<D>(*mesh_, *domain_, ring.entity, {u, w}, {ring.tips[0], ring.tips[1]}))
     return Outcome::stuck;
-  std::vector<VertexId> hubs = ring.tips;
-  if (hubs.empty())
-    for (const CellId r : ring.cells)
-      for (const VertexId v : mesh_->cell(r).vertices)
-        if (v != u && v != w && std::find(hubs.begin(), hubs.end(), v) == hubs.end()) hubs.push_back(v);
   int most = -1;  // of violations; most hubs have no fans and need none counted
-  for (const VertexId hub : hubs) {
+  for (const VertexId hub : hubs(ring, u, w)) {
     const std::vector<NewCell> cells = fans(ring, u, w, hub);
     if (cells.empty()) continue;
     if (most < 0) {
@@ -204,11 +206,22 @@ auto LocalFlips<D>::try_edge(Pools& pools, CellId c, int a, int b, Condition con
       add_walls(ring, u, w);
       most = violations() - (condition == Condition::better && ring.cells.size() > 3);
     }
-    if (most < 0 || !walls_are_free() || violations_of(cells, most) > most) continue;
+    if (most < 0 || !walls_are_free() || violations_of(cells, most).size() > static_cast<std::size_t>(most)) continue;
     replace(pools, cells);
     return Outcome::flipped;
   }
   return Outcome::stuck;
+}
+
+/// The vertices of the ring, or of these the tips if there are any.
+template <int D>
+auto LocalFlips<D>::hubs(const Ring& ring, VertexId u, VertexId w) const -> std::vector<VertexId> {
+  std::vector<VertexId> hubs = ring.tips;
+  if (!hubs.empty()) return hubs;
+  for (const CellId r : ring.cells)
+    for (const VertexId v : mesh_->cell(r).vertices)
+      if (v != u && v != w && std::find(hubs.begin(), hubs.end(), v) == hubs.end()) hubs.push_back(v);
+  return hubs;
 }
 
 /// The cells about the hub that take the place of the ring about uw; none if one of them would be turned over.
@@ -303,14 +316,14 @@ bool LocalFlips<D>::is_wall(const Face& f) const {
          std::find(new_walls_.begin(), new_walls_.end(), f) != new_walls_.end();
 }
 
-/// The same that these cells would have, in place of the old ones; no more are counted than one above `most`.
+/// The same that these cells would have, in place of the old ones; no more are looked for than one above `most`.
 template <int D>
-int LocalFlips<D>::violations_of(const std::vector<NewCell>& cells, int most) {
-  int count = 0;
+auto LocalFlips<D>::violations_of(const std::vector<NewCell>& cells, std::size_t most) -> std::vector<Violation> {
+  std::vector<Violation> found;
   faces_.clear();
   for (const NewCell& cell : cells)
     for (int f = 0; f <= D; ++f) faces_.push_back(face_without<D>(cell.vertices, f));
-  for (std::size_t i = 0; i < faces_.size() && count <= most; ++i) {
+  for (std::size_t i = 0; i < faces_.size() && found.size() <= most; ++i) {
     if (is_wall(faces_[i])) continue;
     VertexId apex = no_vertex;
     if (const OuterFace* o = outer(faces_[i])) {
@@ -321,9 +334,10 @@ int LocalFlips<D>::violations_of(const std::vector<NewCell>& cells, int most) {
         if (j != i && faces_[j] == faces_[i]) apex = cells[j / (D + 1)].vertices[j % (D + 1)];
     }
     if (apex == no_vertex) continue;
-    count += in_sphere<D>(simplex(cells[i / (D + 1)].vertices), mesh_->point(apex)) == Sign::positive;
+    const std::size_t cell = i / (D + 1);
+    if (in_sphere<D>(simplex(cells[cell].vertices), mesh_->point(apex)) == Sign::positive) found.push_back({cell, apex});
   }
-  return count;
+  return found;
 }
 
 template <int D>

@@ -57,7 +57,7 @@ Refiner<D>::Refiner(RefineContext<D>& context, Pools pools)
       pools_(std::move(pools)),
       cavity_(context.mesh, &context.domain),
       flips_(context.mesh, context.domain),
-      contraction_(context.mesh, context.domain) {
+      move_(context.mesh, context.domain) {
   cavity_.set_seen(&seen_);
   flips_.set_ended([this] { return ended(); });
   flips_.set_excusing(&context.excusing);
@@ -236,7 +236,7 @@ template <int D>
 void Refiner<D>::look_at_budget() {
   const auto& counts = visit_->counts;
   if (options_->stop.stop_requested()) context_->stop = static_cast<int>(StopCause::cancelled);
-  const std::uint64_t treated = counts.committed + counts.taken_out + counts.refused;
+  const std::uint64_t treated = counts.committed + counts.improved + counts.refused;
   if (treated < checked_at_) return;
   const std::uint64_t vertices = context_->vertices.fetch_add(counts.committed - reported_) + counts.committed - reported_;
   reported_ = counts.committed;
@@ -344,10 +344,10 @@ void Refiner<D>::begin(RegionVisit<D>& visit) {
   abroad_.clear();
   seen_.clear();
   memo_.clear();
-  rooted_.clear();
+  settled_ = {};
   cavity_.set_area(visit.area);
   flips_.set_area(visit.area);
-  contraction_.set_area(visit.area);
+  move_.set_area(visit.area);
   flips_left_ = 0;
   flipped_.clear();
   checked_at_ = reported_ = 0;

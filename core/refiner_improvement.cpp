@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The last visits of a run, in 3D: vertices are taken out (refiner_contraction.cpp) and points put in for elements that stay
-// poor, wherever that leaves fewer of these, or better ones.
+// The last visits of a run, in 3D: vertices are taken out and moved (refiner_vertex_moves.cpp), faces and edges flipped
+// (refiner_flips.cpp), and points put in for elements that stay poor, wherever that leaves fewer of these, or better ones.
 //
-// Let the excess of an element be 0 within its bounds, else at least 1 and at most 2.25 (CellBounds::excess). A point goes in
-// only if the elements that it makes have less excess than those that it takes the place of, by at least 1/16, and a vertex
-// only if they have no more. All in all there is at most 2.25 for each poor element when these visits begin, so that they
-// insert at most 36 points for each; and they take out no more vertices than there were and come. No room is asked for, as
-// nothing else follows from such a point: entities that it encroaches upon are left as they are.
+// Let the excess of an element be 0 within its bounds, else at least 1 and at most 3.5 (CellBounds::excess). Anything is done
+// only if the elements that it makes have less excess than those that they take the place of, by at least 1/128; but a vertex
+// is taken out if they have no more. All in all there is at most 3.5 for each poor element when these visits begin, so that
+// they insert at most 448 points for each; and they take out no more vertices than there were and come. No room is asked for,
+// as nothing else follows from such a point: entities that it encroaches upon are left as they are.
 //
 // What is new is explained as the rest is: a new element that is poor, and a new face that is not locally Delaunay, is allowed
 // only beside two entities that meet at a small angle and touch its own corners, so that no later point can take that away.
@@ -24,8 +24,6 @@
 namespace pgdr {
 namespace {
 
-constexpr double least_gain = 1.0 / 16;
-constexpr std::size_t most_cells = 100;  // of a cavity: larger ones, of tangles, are slow and gain little
 constexpr double margin = 1.0 / 64;  // of a subsegment: no point is nearer to its ends than that part of it
 
 using Ridge = std::array<VertexId, 2>;
@@ -113,11 +111,9 @@ auto Refiner<D>::collect_at(const Place& p) -> typename Cavity<D>::Status {
   };
   cavity_.release();
   Status status = collect();
-  if (status == Status::ok && cavity_.cells().size() > most_cells) return Status::not_star_shaped;
+  if (status == Status::ok && cavity_.cells().size() > most_cells_changed) return Status::not_star_shaped;
   if (status == Status::ok && p.at.kind() == EntryKind::face && edge_beyond(p.x)) return Status::not_star_shaped;
-  const auto& kept = context_->improvement->kept;
-  const auto is_kept = [&kept](CellId c) { return index(c) < kept.size() && kept[index(c)]; };
-  if (status == Status::ok && std::any_of(cavity_.cells().begin(), cavity_.cells().end(), is_kept)) return Status::swallows;
+  if (status == Status::ok && keeps_any(cavity_.cells())) return Status::swallows;
   return status == Status::ok ? cavity_.make_star_shaped() : status;
 }
 
@@ -133,9 +129,7 @@ Simplex<D> Refiner<D>::prospect(std::size_t n) const {
 /// By how much the collected point makes the excess less; nothing if it does not.
 template <int D>
 double Refiner<D>::gain_of_collected() const {
-  double left = 0;
-  for (const CellId c : cavity_.cells())
-    if (context_->bounds.test(*mesh_, c)) left += context_->bounds.excess(mesh_->simplex(c), mesh_->region(c));
+  double left = excess_of(cavity_.cells());
   for (std::size_t n = 0; n < cavity_.boundary().size() && left > 0; ++n)
     left -= context_->bounds.excess(prospect(n), mesh_->region(cavity_.boundary()[n].cell));
   return left;
@@ -150,8 +144,7 @@ bool Refiner<D>::is_explained(const Place& p, std::size_t n, VertexId further) c
   for (int i = 0; i <= D; ++i)
     if (i != f.face) homes.push_back(mesh_->vertex(mesh_->cell(f.cell).vertices[i]).home);
   if (further != no_vertex) homes.push_back(mesh_->vertex(further).home);
-  const auto sphere = circumsphere<D>(prospect(n));
-  return context_->improvement->reasons.has_reason(homes, {sphere.center, sphere.squared_radius});
+  return is_explained(homes, prospect(n));
 }
 
 /// Would small angles explain all new elements that are poor: at their own corners, or else at those of the cavity?
@@ -162,8 +155,7 @@ bool Refiner<D>::poor_ones_are_explained(const Place& p) const {
     if (!(context_->bounds.excess(prospect(n), mesh_->region(cavity_.boundary()[n].cell)) > 0)) continue;
     if (is_explained(p, n, no_vertex)) continue;
     if (homes.empty()) homes = homes_of_cavity();
-    const auto sphere = circumsphere<D>(prospect(n));
-    if (!context_->improvement->reasons.has_reason(homes, {sphere.center, sphere.squared_radius})) return false;
+    if (!is_explained(homes, prospect(n))) return false;
   }
   return true;
 }
@@ -217,15 +209,10 @@ bool Refiner<D>::violations_are_explained(const Place& p, bool& any) const {
   return true;
 }
 
-/// Inserts the point that makes the excess of all elements less by most, the first of those that do.
+/// Inserts the point that lessens the excess most, the first of those that do.
 template <int D>
-auto Refiner<D>::improve(const Item& e) -> Outcome {
+auto Refiner<D>::insert_for_less(const Item& e) -> Outcome {
   using Status = typename Cavity<D>::Status;
-  if (const Outcome outcome = take_out(e); outcome != Outcome::refused) return outcome;
-  if (!context_->improvement->inserts) {
-    ++visit_->counts.refused;
-    return Outcome::refused;
-  }
   std::optional<Place> best;
   double most = least_gain;
   bool violates = false;
@@ -241,19 +228,59 @@ auto Refiner<D>::improve(const Item& e) -> Outcome {
     best = p;
     violates = any;
   }
-  if (!best) {
-    ++visit_->counts.refused;
-    return give_up(Outcome::refused);
-  }
+  if (!best) return give_up(Outcome::refused);
   collect_at(*best);
   cavity_.check_nothing_swallowed();
   cavity_.commit(pools_, best->home, rounded_down(insertion_radius<D>(*mesh_, cavity_)));
   ++visit_->counts.committed;
+  return note_change(e, cavity_.new_cells(), violates);
+}
+
+/// The excess of those that are poor.
+template <int D>
+double Refiner<D>::excess_of(const std::vector<CellId>& cells) const {
+  double sum = 0;
+  for (const CellId c : cells)
+    if (context_->bounds.test(*mesh_, c)) sum += context_->bounds.excess(mesh_->simplex(c), mesh_->region(c));
+  return sum;
+}
+
+/// Must one of them stay?
+template <int D>
+bool Refiner<D>::keeps_any(const std::vector<CellId>& cells) const {
+  const auto& kept = context_->improvement->kept;
+  return std::any_of(cells.begin(), cells.end(), [&kept](CellId c) { return index(c) < kept.size() && kept[index(c)]; });
+}
+
+/// Would small angles between entities with these homes explain that it is poor, or that a face of it is not locally Delaunay?
+template <int D>
+bool Refiner<D>::is_explained(const std::vector<Home>& homes, const Simplex<D>& s) const {
+  const auto sphere = circumsphere<D>(s);
+  return context_->improvement->reasons.has_reason(homes, {sphere.center, sphere.squared_radius});
+}
+
+/// Lists what is poor after a change made for e. `violates`: is a new face not locally Delaunay?
+template <int D>
+auto Refiner<D>::note_change(const Item& e, const std::vector<CellId>& new_cells, bool violates) -> Outcome {
+  ++visit_->counts.improved;
   visit_->changed_mesh = true;
   visit_->violations_seen = visit_->violations_seen || violates;
-  for (const CellId c : cavity_.new_cells()) list_if_poor(c, context_->bounds.test(*mesh_, c));
-  if (alive(e)) list_poor(e.cell, e.which());  // the point is on an entity far from it
+  for (const CellId c : new_cells) list_if_poor(c, context_->bounds.test(*mesh_, c));
+  if (alive(e)) list_poor(e.cell, e.which());  // the change was beside it
   return Outcome::committed;
+}
+
+/// Does something for an element that stays poor, if there is anything to be done.
+template <int D>
+auto Refiner<D>::improve(const Item& e) -> Outcome {
+  Outcome outcome = change_vertex(e, VertexChange::take_out);
+  if (!context_->improvement->takes_out_alone) {
+    if (outcome == Outcome::refused) outcome = flip_for_less(e);
+    if (outcome == Outcome::refused) outcome = change_vertex(e, VertexChange::move);
+    if (outcome == Outcome::refused) outcome = insert_for_less(e);
+  }
+  visit_->counts.refused += outcome == Outcome::refused;
+  return outcome;
 }
 
 template class Refiner<3>;  // nothing of this in 2D

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The last visits of a run, which take out vertices and insert points for elements that stay poor
-// (core/refiner_improvement.cpp): of leaves, as those before them, with claims as large as it takes. Vertices go before points
-// come: that leaves as few poor elements, and fewer of all.
+// The last visits of a run, which change the mesh for elements that stay poor (core/refiner_improvement.cpp): of leaves, as those
+// before them, with claims as large as it takes. Vertices are taken out before points come: that leaves as few poor elements, and
+// fewer of all.
 #include <utility>
 
 #include "detail/leaf_refinement.hpp"
@@ -62,31 +62,29 @@ bool LeafRefinement<D>::may_improve(const PoorFindings& found) const {
 /// Visits until nothing that was refused is worth another try.
 template <int D>
 StopCause LeafRefinement<D>::improve_listed() {
-  const auto changes = [this] { return counts_.committed + counts_.taken_out; };
   StopCause stop;
   std::uint64_t before;
   do {
-    before = changes();
+    before = counts_.improved;
     stop = drain();
-  } while (stop == StopCause::finished && changes() != before && relist_refused());
+  } while (stop == StopCause::finished && counts_.improved != before && relist_refused());
   return stop;
 }
 
 template <int D>
 StopCause LeafRefinement<D>::improve(PoorReasons<D>& reasons, PoorFindings& found) {
   if (!may_improve(found)) return StopCause::finished;
-  Improvement<D> improvement{reasons, false, keep(reasons.excusing_cells(found))};
-  const RefineCounts before = counts_;
+  Improvement<D> improvement{reasons, true, keep(reasons.excusing_cells(found))};
+  const std::uint64_t before = counts_.improved;
   context_.improvement = &improvement;
   StopCause stop = StopCause::finished;
-  for (const bool inserts : {false, true}) {
-    improvement.inserts = inserts;
+  for (const bool alone : {true, false}) {
+    improvement.takes_out_alone = alone;
     list_for_improvement();
     if (stop == StopCause::finished) stop = improve_listed();
   }
   context_.improvement = nullptr;
-  const bool changed = counts_.committed != before.committed || counts_.taken_out != before.taken_out;
-  if (stop == StopCause::finished && changed) found = look_for_poor(reasons);
+  if (stop == StopCause::finished && counts_.improved != before) found = look_for_poor(reasons);
   return stop;
 }
 

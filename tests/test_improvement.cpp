@@ -97,8 +97,8 @@ TEST(Excess, IsWhatBoundsSay) {
   bounds.radius_edge_bound = 2;
   EXPECT_EQ(bounds.excess(good, 0), 0);
   EXPECT_GT(bounds.excess(needle, 0), 1);
-  EXPECT_LT(bounds.excess(needle, 0), 1.25);
-  EXPECT_LE(bounds.excess(flat, 0), 2.25);
+  EXPECT_LT(bounds.excess(needle, 0), 1.5);
+  EXPECT_LE(bounds.excess(flat, 0), 3.5);
   bounds.size = SizingField<3>(0.8);
   EXPECT_EQ(bounds.excess(good, 0), 1);
   bounds.size = SizingField<3>(0.9);

@@ -50,8 +50,8 @@ class CellBounds {
   }
   /// The same of a cell whose shape is known.
   CellVerdict test(const Mesh<D>& mesh, CellId c, const CellShape& shape) const;
-  /// How far a cell of these corners in the region would be over its bounds: 0 within; over any of them 1, and over that of shape a
-  /// sixteenth more for each power of two by which it is, up to 1.25 more. Called of cells that are not there, too.
+  /// How far a cell of these corners in the region would be over its bounds: 0 within; over any of them 1, and over that of shape an
+  /// eighth more for each power of two by which it is, up to 2.5 more. Called of cells that are not there, too.
   double excess(const Simplex<D>& s, int region) const;
   /// Would it be within those of size?
   bool within_size(const Simplex<D>& s, int region) const;

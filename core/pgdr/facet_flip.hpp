@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // May the edge between two subfacets of one facet be flipped within the facet, and should it? Exact, in the facet's
-// projection. Pure functions; any thread that may read the vertices.
+// projection. And what is flat but for rounding. Pure functions; any thread that may read the vertices.
 #pragma once
 
 #include <array>
+#include <span>
+#include <vector>
 
 #include "pgdr/mesh.hpp"
 
@@ -19,6 +21,11 @@ bool lie_in_line(const Mesh<D>& mesh, const Domain<D>& domain, const std::array<
 template <int D>
 bool crosses_in_facet(const Mesh<D>& mesh, const Domain<D>& domain, EntityId facet, std::array<VertexId, 2> edge,
                       std::array<VertexId, 2> tips);
+
+/// Of the constrained faces of the cells, each once.
+std::vector<EntityId> facets_at(const Mesh<3>& mesh, std::span<const CellId> cells);
+/// Do all four lie on one of the facets, so that a cell with these corners has a volume by rounding alone?
+bool lie_on_one(const Domain<3>& domain, const std::array<Home, 4>& homes, std::span<const EntityId> facets);
 
 /// Does the one tip lie inside the (perturbed) circumcircle of the other and the edge?
 bool tip_in_circle(const Mesh<3>& mesh, const Domain<3>& domain, EntityId facet, std::array<VertexId, 2> edge,

@@ -1,21 +1,26 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the last visits of a run heed, which take out vertices and insert points for elements that stay poor
+// What the last visits of a run heed, which change the mesh for elements that stay poor
 // (refiner_improvement.cpp). Read by all of them at once.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "pgdr/poor_reasons.hpp"
 
 namespace pgdr {
 
+constexpr double least_gain = 1.0 / 128;  ///< by which anything lessens the excess
+constexpr double least_gain_without = -1e-9;  ///< the same of a vertex that is taken out: none, but for rounding
+constexpr std::size_t most_cells_changed = 100;  ///< at once: more, of tangles, are slow and gain little
+
 /// See above.
 template <int D>
 struct Improvement {
   const PoorReasons<D>& reasons;  ///< which no visit changes
-  bool inserts = false;          ///< points, and not only takes out vertices
+  bool takes_out_alone = true;   ///< vertices; does nothing else
   std::vector<bool> kept;  ///< by slot: of cells that must stay, as what stays elsewhere is explained by them
 };
 

@@ -27,6 +27,28 @@ class LocalFlips {
   using Pools = typename Mesh<D>::Pools;  ///< of the worker
   /// As `repair` says.
   enum class Outcome { flipped, stuck, not_owned };
+  /// A cell that a flip makes.
+  struct NewCell {
+    std::array<VertexId, D + 1> vertices;  ///< in positive order
+    std::uint16_t region;  ///< that it is in
+  };
+  /// Cells about an edge.
+  struct Ring {
+    std::vector<CellId> cells;  ///< in order
+    std::vector<VertexId> tips;  ///< far corners of the two subfacets at the edge, if it lies inside a facet
+    EntityId entity = no_entity;  ///< that facet
+  };
+  /// Other cells for some: a face, or an edge and with it perhaps two subfacets, makes room for what crosses it.
+  struct Flip {
+    Ring old;  ///< the cells that go
+    std::array<VertexId, 2> edge{no_vertex, no_vertex};  ///< likewise
+    std::vector<NewCell> cells;  ///< those that come
+  };
+  /// A face that would not be locally Delaunay.
+  struct Violation {
+    std::size_t cell;  ///< index of a new cell
+    VertexId beyond;  ///< in its sphere
+  };
 
   /// Both must outlive it.
   LocalFlips(Mesh<D>& mesh, const Domain<D>& domain) : mesh_(&mesh), domain_(&domain), rewrap_(mesh, domain) {}
@@ -54,6 +76,13 @@ class LocalFlips {
   /// A cell with all its vertices on one facet, and two subfacets of it, is flat but for rounding: takes it out, which flips
   /// the facet's triangulation there. Stuck: c is no such cell, or cannot be taken out.
   Outcome take_off_flat(Pools& pools, CellId c);
+  /// 3D: the flips of faces and edges of c that leave positively oriented cells, none of them with all corners on one facet. Adds
+  /// the cells about each edge to `seen`. Not owned: there might be more.
+  Outcome find_flips(CellId c, std::vector<Flip>& flips, std::vector<CellId>& seen) const;
+  /// The faces that are not locally Delaunay after a flip; no value if it may not be, as a subfacet is where it makes one.
+  std::optional<std::vector<Violation>> violations_after(const Flip& flip);
+  /// Makes one of these flips.
+  void make(Pools& pools, const Flip& flip);
   /// Has it, so far in this visit, been worth its while in large regions? `allowance`: what may be spent in vain.
   bool rewrap_pays(std::uint64_t allowance) const;
   /// The cells made, or laid bare, by the last success.
@@ -73,18 +102,9 @@ class LocalFlips {
     EntityId entity;
   };
 
-  struct NewCell {
-    Vertices vertices;
-    std::uint16_t region;
-  };
-  struct Ring {
-    std::vector<CellId> cells;
-    std::vector<VertexId> tips;  ///< far corners of the two subfacets at the edge, if it lies inside a facet
-    EntityId entity = no_entity;
-  };
-
   bool owns(CellId c) const { return !area_ || area_->owns(*mesh_, c); }
   bool may_read(CellId c) const { return !area_ || area_->may_read(*mesh_, c); }  ///< for assertions
+  std::vector<NewCell> cells_across(CellId c, int face) const;
   bool try_two_cells(Pools& pools, CellId c, int face);
   /// Of the number of violations: fewer, or as many in a smaller ring; at most as many.
   enum class Condition { better, no_worse };
@@ -94,13 +114,16 @@ class LocalFlips {
   std::optional<std::array<int, 2>> faces_of_flat(CellId c) const;
   void take_old(std::vector<CellId> cells);
   int violations() const;
+  std::vector<VertexId> hubs(const Ring& ring, VertexId u, VertexId w) const;
+  void add_flip(Flip flip, std::vector<Flip>& flips) const;
+  Outcome find_edge_flips(CellId c, int a, int b, std::vector<Flip>& flips, std::vector<CellId>& seen) const;
   std::vector<NewCell> fans(const Ring& ring, VertexId u, VertexId w, VertexId hub) const;
   void add_walls(const Ring& ring, VertexId u, VertexId w);
   bool positive(const Vertices& v) const;
   Simplex<D> simplex(const Vertices& v) const;
   bool is_wall(const Face& f) const;
   bool walls_are_free() const;
-  int violations_of(const std::vector<NewCell>& cells, int most);
+  std::vector<Violation> violations_of(const std::vector<NewCell>& cells, std::size_t most);
   void replace(Pools& pools, const std::vector<NewCell>& cells);
   CellId make_cell(Pools& pools, const NewCell& cell);
   const OuterFace* outer(const Face& f) const;
@@ -111,6 +134,8 @@ class LocalFlips {
     void set_ended(const std::function<bool()>&) {}
     void set_excusing(const std::vector<bool>*) {}
   };
+
+  static constexpr std::size_t longest_ring = 7;
 
   Mesh<D>* mesh_;
   const Domain<D>* domain_;

@@ -24,13 +24,13 @@
 
 #include "pgdr/cavity.hpp"
 #include "pgdr/cell_bounds.hpp"
-#include "pgdr/contraction.hpp"
 #include "pgdr/insertion_rule.hpp"
 #include "pgdr/key_set.hpp"
 #include "pgdr/local_flips.hpp"
 #include "pgdr/refine_options.hpp"
 #include "pgdr/refusal_memo.hpp"
 #include "pgdr/shells.hpp"
+#include "pgdr/vertex_move.hpp"
 #include "pgdr/visit_area.hpp"
 #include "pgdr/work_list.hpp"
 
@@ -42,14 +42,14 @@ struct Improvement;
 /// What was done, in one visit or in all.
 struct RefineCounts {
   std::uint64_t committed = 0;         ///< insertions
-  std::uint64_t taken_out = 0;         ///< vertices, in the end
+  std::uint64_t improved = 0;          ///< changes for elements that stay poor, insertions among them
   std::uint64_t refused = 0;           ///< entries that the insertion rule refused
   std::uint64_t selector_outside = 0;  ///< points of the selector outside their disk
 
   /// Adds each.
   RefineCounts& operator+=(const RefineCounts& o) {
     committed += o.committed;
-    taken_out += o.taken_out;
+    improved += o.improved;
     refused += o.refused;
     selector_outside += o.selector_outside;
     return *this;
@@ -82,7 +82,7 @@ struct RefineContext {
   /// By vertex: those on entities that are named as reasons, which excuse violations beside them; empty before that is known. Set
   /// while no visit runs.
   std::vector<bool> excusing;
-  /// 3D: visits insert points for elements that stay poor, and treat nothing else (refiner_improvement.cpp). Set while no visit
+  /// 3D: visits change the mesh for elements that stay poor, and treat nothing else (refiner_improvement.cpp). Set while no visit
   /// runs.
   const Improvement<D>* improvement = nullptr;
   const Shells<D> shells;  ///< none in 3D, where the front end alone splits on them
@@ -258,12 +258,32 @@ class Refiner {
   std::vector<Home> homes_of_cavity() const;
   bool violations_are_explained(const Place& p, bool& any) const;
 
-  // refiner_contraction.cpp
-  Outcome take_out(const Item& e);
-  double excess_about_vertex() const;
-  std::optional<double> gain_of_contraction(double excess, double least) const;
+  Outcome insert_for_less(const Item& e);
+  double excess_of(const std::vector<CellId>& cells) const;
+  bool keeps_any(const std::vector<CellId>& cells) const;
+  bool is_explained(const std::vector<Home>& homes, const Simplex<D>& s) const;
+  Outcome note_change(const Item& e, const std::vector<CellId>& new_cells, bool violates);
+
+  // refiner_flips.cpp
+  using Flip = typename LocalFlips<D>::Flip;
+  Outcome flip_for_less(const Item& e);
+  Simplex<D> simplex_of(const std::array<VertexId, D + 1>& vertices) const;
+  std::optional<double> gain_of_flip(const Flip& flip, double least) const;
+  bool flip_is_explained(const Flip& flip, bool& any);
+
+  // refiner_vertex_moves.cpp
+  enum class VertexChange { take_out, move };
+  /// Of vertices, what was about them (surroundings_of) when they had nowhere to go.
+  using Settled = std::unordered_map<std::uint32_t, std::uint64_t>;
+  Outcome change_vertex(const Item& e, VertexChange change);
+  bool add_vertices_beyond(CellId c, std::vector<std::pair<VertexId, CellId>>& vertices) const;
+  std::optional<double> gain_of_move(double excess, double least) const;
+  bool move_keeps_sizes() const;
   std::vector<Home> homes_of_turned(std::size_t i) const;
-  bool contraction_is_explained(bool& any) const;
+  bool move_is_explained(bool& any) const;
+  std::vector<Point<D>> places_to_move_to() const;
+  void add_places_on_segment(const std::vector<VertexId>& ends, std::vector<Point<D>>& places) const;
+  bool is_settled(Settled& settled) const;
 
   // refiner_selectors.cpp
   class View;
@@ -286,11 +306,11 @@ class Refiner {
   Pools pools_;
   Cavity<D> cavity_;
   LocalFlips<D> flips_;
-  struct NoContraction {
-    NoContraction(Mesh<D>&, const Domain<D>&) {}
+  struct NoVertexMove {
+    NoVertexMove(Mesh<D>&, const Domain<D>&) {}
     void set_area(const VisitArea<D>*) {}
   };
-  std::conditional_t<D == 3, Contraction, NoContraction> contraction_;
+  std::conditional_t<D == 3, VertexMove, NoVertexMove> move_;
   RegionVisit<D>* visit_ = nullptr;
   std::vector<Item> abroad_;  ///< elements with their circumcentre in other regions
   std::set<std::vector<VertexId>> flipped_;  ///< cells that flips of a mending visit have made, by their vertices
@@ -301,8 +321,7 @@ class Refiner {
   std::optional<EntityPair> last_refusal_;
   KeySet distinct_;
   RefusalMemo<D> memo_;  ///< of the visit
-  /// Vertices that no contraction takes out, and what is about them (surroundings_of); of the visit.
-  std::unordered_map<std::uint32_t, std::uint64_t> rooted_;
+  std::array<Settled, 2> settled_;  ///< of moves, of taking out; of the visit
   mutable std::map<std::pair<std::uint64_t, std::uint64_t>, double> angles_;  ///< of pairs of entities, in degrees
   mutable std::vector<CellId> seen_;  ///< that it took to decide about the entry treated, with repetitions
   bool unexplained_ = false;  ///< is the element treated one that stays poor for no reason?

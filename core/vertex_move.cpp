@@ -1,10 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pgdr/contraction.hpp"
+#include "pgdr/vertex_move.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <cmath>
+#include <limits>
 
+#include "pgdr/cavity.hpp"
 #include "pgdr/facet_flip.hpp"
 #include "pgdr/insertion_rule.hpp"
 #include "pgdr/pinched_edges.hpp"
@@ -21,15 +25,16 @@ void add_new(std::vector<T>& list, const T& x) {
 }  // namespace
 
 /// Of the vertex in the cell; -1 if it has none such.
-int Contraction::number_of(CellId c, VertexId v) const {
+int VertexMove::number_of(CellId c, VertexId v) const {
   const auto& vertices = mesh_->cell(c).vertices;
   const auto at = std::find(vertices.begin(), vertices.end(), v);
   return at == vertices.end() ? -1 : static_cast<int>(at - vertices.begin());
 }
 
-auto Contraction::collect(VertexId v, CellId c, std::size_t most_cells) -> Status {
+auto VertexMove::collect(VertexId v, CellId c, std::size_t most_cells) -> Status {
   v_ = v;
   cells_.clear();
+  corners_.clear();
   const Home home = mesh_->vertex(v).home;
   if (home.kind() == EntityKind::vertex) return Status::stays;
   // No walk across faces leads to all cells at a subsegment with several fans.
@@ -39,36 +44,42 @@ auto Contraction::collect(VertexId v, CellId c, std::size_t most_cells) -> Statu
   const auto take = [&](CellId x) {
     mesh_->mark(x);
     cells_.push_back(x);
+    corners_.push_back(number_of(x, v));
   };
   take(c);
   for (std::size_t i = 0; i < cells_.size() && status == Status::ok; ++i)
-    for (const Link next : mesh_->cell(cells_[i]).links) {
-      if (!next || mesh_->marked(next.cell()) || number_of(next.cell(), v) < 0) continue;
+    for (int f = 0; f < 4; ++f) {
+      const Link next = mesh_->cell(cells_[i]).links[f];
+      if (f == corners_[i] || !next || mesh_->marked(next.cell())) continue;
       if (cells_.size() >= most_cells) status = Status::stays;
       if (status == Status::ok && !owns(next.cell())) status = Status::not_owned;
       if (status != Status::ok) break;
       take(next.cell());
     }
-  facets_.clear();
-  for (const CellId x : cells_) {
-    mesh_->unmark(x);
-    if (const auto* k = mesh_->constraints(x))
-      for (int f = 0; f < 4; ++f)
-        if (k->faces >> f & 1) add_new(facets_, k->face_entity[f]);
-  }
+  for (const CellId x : cells_) mesh_->unmark(x);
+  facets_ = facets_at(*mesh_, cells_);
   return status;
 }
 
-std::vector<VertexId> Contraction::targets() const {
+std::vector<VertexId> VertexMove::neighbours() const {
+  std::vector<VertexId> all;
+  for (const CellId c : cells_)
+    for (const VertexId w : mesh_->cell(c).vertices)
+      if (w != v_) add_new(all, w);
+  return all;
+}
+
+std::vector<VertexId> VertexMove::targets() const {
   std::vector<VertexId> to;
   const Home home = mesh_->vertex(v_).home;
+  if (home.kind() == EntityKind::volume) return neighbours();
   for (const CellId c : cells_) {
     const auto& vertices = mesh_->cell(c).vertices;
     const int at = number_of(c, v_);
     const auto* k = mesh_->constraints(c);
     for (int i = 0; i < 4; ++i) {
       if (i == at) continue;
-      bool may = home.kind() == EntityKind::volume;
+      bool may = false;
       if (home.kind() == EntityKind::segment) may = k && (k->edges >> edge_of_ends[at][i] & 1);
       for (int f = 0; f < 4 && home.kind() == EntityKind::facet && k && !may; ++f) may = f != at && f != i && (k->faces >> f & 1);
       if (may) add_new(to, vertices[i]);
@@ -78,7 +89,7 @@ std::vector<VertexId> Contraction::targets() const {
 }
 
 /// Faces that become one may not both be constrained, nor edges that become one both be subsegments.
-bool Contraction::may_flatten(const Flattened& x) {
+bool VertexMove::may_flatten(const Flattened& x) {
   if (mesh_->constrained(x.cell, x.of_u) && mesh_->constrained(x.cell, x.of_v)) return false;
   const auto* k = mesh_->constraints(x.cell);
   if (!k) return true;
@@ -92,7 +103,8 @@ bool Contraction::may_flatten(const Flattened& x) {
 }
 
 /// Do the subfacets at the vertex, of a cell without the target, stay on the side of their other edge where they are?
-bool Contraction::keeps_subfacets(CellId c, int of_v) const {
+bool VertexMove::keeps_subfacets(const Turned& t) const {
+  const auto [c, of_v] = t;
   const auto* k = mesh_->constraints(c);
   if (!k) return true;
   const auto& v = mesh_->cell(c).vertices;
@@ -100,55 +112,69 @@ bool Contraction::keeps_subfacets(CellId c, int of_v) const {
     if (f == of_v || !(k->faces >> f & 1)) continue;
     const int i = f == 0 ? (of_v == 1 ? 2 : 1) : (of_v == 0 ? (f == 1 ? 2 : 1) : 0), j = 6 - f - of_v - i;
     const int axis = domain_->facets()[k->face_entity[f]].axis;
-    if (lie_in_line<3>(*mesh_, *domain_, {u_, v[i], v[j]})) return false;
-    const auto side = [&](VertexId x) { return orient_projected(mesh_->point(v[i]), mesh_->point(v[j]), mesh_->point(x), axis); };
-    if (side(u_) == Sign::zero || side(u_) != side(v_)) return false;
+    if (lie_in_line<3>(*mesh_, *domain_, {u_ == no_vertex ? v_ : u_, v[i], v[j]})) return false;
+    const auto side = [&](const Point3& x) { return orient_projected(mesh_->point(v[i]), mesh_->point(v[j]), x, axis); };
+    if (side(x_) == Sign::zero || side(x_) != side(mesh_->point(v_))) return false;
   }
   return true;
 }
 
-/// Would all four corners lie on one facet, so that it has a volume by rounding alone?
-bool Contraction::is_flat(const Turned& t) const {
-  const auto& v = mesh_->cell(t.cell).vertices;
-  const auto on = [&](VertexId x, EntityId facet) { return lies_on<3>(*domain_, mesh_->vertex(x).home, {EntityKind::facet, facet}); };
-  return std::any_of(facets_.begin(), facets_.end(), [&](EntityId facet) {
-    for (int i = 0; i < 4; ++i)
-      if (!on(i == t.corner ? u_ : v[i], facet)) return false;
-    return true;
-  });
+/// Would all four corners of the cell lie on one facet, so that it has a volume by rounding alone?
+bool VertexMove::is_flat(const Turned& t) const {
+  std::array<Home, 4> homes;
+  for (int i = 0; i < 4; ++i) homes[i] = i == t.corner ? home_ : mesh_->vertex(mesh_->cell(t.cell).vertices[i]).home;
+  return lie_on_one(*domain_, homes, facets_);
 }
 
-bool Contraction::aim(VertexId u) {
+void VertexMove::aim(VertexId u) {
   u_ = u;
+  x_ = mesh_->point(u);
+  home_ = mesh_->vertex(u).home;
+  find_turned();
+}
+
+void VertexMove::aim(const Point3& x) {
+  u_ = no_vertex;
+  x_ = x;
+  home_ = mesh_->vertex(v_).home;
+  find_turned();
+}
+
+/// The cells that vanish and those that turn.
+void VertexMove::find_turned() {
   turned_.clear();
   flattened_.clear();
-  edges_.clear();
-  for (const CellId c : cells_) {
-    const int of_v = number_of(c, v_), of_u = number_of(c, u);
-    if (of_u >= 0) {
-      flattened_.push_back({c, of_v, of_u});
-      if (!may_flatten(flattened_.back())) return false;
-      continue;
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const int of_u = u_ == no_vertex ? -1 : number_of(cells_[i], u_);
+    if (of_u < 0) {
+      turned_.push_back({cells_[i], corners_[i]});
+    } else {
+      flattened_.push_back({cells_[i], corners_[i], of_u});
     }
-    turned_.push_back({c, of_v});
-    if (orient<3>(prospect(turned_.size() - 1)) != Sign::positive) return false;
-    if (!keeps_subfacets(c, of_v) || is_flat(turned_.back())) return false;
   }
-  return true;
 }
 
-Simplex<3> Contraction::prospect(std::size_t i) const {
+bool VertexMove::is_valid() {
+  if (u_ == no_vertex && area_ && !area_->owns(x_)) return false;
+  for (std::size_t i = 0; i < turned_.size(); ++i)
+    if (orient<3>(prospect(i)) != Sign::positive) return false;
+  edges_.clear();
+  return std::all_of(flattened_.begin(), flattened_.end(), [this](const Flattened& x) { return may_flatten(x); }) &&
+         std::all_of(turned_.begin(), turned_.end(), [this](const Turned& t) { return keeps_subfacets(t) && !is_flat(t); });
+}
+
+Simplex<3> VertexMove::prospect(std::size_t i) const {
   Simplex<3> s = mesh_->simplex(turned_[i].cell);
-  s[turned_[i].corner] = mesh_->point(u_);
+  s[turned_[i].corner] = x_;
   return s;
 }
 
-auto Contraction::flattened(CellId c) const -> const Flattened* {
+auto VertexMove::flattened(CellId c) const -> const Flattened* {
   const auto at = std::find_if(flattened_.begin(), flattened_.end(), [c](const Flattened& x) { return x.cell == c; });
   return at == flattened_.end() ? nullptr : &*at;
 }
 
-auto Contraction::open_faces() const -> std::vector<OpenFace> {
+auto VertexMove::open_faces() const -> std::vector<OpenFace> {
   std::vector<OpenFace> faces;
   for (std::size_t i = 0; i < turned_.size(); ++i)
     for (int f = 0; f < 4; ++f) {
@@ -164,14 +190,14 @@ auto Contraction::open_faces() const -> std::vector<OpenFace> {
   return faces;
 }
 
-void Contraction::constrain(Pools& pools, CellId c, int face, EntityId entity) {
+void VertexMove::constrain(Pools& pools, CellId c, int face, EntityId entity) {
   auto& k = mesh_->ensure_constraints(pools, c);
   k.faces |= static_cast<std::uint8_t>(1 << face);
   k.face_entity[face] = entity;
 }
 
-/// The cell with the target in the place of the vertex, its links still those of the old one.
-CellId Contraction::turn(Pools& pools, const Turned& t) {
+/// The cell with the target for the vertex, its links still those of the old one.
+CellId VertexMove::turn(Pools& pools, const Turned& t) {
   auto vertices = mesh_->cell(t.cell).vertices;
   vertices[t.corner] = u_;
   const CellId c = mesh_->new_cell(pools, mesh_->region(t.cell));
@@ -194,7 +220,7 @@ CellId Contraction::turn(Pools& pools, const Turned& t) {
 }
 
 /// Links the i-th new cell to its neighbours, also to those beyond cells that vanish.
-void Contraction::link(Pools& pools, std::size_t i) {
+void VertexMove::link(Pools& pools, std::size_t i) {
   const CellId c = new_cells_[i];
   for (int f = 0; f < 4; ++f) {
     Link& to = mesh_->cell(c).links[f];
@@ -215,14 +241,22 @@ void Contraction::link(Pools& pools, std::size_t i) {
 }
 
 /// A subfacet at the vertex becomes the face of the cell beyond; at the hull that has no neighbour then.
-void Contraction::close(Pools& pools, const Flattened& x) {
+void VertexMove::close(Pools& pools, const Flattened& x) {
   if (!mesh_->constrained(x.cell, x.of_u)) return;
   const Link beyond = mesh_->cell(x.cell).links[x.of_v];
   constrain(pools, beyond.cell(), beyond.face(), mesh_->constraints(x.cell)->face_entity[x.of_u]);
   if (!mesh_->cell(x.cell).links[x.of_u]) mesh_->cell(beyond.cell()).links[beyond.face()] = Link{};
 }
 
-void Contraction::commit(Pools& pools) {
+void VertexMove::commit(Pools& pools) {
+  assert(std::all_of(cells_.begin(), cells_.end(), [this](CellId c) { return mesh_->alive(c) && owns(c); }));
+  if (u_ == no_vertex) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const CellId c : cells_)
+      for (const VertexId w : mesh_->cell(c).vertices)
+        if (w != v_) nearest = std::min(nearest, squared_distance(mesh_->point(w), x_));
+    u_ = mesh_->new_vertex(pools, x_, home_, rounded_down(std::sqrt(nearest)));
+  }
   new_cells_.clear();
   for (const Turned& t : turned_) new_cells_.push_back(turn(pools, t));
   for (std::size_t i = 0; i < turned_.size(); ++i) link(pools, i);
