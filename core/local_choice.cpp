@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // All flips that there are at a cell, for a caller who knows which of them is best.
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <utility>
@@ -64,6 +65,16 @@ auto LocalFlips<D>::violations_after(const Flip& flip) -> std::optional<std::vec
   add_walls(flip.old, flip.edge[0], flip.edge[1]);
   if (!walls_are_free()) return std::nullopt;
   return violations_of(flip.cells, std::numeric_limits<std::size_t>::max());
+}
+
+template <int D>
+std::size_t LocalFlips<D>::violations_before(const Flip& flip) const {
+  std::size_t outer = 0, inner = 0;
+  const auto& old = flip.old.cells;
+  for (const CellId c : old)
+    for (int f = 0; f <= D; ++f)
+      if (violates(c, f)) ++(std::find(old.begin(), old.end(), mesh_->cell(c).links[f].cell()) == old.end() ? outer : inner);
+  return outer + inner / 2;
 }
 
 template <int D>

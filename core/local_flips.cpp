@@ -326,7 +326,8 @@ auto LocalFlips<D>::violations_of(const std::vector<NewCell>& cells, std::size_t
   for (std::size_t i = 0; i < faces_.size() && found.size() <= most; ++i) {
     if (is_wall(faces_[i])) continue;
     VertexId apex = no_vertex;
-    if (const OuterFace* o = outer(faces_[i])) {
+    const OuterFace* o = outer(faces_[i]);
+    if (o) {
       if (!o->link || o->constrained) continue;
       apex = mesh_->cell(o->link.cell()).vertices[o->link.face()];
     } else {
@@ -335,7 +336,7 @@ auto LocalFlips<D>::violations_of(const std::vector<NewCell>& cells, std::size_t
     }
     if (apex == no_vertex) continue;
     const std::size_t cell = i / (D + 1);
-    if (in_sphere<D>(simplex(cells[cell].vertices), mesh_->point(apex)) == Sign::positive) found.push_back({cell, apex});
+    if (in_sphere<D>(simplex(cells[cell].vertices), mesh_->point(apex)) == Sign::positive) found.push_back({cell, apex, !o});
   }
   return found;
 }

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The last visits of a run, in 3D: flips that leave less excess (refiner_improvement.cpp says what that is, why this ends, and
-// what may be new).
+// what may be new), and after any change those that leave no more excess, and fewer faces that are not locally Delaunay.
+#include <algorithm>
+
 #include "pgdr/improvement.hpp"
 #include "pgdr/refiner.hpp"
 
@@ -29,9 +31,9 @@ std::optional<double> Refiner<D>::gain_of_flip(const Flip& flip, double least) c
   return excess > least ? std::optional(excess) : std::nullopt;
 }
 
-/// As of a move. `any`: is a face not locally Delaunay?
+/// As of a move.
 template <int D>
-bool Refiner<D>::flip_is_explained(const Flip& flip, bool& any) {
+bool Refiner<D>::flip_is_explained(const Flip& flip, const Violations& violations) const {
   const auto homes = [this](const std::array<VertexId, D + 1>& vertices) {
     std::vector<Home> all;
     for (const VertexId v : vertices) all.push_back(mesh_->vertex(v).home);
@@ -41,13 +43,11 @@ bool Refiner<D>::flip_is_explained(const Flip& flip, bool& any) {
     const Simplex<D> s = simplex_of(cell.vertices);
     if (context_->bounds.excess(s, cell.region) > 0 && !is_explained(homes(cell.vertices), s)) return false;
   }
-  const auto violations = flips_.violations_after(flip);
-  if (!violations) return false;
-  any = !violations->empty();
-  for (const auto& [cell, beyond] : *violations) {
-    std::vector<Home> all = homes(flip.cells[cell].vertices);
-    all.push_back(mesh_->vertex(beyond).home);
-    if (!is_explained(all, simplex_of(flip.cells[cell].vertices))) return false;
+  for (const auto& violation : violations) {
+    const auto& vertices = flip.cells[violation.cell].vertices;
+    std::vector<Home> all = homes(vertices);
+    all.push_back(mesh_->vertex(violation.beyond).home);
+    if (!is_explained(all, simplex_of(vertices))) return false;
   }
   return true;
 }
@@ -65,15 +65,53 @@ auto Refiner<D>::flip_for_less(const Item& e) -> Outcome {
     seen_.insert(seen_.end(), flip.old.cells.begin(), flip.old.cells.end());
     if (keeps_any(flip.old.cells)) continue;
     const auto gain = gain_of_flip(flip, most);
-    bool any = false;
-    if (!gain || !flip_is_explained(flip, any)) continue;
+    if (!gain) continue;
+    const auto violations = flips_.violations_after(flip);
+    if (!violations || !flip_is_explained(flip, *violations)) continue;
     most = *gain;
     best = &flip;
-    violates = any;
+    violates = !violations->empty();
   }
   if (!best) return Outcome::refused;
   flips_.make(pools_, *best);
   return note_change(e, flips_.new_cells(), violates);
+}
+
+/// Makes a flip at the face that leaves fewer faces that are not locally Delaunay, and no more excess.
+template <int D>
+bool Refiner<D>::flip_to_delaunay(CellId c, int face) {
+  const CellId beyond = mesh_->cell(c).links[face].cell();
+  std::vector<Flip> flips;
+  std::vector<CellId> seen;
+  flips_.find_flips(c, flips, seen);
+  for (const Flip& flip : flips) {
+    const auto& old = flip.old.cells;
+    if (std::find(old.begin(), old.end(), beyond) == old.end() || keeps_any(old)) continue;
+    if (!gain_of_flip(flip, least_gain_without)) continue;
+    const auto violations = flips_.violations_after(flip);
+    if (!violations) continue;
+    const auto inner = std::count_if(violations->begin(), violations->end(), [](const auto& v) { return v.inner; });
+    if (violations->size() - inner / 2 >= flips_.violations_before(flip) || !flip_is_explained(flip, *violations)) continue;
+    flips_.make(pools_, flip);
+    return true;
+  }
+  return false;
+}
+
+/// The same at all faces of the cells, and of those that this makes, which are added.
+template <int D>
+void Refiner<D>::flip_to_delaunay(std::vector<CellId>& cells) {
+  std::vector<Item> items;
+  const auto add = [&](const std::vector<CellId>& all) {
+    for (const CellId c : all) items.push_back(make_entry(c, EntryKind::cell, 0));
+  };
+  add(cells);
+  for (std::size_t i = 0; i < items.size(); ++i)
+    for (int f = 0; f <= D && alive(items[i]); ++f)
+      if (flips_.violates(items[i].cell, f) && flip_to_delaunay(items[i].cell, f)) add(flips_.new_cells());
+  cells.clear();
+  for (const Item& item : items)
+    if (alive(item)) cells.push_back(item.cell);
 }
 
 template class Refiner<3>;  // nothing of this in 2D

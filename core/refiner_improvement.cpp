@@ -6,9 +6,10 @@
 //
 // Let the excess of an element be 0 within its bounds, else at least 1 and at most 3.5 (CellBounds::excess). Anything is done
 // only if the elements that it makes have less excess than those that they take the place of, by at least 1/128; but a vertex
-// is taken out if they have no more. All in all there is at most 3.5 for each poor element when these visits begin, so that
-// they insert at most 448 points for each; and they take out no more vertices than there were and come. No room is asked for,
-// as nothing else follows from such a point: entities that it encroaches upon are left as they are.
+// is taken out if they have no more, and faces are flipped if they have no more and fewer faces are not locally Delaunay. All
+// in all there is at most 3.5 for each poor element when these visits begin, so that they insert at most 448 points for each;
+// they take out no more vertices than there were and come; and after each of these changes there are finitely many flips. No
+// room is asked for, as nothing else follows from such a point: entities that it encroaches upon are left as they are.
 //
 // What is new is explained as the rest is: a new element that is poor, and a new face that is not locally Delaunay, is allowed
 // only beside two entities that meet at a small angle and touch its own corners, so that no later point can take that away.
@@ -261,7 +262,8 @@ bool Refiner<D>::is_explained(const std::vector<Home>& homes, const Simplex<D>& 
 
 /// Lists what is poor after a change made for e. `violates`: is a new face not locally Delaunay?
 template <int D>
-auto Refiner<D>::note_change(const Item& e, const std::vector<CellId>& new_cells, bool violates) -> Outcome {
+auto Refiner<D>::note_change(const Item& e, std::vector<CellId> new_cells, bool violates) -> Outcome {
+  if (violates) flip_to_delaunay(new_cells);
   ++visit_->counts.improved;
   visit_->changed_mesh = true;
   visit_->violations_seen = visit_->violations_seen || violates;

@@ -127,12 +127,24 @@ struct Model {
     const auto& flip = all[below(all.size())];
     const auto violations = flips.violations_after(flip);
     if (!violations) return false;
+    const auto inner = std::count_if(violations->begin(), violations->end(), [](const auto& v) { return v.inner; });
+    const std::size_t before = flips.violations_before(flip), everywhere = violating_faces(flips);
     flips.make(pools, flip);
     std::size_t found = 0;
     for (const CellId made : flips.new_cells())
       for (int f = 0; f < 4; ++f) found += flips.violates(made, f);
     EXPECT_EQ(found, violations->size());
+    EXPECT_EQ(violating_faces(flips) - everywhere, violations->size() - inner / 2 - before);
     return true;
+  }
+
+  /// That are not locally Delaunay.
+  std::size_t violating_faces(const LocalFlips<3>& flips) const {
+    std::size_t sides = 0;
+    for (const CellId c : cells())
+      for (int f = 0; f < 4; ++f) sides += flips.violates(c, f);
+    EXPECT_EQ(sides % 2, 0u);
+    return sides / 2;
   }
 
   std::size_t steiner_vertices() const {

@@ -48,6 +48,7 @@ class LocalFlips {
   struct Violation {
     std::size_t cell;  ///< index of a new cell
     VertexId beyond;  ///< in its sphere
+    bool inner;  ///< between two new cells: comes twice
   };
 
   /// Both must outlive it.
@@ -81,6 +82,8 @@ class LocalFlips {
   Outcome find_flips(CellId c, std::vector<Flip>& flips, std::vector<CellId>& seen) const;
   /// The faces that are not locally Delaunay after a flip; no value if it may not be, as a subfacet is where it makes one.
   std::optional<std::vector<Violation>> violations_after(const Flip& flip);
+  /// How many faces that a flip would change are not locally Delaunay?
+  std::size_t violations_before(const Flip& flip) const;
   /// Makes one of these flips.
   void make(Pools& pools, const Flip& flip);
   /// Has it, so far in this visit, been worth its while in large regions? `allowance`: what may be spent in vain.

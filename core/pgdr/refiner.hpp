@@ -262,14 +262,17 @@ class Refiner {
   double excess_of(const std::vector<CellId>& cells) const;
   bool keeps_any(const std::vector<CellId>& cells) const;
   bool is_explained(const std::vector<Home>& homes, const Simplex<D>& s) const;
-  Outcome note_change(const Item& e, const std::vector<CellId>& new_cells, bool violates);
+  Outcome note_change(const Item& e, std::vector<CellId> new_cells, bool violates);
 
   // refiner_flips.cpp
   using Flip = typename LocalFlips<D>::Flip;
   Outcome flip_for_less(const Item& e);
   Simplex<D> simplex_of(const std::array<VertexId, D + 1>& vertices) const;
   std::optional<double> gain_of_flip(const Flip& flip, double least) const;
-  bool flip_is_explained(const Flip& flip, bool& any);
+  using Violations = std::vector<typename LocalFlips<D>::Violation>;
+  bool flip_is_explained(const Flip& flip, const Violations& violations) const;
+  bool flip_to_delaunay(CellId c, int face);
+  void flip_to_delaunay(std::vector<CellId>& cells);
 
   // refiner_vertex_moves.cpp
   enum class VertexChange { take_out, move };
