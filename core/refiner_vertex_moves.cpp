@@ -26,11 +26,15 @@ Point<D> between(const Point<D>& a, const Point<D>& b, double part) {
 
 }  // namespace
 
-/// By how much the move that was aimed at lessens the excess, if that is more than `least`.
+/// By how much the move that was aimed at lessens the excess, if that is more than `least`. Notes what is poor then.
 template <int D>
-std::optional<double> Refiner<D>::gain_of_move(double excess, double least) const {
-  for (std::size_t i = 0; i < move_.turned().size() && excess > least; ++i)
-    excess -= context_->bounds.excess(move_.prospect(i), mesh_->region(move_.turned()[i].cell));
+std::optional<double> Refiner<D>::gain_of_move(double excess, double least) {
+  poor_turned_.clear();
+  for (std::size_t i = 0; i < move_.turned().size() && excess > least; ++i) {
+    const double e = context_->bounds.excess(move_.prospect(i), mesh_->region(move_.turned()[i].cell));
+    if (e > 0) poor_turned_.push_back(i);
+    excess -= e;
+  }
   return excess > least ? std::optional(excess) : std::nullopt;
 }
 
@@ -59,11 +63,8 @@ std::vector<Home> Refiner<D>::homes_of_turned(std::size_t i) const {
 /// Delaunay? `any`: are there such faces?
 template <int D>
 bool Refiner<D>::move_is_explained(bool& any) const {
-  for (std::size_t i = 0; i < move_.turned().size(); ++i) {
-    const Simplex<D> s = move_.prospect(i);
-    if (!(context_->bounds.excess(s, mesh_->region(move_.turned()[i].cell)) > 0)) continue;
-    if (!is_explained(homes_of_turned(i), s)) return false;
-  }
+  for (const std::size_t i : poor_turned_)
+    if (!is_explained(homes_of_turned(i), move_.prospect(i))) return false;
   any = false;
   for (const auto& [i, beyond] : move_.open_faces()) {
     const Simplex<D> s = move_.prospect(i);
@@ -163,6 +164,7 @@ auto Refiner<D>::change_vertex(const Item& e, VertexChange change) -> Outcome {
     move_.put_first([this](CellId c) { return static_cast<bool>(context_->bounds.test(*mesh_, c)); });
     const auto consider = [&](VertexId u, const Point<D>& x) {
       aim(u, x);
+      if (move_.turns_cell_over()) return;
       const auto gain = gain_of_move(excess, most);
       bool violates = false;
       if (!gain || !move_.is_valid() || !move_keeps_sizes() || !move_is_explained(violates)) return;

@@ -154,13 +154,17 @@ void VertexMove::find_turned() {
   }
 }
 
+bool VertexMove::turns_cell_over() const {
+  for (std::size_t i = 0; i < turned_.size(); ++i)
+    if (orient<3>(prospect(i)) != Sign::positive) return true;
+  return false;
+}
+
 bool VertexMove::is_valid() {
   if (u_ == no_vertex && area_ && !area_->owns(x_)) return false;
-  for (std::size_t i = 0; i < turned_.size(); ++i)
-    if (orient<3>(prospect(i)) != Sign::positive) return false;
   edges_.clear();
   return std::all_of(flattened_.begin(), flattened_.end(), [this](const Flattened& x) { return may_flatten(x); }) &&
-         std::all_of(turned_.begin(), turned_.end(), [this](const Turned& t) { return keeps_subfacets(t) && !is_flat(t); });
+         !turns_cell_over() && std::all_of(turned_.begin(), turned_.end(), [this](const Turned& t) { return keeps_subfacets(t) && !is_flat(t); });
 }
 
 Simplex<3> VertexMove::prospect(std::size_t i) const {

@@ -50,13 +50,16 @@ std::vector<bool> LeafRefinement<D>::keep(std::span<const PoorCell> excusing) {
   return kept;
 }
 
-/// Of bounds below what theory proves many elements may be over, for no reason but that: too many to be worth it.
+/// Of bounds below what theory proves many elements may be over, for no reason but that. Where they are too many, it would take
+/// many times as long as all before, and mend few of them; taking vertices out is the quickest, and mends most.
 template <int D>
-bool LeafRefinement<D>::may_improve(const PoorFindings& found) const {
-  if (D == 2 || context_.options.keep_boundary || found.poor.empty()) return false;
-  constexpr std::size_t most_of_cells = 4;
-  return context_.options.radius_edge_bound >= smallest_proved_bound<D>() ||
-         most_of_cells * found.poor.size() <= context_.mesh.cell_bound();
+bool LeafRefinement<D>::may_improve(bool takes_out_alone) const {
+  if (context_.options.radius_edge_bound >= smallest_proved_bound<D>()) return true;
+  const Mesh<D>& mesh = context_.mesh;
+  const std::uint32_t cells = mesh.cell_bound();
+  std::size_t poor = 0;
+  for (std::uint32_t i = 0; i < cells; ++i) poor += mesh.alive(CellId{i}) && context_.bounds.test(mesh, CellId{i});
+  return (takes_out_alone ? 6 : 16) * poor <= cells;
 }
 
 /// Visits until nothing that was refused is worth another try.
@@ -73,12 +76,13 @@ StopCause LeafRefinement<D>::improve_listed() {
 
 template <int D>
 StopCause LeafRefinement<D>::improve(PoorReasons<D>& reasons, PoorFindings& found) {
-  if (!may_improve(found)) return StopCause::finished;
+  if (D == 2 || context_.options.keep_boundary || found.poor.empty()) return StopCause::finished;
   Improvement<D> improvement{reasons, true, keep(reasons.excusing_cells(found))};
   const std::uint64_t before = counts_.improved;
   context_.improvement = &improvement;
   StopCause stop = StopCause::finished;
   for (const bool alone : {true, false}) {
+    if (!may_improve(alone)) break;
     improvement.takes_out_alone = alone;
     list_for_improvement();
     if (stop == StopCause::finished) stop = improve_listed();

@@ -280,7 +280,7 @@ class Refiner {
   using Settled = std::unordered_map<std::uint32_t, std::uint64_t>;
   Outcome change_vertex(const Item& e, VertexChange change);
   bool add_vertices_beyond(CellId c, std::vector<std::pair<VertexId, CellId>>& vertices) const;
-  std::optional<double> gain_of_move(double excess, double least) const;
+  std::optional<double> gain_of_move(double excess, double least);
   bool move_keeps_sizes() const;
   std::vector<Home> homes_of_turned(std::size_t i) const;
   bool move_is_explained(bool& any) const;
@@ -324,6 +324,7 @@ class Refiner {
   std::optional<EntityPair> last_refusal_;
   KeySet distinct_;
   RefusalMemo<D> memo_;  ///< of the visit
+  std::vector<std::size_t> poor_turned_;  ///< of the cells that the last move would make
   std::array<Settled, 2> settled_;  ///< of moves, of taking out; of the visit
   mutable std::map<std::pair<std::uint64_t, std::uint64_t>, double> angles_;  ///< of pairs of entities, in degrees
   mutable std::vector<CellId> seen_;  ///< that it took to decide about the entry treated, with repetitions

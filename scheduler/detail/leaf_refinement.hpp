@@ -111,7 +111,7 @@ class LeafRefinement {
   bool lists_all_poor(const PoorFindings& found) const;
   void help_unexplained(PoorReasons<D>& reasons, PoorFindings& found);
   bool insert_within(std::span<const CellId> cells);
-  bool may_improve(const PoorFindings& found) const;
+  bool may_improve(bool takes_out_alone) const;
   void list_for_improvement();
   std::vector<bool> keep(std::span<const PoorCell> excusing);
   StopCause improve_listed();
