@@ -75,9 +75,12 @@ double CellBounds<D>::measure_of(int region) const {
 
 template <int D>
 double CellBounds<D>::excess(const Simplex<D>& s, int region) const {
-  constexpr double most_powers = 20, of_power = 1.0 / 8;
+  constexpr int most_powers = 20;
+  constexpr double of_power = 1.0 / 8;
   if (!radius_edge_within<D>(s, radius_edge_bound)) {
     const double limit = radius_edge_bound * std::sqrt(shortest_edge_squared<D>(s));
+    // A comparison alone, as the circumcentre of a flat one takes many times as long.
+    if (!circumradius_within<D>(s, std::ldexp(limit, most_powers + 1))) return 1 + of_power * most_powers;
     const double powers = std::log2(std::sqrt(circumsphere<D>(s).squared_radius) / limit);
     return 1 + of_power * (powers < most_powers ? std::max(powers, 0.0) : most_powers);  // of rounding's NaN: the most
   }

@@ -53,11 +53,12 @@ class NamedEntities {
 
 /// As the checker will ask: do they meet at less than 60 (two segments) or 90 degrees, the first within the ball?
 template <int D>
-bool PoorReasons<D>::explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, PoorReason& reason) const {
+bool PoorReasons<D>::explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, const Angle& angle_of,
+                              PoorReason& reason) const {
   if (!has_extent(pair[0]) || !has_extent(pair[1]) || pair[0] == pair[1]) return false;
   if (!entities_touch<D>(*domain_, pair[0], pair[1])) return false;
   const bool segments = pair[0].kind == EntityKind::segment && pair[1].kind == EntityKind::segment;
-  const double angle = entity_angle<D>(*domain_, pair[0], pair[1]);
+  const double angle = angle_of(pair[0], pair[1]);
   if (angle >= (segments ? 60 : 90)) return false;
   for (const auto& order : {pair, std::array{pair[1], pair[0]}}) {
     if (detail::squared_distance_to<D>(*domain_, order[0], doubled.center) > doubled.squared_radius) continue;
@@ -109,9 +110,10 @@ PoorReason PoorReasons<D>::explain(CellId c, bool beside) const {
   };
   const auto sphere = circumsphere<D>(mesh_->simplex(c));
   const Ball<D> doubled = doubled_ball<D>({sphere.center, sphere.squared_radius});
+  const Angle angle = [this](EntityRef a, EntityRef b) { return entity_angle<D>(*domain_, a, b); };
   PoorReason reason;
   if (const auto why = why_.find(index(c)); why != why_.end() && why->second)
-    if (!beside && explains(why->second->entities, doubled, reason)) return reason;
+    if (!beside && explains(why->second->entities, doubled, angle, reason)) return reason;
   // Below the proved bound most cells have no small angle to name, and need none.
   const bool proved = bounds_->radius_edge_bound >= smallest_proved_bound<D>();
   const std::size_t most_cells = proved ? 256 : 16;
@@ -121,7 +123,7 @@ PoorReason PoorReasons<D>::explain(CellId c, bool beside) const {
     add_entities(cells[i], near);
     for (; tried < near.size(); ++tried)
       for (std::size_t j = 0; j < tried; ++j)
-        if ((!beside || touches(near[tried]) || touches(near[j])) && explains({near[tried], near[j]}, doubled, reason))
+        if ((!beside || touches(near[tried]) || touches(near[j])) && explains({near[tried], near[j]}, doubled, angle, reason))
           return reason;
     for (const Link link : mesh_->cell(cells[i]).links)
       if (link && cells.size() < most_cells && std::find(cells.begin(), cells.end(), link.cell()) == cells.end())
@@ -232,7 +234,7 @@ std::vector<PoorCell> PoorReasons<D>::excusing_cells(const PoorFindings& found) 
 }
 
 template <int D>
-bool PoorReasons<D>::has_reason(std::span<const Home> homes, const Ball<D>& sphere) const {
+bool PoorReasons<D>::has_reason(std::span<const Home> homes, const Ball<D>& sphere, const Angle& angle) const {
   constexpr std::size_t most_entities = 64;  // each pair of which takes microseconds
   std::vector<EntityRef> near;
   for (const Home home : homes) {
@@ -243,7 +245,7 @@ bool PoorReasons<D>::has_reason(std::span<const Home> homes, const Ball<D>& sphe
   PoorReason reason;
   for (std::size_t i = 0; i < near.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (explains({near[i], near[j]}, doubled, reason)) return true;
+      if (explains({near[i], near[j]}, doubled, angle, reason)) return true;
   return false;
 }
 

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "pgdr/bounding_box.hpp"
+#include "pgdr/improvement.hpp"
 
 namespace pgdr {
 namespace {
@@ -346,6 +347,7 @@ void Refiner<D>::begin(RegionVisit<D>& visit) {
   memo_.clear();
   settled_ = {};
   cavity_.set_area(visit.area);
+  cavity_.set_most_cells(context_->improvement ? most_cells_changed : std::numeric_limits<std::size_t>::max());
   flips_.set_area(visit.area);
   move_.set_area(visit.area);
   flips_left_ = 0;

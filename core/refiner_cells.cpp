@@ -264,9 +264,22 @@ auto Refiner<D>::treat_cell(const Item& e) -> Outcome {
   return give_up(outcome);
 }
 
+/// 3D: the wall that hides the point of an element so flat that it lies many times the domain away. All other flat ones beside
+/// an edge or vertex where facets are nearly coplanar are in conflict with it, often thousands: that no entity is encroached upon
+/// from there need not be looked for.
+template <int D>
+auto Refiner<D>::wall_before_far_point(CellId c, const Point<D>& x) -> std::optional<Item> {
+  constexpr int far = 5;  // powers of two
+  const double away = std::ldexp(1.0, context_->base_exponent + far);
+  if (D == 2 || !(squared_distance(mesh_->point(mesh_->cell(c).vertices[0]), x) > away * away)) return std::nullopt;
+  cavity_.release();
+  return wall_in_claim(c, x);
+}
+
 /// Inserts x for the element, or splits the entity that it encroaches upon or that hides it.
 template <int D>
 auto Refiner<D>::treat_cell_at(const Item& e, const Point<D>& x, const CellVerdict& verdict) -> Outcome {
+  if (const auto wall = wall_before_far_point(e.cell, x)) return split_instead(*wall, e, verdict);
   const auto status = cavity_.collect(x, e.cell);
   if (status == Cavity<D>::Status::not_owned) {
     // A point that a wall of the claim cuts off asks for no larger claim: the wall does.

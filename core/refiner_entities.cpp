@@ -160,13 +160,13 @@ auto Refiner<D>::walk_in_facet(const Item& e, const Point<D>& x) const -> FacetW
   return {};
 }
 
-/// Do they meet at an angle below this, in degrees? Angles are kept, as each takes microseconds.
+/// At which they meet, in degrees. It is kept, as each takes microseconds.
 template <int D>
-bool Refiner<D>::meet_below(double degrees, EntityRef a, EntityRef b) const {
+double Refiner<D>::angle_between(EntityRef a, EntityRef b) const {
   const auto key = [](EntityRef e) { return std::uint64_t{e.id} << 1 | (e.kind == EntityKind::facet ? 1 : 0); };
   const auto [at, is_new] = angles_.try_emplace({key(a), key(b)});
   if (is_new) at->second = entity_angle<D>(*domain_, a, b);
-  return at->second < degrees;
+  return at->second;
 }
 
 /// @pre the cavity of x is collected.

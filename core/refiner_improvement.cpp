@@ -112,7 +112,6 @@ auto Refiner<D>::collect_at(const Place& p) -> typename Cavity<D>::Status {
   };
   cavity_.release();
   Status status = collect();
-  if (status == Status::ok && cavity_.cells().size() > most_cells_changed) return Status::not_star_shaped;
   if (status == Status::ok && p.at.kind() == EntryKind::face && edge_beyond(p.x)) return Status::not_star_shaped;
   if (status == Status::ok && keeps_any(cavity_.cells())) return Status::swallows;
   return status == Status::ok ? cavity_.make_star_shaped() : status;
@@ -257,7 +256,8 @@ bool Refiner<D>::keeps_any(const std::vector<CellId>& cells) const {
 template <int D>
 bool Refiner<D>::is_explained(const std::vector<Home>& homes, const Simplex<D>& s) const {
   const auto sphere = circumsphere<D>(s);
-  return context_->improvement->reasons.has_reason(homes, {sphere.center, sphere.squared_radius});
+  return context_->improvement->reasons.has_reason(homes, {sphere.center, sphere.squared_radius},
+                                                   [this](EntityRef a, EntityRef b) { return angle_between(a, b); });
 }
 
 /// Lists what is poor after a change made for e. `violates`: is a new face not locally Delaunay?

@@ -74,6 +74,7 @@ class Cavity {
     swallows,         ///< a vertex or a subsegment would vanish
     not_owned,        ///< the visit's claim is too small
     too_near,         ///< a vertex is nearer than asked for
+    too_many,         ///< it has more cells than asked for
   };
 
   /// `domain` may be null where no insertion splits a facet.
@@ -84,6 +85,8 @@ class Cavity {
   }
   /// What the visit may change; null: everything.
   void set_area(const VisitArea<D>* area) { area_ = area; }
+  /// Of how many cells it may be, if not of any number.
+  void set_most_cells(std::size_t most) { most_cells_ = most; }
   /// Where to add the cells that were collected and given up, with repetitions; null: nowhere.
   void set_seen(std::vector<CellId>* seen) { seen_ = seen; }
   Cavity(const Cavity&) = delete;
@@ -191,6 +194,7 @@ class Cavity {
   std::vector<CellId>* seen_ = nullptr;
   Point<D> point_;
   double least_ = 0;  ///< distance that vertices must have
+  std::size_t most_cells_ = std::numeric_limits<std::size_t>::max();  ///< that it may have
   std::vector<CellId> cells_, new_cells_;
   std::vector<CellId> protected_;
   std::vector<BoundaryFace> boundary_;

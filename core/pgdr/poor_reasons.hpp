@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cassert>
+#include <functional>
 #include <span>
 #include <stop_token>
 #include <unordered_map>
@@ -61,6 +62,8 @@ PoorCount count_poor_cells(const Mesh<D>& mesh, const CellBounds<D>& bounds, std
 template <int D>
 class PoorReasons {
  public:
+  using Angle = std::function<double(EntityRef, EntityRef)>;  ///< entity_angle of two, or what a caller remembers of it
+
   /// `keep_boundary`: no segment was split (RefineOptions).
   PoorReasons(Mesh<D>& mesh, const Domain<D>& domain, const CellBounds<D>& bounds, bool keep_boundary = false);
 
@@ -84,7 +87,7 @@ class PoorReasons {
   std::vector<PoorCell> excusing_cells(const PoorFindings& found) const;
   /// Would entities with vertices of these homes on them, of which two meet at a small angle near enough, explain an element
   /// with this circumsphere? Several threads at once. (False where very many meet.)
-  bool has_reason(std::span<const Home> homes, const Ball<D>& sphere) const;
+  bool has_reason(std::span<const Home> homes, const Ball<D>& sphere, const Angle& angle) const;
   /// By vertex: those on such entities.
   std::vector<bool> excusing_vertices(const PoorFindings& found) const;
 
@@ -92,7 +95,7 @@ class PoorReasons {
   using EntityIds = std::vector<EntityId>;
 
   PoorReason explain(CellId c, bool beside) const;
-  bool explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, PoorReason& reason) const;
+  bool explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, const Angle& angle, PoorReason& reason) const;
   bool is_beside(EntityRef segment, const Ball<D>& doubled) const;
   void add_entities(CellId c, std::vector<EntityRef>& list) const;
   void add_entities_of(Home home, std::vector<EntityRef>& list) const;

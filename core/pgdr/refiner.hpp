@@ -207,7 +207,8 @@ class Refiner {
     bool owned = true;
   };
   FacetWalk walk_in_facet(const Item& e, const Point<D>& x) const;
-  bool meet_below(double degrees, EntityRef a, EntityRef b) const;
+  double angle_between(EntityRef a, EntityRef b) const;
+  bool meet_below(double degrees, EntityRef a, EntityRef b) const { return angle_between(a, b) < degrees; }
   bool may_ask_for_less(CellId c) const;
   Demand demand_of(EntityRef entity, std::span<const VertexId> own, bool pass_on) const;
   Outcome decide(EntityRef entity, std::span<const VertexId> own, const Demand* cause);
@@ -230,6 +231,7 @@ class Refiner {
   std::optional<Item> wall_in_claim(CellId c, const Point<D>& x) const;
   std::optional<Item> flattened_face(const Point<D>& x) const;
   std::optional<Item> encroached_entity(const Point<D>& x) const;
+  std::optional<Item> wall_before_far_point(CellId c, const Point<D>& x);
   std::optional<Item> hiding_wall(CellId c, const Point<D>& x) const;
   Outcome split_instead(const Item& entity, const Item& e, const CellVerdict& verdict);
 
