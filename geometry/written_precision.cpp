@@ -4,8 +4,12 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <string_view>
+#include <vector>
 
+#include "detail/vectors.hpp"
+#include "pgdr/error.hpp"
 #include "pgdr/plc.hpp"
 
 namespace pgdr {
@@ -13,6 +17,12 @@ namespace {
 
 constexpr int exact_digits = 4;  // and less: as people choose coordinates
 constexpr double of_floats = 0x1p-22;
+constexpr double most_off = 1e-5;        // of a face that looks planar
+constexpr double clearly_bent = 1e-3;    // distances from there on are not told apart
+constexpr double gap = 10;               // between the distances of planar faces and those of others
+constexpr double allowance = 4;          // a plane that is fitted to many triangles may be off by more than that of one
+constexpr std::size_t least_part = 20;   // one of so many segments is between triangles of such a face, if there is one
+constexpr std::size_t within_gap = 20;   // and one distance in the gap for so many below it is an accident
 
 /// Of the shortest decimal number that is this double: d.ddde+xx.
 int significant_digits(double value) {
@@ -21,7 +31,57 @@ int significant_digits(double value) {
   return static_cast<int>(std::ranges::count_if(number.substr(0, number.find('e')), [](char c) { return c >= '0' && c <= '9'; }));
 }
 
+/// The normal of the facet's first triangle, its largest.
+detail::Vector<3> normal_of(const Domain<3>& domain, EntityId f) {
+  const auto& p = domain.points();
+  const auto [a, b, c] = domain.triangles(f).front();
+  return detail::cross(detail::difference(p[b], p[a]), detail::difference(p[c], p[a]));
+}
+
+/// How far the smaller facet is off the plane of the larger one, of the largest coordinate of both; `clearly_bent` at most.
+double distance_off_plane(const Domain<3>& domain, EntityId f, EntityId g) {
+  auto normal = normal_of(domain, f), other = normal_of(domain, g);
+  if (detail::dot(normal, normal) < detail::dot(other, other)) {
+    std::swap(normal, other);
+    std::swap(f, g);
+  }
+  const double unit = std::sqrt(detail::dot(normal, normal)) * std::max(domain.facet_magnitude(f), domain.facet_magnitude(g));
+  const Point3& origin = domain.points()[domain.triangles(f).front()[0]];
+  double off = 0;
+  for (const std::uint32_t p : domain.facet_points(g)) {
+    off = std::max(off, std::fabs(detail::dot(detail::difference(domain.points()[p], origin), normal)) / unit);
+    if (!(off < clearly_bent)) return clearly_bent;
+  }
+  return off;
+}
+
 }  // namespace
+
+double apparent_precision(const Domain<3>& domain) {
+  std::vector<double> off;
+  for (EntityId s = 0; s < domain.segments().size(); ++s) {
+    const auto facets = domain.facets_of_segment(s);
+    if (facets.size() == 2 && domain.facets()[facets[0]].marker == domain.facets()[facets[1]].marker)
+      off.push_back(distance_off_plane(domain, facets[0], facets[1]));
+  }
+  std::sort(off.begin(), off.end());
+  const auto up_to = [&off](double x) { return static_cast<std::size_t>(std::upper_bound(off.begin(), off.end(), x) - off.begin()); };
+  const double rounding = Plc<3>{}.precision;
+  const std::size_t rounded = up_to(rounding);
+  for (std::size_t n = up_to(most_off); n > rounded && least_part * (n - rounded) >= domain.segments().size(); --n)
+    if (const double largest = off[n - 1]; within_gap * (up_to(gap * largest) - n) <= n - rounded) return allowance * largest;
+  return rounding;
+}
+
+double suggested_precision(const Plc<3>& plc) {
+  const double written = written_precision(plc.points);
+  if (written > Plc<3>{}.precision) return written;
+  try {
+    return apparent_precision(Domain<3>(plc));
+  } catch (const InputError&) {
+    return written;
+  }
+}
 
 double written_precision(std::span<const Point3> points) {
   int most = 0;

@@ -8,6 +8,8 @@
 
 #include <cmath>
 #include <map>
+#include <numbers>
+#include <random>
 
 #include "parallel_support.hpp"
 #include "pgdr/written_precision.hpp"
@@ -165,6 +167,82 @@ TEST(Coplanar, ThePrecisionThatDigitsAllow) {
   EXPECT_GT(Domain<3>(plc).facets().size(), 50u);
   plc.precision = written_precision(plc.points);
   EXPECT_EQ(Domain<3>(plc).facets().size(), 6u);
+}
+
+/// A plate with a round boss of n sides, as CAD programs triangulate it: long triangles from the corners of its upper face to the
+/// circle, whose points are off the plane by multiples of `off`, up to eight.
+Plc<3> plate_with_boss(int n, double height, double off) {
+  Plc<3> plc;
+  std::mt19937 random(1);
+  const auto point = [&plc](double x, double y, double z) {
+    plc.points.push_back({{x, y, z}});
+    return static_cast<std::uint32_t>(plc.points.size() - 1);
+  };
+  const auto triangle = [&plc](std::uint32_t a, std::uint32_t b, std::uint32_t c) { plc.facets.push_back({{{a, b, c}}, {}, 0}); };
+  std::array<std::uint32_t, 4> low, high;
+  for (unsigned c = 0; c < 4; ++c) {
+    const double x = c == 0 || c == 3 ? -1 : 1, y = c < 2 ? -1 : 1;
+    low[c] = point(x, y, 0);
+    high[c] = point(x, y, height);
+  }
+  std::vector<std::uint32_t> rim, top;
+  for (int i = 0; i < n; ++i) {
+    const double angle = 2 * std::numbers::pi * i / n - 3 * std::numbers::pi / 4, x = 0.6 * std::cos(angle), y = 0.6 * std::sin(angle);
+    rim.push_back(point(x, y, height + off * (static_cast<int>(random() % 17) - 8)));
+    top.push_back(point(x, y, 2 * height));
+  }
+  const auto at = [&rim, n](int i) { return rim[static_cast<std::size_t>((i + n) % n)]; };
+  for (int c = 0; c < 4; ++c) {
+    const auto k = static_cast<unsigned>(c), next = (k + 1) % 4;
+    const int middle = c * n / 4;
+    for (int i = middle - n / 8; i < middle + n / 8; ++i) triangle(high[k], at(i + 1), at(i));
+    triangle(high[k], high[next], at(middle + n / 8));
+    triangle(low[k], low[next], high[next]);
+    triangle(low[k], high[next], high[k]);
+  }
+  for (unsigned i = 0; i < rim.size(); ++i) {
+    const unsigned j = (i + 1) % static_cast<unsigned>(n);
+    triangle(rim[i], rim[j], top[j]);
+    triangle(rim[i], top[j], top[i]);
+    if (i > 1) triangle(top[0], top[i - 1], top[i]);
+  }
+  triangle(low[0], low[2], low[1]);
+  triangle(low[0], low[3], low[2]);
+  return plc;
+}
+
+// A file that was turned has all digits, of points that are no more exact for it. (The plate with its 138 facets, 64 of them long
+// and thin on a face that is off its plane by 1e-8, takes a minute, and elements stay poor for no reason that `check` takes.)
+TEST(Coplanar, ThePrecisionOfFacesThatLookPlanar) {
+  Plc<3> plc = turned(gridded_box(5), 0);
+  for_each_point(plc, [](Point3& p) {
+    for (double& x : p.x) x = static_cast<float>(x);
+  });
+  for (const double scale : {1.0, 37.0}) {
+    Plc<3> again = turned(plc, 10);
+    for_each_point(again, [scale](Point3& p) {
+      for (double& x : p.x) x *= scale;
+    });
+    EXPECT_EQ(written_precision(again.points), again.precision);
+    again.precision = suggested_precision(again);
+    EXPECT_LT(again.precision, 2e-6);
+    EXPECT_EQ(Domain<3>(again).facets().size(), 6u);
+  }
+  for (const double off : {1e-12, 1e-9, 3e-7}) {
+    plc = plate_with_boss(64, 0.01, off);
+    EXPECT_GT(Domain<3>(plc).facets().size(), 130u);
+    plc.precision = suggested_precision(plc);
+    EXPECT_EQ(Domain<3>(plc).facets().size(), 71u) << off;
+  }
+  const auto outcome = test::refine_and_check<3>(plc, {});
+  EXPECT_EQ(outcome.report.exit_code(), 0) << test::findings(outcome.report);
+  EXPECT_EQ(outcome.result.poor_left, 0u);
+}
+
+// What is bent is not planar, and exact faces need no precision; nor is it the place to refuse an input.
+TEST(Coplanar, OtherSurfacesHaveNoSuchPrecision) {
+  for (const Plc<3>& plc : {turned(test::icosphere(4), 0), turned(gridded_box(4), 0), plate_with_boss(64, 0.01, 0), Plc<3>{}})
+    EXPECT_EQ(suggested_precision(plc), Plc<3>{}.precision);
 }
 
 // Each vertex on such a face asks which triangle it is on. (Of a tray whose bottom has 1,200 triangles, turned, the checker

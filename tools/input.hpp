@@ -22,8 +22,8 @@ Plc<D> read_input(const std::string& file, const InputArguments& reading, std::v
       throw UsageError({.code = Errc::bad_option, .message = "--resolve-crossings and --convex-hull are for 2D"});
     Plc<3> plc = read_plc<3>(file);
     if (reading.precision) plc.precision = *reading.precision;
-    if (reading.precision_as_written) plc.precision = written_precision(plc.points);
     if (reading.merge_points) plc.merge_within = *reading.merge_points;
+    if (reading.precision_as_written) plc.precision = suggested_precision(plc);
     return plc;
   } else {
     if (reading.precision || reading.precision_as_written) throw UsageError({.code = Errc::bad_option, .message = "--precision is for 3D"});

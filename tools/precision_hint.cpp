@@ -13,21 +13,24 @@ namespace pgdr::tool {
 template <int D>
 void hint_at_precision(const Plc<D>& plc, std::size_t facets, const InputArguments& reading, bool quiet, Report& report) {
   if constexpr (D == 3) {
-    const double written = written_precision(plc.points);
-    if (reading.precision || reading.precision_as_written || written <= plc.precision) return;
+    if (reading.precision || reading.precision_as_written) return;
+    const double suggested = suggested_precision(plc);
+    if (suggested <= plc.precision) return;
     std::size_t fewer;
     try {
       if (facets == 0) facets = Domain<3>(plc).facets().size();
       Plc<3> merged = plc;
-      merged.precision = written;
+      merged.precision = suggested;
       fewer = Domain<3>(merged).facets().size();
     } catch (const std::exception&) {
       return;  // faces that their digits have bent so far are no better; and the mesh is there without a hint
     }
     if (10 * fewer > 9 * facets || fewer < 4) return;
-    report.set("precision_hint", JsonObject{{"precision", written}, {"facets", facets}, {"facets_then", fewer}});
+    report.set("precision_hint", JsonObject{{"precision", suggested}, {"facets", facets}, {"facets_then", fewer}});
     if (!quiet)
-      print_row("hint", format("--precision auto (%.1e, by the digits of the coordinates) makes %s out of %s", written,
+      print_row("hint", format("--precision auto (%.1e, by %s) makes %s out of %s", suggested,
+                               suggested == written_precision(plc.points) ? "the digits of the coordinates"
+                                                                          : "how far faces are off their planes",
                                count(fewer, "facet", "facets").c_str(), count(facets, "facet", "facets").c_str()));
   }
 }

@@ -12,7 +12,7 @@
 
 namespace pgdr::tool {
 
-/// Where the digits of the coordinates make one face of many facets that the input as it is keeps apart: says so, in the
+/// Where suggested_precision makes one face of many facets that the input as it is keeps apart: says so, in the
 /// report as `precision_hint`, and on the terminal unless `quiet`. Nothing if a precision was asked for, or for lack of memory.
 /// @param facets  of a Domain of `plc`; 0: not known
 template <int D>

@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How exact the coordinates of a file can be, by the digits that they have. Programs print six, or store floats; a planar face
-// that is slanted, and made of triangles, is then planar up to these digits only. Pure function; any thread.
+// How exact the coordinates of a file can be, by the digits that they have, or by how far faces that look planar are off. Programs
+// print six digits, or store floats; a planar face that is slanted, and made of triangles, is then planar up to these digits only.
+// Once it was turned, or converted to other units, its coordinates have all digits again. Pure functions; any thread.
 #pragma once
 
 #include <span>
 
+#include "pgdr/domain.hpp"
 #include "pgdr/export.hpp"
 #include "pgdr/types.hpp"
 
@@ -16,5 +18,15 @@ namespace pgdr PGDR_API {
 /// of at most n significant digits, n from 5 to 7 (no coordinate is off by more than half of that times its size); 2^-22 for
 /// numbers of 8 or 9 digits, and for floats; else 2^-48, for rounding alone: coordinates of up to four digits count as exact.
 double written_precision(std::span<const Point3> points);
+
+/// A Plc::precision with which faces are planar that look so: four times a distance d, of a facet from the plane of a larger one
+/// that it meets at a segment (of the largest coordinate of both), where few or no distances lie between d and 10 d: of all below,
+/// a twentieth at most. The largest such d up to 1e-5, if a twentieth of all segments are between facets that are less off (but
+/// by more than rounding). Else 2^-48.
+double apparent_precision(const Domain<3>& domain);
+
+/// By the digits, or where these tell nothing by the looks: what a Domain of it should be made with, if faces that look planar
+/// are to be one facet each. 2^-48 where no Domain can be made.
+double suggested_precision(const Plc<3>& plc);
 
 }  // namespace pgdr
