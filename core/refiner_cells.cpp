@@ -269,7 +269,7 @@ auto Refiner<D>::treat_cell(const Item& e) -> Outcome {
 /// from there need not be looked for.
 template <int D>
 auto Refiner<D>::wall_before_far_point(CellId c, const Point<D>& x) -> std::optional<Item> {
-  constexpr int far = 5;  // powers of two
+  constexpr int far = 12;  // powers of two
   const double away = std::ldexp(1.0, context_->base_exponent + far);
   if (D == 2 || !(squared_distance(mesh_->point(mesh_->cell(c).vertices[0]), x) > away * away)) return std::nullopt;
   cavity_.release();
