@@ -8,6 +8,7 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "pgdr/bounding_box.hpp"
 #include "pgdr/improvement.hpp"

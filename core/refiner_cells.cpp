@@ -264,14 +264,15 @@ auto Refiner<D>::treat_cell(const Item& e) -> Outcome {
   return give_up(outcome);
 }
 
-/// 3D: the wall that hides the point of an element so flat that it lies many times the domain away. All other flat ones beside
-/// an edge or vertex where facets are nearly coplanar are in conflict with it, often thousands: that no entity is encroached upon
-/// from there need not be looked for.
+/// 3D: the wall that hides the point of an element so flat that it lies many times the domain away. Where facets are nearly
+/// coplanar other flat ones are in conflict with it, often thousands. They are not collected for the entity that it encroaches
+/// upon, if any: mostly there is none, and the wall is split in the end.
 template <int D>
 auto Refiner<D>::wall_before_far_point(CellId c, const Point<D>& x) -> std::optional<Item> {
-  constexpr int far = 12;  // powers of two
+  if constexpr (D == 2) return std::nullopt;
+  constexpr int far = 12;  // powers of two: nearer ones often encroach upon flat subfacets, whose splits leave fewer poor cells
   const double away = std::ldexp(1.0, context_->base_exponent + far);
-  if (D == 2 || !(squared_distance(mesh_->point(mesh_->cell(c).vertices[0]), x) > away * away)) return std::nullopt;
+  if (!(squared_distance(mesh_->point(mesh_->cell(c).vertices[0]), x) > away * away)) return std::nullopt;
   cavity_.release();
   return wall_in_claim(c, x);
 }

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "detail/domain_builder.hpp"
 #include "detail/vectors.hpp"
 #include "pgdr/error.hpp"
 #include "pgdr/plc.hpp"
@@ -31,25 +32,23 @@ int significant_digits(double value) {
   return static_cast<int>(std::ranges::count_if(number.substr(0, number.find('e')), [](char c) { return c >= '0' && c <= '9'; }));
 }
 
-/// The normal of the facet's first triangle, its largest.
-detail::Vector<3> normal_of(const Domain<3>& domain, EntityId f) {
+/// Of the facet's first triangle, its largest: four times the square of its area.
+double squared_size(const Domain<3>& domain, EntityId f) {
   const auto& p = domain.points();
   const auto [a, b, c] = domain.triangles(f).front();
-  return detail::cross(detail::difference(p[b], p[a]), detail::difference(p[c], p[a]));
+  const auto normal = detail::cross(detail::difference(p[b], p[a]), detail::difference(p[c], p[a]));
+  return detail::dot(normal, normal);
 }
 
 /// How far the smaller facet is off the plane of the larger one, of the largest coordinate of both; `clearly_bent` at most.
 double distance_off_plane(const Domain<3>& domain, EntityId f, EntityId g) {
-  auto normal = normal_of(domain, f), other = normal_of(domain, g);
-  if (detail::dot(normal, normal) < detail::dot(other, other)) {
-    std::swap(normal, other);
-    std::swap(f, g);
-  }
-  const double unit = std::sqrt(detail::dot(normal, normal)) * std::max(domain.facet_magnitude(f), domain.facet_magnitude(g));
-  const Point3& origin = domain.points()[domain.triangles(f).front()[0]];
+  if (squared_size(domain, f) < squared_size(domain, g)) std::swap(f, g);
+  const auto& p = domain.points();
+  const auto [a, b, c] = domain.triangles(f).front();
+  const double magnitude = std::max(domain.facet_magnitude(f), domain.facet_magnitude(g));
   double off = 0;
-  for (const std::uint32_t p : domain.facet_points(g)) {
-    off = std::max(off, std::fabs(detail::dot(detail::difference(domain.points()[p], origin), normal)) / unit);
+  for (const std::uint32_t q : domain.facet_points(g)) {
+    off = std::max(off, detail::plane_distance(p[a], p[b], p[c], p[q]) / magnitude);
     if (!(off < clearly_bent)) return clearly_bent;
   }
   return off;

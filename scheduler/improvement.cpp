@@ -59,7 +59,8 @@ bool LeafRefinement<D>::may_improve(bool takes_out_alone) const {
   const std::uint32_t cells = mesh.cell_bound();
   std::size_t poor = 0;
   for (std::uint32_t i = 0; i < cells; ++i) poor += mesh.alive(CellId{i}) && context_.bounds.test(mesh, CellId{i});
-  return (takes_out_alone ? 6 : 16) * poor <= cells;
+  const std::size_t least_cells = takes_out_alone ? 6 : 16;  // for each that is poor
+  return least_cells * poor <= cells;
 }
 
 /// Visits until nothing that was refused is worth another try.
@@ -76,13 +77,13 @@ StopCause LeafRefinement<D>::improve_listed() {
 
 template <int D>
 StopCause LeafRefinement<D>::improve(PoorReasons<D>& reasons, PoorFindings& found) {
-  if (D == 2 || context_.options.keep_boundary || found.poor.empty()) return StopCause::finished;
+  if (D == 2 || context_.options.keep_boundary || found.poor.empty() || !may_improve(true)) return StopCause::finished;
   Improvement<D> improvement{reasons, true, keep(reasons.excusing_cells(found))};
   const std::uint64_t before = counts_.improved;
   context_.improvement = &improvement;
   StopCause stop = StopCause::finished;
   for (const bool alone : {true, false}) {
-    if (!may_improve(alone)) break;
+    if (!alone && !may_improve(false)) break;
     improvement.takes_out_alone = alone;
     list_for_improvement();
     if (stop == StopCause::finished) stop = improve_listed();

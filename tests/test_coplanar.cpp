@@ -211,8 +211,8 @@ Plc<3> plate_with_boss(int n, double height, double off) {
   return plc;
 }
 
-// A file that was turned has all digits, of points that are no more exact for it. (The plate with its 138 facets, 64 of them long
-// and thin on a face that is off its plane by 1e-8, takes a minute, and elements stay poor for no reason that `check` takes.)
+// A file that was turned has all digits, of points that are no more exact for it. (Of the plate, a face of which is 64 long
+// and thin facets then, come elements that stay poor for no reason that `check` takes, after a minute.)
 TEST(Coplanar, ThePrecisionOfFacesThatLookPlanar) {
   Plc<3> plc = turned(gridded_box(5), 0);
   for_each_point(plc, [](Point3& p) {

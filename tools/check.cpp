@@ -79,7 +79,7 @@ int check_as(const CheckArguments& a, Report& report) {
   const Bounds<D> bounds = resolve<D>(a.bounds, reported.radius_edge.value_or(unbounded));
   const OutputMesh<D> mesh = read_mesh<D>(a.mesh);
   InputArguments reading = a.reading;
-  if (D == 3 && !reading.precision && !reading.precision_as_written) reading.precision = reported.precision;
+  if (D == 3 && !reading.precision && !reading.precision_auto) reading.precision = reported.precision;
   if (!reading.merge_points) reading.merge_points = reported.merge_points;
   const std::optional<Domain<D>> domain = read_domain<D>(a.input, reading);
 

@@ -125,7 +125,7 @@ int info_of_input(const InfoArguments& a, Report& report) {
     print_row("angles", format("%.3f degrees is the smallest between segments, or facets at a segment", angle));
   }
 
-  hint_at_precision(plc, domain.facets().size(), a.reading, a.quiet, report);
+  hint_at_precision(plc, &domain, a.reading, a.quiet, report);
 
   // Boundary recovery alone decides the rest: seeds, whether anything is enclosed.
   RefineOptions<D> options;

@@ -23,10 +23,10 @@ Plc<D> read_input(const std::string& file, const InputArguments& reading, std::v
     Plc<3> plc = read_plc<3>(file);
     if (reading.precision) plc.precision = *reading.precision;
     if (reading.merge_points) plc.merge_within = *reading.merge_points;
-    if (reading.precision_as_written) plc.precision = suggested_precision(plc);
+    if (reading.precision_auto) plc.precision = suggested_precision(plc);
     return plc;
   } else {
-    if (reading.precision || reading.precision_as_written) throw UsageError({.code = Errc::bad_option, .message = "--precision is for 3D"});
+    if (reading.precision || reading.precision_auto) throw UsageError({.code = Errc::bad_option, .message = "--precision is for 3D"});
     Plc<2> plc = read_plc<2>(file);
     if (reading.merge_points) plc.merge_within = *reading.merge_points;
     if (reading.convex_hull) plc = with_convex_hull(plc);

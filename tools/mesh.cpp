@@ -245,7 +245,7 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
                                    {"total", seconds.total}});
   report.set("peak_rss_bytes", peak_rss_bytes());
   if (!a.quiet) print_summary(a, plc, bounds, result, quality, seconds);
-  if (result.poor_left > 0 && result.stop != StopCause::cancelled) hint_at_precision(plc, 0, a.reading, a.quiet, report);
+  if (result.poor_left > 0 && result.stop != StopCause::cancelled) hint_at_precision<D>(plc, nullptr, a.reading, a.quiet, report);
   if (!a.trace.empty()) {
     std::string trace_file = a.trace;
     write_trace(a, result, seconds);

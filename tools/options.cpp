@@ -133,8 +133,8 @@ void add_bounds(CLI::App& app, BoundArguments& b, const std::string& without) {
 
 void add_input(CLI::App& app, InputArguments& p) {
   const auto set_precision = [&p](const std::string& text) {
-    p.precision_as_written = text == "auto";
-    if (double value = 0; !p.precision_as_written && CLI::detail::lexical_cast(text, value)) p.precision = value;
+    p.precision_auto = text == "auto";
+    if (double value = 0; !p.precision_auto && CLI::detail::lexical_cast(text, value)) p.precision = value;
   };
   app.add_option_function<std::string>("--precision", set_precision,
                  "3D: facets that meet at an edge and lie in one plane within R times their largest coordinate are one "

@@ -31,7 +31,7 @@ struct BoundArguments {
 struct InputArguments {
   bool resolve_crossings = false, convex_hull = false;
   std::optional<double> precision;     ///< none: that of Plc
-  bool precision_as_written = false;   ///< instead: suggested_precision
+  bool precision_auto = false;         ///< instead: suggested_precision
   std::optional<double> merge_points;  ///< likewise
 };
 

@@ -3,6 +3,7 @@
 #include "precision_hint.hpp"
 
 #include <exception>
+#include <optional>
 
 #include "console.hpp"
 #include "pgdr/domain.hpp"
@@ -11,14 +12,18 @@
 namespace pgdr::tool {
 
 template <int D>
-void hint_at_precision(const Plc<D>& plc, std::size_t facets, const InputArguments& reading, bool quiet, Report& report) {
+void hint_at_precision(const Plc<D>& plc, const Domain<D>* domain, const InputArguments& reading, bool quiet, Report& report) {
   if constexpr (D == 3) {
-    if (reading.precision || reading.precision_as_written) return;
-    const double suggested = suggested_precision(plc);
-    if (suggested <= plc.precision) return;
-    std::size_t fewer;
+    if (reading.precision || reading.precision_auto) return;
+    double suggested;
+    std::size_t facets, fewer;
+    const double written = written_precision(plc.points);
     try {
-      if (facets == 0) facets = Domain<3>(plc).facets().size();
+      std::optional<Domain<3>> made;
+      if (domain == nullptr) domain = &made.emplace(plc);
+      suggested = written > plc.precision ? written : apparent_precision(*domain);
+      if (suggested <= plc.precision) return;
+      facets = domain->facets().size();
       Plc<3> merged = plc;
       merged.precision = suggested;
       fewer = Domain<3>(merged).facets().size();
@@ -29,13 +34,12 @@ void hint_at_precision(const Plc<D>& plc, std::size_t facets, const InputArgumen
     report.set("precision_hint", JsonObject{{"precision", suggested}, {"facets", facets}, {"facets_then", fewer}});
     if (!quiet)
       print_row("hint", format("--precision auto (%.1e, by %s) makes %s out of %s", suggested,
-                               suggested == written_precision(plc.points) ? "the digits of the coordinates"
-                                                                          : "how far faces are off their planes",
+                               suggested == written ? "the digits of the coordinates" : "how far faces are off their planes",
                                count(fewer, "facet", "facets").c_str(), count(facets, "facet", "facets").c_str()));
   }
 }
 
-template void hint_at_precision<2>(const Plc<2>&, std::size_t, const InputArguments&, bool, Report&);
-template void hint_at_precision<3>(const Plc<3>&, std::size_t, const InputArguments&, bool, Report&);
+template void hint_at_precision<2>(const Plc<2>&, const Domain<2>*, const InputArguments&, bool, Report&);
+template void hint_at_precision<3>(const Plc<3>&, const Domain<3>*, const InputArguments&, bool, Report&);
 
 }  // namespace pgdr::tool

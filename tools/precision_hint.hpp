@@ -4,9 +4,8 @@
 // Whether small angles of an input are those of faces that lack digits, and what to do about it.
 #pragma once
 
-#include <cstddef>
-
 #include "options.hpp"
+#include "pgdr/domain.hpp"
 #include "pgdr/plc.hpp"
 #include "report.hpp"
 
@@ -14,8 +13,8 @@ namespace pgdr::tool {
 
 /// Where suggested_precision makes one face of many facets that the input as it is keeps apart: says so, in the
 /// report as `precision_hint`, and on the terminal unless `quiet`. Nothing if a precision was asked for, or for lack of memory.
-/// @param facets  of a Domain of `plc`; 0: not known
+/// @param domain  of `plc`; null: not at hand
 template <int D>
-void hint_at_precision(const Plc<D>& plc, std::size_t facets, const InputArguments& reading, bool quiet, Report& report);
+void hint_at_precision(const Plc<D>& plc, const Domain<D>* domain, const InputArguments& reading, bool quiet, Report& report);
 
 }  // namespace pgdr::tool
