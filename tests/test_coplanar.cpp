@@ -212,7 +212,7 @@ Plc<3> plate_with_boss(int n, double height, double off) {
 }
 
 // A file that was turned has all digits, of points that are no more exact for it. (Of the plate, a face of which is 64 long
-// and thin facets then, come elements that stay poor for no reason that `check` takes, after a minute.)
+// and thin facets then, came elements that stayed poor for no reason that `check` takes, after more than a minute.)
 TEST(Coplanar, ThePrecisionOfFacesThatLookPlanar) {
   Plc<3> plc = turned(gridded_box(5), 0);
   for_each_point(plc, [](Point3& p) {
