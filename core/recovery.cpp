@@ -17,6 +17,11 @@ namespace {
 /// points it is given up with a typed error.
 std::uint64_t most_points(std::size_t input_points) { return 200000 + 100 * std::uint64_t{input_points}; }
 
+/// Nothing is missing before triangles are split for their shape: where that takes more points than this is to be done without.
+std::uint64_t most_points_after(std::size_t input_points, std::uint64_t improving) {
+  return 20000 + 10 * std::uint64_t{input_points} + 4 * improving;
+}
+
 /// The least angle at which two facets of the segment meet, in degrees.
 double least_angle_at(const Domain<3>& domain, EntityId segment) {
   const auto facets = domain.facets_of_segment(segment);
@@ -61,7 +66,7 @@ InputError not_recovered(const Domain<3>& domain, const detail::SegmentChains& c
 
 template <int D>
 StopCause recover_boundary(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, Delaunay<D>& delaunay,
-                           const Domain<D>& domain, const RefineOptions<D>& options,
+                           const Domain<D>& domain, const RefineOptions<D>& options, EarlySplits splits,
                            std::chrono::steady_clock::time_point start, RecoveryCounts& counts) {
   StopCause cause = StopCause::finished;
   auto stopped = [&] {
@@ -75,22 +80,27 @@ StopCause recover_boundary(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, Delaun
     detail::FacetPatches patches(mesh, delaunay, domain, chains);
     // Triangles up to twice the bound are left to the refinement, which splits them in the order that makes few points.
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    const double bound = options.refine ? 2 * std::max(options.radius_edge_bound, 2.0) : infinity;
+    const double bound =
+        options.refine && splits != EarlySplits::none ? 2 * std::max(options.radius_edge_bound, 2.0) : infinity;
     const std::uint64_t most = most_points(domain.points().size());
-    std::uint64_t improving = 0;  // points that nothing was missing for
     auto steiner = [&] { return chains.points() + patches.points(); };
     auto ended = [&] {
       if (domain.points().size() + steiner() >= options.max_vertices) cause = StopCause::max_vertices;
       return stopped();
     };
+    std::uint64_t needed = 0;  // points, before any was for the shape of a triangle
     auto stop = [&] {
-      if (steiner() - improving > most) throw not_recovered(domain, chains, patches, steiner() - improving);
+      const std::uint64_t missing = steiner() - counts.improving;
+      const bool too_many_after =
+          counts.improving > 0 && missing - needed > most_points_after(domain.points().size(), counts.improving);
+      if (missing > most || too_many_after) throw not_recovered(domain, chains, patches, missing);
       return ended();
     };
     auto improve = [&] {
       const std::uint64_t before = steiner();
-      const bool any = patches.improve_once(bound, options.min_edge, ended);
-      improving += steiner() - before;
+      if (counts.improving == 0) needed = before;
+      const bool any = patches.improve_once(splits, bound, options.min_edge, ended);
+      counts.improving += steiner() - before;
       return any;
     };
     do {
@@ -113,8 +123,10 @@ StopCause recover_boundary(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, Delaun
 }
 
 template StopCause recover_boundary<2>(Mesh<2>&, Mesh<2>::Pools&, Delaunay<2>&, const Domain<2>&,
-                                       const RefineOptions<2>&, std::chrono::steady_clock::time_point, RecoveryCounts&);
+                                       const RefineOptions<2>&, EarlySplits, std::chrono::steady_clock::time_point,
+                                       RecoveryCounts&);
 template StopCause recover_boundary<3>(Mesh<3>&, Mesh<3>::Pools&, Delaunay<3>&, const Domain<3>&,
-                                       const RefineOptions<3>&, std::chrono::steady_clock::time_point, RecoveryCounts&);
+                                       const RefineOptions<3>&, EarlySplits, std::chrono::steady_clock::time_point,
+                                       RecoveryCounts&);
 
 }  // namespace pgdr

@@ -27,38 +27,76 @@ Vector<3> direction_into(const Point3& a, const Point3& b, const Point3& c) {
   return d;
 }
 
-}  // namespace
+/// By segment: does it make less than 20 degrees with another one?
+std::vector<bool> at_sharp_angle(const Domain<3>& domain) {
+  constexpr double squared_cosine = 0.8830222215594890;  // of 20 degrees
+  const auto segments = domain.segments();
+  const auto points = domain.points();
+  std::vector<std::pair<std::uint32_t, EntityId>> by_end;
+  for (EntityId s = 0; s < segments.size(); ++s)
+    for (const std::uint32_t p : segments[s].points) by_end.push_back({p, s});
+  std::sort(by_end.begin(), by_end.end());
+  std::vector<bool> sharp(segments.size());
+  const auto direction = [&](const std::pair<std::uint32_t, EntityId>& use) {
+    const auto& ends = segments[use.second].points;
+    return difference(points[ends[0] == use.first ? ends[1] : ends[0]], points[use.first]);
+  };
+  for (std::size_t i = 0; i < by_end.size(); ++i)
+    for (std::size_t j = i + 1; j < by_end.size() && by_end[j].first == by_end[i].first; ++j) {
+      const EntityId s = by_end[i].second, t = by_end[j].second;
+      if (sharp[s] && sharp[t]) continue;
+      const auto u = direction(by_end[i]), v = direction(by_end[j]);
+      const double along = dot(u, v);
+      if (along > 0 && along * along > squared_cosine * dot(u, u) * dot(v, v)) sharp[s] = sharp[t] = true;
+    }
+  return sharp;
+}
 
-/// No segment of a calm facet makes less than 60 degrees with another segment, nor do two facets there; and it is plane but
-/// for rounding.
-void FacetPatches::find_calm() {
-  const auto segments = domain_->segments();
+/// By segment: do all facets there meet at 60 degrees at least?
+std::vector<bool> with_wide_ridge(const Domain<3>& domain) {
+  const auto segments = domain.segments();
+  const auto points = domain.points();
   std::vector<std::pair<std::array<std::uint32_t, 2>, EntityId>> by_ends;
   for (EntityId s = 0; s < segments.size(); ++s) by_ends.push_back({sorted_ends(segments[s].points[0], segments[s].points[1]), s});
   std::sort(by_ends.begin(), by_ends.end());
   std::vector<std::vector<Vector<3>>> into(segments.size());  // directions from each segment into its facets
-  for (EntityId f = 0; f < triangles_.size(); ++f)
-    for (const auto& t : domain_->triangles(f))
+  for (EntityId f = 0; f < domain.facets().size(); ++f)
+    for (const auto& t : domain.triangles(f))
       for (int i = 0; i < 3; ++i) {
         const std::uint32_t a = t[i], b = t[(i + 1) % 3];
         const auto ends = sorted_ends(a, b);
         const auto at = std::lower_bound(by_ends.begin(), by_ends.end(), std::pair(ends, EntityId{0}));
         if (at == by_ends.end() || at->first != ends) continue;
-        const auto points = domain_->points();
         into[at->second].push_back(direction_into(points[a], points[b], points[t[(i + 2) % 3]]));
       }
-  std::vector<bool> wide(segments.size());
-  for (EntityId s = 0; s < segments.size(); ++s) {
-    wide[s] = !chains_->at_small_angle(s);
+  std::vector<bool> wide(segments.size(), true);
+  for (EntityId s = 0; s < segments.size(); ++s)
     for (std::size_t i = 0; i < into[s].size(); ++i)
       for (std::size_t j = 0; j < i; ++j) wide[s] = wide[s] && dot(into[s][i], into[s][j]) <= 0.5;
-  }
+  return wide;
+}
+
+}  // namespace
+
+/// By the least angle that a segment of the facet makes with another one; only where its facets meet at no less than 60 degrees
+/// and it is plane but for rounding.
+void FacetPatches::find_calm() {
+  const std::vector<bool> wide = with_wide_ridge(*domain_), sharp = at_sharp_angle(*domain_);
   for (EntityId f = 0; f < triangles_.size(); ++f) {
-    const auto own = domain_->facet_segments(f);
-    calm_.push_back(std::all_of(own.begin(), own.end(), [&](EntityId s) {
-      return wide[s] && domain_->facets()[f].planarity_defect <= 0x1p-44 * domain_->segment_magnitude(s);
-    }));
+    EarlySplits least = EarlySplits::calm;
+    for (const EntityId s : domain_->facet_segments(f)) {
+      const bool plane = domain_->facets()[f].planarity_defect <= 0x1p-44 * domain_->segment_magnitude(s);
+      if (!wide[s] || !plane || sharp[s]) least = EarlySplits::none;
+      if (least == EarlySplits::calm && chains_->at_small_angle(s)) least = EarlySplits::strips;
+    }
+    calm_.push_back(least);
   }
+}
+
+/// By which the bound is multiplied; 0 where no triangle is split.
+double FacetPatches::factor_of_bound(EntityId facet, EarlySplits splits) const {
+  if (calm_[facet] == EarlySplits::none || calm_[facet] > splits) return 0;
+  return calm_[facet] == EarlySplits::strips && splits == EarlySplits::strips ? 4 : 1;
 }
 
 bool FacetPatches::may_split(const Subsegment& s) const {
@@ -82,19 +120,20 @@ void FacetPatches::find_fragile() {
   std::sort(fragile_.begin(), fragile_.end());
 }
 
-bool FacetPatches::improve_once(double bound, double min_edge, const std::function<bool()>& stop) {
+bool FacetPatches::improve_once(EarlySplits splits, double bound, double min_edge, const std::function<bool()>& stop) {
   if (calm_.empty()) find_calm();
-  if (std::find(calm_.begin(), calm_.end(), true) == calm_.end()) return false;
+  if (std::all_of(calm_.begin(), calm_.end(), [](EarlySplits s) { return s == EarlySplits::none; })) return false;
   find_fragile();
   bool any = false;
   for (EntityId f = 0; f < triangles_.size(); ++f) {
-    if (!calm_[f]) continue;
+    const double largest = factor_of_bound(f, splits) * bound;
+    if (largest == 0) continue;
     std::vector<Candidate> poor;
     for (const Triangle& t : triangles_[f]) {
       const Point3 &a = mesh_->point(t[0]), &b = mesh_->point(t[1]), &c = mesh_->point(t[2]);
       const double shortest = std::min({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)});
       const Ball<3> ball = equatorial_ball(a, b, c);
-      if (ball.squared_radius > bound * bound * shortest) poor.push_back({ball, t, std::max(std::sqrt(shortest), min_edge)});
+      if (ball.squared_radius > largest * largest * shortest) poor.push_back({ball, t, std::max(std::sqrt(shortest), min_edge)});
     }
     if (!poor.empty() && !stop()) any = split_triangles(f, std::move(poor)) || any;
   }

@@ -150,15 +150,14 @@ void note_what_theory_lacks(const RefineOptions<D>& options, std::vector<Diagnos
 /// The mesh before its refinement. Where the run is stopped before the boundary is there, `result.stop` says why.
 template <int D>
 RegionTable make_initial(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Domain<D>& domain, const RefineOptions<D>& options,
-                         Clock::time_point start, RefineResult<D>& result) {
+                         EarlySplits splits, Clock::time_point start, RefineResult<D>& result, RecoveryCounts& counts) {
   Delaunay<D> delaunay(mesh, pools);
   if (!delaunay.build(domain.points(), options.stop))
     throw InputError({Errc::no_volume, D == 3 ? "all points lie in one plane" : "all points lie on one line", {}, 0, {}, {}});
-  RecoveryCounts counts;
   if (options.stop.stop_requested()) {
     result.stop = StopCause::cancelled;  // the triangulation may lack points
   } else {
-    result.stop = recover_boundary<D>(mesh, pools, delaunay, domain, options, start, counts);
+    result.stop = recover_boundary<D>(mesh, pools, delaunay, domain, options, splits, start, counts);
   }
   result.statistics.segment_points = counts.segment_points;
   result.statistics.facet_points = counts.facet_points;
@@ -233,21 +232,25 @@ std::uint64_t too_many_unexplained(const Refined<D>& refined, const RefineResult
   return few ? 0 : refined.unexplained_violations + refined.unexplained_poor;
 }
 
-/// How points beside small angles are chosen at an attempt (RefineContext).
+/// How points beside small angles are chosen at an attempt (RefineContext), and what is split before (recovery.hpp).
 struct Manner {
   bool sparse = true, last_resort = true;
+  EarlySplits splits = EarlySplits::strips;
 };
 
 /// In this order, until one leaves nothing without a reason.
-constexpr std::array<Manner, 3> manners{{{true, true}, {false, false}, {true, false}}};
+constexpr std::array<Manner, 4> manners{{{true, true},
+                                         {true, true, EarlySplits::all_but_sharp},
+                                         {false, false},
+                                         {true, false}}};
 
 /// The mesh of the domain. `result`: what is known before. `began`: when this attempt did; `start`: the whole run, for limits.
 template <int D>
 Attempt<D> attempt(const Domain<D>& domain, const RefineOptions<D>& options, Manner manner, Clock::time_point start,
-                   Clock::time_point began, RefineResult<D> result) {
+                   Clock::time_point began, RefineResult<D> result, RecoveryCounts& counts) {
   Mesh<D> mesh;
   auto pools = mesh.make_pools();
-  const RegionTable regions = make_initial<D>(mesh, pools, domain, options, start, result);
+  const RegionTable regions = make_initial<D>(mesh, pools, domain, options, manner.splits, start, result, counts);
   result.statistics.seconds_initial = seconds_since(began);
   if (result.stop != StopCause::finished) {
     result.size_met = false;
@@ -290,6 +293,36 @@ Attempt<D> attempt(const Domain<D>& domain, const RefineOptions<D>& options, Man
   return {std::move(result), unexplained};
 }
 
+/// Points that nothing is missing for may bring on a recovery that does not end: then it has to do with fewer of them, as
+/// `splits` says in the end.
+template <int D>
+Attempt<D> first_attempt(const Domain<D>& domain, const RefineOptions<D>& options, EarlySplits& splits, Clock::time_point start,
+                         const RefineResult<D>& before) {
+  Manner manner = manners[0];
+  while (true) {
+    splits = manner.splits;
+    RecoveryCounts counts;
+    try {
+      return attempt<D>(domain, options, manner, start, start, before, counts);
+    } catch (const InputError&) {
+      if (counts.improving == 0 || splits == EarlySplits::none) throw;
+      manner.splits = EarlySplits{static_cast<std::uint8_t>(static_cast<int>(splits) - 1)};
+    }
+  }
+}
+
+/// Another one; nothing if its boundary is not recovered.
+template <int D>
+std::optional<Attempt<D>> further_attempt(const Domain<D>& domain, const RefineOptions<D>& options, Manner manner,
+                                          Clock::time_point start, const RefineResult<D>& before) {
+  RecoveryCounts counts;
+  try {
+    return attempt<D>(domain, options, manner, start, Clock::now(), before, counts);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
 /// Few points beside small angles may leave a tangle where walls cut back most cavities, which more of them can prevent (or
 /// bring, elsewhere). So where elements are left without a reason all is meshed once more, and maybe again, unless the caller's
 /// limits end that before; progress is then told from the start again.
@@ -307,12 +340,18 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   } catch (const CancelledError&) {
     return without_mesh(std::move(before), start);
   }
-  Attempt<D> made = attempt<D>(domain, options, manners[0], start, start, before);
+  EarlySplits splits;
+  Attempt<D> made = first_attempt<D>(domain, options, splits, start, before);
   for (std::size_t i = 1; D == 3 && i < manners.size() && made.unexplained > 0 && made.result.stop == StopCause::finished; ++i) {
-    Attempt<D> again = attempt<D>(domain, options, manners[i], start, Clock::now(), before);
-    const StopCause stop = again.result.stop;
-    const bool better = stop == StopCause::finished && again.unexplained < made.unexplained;
-    if (better || stop == StopCause::cancelled) made = std::move(again);
+    Manner manner = manners[i];
+    const bool fewer = splits < manners[0].splits;
+    if (fewer && manner.splits > manners[0].splits) continue;
+    if (fewer) manner.splits = splits;
+    std::optional<Attempt<D>> again = further_attempt<D>(domain, options, manner, start, before);
+    if (!again) continue;
+    const StopCause stop = again->result.stop;
+    const bool better = stop == StopCause::finished && again->unexplained < made.unexplained;
+    if (better || stop == StopCause::cancelled) made = std::move(*again);
     if (stop != StopCause::finished) break;
   }
   RefineResult<D>& result = made.result;

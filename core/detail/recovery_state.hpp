@@ -83,9 +83,9 @@ class FacetPatches {
 
   /// Puts points where triangles are missing, one round. False if none was missing. Ends early if `stop` says so.
   bool recover_once(const std::function<bool()>& stop);
-  /// Splits triangles of a radius-edge ratio above the bound, one round, in facets without small angles, where no edge below
+  /// Splits triangles of a radius-edge ratio above the bound, one round, in facets that `splits` names, where no edge below
   /// `min_edge` comes of it. False if none was split. @pre none is missing
-  bool improve_once(double bound, double min_edge, const std::function<bool()>& stop);
+  bool improve_once(EarlySplits splits, double bound, double min_edge, const std::function<bool()>& stop);
   std::uint64_t points() const { return points_; }
   void mark(Mesh<3>::Pools& pools);
   std::size_t inner_points(EntityId facet) const { return inner_points_[facet].size(); }  ///< Steiner points inside the facet
@@ -101,6 +101,7 @@ class FacetPatches {
   bool split_triangles(EntityId facet, std::vector<Candidate> candidates);
   bool may_split(const Subsegment& s) const;
   void find_calm();
+  double factor_of_bound(EntityId facet, EarlySplits splits) const;
   void find_fragile();
   Point3 centroid_of(const Triangle& t) const;
   VertexId insert_inside(EntityId facet, const Candidate& c, const Point3& x);
@@ -118,7 +119,8 @@ class FacetPatches {
   SegmentChains* chains_;
   std::vector<std::vector<Triangle>> triangles_;
   std::vector<std::vector<VertexId>> inner_points_;  ///< Steiner points inside each facet
-  std::vector<bool> changed_, calm_;  ///< calm: no segment of the facet is at a small angle
+  std::vector<bool> changed_;
+  std::vector<EarlySplits> calm_;  ///< of each facet, the least that names it; `none` if nothing does
   std::vector<std::array<VertexId, 2>> fragile_;  ///< sorted: edges at triangles so flat that rounding may turn them over
   std::uint64_t points_ = 0;
 };
