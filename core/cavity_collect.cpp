@@ -437,18 +437,19 @@ VertexId nearest_vertex(const Mesh<D>& mesh, const Cavity<D>& cavity, std::span<
 }
 
 template <int D>
-double insertion_radius(const Mesh<D>& mesh, const Cavity<D>& cavity) {
+double insertion_radius(const Mesh<D>& mesh, const Cavity<D>& cavity, std::span<const VertexId> excluded) {
   double least = std::numeric_limits<double>::infinity();
   for (const CellId c : cavity.cells())
     for (const VertexId v : mesh.cell(c).vertices)
-      if (v != infinite_vertex) least = std::min(least, squared_distance(cavity.point(), mesh.point(v)));
+      if (v != infinite_vertex && (excluded.empty() || std::find(excluded.begin(), excluded.end(), v) == excluded.end()))
+        least = std::min(least, squared_distance(cavity.point(), mesh.point(v)));
   return std::sqrt(least);
 }
 
 template VertexId nearest_vertex<2>(const Mesh<2>&, const Cavity<2>&, std::span<const VertexId>);
 template VertexId nearest_vertex<3>(const Mesh<3>&, const Cavity<3>&, std::span<const VertexId>);
-template double insertion_radius<2>(const Mesh<2>&, const Cavity<2>&);
-template double insertion_radius<3>(const Mesh<3>&, const Cavity<3>&);
+template double insertion_radius<2>(const Mesh<2>&, const Cavity<2>&, std::span<const VertexId>);
+template double insertion_radius<3>(const Mesh<3>&, const Cavity<3>&, std::span<const VertexId>);
 template class Cavity<2>;
 template class Cavity<3>;
 

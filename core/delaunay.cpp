@@ -136,14 +136,13 @@ bool Delaunay<D>::build(std::span<const Point<D>> points, const std::stop_token&
 }
 
 template <int D>
-VertexId Delaunay<D>::insert(const Point<D>& p, Home home, VertexId near, double least) {
+VertexId Delaunay<D>::insert(const Point<D>& p, Home home, VertexId near, double least, std::span<const VertexId> twins) {
   if (const VertexId there = prepare(p, cell_at(near)); there != no_vertex) return least > 0 ? no_vertex : there;
-  const double radius = insertion_radius<D>(*mesh_, cavity_);
-  if (radius < least) {
+  if (insertion_radius<D>(*mesh_, cavity_) < least) {
     cavity_.release();
     return no_vertex;
   }
-  return commit(home, rounded_down(radius));
+  return commit(home, rounded_down(insertion_radius<D>(*mesh_, cavity_, twins)));
 }
 
 template <int D>

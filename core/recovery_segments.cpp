@@ -11,6 +11,7 @@ SegmentChains::SegmentChains(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<
     : mesh_(&mesh), delaunay_(&delaunay), domain_(&domain), shells_(domain) {
   for (const DomainSegment& s : domain.segments())
     chains_.push_back({{delaunay.vertices()[s.points[0]], 0.0}, {delaunay.vertices()[s.points[1]], 1.0}});
+  find_companions();
 }
 
 WantedSimplices<2> SegmentChains::wanted() const {
@@ -59,9 +60,9 @@ VertexId SegmentChains::split(const Subsegment& s, double least) {
   const std::size_t i = position(s);
   if (i == 0) return no_vertex;
   const auto& [segment, a, b, begin] = s;
-  const double t = shells_.split_parameter(segment, begin, chains_[segment][i].t);
+  const auto [t, twins] = split_place(segment, begin, chains_[segment][i].t);
   const Point<3> p = point_on_segment<3>(*domain_, segment, t);
-  const VertexId v = delaunay_->insert(p, Home(EntityKind::segment, segment), a, least);
+  const VertexId v = delaunay_->insert(p, Home(EntityKind::segment, segment), a, least, twins);
   if (v == no_vertex) return no_vertex;
   const Home home = mesh_->vertex(v).home;
   if (!(home.kind() == EntityKind::segment && home.id() == segment) || v == a || v == b) {

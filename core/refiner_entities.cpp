@@ -190,22 +190,25 @@ auto Refiner<D>::refuse(EntityRef entity, std::span<const VertexId> own) -> Outc
   return Outcome::refused;
 }
 
+/// `twins`: their distances do not count.
 template <int D>
-auto Refiner<D>::decide(EntityRef entity, std::span<const VertexId> own, const Demand* cause)
+auto Refiner<D>::decide(EntityRef entity, std::span<const VertexId> own, const Demand* cause, std::span<const VertexId> twins)
     -> Outcome {
   auto status = cavity_.make_star_shaped();
   if (status == Cavity<D>::Status::ok) status = cavity_.check_nothing_swallowed();
   if (status == Cavity<D>::Status::not_owned) return give_up(Outcome::not_owned);
   if (status != Cavity<D>::Status::ok) return refuse(entity, own);
-  Demand demand = cause ? *cause : demand_of(entity, own, false);
-  const double r = insertion_radius<D>(*mesh_, cavity_);
+  std::vector<VertexId> left_out(twins.begin(), twins.end());
+  if (!twins.empty()) left_out.insert(left_out.end(), own.begin(), own.end());
+  Demand demand = cause ? *cause : demand_of(entity, twins.empty() ? own : left_out, false);
+  const double r = insertion_radius<D>(*mesh_, cavity_, twins);
   if (r < demand.d) {
     const VertexId q = nearest_vertex<D>(*mesh_, cavity_, own);
     if (entity.kind != EntityKind::segment || !may_be_near(entity.id, own, q)) return refuse(entity, own);
     if (q != no_vertex && mesh_->vertex(q).home.kind() != EntityKind::vertex)
       demand.h = std::max(demand.h, double{mesh_->vertex(q).relaxed_radius});
   }
-  if (r < options_->min_edge) {
+  if (options_->min_edge > 0 && insertion_radius<D>(*mesh_, cavity_) < options_->min_edge) {
     visit_->min_edge_hit = true;
     return refuse(entity, own);
   }
@@ -319,6 +322,10 @@ auto Refiner<D>::split_edge(const Item& e, const Demand* cause) -> Outcome {
     const EntityId s = mesh_->constraints(e.cell)->edge_entity[e.which()];
     const auto& vertices = mesh_->cell(e.cell).vertices;
     const std::array<VertexId, 2> own{vertices[edge_ends[e.which()][0]], vertices[edge_ends[e.which()][1]]};
+    bool owned = true;
+    const auto place = place_beside(e, own, owned);
+    if (!owned) return give_up(Outcome::not_owned);
+    if (place) return split_beside(e, *place, own, cause);
     const Point<D> x = split_point(s, own[0], own[1]);
     const EntityRef entity{EntityKind::segment, s};
     const double least = cause ? cause->d : 0;

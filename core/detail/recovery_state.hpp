@@ -6,10 +6,14 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "detail/box_tree.hpp"
+#include "detail/search_tree.hpp"
 #include "detail/wanted_simplices.hpp"
 #include "pgdr/recovery.hpp"
 #include "pgdr/shells.hpp"
@@ -63,6 +67,13 @@ class SegmentChains {
  private:
   std::vector<Subsegment> missing() const;
   std::size_t position(const Subsegment& s) const;
+  // recovery_twins.cpp
+  void find_companions();
+  template <class Visit>
+  void for_each_along(EntityId s, EntityId companion, double begin, double end, const Visit& visit) const;
+  const std::vector<Link>& input_beside(EntityId s);
+  std::pair<double, std::vector<VertexId>> split_place(EntityId s, double begin, double end);
+
   void add(EntityId segment, std::size_t position, VertexId v, double t);
   WantedSimplices<2> wanted() const;
 
@@ -71,6 +82,9 @@ class SegmentChains {
   const Domain<3>* domain_;
   std::vector<std::vector<Link>> chains_;
   Shells<3> shells_;
+  std::vector<std::vector<EntityId>> companions_;  ///< of each segment, those that run along it from a common end
+  std::unordered_map<EntityId, std::vector<Link>> input_beside_;  ///< of segments that were split
+  std::unique_ptr<SearchTree<3>> points_tree_;                    ///< of the input points; made where a segment is split
   std::vector<EntityId> changed_;
   std::uint32_t round_ = 1;
   std::uint64_t points_ = 0;

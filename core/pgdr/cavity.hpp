@@ -228,7 +228,7 @@ template <int D>
 VertexId nearest_vertex(const Mesh<D>& mesh, const Cavity<D>& cavity, std::span<const VertexId> excluded);
 /// Distance from the cavity's point to its nearest vertex.
 template <int D>
-double insertion_radius(const Mesh<D>& mesh, const Cavity<D>& cavity);
+double insertion_radius(const Mesh<D>& mesh, const Cavity<D>& cavity, std::span<const VertexId> excluded = {});
 
 /// The largest float that is not above v.
 inline float rounded_down(double v) {

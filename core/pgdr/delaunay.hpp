@@ -32,7 +32,8 @@ class Delaunay {
 
   /// Inserts one more point, searched for from the star of vertex `near`, with its insertion radius. Returns no_vertex, and
   /// does nothing, if the next vertex is nearer than `least`; else the vertex there already, if there is one.
-  VertexId insert(const Point<D>& p, Home home, VertexId near, double least = 0);
+  /// `twins` do not count for that radius.
+  VertexId insert(const Point<D>& p, Home home, VertexId near, double least = 0, std::span<const VertexId> twins = {});
 
   /// Vertices in the order of `points`.
   const std::vector<VertexId>& vertices() const { return vertices_; }

@@ -21,17 +21,19 @@
 //     entities; passed on from a facet to a segment, d = |xq| / 2); else d = c R(q), h = R(q); in 3D d = R(q) where the
 //     two meet at less than 60 degrees, unless such a run has left elements poor for no reason (scheduler/refine.cpp);
 //   * for a missing subsegment or subfacet of the boundary recovery: d = h = 0;
+//   * 3D: for a point of a subsegment with twins, on other segments as far from a common end (twins.hpp), r(x) here is the
+//     distance from the nearest other vertex; likewise in the recovery;
 //   * 2D: for a point of a subsegment on a shell (shells.hpp), the first at its end or no nearer to it than q, on another
 //     segment there, d = 0 in any case, and h is at least R(q).
-// c = 1/2. Since R is inherited along a chain of small angles the factor c is paid once, not once a link: with
-// lambda = min(half the least distance of disjoint entities, the shortest edge of the recovered mesh, half the least size,
-// the least first shell) relaxed lengths are at least lambda as long as R is, and every Steiner point of the refinement has
-// R >= lambda and r >= c lambda, by induction over the insertions (on shells: r >= c lambda min(1, 2 sin(a / 2)), a the
-// least angle between segments, as distances from their end do not shrink from one shell to the other). Mutually visible
-// vertices are thus c lambda apart, and the domain is bounded: finitely many insertions. Vertices of the volume that are taken
-// out again (local_rewrap.hpp) are finitely many, too. Without inheritance c would have to be 1. (That it is 1 at small
-// angles in 3D is for the size of the meshes, not for the proof: docs/performance.md.) What ends a run in 3D follows rules of its
-// own (refiner_improvement.cpp). Pure functions; any thread.
+// c = 1/2. Since R is inherited along a chain of small angles the factor c is paid once, not once a link: with lambda =
+// min(half the least distance of disjoint entities, the shortest edge of the recovered mesh, half the least size, the least
+// first shell) relaxed lengths are at least lambda as long as R is, and every Steiner point of the refinement has R >=
+// lambda and r >= c lambda, by induction over the insertions (on shells: r >= c lambda min(1, 2 sin(a / 2)), a the least
+// angle between segments, as distances from their end do not shrink from one shell to the other, nor, of twins, from one to
+// the other). Mutually visible vertices are thus c lambda apart, and the domain is bounded: finitely many insertions.
+// Vertices of the volume that are taken out again (local_rewrap.hpp) are finitely many, too. Without inheritance c would
+// have to be 1. (That it is 1 at small angles in 3D is for the size of the meshes, not for the proof: docs/performance.md.)
+// What ends a run in 3D follows rules of its own (refiner_improvement.cpp). Pure functions; any thread.
 #pragma once
 
 #include <array>

@@ -30,6 +30,7 @@
 #include "pgdr/refine_options.hpp"
 #include "pgdr/refusal_memo.hpp"
 #include "pgdr/shells.hpp"
+#include "pgdr/twins.hpp"
 #include "pgdr/vertex_move.hpp"
 #include "pgdr/visit_area.hpp"
 #include "pgdr/work_list.hpp"
@@ -211,8 +212,13 @@ class Refiner {
   bool meet_below(double degrees, EntityRef a, EntityRef b) const { return angle_between(a, b) < degrees; }
   bool may_ask_for_less(CellId c) const;
   Demand demand_of(EntityRef entity, std::span<const VertexId> own, bool pass_on) const;
-  Outcome decide(EntityRef entity, std::span<const VertexId> own, const Demand* cause);
+  Outcome decide(EntityRef entity, std::span<const VertexId> own, const Demand* cause, std::span<const VertexId> twins = {});
   Outcome refuse(EntityRef entity, std::span<const VertexId> own);
+
+  // refiner_twins.cpp: subsegments that vertices are close beside
+  std::optional<SplitPlace> place_beside(const Item& e, std::span<const VertexId> own, bool& owned) const;
+  std::vector<VertexId> twins_of(EntityId s, const SplitPlace& place) const;
+  Outcome split_beside(const Item& e, const SplitPlace& place, std::span<const VertexId> own, const Demand* cause);
 
   // refiner_cells.cpp: poor elements
   CellVerdict verdict_of(const Item& e) const;

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// 3D: where to split a subsegment that other vertices are close beside, as those of a needle, a triangle whose corner lies next
+// to the opposite side (programs that subtract solids leave such). Along its sides, the subsegments of the one would be split
+// for the vertices of the other, and these for the new ones: were each split in the middle, the distances between their points
+// would become those at which they are split next, and so on, down to how far apart the sides are. So a subsegment is split
+//   * as far from an end of its segment as a vertex beside it is that lies on another segment there: its twin. No vertex of
+//     the one side is then between two of the other, in the sense that counts: none is in a diametral ball there;
+//   * or next to an input vertex beside it, so that no diametral ball has it inside.
+// The distance between twins is not counted: the insertion radius of a point, which is compared with what is asked of it, and
+// which later points inherit, is that from all other vertices (insertion_rule.hpp has the proof that this ends). Pure functions
+// of the domain and of points; any thread.
+#pragma once
+
+#include <optional>
+
+#include "pgdr/domain.hpp"
+#include "pgdr/mesh.hpp"
+
+namespace pgdr {
+
+/// Of a subsegment's length: a vertex nearer than that is beside it. At larger angles, from about one degree, few points make most
+/// elements between the segments good, if they may go where that takes the fewest.
+inline constexpr double beside = 0.0078125;
+
+/// Where to split a subsegment.
+struct SplitPlace {
+  double t;                        ///< parameter on the segment, strictly inside of the piece
+  Point3 x;                        ///< the point there
+  std::uint32_t apex = no_entity;  ///< the input vertex, an end of the segment, from which twins are as far; none without twins
+  double radius = 0;               ///< that distance
+};
+
+/// Of the piece of a segment from t0 to t1, looks for the place beside a vertex that is nearest to its middle.
+class PlaceBeside {
+ public:
+  PlaceBeside(const Domain<3>& domain, EntityId segment, double t0, double t1);  ///< 0 <= t0 < t1 <= 1
+
+  void look_at(const VertexRecord<3>& q);  ///< any vertex; the order in which they come does not matter
+  const std::optional<SplitPlace>& best() const { return best_; }  ///< nothing without any
+
+ private:
+  void add(double t, const Point3& q, double least_room, std::uint32_t apex);
+
+  const Domain<3>* domain_;
+  EntityId segment_;
+  double t0_, t1_, whole_;
+  std::optional<SplitPlace> best_;
+};
+
+/// Does the vertex lie on another segment at the place's apex, as far from it, but for rounding?
+bool is_twin(const Domain<3>& domain, EntityId segment, const SplitPlace& place, const VertexRecord<3>& v);
+
+}  // namespace pgdr

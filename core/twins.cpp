@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "pgdr/twins.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace pgdr {
+namespace {
+
+constexpr double least_part = 0.25;  // of the piece, on either side of a place with a twin
+
+double distance(const Point3& a, const Point3& b) { return std::sqrt(squared_distance(a, b)); }
+
+/// The end of the segment, 0 or 1, that the vertex's own, another one, shares; -1 if there is none.
+int common_end(const Domain<3>& domain, EntityId segment, Home home) {
+  if (home.kind() != EntityKind::segment || home.id() == segment) return -1;
+  const auto &ends = domain.segments()[segment].points, &others = domain.segments()[home.id()].points;
+  for (const int end : {0, 1})
+    if (ends[end] == others[0] || ends[end] == others[1]) return end;
+  return -1;
+}
+
+}  // namespace
+
+PlaceBeside::PlaceBeside(const Domain<3>& domain, EntityId segment, double t0, double t1)
+    : domain_(&domain), segment_(segment), t0_(t0), t1_(t1) {
+  const auto& ends = domain.segments()[segment].points;
+  whole_ = distance(domain.points()[ends[0]], domain.points()[ends[1]]);
+}
+
+void PlaceBeside::look_at(const VertexRecord<3>& q) {
+  const double length = whole_ * (t1_ - t0_);
+  if (q.home.kind() == EntityKind::vertex) {
+    const double t = segment_parameter<3>(*domain_, segment_, q.point);
+    if (!(t > t0_ && t < t1_)) return;
+    add(t, q.point, distance(point_on_segment<3>(*domain_, segment_, t), q.point), no_entity);
+  } else if (const int end = common_end(*domain_, segment_, q.home); end >= 0) {
+    const std::uint32_t apex = domain_->segments()[segment_].points[end];
+    const double part = distance(domain_->points()[apex], q.point) / whole_;
+    add(end == 0 ? part : 1 - part, q.point, least_part * length, apex);
+  }
+}
+
+void PlaceBeside::add(double t, const Point3& q, double least_room, std::uint32_t apex) {
+  if (!(t > t0_ && t < t1_) || whole_ * std::min(t - t0_, t1_ - t) < least_room) return;
+  const SplitPlace place{t, point_on_segment<3>(*domain_, segment_, t), apex,
+                         apex == no_entity ? 0.0 : distance(domain_->points()[apex], q)};
+  if (distance(place.x, q) >= beside * whole_ * (t1_ - t0_)) return;
+  const auto rank = [&](const SplitPlace& p) {
+    return std::tuple(std::abs(p.t - (t0_ + (t1_ - t0_) / 2)), p.t, p.apex, p.radius);
+  };
+  if (!best_ || rank(place) < rank(*best_)) best_ = place;
+}
+
+bool is_twin(const Domain<3>& domain, EntityId segment, const SplitPlace& place, const VertexRecord<3>& v) {
+  if (place.apex == no_entity || v.home.kind() != EntityKind::segment || v.home.id() == segment) return false;
+  const auto& ends = domain.segments()[v.home.id()].points;
+  if (ends[0] != place.apex && ends[1] != place.apex) return false;
+  const double rounding = 0x1p-48 * domain.segment_magnitude(segment);
+  return std::abs(distance(domain.points()[place.apex], v.point) - place.radius) <= rounding;
+}
+
+}  // namespace pgdr

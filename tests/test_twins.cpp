@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Needles: triangles whose corner is next to the opposite side, as programs leave them that subtract one solid from another and
+// write six digits. Each side was split in its middle for the points of the other, and these for those: a box of nine points with
+// one needle, a corner 3e-7 from the edge of 10, was not through after a minute, at fifteen thousand points; a union of two
+// dodecahedra of 132 points with seven of them got 14,097 points in the recovery alone (79 now), and was not through either.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "parallel_support.hpp"
+#include "pgdr/twins.hpp"
+
+namespace pgdr {
+namespace {
+
+/// A box of edges of 10; next to the middle of some of its edges a point, off it by `height` in the given direction, with a needle
+/// from the edge to it on the one side of the edge, the faces on the other side being two triangles. `part`: how far along the edge.
+Plc<3> box_with_needles(int needles, double part, double dy, double dz) {
+  Plc<3> plc;
+  for (const double z : {0.0, 10.0})
+    for (const auto& [x, y] : {std::pair(0., 0.), std::pair(10., 0.), std::pair(10., 10.), std::pair(0., 10.)})
+      plc.points.push_back({{x, y, z}});
+  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) { plc.facets.push_back({{{a, b, c}}, {}, 0}); };
+  add(0, 2, 1);
+  add(0, 3, 2);
+  add(4, 5, 6);
+  add(4, 6, 7);
+  // The walls: 0 1 5 4, 1 2 6 5, 2 3 7 6, 3 0 4 7, each with its needle at the upper edge.
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const std::uint32_t a = i, b = (i + 1) % 4, c = b + 4, d = a + 4;
+    if (static_cast<int>(i) >= needles) {
+      add(a, b, c);
+      add(a, c, d);
+      continue;
+    }
+    const Point3 &p = plc.points[d], &q = plc.points[c];
+    const double t = part + 0.01 * i;
+    const Point3 inwards{{(p[1] - q[1]) / 10, (q[0] - p[0]) / 10, 0}};
+    const auto m = static_cast<std::uint32_t>(plc.points.size());
+    const Point3 at{{p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1]), p[2]}};
+    plc.points.push_back({{at[0] + dy * inwards[0], at[1] + dy * inwards[1], at[2] + dz}});
+    add(a, b, m);
+    add(b, c, m);
+    add(a, m, d);
+    add(d, m, c);
+  }
+  return plc;
+}
+
+void expect_few(const Plc<3>& plc, const std::string& name, std::size_t most_cells) {
+  RefineOptions<3> options;
+  options.max_vertices = 20000;  // so that a run that does not end does
+  const RefineResult<3> result = test::expect_reproducible<3>(plc, options, name, test::eight_threads);
+  EXPECT_EQ(result.stop, StopCause::finished);
+  EXPECT_LT(result.mesh.cells.size(), most_cells);
+  EXPECT_GT(result.mesh.cells.size(), 0u);
+  for (const PoorReason& reason : result.reasons) EXPECT_EQ(reason.code, PoorReason::Code::small_angle);
+}
+
+class Needles : public testing::TestWithParam<double> {};
+
+TEST_P(Needles, OneGetsFewPoints) {
+  const double height = GetParam();
+  expect_few(box_with_needles(1, 0.53, height, -3 * height), "needle", 2000);
+}
+
+TEST_P(Needles, FourGetFewPoints) {
+  const double height = GetParam();
+  expect_few(box_with_needles(4, 0.53, height, -2 * height), "needles", 20000);
+}
+
+INSTANTIATE_TEST_SUITE_P(Heights, Needles, testing::Values(1e-5, 1e-7, 1e-9),
+                         [](const auto& info) { return "1em" + std::to_string(std::lround(-std::log10(info.param))); });
+
+/// Two segments from one point at an angle of 0.001, of 8 and 5.
+Domain<3> two_segments() {
+  Plc<3> plc;
+  plc.points = {{{0, 0, 0}}, {{8, 0, 0}}, {{5 * std::cos(0.001), 5 * std::sin(0.001), 0}}};
+  plc.segments = {{{0, 1}, 0}, {{0, 2}, 0}};
+  // A tetrahedron about them, as a domain needs a volume.
+  for (const Point3& p : {Point3{{-20, -20, -20}}, Point3{{60, -20, -20}}, Point3{{-20, 60, -20}}, Point3{{-20, -20, 60}}})
+    plc.points.push_back(p);
+  plc.facets = {{{{3, 4, 5}}, {}, 0}, {{{3, 4, 6}}, {}, 0}, {{{3, 5, 6}}, {}, 0}, {{{4, 5, 6}}, {}, 0}};
+  return Domain<3>(plc);
+}
+
+EntityId segment_between(const Domain<3>& domain, std::uint32_t a, std::uint32_t b) {
+  const auto segments = domain.segments();
+  const auto at = std::find_if(segments.begin(), segments.end(), [&](const DomainSegment& s) {
+    return std::pair(std::min(s.points[0], s.points[1]), std::max(s.points[0], s.points[1])) == std::pair(a, b);
+  });
+  return static_cast<EntityId>(at - segments.begin());
+}
+
+TEST(PlaceBeside, IsAsFarFromTheCommonEndOrNextToAnInputVertex) {
+  const Domain<3> domain = two_segments();
+  const EntityId s = segment_between(domain, 0, 1), other = segment_between(domain, 0, 2);
+  const auto on_other = [&](double radius) {
+    return VertexRecord<3>{{{radius * std::cos(0.001), radius * std::sin(0.001), 0}}, Home(EntityKind::segment, other), 1};
+  };
+  PlaceBeside places(domain, s, 0, 1);
+  EXPECT_FALSE(places.best());
+  places.look_at(on_other(1));  // too near to the end of the piece
+  EXPECT_FALSE(places.best());
+  places.look_at(on_other(3));
+  ASSERT_TRUE(places.best());
+  EXPECT_DOUBLE_EQ(places.best()->x[0], 3);
+  EXPECT_EQ(places.best()->apex, domain.segments()[s].points[0]);
+  EXPECT_TRUE(is_twin(domain, s, *places.best(), on_other(3)));
+  EXPECT_FALSE(is_twin(domain, s, *places.best(), on_other(3.001)));
+  EXPECT_FALSE(is_twin(domain, s, *places.best(), {{{3, 0, 0}}, Home(EntityKind::segment, s), 1}));
+  places.look_at(on_other(4.5));  // nearer to the middle
+  EXPECT_DOUBLE_EQ(places.best()->x[0], 4.5);
+
+  PlaceBeside next_to_input(domain, s, 0, 1);
+  next_to_input.look_at({domain.points()[2], Home(EntityKind::vertex, 2), 1});
+  ASSERT_TRUE(next_to_input.best());
+  EXPECT_DOUBLE_EQ(next_to_input.best()->x[0], domain.points()[2][0]);
+  EXPECT_EQ(next_to_input.best()->apex, no_entity);
+
+  PlaceBeside far_from_all(domain, s, 0, 1);
+  far_from_all.look_at({{{4, 0.5, 0}}, Home(EntityKind::vertex, 2), 1});  // a twelfth of the piece away
+  far_from_all.look_at({{{4, 0.001, 0}}, Home(EntityKind::volume, 0), 1});
+  EXPECT_FALSE(far_from_all.best());
+}
+
+}  // namespace
+}  // namespace pgdr
