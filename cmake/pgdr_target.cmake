@@ -27,10 +27,12 @@ function(pgdr_settings target)
 endfunction()
 
 # A layer: a static library, for what is built here, that exposes its own folder alone, and links downwards alone.
-# pgdr_layer(<name> HEADERS <public headers...> SOURCES <files...> LINKS <lower layers...>)
+# pgdr_layer(<name> HEADERS <public headers...> SOURCES <files...> [ALONE <files...>] LINKS <lower layers...>)
+# ALONE: sources, too, that share a class template, or names of their own, with others: one by one in a unity build.
 function(pgdr_layer name)
-  cmake_parse_arguments(arg "" "" "HEADERS;SOURCES;LINKS" ${ARGN})
-  add_library(pgdr_${name} STATIC ${arg_SOURCES})
+  cmake_parse_arguments(arg "" "" "HEADERS;SOURCES;ALONE;LINKS" ${ARGN})
+  add_library(pgdr_${name} STATIC ${arg_SOURCES} ${arg_ALONE})
+  set_source_files_properties(${arg_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   add_library(pgdr::${name} ALIAS pgdr_${name})
   pgdr_settings(pgdr_${name})
   # What a shared library exports is still inlined and called directly within it.
