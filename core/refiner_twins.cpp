@@ -14,7 +14,7 @@ template <int D>
 std::optional<SplitPlace> Refiner<D>::place_beside(const Item& e, std::span<const VertexId> own, bool& owned) const {
   const EntityId s = mesh_->constraints(e.cell)->edge_entity[e.which()];
   const auto [t0, t1] = piece(s, own[0], own[1]);
-  PlaceBeside places(*domain_, s, t0, t1);
+  PlaceBeside places(*domain_, s, t0, t1, Beside::as_far);
   int others[2], n = 0;
   for (int i = 0; i <= D; ++i)
     if (i != edge_ends[e.which()][0] && i != edge_ends[e.which()][1]) others[n++] = i;

@@ -24,8 +24,8 @@ int common_end(const Domain<3>& domain, EntityId segment, Home home) {
 
 }  // namespace
 
-PlaceBeside::PlaceBeside(const Domain<3>& domain, EntityId segment, double t0, double t1)
-    : domain_(&domain), segment_(segment), t0_(t0), t1_(t1) {
+PlaceBeside::PlaceBeside(const Domain<3>& domain, EntityId segment, double t0, double t1, Beside where)
+    : domain_(&domain), segment_(segment), t0_(t0), t1_(t1), where_(where) {
   const auto& ends = domain.segments()[segment].points;
   whole_ = distance(domain.points()[ends[0]], domain.points()[ends[1]]);
 }
@@ -39,7 +39,8 @@ void PlaceBeside::look_at(const VertexRecord<3>& q) {
   } else if (const int end = common_end(*domain_, segment_, q.home); end >= 0) {
     const std::uint32_t apex = domain_->segments()[segment_].points[end];
     const double part = distance(domain_->points()[apex], q.point) / whole_;
-    add(end == 0 ? part : 1 - part, q.point, least_part * length, apex);
+    const double t = where_ == Beside::nearest ? segment_parameter<3>(*domain_, segment_, q.point) : end == 0 ? part : 1 - part;
+    add(t, q.point, least_part * length, apex);
   }
 }
 
@@ -58,8 +59,8 @@ bool is_twin(const Domain<3>& domain, EntityId segment, const SplitPlace& place,
   if (place.apex == no_entity || v.home.kind() != EntityKind::segment || v.home.id() == segment) return false;
   const auto& ends = domain.segments()[v.home.id()].points;
   if (ends[0] != place.apex && ends[1] != place.apex) return false;
-  const double rounding = 0x1p-48 * domain.segment_magnitude(segment);
-  return std::abs(distance(domain.points()[place.apex], v.point) - place.radius) <= rounding;
+  const double tolerance = 0x1p-48 * domain.segment_magnitude(segment) + distance(place.x, v.point) / 64;
+  return std::abs(distance(domain.points()[place.apex], v.point) - place.radius) <= tolerance;
 }
 
 }  // namespace pgdr

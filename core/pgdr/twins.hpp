@@ -7,7 +7,10 @@
 // would become those at which they are split next, and so on, down to how far apart the sides are. So a subsegment is split
 //   * as far from an end of its segment as a vertex beside it is that lies on another segment there: its twin. No vertex of
 //     the one side is then between two of the other, in the sense that counts: none is in a diametral ball there;
-//   * or next to an input vertex beside it, so that no diametral ball has it inside.
+//   * or next to an input vertex beside it, so that no diametral ball has it inside; in the recovery next to any vertex of a
+//     segment that runs along it. (Where four segments run from two near points to two others, places as far from one end and from
+//     the other differ, and copies of copies would come back at a distance; the nearest points of lines do not. The recovery has a
+//     limit of its own; for the refinement, the distance from the end bounds that of the twins, and must not become less.)
 // The distance between twins is not counted: the insertion radius of a point, which is compared with what is asked of it, and
 // which later points inherit, is that from all other vertices (insertion_rule.hpp has the proof that this ends). Pure functions
 // of the domain and of points; any thread.
@@ -32,10 +35,17 @@ struct SplitPlace {
   double radius = 0;               ///< that distance
 };
 
+/// Where next to a vertex on another segment.
+enum class Beside {
+  as_far,   ///< from the common end
+  nearest,  ///< to it
+};
+
 /// Of the piece of a segment from t0 to t1, looks for the place beside a vertex that is nearest to its middle.
 class PlaceBeside {
  public:
-  PlaceBeside(const Domain<3>& domain, EntityId segment, double t0, double t1);  ///< 0 <= t0 < t1 <= 1
+  /// 0 <= t0 < t1 <= 1
+  PlaceBeside(const Domain<3>& domain, EntityId segment, double t0, double t1, Beside where);
 
   void look_at(const VertexRecord<3>& q);  ///< any vertex; the order in which they come does not matter
   const std::optional<SplitPlace>& best() const { return best_; }  ///< nothing without any
@@ -46,10 +56,11 @@ class PlaceBeside {
   const Domain<3>* domain_;
   EntityId segment_;
   double t0_, t1_, whole_;
+  Beside where_;
   std::optional<SplitPlace> best_;
 };
 
-/// Does the vertex lie on another segment at the place's apex, as far from it, but for rounding?
+/// Does the vertex lie on another segment at the place's apex, as far from it, but for rounding and 1/64 of their distance?
 bool is_twin(const Domain<3>& domain, EntityId segment, const SplitPlace& place, const VertexRecord<3>& v);
 
 }  // namespace pgdr
