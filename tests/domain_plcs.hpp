@@ -59,7 +59,7 @@ inline Plc<3> numbered(Plc<3> plc) {
 }
 
 /// A square plate of side 6 with a pentagonal hole of radius 1 through it.
-inline Plc<3> plate_with_hole() {
+inline Plc<3> plate_with_pentagon() {
   Plc<3> plc;
   for (const double z : {0.0, 0.5})
     for (const auto& [x, y] : {std::pair{-3.0, -3.0}, {3.0, -3.0}, {3.0, 3.0}, {-3.0, 3.0}})

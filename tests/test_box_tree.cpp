@@ -12,8 +12,7 @@
 #include "detail/contact.hpp"
 #include "pgdr/predicates.hpp"
 
-namespace pgdr::detail {
-namespace {
+namespace pgdr::detail::test_box_tree {
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
@@ -140,5 +139,4 @@ TEST(BoxTree, OneOverlapsAll) {
   compare<3>(boxes, boxes);
 }
 
-}  // namespace
-}  // namespace pgdr::detail
+}  // namespace pgdr::detail::test_box_tree

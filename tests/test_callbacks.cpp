@@ -11,8 +11,7 @@
 #include "parallel_support.hpp"
 #include "pgdr/flat_arrays.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_callbacks {
 
 using test::expect_same;
 using test::Runner;
@@ -217,5 +216,4 @@ TYPED_TEST(Callbacks, CancelledBeforeTheBoundaryIsThere) {
   EXPECT_TRUE(result.mesh.cells.empty());
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_callbacks

@@ -18,8 +18,7 @@
 #include "pgdr/flat_arrays.hpp"
 #include "pgdr/predicates.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_cancel {
 
 using test::Runner;
 
@@ -229,5 +228,4 @@ TYPED_TEST(Cancel, WhileTheInputIsPrepared) {
   }
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_cancel

@@ -9,7 +9,7 @@
 #include "pgdr/check.hpp"
 #include "test_check_models.hpp"
 
-namespace {
+namespace test_check {
 
 using namespace pgdr;
 using namespace pgdr::test;
@@ -77,4 +77,4 @@ TYPED_TEST(Check, DamageOfSoundnessIsFoundWithoutTheInput) {
     }
 }
 
-}  // namespace
+}  // namespace test_check

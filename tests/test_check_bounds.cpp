@@ -11,7 +11,7 @@
 #include "pgdr/check.hpp"
 #include "test_check_models.hpp"
 
-namespace {
+namespace test_check_bounds {
 
 using namespace pgdr;
 using namespace pgdr::test;
@@ -339,4 +339,4 @@ TEST(CheckReport, EmptyMeshes) {
   EXPECT_EQ(report.count(Kind::wrong_volume), 1u);
 }
 
-}  // namespace
+}  // namespace test_check_bounds

@@ -15,7 +15,7 @@
 #include "pgdr/predicates.hpp"
 #include "test_check_models.hpp"
 
-namespace {
+namespace test_check_exact {
 
 using namespace pgdr;
 using namespace pgdr::checking;
@@ -229,4 +229,4 @@ TEST(SlackOfVertices, OfABentFacetIsRoundingHoweverBentItIs) {
   EXPECT_LE(slack[1], 2 * (1 + 0x1p-14) * 0x1p-52);
 }
 
-}  // namespace
+}  // namespace test_check_exact

@@ -11,7 +11,7 @@
 #include "pgdr/refine.hpp"
 #include "test_check_models.hpp"
 
-namespace {
+namespace test_check_refined {
 
 using namespace pgdr;
 using namespace pgdr::test;
@@ -63,4 +63,4 @@ TYPED_TEST(CheckRefined, SoundMeshesPassAndDamageIsFound) {
   for (const auto& [mutation, times] : applied) EXPECT_GT(times, 0) << mutation << " was never tried";
 }
 
-}  // namespace
+}  // namespace test_check_refined

@@ -15,8 +15,7 @@
 #include "pgdr/predicates.hpp"
 #include "random_simplices.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_circumsphere {
 
 using oracle::Random;
 using oracle::Rational;
@@ -286,5 +285,4 @@ TEST(EquatorialBall, ContainsByTheRoundedBall) {
   EXPECT_FALSE(in_equatorial_ball(ball, {{1, 1, 3}}));
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_circumsphere

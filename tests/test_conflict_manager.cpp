@@ -15,8 +15,7 @@
 #include "graded_trees.hpp"
 #include "pgdr/error.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_conflict_manager {
 
 constexpr std::uint64_t seed = 20270302;
 
@@ -189,5 +188,4 @@ TYPED_TEST(ConflictManagerTest, LeavesHaveOneWriterAtATime) {
   EXPECT_EQ(history, expected) << "any order that the graph allows gives the same";
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_conflict_manager

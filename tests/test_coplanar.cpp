@@ -14,8 +14,7 @@
 #include "parallel_support.hpp"
 #include "pgdr/written_precision.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_coplanar {
 
 using test::for_each_point;
 using test::turned;
@@ -268,5 +267,4 @@ TEST(Coplanar, AFaceOfManyTrianglesIsCheckedTriangleByTriangle) {
   EXPECT_GT(moved.count(CheckFinding::Kind::facet_not_conforming) + moved.count(CheckFinding::Kind::segment_not_conforming), 0u);
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_coplanar

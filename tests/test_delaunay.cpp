@@ -10,8 +10,7 @@
 #include "pgdr/delaunay.hpp"
 #include "point_sets.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_delaunay {
 
 constexpr std::uint64_t seed = 20261121;
 
@@ -147,5 +146,4 @@ TYPED_TEST(DelaunayTest, ExistingPointIsFoundAgain) {
   EXPECT_EQ(cell_set<D>(mesh), before);
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_delaunay

@@ -12,8 +12,7 @@
 #include "domain_plcs.hpp"
 #include "pgdr/refine.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_diagnosis {
 
 using test::box;
 using test::numbered;
@@ -36,7 +35,7 @@ double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) 
 }
 
 TEST(Diagnosis, ABoxHasNothing) {
-  for (const Plc<3>& plc : {box(), triangulated(box()), test::plate_with_hole()}) {
+  for (const Plc<3>& plc : {box(), triangulated(box()), test::plate_with_pentagon()}) {
     const Diagnosis<3> d = diagnose(plc);
     EXPECT_EQ(d.error_count(), 0u);
     for (const Finding kind : {Finding::open_boundary, Finding::non_manifold_edge, Finding::non_manifold_point,
@@ -247,5 +246,4 @@ TEST(Diagnosis, AllThatADomainRefuses) {
   EXPECT_GT(diagnose(Plc<2>{}).error_count(), 0u);
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_diagnosis

@@ -12,8 +12,7 @@
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/io.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_diagnosis_models {
 
 struct Row {
   std::string set, file, self_intersecting, notes;
@@ -63,5 +62,4 @@ TEST(DiagnosisModels, Verdicts) {
   EXPECT_GT(seen, 100);
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_diagnosis_models

@@ -13,8 +13,7 @@
 #include "pgdr/diagnosis.hpp"
 #include "sanitized.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_diagnosis_oracle {
 
 using clipping::Findings;
 using clipping::Oracle;
@@ -133,5 +132,4 @@ TEST(DiagnosisOracle, ScaledAndTurned) {
   }
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_diagnosis_oracle

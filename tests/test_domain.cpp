@@ -15,13 +15,12 @@
 #include "pgdr/domain.hpp"
 #include "pgdr/predicates.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_domain {
 
 using test::area;
 using test::box;
 using test::has_segment;
-using test::plate_with_hole;
+using test::plate_with_pentagon;
 using test::triangulated;
 using test::turned;
 
@@ -179,7 +178,7 @@ TEST(Domain, StackedBoxes) {
 
 TEST(Domain, PlateWithPolygonalHole) {
   for (const bool turn : {false, true}) {
-    const Plc<3> plc = turn ? turned(plate_with_hole()) : plate_with_hole();
+    const Plc<3> plc = turn ? turned(plate_with_pentagon()) : plate_with_pentagon();
     const Domain<3> d(plc);
     expect_consistent(d);
     EXPECT_EQ(d.facets().size(), 6u + 5u);
@@ -194,9 +193,9 @@ TEST(Domain, PlateWithPolygonalHole) {
 
 // Diagonals of a turned polygon, which is not planar by ulps, are no segments and separate nothing.
 TEST(Domain, TurnedPolygonsAreStillOneFacetEach) {
-  const Domain<3> straight(plate_with_hole());
+  const Domain<3> straight(plate_with_pentagon());
   for (int turn = 1; turn < 20; ++turn) {
-    const Domain<3> d(turned(plate_with_hole(), 0.37 * turn));
+    const Domain<3> d(turned(plate_with_pentagon(), 0.37 * turn));
     expect_consistent(d);
     ASSERT_EQ(d.segments().size(), straight.segments().size());
     int bent = 0;
@@ -382,7 +381,7 @@ TEST(Domain, RepeatedFacetsAreDropped) {
 }
 
 TEST(Domain, ScalesByPowersOfTwo) {
-  const Plc<3> plc = turned(plate_with_hole());
+  const Plc<3> plc = turned(plate_with_pentagon());
   const Domain<3> d(plc);
   for (const int k : {-900, -150, -40, 40, 150, 1000}) {
     Plc<3> scaled = plc;
@@ -429,5 +428,4 @@ TEST(Domain, Plane) {
   EXPECT_EQ(d.regions()[0].attribute, 2);
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_domain

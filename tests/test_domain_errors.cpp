@@ -10,8 +10,7 @@
 #include "domain_plcs.hpp"
 #include "pgdr/domain.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_domain_errors {
 
 using test::box;
 using test::numbered;
@@ -184,5 +183,4 @@ TEST(DomainErrors, NoVolume) {
   EXPECT_EQ(refusal(flat).code, Errc::degenerate_facet);
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_domain_errors

@@ -12,8 +12,7 @@
 
 #include "parallel_support.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_early_splits {
 
 /// 2 x 2 x `thickness`, with a boss as high on its top. `sides` divided by four must be even, lest needles overlap. `off_plane`: how
 /// many times 1e-9 the corner of a side is off its plane.
@@ -69,5 +68,4 @@ TEST(EarlySplits, AreGivenUpWhereTheBoundaryIsNotRecoveredThen) {
   EXPECT_EQ(result.stop, StopCause::finished);
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_early_splits

@@ -15,8 +15,7 @@
 #include "pgdr/delaunay.hpp"
 #include "pgdr/predicates.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_gift_wrap {
 
 using Cells = std::vector<GiftWrap::Cell>;
 using Faces = std::vector<GiftWrap::Face>;
@@ -147,5 +146,4 @@ TEST(GiftWrap, EndsWhenItIsToldTo) {
   EXPECT_TRUE(wrap.fill(points, rim_of(cells), cells.size(), [] { return false; }));
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_gift_wrap

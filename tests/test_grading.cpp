@@ -17,8 +17,7 @@
 #include "refined_models.hpp"
 #include "scattered_models.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_grading {
 
 /// A point, segment or rectangle along the axes.
 template <int D>
@@ -171,5 +170,4 @@ TEST(Grading, LocalFeatureSizes) {
   EXPECT_EQ(local_feature_size<2>(all, {{0.25, 0}}), 0.75);  // one corner and the side at the other
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_grading

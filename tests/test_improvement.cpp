@@ -14,8 +14,7 @@
 #include "parallel_support.hpp"
 #include "pgdr/cell_bounds.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_improvement {
 
 /// A prism over an isosceles triangle with sides of 1 that meet at this angle, 1 high; the sides are cut along diagonals.
 Plc<3> wedge(double degrees) {
@@ -111,5 +110,4 @@ TEST(Excess, IsWhatBoundsSay) {
   EXPECT_EQ(bounds.excess(good, 1), 1);
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_improvement

@@ -18,8 +18,7 @@
 #include "pgdr/bounding_box.hpp"
 #include "refined_models.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_independence {
 
 using test::BruteForce;
 using test::common;
@@ -343,5 +342,4 @@ TYPED_TEST(Independence, CircumballsStayInTheUnionOfTheOld) {
   EXPECT_GT(in_one_alone, samples / 10) << "the union is needed";
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_independence

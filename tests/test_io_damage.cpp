@@ -12,8 +12,7 @@
 #include "ply_files.hpp"
 #include "test_io_support.hpp"
 
-namespace pgdr::test {
-namespace {
+namespace pgdr::test::test_io_damage {
 
 struct Format {
   std::string name, file, bytes;
@@ -171,5 +170,4 @@ TEST_P(Damage, BytesChangedAtRandom) {
 
 INSTANTIATE_TEST_SUITE_P(Formats, Damage, testing::ValuesIn(formats()), [](const auto& i) { return i.param.name; });
 
-}  // namespace
-}  // namespace pgdr::test
+}  // namespace pgdr::test::test_io_damage

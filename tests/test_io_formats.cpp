@@ -10,8 +10,7 @@
 #include "ply_files.hpp"
 #include "test_io_support.hpp"
 
-namespace pgdr::test {
-namespace {
+namespace pgdr::test::test_io_formats {
 
 using Corners = std::vector<std::uint32_t>;
 
@@ -449,5 +448,4 @@ void expect_to_survive_all_formats() {
 TEST(AllFormats, MeshesSurviveThemIn3D) { expect_to_survive_all_formats<3>(); }
 TEST(AllFormats, MeshesSurviveThemIn2D) { expect_to_survive_all_formats<2>(); }
 
-}  // namespace
-}  // namespace pgdr::test
+}  // namespace pgdr::test::test_io_formats

@@ -10,8 +10,7 @@
 
 #include "test_io_support.hpp"
 
-namespace pgdr::test {
-namespace {
+namespace pgdr::test::test_io_mesh {
 
 template <int D>
 void expect_round_trip(const OutputMesh<D>& mesh) {
@@ -322,5 +321,4 @@ TEST(WriteMesh, TheFourFilesOfTetgenAreReplacedTogetherOrNotAtAll) {
   EXPECT_EQ(folder.files(), 4u);
 }
 
-}  // namespace
-}  // namespace pgdr::test
+}  // namespace pgdr::test::test_io_mesh

@@ -9,8 +9,7 @@
 
 #include "test_io_support.hpp"
 
-namespace pgdr::test {
-namespace {
+namespace pgdr::test::test_io_models {
 
 struct Model {
   std::string set, file, format, vertices, faces;
@@ -104,5 +103,4 @@ TEST(Models, MalformedOnesAreRefusedForTheRightReason) {
   }
 }
 
-}  // namespace
-}  // namespace pgdr::test
+}  // namespace pgdr::test::test_io_models

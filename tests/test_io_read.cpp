@@ -8,8 +8,7 @@
 
 #include "test_io_support.hpp"
 
-namespace pgdr::test {
-namespace {
+namespace pgdr::test::test_io_read {
 
 using Corners = std::vector<std::uint32_t>;
 using Lines = std::vector<std::uint32_t>;
@@ -355,5 +354,4 @@ TEST(ReadPlc, UsesNoLocale) {
   std::setlocale(LC_ALL, saved.c_str());
 }
 
-}  // namespace
-}  // namespace pgdr::test
+}  // namespace pgdr::test::test_io_read

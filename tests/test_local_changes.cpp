@@ -26,8 +26,7 @@
 #include "pgdr/local_flips.hpp"
 #include "pgdr/recovery.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_local_changes {
 
 /// Volumes of regions, areas of facets and lengths of segments.
 struct Measures {
@@ -277,5 +276,4 @@ TEST(VertexMove, LeavesLargeStarsAlone) {
     }
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_local_changes

@@ -16,8 +16,7 @@
 #include "planar_plcs.hpp"
 #include "repair_plcs.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_merge_points {
 
 using test::below;
 using test::box;
@@ -228,5 +227,4 @@ TEST(MergePoints, OtherDistancesAreRefused) {
   }
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_merge_points

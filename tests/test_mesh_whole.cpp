@@ -16,8 +16,7 @@
 #include "pgdr/labeling.hpp"
 #include "pgdr/recovery.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_mesh_whole {
 
 /// A triangulated cube, its boundary recovered.
 struct Cube {
@@ -131,5 +130,4 @@ TEST(ClaimRegistry, NoTwoHoldOneLeaf) {
   EXPECT_FALSE(registry.enter(beside));
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_mesh_whole

@@ -10,8 +10,7 @@
 
 #include "detail/automatic_regions.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_nesting {
 
 using Pair = std::array<std::uint32_t, 2>;
 
@@ -119,5 +118,4 @@ TEST(Nesting, AMillionShells) {
   for (std::uint32_t v = 0; v < n; ++v) ASSERT_EQ(solid[v], v % 2 == 1);
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_nesting

@@ -17,8 +17,7 @@
 #include "pgdr/claim.hpp"
 #include "pgdr/error.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_orthtree {
 
 constexpr std::uint64_t seed = 20270301;
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -368,5 +367,4 @@ TYPED_TEST(OrthtreeTest, InAUniformTreeTheInnerBoxIsTheWholeClaim) {
     }
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_orthtree

@@ -21,8 +21,7 @@
 #include "parallel_support.hpp"
 #include "pgdr/io.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_parallel {
 
 using test::eight_threads;
 using test::expect_same;
@@ -193,5 +192,4 @@ TEST(Parallel, EightThreadsReallyRun) {
   }
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_parallel

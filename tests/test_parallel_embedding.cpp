@@ -14,8 +14,7 @@
 #include <tbb/task_group.h>
 #endif
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_parallel_embedding {
 
 using test::expect_same;
 using test::Runner;
@@ -156,5 +155,4 @@ TEST(ParallelEmbedding, CancelledWithTheCallersTasks) {
 
 #endif
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_parallel_embedding

@@ -15,8 +15,7 @@
 #include "parallel_support.hpp"
 #include "pgdr/io.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_parallel_models {
 
 namespace fs = std::filesystem;
 
@@ -89,5 +88,4 @@ TEST(ParallelModels, SameBytesForAnyThreads) {
   EXPECT_GT(tally.same, 0);
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_parallel_models

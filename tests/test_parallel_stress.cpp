@@ -12,8 +12,7 @@
 
 #include "parallel_support.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_parallel_stress {
 
 using test::eight_threads;
 using test::expect_same;
@@ -216,5 +215,4 @@ TEST(ParallelStress, ShortestEdgeAllowed) {
     expect_same<3>(expected.result, refine<3>(model(), test::with<3>(options, runner)), runner.name);
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_parallel_stress

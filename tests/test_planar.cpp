@@ -13,8 +13,7 @@
 #include "pgdr/spatial_order.hpp"
 #include "planar_plcs.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_planar {
 
 using namespace test;
 
@@ -392,5 +391,4 @@ TEST(PlanarModels, OfTheCollection) {
   EXPECT_LE(refused, 7u);
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_planar

@@ -13,8 +13,7 @@
 #include "oracles.hpp"
 #include "pgdr/predicates.hpp"
 
-namespace pgdr::detail {
-namespace {
+namespace pgdr::detail::test_planar_cdt {
 
 using oracle::Rational;
 
@@ -291,5 +290,4 @@ TEST_F(PlanarCdt, ConstrainKeepsToTheDomain) {
   }
 }
 
-}  // namespace
-}  // namespace pgdr::detail
+}  // namespace pgdr::detail::test_planar_cdt

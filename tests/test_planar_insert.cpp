@@ -13,8 +13,7 @@
 #include "oracles.hpp"
 #include "pgdr/predicates.hpp"
 
-namespace pgdr::detail {
-namespace {
+namespace pgdr::detail::test_planar_insert {
 
 using Triangles = std::set<PlanarTriangle>;
 
@@ -213,5 +212,4 @@ TEST_F(PlanarInsert, ManyPoints) {
   EXPECT_TRUE(t.is_valid());
 }
 
-}  // namespace
-}  // namespace pgdr::detail
+}  // namespace pgdr::detail::test_planar_insert

@@ -10,8 +10,7 @@
 #include "planar_plcs.hpp"
 #include "refined_models.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_planar_plc {
 
 using namespace test;
 
@@ -266,5 +265,4 @@ TEST(ConvexHull, SegmentsOfTheInputAreKept) {
   EXPECT_EQ(report.exit_code(), 0) << findings(report);
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_planar_plc

@@ -17,8 +17,7 @@
 #include "pgdr/planar_plc.hpp"
 #include "planar_plcs.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_point_data {
 
 using namespace test;
 
@@ -227,5 +226,4 @@ void expect_leaves(const Plc<D>& plc, double size) {
 TEST(Leaves, OfCellsIn2D) { expect_leaves<2>(square_with_hole(), 0.005); }
 TEST(Leaves, OfCellsIn3D) { expect_leaves<3>(cube_with_two_points(), 0.08); }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_point_data

@@ -13,8 +13,7 @@
 #include "pgdr/domain.hpp"
 #include "pgdr/predicates.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_point_on_entity {
 
 using oracle::Rational;
 using test::find_segment;
@@ -249,5 +248,4 @@ TEST(EntityAngle, AgreesWithTheExactTests) {
   }
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_point_on_entity

@@ -11,8 +11,7 @@
 #include "pgdr/predicates.hpp"
 #include "random_simplices.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_predicate_bounds {
 
 using oracle::Random;
 using oracle::Rational;
@@ -182,5 +181,4 @@ TYPED_TEST(Bounds, OfAFlatSimplex) {
   EXPECT_TRUE(measure_within<D>(s, 0));
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_predicate_bounds

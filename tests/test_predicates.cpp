@@ -13,8 +13,7 @@
 #include "dimensions.hpp"
 #include "oracles.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_predicates {
 
 using detail::MaybeSign;
 using detail::Middle;
@@ -334,5 +333,4 @@ TYPED_TEST(Predicates, AnglesAgreeWithRationals) {
   EXPECT_TRUE(D == 2 || sixty > 20) << sixty;
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_predicates

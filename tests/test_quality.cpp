@@ -11,8 +11,7 @@
 #include "pgdr/circumsphere.hpp"
 #include "pgdr/quality.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_quality {
 
 template <int D>
 Simplex<D> simplex_of(const OutputMesh<D>& mesh, std::size_t c) {
@@ -119,5 +118,4 @@ TEST(QualityOfTriangles, OfNone) {
   EXPECT_EQ(q.min_angle_deg, 180);
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_quality

@@ -17,8 +17,7 @@
 #include "refined_models.hpp"
 #include "sanitized.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_refine {
 
 using test::findings;
 using test::Model;
@@ -287,5 +286,4 @@ TEST(Refine, SameInputSameMesh) {
   }
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_refine

@@ -13,8 +13,7 @@
 #include "pgdr/predicates.hpp"
 #include "pgdr/size_fields.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_region_sizes {
 
 /// A box of the sides 1 with a wall at x = 1/2. Left of it is region 1, right of it region 7.5.
 template <int D>
@@ -206,5 +205,4 @@ TYPED_TEST(RegionSizesOf, GrowIntoTheirNeighbours) {
   EXPECT_GT(cells_of(mesh, right), cells_of(abrupt, right));
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_region_sizes

@@ -13,8 +13,7 @@
 #include "pgdr/refine.hpp"
 #include "repair_plcs.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_repairs {
 
 using test::box;
 using test::moved;
@@ -203,5 +202,4 @@ TEST(Repairs, Plane) {
   expect_meshed(plc);
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_repairs

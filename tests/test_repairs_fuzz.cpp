@@ -14,8 +14,7 @@
 #include "pgdr/refine.hpp"
 #include "repair_plcs.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_repairs_fuzz {
 
 struct Tally {
   int meshed = 0, refused = 0, repaired = 0;
@@ -115,5 +114,4 @@ TEST(RepairsFuzz, Planes) {
   EXPECT_GT(tally.refused, 20);
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_repairs_fuzz

@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_reserved_memory {
 
 constexpr std::size_t mib = std::size_t{1} << 20;
 
@@ -42,5 +41,4 @@ TEST(ReservedMemory, DiscardsWithinTheRangeAlone) {
   EXPECT_TRUE(all_are(14, 20, 1));
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_reserved_memory

@@ -7,8 +7,7 @@
 #include "dimensions.hpp"
 #include "pgdr/point_selector.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_selection_disk {
 
 template <class Dimension>
 class Disks : public testing::Test {};
@@ -73,5 +72,4 @@ TYPED_TEST(Disks, ScaleWithTheElement) {
               0x1p-80 * selection_disk<D>(poor_element<D>(1.5, 0x1.3p-2, 3), {type}).radius);
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_selection_disk

@@ -15,8 +15,7 @@
 #include "pgdr/error.hpp"
 #include "pgdr/selectors.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_selectors {
 
 template <class Dimension>
 class Selectors : public testing::Test {};
@@ -289,5 +288,4 @@ TYPED_TEST(Selectors, HoldAnyFunctor) {
   EXPECT_FALSE(simple);
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_selectors

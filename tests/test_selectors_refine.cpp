@@ -20,8 +20,7 @@
 #include "sanitized.hpp"
 #include "scattered_models.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_selectors_refine {
 
 using test::box_with_pairs;
 using test::expect_reproducible;
@@ -354,5 +353,4 @@ TYPED_TEST(SelectorsRefine, ExceptionsComeOut) {
   }
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_selectors_refine

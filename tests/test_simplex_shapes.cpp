@@ -15,8 +15,7 @@
 #include "pgdr/circumsphere.hpp"
 #include "pgdr/predicates.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_simplex_shapes {
 
 using oracle::Random;
 using oracle::Rational;
@@ -104,5 +103,4 @@ TYPED_TEST(SimplexShapes, AreThoseOfEachOneOnAnyProcessor) {
   expect_shapes_of_each<D>(detail::simplex_shapes_anywhere<D>);
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_simplex_shapes

@@ -14,8 +14,7 @@
 #include "pgdr/flat_arrays.hpp"
 #include "pgdr/predicates.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_size_fields {
 
 template <int D>
 Point<D> random_point(std::mt19937_64& random, double low, double high) {
@@ -289,5 +288,4 @@ TEST_F(SolFile, Damaged) {
   EXPECT_EQ(code_of([] { read_vertex_values("/no/such/file.sol", 3); }), Errc::cannot_open);
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_size_fields

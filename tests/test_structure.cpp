@@ -15,8 +15,7 @@
 #include "repair_plcs.hpp"
 #include "structure_plcs.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_structure {
 
 using test::Structure;
 
@@ -380,5 +379,4 @@ TEST_P(Structures, Fine) {
 INSTANTIATE_TEST_SUITE_P(Inputs, Structures, testing::ValuesIn(test::all_structures()),
                          [](const auto& info) { return info.param.name; });
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_structure

@@ -19,8 +19,7 @@
 #include "pgdr/io.hpp"
 #include "pgdr/selectors.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_tangles {
 
 struct Plate {
   const char* name;
@@ -145,5 +144,4 @@ INSTANTIATE_TEST_SUITE_P(Plates, Tangle,
                                            Plate{"at_the_third_attempt", Point<2>{{18.88, 2.3}}, 0.2, true, true, {true, false, true, false}}),
                          [](const auto& info) { return std::string(info.param.name); });
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_tangles

@@ -13,8 +13,7 @@
 #include "parallel_support.hpp"
 #include "pgdr/twins.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_twins {
 
 /// A box of edges of 10; next to the middle of some of its edges a point, off it by `height` in the given direction, with a needle
 /// from the edge to it on the one side of the edge, the faces on the other side being two triangles. `part`: how far along the edge.
@@ -133,5 +132,4 @@ TEST(PlaceBeside, IsAsFarFromTheCommonEndOrNextToAnInputVertex) {
   EXPECT_FALSE(far_from_all.best());
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_twins

@@ -13,8 +13,7 @@
 #include "parallel_support.hpp"
 #include "pgdr/io.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_uneven {
 
 /// Its outline alternates between the radii 1 and `inner`; all its faces are polygons.
 Plc<3> star_prism(std::uint32_t corners, double inner, double height) {
@@ -76,5 +75,4 @@ TEST(Fans, NeighboursDoNotHalveEdgesInTurns) {
   EXPECT_LT(outcome.result.mesh.cells.size(), 5000u);
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_uneven

@@ -25,8 +25,7 @@
 #include <tbb/task_group.h>
 #endif
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_visit_graph {
 
 using namespace std::chrono_literals;
 
@@ -379,5 +378,4 @@ TEST(VisitFlowGraphTest, NoticesThatTheCallerWasCancelled) {
 
 #endif
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_visit_graph

@@ -14,8 +14,7 @@
 
 #include "pgdr/work_list.hpp"
 
-namespace pgdr {
-namespace {
+namespace pgdr::test_work_list {
 
 using Item = Entry<3>;
 
@@ -131,5 +130,4 @@ TEST(Entry, ASlotAndItsBirthNameACellForGood) {
   EXPECT_EQ(std::prev(names.end())->first, CellId{2});  // two slots were given up, after 65 535 cells each
 }
 
-}  // namespace
-}  // namespace pgdr
+}  // namespace pgdr::test_work_list

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Any bytes as a file of the format PGDR_FUZZ_EXTENSION, in each dimension, as input and as mesh. The reader returns what
+// Any bytes as a file of the format fuzz_extension, in each dimension, as input and as mesh. The reader returns what
 // has no bad index, or throws an InputError that names the file, a line it has, and what is wrong. A small mesh that was
 // read goes through the checker, which has no say here but must not fail.
 #include <algorithm>
@@ -14,15 +14,17 @@
 #include "pgdr/check.hpp"
 #include "pgdr/error.hpp"
 
+extern const std::string_view fuzz_extension;  // of the program, fuzz_extension.cpp
+
 namespace pgdr {
 namespace {
 
-constexpr std::string_view extension = PGDR_FUZZ_EXTENSION;
-constexpr bool spatial = extension == ".smesh" || extension == ".obj" || extension == ".off" || extension == ".ply" ||
-                         extension == ".stl";
-constexpr bool tetgen = extension == ".ele";
-constexpr bool input = !tetgen && extension != ".vtu";
-constexpr bool mesh = tetgen || extension == ".vtu" || extension == ".mesh" || extension == ".msh";
+const std::string_view extension = fuzz_extension;
+const bool spatial = extension == ".smesh" || extension == ".obj" || extension == ".off" || extension == ".ply" ||
+                     extension == ".stl";
+const bool tetgen = extension == ".ele";
+const bool input = !tetgen && extension != ".vtu";
+const bool mesh = tetgen || extension == ".vtu" || extension == ".mesh" || extension == ".msh";
 constexpr std::size_t most_cells = 30;  // for the checker
 
 /// In a folder that does not exist: what refers to a file beside it finds none.
@@ -91,10 +93,10 @@ void read_tetgen_texts(std::string_view bytes) {
 
 template <int D>
 void read(std::string_view bytes) {
-  if constexpr (input)
+  if (input)
     guarded(bytes, [&] { expect_in_range<D>(detail::read_plc_from<D>(bytes, name)); });
-  if constexpr (tetgen) guarded(bytes, [&] { read_tetgen_texts<D>(bytes); });
-  else if constexpr (mesh) guarded(bytes, [&] { look_at<D>(detail::read_mesh_from<D>(bytes, name)); });
+  if (tetgen) guarded(bytes, [&] { read_tetgen_texts<D>(bytes); });
+  else if (mesh) guarded(bytes, [&] { look_at<D>(detail::read_mesh_from<D>(bytes, name)); });
 }
 
 }  // namespace
@@ -103,7 +105,7 @@ void read(std::string_view bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   // A copy of its own: the sanitizer sees a read beyond its end.
   const std::string bytes(reinterpret_cast<const char*>(data), size);
-  if constexpr (!pgdr::spatial) pgdr::read<2>(bytes);
+  if (!pgdr::spatial) pgdr::read<2>(bytes);
   pgdr::read<3>(bytes);
   return 0;
 }
