@@ -206,6 +206,20 @@ bool rounding_cancels(const Simplex<D>& s, const Point<D>& p, const std::array<d
 
 // A simplex is crossed at q + t (p - q), t = o(q) / (o(q) - o(p)), where o(x) = det(simplex, x).
 template <int D>
+bool is_as_short_as_rounding(const Simplex<D>& s) {
+  double magnitude = 0, least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= D; ++i) {
+    for (const double x : s[i].x) magnitude = std::max(magnitude, std::abs(x));
+    for (int j = 0; j < i; ++j) {
+      double squared = 0;
+      for (int a = 0; a < D; ++a) squared += (s[i][a] - s[j][a]) * (s[i][a] - s[j][a]);
+      least = std::min(least, squared);
+    }
+  }
+  return std::sqrt(least) <= Tolerance{8, magnitude}.width();
+}
+
+template <int D>
 std::vector<std::uint32_t> order_along(const Point<D>& q, const Point<D>& p,
                                        const std::vector<std::array<Point<D>, D>>& simplices) {
   std::vector<Rational> t;
@@ -231,6 +245,7 @@ std::vector<std::uint32_t> order_along(const Point<D>& q, const Point<D>& p,
   template double distance_from_line(const Point<D>&, const Point<D>&, const Point<D>&);                       \
   template bool advances(const Point<D>&, const Point<D>&, const Point<D>&, const Point<D>&);                  \
   template bool rounding_cancels<D>(const Simplex<D>&, const Point<D>&, const std::array<double, D + 2>&);     \
+  template bool is_as_short_as_rounding<D>(const Simplex<D>&);                                                 \
   template std::vector<std::uint32_t> order_along<D>(const Point<D>&, const Point<D>&,                         \
                                                      const std::vector<std::array<Point<D>, D>>&);
 PGDR_INSTANTIATE(2)

@@ -167,7 +167,7 @@ auto Reasons<D>::judge(std::uint32_t cell, std::string& why) -> Verdict {
   if (i == by_cell_.end() || reasons[*i].cell != cell) return Verdict::absent;
   for (; i != by_cell_.end() && reasons[*i].cell == cell; ++i)
     if (holds(reasons[*i], why)) {
-      rounded_ += reasons[*i].code == PoorReason::Code::rounding;
+      rounded_ += reasons[*i].code == PoorReason::Code::rounding && !is_as_short_as_rounding<D>(corners_of(mesh_, cell));
       return Verdict::holds;
     }
   return Verdict::fails;

@@ -177,7 +177,7 @@ void PoorReasons<D>::look_at(CellId c, bool violated, PoorFindings& found) const
   const bool beside = violated && (reason = explain(c, true)).code == PoorReason::Code::small_angle;
   if (verdict && !beside) reason = explain(c, false);
   if (verdict || beside) found.poor.push_back({c, static_cast<bool>(verdict), verdict.over_size, reason});
-  if (verdict && reason.code == PoorReason::Code::rounding) {
+  if (verdict && reason.code == PoorReason::Code::rounding && !checking::is_as_short_as_rounding<D>(mesh_->simplex(c))) {
     found.unexplained.push_back(c);
   } else if (violated && !beside && is_violated_beyond_rounding(c)) {
     found.violated.push_back(c);

@@ -358,8 +358,8 @@ auto Refiner<D>::insert_point(const Item& e, const CellVerdict& verdict, bool at
   // The point may be one that was taken out, to mend what its cut-back cavity had brought.
   if (visit_->mends && cavity_.shrunk()) return Outcome::refused;
 
-  // Unshrunk, the circumcentre's nearest vertices are the element's own.
-  const bool plain = at_center && !cavity_.shrunk() && !options_->selector;
+  // Unshrunk, the circumcentre's nearest vertices are the element's own; but not where rounding moves it, even onto another vertex.
+  const bool plain = at_center && !cavity_.shrunk() && !options_->selector && mesh_->center_is_accurate(e.cell);
   const double r = plain ? std::sqrt(mesh_->squared_radius_bounds(e.cell).first) : insertion_radius<D>(*mesh_, cavity_);
   if (r < options_->min_edge) {
     visit_->min_edge_hit = true;

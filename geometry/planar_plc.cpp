@@ -22,11 +22,10 @@ using detail::Contact;
 using detail::DoubleDouble;
 
 constexpr int most_rounds = 1000;
-/// Of these three are many: each brings points to edges that rounding has moved by an ulp. Bundles of segments that are
-/// nearly of one line cross ever anew, at ever more places. Once there are so many times the points that the first crossings
-/// made, edges go through the points that they pass nearly.
-constexpr std::size_t most_growth = 4;
-constexpr int near = -50;  // nearly: within 2^near of the largest coordinate's power of two
+/// Edges go through the points that they pass so nearly, within 2^near of the largest coordinate's power of two. A file that
+/// rounds its coordinates keeps no point on a slanted segment; new points miss others by an ulp where three segments meet; and
+/// bundles of segments nearly of one line, each moved by an ulp where it is split, would cross ever anew, at ever more places.
+constexpr int near = -50;
 
 struct LexLess {
   bool operator()(const Point2& a, const Point2& b) const { return lex_less(a, b); }
@@ -70,7 +69,7 @@ Point2 intersection(Point2 a, Point2 b, Point2 c, Point2 d) {
 /// Makes the segments of a PLC cross no more, round by round.
 class CrossingResolver {
  public:
-  explicit CrossingResolver(const Plc<2>& plc) : points_(plc.points), first_new_(plc.points.size()) {
+  explicit CrossingResolver(const Plc<2>& plc) : points_(plc.points) {
     const auto first = first_at_place(points_);
     for (std::uint32_t i = 0; i < points_.size(); ++i) at_.try_emplace(points_[i], first[i]);
     for (std::uint32_t s = 0; s < plc.segments.size(); ++s) {
@@ -79,8 +78,8 @@ class CrossingResolver {
     }
   }
 
-  /// True if anything was split. Edges are split first where points lie on them: as pieces of what was split at a rounded
-  /// point they would miss these by an ulp, and segments that overlap would enclose slivers.
+  /// True if anything was split. Edges are split first where points lie on them or nearly so: as pieces of what was split at a
+  /// rounded point they would miss these by an ulp, and segments that overlap would enclose slivers.
   bool split_once() {
     std::vector<std::uint64_t> keys;
     for (const detail::OwnedEdge& e : edges_)
@@ -102,13 +101,14 @@ class CrossingResolver {
       for (const Contact::Corner& c : contact.corners)
         if (c.edge[0] != no_entity) inside_.emplace_back(detail::edge_key(c.edge[0], c.edge[1]), c.point);
     });
-    if (crossing.empty()) return false;
-    if (points_.size() - first_new_ > most_growth * first_made_) collect_near(keys);
     detail::make_set(inside_);
+    const std::size_t exactly = inside_.size();
+    collect_near(keys);
+    detail::make_set(inside_);
+    if (crossing.empty() && inside_.size() == exactly) return false;
     if (inside_.empty()) {
       std::sort(crossing.begin(), crossing.end());
       for (const auto& [i, j] : crossing) split_at(keys[i], keys[j]);
-      if (first_made_ == 0) first_made_ = points_.size() - first_new_;
       detail::make_set(inside_);
     } else {
       touching_.insert(touching_.end(), inside_.begin(), inside_.end());
@@ -240,7 +240,6 @@ class CrossingResolver {
   std::vector<detail::PointOn> inside_;          ///< of this round, sorted
   std::vector<std::pair<std::uint64_t, std::uint64_t>> crossed_;
   std::set<std::pair<std::uint32_t, std::uint32_t>> pairs_;
-  std::size_t first_new_, first_made_ = 0;  ///< number of the first new point; how many the first crossings made
 };
 
 void report(const CrossingResolver& resolved, const Plc<2>& plc, std::vector<Diagnostic>& repairs) {

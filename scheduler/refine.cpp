@@ -238,24 +238,39 @@ struct Manner {
   EarlySplits splits = EarlySplits::strips;
 };
 
+/// What was tried, and the recovery that it began with.
+struct Tried {
+  Manner manner;
+  RecoveryCounts counts;
+};
+
+/// Another attempt in this manner: other early splits alone, of the same number of points in as many rounds, are the same.
+bool repeats(const Tried& earlier, const Manner& manner, const RecoveryCounts& counts) {
+  return manner.sparse == earlier.manner.sparse && manner.last_resort == earlier.manner.last_resort && counts == earlier.counts;
+}
+
 /// In this order, until one leaves nothing without a reason.
 constexpr std::array<Manner, 4> manners{{{true, true},
                                          {true, true, EarlySplits::all_but_sharp},
                                          {false, false},
                                          {true, false}}};
 
-/// The mesh of the domain. `result`: what is known before. `began`: when this attempt did; `start`: the whole run, for limits.
+/// The mesh of the domain; nothing if one in `tried` is repeated, to which this one is added. `result`: what is known before.
+/// `began`: when this attempt did; `start`: the whole run, for limits.
 template <int D>
-Attempt<D> attempt(const Domain<D>& domain, const RefineOptions<D>& options, Manner manner, Clock::time_point start,
-                   Clock::time_point began, RefineResult<D> result, RecoveryCounts& counts) {
+std::optional<Attempt<D>> attempt(const Domain<D>& domain, const RefineOptions<D>& options, Manner manner, Clock::time_point start,
+                                  Clock::time_point began, RefineResult<D> result, RecoveryCounts& counts,
+                                  std::vector<Tried>& tried) {
   Mesh<D> mesh;
   auto pools = mesh.make_pools();
   const RegionTable regions = make_initial<D>(mesh, pools, domain, options, manner.splits, start, result, counts);
   result.statistics.seconds_initial = seconds_since(began);
   if (result.stop != StopCause::finished) {
     result.size_met = false;
-    return {std::move(result)};  // no boundary yet, so no mesh
+    return Attempt<D>{std::move(result)};  // no boundary yet, so no mesh
   }
+  if (std::any_of(tried.begin(), tried.end(), [&](const Tried& t) { return repeats(t, manner, counts); })) return std::nullopt;
+  tried.push_back({manner, counts});
 
   const auto refine_start = Clock::now();
   const PointData<D> data(mesh, domain);
@@ -268,7 +283,7 @@ Attempt<D> attempt(const Domain<D>& domain, const RefineOptions<D>& options, Man
   const auto dropped = [&] {
     return !options.partial_mesh && (options.stop.stop_requested() || result.stop == StopCause::cancelled);
   };
-  if (dropped()) return {without_mesh(std::move(result), start)};
+  if (dropped()) return Attempt<D>{without_mesh(std::move(result), start)};
   std::vector<PoorCell> poor = take_poor<D>(context, refined, result);
   result.statistics.seconds_refine = seconds_since(refine_start);
 
@@ -279,7 +294,7 @@ Attempt<D> attempt(const Domain<D>& domain, const RefineOptions<D>& options, Man
     result.stop = StopCause::cancelled;
     poor.clear();
   }
-  if (dropped()) return {without_mesh(std::move(result), start)};
+  if (dropped()) return Attempt<D>{without_mesh(std::move(result), start)};
   for (std::size_t i = 0; i < poor.size(); ++i) {
     PoorReason reason = poor[i].reason;
     reason.cell = compacted.cell_number(poor_vertices[i]);
@@ -290,34 +305,35 @@ Attempt<D> attempt(const Domain<D>& domain, const RefineOptions<D>& options, Man
   std::sort(result.reasons.begin(), result.reasons.end(),
             [](const PoorReason& a, const PoorReason& b) { return a.cell < b.cell; });
   const std::uint64_t unexplained = too_many_unexplained(refined, result);
-  return {std::move(result), unexplained};
+  return Attempt<D>{std::move(result), unexplained};
 }
 
 /// Points that nothing is missing for may bring on a recovery that does not end: then it has to do with fewer of them, as
 /// `splits` says in the end.
 template <int D>
 Attempt<D> first_attempt(const Domain<D>& domain, const RefineOptions<D>& options, EarlySplits& splits, Clock::time_point start,
-                         const RefineResult<D>& before) {
+                         const RefineResult<D>& before, std::vector<Tried>& tried) {
   Manner manner = manners[0];
   while (true) {
     splits = manner.splits;
     RecoveryCounts counts;
     try {
-      return attempt<D>(domain, options, manner, start, start, before, counts);
+      return *attempt<D>(domain, options, manner, start, start, before, counts, tried);
     } catch (const InputError&) {
       if (counts.improving == 0 || splits == EarlySplits::none) throw;
+      tried.clear();
       manner.splits = EarlySplits{static_cast<std::uint8_t>(static_cast<int>(splits) - 1)};
     }
   }
 }
 
-/// Another one; nothing if its boundary is not recovered.
+/// Another one; nothing if its boundary is not recovered, or it repeats an earlier one.
 template <int D>
 std::optional<Attempt<D>> further_attempt(const Domain<D>& domain, const RefineOptions<D>& options, Manner manner,
-                                          Clock::time_point start, const RefineResult<D>& before) {
+                                          Clock::time_point start, const RefineResult<D>& before, std::vector<Tried>& tried) {
   RecoveryCounts counts;
   try {
-    return attempt<D>(domain, options, manner, start, Clock::now(), before, counts);
+    return attempt<D>(domain, options, manner, start, Clock::now(), before, counts, tried);
   } catch (const InputError&) {
     return std::nullopt;
   }
@@ -341,13 +357,14 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
     return without_mesh(std::move(before), start);
   }
   EarlySplits splits;
-  Attempt<D> made = first_attempt<D>(domain, options, splits, start, before);
+  std::vector<Tried> tried;
+  Attempt<D> made = first_attempt<D>(domain, options, splits, start, before, tried);
   for (std::size_t i = 1; D == 3 && i < manners.size() && made.unexplained > 0 && made.result.stop == StopCause::finished; ++i) {
     Manner manner = manners[i];
     const bool fewer = splits < manners[0].splits;
     if (fewer && manner.splits > manners[0].splits) continue;
     if (fewer) manner.splits = splits;
-    std::optional<Attempt<D>> again = further_attempt<D>(domain, options, manner, start, before);
+    std::optional<Attempt<D>> again = further_attempt<D>(domain, options, manner, start, before, tried);
     if (!again) continue;
     const StopCause stop = again->result.stop;
     const bool better = stop == StopCause::finished && again->unexplained < made.unexplained;

@@ -17,6 +17,7 @@
 
 #include "allow_threads.hpp"
 #include "refined_models.hpp"
+#include "sanitized.hpp"
 
 namespace pgdr::test {
 
@@ -38,6 +39,9 @@ inline const std::vector<Runner> concurrent_runners = {
     {"threads 8", Executor::threads, 8},
 };
 inline const std::vector<Runner> eight_threads(concurrent_runners.end() - (PGDR_TEST_TBB ? 2 : 1), concurrent_runners.end());
+
+/// For what takes long: with the address sanitizer the calling thread alone. Others look for errors of concurrency there.
+inline const std::vector<Runner> eight_threads_if_quick = sanitized ? std::vector<Runner>{} : eight_threads;
 
 template <int D>
 RefineOptions<D> with(RefineOptions<D> options, const Runner& runner) {

@@ -79,7 +79,8 @@ TYPED_TEST(SelectorsRefine, SameBytesForAnyThreads) {
       for (const double ratio : {0.5, 1.5}) {
         if (sanitized && ratio > 1) continue;
         options.schedule.split_ratio = ratio;
-        const auto result = expect_reproducible<D>(plc, options, std::string(name) + (is_turned ? ", turned" : ""));
+        const auto result = expect_reproducible<D>(plc, options, std::string(name) + (is_turned ? ", turned" : ""),
+                                                     sanitized ? test::eight_threads : test::concurrent_runners);
         EXPECT_EQ(result.poor_left, 0u) << name;
         EXPECT_EQ(result.statistics.selector_outside, 0u) << name;
         EXPECT_GT(result.scheduler.leaves, 16u) << name;
@@ -117,7 +118,7 @@ TYPED_TEST(SelectorsRefine, BoundsBelowTheProvedOneEnd) {
       options.disk.type = DiskType::type1;
       options.radius_edge_bound = bound;
       options.max_vertices = 200000;
-      const auto [result, report] = refine_and_check<D>(box_with_pairs<D>(10, 0.01, 3), options);
+      const auto [result, report] = refine_and_check<D>(box_with_pairs<D>(sanitized && D == 3 ? 3 : 10, 0.01, 3), options);
       EXPECT_EQ(result.stop, StopCause::finished) << name;
       EXPECT_LE(report.exit_code(), 1) << test::findings(report);
       if (bound == 1.0 && D == 2) {
@@ -226,7 +227,7 @@ Preview<D> brute_force(const OutputMesh<D>& mesh, const Point<D>& p, double boun
 // The last insertion of a run that stops at n vertices, against the mesh of the run that stops at one less.
 TYPED_TEST(SelectorsRefine, PreviewsAgreeWithTheMesh) {
   constexpr int D = TypeParam::value;
-  const Plc<D> plc = box_with_pairs<D>(D == 2 ? 30 : 15, 0.02, 9);  // along the axes: no wall is some ulps off its plane
+  const Plc<D> plc = box_with_pairs<D>(D == 2 ? 30 : sanitized ? 6 : 15, 0.02, 9);  // along the axes: no wall is some ulps off its plane
   RefineOptions<D> options;
   options.schedule.floor = std::numeric_limits<std::size_t>::max();  // one leaf: the budget is kept to the vertex
   options.radius_edge_bound = D == 2 ? 1.6 : 2.2;

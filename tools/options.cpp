@@ -145,7 +145,7 @@ void add_input(CLI::App& app, InputArguments& p) {
                  "points within R times the largest coordinate are one: the nearest before them in the file (default 0: exact "
                  "duplicates alone)")
       ->type_name("R")->check(number("between 0 and 0.01", [](double v) { return v >= 0 && v <= 0.01; }));
-  app.add_flag("--resolve-crossings", p.resolve_crossings, "2D: split segments that cross, at new points");
+  app.add_flag("--resolve-crossings", p.resolve_crossings, "2D: split segments that cross, at new points, and at points that they miss by rounding");
   app.add_flag("--convex-hull", p.convex_hull, "2D: the edges of the convex hull of all points are segments, too");
 }
 

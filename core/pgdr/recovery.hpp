@@ -44,6 +44,8 @@ struct RecoveryCounts {
   std::uint64_t facet_points = 0;    ///< Steiner points on facets
   std::uint64_t improving = 0;       ///< of both, those of poor triangles; also where it failed
   std::uint64_t rounds = 0;          ///< over all that was missing
+
+  bool operator==(const RecoveryCounts&) const = default;  ///< all of them
 };
 
 /// @pre `delaunay` has built the triangulation of domain.points(), in that order.
