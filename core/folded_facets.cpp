@@ -8,6 +8,8 @@
 #include <tuple>
 #include <vector>
 
+#include "detail/named_points.hpp"
+
 namespace pgdr {
 namespace {
 
@@ -51,14 +53,9 @@ void require_unfolded(const Mesh<3>& mesh, const Domain<3>& domain) {
     const auto& ends = domain.segments()[s].points;
     const Point3 &p = domain.points()[ends[0]], &q = domain.points()[ends[1]];
     if (length[s] == 0 || length[s] >= whole * std::sqrt(squared_distance(p, q))) continue;
-    Diagnostic d;
-    d.code = Errc::boundary_not_recovered;
-    for (const std::uint32_t end : ends) {
-      d.ids.push_back(domain.input_of_point()[end]);
-      d.points.push_back(domain.points()[end].x);
-    }
-    d.message = "facets that are planar only within the precision fold over at the segment between points " +
-                std::to_string(d.ids[0]) + " and " + std::to_string(d.ids[1]) + "; another precision may keep them apart";
+    Diagnostic d = detail::about_points<3>(Errc::boundary_not_recovered, domain, ends);
+    d.message = "facets that are planar only within the precision fold over at " + detail::segment_words(d) +
+                "; another precision may keep them apart";
     throw InputError(std::move(d));
   }
 }

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include "detail/named_points.hpp"
 #include "detail/recovery_state.hpp"
 #include "detail/segment_insertion.hpp"
 
@@ -46,17 +47,10 @@ InputError not_recovered(const Domain<3>& domain, const detail::SegmentChains& c
   for (EntityId f = 0; f < domain.facets().size(); ++f) look_at({EntityKind::facet, f}, patches.inner_points(f));
   const bool is_facet = most.kind == EntityKind::facet;
   const std::span<const std::uint32_t> ends = is_facet ? domain.facet_points(most.id) : domain.segments()[most.id].points;
-  Diagnostic d;
-  d.code = Errc::boundary_not_recovered;
+  Diagnostic d = detail::about_points<3>(Errc::boundary_not_recovered, domain, ends);
   d.message = "the boundary is not recovered after " + std::to_string(points) +
               " Steiner points: facets meet at very small angles, or nearly touch. The most, " + std::to_string(on_it) +
-              ", are on the " + (is_facet ? "facet through points" : "segment between points");
-  for (const std::uint32_t p : ends) {
-    d.ids.push_back(domain.input_of_point()[p]);
-    d.points.push_back(domain.points()[p].x);
-    if (d.ids.size() <= 3) d.message += (d.ids.size() == 1 ? " " : ", ") + std::to_string(d.ids.back());
-  }
-  if (d.ids.size() > 3) d.message += ", ...";
+              ", are on " + (is_facet ? detail::facet_words(d) : detail::segment_words(d));
   if (const double angle = is_facet ? 180 : least_angle_at(domain, most.id); angle < 180)
     d.message += ", where facets meet at " + std::to_string(angle) + " degrees";
   return InputError(std::move(d));

@@ -7,6 +7,7 @@
 
 #include "detail/bent_facets.hpp"
 #include "detail/planar_cdt.hpp"
+#include "detail/named_points.hpp"
 #include "detail/recovery_state.hpp"
 #include "detail/vectors.hpp"
 
@@ -24,10 +25,9 @@ std::vector<std::array<std::uint32_t, 2>> directed_edges(const Domain<3>& domain
 }
 
 InputError not_a_plane_graph(const Domain<3>& domain, EntityId f, const Mesh<3>& mesh, std::span<const VertexId> at) {
-  Diagnostic d;
-  d.code = Errc::boundary_not_recovered;
-  d.message = "facet " + std::to_string(f) + ": its segments cross or touch in its projection once Steiner points are on them";
-  for (const std::uint32_t p : domain.facet_points(f)) d.ids.push_back(domain.input_of_point()[p]);
+  Diagnostic d = about_points<3>(Errc::boundary_not_recovered, domain, domain.facet_points(f));
+  d.message = facet_words(d) + ": its segments cross or touch in its projection once Steiner points are on them";
+  d.points.clear();
   for (const VertexId v : at) d.points.push_back(mesh.point(v).x);
   return InputError(std::move(d));
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "detail/named_points.hpp"
 #include "detail/recovery_state.hpp"
 
 namespace pgdr::detail {
@@ -56,6 +57,20 @@ void SegmentChains::add(EntityId segment, std::size_t position, VertexId v, doub
   ++points_;
 }
 
+/// Where the segment should be split at x, there is another vertex: within rounding something else is there.
+Diagnostic SegmentChains::not_resolved(EntityId segment, bool is_its_end, Home home, const Point3& x) const {
+  const bool at_input = home.kind() == EntityKind::vertex && !is_its_end;
+  std::vector<std::uint32_t> points(domain_->segments()[segment].points.begin(), domain_->segments()[segment].points.end());
+  if (at_input) points.push_back(home.id());
+  Diagnostic d = about_points<3>(is_its_end ? Errc::boundary_not_recovered : Errc::entities_intersect, *domain_, points);
+  d.message = segment_words(d);
+  if (is_its_end) d.message += " cannot be resolved in double precision; something touches or crosses it here";
+  else if (at_input) d.message += " passes through point " + std::to_string(d.ids[2]) + ", but for rounding";
+  else d.message += " passes through another segment or facet";
+  d.points = {x.x};
+  return d;
+}
+
 VertexId SegmentChains::split(const Subsegment& s, double least) {
   const std::size_t i = position(s);
   if (i == 0) return no_vertex;
@@ -66,18 +81,7 @@ VertexId SegmentChains::split(const Subsegment& s, double least) {
   if (v == no_vertex) return no_vertex;
   const Home home = mesh_->vertex(v).home;
   if (!(home.kind() == EntityKind::segment && home.id() == segment) || v == a || v == b) {
-    const auto& ends = domain_->segments()[segment].points;
-    Diagnostic d;
-    const bool exhausted = v == a || v == b;
-    d.code = exhausted ? Errc::boundary_not_recovered : Errc::entities_intersect;
-    d.message = "the segment between points " + std::to_string(domain_->input_of_point()[ends[0]]) + " and " +
-                std::to_string(domain_->input_of_point()[ends[1]]) +
-                (exhausted ? " cannot be resolved in double precision; something touches or crosses it here"
-                           : " passes through a point that belongs to another entity");
-    d.ids = {domain_->input_of_point()[ends[0]], domain_->input_of_point()[ends[1]]};
-    if (home.kind() == EntityKind::vertex && !exhausted) d.ids.push_back(domain_->input_of_point()[home.id()]);
-    d.points = {p.x};
-    throw InputError(std::move(d));
+    throw InputError(not_resolved(segment, v == a || v == b, home, p));
   }
   add(segment, i, v, t);
   return v;

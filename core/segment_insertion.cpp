@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "detail/named_points.hpp"
 #include "detail/wanted_simplices.hpp"
 
 namespace pgdr::detail {
@@ -49,12 +50,8 @@ void SegmentInsertion::find_segments() {
 
 void SegmentInsertion::fail(EntityId s, VertexId through) const {
   const auto& ends = domain_->segments()[s].points;
-  const auto number = [&](std::uint32_t p) { return std::int64_t{domain_->input_of_point()[p]} + domain_->first_index(); };
-  Diagnostic d;
-  d.code = Errc::entities_intersect;
-  d.file = domain_->source().file;
-  d.ids = {number(ends[0]), number(ends[1])};
-  d.message = "the segment between points " + std::to_string(d.ids[0]) + " and " + std::to_string(d.ids[1]) +
+  Diagnostic d = about_points<2>(Errc::entities_intersect, *domain_, ends);
+  d.message = segment_words(d) +
               (through == no_vertex ? " crosses another segment" : " passes through another point");
   const Point2& p = through == no_vertex ? domain_->points()[ends[0]] : mesh_->point(through);
   d.points = {{p[0], p[1], 0}};

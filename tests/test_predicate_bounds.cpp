@@ -10,6 +10,7 @@
 #include "dimensions.hpp"
 #include "pgdr/predicates.hpp"
 #include "random_simplices.hpp"
+#include "sanitized.hpp"
 
 namespace pgdr::test_predicate_bounds {
 
@@ -86,7 +87,7 @@ void check(const Simplex<D>& s, Random& random) {
 
 TYPED_TEST(Bounds, AgreeWithRationals) {
   constexpr int D = TypeParam::value;
-  oracle::check_simplices<D>(150, check<D>);
+  oracle::check_simplices<D>(test::sanitized ? 40 : 150, check<D>);
 }
 
 // Numerators that are all cancellation: needles (a corner beside another one), and in space slivers (four points near a
@@ -95,7 +96,7 @@ TYPED_TEST(Bounds, AgreeWithRationalsOnNeedlesAndSlivers) {
   constexpr int D = TypeParam::value;
   Random random(oracle::seed());
   for (int k = 1; k < 50; ++k) {
-    for (int round = 0; round < 20; ++round) {
+    for (int round = 0; round < (test::sanitized ? 5 : 20); ++round) {
       Simplex<D> needle, sliver;
       for (Point<D>& p : needle) p = oracle::each<D>([&] { return oracle::uniform(random); });
       sliver = needle;

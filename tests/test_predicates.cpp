@@ -12,6 +12,7 @@
 #include "detail/predicates_internal.hpp"
 #include "dimensions.hpp"
 #include "oracles.hpp"
+#include "sanitized.hpp"
 
 namespace pgdr::test_predicates {
 
@@ -20,7 +21,7 @@ using detail::Middle;
 using oracle::Random;
 using oracle::times;
 
-constexpr int rounds = 600;
+constexpr int rounds = test::sanitized ? 150 : 600;
 
 template <int D>
 std::string print(const std::vector<Point<D>>& points) {

@@ -311,6 +311,34 @@ TEST(Segments, LooseOnesOfAPolyFileKeepTheirMarkers) {
   EXPECT_NEAR(length, std::sqrt(0.3125), 1e-12);
 }
 
+/// A loose segment that ends an ulp beside another. They do not touch, but no subsegment beside the end is as it should be; what
+/// says so has the numbers of the input, which counts from 1 here, its file and its line.
+TEST(Segments, WhatTheyPassByRoundingIsNamed) {
+  Plc<3> plc;
+  const Point3 low{{-29.250860471007904, 27.794698954978614, 21.101969518129124}};
+  test::add_box(plc, low, {{low[0] + 1, low[1] + 1, low[2] + 1}});
+  plc.points.insert(plc.points.end(), {{{-29.09984666586002, 27.993785972397003, 21.29186773108687}},
+                                       {{-28.42054187646335, 28.652443625205716, 21.82074143548397}},
+                                       {{-28.888352598413537, 28.19885178117923, 21.4565267363734}},
+                                       {{-28.54940140865598, 28.294698954978614, 22.001969518129123}}});
+  plc.segments = {{{8, 9}, 0}, {{10, 11}, 0}};
+  plc.first_index = 1;
+  plc.source.file = "an_ulp.poly";
+  for (std::uint32_t line = 2; line < 14; ++line) plc.source.point_lines.push_back(line);
+  EXPECT_EQ(diagnose<3>(plc).error_count(), 0u);
+  try {
+    refine<3>(plc, {});
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_EQ(e.code(), Errc::entities_intersect);
+    EXPECT_EQ(e.diagnostic().ids, (std::vector<std::int64_t>{9, 10, 11}));
+    EXPECT_EQ(e.diagnostic().file, "an_ulp.poly");
+    EXPECT_EQ(e.diagnostic().line, 10u);
+    EXPECT_EQ(e.diagnostic().points.size(), 1u);
+    EXPECT_NE(e.diagnostic().message.find("between points 9 and 10 passes through point 11"), std::string::npos) << e.what();
+  }
+}
+
 TEST(Seeds, OpenSurfaceNamesItsBoundary) {
   Plc<3> plc = test::boxes({{{{0, 0, 0}}, {{2, 2, 2}}}});
   plc.facets.pop_back();  // z high

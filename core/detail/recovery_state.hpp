@@ -65,6 +65,7 @@ class SegmentChains {
   void mark(Mesh<3>::Pools& pools);
 
  private:
+  Diagnostic not_resolved(EntityId segment, bool is_its_end, Home home, const Point3& x) const;
   std::vector<Subsegment> missing() const;
   std::size_t position(const Subsegment& s) const;
   // recovery_twins.cpp
