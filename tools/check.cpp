@@ -81,6 +81,8 @@ int check_as(const CheckArguments& a, Report& report) {
   InputArguments reading = a.reading;
   if (D == 3 && !reading.precision && !reading.precision_auto) reading.precision = reported.precision;
   if (!reading.merge_points) reading.merge_points = reported.merge_points;
+  reading.resolve_crossings = reading.resolve_crossings || reported.resolve_crossings;
+  reading.convex_hull = reading.convex_hull || reported.convex_hull;
   const std::optional<Domain<D>> domain = read_domain<D>(a.input, reading);
 
   CheckOptions<D> options;
@@ -89,7 +91,7 @@ int check_as(const CheckArguments& a, Report& report) {
   options.size = bounds.size;
   options.region_sizes = bounds.region_sizes;
   options.max_measure = bounds.max_volume;
-  options.regions = a.regions;
+  options.regions = a.regions.value_or(reported.regions);
   if (!a.reasons.empty()) options.reasons = &reported.reasons;
   const CheckReport verdict = pgdr::check(mesh, options);
   std::optional<QualitySummary> quality;  // of a mesh whose numbers can be used at all

@@ -209,6 +209,11 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
   const Plc<D> plc = read_input<D>(a.input, a.reading, repairs);
   if constexpr (D == 3) report.set("precision", plc.precision);
   report.set("merge_points", plc.merge_within);
+  if constexpr (D == 2) {
+    report.set("resolve_crossings", a.reading.resolve_crossings);
+    report.set("convex_hull", a.reading.convex_hull);
+  }
+  report.set("region_mode", name(a.regions));
   seconds.mesh_at = total.seconds();
   seconds.read = seconds.mesh_at - seconds.read_at;
 

@@ -149,7 +149,8 @@ void add_input(CLI::App& app, InputArguments& p) {
   app.add_flag("--convex-hull", p.convex_hull, "2D: the edges of the convex hull of all points are segments, too");
 }
 
-void add_regions(CLI::App& app, RegionMode& mode) {
+template <class Mode>  // a RegionMode, maybe an optional one
+void add_regions(CLI::App& app, Mode& mode) {
   app.add_option_function<std::string>("--regions", [&mode](const std::string& t) { mode = region_modes.at(t); },
                                        "seeds (default): the hole and region seeds of the input say what is meshed and "
                                        "labelled; auto: voids by nesting, and a label for each volume")

@@ -61,7 +61,7 @@ struct CheckArguments {
   std::string mesh, input;  ///< input empty: conformity is not checked
   BoundArguments bounds;
   InputArguments reading;
-  RegionMode regions = RegionMode::seeds;
+  std::optional<RegionMode> regions;  ///< none: as `reasons` says, or seeds
   std::string reasons;      ///< a report of `mesh`
   std::string report;
   bool quiet = false;

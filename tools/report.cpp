@@ -118,6 +118,8 @@ const char* name(StopCause cause) {
   return "finished";
 }
 
+const char* name(RegionMode mode) { return mode == RegionMode::automatic ? "auto" : "seeds"; }
+
 ReportedBounds read_bounds(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in || std::filesystem::is_directory(file))
@@ -137,6 +139,13 @@ ReportedBounds read_bounds(const std::string& file) {
     };
     read.precision = part_of_coordinates("precision");
     read.merge_points = part_of_coordinates("merge_points");
+    const auto holds = [&report](const char* key, const nlohmann::json& value) {
+      const auto found = report.find(key);
+      return found != report.end() && *found == value;
+    };
+    read.resolve_crossings = holds("resolve_crossings", true);
+    read.convex_hull = holds("convex_hull", true);
+    if (holds("region_mode", name(RegionMode::automatic))) read.regions = RegionMode::automatic;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {

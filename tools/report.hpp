@@ -49,6 +49,7 @@ Json to_json(const std::vector<Value>& list) {
 const char* name(PoorReason::Code code);
 const char* name(EntityKind kind);
 const char* name(StopCause cause);
+const char* name(RegionMode mode);
 
 /// What a report that `pgdr mesh` wrote says of poor cells.
 struct ReportedBounds {
@@ -56,6 +57,8 @@ struct ReportedBounds {
   std::optional<double> radius_edge;  ///< the bound of a run that was not stopped
   std::optional<double> precision;    ///< of the facets, 3D
   std::optional<double> merge_points; ///< within which points were one
+  bool resolve_crossings = false, convex_hull = false;  ///< what was done to the input, 2D
+  RegionMode regions = RegionMode::seeds;
 };
 
 /// @throws FileError if it cannot be opened, InputError if it is not such a report.

@@ -43,6 +43,7 @@ class Planar(Case):
         repair, = report["repairs"]
         self.assertEqual((repair["code"], repair["ids"], repair["points"]), ("entities_intersect", [4, 5], [[2, 2, 0]]))
         self.pgdr("check", self.output, "--input", model, expect=6)
+        self.pgdr("check", self.output, "--input", model, "--size", 1, "--reasons", self.report, expect=0)  # it says how
         self.pgdr("info", model, expect=3)
         self.pgdr("info", model, "--resolve-crossings", expect=0)
 
@@ -51,6 +52,8 @@ class Planar(Case):
         done = self.mesh(points, expect=3)
         self.assertIn("enclose nothing", done.stderr)
         self.checked(points, ["--min-angle", 20], "--convex-hull")
+        self.pgdr("check", self.output, "--input", points, expect=6)
+        self.pgdr("check", self.output, "--input", points, "--min-angle", 20, "--reasons", self.report, expect=0)
 
     def test_open_ends_are_named(self):
         model = self.file("open.poly", "4 2 0 0\n" + SQUARE + "3 0\n0 0 1\n1 1 2\n2 2 3\n0\n")

@@ -39,8 +39,11 @@ class Regions(Case):
 
     def test_voids_by_nesting(self):
         nested = self.file("nested.poly", boxes_poly(*self.NESTED))
-        self.mesh(nested, "--regions", "auto")
+        self.mesh(nested, "--regions", "auto", "--report", self.folder / "made.json")
         self.assertEqual(self.regions(), 2)
+        told = ("check", self.output, "--input", nested, "--radius-edge", 2, "--reasons", self.folder / "made.json")
+        self.pgdr(*told, expect=0)
+        self.pgdr(*told, "--regions", "seeds", expect=6)
         self.pgdr("check", self.output, "--input", nested, "--radius-edge", 2, "--regions", "auto", expect=0)
         self.pgdr("check", self.output, "--input", nested, "--radius-edge", 2, expect=6)  # voids should be meshed
         self.mesh(nested)
