@@ -12,6 +12,8 @@
 #include <limits>
 #include <numeric>
 
+#include "pgdr/circumsphere.hpp"
+
 namespace pgdr::checking {
 namespace {
 
@@ -204,21 +206,15 @@ bool rounding_cancels(const Simplex<D>& s, const Point<D>& p, const std::array<d
   return abs(value) <= bound;
 }
 
-// A simplex is crossed at q + t (p - q), t = o(q) / (o(q) - o(p)), where o(x) = det(simplex, x).
 template <int D>
 bool is_as_short_as_rounding(const Simplex<D>& s) {
-  double magnitude = 0, least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i <= D; ++i) {
-    for (const double x : s[i].x) magnitude = std::max(magnitude, std::abs(x));
-    for (int j = 0; j < i; ++j) {
-      double squared = 0;
-      for (int a = 0; a < D; ++a) squared += (s[i][a] - s[j][a]) * (s[i][a] - s[j][a]);
-      least = std::min(least, squared);
-    }
-  }
-  return std::sqrt(least) <= Tolerance{8, magnitude}.width();
+  double magnitude = 0;
+  for (const Point<D>& p : s)
+    for (const double x : p.x) magnitude = std::max(magnitude, std::abs(x));
+  return std::sqrt(shortest_edge_squared<D>(s)) <= Tolerance{8, magnitude}.width();
 }
 
+// A simplex is crossed at q + t (p - q), t = o(q) / (o(q) - o(p)), where o(x) = det(simplex, x).
 template <int D>
 std::vector<std::uint32_t> order_along(const Point<D>& q, const Point<D>& p,
                                        const std::vector<std::array<Point<D>, D>>& simplices) {

@@ -371,7 +371,7 @@ auto Refiner<D>::insert_point(const Item& e, const CellVerdict& verdict, bool at
   Demand demand;
   if (!ordinary) {
     demand = demand_of_cell(e.cell, verdict);
-    if (insertion_radius<D>(*mesh_, cavity_) < demand.d) return Outcome::refused;
+    if ((plain ? insertion_radius<D>(*mesh_, cavity_) : r) < demand.d) return Outcome::refused;
   }
   cavity_.commit(pools_, Home(EntityKind::volume, 0), rounded_down(std::max(r, demand.h)));
   committed();
