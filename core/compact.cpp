@@ -63,17 +63,47 @@ std::vector<std::uint32_t> number_vertices(const Mesh<D>& mesh, const detail::St
   return number;
 }
 
-/// Sorts the numbers, but for the last two if that is what the orientation asks for.
+/// Sorts the numbers, but for the last two if that is what the orientation asks for. Any order is as likely: it is done so that
+/// compilers make no branches of it.
 template <std::size_t N>
 std::array<std::uint32_t, N> canonical(std::array<std::uint32_t, N> v) {
-  bool odd = false;
-  for (std::size_t i = 1; i < N; ++i)
-    for (std::size_t j = i; j > 0 && v[j] < v[j - 1]; --j) {
-      std::swap(v[j], v[j - 1]);
-      odd = !odd;
+  std::uint32_t odd = 0;  // all bits, after an odd number of exchanges
+  for (std::size_t end = N; end > 1; --end)
+    for (std::size_t i = 1; i < end; ++i) {
+      const std::int64_t difference = std::int64_t{v[i]} - std::int64_t{v[i - 1]};
+      const auto exchanged = static_cast<std::uint32_t>(difference >> 63);
+      const std::uint32_t below = static_cast<std::uint32_t>(difference) & exchanged;
+      v[i - 1] += below;
+      v[i] -= below;
+      odd ^= exchanged;
     }
-  if (odd) std::swap(v[N - 2], v[N - 1]);
+  const std::uint32_t last_two = (v[N - 2] ^ v[N - 1]) & odd;
+  v[N - 2] ^= last_two;
+  v[N - 1] ^= last_two;
   return v;
+}
+
+/// Sorts cells whose first vertex is the same. Few, as most are, by their ranks, without branches that depend on the order.
+template <std::size_t N>
+void sort_few(std::array<std::uint32_t, N>* cells, std::size_t count) {
+  using Cell = std::array<std::uint32_t, N>;
+  constexpr std::size_t few = 16;
+  const auto less = [](const Cell& a, const Cell& b) {
+    const std::uint64_t x = std::uint64_t{a[1]} << 32 | a[2], y = std::uint64_t{b[1]} << 32 | b[2];
+    return (x < y) | ((x == y) & (a[N - 1] < b[N - 1]));
+  };
+  if (count > few) return std::sort(cells, cells + count, less);
+  std::array<Cell, few> unsorted;
+  std::array<std::uint8_t, few> rank{};
+  for (std::size_t i = 0; i < count; ++i) {
+    unsorted[i] = cells[i];
+    for (std::size_t j = 0; j < i; ++j) {
+      const bool before = less(unsorted[i], unsorted[j]);
+      rank[j] += before ? 1 : 0;
+      rank[i] += before ? 0 : 1;
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i) cells[rank[i]] = unsorted[i];
 }
 
 /// Bucketed by the smallest vertex, which is the first, and sorted within a bucket: in place, so that nothing but the result
@@ -90,8 +120,9 @@ void number_cells(const detail::StrippedCells<D>& stripped, const detail::Bulk& 
     return bulk.parallel() ? std::atomic_ref(counter).fetch_add(1, std::memory_order_relaxed) : counter++;
   };
   stripped.each([&](Cell& cell, std::uint16_t) {
-    for (std::uint32_t& v : cell) v = out.vertex_number[v];
-    cell = canonical(cell);
+    Cell numbers;
+    for (int j = 0; j <= D; ++j) numbers[j] = out.vertex_number[cell[j]];
+    cell = canonical(numbers);
     next(begin[cell[0] + 2]);
   });
   for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
@@ -100,13 +131,8 @@ void number_cells(const detail::StrippedCells<D>& stripped, const detail::Bulk& 
   cells.resize(begin.back());
   stripped.each([&](const Cell& cell, std::uint16_t) { cells[next(begin[cell[0] + 1])] = cell; });
   begin.pop_back();
-  // Within a bucket the first vertex is the same; the next two are compared as one number.
-  auto less = [](const Cell& a, const Cell& b) {
-    const std::uint64_t x = std::uint64_t{a[1]} << 32 | a[2], y = std::uint64_t{b[1]} << 32 | b[2];
-    return x != y ? x < y : a[D] < b[D];
-  };
   bulk.each(begin.size() - 1, [&](std::size_t b) {
-    if (!hurry.stop_requested()) std::sort(cells.begin() + begin[b], cells.begin() + begin[b + 1], less);
+    if (!hurry.stop_requested()) sort_few(cells.data() + begin[b], begin[b + 1] - begin[b]);
   });
 }
 
@@ -194,33 +220,31 @@ MarkedFaces<D> gather_constraints(const Mesh<D>& mesh, const Domain<D>& domain, 
   using Face = typename MarkedFaces<D>::Face;
   using Edge = typename MarkedFaces<D>::Edge;
   // Few cells have constraints: those that are dead are asked last.
-  auto constraints = [&](CellId c) {
-    const auto* k = mesh.constraints(c);
-    return k && mesh.alive(c) ? k : nullptr;
-  };
+  const auto constrained = bulk.gather<CellId>(mesh.cell_bound(), [&](std::size_t i, std::vector<CellId>& cells) {
+    const CellId c{static_cast<std::uint32_t>(i)};
+    if (mesh.constraints(c) && mesh.alive(c)) cells.push_back(c);
+  });
   auto marker = [&](EntityId entity) {
     if constexpr (D == 3) return domain.facets()[entity].marker;
     else return domain.segments()[entity].marker;
   };
   MarkedFaces<D> found;
-  found.faces = bulk.gather<Face>(mesh.cell_bound(), [&](std::size_t i, std::vector<Face>& faces) {
-    const CellId c{static_cast<std::uint32_t>(i)};
-    const auto* k = constraints(c);
-    for (int f = 0; k && f <= D; ++f) {
+  found.faces = bulk.gather<Face>(constrained.size(), [&](std::size_t i, std::vector<Face>& faces) {
+    const CellId c = constrained[i];
+    const auto* k = mesh.constraints(c);
+    for (int f = 0; f <= D; ++f) {
       const Link beyond = mesh.cell(c).links[f];
       if ((k->faces >> f & 1) && !(beyond && beyond.cell() < c))
         faces.push_back({face_vertices<D>(mesh.cell(c), f), marker(k->face_entity[f]), !beyond});
     }
   });
   if constexpr (D == 3)
-    found.edges = bulk.gather<Edge>(mesh.cell_bound(), [&](std::size_t i, std::vector<Edge>& edges) {
-      const CellId c{static_cast<std::uint32_t>(i)};
-      const auto* k = constraints(c);
-      for (int e = 0; k && e < 6; ++e) {
-        if (!(k->edges >> e & 1)) continue;
-        const auto& v = mesh.cell(c).vertices;
-        edges.push_back({{v[edge_ends[e][0]], v[edge_ends[e][1]]}, domain.segments()[k->edge_entity[e]].marker});
-      }
+    found.edges = bulk.gather<Edge>(constrained.size(), [&](std::size_t i, std::vector<Edge>& edges) {
+      const auto* k = mesh.constraints(constrained[i]);
+      const auto& v = mesh.cell(constrained[i]).vertices;
+      for (int e = 0; e < 6; ++e)
+        if (k->edges >> e & 1)
+          edges.push_back({{v[edge_ends[e][0]], v[edge_ends[e][1]]}, domain.segments()[k->edge_entity[e]].marker});
     });
   return found;
 }

@@ -69,12 +69,29 @@ constexpr auto space_steps = [] {
   return table;
 }();
 
+/// Two levels at once: by state, two bits each of x, y and z.
+constexpr auto double_space_steps = [] {
+  std::array<std::array<SpaceStep, 64>, most_space_states> table{};
+  for (std::size_t s = 0; s < most_space_states; ++s)
+    for (unsigned xyz = 0; xyz < 64; ++xyz) {
+      const auto bits = [xyz](int level) {
+        return (xyz >> (4 + level) & 1) << 2 | (xyz >> (2 + level) & 1) << 1 | (xyz >> level & 1);
+      };
+      const SpaceStep upper = space_steps[s][bits(1)], lower = space_steps[upper.state][bits(0)];
+      table[s][xyz] = {lower.state, static_cast<std::uint8_t>(upper.digits << 3 | lower.digits)};
+    }
+  return table;
+}();
+
 std::uint64_t hilbert_index(std::array<std::uint32_t, 3> x) {
-  std::uint64_t key = 0;
-  std::uint8_t state = 0;
-  for (int b = bits_per_axis<3> - 1; b >= 0; --b) {
-    const SpaceStep step = space_steps[state][(x[0] >> b & 1) << 2 | (x[1] >> b & 1) << 1 | (x[2] >> b & 1)];
-    key = key << 3 | step.digits;
+  int b = bits_per_axis<3> - 1;
+  static_assert(bits_per_axis<3> % 2 == 1, "the topmost level goes alone");
+  const SpaceStep top = space_steps[0][(x[0] >> b & 1) << 2 | (x[1] >> b & 1) << 1 | (x[2] >> b & 1)];
+  std::uint64_t key = top.digits;
+  std::uint8_t state = top.state;
+  for (b -= 2; b >= 0; b -= 2) {
+    const SpaceStep step = double_space_steps[state][(x[0] >> b & 3) << 4 | (x[1] >> b & 3) << 2 | (x[2] >> b & 3)];
+    key = key << 6 | step.digits;
     state = step.state;
   }
   return key;
