@@ -11,6 +11,7 @@ namespace pgdr {
 template <int D>
 void Cavity<D>::begin(const Point<D>& p) {
   point_ = p;
+  squared_depth_ = area_ ? area_->squared_depth(p) : std::numeric_limits<double>::infinity();
   least_ = 0;
   shrunk_ = touches_constraints_ = shapes_known_ = star_shaped_ = false;
   split_edge_ = {no_vertex, no_vertex};
@@ -207,8 +208,8 @@ auto Cavity<D>::grow() -> Status {
         continue;  // a subfacet of the part, at the hull
       } else if (!mesh_->marked(next.cell())) {
         if (mesh_->conflicts(next.cell(), point_)) {
-          if (!owns(next.cell())) return Status::not_owned;
-          take(next.cell());
+          if (!owns_in_conflict(next.cell())) return Status::not_owned;
+          take_unmarked(next.cell());
           const VertexId apex = mesh_->cell(next.cell()).vertices[next.face()];
           if (least_ > 0 && std::sqrt(squared_distance(point_, mesh_->point(apex))) < least_) return Status::too_near;
         } else {

@@ -29,6 +29,19 @@ std::array<VertexId, D - 1> ridge_without(const CellRecord<D>& k, int i, int j) 
   return sorted(r);
 }
 
+/// Calls f(link, slot) for the faces of the new cells at the ridges of the boundary; slot is that of the ridge in the table.
+template <int D, class Boundary, class F>
+void each_new_face(const Mesh<D>& mesh, const Boundary& boundary, const std::vector<CellId>& cells, const PairTable& ridges, F f) {
+  for (std::size_t i = 0; i < boundary.size(); ++i) {
+    const CellId c = cells[i];
+    const auto& corners = face_corners<D>[boundary[i].face];
+    const auto& vertices = mesh.cell(c).vertices;
+    std::uint64_t hash[D], all = 0;
+    for (int n = 0; n < D; ++n) all ^= hash[n] = index(vertices[corners[n]]) * 0x9e3779b97f4a7c15u;
+    for (int n = 0; n < D; ++n) f(Link(c, corners[n]), ridges.slot_of(all ^ hash[n]));
+  }
+}
+
 }  // namespace
 
 template <int D>
@@ -46,24 +59,21 @@ VertexId Cavity<D>::commit(Pools& pools, Home home, float relaxed_radius) {
       return a.ridge != b.ridge ? a.ridge < b.ridge : a.entity < b.entity;
     };
     std::sort(rim_.begin(), rim_.end(), less);
-    std::vector<RimRidge> once;
+    std::size_t kept = 0;
     for (std::size_t i = 0, j; i < rim_.size(); i = j) {
       for (j = i + 1; j < rim_.size() && !less(rim_[i], rim_[j]);) ++j;
       bool split = false;
       if constexpr (D == 3) split = split_segment_ != no_entity && rim_[i].ridge == sorted(split_edge_);
-      if (j == i + 1 && !split) once.push_back(rim_[i]);
+      if (j == i + 1 && !split) rim_[kept++] = rim_[i];
     }
-    rim_ = std::move(once);
+    rim_.resize(kept);
   }
 
   if (!shapes_known_) look_at_shapes();
-  new_cells_.clear();
-  for (std::size_t i = 0; i < boundary_.size(); ++i) {
-    new_cells_.push_back(make_cell(pools, boundary_[i], v));
-    set_sphere(new_cells_[i], i);
-  }
+  make_cells(pools, v);
+  set_spheres();
   if (rim_.empty()) {
-    link_by_ridges();
+    boundary_.size() <= most_numbered ? link_by_numbers() : link_by_ridges();
   } else {
     link_by_walks(pools);
   }
@@ -71,32 +81,34 @@ VertexId Cavity<D>::commit(Pools& pools, Home home, float relaxed_radius) {
   if (touches_constraints_)
     for (const CellId c : new_cells_) mesh_->enlist(c);
   part_.clear();
-  for (const CellId c : cells_) {
-    mesh_->unmark(c);
-    mesh_->free_cell(pools, c);
-  }
+  for (const CellId c : cells_) mesh_->free_cell(pools, c);
   cells_.clear();
   boundary_.clear();
   protected_.clear();
   return v;
 }
 
+/// On the boundary faces, in their order; of their links those across these alone.
 template <int D>
-CellId Cavity<D>::make_cell(Pools& pools, const BoundaryFace& f, VertexId v) {
-  const CellId c = mesh_->new_cell(pools, mesh_->region(f.cell));
-  const CellRecord<D>& old = mesh_->cell(f.cell);
-  CellRecord<D>& k = mesh_->cell(c);
-  auto vertices = old.vertices;
-  const Link outside = old.links[f.face];
-  vertices[f.face] = v;
-  assert(!area_ || area_->owns(*mesh_, vertices));
-  mesh_->set_vertices(c, vertices);
-  k.links.fill(Link{});
-  k.links[f.face] = outside;
-  assert(!outside || may_read(outside.cell()));
-  if (outside) mesh_->cell(outside.cell()).links[outside.face()] = Link(c, f.face);
-  if (touches_constraints_) inherit_constraints(pools, f, c);
-  return c;
+void Cavity<D>::make_cells(Pools& pools, VertexId v) {
+  Mesh<D>& mesh = *mesh_;
+  new_cells_.resize(boundary_.size());
+  for (std::size_t i = 0; i < boundary_.size(); ++i) {
+    const auto [old_cell, face] = boundary_[i];
+    const CellId c = new_cells_[i] = mesh.new_cell(pools, mesh.region(old_cell));
+    const CellRecord<D>& old = mesh.cell(old_cell);
+    CellRecord<D>& k = mesh.cell(c);
+    auto vertices = old.vertices;
+    const Link outside = old.links[face];
+    vertices[face] = v;
+    assert(!area_ || area_->owns(mesh, vertices));
+    mesh.set_vertices(c, vertices);
+    k.links.fill(Link{});
+    k.links[face] = outside;
+    assert(!outside || may_read(outside.cell()));
+    if (outside) mesh.cell(outside.cell()).links[outside.face()] = Link(c, face);
+    if (touches_constraints_) inherit_constraints(pools, boundary_[i], c);
+  }
 }
 
 template <int D>
@@ -121,46 +133,70 @@ void Cavity<D>::inherit_constraints(Pools& pools, const BoundaryFace& f, CellId 
 }
 
 /// Neighbours among the new cells where no constrained face is made: the rim of a star-shaped cavity is a closed surface, two
-/// faces of which meet at each ridge.
+/// faces of which meet at each ridge, one each way round. Its vertices are numbered, and ridges found by the numbers of their ends.
 template <int D>
-void Cavity<D>::link_by_ridges() {
+void Cavity<D>::link_by_numbers() {
   Mesh<D>& mesh = *mesh_;
-  ridges_.reset(boundary_.size() * D / 2 + 1);
-  new_faces_.resize(boundary_.size() * D);
-  NewFace* out = new_faces_.data();
+  numbers_.reset();
+  OpenLink* out = open_links_.data();
   for (std::size_t i = 0; i < boundary_.size(); ++i) {
     const CellId c = new_cells_[i];
-    const auto& vertices = mesh.cell(c).vertices;
-    std::uint64_t hash[D + 1], all = 0;
-    for (int k = 0; k <= D; ++k) all ^= hash[k] = k == boundary_[i].face ? 0 : index(vertices[k]) * 0x9e3779b97f4a7c15u;
-    for (int j = 0; j <= D; ++j) {
-      if (j == boundary_[i].face) continue;
-      const std::size_t slot = ridges_.slot_of(all ^ hash[j]);
-      *out = {Link(c, j).code, static_cast<std::uint32_t>(slot)};
-      ridges_.add(slot, out->code);
-      ++out;
+    const auto& corners = face_corners<D>[boundary_[i].face];
+    CellRecord<D>& k = mesh.cell(c);
+    std::uint32_t number[D];
+    for (int n = 0; n < D; ++n) number[n] = numbers_.of(index(k.vertices[corners[n]]));
+    for (int n = 0; n < D; ++n) {
+      std::uint32_t mine, other;
+      if constexpr (D == 3) {
+        const std::uint32_t from = number[(n + 1) % 3], to = number[(n + 2) % 3];
+        mine = from * SmallNumbers::bound + to;
+        other = to * SmallNumbers::bound + from;
+      } else {
+        mine = 2 * number[1 - n] + n;
+        other = mine ^ 1;
+      }
+      links_at_[mine] = Link(c, corners[n]);
+      *out++ = {&k.links[corners[n]], other};
     }
   }
-  const auto ridge_of = [&mesh](Link l) {
-    auto vertices = mesh.cell(l.cell()).vertices;
-    vertices[static_cast<std::size_t>(l.face())] = no_vertex;
-    return sorted(vertices);
-  };
-  shared_slots_.clear();
-  for (const auto [code, slot] : new_faces_) {
-    if (!ridges_.is_pair(slot)) {
-      shared_slots_.emplace_back(ridge_of(Link::from_code(code)), code);
+  for (const auto [link, other] : std::span(open_links_.data(), out)) *link = links_at_[other];
+}
+
+/// The same of any number of them, by hashes of the ridges.
+template <int D>
+void Cavity<D>::link_by_ridges() {
+  ridges_.reserve(boundary_.size() * D / 2 + 1);
+  new_faces_.resize(boundary_.size() * D + 1);
+  NewFace* out = new_faces_.data();  // the first of each slot
+  each_new_face(*mesh_, boundary_, new_cells_, ridges_, [&](Link face, std::size_t slot) {
+    *out = {face.code, static_cast<std::uint32_t>(slot)};
+    out += ridges_.add(slot, face.code) ? 1 : 0;
+  });
+  const std::span<const NewFace> firsts(new_faces_.data(), out);
+  bool shared = false;
+  for (const auto [code, slot] : firsts) {
+    if (!ridges_.is_pair(slot)) [[unlikely]] {
+      shared = true;
       continue;
     }
-    const Link self = Link::from_code(code);
-    mesh.cell(self.cell()).links[self.face()] = Link::from_code(ridges_.partner(slot, code));
+    const Link one = Link::from_code(code), other = Link::from_code(ridges_.partner(slot, code));
+    mesh_->cell(one.cell()).links[one.face()] = other;
+    mesh_->cell(other.cell()).links[other.face()] = one;
   }
-  link_shared_slots();
+  if (shared) link_shared_slots();
+  for (const NewFace& f : firsts) ridges_.clear(f.slot);
 }
 
 /// The new faces at ridges that share a slot: few, but in the cavities of many thousand cells that fans of needles have.
 template <int D>
 void Cavity<D>::link_shared_slots() {
+  shared_slots_.clear();
+  each_new_face(*mesh_, boundary_, new_cells_, ridges_, [this](Link face, std::size_t slot) {
+    if (ridges_.is_pair(slot)) return;
+    auto ridge = mesh_->cell(face.cell()).vertices;
+    ridge[static_cast<std::size_t>(face.face())] = no_vertex;
+    shared_slots_.emplace_back(sorted(ridge), face.code);
+  });
   std::sort(shared_slots_.begin(), shared_slots_.end());
   assert(shared_slots_.size() % 2 == 0 && "two faces meet at a ridge");
   for (std::size_t i = 0; i + 1 < shared_slots_.size(); i += 2) {

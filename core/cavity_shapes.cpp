@@ -19,17 +19,31 @@ void Cavity<D>::look_at_shapes() {
   }
   const Mesh<D>& mesh = *mesh_;
   const Point<D> p = point_;
-  for (std::size_t i = 0; i < blocks * shape_lanes; ++i) {
-    const BoundaryFace f = boundary_[std::min(i, boundary_.size() - 1)];
-    const auto& vertices = mesh.cell(f.cell).vertices;
-    SimplexBlock<D>& block = prospects_[i / shape_lanes];
-    for (int k = 0; k <= D; ++k) {
-      const VertexId v = vertices[k];
-      block.set(i % shape_lanes, k, k == f.face || v == infinite_vertex ? p : mesh.point(v));
+  for (std::size_t b = 0, i = 0; b < blocks; ++b) {
+    SimplexBlock<D>& block = prospects_[b];
+    for (std::size_t lane = 0; lane < shape_lanes; ++lane) {
+      const BoundaryFace f = boundary_[i];
+      const auto& vertices = mesh.cell(f.cell).vertices;
+      for (int n = 0; n < D; ++n) {
+        const VertexId v = vertices[face_corners<D>[f.face][n]];
+        block.set(lane, n, v == infinite_vertex ? p : mesh.point(v));
+      }
+      if (i + 1 < boundary_.size()) ++i;  // the last lanes are copies
     }
+    for (int k = 0; k < D; ++k) std::fill_n(block.corner[D][k], shape_lanes, p[k]);
   }
   simplex_shapes<D>({prospects_.data(), blocks}, {shapes_.data(), blocks});
   shapes_known_ = true;
+}
+
+template <int D>
+bool Cavity<D>::surely_star_shaped() {
+  if (!shapes_known_) look_at_shapes();
+  for (std::size_t i = 0; i < boundary_.size(); ++i) {
+    const ShapeBlock<D>& block = shapes_[i / shape_lanes];
+    if (!(block.det[i % shape_lanes] > block.det_error[i % shape_lanes])) return false;
+  }
+  return true;
 }
 
 template <int D>
@@ -70,7 +84,7 @@ template <int D>
 auto Cavity<D>::make_star_shaped() -> Status {
   std::vector<CellId> doomed;
   while (!star_shaped_) {
-    look_at_shapes();
+    if (!shapes_known_) look_at_shapes();
     for (std::size_t i = 0; i < boundary_.size(); ++i)
       if (!visible(i)) doomed.push_back(boundary_[i].cell);
     if (doomed.empty())
@@ -84,20 +98,24 @@ auto Cavity<D>::make_star_shaped() -> Status {
   return Status::ok;
 }
 
-/// Of new cell c on the i-th boundary face.
+/// Of the new cells.
 template <int D>
-void Cavity<D>::set_sphere(CellId c, std::size_t i) {
-  const ShapeBlock<D>& block = shapes_[i / shape_lanes];
-  const std::size_t lane = i % shape_lanes;
-  if (!(block.center_error[lane] < std::numeric_limits<double>::infinity())) {
-    if (mesh_->is_ghost(c)) return mesh_->set_ghost_sphere(c);
-    return mesh_->set_sphere(c, circumsphere<D>(mesh_->simplex(c)));
+void Cavity<D>::set_spheres() {
+  Mesh<D>& mesh = *mesh_;
+  for (std::size_t i = 0; i < new_cells_.size(); ++i) {
+    const ShapeBlock<D>& block = shapes_[i / shape_lanes];
+    const std::size_t lane = i % shape_lanes;
+    const CellId c = new_cells_[i];
+    if (block.center_error[lane] < std::numeric_limits<double>::infinity()) [[likely]] {
+      Point<D> center;
+      for (int k = 0; k < D; ++k) center[k] = block.center[k][lane];
+      mesh.set_sphere(c, center, block.squared_radius[lane], block.power_error[lane]);
+    } else if (mesh.is_ghost(c)) {
+      mesh.set_ghost_sphere(c);
+    } else {
+      mesh.set_sphere(c, circumsphere<D>(mesh.simplex(c)));
+    }
   }
-  Circumsphere<D> sphere;
-  for (int k = 0; k < D; ++k) sphere.center[k] = block.center[k][lane];
-  sphere.squared_radius = block.squared_radius[lane];
-  sphere.center_error = block.center_error[lane];
-  mesh_->set_sphere(c, sphere, block.radius[lane]);
 }
 
 // The members defined in this file.

@@ -4,48 +4,100 @@
 // What a cavity must not take away: vertices, and subsegments. Of a Delaunay triangulation no cavity could, but for
 // subsegments that the point encroaches upon and that no wall shields: loose ones, and those at the free rim of a facet.
 #include <algorithm>
+#include <array>
 
 #include "pgdr/cavity.hpp"
 
 namespace pgdr {
 
+namespace {
+
+/// The vertices and edges of the boundary of a small cavity, edges as bits by the numbers of their ends.
+class SmallRim {
+ public:
+  SmallRim(SmallNumbers& numbers, bool edges) : numbers_(numbers) {
+    numbers_.reset();
+    if (edges) edges_.fill(0);
+  }
+  void add(VertexId v) { numbers_.of(index(v)); }
+  void add(VertexId a, VertexId b) {
+    const std::uint32_t i = numbers_.of(index(a)), j = numbers_.of(index(b));
+    edges_[i] |= std::uint64_t{1} << j;
+    edges_[j] |= std::uint64_t{1} << i;
+  }
+  bool has(VertexId v) const { return numbers_.has(index(v)); }
+  bool has(VertexId a, VertexId b) const {
+    return has(a) && has(b) && (edges_[numbers_.of(index(a))] >> numbers_.of(index(b)) & 1);
+  }
+
+ private:
+  static_assert(SmallNumbers::bound == 64);
+  SmallNumbers& numbers_;
+  std::array<std::uint64_t, SmallNumbers::bound> edges_;
+};
+
+/// Those of any.
+class LargeRim {
+ public:
+  LargeRim(KeySet& keys, std::size_t faces, bool edges) : keys_(keys) { keys_.reset((edges ? 6 : 3) * faces); }
+  void add(VertexId v) { keys_.insert(index(v)); }
+  void add(VertexId a, VertexId b) { keys_.insert(key(a, b)); }
+  bool has(VertexId v) const { return keys_.contains(index(v)); }
+  bool has(VertexId a, VertexId b) const { return keys_.contains(key(a, b)); }
+
+ private:
+  /// Never that of a vertex, whose high half is zero and lies below any edge's.
+  static std::uint64_t key(VertexId a, VertexId b) {
+    return std::uint64_t{std::max(index(a), index(b))} << 32 | std::min(index(a), index(b));
+  }
+  KeySet& keys_;
+};
+
+}  // namespace
+
+template <int D>
+bool Cavity<D>::has_subsegments() const {
+  const auto has = [this](CellId c) {
+    const auto* k = mesh_->constraints(c);
+    return k && k->edges;
+  };
+  return D == 3 && std::any_of(cells_.begin(), cells_.end(), has);
+}
+
 template <int D>
 auto Cavity<D>::find_swallowed(std::vector<CellId>& behind) -> Status {
-  auto edge_key = [](VertexId a, VertexId b) {
-    const std::uint64_t low = std::min(index(a), index(b)), high = std::max(index(a), index(b));
-    return high << 32 | low;  // never the key of a vertex, whose high half is zero and lies below any edge's
-  };
-  auto vertex_key = [](VertexId v) { return std::uint64_t{index(v)}; };
-  bool any_edges = false;
-  if constexpr (D == 3)
-    for (const CellId c : cells_) {
-      const auto* k = mesh_->constraints(c);
-      any_edges = any_edges || (k && k->edges);
-    }
-  rim_keys_.reset((any_edges ? 6 : 3) * boundary_.size());
+  for (const BoundaryFace& f : boundary_)
+    if (const Link out = mesh_->cell(f.cell).links[f.face]; out && mesh_->marked(out.cell())) return Status::not_star_shaped;
+  const bool edges = has_subsegments();
+  // F triangles (edges) that are connected through their ridges have at most F + 2 vertices; each piece of the cavity has a
+  // protected cell.
+  if (boundary_.size() + 2 * protected_.size() <= SmallNumbers::most) return find_swallowed(SmallRim(numbers_, edges), behind);
+  return find_swallowed(LargeRim(rim_keys_, boundary_.size(), edges), behind);
+}
+
+template <int D>
+template <class Rim>
+auto Cavity<D>::find_swallowed(Rim rim, std::vector<CellId>& behind) const -> Status {
+  const bool any_edges = has_subsegments();
   for (const BoundaryFace& f : boundary_) {
     const auto& k = mesh_->cell(f.cell);
-    const Link out = k.links[f.face];
-    if (out && mesh_->marked(out.cell())) return Status::not_star_shaped;
-    for (int i = 0; i <= D; ++i)
-      if (i != f.face) rim_keys_.insert(vertex_key(k.vertices[i]));
-    if (!any_edges) continue;
-    for (int i = 0; i <= D; ++i)
-      for (int j = i + 1; j <= D; ++j)
-        if (i != f.face && j != f.face) rim_keys_.insert(edge_key(k.vertices[i], k.vertices[j]));
+    const auto& corners = face_corners<D>[f.face];
+    for (const auto i : corners) rim.add(k.vertices[i]);
+    if constexpr (D == 3)
+      for (int i = 0; i < D && any_edges; ++i) rim.add(k.vertices[corners[i]], k.vertices[corners[(i + 1) % D]]);
   }
   for (const CellId c : cells_) {
     const auto& k = mesh_->cell(c);
     for (const VertexId v : k.vertices)
-      if (!rim_keys_.contains(vertex_key(v))) return Status::swallows;
+      if (!rim.has(v)) return Status::swallows;
     if constexpr (D == 3) {
-      const auto* constraints = mesh_->constraints(c);
+      const auto* constraints = any_edges ? mesh_->constraints(c) : nullptr;
       if (!constraints || !constraints->edges) continue;
       for (int e = 0; e < 6; ++e) {
         if (!(constraints->edges >> e & 1)) continue;
         const VertexId a = k.vertices[edge_ends[e][0]], b = k.vertices[edge_ends[e][1]];
         const bool split = (a == split_edge_[0] && b == split_edge_[1]) || (a == split_edge_[1] && b == split_edge_[0]);
-        if (split || rim_keys_.contains(edge_key(a, b))) continue;
+        if (split || rim.has(a, b)) continue;
         find_behind(a, b, behind);
         return Status::swallows;
       }

@@ -21,30 +21,34 @@ double checked_size(const SizingField<D>& size, const Point<D>& x) {
   throw UsageError(std::move(d));
 }
 
+template <int D>
+CellShape shape_of(const Mesh<D>& mesh, CellId c) {
+  return {shortest_edge_squared<D>(mesh.simplex(c)), 0, CellBounds<D>::infinity};
+}
+
 }  // namespace
 
 // The cached squared radius is off by at most the half width of the filter's band (mesh.cpp: 6 |d| / r bounds the
 // relative error 2 |d| / r of r^2, and 2^-46 the roundings here), so outside the band around the bound it decides.
 template <int D>
 CellVerdict CellBounds<D>::test(const Mesh<D>& mesh, CellId c) const {
-  const double unknown = std::numeric_limits<double>::infinity();
-  return test(mesh, c, {shortest_edge_squared<D>(mesh.simplex(c)), 0, unknown});
+  return test(mesh, c, shape_of(mesh, c));
 }
 
 template <int D>
 CellVerdict CellBounds<D>::test(const Mesh<D>& mesh, CellId c, const CellShape& shape) const {
-  return {over_radius_edge(mesh, c, shape.shortest_edge_squared), over_size(mesh, c, shape)};
+  return {over_radius_edge(mesh, c, shape), over_size(mesh, c, shape)};
 }
 
 template <int D>
 bool CellBounds<D>::over_radius_edge(const Mesh<D>& mesh, CellId c) const {
-  return over_radius_edge(mesh, c, shortest_edge_squared<D>(mesh.simplex(c)));
+  return over_radius_edge(mesh, c, shape_of(mesh, c));
 }
 
 template <int D>
-bool CellBounds<D>::over_radius_edge(const Mesh<D>& mesh, CellId c, double shortest_squared) const {
+bool CellBounds<D>::over_radius_edge(const Mesh<D>& mesh, CellId c, const CellShape& shape) const {
   const auto [low, high] = mesh.squared_radius_bounds(c);
-  const double limit = radius_edge_bound * radius_edge_bound * shortest_squared;
+  const double limit = radius_edge_bound * radius_edge_bound * shape.shortest_edge_squared;
   if (low > limit) return true;
   return !(high < limit) && !radius_edge_within<D>(mesh.simplex(c), radius_edge_bound);
 }
@@ -58,12 +62,13 @@ bool CellBounds<D>::within_measure(const Mesh<D>& mesh, CellId c, const CellShap
   return measure_within<D>(mesh.simplex(c), bound);
 }
 
-/// The least of the sizes that apply; infinity if there are none.
+/// The least of the sizes that apply; infinity if there are none. `simplex()` is asked where one is a function.
 template <int D>
-double CellBounds<D>::size_of(const Simplex<D>& s, int region) const {
+template <class SimplexOf>
+double CellBounds<D>::size_of(SimplexOf simplex, int region) const {
   const SizingField<D>* of_region = region_size.empty() ? &size : &region_size[region];
   if (size.is_constant() && of_region->is_constant()) return std::min(size.at({}), of_region->at({}));
-  const Point<D> x = centroid<D>(s);
+  const Point<D> x = centroid<D>(simplex());
   const double least = checked_size<D>(size, x);
   return of_region == &size ? least : std::min(least, checked_size<D>(*of_region, x));
 }
@@ -91,7 +96,7 @@ template <int D>
 bool CellBounds<D>::within_size(const Simplex<D>& s, int region) const {
   if (!measure_within<D>(s, measure_of(region))) return false;
   if (!size.bounded() && region_size.empty()) return true;
-  const double bound = size_of(s, region);
+  const double bound = size_of([&s]() -> const Simplex<D>& { return s; }, region);
   if constexpr (D == 3) {
     return circumradius_within<D>(s, bound);
   } else {
@@ -102,7 +107,7 @@ bool CellBounds<D>::within_size(const Simplex<D>& s, int region) const {
 template <int D>
 bool CellBounds<D>::over_size(const Mesh<D>& mesh, CellId c, const CellShape& shape) const {
   if (size.bounded() || !region_size.empty()) {
-    const double bound = size_of(mesh.simplex(c), mesh.region(c));
+    const double bound = size_of([&] { return mesh.simplex(c); }, mesh.region(c));
     if constexpr (D == 3) {
       const auto [low, high] = mesh.squared_radius_bounds(c);
       const double limit = bound * bound;

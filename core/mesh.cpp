@@ -7,6 +7,14 @@
 
 namespace pgdr {
 
+// The filter of `conflicts`, and the error that set_sphere allows for.
+// Let c~ be the computed centre, d = c - c~ its error, r~ = |v0 - c~|. For any p,
+//   (|p-c|^2 - |v0-c|^2) = (|p-c~|^2 - r~^2) - 2 d.(p - v0),
+// and |p - v0| <= |p-c~| + r~. Where |p-c~| <= 2 r~ the last term is at most 6 |d| r~; where |p-c~| > 2 r~ the first is
+// at least 3/4 |p-c~|^2 and the last at most 3 |d| |p-c~|, so that the sign is right as long as |d| < r~/4, which the
+// levels below the last imply. Evaluating both squares costs less than 8 u relative each, and the four bits taken from
+// r~^2 cost 2^-48: 2^-46 covers these.
+//
 // The relative half width of each level's band: 2^-44, 2^-41, ..., 2^-2, and infinity, which leaves all to the exact test.
 template <int D>
 const std::array<typename Mesh<D>::Band, 16> Mesh<D>::bands = [] {
@@ -35,28 +43,6 @@ Mesh<D>::Mesh()
       vertex_source_("vertices", capacity_, [this](std::uint32_t n) { vertices_.grow_to(n); }),
       constraint_source_("constrained cells", capacity_, [this](std::uint32_t n) { constraints_.grow_to(n); }) {}
 
-// Let c~ be the computed centre, d = c - c~ its error, r~ = |v0 - c~|. For any p,
-//   (|p-c|^2 - |v0-c|^2) = (|p-c~|^2 - r~^2) - 2 d.(p - v0),
-// and |p - v0| <= |p-c~| + r~. Where |p-c~| <= 2 r~ the last term is at most 6 |d| r~; where |p-c~| > 2 r~ the first is
-// at least 3/4 |p-c~|^2 and the last at most 3 |d| |p-c~|, so that the sign is right as long as |d| < r~/4, which the
-// levels below the last imply. Evaluating both squares costs less than 8 u relative each, and the four bits taken from
-// r~^2 cost 2^-48: 2^-46 covers these.
-template <int D>
-void Mesh<D>::set_sphere(CellId c, const Circumsphere<D>& sphere, double radius) {
-  CellRecord<D>& k = cell(c);
-  k.center = sphere.center;
-  const double band = 6 * sphere.center_error / radius + 0x1p-46;
-  int level = 15;
-  if (band <= 0x1p-44) {
-    level = 0;
-  } else if (band <= 0x1p-3) {
-    const int exponent = static_cast<int>(std::bit_cast<std::uint64_t>(band) >> 52) - 1023;  // of a normal number
-    level = (44 + exponent + 1 + 2) / 3;
-  }
-  const std::uint64_t bits = std::bit_cast<std::uint64_t>(sphere.squared_radius);
-  k.radius2 = std::bit_cast<double>((bits & ~std::uint64_t{15}) | static_cast<std::uint64_t>(level));
-}
-
 template <int D>
 bool Mesh<D>::conflicts_exactly(CellId c, const Point<D>& p) const {
   const CellRecord<D>& k = cell(c);
@@ -68,18 +54,6 @@ bool Mesh<D>::conflicts_exactly(CellId c, const Point<D>& p) const {
     return side == Sign::zero ? conflicts(k.links[i].cell(), p) : side == Sign::positive;
   }
   return in_sphere_perturbed<D>(simplex(c), p) == Sign::positive;
-}
-
-template <int D>
-void Mesh<D>::free_cell(Pools& pools, CellId c) {
-  const std::uint32_t tag = tags_[index(c)].get() & ~mark_bit;
-  if (pinched_ && tag != 0) change_pinched(c, false);
-  if (tag != 0) pools.constraints.give(tag - 1);
-  const auto next = static_cast<std::uint16_t>(birth(c) + 1);
-  atomic(tags_[index(c)].birth).store(next, std::memory_order_relaxed);
-  // After the birth: whoever reads no_vertex then sees that the cell is another one (read_vertices).
-  atomic(cell(c).vertices[0]).store(no_vertex, std::memory_order_release);
-  if (next != last_birth) pools.cells.give(index(c));
 }
 
 template <int D>

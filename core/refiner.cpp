@@ -42,7 +42,7 @@ int RefineContext<D>::bucket_of(CellId c) const {
   // floor(log2(side / r)) up to one: ilogb of r^2 halved, rounding down. Of a normal number ilogb is in its bits.
   const int biased = static_cast<int>(std::bit_cast<std::uint64_t>(r2) >> 52);
   const int e = biased > 0 ? biased - 1023 : std::ilogb(r2);
-  return std::clamp(base_exponent - (e >= 0 ? e / 2 : -((1 - e) / 2)), 0, buckets - 1);
+  return std::clamp(base_exponent - (e >> 1), 0, buckets - 1);
 }
 
 template <int D>
@@ -56,6 +56,7 @@ Refiner<D>::Refiner(RefineContext<D>& context, Pools pools)
       mesh_(&context.mesh),
       domain_(&context.domain),
       options_(&context.options),
+      quick_bounds_(context.bounds),
       pools_(std::move(pools)),
       cavity_(context.mesh, &context.domain),
       flips_(context.mesh, context.domain),
@@ -69,7 +70,7 @@ template <int D>
 void Refiner<D>::list_poor(CellId c, int why) {
   assert(!visit_->area || visit_->area->owns(*mesh_, c));
   const Item e = make_entry(c, EntryKind::cell, why, context_->bucket_of(c), why == Item::over_radius_edge ? order_of(c) : 0);
-  if (!visit_->area || visit_->area->is_home(mesh_->cell(c).center)) return visit_->list->push(e);
+  if (!visit_->area || visit_->area->is_home(mesh_->cell(c).center)) return visit_->list->push_poor(e);
   abroad_.push_back(e);
 }
 
@@ -128,6 +129,19 @@ void Refiner<D>::list_if_poor(CellId c, const CellVerdict& verdict) {
   if (verdict) list_poor(c, verdict.over_size ? Item::over_size : Item::over_radius_edge);
 }
 
+/// The same of a cell whose shape is known.
+template <int D>
+void Refiner<D>::list_if_poor(CellId c, const CellShape& shape) {
+  using Answer = typename QuickBounds<D>::Answer;
+  const Answer answer = quick_bounds_.look(*mesh_, c, shape);
+  if (answer == Answer::within) return;
+  if (answer == Answer::over_size || context_->bounds.over_size(*mesh_, c, shape)) {
+    list_poor(c, Item::over_size);
+  } else if (context_->bounds.over_radius_edge(*mesh_, c, shape)) {
+    list_poor(c, Item::over_radius_edge);
+  }
+}
+
 template <int D>
 void Refiner<D>::add_violations(CellId c, std::vector<Entry<D>>& to) const {
   for (int f = 0; f <= D; ++f)
@@ -161,9 +175,7 @@ void Refiner<D>::committed() {
   const std::vector<CellId>& made = cavity_.new_cells();
   for (std::size_t i = 0; i < made.size(); ++i) {
     if (const auto* k = mesh_->constraints(made[i])) list_entities(made[i], *k);
-    const CellShape shape = cavity_.shape_of_new(i);
-    if (context_->bounds.surely_within(*mesh_, made[i], shape)) continue;
-    list_if_poor(made[i], context_->bounds.test(*mesh_, made[i], shape));
+    list_if_poor(made[i], cavity_.shape_of_new(i));
   }
   // A cavity that was not cut back keeps every face locally Delaunay, if all were.
   if (!cavity_.shrunk() && !visit_->violations_seen) return;
@@ -335,8 +347,9 @@ void Refiner<D>::treat(const Item& e) {
   if (outcome == Outcome::not_owned) visit_->set_aside.push_back(e);
 }
 
+/// All that wait. False if the visit may not go on.
 template <int D>
-void Refiner<D>::treat_entities() {
+bool Refiner<D>::treat_entities() {
   WorkList<D>& list = *visit_->list;
   while (may_go_on()) {
     if (!list.edges.empty()) {
@@ -346,9 +359,10 @@ void Refiner<D>::treat_entities() {
     } else if (!list.flips.empty()) {
       treat(list.flips.pop());
     } else {
-      return;
+      return true;
     }
   }
+  return false;
 }
 
 template <int D>
@@ -371,18 +385,25 @@ void Refiner<D>::begin(RegionVisit<D>& visit) {
 template <int D>
 void Refiner<D>::send_abroad() {
   auto& boxes = visit_->outboxes;
+  assert(boxes.empty());
+  std::erase_if(abroad_, [this](const Item& e) { return !alive(e); });
+  letters_.clear();  // of each entry, its box
+  box_sizes_.clear();
   for (const Item& e : abroad_) {
-    if (!alive(e)) continue;
     const std::uint32_t leaf = visit_->area->leaf_of(mesh_->cell(e.cell).center);
-    auto box = std::find_if(boxes.rbegin(), boxes.rend(), [leaf](const auto& o) { return o.leaf == leaf; });
-    if (box != boxes.rend()) {
-      box->entries.push_back(e);
-    } else {
-      boxes.push_back({leaf, {e}});
+    std::size_t box = boxes.size();
+    while (box > 0 && boxes[box - 1].leaf != leaf) --box;
+    if (box == 0) {
+      boxes.push_back({leaf, {}});
+      box_sizes_.push_back(0);
+      box = boxes.size();
     }
+    letters_.push_back(static_cast<std::uint32_t>(box - 1));
+    ++box_sizes_[box - 1];
   }
+  for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i].entries.reserve(box_sizes_[i]);
+  for (std::size_t i = 0; i < abroad_.size(); ++i) boxes[letters_[i]].entries.push_back(abroad_[i]);
   abroad_.clear();
-  for (auto& box : boxes) box.entries.shrink_to_fit();
 }
 
 template <int D>
@@ -392,26 +413,28 @@ void Refiner<D>::run(RegionVisit<D>& visit) {
   // An allowance for the faces that wait from before.
   flips_left_ += 16 * list.flips.size();
   for (const Item& e : visit.given) flips_left_ += e.kind() == EntryKind::flip ? 16 : 0;
-  treat_entities();
+  bool go_on = treat_entities();
   for (std::size_t i = 0; i < visit.given.size(); ++i) {
-    if (may_go_on()) {
+    if (go_on) {
       treat(visit.given[i]);
-      treat_entities();
+      go_on = treat_entities();
     } else {
       visit.set_aside.push_back(visit.given[i]);
     }
   }
   int last_bucket = std::numeric_limits<int>::max();
   if (list.poor() > 0 && visit.granularity < RefineContext<D>::buckets) last_bucket = list.first_bucket() + visit.granularity;
-  while (visit.treat_list && list.poor() > 0 && may_go_on()) {
+  while (visit.treat_list && list.poor() > 0 && go_on) {
     const int bucket = list.first_bucket();
     if (bucket > last_bucket) break;
     const bool crowded = list.poor() >= visit.floor;
     if (crowded && context_->largest_radius(bucket) <= visit.small_radius) break;
     // The largest go first where the region is to be split, or where the visit is to end by size.
     const bool by_size = (crowded && visit.small_radius > 0) || last_bucket < std::numeric_limits<int>::max();
-    treat(by_size ? list.pop_largest(*mesh_) : list.pop_poor(*mesh_));
-    treat_entities();
+    const Item e = by_size ? list.pop_largest(*mesh_) : list.pop_poor(*mesh_);
+    if (!alive(e)) continue;  // most
+    treat(e);
+    go_on = treat_entities();
   }
   context_->vertices += visit.counts.committed - reported_;
   send_abroad();

@@ -200,8 +200,8 @@ auto Refiner<D>::encroached_entity(const Point<D>& x) const -> std::optional<Ite
 /// The wall beyond which the collected point of cell c lies. The cavity cannot be star-shaped about it then, and what is left
 /// of it is of no use.
 template <int D>
-auto Refiner<D>::hiding_wall(CellId c, const Point<D>& x) const -> std::optional<Item> {
-  if (!cavity_.touches_constraints()) return std::nullopt;
+auto Refiner<D>::hiding_wall(CellId c, const Point<D>& x) -> std::optional<Item> {
+  if (!cavity_.touches_constraints() || cavity_.surely_star_shaped()) return std::nullopt;
   return wall_before(c, x, [this](CellId k) { return mesh_->marked(k); });
 }
 

@@ -87,7 +87,7 @@ void expect_shapes_of_each(void (*shapes)(std::span<const SimplexBlock<D>>, std:
     for (int k = 0; k < D; ++k) EXPECT_EQ(bits(block.center[k][lane]), bits(one.center[k]));
     EXPECT_EQ(bits(block.squared_radius[lane]), bits(one.squared_radius));
     EXPECT_EQ(bits(block.center_error[lane]), bits(one.center_error));
-    EXPECT_EQ(bits(block.radius[lane]), bits(std::sqrt(one.squared_radius)));
+    EXPECT_EQ(bits(block.power_error[lane]), bits(6 * one.center_error / std::sqrt(one.squared_radius)));
   }
   EXPECT_GT(spheres, count / 3);
   EXPECT_GT(oriented, count / 3);

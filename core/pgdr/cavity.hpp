@@ -101,6 +101,8 @@ class Cavity {
   Status collect_on_edge(const Point<D>& p, CellId cell, int edge, double least = 0)
     requires(D == 3);
 
+  /// Does a look at the filter show that all of it is star-shaped about the point, which then lies in it? After `collect` said ok.
+  bool surely_star_shaped();
   /// Cuts back to the star-shaped part. After `collect...` said ok.
   Status make_star_shaped();
   /// Would a vertex or subsegment vanish? Cuts back further where that keeps the subsegment. Asked of cavities next to
@@ -142,14 +144,17 @@ class Cavity {
   void note_seen() const {
     if (seen_) seen_->insert(seen_->end(), cells_.begin(), cells_.end());
   }
-  bool take(CellId c) {
-    assert(owns(c));
-    if (mesh_->marked(c)) return false;
+  void take(CellId c) {
+    if (!mesh_->marked(c)) take_unmarked(c);
+  }
+  void take_unmarked(CellId c) {
+    assert(owns(c) && !mesh_->marked(c));
     mesh_->mark(c);
     cells_.push_back(c);
     for (const Link next : mesh_->cell(c).links) mesh_->prefetch(next.cell());
-    return true;
   }
+  /// The same of a cell in conflict with the point. Its vertices are within a diameter of its circumball from there.
+  bool owns_in_conflict(CellId c) const { return 4 * mesh_->squared_radius_bounds(c).second < squared_depth_ || owns(c); }
   bool may_read(CellId c) const { return !area_ || area_->may_read(*mesh_, c); }  ///< for assertions
   bool owns_point() const { return !area_ || area_->owns(point_); }
   Status collect_all();
@@ -165,7 +170,7 @@ class Cavity {
   void look_at_shapes();
   bool visible(std::size_t i) const;
   bool visible_exactly(const BoundaryFace& f) const;
-  void set_sphere(CellId c, std::size_t i);
+  void set_spheres();
   bool in_line(CellId c, int i, int j) const;
   bool is_subsegment(CellId cell, int i, int j) const;
   Status find_broken_fans(std::vector<CellId>& doomed) const;
@@ -173,6 +178,9 @@ class Cavity {
   bool is_rim(const PartFace& f, VertexId a, VertexId b) const;
   Status look_at_fan(RidgeWalk<D> walk, EntityId entity, bool& broken) const;
   Status find_swallowed(std::vector<CellId>& behind);
+  template <class Rim>
+  Status find_swallowed(Rim rim, std::vector<CellId>& behind) const;
+  bool has_subsegments() const;
   void find_behind(VertexId a, VertexId b, std::vector<CellId>& behind) const;
   bool peel(std::vector<CellId>& doomed);
   Status drop_cells(std::vector<CellId>& doomed);
@@ -181,9 +189,10 @@ class Cavity {
   void keep_whole_part_faces();
   void keep_connected_cells();
   void clear_part_bits();
-  CellId make_cell(Pools& pools, const BoundaryFace& f, VertexId v);
+  void make_cells(Pools& pools, VertexId v);
   void inherit_constraints(Pools& pools, const BoundaryFace& f, CellId c);
   void link_by_ridges();
+  void link_by_numbers();
   void link_shared_slots();
   void link_by_walks(Pools& pools);
   void mark_split_entities(Pools& pools, VertexId v);
@@ -193,6 +202,7 @@ class Cavity {
   const VisitArea<D>* area_ = nullptr;
   std::vector<CellId>* seen_ = nullptr;
   Point<D> point_;
+  double squared_depth_ = 0;  ///< of the point in the visit's area, as that has it
   double least_ = 0;  ///< distance that vertices must have
   std::size_t most_cells_ = std::numeric_limits<std::size_t>::max();  ///< that it may have
   std::vector<CellId> cells_, new_cells_;
@@ -215,9 +225,20 @@ class Cavity {
     std::uint32_t slot;
   };
   std::vector<NewFace> new_faces_;  ///< of new cells, at the ridges of the boundary
-  /// Those of them whose slot in the table is not theirs alone: their vertices but the new one, sorted, and links to them.
+  /// Those whose slot in the table is not one pair's alone: their vertices but the new one, sorted, and links to them.
   std::vector<std::pair<std::array<VertexId, D + 1>, std::uint32_t>> shared_slots_;
   PairTable ridges_;
+  SmallNumbers numbers_;  ///< of the vertices of a small boundary
+  /// Links to its new faces, by the numbers of the ends of their ridges in order (2D: of the one end, and which it is).
+  std::array<Link, SmallNumbers::bound*(D == 3 ? SmallNumbers::bound : 2)> links_at_;
+  /// A link of a new cell, and where that across it is found.
+  struct OpenLink {
+    Link* link;
+    std::uint32_t other;
+  };
+  /// Faces of a small boundary. (A sphere of F triangles has F / 2 + 2 vertices.)
+  static constexpr std::size_t most_numbered = (D == 3 ? 2 : 1) * 39;
+  std::array<OpenLink, most_numbered * D> open_links_;
   std::array<VertexId, 2> split_edge_{no_vertex, no_vertex};  // 3D: the subsegment being split
   EntityId split_segment_ = no_entity;
   bool shrunk_ = false, touches_constraints_ = false;

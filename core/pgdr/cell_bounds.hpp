@@ -42,12 +42,6 @@ class CellBounds {
 
   /// @throws UsageError bad_size if the size function returns a value that is not positive.
   CellVerdict test(const Mesh<D>& mesh, CellId c) const;
-  /// A quick look that most cells within their bounds pass, in 3D without bounds on the measure.
-  bool surely_within(const Mesh<D>& mesh, CellId c, const CellShape& shape) const {
-    if (D == 2 || !size.is_constant() || !region_size.empty() || !region_measure.empty() || max_measure != infinity) return false;
-    const double bound = size.at({}), high = mesh.squared_radius_bounds(c).second;
-    return high < bound * bound && high < radius_edge_bound * radius_edge_bound * shape.shortest_edge_squared;
-  }
   /// The same of a cell whose shape is known.
   CellVerdict test(const Mesh<D>& mesh, CellId c, const CellShape& shape) const;
   /// How far a cell of these corners in the region would be over its bounds: 0 within; over any of them 1, and over that of shape an
@@ -57,13 +51,48 @@ class CellBounds {
   bool within_size(const Simplex<D>& s, int region) const;
   /// Is it over the bound of shape?
   bool over_radius_edge(const Mesh<D>& mesh, CellId c) const;
+  /// The same of a cell whose shape is known.
+  bool over_radius_edge(const Mesh<D>& mesh, CellId c, const CellShape& shape) const;
+  /// Is it over those of size, volume or area? @throws as test()
+  bool over_size(const Mesh<D>& mesh, CellId c, const CellShape& shape) const;
 
  private:
-  bool over_radius_edge(const Mesh<D>& mesh, CellId c, double shortest_squared) const;
-  double size_of(const Simplex<D>& s, int region) const;
+  template <class SimplexOf>
+  double size_of(SimplexOf simplex, int region) const;
   double measure_of(int region) const;
   bool within_measure(const Mesh<D>& mesh, CellId c, const CellShape& shape, double bound) const;
-  bool over_size(const Mesh<D>& mesh, CellId c, const CellShape& shape) const;
+};
+
+/// A quick look at cells where one size bounds all, which decides about nearly all of them as CellBounds does.
+template <int D>
+class QuickBounds {
+ public:
+  /// About all bounds; `over_size` whatever the shape.
+  enum class Answer { unknown, within, over_size };
+
+  /// Where sizes vary it knows nothing.
+  explicit QuickBounds(const CellBounds<D>& bounds) {
+    const bool varies = !bounds.size.is_constant() || !bounds.region_size.empty() || !bounds.region_measure.empty() ||
+                        bounds.max_measure != CellBounds<D>::infinity;
+    if (varies) return;
+    const double size = bounds.size.at({});
+    most_size_ = D == 3 ? size * size : 2 * size;
+    squared_ratio_ = bounds.radius_edge_bound * bounds.radius_edge_bound;
+  }
+  /// About a cell of this shape.
+  Answer look(const Mesh<D>& mesh, CellId c, const CellShape& shape) const {
+    const auto [low, high] = mesh.squared_radius_bounds(c);
+    double least = low, most = high;  // of the square of the circumradius, or of twice the area
+    if constexpr (D == 2) {
+      least = (std::fabs(shape.det) - shape.det_error) * (1 - 0x1p-50);
+      most = (std::fabs(shape.det) + shape.det_error) * (1 + 0x1p-50);
+    }
+    if (least > most_size_) return Answer::over_size;
+    return most < most_size_ && high < squared_ratio_ * shape.shortest_edge_squared ? Answer::within : Answer::unknown;
+  }
+
+ private:
+  double most_size_ = std::numeric_limits<double>::quiet_NaN(), squared_ratio_ = 0;
 };
 
 extern template class CellBounds<2>;

@@ -4,6 +4,7 @@
 // A set of 64-bit keys that is emptied at no cost and reused from insertion to insertion. Open addressing; one thread.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -43,41 +44,63 @@ class KeySet {
   std::uint32_t stamp_ = 0;
 };
 
-/// Pairs up what comes twice: of each key that two values are added for, either value finds the other. No branch depends on
-/// the data but where two keys share a slot, which the caller must then tell apart. Emptied at no cost; one thread.
-class PairTable {
+/// Numbers of few vertices, or of whatever has ids, given out as they are asked for. One thread.
+class SmallNumbers {
  public:
-  /// Empties the table and makes room for `most` keys.
-  void reset(std::size_t most) {
-    std::size_t size = slots_.size();
-    while (size < 32 * most) size = size == 0 ? 2048 : 2 * size;
-    if (size != slots_.size() || stamp_ >= last_stamp) {
-      slots_.assign(size, {});
-      stamp_ = 0;
+  static constexpr std::uint32_t bound = 64;  ///< of the numbers
+  static constexpr std::size_t most = 62;     ///< ids that may be asked for; quick with some 40
+
+  /// Forgets all.
+  void reset() { ids_.fill(none); }
+  /// That of this id, which is not all ones.
+  std::uint32_t of(std::uint32_t id) {
+    std::uint32_t i = first_place(id);
+    while (ids_[i] != id) {
+      if (ids_[i] == none) ids_[i] = id;
+      else i = (i + 1) % bound;
     }
-    stamp_ += most_count + 1;
+    return i;
   }
-  std::size_t slot_of(std::uint64_t hash) const { return (hash >> 24) & (slots_.size() - 1); }  ///< of a key with this hash
-  /// Adds a value for the key of the slot.
-  void add(std::size_t slot, std::uint32_t value) {
-    Slot& s = slots_[slot];
-    const bool fresh = s.tag < stamp_;
-    const std::uint32_t tag = fresh ? stamp_ : s.tag, others = fresh ? 0 : s.values;
-    s = {tag + ((tag & most_count) < most_count ? 1 : 0), others ^ value};
+  /// Has it one?
+  bool has(std::uint32_t id) const {
+    std::uint32_t i = first_place(id);
+    while (ids_[i] != id && ids_[i] != none) i = (i + 1) % bound;
+    return ids_[i] == id;
   }
-  /// Is the slot one pair's alone?
-  bool is_pair(std::size_t slot) const { return slots_[slot].tag == stamp_ + 2; }
-  /// @pre is_pair
-  std::uint32_t partner(std::size_t slot, std::uint32_t value) const { return slots_[slot].values ^ value; }
 
  private:
-  static constexpr std::uint32_t most_count = 63, last_stamp = 0xffffff00u;
-  struct Slot {
-    std::uint32_t tag = 0;     // the stamp, and how many were added, up to most_count
-    std::uint32_t values = 0;  // exclusive or
-  };
-  std::vector<Slot> slots_;
-  std::uint32_t stamp_ = 0;
+  static constexpr std::uint32_t none = 0xffffffffu;
+  static std::uint32_t first_place(std::uint32_t id) { return id * 0x9e3779b9u >> 26; }
+  std::array<std::uint32_t, bound> ids_;  // by number
+};
+
+/// Pairs up what comes twice: values are added for keys, two for each. No branch depends on the data but where two keys share a
+/// slot, which the caller must then tell apart. Whoever adds clears. One thread.
+class PairTable {
+ public:
+  /// Makes room for `most` keys. @pre every slot that was added to has been cleared
+  void reserve(std::size_t most) {
+    std::size_t size = slots_.size();
+    while (size < 32 * most) size = size == 0 ? 2048 : 2 * size;
+    if (size != slots_.size()) slots_.assign(size, 0);
+  }
+  std::size_t slot_of(std::uint64_t hash) const { return (hash >> 24) & (slots_.size() - 1); }  ///< of a key with this hash
+  /// Adds a value for the key of the slot. Is it the slot's first?
+  bool add(std::size_t slot, std::uint32_t value) {
+    const std::uint64_t before = slots_[slot];
+    slots_[slot] = (before ^ value) + one;
+    return before == 0;
+  }
+  /// Is the slot one pair's alone?
+  bool is_pair(std::size_t slot) const { return slots_[slot] >> 32 == 2; }
+  /// The other one of the pair. @pre is_pair
+  std::uint32_t partner(std::size_t slot, std::uint32_t value) const { return static_cast<std::uint32_t>(slots_[slot]) ^ value; }
+  /// Forgets what was added to the slot.
+  void clear(std::size_t slot) { slots_[slot] = 0; }
+
+ private:
+  static constexpr std::uint64_t one = std::uint64_t{1} << 32;
+  std::vector<std::uint64_t> slots_;  // how many were added, and the exclusive or of them, 32 bits each
 };
 
 }  // namespace pgdr

@@ -13,6 +13,7 @@
 #include <array>
 #include <atomic>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -85,6 +86,19 @@ inline constexpr std::array<std::array<int, 2>, 6> edge_ends = {{{0, 1}, {0, 2},
 /// The number of the edge between two corners of a tetrahedron.
 inline constexpr int edge_of_ends[4][4] = {{-1, 0, 1, 2}, {0, -1, 3, 4}, {1, 3, -1, 5}, {2, 4, 5, -1}};
 
+/// The numbers of the corners of each face of a cell, which is opposite the corner of its number. With that corner behind them they
+/// are an even permutation.
+template <int D>
+inline constexpr auto face_corners = [] {
+  std::array<std::array<std::uint8_t, D>, D + 1> table{};
+  for (std::size_t face = 0; face <= D; ++face) {
+    for (std::size_t corner = 0, n = 0; corner <= D; ++corner)
+      if (corner != face) table[face][n++] = static_cast<std::uint8_t>(corner);
+    if ((D - face) % 2 == 1) std::swap(table[face][0], table[face][1]);
+  }
+  return table;
+}();
+
 /// Which faces and edges of a cell are constrained, and by what. In 2D the faces are the subsegments.
 template <int D>
 struct ConstraintRecord {
@@ -135,6 +149,7 @@ class Mesh {
   /// Puts a cell into its slot.
   void set_vertices(CellId c, const std::array<VertexId, D + 1>& vertices) {
     auto& slot = cell(c).vertices;
+#pragma GCC unroll 4
     for (int i = 0; i <= D; ++i) atomic(slot[i]).store(vertices[i], std::memory_order_release);
   }
   /// Does it stand for what is beyond the hull?
@@ -175,8 +190,19 @@ class Mesh {
   }
 
   /// Stores the circumsphere as the filter of `conflicts`. Ghosts: `set_ghost_sphere`.
-  void set_sphere(CellId c, const Circumsphere<D>& sphere) { set_sphere(c, sphere, std::sqrt(sphere.squared_radius)); }
-  void set_sphere(CellId c, const Circumsphere<D>& sphere, double radius);  ///< the same, the root being known
+  void set_sphere(CellId c, const Circumsphere<D>& sphere) {
+    set_sphere(c, sphere.center, sphere.squared_radius, 6 * sphere.center_error / std::sqrt(sphere.squared_radius));
+  }
+  /// The same of a centre whose error is known as ShapeBlock has it.
+  void set_sphere(CellId c, const Point<D>& center, double squared_radius, double power_error) {
+    CellRecord<D>& k = cell(c);
+    k.center = center;
+    const double band = power_error + 0x1p-46;  // a normal number: its exponent is in its bits
+    const int exponent = static_cast<int>(std::bit_cast<std::uint64_t>(band) >> 52) - 1023;
+    const int level = band <= 0x1p-3 ? (47 + exponent) / 3 : 15;
+    const std::uint64_t bits = std::bit_cast<std::uint64_t>(squared_radius);
+    k.radius2 = std::bit_cast<double>((bits & ~std::uint64_t{15}) | static_cast<std::uint64_t>(level));
+  }
   void set_ghost_sphere(CellId c) { cell(c).radius2 = std::numeric_limits<double>::quiet_NaN(); }  ///< which answers nothing
 
   /// Exactly: is p inside the (perturbed) circumsphere of c? For a ghost: beyond its hull face, or in that face's plane
@@ -225,11 +251,24 @@ class Mesh {
   /// A slot without constraints, to be filled.
   CellId new_cell(Pools& pools, std::uint16_t region = 0) {
     const std::uint32_t id = pools.cells.take();
-    tags_[id].set(0);
+    assert(tags_[id].get() == 0);
     set_region(CellId{id}, region);
     return CellId{id};
   }
-  void free_cell(Pools& pools, CellId c);  ///< and its constraints
+  /// And its constraints; takes off its mark.
+  void free_cell(Pools& pools, CellId c) {
+    Tag& tag = tags_[index(c)];
+    if (const std::uint32_t id = tag.get() & ~mark_bit) {
+      if (pinched_) change_pinched(c, false);
+      pools.constraints.give(id - 1);
+    }
+    tag.set(0);
+    const auto next = static_cast<std::uint16_t>(birth(c) + 1);
+    atomic(tag.birth).store(next, std::memory_order_relaxed);
+    // After the birth: whoever reads no_vertex then sees that the cell is another one (read_vertices).
+    atomic(cell(c).vertices[0]).store(no_vertex, std::memory_order_release);
+    if (next != last_birth) pools.cells.give(index(c));
+  }
   VertexId new_vertex(Pools& pools, const Point<D>& p, Home home, float relaxed_radius);  ///< a vertex that no cell has yet
   /// The constraints of c, made if it has none yet.
   ConstraintRecord<D>& ensure_constraints(Pools& pools, CellId c);

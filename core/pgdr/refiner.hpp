@@ -178,9 +178,10 @@ class Refiner {
   std::uint64_t list_violations(std::span<const CellId> cells);
   void list_poor(CellId c, int why);
   void list_if_poor(CellId c, const CellVerdict& verdict);
+  void list_if_poor(CellId c, const CellShape& shape);
   std::uint32_t order_of(CellId c) const;
   void list_entities(CellId c, const ConstraintRecord<D>& k);
-  void treat_entities();
+  bool treat_entities();
   void treat(const Item& e);
   Outcome treat_poor(const Item& e);
   bool may_go_on();
@@ -238,7 +239,7 @@ class Refiner {
   std::optional<Item> flattened_face(const Point<D>& x) const;
   std::optional<Item> encroached_entity(const Point<D>& x) const;
   std::optional<Item> wall_before_far_point(CellId c, const Point<D>& x);
-  std::optional<Item> hiding_wall(CellId c, const Point<D>& x) const;
+  std::optional<Item> hiding_wall(CellId c, const Point<D>& x);
   Outcome split_instead(const Item& entity, const Item& e, const CellVerdict& verdict);
 
   // refiner_within.cpp
@@ -314,6 +315,7 @@ class Refiner {
   Mesh<D>* mesh_;
   const Domain<D>* domain_;
   const RefineOptions<D>* options_;
+  const QuickBounds<D> quick_bounds_;
   Pools pools_;
   Cavity<D> cavity_;
   LocalFlips<D> flips_;
@@ -324,6 +326,7 @@ class Refiner {
   std::conditional_t<D == 3, VertexMove, NoVertexMove> move_;
   RegionVisit<D>* visit_ = nullptr;
   std::vector<Item> abroad_;  ///< elements with their circumcentre in other regions
+  std::vector<std::uint32_t> letters_, box_sizes_;  ///< scratch of send_abroad
   std::set<std::vector<VertexId>> flipped_;  ///< cells that flips of a mending visit have made, by their vertices
   std::vector<Item> found_;  ///< violations at new cells, before they are listed
   std::uint64_t flips_left_ = 0, checked_at_ = 0, reported_ = 0;

@@ -7,7 +7,9 @@
 // vertices too, and no other visit comes near it (2D > D+1).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 
 #include "pgdr/mesh.hpp"
 
@@ -37,6 +39,12 @@ class VisitArea {
       if (!(p[i] >= home_low[i] && p[i] < home_high[i])) return false;
     return true;
   }
+  /// All points nearer to p than the root of this are in the inner box; 0 if p is not.
+  double squared_depth(const Point<D>& p) const {
+    double depth = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < D; ++i) depth = std::min({depth, p[i] - inner_low[i], inner_high[i] - p[i]});
+    return depth > 0 ? depth * depth * (1 - 0x1p-40) : 0;
+  }
   /// Is the point claimed?
   bool owns(const Point<D>& p) const {
     for (int i = 0; i < D; ++i)
@@ -44,7 +52,7 @@ class VisitArea {
     return true;
   }
   /// Are all of these vertices?
-  bool owns(const Mesh<D>& mesh, const std::array<VertexId, D + 1>& vertices) const {
+  [[gnu::noinline]] bool owns(const Mesh<D>& mesh, const std::array<VertexId, D + 1>& vertices) const {
     for (const VertexId v : vertices)
       if (!owns(mesh.point(v))) return false;
     return true;

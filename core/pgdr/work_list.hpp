@@ -76,13 +76,7 @@ class Fifo {
   std::size_t size() const { return size_; }  ///< so many wait
   /// Puts it behind all others.
   void push(const T& item) {
-    if (!last_) {
-      first_ = last_ = new_block(least_items);
-      head_ = tail_ = 0;
-    } else if (tail_ == last_->capacity) {
-      last_ = last_->next = new_block(static_cast<std::uint32_t>(std::clamp<std::size_t>(size_ / 2, least_items, most_items)));
-      tail_ = 0;
-    }
+    if (!last_ || tail_ == last_->capacity) [[unlikely]] append_block();
     last_->items()[tail_++] = item;
     ++size_;
   }
@@ -131,6 +125,15 @@ class Fifo {
 
   static Block* new_block(std::uint32_t capacity) {
     return new (::operator new(sizeof(Block) + capacity * sizeof(T))) Block{nullptr, capacity};
+  }
+  [[gnu::noinline]] void append_block() {
+    if (!last_) {
+      first_ = last_ = new_block(least_items);
+      head_ = 0;
+    } else {
+      last_ = last_->next = new_block(static_cast<std::uint32_t>(std::clamp<std::size_t>(size_ / 2, least_items, most_items)));
+    }
+    tail_ = 0;
   }
   void drop_first() { ::operator delete(std::exchange(first_, first_->next)); }
   void clear() {
@@ -219,11 +222,12 @@ class WorkList {
       case EntryKind::edge: return edges.push(e);
       case EntryKind::face: return faces.push(e);
       case EntryKind::flip: return flips.push(e);
-      case EntryKind::cell: break;
+      case EntryKind::cell: return push_poor(e);
     }
-    if (poor_.empty()) first_ = e.bucket;
-    while (first_ + static_cast<int>(poor_.size()) <= e.bucket) poor_.emplace_back();
-    for (; first_ > e.bucket; --first_) poor_.emplace(poor_.begin());
+  }
+  /// An element.
+  void push_poor(const Entry<D>& e) {
+    if (static_cast<std::size_t>(e.bucket - first_) >= poor_.size()) [[unlikely]] make_bucket(e.bucket);
     Bucket& bucket = poor_[static_cast<std::size_t>(e.bucket - first_)];
     if (e.which() == Entry<D>::over_radius_edge) {
       bucket.by_shape.push(e);
@@ -286,11 +290,16 @@ class WorkList {
  private:
   static constexpr std::size_t fetched_ahead = 4, cells_fetched_ahead = 12;
 
-  struct Bucket {
+  struct alignas(64) Bucket {
     Fifo<Entry<D>> others;
     EntryHeap<D> by_shape;  ///< over the radius-edge bound alone
     bool empty() const { return others.empty() && by_shape.empty(); }
   };
+  [[gnu::noinline]] void make_bucket(int number) {
+    if (poor_.empty()) first_ = number;
+    while (first_ + static_cast<int>(poor_.size()) <= number) poor_.emplace_back();
+    for (; first_ > number; --first_) poor_.emplace(poor_.begin());
+  }
   Entry<D> pop(EntryHeap<D>& heap) {
     --waiting_;
     return heap.pop();

@@ -26,12 +26,13 @@ struct alignas(32) SimplexBlock {
 };
 
 /// Where `center_error` is infinite the centre is not to be used: circumsphere() takes more trouble. `det` is that of
-/// orient() up to `det_error`, which may be infinite; `radius` is the root of `squared_radius`.
+/// orient() up to `det_error`, which may be infinite. `power_error`, 6 center_error / radius, bounds what the error of the centre
+/// does to |p - centre|^2 - radius^2 over radius^2 near the sphere.
 template <int D>
 struct alignas(32) ShapeBlock {
   double center[D][shape_lanes];  ///< of the circumsphere, by axis
   double squared_radius[shape_lanes];  ///< of the circumsphere
-  double radius[shape_lanes];          ///< its root
+  double power_error[shape_lanes];     ///< as said above
   double center_error[shape_lanes];    ///< as Circumsphere has it
   double shortest_edge_squared[shape_lanes];  ///< length of the shortest edge
   double det[shape_lanes];        ///< D! times the measure
