@@ -25,16 +25,25 @@ ConflictManager<D>::ConflictManager(const Orthtree<D>& tree, std::uint32_t ordin
     : tree_(&tree), ordinary_order_(std::max(ordinary_order, 1u)) {}
 
 template <int D>
-auto ConflictManager<D>::buffer(Node leaf) -> const std::vector<Node>& {
+bool ConflictManager<D>::is_stale(Node leaf) {
   if (cache_.size() < tree_->node_count()) cache_.resize(tree_->node_count());
+  return cache_[leaf].node_count != tree_->node_count();
+}
+
+template <int D>
+void ConflictManager<D>::renew(Node leaf) {
   Cached& cached = cache_[leaf];
-  if (cached.node_count == tree_->node_count()) return cached.zone;
   // A split changes BUF(leaf) only if it splits one of its leaves.
   const auto split = [this](Node l) { return !tree_->is_leaf(l); };
   if (cached.node_count == 0 || std::any_of(cached.zone.begin(), cached.zone.end(), split))
     cached.zone = tree_->buffer(leaf);
   cached.node_count = tree_->node_count();
-  return cached.zone;
+}
+
+template <int D>
+auto ConflictManager<D>::buffer(Node leaf) -> const std::vector<Node>& {
+  if (is_stale(leaf)) renew(leaf);
+  return cache_[leaf].zone;
 }
 
 template <int D>

@@ -31,6 +31,7 @@ bool Generations<D>::one_generation() {
   if (wanted.empty()) return false;
   ++generation_;
   ++statistics_.generations;
+  renew_buffers(wanted);
   Generation<D> generation = conflicts_.plan(wanted);
   std::vector<Planned> planned(wanted.size());
   // Of the vertices still allowed each visit gets its share, fixed now.
@@ -74,29 +75,46 @@ void Generations<D>::finish(Generation<D>& generation, std::vector<Planned>& pla
   split_leaves(std::move(candidates));
 }
 
+/// Pieces of what is done between generations that do not wait for each other. All of it counts as serial, but on the critical
+/// path the longest alone.
+template <int D>
+void Generations<D>::execute_pieces(std::size_t pieces, const VisitBody& piece) {
+  VisitGraph independent;
+  for (std::size_t i = 0; i < pieces; ++i) independent.add_visit();
+  std::vector<double> seconds(pieces, 0.0);
+  const auto since = [](typename Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); };
+  const auto start = Clock::now();
+  execute(independent, [&](VisitGraph::Visit v) {
+    const auto piece_start = Clock::now();
+    piece(v);
+    seconds[v] = since(piece_start);
+  });
+  statistics_.critical_path_seconds -= since(start);
+  if (pieces > 0) statistics_.critical_path_seconds += *std::max_element(seconds.begin(), seconds.end());
+}
+
+/// BUF of the leaves that are to be visited, where a split has changed it.
+template <int D>
+void Generations<D>::renew_buffers(std::span<const VisitRequest> requests) {
+  constexpr std::size_t leaves_a_piece = 32;
+  std::vector<Node> stale;
+  for (const VisitRequest& r : requests)
+    if (r.order == 1 && conflicts_.is_stale(r.leaf)) stale.push_back(r.leaf);
+  execute_pieces((stale.size() + leaves_a_piece - 1) / leaves_a_piece, [&](VisitGraph::Visit v) {
+    const std::size_t first = v * leaves_a_piece, last = std::min(stale.size(), first + leaves_a_piece);
+    for (std::size_t i = first; i < last; ++i) conflicts_.renew(stale[i]);
+  });
+}
+
 /// Splits those that may, and their children as long as these may.
 template <int D>
 void Generations<D>::split_leaves(std::vector<Node> candidates) {
   while (!candidates.empty()) {
     std::vector<Node> parents;
-    VisitGraph independent;
     for (const Node leaf : candidates)
-      if (Base::wants_split(leaf) && tree_.split(leaf) != Orthtree<D>::none) {
-        parents.push_back(leaf);
-        independent.add_visit();
-      }
+      if (Base::wants_split(leaf) && tree_.split(leaf) != Orthtree<D>::none) parents.push_back(leaf);
     works_.grow();
-    std::vector<double> seconds(parents.size(), 0.0);
-    const auto start = Clock::now();
-    auto since = [](typename Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); };
-    execute(independent, [&](VisitGraph::Visit v) {
-      const auto split_start = Clock::now();
-      works_.hand_down(context_.mesh, parents[v], generation_);
-      seconds[v] = since(split_start);
-    });
-    // All of it counts as serial, but on the critical path the longest alone, since no split waits for another.
-    statistics_.critical_path_seconds -= since(start);
-    if (!seconds.empty()) statistics_.critical_path_seconds += *std::max_element(seconds.begin(), seconds.end());
+    execute_pieces(parents.size(), [&](VisitGraph::Visit v) { works_.hand_down(context_.mesh, parents[v], generation_); });
     candidates.clear();
     for (const Node parent : parents)
       for (Node child = 0; child < Orthtree<D>::children; ++child) candidates.push_back(tree_.first_child(parent) + child);

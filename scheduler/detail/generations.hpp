@@ -32,6 +32,8 @@ class Generations final : public LeafRefinement<D> {
   void execute(const VisitGraph& graph, const VisitBody& body);
   void finish(Generation<D>& generation, std::vector<Planned>& planned);
   bool looks_whole() const;
+  void execute_pieces(std::size_t pieces, const VisitBody& piece);
+  void renew_buffers(std::span<const VisitRequest> requests);
   void split_leaves(std::vector<Node> candidates);
 
   using Base::context_, Base::generation_, Base::options_, Base::statistics_, Base::tree_, Base::vertices_, Base::works_;

@@ -59,6 +59,10 @@ class ConflictManager {
   Claim<D> claim_of(const VisitRequest& r);
   /// BUF(leaf), sorted, from the cache. Valid until the next call of a member.
   const std::vector<Node>& buffer(Node leaf);
+  /// Has the cache to be brought up to date for the leaf?
+  bool is_stale(Node leaf);
+  /// Does so. Of different leaves from several threads. @pre is_stale
+  void renew(Node leaf);
 
  private:
   struct Cached {
