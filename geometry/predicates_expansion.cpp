@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The middle stage of the predicates: determinants that are exact without allocation. First in integers, where all
-// coordinates lie on one lattice (grids, and most other cells); then in expansions: of doubles where all differences of
+// coordinates lie on one lattice (grids, and most other cells), of few digits or of many; then in expansions: of doubles where all differences of
 // coordinates are doubles, else of differences of two terms. Nothing is decided where under- or overflow could spoil it.
 #include <algorithm>
 #include <array>
@@ -21,20 +21,19 @@ template <std::size_t D, std::size_t Rows>
 using TwiceMatrix = std::array<std::array<Twice, D>, Rows>;
 
 // The sign of a polynomial of sums and differences of coordinates, by the arithmetic asked for. `entries` holds their
-// exact values, `coordinates` what they were made from; `polynomial` takes the matrix in any of the three types.
-template <std::size_t D, std::size_t Rows, class Polynomial>
-MaybeSign by_fixed_point(const TwiceMatrix<D, Rows>& entries, Polynomial polynomial) {
+// exact values, `coordinates` what they were made from; `polynomial` takes the matrix in any of the four types.
+template <class Int, std::size_t D, std::size_t Rows, class Polynomial>
+MaybeSign on_lattice(const TwiceMatrix<D, Rows>& entries, Lattice lattice, Polynomial polynomial) {
   double largest = 0;
   for (const auto& row : entries)
     for (const Twice& d : row) largest = std::max(largest, std::fabs(d.hi));
   if (largest == 0) return Sign::zero;
-  Lattice lattice;
   if (!lattice.fit(largest)) return std::nullopt;
-  std::array<std::array<FixedInt<1>, D>, Rows> m;
+  std::array<std::array<Int, D>, Rows> m;
   bool exact = true;
   for (std::size_t i = 0; i < Rows; ++i)
     for (std::size_t k = 0; k < D; ++k)
-      m[i][k] = FixedInt<1>(lattice.steps(entries[i][k].hi, exact) + lattice.steps(entries[i][k].lo, exact));
+      m[i][k] = Int{lattice.steps(entries[i][k].hi, exact) + lattice.steps(entries[i][k].lo, exact)};
   if (!exact) return std::nullopt;
   return sign(polynomial(m));
 }
@@ -64,9 +63,12 @@ MaybeSign by_expansion(const TwiceMatrix<D, Rows>& entries, std::span<const doub
 template <std::size_t D, std::size_t Rows, class Polynomial>
 MaybeSign by(Middle stage, const TwiceMatrix<D, Rows>& entries, std::span<const double> coordinates,
              Polynomial polynomial) {
-  if (stage != Middle::expansion)
-    if (const MaybeSign s = by_fixed_point(entries, polynomial)) return s;
-  return stage == Middle::fixed_point ? std::nullopt : by_expansion(entries, coordinates, polynomial);
+  const auto is_asked_for = [stage](Middle m) { return stage == m || stage == Middle::all; };
+  if (is_asked_for(Middle::short_int))
+    if (const MaybeSign s = on_lattice<ShortInt>(entries, Lattice(ShortInt::bits), polynomial)) return s;
+  if (is_asked_for(Middle::fixed_point))
+    if (const MaybeSign s = on_lattice<FixedInt<1>>(entries, Lattice(), polynomial)) return s;
+  return is_asked_for(Middle::expansion) ? by_expansion(entries, coordinates, polynomial) : std::nullopt;
 }
 
 template <int D>

@@ -51,6 +51,7 @@ void check_orient(const Simplex<D>& s, Random& random) {
   const Sign want = oracle::orient<D>(s);
   expect_agrees("filter", detail::orient_filter<D>(s), want);
   expect_agrees("fixed point", detail::orient_middle<D>(s, Middle::fixed_point), want);
+  expect_agrees("short", detail::orient_middle<D>(s, Middle::short_int), want);
   expect_agrees("expansion", detail::orient_middle<D>(s, Middle::expansion), want);
   expect_agrees("exact", detail::orient_exact<D>(s), want);
   EXPECT_EQ(orient<D>(s), want);
@@ -65,6 +66,7 @@ void check_in_sphere(const Simplex<D>& s, const Point<D>& p, Random& random) {
   const Sign want = oracle::in_sphere<D>(s, p);
   expect_agrees("filter", detail::in_sphere_filter<D>(s, p), want);
   expect_agrees("fixed point", detail::in_sphere_middle<D>(s, p, Middle::fixed_point), want);
+  expect_agrees("short", detail::in_sphere_middle<D>(s, p, Middle::short_int), want);
   expect_agrees("expansion", detail::in_sphere_middle<D>(s, p, Middle::expansion), want);
   expect_agrees("exact", detail::in_sphere_exact<D>(s, p), want);
   EXPECT_EQ(in_sphere<D>(s, p), want);
@@ -111,8 +113,9 @@ TYPED_TEST(Predicates, StagesDecideWhatTheyAreFor) {
   EXPECT_EQ(detail::orient_filter<D>(corner), Sign::positive);
   EXPECT_EQ(detail::in_sphere_filter<D>(corner, scaled(opposite, -1)), Sign::positive);
   EXPECT_EQ(detail::in_sphere_filter<D>(corner, scaled(opposite, 1)), Sign::negative);
-  // Exactly on the sphere: no filter, but both exact arithmetics without allocation.
+  // Exactly on the sphere: no filter, but all exact arithmetics without allocation.
   EXPECT_EQ(detail::in_sphere_filter<D>(corner, opposite), std::nullopt);
+  EXPECT_EQ(detail::in_sphere_middle<D>(corner, opposite, Middle::short_int), Sign::zero);
   EXPECT_EQ(detail::in_sphere_middle<D>(corner, opposite, Middle::fixed_point), Sign::zero);
   EXPECT_EQ(detail::in_sphere_middle<D>(corner, opposite, Middle::expansion), Sign::zero);
   // Tiny: products underflow, expansions would lose terms, integers do not care.
@@ -123,6 +126,13 @@ TYPED_TEST(Predicates, StagesDecideWhatTheyAreFor) {
   EXPECT_EQ(detail::in_sphere_filter<D>(at(corner, 465), scaled(opposite, 464)), std::nullopt);
   EXPECT_EQ(detail::in_sphere_middle<D>(at(corner, 465), scaled(opposite, 464), Middle::expansion), std::nullopt);
   EXPECT_EQ(detail::in_sphere_middle<D>(at(corner, 465), scaled(opposite, 464), Middle::fixed_point), Sign::positive);
+  // Few digits, and one more.
+  for (const int k : {22, 23}) {
+    Simplex<D> s = corner;
+    s[0][0] = std::ldexp(1, -k);
+    EXPECT_EQ(detail::in_sphere_middle<D>(s, opposite, Middle::short_int).has_value(), k == 22);
+    EXPECT_TRUE(detail::in_sphere_middle<D>(s, opposite, Middle::fixed_point).has_value());
+  }
   // No common lattice: expansions; and not even those where a coordinate is 2^-700.
   for (const int k : {-100, -700}) {
     Simplex<D> s = corner;
@@ -133,6 +143,30 @@ TYPED_TEST(Predicates, StagesDecideWhatTheyAreFor) {
     EXPECT_EQ(in_sphere<D>(s, opposite), oracle::in_sphere<D>(s, opposite));
     EXPECT_NE(in_sphere<D>(s, opposite), Sign::zero);
   }
+}
+
+// The largest differences that short integers take, so that their products are as large as they can be.
+TYPED_TEST(Predicates, ShortIntegersDoNotOverflow) {
+  constexpr int D = TypeParam::value;
+  Random random(20261124);
+  const double most = (1 << 23) - 1;
+  std::size_t decided = 0;
+  for (int i = 0; i < 3000; ++i) {
+    Simplex<D> s;
+    Point<D> p;
+    const auto draw = [&](Point<D>& q) {
+      for (double& x : q.x) x = oracle::below(random, 2) * (most - oracle::below(random, 3));
+    };
+    for (Point<D>& q : s) draw(q);
+    draw(p);
+    const auto got = detail::in_sphere_middle<D>(s, p, Middle::short_int);
+    decided += got.has_value() && *got != Sign::zero;
+    expect_agrees("in sphere", got, oracle::in_sphere<D>(s, p));
+    expect_agrees("orient", detail::orient_middle<D>(s, Middle::short_int), oracle::orient<D>(s));
+    expect_agrees("angle", detail::angle_60_middle<D>(p, s[0], s[1], Middle::short_int),
+                  detail::angle_60_exact<D>(p, s[0], s[1]));
+  }
+  EXPECT_GT(decided, 1000u);
 }
 
 TYPED_TEST(Predicates, CountsOncePerCallAndPerThread) {
@@ -259,6 +293,7 @@ TEST(InCirclePerturbed, AgreesWithRationalsAndWithTheSphereInThePlane) {
       ties += plain == Sign::zero;
       expect_agrees("filter", detail::in_circle_filter({a, b, c}, p, axis), plain);
       expect_agrees("fixed point", detail::in_circle_middle({a, b, c}, p, axis, Middle::fixed_point), plain);
+      expect_agrees("short", detail::in_circle_middle({a, b, c}, p, axis, Middle::short_int), plain);
       expect_agrees("expansion", detail::in_circle_middle({a, b, c}, p, axis, Middle::expansion), plain);
       expect_agrees("exact", detail::in_circle_exact({a, b, c}, p, axis), plain);
       ASSERT_EQ(got, oracle::in_circle(q, axis, true)) << print<3>({q.begin(), q.end()});
@@ -316,10 +351,12 @@ TYPED_TEST(Predicates, AnglesAgreeWithRationals) {
       const Sign dot_sign = oracle::sign(dot), excess_sign = oracle::sign(excess);
       expect_agrees("dot filter", detail::dot_filter<D>(v, a, b), dot_sign);
       expect_agrees("dot fixed point", detail::dot_middle<D>(v, a, b, Middle::fixed_point), dot_sign);
+      expect_agrees("dot short", detail::dot_middle<D>(v, a, b, Middle::short_int), dot_sign);
       expect_agrees("dot expansion", detail::dot_middle<D>(v, a, b, Middle::expansion), dot_sign);
       expect_agrees("dot exact", detail::dot_exact<D>(v, a, b), dot_sign);
       expect_agrees("60 filter", detail::angle_60_filter<D>(v, a, b), excess_sign);
       expect_agrees("60 fixed point", detail::angle_60_middle<D>(v, a, b, Middle::fixed_point), excess_sign);
+      expect_agrees("60 short", detail::angle_60_middle<D>(v, a, b, Middle::short_int), excess_sign);
       expect_agrees("60 expansion", detail::angle_60_middle<D>(v, a, b, Middle::expansion), excess_sign);
       expect_agrees("60 exact", detail::angle_60_exact<D>(v, a, b), excess_sign);
       EXPECT_EQ(angle_below_90<D>(v, a, b), dot > 0);
