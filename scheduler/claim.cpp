@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace pgdr {
 
@@ -53,10 +54,22 @@ Claim<D> Claim<D>::whole(const Orthtree<D>& tree, Node leaf) {
 template <int D>
 Claim<D>::Claim(const Orthtree<D>& tree, Node leaf, std::span<const Node> zone, std::uint32_t order)
     : Claim(tree, leaf) {
-  leaves_.reserve(zone.size() + 1);
-  leaves_.assign(zone.begin(), zone.end());
-  leaves_.push_back(leaf);
-  std::sort(leaves_.begin(), leaves_.end());
+  std::vector<Node> leaves(zone.begin(), zone.end());
+  leaves.push_back(leaf);
+  std::sort(leaves.begin(), leaves.end());
+  hold(std::move(leaves), order);
+}
+
+template <int D>
+Claim<D> Claim<D>::of_leaves(const Orthtree<D>& tree, Node leaf, std::vector<Node> leaves, std::uint32_t order) {
+  Claim claim(tree, leaf);
+  if (!leaves.empty()) claim.hold(std::move(leaves), order);
+  return claim;
+}
+
+template <int D>
+void Claim<D>::hold(std::vector<Node> leaves, std::uint32_t order) {
+  leaves_ = std::move(leaves);
   make_table();
   grow_inner(order);
 }

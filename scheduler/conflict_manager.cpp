@@ -75,15 +75,25 @@ std::vector<VisitRequest> ConflictManager<D>::in_order(std::span<const VisitRequ
 }
 
 template <int D>
-Claim<D> ConflictManager<D>::claim_of(const VisitRequest& r) {
-  if (r.order == whole_tree) return Claim<D>::whole(*tree_, r.leaf);
+Visit<D> ConflictManager<D>::visit_of(const VisitRequest& r) {
   const std::uint32_t order = claim_order(r);
-  if (order == 1) return Claim<D>(*tree_, r.leaf, buffer(r.leaf), 1);
+  Visit<D> visit{r, order, {}};
+  if (r.order == whole_tree) return visit;
+  std::vector<Node>& zone = visit.leaves;
+  if (order == 1) {
+    const std::vector<Node>& around = buffer(r.leaf);
+    zone.reserve(around.size() + 1);
+    const auto behind = std::upper_bound(around.begin(), around.end(), r.leaf);
+    zone.assign(around.begin(), behind);
+    zone.push_back(r.leaf);
+    zone.insert(zone.end(), behind, around.end());
+    return visit;
+  }
   // BUF^i by breadth-first search: only leaves reached for the first time can add anything.
   reached_.resize(tree_->node_count(), 0);
   ++search_;
   reached_[r.leaf] = search_;
-  std::vector<Node> zone{r.leaf};
+  zone.push_back(r.leaf);
   std::size_t fresh = 0;
   for (std::uint32_t step = 0; step < order && fresh < zone.size(); ++step)
     for (const std::size_t end = zone.size(); fresh < end; ++fresh)
@@ -92,7 +102,8 @@ Claim<D> ConflictManager<D>::claim_of(const VisitRequest& r) {
           reached_[l] = search_;
           zone.push_back(l);
         }
-  return Claim<D>(*tree_, r.leaf, std::span(zone).subspan(1), order);
+  std::sort(zone.begin(), zone.end());
+  return visit;
 }
 
 template <int D>
@@ -113,15 +124,15 @@ Generation<D> ConflictManager<D>::plan(std::span<const VisitRequest> requests) {
   };
   for (VisitGraph::Visit v = 0; v < count; ++v) {
     const VisitRequest& r = sorted[v];
-    generation.visits.push_back({r, claim_of(r)});
+    generation.visits.push_back(visit_of(r));
     predecessors.clear();
-    const Claim<D>& claim = generation.visits.back().claim;
-    if (claim.whole()) {
+    const std::vector<Node>& leaves = generation.visits.back().leaves;
+    if (leaves.empty()) {
       // Whoever has no successor yet: everybody earlier leads to one of them. Only whole trees follow in the order.
       for (VisitGraph::Visit earlier = 0; earlier < v; ++earlier)
         if (!has_successor[earlier]) wait(v, earlier);
     }
-    for (const Node leaf : claim.leaves()) {
+    for (const Node leaf : leaves) {
       if (last_claimant[leaf] != nobody) wait(v, last_claimant[leaf]);
       last_claimant[leaf] = v;
     }

@@ -43,8 +43,9 @@ bool Generations<D>::one_generation() {
   registry_.reset(tree_.node_count());  // grows geometrically; of use to debug builds alone
   const auto start = Clock::now();
   execute(generation.graph, [&](VisitGraph::Visit v) {
-    const HeldClaim<D> held(registry_, generation.visits[v].claim);
-    const ClaimedArea<D> area(tree_, generation.visits[v].claim);
+    const Claim<D> claim = generation.visits[v].claim(tree_);
+    const HeldClaim<D> held(registry_, claim);
+    const ClaimedArea<D> area(tree_, claim);
     if (generation.visits[v].request.order == 1) works_[generation.visits[v].request.leaf].open_inbox();
     planned[v].seconds = Base::visit(generation.visits[v].request, area, planned[v].work);
   });
@@ -67,7 +68,7 @@ void Generations<D>::finish(Generation<D>& generation, std::vector<Planned>& pla
   for (std::size_t v = 0; v < planned.size(); ++v) {
     const VisitRequest& request = generation.visits[v].request;
     seconds.push_back(planned[v].seconds);
-    Base::account(request, planned[v].work, generation.visits[v].claim.leaves());
+    Base::account(request, planned[v].work, generation.visits[v].leaves);
     for (auto& box : planned[v].work.outboxes) Base::post(box.leaf, std::move(box.entries));
     if (request.order == 1) candidates.push_back(request.leaf);
   }

@@ -71,7 +71,7 @@ bool Greedy<D>::is_free(const VisitRequest& r, Wanted& wanted) {
   if (wanted.tree_nodes != tree_.node_count()) {
     const auto was_split = [this](Node leaf) { return !tree_.is_leaf(leaf); };
     if (wanted.tree_nodes == 0 || std::any_of(wanted.claim.begin(), wanted.claim.end(), was_split)) {
-      wanted.claim = conflicts_.claim_of(r).leaves();
+      wanted.claim = conflicts_.visit_of(r).leaves;
       wanted.held = Orthtree<D>::none;
     }
     wanted.tree_nodes = tree_.node_count();
@@ -85,7 +85,7 @@ bool Greedy<D>::is_free(const VisitRequest& r, Wanted& wanted) {
 
 template <int D>
 void Greedy<D>::claim(Running& visit) {
-  const Claim<D> claim = conflicts_.claim_of(visit.request);
+  const Claim<D> claim = conflicts_.visit_of(visit.request).claim(tree_);
   visit.leaves = claim.leaves();
   for (const Node leaf : visit.leaves) claimed_[leaf] = 1;
   visit.area = std::make_unique<CopiedArea<D>>(tree_, claim);

@@ -39,9 +39,10 @@ std::vector<VisitRequest> random_requests(const Orthtree<D>& tree, std::mt19937_
 }
 
 template <int D>
-bool meet(const Claim<D>& a, const Claim<D>& b) {
-  if (a.whole() || b.whole()) return true;
-  return std::any_of(a.leaves().begin(), a.leaves().end(), [&](auto leaf) { return b.contains_leaf(leaf); });
+bool meet(const Visit<D>& a, const Visit<D>& b) {
+  if (a.leaves.empty() || b.leaves.empty()) return true;
+  return std::any_of(a.leaves.begin(), a.leaves.end(),
+                     [&](auto leaf) { return std::binary_search(b.leaves.begin(), b.leaves.end(), leaf); });
 }
 
 /// For each visit, which earlier ones must have ended before it starts.
@@ -73,10 +74,10 @@ TYPED_TEST(ConflictManagerTest, VisitsThatConflictHaveAPath) {
         for (std::size_t k = 0; k < predecessors.size(); ++k) {
           EXPECT_LT(predecessors[k], v);
           EXPECT_TRUE(k == 0 || predecessors[k - 1] < predecessors[k]) << "no edge twice";
-          EXPECT_TRUE(meet(generation.visits[v].claim, generation.visits[predecessors[k]].claim)) << "no needless edge";
+          EXPECT_TRUE(meet(generation.visits[v], generation.visits[predecessors[k]])) << "no needless edge";
         }
         for (std::uint32_t u = 0; u < v; ++u)
-          if (meet(generation.visits[u].claim, generation.visits[v].claim)) {
+          if (meet(generation.visits[u], generation.visits[v])) {
             EXPECT_TRUE(before[v][u]) << u << ' ' << v;
           }
       }
@@ -93,13 +94,15 @@ TYPED_TEST(ConflictManagerTest, ClaimsAreTheBuffersOfTheirOrder) {
       const Generation<D> generation = manager.plan(random_requests(tree, random));
       for (const Visit<D>& visit : generation.visits) {
         const auto [leaf, order, number] = visit.request;
-        EXPECT_EQ(visit.claim.leaf(), leaf);
-        EXPECT_EQ(visit.claim.whole(), order == whole_tree);
+        const Claim<D> claim = visit.claim(tree);
+        EXPECT_EQ(claim.leaf(), leaf);
+        EXPECT_EQ(claim.whole(), order == whole_tree);
         if (order == whole_tree) continue;
         auto expected = tree.buffer(leaf, order == 1 ? ordinary : order);
         expected.push_back(leaf);
         std::sort(expected.begin(), expected.end());
-        EXPECT_EQ(visit.claim.leaves(), expected);
+        EXPECT_EQ(claim.leaves(), expected);
+        for (const auto l : tree.leaves()) EXPECT_EQ(claim.contains_leaf(l), std::binary_search(expected.begin(), expected.end(), l));
       }
       const auto leaves = tree.leaves();
       for (int s = 0; s < round; ++s) tree.split(leaves[random() % leaves.size()]);
@@ -120,7 +123,7 @@ TYPED_TEST(ConflictManagerTest, OrderIsByLevelVolumeGenerationColourPlace) {
   };
   for (std::size_t i = 1; i < generation.visits.size(); ++i)
     EXPECT_LT(key(generation.visits[i - 1]), key(generation.visits[i]));
-  EXPECT_TRUE(generation.visits.back().claim.whole());
+  EXPECT_TRUE(generation.visits.back().leaves.empty());
 }
 
 TYPED_TEST(ConflictManagerTest, PlanIsAFunctionOfBoxesAndRequests) {
@@ -138,7 +141,7 @@ TYPED_TEST(ConflictManagerTest, PlanIsAFunctionOfBoxesAndRequests) {
   for (std::uint32_t v = 0; v < of_a.visits.size(); ++v) {
     EXPECT_EQ(a.box(of_a.visits[v].request.leaf), b.box(of_b.visits[v].request.leaf));
     EXPECT_EQ(of_a.visits[v].request.order, of_b.visits[v].request.order);
-    EXPECT_EQ(of_a.visits[v].claim.inner(), of_b.visits[v].claim.inner());
+    EXPECT_EQ(of_a.visits[v].claim(a).inner(), of_b.visits[v].claim(b).inner());
     const auto p = of_a.graph.predecessors(v), q = of_b.graph.predecessors(v);
     EXPECT_TRUE(std::equal(p.begin(), p.end(), q.begin(), q.end()));
   }
@@ -179,8 +182,8 @@ TYPED_TEST(ConflictManagerTest, LeavesHaveOneWriterAtATime) {
   std::vector<std::uint64_t> history(tree.node_count(), 0), expected(tree.node_count(), 0);
   const auto leaves = tree.leaves();
   const auto visit = [&](std::vector<std::uint64_t>& of, std::uint32_t v) {
-    const auto& claim = generation.visits[v].claim;
-    for (const auto leaf : claim.whole() ? leaves : claim.leaves()) of[leaf] = of[leaf] * 6364136223846793005u + v + 1;
+    const auto& claimed = generation.visits[v].leaves;
+    for (const auto leaf : claimed.empty() ? leaves : claimed) of[leaf] = of[leaf] * 6364136223846793005u + v + 1;
   };
   run_serial(generation.graph, [&](std::uint32_t v) { visit(expected, v); });
   const VisitRun run = run_threads(generation.graph, [&](std::uint32_t v) { visit(history, v); }, 4);

@@ -26,6 +26,8 @@ class Claim {
 
   /// {leaf} + `zone`, where `zone` is BUF^order(leaf) without the leaf, in any order; order >= 1.
   Claim(const Orthtree<D>& tree, Node leaf, std::span<const Node> zone, std::uint32_t order);
+  /// `leaves`: these and the leaf, sorted; none for the whole tree.
+  static Claim of_leaves(const Orthtree<D>& tree, Node leaf, std::vector<Node> leaves, std::uint32_t order);
   /// The whole tree, for a visit of `leaf`.
   static Claim whole(const Orthtree<D>& tree, Node leaf);
 
@@ -53,6 +55,7 @@ class Claim {
  private:
   Claim(const Orthtree<D>& tree, Node leaf);
   std::size_t slot(Node leaf) const { return (leaf * 0x9e3779b97f4a7c15u >> 32) & mask_; }
+  void hold(std::vector<Node> leaves, std::uint32_t order);
   void make_table();
   void grow_inner(std::uint32_t order);
 

@@ -30,7 +30,11 @@ struct VisitRequest {
 template <int D>
 struct Visit {
   VisitRequest request;  ///< what for
-  Claim<D> claim;  ///< what it holds meanwhile
+  std::uint32_t claim_order;  ///< it holds its leaf and BUF^claim_order of it meanwhile
+  std::vector<typename Orthtree<D>::Node> leaves;  ///< these, sorted; none: the whole tree
+
+  /// Of these leaves, as the guard asks for them; made when the visit runs, as it takes longer than to plan it.
+  Claim<D> claim(const Orthtree<D>& tree) const { return Claim<D>::of_leaves(tree, request.leaf, leaves, claim_order); }
 };
 
 /// Visits in their total order: the number of a visit in `graph` is its index.
@@ -55,8 +59,8 @@ class ConflictManager {
   /// A leaf may be asked for once per order. @throws ResourceError internal otherwise, or if it is no leaf
   Generation<D> plan(std::span<const VisitRequest> requests);
 
-  /// The claim of a visit, as `plan` would make it.
-  Claim<D> claim_of(const VisitRequest& r);
+  /// The visit, as `plan` would have it.
+  Visit<D> visit_of(const VisitRequest& r);
   /// BUF(leaf), sorted, from the cache. Valid until the next call of a member.
   const std::vector<Node>& buffer(Node leaf);
   /// Has the cache to be brought up to date for the leaf?
