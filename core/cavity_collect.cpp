@@ -208,7 +208,7 @@ auto Cavity<D>::grow() -> Status {
         continue;  // a subfacet of the part, at the hull
       } else if (!mesh_->marked(next.cell())) {
         if (mesh_->conflicts(next.cell(), point_)) {
-          if (!owns_in_conflict(next.cell())) return Status::not_owned;
+          if (!owns_next(next)) return Status::not_owned;
           take_unmarked(next.cell());
           const VertexId apex = mesh_->cell(next.cell()).vertices[next.face()];
           if (least_ > 0 && std::sqrt(squared_distance(point_, mesh_->point(apex))) < least_) return Status::too_near;

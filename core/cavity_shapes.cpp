@@ -98,22 +98,26 @@ auto Cavity<D>::make_star_shaped() -> Status {
   return Status::ok;
 }
 
-/// Of the new cells.
+/// Of the i-th new cell, mostly from what look_at_shapes found.
+template <int D>
+FilterSphere<D> Cavity<D>::computed_sphere(std::size_t i) const {
+  const ShapeBlock<D>& block = shapes_[i / shape_lanes];
+  const std::size_t lane = i % shape_lanes;
+  if (!(block.center_error[lane] < std::numeric_limits<double>::infinity())) [[unlikely]]
+    return FilterSphere<D>::of(circumsphere<D>(mesh_->simplex(new_cells_[i])));
+  Point<D> center;
+  for (int k = 0; k < D; ++k) center[k] = block.center[k][lane];
+  return FilterSphere<D>::of(center, block.squared_radius[lane], block.power_error[lane]);
+}
+
+/// 3D: of the new cells.
 template <int D>
 void Cavity<D>::set_spheres() {
-  Mesh<D>& mesh = *mesh_;
-  for (std::size_t i = 0; i < new_cells_.size(); ++i) {
-    const ShapeBlock<D>& block = shapes_[i / shape_lanes];
-    const std::size_t lane = i % shape_lanes;
-    const CellId c = new_cells_[i];
-    if (block.center_error[lane] < std::numeric_limits<double>::infinity()) [[likely]] {
-      Point<D> center;
-      for (int k = 0; k < D; ++k) center[k] = block.center[k][lane];
-      mesh.set_sphere(c, center, block.squared_radius[lane], block.power_error[lane]);
-    } else if (mesh.is_ghost(c)) {
-      mesh.set_ghost_sphere(c);
-    } else {
-      mesh.set_sphere(c, circumsphere<D>(mesh.simplex(c)));
+  if constexpr (D == 3) {
+    for (std::size_t i = 0; i < new_cells_.size(); ++i) {
+      const bool accurate = shapes_[i / shape_lanes].center_error[i % shape_lanes] < std::numeric_limits<double>::infinity();
+      if (!accurate && mesh_->is_ghost(new_cells_[i])) [[unlikely]] mesh_->set_ghost_sphere(new_cells_[i]);
+      else mesh_->set_sphere(new_cells_[i], computed_sphere(i));
     }
   }
 }

@@ -23,7 +23,8 @@ double checked_size(const SizingField<D>& size, const Point<D>& x) {
 
 template <int D>
 CellShape shape_of(const Mesh<D>& mesh, CellId c) {
-  return {shortest_edge_squared<D>(mesh.simplex(c)), 0, CellBounds<D>::infinity};
+  const auto [low, high] = mesh.squared_radius_bounds(c);
+  return {shortest_edge_squared<D>(mesh.simplex(c)), low, high, 0, CellBounds<D>::infinity};
 }
 
 }  // namespace
@@ -47,10 +48,9 @@ bool CellBounds<D>::over_radius_edge(const Mesh<D>& mesh, CellId c) const {
 
 template <int D>
 bool CellBounds<D>::over_radius_edge(const Mesh<D>& mesh, CellId c, const CellShape& shape) const {
-  const auto [low, high] = mesh.squared_radius_bounds(c);
   const double limit = radius_edge_bound * radius_edge_bound * shape.shortest_edge_squared;
-  if (low > limit) return true;
-  return !(high < limit) && !radius_edge_within<D>(mesh.simplex(c), radius_edge_bound);
+  if (shape.squared_radius_low > limit) return true;
+  return !(shape.squared_radius_high < limit) && !radius_edge_within<D>(mesh.simplex(c), radius_edge_bound);
 }
 
 // The determinant is D! times the measure; the right side is rounded once.
@@ -109,10 +109,9 @@ bool CellBounds<D>::over_size(const Mesh<D>& mesh, CellId c, const CellShape& sh
   if (size.bounded() || !region_size.empty()) {
     const double bound = size_of([&] { return mesh.simplex(c); }, mesh.region(c));
     if constexpr (D == 3) {
-      const auto [low, high] = mesh.squared_radius_bounds(c);
       const double limit = bound * bound;
-      if (low > limit) return true;
-      if (!(high < limit) && !circumradius_within<D>(mesh.simplex(c), bound)) return true;
+      if (shape.squared_radius_low > limit) return true;
+      if (!(shape.squared_radius_high < limit) && !circumradius_within<D>(mesh.simplex(c), bound)) return true;
     } else {
       if (!within_measure(mesh, c, shape, bound)) return true;
     }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "detail/bulk.hpp"
 #include "detail/region_sizes.hpp"
 #include "pgdr/circumsphere.hpp"
 #include "pgdr/predicates.hpp"
@@ -138,7 +139,8 @@ std::vector<double> slack_without_input(const OutputMesh<D>& mesh, int ulps) {
   for (const Point<D>& p : mesh.points)
     for (const double x : p.x) magnitude = std::max(magnitude, std::abs(x));
   const double width = Tolerance{ulps, magnitude}.width();
-  std::vector<double> slack(mesh.points.size(), 0);
+  std::vector<double> slack = detail::vector_of_capacity<double>(mesh.points.size());
+  slack.resize(mesh.points.size(), 0);
   const auto mark = [&](const auto& constraints, int aligned_axes) {
     for (const auto& constraint : constraints) {
       const auto& v = constraint.vertices;

@@ -106,7 +106,7 @@ void Delaunay<D>::make_first_cells(std::span<const Point<D>> points, const std::
       const int face_of_i = number(i, first.vertices[j]), face_of_j = number(j, first.vertices[i]);
       mesh_->cell(cells[i + 1]).links[face_of_i] = Link(cells[j + 1], face_of_j);
     }
-  mesh_->set_sphere(cells[0], circumsphere<D>(mesh_->simplex(cells[0])));
+  mesh_->set_sphere(cells[0]);
   for (const CellId c : cells) {
     mesh_->set_region(c, 0);
     for (const VertexId v : mesh_->cell(c).vertices)

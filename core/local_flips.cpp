@@ -350,7 +350,7 @@ CellId LocalFlips<D>::make_cell(Pools& pools, const NewCell& cell) {
   mesh_->set_vertices(c, v);
   k.links.fill(Link{});
   mesh_->set_region(c, cell.region);
-  mesh_->set_sphere(c, circumsphere<D>(mesh_->simplex(c)));
+  mesh_->set_sphere(c);
   for (int f = 0; f <= D; ++f) {
     const OuterFace* o = outer(face_without<D>(v, f));
     if (!o) continue;

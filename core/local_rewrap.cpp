@@ -310,7 +310,7 @@ CellId LocalRewrap::make_cell(Pools& pools, const GiftWrap::Cell& cell) {
   mesh_->set_vertices(c, {vertices_[cell[0]], vertices_[cell[1]], vertices_[cell[2]], vertices_[cell[3]]});
   k.links.fill(Link{});
   mesh_->set_region(c, region_);
-  mesh_->set_sphere(c, circumsphere<3>(mesh_->simplex(c)));
+  mesh_->set_sphere(c);
   for (int f = 0; f < 4; ++f) {
     const RimFace* r = rim_face(GiftWrap::face_of(cell, f));
     if (!r || !r->constrained) continue;

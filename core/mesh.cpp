@@ -7,7 +7,7 @@
 
 namespace pgdr {
 
-// The filter of `conflicts`, and the error that set_sphere allows for.
+// The filter of `conflicts` in 3D, and the error that FilterSphere allows for.
 // Let c~ be the computed centre, d = c - c~ its error, r~ = |v0 - c~|. For any p,
 //   (|p-c|^2 - |v0-c|^2) = (|p-c~|^2 - r~^2) - 2 d.(p - v0),
 // and |p - v0| <= |p-c~| + r~. Where |p-c~| <= 2 r~ the last term is at most 6 |d| r~; where |p-c~| > 2 r~ the first is
@@ -28,20 +28,24 @@ template <int D>
 Mesh<D>::Mesh()
     : capacity_(static_cast<std::uint32_t>(ReservedMemory::affordable_elements(IdSource::most))),
       cells_(capacity_),
-      tags_(capacity_),
-      regions_(capacity_),
+      tags_(D == 3 ? capacity_ : 0),
+      regions_(D == 3 ? capacity_ : 0),
       vertices_(capacity_),
       constraints_(capacity_),
-      cell_source_("cells", capacity_,
-                   [this](std::uint32_t n) {
-                     cells_.grow_to(n);
-                     tags_.grow_to(n);
-                     regions_.grow_to(n);
-                     // Slots of a block that are never taken must read as dead.
-                     for (std::uint32_t i = n - IdSource::block; i < n; ++i) cells_[i].vertices[0] = no_vertex;
-                   }),
+      cell_source_("cells", capacity_, [this](std::uint32_t n) { grow_cells_to(n); }),
       vertex_source_("vertices", capacity_, [this](std::uint32_t n) { vertices_.grow_to(n); }),
       constraint_source_("constrained cells", capacity_, [this](std::uint32_t n) { constraints_.grow_to(n); }) {}
+
+template <int D>
+void Mesh<D>::grow_cells_to(std::uint32_t n) {
+  cells_.grow_to(n);
+  if constexpr (D == 3) {
+    tags_.grow_to(n);
+    regions_.grow_to(n);
+  }
+  // Slots of a block that are never taken must read as dead.
+  for (std::uint32_t i = n - IdSource::block; i < n; ++i) cells_[i].vertices[0] = no_vertex;
+}
 
 template <int D>
 bool Mesh<D>::conflicts_exactly(CellId c, const Point<D>& p) const {
@@ -68,7 +72,7 @@ ConstraintRecord<D>& Mesh<D>::ensure_constraints(Pools& pools, CellId c) {
   if (ConstraintRecord<D>* k = constraints(c)) return *k;
   const std::uint32_t id = pools.constraints.take();
   constraints_[id] = {};
-  tags_[index(c)].set((tags_[index(c)].get() & mark_bit) | (id + 1));
+  tag(c).set((tag(c).get() & mark_bit) | (id + 1));
   return constraints_[id];
 }
 

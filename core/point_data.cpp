@@ -180,6 +180,7 @@ template <int D>
 void PointData<D>::fill_markers(const Mesh<D>& refined, const detail::Bulk& bulk, Compacted<D>& out) const {
   auto& markers = out.mesh.point_markers;
   const auto input = domain_->point_markers();
+  markers = detail::vector_of_capacity<int>(out.mesh.points.size());
   markers.assign(input.begin(), input.end());
   markers.resize(out.mesh.points.size(), 0);
   const auto is_marked = [](const auto& entity) { return entity.marker != 0; };
@@ -202,6 +203,7 @@ void PointData<D>::fill(const Mesh<D>& refined, Compacted<D>& out, bool parallel
   if (!unrefined_) return;
   const std::size_t columns = domain_->attributes_per_point();
   auto& values = out.mesh.point_attributes;
+  values = detail::vector_of_capacity<double>(out.mesh.points.size() * columns);
   values.assign(domain_->point_attributes().begin(), domain_->point_attributes().end());
   values.resize(out.mesh.points.size() * columns);
   fill_attributes<D>(refined, *domain_, out.vertex_number, bulk, unrefined_.get(), attributes_, Rows(values, columns));

@@ -36,8 +36,8 @@ RefineContext<D>::RefineContext(Mesh<D>& m, const Domain<D>& d, const RefineOpti
 }
 
 template <int D>
-int RefineContext<D>::bucket_of(CellId c) const {
-  const double r2 = mesh.cell(c).radius2;
+int RefineContext<D>::bucket_of(const FilterSphere<D>& sphere) const {
+  const double r2 = sphere.radius2;
   if (!(r2 < std::numeric_limits<double>::infinity())) return 0;
   // floor(log2(side / r)) up to one: ilogb of r^2 halved, rounding down. Of a normal number ilogb is in its bits.
   const int biased = static_cast<int>(std::bit_cast<std::uint64_t>(r2) >> 52);
@@ -67,19 +67,20 @@ Refiner<D>::Refiner(RefineContext<D>& context, Pools pools)
 }
 
 template <int D>
-void Refiner<D>::list_poor(CellId c, int why) {
+void Refiner<D>::list_poor(CellId c, int why, const FilterSphere<D>& sphere) {
   assert(!visit_->area || visit_->area->owns(*mesh_, c));
-  const Item e = make_entry(c, EntryKind::cell, why, context_->bucket_of(c), why == Item::over_radius_edge ? order_of(c) : 0);
-  if (!visit_->area || visit_->area->is_home(mesh_->cell(c).center)) return visit_->list->push_poor(e);
+  const std::uint32_t order = why == Item::over_radius_edge ? order_of(c, sphere) : 0;
+  const Item e = make_entry(c, EntryKind::cell, why, context_->bucket_of(sphere), order);
+  if (!visit_->area || visit_->area->is_home(sphere.center)) return visit_->list->push_poor(e);
   abroad_.push_back(e);
 }
 
 /// The shortest edge, shortest first, then the circumradius: smallest first, but largest first below the smallest proved
 /// bound, where it makes the smaller meshes (docs/selectors.md). Of both squares the exponent and four bits of the mantissa.
 template <int D>
-std::uint32_t Refiner<D>::order_of(CellId c) const {
+std::uint32_t Refiner<D>::order_of(CellId c, const FilterSphere<D>& sphere) const {
   auto leading = [](double v) { return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(v) >> 48); };
-  const std::uint32_t edge = leading(shortest_edge_squared<D>(mesh_->simplex(c))), radius = leading(mesh_->cell(c).radius2);
+  const std::uint32_t edge = leading(shortest_edge_squared<D>(mesh_->simplex(c))), radius = leading(sphere.radius2);
   const bool proved = options_->radius_edge_bound >= smallest_proved_bound<D>();
   return edge << 16 | (proved ? radius : 0xffffu - radius);
 }
@@ -129,16 +130,19 @@ void Refiner<D>::list_if_poor(CellId c, const CellVerdict& verdict) {
   if (verdict) list_poor(c, verdict.over_size ? Item::over_size : Item::over_radius_edge);
 }
 
-/// The same of a cell whose shape is known.
+/// The same of the i-th cell that the last insertion has made, whose shape is known.
 template <int D>
-void Refiner<D>::list_if_poor(CellId c, const CellShape& shape) {
+void Refiner<D>::list_new_if_poor(std::size_t i) {
   using Answer = typename QuickBounds<D>::Answer;
-  const Answer answer = quick_bounds_.look(*mesh_, c, shape);
+  const FilterSphere<D> sphere = cavity_.sphere_of_new(i);
+  const CellShape shape = cavity_.shape_of_new(i, sphere);
+  const Answer answer = quick_bounds_.look(shape);
   if (answer == Answer::within) return;
+  const CellId c = cavity_.new_cells()[i];
   if (answer == Answer::over_size || context_->bounds.over_size(*mesh_, c, shape)) {
-    list_poor(c, Item::over_size);
+    list_poor(c, Item::over_size, sphere);
   } else if (context_->bounds.over_radius_edge(*mesh_, c, shape)) {
-    list_poor(c, Item::over_radius_edge);
+    list_poor(c, Item::over_radius_edge, sphere);
   }
 }
 
@@ -175,7 +179,7 @@ void Refiner<D>::committed() {
   const std::vector<CellId>& made = cavity_.new_cells();
   for (std::size_t i = 0; i < made.size(); ++i) {
     if (const auto* k = mesh_->constraints(made[i])) list_entities(made[i], *k);
-    list_if_poor(made[i], cavity_.shape_of_new(i));
+    list_new_if_poor(i);
   }
   // A cavity that was not cut back keeps every face locally Delaunay, if all were.
   if (!cavity_.shrunk() && !visit_->violations_seen) return;
@@ -390,7 +394,7 @@ void Refiner<D>::send_abroad() {
   letters_.clear();  // of each entry, its box
   box_sizes_.clear();
   for (const Item& e : abroad_) {
-    const std::uint32_t leaf = visit_->area->leaf_of(mesh_->cell(e.cell).center);
+    const std::uint32_t leaf = visit_->area->leaf_of(mesh_->center(e.cell));
     std::size_t box = boxes.size();
     while (box > 0 && boxes[box - 1].leaf != leaf) --box;
     if (box == 0) {

@@ -220,11 +220,26 @@ auto Refiner<D>::split_instead(const Item& entity, const Item& e, const CellVerd
   return outcome;
 }
 
+/// Of the element treated, which is asked for it several times.
+template <int D>
+FilterSphere<D> Refiner<D>::sphere_of(const Item& e) const {
+  if constexpr (D == 3) {
+    return mesh_->sphere(e.cell);
+  } else {
+    if (last_sphere_.cell != e.cell || last_sphere_.birth != e.birth) last_sphere_ = {e.cell, e.birth, mesh_->sphere(e.cell)};
+    return last_sphere_.sphere;
+  }
+}
+
 /// As much of it as is not known from why the cell is listed: sizes may be slow functions.
 template <int D>
 CellVerdict Refiner<D>::verdict_of(const Item& e) const {
   const auto& bounds = context_->bounds;
-  if (e.which() == Item::over_size) return {bounds.over_radius_edge(*mesh_, e.cell), true};
+  if (e.which() == Item::over_size) {
+    const auto [low, high] = mesh_->squared_radius_bounds(sphere_of(e));
+    const CellShape shape{shortest_edge_squared<D>(mesh_->simplex(e.cell)), low, high, 0, CellBounds<D>::infinity};
+    return {bounds.over_radius_edge(*mesh_, e.cell, shape), true};
+  }
   if (e.which() == Item::over_radius_edge) return {true, false};
   return bounds.test(*mesh_, e.cell);
 }
@@ -248,8 +263,8 @@ auto Refiner<D>::treat_cell(const Item& e) -> Outcome {
       }
     }
   }
-  const Point<D> center =
-      mesh_->center_is_accurate(c) ? mesh_->cell(c).center : circumsphere<D>(mesh_->simplex(c)).center;
+  const FilterSphere<D> sphere = sphere_of(e);
+  const Point<D> center = mesh_->is_accurate(sphere) ? sphere.center : circumsphere<D>(mesh_->simplex(c)).center;
   std::optional<Point<D>> x = center;
   if (options_->selector && verdict.over_radius_edge) x = selected_point(c, center);
   if (!x) return Outcome::not_owned;
@@ -359,8 +374,9 @@ auto Refiner<D>::insert_point(const Item& e, const CellVerdict& verdict, bool at
   if (visit_->mends && cavity_.shrunk()) return Outcome::refused;
 
   // Unshrunk, the circumcentre's nearest vertices are the element's own; but not where rounding moves it, even onto another vertex.
-  const bool plain = at_center && !cavity_.shrunk() && !options_->selector && mesh_->center_is_accurate(e.cell);
-  const double r = plain ? std::sqrt(mesh_->squared_radius_bounds(e.cell).first) : insertion_radius<D>(*mesh_, cavity_);
+  const FilterSphere<D> sphere = sphere_of(e);
+  const bool plain = at_center && !cavity_.shrunk() && !options_->selector && mesh_->is_accurate(sphere);
+  const double r = plain ? std::sqrt(mesh_->squared_radius_bounds(sphere).first) : insertion_radius<D>(*mesh_, cavity_);
   if (r < options_->min_edge) {
     visit_->min_edge_hit = true;
     return Outcome::refused;

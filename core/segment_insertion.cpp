@@ -199,16 +199,14 @@ void SegmentInsertion::force(EntityId s) {
   fix(below);
 }
 
-/// Writes the constraints, and the spheres of what is new.
+/// Writes the constraints.
 void SegmentInsertion::mark() {
   WantedSimplices<2> edges;
   for (EntityId s = 0; s < ends_.size(); ++s) edges.add(ends_[s], s);
   edges.index_by_first(mesh_->vertex_bound());
-  const bool changed = std::find(present_.begin(), present_.end(), false) != present_.end();
   for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) {
     const CellId c{i};
     if (!mesh_->alive(c)) continue;
-    if (changed && !mesh_->is_ghost(c)) mesh_->set_sphere(c, circumsphere<2>(mesh_->simplex(c)));
     for (int f = 0; f < 3; ++f) {
       if (!fixed(c, f)) continue;
       const auto& v = mesh_->cell(c).vertices;

@@ -207,7 +207,7 @@ CellId VertexMove::turn(Pools& pools, const Turned& t) {
   const CellId c = mesh_->new_cell(pools, mesh_->region(t.cell));
   mesh_->set_vertices(c, vertices);
   mesh_->cell(c).links = mesh_->cell(t.cell).links;
-  mesh_->set_sphere(c, circumsphere<3>(mesh_->simplex(c)));
+  mesh_->set_sphere(c);
   if (const auto* old = mesh_->constraints(t.cell)) {
     const ConstraintRecord<3> copy = *old;
     mesh_->ensure_constraints(pools, c) = copy;

@@ -75,19 +75,10 @@ MaybeSign orient_filter<3>(const Simplex<3>& s) {
   return decide(det, 8.01 * u * permanent + orient_underflow);
 }
 
-// Heights: squares 3u, sum 4u. Minors 4u. Product 9u, sum of three 11u.
 template <>
 MaybeSign in_sphere_filter<2>(const Simplex<2>& s, const Point2& p) {
-  const double ax = s[0][0] - p[0], ay = s[0][1] - p[1];
-  const double bx = s[1][0] - p[0], by = s[1][1] - p[1];
-  const double cx = s[2][0] - p[0], cy = s[2][1] - p[1];
-  const double bxcy = bx * cy, bycx = by * cx, cxay = cx * ay, cyax = cy * ax, axby = ax * by, aybx = ay * bx;
-  const double ha = ax * ax + ay * ay, hb = bx * bx + by * by, hc = cx * cx + cy * cy;
-  const double det = ha * (bxcy - bycx) + hb * (cxay - cyax) + hc * (axby - aybx);
-  const double permanent = (std::fabs(bxcy) + std::fabs(bycx)) * ha + (std::fabs(cxay) + std::fabs(cyax)) * hb +
-                           (std::fabs(axby) + std::fabs(aybx)) * hc;
-  if (!(ha + hb + hc < in_sphere_max)) return std::nullopt;
-  return decide(det, 11.01 * u * permanent + in_sphere_underflow);
+  const Sign sign = in_circle_quickly(s[0], s[1], s[2], p);
+  return sign == Sign::zero ? std::nullopt : MaybeSign(sign);
 }
 
 namespace {

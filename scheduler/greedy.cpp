@@ -123,7 +123,7 @@ void Greedy<D>::hand_over(Running& visit) {
     std::vector<std::pair<Node, std::vector<Entry<D>>>> letters;
     for (const Entry<D>& e : box.entries) {
       if (!e.alive(context_.mesh)) continue;
-      const Node leaf = tree_.leaf_at(context_.mesh.cell(e.cell).center);
+      const Node leaf = tree_.leaf_at(context_.mesh.center(e.cell));
       auto letter = std::find_if(letters.rbegin(), letters.rend(), [leaf](const auto& l) { return l.first == leaf; });
       if (letter == letters.rend()) {
         letters.push_back({leaf, {e}});

@@ -133,7 +133,7 @@ void LeafRefinement<D>::sort_by_vertices(std::vector<Entry<D>>& entries) const {
 
 template <int D>
 void LeafRefinement<D>::relist(const Entry<D>& e) {
-  LeafWork<D>& work = works_[tree_.leaf_at(context_.mesh.cell(e.cell).center)];
+  LeafWork<D>& work = works_[tree_.leaf_at(context_.mesh.center(e.cell))];
   if (!work.has_list()) work.since = generation_;
   work.list.push(e);
 }
@@ -176,7 +176,7 @@ std::vector<Refusal<D>> LeafRefinement<D>::take_refused() {
 template <int D>
 bool LeafRefinement<D>::relist_refused() {
   for (const Refusal<D>& r : take_refused()) {
-    const Node leaf = tree_.leaf_at(context_.mesh.cell(r.entry.cell).center);
+    const Node leaf = tree_.leaf_at(context_.mesh.center(r.entry.cell));
     if (r.order == 1) {
       relist(r.entry);
     } else {

@@ -10,7 +10,7 @@ void LeafWorks<D>::hand_down(const Mesh<D>& mesh, Node parent, std::uint64_t gen
   auto pass_on = [&](const Entry<D>& e) {
     if (!e.alive(mesh)) return;
     // To a child of this parent, though an entity that was set aside may be on a cell with its centre elsewhere.
-    LeafWork<D>& to = *works_[tree_->child_at(parent, mesh.cell(e.cell).center)];
+    LeafWork<D>& to = *works_[tree_->child_at(parent, mesh.center(e.cell))];
     to.list.push(e);
     to.since = generation;
   };

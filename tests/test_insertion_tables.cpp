@@ -54,7 +54,9 @@ TEST(PairTable, FindsPartnersAndForgetsThem) {
     EXPECT_EQ(firsts, values.size());
     for (const auto& [slot, all] : values) {
       EXPECT_EQ(table.is_pair(slot), all.size() == 2);
-      if (all.size() == 2) EXPECT_EQ(table.partner(slot, all[0]), all[1]);
+      if (all.size() == 2) {
+        EXPECT_EQ(table.partner(slot, all[0]), all[1]);
+      }
       table.clear(slot);
       EXPECT_FALSE(table.is_pair(slot));
     }
@@ -107,7 +109,8 @@ struct Scattered {
       for (int i = 0; i <= D; ++i) block.set(lane, i, s[i]);
     ShapeBlock<D> out;
     simplex_shapes<D>({&block, 1}, {&out, 1});
-    return {out.shortest_edge_squared[0], out.det[0], out.det_error[0]};
+    const auto [low, high] = mesh.squared_radius_bounds(c);
+    return {out.shortest_edge_squared[0], low, high, out.det[0], out.det_error[0]};
   }
 };
 
@@ -124,10 +127,14 @@ void expect_quick_answers() {
       const QuickBounds<D> quick(bounds);
       for (const CellId c : s.cells) {
         const CellShape shape = s.shape(c);
-        const Answer answer = quick.look(s.mesh, c, shape);
+        const Answer answer = quick.look(shape);
         const CellVerdict verdict = bounds.test(s.mesh, c, shape);
-        if (answer == Answer::within) EXPECT_FALSE(verdict);
-        if (answer == Answer::over_size) EXPECT_TRUE(verdict.over_size);
+        if (answer == Answer::within) {
+          EXPECT_FALSE(verdict);
+        }
+        if (answer == Answer::over_size) {
+          EXPECT_TRUE(verdict.over_size);
+        }
         ++answers[answer];
       }
     }
@@ -145,7 +152,7 @@ TEST(QuickBounds, KnowNothingWhereSizesVary) {
   by_region.region_size = {SizingField<3>(0.1)};
   by_volume.max_measure = 1e-3;
   for (const CellBounds<3>& bounds : {varying, by_region, by_volume})
-    EXPECT_EQ(QuickBounds<3>(bounds).look(s.mesh, s.cells[0], s.shape(s.cells[0])), QuickBounds<3>::Answer::unknown);
+    EXPECT_EQ(QuickBounds<3>(bounds).look(s.shape(s.cells[0])), QuickBounds<3>::Answer::unknown);
 }
 
 /// Claims a box and nothing else.
@@ -163,7 +170,7 @@ TEST(VisitArea, CellsInConflictNoLargerThanThePointIsDeepAreOwned) {
   const BoxArea area({{0.125, 0.25, 0.125}}, {{0.875, 0.875, 0.75}});
   std::size_t quick = 0;
   for (const CellId at : s.cells) {
-    const Point3& p = s.mesh.cell(at).center;
+    const Point3& p = s.mesh.center(at);
     const double depth = area.squared_depth(p);
     EXPECT_EQ(depth > 0, p[0] > 0.125 && p[0] < 0.875 && p[1] > 0.25 && p[1] < 0.875 && p[2] > 0.125 && p[2] < 0.75);
     for (const CellId c : s.cells)

@@ -130,10 +130,18 @@ class Cavity {
   /// The cells made by the last commit.
   const std::vector<CellId>& new_cells() const { return new_cells_; }
   /// What is known of the i-th of them.
-  CellShape shape_of_new(std::size_t i) const {
+  CellShape shape_of_new(std::size_t i) const { return shape_of_new(i, sphere_of_new(i)); }
+  /// The same, given its circumsphere.
+  CellShape shape_of_new(std::size_t i, const FilterSphere<D>& sphere) const {
     const ShapeBlock<D>& block = shapes_[i / shape_lanes];
     const std::size_t lane = i % shape_lanes;
-    return {block.shortest_edge_squared[lane], block.det[lane], block.det_error[lane]};
+    const auto [low, high] = mesh_->squared_radius_bounds(sphere);
+    return {block.shortest_edge_squared[lane], low, high, block.det[lane], block.det_error[lane]};
+  }
+  /// Its circumsphere. @pre no ghost
+  FilterSphere<D> sphere_of_new(std::size_t i) const {
+    if constexpr (D == 3) return mesh_->sphere(new_cells_[i]);
+    else return computed_sphere(i);
   }
 
   /// Gives up what was collected. Free.
@@ -153,8 +161,13 @@ class Cavity {
     cells_.push_back(c);
     for (const Link next : mesh_->cell(c).links) mesh_->prefetch(next.cell());
   }
-  /// The same of a cell in conflict with the point. Its vertices are within a diameter of its circumball from there.
-  bool owns_in_conflict(CellId c) const { return 4 * mesh_->squared_radius_bounds(c).second < squared_depth_ || owns(c); }
+  /// The same of a cell in conflict with the point, across a face of a cell that is owned: all its vertices but one are in the
+  /// claim. In 3D this one is mostly known to be, as it is within a diameter of the cell's circumball from the point.
+  bool owns_next(Link next) const {
+    const CellId c = next.cell();
+    if (D == 3 && 4 * mesh_->squared_radius_bounds(c).second < squared_depth_) return true;
+    return !area_ || area_->owns(mesh_->point(mesh_->cell(c).vertices[next.face()]));
+  }
   bool may_read(CellId c) const { return !area_ || area_->may_read(*mesh_, c); }  ///< for assertions
   bool owns_point() const { return !area_ || area_->owns(point_); }
   Status collect_all();
@@ -170,6 +183,7 @@ class Cavity {
   void look_at_shapes();
   bool visible(std::size_t i) const;
   bool visible_exactly(const BoundaryFace& f) const;
+  FilterSphere<D> computed_sphere(std::size_t i) const;
   void set_spheres();
   bool in_line(CellId c, int i, int j) const;
   bool is_subsegment(CellId cell, int i, int j) const;

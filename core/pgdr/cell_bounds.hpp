@@ -15,6 +15,8 @@ namespace pgdr {
 /// What is known of a cell besides its circumsphere.
 struct CellShape {
   double shortest_edge_squared;  ///< as circumsphere.hpp has it
+  double squared_radius_low;     ///< bound of the square of the circumradius
+  double squared_radius_high;    ///< likewise
   double det;        ///< of orient(), see ShapeBlock
   double det_error;  ///< its error; infinite: not known
 };
@@ -80,15 +82,15 @@ class QuickBounds {
     squared_ratio_ = bounds.radius_edge_bound * bounds.radius_edge_bound;
   }
   /// About a cell of this shape.
-  Answer look(const Mesh<D>& mesh, CellId c, const CellShape& shape) const {
-    const auto [low, high] = mesh.squared_radius_bounds(c);
-    double least = low, most = high;  // of the square of the circumradius, or of twice the area
+  Answer look(const CellShape& shape) const {
+    double least = shape.squared_radius_low, most = shape.squared_radius_high;  // of the square of the circumradius, or of twice the area
     if constexpr (D == 2) {
       least = (std::fabs(shape.det) - shape.det_error) * (1 - 0x1p-50);
       most = (std::fabs(shape.det) + shape.det_error) * (1 + 0x1p-50);
     }
     if (least > most_size_) return Answer::over_size;
-    return most < most_size_ && high < squared_ratio_ * shape.shortest_edge_squared ? Answer::within : Answer::unknown;
+    const bool fits = shape.squared_radius_high < squared_ratio_ * shape.shortest_edge_squared;
+    return most < most_size_ && fits ? Answer::within : Answer::unknown;
   }
 
  private:

@@ -3,7 +3,7 @@
 //
 // The mesh while it is refined: flat arrays of vertices and cells, growing without moving. A cell is one cache line in
 // 3D: vertices, links to its neighbours, and its cached circumsphere, which answers nearly every in-sphere question
-// without touching a vertex. Constrained faces and edges are marked on the cells that contain them, in side records
+// without touching a vertex; half of one in 2D, without a circumcircle. Constrained faces and edges are marked on the cells that contain them, in side records
 // of the few cells that have any.
 //
 // Threads: elements carry no lock. A cell is written by the visit that owns it alone; see design notes in docs/.
@@ -70,15 +70,59 @@ struct VertexRecord {
   float relaxed_radius = std::numeric_limits<float>::infinity();  ///< as said above
 };
 
-/// A cell, in 3D one cache line.
+/// Of a slot: the side record of its cell and the mark of a cavity, and how many cells it has held.
 template <int D>
-struct alignas(D == 3 ? 64 : 16) CellRecord {
-  std::array<VertexId, D + 1> vertices;  ///< positively oriented; the first is no_vertex in a slot that is free
-  std::array<Link, D + 1> links;  ///< links[i]: across the face opposite vertices[i]
-  Point<D> center;                ///< of the circumsphere, rounded
-  double radius2;                 ///< squared; its lowest four bits are the level of the filter's error band
+struct alignas(D == 3 ? 8 : 2) CellTag {
+  static constexpr std::uint32_t mark_bit = 1u << 31;  ///< of `get()`
+
+  std::array<std::uint16_t, 2> constraints;  ///< one number, in halves
+  std::uint16_t birth;  ///< see Mesh
+
+  /// Number of the side record, from 1, and the mark.
+  std::uint32_t get() const { return std::bit_cast<std::uint32_t>(constraints); }
+  void set(std::uint32_t v) { constraints = std::bit_cast<std::array<std::uint16_t, 2>>(v); }  ///< both
+};
+
+template <int D>
+struct CellRecord;
+/// A tetrahedron, one cache line.
+template <>
+struct alignas(64) CellRecord<3> {
+  std::array<VertexId, 4> vertices;  ///< positively oriented; the first is no_vertex in a slot that is free
+  std::array<Link, 4> links;  ///< links[i]: across the face opposite vertices[i]
+  Point<3> center;            ///< of the circumsphere, rounded
+  double radius2;             ///< squared; its lowest four bits are the level of the filter's error band
 };
 static_assert(sizeof(CellRecord<3>) == 64);
+/// A triangle, half a cache line. Its circumcircle is not kept: its corners, which are few to read, answer as soon.
+template <>
+struct alignas(32) CellRecord<2> {
+  std::array<VertexId, 3> vertices;  ///< as in space
+  std::array<Link, 3> links;  ///< likewise
+  CellTag<2> tag;             ///< of the slot
+  std::uint16_t region;       ///< number
+};
+static_assert(sizeof(CellRecord<2>) == 32);
+
+/// A circumsphere as the filter of in-sphere questions has it.
+template <int D>
+struct FilterSphere {
+  Point<D> center;  ///< rounded
+  double radius2;   ///< squared; its lowest four bits are the level of the filter's error band
+
+  /// `power_error`: as ShapeBlock has it.
+  static FilterSphere of(const Point<D>& center, double squared_radius, double power_error) {
+    const double band = power_error + 0x1p-46;  // a normal number: its exponent is in its bits
+    const int exponent = static_cast<int>(std::bit_cast<std::uint64_t>(band) >> 52) - 1023;
+    const int level = band <= 0x1p-3 ? (47 + exponent) / 3 : 15;
+    const std::uint64_t bits = std::bit_cast<std::uint64_t>(squared_radius);
+    return {center, std::bit_cast<double>((bits & ~std::uint64_t{15}) | static_cast<std::uint64_t>(level))};
+  }
+  /// Of a sphere that is not side by side with others.
+  static FilterSphere of(const Circumsphere<D>& sphere) {
+    return of(sphere.center, sphere.squared_radius, 6 * sphere.center_error / std::sqrt(sphere.squared_radius));
+  }
+};
 
 inline constexpr int edge_count(int dimension) { return dimension == 3 ? 6 : 3; }  ///< of a simplex
 /// The two ends of edge e of a tetrahedron, and e of two corners.
@@ -124,8 +168,7 @@ class Mesh {
   /// A hint that the cell is about to be read; any id will do.
   void prefetch(CellId c) const {
     __builtin_prefetch(&cells_[index(c)]);
-    if constexpr (D == 2) __builtin_prefetch(&cells_[index(c)].radius2);
-    __builtin_prefetch(&tags_[index(c)]);
+    if constexpr (D == 3) __builtin_prefetch(&tags_[index(c)]);
   }
   /// The same of the vertices of whatever cell is in that slot.
   void prefetch_vertices(CellId c) const {
@@ -137,7 +180,7 @@ class Mesh {
   static constexpr std::uint16_t last_birth = 0xffff;  ///< no cell has it
   /// Counts the cells that the slot has held: with the slot it names a cell for good, since a slot whose count is full holds
   /// no other. A flip may bring a cell back, in whatever slot: it is another one. From any thread.
-  std::uint16_t birth(CellId c) const { return atomic(tags_[index(c)].birth).load(std::memory_order_relaxed); }
+  std::uint16_t birth(CellId c) const { return atomic(tag(c).birth).load(std::memory_order_relaxed); }
   /// The vertices of the cell that was born there; false if it is dead. From any thread: the slot may be in use by another
   /// meanwhile, so that what the caller does not own may die any moment. (Whoever reads a vertex of a later cell, or the one
   /// that stands for none, has seen the birth counted before it, by release and acquire: plain moves on x86.)
@@ -166,13 +209,13 @@ class Mesh {
   }
 
   // Marks of a cavity under construction: owner of the cell alone.
-  bool marked(CellId c) const { return tags_[index(c)].get() & mark_bit; }                ///< is it?
-  void mark(CellId c) { tags_[index(c)].set(tags_[index(c)].get() | mark_bit); }     ///< marks it
-  void unmark(CellId c) { tags_[index(c)].set(tags_[index(c)].get() & ~mark_bit); }  ///< takes the mark off
+  bool marked(CellId c) const { return tag(c).get() & mark_bit; }       ///< is it?
+  void mark(CellId c) { tag(c).set(tag(c).get() | mark_bit); }     ///< marks it
+  void unmark(CellId c) { tag(c).set(tag(c).get() & ~mark_bit); }  ///< takes the mark off
 
   /// Constraints of c, or null if none of its faces or edges is constrained.
   ConstraintRecord<D>* constraints(CellId c) {
-    const std::uint32_t id = tags_[index(c)].get() & ~mark_bit;
+    const std::uint32_t id = tag(c).get() & ~mark_bit;
     return id == 0 ? nullptr : &constraints_[id - 1];
   }
   const ConstraintRecord<D>* constraints(CellId c) const { return const_cast<Mesh*>(this)->constraints(c); }  ///< likewise
@@ -182,48 +225,68 @@ class Mesh {
     return k && (k->faces >> face & 1);
   }
   /// The number of its region.
-  std::uint16_t region(CellId c) const { return several_regions_ ? regions_[index(c)] : std::uint16_t{0}; }
+  std::uint16_t region(CellId c) const {
+    if constexpr (D == 2) return cell(c).region;
+    else return several_regions_ ? regions_[index(c)] : std::uint16_t{0};
+  }
   /// Of the cell's owner alone; the first of a region other than 0: on one thread.
   void set_region(CellId c, std::uint16_t r) {
-    if (r != 0 && !several_regions_) several_regions_ = true;
-    if (several_regions_) regions_[index(c)] = r;
+    if constexpr (D == 2) {
+      cell(c).region = r;
+    } else {
+      if (r != 0 && !several_regions_) several_regions_ = true;
+      if (several_regions_) regions_[index(c)] = r;
+    }
   }
 
-  /// Stores the circumsphere as the filter of `conflicts`. Ghosts: `set_ghost_sphere`.
-  void set_sphere(CellId c, const Circumsphere<D>& sphere) {
-    set_sphere(c, sphere.center, sphere.squared_radius, 6 * sphere.center_error / std::sqrt(sphere.squared_radius));
+  /// 3D: stores it as the filter of `conflicts`. Ghosts: `set_ghost_sphere`.
+  void set_sphere(CellId c, const FilterSphere<D>& sphere) {
+    if constexpr (D == 3) {
+      cell(c).center = sphere.center;
+      cell(c).radius2 = sphere.radius2;
+    }
   }
-  /// The same of a centre whose error is known as ShapeBlock has it.
-  void set_sphere(CellId c, const Point<D>& center, double squared_radius, double power_error) {
-    CellRecord<D>& k = cell(c);
-    k.center = center;
-    const double band = power_error + 0x1p-46;  // a normal number: its exponent is in its bits
-    const int exponent = static_cast<int>(std::bit_cast<std::uint64_t>(band) >> 52) - 1023;
-    const int level = band <= 0x1p-3 ? (47 + exponent) / 3 : 15;
-    const std::uint64_t bits = std::bit_cast<std::uint64_t>(squared_radius);
-    k.radius2 = std::bit_cast<double>((bits & ~std::uint64_t{15}) | static_cast<std::uint64_t>(level));
+  /// Of the cell's corners.
+  void set_sphere(CellId c) {
+    if constexpr (D == 3) set_sphere(c, FilterSphere<D>::of(circumsphere<D>(simplex(c))));
   }
-  void set_ghost_sphere(CellId c) { cell(c).radius2 = std::numeric_limits<double>::quiet_NaN(); }  ///< which answers nothing
+  /// Which answers nothing.
+  void set_ghost_sphere(CellId c) {
+    if constexpr (D == 3) cell(c).radius2 = std::numeric_limits<double>::quiet_NaN();
+  }
+  /// The circumsphere; in 2D it is computed. @pre no ghost
+  FilterSphere<D> sphere(CellId c) const {
+    if constexpr (D == 3) return {cell(c).center, cell(c).radius2};
+    else return FilterSphere<D>::of(circumsphere<D>(simplex(c)));
+  }
+  Point<D> center(CellId c) const { return sphere(c).center; }  ///< of the circumsphere
 
   /// Exactly: is p inside the (perturbed) circumsphere of c? For a ghost: beyond its hull face, or in that face's plane
   /// and inside the sphere of the cell behind it. p must not be a vertex of c.
   bool conflicts(CellId c, const Point<D>& p) const {
     const CellRecord<D>& k = cell(c);
-    const double d2 = squared_distance(k.center, p);
-    const auto& band = bands[std::bit_cast<std::uint64_t>(k.radius2) & 15];
-    if (d2 < k.radius2 * band.inner) return true;
-    if (d2 > k.radius2 * band.outer) return false;
+    if constexpr (D == 3) {
+      const double d2 = squared_distance(k.center, p);
+      const auto& band = bands[std::bit_cast<std::uint64_t>(k.radius2) & 15];
+      if (d2 < k.radius2 * band.inner) return true;
+      if (d2 > k.radius2 * band.outer) return false;
+    } else {
+      const auto& v = k.vertices;
+      if (v[0] != infinite_vertex && v[1] != infinite_vertex && v[2] != infinite_vertex)
+        if (const Sign side = in_circle_quickly(point(v[0]), point(v[1]), point(v[2]), p); side != Sign::zero)
+          return side == Sign::positive;
+    }
     return conflicts_exactly(c, p);
   }
 
-  /// Bounds of the exact squared circumradius, from the cached one.
-  std::pair<double, double> squared_radius_bounds(CellId c) const {
-    const double r2 = cell(c).radius2;
-    const auto& band = bands[std::bit_cast<std::uint64_t>(r2) & 15];
-    return {r2 * band.inner, r2 * band.outer};
+  /// Bounds of the exact squared circumradius, from the rounded one.
+  static std::pair<double, double> squared_radius_bounds(const FilterSphere<D>& sphere) {
+    const auto& band = bands[std::bit_cast<std::uint64_t>(sphere.radius2) & 15];
+    return {sphere.radius2 * band.inner, sphere.radius2 * band.outer};
   }
-  /// Is the cached centre good enough to be a Steiner point?
-  bool center_is_accurate(CellId c) const { return (std::bit_cast<std::uint64_t>(cell(c).radius2) & 15) < 9; }
+  std::pair<double, double> squared_radius_bounds(CellId c) const { return squared_radius_bounds(sphere(c)); }  ///< likewise
+  /// Is the centre good enough to be a Steiner point?
+  static bool is_accurate(const FilterSphere<D>& sphere) { return (std::bit_cast<std::uint64_t>(sphere.radius2) & 15) < 9; }
 
   /// Ids below these bounds may be alive; `alive` tells for cells.
   std::uint32_t cell_bound() const { return cell_source_.bound(); }
@@ -235,7 +298,9 @@ class Mesh {
   /// Gives back most of the memory of the cells numbered [first, last), but for the first `kept` bytes.
   void discard_cells(std::uint32_t first, std::uint32_t last, std::size_t kept) { cells_.discard(first, last, kept); }
   /// Gives back the memory of what is known of cells beside their records.
-  void discard_tags() { tags_.discard(0, cell_bound()); }
+  void discard_tags() {
+    if constexpr (D == 3) tags_.discard(0, cell_bound());
+  }
   /// Gives back the memory of all vertices.
   void discard_vertices() { vertices_.discard(0, vertex_bound()); }
 
@@ -251,20 +316,20 @@ class Mesh {
   /// A slot without constraints, to be filled.
   CellId new_cell(Pools& pools, std::uint16_t region = 0) {
     const std::uint32_t id = pools.cells.take();
-    assert(tags_[id].get() == 0);
+    assert(tag(CellId{id}).get() == 0);
     set_region(CellId{id}, region);
     return CellId{id};
   }
   /// And its constraints; takes off its mark.
   void free_cell(Pools& pools, CellId c) {
-    Tag& tag = tags_[index(c)];
-    if (const std::uint32_t id = tag.get() & ~mark_bit) {
+    CellTag<D>& slot = tag(c);
+    if (const std::uint32_t id = slot.get() & ~mark_bit) {
       if (pinched_) change_pinched(c, false);
       pools.constraints.give(id - 1);
     }
-    tag.set(0);
+    slot.set(0);
     const auto next = static_cast<std::uint16_t>(birth(c) + 1);
-    atomic(tag.birth).store(next, std::memory_order_relaxed);
+    atomic(slot.birth).store(next, std::memory_order_relaxed);
     // After the birth: whoever reads no_vertex then sees that the cell is another one (read_vertices).
     atomic(cell(c).vertices[0]).store(no_vertex, std::memory_order_release);
     if (next != last_birth) pools.cells.give(index(c));
@@ -284,7 +349,7 @@ class Mesh {
   const PinchedEdges* pinched_edges() const { return pinched_.get(); }
 
  private:
-  static constexpr std::uint32_t mark_bit = 1u << 31;
+  static constexpr std::uint32_t mark_bit = CellTag<D>::mark_bit;
 
   template <class T>
   static std::atomic_ref<T> atomic(const T& v) { return std::atomic_ref<T>(const_cast<T&>(v)); }
@@ -295,20 +360,17 @@ class Mesh {
   void change_pinched(CellId c, bool add);
 
   std::unique_ptr<PinchedEdges> pinched_;
-  /// In 2D without padding, which is 3 % of the memory; in 3D with it, which is faster.
-  struct alignas(D == 3 ? 8 : 2) Tag {
-    std::array<std::uint16_t, 2> constraints;  ///< one number, in halves
-    std::uint16_t birth;
+  CellTag<D>& tag(CellId c) {
+    if constexpr (D == 3) return tags_[index(c)];
+    else return cell(c).tag;
+  }
+  const CellTag<D>& tag(CellId c) const { return const_cast<Mesh*>(this)->tag(c); }
+  void grow_cells_to(std::uint32_t n);
 
-    /// Number of the side record, from 1, and the mark.
-    std::uint32_t get() const { return std::bit_cast<std::uint32_t>(constraints); }
-    void set(std::uint32_t v) { constraints = std::bit_cast<std::array<std::uint16_t, 2>>(v); }
-  };
-  static_assert(sizeof(Tag) == (D == 3 ? 8 : 6));
   std::uint32_t capacity_;
   ReservedArray<CellRecord<D>> cells_;
-  ReservedArray<Tag> tags_;
-  ReservedArray<std::uint16_t> regions_;  ///< takes memory only once there are several
+  ReservedArray<CellTag<D>> tags_;        ///< 3D
+  ReservedArray<std::uint16_t> regions_;  ///< 3D; takes memory only once there are several
   bool several_regions_ = false;
   ReservedArray<VertexRecord<D>> vertices_;
   ReservedArray<ConstraintRecord<D>> constraints_;

@@ -65,7 +65,7 @@ struct RefineContext {
   RefineContext(Mesh<D>& m, const Domain<D>& d, const RefineOptions<D>& o, CellBounds<D> b, std::uint64_t vertices_so_far,
                 std::chrono::steady_clock::time_point start_time);
 
-  int bucket_of(CellId c) const;  ///< by its circumradius, 0 being the largest
+  int bucket_of(const FilterSphere<D>& sphere) const;  ///< by its radius, 0 being the largest
   /// No circumradius of this bucket or a later one is larger.
   double largest_radius(int bucket) const;
 
@@ -176,10 +176,11 @@ class Refiner {
   }
   bool alive(const Item& e) const { return e.alive(*mesh_); }
   std::uint64_t list_violations(std::span<const CellId> cells);
-  void list_poor(CellId c, int why);
+  void list_poor(CellId c, int why) { list_poor(c, why, mesh_->sphere(c)); }
+  void list_poor(CellId c, int why, const FilterSphere<D>& sphere);
   void list_if_poor(CellId c, const CellVerdict& verdict);
-  void list_if_poor(CellId c, const CellShape& shape);
-  std::uint32_t order_of(CellId c) const;
+  void list_new_if_poor(std::size_t i);
+  std::uint32_t order_of(CellId c, const FilterSphere<D>& sphere) const;
   void list_entities(CellId c, const ConstraintRecord<D>& k);
   bool treat_entities();
   void treat(const Item& e);
@@ -222,6 +223,7 @@ class Refiner {
   Outcome split_beside(const Item& e, const SplitPlace& place, std::span<const VertexId> own, const Demand* cause);
 
   // refiner_cells.cpp: poor elements
+  FilterSphere<D> sphere_of(const Item& e) const;
   CellVerdict verdict_of(const Item& e) const;
   Outcome treat_cell(const Item& e);
   Outcome insert_beside_refused(const Point<D>& x, const Item& e, const CellVerdict& verdict);
@@ -325,6 +327,12 @@ class Refiner {
   };
   std::conditional_t<D == 3, VertexMove, NoVertexMove> move_;
   RegionVisit<D>* visit_ = nullptr;
+  struct LastSphere {
+    CellId cell{0xffffffffu};
+    std::uint16_t birth = 0;
+    FilterSphere<D> sphere;
+  };
+  mutable LastSphere last_sphere_;  ///< 2D: that was asked for
   std::vector<Item> abroad_;  ///< elements with their circumcentre in other regions
   std::vector<std::uint32_t> letters_, box_sizes_;  ///< scratch of send_abroad
   std::set<std::vector<VertexId>> flipped_;  ///< cells that flips of a mending visit have made, by their vertices

@@ -57,16 +57,11 @@ class VisitArea {
       if (!owns(mesh.point(v))) return false;
     return true;
   }
-  /// A cell whose circumball lies in the inner box has its vertices there.
+  /// A cell whose circumball, where that is kept, lies in the inner box has its vertices there.
   bool owns(const Mesh<D>& mesh, CellId c) const {
     const auto& k = mesh.cell(c);
-    const double r2 = mesh.squared_radius_bounds(c).second;
-    bool inside = true;
-    for (int i = 0; i < D && inside; ++i) {
-      const double below = k.center[i] - inner_low[i], above = inner_high[i] - k.center[i];
-      inside = below > 0 && above > 0 && below * below > r2 && above * above > r2;
-    }
-    return inside || owns(mesh, k.vertices);
+    if constexpr (D == 2) return owns(mesh, k.vertices);
+    else return ball_is_inner(mesh, c) || owns(mesh, k.vertices);
   }
   /// Does the cell live, and is it owned or does it share a face with an owned cell? Such cells no other visit comes near.
   /// What debug builds assert; a visit does not ask it.
@@ -77,6 +72,17 @@ class VisitArea {
       owned += owns(mesh.point(v)) ? 1 : 0;
     }
     return owned >= D;
+  }
+
+ private:
+  bool ball_is_inner(const Mesh<D>& mesh, CellId c) const {
+    const Point<D> center = mesh.center(c);
+    const double r2 = mesh.squared_radius_bounds(c).second;
+    for (int i = 0; i < D; ++i) {
+      const double below = center[i] - inner_low[i], above = inner_high[i] - center[i];
+      if (!(below > 0 && above > 0 && below * below > r2 && above * above > r2)) return false;
+    }
+    return true;
   }
 };
 
