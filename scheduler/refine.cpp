@@ -25,6 +25,7 @@
 #include "detail/region_sizes.hpp"
 #include "pgdr/poor_reasons.hpp"
 #include "pgdr/recovery.hpp"
+#include "pgdr/sharp_corners.hpp"
 
 namespace pgdr {
 namespace {
@@ -212,8 +213,11 @@ template <int D>
 std::vector<PoorCell> take_poor(const RefineContext<D>& context, Refined<D>& refined, RefineResult<D>& result) {
   const RefineOptions<D>& options = context.options;
   if (options.refine && result.stop == StopCause::finished) {
+    if (refined.poor.empty()) return {};
+    const SharpCorners<D> sharp(context.domain, options.radius_edge_bound);
     for (const PoorCell& p : refined.poor) {
       result.poor_left += p.over_bound ? 1 : 0;
+      result.poor_unavoidable += p.over_bound && sharp.meets(context.mesh, p.cell) ? 1 : 0;
       result.size_met = result.size_met && !p.over_size;
     }
     return std::move(refined.poor);

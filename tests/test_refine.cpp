@@ -264,6 +264,40 @@ TEST(Refine, BoundsThatNoMeshCanMeetEnd) {
   EXPECT_GT(result.poor_left, 0u);
 }
 
+/// The prism over a triangle with one angle of so many degrees.
+Plc<3> sharp_prism(double degrees) {
+  const double a = degrees * std::numbers::pi / 180;
+  return test::prism({{{0, 0}}, {{4, 0}}, {{4 * std::cos(a), 4 * std::sin(a)}}}, 1);
+}
+
+// With a bound of 2 corners below 14.47 degrees are sharp: one at the bottom and one at the top.
+TEST(Refine, PoorCellsInSharpCornersAreCounted) {
+  for (const bool is_turned : {false, true}) {
+    const auto unavoidable = [&](const Plc<3>& plc, double bound) {
+      RefineOptions<3> options;
+      options.radius_edge_bound = bound;
+      const auto [result, report] = refine_and_check<3>(is_turned ? test::turned<3>(plc) : plc, options);
+      EXPECT_LE(report.exit_code(), 1) << findings(report);
+      EXPECT_LE(result.poor_unavoidable, result.poor_left);
+      return result.poor_unavoidable;
+    };
+    EXPECT_EQ(unavoidable(sharp_prism(60), 2), 0u);
+    EXPECT_EQ(unavoidable(sharp_prism(16), 2), 0u);
+    EXPECT_GE(unavoidable(sharp_prism(12), 2), 2u);
+    EXPECT_EQ(unavoidable(sharp_prism(12), 3), 0u);
+    EXPECT_GE(unavoidable(sharp_prism(4), 3), 2u);
+  }
+  Plc<2> triangle;
+  triangle.points = {{{0, 0}}, {{4, 0}}, {{4, 0.5}}};
+  triangle.segments = {{{0, 1}}, {{1, 2}}, {{2, 0}}};
+  RefineOptions<2> options;
+  options.radius_edge_bound = 1 / (2 * std::sin(20 * std::numbers::pi / 180));
+  const auto [result, report] = refine_and_check<2>(triangle, options);
+  EXPECT_EQ(report.exit_code(), 1) << findings(report);
+  EXPECT_GE(result.poor_unavoidable, 1u);
+  EXPECT_LE(result.poor_unavoidable, result.poor_left);
+}
+
 TEST(Refine, OpenSurfaceEnclosesNothing) {
   Plc<3> plc = test::cube();
   plc.facets.pop_back();

@@ -118,7 +118,8 @@ void fill(Report& report, const MeshArguments& a, const Threads& threads, const 
   quality.set("not_delaunay", not_delaunay(r));
   report.set("quality", quality);
   report.set("bounds", JsonObject{{"radius_edge", bounds.radius_edge}, {"size_met", r.size_met},
-                                  {"poor_left", r.poor_left}, {"reasons", to_json(r.reasons)}});
+                                  {"poor_left", r.poor_left}, {"poor_unavoidable", r.poor_unavoidable},
+                                  {"reasons", to_json(r.reasons)}});
   report.set("scheduler", to_json(r.scheduler));
   report.set("insertions", JsonObject{{"committed", s.insertions_committed}, {"refused", s.insertions_refused}});
   report.set("predicates", to_json(s.predicates));
@@ -143,6 +144,8 @@ std::string verdict(const RefineResult<D>& r) {
     text += separator + std::to_string(by_code[i]) + ' ' + name(static_cast<PoorReason::Code>(i));
     separator = ", ";
   }
+  if (r.poor_unavoidable > 0)
+    text += "; " + std::to_string(r.poor_unavoidable) + " in corners of the input so sharp that every mesh has such there";
   return text;
 }
 

@@ -69,6 +69,8 @@ struct RefineResult {
   /// Ended before the boundary was recovered, or cancelled without wish for a partial mesh: `mesh` is empty.
   StopCause stop = StopCause::finished;
   std::uint64_t poor_left = 0;        ///< cells over a bound
+  /// Of these, when finished, those in a corner of a facet that is so sharp that every mesh has one there (sharp_corners.hpp).
+  std::uint64_t poor_unavoidable = 0;
   bool size_met = true;               ///< every cell within the size and measure bounds; false without a mesh
   std::vector<PoorReason> reasons;    ///< one for every poor cell when finished
   RefineStatistics statistics;        ///< counts and times
