@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <type_traits>
+#include <utility>
 
 #include "detail/bulk.hpp"
 #include "detail/stripped_cells.hpp"
@@ -106,34 +108,86 @@ void sort_few(std::array<std::uint32_t, N>* cells, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) cells[rank[i]] = unsorted[i];
 }
 
-/// Bucketed by the smallest vertex, which is the first, and sorted within a bucket: in place, so that nothing but the result
-/// takes memory for each cell.
+/// Cells by their smallest vertex, which is the first: in buckets of so many vertices, then in each bucket. Threads share no
+/// counter, and what is written at one time is as many streams as buckets, then one bucket.
+template <int D>
+class CellOrder {
+ public:
+  using Cell = std::array<std::uint32_t, D + 1>;
+
+  CellOrder(const detail::StrippedCells<D>& stripped, std::size_t vertices, const detail::Bulk& bulk)
+      : stripped_(&stripped), bulk_(&bulk), vertices_(vertices),
+        shift_(std::bit_width(std::max<std::size_t>(vertices / most_buckets, fewest_vertices))),
+        buckets_((vertices >> shift_) + 1), begin_(stripped.block_count() * buckets_ + 1, 0) {}
+
+  /// Gives the cells their numbers of vertices, in the memory of the stripped ones.
+  void renumber(const std::vector<std::uint32_t>& number) {
+    bulk_->parts(stripped_->block_count(), [&](std::size_t block) {
+      for (Cell& cell : stripped_->block(block)) {
+        Cell numbers;
+        for (int j = 0; j <= D; ++j) numbers[j] = number[cell[j]];
+        cell = canonical(numbers);
+        ++slot(block, cell);
+      }
+    });
+    std::uint32_t all = 0;
+    for (std::size_t bucket = 0; bucket < buckets_; ++bucket)
+      for (std::size_t block = 0; block < stripped_->block_count(); ++block)
+        all += std::exchange(begin_[block * buckets_ + bucket], all);
+    begin_.back() = all;
+  }
+  /// How many cells there are.
+  std::uint32_t size() const { return begin_.back(); }
+  /// Moves them to `cells`, of their size, by buckets. What the counters say is lost but for where each bucket ends.
+  void distribute(std::vector<Cell>& cells) {
+    bulk_->parts(stripped_->block_count(), [&](std::size_t block) {
+      for (const Cell& cell : stripped_->block(block)) cells[slot(block, cell)++] = cell;
+    });
+  }
+  /// Sorts each bucket; `first_cell` has room for all vertices and one more, and is zero.
+  void sort(std::vector<Cell>& cells, std::vector<std::uint32_t>& first_cell, const std::stop_token& hurry) const {
+    bulk_->parts(size() == 0 ? 0 : buckets_, [&](std::size_t bucket) {
+      const std::uint32_t begin = bucket == 0 ? 0 : end_of(bucket - 1), end = end_of(bucket);
+      const std::vector<Cell> unsorted(cells.begin() + begin, cells.begin() + end);
+      const std::size_t first = bucket << shift_, last = std::min(vertices_, (bucket + 1) << shift_);
+      for (const Cell& cell : unsorted) ++first_cell[cell[0] + 1];
+      std::uint32_t next = begin;  // from here on first_cell[v + 1] is where the next cell of v goes, at last that of v + 1
+      for (std::size_t v = first; v < last; ++v) next += std::exchange(first_cell[v + 1], next);
+      for (const Cell& cell : unsorted) cells[first_cell[cell[0] + 1]++] = cell;
+      for (std::size_t v = first; v < last && !hurry.stop_requested(); ++v) {
+        const std::uint32_t at = v == first ? begin : first_cell[v];
+        sort_few(cells.data() + at, first_cell[v + 1] - at);
+      }
+    });
+  }
+
+ private:
+  static constexpr std::size_t most_buckets = 512, fewest_vertices = 255;
+
+  std::uint32_t& slot(std::size_t block, const Cell& cell) { return begin_[block * buckets_ + (cell[0] >> shift_)]; }
+  std::uint32_t end_of(std::size_t bucket) const { return begin_[(stripped_->block_count() - 1) * buckets_ + bucket]; }
+
+  const detail::StrippedCells<D>* stripped_;
+  const detail::Bulk* bulk_;
+  std::size_t vertices_;
+  int shift_;  // of a vertex to its bucket
+  std::size_t buckets_;
+  std::vector<std::uint32_t> begin_;  // of the cells of each block in each bucket, blocks first; the number of all
+};
+
+/// By the smallest vertex, which is the first, and sorted among cells that have the same.
 template <int D>
 void number_cells(const detail::StrippedCells<D>& stripped, const detail::Bulk& bulk, const std::stop_token& hurry,
                   Compacted<D>& out) {
-  using Cell = std::array<std::uint32_t, D + 1>;
-  // While the cells are counted, then placed, that of vertex v is begin[v + 2], then begin[v + 1].
-  std::vector<std::uint32_t>& begin = out.first_cell;
-  begin = detail::vector_of_capacity<std::uint32_t>(out.mesh.points.size() + 2);
-  begin.resize(out.mesh.points.size() + 2, 0);
-  auto next = [&](std::uint32_t& counter) {
-    return bulk.parallel() ? std::atomic_ref(counter).fetch_add(1, std::memory_order_relaxed) : counter++;
-  };
-  stripped.each([&](Cell& cell, std::uint16_t) {
-    Cell numbers;
-    for (int j = 0; j <= D; ++j) numbers[j] = out.vertex_number[cell[j]];
-    cell = canonical(numbers);
-    next(begin[cell[0] + 2]);
-  });
-  for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+  CellOrder<D> order(stripped, out.mesh.points.size(), bulk);
+  order.renumber(out.vertex_number);
   auto& cells = out.mesh.cells;
-  cells = detail::vector_of_capacity<Cell>(begin.back());
-  cells.resize(begin.back());
-  stripped.each([&](const Cell& cell, std::uint16_t) { cells[next(begin[cell[0] + 1])] = cell; });
-  begin.pop_back();
-  bulk.each(begin.size() - 1, [&](std::size_t b) {
-    if (!hurry.stop_requested()) sort_few(cells.data() + begin[b], begin[b + 1] - begin[b]);
-  });
+  cells = detail::vector_of_capacity<std::array<std::uint32_t, D + 1>>(order.size());
+  cells.resize(order.size());
+  order.distribute(cells);
+  out.first_cell = detail::vector_of_capacity<std::uint32_t>(out.mesh.points.size() + 1);
+  out.first_cell.resize(out.mesh.points.size() + 1, 0);
+  order.sort(cells, out.first_cell, hurry);
 }
 
 /// Vertices and cells in the order of their slots, in two passes over the cells.

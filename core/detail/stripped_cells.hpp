@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <cstring>
 #include <new>
+#include <span>
 #include <vector>
 
 #include "detail/bulk.hpp"
@@ -44,6 +45,9 @@ class StrippedCells {
         f(block.cells[k], block.regions.empty() ? std::uint16_t{0} : block.regions[k]);
     });
   }
+  std::size_t block_count() const { return blocks_.size(); }
+  /// Those of one block; the blocks hold all cells, each once.
+  std::span<Cell> block(std::size_t i) const { return {blocks_[i].cells, blocks_[i].count}; }
 
  private:
   struct Block {
