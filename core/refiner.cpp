@@ -153,7 +153,7 @@ void Refiner<D>::add_violations(CellId c, std::vector<Entry<D>>& to) const {
 }
 
 template <int D>
-void Refiner<D>::add_violations(CellId c, const std::vector<bool>& looked_at, std::vector<Entry<D>>& to) const {
+void Refiner<D>::add_violations(CellId c, const SlotSet& looked_at, std::vector<Entry<D>>& to) const {
   for (int f = 0; f <= D; ++f) {
     const Link beyond = mesh_->cell(c).links[f];
     const bool both = beyond && looked_at[index(beyond.cell())];

@@ -3,15 +3,31 @@
 #include "detail/cell_parts.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <vector>
 
 #include "detail/arena.hpp"
 #include "detail/float_environment.hpp"
+#include "pgdr/slot_set.hpp"
 #include "pgdr/visit_graph.hpp"
 
 namespace pgdr::detail {
 namespace {
 
 constexpr std::uint32_t cells_a_part = 1 << 15;
+static_assert(cells_a_part % SlotSet::slots_a_word == 0);
+
+/// Runs visits that do not wait for each other.
+void run_all(const VisitGraph& independent, const ScheduleOptions& options, const VisitBody& body) {
+  if (independent.visits() == 1) return body(0);
+  switch (options.executor) {
+    case Executor::flow_graph:
+      in_arena_to_the_end(options.threads, [&] { run_flow_graph(independent, body); });
+      break;
+    case Executor::threads: run_threads(independent, body, static_cast<unsigned>(threads_of(options))); break;
+    case Executor::serial: run_serial(independent, body); break;
+  }
+}
 
 }  // namespace
 
@@ -26,21 +42,20 @@ int threads_of(const ScheduleOptions& options) {
 
 std::uint32_t count_parts(std::uint32_t cells) { return cells / cells_a_part + 1; }
 
-void each_part(std::uint32_t cells, const ScheduleOptions& options, const std::function<void(const CellPart&)>& f) {
+PartSeconds each_part(std::uint32_t cells, const ScheduleOptions& options, const std::function<void(const CellPart&)>& f) {
+  using Clock = std::chrono::steady_clock;
+  const auto since = [](Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); };
   VisitGraph independent;
   for (std::uint32_t i = 0; i < count_parts(cells); ++i) independent.add_visit();
-  const VisitBody body = [&](VisitGraph::Visit v) {
+  std::vector<double> seconds(independent.visits(), 0.0);
+  const auto start = Clock::now();
+  run_all(independent, options, [&](VisitGraph::Visit v) {
     const DefaultFloats floats;
+    const auto part_start = Clock::now();
     f({v, v * cells_a_part, std::min(cells, (v + 1) * cells_a_part)});
-  };
-  if (independent.visits() == 1) return body(0);
-  switch (options.executor) {
-    case Executor::flow_graph:
-      in_arena_to_the_end(options.threads, [&] { run_flow_graph(independent, body); });
-      break;
-    case Executor::threads: run_threads(independent, body, static_cast<unsigned>(threads_of(options))); break;
-    case Executor::serial: run_serial(independent, body); break;
-  }
+    seconds[v] = since(part_start);
+  });
+  return {since(start), *std::max_element(seconds.begin(), seconds.end())};
 }
 
 }  // namespace pgdr::detail

@@ -9,7 +9,6 @@
 #include <cassert>
 #include <utility>
 
-#include "detail/cell_parts.hpp"
 #include "detail/leaf_refinement.hpp"
 
 namespace pgdr::detail {
@@ -51,7 +50,7 @@ PoorFindings LeafRefinement<D>::look_for_poor(PoorReasons<D>& reasons) {
   std::vector<bool> violated(cells);
   for (const Entry<D>& e : violations_) violated[index(e.cell)] = true;
   std::vector<PoorFindings> parts(count_parts(cells));
-  each_part(cells, options_, [&](const CellPart& part) {
+  each_cell_part([&](const CellPart& part) {
     parts[part.number] = reasons.of_cells(part.first, part.last, violated, stop);
   });
   PoorFindings all;

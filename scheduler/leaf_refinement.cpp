@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "detail/bent_facets.hpp"
-#include "detail/cell_parts.hpp"
+#include "detail/bulk.hpp"
 #include "pgdr/bounding_box.hpp"
 
 namespace pgdr::detail {
@@ -28,25 +28,6 @@ bool has_uneven_facets(const Domain<D>& domain) {
     for (EntityId f = 0; f < domain.facets().size(); ++f)
       if (is_uneven(domain, f)) return true;
   return false;
-}
-
-/// The slots with another cell than at the last call, whose births these are, or with none now, or with a cell beside such: of a
-/// given cell, born before or since, dead or alive, that says the same whatever slot it was given.
-template <int D>
-std::vector<bool> changed_surroundings(const Mesh<D>& mesh, std::vector<std::uint16_t>& births) {
-  std::vector<bool> changed(mesh.cell_bound(), false);
-  births.resize(mesh.cell_bound(), Mesh<D>::last_birth);
-  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i) {
-    const CellId c{i};
-    const bool alive = mesh.alive(c);
-    const std::uint16_t born = alive ? mesh.birth(c) : Mesh<D>::last_birth;
-    if (std::exchange(births[i], born) == born && alive) continue;
-    changed[i] = true;
-    if (!alive) continue;
-    for (const Link next : mesh.cell(c).links)
-      if (next) changed[index(next.cell())] = true;
-  }
-  return changed;
 }
 
 }  // namespace
@@ -76,13 +57,47 @@ void LeafRefinement<D>::list_everything() {
   all_listed_ = context_.stop == 0;
 }
 
+/// All of these parts count as serial, but on the critical path the longest alone.
+template <int D>
+void LeafRefinement<D>::each_cell_part(const std::function<void(const CellPart&)>& f) {
+  const PartSeconds seconds = each_part(context_.mesh.cell_bound(), options_, f);
+  statistics_.critical_path_seconds += seconds.longest - seconds.all;
+}
+
+/// The slots with another cell than at the last call, or with none now, or with a cell beside such: of a given cell, born
+/// before or since, dead or alive, that says the same whatever slot it was given.
+template <int D>
+SlotSet LeafRefinement<D>::changed_surroundings() {
+  const Mesh<D>& mesh = context_.mesh;
+  const bool is_first = births_looked_at_.empty();
+  if (is_first) births_looked_at_ = vector_of_capacity<std::uint16_t>(mesh.cell_bound());
+  births_looked_at_.resize(mesh.cell_bound(), Mesh<D>::last_birth);
+  SlotSet changed(mesh.cell_bound());
+  std::vector<std::vector<CellId>> beside(count_parts(mesh.cell_bound()));
+  each_cell_part([&](const CellPart& part) {
+    for (std::uint32_t i = part.first; i < part.last; ++i) {
+      const CellId c{i};
+      const bool alive = mesh.alive(c);
+      const std::uint16_t born = alive ? mesh.birth(c) : Mesh<D>::last_birth;
+      if (std::exchange(births_looked_at_[i], born) == born && alive) continue;
+      changed.add(i);
+      if (!alive || is_first) continue;
+      for (const Link next : mesh.cell(c).links)
+        if (next) beside[part.number].push_back(next.cell());
+    }
+  });
+  for (const auto& part : beside)
+    for (const CellId c : part) changed.add(index(c));
+  return changed;
+}
+
 /// A violation left standing may have moved off the walls, where insertions do not look for it. Returned: those with other
 /// surroundings than at the last look.
 template <int D>
 std::vector<Entry<D>> LeafRefinement<D>::look_for_violations() {
   const Mesh<D>& mesh = context_.mesh;
   // Nothing but what is new since then, or beside such, can have a violation that was not found.
-  const std::vector<bool> changed = changed_surroundings(mesh, births_looked_at_);
+  const SlotSet changed = changed_surroundings();
   std::erase_if(violations_, [&](const Entry<D>& e) {
     if (!e.alive(mesh) || mesh.constrained(e.cell, e.which())) return true;  // constrained: a flat cell beside it was taken off
     return changed[index(e.cell)];
@@ -91,7 +106,7 @@ std::vector<Entry<D>> LeafRefinement<D>::look_for_violations() {
   RegionVisit<D> looking;
   worker->begin(looking);
   std::vector<std::vector<Entry<D>>> parts(count_parts(mesh.cell_bound()));
-  each_part(mesh.cell_bound(), options_, [&](const CellPart& part) {
+  each_cell_part([&](const CellPart& part) {
     for (std::uint32_t i = part.first; i < part.last && !context_.options.stop.stop_requested(); ++i)
       if (changed[i] && mesh.alive(CellId{i})) worker->add_violations(CellId{i}, changed, parts[part.number]);
   });

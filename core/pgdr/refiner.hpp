@@ -30,6 +30,7 @@
 #include "pgdr/refine_options.hpp"
 #include "pgdr/refusal_memo.hpp"
 #include "pgdr/shells.hpp"
+#include "pgdr/slot_set.hpp"
 #include "pgdr/twins.hpp"
 #include "pgdr/vertex_move.hpp"
 #include "pgdr/visit_area.hpp"
@@ -146,7 +147,7 @@ class Refiner {
   /// Adds the faces of the cell that are not locally Delaunay. Several threads at once.
   void add_violations(CellId c, std::vector<Entry<D>>& to) const;
   /// The same where many cells are looked at: a face between two of them is decided from one, and added for both.
-  void add_violations(CellId c, const std::vector<bool>& looked_at, std::vector<Entry<D>>& to) const;
+  void add_violations(CellId c, const SlotSet& looked_at, std::vector<Entry<D>>& to) const;
   /// Mends or moves a violation that no entity is beside in as large a region as that takes; everything must be owned.
   /// False if that cannot be done.
   bool mend(const Entry<D>& e);

@@ -14,7 +14,7 @@ namespace pgdr::detail {
 /// Threads that visits can run on.
 int threads_of(const ScheduleOptions& options);
 
-/// A part of the cells' slots: [first, last). Its number says where it stands among all.
+/// A part of the cells' slots: [first, last), all but the last as many words of a SlotSet. Its number says where it stands among all.
 struct CellPart {
   std::uint32_t number, first, last;
 };
@@ -22,7 +22,12 @@ struct CellPart {
 /// So many parts there are of so many slots.
 std::uint32_t count_parts(std::uint32_t cells);
 
+/// Time that parts took: all of them, on the wall, and the one that took longest.
+struct PartSeconds {
+  double all = 0, longest = 0;
+};
+
 /// Calls f for each part, several at once, with the floating-point environment of a visit. Rethrows what f throws.
-void each_part(std::uint32_t cells, const ScheduleOptions& options, const std::function<void(const CellPart&)>& f);
+PartSeconds each_part(std::uint32_t cells, const ScheduleOptions& options, const std::function<void(const CellPart&)>& f);
 
 }  // namespace pgdr::detail

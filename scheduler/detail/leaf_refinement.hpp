@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "detail/cell_parts.hpp"
 #include "detail/leaf_work.hpp"
 #include "detail/thread_numbers.hpp"
 #include "pgdr/conflict_manager.hpp"
@@ -21,6 +22,7 @@
 #include "pgdr/predicates.hpp"
 #include "pgdr/refine.hpp"
 #include "pgdr/refiner.hpp"
+#include "pgdr/slot_set.hpp"
 
 namespace pgdr::detail {
 
@@ -102,6 +104,8 @@ class LeafRefinement {
     context_.stop = static_cast<int>(StopCause::cancelled);
     return true;
   }
+  void each_cell_part(const std::function<void(const CellPart&)>& f);
+  SlotSet changed_surroundings();
   void list_everything();
   StopCause refine_to_the_end();
   bool begin_last_resort();
