@@ -34,15 +34,13 @@ bool Generations<D>::one_generation() {
   renew_buffers(wanted);
   Generation<D> generation = conflicts_.plan(wanted);
   std::vector<Planned> planned(wanted.size());
-  // Of the vertices still allowed each visit gets its share, fixed now.
   const std::uint64_t left = context_.options.max_vertices - vertices_, n = planned.size();
-  for (std::size_t v = 0; v < n; ++v) {
-    planned[v].work.most_insertions = left / n + (v < left % n ? 1 : 0);
-    Base::prepare(generation.visits[v].request, planned[v].work);
-  }
   registry_.reset(tree_.node_count());  // grows geometrically; of use to debug builds alone
   const auto start = Clock::now();
   execute(generation.graph, [&](VisitGraph::Visit v) {
+    // Of the vertices still allowed each visit gets its share, fixed by its number.
+    planned[v].work.most_insertions = left / n + (v < left % n ? 1 : 0);
+    Base::prepare(generation.visits[v].request, planned[v].work);
     const Claim<D> claim = generation.visits[v].claim(tree_);
     const HeldClaim<D> held(registry_, claim);
     const ClaimedArea<D> area(tree_, claim);
