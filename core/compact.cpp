@@ -116,9 +116,12 @@ class CellOrder {
   using Cell = std::array<std::uint32_t, D + 1>;
 
   CellOrder(const detail::StrippedCells<D>& stripped, std::size_t vertices, const detail::Bulk& bulk)
-      : stripped_(&stripped), bulk_(&bulk), vertices_(vertices),
+      : stripped_(&stripped),
+        bulk_(&bulk),
+        vertices_(vertices),
         shift_(std::bit_width(std::max<std::size_t>(vertices / most_buckets, fewest_vertices))),
-        buckets_((vertices >> shift_) + 1), begin_(stripped.block_count() * buckets_ + 1, 0) {}
+        buckets_((vertices >> shift_) + 1),
+        begin_(stripped.block_count() * buckets_ + 1, 0) {}
 
   /// Gives the cells their numbers of vertices, in the memory of the stripped ones.
   void renumber(const std::vector<std::uint32_t>& number) {

@@ -3,103 +3,144 @@
 #include "pgdr/sharp_corners.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
+#include <numbers>
+#include <tuple>
+#include <vector>
 
+#include "detail/bent_facets.hpp"
 #include "detail/vectors.hpp"
 
 namespace pgdr {
 namespace {
 
-constexpr double rounding = 1e-9;  // of angles, in radians
+/// A segment of a facet (2D: of no facet) at one of its ends, seen along the facet's axis.
+struct Side {
+  std::uint32_t point;
+  EntityId facet;
+  double polar;  ///< angle of its direction, in radians
+  EntityId segment;
+  auto place() const { return std::tuple(point, facet); }
+};
 
-/// By the half angle (Kahan): exact to rounding near 0 as well, where the arc cosine loses half of its digits.
-template <std::size_t N>
-double angle_between(const std::array<double, N>& u, const std::array<double, N>& v) {
-  const double lu = std::sqrt(detail::dot(u, u)), lv = std::sqrt(detail::dot(v, v));
-  double apart = 0, together = 0;
-  for (std::size_t k = 0; k < N; ++k) {
-    apart += std::pow(u[k] / lu - v[k] / lv, 2);
-    together += std::pow(u[k] / lu + v[k] / lv, 2);
-  }
-  return 2 * std::atan2(std::sqrt(apart), std::sqrt(together));
-}
+/// A corner of a subfacet (2D: of a cell) at an input point.
+struct Corner {
+  std::uint32_t point;
+  EntityId facet;
+  VertexId at;
+  std::array<VertexId, 2> others;
+};
 
-}  // namespace
-
-template <int D>
-SharpCorners<D>::SharpCorners(const Domain<D>& domain, double radius_edge_bound)
-    : domain_(&domain), sine_(0.5 / radius_edge_bound) {
-  std::map<std::pair<std::uint32_t, EntityId>, std::vector<EntityId>> segments_at;  // by point and facet
-  for (EntityId s = 0; s < domain.segments().size(); ++s)
-    for (const std::uint32_t p : domain.segments()[s].points) {
-      if constexpr (D == 2) {
-        segments_at[{p, no_entity}].push_back(s);
-      } else {
-        for (const EntityId f : domain.facets_of_segment(s)) segments_at[{p, f}].push_back(s);
-      }
+/// Is f(corner) true for any of the cell?
+template <int D, class F>
+bool any_corner(const Mesh<D>& mesh, CellId c, const F& f) {
+  const auto in_triangle = [&](const std::array<VertexId, 3>& v, EntityId facet) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Home home = mesh.vertex(v[i]).home;
+      if (home.kind() == EntityKind::vertex && f(Corner{home.id(), facet, v[i], {v[(i + 1) % 3], v[(i + 2) % 3]}})) return true;
     }
-  for (const auto& [place, segments] : segments_at) add_corners(place.first, place.second, segments);
-}
-
-template <int D>
-void SharpCorners<D>::add_corners(std::uint32_t point, EntityId facet, const std::vector<EntityId>& segments) {
-  const auto direction = [&](EntityId s) {
-    const auto& ends = domain_->segments()[s].points;
-    return detail::difference<D>(domain_->points()[ends[0] == point ? ends[1] : ends[0]], domain_->points()[point]);
-  };
-  for (std::size_t i = 0; i < segments.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      const Direction u = direction(segments[i]), v = direction(segments[j]);
-      const double angle = angle_between(u, v);
-      if (!(std::cos(angle) > 0 && std::sin(angle) < sine_)) continue;
-      corners_[point].push_back({facet, {u, v}, angle});
-    }
-}
-
-/// Between its sides, or on one.
-template <int D>
-bool SharpCorners<D>::is_in_corner(const Corner& corner, const Point<D>& at, const Point<D>& x) const {
-  const Direction d = detail::difference<D>(x, at);
-  return angle_between(d, corner.sides[0]) + angle_between(d, corner.sides[1]) <= corner.angle + rounding;
-}
-
-template <int D>
-bool SharpCorners<D>::has_corner(const Mesh<D>& mesh, VertexId at, std::array<VertexId, 2> others, EntityId facet) const {
-  const Home home = mesh.vertex(at).home;
-  if (home.kind() != EntityKind::vertex) return false;
-  const auto corners = corners_.find(home.id());
-  if (corners == corners_.end()) return false;
-  const Point<D>& p = mesh.point(at);
-  return std::any_of(corners->second.begin(), corners->second.end(), [&](const Corner& corner) {
-    return corner.facet == facet && is_in_corner(corner, p, mesh.point(others[0])) &&
-           is_in_corner(corner, p, mesh.point(others[1]));
-  });
-}
-
-template <int D>
-bool SharpCorners<D>::meets(const Mesh<D>& mesh, CellId c) const {
-  const auto& v = mesh.cell(c).vertices;
-  const auto triangle_meets = [&](const std::array<VertexId, 3>& t, EntityId facet) {
-    for (std::size_t i = 0; i < 3; ++i)
-      if (has_corner(mesh, t[i], {t[(i + 1) % 3], t[(i + 2) % 3]}, facet)) return true;
     return false;
   };
+  const auto& v = mesh.cell(c).vertices;
   if constexpr (D == 2) {
-    return triangle_meets(v, no_entity);
+    return in_triangle(v, no_entity);
   } else {
     const auto* constraints = mesh.constraints(c);
-    for (int f = 0; constraints && f <= D; ++f) {
-      const auto& corners = face_corners<D>[f];
-      if ((constraints->faces >> f & 1) &&
-          triangle_meets({v[corners[0]], v[corners[1]], v[corners[2]]}, constraints->face_entity[f]))
+    for (int i = 0; constraints && i <= D; ++i) {
+      const auto& face = face_corners<D>[i];
+      if ((constraints->faces >> i & 1) && in_triangle({v[face[0]], v[face[1]], v[face[2]]}, constraints->face_entity[i]))
         return true;
     }
     return false;
   }
 }
 
-template class SharpCorners<2>;
-template class SharpCorners<3>;
+template <int D>
+class SharpCorners {
+ public:
+  /// `wanted`: the domain points that will be asked for.
+  SharpCorners(const Domain<D>& domain, double radius_edge_bound, const std::vector<bool>& wanted)
+      : domain_(&domain), largest_(std::asin(std::min(0.5 / radius_edge_bound, 1.0)) * (180 / std::numbers::pi)) {
+    for (EntityId s = 0; s < domain.segments().size(); ++s)
+      for (const std::uint32_t p : domain.segments()[s].points)
+        if (wanted[p]) add_sides(s, p);
+    std::sort(sides_.begin(), sides_.end(), [](const Side& a, const Side& b) {
+      return std::tuple(a.place(), a.polar) < std::tuple(b.place(), b.polar);
+    });
+  }
+
+  bool meets(const Mesh<D>& mesh, CellId c) const {
+    return any_corner(mesh, c, [&](const Corner& corner) { return is_sharp(mesh, corner); });
+  }
+
+ private:
+  /// No segment passes through a subfacet, so that it lies between the two that are next to it.
+  bool is_sharp(const Mesh<D>& mesh, const Corner& corner) const {
+    const auto at_place = std::equal_range(sides_.begin(), sides_.end(), Side{corner.point, corner.facet, 0, 0},
+                                           [](const Side& a, const Side& b) { return a.place() < b.place(); });
+    const std::span<const Side> sides(at_place.first, at_place.second);
+    if (sides.size() < 2) return false;
+    const double polar = middle(corner.facet, mesh.point(corner.at), mesh.point(corner.others[0]), mesh.point(corner.others[1]));
+    const auto beyond = std::upper_bound(sides.begin(), sides.end(), polar, [](double p, const Side& s) { return p < s.polar; });
+    const Side& left = beyond == sides.end() ? sides.front() : *beyond;
+    const Side& right = beyond == sides.begin() ? sides.back() : *(beyond - 1);
+    const double width = left.polar - right.polar;
+    return (width < 0 ? width + 2 * std::numbers::pi : width) < std::numbers::pi &&
+           entity_angle(*domain_, {EntityKind::segment, left.segment}, {EntityKind::segment, right.segment}) < largest_;
+  }
+
+  void add_sides(EntityId s, std::uint32_t p) {
+    const auto& ends = domain_->segments()[s].points;
+    const Point<D>& from = domain_->points()[p];
+    const Point<D>& to = domain_->points()[ends[0] == p ? ends[1] : ends[0]];
+    const auto add = [&](EntityId facet) { sides_.push_back({p, facet, middle(facet, from, to, to), s}); };
+    if constexpr (D == 2) {
+      add(no_entity);
+    } else {
+      for (const EntityId f : domain_->facets_of_segment(s)) add(f);
+    }
+  }
+  /// Polar angle of the direction midway between those from `from` to a and to b.
+  double middle(EntityId facet, const Point<D>& from, const Point<D>& a, const Point<D>& b) const {
+    std::array<double, 2> sum{};
+    for (const Point<D>* to : {&a, &b}) {
+      detail::Vector<2> d;
+      if constexpr (D == 2) {
+        d = detail::difference<2>(*to, from);
+      } else {
+        const int axis = domain_->facets()[facet].axis;
+        d = detail::difference<2>(detail::projected(*to, axis), detail::projected(from, axis));
+      }
+      const double length = std::hypot(d[0], d[1]);
+      for (std::size_t i = 0; i < 2; ++i) sum[i] += d[i] / length;
+    }
+    return std::atan2(sum[1], sum[0]);
+  }
+
+  const Domain<D>* domain_;
+  double largest_;  // angle of a sharp corner, in degrees
+  std::vector<Side> sides_;  // by place, then counter-clockwise
+};
+
+}  // namespace
+
+template <int D>
+std::uint64_t count_in_sharp_corners(const Mesh<D>& mesh, const Domain<D>& domain, double radius_edge_bound,
+                                     std::span<const CellId> cells) {
+  std::vector<bool> wanted(domain.points().size());
+  for (const CellId c : cells)
+    any_corner(mesh, c, [&](const Corner& corner) {
+      wanted[corner.point] = true;
+      return false;
+    });
+  const SharpCorners<D> sharp(domain, radius_edge_bound, wanted);
+  std::uint64_t count = 0;
+  for (const CellId c : cells) count += sharp.meets(mesh, c) ? 1 : 0;
+  return count;
+}
+
+template std::uint64_t count_in_sharp_corners<2>(const Mesh<2>&, const Domain<2>&, double, std::span<const CellId>);
+template std::uint64_t count_in_sharp_corners<3>(const Mesh<3>&, const Domain<3>&, double, std::span<const CellId>);
 
 }  // namespace pgdr

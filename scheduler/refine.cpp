@@ -213,13 +213,13 @@ template <int D>
 std::vector<PoorCell> take_poor(const RefineContext<D>& context, Refined<D>& refined, RefineResult<D>& result) {
   const RefineOptions<D>& options = context.options;
   if (options.refine && result.stop == StopCause::finished) {
-    if (refined.poor.empty()) return {};
-    const SharpCorners<D> sharp(context.domain, options.radius_edge_bound);
+    std::vector<CellId> over_bound;
     for (const PoorCell& p : refined.poor) {
-      result.poor_left += p.over_bound ? 1 : 0;
-      result.poor_unavoidable += p.over_bound && sharp.meets(context.mesh, p.cell) ? 1 : 0;
+      if (p.over_bound) over_bound.push_back(p.cell);
       result.size_met = result.size_met && !p.over_size;
     }
+    result.poor_left = over_bound.size();
+    result.poor_unavoidable = count_in_sharp_corners<D>(context.mesh, context.domain, options.radius_edge_bound, over_bound);
     return std::move(refined.poor);
   }
   const PoorCount count = refined.counted && in_haste(result.stop) ? *refined.counted : count_poor(context);

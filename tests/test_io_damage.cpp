@@ -101,7 +101,8 @@ std::vector<Format> formats() {
       {"msh_as_input_2d", "a.msh", [] { return mesh_bytes<2>(".msh"); }, read_input<2>, true},
   };
   for (const PlyEncoding encoding : ply_encodings)
-    all.push_back({"ply_" + ply_name(encoding), "a.ply", [encoding] { return ply_file(encoding); }, read_input<3>, encoding != PlyEncoding::text});
+    all.push_back({"ply_" + ply_name(encoding), "a.ply", [encoding] { return ply_file(encoding); }, read_input<3>,
+                   encoding != PlyEncoding::text});
   for (const MshVariant& v : msh_variants) {
     all.push_back({v.name(), "a.msh", [v] { return msh_file(two_tetrahedra(), v); }, read_output<3>, true});
     all.push_back({v.name() + "_as_input", "a.msh", [v] { return msh_file(two_tetrahedra(), v); }, read_input<3>, true});

@@ -33,7 +33,6 @@ class Bulk {
   explicit Bulk(bool parallel, std::stop_token stop = {})
       : parallel_(parallel && tbb::this_task_arena::max_concurrency() > 1), stop_(std::move(stop)) {}
 
-  bool parallel() const { return parallel_; }
   bool stopped() const { return stop_.stop_requested(); }
 
   /// Calls f(first, last) for blocks that cover [0, count). With `parallel`, several at once; isolated, so that the

@@ -8,41 +8,18 @@
 // facet has such a cell at each such corner, on each side of the facet that is in the domain.
 #pragma once
 
-#include <array>
-#include <unordered_map>
-#include <vector>
+#include <cstdint>
+#include <span>
 
 #include "pgdr/mesh.hpp"
 
 namespace pgdr {
 
-/// Those of one input. Immutable; const members from any thread.
+/// How many of the cells, all alive, have a subfacet (2D: an angle) in such a corner, so that they cannot but be over the bound.
+/// Takes time proportional to the segments, times the logarithm of how many there are at corners of the cells. Any thread that
+/// may read the mesh.
 template <int D>
-class SharpCorners {
- public:
-  /// Takes time proportional to the pairs of segments of a facet that meet. The domain must outlive it.
-  SharpCorners(const Domain<D>& domain, double radius_edge_bound);
-
-  /// Has the cell a subfacet (2D: an angle) in one of them, so that it cannot but be over the bound?
-  bool meets(const Mesh<D>& mesh, CellId c) const;
-
- private:
-  using Direction = std::array<double, D>;
-  struct Corner {
-    EntityId facet;  // 2D: none
-    std::array<Direction, 2> sides;
-    double angle;  // between them, in radians
-  };
-  void add_corners(std::uint32_t point, EntityId facet, const std::vector<EntityId>& segments);
-  bool is_in_corner(const Corner& corner, const Point<D>& at, const Point<D>& x) const;
-  bool has_corner(const Mesh<D>& mesh, VertexId at, std::array<VertexId, 2> others, EntityId facet) const;
-
-  const Domain<D>* domain_;
-  double sine_;  // of the largest angle, 1 / (2 bound)
-  std::unordered_map<std::uint32_t, std::vector<Corner>> corners_;  // by domain point
-};
-
-extern template class SharpCorners<2>;
-extern template class SharpCorners<3>;
+std::uint64_t count_in_sharp_corners(const Mesh<D>& mesh, const Domain<D>& domain, double radius_edge_bound,
+                                     std::span<const CellId> cells);
 
 }  // namespace pgdr

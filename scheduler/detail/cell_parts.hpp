@@ -14,7 +14,8 @@ namespace pgdr::detail {
 /// Threads that visits can run on.
 int threads_of(const ScheduleOptions& options);
 
-/// A part of the cells' slots: [first, last), all but the last as many words of a SlotSet. Its number says where it stands among all.
+/// A part of the cells' slots: [first, last), in all but the last as many as are whole words of a SlotSet. Its number says where
+/// it stands among all.
 struct CellPart {
   std::uint32_t number, first, last;
 };

@@ -44,7 +44,7 @@ struct SchedulerStatistics {
   int threads = 1;                          ///< threads that visits could run on
   double serial_seconds = 0;                ///< of the refinement outside visits
   double work_seconds = 0;                  ///< all visits and serial_seconds
-  double critical_path_seconds = 0;         ///< likewise, of splits side by side the longest; and longest chains of visits
+  double critical_path_seconds = 0;         ///< likewise, of what is done side by side the longest; and longest chains of visits
   double seconds_in_generations = 0;        ///< from the start of each generation's first visit to the end of its last
   std::vector<double> busy_seconds;         ///< in visits, of each thread that ran any; a thread that ended has a successor
 };

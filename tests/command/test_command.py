@@ -217,7 +217,8 @@ class Mesh(Case):
             self.assertGreaterEqual(r["seconds"]["total"], r["seconds"]["mesh"])
             self.assertGreater(r["peak_rss_bytes"], 1 << 20)
             bound = 2 if dimension == 3 else 2 ** 0.5
-            self.assertEqual(r["bounds"], {"radius_edge": bound, "size_met": True, "poor_left": 0, "poor_unavoidable": 0, "reasons": []})
+            self.assertEqual(r["bounds"], {"radius_edge": bound, "size_met": True, "poor_left": 0, "poor_unavoidable": 0,
+                                           "reasons": []})
             self.assertLessEqual(r["quality"]["max_radius_edge"], bound * (1 + 1e-9))
             angles = 6 if dimension == 3 else 3
             self.assertEqual(sum(r["quality"]["histogram"]), angles * r["cells"])
