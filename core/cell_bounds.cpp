@@ -105,19 +105,26 @@ bool CellBounds<D>::within_size(const Simplex<D>& s, int region) const {
 }
 
 template <int D>
-bool CellBounds<D>::over_size(const Mesh<D>& mesh, CellId c, const CellShape& shape) const {
+std::uint32_t CellBounds<D>::over_size(const Mesh<D>& mesh, CellId c, const CellShape& shape) const {
+  std::uint32_t cells = 0;
+  const auto bound_measure = [&](double bound) {
+    if (within_measure(mesh, c, shape, bound)) return;
+    cells = std::max(cells, cells_to_fill(static_cast<float>(std::fabs(shape.det) / (bound * (D == 3 ? 6 : 2)))));
+  };
   if (size.bounded() || !region_size.empty()) {
     const double bound = size_of([&] { return mesh.simplex(c); }, mesh.region(c));
     if constexpr (D == 3) {
       const double limit = bound * bound;
-      if (shape.squared_radius_low > limit) return true;
-      if (!(shape.squared_radius_high < limit) && !circumradius_within<D>(mesh.simplex(c), bound)) return true;
+      const bool decided = shape.squared_radius_low > limit || shape.squared_radius_high < limit;
+      if (decided ? shape.squared_radius_low > limit : !circumradius_within<D>(mesh.simplex(c), bound))
+        cells = cells_to_fill_sphere(static_cast<float>(shape.squared_radius_low / limit));
     } else {
-      if (!within_measure(mesh, c, shape, bound)) return true;
+      bound_measure(bound);
     }
   }
   const double measure = measure_of(mesh.region(c));
-  return measure != std::numeric_limits<double>::infinity() && !within_measure(mesh, c, shape, measure);
+  if (measure != std::numeric_limits<double>::infinity()) bound_measure(measure);
+  return cells;
 }
 
 template class CellBounds<2>;

@@ -48,6 +48,19 @@ void Mesh<D>::grow_cells_to(std::uint32_t n) {
 }
 
 template <int D>
+std::vector<std::span<std::byte>> Mesh<D>::fresh_pages(std::uint64_t cells, std::uint64_t vertices) {
+  std::vector<std::span<std::byte>> all;
+  const auto add = [&](auto& array, std::uint32_t used, std::uint64_t more) {
+    const auto pages = array.fresh_pages(used, static_cast<std::uint32_t>(std::min<std::uint64_t>(used + more, capacity_)));
+    all.insert(all.end(), pages.begin(), pages.end());
+  };
+  add(cells_, cell_bound(), cells);
+  if constexpr (D == 3) add(tags_, cell_bound(), cells);
+  add(vertices_, vertex_bound(), vertices);
+  return all;
+}
+
+template <int D>
 bool Mesh<D>::conflicts_exactly(CellId c, const Point<D>& p) const {
   const CellRecord<D>& k = cell(c);
   for (int i = 0; i <= D; ++i) {

@@ -176,7 +176,7 @@ void PoorReasons<D>::look_at(CellId c, bool violated, PoorFindings& found) const
   // Without a small angle nearby a violation is one of rounding, which needs no reason.
   const bool beside = violated && (reason = explain(c, true)).code == PoorReason::Code::small_angle;
   if (verdict && !beside) reason = explain(c, false);
-  if (verdict || beside) found.poor.push_back({c, static_cast<bool>(verdict), verdict.over_size, reason});
+  if (verdict || beside) found.poor.push_back({c, static_cast<bool>(verdict), verdict.over_size > 0, reason});
   if (verdict && reason.code == PoorReason::Code::rounding && !checking::is_as_short_as_rounding<D>(mesh_->simplex(c))) {
     found.unexplained.push_back(c);
   } else if (violated && !beside && is_violated_beyond_rounding(c)) {
@@ -269,7 +269,7 @@ PoorCount count_poor_cells(const Mesh<D>& mesh, const CellBounds<D>& bounds, std
     if (!mesh.alive(CellId{i})) continue;
     const CellVerdict verdict = bounds.test(mesh, CellId{i});
     poor.cells += verdict ? 1 : 0;
-    poor.over_size = poor.over_size || verdict.over_size;
+    poor.over_size = poor.over_size || verdict.over_size > 0;
   }
   return poor;
 }

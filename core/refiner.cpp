@@ -67,9 +67,8 @@ Refiner<D>::Refiner(RefineContext<D>& context, Pools pools)
 }
 
 template <int D>
-void Refiner<D>::list_poor(CellId c, int why, const FilterSphere<D>& sphere) {
+void Refiner<D>::list_poor(CellId c, int why, const FilterSphere<D>& sphere, std::uint32_t order) {
   assert(!visit_->area || visit_->area->owns(*mesh_, c));
-  const std::uint32_t order = why == Item::over_radius_edge ? order_of(c, sphere) : 0;
   const Item e = make_entry(c, EntryKind::cell, why, context_->bucket_of(sphere), order);
   if (!visit_->area || visit_->area->is_home(sphere.center)) return visit_->list->push_poor(e);
   abroad_.push_back(e);
@@ -122,12 +121,16 @@ void Refiner<D>::list_entities(CellId c, const ConstraintRecord<D>& k) {
 template <int D>
 void Refiner<D>::list_cell(CellId c) {
   if (const auto* k = mesh_->constraints(c)) list_entities(c, *k);
-  list_if_poor(c, context_->bounds.test(*mesh_, c));
+  list_if_poor(c);
 }
 
 template <int D>
-void Refiner<D>::list_if_poor(CellId c, const CellVerdict& verdict) {
-  if (verdict) list_poor(c, verdict.over_size ? Item::over_size : Item::over_radius_edge);
+void Refiner<D>::list_if_poor(CellId c) {
+  const CellVerdict verdict = context_->bounds.test(*mesh_, c);
+  if (!verdict) return;
+  const FilterSphere<D> sphere = mesh_->sphere(c);
+  if (verdict.over_size > 0) return list_poor(c, Item::over_size, sphere, verdict.over_size);
+  list_poor(c, Item::over_radius_edge, sphere, order_of(c, sphere));
 }
 
 /// The same of the i-th cell that the last insertion has made, whose shape is known.
@@ -139,10 +142,12 @@ void Refiner<D>::list_new_if_poor(std::size_t i) {
   const Answer answer = quick_bounds_.look(shape);
   if (answer == Answer::within) return;
   const CellId c = cavity_.new_cells()[i];
-  if (answer == Answer::over_size || context_->bounds.over_size(*mesh_, c, shape)) {
-    list_poor(c, Item::over_size, sphere);
+  const bool too_big = answer == Answer::over_size;
+  const std::uint32_t over_size = too_big ? quick_bounds_.over_size(shape) : context_->bounds.over_size(*mesh_, c, shape);
+  if (over_size > 0) {
+    list_poor(c, Item::over_size, sphere, over_size);
   } else if (context_->bounds.over_radius_edge(*mesh_, c, shape)) {
-    list_poor(c, Item::over_radius_edge, sphere);
+    list_poor(c, Item::over_radius_edge, sphere, order_of(c, sphere));
   }
 }
 
@@ -201,7 +206,7 @@ void Refiner<D>::flip(const Item& e) {
     outcome = flips_.rewrap(pools_, e.cell, e.which(), Effort::wide);
   if (still_stuck() && visit_->rewraps) outcome = flips_.rewrap(pools_, e.cell, e.which(), Effort::quick);
   if (outcome == LocalFlips<D>::Outcome::not_owned) return visit_->set_aside.push_back(e);
-  if (outcome == LocalFlips<D>::Outcome::stuck) return list_poor(e.cell, Item::not_delaunay);
+  if (outcome == LocalFlips<D>::Outcome::stuck) return list_poor(e.cell, Item::not_delaunay, mesh_->sphere(e.cell), 0);
   if (visit_->rewraps && made_before()) flips_left_ -= std::min(flips_left_ - 1, price_of_repetition);
   --flips_left_;
   flipped();
@@ -431,7 +436,7 @@ void Refiner<D>::run(RegionVisit<D>& visit) {
   while (visit.treat_list && list.poor() > 0 && go_on) {
     const int bucket = list.first_bucket();
     if (bucket > last_bucket) break;
-    const bool crowded = list.poor() >= visit.floor;
+    const bool crowded = list.is_crowded(visit.floor);
     if (crowded && context_->largest_radius(bucket) <= visit.small_radius) break;
     // The largest go first where the region is to be split, or where the visit is to end by size.
     const bool by_size = (crowded && visit.small_radius > 0) || last_bucket < std::numeric_limits<int>::max();

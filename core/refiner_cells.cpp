@@ -210,13 +210,13 @@ template <int D>
 auto Refiner<D>::split_instead(const Item& entity, const Item& e, const CellVerdict& verdict) -> Outcome {
   if (options_->keep_boundary) {
     last_refusal_ = EntityPair{{EntityRef{EntityKind::segment, mesh_->constraints(entity.cell)->face_entity[entity.which()]}, {}}};
-    return verdict.over_size ? insert_inside(e, verdict) : Outcome::refused;
+    return verdict.over_size > 0 ? insert_inside(e, verdict) : Outcome::refused;
   }
   const Demand demand = demand_on_entity(e.cell, verdict);
   cavity_.release();
   const Outcome outcome = entity.kind() == EntryKind::edge ? split_edge(entity, &demand) : split_face(entity, &demand);
   // The element is looked at again if the split left it as it was.
-  if (outcome == Outcome::committed && alive(e)) list_poor(e.cell, e.which());
+  if (outcome == Outcome::committed && alive(e)) list_again(e);
   return outcome;
 }
 
@@ -238,9 +238,9 @@ CellVerdict Refiner<D>::verdict_of(const Item& e) const {
   if (e.which() == Item::over_size) {
     const auto [low, high] = mesh_->squared_radius_bounds(sphere_of(e));
     const CellShape shape{shortest_edge_squared<D>(mesh_->simplex(e.cell)), low, high, 0, CellBounds<D>::infinity};
-    return {bounds.over_radius_edge(*mesh_, e.cell, shape), true};
+    return {bounds.over_radius_edge(*mesh_, e.cell, shape), std::max(e.order, std::uint32_t{1})};
   }
-  if (e.which() == Item::over_radius_edge) return {true, false};
+  if (e.which() == Item::over_radius_edge) return {true, 0};
   return bounds.test(*mesh_, e.cell);
 }
 
@@ -254,7 +254,7 @@ auto Refiner<D>::treat_cell(const Item& e) -> Outcome {
   }
   CellVerdict verdict = verdict_of(e);
   if constexpr (D == 2) {
-    if (!verdict.over_size && e.which() != Item::not_delaunay) {
+    if (verdict.over_size == 0 && e.which() != Item::not_delaunay) {
       const auto vertex = [&](int i) { return &mesh_->vertex(mesh_->cell(e.cell).vertices[i]); };
       last_refusal_ = small_angle_across(*domain_, {vertex(0), vertex(1), vertex(2)}, options_->radius_edge_bound);
       if (last_refusal_) {

@@ -267,8 +267,8 @@ auto Refiner<D>::note_change(const Item& e, std::vector<CellId> new_cells, bool 
   ++visit_->counts.improved;
   visit_->changed_mesh = true;
   visit_->violations_seen = visit_->violations_seen || violates;
-  for (const CellId c : new_cells) list_if_poor(c, context_->bounds.test(*mesh_, c));
-  if (alive(e)) list_poor(e.cell, e.which());  // the change was beside it
+  for (const CellId c : new_cells) list_if_poor(c);
+  if (alive(e)) list_again(e);  // the change was beside it
   return Outcome::committed;
 }
 

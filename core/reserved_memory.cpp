@@ -28,6 +28,11 @@ void ask_for_huge_pages(void* memory, std::size_t bytes) {
 #endif
 }
 
+void touch_pages(std::span<std::byte> fresh) {
+  constexpr std::size_t smallest_page = 4096;
+  for (std::size_t i = 0; i < fresh.size(); i += smallest_page) static_cast<volatile std::byte&>(fresh[i]) = std::byte{0};
+}
+
 // Pages without access count against nothing but the limit on addresses.
 ReservedMemory::ReservedMemory(std::size_t bytes) : reserved_(rounded_up(bytes, huge_page)) {
   mapped_ = mmap(nullptr, reserved_ + huge_page, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
@@ -48,6 +53,17 @@ void ReservedMemory::grow(std::size_t bytes) {
   if (mprotect(base_ + usable, wanted - usable, PROT_READ | PROT_WRITE) != 0) throw std::bad_alloc();
   if (wanted > huge_page) ask_for_huge_pages(base_ + usable, wanted - usable);
   usable_.store(wanted, std::memory_order_release);
+}
+
+std::vector<std::span<std::byte>> ReservedMemory::fresh_pages(std::size_t first, std::size_t bytes) {
+  std::vector<std::span<std::byte>> pages;
+  first = rounded_up(std::max(first, returned_), huge_page);
+  const std::size_t last = std::min(bytes, reserved_) / huge_page * huge_page;
+  if (first >= last) return pages;
+  grow_to(last);
+  returned_ = last;
+  for (; first < last; first += huge_page) pages.emplace_back(base_ + first, huge_page);
+  return pages;
 }
 
 void ReservedMemory::discard(std::size_t first, std::size_t last) {

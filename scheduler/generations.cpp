@@ -32,6 +32,7 @@ bool Generations<D>::one_generation() {
   ++generation_;
   ++statistics_.generations;
   renew_buffers(wanted);
+  touch_memory(wanted);
   Generation<D> generation = conflicts_.plan(wanted);
   std::vector<Planned> planned(wanted.size());
   const std::uint64_t left = context_.options.max_vertices - vertices_, n = planned.size();
@@ -40,16 +41,30 @@ bool Generations<D>::one_generation() {
   execute(generation.graph, [&](VisitGraph::Visit v) {
     // Of the vertices still allowed each visit gets its share, fixed by its number.
     planned[v].work.most_insertions = left / n + (v < left % n ? 1 : 0);
-    Base::prepare(generation.visits[v].request, planned[v].work);
-    const Claim<D> claim = generation.visits[v].claim(tree_);
-    const HeldClaim<D> held(registry_, claim);
-    const ClaimedArea<D> area(tree_, claim);
-    if (generation.visits[v].request.order == 1) works_[generation.visits[v].request.leaf].open_inbox();
-    planned[v].seconds = Base::visit(generation.visits[v].request, area, planned[v].work);
+    run_visit(generation.visits[v], planned[v]);
   });
-  statistics_.seconds_in_generations += std::chrono::duration<double>(Clock::now() - start).count();
+  statistics_.seconds_in_generations += seconds_since(start);
   finish(generation, planned);
   return true;
+}
+
+/// What it finds for other leaves that it has claimed is there when these are visited, if after it: whether it is, is in the plan.
+template <int D>
+void Generations<D>::run_visit(const Visit<D>& visit, Planned& planned) {
+  const typename Base::Watch watch;
+  Base::prepare(visit.request, planned.work);
+  const Claim<D> claim = visit.claim(tree_);
+  const HeldClaim<D> held(registry_, claim);
+  const ClaimedArea<D> area(tree_, claim);
+  if (visit.request.order == 1) works_[visit.request.leaf].open_inbox();
+  if (!Base::work_off(area, planned.work)) return;
+  std::erase_if(planned.work.outboxes, [&](typename RegionVisit<D>::Outbox& box) {
+    const bool claimed = visit.leaves.empty() || std::binary_search(visit.leaves.begin(), visit.leaves.end(), box.leaf);
+    if (claimed) Base::post(box.leaf, std::move(box.entries));
+    return claimed;
+  });
+  Base::mark_changed(planned.work, visit.leaves);
+  planned.seconds = Base::record(visit.request, planned.work, watch);
 }
 
 /// For assertions: large meshes are not looked at, lest debug builds take for ever.
@@ -81,14 +96,13 @@ void Generations<D>::execute_pieces(std::size_t pieces, const VisitBody& piece) 
   VisitGraph independent;
   for (std::size_t i = 0; i < pieces; ++i) independent.add_visit();
   std::vector<double> seconds(pieces, 0.0);
-  const auto since = [](typename Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); };
   const auto start = Clock::now();
   execute(independent, [&](VisitGraph::Visit v) {
     const auto piece_start = Clock::now();
     piece(v);
-    seconds[v] = since(piece_start);
+    seconds[v] = seconds_since(piece_start);
   });
-  statistics_.critical_path_seconds -= since(start);
+  statistics_.critical_path_seconds -= seconds_since(start);
   if (pieces > 0) statistics_.critical_path_seconds += *std::max_element(seconds.begin(), seconds.end());
 }
 
@@ -103,6 +117,19 @@ void Generations<D>::renew_buffers(std::span<const VisitRequest> requests) {
     const std::size_t first = v * leaves_a_piece, last = std::min(stale.size(), first + leaves_a_piece);
     for (std::size_t i = first; i < last; ++i) conflicts_.renew(stale[i]);
   });
+}
+
+/// What the cells to come need: a visit that has to wait for the kernel makes others wait.
+template <int D>
+void Generations<D>::touch_memory(std::span<const VisitRequest> requests) {
+  std::uint64_t cells = 0;
+  for (const VisitRequest& r : requests)
+    if (r.order == 1) cells += works_[r.leaf].list.to_come();
+  cells += cells / 2;  // so many were made of them where sizes vary little, and more where they vary much
+  constexpr std::uint64_t cells_a_vertex = D == 3 ? 6 : 2;  // a little less than there are
+  const std::uint64_t vertices = std::min(cells / cells_a_vertex, context_.options.max_vertices - vertices_);
+  const auto pages = context_.mesh.fresh_pages(vertices * cells_a_vertex, vertices);
+  execute_pieces(pages.size(), [&](VisitGraph::Visit v) { touch_pages(pages[v]); });
 }
 
 /// Splits those that may, and their children as long as these may.

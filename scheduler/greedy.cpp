@@ -161,6 +161,7 @@ void Greedy<D>::split(Node leaf) {
 template <int D>
 void Greedy<D>::end(Running& visit) {
   reserved_ -= std::min(reserved_, visit.work.most_insertions);
+  Base::mark_changed(visit.work, visit.leaves);
   Base::account(visit.request, visit.work, visit.leaves);
   hand_over(visit);
   for (const Node leaf : visit.leaves) claimed_[leaf] = 0;
@@ -174,6 +175,12 @@ void Greedy<D>::end(Running& visit) {
   if (Base::whole_tree_waits() && std::none_of(pool_.begin(), pool_.end(), of_whole_tree))
     pool({Base::whole_tree_leaf(), whole_tree, 0}, Orthtree<D>::max_level + 1);
   ended_.notify_all();
+}
+
+template <int D>
+void Greedy<D>::run_visit(Running& visit) {
+  const typename Base::Watch watch;
+  if (Base::work_off(*visit.area, visit.work)) Base::record(visit.request, visit.work, watch);
 }
 
 template <int D>
@@ -191,7 +198,7 @@ void Greedy<D>::run_on_threads() {
       lock.unlock();
       std::exception_ptr thrown;
       try {
-        Base::visit(visit->request, *visit->area, visit->work);
+        run_visit(*visit);
       } catch (...) {
         thrown = std::current_exception();
       }
@@ -219,7 +226,7 @@ void Greedy<D>::run_in_arena() {
         group.run([this, visit, &start_ready] {
           try {
             // Isolated: a callback that waits for parallel work of its own must not pick up another visit meanwhile.
-            tbb::this_task_arena::isolate([&] { Base::visit(visit->request, *visit->area, visit->work); });
+            tbb::this_task_arena::isolate([&] { run_visit(*visit); });
           } catch (...) {
             context_.stop = static_cast<int>(StopCause::cancelled);
             const std::lock_guard end_lock(mutex_);
@@ -253,7 +260,7 @@ StopCause Greedy<D>::drain() {
   } else {
     run_on_threads();
   }
-  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  const double seconds = Base::seconds_since(start);
   statistics_.seconds_in_generations += seconds;
   statistics_.critical_path_seconds += seconds;
   if (const int stop = context_.stop; stop != 0) return static_cast<StopCause>(stop);

@@ -156,8 +156,8 @@ void LeafRefinement<D>::relist(const Entry<D>& e) {
 /// Has anything changed that the visit could see? `work`: of the leaf that was visited; null: the whole tree.
 template <int D>
 bool LeafRefinement<D>::may_have_changed(const LeafWork<D>* work, const Refusal<D>& refusal) const {
-  if (!work || refusal.order == whole_tree) return last_change_ >= refusal.generation;
   if (whole_changed_ >= refusal.generation) return true;
+  if (!work || refusal.order == whole_tree) return last_change_ >= refusal.generation;
   const auto zone = work->zones.find(refusal.order);
   return zone == work->zones.end() || std::any_of(zone->second.begin(), zone->second.end(), [&](Node n) {
            return works_[n].changed >= refusal.generation;
@@ -170,6 +170,7 @@ std::vector<Refusal<D>> LeafRefinement<D>::take_refused() {
   bool any = false;
   for_each_refused([&any](std::span<const Refusal<D>> refused) { any = any || !refused.empty(); });
   if (!any) return {};
+  works_.pass_up_changes();
   const auto has_changed = [this](const Refusal<D>& r) {
     return r.seen.empty() || surroundings_of<D>(context_.mesh, r.seen) != r.surroundings;
   };
@@ -201,14 +202,10 @@ bool LeafRefinement<D>::relist_refused() {
   return !requests().empty();
 }
 
-/// Marks the leaves, and the nodes above them, so that a node knows of changes in any of its parts.
 template <int D>
-void LeafRefinement<D>::note_change(std::span<const Node> claim) {
-  last_change_ = generation_;
-  if (claim.empty()) whole_changed_ = generation_;
-  for (const Node leaf : claim)
-    for (Node n = leaf; n != Orthtree<D>::none && works_[n].changed != generation_; n = tree_.parent(n))
-      works_[n].changed = generation_;
+void LeafRefinement<D>::mark_changed(const RegionVisit<D>& visit, std::span<const Node> claim) {
+  if (!visit.changed_mesh) return;
+  for (const Node leaf : claim) works_[leaf].changed = generation_;
 }
 
 /// Treats all that waits, and what was refused as often as its surroundings change.
@@ -253,7 +250,7 @@ void LeafRefinement<D>::total_statistics() {
   double in_visits = 0;
   for (const double s : statistics_.busy_seconds) in_visits += s;
   statistics_.critical_path_seconds -= statistics_.serial_seconds;
-  statistics_.serial_seconds = std::chrono::duration<double>(Clock::now() - start_).count() - statistics_.seconds_in_generations;
+  statistics_.serial_seconds = seconds_since(start_) - statistics_.seconds_in_generations;
   statistics_.work_seconds = in_visits + statistics_.serial_seconds;
   statistics_.critical_path_seconds += statistics_.serial_seconds;
 }
@@ -312,7 +309,7 @@ void LeafRefinement<D>::prepare(const VisitRequest& request, RegionVisit<D>& vis
 
 template <int D>
 void LeafRefinement<D>::account(const VisitRequest& request, RegionVisit<D>& visit, std::span<const Node> claim) {
-  if (visit.changed_mesh) note_change(claim);
+  if (visit.changed_mesh) (claim.empty() ? whole_changed_ : last_change_) = generation_;
   if (!claim.empty() && visit.counts.refused > 0)
     works_[request.leaf].zones.try_emplace(request.order, claim.begin(), claim.end());
   counts_ += visit.counts;
@@ -359,7 +356,7 @@ void LeafRefinement<D>::set_aside(Node leaf, std::uint32_t order, const Entry<D>
 template <int D>
 bool LeafRefinement<D>::wants_split(Node leaf) {
   WorkList<D>& list = works_[leaf].list;
-  return tree_.can_split(leaf) && list.poor() > 0 && list.poor() >= floor() &&
+  return tree_.can_split(leaf) && list.poor() > 0 && list.is_crowded(floor()) &&
          context_.largest_radius(list.first_bucket()) <= small_radius(leaf);
 }
 

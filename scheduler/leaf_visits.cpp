@@ -29,11 +29,9 @@ void LeafRefinement<D>::check_in(Worker worker) {
 }
 
 template <int D>
-double LeafRefinement<D>::visit(const VisitRequest& request, const VisitArea<D>& area, RegionVisit<D>& visit) {
-  if (context_.stop.load(std::memory_order_relaxed) != 0) return 0;
+bool LeafRefinement<D>::work_off(const VisitArea<D>& area, RegionVisit<D>& visit) {
+  if (context_.stop.load(std::memory_order_relaxed) != 0) return false;
   const DefaultFloats floats;
-  const auto start = Clock::now();
-  const PredicateCounts predicates_before = predicate_counts();
   Worker worker = check_out();
   try {
     visit.area = &area;
@@ -44,23 +42,22 @@ double LeafRefinement<D>::visit(const VisitRequest& request, const VisitArea<D>&
     throw;
   }
   check_in(std::move(worker));
-  return record(request, visit, start, predicates_before);
+  return true;
 }
 
 template <int D>
-double LeafRefinement<D>::record(const VisitRequest& request, const RegionVisit<D>& visit, Clock::time_point start,
-                                 const PredicateCounts& predicates_before) {
+double LeafRefinement<D>::record(const VisitRequest& request, const RegionVisit<D>& visit, const Watch& watch) {
   const auto end = Clock::now();
-  const double seconds = std::chrono::duration<double>(end - start).count();
+  const double seconds = std::chrono::duration<double>(end - watch.start).count();
   const std::lock_guard lock(workers_mutex_);
   ++statistics_.visits;
-  if (!numbers_.at_home()) predicates_elsewhere_ += predicate_counts() - predicates_before;
+  if (!numbers_.at_home()) predicates_elsewhere_ += predicate_counts() - watch.predicates;
   const std::uint32_t thread = numbers_.of_this_one();
   if (thread == busy_.size()) busy_.push_back(0);
   busy_[thread] += seconds;
   if (!options_.trace) return seconds;
   auto since_start = [this](Clock::time_point t) { return std::chrono::duration<double>(t - context_.start).count(); };
-  trace_.push_back({thread, since_start(start), since_start(end), request.leaf, visit.level, request.order, generation_,
+  trace_.push_back({thread, since_start(watch.start), since_start(end), request.leaf, visit.level, request.order, generation_,
                     visit.counts.committed, visit.set_aside.size()});
   return seconds;
 }

@@ -2,7 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "detail/leaf_work.hpp"
 
+#include <algorithm>
+
 namespace pgdr::detail {
+
+template <int D>
+void LeafWorks<D>::pass_up_changes() {
+  for (Node n = static_cast<Node>(works_.size()); --n > Orthtree<D>::root;) {  // children have larger numbers
+    std::uint64_t& above = works_[tree_->parent(n)]->changed;
+    above = std::max(above, works_[n]->changed);
+  }
+}
 
 template <int D>
 void LeafWorks<D>::hand_down(const Mesh<D>& mesh, Node parent, std::uint64_t generation) {

@@ -5,6 +5,9 @@
 // the cached circumsphere alone. Reads one cell and its vertices; any thread that may read these.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "pgdr/mesh.hpp"
@@ -24,9 +27,18 @@ struct CellShape {
 /// Which bounds a cell is over.
 struct CellVerdict {
   bool over_radius_edge = false;  ///< of shape
-  bool over_size = false;         ///< of size, volume or area
-  explicit operator bool() const { return over_radius_edge || over_size; }  ///< any of them
+  /// Of size, volume or area: 0 if within, else about how many cells that are not would fill it, if that is known, or 1.
+  std::uint32_t over_size = 0;
+  explicit operator bool() const { return over_radius_edge || over_size > 0; }  ///< any of them
 };
+
+/// CellVerdict::over_size of a cell that is `ratio` times as large as may be. Not more than 512, as sizes may vary within it.
+inline std::uint32_t cells_to_fill(float ratio) {
+  constexpr float most = 512;
+  return ratio < most ? static_cast<std::uint32_t>(std::max(ratio, 1.0f)) : static_cast<std::uint32_t>(most);
+}
+/// The same by the squares of circumradii: their ratio.
+inline std::uint32_t cells_to_fill_sphere(float squared_ratio) { return cells_to_fill(squared_ratio * std::sqrt(squared_ratio)); }
 
 /// All bounds that cells have to meet. A value; copies of functions share what these point to.
 template <int D>
@@ -55,8 +67,8 @@ class CellBounds {
   bool over_radius_edge(const Mesh<D>& mesh, CellId c) const;
   /// The same of a cell whose shape is known.
   bool over_radius_edge(const Mesh<D>& mesh, CellId c, const CellShape& shape) const;
-  /// Is it over those of size, volume or area? @throws as test()
-  bool over_size(const Mesh<D>& mesh, CellId c, const CellShape& shape) const;
+  /// CellVerdict::over_size of it. @throws as test()
+  std::uint32_t over_size(const Mesh<D>& mesh, CellId c, const CellShape& shape) const;
 
  private:
   template <class SimplexOf>
@@ -91,6 +103,11 @@ class QuickBounds {
     if (least > most_size_) return Answer::over_size;
     const bool fits = shape.squared_radius_high < squared_ratio_ * shape.shortest_edge_squared;
     return most < most_size_ && fits ? Answer::within : Answer::unknown;
+  }
+  /// CellVerdict::over_size of one that is.
+  std::uint32_t over_size(const CellShape& shape) const {
+    if constexpr (D == 2) return cells_to_fill(static_cast<float>(std::fabs(shape.det) / most_size_));
+    return cells_to_fill_sphere(static_cast<float>(shape.squared_radius_low / most_size_));
   }
 
  private:

@@ -304,6 +304,10 @@ class Mesh {
   /// Gives back the memory of all vertices.
   void discard_vertices() { vertices_.discard(0, vertex_bound()); }
 
+  /// The pages of so many more cells and vertices, in pieces of a huge page, for touch_pages: whoever needs them first would wait
+  /// for the kernel. While nobody makes any. @throws std::bad_alloc
+  std::vector<std::span<std::byte>> fresh_pages(std::uint64_t cells, std::uint64_t vertices);
+
   /// The pools of one thread.
   struct Pools {
     IdPool cells;        ///< ids of cells

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <functional>
 #include <new>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -35,6 +36,10 @@ class ReservedArray {
 
   /// Makes the slots [0, count) exist. @throws std::bad_alloc
   void grow_to(std::uint32_t count) { memory_.grow_to(std::size_t{count} * sizeof(T)); }
+  /// Of the slots [first, count), which nobody has used and which exist then: see ReservedMemory.
+  std::vector<std::span<std::byte>> fresh_pages(std::uint32_t first, std::uint32_t count) {
+    return memory_.fresh_pages(std::size_t{first} * sizeof(T), std::size_t{count} * sizeof(T));
+  }
   /// Gives back most of the memory of the slots [first, last), but for the first `kept` bytes. While nobody uses them.
   void discard(std::uint32_t first, std::uint32_t last, std::size_t kept = 0) {
     memory_.discard(std::size_t{first} * sizeof(T) + kept, std::size_t{last} * sizeof(T));

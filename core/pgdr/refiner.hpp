@@ -109,7 +109,7 @@ struct RegionVisit {
   std::uint32_t order = 1;              ///< of the claim, likewise
   std::uint64_t generation = 0;         ///< likewise
   double small_radius = 0;              ///< end once no poor element is larger ...
-  std::size_t floor = 0;                ///< ... and this many wait at least
+  std::size_t floor = 0;                ///< ... and the list is crowded by this
   int granularity = std::numeric_limits<int>::max();  ///< end this many buckets after the first
   std::uint64_t most_insertions = std::numeric_limits<std::uint64_t>::max();  ///< share of the budget
   bool violations_seen = false;         ///< look for faces that are not locally Delaunay at every insertion
@@ -177,9 +177,9 @@ class Refiner {
   }
   bool alive(const Item& e) const { return e.alive(*mesh_); }
   std::uint64_t list_violations(std::span<const CellId> cells);
-  void list_poor(CellId c, int why) { list_poor(c, why, mesh_->sphere(c)); }
-  void list_poor(CellId c, int why, const FilterSphere<D>& sphere);
-  void list_if_poor(CellId c, const CellVerdict& verdict);
+  void list_poor(CellId c, int why, const FilterSphere<D>& sphere, std::uint32_t order);
+  void list_again(const Item& e) { list_poor(e.cell, e.which(), mesh_->sphere(e.cell), e.order); }
+  void list_if_poor(CellId c);
   void list_new_if_poor(std::size_t i);
   std::uint32_t order_of(CellId c, const FilterSphere<D>& sphere) const;
   void list_entities(CellId c, const ConstraintRecord<D>& k);

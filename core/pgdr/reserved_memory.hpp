@@ -8,11 +8,17 @@
 #include <atomic>
 #include <cstddef>
 #include <mutex>
+#include <span>
+#include <vector>
 
 namespace pgdr {
 
 /// Asks for huge pages where [memory, memory + bytes), which nothing has been written to, is large: a hint.
 void ask_for_huge_pages(void* memory, std::size_t bytes);
+
+/// Has the kernel find memory for pages that nothing has been written to. It clears them, which takes longer than anything that
+/// is done to them later.
+void touch_pages(std::span<std::byte> fresh);
 
 /// See above.
 class ReservedMemory {
@@ -28,6 +34,9 @@ class ReservedMemory {
   void grow_to(std::size_t bytes) {
     if (bytes > usable_.load(std::memory_order_acquire)) grow(bytes);
   }
+  /// Makes the first `bytes` usable and returns what of them is from `first` on, in pieces of a huge page, but for what earlier
+  /// calls returned. Nothing must have been written there yet, so that the pages can be had before they are needed.
+  std::vector<std::span<std::byte>> fresh_pages(std::size_t first, std::size_t bytes);
   /// Gives the whole huge pages among the bytes [first, last) back; what is in these bytes is lost. While nobody uses them.
   void discard(std::size_t first, std::size_t last);
   /// Of `elements` with all that belongs to them, as many as there are addresses for.
@@ -40,6 +49,7 @@ class ReservedMemory {
   std::byte* base_;
   std::size_t reserved_;
   std::atomic<std::size_t> usable_{0};
+  std::size_t returned_ = 0;  ///< by fresh_pages: up to here
   std::mutex mutex_;
 };
 

@@ -43,7 +43,8 @@ struct Entry {
         what_(static_cast<std::uint8_t>(static_cast<int>(kind) << 4 | which)) {}
 
   CellId cell;          ///< its slot
-  std::uint32_t order;  ///< of cells over the radius-edge bound alone: the least goes first
+  /// Of cells over the radius-edge bound alone: the least goes first. Of those that are too big: CellVerdict::over_size.
+  std::uint32_t order;
   std::uint16_t birth;  ///< of the cell
   std::uint8_t bucket;  ///< kind cell: floor(log2(side of the domain / circumradius)), clamped
 
@@ -234,6 +235,7 @@ class WorkList {
     } else {
       bucket.others.push(e);
       ++others_;
+      to_come_ += e.order;
     }
     ++waiting_;
   }
@@ -244,6 +246,11 @@ class WorkList {
   std::size_t size() const { return edges.size() + faces.size() + flips.size() + waiting_; }
   /// Poor elements, dead ones among them.
   std::size_t poor() const { return waiting_; }
+  /// About how many cells those that are too big will make way for, at least.
+  std::uint64_t to_come() const { return to_come_; }
+  /// Is there work for several regions: do `least` poor elements wait, or will about twice as many be made of those that
+  /// are too big? Each insertion brings some that do not live long, so that they are about twice as many as will be.
+  bool is_crowded(std::size_t least) const { return waiting_ >= least || to_come_ >= 2 * least; }
   /// Bucket of the largest poor element. @pre poor() > 0
   int first_bucket() {
     while (poor_.front().empty()) {
@@ -279,7 +286,7 @@ class WorkList {
       bucket.by_shape.drain(f);
     }
     std::vector<Bucket>().swap(poor_);
-    waiting_ = others_ = 0;
+    waiting_ = others_ = to_come_ = 0;
   }
   /// Without a word before.
   template <class F>
@@ -309,12 +316,15 @@ class WorkList {
     --others_;
     if (const Entry<D>* e = bucket.others.ahead(cells_fetched_ahead)) mesh.prefetch(e->cell);
     if (const Entry<D>* e = bucket.others.ahead(fetched_ahead)) mesh.prefetch_vertices(e->cell);
-    return bucket.others.pop();
+    const Entry<D> e = bucket.others.pop();
+    to_come_ -= e.order;
+    return e;
   }
 
   std::vector<Bucket> poor_;  ///< of the buckets from first_ on
   int first_ = 0;
   std::size_t waiting_ = 0, others_ = 0;
+  std::uint64_t to_come_ = 0;
 };
 
 }  // namespace pgdr

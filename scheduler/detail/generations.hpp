@@ -3,8 +3,8 @@
 //
 // The reproducible schedule. Work proceeds in generations; within one the tree, the claims and the order of the visits are
 // frozen, and a visit waits for the earlier visits whose claims meet its own and for nothing else. A visit reads and
-// writes its own claim alone, so that any execution that respects these edges gives the same mesh. What visits hand to
-// other leaves, what they set aside, and splits take effect at the end of the generation, in the order of the visits.
+// writes its own claim alone, what waits in these leaves included, so that any execution that respects these edges gives the
+// same mesh. What they find for other leaves or set aside, and splits, take effect at the end of the generation, in their order.
 #pragma once
 
 #include "detail/claim_registry.hpp"
@@ -22,6 +22,7 @@ class Generations final : public LeafRefinement<D> {
 
  private:
   using typename Base::Clock;
+  using Base::seconds_since;
   struct Planned {
     RegionVisit<D> work;
     double seconds = 0;
@@ -29,11 +30,13 @@ class Generations final : public LeafRefinement<D> {
 
   StopCause drain() override;
   bool one_generation();
+  void run_visit(const Visit<D>& visit, Planned& planned);
   void execute(const VisitGraph& graph, const VisitBody& body);
   void finish(Generation<D>& generation, std::vector<Planned>& planned);
   bool looks_whole() const;
   void execute_pieces(std::size_t pieces, const VisitBody& piece);
   void renew_buffers(std::span<const VisitRequest> requests);
+  void touch_memory(std::span<const VisitRequest> requests);
   void split_leaves(std::vector<Node> candidates);
 
   using Base::context_, Base::generation_, Base::options_, Base::statistics_, Base::tree_, Base::vertices_, Base::works_;

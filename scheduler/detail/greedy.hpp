@@ -47,6 +47,7 @@ class Greedy final : public LeafRefinement<D> {
   bool is_free(const VisitRequest& r, Wanted& wanted);
   void claim(Running& visit);
   void end(Running& visit);
+  void run_visit(Running& visit);
   void hand_over(Running& visit);
   void split(Node leaf);
   bool done() const { return running_ == 0 && (pool_.empty() || context_.stop != 0); }

@@ -63,6 +63,7 @@ class LeafRefinement {
  protected:
   using Clock = std::chrono::steady_clock;
   using Worker = std::unique_ptr<Refiner<D>>;
+  static double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
 
   /// Treats all that waits in the leaves.
   virtual StopCause drain() = 0;
@@ -75,8 +76,17 @@ class LeafRefinement {
   Node whole_tree_leaf() const { return tree_.leaf_at(context_.domain.points()[0]); }
   /// Fills in what the visit is asked to do; moves what was set aside for it out of the lists.
   void prepare(const VisitRequest& request, RegionVisit<D>& visit);
-  /// Runs it in `area`, on a worker of its own; returns its seconds.
-  double visit(const VisitRequest& request, const VisitArea<D>& area, RegionVisit<D>& visit);
+  /// When a visit began, and what its thread had counted then.
+  struct Watch {
+    Clock::time_point start = Clock::now();
+    PredicateCounts predicates = predicate_counts();
+  };
+  /// Runs it in `area`, on a worker of its own; false if the run is over.
+  bool work_off(const VisitArea<D>& area, RegionVisit<D>& visit);
+  /// That it has ended; returns its seconds.
+  double record(const VisitRequest& request, const RegionVisit<D>& visit, const Watch& watch);
+  /// That the visit has changed its leaves, if it has. While it holds them.
+  void mark_changed(const RegionVisit<D>& visit, std::span<const Node> claim);
   /// Adds up what a visit did, and puts off what it set aside. `claim`: its leaves; none for the whole tree.
   void account(const VisitRequest& request, RegionVisit<D>& visit, std::span<const Node> claim);
   void post(Node leaf, std::vector<Entry<D>>&& entries);
@@ -128,7 +138,6 @@ class LeafRefinement {
   RegionVisit<D> mending_visit();
   StopCause mend();
   std::size_t mend_far_from_walls(std::set<std::array<VertexId, D + 1>>& hopeless);
-  void note_change(std::span<const Node> claim);
   bool may_have_changed(const LeafWork<D>* work, const Refusal<D>& refusal) const;
   std::vector<Refusal<D>> take_refused();
   void set_aside(Node leaf, std::uint32_t order, const Entry<D>& e);
@@ -137,14 +146,12 @@ class LeafRefinement {
   void put_off(const VisitRequest& request, const std::vector<Entry<D>>& entries);
   Worker check_out();
   void check_in(Worker worker);
-  double record(const VisitRequest& request, const RegionVisit<D>& visit, Clock::time_point start,
-                const PredicateCounts& predicates_before);
 
   WorkList<D> whole_list_;               ///< entities that visits of the whole tree come upon
   std::vector<Entry<D>> whole_set_aside_;
   std::vector<Refusal<D>> refused_before_;  ///< poor elements, until they were improved
   std::vector<Entry<D>> left_over_;      ///< given to visits that the end of the run has overtaken
-  std::uint64_t whole_changed_ = 0, last_change_ = 0;  ///< generation: of a visit of the whole tree; of any
+  std::uint64_t whole_changed_ = 0, last_change_ = 0;  ///< generation: of a visit of the whole tree; of others
   std::vector<std::uint16_t> births_looked_at_;  ///< by slot: of the cell when violations were last looked for everywhere
   std::vector<Entry<D>> violations_;             ///< that were there then
   bool min_edge_hit_ = false, entities_refused_ = false;

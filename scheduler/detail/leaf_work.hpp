@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What waits in each leaf of the tree, and how it moves when leaves split. One thread at a time, except that the visit of a
-// leaf alone uses that leaf's work during a generation.
+// What waits in each leaf of the tree, and how it moves when leaves split. One thread at a time, except that during a
+// generation a visit uses the work of the leaves that it has claimed.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ struct LeafWork {
   std::array<std::vector<Entry<D>>, set_aside_orders.size()> set_aside;
   std::uint64_t since = 0;                   ///< generation in which the list last became non-empty
   std::array<std::uint64_t, set_aside_orders.size()> set_aside_since{};
-  std::uint64_t changed = 0;                 ///< generation in which a visit that had claimed it last changed the mesh
+  std::uint64_t changed = 0;                 ///< generation in which a visit that had claimed it last changed the mesh; see pass_up_changes
   /// Claims with which something was refused here, one for each order, as they were first: later ones lie within, as
   /// leaves split.
   std::map<std::uint32_t, std::vector<std::uint32_t>> zones;
@@ -53,6 +53,8 @@ class LeafWorks {
   void grow() {
     while (works_.size() < tree_->node_count()) works_.push_back(std::make_unique<LeafWork<D>>());
   }
+  /// So that each node knows of changes in any of its parts. Until then leaves alone do.
+  void pass_up_changes();
   /// Hands all that waits at a node that was split to its children, by the circumcentres of the cells. What was set aside
   /// starts again as ordinary. Threads: different parents at once.
   void hand_down(const Mesh<D>& mesh, Node parent, std::uint64_t generation);
