@@ -22,9 +22,18 @@ double checked_size(const SizingField<D>& size, const Point<D>& x) {
 }
 
 template <int D>
+double rounded_det(const Simplex<D>& s) {
+  const auto e = [&s](int i, int axis) { return s[i][axis] - s[0][axis]; };
+  if constexpr (D == 2) return e(1, 0) * e(2, 1) - e(1, 1) * e(2, 0);
+  const auto minor = [&e](int i, int j) { return e(2, i) * e(3, j) - e(2, j) * e(3, i); };
+  return e(1, 0) * minor(1, 2) + e(1, 1) * minor(2, 0) + e(1, 2) * minor(0, 1);
+}
+
+template <int D>
 CellShape shape_of(const Mesh<D>& mesh, CellId c) {
   const auto [low, high] = mesh.squared_radius_bounds(c);
-  return {shortest_edge_squared<D>(mesh.simplex(c)), low, high, 0, CellBounds<D>::infinity};
+  const Simplex<D> s = mesh.simplex(c);
+  return {shortest_edge_squared<D>(s), low, high, rounded_det<D>(s), CellBounds<D>::infinity};
 }
 
 }  // namespace
@@ -109,7 +118,7 @@ std::uint32_t CellBounds<D>::over_size(const Mesh<D>& mesh, CellId c, const Cell
   std::uint32_t cells = 0;
   const auto bound_measure = [&](double bound) {
     if (within_measure(mesh, c, shape, bound)) return;
-    cells = std::max(cells, cells_to_fill(static_cast<float>(std::fabs(shape.det) / (bound * (D == 3 ? 6 : 2)))));
+    cells = std::max(cells, cells_to_fill(shape.det, average_det_of_measure<D>(bound)));
   };
   if (size.bounded() || !region_size.empty()) {
     const double bound = size_of([&] { return mesh.simplex(c); }, mesh.region(c));
@@ -117,7 +126,7 @@ std::uint32_t CellBounds<D>::over_size(const Mesh<D>& mesh, CellId c, const Cell
       const double limit = bound * bound;
       const bool decided = shape.squared_radius_low > limit || shape.squared_radius_high < limit;
       if (decided ? shape.squared_radius_low > limit : !circumradius_within<D>(mesh.simplex(c), bound))
-        cells = cells_to_fill_sphere(static_cast<float>(shape.squared_radius_low / limit));
+        cells = cells_to_fill(shape.det, average_det_of_radius(bound));
     } else {
       bound_measure(bound);
     }

@@ -119,16 +119,19 @@ void Generations<D>::renew_buffers(std::span<const VisitRequest> requests) {
   });
 }
 
-/// What the cells to come need: a visit that has to wait for the kernel makes others wait.
+/// What the cells to come need, a little less, lest it be for nothing: a visit that waits for the kernel makes others wait.
 template <int D>
 void Generations<D>::touch_memory(std::span<const VisitRequest> requests) {
-  std::uint64_t cells = 0;
-  for (const VisitRequest& r : requests)
-    if (r.order == 1) cells += works_[r.leaf].list.to_come();
-  cells += cells / 2;  // so many were made of them where sizes vary little, and more where they vary much
-  constexpr std::uint64_t cells_a_vertex = D == 3 ? 6 : 2;  // a little less than there are
+  std::uint64_t made = 0, replaced = 0;
+  for (const VisitRequest& r : requests) {
+    if (r.order != 1) continue;
+    made += works_[r.leaf].list.to_come();
+    replaced += works_[r.leaf].list.poor();
+  }
+  constexpr std::uint64_t cells_a_vertex = D == 3 ? 7 : 2;
+  const std::uint64_t cells = made - std::min(made, made / 16 + replaced);
   const std::uint64_t vertices = std::min(cells / cells_a_vertex, context_.options.max_vertices - vertices_);
-  const auto pages = context_.mesh.fresh_pages(vertices * cells_a_vertex, vertices);
+  const auto pages = context_.mesh.fresh_pages(std::min(cells, 2 * cells_a_vertex * vertices), vertices);
   execute_pieces(pages.size(), [&](VisitGraph::Visit v) { touch_pages(pages[v]); });
 }
 

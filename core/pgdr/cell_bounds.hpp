@@ -27,18 +27,25 @@ struct CellShape {
 /// Which bounds a cell is over.
 struct CellVerdict {
   bool over_radius_edge = false;  ///< of shape
-  /// Of size, volume or area: 0 if within, else about how many cells that are not would fill it, if that is known, or 1.
+  /// Of size, volume or area: 0 if within, else about how many cells within will take its place.
   std::uint32_t over_size = 0;
   explicit operator bool() const { return over_radius_edge || over_size > 0; }  ///< any of them
 };
 
-/// CellVerdict::over_size of a cell that is `ratio` times as large as may be. Not more than 512, as sizes may vary within it.
-inline std::uint32_t cells_to_fill(float ratio) {
-  constexpr float most = 512;
-  return ratio < most ? static_cast<std::uint32_t>(std::max(ratio, 1.0f)) : static_cast<std::uint32_t>(most);
+/// CellVerdict::over_size of a cell of this determinant (D! times its measure), where cells are of that one on average. Not more
+/// than 512, as sizes may vary within it.
+inline std::uint32_t cells_to_fill(double det, double average) {
+  constexpr double most = 512;
+  const double cells = std::fabs(det) / average;
+  return cells < most ? static_cast<std::uint32_t>(std::max(cells, 1.0)) : static_cast<std::uint32_t>(most);
 }
-/// The same by the squares of circumradii: their ratio.
-inline std::uint32_t cells_to_fill_sphere(float squared_ratio) { return cells_to_fill(squared_ratio * std::sqrt(squared_ratio)); }
+/// Average determinants of cells that this is the most for, as meshes of cubes and squares have them: circumradius (3D only),
+/// volume or area.
+inline double average_det_of_radius(double most) { return 6 * 0.2 * most * most * most; }
+template <int D>
+double average_det_of_measure(double most) {
+  return D == 3 ? 6 * 0.54 * most : 2 * 0.65 * most;
+}
 
 /// All bounds that cells have to meet. A value; copies of functions share what these point to.
 template <int D>
@@ -92,6 +99,7 @@ class QuickBounds {
     const double size = bounds.size.at({});
     most_size_ = D == 3 ? size * size : 2 * size;
     squared_ratio_ = bounds.radius_edge_bound * bounds.radius_edge_bound;
+    average_det_ = D == 3 ? average_det_of_radius(size) : average_det_of_measure<D>(size);
   }
   /// About a cell of this shape.
   Answer look(const CellShape& shape) const {
@@ -105,13 +113,10 @@ class QuickBounds {
     return most < most_size_ && fits ? Answer::within : Answer::unknown;
   }
   /// CellVerdict::over_size of one that is.
-  std::uint32_t over_size(const CellShape& shape) const {
-    if constexpr (D == 2) return cells_to_fill(static_cast<float>(std::fabs(shape.det) / most_size_));
-    return cells_to_fill_sphere(static_cast<float>(shape.squared_radius_low / most_size_));
-  }
+  std::uint32_t over_size(const CellShape& shape) const { return cells_to_fill(shape.det, average_det_); }
 
  private:
-  double most_size_ = std::numeric_limits<double>::quiet_NaN(), squared_ratio_ = 0;
+  double most_size_ = std::numeric_limits<double>::quiet_NaN(), squared_ratio_ = 0, average_det_ = 1;
 };
 
 extern template class CellBounds<2>;

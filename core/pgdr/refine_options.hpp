@@ -43,8 +43,8 @@ struct ScheduleOptions {
   int granularity = std::numeric_limits<int>::max();
   /// A leaf splits once no poor element in it has a circumradius above split_ratio times its children's side ...
   double split_ratio = 0.5;
-  /// ... and this many poor elements wait in it at least, or twice as many will be made of those that are too big. 0: 1000 in
-  /// 3D, 2000 in 2D.
+  /// ... and this many poor elements wait in it at least, or three times as many will take the place of those that are too big.
+  /// 0: 1000 in 3D, 2000 in 2D.
   std::size_t floor = 0;
   /// A visit of leaf L claims {L} and BUF^claim_order(L).
   std::uint32_t claim_order = 1;

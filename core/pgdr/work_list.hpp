@@ -246,11 +246,11 @@ class WorkList {
   std::size_t size() const { return edges.size() + faces.size() + flips.size() + waiting_; }
   /// Poor elements, dead ones among them.
   std::size_t poor() const { return waiting_; }
-  /// About how many cells those that are too big will make way for, at least.
+  /// About how many cells will take the place of those that are too big, dead ones among them.
   std::uint64_t to_come() const { return to_come_; }
-  /// Is there work for several regions: do `least` poor elements wait, or will about twice as many be made of those that
-  /// are too big? Each insertion brings some that do not live long, so that they are about twice as many as will be.
-  bool is_crowded(std::size_t least) const { return waiting_ >= least || to_come_ >= 2 * least; }
+  /// Is there work for several regions: do `least` poor elements wait, or will three times as many cells take the place of those
+  /// that are too big?
+  bool is_crowded(std::size_t least) const { return waiting_ >= least || to_come_ >= 3 * least; }
   /// Bucket of the largest poor element. @pre poor() > 0
   int first_bucket() {
     while (poor_.front().empty()) {
