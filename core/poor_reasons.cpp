@@ -51,6 +51,11 @@ class NamedEntities {
 
 }  // namespace
 
+template <int D>
+bool PoorReasons<D>::meets(EntityRef e, const Ball<D>& ball) const {
+  return detail::squared_distance_to<D>(*domain_, e, ball.center) <= ball.squared_radius;
+}
+
 /// As the checker will ask: do they meet at less than 60 (two segments) or 90 degrees, the first within the ball?
 template <int D>
 bool PoorReasons<D>::explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, const Angle& angle_of,
@@ -61,7 +66,7 @@ bool PoorReasons<D>::explains(const std::array<EntityRef, 2>& pair, const Ball<D
   const double angle = angle_of(pair[0], pair[1]);
   if (angle >= (segments ? 60 : 90)) return false;
   for (const auto& order : {pair, std::array{pair[1], pair[0]}}) {
-    if (detail::squared_distance_to<D>(*domain_, order[0], doubled.center) > doubled.squared_radius) continue;
+    if (!meets(order[0], doubled)) continue;
     reason = {0, PoorReason::Code::small_angle, order, angle};
     return true;
   }
@@ -74,7 +79,7 @@ bool PoorReasons<D>::is_beside(EntityRef segment, const Ball<D>& doubled) const 
   if (segment.kind != EntityKind::segment) return false;
   const auto& ends = domain_->segments()[segment.id].points;
   return in_diametral_ball<D>(domain_->points()[ends[0]], domain_->points()[ends[1]], doubled.center) ||
-         detail::squared_distance_to<D>(*domain_, segment, doubled.center) <= doubled.squared_radius;
+         meets(segment, doubled);
 }
 
 /// Adds the entities that a vertex of this home lies on.
@@ -116,18 +121,24 @@ PoorReason PoorReasons<D>::explain(CellId c, bool beside) const {
     if (!beside && explains(why->second->entities, doubled, angle, reason)) return reason;
   // Below the proved bound most cells have no small angle to name, and need none.
   const bool proved = bounds_->radius_edge_bound >= smallest_proved_bound<D>();
-  const std::size_t most_cells = proved ? 256 : 16;
+  const std::size_t most_cells = proved ? 4096 : 16;
   std::vector<CellId> cells{c};
+  std::unordered_set<std::uint32_t> known{index(c)};
   std::vector<EntityRef> near;
-  for (std::size_t i = 0, tried = 0; i < cells.size() && i < most_cells; ++i) {
+  std::vector<bool> in_ball;  // of any pair that explains it at least one is
+  for (std::size_t i = 0; i < cells.size(); ++i) {
     add_entities(cells[i], near);
-    for (; tried < near.size(); ++tried)
-      for (std::size_t j = 0; j < tried; ++j)
-        if ((!beside || touches(near[tried]) || touches(near[j])) && explains({near[tried], near[j]}, doubled, angle, reason))
-          return reason;
+    while (in_ball.size() < near.size()) {
+      const std::size_t last = in_ball.size();
+      in_ball.push_back(has_extent(near[last]) && meets(near[last], doubled));
+      for (std::size_t j = 0; j < last; ++j) {
+        if (!in_ball[j] && !in_ball[last]) continue;
+        if (beside && !touches(near[last]) && !touches(near[j])) continue;
+        if (explains({near[last], near[j]}, doubled, angle, reason)) return reason;
+      }
+    }
     for (const Link link : mesh_->cell(cells[i]).links)
-      if (link && cells.size() < most_cells && std::find(cells.begin(), cells.end(), link.cell()) == cells.end())
-        cells.push_back(link.cell());
+      if (link && cells.size() < most_cells && known.insert(index(link.cell())).second) cells.push_back(link.cell());
   }
   reason.code = proved ? PoorReason::Code::rounding : PoorReason::Code::beyond_theory;
   if (!keep_boundary_ || beside) return reason;

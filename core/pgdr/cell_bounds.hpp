@@ -39,9 +39,9 @@ inline std::uint32_t cells_to_fill(double det, double average) {
   const double cells = std::fabs(det) / average;
   return cells < most ? static_cast<std::uint32_t>(std::max(cells, 1.0)) : static_cast<std::uint32_t>(most);
 }
-/// Average determinants of cells that this is the most for, as meshes of cubes and squares have them: circumradius (3D only),
-/// volume or area.
+/// The average determinant of tetrahedra whose circumradius may be `most`, as meshes of cubes have it.
 inline double average_det_of_radius(double most) { return 6 * 0.2 * most * most * most; }
+/// The same of cells whose volume, or area, may be `most`, as meshes of cubes and squares have it.
 template <int D>
 double average_det_of_measure(double most) {
   return D == 3 ? 6 * 0.54 * most : 2 * 0.65 * most;

@@ -96,6 +96,7 @@ class PoorReasons {
 
   PoorReason explain(CellId c, bool beside) const;
   bool explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, const Angle& angle, PoorReason& reason) const;
+  bool meets(EntityRef e, const Ball<D>& ball) const;
   bool is_beside(EntityRef segment, const Ball<D>& doubled) const;
   void add_entities(CellId c, std::vector<EntityRef>& list) const;
   void add_entities_of(Home home, std::vector<EntityRef>& list) const;
