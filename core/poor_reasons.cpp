@@ -121,7 +121,7 @@ PoorReason PoorReasons<D>::explain(CellId c, bool beside) const {
     if (!beside && explains(why->second->entities, doubled, angle, reason)) return reason;
   // Below the proved bound most cells have no small angle to name, and need none.
   const bool proved = bounds_->radius_edge_bound >= smallest_proved_bound<D>();
-  const std::size_t most_cells = proved ? 4096 : 16;
+  const std::size_t most_cells = proved ? most_cells_ : 16;
   std::vector<CellId> cells{c};
   std::unordered_set<std::uint32_t> known{index(c)};
   std::vector<EntityRef> near;

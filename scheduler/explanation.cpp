@@ -67,6 +67,10 @@ std::vector<PoorCell> LeafRefinement<D>::explain(StopCause& stop) {
   PoorReasons<D> reasons(context_.mesh, context_.domain, context_.bounds, context_.options.keep_boundary);
   PoorFindings found = look_for_poor(reasons);
   help_unexplained(reasons, found);
+  if (!found.unexplained.empty() && !cancelled(0) && context_.stop == 0) {
+    reasons.look_far();
+    found = look_for_poor(reasons);
+  }
   cancelled(0);
   if (context_.stop == 0) stop = improve(reasons, found);
   if (context_.stop != 0) stop = static_cast<StopCause>(context_.stop.load());

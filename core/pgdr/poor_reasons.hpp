@@ -69,6 +69,9 @@ class PoorReasons {
 
   /// What was added before is no longer so.
   void forget() { why_.clear(); }
+  /// Looks for small angles in more cells about an element than before, at which it is not sure that they are why it is poor, but
+  /// for which the checker takes them.
+  void look_far() { most_cells_ = 4096; }
   /// What was refused in one region. What is said of a cell last counts, if it names a pair.
   void add(std::span<const Refusal<D>> refused);
 
@@ -109,6 +112,7 @@ class PoorReasons {
   const CellBounds<D>* bounds_;
   bool keep_boundary_;
   LocalFlips<D> flips_;
+  std::size_t most_cells_ = 256;  ///< to look at for one
   double rounding_ = 0;  ///< some ulps of the input
   std::vector<EntityIds> segments_at_;  ///< of each input point
   /// Of the refused elements that are still there: by what; no entities if no pair was at fault.
