@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "detail/vectors.hpp"
 #include "pgdr/error.hpp"
 
 namespace pgdr {
@@ -23,10 +24,12 @@ double checked_size(const SizingField<D>& size, const Point<D>& x) {
 
 template <int D>
 double rounded_det(const Simplex<D>& s) {
-  const auto e = [&s](int i, int axis) { return s[i][axis] - s[0][axis]; };
-  if constexpr (D == 2) return e(1, 0) * e(2, 1) - e(1, 1) * e(2, 0);
-  const auto minor = [&e](int i, int j) { return e(2, i) * e(3, j) - e(2, j) * e(3, i); };
-  return e(1, 0) * minor(1, 2) + e(1, 1) * minor(2, 0) + e(1, 2) * minor(0, 1);
+  const auto u = detail::difference(s[1], s[0]), v = detail::difference(s[2], s[0]);
+  if constexpr (D == 2) {
+    return u[0] * v[1] - u[1] * v[0];
+  } else {
+    return detail::dot(u, detail::cross(v, detail::difference(s[3], s[0])));
+  }
 }
 
 template <int D>
@@ -124,8 +127,8 @@ std::uint32_t CellBounds<D>::over_size(const Mesh<D>& mesh, CellId c, const Cell
     const double bound = size_of([&] { return mesh.simplex(c); }, mesh.region(c));
     if constexpr (D == 3) {
       const double limit = bound * bound;
-      const bool decided = shape.squared_radius_low > limit || shape.squared_radius_high < limit;
-      if (decided ? shape.squared_radius_low > limit : !circumradius_within<D>(mesh.simplex(c), bound))
+      if (shape.squared_radius_low > limit ||
+          (!(shape.squared_radius_high < limit) && !circumradius_within<D>(mesh.simplex(c), bound)))
         cells = cells_to_fill(shape.det, average_det_of_radius(bound));
     } else {
       bound_measure(bound);

@@ -51,6 +51,16 @@ double RefineContext<D>::largest_radius(int bucket) const {
 }
 
 template <int D>
+bool RefineContext<D>::ended() {
+  if (options.stop.stop_requested()) {
+    stop = static_cast<int>(StopCause::cancelled);
+  } else if (stop == 0 && options.time_limit && std::chrono::steady_clock::now() - start >= *options.time_limit) {
+    stop = static_cast<int>(StopCause::time_limit);
+  }
+  return stop != 0;
+}
+
+template <int D>
 Refiner<D>::Refiner(RefineContext<D>& context, Pools pools)
     : context_(&context),
       mesh_(&context.mesh),
@@ -253,17 +263,6 @@ bool Refiner<D>::mend_cell(CellId c) {
   for (int f = 0; f <= D; ++f)
     if (flips_.violates(c, f) && mend(make_entry(c, EntryKind::flip, f))) return true;
   return false;
-}
-
-template <int D>
-bool Refiner<D>::ended() {
-  if (options_->stop.stop_requested()) {
-    context_->stop = static_cast<int>(StopCause::cancelled);
-  } else if (context_->stop == 0 && options_->time_limit &&
-             std::chrono::steady_clock::now() - context_->start >= *options_->time_limit) {
-    context_->stop = static_cast<int>(StopCause::time_limit);
-  }
-  return context_->stop != 0;
 }
 
 template <int D>

@@ -67,7 +67,7 @@ std::vector<PoorCell> LeafRefinement<D>::explain(StopCause& stop) {
   PoorReasons<D> reasons(context_.mesh, context_.domain, context_.bounds, context_.options.keep_boundary);
   PoorFindings found = look_for_poor(reasons);
   help_unexplained(reasons, found);
-  if (!found.unexplained.empty() && !cancelled(0) && context_.stop == 0) {
+  if (!found.unexplained.empty() && !context_.ended()) {
     reasons.look_far();
     found = look_for_poor(reasons);
   }

@@ -131,8 +131,10 @@ void Generations<D>::touch_memory(std::span<const VisitRequest> requests) {
   constexpr std::uint64_t cells_a_vertex = D == 3 ? 7 : 2;
   const std::uint64_t cells = made - std::min(made, made / 16 + replaced);
   const std::uint64_t vertices = std::min(cells / cells_a_vertex, context_.options.max_vertices - vertices_);
-  const auto pages = context_.mesh.fresh_pages(std::min(cells, 2 * cells_a_vertex * vertices), vertices);
-  execute_pieces(pages.size(), [&](VisitGraph::Visit v) { touch_pages(pages[v]); });
+  const auto pages = context_.mesh.fresh_pages(cells_a_vertex * vertices, vertices);
+  execute_pieces(pages.size(), [&](VisitGraph::Visit v) {
+    if (!context_.ended()) touch_pages(pages[v]);
+  });
 }
 
 /// Splits those that may, and their children as long as these may.

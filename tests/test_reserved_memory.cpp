@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <vector>
 
 namespace pgdr::test_reserved_memory {
 
@@ -39,6 +40,32 @@ TEST(ReservedMemory, DiscardsWithinTheRangeAlone) {
   memory.discard(15 * mib, 15 * mib + 100);
   memory.discard(18 * mib, 17 * mib);
   EXPECT_TRUE(all_are(14, 20, 1));
+}
+
+/// Each piece once, from the first huge page on of which nothing may have been used; zero and usable.
+TEST(ReservedMemory, FreshPagesComeOnce) {
+  ReservedMemory memory(64 * mib);
+  auto* const bytes = static_cast<std::byte*>(memory.base());
+  memory.grow_to(5 * mib);
+  std::memset(bytes, 7, 5 * mib);
+  std::vector<std::size_t> begins;
+  const auto touch = [&](std::size_t first, std::size_t last) {
+    for (const auto page : memory.fresh_pages(first, last)) {
+      EXPECT_EQ(page.size(), 2 * mib);
+      EXPECT_TRUE(std::all_of(page.begin(), page.end(), [](std::byte b) { return b == std::byte{0}; }));
+      begins.push_back(static_cast<std::size_t>(page.data() - bytes) / mib);
+      touch_pages(page);
+    }
+  };
+  touch(5 * mib, 11 * mib);
+  EXPECT_EQ(begins, (std::vector<std::size_t>{6, 8}));
+  touch(5 * mib, 11 * mib);
+  touch(6 * mib, 13 * mib);
+  EXPECT_EQ(begins, (std::vector<std::size_t>{6, 8, 10}));
+  touch(20 * mib, 1000 * mib);
+  EXPECT_EQ(begins.back(), 62u);
+  EXPECT_EQ(begins.size(), 3u + 22u);
+  EXPECT_TRUE(std::all_of(bytes, bytes + 5 * mib, [](std::byte b) { return b == std::byte{7}; }));
 }
 
 }  // namespace pgdr::test_reserved_memory

@@ -103,6 +103,23 @@ TEST(WorkList, AgreesWithASortedList) {
   EXPECT_TRUE(list.empty());
 }
 
+/// By those that are too big, not by those of poor shape, whose order says something else.
+TEST(WorkList, IsCrowdedByCellsToComeOrByThoseThatWait) {
+  WorkList<3> list;
+  for (std::uint32_t i = 0; i < 4; ++i) list.push(poor(3, Item::over_size, 7, i));
+  list.push(skinny(3, 1000));
+  EXPECT_EQ(list.to_come(), 28u);
+  EXPECT_TRUE(list.is_crowded(5));
+  EXPECT_TRUE(list.is_crowded(9));
+  EXPECT_FALSE(list.is_crowded(10));
+  list.pop_poor(mesh);
+  list.pop_largest(mesh);
+  EXPECT_EQ(list.to_come(), 14u);
+  EXPECT_FALSE(list.is_crowded(5));
+  list.drain([](const Item&) {});
+  EXPECT_EQ(list.to_come(), 0u);
+}
+
 // A slot is given up before its births repeat: no entry of a dead cell is taken for one of the cells after it.
 TEST(Entry, ASlotAndItsBirthNameACellForGood) {
   class Cells : public Mesh<3> {

@@ -69,6 +69,8 @@ struct RefineContext {
   int bucket_of(const FilterSphere<D>& sphere) const;  ///< by its radius, 0 being the largest
   /// No circumradius of this bucket or a later one is larger.
   double largest_radius(int bucket) const;
+  /// Has the run been cancelled, or is its time up? It is stopped with that. Any thread.
+  bool ended();
 
   Mesh<D>& mesh;  ///< which visits change
   const Domain<D>& domain;  ///< the input
@@ -159,8 +161,7 @@ class Refiner {
   /// splits an entity for it, or inserts a point inside of it, with the least distances that the insertion rule has for such.
   /// False if none may go in. Everything must be owned, and `begin` have been called.
   bool insert_within(const Entry<D>& e);
-  /// Has the run been cancelled, or is its time up? It is stopped with that.
-  bool ended();
+  bool ended() { return context_->ended(); }  ///< has the run?
   /// Is this violating face between volume vertices alone?
   bool is_far_from_walls(const Entry<D>& e) const;
   bool violates(const Entry<D>& e) const { return flips_.violates(e.cell, e.which()); }  ///< is the face not locally Delaunay?
