@@ -246,8 +246,7 @@ bool LocalRewrap::keeps_subsegments() const {
 }
 
 bool LocalRewrap::excuses(VertexId v) const {
-  if (!excusing_ || excusing_->empty()) return !in_volume(v);
-  return index(v) < excusing_->size() && (*excusing_)[index(v)];
+  return excusing_ && excusing_->known() ? excusing_->has(mesh_->vertex(v).home) : !in_volume(v);
 }
 
 /// What a violation counts. One that no entity is beside (later: none that was refused) counts for more than all others, so

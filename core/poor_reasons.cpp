@@ -261,16 +261,20 @@ bool PoorReasons<D>::has_reason(std::span<const Home> homes, const Ball<D>& sphe
 }
 
 template <int D>
-std::vector<bool> PoorReasons<D>::excusing_vertices(const PoorFindings& found) const {
+ExcusingHomes PoorReasons<D>::excusing_homes(const PoorFindings& found) const {
   const NamedEntities named(found);
-  std::vector<bool> excusing(mesh_->vertex_bound());
-  std::vector<EntityRef> entities;
-  for (std::uint32_t v = 0; v < excusing.size(); ++v) {
-    entities.clear();
-    add_entities_of(mesh_->vertex(VertexId{v}).home, entities);
-    excusing[v] = named.has_any(entities);
-  }
-  return excusing;
+  const auto excusing = [&](EntityKind kind, std::size_t entities) {
+    std::vector<bool> all(entities);
+    std::vector<EntityRef> lies_on;
+    for (EntityId e = 0; e < all.size(); ++e) {
+      lies_on.clear();
+      add_entities_of(Home(kind, e), lies_on);
+      all[e] = named.has_any(lies_on);
+    }
+    return all;
+  };
+  return {excusing(EntityKind::vertex, domain_->points().size()), excusing(EntityKind::segment, domain_->segments().size()),
+          excusing(EntityKind::facet, D == 3 ? domain_->facets().size() : 0)};
 }
 
 template <int D>

@@ -88,7 +88,7 @@ void LeafRefinement<D>::help_unexplained(PoorReasons<D>& reasons, PoorFindings& 
     if (found.unexplained.empty() || context_.stop != 0) break;
     // What is mended by taking a vertex out may come back with it: then a point inside is better, or the other way round.
     const bool mends = unexplained_violations_ > 0 && in_vain % 2 == 0;
-    context_.excusing = mends ? reasons.excusing_vertices(found) : std::vector<bool>{};
+    context_.excusing = mends ? reasons.excusing_homes(found) : ExcusingHomes{};
     if (!insert_within(found.unexplained) || context_.stop != 0) break;
     found = look_for_poor(reasons);
     in_vain = found.unexplained.size() < least ? 0 : in_vain + 1;
@@ -118,7 +118,7 @@ bool LeafRefinement<D>::insert_within(std::span<const CellId> cells) {
     const auto waits = [&] { return context_.stop == 0 && e.alive(context_.mesh); };
     if (waits()) visit_whole(false, [&](Refiner<D>& worker) { return worker.list_violations_about(e.cell); });
     // What is taken out now would come back at once, and the violation with it.
-    if (waits() && !context_.excusing.empty()) visit_whole(true, [&](Refiner<D>& worker) { return worker.mend_cell(e.cell); });
+    if (waits() && context_.excusing.known()) visit_whole(true, [&](Refiner<D>& worker) { return worker.mend_cell(e.cell); });
     if (waits()) visit_whole(false, [&](Refiner<D>& worker) { return worker.insert_within(e); });
   }
   return changed;

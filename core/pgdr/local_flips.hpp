@@ -57,7 +57,7 @@ class LocalFlips {
   /// Asked often by what is slow; once it says true, nothing more is mended by that.
   void set_ended(std::function<bool()> ended) { rewrap_.set_ended(std::move(ended)); }
   /// Beside which vertices violations do no harm (local_rewrap.hpp).
-  void set_excusing(const std::vector<bool>* vertices) { rewrap_.set_excusing(vertices); }
+  void set_excusing(const ExcusingHomes* homes) { rewrap_.set_excusing(homes); }
   /// What the visit may change; null: everything.
   void set_area(const VisitArea<D>* area) {
     area_ = area;
@@ -135,7 +135,7 @@ class LocalFlips {
     NoRewrap(Mesh<D>&, const Domain<D>&) {}
     void begin_visit(const VisitArea<D>*) {}
     void set_ended(const std::function<bool()>&) {}
-    void set_excusing(const std::vector<bool>*) {}
+    void set_excusing(const ExcusingHomes*) {}
   };
 
   static constexpr std::size_t longest_ring = 7;

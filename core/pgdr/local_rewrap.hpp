@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "pgdr/excusing_homes.hpp"
 #include "pgdr/gift_wrap.hpp"
 #include "pgdr/mesh.hpp"
 #include "pgdr/visit_area.hpp"
@@ -43,9 +44,8 @@ class LocalRewrap {
   bool repair_facet(Pools& pools, std::span<const CellId> ring);
   /// Asked often; once it says true, nothing more is repaired.
   void set_ended(std::function<bool()> ended) { ended_ = std::move(ended); }
-  /// By vertex: those beside which violations do no harm, once that is known; empty: all that are not in the volume. Must
-  /// outlive it.
-  void set_excusing(const std::vector<bool>* vertices) { excusing_ = vertices; }
+  /// Vertices beside which violations do no harm; before that is known all that are not in the volume. Must outlive it.
+  void set_excusing(const ExcusingHomes* homes) { excusing_ = homes; }
   /// What the visit may change; null: everything.
   void begin_visit(const VisitArea<3>* area) {
     area_ = area;
@@ -104,7 +104,7 @@ class LocalRewrap {
   Mesh<3>* mesh_;
   const Domain<3>* domain_;
   const VisitArea<3>* area_ = nullptr;
-  const std::vector<bool>* excusing_ = nullptr;
+  const ExcusingHomes* excusing_ = nullptr;
   bool reached_border_ = false;
   std::function<bool()> ended_;  ///< may be empty
   GiftWrap wrap_;

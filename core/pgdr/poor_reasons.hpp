@@ -15,6 +15,7 @@
 
 #include "pgdr/cell_bounds.hpp"
 #include "pgdr/check.hpp"
+#include "pgdr/excusing_homes.hpp"
 #include "pgdr/local_flips.hpp"
 #include "pgdr/work_list.hpp"
 
@@ -91,8 +92,8 @@ class PoorReasons {
   /// Would entities with vertices of these homes on them, of which two meet at a small angle near enough, explain an element
   /// with this circumsphere? Several threads at once. (False where very many meet.)
   bool has_reason(std::span<const Home> homes, const Ball<D>& sphere, const Angle& angle) const;
-  /// By vertex: those on such entities.
-  std::vector<bool> excusing_vertices(const PoorFindings& found) const;
+  /// Vertices on such entities.
+  ExcusingHomes excusing_homes(const PoorFindings& found) const;
 
  private:
   using EntityIds = std::vector<EntityId>;

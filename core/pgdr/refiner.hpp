@@ -24,6 +24,7 @@
 
 #include "pgdr/cavity.hpp"
 #include "pgdr/cell_bounds.hpp"
+#include "pgdr/excusing_homes.hpp"
 #include "pgdr/insertion_rule.hpp"
 #include "pgdr/key_set.hpp"
 #include "pgdr/local_flips.hpp"
@@ -83,9 +84,8 @@ struct RefineContext {
   bool has_last_resort = true;
   /// 3D: what is poor now would stay so, and asks for c times the room. Set while no visit runs.
   bool last_resort = false;
-  /// By vertex: those on entities that are named as reasons, which excuse violations beside them; empty before that is known. Set
-  /// while no visit runs.
-  std::vector<bool> excusing;
+  /// Vertices on entities that are named as reasons, which excuse violations beside them. Set while no visit runs.
+  ExcusingHomes excusing;
   /// 3D: visits change the mesh for elements that stay poor, and treat nothing else (refiner_improvement.cpp). Set while no visit
   /// runs.
   const Improvement<D>* improvement = nullptr;
