@@ -26,6 +26,11 @@ void run_all(const VisitGraph& independent, const ScheduleOptions& options, cons
       break;
     case Executor::threads: run_threads(independent, body, static_cast<unsigned>(threads_of(options))); break;
     case Executor::serial: run_serial(independent, body); break;
+    case Executor::shuffled: {
+      std::mt19937_64 random(static_cast<std::uint64_t>(options.threads));
+      run_shuffled(independent, body, random);
+      break;
+    }
   }
 }
 
@@ -35,7 +40,8 @@ int threads_of(const ScheduleOptions& options) {
   switch (options.executor) {
     case Executor::flow_graph: return arena_threads(options.threads);
     case Executor::threads: return std::max(options.threads, 1);
-    case Executor::serial: break;
+    case Executor::serial:
+    case Executor::shuffled: break;
   }
   return 1;
 }

@@ -158,6 +158,8 @@ void Generations<D>::execute(const VisitGraph& graph, const VisitBody& body) {
   VisitRun run;
   if (graph.visits() == 1 || options_.executor == Executor::serial) {
     run = run_serial(graph, body);
+  } else if (options_.executor == Executor::shuffled) {
+    run = run_shuffled(graph, body, random_);
   } else if (options_.executor == Executor::threads) {
     Base::threads_are_new();
     run = run_threads(graph, body, static_cast<unsigned>(std::max(options_.threads, 1)));

@@ -40,6 +40,7 @@ LeafRefinement<D>::LeafRefinement(RefineContext<D>& context, typename Mesh<D>::P
       works_(tree_),
       vertices_(vertices_so_far),
       uneven_(has_uneven_facets(context.domain)),
+      random_(static_cast<std::uint64_t>(options_.threads)),
       numbers_(options_.executor) {
   workers_.push_back(std::make_unique<Refiner<D>>(context, std::move(pools)));
 }

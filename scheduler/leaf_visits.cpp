@@ -13,6 +13,7 @@ template <int D>
 auto LeafRefinement<D>::check_out() -> Worker {
   {
     const std::lock_guard lock(workers_mutex_);
+    if (options_.executor == Executor::shuffled) shuffle_workers();
     if (!workers_.empty()) {
       Worker worker = std::move(workers_.back());
       workers_.pop_back();
@@ -20,6 +21,14 @@ auto LeafRefinement<D>::check_out() -> Worker {
     }
   }
   return std::make_unique<Refiner<D>>(context_, context_.mesh.make_pools());
+}
+
+/// So that any of as many as there are threads may be the last.
+template <int D>
+void LeafRefinement<D>::shuffle_workers() {
+  if (static_cast<int>(workers_.size()) < options_.threads)
+    workers_.push_back(std::make_unique<Refiner<D>>(context_, context_.mesh.make_pools()));
+  if (!workers_.empty()) std::swap(workers_[random_() % workers_.size()], workers_.back());
 }
 
 template <int D>

@@ -28,17 +28,35 @@ VisitRun run_serial(const VisitGraph& graph, const VisitBody& body) {
 
 namespace {
 
-/// What the threads of `run_threads` share, under its mutex.
-class ReadyList {
+/// How many visits each visit waits for.
+class Predecessors {
  public:
-  explicit ReadyList(const VisitGraph& graph) : waiting_for_(graph.visits()), successors_(graph.visits()) {
+  /// Calls `ready` with each visit that waits for none.
+  template <class Ready>
+  Predecessors(const VisitGraph& graph, Ready ready) : waiting_for_(graph.visits()), successors_(graph.visits()) {
     for (VisitGraph::Visit v = 0; v < graph.visits(); ++v) {
       waiting_for_[v] = graph.predecessors(v).size();
       for (const VisitGraph::Visit p : graph.predecessors(v)) successors_[p].push_back(v);
-      if (waiting_for_[v] == 0) ready_.push(v);
+      if (waiting_for_[v] == 0) ready(v);
     }
-    left_ = graph.visits();
   }
+  /// Calls `ready` with each visit that has waited for v alone in the end.
+  template <class Ready>
+  void done(VisitGraph::Visit v, Ready ready) {
+    for (const VisitGraph::Visit s : successors_[v])
+      if (--waiting_for_[s] == 0) ready(s);
+  }
+
+ private:
+  std::vector<std::size_t> waiting_for_;
+  std::vector<std::vector<VisitGraph::Visit>> successors_;
+};
+
+/// What the threads of `run_threads` share, under its mutex.
+class ReadyList {
+ public:
+  explicit ReadyList(const VisitGraph& graph)
+      : predecessors_(graph, [this](VisitGraph::Visit v) { ready_.push(v); }), left_(graph.visits()) {}
 
   /// Waits for a visit that may run. @returns false when none will come
   bool take(VisitGraph::Visit& v) {
@@ -53,8 +71,7 @@ class ReadyList {
     std::lock_guard lock(mutex_);
     --left_;
     stopped_ = stopped_ || stop;
-    for (const VisitGraph::Visit s : successors_[v])
-      if (--waiting_for_[s] == 0) ready_.push(s);
+    predecessors_.done(v, [this](VisitGraph::Visit s) { ready_.push(s); });
     changed_.notify_all();
   }
 
@@ -62,13 +79,26 @@ class ReadyList {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::priority_queue<VisitGraph::Visit, std::vector<VisitGraph::Visit>, std::greater<>> ready_;
-  std::vector<std::size_t> waiting_for_;
-  std::vector<std::vector<VisitGraph::Visit>> successors_;
-  std::size_t left_ = 0;
+  Predecessors predecessors_;
+  std::size_t left_;
   bool stopped_ = false;
 };
 
 }  // namespace
+
+VisitRun run_shuffled(const VisitGraph& graph, const VisitBody& body, std::mt19937_64& random) {
+  std::vector<VisitGraph::Visit> ready;
+  const auto add = [&ready](VisitGraph::Visit v) { ready.push_back(v); };
+  Predecessors predecessors(graph, add);
+  while (!ready.empty()) {
+    std::swap(ready[random() % ready.size()], ready.back());
+    const VisitGraph::Visit v = ready.back();
+    ready.pop_back();
+    body(v);
+    predecessors.done(v, add);
+  }
+  return {graph.visits(), graph.visits(), graph.visits() > 0 ? 1u : 0u};
+}
 
 VisitRun run_threads(const VisitGraph& graph, const VisitBody& body, unsigned threads) {
   ReadyList list(graph);

@@ -28,8 +28,10 @@ struct Runner {
 };
 
 inline constexpr Runner serial{"serial", Executor::serial, 1};
+inline constexpr Runner shuffled{"shuffled", Executor::shuffled, 3};
 /// All others; those of eight threads last.
 inline const std::vector<Runner> concurrent_runners = {
+    shuffled,
     {"threads 1", Executor::threads, 1},
     {"threads 2", Executor::threads, 2},
 #if PGDR_TEST_TBB
@@ -41,7 +43,7 @@ inline const std::vector<Runner> concurrent_runners = {
 inline const std::vector<Runner> eight_threads(concurrent_runners.end() - (PGDR_TEST_TBB ? 2 : 1), concurrent_runners.end());
 
 /// For what takes long: with the address sanitizer the calling thread alone. Others look for errors of concurrency there.
-inline const std::vector<Runner> eight_threads_if_quick = sanitized ? std::vector<Runner>{} : eight_threads;
+inline const std::vector<Runner> two_if_quick = sanitized ? std::vector<Runner>{} : std::vector{shuffled, eight_threads[0]};
 
 template <int D>
 RefineOptions<D> with(RefineOptions<D> options, const Runner& runner) {

@@ -53,7 +53,7 @@ Plc<3> plate_with_boss(int sides, double thickness, const OffPlane& off_plane) {
 
 TEST(EarlySplits, StripsOfThinWalls) {
   const Plc<3> plc = plate_with_boss(64, 0.02, [](int i) { return i * 7919 % 17 - 8; });
-  const RefineResult<3> result = test::expect_reproducible<3>(plc, {}, "boss", test::eight_threads_if_quick);
+  const RefineResult<3> result = test::expect_reproducible<3>(plc, {}, "boss", test::two_if_quick);
   for (const PoorReason& reason : result.reasons) EXPECT_EQ(reason.code, PoorReason::Code::small_angle);
   // One at each of the needles' corners, and some beside them. It was one of thirteen.
   EXPECT_LT(40 * result.poor_left, result.mesh.cells.size());
@@ -64,7 +64,7 @@ TEST(EarlySplits, StripsOfThinWalls) {
 TEST(EarlySplits, AreGivenUpWhereTheBoundaryIsNotRecoveredThen) {
   constexpr int off_plane[20] = {-4, -6, 0, -5, 7, 6, 7, 4, -2, -5, 7, -8, 4, 5, -8, 6, 0, -1, -5, 2};
   const Plc<3> plc = plate_with_boss(20, 0.02, [&](int i) { return off_plane[i]; });
-  const RefineResult<3> result = test::expect_reproducible<3>(plc, {}, "overlap", test::eight_threads_if_quick);
+  const RefineResult<3> result = test::expect_reproducible<3>(plc, {}, "overlap", test::two_if_quick);
   EXPECT_EQ(result.stop, StopCause::finished);
 }
 

@@ -72,7 +72,7 @@ Plc<3> make(const Plate& plate) {
 class Tangle : public ::testing::TestWithParam<Plate> {};
 
 TEST_P(Tangle, IsUndone) {
-  const RefineResult<3> result = test::expect_reproducible<3>(make(GetParam()), {}, GetParam().name, test::eight_threads_if_quick);
+  const RefineResult<3> result = test::expect_reproducible<3>(make(GetParam()), {}, GetParam().name, test::two_if_quick);
   for (const PoorReason& reason : result.reasons) EXPECT_EQ(reason.code, PoorReason::Code::small_angle);
 }
 
@@ -107,14 +107,14 @@ Plc<3> twisted(int slices) {
 // Forty attempts were refused for each point that went in, each after a large cavity had been collected: 100 slices took
 // seconds, 200 minutes. And what mending took out at the end came back, round after round.
 TEST(Tangles, TwistedStripsEnd) {
-  const RefineResult<3> result = test::expect_reproducible<3>(twisted(30), {}, "twisted", test::eight_threads_if_quick);
+  const RefineResult<3> result = test::expect_reproducible<3>(twisted(30), {}, "twisted", test::two_if_quick);
   for (const PoorReason& reason : result.reasons) EXPECT_EQ(reason.code, PoorReason::Code::small_angle);
 }
 
 /// Reproducibly meshed, with small angles for all reasons.
 void expect_explained(const std::string& model) {
   const Plc<3> plc = read_plc<3>(PGDR_TEST_MODELS "/" + model);
-  const RefineResult<3> result = test::expect_reproducible<3>(plc, {}, model, test::eight_threads_if_quick);
+  const RefineResult<3> result = test::expect_reproducible<3>(plc, {}, model, test::two_if_quick);
   for (const PoorReason& reason : result.reasons) EXPECT_EQ(reason.code, PoorReason::Code::small_angle);
 }
 
@@ -132,7 +132,7 @@ TEST(Tangles, EndWithASelector) {
   RefineOptions<3> options;
   options.selector = off_center<3>();
   const Plate plate{"selector", {}, 0.5, false, true};
-  test::expect_reproducible<3>(make(plate), options, plate.name, test::eight_threads_if_quick);
+  test::expect_reproducible<3>(make(plate), options, plate.name, test::two_if_quick);
 }
 
 INSTANTIATE_TEST_SUITE_P(Plates, Tangle,

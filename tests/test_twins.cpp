@@ -52,7 +52,7 @@ Plc<3> box_with_needles(int needles, double part, double dy, double dz) {
 void expect_few(const Plc<3>& plc, const std::string& name, std::size_t most_cells) {
   RefineOptions<3> options;
   options.max_vertices = 20000;  // so that a run that does not end does
-  const RefineResult<3> result = test::expect_reproducible<3>(plc, options, name, test::eight_threads_if_quick);
+  const RefineResult<3> result = test::expect_reproducible<3>(plc, options, name, test::two_if_quick);
   EXPECT_EQ(result.stop, StopCause::finished);
   EXPECT_LT(result.mesh.cells.size(), most_cells);
   EXPECT_GT(result.mesh.cells.size(), 0u);

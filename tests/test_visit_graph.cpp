@@ -86,6 +86,10 @@ VisitRun flow_on_eight(const VisitGraph& graph, const VisitBody& body) {
 std::vector<Executor> executors() {
   std::vector<Executor> all{
       {"serial", run_serial},
+      {"shuffled", [](const VisitGraph& g, const VisitBody& b) {
+         std::mt19937_64 random(seed);
+         return run_shuffled(g, b, random);
+       }},
       {"one thread", [](const VisitGraph& g, const VisitBody& b) { return run_threads(g, b, 1); }},
       {"threads", [](const VisitGraph& g, const VisitBody& b) { return run_threads(g, b, eight); }}};
 #if PGDR_TEST_TBB

@@ -29,8 +29,10 @@ struct Progress {
 /// whatever is free runs next, and the mesh depends on timing; it shows what reproducibility costs.
 enum class Schedule { reproducible, greedy };
 /// What runs the visits: a oneTBB flow graph in the caller's arena; plain threads (for thread sanitizers, which do not see
-/// through TBB); or the calling thread alone. A reproducible mesh does not depend on it.
-enum class Executor { flow_graph, threads, serial };
+/// through TBB); the calling thread alone; or this thread in a random order that the number of `threads` seeds, of what need not
+/// wait, with as many pools of memory, for tests: whatever depends on timing or memory elsewhere shows there every time.
+/// A reproducible mesh does not depend on it.
+enum class Executor { flow_graph, threads, serial, shuffled };
 
 /// How the work is divided. The defaults are good; a reproducible mesh depends on `granularity`, `split_ratio`, `floor`
 /// and `claim_order`, and on nothing else here.

@@ -39,7 +39,7 @@ class Generations final : public LeafRefinement<D> {
   void touch_memory(std::span<const VisitRequest> requests);
   void split_leaves(std::vector<Node> candidates);
 
-  using Base::context_, Base::generation_, Base::options_, Base::statistics_, Base::tree_, Base::vertices_, Base::works_;
+  using Base::context_, Base::generation_, Base::options_, Base::random_, Base::statistics_, Base::tree_, Base::vertices_, Base::works_;
   ConflictManager<D> conflicts_;
   ClaimRegistry<D> registry_;
 };

@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <random>
 #include <set>
 #include <span>
 #include <thread>
@@ -106,6 +107,7 @@ class LeafRefinement {
   const bool uneven_;  ///< there may be some that no insertion brings
   bool all_listed_ = false;  ///< every poor cell is on a list, between visits
   SchedulerStatistics statistics_;
+  std::mt19937_64 random_;  ///< of the executor that shuffles
 
  private:
   /// For loops over all cells, which end then: has the run been cancelled? Asked for every 1024th. It is stopped with that.
@@ -145,6 +147,7 @@ class LeafRefinement {
   void relist(const Entry<D>& e);
   void put_off(const VisitRequest& request, const std::vector<Entry<D>>& entries);
   Worker check_out();
+  void shuffle_workers();
   void check_in(Worker worker);
 
   WorkList<D> whole_list_;               ///< entities that visits of the whole tree come upon

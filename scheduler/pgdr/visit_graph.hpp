@@ -18,6 +18,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <random>
 #include <span>
 #include <vector>
 
@@ -56,6 +57,9 @@ using VisitBody = std::function<void(VisitGraph::Visit)>;  ///< runs one visit; 
 
 /// In the order of the numbers, on the calling thread.
 VisitRun run_serial(const VisitGraph& graph, const VisitBody& body);
+
+/// On the calling thread, each time one at random of those that are free to run.
+VisitRun run_shuffled(const VisitGraph& graph, const VisitBody& body, std::mt19937_64& random);
 
 /// In the caller's task arena. Parallel work inside a body never starts another visit on top of it.
 VisitRun run_flow_graph(const VisitGraph& graph, const VisitBody& body);
