@@ -26,11 +26,13 @@ Point<D> between(const Point<D>& a, const Point<D>& b, double part) {
 
 }  // namespace
 
-/// By how much the move that was aimed at lessens the excess, if that is more than `least`. Notes what is poor then.
+/// By how much the move that was aimed at lessens the excess, if that is more than `least`, and it turns over none of the cells that
+/// it takes to tell. Notes what is poor then.
 template <int D>
 std::optional<double> Refiner<D>::gain_of_move(double excess, double least) {
   poor_turned_.clear();
   for (std::size_t i = 0; i < move_.turned().size() && excess > least; ++i) {
+    if (move_.turns_over(i)) return {};
     const double e = context_->bounds.excess(move_.prospect(i), mesh_->region(move_.turned()[i].cell));
     if (e > 0) poor_turned_.push_back(i);
     excess -= e;
@@ -164,7 +166,7 @@ auto Refiner<D>::change_vertex(const Item& e, VertexChange change) -> Outcome {
     move_.put_first([this](CellId c) { return static_cast<bool>(context_->bounds.test(*mesh_, c)); });
     const auto consider = [&](VertexId u, const Point<D>& x) {
       aim(u, x);
-      if (move_.turns_cell_over()) return;
+      if (takes_out && move_.turns_cell_over()) return;  // most do, which is quicker to tell than what they gain
       const auto gain = gain_of_move(excess, most);
       bool violates = false;
       if (!gain || !move_.is_valid() || !move_keeps_sizes() || !move_is_explained(violates)) return;

@@ -156,7 +156,7 @@ void VertexMove::find_turned() {
 
 bool VertexMove::turns_cell_over() const {
   for (std::size_t i = 0; i < turned_.size(); ++i)
-    if (orient<3>(prospect(i)) != Sign::positive) return true;
+    if (turns_over(i)) return true;
   return false;
 }
 

@@ -7,17 +7,16 @@
 
 #include <atomic>
 #include <cfenv>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <thread>
 
 #ifdef __SSE2__
 #include <xmmintrin.h>
 #endif
 
 #include "fingerprints.hpp"
+#include "meeting.hpp"
 #include "parallel_support.hpp"
 #include "pgdr/io.hpp"
 
@@ -171,7 +170,7 @@ TEST(Parallel, CallersFloatingPointModeDoesNotMatter) {
 #endif
 }
 
-// Eight threads run visits at one time, on any machine: a size function that sleeps now and then leaves the cores to others.
+// Eight threads run visits at one time, on any machine: a size function that waits for them now and then leaves them the cores.
 TEST(Parallel, EightThreadsReallyRun) {
   const test::AllowThreads allow(8);
   RefineOptions<3> options;
@@ -180,8 +179,9 @@ TEST(Parallel, EightThreadsReallyRun) {
   const auto expected = refine<3>(test::cube(), test::with<3>(options, test::serial));
   for (const test::Runner& runner : eight_threads) {
     std::atomic<unsigned> calls{0};
-    options.size = [&calls](const Point3&) {
-      if (++calls % 64 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(3));
+    test::Meeting eight(8);
+    options.size = [&](const Point3&) {
+      if (++calls % 64 == 0) eight.wait();
       return 0.05;
     };
     const auto result = refine<3>(test::cube(), test::with<3>(options, runner));

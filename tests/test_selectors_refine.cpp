@@ -14,6 +14,7 @@
 #include <set>
 #include <string>
 
+#include "meeting.hpp"
 #include "parallel_support.hpp"
 #include "pgdr/quality.hpp"
 #include "pgdr/selectors.hpp"
@@ -324,12 +325,13 @@ TYPED_TEST(SelectorsRefine, SlowSelectors) {
   options.disk.type = DiskType::type1;
   options.selector = off_center<D>();
   const auto expected = refine<D>(plc, test::with<D>(options, test::serial));
-  std::atomic<unsigned> calls{0};
-  options.selector = [&calls, quick = off_center<D>()](const PoorElement<D>& e, Neighborhood<D>& n) {
-    if (++calls % 16 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    return quick(e, n);
-  };
   for (const auto& runner : test::eight_threads) {
+    std::atomic<unsigned> calls{0};
+    test::Meeting two(2);
+    options.selector = [&, quick = off_center<D>()](const PoorElement<D>& e, Neighborhood<D>& n) {
+      if (++calls % 4 == 0) two.wait();
+      return quick(e, n);
+    };
     const auto result = refine<D>(plc, test::with<D>(options, runner));
     test::expect_same<D>(expected, result, runner.name);
     EXPECT_GT(result.scheduler.max_concurrent, 1u) << runner.name;

@@ -72,6 +72,7 @@ Plc<3> make(const Plate& plate) {
 class Tangle : public ::testing::TestWithParam<Plate> {};
 
 TEST_P(Tangle, IsUndone) {
+  if (test::sanitized && GetParam().name == std::string("at_the_third_attempt")) GTEST_SKIP() << "takes minutes; the second attempt is as much";
   const RefineResult<3> result = test::expect_reproducible<3>(make(GetParam()), {}, GetParam().name, test::two_if_quick);
   for (const PoorReason& reason : result.reasons) EXPECT_EQ(reason.code, PoorReason::Code::small_angle);
 }

@@ -61,7 +61,8 @@ class VertexMove {
   }
   void aim(VertexId u);  ///< at a neighbour
   void aim(const Point3& x);  ///< at a place on the vertex's own entity
-  bool turns_cell_over() const;  ///< so that the vertex may not go there; most that may not do
+  bool turns_over(std::size_t i) const { return orient<3>(prospect(i)) != Sign::positive; }  ///< the i-th turned cell
+  bool turns_cell_over() const;  ///< any, so that the vertex may not go there; most that may not do
   /// May the vertex go there?
   bool is_valid();
   Home home() const { return home_; }  ///< of what was aimed at last
