@@ -56,9 +56,12 @@ template <int D>
 bool LeafRefinement<D>::may_improve(bool takes_out_alone) const {
   if (context_.options.radius_edge_bound >= smallest_proved_bound<D>()) return true;
   const Mesh<D>& mesh = context_.mesh;
-  const std::uint32_t cells = mesh.cell_bound();
-  std::size_t poor = 0;
-  for (std::uint32_t i = 0; i < cells; ++i) poor += mesh.alive(CellId{i}) && context_.bounds.test(mesh, CellId{i});
+  std::size_t cells = 0, poor = 0;
+  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i) {
+    if (!mesh.alive(CellId{i})) continue;
+    ++cells;
+    poor += context_.bounds.test(mesh, CellId{i}) ? 1 : 0;
+  }
   const std::size_t least_cells = takes_out_alone ? 6 : 16;  // for each that is poor
   return least_cells * poor <= cells;
 }

@@ -10,6 +10,8 @@
 #include <limits>
 #include <numbers>
 #include <ostream>
+#include <string>
+#include <vector>
 
 #include "parallel_support.hpp"
 #include "pgdr/cell_bounds.hpp"
@@ -86,6 +88,23 @@ TEST(Improvement, KeepsToTheBudget) {
   }
   EXPECT_TRUE(stopped);
   EXPECT_TRUE(ended);
+}
+
+// Below the bound that theory proves these visits depend on the share of the cells that are poor: once of the slots of cells,
+// of which a run with more threads has more.
+TEST(Improvement, IsReproducibleBelowTheProvedBound) {
+  for (const double bound : {1.4, 1.8})
+    for (const double height : {0.017, 0.05, 0.2}) {
+      Plc<3> plc;  // a wedge again, with whole faces
+      plc.points = {{{0, 0, 0}}, {{0, 1, 0}}, {{1, 0, 0}}, {{1, 1, 0}}, {{1, 0, height}}, {{1, 1, height}}};
+      for (const auto& polygon : std::vector<std::vector<std::uint32_t>>{{0, 2, 3, 1}, {0, 4, 5, 1}, {0, 2, 4}, {1, 3, 5}, {2, 3, 5, 4}})
+        plc.facets.push_back({{polygon}, {}, 0});
+      RefineOptions<3> options;
+      options.radius_edge_bound = bound;
+      options.schedule.floor = 20;
+      const std::string what = "height " + std::to_string(height) + ", bound " + std::to_string(bound);
+      test::expect_reproducible<3>(plc, options, what, test::two_if_quick);
+    }
 }
 
 // It was told by the number of a vertex once, which for one made since depended on the thread that had made it: a slot that no
