@@ -79,6 +79,15 @@ void expect_sound(const Domain<D>& domain, const RefineOptions<D>& options, cons
   for (const auto& f : report.findings) FUZZ_EXPECT(f.kind == CheckFinding::Kind::bad_reason, findings(report));
 }
 
+/// In another order, and with other slots and numbers of cells and vertices, the same comes out.
+void expect_same_shuffled(const Domain<D>& domain, RefineOptions<D> options, const RefineResult<D>& result) {
+  options.schedule.executor = Executor::shuffled;
+  options.schedule.threads = 3;
+  const auto again = refine<D>(domain, options);
+  FUZZ_EXPECT(again.mesh.points == result.mesh.points && again.mesh.cells == result.mesh.cells);
+  FUZZ_EXPECT(again.mesh.regions == result.mesh.regions && again.poor_left == result.poor_left && again.stop == result.stop);
+}
+
 void mesh(const fuzz::GridInput<D>& input) {
   const bool possible = has_mesh(input.plc);
   FUZZ_EXPECT((diagnose(input.plc).error_count() == 0) == possible);
@@ -89,9 +98,11 @@ void mesh(const fuzz::GridInput<D>& input) {
     options.max_vertices = 400;
     options.regions = input.automatic ? RegionMode::automatic : RegionMode::seeds;
     options.schedule.executor = Executor::serial;
+    options.schedule.floor = 5;  // a few leaves
     const auto result = refine<D>(domain, options);
     FUZZ_EXPECT(possible);
     expect_sound(domain, options, result);
+    expect_same_shuffled(domain, options, result);
   } catch (const InputError& e) {
     const bool about_seeds = e.code() == Errc::encloses_nothing ? !input.plc.holes.empty()  // nothing is left
                              : seeds && (e.code() == Errc::seed_on_boundary || e.code() == Errc::conflicting_seeds);
