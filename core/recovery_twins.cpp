@@ -70,7 +70,8 @@ void SegmentChains::for_each_along(EntityId s, EntityId companion, double begin,
 /// Input vertices close beside the segment, by parameter.
 const std::vector<SegmentChains::Link>& SegmentChains::input_beside(EntityId s) {
   const auto [at, is_new] = input_beside_.try_emplace(s);
-  if (!is_new) return at->second;
+  std::vector<Link>& found = at->second;
+  if (!is_new) return found;
   if (!points_tree_) {
     std::vector<SearchBox<3>> boxes(domain_->points().size(), SearchBox<3>::empty());
     for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i].add(domain_->points()[i]);
@@ -87,11 +88,11 @@ const std::vector<SegmentChains::Link>& SegmentChains::input_beside(EntityId s) 
   points_tree_->search(least, [&](std::uint32_t i) {
     const Point3& x = domain_->points()[i];
     if (i != ends[0] && i != ends[1] && squared_distance_to_edge<3>(p, q, x) < limit * limit)
-      at->second.push_back({delaunay_->vertices()[i], segment_parameter<3>(*domain_, s, x)});
+      found.push_back({delaunay_->vertices()[i], segment_parameter<3>(*domain_, s, x)});
     return limit;
   });
-  std::sort(at->second.begin(), at->second.end(), [](const Link& a, const Link& b) { return a.t < b.t; });
-  return at->second;
+  std::sort(found.begin(), found.end(), [](const Link& a, const Link& b) { return a.t < b.t; });
+  return found;
 }
 
 /// Where to split the piece, and the vertices whose distances from there do not count.

@@ -6,6 +6,7 @@
 // vertex makes short edges, to those on the other segment, and poor elements at these; what needed it when it was inserted may
 // be gone by now.
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "pgdr/improvement.hpp"
@@ -84,8 +85,9 @@ template <int D>
 void Refiner<D>::add_places_on_segment(const std::vector<VertexId>& ends, std::vector<Point<D>>& places) const {
   if (ends.size() != 2) return;
   const EntityId segment = mesh_->vertex(move_.vertex()).home.id();
-  const auto [t0, t1] = piece(segment, ends[0], ends[1]);
-  const double length = t1 - t0, t = segment_parameter<D>(*domain_, segment, mesh_->point(move_.vertex()));
+  const std::array<double, 2> both = piece(segment, ends[0], ends[1]);
+  const double t0 = both[0], t1 = both[1], length = t1 - t0;
+  const double t = segment_parameter<D>(*domain_, segment, mesh_->point(move_.vertex()));
   const auto add = [&](double to) {
     if (to > t0 + margin * length && to < t1 - margin * length) places.push_back(point_on_segment<D>(*domain_, segment, to));
   };
@@ -156,7 +158,9 @@ auto Refiner<D>::change_vertex(const Item& e, VertexChange change) -> Outcome {
   if (takes_out && !add_vertices_beyond(e.cell, vertices)) return Outcome::not_owned;
   std::optional<Best> best;
   double most = takes_out ? least_gain_without : least_gain;
-  for (const auto& [v, at] : vertices) {
+  for (const auto& candidate : vertices) {
+    const VertexId v = candidate.first;
+    const CellId at = candidate.second;
     const auto status = move_.collect(v, at, most_cells_changed);
     seen_.insert(seen_.end(), move_.cells().begin(), move_.cells().end());
     if (status == VertexMove::Status::not_owned) return Outcome::not_owned;
