@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <unordered_map>
+#include <utility>
 
 #include "detail/bent_facets.hpp"
 #include "detail/planar_cdt.hpp"
@@ -43,6 +44,16 @@ Box<3> box_around(const Ball<3>& ball) {
     box.high[i] = std::isfinite(high) ? high : std::numeric_limits<double>::max();
   }
   return box;
+}
+
+/// How far on the way from p to q the line through a and b is, in the projection.
+double part_of_way(const Point3& p, const Point3& q, const Point3& a, const Point3& b, int axis) {
+  const auto to_left = [&](const Point3& x) {
+    const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+    return std::fabs((b[i] - a[i]) * (x[j] - a[j]) - (b[j] - a[j]) * (x[i] - a[i]));
+  };
+  const double from = to_left(p);
+  return from > 0 ? from / (from + to_left(q)) : 0;
 }
 
 }  // namespace
@@ -170,23 +181,25 @@ Point3 FacetPatches::centroid_of(const Triangle& t) const {
   return c;
 }
 
-/// The first subsegment of the facet that x lies beyond as seen from triangle t, else the first whose diametral ball contains
-/// x. `tree` is over the rim's balls in the facet's projection.
+/// Of the subsegments of the facet that x lies beyond, the one nearest to triangle t, which hides what is behind it: to split one of
+/// those does nothing about t, and would go on for ever. If there is none, the first whose diametral ball contains x. `tree` is over
+/// the rim's balls in the facet's projection.
 auto FacetPatches::in_the_way(const std::vector<Subsegment>& rim, const BoxTree<2>& tree, EntityId facet, const Triangle& t,
                               const Point3& x) const -> std::optional<Subsegment> {
   const int axis = domain_->facets()[facet].axis;
   const Point3 from = centroid_of(t);
-  std::size_t crossed = rim.size(), encroached = rim.size();
+  std::pair<double, std::size_t> crossed{std::numeric_limits<double>::infinity(), rim.size()};
+  std::size_t encroached = rim.size();
   auto sight = Box<2>::around(projected(from, axis));
   sight.add(projected(x, axis));
   tree.meeting(sight, [&](std::size_t i) {
     const Point3 &a = mesh_->point(rim[i].a), &b = mesh_->point(rim[i].b);
     if (orient_projected(a, b, from, axis) != orient_projected(a, b, x, axis) &&
         orient_projected(from, x, a, axis) != orient_projected(from, x, b, axis))
-      crossed = std::min(crossed, i);
+      crossed = std::min(crossed, std::pair(part_of_way(from, x, a, b, axis), i));
     if (in_diametral_ball<3>(a, b, x)) encroached = std::min(encroached, i);
   });
-  const std::size_t first = crossed < rim.size() ? crossed : encroached;
+  const std::size_t first = crossed.second < rim.size() ? crossed.second : encroached;
   if (first == rim.size()) return std::nullopt;
   return rim[first];
 }
