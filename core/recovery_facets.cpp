@@ -48,12 +48,9 @@ Box<3> box_around(const Ball<3>& ball) {
 
 /// How far on the way from p to q the line through a and b is, in the projection.
 double part_of_way(const Point3& p, const Point3& q, const Point3& a, const Point3& b, int axis) {
-  const auto to_left = [&](const Point3& x) {
-    const int i = (axis + 1) % 3, j = (axis + 2) % 3;
-    return std::fabs((b[i] - a[i]) * (x[j] - a[j]) - (b[j] - a[j]) * (x[i] - a[i]));
-  };
-  const double from = to_left(p);
-  return from > 0 ? from / (from + to_left(q)) : 0;
+  const auto off_line = [&](const Point3& x) { return std::fabs(cross(difference<3>(b, a), difference<3>(x, a))[axis]); };
+  const double from = off_line(p);
+  return from > 0 ? from / (from + off_line(q)) : 0;
 }
 
 }  // namespace

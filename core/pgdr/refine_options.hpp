@@ -29,8 +29,8 @@ struct Progress {
 /// whatever is free runs next, and the mesh depends on timing; it shows what reproducibility costs.
 enum class Schedule { reproducible, greedy };
 /// What runs the visits: a oneTBB flow graph in the caller's arena; plain threads (for thread sanitizers, which do not see
-/// through TBB); the calling thread alone; or this thread in a random order that the number of `threads` seeds, of what need not
-/// wait, with as many pools of memory, for tests: whatever depends on timing or memory elsewhere shows there every time.
+/// through TBB); the calling thread alone; or, for tests, this thread in a random order of what need not wait, with as many pools of
+/// memory as `threads` says, which seeds the order, too: so an error that takes luck elsewhere is there again at the next run.
 /// A reproducible mesh does not depend on it.
 enum class Executor { flow_graph, threads, serial, shuffled };
 
