@@ -61,6 +61,7 @@ FacetPatches::FacetPatches(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>
       domain_(&domain),
       chains_(&chains),
       triangles_(domain.facets().size()),
+      seen_(domain.facets().size()),
       inner_points_(domain.facets().size()),
       changed_(domain.facets().size(), false) {
   for (EntityId f = 0; f < triangles_.size(); ++f) {
@@ -133,21 +134,14 @@ void FacetPatches::triangulate(EntityId facet) {
     triangles_[facet].push_back({vertices[t[0]], vertices[t[1]], vertices[t[2]]});
 }
 
-WantedSimplices<3> FacetPatches::wanted() const {
-  WantedSimplices<3> faces;
-  for (EntityId f = 0; f < triangles_.size(); ++f)
-    for (const Triangle& t : triangles_[f]) faces.add(t, f);
-  faces.index_by_first(mesh_->vertex_bound());
-  return faces;
-}
-
-void FacetPatches::find_present(WantedSimplices<3>& wanted) const {
-  for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) {
-    if (!mesh_->alive(CellId{i})) continue;
-    const auto& v = mesh_->cell(CellId{i}).vertices;
-    for (int f = 0; f < 4; ++f)
-      if (auto* face = wanted.find({v[(f + 1) & 3], v[(f + 2) & 3], v[(f + 3) & 3]})) face->present = true;
+/// Where all triangles are.
+void FacetPatches::find_present() {
+  PresentSimplices<3> faces(*mesh_);
+  for (EntityId f = 0; f < triangles_.size(); ++f) {
+    seen_[f].resize(triangles_[f].size(), not_seen);
+    for (std::size_t i = 0; i < triangles_[f].size(); ++i) faces.ask(triangles_[f][i], seen_[f][i]);
   }
+  faces.find();
 }
 
 bool FacetPatches::recover_once(const std::function<bool()>& stop) {
@@ -157,13 +151,12 @@ bool FacetPatches::recover_once(const std::function<bool()>& stop) {
     if (changed_[f]) triangulate(f);
     changed_[f] = false;
   }
-  WantedSimplices<3> faces = wanted();
-  find_present(faces);
+  find_present();
   std::vector<std::vector<Candidate>> missing(triangles_.size());
   bool any = false;
   for (EntityId f = 0; f < triangles_.size(); ++f)
-    for (const Triangle& t : triangles_[f])
-      if (!faces.find(t)->present) {
+    for (std::size_t i = 0; i < triangles_[f].size(); ++i)
+      if (const Triangle& t = triangles_[f][i]; seen_[f][i] == not_seen) {
         missing[f].push_back({equatorial_ball(mesh_->point(t[0]), mesh_->point(t[1]), mesh_->point(t[2])), t, 0});
         any = true;
       }
@@ -265,7 +258,10 @@ bool FacetPatches::split_triangles(EntityId facet, std::vector<Candidate> candid
 }
 
 void FacetPatches::mark(Mesh<3>::Pools& pools) {
-  WantedSimplices<3> faces = wanted();
+  WantedSimplices<3> faces;
+  for (EntityId f = 0; f < triangles_.size(); ++f)
+    for (const Triangle& t : triangles_[f]) faces.add(t, f);
+  faces.index_by_first(mesh_->vertex_bound());
   for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) {
     const CellId c{i};
     if (!mesh_->alive(c)) continue;

@@ -15,29 +15,16 @@ SegmentChains::SegmentChains(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<
   find_companions();
 }
 
-WantedSimplices<2> SegmentChains::wanted() const {
-  WantedSimplices<2> edges;
-  for (EntityId s = 0; s < chains_.size(); ++s)
-    for (std::size_t i = 1; i < chains_[s].size(); ++i)
-      edges.add({chains_[s][i - 1].vertex, chains_[s][i].vertex}, s);
-  edges.index_by_first(mesh_->vertex_bound());
-  return edges;
-}
-
-std::vector<Subsegment> SegmentChains::missing() const {
-  WantedSimplices<2> edges = wanted();
-  for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) {
-    if (!mesh_->alive(CellId{i})) continue;
-    const auto& v = mesh_->cell(CellId{i}).vertices;
-    for (int a = 0; a <= 3; ++a)
-      for (int b = a + 1; b <= 3; ++b)
-        if (auto* edge = edges.find({v[a], v[b]})) edge->present = true;
-  }
+std::vector<Subsegment> SegmentChains::missing() {
+  PresentSimplices<2> edges(*mesh_);
+  for (auto& chain : chains_)
+    for (std::size_t i = 1; i < chain.size(); ++i) edges.ask({chain[i - 1].vertex, chain[i].vertex}, chain[i].seen);
+  edges.find();
   std::vector<Subsegment> list;
   for (EntityId s = 0; s < chains_.size(); ++s)
     for (std::size_t i = 1; i < chains_[s].size(); ++i) {
-      const VertexId a = chains_[s][i - 1].vertex, b = chains_[s][i].vertex;
-      if (!edges.find({a, b})->present) list.push_back({s, a, b, chains_[s][i - 1].t});
+      const Link &a = chains_[s][i - 1], &b = chains_[s][i];
+      if (b.seen == not_seen) list.push_back({s, a.vertex, b.vertex, a.t});
     }
   return list;
 }
@@ -95,7 +82,11 @@ std::vector<EntityId> SegmentChains::take_changed() {
 }
 
 void SegmentChains::mark(Mesh<3>::Pools& pools) {
-  WantedSimplices<2> edges = wanted();
+  WantedSimplices<2> edges;
+  for (EntityId s = 0; s < chains_.size(); ++s)
+    for (std::size_t i = 1; i < chains_[s].size(); ++i)
+      edges.add({chains_[s][i - 1].vertex, chains_[s][i].vertex}, s);
+  edges.index_by_first(mesh_->vertex_bound());
   for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) {
     const CellId c{i};
     if (!mesh_->alive(c)) continue;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "detail/box_tree.hpp"
+#include "detail/present_simplices.hpp"
 #include "detail/search_tree.hpp"
 #include "detail/wanted_simplices.hpp"
 #include "pgdr/recovery.hpp"
@@ -33,6 +34,7 @@ class SegmentChains {
     VertexId vertex;
     double t;  ///< parameter on the segment
     std::uint32_t round = 0;  ///< in which it was made
+    CellId seen = not_seen;   ///< that has the edge to it from the one before
   };
 
   SegmentChains(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>& domain);
@@ -66,7 +68,7 @@ class SegmentChains {
 
  private:
   Diagnostic not_resolved(EntityId segment, bool is_its_end, Home home, const Point3& x) const;
-  std::vector<Subsegment> missing() const;
+  std::vector<Subsegment> missing();
   std::size_t position(const Subsegment& s) const;
   // recovery_twins.cpp
   void find_companions();
@@ -76,7 +78,6 @@ class SegmentChains {
   std::pair<double, std::vector<VertexId>> split_place(EntityId s, double begin, double end);
 
   void add(EntityId segment, std::size_t position, VertexId v, double t);
-  WantedSimplices<2> wanted() const;
 
   Mesh<3>* mesh_;
   Delaunay<3>* delaunay_;
@@ -125,14 +126,14 @@ class FacetPatches {
                                        const Triangle& t, const Point3& x) const;
   std::vector<Subsegment> subsegments(EntityId facet) const;
   BoxTree<2> tree_of_diametral_balls(const std::vector<Subsegment>& rim, int axis) const;
-  WantedSimplices<3> wanted() const;
-  void find_present(WantedSimplices<3>& wanted) const;
+  void find_present();
 
   Mesh<3>* mesh_;
   Delaunay<3>* delaunay_;
   const Domain<3>* domain_;
   SegmentChains* chains_;
   std::vector<std::vector<Triangle>> triangles_;
+  std::vector<std::vector<CellId>> seen_;  ///< of each triangle, a cell that has it
   std::vector<std::vector<VertexId>> inner_points_;  ///< Steiner points inside each facet
   std::vector<bool> changed_;
   std::vector<EarlySplits> calm_;  ///< of each facet, the least that names it; `none` if nothing does

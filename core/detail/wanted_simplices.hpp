@@ -19,7 +19,6 @@ class WantedSimplices {
   struct Item {
     std::array<VertexId, K> vertices;  // sorted
     EntityId entity;
-    bool present = false;
   };
 
   void add(std::array<VertexId, K> vertices, EntityId entity) {
