@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "detail/vectors.hpp"
@@ -93,13 +94,19 @@ double CellBounds<D>::measure_of(int region) const {
 template <int D>
 double CellBounds<D>::excess(const Simplex<D>& s, int region) const {
   constexpr int most_powers = 20;
-  constexpr double of_power = 1.0 / 8;
-  if (!radius_edge_within<D>(s, radius_edge_bound)) {
-    const double limit = radius_edge_bound * std::sqrt(shortest_edge_squared<D>(s));
-    // A comparison alone, as the circumcentre of a flat one takes many times as long.
-    if (!circumradius_within<D>(s, std::ldexp(limit, most_powers + 1))) return 1 + of_power * most_powers;
-    const double powers = std::log2(std::sqrt(circumsphere<D>(s).squared_radius) / limit);
+  constexpr double of_power = 1.0 / 8, margin = 0x1p-16;
+  const auto of_powers = [](double powers) {
     return 1 + of_power * (powers < most_powers ? std::max(powers, 0.0) : most_powers);  // of rounding's NaN: the most
+  };
+  const double shortest2 = shortest_edge_squared<D>(s), limit2 = radius_edge_bound * radius_edge_bound * shortest2;
+  const std::optional<double> radius2 = squared_circumradius_quickly<D>(s);
+  if (radius2 && *radius2 > limit2 * (1 + margin) && limit2 > 0) return of_powers(std::log2(*radius2 / limit2) / 2);
+  const bool within = radius2 && *radius2 < limit2 * (1 - margin);
+  if (!within && !radius_edge_within<D>(s, radius_edge_bound)) {
+    const double limit = radius_edge_bound * std::sqrt(shortest2);
+    // A comparison alone, as the circumcentre of a flat one takes many times as long.
+    if (!circumradius_within<D>(s, std::ldexp(limit, most_powers + 1))) return of_powers(most_powers);
+    return of_powers(std::log2(std::sqrt(circumsphere<D>(s).squared_radius) / limit));
   }
   return within_size(s, region) ? 0 : 1;
 }

@@ -137,6 +137,16 @@ Circumsphere<D> circumsphere(const Simplex<D>& s) {
   return {c.point, squared_distance(c.point, corners[0]), c.error};
 }
 
+// The offset is off by at most 2^-20 of its largest component, so that its square is by 2^-19 and little more.
+template <int D>
+std::optional<double> squared_circumradius_quickly(const Simplex<D>& s) {
+  const Offset<D> o = simplex_offset<D>(detail::edges_from_first<D>(sorted<D + 1, D>(s)));
+  if (!accurate<D>(o)) return std::nullopt;
+  double square = 0;
+  for (const double x : o.w) square += x * x;
+  return square;
+}
+
 template <int D>
 double shortest_edge_squared(const Simplex<D>& s) {
   double shortest = squared_distance(s[0], s[1]);
@@ -199,6 +209,8 @@ bool in_equatorial_ball(const Ball<3>& ball, const Point3& x) {
   return squared_distance(ball.center, x) < ball.squared_radius;
 }
 
+template PGDR_API std::optional<double> squared_circumradius_quickly<2>(const Simplex<2>&);
+template PGDR_API std::optional<double> squared_circumradius_quickly<3>(const Simplex<3>&);
 template PGDR_API Circumsphere<2> circumsphere<2>(const Simplex<2>&);
 template PGDR_API Circumsphere<3> circumsphere<3>(const Simplex<3>&);
 template PGDR_API double shortest_edge_squared<2>(const Simplex<2>&);

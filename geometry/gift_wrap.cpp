@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "detail/side_of_plane.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr {
@@ -67,22 +68,10 @@ bool GiftWrap::wrap(const Face& f) {
 
 void GiftWrap::find_candidates(const Face& f) {
   candidates_.clear();
+  const detail::SideOfPlane plane(points_[f[0]], points_[f[1]], points_[f[2]]);
   for (std::size_t v = 0; v < points_.size(); ++v)
-    if (orient3d(points_[f[0]], points_[f[1]], points_[f[2]], points_[v]) == Sign::positive)
+    if (std::find(f.begin(), f.end(), v) == f.end() && plane.of(points_[v]) == Sign::positive)
       candidates_.push_back(static_cast<Index>(v));
-}
-
-/// Bit i: the point lies weakly beyond face i.
-std::uint8_t GiftWrap::beyond_faces(const Cell& cell, Index v) const {
-  std::uint8_t beyond = 0;
-  const bool corner = std::find(cell.begin(), cell.end(), v) != cell.end();
-  for (int i = 0; i < 4; ++i) {
-    const Face f = face_of(cell, i);
-    const bool out = corner ? v != cell[static_cast<std::size_t>(i)]
-                            : orient3d(points_[f[0]], points_[f[1]], points_[f[2]], points_[v]) != Sign::positive;
-    if (out) beyond |= static_cast<std::uint8_t>(1 << i);
-  }
-  return beyond;
 }
 
 /// Does a triangle of the front meet the inside of the cell? Most are far away.
@@ -90,15 +79,26 @@ bool GiftWrap::blocked(const Cell& cell) {
   const BoundingBox<3> box = box_of(cell);
   constexpr std::uint8_t unknown = 0xff;
   beyond_.assign(points_.size(), unknown);
+  std::array<detail::SideOfPlane, 4> planes;
+  for (int i = 0; i < 4; ++i) {
+    const Face f = face_of(cell, i);
+    planes[i] = {points_[f[0]], points_[f[1]], points_[f[2]]};
+    beyond_[cell[i]] = static_cast<std::uint8_t>(15 & ~(1 << i));
+  }
   const auto beyond = [&](Index v) {
-    if (beyond_[v] == unknown) beyond_[v] = beyond_faces(cell, v);
+    if (beyond_[v] != unknown) return beyond_[v];
+    beyond_[v] = 0;
+    for (int i = 0; i < 4; ++i)
+      if (planes[i].of(points_[v]) != Sign::positive) beyond_[v] |= static_cast<std::uint8_t>(1 << i);
     return beyond_[v];
   };
   return std::any_of(front_.begin(), front_.end(), [&](const FrontFace& o) {
     for (int k = 0; k < 3; ++k)
       if (o.box.high[k] <= box.low[k] || box.high[k] <= o.box.low[k]) return false;
     const Face& f = o.vertices;
-    return (beyond(f[0]) & beyond(f[1]) & beyond(f[2])) == 0 && meets(cell, f);
+    const std::uint8_t a = beyond(f[0]), b = beyond(f[1]), c = beyond(f[2]);
+    if ((a & b & c) != 0) return false;
+    return a == 0 || b == 0 || c == 0 || meets(cell, f);  // 0: inside
   });
 }
 
@@ -112,10 +112,8 @@ bool GiftWrap::meets(const Cell& cell, const Face& face) const {
   for (const Index v : face)
     if (std::find(cell.begin(), cell.end(), v) == cell.end()) corner[n++] = v;
   auto keeps_apart = [&](Index a, Index b, Index c) {
-    auto side = [&](Index v) {
-      if (v == a || v == b || v == c) return Sign::zero;
-      return orient3d(points_[a], points_[b], points_[c], points_[v]);
-    };
+    const detail::SideOfPlane plane(points_[a], points_[b], points_[c]);
+    auto side = [&](Index v) { return v == a || v == b || v == c ? Sign::zero : plane.of(points_[v]); };
     Sign of_cell = Sign::zero;
     for (const Index v : cell) {
       const Sign s = side(v);
@@ -134,7 +132,9 @@ bool GiftWrap::meets(const Cell& cell, const Face& face) const {
 }
 
 auto GiftWrap::find_in_front(const Face& f) -> std::vector<FrontFace>::iterator {
-  return std::find_if(front_.begin(), front_.end(), [&f](const FrontFace& o) { return o.vertices == f; });
+  return std::find_if(front_.begin(), front_.end(), [&f](const FrontFace& o) {
+    return o.vertices[0] == f[0] && o.vertices[1] == f[1] && o.vertices[2] == f[2];  // as == calls memcmp
+  });
 }
 
 /// The cell's faces leave the front or, turned over, enter it.

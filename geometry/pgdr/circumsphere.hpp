@@ -5,6 +5,7 @@
 // that each is a function of the vertex set. Pure functions, any thread.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "pgdr/export.hpp"
@@ -26,6 +27,11 @@ struct Circumsphere {
 /// @pre the corners are affinely independent (exactly).
 template <int D>
 Circumsphere<D> circumsphere(const Simplex<D>& s);
+
+/// The square of the circumradius where the plain evaluation tells it within 2^-18 of itself, else nothing. A function of the
+/// vertex set, too, though not the one that circumsphere() has.
+template <int D>
+std::optional<double> squared_circumradius_quickly(const Simplex<D>& s);
 
 /// Squared length of the shortest edge (rounded differences, canonical order of the two ends).
 template <int D>

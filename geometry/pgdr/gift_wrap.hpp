@@ -50,7 +50,6 @@ class GiftWrap {
   bool blocked(const Cell& cell);
   template <std::size_t N>
   BoundingBox<3> box_of(const std::array<Index, N>& corners) const;
-  std::uint8_t beyond_faces(const Cell& cell, Index v) const;
   bool meets(const Cell& cell, const Face& face) const;
   void add_to_front(const Face& f);
   std::vector<FrontFace>::iterator find_in_front(const Face& f);
