@@ -99,6 +99,46 @@ TEST(CheckExact, RoundingCancelsWhatItCanReach) {
   }
 }
 
+// What the long doubles decide is what the rationals do: of all moves of one point, those that are long enough are told apart from
+// those that are not at one length, that of the first order.
+TEST(CheckExact, RoundingCancelsFromOneLengthOn) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  for (int trial = 0; trial < 50; ++trial) {
+    Simplex<3> s;
+    Point3 p;
+    for (auto& q : s)
+      for (double& x : q.x) x = std::ldexp(coordinate(random), trial - 25);
+    for (int i = 0; i < 3; ++i) p[i] = s[0][i] + 0x1p-30 * (s[1][i] - s[0][i]);
+    const std::size_t moved = static_cast<std::size_t>(trial % 5);
+    const auto cancels = [&](double length) {
+      std::array<double, 5> delta{};
+      delta[moved] = length;
+      return rounding_cancels<3>(s, p, delta);
+    };
+    double low = 0, high = std::ldexp(1.0, trial - 25);
+    ASSERT_TRUE(cancels(high));
+    while (const double middle = low + (high - low) / 2) {
+      if (middle == low || middle == high) break;
+      (cancels(middle) ? high : low) = middle;
+    }
+    ASSERT_GT(low, 0);
+    for (int k = 1; k <= 20; ++k) {
+      EXPECT_FALSE(cancels(low * (1 - std::ldexp(1.0, -2 * k))));
+      EXPECT_TRUE(cancels(high * (1 + std::ldexp(1.0, -2 * k))));
+    }
+    // Scaled by a power of two, everything is exactly the same.
+    const auto scaled = [](Point3 q) {
+      for (double& x : q.x) x = std::ldexp(x, -900);
+      return q;
+    };
+    for (auto& q : s) q = scaled(q);
+    p = scaled(p);
+    EXPECT_FALSE(cancels(std::ldexp(low, -900)));
+    EXPECT_TRUE(cancels(std::ldexp(high, -900)));
+  }
+}
+
 TEST(CheckExact, RoundingAtTheLimitInThePlane) {
   // Unit circle about the origin; p = (1 - d, 0). With only p moving, out of the circle takes a move of d.
   const Simplex<2> s{{{{0, -1}}, {{0, 1}}, {{-1, 0}}}};

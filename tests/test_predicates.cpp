@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "detail/predicates_internal.hpp"
+#include "detail/side_of_plane.hpp"
 #include "dimensions.hpp"
 #include "oracles.hpp"
 #include "sanitized.hpp"
@@ -55,6 +56,9 @@ void check_orient(const Simplex<D>& s, Random& random) {
   expect_agrees("expansion", detail::orient_middle<D>(s, Middle::expansion), want);
   expect_agrees("exact", detail::orient_exact<D>(s), want);
   EXPECT_EQ(orient<D>(s), want);
+  if constexpr (D == 3) {
+    EXPECT_EQ(detail::SideOfPlane(s[0], s[1], s[2]).of(s[3]), want);
+  }
   Simplex<D> swapped = s;
   const std::size_t i = random() % (D + 1), j = (i + 1 + random() % D) % (D + 1);
   std::swap(swapped[i], swapped[j]);
