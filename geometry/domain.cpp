@@ -51,7 +51,7 @@ void DomainBuilder<D>::run() {
   if (out_.points_.empty()) return;
   choose_scale();
   if constexpr (D == 3) {
-    triangulate_facets();
+    triangulate_joined_facets();
     drop_repeated_facets();
   }
   stop_check_();

@@ -23,13 +23,16 @@ using detail::TriangulatedFacet;
 
 template <int D>
 void DomainBuilder<D>::resolve_contacts() {
-  for (std::uint32_t s = 0; s < explicit_.size(); ++s)
-    if (explicit_[s][0] != explicit_[s][1]) segment_edges_.push_back({explicit_[s], s});  // else it was refused
-  out_.nothing_meets_ = !find_contacts();
+  for (std::uint32_t s = 0; s < explicit_.size(); ++s) {
+    if (explicit_[s][0] == explicit_[s][1]) continue;  // it was refused
+    const auto points = near_chain(explicit_[s][0], explicit_[s][1]);
+    for (std::size_t k = 1; k < points.size(); ++k) segment_edges_.push_back({{points[k - 1], points[k]}, s});
+  }
+  out_.nothing_meets_ = !find_contacts() && near_width_ == 0;
   if (out_.nothing_meets_) return report_points();
   split_at_points();
   if constexpr (D == 3) {
-    if (find_contacts()) constrain_inner_edges();
+    if (find_contacts() || near_width_ > 0) constrain_inner_edges();
     drop_repeated_facets();
   }
   report_points();

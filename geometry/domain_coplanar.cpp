@@ -224,5 +224,8 @@ void DomainBuilder<D>::grow_plane(std::uint32_t seed) requires(D == 3) {
 
 template void DomainBuilder<3>::group_coplanar();
 template bool DomainBuilder<3>::is_soft(std::span<const EdgeUse>) const;
+template bool DomainBuilder<3>::is_joint(std::span<const EdgeUse>) const;
+template bool DomainBuilder<3>::opens(std::span<const EdgeUse>, int) const;
+template std::array<Point3, 4> DomainBuilder<3>::corners(std::span<const EdgeUse>) const;
 
 }  // namespace pgdr

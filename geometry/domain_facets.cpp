@@ -61,10 +61,36 @@ void DomainBuilder<D>::triangulate_facets() requires(D == 3) {
     });
 }
 
+/// Once more where there is anything to join.
+template <int D>
+void DomainBuilder<D>::triangulate_joined_facets() requires(D == 3) {
+  if (plc_.merge_within == 0) return triangulate_facets();
+  const detail::RepairList dropped = dropped_edges_;
+  const std::size_t refused = refused_ != nullptr ? refused_->size() : 0, warnings = out_.warnings_.size();
+  triangulate_facets();
+  if (!find_near()) return;
+  dropped_edges_ = dropped;
+  bent_facets_ = {};
+  if (refused_ != nullptr) refused_->resize(refused);
+  out_.warnings_.resize(warnings);
+  facets_.clear();
+  triangles_.clear();
+  masks_.clear();
+  polygon_edges_.clear();
+  flat_facets_.clear();
+  split_edges_.clear();
+  triangulate_facets();
+  note_near();
+}
+
 // A facet of one polygon with all its points on one line: whether it may be dropped is seen when the rest is done.
 template <int D>
 bool DomainBuilder<D>::set_flat_aside(std::uint32_t f) requires(D == 3) {
   const auto& facet = plc_.facets[f];
+  if (is_joined_to_nothing(f)) {
+    dropped_flat_.add([&] { return std::to_string(number(f)); }, {number(f)});
+    return true;
+  }
   if (facet.polygons.size() != 1 || facet.polygons[0].size() < 3 || !facet.holes.empty()) return false;
   const auto& p = out_.points_;
   const auto at = [&](std::size_t k) { return out_.point_of_input_[facet.polygons[0][k]]; };
@@ -124,7 +150,7 @@ void DomainBuilder<D>::fail_facet(std::uint32_t f, const PlanarResult& result) c
 template <int D>
 bool DomainBuilder<D>::add_triangle(std::uint32_t f) requires(D == 3) {
   const auto& facet = plc_.facets[f];
-  if (facet.polygons.size() != 1 || facet.polygons[0].size() != 3 || !facet.holes.empty()) return false;
+  if (facet.polygons.size() != 1 || facet.polygons[0].size() != 3 || !facet.holes.empty() || is_joined(f)) return false;
   Triangle t;
   for (std::size_t k = 0; k < 3; ++k) t[k] = out_.point_of_input_[facet.polygons[0][k]];
   const auto [axis, side] = visible_side(t);
@@ -167,6 +193,9 @@ CleanFacet DomainBuilder<D>::clean(std::uint32_t f) requires(D == 3) {
       drop(polygon.back(), polygon.front());
       loop.pop_back();
     }
+  }
+  join(f, facet);
+  for (const auto& loop : facet.loops) {
     facet.vertices.insert(facet.vertices.end(), loop.begin(), loop.end());
     const std::size_t n = loop.size();
     for (std::size_t k = 0; k < (n > 2 ? n : n == 2 ? 1 : 0); ++k) {
@@ -313,11 +342,12 @@ void DomainBuilder<D>::constrain_explicit(const CleanFacet& facet) requires(D ==
   for (const std::uint32_t a : facet.vertices)
     for (std::uint32_t k = explicit_begin_[a]; k < explicit_begin_[a + 1]; ++k) {
       const std::uint32_t b = explicit_[explicit_at_[k]][1];
+      if (!near_on_edge(detail::edge_key(a, b)).empty()) continue;  // its pieces are edges of the facet
       if (a != b && planar_.has_vertex(b) && !planar_.is_constraint(a, b)) planar_.constrain(a, b);
     }
 }
 
-template void DomainBuilder<3>::triangulate_facets();
+template void DomainBuilder<3>::triangulate_joined_facets();
 template void DomainBuilder<3>::fail_degenerate(std::uint32_t, const std::string&,
                                                 const std::vector<std::uint32_t>&) const;
 template std::array<double, 3> DomainBuilder<3>::normal(const Triangle&) const;

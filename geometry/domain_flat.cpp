@@ -47,6 +47,7 @@ bool DomainBuilder<D>::is_covered(const detail::FlatFacet& facet, const std::vec
   std::uint32_t at = low;
   const auto first_at = [&](std::uint32_t v) { return std::ranges::lower_bound(edges, PlanarEdge{v, 0}); };
   if (low == high) return first_at(at) != edges.end() && (*first_at(at))[0] == at;
+  if (near_width_ > 0) return is_covered_nearly(facet, edges);
   while (at != high) {
     std::uint32_t next = no_entity;
     for (auto e = first_at(at); e != edges.end() && (*e)[0] == at && next == no_entity; ++e) {
@@ -55,6 +56,18 @@ bool DomainBuilder<D>::is_covered(const detail::FlatFacet& facet, const std::vec
     }
     if (next == no_entity) return false;
     at = next;
+  }
+  return true;
+}
+
+/// The same of edges that go through points near them.
+template <int D>
+bool DomainBuilder<D>::is_covered_nearly(const detail::FlatFacet& facet, const std::vector<PlanarEdge>& edges) const
+    requires(D == 3) {
+  for (std::size_t k = 0; k < facet.vertices.size(); ++k) {
+    const auto chain = near_chain(facet.vertices[k], facet.vertices[(k + 1) % facet.vertices.size()]);
+    for (std::size_t i = 1; i < chain.size(); ++i)
+      if (chain[i - 1] != chain[i] && !std::ranges::binary_search(edges, PlanarEdge{chain[i - 1], chain[i]})) return false;
   }
   return true;
 }

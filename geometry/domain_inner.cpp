@@ -77,10 +77,11 @@ void DomainBuilder<D>::find_inner_edges() requires(D == 3) {
     look(first, second);
     look(second, first);
   }
+  if (near_width_ > 0) find_near_inner_edges();
   make_set(inner_edges_);
 }
 
-// In the plane of the triangle, and no line through an edge of either has them on different sides.
+// In the plane of the triangle (or near it), and no line through an edge of either has them on different sides.
 template <int D>
 bool DomainBuilder<D>::runs_inside(std::uint32_t a, std::uint32_t b, std::uint32_t t) const requires(D == 3) {
   const auto& p = out_.points_;
@@ -90,7 +91,7 @@ bool DomainBuilder<D>::runs_inside(std::uint32_t a, std::uint32_t b, std::uint32
     return u == v || v == w || w == u ? Sign::zero : orient_projected(p[u], p[v], p[w], axis);
   };
   for (const std::uint32_t v : {a, b})
-    if (v != s[0] && v != s[1] && v != s[2] && orient3d(p[s[0]], p[s[1]], p[s[2]], p[v]) != Sign::zero) return false;
+    if (near_width_ == 0 && v != s[0] && v != s[1] && v != s[2] && orient3d(p[s[0]], p[s[1]], p[s[2]], p[v]) != Sign::zero) return false;
   bool left = false, right = false;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::uint32_t u = s[i], v = s[(i + 1) % 3];
@@ -98,7 +99,7 @@ bool DomainBuilder<D>::runs_inside(std::uint32_t a, std::uint32_t b, std::uint32
     left |= turn(a, b, u) == Sign::positive;
     right |= turn(a, b, u) == Sign::negative;
   }
-  return left && right;
+  return left && right && (near_width_ == 0 || runs_near(a, b, t));
 }
 
 /// The triangle on the other side of an edge that may be given up; none if it must stay.
@@ -106,7 +107,8 @@ template <int D>
 std::uint32_t DomainBuilder<D>::other_side(std::uint64_t key, std::uint32_t t) const requires(D == 3) {
   const auto begin = std::ranges::lower_bound(uses_, key, {}, &EdgeUse::key);
   const std::span<const EdgeUse> uses(begin, uses_of(static_cast<std::size_t>(begin - uses_.begin())));
-  if (!is_soft(uses)) return no_entity;
+  const bool nearly = near_width_ > 0 && is_joint(uses) && opens(uses, facets_[uses[0].owner].axis) && is_nearly_flat(uses);
+  if (!nearly && !is_soft(uses)) return no_entity;
   return uses[0].triangle ^ uses[1].triangle ^ t;
 }
 
@@ -198,6 +200,7 @@ void DomainBuilder<D>::replace(std::span<const std::uint32_t> patch, const std::
   for (std::size_t k = 0; k < patch.size(); ++k) {
     detail::TriangulatedFacet& facet = facets_[facet_of_[patch[k]]];
     facet.mixed |= mixed;
+    facet.planar &= near_width_ == 0;
     Triangle& t = made_[patch[k]];
     t = triangles[k];
     const auto& p = out_.points_;

@@ -7,6 +7,7 @@
 
 #include "command.hpp"
 #include "console.hpp"
+#include "merge_hint.hpp"
 
 namespace pgdr::tool {
 namespace {
@@ -75,7 +76,7 @@ void print_findings(const Diagnosis<D>& diagnosis) {
 }
 
 template <int D>
-int refuse(const Diagnosis<D>& diagnosis, Report& report) {
+int refuse(const Plc<D>& plc, const Diagnosis<D>& diagnosis, Report& report) {
   constexpr std::size_t most = 5;
   const std::vector<Diagnostic> errors = diagnosis.errors();
   for (std::size_t i = 0; i < errors.size(); ++i) {
@@ -84,18 +85,14 @@ int refuse(const Diagnosis<D>& diagnosis, Report& report) {
   }
   if (const std::uint64_t all = diagnosis.error_count(); all > most)
     std::fprintf(stderr, "pgdr: and %llu more errors\n", static_cast<unsigned long long>(all - most));
-  const FindingList& near = diagnosis[Finding::near_points];
-  if (!near.listed.empty())
-    std::fprintf(stderr, "pgdr: %s; --merge-points %.1e makes %s one\n",
-                 count(near.count, "pair of points of open boundaries nearly coincides", "pairs of points of open boundaries nearly coincide").c_str(),
-                 1.1 * near.listed[0].measure, near.count == 1 ? "it" : "each");
+  hint_at_merge_of_refused(plc, diagnosis[Finding::near_points]);
   return exit_input;
 }
 
 #define PGDR_INSTANTIATE(D)                                             \
   template void set_findings<D>(JsonObject&, const Diagnosis<D>&);      \
   template void print_findings<D>(const Diagnosis<D>&);                 \
-  template int refuse<D>(const Diagnosis<D>&, Report&);
+  template int refuse<D>(const Plc<D>&, const Diagnosis<D>&, Report&);
 PGDR_INSTANTIATE(2)
 PGDR_INSTANTIATE(3)
 #undef PGDR_INSTANTIATE

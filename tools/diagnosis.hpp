@@ -17,8 +17,9 @@ void set_findings(JsonObject& object, const Diagnosis<D>& diagnosis);
 template <int D>
 void print_findings(const Diagnosis<D>& diagnosis);
 
-/// Puts all listed errors into the report and a few on stderr. Returns exit_input.
+/// Puts all listed errors into the report and a few on stderr, and there what --merge-points may do about them (in 3D tried out).
+/// Returns exit_input.
 template <int D>
-int refuse(const Diagnosis<D>& diagnosis, Report& report);
+int refuse(const Plc<D>& plc, const Diagnosis<D>& diagnosis, Report& report);
 
 }  // namespace pgdr::tool

@@ -12,6 +12,7 @@
 #include "pgdr/domain.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/refine.hpp"
+#include "merge_hint.hpp"
 #include "precision_hint.hpp"
 
 namespace pgdr::tool {
@@ -90,7 +91,7 @@ int info_of_input(const InfoArguments& a, Report& report) {
   set_findings(d, diagnosis);
   report.set("diagnosis", d);
   if (!a.quiet) print_findings(diagnosis);
-  if (diagnosis.error_count() > 0) return refuse(diagnosis, report);
+  if (diagnosis.error_count() > 0) return refuse(plc, diagnosis, report);
 
   const Domain<D> domain(plc);
   const std::uint64_t open = count_open(domain);
@@ -126,6 +127,7 @@ int info_of_input(const InfoArguments& a, Report& report) {
   }
 
   hint_at_precision(plc, &domain, a.reading, a.quiet, report);
+  hint_at_merge(plc, &domain, !a.quiet, report);
 
   // Boundary recovery alone decides the rest: seeds, whether anything is enclosed.
   RefineOptions<D> options;

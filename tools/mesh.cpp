@@ -12,6 +12,7 @@
 #include "files.hpp"
 #include "input.hpp"
 #include "pgdr/io.hpp"
+#include "merge_hint.hpp"
 #include "precision_hint.hpp"
 #include "selector.hpp"
 #include "signals.hpp"
@@ -230,8 +231,11 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
     JsonObject findings;
     set_findings(findings, diagnosis);
     report.set("diagnosis", findings);
-    if (diagnosis.error_count() == 0) throw;
-    return refuse(diagnosis, report);
+    if (diagnosis.error_count() == 0) {
+      hint_at_merge<D>(plc, nullptr, !a.quiet, report);
+      throw;
+    }
+    return refuse(plc, diagnosis, report);
   }
   result.repairs.insert(result.repairs.begin(), repairs.begin(), repairs.end());
   if (!a.quiet) print_warnings(result.warnings);
@@ -253,7 +257,10 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
                                    {"total", seconds.total}});
   report.set("peak_rss_bytes", peak_rss_bytes());
   if (!a.quiet) print_summary(a, plc, bounds, result, quality, seconds);
-  if (result.poor_left > 0 && result.stop != StopCause::cancelled) hint_at_precision<D>(plc, nullptr, a.reading, a.quiet, report);
+  if (result.poor_left > 0 && result.stop != StopCause::cancelled) {
+    hint_at_precision<D>(plc, nullptr, a.reading, a.quiet, report);
+    hint_at_merge<D>(plc, nullptr, !a.quiet, report);
+  }
   if (!a.trace.empty()) {
     std::string trace_file = a.trace;
     write_trace(a, result, seconds);

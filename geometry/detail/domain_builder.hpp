@@ -14,6 +14,7 @@
 #include <initializer_list>
 #include <span>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -101,12 +102,26 @@ void make_set(std::vector<T>& v) {
 /// A point, and the key of an edge (or the number of a triangle) with the point inside.
 using PointOn = std::pair<std::uint64_t, std::uint32_t>;
 
+/// A point near an edge, by the key of that, and how far on the way from its first end; sorted, in their order along each edge.
+struct NearPoint {
+  std::uint64_t key;
+  double part;
+  std::uint32_t point;
+  bool operator<(const NearPoint& o) const { return std::tie(key, part, point) < std::tie(o.key, o.part, o.point); }
+};
+
 inline std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
   return static_cast<std::uint64_t>(std::min(a, b)) << 32 | std::max(a, b);
 }
 inline PlanarEdge edge_of(std::uint64_t key) {
   return {static_cast<std::uint32_t>(key >> 32), static_cast<std::uint32_t>(key)};
 }
+
+/// What is near to what it does not belong to.
+struct NearContacts {
+  std::vector<NearPoint> on_edges;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> in_facets;  ///< input facet, point; sorted
+};
 
 /// An input facet by domain points.
 struct CleanFacet {
@@ -173,6 +188,7 @@ class DomainBuilder {
 
   // domain_facets.cpp
   void triangulate_facets() requires(D == 3);
+  void triangulate_joined_facets() requires(D == 3);
   detail::CleanFacet clean(std::uint32_t f) requires(D == 3);
   bool add_triangle(std::uint32_t f) requires(D == 3);
   bool set_flat_aside(std::uint32_t f) requires(D == 3);
@@ -187,6 +203,26 @@ class DomainBuilder {
                                     const std::vector<std::uint32_t>& vertices) const requires(D == 3);
   std::array<double, 3> normal(const Triangle& t) const requires(D == 3);
   std::pair<int, int> visible_side(const Triangle& t) const requires(D == 3);
+
+  // domain_near.cpp
+  Point<D> scaled_point(std::uint32_t v) const;
+  std::array<Point<D>, 3> scaled_triangle(std::uint32_t t) const requires(D == 3);
+  bool find_near() requires(D == 3);
+  std::vector<std::uint64_t> constrained_edges() const requires(D == 3);
+  void find_points_near_edges() requires(D == 3);
+  void find_points_near_facets(std::vector<std::vector<std::uint32_t>>& points) requires(D == 3);
+  template <class Visit>
+  void near_edges_and_triangles(const Visit& visit) const requires(D == 3);
+  void find_near_inner_edges() requires(D == 3);
+  bool runs_near(std::uint32_t a, std::uint32_t b, std::uint32_t t) const requires(D == 3);
+  bool is_nearly_flat(std::span<const detail::EdgeUse> joint) const requires(D == 3);
+  std::span<const std::pair<std::uint32_t, std::uint32_t>> near_in_facet(std::uint32_t f) const;
+  std::span<const detail::NearPoint> near_on_edge(std::uint64_t key) const;
+  std::vector<std::uint32_t> near_chain(std::uint32_t a, std::uint32_t b) const;
+  bool is_joined(std::uint32_t f) const requires(D == 3);
+  bool is_joined_to_nothing(std::uint32_t f) const requires(D == 3);
+  void join(std::uint32_t f, detail::CleanFacet& facet) const requires(D == 3);
+  void note_near();
 
   // domain_bent.cpp
   void measure_planarity(detail::TriangulatedFacet& facet, const detail::CleanFacet& clean) requires(D == 3);
@@ -221,6 +257,7 @@ class DomainBuilder {
   // domain_flat.cpp
   void drop_flat_facets() requires(D == 3);
   bool is_covered(const detail::FlatFacet& facet, const std::vector<detail::PlanarEdge>& edges) const requires(D == 3);
+  bool is_covered_nearly(const detail::FlatFacet& facet, const std::vector<detail::PlanarEdge>& edges) const requires(D == 3);
 
   // domain_groups.cpp
   void drop_repeated_facets() requires(D == 3);
@@ -269,6 +306,8 @@ class DomainBuilder {
   std::vector<detail::OwnedEdge> polygon_edges_;                 // of facets that are no single triangle
   std::vector<detail::OwnedEdge> segment_edges_;                 // explicit segments, or what they were split into
   std::vector<detail::FlatFacet> flat_facets_;
+  detail::NearContacts near_;                                    // nothing unless the caller wants points merged
+  double near_width_ = 0;                                        // within which, times scale_; 0 likewise
   std::vector<std::uint32_t> facet_of_;                          // of each triangle, in facets_
   std::vector<detail::Piece> pieces_;
   std::vector<detail::FoundContact> contacts_;

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "merge_hint.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <optional>
+#include <vector>
+
+#include "console.hpp"
+
+namespace pgdr::tool {
+namespace {
+
+constexpr double of_rounding = 1e-14;  // what rotations and shifts do to doubles
+constexpr double of_floats = 1e-7, of_six_digits = 1e-6;
+
+/// Of some that are tried, the least Plc::merge_within with which nothing is refused; 0 if there is none.
+double sufficient_merge(Plc<3> plc, const FindingList& near) {
+  std::vector<double> tried{of_rounding, of_floats, of_six_digits};
+  if (!near.listed.empty()) tried.push_back(1.1 * near.listed[0].measure);
+  std::sort(tried.begin(), tried.end());
+  for (const double within : tried) {
+    plc.merge_within = within;
+    if (diagnose(plc, {.most_listed = 0}).error_count() == 0) return within;
+  }
+  return 0;
+}
+
+/// Points that were merged, or are on what they did not belong to.
+std::size_t joined_points(const Domain<3>& domain) {
+  std::size_t joined = 0;
+  for (const Diagnostic& repair : domain.repairs()) {
+    if (repair.code == Errc::point_on_segment) joined += repair.ids.size() / 3;
+    if (repair.code == Errc::near_points || repair.code == Errc::point_on_facet) joined += repair.ids.size() / 2;
+  }
+  return joined;
+}
+
+}  // namespace
+
+template <int D>
+void hint_at_merge_of_refused(const Plc<D>& plc, const FindingList& near) {
+  double within = 0;
+  if constexpr (D == 3) within = plc.merge_within == 0 ? sufficient_merge(plc, near) : 0;
+  if (within > 0) {
+    std::fprintf(stderr, "pgdr: --merge-points %.1e makes it valid: what is apart, or crosses, by no more than that then meets\n", within);
+  } else if (!near.listed.empty()) {
+    std::fprintf(stderr, "pgdr: %s; --merge-points %.1e makes %s one\n",
+                 count(near.count, "pair of points of open boundaries nearly coincides", "pairs of points of open boundaries nearly coincide").c_str(),
+                 1.1 * near.listed[0].measure, near.count == 1 ? "it" : "each");
+  }
+}
+
+template <int D>
+void hint_at_merge(const Plc<D>& plc, const Domain<D>* domain, bool shown, Report& report) {
+  if constexpr (D == 3) {
+    if (plc.merge_within > 0) return;
+    std::size_t joined;
+    try {
+      std::optional<Domain<3>> made;
+      if (domain == nullptr) domain = &made.emplace(plc);
+      Plc<3> merged = plc;
+      merged.merge_within = of_rounding;
+      joined = joined_points(Domain<3>(merged));
+    } catch (const std::exception&) {
+      return;
+    }
+    const std::size_t before = joined_points(*domain);
+    if (joined <= before) return;
+    report.set("merge_hint", JsonObject{{"merge_points", of_rounding}, {"points", joined - before}});
+    if (shown)
+      print_row("hint", format("--merge-points %.0e joins ", of_rounding) +
+                            count(joined - before, "point to a point, an edge or a facet that it misses", "points to points, edges or facets that they miss") +
+                            " by rounding");
+  }
+}
+
+template void hint_at_merge_of_refused<2>(const Plc<2>&, const FindingList&);
+template void hint_at_merge_of_refused<3>(const Plc<3>&, const FindingList&);
+template void hint_at_merge<2>(const Plc<2>&, const Domain<2>*, bool, Report&);
+template void hint_at_merge<3>(const Plc<3>&, const Domain<3>*, bool, Report&);
+
+}  // namespace pgdr::tool
