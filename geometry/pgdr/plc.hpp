@@ -62,7 +62,8 @@ struct Plc {
   /// of one plane, count as coplanar. For the rounding of coordinates that were turned or shifted: 16 ulps.
   double precision = 0x1p-48;
   /// Points within this times the largest coordinate of all are one: each goes to the nearest kept one before it. 0, as it is
-  /// unless asked for: exact duplicates alone. Edges, segments and facets of which nothing is left go; 0.01 at most.
+  /// unless asked for: exact duplicates alone. Edges, segments and facets of which nothing is left go; 0.01 at most. In 3D edges,
+  /// segments and facets then go through points within that distance of them, and facets along edges that run as near to them.
   double merge_within = 0;
 
   std::uint32_t first_index = 0;  ///< the number the source gives its first point (0 or 1), for messages
