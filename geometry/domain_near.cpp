@@ -63,6 +63,23 @@ Point<D> DomainBuilder<D>::scaled_point(std::uint32_t v) const {
 }
 
 template <int D>
+template <std::size_t N>
+detail::Box<3> DomainBuilder<D>::scaled_box(const std::array<std::uint32_t, N>& corners) const requires(D == 3) {
+  auto box = detail::Box<3>::around(scaled_point(corners[0]));
+  for (const std::uint32_t v : corners) box.add(scaled_point(v));
+  return box;
+}
+
+/// Of edges or triangles, each larger by near_width_ on all sides.
+template <int D>
+template <std::size_t N>
+detail::BoxTree<3> DomainBuilder<D>::widened_boxes(std::span<const std::array<std::uint32_t, N>> simplices) const requires(D == 3) {
+  std::vector<detail::Box<3>> boxes;
+  for (const auto& corners : simplices) boxes.push_back(widened(scaled_box(corners), near_width_));
+  return detail::BoxTree<3>(boxes);
+}
+
+template <int D>
 std::array<Point<D>, 3> DomainBuilder<D>::scaled_triangle(std::uint32_t t) const requires(D == 3) {
   return {scaled_point(triangles_[t][0]), scaled_point(triangles_[t][1]), scaled_point(triangles_[t][2])};
 }
@@ -112,18 +129,14 @@ void DomainBuilder<D>::find_points_near_edges() requires(D == 3) {
     for (std::size_t k = 0; k < flat.vertices.size(); ++k)
       if (const std::uint32_t a = flat.vertices[k], b = flat.vertices[(k + 1) % flat.vertices.size()]; a != b) keys.push_back(edge_key(a, b));
   make_set(keys);
-  std::vector<detail::Box<3>> boxes;
-  for (const std::uint64_t key : keys) {
-    auto box = detail::Box<3>::around(scaled_point(edge_of(key)[0]));
-    box.add(scaled_point(edge_of(key)[1]));
-    boxes.push_back(widened(box, near_width_));
-  }
-  const detail::BoxTree<3> tree(boxes);
+  std::vector<PlanarEdge> edges;
+  for (const std::uint64_t key : keys) edges.push_back(edge_of(key));
+  const detail::BoxTree<3> tree = widened_boxes(std::span<const PlanarEdge>(edges));
   for (std::uint32_t v = 0; v < out_.points_.size(); ++v) {
     stop_check_();
     const Point3 p = scaled_point(v);
     tree.at(p, [&](std::size_t i) {
-      const auto [a, b] = edge_of(keys[i]);
+      const auto& [a, b] = edges[i];
       if (v == a || v == b) return;
       const double t = part_of_edge_near(p, scaled_point(a), scaled_point(b), near_width_);
       if (t > 0) near_.on_edges.push_back({keys[i], t, v});
@@ -135,15 +148,9 @@ void DomainBuilder<D>::find_points_near_edges() requires(D == 3) {
 /// `points` of each facet, sorted; gets those that are near to its inside.
 template <int D>
 void DomainBuilder<D>::find_points_near_facets(std::vector<std::vector<std::uint32_t>>& points) requires(D == 3) {
-  std::vector<detail::Box<3>> boxes;
   std::vector<std::uint32_t> facet_of;
   for (const detail::TriangulatedFacet& facet : facets_) facet_of.resize(facet.first + facet.count, facet.input);
-  for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
-    auto box = detail::Box<3>::around(scaled_point(triangles_[t][0]));
-    for (const std::uint32_t v : triangles_[t]) box.add(scaled_point(v));
-    boxes.push_back(widened(box, near_width_));
-  }
-  const detail::BoxTree<3> tree(boxes);
+  const detail::BoxTree<3> tree = widened_boxes(std::span<const Triangle>(triangles_));
   for (std::uint32_t v = 0; v < out_.points_.size(); ++v) {
     stop_check_();
     const Point3 p = scaled_point(v);
@@ -241,19 +248,11 @@ void DomainBuilder<D>::note_near() {
 template <int D>
 template <class Visit>
 void DomainBuilder<D>::near_edges_and_triangles(const Visit& visit) const requires(D == 3) {
-  std::vector<detail::Box<3>> boxes;
-  for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
-    auto box = detail::Box<3>::around(scaled_point(triangles_[t][0]));
-    for (const std::uint32_t v : triangles_[t]) box.add(scaled_point(v));
-    boxes.push_back(widened(box, near_width_));
-  }
-  const detail::BoxTree<3> tree(boxes);
+  const detail::BoxTree<3> tree = widened_boxes(std::span<const Triangle>(triangles_));
   for (const std::uint64_t key : constrained_edges()) {
     stop_check_();
     const auto [a, b] = edge_of(key);
-    auto box = detail::Box<3>::around(scaled_point(a));
-    box.add(scaled_point(b));
-    tree.meeting(box, [&](std::size_t t) { visit(a, b, static_cast<std::uint32_t>(t)); });
+    tree.meeting(scaled_box(edge_of(key)), [&, a = a, b = b](std::size_t t) { visit(a, b, static_cast<std::uint32_t>(t)); });
   }
 }
 

@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "detail/box_tree.hpp"
 #include "detail/contact.hpp"
 #include "detail/planar_cdt.hpp"
 #include "detail/stop_check.hpp"
@@ -206,6 +207,10 @@ class DomainBuilder {
 
   // domain_near.cpp
   Point<D> scaled_point(std::uint32_t v) const;
+  template <std::size_t N>
+  detail::Box<3> scaled_box(const std::array<std::uint32_t, N>& corners) const requires(D == 3);
+  template <std::size_t N>
+  detail::BoxTree<3> widened_boxes(std::span<const std::array<std::uint32_t, N>> simplices) const requires(D == 3);
   std::array<Point<D>, 3> scaled_triangle(std::uint32_t t) const requires(D == 3);
   bool find_near() requires(D == 3);
   std::vector<std::uint64_t> constrained_edges() const requires(D == 3);
