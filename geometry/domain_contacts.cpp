@@ -33,6 +33,7 @@ void DomainBuilder<D>::resolve_contacts() {
   split_at_points();
   if constexpr (D == 3) {
     if (find_contacts() || near_width_ > 0) constrain_inner_edges();
+    if (near_width_ > 0) refuse_near_crossings();
     drop_repeated_facets();
   }
   report_points();

@@ -12,6 +12,7 @@
 #include "detail/box_tree.hpp"
 #include "detail/domain_builder.hpp"
 #include "detail/vectors.hpp"
+#include "pgdr/predicates.hpp"
 
 namespace pgdr {
 using detail::CleanFacet;
@@ -38,6 +39,16 @@ double part_of_edge_near(const Point3& p, const Point3& a, const Point3& b, doub
   double square = 0;
   for (std::size_t k = 0; k < 3; ++k) square += (to[k] - t * along[k]) * (to[k] - t * along[k]);
   return t > 0 && t < 1 && square <= width * width ? t : std::nan("");
+}
+
+/// Are two edges, which are not parallel, within `width` of each other somewhere inside both?
+bool pass_within(const std::array<Point3, 2>& e, const std::array<Point3, 2>& f, double width) {
+  const auto u = detail::difference(e[1], e[0]), v = detail::difference(f[1], f[0]), w = detail::difference(f[0], e[0]);
+  const auto n = detail::cross(u, v);
+  const double square = detail::dot(n, n), height = detail::dot(n, w);
+  if (!(height * height <= width * width * square) || !(square > 0)) return false;
+  const double s = detail::dot(detail::cross(w, v), n) / square, t = detail::dot(detail::cross(w, u), n) / square;
+  return s > 0 && s < 1 && t > 0 && t < 1;
 }
 
 /// Is p within `width` of the inside of the triangle?
@@ -237,6 +248,40 @@ void DomainBuilder<D>::join(std::uint32_t f, CleanFacet& facet) const requires(D
   facet.loops = std::move(loops);
 }
 
+/// Edges that pass each other within near_width_ and have no point there, as to let them meet would take one; and edges that run
+/// along a triangle as near to it, as they cross something that must stay. (Where they meet exactly the diagnosis says so.)
+/// @pre triangles_ are those of find_contacts()
+template <int D>
+void DomainBuilder<D>::refuse_near_crossings() const requires(D == 3) {
+  near_edges_and_triangles([this](std::uint32_t a, std::uint32_t b, std::uint32_t t) {
+    if (!runs_inside(a, b, t)) return;
+    const std::uint32_t f = facets_[facet_of_[t]].input;
+    attempt([&] {
+      fail(Errc::entities_intersect,
+           "the edge " + point_words(a) + " - " + point_words(b) + " runs along facet " + std::to_string(number(f)) +
+               ", as near to it as points are merged, and crosses what is in it",
+           plc_.source.facet_lines, f, {point_number(a), point_number(b), number(f)}, {out_.points_[a].x, out_.points_[b].x});
+    });
+  });
+  std::vector<PlanarEdge> edges;
+  for (const std::uint64_t key : constrained_edges()) edges.push_back(edge_of(key));
+  const auto& p = out_.points_;
+  widened_boxes(std::span<const PlanarEdge>(edges)).self_pairs([&](std::uint32_t i, std::uint32_t j) {
+    stop_check_();
+    const auto &e = edges[i], &f = edges[j];
+    if (e[0] == f[0] || e[0] == f[1] || e[1] == f[0] || e[1] == f[1]) return;
+    if (!pass_within({scaled_point(e[0]), scaled_point(e[1])}, {scaled_point(f[0]), scaled_point(f[1])}, near_width_)) return;
+    if (orient3d(p[e[0]], p[e[1]], p[f[0]], p[f[1]]) == Sign::zero) return;
+    attempt([&] {
+      fail(Errc::entities_intersect,
+           "the edges " + point_words(e[0]) + " - " + point_words(e[1]) + " and " + point_words(f[0]) + " - " + point_words(f[1]) +
+               " come as near to each other as points are merged, where neither has a point",
+           {}, 0, {point_number(e[0]), point_number(e[1]), point_number(f[0]), point_number(f[1])},
+           {p[e[0]].x, p[e[1]].x, p[f[0]].x, p[f[1]].x});
+    });
+  });
+}
+
 /// For the report.
 template <int D>
 void DomainBuilder<D>::note_near() {
@@ -281,7 +326,10 @@ bool DomainBuilder<D>::runs_near(std::uint32_t a, std::uint32_t b, std::uint32_t
   const auto height = [&](double part) {
     return (1 - part) * detail::dot(n, detail::difference(p, s[0])) + part * detail::dot(n, detail::difference(q, s[0]));
   };
-  return from < to && std::fabs(height(from)) <= most && std::fabs(height(to)) <= most;
+  // Edges that leave a corner steeply, beside the triangle but for rounding, have a part inside that is as short as the distance.
+  const auto along = detail::difference(q, p);
+  const bool is_long = (to - from) * std::sqrt(detail::dot(along, along)) > 64 * near_width_;
+  return is_long && std::fabs(height(from)) <= most && std::fabs(height(to)) <= most;
 }
 
 /// Do the corners opposite lie within near_width_ of the planes of each other's triangles?
@@ -295,6 +343,7 @@ bool DomainBuilder<D>::is_nearly_flat(std::span<const detail::EdgeUse> joint) co
 
 template bool DomainBuilder<3>::find_near();
 template void DomainBuilder<3>::find_near_inner_edges();
+template void DomainBuilder<3>::refuse_near_crossings() const;
 template bool DomainBuilder<3>::runs_near(std::uint32_t, std::uint32_t, std::uint32_t) const;
 template bool DomainBuilder<3>::is_nearly_flat(std::span<const detail::EdgeUse>) const;
 template std::span<const NearPoint> DomainBuilder<3>::near_on_edge(std::uint64_t) const;

@@ -104,35 +104,46 @@ std::map<int, double> areas(const Domain<3>& d) {
   return sum;
 }
 
-// Whatever is mended of pieces that meet exactly is mended of turned ones, and comes out with the same points, segments and areas,
-// also where edges cross between points. (Which of two coplanar facets has a part that segments cut off may differ.) One of the
-// seeds has a facet on one line that is dropped for a diagonal of another, of two that are as good; turned, it is the other one.
-TEST(JoinNear, AsTheExactRepairs) {
-  int joined = 0, refused = 0;
-  for (std::uint64_t seed = 0; seed < 400; ++seed) {
-    test::GridPlcs grid(seed);
-    const Plc<3> plc = grid.cube();
-    if (diagnose(plc).error_count() > 0) continue;
+// Whatever is mended of pieces that meet exactly is mended of turned ones, and of those whose every corner is off by itself, and
+// comes out with the same points, segments and areas, also where edges cross between points. (Which of two coplanar facets has a
+// part that segments cut off may differ.) Two of the seeds are refused instead: one has a facet on one line that is dropped for a
+// diagonal of another, of two that are as good. What is refused as it is may come out of its copy, but only with a mesh that holds:
+// seed 420 had an edge along a facet that was none of it, for an edge that was thought to cross a facet that it leaves.
+void expect_as_exact(std::uint64_t seed, double noise, double within, int& joined, int& refused) {
+  test::GridPlcs grid(seed);
+  const Plc<3> plc = grid.cube();
+  const bool is_valid = diagnose(plc).error_count() == 0;
+  Plc<3> copy = turned(plc, 0.01 * static_cast<double>(seed % 300) + 0.1);
+  test::Random random(seed);
+  for (Point3& p : copy.points)
+    for (double& x : p.x) x += noise * (2 * test::uniform(random) - 1);
+  copy.merge_within = within;
+  copy.precision = std::max(copy.precision, 10 * within);
+  if (diagnose(copy).error_count() > 0) {
+    refused += is_valid;
+    return;
+  }
+  const Domain<3> d(copy);
+  if (is_valid) {
     const Domain<3> exact(plc);
-    Plc<3> copy = turned(plc, 0.01 * static_cast<double>(seed) + 0.1);
-    copy.merge_within = 1e-14;
-    const std::vector<Diagnostic> errors = diagnose(copy).errors();
-    if (!errors.empty()) {
-      EXPECT_EQ(errors[0].code, Errc::degenerate_facet) << seed << ": " << errors[0].message;
-      ++refused;
-      continue;
-    }
-    const Domain<3> d(copy);
     EXPECT_EQ(d.points().size(), exact.points().size()) << seed;
     EXPECT_EQ(d.segments().size(), exact.segments().size()) << seed;
     const auto now = areas(d), before = areas(exact);
-    EXPECT_TRUE(std::ranges::equal(now, before, [](const auto& a, const auto& b) {
-      return a.first == b.first && std::fabs(a.second - b.second) < 1e-9;
+    EXPECT_TRUE(std::ranges::equal(now, before, [&](const auto& a, const auto& b) {
+      return a.first == b.first && std::fabs(a.second - b.second) < 1e-9 + 100 * noise;
     })) << seed;
-    if (joined++ % 8 == 0) meshed(d, {.regions = RegionMode::automatic});
+    ++joined;
   }
-  EXPECT_GT(joined, 200);
-  EXPECT_LE(refused, 1);
+  if (!is_valid || joined % 8 == 0) meshed(d, {.regions = RegionMode::automatic});
+}
+
+TEST(JoinNear, AsTheExactRepairs) {
+  for (const auto& [noise, within] : {std::pair{0.0, 1e-14}, {1e-10, 1e-9}}) {
+    int joined = 0, refused = 0;
+    for (std::uint64_t seed = 0; seed < 421; ++seed) expect_as_exact(seed, noise, within, joined, refused);
+    EXPECT_GT(joined, 200);
+    EXPECT_LE(refused, 2);
+  }
 }
 
 // T-junctions in a file of floats: every third edge of the ball has a point, rounded, on one of its sides.

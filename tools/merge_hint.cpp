@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
-#include <optional>
 #include <vector>
 
 #include "console.hpp"
@@ -57,17 +56,15 @@ template <int D>
 void hint_at_merge(const Plc<D>& plc, const Domain<D>* domain, bool shown, Report& report) {
   if constexpr (D == 3) {
     if (plc.merge_within > 0) return;
-    std::size_t joined;
+    std::size_t before, joined;
     try {
-      std::optional<Domain<3>> made;
-      if (domain == nullptr) domain = &made.emplace(plc);
+      before = joined_points(domain != nullptr ? *domain : Domain<3>(plc));
       Plc<3> merged = plc;
       merged.merge_within = of_rounding;
       joined = joined_points(Domain<3>(merged));
     } catch (const std::exception&) {
       return;
     }
-    const std::size_t before = joined_points(*domain);
     if (joined <= before) return;
     report.set("merge_hint", JsonObject{{"merge_points", of_rounding}, {"points", joined - before}});
     if (shown)

@@ -219,6 +219,7 @@ class DomainBuilder {
   template <class Visit>
   void near_edges_and_triangles(const Visit& visit) const requires(D == 3);
   void find_near_inner_edges() requires(D == 3);
+  void refuse_near_crossings() const requires(D == 3);
   bool runs_near(std::uint32_t a, std::uint32_t b, std::uint32_t t) const requires(D == 3);
   bool is_nearly_flat(std::span<const detail::EdgeUse> joint) const requires(D == 3);
   std::span<const std::pair<std::uint32_t, std::uint32_t>> near_in_facet(std::uint32_t f) const;

@@ -172,6 +172,38 @@ class Threads(Case):
         self.pgdr("info", box, "--merge-points", within, expect=0)
         self.mesh(box, "--merge-points", "0.02", expect=2)
 
+    def test_a_tower_that_misses_its_plate_by_rounding(self):
+        """Turned, it is refused with the distance that lets it stand on it; taken with that, by the checker too."""
+        points = [(x, y, z) for z in (0, 2) for y in (0, 8) for x in (0, 10)]
+        points += [(x, y, z) for z in (2, 6) for y in (2, 5) for x in (3, 5)]
+        sides = [(0, 1, 5, 4), (2, 3, 7, 6), (0, 2, 6, 4), (1, 3, 7, 5), (4, 5, 7, 6)]
+        facets = [(0, 1, 3, 2)] + sides + [tuple(8 + v for v in side) for side in sides]
+        refused = 0
+        for k in range(1, 6):
+            a, b = 0.3 * k, 0.17 * k
+            there = [(x * math.cos(a) - y * math.sin(a), x * math.sin(a) + y * math.cos(a), z) for x, y, z in points]
+            there = [(x, y * math.cos(b) - z * math.sin(b), y * math.sin(b) + z * math.cos(b)) for x, y, z in there]
+            tower = self.file("tower.poly", "16 3 0 0\n" + "".join("%d %r %r %r\n" % (i, *p) for i, p in enumerate(there)) +
+                              "11 1\n" + "".join("1 0 %d\n4 %d %d %d %d\n" % (f, *p) for f, p in enumerate(facets)) + "0\n0\n")
+            done = self.mesh(tower, "--max-vertices", "500", expect=None)
+            if done.returncode == 3:
+                self.assertIn("--merge-points 1.0e-14 makes it valid", done.stderr)
+                refused += 1
+            self.mesh(tower, "--merge-points", "1e-14", "--report", self.report, expect=0)
+            codes = [repair["code"] for repair in self.json()["repairs"]]
+            self.assertIn("point_on_facet", codes)
+            self.assertNotIn("merge_hint", self.json())
+            self.pgdr("check", self.output, "--input", tower, "--merge-points", "1e-14", "--radius-edge", "2", expect=0)
+        self.assertGreater(refused, 0)
+
+        # A wall that ends an ulp above the plate is valid, with a gap that nobody meant.
+        gap = self.file("gap.poly", "12 3 0 0\n" + "".join("%d %d %d %d\n" % (i, *p) for i, p in enumerate(points[:8])) +
+                        "8 2 2 1.9999999999999996\n9 5 2 1.9999999999999996\n10 5 2 1\n11 2 2 1\n" + "7 1\n" +
+                        "".join("1 0 1\n4 %d %d %d %d\n" % p for p in facets[:6] + [(8, 9, 10, 11)]) + "0\n0\n")
+        self.mesh(gap, "--report", self.report, "--max-vertices", "3000", expect=None)
+        self.assertEqual(self.json()["merge_hint"], {"merge_points": 1e-14, "points": 2})
+        self.mesh(gap, "--merge-points", "1e-14", "--report", self.report, expect=0)
+
     def test_granularity(self):
         whole, r = self.made(BRACKET, "--size", "0.12", threads=2)
         for g in ("1", "3"):
