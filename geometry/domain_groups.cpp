@@ -183,6 +183,7 @@ void DomainBuilder<D>::write_facets() requires(D == 3) {
     for (const std::uint32_t v : points)
       for (const double x : out_.points_[v].x) largest = std::max(largest, std::fabs(x));
     out_.facet_magnitudes_.push_back(largest);
+    out_.facet_levels_.push_back(level(f, points));
     if (!f.planar) measure_defect(f, points);
   }
   detail::sort_by_points(out_.points_.size(), out_.triangles_.size(), [this](std::uint32_t t) { return out_.triangles_[t]; },
@@ -191,6 +192,20 @@ void DomainBuilder<D>::write_facets() requires(D == 3) {
   for (EntityId f = 0; f < out_.facets_.size(); ++f)
     if (!out_.facets_[f].planar) bent->add(f, {out_.triangles(f), out_.points_, out_.facets_[f].axis});
   out_.bent_facets_ = std::move(bent);
+}
+
+/// Of two doubles within a factor of 2 the difference is exact (Sterbenz); 1.9 leaves room for points between, which are rounded.
+template <int D>
+double DomainBuilder<D>::level(const DomainFacet& f, std::span<const std::uint32_t> points) const requires(D == 3) {
+  const auto at = [&](std::uint32_t v) { return out_.points_[v][f.axis]; };
+  const double first = at(out_.triangles_[f.first_triangle][0]);
+  double least = std::fabs(first), most = least;
+  for (const std::uint32_t v : points) {
+    if (std::signbit(at(v)) != std::signbit(first)) return 0;
+    least = std::min(least, std::fabs(at(v)));
+    most = std::max(most, std::fabs(at(v)));
+  }
+  return most <= 1.9 * least ? first : 0;
 }
 
 /// Of a facet of which some corners are not exactly in one plane.

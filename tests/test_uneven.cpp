@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "parallel_support.hpp"
 #include "pgdr/io.hpp"
@@ -62,6 +63,22 @@ TEST_P(Uneven, CapsOfSixDigitsAreMeshed) {
   const Plc<3> plc = printed(test::turned(star_prism(68, 0.5, 0.5), GetParam()), 1e-4);
   ASSERT_TRUE(is_uneven(plc));
   test::expect_reproducible<3>(plc, {}, "star", test::eight_threads);
+}
+
+// Steiner points are off the plane of their facet by an ulp, here of 1e7: in its in-circle tests, which compare |x|^2, that counted
+// as much as the origin is far, so that triangles were taken which are not Delaunay, along segments even flat ones, and all three
+// were refused.
+TEST(FarFromTheOrigin, AsNearby) {
+  for (const auto& [corners, inner, height] : {std::tuple{68u, 0.5, 0.5}, {40u, 0.7, 0.002}, {100u, 0.95, 0.3}}) {
+    const Plc<3> plc = star_prism(corners, inner, height);
+    const auto nearby = test::refine_and_check<3>(test::turned(plc, 0.0), {});
+    const Plc<3> far = test::turned(plc, 1e7);
+    const auto outcome = test::refine_and_check<3>(far, {});
+    EXPECT_LE(outcome.report.exit_code(), 1) << corners << ": " << test::findings(outcome.report);
+    EXPECT_LE(outcome.result.poor_left, nearby.result.poor_left + 10);
+    EXPECT_LT(outcome.result.mesh.cells.size(), 1.2 * static_cast<double>(nearby.result.mesh.cells.size()));
+    if (corners == 68) test::expect_reproducible<3>(far, {}, "far", test::eight_threads);
+  }
 }
 
 // Sixteen nearly coplanar facets about each hub. The recovery of the facets went on for ever there: a facet's triangle had

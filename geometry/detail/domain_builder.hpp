@@ -271,6 +271,7 @@ class DomainBuilder {
   std::uint32_t root(std::uint32_t f);
   void write_facets() requires(D == 3);
   void orient_group(DomainFacet& facet) requires(D == 3);
+  double level(const DomainFacet& facet, std::span<const std::uint32_t> points) const requires(D == 3);
   void measure_defect(DomainFacet& facet, std::span<const std::uint32_t> points) const requires(D == 3);
 
   // domain_coplanar.cpp

@@ -129,6 +129,9 @@ class Domain {
 
   double segment_magnitude(EntityId s) const;  ///< largest |coordinate| of its points: the yardstick of "k ulps"
   double facet_magnitude(EntityId f) const { return facet_magnitudes_[f]; }  ///< likewise
+  /// Where the points of the facet lie on its axis, if they are so near to each other there that what is left when this is taken
+  /// off them is exact; else 0.
+  double facet_level(EntityId f) const { return facet_levels_[f]; }
 
   const std::vector<Diagnostic>& repairs() const { return repairs_; }    ///< what was mended, one entry a kind
   const std::vector<Diagnostic>& warnings() const { return warnings_; }  ///< what was found, and taken as it is
@@ -152,7 +155,7 @@ class Domain {
   std::vector<TriangleOrigin> triangle_origins_;
   std::vector<EntityId> facet_segments_;
   std::vector<std::uint32_t> facet_points_;
-  std::vector<double> facet_magnitudes_;
+  std::vector<double> facet_magnitudes_, facet_levels_;
   std::vector<std::uint32_t> facets_of_segment_begin_;
   std::vector<EntityId> facets_of_segment_;
   std::vector<Point<D>> holes_;
