@@ -162,10 +162,6 @@ Number determinant(const Matrix<Number, N>& m) {
   }
 }
 
-}  // namespace
-
-namespace {
-
 /// Of a determinant whose points may move.
 template <class Number>
 struct Movable {

@@ -335,7 +335,6 @@ bool DomainBuilder<D>::runs_near(std::uint32_t a, std::uint32_t b, std::uint32_t
 /// Do the corners opposite lie within near_width_ of the planes of each other's triangles?
 template <int D>
 bool DomainBuilder<D>::is_nearly_flat(std::span<const detail::EdgeUse> joint) const requires(D == 3) {
-  if (!(near_width_ > 0)) return false;
   const auto [a, b, c, d] = corners(joint);
   const double most = near_width_ / scale_;
   return detail::plane_distance(a, b, c, d) <= most && detail::plane_distance(a, b, d, c) <= most;

@@ -27,6 +27,7 @@ Outcome<D> refine_and_check(const Plc<D>& plc, const RefineOptions<D>& options) 
   Outcome<D> outcome{refine<D>(domain, options), {}};
   CheckOptions<D> check_options;
   check_options.domain = &domain;
+  check_options.regions = options.regions;
   check_options.radius_edge_bound = options.radius_edge_bound;
   check_options.size = options.size;
   check_options.region_sizes = options.region_sizes;
@@ -72,6 +73,23 @@ inline bool unfinished_but_valid(const CheckReport& report) {
         f.kind != CheckFinding::Kind::bad_reason)
       return false;
   return true;
+}
+
+/// Of all cells together; 2D: their area.
+template <int D>
+double volume_of(const OutputMesh<D>& mesh) {
+  double sum = 0;
+  for (const auto& cell : mesh.cells) {
+    double m[D][D];
+    for (int i = 0; i < D; ++i)
+      for (int k = 0; k < D; ++k) m[i][k] = mesh.points[cell[i + 1]][k] - mesh.points[cell[0]][k];
+    if constexpr (D == 3)
+      sum += (m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+              m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])) / 6;
+    else
+      sum += (m[0][0] * m[1][1] - m[0][1] * m[1][0]) / 2;
+  }
+  return sum;
 }
 
 }  // namespace pgdr::test

@@ -14,10 +14,9 @@
 
 #include "detail/vectors.hpp"
 #include "domain_plcs.hpp"
-#include "pgdr/check.hpp"
 #include "pgdr/diagnosis.hpp"
-#include "pgdr/refine.hpp"
 #include "planar_plcs.hpp"
+#include "refined_models.hpp"
 #include "repair_plcs.hpp"
 
 namespace pgdr::test_join_near {
@@ -26,34 +25,11 @@ using test::box;
 using test::triangulated;
 using test::turned;
 
-/// Meshed, checked with markers: the result.
-RefineResult<3> meshed(const Domain<3>& domain, const RefineOptions<3>& options = {}) {
-  auto result = refine<3>(domain, options);
-  CheckOptions<3> check_options;
-  check_options.domain = &domain;
-  check_options.regions = options.regions;
-  check_options.radius_edge_bound = options.radius_edge_bound;
-  check_options.reasons = &result.reasons;
-  const CheckReport report = check<3>(result.mesh, check_options);
-  EXPECT_LE(report.exit_code(), 1);
-  for (const auto& f : report.findings) ADD_FAILURE() << f.message;
-  return result;
-}
-
-double volume_of(const OutputMesh<3>& mesh) {
-  double sum = 0;
-  for (const auto& cell : mesh.cells) {
-    const Point3 &o = mesh.points[cell[0]], &a = mesh.points[cell[1]], &b = mesh.points[cell[2]], &c = mesh.points[cell[3]];
-    double m[3][3];
-    for (int k = 0; k < 3; ++k) {
-      m[0][k] = a[k] - o[k];
-      m[1][k] = b[k] - o[k];
-      m[2][k] = c[k] - o[k];
-    }
-    sum += (m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-            m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])) / 6;
-  }
-  return sum;
+/// The mesh, which the checker has passed.
+OutputMesh<3> meshed(const Plc<3>& plc, const RefineOptions<3>& options = {}) {
+  auto outcome = test::refine_and_check<3>(plc, options);
+  EXPECT_LE(outcome.report.exit_code(), 1) << test::findings(outcome.report);
+  return std::move(outcome.result.mesh);
 }
 
 /// The walls and, marked 9, the top of a box without a bottom.
@@ -90,9 +66,9 @@ TEST(JoinNear, WhatStandsOnAPlateTurned) {
     EXPECT_EQ(d.points().size(), exact.points().size());
     EXPECT_EQ(d.facets().size(), exact.facets().size()) << k;
     EXPECT_EQ(d.segments().size(), exact.segments().size()) << k;
-    const auto result = meshed(d);
-    EXPECT_NEAR(volume_of(result.mesh), 160 + 24 + 24, 1e-9);
-    EXPECT_LT(result.mesh.cells.size(), 5000u);
+    const OutputMesh<3> mesh = meshed(plc);
+    EXPECT_NEAR(test::volume_of(mesh), 160 + 24 + 24, 1e-9);
+    EXPECT_LT(mesh.cells.size(), 5000u);
     EXPECT_TRUE(std::ranges::any_of(d.segments(), [](const DomainSegment& s) { return s.marker == 77; }));
   }
 }
@@ -134,7 +110,7 @@ void expect_as_exact(std::uint64_t seed, double noise, double within, int& joine
     })) << seed;
     ++joined;
   }
-  if (!is_valid || joined % 8 == 0) meshed(d, {.regions = RegionMode::automatic});
+  if (!is_valid || joined % 8 == 0) meshed(copy, {.regions = RegionMode::automatic});
 }
 
 TEST(JoinNear, AsTheExactRepairs) {
@@ -146,7 +122,7 @@ TEST(JoinNear, AsTheExactRepairs) {
   }
 }
 
-// T-junctions in a file of floats: every third edge of the ball has a point, rounded, on one of its sides.
+// T-junctions in a file of floats: two of three triangles of a box have a point, rounded, on an edge that their neighbours do not know.
 TEST(JoinNear, TJunctionsOfFloats) {
   for (const double angle : {0.3, 0.9, 2.1}) {
     Plc<3> plc = turned(triangulated(box()), angle);
@@ -172,7 +148,7 @@ TEST(JoinNear, TJunctionsOfFloats) {
     const Domain<3> d(plc);
     EXPECT_EQ(diagnose(d).error_count(), 0u);
     EXPECT_EQ(diagnose(d)[Finding::open_boundary].count, 0u);
-    EXPECT_NEAR(volume_of(meshed(d).mesh), 6, 1e-5);
+    EXPECT_NEAR(test::volume_of(meshed(plc)), 6, 1e-5);
   }
 }
 
@@ -202,7 +178,7 @@ TEST(JoinNear, NeedlesGo) {
   ASSERT_NE(flat, d.repairs().end());
   EXPECT_EQ(flat->ids.size(), 1u);
   EXPECT_EQ(diagnose(d).error_count(), 0u);
-  EXPECT_NEAR(volume_of(meshed(d).mesh), 6, 1e-7);
+  EXPECT_NEAR(test::volume_of(meshed(plc)), 6, 1e-7);
 }
 
 // Every point within the distance of an edge or of the inside of a facet is named, and no other.

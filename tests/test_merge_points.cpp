@@ -14,6 +14,7 @@
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/refine.hpp"
 #include "planar_plcs.hpp"
+#include "refined_models.hpp"
 #include "repair_plcs.hpp"
 
 namespace pgdr::test_merge_points {
@@ -60,20 +61,7 @@ void expect_meshed(const Domain<D>& domain, double volume) {
   const CheckReport report = check<D>(result.mesh, check_options);
   EXPECT_LE(report.exit_code(), 1);
   for (const auto& f : report.findings) ADD_FAILURE() << f.message;
-  double sum = 0;
-  for (const auto& cell : result.mesh.cells) {
-    Simplex<D> s;
-    for (int i = 0; i <= D; ++i) s[i] = result.mesh.points[cell[i]];
-    double m[D][D];
-    for (int i = 0; i < D; ++i)
-      for (int k = 0; k < D; ++k) m[i][k] = s[i + 1][k] - s[0][k];
-    if constexpr (D == 3)
-      sum += (m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-              m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])) / 6;
-    else
-      sum += (m[0][0] * m[1][1] - m[0][1] * m[1][0]) / 2;
-  }
-  EXPECT_NEAR(sum / volume, 1, 1e-7);
+  EXPECT_NEAR(test::volume_of<D>(result.mesh) / volume, 1, 1e-7);
 }
 
 TEST(MergePoints, ASoupOfTriangles) {
