@@ -39,7 +39,8 @@ void PlaceBeside::look_at(const VertexRecord<3>& q) {
   } else if (const int end = common_end(*domain_, segment_, q.home); end >= 0) {
     const std::uint32_t apex = domain_->segments()[segment_].points[end];
     const double part = distance(domain_->points()[apex], q.point) / whole_;
-    const double t = where_ == Beside::nearest ? segment_parameter<3>(*domain_, segment_, q.point) : end == 0 ? part : 1 - part;
+    const bool at_apex = end == 0 ? t0_ == 0 : t1_ == 1;
+    const double t = where_ == Beside::nearest && !at_apex ? segment_parameter<3>(*domain_, segment_, q.point) : end == 0 ? part : 1 - part;
     add(t, q.point, least_part * length, apex);
   }
 }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "parallel_support.hpp"
 #include "pgdr/twins.hpp"
@@ -74,6 +75,37 @@ TEST_P(Needles, FourGetFewPoints) {
 INSTANTIATE_TEST_SUITE_P(Heights, Needles, testing::Values(1e-5, 1e-7, 1e-9),
                          [](const auto& info) { return "1em" + std::to_string(std::lround(-std::log10(info.param))); });
 
+/// A body 2 high whose top is a fan of needles, `angle` apart, about one corner, each bent by some 1e-5 against the next.
+Plc<3> body_with_fan(int needles, double angle) {
+  Plc<3> plc;
+  std::vector<Point2> rim{{{0, 0}}, {{0.9, -0.4}}};
+  for (int i = 0; i <= needles; ++i) rim.push_back({{235 * std::cos(i * angle), 235 * std::sin(i * angle)}});
+  rim.push_back({{0.8, 0.6}});
+  const auto n = static_cast<std::uint32_t>(rim.size());
+  for (std::uint32_t i = 0; i < n; ++i) plc.points.push_back({{rim[i][0], rim[i][1], -2}});
+  for (std::uint32_t i = 0; i < n; ++i) plc.points.push_back({{rim[i][0], rim[i][1], i % 2 == 0 ? 1e-4 * i : 2e-4}});
+  Plc<3>::Facet bottom{{{}}, {}, 0};
+  for (std::uint32_t i = 0; i < n; ++i) bottom.polygons[0].push_back(i);
+  plc.facets.push_back(bottom);
+  for (std::uint32_t i = 0; i < n; ++i) plc.facets.push_back({{{i, (i + 1) % n, n + (i + 1) % n, n + i}}, {}, 0});
+  for (std::uint32_t i = 1; i + 1 < n; ++i) plc.facets.push_back({{{n, n + i, n + i + 1}}, {}, 0});
+  return plc;
+}
+
+/// From beds of printers, where the recovery went on to 1e-6 of the needles' length (and its points to a third more elements): each
+/// side of a needle was split next to the points of its neighbours, not as far from the apex as they were.
+TEST(Needles, OfAFanAreNotSplitTowardsTheirApex) {
+  const Plc<3> plc = body_with_fan(10, 0.0033);
+  RefineOptions<3> options;
+  options.refine = false;
+  options.radius_edge_bound = std::numeric_limits<double>::infinity();  // of the checker
+  options.max_vertices = 20000;
+  const RefineResult<3> recovered = test::expect_reproducible<3>(plc, options, "fan", test::two_if_quick);
+  const Point3 apex = plc.points[plc.points.size() / 2];
+  const auto near = [&](const Point3& x) { return squared_distance(x, apex) < 0.1 * 0.1; };
+  EXPECT_EQ(std::count_if(recovered.mesh.points.begin(), recovered.mesh.points.end(), near), 1);
+}
+
 /// Two segments from one point at an angle of 0.001, of 8 and 5.
 Domain<3> two_segments() {
   Plc<3> plc;
@@ -114,11 +146,15 @@ TEST(PlaceBeside, IsAsFarFromTheCommonEndOrNextToAnInputVertex) {
   EXPECT_FALSE(is_twin(domain, s, *places.best(), {{{3, 0, 0}}, Home(EntityKind::segment, s), 1}));
   places.look_at(on_other(4.5));  // nearer to the middle
   EXPECT_DOUBLE_EQ(places.best()->x[0], 4.5);
-  PlaceBeside nearest(domain, s, 0, 1, Beside::nearest);
+  PlaceBeside nearest(domain, s, 0.125, 1, Beside::nearest);
   nearest.look_at(on_other(3));
   ASSERT_TRUE(nearest.best());
   EXPECT_DOUBLE_EQ(nearest.best()->x[0], 3 * std::cos(0.001));
   EXPECT_TRUE(is_twin(domain, s, *nearest.best(), on_other(3)));
+  PlaceBeside at_end(domain, s, 0, 0.75, Beside::nearest);
+  at_end.look_at(on_other(3));
+  ASSERT_TRUE(at_end.best());
+  EXPECT_DOUBLE_EQ(at_end.best()->x[0], 3);
 
   PlaceBeside next_to_input(domain, s, 0, 1, Beside::as_far);
   next_to_input.look_at({domain.points()[2], Home(EntityKind::vertex, 2), 1});

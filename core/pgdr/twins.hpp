@@ -7,10 +7,14 @@
 // would become those at which they are split next, and so on, down to how far apart the sides are. So a subsegment is split
 //   * as far from an end of its segment as a vertex beside it is that lies on another segment there: its twin. No vertex of
 //     the one side is then between two of the other, in the sense that counts: none is in a diametral ball there;
-//   * or next to an input vertex beside it, so that no diametral ball has it inside; in the recovery next to any vertex of a
-//     segment that runs along it. (Where four segments run from two near points to two others, places as far from one end and from
-//     the other differ, and copies of copies would come back at a distance; the nearest points of lines do not. The recovery has a
-//     limit of its own; for the refinement, the distance from the end bounds that of the twins, and must not become less.)
+//   * or next to an input vertex beside it, so that no diametral ball has it inside; in the recovery, where the subsegment does not
+//     reach the common end, next to any vertex of a segment that runs along it. (Where four segments run from two near points to
+//     two others, places as far from one end and from the other differ, and copies of copies would come back at a distance; the
+//     nearest points of lines do not. The recovery has a limit of its own; for the refinement, the distance from the end bounds
+//     that of the twins, and must not become less. Subsegments at the common end o must be equally long in any case: the nearest
+//     point to q at an angle a is cos a times as far from o as q is, so of three side by side the middle one may be the longest, op,
+//     and then both others' ends see it at more than 90 degrees. The circles through o, p and them leave op no empty one, so it is
+//     missing, is split, and the next round has the same three at half the size, without an end.)
 // The distance between twins is not counted: the insertion radius of a point, which is compared with what is asked of it, and
 // which later points inherit, is that from all other vertices (insertion_rule.hpp has the proof that this ends). Pure functions
 // of the domain and of points; any thread.
@@ -38,7 +42,7 @@ struct SplitPlace {
 /// Where next to a vertex on another segment.
 enum class Beside {
   as_far,   ///< from the common end
-  nearest,  ///< to it
+  nearest,  ///< to it; as far if the piece reaches the common end
 };
 
 /// Of the piece of a segment from t0 to t1, looks for the place beside a vertex that is nearest to its middle.
