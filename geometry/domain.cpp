@@ -165,6 +165,15 @@ std::span<const std::uint32_t> Domain<D>::facet_points(EntityId f) const {
 }
 
 template <int D>
+bool Domain<D>::facets_touch(EntityId f, EntityId g) const {
+  if (f == g) return true;
+  auto few = facet_points(f), many = facet_points(g);
+  if (few.size() > many.size()) std::swap(few, many);
+  if (few.size() > few_points) return std::binary_search(touching_.begin(), touching_.end(), std::array{std::min(f, g), std::max(f, g)});
+  return std::ranges::any_of(few, [&](std::uint32_t v) { return std::binary_search(many.begin(), many.end(), v); });
+}
+
+template <int D>
 std::span<const EntityId> Domain<D>::facets_of_segment(EntityId s) const {
   const std::uint32_t begin = facets_of_segment_begin_[s];
   return std::span(facets_of_segment_).subspan(begin, facets_of_segment_begin_[s + 1] - begin);

@@ -159,12 +159,9 @@ bool entities_touch(const Domain<D>& domain, EntityRef a, EntityRef b) {
   if (a.kind == EntityKind::facet) std::swap(a, b);
   if constexpr (D == 3) {
     if (b.kind == EntityKind::facet) {
-      auto many = domain.facet_points(b.id);
-      const auto on_many = [&](std::uint32_t v) { return std::binary_search(many.begin(), many.end(), v); };
-      if (a.kind != EntityKind::facet) return std::ranges::any_of(few_points(domain, a), on_many);
-      auto few = domain.facet_points(a.id);
-      if (few.size() > many.size()) std::swap(few, many);
-      return std::ranges::any_of(few, on_many);
+      if (a.kind == EntityKind::facet) return domain.facets_touch(a.id, b.id);
+      const auto points = domain.facet_points(b.id);
+      return std::ranges::any_of(few_points(domain, a), [&](std::uint32_t v) { return std::binary_search(points.begin(), points.end(), v); });
     }
   }
   const auto p = few_points(domain, a), q = few_points(domain, b);

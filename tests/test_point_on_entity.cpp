@@ -214,6 +214,37 @@ TEST(EntityAngle, BoxIsRectangular) {
   EXPECT_EQ(entity_angle(d, facet(0), {}), 180);
 }
 
+/// Pairs of facets with many points are looked up, others are compared point by point: plates whose top has 50 more points along each
+/// of two edges, which the walls there have too.
+TEST(Domain, FacetsWithManyPointsTouchWhereTheyShareOne) {
+  Plc<3> plc;
+  constexpr std::uint32_t more = 50;
+  std::vector<Point2> rim;
+  for (std::uint32_t i = 0; i <= more; ++i) rim.push_back({{static_cast<double>(i), 0}});
+  rim.push_back({{more, 10}});
+  for (std::uint32_t i = 0; i <= more; ++i) rim.push_back({{static_cast<double>(more - i), 20}});
+  const auto n = static_cast<std::uint32_t>(rim.size());
+  for (const double z : {0., 1.})
+    for (const Point2& p : rim) plc.points.push_back({{p[0], p[1], z}});
+  for (const std::uint32_t first : {0u, n}) {
+    plc.facets.push_back({{{}}, {}, 0});
+    for (std::uint32_t i = 0; i < n; ++i) plc.facets.back().polygons[0].push_back(first + i);
+  }
+  for (std::uint32_t i = 0; i < n; ++i) plc.facets.push_back({{{i, (i + 1) % n, n + (i + 1) % n, n + i}}, {}, 0});
+  const Domain<3> d(plc);
+  std::size_t large = 0;
+  for (EntityId f = 0; f < d.facets().size(); ++f) {
+    large += d.facet_points(f).size() > more ? 1 : 0;
+    for (EntityId g = 0; g < d.facets().size(); ++g) {
+      const auto a = d.facet_points(f), b = d.facet_points(g);
+      std::vector<std::uint32_t> common;
+      std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));
+      EXPECT_EQ(d.facets_touch(f, g), !common.empty()) << f << " " << g;
+    }
+  }
+  EXPECT_EQ(large, 4u);  // top, bottom and two walls
+}
+
 TEST(EntityAngle, KnownAngles) {
   Plc<3> plc;
   // A triangle in z = 0, one at 30 degrees on its edge 0-1, one that shares point 0 alone, and a loose segment.

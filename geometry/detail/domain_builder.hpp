@@ -270,6 +270,7 @@ class DomainBuilder {
   void collect_edges();
   std::uint32_t root(std::uint32_t f);
   void write_facets() requires(D == 3);
+  void write_touching() requires(D == 3);
   void orient_group(DomainFacet& facet) requires(D == 3);
   double level(const DomainFacet& facet, std::span<const std::uint32_t> points) const requires(D == 3);
   void measure_defect(DomainFacet& facet, std::span<const std::uint32_t> points) const requires(D == 3);

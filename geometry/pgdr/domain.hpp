@@ -119,6 +119,8 @@ class Domain {
   std::span<const std::uint32_t> triangles_at(EntityId f, std::uint32_t point) const;
   std::span<const EntityId> facet_segments(EntityId f) const;                  ///< of facet f
   std::span<const std::uint32_t> facet_points(EntityId f) const;               ///< of facet f, inner points included
+  /// 3D: have facets f and g a point in common?
+  bool facets_touch(EntityId f, EntityId g) const;
   /// Facets that have segment s among theirs, ascending.
   std::span<const EntityId> facets_of_segment(EntityId s) const;
   std::span<const Point<D>> holes() const { return holes_; }              ///< Plc::holes
@@ -155,6 +157,8 @@ class Domain {
   std::vector<TriangleOrigin> triangle_origins_;
   std::vector<EntityId> facet_segments_;
   std::vector<std::uint32_t> facet_points_;
+  std::vector<std::array<EntityId, 2>> touching_;  // sorted: of facets with more than few_points
+  static constexpr std::size_t few_points = 32;    // to look for one after the other
   std::vector<double> facet_magnitudes_, facet_levels_;
   std::vector<std::uint32_t> facets_of_segment_begin_;
   std::vector<EntityId> facets_of_segment_;
