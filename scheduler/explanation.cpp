@@ -15,7 +15,9 @@ namespace pgdr::detail {
 namespace {
 
 constexpr int most_rounds = 16;
-constexpr int most_rounds_in_vain = 6;  // that explain no more than the best before
+// Rounds that explain no more than the best before: of elements that may have a small angle farther away as their reason (what is
+// put in for them brings as many new ones), and of those that have none.
+constexpr int most_in_vain_near = 2, most_in_vain_far = 6;
 
 }  // namespace
 
@@ -66,10 +68,11 @@ template <int D>
 std::vector<PoorCell> LeafRefinement<D>::explain(StopCause& stop) {
   PoorReasons<D> reasons(context_.mesh, context_.domain, context_.bounds, context_.options.keep_boundary);
   PoorFindings found = look_for_poor(reasons);
-  help_unexplained(reasons, found);
+  help_unexplained(reasons, found, most_in_vain_near);
   if (!found.unexplained.empty() && !context_.ended()) {
     reasons.look_far();
     found = look_for_poor(reasons);
+    help_unexplained(reasons, found, most_in_vain_far);
   }
   cancelled(0);
   if (context_.stop == 0) stop = improve(reasons, found);
@@ -82,9 +85,9 @@ std::vector<PoorCell> LeafRefinement<D>::explain(StopCause& stop) {
 }
 
 template <int D>
-void LeafRefinement<D>::help_unexplained(PoorReasons<D>& reasons, PoorFindings& found) {
+void LeafRefinement<D>::help_unexplained(PoorReasons<D>& reasons, PoorFindings& found, int most_in_vain) {
   std::size_t least = found.unexplained.size();
-  for (int round = 0, in_vain = 0; round < most_rounds && in_vain < most_rounds_in_vain && !cancelled(0); ++round) {
+  for (int round = 0, in_vain = 0; round < most_rounds && in_vain < most_in_vain && !cancelled(0); ++round) {
     if (found.unexplained.empty() || context_.stop != 0) break;
     // What is mended by taking a vertex out may come back with it: then a point inside is better, or the other way round.
     const bool mends = unexplained_violations_ > 0 && in_vain % 2 == 0;

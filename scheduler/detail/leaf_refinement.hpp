@@ -125,7 +125,7 @@ class LeafRefinement {
   void for_each_refused(const std::function<void(std::span<const Refusal<D>>)>& f);
   PoorFindings look_for_poor(PoorReasons<D>& reasons);
   bool lists_all_poor(const PoorFindings& found) const;
-  void help_unexplained(PoorReasons<D>& reasons, PoorFindings& found);
+  void help_unexplained(PoorReasons<D>& reasons, PoorFindings& found, int most_in_vain);
   bool insert_within(std::span<const CellId> cells);
   bool may_improve(bool takes_out_alone) const;
   void list_for_improvement();
