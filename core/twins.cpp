@@ -40,7 +40,8 @@ void PlaceBeside::look_at(const VertexRecord<3>& q) {
     const std::uint32_t apex = domain_->segments()[segment_].points[end];
     const double part = distance(domain_->points()[apex], q.point) / whole_;
     const bool at_apex = end == 0 ? t0_ == 0 : t1_ == 1;
-    const double t = where_ == Beside::nearest && !at_apex ? segment_parameter<3>(*domain_, segment_, q.point) : end == 0 ? part : 1 - part;
+    double t = end == 0 ? part : 1 - part;
+    if (where_ == Beside::nearest && !at_apex) t = segment_parameter<3>(*domain_, segment_, q.point);
     add(t, q.point, least_part * length, apex);
   }
 }

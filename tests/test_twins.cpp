@@ -75,7 +75,7 @@ TEST_P(Needles, FourGetFewPoints) {
 INSTANTIATE_TEST_SUITE_P(Heights, Needles, testing::Values(1e-5, 1e-7, 1e-9),
                          [](const auto& info) { return "1em" + std::to_string(std::lround(-std::log10(info.param))); });
 
-/// A body 2 high whose top is a fan of needles, `angle` apart, about one corner, each bent by some 1e-5 against the next.
+/// A body 2 high whose top is a fan of needles, `angle` apart, about one corner, no two of them coplanar.
 Plc<3> body_with_fan(int needles, double angle) {
   Plc<3> plc;
   std::vector<Point2> rim{{{0, 0}}, {{0.9, -0.4}}};
@@ -92,7 +92,7 @@ Plc<3> body_with_fan(int needles, double angle) {
   return plc;
 }
 
-/// From beds of printers, where the recovery went on to 1e-6 of the needles' length (and its points to a third more elements): each
+/// From beds of printers, where the recovery went on to 2e-6 of the needles' length: each
 /// side of a needle was split next to the points of its neighbours, not as far from the apex as they were.
 TEST(Needles, OfAFanAreNotSplitTowardsTheirApex) {
   const Plc<3> plc = body_with_fan(10, 0.0033);

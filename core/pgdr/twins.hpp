@@ -14,7 +14,7 @@
 //     that of the twins, and must not become less. Subsegments at the common end o must be equally long in any case: the nearest
 //     point to q at an angle a is cos a times as far from o as q is, so of three side by side the middle one may be the longest, op,
 //     and then both others' ends see it at more than 90 degrees. The circles through o, p and them leave op no empty one, so it is
-//     missing, is split, and the next round has the same three at half the size, without an end.)
+//     missing and is split, and the next round may have the same three at half the size, and so on.)
 // The distance between twins is not counted: the insertion radius of a point, which is compared with what is asked of it, and
 // which later points inherit, is that from all other vertices (insertion_rule.hpp has the proof that this ends). Pure functions
 // of the domain and of points; any thread.
