@@ -18,6 +18,7 @@
 #include "detail/byte_order.hpp"
 #include "detail/io_formats.hpp"
 #include "detail/line_scanner.hpp"
+#include "pgdr/written_precision.hpp"
 
 namespace pgdr::detail {
 namespace {
@@ -283,6 +284,8 @@ class PlyReader {
       values_.end_entry();
       plc_.points.push_back(p);
     }
+    if (std::all_of(column.begin(), column.end(), [&e](std::size_t c) { return e.properties[c].type == Type::f32; }))
+      set_precision_of_file(plc_);
   }
 
   void read_faces(const Element& e) {

@@ -14,6 +14,7 @@
 
 #include "detail/io_formats.hpp"
 #include "detail/line_scanner.hpp"
+#include "pgdr/written_precision.hpp"
 
 namespace pgdr::detail {
 namespace {
@@ -211,6 +212,7 @@ Plc<3> read_stl(std::string_view text, const std::filesystem::path& file) {
     check_binary_size(text, plc);
     read_binary(text, plc);
   }
+  set_precision_of_file(plc);
   return plc;
 }
 

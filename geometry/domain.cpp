@@ -68,6 +68,7 @@ void DomainBuilder<D>::run() {
   stop_check_();
   write_segments();
   write_incidences();
+  out_.precision_ = plc_.precision;
   report_repairs();
 }
 

@@ -82,6 +82,12 @@ double suggested_precision(const Plc<3>& plc) {
   }
 }
 
+void set_precision_of_file(Plc<3>& plc) {
+  const double rounding = plc.precision;
+  plc.precision = std::max(rounding, written_precision(plc.points));
+  plc.precision_of_file = plc.precision > rounding;
+}
+
 double written_precision(std::span<const Point3> points) {
   int most = 0;
   bool floats = true;

@@ -354,6 +354,7 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   RefineResult<D> before;
   before.repairs = domain.repairs();
   before.warnings = domain.warnings();
+  before.precision = domain.precision();
   note_what_theory_lacks(options, before.warnings);
   try {
     require_no_errors(domain, options.stop);
@@ -389,15 +390,17 @@ RefineResult<D> refine(const Domain<D>& domain, const RefineOptions<D>& options)
   return run<D>(domain, options);
 }
 
+namespace {
+
 template <int D>
-RefineResult<D> refine(const Plc<D>& plc, const RefineOptions<D>& options) {
-  const auto start = Clock::now();
-  const detail::DefaultFloats floats;
+RefineResult<D> prepare_and_run(const Plc<D>& plc, const RefineOptions<D>& options, Clock::time_point start) {
   std::optional<Domain<D>> domain;
   try {
     domain.emplace(plc, options.stop);
   } catch (const CancelledError&) {
-    return without_mesh(RefineResult<D>{}, start);
+    RefineResult<D> none;
+    none.precision = plc.precision;
+    return without_mesh(std::move(none), start);
   }
   const double prepare = seconds_since(start);
   RefineResult<D> result = run<D>(*domain, options);
@@ -408,6 +411,20 @@ RefineResult<D> refine(const Plc<D>& plc, const RefineOptions<D>& options) {
     v.end += prepare;
   }
   return result;
+}
+
+}  // namespace
+
+template <int D>
+RefineResult<D> refine(const Plc<D>& plc, const RefineOptions<D>& options) {
+  const auto start = Clock::now();
+  const detail::DefaultFloats floats;
+  if (!plc.precision_of_file) return prepare_and_run(plc, options, start);
+  try {
+    return prepare_and_run(plc, options, start);
+  } catch (const InputError&) {
+    return prepare_and_run(with_default_precision(plc), options, start);
+  }
 }
 
 template PGDR_API RefineResult<2> refine<2>(const Plc<2>&, const RefineOptions<2>&);

@@ -8,13 +8,13 @@
 
 #include <atomic>
 #include <chrono>
-#include <cstring>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "allow_threads.hpp"
 #include "refined_models.hpp"
+#include "same_bytes.hpp"
 #include "sanitized.hpp"
 
 namespace pgdr::test {
@@ -48,11 +48,6 @@ RefineOptions<D> with(RefineOptions<D> options, const Runner& runner) {
   options.schedule.executor = runner.executor;
   options.schedule.threads = runner.threads;
   return options;
-}
-
-template <class T>
-bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
 template <int D>

@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -16,6 +15,7 @@
 
 #include "pgdr/error.hpp"
 #include "pgdr/io.hpp"
+#include "same_bytes.hpp"
 
 namespace pgdr::test {
 
@@ -65,11 +65,6 @@ Diagnostic error_of(Call call) {
   }
   ADD_FAILURE() << "nothing was thrown";
   return {};
-}
-
-template <class T>
-bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
 template <int D>

@@ -72,6 +72,8 @@ void print_summary(const CheckArguments& a, const OutputMesh<D>& mesh, const Bou
                                                 : "FAILED");
 }
 
+bool is_sound(const CheckReport& r) { return r.exit_code() == exit_done || r.exit_code() == exit_poor_left; }
+
 template <int D>
 int check_as(const CheckArguments& a, Report& report) {
   ReportedBounds reported;
@@ -83,7 +85,7 @@ int check_as(const CheckArguments& a, Report& report) {
   if (!reading.merge_points) reading.merge_points = reported.merge_points;
   reading.resolve_crossings = reading.resolve_crossings || reported.resolve_crossings;
   reading.convex_hull = reading.convex_hull || reported.convex_hull;
-  const std::optional<Domain<D>> domain = read_domain<D>(a.input, reading);
+  std::optional<Domain<D>> domain = read_domain<D>(a.input, reading);
 
   CheckOptions<D> options;
   if (domain) options.domain = &*domain;
@@ -93,7 +95,13 @@ int check_as(const CheckArguments& a, Report& report) {
   options.max_measure = bounds.max_volume;
   options.regions = a.regions.value_or(reported.regions);
   if (!a.reasons.empty()) options.reasons = &reported.reasons;
-  const CheckReport verdict = pgdr::check(mesh, options);
+  CheckReport verdict = pgdr::check(mesh, options);
+  if (D == 3 && domain && !is_sound(verdict) && !reading.precision && !reading.precision_auto &&
+      domain->precision() > Plc<D>{}.precision) {  // that of the file, with which the mesh may not have been made
+    reading.precision = Plc<D>{}.precision;
+    domain = read_domain<D>(a.input, reading);
+    verdict = pgdr::check(mesh, options);
+  }
   std::optional<QualitySummary> quality;  // of a mesh whose numbers can be used at all
   if (verdict.count(CheckFinding::Kind::bad_index) + verdict.count(CheckFinding::Kind::not_finite) == 0)
     quality = summarize_quality(mesh);

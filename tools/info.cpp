@@ -4,6 +4,8 @@
 // pgdr info: what is in an input or a mesh, and whether pgdr mesh would take it.
 #include <algorithm>
 #include <array>
+#include <exception>
+#include <optional>
 
 #include "command.hpp"
 #include "console.hpp"
@@ -65,6 +67,56 @@ double smallest_angle(const Domain<D>& domain) {
   return smallest;
 }
 
+/// What the input is without repetitions, its maximal entities, and how these meet.
+template <int D>
+void describe(const Domain<D>& domain, bool quiet, JsonObject& d) {
+  const std::uint64_t open = count_open(domain);
+  const double angle = smallest_angle(domain);
+  d.set("distinct_points", domain.points().size());
+  d.set("maximal_segments", domain.segments().size());
+  if (D == 3) d.set("maximal_facets", domain.facets().size());
+  d.set("closed", open == 0);
+  d.set("open", open);
+  d.set("smallest_angle_deg", angle);
+  double defect = 0;
+  std::uint64_t warped = 0;
+  for (const DomainFacet& f : domain.facets()) {
+    warped += !f.planar;
+    defect = std::max(defect, f.planarity_defect);
+  }
+  if (D == 3) {
+    d.set("precision", domain.precision());
+    d.set("not_planar", warped);
+    d.set("planarity_defect", defect);
+  }
+  if (!quiet) {
+    std::string counts = count(domain.points().size(), "distinct point", "distinct points") + ", " +
+                         count(domain.segments().size(), "segment", "segments");
+    if (D == 3) counts += ", " + count(domain.facets().size(), "facet", "facets");
+    print_row("maximal", counts);
+    if (open == 0) print_row("closed", "yes");
+    else print_row("closed", "no: " + count(open, D == 3 ? "edge of one facet only" : "end of one segment only",
+                                            D == 3 ? "edges of one facet only" : "ends of one segment only"));
+    if (warped > 0)
+      print_row("planar", count(warped, "facet is not", "facets are not") + format(", by up to %.3g", defect));
+    print_row("angles", format("%.3f degrees is the smallest between segments, or facets at a segment", angle));
+  }
+}
+
+/// Boundary recovery alone decides the rest: seeds, whether anything is enclosed. With the default precision, as for a mesh, if
+/// that of the file does not let it; `domain` gets the one that was used.
+template <int D>
+RefineResult<D> recover(const Plc<D>& plc, std::optional<Domain<D>>& domain) {
+  RefineOptions<D> options;
+  options.refine = false;
+  try {
+    return refine(domain.emplace(plc), options);
+  } catch (const InputError&) {
+    if (!plc.precision_of_file) throw;
+    return refine(domain.emplace(with_default_precision(plc)), options);
+  }
+}
+
 template <int D>
 int info_of_input(const InfoArguments& a, Report& report) {
   std::vector<Diagnostic> repairs;
@@ -93,53 +145,29 @@ int info_of_input(const InfoArguments& a, Report& report) {
   if (!a.quiet) print_findings(diagnosis);
   if (diagnosis.error_count() > 0) return refuse(plc, diagnosis, report);
 
-  const Domain<D> domain(plc);
-  const std::uint64_t open = count_open(domain);
-  const double angle = smallest_angle(domain);
-  d.set("distinct_points", domain.points().size());
-  d.set("maximal_segments", domain.segments().size());
-  if (D == 3) d.set("maximal_facets", domain.facets().size());
-  d.set("closed", open == 0);
-  d.set("open", open);
-  d.set("smallest_angle_deg", angle);
-  double defect = 0;
-  std::uint64_t warped = 0;
-  for (const DomainFacet& f : domain.facets()) {
-    warped += !f.planar;
-    defect = std::max(defect, f.planarity_defect);
+  std::optional<Domain<D>> domain;
+  std::optional<RefineResult<D>> recovered;
+  std::exception_ptr refused;
+  try {
+    recovered = recover(plc, domain);
+  } catch (const InputError&) {
+    if (!domain) throw;
+    refused = std::current_exception();
   }
-  if (D == 3) {
-    d.set("not_planar", warped);
-    d.set("planarity_defect", defect);
-  }
+  describe(*domain, a.quiet, d);
   report.set("diagnosis", d);
-  if (!a.quiet) {
-    std::string counts = count(domain.points().size(), "distinct point", "distinct points") + ", " +
-                         count(domain.segments().size(), "segment", "segments");
-    if (D == 3) counts += ", " + count(domain.facets().size(), "facet", "facets");
-    print_row("maximal", counts);
-    if (open == 0) print_row("closed", "yes");
-    else print_row("closed", "no: " + count(open, D == 3 ? "edge of one facet only" : "end of one segment only",
-                                            D == 3 ? "edges of one facet only" : "ends of one segment only"));
-    if (warped > 0)
-      print_row("planar", count(warped, "facet is not", "facets are not") + format(", by up to %.3g", defect));
-    print_row("angles", format("%.3f degrees is the smallest between segments, or facets at a segment", angle));
-  }
+  if (!a.quiet) note_precision(plc, domain->precision());
+  hint_at_precision(plc, &*domain, a.reading, a.quiet, report);
+  hint_at_merge(plc, &*domain, !a.quiet, report);
+  if (refused) std::rethrow_exception(refused);
 
-  hint_at_precision(plc, &domain, a.reading, a.quiet, report);
-  hint_at_merge(plc, &domain, !a.quiet, report);
-
-  // Boundary recovery alone decides the rest: seeds, whether anything is enclosed.
-  RefineOptions<D> options;
-  options.refine = false;
-  const RefineResult<D> result = refine(domain, options);
   d.set("accepted", true);
   report.set("diagnosis", d);
-  report.set("warnings", to_json(result.warnings));
-  repairs.insert(repairs.end(), result.repairs.begin(), result.repairs.end());
+  report.set("warnings", to_json(recovered->warnings));
+  repairs.insert(repairs.end(), recovered->repairs.begin(), recovered->repairs.end());
   report.set("repairs", to_json(repairs));
   if (!a.quiet) {
-    print_warnings(result.warnings);
+    print_warnings(recovered->warnings);
     if (!repairs.empty()) print_row("repaired", count(repairs.size(), "defect", "defects"));
     print_row("verdict", "pgdr mesh takes it");
   }

@@ -21,6 +21,7 @@ Plc<D> read_input(const std::string& file, const InputArguments& reading, std::v
     if (reading.resolve_crossings || reading.convex_hull)
       throw UsageError({.code = Errc::bad_option, .message = "--resolve-crossings and --convex-hull are for 2D"});
     Plc<3> plc = read_plc<3>(file);
+    if (reading.precision || reading.precision_auto) plc.precision_of_file = false;
     if (reading.precision) plc.precision = *reading.precision;
     if (reading.merge_points) plc.merge_within = *reading.merge_points;
     if (reading.precision_auto) plc.precision = suggested_precision(plc);

@@ -240,6 +240,7 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
   result.repairs.insert(result.repairs.begin(), repairs.begin(), repairs.end());
   if (!a.quiet) print_warnings(result.warnings);
   const QualitySummary quality = summarize_quality(result.mesh);
+  if constexpr (D == 3) report.set("precision", result.precision);
   fill(report, a, threads, bounds, result, quality);
 
   seconds.write_at = total.seconds();
@@ -257,6 +258,7 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
                                    {"total", seconds.total}});
   report.set("peak_rss_bytes", peak_rss_bytes());
   if (!a.quiet) print_summary(a, plc, bounds, result, quality, seconds);
+  if (!a.quiet) note_precision(plc, result.precision);
   if (result.poor_left > 0 && result.stop != StopCause::cancelled) {
     hint_at_precision<D>(plc, nullptr, a.reading, a.quiet, report);
     hint_at_merge<D>(plc, nullptr, !a.quiet, report);

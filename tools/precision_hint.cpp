@@ -14,7 +14,7 @@ namespace pgdr::tool {
 template <int D>
 void hint_at_precision(const Plc<D>& plc, const Domain<D>* domain, const InputArguments& reading, bool quiet, Report& report) {
   if constexpr (D == 3) {
-    if (reading.precision || reading.precision_auto) return;
+    if (reading.precision || reading.precision_auto || plc.precision_of_file) return;
     double suggested;
     std::size_t facets, fewer;
     const double written = written_precision(plc.points);
@@ -39,6 +39,16 @@ void hint_at_precision(const Plc<D>& plc, const Domain<D>* domain, const InputAr
   }
 }
 
+template <int D>
+void note_precision(const Plc<D>& plc, double used) {
+  if (!plc.precision_of_file) return;
+  print_row("precision", used < plc.precision
+                             ? format("--precision %.1e: the numbers of the file allow %.1e, but its facets then fold over", used, plc.precision)
+                             : format("--precision %.1e: what the numbers of the file allow", used));
+}
+
+template void note_precision<2>(const Plc<2>&, double);
+template void note_precision<3>(const Plc<3>&, double);
 template void hint_at_precision<2>(const Plc<2>&, const Domain<2>*, const InputArguments&, bool, Report&);
 template void hint_at_precision<3>(const Plc<3>&, const Domain<3>*, const InputArguments&, bool, Report&);
 

@@ -11,6 +11,10 @@
 
 namespace pgdr::tool {
 
+/// Says what the precision of the file (Plc::precision_of_file) is, or that the default was `used` since facets fold over within it.
+template <int D>
+void note_precision(const Plc<D>& plc, double used);
+
 /// Where suggested_precision makes one face of many facets that the input as it is keeps apart: says so, in the
 /// report as `precision_hint`, and on the terminal unless `quiet`. Nothing if a precision was asked for, or for lack of memory.
 /// @param domain  of `plc`; null: not at hand

@@ -135,6 +135,7 @@ class Domain {
   /// off them is exact; else 0.
   double facet_level(EntityId f) const { return facet_levels_[f]; }
 
+  double precision() const { return precision_; }  ///< Plc::precision
   const std::vector<Diagnostic>& repairs() const { return repairs_; }    ///< what was mended, one entry a kind
   const std::vector<Diagnostic>& warnings() const { return warnings_; }  ///< what was found, and taken as it is
   /// Known: no two of facets, segments and points meet outside of their common points and edges.
@@ -166,6 +167,7 @@ class Domain {
   std::vector<RegionSeed<D>> regions_;
   std::uint32_t first_index_ = 0;
   PlcSource source_;
+  double precision_ = 0;
   std::vector<Diagnostic> repairs_, warnings_;
   std::shared_ptr<const detail::BentFacets> bent_facets_;  // 3D; copies share it
 };

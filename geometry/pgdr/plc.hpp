@@ -61,6 +61,9 @@ struct Plc {
   /// 3D: facets that meet at an edge, with all their points within `precision` times the largest of their coordinates
   /// of one plane, count as coplanar. For the rounding of coordinates that were turned or shifted: 16 ulps.
   double precision = 0x1p-48;
+  /// `precision` is what the numbers of the file allow (written_precision), and nobody's wish: where facets are then not to be told
+  /// apart as the mesh needs it, `refine` of a Plc takes the default instead.
+  bool precision_of_file = false;
   /// Points within this times the largest coordinate of all are one: each goes to the nearest kept one before it. 0, as it is
   /// unless asked for: exact duplicates alone. Edges, segments and facets of which nothing is left go; 0.01 at most. In 3D edges,
   /// segments and facets then go through points within that distance of them, and facets along edges that run as near to them.
@@ -69,5 +72,13 @@ struct Plc {
   std::uint32_t first_index = 0;  ///< the number the source gives its first point (0 or 1), for messages
   PlcSource source;                ///< for messages
 };
+
+/// A copy for which Plc::precision_of_file does not hold.
+template <int D>
+Plc<D> with_default_precision(Plc<D> plc) {
+  plc.precision = Plc<D>{}.precision;
+  plc.precision_of_file = false;
+  return plc;
+}
 
 }  // namespace pgdr

@@ -19,6 +19,10 @@ namespace pgdr PGDR_API {
 /// numbers of 8 or 9 digits, and for floats; else 2^-48, for rounding alone: coordinates of up to four digits count as exact.
 double written_precision(std::span<const Point3> points);
 
+/// Plc::precision by that, for files whose numbers are floats (.stl, and .ply if it says so). Theirs are rounded by so much more
+/// than doubles that a planar face of triangles is none any more once it is turned.
+void set_precision_of_file(Plc<3>& plc);
+
 /// A Plc::precision with which faces are planar that look so: four times a distance d, of a facet from the plane of a larger one
 /// that it meets at a segment (of the largest coordinate of both), where few or no distances lie between d and 10 d: of all below,
 /// a twentieth at most. The largest such d up to 1e-5, if a twentieth of all segments are between facets that are less off (but

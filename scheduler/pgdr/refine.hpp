@@ -77,12 +77,13 @@ struct RefineResult {
   SchedulerStatistics scheduler;      ///< how the visits went
   /// Faces that are not locally Delaunay were met. Without, none is left but by rounding, beside slanted entities.
   bool violations_seen = false;
+  double precision = 0;               ///< 3D: within which facets that lie in one plane are one, Plc::precision or its default
   std::vector<VisitTrace> trace;      ///< if asked for; in the order in which the visits ended
   std::vector<Diagnostic> repairs;    ///< of the input, see Domain
   std::vector<Diagnostic> warnings;   ///< likewise, and seeds that lie outside
 };
 
-/// Meshes the input.
+/// Meshes the input; with the default precision if the one of its file (Plc::precision_of_file) does not let it.
 /// @throws UsageError (bad option or size), InputError (see Domain; the first error of its diagnosis, found
 ///   before anything is meshed; seeds), ResourceError. An exception of a callback comes out as it is.
 template <int D>

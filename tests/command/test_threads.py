@@ -32,6 +32,15 @@ def box_stl(width, depth, height):
     return text + "endsolid box\n"
 
 
+def off_of_stl(text):
+    """The same triangles."""
+    corners = [line.split()[1:] for line in text.splitlines() if line.startswith("vertex")]
+    points = sorted(set(map(tuple, corners)))
+    faces = [[points.index(tuple(c)) for c in corners[i:i + 3]] for i in range(0, len(corners), 3)]
+    return "OFF\n%d %d 0\n" % (len(points), len(faces)) + "".join("%s %s %s\n" % p for p in points) + "".join(
+        "3 %d %d %d\n" % tuple(f) for f in faces)
+
+
 def tetrahedron_poly():
     """Four facets that meet at about 70 degrees: too small an angle for the theory, and turned."""
     points = [turned(*p) for p in ((0, 0, 0), (4, 0.1, 0), (1.9, 3.3, 0.2), (2.1, 1.2, 3))]
@@ -128,7 +137,8 @@ class Threads(Case):
         exact = box_stl(2, 1, 0.5)
         digits = "".join("vertex %.5f %.5f %.5f\n" % tuple(float(x) for x in line.split()[1:]) if line.startswith("vertex")
                          else line + "\n" for line in exact.splitlines())
-        box = self.file("box.stl", digits)
+        as_stl = self.file("box.stl", digits)
+        box = self.file("box.off", off_of_stl(digits))
         self.mesh(box, "--precision", "1e-5", "--size", "0.2", "--report", self.report, expect=0)
         self.assertEqual(self.json()["precision"], 1e-5)
         self.pgdr("check", self.output, "--input", box, "--reasons", self.report, expect=0)
@@ -146,6 +156,16 @@ class Threads(Case):
         self.assertEqual((hint["precision"], hint["facets_then"]), (1e-5, 6))
         self.assertGreater(hint["facets"], 6)
         self.mesh(box, "--precision", "automatic", expect=2)
+
+        # The numbers of .stl are floats: their precision needs no word.
+        made = self.mesh(as_stl, "--size", "0.2", "--report", self.report, expect=0)
+        self.assertIn("--precision 1.0e-05: what the numbers of the file allow", made.stdout)
+        self.assertEqual(self.json()["precision"], 1e-5)
+        self.pgdr("check", self.output, "--input", as_stl, expect=0)
+        self.assertEqual(self.pgdr("info", as_stl, "--report", self.report, expect=0).stdout.count("precision"), 2)
+        self.assertEqual(self.json()["diagnosis"]["maximal_facets"], 6)
+        self.mesh(as_stl, "--precision", "3.6e-15", "--size", "0.2", "--report", self.report, expect=1)
+        self.pgdr("check", self.output, "--input", as_stl, expect=0)  # the checker finds by itself that this was another one
 
     def test_points_written_with_different_digits(self):
         """Refused, with the distance that makes them one; taken with that, by the checker too."""
