@@ -78,7 +78,15 @@ StopCause recover_boundary(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, Delaun
         options.refine && splits != EarlySplits::none ? 2 * std::max(options.radius_edge_bound, 2.0) : infinity;
     const std::uint64_t most = most_points(domain.points().size());
     auto steiner = [&] { return chains.points() + patches.points(); };
+    auto told = start;
+    auto tell = [&] {
+      const auto now = std::chrono::steady_clock::now();
+      if (!options.progress || now - told < std::chrono::milliseconds(200)) return;
+      told = now;
+      options.progress({domain.points().size() + steiner(), 0});
+    };
     auto ended = [&] {
+      tell();
       if (domain.points().size() + steiner() >= options.max_vertices) cause = StopCause::max_vertices;
       return stopped();
     };

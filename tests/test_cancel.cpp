@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <thread>
 
 #include "parallel_support.hpp"
@@ -226,6 +227,27 @@ TYPED_TEST(Cancel, WhileTheInputIsPrepared) {
     EXPECT_TRUE(result.mesh.cells.empty());
     EXPECT_FALSE(result.size_met);
   }
+}
+
+// (A wing of 3,996 strips took minutes before there was a word.)
+TEST(Cancel, ProgressIsToldWhileTheBoundaryIsRecovered) {
+  RefineOptions<3> options;
+  std::stop_source source;
+  options.stop = source.get_token();
+  std::vector<Progress> told;
+  options.progress = [&](const Progress& p) {
+    told.push_back(p);
+    source.request_stop();
+  };
+  std::vector<Point2> circle;
+  for (int i = 0; i < 1200; ++i) circle.push_back({{0.02 * std::cos(i * std::numbers::pi / 600), 0.02 * std::sin(i * std::numbers::pi / 600)}});
+  const Plc<3> plc = test::prism(circle, 1);  // each of whose sides needs some ten thousand triangles
+  const auto result = refine(plc, options);
+  EXPECT_EQ(result.stop, StopCause::cancelled);
+  EXPECT_TRUE(result.mesh.cells.empty());
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_GT(told[0].vertices, plc.points.size());
+  EXPECT_EQ(told[0].waiting, 0u);
 }
 
 }  // namespace pgdr::test_cancel

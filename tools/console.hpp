@@ -38,7 +38,6 @@ class ProgressLine {
   ~ProgressLine() { clear(); }
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
-  bool shown() const { return shown_; }
   void operator()(const Progress& p);
   void clear();
 

@@ -22,6 +22,7 @@
 namespace pgdr::tool {
 namespace {
 
+constexpr double patience_seconds = 10;  // before a hint that could save the rest
 constexpr double most_min_angle = 34;  // degrees; beyond, the number of points explodes
 
 template <int D>
@@ -222,9 +223,18 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
   seconds.read = seconds.mesh_at - seconds.read_at;
 
   RefineResult<D> result;
+  bool hinted = false;  // whoever waits should know soon that it need not take long
   try {
     ProgressLine line(!a.quiet);
-    if (line.shown()) options.progress = [&line](const Progress& p) { line(p); };
+    if (!a.quiet)
+      options.progress = [&](const Progress& p) {
+        line(p);
+        if (hinted || total.seconds() < patience_seconds) return;
+        hinted = true;
+        line.clear();
+        hint_at_precision<D>(plc, nullptr, a.reading, a.quiet, report);
+        std::fflush(stdout);
+      };
     result = refine(plc, options);
   } catch (const InputError&) {  // which names one culprit: find them all
     const Diagnosis<D> diagnosis = diagnose(plc);
@@ -260,7 +270,7 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
   if (!a.quiet) print_summary(a, plc, bounds, result, quality, seconds);
   if (!a.quiet) note_precision(plc, result.precision);
   if (result.poor_left > 0 && result.stop != StopCause::cancelled) {
-    hint_at_precision<D>(plc, nullptr, a.reading, a.quiet, report);
+    if (!hinted) hint_at_precision<D>(plc, nullptr, a.reading, a.quiet, report);
     hint_at_merge<D>(plc, nullptr, !a.quiet, report);
   }
   if (!a.trace.empty()) {

@@ -22,7 +22,7 @@ namespace pgdr PGDR_API {
 /// How far a run is, for a progress line. Approximate; a run that makes its mesh once more (docs/design.md) starts again.
 struct Progress {
   std::uint64_t vertices = 0;  ///< so far
-  std::uint64_t waiting = 0;   ///< entries in the lists of what is to be treated
+  std::uint64_t waiting = 0;   ///< entries in the lists of what is to be treated; 0 while the boundary is recovered
 };
 
 /// How leaves of the tree are visited. `reproducible`: the same mesh, bit for bit, for any number of threads. `greedy`:
