@@ -156,7 +156,7 @@ int info_of_input(const InfoArguments& a, Report& report) {
   }
   describe(*domain, a.quiet, d);
   report.set("diagnosis", d);
-  if (!a.quiet) note_precision(plc, domain->precision());
+  if (!a.quiet && !refused) note_precision(plc, domain->precision());
   hint_at_precision(plc, &*domain, a.reading, a.quiet, report);
   hint_at_merge(plc, &*domain, !a.quiet, report);
   if (refused) std::rethrow_exception(refused);
