@@ -4,16 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "detail/named_points.hpp"
+#include "pgdr/check.hpp"
+#include "pgdr/compact.hpp"
 
 namespace pgdr {
 namespace {
 
 constexpr double more_than_rounding = 0x1p-40;  // of the largest coordinate
+constexpr const char* advice = "; another precision may keep them apart";
 constexpr double whole = 1 - 0x1p-30;           // the sum of the pieces, each of which is rounded
 
 bool has_bent_facets(const Domain<3>& domain) {
@@ -43,10 +47,7 @@ std::vector<Piece> subsegments(const Mesh<3>& mesh) {
   return pieces;
 }
 
-}  // namespace
-
-void require_unfolded(const Mesh<3>& mesh, const Domain<3>& domain) {
-  if (!has_bent_facets(domain)) return;
+void require_whole_segments(const Mesh<3>& mesh, const Domain<3>& domain) {
   std::vector<double> length(domain.segments().size());
   for (const auto& [s, a, b] : subsegments(mesh)) length[s] += std::sqrt(squared_distance(mesh.point(a), mesh.point(b)));
   for (EntityId s = 0; s < length.size(); ++s) {
@@ -54,10 +55,41 @@ void require_unfolded(const Mesh<3>& mesh, const Domain<3>& domain) {
     const Point3 &p = domain.points()[ends[0]], &q = domain.points()[ends[1]];
     if (length[s] == 0 || length[s] >= whole * std::sqrt(squared_distance(p, q))) continue;
     Diagnostic d = detail::about_points<3>(Errc::boundary_not_recovered, domain, ends);
-    d.message = "facets that are planar only within the precision fold over at " + detail::segment_words(d) +
-                "; another precision may keep them apart";
+    d.message = "facets that are planar only within the precision fold over at " + detail::segment_words(d) + advice;
     throw InputError(std::move(d));
   }
+}
+
+EntityId most_bent_facet(const Domain<3>& domain) {
+  EntityId most = 0;
+  for (EntityId f = 1; f < domain.facets().size(); ++f)
+    if (domain.facets()[f].planarity_defect > domain.facets()[most].planarity_defect) most = f;
+  return most;
+}
+
+/// Whether this is a mesh of the domain. Before the refinement it need not be Delaunay, which flat cells at bent facets may prevent.
+bool conforms(const OutputMesh<3>& mesh, const Domain<3>& domain, RegionMode regions) {
+  CheckOptions<3> options;
+  options.domain = &domain;
+  options.regions = regions;
+  options.max_listed = 0;
+  const CheckReport report = check<3>(mesh, options);
+  return report.finding_count == report.count(CheckFinding::Kind::not_delaunay);
+}
+
+}  // namespace
+
+void require_unfolded(const Mesh<3>& mesh, const Domain<3>& domain, RegionMode regions, std::span<const double> region_attributes) {
+  if (!has_bent_facets(domain)) return;
+  require_whole_segments(mesh, domain);
+  if (conforms(compact_hastily<3>(mesh, domain, region_attributes, false).mesh, domain, regions)) return;
+  const EntityId f = most_bent_facet(domain);
+  Diagnostic d = detail::about_points<3>(Errc::boundary_not_recovered, domain, domain.facet_points(f));
+  char defect[32];
+  std::snprintf(defect, sizeof defect, "%.3g", domain.facets()[f].planarity_defect);
+  d.message = "facets that are planar only within the precision fold over, or touch; " + detail::facet_words(d) + " is off its plane by " +
+              defect + advice;
+  throw InputError(std::move(d));
 }
 
 }  // namespace pgdr

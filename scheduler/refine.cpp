@@ -8,6 +8,7 @@
 #include <array>
 #include <chrono>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "pgdr/cell_bounds.hpp"
@@ -94,11 +95,16 @@ PoorCount count_poor(const RefineContext<D>& context) {
 /// Was the run ended by a clock or a person, who wants it to return now? The mesh is chance then, and so may its numbering be.
 bool in_haste(StopCause stop) { return stop == StopCause::cancelled || stop == StopCause::time_limit; }
 
+/// Of each region number; none where there are no labels.
+std::span<const double> attributes_of(const RegionTable& regions) {
+  if (!regions.labelled) return {};
+  return regions.attribute;
+}
+
 template <int D>
 Compacted<D> compact_mesh(Mesh<D>& mesh, const Domain<D>& domain, const RegionTable& regions, const PointData<D>& data,
                           const RefineOptions<D>& options, bool in_haste) {
-  std::vector<double> attributes;
-  if (regions.labelled) attributes = regions.attribute;
+  const std::span<const double> attributes = attributes_of(regions);
   // The mesh is used up: where a partial one is wanted its numbering goes on to the end, in haste.
   const std::stop_token none, stop = options.partial_mesh ? none : options.stop;
   const std::stop_token hurry = options.partial_mesh ? options.stop : none;
@@ -164,7 +170,7 @@ RegionTable make_initial(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Do
   result.statistics.facet_points = counts.facet_points;
   if (result.stop != StopCause::finished) return {};
   RegionTable regions = carve<D>(mesh, pools, delaunay, domain, options.regions, result.warnings);
-  if constexpr (D == 3) require_unfolded(mesh, domain);
+  if constexpr (D == 3) require_unfolded(mesh, domain, options.regions, attributes_of(regions));
   return regions;
 }
 

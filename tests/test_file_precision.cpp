@@ -7,8 +7,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "parallel_support.hpp"
+#include "pgdr/diagnosis.hpp"
 #include "pgdr/written_precision.hpp"
 #include "test_io_support.hpp"
 
@@ -107,6 +109,61 @@ TEST(FilePrecision, GivesWayWhereFacetsFoldOver) {
   Plc<3> asked = plc;  // for just this precision
   asked.precision_of_file = false;
   EXPECT_THROW(refine(asked, recovery), InputError);
+}
+
+/// A plate of n x n rectangles, each of two triangles; the points of its upper side are from one to two times as high as `height`.
+Plc<3> rough_plate(int n, double height, std::mt19937& random) {
+  Plc<3> plc;
+  const auto number = [n](int side, int i, int j) { return static_cast<std::uint32_t>((side * (n + 1) + i) * (n + 1) + j); };
+  for (int side = 0; side < 2; ++side)
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; j <= n; ++j) {
+        const double rise = random() % 3 == 0 ? 0x1p-32 * random() : 0;
+        plc.points.push_back({{double(i) / n, double(j) / n, side * height * (1 + rise)}});
+      }
+  const auto rectangle = [&plc](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    plc.facets.push_back({{{a, b, c}}, {}, 0});
+    plc.facets.push_back({{{a, c, d}}, {}, 0});
+  };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      for (int side = 0; side < 2; ++side)
+        rectangle(number(side, i, j), number(side, i + 1, j), number(side, i + 1, j + 1), number(side, i, j + 1));
+  for (int i = 0; i < n; ++i)
+    for (const int end : {0, n}) {
+      rectangle(number(0, i, end), number(0, i + 1, end), number(1, i + 1, end), number(1, i, end));
+      rectangle(number(0, end, i), number(0, end, i + 1), number(1, end, i + 1), number(1, end, i));
+    }
+  return plc;
+}
+
+// Plates as thin as that, or twice as thick: their sides had triangles in common, or were inside out, with all their segments in the
+// mesh, which lacked cells or had others.
+TEST(FilePrecision, MakesNoOtherVolume) {
+  const test::TempFolder folder;
+  std::mt19937 random(7);
+  int made_with[2] = {0, 0};
+  for (int k = 0; k < 60; ++k) {
+    const double height = std::exp2(-27 + 0.12 * k);  // from 7e-9 to 1e-6
+    const Plc<3> plc = read_plc<3>(folder.put("plate.stl", stl_of(test::turned(rough_plate(1 + k % 4, height, random), 0.1 * k))));
+    RefineOptions<3> recovery;
+    recovery.refine = false;
+    RefineResult<3> result;
+    try {
+      result = refine(plc, recovery);
+    } catch (const InputError& e) {  // floats may let it intersect itself
+      EXPECT_GT(diagnose(plc).error_count(), 0u) << k << ": " << e.what();
+      continue;
+    }
+    ++made_with[result.precision > default_precision];
+    const Domain<3> domain(result.precision > default_precision ? plc : with_default_precision(plc));
+    CheckOptions<3> options;
+    options.domain = &domain;
+    const CheckReport report = check(result.mesh, options);
+    EXPECT_EQ(report.exit_code(), 0) << k << ": " << test::findings(report);
+  }
+  EXPECT_GT(made_with[0], 10);
+  EXPECT_GT(made_with[1], 10);
 }
 
 // What is wrong with an input whatever its precision is told as ever.

@@ -56,10 +56,10 @@ Plc<3> bent_cube(double height, double scale) {
 // facets were coplanar within 0.0013; the mesh was written.) Here the pieces of segments are half as long as these.
 TEST(MeshWhole, SegmentsAreThereInWholeBesideBentFacets) {
   const Cube cube(bent_cube(1e-5, 1));
-  EXPECT_NO_THROW(require_unfolded(cube.mesh, Domain<3>(bent_cube(1e-5, 1))));
-  EXPECT_NO_THROW(require_unfolded(cube.mesh, Domain<3>(bent_cube(0, 2))));
+  EXPECT_NO_THROW(require_unfolded(cube.mesh, Domain<3>(bent_cube(1e-5, 1)), RegionMode::seeds, {}));
+  EXPECT_NO_THROW(require_unfolded(cube.mesh, Domain<3>(bent_cube(0, 2)), RegionMode::seeds, {}));
   try {
-    require_unfolded(cube.mesh, Domain<3>(bent_cube(1e-5, 2)));
+    require_unfolded(cube.mesh, Domain<3>(bent_cube(1e-5, 2)), RegionMode::seeds, {});
     ADD_FAILURE();
   } catch (const InputError& e) {
     EXPECT_EQ(e.code(), Errc::boundary_not_recovered);
