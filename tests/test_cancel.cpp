@@ -246,7 +246,7 @@ TEST(Cancel, ProgressIsToldWhileTheBoundaryIsRecovered) {
   EXPECT_EQ(result.stop, StopCause::cancelled);
   EXPECT_TRUE(result.mesh.cells.empty());
   ASSERT_EQ(told.size(), 1u);
-  EXPECT_GT(told[0].vertices, plc.points.size());
+  EXPECT_GE(told[0].vertices, plc.points.size());
   EXPECT_EQ(told[0].waiting, 0u);
 }
 
