@@ -85,7 +85,6 @@ void describe(const Domain<D>& domain, bool quiet, JsonObject& d) {
     defect = std::max(defect, f.planarity_defect);
   }
   if (D == 3) {
-    d.set("precision", domain.precision());
     d.set("not_planar", warped);
     d.set("planarity_defect", defect);
   }
@@ -155,6 +154,7 @@ int info_of_input(const InfoArguments& a, Report& report) {
     refused = std::current_exception();
   }
   describe(*domain, a.quiet, d);
+  if (D == 3) report.set("precision", domain->precision());
   report.set("diagnosis", d);
   if (!a.quiet && !refused) note_precision(plc, domain->precision());
   hint_at_precision(plc, &*domain, a.reading, a.quiet, report);
