@@ -20,10 +20,10 @@ constexpr double more_than_rounding = 0x1p-40;  // of the largest coordinate
 constexpr const char* advice = "; another precision may keep them apart";
 constexpr double whole = 1 - 0x1p-30;           // the sum of the pieces, each of which is rounded
 
-bool has_bent_facets(const Domain<3>& domain) {
-  for (EntityId f = 0; f < domain.facets().size(); ++f)
-    if (domain.facets()[f].planarity_defect > more_than_rounding * domain.facet_magnitude(f)) return true;
-  return false;
+constexpr double as_near = 0x1p-34;             // of the largest coordinate (a length), in degrees (an angle): not to a fold by rounding
+
+bool is_bent(const Domain<3>& domain, EntityId f, double by_more_than) {
+  return domain.facets()[f].planarity_defect > by_more_than * domain.facet_magnitude(f);
 }
 
 using Piece = std::tuple<EntityId, VertexId, VertexId>;
@@ -45,6 +45,19 @@ std::vector<Piece> subsegments(const Mesh<3>& mesh) {
   std::sort(pieces.begin(), pieces.end());
   pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
   return pieces;
+}
+
+/// Of the segment: it is so short, or two facets at it, one of them not exactly planar, are so near, that rounding may fold them.
+bool is_tight(const Domain<3>& domain, EntityId s) {
+  const auto facets = domain.facets_of_segment(s);
+  if (std::none_of(facets.begin(), facets.end(), [&](EntityId f) { return is_bent(domain, f, 0); })) return false;
+  const auto& [a, b] = domain.segments()[s].points;
+  const double length = std::sqrt(squared_distance(domain.points()[a], domain.points()[b]));
+  if (length < as_near * domain.segment_magnitude(s)) return true;
+  for (std::size_t i = 0; i < facets.size(); ++i)
+    for (std::size_t k = i + 1; k < facets.size(); ++k)
+      if (entity_angle(domain, {EntityKind::facet, facets[i]}, {EntityKind::facet, facets[k]}) < as_near) return true;
+  return false;
 }
 
 void require_whole_segments(const Mesh<3>& mesh, const Domain<3>& domain) {
@@ -79,8 +92,16 @@ bool conforms(const OutputMesh<3>& mesh, const Domain<3>& domain, RegionMode reg
 
 }  // namespace
 
+bool may_fold(const Domain<3>& domain) {
+  for (EntityId f = 0; f < domain.facets().size(); ++f)
+    if (is_bent(domain, f, more_than_rounding)) return true;
+  for (EntityId s = 0; s < domain.segments().size(); ++s)
+    if (is_tight(domain, s)) return true;
+  return false;
+}
+
 void require_unfolded(const Mesh<3>& mesh, const Domain<3>& domain, RegionMode regions, std::span<const double> region_attributes) {
-  if (!has_bent_facets(domain)) return;
+  if (!may_fold(domain)) return;
   require_whole_segments(mesh, domain);
   if (conforms(compact_hastily<3>(mesh, domain, region_attributes, false).mesh, domain, regions)) return;
   const EntityId f = most_bent_facet(domain);

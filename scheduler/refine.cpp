@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <exception>
 #include <optional>
 #include <span>
 #include <string>
@@ -419,20 +420,46 @@ RefineResult<D> prepare_and_run(const Plc<D>& plc, const RefineOptions<D>& optio
   return result;
 }
 
-}  // namespace
-
 template <int D>
-RefineResult<D> refine(const Plc<D>& plc, const RefineOptions<D>& options) {
-  const auto start = Clock::now();
-  const detail::DefaultFloats floats;
-  if (!plc.precision_of_file) return prepare_and_run(plc, options, start);
+RefineResult<D> refine_since(const Plc<D>& plc, const RefineOptions<D>& options, Clock::time_point start) {
+  std::exception_ptr refused;
   try {
     return prepare_and_run(plc, options, start);
   } catch (const InputError&) {
-    return prepare_and_run(with_default_precision(plc), options, start);
+    refused = std::current_exception();
   }
+  const std::optional<Plc<D>> again = with_less_precision(plc);
+  if (!again) std::rethrow_exception(refused);
+  return refine_since(*again, options, start);
 }
 
+}  // namespace
+
+template <int D>
+std::optional<Plc<D>> with_less_precision(const Plc<D>& plc) {
+  if (plc.precision_of_file) return with_default_precision(plc);
+  if constexpr (D == 3)
+    if (plc.precision == Plc<D>{}.precision) {
+      try {
+        if (!may_fold(Domain<D>(plc))) return std::nullopt;
+      } catch (const InputError&) {
+        return std::nullopt;
+      }
+      Plc<D> exact = plc;
+      exact.precision = 0;
+      return exact;
+    }
+  return std::nullopt;
+}
+
+template <int D>
+RefineResult<D> refine(const Plc<D>& plc, const RefineOptions<D>& options) {
+  const detail::DefaultFloats floats;
+  return refine_since(plc, options, Clock::now());
+}
+
+template PGDR_API std::optional<Plc<2>> with_less_precision(const Plc<2>&);
+template PGDR_API std::optional<Plc<3>> with_less_precision(const Plc<3>&);
 template PGDR_API RefineResult<2> refine<2>(const Plc<2>&, const RefineOptions<2>&);
 template PGDR_API RefineResult<3> refine<3>(const Plc<3>&, const RefineOptions<3>&);
 template PGDR_API RefineResult<2> refine<2>(const Domain<2>&, const RefineOptions<2>&);

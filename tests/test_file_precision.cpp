@@ -111,6 +111,27 @@ TEST(FilePrecision, GivesWayWhereFacetsFoldOver) {
   EXPECT_THROW(refine(asked, recovery), InputError);
 }
 
+// A pyramid lower than the rounding of its coordinates: its sides are one plane by the default precision, and came out below its
+// base, with all segments, and volumes that are none.
+TEST(FilePrecision, DefaultGivesWayToExactPlanes) {
+  Plc<3> plc;
+  plc.points = {{{0.12887, -2.08387, -0.86967}}, {{-0.12887, -1.13085, 0.86967}}, {{0.31905, -0.75708, -0.41860}}, {{-0.31905, -2.45764, 0.41860}}, {{0, -1.60736, 0}}};
+  for (const std::vector<std::uint32_t>& t : {std::vector<std::uint32_t>{0, 1, 2}, {0, 3, 1}, {0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}}) plc.facets.push_back({{t}, {}, 0});
+  ASSERT_LT(Domain<3>(plc).facets().size(), 4u);
+  RefineOptions<3> recovery;
+  recovery.refine = false;
+  const auto result = refine(plc, recovery);
+  EXPECT_EQ(result.precision, 0);
+  plc.precision = 0;
+  const Domain<3> domain(plc);
+  CheckOptions<3> options;
+  options.domain = &domain;
+  const CheckReport report = check(result.mesh, options);
+  EXPECT_EQ(report.exit_code(), 0) << test::findings(report);
+  plc.precision = 1e-14;  // asked for
+  EXPECT_THROW(refine(plc, recovery), InputError);
+}
+
 /// A plate of n x n rectangles, each of two triangles; the points of its upper side are from one to two times as high as `height`.
 Plc<3> rough_plate(int n, double height, std::mt19937& random) {
   Plc<3> plc;

@@ -102,18 +102,21 @@ void describe(const Domain<D>& domain, bool quiet, JsonObject& d) {
   }
 }
 
-/// Boundary recovery alone decides the rest: seeds, whether anything is enclosed. With the default precision, as for a mesh, if
-/// that of the file does not let it; `domain` gets the one that was used.
+/// Boundary recovery alone decides the rest: seeds, whether anything is enclosed. With less precision, as for a mesh, if that
+/// of the file or the default does not let it; `domain` gets the one that was used.
 template <int D>
 RefineResult<D> recover(const Plc<D>& plc, std::optional<Domain<D>>& domain) {
   RefineOptions<D> options;
   options.refine = false;
+  std::exception_ptr refused;
   try {
     return refine(domain.emplace(plc), options);
   } catch (const InputError&) {
-    if (!plc.precision_of_file) throw;
-    return refine(domain.emplace(with_default_precision(plc)), options);
+    refused = std::current_exception();
   }
+  const std::optional<Plc<D>> again = with_less_precision(plc);
+  if (!again) std::rethrow_exception(refused);
+  return recover(*again, domain);
 }
 
 template <int D>

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -83,7 +84,12 @@ struct RefineResult {
   std::vector<Diagnostic> warnings;   ///< likewise, and seeds that lie outside
 };
 
-/// Meshes the input; with the default precision if the one of its file (Plc::precision_of_file) does not let it.
+/// The input with the default precision, if it has that of its file (Plc::precision_of_file); with precision 0, if it has the default
+/// and walls or angles as small as rounding, so that its facets may fold over within that; else nothing.
+template <int D>
+std::optional<Plc<D>> with_less_precision(const Plc<D>& plc);
+
+/// Meshes the input; if that is refused, with_less_precision, as long as there is one.
 /// @throws UsageError (bad option or size), InputError (see Domain; the first error of its diagnosis, found
 ///   before anything is meshed; seeds), ResourceError. An exception of a callback comes out as it is.
 template <int D>
