@@ -20,7 +20,8 @@ constexpr double more_than_rounding = 0x1p-40;  // of the largest coordinate
 constexpr const char* advice = "; another precision may keep them apart";
 constexpr double whole = 1 - 0x1p-30;           // the sum of the pieces, each of which is rounded
 
-constexpr double as_near = 0x1p-34;             // of the largest coordinate (a length), in degrees (an angle): not to a fold by rounding
+constexpr double as_short = 0x1p-34;            // of the largest coordinate: longer segments no rounding folds over
+constexpr double as_near = 1e-6;                // degrees, likewise, of facets that are not thin themselves
 
 bool is_bent(const Domain<3>& domain, EntityId f, double by_more_than) {
   return domain.facets()[f].planarity_defect > by_more_than * domain.facet_magnitude(f);
@@ -53,7 +54,7 @@ bool is_tight(const Domain<3>& domain, EntityId s) {
   if (std::none_of(facets.begin(), facets.end(), [&](EntityId f) { return is_bent(domain, f, 0); })) return false;
   const auto& [a, b] = domain.segments()[s].points;
   const double length = std::sqrt(squared_distance(domain.points()[a], domain.points()[b]));
-  if (length < as_near * domain.segment_magnitude(s)) return true;
+  if (length < as_short * domain.segment_magnitude(s)) return true;
   for (std::size_t i = 0; i < facets.size(); ++i)
     for (std::size_t k = i + 1; k < facets.size(); ++k)
       if (entity_angle(domain, {EntityKind::facet, facets[i]}, {EntityKind::facet, facets[k]}) < as_near) return true;

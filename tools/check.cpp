@@ -12,6 +12,7 @@
 #include "console.hpp"
 #include "input.hpp"
 #include "pgdr/io.hpp"
+#include "pgdr/refine.hpp"
 
 namespace pgdr::tool {
 namespace {
@@ -19,13 +20,13 @@ namespace {
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 template <int D>
-std::optional<Domain<D>> read_domain(const std::string& input, const InputArguments& reading) {
+std::optional<Plc<D>> read_input_of_mesh(const std::string& input, const InputArguments& reading) {
   if (input.empty()) return std::nullopt;
   if (file_dimension(input) != D)
     throw UsageError(
         {.code = Errc::bad_option, .message = format("the mesh is %dD, its input is not", D), .file = input});
   std::vector<Diagnostic> repairs;
-  return std::optional<Domain<D>>(std::in_place, read_input<D>(input, reading, repairs));
+  return read_input<D>(input, reading, repairs);
 }
 
 template <int D>
@@ -85,7 +86,9 @@ int check_as(const CheckArguments& a, Report& report) {
   if (!reading.merge_points) reading.merge_points = reported.merge_points;
   reading.resolve_crossings = reading.resolve_crossings || reported.resolve_crossings;
   reading.convex_hull = reading.convex_hull || reported.convex_hull;
-  std::optional<Domain<D>> domain = read_domain<D>(a.input, reading);
+  std::optional<Plc<D>> plc = read_input_of_mesh<D>(a.input, reading);
+  std::optional<Domain<D>> domain;
+  if (plc) domain.emplace(*plc);
 
   CheckOptions<D> options;
   if (domain) options.domain = &*domain;
@@ -96,10 +99,9 @@ int check_as(const CheckArguments& a, Report& report) {
   options.regions = a.regions.value_or(reported.regions);
   if (!a.reasons.empty()) options.reasons = &reported.reasons;
   CheckReport verdict = pgdr::check(mesh, options);
-  if (D == 3 && domain && !is_sound(verdict) && !reading.precision && !reading.precision_auto &&
-      domain->precision() > Plc<D>{}.precision) {  // that of the file, with which the mesh may not have been made
-    reading.precision = Plc<D>{}.precision;
-    domain = read_domain<D>(a.input, reading);
+  const bool asked = reading.precision || reading.precision_auto;
+  while (plc && !asked && !is_sound(verdict) && (plc = with_less_precision(*plc))) {  // which the mesh may have been made with
+    domain.emplace(*plc);
     verdict = pgdr::check(mesh, options);
   }
   std::optional<QualitySummary> quality;  // of a mesh whose numbers can be used at all
