@@ -16,10 +16,9 @@
 namespace pgdr {
 namespace {
 
-constexpr double more_than_rounding = 0x1p-40;  // of the largest coordinate
 constexpr const char* advice = "; another precision may keep them apart";
+constexpr double more_than_rounding = 0x1p-40;  // of the largest coordinate
 constexpr double whole = 1 - 0x1p-30;           // the sum of the pieces, each of which is rounded
-
 constexpr double as_short = 0x1p-34;            // of the largest coordinate: longer segments no rounding folds over
 constexpr double as_near = 1e-6;                // degrees, likewise, of facets that are not thin themselves
 

@@ -80,8 +80,9 @@ StopCause recover_boundary(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, Delaun
     auto steiner = [&] { return chains.points() + patches.points(); };
     auto told = start;
     auto tell = [&] {
+      if (!options.progress) return;
       const auto now = std::chrono::steady_clock::now();
-      if (!options.progress || now - told < std::chrono::milliseconds(200)) return;
+      if (now - told < std::chrono::milliseconds(200)) return;
       told = now;
       options.progress({domain.points().size() + steiner(), 0});
     };

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <exception>
 #include <optional>
 #include <span>
 #include <string>
@@ -420,19 +419,6 @@ RefineResult<D> prepare_and_run(const Plc<D>& plc, const RefineOptions<D>& optio
   return result;
 }
 
-template <int D>
-RefineResult<D> refine_since(const Plc<D>& plc, const RefineOptions<D>& options, Clock::time_point start) {
-  std::exception_ptr refused;
-  try {
-    return prepare_and_run(plc, options, start);
-  } catch (const InputError&) {
-    refused = std::current_exception();
-  }
-  const std::optional<Plc<D>> again = with_less_precision(plc);
-  if (!again) std::rethrow_exception(refused);
-  return refine_since(*again, options, start);
-}
-
 }  // namespace
 
 template <int D>
@@ -455,7 +441,8 @@ std::optional<Plc<D>> with_less_precision(const Plc<D>& plc) {
 template <int D>
 RefineResult<D> refine(const Plc<D>& plc, const RefineOptions<D>& options) {
   const detail::DefaultFloats floats;
-  return refine_since(plc, options, Clock::now());
+  const auto start = Clock::now();
+  return with_fitting_precision(plc, [&](const Plc<D>& input) { return prepare_and_run(input, options, start); });
 }
 
 template PGDR_API std::optional<Plc<2>> with_less_precision(const Plc<2>&);

@@ -37,6 +37,16 @@ Outcome<D> refine_and_check(const Plc<D>& plc, const RefineOptions<D>& options) 
   return outcome;
 }
 
+/// The triangles of its facets, which may have holes, each a facet.
+inline Plc<3> triangles_of(const Plc<3>& plc) {
+  Plc<3> out;
+  out.points = plc.points;
+  const Domain<3> domain(plc);
+  for (EntityId f = 0; f < domain.facets().size(); ++f)
+    for (const auto& t : domain.triangles(f)) out.facets.push_back({{{t[0], t[1], t[2]}}, {}, 0});
+  return out;
+}
+
 inline std::string findings(const CheckReport& report) {
   std::string text;
   for (const auto& f : report.findings) text += std::string(name(f.kind)) + ": " + f.message + "\n";

@@ -106,14 +106,9 @@ TEST_P(Turned, GridBetweenTwoCubesHasNoFlatCells) {
 }
 
 TEST_P(Turned, PipeOfTrianglesHasNoPoorElement) {
-  Plc<3> plc;
   const Plc<3> pipe = test::pipe(12, 1, 2);
-  plc.points = pipe.points;
-  const Domain<3> straight(pipe);
-  for (EntityId f = 0; f < straight.facets().size(); ++f)
-    for (const auto& t : straight.triangles(f)) plc.facets.push_back({{{t[0], t[1], t[2]}}, {}, 0});
-  plc = turned(plc, GetParam());
-  EXPECT_EQ(Domain<3>(plc).facets().size(), straight.facets().size());
+  const Plc<3> plc = turned(test::triangles_of(pipe), GetParam());
+  EXPECT_EQ(Domain<3>(plc).facets().size(), Domain<3>(pipe).facets().size());
   const auto outcome = test::refine_and_check<3>(plc, {});
   EXPECT_EQ(outcome.report.exit_code(), 0) << test::findings(outcome.report);
   EXPECT_EQ(outcome.result.poor_left, 0u);

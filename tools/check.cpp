@@ -6,6 +6,7 @@
 
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "bounds.hpp"
 #include "command.hpp"
@@ -75,6 +76,16 @@ void print_summary(const CheckArguments& a, const OutputMesh<D>& mesh, const Bou
 
 bool is_sound(const CheckReport& r) { return r.exit_code() == exit_done || r.exit_code() == exit_poor_left; }
 
+/// The mesh may have been made with less precision than the input is read with: then that verdict is the one.
+template <int D>
+void take_fitting_precision(std::optional<Plc<D>> plc, const OutputMesh<D>& mesh, CheckOptions<D> options, CheckReport& verdict) {
+  while (plc && !is_sound(verdict) && (plc = with_less_precision(*plc))) {
+    const Domain<D> domain(*plc);
+    options.domain = &domain;
+    if (CheckReport other = pgdr::check(mesh, options); is_sound(other)) verdict = std::move(other);
+  }
+}
+
 template <int D>
 int check_as(const CheckArguments& a, Report& report) {
   ReportedBounds reported;
@@ -86,9 +97,8 @@ int check_as(const CheckArguments& a, Report& report) {
   if (!reading.merge_points) reading.merge_points = reported.merge_points;
   reading.resolve_crossings = reading.resolve_crossings || reported.resolve_crossings;
   reading.convex_hull = reading.convex_hull || reported.convex_hull;
-  std::optional<Plc<D>> plc = read_input_of_mesh<D>(a.input, reading);
-  std::optional<Domain<D>> domain;
-  if (plc) domain.emplace(*plc);
+  const std::optional<Plc<D>> plc = read_input_of_mesh<D>(a.input, reading);
+  const std::optional<Domain<D>> domain = plc ? std::optional<Domain<D>>(std::in_place, *plc) : std::nullopt;
 
   CheckOptions<D> options;
   if (domain) options.domain = &*domain;
@@ -99,11 +109,7 @@ int check_as(const CheckArguments& a, Report& report) {
   options.regions = a.regions.value_or(reported.regions);
   if (!a.reasons.empty()) options.reasons = &reported.reasons;
   CheckReport verdict = pgdr::check(mesh, options);
-  const bool asked = reading.precision || reading.precision_auto;
-  while (plc && !asked && !is_sound(verdict) && (plc = with_less_precision(*plc))) {  // which the mesh may have been made with
-    domain.emplace(*plc);
-    verdict = pgdr::check(mesh, options);
-  }
+  if (!reading.precision && !reading.precision_auto) take_fitting_precision(plc, mesh, options, verdict);
   std::optional<QualitySummary> quality;  // of a mesh whose numbers can be used at all
   if (verdict.count(CheckFinding::Kind::bad_index) + verdict.count(CheckFinding::Kind::not_finite) == 0)
     quality = summarize_quality(mesh);

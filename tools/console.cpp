@@ -50,9 +50,8 @@ void ProgressLine::operator()(const Progress& p) {
   if (!shown_ || now < next_) return;
   next_ = now + std::chrono::milliseconds(100);
   dirty_ = true;
-  std::fprintf(stderr, "\r\033[K%llu vertices, ", static_cast<unsigned long long>(p.vertices));
-  if (p.waiting == 0) std::fputs("boundary", stderr);
-  else std::fprintf(stderr, "%llu waiting", static_cast<unsigned long long>(p.waiting));
+  std::fprintf(stderr, "\r\033[K%llu vertices", static_cast<unsigned long long>(p.vertices));
+  if (p.waiting > 0) std::fprintf(stderr, ", %llu waiting", static_cast<unsigned long long>(p.waiting));
   std::fflush(stderr);
 }
 

@@ -102,21 +102,12 @@ void describe(const Domain<D>& domain, bool quiet, JsonObject& d) {
   }
 }
 
-/// Boundary recovery alone decides the rest: seeds, whether anything is enclosed. With less precision, as for a mesh, if that
-/// of the file or the default does not let it; `domain` gets the one that was used.
+/// Boundary recovery alone decides the rest: seeds, whether anything is enclosed. `domain` gets the one that was used.
 template <int D>
 RefineResult<D> recover(const Plc<D>& plc, std::optional<Domain<D>>& domain) {
   RefineOptions<D> options;
   options.refine = false;
-  std::exception_ptr refused;
-  try {
-    return refine(domain.emplace(plc), options);
-  } catch (const InputError&) {
-    refused = std::current_exception();
-  }
-  const std::optional<Plc<D>> again = with_less_precision(plc);
-  if (!again) std::rethrow_exception(refused);
-  return recover(*again, domain);
+  return with_fitting_precision(plc, [&](const Plc<D>& input) { return refine(domain.emplace(input), options); });
 }
 
 template <int D>

@@ -4,6 +4,7 @@
 // pgdr mesh: read, refine, write, report.
 #include <algorithm>
 #include <array>
+#include <cstdio>
 
 #include "bounds.hpp"
 #include "command.hpp"

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <optional>
 #include <string>
 #include <vector>
@@ -89,7 +90,24 @@ struct RefineResult {
 template <int D>
 std::optional<Plc<D>> with_less_precision(const Plc<D>& plc);
 
-/// Meshes the input; if that is refused, with_less_precision, as long as there is one.
+/// What `attempt` makes of the input, or, if that throws an InputError, of the input with_less_precision, as long as there is one.
+template <int D, class Attempt>
+auto with_fitting_precision(const Plc<D>& plc, const Attempt& attempt) {
+  std::optional<Plc<D>> less;
+  while (true) {
+    const Plc<D>& input = less ? *less : plc;
+    std::exception_ptr refused;
+    try {
+      return attempt(input);
+    } catch (const InputError&) {
+      refused = std::current_exception();
+    }
+    less = with_less_precision(input);
+    if (!less) std::rethrow_exception(refused);
+  }
+}
+
+/// Meshes the input, with_fitting_precision.
 /// @throws UsageError (bad option or size), InputError (see Domain; the first error of its diagnosis, found
 ///   before anything is meshed; seeds), ResourceError. An exception of a callback comes out as it is.
 template <int D>
