@@ -8,16 +8,13 @@
 #include <algorithm>
 #include <numeric>
 
+#include "detail/make_set.hpp"
+
 namespace pgdr::detail {
 namespace {
 
 using Pair = std::array<std::uint32_t, 2>;
 constexpr std::uint32_t unseen = 0xffffffffu;
-
-void make_set(auto& v) {
-  std::sort(v.begin(), v.end());
-  v.erase(std::unique(v.begin(), v.end()), v.end());
-}
 
 class Nesting {
  public:

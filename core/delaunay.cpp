@@ -6,6 +6,7 @@
 #include <cassert>
 #include <utility>
 
+#include "detail/changed_cells.hpp"
 #include "pgdr/spatial_order.hpp"
 
 namespace pgdr {
@@ -161,7 +162,9 @@ VertexId Delaunay<D>::prepare(const Point<D>& p, CellId hint) {
 
 template <int D>
 VertexId Delaunay<D>::commit(Home home, float relaxed_radius) {
+  for (auto* changed : listeners_) changed->add(cavity_.cells());
   const VertexId v = cavity_.commit(*pools_, home, relaxed_radius);
+  for (auto* changed : listeners_) changed->add(cavity_.new_cells());
   note_cells(v);
   return v;
 }

@@ -14,6 +14,7 @@
 #include "detail/file_input.hpp"
 #include "detail/file_output.hpp"
 #include "detail/io_formats.hpp"
+#include "pgdr/written_precision.hpp"
 
 namespace pgdr {
 namespace detail {
@@ -77,27 +78,34 @@ OutputMesh<D> read_tetgen_files(const Path& file) {
   return detail::read_tetgen<D>({node, ele, face ? &*face : nullptr, edge ? &*edge : nullptr}, file);
 }
 
+template <int D>
+Plc<D> read_by_extension(std::string_view bytes, const Path& name) {
+  const std::string extension = lower_extension(name);
+  if (const FileMeshReader read = file_mesh_reader(extension)) return detail::to_plc<D>(read(bytes, name, {Purpose::input, D}));
+  using Reader = Plc<D> (*)(std::string_view, const Path&);
+  Reader reader = nullptr;
+  if (extension == ".poly") reader = detail::read_poly<D>;
+  if (extension == ".node") reader = detail::read_node<D>;
+  if constexpr (D == 3) {
+    if (extension == ".smesh") reader = detail::read_smesh;
+    if (extension == ".obj") reader = detail::read_obj;
+    if (extension == ".off") reader = detail::read_off;
+    if (extension == ".ply") reader = detail::read_ply;
+    if (extension == ".stl") reader = detail::read_stl;
+  }
+  if (reader == nullptr) unknown_format(name, "an input in " + std::to_string(D) + "D");
+  return reader(bytes, name);
+}
+
 }  // namespace
 
 namespace detail {
 
 template <int D>
 Plc<D> read_plc_from(std::string_view bytes, const Path& name) {
-  const std::string extension = lower_extension(name);
-  if (const FileMeshReader read = file_mesh_reader(extension)) return to_plc<D>(read(bytes, name, {Purpose::input, D}));
-  using Reader = Plc<D> (*)(std::string_view, const Path&);
-  Reader reader = nullptr;
-  if (extension == ".poly") reader = read_poly<D>;
-  if (extension == ".node") reader = read_node<D>;
-  if constexpr (D == 3) {
-    if (extension == ".smesh") reader = read_smesh;
-    if (extension == ".obj") reader = read_obj;
-    if (extension == ".off") reader = read_off;
-    if (extension == ".ply") reader = read_ply;
-    if (extension == ".stl") reader = read_stl;
-  }
-  if (reader == nullptr) unknown_format(name, "an input in " + std::to_string(D) + "D");
-  return reader(bytes, name);
+  Plc<D> plc = read_by_extension<D>(bytes, name);
+  if constexpr (D == 3) set_precision_of_digits(plc);
+  return plc;
 }
 
 template <int D>

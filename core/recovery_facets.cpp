@@ -63,14 +63,16 @@ FacetPatches::FacetPatches(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>
       triangles_(domain.facets().size()),
       seen_(domain.facets().size()),
       inner_points_(domain.facets().size()),
-      changed_(domain.facets().size(), false) {
+      faces_(mesh) {
   for (EntityId f = 0; f < triangles_.size(); ++f) {
     const auto given = domain.triangles(f);
     for (const auto& t : given)
       triangles_[f].push_back({delaunay.vertices()[t[0]], delaunay.vertices()[t[1]], delaunay.vertices()[t[2]]});
     // One triangle is its own Delaunay triangulation; of several the tie rules must be those of the mesh.
-    changed_[f] = given.size() > 1 || domain.facet_points(f).size() > 3;
+    if (given.size() > 1 || domain.facet_points(f).size() > 3) changed_.push_back(f);
+    look_again_.push_back(f);
   }
+  delaunay.tell_changes(faces_.changed());
 }
 
 auto FacetPatches::subsegments(EntityId facet) const -> std::vector<Subsegment> {
@@ -129,40 +131,67 @@ void FacetPatches::triangulate(EntityId facet) {
     throw not_a_plane_graph(*domain_, facet, *mesh_, at);
   }
   plane.keep_left_of(rim);
-  triangles_[facet].clear();
-  for (const PlanarTriangle& t : plane.triangles())
-    triangles_[facet].push_back({vertices[t[0]], vertices[t[1]], vertices[t[2]]});
+  replace_triangles(facet, [&](auto& triangles) {
+    for (const PlanarTriangle& t : plane.triangles()) triangles.push_back({vertices[t[0]], vertices[t[1]], vertices[t[2]]});
+  });
 }
 
-/// Where all triangles are.
-void FacetPatches::find_present() {
-  PresentSimplices<3> faces(*mesh_);
-  for (EntityId f = 0; f < triangles_.size(); ++f) {
-    seen_[f].resize(triangles_[f].size(), not_seen);
-    for (std::size_t i = 0; i < triangles_[f].size(); ++i) faces.ask(triangles_[f][i], seen_[f][i]);
+/// Those that stay are where they were seen.
+template <class Fill>
+void FacetPatches::replace_triangles(EntityId facet, const Fill& fill) {
+  const auto sorted = [](Triangle t) {
+    std::sort(t.begin(), t.end());
+    return t;
+  };
+  auto &triangles = triangles_[facet];
+  auto &seen = seen_[facet];
+  std::vector<std::pair<Triangle, CellId>> before;
+  for (std::size_t i = 0; i < seen.size(); ++i) before.emplace_back(sorted(triangles[i]), seen[i]);
+  std::sort(before.begin(), before.end());
+  triangles.clear();
+  fill(triangles);
+  seen.clear();
+  for (const Triangle& t : triangles) {
+    const auto at = std::lower_bound(before.begin(), before.end(), std::pair(sorted(t), CellId{0}));
+    seen.push_back(at != before.end() && at->first == sorted(t) ? at->second : never_asked);
   }
-  faces.find();
+}
+
+/// Finds where all triangles are: the facets, ascending, that may have others missing than those before.
+std::vector<EntityId> FacetPatches::find_present() {
+  std::vector<EntityId> due = faces_.take_due();
+  due.insert(due.end(), look_again_.begin(), look_again_.end());
+  make_set(due);
+  for (const EntityId f : due) {
+    seen_[f].resize(triangles_[f].size(), never_asked);
+    for (std::size_t i = 0; i < triangles_[f].size(); ++i) faces_.ask(f, triangles_[f][i], seen_[f][i]);
+  }
+  faces_.find();
+  return due;
 }
 
 bool FacetPatches::recover_once(const std::function<bool()>& stop) {
   for (const EntityId s : chains_->take_changed())
-    for (const EntityId f : domain_->facets_of_segment(s)) changed_[f] = true;
-  for (EntityId f = 0; f < triangles_.size(); ++f) {
-    if (changed_[f]) triangulate(f);
-    changed_[f] = false;
-  }
-  find_present();
-  std::vector<std::vector<Candidate>> missing(triangles_.size());
-  bool any = false;
-  for (EntityId f = 0; f < triangles_.size(); ++f)
+    for (const EntityId f : domain_->facets_of_segment(s)) changed_.push_back(f);
+  make_set(changed_);
+  for (const EntityId f : changed_) triangulate(f);
+  look_again_.insert(look_again_.end(), changed_.begin(), changed_.end());
+  changed_.clear();
+  std::vector<std::pair<EntityId, std::vector<Candidate>>> missing;
+  const std::vector<EntityId> due = find_present();
+  look_again_.clear();
+  for (const EntityId f : due) {
+    std::vector<Candidate> of_facet;
     for (std::size_t i = 0; i < triangles_[f].size(); ++i)
-      if (const Triangle& t = triangles_[f][i]; seen_[f][i] == not_seen) {
-        missing[f].push_back({equatorial_ball(mesh_->point(t[0]), mesh_->point(t[1]), mesh_->point(t[2])), t, 0});
-        any = true;
-      }
-  for (EntityId f = 0; f < triangles_.size(); ++f)
-    if (!missing[f].empty() && !stop()) split_triangles(f, std::move(missing[f]));
-  return any;
+      if (const Triangle& t = triangles_[f][i]; seen_[f][i] == not_seen)
+        of_facet.push_back({equatorial_ball(mesh_->point(t[0]), mesh_->point(t[1]), mesh_->point(t[2])), t, 0});
+    if (of_facet.empty()) continue;
+    look_again_.push_back(f);
+    missing.emplace_back(f, std::move(of_facet));
+  }
+  for (auto& [f, candidates] : missing)
+    if (!stop()) split_triangles(f, std::move(candidates));
+  return !missing.empty();
 }
 
 Point3 FacetPatches::centroid_of(const Triangle& t) const {
@@ -202,7 +231,7 @@ void FacetPatches::add_inner_point(EntityId facet, VertexId v) {
   // New vertices have larger ids than all before.
   if (!own || (!inner.empty() && v <= inner.back())) throw not_a_plane_graph(*domain_, facet, *mesh_, std::array{v});
   inner.push_back(v);
-  changed_[facet] = true;
+  changed_.push_back(facet);
   ++points_;
 }
 

@@ -9,22 +9,31 @@
 namespace pgdr::detail {
 
 SegmentChains::SegmentChains(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>& domain)
-    : mesh_(&mesh), delaunay_(&delaunay), domain_(&domain), shells_(domain) {
+    : mesh_(&mesh), delaunay_(&delaunay), domain_(&domain), shells_(domain), edges_(mesh) {
   for (const DomainSegment& s : domain.segments())
     chains_.push_back({{delaunay.vertices()[s.points[0]], 0.0}, {delaunay.vertices()[s.points[1]], 1.0}});
+  for (EntityId s = 0; s < chains_.size(); ++s) look_again_.push_back(s);
+  delaunay.tell_changes(edges_.changed());
   find_companions();
 }
 
 std::vector<Subsegment> SegmentChains::missing() {
-  PresentSimplices<2> edges(*mesh_);
-  for (auto& chain : chains_)
-    for (std::size_t i = 1; i < chain.size(); ++i) edges.ask({chain[i - 1].vertex, chain[i].vertex}, chain[i].seen);
-  edges.find();
+  std::vector<EntityId> due = edges_.take_due();
+  due.insert(due.end(), look_again_.begin(), look_again_.end());
+  make_set(due);
+  for (const EntityId s : due) {
+    auto& chain = chains_[s];
+    for (std::size_t i = 1; i < chain.size(); ++i) edges_.ask(s, {chain[i - 1].vertex, chain[i].vertex}, chain[i].seen);
+  }
+  edges_.find();
   std::vector<Subsegment> list;
-  for (EntityId s = 0; s < chains_.size(); ++s)
+  look_again_.clear();
+  for (const EntityId s : due)
     for (std::size_t i = 1; i < chains_[s].size(); ++i) {
       const Link &a = chains_[s][i - 1], &b = chains_[s][i];
-      if (b.seen == not_seen) list.push_back({s, a.vertex, b.vertex, a.t});
+      if (b.seen != not_seen) continue;
+      list.push_back({s, a.vertex, b.vertex, a.t});
+      look_again_.push_back(s);
     }
   return list;
 }
@@ -41,6 +50,7 @@ void SegmentChains::add(EntityId segment, std::size_t position, VertexId v, doub
   auto& chain = chains_[segment];
   chain.insert(chain.begin() + static_cast<std::ptrdiff_t>(position), {v, t, round_});
   changed_.push_back(segment);
+  look_again_.push_back(segment);
   ++points_;
 }
 

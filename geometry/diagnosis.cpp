@@ -166,14 +166,21 @@ Diagnosis<D> diagnose(const Domain<D>& domain, const DiagnosisOptions& options) 
 
 template <int D>
 Diagnosis<D> diagnose(const Plc<D>& plc, const DiagnosisOptions& options) {
+  std::optional<Domain<D>> prepared;
+  return diagnose(plc, options, prepared);
+}
+
+template <int D>
+Diagnosis<D> diagnose(const Plc<D>& plc, const DiagnosisOptions& options, std::optional<Domain<D>>& prepared) {
   Diagnosis<D> out;
   std::vector<Diagnostic> refused;
-  const Domain<D> domain = Domain<D>::without_invalid(plc, refused, options.stop);
+  const Domain<D>& domain = prepared.emplace(Domain<D>::without_invalid(plc, refused, options.stop));
   FindingList& invalid = out[Finding::invalid_entity];
   invalid.count = refused.size();
   for (std::size_t k = 0; k < refused.size() && k < options.most_listed; ++k)
     invalid.listed.push_back({std::move(refused[k]), 0});
   detail::Diagnoser<D>(domain, options, out).run();
+  if (invalid.count > 0) prepared.reset();
   return out;
 }
 
@@ -192,6 +199,7 @@ void require_no_errors(const Domain<D>& domain, std::stop_token stop) {
   template std::vector<Diagnostic> Diagnosis<D>::errors() const;                           \
   template PGDR_API Diagnosis<D> diagnose<D>(const Domain<D>&, const DiagnosisOptions&);   \
   template PGDR_API Diagnosis<D> diagnose<D>(const Plc<D>&, const DiagnosisOptions&);      \
+  template PGDR_API Diagnosis<D> diagnose<D>(const Plc<D>&, const DiagnosisOptions&, std::optional<Domain<D>>&); \
   template PGDR_API void require_no_errors<D>(const Domain<D>&, std::stop_token);
 PGDR_INSTANTIATE(2)
 PGDR_INSTANTIATE(3)

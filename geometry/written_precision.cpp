@@ -54,15 +54,26 @@ double distance_off_plane(const Domain<3>& domain, EntityId f, EntityId g) {
   return off;
 }
 
-}  // namespace
-
-double apparent_precision(const Domain<3>& domain) {
+/// For every segment between two facets of one marker: how far one is off the plane of the other.
+std::vector<double> distances_off_planes(const Domain<3>& domain) {
   std::vector<double> off;
   for (EntityId s = 0; s < domain.segments().size(); ++s) {
     const auto facets = domain.facets_of_segment(s);
     if (facets.size() == 2 && domain.facets()[facets[0]].marker == domain.facets()[facets[1]].marker)
       off.push_back(distance_off_plane(domain, facets[0], facets[1]));
   }
+  return off;
+}
+
+}  // namespace
+
+std::size_t most_facets_saved(const Domain<3>& domain, double precision) {
+  const auto off = distances_off_planes(domain);
+  return static_cast<std::size_t>(std::ranges::count_if(off, [&](double x) { return x <= allowance * precision; }));
+}
+
+double apparent_precision(const Domain<3>& domain) {
+  std::vector<double> off = distances_off_planes(domain);
   std::sort(off.begin(), off.end());
   const auto up_to = [&off](double x) { return static_cast<std::size_t>(std::upper_bound(off.begin(), off.end(), x) - off.begin()); };
   const double rounding = Plc<3>{}.precision;

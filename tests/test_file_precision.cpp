@@ -28,9 +28,9 @@ std::string stl_of(const Plc<3>& plc) {
   return test::binary_stl("", triangles);
 }
 
-std::string ply_of(const Plc<3>& plc, const std::string& type) {
+std::string ply_of(const Plc<3>& plc, const std::string& type, int digits) {
   std::ostringstream text;
-  text.precision(9);
+  text.precision(digits);
   text << "ply\nformat ascii 1.0\nelement vertex " << plc.points.size();
   for (const char c : {'x', 'y', 'z'}) text << "\nproperty " << type << ' ' << c;
   text << "\nelement face " << plc.facets.size() << "\nproperty list uchar int vertex_indices\nend_header\n";
@@ -60,8 +60,8 @@ TEST(FilePrecision, PlanarFacesOfAnStlFileStayPlanarWhenTurned) {
 TEST(FilePrecision, IsThatOfFloatsAlone) {
   const test::TempFolder folder;
   const Plc<3> pipe = turned_pipe();
-  EXPECT_EQ(read_plc<3>(folder.put("float.ply", ply_of(pipe, "float"))).precision, 0x1p-22);
-  const Plc<3> doubles = read_plc<3>(folder.put("double.ply", ply_of(pipe, "double")));
+  EXPECT_EQ(read_plc<3>(folder.put("float.ply", ply_of(pipe, "float", 9))).precision, 0x1p-22);
+  const Plc<3> doubles = read_plc<3>(folder.put("double.ply", ply_of(pipe, "double", 17)));
   EXPECT_EQ(doubles.precision, default_precision);
   EXPECT_FALSE(doubles.precision_of_file);
 
@@ -71,6 +71,103 @@ TEST(FilePrecision, IsThatOfFloatsAlone) {
   const Plc<3> exact = read_plc<3>(folder.put("few.stl", stl_of(box)));
   EXPECT_EQ(exact.precision, default_precision);
   EXPECT_FALSE(exact.precision_of_file);
+}
+
+/// A plate of n x n rectangles, each of two triangles; the points of its upper side are from one to two times as high as `height`.
+Plc<3> rough_plate(int n, double height, std::mt19937& random) {
+  Plc<3> plc;
+  const auto number = [n](int side, int i, int j) { return static_cast<std::uint32_t>((side * (n + 1) + i) * (n + 1) + j); };
+  for (int side = 0; side < 2; ++side)
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; j <= n; ++j) {
+        const double rise = random() % 3 == 0 ? 0x1p-32 * random() : 0;
+        plc.points.push_back({{double(i) / n, double(j) / n, side * height * (1 + rise)}});
+      }
+  const auto rectangle = [&plc](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    plc.facets.push_back({{{a, b, c}}, {}, 0});
+    plc.facets.push_back({{{a, c, d}}, {}, 0});
+  };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      for (int side = 0; side < 2; ++side)
+        rectangle(number(side, i, j), number(side, i + 1, j), number(side, i + 1, j + 1), number(side, i, j + 1));
+  for (int i = 0; i < n; ++i)
+    for (const int end : {0, n}) {
+      rectangle(number(0, i, end), number(0, i + 1, end), number(1, i + 1, end), number(1, i, end));
+      rectangle(number(0, end, i), number(0, end, i + 1), number(1, end, i + 1), number(1, end, i));
+    }
+  return plc;
+}
+
+std::string off_of(const Plc<3>& plc, int digits, bool as_soup = false) {
+  std::ostringstream text;
+  text.precision(digits);
+  std::size_t rows = 0;
+  std::ostringstream facets;
+  std::vector<std::uint32_t> points;
+  for (const auto& f : plc.facets) {
+    facets << f.polygons[0].size();
+    for (const std::uint32_t v : f.polygons[0]) {
+      if (as_soup) points.push_back(v);
+      facets << ' ' << (as_soup ? rows++ : v);
+    }
+    facets << '\n';
+  }
+  if (!as_soup)
+    for (std::uint32_t v = 0; v < plc.points.size(); ++v) points.push_back(v);
+  text << "OFF\n" << points.size() << ' ' << plc.facets.size() << " 0\n";
+  for (const std::uint32_t v : points) text << plc.points[v][0] << ' ' << plc.points[v][1] << ' ' << plc.points[v][2] << '\n';
+  return text.str() + facets.str();
+}
+
+// (A spool of 649 points had 397 poor cells, 365 of them in corners of facets which its six digits had made of its flat sides.)
+TEST(FilePrecision, DigitsCountWhereTheyMakeNeedles) {
+  const test::TempFolder folder;
+  const Plc<3> pipe = turned_pipe();
+  const auto facets = Domain<3>(pipe).facets().size();
+  for (const bool as_soup : {false, true}) {
+    const Plc<3> plc = read_plc<3>(folder.put("pipe.off", off_of(pipe, 6, as_soup)));
+    EXPECT_TRUE(plc.precision_of_file);
+    EXPECT_EQ(plc.precision, 1e-5);
+    EXPECT_EQ(Domain<3>(plc).facets().size(), facets);
+    EXPECT_GT(Domain<3>(with_default_precision(plc)).facets().size(), facets + 48);
+    if (as_soup) continue;
+    const auto result = test::expect_reproducible<3>(plc, {}, "turned pipe of six digits");
+    EXPECT_EQ(result.precision, plc.precision);
+    EXPECT_EQ(result.poor_left, 0u);
+    EXPECT_GT(refine(with_default_precision(plc), RefineOptions<3>{}).poor_left, 0u);
+  }
+}
+
+// Where there are too few digits to go by, or all of them; where the planar faces are planar; and where triangles are no needles.
+TEST(FilePrecision, DigitsDoNotCountElsewhere) {
+  const test::TempFolder folder;
+  const auto keeps_default = [&](const std::string& text) {
+    const Plc<3> plc = read_plc<3>(folder.put("other.off", text));
+    return plc.precision == default_precision && !plc.precision_of_file;
+  };
+  EXPECT_TRUE(keeps_default(off_of(turned_pipe(), 5)));
+  EXPECT_TRUE(keeps_default(off_of(turned_pipe(), 17)));
+  EXPECT_TRUE(keeps_default(off_of(test::triangles_of(test::pipe(48, 1.9, 2)), 6)));
+  EXPECT_TRUE(keeps_default(off_of(test::turned<3>(test::icosphere(3), 0.3), 6)));
+  std::mt19937 random(3);
+  EXPECT_TRUE(keeps_default(off_of(test::turned<3>(rough_plate(6, 0.1, random), 0.2), 6)));
+}
+
+// It is asked before anything else is.
+TEST(FilePrecision, DigitsOfWhatIsNoInput) {
+  Plc<3> plc = read_plc<3>(test::TempFolder().put("pipe.off", off_of(turned_pipe(), 6)));
+  plc = with_default_precision(plc);
+  Plc<3> other = plc;
+  other.facets[3].polygons[0][1] = 100000;
+  other.facets[5].polygons[0] = {};
+  other.facets[7].polygons = {};
+  other.facets[9].polygons[0] = {1, 1, 1};
+  set_precision_of_digits(other);
+  EXPECT_EQ(other.precision, 1e-5);
+  plc.points[2][1] = NAN;
+  set_precision_of_digits(plc);
+  EXPECT_EQ(plc.precision, default_precision);
 }
 
 /// A tetrahedron as flat as the precision of floats: two of its facets are one plane within that, and so are the others.
@@ -122,32 +219,6 @@ TEST(FilePrecision, DefaultGivesWayToExactPlanes) {
   EXPECT_EQ(report.exit_code(), 0) << test::findings(report);
   plc.precision = 1e-14;  // asked for
   EXPECT_THROW(refine(plc, recovery), InputError);
-}
-
-/// A plate of n x n rectangles, each of two triangles; the points of its upper side are from one to two times as high as `height`.
-Plc<3> rough_plate(int n, double height, std::mt19937& random) {
-  Plc<3> plc;
-  const auto number = [n](int side, int i, int j) { return static_cast<std::uint32_t>((side * (n + 1) + i) * (n + 1) + j); };
-  for (int side = 0; side < 2; ++side)
-    for (int i = 0; i <= n; ++i)
-      for (int j = 0; j <= n; ++j) {
-        const double rise = random() % 3 == 0 ? 0x1p-32 * random() : 0;
-        plc.points.push_back({{double(i) / n, double(j) / n, side * height * (1 + rise)}});
-      }
-  const auto rectangle = [&plc](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
-    plc.facets.push_back({{{a, b, c}}, {}, 0});
-    plc.facets.push_back({{{a, c, d}}, {}, 0});
-  };
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j)
-      for (int side = 0; side < 2; ++side)
-        rectangle(number(side, i, j), number(side, i + 1, j), number(side, i + 1, j + 1), number(side, i, j + 1));
-  for (int i = 0; i < n; ++i)
-    for (const int end : {0, n}) {
-      rectangle(number(0, i, end), number(0, i + 1, end), number(1, i + 1, end), number(1, i, end));
-      rectangle(number(0, end, i), number(0, end, i + 1), number(1, end, i + 1), number(1, end, i));
-    }
-  return plc;
 }
 
 // Plates as thin as that, or twice as thick: their sides had triangles in common, or were inside out, with all their segments in the

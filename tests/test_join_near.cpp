@@ -122,6 +122,36 @@ TEST(JoinNear, AsTheExactRepairs) {
   }
 }
 
+// Where something is joined, the quick look says so; and that nothing can be, of a body whose parts are far apart.
+TEST(JoinNear, QuickLook) {
+  int joinable = 0;
+  for (std::uint64_t seed = 0; seed < 421; ++seed) {
+    Plc<3> plc = turned(test::GridPlcs(seed).cube(), 0.01 * static_cast<double>(seed % 300) + 0.1);
+    std::vector<Diagnostic> refused;
+    const Domain<3> apart = Domain<3>::without_invalid(plc, refused);
+    if (!refused.empty()) continue;
+    plc.merge_within = 1e-14;
+    const Domain<3> joined = Domain<3>::without_invalid(plc, refused);
+    const bool may = may_join(apart, plc.merge_within);
+    const bool does = !refused.empty() || joined.points().size() < apart.points().size() || joined.segments().size() != apart.segments().size() ||
+                      areas(joined) != areas(apart);
+    EXPECT_TRUE(may || !does) << seed;
+    joinable += does;
+  }
+  EXPECT_GT(joinable, 10);
+  for (const double scale : {1.0, 1e200, 1e-200}) {
+    Plc<3> ball = test::icosphere(3);
+    for (Point3& p : ball.points)
+      for (double& x : p.x) x *= scale;
+    EXPECT_FALSE(may_join(Domain<3>(ball), 1e-14)) << scale;
+    EXPECT_TRUE(may_join(Domain<3>(ball), 0.5)) << scale;
+    ball.points.push_back(ball.points[0]);
+    ball.points.back()[1] *= 1 + 0x1p-50;
+    ball.points.back()[0] *= 1 - 0x1p-49;
+    EXPECT_TRUE(may_join(Domain<3>(ball), 1e-14)) << scale;
+  }
+}
+
 // T-junctions in a file of floats: two of three triangles of a box have a point, rounded, on an edge that their neighbours do not know.
 TEST(JoinNear, TJunctionsOfFloats) {
   for (const double angle : {0.3, 0.9, 2.1}) {

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <exception>
+#include <memory>
 #include <optional>
+
+#include <tbb/parallel_invoke.h>
 
 #include "command.hpp"
 #include "console.hpp"
@@ -67,17 +70,30 @@ double smallest_angle(const Domain<D>& domain) {
   return smallest;
 }
 
+/// Of a Domain, all that takes time to find out.
+struct Looks {
+  std::uint64_t open;
+  double smallest_angle;
+  std::optional<PrecisionHint> precision_hint;
+  std::optional<MergeHint> merge_hint;
+};
+
+template <int D>
+Looks look_at(const Plc<D>& plc, const Domain<D>& domain, const InfoArguments& a) {
+  return {count_open(domain), smallest_angle(domain), find_precision_hint(plc, &domain, a.reading),
+          find_merge_hint(plc, &domain)};
+}
+
 /// What the input is without repetitions, its maximal entities, and how these meet.
 template <int D>
-void describe(const Domain<D>& domain, bool quiet, JsonObject& d) {
-  const std::uint64_t open = count_open(domain);
-  const double angle = smallest_angle(domain);
+void describe(const Domain<D>& domain, const Looks& looks, bool quiet, JsonObject& d) {
+  const std::uint64_t open = looks.open;
   d.set("distinct_points", domain.points().size());
   d.set("maximal_segments", domain.segments().size());
   if (D == 3) d.set("maximal_facets", domain.facets().size());
   d.set("closed", open == 0);
   d.set("open", open);
-  d.set("smallest_angle_deg", angle);
+  d.set("smallest_angle_deg", looks.smallest_angle);
   double defect = 0;
   std::uint64_t warped = 0;
   for (const DomainFacet& f : domain.facets()) {
@@ -98,16 +114,20 @@ void describe(const Domain<D>& domain, bool quiet, JsonObject& d) {
                                             D == 3 ? "edges of one facet only" : "ends of one segment only"));
     if (warped > 0)
       print_row("planar", count(warped, "facet is not", "facets are not") + format(", by up to %.3g", defect));
-    print_row("angles", format("%.3f degrees is the smallest between segments, or facets at a segment", angle));
+    print_row("angles", format("%.3f degrees is the smallest between segments, or facets at a segment", looks.smallest_angle));
   }
 }
 
-/// Boundary recovery alone decides the rest: seeds, whether anything is enclosed. `domain` gets the one that was used.
+/// Boundary recovery alone decides the rest: seeds, whether anything is enclosed. `domain`, of `plc` if it is there, gets the one
+/// that was used.
 template <int D>
-RefineResult<D> recover(const Plc<D>& plc, std::optional<Domain<D>>& domain) {
+RefineResult<D> recover(const Plc<D>& plc, std::shared_ptr<const Domain<D>>& domain) {
   RefineOptions<D> options;
   options.refine = false;
-  return with_fitting_precision(plc, [&](const Plc<D>& input) { return refine(domain.emplace(input), options); });
+  return with_fitting_precision(plc, [&](const Plc<D>& input) {
+    if (!domain || &input != &plc) domain = std::make_shared<const Domain<D>>(input);
+    return refine(*domain, options);
+  });
 }
 
 template <int D>
@@ -132,27 +152,34 @@ int info_of_input(const InfoArguments& a, Report& report) {
                           count(plc.regions.size(), "region", "regions"));
   }
 
-  const Diagnosis<D> diagnosis = diagnose(plc);
+  std::optional<Domain<D>> prepared;
+  const Diagnosis<D> diagnosis = diagnose(plc, {}, prepared);
   set_findings(d, diagnosis);
   report.set("diagnosis", d);
   if (!a.quiet) print_findings(diagnosis);
   if (diagnosis.error_count() > 0) return refuse(plc, diagnosis, report);
 
-  std::optional<Domain<D>> domain;
+  const auto first = std::make_shared<const Domain<D>>(*std::move(prepared));
+  auto domain = first;
   std::optional<RefineResult<D>> recovered;
   std::exception_ptr refused;
-  try {
-    recovered = recover(plc, domain);
-  } catch (const InputError&) {
-    if (!domain) throw;
-    refused = std::current_exception();
-  }
-  describe(*domain, a.quiet, d);
+  std::optional<Looks> looks;
+  tbb::parallel_invoke(
+      [&] {
+        try {
+          recovered = recover(plc, domain);
+        } catch (const InputError&) {
+          refused = std::current_exception();
+        }
+      },
+      [&] { looks = look_at(plc, *first, a); });
+  if (domain != first) looks = look_at(plc, *domain, a);
+  describe(*domain, *looks, a.quiet, d);
   if (D == 3) report.set("precision", domain->precision());
   report.set("diagnosis", d);
   if (!a.quiet && !refused) note_precision(plc, domain->precision());
-  hint_at_precision(plc, &*domain, a.reading, a.quiet, report);
-  hint_at_merge(plc, &*domain, !a.quiet, report);
+  give(looks->precision_hint, a.quiet, report);
+  give(looks->merge_hint, !a.quiet, report);
   if (refused) std::rethrow_exception(refused);
 
   d.set("accepted", true);

@@ -53,30 +53,35 @@ void hint_at_merge_of_refused(const Plc<D>& plc, const FindingList& near) {
 }
 
 template <int D>
-void hint_at_merge(const Plc<D>& plc, const Domain<D>* domain, bool shown, Report& report) {
+std::optional<MergeHint> find_merge_hint(const Plc<D>& plc, const Domain<D>* domain) {
   if constexpr (D == 3) {
-    if (plc.merge_within > 0) return;
-    std::size_t before, joined;
+    if (plc.merge_within > 0) return std::nullopt;
     try {
-      before = joined_points(domain != nullptr ? *domain : Domain<3>(plc));
+      std::optional<Domain<3>> made;
+      if (domain == nullptr) domain = &made.emplace(plc);
+      if (!may_join(*domain, of_rounding)) return std::nullopt;
       Plc<3> merged = plc;
       merged.merge_within = of_rounding;
-      joined = joined_points(Domain<3>(merged));
+      const std::size_t before = joined_points(*domain), joined = joined_points(Domain<3>(merged));
+      if (joined > before) return MergeHint{of_rounding, joined - before};
     } catch (const std::exception&) {
-      return;
     }
-    if (joined <= before) return;
-    report.set("merge_hint", JsonObject{{"merge_points", of_rounding}, {"points", joined - before}});
-    if (shown)
-      print_row("hint", format("--merge-points %.0e joins ", of_rounding) +
-                            count(joined - before, "point to a point, an edge or a facet that it misses", "points to points, edges or facets that they miss") +
-                            " by rounding");
   }
+  return std::nullopt;
+}
+
+void give(const std::optional<MergeHint>& hint, bool shown, Report& report) {
+  if (!hint) return;
+  report.set("merge_hint", JsonObject{{"merge_points", hint->merge_points}, {"points", hint->points}});
+  if (shown)
+    print_row("hint", format("--merge-points %.0e joins ", hint->merge_points) +
+                          count(hint->points, "point to a point, an edge or a facet that it misses", "points to points, edges or facets that they miss") +
+                          " by rounding");
 }
 
 template void hint_at_merge_of_refused<2>(const Plc<2>&, const FindingList&);
 template void hint_at_merge_of_refused<3>(const Plc<3>&, const FindingList&);
-template void hint_at_merge<2>(const Plc<2>&, const Domain<2>*, bool, Report&);
-template void hint_at_merge<3>(const Plc<3>&, const Domain<3>*, bool, Report&);
+template std::optional<MergeHint> find_merge_hint<2>(const Plc<2>&, const Domain<2>*);
+template std::optional<MergeHint> find_merge_hint<3>(const Plc<3>&, const Domain<3>*);
 
 }  // namespace pgdr::tool

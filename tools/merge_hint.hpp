@@ -4,6 +4,9 @@
 // Says where --merge-points would help.
 #pragma once
 
+#include <cstddef>
+#include <optional>
+
 #include "pgdr/diagnosis.hpp"
 #include "report.hpp"
 
@@ -13,9 +16,15 @@ namespace pgdr::tool {
 template <int D>
 void hint_at_merge_of_refused(const Plc<D>& plc, const FindingList& near);
 
-/// Of one that is valid, 3D: where points miss edges and facets by no more than rounding; nothing if a distance was asked for. Into
-/// the report, and, where `shown`, in a row. `domain`: of the input, if there is one already.
+/// Of one that is valid, 3D: where points miss edges and facets by no more than rounding.
+struct MergeHint {
+  double merge_points;
+  std::size_t points;  ///< that it joins
+};
+/// Nothing if a distance was asked for, or for lack of memory. @param domain  of `plc`; null: not at hand
 template <int D>
-void hint_at_merge(const Plc<D>& plc, const Domain<D>* domain, bool shown, Report& report);
+std::optional<MergeHint> find_merge_hint(const Plc<D>& plc, const Domain<D>* domain);
+/// In the report as `merge_hint`, and in a row where `shown`.
+void give(const std::optional<MergeHint>& hint, bool shown, Report& report);
 
 }  // namespace pgdr::tool

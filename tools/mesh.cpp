@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <exception>
+#include <optional>
+
+#include <tbb/parallel_invoke.h>
 
 #include "bounds.hpp"
 #include "command.hpp"
@@ -199,6 +203,30 @@ void write_trace(const MeshArguments& a, const RefineResult<D>& r, const Seconds
 }
 
 template <int D>
+void write_as_asked(const MeshArguments& a, const Plc<D>& plc, const OutputMesh<D>& mesh, Report& report) {
+  const WriteOptions how = write_options(a, plc);
+  std::vector<std::string> mesh_files = files_of_mesh(a.output, how);
+  write_mesh(mesh, a.output, how);
+  report.mesh_files = std::move(mesh_files);
+}
+
+/// What may be done about elements that stayed poor.
+struct Hints {
+  std::optional<PrecisionHint> precision;
+  std::optional<MergeHint> merge;
+};
+
+template <int D>
+Hints hints_for(const Plc<D>& plc, const InputArguments& reading, bool precision_told) {
+  try {
+    const Domain<D> domain(plc);
+    return {precision_told ? std::nullopt : find_precision_hint<D>(plc, &domain, reading), find_merge_hint<D>(plc, &domain)};
+  } catch (const std::exception&) {  // the mesh is there without
+    return {};
+  }
+}
+
+template <int D>
 int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
   const Bounds<D> bounds = resolve<D>(a.bounds, smallest_proved_bound<D>());
   if (D == 2 && a.bounds.min_angle.value_or(0) > most_min_angle)
@@ -233,7 +261,7 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
         if (hinted || total.seconds() < patience_seconds) return;
         hinted = true;
         line.clear();
-        hint_at_precision<D>(plc, nullptr, a.reading, a.quiet, report);
+        give(find_precision_hint<D>(plc, nullptr, a.reading), a.quiet, report);
         std::fflush(stdout);
       };
     result = refine(plc, options);
@@ -243,7 +271,7 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
     set_findings(findings, diagnosis);
     report.set("diagnosis", findings);
     if (diagnosis.error_count() == 0) {
-      hint_at_merge<D>(plc, nullptr, !a.quiet, report);
+      give(find_merge_hint<D>(plc, nullptr), !a.quiet, report);
       throw;
     }
     return refuse(plc, diagnosis, report);
@@ -255,14 +283,21 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
   fill(report, a, threads, bounds, result, quality);
 
   seconds.write_at = total.seconds();
-  if (!result.mesh.cells.empty()) {
-    const WriteOptions how = write_options(a, plc);
-    std::vector<std::string> mesh_files = files_of_mesh(a.output, how);
-    write_mesh(result.mesh, a.output, how);
-    report.mesh_files = std::move(mesh_files);
+  Hints hints;
+  const auto write = [&] {
+    if (!result.mesh.cells.empty()) write_as_asked(a, plc, result.mesh, report);
+    seconds.write = total.seconds() - seconds.write_at;
+  };
+  const auto find_hints = [&] {
+    if (result.poor_left > 0 && result.stop != StopCause::cancelled) hints = hints_for(plc, a.reading, hinted);
+  };
+  if (threads.requested() == 1) {
+    write();
+    find_hints();
+  } else {
+    tbb::parallel_invoke(write, find_hints);
   }
   seconds.total = total.seconds();
-  seconds.write = seconds.total - seconds.write_at;
   report.set("seconds", JsonObject{{"read", seconds.read}, {"mesh", result.statistics.seconds_mesh},
                                    {"initial", result.statistics.seconds_initial},
                                    {"refine", result.statistics.seconds_refine}, {"write", seconds.write},
@@ -270,10 +305,8 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
   report.set("peak_rss_bytes", peak_rss_bytes());
   if (!a.quiet) print_summary(a, plc, bounds, result, quality, seconds);
   if (!a.quiet) note_precision(plc, result.precision);
-  if (result.poor_left > 0 && result.stop != StopCause::cancelled) {
-    if (!hinted) hint_at_precision<D>(plc, nullptr, a.reading, a.quiet, report);
-    hint_at_merge<D>(plc, nullptr, !a.quiet, report);
-  }
+  give(hints.precision, a.quiet, report);
+  give(hints.merge, !a.quiet, report);
   if (!a.trace.empty()) {
     std::string trace_file = a.trace;
     write_trace(a, result, seconds);

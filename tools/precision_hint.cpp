@@ -12,31 +12,36 @@
 namespace pgdr::tool {
 
 template <int D>
-void hint_at_precision(const Plc<D>& plc, const Domain<D>* domain, const InputArguments& reading, bool quiet, Report& report) {
+std::optional<PrecisionHint> find_precision_hint(const Plc<D>& plc, const Domain<D>* domain, const InputArguments& reading) {
   if constexpr (D == 3) {
-    if (reading.precision || reading.precision_auto || plc.precision_of_file) return;
-    double suggested;
-    std::size_t facets, fewer;
+    if (reading.precision || reading.precision_auto || plc.precision_of_file) return std::nullopt;
+    PrecisionHint hint;
     const double written = written_precision(plc.points);
+    hint.by_digits = written > plc.precision;
     try {
       std::optional<Domain<3>> made;
       if (domain == nullptr) domain = &made.emplace(plc);
-      suggested = written > plc.precision ? written : apparent_precision(*domain);
-      if (suggested <= plc.precision) return;
-      facets = domain->facets().size();
+      hint.precision = hint.by_digits ? written : apparent_precision(*domain);
+      hint.facets = domain->facets().size();
+      if (hint.precision <= plc.precision || 10 * most_facets_saved(*domain, hint.precision) < hint.facets) return std::nullopt;
       Plc<3> merged = plc;
-      merged.precision = suggested;
-      fewer = Domain<3>(merged).facets().size();
+      merged.precision = hint.precision;
+      hint.facets_then = Domain<3>(merged).facets().size();
     } catch (const std::exception&) {
-      return;  // faces that their digits have bent so far are no better; and the mesh is there without a hint
+      return std::nullopt;  // faces that their digits have bent so far are no better; and the mesh is there without a hint
     }
-    if (10 * fewer > 9 * facets || fewer < 4) return;
-    report.set("precision_hint", JsonObject{{"precision", suggested}, {"facets", facets}, {"facets_then", fewer}});
-    if (!quiet)
-      print_row("hint", format("--precision auto (%.1e, by %s) makes %s out of %s", suggested,
-                               suggested == written ? "the digits of the coordinates" : "how far faces are off their planes",
-                               count(fewer, "facet", "facets").c_str(), count(facets, "facet", "facets").c_str()));
+    if (10 * hint.facets_then <= 9 * hint.facets && hint.facets_then >= 4) return hint;
   }
+  return std::nullopt;
+}
+
+void give(const std::optional<PrecisionHint>& hint, bool quiet, Report& report) {
+  if (!hint) return;
+  report.set("precision_hint", JsonObject{{"precision", hint->precision}, {"facets", hint->facets}, {"facets_then", hint->facets_then}});
+  if (!quiet)
+    print_row("hint", format("--precision auto (%.1e, by %s) makes %s out of %s", hint->precision,
+                             hint->by_digits ? "the digits of the coordinates" : "how far faces are off their planes",
+                             count(hint->facets_then, "facet", "facets").c_str(), count(hint->facets, "facet", "facets").c_str()));
 }
 
 template <int D>
@@ -44,12 +49,12 @@ void note_precision(const Plc<D>& plc, double used) {
   if (!plc.precision_of_file) return;
   print_row("precision", used < plc.precision
                              ? format("--precision %.1e: the numbers of the file allow %.1e, but its facets then fold over", used, plc.precision)
-                             : format("--precision %.1e: what the numbers of the file allow", used));
+                             : format("--precision %.1e: what the numbers of the file allow (%.1e keeps apart what they bend)", used, Plc<3>{}.precision));
 }
 
 template void note_precision<2>(const Plc<2>&, double);
 template void note_precision<3>(const Plc<3>&, double);
-template void hint_at_precision<2>(const Plc<2>&, const Domain<2>*, const InputArguments&, bool, Report&);
-template void hint_at_precision<3>(const Plc<3>&, const Domain<3>*, const InputArguments&, bool, Report&);
+template std::optional<PrecisionHint> find_precision_hint<2>(const Plc<2>&, const Domain<2>*, const InputArguments&);
+template std::optional<PrecisionHint> find_precision_hint<3>(const Plc<3>&, const Domain<3>*, const InputArguments&);
 
 }  // namespace pgdr::tool

@@ -4,6 +4,9 @@
 // Whether small angles of an input are those of faces that lack digits, and what to do about it.
 #pragma once
 
+#include <cstddef>
+#include <optional>
+
 #include "options.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/plc.hpp"
@@ -15,10 +18,16 @@ namespace pgdr::tool {
 template <int D>
 void note_precision(const Plc<D>& plc, double used);
 
-/// Where suggested_precision makes one face of many facets that the input as it is keeps apart: says so, in the
-/// report as `precision_hint`, and on the terminal unless `quiet`. Nothing if a precision was asked for, or for lack of memory.
-/// @param domain  of `plc`; null: not at hand
+/// Where suggested_precision makes one face of many facets that the input as it is keeps apart.
+struct PrecisionHint {
+  double precision = 0;
+  bool by_digits = false;  ///< or by how faces look
+  std::size_t facets = 0, facets_then = 0;
+};
+/// Nothing if a precision was asked for, or for lack of memory. @param domain  of `plc`; null: not at hand
 template <int D>
-void hint_at_precision(const Plc<D>& plc, const Domain<D>* domain, const InputArguments& reading, bool quiet, Report& report);
+std::optional<PrecisionHint> find_precision_hint(const Plc<D>& plc, const Domain<D>* domain, const InputArguments& reading);
+/// In the report as `precision_hint`, and on the terminal unless `quiet`.
+void give(const std::optional<PrecisionHint>& hint, bool quiet, Report& report);
 
 }  // namespace pgdr::tool

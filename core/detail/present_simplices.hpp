@@ -1,66 +1,142 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which edges or triangles of a mesh are there, asked again and again of a mesh that changes little in between: each is
-// remembered with a cell that had it, and cells are passed over for those alone that this one does not have any more.
+// Which edges or triangles of a mesh are there, asked again and again of a mesh that changes little in between. Each is remembered
+// with a cell that had it. It needs another look only once this cell was deleted; and if it is still there, one of the cells made
+// since has it: of an edge or triangle that is left of a cavity, a face of its boundary has it, and the new cell on that face. So it
+// is with those that were missing, and with those that have a new vertex.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
+#include "detail/changed_cells.hpp"
 #include "detail/wanted_simplices.hpp"
 #include "pgdr/mesh.hpp"
 
 namespace pgdr::detail {
 
-inline constexpr CellId not_seen{0xffffffff};  ///< no cell
+inline constexpr CellId not_seen{0xffffffff};   ///< no cell had it at the last look
+inline constexpr CellId never_asked{0xfffffffe};  ///< it was not asked for
 
 /// Is this a cell that has these corners?
 template <std::size_t K>
 bool has_corners(const Mesh<3>& mesh, CellId c, const std::array<VertexId, K>& vertices) {
-  if (c == not_seen || !mesh.alive(c)) return false;
+  if (c == not_seen || c == never_asked || !mesh.alive(c)) return false;
   const auto& corners = mesh.cell(c).vertices;
   return std::all_of(vertices.begin(), vertices.end(), [&](VertexId v) { return std::find(corners.begin(), corners.end(), v) != corners.end(); });
 }
 
-/// For one look at a mesh. K: how many vertices each has, 2 or 3.
+/// K: how many vertices each has, 2 or 3. Looks are: take_due(), ask() for all simplices of these owners and of those that have got
+/// new ones, find(). The mesh does not change during one.
 template <std::size_t K>
 class PresentSimplices {
  public:
   explicit PresentSimplices(const Mesh<3>& mesh) : mesh_(&mesh) {}
 
-  /// `seen`: where it was seen last, or not_seen; to stay where it is until find() has set it.
-  void ask(const std::array<VertexId, K>& vertices, CellId& seen) {
-    if (has_corners(*mesh_, seen, vertices)) return;
-    seen = not_seen;
-    wanted_.add(vertices, static_cast<EntityId>(seen_.size()));
-    seen_.push_back(&seen);
+  ChangedCells& changed() { return changed_; }  ///< gets every cell that is made or deleted
+
+  /// Owners of simplices that were seen in a cell which is no more; with repetitions.
+  std::vector<EntityId> take_due() {
+    std::vector<EntityId> due;
+    for (const CellId c : changed_.list()) {
+      if (index(c) >= first_.size()) continue;
+      for (std::uint32_t w = first_[index(c)]; w != none;) {
+        due.push_back(watches_[w].owner);
+        const std::uint32_t next = std::exchange(watches_[w].next, free_);
+        free_ = std::exchange(w, next);
+      }
+      first_[index(c)] = none;
+    }
+    return due;
   }
-  /// Sets for each simplex that was asked for the cell that has it; not_seen if there is none. Once, after all ask()s.
+  /// `seen`: where it was seen last, not_seen, or never_asked; to stay where it is until find() has set it.
+  void ask(EntityId owner, const std::array<VertexId, K>& vertices, CellId& seen) {
+    if (has_corners(*mesh_, seen, vertices)) {
+      if (changed_.contains(seen)) watch(seen, owner);  // another cell, in its place
+      return;
+    }
+    const auto is_new = [this](VertexId v) { return index(v) >= known_vertices_; };
+    if (seen == never_asked && std::none_of(vertices.begin(), vertices.end(), is_new)) anywhere_ = true;
+    seen = not_seen;
+    wanted_.add(vertices, static_cast<EntityId>(asked_.size()));
+    asked_.push_back({owner, &seen});
+  }
+  /// Sets for each simplex that was asked for the cell that has it; not_seen if there is none.
   void find() {
-    if (seen_.empty()) return;
-    wanted_.index_by_first(mesh_->vertex_bound());
-    std::vector<bool> is_corner(mesh_->vertex_bound());
-    for (const auto& item : wanted_.items())
-      for (const VertexId v : item.vertices) is_corner[index(v)] = true;
-    for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i)
-      if (const CellId c{i}; mesh_->alive(c)) look_at(c, is_corner);
-    const auto& items = wanted_.items();
-    for (std::size_t i = 1; i < items.size(); ++i)  // those asked for twice
-      if (items[i].vertices == items[i - 1].vertices) *seen_[items[i].entity] = *seen_[items[i - 1].entity];
+    for (const CellId c : changed_.list())
+      if (mesh_->alive(c)) note_vertices(c);
+    if (!asked_.empty()) search();
+    for (const Asked& a : asked_)
+      if (*a.seen != not_seen) watch(*a.seen, a.owner);
+    asked_.clear();
+    wanted_.clear();
+    changed_.clear();
+    anywhere_ = false;
+    known_vertices_ = met_vertices_;
   }
 
  private:
-  void look_at(CellId c, const std::vector<bool>& is_corner) {
+  static constexpr std::uint32_t none = 0xffffffff;
+  struct Asked {
+    EntityId owner;
+    CellId* seen;
+  };
+  struct Watch {
+    EntityId owner;
+    std::uint32_t next;  ///< of the same cell, or of those that are free
+  };
+
+  void watch(CellId c, EntityId owner) {
+    if (index(c) >= first_.size()) first_.resize(std::max<std::size_t>(mesh_->cell_bound(), first_.size() * 3 / 2), none);
+    std::uint32_t& first = first_[index(c)];
+    if (free_ == none) {
+      watches_.push_back({owner, first});
+      first = static_cast<std::uint32_t>(watches_.size() - 1);
+      return;
+    }
+    const std::uint32_t w = std::exchange(free_, watches_[free_].next);
+    watches_[w] = {owner, first};
+    first = w;
+  }
+  void search() {
+    const auto& items = wanted_.items();
+    is_corner_.resize(mesh_->vertex_bound());
+    for (const auto& item : items)
+      for (const VertexId v : item.vertices) is_corner_[index(v)] = true;
+    if (anywhere_) {
+      wanted_.index_by_first(mesh_->vertex_bound());
+      for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) {
+        if (!mesh_->alive(CellId{i})) continue;
+        note_vertices(CellId{i});
+        look_at(CellId{i});
+      }
+    } else {
+      wanted_.sort();
+      for (const CellId c : changed_.list())
+        if (mesh_->alive(c)) look_at(c);
+    }
+    for (const auto& item : items)
+      for (const VertexId v : item.vertices) is_corner_[index(v)] = false;
+    for (std::size_t i = 1; i < items.size(); ++i)  // those asked for twice
+      if (items[i].vertices == items[i - 1].vertices) *asked_[items[i].entity].seen = *asked_[items[i - 1].entity].seen;
+  }
+  /// Ids rise: what is made later has larger ones.
+  void note_vertices(CellId c) {
+    for (const VertexId v : mesh_->cell(c).vertices)
+      if (v != infinite_vertex) met_vertices_ = std::max(met_vertices_, index(v) + 1);
+  }
+  void look_at(CellId c) {
     const auto& v = mesh_->cell(c).vertices;
     std::array<VertexId, 4> corners;
     std::size_t n = 0;
     for (const VertexId w : v)
-      if (index(w) < is_corner.size() && is_corner[index(w)]) corners[n++] = w;
+      if (index(w) < is_corner_.size() && is_corner_[index(w)]) corners[n++] = w;
     if (n < K) return;
     const auto note = [&](const std::array<VertexId, K>& vertices) {
-      if (const auto* item = wanted_.find(vertices)) *seen_[item->entity] = c;
+      if (const auto* item = wanted_.find(vertices)) *asked_[item->entity].seen = c;
     };
     for (std::size_t a = 0; a < n; ++a)
       for (std::size_t b = a + 1; b < n; ++b) {
@@ -70,8 +146,16 @@ class PresentSimplices {
   }
 
   const Mesh<3>* mesh_;
+  ChangedCells changed_;
+  bool anywhere_ = false;            ///< one that was asked for may be in cells that have not changed
+  std::uint32_t known_vertices_ = 0xffffffff;  ///< bound of those there were at the last look; all, at the first one
+  std::uint32_t met_vertices_ = 0;             ///< bound of those met in cells
   WantedSimplices<K> wanted_;
-  std::vector<CellId*> seen_;
+  std::vector<bool> is_corner_;  ///< by vertex, of one that is wanted; all false between looks
+  std::vector<Asked> asked_;
+  std::vector<std::uint32_t> first_;  ///< of each cell, its first watch, or none
+  std::vector<Watch> watches_;
+  std::uint32_t free_ = none;
 };
 
 }  // namespace pgdr::detail

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "detail/box_tree.hpp"
+#include "detail/make_set.hpp"
 #include "detail/present_simplices.hpp"
 #include "detail/search_tree.hpp"
 #include "detail/wanted_simplices.hpp"
@@ -34,7 +35,7 @@ class SegmentChains {
     VertexId vertex;
     double t;  ///< parameter on the segment
     std::uint32_t round = 0;  ///< in which it was made
-    CellId seen = not_seen;   ///< that has the edge to it from the one before
+    CellId seen = never_asked;  ///< that has the edge to it from the one before
   };
 
   SegmentChains(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>& domain);
@@ -87,6 +88,8 @@ class SegmentChains {
   std::vector<std::vector<EntityId>> companions_;  ///< of each segment, those that run along it from a common end
   std::unordered_map<EntityId, std::vector<Link>> input_beside_;  ///< of segments that were split
   std::unique_ptr<SearchTree<3>> points_tree_;                    ///< of the input points; made where a segment is split
+  PresentSimplices<2> edges_;
+  std::vector<EntityId> look_again_;  ///< segments with subsegments that are new, or were missing
   std::vector<EntityId> changed_;
   std::uint32_t round_ = 1;
   std::uint64_t points_ = 0;
@@ -109,6 +112,8 @@ class FacetPatches {
  private:
   using Triangle = std::array<VertexId, 3>;
   void triangulate(EntityId facet);
+  template <class Fill>
+  void replace_triangles(EntityId facet, const Fill& fill);
   struct Candidate {
     Ball<3> ball;
     Triangle triangle;
@@ -126,7 +131,7 @@ class FacetPatches {
                                        const Triangle& t, const Point3& x) const;
   std::vector<Subsegment> subsegments(EntityId facet) const;
   BoxTree<2> tree_of_diametral_balls(const std::vector<Subsegment>& rim, int axis) const;
-  void find_present();
+  std::vector<EntityId> find_present();
 
   Mesh<3>* mesh_;
   Delaunay<3>* delaunay_;
@@ -135,7 +140,9 @@ class FacetPatches {
   std::vector<std::vector<Triangle>> triangles_;
   std::vector<std::vector<CellId>> seen_;  ///< of each triangle, a cell that has it
   std::vector<std::vector<VertexId>> inner_points_;  ///< Steiner points inside each facet
-  std::vector<bool> changed_;
+  PresentSimplices<3> faces_;
+  std::vector<EntityId> look_again_;  ///< facets that were triangulated anew, or had triangles missing
+  std::vector<EntityId> changed_;     ///< to be triangulated anew
   std::vector<EarlySplits> calm_;  ///< of each facet, the least that names it; `none` if nothing does
   std::vector<std::array<VertexId, 2>> fragile_;  ///< sorted: edges at triangles so flat that rounding may turn them over
   std::uint64_t points_ = 0;

@@ -25,22 +25,35 @@ class WantedSimplices {
     std::sort(vertices.begin(), vertices.end());
     items_.push_back({vertices, entity});
   }
-  /// To be called once, after all `add`s.
-  void index_by_first(std::uint32_t vertex_bound) {
+  /// To be called after all `add`s: so that find() takes a search among all.
+  void sort() {
     std::sort(items_.begin(), items_.end(), [](const Item& a, const Item& b) { return a.vertices < b.vertices; });
+  }
+  /// Or this, which takes time for every vertex: a search among those with the same first vertex.
+  void index_by_first(std::uint32_t vertex_bound) {
+    sort();
     begin_.assign(vertex_bound + 1, 0);
     for (const Item& item : items_) ++begin_[pgdr::index(item.vertices[0]) + 1];
     for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
   }
   Item* find(std::array<VertexId, K> vertices) {
     std::sort(vertices.begin(), vertices.end());
-    const std::uint32_t first = pgdr::index(vertices[0]);
-    if (first + 1 >= begin_.size()) return nullptr;
-    for (std::uint32_t i = begin_[first]; i < begin_[first + 1]; ++i)
-      if (items_[i].vertices == vertices) return &items_[i];
-    return nullptr;
+    auto begin = items_.begin(), end = items_.end();
+    if (!begin_.empty()) {
+      const std::uint32_t first = pgdr::index(vertices[0]);
+      if (first + 1 >= begin_.size()) return nullptr;
+      end = begin + begin_[first + 1];
+      begin += begin_[first];
+    }
+    const auto at = std::lower_bound(begin, end, vertices,
+                                     [](const Item& item, const auto& v) { return item.vertices < v; });
+    return at != end && at->vertices == vertices ? &*at : nullptr;
   }
   std::vector<Item>& items() { return items_; }
+  void clear() {
+    items_.clear();
+    begin_.clear();
+  }
 
  private:
   std::vector<Item> items_;

@@ -13,6 +13,9 @@
 #include "pgdr/mesh.hpp"
 
 namespace pgdr {
+namespace detail {
+class ChangedCells;
+}
 
 /// The cell that contains p (closed), or the ghost beyond whose hull face p lies, by a visibility walk from `hint`.
 /// @pre the mesh is a triangulation, Delaunay or not, closed by ghosts.
@@ -35,6 +38,9 @@ class Delaunay {
   /// `twins` do not count for that radius.
   VertexId insert(const Point<D>& p, Home home, VertexId near, double least = 0, std::span<const VertexId> twins = {});
 
+  /// From now on `changed`, which stays where it is as long as this, gets the cells that insertions delete and make.
+  void tell_changes(detail::ChangedCells& changed) { listeners_.push_back(&changed); }
+
   /// Vertices in the order of `points`.
   const std::vector<VertexId>& vertices() const { return vertices_; }
   /// A cell at v (v < vertex bound).
@@ -53,6 +59,7 @@ class Delaunay {
   Cavity<D> cavity_;
   std::vector<VertexId> vertices_;
   std::vector<CellId> cell_at_;
+  std::vector<detail::ChangedCells*> listeners_;
 };
 
 extern template class Delaunay<2>;

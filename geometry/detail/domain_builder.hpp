@@ -20,6 +20,7 @@
 
 #include "detail/box_tree.hpp"
 #include "detail/contact.hpp"
+#include "detail/make_set.hpp"
 #include "detail/planar_cdt.hpp"
 #include "detail/stop_check.hpp"
 #include "pgdr/domain.hpp"
@@ -92,13 +93,6 @@ struct FoundContact {
   std::uint32_t first, second;
   Contact what;
 };
-
-/// Sorted, each once.
-template <class T>
-void make_set(std::vector<T>& v) {
-  std::sort(v.begin(), v.end());
-  v.erase(std::unique(v.begin(), v.end()), v.end());
-}
 
 /// A point, and the key of an edge (or the number of a triangle) with the point inside.
 using PointOn = std::pair<std::uint64_t, std::uint32_t>;

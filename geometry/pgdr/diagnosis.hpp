@@ -14,6 +14,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <stop_token>
 #include <string_view>
 #include <vector>
@@ -97,6 +98,10 @@ Diagnosis<D> diagnose(const Domain<D>& domain, const DiagnosisOptions& options =
 /// @throws CancelledError
 template <int D>
 Diagnosis<D> diagnose(const Plc<D>& plc, const DiagnosisOptions& options = {});
+
+/// The same; `prepared` gets what Domain(plc) would be, if that refuses nothing.
+template <int D>
+Diagnosis<D> diagnose(const Plc<D>& plc, const DiagnosisOptions& options, std::optional<Domain<D>>& prepared);
 
 /// What `refine` asks first. Takes no time to speak of where the Domain knows already that nothing meets.
 /// @throws InputError the first error, if there is one, and how many more there are; CancelledError.

@@ -172,6 +172,10 @@ class Domain {
   std::shared_ptr<const detail::BentFacets> bent_facets_;  // 3D; copies share it
 };
 
+/// 3D: may something be joined, by Plc::merge_within of this size, that is not so in this Domain, which was made without? False only
+/// if no point is within `within` times the largest coordinate of all of another, or of an edge or facet that it does not belong to.
+bool may_join(const Domain<3>& domain, double within);
+
 /// The point P + t (Q - P) of segment s (P, Q its ends, in that order), evaluated in double-double and rounded once
 /// (<= 1 ulp of the segment's magnitude off its line; exactly on it where the segment is axis-aligned). 0 < t < 1.
 template <int D>

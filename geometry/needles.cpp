@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Whether a file lacks the digits that would have made its planar faces planar, where that matters. The share of needles is by an
+// estimate of how many elements a facet takes for its shape alone: d^2 / A, of its diameter and its area, is the number of squares as
+// wide as a strip that fill it, and 2 / sin a of a triangle with a corner of a small angle a. At 8 such a corner has 14.47 degrees, and
+// every mesh that keeps the facet has a poor cell there (sharp_corners.hpp).
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "detail/box_tree.hpp"
+#include "detail/disjoint_sets.hpp"
+#include "detail/vectors.hpp"
+#include "pgdr/plc.hpp"
+#include "pgdr/written_precision.hpp"
+
+namespace pgdr {
+namespace {
+
+constexpr double needle = 8;            // d^2 / A from there on
+constexpr double share_of_needles = 1. / 3;
+constexpr double least_digits = 1e-5;   // of six; with fewer, a face may be as far off as one wants to see
+
+/// A facet of the file, or several in one plane.
+struct Shape {
+  Point3 origin{};             ///< a point of it
+  detail::Vector<3> normal{};  ///< as long as twice its area
+  detail::Box<3> box;
+  double area = 0;
+
+  void add(const Shape& o) {
+    box.add(o.box.low);
+    box.add(o.box.high);
+    area += o.area;
+  }
+  double needleness() const {
+    const auto d = detail::difference(box.high, box.low);
+    return detail::dot(d, d) / area;
+  }
+  double magnitude() const {
+    double largest = 0;
+    for (int k = 0; k < 3; ++k) largest = std::max({largest, std::fabs(box.low[k]), std::fabs(box.high[k])});
+    return largest;
+  }
+};
+
+/// The facets of a file that has not been looked at: points that do not exist, and facets of no area, are passed over.
+class FileFacets {
+ public:
+  explicit FileFacets(const Plc<3>& plc) : plc_(plc), shapes_(plc.facets.size()) {
+    find_distinct_points();
+    for (std::uint32_t f = 0; f < shapes_.size(); ++f) add(f);
+    std::sort(uses_.begin(), uses_.end());
+  }
+
+  /// The share that needles have which `precision` would make part of a larger facet.
+  double share_kept_apart(double precision) {
+    detail::DisjointSets planes(shapes_.size());
+    std::vector<std::uint32_t> nearly;
+    for_each_joint([&](std::uint32_t f, std::uint32_t g) {
+      const double off = distance_off_plane(f, g);
+      if (off <= Plc<3>{}.precision) planes.unite(f, g);
+      else if (off <= precision) nearly.insert(nearly.end(), {f, g});
+    });
+    std::vector<bool> is_nearly(shapes_.size());
+    for (const std::uint32_t f : nearly) is_nearly[planes.find(f)] = true;
+    std::vector<Shape> whole = shapes_;
+    for (std::uint32_t f = 0; f < whole.size(); ++f)
+      if (const std::uint32_t of = planes.find(f); of != f && shapes_[f].area > 0) whole[of].add(shapes_[f]);
+    double all = 0, apart = 0;
+    for (std::uint32_t f = 0; f < whole.size(); ++f) {
+      if (planes.find(f) != f || !(whole[f].area > 0)) continue;
+      const double takes = whole[f].needleness();
+      all += takes;
+      if (is_nearly[f] && takes > needle) apart += takes;
+    }
+    return all > 0 ? apart / all : 0;
+  }
+
+ private:
+  using Use = std::pair<std::array<std::uint32_t, 2>, std::uint32_t>;  // an edge, a facet
+
+  /// Files that repeat points for every facet have neighbours, too.
+  void find_distinct_points() {
+    std::vector<std::uint32_t> order(plc_.points.size());
+    std::iota(order.begin(), order.end(), 0u);
+    const auto& p = plc_.points;
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return lex_less(p[a], p[b]); });
+    first_equal_.resize(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+      first_equal_[order[i]] = i > 0 && p[order[i]] == p[order[i - 1]] ? first_equal_[order[i - 1]] : order[i];
+  }
+  void add(std::uint32_t f) {
+    const auto& polygons = plc_.facets[f].polygons;
+    for (const auto& polygon : polygons)
+      for (const std::uint32_t v : polygon)
+        if (v >= plc_.points.size()) return;
+    for (const auto& polygon : polygons) {
+      if (polygon.size() < 3) continue;
+      add_polygon(f, polygon);
+      for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const std::uint32_t a = first_equal_[polygon[i]], b = first_equal_[polygon[(i + 1) % polygon.size()]];
+        if (a != b) uses_.push_back({{std::min(a, b), std::max(a, b)}, f});
+      }
+    }
+  }
+  /// The largest polygon is the facet's shape.
+  void add_polygon(std::uint32_t f, const std::vector<std::uint32_t>& polygon) {
+    Shape shape;
+    const Point3& origin = shape.origin = plc_.points[polygon[0]];
+    shape.box = detail::Box<3>::around(origin);
+    for (std::size_t i = 1; i < polygon.size(); ++i) {
+      shape.box.add(plc_.points[polygon[i]]);
+      const auto part = detail::cross(detail::difference(plc_.points[polygon[i - 1]], origin), detail::difference(plc_.points[polygon[i]], origin));
+      for (std::size_t k = 0; k < 3; ++k) shape.normal[k] += part[k];
+    }
+    shape.area = std::sqrt(detail::dot(shape.normal, shape.normal)) / 2;
+    if (shape.area > shapes_[f].area) shapes_[f] = shape;
+  }
+  /// Two facets of one marker that an edge is of, and no other.
+  template <class Visit>
+  void for_each_joint(const Visit& visit) const {
+    for (std::size_t i = 0, j = 0; i < uses_.size(); i = j) {
+      while (j < uses_.size() && uses_[j].first == uses_[i].first) ++j;
+      if (j - i != 2) continue;
+      const std::uint32_t f = uses_[i].second, g = uses_[i + 1].second;
+      if (f == g || plc_.facets[f].marker != plc_.facets[g].marker) continue;
+      if (shapes_[f].area > 0 && shapes_[g].area > 0) visit(f, g);
+    }
+  }
+  /// Of the smaller one, from the plane of the larger, of the largest coordinate of both.
+  double distance_off_plane(std::uint32_t f, std::uint32_t g) const {
+    if (shapes_[f].area < shapes_[g].area) std::swap(f, g);
+    const Point3& origin = shapes_[f].origin;
+    double off = 0;
+    for (const auto& polygon : plc_.facets[g].polygons)
+      for (const std::uint32_t v : polygon)
+        off = std::max(off, std::fabs(detail::dot(shapes_[f].normal, detail::difference(plc_.points[v], origin))));
+    return off / (2 * shapes_[f].area) / std::max(shapes_[f].magnitude(), shapes_[g].magnitude());
+  }
+
+  const Plc<3>& plc_;
+  std::vector<std::uint32_t> first_equal_;  // of each point, one that stands for all in its place
+  std::vector<Shape> shapes_;               // of each facet; area 0: not known
+  std::vector<Use> uses_;                   // sorted
+};
+
+}  // namespace
+
+void set_precision_of_digits(Plc<3>& plc) {
+  const double written = written_precision(plc.points);
+  if (plc.precision_of_file || written <= plc.precision || written > least_digits) return;
+  const auto is_finite = [](const Point3& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); };
+  if (!std::ranges::all_of(plc.points, is_finite)) return;
+  if (!(FileFacets(plc).share_kept_apart(written) > share_of_needles)) return;
+  plc.precision = written;
+  plc.precision_of_file = true;
+}
+
+}  // namespace pgdr
