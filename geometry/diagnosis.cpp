@@ -191,7 +191,7 @@ void require_no_errors(const Domain<D>& domain, std::stop_token stop) {
   if (count == 0) return;
   Diagnostic first = diagnosis.errors().front();
   if (count > 1) first.message += " (the first of " + std::to_string(count) + " such errors)";
-  throw InputError(std::move(first));
+  throw DiagnosedError(std::move(first));
 }
 
 #define PGDR_INSTANTIATE(D)                                                                \

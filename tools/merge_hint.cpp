@@ -5,7 +5,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <stop_token>
 #include <vector>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include "console.hpp"
 
@@ -16,15 +20,26 @@ constexpr double of_rounding = 1e-14;  // what rotations and shifts do to double
 constexpr double of_floats = 1e-7, of_six_digits = 1e-6;
 
 /// Of some that are tried, the least Plc::merge_within with which nothing is refused; 0 if there is none.
-double sufficient_merge(Plc<3> plc, const FindingList& near) {
+double sufficient_merge(const Plc<3>& plc, const FindingList& near) {
   std::vector<double> tried{of_rounding, of_floats, of_six_digits};
   if (!near.listed.empty()) tried.push_back(1.1 * near.listed[0].measure);
   std::sort(tried.begin(), tried.end());
-  for (const double within : tried) {
-    plc.merge_within = within;
-    if (diagnose(plc, {.most_listed = 0}).error_count() == 0) return within;
-  }
-  return 0;
+  std::vector<std::stop_source> needed(tried.size());  // until a smaller one will do
+  std::vector<char> is_valid(tried.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tried.size(), 1), [&](const tbb::blocked_range<std::size_t>& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      Plc<3> merged = plc;
+      merged.merge_within = tried[i];
+      try {
+        is_valid[i] = diagnose(merged, {.most_listed = 0, .errors_only = true, .stop = needed[i].get_token()}).error_count() == 0;
+      } catch (const CancelledError&) {
+      }
+      if (is_valid[i])
+        for (std::size_t k = i + 1; k < tried.size(); ++k) needed[k].request_stop();
+    }
+  }, tbb::simple_partitioner());
+  const auto least = std::find(is_valid.begin(), is_valid.end(), 1);
+  return least == is_valid.end() ? 0 : tried[static_cast<std::size_t>(least - is_valid.begin())];
 }
 
 /// Points that were merged, or are on what they did not belong to.

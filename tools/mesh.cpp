@@ -291,12 +291,7 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
   const auto find_hints = [&] {
     if (result.poor_left > 0 && result.stop != StopCause::cancelled) hints = hints_for(plc, a.reading, hinted);
   };
-  if (threads.requested() == 1) {
-    write();
-    find_hints();
-  } else {
-    tbb::parallel_invoke(write, find_hints);
-  }
+  tbb::parallel_invoke(write, find_hints);
   seconds.total = total.seconds();
   report.set("seconds", JsonObject{{"read", seconds.read}, {"mesh", result.statistics.seconds_mesh},
                                    {"initial", result.statistics.seconds_initial},

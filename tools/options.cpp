@@ -138,8 +138,8 @@ void add_input(CLI::App& app, InputArguments& p) {
   };
   app.add_option_function<std::string>("--precision", set_precision,
                  "3D: facets that meet at an edge and lie in one plane within R times their largest coordinate are one "
-                 "(default 3.6e-15, 16 ulps: rounding; for .stl, and .ply of floats, auto, if no facets fold over then; more where "
-                 "the file has few digits, which moves the surface by so much; "
+                 "(default 3.6e-15, 16 ulps: rounding; for .stl, .ply of floats, and files of six to nine digits whose planar faces are "
+                 "needles that these keep apart, auto, if no facets fold over then; the surface moves by so much; "
                  "auto: by the digits that its coordinates have, or by how far faces that look planar are off)")
       ->type_name("R|auto")->check(auto_or(number("between 0 and 0.01, or auto", [](double v) { return v >= 0 && v <= 0.01; })));
   app.add_option("--merge-points", p.merge_points,

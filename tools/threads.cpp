@@ -41,7 +41,7 @@ struct Threads::Control {
 
 Threads::Threads(std::optional<int> asked) : requested_(asked.value_or(tbb::info::default_concurrency())) {
   try_threads(requested_ - 1);
-  if (requested_ > tbb::info::default_concurrency())
+  if (requested_ != tbb::info::default_concurrency())
     control_.reset(new Control{tbb::global_control(tbb::global_control::max_allowed_parallelism,
                                                    static_cast<std::size_t>(requested_))});
 }

@@ -104,7 +104,7 @@ template <int D>
 Diagnosis<D> diagnose(const Plc<D>& plc, const DiagnosisOptions& options, std::optional<Domain<D>>& prepared);
 
 /// What `refine` asks first. Takes no time to speak of where the Domain knows already that nothing meets.
-/// @throws InputError the first error, if there is one, and how many more there are; CancelledError.
+/// @throws DiagnosedError the first error, if there is one, and how many more there are; CancelledError.
 template <int D>
 void require_no_errors(const Domain<D>& domain, std::stop_token stop = {});
 

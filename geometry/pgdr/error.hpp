@@ -93,6 +93,8 @@ class Error : public std::exception {
 struct UsageError : Error { using Error::Error; };
 /// Malformed or invalid input (exit code 3).
 struct InputError : Error { using Error::Error; };
+/// Of these, what a diagnosis finds wrong (diagnosis.hpp), before anything is meshed.
+struct DiagnosedError : InputError { using InputError::InputError; };
 /// A file that cannot be opened or written (exit code 4).
 struct FileError : Error { using Error::Error; };
 /// The caller's stop token was requested where there is nothing to return: while a Domain or a Diagnosis is made.

@@ -90,7 +90,8 @@ struct RefineResult {
 template <int D>
 std::optional<Plc<D>> with_less_precision(const Plc<D>& plc);
 
-/// What `attempt` makes of the input, or, if that throws an InputError, of the input with_less_precision, as long as there is one.
+/// What `attempt` makes of the input, or, if that throws an InputError that no diagnosis finds, of the input with_less_precision, as
+/// long as there is one.
 template <int D, class Attempt>
 auto with_fitting_precision(const Plc<D>& plc, const Attempt& attempt) {
   std::optional<Plc<D>> less;
@@ -99,6 +100,8 @@ auto with_fitting_precision(const Plc<D>& plc, const Attempt& attempt) {
     std::exception_ptr refused;
     try {
       return attempt(input);
+    } catch (const DiagnosedError&) {
+      throw;
     } catch (const InputError&) {
       refused = std::current_exception();
     }
