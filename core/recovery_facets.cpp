@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <unordered_map>
@@ -286,23 +287,25 @@ bool FacetPatches::split_triangles(EntityId facet, std::vector<Candidate> candid
   return any;
 }
 
+/// On both sides of each triangle. @pre none is missing
 void FacetPatches::mark(Mesh<3>::Pools& pools) {
-  WantedSimplices<3> faces;
+  const auto mark_face = [&](CellId c, int face, EntityId f) {
+    auto& k = mesh_->ensure_constraints(pools, c);
+    k.faces |= static_cast<std::uint8_t>(1 << face);
+    k.face_entity[face] = f;
+  };
   for (EntityId f = 0; f < triangles_.size(); ++f)
-    for (const Triangle& t : triangles_[f]) faces.add(t, f);
-  faces.index_by_first(mesh_->vertex_bound());
-  for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) {
-    const CellId c{i};
-    if (!mesh_->alive(c)) continue;
-    const auto v = mesh_->cell(c).vertices;
-    for (int f = 0; f < 4; ++f) {
-      const auto* face = faces.find({v[(f + 1) & 3], v[(f + 2) & 3], v[(f + 3) & 3]});
-      if (!face) continue;
-      auto& k = mesh_->ensure_constraints(pools, c);
-      k.faces |= static_cast<std::uint8_t>(1 << f);
-      k.face_entity[f] = face->entity;
+    for (std::size_t i = 0; i < triangles_[f].size(); ++i) {
+      const Triangle& t = triangles_[f][i];
+      const CellId c = seen_[f][i];
+      assert(has_corners(*mesh_, c, t));
+      const auto& v = mesh_->cell(c).vertices;
+      const auto is_other = [&](VertexId w) { return std::find(t.begin(), t.end(), w) == t.end(); };
+      const int face = static_cast<int>(std::find_if(v.begin(), v.end(), is_other) - v.begin());
+      const Link beyond = mesh_->cell(c).links[face];
+      mark_face(c, face, f);
+      mark_face(beyond.cell(), beyond.face(), f);
     }
-  }
 }
 
 }  // namespace pgdr::detail

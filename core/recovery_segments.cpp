@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "detail/named_points.hpp"
@@ -91,26 +92,32 @@ std::vector<EntityId> SegmentChains::take_changed() {
   return std::exchange(changed_, {});
 }
 
+/// In all cells at each subsegment, one after the other round it, from that in which it was seen. @pre none is missing
 void SegmentChains::mark(Mesh<3>::Pools& pools) {
-  WantedSimplices<2> edges;
   for (EntityId s = 0; s < chains_.size(); ++s)
-    for (std::size_t i = 1; i < chains_[s].size(); ++i)
-      edges.add({chains_[s][i - 1].vertex, chains_[s][i].vertex}, s);
-  edges.index_by_first(mesh_->vertex_bound());
-  for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) {
-    const CellId c{i};
-    if (!mesh_->alive(c)) continue;
-    const auto v = mesh_->cell(c).vertices;
-    for (int a = 0; a <= 3; ++a)
-      for (int b = a + 1; b <= 3; ++b) {
-        const auto* edge = edges.find({v[a], v[b]});
-        if (!edge) continue;
-        auto& k = mesh_->ensure_constraints(pools, c);
-        const int e = edge_of_ends[a][b];
-        k.edges |= static_cast<std::uint8_t>(1 << e);
-        k.edge_entity[e] = edge->entity;
-      }
-  }
+    for (std::size_t i = 1; i < chains_[s].size(); ++i) {
+      const VertexId a = chains_[s][i - 1].vertex, b = chains_[s][i].vertex;
+      const CellId first = chains_[s][i].seen;
+      assert(has_corners<2>(*mesh_, first, {a, b}));
+      CellId c = first;
+      VertexId behind = no_vertex;  // the way goes on through the face without it
+      do {
+        const auto& v = mesh_->cell(c).vertices;
+        int at_a = -1, at_b = -1, out = -1, next = -1;
+        for (int k = 0; k < 4; ++k) {
+          if (v[k] == a) at_a = k;
+          else if (v[k] == b) at_b = k;
+          else if (out < 0 && (behind == no_vertex || v[k] == behind)) out = k;
+          else next = k;
+        }
+        auto& constraints = mesh_->ensure_constraints(pools, c);
+        const int e = edge_of_ends[at_a][at_b];
+        constraints.edges |= static_cast<std::uint8_t>(1 << e);
+        constraints.edge_entity[e] = s;
+        behind = v[next];
+        c = mesh_->cell(c).links[out].cell();
+      } while (c != first);
+    }
 }
 
 }  // namespace pgdr::detail

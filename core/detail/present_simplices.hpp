@@ -103,9 +103,8 @@ class PresentSimplices {
   }
   void search() {
     const auto& items = wanted_.items();
-    is_corner_.resize(mesh_->vertex_bound());
-    for (const auto& item : items)
-      for (const VertexId v : item.vertices) is_corner_[index(v)] = true;
+    not_found_.resize(mesh_->vertex_bound(), 0);
+    for (const auto& item : items) ++not_found_[index(item.vertices[0])];
     if (anywhere_) {
       wanted_.index_by_first(mesh_->vertex_bound());
       for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) {
@@ -118,8 +117,7 @@ class PresentSimplices {
       for (const CellId c : changed_.list())
         if (mesh_->alive(c)) look_at(c);
     }
-    for (const auto& item : items)
-      for (const VertexId v : item.vertices) is_corner_[index(v)] = false;
+    for (const auto& item : items) not_found_[index(item.vertices[0])] = 0;
     for (std::size_t i = 1; i < items.size(); ++i)  // those asked for twice
       if (items[i].vertices == items[i - 1].vertices) *asked_[items[i].entity].seen = *asked_[items[i - 1].entity].seen;
   }
@@ -129,20 +127,22 @@ class PresentSimplices {
       if (v != infinite_vertex) met_vertices_ = std::max(met_vertices_, index(v) + 1);
   }
   void look_at(CellId c) {
-    const auto& v = mesh_->cell(c).vertices;
-    std::array<VertexId, 4> corners;
-    std::size_t n = 0;
-    for (const VertexId w : v)
-      if (index(w) < is_corner_.size() && is_corner_[index(w)]) corners[n++] = w;
-    if (n < K) return;
+    std::array<VertexId, 4> v = mesh_->cell(c).vertices;
+    std::sort(v.begin(), v.end());
     const auto note = [&](const std::array<VertexId, K>& vertices) {
-      if (const auto* item = wanted_.find(vertices)) *asked_[item->entity].seen = c;
+      const auto* item = wanted_.find(vertices);
+      if (item == nullptr) return;
+      CellId& seen = *asked_[item->entity].seen;
+      if (seen == not_seen) --not_found_[index(vertices[0])];
+      seen = c;
     };
-    for (std::size_t a = 0; a < n; ++a)
-      for (std::size_t b = a + 1; b < n; ++b) {
-        if constexpr (K == 2) note({corners[a], corners[b]});
-        else for (std::size_t d = b + 1; d < n; ++d) note({corners[a], corners[b], corners[d]});
+    for (std::size_t a = 0; a + K <= 4; ++a) {
+      if (index(v[a]) >= not_found_.size() || not_found_[index(v[a])] == 0) continue;
+      for (std::size_t b = a + 1; b < 4; ++b) {
+        if constexpr (K == 2) note({v[a], v[b]});
+        else for (std::size_t d = b + 1; d < 4; ++d) note({v[a], v[b], v[d]});
       }
+    }
   }
 
   const Mesh<3>* mesh_;
@@ -151,7 +151,7 @@ class PresentSimplices {
   std::uint32_t known_vertices_ = 0xffffffff;  ///< bound of those there were at the last look; all, at the first one
   std::uint32_t met_vertices_ = 0;             ///< bound of those met in cells
   WantedSimplices<K> wanted_;
-  std::vector<bool> is_corner_;  ///< by vertex, of one that is wanted; all false between looks
+  std::vector<std::uint32_t> not_found_;  ///< by vertex, of those that are wanted and have it first; 0 between looks
   std::vector<Asked> asked_;
   std::vector<std::uint32_t> first_;  ///< of each cell, its first watch, or none
   std::vector<Watch> watches_;
