@@ -48,7 +48,8 @@ struct Shape {
 /// The facets of a file that has not been looked at: points that do not exist, and facets of no area, are passed over.
 class FileFacets {
  public:
-  explicit FileFacets(const Plc<3>& plc) : plc_(plc), shapes_(plc.facets.size()) {
+  explicit FileFacets(const Plc<3>& plc) : plc_(plc), points_(plc.points), shapes_(plc.facets.size()) {
+    scale_points();
     find_distinct_points();
     for (std::uint32_t f = 0; f < shapes_.size(); ++f) add(f);
     std::sort(uses_.begin(), uses_.end());
@@ -81,11 +82,21 @@ class FileFacets {
  private:
   using Use = std::pair<std::array<std::uint32_t, 2>, std::uint32_t>;  // an edge, a facet
 
+  /// So that the largest coordinate is about one.
+  void scale_points() {
+    double largest = 0;
+    for (const Point3& p : points_)
+      for (const double x : p.x) largest = std::max(largest, std::fabs(x));
+    if (!(largest > 0)) return;
+    const int exponent = std::ilogb(largest);
+    for (Point3& p : points_)
+      for (double& x : p.x) x = std::ldexp(x, -exponent);
+  }
   /// Files that repeat points for every facet have neighbours, too.
   void find_distinct_points() {
-    std::vector<std::uint32_t> order(plc_.points.size());
+    std::vector<std::uint32_t> order(points_.size());
     std::iota(order.begin(), order.end(), 0u);
-    const auto& p = plc_.points;
+    const auto& p = points_;
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return lex_less(p[a], p[b]); });
     first_equal_.resize(order.size());
     for (std::size_t i = 0; i < order.size(); ++i)
@@ -95,7 +106,7 @@ class FileFacets {
     const auto& polygons = plc_.facets[f].polygons;
     for (const auto& polygon : polygons)
       for (const std::uint32_t v : polygon)
-        if (v >= plc_.points.size()) return;
+        if (v >= points_.size()) return;
     for (const auto& polygon : polygons) {
       if (polygon.size() < 3) continue;
       add_polygon(f, polygon);
@@ -108,11 +119,11 @@ class FileFacets {
   /// The largest polygon is the facet's shape.
   void add_polygon(std::uint32_t f, const std::vector<std::uint32_t>& polygon) {
     Shape shape;
-    const Point3& origin = shape.origin = plc_.points[polygon[0]];
+    const Point3& origin = shape.origin = points_[polygon[0]];
     shape.box = detail::Box<3>::around(origin);
     for (std::size_t i = 1; i < polygon.size(); ++i) {
-      shape.box.add(plc_.points[polygon[i]]);
-      const auto part = detail::cross(detail::difference(plc_.points[polygon[i - 1]], origin), detail::difference(plc_.points[polygon[i]], origin));
+      shape.box.add(points_[polygon[i]]);
+      const auto part = detail::cross(detail::difference(points_[polygon[i - 1]], origin), detail::difference(points_[polygon[i]], origin));
       for (std::size_t k = 0; k < 3; ++k) shape.normal[k] += part[k];
     }
     shape.area = std::sqrt(detail::dot(shape.normal, shape.normal)) / 2;
@@ -136,11 +147,12 @@ class FileFacets {
     double off = 0;
     for (const auto& polygon : plc_.facets[g].polygons)
       for (const std::uint32_t v : polygon)
-        off = std::max(off, std::fabs(detail::dot(shapes_[f].normal, detail::difference(plc_.points[v], origin))));
+        off = std::max(off, std::fabs(detail::dot(shapes_[f].normal, detail::difference(points_[v], origin))));
     return off / (2 * shapes_[f].area) / std::max(shapes_[f].magnitude(), shapes_[g].magnitude());
   }
 
   const Plc<3>& plc_;
+  std::vector<Point3> points_;              // scaled
   std::vector<std::uint32_t> first_equal_;  // of each point, one that stands for all in its place
   std::vector<Shape> shapes_;               // of each facet; area 0: not known
   std::vector<Use> uses_;                   // sorted

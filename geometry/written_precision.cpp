@@ -17,6 +17,7 @@ namespace pgdr {
 namespace {
 
 constexpr int exact_digits = 4;  // and less: as people choose coordinates
+constexpr int few_digits = 9;    // floats have them at most
 constexpr double of_floats = 0x1p-22;
 constexpr double most_off = 1e-5;        // of a face that looks planar
 constexpr double clearly_bent = 1e-3;    // distances from there on are not told apart
@@ -30,6 +31,41 @@ int significant_digits(double value) {
   char text[32];
   const std::string_view number(text, std::to_chars(text, text + sizeof text, value, std::chars_format::scientific).ptr);
   return static_cast<int>(std::ranges::count_if(number.substr(0, number.find('e')), [](char c) { return c >= '0' && c <= '9'; }));
+}
+
+/// Of the coordinates, times the power of two with which this is least (of those that make the largest 2^-40 to 2^40): a file that was
+/// scaled by a power of two has lost nothing. More than few_digits: that or more.
+int most_digits(std::span<const Point3> points) {
+  constexpr int farthest = 40;
+  double largest = 0;
+  for (const Point3& p : points)
+    for (const double c : p.x) largest = std::max(largest, std::fabs(c));
+  if (!(largest > 0) || !std::isfinite(largest)) return 0;
+  const int exponent = std::ilogb(largest);
+  int least = few_digits + 1;
+  const auto try_scale = [&](int scale) {
+    int most = 0;
+    for (const Point3& p : points)
+      for (const double c : p.x) {
+        most = std::max(most, significant_digits(std::ldexp(c, scale)));
+        if (most >= least) return;
+      }
+    least = most;
+  };
+  try_scale(0);  // most often it is that
+  for (int to = -farthest; to <= farthest && least > exact_digits; ++to) try_scale(to - exponent);
+  return least;
+}
+
+/// But for their exponents.
+bool are_floats(std::span<const Point3> points) {
+  int unused;
+  return std::ranges::all_of(points, [&](const Point3& p) {
+    return std::ranges::all_of(p.x, [&](double c) {
+      const double mantissa = std::frexp(c, &unused);
+      return static_cast<double>(static_cast<float>(mantissa)) == mantissa;
+    });
+  });
 }
 
 /// Of the facet's first triangle, its largest: four times the square of its area.
@@ -100,19 +136,12 @@ void set_precision_of_file(Plc<3>& plc) {
 }
 
 double written_precision(std::span<const Point3> points) {
-  int most = 0;
-  bool floats = true;
-  for (const Point3& p : points)
-    for (const double c : p.x) {
-      floats = floats && static_cast<double>(static_cast<float>(c)) == c;
-      if (most <= 9) most = std::max(most, significant_digits(c));
-      if (most > 9 && !floats) return Plc<3>{}.precision;
-    }
+  const int most = most_digits(points);
   switch (most) {
     case 5: return 1e-4;
     case 6: return 1e-5;
     case 7: return 1e-6;
-    default: return most <= exact_digits ? Plc<3>{}.precision : of_floats;
+    default: return most <= exact_digits || (most > few_digits && !are_floats(points)) ? Plc<3>{}.precision : of_floats;
   }
 }
 

@@ -147,12 +147,19 @@ TEST(Coplanar, ThePrecisionThatDigitsAllow) {
   const double rounding = Plc<3>{}.precision;
   EXPECT_EQ(written_precision({}), rounding);
   EXPECT_EQ(written_precision(std::vector<Point3>{{{0, 1, -2.25}}, {{1e-3, 1200, 0.1}}}), rounding);
-  EXPECT_EQ(written_precision(std::vector<Point3>{{{0, 1, 0.12345}}}), 1e-4);
-  EXPECT_EQ(written_precision(std::vector<Point3>{{{0, 1, 123.456}}}), 1e-5);
+  EXPECT_EQ(written_precision(std::vector<Point3>{{{0.71233, 1, 0.12347}}}), 1e-4);
+  EXPECT_EQ(written_precision(std::vector<Point3>{{{0, 0.171717, 123.457}}}), 1e-5);
   EXPECT_EQ(written_precision(std::vector<Point3>{{{0, 1, -1.234567e-9}}}), 1e-6);
   EXPECT_EQ(written_precision(std::vector<Point3>{{{0, 1, 1.23456789}}}), 0x1p-22);
   EXPECT_EQ(written_precision(std::vector<Point3>{{{0, 1, double{1.0f / 3}}}}), 0x1p-22);
   EXPECT_EQ(written_precision(std::vector<Point3>{{{0, double{1.0f / 3}, 1.0 / 3}}}), rounding);
+  EXPECT_EQ(written_precision(std::vector<Point3>{{{0, 0.015625, 1.359375}}}), rounding);  // 64ths
+  for (const int scale : {-300, -77, -1, 1, 10, 300}) {  // which takes nothing away
+    const auto scaled = [scale](double x) { return std::ldexp(x, scale); };
+    EXPECT_EQ(written_precision(std::vector<Point3>{{{0, scaled(1200), scaled(0.1)}}}), rounding) << scale;
+    EXPECT_EQ(written_precision(std::vector<Point3>{{{0, scaled(0.171717), scaled(123.457)}}}), 1e-5) << scale;
+    EXPECT_EQ(written_precision(std::vector<Point3>{{{0, 0, scaled(double{1.0f / 3})}}}), 0x1p-22) << scale;
+  }
 
   Plc<3> plc = turned(gridded_box(5), 0);
   for_each_point(plc, [](Point3& p) {

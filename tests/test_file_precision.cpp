@@ -139,6 +139,30 @@ TEST(FilePrecision, DigitsCountWhereTheyMakeNeedles) {
   }
 }
 
+// What is scaled by a power of two is meshed as it was, and the mesh scaled.
+TEST(FilePrecision, DigitsAreThoseOfScaledCopies) {
+  const test::TempFolder folder;
+  const Plc<3> plc = read_plc<3>(folder.put("pipe.off", off_of(turned_pipe(), 6)));
+  const OutputMesh<3> mesh = refine(plc, RefineOptions<3>{}).mesh;
+  for (const int scale : {-40, 3, 20}) {
+    Plc<3> scaled = with_default_precision(plc);
+    for (Point3& p : scaled.points)
+      for (double& x : p.x) x = std::ldexp(x, scale);
+    const Plc<3> again = read_plc<3>(folder.put("scaled.off", off_of(scaled, 17)));
+    EXPECT_EQ(again.precision, plc.precision) << scale;
+    EXPECT_TRUE(again.precision_of_file) << scale;
+    OutputMesh<3> copy = refine(again, RefineOptions<3>{}).mesh;
+    for (Point3& p : copy.points)
+      for (double& x : p.x) x = std::ldexp(x, -scale);
+    EXPECT_TRUE(copy.points == mesh.points && copy.cells == mesh.cells) << scale;
+  }
+  Plc<3> far = with_default_precision(plc);
+  for (Point3& p : far.points)
+    for (double& x : p.x) x = std::ldexp(x, 700);
+  set_precision_of_digits(far);
+  EXPECT_EQ(far.precision, plc.precision);
+}
+
 // Where there are too few digits to go by, or all of them; where the planar faces are planar; and where triangles are no needles.
 TEST(FilePrecision, DigitsDoNotCountElsewhere) {
   const test::TempFolder folder;
