@@ -150,11 +150,12 @@ std::uint64_t hilbert_index(std::array<std::uint32_t, 2> x) {
   return key;
 }
 
+/// @param unit  a power of two
 template <int D>
-std::uint64_t coordinate_hash(const Point<D>& p) {
+std::uint64_t coordinate_hash(const Point<D>& p, double unit) {
   std::uint64_t h = 0x9e3779b97f4a7c15u;
   for (int i = 0; i < D; ++i) {
-    h ^= std::bit_cast<std::uint64_t>(p[i] + 0.0);
+    h ^= std::bit_cast<std::uint64_t>(p[i] * unit + 0.0);
     h *= 0xbf58476d1ce4e5b9u;
     h ^= h >> 29;
   }
@@ -170,7 +171,9 @@ HilbertCurve<D>::HilbertCurve(std::span<const Point<D>> points) {
   const BoundingBox<D> box = bounding_box<D>(points);
   const double side = box.longest_side();
   corner_ = box.low;
-  if (side > 0 && std::isfinite(side)) scale_ = std::ldexp(1.0, bits_per_axis<D> - 1 - std::ilogb(side));
+  if (!(side > 0) || !std::isfinite(side)) return;
+  scale_ = std::ldexp(1.0, bits_per_axis<D> - 1 - std::ilogb(side));
+  unit_ = std::ldexp(1.0, -std::ilogb(side));
 }
 
 template <int D>
@@ -190,11 +193,12 @@ std::vector<std::uint32_t> insertion_order(std::span<const Point<D>> points) {
     std::uint32_t index;
   };
   const HilbertCurve<D> curve(points);
+  const double unit = curve.unit();  // the rounds of points that are scaled by a power of two are those of the points
   std::vector<Entry> entries(points.size());
   // The last round holds half of the points, the one before a quarter, ...
   const int rounds = std::max(1, static_cast<int>(std::bit_width(points.size() / 64)));
   for (std::uint32_t i = 0; i < points.size(); ++i) {
-    const int back = std::min(std::countr_zero(coordinate_hash(points[i]) | 1ull << 63), rounds - 1);
+    const int back = std::min(std::countr_zero(coordinate_hash(points[i], unit) | 1ull << 63), rounds - 1);
     entries[i] = {rounds - 1 - back, curve.key(points[i]), i};
   }
   std::sort(entries.begin(), entries.end(), [&](const Entry& a, const Entry& b) {

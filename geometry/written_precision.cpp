@@ -26,15 +26,20 @@ constexpr double allowance = 4;          // a plane that is fitted to many trian
 constexpr std::size_t least_part = 20;   // one of so many segments is between triangles of such a face, if there is one
 constexpr std::size_t within_gap = 20;   // and one distance in the gap for so many below it is an accident
 
-/// Of the shortest decimal number that is this double: d.ddde+xx.
+/// Of the shortest decimal number that is this double, d.ddde+xx, within what is rounded where units are changed; few_digits + 1: more.
 int significant_digits(double value) {
   char text[32];
-  const std::string_view number(text, std::to_chars(text, text + sizeof text, value, std::chars_format::scientific).ptr);
-  return static_cast<int>(std::ranges::count_if(number.substr(0, number.find('e')), [](char c) { return c >= '0' && c <= '9'; }));
+  const char* const end = std::to_chars(text, text + sizeof text, value, std::chars_format::scientific, few_digits - 1).ptr;
+  double rounded = 0;
+  std::from_chars(text, end, rounded);
+  if (!(std::fabs(rounded - value) <= 0x1p-51 * std::fabs(value))) return few_digits + 1;
+  const std::string_view number(text, end);
+  return static_cast<int>(std::ranges::count_if(number.substr(0, number.find_last_not_of('0', number.find('e') - 1) + 1),
+                                                [](char c) { return c >= '0' && c <= '9'; }));
 }
 
 /// Of the coordinates, times the power of two with which this is least (of those that make the largest 2^-40 to 2^40): a file that was
-/// scaled by a power of two has lost nothing. More than few_digits: that or more.
+/// scaled by a power of two has lost nothing.
 int most_digits(std::span<const Point3> points) {
   constexpr int farthest = 40;
   double largest = 0;

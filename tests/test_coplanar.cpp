@@ -154,6 +154,8 @@ TEST(Coplanar, ThePrecisionThatDigitsAllow) {
   EXPECT_EQ(written_precision(std::vector<Point3>{{{0, 1, double{1.0f / 3}}}}), 0x1p-22);
   EXPECT_EQ(written_precision(std::vector<Point3>{{{0, double{1.0f / 3}, 1.0 / 3}}}), rounding);
   EXPECT_EQ(written_precision(std::vector<Point3>{{{0, 0.015625, 1.359375}}}), rounding);  // 64ths
+  for (const double unit : {1e-3, 1e3, 1e-9})  // which rounds
+    EXPECT_EQ(written_precision(std::vector<Point3>{{{0, unit * 0.171717, unit * 123.457}}, {{unit * 0.300001, unit * 77.0703, unit * 0.999999}}}), 1e-5) << unit;
   for (const int scale : {-300, -77, -1, 1, 10, 300}) {  // which takes nothing away
     const auto scaled = [scale](double x) { return std::ldexp(x, scale); };
     EXPECT_EQ(written_precision(std::vector<Point3>{{{0, scaled(1200), scaled(0.1)}}}), rounding) << scale;

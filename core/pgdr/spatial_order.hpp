@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Hilbert keys, and the biased randomised insertion order (Amenta, Choi, Rote 2003): rounds of doubling size drawn by a
-// hash of the coordinates, each in Hilbert order. Functions of the coordinates alone; pure; any thread.
+// hash of the coordinates, each in Hilbert order. Functions of the coordinates alone, but for powers of two; pure; any thread.
 #pragma once
 
 #include <cstdint>
@@ -20,10 +20,11 @@ class HilbertCurve {
   /// The cube spans the bounding box of `points`, its side rounded up to a power of two.
   explicit HilbertCurve(std::span<const Point<D>> points);
   std::uint64_t key(const Point<D>& p) const;  ///< position along the curve
+  double unit() const { return unit_; }        ///< the power of two that makes the longest side of the box from one to two
 
  private:
   Point<D> corner_{};
-  double scale_ = 1;
+  double scale_ = 1, unit_ = 1;
 };
 
 /// A permutation of the indices of `points` in which to insert them.

@@ -17,7 +17,7 @@ namespace pgdr PGDR_API {
 /// A Plc::precision with which faces are planar that were so before their coordinates were rounded: 10^(1 - n) for coordinates
 /// of at most n significant digits, n from 5 to 7 (no coordinate is off by more than half of that times its size); 2^-22 for
 /// numbers of 8 or 9 digits, and for floats; else 2^-48, for rounding alone: coordinates of up to four digits count as exact. What is
-/// scaled by a power of two has the digits that it had.
+/// scaled by a power of two or of ten has the digits that it had, although the latter rounds.
 double written_precision(std::span<const Point3> points);
 
 /// Plc::precision by that, for files whose numbers are floats (.stl, and .ply if it says so). Theirs are rounded by so much more
