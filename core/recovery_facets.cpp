@@ -181,6 +181,7 @@ bool FacetPatches::recover_once(const std::function<bool()>& stop) {
   std::vector<std::pair<EntityId, std::vector<Candidate>>> missing;
   const std::vector<EntityId> due = find_present();
   look_again_.clear();
+  std::size_t triangles = 0;
   for (const EntityId f : due) {
     std::vector<Candidate> of_facet;
     for (std::size_t i = 0; i < triangles_[f].size(); ++i)
@@ -188,8 +189,10 @@ bool FacetPatches::recover_once(const std::function<bool()>& stop) {
         of_facet.push_back({equatorial_ball(mesh_->point(t[0]), mesh_->point(t[1]), mesh_->point(t[2])), t, 0});
     if (of_facet.empty()) continue;
     look_again_.push_back(f);
+    triangles += of_facet.size();
     missing.emplace_back(f, std::move(of_facet));
   }
+  trend_.note(triangles);
   for (auto& [f, candidates] : missing)
     if (!stop()) split_triangles(f, std::move(candidates));
   return !missing.empty();

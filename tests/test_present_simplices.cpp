@@ -103,11 +103,11 @@ void expect_as_all_cells_say(std::uint32_t seed) {
 }
 
 TEST(PresentSimplices, EdgesAsAllCellsSay) {
-  for (std::uint32_t seed = 0; seed < 8; ++seed) expect_as_all_cells_say<2>(seed);
+  for (std::uint32_t seed = 0; seed < 4; ++seed) expect_as_all_cells_say<2>(seed);
 }
 
 TEST(PresentSimplices, TrianglesAsAllCellsSay) {
-  for (std::uint32_t seed = 0; seed < 8; ++seed) expect_as_all_cells_say<3>(seed);
+  for (std::uint32_t seed = 0; seed < 4; ++seed) expect_as_all_cells_say<3>(seed);
 }
 
 }  // namespace pgdr::test_present_simplices

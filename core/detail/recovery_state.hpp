@@ -4,7 +4,10 @@
 // What boundary recovery works on; private to recovery*.cpp.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -28,6 +31,22 @@ struct Subsegment {
   double t;  ///< parameter of a on the segment
 };
 
+/// How many were missing, round by round.
+class MissingTrend {
+ public:
+  void note(std::size_t missing) {
+    most_ = std::max(most_, missing);
+    last_ = missing;
+    ++rounds_;
+  }
+  std::uint64_t rounds() const { return rounds_; }
+  bool is_falling() const { return last_ < most_; }  ///< there were more
+
+ private:
+  std::size_t most_ = 0, last_ = 0;
+  std::uint64_t rounds_ = 0;
+};
+
 /// 3D: the subsegments of every segment, and where to split them.
 class SegmentChains {
  public:
@@ -43,9 +62,12 @@ class SegmentChains {
   /// Splits every subsegment that is no edge of the mesh, until none is missing. False if `stop` says so.
   template <class Stop>
   bool recover(const Stop& stop) {
+    trend_ = {};
     for (bool again = true; again;) {
       again = false;
-      for (const Subsegment& s : missing()) {
+      const std::vector<Subsegment> list = missing();
+      trend_.note(list.size());
+      for (const Subsegment& s : list) {
         if (stop()) return false;
         again = split(s) != no_vertex || again;
       }
@@ -65,6 +87,7 @@ class SegmentChains {
   /// Segments whose chain has changed since the last call.
   std::vector<EntityId> take_changed();
   std::uint64_t points() const { return points_; }
+  const MissingTrend& trend() const { return trend_; }  ///< of the last recover()
   void mark(Mesh<3>::Pools& pools);
 
  private:
@@ -93,6 +116,7 @@ class SegmentChains {
   std::vector<EntityId> changed_;
   std::uint32_t round_ = 1;
   std::uint64_t points_ = 0;
+  MissingTrend trend_;
 };
 
 /// The triangulation of every facet in its plane.
@@ -106,6 +130,7 @@ class FacetPatches {
   /// `min_edge` comes of it. False if none was split. @pre none is missing
   bool improve_once(EarlySplits splits, double bound, double min_edge, const std::function<bool()>& stop);
   std::uint64_t points() const { return points_; }
+  const MissingTrend& trend() const { return trend_; }
   void mark(Mesh<3>::Pools& pools);
   std::size_t inner_points(EntityId facet) const { return inner_points_[facet].size(); }  ///< Steiner points inside the facet
 
@@ -146,6 +171,7 @@ class FacetPatches {
   std::vector<EarlySplits> calm_;  ///< of each facet, the least that names it; `none` if nothing does
   std::vector<std::array<VertexId, 2>> fragile_;  ///< sorted: edges at triangles so flat that rounding may turn them over
   std::uint64_t points_ = 0;
+  MissingTrend trend_;
 };
 
 }  // namespace pgdr::detail
