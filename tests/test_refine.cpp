@@ -13,7 +13,9 @@
 #include <stdexcept>
 
 #include "pgdr/insertion_rule.hpp"
+#include "pgdr/io.hpp"
 #include "pgdr/quality.hpp"
+#include "planar_plcs.hpp"
 #include "refined_models.hpp"
 #include "sanitized.hpp"
 
