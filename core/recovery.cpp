@@ -16,8 +16,8 @@ namespace {
 
 /// Recovery by Steiner points on facets need not end where facets meet at small angles or nearly touch: past this many points it is
 /// given up with a typed error, unless less is missing than was before. (Between two faces 1e-9 apart 1.85 times as many triangles
-/// are missing round by round; in a terrain with facets at a tenth of a degree it is twice as many segments, until there are 500
-/// points for one of the input, and a quarter from there on.)
+/// are missing round by round; in a terrain with facets at a tenth of a degree it is twice as many segments, until there are 300
+/// points for one of the input, and soon a third from there on.)
 std::uint64_t most_points(std::size_t input_points) {
   return 200000 + 100 * std::uint64_t{input_points} + std::min<std::uint64_t>(300 * std::uint64_t{input_points}, 1500000);
 }

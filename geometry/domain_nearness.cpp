@@ -3,11 +3,12 @@
 //
 // A quick look at whether it is worth while to join what is near (domain_near.cpp): one tree over the pieces of an input, and its
 // points looked up in that.
-#include <algorithm>
-#include <cmath>
+#include <array>
+#include <vector>
 
 #include "detail/box_tree.hpp"
-#include "detail/vectors.hpp"
+#include "detail/entity_distance.hpp"
+#include "detail/unit_scale.hpp"
 #include "pgdr/domain.hpp"
 
 namespace pgdr {
@@ -31,41 +32,13 @@ std::vector<Corners> pieces_of(const Domain<3>& domain) {
   return pieces;
 }
 
-double squared_distance_to_edge(const Point3& p, const Point3& a, const Point3& b) {
-  const auto along = detail::difference(b, a), to = detail::difference(p, a);
-  const double square = detail::dot(along, along);
-  const double t = square > 0 ? std::clamp(detail::dot(to, along) / square, 0.0, 1.0) : 0;
-  double sum = 0;
-  for (std::size_t k = 0; k < 3; ++k) sum += (to[k] - t * along[k]) * (to[k] - t * along[k]);
-  return sum;
-}
-
-/// Is p within `width` of the inside of the triangle, looked at along its normal?
-bool is_over(const Point3& p, const Point3& a, const Point3& b, const Point3& c, double width) {
-  const auto n = detail::cross(detail::difference(b, a), detail::difference(c, a));
-  const double height = detail::dot(n, detail::difference(p, a));
-  if (!(height * height <= width * width * detail::dot(n, n))) return false;
-  const auto is_inside = [&](const Point3& u, const Point3& v) {
-    return detail::dot(detail::cross(detail::difference(v, u), detail::difference(p, u)), n) >= 0;
-  };
-  return is_inside(a, b) && is_inside(b, c) && is_inside(c, a);
-}
-
 }  // namespace
 
 bool may_join(const Domain<3>& domain, double within) {
-  double largest = 0;
-  for (const Point3& p : domain.points())
-    for (const double x : p.x) largest = std::max(largest, std::fabs(x));
-  if (!(largest > 0)) return true;
-  // In units that neither overflow nor underflow.
-  const int exponent = std::clamp(std::ilogb(largest), -1000, 1000);
-  std::vector<Point3> points(domain.points().begin(), domain.points().end());
-  for (Point3& p : points)
-    for (double& x : p.x) x = std::ldexp(x, -exponent);
-  const double width = 2 * within * std::ldexp(largest, -exponent);  // for the rounding here
+  const std::vector<Point3> points = detail::in_unit_scale(domain.points());
+  const double width = 2 * within * detail::largest_coordinate(points);  // twice, for the rounding here
   for (const DomainSegment& s : domain.segments())
-    if (squared_distance_to_edge(points[s.points[0]], points[s.points[1]], points[s.points[1]]) <= width * width) return true;
+    if (squared_distance(points[s.points[0]], points[s.points[1]]) <= width * width) return true;
 
   const std::vector<Corners> pieces = pieces_of(domain);
   std::vector<detail::Box<3>> boxes;
@@ -87,9 +60,10 @@ bool may_join(const Domain<3>& domain, double within) {
       const auto& [a, b, c] = pieces[i];
       if (found || v == a || v == b || v == c) return;
       const Point3& p = points[v];
-      const bool has_edge = b != no_entity, has_side = c != no_entity;
-      const auto is_at = [&](std::uint32_t u, std::uint32_t w) { return squared_distance_to_edge(p, points[u], points[w]) <= width * width; };
-      found = has_side ? is_at(a, b) || is_at(b, c) || is_at(c, a) || is_over(p, points[a], points[b], points[c], width) : is_at(a, has_edge ? b : a);
+      const double square = c != no_entity   ? detail::squared_distance_to_triangle(points[a], points[b], points[c], p)
+                            : b != no_entity ? detail::squared_distance_to_edge<3>(points[a], points[b], p)
+                                             : squared_distance(points[a], p);
+      found = square <= width * width;
     });
   return found;
 }

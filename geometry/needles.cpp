@@ -11,6 +11,7 @@
 
 #include "detail/box_tree.hpp"
 #include "detail/disjoint_sets.hpp"
+#include "detail/unit_scale.hpp"
 #include "detail/vectors.hpp"
 #include "pgdr/plc.hpp"
 #include "pgdr/written_precision.hpp"
@@ -48,8 +49,7 @@ struct Shape {
 /// The facets of a file that has not been looked at: points that do not exist, and facets of no area, are passed over.
 class FileFacets {
  public:
-  explicit FileFacets(const Plc<3>& plc) : plc_(plc), points_(plc.points), shapes_(plc.facets.size()) {
-    scale_points();
+  explicit FileFacets(const Plc<3>& plc) : plc_(plc), points_(detail::in_unit_scale(plc.points)), shapes_(plc.facets.size()) {
     find_distinct_points();
     for (std::uint32_t f = 0; f < shapes_.size(); ++f) add(f);
     std::sort(uses_.begin(), uses_.end());
@@ -82,16 +82,6 @@ class FileFacets {
  private:
   using Use = std::pair<std::array<std::uint32_t, 2>, std::uint32_t>;  // an edge, a facet
 
-  /// So that the largest coordinate is about one.
-  void scale_points() {
-    double largest = 0;
-    for (const Point3& p : points_)
-      for (const double x : p.x) largest = std::max(largest, std::fabs(x));
-    if (!(largest > 0)) return;
-    const int exponent = std::ilogb(largest);
-    for (Point3& p : points_)
-      for (double& x : p.x) x = std::ldexp(x, -exponent);
-  }
   /// Files that repeat points for every facet have neighbours, too.
   void find_distinct_points() {
     std::vector<std::uint32_t> order(points_.size());

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "detail/domain_builder.hpp"
+#include "detail/unit_scale.hpp"
 #include "detail/vectors.hpp"
 #include "pgdr/error.hpp"
 #include "pgdr/plc.hpp"
@@ -42,9 +43,7 @@ int significant_digits(double value) {
 /// scaled by a power of two has lost nothing.
 int most_digits(std::span<const Point3> points) {
   constexpr int farthest = 40;
-  double largest = 0;
-  for (const Point3& p : points)
-    for (const double c : p.x) largest = std::max(largest, std::fabs(c));
+  const double largest = detail::largest_coordinate(points);
   if (!(largest > 0) || !std::isfinite(largest)) return 0;
   const int exponent = std::ilogb(largest);
   int least = few_digits + 1;
