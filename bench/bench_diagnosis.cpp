@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // How the diagnosis of an input grows with it: a bumpy torus, and two that run through each other, which have many pairs of
-// triangles to find. Least of some runs, on one thread; a JSON object with --json. Exit code 1 if the first is refused or
+// triangles to find. Least of some runs; a JSON object with --json. Exit code 1 if the first is refused or
 // the second is not.
 //
-//   bench_diagnosis [--triangles 10000,30000,100000,300000,1000000] [--repeat 3] [--json]
+//   bench_diagnosis [--triangles 10000,30000,100000,300000,1000000] [--repeat 3] [--threads 0] [--json]
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -17,6 +17,8 @@
 #include <string>
 #include <vector>
 
+#include <tbb/task_arena.h>
+
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/plc.hpp"
 
@@ -27,6 +29,7 @@ using namespace pgdr;
 struct Arguments {
   std::vector<int> triangles{10000, 30000, 100000, 300000, 1000000};
   int repeat = 3;
+  int threads = 0;  // all
   bool json = false;
 };
 
@@ -45,6 +48,7 @@ Arguments parse(int argc, char** argv) {
     }
     if (++i == argc) usage("a flag lacks its value");
     if (flag == "--repeat") a.repeat = std::max(1, std::atoi(argv[i]));
+    else if (flag == "--threads") a.threads = std::max(0, std::atoi(argv[i]));
     else if (flag == "--triangles") {
       a.triangles.clear();
       for (const char* p = argv[i]; *p; p += std::strcspn(p, ","), p += *p == ',') a.triangles.push_back(std::atoi(p));
@@ -109,6 +113,7 @@ Row time(const Plc<3>& plc, int repeat) {
 
 int main(int argc, char** argv) {
   const Arguments a = parse(argc, argv);
+  tbb::task_arena arena(a.threads > 0 ? a.threads : tbb::task_arena::automatic);
   bool good = true;
   const char* separator = "";
   if (a.json) std::printf("{\"rows\": [");
@@ -116,7 +121,7 @@ int main(int argc, char** argv) {
                    "pairs found");
   for (const int triangles : a.triangles)
     for (const Surface& s : surfaces(triangles)) {
-      const Row row = time(s.plc, a.repeat);
+      const Row row = arena.execute([&] { return time(s.plc, a.repeat); });
       const std::size_t n = s.plc.facets.size();
       good = good && (row.errors == 0) == s.sound && (row.pairs == 0) == s.sound;
       if (a.json)

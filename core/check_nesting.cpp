@@ -7,13 +7,13 @@
 #include <algorithm>
 #include <set>
 
+#include "detail/check_findings.hpp"
 #include "detail/check_input.hpp"
 #include "detail/disjoint_sets.hpp"
 
 namespace pgdr::checking {
 namespace {
 
-constexpr std::uint32_t none = 0xffffffffu;
 using Neighbours = std::vector<std::set<std::uint32_t>>;
 
 /// A breadth-first tree of the volumes from the outside; its edges go by their ends away from the outside.

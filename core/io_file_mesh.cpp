@@ -14,8 +14,8 @@
 namespace pgdr::detail {
 namespace {
 
-[[noreturn]] void fail(const FileMesh& mesh, Errc code, std::string message, std::uint64_t line) {
-  throw InputError(Diagnostic{code, std::move(message), mesh.file, line, {}, {}});
+[[noreturn]] void fail(const FileMesh& mesh, Errc code, const std::string& message, std::uint64_t line) {
+  throw InputError(Diagnostic{code, message, mesh.file, line, {}, {}});
 }
 
 void require_dimension(const FileMesh& mesh, int wanted) {

@@ -333,8 +333,8 @@ class PlyReader {
   }
 
   /// An error of the header.
-  [[noreturn]] void fail(const Element& e, Errc code, std::string message) const {
-    throw InputError(Diagnostic{code, std::move(message), plc_.source.file, e.line, {}, {}});
+  [[noreturn]] void fail(const Element& e, Errc code, const std::string& message) const {
+    throw InputError(Diagnostic{code, message, plc_.source.file, e.line, {}, {}});
   }
 
   /// The column of a property that must be there, and be a list of integers or a number.

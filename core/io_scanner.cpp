@@ -223,11 +223,10 @@ void LineScanner::fail_at(Errc code, Subject s, std::string_view token, std::str
   fail(code, quoted(token) + std::string(why) + described(s), ids_of(s));
 }
 
-void LineScanner::fail(Errc code, std::string message, std::vector<std::int64_t> ids) const {
+void LineScanner::fail(Errc code, const std::string& message, const std::vector<std::int64_t>& ids) const {
   // Counted anew, since `bytes` counts none.
   const auto ends = std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(pos_), '\n');
-  throw InputError(
-      Diagnostic{code, std::move(message), file_, static_cast<std::uint64_t>(ends) + 1, std::move(ids), {}});
+  throw InputError(Diagnostic{code, message, file_, static_cast<std::uint64_t>(ends) + 1, ids, {}});
 }
 
 }  // namespace pgdr::detail

@@ -76,8 +76,9 @@ bool starts_with_solid(std::string_view text) {
   return true;
 }
 
-[[noreturn]] void fail_binary(const Plc<3>& plc, Errc code, std::string message, std::vector<std::int64_t> ids = {}) {
-  throw InputError(Diagnostic{code, std::move(message), plc.source.file, 0, std::move(ids), {}});
+[[noreturn]] void fail_binary(const Plc<3>& plc, Errc code, const std::string& message,
+                              const std::vector<std::int64_t>& ids = {}) {
+  throw InputError(Diagnostic{code, message, plc.source.file, 0, ids, {}});
 }
 
 void check_binary_size(std::string_view text, const Plc<3>& plc) {

@@ -71,8 +71,8 @@ class HeadReader {
     return std::move(head_);
   }
 
-  [[noreturn]] void fail(Errc code, std::string message, std::uint64_t line) const {
-    throw InputError(Diagnostic{code, std::move(message), file_, line, {}, {}});
+  [[noreturn]] void fail(Errc code, const std::string& message, std::uint64_t line) const {
+    throw InputError(Diagnostic{code, message, file_, line, {}, {}});
   }
 
  private:

@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <new>
 
+#include "detail/huge_pages.hpp"
+
 namespace pgdr {
 namespace {
 
@@ -19,14 +21,6 @@ constexpr std::size_t bytes_an_element = 200;  // what a mesh reserves for each 
 constexpr std::size_t rounded_up(std::size_t bytes, std::size_t unit) { return (bytes + unit - 1) / unit * unit; }
 
 }  // namespace
-
-void ask_for_huge_pages(void* memory, std::size_t bytes) {
-#ifdef MADV_HUGEPAGE
-  const auto address = reinterpret_cast<std::uintptr_t>(memory);
-  const std::uintptr_t first = rounded_up(address, huge_page), last = (address + bytes) / huge_page * huge_page;
-  if (first < last) madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
-#endif
-}
 
 void touch_pages(std::span<std::byte> fresh) {
   constexpr std::size_t smallest_page = 4096;
@@ -51,7 +45,7 @@ void ReservedMemory::grow(std::size_t bytes) {
   std::size_t wanted = std::max({bytes, usable + usable / 8, first_step});
   wanted = std::min(rounded_up(wanted, wanted < huge_page ? first_step : huge_page), reserved_);
   if (mprotect(base_ + usable, wanted - usable, PROT_READ | PROT_WRITE) != 0) throw std::bad_alloc();
-  if (wanted > huge_page) ask_for_huge_pages(base_ + usable, wanted - usable);
+  if (wanted > huge_page) detail::ask_for_huge_pages(base_ + usable, wanted - usable);
   usable_.store(wanted, std::memory_order_release);
 }
 

@@ -135,6 +135,27 @@ void BoxTree<D>::find_anchors(std::span<const Corners> corners, std::span<const 
 }
 
 template <int D>
+void BoxTree<D>::append_children(const NodePair& pair, std::vector<NodePair>& out) const {
+  const auto [a, b] = pair;
+  if (a == b) out.insert(out.end(), {{2 * a, 2 * a}, {2 * a, 2 * a + 1}, {2 * a + 1, 2 * a + 1}});
+  else if (!apart(a, b))
+    out.insert(out.end(), {{2 * a, 2 * b}, {2 * a, 2 * b + 1}, {2 * a + 1, 2 * b}, {2 * a + 1, 2 * b + 1}});
+}
+
+/// As many parts as keep some dozen threads busy though one may take a hundred times as long as another.
+template <int D>
+auto BoxTree<D>::pairs_of_some_level() const -> std::vector<NodePair> {
+  constexpr std::size_t enough = 1024;
+  std::vector<NodePair> level{{1, 1}}, next;
+  while (!level.empty() && level.size() < enough && !is_leaf(level.front()[0])) {
+    next.clear();
+    for (const NodePair& pair : level) append_children(pair, next);
+    level.swap(next);
+  }
+  return level;
+}
+
+template <int D>
 Point<D> BoxTree<D>::farthest(const Hull& h, const Point<D>& direction) {
   Point<D> p;
   double at_box = 0, at_apex = 0;

@@ -103,7 +103,7 @@ void Diagnoser<D>::collect_triangles() {
     for (std::uint32_t t = 0; t < triangles_.size(); ++t)
       for (std::size_t i = 0; i < 3; ++i)
         uses_.push_back({key(triangles_[t].corners[i], triangles_[t].corners[(i + 1) % 3]), t});
-    stop_check_.sort(uses_);
+    stop_check_.sort(bulk_, uses_);
   }
 }
 

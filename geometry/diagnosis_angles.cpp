@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <mutex>
 #include <numbers>
 
 #include "detail/diagnoser.hpp"
@@ -65,16 +66,24 @@ std::string in_words(double angle) {
 
 template <int D>
 void Diagnoser<D>::find_angles() {
-  below_60_ = segment_facet_90_ = facets_90_ = Least<Angle>(options_.most_listed);
   segments_at_points();
   if constexpr (D == 3) corners_at_points();
-  for (std::uint32_t v = 0; v < p_.size(); ++v) {
-    stop_check_();
-    note_segment_angles(v);
-    if constexpr (D == 3) note_facet_angles(v);
-  }
-  if constexpr (D == 3) facets_at_segments();
-  report_angles();
+  Angles all(options_.most_listed);
+  std::mutex mutex;
+  bulk_.blocks(p_.size(), [&](std::size_t first, std::size_t last) {
+    Angles found(options_.most_listed);
+    for (std::size_t v = first; v < last; ++v) {
+      stop_check_();
+      note_segment_angles(static_cast<std::uint32_t>(v), found);
+      if constexpr (D == 3) note_facet_angles(static_cast<std::uint32_t>(v), found);
+    }
+    const std::lock_guard lock(mutex);  // in any order: the least of all are the least of all
+    all.below_60.add(found.below_60);
+    all.segment_facet_90.add(found.segment_facet_90);
+  });
+  stop_check_();
+  if constexpr (D == 3) facets_at_segments(all);
+  report_angles(all);
 }
 
 template <int D>
@@ -91,7 +100,7 @@ void Diagnoser<D>::corners_at_points() requires(D == 3) {
 }
 
 template <int D>
-void Diagnoser<D>::note_segment_angles(std::uint32_t v) {
+void Diagnoser<D>::note_segment_angles(std::uint32_t v, Angles& found) const {
   const auto here = std::span(segment_at_).subspan(segment_begin_[v], segment_begin_[v + 1] - segment_begin_[v]);
   const std::size_t n = std::min(here.size(), most_at_a_point);
   const auto far_end = [&](EntityId s) {
@@ -102,13 +111,13 @@ void Diagnoser<D>::note_segment_angles(std::uint32_t v) {
     for (std::size_t j = i + 1; j < n; ++j) {
       const auto [a, b] = std::minmax({far_end(here[i]), far_end(here[j])});
       if (angle_below_60<D>(p_[v], p_[a], p_[b]))
-        below_60_.add({sine2(direction<D>(p_[v], p_[a]), direction<D>(p_[v], p_[b])), {v, a, b, 0}});
+        found.below_60.add({sine2(direction<D>(p_[v], p_[a]), direction<D>(p_[v], p_[b])), {v, a, b, 0}});
     }
 }
 
 // The corners at a point are in the order of their facets.
 template <int D>
-void Diagnoser<D>::note_facet_angles(std::uint32_t v) requires(D == 3) {
+void Diagnoser<D>::note_facet_angles(std::uint32_t v, Angles& found) const requires(D == 3) {
   const auto segments = std::span(segment_at_).subspan(segment_begin_[v], segment_begin_[v + 1] - segment_begin_[v]);
   const auto corners = std::span(corner_at_).subspan(corner_begin_[v], corner_begin_[v + 1] - corner_begin_[v]);
   for (const EntityId s : segments.first(std::min(segments.size(), most_at_a_point))) {
@@ -130,13 +139,13 @@ void Diagnoser<D>::note_facet_angles(std::uint32_t v) requires(D == 3) {
             sine2_to_corner(r, direction<D>(p_[v], p_[b]), direction<D>(p_[v], p_[c]), near_b, near_c);
         if (sine2 < least.sine2) least = {sine2, {v, end, t.origin.facet, 0}};
       }
-      if (least.sine2 <= 1) segment_facet_90_.add(least);
+      if (least.sine2 <= 1) found.segment_facet_90.add(least);
     }
   }
 }
 
 template <int D>
-void Diagnoser<D>::facets_at_segments() requires(D == 3) {
+void Diagnoser<D>::facets_at_segments(Angles& found) const requires(D == 3) {
   for (std::size_t begin = 0, n; begin < uses_.size(); begin += n) {
     const auto uses = uses_at(begin);
     n = uses.size();
@@ -154,13 +163,13 @@ void Diagnoser<D>::facets_at_segments() requires(D == 3) {
         const Vector e = direction<D>(p_[a], p_[b]);
         const Vector u = cross(e, direction<D>(p_[a], p_[c])), w = cross(e, direction<D>(p_[a], p_[d]));
         const auto [f, g] = std::minmax(s.origin.facet, t.origin.facet);
-        facets_90_.add({sine2(u, w), {a, b, f, g}});
+        found.facets_90.add({sine2(u, w), {a, b, f, g}});
       }
   }
 }
 
 template <int D>
-void Diagnoser<D>::report_angles() {
+void Diagnoser<D>::report_angles(const Angles& found) {
   using At = std::array<std::uint32_t, 4>;
   struct Account {
     std::string words;
@@ -168,25 +177,25 @@ void Diagnoser<D>::report_angles() {
     Ids ids;
     std::vector<Point<D>> where;
   };
-  const auto report = [this](Finding kind, const Least<Angle>& found, auto account) {
-    out_[kind].count = found.count();
-    for (const auto& [s2, at] : found.kept()) {
+  const auto report = [this](Finding kind, const Least<Angle>& least, auto account) {
+    out_[kind].count = least.count();
+    for (const auto& [s2, at] : least.kept()) {
       const double angle = degrees(s2);
       Account a = account(at, in_words(angle) + " degrees");
       list(kind, Errc::small_angle, std::move(a.words), a.line, std::move(a.ids), a.where, angle);
     }
   };
-  report(Finding::segments_below_60, below_60_, [this](const At& at, const std::string& angle) -> Account {
+  report(Finding::segments_below_60, found.below_60, [this](const At& at, const std::string& angle) -> Account {
     return {"the segments from point " + point_words(at[0]) + " to points " + point_words(at[1]) + " and " +
                 point_words(at[2]) + " meet at " + angle,
             point_line(at[0]), {point_number(at[0]), point_number(at[1]), point_number(at[2])}, {p_[at[0]]}};
   });
-  report(Finding::segment_facet_below_90, segment_facet_90_, [this](const At& at, const std::string& angle) -> Account {
+  report(Finding::segment_facet_below_90, found.segment_facet_90, [this](const At& at, const std::string& angle) -> Account {
     return {"the segment from point " + point_words(at[0]) + " to " + point_words(at[1]) + " meets facet " +
                 facet_words(at[2]) + " at " + angle,
             facet_line(at[2]), {point_number(at[0]), point_number(at[1]), number(at[2])}, {p_[at[0]]}};
   });
-  report(Finding::facets_below_90, facets_90_, [this](const At& at, const std::string& angle) -> Account {
+  report(Finding::facets_below_90, found.facets_90, [this](const At& at, const std::string& angle) -> Account {
     return {"facets " + facet_words(at[2]) + " and " + facet_words(at[3]) + " meet at " + angle + " at the edge " +
                 edge_words({at[0], at[1]}),
             facet_line(at[2]), {number(at[2]), number(at[3]), point_number(at[0]), point_number(at[1])},

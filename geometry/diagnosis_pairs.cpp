@@ -36,11 +36,19 @@ void Diagnoser<D>::find_meetings() {
   std::vector<std::array<std::uint32_t, 3>> corners;
   corners.reserve(pieces_.size());
   for (const Piece& piece : pieces_) corners.push_back(piece.corners);
-  BoxTree<D>(corners, p_).self_pairs([this](std::uint32_t i, std::uint32_t j) { note(i, j); });
-  report_meetings(facet_facet_, 3, 3);
-  report_meetings(segment_facet_, 2, 3);
-  report_meetings(segment_segment_, 2, 2);
-  report_resting();
+  const auto parts = BoxTree<D>(corners, p_).template self_pairs_in_parts<Meetings>(
+      bulk_, [this](std::uint32_t i, std::uint32_t j, Meetings& found) { note(i, j, found); });
+  stop_check_();
+  const auto all = [&](auto Meetings::*list) {
+    auto joined = parts.front().*list;
+    for (const Meetings& part : std::span(parts).subspan(1))
+      joined.insert(joined.end(), (part.*list).begin(), (part.*list).end());
+    return joined;
+  };
+  report_meetings(all(&Meetings::facet_facet), 3, 3);
+  report_meetings(all(&Meetings::segment_facet), 2, 3);
+  report_meetings(all(&Meetings::segment_segment), 2, 2);
+  report_resting(all(&Meetings::resting));
 }
 
 /// Input facet of a triangle, domain segment of a segment.
@@ -51,7 +59,7 @@ std::uint32_t Diagnoser<D>::owner(std::uint32_t piece) const {
 }
 
 template <int D>
-void Diagnoser<D>::note(std::uint32_t i, std::uint32_t j) {
+void Diagnoser<D>::note(std::uint32_t i, std::uint32_t j, Meetings& found) const {
   stop_check_();
   bool same_plane = false;
   if (j < triangles_.size()) {
@@ -61,18 +69,20 @@ void Diagnoser<D>::note(std::uint32_t i, std::uint32_t j) {
   }
   const Contact c = contact<D>(p_, pieces_[i], pieces_[j], same_plane);
   if (c.kind == Contact::Kind::none) return;
-  for (const Contact::Corner& corner : c.corners) note_resting(corner, corner.of_second ? i : j);
+  for (const Contact::Corner& corner : c.corners) found.resting.push_back(resting(corner, corner.of_second ? i : j));
   if (c.kind == Contact::Kind::touch) return;
   std::uint32_t a = i, b = j;  // triangles come first; segments are named before facets
   if (pieces_[a].count > pieces_[b].count) std::swap(a, b);
   if (pieces_[a].count == pieces_[b].count && owner(a) > owner(b)) std::swap(a, b);
-  auto& meetings = pieces_[a].count == 3 ? facet_facet_ : pieces_[b].count == 3 ? segment_facet_ : segment_segment_;
+  auto& meetings = pieces_[a].count == 3   ? found.facet_facet
+                   : pieces_[b].count == 3 ? found.segment_facet
+                                           : found.segment_segment;
   meetings.push_back({owner(a), owner(b), {a, b}, c.kind == Contact::Kind::overlap});
 }
 
 // On an edge: unless it is a diagonal inside of one input facet, which the input does not have.
 template <int D>
-void Diagnoser<D>::note_resting(const Contact::Corner& corner, std::uint32_t on_piece) {
+auto Diagnoser<D>::resting(const Contact::Corner& corner, std::uint32_t on_piece) const -> Resting {
   bool on_edge = corner.edge[0] != no_entity;
   if (on_edge && on_piece < triangles_.size() && !is_segment(corner.edge)) {
     const EdgeUse wanted{key(corner.edge[0], corner.edge[1]), 0};
@@ -82,14 +92,12 @@ void Diagnoser<D>::note_resting(const Contact::Corner& corner, std::uint32_t on_
       return triangles_[u.triangle].origin.facet != owner(on_piece);
     });
   }
-  if (on_edge)
-    resting_.push_back({corner.point, std::min(corner.edge[0], corner.edge[1]), std::max(corner.edge[0], corner.edge[1])});
-  else
-    resting_.push_back({corner.point, owner(on_piece), no_entity});
+  if (!on_edge) return {corner.point, owner(on_piece), no_entity};
+  return {corner.point, std::min(corner.edge[0], corner.edge[1]), std::max(corner.edge[0], corner.edge[1])};
 }
 
 template <int D>
-void Diagnoser<D>::report_meetings(std::vector<Meeting>& meetings, std::size_t first_corners,
+void Diagnoser<D>::report_meetings(std::vector<Meeting> meetings, std::size_t first_corners,
                                    std::size_t second_corners) {
   std::sort(meetings.begin(), meetings.end());
   for (std::size_t begin = 0, end; begin < meetings.size(); begin = end) {
@@ -146,10 +154,9 @@ void Diagnoser<D>::list_meeting(std::span<const Meeting> same, std::size_t first
 }
 
 template <int D>
-void Diagnoser<D>::report_resting() {
-  std::sort(resting_.begin(), resting_.end());
-  resting_.erase(std::unique(resting_.begin(), resting_.end()), resting_.end());
-  for (const Resting& r : resting_) {
+void Diagnoser<D>::report_resting(std::vector<Resting> resting) {
+  make_set(resting);
+  for (const Resting& r : resting) {
     const Finding kind = r.second == no_entity ? Finding::point_on_facet : Finding::point_on_segment;
     ++out_[kind].count;
     if (wants_more(kind)) list_resting(r);

@@ -79,15 +79,15 @@ std::string DomainBuilder<D>::point_words(std::uint32_t v) const {
 
 template <int D>
 void DomainBuilder<D>::fail(Errc code, const std::string& message, const std::vector<std::uint32_t>& lines,
-                            std::size_t item, std::vector<std::int64_t> ids,
-                            std::vector<std::array<double, 3>> where) const {
+                            std::size_t item, const std::vector<std::int64_t>& ids,
+                            const std::vector<std::array<double, 3>>& where) const {
   Diagnostic d;
   d.code = code;
   d.message = message;
   d.file = plc_.source.file;
   d.line = item < lines.size() ? lines[item] : 0;
-  d.ids = std::move(ids);
-  d.points = std::move(where);
+  d.ids = ids;
+  d.points = where;
   throw InputError(std::move(d));
 }
 
@@ -197,10 +197,10 @@ template std::string DomainBuilder<2>::point_words(std::uint32_t) const;
 template std::string DomainBuilder<3>::point_words(std::uint32_t) const;
 using Lines = std::vector<std::uint32_t>;
 using Ids = std::vector<std::int64_t>;
-template void DomainBuilder<2>::fail(Errc, const std::string&, const Lines&, std::size_t, Ids,
-                                     std::vector<std::array<double, 3>>) const;
-template void DomainBuilder<3>::fail(Errc, const std::string&, const Lines&, std::size_t, Ids,
-                                     std::vector<std::array<double, 3>>) const;
+template void DomainBuilder<2>::fail(Errc, const std::string&, const Lines&, std::size_t, const Ids&,
+                                     const std::vector<std::array<double, 3>>&) const;
+template void DomainBuilder<3>::fail(Errc, const std::string&, const Lines&, std::size_t, const Ids&,
+                                     const std::vector<std::array<double, 3>>&) const;
 template void DomainBuilder<2>::warn(Errc, const std::string&, const Lines&, std::size_t, Ids);
 template void DomainBuilder<3>::warn(Errc, const std::string&, const Lines&, std::size_t, Ids);
 

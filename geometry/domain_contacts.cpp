@@ -79,12 +79,15 @@ bool DomainBuilder<D>::find_contacts() {
   corners.reserve(pieces_.size());
   for (const detail::Piece& piece : pieces_) corners.push_back(piece.corners);
   const detail::BoxTree<D> tree(corners, out_.points_);
-  tree.self_pairs([&](std::uint32_t i, std::uint32_t j) {
+  using Found = std::vector<detail::FoundContact>;
+  const auto parts = tree.template self_pairs_in_parts<Found>(bulk_, [this](std::uint32_t i, std::uint32_t j, Found& found) {
     stop_check_();
     if (j < facet_of_.size() && facet_of_[i] == facet_of_[j]) return;  // of one planar triangulation
     Contact c = detail::contact<D>(out_.points_, pieces_[i], pieces_[j]);
-    if (c.kind != Contact::Kind::none) contacts_.push_back({i, j, std::move(c)});
+    if (c.kind != Contact::Kind::none) found.push_back({i, j, std::move(c)});
   });
+  stop_check_();
+  for (const Found& part : parts) contacts_.insert(contacts_.end(), part.begin(), part.end());
   return !contacts_.empty();
 }
 

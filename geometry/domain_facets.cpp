@@ -143,7 +143,7 @@ void DomainBuilder<D>::fail_facet(std::uint32_t f, const PlanarResult& result) c
     code = Errc::degenerate_facet;
     message = facet + "its points " + edge(result.edge) + " are one behind the other: it is far from planar";
   }
-  fail(code, message, plc_.source.facet_lines, f, std::move(ids), std::move(where));
+  fail(code, message, plc_.source.facet_lines, f, ids, where);
 }
 
 // The facet if it is one triangle; false if it is something else.

@@ -45,7 +45,7 @@ void DomainBuilder<D>::drop_repeated_facets() requires(D == 3) {
       least = std::min(least, sorted(triangles_[facets_[f].first + k]));
     keys.emplace_back(least, f);
   }
-  stop_check_.sort(keys);
+  stop_check_.sort(bulk_, keys);
   std::vector<std::uint32_t> same(facets_.size(), no_entity);
   for (std::size_t k = 1; k < keys.size(); ++k)
     for (std::size_t j = k; j-- > 0 && keys[j].first == keys[k].first;) {
@@ -98,7 +98,7 @@ void DomainBuilder<D>::collect_edges() {
                          (masks_[t] & (1u << i)) != 0 ? Kind::rim : Kind::diagonal});
   for (const auto& [e, f] : polygon_edges_) uses_.push_back({edge_key(e[0], e[1]), f, 0, Kind::polygon});
   for (const auto& [e, s] : segment_edges_) uses_.push_back({edge_key(e[0], e[1]), s, 0, Kind::explicit_segment});
-  stop_check_.sort(uses_, [](const EdgeUse& a, const EdgeUse& b) {
+  stop_check_.sort(bulk_, uses_, [](const EdgeUse& a, const EdgeUse& b) {
     return std::tuple{a.key, a.kind, a.owner, a.triangle} < std::tuple{b.key, b.kind, b.owner, b.triangle};
   });
   soft_.assign(uses_.size(), false);
@@ -203,12 +203,12 @@ void DomainBuilder<D>::write_touching() requires(D == 3) {
   for (EntityId f = 0; f < out_.facets_.size(); ++f)
     if (const auto points = out_.facet_points(f); points.size() > Domain<D>::few_points)
       for (const std::uint32_t v : points) uses.push_back({v, f});
-  stop_check_.sort(uses);
+  stop_check_.sort(bulk_, uses);
   for (std::size_t i = 0; i < uses.size(); ++i) {
     stop_check_();
     for (std::size_t j = i + 1; j < uses.size() && uses[j][0] == uses[i][0]; ++j) out_.touching_.push_back({uses[i][1], uses[j][1]});
   }
-  stop_check_.sort(out_.touching_);
+  stop_check_.sort(bulk_, out_.touching_);
   out_.touching_.erase(std::unique(out_.touching_.begin(), out_.touching_.end()), out_.touching_.end());
 }
 

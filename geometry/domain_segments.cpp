@@ -65,7 +65,7 @@ void DomainBuilder<D>::write_segments() {
 template <int D>
 void DomainBuilder<D>::write_incidences() {
   auto& pairs = facet_segment_;
-  stop_check_.sort(pairs);
+  stop_check_.sort(bulk_, pairs);
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   for (const auto& [f, s] : pairs) {
     DomainFacet& facet = out_.facets_[f];

@@ -14,8 +14,8 @@ namespace {
 
 constexpr VisitGraph::Visit nobody = 0xffffffffu;
 
-[[noreturn]] void fail(std::string message) {
-  throw ResourceError({Errc::internal, std::move(message), {}, 0, {}, {}});
+[[noreturn]] void fail(const std::string& message) {
+  throw ResourceError({Errc::internal, message, {}, 0, {}, {}});
 }
 
 }  // namespace

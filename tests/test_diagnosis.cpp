@@ -9,8 +9,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "allow_threads.hpp"
 #include "domain_plcs.hpp"
 #include "pgdr/refine.hpp"
+
+#if PGDR_TEST_TBB
+#include <tbb/task_arena.h>
+#endif
 
 namespace pgdr::test_diagnosis {
 
@@ -245,5 +250,56 @@ TEST(Diagnosis, AllThatADomainRefuses) {
   EXPECT_GT(diagnose(Plc<3>{}).error_count(), 0u);
   EXPECT_GT(diagnose(Plc<2>{}).error_count(), 0u);
 }
+
+// Two bumpy tori through each other; a third of the first one's facets are turned over, so that there is more to list.
+Plc<3> crossing_tori(std::uint32_t side) {
+  constexpr double pi = 3.14159265358979323846;
+  Plc<3> plc;
+  for (const double shift : {0.0, 0.91})
+    for (std::uint32_t i = 0; i < side; ++i)
+      for (std::uint32_t j = 0; j < side; ++j) {
+        const double u = 2 * pi * i / side, v = 2 * pi * j / side, r = 0.4 + 0.03 * std::sin(5 * u) * std::cos(3 * v + u);
+        plc.points.push_back({shift + (1 + r * std::cos(v)) * std::cos(u), (1 + r * std::cos(v)) * std::sin(u), r * std::sin(v)});
+      }
+  for (std::uint32_t k = 0; k < 2 * side * side; ++k) {
+    const std::uint32_t first = k / (side * side) * side * side, i = k / side % side, j = k % side;
+    const auto at = [&](std::uint32_t di, std::uint32_t dj) { return first + (i + di) % side * side + (j + dj) % side; };
+    plc.facets.push_back({{{at(0, 0), at(1, 0), at(1, 1)}}, {}, 0});
+    if (k % 3 == 0) plc.facets.push_back({{{at(0, 0), at(0, 1), at(1, 1)}}, {}, 0});
+    else plc.facets.push_back({{{at(0, 0), at(1, 1), at(0, 1)}}, {}, 0});
+  }
+  return plc;
+}
+
+std::string in_words(const Diagnosis<3>& d) {
+  std::string words;
+  for (std::size_t k = 0; k < finding_kinds; ++k) {
+    words += std::to_string(d.found[k].count);
+    for (const FindingList::Item& item : d.found[k].listed) words += "; " + item.what.message + " " + std::to_string(item.measure);
+    words += '\n';
+  }
+  return words;
+}
+
+#if PGDR_TEST_TBB
+TEST(Diagnosis, IsTheSameForAnyNumberOfThreads) {
+  const test::AllowThreads allow(8);
+  const Plc<3> plc = crossing_tori(100);  // 40,000 triangles: all loops run in several parts
+  std::string one;
+  for (const int threads : {1, 2, 8}) {
+    tbb::task_arena arena(threads);
+    Diagnosis<3> d;
+    arena.execute([&] {
+      ASSERT_EQ(tbb::this_task_arena::max_concurrency(), threads);
+      d = diagnose(plc);
+    });
+    EXPECT_GT(d[Finding::facets_cross].count, 500u);
+    EXPECT_GT(d[Finding::inconsistent_orientation].count, 5000u);
+    EXPECT_GT(d[Finding::segments_below_60].count, 10000u);
+    if (threads == 1) one = in_words(d);
+    EXPECT_EQ(in_words(d), one) << threads;
+  }
+}
+#endif
 
 }  // namespace pgdr::test_diagnosis

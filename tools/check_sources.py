@@ -9,6 +9,8 @@
   * tools and bench see public headers alone;
   * CGAL and Eigen are included by .cpp files and private headers of the layers only;
   * function templates of headers whose namespace bears PGDR_API have it where they are instantiated (export.hpp);
+  * what never returns takes no std::string or std::vector by value: g++ 12 (-O3, several files as one) takes its stores for
+    dead, and so has what was moved from destroyed twice on the way out;
   * a public header is listed in the CMakeLists.txt of its layer, so that it is installed and compiled alone.
 
 Usage: check_sources.py [ROOT]     (default: the repository of this script)
@@ -21,6 +23,8 @@ LAYERS = ["geometry", "core", "scheduler"]
 # A declaration of a function template, to its semicolon; an explicit instantiation.
 TEMPLATE = re.compile(r"^template <int D>\n(?!struct|class|using)[^;{(]*?\b(\w+)\([^;{]*;", re.MULTILINE)
 INSTANTIATION = re.compile(r"^\s*template (?!<|class|struct)[^;(]*?\b(\w+)(?:<[23D]>)?\(")
+# A parameter by value of a function that never returns.
+MOVED_AWAY = re.compile(r"\[\[noreturn\]\][^;{]*?[(,]\s*(std::(?:string|vector<[^;{}()&]*>) \w+)\s*[,)=]")
 SOURCES = {".cpp", ".hpp", ".py", ".cmake", ".sh"}
 SCRIPTS = ["demo", "run-tests", ".ci/run", ".ci/install-packages"]
 MOST_LINES = 500
@@ -81,6 +85,11 @@ def exported_templates(root):
     return names
 
 
+def check_noreturn(path, text):
+    for found in MOVED_AWAY.findall(text) if path.suffix in {".cpp", ".hpp"} else ():
+        yield f"a function that never returns takes {found} by value"
+
+
 def check_exports(path, text, exported):
     for line in text.splitlines() if path.suffix == ".cpp" else ():
         instance = INSTANTIATION.match(line)
@@ -104,7 +113,7 @@ def main():
         text = path.read_text(encoding="utf-8")
         number += 1
         for complaint in [*check_text(path, text), *check_includes(root, path, text, layer_of),
-                          *check_exports(path, text, exported)]:
+                          *check_noreturn(path, text), *check_exports(path, text, exported)]:
             complaints.append(f"{path.relative_to(root)}: {complaint}")
     for complaint in complaints:
         print(complaint)

@@ -76,7 +76,7 @@ class LineScanner {
   std::uint32_t reference(Subject s, std::uint32_t first, std::size_t n);
 
   /// Throws an InputError that points at the current line.
-  [[noreturn]] void fail(Errc code, std::string message, std::vector<std::int64_t> ids = {}) const;
+  [[noreturn]] void fail(Errc code, const std::string& message, const std::vector<std::int64_t>& ids = {}) const;
 
  private:
   void skip_blanks();

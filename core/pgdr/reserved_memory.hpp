@@ -13,9 +13,6 @@
 
 namespace pgdr {
 
-/// Asks for huge pages where [memory, memory + bytes), which nothing has been written to, is large: a hint.
-void ask_for_huge_pages(void* memory, std::size_t bytes);
-
 /// Has the kernel find memory for pages that nothing has been written to. It clears them, which takes longer than anything that
 /// is done to them later.
 void touch_pages(std::span<std::byte> fresh);

@@ -14,9 +14,12 @@
 // all meet, are told apart by planes between such hulls.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "pgdr/types.hpp"
@@ -55,7 +58,22 @@ class BoxTree {
   /// Calls visit(i, j), i < j, once for every pair of boxes that meet (common borders count). Of simplices, pairs that
   /// meet nowhere but at a common corner may be left out.
   template <class Visit>
-  void self_pairs(Visit&& visit) const;
+  void self_pairs(Visit&& visit) const {
+    pairs_below({1, 1}, visit);
+  }
+  /// The same pairs in the same order, but in parts, several of which may be looked through at once: visit(i, j, out) for those of
+  /// a part, with a Part of its own. @returns these in the order of the parts.
+  template <class Part, class Bulk, class Visit>
+  std::vector<Part> self_pairs_in_parts(const Bulk& bulk, const Visit& visit) const {
+    const std::vector<NodePair> tops = pairs_of_some_level();
+    std::vector<Part> parts(tops.size());
+    bulk.parts(tops.size(), [&](std::size_t k) {
+      Part part;  // of this thread's memory while it grows
+      pairs_below(tops[k], [&](std::uint32_t i, std::uint32_t j) { visit(i, j, part); });
+      parts[k] = std::move(part);
+    });
+    return parts;
+  }
   /// Calls visit(i) once for every box that meets this one (borders count).
   template <class Visit>
   void meeting(const Box<D>& box, Visit&& visit) const;
@@ -104,6 +122,11 @@ class BoxTree {
   /// True only if a plane was found that has them strictly on its two sides; not all that are apart are found to be.
   static bool separable(const Hull& a, const Hull& b);
   static Point<D> farthest(const Hull& h, const Point<D>& direction);
+  /// Where two nodes are not apart: the pairs of their children, or of the node's own, in the order in which they are looked at.
+  void append_children(const NodePair& pair, std::vector<NodePair>& out) const;
+  std::vector<NodePair> pairs_of_some_level() const;
+  template <class Visit>
+  void pairs_below(const NodePair& top, const Visit& visit) const;
   bool is_leaf(std::uint32_t node) const { return node >= leaves_; }
   std::span<const Item> items_of(std::uint32_t leaf) const {
     const std::uint64_t n = items_.size(), k = leaf - leaves_;
@@ -119,22 +142,23 @@ class BoxTree {
 
 template <int D>
 template <class Visit>
-void BoxTree<D>::self_pairs(Visit&& visit) const {
+void BoxTree<D>::pairs_below(const NodePair& top, const Visit& visit) const {
   const auto report = [&](const Item& a, const Item& b) {
     if (!a.box.meets(b.box)) return;
     if (a.index < b.index) visit(a.index, b.index);
     else visit(b.index, a.index);
   };
-  std::vector<NodePair> stack{{1, 1}};  // both of a pair are on one level
+  std::vector<NodePair> stack{top};  // both of a pair are on one level
   while (!stack.empty()) {
     const auto [a, b] = stack.back();
     stack.pop_back();
-    if (a != b && apart(a, b)) continue;
     if (!is_leaf(a)) {
-      if (a == b) stack.insert(stack.end(), {{2 * a, 2 * a}, {2 * a + 1, 2 * a + 1}, {2 * a, 2 * a + 1}});
-      else stack.insert(stack.end(), {{2 * a, 2 * b}, {2 * a, 2 * b + 1}, {2 * a + 1, 2 * b}, {2 * a + 1, 2 * b + 1}});
+      const auto first = static_cast<std::ptrdiff_t>(stack.size());
+      append_children({a, b}, stack);
+      std::reverse(stack.begin() + first, stack.end());
       continue;
     }
+    if (a != b && apart(a, b)) continue;
     const auto first = items_of(a), second = items_of(b);
     for (std::size_t i = 0; i < first.size(); ++i)
       for (std::size_t j = a == b ? i + 1 : 0; j < second.size(); ++j) report(first[i], second[j]);

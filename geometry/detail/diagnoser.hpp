@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Makes a Diagnosis of a Domain: what meets where it should not (diagnosis_pairs.cpp), how facets hang together
-// (diagnosis_topology.cpp), small angles (diagnosis_angles.cpp). Used by one thread, once.
+// (diagnosis_topology.cpp), small angles (diagnosis_angles.cpp). Used by one thread, once; long loops run in its task
+// arena, too.
 #pragma once
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "detail/bulk.hpp"
 #include "detail/contact.hpp"
 #include "detail/stop_check.hpp"
 #include "pgdr/diagnosis.hpp"
@@ -31,6 +33,11 @@ class Least {
     }
     kept_.insert(std::upper_bound(kept_.begin(), kept_.end(), e), e);
   }
+  /// The least of both.
+  void add(const Least& other) {
+    count_ += other.count_ - other.kept_.size();
+    for (const Entry& e : other.kept_) add(e);
+  }
   std::uint64_t count() const { return count_; }
   const std::vector<Entry>& kept() const { return kept_; }
 
@@ -44,7 +51,7 @@ template <int D>
 class Diagnoser {
  public:
   Diagnoser(const Domain<D>& domain, const DiagnosisOptions& options, Diagnosis<D>& out)
-      : domain_(domain), options_(options), stop_check_(options.stop), out_(out), p_(domain.points()) {}
+      : domain_(domain), options_(options), bulk_(true, options.stop), stop_check_(options.stop), out_(out), p_(domain.points()) {}
   void run();
 
  private:
@@ -75,6 +82,11 @@ class Diagnoser {
     std::uint32_t point, first, second;
     friend auto operator<=>(const Resting&, const Resting&) = default;
   };
+  /// What a part of the search found.
+  struct Meetings {
+    std::vector<Meeting> facet_facet, segment_facet, segment_segment;
+    std::vector<Resting> resting;
+  };
   /// An angle: the square of its sine, then what makes its order definite: points and triangles.
   struct Angle {
     double sine2;
@@ -82,6 +94,10 @@ class Diagnoser {
     friend bool operator<(const Angle& a, const Angle& b) {
       return a.sine2 != b.sine2 ? a.sine2 < b.sine2 : a.at < b.at;
     }
+  };
+  struct Angles {
+    explicit Angles(std::size_t most) : below_60(most), segment_facet_90(most), facets_90(most) {}
+    Least<Angle> below_60, segment_facet_90, facets_90;
   };
 
   // diagnosis.cpp
@@ -113,12 +129,12 @@ class Diagnoser {
   // diagnosis_pairs.cpp
   void collect_pieces();
   void find_meetings();
-  void note(std::uint32_t i, std::uint32_t j);
+  void note(std::uint32_t i, std::uint32_t j, Meetings& found) const;
   std::uint32_t owner(std::uint32_t piece) const;
-  void note_resting(const Contact::Corner& corner, std::uint32_t on_piece);
-  void report_meetings(std::vector<Meeting>& meetings, std::size_t first_corners, std::size_t second_corners);
+  Resting resting(const Contact::Corner& corner, std::uint32_t on_piece) const;
+  void report_meetings(std::vector<Meeting> meetings, std::size_t first_corners, std::size_t second_corners);
   void list_meeting(std::span<const Meeting> same, std::size_t first_corners, std::size_t second_corners, Finding kind);
-  void report_resting();
+  void report_resting(std::vector<Resting> resting);
   void list_resting(const Resting& r);
 
   // diagnosis_topology.cpp
@@ -141,13 +157,14 @@ class Diagnoser {
   void find_angles();
   void segments_at_points();
   void corners_at_points() requires(D == 3);
-  void facets_at_segments() requires(D == 3);
-  void note_segment_angles(std::uint32_t v);
-  void note_facet_angles(std::uint32_t v) requires(D == 3);
-  void report_angles();
+  void facets_at_segments(Angles& found) const requires(D == 3);
+  void note_segment_angles(std::uint32_t v, Angles& found) const;
+  void note_facet_angles(std::uint32_t v, Angles& found) const requires(D == 3);
+  void report_angles(const Angles& found);
 
   const Domain<D>& domain_;
   const DiagnosisOptions& options_;
+  const Bulk bulk_;
   const StopCheck stop_check_;
   Diagnosis<D>& out_;
   std::span<const Point<D>> p_;
@@ -155,12 +172,9 @@ class Diagnoser {
   std::vector<EdgeUse> uses_;
   std::vector<Piece> pieces_;         // the triangles, then segments of no facet, then points of neither
   std::vector<EntityId> piece_segments_;
-  std::vector<Meeting> facet_facet_, segment_facet_, segment_segment_;
-  std::vector<Resting> resting_;
   std::vector<std::uint32_t> segment_begin_, corner_begin_;   // by point
   std::vector<std::uint32_t> corner_at_;                      // 3 * triangle + corner
   std::vector<EntityId> segment_at_;
-  Least<Angle> below_60_{0}, segment_facet_90_{0}, facets_90_{0};
 };
 
 }  // namespace pgdr::detail

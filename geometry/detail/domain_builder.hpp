@@ -5,7 +5,7 @@
 // points and edges that lie on what they do not belong to, coplanar groups, segments, incidences. Each step is in a file of
 // its own, domain_<step>.cpp. Everything is sorting and hashing: n log n in the size of the input, but for constraint edges
 // of a facet that cross many triangles.
-// Used by one thread, once.
+// Used by one thread, once; long loops run in its task arena, too.
 #pragma once
 
 #include <algorithm>
@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "detail/box_tree.hpp"
+#include "detail/bulk.hpp"
 #include "detail/contact.hpp"
 #include "detail/make_set.hpp"
 #include "detail/planar_cdt.hpp"
@@ -142,7 +143,7 @@ class DomainBuilder {
  public:
   /// `refused`: where to name what is invalid and go on without it; null: it is thrown.
   DomainBuilder(const Plc<D>& plc, Domain<D>& domain, std::stop_token stop, std::vector<Diagnostic>* refused = nullptr)
-      : plc_(plc), out_(domain), stop_check_(std::move(stop)), refused_(refused) {}
+      : plc_(plc), out_(domain), bulk_(true, stop), stop_check_(std::move(stop)), refused_(refused) {}
   void run();
 
  private:
@@ -153,8 +154,8 @@ class DomainBuilder {
   std::int64_t point_number(std::uint32_t v) const { return number(out_.input_of_point_[v]); }
   std::string point_words(std::uint32_t v) const;
   [[noreturn]] void fail(Errc code, const std::string& message, const std::vector<std::uint32_t>& lines,
-                         std::size_t item, std::vector<std::int64_t> ids,
-                         std::vector<std::array<double, 3>> where) const;
+                         std::size_t item, const std::vector<std::int64_t>& ids,
+                         const std::vector<std::array<double, 3>>& where) const;
   template <class Action>
   void attempt(Action&& action) const {
     if (refused_ == nullptr) return action();
@@ -296,6 +297,7 @@ class DomainBuilder {
 
   const Plc<D>& plc_;
   Domain<D>& out_;
+  const detail::Bulk bulk_;
   const detail::StopCheck stop_check_;
   std::vector<Diagnostic>* refused_;
   double scale_ = 1;                                             // 1 / the largest coordinate, a power of two

@@ -22,9 +22,13 @@ class StopCheck {
   void operator()() const {
     if (stop_.stop_requested()) throw CancelledError({Errc::cancelled, "cancelled by the caller", {}, 0, {}, {}});
   }
-  /// std::sort that asks now and then.
-  template <class Items, class Less = std::less<>>
-  void sort(Items& items, const Less& less = {}) const {
+  /// Sorts what has one order alone, and asks now and then.
+  template <class Bulk, class Items, class Less = std::less<>>
+  void sort(const Bulk& bulk, Items& items, const Less& less = {}) const {
+    if (bulk.is_parallel()) {
+      bulk.sort(items, less);
+      return (*this)();
+    }
     std::uint32_t compared = 0;
     std::sort(items.begin(), items.end(), [&](const auto& a, const auto& b) {
       if (++compared % 65536 == 0) (*this)();

@@ -4,8 +4,8 @@
 // What is wrong with an input, and where: everything at once, for a person who is to repair it. Decisions are exact and
 // without tolerance; coordinates of intersections, lengths and angles are rounded. Of each kind all are counted and the
 // first few listed, in an order that depends on the input alone. Near-linear time (a million triangles take about
-// a second) but for inputs of long thin triangles whose boxes all overlap and that are in no fans. Pure functions, each on the
-// calling thread alone; any number may run at once.
+// a second) but for inputs of long thin triangles whose boxes all overlap and that are in no fans. Pure functions; long
+// loops run on the threads of the caller's tbb::task_arena, and any number of calls may run at once.
 //
 // Meant are the facets as their triangles (see domain.hpp), the segments that no facet has, and the points; two of these
 // may have common corners, and the edge between these, and nothing else in common.

@@ -78,7 +78,8 @@ class Domain;
 /// projection (nearest one if none does), in double-double, rounded once; exactly on it where axis-aligned.
 Point<3> point_on_facet(const Domain<3>& domain, EntityId f, const Point<3>& x);
 
-/// The input as everything else reads it. About 200 bytes and 2 microseconds a triangle, on the calling thread.
+/// The input as everything else reads it. About 200 bytes and 2 microseconds a triangle; made on the threads of the caller's
+/// tbb::task_arena, the same for any number of them.
 template <int D>
 class Domain {
  public:

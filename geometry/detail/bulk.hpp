@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bulk loops over arrays, in the caller's task arena or on the calling thread: the one place where core uses TBB.
+// Bulk loops over arrays, in the caller's task arena or on the calling thread: the one place where geometry and
+// core use TBB. What comes out does not depend on the threads.
 #pragma once
 
 #include <tbb/parallel_sort.h>
 #include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -14,18 +16,9 @@
 #include <utility>
 #include <vector>
 
-#include "pgdr/reserved_memory.hpp"
+#include "detail/huge_pages.hpp"
 
 namespace pgdr::detail {
-
-/// An empty vector with room for so many, on huge pages where that is much.
-template <class T>
-std::vector<T> vector_of_capacity(std::size_t count) {
-  std::vector<T> v;
-  v.reserve(count);
-  ask_for_huge_pages(v.data(), count * sizeof(T));
-  return v;
-}
 
 class Bulk {
  public:
@@ -33,6 +26,7 @@ class Bulk {
   explicit Bulk(bool parallel, std::stop_token stop = {})
       : parallel_(parallel && tbb::this_task_arena::max_concurrency() > 1), stop_(std::move(stop)) {}
 
+  bool is_parallel() const { return parallel_; }
   bool stopped() const { return stop_.stop_requested(); }
 
   /// Calls f(first, last) for blocks that cover [0, count). With `parallel`, several at once; isolated, so that the
@@ -93,7 +87,11 @@ class Bulk {
   void sort(std::vector<T>& items, const Less& less) const {
     if (stopped()) return;
     if (!parallel_) return std::sort(items.begin(), items.end(), less);
-    tbb::this_task_arena::isolate([&] { tbb::parallel_sort(items.begin(), items.end(), less); });
+    tbb::this_task_arena::isolate([&] {
+      tbb::task_group_context context;
+      const std::stop_callback stop(stop_, [&] { context.cancel_group_execution(); });
+      tbb::task_group(context).run_and_wait([&] { tbb::parallel_sort(items.begin(), items.end(), less); });
+    });
   }
 
  private:

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace pgdr::detail {
+
+/// Asks for huge pages where [memory, memory + bytes), which nothing has been written to, is large: a hint.
+void ask_for_huge_pages(void* memory, std::size_t bytes);
+
+/// An empty vector with room for so many, on huge pages where that is much.
+template <class T>
+std::vector<T> vector_of_capacity(std::size_t count) {
+  std::vector<T> v;
+  v.reserve(count);
+  ask_for_huge_pages(v.data(), count * sizeof(T));
+  return v;
+}
+
+}  // namespace pgdr::detail
