@@ -132,8 +132,10 @@ RefineResult<D> recover(const Plc<D>& plc, std::shared_ptr<const Domain<D>>& dom
 
 template <int D>
 int info_of_input(const InfoArguments& a, Report& report) {
+  const Stopwatch clock;
   std::vector<Diagnostic> repairs;
   const Plc<D> plc = read_input<D>(a.file, a.reading, repairs);
+  JsonObject seconds{{"read", clock.seconds()}};
   report.set("kind", "input");
   JsonObject d;
   d.set("accepted", false);
@@ -153,8 +155,12 @@ int info_of_input(const InfoArguments& a, Report& report) {
   }
 
   std::optional<Domain<D>> prepared;
+  const double diagnosis_at = clock.seconds();
   const Diagnosis<D> diagnosis = diagnose(plc, {}, prepared);
+  const double recovery_at = clock.seconds();
+  seconds.set("diagnosis", recovery_at - diagnosis_at);
   set_findings(d, diagnosis);
+  report.set("seconds", seconds);
   report.set("diagnosis", d);
   if (!a.quiet) print_findings(diagnosis);
   if (diagnosis.error_count() > 0) return refuse(plc, diagnosis, report);
@@ -174,12 +180,15 @@ int info_of_input(const InfoArguments& a, Report& report) {
       },
       [&] { looks = look_at(plc, *first, a); });
   if (domain != first) looks = look_at(plc, *domain, a);
+  seconds.set("recovery", clock.seconds() - recovery_at);
   describe(*domain, *looks, a.quiet, d);
   if (D == 3) report.set("precision", domain->precision());
   report.set("diagnosis", d);
   if (!a.quiet && !refused) note_precision(plc, domain->precision());
   give(looks->precision_hint, a.quiet, report);
   give(looks->merge_hint, !a.quiet, report);
+  seconds.set("total", clock.seconds());
+  report.set("seconds", seconds);
   if (refused) std::rethrow_exception(refused);
 
   d.set("accepted", true);
