@@ -32,6 +32,14 @@ bool projects_into(const std::array<Point<D>, D>& corner, const Point<D>& x) {
   }
 }
 
+template <int D>
+double longest_edge_squared(const Simplex<D>& s) {
+  double longest = 0;
+  for (int i = 0; i <= D; ++i)
+    for (int j = 0; j < i; ++j) longest = std::max(longest, squared_distance(s[i], s[j]));
+  return longest;
+}
+
 }  // namespace
 
 template <int D>
@@ -279,15 +287,18 @@ auto Refiner<D>::treat_cell(const Item& e) -> Outcome {
   return give_up(outcome);
 }
 
-/// 3D: the wall that hides the point of an element so flat that it lies many times the domain away. Where facets are nearly
-/// coplanar other flat ones are in conflict with it, often thousands. They are not collected for the entity that it encroaches
-/// upon, if any: mostly there is none, and the wall is split in the end.
+/// 3D: the wall that hides the point of an element so flat that it lies many times the domain, or the element's longest edge, away.
+/// Where facets are nearly coplanar other flat ones are in conflict with it, often thousands. They are not collected for the entity
+/// that it encroaches upon, if any: mostly there is none, and the wall is split in the end.
 template <int D>
 auto Refiner<D>::wall_before_far_point(CellId c, const Point<D>& x) -> std::optional<Item> {
   if constexpr (D == 2) return std::nullopt;
   constexpr int far = 12;  // powers of two: nearer ones often encroach upon flat subfacets, whose splits leave fewer poor cells
+  constexpr double far_for_its_edges = 128;
   const double away = std::ldexp(1.0, context_->base_exponent + far);
-  if (!(squared_distance(mesh_->point(mesh_->cell(c).vertices[0]), x) > away * away)) return std::nullopt;
+  const double squared = squared_distance(mesh_->point(mesh_->cell(c).vertices[0]), x);
+  const double edges = far_for_its_edges * far_for_its_edges * longest_edge_squared<D>(mesh_->simplex(c));
+  if (!(squared > std::min(away * away, edges))) return std::nullopt;
   cavity_.release();
   return wall_in_claim(c, x);
 }

@@ -69,10 +69,10 @@ Offset<3> triangle_offset(const std::array<std::array<double, 3>, 2>& d) {
 }
 
 template <int D>
-bool accurate(const Offset<D>& o) {
+bool accurate(const Offset<D>& o, double accuracy = detail::accepted_error) {
   double largest = 0;  // at most r, and within sqrt(D) of it; no squares, which might underflow
   for (const double x : o.w) largest = std::max(largest, std::fabs(x));
-  return o.error <= detail::accepted_error * largest && largest < infinity;
+  return o.error <= accuracy * largest && largest < infinity;
 }
 
 /// The centre first + o.w, rounded, and what bounds its error.
@@ -137,11 +137,12 @@ Circumsphere<D> circumsphere(const Simplex<D>& s) {
   return {c.point, squared_distance(c.point, corners[0]), c.error};
 }
 
-// The offset is off by at most 2^-20 of its largest component, so that its square is by 2^-19 and little more.
+// The offset is off by at most `accuracy` times its largest component (and, as the bound on the error is, a factor that the
+// largest accuracy makes 1 + 2^-8), so that its square is by twice that and little more.
 template <int D>
-std::optional<double> squared_circumradius_quickly(const Simplex<D>& s) {
+std::optional<double> squared_circumradius_quickly(const Simplex<D>& s, double accuracy) {
   const Offset<D> o = simplex_offset<D>(detail::edges_from_first<D>(sorted<D + 1, D>(s)));
-  if (!accurate<D>(o)) return std::nullopt;
+  if (!accurate<D>(o, accuracy)) return std::nullopt;
   double square = 0;
   for (const double x : o.w) square += x * x;
   return square;
@@ -209,8 +210,8 @@ bool in_equatorial_ball(const Ball<3>& ball, const Point3& x) {
   return squared_distance(ball.center, x) < ball.squared_radius;
 }
 
-template PGDR_API std::optional<double> squared_circumradius_quickly<2>(const Simplex<2>&);
-template PGDR_API std::optional<double> squared_circumradius_quickly<3>(const Simplex<3>&);
+template PGDR_API std::optional<double> squared_circumradius_quickly<2>(const Simplex<2>&, double);
+template PGDR_API std::optional<double> squared_circumradius_quickly<3>(const Simplex<3>&, double);
 template PGDR_API Circumsphere<2> circumsphere<2>(const Simplex<2>&);
 template PGDR_API Circumsphere<3> circumsphere<3>(const Simplex<3>&);
 template PGDR_API double shortest_edge_squared<2>(const Simplex<2>&);

@@ -28,10 +28,10 @@ struct Circumsphere {
 template <int D>
 Circumsphere<D> circumsphere(const Simplex<D>& s);
 
-/// The square of the circumradius where the plain evaluation tells it within 2^-18 of itself, else nothing. A function of the
-/// vertex set, too, though not the one that circumsphere() has.
+/// The square of the circumradius where the plain evaluation tells it within four times `accuracy` of itself, else nothing. A
+/// function of the vertex set, too, though not the one that circumsphere() has. @pre accuracy <= 1/256
 template <int D>
-std::optional<double> squared_circumradius_quickly(const Simplex<D>& s);
+std::optional<double> squared_circumradius_quickly(const Simplex<D>& s, double accuracy = 0x1p-20);
 
 /// Squared length of the shortest edge (rounded differences, canonical order of the two ends).
 template <int D>
