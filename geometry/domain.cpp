@@ -124,6 +124,8 @@ void DomainBuilder<D>::report_repairs() {
                       file, out_.warnings_);
   dropped_flat_.report(Errc::degenerate_facet, "facets with all their points on edges of others, dropped", file,
                        out_.repairs_);
+  dropped_bare_.report(Errc::degenerate_facet, "facets without an area, with all their points on one line, dropped", file,
+                       out_.repairs_);
 }
 
 template <int D>

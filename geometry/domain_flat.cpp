@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Continues the fourth step of a Domain (3D): a facet all of whose points lie on one line adds nothing to the union of
-// all facets and segments if the edges of these cover it. Then it is dropped, else refused. Edges have no points inside
-// by now, so that a walk from one end along the line sees it.
+// Continues the fourth step of a Domain (3D): a facet all of whose points lie on one line is dropped. If the edges of others cover
+// it, it adds nothing to the union of all facets and segments; edges have no points inside by now, so that a walk from one end
+// along the line sees it. If not, it adds a piece of that line, which bounds nothing: its edges, split at its own points, run
+// through each place of the line as often there as back, so that no surface is open without them. CAD programs write such where
+// a corner lies on an axis of revolution. It is told apart in the report.
 #include <algorithm>
 
 #include "detail/domain_builder.hpp"
@@ -24,17 +26,8 @@ void DomainBuilder<D>::drop_flat_facets() requires(D == 3) {
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   for (const detail::FlatFacet& flat : flat_facets_) {
-    if (is_covered(flat, edges)) {
-      dropped_flat_.add([&] { return std::to_string(number(flat.input)); }, {number(flat.input)});
-      continue;
-    }
-    auto distinct = flat.vertices;
-    std::sort(distinct.begin(), distinct.end());
-    const auto count = std::unique(distinct.begin(), distinct.end()) - distinct.begin();
-    attempt([&] {
-      fail_degenerate(flat.input, count < 3 ? "has fewer than three distinct points" : "has all its points on one line",
-                      flat.vertices);
-    });
+    detail::RepairList& list = is_covered(flat, edges) ? dropped_flat_ : dropped_bare_;
+    list.add([&] { return std::to_string(number(flat.input)); }, {number(flat.input)});
   }
 }
 

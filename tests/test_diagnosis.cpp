@@ -234,16 +234,17 @@ TEST(Diagnosis, CountsAllAndListsAFew) {
 TEST(Diagnosis, AllThatADomainRefuses) {
   Plc<3> plc = numbered(box());
   plc.points.insert(plc.points.end(), {{1, 1, 1}, {2, 2, 2}, {3, 3, 3}});
-  plc.facets.push_back({{{8, 9, 10}}, {}, 0});
-  plc.facets.push_back({{{0, 0, 6}}, {}, 0});
+  plc.facets.push_back({{{8, 9, 10}, {8, 9, 10}}, {}, 0});
+  plc.facets.push_back({{{0, 6}, {6, 0}}, {}, 0});
   plc.facets.push_back({{{4, 6, 5, 7}}, {}, 0});
   plc.segments.push_back({{3, 3}, 0});
   const Diagnosis<3> d = diagnose(plc);
   ASSERT_EQ(d[Finding::invalid_entity].count, 4u);
   EXPECT_EQ(d[Finding::invalid_entity].listed[0].what.code, Errc::degenerate_segment);
-  EXPECT_EQ(d[Finding::invalid_entity].listed[1].what.code, Errc::self_crossing_facet);
-  EXPECT_EQ(d[Finding::invalid_entity].listed[2].what.code, Errc::degenerate_facet);
-  EXPECT_EQ(d[Finding::invalid_entity].listed[3].what.ids.at(0), 8);
+  EXPECT_EQ(d[Finding::invalid_entity].listed[1].what.code, Errc::degenerate_facet);
+  EXPECT_EQ(d[Finding::invalid_entity].listed[1].what.ids.at(0), 7);
+  EXPECT_EQ(d[Finding::invalid_entity].listed[2].what.ids.at(0), 8);
+  EXPECT_EQ(d[Finding::invalid_entity].listed[3].what.code, Errc::self_crossing_facet);
   plc.facets[0].polygons[0][0] = 99;
   plc.points[0][1] = std::nan("");
   EXPECT_EQ(diagnose(plc)[Finding::invalid_entity].count, 2u);

@@ -94,12 +94,7 @@ TEST(DomainErrors, DegenerateFacet) {
            {},                                  // nothing
            {{}},                                // a polygon of nothing
            {{8, 12}},                           // two points at one place
-           {{8, 9, 12}},                        // three, two of them at one place
-           {{8, 8, 9, 9}},                      //
-           {{8, 9, 10}},                        // on a line
-           {{8, 9, 10, 11}},                    //
-           {{0, 1, 13}},                        // on an axis
-           {{0, 1, 13, 1}},                     //
+           {{8, 9, 10}, {9, 10, 11}},           // on a line
            {{0, 1}, {1, 2}, {2, 5}},            // enclosing nothing
            {{0}, {1}, {6}}}) {
     const Diagnostic d = refusal(with_facet(polygons));
@@ -108,7 +103,7 @@ TEST(DomainErrors, DegenerateFacet) {
     EXPECT_EQ(d.ids[0], 7);
     EXPECT_EQ(d.line, 506u);
   }
-  const Diagnostic d = refusal(with_facet({{8, 9, 10}}));
+  const Diagnostic d = refusal(with_facet({{8, 9, 10}, {8, 9}}));
   EXPECT_EQ(d.ids, (Ids{7, 9, 10, 11}));
   EXPECT_EQ(d.message, "facet 7 has all its points on one line: point 9 (1, 1, 1), 10 (2, 2, 2), 11 (3, 3, 3)");
   EXPECT_EQ(d.points[2], (std::array<double, 3>{3, 3, 3}));

@@ -140,8 +140,27 @@ TEST(Repairs, DegenerateTriangles) {
   EXPECT_EQ(repaired(plc, Errc::degenerate_facet), (Ids{12, 13, 14}));
   EXPECT_EQ(repaired(plc, Errc::point_on_segment), (Ids{8, 0, 1}));
   expect_meshed(plc);
-  plc.facets.push_back({{{0, 0, 6}}, {}, 0});  // through the inside
-  EXPECT_THROW(Domain<3>{plc}, InputError);
+}
+
+// As a body of revolution with corners on its axis has them, in the files of some programs: no edge of others covers them.
+TEST(Repairs, FacetsWithoutAnAreaInTheInside) {
+  for (const std::vector<std::uint32_t>& polygon : std::vector<std::vector<std::uint32_t>>{
+           {0, 0, 6},        // two points
+           {0, 6, 0, 6},     //
+           {0, 8, 6},        // on a line
+           {0, 8, 6, 8},     //
+           {8, 6, 0},        //
+           {9, 10, 9}}) {    // on an axis
+    Plc<3> plc = triangulated(box());
+    for (std::uint32_t k = 0; k < 3; ++k) add(plc, {k == 0 ? 1.0 : 0.5 + 0.5 * k, 0.5, k == 0 ? 1.5 : 1.0});
+    plc.facets.push_back({{polygon}, {}, 0});
+    EXPECT_EQ(repaired(plc, Errc::degenerate_facet), (Ids{12}));
+    const Domain<3> d(plc);
+    EXPECT_EQ(d.points().size(), 11u);
+    EXPECT_EQ(d.facets().size(), 6u);
+    EXPECT_FALSE(test::has_segment(d, 0, 6));
+    expect_meshed(plc);
+  }
 }
 
 TEST(Repairs, SegmentsAcrossCoplanarTriangles) {

@@ -331,7 +331,7 @@ class DomainBuilder {
   std::vector<std::pair<EntityId, EntityId>> facet_segment_;     // (facet, segment)
   detail::PlanarTriangulation planar_;
   detail::RepairList merged_, negative_zeros_, dropped_edges_, repeated_segments_, repeated_facets_, points_on_edges_,
-      points_in_facets_, edges_in_facets_, dropped_flat_, bent_facets_, merged_near_;
+      points_in_facets_, edges_in_facets_, dropped_flat_, dropped_bare_, bent_facets_, merged_near_;
 };
 
 }  // namespace pgdr

@@ -16,8 +16,8 @@
 // Pieces that meet exactly where they have no corner in common are fitted to each other, which changes no point of the
 // union of all: a point inside a segment or an edge of a facet splits it, and the facets with it; a point inside a facet
 // becomes a point of it; an edge or a segment that runs inside of a facet, between points of it, becomes one of its
-// segments, unless it crosses others; a facet all of whose points lie on a line is dropped where edges of others cover
-// it. What meets otherwise (see diagnosis.hpp) is not refused here. No point is added, and none is moved.
+// segments, unless it crosses others; a facet of one polygon all of whose points lie on a line is dropped, as
+// it bounds nothing. What meets otherwise (see diagnosis.hpp) is not refused here. No point is added, and none is moved.
 #pragma once
 
 #include <cstdint>
