@@ -246,7 +246,7 @@ class Regions {
     } else {
       d.message = std::string("the ") + (D == 3 ? "facets" : "segments") +
                   " enclose nothing: the outside reaches every part of the input's convex hull through gaps";
-      const Diagnosis<D> diagnosis = diagnose(domain_, {.most_listed = 1});
+      const Diagnosis<D> diagnosis = diagnose(domain_, {.most_listed = 1, .parallel = false});
       if (const FindingList& open = diagnosis[Finding::open_boundary]; !open.listed.empty()) {
         const Diagnostic& first = open.listed[0].what;
         d.message += "; open boundaries: " + std::to_string(open.count) + ", the first " + first.message;

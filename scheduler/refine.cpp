@@ -363,7 +363,7 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   before.precision = domain.precision();
   note_what_theory_lacks(options, before.warnings);
   try {
-    require_no_errors(domain, options.stop);
+    require_no_errors(domain, options.stop, options.schedule.executor == Executor::flow_graph);
   } catch (const CancelledError&) {
     return without_mesh(std::move(before), start);
   }

@@ -24,7 +24,7 @@ class Bulk {
  public:
   /// Once `stop` is requested blocks are left out, so that what was to be made is nothing to use.
   explicit Bulk(bool parallel, std::stop_token stop = {})
-      : parallel_(parallel && tbb::this_task_arena::max_concurrency() > 1), stop_(std::move(stop)) {}
+      : parallel_(parallel && can_be_checked && tbb::this_task_arena::max_concurrency() > 1), stop_(std::move(stop)) {}
 
   bool is_parallel() const { return parallel_; }
   bool stopped() const { return stop_.stop_requested(); }
@@ -96,6 +96,18 @@ class Bulk {
 
  private:
   static constexpr std::size_t grain = 8192;
+  // The thread sanitizer does not see the synchronisation inside oneTBB, and reports it.
+#if defined(__SANITIZE_THREAD__)
+  static constexpr bool can_be_checked = false;
+#elif defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+  static constexpr bool can_be_checked = false;
+#else
+  static constexpr bool can_be_checked = true;
+#endif
+#else
+  static constexpr bool can_be_checked = true;
+#endif
 
   /// Not a template: each loop that TBB gets a type of its own costs seconds of code generation.
   void run(std::size_t count, std::size_t block, const std::function<void(std::size_t, std::size_t)>& f) const;

@@ -51,7 +51,7 @@ template <int D>
 class Diagnoser {
  public:
   Diagnoser(const Domain<D>& domain, const DiagnosisOptions& options, Diagnosis<D>& out)
-      : domain_(domain), options_(options), bulk_(true, options.stop), stop_check_(options.stop), out_(out), p_(domain.points()) {}
+      : domain_(domain), options_(options), bulk_(options.parallel, options.stop), stop_check_(options.stop), out_(out), p_(domain.points()) {}
   void run();
 
  private:

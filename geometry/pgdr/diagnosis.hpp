@@ -76,6 +76,7 @@ struct DiagnosisOptions {
   /// Ends it, from any thread, by a CancelledError: in some milliseconds, but for the making of a search tree, which takes up to
   /// a fifth of a second for a million triangles.
   std::stop_token stop = {};
+  bool parallel = true;  ///< on the threads of the caller's tbb::task_arena; else on the calling thread alone
 };
 
 /// What was found. A value.
@@ -103,9 +104,9 @@ Diagnosis<D> diagnose(const Plc<D>& plc, const DiagnosisOptions& options = {});
 template <int D>
 Diagnosis<D> diagnose(const Plc<D>& plc, const DiagnosisOptions& options, std::optional<Domain<D>>& prepared);
 
-/// What `refine` asks first. Takes no time to speak of where the Domain knows already that nothing meets.
+/// What `refine` asks first. Takes no time to speak of where the Domain knows already that nothing meets. `parallel`: see above.
 /// @throws DiagnosedError the first error, if there is one, and how many more there are; CancelledError.
 template <int D>
-void require_no_errors(const Domain<D>& domain, std::stop_token stop = {});
+void require_no_errors(const Domain<D>& domain, std::stop_token stop = {}, bool parallel = true);
 
 }  // namespace pgdr
