@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "detail/leaf_refinement.hpp"
+#include "detail/make_set.hpp"
 
 namespace pgdr::detail {
 namespace {
@@ -84,6 +85,19 @@ std::vector<PoorCell> LeafRefinement<D>::explain(StopCause& stop) {
   return std::move(found.poor);
 }
 
+/// These cells, and so many rings of neighbours about them. What came of the cells alone may be undone by what comes next, and so
+/// on in turn; with others about them it is not.
+template <int D>
+std::vector<CellId> LeafRefinement<D>::with_rings(std::vector<CellId> cells, int rings) const {
+  for (int ring = 0; ring < rings; ++ring) {
+    for (std::size_t k = 0, n = cells.size(); k < n; ++k)
+      for (const Link next : context_.mesh.cell(cells[k]).links)
+        if (next) cells.push_back(next.cell());
+    make_set(cells);
+  }
+  return cells;
+}
+
 template <int D>
 void LeafRefinement<D>::help_unexplained(PoorReasons<D>& reasons, PoorFindings& found, int most_in_vain) {
   std::size_t least = found.unexplained.size();
@@ -92,7 +106,7 @@ void LeafRefinement<D>::help_unexplained(PoorReasons<D>& reasons, PoorFindings& 
     // What is mended by taking a vertex out may come back with it: then a point inside is better, or the other way round.
     const bool mends = unexplained_violations_ > 0 && in_vain % 2 == 0;
     context_.excusing = mends ? reasons.excusing_homes(found) : ExcusingHomes{};
-    if (!insert_within(found.unexplained) || context_.stop != 0) break;
+    if (!insert_within(with_rings(found.unexplained, in_vain)) || context_.stop != 0) break;
     found = look_for_poor(reasons);
     in_vain = found.unexplained.size() < least ? 0 : in_vain + 1;
     least = std::min(least, found.unexplained.size());

@@ -126,6 +126,7 @@ class LeafRefinement {
   PoorFindings look_for_poor(PoorReasons<D>& reasons);
   bool lists_all_poor(const PoorFindings& found) const;
   void help_unexplained(PoorReasons<D>& reasons, PoorFindings& found, int most_in_vain);
+  std::vector<CellId> with_rings(std::vector<CellId> cells, int rings) const;
   bool insert_within(std::span<const CellId> cells);
   bool may_improve(bool takes_out_alone) const;
   void list_for_improvement();
