@@ -13,9 +13,11 @@ void Bulk::run(std::size_t count, std::size_t block, const std::function<void(st
     return;
   }
   tbb::this_task_arena::isolate([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, block), [&](const tbb::blocked_range<std::size_t>& r) {
+    tbb::task_group_context own(tbb::task_group_context::isolated);
+    const auto some = [&](const tbb::blocked_range<std::size_t>& r) {
       if (!stopped()) f(r.begin(), r.end());
-    });
+    };
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, block), some, own);
   });
 }
 

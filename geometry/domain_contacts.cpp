@@ -6,6 +6,7 @@
 // no point of any facet moves, also where a facet is not planar. What meets is found as the diagnosis finds it; where
 // nothing does, that is known from here on.
 #include <algorithm>
+#include <iterator>
 
 #include "detail/box_tree.hpp"
 #include "detail/domain_builder.hpp"
@@ -80,14 +81,14 @@ bool DomainBuilder<D>::find_contacts() {
   for (const detail::Piece& piece : pieces_) corners.push_back(piece.corners);
   const detail::BoxTree<D> tree(corners, out_.points_);
   using Found = std::vector<detail::FoundContact>;
-  const auto parts = tree.template self_pairs_in_parts<Found>(bulk_, [this](std::uint32_t i, std::uint32_t j, Found& found) {
+  auto parts = tree.template self_pairs_in_parts<Found>(bulk_, [this](std::uint32_t i, std::uint32_t j, Found& found) {
     stop_check_();
     if (j < facet_of_.size() && facet_of_[i] == facet_of_[j]) return;  // of one planar triangulation
     Contact c = detail::contact<D>(out_.points_, pieces_[i], pieces_[j]);
     if (c.kind != Contact::Kind::none) found.push_back({i, j, std::move(c)});
   });
   stop_check_();
-  for (const Found& part : parts) contacts_.insert(contacts_.end(), part.begin(), part.end());
+  for (Found& part : parts) std::ranges::move(part, std::back_inserter(contacts_));
   return !contacts_.empty();
 }
 

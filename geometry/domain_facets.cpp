@@ -118,7 +118,7 @@ void DomainBuilder<D>::fail_degenerate(std::uint32_t f, const std::string& why,
     where.push_back(out_.points_[vertices[k]].x);
   }
   fail(Errc::degenerate_facet, "facet " + std::to_string(number(f)) + " " + why + words, plc_.source.facet_lines, f,
-       std::move(ids), std::move(where));
+       ids, where);
 }
 
 template <int D>

@@ -15,6 +15,7 @@
 
 #if PGDR_TEST_TBB
 #include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 #endif
 
 namespace pgdr::test_diagnosis {
@@ -252,7 +253,7 @@ TEST(Diagnosis, AllThatADomainRefuses) {
   EXPECT_GT(diagnose(Plc<2>{}).error_count(), 0u);
 }
 
-// Two bumpy tori through each other; a third of the first one's facets are turned over, so that there is more to list.
+// Two bumpy tori through each other; every sixth facet is turned over, so that there is more to list.
 Plc<3> crossing_tori(std::uint32_t side) {
   constexpr double pi = 3.14159265358979323846;
   Plc<3> plc;
@@ -300,6 +301,22 @@ TEST(Diagnosis, IsTheSameForAnyNumberOfThreads) {
     if (threads == 1) one = in_words(d);
     EXPECT_EQ(in_words(d), one) << threads;
   }
+}
+
+// Somebody cancels the tasks that the diagnosis is part of: it would find nothing in what is not looked at any more.
+TEST(Diagnosis, IsWholeThoughTheTasksOfTheCallerAreCancelled) {
+  const test::AllowThreads allow(2);
+  const Plc<3> plc = crossing_tori(100);
+  tbb::task_arena arena(2);
+  Diagnosis<3> d;
+  arena.execute([&] {
+    tbb::task_group group;
+    group.run_and_wait([&] {
+      group.cancel();
+      d = diagnose(plc);
+    });
+  });
+  EXPECT_EQ(in_words(d), in_words(diagnose(plc)));
 }
 #endif
 

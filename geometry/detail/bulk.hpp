@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Bulk loops over arrays, in the caller's task arena or on the calling thread: the one place where geometry and
-// core use TBB. What comes out does not depend on the threads.
+// core use TBB. What comes out does not depend on the threads. Somebody who cancels the caller's tasks does not end them: what was
+// not looked at would be taken for nothing.
 #pragma once
 
 #include <tbb/parallel_sort.h>
@@ -88,7 +89,7 @@ class Bulk {
     if (stopped()) return;
     if (!parallel_) return std::sort(items.begin(), items.end(), less);
     tbb::this_task_arena::isolate([&] {
-      tbb::task_group_context context;
+      tbb::task_group_context context(tbb::task_group_context::isolated);
       const std::stop_callback stop(stop_, [&] { context.cancel_group_execution(); });
       tbb::task_group(context).run_and_wait([&] { tbb::parallel_sort(items.begin(), items.end(), less); });
     });

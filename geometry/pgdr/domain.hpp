@@ -16,8 +16,8 @@
 // Pieces that meet exactly where they have no corner in common are fitted to each other, which changes no point of the
 // union of all: a point inside a segment or an edge of a facet splits it, and the facets with it; a point inside a facet
 // becomes a point of it; an edge or a segment that runs inside of a facet, between points of it, becomes one of its
-// segments, unless it crosses others; a facet of one polygon all of whose points lie on a line is dropped, as
-// it bounds nothing. What meets otherwise (see diagnosis.hpp) is not refused here. No point is added, and none is moved.
+// segments, unless it crosses others. A facet of one polygon all of whose points lie on a line is dropped, as it has no area and
+// bounds nothing. What meets otherwise (see diagnosis.hpp) is not refused here. No point is added, and none is moved.
 #pragma once
 
 #include <cstdint>
@@ -90,8 +90,8 @@ class Domain {
   /// entities_intersect; a flat facet, degenerate_facet), the message at most twenty; `code` is that of the error which
   /// it would have been.
   /// @throws InputError with ids, coordinates, and file and line if known: not_finite, index_out_of_range,
-  ///   degenerate_segment (both ends equal), degenerate_facet (fewer than three distinct points, all collinear, or
-  ///   enclosing nothing), self_crossing_facet (two polygon edges cross, or a vertex lies inside an edge, though in the
+  ///   degenerate_segment (both ends equal), degenerate_facet (of none or several polygons: fewer than three distinct
+  ///   points, or all collinear; enclosing nothing), self_crossing_facet (two polygon edges cross, or a vertex lies inside an edge, though in the
   ///   projection alone), seed_on_boundary (the hole of a facet lies on its polygons), no_volume. CancelledError once
   ///   `stop` is requested, from any thread: as soon as DiagnosisOptions::stop ends a diagnosis.
   explicit Domain(const Plc<D>& plc, std::stop_token stop = {});
