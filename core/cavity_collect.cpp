@@ -60,7 +60,23 @@ auto Cavity<D>::add_part_face(CellId cell, int face, EntityId entity) -> Status 
     mesh_->constraints(across.cell())->part |= static_cast<std::uint8_t>(1 << across.face());
     take(across.cell());
   }
-  return Status::ok;
+  return has_corner_too_near(cell) || (across && has_corner_too_near(across.cell())) ? Status::too_near : Status::ok;
+}
+
+template <int D>
+bool Cavity<D>::has_corner_too_near(CellId c) {
+  if (!(least_ > 0)) return false;
+  const auto& v = mesh_->cell(c).vertices;
+  if (std::none_of(v.begin(), v.end(), [this](VertexId corner) { return is_too_near(mesh_->vertex(corner)); })) return false;
+  near_cell_ = c;
+  return true;
+}
+
+template <int D>
+bool Cavity<D>::is_too_near(const VertexRecord<D>& v) const {
+  if (!(std::sqrt(squared_distance(point_, v.point)) < least_)) return false;
+  if constexpr (D == 3) return !place_ || !is_twin(*domain_, split_segment_, *place_, v);
+  return true;
 }
 
 template <int D>
@@ -163,11 +179,12 @@ auto Cavity<D>::take_fan(CellId cell, int a, int b) -> Status {
 }
 
 template <int D>
-auto Cavity<D>::collect_on_edge(const Point<D>& p, CellId cell, int edge, double least) -> Status
+auto Cavity<D>::collect_on_edge(const Point<D>& p, CellId cell, int edge, double least, const SplitPlace* place) -> Status
   requires(D == 3)
 {
   begin(p);
   least_ = least;
+  place_ = place;
   const auto [a, b] = edge_ends[edge];
   split_edge_ = {mesh_->cell(cell).vertices[a], mesh_->cell(cell).vertices[b]};
   split_segment_ = mesh_->constraints(cell)->edge_entity[edge];
@@ -211,7 +228,10 @@ auto Cavity<D>::grow() -> Status {
           if (!owns_next(next)) return Status::not_owned;
           take_unmarked(next.cell());
           const VertexId apex = mesh_->cell(next.cell()).vertices[next.face()];
-          if (least_ > 0 && std::sqrt(squared_distance(point_, mesh_->point(apex))) < least_) return Status::too_near;
+          if (least_ > 0 && is_too_near(mesh_->vertex(apex))) {
+            near_cell_ = next.cell();
+            return Status::too_near;
+          }
         } else {
           boundary_.push_back({c, f});
         }

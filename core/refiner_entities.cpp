@@ -261,18 +261,20 @@ auto Refiner<D>::split_face(const Item& e, const Demand* cause) -> Outcome {
   return decide(entity, own, cause);
 }
 
-/// A cell at the subsegment with a corner nearer than this to x on it. Such cells are in the cavity of x, whatever else is, and
+/// A cell at the subsegment with a corner nearer than this to x on it, twins of `place`, if x is that, left out. Such cells are in the cavity of x, whatever else is, and
 /// are found long before that is collected. Ends where the claim does.
 template <int D>
-auto Refiner<D>::cell_near_edge(const Item& e, const Point<D>& x, double distance) const -> std::optional<CellId> {
+auto Refiner<D>::cell_near_edge(const Item& e, const Point<D>& x, double distance, const SplitPlace* place) const
+    -> std::optional<CellId> {
   if constexpr (D == 3) {
+    const EntityId s = mesh_->constraints(e.cell)->edge_entity[e.which()];
     int others[2], n = 0;
     for (int i = 0; i <= D; ++i)
       if (i != edge_ends[e.which()][0] && i != edge_ends[e.which()][1]) others[n++] = i;
     for (const int way : {0, 1}) {
       RidgeWalk<D> walk{e.cell, others[1 - way], others[way]};
       while (cavity_.owns(walk.cell)) {
-        if (distance_to_corners(walk.cell, x) < distance) return walk.cell;
+        if (distance_to_corners(walk.cell, x, s, place) < distance) return walk.cell;
         if (!walk.link(*mesh_)) break;
         walk.step(*mesh_);
         if (walk.cell == e.cell) return {};
@@ -282,14 +284,20 @@ auto Refiner<D>::cell_near_edge(const Item& e, const Point<D>& x, double distanc
   return {};
 }
 
+/// Of x on the segment from the nearest corner that is no twin of `place`.
 template <int D>
-double Refiner<D>::distance_to_corners(CellId c, const Point<D>& x) const {
+double Refiner<D>::distance_to_corners(CellId c, const Point<D>& x, EntityId segment, const SplitPlace* place) const {
   double least = std::numeric_limits<double>::infinity();
-  for (const VertexId v : mesh_->cell(c).vertices) least = std::min(least, squared_distance(mesh_->point(v), x));
+  for (const VertexId v : mesh_->cell(c).vertices) {
+    const double squared = squared_distance(mesh_->point(v), x);
+    if constexpr (D == 3)
+      if (place && squared < least && is_twin(*domain_, segment, *place, mesh_->vertex(v))) continue;
+    least = std::min(least, squared);
+  }
   return std::sqrt(least);
 }
 
-/// A subsegment whose middle is too near to a corner of this cell of its cavity. These two cells decide that: whatever was
+/// A subsegment whose point is too near to a corner of this cell of its cavity. These two cells decide that: whatever was
 /// looked at before may change.
 template <int D>
 auto Refiner<D>::refuse_near(const Item& e, std::span<const VertexId> own, CellId near) -> Outcome {
@@ -323,25 +331,25 @@ auto Refiner<D>::split_edge(const Item& e, const Demand* cause) -> Outcome {
     const auto& vertices = mesh_->cell(e.cell).vertices;
     const std::array<VertexId, 2> own{vertices[edge_ends[e.which()][0]], vertices[edge_ends[e.which()][1]]};
     bool owned = true;
-    const auto place = place_beside(e, own, owned);
+    const auto beside_other = place_beside(e, own, owned);
     if (!owned) return give_up(Outcome::not_owned);
-    if (place) return split_beside(e, *place, own, cause);
-    const Point<D> x = split_point(s, own[0], own[1]);
+    const SplitPlace* place = beside_other ? &*beside_other : nullptr;
+    const Point<D> x = place ? place->x : split_point(s, own[0], own[1]);
     const EntityRef entity{EntityKind::segment, s};
     const double least = cause ? cause->d : 0;
-    if (const auto near = memo_.nearer_than(*mesh_, own[0], own[1], least)) return refuse_near(e, own, near->cell);
-    auto near = cause ? cell_near_edge(e, x, least) : std::nullopt;
+    if (const auto near = memo_.nearer_than(*mesh_, own[0], own[1], least); near && near->x == x) return refuse_near(e, own, near->cell);
+    auto near = cause ? cell_near_edge(e, x, least, place) : std::nullopt;
     auto status = Cavity<D>::Status::too_near;
     // In a tangle cavities are cut back, and the cut may leave a corner out: the second attempt at a mesh waits for that.
-    if (!near) status = cavity_.collect_on_edge(x, e.cell, e.which(), context_->sparse_at_small_angles ? least : 0);
+    if (!near) status = cavity_.collect_on_edge(x, e.cell, e.which(), context_->sparse_at_small_angles ? least : 0, place);
     if (status == Cavity<D>::Status::not_owned) return give_up(Outcome::not_owned);
     if (status == Cavity<D>::Status::too_near) {
-      if (!near) near = cavity_.cells().back();
-      memo_.note_near(own[0], own[1], {*near, mesh_->birth(*near), distance_to_corners(*near, x)});
+      if (!near) near = cavity_.near_cell();
+      memo_.note_near(own[0], own[1], {*near, mesh_->birth(*near), x, distance_to_corners(*near, x, s, place)});
       return refuse_near(e, own, *near);
     }
     if (status != Cavity<D>::Status::ok) return refuse(entity, own);
-    return decide(entity, own, cause);
+    return decide(entity, own, cause, place ? twins_of(s, *place) : std::vector<VertexId>{});
   } else {
     static_cast<void>(e);
     static_cast<void>(cause);

@@ -45,16 +45,6 @@ std::vector<VertexId> Refiner<D>::twins_of(EntityId s, const SplitPlace& place) 
   return twins;
 }
 
-template <int D>
-auto Refiner<D>::split_beside(const Item& e, const SplitPlace& place, std::span<const VertexId> own, const Demand* cause)
-    -> Outcome {
-  const EntityRef segment{EntityKind::segment, mesh_->constraints(e.cell)->edge_entity[e.which()]};
-  const auto status = cavity_.collect_on_edge(place.x, e.cell, e.which());
-  if (status == Cavity<D>::Status::not_owned) return give_up(Outcome::not_owned);
-  if (status != Cavity<D>::Status::ok) return refuse(segment, own);
-  return decide(segment, own, cause, twins_of(segment.id, place));
-}
-
 template class Refiner<3>;
 
 }  // namespace pgdr

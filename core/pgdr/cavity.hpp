@@ -23,6 +23,7 @@
 #include "pgdr/key_set.hpp"
 #include "pgdr/mesh.hpp"
 #include "pgdr/simplex_shapes.hpp"
+#include "pgdr/twins.hpp"
 #include "pgdr/visit_area.hpp"
 
 namespace pgdr {
@@ -97,8 +98,9 @@ class Cavity {
   Status collect(const Point<D>& p, CellId seed);
   /// A point on the facet (2D: segment) that the constrained face belongs to, inside the face's circumcircle.
   Status collect_on_face(const Point<D>& p, CellId cell, int face);
-  /// 3D: a point on the subsegment that is edge `edge` of `cell`. Ends as soon as a vertex is nearer than `least`.
-  Status collect_on_edge(const Point<D>& p, CellId cell, int edge, double least = 0)
+  /// 3D: a point on the subsegment that is edge `edge` of `cell`. Ends as soon as a vertex is nearer than `least`, twins of
+  /// `place`, if it is that, left out.
+  Status collect_on_edge(const Point<D>& p, CellId cell, int edge, double least = 0, const SplitPlace* place = nullptr)
     requires(D == 3);
 
   /// Does a look at the filter show that all of it is star-shaped about the point, which then lies in it? After `collect` said ok.
@@ -114,6 +116,7 @@ class Cavity {
   const std::vector<CellId>& cells() const { return cells_; }  ///< to be deleted
   const std::vector<BoundaryFace>& boundary() const { return boundary_; }  ///< of these, constrained faces of the part left out
   const std::vector<PartFace>& part() const { return part_; }  ///< what of the point's own facet (segment) it splits
+  CellId near_cell() const { return near_cell_; }  ///< of it, with a vertex that is too near. After `collect...` said so.
   bool shrunk() const { return shrunk_; }  ///< was it cut back?
   bool touches_constraints() const { return touches_constraints_; }  ///< has a cell of it any?
 
@@ -179,6 +182,8 @@ class Cavity {
     return k && (k->part >> face & 1);
   }
   Status grow();
+  bool has_corner_too_near(CellId c);
+  bool is_too_near(const VertexRecord<D>& v) const;
   void rebuild_boundary();
   void look_at_shapes();
   bool visible(std::size_t i) const;
@@ -218,6 +223,8 @@ class Cavity {
   Point<D> point_;
   double squared_depth_ = 0;  ///< of the point in the visit's area, as that has it
   double least_ = 0;  ///< distance that vertices must have
+  const SplitPlace* place_ = nullptr;  ///< twins of which need not
+  CellId near_cell_{0xffffffffu};
   std::size_t most_cells_ = std::numeric_limits<std::size_t>::max();  ///< that it may have
   std::vector<CellId> cells_, new_cells_;
   std::vector<CellId> protected_;

@@ -197,8 +197,8 @@ class Refiner {
   bool face_encroached_by(CellId c, int face, VertexId v) const;
   Outcome split_face(const Item& e, const Demand* cause);
   Outcome split_edge(const Item& e, const Demand* cause);
-  std::optional<CellId> cell_near_edge(const Item& e, const Point<D>& x, double distance) const;
-  double distance_to_corners(CellId c, const Point<D>& x) const;
+  std::optional<CellId> cell_near_edge(const Item& e, const Point<D>& x, double distance, const SplitPlace* place) const;
+  double distance_to_corners(CellId c, const Point<D>& x, EntityId segment, const SplitPlace* place) const;
   Outcome refuse_near(const Item& e, std::span<const VertexId> own, CellId near);
   bool is_refused_as_before(const Item& face, const Demand& cause);
   Point<D> face_point(CellId c, int face) const;
@@ -222,7 +222,6 @@ class Refiner {
   // refiner_twins.cpp: subsegments that vertices are close beside
   std::optional<SplitPlace> place_beside(const Item& e, std::span<const VertexId> own, bool& owned) const;
   std::vector<VertexId> twins_of(EntityId s, const SplitPlace& place) const;
-  Outcome split_beside(const Item& e, const SplitPlace& place, std::span<const VertexId> own, const Demand* cause);
 
   // refiner_cells.cpp: poor elements
   FilterSphere<D> sphere_of(const Item& e) const;

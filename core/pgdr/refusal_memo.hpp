@@ -19,11 +19,12 @@ namespace pgdr {
 template <int D>
 class RefusalMemo {
  public:
-  /// A cell of the cavity of a subsegment's middle, and how near a corner of it is.
+  /// A cell of the cavity of a subsegment's point, and how near a corner of it is.
   struct Near {
     CellId cell;  ///< its slot
     std::uint16_t birth;  ///< of that cell
-    double distance;  ///< of its nearest corner from the middle
+    Point<D> x;  ///< the point
+    double distance;  ///< of its nearest corner from there
   };
 
   /// Forgets everything, at no cost where there is nothing.
