@@ -100,11 +100,12 @@ double CellBounds<D>::excess(const Simplex<D>& s, int region) const {
     return 1 + of_power * (powers < most_powers ? std::max(powers, 0.0) : most_powers);  // of rounding's NaN: the most
   };
   const double shortest2 = shortest_edge_squared<D>(s), limit2 = radius_edge_bound * radius_edge_bound * shortest2;
-  const std::optional<double> radius2 = squared_circumradius_quickly<D>(s);
-  if (radius2 && *radius2 > limit2 * (1 + margin) && limit2 > 0) return of_powers(std::log2(*radius2 / limit2) / 2);
+  std::optional<double> radius2 = squared_circumradius_quickly<D>(s);
   // Of cells flatter than that the centre would be had in integers, which took half of the time where there are many.
   if (const auto rough = radius2 ? std::nullopt : squared_circumradius_quickly<D>(s, roughly))
     if (*rough > limit2 * (1 + rough_margin) && limit2 > 0) return of_powers(std::log2(*rough / limit2) / 2);
+  if (!radius2) radius2 = squared_circumradius_of_flat<D>(s);
+  if (radius2 && *radius2 > limit2 * (1 + margin) && limit2 > 0) return of_powers(std::log2(*radius2 / limit2) / 2);
   const bool within = radius2 && *radius2 < limit2 * (1 - margin);
   if (!within && !radius_edge_within<D>(s, radius_edge_bound)) {
     const double limit = radius_edge_bound * std::sqrt(shortest2);

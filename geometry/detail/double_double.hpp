@@ -48,6 +48,11 @@ inline DoubleDouble operator/(DoubleDouble a, DoubleDouble b) {
   return DoubleDouble(fast_two_sum(q, r)) + DoubleDouble(rest2.hi / b.hi);
 }
 
+// The arithmetic of determinants.hpp.
+inline DoubleDouble add(DoubleDouble a, DoubleDouble b) { return a + b; }
+inline DoubleDouble sub(DoubleDouble a, DoubleDouble b) { return a - b; }
+inline DoubleDouble mul(DoubleDouble a, DoubleDouble b) { return a * b; }
+
 /// The difference of two doubles, exactly.
 inline DoubleDouble difference(double a, double b) { return two_diff(a, b); }
 

@@ -4,6 +4,9 @@
 // The claim of a visit as the refiner asks for it.
 #pragma once
 
+#include <array>
+#include <bit>
+#include <cstdint>
 #include <limits>
 
 #include "pgdr/claim.hpp"
@@ -33,14 +36,33 @@ class ClaimedArea final : public VisitArea<D> {
     }
     return box;
   }
-  bool claimed(const Point<D>& p) const override { return claim_->contains(p); }
+  /// Of the vertices about an element, which are asked for again and again, the answers are kept.
+  bool claimed(const Point<D>& p) const override {
+    std::uint64_t hash = 0;
+    for (int i = 0; i < D; ++i) hash = (std::rotl(hash, 21) ^ std::bit_cast<std::uint64_t>(p[i])) * 0x9e3779b97f4a7c15u;
+    Answer& a = answers_[hash >> (64 - answer_bits)];
+    if (!(a.p == p)) a = {p, claim_->contains(p)};
+    return a.claimed;
+  }
   std::uint32_t leaf_of(const Point<D>& p) const override { return tree_->leaf_at(p); }
 
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
+  static constexpr int answer_bits = 8;
+  struct Answer {
+    Point<D> p = nowhere();
+    bool claimed = false;
+  };
+  static Point<D> nowhere() {
+    Point<D> p;
+    p[0] = std::numeric_limits<double>::quiet_NaN();
+    return p;
+  }
+
   const Orthtree<D>* tree_;
   const Claim<D>* claim_;
+  mutable std::array<Answer, 1 << answer_bits> answers_;
 };
 
 }  // namespace pgdr::detail
