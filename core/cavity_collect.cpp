@@ -12,6 +12,7 @@ template <int D>
 void Cavity<D>::begin(const Point<D>& p) {
   point_ = p;
   squared_depth_ = area_ ? area_->squared_depth(p) : std::numeric_limits<double>::infinity();
+  watch_ = nullptr;
   least_ = 0;
   shrunk_ = touches_constraints_ = shapes_known_ = star_shaped_ = false;
   split_edge_ = {no_vertex, no_vertex};
@@ -39,8 +40,9 @@ void Cavity<D>::clear_part_bits() {
 }
 
 template <int D>
-auto Cavity<D>::collect(const Point<D>& p, CellId seed) -> Status {
+auto Cavity<D>::collect(const Point<D>& p, CellId seed, FaceWatch* watch) -> Status {
   begin(p);
+  watch_ = watch;
   if (!mesh_->conflicts(seed, p)) return Status::not_in_conflict;
   if (!owns(seed) || !owns_point()) return Status::not_owned;
   take(seed);
@@ -221,6 +223,7 @@ auto Cavity<D>::grow() -> Status {
       assert(!next || may_read(next.cell()));
       if (closed >> f & 1) {
         boundary_.push_back({c, f});
+        if (watch_ && watch_->stops_at(c, f)) return Status::stopped;
       } else if (!next) {
         continue;  // a subfacet of the part, at the hull
       } else if (!mesh_->marked(next.cell())) {

@@ -101,6 +101,22 @@ auto Refiner<D>::demand_on_entity(CellId c, const CellVerdict& verdict) const ->
   return {inherited_fraction * demand.d, demand.d};
 }
 
+/// Does x encroach upon the constrained face, and does it project into it?
+template <int D>
+auto Refiner<D>::encroachment(CellId c, int face, const Point<D>& x) const -> Encroachment {
+  std::array<Point<D>, D> corner;
+  for (int i = 0, n = 0; i <= D; ++i)
+    if (i != face) corner[n++] = mesh_->point(mesh_->cell(c).vertices[i]);
+  bool inside;
+  if constexpr (D == 2) {
+    inside = in_diametral_ball<2>(corner[0], corner[1], x);
+  } else {
+    inside = in_equatorial_ball(equatorial_ball(corner[0], corner[1], corner[2]), x);
+  }
+  if (!inside) return Encroachment::none;
+  return projects_into<D>(corner, x) ? Encroachment::before : Encroachment::beside;
+}
+
 /// A constrained face of the cavity's boundary in whose equatorial (diametral) ball x lies; one that x projects into, if
 /// there is one (Projection Lemma 2.6).
 template <int D>
@@ -108,21 +124,36 @@ auto Refiner<D>::encroached_face(const Point<D>& x) const -> std::optional<Item>
   std::optional<Item> any;
   for (const auto& f : cavity_.boundary()) {
     if (!mesh_->constrained(f.cell, f.face)) continue;
-    std::array<Point<D>, D> corner;
-    for (int i = 0, n = 0; i <= D; ++i)
-      if (i != f.face) corner[n++] = mesh_->point(mesh_->cell(f.cell).vertices[i]);
-    bool inside;
-    if constexpr (D == 2) {
-      inside = in_diametral_ball<2>(corner[0], corner[1], x);
-    } else {
-      inside = in_equatorial_ball(equatorial_ball(corner[0], corner[1], corner[2]), x);
-    }
-    if (!inside) continue;
-    if (projects_into<D>(corner, x)) return make_entry(f.cell, EntryKind::face, f.face);
-    if (!any) any = make_entry(f.cell, EntryKind::face, f.face);
+    const Encroachment how = encroachment(f.cell, f.face, x);
+    if (how == Encroachment::before) return make_entry(f.cell, EntryKind::face, f.face);
+    if (how == Encroachment::beside && !any) any = make_entry(f.cell, EntryKind::face, f.face);
   }
   return any;
 }
+
+/// Looks, while the cavity of x is collected for a poor element, for a face before x that is known to be refused. (Beside small
+/// angles most elements that stay poor are behind such a face, and it is near to them, while their cavities are large.)
+template <int D>
+class Refiner<D>::RefusedFace final : public Cavity<D>::FaceWatch {
+ public:
+  RefusedFace(const Refiner& refiner, const Point<D>& x, const Demand& cause, double squared)
+      : refiner_(&refiner), x_(x), cause_(cause), squared_(squared) {}
+  bool stops_at(CellId c, int face) override {
+    const Item f = refiner_->make_entry(c, EntryKind::face, face);
+    if (!refiner_->refused_before(f, cause_) || refiner_->encroachment(c, face, x_) == Encroachment::none) return false;
+    if (refiner_->is_clear_of(f, x_, squared_)) return false;
+    found_ = f;
+    return true;
+  }
+  const Item& found() const { return *found_; }  ///< once it has stopped
+
+ private:
+  const Refiner* refiner_;
+  Point<D> x_;
+  Demand cause_;
+  double squared_;  ///< distance beyond which x may go in all the same
+  std::optional<Item> found_;
+};
 
 /// The constrained face that cuts x off from cell c, on a visibility walk through cells that `may_enter` allows; none if x
 /// is reached or the walk leaves these before.
@@ -307,7 +338,16 @@ auto Refiner<D>::wall_before_far_point(CellId c, const Point<D>& x) -> std::opti
 template <int D>
 auto Refiner<D>::treat_cell_at(const Item& e, const Point<D>& x, const CellVerdict& verdict) -> Outcome {
   if (const auto wall = wall_before_far_point(e.cell, x)) return split_instead(*wall, e, verdict);
-  const auto status = cavity_.collect(x, e.cell);
+  const double radii = context_->last_resort ? 1 : 2;
+  const double far = radii * radii * mesh_->squared_radius_bounds(e.cell).second;
+  typename Cavity<D>::Status status;
+  if (memo_.knows_faces()) {
+    RefusedFace refused(*this, x, demand_on_entity(e.cell, verdict), far);
+    status = cavity_.collect(x, e.cell, &refused);
+    if (status == Cavity<D>::Status::stopped) return split_instead(refused.found(), e, verdict);
+  } else {
+    status = cavity_.collect(x, e.cell);
+  }
   if (status == Cavity<D>::Status::not_owned) {
     // A point that a wall of the claim cuts off asks for no larger claim: the wall does.
     cavity_.release();
@@ -317,8 +357,6 @@ auto Refiner<D>::treat_cell_at(const Item& e, const Point<D>& x, const CellVerdi
   if (status != Cavity<D>::Status::ok) return Outcome::refused;
   if (const auto encroached = encroached_entity(x)) {
     // An entity that is refused leaves the mesh as it is: whether x is far enough can be seen now, with its cavity at hand.
-    const double radii = context_->last_resort ? 1 : 2;
-    const double far = radii * radii * mesh_->squared_radius_bounds(e.cell).second;
     const bool clear = is_clear_of(*encroached, x, far) && is_clear_of_encroached(x, far);
     const Outcome outcome = split_instead(*encroached, e, verdict);
     return outcome == Outcome::refused && clear ? insert_beside_refused(x, e, verdict) : outcome;

@@ -306,22 +306,26 @@ auto Refiner<D>::refuse_near(const Item& e, std::span<const VertexId> own, CellI
   return outcome;
 }
 
-/// A subfacet that has asked for the split of a subsegment that is refused: refused, if that still holds.
+/// Of a subfacet that has asked for the split of a subsegment that is refused: that, and the cell with the vertex that is too near,
+/// if that still holds.
+template <int D>
+auto Refiner<D>::refused_before(const Item& face, const Demand& cause) const -> std::optional<std::pair<Item, CellId>> {
+  const auto edge = memo_.passed_on(*mesh_, face);
+  if (!edge) return std::nullopt;
+  const auto& v = mesh_->cell(edge->cell).vertices;
+  const auto near = memo_.nearer_than(*mesh_, v[edge_ends[edge->which()][0]], v[edge_ends[edge->which()][1]], cause.d);
+  return near ? std::optional(std::pair(*edge, near->cell)) : std::nullopt;
+}
+
 template <int D>
 bool Refiner<D>::is_refused_as_before(const Item& face, const Demand& cause) {
-  if constexpr (D == 3) {
-    const auto edge = memo_.passed_on(*mesh_, face);
-    if (!edge) return false;
-    const auto& vertices = mesh_->cell(edge->cell).vertices;
-    const std::array<VertexId, 2> own{vertices[edge_ends[edge->which()][0]], vertices[edge_ends[edge->which()][1]]};
-    const auto near = memo_.nearer_than(*mesh_, own[0], own[1], cause.d);
-    if (!near) return false;
-    refuse_near(*edge, own, near->cell);
-    seen_.push_back(face.cell);
-    return true;
-  } else {
-    return false;
-  }
+  const auto known = refused_before(face, cause);
+  if (!known) return false;
+  const auto& [edge, near] = *known;
+  const auto& v = mesh_->cell(edge.cell).vertices;
+  refuse_near(edge, std::array{v[edge_ends[edge.which()][0]], v[edge_ends[edge.which()][1]]}, near);
+  seen_.push_back(face.cell);
+  return true;
 }
 
 template <int D>

@@ -76,6 +76,15 @@ class Cavity {
     not_owned,        ///< the visit's claim is too small
     too_near,         ///< a vertex is nearer than asked for
     too_many,         ///< it has more cells than asked for
+    stopped,          ///< the watch said so
+  };
+  /// Is shown the constrained faces that bound the cavity, as they are found.
+  class FaceWatch {
+   public:
+    virtual bool stops_at(CellId c, int face) = 0;  ///< Is the rest of no interest?
+
+   protected:
+    ~FaceWatch() = default;
   };
 
   /// `domain` may be null where no insertion splits a facet.
@@ -95,7 +104,7 @@ class Cavity {
 
   // ---- collect -----------------------------------------------------------------------------------------------------
   /// A point in the volume; the seed must be in conflict with it.
-  Status collect(const Point<D>& p, CellId seed);
+  Status collect(const Point<D>& p, CellId seed, FaceWatch* watch = nullptr);
   /// A point on the facet (2D: segment) that the constrained face belongs to, inside the face's circumcircle.
   Status collect_on_face(const Point<D>& p, CellId cell, int face);
   /// 3D: a point on the subsegment that is edge `edge` of `cell`. Ends as soon as a vertex is nearer than `least`, twins of
@@ -222,6 +231,7 @@ class Cavity {
   std::vector<CellId>* seen_ = nullptr;
   Point<D> point_;
   double squared_depth_ = 0;  ///< of the point in the visit's area, as that has it
+  FaceWatch* watch_ = nullptr;
   double least_ = 0;  ///< distance that vertices must have
   const SplitPlace* place_ = nullptr;  ///< twins of which need not
   CellId near_cell_{0xffffffffu};

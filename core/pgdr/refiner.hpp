@@ -200,6 +200,7 @@ class Refiner {
   std::optional<CellId> cell_near_edge(const Item& e, const Point<D>& x, double distance, const SplitPlace* place) const;
   double distance_to_corners(CellId c, const Point<D>& x, EntityId segment, const SplitPlace* place) const;
   Outcome refuse_near(const Item& e, std::span<const VertexId> own, CellId near);
+  std::optional<std::pair<Item, CellId>> refused_before(const Item& face, const Demand& cause) const;
   bool is_refused_as_before(const Item& face, const Demand& cause);
   Point<D> face_point(CellId c, int face) const;
   Point<D> split_point(EntityId s, VertexId a, VertexId b) const;
@@ -235,6 +236,9 @@ class Refiner {
   Outcome treat_cell_at(const Item& e, const Point<D>& x, const CellVerdict& verdict);
   Demand demand_of_cell(CellId c, const CellVerdict& verdict) const;
   Demand demand_on_entity(CellId c, const CellVerdict& verdict) const;
+  enum class Encroachment { none, beside, before };
+  Encroachment encroachment(CellId c, int face, const Point<D>& x) const;
+  class RefusedFace;
   std::optional<Item> encroached_face(const Point<D>& x) const;
   template <class MayEnter>
   std::optional<Item> wall_before(CellId c, const Point<D>& x, MayEnter may_enter) const;

@@ -42,6 +42,7 @@ class RefusalMemo {
   }
   /// The point of the subfacet encroaches upon the subsegment.
   void note_passed_on(const Entry<D>& face, const Entry<D>& edge) { passed_on_.insert_or_assign(key(face), edge); }
+  bool knows_faces() const { return !passed_on_.empty(); }  ///< has any been noted?
   /// The subsegment noted for the subfacet, if the cell that it was noted with is still there.
   std::optional<Entry<D>> passed_on(const Mesh<D>& mesh, const Entry<D>& face) const {
     const auto at = passed_on_.find(key(face));
