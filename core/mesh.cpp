@@ -31,9 +31,10 @@ Mesh<D>::Mesh()
       tags_(D == 3 ? capacity_ : 0),
       regions_(D == 3 ? capacity_ : 0),
       vertices_(capacity_),
+      notes_(D == 3 ? capacity_ : 0),
       constraints_(capacity_),
       cell_source_("cells", capacity_, [this](std::uint32_t n) { grow_cells_to(n); }),
-      vertex_source_("vertices", capacity_, [this](std::uint32_t n) { vertices_.grow_to(n); }),
+      vertex_source_("vertices", capacity_, [this](std::uint32_t n) { grow_vertices_to(n); }),
       constraint_source_("constrained cells", capacity_, [this](std::uint32_t n) { constraints_.grow_to(n); }) {}
 
 template <int D>
@@ -45,6 +46,12 @@ void Mesh<D>::grow_cells_to(std::uint32_t n) {
   }
   // Slots of a block that are never taken must read as dead.
   for (std::uint32_t i = n - IdSource::block; i < n; ++i) cells_[i].vertices[0] = no_vertex;
+}
+
+template <int D>
+void Mesh<D>::grow_vertices_to(std::uint32_t n) {
+  vertices_.grow_to(n);
+  if constexpr (D == 3) notes_.grow_to(n);
 }
 
 template <int D>

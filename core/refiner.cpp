@@ -321,10 +321,23 @@ std::optional<std::uint64_t> surroundings_of(const Mesh<D>& mesh, std::span<cons
 }
 
 template <int D>
+std::uint64_t versions_about(const Mesh<D>& mesh, CellId c) {
+  std::uint64_t sum = 0;
+  const auto add = [&](VertexId v) {
+    sum = (std::rotl(sum, 25) ^ mesh.note(v).version * 0x9e3779b97f4a7c15u) * 0xbf58476d1ce4e5b9u;
+  };
+  for (const VertexId v : mesh.cell(c).vertices) add(v);
+  for (const Link next : mesh.cell(c).links)
+    if (next) add(mesh.cell(next.cell()).vertices[next.face()]);
+  return sum;
+}
+
+template <int D>
 void Refiner<D>::record_refusal(const Item& e) {
   std::vector<CellId> seen = cells_seen(e);
   const std::uint64_t surroundings = surroundings_of<D>(*mesh_, seen).value_or(0);
-  visit_->list->refused.push_back({e, last_refusal_, visit_->order, visit_->generation, std::move(seen), surroundings});
+  const std::uint64_t versions = context_->improvement ? versions_about<D>(*mesh_, e.cell) : 0;
+  visit_->list->refused.push_back({e, last_refusal_, visit_->order, visit_->generation, std::move(seen), surroundings, versions});
   visit_->entities_refused = visit_->entities_refused || e.kind() != EntryKind::cell;
 }
 
@@ -379,7 +392,6 @@ void Refiner<D>::begin(RegionVisit<D>& visit) {
   abroad_.clear();
   seen_.clear();
   memo_.clear();
-  settled_ = {};
   cavity_.set_area(visit.area);
   cavity_.set_most_cells(context_->improvement ? most_cells_changed : std::numeric_limits<std::size_t>::max());
   flips_.set_area(visit.area);
@@ -451,6 +463,7 @@ void Refiner<D>::run(RegionVisit<D>& visit) {
 
 template std::optional<std::uint64_t> surroundings_of<2>(const Mesh<2>&, std::span<const CellId>);
 template std::optional<std::uint64_t> surroundings_of<3>(const Mesh<3>&, std::span<const CellId>);
+template std::uint64_t versions_about<3>(const Mesh<3>&, CellId);
 template struct RefineContext<2>;
 template struct RefineContext<3>;
 template class Refiner<2>;

@@ -267,7 +267,10 @@ auto Refiner<D>::note_change(const Item& e, std::vector<CellId> new_cells, bool 
   ++visit_->counts.improved;
   visit_->changed_mesh = true;
   visit_->violations_seen = visit_->violations_seen || violates;
-  for (const CellId c : new_cells) list_if_poor(c);
+  for (const CellId c : new_cells) {
+    for (const VertexId v : mesh_->cell(c).vertices) ++mesh_->note(v).version;
+    list_if_poor(c);
+  }
   if (alive(e)) list_again(e);  // the change was beside it
   return Outcome::committed;
 }

@@ -132,15 +132,6 @@ bool Refiner<D>::add_vertices_beyond(CellId c, std::vector<std::pair<VertexId, C
   return true;
 }
 
-/// Has it been found, in this visit, that the collected vertex stays, with all about it as it is? If not, notes that it does.
-template <int D>
-bool Refiner<D>::is_settled(Settled& settled) const {
-  std::vector<CellId> about(move_.cells());
-  std::sort(about.begin(), about.end());
-  const std::uint64_t surroundings = surroundings_of<D>(*mesh_, about).value_or(0);
-  return std::exchange(settled[index(move_.vertex())], surroundings) == surroundings;
-}
-
 /// Does what lessens the excess most with a vertex of the element, or of a neighbour of it: takes it out, or else moves it.
 template <int D>
 auto Refiner<D>::change_vertex(const Item& e, VertexChange change) -> Outcome {
@@ -161,10 +152,16 @@ auto Refiner<D>::change_vertex(const Item& e, VertexChange change) -> Outcome {
   for (const auto& candidate : vertices) {
     const VertexId v = candidate.first;
     const CellId at = candidate.second;
+    VertexNote& note = mesh_->note(v);
+    std::uint32_t& settled = note.settled[takes_out ? 0 : 1];
+    if (settled == note.version + 1) continue;
     const auto status = move_.collect(v, at, most_cells_changed);
-    seen_.insert(seen_.end(), move_.cells().begin(), move_.cells().end());
     if (status == VertexMove::Status::not_owned) return Outcome::not_owned;
-    if (status != VertexMove::Status::ok || keeps_any(move_.cells()) || is_settled(settled_[takes_out])) continue;
+    if (status != VertexMove::Status::ok || keeps_any(move_.cells())) {
+      settled = note.version + 1;
+      continue;
+    }
+    bool may_go_elsewhere = false;  // in another visit
     const double excess = excess_of(move_.cells());
     // So it is soon known where too much stays poor.
     move_.put_first([this](CellId c) { return static_cast<bool>(context_->bounds.test(*mesh_, c)); });
@@ -173,6 +170,7 @@ auto Refiner<D>::change_vertex(const Item& e, VertexChange change) -> Outcome {
       if (takes_out && move_.turns_cell_over()) return;  // most do, which is quicker to tell than what they gain
       const auto gain = gain_of_move(excess, most);
       bool violates = false;
+      if (gain && !takes_out && visit_->area && !visit_->area->owns(x)) may_go_elsewhere = true;
       if (!gain || !move_.is_valid() || !move_keeps_sizes() || !move_is_explained(violates)) return;
       most = *gain;
       best = Best{v, at, u, x, violates};
@@ -181,12 +179,13 @@ auto Refiner<D>::change_vertex(const Item& e, VertexChange change) -> Outcome {
       for (const VertexId u : move_.targets()) consider(u, mesh_->point(u));
     else
       for (const Point<D>& x : places_to_move_to()) consider(no_vertex, x);
-    if (best) settled_[takes_out].erase(index(v));
+    if (!best && !may_go_elsewhere) settled = note.version + 1;
   }
   if (!best) return Outcome::refused;
   move_.collect(best->v, best->at, most_cells_changed);
   aim(best->u, best->x);
   move_.is_valid();
+  for (const VertexId v : move_.neighbours()) ++mesh_->note(v).version;  // also of those at vanishing cells alone
   move_.commit(pools_);
   return note_change(e, move_.new_cells(), best->violates);
 }

@@ -173,6 +173,8 @@ std::vector<Refusal<D>> LeafRefinement<D>::take_refused() {
   if (!any) return {};
   works_.pass_up_changes();
   const auto has_changed = [this](const Refusal<D>& r) {
+    if constexpr (D == 3)
+      if (context_.improvement && versions_about<D>(context_.mesh, r.entry.cell) != r.versions) return true;
     return r.seen.empty() || surroundings_of<D>(context_.mesh, r.seen) != r.surroundings;
   };
   std::vector<Refusal<D>> refused, kept;

@@ -70,6 +70,13 @@ struct VertexRecord {
   float relaxed_radius = std::numeric_limits<float>::infinity();  ///< as said above
 };
 
+/// Of a vertex: how often the cells at it have changed, and one more than that was when it was found to have to stay (0), or not to
+/// have anywhere to go (1); 0: not yet (refiner_vertex_moves.cpp).
+struct VertexNote {
+  std::uint32_t version;
+  std::uint32_t settled[2];
+};
+
 /// Of a slot: the side record of its cell and the mark of a cavity, and how many cells it has held.
 template <int D>
 struct alignas(D == 3 ? 8 : 2) CellTag {
@@ -162,6 +169,9 @@ class Mesh {
   VertexRecord<D>& vertex(VertexId v) { return vertices_[index(v)]; }  ///< by its id
   const VertexRecord<D>& vertex(VertexId v) const { return vertices_[index(v)]; }  ///< by its id
   const Point<D>& point(VertexId v) const { return vertices_[index(v)].point; }  ///< where the vertex is
+  /// 3D: what the visits at the end of a run know of it; all 0 before. Whoever may change its cells.
+  VertexNote& note(VertexId v) { return notes_[index(v)]; }
+  const VertexNote& note(VertexId v) const { return notes_[index(v)]; }  ///< likewise
   CellRecord<D>& cell(CellId c) { return cells_[index(c)]; }  ///< by its id
   const CellRecord<D>& cell(CellId c) const { return cells_[index(c)]; }  ///< by its id
 
@@ -302,7 +312,10 @@ class Mesh {
     if constexpr (D == 3) tags_.discard(0, cell_bound());
   }
   /// Gives back the memory of all vertices.
-  void discard_vertices() { vertices_.discard(0, vertex_bound()); }
+  void discard_vertices() {
+    vertices_.discard(0, vertex_bound());
+    if constexpr (D == 3) notes_.discard(0, vertex_bound());
+  }
 
   /// The pages of so many more cells and vertices, in pieces of a huge page, for touch_pages: whoever needs them first would wait
   /// for the kernel. While nobody makes any. @throws std::bad_alloc
@@ -370,6 +383,7 @@ class Mesh {
   }
   const CellTag<D>& tag(CellId c) const { return const_cast<Mesh*>(this)->tag(c); }
   void grow_cells_to(std::uint32_t n);
+  void grow_vertices_to(std::uint32_t n);
 
   std::uint32_t capacity_;
   ReservedArray<CellRecord<D>> cells_;
@@ -377,6 +391,7 @@ class Mesh {
   ReservedArray<std::uint16_t> regions_;  ///< 3D; takes memory only once there are several
   bool several_regions_ = false;
   ReservedArray<VertexRecord<D>> vertices_;
+  ReservedArray<VertexNote> notes_;  ///< 3D; takes memory only once there are any
   ReservedArray<ConstraintRecord<D>> constraints_;
   IdSource cell_source_, vertex_source_, constraint_source_;
 };

@@ -18,7 +18,6 @@
 #include <set>
 #include <span>
 #include <type_traits>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -292,8 +291,6 @@ class Refiner {
 
   // refiner_vertex_moves.cpp
   enum class VertexChange { take_out, move };
-  /// Of vertices, what was about them (surroundings_of) when they had nowhere to go.
-  using Settled = std::unordered_map<std::uint32_t, std::uint64_t>;
   Outcome change_vertex(const Item& e, VertexChange change);
   bool add_vertices_beyond(CellId c, std::vector<std::pair<VertexId, CellId>>& vertices) const;
   std::optional<double> gain_of_move(double excess, double least);
@@ -302,7 +299,6 @@ class Refiner {
   bool move_is_explained(bool& any) const;
   std::vector<Point<D>> places_to_move_to() const;
   void add_places_on_segment(const std::vector<VertexId>& ends, std::vector<Point<D>>& places) const;
-  bool is_settled(Settled& settled) const;
 
   // refiner_selectors.cpp
   class View;
@@ -349,7 +345,6 @@ class Refiner {
   KeySet distinct_;
   RefusalMemo<D> memo_;  ///< of the visit
   std::vector<std::size_t> poor_turned_;  ///< of the cells that the last move would make
-  std::array<Settled, 2> settled_;  ///< of moves, of taking out; of the visit
   mutable std::map<std::pair<std::uint64_t, std::uint64_t>, double> angles_;  ///< of pairs of entities, in degrees
   mutable std::vector<CellId> seen_;  ///< that it took to decide about the entry treated, with repetitions
   bool unexplained_ = false;  ///< is the element treated one that stays poor for no reason?
