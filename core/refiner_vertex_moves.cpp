@@ -164,7 +164,7 @@ auto Refiner<D>::change_vertex(const Item& e, VertexChange change) -> Outcome {
     bool may_go_elsewhere = false;  // in another visit
     const double excess = excess_of(move_.cells());
     // So it is soon known where too much stays poor.
-    move_.put_first([this](CellId c) { return static_cast<bool>(context_->bounds.test(*mesh_, c)); });
+    move_.put_first([this](CellId c) { return excess_of(c) > 0; });
     const auto consider = [&](VertexId u, const Point<D>& x) {
       aim(u, x);
       if (takes_out && move_.turns_cell_over()) return;  // most do, which is quicker to tell than what they gain

@@ -274,6 +274,7 @@ class Refiner {
   bool violations_are_explained(const Place& p, bool& any) const;
 
   Outcome insert_for_less(const Item& e);
+  double excess_of(CellId c) const;
   double excess_of(const std::vector<CellId>& cells) const;
   bool keeps_any(const std::vector<CellId>& cells) const;
   bool is_explained(const std::vector<Home>& homes, const Simplex<D>& s) const;
@@ -333,6 +334,12 @@ class Refiner {
     std::uint16_t birth = 0;
     FilterSphere<D> sphere;
   };
+  struct KnownExcess {
+    CellId cell{0xffffffffu};
+    std::uint16_t birth = 0;
+    double value = 0;
+  };
+  mutable std::vector<KnownExcess> known_excess_ = std::vector<KnownExcess>(D == 3 ? 1024 : 1);  ///< of the cells asked for last
   mutable LastSphere last_sphere_;  ///< 2D: that was asked for
   std::vector<Item> abroad_;  ///< elements with their circumcentre in other regions
   std::vector<std::uint32_t> letters_, box_sizes_;  ///< scratch of send_abroad
