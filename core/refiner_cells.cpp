@@ -131,8 +131,9 @@ auto Refiner<D>::encroached_face(const Point<D>& x) const -> std::optional<Item>
   return any;
 }
 
-/// Looks, while the cavity of x is collected for a poor element, for a face before x that is known to be refused. (Beside small
-/// angles most elements that stay poor are behind such a face, and it is near to them, while their cavities are large.)
+/// Looks, while the cavity of x is collected for a poor element, for a face that x encroaches upon and that is known to be refused,
+/// and stops once the cavity is large. (Beside small angles most elements that stay poor are behind such a face, which is near to
+/// them. Small cavities are collected to their ends, as there may be something else to split.)
 template <int D>
 class Refiner<D>::RefusedFace final : public Cavity<D>::FaceWatch {
  public:
@@ -140,14 +141,16 @@ class Refiner<D>::RefusedFace final : public Cavity<D>::FaceWatch {
       : refiner_(&refiner), x_(x), cause_(cause), squared_(squared) {}
   bool stops_at(CellId c, int face) override {
     const Item f = refiner_->make_entry(c, EntryKind::face, face);
-    if (!refiner_->refused_before(f, cause_) || refiner_->encroachment(c, face, x_) == Encroachment::none) return false;
-    if (refiner_->is_clear_of(f, x_, squared_)) return false;
-    found_ = f;
-    return true;
+    if (!found_ && refiner_->refused_before(f, cause_) && refiner_->encroachment(c, face, x_) != Encroachment::none &&
+        !refiner_->is_clear_of(f, x_, squared_))
+      found_ = f;
+    return found_ && refiner_->cavity_.cells().size() > many_cells;
   }
   const Item& found() const { return *found_; }  ///< once it has stopped
 
  private:
+  static constexpr std::size_t many_cells = 64;
+
   const Refiner* refiner_;
   Point<D> x_;
   Demand cause_;

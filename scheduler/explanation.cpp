@@ -101,10 +101,11 @@ std::vector<CellId> LeafRefinement<D>::with_rings(std::vector<CellId> cells, int
 template <int D>
 void LeafRefinement<D>::help_unexplained(PoorReasons<D>& reasons, PoorFindings& found, int most_in_vain) {
   std::size_t least = found.unexplained.size();
+  bool mends = false;
   for (int round = 0, in_vain = 0; round < most_rounds && in_vain < most_in_vain && !cancelled(0); ++round) {
     if (found.unexplained.empty() || context_.stop != 0) break;
     // What is mended by taking a vertex out may come back with it: then a point inside is better, or the other way round.
-    const bool mends = unexplained_violations_ > 0 && in_vain % 2 == 0;
+    mends = unexplained_violations_ > 0 && !(mends && in_vain > 0);
     context_.excusing = mends ? reasons.excusing_homes(found) : ExcusingHomes{};
     if (!insert_within(with_rings(found.unexplained, in_vain)) || context_.stop != 0) break;
     found = look_for_poor(reasons);

@@ -70,11 +70,10 @@ struct VertexRecord {
   float relaxed_radius = std::numeric_limits<float>::infinity();  ///< as said above
 };
 
-/// Of a vertex: how often the cells at it have changed, and one more than that was when it was found to have to stay (0), or not to
-/// have anywhere to go (1); 0: not yet (refiner_vertex_moves.cpp).
+/// What is known of a vertex (refiner_vertex_moves.cpp).
 struct VertexNote {
-  std::uint32_t version;
-  std::uint32_t settled[2];
+  std::uint32_t version;     ///< how often the cells at it have changed
+  std::uint32_t settled[2];  ///< one more than that was when it was found to have to stay, or to have nowhere to go; 0: not yet
 };
 
 /// Of a slot: the side record of its cell and the mark of a cavity, and how many cells it has held.
