@@ -31,6 +31,20 @@ using Ridge = std::array<VertexId, 2>;
 
 Ridge ridge_of(VertexId a, VertexId b) { return a < b ? Ridge{a, b} : Ridge{b, a}; }
 
+/// Bits of the two corners.
+template <int D>
+unsigned ends_of_longest_edge(const Simplex<D>& s) {
+  double longest = -1;
+  unsigned ends = 0;
+  for (int i = 0; i <= D; ++i)
+    for (int j = i + 1; j <= D; ++j)
+      if (const double length = squared_distance(s[i], s[j]); length > longest) {
+        longest = length;
+        ends = 1u << i | 1u << j;
+      }
+  return ends;
+}
+
 /// The edges of the subfacets that the collected point splits.
 template <int D>
 std::vector<Ridge> ridges_of_part(const Mesh<D>& mesh, const Cavity<D>& cavity) {
@@ -86,8 +100,8 @@ auto Refiner<D>::places_for(CellId c) -> std::vector<Place> {
   Simplex<D> s = mesh_->simplex(c);
   add(circumsphere<D>(s).center);
   std::sort(s.begin(), s.end(), lex_less<D>);
-  for (unsigned corners = 1; corners < 2u << D; ++corners)
-    if (!std::has_single_bit(corners)) add(detail::mean_of_corners<D>(s, corners));
+  add(detail::mean_of_corners<D>(s, ends_of_longest_edge<D>(s)));
+  add(detail::mean_of_corners<D>(s, (2u << D) - 1));
   if (const auto* k = mesh_->constraints(c)) {
     for (int f = 0; f <= D; ++f)
       if (k->faces >> f & 1) add_places_on_face(c, f, places);
