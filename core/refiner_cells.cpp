@@ -149,7 +149,7 @@ class Refiner<D>::RefusedFace final : public Cavity<D>::FaceWatch {
   const Item& found() const { return *found_; }  ///< once it has stopped
 
  private:
-  static constexpr std::size_t many_cells = 64;
+  static constexpr std::size_t many_cells = 128;
 
   const Refiner* refiner_;
   Point<D> x_;
