@@ -421,9 +421,17 @@ RefineResult<D> prepare_and_run(const Plc<D>& plc, const RefineOptions<D>& optio
 
 }  // namespace
 
+constexpr double least_of_file = 0.99e-7;  // with less than that few of the facets that belong together are taken for one
+
 template <int D>
 std::optional<Plc<D>> with_less_precision(const Plc<D>& plc) {
-  if (plc.precision_of_file) return with_default_precision(plc);
+  if (plc.precision_of_file) {
+    const double less = plc.precision / 10;
+    if (less < least_of_file) return with_default_precision(plc);
+    Plc<D> finer = plc;
+    finer.precision = less;
+    return finer;
+  }
   if constexpr (D == 3)
     if (plc.precision == Plc<D>{}.precision) {
       try {

@@ -224,6 +224,43 @@ TEST(FilePrecision, GivesWayWhereFacetsFoldOver) {
   EXPECT_THROW(refine(asked, recovery), InputError);
 }
 
+// A text and a logo of six digits, 7,442 points: of three thousand facets that are planar within their rounding those at one
+// segment fold over, and with all triangles apart there were four times as many elements as TetGen needs.
+TEST(FilePrecision, ATenthOfItMayDo) {
+  const test::TempFolder folder;
+  Plc<3> plc = read_plc<3>(folder.put("pipe.off", off_of(turned_pipe(), 7)));
+  ASSERT_TRUE(plc.precision_of_file);
+  plc.precision = 1e-5;
+  const auto facets = Domain<3>(plc).facets().size();
+  const auto first = static_cast<std::uint32_t>(plc.points.size());
+  Plc<3> flat = flat_tetrahedron();  // 0.5 of the rounding high
+  flat.points[3][2] = 3e-5;
+  for (Point3 p : flat.points) {
+    p[0] += 5;
+    plc.points.push_back(p);
+  }
+  for (auto& f : flat.facets) {
+    for (std::uint32_t& v : f.polygons[0]) v += first;
+    plc.facets.push_back(f);
+  }
+
+  RefineOptions<3> recovery;
+  recovery.refine = false;
+  const auto result = refine(plc, recovery);
+  EXPECT_NEAR(result.precision, 1e-6, 1e-9);
+  plc.precision = result.precision;
+  const Domain<3> domain(plc);
+  EXPECT_EQ(domain.facets().size(), facets + 4);
+  CheckOptions<3> options;
+  options.domain = &domain;
+  const CheckReport report = check(result.mesh, options);
+  EXPECT_EQ(report.exit_code(), 0) << test::findings(report);
+
+  plc.precision = 1e-5;
+  plc.precision_of_file = false;  // asked for
+  EXPECT_THROW(refine(plc, recovery), InputError);
+}
+
 // A pyramid lower than the rounding of its coordinates: its sides are one plane by the default precision, and came out below its
 // base, with all segments, and volumes that are none.
 TEST(FilePrecision, DefaultGivesWayToExactPlanes) {
@@ -264,7 +301,9 @@ TEST(FilePrecision, MakesNoOtherVolume) {
       continue;
     }
     ++made_with[result.precision > default_precision];
-    const Domain<3> domain(result.precision > default_precision ? plc : with_default_precision(plc));
+    Plc<3> as_made = plc;
+    as_made.precision = result.precision;
+    const Domain<3> domain(as_made);
     CheckOptions<3> options;
     options.domain = &domain;
     const CheckReport report = check(result.mesh, options);

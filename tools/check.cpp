@@ -80,8 +80,13 @@ bool is_sound(const CheckReport& r) { return r.exit_code() == exit_done || r.exi
 template <int D>
 void take_fitting_precision(std::optional<Plc<D>> plc, const OutputMesh<D>& mesh, CheckOptions<D> options, CheckReport& verdict) {
   while (plc && !is_sound(verdict) && (plc = with_less_precision(*plc))) {
-    const Domain<D> domain(*plc);
-    options.domain = &domain;
+    std::optional<Domain<D>> domain;
+    try {
+      domain.emplace(*plc);
+    } catch (const InputError&) {
+      continue;  // no mesh was made with that
+    }
+    options.domain = &*domain;
     if (CheckReport other = pgdr::check(mesh, options); is_sound(other)) verdict = std::move(other);
   }
 }

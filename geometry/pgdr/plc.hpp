@@ -62,7 +62,7 @@ struct Plc {
   /// of one plane, count as coplanar. For the rounding of coordinates that were turned or shifted: 16 ulps.
   double precision = 0x1p-48;
   /// `precision` is what the numbers of the file allow (written_precision), and nobody's wish: where facets fold over within it,
-  /// `refine` of a Plc takes the default instead (with_less_precision, which goes from there to 0, should it come to that).
+  /// `refine` of a Plc takes less, in the end the default (with_less_precision, which goes from there to 0, should it come to that).
   bool precision_of_file = false;
   /// Points within this times the largest coordinate of all are one: each goes to the nearest kept one before it. 0, as it is
   /// unless asked for: exact duplicates alone. Edges, segments and facets of which nothing is left go; 0.01 at most. In 3D edges,

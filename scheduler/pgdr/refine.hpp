@@ -85,7 +85,8 @@ struct RefineResult {
   std::vector<Diagnostic> warnings;   ///< likewise, and seeds that lie outside
 };
 
-/// The input with the default precision, if it has that of its file (Plc::precision_of_file); with precision 0, if it has the default
+/// The input with a tenth of its precision, or with the default where that is below 1e-7, if it has that of its file
+/// (Plc::precision_of_file), as most facets may do with little less than all of it; with precision 0, if it has the default
 /// and walls or angles as small as rounding, so that its facets may fold over within that; else nothing.
 template <int D>
 std::optional<Plc<D>> with_less_precision(const Plc<D>& plc);
