@@ -39,6 +39,10 @@ struct Shape {
     const auto d = detail::difference(box.high, box.low);
     return detail::dot(d, d) / area;
   }
+  double width() const {
+    const auto d = detail::difference(box.high, box.low);
+    return area / std::sqrt(detail::dot(d, d));
+  }
   double magnitude() const {
     double largest = 0;
     for (int k = 0; k < 3; ++k) largest = std::max({largest, std::fabs(box.low[k]), std::fabs(box.high[k])});
@@ -74,9 +78,36 @@ class FileFacets {
       if (planes.find(f) != f || !(whole[f].area > 0)) continue;
       const double takes = whole[f].needleness();
       all += takes;
-      if (is_nearly[f] && takes > needle) apart += takes;
+      if (is_nearly[f] && takes > needle && (is_of_planar_face_.empty() || is_of_planar_face_[f])) apart += takes;
     }
     return all > 0 ? apart / all : 0;
+  }
+
+  /// How far the facets at an edge are off one plane, for each edge of two that are so by more than the rounding of doubles.
+  std::vector<double> distances_off_planes() const {
+    std::vector<double> off;
+    for_each_joint([&](std::uint32_t f, std::uint32_t g) {
+      if (const double distance = distance_off_plane(f, g); distance > Plc<3>{}.precision) off.push_back(distance);
+    });
+    return off;
+  }
+
+  /// Looks from now on at faces alone that are planar within `precision` with all facets of them, one after the other, that are. (The
+  /// sides of a round body are no more off than that, each from the next. Needles narrower than that lie in any plane.)
+  void keep_to_planar_faces(double precision) {
+    detail::DisjointSets faces(shapes_.size());
+    const auto has_plane = [&](std::uint32_t f) { return shapes_[f].width() > precision * shapes_[f].magnitude(); };
+    for_each_joint([&](std::uint32_t f, std::uint32_t g) {
+      if (has_plane(f) && has_plane(g) && distance_off_plane(f, g) <= precision) faces.unite(f, g);
+    });
+    std::vector<Plane> planes(shapes_.size());
+    for (std::uint32_t f = 0; f < shapes_.size(); ++f) planes[faces.find(f)].add(shapes_[f]);
+    is_of_planar_face_.assign(shapes_.size(), true);
+    for (std::uint32_t f = 0; f < shapes_.size(); ++f) {
+      const std::uint32_t face = faces.find(f);
+      if (shapes_[f].area > 0 && distance_off(planes[face], f) > precision * planes[face].whole.magnitude()) is_of_planar_face_[face] = false;
+    }
+    for (std::uint32_t f = 0; f < shapes_.size(); ++f) is_of_planar_face_[f] = is_of_planar_face_[faces.find(f)];
   }
 
  private:
@@ -141,22 +172,61 @@ class FileFacets {
     return off / (2 * shapes_[f].area) / std::max(shapes_[f].magnitude(), shapes_[g].magnitude());
   }
 
+  /// Of facets that are nearly coplanar: their mean normal, and where on average they are.
+  struct Plane {
+    detail::Vector<3> normal{}, origin{};  // the latter times the area
+    Shape whole;
+    void add(const Shape& s) {
+      if (!(s.area > 0)) return;
+      if (whole.area == 0) whole.box = s.box;
+      whole.add(s);
+      const double side = detail::dot(normal, s.normal) < 0 ? -1 : 1;  // orientation need not be consistent yet
+      for (std::size_t k = 0; k < 3; ++k) {
+        normal[k] += side * s.normal[k];
+        origin[k] += s.area * s.origin.x[k];
+      }
+    }
+  };
+  double distance_off(const Plane& plane, std::uint32_t f) const {
+    Point3 origin;
+    for (int k = 0; k < 3; ++k) origin[k] = plane.origin[static_cast<std::size_t>(k)] / plane.whole.area;
+    double off = 0;
+    for (const auto& polygon : plc_.facets[f].polygons)
+      for (const std::uint32_t v : polygon) off = std::max(off, std::fabs(detail::dot(plane.normal, detail::difference(points_[v], origin))));
+    return off / std::sqrt(detail::dot(plane.normal, plane.normal));
+  }
+
   const Plc<3>& plc_;
   std::vector<Point3> points_;              // scaled
   std::vector<std::uint32_t> first_equal_;  // of each point, one that stands for all in its place
   std::vector<Shape> shapes_;               // of each facet; area 0: not known
   std::vector<Use> uses_;                   // sorted
+  std::vector<bool> is_of_planar_face_;     // of each facet; empty: all count
 };
+
+/// For coordinates that have all digits of a double, as those of a file of few digits that was turned: what they look rounded to.
+double precision_by_looks(const FileFacets& facets) {
+  constexpr std::size_t within_gap = 3;  // needles tell their planes, and how far others are off these, within ten times their rounding
+  std::vector<double> off = facets.distances_off_planes();
+  const std::size_t edges = off.size();
+  return precision_of_distances(std::move(off), edges, within_gap);
+}
 
 }  // namespace
 
 void set_precision_of_digits(Plc<3>& plc) {
-  const double written = written_precision(plc.points);
-  if (plc.precision_of_file || written <= plc.precision || written > least_digits) return;
+  double precision = written_precision(plc.points);
+  const bool has_all_digits = precision <= plc.precision && !has_few_digits(plc.points);
+  if (plc.precision_of_file || (precision <= plc.precision && !has_all_digits) || precision > least_digits) return;
   const auto is_finite = [](const Point3& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); };
   if (!std::ranges::all_of(plc.points, is_finite)) return;
-  if (!(FileFacets(plc).share_kept_apart(written) > share_of_needles)) return;
-  plc.precision = written;
+  FileFacets facets(plc);
+  if (has_all_digits) {
+    precision = precision_by_looks(facets);
+    facets.keep_to_planar_faces(precision);
+  }
+  if (precision <= plc.precision || !(facets.share_kept_apart(precision) > share_of_needles)) return;
+  plc.precision = precision;
   plc.precision_of_file = true;
 }
 

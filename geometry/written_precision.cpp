@@ -25,7 +25,7 @@ constexpr double clearly_bent = 1e-3;    // distances from there on are not told
 constexpr double gap = 10;               // between the distances of planar faces and those of others
 constexpr double allowance = 4;          // a plane that is fitted to many triangles may be off by more than that of one
 constexpr std::size_t least_part = 20;   // one of so many segments is between triangles of such a face, if there is one
-constexpr std::size_t within_gap = 20;   // and one distance in the gap for so many below it is an accident
+constexpr std::size_t clear_gap = 20;    // and one distance in the gap for so many below it is an accident
 
 /// Of the shortest decimal number that is this double, d.ddde+xx, within what is rounded where units are changed; few_digits + 1: more.
 int significant_digits(double value) {
@@ -112,15 +112,18 @@ std::size_t most_facets_saved(const Domain<3>& domain, double precision) {
   return static_cast<std::size_t>(std::ranges::count_if(off, [&](double x) { return x <= allowance * precision; }));
 }
 
-double apparent_precision(const Domain<3>& domain) {
-  std::vector<double> off = distances_off_planes(domain);
+double precision_of_distances(std::vector<double> off, std::size_t edges, std::size_t within_gap) {
   std::sort(off.begin(), off.end());
   const auto up_to = [&off](double x) { return static_cast<std::size_t>(std::upper_bound(off.begin(), off.end(), x) - off.begin()); };
   const double rounding = Plc<3>{}.precision;
   const std::size_t rounded = up_to(rounding);
-  for (std::size_t n = up_to(most_off); n > rounded && least_part * (n - rounded) >= domain.segments().size(); --n)
+  for (std::size_t n = up_to(most_off); n > rounded && least_part * (n - rounded) >= edges; --n)
     if (const double largest = off[n - 1]; within_gap * (up_to(gap * largest) - n) <= n - rounded) return allowance * largest;
   return rounding;
+}
+
+double apparent_precision(const Domain<3>& domain) {
+  return precision_of_distances(distances_off_planes(domain), domain.segments().size(), clear_gap);
 }
 
 double suggested_precision(const Plc<3>& plc) {
@@ -138,6 +141,8 @@ void set_precision_of_file(Plc<3>& plc) {
   plc.precision = std::max(rounding, written_precision(plc.points));
   plc.precision_of_file = plc.precision > rounding;
 }
+
+bool has_few_digits(std::span<const Point3> points) { return most_digits(points) <= few_digits; }
 
 double written_precision(std::span<const Point3> points) {
   const int most = most_digits(points);

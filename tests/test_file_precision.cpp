@@ -178,6 +178,60 @@ TEST(FilePrecision, DigitsDoNotCountElsewhere) {
   EXPECT_TRUE(keeps_default(off_of(test::turned<3>(rough_plate(6, 0.1, random), 0.2), 6)));
 }
 
+// The spool, turned and written with all digits, had 405 poor cells of 16,388 again; it has 47 of 9,047.
+TEST(FilePrecision, TurnedDigitsCountWhereTheyMakeNeedles) {
+  const test::TempFolder folder;
+  const Plc<3> pipe = turned_pipe();
+  const auto facets = Domain<3>(pipe).facets().size();
+  const Plc<3> rounded = read_plc<3>(folder.put("pipe.off", off_of(pipe, 6)));
+  for (const int scale : {0, 30}) {
+    Plc<3> turned = test::turned<3>(with_default_precision(rounded), 0.7);
+    for (Point3& p : turned.points)
+      for (double& x : p.x) x = std::ldexp(x, scale);
+    const Plc<3> plc = read_plc<3>(folder.put("turned.off", off_of(turned, 17)));
+    EXPECT_TRUE(plc.precision_of_file);
+    EXPECT_GT(plc.precision, 1e-6);
+    EXPECT_LT(plc.precision, 4.01e-5);
+    EXPECT_EQ(Domain<3>(plc).facets().size(), facets);
+    if (scale != 0) continue;
+    const auto result = test::expect_reproducible<3>(plc, {}, "turned pipe of six digits, turned again");
+    EXPECT_EQ(result.precision, plc.precision);
+    EXPECT_EQ(result.poor_left, 0u);
+  }
+}
+
+/// A body of revolution whose sides, of so many meridians, are long strips: as wide as z, of the radius that `radius` says.
+Plc<3> revolved(std::uint32_t meridians, const std::vector<double>& radius) {
+  Plc<3> plc;
+  const auto rings = static_cast<std::uint32_t>(radius.size());
+  for (std::uint32_t r = 0; r < rings; ++r)
+    for (std::uint32_t i = 0; i < meridians; ++i) {
+      const double a = 2 * 3.14159265358979323846 * i / meridians;
+      plc.points.push_back({{radius[r] * std::cos(a), radius[r] * std::sin(a), 0.2 * r}});
+    }
+  for (std::uint32_t r = 0; r + 1 < rings; ++r)
+    for (std::uint32_t i = 0; i < meridians; ++i) {
+      const std::uint32_t a = r * meridians + i, b = r * meridians + (i + 1) % meridians;
+      plc.facets.push_back({{{a, b, b + meridians}}, {}, 0});
+      plc.facets.push_back({{{a, b + meridians, a + meridians}}, {}, 0});
+    }
+  for (const std::uint32_t r : {0u, rings - 1}) {
+    auto& cap = plc.facets.emplace_back().polygons.emplace_back();
+    for (std::uint32_t i = 0; i < meridians; ++i) cap.push_back(r * meridians + (r == 0 ? meridians - 1 - i : i));
+  }
+  return plc;
+}
+
+// Needles that are nearly coplanar by pairs, but all together are no face.
+TEST(FilePrecision, RoundSidesAreNoRounding) {
+  for (const auto& radius : {std::vector{1., 1.}, std::vector{1.3, 1.1, 1., 1.1, 1.3}}) {
+    Plc<3> plc = test::turned<3>(revolved(2000, radius), 0.3);
+    set_precision_of_digits(plc);
+    EXPECT_EQ(plc.precision, default_precision) << radius.size();
+    EXPECT_FALSE(plc.precision_of_file);
+  }
+}
+
 // It is asked before anything else is.
 TEST(FilePrecision, DigitsOfWhatIsNoInput) {
   Plc<3> plc = read_plc<3>(test::TempFolder().put("pipe.off", off_of(turned_pipe(), 6)));

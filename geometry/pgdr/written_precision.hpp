@@ -6,7 +6,9 @@
 // Once it was turned, or converted to other units, its coordinates have all digits again. Pure functions; any thread.
 #pragma once
 
+#include <cstddef>
 #include <span>
+#include <vector>
 
 #include "pgdr/domain.hpp"
 #include "pgdr/export.hpp"
@@ -25,8 +27,10 @@ double written_precision(std::span<const Point3> points);
 void set_precision_of_file(Plc<3>& plc);
 
 /// Likewise for a file of other numbers, of six or seven digits or of floats, if many facets that are coplanar by these are needles
-/// which rounding alone keeps apart: if a third of the elements that the facets take for their shapes are in such. Else facets are left
-/// as they are. Takes some 0.5 microseconds a triangle; the input need not be valid.
+/// which rounding alone keeps apart: if a third of the elements that the facets take for their shapes are in such. Where the numbers
+/// have all digits of a double, as such a file's have once it was turned, by how far facets are off the planes of others, of faces
+/// alone that are planar within that as a whole: precision_of_distances, with a third as many in the gap. Else facets are left
+/// as they are. Takes some microseconds a triangle at most; the input need not be valid.
 void set_precision_of_digits(Plc<3>& plc);
 
 /// A Plc::precision with which faces are planar that look so: four times a distance d, of a facet from the plane of a larger one
@@ -34,6 +38,12 @@ void set_precision_of_digits(Plc<3>& plc);
 /// a twentieth at most. The largest such d up to 1e-5, if a twentieth of all segments are between facets that are less off (but
 /// by more than rounding). Else 2^-48.
 double apparent_precision(const Domain<3>& domain);
+
+/// The same of distances that are known, of so many edges; with one distance between d and 10 d for `within_gap` below it at most.
+double precision_of_distances(std::vector<double> off, std::size_t edges, std::size_t within_gap);
+
+/// Has no coordinate more than nine significant digits?
+bool has_few_digits(std::span<const Point3> points);
 
 /// At most how many facets fewer there are with that Plc::precision: segments between facets that are so little off each other's planes.
 std::size_t most_facets_saved(const Domain<3>& domain, double precision);
