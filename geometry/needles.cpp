@@ -223,9 +223,10 @@ void set_precision_of_digits(Plc<3>& plc) {
   FileFacets facets(plc);
   if (has_all_digits) {
     precision = precision_by_looks(facets);
+    if (precision <= plc.precision) return;
     facets.keep_to_planar_faces(precision);
   }
-  if (precision <= plc.precision || !(facets.share_kept_apart(precision) > share_of_needles)) return;
+  if (!(facets.share_kept_apart(precision) > share_of_needles)) return;
   plc.precision = precision;
   plc.precision_of_file = true;
 }
