@@ -261,8 +261,8 @@ auto Refiner<D>::split_face(const Item& e, const Demand* cause) -> Outcome {
   return decide(entity, own, cause);
 }
 
-/// A cell at the subsegment with a corner nearer than this to x on it, twins of `place`, if x is that, left out. Such cells are in the cavity of x, whatever else is, and
-/// are found long before that is collected. Ends where the claim does.
+/// A cell at the subsegment with a corner nearer than this to x on it; not counted are twins of `place`, if x is that. Such cells are
+/// in the cavity of x, whatever else is, and are found long before that is collected. Ends where the claim does.
 template <int D>
 auto Refiner<D>::cell_near_edge(const Item& e, const Point<D>& x, double distance, const SplitPlace* place) const
     -> std::optional<CellId> {
