@@ -13,6 +13,7 @@ void Cavity<D>::begin(const Point<D>& p) {
   point_ = p;
   squared_depth_ = area_ ? area_->squared_depth(p) : std::numeric_limits<double>::infinity();
   watch_ = nullptr;
+  place_ = nullptr;
   least_ = 0;
   shrunk_ = touches_constraints_ = shapes_known_ = star_shaped_ = false;
   split_edge_ = {no_vertex, no_vertex};

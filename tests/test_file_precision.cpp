@@ -178,7 +178,7 @@ TEST(FilePrecision, DigitsDoNotCountElsewhere) {
   EXPECT_TRUE(keeps_default(off_of(test::turned<3>(rough_plate(6, 0.1, random), 0.2), 6)));
 }
 
-// The spool, turned and written with all digits, had 405 poor cells of 16,388 again; it has 47 of 9,047.
+// (The spool, turned and written with all digits, had 397 poor cells of 14,456 again, not 47 of 9,047.)
 TEST(FilePrecision, TurnedDigitsCountWhereTheyMakeNeedles) {
   const test::TempFolder folder;
   const Plc<3> pipe = turned_pipe();
