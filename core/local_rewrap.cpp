@@ -16,6 +16,7 @@ struct Attempt {
   int orders;
 };
 constexpr Attempt quick{20, 1}, wide{512, 1}, deep{96, 16}, facet{96, 4};
+constexpr std::size_t least_growth = 2;  // of a region by one part in so many, before all of it is wrapped again
 constexpr int far_weight = 10000;  // of a violation that nothing excuses
 
 }  // namespace
@@ -50,7 +51,14 @@ bool LocalRewrap::repair_without(Pools& pools, CellId c, CellId d, VertexId left
   begin(std::array{c, d}, left_out);
   // A vertex left out may have more cells than a region should.
   bool repaired = left_out != no_vertex && !reached_border_ && old_.size() <= most_cells_ && wrap_again(pools);
-  while (!repaired && !reached_border_ && !is_ended() && grow()) repaired = wrap_again(pools);
+  std::size_t wrapped = old_.size();
+  for (bool grows = true; grows && !repaired && !reached_border_ && !is_ended();) {
+    grows = grow();
+    if (reached_border_ || old_.size() >= most_cells_) break;
+    if (grows ? old_.size() < wrapped + wrapped / least_growth : old_.size() == wrapped) continue;
+    wrapped = old_.size();
+    repaired = wrap_again(pools);
+  }
   release();
   return repaired;
 }

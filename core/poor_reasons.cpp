@@ -82,27 +82,43 @@ bool PoorReasons<D>::is_beside(EntityRef segment, const Ball<D>& doubled) const 
          meets(segment, doubled);
 }
 
+/// Calls `f` with the entities that a vertex of this home lies on until it says true. Has it?
+template <int D>
+template <class F>
+bool PoorReasons<D>::any_entity_of(Home of, F f) const {
+  const auto any_at_segment = [&](EntityId s) {
+    if (f({EntityKind::segment, s})) return true;
+    const auto facets = domain_->facets_of_segment(s);
+    return std::any_of(facets.begin(), facets.end(), [&](EntityId x) { return f({EntityKind::facet, x}); });
+  };
+  const EntityRef home = of.entity();
+  if (home.kind == EntityKind::facet) return f(home);
+  if (home.kind == EntityKind::segment) return any_at_segment(home.id);
+  if (home.kind != EntityKind::vertex) return false;
+  return std::any_of(segments_at_[home.id].begin(), segments_at_[home.id].end(), any_at_segment);
+}
+
+/// The same with those constrained on the cell.
+template <int D>
+template <class F>
+bool PoorReasons<D>::any_constrained(CellId c, F f) const {
+  const auto* k = mesh_->constraints(c);
+  for (int i = 0; k && i <= D; ++i)
+    if (k->faces >> i & 1 && f({D == 3 ? EntityKind::facet : EntityKind::segment, k->face_entity[i]})) return true;
+  return false;
+}
+
 /// Adds the entities that a vertex of this home lies on.
 template <int D>
 void PoorReasons<D>::add_entities_of(Home of, std::vector<EntityRef>& list) const {
-  const auto add_segment = [&](EntityId s) {
-    add_new(list, {EntityKind::segment, s});
-    for (const EntityId f : domain_->facets_of_segment(s)) add_new(list, {EntityKind::facet, f});
-  };
-  const EntityRef home = of.entity();
-  if (home.kind == EntityKind::facet) add_new(list, home);
-  if (home.kind == EntityKind::segment) add_segment(home.id);
-  if (home.kind == EntityKind::vertex)
-    for (const EntityId s : segments_at_[home.id]) add_segment(s);
+  any_entity_of(of, [&](EntityRef e) { return add_new(list, e), false; });
 }
 
 /// Adds the entities that the cell's vertices lie on, and those constrained on it.
 template <int D>
 void PoorReasons<D>::add_entities(CellId c, std::vector<EntityRef>& list) const {
   for (const VertexId v : mesh_->cell(c).vertices) add_entities_of(mesh_->vertex(v).home, list);
-  if (const auto* k = mesh_->constraints(c))
-    for (int f = 0; f <= D; ++f)
-      if (k->faces >> f & 1) add_new(list, {D == 3 ? EntityKind::facet : EntityKind::segment, k->face_entity[f]});
+  any_constrained(c, [&](EntityRef e) { return add_new(list, e), false; });
 }
 
 /// What refused the element if that is a pair with a small angle, else the first such pair among the entities of ever
@@ -123,20 +139,24 @@ PoorReason PoorReasons<D>::explain(CellId c, bool beside) const {
   const bool proved = bounds_->radius_edge_bound >= smallest_proved_bound<D>();
   const std::size_t most_cells = proved ? most_cells_ : 16;
   std::vector<CellId> cells{c};
-  std::unordered_set<std::uint32_t> known{index(c)};
+  std::unordered_set<std::uint32_t> known{index(c)}, known_vertices;
   std::vector<EntityRef> near;
   std::vector<bool> in_ball;  // of any pair that explains it at least one is
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    add_entities(cells[i], near);
-    while (in_ball.size() < near.size()) {
-      const std::size_t last = in_ball.size();
-      in_ball.push_back(has_extent(near[last]) && meets(near[last], doubled));
-      for (std::size_t j = 0; j < last; ++j) {
-        if (!in_ball[j] && !in_ball[last]) continue;
-        if (beside && !touches(near[last]) && !touches(near[j])) continue;
-        if (explains({near[last], near[j]}, doubled, angle, reason)) return reason;
-      }
+  const auto completes_pair = [&](EntityRef e) {
+    if (std::find(near.begin(), near.end(), e) != near.end()) return false;
+    near.push_back(e);
+    in_ball.push_back(has_extent(e) && meets(e, doubled));
+    for (std::size_t j = 0; j + 1 < near.size(); ++j) {
+      if (!in_ball[j] && !in_ball.back()) continue;
+      if (beside && !touches(e) && !touches(near[j])) continue;
+      if (explains({e, near[j]}, doubled, angle, reason)) return true;
     }
+    return false;
+  };
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    for (const VertexId v : mesh_->cell(cells[i]).vertices)
+      if (known_vertices.insert(index(v)).second && any_entity_of(mesh_->vertex(v).home, completes_pair)) return reason;
+    if (any_constrained(cells[i], completes_pair)) return reason;
     for (const Link link : mesh_->cell(cells[i]).links)
       if (link && cells.size() < most_cells && known.insert(index(link.cell())).second) cells.push_back(link.cell());
   }
@@ -181,13 +201,31 @@ bool PoorReasons<D>::is_violated_beyond_rounding(CellId c) const {
 }
 
 template <int D>
+void PoorReasons<D>::remember(const PoorFindings& found) {
+  remembered_.clear();
+  for (const PoorCell& p : found.poor)
+    if (p.reason.code == PoorReason::Code::small_angle) remembered_[index(p.cell)] = {mesh_->birth(p.cell), p.beside, p.reason};
+}
+
+template <int D>
+auto PoorReasons<D>::remembered(CellId c) const -> const Remembered* {
+  const auto at = remembered_.find(index(c));
+  return at != remembered_.end() && at->second.birth == mesh_->birth(c) ? &at->second : nullptr;
+}
+
+template <int D>
 void PoorReasons<D>::look_at(CellId c, bool violated, PoorFindings& found) const {
   const CellVerdict verdict = bounds_->test(*mesh_, c);
+  if (!verdict && !violated) return;
+  const Remembered* before = remembered(c);
+  const auto reason_of = [&](bool beside) {
+    return before && (before->beside || !beside) ? before->reason : explain(c, beside);
+  };
   PoorReason reason;
   // Without a small angle nearby a violation is one of rounding, which needs no reason.
-  const bool beside = violated && (reason = explain(c, true)).code == PoorReason::Code::small_angle;
-  if (verdict && !beside) reason = explain(c, false);
-  if (verdict || beside) found.poor.push_back({c, static_cast<bool>(verdict), verdict.over_size > 0, reason});
+  const bool beside = violated && (reason = reason_of(true)).code == PoorReason::Code::small_angle;
+  if (verdict && !beside) reason = reason_of(false);
+  if (verdict || beside) found.poor.push_back({c, static_cast<bool>(verdict), verdict.over_size > 0, reason, beside});
   if (verdict && reason.code == PoorReason::Code::rounding && !checking::is_as_short_as_rounding<D>(mesh_->simplex(c))) {
     found.unexplained.push_back(c);
   } else if (violated && !beside && is_violated_beyond_rounding(c)) {

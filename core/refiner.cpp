@@ -203,18 +203,29 @@ void Refiner<D>::committed() {
   flips_left_ += 16 * found;  // an allowance, so that flips that trade violations end
 }
 
+/// While no entity has been refused, and inside the volume, a constrained Delaunay triangulation should exist, if in a large
+/// region. What is left there cuts back the cavities of points to come, so that it grows; small regions do for most of it.
+template <int D>
+auto Refiner<D>::rewrap_effort(const Item& e) const -> std::optional<LocalRewrap::Effort> {
+  if constexpr (D == 2) return std::nullopt;
+  constexpr int few = 2;
+  const auto& vertices = mesh_->cell(e.cell).vertices;
+  const auto inside = std::count_if(vertices.begin(), vertices.end(),
+                                    [this](VertexId v) { return mesh_->vertex(v).home.kind() == EntityKind::volume; });
+  if ((!visit_->entities_refused || inside == D + 1) && flips_.rewrap_pays(most_lost_work)) return LocalRewrap::Effort::wide;
+  if (visit_->rewraps || inside >= few) return LocalRewrap::Effort::quick;
+  return std::nullopt;
+}
+
 template <int D>
 void Refiner<D>::flip(const Item& e) {
   if (!flips_.violates(e.cell, e.which())) return;
-  using Effort = LocalRewrap::Effort;
   auto outcome = LocalFlips<D>::Outcome::stuck;
   auto still_stuck = [&] { return flips_left_ > 0 && outcome == LocalFlips<D>::Outcome::stuck; };
   if (still_stuck()) outcome = flips_.repair(pools_, e.cell, e.which());
   if (still_stuck() && visit_->repairs_facets) outcome = flips_.flip_in_facet(pools_, e.cell, e.which());
-  // While no entity has been refused a constrained Delaunay triangulation should exist, if in a large region.
-  if (still_stuck() && !visit_->entities_refused && flips_.rewrap_pays(most_lost_work))
-    outcome = flips_.rewrap(pools_, e.cell, e.which(), Effort::wide);
-  if (still_stuck() && visit_->rewraps) outcome = flips_.rewrap(pools_, e.cell, e.which(), Effort::quick);
+  if (still_stuck())
+    if (const auto effort = rewrap_effort(e)) outcome = flips_.rewrap(pools_, e.cell, e.which(), *effort);
   if (outcome == LocalFlips<D>::Outcome::not_owned) return visit_->set_aside.push_back(e);
   if (outcome == LocalFlips<D>::Outcome::stuck) return list_poor(e.cell, Item::not_delaunay, mesh_->sphere(e.cell), 0);
   if (visit_->rewraps && made_before()) flips_left_ -= std::min(flips_left_ - 1, price_of_repetition);

@@ -58,6 +58,7 @@ PoorFindings LeafRefinement<D>::look_for_poor(PoorReasons<D>& reasons) {
   });
   PoorFindings all;
   for (const PoorFindings& part : parts) all.append(part);
+  reasons.remember(all);
   reasons.excuse(all);
   unexplained_poor_ = all.unexplained.size();
   unexplained_violations_ = all.violated.size();
@@ -107,8 +108,9 @@ void LeafRefinement<D>::help_unexplained(PoorReasons<D>& reasons, PoorFindings& 
     // What is mended by taking a vertex out may come back with it: then a point inside is better, or the other way round.
     mends = unexplained_violations_ > 0 && !(mends && in_vain > 0);
     context_.excusing = mends ? reasons.excusing_homes(found) : ExcusingHomes{};
-    if (!insert_within(with_rings(found.unexplained, in_vain)) || context_.stop != 0) break;
-    found = look_for_poor(reasons);
+    const bool changed = insert_within(with_rings(found.unexplained, in_vain));
+    if (context_.stop != 0) break;
+    if (changed) found = look_for_poor(reasons);
     in_vain = found.unexplained.size() < least ? 0 : in_vain + 1;
     least = std::min(least, found.unexplained.size());
   }

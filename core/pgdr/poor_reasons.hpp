@@ -28,6 +28,7 @@ struct PoorCell {
   bool over_bound = false;  ///< over any bound
   bool over_size = false;   ///< over one of size, volume or area
   PoorReason reason;  ///< why
+  bool beside = false;  ///< has a vertex on one of the entities named
 };
 
 /// What a look at cells has found.
@@ -75,6 +76,8 @@ class PoorReasons {
   void look_far() { most_cells_ = 4096; }
   /// What was refused in one region. What is said of a cell last counts, if it names a pair.
   void add(std::span<const Refusal<D>> refused);
+  /// For the next look: a small angle that explains a cell does so for as long as the cell is there.
+  void remember(const PoorFindings& found);
 
   /// Of the cells numbered [first, last) every one over a bound, and every one with a face that is not locally Delaunay for
   /// other reasons than rounding, each with its reason. `violated`, by cell: those with a face that is not locally Delaunay.
@@ -97,11 +100,21 @@ class PoorReasons {
 
  private:
   using EntityIds = std::vector<EntityId>;
+  struct Remembered {
+    std::uint16_t birth;  ///< of the cell
+    bool beside;  ///< as of PoorCell
+    PoorReason reason;
+  };
 
   PoorReason explain(CellId c, bool beside) const;
+  const Remembered* remembered(CellId c) const;
   bool explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, const Angle& angle, PoorReason& reason) const;
   bool meets(EntityRef e, const Ball<D>& ball) const;
   bool is_beside(EntityRef segment, const Ball<D>& doubled) const;
+  template <class F>
+  bool any_entity_of(Home home, F f) const;
+  template <class F>
+  bool any_constrained(CellId c, F f) const;
   void add_entities(CellId c, std::vector<EntityRef>& list) const;
   void add_entities_of(Home home, std::vector<EntityRef>& list) const;
   std::vector<std::vector<EntityRef>> entities_about_violations(CellId c) const;
@@ -118,6 +131,7 @@ class PoorReasons {
   std::vector<EntityIds> segments_at_;  ///< of each input point
   /// Of the refused elements that are still there: by what; no entities if no pair was at fault.
   std::unordered_map<std::uint32_t, std::optional<EntityPair>> why_;
+  std::unordered_map<std::uint32_t, Remembered> remembered_;  ///< by cell
 };
 
 extern template class PoorReasons<2>;

@@ -309,6 +309,7 @@ class Refiner {
   void committed();
   void flipped();
   void flip(const Item& e);
+  std::optional<LocalRewrap::Effort> rewrap_effort(const Item& e) const;
   bool made_before();
   Outcome give_up(Outcome outcome) {
     cavity_.release();
