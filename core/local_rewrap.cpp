@@ -30,27 +30,30 @@ bool LocalRewrap::repair(Pools& pools, CellId c, int face, Effort effort) {
   const bool thorough = effort == Effort::thorough;
   least_gain_ = thorough ? far_weight : 0;
   work_ = 0;
-  std::vector<VertexId> left_out{no_vertex};
+  std::vector<std::vector<VertexId>> left_out{{}};
   if (thorough) {
+    std::vector<VertexId> inside;
     for (const VertexId v : mesh_->cell(c).vertices)
-      if (in_volume(v)) left_out.push_back(v);
-    if (const VertexId v = mesh_->cell(d).vertices[link.face()]; in_volume(v)) left_out.push_back(v);
+      if (in_volume(v)) inside.push_back(v);
+    if (const VertexId v = mesh_->cell(d).vertices[link.face()]; in_volume(v)) inside.push_back(v);
+    for (const VertexId v : inside) left_out.push_back({v});
+    if (inside.size() > 1) left_out.push_back(inside);
   }
   bool repaired = false;
   const auto attempts = thorough ? std::vector{wide, deep} : std::vector{effort == Effort::quick ? quick : wide};
   for (const Attempt& attempt : attempts) {
     most_cells_ = attempt.most_cells;
     orders_ = attempt.orders;
-    for (const VertexId v : left_out) repaired = repaired || (!reached_border_ && repair_without(pools, c, d, v));
+    for (const auto& vertices : left_out) repaired = repaired || (!reached_border_ && repair_without(pools, c, d, vertices));
   }
   (repaired ? useful_work_ : lost_work_) += work_;
   return repaired;
 }
 
-bool LocalRewrap::repair_without(Pools& pools, CellId c, CellId d, VertexId left_out) {
+bool LocalRewrap::repair_without(Pools& pools, CellId c, CellId d, std::span<const VertexId> left_out) {
   begin(std::array{c, d}, left_out);
-  // A vertex left out may have more cells than a region should.
-  bool repaired = left_out != no_vertex && !reached_border_ && old_.size() <= most_cells_ && wrap_again(pools);
+  // Vertices left out may have more cells than a region should.
+  bool repaired = !left_out.empty() && !reached_border_ && old_.size() <= most_cells_ && wrap_again(pools);
   std::size_t wrapped = old_.size();
   for (bool grows = true; grows && !repaired && !reached_border_ && !is_ended();) {
     grows = grow();
@@ -69,7 +72,7 @@ bool LocalRewrap::repair_facet(Pools& pools, std::span<const CellId> ring) {
   random_.seed();
   most_cells_ = facet.most_cells;
   orders_ = facet.orders;
-  begin(ring, no_vertex);
+  begin(ring, {});
   bool repaired = wrap_again(pools, true);
   while (!repaired && grow()) repaired = wrap_again(pools, true);
   release();
@@ -136,6 +139,8 @@ bool LocalRewrap::in_volume(VertexId v) const { return mesh_->vertex(v).home.kin
 /// Where the constrained Delaunay triangulation exists, every order of the front leads to it; where it does not, another
 /// order may lead to a better mesh, or to one at all.
 bool LocalRewrap::wrap_again(Pools& pools, bool turns_facets) {
+  const int before = violations_before();
+  if (!turns_facets && before <= least_gain_) return false;
   find_rim();
   if (turns_facets && !make_rim_delaunay()) return false;
   front_.clear();
@@ -145,7 +150,6 @@ bool LocalRewrap::wrap_again(Pools& pools, bool turns_facets) {
     front_.push_back(f.vertices);
   }
   std::sort(rim_by_face_.begin(), rim_by_face_.end());
-  const int before = violations_before();
   work_ += old_.size() * vertices_.size();
   for (int order = 0; order < orders_ && !is_ended(); ++order) {
     if (wrap_.fill(points_, front_, 2 * most_cells_, ended_) && keeps_subsegments() &&
@@ -164,7 +168,7 @@ void LocalRewrap::release() {
 }
 
 auto LocalRewrap::number(VertexId v) -> Index {
-  if (v == left_out_) return no_index;  // inside the region: never asked for a face of the rim
+  if (is_left_out(v)) return no_index;  // inside the region: never asked for a face of the rim
   const auto at = std::find(vertices_.begin(), vertices_.end(), v);
   if (at == vertices_.end()) {
     vertices_.push_back(v);
@@ -187,20 +191,20 @@ bool LocalRewrap::in_conflict(CellId c) const {
   return false;
 }
 
-void LocalRewrap::begin(std::span<const CellId> cells, VertexId left_out) {
+void LocalRewrap::begin(std::span<const CellId> cells, std::span<const VertexId> left_out) {
   vertices_.clear();
   points_.clear();
   region_ = mesh_->region(cells[0]);
-  left_out_ = left_out;
+  left_out_.assign(left_out.begin(), left_out.end());
   for (const CellId c : cells) take(c);
-  if (left_out == no_vertex) return;
+  if (left_out.empty()) return;
   for (std::size_t i = 0; i < old_.size(); ++i) {
     const auto& k = mesh_->cell(old_[i]);
     for (int f = 0; f < 4; ++f) {
       const Link next = k.links[f];
       if (!next || mesh_->constrained(old_[i], f) || mesh_->marked(next.cell())) continue;
       const auto& v = mesh_->cell(next.cell()).vertices;
-      if (std::find(v.begin(), v.end(), left_out) == v.end()) continue;
+      if (std::none_of(v.begin(), v.end(), [this](VertexId x) { return is_left_out(x); })) continue;
       reached_border_ = reached_border_ || !owns(next.cell());
       if (reached_border_) return;
       take(next.cell());

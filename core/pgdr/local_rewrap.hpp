@@ -10,6 +10,7 @@
 // so that they are faces of the new triangulation, but where vertices hide behind walls. A workspace of one visit.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <random>
 #include <span>
@@ -76,11 +77,12 @@ class LocalRewrap {
 
   static constexpr Index no_index = 0xffff;
 
-  bool repair_without(Pools& pools, CellId c, CellId d, VertexId left_out);
+  bool repair_without(Pools& pools, CellId c, CellId d, std::span<const VertexId> left_out);
   bool is_ended() const { return ended_ && ended_(); }
   bool in_volume(VertexId v) const;
   bool excuses(VertexId v) const;
-  void begin(std::span<const CellId> cells, VertexId left_out);
+  void begin(std::span<const CellId> cells, std::span<const VertexId> left_out);
+  bool is_left_out(VertexId v) const { return std::find(left_out_.begin(), left_out_.end(), v) != left_out_.end(); }
   bool grow();
   bool wrap_again(Pools& pools, bool turns_facets = false);
   bool make_rim_delaunay();
@@ -123,7 +125,7 @@ class LocalRewrap {
   std::size_t most_cells_ = 0;
   int orders_ = 1, least_gain_ = 0;
   std::minstd_rand random_;
-  VertexId left_out_ = no_vertex;  ///< the vertex that is taken out; the region has all its cells
+  std::vector<VertexId> left_out_;  ///< vertices that are taken out; the region has all their cells
   std::uint64_t work_ = 0, lost_work_ = 0, useful_work_ = 0;
   std::uint16_t region_ = 0;
 };
