@@ -185,9 +185,11 @@ std::vector<Home> Refiner<D>::homes_of_cavity() const {
   return homes;
 }
 
-/// The same of the faces that are not locally Delaunay: of the boundary, then those between new cells. `any`: are there any?
+/// Calls f(n, v) for each face that would not be locally Delaunay, of the n-th new element and one with the further vertex v,
+/// until it says false: of the boundary, then those between new cells. Has it always said true?
 template <int D>
-bool Refiner<D>::violations_are_explained(const Place& p, bool& any) const {
+template <class F>
+bool Refiner<D>::all_new_violations(F f) const {
   const Point<D>& x = cavity_.point();
   struct NewFace {
     Ridge ridge;
@@ -201,10 +203,8 @@ bool Refiner<D>::violations_are_explained(const Place& p, bool& any) const {
     const auto [c, face] = cavity_.boundary()[n];
     const Link out = mesh_->cell(c).links[face];
     const bool open = out && !mesh_->constrained(c, face);
-    if (open && mesh_->conflicts(out.cell(), x) && in_sphere<D>(mesh_->simplex(out.cell()), x) == Sign::positive) {
-      any = true;
-      if (!is_explained(p, n, mesh_->cell(out.cell()).vertices[out.face()])) return false;
-    }
+    if (open && mesh_->conflicts(out.cell(), x) && in_sphere<D>(mesh_->simplex(out.cell()), x) == Sign::positive)
+      if (!f(n, mesh_->cell(out.cell()).vertices[out.face()])) return false;
     const auto& v = mesh_->cell(c).vertices;
     for (int i = 0; i <= D; ++i)
       for (int j = i + 1; j <= D; ++j) {
@@ -217,10 +217,29 @@ bool Refiner<D>::violations_are_explained(const Place& p, bool& any) const {
   for (std::size_t i = 0; i + 1 < faces.size(); ++i) {
     if (faces[i].ridge != faces[i + 1].ridge) continue;
     if (in_sphere<D>(prospect(faces[i].cell), mesh_->point(faces[i + 1].opposite)) != Sign::positive) continue;
-    any = true;
-    if (!is_explained(p, faces[i].cell, faces[i + 1].opposite)) return false;
+    if (!f(faces[i].cell, faces[i + 1].opposite)) return false;
   }
   return true;
+}
+
+/// The same of the faces that would not be locally Delaunay. `any`: are there any?
+template <int D>
+bool Refiner<D>::violations_are_explained(const Place& p, bool& any) const {
+  return all_new_violations([&](std::size_t n, VertexId further) { return any = true, is_explained(p, n, further); });
+}
+
+/// Of a point of the volume: how many there would be that nothing excuses?
+template <int D>
+int Refiner<D>::unexcused_after() const {
+  int count = 0;
+  all_new_violations([&](std::size_t n, VertexId further) {
+    const auto [c, face] = cavity_.boundary()[n];
+    const auto& v = mesh_->cell(c).vertices;
+    bool excused = excuses(further);
+    for (int i = 0; i <= D; ++i) excused = excused || (i != face && excuses(v[i]));
+    return count += !excused, true;
+  });
+  return count;
 }
 
 /// Inserts the point that lessens the excess most, the first of those that do.

@@ -65,6 +65,69 @@ bool Refiner<D>::insert_mean_of_corners(const Item& e, const CellVerdict& verdic
   return true;
 }
 
+/// Does a vertex excuse that a face beside it is not locally Delaunay? Before it is known which do, all on the boundary.
+template <int D>
+bool Refiner<D>::excuses(VertexId v) const {
+  const Home home = mesh_->vertex(v).home;
+  return context_->excusing.known() ? context_->excusing.has(home) : home.kind() != EntityKind::volume;
+}
+
+template <int D>
+bool Refiner<D>::is_unexcused(CellId c, VertexId beyond) const {
+  const auto& v = mesh_->cell(c).vertices;
+  return !excuses(beyond) && std::none_of(v.begin(), v.end(), [this](VertexId x) { return excuses(x); });
+}
+
+/// Faces of the collected cavity, its boundary too, that are not locally Delaunay, which nothing excuses.
+template <int D>
+int Refiner<D>::unexcused_in_cavity() const {
+  int twice = 0;
+  for (const CellId c : cavity_.cells())
+    for (int f = 0; f <= D; ++f) {
+      if (!flips_.violates(c, f)) continue;
+      const Link next = mesh_->cell(c).links[f];
+      if (is_unexcused(c, mesh_->cell(next.cell()).vertices[next.face()])) twice += mesh_->marked(next.cell()) ? 1 : 2;
+    }
+  return twice / 2;
+}
+
+/// 3D: puts a point into one of the two cells at such a face so that fewer of them are left, the fewest that any does.
+template <int D>
+bool Refiner<D>::insert_for_fewer_violations(const Item& e)
+  requires(D == 3)
+{
+  std::vector<CellId> cells{e.cell};
+  for (int f = 0; f <= D; ++f)
+    if (flips_.violates(e.cell, f)) cells.push_back(mesh_->cell(e.cell).links[f].cell());
+  const double least_room = demand_of_cell(e.cell, CellVerdict{true, 0}).d;
+  int best_gain = 0;
+  double most_room = 0;
+  Point<D> best{};
+  CellId at = e.cell;
+  for (const CellId c : cells) {
+    Simplex<D> s = mesh_->simplex(c);
+    std::vector<Point<D>> places{circumsphere<D>(s).center};
+    std::sort(s.begin(), s.end(), lex_less<D>);
+    for (unsigned corners = 1; corners < 2u << D; ++corners)
+      if (!std::has_single_bit(corners)) places.push_back(detail::mean_of_corners<D>(s, corners));
+    for (const Point<D>& x : places) {
+      const double room = room_for(x, c);
+      if (!(room > 0) || room < least_room || room < options_->min_edge) continue;
+      const int gain = unexcused_in_cavity() - unexcused_after();
+      if (gain < best_gain || (gain == best_gain && (gain == 0 || room <= most_room))) continue;
+      best_gain = gain;
+      most_room = room;
+      best = x;
+      at = c;
+    }
+  }
+  if (best_gain == 0) return false;
+  room_for(best, at);
+  cavity_.commit(pools_, Home(EntityKind::volume, 0), rounded_down(std::max(insertion_radius<D>(*mesh_, cavity_), least_room)));
+  committed();
+  return true;
+}
+
 template <int D>
 bool Refiner<D>::list_violations_about(CellId c) {
   std::vector<CellId> cells{c};
@@ -86,9 +149,12 @@ bool Refiner<D>::insert_within(const Item& e) {
   last_refusal_.reset();
   CellVerdict verdict = verdict_of(e);
   if (!verdict && !violates_anywhere(e.cell)) return false;  // mended by what was done for others
-  verdict.over_radius_edge = true;
   unexplained_ = true;  // what throws meanwhile ends the run, and this with it
-  bool inserted = treat_cell_at(e, circumsphere<D>(mesh_->simplex(e.cell)).center, verdict) == Outcome::committed;
+  bool inserted = false;
+  if constexpr (D == 3) inserted = !verdict && insert_for_fewer_violations(e);
+  cavity_.release();
+  verdict.over_radius_edge = true;
+  inserted = inserted || treat_cell_at(e, circumsphere<D>(mesh_->simplex(e.cell)).center, verdict) == Outcome::committed;
   cavity_.release();
   inserted = inserted || (alive(e) && insert_mean_of_corners(e, verdict));
   cavity_.release();

@@ -19,6 +19,8 @@ constexpr int most_rounds = 16;
 // Rounds that explain no more than the best before: of elements that may have a small angle farther away as their reason (what is
 // put in for them brings as many new ones), and of those that have none.
 constexpr int most_in_vain_near = 2, most_in_vain_far = 6;
+constexpr int most_turns = 3;  // of helping and improving
+constexpr int most_rings = 2;  // of cells about these: more bring on more than they mend
 
 }  // namespace
 
@@ -71,13 +73,17 @@ std::vector<PoorCell> LeafRefinement<D>::explain(StopCause& stop) {
   PoorReasons<D> reasons(context_.mesh, context_.domain, context_.bounds, context_.options.keep_boundary);
   PoorFindings found = look_for_poor(reasons);
   help_unexplained(reasons, found, most_in_vain_near);
-  if (!found.unexplained.empty() && !context_.ended()) {
-    reasons.look_far();
-    found = look_for_poor(reasons);
-    help_unexplained(reasons, found, most_in_vain_far);
+  // What no round helps may be gone, or mended, once vertices about it are taken out and moved.
+  for (int turn = 0; turn < most_turns && (turn == 0 || !found.unexplained.empty()) && stop == StopCause::finished; ++turn) {
+    if (!found.unexplained.empty() && !context_.ended()) {
+      reasons.look_far();
+      found = look_for_poor(reasons);
+      help_unexplained(reasons, found, most_in_vain_far);
+    }
+    cancelled(0);
+    if (context_.stop == 0) stop = improve(reasons, found);
+    if (context_.stop != 0) break;
   }
-  cancelled(0);
-  if (context_.stop == 0) stop = improve(reasons, found);
   if (context_.stop != 0) stop = static_cast<StopCause>(context_.stop.load());
   total_statistics();
   if (stop == StopCause::finished && min_edge_hit_) stop = StopCause::min_edge;
@@ -107,8 +113,8 @@ void LeafRefinement<D>::help_unexplained(PoorReasons<D>& reasons, PoorFindings& 
     if (found.unexplained.empty() || context_.stop != 0) break;
     // What is mended by taking a vertex out may come back with it: then a point inside is better, or the other way round.
     mends = unexplained_violations_ > 0 && !(mends && in_vain > 0);
-    context_.excusing = mends ? reasons.excusing_homes(found) : ExcusingHomes{};
-    const bool changed = insert_within(with_rings(found.unexplained, in_vain));
+    context_.excusing = reasons.excusing_homes(found);
+    const bool changed = insert_within(with_rings(found.unexplained, std::min(in_vain, most_rings)), mends);
     if (context_.stop != 0) break;
     if (changed) found = look_for_poor(reasons);
     in_vain = found.unexplained.size() < least ? 0 : in_vain + 1;
@@ -116,17 +122,17 @@ void LeafRefinement<D>::help_unexplained(PoorReasons<D>& reasons, PoorFindings& 
   }
 }
 
-/// Mends what can be mended about these cells, or inserts points inside of them. False if the mesh is as it was.
+/// Mends what can be mended about these cells, if `mends`, or inserts points inside of them. False if the mesh is as it was.
 template <int D>
-bool LeafRefinement<D>::insert_within(std::span<const CellId> cells) {
+bool LeafRefinement<D>::insert_within(std::span<const CellId> cells, bool mends) {
   std::vector<Entry<D>> entries;
   for (const CellId c : cells) entries.emplace_back(c, context_.mesh.birth(c), EntryKind::cell, Entry<D>::not_delaunay);
   sort_by_vertices(entries);
   bool changed = false;
-  const auto visit_whole = [&](bool mends, const auto& begun) {
+  const auto visit_whole = [&](bool mending, const auto& begun) {
     RegionVisit<D> visit = mending_visit();
     visit.repairs_facets = true;
-    visit.mends = mends;
+    visit.mends = mending;
     Worker worker = check_out();
     worker->begin(visit);
     if (begun(*worker)) worker->run(visit);
@@ -138,7 +144,7 @@ bool LeafRefinement<D>::insert_within(std::span<const CellId> cells) {
     const auto waits = [&] { return context_.stop == 0 && e.alive(context_.mesh); };
     if (waits()) visit_whole(false, [&](Refiner<D>& worker) { return worker.list_violations_about(e.cell); });
     // What is taken out now would come back at once, and the violation with it.
-    if (waits() && context_.excusing.known()) visit_whole(true, [&](Refiner<D>& worker) { return worker.mend_cell(e.cell); });
+    if (waits() && mends) visit_whole(true, [&](Refiner<D>& worker) { return worker.mend_cell(e.cell); });
     if (waits()) visit_whole(false, [&](Refiner<D>& worker) { return worker.insert_within(e); });
   }
   return changed;

@@ -253,6 +253,11 @@ class Refiner {
   double room_for(const Point<D>& x, CellId c);
   double squared_distance_to_walls(const Point<D>& x) const;
   bool insert_mean_of_corners(const Item& e, const CellVerdict& verdict);
+  bool excuses(VertexId v) const;
+  bool is_unexcused(CellId c, VertexId beyond) const;
+  int unexcused_in_cavity() const;
+  bool insert_for_fewer_violations(const Item& e)
+    requires(D == 3);
 
   // refiner_improvement.cpp: what stays poor
   /// Where a point may go, and on what.
@@ -271,7 +276,10 @@ class Refiner {
   bool is_explained(const Place& p, std::size_t n, VertexId further) const;
   bool poor_ones_are_explained(const Place& p) const;
   std::vector<Home> homes_of_cavity() const;
+  template <class F>
+  bool all_new_violations(F f) const;
   bool violations_are_explained(const Place& p, bool& any) const;
+  int unexcused_after() const;
 
   Outcome insert_for_less(const Item& e);
   double excess_of(CellId c) const;

@@ -127,7 +127,7 @@ class LeafRefinement {
   bool lists_all_poor(const PoorFindings& found) const;
   void help_unexplained(PoorReasons<D>& reasons, PoorFindings& found, int most_in_vain);
   std::vector<CellId> with_rings(std::vector<CellId> cells, int rings) const;
-  bool insert_within(std::span<const CellId> cells);
+  bool insert_within(std::span<const CellId> cells, bool mends);
   bool may_improve(bool takes_out_alone) const;
   void list_for_improvement();
   std::vector<bool> keep(std::span<const PoorCell> excusing);
