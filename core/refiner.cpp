@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::uint64_t price_of_repetition = 100;  // in flips
 constexpr std::uint64_t most_lost_work = 20'000'000;  // of rewrapping large regions in one visit: some seconds
+constexpr std::uint64_t most_lost_inside = 50'000;  // likewise, once entities have been refused
 
 }  // namespace
 
@@ -212,7 +213,8 @@ auto Refiner<D>::rewrap_effort(const Item& e) const -> std::optional<LocalRewrap
   const auto& vertices = mesh_->cell(e.cell).vertices;
   const auto inside = std::count_if(vertices.begin(), vertices.end(),
                                     [this](VertexId v) { return mesh_->vertex(v).home.kind() == EntityKind::volume; });
-  if ((!visit_->entities_refused || inside == D + 1) && flips_.rewrap_pays(most_lost_work)) return LocalRewrap::Effort::wide;
+  const bool refused = visit_->entities_refused;
+  if ((!refused || inside == D + 1) && flips_.rewrap_pays(refused ? most_lost_inside : most_lost_work)) return LocalRewrap::Effort::wide;
   if (visit_->rewraps || inside >= few) return LocalRewrap::Effort::quick;
   return std::nullopt;
 }
