@@ -127,6 +127,42 @@ TEST(Tangles, ViolationsMoveToWhatIsNamed) { expect_explained("rounded_plate.off
 // nothing was done about the other, and `pgdr check` ended with 6.
 TEST(Tangles, EachViolationNeedsAnExcuse) { expect_explained("rounded_plate_2.off"); }
 
+/// A body of 48 meridians and 24 parallels about the unit sphere, with bumps of a twentieth.
+Plc<3> bumpy_sphere() {
+  constexpr std::uint32_t meridians = 48, parallels = 24;
+  const auto at = [](double latitude, double longitude) {
+    const double r = 1 + 0.05 * std::sin(5 * latitude) * std::cos(3 * longitude);
+    return Point3{{r * std::sin(latitude) * std::cos(longitude), r * std::sin(latitude) * std::sin(longitude), r * std::cos(latitude)}};
+  };
+  Plc<3> plc;
+  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) { plc.facets.push_back({{{a, b, c}}, {}, 0}); };
+  const auto on = [](std::uint32_t i, std::uint32_t j) { return 1 + (i - 1) * meridians + j % meridians; };
+  plc.points.push_back({{0, 0, 1}});
+  for (std::uint32_t i = 1; i < parallels; ++i)
+    for (std::uint32_t j = 0; j < meridians; ++j)
+      plc.points.push_back(at(std::numbers::pi * i / parallels, 2 * std::numbers::pi * j / meridians));
+  const auto pole = static_cast<std::uint32_t>(plc.points.size());
+  plc.points.push_back({{0, 0, -1}});
+  for (std::uint32_t j = 0; j < meridians; ++j) {
+    add(0, on(1, j), on(1, j + 1));
+    add(pole, on(parallels - 1, j + 1), on(parallels - 1, j));
+    for (std::uint32_t i = 1; i + 1 < parallels; ++i) {
+      add(on(i, j), on(i + 1, j), on(i + 1, j + 1));
+      add(on(i, j), on(i + 1, j + 1), on(i, j + 1));
+    }
+  }
+  return plc;
+}
+
+// Segments were refused at the needles of its poles, and nothing was made anew inside any more until all else was done. Each point
+// that came beside what was not locally Delaunay there made more of it: the mesh had 15,815 cells (13,644 now), that of one with
+// 100,000 triangles 1.41 million, after a second attempt (1.00).
+TEST(Tangles, DoNotSpreadInside) {
+  const RefineResult<3> result = test::expect_reproducible<3>(bumpy_sphere(), {}, "bumpy_sphere", test::two_if_quick);
+  EXPECT_LT(result.mesh.cells.size(), 15000u);
+  for (const PoorReason& reason : result.reasons) EXPECT_EQ(reason.code, PoorReason::Code::small_angle);
+}
+
 // What a selector has looked at is not known, so that refused elements were tried again for ever when violations were mended.
 TEST(Tangles, EndWithASelector) {
   RefineOptions<3> options;
