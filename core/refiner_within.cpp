@@ -91,11 +91,16 @@ int Refiner<D>::unexcused_in_cavity() const {
   return twice / 2;
 }
 
+/// 3D: how many fewer there would be with the collected point.
+template <int D>
+int Refiner<D>::fewer_unexcused() const {
+  if constexpr (D == 3) return unexcused_in_cavity() - unexcused_after();
+  return 0;
+}
+
 /// 3D: puts a point into one of the two cells at such a face so that fewer of them are left, the fewest that any does.
 template <int D>
-bool Refiner<D>::insert_for_fewer_violations(const Item& e)
-  requires(D == 3)
-{
+bool Refiner<D>::insert_for_fewer_violations(const Item& e) {
   std::vector<CellId> cells{e.cell};
   for (int f = 0; f <= D; ++f)
     if (flips_.violates(e.cell, f)) cells.push_back(mesh_->cell(e.cell).links[f].cell());
@@ -113,7 +118,7 @@ bool Refiner<D>::insert_for_fewer_violations(const Item& e)
     for (const Point<D>& x : places) {
       const double room = room_for(x, c);
       if (!(room > 0) || room < least_room || room < options_->min_edge) continue;
-      const int gain = unexcused_in_cavity() - unexcused_after();
+      const int gain = fewer_unexcused();
       if (gain < best_gain || (gain == best_gain && (gain == 0 || room <= most_room))) continue;
       best_gain = gain;
       most_room = room;
@@ -150,8 +155,7 @@ bool Refiner<D>::insert_within(const Item& e) {
   CellVerdict verdict = verdict_of(e);
   if (!verdict && !violates_anywhere(e.cell)) return false;  // mended by what was done for others
   unexplained_ = true;  // what throws meanwhile ends the run, and this with it
-  bool inserted = false;
-  if constexpr (D == 3) inserted = !verdict && insert_for_fewer_violations(e);
+  bool inserted = D == 3 && !verdict && insert_for_fewer_violations(e);
   cavity_.release();
   verdict.over_radius_edge = true;
   inserted = inserted || treat_cell_at(e, circumsphere<D>(mesh_->simplex(e.cell)).center, verdict) == Outcome::committed;

@@ -256,8 +256,8 @@ class Refiner {
   bool excuses(VertexId v) const;
   bool is_unexcused(CellId c, VertexId beyond) const;
   int unexcused_in_cavity() const;
-  bool insert_for_fewer_violations(const Item& e)
-    requires(D == 3);
+  int fewer_unexcused() const;
+  bool insert_for_fewer_violations(const Item& e);
 
   // refiner_improvement.cpp: what stays poor
   /// Where a point may go, and on what.
