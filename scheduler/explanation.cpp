@@ -74,15 +74,17 @@ std::vector<PoorCell> LeafRefinement<D>::explain(StopCause& stop) {
   PoorFindings found = look_for_poor(reasons);
   help_unexplained(reasons, found, most_in_vain_near);
   // What no round helps may be gone, or mended, once vertices about it are taken out and moved.
-  for (int turn = 0; turn < most_turns && (turn == 0 || !found.unexplained.empty()) && stop == StopCause::finished; ++turn) {
+  bool changed = true;
+  for (int turn = 0; turn < most_turns && (turn == 0 || !found.unexplained.empty()) && changed && stop == StopCause::finished; ++turn) {
     if (!found.unexplained.empty() && !context_.ended()) {
       reasons.look_far();
       found = look_for_poor(reasons);
       help_unexplained(reasons, found, most_in_vain_far);
     }
     cancelled(0);
+    const std::uint64_t before = counts_.improved;
     if (context_.stop == 0) stop = improve(reasons, found);
-    if (context_.stop != 0) break;
+    changed = counts_.improved != before && context_.stop == 0;
   }
   if (context_.stop != 0) stop = static_cast<StopCause>(context_.stop.load());
   total_statistics();
