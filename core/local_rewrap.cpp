@@ -139,7 +139,7 @@ bool LocalRewrap::in_volume(VertexId v) const { return mesh_->vertex(v).home.kin
 /// Where the constrained Delaunay triangulation exists, every order of the front leads to it; where it does not, another
 /// order may lead to a better mesh, or to one at all.
 bool LocalRewrap::wrap_again(Pools& pools, bool turns_facets) {
-  const int before = violations_before();
+  const int before = turns_facets ? 0 : violations_before();
   if (!turns_facets && before <= least_gain_) return false;
   find_rim();
   if (turns_facets && !make_rim_delaunay()) return false;
@@ -258,7 +258,7 @@ bool LocalRewrap::keeps_subsegments() const {
 }
 
 bool LocalRewrap::excuses(VertexId v) const {
-  return excusing_ && excusing_->known() ? excusing_->has(mesh_->vertex(v).home) : !in_volume(v);
+  return excusing_ ? excusing_->excuses(mesh_->vertex(v).home) : !in_volume(v);
 }
 
 /// What a violation counts. One that no entity is beside (later: none that was refused) counts for more than all others, so

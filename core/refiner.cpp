@@ -211,8 +211,7 @@ auto Refiner<D>::rewrap_effort(const Item& e) const -> std::optional<LocalRewrap
   if constexpr (D == 2) return std::nullopt;
   constexpr int few = 2;
   const auto& vertices = mesh_->cell(e.cell).vertices;
-  const auto inside = std::count_if(vertices.begin(), vertices.end(),
-                                    [this](VertexId v) { return mesh_->vertex(v).home.kind() == EntityKind::volume; });
+  const auto inside = std::count_if(vertices.begin(), vertices.end(), [this](VertexId v) { return in_volume(v); });
   const bool refused = visit_->entities_refused;
   if ((!refused || inside == D + 1) && flips_.rewrap_pays(refused ? most_lost_inside : most_lost_work)) return LocalRewrap::Effort::wide;
   if (visit_->rewraps || inside >= few) return LocalRewrap::Effort::quick;
@@ -258,10 +257,10 @@ void Refiner<D>::flipped() {
 
 template <int D>
 bool Refiner<D>::is_far_from_walls(const Item& e) const {
-  auto in_volume = [this](VertexId v) { return mesh_->vertex(v).home.kind() == EntityKind::volume; };
+  const auto is_inside = [this](VertexId v) { return in_volume(v); };
   const auto& beyond = mesh_->cell(mesh_->cell(e.cell).links[e.which()].cell()).vertices;
   const auto& vertices = mesh_->cell(e.cell).vertices;
-  return std::all_of(vertices.begin(), vertices.end(), in_volume) && std::all_of(beyond.begin(), beyond.end(), in_volume);
+  return std::all_of(vertices.begin(), vertices.end(), is_inside) && std::all_of(beyond.begin(), beyond.end(), is_inside);
 }
 
 template <int D>

@@ -15,7 +15,6 @@
 // only beside two entities that meet at a small angle and touch its own corners, so that no later point can take that away.
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <tuple>
 
 #include "detail/corner_means.hpp"

@@ -3,7 +3,6 @@
 //
 // Points for elements that stay poor although no small angle of the input explains it.
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -45,13 +44,9 @@ double Refiner<D>::room_for(const Point<D>& x, CellId c) {
 template <int D>
 bool Refiner<D>::insert_mean_of_corners(const Item& e, const CellVerdict& verdict) {
   const Demand demand = demand_of_cell(e.cell, verdict);
-  Simplex<D> s = mesh_->simplex(e.cell);
-  std::sort(s.begin(), s.end(), lex_less<D>);
   double most = 0;
   Point<D> best{};
-  for (unsigned corners = 1; corners < 2u << D; ++corners) {
-    if (std::has_single_bit(corners)) continue;
-    const Point<D> x = detail::mean_of_corners<D>(s, corners);
+  for (const Point<D>& x : detail::means_of_corners<D>(mesh_->simplex(e.cell))) {
     const double room = room_for(x, e.cell);
     if (room <= most) continue;
     most = room;
@@ -65,19 +60,6 @@ bool Refiner<D>::insert_mean_of_corners(const Item& e, const CellVerdict& verdic
   return true;
 }
 
-/// Does a vertex excuse that a face beside it is not locally Delaunay? Before it is known which do, all on the boundary.
-template <int D>
-bool Refiner<D>::excuses(VertexId v) const {
-  const Home home = mesh_->vertex(v).home;
-  return context_->excusing.known() ? context_->excusing.has(home) : home.kind() != EntityKind::volume;
-}
-
-template <int D>
-bool Refiner<D>::is_unexcused(CellId c, VertexId beyond) const {
-  const auto& v = mesh_->cell(c).vertices;
-  return !excuses(beyond) && std::none_of(v.begin(), v.end(), [this](VertexId x) { return excuses(x); });
-}
-
 /// Faces of the collected cavity, its boundary too, that are not locally Delaunay, which nothing excuses.
 template <int D>
 int Refiner<D>::unexcused_in_cavity() const {
@@ -85,8 +67,11 @@ int Refiner<D>::unexcused_in_cavity() const {
   for (const CellId c : cavity_.cells())
     for (int f = 0; f <= D; ++f) {
       if (!flips_.violates(c, f)) continue;
+      const auto& v = mesh_->cell(c).vertices;
       const Link next = mesh_->cell(c).links[f];
-      if (is_unexcused(c, mesh_->cell(next.cell()).vertices[next.face()])) twice += mesh_->marked(next.cell()) ? 1 : 2;
+      if (excuses(mesh_->cell(next.cell()).vertices[next.face()])) continue;
+      if (std::any_of(v.begin(), v.end(), [this](VertexId x) { return excuses(x); })) continue;
+      twice += mesh_->marked(next.cell()) ? 1 : 2;
     }
   return twice / 2;
 }
@@ -104,20 +89,17 @@ bool Refiner<D>::insert_for_fewer_violations(const Item& e) {
   std::vector<CellId> cells{e.cell};
   for (int f = 0; f <= D; ++f)
     if (flips_.violates(e.cell, f)) cells.push_back(mesh_->cell(e.cell).links[f].cell());
-  const double least_room = demand_of_cell(e.cell, CellVerdict{true, 0}).d;
+  const Demand demand = demand_of_cell(e.cell, CellVerdict{true, 0});
   int best_gain = 0;
   double most_room = 0;
   Point<D> best{};
   CellId at = e.cell;
   for (const CellId c : cells) {
-    Simplex<D> s = mesh_->simplex(c);
-    std::vector<Point<D>> places{circumsphere<D>(s).center};
-    std::sort(s.begin(), s.end(), lex_less<D>);
-    for (unsigned corners = 1; corners < 2u << D; ++corners)
-      if (!std::has_single_bit(corners)) places.push_back(detail::mean_of_corners<D>(s, corners));
+    std::vector<Point<D>> places = detail::means_of_corners<D>(mesh_->simplex(c));
+    places.push_back(circumsphere<D>(mesh_->simplex(c)).center);
     for (const Point<D>& x : places) {
       const double room = room_for(x, c);
-      if (!(room > 0) || room < least_room || room < options_->min_edge) continue;
+      if (!(room > 0) || room < demand.d || room < options_->min_edge) continue;
       const int gain = fewer_unexcused();
       if (gain < best_gain || (gain == best_gain && (gain == 0 || room <= most_room))) continue;
       best_gain = gain;
@@ -128,7 +110,7 @@ bool Refiner<D>::insert_for_fewer_violations(const Item& e) {
   }
   if (best_gain == 0) return false;
   room_for(best, at);
-  cavity_.commit(pools_, Home(EntityKind::volume, 0), rounded_down(std::max(insertion_radius<D>(*mesh_, cavity_), least_room)));
+  cavity_.commit(pools_, Home(EntityKind::volume, 0), rounded_down(std::max(insertion_radius<D>(*mesh_, cavity_), demand.h)));
   committed();
   return true;
 }

@@ -69,7 +69,8 @@ TEST_P(Needles, OneGetsFewPoints) {
 
 TEST_P(Needles, FourGetFewPoints) {
   const double height = GetParam();
-  expect_few(box_with_needles(4, 0.53, height, -2 * height), "needles", 25000);  // 17,900 to 20,100 in the last versions
+  // Of 1e-9 it has been 12,374 to 21,733, by which vertices happen to come first.
+  expect_few(box_with_needles(4, 0.53, height, -2 * height), "needles", 25000);
 }
 
 INSTANTIATE_TEST_SUITE_P(Heights, Needles, testing::Values(1e-5, 1e-7, 1e-9),

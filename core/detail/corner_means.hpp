@@ -4,7 +4,9 @@
 // Midpoints of edges, centroids of faces, the centroid.
 #pragma once
 
+#include <algorithm>
 #include <bit>
+#include <vector>
 
 #include "pgdr/types.hpp"
 
@@ -17,6 +19,16 @@ Point<D> mean_of_corners(const Simplex<D>& s, unsigned corners) {
   for (int i = 0; i <= D; ++i)
     for (int k = 0; k < D; ++k) x[k] += corners >> i & 1 ? s[i][k] / std::popcount(corners) : 0;
   return x;
+}
+
+/// Of each two or more, in the same order however the corners are numbered.
+template <int D>
+std::vector<Point<D>> means_of_corners(Simplex<D> s) {
+  std::sort(s.begin(), s.end(), lex_less<D>);
+  std::vector<Point<D>> means;
+  for (unsigned corners = 1; corners < 2u << D; ++corners)
+    if (!std::has_single_bit(corners)) means.push_back(mean_of_corners<D>(s, corners));
+  return means;
 }
 
 }  // namespace pgdr::detail

@@ -29,6 +29,8 @@ class ExcusingHomes {
   bool has(Home home) const {
     return home.kind() != EntityKind::volume && excusing_[static_cast<std::size_t>(home.kind())][home.id()];
   }
+  /// The same; before anything is known all vertices on the boundary do.
+  bool excuses(Home home) const { return known_ ? has(home) : home.kind() != EntityKind::volume; }
 
  private:
   std::array<std::vector<bool>, 3> excusing_;

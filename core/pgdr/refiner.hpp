@@ -253,8 +253,7 @@ class Refiner {
   double room_for(const Point<D>& x, CellId c);
   double squared_distance_to_walls(const Point<D>& x) const;
   bool insert_mean_of_corners(const Item& e, const CellVerdict& verdict);
-  bool excuses(VertexId v) const;
-  bool is_unexcused(CellId c, VertexId beyond) const;
+  bool excuses(VertexId v) const { return context_->excusing.excuses(mesh_->vertex(v).home); }
   int unexcused_in_cavity() const;
   int fewer_unexcused() const;
   bool insert_for_fewer_violations(const Item& e);
@@ -318,6 +317,7 @@ class Refiner {
   void flipped();
   void flip(const Item& e);
   std::optional<LocalRewrap::Effort> rewrap_effort(const Item& e) const;
+  bool in_volume(VertexId v) const { return mesh_->vertex(v).home.kind() == EntityKind::volume; }
   bool made_before();
   Outcome give_up(Outcome outcome) {
     cavity_.release();
