@@ -10,6 +10,8 @@ Seconds are the processor's, of the whole commands, on one thread; `pgdr check` 
 "Sharp": of pgdr's, those in corners of facets where every mesh that keeps the facets has one (`poor_unavoidable`).
 """
 import argparse
+import contextlib
+import io
 import json
 import math
 import pathlib
@@ -21,6 +23,7 @@ import sys
 import tempfile
 
 READABLE = {".off", ".obj", ".stl", ".ply", ".poly", ".smesh", ".mesh", ".msh"}
+SURFACES = {".off", ".obj", ".stl", ".ply"}
 TETGEN_READS = {".off", ".stl", ".ply", ".poly", ".smesh", ".mesh"}
 WAIT = 20  # times the limit on the wall, should a command sleep
 TETGEN_BYTES = 8 << 30  # where it does not end, it may take all memory
@@ -43,19 +46,34 @@ def run(command, limit, memory=resource.RLIM_INFINITY):
     return None if late else done.returncode, used() - start, done.stdout + done.stderr
 
 
-def as_off(model, folder):
-    """A copy of an .obj that TetGen can read."""
-    points, faces = [], []
-    for line in model.read_text(errors="replace").splitlines():
-        words = line.split()
-        if words[:1] == ["v"]:
-            points.append(words[1:4])
-        elif words[:1] == ["f"]:
-            faces.append([int(w.split("/")[0]) - 1 for w in words[1:]])
-    copy = folder / (model.stem + ".off")
-    rows = [f"OFF\n{len(points)} {len(faces)} 0"] + [" ".join(p) for p in points]
-    rows += [" ".join(map(str, [len(f)] + f)) for f in faces]
-    copy.write_text("\n".join(rows) + "\n")
+def surface(model):
+    """Points and faces of a surface, no matter which of the four formats."""
+    if model.suffix == ".obj":
+        rows = [line.split() for line in model.read_text(errors="replace").splitlines()]
+        return ([tuple(map(float, r[1:4])) for r in rows if r[:1] == ["v"]],
+                [[int(w.split("/")[0]) - 1 for w in r[1:]] for r in rows if r[:1] == ["f"]])
+    if model.suffix == ".off":
+        words = iter(w for line in model.read_text().splitlines() for w in line.split("#")[0].split() if w != "OFF")
+        points, faces, _ = (int(next(words)) for _ in range(3))
+        return ([tuple(float(next(words)) for _ in range(3)) for _ in range(points)],
+                [[int(next(words)) for _ in range(int(next(words)))] for _ in range(faces)])
+    import meshio  # only for what TetGen cannot take as it is
+    with contextlib.redirect_stdout(io.StringIO()):
+        read = meshio.read(model)
+    return [tuple(p) for p in read.points.tolist()], [f for block in read.cells if block.dim == 2 for f in block.data.tolist()]
+
+
+def merged(points, faces):
+    """The same surface without points given twice, points that belong to nothing and faces with a corner twice, at some of which
+    TetGen stops; the points in the order of their coordinates."""
+    number = {p: i for i, p in enumerate(sorted({points[i] for face in faces for i in face}))}
+    renumbered = [[number[points[i]] for i in face] for face in faces]
+    return list(number), [face for face in renumbered if len(set(face)) == len(face)]
+
+
+def as_off(points, faces, copy):
+    lines = [f"OFF\n{len(points)} {len(faces)} 0"] + [" ".join(map(repr, p)) for p in points]
+    copy.write_text("\n".join(lines + [" ".join(map(str, [len(f)] + f)) for f in faces]) + "\n")
     return copy
 
 
@@ -68,10 +86,23 @@ def checked(pgdr, mesh, report, bound, limit, *more):
 def tetgen(args, model, folder):
     """TetGen -pq<bound> of a model: what it said, or the seconds, the cells, those over the bound and the worst of them.
 
-    The last two are `pgdr check`'s, of the files that TetGen wrote: its own statistics have other measures."""
-    copy = pathlib.Path(as_off(model, folder) if model.suffix == ".obj" else shutil.copy(model, folder))
-    if copy.suffix not in TETGEN_READS:
+    The last two are `pgdr check`'s, of the files that TetGen wrote: its own statistics have other measures. Where it fails on a
+    surface as the file has it, it gets another try with the `merged` one as .off: "first" is what it said before."""
+    copy = folder / model.name
+    if model.suffix in TETGEN_READS:
+        shutil.copy(model, copy)
+    elif model.suffix in SURFACES:
+        copy = as_off(*surface(model), copy.with_suffix(".off"))
+    else:
         return {"failure": "cannot read it"}
+    found = tetgen_of_copy(args, copy, folder)
+    if "failure" not in found or model.suffix not in SURFACES:
+        return found
+    plain = tetgen_of_copy(args, as_off(*merged(*surface(model)), folder / f"{model.stem}_plain.off"), folder)
+    return found if "failure" in plain else {**plain, "first": found["failure"]}
+
+
+def tetgen_of_copy(args, copy, folder):
     volumes = "aA" if copy.suffix in {".poly", ".smesh"} else ""  # bounds of regions, which pgdr always heeds
     code, seconds, _ = run([args.tetgen, f"-pq{args.bound:g}{volumes}BF", copy], args.limit, TETGEN_BYTES)
     mesh = copy.with_suffix(".1.ele")
@@ -117,7 +148,9 @@ def line_of(r, beside_tetgen):
     line = f"| {r['model']} | {own} | {r['mesh']} | {r['check']}"
     line += f" ({r['findings']} findings) |" if r.get("findings") else " |"
     if beside_tetgen:
-        line += f" {numbers(r['tetgen'])} |" if "cells" in r["tetgen"] else f" {r['tetgen']['failure']} | | | |"
+        other = r["tetgen"]
+        first = f"{other['first']}; as merged .off " if "first" in other else ""
+        line += f" {first}{numbers(other)} |" if "cells" in other else f" {other['failure']} | | | |"
     return line
 
 
