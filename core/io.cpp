@@ -104,7 +104,10 @@ namespace detail {
 template <int D>
 Plc<D> read_plc_from(std::string_view bytes, const Path& name) {
   Plc<D> plc = read_by_extension<D>(bytes, name);
-  if constexpr (D == 3) set_precision_of_digits(plc);
+  if constexpr (D == 3) {
+    set_merge_of_file(plc);
+    set_precision_of_digits(plc);
+  }
   return plc;
 }
 

@@ -65,7 +65,7 @@ class FileFacets {
     std::vector<std::uint32_t> nearly;
     for_each_joint([&](std::uint32_t f, std::uint32_t g) {
       const double off = distance_off_plane(f, g);
-      if (off <= Plc<3>{}.precision) planes.unite(f, g);
+      if (off <= plc_.precision) planes.unite(f, g);
       else if (off <= precision) nearly.insert(nearly.end(), {f, g});
     });
     std::vector<bool> is_nearly(shapes_.size());
@@ -204,25 +204,27 @@ class FileFacets {
   std::vector<bool> is_of_planar_face_;     // of each facet; empty: all count
 };
 
-/// For coordinates that have all digits of a double, as those of a file of few digits that was turned: what they look rounded to.
-double precision_by_looks(const FileFacets& facets) {
-  constexpr std::size_t within_gap = 3;  // needles tell their planes, and how far others are off these, within ten times their rounding
+/// What coordinates look rounded to by how far facets are off the planes of others. In a file of few digits that was turned, needles
+/// tell their planes, and how far others are off these, within ten times their rounding. Floats that were converted once more,
+/// from other units or another place, are off by some units of their last digit, and bent faces by far more.
+double precision_by_looks(const FileFacets& facets, const Plc<3>& plc) {
   std::vector<double> off = facets.distances_off_planes();
   const std::size_t edges = off.size();
-  return precision_of_distances(std::move(off), edges, within_gap);
+  if (plc.precision_of_file) return precision_of_distances(std::move(off), edges, {.known = plc.precision});
+  return precision_of_distances(std::move(off), edges, {.within_gap = 3});
 }
 
 }  // namespace
 
 void set_precision_of_digits(Plc<3>& plc) {
-  double precision = written_precision(plc.points);
-  const bool has_all_digits = precision <= plc.precision && !has_few_digits(plc.points);
-  if (plc.precision_of_file || (precision <= plc.precision && !has_all_digits) || precision > least_digits) return;
   const auto is_finite = [](const Point3& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); };
-  if (!std::ranges::all_of(plc.points, is_finite)) return;
+  if (plc.precision > least_digits || !std::ranges::all_of(plc.points, is_finite)) return;
+  double precision = written_precision(plc.points);
+  const bool by_looks = plc.precision_of_file || (precision <= plc.precision && !has_few_digits(plc.points));
+  if (!by_looks && (precision <= plc.precision || precision > least_digits)) return;
   FileFacets facets(plc);
-  if (has_all_digits) {
-    precision = precision_by_looks(facets);
+  if (by_looks) {
+    precision = precision_by_looks(facets, plc);
     if (precision <= plc.precision) return;
     facets.keep_to_planar_faces(precision);
   }

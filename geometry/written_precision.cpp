@@ -112,18 +112,24 @@ std::size_t most_facets_saved(const Domain<3>& domain, double precision) {
   return static_cast<std::size_t>(std::ranges::count_if(off, [&](double x) { return x <= allowance * precision; }));
 }
 
-double precision_of_distances(std::vector<double> off, std::size_t edges, std::size_t within_gap) {
+double precision_of_distances(std::vector<double> off, std::size_t edges, const LooksOfPlanes& looks) {
   std::sort(off.begin(), off.end());
   const auto up_to = [&off](double x) { return static_cast<std::size_t>(std::upper_bound(off.begin(), off.end(), x) - off.begin()); };
-  const double rounding = Plc<3>{}.precision;
-  const std::size_t rounded = up_to(rounding);
-  for (std::size_t n = up_to(most_off); n > rounded && least_part * (n - rounded) >= edges; --n)
-    if (const double largest = off[n - 1]; within_gap * (up_to(gap * largest) - n) <= n - rounded) return allowance * largest;
-  return rounding;
+  const std::size_t rounded = up_to(Plc<3>{}.precision), end = up_to(most_off);
+  const auto begin = std::max({rounded + 1, rounded + (edges + least_part - 1) / least_part, up_to(looks.known / allowance)});
+  const auto has_gap = [&](std::size_t n) { return looks.within_gap * (up_to(gap * off[n - 1]) - n) <= n - rounded; };
+  if (looks.known > 0) {
+    for (std::size_t n = begin; n <= end; ++n)
+      if (has_gap(n)) return std::max(looks.known, allowance * off[n - 1]);
+    return looks.known;
+  }
+  for (std::size_t n = end; n >= begin; --n)
+    if (has_gap(n)) return allowance * off[n - 1];
+  return Plc<3>{}.precision;
 }
 
 double apparent_precision(const Domain<3>& domain) {
-  return precision_of_distances(distances_off_planes(domain), domain.segments().size(), clear_gap);
+  return precision_of_distances(distances_off_planes(domain), domain.segments().size(), {.within_gap = clear_gap});
 }
 
 double suggested_precision(const Plc<3>& plc) {

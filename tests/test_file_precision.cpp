@@ -232,6 +232,28 @@ TEST(FilePrecision, RoundSidesAreNoRounding) {
   }
 }
 
+// (Two parts of a robot, which had been moved from elsewhere, had 97 poor cells of 7,716 and 227 of 20,173, and have none now.)
+TEST(FilePrecision, FloatsThatWereConvertedBefore) {
+  const test::TempFolder folder;
+  Plc<3> moved = turned_pipe();
+  const auto facets = Domain<3>(moved).facets().size();
+  for (Point3& p : moved.points)
+    for (double& x : p.x) x = static_cast<float>(x + 40) - 40.f;
+  const Plc<3> plc = read_plc<3>(folder.put("moved.stl", stl_of(moved)));
+  EXPECT_TRUE(plc.precision_of_file);
+  EXPECT_GT(plc.precision, 1e-6);
+  EXPECT_LT(plc.precision, 2e-5);
+  EXPECT_EQ(Domain<3>(plc).facets().size(), facets);
+  const auto result = test::expect_reproducible<3>(plc, {}, "pipe of floats, moved");
+  EXPECT_EQ(result.precision, plc.precision);
+  EXPECT_EQ(result.poor_left, 0u);
+
+  for (const auto& radius : {std::vector{1., 1.}, std::vector{1.3, 1.1, 1., 1.1, 1.3}}) {
+    Plc<3> round = test::triangles_of(test::turned<3>(revolved(2000, radius), 0.3));
+    EXPECT_EQ(read_plc<3>(folder.put("round.stl", stl_of(round))).precision, 0x1p-22) << radius.size();
+  }
+}
+
 // It is asked before anything else is.
 TEST(FilePrecision, DigitsOfWhatIsNoInput) {
   Plc<3> plc = read_plc<3>(test::TempFolder().put("pipe.off", off_of(turned_pipe(), 6)));

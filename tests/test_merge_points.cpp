@@ -14,6 +14,7 @@
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/refine.hpp"
 #include "planar_plcs.hpp"
+#include "pgdr/written_precision.hpp"
 #include "refined_models.hpp"
 #include "repair_plcs.hpp"
 
@@ -213,6 +214,52 @@ TEST(MergePoints, OtherDistancesAreRefused) {
     plc.merge_within = within;
     EXPECT_THROW(Domain<3>{plc}, UsageError) << within;
   }
+}
+
+/// As floats, with what a program may have computed for each zero.
+Plc<3> with_noise_for_zeros(Plc<3> plc, double noise) {
+  Random random(7);
+  for (Point3& p : plc.points)
+    for (double& x : p.x) x = static_cast<float>(x == 0 ? noise * (2 * uniform(random) - 1) : x + 0.1);
+  set_precision_of_file(plc);
+  set_merge_of_file(plc);
+  return plc;
+}
+
+// Two links of a robot, the heads of two, and four tables of printers were refused for walls that intersect, 1e-17 wide; a hull with
+// twelve such edges had 34 million cells when it was stopped.
+TEST(MergePoints, FloatsOfWhatWasComputedForZero) {
+  const Plc<3> exact = soup(triangulated(box()), 0);
+  const Plc<3> plc = with_noise_for_zeros(exact, 3e-15);
+  Plc<3> apart = plc;
+  apart.merge_within = 0;
+  EXPECT_GE(diagnose(apart).error_count(), 1u);
+  EXPECT_EQ(plc.merge_within, 1e-13);
+  const Domain<3> d(plc);
+  EXPECT_EQ(d.points().size(), 8u);
+  EXPECT_EQ(d.facets().size(), 6u);
+  EXPECT_EQ(count_of(d.repairs(), Errc::near_points), 36u - 8 - 4) << "the corner without a zero is the same in five triangles";
+  expect_meshed(d, 2.1 * 1.1 * 3.1);
+
+  EXPECT_EQ(with_noise_for_zeros(exact, 0).merge_within, 0);
+  EXPECT_EQ(with_noise_for_zeros(exact, 1e-11).merge_within, 0) << "more than rounding leaves";
+  Plc<3> doubles = soup(triangulated(box()), 3e-15);
+  set_precision_of_file(doubles);
+  set_merge_of_file(doubles);
+  EXPECT_EQ(doubles.merge_within, 0) << "for these, it has to be asked for";
+}
+
+TEST(MergePoints, ASheetOfFloatsStaysASheet) {
+  Plc<3> sheet = triangulated(box());
+  for (Point3& p : sheet.points) p = {{p[0] + 0.1, p[1] + 0.1, p[2] * 1e-17}};
+  for (Point3& p : sheet.points)
+    for (double& x : p.x) x = static_cast<float>(x);
+  set_precision_of_file(sheet);
+  ASSERT_TRUE(sheet.precision_of_file);
+  set_merge_of_file(sheet);
+  EXPECT_EQ(sheet.merge_within, 0);
+  sheet.merge_within = 1e-13;
+  EXPECT_GE(diagnose(sheet).error_count(), 1u) << "nothing would be left of it";
 }
 
 }  // namespace pgdr::test_merge_points

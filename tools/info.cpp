@@ -183,8 +183,10 @@ int info_of_input(const InfoArguments& a, Report& report) {
   seconds.set("recovery", clock.seconds() - recovery_at);
   describe(*domain, *looks, a.quiet, d);
   if (D == 3) report.set("precision", domain->precision());
+  report.set("merge_points", plc.merge_within);
   report.set("diagnosis", d);
   if (!a.quiet && !refused) note_precision(plc, domain->precision());
+  if (!a.quiet) note_merge(plc, a.reading);
   give(looks->precision_hint, a.quiet, report);
   give(looks->merge_hint, !a.quiet, report);
   seconds.set("total", clock.seconds());

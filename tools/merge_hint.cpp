@@ -85,6 +85,12 @@ std::optional<MergeHint> find_merge_hint(const Plc<D>& plc, const Domain<D>* dom
   return std::nullopt;
 }
 
+template <int D>
+void note_merge(const Plc<D>& plc, const InputArguments& reading) {
+  if (plc.merge_within > 0 && !reading.merge_points)
+    print_row("merged", format("--merge-points %.0e: points that are apart by what floats keep of zeros (0 keeps them so)", plc.merge_within));
+}
+
 void give(const std::optional<MergeHint>& hint, bool shown, Report& report) {
   if (!hint) return;
   report.set("merge_hint", JsonObject{{"merge_points", hint->merge_points}, {"points", hint->points}});
@@ -94,6 +100,8 @@ void give(const std::optional<MergeHint>& hint, bool shown, Report& report) {
                           " by rounding");
 }
 
+template void note_merge<2>(const Plc<2>&, const InputArguments&);
+template void note_merge<3>(const Plc<3>&, const InputArguments&);
 template void hint_at_merge_of_refused<2>(const Plc<2>&, const FindingList&);
 template void hint_at_merge_of_refused<3>(const Plc<3>&, const FindingList&);
 template std::optional<MergeHint> find_merge_hint<2>(const Plc<2>&, const Domain<2>*);

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "options.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "report.hpp"
 
@@ -15,6 +16,10 @@ namespace pgdr::tool {
 /// Of an input that is refused, on stderr. In 3D some distances are tried out; `near`: the pairs of points that nearly coincide.
 template <int D>
 void hint_at_merge_of_refused(const Plc<D>& plc, const FindingList& near);
+
+/// Says what is merged as the numbers of the file are floats (set_merge_of_file), if nobody asked for a distance.
+template <int D>
+void note_merge(const Plc<D>& plc, const InputArguments& reading);
 
 /// Of one that is valid, 3D: where points miss edges and facets by no more than rounding.
 struct MergeHint {

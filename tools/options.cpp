@@ -144,7 +144,8 @@ void add_input(CLI::App& app, InputArguments& p) {
       ->type_name("R|auto")->check(auto_or(number("between 0 and 0.01, or auto", [](double v) { return v >= 0 && v <= 0.01; })));
   app.add_option("--merge-points", p.merge_points,
                  "points within R times the largest coordinate are one: the nearest before them in the file; 3D: those as near to an "
-                 "edge or a facet become points of it (default 0: exact tests alone)")
+                 "edge or a facet become points of it (default 0: exact tests alone; 1e-13 for .stl and .ply of floats with corners that are "
+                 "apart by what was computed for zero)")
       ->type_name("R")->check(number("between 0 and 0.01", [](double v) { return v >= 0 && v <= 0.01; }));
   app.add_flag("--resolve-crossings", p.resolve_crossings, "2D: split segments that cross, at new points, and at points that they miss by rounding");
   app.add_flag("--convex-hull", p.convex_hull, "2D: the edges of the convex hull of all points are segments, too");

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "pgdr/types.hpp"
+#include "pgdr/domain.hpp"
 
 namespace pgdr::detail {
 

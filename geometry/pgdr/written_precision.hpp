@@ -28,10 +28,16 @@ void set_precision_of_file(Plc<3>& plc);
 
 /// Likewise for a file of other numbers, of six or seven digits or of floats, if many facets that are coplanar by these are needles
 /// which rounding alone keeps apart: if a third of the elements that the facets take for their shapes are in such. Where the numbers
-/// have all digits of a double, as such a file's have once it was turned, by how far facets are off the planes of others, of faces
-/// alone that are planar within that as a whole: precision_of_distances, with a third as many in the gap. Else facets are left
-/// as they are. Takes some microseconds a triangle at most; the input need not be valid.
+/// have all digits of a double, as such a file's have once it was turned, or are floats that may have been converted before, by how
+/// far facets are off the planes of others, of faces alone that are planar within that as a whole: precision_of_distances, of
+/// doubles with a third as many in the gap. Else facets are left as they are. Takes some microseconds a triangle at most; the
+/// input need not be valid.
 void set_precision_of_digits(Plc<3>& plc);
+
+/// Plc::merge_within 1e-13 for a file of floats (Plc::precision_of_file) with points that miss each other by no more than that,
+/// as what a program computed for zero does, if the input is valid then; else it stays 0, and walls that are as thin stay.
+/// Takes a microsecond a point where there are such zeros, and a diagnosis where points miss each other; nothing to speak of else.
+void set_merge_of_file(Plc<3>& plc);
 
 /// A Plc::precision with which faces are planar that look so: four times a distance d, of a facet from the plane of a larger one
 /// that it meets at a segment (of the largest coordinate of both), where few or no distances lie between d and 10 d: of all below,
@@ -39,8 +45,14 @@ void set_precision_of_digits(Plc<3>& plc);
 /// by more than rounding). Else 2^-48.
 double apparent_precision(const Domain<3>& domain);
 
-/// The same of distances that are known, of so many edges; with one distance between d and 10 d for `within_gap` below it at most.
-double precision_of_distances(std::vector<double> off, std::size_t edges, std::size_t within_gap);
+/// What tells facets that are one plane but for rounding from bent ones.
+struct LooksOfPlanes {
+  std::size_t within_gap = 20;  ///< one distance between d and 10 d for so many below it at most
+  double known = 0;             ///< a precision that faces are planar with at the least: the least d then, not the largest; 0: none
+};
+
+/// The same of distances of facets from each other's planes, of so many edges; `known` if none is larger and it is given.
+double precision_of_distances(std::vector<double> off, std::size_t edges, const LooksOfPlanes& looks);
 
 /// Has no coordinate more than nine significant digits?
 bool has_few_digits(std::span<const Point3> points);
