@@ -15,7 +15,7 @@ struct Attempt {
   std::size_t most_cells;
   int orders;
 };
-constexpr Attempt quick{20, 1}, wide{512, 1}, deep{96, 16}, facet{96, 4};
+constexpr Attempt quick{20, 1}, wide{512, 1}, broad{128, 1}, deep{96, 16}, facet{96, 4};
 constexpr std::size_t least_growth = 2;  // of a region by one part in so many, before all of it is wrapped again
 constexpr int far_weight = 10000;  // of a violation that nothing excuses
 
@@ -40,7 +40,7 @@ bool LocalRewrap::repair(Pools& pools, CellId c, int face, Effort effort) {
     if (inside.size() > 1) left_out.push_back(inside);
   }
   bool repaired = false;
-  const auto attempts = thorough ? std::vector{wide, deep} : std::vector{effort == Effort::quick ? quick : wide};
+  const auto attempts = thorough ? std::vector{broad, deep} : std::vector{effort == Effort::quick ? quick : wide};
   for (const Attempt& attempt : attempts) {
     most_cells_ = attempt.most_cells;
     orders_ = attempt.orders;
@@ -141,6 +141,8 @@ bool LocalRewrap::in_volume(VertexId v) const { return mesh_->vertex(v).home.kin
 bool LocalRewrap::wrap_again(Pools& pools, bool turns_facets) {
   const int before = turns_facets ? 0 : violations_before();
   if (!turns_facets && before <= least_gain_) return false;
+  const std::uint64_t key = turns_facets ? 0 : key_of_region();
+  if (!turns_facets && in_vain_.count(key) != 0) return false;
   find_rim();
   if (turns_facets && !make_rim_delaunay()) return false;
   front_.clear();
@@ -159,7 +161,26 @@ bool LocalRewrap::wrap_again(Pools& pools, bool turns_facets) {
     }
     for (std::size_t i = front_.size(); i > 1; --i) std::swap(front_[i - 1], front_[random_() % i]);
   }
+  if (!turns_facets && !is_ended()) in_vain_.insert(key);
   return false;
+}
+
+/// Of its cells in any order, those about it, the vertices that are left out, and what is tried.
+std::uint64_t LocalRewrap::key_of_region() const {
+  const auto mixed = [](std::uint64_t x) {  // the finaliser of SplitMix64
+    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9;
+    x = (x ^ x >> 27) * 0x94d049bb133111eb;
+    return x ^ x >> 31;
+  };
+  const auto name = [&](CellId c) { return std::uint64_t{mesh_->birth(c)} << 32 | index(c); };
+  std::uint64_t key = mixed(most_cells_ << 8 | static_cast<unsigned>(orders_));
+  for (const CellId c : old_) {
+    key += mixed(name(c));
+    for (const Link next : mesh_->cell(c).links)
+      if (next && !mesh_->marked(next.cell())) key += mixed(~name(next.cell()));
+  }
+  for (const VertexId v : left_out_) key += mixed(mixed(index(v)));
+  return key;
 }
 
 void LocalRewrap::release() {

@@ -14,6 +14,7 @@
 #include <functional>
 #include <random>
 #include <span>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -51,6 +52,7 @@ class LocalRewrap {
   void begin_visit(const VisitArea<3>* area) {
     area_ = area;
     lost_work_ = useful_work_ = 0;
+    if (!in_vain_.empty()) in_vain_ = {};
   }
   /// Did the last repair end because it would have needed cells that the visit does not own?
   bool reached_border() const { return reached_border_; }
@@ -85,6 +87,7 @@ class LocalRewrap {
   bool is_left_out(VertexId v) const { return std::find(left_out_.begin(), left_out_.end(), v) != left_out_.end(); }
   bool grow();
   bool wrap_again(Pools& pools, bool turns_facets = false);
+  std::uint64_t key_of_region() const;
   bool make_rim_delaunay();
   bool turn(std::size_t i, std::size_t j);
   bool is_subsegment(Index a, Index b) const;
@@ -126,6 +129,9 @@ class LocalRewrap {
   int orders_ = 1, least_gain_ = 0;
   std::minstd_rand random_;
   std::vector<VertexId> left_out_;  ///< vertices that are taken out; the region has all their cells
+  /// Regions that were wrapped in this visit, in vain, with what is about them. Each face in them that is not locally Delaunay leads
+  /// to the same one, and so do the looks at it when something changes beside it.
+  std::unordered_set<std::uint64_t> in_vain_;
   std::uint64_t work_ = 0, lost_work_ = 0, useful_work_ = 0;
   std::uint16_t region_ = 0;
 };
