@@ -15,6 +15,7 @@ import io
 import json
 import math
 import pathlib
+import re
 import resource
 import shutil
 import signal
@@ -52,12 +53,13 @@ def surface(model):
         rows = [line.split() for line in model.read_text(errors="replace").splitlines()]
         return ([tuple(map(float, r[1:4])) for r in rows if r[:1] == ["v"]],
                 [[int(w.split("/")[0]) - 1 for w in r[1:]] for r in rows if r[:1] == ["f"]])
-    if model.suffix == ".off":
-        words = iter(w for line in model.read_text().splitlines() for w in line.split("#")[0].split() if w != "OFF")
-        points, faces, _ = (int(next(words)) for _ in range(3))
-        return ([tuple(float(next(words)) for _ in range(3)) for _ in range(points)],
-                [[int(next(words)) for _ in range(int(next(words)))] for _ in range(faces)])
-    import meshio  # only for what TetGen cannot take as it is
+    if model.suffix == ".off":  # OFF, COFF, NOFF: what follows the coordinates and the corners is dropped
+        body = re.sub(r"^\s*\w*OFF\b", "", model.read_text(), count=1, flags=re.MULTILINE)
+        lines = [words for line in body.splitlines() if (words := line.split("#")[0].split())]
+        points, polygons = map(int, lines[0][:2])
+        rows, faces = lines[1:1 + points], lines[1 + points:1 + points + polygons]
+        return [tuple(map(float, r[:3])) for r in rows], [list(map(int, r[1:1 + int(r[0])])) for r in faces]
+    import meshio  # Debian: python3-meshio; only for what TetGen cannot take as it is
     with contextlib.redirect_stdout(io.StringIO()):
         read = meshio.read(model)
     return [tuple(p) for p in read.points.tolist()], [f for block in read.cells if block.dim == 2 for f in block.data.tolist()]
@@ -87,7 +89,7 @@ def tetgen(args, model, folder):
     """TetGen -pq<bound> of a model: what it said, or the seconds, the cells, those over the bound and the worst of them.
 
     The last two are `pgdr check`'s, of the files that TetGen wrote: its own statistics have other measures. Where it fails on a
-    surface as the file has it, it gets another try with the `merged` one as .off: "first" is what it said before."""
+    surface as the file has it, it gets another, shorter try with the `merged` one as .off: "first" is what it said before."""
     copy = folder / model.name
     if model.suffix in TETGEN_READS:
         shutil.copy(model, copy)
@@ -98,16 +100,22 @@ def tetgen(args, model, folder):
     found = tetgen_of_copy(args, copy, folder)
     if "failure" not in found or model.suffix not in SURFACES:
         return found
-    plain = tetgen_of_copy(args, as_off(*merged(*surface(model)), folder / f"{model.stem}_plain.off"), folder)
+    try:
+        points, faces = surface(model)
+    except ImportError:  # meshio
+        return found
+    plain = tetgen_of_copy(args, as_off(*merged(points, faces), folder / f"{model.stem}_plain.off"), folder, args.limit / 10)
     return found if "failure" in plain else {**plain, "first": found["failure"]}
 
 
-def tetgen_of_copy(args, copy, folder):
+def tetgen_of_copy(args, copy, folder, limit=None):
+    """The same of a file that may lie beside what TetGen writes."""
+    limit = limit or args.limit
     volumes = "aA" if copy.suffix in {".poly", ".smesh"} else ""  # bounds of regions, which pgdr always heeds
-    code, seconds, _ = run([args.tetgen, f"-pq{args.bound:g}{volumes}BF", copy], args.limit, TETGEN_BYTES)
+    code, seconds, _ = run([args.tetgen, f"-pq{args.bound:g}{volumes}BF", copy], limit, TETGEN_BYTES)
     mesh = copy.with_suffix(".1.ele")
     if code is None:
-        return {"failure": f"over {args.limit:g} s"}
+        return {"failure": f"over {limit:g} s"}
     if code < 0:
         return {"failure": f"signal {-code}"}
     if code or not mesh.exists():
