@@ -68,7 +68,7 @@ std::uint32_t little_endian(std::string_view text, std::size_t at) {
 
 bool starts_with_solid(std::string_view text) {
   constexpr std::string_view solid = "solid";
-  std::size_t at = 0;
+  std::size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
   while (at < text.size() && std::isspace(static_cast<unsigned char>(text[at])) != 0) ++at;
   for (std::size_t i = 0; i < solid.size(); ++i) {
     if (at + i >= text.size() || std::tolower(static_cast<unsigned char>(text[at + i])) != solid[i]) return false;

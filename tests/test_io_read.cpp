@@ -169,6 +169,7 @@ TEST(ReadStl, SeveralAsciiSolidsShareTheirPoints) {
   EXPECT_EQ(plc.facets[0].marker, 1);
   EXPECT_EQ(plc.facets[1].marker, 2);
   EXPECT_EQ(plc.source.facet_lines, (Lines{2, 11}));
+  EXPECT_EQ(read_plc<3>(folder.put("mark.stl", "\xEF\xBB\xBF" + std::string(ascii_stl))).points, plc.points) << "a byte order mark";
 }
 
 TEST(ReadStl, BinaryThatCallsItselfSolid) {
