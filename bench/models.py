@@ -102,7 +102,7 @@ def tetgen(args, model, folder):
         return found
     try:
         points, faces = surface(model)
-    except ImportError:  # meshio
+    except (ImportError, SystemExit):  # no meshio, or none that reads it
         return found
     plain = tetgen_of_copy(args, as_off(*merged(points, faces), folder / f"{model.stem}_plain.off"), folder, args.limit / 10)
     return found if "failure" in plain else {**plain, "first": found["failure"]}
