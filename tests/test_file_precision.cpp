@@ -16,7 +16,7 @@
 
 namespace pgdr::test_file_precision {
 
-constexpr double default_precision = Plc<3>{}.precision;
+const double default_precision = Plc<3>{}.precision;  // Clang 14 has no constant vectors
 
 std::string stl_of(const Plc<3>& plc) {
   std::vector<std::array<float, 9>> triangles;

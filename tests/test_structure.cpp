@@ -192,12 +192,10 @@ TEST(Seeds, WinOverNesting) {
       const auto out =
           refined<3>(plc, automatic ? RegionMode::automatic : RegionMode::seeds, automatic ? "automatic" : "seeds");
       const auto& wanted = automatic ? cases[i].automatic : cases[i].seeds;
-      std::size_t volumes = 0;
       for (int k = 0; k < 3; ++k) {
         const auto& holes = cases[i].holes;
         const Point3 p = std::array{outer, middle, inner}[k];
         const bool hole = std::find(holes.begin(), holes.end(), p) != holes.end();
-        volumes += !hole;
         if (!automatic && !hole && wanted[k] == 0) {
           bool found = false;  // label 0 is that of cells without seed
           for (std::size_t c = 0; c < out.result.mesh.cells.size(); ++c)
