@@ -3,9 +3,11 @@
 #include "pgdr/local_rewrap.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 
 #include "pgdr/facet_flip.hpp"
+#include "pgdr/work_list.hpp"
 
 namespace pgdr {
 namespace {
@@ -139,10 +141,14 @@ bool LocalRewrap::in_volume(VertexId v) const { return mesh_->vertex(v).home.kin
 /// Where the constrained Delaunay triangulation exists, every order of the front leads to it; where it does not, another
 /// order may lead to a better mesh, or to one at all.
 bool LocalRewrap::wrap_again(Pools& pools, bool turns_facets) {
-  const int before = turns_facets ? 0 : violations_before();
-  if (!turns_facets && before <= least_gain_) return false;
-  const std::uint64_t key = turns_facets ? 0 : key_of_region();
-  if (!turns_facets && in_vain_.count(key) != 0) return false;
+  int before = 0;
+  std::uint64_t attempt = 0;
+  if (!turns_facets) {
+    before = violations_before();
+    if (before <= least_gain_) return false;
+    attempt = number_of_attempt();
+    if (in_vain_.contains(attempt)) return false;
+  }
   find_rim();
   if (turns_facets && !make_rim_delaunay()) return false;
   front_.clear();
@@ -161,26 +167,17 @@ bool LocalRewrap::wrap_again(Pools& pools, bool turns_facets) {
     }
     for (std::size_t i = front_.size(); i > 1; --i) std::swap(front_[i - 1], front_[random_() % i]);
   }
-  if (!turns_facets && !is_ended()) in_vain_.insert(key);
+  if (!turns_facets && !is_ended()) in_vain_.insert(attempt);
   return false;
 }
 
-/// Of its cells in any order, those about it, the vertices that are left out, and what is tried.
-std::uint64_t LocalRewrap::key_of_region() const {
-  const auto mixed = [](std::uint64_t x) {  // the finaliser of SplitMix64
-    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9;
-    x = (x ^ x >> 27) * 0x94d049bb133111eb;
-    return x ^ x >> 31;
-  };
-  const auto name = [&](CellId c) { return std::uint64_t{mesh_->birth(c)} << 32 | index(c); };
-  std::uint64_t key = mixed(most_cells_ << 8 | static_cast<unsigned>(orders_));
-  for (const CellId c : old_) {
-    key += mixed(name(c));
-    for (const Link next : mesh_->cell(c).links)
-      if (next && !mesh_->marked(next.cell())) key += mixed(~name(next.cell()));
-  }
-  for (const VertexId v : left_out_) key += mixed(mixed(index(v)));
-  return key;
+/// Another one for other cells, or cells about them, other vertices that are left out, and more that is tried.
+std::uint64_t LocalRewrap::number_of_attempt() const {
+  std::vector<CellId> cells = old_;
+  std::sort(cells.begin(), cells.end());
+  std::uint64_t number = *surroundings_of<3>(*mesh_, cells);
+  for (const VertexId v : left_out_) number = std::rotl(number, 25) ^ (index(v) + 1);
+  return std::rotl(number, 25) ^ most_cells_;
 }
 
 void LocalRewrap::release() {

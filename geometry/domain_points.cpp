@@ -7,17 +7,11 @@
 #include <limits>
 
 #include "detail/domain_builder.hpp"
+#include "detail/finite.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr {
 namespace {
-
-template <int D>
-bool is_finite(const Point<D>& p) {
-  for (const double x : p.x)
-    if (!std::isfinite(x)) return false;
-  return true;
-}
 
 }  // namespace
 
@@ -25,7 +19,7 @@ template <int D>
 void DomainBuilder<D>::check_finite() const {
   const auto check = [&](const Point<D>& p, const std::string& what, const std::vector<std::uint32_t>& lines,
                          std::size_t i) {
-    if (is_finite(p)) return;
+    if (detail::is_finite(p)) return;
     attempt([&] {
       fail(Errc::not_finite, what + " " + std::to_string(number(i)) + " " + detail::to_text(p) + " is not finite",
            lines, i, {number(i)}, {detail::in_space(p)});

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "detail/finite.hpp"
 #include "detail/point_places.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/plc.hpp"
@@ -46,9 +47,8 @@ bool is_valid(const Plc<3>& plc) {
 }  // namespace
 
 void set_merge_of_file(Plc<3>& plc) {
-  const auto is_finite = [](const Point3& p) { return std::ranges::all_of(p.x, [](double x) { return std::isfinite(x); }); };
   if (!plc.precision_of_file || plc.merge_within > 0) return;
-  if (!std::ranges::all_of(plc.points, is_finite) || !has_near_points(plc.points)) return;
+  if (!std::ranges::all_of(plc.points, detail::is_finite<3>) || !has_near_points(plc.points)) return;
   plc.merge_within = of_rounding;
   if (!is_valid(plc)) plc.merge_within = 0;
 }

@@ -11,6 +11,7 @@
 
 #include "detail/box_tree.hpp"
 #include "detail/disjoint_sets.hpp"
+#include "detail/finite.hpp"
 #include "detail/unit_scale.hpp"
 #include "detail/vectors.hpp"
 #include "pgdr/plc.hpp"
@@ -217,8 +218,7 @@ double precision_by_looks(const FileFacets& facets, const Plc<3>& plc) {
 }  // namespace
 
 void set_precision_of_digits(Plc<3>& plc) {
-  const auto is_finite = [](const Point3& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); };
-  if (plc.precision > least_digits || !std::ranges::all_of(plc.points, is_finite)) return;
+  if (plc.precision > least_digits || !std::ranges::all_of(plc.points, detail::is_finite<3>)) return;
   double precision = written_precision(plc.points);
   const bool by_looks = plc.precision_of_file || (precision <= plc.precision && !has_few_digits(plc.points));
   if (!by_looks && (precision <= plc.precision || precision > least_digits)) return;

@@ -13,6 +13,7 @@
 #include "detail/contact.hpp"
 #include "detail/domain_builder.hpp"
 #include "detail/double_double.hpp"
+#include "detail/finite.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr {
@@ -32,8 +33,7 @@ struct LexLess {
 };
 
 bool is_usable(const Plc<2>& plc) {
-  for (const Point2& p : plc.points)
-    if (!std::isfinite(p[0]) || !std::isfinite(p[1])) return false;
+  if (!std::ranges::all_of(plc.points, detail::is_finite<2>)) return false;
   for (const auto& s : plc.segments)
     for (const std::uint32_t v : s.points)
       if (v >= plc.points.size()) return false;

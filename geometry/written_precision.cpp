@@ -25,7 +25,6 @@ constexpr double clearly_bent = 1e-3;    // distances from there on are not told
 constexpr double gap = 10;               // between the distances of planar faces and those of others
 constexpr double allowance = 4;          // a plane that is fitted to many triangles may be off by more than that of one
 constexpr std::size_t least_part = 20;   // one of so many segments is between triangles of such a face, if there is one
-constexpr std::size_t clear_gap = 20;    // and one distance in the gap for so many below it is an accident
 
 /// Of the shortest decimal number that is this double, d.ddde+xx, within what is rounded where units are changed; few_digits + 1: more.
 int significant_digits(double value) {
@@ -129,11 +128,11 @@ double precision_of_distances(std::vector<double> off, std::size_t edges, const 
 }
 
 double apparent_precision(const Domain<3>& domain) {
-  return precision_of_distances(distances_off_planes(domain), domain.segments().size(), {.within_gap = clear_gap});
+  return precision_of_distances(distances_off_planes(domain), domain.segments().size(), {});
 }
 
 double suggested_precision(const Plc<3>& plc) {
-  const double written = written_precision(plc.points);
+  const double written = std::max(plc.precision, written_precision(plc.points));
   if (written > Plc<3>{}.precision) return written;
   try {
     return apparent_precision(Domain<3>(plc));

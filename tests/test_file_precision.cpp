@@ -193,6 +193,7 @@ TEST(FilePrecision, TurnedDigitsCountWhereTheyMakeNeedles) {
     EXPECT_GT(plc.precision, 1e-6);
     EXPECT_LT(plc.precision, 4.01e-5);
     EXPECT_EQ(Domain<3>(plc).facets().size(), facets);
+    EXPECT_EQ(suggested_precision(plc), plc.precision) << "auto is no worse";
     if (scale != 0) continue;
     const auto result = test::expect_reproducible<3>(plc, {}, "turned pipe of six digits, turned again");
     EXPECT_EQ(result.precision, plc.precision);
@@ -244,6 +245,7 @@ TEST(FilePrecision, FloatsThatWereConvertedBefore) {
   EXPECT_GT(plc.precision, 1e-6);
   EXPECT_LT(plc.precision, 2e-5);
   EXPECT_EQ(Domain<3>(plc).facets().size(), facets);
+  EXPECT_EQ(suggested_precision(plc), plc.precision) << "auto is no worse";
   const auto result = test::expect_reproducible<3>(plc, {}, "pipe of floats, moved");
   EXPECT_EQ(result.precision, plc.precision);
   EXPECT_EQ(result.poor_left, 0u);

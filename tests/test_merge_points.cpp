@@ -13,8 +13,8 @@
 #include "pgdr/check.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/refine.hpp"
-#include "planar_plcs.hpp"
 #include "pgdr/written_precision.hpp"
+#include "planar_plcs.hpp"
 #include "refined_models.hpp"
 #include "repair_plcs.hpp"
 
@@ -226,7 +226,7 @@ Plc<3> with_noise_for_zeros(Plc<3> plc, double noise) {
   return plc;
 }
 
-// Two links of a robot, the heads of two, and four tables of printers were refused for walls that intersect, 1e-17 wide; a hull with
+// Five parts of robots, four tables of printers and a demo of gmsh were refused for walls that intersect, 1e-17 wide; a hull with
 // twelve such edges had 34 million cells when it was stopped.
 TEST(MergePoints, FloatsOfWhatWasComputedForZero) {
   const Plc<3> exact = soup(triangulated(box()), 0);

@@ -299,8 +299,10 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
                                    {"total", seconds.total}});
   report.set("peak_rss_bytes", peak_rss_bytes());
   if (!a.quiet) print_summary(a, plc, bounds, result, quality, seconds);
-  if (!a.quiet) note_precision(plc, result.precision);
-  if (!a.quiet) note_merge(plc, a.reading);
+  if (!a.quiet) {
+    note_precision(plc, result.precision);
+    note_merge(plc, a.reading);
+  }
   give(hints.precision, a.quiet, report);
   give(hints.merge, !a.quiet, report);
   if (!a.trace.empty()) {

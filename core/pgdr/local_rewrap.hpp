@@ -30,7 +30,7 @@ class LocalRewrap {
  public:
   using Pools = Mesh<3>::Pools;  ///< of the worker
 
-  /// Small regions only; or large ones; or, of violations that no entity is beside, large regions and many orders, and
+  /// Small regions only; or large ones; or, of violations that no entity is beside, middling ones and many orders, and
   /// vertices of the volume may be taken out.
   enum class Effort { quick, wide, thorough };
 
@@ -87,7 +87,7 @@ class LocalRewrap {
   bool is_left_out(VertexId v) const { return std::find(left_out_.begin(), left_out_.end(), v) != left_out_.end(); }
   bool grow();
   bool wrap_again(Pools& pools, bool turns_facets = false);
-  std::uint64_t key_of_region() const;
+  std::uint64_t number_of_attempt() const;
   bool make_rim_delaunay();
   bool turn(std::size_t i, std::size_t j);
   bool is_subsegment(Index a, Index b) const;
@@ -129,8 +129,8 @@ class LocalRewrap {
   int orders_ = 1, least_gain_ = 0;
   std::minstd_rand random_;
   std::vector<VertexId> left_out_;  ///< vertices that are taken out; the region has all their cells
-  /// Regions that were wrapped in this visit, in vain, with what is about them. Each face in them that is not locally Delaunay leads
-  /// to the same one, and so do the looks at it when something changes beside it.
+  /// What was tried in this visit in vain, by number_of_attempt. Each face of a region that is not locally Delaunay leads to the
+  /// same attempts, and so do the looks at it when something changes beside it.
   std::unordered_set<std::uint64_t> in_vain_;
   std::uint64_t work_ = 0, lost_work_ = 0, useful_work_ = 0;
   std::uint16_t region_ = 0;

@@ -65,7 +65,7 @@ struct Plc {
   /// `refine` of a Plc takes less, in the end the default (with_less_precision, which goes from there to 0, should it come to that).
   bool precision_of_file = false;
   /// Points within this times the largest coordinate of all are one: each goes to the nearest kept one before it. 0, as it is
-  /// unless asked for: exact duplicates alone. Edges, segments and facets of which nothing is left go; 0.01 at most. In 3D edges,
+  /// unless asked for (or the file is of floats, set_merge_of_file): exact duplicates alone. Edges, segments and facets of which nothing is left go; 0.01 at most. In 3D edges,
   /// segments and facets then go through points within that distance of them, and facets along edges that run as near to them.
   double merge_within = 0;
 

@@ -47,7 +47,7 @@ double apparent_precision(const Domain<3>& domain);
 
 /// What tells facets that are one plane but for rounding from bent ones.
 struct LooksOfPlanes {
-  std::size_t within_gap = 20;  ///< one distance between d and 10 d for so many below it at most
+  std::size_t within_gap = 20;  ///< one distance between d and 10 d for so many below it at most, which is an accident
   double known = 0;             ///< a precision that faces are planar with at the least: the least d then, not the largest; 0: none
 };
 
@@ -61,7 +61,7 @@ bool has_few_digits(std::span<const Point3> points);
 std::size_t most_facets_saved(const Domain<3>& domain, double precision);
 
 /// By the digits, or where these tell nothing by the looks: what a Domain of it should be made with, if faces that look planar
-/// are to be one facet each. 2^-48 where no Domain can be made.
+/// are to be one facet each; no less than it has. 2^-48 where no Domain can be made.
 double suggested_precision(const Plc<3>& plc);
 
 }  // namespace pgdr
