@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detail/entity_distance.hpp"
 #include "detail/vectors.hpp"
 #include "pgdr/refiner.hpp"
 
@@ -137,13 +136,10 @@ auto Refiner<D>::encroached_face(const Point<D>& x) const -> std::optional<Item>
 template <int D>
 class Refiner<D>::RefusedFace final : public Cavity<D>::FaceWatch {
  public:
-  RefusedFace(const Refiner& refiner, const Point<D>& x, const Demand& cause, double squared)
-      : refiner_(&refiner), x_(x), cause_(cause), squared_(squared) {}
+  RefusedFace(const Refiner& refiner, const Point<D>& x, const Demand& cause) : refiner_(&refiner), x_(x), cause_(cause) {}
   bool stops_at(CellId c, int face) override {
     const Item f = refiner_->make_entry(c, EntryKind::face, face);
-    if (!found_ && refiner_->refused_before(f, cause_) && refiner_->encroachment(c, face, x_) != Encroachment::none &&
-        !refiner_->is_clear_of(f, x_, squared_))
-      found_ = f;
+    if (!found_ && refiner_->refused_before(f, cause_) && refiner_->encroachment(c, face, x_) != Encroachment::none) found_ = f;
     return found_ && refiner_->cavity_.cells().size() > many_cells;
   }
   const Item& found() const { return *found_; }  ///< once it has stopped
@@ -154,7 +150,6 @@ class Refiner<D>::RefusedFace final : public Cavity<D>::FaceWatch {
   const Refiner* refiner_;
   Point<D> x_;
   Demand cause_;
-  double squared_;  ///< distance beyond which x may go in all the same
   std::optional<Item> found_;
 };
 
@@ -341,11 +336,9 @@ auto Refiner<D>::wall_before_far_point(CellId c, const Point<D>& x) -> std::opti
 template <int D>
 auto Refiner<D>::treat_cell_at(const Item& e, const Point<D>& x, const CellVerdict& verdict) -> Outcome {
   if (const auto wall = wall_before_far_point(e.cell, x)) return split_instead(*wall, e, verdict);
-  const double radii = context_->last_resort ? 1 : 2;
-  const double far = radii * radii * mesh_->squared_radius_bounds(e.cell).second;
   typename Cavity<D>::Status status;
   if (memo_.knows_faces()) {
-    RefusedFace refused(*this, x, demand_on_entity(e.cell, verdict), far);
+    RefusedFace refused(*this, x, demand_on_entity(e.cell, verdict));
     status = cavity_.collect(x, e.cell, &refused);
     if (status == Cavity<D>::Status::stopped) return split_instead(refused.found(), e, verdict);
   } else {
@@ -358,60 +351,9 @@ auto Refiner<D>::treat_cell_at(const Item& e, const Point<D>& x, const CellVerdi
     return wall ? split_instead(*wall, e, verdict) : Outcome::not_owned;
   }
   if (status != Cavity<D>::Status::ok) return Outcome::refused;
-  if (const auto encroached = encroached_entity(x)) {
-    // An entity that is refused leaves the mesh as it is: whether x is far enough can be seen now, with its cavity at hand.
-    const bool clear = is_clear_of(*encroached, x, far) && is_clear_of_encroached(x, far);
-    const Outcome outcome = split_instead(*encroached, e, verdict);
-    return outcome == Outcome::refused && clear ? insert_beside_refused(x, e, verdict) : outcome;
-  }
+  if (const auto encroached = encroached_entity(x)) return split_instead(*encroached, e, verdict);
   if (const auto wall = hiding_wall(e.cell, x)) return split_instead(*wall, e, verdict);
   return insert_point(e, verdict);
-}
-
-/// The element's point, though it encroaches upon an entity that stays as it is, being far from all such: two
-/// circumradii, so that points become sparse towards the entity, and an element that stays poor is beside one; in the end,
-/// when nothing becomes sparser any more, one (docs/performance.md).
-template <int D>
-auto Refiner<D>::insert_beside_refused(const Point<D>& x, const Item& e, const CellVerdict& verdict) -> Outcome {
-  if (!alive(e)) return Outcome::refused;
-  const auto status = cavity_.collect(x, e.cell);
-  if (status == Cavity<D>::Status::not_owned) return Outcome::not_owned;
-  return status == Cavity<D>::Status::ok && !hiding_wall(e.cell, x) ? insert_point(e, verdict) : Outcome::refused;
-}
-
-/// Is x at least so far from this subsegment or subfacet, or does not encroach upon it?
-template <int D>
-bool Refiner<D>::is_clear_of(const Item& entity, const Point<D>& x, double squared) const {
-  const auto is_clear = [&](double distance2, const Ball<D>& ball) {
-    return distance2 >= squared || squared_distance(ball.center, x) >= ball.squared_radius;
-  };
-  const Simplex<D> s = mesh_->simplex(entity.cell);
-  const int i = entity.which();
-  if constexpr (D == 2) {
-    const Point2 &p = s[(i + 1) % 3], &q = s[(i + 2) % 3];
-    return is_clear(detail::squared_distance_to_edge<2>(p, q, x), diametral_ball<D>(p, q));
-  } else if (entity.kind() == EntryKind::face) {
-    const Point3 &p = s[(i + 1) & 3], &q = s[(i + 2) & 3], &r = s[(i + 3) & 3];
-    return is_clear(detail::squared_distance_to_triangle(p, q, r, x), equatorial_ball(p, q, r));
-  } else {
-    const Point3 &p = s[edge_ends[i][0]], &q = s[edge_ends[i][1]];
-    return is_clear(detail::squared_distance_to_edge<3>(p, q, x), diametral_ball<D>(p, q));
-  }
-}
-
-/// Of all constrained faces and edges of its cavity?
-template <int D>
-bool Refiner<D>::is_clear_of_encroached(const Point<D>& x, double squared) const {
-  for (const CellId c : cavity_.cells()) {
-    const auto* k = mesh_->constraints(c);
-    if (!k) continue;
-    for (int f = 0; f <= D; ++f)
-      if ((k->faces >> f & 1) && !is_clear_of(make_entry(c, EntryKind::face, f), x, squared)) return false;
-    if constexpr (D == 3)
-      for (int i = 0; i < 6; ++i)
-        if ((k->edges >> i & 1) && !is_clear_of(make_entry(c, EntryKind::edge, i), x, squared)) return false;
-  }
-  return true;
 }
 
 /// The collected point, if the insertion rule allows. `at_center`: it is the circumcentre, where there is no selector.
@@ -422,8 +364,9 @@ auto Refiner<D>::insert_point(const Item& e, const CellVerdict& verdict, bool at
   if (status == Status::ok && (cavity_.shrunk() || cavity_.touches_constraints())) status = cavity_.check_nothing_swallowed();
   if (status != Status::ok) return status == Status::not_owned ? Outcome::not_owned : Outcome::refused;
 
-  // The point may be one that was taken out, to mend what its cut-back cavity had brought.
-  if (visit_->mends && cavity_.shrunk()) return Outcome::refused;
+  // In space a cavity that was cut back leaves faces that are not locally Delaunay; in the plane it is the one of the constrained
+  // triangulation.
+  if (D == 3 && cavity_.shrunk()) return Outcome::refused;
 
   // Unshrunk, the circumcentre's nearest vertices are the element's own; but not where rounding moves it, even onto another vertex.
   const FilterSphere<D> sphere = sphere_of(e);

@@ -131,10 +131,9 @@ bool LeafRefinement<D>::insert_within(std::span<const CellId> cells, bool mends)
   for (const CellId c : cells) entries.emplace_back(c, context_.mesh.birth(c), EntryKind::cell, Entry<D>::not_delaunay);
   sort_by_vertices(entries);
   bool changed = false;
-  const auto visit_whole = [&](bool mending, const auto& begun) {
+  const auto visit_whole = [&](const auto& begun) {
     RegionVisit<D> visit = mending_visit();
     visit.repairs_facets = true;
-    visit.mends = mending;
     Worker worker = check_out();
     worker->begin(visit);
     if (begun(*worker)) worker->run(visit);
@@ -144,10 +143,10 @@ bool LeafRefinement<D>::insert_within(std::span<const CellId> cells, bool mends)
   };
   for (const Entry<D>& e : entries) {
     const auto waits = [&] { return context_.stop == 0 && e.alive(context_.mesh); };
-    if (waits()) visit_whole(false, [&](Refiner<D>& worker) { return worker.list_violations_about(e.cell); });
+    if (waits()) visit_whole([&](Refiner<D>& worker) { return worker.list_violations_about(e.cell); });
     // What is taken out now would come back at once, and the violation with it.
-    if (waits() && mends) visit_whole(true, [&](Refiner<D>& worker) { return worker.mend_cell(e.cell); });
-    if (waits()) visit_whole(false, [&](Refiner<D>& worker) { return worker.insert_within(e); });
+    if (waits() && mends) visit_whole([&](Refiner<D>& worker) { return worker.mend_cell(e.cell); });
+    if (waits()) visit_whole([&](Refiner<D>& worker) { return worker.insert_within(e); });
   }
   return changed;
 }

@@ -37,7 +37,6 @@ StopCause LeafRefinement<D>::mend() {
   for (int round = 0, in_vain = 0; round < most_rounds && in_vain < most_rounds_in_vain; ++round) {
     do {
       RegionVisit<D> visit = mending_visit();
-      visit.mends = round > 0;
       Worker worker = check_out();
       worker->run(visit);
       check_in(std::move(worker));

@@ -117,7 +117,6 @@ struct RegionVisit {
   bool rewraps = false;                 ///< make cells anew where no flip helps
   bool repairs_facets = false;          ///< flip subfacets, too, where no flip of cells helps: slow
   bool entities_refused = false;        ///< by any visit before; after the visit, by this one too
-  bool mends = false;                   ///< no volume point whose cavity is cut back any more
   // done
   /// Entries for another region.
   struct Outbox {
@@ -227,9 +226,6 @@ class Refiner {
   FilterSphere<D> sphere_of(const Item& e) const;
   CellVerdict verdict_of(const Item& e) const;
   Outcome treat_cell(const Item& e);
-  Outcome insert_beside_refused(const Point<D>& x, const Item& e, const CellVerdict& verdict);
-  bool is_clear_of(const Item& entity, const Point<D>& x, double squared) const;
-  bool is_clear_of_encroached(const Point<D>& x, double squared) const;
   Outcome insert_point(const Item& e, const CellVerdict& verdict, bool at_center = true);
   Outcome insert_inside(const Item& e, const CellVerdict& verdict);
   Outcome treat_cell_at(const Item& e, const Point<D>& x, const CellVerdict& verdict);
