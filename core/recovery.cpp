@@ -66,7 +66,7 @@ InputError not_recovered(const Domain<3>& domain, const detail::SegmentChains& c
 
 template <int D>
 StopCause recover_boundary(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, Delaunay<D>& delaunay,
-                           const Domain<D>& domain, const RefineOptions<D>& options, EarlySplits splits,
+                           const Domain<D>& domain, const RefineOptions<D>& options,
                            std::chrono::steady_clock::time_point start, RecoveryCounts& counts) {
   StopCause cause = StopCause::finished;
   auto stopped = [&] {
@@ -80,8 +80,7 @@ StopCause recover_boundary(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, Delaun
     detail::FacetPatches patches(mesh, delaunay, domain, chains);
     // Triangles up to twice the bound are left to the refinement, which splits them in the order that makes few points.
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    const double bound =
-        options.refine && splits != EarlySplits::none ? 2 * std::max(options.radius_edge_bound, 2.0) : infinity;
+    const double bound = options.refine ? 2 * std::max(options.radius_edge_bound, 2.0) : infinity;
     const std::uint64_t most = most_points(domain.points().size());
     auto steiner = [&] { return chains.points() + patches.points(); };
     auto told = start;
@@ -110,7 +109,7 @@ StopCause recover_boundary(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, Delaun
     auto improve = [&] {
       const std::uint64_t before = steiner();
       if (counts.improving == 0) needed = before;
-      const bool any = patches.improve_once(splits, bound, options.min_edge, ended);
+      const bool any = patches.improve_once(bound, options.min_edge, ended);
       counts.improving += steiner() - before;
       return any;
     };
@@ -134,10 +133,8 @@ StopCause recover_boundary(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, Delaun
 }
 
 template StopCause recover_boundary<2>(Mesh<2>&, Mesh<2>::Pools&, Delaunay<2>&, const Domain<2>&,
-                                       const RefineOptions<2>&, EarlySplits, std::chrono::steady_clock::time_point,
-                                       RecoveryCounts&);
+                                       const RefineOptions<2>&, std::chrono::steady_clock::time_point, RecoveryCounts&);
 template StopCause recover_boundary<3>(Mesh<3>&, Mesh<3>::Pools&, Delaunay<3>&, const Domain<3>&,
-                                       const RefineOptions<3>&, EarlySplits, std::chrono::steady_clock::time_point,
-                                       RecoveryCounts&);
+                                       const RefineOptions<3>&, std::chrono::steady_clock::time_point, RecoveryCounts&);
 
 }  // namespace pgdr

@@ -11,6 +11,8 @@
 namespace pgdr::detail {
 namespace {
 
+constexpr double strips = 4;  // times the bound: what a triangle is over where segments meet at less than 60 degrees
+
 template <class T>
 std::array<T, 2> sorted_ends(T a, T b) {
   return {std::min(a, b), std::max(a, b)};
@@ -78,25 +80,19 @@ std::vector<bool> with_wide_ridge(const Domain<3>& domain) {
 
 }  // namespace
 
-/// By the least angle that a segment of the facet makes with another one; only where its facets meet at no less than 60 degrees
+/// By the least angle that a segment of the facet makes with another one; 0 but where its facets meet at no less than 60 degrees
 /// and it is plane but for rounding.
-void FacetPatches::find_calm() {
+void FacetPatches::find_factors() {
   const std::vector<bool> wide = with_wide_ridge(*domain_), sharp = at_sharp_angle(*domain_);
   for (EntityId f = 0; f < triangles_.size(); ++f) {
-    EarlySplits least = EarlySplits::calm;
+    double factor = 1;
     for (const EntityId s : domain_->facet_segments(f)) {
       const bool plane = domain_->facets()[f].planarity_defect <= 0x1p-44 * domain_->segment_magnitude(s);
-      if (!wide[s] || !plane || sharp[s]) least = EarlySplits::none;
-      if (least == EarlySplits::calm && chains_->at_small_angle(s)) least = EarlySplits::strips;
+      if (!wide[s] || !plane || sharp[s]) factor = 0;
+      if (factor == 1 && chains_->at_small_angle(s)) factor = strips;
     }
-    calm_.push_back(least);
+    factors_of_bound_.push_back(factor);
   }
-}
-
-/// By which the bound is multiplied; 0 where no triangle is split.
-double FacetPatches::factor_of_bound(EntityId facet, EarlySplits splits) const {
-  if (calm_[facet] == EarlySplits::none || calm_[facet] > splits) return 0;
-  return calm_[facet] == EarlySplits::strips && splits == EarlySplits::strips ? 4 : 1;
 }
 
 bool FacetPatches::may_split(const Subsegment& s) const {
@@ -120,13 +116,13 @@ void FacetPatches::find_fragile() {
   std::sort(fragile_.begin(), fragile_.end());
 }
 
-bool FacetPatches::improve_once(EarlySplits splits, double bound, double min_edge, const std::function<bool()>& stop) {
-  if (calm_.empty()) find_calm();
-  if (std::all_of(calm_.begin(), calm_.end(), [](EarlySplits s) { return s == EarlySplits::none; })) return false;
+bool FacetPatches::improve_once(double bound, double min_edge, const std::function<bool()>& stop) {
+  if (factors_of_bound_.empty()) find_factors();
+  if (std::all_of(factors_of_bound_.begin(), factors_of_bound_.end(), [](double factor) { return factor == 0; })) return false;
   find_fragile();
   bool any = false;
   for (EntityId f = 0; f < triangles_.size(); ++f) {
-    const double largest = factor_of_bound(f, splits) * bound;
+    const double largest = factors_of_bound_[f] * bound;
     if (largest == 0) continue;
     std::vector<Candidate> poor;
     for (const Triangle& t : triangles_[f]) {

@@ -176,7 +176,7 @@ auto Refiner<D>::demand_of(EntityRef entity, std::span<const VertexId> own, bool
   if (q == no_vertex) return {};
   Demand demand = encroachment_demand<D>(*domain_, entity, mesh_->vertex(q));
   const EntityRef home = mesh_->vertex(q).home.entity();
-  if (D == 3 && demand.h > 0 && context_->sparse_at_small_angles && meet_below(small_angle, entity, home)) demand.d = demand.h;
+  if (D == 3 && demand.h > 0 && meet_below(small_angle, entity, home)) demand.d = demand.h;
   if (pass_on && demand.h == 0) demand.d = std::sqrt(squared_distance(cavity_.point(), mesh_->point(q))) / 2;
   return demand;
 }
@@ -344,8 +344,7 @@ auto Refiner<D>::split_edge(const Item& e, const Demand* cause) -> Outcome {
     if (const auto near = memo_.nearer_than(*mesh_, own[0], own[1], least); near && near->x == x) return refuse_near(e, own, near->cell);
     auto near = cause ? cell_near_edge(e, x, least, place) : std::nullopt;
     auto status = Cavity<D>::Status::too_near;
-    // In a tangle cavities are cut back, and the cut may leave a corner out: the second attempt at a mesh waits for that.
-    if (!near) status = cavity_.collect_on_edge(x, e.cell, e.which(), context_->sparse_at_small_angles ? least : 0, place);
+    if (!near) status = cavity_.collect_on_edge(x, e.cell, e.which(), least, place);
     if (status == Cavity<D>::Status::not_owned) return give_up(Outcome::not_owned);
     if (status == Cavity<D>::Status::too_near) {
       if (!near) near = cavity_.near_cell();

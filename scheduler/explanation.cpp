@@ -47,7 +47,6 @@ PoorFindings LeafRefinement<D>::look_for_poor(PoorReasons<D>& reasons) {
   if (!violations_seen_) {
     PoorFindings found = reasons.of_refused(stop);
     assert(lists_all_poor(found));
-    unexplained_poor_ = found.unexplained.size();
     return found;
   }
   look_for_violations();
@@ -62,7 +61,6 @@ PoorFindings LeafRefinement<D>::look_for_poor(PoorReasons<D>& reasons) {
   for (const PoorFindings& part : parts) all.append(part);
   reasons.remember(all);
   reasons.excuse(all);
-  unexplained_poor_ = all.unexplained.size();
   unexplained_violations_ = all.violated.size();
   all.unexplained.insert(all.unexplained.end(), all.violated.begin(), all.violated.end());
   return all;

@@ -224,11 +224,10 @@ StopCause LeafRefinement<D>::refine_to_the_end() {
 }
 
 /// What is poor beside small angles once more, for a part of the room that it asked for. In that order the meshes are smaller
-/// than where all ask for little. False if there is nothing poor, where nothing proves that most is good by now, or
-/// where points beside small angles are dense as it is.
+/// than where all ask for little. False if there is nothing poor, or where nothing proves that most is good by now.
 template <int D>
 bool LeafRefinement<D>::begin_last_resort() {
-  if (D == 2 || !context_.has_last_resort || context_.options.radius_edge_bound < smallest_proved_bound<D>()) return false;
+  if (D == 2 || context_.options.radius_edge_bound < smallest_proved_bound<D>()) return false;
   context_.last_resort = true;
   std::vector<Refusal<D>> kept;
   for (Node n = 0; n <= tree_.node_count(); ++n) {

@@ -157,17 +157,18 @@ void note_what_theory_lacks(const RefineOptions<D>& options, std::vector<Diagnos
 /// The mesh before its refinement. Where the run is stopped before the boundary is there, `result.stop` says why.
 template <int D>
 RegionTable make_initial(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Domain<D>& domain, const RefineOptions<D>& options,
-                         EarlySplits splits, Clock::time_point start, RefineResult<D>& result, RecoveryCounts& counts) {
+                         Clock::time_point start, RefineResult<D>& result) {
   Delaunay<D> delaunay(mesh, pools);
   if (!delaunay.build(domain.points(), options.stop))
     throw InputError({Errc::no_volume, D == 3 ? "all points lie in one plane" : "all points lie on one line", {}, 0, {}, {}});
   if (options.stop.stop_requested()) {
     result.stop = StopCause::cancelled;  // the triangulation may lack points
   } else {
-    result.stop = recover_boundary<D>(mesh, pools, delaunay, domain, options, splits, start, counts);
+    RecoveryCounts counts;
+    result.stop = recover_boundary<D>(mesh, pools, delaunay, domain, options, start, counts);
+    result.statistics.segment_points = counts.segment_points;
+    result.statistics.facet_points = counts.facet_points;
   }
-  result.statistics.segment_points = counts.segment_points;
-  result.statistics.facet_points = counts.facet_points;
   if (result.stop != StopCause::finished) return {};
   RegionTable regions = carve<D>(mesh, pools, delaunay, domain, options.regions, result.warnings);
   if constexpr (D == 3) require_unfolded(mesh, domain, options.regions, attributes_of(regions));
@@ -180,14 +181,6 @@ struct Refined {
   std::vector<PoorCell> poor;        ///< with their reasons, if it came to its end
   std::optional<PoorCount> counted;  ///< else how many there are, where the lists tell
   std::optional<Orthtree<D>> tree;   ///< as it is in the end, if the leaves of cells are asked for
-  std::uint64_t unexplained_poor = 0, unexplained_violations = 0;
-};
-
-/// What one attempt made.
-template <int D>
-struct Attempt {
-  RefineResult<D> result;
-  std::uint64_t unexplained = 0;  ///< cells, where they are more than rounding may leave
 };
 
 template <int D>
@@ -196,8 +189,6 @@ Refined<D> refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools,
   Refined<D> refined;
   result.stop = refinement->run();
   if (result.stop == StopCause::finished) refined.poor = refinement->explain(result.stop);
-  refined.unexplained_poor = refinement->unexplained_poor();
-  refined.unexplained_violations = refinement->unexplained_violations();
   result.violations_seen = refinement->violations_seen();
   const RefineCounts& counts = refinement->counts();
   result.statistics.insertions_committed = counts.committed;
@@ -234,66 +225,28 @@ std::vector<PoorCell> take_poor(const RefineContext<D>& context, Refined<D>& ref
   return {};
 }
 
-/// More cells without a reason than the checker takes for rounding: 0.01 %, and no face that is not locally Delaunay.
+/// The mesh of the domain. `result`: what is known before. `start`: of the run, for its limits.
 template <int D>
-std::uint64_t too_many_unexplained(const Refined<D>& refined, const RefineResult<D>& result) {
-  if (result.stop != StopCause::finished) return 0;
-  const bool few = refined.unexplained_violations == 0 && refined.unexplained_poor * 10000 <= result.mesh.cells.size();
-  return few ? 0 : refined.unexplained_violations + refined.unexplained_poor;
-}
-
-/// How points beside small angles are chosen at an attempt (RefineContext), and what is split before (recovery.hpp).
-struct Manner {
-  bool sparse = true, last_resort = true;
-  EarlySplits splits = EarlySplits::strips;
-};
-
-/// What was tried, and the recovery that it began with.
-struct Tried {
-  Manner manner;
-  RecoveryCounts counts;
-};
-
-/// Another attempt in this manner: other early splits alone, of the same number of points in as many rounds, are the same.
-bool repeats(const Tried& earlier, const Manner& manner, const RecoveryCounts& counts) {
-  return manner.sparse == earlier.manner.sparse && manner.last_resort == earlier.manner.last_resort && counts == earlier.counts;
-}
-
-/// In this order, until one leaves nothing without a reason.
-constexpr std::array<Manner, 4> manners{{{true, true},
-                                         {true, true, EarlySplits::all_but_sharp},
-                                         {false, false},
-                                         {true, false}}};
-
-/// The mesh of the domain; nothing if one in `tried` is repeated, to which this one is added. `result`: what is known before.
-/// `began`: when this attempt did; `start`: the whole run, for limits.
-template <int D>
-std::optional<Attempt<D>> attempt(const Domain<D>& domain, const RefineOptions<D>& options, Manner manner, Clock::time_point start,
-                                  Clock::time_point began, RefineResult<D> result, RecoveryCounts& counts,
-                                  std::vector<Tried>& tried) {
+RefineResult<D> make_mesh(const Domain<D>& domain, const RefineOptions<D>& options, Clock::time_point start, RefineResult<D> result) {
   Mesh<D> mesh;
   auto pools = mesh.make_pools();
-  const RegionTable regions = make_initial<D>(mesh, pools, domain, options, manner.splits, start, result, counts);
-  result.statistics.seconds_initial = seconds_since(began);
+  const RegionTable regions = make_initial<D>(mesh, pools, domain, options, start, result);
+  result.statistics.seconds_initial = seconds_since(start);
   if (result.stop != StopCause::finished) {
     result.size_met = false;
-    return Attempt<D>{std::move(result)};  // no boundary yet, so no mesh
+    return result;  // no boundary yet, so no mesh
   }
-  if (std::any_of(tried.begin(), tried.end(), [&](const Tried& t) { return repeats(t, manner, counts); })) return std::nullopt;
-  tried.push_back({manner, counts});
 
   const auto refine_start = Clock::now();
   const PointData<D> data(mesh, domain);
   const std::uint64_t vertices = domain.points().size() + result.statistics.segment_points + result.statistics.facet_points;
   RefineContext<D> context(mesh, domain, options, bounds_of(options, regions), vertices, start);
-  context.sparse_at_small_angles = manner.sparse;
-  context.has_last_resort = manner.last_resort;
   Refined<D> refined;
   if (options.refine) refined = refine_mesh<D>(context, std::move(pools), vertices, result);
   const auto dropped = [&] {
     return !options.partial_mesh && (options.stop.stop_requested() || result.stop == StopCause::cancelled);
   };
-  if (dropped()) return Attempt<D>{without_mesh(std::move(result), start)};
+  if (dropped()) return without_mesh(std::move(result), start);
   std::vector<PoorCell> poor = take_poor<D>(context, refined, result);
   result.statistics.seconds_refine = seconds_since(refine_start);
 
@@ -304,7 +257,7 @@ std::optional<Attempt<D>> attempt(const Domain<D>& domain, const RefineOptions<D
     result.stop = StopCause::cancelled;
     poor.clear();
   }
-  if (dropped()) return Attempt<D>{without_mesh(std::move(result), start)};
+  if (dropped()) return without_mesh(std::move(result), start);
   for (std::size_t i = 0; i < poor.size(); ++i) {
     PoorReason reason = poor[i].reason;
     reason.cell = compacted.cell_number(poor_vertices[i]);
@@ -314,44 +267,9 @@ std::optional<Attempt<D>> attempt(const Domain<D>& domain, const RefineOptions<D
   if (refined.tree) result.mesh.leaves = leaves_of(result.mesh, *refined.tree);
   std::sort(result.reasons.begin(), result.reasons.end(),
             [](const PoorReason& a, const PoorReason& b) { return a.cell < b.cell; });
-  const std::uint64_t unexplained = too_many_unexplained(refined, result);
-  return Attempt<D>{std::move(result), unexplained};
+  return result;
 }
 
-/// Points that nothing is missing for may bring on a recovery that does not end: then it has to do with fewer of them, as
-/// `splits` says in the end.
-template <int D>
-Attempt<D> first_attempt(const Domain<D>& domain, const RefineOptions<D>& options, EarlySplits& splits, Clock::time_point start,
-                         const RefineResult<D>& before, std::vector<Tried>& tried) {
-  Manner manner = manners[0];
-  while (true) {
-    splits = manner.splits;
-    RecoveryCounts counts;
-    try {
-      return *attempt<D>(domain, options, manner, start, start, before, counts, tried);
-    } catch (const InputError&) {
-      if (counts.improving == 0 || splits == EarlySplits::none) throw;
-      tried.clear();
-      manner.splits = EarlySplits{static_cast<std::uint8_t>(static_cast<int>(splits) - 1)};
-    }
-  }
-}
-
-/// Another one; nothing if its boundary is not recovered, or it repeats an earlier one.
-template <int D>
-std::optional<Attempt<D>> further_attempt(const Domain<D>& domain, const RefineOptions<D>& options, Manner manner,
-                                          Clock::time_point start, const RefineResult<D>& before, std::vector<Tried>& tried) {
-  RecoveryCounts counts;
-  try {
-    return attempt<D>(domain, options, manner, start, Clock::now(), before, counts, tried);
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
-}
-
-/// Few points beside small angles may leave a tangle where walls cut back most cavities, which more of them can prevent (or
-/// bring, elsewhere). So where elements are left without a reason all is meshed once more, and maybe again, unless the caller's
-/// limits end that before; progress is then told from the start again.
 template <int D>
 RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   validate(options);
@@ -367,25 +285,10 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   } catch (const CancelledError&) {
     return without_mesh(std::move(before), start);
   }
-  EarlySplits splits;
-  std::vector<Tried> tried;
-  Attempt<D> made = first_attempt<D>(domain, options, splits, start, before, tried);
-  for (std::size_t i = 1; D == 3 && i < manners.size() && made.unexplained > 0 && made.result.stop == StopCause::finished; ++i) {
-    Manner manner = manners[i];
-    const bool fewer = splits < manners[0].splits;
-    if (fewer && manner.splits > manners[0].splits) continue;
-    if (fewer) manner.splits = splits;
-    std::optional<Attempt<D>> again = further_attempt<D>(domain, options, manner, start, before, tried);
-    if (!again) continue;
-    const StopCause stop = again->result.stop;
-    const bool better = stop == StopCause::finished && again->unexplained < made.unexplained;
-    if (better || stop == StopCause::cancelled) made = std::move(*again);
-    if (stop != StopCause::finished) break;
-  }
-  RefineResult<D>& result = made.result;
+  RefineResult<D> result = make_mesh<D>(domain, options, start, std::move(before));
   result.statistics.predicates += predicate_counts() - predicates_before;
   result.statistics.seconds_mesh = seconds_since(start);
-  return std::move(result);
+  return result;
 }
 
 }  // namespace

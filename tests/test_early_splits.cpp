@@ -59,13 +59,4 @@ TEST(EarlySplits, StripsOfThinWalls) {
   EXPECT_LT(40 * result.poor_left, result.mesh.cells.size());
 }
 
-// Where the number of sides is odd for a quarter, two needles overlap, 1e-9 apart. Points on the strips bring a recovery there that
-// does not end, and the run was refused for that.
-TEST(EarlySplits, AreGivenUpWhereTheBoundaryIsNotRecoveredThen) {
-  constexpr int off_plane[20] = {-4, -6, 0, -5, 7, 6, 7, 4, -2, -5, 7, -8, 4, 5, -8, 6, 0, -1, -5, 2};
-  const Plc<3> plc = plate_with_boss(20, 0.02, [&](int i) { return off_plane[i]; });
-  const RefineResult<3> result = test::expect_reproducible<3>(plc, {}, "overlap", test::two_if_quick);
-  EXPECT_EQ(result.stop, StopCause::finished);
-}
-
 }  // namespace pgdr::test_early_splits

@@ -28,7 +28,7 @@ struct Cube {
     Delaunay<3> delaunay(mesh, pools);
     delaunay.build(domain.points());
     RecoveryCounts counts;
-    recover_boundary<3>(mesh, pools, delaunay, domain, {}, EarlySplits::calm, std::chrono::steady_clock::now(), counts);
+    recover_boundary<3>(mesh, pools, delaunay, domain, {}, std::chrono::steady_clock::now(), counts);
     std::vector<Diagnostic> warnings;
     carve<3>(mesh, pools, delaunay, domain, RegionMode::seeds, warnings);
   }

@@ -126,9 +126,9 @@ class FacetPatches {
 
   /// Puts points where triangles are missing, one round. False if none was missing. Ends early if `stop` says so.
   bool recover_once(const std::function<bool()>& stop);
-  /// Splits triangles of a radius-edge ratio above the bound, one round, in facets that `splits` names, where no edge below
+  /// Splits triangles of a radius-edge ratio above the bound, one round, in facets without sharp angles, where no edge below
   /// `min_edge` comes of it. False if none was split. @pre none is missing
-  bool improve_once(EarlySplits splits, double bound, double min_edge, const std::function<bool()>& stop);
+  bool improve_once(double bound, double min_edge, const std::function<bool()>& stop);
   std::uint64_t points() const { return points_; }
   const MissingTrend& trend() const { return trend_; }
   void mark(Mesh<3>::Pools& pools);
@@ -146,8 +146,7 @@ class FacetPatches {
   };
   bool split_triangles(EntityId facet, std::vector<Candidate> candidates);
   bool may_split(const Subsegment& s) const;
-  void find_calm();
-  double factor_of_bound(EntityId facet, EarlySplits splits) const;
+  void find_factors();
   void find_fragile();
   Point3 centroid_of(const Triangle& t) const;
   VertexId insert_inside(EntityId facet, const Candidate& c, const Point3& x);
@@ -168,7 +167,7 @@ class FacetPatches {
   PresentSimplices<3> faces_;
   std::vector<EntityId> look_again_;  ///< facets that were triangulated anew, or had triangles missing
   std::vector<EntityId> changed_;     ///< to be triangulated anew
-  std::vector<EarlySplits> calm_;  ///< of each facet, the least that names it; `none` if nothing does
+  std::vector<double> factors_of_bound_;  ///< of each facet; 0 where no triangle is split for its shape
   std::vector<std::array<VertexId, 2>> fragile_;  ///< sorted: edges at triangles so flat that rounding may turn them over
   std::uint64_t points_ = 0;
   MissingTrend trend_;

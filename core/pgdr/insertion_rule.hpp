@@ -8,8 +8,7 @@
 // of entities that do not touch, else max(|uv|, min(R(u), R(v))). (Between entities that do not touch an edge is no child
 // of a small angle, though both ends may have inherited a large R from one: asked for more, the cells of a thin wall
 // would stay poor without a small angle anywhere near.) Let r(x) be the distance from a new point x to the nearest vertex
-// of its cavity (of a subsegment that is split for something else, in 3D: of all cells in conflict with it, cut back or not,
-// but at a second attempt at the mesh). x is inserted only if r(x) >= d, and gets R(x) = max(r(x), h), where
+// of its cavity (of a subsegment that is split for something else, in 3D: of all cells in conflict with it, cut back or not). x is inserted only if r(x) >= d, and gets R(x) = max(r(x), h), where
 //   * for a poor element, or an entity that it encroaches upon or that hides its point: d is the least relaxed length
 //     of the element's edges (of an element only too big, at most half its circumradius); h = 0. In 2D c times that
 //     length is d, and that length is h; in 3D so for an entity that is split for an element of poor shape, where the
@@ -19,7 +18,7 @@
 //   * for an entity encroached upon by q, the cavity's nearest vertex that is none of the entity's: if q is an input
 //     vertex or the entities of q and x do not touch, d = h = 0 (r(x) is then at least the least distance of disjoint
 //     entities; passed on from a facet to a segment, d = |xq| / 2); else d = c R(q), h = R(q); in 3D d = R(q) where the
-//     two meet at less than 60 degrees, unless such a run has left elements poor for no reason (scheduler/refine.cpp);
+//     two meet at less than 60 degrees;
 //   * for a missing subsegment or subfacet of the boundary recovery: d = h = 0;
 //   * 3D: for a point of a subsegment with twins, on other segments as far from a common end (twins.hpp), r(x) here is the
 //     distance from the nearest other vertex; likewise in the recovery;

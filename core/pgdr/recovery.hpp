@@ -13,13 +13,12 @@
 //
 // Where no angle between segments or facets is below 60 degrees, triangles over twice the radius-edge bound (of two at least)
 // are then split likewise; where angles between segments are at least 20 degrees, those of strips, over eight times the bound,
-// as thin plates and walls have them, or all over twice the bound (EarlySplits). All faces of a tetrahedron within the bound are
-// within it, so that the refinement would have to; but its cavities are hidden by the facets, and at long strips side by side,
-// all of whose segments are encroached, they are cut back until the facets are not Delaunay in their planes any more, which
-// nothing mends. Here no cavity is. Such a point keeps the length of the triangle's shortest edge from all others: of themselves
-// these points never make the least distance smaller, so that there is room for finitely many. A point for a face that goes
-// missing between them may be nearer; that is the recovery above, which is counted and limited more closely from then on: past
-// that it throws, and the caller does without some of these splits. Serial.
+// as thin plates and walls have them. All faces of a tetrahedron within the bound are within it, so that the refinement would
+// have to; but its cavities are hidden by the facets, and at long strips side by side, all of whose segments are encroached,
+// they are cut back until the facets are not Delaunay in their planes any more, which nothing mends. Here no cavity is. Such a
+// point keeps the length of the triangle's shortest edge from all others: of themselves these points never make the least
+// distance smaller, so that there is room for finitely many. A point for a face that goes missing between them may be nearer;
+// that is the recovery above, which is counted and limited more closely from then on: past that it throws. Serial.
 #pragma once
 
 #include <cstdint>
@@ -30,22 +29,12 @@
 
 namespace pgdr {
 
-/// 3D: of which facets poor triangles are split before the refinement (above).
-enum class EarlySplits : std::uint8_t {
-  none,           ///< none
-  calm,           ///< those without an angle below 60 degrees
-  strips,         ///< also strips of those without angles of segments below 20 degrees
-  all_but_sharp,  ///< also their other poor triangles
-};
-
 /// What the boundary recovery did.
 struct RecoveryCounts {
   std::uint64_t segment_points = 0;  ///< Steiner points on segments
   std::uint64_t facet_points = 0;    ///< Steiner points on facets
-  std::uint64_t improving = 0;       ///< of both, those of poor triangles; also where it failed
+  std::uint64_t improving = 0;       ///< of both, those of poor triangles
   std::uint64_t rounds = 0;          ///< over all that was missing
-
-  bool operator==(const RecoveryCounts&) const = default;  ///< all of them
 };
 
 /// @pre `delaunay` has built the triangulation of domain.points(), in that order.
@@ -54,7 +43,7 @@ struct RecoveryCounts {
 ///   mesh is then without marks.
 template <int D>
 StopCause recover_boundary(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, Delaunay<D>& delaunay,
-                           const Domain<D>& domain, const RefineOptions<D>& options, EarlySplits splits,
+                           const Domain<D>& domain, const RefineOptions<D>& options,
                            std::chrono::steady_clock::time_point start, RecoveryCounts& counts);
 
 }  // namespace pgdr

@@ -77,10 +77,6 @@ struct RefineContext {
   const RefineOptions<D>& options;  ///< as the caller gave them
   const CellBounds<D> bounds;  ///< of cells
   const std::chrono::steady_clock::time_point start;  ///< of the time limit
-  /// 3D: fewer points on entities that meet at less than 60 degrees (insertion_rule.hpp). Set before the run.
-  bool sparse_at_small_angles = true;
-  /// 3D: what is poor when nothing else waits asks for less room. Set before the run.
-  bool has_last_resort = true;
   /// 3D: what is poor now would stay so, and asks for c times the room. Set while no visit runs.
   bool last_resort = false;
   /// Vertices on entities that are named as reasons, which excuse violations beside them. Set while no visit runs.

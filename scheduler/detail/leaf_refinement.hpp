@@ -44,11 +44,6 @@ class LeafRefinement {
   /// `stop` becomes what ends this early.
   std::vector<PoorCell> explain(StopCause& stop);
 
-  /// After explain(): how many cells stay over a bound, or beside a face that is not locally Delaunay by more than rounding,
-  /// although no small angle explains it. The former are within what rounding may do if they are few.
-  std::uint64_t unexplained_poor() const { return unexplained_poor_; }
-  std::uint64_t unexplained_violations() const { return unexplained_violations_; }
-
   const RefineCounts& counts() const { return counts_; }
   const SchedulerStatistics& statistics() const { return statistics_; }
   std::vector<VisitTrace> take_trace() { return std::move(trace_); }
@@ -102,7 +97,7 @@ class LeafRefinement {
   Orthtree<D> tree_;
   LeafWorks<D> works_;
   std::uint64_t generation_ = 0, vertices_;
-  std::uint64_t unexplained_poor_ = 0, unexplained_violations_ = 0;
+  std::uint64_t unexplained_violations_ = 0;
   bool violations_seen_ = false;
   const bool uneven_;  ///< there may be some that no insertion brings
   bool all_listed_ = false;  ///< every poor cell is on a list, between visits
