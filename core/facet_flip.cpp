@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "detail/bent_facets.hpp"
 #include "pgdr/insertion_rule.hpp"
 #include "pgdr/predicates.hpp"
 
@@ -49,17 +48,6 @@ bool lie_on_one(const Domain<3>& domain, const std::array<Home, 4>& homes, std::
     const auto on = [&](Home home) { return lies_on<3>(domain, home, {EntityKind::facet, facet}); };
     return std::all_of(homes.begin(), homes.end(), on);
   });
-}
-
-bool tip_in_circle(const Mesh<3>& mesh, const Domain<3>& domain, EntityId facet, std::array<VertexId, 2> edge,
-                   std::array<VertexId, 2> tips) {
-  const int axis = domain.facets()[facet].axis;
-  const auto point = [&](VertexId v) { return detail::levelled(domain, facet, mesh.point(v)); };
-  Point3 a = point(edge[0]), b = point(edge[1]);
-  const Point3 c = point(tips[0]), d = point(tips[1]);
-  const Sign turn = orient_projected(a, b, c, axis);
-  if (turn == Sign::negative) std::swap(a, b);
-  return turn != Sign::zero && in_circle_perturbed(a, b, c, d, axis) == Sign::positive;
 }
 
 template bool lie_in_line(const Mesh<3>&, const Domain<3>&, const std::array<VertexId, 3>&);

@@ -11,8 +11,6 @@
 namespace pgdr {
 namespace {
 
-constexpr std::size_t longest_open_ring = 64;
-
 template <int D>
 std::array<VertexId, D> face_without(const std::array<VertexId, D + 1>& v, int i) {
   std::array<VertexId, D> f{};
@@ -147,44 +145,6 @@ auto LocalFlips<D>::take_ring(CellId c, int a, int b, std::size_t longest, Ring&
   }
   const bool whole = ring.tips.empty() || (ring.tips.size() == 2 && ring.tips[0] != ring.tips[1]);
   return whole ? Outcome::flipped : Outcome::stuck;
-}
-
-/// Is there nothing beyond the two subfacets at the edge uw?
-template <int D>
-bool LocalFlips<D>::is_open(const Ring& ring, VertexId u, VertexId w) const {
-  int open = 0;
-  for (const CellId c : ring.cells)
-    for (int f = 0; f <= D; ++f) {
-      const auto& v = mesh_->cell(c).vertices;
-      open += mesh_->constrained(c, f) && !mesh_->cell(c).links[f] && v[f] != u && v[f] != w && has(v, u) && has(v, w);
-    }
-  return open == 2;
-}
-
-template <int D>
-auto LocalFlips<D>::flip_in_facet(Pools& pools, CellId c, int face) -> Outcome {
-  if constexpr (D == 3) {
-    const Vertices vertices = mesh_->cell(c).vertices;
-    for (int a = 0; a <= D; ++a)
-      for (int b = a + 1; b <= D; ++b) {
-        if (a == face || b == face) continue;
-        if (const auto* k = mesh_->constraints(c); k && (k->edges >> edge_of_ends[a][b] & 1)) continue;
-        Ring ring;
-        const Outcome outcome = take_ring(c, a, b, longest_open_ring, ring);
-        if (outcome == Outcome::not_owned) return outcome;
-        const VertexId u = vertices[a], w = vertices[b];
-        if (outcome == Outcome::stuck || ring.tips.empty() || !is_open(ring, u, w)) continue;
-        const std::array edge{u, w}, tips{ring.tips[0], ring.tips[1]};
-        if (!crosses_in_facet<D>(*mesh_, *domain_, ring.entity, edge, tips)) continue;
-        if (!tip_in_circle(*mesh_, *domain_, ring.entity, edge, tips)) continue;
-        if (rewrap_.repair_facet(pools, ring.cells)) {
-          new_cells_ = rewrap_.new_cells();
-          return Outcome::flipped;
-        }
-        if (rewrap_.reached_border()) return Outcome::not_owned;
-      }
-  }
-  return Outcome::stuck;
 }
 
 /// The ring of cells round an edge becomes two fans about one vertex of the ring; the edge vanishes. Where the edge lies

@@ -6,7 +6,6 @@
 #include <bit>
 #include <cassert>
 
-#include "pgdr/facet_flip.hpp"
 #include "pgdr/work_list.hpp"
 
 namespace pgdr {
@@ -17,9 +16,9 @@ struct Attempt {
   std::size_t most_cells;
   int orders;
 };
-constexpr Attempt quick{20, 1}, wide{512, 1}, broad{128, 1}, deep{96, 16}, facet{96, 4};
+constexpr Attempt quick{20, 1}, wide{512, 1}, broad{128, 1}, deep{96, 16};
 constexpr std::size_t least_growth = 2;  // of a region by one part in so many, before all of it is wrapped again
-constexpr int far_weight = 10000;  // of a violation that nothing excuses
+constexpr int far_weight = 10000;  // of a violation that no entity is beside
 
 }  // namespace
 
@@ -68,89 +67,16 @@ bool LocalRewrap::repair_without(Pools& pools, CellId c, CellId d, std::span<con
   return repaired;
 }
 
-bool LocalRewrap::repair_facet(Pools& pools, std::span<const CellId> ring) {
-  reached_border_ = !std::all_of(ring.begin(), ring.end(), [this](CellId c) { return owns(c); });
-  if (reached_border_) return false;
-  random_.seed();
-  most_cells_ = facet.most_cells;
-  orders_ = facet.orders;
-  begin(ring, {});
-  bool repaired = wrap_again(pools, true);
-  while (!repaired && grow()) repaired = wrap_again(pools, true);
-  release();
-  return repaired;
-}
-
-bool LocalRewrap::is_subsegment(Index a, Index b) const {
-  return std::any_of(subsegments_.begin(), subsegments_.end(),
-                     [&](const Subsegment& s) { return (s.a == a && s.b == b) || (s.a == b && s.b == a); });
-}
-
-/// Flips the subfacets of the rim that are at the hull, until they are Delaunay in their facets where the region has all cells
-/// at the edge between them (Lawson). False if there is nothing to flip.
-bool LocalRewrap::make_rim_delaunay() {
-  std::vector<std::size_t> hull;
-  for (std::size_t i = 0; i < rim_.size(); ++i)
-    if (rim_[i].constrained && !rim_[i].link) hull.push_back(i);
-  bool any = false;
-  std::size_t left = 4 * hull.size() * hull.size();  // for facets bent by rounding
-  for (bool again = true; again;) {
-    again = false;
-    for (std::size_t i = 0; i < hull.size(); ++i)
-      for (std::size_t j = 0; j < i; ++j)
-        if (left > 0 && turn(hull[i], hull[j])) {
-          --left;
-          any = again = true;
-        }
-  }
-  return any;
-}
-
-/// Flips the edge between two faces of the rim if they are subfacets of one facet and not Delaunay in it.
-bool LocalRewrap::turn(std::size_t i, std::size_t j) {
-  RimFace &f = rim_[i], &g = rim_[j];
-  if (f.entity != g.entity) return false;
-  for (int k = 0; k < 3; ++k) {
-    const Index a = f.vertices[k], b = f.vertices[(k + 1) % 3], c = f.vertices[(k + 2) % 3];
-    const auto at = std::find(g.vertices.begin(), g.vertices.end(), b) - g.vertices.begin();
-    if (at == 3 || g.vertices[(at + 1) % 3] != a) continue;
-    const Index d = g.vertices[(at + 2) % 3];
-    if (c == d || is_subsegment(a, b)) return false;
-    const std::array edge{vertices_[a], vertices_[b]}, tips{vertices_[c], vertices_[d]};
-    if (!crosses_in_facet<3>(*mesh_, *domain_, f.entity, edge, tips)) return false;
-    if (!tip_in_circle(*mesh_, *domain_, f.entity, edge, tips)) return false;
-    const auto has = [](const GiftWrap::Face& face, Index v) { return std::find(face.begin(), face.end(), v) != face.end(); };
-    for (const RimFace& o : rim_) {
-      if (&o == &f || &o == &g) continue;
-      if (has(o.vertices, a) && has(o.vertices, b)) return false;  // cells at the edge lie outside
-      if (has(o.vertices, c) && has(o.vertices, d) && (has(o.vertices, a) || has(o.vertices, b))) return false;
-    }
-    const auto first_least = [](GiftWrap::Face face) {
-      std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
-      return face;
-    };
-    f.vertices = first_least({c, a, d});
-    g.vertices = first_least({d, b, c});
-    return true;
-  }
-  return false;
-}
-
 bool LocalRewrap::in_volume(VertexId v) const { return mesh_->vertex(v).home.kind() == EntityKind::volume; }
 
 /// Where the constrained Delaunay triangulation exists, every order of the front leads to it; where it does not, another
 /// order may lead to a better mesh, or to one at all.
-bool LocalRewrap::wrap_again(Pools& pools, bool turns_facets) {
-  int before = 0;
-  std::uint64_t attempt = 0;
-  if (!turns_facets) {
-    before = violations_before();
-    if (before <= least_gain_) return false;
-    attempt = number_of_attempt();
-    if (in_vain_.contains(attempt)) return false;
-  }
+bool LocalRewrap::wrap_again(Pools& pools) {
+  const int before = violations_before();
+  if (before <= least_gain_) return false;
+  const std::uint64_t attempt = number_of_attempt();
+  if (in_vain_.contains(attempt)) return false;
   find_rim();
-  if (turns_facets && !make_rim_delaunay()) return false;
   front_.clear();
   rim_by_face_.clear();
   for (const RimFace& f : rim_) {
@@ -161,13 +87,13 @@ bool LocalRewrap::wrap_again(Pools& pools, bool turns_facets) {
   work_ += old_.size() * vertices_.size();
   for (int order = 0; order < orders_ && !is_ended(); ++order) {
     if (wrap_.fill(points_, front_, 2 * most_cells_, ended_) && keeps_subsegments() &&
-        (turns_facets || violations_after(before - least_gain_) + least_gain_ < before)) {
+        violations_after(before - least_gain_) + least_gain_ < before) {
       replace(pools);
       return true;
     }
     for (std::size_t i = front_.size(); i > 1; --i) std::swap(front_[i - 1], front_[random_() % i]);
   }
-  if (!turns_facets && !is_ended()) in_vain_.insert(attempt);
+  if (!is_ended()) in_vain_.insert(attempt);
   return false;
 }
 
@@ -275,15 +201,10 @@ bool LocalRewrap::keeps_subsegments() const {
   });
 }
 
-bool LocalRewrap::excuses(VertexId v) const {
-  return excusing_ ? excusing_->excuses(mesh_->vertex(v).home) : !in_volume(v);
-}
-
-/// What a violation counts. One that no entity is beside (later: none that was refused) counts for more than all others, so
-/// that what cannot be mended moves to the walls that hide what is in its way.
+/// What a violation counts. One that no entity is beside counts for more than all others, so that what cannot be mended moves to the walls that hide what is in its way.
 int LocalRewrap::weight(const std::array<VertexId, 4>& cell, VertexId apex) const {
-  const bool excused = excuses(apex) || std::any_of(cell.begin(), cell.end(), [this](VertexId v) { return excuses(v); });
-  return excused ? 1 : far_weight;
+  const bool far = in_volume(apex) && std::all_of(cell.begin(), cell.end(), [this](VertexId v) { return in_volume(v); });
+  return far ? far_weight : 1;
 }
 
 int LocalRewrap::violation(const GiftWrap::Cell& cell, VertexId apex) const {

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <unordered_set>
 
-#include "detail/check_exact.hpp"
 #include "detail/entity_distance.hpp"
 #include "pgdr/insertion_rule.hpp"
 #include "pgdr/refine_options.hpp"
@@ -16,38 +15,19 @@
 namespace pgdr {
 namespace {
 
+constexpr std::size_t most_cells_about = 4096;  // an element are looked at for a reason
+
 bool has_extent(EntityRef e) { return e.kind == EntityKind::segment || e.kind == EntityKind::facet; }
 
 void add_new(std::vector<EntityRef>& list, EntityRef e) {
   if (std::find(list.begin(), list.end(), e) == list.end()) list.push_back(e);
 }
 
-std::uint64_t code_of(EntityRef e) { return std::uint64_t{static_cast<std::uint8_t>(e.kind)} << 32 | e.id; }
-
 /// A hair less than doubled, so that another's rounding cannot disagree.
 template <int D>
 Ball<D> doubled_ball(const Ball<D>& ball) {
   return {ball.center, 4 * ball.squared_radius * (1 - 0x1p-20)};
 }
-
-/// A set of entities that are named as reasons.
-class NamedEntities {
- public:
-  NamedEntities() = default;
-  explicit NamedEntities(const PoorFindings& found) {
-    for (const PoorCell& p : found.poor) add(p);
-  }
-  void add(const PoorCell& p) {
-    if (p.reason.code == PoorReason::Code::small_angle)
-      for (const EntityRef e : p.reason.entities) codes_.insert(code_of(e));
-  }
-  bool has_any(std::span<const EntityRef> list) const {
-    return std::any_of(list.begin(), list.end(), [this](EntityRef e) { return codes_.contains(code_of(e)); });
-  }
-
- private:
-  std::unordered_set<std::uint64_t> codes_;
-};
 
 }  // namespace
 
@@ -114,13 +94,6 @@ void PoorReasons<D>::add_entities_of(Home of, std::vector<EntityRef>& list) cons
   any_entity_of(of, [&](EntityRef e) { return add_new(list, e), false; });
 }
 
-/// Adds the entities that the cell's vertices lie on, and those constrained on it.
-template <int D>
-void PoorReasons<D>::add_entities(CellId c, std::vector<EntityRef>& list) const {
-  for (const VertexId v : mesh_->cell(c).vertices) add_entities_of(mesh_->vertex(v).home, list);
-  any_constrained(c, [&](EntityRef e) { return add_new(list, e), false; });
-}
-
 /// What refused the element if that is a pair with a small angle, else the first such pair among the entities of ever
 /// more cells round it; if `beside` is set, one of which has a vertex of the cell.
 template <int D>
@@ -137,7 +110,7 @@ PoorReason PoorReasons<D>::explain(CellId c, bool beside) const {
     if (!beside && explains(why->second->entities, doubled, angle, reason)) return reason;
   // Below the proved bound most cells have no small angle to name, and need none.
   const bool proved = bounds_->radius_edge_bound >= smallest_proved_bound<D>();
-  const std::size_t most_cells = proved ? most_cells_ : 16;
+  const std::size_t most_cells = proved ? most_cells_about : 16;
   std::vector<CellId> cells{c};
   std::unordered_set<std::uint32_t> known{index(c)}, known_vertices;
   std::vector<EntityRef> near;
@@ -169,10 +142,8 @@ PoorReason PoorReasons<D>::explain(CellId c, bool beside) const {
 }
 
 template <int D>
-PoorReasons<D>::PoorReasons(Mesh<D>& mesh, const Domain<D>& domain, const CellBounds<D>& bounds, bool keep_boundary)
-    : mesh_(&mesh), domain_(&domain), bounds_(&bounds), keep_boundary_(keep_boundary), flips_(mesh, domain), segments_at_(domain.points().size()) {
-  for (const Point<D>& p : domain.points())
-    for (const double x : p.x) rounding_ = std::max(rounding_, 8 * std::abs(x) * 0x1p-52);
+PoorReasons<D>::PoorReasons(const Mesh<D>& mesh, const Domain<D>& domain, const CellBounds<D>& bounds, bool keep_boundary)
+    : mesh_(&mesh), domain_(&domain), bounds_(&bounds), keep_boundary_(keep_boundary), segments_at_(domain.points().size()) {
   for (EntityId s = 0; s < domain.segments().size(); ++s)
     for (const std::uint32_t p : domain.segments()[s].points) segments_at_[p].push_back(s);
 }
@@ -184,26 +155,10 @@ void PoorReasons<D>::add(std::span<const Refusal<D>> refused) {
       if (const auto [at, is_new] = why_.try_emplace(index(r.entry.cell), r.pair); !is_new && r.pair) at->second = r.pair;
 }
 
-/// Not so that moving the corners on the boundary by some ulps of the input could mend it.
 template <int D>
-bool PoorReasons<D>::is_violated_beyond_rounding(CellId c) const {
-  for (int f = 0; f <= D; ++f) {
-    if (!flips_.violates(c, f)) continue;
-    const Link beyond = mesh_->cell(c).links[f];
-    const VertexId apex = mesh_->cell(beyond.cell()).vertices[beyond.face()];
-    const auto slack = [this](VertexId v) { return mesh_->vertex(v).home.kind() == EntityKind::volume ? 0 : rounding_; };
-    std::array<double, D + 2> moved;
-    for (int i = 0; i <= D; ++i) moved[i] = slack(mesh_->cell(c).vertices[i]);
-    moved[D + 1] = slack(apex);
-    if (!checking::rounding_cancels<D>(mesh_->simplex(c), mesh_->point(apex), moved)) return true;
-  }
-  return false;
-}
-
-template <int D>
-void PoorReasons<D>::remember(const PoorFindings& found) {
+void PoorReasons<D>::remember(std::span<const PoorCell> found) {
   remembered_.clear();
-  for (const PoorCell& p : found.poor)
+  for (const PoorCell& p : found)
     if (p.reason.code == PoorReason::Code::small_angle) remembered_[index(p.cell)] = {mesh_->birth(p.cell), p.beside, p.reason};
 }
 
@@ -214,7 +169,7 @@ auto PoorReasons<D>::remembered(CellId c) const -> const Remembered* {
 }
 
 template <int D>
-void PoorReasons<D>::look_at(CellId c, bool violated, PoorFindings& found) const {
+void PoorReasons<D>::look_at(CellId c, bool violated, std::vector<PoorCell>& found) const {
   const CellVerdict verdict = bounds_->test(*mesh_, c);
   if (!verdict && !violated) return;
   const Remembered* before = remembered(c);
@@ -225,61 +180,7 @@ void PoorReasons<D>::look_at(CellId c, bool violated, PoorFindings& found) const
   // Without a small angle nearby a violation is one of rounding, which needs no reason.
   const bool beside = violated && (reason = reason_of(true)).code == PoorReason::Code::small_angle;
   if (verdict && !beside) reason = reason_of(false);
-  if (verdict || beside) found.poor.push_back({c, static_cast<bool>(verdict), verdict.over_size > 0, reason, beside});
-  if (verdict && reason.code == PoorReason::Code::rounding && !checking::is_as_short_as_rounding<D>(mesh_->simplex(c))) {
-    found.unexplained.push_back(c);
-  } else if (violated && !beside && is_violated_beyond_rounding(c)) {
-    found.violated.push_back(c);
-  }
-}
-
-/// For each of its faces that is not locally Delaunay, those that the vertices of the two cells there lie on.
-template <int D>
-std::vector<std::vector<EntityRef>> PoorReasons<D>::entities_about_violations(CellId c) const {
-  std::vector<std::vector<EntityRef>> of_faces;
-  for (int f = 0; f <= D; ++f) {
-    if (!flips_.violates(c, f)) continue;
-    std::vector<EntityRef>& entities = of_faces.emplace_back();
-    add_entities(c, entities);
-    add_entities(mesh_->cell(c).links[f].cell(), entities);
-  }
-  return of_faces;
-}
-
-template <int D>
-void PoorReasons<D>::excuse(PoorFindings& found) const {
-  const NamedEntities named(found);
-  std::vector<CellId> not_excused;
-  for (const CellId c : found.violated) {
-    const auto of_faces = entities_about_violations(c);
-    const bool excused = std::all_of(of_faces.begin(), of_faces.end(), [&](const auto& entities) { return named.has_any(entities); });
-    (excused ? found.excused : not_excused).push_back(c);
-  }
-  found.violated = std::move(not_excused);
-}
-
-template <int D>
-std::vector<PoorCell> PoorReasons<D>::excusing_cells(const PoorFindings& found) const {
-  const auto is_before = [this](CellId a, CellId b) { return compare_vertices<D>(*mesh_, a, b) < 0; };
-  std::unordered_map<std::uint64_t, const PoorCell*> naming;
-  for (const PoorCell& p : found.poor) {
-    if (p.reason.code != PoorReason::Code::small_angle) continue;
-    for (const EntityRef e : p.reason.entities)
-      if (const auto [at, is_new] = naming.try_emplace(code_of(e), &p); !is_new && is_before(p.cell, at->second->cell)) at->second = &p;
-  }
-  std::vector<CellId> excused = found.excused;
-  std::sort(excused.begin(), excused.end(), is_before);
-  NamedEntities named;
-  std::vector<PoorCell> cells;
-  for (const CellId c : excused)
-    for (const auto& entities : entities_about_violations(c)) {
-      if (named.has_any(entities)) continue;
-      const auto e = std::find_if(entities.begin(), entities.end(), [&](EntityRef x) { return naming.contains(code_of(x)); });
-      assert(e != entities.end() && "excused");
-      named.add(*naming.at(code_of(*e)));
-      cells.push_back(*naming.at(code_of(*e)));
-    }
-  return cells;
+  if (verdict || beside) found.push_back({c, static_cast<bool>(verdict), verdict.over_size > 0, reason, beside});
 }
 
 template <int D>
@@ -299,23 +200,6 @@ bool PoorReasons<D>::has_reason(std::span<const Home> homes, const Ball<D>& sphe
 }
 
 template <int D>
-ExcusingHomes PoorReasons<D>::excusing_homes(const PoorFindings& found) const {
-  const NamedEntities named(found);
-  const auto excusing = [&](EntityKind kind, std::size_t entities) {
-    std::vector<bool> all(entities);
-    std::vector<EntityRef> lies_on;
-    for (EntityId e = 0; e < all.size(); ++e) {
-      lies_on.clear();
-      add_entities_of(Home(kind, e), lies_on);
-      all[e] = named.has_any(lies_on);
-    }
-    return all;
-  };
-  return {excusing(EntityKind::vertex, domain_->points().size()), excusing(EntityKind::segment, domain_->segments().size()),
-          excusing(EntityKind::facet, D == 3 ? domain_->facets().size() : 0)};
-}
-
-template <int D>
 PoorCount count_poor_cells(const Mesh<D>& mesh, const CellBounds<D>& bounds, std::uint32_t first, std::uint32_t last) {
   PoorCount poor;
   for (std::uint32_t i = first; i < last; ++i) {
@@ -328,9 +212,9 @@ PoorCount count_poor_cells(const Mesh<D>& mesh, const CellBounds<D>& bounds, std
 }
 
 template <int D>
-PoorFindings PoorReasons<D>::of_cells(std::uint32_t first, std::uint32_t last, const std::vector<bool>& violated,
-                                      const std::stop_token& stop) const {
-  PoorFindings found;
+std::vector<PoorCell> PoorReasons<D>::of_cells(std::uint32_t first, std::uint32_t last, const std::vector<bool>& violated,
+                                               const std::stop_token& stop) const {
+  std::vector<PoorCell> found;
   for (std::uint32_t i = first; i < last; ++i) {
     if (i % 1024 == 0 && stop.stop_requested()) break;
     if (mesh_->alive(CellId{i})) look_at(CellId{i}, violated[i], found);
@@ -340,8 +224,8 @@ PoorFindings PoorReasons<D>::of_cells(std::uint32_t first, std::uint32_t last, c
 
 // After a run to the end a poor cell is alive only because it was refused.
 template <int D>
-PoorFindings PoorReasons<D>::of_refused(const std::stop_token& stop) const {
-  PoorFindings found;
+std::vector<PoorCell> PoorReasons<D>::of_refused(const std::stop_token& stop) const {
+  std::vector<PoorCell> found;
   for (const auto& why : why_) {
     if (stop.stop_requested()) break;
     look_at(CellId{why.first}, false, found);

@@ -74,7 +74,6 @@ Refiner<D>::Refiner(RefineContext<D>& context, Pools pools)
       move_(context.mesh, context.domain) {
   cavity_.set_seen(&seen_);
   flips_.set_ended([this] { return ended(); });
-  flips_.set_excusing(&context.excusing);
 }
 
 template <int D>
@@ -224,7 +223,6 @@ void Refiner<D>::flip(const Item& e) {
   auto outcome = LocalFlips<D>::Outcome::stuck;
   auto still_stuck = [&] { return flips_left_ > 0 && outcome == LocalFlips<D>::Outcome::stuck; };
   if (still_stuck()) outcome = flips_.repair(pools_, e.cell, e.which());
-  if (still_stuck() && visit_->repairs_facets) outcome = flips_.flip_in_facet(pools_, e.cell, e.which());
   if (still_stuck())
     if (const auto effort = rewrap_effort(e)) outcome = flips_.rewrap(pools_, e.cell, e.which(), *effort);
   if (outcome == LocalFlips<D>::Outcome::not_owned) return visit_->set_aside.push_back(e);
@@ -268,13 +266,6 @@ bool Refiner<D>::mend(const Item& e) {
   if (flips_.rewrap(pools_, e.cell, e.which(), LocalRewrap::Effort::thorough) != LocalFlips<D>::Outcome::flipped) return false;
   flipped();
   return true;
-}
-
-template <int D>
-bool Refiner<D>::mend_cell(CellId c) {
-  for (int f = 0; f <= D; ++f)
-    if (flips_.violates(c, f) && mend(make_entry(c, EntryKind::flip, f))) return true;
-  return false;
 }
 
 template <int D>

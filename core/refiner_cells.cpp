@@ -54,7 +54,7 @@ auto Refiner<D>::demand_of_cell(CellId c, const CellVerdict& verdict) const -> D
   // Without it a point may come nearer than the element's edges are long only beside a small angle or below the proved
   // bound. There a little of that, with the radius inherited, makes elements good that would stay poor; in 3D it is for those
   // alone that stayed so.
-  const bool asks_for_less = D == 2 || unexplained_ || (context_->last_resort && may_ask_for_less(c));
+  const bool asks_for_less = D == 2 || (context_->last_resort && may_ask_for_less(c));
   if (asks_for_less) return {inherited_fraction * least, least};
   return {least, 0};
 }

@@ -63,7 +63,6 @@ auto Refiner<D>::flip_for_less(const Item& e) -> Outcome {
   double most = least_gain;
   for (const Flip& flip : flips) {
     seen_.insert(seen_.end(), flip.old.cells.begin(), flip.old.cells.end());
-    if (keeps_any(flip.old.cells)) continue;
     const auto gain = gain_of_flip(flip, most);
     if (!gain) continue;
     const auto violations = flips_.violations_after(flip);
@@ -86,7 +85,7 @@ bool Refiner<D>::flip_to_delaunay(CellId c, int face) {
   flips_.find_flips(c, flips, seen);
   for (const Flip& flip : flips) {
     const auto& old = flip.old.cells;
-    if (std::find(old.begin(), old.end(), beyond) == old.end() || keeps_any(old)) continue;
+    if (std::find(old.begin(), old.end(), beyond) == old.end()) continue;
     if (!gain_of_flip(flip, least_gain_without)) continue;
     const auto violations = flips_.violations_after(flip);
     if (!violations) continue;

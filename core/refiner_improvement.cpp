@@ -126,7 +126,6 @@ auto Refiner<D>::collect_at(const Place& p) -> typename Cavity<D>::Status {
   cavity_.release();
   Status status = collect();
   if (status == Status::ok && p.at.kind() == EntryKind::face && edge_beyond(p.x)) return Status::not_star_shaped;
-  if (status == Status::ok && keeps_any(cavity_.cells())) return Status::swallows;
   return status == Status::ok ? cavity_.make_star_shaped() : status;
 }
 
@@ -227,20 +226,6 @@ bool Refiner<D>::violations_are_explained(const Place& p, bool& any) const {
   return all_new_violations([&](std::size_t n, VertexId further) { return any = true, is_explained(p, n, further); });
 }
 
-/// Of a point of the volume: how many there would be that nothing excuses?
-template <int D>
-int Refiner<D>::unexcused_after() const {
-  int count = 0;
-  all_new_violations([&](std::size_t n, VertexId further) {
-    const auto [c, face] = cavity_.boundary()[n];
-    const auto& v = mesh_->cell(c).vertices;
-    bool excused = excuses(further);
-    for (int i = 0; i <= D; ++i) excused = excused || (i != face && excuses(v[i]));
-    return count += !excused, true;
-  });
-  return count;
-}
-
 /// Inserts the point that lessens the excess most, the first of those that do.
 template <int D>
 auto Refiner<D>::insert_for_less(const Item& e) -> Outcome {
@@ -284,13 +269,6 @@ double Refiner<D>::excess_of(const std::vector<CellId>& cells) const {
   double sum = 0;
   for (const CellId c : cells) sum += excess_of(c);
   return sum;
-}
-
-/// Must one of them stay?
-template <int D>
-bool Refiner<D>::keeps_any(const std::vector<CellId>& cells) const {
-  const auto& kept = context_->improvement->kept;
-  return std::any_of(cells.begin(), cells.end(), [&kept](CellId c) { return index(c) < kept.size() && kept[index(c)]; });
 }
 
 /// Would small angles between entities with these homes explain that it is poor, or that a face of it is not locally Delaunay?

@@ -157,7 +157,7 @@ auto Refiner<D>::change_vertex(const Item& e, VertexChange change) -> Outcome {
     if (settled == note.version + 1) continue;
     const auto status = move_.collect(v, at, most_cells_changed);
     if (status == VertexMove::Status::not_owned) return Outcome::not_owned;
-    if (status != VertexMove::Status::ok || keeps_any(move_.cells())) {
+    if (status != VertexMove::Status::ok) {
       settled = note.version + 1;
       continue;
     }

@@ -37,19 +37,6 @@ void LeafRefinement<D>::list_for_improvement() {
   }
 }
 
-/// Elements whose entities excuse others, and their neighbours, which may be why they are named.
-template <int D>
-std::vector<bool> LeafRefinement<D>::keep(std::span<const PoorCell> excusing) {
-  std::vector<bool> kept(excusing.empty() ? 0 : context_.mesh.cell_bound());
-  for (const PoorCell& p : excusing) {
-    kept[index(p.cell)] = true;
-    for (const Link next : context_.mesh.cell(p.cell).links)
-      if (next) kept[index(next.cell())] = true;
-    refused_before_.push_back({{p.cell, context_.mesh.birth(p.cell), EntryKind::cell, 0}, EntityPair{p.reason.entities}, 1, 0, {}, 0});
-  }
-  return kept;
-}
-
 /// Of bounds below what theory proves many elements may be over, for no reason but that. Where they are too many, it would take
 /// many times as long as all before, and mend few of them; taking vertices out is the quickest, and mends most.
 template <int D>
@@ -79,9 +66,9 @@ StopCause LeafRefinement<D>::improve_listed() {
 }
 
 template <int D>
-StopCause LeafRefinement<D>::improve(PoorReasons<D>& reasons, PoorFindings& found) {
-  if (D == 2 || context_.options.keep_boundary || found.poor.empty() || !may_improve(true)) return StopCause::finished;
-  Improvement<D> improvement{reasons, true, keep(reasons.excusing_cells(found))};
+StopCause LeafRefinement<D>::improve(PoorReasons<D>& reasons, std::vector<PoorCell>& found) {
+  if (D == 2 || context_.options.keep_boundary || found.empty() || !may_improve(true)) return StopCause::finished;
+  Improvement<D> improvement{reasons, true};
   const std::uint64_t before = counts_.improved;
   context_.improvement = &improvement;
   StopCause stop = StopCause::finished;

@@ -15,7 +15,6 @@
 
 #include "parallel_support.hpp"
 #include "pgdr/cell_bounds.hpp"
-#include "pgdr/poor_reasons.hpp"
 
 namespace pgdr::test_improvement {
 
@@ -105,33 +104,6 @@ TEST(Improvement, IsReproducibleBelowTheProvedBound) {
       const std::string what = "height " + std::to_string(height) + ", bound " + std::to_string(bound);
       test::expect_reproducible<3>(plc, options, what, test::two_if_quick);
     }
-}
-
-// It was told by the number of a vertex once, which for one made since depended on the thread that had made it: a slot that no
-// vertex had yet said "on input point 0". Bodies with tangles (mpi_triang.off of CGAL) were other ones with other threads.
-TEST(ExcusingHomes, AreOnWhatIsNamed) {
-  const Domain<3> domain(wedge(30));
-  Mesh<3> mesh;
-  const CellBounds<3> bounds;
-  const PoorReasons<3> reasons(mesh, domain, bounds);
-  PoorFindings found;
-  EXPECT_FALSE(ExcusingHomes().known());
-  const auto any = [&](const ExcusingHomes& homes) {
-    bool some = false;
-    for (EntityId p = 0; p < domain.points().size(); ++p) some = some || homes.has(Home(EntityKind::vertex, p));
-    return some;
-  };
-  EXPECT_TRUE(reasons.excusing_homes(found).known());
-  EXPECT_FALSE(any(reasons.excusing_homes(found)));
-  const EntityId named = 1;
-  found.poor.push_back({CellId{0}, true, false, {0, PoorReason::Code::small_angle, {{{EntityKind::segment, named}, {}}}, 30}});
-  const ExcusingHomes homes = reasons.excusing_homes(found);
-  EXPECT_FALSE(homes.has(Home(EntityKind::volume, 0)));
-  for (EntityId s = 0; s < domain.segments().size(); ++s) EXPECT_EQ(homes.has(Home(EntityKind::segment, s)), s == named);
-  for (EntityId f = 0; f < domain.facets().size(); ++f) EXPECT_FALSE(homes.has(Home(EntityKind::facet, f)));
-  const auto& ends = domain.segments()[named].points;
-  for (EntityId p = 0; p < domain.points().size(); ++p)
-    EXPECT_EQ(homes.has(Home(EntityKind::vertex, p)), p == ends[0] || p == ends[1]);
 }
 
 TEST(Excess, IsWhatBoundsSay) {

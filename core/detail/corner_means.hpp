@@ -21,14 +21,4 @@ Point<D> mean_of_corners(const Simplex<D>& s, unsigned corners) {
   return x;
 }
 
-/// Of each two or more, in the same order however the corners are numbered.
-template <int D>
-std::vector<Point<D>> means_of_corners(Simplex<D> s) {
-  std::sort(s.begin(), s.end(), lex_less<D>);
-  std::vector<Point<D>> means;
-  for (unsigned corners = 1; corners < 2u << D; ++corners)
-    if (!std::has_single_bit(corners)) means.push_back(mean_of_corners<D>(s, corners));
-  return means;
-}
-
 }  // namespace pgdr::detail

@@ -27,8 +27,4 @@ std::vector<EntityId> facets_at(const Mesh<3>& mesh, std::span<const CellId> cel
 /// Do all four lie on one of the facets, so that a cell with these corners has a volume by rounding alone?
 bool lie_on_one(const Domain<3>& domain, const std::array<Home, 4>& homes, std::span<const EntityId> facets);
 
-/// Does the one tip lie inside the (perturbed) circumcircle of the other and the edge?
-bool tip_in_circle(const Mesh<3>& mesh, const Domain<3>& domain, EntityId facet, std::array<VertexId, 2> edge,
-                   std::array<VertexId, 2> tips);
-
 }  // namespace pgdr

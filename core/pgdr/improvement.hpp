@@ -21,7 +21,6 @@ template <int D>
 struct Improvement {
   const PoorReasons<D>& reasons;  ///< which no visit changes
   bool takes_out_alone = true;   ///< vertices; does nothing else
-  std::vector<bool> kept;  ///< by slot: of cells that must stay, as what stays elsewhere is explained by them
 };
 
 }  // namespace pgdr

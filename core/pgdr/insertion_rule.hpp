@@ -14,7 +14,7 @@
 //     length is d, and that length is h; in 3D so for an entity that is split for an element of poor shape, where the
 //     radius-edge bound is below the smallest proved one, and for what is poor once all else is done, but for elements
 //     at angles below 20 degrees, or at input vertices without one below 60, that have a reason; whether a point goes in at the
-//     circumcentre, inside of the element (refiner_within.cpp), or on an entity;
+//     circumcentre, inside of the element, or on an entity;
 //   * for an entity encroached upon by q, the cavity's nearest vertex that is none of the entity's: if q is an input
 //     vertex or the entities of q and x do not touch, d = h = 0 (r(x) is then at least the least distance of disjoint
 //     entities; passed on from a facet to a segment, d = |xq| / 2); else d = c R(q), h = R(q); in 3D d = R(q) where the

@@ -56,8 +56,6 @@ class LocalFlips {
 
   /// Asked often by what is slow; once it says true, nothing more is mended by that.
   void set_ended(std::function<bool()> ended) { rewrap_.set_ended(std::move(ended)); }
-  /// Beside which vertices violations do no harm (local_rewrap.hpp).
-  void set_excusing(const ExcusingHomes* homes) { rewrap_.set_excusing(homes); }
   /// What the visit may change; null: everything.
   void set_area(const VisitArea<D>* area) {
     area_ = area;
@@ -71,9 +69,6 @@ class LocalFlips {
   Outcome repair(Pools& pools, CellId c, int face);
   /// 3D: the same by gift wrapping (local_rewrap.hpp); slower.
   Outcome rewrap(Pools& pools, CellId c, int face, LocalRewrap::Effort effort);
-  /// 3D: flips an edge of the face that lies inside a facet at the hull, if its two subfacets are not Delaunay in the facet, and
-  /// makes the cells about it anew. Stuck: there is no such edge, or it must stay.
-  Outcome flip_in_facet(Pools& pools, CellId c, int face);
   /// A cell with all its vertices on one facet, and two subfacets of it, is flat but for rounding: takes it out, which flips
   /// the facet's triangulation there. Stuck: c is no such cell, or cannot be taken out.
   Outcome take_off_flat(Pools& pools, CellId c);
@@ -113,7 +108,6 @@ class LocalFlips {
   enum class Condition { better, no_worse };
   Outcome try_edge(Pools& pools, CellId c, int a, int b, Condition condition);
   Outcome take_ring(CellId c, int a, int b, std::size_t longest, Ring& ring) const;
-  bool is_open(const Ring& ring, VertexId u, VertexId w) const;
   std::optional<std::array<int, 2>> faces_of_flat(CellId c) const;
   void take_old(std::vector<CellId> cells);
   int violations() const;
@@ -135,7 +129,6 @@ class LocalFlips {
     NoRewrap(Mesh<D>&, const Domain<D>&) {}
     void begin_visit(const VisitArea<D>*) {}
     void set_ended(const std::function<bool()>&) {}
-    void set_excusing(const ExcusingHomes*) {}
   };
 
   static constexpr std::size_t longest_ring = 7;

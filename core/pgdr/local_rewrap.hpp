@@ -18,7 +18,6 @@
 #include <utility>
 #include <vector>
 
-#include "pgdr/excusing_homes.hpp"
 #include "pgdr/gift_wrap.hpp"
 #include "pgdr/mesh.hpp"
 #include "pgdr/visit_area.hpp"
@@ -41,13 +40,8 @@ class LocalRewrap {
 
   /// Replaces cells about the unconstrained face by others with fewer violating faces. False if that cannot be done.
   bool repair(Pools& pools, CellId c, int face, Effort effort);
-  /// Makes the cells of the ring about an edge inside a facet at the hull anew, more if need be, so that the facet is Delaunay
-  /// there. False if that cannot be done.
-  bool repair_facet(Pools& pools, std::span<const CellId> ring);
   /// Asked often; once it says true, nothing more is repaired.
   void set_ended(std::function<bool()> ended) { ended_ = std::move(ended); }
-  /// Vertices beside which violations do no harm; before that is known all that are not in the volume. Must outlive it.
-  void set_excusing(const ExcusingHomes* homes) { excusing_ = homes; }
   /// What the visit may change; null: everything.
   void begin_visit(const VisitArea<3>* area) {
     area_ = area;
@@ -82,15 +76,11 @@ class LocalRewrap {
   bool repair_without(Pools& pools, CellId c, CellId d, std::span<const VertexId> left_out);
   bool is_ended() const { return ended_ && ended_(); }
   bool in_volume(VertexId v) const;
-  bool excuses(VertexId v) const;
   void begin(std::span<const CellId> cells, std::span<const VertexId> left_out);
   bool is_left_out(VertexId v) const { return std::find(left_out_.begin(), left_out_.end(), v) != left_out_.end(); }
   bool grow();
-  bool wrap_again(Pools& pools, bool turns_facets = false);
+  bool wrap_again(Pools& pools);
   std::uint64_t number_of_attempt() const;
-  bool make_rim_delaunay();
-  bool turn(std::size_t i, std::size_t j);
-  bool is_subsegment(Index a, Index b) const;
   bool owns(CellId c) const { return !area_ || area_->owns(*mesh_, c); }
   void take(CellId c);
   bool in_conflict(CellId c) const;
@@ -109,7 +99,6 @@ class LocalRewrap {
   Mesh<3>* mesh_;
   const Domain<3>* domain_;
   const VisitArea<3>* area_ = nullptr;
-  const ExcusingHomes* excusing_ = nullptr;
   bool reached_border_ = false;
   std::function<bool()> ended_;  ///< may be empty
   GiftWrap wrap_;

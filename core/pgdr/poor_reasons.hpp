@@ -6,7 +6,6 @@
 // Reads the whole mesh, while nothing else is running; one thread where nothing else is said.
 #pragma once
 
-#include <cassert>
 #include <functional>
 #include <span>
 #include <stop_token>
@@ -15,8 +14,6 @@
 
 #include "pgdr/cell_bounds.hpp"
 #include "pgdr/check.hpp"
-#include "pgdr/excusing_homes.hpp"
-#include "pgdr/local_flips.hpp"
 #include "pgdr/work_list.hpp"
 
 namespace pgdr {
@@ -29,24 +26,6 @@ struct PoorCell {
   bool over_size = false;   ///< over one of size, volume or area
   PoorReason reason;  ///< why
   bool beside = false;  ///< has a vertex on one of the entities named
-};
-
-/// What a look at cells has found.
-struct PoorFindings {
-  std::vector<PoorCell> poor;  ///< those of which something is to be said
-  std::vector<CellId> unexplained;  ///< poor, with no reason but rounding
-  /// With a face that is not locally Delaunay by more than rounding, beside no small angle.
-  std::vector<CellId> violated;
-  /// The same, but that an entity is named elsewhere that excuses it.
-  std::vector<CellId> excused;
-
-  /// Appends what another look has found.
-  void append(const PoorFindings& o) {
-    assert(o.excused.empty() && "found by a look at all");
-    poor.insert(poor.end(), o.poor.begin(), o.poor.end());
-    unexplained.insert(unexplained.end(), o.unexplained.begin(), o.unexplained.end());
-    violated.insert(violated.end(), o.violated.begin(), o.violated.end());
-  }
 };
 
 /// Cells over a bound.
@@ -67,36 +46,25 @@ class PoorReasons {
   using Angle = std::function<double(EntityRef, EntityRef)>;  ///< entity_angle of two, or what a caller remembers of it
 
   /// `keep_boundary`: no segment was split (RefineOptions).
-  PoorReasons(Mesh<D>& mesh, const Domain<D>& domain, const CellBounds<D>& bounds, bool keep_boundary = false);
+  PoorReasons(const Mesh<D>& mesh, const Domain<D>& domain, const CellBounds<D>& bounds, bool keep_boundary = false);
 
   /// What was added before is no longer so.
   void forget() { why_.clear(); }
-  /// Looks for small angles in more cells about an element than before, at which it is not sure that they are why it is poor, but
-  /// for which the checker takes them.
-  void look_far() { most_cells_ = 4096; }
   /// What was refused in one region. What is said of a cell last counts, if it names a pair.
   void add(std::span<const Refusal<D>> refused);
   /// For the next look: a small angle that explains a cell does so for as long as the cell is there.
-  void remember(const PoorFindings& found);
+  void remember(std::span<const PoorCell> found);
 
-  /// Of the cells numbered [first, last) every one over a bound, and every one with a face that is not locally Delaunay for
-  /// other reasons than rounding, each with its reason. `violated`, by cell: those with a face that is not locally Delaunay.
+  /// Of the cells numbered [first, last) every one over a bound, with its reason, and every one with a face that is not locally
+  /// Delaunay beside a small angle, with that. `violated`, by cell: those with a face that is not locally Delaunay.
   /// @pre the refinement has finished. Several threads at once. Ends early, with some of them, once `stop` is requested.
-  PoorFindings of_cells(std::uint32_t first, std::uint32_t last, const std::vector<bool>& violated,
-                        const std::stop_token& stop = {}) const;
+  std::vector<PoorCell> of_cells(std::uint32_t first, std::uint32_t last, const std::vector<bool>& violated,
+                                 const std::stop_token& stop = {}) const;
   /// The same of the cells that were refused: all there are where every face is locally Delaunay.
-  PoorFindings of_refused(const std::stop_token& stop = {}) const;
-  /// Moves from `found.violated` to `found.excused` what has at each of its faces that are not locally Delaunay a vertex, or whose
-  /// neighbour there has one, on an entity that is named as a reason: its refusal excuses that. @pre all cells were looked at.
-  void excuse(PoorFindings& found) const;
-  /// Of the cells in `found.poor`, some whose entities excuse all that is excused, in an order, and so chosen, that the slots of
-  /// cells do not matter.
-  std::vector<PoorCell> excusing_cells(const PoorFindings& found) const;
+  std::vector<PoorCell> of_refused(const std::stop_token& stop = {}) const;
   /// Would entities with vertices of these homes on them, of which two meet at a small angle near enough, explain an element
   /// with this circumsphere? Several threads at once. (False where very many meet.)
   bool has_reason(std::span<const Home> homes, const Ball<D>& sphere, const Angle& angle) const;
-  /// Vertices on such entities.
-  ExcusingHomes excusing_homes(const PoorFindings& found) const;
 
  private:
   using EntityIds = std::vector<EntityId>;
@@ -115,19 +83,13 @@ class PoorReasons {
   bool any_entity_of(Home home, F f) const;
   template <class F>
   bool any_constrained(CellId c, F f) const;
-  void add_entities(CellId c, std::vector<EntityRef>& list) const;
   void add_entities_of(Home home, std::vector<EntityRef>& list) const;
-  std::vector<std::vector<EntityRef>> entities_about_violations(CellId c) const;
-  void look_at(CellId c, bool violated, PoorFindings& found) const;
-  bool is_violated_beyond_rounding(CellId c) const;
+  void look_at(CellId c, bool violated, std::vector<PoorCell>& found) const;
 
   const Mesh<D>* mesh_;
   const Domain<D>* domain_;
   const CellBounds<D>* bounds_;
   bool keep_boundary_;
-  LocalFlips<D> flips_;
-  std::size_t most_cells_ = 256;  ///< to look at for one
-  double rounding_ = 0;  ///< some ulps of the input
   std::vector<EntityIds> segments_at_;  ///< of each input point
   /// Of the refused elements that are still there: by what; no entities if no pair was at fault.
   std::unordered_map<std::uint32_t, std::optional<EntityPair>> why_;

@@ -23,7 +23,6 @@
 
 #include "pgdr/cavity.hpp"
 #include "pgdr/cell_bounds.hpp"
-#include "pgdr/excusing_homes.hpp"
 #include "pgdr/insertion_rule.hpp"
 #include "pgdr/key_set.hpp"
 #include "pgdr/local_flips.hpp"
@@ -79,8 +78,6 @@ struct RefineContext {
   const std::chrono::steady_clock::time_point start;  ///< of the time limit
   /// 3D: what is poor now would stay so, and asks for c times the room. Set while no visit runs.
   bool last_resort = false;
-  /// Vertices on entities that are named as reasons, which excuse violations beside them. Set while no visit runs.
-  ExcusingHomes excusing;
   /// 3D: visits change the mesh for elements that stay poor, and treat nothing else (refiner_improvement.cpp). Set while no visit
   /// runs.
   const Improvement<D>* improvement = nullptr;
@@ -111,7 +108,6 @@ struct RegionVisit {
   std::uint64_t most_insertions = std::numeric_limits<std::uint64_t>::max();  ///< share of the budget
   bool violations_seen = false;         ///< look for faces that are not locally Delaunay at every insertion
   bool rewraps = false;                 ///< make cells anew where no flip helps
-  bool repairs_facets = false;          ///< flip subfacets, too, where no flip of cells helps: slow
   bool entities_refused = false;        ///< by any visit before; after the visit, by this one too
   // done
   /// Entries for another region.
@@ -147,14 +143,6 @@ class Refiner {
   /// Mends or moves a violation that no entity is beside in as large a region as that takes; everything must be owned.
   /// False if that cannot be done.
   bool mend(const Entry<D>& e);
-  /// The same of the faces of a cell, until one is mended or moved.
-  bool mend_cell(CellId c);
-  /// Lists the faces of the cell and its neighbours that are not locally Delaunay. False if there are none.
-  bool list_violations_about(CellId c);
-  /// For an element that stays poor, or beside a face that is not locally Delaunay, for no reason: inserts its circumcentre,
-  /// splits an entity for it, or inserts a point inside of it, with the least distances that the insertion rule has for such.
-  /// False if none may go in. Everything must be owned, and `begin` have been called.
-  bool insert_within(const Entry<D>& e);
   bool ended() { return context_->ended(); }  ///< has the run?
   /// Is this violating face between volume vertices alone?
   bool is_far_from_walls(const Entry<D>& e) const;
@@ -240,16 +228,6 @@ class Refiner {
   std::optional<Item> hiding_wall(CellId c, const Point<D>& x);
   Outcome split_instead(const Item& entity, const Item& e, const CellVerdict& verdict);
 
-  // refiner_within.cpp
-  bool violates_anywhere(CellId c) const;
-  double room_for(const Point<D>& x, CellId c);
-  double squared_distance_to_walls(const Point<D>& x) const;
-  bool insert_mean_of_corners(const Item& e, const CellVerdict& verdict);
-  bool excuses(VertexId v) const { return context_->excusing.excuses(mesh_->vertex(v).home); }
-  int unexcused_in_cavity() const;
-  int fewer_unexcused() const;
-  bool insert_for_fewer_violations(const Item& e);
-
   // refiner_improvement.cpp: what stays poor
   /// Where a point may go, and on what.
   struct Place {
@@ -270,12 +248,10 @@ class Refiner {
   template <class F>
   bool all_new_violations(F f) const;
   bool violations_are_explained(const Place& p, bool& any) const;
-  int unexcused_after() const;
 
   Outcome insert_for_less(const Item& e);
   double excess_of(CellId c) const;
   double excess_of(const std::vector<CellId>& cells) const;
-  bool keeps_any(const std::vector<CellId>& cells) const;
   bool is_explained(const std::vector<Home>& homes, const Simplex<D>& s) const;
   Outcome note_change(const Item& e, std::vector<CellId> new_cells, bool violates);
 
@@ -355,7 +331,6 @@ class Refiner {
   std::vector<std::size_t> poor_turned_;  ///< of the cells that the last move would make
   mutable std::map<std::pair<std::uint64_t, std::uint64_t>, double> angles_;  ///< of pairs of entities, in degrees
   mutable std::vector<CellId> seen_;  ///< that it took to decide about the entry treated, with repetitions
-  bool unexplained_ = false;  ///< is the element treated one that stays poor for no reason?
 };
 
 extern template struct RefineContext<2>;

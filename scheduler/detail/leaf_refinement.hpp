@@ -39,9 +39,8 @@ class LeafRefinement {
   /// Lists the whole mesh and refines it. @throws what a callback throws
   StopCause run();
 
-  /// Of every cell over a bound, or beside a face that is not locally Delaunay, why. Where nothing explains it, points are
-  /// tried that ask for less room before it is left at that; then points that leave fewer such cells. @pre run() said finished.
-  /// `stop` becomes what ends this early.
+  /// Of every cell over a bound, or beside a face that is not locally Delaunay, why; after changes that leave fewer such cells.
+  /// @pre run() said finished. `stop` becomes what ends this early.
   std::vector<PoorCell> explain(StopCause& stop);
 
   const RefineCounts& counts() const { return counts_; }
@@ -97,7 +96,6 @@ class LeafRefinement {
   Orthtree<D> tree_;
   LeafWorks<D> works_;
   std::uint64_t generation_ = 0, vertices_;
-  std::uint64_t unexplained_violations_ = 0;
   bool violations_seen_ = false;
   const bool uneven_;  ///< there may be some that no insertion brings
   bool all_listed_ = false;  ///< every poor cell is on a list, between visits
@@ -118,16 +116,12 @@ class LeafRefinement {
   bool begin_last_resort();
   /// Calls f with the refusals of each leaf.
   void for_each_refused(const std::function<void(std::span<const Refusal<D>>)>& f);
-  PoorFindings look_for_poor(PoorReasons<D>& reasons);
-  bool lists_all_poor(const PoorFindings& found) const;
-  void help_unexplained(PoorReasons<D>& reasons, PoorFindings& found, int most_in_vain);
-  std::vector<CellId> with_rings(std::vector<CellId> cells, int rings) const;
-  bool insert_within(std::span<const CellId> cells, bool mends);
+  std::vector<PoorCell> look_for_poor(PoorReasons<D>& reasons);
+  bool lists_all_poor(std::span<const PoorCell> found) const;
   bool may_improve(bool takes_out_alone) const;
   void list_for_improvement();
-  std::vector<bool> keep(std::span<const PoorCell> excusing);
   StopCause improve_listed();
-  StopCause improve(PoorReasons<D>& reasons, PoorFindings& found);
+  StopCause improve(PoorReasons<D>& reasons, std::vector<PoorCell>& found);
   void total_statistics();
   std::vector<Entry<D>> violations_everywhere();
   std::vector<Entry<D>> look_for_violations();
