@@ -11,50 +11,20 @@
 namespace pgdr {
 namespace {
 
-// Cells of a region, and orders of the front that are tried in it: few where this is done for very many faces.
-struct Attempt {
-  std::size_t most_cells;
-  int orders;
-};
-constexpr Attempt quick{20, 1}, wide{512, 1}, broad{128, 1}, deep{96, 16};
+constexpr std::size_t quick_cells = 20, wide_cells = 512;  // of a region: few where this is done for very many faces
 constexpr std::size_t least_growth = 2;  // of a region by one part in so many, before all of it is wrapped again
 constexpr int far_weight = 10000;  // of a violation that no entity is beside
 
 }  // namespace
 
 bool LocalRewrap::repair(Pools& pools, CellId c, int face, Effort effort) {
-  random_.seed();
-  const Link link = mesh_->cell(c).links[face];
-  const CellId d = link.cell();
+  const CellId d = mesh_->cell(c).links[face].cell();
   reached_border_ = !owns(c) || !owns(d);
   if (reached_border_) return false;
-  const bool thorough = effort == Effort::thorough;
-  least_gain_ = thorough ? far_weight : 0;
+  most_cells_ = effort == Effort::quick ? quick_cells : wide_cells;
   work_ = 0;
-  std::vector<std::vector<VertexId>> left_out{{}};
-  if (thorough) {
-    std::vector<VertexId> inside;
-    for (const VertexId v : mesh_->cell(c).vertices)
-      if (in_volume(v)) inside.push_back(v);
-    if (const VertexId v = mesh_->cell(d).vertices[link.face()]; in_volume(v)) inside.push_back(v);
-    for (const VertexId v : inside) left_out.push_back({v});
-    if (inside.size() > 1) left_out.push_back(inside);
-  }
+  begin(c, d);
   bool repaired = false;
-  const auto attempts = thorough ? std::vector{broad, deep} : std::vector{effort == Effort::quick ? quick : wide};
-  for (const Attempt& attempt : attempts) {
-    most_cells_ = attempt.most_cells;
-    orders_ = attempt.orders;
-    for (const auto& vertices : left_out) repaired = repaired || (!reached_border_ && repair_without(pools, c, d, vertices));
-  }
-  (repaired ? useful_work_ : lost_work_) += work_;
-  return repaired;
-}
-
-bool LocalRewrap::repair_without(Pools& pools, CellId c, CellId d, std::span<const VertexId> left_out) {
-  begin(std::array{c, d}, left_out);
-  // Vertices left out may have more cells than a region should.
-  bool repaired = !left_out.empty() && !reached_border_ && old_.size() <= most_cells_ && wrap_again(pools);
   std::size_t wrapped = old_.size();
   for (bool grows = true; grows && !repaired && !reached_border_ && !is_ended();) {
     grows = grow();
@@ -64,16 +34,16 @@ bool LocalRewrap::repair_without(Pools& pools, CellId c, CellId d, std::span<con
     repaired = wrap_again(pools);
   }
   release();
+  (repaired ? useful_work_ : lost_work_) += work_;
   return repaired;
 }
 
 bool LocalRewrap::in_volume(VertexId v) const { return mesh_->vertex(v).home.kind() == EntityKind::volume; }
 
-/// Where the constrained Delaunay triangulation exists, every order of the front leads to it; where it does not, another
-/// order may lead to a better mesh, or to one at all.
+/// Where the constrained Delaunay triangulation exists, every order of the front leads to it.
 bool LocalRewrap::wrap_again(Pools& pools) {
   const int before = violations_before();
-  if (before <= least_gain_) return false;
+  if (before == 0) return false;
   const std::uint64_t attempt = number_of_attempt();
   if (in_vain_.contains(attempt)) return false;
   find_rim();
@@ -85,24 +55,20 @@ bool LocalRewrap::wrap_again(Pools& pools) {
   }
   std::sort(rim_by_face_.begin(), rim_by_face_.end());
   work_ += old_.size() * vertices_.size();
-  for (int order = 0; order < orders_ && !is_ended(); ++order) {
-    if (wrap_.fill(points_, front_, 2 * most_cells_, ended_) && keeps_subsegments() &&
-        violations_after(before - least_gain_) + least_gain_ < before) {
-      replace(pools);
-      return true;
-    }
-    for (std::size_t i = front_.size(); i > 1; --i) std::swap(front_[i - 1], front_[random_() % i]);
+  if (is_ended()) return false;
+  if (wrap_.fill(points_, front_, 2 * most_cells_, ended_) && keeps_subsegments() && violations_after(before) < before) {
+    replace(pools);
+    return true;
   }
   if (!is_ended()) in_vain_.insert(attempt);
   return false;
 }
 
-/// Another one for other cells, or cells about them, other vertices that are left out, and more that is tried.
+/// Another one for other cells, or cells about them, and more that is tried.
 std::uint64_t LocalRewrap::number_of_attempt() const {
   std::vector<CellId> cells = old_;
   std::sort(cells.begin(), cells.end());
-  std::uint64_t number = *surroundings_of<3>(*mesh_, cells);
-  for (const VertexId v : left_out_) number = std::rotl(number, 25) ^ (index(v) + 1);
+  const std::uint64_t number = *surroundings_of<3>(*mesh_, cells);
   return std::rotl(number, 25) ^ most_cells_;
 }
 
@@ -112,7 +78,6 @@ void LocalRewrap::release() {
 }
 
 auto LocalRewrap::number(VertexId v) -> Index {
-  if (is_left_out(v)) return no_index;  // inside the region: never asked for a face of the rim
   const auto at = std::find(vertices_.begin(), vertices_.end(), v);
   if (at == vertices_.end()) {
     vertices_.push_back(v);
@@ -135,25 +100,12 @@ bool LocalRewrap::in_conflict(CellId c) const {
   return false;
 }
 
-void LocalRewrap::begin(std::span<const CellId> cells, std::span<const VertexId> left_out) {
+void LocalRewrap::begin(CellId c, CellId d) {
   vertices_.clear();
   points_.clear();
-  region_ = mesh_->region(cells[0]);
-  left_out_.assign(left_out.begin(), left_out.end());
-  for (const CellId c : cells) take(c);
-  if (left_out.empty()) return;
-  for (std::size_t i = 0; i < old_.size(); ++i) {
-    const auto& k = mesh_->cell(old_[i]);
-    for (int f = 0; f < 4; ++f) {
-      const Link next = k.links[f];
-      if (!next || mesh_->constrained(old_[i], f) || mesh_->marked(next.cell())) continue;
-      const auto& v = mesh_->cell(next.cell()).vertices;
-      if (std::none_of(v.begin(), v.end(), [this](VertexId x) { return is_left_out(x); })) continue;
-      reached_border_ = reached_border_ || !owns(next.cell());
-      if (reached_border_) return;
-      take(next.cell());
-    }
-  }
+  region_ = mesh_->region(c);
+  take(c);
+  take(d);
 }
 
 /// Adds the neighbours that are in conflict with a vertex of the region. False if there are none, or too many.

@@ -16,7 +16,6 @@
 namespace pgdr {
 namespace {
 
-constexpr std::uint64_t price_of_repetition = 100;  // in flips
 constexpr std::uint64_t most_lost_work = 20'000'000;  // of rewrapping large regions in one visit: some seconds
 constexpr std::uint64_t most_lost_inside = 50'000;  // likewise, once entities have been refused
 
@@ -73,7 +72,7 @@ Refiner<D>::Refiner(RefineContext<D>& context, Pools pools)
       flips_(context.mesh, context.domain),
       move_(context.mesh, context.domain) {
   cavity_.set_seen(&seen_);
-  flips_.set_ended([this] { return ended(); });
+  flips_.set_ended([this] { return context_->ended(); });
 }
 
 template <int D>
@@ -213,7 +212,7 @@ auto Refiner<D>::rewrap_effort(const Item& e) const -> std::optional<LocalRewrap
   const auto inside = std::count_if(vertices.begin(), vertices.end(), [this](VertexId v) { return in_volume(v); });
   const bool refused = visit_->entities_refused;
   if ((!refused || inside == D + 1) && flips_.rewrap_pays(refused ? most_lost_inside : most_lost_work)) return LocalRewrap::Effort::wide;
-  if (visit_->rewraps || inside >= few) return LocalRewrap::Effort::quick;
+  if (inside >= few) return LocalRewrap::Effort::quick;
   return std::nullopt;
 }
 
@@ -227,21 +226,8 @@ void Refiner<D>::flip(const Item& e) {
     if (const auto effort = rewrap_effort(e)) outcome = flips_.rewrap(pools_, e.cell, e.which(), *effort);
   if (outcome == LocalFlips<D>::Outcome::not_owned) return visit_->set_aside.push_back(e);
   if (outcome == LocalFlips<D>::Outcome::stuck) return list_poor(e.cell, Item::not_delaunay, mesh_->sphere(e.cell), 0);
-  if (visit_->rewraps && made_before()) flips_left_ -= std::min(flips_left_ - 1, price_of_repetition);
   --flips_left_;
   flipped();
-}
-
-/// Has this visit made the cells of the last flip, or rewrapping, already? Others, which may trade violations, have undone it
-/// then, and may do so again.
-template <int D>
-bool Refiner<D>::made_before() {
-  std::vector<VertexId> key;
-  for (const CellId c : flips_.new_cells()) {
-    const auto& v = mesh_->cell(c).vertices;
-    key.insert(key.end(), v.begin(), v.end());
-  }
-  return !flipped_.insert(std::move(key)).second;
 }
 
 /// Lists what the last flip, or rewrapping, has made.
@@ -251,21 +237,6 @@ void Refiner<D>::flipped() {
   const std::vector<CellId> made = flips_.new_cells();
   for (const CellId c : made) list_cell(c);
   list_violations(made);
-}
-
-template <int D>
-bool Refiner<D>::is_far_from_walls(const Item& e) const {
-  const auto is_inside = [this](VertexId v) { return in_volume(v); };
-  const auto& beyond = mesh_->cell(mesh_->cell(e.cell).links[e.which()].cell()).vertices;
-  const auto& vertices = mesh_->cell(e.cell).vertices;
-  return std::all_of(vertices.begin(), vertices.end(), is_inside) && std::all_of(beyond.begin(), beyond.end(), is_inside);
-}
-
-template <int D>
-bool Refiner<D>::mend(const Item& e) {
-  if (flips_.rewrap(pools_, e.cell, e.which(), LocalRewrap::Effort::thorough) != LocalFlips<D>::Outcome::flipped) return false;
-  flipped();
-  return true;
 }
 
 template <int D>
@@ -282,7 +253,7 @@ void Refiner<D>::look_at_budget() {
                                                                : std::min<std::uint64_t>(stride_ * 2, 256);
   checked_at_ = treated + stride_;
   checked_time_ = now;
-  ended();
+  context_->ended();
   if (!options_->progress) return;
   const std::unique_lock lock(context_->progress_mutex, std::try_to_lock);
   if (!lock || now - context_->last_progress < std::chrono::milliseconds(200)) return;
@@ -400,7 +371,6 @@ void Refiner<D>::begin(RegionVisit<D>& visit) {
   flips_.set_area(visit.area);
   move_.set_area(visit.area);
   flips_left_ = 0;
-  flipped_.clear();
   checked_at_ = reported_ = 0;
 }
 

@@ -4,6 +4,7 @@
 // The last visits of a run, which change the mesh for elements that stay poor (core/refiner_improvement.cpp): of leaves, as those
 // before them, with claims as large as it takes. Vertices are taken out before points come: that leaves as few poor elements, and
 // fewer of all.
+#include <cassert>
 #include <utility>
 
 #include "detail/leaf_refinement.hpp"
@@ -11,19 +12,11 @@
 
 namespace pgdr::detail {
 
-/// Takes what was refused off the lists, and what mending left there, and lists the poor elements among it anew.
+/// Takes what was refused off the lists, and lists the poor elements among it anew.
 template <int D>
 void LeafRefinement<D>::list_for_improvement() {
   std::vector<bool> listed(context_.mesh.cell_bound());
-  // A visit of the whole tree does not treat the poor elements of its list: it would wait for ever.
-  std::vector<Entry<D>> waiting;
-  whole_list_.drain([&](const Entry<D>& e) {
-    if (e.kind() == EntryKind::cell && e.alive(context_.mesh)) waiting.push_back(e);
-  });
-  for (const Entry<D>& e : waiting) {
-    if (!listed[index(e.cell)] && context_.bounds.test(context_.mesh, e.cell)) relist(e);
-    listed[index(e.cell)] = true;
-  }
+  assert(whole_list_.poor() == 0);
   for (Node n = 0; n <= tree_.node_count(); ++n) {
     auto& list = n < tree_.node_count() ? works_[n].list.refused : whole_list_.refused;
     for (Refusal<D>& r : std::exchange(list, {})) {

@@ -120,13 +120,6 @@ std::vector<Entry<D>> LeafRefinement<D>::look_for_violations() {
   return found;
 }
 
-template <int D>
-std::vector<Entry<D>> LeafRefinement<D>::violations_everywhere() {
-  look_for_violations();
-  sort_by_vertices(violations_);
-  return violations_;
-}
-
 /// Of a run that has seen any, or should look for them, those with other surroundings than at the last look. Beside entities
 /// that were refused a constrained Delaunay triangulation need not exist, so that whole cavities may bring violations, too.
 template <int D>
@@ -264,7 +257,6 @@ StopCause LeafRefinement<D>::run() {
   StopCause stop = refine_to_the_end();
   if (stop == StopCause::finished && begin_last_resort()) stop = refine_to_the_end();
   if (stop == StopCause::finished) new_violations();  // that the last pass left, so that they are seen
-  if (stop == StopCause::finished && violations_seen_) stop = mend();
   if (stop == StopCause::finished) stop = static_cast<StopCause>(context_.stop.load());
   total_statistics();
   if (stop == StopCause::finished && min_edge_hit_) return StopCause::min_edge;

@@ -10,10 +10,7 @@
 // so that they are faces of the new triangulation, but where vertices hide behind walls. A workspace of one visit.
 #pragma once
 
-#include <algorithm>
 #include <functional>
-#include <random>
-#include <span>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -29,9 +26,8 @@ class LocalRewrap {
  public:
   using Pools = Mesh<3>::Pools;  ///< of the worker
 
-  /// Small regions only; or large ones; or, of violations that no entity is beside, middling ones and many orders, and
-  /// vertices of the volume may be taken out.
-  enum class Effort { quick, wide, thorough };
+  /// Small regions only; or large ones.
+  enum class Effort { quick, wide };
 
   LocalRewrap(Mesh<3>& mesh, const Domain<3>& domain) : mesh_(&mesh), domain_(&domain) {}  ///< both must outlive it
   ~LocalRewrap() { release(); }
@@ -71,13 +67,9 @@ class LocalRewrap {
     EntityId entity;
   };
 
-  static constexpr Index no_index = 0xffff;
-
-  bool repair_without(Pools& pools, CellId c, CellId d, std::span<const VertexId> left_out);
   bool is_ended() const { return ended_ && ended_(); }
   bool in_volume(VertexId v) const;
-  void begin(std::span<const CellId> cells, std::span<const VertexId> left_out);
-  bool is_left_out(VertexId v) const { return std::find(left_out_.begin(), left_out_.end(), v) != left_out_.end(); }
+  void begin(CellId c, CellId d);
   bool grow();
   bool wrap_again(Pools& pools);
   std::uint64_t number_of_attempt() const;
@@ -115,9 +107,6 @@ class LocalRewrap {
   std::vector<Side> sides_;  ///< of new cells, and of cells beyond the rim
   std::vector<Subsegment> subsegments_;
   std::size_t most_cells_ = 0;
-  int orders_ = 1, least_gain_ = 0;
-  std::minstd_rand random_;
-  std::vector<VertexId> left_out_;  ///< vertices that are taken out; the region has all their cells
   /// What was tried in this visit in vain, by number_of_attempt. Each face of a region that is not locally Delaunay leads to the
   /// same attempts, and so do the looks at it when something changes beside it.
   std::unordered_set<std::uint64_t> in_vain_;

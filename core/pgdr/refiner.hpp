@@ -15,7 +15,6 @@
 #include <map>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -107,7 +106,6 @@ struct RegionVisit {
   int granularity = std::numeric_limits<int>::max();  ///< end this many buckets after the first
   std::uint64_t most_insertions = std::numeric_limits<std::uint64_t>::max();  ///< share of the budget
   bool violations_seen = false;         ///< look for faces that are not locally Delaunay at every insertion
-  bool rewraps = false;                 ///< make cells anew where no flip helps
   bool entities_refused = false;        ///< by any visit before; after the visit, by this one too
   // done
   /// Entries for another region.
@@ -140,13 +138,6 @@ class Refiner {
   void add_violations(CellId c, std::vector<Entry<D>>& to) const;
   /// The same where many cells are looked at: a face between two of them is decided from one, and added for both.
   void add_violations(CellId c, const SlotSet& looked_at, std::vector<Entry<D>>& to) const;
-  /// Mends or moves a violation that no entity is beside in as large a region as that takes; everything must be owned.
-  /// False if that cannot be done.
-  bool mend(const Entry<D>& e);
-  bool ended() { return context_->ended(); }  ///< has the run?
-  /// Is this violating face between volume vertices alone?
-  bool is_far_from_walls(const Entry<D>& e) const;
-  bool violates(const Entry<D>& e) const { return flips_.violates(e.cell, e.which()); }  ///< is the face not locally Delaunay?
   /// Makes `visit` the one that list_cell lists for.
   void begin(RegionVisit<D>& visit);
 
@@ -286,7 +277,6 @@ class Refiner {
   void flip(const Item& e);
   std::optional<LocalRewrap::Effort> rewrap_effort(const Item& e) const;
   bool in_volume(VertexId v) const { return mesh_->vertex(v).home.kind() == EntityKind::volume; }
-  bool made_before();
   Outcome give_up(Outcome outcome) {
     cavity_.release();
     return outcome;
@@ -320,7 +310,6 @@ class Refiner {
   mutable LastSphere last_sphere_;  ///< 2D: that was asked for
   std::vector<Item> abroad_;  ///< elements with their circumcentre in other regions
   std::vector<std::uint32_t> letters_, box_sizes_;  ///< scratch of send_abroad
-  std::set<std::vector<VertexId>> flipped_;  ///< cells that flips of a mending visit have made, by their vertices
   std::vector<Item> found_;  ///< violations at new cells, before they are listed
   std::uint64_t flips_left_ = 0, checked_at_ = 0, reported_ = 0;
   std::uint64_t stride_ = 1;  ///< insertions between two looks at the clock

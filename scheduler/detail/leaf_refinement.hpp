@@ -10,7 +10,6 @@
 #include <mutex>
 #include <optional>
 #include <random>
-#include <set>
 #include <span>
 #include <thread>
 #include <vector>
@@ -123,13 +122,9 @@ class LeafRefinement {
   StopCause improve_listed();
   StopCause improve(PoorReasons<D>& reasons, std::vector<PoorCell>& found);
   void total_statistics();
-  std::vector<Entry<D>> violations_everywhere();
   std::vector<Entry<D>> look_for_violations();
   std::vector<Entry<D>> new_violations();
   void sort_by_vertices(std::vector<Entry<D>>& entries) const;
-  RegionVisit<D> mending_visit();
-  StopCause mend();
-  std::size_t mend_far_from_walls(std::set<std::array<VertexId, D + 1>>& hopeless);
   bool may_have_changed(const LeafWork<D>* work, const Refusal<D>& refusal) const;
   std::vector<Refusal<D>> take_refused();
   void set_aside(Node leaf, std::uint32_t order, const Entry<D>& e);
