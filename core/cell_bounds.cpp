@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -21,6 +22,23 @@ double checked_size(const SizingField<D>& size, const Point<D>& x) {
   d.message = "the size function returned " + std::to_string(s) + " at (" + std::to_string(x[0]) + ", " +
               std::to_string(x[1]) + (D == 3 ? ", " + std::to_string(x[D - 1]) : "") + "); sizes must be positive";
   throw UsageError(std::move(d));
+}
+
+/// The binary logarithm of a positive number, to 1e-12. Of operations that IEEE 754 defines alone, since meshes rest on it: std::log2
+/// differs from library to library.
+double log2_of(double x) {
+  if (x == std::numeric_limits<double>::infinity()) return x;
+  int exponent;
+  double m = std::frexp(x, &exponent);  // in [1/2, 1)
+  constexpr double root_half = 0.7071067811865476, two_over_ln2 = 2.8853900817779268;
+  if (m < root_half) {
+    m *= 2;
+    --exponent;
+  }
+  const double t = (m - 1) / (m + 1), t2 = t * t;  // ln m = 2 (t + t^3 / 3 + t^5 / 5 + ...), |t| < 0.172
+  double sum = 0;
+  for (int k = 15; k > 1; k -= 2) sum = t2 * (1.0 / k + sum);
+  return exponent + two_over_ln2 * (t + t * sum);
 }
 
 template <int D>
@@ -103,15 +121,15 @@ double CellBounds<D>::excess(const Simplex<D>& s, int region) const {
   std::optional<double> radius2 = squared_circumradius_quickly<D>(s);
   // Of cells flatter than that the centre would be had in integers, which took half of the time where there are many.
   if (const auto rough = radius2 ? std::nullopt : squared_circumradius_quickly<D>(s, roughly))
-    if (*rough > limit2 * (1 + rough_margin) && limit2 > 0) return of_powers(std::log2(*rough / limit2) / 2);
+    if (*rough > limit2 * (1 + rough_margin) && limit2 > 0) return of_powers(log2_of(*rough / limit2) / 2);
   if (!radius2) radius2 = squared_circumradius_of_flat<D>(s);
-  if (radius2 && *radius2 > limit2 * (1 + margin) && limit2 > 0) return of_powers(std::log2(*radius2 / limit2) / 2);
+  if (radius2 && *radius2 > limit2 * (1 + margin) && limit2 > 0) return of_powers(log2_of(*radius2 / limit2) / 2);
   const bool within = radius2 && *radius2 < limit2 * (1 - margin);
   if (!within && !radius_edge_within<D>(s, radius_edge_bound)) {
     const double limit = radius_edge_bound * std::sqrt(shortest2);
     // A comparison alone, as the circumcentre of a flat one takes many times as long.
     if (!circumradius_within<D>(s, std::ldexp(limit, most_powers + 1))) return of_powers(most_powers);
-    return of_powers(std::log2(std::sqrt(circumsphere<D>(s).squared_radius) / limit));
+    return of_powers(log2_of(std::sqrt(circumsphere<D>(s).squared_radius) / limit));
   }
   return within_size(s, region) ? 0 : 1;
 }
