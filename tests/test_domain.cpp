@@ -24,6 +24,18 @@ using test::plate_with_pentagon;
 using test::triangulated;
 using test::turned;
 
+// The triangulation of facet f by itself: Delaunay in the whole of it, so of other triangles than the Domain's in general.
+detail::PlanarResult triangulate_facet(const Domain<3>& domain, EntityId f, detail::PlanarTriangulation& out) {
+  std::vector<detail::PlanarEdge> edges;
+  for (const EntityId s : domain.facet_segments(f)) edges.push_back(domain.segments()[s].points);
+  const detail::PlanarResult result = out.build(domain.points(), domain.facet_points(f), edges, domain.facets()[f].axis);
+  if (!result) return result;
+  edges.clear();
+  for (const auto& [a, b, c] : domain.triangles(f)) edges.insert(edges.end(), {{a, b}, {b, c}, {c, a}});
+  out.keep_left_of(edges);
+  return result;
+}
+
 // What holds of every Domain<3>.
 void expect_consistent(const Domain<3>& d) {
   const auto p = d.points();

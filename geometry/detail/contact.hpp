@@ -15,7 +15,6 @@
 #include <span>
 #include <vector>
 
-#include "pgdr/domain.hpp"
 #include "pgdr/types.hpp"
 
 namespace pgdr::detail {

@@ -19,11 +19,6 @@
 
 #include "pgdr/types.hpp"
 
-namespace pgdr {
-template <int D>
-class Domain;
-}
-
 namespace pgdr::detail {
 
 using PlanarEdge = std::array<std::uint32_t, 2>;
@@ -196,10 +191,5 @@ class PlanarTriangulation {
   std::vector<std::uint32_t> touch_stamp_;
   std::uint32_t stamp_ = 0;
 };
-
-/// Builds the triangulation of facet f of the domain: its points by their domain index, its segments as constraints,
-/// and what its triangles cover as the domain. For a planar facet these are other triangles than those of the Domain
-/// in general (Delaunay in the whole facet), with the same union.
-PlanarResult triangulate_facet(const Domain<3>& domain, std::uint32_t f, PlanarTriangulation& out);
 
 }  // namespace pgdr::detail

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "pgdr/domain.hpp"
+#include "pgdr/types.hpp"
 
 namespace pgdr::detail {
 

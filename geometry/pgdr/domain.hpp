@@ -21,7 +21,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <span>
 #include <stop_token>
@@ -37,9 +36,6 @@ namespace pgdr PGDR_API {
 namespace detail {
 class BentFacets;
 }
-
-using EntityId = std::uint32_t;  ///< counts the segments, or the facets, of a Domain from 0
-inline constexpr EntityId no_entity = 0xffffffffu;  ///< none
 
 /// A maximal segment, which the mesh has as a chain of subsegments.
 struct DomainSegment {
@@ -185,14 +181,6 @@ Point<D> point_on_segment(const Domain<D>& domain, EntityId s, double t);
 template <int D>
 double segment_parameter(const Domain<D>& domain, EntityId s, const Point<D>& p);
 
-/// An entity of a Domain; a vertex by its domain point.
-enum class EntityKind : std::uint8_t { vertex, segment, facet, volume };
-/// Names an entity.
-struct EntityRef {
-  EntityKind kind = EntityKind::volume;  ///< what it is
-  EntityId id = no_entity;               ///< a domain point, segment or facet; none of the volume
-  friend bool operator==(const EntityRef&, const EntityRef&) = default;  ///< the same entity
-};
 /// The smallest angle, in degrees, between two entities that share an input vertex; 180 if they share none, are the
 /// same, or one is part of the other (a segment of the facet), and for a vertex or the volume. Segments: between their
 /// directions at the shared vertex. Two facets: their dihedral angles at common segments, each between the half-planes

@@ -79,4 +79,17 @@ constexpr std::uint32_t index(Id id) {
   return static_cast<std::uint32_t>(id);
 }
 
+/// Number of a segment, or of a facet, of a Domain, counted from 0; of a domain point where an EntityRef names a vertex.
+using EntityId = std::uint32_t;
+inline constexpr EntityId no_entity = 0xffffffffu;  ///< no entity has this id
+
+/// The kinds of entities of a Domain (domain.hpp), by ascending dimension.
+enum class EntityKind : std::uint8_t { vertex, segment, facet, volume };
+/// The name of an entity: its kind, and its number among those of its kind.
+struct EntityRef {
+  EntityKind kind = EntityKind::volume;  ///< what it is
+  EntityId id = no_entity;               ///< a domain point, segment or facet; no_entity for the volume
+  friend bool operator==(const EntityRef&, const EntityRef&) = default;  ///< the same entity
+};
+
 }  // namespace pgdr
