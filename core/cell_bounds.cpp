@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "detail/vectors.hpp"
+#include "numbers/vectors.hpp"
 #include "pgdr/error.hpp"
 
 namespace pgdr {

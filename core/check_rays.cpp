@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detail/check_exact.hpp"
+#include "numbers/exact_tests.hpp"
 #include "detail/check_input.hpp"
 #include "pgdr/predicates.hpp"
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "detail/vectors.hpp"
+#include "numbers/vectors.hpp"
 #include "pgdr/circumsphere.hpp"
 #include "pgdr/simplex_shapes.hpp"
 

@@ -11,7 +11,7 @@
 #include "detail/planar_cdt.hpp"
 #include "detail/named_points.hpp"
 #include "detail/recovery_state.hpp"
-#include "detail/vectors.hpp"
+#include "numbers/vectors.hpp"
 
 namespace pgdr::detail {
 namespace {

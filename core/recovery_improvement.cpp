@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "detail/recovery_state.hpp"
-#include "detail/vectors.hpp"
+#include "numbers/vectors.hpp"
 
 namespace pgdr::detail {
 namespace {

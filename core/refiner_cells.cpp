@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detail/vectors.hpp"
+#include "numbers/vectors.hpp"
 #include "pgdr/refiner.hpp"
 
 namespace pgdr {

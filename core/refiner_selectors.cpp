@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "detail/vectors.hpp"
+#include "numbers/vectors.hpp"
 #include "pgdr/refiner.hpp"
 
 namespace pgdr {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "detail/bent_facets.hpp"
-#include "detail/vectors.hpp"
+#include "numbers/vectors.hpp"
 
 namespace pgdr {
 namespace {

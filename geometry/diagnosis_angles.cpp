@@ -10,8 +10,8 @@
 #include <numbers>
 
 #include "detail/diagnoser.hpp"
-#include "detail/dihedral_sign.hpp"
 #include "detail/sort_by_points.hpp"
+#include "numbers/dihedral_sign.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr::detail {

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "detail/double_double.hpp"
+#include "numbers/double_double.hpp"
 #include "pgdr/domain.hpp"
 
 namespace pgdr {

@@ -15,7 +15,7 @@
 #include <numeric>
 
 #include "detail/domain_builder.hpp"
-#include "detail/vectors.hpp"
+#include "numbers/vectors.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr {

@@ -11,7 +11,7 @@
 
 #include "detail/box_tree.hpp"
 #include "detail/domain_builder.hpp"
-#include "detail/vectors.hpp"
+#include "numbers/vectors.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr {

@@ -8,7 +8,7 @@
 
 #include "detail/box_tree.hpp"
 #include "detail/entity_distance.hpp"
-#include "detail/unit_scale.hpp"
+#include "numbers/unit_scale.hpp"
 #include "pgdr/domain.hpp"
 
 namespace pgdr {

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "detail/domain_builder.hpp"
-#include "detail/finite.hpp"
+#include "numbers/finite.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "detail/side_of_plane.hpp"
+#include "numbers/side_of_plane.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr {

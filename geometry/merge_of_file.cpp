@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detail/finite.hpp"
 #include "detail/point_places.hpp"
+#include "numbers/finite.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/plc.hpp"
 #include "pgdr/written_precision.hpp"

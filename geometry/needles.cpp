@@ -11,9 +11,9 @@
 
 #include "detail/box_tree.hpp"
 #include "detail/disjoint_sets.hpp"
-#include "detail/finite.hpp"
-#include "detail/unit_scale.hpp"
-#include "detail/vectors.hpp"
+#include "numbers/finite.hpp"
+#include "numbers/unit_scale.hpp"
+#include "numbers/vectors.hpp"
 #include "pgdr/plc.hpp"
 #include "pgdr/written_precision.hpp"
 

@@ -12,8 +12,8 @@
 #include "detail/box_tree.hpp"
 #include "detail/contact.hpp"
 #include "detail/domain_builder.hpp"
-#include "detail/double_double.hpp"
-#include "detail/finite.hpp"
+#include "numbers/double_double.hpp"
+#include "numbers/finite.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr {

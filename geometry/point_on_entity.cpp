@@ -8,9 +8,9 @@
 #include <cmath>
 #include <limits>
 
-#include "detail/domain_builder.hpp"
-#include "detail/double_double.hpp"
 #include "detail/bent_facets.hpp"
+#include "detail/domain_builder.hpp"
+#include "numbers/double_double.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/predicates.hpp"
 

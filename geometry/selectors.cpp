@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "detail/vectors.hpp"
+#include "numbers/vectors.hpp"
 #include "pgdr/error.hpp"
 
 namespace pgdr {

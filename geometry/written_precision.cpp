@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "detail/domain_builder.hpp"
-#include "detail/unit_scale.hpp"
-#include "detail/vectors.hpp"
+#include "numbers/unit_scale.hpp"
+#include "numbers/vectors.hpp"
 #include "pgdr/error.hpp"
 #include "pgdr/plc.hpp"
 

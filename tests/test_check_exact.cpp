@@ -9,7 +9,7 @@
 #include <random>
 
 #include "detail/check_conformity.hpp"
-#include "detail/check_exact.hpp"
+#include "numbers/exact_tests.hpp"
 #include "detail/check_input.hpp"
 #include "dimensions.hpp"
 #include "pgdr/predicates.hpp"

@@ -10,7 +10,7 @@
 #include <bit>
 #include <limits>
 
-#include "detail/predicates_internal.hpp"
+#include "numbers/predicate_stages.hpp"
 #include "dimensions.hpp"
 #include "pgdr/predicates.hpp"
 #include "random_simplices.hpp"

@@ -12,7 +12,7 @@
 #include <set>
 #include <utility>
 
-#include "detail/vectors.hpp"
+#include "numbers/vectors.hpp"
 #include "domain_plcs.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "planar_plcs.hpp"

@@ -18,7 +18,7 @@
 
 #include "detail/corner_means.hpp"
 #include "detail/mesh_whole.hpp"
-#include "detail/vectors.hpp"
+#include "numbers/vectors.hpp"
 #include "model_plcs.hpp"
 #include "pgdr/cavity.hpp"
 #include "pgdr/delaunay.hpp"

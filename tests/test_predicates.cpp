@@ -9,8 +9,8 @@
 
 #include <thread>
 
-#include "detail/predicates_internal.hpp"
-#include "detail/side_of_plane.hpp"
+#include "numbers/predicate_stages.hpp"
+#include "numbers/side_of_plane.hpp"
 #include "dimensions.hpp"
 #include "oracles.hpp"
 #include "sanitized.hpp"

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <vector>
 
-#include "detail/simplex_shapes.hpp"
+#include "numbers/simplex_shapes_anywhere.hpp"
 #include "oracles.hpp"
 #include "pgdr/circumsphere.hpp"
 #include "pgdr/predicates.hpp"

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "detail/check_exact.hpp"
+#include "numbers/exact_tests.hpp"
 #include "detail/check_input.hpp"
 #include "detail/check_links.hpp"
 

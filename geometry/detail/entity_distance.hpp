@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "detail/vectors.hpp"
+#include "numbers/vectors.hpp"
 #include "pgdr/domain.hpp"
 
 namespace pgdr::detail {

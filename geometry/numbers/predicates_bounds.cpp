@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "detail/bounded.hpp"
-#include "detail/circum_terms.hpp"
-#include "detail/predicates_internal.hpp"
+#include "numbers/bounded.hpp"
+#include "numbers/circum_terms.hpp"
+#include "numbers/predicate_stages.hpp"
 #include "pgdr/circumsphere.hpp"
 
 namespace pgdr {

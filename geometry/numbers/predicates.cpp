@@ -11,9 +11,9 @@
 #include <cmath>
 #include <utility>
 
-#include "detail/bounded.hpp"
-#include "detail/determinants.hpp"
-#include "detail/predicates_internal.hpp"
+#include "numbers/bounded.hpp"
+#include "numbers/determinants.hpp"
+#include "numbers/predicate_stages.hpp"
 
 namespace pgdr {
 namespace detail {

@@ -9,7 +9,7 @@
 
 #include <array>
 
-#include "detail/expansion.hpp"
+#include "numbers/expansion.hpp"
 
 namespace pgdr::detail {
 

@@ -3,7 +3,7 @@
 //
 // Exact decisions on CGAL's rationals (LGPL). The filters run in long double, with error bounds in terms of its own
 // epsilon: where it is no wider than double they decide less, never wrongly.
-#include "detail/check_exact.hpp"
+#include "numbers/exact_tests.hpp"
 
 #include <CGAL/Exact_rational.h>
 

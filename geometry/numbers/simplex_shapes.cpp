@@ -8,9 +8,9 @@
 #include <array>
 #include <limits>
 
-#include "detail/circum_terms.hpp"
-#include "detail/lanes.hpp"
-#include "detail/simplex_shapes.hpp"
+#include "numbers/circum_terms.hpp"
+#include "numbers/lanes.hpp"
+#include "numbers/simplex_shapes_anywhere.hpp"
 
 namespace pgdr {
 namespace {

@@ -12,10 +12,10 @@
 #include <numeric>
 #include <utility>
 
-#include "detail/circum_terms.hpp"
-#include "detail/determinants.hpp"
-#include "detail/double_double.hpp"
-#include "detail/predicates_internal.hpp"
+#include "numbers/circum_terms.hpp"
+#include "numbers/determinants.hpp"
+#include "numbers/double_double.hpp"
+#include "numbers/predicate_stages.hpp"
 
 namespace pgdr {
 namespace {

@@ -9,8 +9,8 @@
 #include <array>
 #include <cmath>
 
-#include "bounded.hpp"
-#include "lanes.hpp"
+#include "numbers/bounded.hpp"
+#include "numbers/lanes.hpp"
 #include "pgdr/types.hpp"
 
 namespace pgdr::detail {

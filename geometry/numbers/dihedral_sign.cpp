@@ -3,17 +3,17 @@
 //
 // With e = b - a, u = c - a, w = d - a, the parts of u and w normal to e have the inner product
 // (u.w) - (e.u)(e.w)/(e.e): its sign, in three arithmetics.
-#include "detail/dihedral_sign.hpp"
+#include "numbers/dihedral_sign.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 
-#include "detail/bounded.hpp"
-#include "detail/expansion.hpp"
-#include "detail/fixed_point.hpp"
-#include "detail/rational.hpp"
+#include "numbers/bounded.hpp"
+#include "numbers/expansion.hpp"
+#include "numbers/fixed_point.hpp"
+#include "numbers/rational.hpp"
 
 namespace pgdr::detail {
 namespace {

@@ -9,10 +9,10 @@
 #include <cmath>
 #include <span>
 
-#include "detail/determinants.hpp"
-#include "detail/expansion.hpp"
-#include "detail/fixed_point.hpp"
-#include "detail/predicates_internal.hpp"
+#include "numbers/determinants.hpp"
+#include "numbers/expansion.hpp"
+#include "numbers/fixed_point.hpp"
+#include "numbers/predicate_stages.hpp"
 
 namespace pgdr::detail {
 namespace {

@@ -12,11 +12,11 @@
 #include <optional>
 #include <utility>
 
-#include "detail/determinants.hpp"
-#include "detail/double_double.hpp"
-#include "detail/fixed_point.hpp"
-#include "detail/predicates_internal.hpp"
-#include "detail/rational.hpp"
+#include "numbers/determinants.hpp"
+#include "numbers/double_double.hpp"
+#include "numbers/fixed_point.hpp"
+#include "numbers/predicate_stages.hpp"
+#include "numbers/rational.hpp"
 
 namespace pgdr::detail {
 namespace {

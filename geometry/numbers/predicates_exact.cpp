@@ -5,9 +5,9 @@
 // bounds. Slow (microseconds, allocates), so only what the other stages leave.
 #include <algorithm>
 
-#include "detail/determinants.hpp"
-#include "detail/predicates_internal.hpp"
-#include "detail/rational.hpp"
+#include "numbers/determinants.hpp"
+#include "numbers/predicate_stages.hpp"
+#include "numbers/rational.hpp"
 
 namespace pgdr::detail {
 namespace {
