@@ -26,7 +26,7 @@
 #include "pgdr/cavity.hpp"
 #include "pgdr/delaunay.hpp"
 #include "pgdr/pgdr.hpp"
-#include "pgdr/spatial_order.hpp"
+#include "space/spatial_order.hpp"
 #include "pgdr/work_list.hpp"
 #include "unit_cube.hpp"
 

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "detail/make_set.hpp"
+#include "space/make_set.hpp"
 
 namespace pgdr::detail {
 namespace {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detail/bulk.hpp"
+#include "space/bulk.hpp"
 #include "detail/region_sizes.hpp"
 #include "pgdr/circumsphere.hpp"
 #include "pgdr/predicates.hpp"

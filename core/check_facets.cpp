@@ -12,7 +12,7 @@
 #include <optional>
 #include <tuple>
 
-#include "detail/box_tree.hpp"
+#include "space/box_tree.hpp"
 #include "detail/check_pieces.hpp"
 #include "pgdr/predicates.hpp"
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detail/disjoint_sets.hpp"
+#include "space/disjoint_sets.hpp"
 #include "pgdr/bounding_box.hpp"
 #include "pgdr/predicates.hpp"
 

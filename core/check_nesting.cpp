@@ -9,7 +9,7 @@
 
 #include "detail/check_findings.hpp"
 #include "detail/check_input.hpp"
-#include "detail/disjoint_sets.hpp"
+#include "space/disjoint_sets.hpp"
 
 namespace pgdr::checking {
 namespace {

@@ -8,9 +8,9 @@
 #include <type_traits>
 #include <utility>
 
-#include "detail/bulk.hpp"
+#include "space/bulk.hpp"
 #include "detail/stripped_cells.hpp"
-#include "pgdr/spatial_order.hpp"
+#include "space/spatial_order.hpp"
 
 namespace pgdr {
 namespace {

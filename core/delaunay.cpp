@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "detail/changed_cells.hpp"
-#include "pgdr/spatial_order.hpp"
+#include "space/spatial_order.hpp"
 
 namespace pgdr {
 namespace {

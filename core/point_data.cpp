@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "detail/bulk.hpp"
+#include "space/bulk.hpp"
 #include "detail/interpolation.hpp"
 
 namespace pgdr {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "detail/bent_facets.hpp"
-#include "detail/planar_cdt.hpp"
+#include "space/planar_cdt.hpp"
 #include "detail/named_points.hpp"
 #include "detail/recovery_state.hpp"
 #include "numbers/vectors.hpp"

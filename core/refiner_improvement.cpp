@@ -17,7 +17,7 @@
 #include <array>
 #include <tuple>
 
-#include "detail/corner_means.hpp"
+#include "space/corner_means.hpp"
 #include "pgdr/improvement.hpp"
 #include "pgdr/refiner.hpp"
 

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <new>
 
-#include "detail/huge_pages.hpp"
+#include "space/huge_pages.hpp"
 
 namespace pgdr {
 namespace {

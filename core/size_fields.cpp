@@ -13,7 +13,7 @@
 #include "detail/file_input.hpp"
 #include "detail/line_scanner.hpp"
 #include "detail/region_sizes.hpp"
-#include "detail/search_tree.hpp"
+#include "space/search_tree.hpp"
 #include "detail/size_checks.hpp"
 
 namespace pgdr {

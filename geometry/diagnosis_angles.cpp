@@ -10,9 +10,9 @@
 #include <numbers>
 
 #include "detail/diagnoser.hpp"
-#include "detail/sort_by_points.hpp"
 #include "numbers/dihedral_sign.hpp"
 #include "pgdr/predicates.hpp"
+#include "space/sort_by_points.hpp"
 
 namespace pgdr::detail {
 namespace {

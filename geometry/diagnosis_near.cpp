@@ -7,7 +7,7 @@
 
 #include "detail/diagnoser.hpp"
 #include "detail/domain_builder.hpp"
-#include "detail/point_places.hpp"
+#include "space/point_places.hpp"
 
 namespace pgdr::detail {
 namespace {

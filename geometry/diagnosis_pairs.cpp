@@ -6,9 +6,9 @@
 // other alone.
 #include <algorithm>
 
-#include "detail/box_tree.hpp"
 #include "detail/diagnoser.hpp"
 #include "detail/domain_builder.hpp"
+#include "space/box_tree.hpp"
 
 namespace pgdr::detail {
 

@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <iterator>
 
-#include "detail/box_tree.hpp"
 #include "detail/domain_builder.hpp"
 #include "pgdr/predicates.hpp"
+#include "space/box_tree.hpp"
 
 namespace pgdr {
 using detail::Contact;

@@ -9,8 +9,8 @@
 
 #include "detail/bent_facets.hpp"
 #include "detail/domain_builder.hpp"
-#include "detail/sort_by_points.hpp"
 #include "pgdr/predicates.hpp"
+#include "space/sort_by_points.hpp"
 
 namespace pgdr {
 using detail::edge_key;

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "detail/domain_builder.hpp"
-#include "detail/point_places.hpp"
+#include "space/point_places.hpp"
 
 namespace pgdr {
 namespace {

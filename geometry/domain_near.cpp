@@ -9,10 +9,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detail/box_tree.hpp"
 #include "detail/domain_builder.hpp"
 #include "numbers/vectors.hpp"
 #include "pgdr/predicates.hpp"
+#include "space/box_tree.hpp"
 
 namespace pgdr {
 using detail::CleanFacet;

@@ -6,10 +6,10 @@
 #include <array>
 #include <vector>
 
-#include "detail/box_tree.hpp"
 #include "detail/entity_distance.hpp"
 #include "numbers/unit_scale.hpp"
 #include "pgdr/domain.hpp"
+#include "space/box_tree.hpp"
 
 namespace pgdr {
 namespace {

@@ -9,11 +9,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detail/point_places.hpp"
 #include "numbers/finite.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/plc.hpp"
 #include "pgdr/written_precision.hpp"
+#include "space/point_places.hpp"
 
 namespace pgdr {
 namespace {

@@ -9,13 +9,13 @@
 #include <cmath>
 #include <numeric>
 
-#include "detail/box_tree.hpp"
-#include "detail/disjoint_sets.hpp"
 #include "numbers/finite.hpp"
 #include "numbers/unit_scale.hpp"
 #include "numbers/vectors.hpp"
 #include "pgdr/plc.hpp"
 #include "pgdr/written_precision.hpp"
+#include "space/box_tree.hpp"
+#include "space/disjoint_sets.hpp"
 
 namespace pgdr {
 namespace {

@@ -9,12 +9,12 @@
 #include <set>
 #include <utility>
 
-#include "detail/box_tree.hpp"
-#include "detail/contact.hpp"
 #include "detail/domain_builder.hpp"
 #include "numbers/double_double.hpp"
 #include "numbers/finite.hpp"
 #include "pgdr/predicates.hpp"
+#include "space/box_tree.hpp"
+#include "space/contact.hpp"
 
 namespace pgdr {
 namespace {

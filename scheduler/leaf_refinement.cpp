@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "detail/bent_facets.hpp"
-#include "detail/bulk.hpp"
+#include "space/bulk.hpp"
 #include "pgdr/bounding_box.hpp"
 
 namespace pgdr::detail {

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <random>
 
-#include "detail/box_tree.hpp"
-#include "detail/contact.hpp"
+#include "space/box_tree.hpp"
+#include "space/contact.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr::detail::test_box_tree {

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <set>
 
-#include "detail/planar_cdt.hpp"
+#include "space/planar_cdt.hpp"
 #include "domain_plcs.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/domain.hpp"

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "detail/corner_means.hpp"
+#include "space/corner_means.hpp"
 #include "detail/mesh_whole.hpp"
 #include "numbers/vectors.hpp"
 #include "model_plcs.hpp"

@@ -11,7 +11,7 @@
 #include "pgdr/planar_plc.hpp"
 #include "pgdr/quality.hpp"
 #include "pgdr/selectors.hpp"
-#include "pgdr/spatial_order.hpp"
+#include "space/spatial_order.hpp"
 #include "planar_plcs.hpp"
 
 namespace pgdr::test_planar {

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <set>
 
-#include "detail/planar_cdt.hpp"
+#include "space/planar_cdt.hpp"
 #include "oracles.hpp"
 #include "pgdr/predicates.hpp"
 

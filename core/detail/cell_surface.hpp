@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "detail/disjoint_sets.hpp"
+#include "space/disjoint_sets.hpp"
 #include "pgdr/plc.hpp"
 
 namespace pgdr::detail {

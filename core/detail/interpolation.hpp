@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "detail/search_tree.hpp"
+#include "space/search_tree.hpp"
 #include "pgdr/types.hpp"
 
 namespace pgdr::detail {

@@ -15,10 +15,10 @@
 #include <utility>
 #include <vector>
 
-#include "detail/box_tree.hpp"
-#include "detail/make_set.hpp"
+#include "space/box_tree.hpp"
+#include "space/make_set.hpp"
 #include "detail/present_simplices.hpp"
-#include "detail/search_tree.hpp"
+#include "space/search_tree.hpp"
 #include "detail/wanted_simplices.hpp"
 #include "pgdr/recovery.hpp"
 #include "pgdr/shells.hpp"

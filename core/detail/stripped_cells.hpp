@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-#include "detail/bulk.hpp"
+#include "space/bulk.hpp"
 #include "pgdr/mesh.hpp"
 
 namespace pgdr::detail {

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "detail/box_tree.hpp"
 #include "pgdr/domain.hpp"
+#include "space/box_tree.hpp"
 
 namespace pgdr::detail {
 

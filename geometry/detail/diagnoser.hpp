@@ -13,10 +13,10 @@
 #include <utility>
 #include <vector>
 
-#include "detail/bulk.hpp"
-#include "detail/contact.hpp"
-#include "detail/stop_check.hpp"
 #include "pgdr/diagnosis.hpp"
+#include "space/bulk.hpp"
+#include "space/contact.hpp"
+#include "space/stop_check.hpp"
 
 namespace pgdr::detail {
 

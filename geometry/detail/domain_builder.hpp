@@ -18,13 +18,13 @@
 #include <utility>
 #include <vector>
 
-#include "detail/box_tree.hpp"
-#include "detail/bulk.hpp"
-#include "detail/contact.hpp"
-#include "detail/make_set.hpp"
-#include "detail/planar_cdt.hpp"
-#include "detail/stop_check.hpp"
 #include "pgdr/domain.hpp"
+#include "space/box_tree.hpp"
+#include "space/bulk.hpp"
+#include "space/contact.hpp"
+#include "space/make_set.hpp"
+#include "space/planar_cdt.hpp"
+#include "space/stop_check.hpp"
 
 namespace pgdr {
 namespace detail {

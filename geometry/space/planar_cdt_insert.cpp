@@ -6,7 +6,7 @@
 // unconstrained edges until the point sees the whole rim, or gives up with nothing changed.
 #include <algorithm>
 
-#include "detail/planar_cdt.hpp"
+#include "space/planar_cdt.hpp"
 
 namespace pgdr::detail {
 namespace {

@@ -6,8 +6,8 @@
 // new triangles are positive, which for points of one plane follows, and for points a few ulps off has to be asked.
 #include <algorithm>
 
-#include "detail/planar_cdt.hpp"
 #include "pgdr/predicates.hpp"
+#include "space/planar_cdt.hpp"
 
 namespace pgdr::detail {
 

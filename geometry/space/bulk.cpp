@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "detail/bulk.hpp"
+#include "space/bulk.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "detail/huge_pages.hpp"
+#include "space/huge_pages.hpp"
 
 namespace pgdr::detail {
 

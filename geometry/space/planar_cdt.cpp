@@ -5,7 +5,7 @@
 // doubling size, Hilbert order within each; Amenta, Choi, Rote 2003), which keeps walks and flips short. While
 // constraints go in, circles are those of the projection, which are consistent whatever the dropped coordinates; a last
 // sweep of flips passes on to the circles of the plane in space.
-#include "detail/planar_cdt.hpp"
+#include "space/planar_cdt.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <map>
 
-#include "detail/planar_cdt.hpp"
+#include "space/planar_cdt.hpp"
 
 namespace pgdr::detail {
 
