@@ -9,7 +9,7 @@
 #include <span>
 
 #include "detail/automatic_regions.hpp"
-#include "detail/entity_distance.hpp"
+#include "input/entity_distance.hpp"
 #include "pgdr/bounding_box.hpp"
 #include "pgdr/diagnosis.hpp"
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <unordered_set>
 
-#include "detail/entity_distance.hpp"
+#include "input/entity_distance.hpp"
 #include "pgdr/insertion_rule.hpp"
 #include "pgdr/refine_options.hpp"
 

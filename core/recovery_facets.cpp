@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "detail/bent_facets.hpp"
+#include "input/bent_facets.hpp"
 #include "space/planar_cdt.hpp"
 #include "detail/named_points.hpp"
 #include "detail/recovery_state.hpp"

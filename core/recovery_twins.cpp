@@ -6,7 +6,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "detail/entity_distance.hpp"
+#include "input/entity_distance.hpp"
 #include "detail/recovery_state.hpp"
 #include "pgdr/twins.hpp"
 

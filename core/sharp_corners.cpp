@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "detail/bent_facets.hpp"
+#include "input/bent_facets.hpp"
 #include "numbers/vectors.hpp"
 
 namespace pgdr {

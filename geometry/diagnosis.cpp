@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "detail/diagnoser.hpp"
-#include "detail/domain_builder.hpp"
+#include "input/domain_builder.hpp"
 
 namespace pgdr {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "detail/diagnoser.hpp"
-#include "detail/domain_builder.hpp"
+#include "input/domain_builder.hpp"
 #include "space/point_places.hpp"
 
 namespace pgdr::detail {

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "detail/diagnoser.hpp"
-#include "detail/domain_builder.hpp"
+#include "input/domain_builder.hpp"
 
 namespace pgdr::detail {
 

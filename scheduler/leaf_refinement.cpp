@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "detail/bent_facets.hpp"
+#include "input/bent_facets.hpp"
 #include "space/bulk.hpp"
 #include "pgdr/bounding_box.hpp"
 

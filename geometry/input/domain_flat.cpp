@@ -8,7 +8,7 @@
 // a corner lies on an axis of revolution. It is told apart in the report.
 #include <algorithm>
 
-#include "detail/domain_builder.hpp"
+#include "input/domain_builder.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr {

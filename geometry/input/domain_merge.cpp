@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detail/domain_builder.hpp"
+#include "input/domain_builder.hpp"
 #include "space/point_places.hpp"
 
 namespace pgdr {

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detail/domain_builder.hpp"
+#include "input/domain_builder.hpp"
 #include "numbers/vectors.hpp"
 #include "pgdr/predicates.hpp"
 #include "space/box_tree.hpp"

@@ -4,7 +4,7 @@
 // Last step of a Domain: every edge that is not soft is a segment; which facets have it; both ways.
 #include <algorithm>
 
-#include "detail/domain_builder.hpp"
+#include "input/domain_builder.hpp"
 
 namespace pgdr {
 using detail::EdgeUse;

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "detail/domain_builder.hpp"
+#include "input/domain_builder.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr {

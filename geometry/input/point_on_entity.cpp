@@ -8,8 +8,8 @@
 #include <cmath>
 #include <limits>
 
-#include "detail/bent_facets.hpp"
-#include "detail/domain_builder.hpp"
+#include "input/bent_facets.hpp"
+#include "input/domain_builder.hpp"
 #include "numbers/double_double.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/predicates.hpp"

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "detail/domain_builder.hpp"
+#include "input/domain_builder.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr {

@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "detail/entity_distance.hpp"
+#include "input/entity_distance.hpp"
 #include "numbers/unit_scale.hpp"
 #include "pgdr/domain.hpp"
 #include "space/box_tree.hpp"

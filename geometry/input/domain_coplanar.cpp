@@ -14,7 +14,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "detail/domain_builder.hpp"
+#include "input/domain_builder.hpp"
 #include "numbers/vectors.hpp"
 #include "pgdr/predicates.hpp"
 

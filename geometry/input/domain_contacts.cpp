@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "detail/domain_builder.hpp"
+#include "input/domain_builder.hpp"
 #include "pgdr/predicates.hpp"
 #include "space/box_tree.hpp"
 

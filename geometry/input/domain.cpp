@@ -8,7 +8,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "detail/domain_builder.hpp"
+#include "input/domain_builder.hpp"
 
 namespace pgdr {
 namespace detail {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <tuple>
 
-#include "detail/bent_facets.hpp"
-#include "detail/domain_builder.hpp"
+#include "input/bent_facets.hpp"
+#include "input/domain_builder.hpp"
 #include "pgdr/predicates.hpp"
 #include "space/sort_by_points.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "detail/domain_builder.hpp"
+#include "input/domain_builder.hpp"
 #include "numbers/finite.hpp"
 #include "pgdr/predicates.hpp"
 

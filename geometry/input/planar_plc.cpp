@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-#include "detail/domain_builder.hpp"
+#include "input/domain_builder.hpp"
 #include "numbers/double_double.hpp"
 #include "numbers/finite.hpp"
 #include "pgdr/predicates.hpp"
