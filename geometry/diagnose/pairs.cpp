@@ -6,7 +6,7 @@
 // other alone.
 #include <algorithm>
 
-#include "detail/diagnoser.hpp"
+#include "diagnose/diagnoser.hpp"
 #include "input/domain_builder.hpp"
 #include "space/box_tree.hpp"
 

@@ -9,7 +9,7 @@
 #include <mutex>
 #include <numbers>
 
-#include "detail/diagnoser.hpp"
+#include "diagnose/diagnoser.hpp"
 #include "numbers/dihedral_sign.hpp"
 #include "pgdr/predicates.hpp"
 #include "space/sort_by_points.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detail/diagnoser.hpp"
+#include "diagnose/diagnoser.hpp"
 #include "input/domain_builder.hpp"
 #include "space/point_places.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "detail/diagnoser.hpp"
+#include "diagnose/diagnoser.hpp"
 #include "input/domain_builder.hpp"
 
 namespace pgdr::detail {
