@@ -6,7 +6,7 @@
   * every source opens with the SPDX lines and has at most 500 lines;
   * a layer includes its own headers and those of lower layers only: geometry <- core <- scheduler <- tools, bench;
   * a public header (<layer>/pgdr/) includes public headers alone, and no two layers have one of the same name;
-  * tools and bench see public headers alone;
+  * a header of a layer outside <layer>/pgdr/ is private: tools see public headers alone (bench measures the inside, too);
   * CGAL and Eigen are included by .cpp files and private headers of the layers only;
   * function templates of headers whose namespace bears PGDR_API have it where they are instantiated (export.hpp);
   * what never returns takes no std::string or std::vector by value: g++ 12 (-O3, several files as one) takes its stores for
@@ -58,7 +58,13 @@ def check_text(path, text):
         yield "no SPDX-FileCopyrightText at its head"
 
 
-def check_includes(root, path, text, layer_of):
+def private_headers(root):
+    """Names that the headers of a layer outside pgdr/ are included with: "<room>/NAME.hpp"."""
+    return {path.relative_to(root / layer).as_posix() for layer in LAYERS for path in (root / layer).rglob("*.hpp")
+            if path.parent != root / layer / "pgdr"}
+
+
+def check_includes(root, path, text, layer_of, private):
     parts = path.relative_to(root).parts
     folder, public = parts[0], len(parts) > 2 and parts[1] == "pgdr"
     if folder not in LAYERS + ["tools", "bench"]:
@@ -69,7 +75,7 @@ def check_includes(root, path, text, layer_of):
                 yield f"includes {name}, which no layer has"
             elif folder in LAYERS and LAYERS.index(layer_of[name]) > LAYERS.index(folder):
                 yield f"includes {name} of the higher layer {layer_of[name]}"
-        if "detail/" in name and (public or folder not in LAYERS):
+        if name in private and (public or folder == "tools"):
             yield f"includes the private header {name}"
         if name.startswith(("CGAL/", "Eigen/")) and (public or folder not in LAYERS):
             yield f"includes {name}: only the inside of a layer may"
@@ -108,11 +114,12 @@ def main():
         if name not in (root / layer / "CMakeLists.txt").read_text(encoding="utf-8").split():
             complaints.append(f"{layer}/{name}: not listed in {layer}/CMakeLists.txt")
     exported = exported_templates(root)
+    private = private_headers(root)
     number = 0
     for path in sources(root):
         text = path.read_text(encoding="utf-8")
         number += 1
-        for complaint in [*check_text(path, text), *check_includes(root, path, text, layer_of),
+        for complaint in [*check_text(path, text), *check_includes(root, path, text, layer_of, private),
                           *check_noreturn(path, text), *check_exports(path, text, exported)]:
             complaints.append(f"{path.relative_to(root)}: {complaint}")
     for complaint in complaints:
