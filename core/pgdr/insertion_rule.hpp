@@ -38,7 +38,8 @@
 #include <array>
 #include <optional>
 
-#include "pgdr/work_list.hpp"
+#include "mesh/entity_pair.hpp"
+#include "pgdr/mesh.hpp"
 
 namespace pgdr {
 

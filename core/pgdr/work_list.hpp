@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/entity_pair.hpp"
 #include "pgdr/mesh.hpp"
 
 namespace pgdr {
@@ -184,11 +185,6 @@ class EntryHeap {
  private:
   static bool later(const Entry<D>& a, const Entry<D>& b) { return a.order > b.order; }
   std::vector<Entry<D>> items_;
-};
-
-/// Two input entities that meet where something was refused.
-struct EntityPair {
-  std::array<EntityRef, 2> entities;  ///< of the Domain
 };
 
 /// An entry that was refused, and by what; nothing if no pair of entities was at fault.

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Two entities of the input, named together.
+#pragma once
+
+#include <array>
+
+#include "pgdr/domain.hpp"
+
+namespace pgdr {
+
+/// Two input entities that meet where something was refused.
+struct EntityPair {
+  std::array<EntityRef, 2> entities;  ///< of the Domain
+};
+
+}  // namespace pgdr
