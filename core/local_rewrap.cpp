@@ -6,7 +6,7 @@
 #include <bit>
 #include <cassert>
 
-#include "pgdr/work_list.hpp"
+#include "mesh/surroundings.hpp"
 
 namespace pgdr {
 namespace {

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mesh/surroundings.hpp"
 #include "pgdr/bounding_box.hpp"
 #include "pgdr/improvement.hpp"
 
@@ -278,35 +279,6 @@ std::vector<CellId> Refiner<D>::cells_seen(const Item& e) {
 }
 
 template <int D>
-std::optional<std::uint64_t> surroundings_of(const Mesh<D>& mesh, std::span<const CellId> slots) {
-  std::uint64_t sum = 0;
-  // Of two multiplications, each a bijection of its operand: cells in another order make another number.
-  const auto add = [&](CellId c) {
-    const std::uint64_t cell = std::uint64_t{index(c)} << 16 | mesh.birth(c);
-    sum = (std::rotl(sum, 25) ^ cell * 0x9e3779b97f4a7c15u) * 0xbf58476d1ce4e5b9u;
-  };
-  for (const CellId c : slots) {
-    if (!mesh.alive(c)) return std::nullopt;
-    add(c);
-    for (const Link next : mesh.cell(c).links)
-      if (next) add(next.cell());
-  }
-  return sum;
-}
-
-template <int D>
-std::uint64_t versions_about(const Mesh<D>& mesh, CellId c) {
-  std::uint64_t sum = 0;
-  const auto add = [&](VertexId v) {
-    sum = (std::rotl(sum, 25) ^ mesh.note(v).version * 0x9e3779b97f4a7c15u) * 0xbf58476d1ce4e5b9u;
-  };
-  for (const VertexId v : mesh.cell(c).vertices) add(v);
-  for (const Link next : mesh.cell(c).links)
-    if (next) add(mesh.cell(next.cell()).vertices[next.face()]);
-  return sum;
-}
-
-template <int D>
 void Refiner<D>::record_refusal(const Item& e) {
   std::vector<CellId> seen = cells_seen(e);
   const std::uint64_t surroundings = surroundings_of<D>(*mesh_, seen).value_or(0);
@@ -434,9 +406,6 @@ void Refiner<D>::run(RegionVisit<D>& visit) {
   visit_ = nullptr;
 }
 
-template std::optional<std::uint64_t> surroundings_of<2>(const Mesh<2>&, std::span<const CellId>);
-template std::optional<std::uint64_t> surroundings_of<3>(const Mesh<3>&, std::span<const CellId>);
-template std::uint64_t versions_about<3>(const Mesh<3>&, CellId);
 template struct RefineContext<2>;
 template struct RefineContext<3>;
 template class Refiner<2>;

@@ -8,8 +8,9 @@
 #include <utility>
 
 #include "input/bent_facets.hpp"
-#include "space/bulk.hpp"
+#include "mesh/surroundings.hpp"
 #include "pgdr/bounding_box.hpp"
+#include "space/bulk.hpp"
 
 namespace pgdr::detail {
 namespace {
