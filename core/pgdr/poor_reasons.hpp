@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "pgdr/cell_bounds.hpp"
-#include "pgdr/check.hpp"
+#include "pgdr/poor_reason.hpp"
 #include "pgdr/work_list.hpp"
 
 namespace pgdr {

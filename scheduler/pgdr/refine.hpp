@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "pgdr/check.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/export.hpp"
 #include "pgdr/output_mesh.hpp"
 #include "pgdr/plc.hpp"
 #include "pgdr/point_selector.hpp"
+#include "pgdr/poor_reason.hpp"
 #include "pgdr/predicates.hpp"
 #include "pgdr/refine_options.hpp"
 #include "pgdr/sizing.hpp"

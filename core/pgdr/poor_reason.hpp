@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Why a cell is over a bound: what a refinement gives, and the checker verifies. A plain value.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "pgdr/domain.hpp"
+#include "pgdr/export.hpp"
+
+namespace pgdr PGDR_API {
+
+/// Why a cell stayed over a bound; one entry of the report's `bounds.reasons`.
+struct PoorReason {
+  /// small_angle: of the input, between the two entities. rounding: none of the others, and few. beyond_theory: the bound
+  /// asked for is below the smallest proved one. kept_boundary: the first entity is a segment without points of its own,
+  /// which hides the circumcentre or is encroached upon by it (RefineOptions::keep_boundary).
+  enum class Code { small_angle, rounding, beyond_theory, kept_boundary };
+  std::uint32_t cell = 0;  ///< index into OutputMesh::cells
+  Code code = Code::small_angle;      ///< what kind of reason
+  std::array<EntityRef, 2> entities;  ///< input entities (of the Domain) that meet at the angle
+  double angle = 0;                   ///< degrees
+};
+
+}  // namespace pgdr
