@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Fields made of others and of points, growth along edges, and .sol files.
+// Fields made of others and of points, and growth along edges.
 #include "pgdr/size_fields.hpp"
 
 #include <algorithm>
@@ -10,8 +10,6 @@
 #include <queue>
 #include <string>
 
-#include "detail/file_input.hpp"
-#include "detail/line_scanner.hpp"
 #include "detail/region_sizes.hpp"
 #include "space/search_tree.hpp"
 #include "detail/size_checks.hpp"
@@ -139,40 +137,6 @@ std::vector<double> sizes_of_regions(const OutputMesh<D>& mesh, const RegionSize
     if (value == std::numeric_limits<double>::infinity()) value = otherwise;
   detail::require_sizes<D>(mesh.points, values);
   return values;
-}
-
-std::vector<double> read_vertex_values(const std::filesystem::path& file, int dimension) {
-  const std::string text = detail::read_whole_file(file);
-  detail::LineScanner scanner(text, file.string());
-  while (scanner.advance()) {
-    const std::string_view keyword = scanner.word({"the keyword of a section"});
-    if (keyword == "MeshVersionFormatted") {
-      scanner.require({"the version"});
-      scanner.integer({"the version"});
-    } else if (keyword == "Dimension") {
-      scanner.require({"the dimension"});
-      if (const auto d = scanner.integer({"the dimension"}); d != dimension)
-        scanner.fail(Errc::syntax, "the dimension is " + std::to_string(d) + ", not that of the mesh");
-    } else if (keyword == "SolAtVertices") {
-      scanner.require({"the number of values"});
-      std::vector<double> values(scanner.count({"the number of values"}, 2));
-      for (const char* what : {"the number of fields", "the kind of the field"}) {
-        scanner.require({what});
-        if (scanner.integer({what}) != 1) scanner.fail(Errc::syntax, "only one scalar a vertex can be read");
-      }
-      for (std::size_t i = 0; i < values.size(); ++i) {
-        const detail::Subject value{"value", static_cast<std::int64_t>(i + 1)};
-        scanner.require(value);
-        values[i] = scanner.number(value);
-      }
-      return values;
-    } else if (keyword == "End") {
-      break;
-    } else {
-      scanner.fail(Errc::syntax, "unknown section " + detail::quoted(keyword) + " before SolAtVertices");
-    }
-  }
-  scanner.fail(Errc::truncated, "there is no section SolAtVertices");
 }
 
 template PGDR_API SizingField<2> smallest<2>(std::vector<SizingField<2>>);

@@ -12,6 +12,7 @@
 
 #include "parallel_support.hpp"
 #include "pgdr/flat_arrays.hpp"
+#include "pgdr/io.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr::test_size_fields {

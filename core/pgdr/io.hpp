@@ -88,4 +88,11 @@ OutputMesh<D> read_mesh(const std::filesystem::path& file);
 template <int D>
 void write_mesh(const OutputMesh<D>& mesh, const std::filesystem::path& file, const WriteOptions& options = {});
 
+/// One number a vertex from a Medit solution file (.sol, ASCII: MeshVersionFormatted, Dimension, SolAtVertices with one
+/// scalar), as mmg and others write it beside a .mesh file. Further sections are not read.
+/// @param file  the .sol
+/// @param dimension  2 or 3: what the file must say
+/// @throws FileError cannot_open; InputError syntax, truncated, count_too_large, not_finite, with file and line
+std::vector<double> read_vertex_values(const std::filesystem::path& file, int dimension);
+
 }  // namespace pgdr

@@ -7,7 +7,6 @@
 // area: 0.2 lets sizes grow by a fifth of the distance.
 #pragma once
 
-#include <filesystem>
 #include <span>
 #include <vector>
 
@@ -58,12 +57,5 @@ std::vector<double> limit_growth(const OutputMesh<D>& mesh, std::span<const doub
 ///   finite (ids: the vertex). InputError index_out_of_range (ids: the cell). What a size function throws.
 template <int D>
 std::vector<double> sizes_of_regions(const OutputMesh<D>& mesh, const RegionSizes<D>& sizes, double otherwise);
-
-/// One number a vertex from a Medit solution file (.sol, ASCII: MeshVersionFormatted, Dimension, SolAtVertices with one
-/// scalar), as mmg and others write it beside a .mesh file. Further sections are not read.
-/// @param file  the .sol
-/// @param dimension  2 or 3: what the file must say
-/// @throws FileError cannot_open; InputError syntax, truncated, count_too_large, not_finite, with file and line
-std::vector<double> read_vertex_values(const std::filesystem::path& file, int dimension);
 
 }  // namespace pgdr
