@@ -12,7 +12,6 @@
 
 #include "mesh/surroundings.hpp"
 #include "pgdr/bounding_box.hpp"
-#include "pgdr/improvement.hpp"
 
 namespace pgdr {
 namespace {

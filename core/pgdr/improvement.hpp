@@ -5,7 +5,6 @@
 // (refiner_improvement.cpp). Read by all of them at once.
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "pgdr/poor_reasons.hpp"
@@ -14,7 +13,6 @@ namespace pgdr {
 
 constexpr double least_gain = 1.0 / 128;  ///< by which anything lessens the excess
 constexpr double least_gain_without = -1e-9;  ///< the same of a vertex that is taken out: none, but for rounding
-constexpr std::size_t most_cells_changed = 100;  ///< at once: more, of tangles, are slow and gain little
 
 /// See above.
 template <int D>

@@ -90,6 +90,9 @@ struct RefineContext {
   std::chrono::steady_clock::time_point last_progress;  ///< under the mutex
 };
 
+/// By one change for an element that stays poor: more, of tangles, are slow and gain little.
+constexpr std::size_t most_cells_changed = 100;
+
 /// What one visit is asked to do, and what it did.
 template <int D>
 struct RegionVisit {
