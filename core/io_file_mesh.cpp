@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "detail/cell_surface.hpp"
+#include "output/cell_surface.hpp"
 #include "pgdr/error.hpp"
 
 namespace pgdr::detail {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "output/interpolation.hpp"
 #include "space/bulk.hpp"
-#include "detail/interpolation.hpp"
 
 namespace pgdr {
 namespace {

@@ -4,8 +4,8 @@
 // Sizes on a background mesh.
 #include <memory>
 
-#include "detail/interpolation.hpp"
 #include "detail/size_checks.hpp"
+#include "output/interpolation.hpp"
 #include "pgdr/size_fields.hpp"
 
 namespace pgdr {

@@ -5,7 +5,7 @@
 #include <map>
 #include <optional>
 
-#include "detail/cell_surface.hpp"
+#include "output/cell_surface.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr::detail {
