@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "space/bulk.hpp"
-#include "detail/region_sizes.hpp"
 #include "pgdr/circumsphere.hpp"
 #include "pgdr/predicates.hpp"
+#include "size/region_sizes.hpp"
+#include "space/bulk.hpp"
 
 namespace pgdr::checking {
 namespace {

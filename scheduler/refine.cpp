@@ -11,6 +11,11 @@
 #include <span>
 #include <string>
 
+#include "detail/arena.hpp"
+#include "detail/cell_parts.hpp"
+#include "detail/float_environment.hpp"
+#include "detail/generations.hpp"
+#include "detail/greedy.hpp"
 #include "pgdr/cell_bounds.hpp"
 #include "pgdr/compact.hpp"
 #include "pgdr/delaunay.hpp"
@@ -18,15 +23,10 @@
 #include "pgdr/folded_facets.hpp"
 #include "pgdr/labeling.hpp"
 #include "pgdr/point_data.hpp"
-#include "detail/arena.hpp"
-#include "detail/cell_parts.hpp"
-#include "detail/float_environment.hpp"
-#include "detail/generations.hpp"
-#include "detail/greedy.hpp"
-#include "detail/region_sizes.hpp"
 #include "pgdr/poor_reasons.hpp"
 #include "pgdr/recovery.hpp"
 #include "pgdr/sharp_corners.hpp"
+#include "size/region_sizes.hpp"
 
 namespace pgdr {
 namespace {

@@ -4,9 +4,9 @@
 // Sizes on a background mesh.
 #include <memory>
 
-#include "detail/size_checks.hpp"
 #include "output/interpolation.hpp"
 #include "pgdr/size_fields.hpp"
+#include "size/checks.hpp"
 
 namespace pgdr {
 namespace {

@@ -10,9 +10,9 @@
 #include <queue>
 #include <string>
 
-#include "detail/region_sizes.hpp"
+#include "size/checks.hpp"
+#include "size/region_sizes.hpp"
 #include "space/search_tree.hpp"
-#include "detail/size_checks.hpp"
 
 namespace pgdr {
 
