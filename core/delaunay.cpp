@@ -6,7 +6,7 @@
 #include <cassert>
 #include <utility>
 
-#include "detail/changed_cells.hpp"
+#include "mesh/changed_cells.hpp"
 #include "space/spatial_order.hpp"
 
 namespace pgdr {

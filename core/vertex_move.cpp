@@ -8,10 +8,10 @@
 #include <cmath>
 #include <limits>
 
+#include "mesh/pinched_edges.hpp"
 #include "pgdr/cavity.hpp"
 #include "pgdr/facet_flip.hpp"
 #include "pgdr/insertion_rule.hpp"
-#include "pgdr/pinched_edges.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr {

@@ -8,7 +8,7 @@
 
 #include "detail/arena.hpp"
 #include "detail/float_environment.hpp"
-#include "pgdr/slot_set.hpp"
+#include "mesh/slot_set.hpp"
 #include "pgdr/visit_graph.hpp"
 
 namespace pgdr::detail {

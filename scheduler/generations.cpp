@@ -7,7 +7,7 @@
 
 #include "detail/arena.hpp"
 #include "detail/claimed_area.hpp"
-#include "detail/mesh_whole.hpp"
+#include "mesh/whole.hpp"
 
 namespace pgdr::detail {
 

@@ -10,11 +10,11 @@
 #include <set>
 #include <vector>
 
+#include "mesh/key_set.hpp"
+#include "mesh/visit_area.hpp"
 #include "pgdr/cell_bounds.hpp"
 #include "pgdr/delaunay.hpp"
-#include "pgdr/key_set.hpp"
 #include "pgdr/simplex_shapes.hpp"
-#include "pgdr/visit_area.hpp"
 
 namespace pgdr::test_insertion_tables {
 

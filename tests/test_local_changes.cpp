@@ -16,15 +16,15 @@
 #include <utility>
 #include <vector>
 
-#include "space/corner_means.hpp"
-#include "detail/mesh_whole.hpp"
-#include "numbers/vectors.hpp"
+#include "mesh/whole.hpp"
 #include "model_plcs.hpp"
+#include "numbers/vectors.hpp"
 #include "pgdr/cavity.hpp"
 #include "pgdr/delaunay.hpp"
 #include "pgdr/labeling.hpp"
 #include "pgdr/local_flips.hpp"
 #include "pgdr/recovery.hpp"
+#include "space/corner_means.hpp"
 
 namespace pgdr::test_local_changes {
 

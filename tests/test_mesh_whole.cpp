@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What debug builds assert while a mesh is refined finds the damage that it is there for.
-#include "detail/mesh_whole.hpp"
+#include "mesh/whole.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "mesh/mesh.hpp"
 #include "pgdr/domain.hpp"
-#include "pgdr/mesh.hpp"
 
 namespace pgdr::detail {
 

@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "detail/changed_cells.hpp"
 #include "detail/wanted_simplices.hpp"
-#include "pgdr/mesh.hpp"
+#include "mesh/changed_cells.hpp"
+#include "mesh/mesh.hpp"
 
 namespace pgdr::detail {
 

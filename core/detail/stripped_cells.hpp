@@ -14,8 +14,8 @@
 #include <span>
 #include <vector>
 
+#include "mesh/mesh.hpp"
 #include "space/bulk.hpp"
-#include "pgdr/mesh.hpp"
 
 namespace pgdr::detail {
 

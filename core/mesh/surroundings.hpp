@@ -8,7 +8,7 @@
 #include <optional>
 #include <span>
 
-#include "pgdr/mesh.hpp"
+#include "mesh/mesh.hpp"
 
 namespace pgdr {
 

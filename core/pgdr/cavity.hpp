@@ -19,12 +19,12 @@
 #include <span>
 #include <vector>
 
+#include "mesh/key_set.hpp"
+#include "mesh/mesh.hpp"
+#include "mesh/visit_area.hpp"
 #include "pgdr/cell_bounds.hpp"
-#include "pgdr/key_set.hpp"
-#include "pgdr/mesh.hpp"
 #include "pgdr/simplex_shapes.hpp"
 #include "pgdr/twins.hpp"
-#include "pgdr/visit_area.hpp"
 
 namespace pgdr {
 

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "pgdr/mesh.hpp"
+#include "mesh/mesh.hpp"
 #include "pgdr/sizing.hpp"
 
 namespace pgdr {

@@ -10,7 +10,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "pgdr/mesh.hpp"
+#include "mesh/mesh.hpp"
 #include "pgdr/output_mesh.hpp"
 
 namespace pgdr {

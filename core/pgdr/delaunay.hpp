@@ -9,8 +9,8 @@
 #include <stop_token>
 #include <vector>
 
+#include "mesh/mesh.hpp"
 #include "pgdr/cavity.hpp"
-#include "pgdr/mesh.hpp"
 
 namespace pgdr {
 namespace detail {

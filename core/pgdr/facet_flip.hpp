@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "pgdr/mesh.hpp"
+#include "mesh/mesh.hpp"
 
 namespace pgdr {
 

@@ -9,8 +9,8 @@
 
 #include <span>
 
+#include "mesh/mesh.hpp"
 #include "pgdr/domain.hpp"
-#include "pgdr/mesh.hpp"
 #include "pgdr/region_mode.hpp"
 
 namespace pgdr {

@@ -39,7 +39,7 @@
 #include <optional>
 
 #include "mesh/entity_pair.hpp"
-#include "pgdr/mesh.hpp"
+#include "mesh/mesh.hpp"
 
 namespace pgdr {
 

@@ -6,9 +6,9 @@
 
 #include <vector>
 
+#include "mesh/mesh.hpp"
 #include "pgdr/delaunay.hpp"
 #include "pgdr/domain.hpp"
-#include "pgdr/mesh.hpp"
 #include "pgdr/region_mode.hpp"
 
 namespace pgdr {

@@ -14,9 +14,9 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/mesh.hpp"
+#include "mesh/visit_area.hpp"
 #include "pgdr/local_rewrap.hpp"
-#include "pgdr/mesh.hpp"
-#include "pgdr/visit_area.hpp"
 
 namespace pgdr {
 

@@ -15,9 +15,9 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/mesh.hpp"
+#include "mesh/visit_area.hpp"
 #include "pgdr/gift_wrap.hpp"
-#include "pgdr/mesh.hpp"
-#include "pgdr/visit_area.hpp"
 
 namespace pgdr {
 

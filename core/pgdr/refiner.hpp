@@ -20,18 +20,18 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/key_set.hpp"
+#include "mesh/slot_set.hpp"
+#include "mesh/visit_area.hpp"
 #include "pgdr/cavity.hpp"
 #include "pgdr/cell_bounds.hpp"
 #include "pgdr/insertion_rule.hpp"
-#include "pgdr/key_set.hpp"
 #include "pgdr/local_flips.hpp"
 #include "pgdr/refine_options.hpp"
 #include "pgdr/refusal_memo.hpp"
 #include "pgdr/shells.hpp"
-#include "pgdr/slot_set.hpp"
 #include "pgdr/twins.hpp"
 #include "pgdr/vertex_move.hpp"
-#include "pgdr/visit_area.hpp"
 #include "pgdr/work_list.hpp"
 
 namespace pgdr {

@@ -22,8 +22,8 @@
 
 #include <optional>
 
+#include "mesh/mesh.hpp"
 #include "pgdr/domain.hpp"
-#include "pgdr/mesh.hpp"
 
 namespace pgdr {
 

@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "pgdr/mesh.hpp"
-#include "pgdr/visit_area.hpp"
+#include "mesh/mesh.hpp"
+#include "mesh/visit_area.hpp"
 
 namespace pgdr {
 

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "mesh/entity_pair.hpp"
-#include "pgdr/mesh.hpp"
+#include "mesh/mesh.hpp"
 
 namespace pgdr {
 

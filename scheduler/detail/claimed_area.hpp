@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "mesh/visit_area.hpp"
 #include "pgdr/claim.hpp"
-#include "pgdr/visit_area.hpp"
 
 namespace pgdr::detail {
 

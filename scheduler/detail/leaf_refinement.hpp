@@ -17,12 +17,12 @@
 #include "detail/cell_parts.hpp"
 #include "detail/leaf_work.hpp"
 #include "detail/thread_numbers.hpp"
+#include "mesh/slot_set.hpp"
 #include "pgdr/conflict_manager.hpp"
 #include "pgdr/poor_reasons.hpp"
 #include "pgdr/predicates.hpp"
 #include "pgdr/refine.hpp"
 #include "pgdr/refiner.hpp"
-#include "pgdr/slot_set.hpp"
 
 namespace pgdr::detail {
 

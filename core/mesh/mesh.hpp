@@ -20,10 +20,10 @@
 #include <memory>
 #include <utility>
 
+#include "mesh/pinched_edges.hpp"
+#include "mesh/pool.hpp"
 #include "pgdr/circumsphere.hpp"
 #include "pgdr/domain.hpp"
-#include "pgdr/pinched_edges.hpp"
-#include "pgdr/pool.hpp"
 #include "pgdr/predicates.hpp"
 #include "pgdr/types.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pgdr/pinched_edges.hpp"
+#include "mesh/pinched_edges.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "detail/mesh_whole.hpp"
+#include "mesh/whole.hpp"
 
 #include <algorithm>
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pgdr/reserved_memory.hpp"
+#include "mesh/reserved_memory.hpp"
 
 #include <sys/mman.h>
 #include <sys/resource.h>

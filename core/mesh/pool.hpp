@@ -15,8 +15,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "mesh/reserved_memory.hpp"
 #include "pgdr/error.hpp"
-#include "pgdr/reserved_memory.hpp"
 
 namespace pgdr {
 

@@ -4,7 +4,7 @@
 // What holds between any two insertions, for assertions. Any thread, while nobody writes.
 #pragma once
 
-#include "pgdr/mesh.hpp"
+#include "mesh/mesh.hpp"
 
 namespace pgdr::detail {
 

@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "pgdr/mesh.hpp"
+#include "mesh/mesh.hpp"
 
 namespace pgdr {
 
