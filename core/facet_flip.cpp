@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "pgdr/insertion_rule.hpp"
 #include "pgdr/predicates.hpp"
+#include "rule/insertion_rule.hpp"
 
 namespace pgdr {
 

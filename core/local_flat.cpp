@@ -9,8 +9,8 @@
 #include <cassert>
 
 #include "pgdr/facet_flip.hpp"
-#include "pgdr/insertion_rule.hpp"
 #include "pgdr/local_flips.hpp"
+#include "rule/insertion_rule.hpp"
 
 namespace pgdr {
 

@@ -9,8 +9,8 @@
 #include <unordered_set>
 
 #include "input/entity_distance.hpp"
-#include "pgdr/insertion_rule.hpp"
 #include "pgdr/refine_options.hpp"
+#include "rule/insertion_rule.hpp"
 
 namespace pgdr {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <tuple>
 
-#include "input/entity_distance.hpp"
 #include "detail/recovery_state.hpp"
-#include "pgdr/twins.hpp"
+#include "input/entity_distance.hpp"
+#include "rule/twins.hpp"
 
 namespace pgdr::detail {
 namespace {

@@ -11,8 +11,8 @@
 #include "mesh/pinched_edges.hpp"
 #include "pgdr/cavity.hpp"
 #include "pgdr/facet_flip.hpp"
-#include "pgdr/insertion_rule.hpp"
 #include "pgdr/predicates.hpp"
+#include "rule/insertion_rule.hpp"
 
 namespace pgdr {
 namespace {

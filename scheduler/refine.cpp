@@ -16,7 +16,6 @@
 #include "detail/float_environment.hpp"
 #include "detail/generations.hpp"
 #include "detail/greedy.hpp"
-#include "pgdr/cell_bounds.hpp"
 #include "pgdr/compact.hpp"
 #include "pgdr/delaunay.hpp"
 #include "pgdr/diagnosis.hpp"
@@ -26,6 +25,7 @@
 #include "pgdr/poor_reasons.hpp"
 #include "pgdr/recovery.hpp"
 #include "pgdr/sharp_corners.hpp"
+#include "rule/cell_bounds.hpp"
 #include "size/region_sizes.hpp"
 
 namespace pgdr {

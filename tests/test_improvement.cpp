@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "parallel_support.hpp"
-#include "pgdr/cell_bounds.hpp"
+#include "rule/cell_bounds.hpp"
 
 namespace pgdr::test_improvement {
 

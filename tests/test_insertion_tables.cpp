@@ -12,9 +12,9 @@
 
 #include "mesh/key_set.hpp"
 #include "mesh/visit_area.hpp"
-#include "pgdr/cell_bounds.hpp"
 #include "pgdr/delaunay.hpp"
 #include "pgdr/simplex_shapes.hpp"
+#include "rule/cell_bounds.hpp"
 
 namespace pgdr::test_insertion_tables {
 

@@ -12,11 +12,11 @@
 #include <set>
 #include <stdexcept>
 
-#include "pgdr/insertion_rule.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/quality.hpp"
 #include "planar_plcs.hpp"
 #include "refined_models.hpp"
+#include "rule/insertion_rule.hpp"
 #include "sanitized.hpp"
 
 namespace pgdr::test_refine {

@@ -12,7 +12,7 @@
 #include <limits>
 
 #include "parallel_support.hpp"
-#include "pgdr/twins.hpp"
+#include "rule/twins.hpp"
 
 namespace pgdr::test_twins {
 

@@ -15,13 +15,13 @@
 #include <utility>
 #include <vector>
 
-#include "space/box_tree.hpp"
-#include "space/make_set.hpp"
 #include "detail/present_simplices.hpp"
-#include "space/search_tree.hpp"
 #include "detail/wanted_simplices.hpp"
 #include "pgdr/recovery.hpp"
-#include "pgdr/shells.hpp"
+#include "rule/shells.hpp"
+#include "space/box_tree.hpp"
+#include "space/make_set.hpp"
+#include "space/search_tree.hpp"
 
 namespace pgdr::detail {
 

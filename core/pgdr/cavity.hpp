@@ -22,9 +22,9 @@
 #include "mesh/key_set.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/visit_area.hpp"
-#include "pgdr/cell_bounds.hpp"
 #include "pgdr/simplex_shapes.hpp"
-#include "pgdr/twins.hpp"
+#include "rule/cell_bounds.hpp"
+#include "rule/twins.hpp"
 
 namespace pgdr {
 

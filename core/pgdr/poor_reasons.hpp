@@ -12,9 +12,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "pgdr/cell_bounds.hpp"
 #include "pgdr/poor_reason.hpp"
 #include "pgdr/work_list.hpp"
+#include "rule/cell_bounds.hpp"
 
 namespace pgdr {
 

@@ -24,15 +24,15 @@
 #include "mesh/slot_set.hpp"
 #include "mesh/visit_area.hpp"
 #include "pgdr/cavity.hpp"
-#include "pgdr/cell_bounds.hpp"
-#include "pgdr/insertion_rule.hpp"
 #include "pgdr/local_flips.hpp"
 #include "pgdr/refine_options.hpp"
 #include "pgdr/refusal_memo.hpp"
-#include "pgdr/shells.hpp"
-#include "pgdr/twins.hpp"
 #include "pgdr/vertex_move.hpp"
 #include "pgdr/work_list.hpp"
+#include "rule/cell_bounds.hpp"
+#include "rule/insertion_rule.hpp"
+#include "rule/shells.hpp"
+#include "rule/twins.hpp"
 
 namespace pgdr {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pgdr/cell_bounds.hpp"
+#include "rule/cell_bounds.hpp"
 
 #include <algorithm>
 #include <cmath>

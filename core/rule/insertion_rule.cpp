@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pgdr/insertion_rule.hpp"
+#include "rule/insertion_rule.hpp"
 
 #include <algorithm>
 #include <array>
