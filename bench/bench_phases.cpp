@@ -23,11 +23,11 @@
 #include <string>
 #include <vector>
 
-#include "pgdr/cavity.hpp"
-#include "pgdr/delaunay.hpp"
+#include "cavity/cavity.hpp"
+#include "cavity/delaunay.hpp"
 #include "pgdr/pgdr.hpp"
-#include "space/spatial_order.hpp"
 #include "pgdr/work_list.hpp"
+#include "space/spatial_order.hpp"
 #include "unit_cube.hpp"
 
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "pgdr/cavity.hpp"
+#include "cavity/cavity.hpp"
 #include "pgdr/facet_flip.hpp"
 
 namespace pgdr {

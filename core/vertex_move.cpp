@@ -8,8 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "cavity/cavity.hpp"
 #include "mesh/pinched_edges.hpp"
-#include "pgdr/cavity.hpp"
 #include "pgdr/facet_flip.hpp"
 #include "pgdr/predicates.hpp"
 #include "rule/insertion_rule.hpp"

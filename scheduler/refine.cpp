@@ -11,13 +11,13 @@
 #include <span>
 #include <string>
 
+#include "cavity/delaunay.hpp"
 #include "detail/arena.hpp"
 #include "detail/cell_parts.hpp"
 #include "detail/float_environment.hpp"
 #include "detail/generations.hpp"
 #include "detail/greedy.hpp"
 #include "pgdr/compact.hpp"
-#include "pgdr/delaunay.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/folded_facets.hpp"
 #include "pgdr/labeling.hpp"

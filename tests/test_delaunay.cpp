@@ -6,8 +6,8 @@
 
 #include <set>
 
+#include "cavity/delaunay.hpp"
 #include "dimensions.hpp"
-#include "pgdr/delaunay.hpp"
 #include "point_sets.hpp"
 
 namespace pgdr::test_delaunay {

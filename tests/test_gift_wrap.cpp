@@ -12,7 +12,7 @@
 #include <numbers>
 #include <random>
 
-#include "pgdr/delaunay.hpp"
+#include "cavity/delaunay.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr::test_gift_wrap {

@@ -10,9 +10,9 @@
 #include <set>
 #include <vector>
 
+#include "cavity/delaunay.hpp"
 #include "mesh/key_set.hpp"
 #include "mesh/visit_area.hpp"
-#include "pgdr/delaunay.hpp"
 #include "pgdr/simplex_shapes.hpp"
 #include "rule/cell_bounds.hpp"
 

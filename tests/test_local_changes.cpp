@@ -16,11 +16,11 @@
 #include <utility>
 #include <vector>
 
+#include "cavity/cavity.hpp"
+#include "cavity/delaunay.hpp"
 #include "mesh/whole.hpp"
 #include "model_plcs.hpp"
 #include "numbers/vectors.hpp"
-#include "pgdr/cavity.hpp"
-#include "pgdr/delaunay.hpp"
 #include "pgdr/labeling.hpp"
 #include "pgdr/local_flips.hpp"
 #include "pgdr/recovery.hpp"

@@ -9,9 +9,9 @@
 #include <chrono>
 #include <utility>
 
+#include "cavity/delaunay.hpp"
 #include "detail/claim_registry.hpp"
 #include "model_plcs.hpp"
-#include "pgdr/delaunay.hpp"
 #include "pgdr/folded_facets.hpp"
 #include "pgdr/labeling.hpp"
 #include "pgdr/recovery.hpp"

@@ -9,8 +9,8 @@
 #include <random>
 #include <set>
 
+#include "cavity/delaunay.hpp"
 #include "detail/present_simplices.hpp"
-#include "pgdr/delaunay.hpp"
 
 namespace pgdr::test_present_simplices {
 

@@ -13,7 +13,7 @@
 #include <array>
 #include <vector>
 
-#include "pgdr/delaunay.hpp"
+#include "cavity/delaunay.hpp"
 #include "pgdr/domain.hpp"
 
 namespace pgdr::detail {

@@ -6,8 +6,8 @@
 
 #include <vector>
 
+#include "cavity/delaunay.hpp"
 #include "mesh/mesh.hpp"
-#include "pgdr/delaunay.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/region_mode.hpp"
 

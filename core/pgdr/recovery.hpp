@@ -23,7 +23,7 @@
 
 #include <cstdint>
 
-#include "pgdr/delaunay.hpp"
+#include "cavity/delaunay.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/refine_options.hpp"
 

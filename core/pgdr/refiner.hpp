@@ -20,10 +20,10 @@
 #include <utility>
 #include <vector>
 
+#include "cavity/cavity.hpp"
 #include "mesh/key_set.hpp"
 #include "mesh/slot_set.hpp"
 #include "mesh/visit_area.hpp"
-#include "pgdr/cavity.hpp"
 #include "pgdr/local_flips.hpp"
 #include "pgdr/refine_options.hpp"
 #include "pgdr/refusal_memo.hpp"

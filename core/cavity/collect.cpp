@@ -4,7 +4,7 @@
 // The reading phases of an insertion.
 #include <algorithm>
 
-#include "pgdr/cavity.hpp"
+#include "cavity/cavity.hpp"
 
 namespace pgdr {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-#include "pgdr/cavity.hpp"
+#include "cavity/cavity.hpp"
 
 namespace pgdr {
 

@@ -4,7 +4,7 @@
 // Judging a cavity by the cells that it would make: is it star-shaped about the point?
 #include <algorithm>
 
-#include "pgdr/cavity.hpp"
+#include "cavity/cavity.hpp"
 
 namespace pgdr {
 

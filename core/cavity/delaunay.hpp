@@ -9,8 +9,8 @@
 #include <stop_token>
 #include <vector>
 
+#include "cavity/cavity.hpp"
 #include "mesh/mesh.hpp"
-#include "pgdr/cavity.hpp"
 
 namespace pgdr {
 namespace detail {

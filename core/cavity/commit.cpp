@@ -8,7 +8,7 @@
 #include <cassert>
 #include <utility>
 
-#include "pgdr/cavity.hpp"
+#include "cavity/cavity.hpp"
 
 namespace pgdr {
 namespace {
