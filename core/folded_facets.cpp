@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "detail/named_points.hpp"
+#include "boundary/named_points.hpp"
 #include "pgdr/check.hpp"
 #include "pgdr/compact.hpp"
 

@@ -11,6 +11,8 @@
 #include <span>
 #include <string>
 
+#include "boundary/labeling.hpp"
+#include "boundary/recovery.hpp"
 #include "cavity/delaunay.hpp"
 #include "detail/arena.hpp"
 #include "detail/cell_parts.hpp"
@@ -20,10 +22,8 @@
 #include "pgdr/compact.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/folded_facets.hpp"
-#include "pgdr/labeling.hpp"
 #include "pgdr/point_data.hpp"
 #include "pgdr/poor_reasons.hpp"
-#include "pgdr/recovery.hpp"
 #include "pgdr/sharp_corners.hpp"
 #include "rule/cell_bounds.hpp"
 #include "size/region_sizes.hpp"

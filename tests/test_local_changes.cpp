@@ -16,14 +16,14 @@
 #include <utility>
 #include <vector>
 
+#include "boundary/labeling.hpp"
+#include "boundary/recovery.hpp"
 #include "cavity/cavity.hpp"
 #include "cavity/delaunay.hpp"
 #include "mesh/whole.hpp"
 #include "model_plcs.hpp"
 #include "numbers/vectors.hpp"
-#include "pgdr/labeling.hpp"
 #include "pgdr/local_flips.hpp"
-#include "pgdr/recovery.hpp"
 #include "space/corner_means.hpp"
 
 namespace pgdr::test_local_changes {

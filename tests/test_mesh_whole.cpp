@@ -9,12 +9,12 @@
 #include <chrono>
 #include <utility>
 
+#include "boundary/labeling.hpp"
+#include "boundary/recovery.hpp"
 #include "cavity/delaunay.hpp"
 #include "detail/claim_registry.hpp"
 #include "model_plcs.hpp"
 #include "pgdr/folded_facets.hpp"
-#include "pgdr/labeling.hpp"
-#include "pgdr/recovery.hpp"
 
 namespace pgdr::test_mesh_whole {
 

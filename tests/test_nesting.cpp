@@ -8,7 +8,7 @@
 #include <numeric>
 #include <random>
 
-#include "detail/automatic_regions.hpp"
+#include "boundary/automatic_regions.hpp"
 
 namespace pgdr::test_nesting {
 

@@ -9,8 +9,8 @@
 #include <random>
 #include <set>
 
+#include "boundary/present_simplices.hpp"
 #include "cavity/delaunay.hpp"
-#include "detail/present_simplices.hpp"
 
 namespace pgdr::test_present_simplices {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detail/recovery_state.hpp"
+#include "boundary/state.hpp"
 #include "numbers/vectors.hpp"
 
 namespace pgdr::detail {

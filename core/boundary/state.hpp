@@ -15,9 +15,9 @@
 #include <utility>
 #include <vector>
 
-#include "detail/present_simplices.hpp"
-#include "detail/wanted_simplices.hpp"
-#include "pgdr/recovery.hpp"
+#include "boundary/present_simplices.hpp"
+#include "boundary/recovery.hpp"
+#include "boundary/wanted_simplices.hpp"
 #include "rule/shells.hpp"
 #include "space/box_tree.hpp"
 #include "space/make_set.hpp"
@@ -94,7 +94,7 @@ class SegmentChains {
   Diagnostic not_resolved(EntityId segment, bool is_its_end, Home home, const Point3& x) const;
   std::vector<Subsegment> missing();
   std::size_t position(const Subsegment& s) const;
-  // recovery_twins.cpp
+  // boundary/twins.cpp
   void find_companions();
   template <class Visit>
   void for_each_along(EntityId s, EntityId companion, double begin, double end, const Visit& visit) const;

@@ -4,7 +4,7 @@
 // Boundary recovery: makes every segment and facet of the domain a union of edges and faces of the triangulation, and
 // marks them. The rest of the project knows `recover_boundary` alone, so that another front end can take its place.
 //
-// 2D: without any Steiner point; what comes out is the constrained Delaunay triangulation (detail/segment_insertion.hpp).
+// 2D: without any Steiner point; what comes out is the constrained Delaunay triangulation (boundary/segment_insertion.hpp).
 // 3D: by Steiner points on segments and facets; what comes out is conforming Delaunay. Segments (after Shewchuk; Si): a
 // missing subsegment is split at its middle, but next to an end where another segment makes an angle below 60 degrees on a
 // sphere about that end whose radius is a power of two, so that points of neighbouring segments meet on common spheres.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pgdr/labeling.hpp"
+#include "boundary/labeling.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <limits>
 #include <span>
 
-#include "detail/automatic_regions.hpp"
+#include "boundary/automatic_regions.hpp"
 #include "input/entity_distance.hpp"
 #include "pgdr/bounding_box.hpp"
 #include "pgdr/diagnosis.hpp"

@@ -4,8 +4,8 @@
 #include <cassert>
 #include <utility>
 
-#include "detail/named_points.hpp"
-#include "detail/recovery_state.hpp"
+#include "boundary/named_points.hpp"
+#include "boundary/state.hpp"
 
 namespace pgdr::detail {
 

@@ -3,7 +3,7 @@
 //
 // Biconnected components by depth-first search (Hopcroft, Tarjan 1973), without recursion: there may be as many volumes
 // as the input has room for.
-#include "detail/automatic_regions.hpp"
+#include "boundary/automatic_regions.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "detail/segment_insertion.hpp"
+#include "boundary/segment_insertion.hpp"
 
 #include <algorithm>
 #include <cassert>
 
-#include "detail/named_points.hpp"
-#include "detail/wanted_simplices.hpp"
+#include "boundary/named_points.hpp"
+#include "boundary/wanted_simplices.hpp"
 
 namespace pgdr::detail {
 namespace {

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pgdr/recovery.hpp"
+#include "boundary/recovery.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <span>
 #include <string>
 
-#include "detail/named_points.hpp"
-#include "detail/recovery_state.hpp"
-#include "detail/segment_insertion.hpp"
+#include "boundary/named_points.hpp"
+#include "boundary/segment_insertion.hpp"
+#include "boundary/state.hpp"
 
 namespace pgdr {
 namespace {

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "detail/wanted_simplices.hpp"
+#include "boundary/wanted_simplices.hpp"
 #include "mesh/changed_cells.hpp"
 #include "mesh/mesh.hpp"
 

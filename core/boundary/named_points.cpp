@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "detail/named_points.hpp"
+#include "boundary/named_points.hpp"
 
 namespace pgdr::detail {
 

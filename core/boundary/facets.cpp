@@ -7,11 +7,11 @@
 #include <unordered_map>
 #include <utility>
 
+#include "boundary/named_points.hpp"
+#include "boundary/state.hpp"
 #include "input/bent_facets.hpp"
-#include "space/planar_cdt.hpp"
-#include "detail/named_points.hpp"
-#include "detail/recovery_state.hpp"
 #include "numbers/vectors.hpp"
+#include "space/planar_cdt.hpp"
 
 namespace pgdr::detail {
 namespace {

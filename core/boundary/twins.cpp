@@ -6,7 +6,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "detail/recovery_state.hpp"
+#include "boundary/state.hpp"
 #include "input/entity_distance.hpp"
 #include "rule/twins.hpp"
 
