@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Steiner vertices go in anywhere and are taken out again by move: the mesh stays whole, and covers the same.
-#include "pgdr/vertex_move.hpp"
+#include "change/vertex_move.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,10 +20,10 @@
 #include "boundary/recovery.hpp"
 #include "cavity/cavity.hpp"
 #include "cavity/delaunay.hpp"
+#include "change/flips.hpp"
 #include "mesh/whole.hpp"
 #include "model_plcs.hpp"
 #include "numbers/vectors.hpp"
-#include "pgdr/local_flips.hpp"
 #include "space/corner_means.hpp"
 
 namespace pgdr::test_local_changes {

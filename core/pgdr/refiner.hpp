@@ -21,13 +21,13 @@
 #include <vector>
 
 #include "cavity/cavity.hpp"
+#include "change/flips.hpp"
+#include "change/vertex_move.hpp"
 #include "mesh/key_set.hpp"
 #include "mesh/slot_set.hpp"
 #include "mesh/visit_area.hpp"
-#include "pgdr/local_flips.hpp"
 #include "pgdr/refine_options.hpp"
 #include "pgdr/refusal_memo.hpp"
-#include "pgdr/vertex_move.hpp"
 #include "pgdr/work_list.hpp"
 #include "rule/cell_bounds.hpp"
 #include "rule/insertion_rule.hpp"

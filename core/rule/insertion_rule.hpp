@@ -30,7 +30,7 @@
 // lambda and r >= c lambda, by induction over the insertions (on shells: r >= c lambda min(1, 2 sin(a / 2)), a the least
 // angle between segments, as distances from their end do not shrink from one shell to the other, nor, of twins, from one to
 // the other). Mutually visible vertices are thus c lambda apart, and the domain is bounded: finitely many insertions.
-// Vertices of the volume that are taken out again (local_rewrap.hpp) are finitely many, too. Without inheritance c would
+// Vertices of the volume that are taken out again (change/rewrap.hpp) are finitely many, too. Without inheritance c would
 // have to be 1. (That it is 1 at small angles in 3D is for the size of the meshes, not for the proof: docs/performance.md.)
 // What ends a run in 3D follows rules of its own (refiner_improvement.cpp). Pure functions; any thread.
 #pragma once

@@ -8,8 +8,8 @@
 #include <bit>
 #include <cassert>
 
-#include "pgdr/facet_flip.hpp"
-#include "pgdr/local_flips.hpp"
+#include "change/facet_flip.hpp"
+#include "change/flips.hpp"
 #include "rule/insertion_rule.hpp"
 
 namespace pgdr {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pgdr/facet_flip.hpp"
+#include "change/facet_flip.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -14,9 +14,9 @@
 #include <utility>
 #include <vector>
 
+#include "change/rewrap.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/visit_area.hpp"
-#include "pgdr/local_rewrap.hpp"
 
 namespace pgdr {
 
@@ -67,7 +67,7 @@ class LocalFlips {
   /// Replaces the cells at the violating face by others with fewer violations. Stuck: no flip does that. Not owned: to find
   /// that out would need cells that the visit does not own.
   Outcome repair(Pools& pools, CellId c, int face);
-  /// 3D: the same by gift wrapping (local_rewrap.hpp); slower.
+  /// 3D: the same by gift wrapping (change/rewrap.hpp); slower.
   Outcome rewrap(Pools& pools, CellId c, int face, LocalRewrap::Effort effort);
   /// A cell with all its vertices on one facet, and two subfacets of it, is flat but for rounding: takes it out, which flips
   /// the facet's triangulation there. Stuck: c is no such cell, or cannot be taken out.

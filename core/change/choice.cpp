@@ -7,8 +7,8 @@
 #include <limits>
 #include <utility>
 
-#include "pgdr/facet_flip.hpp"
-#include "pgdr/local_flips.hpp"
+#include "change/facet_flip.hpp"
+#include "change/flips.hpp"
 
 namespace pgdr {
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pgdr/local_flips.hpp"
+#include "change/flips.hpp"
 
 #include <algorithm>
 #include <cassert>
 
 #include "cavity/cavity.hpp"
-#include "pgdr/facet_flip.hpp"
+#include "change/facet_flip.hpp"
 
 namespace pgdr {
 namespace {

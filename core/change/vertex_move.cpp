@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pgdr/vertex_move.hpp"
+#include "change/vertex_move.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,8 @@
 #include <limits>
 
 #include "cavity/cavity.hpp"
+#include "change/facet_flip.hpp"
 #include "mesh/pinched_edges.hpp"
-#include "pgdr/facet_flip.hpp"
 #include "pgdr/predicates.hpp"
 #include "rule/insertion_rule.hpp"
 
