@@ -26,7 +26,7 @@
 #include "cavity/cavity.hpp"
 #include "cavity/delaunay.hpp"
 #include "pgdr/pgdr.hpp"
-#include "pgdr/work_list.hpp"
+#include "refine/work_list.hpp"
 #include "space/spatial_order.hpp"
 #include "unit_cube.hpp"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "pgdr/improvement.hpp"
-#include "pgdr/refiner.hpp"
+#include "refine/refiner.hpp"
 
 namespace pgdr {
 

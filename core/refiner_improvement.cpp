@@ -17,9 +17,9 @@
 #include <array>
 #include <tuple>
 
-#include "space/corner_means.hpp"
 #include "pgdr/improvement.hpp"
-#include "pgdr/refiner.hpp"
+#include "refine/refiner.hpp"
+#include "space/corner_means.hpp"
 
 namespace pgdr {
 namespace {

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "pgdr/improvement.hpp"
-#include "pgdr/refiner.hpp"
+#include "refine/refiner.hpp"
 
 namespace pgdr {
 namespace {

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "pgdr/work_list.hpp"
+#include "refine/work_list.hpp"
 
 namespace pgdr::test_work_list {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "pgdr/poor_reason.hpp"
-#include "pgdr/work_list.hpp"
+#include "refine/work_list.hpp"
 #include "rule/cell_bounds.hpp"
 
 namespace pgdr {

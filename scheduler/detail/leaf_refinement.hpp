@@ -22,7 +22,7 @@
 #include "pgdr/poor_reasons.hpp"
 #include "pgdr/predicates.hpp"
 #include "pgdr/refine.hpp"
-#include "pgdr/refiner.hpp"
+#include "refine/refiner.hpp"
 
 namespace pgdr::detail {
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "pgdr/orthtree.hpp"
-#include "pgdr/refiner.hpp"
+#include "refine/refiner.hpp"
 
 namespace pgdr::detail {
 

@@ -11,7 +11,7 @@
 #include <optional>
 #include <unordered_map>
 
-#include "pgdr/work_list.hpp"
+#include "refine/work_list.hpp"
 
 namespace pgdr {
 

@@ -4,7 +4,7 @@
 // Subsegments that vertices are close beside (twins.hpp).
 #include <algorithm>
 
-#include "pgdr/refiner.hpp"
+#include "refine/refiner.hpp"
 
 namespace pgdr {
 

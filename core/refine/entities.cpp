@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pgdr/refiner.hpp"
+#include "refine/refiner.hpp"
 
 namespace pgdr {
 namespace {

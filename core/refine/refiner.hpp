@@ -27,8 +27,8 @@
 #include "mesh/slot_set.hpp"
 #include "mesh/visit_area.hpp"
 #include "pgdr/refine_options.hpp"
-#include "pgdr/refusal_memo.hpp"
-#include "pgdr/work_list.hpp"
+#include "refine/refusal_memo.hpp"
+#include "refine/work_list.hpp"
 #include "rule/cell_bounds.hpp"
 #include "rule/insertion_rule.hpp"
 #include "rule/shells.hpp"
@@ -169,7 +169,7 @@ class Refiner {
   std::vector<CellId> cells_seen(const Item& e);
   void send_abroad();
 
-  // refiner_entities.cpp: encroached entities
+  // refine/entities.cpp: encroached entities
   bool face_encroached_by(CellId c, int face, VertexId v) const;
   Outcome split_face(const Item& e, const Demand* cause);
   Outcome split_edge(const Item& e, const Demand* cause);
@@ -196,11 +196,11 @@ class Refiner {
   Outcome decide(EntityRef entity, std::span<const VertexId> own, const Demand* cause, std::span<const VertexId> twins = {});
   Outcome refuse(EntityRef entity, std::span<const VertexId> own);
 
-  // refiner_twins.cpp: subsegments that vertices are close beside
+  // refine/twins.cpp: subsegments that vertices are close beside
   std::optional<SplitPlace> place_beside(const Item& e, std::span<const VertexId> own, bool& owned) const;
   std::vector<VertexId> twins_of(EntityId s, const SplitPlace& place) const;
 
-  // refiner_cells.cpp: poor elements
+  // refine/cells.cpp: poor elements
   FilterSphere<D> sphere_of(const Item& e) const;
   CellVerdict verdict_of(const Item& e) const;
   Outcome treat_cell(const Item& e);
@@ -270,7 +270,7 @@ class Refiner {
   std::vector<Point<D>> places_to_move_to() const;
   void add_places_on_segment(const std::vector<VertexId>& ends, std::vector<Point<D>>& places) const;
 
-  // refiner_selectors.cpp
+  // refine/selectors.cpp
   class View;
   /// Where the selector puts the point of a cell over the radius-edge bound; nothing if the claim is too small to tell.
   std::optional<Point<D>> selected_point(CellId c, const Point<D>& center);

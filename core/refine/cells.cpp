@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "numbers/vectors.hpp"
-#include "pgdr/refiner.hpp"
+#include "refine/refiner.hpp"
 
 namespace pgdr {
 namespace {

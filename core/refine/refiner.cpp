@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The lists of a visit and the order in which they are worked off.
-#include "pgdr/refiner.hpp"
+#include "refine/refiner.hpp"
 
 #include <algorithm>
 #include <bit>
