@@ -23,8 +23,8 @@
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/folded_facets.hpp"
 #include "pgdr/point_data.hpp"
-#include "pgdr/poor_reasons.hpp"
-#include "pgdr/sharp_corners.hpp"
+#include "reasons/poor_reasons.hpp"
+#include "reasons/sharp_corners.hpp"
 #include "rule/cell_bounds.hpp"
 #include "size/region_sizes.hpp"
 

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "pgdr/poor_reasons.hpp"
+#include "reasons/poor_reasons.hpp"
 
 namespace pgdr {
 

@@ -19,9 +19,9 @@
 #include "detail/thread_numbers.hpp"
 #include "mesh/slot_set.hpp"
 #include "pgdr/conflict_manager.hpp"
-#include "pgdr/poor_reasons.hpp"
 #include "pgdr/predicates.hpp"
 #include "pgdr/refine.hpp"
+#include "reasons/poor_reasons.hpp"
 #include "refine/refiner.hpp"
 
 namespace pgdr::detail {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pgdr/sharp_corners.hpp"
+#include "reasons/sharp_corners.hpp"
 
 #include <algorithm>
 #include <array>

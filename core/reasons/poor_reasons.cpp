@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-#include "pgdr/poor_reasons.hpp"
+#include "reasons/poor_reasons.hpp"
 
 #include <algorithm>
 #include <cassert>
