@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The last visits of a run, which change the mesh for elements that stay poor (core/refiner_improvement.cpp): of leaves, as those
+// The last visits of a run, which change the mesh for elements that stay poor (core/improve/improve.cpp): of leaves, as those
 // before them, with claims as large as it takes. Vertices are taken out before points come: that leaves as few poor elements, and
 // fewer of all.
 #include <cassert>
 #include <utility>
 
 #include "detail/leaf_refinement.hpp"
-#include "pgdr/improvement.hpp"
+#include "improve/improvement.hpp"
 
 namespace pgdr::detail {
 

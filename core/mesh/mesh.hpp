@@ -70,7 +70,7 @@ struct VertexRecord {
   float relaxed_radius = std::numeric_limits<float>::infinity();  ///< as said above
 };
 
-/// What is known of a vertex (refiner_vertex_moves.cpp).
+/// What is known of a vertex (improve/vertex_moves.cpp).
 struct VertexNote {
   std::uint32_t version;     ///< how often the cells at it have changed
   std::uint32_t settled[2];  ///< one more than that was when it was found to have to stay, or to have nowhere to go; 0: not yet

@@ -77,7 +77,7 @@ struct RefineContext {
   const std::chrono::steady_clock::time_point start;  ///< of the time limit
   /// 3D: what is poor now would stay so, and asks for c times the room. Set while no visit runs.
   bool last_resort = false;
-  /// 3D: visits change the mesh for elements that stay poor, and treat nothing else (refiner_improvement.cpp). Set while no visit
+  /// 3D: visits change the mesh for elements that stay poor, and treat nothing else (improve/improve.cpp). Set while no visit
   /// runs.
   const Improvement<D>* improvement = nullptr;
   const Shells<D> shells;  ///< none in 3D, where the front end alone splits on them
@@ -222,7 +222,7 @@ class Refiner {
   std::optional<Item> hiding_wall(CellId c, const Point<D>& x);
   Outcome split_instead(const Item& entity, const Item& e, const CellVerdict& verdict);
 
-  // refiner_improvement.cpp: what stays poor
+  // improve/improve.cpp: what stays poor
   /// Where a point may go, and on what.
   struct Place {
     Item at;  ///< a cell in conflict with it, or its face or edge
@@ -249,7 +249,7 @@ class Refiner {
   bool is_explained(const std::vector<Home>& homes, const Simplex<D>& s) const;
   Outcome note_change(const Item& e, std::vector<CellId> new_cells, bool violates);
 
-  // refiner_flips.cpp
+  // improve/flips.cpp
   using Flip = typename LocalFlips<D>::Flip;
   Outcome flip_for_less(const Item& e);
   Simplex<D> simplex_of(const std::array<VertexId, D + 1>& vertices) const;
@@ -259,7 +259,7 @@ class Refiner {
   bool flip_to_delaunay(CellId c, int face);
   void flip_to_delaunay(std::vector<CellId>& cells);
 
-  // refiner_vertex_moves.cpp
+  // improve/vertex_moves.cpp
   enum class VertexChange { take_out, move };
   Outcome change_vertex(const Item& e, VertexChange change);
   bool add_vertices_beyond(CellId c, std::vector<std::pair<VertexId, CellId>>& vertices) const;

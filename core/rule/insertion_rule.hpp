@@ -32,7 +32,7 @@
 // the other). Mutually visible vertices are thus c lambda apart, and the domain is bounded: finitely many insertions.
 // Vertices of the volume that are taken out again (change/rewrap.hpp) are finitely many, too. Without inheritance c would
 // have to be 1. (That it is 1 at small angles in 3D is for the size of the meshes, not for the proof: docs/performance.md.)
-// What ends a run in 3D follows rules of its own (refiner_improvement.cpp). Pure functions; any thread.
+// What ends a run in 3D follows rules of its own (improve/improve.cpp). Pure functions; any thread.
 #pragma once
 
 #include <array>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The last visits of a run, in 3D: vertices are taken out and moved (refiner_vertex_moves.cpp), faces and edges flipped
-// (refiner_flips.cpp), and points put in for elements that stay poor, wherever that leaves fewer of these, or better ones.
+// The last visits of a run, in 3D: vertices are taken out and moved (improve/vertex_moves.cpp), faces and edges flipped
+// (improve/flips.cpp), and points put in for elements that stay poor, wherever that leaves fewer of these, or better ones.
 //
 // Let the excess of an element be 0 within its bounds, else at least 1 and at most 3.5 (CellBounds::excess). Anything is done
 // only if the elements that it makes have less excess than those that they take the place of, by at least 1/128; but a vertex
@@ -17,7 +17,7 @@
 #include <array>
 #include <tuple>
 
-#include "pgdr/improvement.hpp"
+#include "improve/improvement.hpp"
 #include "refine/refiner.hpp"
 #include "space/corner_means.hpp"
 

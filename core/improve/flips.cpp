@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The last visits of a run, in 3D: flips that leave less excess (refiner_improvement.cpp says what that is, why this ends, and
+// The last visits of a run, in 3D: flips that leave less excess (improve/improve.cpp says what that is, why this ends, and
 // what may be new), and after any change those that leave no more excess, and fewer faces that are not locally Delaunay.
 #include <algorithm>
 
-#include "pgdr/improvement.hpp"
+#include "improve/improvement.hpp"
 #include "refine/refiner.hpp"
 
 namespace pgdr {

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The last visits of a run, in 3D: Steiner vertices are taken out where that leaves no more excess, and moved where it leaves
-// less (refiner_improvement.cpp says what that is, why this ends, and what may be new). Between segments at a small angle every
+// less (improve/improve.cpp says what that is, why this ends, and what may be new). Between segments at a small angle every
 // vertex makes short edges, to those on the other segment, and poor elements at these; what needed it when it was inserted may
 // be gone by now.
 #include <algorithm>
 #include <array>
 #include <utility>
 
-#include "pgdr/improvement.hpp"
+#include "improve/improvement.hpp"
 #include "refine/refiner.hpp"
 
 namespace pgdr {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What the last visits of a run heed, which change the mesh for elements that stay poor
-// (refiner_improvement.cpp). Read by all of them at once.
+// (improve/improve.cpp). Read by all of them at once.
 #pragma once
 
 #include <vector>
