@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "boundary/named_points.hpp"
+#include "compact/compact.hpp"
 #include "pgdr/check.hpp"
-#include "pgdr/compact.hpp"
 
 namespace pgdr {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pgdr/point_data.hpp"
+#include "compact/point_data.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -13,7 +13,7 @@
 #include <span>
 #include <stop_token>
 
-#include "pgdr/compact.hpp"
+#include "compact/compact.hpp"
 #include "pgdr/domain.hpp"
 
 namespace pgdr {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pgdr/compact.hpp"
+#include "compact/compact.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -8,8 +8,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "compact/stripped_cells.hpp"
 #include "space/bulk.hpp"
-#include "detail/stripped_cells.hpp"
 #include "space/spatial_order.hpp"
 
 namespace pgdr {
