@@ -8,10 +8,10 @@
 #include <cmath>
 #include <random>
 
-#include "detail/check_conformity.hpp"
-#include "numbers/exact_tests.hpp"
-#include "detail/check_input.hpp"
+#include "check/conformity.hpp"
+#include "check/volumes/input_volumes.hpp"
 #include "dimensions.hpp"
+#include "numbers/exact_tests.hpp"
 #include "pgdr/predicates.hpp"
 #include "test_check_models.hpp"
 

@@ -3,7 +3,7 @@
 //
 // A component of cells fills the volume of the input that the walls round it bound. Every wall of a kept volume must
 // have a cell on that side, no wall of the outside or a hole may; then seeds and measures are compared.
-#include "detail/check_regions.hpp"
+#include "check/regions.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 // Neighbours by sorting: faces and walls go into one bucket for their smallest vertex number (a counting sort), each
 // bucket (about 24 faces in 3D) is sorted by the other vertices, and equal ones then stand beside each other. No hash
 // table, no allocation per face; 2 M tetrahedra take about a second.
-#include "detail/check_links.hpp"
+#include "check/links.hpp"
 
 #include <algorithm>
 #include <span>

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "detail/check_findings.hpp"
+#include "check/findings.hpp"
 
 namespace pgdr::checking {
 

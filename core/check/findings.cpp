@@ -3,7 +3,7 @@
 //
 // The words of the checker: names of the kinds of findings (stable, they stand in reports), vertices and cells in
 // messages, and the verdict as an exit code.
-#include "detail/check_findings.hpp"
+#include "check/findings.hpp"
 
 #include <charconv>
 

@@ -12,9 +12,9 @@
 #include <optional>
 #include <tuple>
 
-#include "space/box_tree.hpp"
-#include "detail/check_pieces.hpp"
+#include "check/pieces.hpp"
 #include "pgdr/predicates.hpp"
+#include "space/box_tree.hpp"
 
 namespace pgdr::checking {
 

@@ -10,9 +10,9 @@
 #include <span>
 #include <vector>
 
+#include "check/links.hpp"
+#include "check/volumes/input_volumes.hpp"
 #include "numbers/exact_tests.hpp"
-#include "detail/check_input.hpp"
-#include "detail/check_links.hpp"
 
 namespace pgdr::checking {
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "check/volumes/input_volumes.hpp"
 #include "numbers/exact_tests.hpp"
-#include "detail/check_input.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr::checking {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Bounds, with the exact functions that the refiner uses, and the local Delaunay property of unconstrained faces.
-#include "detail/check_bounds.hpp"
+#include "check/bounds.hpp"
 
 #include <algorithm>
 #include <cmath>

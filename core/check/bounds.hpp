@@ -6,8 +6,8 @@
 
 #include <span>
 
-#include "detail/check_reasons.hpp"
-#include "detail/check_regions.hpp"
+#include "check/reasons.hpp"
+#include "check/regions.hpp"
 
 namespace pgdr::checking {
 

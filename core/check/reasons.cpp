@@ -4,7 +4,7 @@
 // Angles between input entities, decided exactly: of two segments below 60 degrees, otherwise below 90. A direction
 // into a facet at one of its points is a positive combination of the edges of its triangles there, and the product of
 // two positive combinations is positive for some choice iff it is for a pair of edges: so edges decide.
-#include "detail/check_reasons.hpp"
+#include "check/reasons.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "detail/check_conformity.hpp"
+#include "check/conformity.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr::checking {

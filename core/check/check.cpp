@@ -5,7 +5,7 @@
 // cannot be used at all.
 #include "pgdr/check.hpp"
 
-#include "detail/check_bounds.hpp"
+#include "check/bounds.hpp"
 
 namespace pgdr {
 namespace {

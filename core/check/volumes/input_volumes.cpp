@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Builds InputVolumes: walls, patches, sides joined round ridges and along lines, seeds, measures.
-#include "detail/check_input.hpp"
+#include "check/volumes/input_volumes.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "space/disjoint_sets.hpp"
 #include "pgdr/bounding_box.hpp"
 #include "pgdr/predicates.hpp"
+#include "space/disjoint_sets.hpp"
 
 namespace pgdr::checking {
 

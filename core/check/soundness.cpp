@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "detail/check_links.hpp"
+#include "check/links.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr::checking {

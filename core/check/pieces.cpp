@@ -3,7 +3,7 @@
 //
 // Collects pieces: edges of subfacets and subsegments are sorted together, so that equal ones stand beside each other;
 // then a flood over the edges that are no subsegments.
-#include "detail/check_pieces.hpp"
+#include "check/pieces.hpp"
 
 #include <algorithm>
 

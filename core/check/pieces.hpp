@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "detail/check_conformity.hpp"
+#include "check/conformity.hpp"
 
 namespace pgdr::checking {
 

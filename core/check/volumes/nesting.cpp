@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <set>
 
-#include "detail/check_findings.hpp"
-#include "detail/check_input.hpp"
+#include "check/findings.hpp"
+#include "check/volumes/input_volumes.hpp"
 #include "space/disjoint_sets.hpp"
 
 namespace pgdr::checking {
