@@ -8,7 +8,7 @@
 #include <memory>
 #include <optional>
 
-#include "detail/io_formats.hpp"
+#include "io/formats.hpp"
 #include "msh_files.hpp"
 #include "ply_files.hpp"
 #include "test_io_support.hpp"

@@ -5,7 +5,7 @@
 // surface is asked for, what is said about mistakes; and that meshes go through all formats and back.
 #include <algorithm>
 
-#include "detail/io_formats.hpp"
+#include "io/formats.hpp"
 #include "msh_files.hpp"
 #include "ply_files.hpp"
 #include "test_io_support.hpp"

@@ -9,8 +9,8 @@
 #include <string>
 #include <string_view>
 
-#include "detail/io_formats.hpp"
 #include "expect.hpp"
+#include "io/formats.hpp"
 #include "pgdr/check.hpp"
 #include "pgdr/error.hpp"
 

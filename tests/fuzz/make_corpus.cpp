@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <random>
 
-#include "detail/io_formats.hpp"
+#include "io/formats.hpp"
 #include "msh_files.hpp"
 #include "ply_files.hpp"
 #include "test_io_support.hpp"

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "detail/file_input.hpp"
-#include "detail/line_scanner.hpp"
+#include "io/file_input.hpp"
+#include "io/scan/line_scanner.hpp"
 #include "pgdr/io.hpp"
 
 namespace pgdr {

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Meshes as TetGen (3D) and Triangle (2D) write them; io_tetgen.cpp says which files, and reads them.
+// Meshes as TetGen (3D) and Triangle (2D) write them; io/read/tetgen.cpp says which files, and reads them.
 #include <algorithm>
 #include <iterator>
 #include <memory>
 #include <vector>
 
-#include "detail/io_formats.hpp"
+#include "io/formats.hpp"
 
 namespace pgdr::detail {
 namespace {

@@ -8,8 +8,8 @@
 #include <iterator>
 #include <string>
 
-#include "detail/io_formats.hpp"
-#include "detail/line_scanner.hpp"
+#include "io/formats.hpp"
+#include "io/scan/line_scanner.hpp"
 
 namespace pgdr::detail {
 namespace {

@@ -8,7 +8,7 @@
 #include <compare>
 #include <string>
 
-#include "detail/io_formats.hpp"
+#include "io/formats.hpp"
 
 namespace pgdr::detail {
 namespace {

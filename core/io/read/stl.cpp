@@ -12,8 +12,8 @@
 #include <string>
 #include <utility>
 
-#include "detail/io_formats.hpp"
-#include "detail/line_scanner.hpp"
+#include "io/formats.hpp"
+#include "io/scan/line_scanner.hpp"
 #include "pgdr/written_precision.hpp"
 
 namespace pgdr::detail {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Reads the .vtu files that io_vtu_write.cpp makes, and refuses all others by name: an XML head that announces arrays
+// Reads the .vtu files that io/write/vtu.cpp makes, and refuses all others by name: an XML head that announces arrays
 // by place and type, then their raw bytes. Each array must have exactly the size that the counts of the head imply and
 // lie within the file, so nothing is allocated that the file does not hold. Errors carry the line of the announcement.
 #include <algorithm>
@@ -11,8 +11,8 @@
 #include <map>
 #include <string>
 
-#include "detail/io_formats.hpp"
-#include "detail/line_scanner.hpp"
+#include "io/formats.hpp"
+#include "io/scan/line_scanner.hpp"
 
 namespace pgdr::detail {
 namespace {

@@ -11,9 +11,9 @@
 #include <string>
 #include <string_view>
 
-#include "detail/file_input.hpp"
-#include "detail/file_output.hpp"
-#include "detail/io_formats.hpp"
+#include "io/file_input.hpp"
+#include "io/file_output.hpp"
+#include "io/formats.hpp"
 #include "pgdr/written_precision.hpp"
 
 namespace pgdr {

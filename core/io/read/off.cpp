@@ -6,8 +6,8 @@
 // numbers and dropped. A face is a facet, however many corners it has.
 #include <string>
 
-#include "detail/io_formats.hpp"
-#include "detail/line_scanner.hpp"
+#include "io/formats.hpp"
+#include "io/scan/line_scanner.hpp"
 
 namespace pgdr::detail {
 namespace {

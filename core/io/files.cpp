@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "detail/file_input.hpp"
-#include "detail/file_output.hpp"
+#include "io/file_input.hpp"
+#include "io/file_output.hpp"
 #include "pgdr/error.hpp"
 
 namespace pgdr::detail {

@@ -7,7 +7,7 @@
 #include <system_error>
 #include <utility>
 
-#include "detail/line_scanner.hpp"
+#include "io/scan/line_scanner.hpp"
 
 namespace pgdr::detail {
 namespace {

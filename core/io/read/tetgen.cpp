@@ -7,8 +7,8 @@
 // "# pgdr subsegments <n>", the subsegments, which come first, from the other edges.
 #include <string>
 
-#include "detail/io_formats.hpp"
-#include "detail/line_scanner.hpp"
+#include "io/formats.hpp"
+#include "io/scan/line_scanner.hpp"
 
 namespace pgdr::detail {
 namespace {

@@ -13,7 +13,7 @@
 #include <string>
 #include <utility>
 
-#include "detail/io_formats.hpp"
+#include "io/formats.hpp"
 
 namespace pgdr::detail {
 namespace {

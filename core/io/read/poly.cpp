@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <string>
 
-#include "detail/file_input.hpp"
-#include "detail/io_formats.hpp"
-#include "detail/line_scanner.hpp"
+#include "io/file_input.hpp"
+#include "io/formats.hpp"
+#include "io/scan/line_scanner.hpp"
 
 namespace pgdr::detail {
 namespace {

@@ -15,9 +15,9 @@
 #include <utility>
 #include <vector>
 
-#include "detail/byte_order.hpp"
-#include "detail/io_formats.hpp"
-#include "detail/line_scanner.hpp"
+#include "io/formats.hpp"
+#include "io/scan/byte_order.hpp"
+#include "io/scan/line_scanner.hpp"
 #include "pgdr/written_precision.hpp"
 
 namespace pgdr::detail {

@@ -10,8 +10,8 @@
 #include <string>
 #include <string_view>
 
-#include "detail/file_mesh.hpp"
-#include "detail/file_output.hpp"
+#include "io/file_output.hpp"
+#include "io/read/file_mesh.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/output_mesh.hpp"
 #include "pgdr/plc.hpp"

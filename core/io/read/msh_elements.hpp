@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "detail/file_mesh.hpp"
-#include "detail/line_scanner.hpp"
+#include "io/read/file_mesh.hpp"
+#include "io/scan/line_scanner.hpp"
 
 namespace pgdr::detail {
 

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Reads Medit's .mesh as text, section by section. References are markers and region attributes; what ours state in
-// comments (io_medit_write.cpp) is heeded. Sections that nothing has a place for are stepped over.
+// comments (io/write/medit.cpp) is heeded. Sections that nothing has a place for are stepped over.
 // Pascal Frey, MEDIT: an interactive mesh visualization software, INRIA RT-0253, 2001.
 #include <algorithm>
 #include <string>
 
-#include "detail/io_formats.hpp"
-#include "detail/line_scanner.hpp"
+#include "io/formats.hpp"
+#include "io/scan/line_scanner.hpp"
 
 namespace pgdr::detail {
 namespace {

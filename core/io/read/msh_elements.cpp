@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "detail/msh_elements.hpp"
+#include "io/read/msh_elements.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "detail/file_mesh.hpp"
+#include "io/read/file_mesh.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Reads gmsh's .msh, versions 2.x and 4.1, as text and binary (either byte order). The label of an element is its first
-// physical group; one that is named "pgdr marker <m>" or "pgdr region <a>" (io_msh_write.cpp) stands for m or a. Nodes
+// physical group; one that is named "pgdr marker <m>" or "pgdr region <a>" (io/write/msh.cpp) stands for m or a. Nodes
 // and elements are ordered by their tags, which may have gaps. Elements of higher order are refused, since their sides
 // are curved. Gmsh reference manual, sections "MSH file format" and "MSH file format version 2 (Legacy)".
 #include <algorithm>
@@ -13,10 +13,10 @@
 #include <string>
 #include <utility>
 
-#include "detail/byte_order.hpp"
-#include "detail/io_formats.hpp"
-#include "detail/line_scanner.hpp"
-#include "detail/msh_elements.hpp"
+#include "io/formats.hpp"
+#include "io/read/msh_elements.hpp"
+#include "io/scan/byte_order.hpp"
+#include "io/scan/line_scanner.hpp"
 
 namespace pgdr::detail {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "detail/io_formats.hpp"
+#include "io/formats.hpp"
 
 namespace pgdr::detail {
 namespace {
