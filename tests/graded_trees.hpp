@@ -10,7 +10,7 @@
 #include <set>
 #include <vector>
 
-#include "pgdr/orthtree.hpp"
+#include "tree/orthtree.hpp"
 
 namespace pgdr::trees {
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The tree against the definitions on its boxes, in trees of any grading; and what a claim says it holds.
-#include "pgdr/orthtree.hpp"
+#include "tree/orthtree.hpp"
 
 #include <gtest/gtest.h>
 

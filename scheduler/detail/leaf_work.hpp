@@ -11,8 +11,8 @@
 #include <memory>
 #include <vector>
 
-#include "pgdr/orthtree.hpp"
 #include "refine/refiner.hpp"
+#include "tree/orthtree.hpp"
 
 namespace pgdr::detail {
 

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "pgdr/orthtree.hpp"
+#include "tree/orthtree.hpp"
 
 namespace pgdr {
 

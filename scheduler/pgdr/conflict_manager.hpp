@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "pgdr/claim.hpp"
-#include "pgdr/orthtree.hpp"
 #include "pgdr/visit_graph.hpp"
+#include "tree/orthtree.hpp"
 
 namespace pgdr {
 

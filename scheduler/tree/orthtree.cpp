@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pgdr/orthtree.hpp"
+#include "tree/orthtree.hpp"
 
 #include <algorithm>
 #include <cmath>
