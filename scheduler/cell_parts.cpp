@@ -6,10 +6,10 @@
 #include <chrono>
 #include <vector>
 
-#include "detail/arena.hpp"
-#include "detail/float_environment.hpp"
+#include "graph/arena.hpp"
+#include "graph/float_environment.hpp"
+#include "graph/visit_graph.hpp"
 #include "mesh/slot_set.hpp"
-#include "pgdr/visit_graph.hpp"
 
 namespace pgdr::detail {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cassert>
 
-#include "detail/arena.hpp"
 #include "detail/claimed_area.hpp"
+#include "graph/arena.hpp"
 #include "mesh/whole.hpp"
 
 namespace pgdr::detail {

@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <exception>
 
-#include "detail/arena.hpp"
 #include "detail/claimed_area.hpp"
+#include "graph/arena.hpp"
 
 namespace pgdr::detail {
 namespace {

@@ -4,8 +4,8 @@
 // How a visit runs.
 #include <algorithm>
 
-#include "detail/float_environment.hpp"
 #include "detail/leaf_refinement.hpp"
+#include "graph/float_environment.hpp"
 
 namespace pgdr::detail {
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The executors of a visit graph: every visit once, after its predecessors, with the exceptions of its bodies.
-#include "pgdr/visit_graph.hpp"
+#include "graph/visit_graph.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "detail/arena.hpp"
+#include "graph/arena.hpp"
 #include "pgdr/refine_options.hpp"
 
 namespace pgdr::detail {

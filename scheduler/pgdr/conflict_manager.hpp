@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
+#include "graph/visit_graph.hpp"
 #include "pgdr/claim.hpp"
-#include "pgdr/visit_graph.hpp"
 #include "tree/orthtree.hpp"
 
 namespace pgdr {

@@ -9,8 +9,8 @@
 #include <exception>
 #include <mutex>
 
+#include "graph/visit_graph.hpp"
 #include "pgdr/error.hpp"
-#include "pgdr/visit_graph.hpp"
 
 namespace pgdr {
 

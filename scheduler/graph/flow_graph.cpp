@@ -16,8 +16,8 @@
 
 #include <deque>
 
-#include "detail/visit_log.hpp"
-#include "pgdr/visit_graph.hpp"
+#include "graph/visit_graph.hpp"
+#include "graph/visit_log.hpp"
 
 namespace pgdr {
 

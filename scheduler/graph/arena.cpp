@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "detail/arena.hpp"
+#include "graph/arena.hpp"
 
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>

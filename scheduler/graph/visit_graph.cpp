@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pgdr/visit_graph.hpp"
+#include "graph/visit_graph.hpp"
 
 #include <algorithm>
 #include <condition_variable>
@@ -8,7 +8,7 @@
 #include <queue>
 #include <thread>
 
-#include "detail/visit_log.hpp"
+#include "graph/visit_log.hpp"
 
 namespace pgdr {
 
