@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "detail/claimed_area.hpp"
+#include "claims/claimed_area.hpp"
 #include "graph/arena.hpp"
 #include "mesh/whole.hpp"
 

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <exception>
 
-#include "detail/claimed_area.hpp"
+#include "claims/claimed_area.hpp"
 #include "graph/arena.hpp"
 
 namespace pgdr::detail {

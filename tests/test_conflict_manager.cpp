@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The total order of a generation's visits, and that visits whose claims meet never run at once.
-#include "pgdr/conflict_manager.hpp"
+#include "claims/conflict_manager.hpp"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 #include "boundary/labeling.hpp"
 #include "boundary/recovery.hpp"
 #include "cavity/delaunay.hpp"
-#include "detail/claim_registry.hpp"
+#include "claims/claim_registry.hpp"
 #include "model_plcs.hpp"
 #include "pgdr/folded_facets.hpp"
 

@@ -12,9 +12,9 @@
 #include <map>
 #include <numeric>
 
+#include "claims/claim.hpp"
 #include "dimensions.hpp"
 #include "graded_trees.hpp"
-#include "pgdr/claim.hpp"
 #include "pgdr/error.hpp"
 
 namespace pgdr::test_orthtree {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <ostream>
 
+#include "claims/claim.hpp"
 #include "files.hpp"
 #include "json.hpp"
-#include "pgdr/claim.hpp"
 
 namespace pgdr::tool {
 namespace {

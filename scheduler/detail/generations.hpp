@@ -7,7 +7,7 @@
 // same mesh. What they find for other leaves or set aside, and splits, take effect at the end of the generation, in their order.
 #pragma once
 
-#include "detail/claim_registry.hpp"
+#include "claims/claim_registry.hpp"
 #include "detail/leaf_refinement.hpp"
 
 namespace pgdr::detail {

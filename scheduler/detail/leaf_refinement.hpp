@@ -14,11 +14,11 @@
 #include <thread>
 #include <vector>
 
+#include "claims/conflict_manager.hpp"
 #include "detail/cell_parts.hpp"
 #include "detail/leaf_work.hpp"
 #include "detail/thread_numbers.hpp"
 #include "mesh/slot_set.hpp"
-#include "pgdr/conflict_manager.hpp"
 #include "pgdr/predicates.hpp"
 #include "pgdr/refine.hpp"
 #include "reasons/poor_reasons.hpp"

@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "pgdr/claim.hpp"
+#include "claims/claim.hpp"
 
 namespace pgdr::detail {
 

@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "claims/claim.hpp"
 #include "mesh/visit_area.hpp"
-#include "pgdr/claim.hpp"
 
 namespace pgdr::detail {
 

@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
+#include "claims/claim.hpp"
 #include "graph/visit_graph.hpp"
-#include "pgdr/claim.hpp"
 #include "tree/orthtree.hpp"
 
 namespace pgdr {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pgdr/conflict_manager.hpp"
+#include "claims/conflict_manager.hpp"
 
 #include <algorithm>
 #include <string>
