@@ -14,7 +14,7 @@
 #include "cavity/delaunay.hpp"
 #include "claims/claim_registry.hpp"
 #include "model_plcs.hpp"
-#include "pgdr/folded_facets.hpp"
+#include "run/folded_facets.hpp"
 
 namespace pgdr::test_mesh_whole {
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The passes over the whole mesh, and what waits where.
-#include "detail/leaf_refinement.hpp"
+#include "run/leaf_refinement.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -6,7 +6,7 @@
 #include <cassert>
 #include <utility>
 
-#include "detail/leaf_refinement.hpp"
+#include "run/leaf_refinement.hpp"
 
 namespace pgdr::detail {
 

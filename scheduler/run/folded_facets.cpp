@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pgdr/folded_facets.hpp"
+#include "run/folded_facets.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,8 +7,8 @@
 #include <cassert>
 #include <utility>
 
-#include "detail/leaf_refinement.hpp"
 #include "improve/improvement.hpp"
+#include "run/leaf_refinement.hpp"
 
 namespace pgdr::detail {
 

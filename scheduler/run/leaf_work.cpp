@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "detail/leaf_work.hpp"
+#include "run/leaf_work.hpp"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "detail/generations.hpp"
+#include "run/generations.hpp"
 
 #include <algorithm>
 #include <cassert>

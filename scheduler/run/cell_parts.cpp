@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "detail/cell_parts.hpp"
+#include "run/cell_parts.hpp"
 
 #include <algorithm>
 #include <chrono>

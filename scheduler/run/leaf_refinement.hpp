@@ -15,14 +15,14 @@
 #include <vector>
 
 #include "claims/conflict_manager.hpp"
-#include "detail/cell_parts.hpp"
-#include "detail/leaf_work.hpp"
-#include "detail/thread_numbers.hpp"
 #include "mesh/slot_set.hpp"
 #include "pgdr/predicates.hpp"
 #include "pgdr/refine.hpp"
 #include "reasons/poor_reasons.hpp"
 #include "refine/refiner.hpp"
+#include "run/cell_parts.hpp"
+#include "run/leaf_work.hpp"
+#include "run/thread_numbers.hpp"
 
 namespace pgdr::detail {
 

@@ -4,8 +4,8 @@
 // How a visit runs.
 #include <algorithm>
 
-#include "detail/leaf_refinement.hpp"
 #include "graph/float_environment.hpp"
+#include "run/leaf_refinement.hpp"
 
 namespace pgdr::detail {
 

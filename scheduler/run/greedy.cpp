@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "detail/greedy.hpp"
+#include "run/greedy.hpp"
 
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>

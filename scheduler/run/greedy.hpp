@@ -12,7 +12,7 @@
 #include <set>
 #include <tuple>
 
-#include "detail/leaf_refinement.hpp"
+#include "run/leaf_refinement.hpp"
 
 namespace pgdr::detail {
 

@@ -8,7 +8,7 @@
 #pragma once
 
 #include "claims/claim_registry.hpp"
-#include "detail/leaf_refinement.hpp"
+#include "run/leaf_refinement.hpp"
 
 namespace pgdr::detail {
 
