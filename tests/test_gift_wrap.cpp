@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Gift wrapping against the Delaunay triangulation, where that is the answer, and where there is no answer.
-#include "pgdr/gift_wrap.hpp"
+#include "space/gift_wrap.hpp"
 
 #include <gtest/gtest.h>
 

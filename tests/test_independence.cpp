@@ -15,8 +15,8 @@
 #include "dimensions.hpp"
 #include "graded_trees.hpp"
 #include "oracles.hpp"
-#include "pgdr/bounding_box.hpp"
 #include "refined_models.hpp"
+#include "space/bounding_box.hpp"
 
 namespace pgdr::test_independence {
 

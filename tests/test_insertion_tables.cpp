@@ -13,7 +13,7 @@
 #include "cavity/delaunay.hpp"
 #include "mesh/key_set.hpp"
 #include "mesh/visit_area.hpp"
-#include "pgdr/simplex_shapes.hpp"
+#include "numbers/simplex_shapes.hpp"
 #include "rule/cell_bounds.hpp"
 
 namespace pgdr::test_insertion_tables {

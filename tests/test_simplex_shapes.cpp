@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Several simplices side by side against one by one: the same bits, and bounds that hold in rationals.
-#include "pgdr/simplex_shapes.hpp"
+#include "numbers/simplex_shapes.hpp"
 
 #include <gtest/gtest.h>
 

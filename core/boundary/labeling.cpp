@@ -10,8 +10,8 @@
 
 #include "boundary/automatic_regions.hpp"
 #include "input/entity_distance.hpp"
-#include "pgdr/bounding_box.hpp"
 #include "pgdr/diagnosis.hpp"
+#include "space/bounding_box.hpp"
 
 namespace pgdr {
 namespace {

@@ -22,7 +22,7 @@
 #include "mesh/key_set.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/visit_area.hpp"
-#include "pgdr/simplex_shapes.hpp"
+#include "numbers/simplex_shapes.hpp"
 #include "rule/cell_bounds.hpp"
 #include "rule/twins.hpp"
 

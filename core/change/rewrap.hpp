@@ -17,7 +17,7 @@
 
 #include "mesh/mesh.hpp"
 #include "mesh/visit_area.hpp"
-#include "pgdr/gift_wrap.hpp"
+#include "space/gift_wrap.hpp"
 
 namespace pgdr {
 

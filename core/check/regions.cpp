@@ -9,8 +9,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "pgdr/bounding_box.hpp"
 #include "pgdr/predicates.hpp"
+#include "space/bounding_box.hpp"
 
 namespace pgdr::checking {
 

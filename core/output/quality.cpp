@@ -7,9 +7,9 @@
 #include <limits>
 #include <numbers>
 
+#include "numbers/simplex_shapes.hpp"
 #include "numbers/vectors.hpp"
 #include "pgdr/circumsphere.hpp"
-#include "pgdr/simplex_shapes.hpp"
 
 namespace pgdr {
 namespace {

@@ -11,7 +11,7 @@
 #include <limits>
 
 #include "mesh/surroundings.hpp"
-#include "pgdr/bounding_box.hpp"
+#include "space/bounding_box.hpp"
 
 namespace pgdr {
 namespace {

@@ -3,7 +3,7 @@
 //
 // The formulas of circumsphere.cpp on several simplices side by side: two, as any x86-64 can, or four where AVX2 or AVX-512
 // is there. No operation is contracted, so that results are the same.
-#include "pgdr/simplex_shapes.hpp"
+#include "numbers/simplex_shapes.hpp"
 
 #include <array>
 #include <limits>

@@ -4,7 +4,7 @@
 // What simplex_shapes() does on processors that are not known to do more: apart, so that tests can compare.
 #pragma once
 
-#include "pgdr/simplex_shapes.hpp"
+#include "numbers/simplex_shapes.hpp"
 
 namespace pgdr::detail {
 

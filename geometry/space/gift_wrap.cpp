@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pgdr/gift_wrap.hpp"
+#include "space/gift_wrap.hpp"
 
 #include <algorithm>
 

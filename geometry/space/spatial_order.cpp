@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "pgdr/bounding_box.hpp"
+#include "space/bounding_box.hpp"
 
 namespace pgdr {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "input/bent_facets.hpp"
 #include "mesh/surroundings.hpp"
-#include "pgdr/bounding_box.hpp"
+#include "space/bounding_box.hpp"
 #include "space/bulk.hpp"
 
 namespace pgdr::detail {

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pgdr/bounding_box.hpp"
 #include "pgdr/predicates.hpp"
+#include "space/bounding_box.hpp"
 #include "space/disjoint_sets.hpp"
 
 namespace pgdr::checking {

@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "pgdr/bounding_box.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/region_mode.hpp"
+#include "space/bounding_box.hpp"
 
 namespace pgdr::checking {
 

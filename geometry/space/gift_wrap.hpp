@@ -16,8 +16,8 @@
 #include <span>
 #include <vector>
 
-#include "pgdr/bounding_box.hpp"
 #include "pgdr/types.hpp"
+#include "space/bounding_box.hpp"
 
 namespace pgdr {
 
