@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "cavity/delaunay.hpp"
+#include "mesh/ids.hpp"
 #include "pgdr/domain.hpp"
 
 namespace pgdr::detail {

@@ -18,6 +18,7 @@
 #include "boundary/present_simplices.hpp"
 #include "boundary/recovery.hpp"
 #include "boundary/wanted_simplices.hpp"
+#include "mesh/ids.hpp"
 #include "rule/shells.hpp"
 #include "space/box_tree.hpp"
 #include "space/make_set.hpp"

@@ -8,6 +8,7 @@
 #include <array>
 #include <vector>
 
+#include "mesh/ids.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/types.hpp"
 

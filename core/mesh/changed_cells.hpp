@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "mesh/ids.hpp"
 #include "pgdr/types.hpp"
 
 namespace pgdr::detail {

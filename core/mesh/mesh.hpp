@@ -20,6 +20,7 @@
 #include <memory>
 #include <utility>
 
+#include "mesh/ids.hpp"
 #include "mesh/pinched_edges.hpp"
 #include "mesh/pool.hpp"
 #include "pgdr/circumsphere.hpp"

@@ -16,6 +16,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "mesh/ids.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/types.hpp"
 

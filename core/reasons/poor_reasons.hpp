@@ -12,6 +12,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "mesh/ids.hpp"
 #include "pgdr/poor_reason.hpp"
 #include "refine/work_list.hpp"
 #include "rule/cell_bounds.hpp"

@@ -11,6 +11,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "mesh/ids.hpp"
 #include "refine/work_list.hpp"
 
 namespace pgdr {

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <compare>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 
@@ -62,21 +61,6 @@ constexpr Sign operator-(Sign s) { return static_cast<Sign>(-static_cast<int>(s)
 template <class Number>
 constexpr Sign sign_of(const Number& v) {
   return v > 0 ? Sign::positive : v < 0 ? Sign::negative : Sign::zero;
-}
-
-/// Typed 32-bit ids of the mesh under refinement; converted explicitly where an array is indexed, nowhere else. (A finished
-/// mesh has plain indices, see OutputMesh.)
-enum class VertexId : std::uint32_t {};
-/// Likewise, of cells.
-enum class CellId : std::uint32_t {};
-inline constexpr VertexId no_vertex{0xffffffffu};  ///< no vertex has this id
-inline constexpr CellId no_cell{0xffffffffu};      ///< no cell has this id
-
-/// Where an array is indexed by an id.
-template <class Id>
-  requires std::same_as<Id, VertexId> || std::same_as<Id, CellId>
-constexpr std::uint32_t index(Id id) {
-  return static_cast<std::uint32_t>(id);
 }
 
 /// Number of a segment, or of a facet, of a Domain, counted from 0; of a domain point where an EntityRef names a vertex.
