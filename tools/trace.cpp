@@ -6,7 +6,6 @@
 #include <cmath>
 #include <ostream>
 
-#include "claims/claim.hpp"
 #include "files.hpp"
 #include "json.hpp"
 
@@ -52,7 +51,7 @@ class Events {
 };
 
 void put_visit(Events& events, const VisitTrace& v, double mesh_at) {
-  const bool whole = v.order == whole_tree;
+  const bool whole = v.order == VisitTrace::whole_tree;
   const std::string name =
       whole ? "whole tree" : "leaf " + std::to_string(v.leaf) + " L" + std::to_string(v.level);
   events.slice(row_of_thread(v.thread), name, mesh_at + v.start, mesh_at + v.end,

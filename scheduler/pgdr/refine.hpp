@@ -53,12 +53,13 @@ struct SchedulerStatistics {
 
 /// One visit, as it ran. Seconds since the meshing began.
 struct VisitTrace {
+  static constexpr std::uint32_t whole_tree = 0xffffffffu;  ///< an order
   std::uint32_t thread;      ///< as in SchedulerStatistics::busy_seconds
   double start;              ///< seconds
   double end;                ///< seconds
   std::uint32_t leaf;        ///< node of the tree
   std::uint32_t level;       ///< of the leaf; 0 is the root
-  std::uint32_t order;       ///< of its claim, BUF^order; 0xffffffff for the whole tree
+  std::uint32_t order;       ///< of its claim, BUF^order; `whole_tree` for all of space
   std::uint64_t generation;  ///< counted from 1
   std::uint64_t committed;   ///< insertions
   std::uint64_t set_aside;   ///< attempts left to a visit that claims more

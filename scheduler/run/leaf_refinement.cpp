@@ -13,6 +13,8 @@
 #include "space/bulk.hpp"
 
 namespace pgdr::detail {
+
+static_assert(VisitTrace::whole_tree == whole_tree);
 namespace {
 
 template <int D>
