@@ -21,6 +21,7 @@
 #include "cavity/cavity.hpp"
 #include "cavity/delaunay.hpp"
 #include "change/flips.hpp"
+#include "input/entities.hpp"
 #include "mesh/whole.hpp"
 #include "model_plcs.hpp"
 #include "numbers/vectors.hpp"

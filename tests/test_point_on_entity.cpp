@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "domain_plcs.hpp"
+#include "input/entities.hpp"
 #include "oracles.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/predicates.hpp"

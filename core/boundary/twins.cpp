@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "boundary/state.hpp"
+#include "input/entities.hpp"
 #include "input/entity_distance.hpp"
 #include "rule/twins.hpp"
 

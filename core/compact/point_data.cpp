@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "input/entities.hpp"
 #include "output/interpolation.hpp"
 #include "space/bulk.hpp"
 

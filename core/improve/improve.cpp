@@ -18,6 +18,7 @@
 #include <tuple>
 
 #include "improve/improvement.hpp"
+#include "input/entities.hpp"
 #include "refine/refiner.hpp"
 #include "space/corner_means.hpp"
 

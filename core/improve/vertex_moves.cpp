@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "improve/improvement.hpp"
+#include "input/entities.hpp"
 #include "refine/refiner.hpp"
 
 namespace pgdr {

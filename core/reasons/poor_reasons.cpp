@@ -8,6 +8,7 @@
 #include <cmath>
 #include <unordered_set>
 
+#include "input/entities.hpp"
 #include "input/entity_distance.hpp"
 #include "pgdr/refine_options.hpp"
 #include "rule/insertion_rule.hpp"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "input/entities.hpp"
 #include "refine/refiner.hpp"
 
 namespace pgdr {

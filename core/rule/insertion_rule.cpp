@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
+#include "input/entities.hpp"
 #include "rule/insertion_rule.hpp"
 
 #include <algorithm>

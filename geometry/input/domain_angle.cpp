@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "input/entities.hpp"
 #include "numbers/double_double.hpp"
 #include "pgdr/domain.hpp"
 
@@ -194,8 +195,8 @@ double entity_angle(const Domain<D>& domain, EntityRef a, EntityRef b) {
   return 180;
 }
 
-template PGDR_API bool entities_touch<2>(const Domain<2>&, EntityRef, EntityRef);
-template PGDR_API bool entities_touch<3>(const Domain<3>&, EntityRef, EntityRef);
+template bool entities_touch<2>(const Domain<2>&, EntityRef, EntityRef);
+template bool entities_touch<3>(const Domain<3>&, EntityRef, EntityRef);
 template PGDR_API double entity_angle<2>(const Domain<2>&, EntityRef, EntityRef);
 template PGDR_API double entity_angle<3>(const Domain<3>&, EntityRef, EntityRef);
 

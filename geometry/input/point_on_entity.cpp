@@ -10,6 +10,7 @@
 
 #include "input/bent_facets.hpp"
 #include "input/domain_builder.hpp"
+#include "input/entities.hpp"
 #include "numbers/double_double.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/predicates.hpp"
@@ -175,7 +176,7 @@ Point<3> point_on_facet(const Domain<3>& domain, EntityId f, const Point<3>& x) 
 
 template PGDR_API Point2 point_on_segment<2>(const Domain<2>&, EntityId, double);
 template PGDR_API Point3 point_on_segment<3>(const Domain<3>&, EntityId, double);
-template PGDR_API double segment_parameter<2>(const Domain<2>&, EntityId, const Point2&);
-template PGDR_API double segment_parameter<3>(const Domain<3>&, EntityId, const Point3&);
+template double segment_parameter<2>(const Domain<2>&, EntityId, const Point2&);
+template double segment_parameter<3>(const Domain<3>&, EntityId, const Point3&);
 
 }  // namespace pgdr

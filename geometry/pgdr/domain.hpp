@@ -177,9 +177,6 @@ bool may_join(const Domain<3>& domain, double within);
 /// (<= 1 ulp of the segment's magnitude off its line; exactly on it where the segment is axis-aligned). 0 < t < 1.
 template <int D>
 Point<D> point_on_segment(const Domain<D>& domain, EntityId s, double t);
-/// The parameter t of a point on (near) segment s, in [0, 1].
-template <int D>
-double segment_parameter(const Domain<D>& domain, EntityId s, const Point<D>& p);
 
 /// The smallest angle, in degrees, between two entities that share an input vertex; 180 if they share none, are the
 /// same, or one is part of the other (a segment of the facet), and for a vertex or the volume. Segments: between their
@@ -189,8 +186,5 @@ double segment_parameter(const Domain<D>& domain, EntityId s, const Point<D>& p)
 /// proportional to their common segments and points and to the triangles there (microseconds each).
 template <int D>
 double entity_angle(const Domain<D>& domain, EntityRef a, EntityRef b);
-/// True iff both are segments or facets (or an input vertex of one) with a common input vertex.
-template <int D>
-bool entities_touch(const Domain<D>& domain, EntityRef a, EntityRef b);
 
 }  // namespace pgdr
