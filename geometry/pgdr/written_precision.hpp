@@ -8,7 +8,6 @@
 
 #include <cstddef>
 #include <span>
-#include <vector>
 
 #include "pgdr/domain.hpp"
 #include "pgdr/export.hpp"
@@ -29,7 +28,7 @@ void set_precision_of_file(Plc<3>& plc);
 /// Likewise for a file of other numbers, of six or seven digits or of floats, if many facets that are coplanar by these are needles
 /// which rounding alone keeps apart: if a third of the elements that the facets take for their shapes are in such. Where the numbers
 /// have all digits of a double, as such a file's have once it was turned, or are floats that may have been converted before, by how
-/// far facets are off the planes of others, of faces alone that are planar within that as a whole: precision_of_distances, of
+/// far facets are off the planes of others, of faces alone that are planar within that as a whole: as apparent_precision, of
 /// doubles with a third as many in the gap. Else facets are left as they are. Takes some microseconds a triangle at most; the
 /// input need not be valid.
 void set_precision_of_digits(Plc<3>& plc);
@@ -44,18 +43,6 @@ void set_merge_of_file(Plc<3>& plc);
 /// a twentieth at most. The largest such d up to 1e-5, if a twentieth of all segments are between facets that are less off (but
 /// by more than rounding). Else 2^-48.
 double apparent_precision(const Domain<3>& domain);
-
-/// What tells facets that are one plane but for rounding from bent ones.
-struct LooksOfPlanes {
-  std::size_t within_gap = 20;  ///< one distance between d and 10 d for so many below it at most, which is an accident
-  double known = 0;             ///< a precision that faces are planar with at the least: the least d then, not the largest; 0: none
-};
-
-/// The same of distances of facets from each other's planes, of so many edges; `known` if none is larger and it is given.
-double precision_of_distances(std::vector<double> off, std::size_t edges, const LooksOfPlanes& looks);
-
-/// Has no coordinate more than nine significant digits?
-bool has_few_digits(std::span<const Point3> points);
 
 /// At most how many facets fewer there are with that Plc::precision: segments between facets that are so little off each other's planes.
 std::size_t most_facets_saved(const Domain<3>& domain, double precision);

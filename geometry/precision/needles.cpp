@@ -14,6 +14,7 @@
 #include "numbers/vectors.hpp"
 #include "pgdr/plc.hpp"
 #include "pgdr/written_precision.hpp"
+#include "precision/looks.hpp"
 #include "space/box_tree.hpp"
 #include "space/disjoint_sets.hpp"
 

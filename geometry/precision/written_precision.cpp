@@ -13,6 +13,7 @@
 #include "numbers/vectors.hpp"
 #include "pgdr/error.hpp"
 #include "pgdr/plc.hpp"
+#include "precision/looks.hpp"
 
 namespace pgdr {
 namespace {
