@@ -5,8 +5,11 @@
 
   * every source opens with the SPDX lines and has at most 500 lines;
   * a layer includes its own headers and those of lower layers only: geometry <- core <- scheduler <- tools, bench;
-  * a public header (<layer>/pgdr/) includes public headers alone, and no two layers have one of the same name;
-  * a header of a layer outside <layer>/pgdr/ is private: tools see public headers alone (bench measures the inside, too);
+  * a room, a folder of a layer, includes its own headers and those of the rooms that ROOMS lets it reach;
+  * a public header (<layer>/pgdr/) includes public headers alone, belongs to one room, and no two layers have one of the same
+    name; every other header is private;
+  * tools, examples and bench see public headers alone, but for the programs of BENCH_OF_THE_INSIDE;
+  * README.md shows the table of rooms as it is here;
   * CGAL and Eigen are included by .cpp files and private headers of the layers only;
   * function templates of headers whose namespace bears PGDR_API have it where they are instantiated (export.hpp);
   * what never returns takes no std::string or std::vector by value: g++ 12 (-O3, several files as one) takes its stores for
@@ -14,12 +17,59 @@
   * a public header is listed in the CMakeLists.txt of its layer, so that it is installed and compiled alone.
 
 Usage: check_sources.py [ROOT]     (default: the repository of this script)
+       check_sources.py --rooms    (prints the table of rooms as Markdown)
 """
+import collections
 import pathlib
 import re
 import sys
 
 LAYERS = ["geometry", "core", "scheduler"]
+
+# The rooms of the layers, lowest first. `may`: the rooms that it may include, all of them further up in this table, beside its
+# own; it may then include what these may. Every room of core/ and scheduler/ may include those of geometry/. `start`: the files to
+# read first. `public`: the headers of <layer>/pgdr/ that belong to the room; who includes one includes the room.
+Room = collections.namedtuple("Room", "question may start public")
+ROOMS = {
+    "geometry": {
+        "numbers": Room("what is the sign, and is the bound met, exactly?", "",
+                        "predicates.cpp predicates_bounds.cpp", "predicates circumsphere"),
+        "space": Room("which of many boxes, points, triangles meet?", "numbers", "box_tree.hpp", ""),
+        "input": Room("which points, segments and facets does an input have?", "space", "domain.cpp",
+                      "plc domain planar_plc"),
+        "diagnose": Room("what is wrong with an input, and where?", "input", "diagnosis.cpp", "diagnosis"),
+        "precision": Room("how exact are the numbers of a file?", "diagnose", "written_precision.cpp", "written_precision"),
+        "select": Room("where may a point go?", "numbers", "selectors.cpp", "point_selector selectors"),
+    },
+    "core": {
+        "output": Room("what is a finished mesh, and how good is it?", "", "quality.cpp",
+                       "output_mesh region_mode poor_reason quality flat_arrays"),
+        "size": Room("how large may a cell be here?", "output", "size_fields.cpp", "sizing size_fields"),
+        "mesh": Room("what are cells, vertices and constraints, and who owns them?", "", "mesh.hpp visit_area.hpp", ""),
+        "rule": Room("may a point go in, and why does that end?", "mesh size", "insertion_rule.hpp", "refine_options"),
+        "cavity": Room("what does a new point delete and make?", "rule", "cavity.hpp", ""),
+        "boundary": Room("how do the input's segments, facets and regions get into the mesh?", "cavity",
+                         "recovery.hpp labeling.hpp", ""),
+        "change": Room("how do cells change without a new point?", "cavity", "flips.hpp rewrap.hpp", ""),
+        "refine": Room("what waits, what is encroached or hidden, what is split?", "change", "refiner.hpp cells.cpp", ""),
+        "reasons": Room("which small angle is to blame for a poor element?", "refine", "poor_reasons.hpp", ""),
+        "improve": Room("what else helps elements that stay poor?", "reasons", "improve.cpp", ""),
+        "compact": Room("how is the finished mesh numbered?", "mesh output", "compact.hpp", ""),
+        "check": Room("is a finished mesh what it should be?", "size", "check.cpp", "check"),
+        "io": Room("how are files read and written?", "output", "io.cpp read/ply.cpp", "io"),
+    },
+    "scheduler": {
+        "tree": Room("which leaf is a point in, what is around it, how does it split?", "", "orthtree.hpp", ""),
+        "graph": Room("what runs visits that wait for each other?", "", "visit_graph.hpp", ""),
+        "claims": Room("what may a visit change, and which visits wait?", "tree graph mesh", "claim.hpp", ""),
+        "run": Room("how does an input become a mesh, and which leaf is refined when?",
+                    "claims boundary improve compact check", "refine.cpp generations.hpp", "refine pgdr"),
+    },
+}
+EVERYWHERE = {"export", "types", "error", "version"}  # public headers of geometry/ that belong to no room
+UMBRELLA = "scheduler/pgdr/pgdr.hpp"  # includes all public headers
+BENCH_OF_THE_INSIDE = {"bench/bench_phases.cpp"}  # measures the phases of an insertion one by one
+FIRST_LINE, LAST_LINE = "<!-- rooms: python3 tools/check_sources.py --rooms -->\n", "<!-- end of rooms -->\n"
 # A declaration of a function template, to its semicolon; an explicit instantiation.
 TEMPLATE = re.compile(r"^template <int D>\n(?!struct|class|using)[^;{(]*?\b(\w+)\([^;{]*;", re.MULTILINE)
 INSTANTIATION = re.compile(r"^\s*template (?!<|class|struct)[^;(]*?\b(\w+)(?:<[23D]>)?\(")
@@ -58,27 +108,87 @@ def check_text(path, text):
         yield "no SPDX-FileCopyrightText at its head"
 
 
-def private_headers(root):
-    """Names that the headers of a layer outside pgdr/ are included with: "<room>/NAME.hpp"."""
-    return {path.relative_to(root / layer).as_posix() for layer in LAYERS for path in (root / layer).rglob("*.hpp")
-            if path.parent != root / layer / "pgdr"}
+def reach():
+    """Of each room, the set of rooms whose headers it may include; and complaints about ROOMS itself."""
+    reached, complaints = {}, []
+    for layer, rooms in ROOMS.items():
+        for room, entry in rooms.items():
+            reached[room] = {room}
+            for other in entry.may.split():
+                if other in reached:
+                    reached[room] |= reached[other]
+                else:
+                    complaints.append(f"ROOMS: {room} may include {other}, which is not further up")
+            if layer != "geometry":
+                reached[room] |= set(ROOMS["geometry"])
+    return reached, complaints
 
 
-def check_includes(root, path, text, layer_of, private):
+def room_of_headers(root):
+    """Room of each header of the layers, by the name it is included with; None: it belongs to no room."""
+    rooms = {}
+    for layer in LAYERS:
+        for path in (root / layer).rglob("*.hpp"):
+            name = path.relative_to(root / layer)
+            rooms[name.as_posix()] = name.parts[0]
+        for room, entry in ROOMS[layer].items():
+            rooms.update({f"pgdr/{stem}.hpp": room for stem in entry.public.split()})
+    rooms.update({f"pgdr/{stem}.hpp": None for stem in EVERYWHERE})
+    return rooms
+
+
+def check_includes(root, path, text, layer_of, room_of, reached, used):
+    """`used` gets the pairs of rooms of which the one includes the other."""
     parts = path.relative_to(root).parts
     folder, public = parts[0], len(parts) > 2 and parts[1] == "pgdr"
-    if folder not in LAYERS + ["tools", "bench"]:
+    if folder not in LAYERS + ["tools", "bench"] or path.suffix not in {".cpp", ".hpp"}:
         return
+    name = "/".join(parts[1:])
+    here = room_of.get(name) if public else parts[1]
     for name in INCLUDE.findall(text):
+        private = name in room_of and not name.startswith("pgdr/")
         if name.startswith("pgdr/"):
             if name not in layer_of:
                 yield f"includes {name}, which no layer has"
             elif folder in LAYERS and LAYERS.index(layer_of[name]) > LAYERS.index(folder):
                 yield f"includes {name} of the higher layer {layer_of[name]}"
-        if name in private and (public or folder == "tools"):
+        if private and (public or folder not in LAYERS) and "/".join(parts) not in BENCH_OF_THE_INSIDE:
             yield f"includes the private header {name}"
+        if folder in LAYERS and "/".join(parts) != UMBRELLA and here and room_of.get(name):
+            used.add((here, room_of[name]))
+            if room_of[name] not in reached.get(here, set()):
+                yield f"includes {name} of {room_of[name]}, which {here} may not"
         if name.startswith(("CGAL/", "Eigen/")) and (public or folder not in LAYERS):
             yield f"includes {name}: only the inside of a layer may"
+
+
+def check_rooms(root, layer_of, room_of):
+    """Every folder of a layer is a room, and every public header belongs to one."""
+    for layer in LAYERS:
+        folders = {path.relative_to(root / layer).parts[0] for path in (root / layer).rglob("*.[ch]pp")}
+        for folder in sorted(folders ^ (set(ROOMS[layer]) | {"pgdr"})):
+            yield f"{layer}/{folder}: in ROOMS or in the tree, not in both"
+        for room, entry in ROOMS[layer].items():
+            for start in entry.start.split():
+                if not (root / layer / room / start).is_file():
+                    yield f"{layer}/{room}/{start}: not there, and ROOMS has it as a start"
+    for name in sorted(layer_of.keys() ^ {name for name in room_of if name.startswith("pgdr/")}):
+        yield f"{name}: a public header in ROOMS or in the tree, not in both"
+    for name in sorted(name for name in layer_of if room_of.get(name) == "pgdr"):
+        yield f"{layer_of[name]}/{name}: belongs to no room"
+    readme = (root / "README.md").read_text(encoding="utf-8")
+    if FIRST_LINE + table_of_rooms() + LAST_LINE not in readme:
+        yield f"README.md: lacks what `check_sources.py --rooms` prints, between {FIRST_LINE.strip()} and {LAST_LINE.strip()}"
+
+
+def table_of_rooms():
+    """As Markdown, the highest room first."""
+    lines = ["| room | what it answers | may include | start at |", "| --- | --- | --- | --- |"]
+    for layer, rooms in reversed(ROOMS.items()):
+        for room, entry in reversed(rooms.items()):
+            may, start = (", ".join(f"`{word}`" for word in words.split()) for words in (entry.may, entry.start))
+            lines.append(f"| `{layer}/{room}` | {entry.question} | {may} | {start} |")
+    return "\n".join(lines) + "\n"
 
 
 def exported_templates(root):
@@ -104,8 +214,11 @@ def check_exports(path, text, exported):
 
 
 def main():
+    if sys.argv[1:] == ["--rooms"]:
+        print(table_of_rooms(), end="")
+        return 0
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent).resolve()
-    complaints = []
+    reached, complaints = reach()
     layer_of = {}
     for name, layer in public_headers(root):
         if name in layer_of:
@@ -114,14 +227,18 @@ def main():
         if name not in (root / layer / "CMakeLists.txt").read_text(encoding="utf-8").split():
             complaints.append(f"{layer}/{name}: not listed in {layer}/CMakeLists.txt")
     exported = exported_templates(root)
-    private = private_headers(root)
-    number = 0
+    room_of = room_of_headers(root)
+    complaints += check_rooms(root, layer_of, room_of)
+    number, used = 0, set()
     for path in sources(root):
         text = path.read_text(encoding="utf-8")
         number += 1
-        for complaint in [*check_text(path, text), *check_includes(root, path, text, layer_of, private),
+        for complaint in [*check_text(path, text), *check_includes(root, path, text, layer_of, room_of, reached, used),
                           *check_noreturn(path, text), *check_exports(path, text, exported)]:
             complaints.append(f"{path.relative_to(root)}: {complaint}")
+    for rooms in ROOMS.values():
+        complaints += [f"ROOMS: {room} includes nothing of {other}" for room, entry in rooms.items()
+                       for other in entry.may.split() if (room, other) not in used]
     for complaint in complaints:
         print(complaint)
     print(f"{number} files, {len(complaints)} complaints")
