@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What boundary recovery works on; private to recovery*.cpp.
+// What boundary recovery works on; private to this room.
 #pragma once
 
 #include <algorithm>
