@@ -37,6 +37,7 @@ std::uint64_t versions_about(const Mesh<D>& mesh, CellId c) {
 
 template std::optional<std::uint64_t> surroundings_of<2>(const Mesh<2>&, std::span<const CellId>);
 template std::optional<std::uint64_t> surroundings_of<3>(const Mesh<3>&, std::span<const CellId>);
+template std::uint64_t versions_about<2>(const Mesh<2>&, CellId);
 template std::uint64_t versions_about<3>(const Mesh<3>&, CellId);
 
 }  // namespace pgdr
