@@ -138,9 +138,9 @@ inline constexpr std::array<std::array<int, 2>, 6> edge_ends = {{{0, 1}, {0, 2},
 inline constexpr int edge_of_ends[4][4] = {{-1, 0, 1, 2}, {0, -1, 3, 4}, {1, 3, -1, 5}, {2, 4, 5, -1}};
 
 /// The numbers of the corners of each face of a cell, which is opposite the corner of its number. With that corner behind them they
-/// are an even permutation.
+/// are an even permutation. (-fvisibility=hidden overlooks templates of variables.)
 template <int D>
-inline constexpr auto face_corners = [] {
+[[gnu::visibility("hidden")]] inline constexpr auto face_corners = [] {
   std::array<std::array<std::uint8_t, D>, D + 1> table{};
   for (std::size_t face = 0; face <= D; ++face) {
     for (std::size_t corner = 0, n = 0; corner <= D; ++corner)
