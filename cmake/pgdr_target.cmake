@@ -28,6 +28,7 @@ endfunction()
 
 # A layer: a static library, for what is built here, that exposes its own folder alone, and links downwards alone.
 # pgdr_layer(<name> HEADERS <public headers...> SOURCES <files...> [ALONE <files...>] LINKS <lower layers...>)
+# All other headers are private to the room, the folder, that they lie in (tools/check_sources.py has the rooms).
 # ALONE: sources, too, that share a class template, or names of their own, with others: one by one in a unity build.
 function(pgdr_layer name)
   cmake_parse_arguments(arg "" "" "HEADERS;SOURCES;ALONE;LINKS" ${ARGN})
@@ -40,6 +41,11 @@ function(pgdr_layer name)
   set_target_properties(pgdr_${name} PROPERTIES EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON)
   target_sources(pgdr_${name} PUBLIC FILE_SET HEADERS
     BASE_DIRS ${CMAKE_CURRENT_SOURCE_DIR} FILES ${arg_HEADERS})
+  if(CMAKE_VERIFY_INTERFACE_HEADER_SETS)  # private headers, too, are compiled alone then
+    file(GLOB_RECURSE private CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.hpp)
+    list(FILTER private EXCLUDE REGEX "${name}/pgdr/")
+    target_sources(pgdr_${name} PUBLIC FILE_SET rooms TYPE HEADERS BASE_DIRS ${CMAKE_CURRENT_SOURCE_DIR} FILES ${private})
+  endif()
   target_include_directories(pgdr_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   target_link_libraries(pgdr_${name} PUBLIC ${arg_LINKS})
   set_property(GLOBAL APPEND PROPERTY PGDR_LAYERS pgdr_${name})
