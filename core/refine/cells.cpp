@@ -364,10 +364,6 @@ auto Refiner<D>::insert_point(const Item& e, const CellVerdict& verdict, bool at
   if (status == Status::ok && (cavity_.shrunk() || cavity_.touches_constraints())) status = cavity_.check_nothing_swallowed();
   if (status != Status::ok) return status == Status::not_owned ? Outcome::not_owned : Outcome::refused;
 
-  // In space a cavity that was cut back leaves faces that are not locally Delaunay; in the plane it is the one of the constrained
-  // triangulation.
-  if (D == 3 && cavity_.shrunk()) return Outcome::refused;
-
   // Unshrunk, the circumcentre's nearest vertices are the element's own; but not where rounding moves it, even onto another vertex.
   const FilterSphere<D> sphere = sphere_of(e);
   const bool plain = at_center && !cavity_.shrunk() && !options_->selector && mesh_->is_accurate(sphere);
