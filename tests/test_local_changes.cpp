@@ -132,7 +132,7 @@ struct Model {
     flips.make(pools, flip);
     std::size_t found = 0;
     for (const CellId made : flips.new_cells())
-      for (int f = 0; f < 4; ++f) found += flips.violates(made, f);
+      for (int f = 0; f < 4; ++f) found += violates(mesh, made, f);
     EXPECT_EQ(found, violations->size());
     EXPECT_EQ(violating_faces(flips) - everywhere, violations->size() - inner / 2 - before);
     return true;
@@ -142,7 +142,7 @@ struct Model {
   std::size_t violating_faces(const LocalFlips<3>& flips) const {
     std::size_t sides = 0;
     for (const CellId c : cells())
-      for (int f = 0; f < 4; ++f) sides += flips.violates(c, f);
+      for (int f = 0; f < 4; ++f) sides += violates(mesh, c, f);
     EXPECT_EQ(sides % 2, 0u);
     return sides / 2;
   }

@@ -22,33 +22,12 @@
 #include "mesh/key_set.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/visit_area.hpp"
+#include "mesh/ridge.hpp"
 #include "numbers/simplex_shapes.hpp"
 #include "rule/cell_bounds.hpp"
 #include "rule/twins.hpp"
 
 namespace pgdr {
-
-/// Steps from cell to cell round a ridge (a vertex in 2D, an edge in 3D). `exit` and `entry` are the numbers of the two
-/// vertices of the cell that are not on the ridge; the next cell lies across the face opposite `exit`.
-template <int D>
-struct RidgeWalk {
-  CellId cell;  ///< where the walk is
-  int entry;  ///< as said above
-  int exit;   ///< likewise
-
-  Link link(const Mesh<D>& mesh) const { return mesh.cell(cell).links[exit]; }  ///< where a step leads
-  /// @pre link() leads somewhere.
-  void step(const Mesh<D>& mesh) {
-    const auto& k = mesh.cell(cell);
-    const VertexId pivot = k.vertices[entry];
-    const Link next = k.links[exit];
-    cell = next.cell();
-    entry = next.face();
-    const auto& n = mesh.cell(cell);
-    exit = 0;
-    while (n.vertices[exit] != pivot) ++exit;
-  }
-};
 
 /// What one insertion deletes and makes: see above. A workspace of one thread.
 template <int D>

@@ -160,25 +160,18 @@ auto Cavity<D>::collect_on_face(const Point<D>& p, CellId cell, int face) -> Sta
 /// All cells round the edge between corners a and b, the one way and, where that ends at the hull, the other.
 template <int D>
 auto Cavity<D>::take_fan(CellId cell, int a, int b) -> Status {
-  int others[2], n = 0;
-  for (int j = 0; j <= D; ++j)
-    if (j != a && j != b) others[n++] = j;
-  for (const int way : {0, 1}) {
-    RidgeWalk<D> walk{cell, others[1 - way], others[way]};
-    while (true) {
-      if (!owns(walk.cell)) return Status::not_owned;
+  Status status = Status::ok;
+  if constexpr (D == 3)
+    for_cells_round(*mesh_, cell, a, b, [&](const RidgeWalk<D>& walk) {
+      assert(may_read(walk.cell));
+      if (!owns(walk.cell)) status = Status::not_owned;
+      if (status != Status::ok) return RoundEdge::stop;
       take(walk.cell);
       const auto* k = mesh_->constraints(walk.cell);
-      if (k && (k->faces >> walk.exit & 1))
-        if (const Status status = add_part_face(walk.cell, walk.exit, k->face_entity[walk.exit]); status != Status::ok)
-          return status;
-      if (!walk.link(*mesh_)) break;
-      walk.step(*mesh_);
-      assert(may_read(walk.cell));
-      if (walk.cell == cell) return Status::ok;
-    }
-  }
-  return Status::ok;
+      if (k && (k->faces >> walk.exit & 1)) status = add_part_face(walk.cell, walk.exit, k->face_entity[walk.exit]);
+      return status == Status::ok ? RoundEdge::go_on : RoundEdge::stop;
+    });
+  return status;
 }
 
 template <int D>

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cassert>
 
-#include "cavity/cavity.hpp"
 #include "change/facet_flip.hpp"
+#include "mesh/locally_delaunay.hpp"
 
 namespace pgdr {
 namespace {
@@ -29,18 +29,6 @@ bool has(const std::array<VertexId, N>& v, VertexId x) {
 }  // namespace
 
 template <int D>
-bool LocalFlips<D>::violates(CellId c, int face) const {
-  assert(owns(c));
-  const Link link = mesh_->cell(c).links[face];
-  if (!link || mesh_->constrained(c, face)) return false;
-  assert(may_read(link.cell()));
-  const VertexId apex = mesh_->cell(link.cell()).vertices[link.face()];
-  const Point<D>& p = mesh_->point(apex);
-  // The cached sphere says no nearly always; what it leaves may be a tie, which is no violation.
-  return mesh_->conflicts(c, p) && in_sphere<D>(mesh_->simplex(c), p) == Sign::positive;
-}
-
-template <int D>
 Simplex<D> LocalFlips<D>::simplex(const Vertices& v) const {
   Simplex<D> s;
   for (int i = 0; i <= D; ++i) s[i] = mesh_->point(v[i]);
@@ -54,7 +42,7 @@ bool LocalFlips<D>::positive(const Vertices& v) const {
 
 template <int D>
 auto LocalFlips<D>::repair(Pools& pools, CellId c, int face) -> Outcome {
-  if (!violates(c, face)) return Outcome::stuck;
+  if (!pgdr::violates(*mesh_, c, face)) return Outcome::stuck;
   if (!owns(c) || !owns(mesh_->cell(c).links[face].cell())) return Outcome::not_owned;
   if (try_two_cells(pools, c, face)) return Outcome::flipped;
   if constexpr (D == 3) {
@@ -69,7 +57,7 @@ auto LocalFlips<D>::repair(Pools& pools, CellId c, int face) -> Outcome {
 template <int D>
 auto LocalFlips<D>::rewrap(Pools& pools, CellId c, int face, LocalRewrap::Effort effort) -> Outcome {
   if constexpr (D == 3) {
-    if (!violates(c, face)) return Outcome::stuck;
+    if (!pgdr::violates(*mesh_, c, face)) return Outcome::stuck;
     const bool repaired = rewrap_.repair(pools, c, face, effort);
     if (repaired) new_cells_ = rewrap_.new_cells();
     return repaired ? Outcome::flipped : rewrap_.reached_border() ? Outcome::not_owned : Outcome::stuck;
@@ -110,39 +98,33 @@ bool LocalFlips<D>::try_two_cells(Pools& pools, CellId c, int face) {
   return true;
 }
 
+/// A constrained face at the edge of the ring. False if there may be none: it is of another facet than one before.
+template <int D>
+bool LocalFlips<D>::note_wall(const RidgeWalk<D>& walk, Ring& ring) const {
+  const EntityId entity = mesh_->constraints(walk.cell)->face_entity[walk.exit];
+  if (!ring.tips.empty() && entity != ring.entity) return false;
+  ring.entity = entity;
+  ring.tips.push_back(mesh_->cell(walk.cell).vertices[walk.entry]);
+  return true;
+}
+
 /// The cells round edge ab of c, in order, and the constrained faces among them: none, or two of one facet, between which
 /// the edge may be flipped within the facet. At the hull the ring is open, from the one to the other. Stuck: the edge must stay.
 template <int D>
 auto LocalFlips<D>::take_ring(CellId c, int a, int b, std::size_t longest, Ring& ring) const -> Outcome {
-  int others[2], n = 0;
-  for (int i = 0; i <= D; ++i)
-    if (i != a && i != b) others[n++] = i;
-  auto note_wall = [&](CellId cell, int face, VertexId tip) {
-    const EntityId entity = mesh_->constraints(cell)->face_entity[face];
-    if (!ring.tips.empty() && entity != ring.entity) return false;
-    ring.entity = entity;
-    ring.tips.push_back(tip);
-    return true;
-  };
-  bool closed = false;
-  for (const int way : {0, 1}) {
-    RidgeWalk<D> walk{c, others[1 - way], others[way]};
-    while (true) {
-      if (walk.cell != c || way == 0) ring.cells.push_back(walk.cell);
-      if (ring.cells.size() > longest) return Outcome::stuck;
+  Outcome outcome = Outcome::flipped;
+  if constexpr (D == 3)
+    for_cells_round(*mesh_, c, a, b, [&](const RidgeWalk<D>& walk) {
+      if (walk.cell != c || ring.cells.empty()) ring.cells.push_back(walk.cell);
+      if (ring.cells.size() > longest) outcome = Outcome::stuck;
+      if (outcome != Outcome::flipped) return RoundEdge::stop;
       assert(may_read(walk.cell));
-      if (!owns(walk.cell)) return Outcome::not_owned;
+      if (!owns(walk.cell)) outcome = Outcome::not_owned;
       // The face opposite `exit` has the ridge and the vertex `entry`.
-      if (mesh_->constrained(walk.cell, walk.exit) &&
-          !note_wall(walk.cell, walk.exit, mesh_->cell(walk.cell).vertices[walk.entry]))
-        return Outcome::stuck;
-      if (!walk.link(*mesh_)) break;
-      walk.step(*mesh_);
-      closed = walk.cell == c;
-      if (closed) break;
-    }
-    if (closed) break;
-  }
+      else if (mesh_->constrained(walk.cell, walk.exit) && !note_wall(walk, ring)) outcome = Outcome::stuck;
+      return outcome == Outcome::flipped ? RoundEdge::go_on : RoundEdge::stop;
+    });
+  if (outcome != Outcome::flipped) return outcome;
   const bool whole = ring.tips.empty() || (ring.tips.size() == 2 && ring.tips[0] != ring.tips[1]);
   return whole ? Outcome::flipped : Outcome::stuck;
 }
@@ -257,7 +239,7 @@ template <int D>
 int LocalFlips<D>::violations() const {
   int count = 0;
   for (const CellId c : old_)
-    for (int f = 0; f <= D; ++f) count += violates(c, f) && !is_wall(face_without<D>(mesh_->cell(c).vertices, f));
+    for (int f = 0; f <= D; ++f) count += pgdr::violates(*mesh_, c, f) && !is_wall(face_without<D>(mesh_->cell(c).vertices, f));
   return count;
 }
 

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "change/rewrap.hpp"
-#include "mesh/mesh.hpp"
+#include "mesh/ridge.hpp"
 #include "mesh/visit_area.hpp"
 
 namespace pgdr {
@@ -62,8 +62,6 @@ class LocalFlips {
     rewrap_.begin_visit(area);
   }
 
-  /// Is the face unconstrained, and the vertex beyond it strictly inside the (unperturbed) circumsphere of c?
-  bool violates(CellId c, int face) const;
   /// Replaces the cells at the violating face by others with fewer violations. Stuck: no flip does that. Not owned: to find
   /// that out would need cells that the visit does not own.
   Outcome repair(Pools& pools, CellId c, int face);
@@ -107,6 +105,7 @@ class LocalFlips {
   /// Of the number of violations: fewer, or as many in a smaller ring; at most as many.
   enum class Condition { better, no_worse };
   Outcome try_edge(Pools& pools, CellId c, int a, int b, Condition condition);
+  bool note_wall(const RidgeWalk<D>& walk, Ring& ring) const;
   Outcome take_ring(CellId c, int a, int b, std::size_t longest, Ring& ring) const;
   std::optional<std::array<int, 2>> faces_of_flat(CellId c) const;
   void take_old(std::vector<CellId> cells);

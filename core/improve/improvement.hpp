@@ -1,24 +1,31 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the last visits of a run heed, which change the mesh for elements that stay poor
-// (improve/improve.cpp). Read by all of them at once.
+// The last stage of a run, in 3D, which changes the mesh for elements that stay poor: vertices are taken out and moved, faces and
+// edges flipped, and points put in, wherever that leaves fewer of these elements, or better ones (change_judge.hpp).
 #pragma once
 
-#include <vector>
+#include <memory>
 
 #include "reasons/poor_reasons.hpp"
+#include "refine/element_stage.hpp"
 
 namespace pgdr {
 
-constexpr double least_gain = 1.0 / 128;  ///< by which anything lessens the excess
-constexpr double least_gain_without = -1e-9;  ///< the same of a vertex that is taken out: none, but for rounding
+/// See above. Read by all visits at once; changed between them alone.
+class Improvement final : public ElementStage<3> {
+ public:
+  Improvement(const Mesh<3>& mesh, const PoorReasons<3>& reasons) : mesh_(&mesh), reasons_(&reasons) {}  ///< both outlive it
 
-/// See above.
-template <int D>
-struct Improvement {
-  const PoorReasons<D>& reasons;  ///< which no visit changes
-  bool takes_out_alone = true;   ///< vertices; does nothing else
+  std::unique_ptr<ElementTreatment<3>> treatment(Workspace<3>& workspace, WorkLister<3>& lister,
+                                                 DelaunayRepair<3>& repair) const override;
+  std::uint64_t version(CellId c) const override;
+
+  bool takes_out_alone = true;  ///< vertices are taken out, and nothing else is done
+
+ private:
+  const Mesh<3>* mesh_;
+  const PoorReasons<3>* reasons_;
 };
 
 }  // namespace pgdr

@@ -60,19 +60,21 @@ StopCause LeafRefinement<D>::improve_listed() {
 
 template <int D>
 StopCause LeafRefinement<D>::improve(PoorReasons<D>& reasons, std::vector<PoorCell>& found) {
-  if (D == 2 || context_.options.keep_boundary || found.empty() || !may_improve(true)) return StopCause::finished;
-  Improvement<D> improvement{reasons, true};
-  const std::uint64_t before = counts_.improved;
-  context_.improvement = &improvement;
   StopCause stop = StopCause::finished;
-  for (const bool alone : {true, false}) {
-    if (!alone && !may_improve(false)) break;
-    improvement.takes_out_alone = alone;
-    list_for_improvement();
-    if (stop == StopCause::finished) stop = improve_listed();
+  if constexpr (D == 3) {
+    if (found.empty() || !may_improve(true)) return stop;
+    improvement_ = std::make_unique<Improvement>(context_.mesh, reasons);
+    context_.stage = improvement_.get();
+    const std::uint64_t before = counts_.improved;
+    for (const bool alone : {true, false}) {
+      if (!alone && !may_improve(false)) break;
+      improvement_->takes_out_alone = alone;
+      list_for_improvement();
+      if (stop == StopCause::finished) stop = improve_listed();
+    }
+    context_.stage = nullptr;
+    if (stop == StopCause::finished && counts_.improved != before) found = look_for_poor(reasons);
   }
-  context_.improvement = nullptr;
-  if (stop == StopCause::finished && counts_.improved != before) found = look_for_poor(reasons);
   return stop;
 }
 

@@ -106,15 +106,11 @@ std::vector<Entry<D>> LeafRefinement<D>::look_for_violations() {
     if (!e.alive(mesh) || mesh.constrained(e.cell, e.which())) return true;  // constrained: a flat cell beside it was taken off
     return changed[index(e.cell)];
   });
-  Worker worker = check_out();
-  RegionVisit<D> looking;
-  worker->begin(looking);
   std::vector<std::vector<Entry<D>>> parts(count_parts(mesh.cell_bound()));
   each_cell_part([&](const CellPart& part) {
     for (std::uint32_t i = part.first; i < part.last && !context_.options.stop.stop_requested(); ++i)
-      if (changed[i] && mesh.alive(CellId{i})) worker->add_violations(CellId{i}, changed, parts[part.number]);
+      if (changed[i] && mesh.alive(CellId{i})) add_violations(mesh, CellId{i}, changed, parts[part.number]);
   });
-  check_in(std::move(worker));
   cancelled(0);
   std::vector<Entry<D>> found;
   for (const auto& part : parts) found.insert(found.end(), part.begin(), part.end());
@@ -169,8 +165,7 @@ std::vector<Refusal<D>> LeafRefinement<D>::take_refused() {
   if (!any) return {};
   works_.pass_up_changes();
   const auto has_changed = [this](const Refusal<D>& r) {
-    if constexpr (D == 3)
-      if (context_.improvement && versions_about<D>(context_.mesh, r.entry.cell) != r.versions) return true;
+    if (context_.stage && context_.stage->version(r.entry.cell) != r.versions) return true;
     return r.seen.empty() || surroundings_of<D>(context_.mesh, r.seen) != r.surroundings;
   };
   std::vector<Refusal<D>> refused, kept;

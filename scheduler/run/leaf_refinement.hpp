@@ -19,6 +19,7 @@
 #include "pgdr/predicates.hpp"
 #include "pgdr/refine.hpp"
 #include "reasons/poor_reasons.hpp"
+#include "improve/improvement.hpp"
 #include "refine/refiner.hpp"
 #include "run/cell_parts.hpp"
 #include "run/leaf_work.hpp"
@@ -146,6 +147,7 @@ class LeafRefinement {
   RefineCounts counts_;
   Clock::time_point start_;              ///< of run()
   std::mutex workers_mutex_;             ///< of the members below
+  std::unique_ptr<Improvement> improvement_;  ///< 3D: the last stage; workers may hold on to it
   std::vector<Worker> workers_;
   ThreadNumbers numbers_;
   std::vector<double> busy_;             ///< seconds, by number of thread

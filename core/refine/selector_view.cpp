@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// What a selector is told, what it may ask, and what becomes of the point that it returns.
+#include "refine/selector_view.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "numbers/vectors.hpp"
-#include "refine/refiner.hpp"
+#include "refine/encroachment.hpp"
+#include "refine/visibility.hpp"
 
 namespace pgdr {
 namespace {
@@ -43,27 +44,25 @@ double sharpest_cosine(const Simplex<D>& s) {
   }
 }
 
-}  // namespace
-
-/// Collects in the refiner's own cavity, which is empty while a selector runs, so that it obeys the claim as an insertion
+/// What a selector may ask. Collects in the worker's own cavity, which is empty while a selector runs, so that it obeys the claim as an insertion
 /// does: where that would step on from a cell that the visit does not own, there is no answer, now or to later questions.
 template <int D>
-class Refiner<D>::View final : public Neighborhood<D> {
+class View final : public Neighborhood<D> {
  public:
   using Status = typename Preview<D>::Status;
 
-  View(Refiner& refiner, CellId seed, const SelectionDisk<D>& disk) : refiner_(&refiner), seed_(seed), disk_(disk) {}
+  View(Workspace<D>& workspace, CellId seed, const SelectionDisk<D>& disk) : w_(&workspace), seed_(seed), disk_(disk) {}
 
   Preview<D> count(const Point<D>& p) override {
     const Preview<D> preview = collect(p);
-    refiner_->cavity_.release();
+    w_->cavity.release();
     return preview;
   }
 
   Preview<D> measure(const Point<D>& p) override {
     using Collected = typename Cavity<D>::Status;
     Preview<D> preview = collect(p);
-    Cavity<D>& cavity = refiner_->cavity_;
+    Cavity<D>& cavity = w_->cavity;
     if (preview.status == Status::possible) {
       const Collected status = cavity.make_star_shaped();
       if (status != Collected::ok) preview.status = status == Collected::not_owned ? end() : Status::impossible;
@@ -87,19 +86,20 @@ class Refiner<D>::View final : public Neighborhood<D> {
     if (ended_) return preview;
     preview.status = Status::impossible;
     if (!(p == disk_.center) && !inside(disk_, p)) return preview;
-    Cavity<D>& cavity = refiner_->cavity_;
+    Cavity<D>& cavity = w_->cavity;
     const Collected status = cavity.collect(p, seed_);
     if (status == Collected::not_owned) preview.status = end();
     if (status != Collected::ok) return preview;
-    for (const CellId c : cavity.cells()) ++(refiner_->context_->bounds.test(*refiner_->mesh_, c) ? preview.poor : preview.good);
-    preview.status = refiner_->encroached_entity(p) || refiner_->hiding_wall(seed_, p) ? Status::encroaches : Status::possible;
+    for (const CellId c : cavity.cells()) ++(w_->context.bounds.test(w_->mesh, c) ? preview.poor : preview.good);
+    preview.status = encroached_entity<D>(w_->mesh, cavity, w_->options, p) || hiding_wall<D>(*w_, seed_, p) ? Status::encroaches
+                                                                                                          : Status::possible;
     return preview;
   }
 
   double sharpest_made(const Point<D>& p) const {
-    const Mesh<D>& mesh = *refiner_->mesh_;
+    const Mesh<D>& mesh = w_->mesh;
     double largest = -1;
-    for (const auto& f : refiner_->cavity_.boundary()) {
+    for (const auto& f : w_->cavity.boundary()) {
       Simplex<D> s = mesh.simplex(f.cell);
       s[f.face] = p;
       std::sort(s.begin(), s.end(), lex_less<D>);
@@ -108,37 +108,39 @@ class Refiner<D>::View final : public Neighborhood<D> {
     return largest;
   }
 
-  Refiner* refiner_;
+  Workspace<D>* w_;
   CellId seed_;
   const SelectionDisk<D>& disk_;
   bool ended_ = false;
 };
 
+}  // namespace
+
 template <int D>
-std::optional<Point<D>> Refiner<D>::selected_point(CellId c, const Point<D>& center) {
+std::optional<Point<D>> selected_point(Workspace<D>& w, CellId c, const Point<D>& center) {
   PoorElement<D> element;
-  element.corners = mesh_->simplex(c);
+  element.corners = w.mesh.simplex(c);
   std::sort(element.corners.begin(), element.corners.end(), lex_less<D>);
   element.circumcenter = center;
   element.circumradius = std::sqrt(squared_distance(center, element.corners[0]));
   element.shortest_edge = std::sqrt(shortest_edge_squared<D>(element.corners));
-  element.radius_edge_bound = options_->radius_edge_bound;
+  element.radius_edge_bound = w.options.radius_edge_bound;
   element.over_radius_edge = true;
-  element.disk = selection_disk<D>(element, options_->disk);
-  View view(*this, c, element.disk);
-  const Point<D> p = options_->selector(element, view);
+  element.disk = selection_disk<D>(element, w.options.disk);
+  View<D> view(w, c, element.disk);
+  const Point<D> p = w.options.selector(element, view);
   if (view.ended()) return std::nullopt;
   if (p == center || inside(element.disk, p)) return p;
-  if (options_->outside == OutsidePolicy::error) {
+  if (w.options.outside == OutsidePolicy::error) {
     Diagnostic d{Errc::bad_option, "the selector returned a point outside the selection disk", {}, 0, {}, {}};
     for (const Point<D>& q : {p, element.disk.center}) d.points.push_back({q[0], q[1], D == 3 ? q[D - 1] : 0.0});
     throw UsageError(std::move(d));
   }
-  ++visit_->counts.selector_outside;
+  ++w.visit->counts.selector_outside;
   return center;
 }
 
-template std::optional<Point<2>> Refiner<2>::selected_point(CellId, const Point<2>&);
-template std::optional<Point<3>> Refiner<3>::selected_point(CellId, const Point<3>&);
+template std::optional<Point<2>> selected_point(Workspace<2>&, CellId, const Point<2>&);
+template std::optional<Point<3>> selected_point(Workspace<3>&, CellId, const Point<3>&);
 
 }  // namespace pgdr

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The run as its visits see it: the mesh, the input, the options, and when to stop.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+
+#include "mesh/mesh.hpp"
+#include "pgdr/domain.hpp"
+#include "pgdr/refine_options.hpp"
+#include "rule/cell_bounds.hpp"
+#include "rule/shells.hpp"
+
+namespace pgdr {
+
+template <int D>
+class ElementStage;
+
+/// What all visits of a run share. The atomics alone change during a generation; they tell a visit to end and count for
+/// the progress report, and decide nothing else.
+template <int D>
+struct RefineContext {
+  /// `start`: when the caller's time limit began to run.
+  RefineContext(Mesh<D>& m, const Domain<D>& d, const RefineOptions<D>& o, CellBounds<D> b, std::uint64_t vertices_so_far,
+                std::chrono::steady_clock::time_point start_time);
+
+  int bucket_of(const FilterSphere<D>& sphere) const;  ///< by its radius, 0 being the largest
+  /// No circumradius of this bucket or a later one is larger.
+  double largest_radius(int bucket) const;
+  /// Has the run been cancelled, or is its time up? It is stopped with that. Any thread.
+  bool ended();
+
+  Mesh<D>& mesh;                    ///< which visits change
+  const Domain<D>& domain;          ///< the input
+  const RefineOptions<D>& options;  ///< as the caller gave them
+  const CellBounds<D> bounds;       ///< of cells
+  const std::chrono::steady_clock::time_point start;  ///< of the time limit
+  /// 3D: what is poor now would stay so, and asks for c times the room. Set while no visit runs.
+  bool last_resort = false;
+  /// Who treats poor elements; null: points are inserted for them (element_splitter.hpp). Set while no visit runs.
+  const ElementStage<D>* stage = nullptr;
+  const Shells<D> shells;  ///< none in 3D, where the front end alone splits on them
+  int base_exponent = 0;   ///< of bucket 0: circumradii of the size of the domain and above
+  static constexpr int buckets = 64;  ///< of circumradii
+
+  std::atomic<int> stop{0};             ///< a StopCause other than `finished`, once there is one
+  std::atomic<std::uint64_t> vertices;  ///< in all, for the progress report
+  std::mutex progress_mutex;            ///< held while the caller's function runs
+  std::chrono::steady_clock::time_point last_progress;  ///< under the mutex
+};
+
+extern template struct RefineContext<2>;
+extern template struct RefineContext<3>;
+
+}  // namespace pgdr

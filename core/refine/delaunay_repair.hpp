@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Mends faces that are not locally Delaunay while points come: by flips, and where these are stuck by gift wrapping.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "change/flips.hpp"
+#include "refine/work_lister.hpp"
+#include "refine/workspace.hpp"
+
+namespace pgdr {
+
+/// Part of a worker: see above.
+template <int D>
+class DelaunayRepair {
+ public:
+  /// Both must outlive it.
+  DelaunayRepair(Workspace<D>& workspace, WorkLister<D>& lister);
+
+  /// Before the visit does anything.
+  void begin_visit();
+  /// More faces wait than the visit has found itself.
+  void allow_for(std::uint64_t faces) { flips_left_ += flips_for_each * faces; }
+  /// Lists the violations at cells that an insertion has made.
+  void look_at(std::span<const CellId> made);
+  /// Mends the face of an entry of kind flip, or sets it aside, or lists its cell as poor.
+  void treat(const Entry<D>& e);
+  /// Takes a cell with all its vertices on one facet, which is flat but for rounding, out; refused if the cell is no such, or has to stay.
+  Outcome take_off_flat(CellId c);
+
+  LocalFlips<D>& flips() { return flips_; }  ///< the worker's
+
+ private:
+  /// An allowance, so that flips that trade violations end.
+  static constexpr std::uint64_t flips_for_each = 16;
+
+  std::optional<LocalRewrap::Effort> rewrap_effort(const Entry<D>& e) const;
+  void list_made();
+
+  Workspace<D>* w_;
+  WorkLister<D>* lister_;
+  LocalFlips<D> flips_;
+  std::uint64_t flips_left_ = 0;
+};
+
+extern template class DelaunayRepair<2>;
+extern template class DelaunayRepair<3>;
+
+}  // namespace pgdr

@@ -1,0 +1,249 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "refine/element_splitter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "refine/encroachment.hpp"
+#include "refine/selector_view.hpp"
+#include "refine/visibility.hpp"
+
+namespace pgdr {
+
+/// As much of it as is not known from why the cell is listed: sizes may be slow functions.
+template <int D>
+CellVerdict ElementSplitter<D>::verdict_of(const Entry<D>& e, const FilterSphere<D>& sphere) const {
+  const auto& bounds = w_->context.bounds;
+  if (e.which() == Entry<D>::over_size) {
+    const auto [low, high] = mesh_->squared_radius_bounds(sphere);
+    const CellShape shape{shortest_edge_squared<D>(mesh_->simplex(e.cell)), low, high, 0, CellBounds<D>::infinity};
+    return {bounds.over_radius_edge(*mesh_, e.cell, shape), std::max(e.order, std::uint32_t{1})};
+  }
+  if (e.which() == Entry<D>::over_radius_edge) return {true, 0};
+  return bounds.test(*mesh_, e.cell);
+}
+
+template <int D>
+Outcome ElementSplitter<D>::split(const Entry<D>& e) {
+  if (const Outcome flat = repair_->take_off_flat(e.cell); flat != Outcome::refused) return flat;
+  const FilterSphere<D> sphere = mesh_->sphere(e.cell);
+  Candidate<D> c{e, verdict_of(e, sphere), sphere, {}, !w_->options.selector};
+  if constexpr (D == 2) {
+    if (c.verdict.over_size == 0 && e.which() != Entry<D>::not_delaunay) {
+      const auto vertex = [&](int i) { return &mesh_->vertex(mesh_->cell(e.cell).vertices[i]); };
+      w_->refused_by = small_angle_across(w_->domain, {vertex(0), vertex(1), vertex(2)}, w_->options.radius_edge_bound);
+      if (w_->refused_by) {
+        ++w_->visit->counts.refused;
+        return Outcome::refused;
+      }
+    }
+  }
+  const Point<D> center = mesh_->is_accurate(sphere) ? sphere.center : circumsphere<D>(mesh_->simplex(e.cell)).center;
+  c.x = center;
+  if (w_->options.selector && c.verdict.over_radius_edge) {
+    const auto selected = selected_point<D>(*w_, e.cell, center);
+    if (!selected) return Outcome::not_owned;
+    c.x = *selected;
+  }
+  // A cell with a face that no flip makes locally Delaunay asks for as much as one with a poor shape.
+  if (e.which() == Entry<D>::not_delaunay) c.verdict.over_radius_edge = true;
+  Outcome outcome = insert(c);
+  if (outcome == Outcome::refused && !(c.x == center) && w_->alive(e)) {
+    cavity_->release();
+    c.x = center;
+    outcome = insert(c);
+  }
+  if (outcome == Outcome::refused) ++w_->visit->counts.refused;
+  return w_->give_up(outcome);
+}
+
+/// Inserts the candidate, or splits the entity that blocks it.
+template <int D>
+Outcome ElementSplitter<D>::insert(const Candidate<D>& c) {
+  const Obstacle obstacle = find_obstacle(c);
+  if (obstacle.entity) return split_instead(*obstacle.entity, c);
+  if (obstacle.outcome != Outcome::committed) return obstacle.outcome;
+  return commit(c);
+}
+
+/// Looks, while the cavity of x is collected for a poor element, for a face that x encroaches upon and that is known to be refused,
+/// and stops once the cavity is large. (Beside small angles most elements that stay poor are behind such a face, which is near to
+/// them. Small cavities are collected to their ends, as there may be something else to split.)
+template <int D>
+class ElementSplitter<D>::RefusedFace final : public Cavity<D>::FaceWatch {
+ public:
+  RefusedFace(const Workspace<D>& workspace, const EntitySplitter<D>& entities, const Point<D>& x, const Demand& cause)
+      : w_(&workspace), entities_(&entities), x_(x), cause_(cause) {}
+  bool stops_at(CellId c, int face) override {
+    const Entry<D> f = w_->entry(c, EntryKind::face, face);
+    if (!found_ && entities_->refused_before(f, cause_) && encroachment<D>(w_->mesh, c, face, x_) != Encroachment::none) found_ = f;
+    return found_ && w_->cavity.cells().size() > many_cells;
+  }
+  const std::optional<Entry<D>>& found() const { return found_; }  ///< the face
+
+ private:
+  static constexpr std::size_t many_cells = 128;
+
+  const Workspace<D>* w_;
+  const EntitySplitter<D>* entities_;
+  Point<D> x_;
+  Demand cause_;
+  std::optional<Entry<D>> found_;
+};
+
+/// Collects the candidate's cavity on the way. The short cuts come first: a far point's wall, and a face that was refused before.
+template <int D>
+auto ElementSplitter<D>::find_obstacle(const Candidate<D>& c) -> Obstacle {
+  if (const auto wall = wall_before_far_point<D>(*w_, c.entry.cell, c.x)) return {wall};
+  Status status;
+  if (entities_->knows_refused_faces()) {
+    RefusedFace refused(*w_, *entities_, c.x, demand_on_entity(c));
+    status = cavity_->collect(c.x, c.entry.cell, &refused);
+    if (status == Status::stopped) return {refused.found()};
+  } else {
+    status = cavity_->collect(c.x, c.entry.cell);
+  }
+  if (status == Status::not_owned) {
+    // A point that a wall of the claim cuts off asks for no larger claim: the wall does.
+    cavity_->release();
+    return {wall_in_claim<D>(*w_, c.entry.cell, c.x), Outcome::not_owned};
+  }
+  if (status != Status::ok) return {{}, Outcome::refused};
+  if (const auto encroached = encroached_entity<D>(*mesh_, *cavity_, w_->options, c.x)) return {encroached};
+  return {hiding_wall<D>(*w_, c.entry.cell, c.x)};
+}
+
+/// Where the boundary is kept: the incentre of an element too big whose circumcentre the boundary hides.
+template <int D>
+Outcome ElementSplitter<D>::insert_inside(Candidate<D> c) {
+  if constexpr (D == 2) {
+    Simplex<D> s = mesh_->simplex(c.entry.cell);
+    std::sort(s.begin(), s.end(), lex_less<D>);
+    Point<D> x{};
+    double whole = 0;
+    for (int i = 0; i <= D; ++i) {
+      const double weight = std::sqrt(squared_distance(s[(i + 1) % 3], s[(i + 2) % 3]));
+      for (int k = 0; k < D; ++k) x[k] += weight * (s[i][k] - s[0][k]);
+      whole += weight;
+    }
+    for (int k = 0; k < D; ++k) x[k] = s[0][k] + x[k] / whole;
+    c.x = x;
+    c.at_center = false;
+    cavity_->release();
+    const Status status = cavity_->collect(x, c.entry.cell);
+    if (status == Status::not_owned) return Outcome::not_owned;
+    if (status == Status::ok && !flattened_face<D>(*mesh_, *cavity_, w_->options, x))
+      if (const Outcome outcome = commit(c); outcome != Outcome::refused) return outcome;
+  }
+  return w_->give_up(Outcome::refused);
+}
+
+/// Splits the entity that hides the candidate, or that it encroaches upon, in its place.
+template <int D>
+Outcome ElementSplitter<D>::split_instead(const Entry<D>& entity, const Candidate<D>& c) {
+  if (w_->options.keep_boundary) {
+    w_->refused_by = EntityPair{{EntityRef{EntityKind::segment, mesh_->constraints(entity.cell)->face_entity[entity.which()]}, {}}};
+    return c.verdict.over_size > 0 ? insert_inside(c) : Outcome::refused;
+  }
+  const Demand demand = demand_on_entity(c);
+  cavity_->release();
+  const Outcome outcome = entities_->split(entity, &demand);
+  // The element is looked at again if the split left it as it was.
+  if (outcome == Outcome::committed && w_->alive(c.entry)) lister_->list_again(c.entry);
+  return outcome;
+}
+
+/// @pre nothing blocks the candidate, and its cavity is collected
+template <int D>
+auto ElementSplitter<D>::judge(const Candidate<D>& c) -> Judgement {
+  Status status = cavity_->make_star_shaped();
+  if (status == Status::ok && (cavity_->shrunk() || cavity_->touches_constraints())) status = cavity_->check_nothing_swallowed();
+  if (status != Status::ok) return {status == Status::not_owned ? Outcome::not_owned : Outcome::refused};
+  // Unshrunk, the circumcentre's nearest vertices are the element's own; but not where rounding moves it, even onto another vertex.
+  const bool plain = c.at_center && !cavity_->shrunk() && mesh_->is_accurate(c.sphere);
+  const double r = plain ? std::sqrt(mesh_->squared_radius_bounds(c.sphere).first) : insertion_radius<D>(*mesh_, *cavity_);
+  if (inserter_->is_too_short(r)) return {Outcome::refused};
+  // Among volume vertices r >= d holds by itself, but for bounds below one and elements that are not poor in shape.
+  bool ordinary = plain && c.entry.which() != Entry<D>::not_delaunay && !w_->refused_by &&
+                  (w_->options.radius_edge_bound >= 1 || !c.verdict.over_radius_edge);
+  for (const VertexId v : mesh_->cell(c.entry.cell).vertices) ordinary = ordinary && w_->in_volume(v);
+  Demand demand;
+  if (!ordinary) {
+    demand = demand_of(c);
+    if ((plain ? insertion_radius<D>(*mesh_, *cavity_) : r) < demand.d) return {Outcome::refused};
+  }
+  return {Outcome::committed, std::max(r, demand.h)};
+}
+
+/// Inserts the collected candidate, if the insertion rule allows.
+template <int D>
+Outcome ElementSplitter<D>::commit(const Candidate<D>& c) {
+  const Judgement judgement = judge(c);
+  if (judgement.outcome != Outcome::committed) return judgement.outcome;
+  return inserter_->commit(Home(EntityKind::volume, 0), judgement.relaxed_radius);
+}
+
+template <int D>
+Demand ElementSplitter<D>::demand_of(const Candidate<D>& c) {
+  double least = std::numeric_limits<double>::infinity();
+  const auto& v = mesh_->cell(c.entry.cell).vertices;
+  for (int i = 0; i <= D; ++i)
+    for (int j = i + 1; j <= D; ++j)
+      least = std::min(least, relaxed_length<D>(w_->domain, mesh_->vertex(v[i]), mesh_->vertex(v[j])));
+  if (!c.verdict.over_radius_edge) least = std::min(least, std::sqrt(mesh_->squared_radius_bounds(c.entry.cell).first) / 2);
+  // Without it a point may come nearer than the element's edges are long only beside a small angle or below the proved
+  // bound. There a little of that, with the radius inherited, makes elements good that would stay poor; in 3D it is for those
+  // alone that stayed so.
+  const bool asks_for_less = D == 2 || (w_->context.last_resort && may_ask_for_less(c.entry.cell));
+  if (asks_for_less) return {inherited_fraction * least, least};
+  return {least, 0};
+}
+
+/// In the last resort: may less room mend more cells than it makes poor? Not where two of the entities that the cell's corners,
+/// faces and edges lie on meet at a sharp angle, nor at an input vertex, where others may, unless two of these meet at a
+/// small one. (bench/notebook/small_angles.md)
+template <int D>
+bool ElementSplitter<D>::may_ask_for_less(CellId c) {
+  std::vector<EntityRef> entities;
+  const auto add = [&entities](EntityRef e) {
+    const bool known = std::find(entities.begin(), entities.end(), e) != entities.end();
+    if (!known && (e.kind == EntityKind::segment || e.kind == EntityKind::facet)) entities.push_back(e);
+  };
+  bool at_input_vertex = false, small = false;
+  for (const VertexId v : mesh_->cell(c).vertices) {
+    const Home home = mesh_->vertex(v).home;
+    at_input_vertex = at_input_vertex || home.kind() == EntityKind::vertex;
+    add(home.entity());
+  }
+  if (const auto* k = mesh_->constraints(c)) {
+    for (int f = 0; f <= D; ++f)
+      if (k->faces >> f & 1) add({D == 3 ? EntityKind::facet : EntityKind::segment, k->face_entity[f]});
+    if constexpr (D == 3)
+      for (int e = 0; e < 6; ++e)
+        if (k->edges >> e & 1) add({EntityKind::segment, k->edge_entity[e]});
+  }
+  for (std::size_t i = 0; i < entities.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const double angle = w_->angles.between(entities[i], entities[j]);
+      if (angle < sharp_angle) return false;
+      small = small || angle < small_angle;
+    }
+  return small || !at_input_vertex;
+}
+
+/// What it asks of an entity that is split for it. Below the smallest proved bound a midpoint may be nearer to its
+/// neighbours than the element's edges are long, as beside a small angle.
+template <int D>
+Demand ElementSplitter<D>::demand_on_entity(const Candidate<D>& c) {
+  const Demand demand = demand_of(c);
+  if (demand.h > 0 || !c.verdict.over_radius_edge) return demand;
+  if (w_->options.radius_edge_bound >= smallest_proved_bound<D>()) return demand;
+  return {inherited_fraction * demand.d, demand.d};
+}
+
+template class ElementSplitter<2>;
+template class ElementSplitter<3>;
+
+}  // namespace pgdr

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Splits poor elements. A candidate, the element's circumcentre or what the caller's selector makes of it, is inserted if
+// nothing blocks it and the insertion rule allows; an entity that blocks it is split in its place:
+//
+//   candidate -> blocked by? -> judged -> committed -> listed      (ElementSplitter::insert, Inserter::commit)
+#pragma once
+
+#include <optional>
+
+#include "refine/entity_splitter.hpp"
+#include "refine/inserter.hpp"
+#include "refine/workspace.hpp"
+#include "rule/cell_bounds.hpp"
+#include "rule/insertion_rule.hpp"
+
+namespace pgdr {
+
+/// A point that is to go in for a poor element.
+template <int D>
+struct Candidate {
+  Entry<D> entry;           ///< the element
+  CellVerdict verdict;      ///< the bounds that it is over
+  FilterSphere<D> sphere;   ///< its circumsphere
+  Point<D> x;               ///< the point
+  bool at_center = true;    ///< is x the circumcentre, where there is no selector?
+};
+
+/// Part of a worker: see above.
+template <int D>
+class ElementSplitter {
+ public:
+  /// They must outlive it.
+  ElementSplitter(Workspace<D>& workspace, WorkLister<D>& lister, Inserter<D>& inserter, DelaunayRepair<D>& repair,
+                  EntitySplitter<D>& entities)
+      : w_(&workspace),
+        mesh_(&workspace.mesh),
+        cavity_(&workspace.cavity),
+        lister_(&lister),
+        inserter_(&inserter),
+        repair_(&repair),
+        entities_(&entities) {}
+
+  /// The element of an entry of kind cell. @throws what a callback throws
+  Outcome split(const Entry<D>& e);
+
+ private:
+  using Status = typename Cavity<D>::Status;
+  class RefusedFace;
+  /// What is in the way of a candidate: an entity, or what ends the attempt; `committed` if the way is free.
+  struct Obstacle {
+    std::optional<Entry<D>> entity;
+    Outcome outcome = Outcome::committed;
+  };
+  /// May the collected candidate go in (`committed`), and what is its relaxed insertion radius then?
+  struct Judgement {
+    Outcome outcome;
+    double relaxed_radius = 0;
+  };
+
+  CellVerdict verdict_of(const Entry<D>& e, const FilterSphere<D>& sphere) const;
+  Outcome insert(const Candidate<D>& c);
+  Obstacle find_obstacle(const Candidate<D>& c);
+  Judgement judge(const Candidate<D>& c);
+  Outcome commit(const Candidate<D>& c);
+  Outcome insert_inside(Candidate<D> c);
+  Outcome split_instead(const Entry<D>& entity, const Candidate<D>& c);
+  Demand demand_of(const Candidate<D>& c);
+  Demand demand_on_entity(const Candidate<D>& c);
+  bool may_ask_for_less(CellId c);
+
+  Workspace<D>* w_;
+  Mesh<D>* mesh_;
+  Cavity<D>* cavity_;
+  WorkLister<D>* lister_;
+  Inserter<D>* inserter_;
+  DelaunayRepair<D>* repair_;
+  EntitySplitter<D>* entities_;
+};
+
+extern template class ElementSplitter<2>;
+extern template class ElementSplitter<3>;
+
+}  // namespace pgdr

@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "refine/encroachment.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "numbers/vectors.hpp"
+#include "rule/insertion_rule.hpp"
+#include "rule/twins.hpp"
+
+namespace pgdr {
+namespace {
+
+template <int D>
+Entry<D> entry_of(const Mesh<D>& mesh, CellId c, EntryKind kind, int which) {
+  return {c, mesh.birth(c), kind, which};
+}
+
+/// Does the orthogonal projection of x to the hyperplane of the corners lie among them?
+template <int D>
+bool projects_into(const std::array<Point<D>, D>& corner, const Point<D>& x) {
+  if constexpr (D == 2) {
+    double along = 0, length = 0;
+    for (int i = 0; i < D; ++i) {
+      along += (x[i] - corner[0][i]) * (corner[1][i] - corner[0][i]);
+      length += (corner[1][i] - corner[0][i]) * (corner[1][i] - corner[0][i]);
+    }
+    return along >= 0 && along <= length;
+  } else {
+    using detail::difference;
+    const auto normal = detail::cross(difference(corner[1], corner[0]), difference(corner[2], corner[0]));
+    for (int i = 0; i < 3; ++i)
+      if (detail::dot(detail::cross(difference(corner[(i + 1) % 3], corner[i]), difference(x, corner[i])), normal) < 0)
+        return false;
+    return true;
+  }
+}
+
+/// Is x close beside an end of pq, at a right angle from it, but for 4e-6 of it? Split next to an input vertex (twins.hpp), a
+/// subsegment would else be split for it again and again where the rounded point is some ulps off its place.
+template <int D>
+bool is_beside_end(const Point<D>& p, const Point<D>& q, const Point<D>& x) {
+  const double to_p = squared_distance(p, x), to_q = squared_distance(q, x);
+  if (std::min(to_p, to_q) > beside * beside * std::max(to_p, to_q)) return false;
+  double along = 0;
+  for (int i = 0; i < D; ++i) along += (p[i] - x[i]) * (q[i] - x[i]);
+  return along * along < 0x1p-36 * to_p * to_q;
+}
+
+template <int D>
+std::optional<Entry<D>> encroached_face(const Mesh<D>& mesh, const Cavity<D>& cavity, const Point<D>& x) {
+  std::optional<Entry<D>> any;
+  for (const auto& f : cavity.boundary()) {
+    if (!mesh.constrained(f.cell, f.face)) continue;
+    const Encroachment how = encroachment<D>(mesh, f.cell, f.face, x);
+    if (how == Encroachment::before) return entry_of(mesh, f.cell, EntryKind::face, f.face);
+    if (how == Encroachment::beside && !any) any = entry_of(mesh, f.cell, EntryKind::face, f.face);
+  }
+  return any;
+}
+
+}  // namespace
+
+template <int D>
+Encroachment encroachment(const Mesh<D>& mesh, CellId c, int face, const Point<D>& x) {
+  std::array<Point<D>, D> corner;
+  for (int i = 0, n = 0; i <= D; ++i)
+    if (i != face) corner[n++] = mesh.point(mesh.cell(c).vertices[i]);
+  bool inside;
+  if constexpr (D == 2) {
+    inside = in_diametral_ball<2>(corner[0], corner[1], x);
+  } else {
+    inside = in_equatorial_ball(equatorial_ball(corner[0], corner[1], corner[2]), x);
+  }
+  if (!inside) return Encroachment::none;
+  return projects_into<D>(corner, x) ? Encroachment::before : Encroachment::beside;
+}
+
+template <int D>
+bool is_face_encroached_by(const Mesh<D>& mesh, const Domain<D>& domain, CellId c, int face, VertexId v) {
+  const auto& k = mesh.cell(c).vertices;
+  const EntityId id = mesh.constraints(c)->face_entity[face];
+  if constexpr (D == 2) {
+    const VertexId a = k[(face + 1) % 3], b = k[(face + 2) % 3];
+    return in_diametral_ball<2>(mesh.point(a), mesh.point(b), mesh.point(v)) &&
+           !lies_on<D>(domain, mesh.vertex(v).home, {EntityKind::segment, id});
+  } else {
+    const Ball<3> ball =
+        equatorial_ball(mesh.point(k[(face + 1) & 3]), mesh.point(k[(face + 2) & 3]), mesh.point(k[(face + 3) & 3]));
+    return in_equatorial_ball(ball, mesh.point(v)) && !lies_on<D>(domain, mesh.vertex(v).home, {EntityKind::facet, id});
+  }
+}
+
+bool is_edge_encroached(const Mesh<3>& mesh, const Domain<3>& domain, CellId c, int edge) {
+  const auto& vertices = mesh.cell(c).vertices;
+  const auto [a, b] = edge_ends[edge];
+  const EntityRef segment{EntityKind::segment, mesh.constraints(c)->edge_entity[edge]};
+  for (int i = 0; i < 4; ++i) {
+    if (i == a || i == b || lies_on<3>(domain, mesh.vertex(vertices[i]).home, segment)) continue;
+    const Point3 &p = mesh.point(vertices[a]), &q = mesh.point(vertices[b]), &x = mesh.point(vertices[i]);
+    if (in_diametral_ball<3>(p, q, x) && !is_beside_end(p, q, x)) return true;
+  }
+  return false;
+}
+
+template <int D>
+std::optional<Entry<D>> encroached_edge(const Mesh<D>& mesh, const Cavity<D>& cavity, const Point<D>& x) {
+  if constexpr (D == 3) {
+    for (const CellId c : cavity.cells()) {
+      const auto* k = mesh.constraints(c);
+      if (!k || !k->edges) continue;
+      const auto& vertices = mesh.cell(c).vertices;
+      for (int e = 0; e < 6; ++e)
+        if ((k->edges >> e & 1) &&
+            in_diametral_ball<D>(mesh.point(vertices[edge_ends[e][0]]), mesh.point(vertices[edge_ends[e][1]]), x))
+          return entry_of(mesh, c, EntryKind::edge, e);
+    }
+  }
+  return std::nullopt;
+}
+
+template <int D>
+std::optional<Entry<D>> flattened_face(const Mesh<D>& mesh, const Cavity<D>& cavity, const RefineOptions<D>& options,
+                                       const Point<D>& x) {
+  if constexpr (D == 2) {
+    // An angle at x above 180 degrees less twice the bound: cosine below -(1 - 2 sin^2).
+    const double rho = options.radius_edge_bound, limit = 1 - 1 / (2 * rho * rho);
+    for (const auto& f : cavity.boundary()) {
+      if (!mesh.constrained(f.cell, f.face)) continue;
+      const auto& v = mesh.cell(f.cell).vertices;
+      const Point<D>&a = mesh.point(v[(f.face + 1) % 3]), &b = mesh.point(v[(f.face + 2) % 3]);
+      const double product = (a[0] - x[0]) * (b[0] - x[0]) + (a[1] - x[1]) * (b[1] - x[1]);
+      const double cosine = product / std::sqrt(squared_distance(a, x) * squared_distance(b, x));
+      if (!(cosine >= -limit)) return entry_of(mesh, f.cell, EntryKind::face, f.face);
+    }
+  }
+  return std::nullopt;
+}
+
+template <int D>
+std::optional<Entry<D>> encroached_entity(const Mesh<D>& mesh, const Cavity<D>& cavity, const RefineOptions<D>& options,
+                                          const Point<D>& x) {
+  if (!cavity.touches_constraints()) return std::nullopt;
+  if (auto edge = encroached_edge<D>(mesh, cavity, x)) return edge;
+  return options.keep_boundary ? flattened_face<D>(mesh, cavity, options, x) : encroached_face<D>(mesh, cavity, x);
+}
+
+template <int D>
+std::optional<Entry<D>> edge_beyond(const Mesh<D>& mesh, const Domain<D>& domain, const Cavity<D>& cavity, const Point<D>& x) {
+  if constexpr (D == 3) {
+    for (const auto& part : cavity.part()) {
+      const auto* k = mesh.constraints(part.cell);
+      const auto& vertices = mesh.cell(part.cell).vertices;
+      const int axis = domain.facets()[part.entity].axis;
+      for (int i = 0; i <= D; ++i)
+        for (int j = i + 1; j <= D; ++j) {
+          if (i == part.face || j == part.face || !(k->edges >> edge_of_ends[i][j] & 1)) continue;
+          const int corner = 6 - part.face - i - j;
+          const Point<D>&a = mesh.point(vertices[i]), &b = mesh.point(vertices[j]);
+          const Sign inside = orient_projected(a, b, mesh.point(vertices[corner]), axis);
+          if (orient_projected(a, b, x, axis) != inside) return entry_of(mesh, part.cell, EntryKind::edge, edge_of_ends[i][j]);
+        }
+    }
+  }
+  return std::nullopt;
+}
+
+template Encroachment encroachment(const Mesh<2>&, CellId, int, const Point<2>&);
+template Encroachment encroachment(const Mesh<3>&, CellId, int, const Point<3>&);
+template bool is_face_encroached_by(const Mesh<2>&, const Domain<2>&, CellId, int, VertexId);
+template bool is_face_encroached_by(const Mesh<3>&, const Domain<3>&, CellId, int, VertexId);
+template std::optional<Entry<3>> encroached_edge(const Mesh<3>&, const Cavity<3>&, const Point<3>&);
+template std::optional<Entry<2>> encroached_entity(const Mesh<2>&, const Cavity<2>&, const RefineOptions<2>&, const Point<2>&);
+template std::optional<Entry<3>> encroached_entity(const Mesh<3>&, const Cavity<3>&, const RefineOptions<3>&, const Point<3>&);
+template std::optional<Entry<2>> flattened_face(const Mesh<2>&, const Cavity<2>&, const RefineOptions<2>&, const Point<2>&);
+template std::optional<Entry<3>> edge_beyond(const Mesh<3>&, const Domain<3>&, const Cavity<3>&, const Point<3>&);
+
+}  // namespace pgdr

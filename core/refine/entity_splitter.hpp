@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Splits encroached subsegments and subfacets, or refuses to, as the insertion rule says. A subfacet whose point encroaches upon a
+// subsegment has that split in its place.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "refine/inserter.hpp"
+#include "refine/refusal_memo.hpp"
+#include "refine/workspace.hpp"
+#include "rule/insertion_rule.hpp"
+#include "rule/twins.hpp"
+
+namespace pgdr {
+
+/// Part of a worker: see above.
+template <int D>
+class EntitySplitter {
+ public:
+  /// They must outlive it.
+  EntitySplitter(Workspace<D>& workspace, Inserter<D>& inserter)
+      : w_(&workspace), mesh_(&workspace.mesh), domain_(&workspace.domain), cavity_(&workspace.cavity), inserter_(&inserter) {}
+
+  /// Before the visit does anything.
+  void begin_visit() { memo_.clear(); }
+  /// Splits the subsegment or subfacet of the entry. `cause`: what an element asks for it is split for; null: its own encroachment.
+  Outcome split(const Entry<D>& e, const Demand* cause) {
+    return e.kind() == EntryKind::edge ? split_edge(e, cause) : split_face(e, cause);
+  }
+
+  bool knows_refused_faces() const { return memo_.knows_faces(); }  ///< has the split of any subfacet been refused in this visit?
+  /// Of a subfacet that has asked for the split of a subsegment that is refused: that, and the cell with the vertex that is too near,
+  /// if that still holds.
+  std::optional<std::pair<Entry<D>, CellId>> refused_before(const Entry<D>& face, const Demand& cause) const;
+
+ private:
+  using Status = typename Cavity<D>::Status;
+  struct FacetWalk {
+    std::optional<Entry<D>> edge, face;
+    bool owned = true;
+  };
+
+  Outcome split_edge(const Entry<D>& e, const Demand* cause);
+  Outcome split_face(const Entry<D>& e, const Demand* cause);
+  Status find_edge_in_the_way(const Entry<D>& face, const Point<D>& x, std::optional<Entry<D>>& edge);
+  Outcome split_edge_instead(const Entry<D>& face, const Entry<D>& edge, EntityRef facet, std::span<const VertexId> own, const Demand* cause);
+  Outcome commit_split(EntityRef entity, std::span<const VertexId> own, const Demand* cause, std::span<const VertexId> twins);
+  Outcome refuse(EntityRef entity, std::span<const VertexId> own);
+  Outcome refuse_near(const Entry<D>& e, std::span<const VertexId> own, CellId near);
+  bool is_refused_as_before(const Entry<D>& face, const Demand& cause);
+  Demand demand_of(EntityRef entity, std::span<const VertexId> own, bool passed_on);
+  bool may_be_near(EntityId s, std::span<const VertexId> own, VertexId q) const;
+  FacetWalk walk_in_facet(const Entry<D>& e, const Point<D>& x);
+  std::optional<CellId> cell_near_edge(const Entry<D>& e, const Point<D>& x, double distance, const SplitPlace* place) const;
+  double distance_to_corners(CellId c, const Point<D>& x, EntityId segment, const SplitPlace* place) const;
+  // 3D: subsegments that vertices are close beside (twins.hpp)
+  std::optional<SplitPlace> place_beside(const Entry<D>& e, std::span<const VertexId> own, bool& owned) const;
+  std::vector<VertexId> twins_of(EntityId s, const SplitPlace& place) const;
+
+  Workspace<D>* w_;
+  Mesh<D>* mesh_;
+  const Domain<D>* domain_;
+  Cavity<D>* cavity_;
+  Inserter<D>* inserter_;
+  RefusalMemo<D> memo_;  ///< of the visit
+};
+
+extern template class EntitySplitter<2>;
+extern template class EntitySplitter<3>;
+
+}  // namespace pgdr

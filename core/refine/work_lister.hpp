@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Lists what a visit has to do: encroached entities and poor elements at cells that are new, and faces that are not locally
+// Delaunay. Elements whose circumcentre lies in another leaf go to that leaf's outbox at the end of the visit.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/slot_set.hpp"
+#include "refine/workspace.hpp"
+#include "rule/cell_bounds.hpp"
+
+namespace pgdr {
+
+/// Part of a worker: see above.
+template <int D>
+class WorkLister {
+ public:
+  explicit WorkLister(Workspace<D>& workspace) : w_(&workspace), mesh_(&workspace.mesh), quick_bounds_(workspace.context.bounds) {}
+
+  /// Before the visit does anything.
+  void begin_visit() { elsewhere_.clear(); }
+  /// What is encroached or poor at a cell that the visit owns.
+  void list_cell(CellId c);
+  /// The element, if it is poor.
+  void list_if_poor(CellId c);
+  /// A poor element; `why` and `order` as of Entry.
+  void list_poor(CellId c, int why, const FilterSphere<D>& sphere, std::uint32_t order);
+  /// The same element, which is looked at once more.
+  void list_again(const Entry<D>& e) { list_poor(e.cell, e.which(), mesh_->sphere(e.cell), e.order); }
+  /// What is encroached or poor at the cells that the insertion of the collected point has made.
+  void list_inserted();
+  /// The faces of the cells that are not locally Delaunay; as many as that were.
+  std::uint64_t list_violations(std::span<const CellId> cells);
+  /// Fills the outboxes of the visit. Most entries do not live until its end, and the visit, which owns their cells, can tell.
+  void fill_outboxes();
+
+ private:
+  void list_entities(CellId c, const ConstraintRecord<D>& k);
+  void list_inserted_if_poor(std::size_t i);
+  std::uint32_t order_of(CellId c, const FilterSphere<D>& sphere) const;
+
+  Workspace<D>* w_;
+  Mesh<D>* mesh_;
+  const QuickBounds<D> quick_bounds_;
+  std::vector<Entry<D>> elsewhere_;                ///< elements with their circumcentre in other leaves
+  std::vector<std::uint32_t> box_of_, box_sizes_;  ///< scratch of fill_outboxes: of each element; of each box
+  std::vector<Entry<D>> violations_;               ///< at new cells, before they are listed
+};
+
+/// Adds the faces of the cell that are not locally Delaunay. Several threads at once.
+template <int D>
+void add_violations(const Mesh<D>& mesh, CellId c, std::vector<Entry<D>>& to);
+/// The same where many cells are looked at: a face between two of them is decided from one, and added for both.
+template <int D>
+void add_violations(const Mesh<D>& mesh, CellId c, const SlotSet& looked_at, std::vector<Entry<D>>& to);
+
+extern template class WorkLister<2>;
+extern template class WorkLister<3>;
+
+}  // namespace pgdr
