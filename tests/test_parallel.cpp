@@ -101,6 +101,48 @@ TEST(Parallel, Plane) {
   expect_reproducible_in_all_builds<2>(read_plc<2>(PGDR_TEST_MODELS "/plate.poly"), options, "plate");
 }
 
+// Beside small angles nearly all local changes have work: flips, collapses, relocations, refilled cavities, points beside what was
+// refused. (tests/regressions has the stories of these.)
+TEST(Parallel, SmallAngles) {
+  RefineOptions<3> options;
+  options.schedule.floor = 10;
+  for (const std::string file : {"wedge_of_1_degree.off", "plate_one_cell.poly", "plate_fifty_cells.poly", "needle_1e-7.off",
+                                 "needles_1e-5.off", "twisted_strips.off"}) {
+    const Plc<3> plc = with_default_precision(read_plc<3>(PGDR_TEST_REGRESSIONS "/" + file));
+    if (file.starts_with("wedge")) options.size = 0.15;  // else it has three cells
+    else options.size = {};
+    const auto result = expect_reproducible_in_all_builds<3>(plc, options, file, eight_threads);
+    EXPECT_GT(result.reasons.size(), 0u) << file;
+    EXPECT_GE(result.reasons.size(), result.poor_left) << file;
+  }
+  const Plc<3> plate = read_plc<3>(PGDR_TEST_REGRESSIONS "/plate_fifty_cells.poly");
+  expect_reproducible_in_all_builds<3>(test::turned<3>(plate), options, "plate_fifty_cells.poly, turned", eight_threads);
+}
+
+/// Nine segments of two lengths from one corner of a square, three degrees apart or so.
+Plc<2> fan() {
+  Plc<2> plc;
+  plc.points = {{{0, 0}}, {{4, 0}}, {{4, 4}}, {{0, 4}}};
+  for (std::uint32_t i = 0; i < 4; ++i) plc.segments.push_back({{i, (i + 1) % 4}, 1});
+  for (std::uint32_t i = 0; i < 9; ++i) {
+    const double length = i % 2 == 0 ? 3 : 1.5;
+    plc.points.push_back({{length, length * (i + 1) / 16}});
+    plc.segments.push_back({{0, 4 + i}, 2});
+  }
+  return plc;
+}
+
+TEST(Parallel, Fan) {
+  RefineOptions<2> options;
+  options.radius_edge_bound = 1 / (2 * std::sin(20.7 * std::numbers::pi / 180));
+  options.schedule.floor = 5;
+  for (const bool is_turned : {false, true}) {
+    const Plc<2> plc = is_turned ? test::turned<2>(fan()) : fan();
+    const auto result = expect_reproducible_in_all_builds<2>(plc, options, is_turned ? "fan, turned" : "fan");
+    EXPECT_GT(result.poor_left, 0u);
+  }
+}
+
 TEST(Parallel, GradedCube) {
   RefineOptions<3> options;
   options.size = [](const Point3& p) {

@@ -134,20 +134,22 @@ TEST(ConstrainedDelaunay, WhatCrossesIsRefusedByName) {
 }
 
 /// Checked, reproducible, and no angle smaller than theory allows beside the least angle of the input (Miller, Pav,
-/// Walkington 2003), nor larger than the bound allows.
-void expect_refined(const Plc<2>& plc, double degrees, const std::string& what) {
+/// Walkington 2003), nor larger than the bound allows. Returns how many triangles stayed poor.
+std::size_t expect_refined(const Plc<2>& plc, double degrees, const std::string& what) {
   const auto result = expect_reproducible<2>(plc, to_angle(degrees), what + " to " + std::to_string(degrees));
   const double phi = std::min(least_angle(plc), 60.0) * std::numbers::pi / 180;
   const double beside = std::atan(std::sin(phi) / (2 - std::cos(phi))) * 180 / std::numbers::pi;
   const QualitySummary quality = summarize_quality<2>(result.mesh);
   EXPECT_GE(quality.min_angle_deg, std::min(degrees, beside) * (1 - 1e-6)) << what;
+  EXPECT_GE(result.reasons.size(), result.poor_left) << what;
   for (const PoorReason& reason : result.reasons) EXPECT_EQ(reason.code, PoorReason::Code::small_angle) << what;
+  return result.poor_left;
 }
 
 TEST(PlanarRefinement, GraphsWithSmallAngles) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    expect_refined(fan(5, 11, seed), 20.7, "a fan");
-    expect_refined(fan(2, 1, seed), 20.7, "a needle");
+    EXPECT_GT(expect_refined(fan(5, 11, seed), 20.7, "a fan"), 0u);
+    EXPECT_GT(expect_refined(fan(2, 1, seed), 20.7, "a needle"), 0u);
   }
   expect_refined(fan(3, 31, 4), 30, "a wide fan");
 }
@@ -323,6 +325,8 @@ TEST(KeptBoundary, LongSidesExcuseLittle) {
   EXPECT_LE(report.exit_code(), 1) << findings(report);
   EXPECT_EQ(result.mesh.subsegments.size(), 4u);
   EXPECT_GT(result.mesh.cells.size(), 500u);  // the inside is refined as it would be
+  EXPECT_GE(result.poor_left, 4u);  // each side has one
+  EXPECT_EQ(result.reasons.size(), result.poor_left);
   for (const PoorReason& reason : result.reasons) EXPECT_EQ(reason.code, PoorReason::Code::kept_boundary);
 }
 

@@ -59,8 +59,6 @@ TEST(Refine, PipeWithoutSmallAnglesHasNoPoorCell) {
   EXPECT_EQ(report.not_delaunay_rounding + report.not_delaunay_refused, 0u);
 }
 
-/// Facets across a thin wall do not touch: an edge between them has its own length, however large the radii that its ends
-/// have inherited from small angles elsewhere.
 // Long strips side by side encroach upon each other from the start. Their facets get their quality before they hide cavities
 // (recovery.hpp): cut-back ones left facets that were not Delaunay in their planes, and 27 faces beside them that nothing mended.
 TEST(Refine, PipesOfManyStripsAreMeshedWithinTheBounds) {
@@ -76,6 +74,8 @@ TEST(Refine, PipesOfManyStripsAreMeshedWithinTheBounds) {
       }
 }
 
+// Facets across a thin wall do not touch: an edge between them has its own length, however large the radii that its ends
+// have inherited from small angles elsewhere.
 TEST(Refine, RelaxedLengthsAreOfEntitiesThatTouch) {
   const Domain<3> box([] {
     Plc<3> plc;

@@ -1,10 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Needles: triangles whose corner is next to the opposite side, as programs leave them that subtract one solid from another and
-// write six digits. Each side was split in its middle for the points of the other, and these for those: a box of nine points with
-// one needle, a corner 3e-7 from the edge of 10, was not through after a minute, at fifteen thousand points; a union of two
-// dodecahedra of 132 points with seven of them got 14,097 points in the recovery alone (79 now), and was not through either.
+// Needles: triangles whose corner is next to the opposite side. A side of one is split next to the points of the other, not in its
+// middle. (Whole meshes of needles: tests/regressions/needle*.)
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,66 +13,6 @@
 #include "pgdr/twins.hpp"
 
 namespace pgdr::test_twins {
-
-/// A box of edges of 10; next to the middle of some of its edges a point, off it by `height` in the given direction, with a needle
-/// from the edge to it on the one side of the edge, the faces on the other side being two triangles. `part`: how far along the edge.
-Plc<3> box_with_needles(int needles, double part, double dy, double dz) {
-  Plc<3> plc;
-  for (const double z : {0.0, 10.0})
-    for (const auto& [x, y] : {std::pair(0., 0.), std::pair(10., 0.), std::pair(10., 10.), std::pair(0., 10.)})
-      plc.points.push_back({{x, y, z}});
-  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) { plc.facets.push_back({{{a, b, c}}, {}, 0}); };
-  add(0, 2, 1);
-  add(0, 3, 2);
-  add(4, 5, 6);
-  add(4, 6, 7);
-  // The walls: 0 1 5 4, 1 2 6 5, 2 3 7 6, 3 0 4 7, each with its needle at the upper edge.
-  for (std::uint32_t i = 0; i < 4; ++i) {
-    const std::uint32_t a = i, b = (i + 1) % 4, c = b + 4, d = a + 4;
-    if (static_cast<int>(i) >= needles) {
-      add(a, b, c);
-      add(a, c, d);
-      continue;
-    }
-    const Point3 &p = plc.points[d], &q = plc.points[c];
-    const double t = part + 0.01 * i;
-    const Point3 inwards{{(p[1] - q[1]) / 10, (q[0] - p[0]) / 10, 0}};
-    const auto m = static_cast<std::uint32_t>(plc.points.size());
-    const Point3 at{{p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1]), p[2]}};
-    plc.points.push_back({{at[0] + dy * inwards[0], at[1] + dy * inwards[1], at[2] + dz}});
-    add(a, b, m);
-    add(b, c, m);
-    add(a, m, d);
-    add(d, m, c);
-  }
-  return plc;
-}
-
-void expect_few(const Plc<3>& plc, const std::string& name, std::size_t most_cells) {
-  RefineOptions<3> options;
-  options.max_vertices = 20000;  // so that a run that does not end does
-  const RefineResult<3> result = test::expect_reproducible<3>(plc, options, name, test::two_if_quick);
-  EXPECT_EQ(result.stop, StopCause::finished);
-  EXPECT_LT(result.mesh.cells.size(), most_cells);
-  EXPECT_GT(result.mesh.cells.size(), 0u);
-  for (const PoorReason& reason : result.reasons) EXPECT_EQ(reason.code, PoorReason::Code::small_angle);
-}
-
-class Needles : public testing::TestWithParam<double> {};
-
-TEST_P(Needles, OneGetsFewPoints) {
-  const double height = GetParam();
-  expect_few(box_with_needles(1, 0.53, height, -3 * height), "needle", 2000);
-}
-
-TEST_P(Needles, FourGetFewPoints) {
-  const double height = GetParam();
-  // Of 1e-9 it has been 12,374 to 21,733, by which vertices happen to come first.
-  expect_few(box_with_needles(4, 0.53, height, -2 * height), "needles", 25000);
-}
-
-INSTANTIATE_TEST_SUITE_P(Heights, Needles, testing::Values(1e-5, 1e-7, 1e-9),
-                         [](const auto& info) { return "1em" + std::to_string(std::lround(-std::log10(info.param))); });
 
 /// A body 2 high whose top is a fan of needles, `angle` apart, about one corner, no two of them coplanar.
 Plc<3> body_with_fan(int needles, double angle) {
@@ -95,7 +33,7 @@ Plc<3> body_with_fan(int needles, double angle) {
 
 /// From beds of printers, where the recovery went on to 2e-6 of the needles' length: each
 /// side of a needle was split next to the points of its neighbours, not as far from the apex as they were.
-TEST(Needles, OfAFanAreNotSplitTowardsTheirApex) {
+TEST(Twins, OfAFanAreNotSplitTowardsTheirApex) {
   const Plc<3> plc = body_with_fan(10, 0.0033);
   RefineOptions<3> options;
   options.refine = false;
