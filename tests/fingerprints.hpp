@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -19,37 +20,53 @@
 
 namespace pgdr::test {
 
-/// FNV-1a, 64 bits, of the bytes of all that a mesh and the reasons of its poor cells are made of (but for angles, which
-/// the C library computes).
+/// FNV-1a, 64 bits.
+class Fnv {
+ public:
+  Fnv& number(std::uint64_t n) {
+    bytes(&n, sizeof n);
+    return *this;
+  }
+  template <class T>
+  Fnv& list(const std::vector<T>& all) {
+    number(all.size());
+    if (!all.empty()) bytes(all.data(), all.size() * sizeof(T));
+    return *this;
+  }
+  std::string text() const {
+    char digits[17];
+    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash_));
+    return digits;
+  }
+
+ private:
+  void bytes(const void* data, std::size_t size) {
+    for (std::size_t i = 0; i < size; ++i) hash_ = (hash_ ^ static_cast<const unsigned char*>(data)[i]) * 0x100000001b3u;
+  }
+  std::uint64_t hash_ = 0xcbf29ce484222325u;
+};
+
+/// Four columns, each a count and a hash, so that a difference says where it is: points (places and markers), cells (corners and
+/// regions), pieces of the boundary (subsegments, subfacets and their markers), and reasons (why cells stayed poor; but for angles,
+/// which the C library computes).
 template <int D>
 std::string fingerprint(const RefineResult<D>& r) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  const auto bytes = [&hash](const void* data, std::size_t size) {
-    for (std::size_t i = 0; i < size; ++i) hash = (hash ^ static_cast<const unsigned char*>(data)[i]) * 0x100000001b3u;
-  };
-  const auto all = [&bytes](const auto& list) {
-    const std::uint64_t size = list.size();
-    bytes(&size, sizeof size);
-    if (size > 0) bytes(list.data(), size * sizeof list[0]);
-  };
-  const auto number = [&bytes](std::uint64_t n) { bytes(&n, sizeof n); };
-  number(r.mesh.input_points);
-  all(r.mesh.points);
-  all(r.mesh.point_markers);
-  all(r.mesh.cells);
-  all(r.mesh.regions);
-  all(r.mesh.subsegments);
-  all(r.mesh.subfacets);
-  number(r.poor_left);
+  const OutputMesh<D>& mesh = r.mesh;
+  Fnv points, cells, boundary, reasons;
+  points.number(mesh.input_points).list(mesh.points).list(mesh.point_markers);
+  cells.list(mesh.cells).list(mesh.regions);
+  boundary.list(mesh.subsegments).list(mesh.subfacets);
+  reasons.number(r.poor_left);
   for (const PoorReason& reason : r.reasons) {
-    number(reason.cell);
-    number(static_cast<std::uint64_t>(reason.code));
-    for (const auto& entity : reason.entities) number(static_cast<std::uint64_t>(entity.kind) << 32 | entity.id);
+    reasons.number(reason.cell).number(static_cast<std::uint64_t>(reason.code));
+    for (const auto& entity : reason.entities) reasons.number(static_cast<std::uint64_t>(entity.kind) << 32 | entity.id);
   }
-  char text[64];
-  std::snprintf(text, sizeof text, "%016llx %zu points %zu cells", static_cast<unsigned long long>(hash), r.mesh.points.size(),
-                r.mesh.cells.size());
-  return text;
+  const auto column = [](std::size_t count, const char* what, const Fnv& hash) {
+    return std::to_string(count) + ' ' + what + ' ' + hash.text();
+  };
+  return column(mesh.points.size(), "points", points) + '\t' + column(mesh.cells.size(), "cells", cells) + '\t' +
+         column(mesh.subsegments.size() + mesh.subfacets.size(), "boundary", boundary) + '\t' +
+         column(r.reasons.size(), "reasons", reasons);
 }
 
 /// Where PGDR_WRITE_FINGERPRINTS is set nothing is compared: the file is written when all tests of the program have run.

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// When boundary recovery is given up. A terrain of 725 points with facets at a tenth of a degree was refused after 272,101 Steiner
+// points, with a few hundred triangles missing of ten thousand: it takes some thousand more.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "model_plcs.hpp"
+#include "refined_models.hpp"
+#include "sanitized.hpp"
+
+namespace pgdr::test_front_recovery_limits {
+
+/// Squares, two triangles each, on walls; the points are up to `height` above these.
+Plc<3> terrain(std::uint32_t side, double height) {
+  std::mt19937 random(1);
+  Plc<3> plc;
+  std::vector<std::uint32_t> rim;
+  const auto number = [side](std::uint32_t i, std::uint32_t j) { return i * (side + 1) + j; };
+  for (std::uint32_t i = 0; i <= side; ++i)
+    for (std::uint32_t j = 0; j <= side; ++j)
+      plc.points.push_back({static_cast<double>(i), static_cast<double>(j), height * 0x1p-32 * random()});
+  for (std::uint32_t i = 0; i < side; ++i)
+    for (std::uint32_t j = 0; j < side; ++j) {
+      plc.facets.push_back({{{number(i, j), number(i + 1, j), number(i + 1, j + 1)}}, {}, 0});
+      plc.facets.push_back({{{number(i, j), number(i + 1, j + 1), number(i, j + 1)}}, {}, 0});
+    }
+  for (std::uint32_t k = 0; k < side; ++k) rim.push_back(number(k, 0));
+  for (std::uint32_t k = 0; k < side; ++k) rim.push_back(number(side, k));
+  for (std::uint32_t k = side; k > 0; --k) rim.push_back(number(k, side));
+  for (std::uint32_t k = side; k > 0; --k) rim.push_back(number(0, k));
+  std::vector<std::uint32_t> base;
+  for (const std::uint32_t v : rim) {
+    base.push_back(static_cast<std::uint32_t>(plc.points.size()));
+    plc.points.push_back({plc.points[v][0], plc.points[v][1], -2});
+  }
+  for (std::size_t k = 0; k < rim.size(); ++k) {
+    const std::size_t next = (k + 1) % rim.size();
+    plc.facets.push_back({{{base[k], base[next], rim[next], rim[k]}}, {}, 0});
+  }
+  plc.facets.push_back({{{base.rbegin(), base.rend()}}, {}, 0});
+  return plc;
+}
+
+TEST(RecoveryLimits, GoesOnWhileLessIsMissing) {
+  const Plc<3> plc = test::sanitized ? terrain(8, 100) : terrain(24, 600);
+  RefineOptions<3> recovery;
+  recovery.refine = false;
+  const auto result = refine(plc, recovery);
+  const Domain<3> domain(plc);
+  CheckOptions<3> options;
+  options.domain = &domain;
+  const CheckReport report = check(result.mesh, options);
+  EXPECT_EQ(report.exit_code(), 0) << test::findings(report);
+  const std::uint64_t points = result.statistics.segment_points + result.statistics.facet_points;
+  EXPECT_GT(points, test::sanitized ? 1000u : 200000u);
+}
+
+/// Two boxes, turned, one 1e-9 above the other.
+Plc<3> narrow_gap() {
+  Plc<3> plc = test::cube();
+  Plc<3> upper = test::cube();
+  const auto first = static_cast<std::uint32_t>(plc.points.size());
+  for (const Point3& p : upper.points) plc.points.push_back({0.2 + 0.5 * p[0], 0.3 + 0.5 * p[1], 1 + 1e-9 + p[2]});
+  for (auto& f : upper.facets) {
+    for (auto& polygon : f.polygons)
+      for (std::uint32_t& v : polygon) v += first;
+    plc.facets.push_back(f);
+  }
+  return test::turned<3>(plc, 0.37);
+}
+
+// More is missing there, round by round.
+TEST(RecoveryLimits, NarrowGapIsRefused) {
+  RefineOptions<3> recovery;
+  recovery.refine = false;
+  try {
+    refine(narrow_gap(), recovery);
+    FAIL() << "not refused";
+  } catch (const InputError& e) {
+    EXPECT_EQ(e.code(), Errc::boundary_not_recovered);
+    EXPECT_FALSE(e.diagnostic().ids.empty());
+  }
+}
+
+}  // namespace pgdr::test_front_recovery_limits

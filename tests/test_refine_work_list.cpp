@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The order in which a region's poor elements are treated.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <random>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "refine/work_list.hpp"
+
+namespace pgdr::test_refine_work_list {
+
+using Item = Entry<3>;
+
+Item poor(int bucket, int why, std::uint32_t order = 0, std::uint32_t id = 0) {
+  return {CellId{id}, 0, EntryKind::cell, why, bucket, order};
+}
+
+/// With slots, which what is fetched ahead has.
+class Slots : public Mesh<3> {
+ public:
+  Slots() {
+    auto pools = make_pools();
+    for (int i = 0; i < 20000; ++i) new_cell(pools);
+  }
+};
+const Slots mesh;
+
+Item big(int bucket, std::uint32_t id = 0) { return poor(bucket, Item::over_size, 0, id); }
+Item skinny(int bucket, std::uint32_t order) { return poor(bucket, Item::over_radius_edge, order); }
+
+TEST(WorkList, TooBigOnesGoFirstLargestFirst) {
+  WorkList<3> list;
+  for (const Item& e : {skinny(2, 5), big(7, 1), big(4, 2), skinny(1, 9), big(7, 3), poor(5, Item::not_delaunay, 0, 4)}) list.push(e);
+  EXPECT_EQ(list.poor(), 6u);
+  EXPECT_EQ(list.first_bucket(), 1);
+  std::vector<std::uint32_t> ids;
+  for (int i = 0; i < 4; ++i) ids.push_back(index(list.pop_poor(mesh).cell));
+  EXPECT_EQ(ids, (std::vector<std::uint32_t>{2, 4, 1, 3}));
+  EXPECT_EQ(list.pop_poor(mesh).order, 5u);  // then by shape, whatever the bucket
+  EXPECT_EQ(list.first_bucket(), 1);
+  EXPECT_EQ(list.pop_poor(mesh).order, 9u);
+  EXPECT_TRUE(list.empty());
+}
+
+TEST(WorkList, LargestFirstWhereARegionIsToBeSplit) {
+  WorkList<3> list;
+  for (const Item& e : {skinny(4, 1), big(3), skinny(2, 9), skinny(2, 6), big(4)}) list.push(e);
+  std::vector<int> buckets;
+  std::vector<std::uint32_t> orders;
+  while (list.poor() > 0) {
+    const Item e = list.pop_largest(mesh);
+    buckets.push_back(e.bucket);
+    orders.push_back(e.order);
+  }
+  EXPECT_EQ(buckets, (std::vector<int>{2, 2, 3, 4, 4}));
+  EXPECT_EQ(orders, (std::vector<std::uint32_t>{6, 9, 0, 0, 1}));
+}
+
+// Against a plain sorted list, with pushes and both pops mixed.
+TEST(WorkList, AgreesWithASortedList) {
+  std::mt19937 random(3);
+  WorkList<3> list;
+  std::vector<Item> all;
+  for (std::uint32_t i = 0; i < 20000; ++i) {
+    if (all.empty() || random() % 5 < 3) {
+      const int bucket = static_cast<int>(random() % 12);
+      const Item e = random() % 2 ? big(bucket, i) : skinny(bucket, random() % 100000);
+      list.push(e);
+      all.push_back(e);
+      continue;
+    }
+    const bool largest = random() % 2;
+    auto before = [largest](const Item& a, const Item& b) {
+      const bool a_big = a.which() == Item::over_size, b_big = b.which() == Item::over_size;
+      if (largest && a.bucket != b.bucket) return a.bucket < b.bucket;
+      if (a_big != b_big) return a_big;
+      if (a_big) return a.bucket != b.bucket ? a.bucket < b.bucket : index(a.cell) < index(b.cell);
+      return a.order < b.order;
+    };
+    ASSERT_EQ(list.poor(), all.size());
+    const auto expected = std::min_element(all.begin(), all.end(), before);
+    const Item e = largest ? list.pop_largest(mesh) : list.pop_poor(mesh);
+    ASSERT_EQ(e.which(), expected->which());
+    ASSERT_EQ(e.order, expected->order);
+    ASSERT_TRUE(e.which() != Item::over_size || e.cell == expected->cell);
+    ASSERT_FALSE(before(*expected, e) || before(e, *expected));
+    const auto same = std::find_if(all.begin(), all.end(), [&](const Item& x) {
+      return x.which() == e.which() && x.order == e.order && x.bucket == e.bucket && x.cell == e.cell;
+    });
+    ASSERT_NE(same, all.end());
+    all.erase(same);
+  }
+  std::size_t drained = 0;
+  list.drain([&](const Item&) { ++drained; });
+  EXPECT_EQ(drained, all.size());
+  EXPECT_TRUE(list.empty());
+}
+
+/// By those that are too big, not by those of poor shape, whose order says something else.
+TEST(WorkList, IsCrowdedByCellsToComeOrByThoseThatWait) {
+  WorkList<3> list;
+  for (std::uint32_t i = 0; i < 4; ++i) list.push(poor(3, Item::over_size, 7, i));
+  list.push(skinny(3, 1000));
+  EXPECT_EQ(list.to_come(), 28u);
+  EXPECT_TRUE(list.is_crowded(5));
+  EXPECT_TRUE(list.is_crowded(9));
+  EXPECT_FALSE(list.is_crowded(10));
+  list.pop_poor(mesh);
+  list.pop_largest(mesh);
+  EXPECT_EQ(list.to_come(), 14u);
+  EXPECT_FALSE(list.is_crowded(5));
+  list.drain([](const Item&) {});
+  EXPECT_EQ(list.to_come(), 0u);
+}
+
+// A slot is given up before its births repeat: no entry of a dead cell is taken for one of the cells after it.
+TEST(Entry, ASlotAndItsBirthNameACellForGood) {
+  class Cells : public Mesh<3> {
+   public:
+    Pools pools = make_pools();
+  } cells;
+  std::set<std::pair<CellId, std::uint16_t>> names;
+  std::optional<Item> last;
+  const std::array<VertexId, 4> vertices{VertexId{3}, VertexId{1}, VertexId{2}, VertexId{0}};
+  for (int i = 0; i < 150000; ++i) {
+    const CellId c = cells.new_cell(cells.pools);
+    cells.set_vertices(c, vertices);
+    const Item entry(c, cells.birth(c), EntryKind::cell, Item::over_size);
+    ASSERT_TRUE(names.insert({entry.cell, entry.birth}).second) << i;
+    ASSERT_TRUE(entry.alive(cells));
+    ASSERT_FALSE(last && last->alive(cells));
+    std::array<VertexId, 4> read{};
+    ASSERT_TRUE(cells.read_vertices(c, entry.birth, read));
+    ASSERT_EQ(read, vertices);
+    cells.free_cell(cells.pools, c);
+    ASSERT_FALSE(entry.alive(cells));
+    ASSERT_FALSE(cells.read_vertices(c, entry.birth, read));
+    last = entry;
+  }
+  EXPECT_EQ(std::prev(names.end())->first, CellId{2});  // two slots were given up, after 65 535 cells each
+}
+
+}  // namespace pgdr::test_refine_work_list
