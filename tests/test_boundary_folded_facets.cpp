@@ -8,7 +8,7 @@
 
 #include "carved_meshes.hpp"
 
-namespace pgdr::test_front_folded_facets {
+namespace pgdr::test_boundary_folded_facets {
 
 using test::Carved;
 
@@ -39,4 +39,4 @@ TEST(FoldedFacets, SegmentsAreThereInWholeBesideBentFacets) {
   }
 }
 
-}  // namespace pgdr::test_front_folded_facets
+}  // namespace pgdr::test_boundary_folded_facets

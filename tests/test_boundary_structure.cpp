@@ -15,7 +15,7 @@
 #include "repair_plcs.hpp"
 #include "structure_plcs.hpp"
 
-namespace pgdr::test_front_structure {
+namespace pgdr::test_boundary_structure {
 
 using test::Structure;
 
@@ -405,4 +405,4 @@ TEST_P(Structures, Fine) {
 INSTANTIATE_TEST_SUITE_P(Inputs, Structures, testing::ValuesIn(test::all_structures()),
                          [](const auto& info) { return info.param.name; });
 
-}  // namespace pgdr::test_front_structure
+}  // namespace pgdr::test_boundary_structure

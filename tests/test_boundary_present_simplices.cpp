@@ -12,7 +12,7 @@
 #include "boundary/present_simplices.hpp"
 #include "cavity/delaunay.hpp"
 
-namespace pgdr::test_front_present_simplices {
+namespace pgdr::test_boundary_present_simplices {
 
 template <std::size_t K>
 struct Wanted {
@@ -110,4 +110,4 @@ TEST(PresentSimplices, TrianglesAsAllCellsSay) {
   for (std::uint32_t seed = 0; seed < 4; ++seed) expect_as_all_cells_say<3>(seed);
 }
 
-}  // namespace pgdr::test_front_present_simplices
+}  // namespace pgdr::test_boundary_present_simplices

@@ -10,7 +10,7 @@
 
 #include "boundary/automatic_regions.hpp"
 
-namespace pgdr::test_front_nesting {
+namespace pgdr::test_boundary_nesting {
 
 using Pair = std::array<std::uint32_t, 2>;
 
@@ -118,4 +118,4 @@ TEST(Nesting, AMillionShells) {
   for (std::uint32_t v = 0; v < n; ++v) ASSERT_EQ(solid[v], v % 2 == 1);
 }
 
-}  // namespace pgdr::test_front_nesting
+}  // namespace pgdr::test_boundary_nesting

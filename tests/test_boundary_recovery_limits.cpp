@@ -11,7 +11,7 @@
 #include "refined_models.hpp"
 #include "sanitized.hpp"
 
-namespace pgdr::test_front_recovery_limits {
+namespace pgdr::test_boundary_recovery_limits {
 
 /// Squares, two triangles each, on walls; the points are up to `height` above these.
 Plc<3> terrain(std::uint32_t side, double height) {
@@ -85,4 +85,4 @@ TEST(RecoveryLimits, NarrowGapIsRefused) {
   }
 }
 
-}  // namespace pgdr::test_front_recovery_limits
+}  // namespace pgdr::test_boundary_recovery_limits
