@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "diagnose/diagnoser.hpp"
-#include "input/domain_builder.hpp"
+#include "input/build_report.hpp"
 #include "space/point_places.hpp"
 
 namespace pgdr::detail {

@@ -9,12 +9,14 @@
 #include <set>
 #include <utility>
 
-#include "input/domain_builder.hpp"
+#include "input/build_report.hpp"
+#include "input/facet_triangles.hpp"
 #include "numbers/double_double.hpp"
 #include "numbers/finite.hpp"
 #include "pgdr/predicates.hpp"
 #include "space/box_tree.hpp"
 #include "space/contact.hpp"
+#include "space/make_set.hpp"
 
 namespace pgdr {
 namespace {
