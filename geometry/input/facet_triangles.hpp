@@ -25,11 +25,6 @@ inline PlanarEdge edge_of(std::uint64_t key) {
   return {static_cast<std::uint32_t>(key >> 32), static_cast<std::uint32_t>(key)};
 }
 
-/// The corner of a triangle that is neither a nor b. @pre it has both
-inline std::uint32_t corner_beside(const PlanarTriangle& t, std::uint32_t a, std::uint32_t b) {
-  return t[0] ^ t[1] ^ t[2] ^ a ^ b;
-}
-
 /// An edge of an input facet or segment.
 struct OwnedEdge {
   PlanarEdge edge;

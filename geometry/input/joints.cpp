@@ -3,6 +3,7 @@
 #include "input/joints.hpp"
 
 #include "pgdr/predicates.hpp"
+#include "space/triangle.hpp"
 
 namespace pgdr::detail {
 
