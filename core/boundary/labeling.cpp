@@ -11,7 +11,7 @@
 #include "boundary/automatic_regions.hpp"
 #include "input/entity_distance.hpp"
 #include "pgdr/diagnosis.hpp"
-#include "space/bounding_box.hpp"
+#include "space/box.hpp"
 
 namespace pgdr {
 namespace {
@@ -77,7 +77,7 @@ void refuse_seeds_on_walls(const Domain<D>& domain, std::vector<Seed<D>> seeds) 
   const auto visit = [&](const std::array<std::uint32_t, D>& corners, double width, std::uint32_t facet) {
     std::array<Point<D>, D> s;
     for (std::size_t k = 0; k < D; ++k) s[k] = domain.points()[corners[k]];
-    const BoundingBox<D> box = bounding_box<D>(s);
+    const detail::Box<D> box = detail::Box<D>::of(s);
     auto seed = std::lower_bound(seeds.begin(), seeds.end(), box.low[0] - width,
                                  [](const Seed<D>& a, double x) { return a.point[0] < x; });
     for (; seed != seeds.end() && seed->point[0] <= box.high[0] + width; ++seed) {

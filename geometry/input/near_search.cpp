@@ -12,14 +12,6 @@
 namespace pgdr::detail {
 namespace {
 
-Box<3> widened(Box<3> box, double width) {
-  for (int k = 0; k < 3; ++k) {
-    box.low[k] -= width;
-    box.high[k] += width;
-  }
-  return box;
-}
-
 /// How far on the way from a to b the point of the line nearest to p is; NaN if p is not within `width` of the line there.
 double part_of_edge_near(const Point3& p, const Point3& a, const Point3& b, double width) {
   const auto along = difference(b, a), to = difference(p, a);
@@ -89,7 +81,7 @@ Box<3> NearSearch::box(const std::array<std::uint32_t, N>& corners) const {
 template <std::size_t N>
 BoxTree<3> NearSearch::widened_boxes(std::span<const std::array<std::uint32_t, N>> simplices) const {
   std::vector<Box<3>> boxes;
-  for (const auto& corners : simplices) boxes.push_back(widened(box(corners), width_));
+  for (const auto& corners : simplices) boxes.push_back(box(corners).widened(width_));
   return BoxTree<3>(boxes);
 }
 

@@ -153,17 +153,15 @@ class CrossingResolver {
       for (double& x : p.x) x = std::ldexp(x, -e);
     std::vector<detail::Box<2>> boxes;
     for (const std::uint64_t key : keys) {
-      detail::Box<2>& box = boxes.emplace_back();
       const auto [a, b] = detail::edge_of(key);
-      for (int i = 0; i < 2; ++i) {
-        box.low[i] = std::min(scaled[a][i], scaled[b][i]) - distance;
-        box.high[i] = std::max(scaled[a][i], scaled[b][i]) + distance;
-      }
+      auto box = detail::Box<2>::around(scaled[a]);
+      box.add(scaled[b]);
+      boxes.push_back(box.widened(distance));
     }
     std::vector<std::uint32_t> vertices;
     for (const auto& [point, v] : at_) {
       vertices.push_back(v);
-      boxes.push_back({scaled[v], scaled[v]});
+      boxes.push_back(detail::Box<2>::around(scaled[v]));
     }
     detail::BoxTree<2>(boxes).self_pairs([&](std::uint32_t i, std::uint32_t j) {
       if (i >= keys.size() || j < keys.size()) return;

@@ -5,29 +5,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace pgdr::detail {
 namespace {
 
 constexpr std::size_t boxes_a_leaf = 4;
-
-template <int D>
-Box<D> empty_box() {
-  Box<D> box;
-  box.low.x.fill(std::numeric_limits<double>::infinity());
-  box.high.x.fill(-std::numeric_limits<double>::infinity());
-  return box;
-}
-
-template <int D>
-void enclose(Box<D>& box, const Box<D>& other) {
-  for (int i = 0; i < D; ++i) {
-    box.low[i] = std::min(box.low[i], other.low[i]);
-    box.high[i] = std::max(box.high[i], other.high[i]);
-  }
-}
 
 /// The place of the box's centre along the Morton curve through `all`. Halves: sums of large numbers would overflow.
 template <int D>
@@ -58,9 +41,9 @@ BoxTree<D>::BoxTree(std::span<const Corners> corners, std::span<const Point<D>> 
   std::vector<Box<D>> boxes;
   boxes.reserve(corners.size());
   for (const Corners& simplex : corners) {
-    Box<D> box = empty_box<D>();
+    Box<D> box = Box<D>::empty();
     for (const std::uint32_t v : simplex)
-      if (v != no_corner) enclose(box, Box<D>::around(points[v]));
+      if (v != no_corner) box.add(points[v]);
     boxes.push_back(box);
   }
   build(boxes);
@@ -69,8 +52,8 @@ BoxTree<D>::BoxTree(std::span<const Corners> corners, std::span<const Point<D>> 
 
 template <int D>
 void BoxTree<D>::build(std::span<const Box<D>> boxes) {
-  Box<D> all = empty_box<D>();
-  for (const Box<D>& b : boxes) enclose(all, b);
+  Box<D> all = Box<D>::empty();
+  for (const Box<D>& b : boxes) all.add(b);
   std::vector<std::pair<std::uint64_t, std::uint32_t>> order(boxes.size());
   for (std::uint32_t i = 0; i < boxes.size(); ++i) order[i] = {place(boxes[i], all), i};
   std::sort(order.begin(), order.end());
@@ -78,13 +61,26 @@ void BoxTree<D>::build(std::span<const Box<D>> boxes) {
   for (const auto& [key, i] : order) items_.push_back({boxes[i], i});
 
   leaves_ = static_cast<std::uint32_t>(std::bit_ceil(std::max<std::size_t>(1, boxes.size() / boxes_a_leaf)));
-  nodes_.assign(2 * std::size_t{leaves_}, empty_box<D>());
+  nodes_.assign(2 * std::size_t{leaves_}, Box<D>::empty());
   for (std::uint32_t leaf = leaves_; leaf < 2 * leaves_; ++leaf)
-    for (const Item& item : items_of(leaf)) enclose(nodes_[leaf], item.box);
+    for (const Item& item : items_of(leaf)) nodes_[leaf].add(item.box);
   for (std::uint32_t node = leaves_; node-- > 1;) {
-    enclose(nodes_[node], nodes_[2 * node]);
-    enclose(nodes_[node], nodes_[2 * node + 1]);
+    nodes_[node].add(nodes_[2 * node]);
+    nodes_[node].add(nodes_[2 * node + 1]);
   }
+}
+
+template <int D>
+std::vector<double> BoxTree<D>::least_below(std::span<const double> values) const {
+  std::vector<double> least(nodes_.size(), std::numeric_limits<double>::infinity());
+  for (std::uint32_t node = 2 * leaves_; node-- > 1;) {
+    if (is_leaf(node)) {
+      for (const Item& item : items_of(node)) least[node] = std::min(least[node], values[item.index]);
+    } else {
+      least[node] = std::min(least[2 * node], least[2 * node + 1]);
+    }
+  }
+  return least;
 }
 
 // From the leaves up: which corners all simplices of a node share; where that is one alone, the box opposite it. A fan
@@ -127,10 +123,10 @@ void BoxTree<D>::find_anchors(std::span<const Corners> corners, std::span<const 
     Anchor& anchor = anchors_[node];
     anchor.corner = std::min({c[0], c[1], c[2]});
     anchor.apex = points[anchor.corner];
-    anchor.opposite = empty_box<D>();
+    anchor.opposite = Box<D>::empty();
     for (const Item& item : items_below(node))
       for (const std::uint32_t v : corners[item.index])
-        if (v != no_corner && v != anchor.corner) enclose(anchor.opposite, Box<D>::around(points[v]));
+        if (v != no_corner && v != anchor.corner) anchor.opposite.add(points[v]);
   }
 }
 

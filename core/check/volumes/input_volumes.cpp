@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "pgdr/predicates.hpp"
-#include "space/bounding_box.hpp"
+#include "space/box.hpp"
 #include "space/disjoint_sets.hpp"
 
 namespace pgdr::checking {
@@ -89,7 +89,7 @@ class InputBuilder {
  private:
   void collect_walls() {
     const auto points = domain_.points();
-    const BoundingBox<D> box = bounding_box<D>(points);
+    const detail::Box<D> box = detail::Box<D>::of(points);
     out_.span_ = std::max(out_.span_, box.longest_side());
     for (int k = 0; k < D; ++k) centre_[k] = box.low[k] + (box.high[k] - box.low[k]) / 2;
     if constexpr (D == 2) {

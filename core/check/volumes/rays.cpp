@@ -107,12 +107,9 @@ template <int D>
 void InputVolumes<D>::box_simplices() {
   boxes_.clear();
   for (std::uint32_t i = 0; i < simplices_.size(); ++i) {
-    const BoundingBox<D> box = bounding_box<D>(simplex(i));
+    const detail::Box<D> box = detail::Box<D>::of(simplex(i));
     if (i % boxed == 0) boxes_.push_back(box);
-    for (int k = 0; k < D; ++k) {
-      boxes_.back().low[k] = std::min(boxes_.back().low[k], box.low[k]);
-      boxes_.back().high[k] = std::max(boxes_.back().high[k], box.high[k]);
-    }
+    boxes_.back().add(box);
   }
 }
 
@@ -130,7 +127,7 @@ std::optional<std::vector<std::uint32_t>> InputVolumes<D>::crossings(const Point
       continue;
     }
     const auto s = simplex(i);
-    const BoundingBox<D> box = bounding_box<D>(s);
+    const detail::Box<D> box = detail::Box<D>::of(s);
     if (!strip.may_cross(box.low, box.high)) continue;
     const Crossing c = crossing<D>(s, q, p);
     if (c == Crossing::degenerate) return {};
