@@ -10,6 +10,7 @@
 
 #include "boundary/automatic_regions.hpp"
 #include "input/entity_distance.hpp"
+#include "numbers/rounding.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "space/box.hpp"
 
@@ -88,7 +89,7 @@ void refuse_seeds_on_walls(const Domain<D>& domain, std::vector<Seed<D>> seeds) 
                                           D == 2 ? "lies on a segment" : "lies on facet " + std::to_string(facet)));
     }
   };
-  constexpr double ulps = 16 * 0x1p-52;
+  constexpr double ulps = 16 * rounding::ulp;
   if constexpr (D == 3) {
     for (EntityId f = 0; f < domain.facets().size(); ++f) {
       const double width = ulps * domain.facet_magnitude(f) + 2 * domain.facets()[f].planarity_defect;

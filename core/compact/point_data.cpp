@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "input/entities.hpp"
+#include "numbers/rounding.hpp"
 #include "output/interpolation.hpp"
 #include "space/box_tree.hpp"
 #include "space/bulk.hpp"
@@ -55,7 +56,7 @@ class FacetInterpolation {
     double nearest = std::numeric_limits<double>::infinity();
     std::uint32_t best = none;
     detail::WeightedCorners<3> place{triangles_[0], {1, 0, 0}};
-    tree_.nearest([&](const Box& box, std::uint32_t) { return box.squared_distance_to(x) * (1 - 0x1p-40); },
+    tree_.nearest([&](const Box& box, std::uint32_t) { return box.squared_distance_to(x) * (1 - rounding::of_pruning); },
                  [&](std::uint32_t t) {
                    const auto& v = triangles_[t];
                    const auto weight = detail::nearest_weights({points_[v[0]], points_[v[1]], points_[v[2]]}, x);

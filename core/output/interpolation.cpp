@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "numbers/rounding.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr::detail {
@@ -171,7 +172,7 @@ auto MeshInterpolation<D>::outside(const Point<D>& x) const -> WeightedCorners<D
   WeightedCorners<D + 1> result{};
   result.corner.fill(faces_[0][0]);
   result.weight[0] = 1;
-  face_tree_.nearest([&](const Box<D>& box, std::uint32_t) { return box.squared_distance_to(x) * (1 - 0x1p-40); },
+  face_tree_.nearest([&](const Box<D>& box, std::uint32_t) { return box.squared_distance_to(x) * (1 - rounding::of_pruning); },
                     [&](std::uint32_t f) {
                       std::array<Point<D>, D> face;
                       for (int i = 0; i < D; ++i) face[i] = points_[faces_[f][i]];

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "numbers/rounding.hpp"
 #include "pgdr/domain.hpp"
 #include "space/box_tree.hpp"
 
@@ -22,8 +23,7 @@ inline Point2 projected(const Point3& p, int axis) { return {p[(axis + 1) % 3], 
 /// Is the facet off its plane by more than the doubles of its corners, as in files of few digits? Then what holds in a plane,
 /// or after a rotation, need not hold up to rounding.
 inline bool is_uneven(const Domain<3>& domain, EntityId f) {
-  constexpr double rounding = 0x1p-48;
-  return domain.facets()[f].planarity_defect > rounding * domain.facet_magnitude(f);
+  return domain.facets()[f].planarity_defect > rounding::of_plane * domain.facet_magnitude(f);
 }
 
 /// A point of the facet for in-circle tests. Their heights are |x|^2, in which a bend, or an ulp by which a Steiner point is off its

@@ -13,6 +13,7 @@
 #include "input/facet_triangles.hpp"
 #include "numbers/double_double.hpp"
 #include "numbers/finite.hpp"
+#include "numbers/rounding.hpp"
 #include "pgdr/predicates.hpp"
 #include "space/box_tree.hpp"
 #include "space/contact.hpp"
@@ -25,10 +26,10 @@ using detail::Contact;
 using detail::DoubleDouble;
 
 constexpr int most_rounds = 1000;
-/// Edges go through the points that they pass so nearly, within 2^near of the largest coordinate's power of two. A file that
+/// Edges go through the points that they pass so nearly, within this times the largest coordinate's power of two. A file that
 /// rounds its coordinates keeps no point on a slanted segment; new points miss others by an ulp where three segments meet; and
 /// bundles of segments nearly of one line, each moved by an ulp where it is split, would cross ever anew, at ever more places.
-constexpr int near = -50;
+constexpr double near = rounding::of_point;
 
 struct LexLess {
   bool operator()(const Point2& a, const Point2& b) const { return lex_less(a, b); }
@@ -147,7 +148,6 @@ class CrossingResolver {
     for (const Point2& p : points_)
       for (const double x : p.x) largest = std::max(largest, std::fabs(x));
     const int e = std::ilogb(largest);
-    const double distance = std::ldexp(1.0, near);
     std::vector<Point2> scaled(points_);
     for (Point2& p : scaled)
       for (double& x : p.x) x = std::ldexp(x, -e);
@@ -156,7 +156,7 @@ class CrossingResolver {
       const auto [a, b] = detail::edge_of(key);
       auto box = detail::Box<2>::around(scaled[a]);
       box.add(scaled[b]);
-      boxes.push_back(box.widened(distance));
+      boxes.push_back(box.widened(near));
     }
     std::vector<std::uint32_t> vertices;
     for (const auto& [point, v] : at_) {
@@ -172,7 +172,7 @@ class CrossingResolver {
       const double length2 = squared_distance(p, q);
       const double along = (x[0] - p[0]) * (q[0] - p[0]) + (x[1] - p[1]) * (q[1] - p[1]);
       const double off = (x[0] - p[0]) * (q[1] - p[1]) - (x[1] - p[1]) * (q[0] - p[0]), off2 = off * off / length2;
-      if (along > 0 && along < length2 && off2 <= distance * distance &&
+      if (along > 0 && along < length2 && off2 <= near * near &&
           4 * off2 <= std::min(squared_distance(p, x), squared_distance(q, x)))
         inside_.emplace_back(keys[i], v);
     });

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "numbers/rounding.hpp"
 #include "pgdr/types.hpp"
 
 namespace pgdr::checking {
@@ -18,7 +19,7 @@ namespace pgdr::checking {
 struct Tolerance {
   int ulps = 0;
   double magnitude = 0;
-  double width() const { return ulps * (magnitude * 0x1p-52); }
+  double width() const { return ulps * (magnitude * rounding::ulp); }
 };
 
 /// Distance of x from the line through p and q at most the tolerance. @pre p != q.

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "numbers/rounding.hpp"
+
 namespace pgdr::detail {
 namespace {
 
@@ -188,7 +190,7 @@ bool BoxTree<D>::separable(const Hull& a, const Hull& b) {
       change += w[i] * w[i];
       towards -= d[i] * w[i];
     }
-    if (gap > 0x1p-47 * size + 0x1p-1000) return true;
+    if (gap > rounding::of_separation * size + 0x1p-1000) return true;
     if (!(towards > 0 && change > 0)) return false;
     const double t = std::min(1.0, towards / change);
     for (int i = 0; i < D; ++i) d[i] += t * w[i];

@@ -8,6 +8,7 @@
 
 #include "check/volumes/input_volumes.hpp"
 #include "numbers/exact_tests.hpp"
+#include "numbers/rounding.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr::checking {
@@ -73,7 +74,7 @@ class Strip {
       for (int i = 0; i < 3; ++i)
         normal_[1][i] = d[(i + 1) % 3] * normal_[0][(i + 2) % 3] - d[(i + 2) % 3] * normal_[0][(i + 1) % 3];
     }
-    slack_ = 0x1p-40 * (magnitude + length);
+    slack_ = rounding::of_pruning * (magnitude + length);
   }
 
   bool may_cross(const Point<D>& low, const Point<D>& high) const {
