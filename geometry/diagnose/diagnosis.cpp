@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "diagnose/diagnoser.hpp"
-#include "input/build_report.hpp"
+#include "input/words.hpp"
 
 namespace pgdr {
 

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "diagnose/diagnoser.hpp"
-#include "input/build_report.hpp"
 #include "space/point_places.hpp"
 
 namespace pgdr::detail {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "input/domain_builder.hpp"
+#include "input/steps/domain_builder.hpp"
 
 namespace pgdr {
 template <int D>

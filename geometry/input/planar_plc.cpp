@@ -9,8 +9,8 @@
 #include <set>
 #include <utility>
 
-#include "input/build_report.hpp"
-#include "input/facet_triangles.hpp"
+#include "input/edges.hpp"
+#include "input/words.hpp"
 #include "numbers/double_double.hpp"
 #include "numbers/finite.hpp"
 #include "numbers/rounding.hpp"
