@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which triangle of a facet holds a point in the facet's projection, for facets that are planar within rounding alone:
-// there the plane of that triangle is meant. Made once; any number of threads may ask.
+// Facets that are planar within rounding alone: which triangle of such a facet holds a point in the facet's projection. The plane
+// of that triangle is the facet there. Made once; any number of threads may ask.
 #pragma once
 
 #include <algorithm>
@@ -35,6 +35,7 @@ inline Point3 levelled(const Domain<3>& domain, EntityId f, Point3 p) {
   return p;
 }
 
+/// The triangles of one facet, by what they cover in its projection.
 class BentFacet {
  public:
   using Triangle = std::array<std::uint32_t, 3>;
@@ -67,7 +68,7 @@ class BentFacet {
   BoxTree<2> tree_;
 };
 
-/// Of facets; none for those that are exactly planar.
+/// The bent facets of a Domain; exactly planar ones are not among them.
 class BentFacets {
  public:
   void add(EntityId f, BentFacet facet) { facets_.emplace_back(f, std::move(facet)); }  ///< by ascending f

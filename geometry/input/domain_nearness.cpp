@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A quick look at whether it is worth while to join what is near (domain_near.cpp): one tree over the pieces of an input, and its
+// A quick look at whether it is worth while to join what is near (steps/near_search.hpp): one tree over the pieces of an input, and its
 // points looked up in that.
 #include <array>
 #include <vector>

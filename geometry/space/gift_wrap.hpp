@@ -21,7 +21,7 @@
 
 namespace pgdr {
 
-/// See above.
+/// A gift wrapper, with the memory it works in.
 class GiftWrap {
  public:
   using Index = std::uint16_t;  ///< into the points

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Makes a Domain of a Plc, in this order: points (finite, merged), indices, facets to triangles, repeated facets,
+// The maker of a Domain of a Plc, in this order: points (finite, merged), indices, facets to triangles, repeated facets,
 // points and edges that lie on what they do not belong to, coplanar groups, segments, incidences. Each step has a header of its
 // own, included here. Everything is sorting and hashing: n log n in the size of the input, but for constraint edges
 // of a facet that cross many triangles.
