@@ -55,11 +55,11 @@ void compare(const std::vector<Box<D>>& a, const std::vector<Box<D>>& b) {
 
 // The nearest box, and the least sum of distance and weight, of points in the middle of other boxes.
 template <int D>
-void compare_nearest(const std::vector<Box<D>>& a, const std::vector<Box<D>>& b, std::mt19937_64& random) {
+void compare_nearest(const std::vector<Box<D>>& a, const std::vector<Box<D>>& b, TreeCut cut, std::mt19937_64& random) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::vector<double> weights(a.size());
   for (double& w : weights) w = std::uniform_real_distribution<double>(0, 0.3)(random);
-  const BoxTree<D> tree(a);
+  const BoxTree<D> tree(a, cut);
   const std::vector<double> least = tree.least_below(weights);
   for (const Box<D>& box : b) {
     const Point<D>& x = box.low;
@@ -85,7 +85,7 @@ void compare_many() {
       for (const double size : {0.05, 0.5}) {
         const auto a = random_boxes<D>(random, n, size, on_grid), b = random_boxes<D>(random, n / 2 + 3, size, on_grid);
         compare<D>(a, b);
-        compare_nearest<D>(a, b, random);
+        for (const TreeCut cut : {TreeCut::along_curve, TreeCut::at_medians}) compare_nearest<D>(a, b, cut, random);
       }
 }
 

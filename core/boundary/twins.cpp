@@ -76,7 +76,7 @@ const std::vector<SegmentChains::Link>& SegmentChains::input_beside(EntityId s) 
   if (!points_tree_) {
     std::vector<Box<3>> boxes;
     for (const Point3& p : domain_->points()) boxes.push_back(Box<3>::around(p));
-    points_tree_ = std::make_unique<BoxTree<3>>(boxes);
+    points_tree_ = std::make_unique<BoxTree<3>>(boxes, TreeCut::at_medians);
   }
   const auto& ends = domain_->segments()[s].points;
   const Point3 &p = domain_->points()[ends[0]], &q = domain_->points()[ends[1]];

@@ -50,7 +50,7 @@ class Rows {
 class FacetInterpolation {
  public:
   FacetInterpolation(const Domain<3>& domain, EntityId facet)
-      : points_(domain.points()), triangles_(domain.triangles(facet)), tree_(boxes()) {}
+      : points_(domain.points()), triangles_(domain.triangles(facet)), tree_(boxes(), detail::TreeCut::at_medians) {}
 
   detail::WeightedCorners<3> at(const Point3& x) const {
     double nearest = std::numeric_limits<double>::infinity();

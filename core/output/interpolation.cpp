@@ -117,8 +117,8 @@ MeshInterpolation<D>::MeshInterpolation(std::vector<Point<D>> points, std::span<
     : points_(std::move(points)),
       cells_(oriented<D>(points_, cells)),
       faces_(boundary<D>(cells_)),
-      cell_tree_(boxes(cells_)),
-      face_tree_(boxes(faces_)) {}
+      cell_tree_(boxes(cells_), TreeCut::at_medians),
+      face_tree_(boxes(faces_), TreeCut::at_medians) {}
 
 template <int D>
 template <std::size_t N>

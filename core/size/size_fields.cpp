@@ -58,7 +58,7 @@ SizingField<D> sizes_at_points(std::span<const Point<D>> points, std::span<const
     lengths.push_back(detail::length_of<D>(sizes[i]));
     boxes.push_back(detail::Box<D>::around(points[i]));
   }
-  detail::BoxTree<D> tree(boxes);
+  detail::BoxTree<D> tree(boxes, detail::TreeCut::at_medians);
   std::vector<double> least = tree.least_below(lengths);
   const auto source = std::make_shared<const Source>(
       Source{{points.begin(), points.end()}, std::move(lengths), std::move(tree), std::move(least)});

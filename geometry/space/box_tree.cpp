@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "numbers/rounding.hpp"
@@ -31,11 +32,29 @@ std::uint64_t place(const Box<D>& box, const Box<D>& all) {
   return key;
 }
 
+template <int D>
+std::vector<std::uint32_t> order_along_curve(std::span<const Box<D>> boxes) {
+  Box<D> all = Box<D>::empty();
+  for (const Box<D>& b : boxes) all.add(b);
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> places(boxes.size());
+  for (std::uint32_t i = 0; i < boxes.size(); ++i) places[i] = {place(boxes[i], all), i};
+  std::sort(places.begin(), places.end());
+  std::vector<std::uint32_t> order(boxes.size());
+  std::transform(places.begin(), places.end(), order.begin(), [](const auto& p) { return p.second; });
+  return order;
+}
+
+std::vector<std::uint32_t> order_of_input(std::size_t count) {
+  std::vector<std::uint32_t> order(count);
+  std::iota(order.begin(), order.end(), 0u);
+  return order;
+}
+
 }  // namespace
 
 template <int D>
-BoxTree<D>::BoxTree(std::span<const Box<D>> boxes) {
-  build(boxes);
+BoxTree<D>::BoxTree(std::span<const Box<D>> boxes, TreeCut cut) {
+  build(boxes, cut);
 }
 
 template <int D>
@@ -48,21 +67,17 @@ BoxTree<D>::BoxTree(std::span<const Corners> corners, std::span<const Point<D>> 
       if (v != no_corner) box.add(points[v]);
     boxes.push_back(box);
   }
-  build(boxes);
+  build(boxes, TreeCut::along_curve);
   find_anchors(corners, points);
 }
 
 template <int D>
-void BoxTree<D>::build(std::span<const Box<D>> boxes) {
-  Box<D> all = Box<D>::empty();
-  for (const Box<D>& b : boxes) all.add(b);
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> order(boxes.size());
-  for (std::uint32_t i = 0; i < boxes.size(); ++i) order[i] = {place(boxes[i], all), i};
-  std::sort(order.begin(), order.end());
-  items_.reserve(boxes.size());
-  for (const auto& [key, i] : order) items_.push_back({boxes[i], i});
-
+void BoxTree<D>::build(std::span<const Box<D>> boxes, TreeCut cut) {
   leaves_ = static_cast<std::uint32_t>(std::bit_ceil(std::max<std::size_t>(1, boxes.size() / boxes_a_leaf)));
+  items_.reserve(boxes.size());
+  for (const std::uint32_t i : cut == TreeCut::along_curve ? order_along_curve(boxes) : order_of_input(boxes.size()))
+    items_.push_back({boxes[i], i});
+  if (cut == TreeCut::at_medians) cut_at_medians(0, leaves_);
   nodes_.assign(2 * std::size_t{leaves_}, Box<D>::empty());
   for (std::uint32_t leaf = leaves_; leaf < 2 * leaves_; ++leaf)
     for (const Item& item : items_of(leaf)) nodes_[leaf].add(item.box);
@@ -70,6 +85,26 @@ void BoxTree<D>::build(std::span<const Box<D>> boxes) {
     nodes_[node].add(nodes_[2 * node]);
     nodes_[node].add(nodes_[2 * node + 1]);
   }
+}
+
+template <int D>
+void BoxTree<D>::cut_at_medians(std::uint64_t first_leaf, std::uint64_t last_leaf) {
+  const auto item = [this](std::uint64_t leaf) { return items_.begin() + static_cast<std::ptrdiff_t>(first_item(leaf)); };
+  const auto begin = item(first_leaf), end = item(last_leaf);
+  if (last_leaf - first_leaf == 1) return std::sort(begin, end, [](const Item& a, const Item& b) { return a.index < b.index; });
+  Box<D> all = Box<D>::empty();
+  for (auto i = begin; i != end; ++i) all.add(i->box);
+  int axis = 0;
+  for (int i = 1; i < D; ++i)
+    if (all.high[i] - all.low[i] > all.high[axis] - all.low[axis]) axis = i;
+  const auto centre = [axis](const Item& i) { return i.box.low[axis] / 2 + i.box.high[axis] / 2; };
+  const std::uint64_t middle = (first_leaf + last_leaf) / 2;
+  std::nth_element(begin, item(middle), end, [&](const Item& a, const Item& b) {
+    const double p = centre(a), q = centre(b);
+    return p != q ? p < q : a.index < b.index;
+  });
+  cut_at_medians(first_leaf, middle);
+  cut_at_medians(middle, last_leaf);
 }
 
 template <int D>
