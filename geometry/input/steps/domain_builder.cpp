@@ -127,7 +127,8 @@ void DomainBuilder<D>::write_segments(const Input& in, const EdgeUses& uses, con
   out_.facets_of_segment_ = std::move(made.facets);
 }
 
-template class DomainBuilder<2>;
-template class DomainBuilder<3>;
+// Not the class: Clang before 16 would instantiate the members that 2D has not.
+template void DomainBuilder<2>::run();
+template void DomainBuilder<3>::run();
 
 }  // namespace pgdr
