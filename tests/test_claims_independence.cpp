@@ -16,7 +16,7 @@
 #include "graded_trees.hpp"
 #include "oracles.hpp"
 #include "refined_models.hpp"
-#include "space/bounding_box.hpp"
+#include "space/box.hpp"
 
 namespace pgdr::test_claims_independence {
 
@@ -185,7 +185,7 @@ class ProvedTree {
 
  private:
   static Orthtree<D> over(const std::vector<Point<D>>& points) {
-    const auto box = bounding_box<D>(points);
+    const auto box = detail::Box<D>::of(points);
     return Orthtree<D>(box.low, box.high);
   }
 };
@@ -202,7 +202,7 @@ struct Candidate {
 template <int D>
 std::vector<Candidate<D>> candidates(const ProvedTree<D>& proved, typename Orthtree<D>::Node leaf) {
   const auto& [mesh, spheres] = std::tie(proved.brute.mesh, proved.brute.spheres);
-  const auto whole = bounding_box<D>(mesh.points);
+  const auto whole = detail::Box<D>::of(mesh.points);
   std::vector<Point<D>> centres;
   for (const auto& s : spheres) {
     bool inside = proved.tree.leaf_at(s.center) == leaf;

@@ -35,12 +35,12 @@ std::vector<Box<D>> random_boxes(std::mt19937_64& random, std::size_t n, double 
 template <int D>
 void compare(const std::vector<Box<D>>& a, const std::vector<Box<D>>& b) {
   Pairs self, expected_self, both, expected_both;
-  const BoxTree<D> tree(a), other(b);
+  const BoxTree<D> tree(a);
   tree.self_pairs([&](std::uint32_t i, std::uint32_t j) {
     EXPECT_LT(i, j);
     self.emplace_back(i, j);
   });
-  tree.pairs(other, [&](std::uint32_t i, std::uint32_t j) { both.emplace_back(i, j); });
+  for (std::uint32_t j = 0; j < b.size(); ++j) tree.meeting(b[j], [&](std::uint32_t i) { both.emplace_back(i, j); });
   for (std::uint32_t i = 0; i < a.size(); ++i) {
     for (std::uint32_t j = i + 1; j < a.size(); ++j)
       if (a[i].meets(a[j])) expected_self.emplace_back(i, j);
@@ -53,13 +53,40 @@ void compare(const std::vector<Box<D>>& a, const std::vector<Box<D>>& b) {
   EXPECT_EQ(both, expected_both);
 }
 
+// The nearest box, and the least sum of distance and weight, of points in the middle of other boxes.
+template <int D>
+void compare_nearest(const std::vector<Box<D>>& a, const std::vector<Box<D>>& b, TreeCut cut, std::mt19937_64& random) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::vector<double> weights(a.size());
+  for (double& w : weights) w = std::uniform_real_distribution<double>(0, 0.3)(random);
+  const BoxTree<D> tree(a, cut);
+  const std::vector<double> least = tree.least_below(weights);
+  for (const Box<D>& box : b) {
+    const Point<D>& x = box.low;
+    double expected = infinity, expected_weighted = infinity, nearest = infinity, weighted = infinity;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      expected = std::min(expected, a[i].squared_distance_to(x));
+      expected_weighted = std::min(expected_weighted, weights[i] + a[i].squared_distance_to(x));
+    }
+    tree.nearest([&](const Box<D>& node, std::uint32_t) { return node.squared_distance_to(x); },
+                 [&](std::uint32_t i) { return nearest = std::min(nearest, a[i].squared_distance_to(x)); });
+    tree.nearest([&](const Box<D>& node, std::uint32_t k) { return least[k] + node.squared_distance_to(x); },
+                 [&](std::uint32_t i) { return weighted = std::min(weighted, weights[i] + a[i].squared_distance_to(x)); });
+    EXPECT_EQ(nearest, expected);
+    EXPECT_EQ(weighted, expected_weighted);
+  }
+}
+
 template <int D>
 void compare_many() {
   std::mt19937_64 random(1);
   for (const std::size_t n : {0u, 1u, 2u, 3u, 7u, 8u, 9u, 33u, 500u})
     for (const bool on_grid : {false, true})
-      for (const double size : {0.05, 0.5})
-        compare<D>(random_boxes<D>(random, n, size, on_grid), random_boxes<D>(random, n / 2 + 3, size, on_grid));
+      for (const double size : {0.05, 0.5}) {
+        const auto a = random_boxes<D>(random, n, size, on_grid), b = random_boxes<D>(random, n / 2 + 3, size, on_grid);
+        compare<D>(a, b);
+        for (const TreeCut cut : {TreeCut::along_curve, TreeCut::at_medians}) compare_nearest<D>(a, b, cut, random);
+      }
 }
 
 TEST(BoxTree, AllPairs2) { compare_many<2>(); }

@@ -35,7 +35,7 @@ ROOMS = {
         "numbers": Room("what is the sign, and is the bound met, exactly?", "",
                         "predicates.cpp predicates_bounds.cpp", "predicates circumsphere"),
         "space": Room("which of many boxes, points, triangles meet?", "numbers", "box_tree.hpp", ""),
-        "input": Room("which points, segments and facets does an input have?", "space", "domain.cpp",
+        "input": Room("which points, segments and facets does an input have?", "space", "steps/domain_builder.cpp",
                       "plc domain planar_plc"),
         "diagnose": Room("what is wrong with an input, and where?", "input", "diagnosis.cpp", "diagnosis"),
         "precision": Room("how exact are the numbers of a file?", "diagnose", "written_precision.cpp", "written_precision"),

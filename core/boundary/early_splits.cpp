@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "boundary/state.hpp"
+#include "numbers/rounding.hpp"
 #include "numbers/vectors.hpp"
 
 namespace pgdr::detail {
@@ -87,7 +88,7 @@ void FacetPatches::find_factors() {
   for (EntityId f = 0; f < triangles_.size(); ++f) {
     double factor = 1;
     for (const EntityId s : domain_->facet_segments(f)) {
-      const bool plane = domain_->facets()[f].planarity_defect <= 0x1p-44 * domain_->segment_magnitude(s);
+      const bool plane = domain_->facets()[f].planarity_defect <= rounding::of_large_plane * domain_->segment_magnitude(s);
       if (!wide[s] || !plane || sharp[s]) factor = 0;
       if (factor == 1 && chains_->at_small_angle(s)) factor = strips;
     }
@@ -99,7 +100,7 @@ bool FacetPatches::may_split(const Subsegment& s) const {
   return !std::binary_search(fragile_.begin(), fragile_.end(), sorted_ends(s.a, s.b));
 }
 
-/// A rounded point of an edge is off it by some 2^-50 of the coordinates.
+/// Edges beside which triangles are so flat that a rounded point of the edge would turn them.
 void FacetPatches::find_fragile() {
   fragile_.clear();
   for (const auto& triangles : triangles_)
@@ -110,7 +111,7 @@ void FacetPatches::find_fragile() {
         double magnitude = 0;
         for (int k = 0; k < 3; ++k) magnitude = std::max({magnitude, std::fabs(a[k]), std::fabs(b[k]), std::fabs(c[k])});
         const auto ab = difference(b, a), normal = cross(ab, difference(c, a));
-        const double least = 0x1p-36 * magnitude;
+        const double least = rounding::of_fragile_height * magnitude;
         if (dot(normal, normal) < least * least * dot(ab, ab)) fragile_.push_back(sorted_ends(v, w));
       }
   std::sort(fragile_.begin(), fragile_.end());

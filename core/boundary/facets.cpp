@@ -10,6 +10,7 @@
 #include "boundary/named_points.hpp"
 #include "boundary/state.hpp"
 #include "input/bent_facets.hpp"
+#include "numbers/rounding.hpp"
 #include "numbers/vectors.hpp"
 #include "space/planar_cdt.hpp"
 
@@ -39,7 +40,7 @@ Box<3> box_around(const Ball<3>& ball) {
   const double radius = std::sqrt(ball.squared_radius);
   Box<3> box;
   for (int i = 0; i < 3; ++i) {
-    const double reach = radius + 0x1p-40 * (radius + std::fabs(ball.center[i]));
+    const double reach = radius + rounding::of_pruning * (radius + std::fabs(ball.center[i]));
     const double low = ball.center[i] - reach, high = ball.center[i] + reach;
     box.low[i] = std::isfinite(low) ? low : std::numeric_limits<double>::lowest();
     box.high[i] = std::isfinite(high) ? high : std::numeric_limits<double>::max();

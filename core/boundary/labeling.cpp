@@ -10,8 +10,9 @@
 
 #include "boundary/automatic_regions.hpp"
 #include "input/entity_distance.hpp"
+#include "numbers/rounding.hpp"
 #include "pgdr/diagnosis.hpp"
-#include "space/bounding_box.hpp"
+#include "space/box.hpp"
 
 namespace pgdr {
 namespace {
@@ -77,7 +78,7 @@ void refuse_seeds_on_walls(const Domain<D>& domain, std::vector<Seed<D>> seeds) 
   const auto visit = [&](const std::array<std::uint32_t, D>& corners, double width, std::uint32_t facet) {
     std::array<Point<D>, D> s;
     for (std::size_t k = 0; k < D; ++k) s[k] = domain.points()[corners[k]];
-    const BoundingBox<D> box = bounding_box<D>(s);
+    const detail::Box<D> box = detail::Box<D>::of(s);
     auto seed = std::lower_bound(seeds.begin(), seeds.end(), box.low[0] - width,
                                  [](const Seed<D>& a, double x) { return a.point[0] < x; });
     for (; seed != seeds.end() && seed->point[0] <= box.high[0] + width; ++seed) {
@@ -88,7 +89,7 @@ void refuse_seeds_on_walls(const Domain<D>& domain, std::vector<Seed<D>> seeds) 
                                           D == 2 ? "lies on a segment" : "lies on facet " + std::to_string(facet)));
     }
   };
-  constexpr double ulps = 16 * 0x1p-52;
+  constexpr double ulps = 16 * rounding::ulp;
   if constexpr (D == 3) {
     for (EntityId f = 0; f < domain.facets().size(); ++f) {
       const double width = ulps * domain.facet_magnitude(f) + 2 * domain.facets()[f].planarity_defect;

@@ -2,20 +2,48 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "boundary/segment_insertion.hpp"
 
-#include <algorithm>
-#include <cassert>
-
 #include "boundary/named_points.hpp"
 #include "boundary/wanted_simplices.hpp"
+#include "space/edge_forcing.hpp"
 
 namespace pgdr::detail {
-namespace {
 
-int corner(const CellRecord<2>& k, VertexId v) {
-  return static_cast<int>(std::find(k.vertices.begin(), k.vertices.end(), v) - k.vertices.begin());
-}
+/// The mesh closed by ghosts, its constraints as fixed_ has them.
+struct SegmentInsertion::Forcible {
+  using Vertex = VertexId;
+  using Cell = CellId;
+  using Side = CellSide<CellId>;
 
-}  // namespace
+  SegmentInsertion& all;
+
+  const Point2& point(VertexId v) const { return all.mesh_->point(v); }
+  VertexId corner(CellId c, int i) const { return all.mesh_->cell(c).vertices[i]; }
+  Side across(Side s) const {
+    const Link behind = all.mesh_->cell(s.cell).links[s.edge];
+    return {behind.cell(), behind.face()};
+  }
+  bool is_constraint(Side s) const { return all.fixed(s.cell, s.edge); }
+  bool is_ghost(VertexId v) const { return v == infinite_vertex; }
+  CellId cell_at(VertexId v) const { return all.cell_at_[index(v)]; }
+  Sign orient(VertexId a, VertexId b, VertexId c) const { return orient2d(point(a), point(b), point(c)); }
+  bool is_ahead(VertexId a, VertexId b, VertexId c) const {
+    const int k = point(a)[0] != point(b)[0] ? 0 : 1;
+    return point(a)[k] < point(b)[k] ? point(a)[k] < point(c)[k] : point(c)[k] < point(a)[k];
+  }
+  bool in_circle(VertexId a, VertexId b, VertexId c, VertexId d) const {
+    return in_sphere_perturbed<2>({point(a), point(b), point(c)}, point(d)) == Sign::positive;
+  }
+  void set(CellId c, const std::array<VertexId, 3>& v) {
+    all.mesh_->set_vertices(c, v);
+    all.fixed_[index(c)] = 0;
+    for (const VertexId w : v) all.cell_at_[index(w)] = c;
+  }
+  void link(Side a, Side b) {
+    all.mesh_->cell(a.cell).links[a.edge] = Link(b.cell, b.edge);
+    all.mesh_->cell(b.cell).links[b.edge] = Link(a.cell, a.edge);
+  }
+  void constrain(Side s) { all.fix(s.cell, s.edge); }
+};
 
 SegmentInsertion::SegmentInsertion(Mesh<2>& mesh, Mesh<2>::Pools& pools, const Delaunay<2>& delaunay,
                                    const Domain<2>& domain)
@@ -42,7 +70,7 @@ void SegmentInsertion::find_segments() {
       if (v[f] != infinite_vertex) cell_at_[index(v[f])] = c;
       const auto* edge = edges.find({v[(f + 1) % 3], v[(f + 2) % 3]});
       if (!edge) continue;
-      fix({c, f});
+      fix(c, f);
       present_[edge->entity] = true;
     }
   }
@@ -58,145 +86,21 @@ void SegmentInsertion::fail(EntityId s, VertexId through) const {
   throw InputError(std::move(d));
 }
 
-/// The cell at the segment's first end, and its face opposite that, through which the segment leaves; or, if it has become
-/// an edge by now, the side of a cell that it is.
-auto SegmentInsertion::first_crossing(EntityId s) const -> Side {
-  const auto [a, b] = ends_[s];
-  const Point2 &p = mesh_->point(a), &q = mesh_->point(b);
-  const CellId first = cell_at_[index(a)];
-  CellId c = first;
-  do {
-    const auto& k = mesh_->cell(c);
-    const int i = corner(k, a);
-    const VertexId u = k.vertices[(i + 1) % 3], w = k.vertices[(i + 2) % 3];
-    if (u == b) return {c, (i + 2) % 3};
-    if (u != infinite_vertex && w != infinite_vertex && orient2d(p, q, mesh_->point(u)) == Sign::negative &&
-        orient2d(p, q, mesh_->point(w)) == Sign::positive)
-      return {c, i};
-    c = k.links[(i + 1) % 3].cell();
-  } while (c != first);
-  fail(s, no_vertex);  // along an edge, to a point inside the segment
-}
-
-/// Along the segment: what it crosses, and the polygons on both sides of it.
-void SegmentInsertion::march(EntityId s, Side at) {
-  const auto [a, b] = ends_[s];
-  const Point2 &p = mesh_->point(a), &q = mesh_->point(b);
-  const auto edge = [this](CellId c, int f) { return ChainEdge{Link(c, f), mesh_->cell(c).links[f], fixed(c, f), {}}; };
-  VertexId r = mesh_->cell(at.cell).vertices[(at.face + 1) % 3], l = mesh_->cell(at.cell).vertices[(at.face + 2) % 3];
-  crossed_ = {at.cell};
-  left_ = {{a, l}, {edge(at.cell, (at.face + 1) % 3)}};
-  right_ = {{a, r}, {edge(at.cell, (at.face + 2) % 3)}};
-  while (true) {
-    if (fixed(at.cell, at.face)) fail(s, no_vertex);
-    const Link beyond = mesh_->cell(at.cell).links[at.face];
-    const CellId c = beyond.cell();
-    const int f = beyond.face();  // the cell is (w, l, r)
-    const VertexId w = mesh_->cell(c).vertices[f];
-    if (w == infinite_vertex) fail(s, no_vertex);
-    const Sign side = w == b ? Sign::zero : orient2d(p, q, mesh_->point(w));
-    if (w != b && side == Sign::zero) fail(s, w);
-    crossed_.push_back(c);
-    if (side != Sign::negative) {
-      left_.vertices.push_back(w);
-      left_.edges.push_back(edge(c, (f + 2) % 3));
-    }
-    if (side != Sign::positive) {
-      right_.vertices.push_back(w);
-      right_.edges.push_back(edge(c, (f + 1) % 3));
-    }
-    if (w == b) break;
-    at = {c, (f + (side == Sign::positive ? 1 : 2)) % 3};
-    (side == Sign::positive ? l : r) = w;
-  }
-  // The right polygon is to the left of the segment from its last point to its first.
-  std::reverse(right_.vertices.begin(), right_.vertices.end());
-  std::reverse(right_.edges.begin(), right_.edges.end());
-}
-
-/// The vertex of the chain that makes a triangle with vertices i and j.
-std::size_t SegmentInsertion::apex(const std::vector<VertexId>& chain, std::size_t i, std::size_t j) const {
-  Simplex<2> s{mesh_->point(chain[i]), mesh_->point(chain[j]), {}};
-  std::size_t best = i;
-  for (std::size_t k = i + 1; k < j; ++k) {
-    if (chain[k] == chain[i] || chain[k] == chain[j] || chain[k] == chain[best]) continue;
-    const Point2& p = mesh_->point(chain[k]);
-    if (orient2d(s[0], s[1], p) != Sign::positive) continue;
-    if (best != i && in_sphere_perturbed<2>(s, p) != Sign::positive) continue;
-    best = k;
-    s[2] = p;
-  }
-  if (best == i) throw ResourceError({Errc::internal, "a polygon beside a segment has no triangle", {}, 0, {}, {}});
-  return best;
-}
-
-void SegmentInsertion::link(Side a, Side b) {
-  mesh_->cell(a.cell).links[a.face] = Link(b.cell, b.face);
-  mesh_->cell(b.cell).links[b.face] = Link(a.cell, a.face);
-}
-
-/// Triangles to the left of the segment from the chain's first vertex to its last; returns the segment's side.
-auto SegmentInsertion::fill(Chain& chain) -> Side {
-  const auto& v = chain.vertices;
-  struct Base {
-    std::size_t i, j;
-    Side below;  // of the cell on its other side
-  };
-  std::vector<Base> todo{{0, v.size() - 1, {no_cell, 0}}};
-  Side first{no_cell, 2};
-  while (!todo.empty()) {
-    const Base base = todo.back();
-    todo.pop_back();
-    if (base.i + 1 == base.j) {
-      chain.edges[base.i].now = base.below;
-      continue;
-    }
-    const std::size_t k = apex(v, base.i, base.j);
-    const CellId c = crossed_.back();
-    crossed_.pop_back();
-    mesh_->set_vertices(c, {v[base.i], v[base.j], v[k]});
-    fixed_[index(c)] = 0;
-    for (const VertexId w : mesh_->cell(c).vertices) cell_at_[index(w)] = c;
-    if (first.cell == no_cell) {
-      first.cell = c;
-    } else {
-      link({c, 2}, base.below);
-    }
-    todo.push_back({base.i, k, {c, 1}});
-    todo.push_back({k, base.j, {c, 0}});
-  }
-  return first;
-}
-
-/// Links the edges of both chains to what is behind them.
-void SegmentInsertion::join() {
-  std::vector<std::pair<std::uint32_t, Side>> now;  // of each old side
-  for (const Chain* chain : {&left_, &right_})
-    for (const ChainEdge& e : chain->edges) now.push_back({e.old.code, e.now});
-  std::sort(now.begin(), now.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
-  for (const Chain* chain : {&left_, &right_})
-    for (const ChainEdge& e : chain->edges) {
-      const auto twin = std::partition_point(now.begin(), now.end(), [&](const auto& x) { return x.first < e.beyond.code; });
-      const bool dangling = twin != now.end() && twin->first == e.beyond.code;
-      link(e.now, dangling ? twin->second : Side{e.beyond.cell(), e.beyond.face()});
-      if (e.fixed) fix(e.now);
-    }
-}
-
 void SegmentInsertion::force(EntityId s) {
-  const Side first = first_crossing(s);
-  if (mesh_->cell(first.cell).vertices[first.face] != ends_[s][0]) {
-    const Link other = mesh_->cell(first.cell).links[first.face];
-    fix(first);
-    return fix({other.cell(), other.face()});
+  using Forcing = EdgeForcing<Forcible>;
+  Forcible triangles{*this};
+  Forcing forcing;
+  const Forcing::Plan plan = forcing.plan(triangles, ends_[s][0], ends_[s][1]);
+  switch (plan.status) {
+    case Forcing::Status::is_edge:  // by now
+      triangles.constrain(plan.side);
+      return triangles.constrain(triangles.across(plan.side));
+    case Forcing::Status::planned: return forcing.write(triangles);
+    case Forcing::Status::meets_vertex: fail(s, plan.met[0]);
+    case Forcing::Status::no_fill:
+      throw ResourceError({Errc::internal, "a polygon beside a segment has no triangle", {}, 0, {}, {}});
+    default: fail(s, no_vertex);
   }
-  march(s, first);
-  const Side above = fill(left_), below = fill(right_);
-  assert(crossed_.empty());
-  join();
-  link(above, below);
-  fix(above);
-  fix(below);
 }
 
 /// Writes the constraints.

@@ -22,7 +22,6 @@
 #include "rule/shells.hpp"
 #include "space/box_tree.hpp"
 #include "space/make_set.hpp"
-#include "space/search_tree.hpp"
 
 namespace pgdr::detail {
 
@@ -111,7 +110,7 @@ class SegmentChains {
   Shells<3> shells_;
   std::vector<std::vector<EntityId>> companions_;  ///< of each segment, those that run along it from a common end
   std::unordered_map<EntityId, std::vector<Link>> input_beside_;  ///< of segments that were split
-  std::unique_ptr<SearchTree<3>> points_tree_;                    ///< of the input points; made where a segment is split
+  std::unique_ptr<BoxTree<3>> points_tree_;                       ///< of the input points; made where a segment is split
   PresentSimplices<2> edges_;
   std::vector<EntityId> look_again_;  ///< segments with subsegments that are new, or were missing
   std::vector<EntityId> changed_;

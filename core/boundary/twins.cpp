@@ -74,19 +74,19 @@ const std::vector<SegmentChains::Link>& SegmentChains::input_beside(EntityId s) 
   std::vector<Link>& found = at->second;
   if (!is_new) return found;
   if (!points_tree_) {
-    std::vector<SearchBox<3>> boxes(domain_->points().size(), SearchBox<3>::empty());
-    for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i].add(domain_->points()[i]);
-    points_tree_ = std::make_unique<SearchTree<3>>(std::move(boxes));
+    std::vector<Box<3>> boxes;
+    for (const Point3& p : domain_->points()) boxes.push_back(Box<3>::around(p));
+    points_tree_ = std::make_unique<BoxTree<3>>(boxes, TreeCut::at_medians);
   }
   const auto& ends = domain_->segments()[s].points;
   const Point3 &p = domain_->points()[ends[0]], &q = domain_->points()[ends[1]];
   const double limit = beside * std::sqrt(squared_distance(p, q));
-  const auto least = [&](const SearchBox<3>& box) {
+  const auto least = [&](const Box<3>& box, std::uint32_t) {
     Point3 middle;
     for (int i = 0; i < 3; ++i) middle[i] = box.low[i] + (box.high[i] - box.low[i]) / 2;
     return std::sqrt(squared_distance_to_edge<3>(p, q, middle)) - std::sqrt(squared_distance(middle, box.high));
   };
-  points_tree_->search(least, [&](std::uint32_t i) {
+  points_tree_->nearest(least, [&](std::uint32_t i) {
     const Point3& x = domain_->points()[i];
     if (i != ends[0] && i != ends[1] && squared_distance_to_edge<3>(p, q, x) < limit * limit)
       found.push_back({delaunay_->vertices()[i], segment_parameter<3>(*domain_, s, x)});

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "numbers/rounding.hpp"
 #include "pgdr/circumsphere.hpp"
 #include "pgdr/point_selector.hpp"
 #include "pgdr/predicates.hpp"
@@ -209,7 +210,7 @@ bool Reasons<D>::beside_kept(const PoorReason& reason, std::string& why) const {
   const Point<D> middle = along(options_.domain->points()[ends[0]], options_.domain->points()[ends[1]], 0.5);
   const auto ball = circumsphere<D>(corners_of(mesh_, reason.cell));
   const double reach = std::sqrt(squared_distance(middle, options_.domain->points()[ends[0]]));
-  const bool encroached = std::sqrt(squared_distance(middle, ball.center)) <= reach * (1 + 0x1p-30) + ball.center_error;
+  const bool encroached = std::sqrt(squared_distance(middle, ball.center)) <= reach * (1 + rounding::of_blame_checked) + ball.center_error;
   return encroached || near(reason.cell, s) || fail("its circumcentre is not beside " + words(s));
 }
 
@@ -266,7 +267,7 @@ bool Reasons<D>::small_at_point(std::uint32_t point, EntityRef b) const {
 template <int D>
 bool Reasons<D>::near(std::uint32_t cell, EntityRef entity) const {
   const auto ball = circumsphere<D>(corners_of(mesh_, cell));
-  const double reach = 2 * std::sqrt(ball.squared_radius) * (1 + 0x1p-30) + ball.center_error;
+  const double reach = 2 * std::sqrt(ball.squared_radius) * (1 + rounding::of_blame_checked) + ball.center_error;
   return within(ball.center, reach, entity);
 }
 

@@ -10,7 +10,7 @@
 #include <numeric>
 
 #include "pgdr/predicates.hpp"
-#include "space/bounding_box.hpp"
+#include "space/box.hpp"
 
 namespace pgdr::checking {
 
@@ -212,7 +212,7 @@ class RegionChecker {
 
   void visit_seeds(std::uint32_t c) {
     const Simplex<D> s = corners_of(mesh_, c);
-    const auto [low, high] = bounding_box<D>(s);
+    const auto [low, high] = detail::Box<D>::of(s);
     auto seed = std::lower_bound(seeds_.begin(), seeds_.end(), low[0],
                                  [](const Seed& a, double x) { return a.point[0] < x; });
     for (; seed != seeds_.end() && seed->point[0] <= high[0]; ++seed) {

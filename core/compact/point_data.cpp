@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "input/entities.hpp"
+#include "numbers/rounding.hpp"
 #include "output/interpolation.hpp"
+#include "space/box_tree.hpp"
 #include "space/bulk.hpp"
 
 namespace pgdr {
@@ -48,13 +50,13 @@ class Rows {
 class FacetInterpolation {
  public:
   FacetInterpolation(const Domain<3>& domain, EntityId facet)
-      : points_(domain.points()), triangles_(domain.triangles(facet)), tree_(boxes()) {}
+      : points_(domain.points()), triangles_(domain.triangles(facet)), tree_(boxes(), detail::TreeCut::at_medians) {}
 
   detail::WeightedCorners<3> at(const Point3& x) const {
     double nearest = std::numeric_limits<double>::infinity();
     std::uint32_t best = none;
     detail::WeightedCorners<3> place{triangles_[0], {1, 0, 0}};
-    tree_.search([&](const Box& box) { return box.squared_distance_to(x) * (1 - 0x1p-40); },
+    tree_.nearest([&](const Box& box, std::uint32_t) { return box.squared_distance_to(x) * (1 - rounding::of_pruning); },
                  [&](std::uint32_t t) {
                    const auto& v = triangles_[t];
                    const auto weight = detail::nearest_weights({points_[v[0]], points_[v[1]], points_[v[2]]}, x);
@@ -73,7 +75,7 @@ class FacetInterpolation {
   }
 
  private:
-  using Box = detail::SearchBox<3>;
+  using Box = detail::Box<3>;
   std::vector<Box> boxes() const {
     std::vector<Box> all;
     for (const auto& t : triangles_) {
@@ -86,7 +88,7 @@ class FacetInterpolation {
 
   std::span<const Point3> points_;
   std::span<const std::array<std::uint32_t, 3>> triangles_;
-  detail::SearchTree<3> tree_;
+  detail::BoxTree<3> tree_;
 };
 
 /// Attributes of the Steiner points on facets, facet by facet.

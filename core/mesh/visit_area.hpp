@@ -12,6 +12,7 @@
 #include <limits>
 
 #include "mesh/mesh.hpp"
+#include "numbers/rounding.hpp"
 
 namespace pgdr {
 
@@ -43,7 +44,7 @@ class VisitArea {
   double squared_depth(const Point<D>& p) const {
     double depth = std::numeric_limits<double>::infinity();
     for (int i = 0; i < D; ++i) depth = std::min({depth, p[i] - inner_low[i], inner_high[i] - p[i]});
-    return depth > 0 ? depth * depth * (1 - 0x1p-40) : 0;
+    return depth > 0 ? depth * depth * (1 - rounding::of_pruning) : 0;
   }
   /// Is the point claimed?
   bool owns(const Point<D>& p) const {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "numbers/rounding.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr::detail {
@@ -116,16 +117,16 @@ MeshInterpolation<D>::MeshInterpolation(std::vector<Point<D>> points, std::span<
     : points_(std::move(points)),
       cells_(oriented<D>(points_, cells)),
       faces_(boundary<D>(cells_)),
-      cell_tree_(boxes(cells_)),
-      face_tree_(boxes(faces_)) {}
+      cell_tree_(boxes(cells_), TreeCut::at_medians),
+      face_tree_(boxes(faces_), TreeCut::at_medians) {}
 
 template <int D>
 template <std::size_t N>
-auto MeshInterpolation<D>::boxes(const std::vector<std::array<std::uint32_t, N>>& simplices) const -> std::vector<Box> {
-  std::vector<Box> all;
+auto MeshInterpolation<D>::boxes(const std::vector<std::array<std::uint32_t, N>>& simplices) const -> std::vector<Box<D>> {
+  std::vector<Box<D>> all;
   all.reserve(simplices.size());
   for (const auto& s : simplices) {
-    Box box = Box::empty();
+    auto box = Box<D>::empty();
     for (const std::uint32_t v : s) box.add(points_[v]);
     all.push_back(box);
   }
@@ -135,7 +136,7 @@ auto MeshInterpolation<D>::boxes(const std::vector<std::array<std::uint32_t, N>>
 template <int D>
 auto MeshInterpolation<D>::at(const Point<D>& x) const -> WeightedCorners<D + 1> {
   std::uint32_t home = none;
-  cell_tree_.each_at(x, [&](std::uint32_t c) {
+  cell_tree_.at(x, [&](std::uint32_t c) {
     if (c < home && holds(c, x)) home = c;
   });
   return home != none ? inside(home, x) : outside(x);
@@ -171,7 +172,7 @@ auto MeshInterpolation<D>::outside(const Point<D>& x) const -> WeightedCorners<D
   WeightedCorners<D + 1> result{};
   result.corner.fill(faces_[0][0]);
   result.weight[0] = 1;
-  face_tree_.search([&](const Box& box) { return box.squared_distance_to(x) * (1 - 0x1p-40); },
+  face_tree_.nearest([&](const Box<D>& box, std::uint32_t) { return box.squared_distance_to(x) * (1 - rounding::of_pruning); },
                     [&](std::uint32_t f) {
                       std::array<Point<D>, D> face;
                       for (int i = 0; i < D; ++i) face[i] = points_[faces_[f][i]];

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "space/search_tree.hpp"
+#include "space/box_tree.hpp"
 #include "pgdr/types.hpp"
 
 namespace pgdr::detail {
@@ -57,11 +57,10 @@ class MeshInterpolation {
   WeightedCorners<D + 1> at(const Point<D>& x) const;
 
  private:
-  using Box = SearchBox<D>;
   static constexpr std::uint32_t none = 0xffffffffu;
 
   template <std::size_t N>
-  std::vector<Box> boxes(const std::vector<std::array<std::uint32_t, N>>& simplices) const;
+  std::vector<Box<D>> boxes(const std::vector<std::array<std::uint32_t, N>>& simplices) const;
   bool holds(std::uint32_t c, const Point<D>& x) const;
   WeightedCorners<D + 1> inside(std::uint32_t c, const Point<D>& x) const;
   WeightedCorners<D + 1> outside(const Point<D>& x) const;
@@ -69,7 +68,7 @@ class MeshInterpolation {
   std::vector<Point<D>> points_;
   std::vector<Cell> cells_;
   std::vector<Face> faces_;
-  SearchTree<D> cell_tree_, face_tree_;
+  BoxTree<D> cell_tree_, face_tree_;
 };
 
 extern template class MeshInterpolation<2>;

@@ -10,6 +10,7 @@
 
 #include "input/entities.hpp"
 #include "input/entity_distance.hpp"
+#include "numbers/rounding.hpp"
 #include "pgdr/refine_options.hpp"
 #include "rule/insertion_rule.hpp"
 
@@ -27,7 +28,7 @@ void add_new(std::vector<EntityRef>& list, EntityRef e) {
 /// A hair less than doubled, so that another's rounding cannot disagree.
 template <int D>
 Ball<D> doubled_ball(const Ball<D>& ball) {
-  return {ball.center, 4 * ball.squared_radius * (1 - 0x1p-20)};
+  return {ball.center, 4 * ball.squared_radius * (1 - rounding::of_blame)};
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "space/bounding_box.hpp"
+#include "space/box.hpp"
 
 namespace pgdr {
 
@@ -23,7 +23,7 @@ RefineContext<D>::RefineContext(Mesh<D>& m, const Domain<D>& d, const RefineOpti
       shells(d, D == 2),
       vertices(vertices_so_far),
       last_progress(start_time) {
-  base_exponent = std::ilogb(bounding_box<D>(domain.points()).longest_side());
+  base_exponent = std::ilogb(detail::Box<D>::of(domain.points()).longest_side());
 }
 
 template <int D>

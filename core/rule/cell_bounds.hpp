@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "mesh/mesh.hpp"
+#include "numbers/rounding.hpp"
 #include "pgdr/sizing.hpp"
 
 namespace pgdr {
@@ -105,8 +106,8 @@ class QuickBounds {
   Answer look(const CellShape& shape) const {
     double least = shape.squared_radius_low, most = shape.squared_radius_high;  // of the square of the circumradius, or of twice the area
     if constexpr (D == 2) {
-      least = (std::fabs(shape.det) - shape.det_error) * (1 - 0x1p-50);
-      most = (std::fabs(shape.det) + shape.det_error) * (1 + 0x1p-50);
+      least = (std::fabs(shape.det) - shape.det_error) * (1 - rounding::of_determinant);
+      most = (std::fabs(shape.det) + shape.det_error) * (1 + rounding::of_determinant);
     }
     if (least > most_size_) return Answer::over_size;
     const bool fits = shape.squared_radius_high < squared_ratio_ * shape.shortest_edge_squared;

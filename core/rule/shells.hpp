@@ -9,6 +9,7 @@
 #include <array>
 #include <vector>
 
+#include "numbers/rounding.hpp"
 #include "pgdr/domain.hpp"
 
 namespace pgdr {
@@ -30,7 +31,7 @@ class Shells {
   /// Is this distance from an end of the segment the radius of a shell, but for the rounding of a point on it?
   bool is_radius(EntityId segment, double distance) const;
   /// How far a rounded point on it may be off its place.
-  double rounding(EntityId segment) const { return 0x1p-50 * domain_->segment_magnitude(segment); }
+  double rounding(EntityId segment) const { return rounding::of_point * domain_->segment_magnitude(segment); }
 
  private:
   const Domain<D>* domain_;

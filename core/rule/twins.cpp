@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 #include "input/entities.hpp"
+#include "numbers/rounding.hpp"
 #include "rule/twins.hpp"
 
 #include <algorithm>
@@ -62,7 +63,7 @@ bool is_twin(const Domain<3>& domain, EntityId segment, const SplitPlace& place,
   if (place.apex == no_entity || v.home.kind() != EntityKind::segment || v.home.id() == segment) return false;
   const auto& ends = domain.segments()[v.home.id()].points;
   if (ends[0] != place.apex && ends[1] != place.apex) return false;
-  const double tolerance = 0x1p-48 * domain.segment_magnitude(segment) + distance(place.x, v.point) / 64;
+  const double tolerance = rounding::of_plane * domain.segment_magnitude(segment) + distance(place.x, v.point) / 64;
   return std::abs(distance(domain.points()[place.apex], v.point) - place.radius) <= tolerance;
 }
 

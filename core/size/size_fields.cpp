@@ -12,7 +12,7 @@
 
 #include "size/checks.hpp"
 #include "size/region_sizes.hpp"
-#include "space/search_tree.hpp"
+#include "space/box_tree.hpp"
 
 namespace pgdr {
 
@@ -49,20 +49,25 @@ SizingField<D> sizes_at_points(std::span<const Point<D>> points, std::span<const
   struct Source {
     std::vector<Point<D>> points;
     std::vector<double> lengths;
-    detail::SearchTree<D> tree;
+    detail::BoxTree<D> tree;
+    std::vector<double> least;  // of the lengths below each node
   };
-  std::vector<detail::SearchBox<D>> boxes;
+  std::vector<detail::Box<D>> boxes;
   std::vector<double> lengths;
   for (std::size_t i = 0; i < points.size(); ++i) {
     lengths.push_back(detail::length_of<D>(sizes[i]));
-    boxes.push_back({points[i], points[i], lengths.back()});
+    boxes.push_back(detail::Box<D>::around(points[i]));
   }
+  detail::BoxTree<D> tree(boxes, detail::TreeCut::at_medians);
+  std::vector<double> least = tree.least_below(lengths);
   const auto source = std::make_shared<const Source>(
-      Source{{points.begin(), points.end()}, std::move(lengths), detail::SearchTree<D>(std::move(boxes))});
+      Source{{points.begin(), points.end()}, std::move(lengths), std::move(tree), std::move(least)});
   return [source, growth](const Point<D>& x) {
     double least = std::numeric_limits<double>::infinity();
-    source->tree.search(
-        [&](const detail::SearchBox<D>& box) { return box.least + growth * std::sqrt(box.squared_distance_to(x)); },
+    source->tree.nearest(
+        [&](const detail::Box<D>& box, std::uint32_t node) {
+          return source->least[node] + growth * std::sqrt(box.squared_distance_to(x));
+        },
         [&](std::uint32_t i) {
           least = std::min(least, source->lengths[i] + growth * std::sqrt(squared_distance(x, source->points[i])));
           return least;

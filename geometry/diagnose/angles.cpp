@@ -13,6 +13,7 @@
 #include "numbers/dihedral_sign.hpp"
 #include "pgdr/predicates.hpp"
 #include "space/sort_by_points.hpp"
+#include "space/triangle.hpp"
 
 namespace pgdr::detail {
 namespace {
@@ -152,7 +153,7 @@ void Diagnoser<D>::facets_at_segments(Angles& found) const requires(D == 3) {
     const auto [a, b] = uses[0].edge();
     const auto apex = [&, a = a, b = b](const EdgeUse& use) {
       const auto& t = triangles_[use.triangle].corners;
-      return t[0] ^ t[1] ^ t[2] ^ a ^ b;
+      return corner_beside(t, a, b);
     };
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = i + 1; j < n; ++j) {

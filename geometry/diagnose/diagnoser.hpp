@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Makes a Diagnosis of a Domain: what meets where it should not (diagnosis_pairs.cpp), how facets hang together
-// (diagnosis_topology.cpp), small angles (diagnosis_angles.cpp). Used by one thread, once; long loops run in its task
+// The maker of a Diagnosis of a Domain: what meets where it should not (pairs.cpp), how facets hang together (topology.cpp), small
+// angles (angles.cpp), points that may be meant to be one (near_points.cpp). Used by one thread, once; long loops run in its task
 // arena, too.
 #pragma once
 
@@ -126,7 +126,7 @@ class Diagnoser {
   std::span<const EdgeUse> uses_at(std::size_t begin) const;
   bool is_segment(const Edge& e) const;
 
-  // diagnosis_pairs.cpp
+  // pairs.cpp
   void collect_pieces();
   void find_meetings();
   void note(std::uint32_t i, std::uint32_t j, Meetings& found) const;
@@ -137,7 +137,7 @@ class Diagnoser {
   void report_resting(std::vector<Resting> resting);
   void list_resting(const Resting& r);
 
-  // diagnosis_topology.cpp
+  // topology.cpp
   void find_repairs();
   void find_unreferenced();
   void find_open_boundary();
@@ -149,11 +149,11 @@ class Diagnoser {
   void find_encloses_nothing();
   bool all_collapses() const;
 
-  // diagnosis_near.cpp
+  // near_points.cpp
   std::vector<std::uint32_t> open_points() const;
   void find_near_points();
 
-  // diagnosis_angles.cpp
+  // angles.cpp
   void find_angles();
   void segments_at_points();
   void corners_at_points() requires(D == 3);

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "diagnose/diagnoser.hpp"
-#include "input/domain_builder.hpp"
+#include "input/words.hpp"
 
 namespace pgdr {
 

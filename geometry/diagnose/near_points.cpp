@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "diagnose/diagnoser.hpp"
-#include "input/domain_builder.hpp"
 #include "space/point_places.hpp"
 
 namespace pgdr::detail {

@@ -7,8 +7,9 @@
 #include <algorithm>
 
 #include "diagnose/diagnoser.hpp"
-#include "input/domain_builder.hpp"
+#include "input/words.hpp"
 #include "space/box_tree.hpp"
+#include "space/make_set.hpp"
 
 namespace pgdr::detail {
 

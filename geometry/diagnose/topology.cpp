@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "diagnose/diagnoser.hpp"
-#include "input/domain_builder.hpp"
+#include "input/words.hpp"
 
 namespace pgdr::detail {
 

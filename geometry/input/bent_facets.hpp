@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which triangle of a facet holds a point in the facet's projection, for facets that are planar within rounding alone:
-// there the plane of that triangle is meant. Made once; any number of threads may ask.
+// Facets that are planar within rounding alone: which triangle of such a facet holds a point in the facet's projection. The plane
+// of that triangle is the facet there. Made once; any number of threads may ask.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "numbers/rounding.hpp"
 #include "pgdr/domain.hpp"
 #include "space/box_tree.hpp"
 
@@ -22,8 +23,7 @@ inline Point2 projected(const Point3& p, int axis) { return {p[(axis + 1) % 3], 
 /// Is the facet off its plane by more than the doubles of its corners, as in files of few digits? Then what holds in a plane,
 /// or after a rotation, need not hold up to rounding.
 inline bool is_uneven(const Domain<3>& domain, EntityId f) {
-  constexpr double rounding = 0x1p-48;
-  return domain.facets()[f].planarity_defect > rounding * domain.facet_magnitude(f);
+  return domain.facets()[f].planarity_defect > rounding::of_plane * domain.facet_magnitude(f);
 }
 
 /// A point of the facet for in-circle tests. Their heights are |x|^2, in which a bend, or an ulp by which a Steiner point is off its
@@ -35,6 +35,7 @@ inline Point3 levelled(const Domain<3>& domain, EntityId f, Point3 p) {
   return p;
 }
 
+/// The triangles of one facet, by what they cover in its projection.
 class BentFacet {
  public:
   using Triangle = std::array<std::uint32_t, 3>;
@@ -67,7 +68,7 @@ class BentFacet {
   BoxTree<2> tree_;
 };
 
-/// Of facets; none for those that are exactly planar.
+/// The bent facets of a Domain; exactly planar ones are not among them.
 class BentFacets {
  public:
   void add(EntityId f, BentFacet facet) { facets_.emplace_back(f, std::move(facet)); }  ///< by ascending f

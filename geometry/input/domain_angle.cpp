@@ -15,6 +15,7 @@
 #include "input/entities.hpp"
 #include "numbers/double_double.hpp"
 #include "pgdr/domain.hpp"
+#include "space/triangle.hpp"
 
 namespace pgdr {
 namespace {
@@ -99,7 +100,7 @@ std::vector<Vector> half_planes(const Domain<3>& domain, EntityId f, const Domai
   for (const std::uint32_t k : domain.triangles_at(f, a)) {
     const auto& t = domain.triangles(f)[k - domain.facets()[f].first_triangle];
     if (std::find(t.begin(), t.end(), b) == t.end()) continue;
-    const std::uint32_t c = t[0] ^ t[1] ^ t[2] ^ a ^ b;
+    const std::uint32_t c = detail::corner_beside(t, a, b);
     out.push_back(cross(direction(p[a], p[b]), direction(p[a], p[c])));
   }
   return out;

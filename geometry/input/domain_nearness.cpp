@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A quick look at whether it is worth while to join what is near (domain_near.cpp): one tree over the pieces of an input, and its
+// A quick look at whether it is worth while to join what is near (steps/near_search.hpp): one tree over the pieces of an input, and its
 // points looked up in that.
 #include <array>
 #include <vector>
@@ -47,11 +47,7 @@ bool may_join(const Domain<3>& domain, double within) {
     auto box = detail::Box<3>::around(points[piece[0]]);
     for (const std::uint32_t v : piece)
       if (v != no_entity) box.add(points[v]);
-    for (int k = 0; k < 3; ++k) {
-      box.low[k] -= width;
-      box.high[k] += width;
-    }
-    boxes.push_back(box);
+    boxes.push_back(box.widened(width));
   }
   const detail::BoxTree<3> tree(boxes);
   bool found = false;

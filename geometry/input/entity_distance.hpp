@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Distance of a point from an input entity, in doubles, for reports.
+// The distance of a point from an input entity, in doubles: which seeds lie on a facet, which points beside a segment, which entity a
+// poor cell is near. Pure functions, any thread.
 #pragma once
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 
 namespace pgdr::detail {
 
+/// The squared distance of x from the edge ab.
 template <int D>
 double squared_distance_to_edge(const Point<D>& a, const Point<D>& b, const Point<D>& x) {
   double along = 0, length = 0;
@@ -25,6 +27,7 @@ double squared_distance_to_edge(const Point<D>& a, const Point<D>& b, const Poin
   return squared_distance(foot, x);
 }
 
+/// The squared distance of x from the triangle abc.
 inline double squared_distance_to_triangle(const Point3& a, const Point3& b, const Point3& c, const Point3& x) {
   const double edges = std::min({squared_distance_to_edge(a, b, x), squared_distance_to_edge(b, c, x),
                                  squared_distance_to_edge(c, a, x)});
@@ -38,14 +41,14 @@ inline double squared_distance_to_triangle(const Point3& a, const Point3& b, con
   return std::min(edges, height * height / square);
 }
 
-/// Of an edge (2D) or a triangle (3D).
+/// The squared distance of x from an edge (2D) or a triangle (3D).
 template <int D>
 double squared_distance_to_simplex(const std::array<Point<D>, D>& s, const Point<D>& x) {
   if constexpr (D == 2) return squared_distance_to_edge<2>(s[0], s[1], x);
   else return squared_distance_to_triangle(s[0], s[1], s[2], x);
 }
 
-/// @pre a segment or a facet.
+/// The squared distance of x from a segment or a facet. @pre it is one of these
 template <int D>
 double squared_distance_to(const Domain<D>& domain, EntityRef entity, const Point<D>& x) {
   const auto points = domain.points();

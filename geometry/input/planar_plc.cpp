@@ -9,12 +9,15 @@
 #include <set>
 #include <utility>
 
-#include "input/domain_builder.hpp"
+#include "input/edges.hpp"
+#include "input/words.hpp"
 #include "numbers/double_double.hpp"
 #include "numbers/finite.hpp"
+#include "numbers/rounding.hpp"
 #include "pgdr/predicates.hpp"
 #include "space/box_tree.hpp"
 #include "space/contact.hpp"
+#include "space/make_set.hpp"
 
 namespace pgdr {
 namespace {
@@ -23,10 +26,10 @@ using detail::Contact;
 using detail::DoubleDouble;
 
 constexpr int most_rounds = 1000;
-/// Edges go through the points that they pass so nearly, within 2^near of the largest coordinate's power of two. A file that
+/// Edges go through the points that they pass so nearly, within this times the largest coordinate's power of two. A file that
 /// rounds its coordinates keeps no point on a slanted segment; new points miss others by an ulp where three segments meet; and
 /// bundles of segments nearly of one line, each moved by an ulp where it is split, would cross ever anew, at ever more places.
-constexpr int near = -50;
+constexpr double near = rounding::of_point;
 
 struct LexLess {
   bool operator()(const Point2& a, const Point2& b) const { return lex_less(a, b); }
@@ -145,23 +148,20 @@ class CrossingResolver {
     for (const Point2& p : points_)
       for (const double x : p.x) largest = std::max(largest, std::fabs(x));
     const int e = std::ilogb(largest);
-    const double distance = std::ldexp(1.0, near);
     std::vector<Point2> scaled(points_);
     for (Point2& p : scaled)
       for (double& x : p.x) x = std::ldexp(x, -e);
     std::vector<detail::Box<2>> boxes;
     for (const std::uint64_t key : keys) {
-      detail::Box<2>& box = boxes.emplace_back();
       const auto [a, b] = detail::edge_of(key);
-      for (int i = 0; i < 2; ++i) {
-        box.low[i] = std::min(scaled[a][i], scaled[b][i]) - distance;
-        box.high[i] = std::max(scaled[a][i], scaled[b][i]) + distance;
-      }
+      auto box = detail::Box<2>::around(scaled[a]);
+      box.add(scaled[b]);
+      boxes.push_back(box.widened(near));
     }
     std::vector<std::uint32_t> vertices;
     for (const auto& [point, v] : at_) {
       vertices.push_back(v);
-      boxes.push_back({scaled[v], scaled[v]});
+      boxes.push_back(detail::Box<2>::around(scaled[v]));
     }
     detail::BoxTree<2>(boxes).self_pairs([&](std::uint32_t i, std::uint32_t j) {
       if (i >= keys.size() || j < keys.size()) return;
@@ -172,7 +172,7 @@ class CrossingResolver {
       const double length2 = squared_distance(p, q);
       const double along = (x[0] - p[0]) * (q[0] - p[0]) + (x[1] - p[1]) * (q[1] - p[1]);
       const double off = (x[0] - p[0]) * (q[1] - p[1]) - (x[1] - p[1]) * (q[0] - p[0]), off2 = off * off / length2;
-      if (along > 0 && along < length2 && off2 <= distance * distance &&
+      if (along > 0 && along < length2 && off2 <= near * near &&
           4 * off2 <= std::min(squared_distance(p, x), squared_distance(q, x)))
         inside_.emplace_back(keys[i], v);
     });

@@ -9,8 +9,8 @@
 #include <limits>
 
 #include "input/bent_facets.hpp"
-#include "input/domain_builder.hpp"
 #include "input/entities.hpp"
+#include "input/triangle_shapes.hpp"
 #include "numbers/double_double.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/predicates.hpp"

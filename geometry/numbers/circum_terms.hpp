@@ -11,6 +11,7 @@
 
 #include "numbers/bounded.hpp"
 #include "numbers/lanes.hpp"
+#include "numbers/rounding.hpp"
 #include "pgdr/types.hpp"
 
 namespace pgdr::detail {
@@ -113,7 +114,7 @@ template <int D, class T>
 }
 
 /// What the offset may be off by at most, in units of its largest component, for it to be used.
-inline constexpr double accepted_error = 0x1p-20;
+inline constexpr double accepted_error = rounding::of_circumcenter;
 
 /// The last rounding of the centre is at most u times each coordinate.
 template <class T, std::size_t N>

@@ -53,11 +53,11 @@ Number cross_squared(const Vector<Number, N>& u, const Vector<Number, N>& v) {
 }
 
 Rational squared(const Tolerance& t) {
-  const Rational width = Rational(t.ulps) * Rational(t.magnitude) * Rational(0x1p-52);
+  const Rational width = Rational(t.ulps) * Rational(t.magnitude) * Rational(rounding::ulp);
   return width * width;
 }
 
-long double width_of(const Tolerance& t) { return static_cast<long double>(t.ulps) * t.magnitude * 0x1p-52L; }
+long double width_of(const Tolerance& t) { return static_cast<long double>(t.ulps) * t.magnitude * rounding::ulp; }
 
 enum class Filtered { no, yes, unsure };
 

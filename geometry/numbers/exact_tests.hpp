@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The decisions of the checker that are no predicates of the refiner: distances in ulps, order along a line, whether
-// rounding explains an in-sphere sign. All are decided exactly: a filter in extended precision, then rationals. Pure
-// functions, any thread.
+// Exact tests with tolerances: distances in ulps, order along a line, whether rounding explains an in-sphere sign. The checker asks
+// them, and the refiner where it looks for what explains a poor cell. Each is decided by a filter in extended precision, then by
+// rationals. Pure functions, any thread.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
+#include "numbers/rounding.hpp"
 #include "pgdr/types.hpp"
 
 namespace pgdr::checking {
@@ -18,7 +19,7 @@ namespace pgdr::checking {
 struct Tolerance {
   int ulps = 0;
   double magnitude = 0;
-  double width() const { return ulps * (magnitude * 0x1p-52); }
+  double width() const { return ulps * (magnitude * rounding::ulp); }
 };
 
 /// Distance of x from the line through p and q at most the tolerance. @pre p != q.

@@ -9,6 +9,7 @@
 
 namespace pgdr::detail {
 
+/// Are all coordinates finite?
 template <int D>
 bool is_finite(const Point<D>& p) {
   return std::ranges::all_of(p.x, [](double x) { return std::isfinite(x); });

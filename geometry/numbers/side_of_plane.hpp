@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// orient3d of many points and the same three: what depends on the three alone is computed once.
+// The side of one plane on which many points lie: what depends on the plane alone is computed once. Values, any thread.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace pgdr::detail {
 
-/// See above. A value; keeps the three points.
+/// A plane by three of its points, which it keeps.
 class SideOfPlane {
  public:
   SideOfPlane() = default;

@@ -32,7 +32,7 @@ template <int D>
 struct alignas(32) ShapeBlock {
   double center[D][shape_lanes];  ///< of the circumsphere, by axis
   double squared_radius[shape_lanes];  ///< of the circumsphere
-  double power_error[shape_lanes];     ///< as said above
+  double power_error[shape_lanes];     ///< 6 center_error / radius
   double center_error[shape_lanes];    ///< as Circumsphere has it
   double shortest_edge_squared[shape_lanes];  ///< length of the shortest edge
   double det[shape_lanes];        ///< D! times the measure

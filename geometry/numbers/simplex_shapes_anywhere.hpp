@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What simplex_shapes() does on processors that are not known to do more: apart, so that tests can compare.
+// simplex_shapes() as it is on processors that are not known to do more, by a name of its own, so that tests can compare.
 #pragma once
 
 #include "numbers/simplex_shapes.hpp"

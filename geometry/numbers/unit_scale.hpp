@@ -11,6 +11,7 @@
 
 namespace pgdr::detail {
 
+/// The largest |coordinate|; 0 of no points.
 inline double largest_coordinate(std::span<const Point3> points) {
   double largest = 0;
   for (const Point3& p : points)
@@ -18,7 +19,7 @@ inline double largest_coordinate(std::span<const Point3> points) {
   return largest;
 }
 
-/// Times the power of two that makes the largest coordinate from one to two, so that products neither overflow nor underflow.
+/// The points times the power of two that makes the largest coordinate from one to two: products neither overflow nor underflow.
 inline std::vector<Point3> in_unit_scale(std::span<const Point3> points) {
   std::vector<Point3> scaled(points.begin(), points.end());
   const double largest = largest_coordinate(points);

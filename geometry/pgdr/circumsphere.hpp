@@ -21,7 +21,7 @@ template <int D>
 struct Circumsphere {
   Point<D> center;            ///< rounded; in units of the input
   double squared_radius = 0;  ///< of the ball about `center`; their squares
-  double center_error = 0;    ///< as said above
+  double center_error = 0;    ///< bound on the distance of `center` from the exact centre
 };
 
 /// @pre the corners are affinely independent (exactly).

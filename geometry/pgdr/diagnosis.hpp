@@ -85,7 +85,7 @@ struct Diagnosis {
   std::array<FindingList, finding_kinds> found;  ///< by kind
 
   const FindingList& operator[](Finding kind) const { return found[static_cast<std::size_t>(kind)]; }  ///< of one kind
-  FindingList& operator[](Finding kind) { return found[static_cast<std::size_t>(kind)]; }              ///< likewise
+  FindingList& operator[](Finding kind) { return found[static_cast<std::size_t>(kind)]; }              ///< of one kind
   std::uint64_t error_count() const;  ///< all errors, listed or not
   /// The listed errors, kind by kind.
   std::vector<Diagnostic> errors() const;
@@ -104,7 +104,8 @@ Diagnosis<D> diagnose(const Plc<D>& plc, const DiagnosisOptions& options = {});
 template <int D>
 Diagnosis<D> diagnose(const Plc<D>& plc, const DiagnosisOptions& options, std::optional<Domain<D>>& prepared);
 
-/// What `refine` asks first. Takes no time to speak of where the Domain knows already that nothing meets. `parallel`: see above.
+/// The question that `refine` asks first. It costs nothing where the Domain knows already that nothing meets. `parallel`: as
+/// DiagnosisOptions::parallel.
 /// @throws DiagnosedError the first error, if there is one, and how many more there are; CancelledError.
 template <int D>
 void require_no_errors(const Domain<D>& domain, std::stop_token stop = {}, bool parallel = true);

@@ -62,9 +62,9 @@ struct DomainFacet {
   double planarity_defect = 0;
   std::uint32_t first_triangle = 0;  ///< of Domain::triangles(f), among those of all facets
   std::uint32_t triangle_count = 0;  ///< orient_projected positive each; the one of largest projected area is first
-  std::uint32_t first_segment = 0;   ///< of Domain::facet_segments(f), likewise
+  std::uint32_t first_segment = 0;   ///< of Domain::facet_segments(f), among those of all facets
   std::uint32_t segment_count = 0;   ///< bounding and inner ones
-  std::uint32_t first_point = 0;     ///< of Domain::facet_points(f), likewise
+  std::uint32_t first_point = 0;     ///< of Domain::facet_points(f), among those of all facets
   std::uint32_t point_count = 0;     ///< all, sorted by index
 };
 
@@ -112,7 +112,8 @@ class Domain {
   std::span<const DomainFacet> facets() const { return facets_; }              ///< by EntityId; 2D: none
   std::span<const std::array<std::uint32_t, 3>> triangles(EntityId f) const;   ///< that define facet f, by domain points
   std::span<const TriangleOrigin> triangle_origins(EntityId f) const;          ///< of each of triangles(f)
-  /// Those of facet f with a corner at this domain point, counted from the first triangle of all facets (`first_triangle` for f's first); ascending.
+  /// The triangles of facet f with a corner at this domain point, ascending; counted from the first triangle of all facets, so that
+  /// f's first one is `first_triangle`.
   std::span<const std::uint32_t> triangles_at(EntityId f, std::uint32_t point) const;
   std::span<const EntityId> facet_segments(EntityId f) const;                  ///< of facet f
   std::span<const std::uint32_t> facet_points(EntityId f) const;               ///< of facet f, inner points included
@@ -127,9 +128,8 @@ class Domain {
   const PlcSource& source() const { return source_; }         ///< Plc::source
 
   double segment_magnitude(EntityId s) const;  ///< largest |coordinate| of its points: the yardstick of "k ulps"
-  double facet_magnitude(EntityId f) const { return facet_magnitudes_[f]; }  ///< likewise
-  /// Where the points of the facet lie on its axis, if they are so near to each other there that what is left when this is taken
-  /// off them is exact; else 0.
+  double facet_magnitude(EntityId f) const { return facet_magnitudes_[f]; }  ///< largest |coordinate| of its points
+  /// A number near the coordinates of the facet's points on its axis: their differences from it are exact. 0 if there is none.
   double facet_level(EntityId f) const { return facet_levels_[f]; }
 
   double precision() const { return precision_; }  ///< Plc::precision

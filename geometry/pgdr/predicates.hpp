@@ -82,7 +82,7 @@ bool collinear(const Point<D>& a, const Point<D>& b, const Point<D>& c);
 /// don't, nor any finite one on a flat simplex.
 template <int D>
 bool radius_edge_within(const Simplex<D>& s, double bound);
-/// The circumradius within the size: r^2 <= size^2; likewise.
+/// The circumradius within the size: r^2 <= size^2, decided as radius_edge_within is.
 template <int D>
 bool circumradius_within(const Simplex<D>& s, double size);
 /// |volume| (area in 2D) <= bound, exactly; bound >= 0.

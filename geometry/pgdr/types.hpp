@@ -21,7 +21,7 @@ struct Point {
 
   /// Coordinate i, 0 <= i < D, not checked.
   constexpr double& operator[](int i) { return x[static_cast<std::size_t>(i)]; }
-  /// Coordinate i, likewise.
+  /// Coordinate i, 0 <= i < D, not checked.
   constexpr double operator[](int i) const { return x[static_cast<std::size_t>(i)]; }
   /// Equal coordinates (so -0 equals 0).
   friend constexpr bool operator==(const Point&, const Point&) = default;

@@ -33,8 +33,7 @@ struct Shape {
   double area = 0;
 
   void add(const Shape& o) {
-    box.add(o.box.low);
-    box.add(o.box.high);
+    box.add(o.box);
     area += o.area;
   }
   double needleness() const {

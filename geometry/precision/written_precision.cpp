@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "input/domain_builder.hpp"
+#include "input/triangle_shapes.hpp"
 #include "numbers/unit_scale.hpp"
 #include "numbers/vectors.hpp"
 #include "pgdr/error.hpp"

@@ -5,29 +5,15 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
+#include <numeric>
 #include <utility>
+
+#include "numbers/rounding.hpp"
 
 namespace pgdr::detail {
 namespace {
 
 constexpr std::size_t boxes_a_leaf = 4;
-
-template <int D>
-Box<D> empty_box() {
-  Box<D> box;
-  box.low.x.fill(std::numeric_limits<double>::infinity());
-  box.high.x.fill(-std::numeric_limits<double>::infinity());
-  return box;
-}
-
-template <int D>
-void enclose(Box<D>& box, const Box<D>& other) {
-  for (int i = 0; i < D; ++i) {
-    box.low[i] = std::min(box.low[i], other.low[i]);
-    box.high[i] = std::max(box.high[i], other.high[i]);
-  }
-}
 
 /// The place of the box's centre along the Morton curve through `all`. Halves: sums of large numbers would overflow.
 template <int D>
@@ -46,11 +32,29 @@ std::uint64_t place(const Box<D>& box, const Box<D>& all) {
   return key;
 }
 
+template <int D>
+std::vector<std::uint32_t> order_along_curve(std::span<const Box<D>> boxes) {
+  Box<D> all = Box<D>::empty();
+  for (const Box<D>& b : boxes) all.add(b);
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> places(boxes.size());
+  for (std::uint32_t i = 0; i < boxes.size(); ++i) places[i] = {place(boxes[i], all), i};
+  std::sort(places.begin(), places.end());
+  std::vector<std::uint32_t> order(boxes.size());
+  std::transform(places.begin(), places.end(), order.begin(), [](const auto& p) { return p.second; });
+  return order;
+}
+
+std::vector<std::uint32_t> order_of_input(std::size_t count) {
+  std::vector<std::uint32_t> order(count);
+  std::iota(order.begin(), order.end(), 0u);
+  return order;
+}
+
 }  // namespace
 
 template <int D>
-BoxTree<D>::BoxTree(std::span<const Box<D>> boxes) {
-  build(boxes);
+BoxTree<D>::BoxTree(std::span<const Box<D>> boxes, TreeCut cut) {
+  build(boxes, cut);
 }
 
 template <int D>
@@ -58,33 +62,62 @@ BoxTree<D>::BoxTree(std::span<const Corners> corners, std::span<const Point<D>> 
   std::vector<Box<D>> boxes;
   boxes.reserve(corners.size());
   for (const Corners& simplex : corners) {
-    Box<D> box = empty_box<D>();
+    Box<D> box = Box<D>::empty();
     for (const std::uint32_t v : simplex)
-      if (v != no_corner) enclose(box, Box<D>::around(points[v]));
+      if (v != no_corner) box.add(points[v]);
     boxes.push_back(box);
   }
-  build(boxes);
+  build(boxes, TreeCut::along_curve);
   find_anchors(corners, points);
 }
 
 template <int D>
-void BoxTree<D>::build(std::span<const Box<D>> boxes) {
-  Box<D> all = empty_box<D>();
-  for (const Box<D>& b : boxes) enclose(all, b);
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> order(boxes.size());
-  for (std::uint32_t i = 0; i < boxes.size(); ++i) order[i] = {place(boxes[i], all), i};
-  std::sort(order.begin(), order.end());
-  items_.reserve(boxes.size());
-  for (const auto& [key, i] : order) items_.push_back({boxes[i], i});
-
+void BoxTree<D>::build(std::span<const Box<D>> boxes, TreeCut cut) {
   leaves_ = static_cast<std::uint32_t>(std::bit_ceil(std::max<std::size_t>(1, boxes.size() / boxes_a_leaf)));
-  nodes_.assign(2 * std::size_t{leaves_}, empty_box<D>());
+  items_.reserve(boxes.size());
+  for (const std::uint32_t i : cut == TreeCut::along_curve ? order_along_curve(boxes) : order_of_input(boxes.size()))
+    items_.push_back({boxes[i], i});
+  if (cut == TreeCut::at_medians) cut_at_medians(0, leaves_);
+  nodes_.assign(2 * std::size_t{leaves_}, Box<D>::empty());
   for (std::uint32_t leaf = leaves_; leaf < 2 * leaves_; ++leaf)
-    for (const Item& item : items_of(leaf)) enclose(nodes_[leaf], item.box);
+    for (const Item& item : items_of(leaf)) nodes_[leaf].add(item.box);
   for (std::uint32_t node = leaves_; node-- > 1;) {
-    enclose(nodes_[node], nodes_[2 * node]);
-    enclose(nodes_[node], nodes_[2 * node + 1]);
+    nodes_[node].add(nodes_[2 * node]);
+    nodes_[node].add(nodes_[2 * node + 1]);
   }
+}
+
+template <int D>
+void BoxTree<D>::cut_at_medians(std::uint64_t first_leaf, std::uint64_t last_leaf) {
+  const auto item = [this](std::uint64_t leaf) { return items_.begin() + static_cast<std::ptrdiff_t>(first_item(leaf)); };
+  const auto begin = item(first_leaf), end = item(last_leaf);
+  if (last_leaf - first_leaf == 1) return std::sort(begin, end, [](const Item& a, const Item& b) { return a.index < b.index; });
+  Box<D> all = Box<D>::empty();
+  for (auto i = begin; i != end; ++i) all.add(i->box);
+  int axis = 0;
+  for (int i = 1; i < D; ++i)
+    if (all.high[i] - all.low[i] > all.high[axis] - all.low[axis]) axis = i;
+  const auto centre = [axis](const Item& i) { return i.box.low[axis] / 2 + i.box.high[axis] / 2; };
+  const std::uint64_t middle = (first_leaf + last_leaf) / 2;
+  std::nth_element(begin, item(middle), end, [&](const Item& a, const Item& b) {
+    const double p = centre(a), q = centre(b);
+    return p != q ? p < q : a.index < b.index;
+  });
+  cut_at_medians(first_leaf, middle);
+  cut_at_medians(middle, last_leaf);
+}
+
+template <int D>
+std::vector<double> BoxTree<D>::least_below(std::span<const double> values) const {
+  std::vector<double> least(nodes_.size(), std::numeric_limits<double>::infinity());
+  for (std::uint32_t node = 2 * leaves_; node-- > 1;) {
+    if (is_leaf(node)) {
+      for (const Item& item : items_of(node)) least[node] = std::min(least[node], values[item.index]);
+    } else {
+      least[node] = std::min(least[2 * node], least[2 * node + 1]);
+    }
+  }
+  return least;
 }
 
 // From the leaves up: which corners all simplices of a node share; where that is one alone, the box opposite it. A fan
@@ -127,10 +160,10 @@ void BoxTree<D>::find_anchors(std::span<const Corners> corners, std::span<const 
     Anchor& anchor = anchors_[node];
     anchor.corner = std::min({c[0], c[1], c[2]});
     anchor.apex = points[anchor.corner];
-    anchor.opposite = empty_box<D>();
+    anchor.opposite = Box<D>::empty();
     for (const Item& item : items_below(node))
       for (const std::uint32_t v : corners[item.index])
-        if (v != no_corner && v != anchor.corner) enclose(anchor.opposite, Box<D>::around(points[v]));
+        if (v != no_corner && v != anchor.corner) anchor.opposite.add(points[v]);
   }
 }
 
@@ -192,7 +225,7 @@ bool BoxTree<D>::separable(const Hull& a, const Hull& b) {
       change += w[i] * w[i];
       towards -= d[i] * w[i];
     }
-    if (gap > 0x1p-47 * size + 0x1p-1000) return true;
+    if (gap > rounding::of_separation * size + 0x1p-1000) return true;
     if (!(towards > 0 && change > 0)) return false;
     const double t = std::min(1.0, towards / change);
     for (int i = 0; i < D; ++i) d[i] += t * w[i];

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Bulk loops over arrays, in the caller's task arena or on the calling thread: the one place where geometry and
-// core use TBB. What comes out does not depend on the threads. Somebody who cancels the caller's tasks does not end them: what was
-// not looked at would be taken for nothing.
+// core use TBB. What comes out does not depend on the threads. Cancelling the caller's task group does not end a loop: items that
+// were not looked at would pass for items where nothing was found.
 #pragma once
 
 #include <tbb/parallel_sort.h>

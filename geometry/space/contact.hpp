@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where two pieces of an input (a point, a segment, or a triangle each) meet although they should not. Two pieces may
-// meet in the hull of their common corners and nowhere else. Exact, without tolerance. Pure functions.
+// The contact of two pieces of an input (a point, a segment, or a triangle each): where they meet although they should not. Two
+// pieces may meet in the hull of their common corners and nowhere else. Exact, without tolerance. Pure functions, any thread.
 //
 // Why the hits below are all: the intersection of two pieces is convex, the hull of its extreme points, and an extreme
 // point is a corner of one that lies on the other, or the inside of an edge of one crossing the inside of an edge or of
@@ -27,6 +27,7 @@ struct Piece {
   bool has(std::uint32_t v) const { return corners[0] == v || corners[1] == v || corners[2] == v; }
 };
 
+/// How two pieces meet, and where.
 struct Contact {
   enum class Kind : std::uint8_t {
     none,

@@ -37,10 +37,10 @@ bool GiftWrap::fill(std::span<const Point3> points, std::span<const Face> front,
 }
 
 template <std::size_t N>
-BoundingBox<3> GiftWrap::box_of(const std::array<Index, N>& corners) const {
+detail::Box<3> GiftWrap::box_of(const std::array<Index, N>& corners) const {
   std::array<Point3, N> points;
   for (std::size_t i = 0; i < N; ++i) points[i] = points_[corners[i]];
-  return bounding_box<3>(points);
+  return detail::Box<3>::of(points);
 }
 
 void GiftWrap::add_to_front(const Face& f) { front_.push_back({f, box_of(f)}); }
@@ -76,7 +76,7 @@ void GiftWrap::find_candidates(const Face& f) {
 
 /// Does a triangle of the front meet the inside of the cell? Most are far away.
 bool GiftWrap::blocked(const Cell& cell) {
-  const BoundingBox<3> box = box_of(cell);
+  const detail::Box<3> box = box_of(cell);
   constexpr std::uint8_t unknown = 0xff;
   beyond_.assign(points_.size(), unknown);
   std::array<detail::SideOfPlane, 4> planes;

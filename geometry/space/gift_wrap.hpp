@@ -17,11 +17,11 @@
 #include <vector>
 
 #include "pgdr/types.hpp"
-#include "space/bounding_box.hpp"
+#include "space/box.hpp"
 
 namespace pgdr {
 
-/// See above.
+/// A gift wrapper, with the memory it works in.
 class GiftWrap {
  public:
   using Index = std::uint16_t;  ///< into the points
@@ -42,14 +42,14 @@ class GiftWrap {
  private:
   struct FrontFace {
     Face vertices;
-    BoundingBox<3> box;
+    detail::Box<3> box;
   };
 
   bool wrap(const Face& f);
   void find_candidates(const Face& f);
   bool blocked(const Cell& cell);
   template <std::size_t N>
-  BoundingBox<3> box_of(const std::array<Index, N>& corners) const;
+  detail::Box<3> box_of(const std::array<Index, N>& corners) const;
   bool meets(const Cell& cell, const Face& face) const;
   void add_to_front(const Face& f);
   std::vector<FrontFace>::iterator find_in_front(const Face& f);

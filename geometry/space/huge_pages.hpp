@@ -7,7 +7,7 @@
 
 namespace pgdr::detail {
 
-/// Asks for huge pages where [memory, memory + bytes), which nothing has been written to, is large: a hint.
+/// Asks for huge pages for [memory, memory + bytes) where that is large: a hint. @pre nothing was written to it
 void ask_for_huge_pages(void* memory, std::size_t bytes);
 
 /// An empty vector with room for so many, on huge pages where that is much.

@@ -7,7 +7,7 @@
 
 namespace pgdr::detail {
 
-/// Sorted, each once.
+/// Sorts v, and keeps one of equal values.
 template <class T>
 void make_set(std::vector<T>& v) {
   std::sort(v.begin(), v.end());

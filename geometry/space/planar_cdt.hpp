@@ -3,7 +3,7 @@
 //
 // Constrained Delaunay triangulation, without Steiner points, of points of one (nearly) plane of space, seen along a
 // coordinate axis; of the plane itself with axis = 2 and z = 0. The hull is closed by ghost triangles, so that every
-// edge has two sides. Constraint edges are forced by retriangulating the two polygons that they cut out (Anglada 1997),
+// edge has two sides. Constraint edges are forced by retriangulating the two polygons that they cut out (edge_forcing.hpp),
 // everything else is Lawson's flips. Signs are exact. For points of one plane the result is unique: it is the
 // constrained Delaunay triangulation of that plane in space under the perturbation of predicates.hpp. For points that
 // are a few ulps off it is still a triangulation, all triangles positive in the projection. Problems are values, not
@@ -120,13 +120,7 @@ class PlanarTriangulation {
     std::uint32_t t = none;
     int edge = -1, vertex = -1;  // index in t if the point is on an edge, resp. at a vertex
   };
-  struct Crossing {  // the cells crossed by a new constraint, and the chains of edges on its two sides
-    std::vector<std::uint32_t> cells, left, right;
-    std::vector<Side> left_edges, right_edges;  // seen from the crossed cells
-  };
-  struct Apex {  // a triangle of a polygon: positions in the chain; up: 2 * triangle + (0, 1), or none for the base
-    std::uint32_t i, j, k, up;
-  };
+  struct Forcible;  // as EdgeForcing sees it
 
   // planar_cdt.cpp
   std::uint32_t local(std::uint32_t id) const;
@@ -162,10 +156,6 @@ class PlanarTriangulation {
   void end_change();
   // planar_cdt_constrain.cpp
   PlanarResult constrain_local(std::uint32_t a, std::uint32_t b, bool inside_only);
-  PlanarResult first_crossing(std::uint32_t a, std::uint32_t b, Side& at) const;
-  PlanarResult march(std::uint32_t a, std::uint32_t b, Side at, Crossing& crossing) const;
-  bool plan_polygon(const std::vector<std::uint32_t>& chain, std::vector<Apex>& apexes) const;
-  void fill_crossing(const Crossing& crossing, const std::vector<Apex>& left, const std::vector<Apex>& right);
   PlanarResult problem(PlanarStatus status, std::uint32_t a, std::uint32_t b, std::uint32_t c = none,
                        std::uint32_t d = none) const;
   // planar_cdt_insert.cpp

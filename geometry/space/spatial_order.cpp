@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "space/bounding_box.hpp"
+#include "space/box.hpp"
 
 namespace pgdr {
 namespace {
@@ -168,7 +168,7 @@ std::uint64_t coordinate_hash(const Point<D>& p, double unit) {
 template <int D>
 HilbertCurve<D>::HilbertCurve(std::span<const Point<D>> points) {
   if (points.empty()) return;
-  const BoundingBox<D> box = bounding_box<D>(points);
+  const detail::Box<D> box = detail::Box<D>::of(points);
   const double side = box.longest_side();
   corner_ = box.low;
   if (!(side > 0) || !std::isfinite(side)) return;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Ends what the caller has cancelled, by an exception: asked between steps, and in loops over the whole input.
+// A check for cancellation, asked between steps and in loops over the whole input: an exception ends what the caller has cancelled.
 #pragma once
 
 #include <algorithm>

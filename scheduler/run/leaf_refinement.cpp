@@ -9,7 +9,7 @@
 
 #include "input/bent_facets.hpp"
 #include "mesh/surroundings.hpp"
-#include "space/bounding_box.hpp"
+#include "space/box.hpp"
 #include "space/bulk.hpp"
 
 namespace pgdr::detail {
@@ -19,7 +19,7 @@ namespace {
 
 template <int D>
 Orthtree<D> tree_over(std::span<const Point<D>> points) {
-  const BoundingBox<D> box = bounding_box<D>(points);
+  const Box<D> box = Box<D>::of(points);
   return Orthtree<D>(box.low, box.high);
 }
 

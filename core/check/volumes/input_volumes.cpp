@@ -7,8 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numbers/rounding.hpp"
 #include "pgdr/predicates.hpp"
-#include "space/bounding_box.hpp"
+#include "space/box.hpp"
 #include "space/disjoint_sets.hpp"
 
 namespace pgdr::checking {
@@ -22,8 +23,7 @@ void CompensatedSum::add(double x) {
   absolute_ += std::abs(x);
 }
 
-// Differences, products and sums: at most 7 roundings in any of the products (3D), each relative 2^-53, of the sum of
-// their absolute values; 8 covers those of that sum.
+/// The determinant of the corners less x, and its error.
 template <int D>
 std::pair<double, double> signed_measure(const std::array<Point<D>, D>& s, const Point<D>& x) {
   std::array<Point<D>, D> a;
@@ -31,7 +31,7 @@ std::pair<double, double> signed_measure(const std::array<Point<D>, D>& s, const
     for (int j = 0; j < D; ++j) a[i][j] = s[i][j] - x[j];
   if constexpr (D == 2) {
     const double l = a[0][0] * a[1][1], r = a[0][1] * a[1][0];
-    return {l - r, 0x1p-50 * (std::abs(l) + std::abs(r))};
+    return {l - r, rounding::of_determinant * (std::abs(l) + std::abs(r))};
   } else {
     double value = 0, size = 0;
     for (int j = 0; j < 3; ++j) {
@@ -40,7 +40,7 @@ std::pair<double, double> signed_measure(const std::array<Point<D>, D>& s, const
       value -= a[0][j] * (l - r);
       size += std::abs(a[0][j]) * (std::abs(l) + std::abs(r));
     }
-    return {value, 0x1p-50 * size};
+    return {value, rounding::of_determinant * size};
   }
 }
 
@@ -89,7 +89,7 @@ class InputBuilder {
  private:
   void collect_walls() {
     const auto points = domain_.points();
-    const BoundingBox<D> box = bounding_box<D>(points);
+    const detail::Box<D> box = detail::Box<D>::of(points);
     out_.span_ = std::max(out_.span_, box.longest_side());
     for (int k = 0; k < D; ++k) centre_[k] = box.low[k] + (box.high[k] - box.low[k]) / 2;
     if constexpr (D == 2) {

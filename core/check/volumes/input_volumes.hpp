@@ -14,7 +14,7 @@
 
 #include "pgdr/domain.hpp"
 #include "pgdr/region_mode.hpp"
-#include "space/bounding_box.hpp"
+#include "space/box.hpp"
 
 namespace pgdr::checking {
 
@@ -85,7 +85,7 @@ class InputVolumes {
   const Domain<D>* domain_;
   double span_ = 0;  ///< longer than the bounding box of the input
   std::vector<std::array<std::uint32_t, D>> simplices_;
-  std::vector<BoundingBox<D>> boxes_;  ///< of `boxed` simplices each that follow each other: inputs are mostly listed by place
+  std::vector<detail::Box<D>> boxes_;  ///< of `boxed` simplices each that follow each other: inputs are mostly listed by place
   static constexpr std::uint32_t boxed = 32;
   std::vector<std::uint32_t> patch_of_;
   std::vector<Patch> patches_;

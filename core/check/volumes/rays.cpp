@@ -8,6 +8,7 @@
 
 #include "check/volumes/input_volumes.hpp"
 #include "numbers/exact_tests.hpp"
+#include "numbers/rounding.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr::checking {
@@ -73,7 +74,7 @@ class Strip {
       for (int i = 0; i < 3; ++i)
         normal_[1][i] = d[(i + 1) % 3] * normal_[0][(i + 2) % 3] - d[(i + 2) % 3] * normal_[0][(i + 1) % 3];
     }
-    slack_ = 0x1p-40 * (magnitude + length);
+    slack_ = rounding::of_pruning * (magnitude + length);
   }
 
   bool may_cross(const Point<D>& low, const Point<D>& high) const {
@@ -107,12 +108,9 @@ template <int D>
 void InputVolumes<D>::box_simplices() {
   boxes_.clear();
   for (std::uint32_t i = 0; i < simplices_.size(); ++i) {
-    const BoundingBox<D> box = bounding_box<D>(simplex(i));
+    const detail::Box<D> box = detail::Box<D>::of(simplex(i));
     if (i % boxed == 0) boxes_.push_back(box);
-    for (int k = 0; k < D; ++k) {
-      boxes_.back().low[k] = std::min(boxes_.back().low[k], box.low[k]);
-      boxes_.back().high[k] = std::max(boxes_.back().high[k], box.high[k]);
-    }
+    boxes_.back().add(box);
   }
 }
 
@@ -130,7 +128,7 @@ std::optional<std::vector<std::uint32_t>> InputVolumes<D>::crossings(const Point
       continue;
     }
     const auto s = simplex(i);
-    const BoundingBox<D> box = bounding_box<D>(s);
+    const detail::Box<D> box = detail::Box<D>::of(s);
     if (!strip.may_cross(box.low, box.high)) continue;
     const Crossing c = crossing<D>(s, q, p);
     if (c == Crossing::degenerate) return {};

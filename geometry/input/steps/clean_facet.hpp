@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// An input facet by its distinct points.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "input/steps/build_input.hpp"
+#include "input/steps/build_report.hpp"
+#include "input/steps/near_contacts.hpp"
+#include "input/triangle_shapes.hpp"
+#include "space/planar_cdt.hpp"
+
+namespace pgdr::detail {
+
+struct CleanFacet {
+  std::vector<std::vector<std::uint32_t>> loops;  ///< no two neighbours equal
+  std::vector<std::uint32_t> vertices;            ///< sorted, distinct
+  std::vector<PlanarEdge> edges;                  ///< sorted, distinct, smaller index first
+
+  /// Splits edges, in space, at points of the facet that lie exactly inside them; where points do so in the projection alone
+  /// the facet stays as it was. True if any did.
+  bool split_at_own_points(std::span<const Point3> points, BuildReport<3>& report);
+  /// Newell's normal of the polygon that has the largest.
+  std::array<double, 3> normal(const TriangleShapes& shapes) const;
+  /// The longest side of its bounding box.
+  double extent(std::span<const Point3> points) const;
+};
+
+/// Facet f of the input; edges of length zero are dropped, and it goes through the points that are near to it.
+CleanFacet clean_facet(const BuildInput<3>& in, std::uint32_t f, const NearContacts& near, BuildReport<3>& report);
+
+}  // namespace pgdr::detail

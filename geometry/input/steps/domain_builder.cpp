@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "input/steps/domain_builder.hpp"
+
+#include <utility>
+
+#include "input/steps/coplanar_groups.hpp"
+#include "input/steps/flat_facets.hpp"
+#include "input/steps/inner_edges.hpp"
+#include "input/steps/repeated_facets.hpp"
+#include "space/point_places.hpp"
+
+namespace pgdr {
+
+using detail::EdgeUses;
+
+template <int D>
+void DomainBuilder<D>::run() {
+  out_.first_index_ = plc_.first_index;
+  out_.source_ = plc_.source;
+  stop_();
+  detail::check_finite(plc_, report_);
+  detail::check_indices(plc_, report_);
+  if (report_.has_refused()) return;
+  take_points();
+  stop_();
+  const Input in{plc_, out_.points_, out_.point_of_input_, detail::scale_of<D>(out_.points_).first, bulk_, stop_};
+  const Segments segments(in, report_);
+  report_.attempt([this] { detail::check_spans_space<D>(out_.points_, report_); });
+  if (out_.points_.empty()) return;
+  if constexpr (D == 3) triangulate_facets(in, segments);
+  stop_();
+  resolve_contacts(in, segments);
+  stop_();
+  const EdgeUses uses(facets_.faces, segment_edges_, bulk_, stop_);
+  soft_.assign(uses.size(), false);
+  if constexpr (D == 3) group_facets(in, uses);
+  stop_();
+  write_segments(in, uses, segments);
+  out_.precision_ = plc_.precision;
+  report_.write(out_.repairs_, out_.warnings_);
+}
+
+template <int D>
+void DomainBuilder<D>::take_points() {
+  detail::DistinctPoints<D> distinct = detail::merge_points(plc_, report_);
+  out_.points_ = std::move(distinct.points);
+  out_.point_of_input_ = std::move(distinct.point_of_input);
+  out_.input_of_point_ = std::move(distinct.input_of_point);
+  out_.point_markers_ = std::move(distinct.markers);
+  out_.point_attributes_ = std::move(distinct.attributes);
+  out_.holes_ = std::move(distinct.holes);
+  out_.regions_ = std::move(distinct.regions);
+  report_.set_points(out_.points_, out_.input_of_point_);
+}
+
+/// Once more where there is anything near to join.
+template <int D>
+void DomainBuilder<D>::triangulate_facets(const Input& in, const Segments& segments) requires(D == 3) {
+  const auto mark = report_.mark();
+  const auto triangulated = [&] { return detail::FacetTriangulator(in, segments, near_, report_).run(); };
+  facets_ = triangulated();
+  near_search_.emplace(in);
+  if (near_search_->width() > 0) near_ = near_search_->find(facets_, segments);
+  if (!near_.empty()) {
+    report_.go_back_to(mark);
+    facets_ = triangulated();
+    near_.note(report_);
+  }
+  detail::drop_repeated_facets(in, facets_.faces, report_);
+}
+
+/// Fits pieces to each other that meet; where nothing does, that is known from here on.
+template <int D>
+void DomainBuilder<D>::resolve_contacts(const Input& in, const Segments& segments) {
+  for (std::uint32_t s = 0; s < segments.ends().size(); ++s) {
+    const auto& [a, b] = segments.ends()[s];
+    if (a == b) continue;  // it was refused
+    const auto points = near_.chain(a, b);
+    for (std::size_t k = 1; k < points.size(); ++k) segment_edges_.push_back({{points[k - 1], points[k]}, s});
+  }
+  const bool joins = near_search_ && near_search_->width() > 0;
+  detail::ContactResolver<D> resolver(in, facets_.faces, segment_edges_, report_);
+  out_.nothing_meets_ = !resolver.find() && !joins;
+  if (!out_.nothing_meets_) {
+    resolver.split_at_points();
+    if constexpr (D == 3) {
+      const bool meets = resolver.find();
+      detail::InnerEdges inner(in, *near_search_, facets_.faces, segment_edges_, report_);
+      if (meets || joins) inner.constrain(resolver);
+      if (joins) inner.refuse_near_crossings();
+      detail::drop_repeated_facets(in, facets_.faces, report_);
+    }
+  }
+  report_.list_points();
+}
+
+template <int D>
+void DomainBuilder<D>::group_facets(const Input& in, const EdgeUses& uses) requires(D == 3) {
+  stop_();
+  const bool joins = near_search_->width() > 0;
+  detail::report_flat_facets(in, facets_.flat, uses, joins ? &near_ : nullptr, report_);
+  const detail::CoplanarGroups groups(in, facets_.faces, uses);
+  soft_ = groups.find_soft_edges();
+  stop_();
+  detail::MaximalFacets facets = detail::make_maximal_facets(in, facets_.faces, groups.roots(), Domain<D>::few_points);
+  group_of_ = std::move(facets.group_of);
+  out_.facets_ = std::move(facets.facets);
+  out_.triangles_ = std::move(facets.triangles);
+  out_.triangle_origins_ = std::move(facets.origins);
+  out_.facet_points_ = std::move(facets.points);
+  out_.facet_magnitudes_ = std::move(facets.magnitudes);
+  out_.facet_levels_ = std::move(facets.levels);
+  out_.triangles_at_begin_ = std::move(facets.triangles_at_begin);
+  out_.triangles_at_ = std::move(facets.triangles_at);
+  out_.touching_ = std::move(facets.touching);
+  out_.bent_facets_ = std::move(facets.bent);
+}
+
+template <int D>
+void DomainBuilder<D>::write_segments(const Input& in, const EdgeUses& uses, const Segments& segments) {
+  detail::MaximalSegments made =
+      detail::make_maximal_segments<D>(in, uses, soft_, segments, group_of_, out_.facets_, report_);
+  out_.segments_ = std::move(made.segments);
+  out_.facet_segments_ = std::move(made.of_facets);
+  out_.facets_of_segment_begin_ = std::move(made.facets_begin);
+  out_.facets_of_segment_ = std::move(made.facets);
+}
+
+// Not the class: Clang before 16 would instantiate the members that 2D has not.
+template void DomainBuilder<2>::run();
+template void DomainBuilder<3>::run();
+
+}  // namespace pgdr

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The maker of a Domain of a Plc, in this order: points (finite, merged), indices, facets to triangles, repeated facets,
+// points and edges that lie on what they do not belong to, coplanar groups, segments, incidences. Each step has a header of its
+// own, included here. Everything is sorting and hashing: n log n in the size of the input, but for constraint edges
+// of a facet that cross many triangles.
+// Used by one thread, once; long loops run in its task arena, too.
+#pragma once
+
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "input/steps/build_input.hpp"
+#include "input/steps/build_report.hpp"
+#include "input/steps/contact_resolver.hpp"
+#include "input/steps/distinct_points.hpp"
+#include "input/steps/edge_uses.hpp"
+#include "input/steps/explicit_segments.hpp"
+#include "input/steps/facet_triangulator.hpp"
+#include "input/steps/maximal_facets.hpp"
+#include "input/steps/maximal_segments.hpp"
+#include "input/steps/near_contacts.hpp"
+#include "input/steps/near_search.hpp"
+#include "pgdr/domain.hpp"
+
+namespace pgdr {
+
+template <int D>
+class DomainBuilder {
+ public:
+  /// `refused`: where to name what is invalid and go on without it; null: it is thrown.
+  DomainBuilder(const Plc<D>& plc, Domain<D>& domain, std::stop_token stop, std::vector<Diagnostic>* refused = nullptr)
+      : plc_(plc), out_(domain), bulk_(true, stop), stop_(std::move(stop)), report_(plc, refused) {}
+  void run();
+
+ private:
+  using Input = detail::BuildInput<D>;
+  using Segments = detail::ExplicitSegments<D>;
+
+  void take_points();
+  void triangulate_facets(const Input& in, const Segments& segments) requires(D == 3);
+  void resolve_contacts(const Input& in, const Segments& segments);
+  void group_facets(const Input& in, const detail::EdgeUses& uses) requires(D == 3);
+  void write_segments(const Input& in, const detail::EdgeUses& uses, const Segments& segments);
+
+  const Plc<D>& plc_;
+  Domain<D>& out_;
+  const detail::Bulk bulk_;
+  const detail::StopCheck stop_;
+  detail::BuildReport<D> report_;
+  std::vector<detail::OwnedEdge> segment_edges_;  // explicit segments, or what they were split into
+  std::vector<bool> soft_;                        // by position in the uses of edges: no segment for this edge
+  // 3D
+  detail::TriangulatedFacets facets_;
+  detail::NearContacts near_;
+  std::optional<detail::NearSearch> near_search_;
+  std::vector<EntityId> group_of_;  // domain facet of each triangulated one
+};
+
+}  // namespace pgdr

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "input/steps/edge_uses.hpp"
+
+#include <tuple>
+
+namespace pgdr::detail {
+
+EdgeUses::EdgeUses(const FacetTriangles& faces, std::span<const OwnedEdge> segment_edges, const Bulk& bulk, const StopCheck& stop) {
+  using Kind = EdgeUse::Kind;
+  std::size_t count = segment_edges.size() + faces.polygon_edges.size();
+  for (const auto& f : faces.facets) count += 3 * f.count;
+  uses_.reserve(count);
+  for (std::uint32_t f = 0; f < faces.facets.size(); ++f)
+    for (std::uint32_t t = faces.facets[f].first; t < faces.facets[f].first + faces.facets[f].count; ++t)
+      for (std::size_t i = 0; i < 3; ++i)
+        uses_.push_back({faces.key_of_edge(t, i), f, t, faces.is_constraint(t, i) ? Kind::rim : Kind::diagonal});
+  for (const auto& [e, f] : faces.polygon_edges) uses_.push_back({edge_key(e[0], e[1]), f, 0, Kind::polygon});
+  for (const auto& [e, s] : segment_edges) uses_.push_back({edge_key(e[0], e[1]), s, 0, Kind::explicit_segment});
+  stop.sort(bulk, uses_, [](const EdgeUse& a, const EdgeUse& b) {
+    return std::tuple{a.key, a.kind, a.owner, a.triangle} < std::tuple{b.key, b.kind, b.owner, b.triangle};
+  });
+}
+
+std::span<const EdgeUse> EdgeUses::from(std::size_t begin) const {
+  std::size_t end = begin + 1;
+  while (end < uses_.size() && uses_[end].key == uses_[begin].key) ++end;
+  return std::span(uses_).subspan(begin, end - begin);
+}
+
+}  // namespace pgdr::detail
