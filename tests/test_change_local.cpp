@@ -22,6 +22,7 @@
 #include "cavity/delaunay.hpp"
 #include "change/flips.hpp"
 #include "input/entities.hpp"
+#include "mesh/locally_delaunay.hpp"
 #include "mesh/whole.hpp"
 #include "model_plcs.hpp"
 #include "numbers/vectors.hpp"
@@ -128,18 +129,18 @@ struct Model {
     const auto violations = flips.violations_after(flip);
     if (!violations) return false;
     const auto inner = std::count_if(violations->begin(), violations->end(), [](const auto& v) { return v.inner; });
-    const std::size_t before = flips.violations_before(flip), everywhere = violating_faces(flips);
+    const std::size_t before = flips.violations_before(flip), everywhere = violating_faces();
     flips.make(pools, flip);
     std::size_t found = 0;
     for (const CellId made : flips.new_cells())
       for (int f = 0; f < 4; ++f) found += violates(mesh, made, f);
     EXPECT_EQ(found, violations->size());
-    EXPECT_EQ(violating_faces(flips) - everywhere, violations->size() - inner / 2 - before);
+    EXPECT_EQ(violating_faces() - everywhere, violations->size() - inner / 2 - before);
     return true;
   }
 
   /// That are not locally Delaunay.
-  std::size_t violating_faces(const LocalFlips<3>& flips) const {
+  std::size_t violating_faces() const {
     std::size_t sides = 0;
     for (const CellId c : cells())
       for (int f = 0; f < 4; ++f) sides += violates(mesh, c, f);
