@@ -69,7 +69,7 @@ struct Model {
     Cavity<3> cavity(mesh, &domain);
     const auto goes_in = [&](Cavity<3>::Status status) {
       using Status = Cavity<3>::Status;
-      return status == Status::ok && cavity.make_star_shaped() == Status::ok && cavity.check_nothing_swallowed() == Status::ok;
+      return status == Status::ok && cavity.make_star_shaped() == Status::ok && cavity.keep_entities() == Status::ok;
     };
     if (n % 3 == 0) {
       if (goes_in(cavity.collect(mean(c, 15), c))) cavity.commit(pools, {EntityKind::volume, 0}, 1);

@@ -65,13 +65,13 @@ EntityId segment_between(const Domain<3>& domain, std::uint32_t a, std::uint32_t
   return static_cast<EntityId>(at - segments.begin());
 }
 
-TEST(PlaceBeside, IsAsFarFromTheCommonEndOrNextToAnInputVertex) {
+TEST(TwinPlaces, IsAsFarFromTheCommonEndOrNextToAnInputVertex) {
   const Domain<3> domain = two_segments();
   const EntityId s = segment_between(domain, 0, 1), other = segment_between(domain, 0, 2);
   const auto on_other = [&](double radius) {
     return VertexRecord<3>{{{radius * std::cos(0.001), radius * std::sin(0.001), 0}}, Home(EntityKind::segment, other), 1};
   };
-  PlaceBeside places(domain, s, 0, 1, Beside::as_far);
+  TwinPlaces places(domain, s, 0, 1, Beside::as_far);
   EXPECT_FALSE(places.best());
   places.look_at(on_other(1));  // too near to the end of the piece
   EXPECT_FALSE(places.best());
@@ -85,23 +85,23 @@ TEST(PlaceBeside, IsAsFarFromTheCommonEndOrNextToAnInputVertex) {
   EXPECT_FALSE(is_twin(domain, s, *places.best(), {{{3, 0, 0}}, Home(EntityKind::segment, s), 1}));
   places.look_at(on_other(4.5));  // nearer to the middle
   EXPECT_DOUBLE_EQ(places.best()->x[0], 4.5);
-  PlaceBeside nearest(domain, s, 0.125, 1, Beside::nearest);
+  TwinPlaces nearest(domain, s, 0.125, 1, Beside::nearest);
   nearest.look_at(on_other(3));
   ASSERT_TRUE(nearest.best());
   EXPECT_DOUBLE_EQ(nearest.best()->x[0], 3 * std::cos(0.001));
   EXPECT_TRUE(is_twin(domain, s, *nearest.best(), on_other(3)));
-  PlaceBeside at_end(domain, s, 0, 0.75, Beside::nearest);
+  TwinPlaces at_end(domain, s, 0, 0.75, Beside::nearest);
   at_end.look_at(on_other(3));
   ASSERT_TRUE(at_end.best());
   EXPECT_DOUBLE_EQ(at_end.best()->x[0], 3);
 
-  PlaceBeside next_to_input(domain, s, 0, 1, Beside::as_far);
+  TwinPlaces next_to_input(domain, s, 0, 1, Beside::as_far);
   next_to_input.look_at({domain.points()[2], Home(EntityKind::vertex, 2), 1});
   ASSERT_TRUE(next_to_input.best());
   EXPECT_DOUBLE_EQ(next_to_input.best()->x[0], domain.points()[2][0]);
   EXPECT_EQ(next_to_input.best()->apex, no_entity);
 
-  PlaceBeside far_from_all(domain, s, 0, 1, Beside::as_far);
+  TwinPlaces far_from_all(domain, s, 0, 1, Beside::as_far);
   far_from_all.look_at({{{4, 0.5, 0}}, Home(EntityKind::vertex, 2), 1});  // a twelfth of the piece away
   far_from_all.look_at({{{4, 0.001, 0}}, Home(EntityKind::volume, 0), 1});
   EXPECT_FALSE(far_from_all.best());

@@ -117,7 +117,7 @@ void FacetPatches::find_fragile() {
   std::sort(fragile_.begin(), fragile_.end());
 }
 
-bool FacetPatches::improve_once(double bound, double min_edge, const std::function<bool()>& stop) {
+bool FacetPatches::split_poor_triangles(double bound, double min_edge, const std::function<bool()>& stop) {
   if (factors_of_bound_.empty()) find_factors();
   if (std::all_of(factors_of_bound_.begin(), factors_of_bound_.end(), [](double factor) { return factor == 0; })) return false;
   find_fragile();

@@ -109,7 +109,7 @@ StopCause recover_boundary(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, Delaun
     auto improve = [&] {
       const std::uint64_t before = steiner();
       if (counts.improving == 0) needed = before;
-      const bool any = patches.improve_once(bound, options.min_edge, ended);
+      const bool any = patches.split_poor_triangles(bound, options.min_edge, ended);
       counts.improving += steiner() - before;
       return any;
     };

@@ -128,7 +128,7 @@ class FacetPatches {
   bool recover_once(const std::function<bool()>& stop);
   /// Splits triangles of a radius-edge ratio above the bound, one round, in facets without sharp angles, where no edge below
   /// `min_edge` comes of it. False if none was split. @pre none is missing
-  bool improve_once(double bound, double min_edge, const std::function<bool()>& stop);
+  bool split_poor_triangles(double bound, double min_edge, const std::function<bool()>& stop);
   std::uint64_t points() const { return points_; }
   const MissingTrend& trend() const { return trend_; }
   void mark(Mesh<3>::Pools& pools);

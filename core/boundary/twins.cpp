@@ -98,7 +98,7 @@ const std::vector<SegmentChains::Link>& SegmentChains::input_beside(EntityId s) 
 
 /// Where to split the piece, and the vertices whose distances from there do not count.
 std::pair<double, std::vector<VertexId>> SegmentChains::split_place(EntityId s, double begin, double end) {
-  PlaceBeside places(*domain_, s, begin, end, Beside::nearest);
+  TwinPlaces places(*domain_, s, begin, end, Beside::nearest);
   const auto& input = input_beside(s);
   auto at = std::lower_bound(input.begin(), input.end(), begin, [](const Link& link, double t) { return link.t < t; });
   for (; at != input.end() && at->t <= end; ++at) places.look_at(mesh_->vertex(at->vertex));

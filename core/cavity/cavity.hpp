@@ -51,7 +51,7 @@ class Cavity {
     not_in_conflict,  ///< the rounded point does not lie in the seed's circumsphere
     not_star_shaped,  ///< a cell that must go cannot be seen from the point
     duplicate,        ///< the point is a vertex already
-    swallows,         ///< a vertex or a subsegment would vanish
+    loses_entity,         ///< a vertex or a subsegment would vanish
     not_owned,        ///< the visit's claim is too small
     too_near,         ///< a vertex is nearer than asked for
     too_many,         ///< it has more cells than asked for
@@ -97,7 +97,7 @@ class Cavity {
   Status make_star_shaped();
   /// Would a vertex or subsegment vanish? Cuts back further where that keeps the subsegment. Asked of cavities next to
   /// constraints or cut back; costs a pass over all cells.
-  Status check_nothing_swallowed();
+  Status keep_entities();
 
   // ---- what was collected ------------------------------------------------------------------------------------------
   const Point<D>& point() const { return point_; }  ///< to be inserted
@@ -105,7 +105,7 @@ class Cavity {
   const std::vector<BoundaryFace>& boundary() const { return boundary_; }  ///< of these, constrained faces of the part left out
   const std::vector<PartFace>& part() const { return part_; }  ///< what of the point's own facet (segment) it splits
   CellId near_cell() const { return near_cell_; }  ///< of it, with a vertex that is too near. After `collect...` said so.
-  bool shrunk() const { return shrunk_; }  ///< was it cut back?
+  bool cut_back() const { return cut_back_; }  ///< was it cut back?
   bool touches_constraints() const { return touches_constraints_; }  ///< has a cell of it any?
 
   // ---- looking round -----------------------------------------------------------------------------------------------
@@ -184,9 +184,9 @@ class Cavity {
   void find_turned_over(std::vector<CellId>& doomed) const;
   bool is_rim(const PartFace& f, VertexId a, VertexId b) const;
   Status look_at_fan(RidgeWalk<D> walk, EntityId entity, bool& broken) const;
-  Status find_swallowed(std::vector<CellId>& behind);
+  Status find_lost_entities(std::vector<CellId>& behind);
   template <class Rim>
-  Status find_swallowed(Rim rim, std::vector<CellId>& behind) const;
+  Status find_lost_entities(Rim rim, std::vector<CellId>& behind) const;
   bool has_subsegments() const;
   void find_behind(VertexId a, VertexId b, std::vector<CellId>& behind) const;
   bool peel(std::vector<CellId>& doomed);
@@ -251,7 +251,7 @@ class Cavity {
   std::array<OpenLink, most_numbered * D> open_links_;
   std::array<VertexId, 2> split_edge_{no_vertex, no_vertex};  // 3D: the subsegment being split
   EntityId split_segment_ = no_entity;
-  bool shrunk_ = false, touches_constraints_ = false;
+  bool cut_back_ = false, touches_constraints_ = false;
 };
 
 /// The cavity's vertex nearest to its point, but for the excluded ones (ties: lexicographically first); no_vertex if none.

@@ -15,7 +15,7 @@ void Cavity<D>::begin(const Point<D>& p) {
   watch_ = nullptr;
   place_ = nullptr;
   least_ = 0;
-  shrunk_ = touches_constraints_ = shapes_known_ = star_shaped_ = false;
+  cut_back_ = touches_constraints_ = shapes_known_ = star_shaped_ = false;
   split_edge_ = {no_vertex, no_vertex};
   split_segment_ = no_entity;
 }
@@ -381,7 +381,7 @@ bool Cavity<D>::peel(std::vector<CellId>& doomed) {
 template <int D>
 auto Cavity<D>::drop_cells(std::vector<CellId>& doomed) -> Status {
   note_seen();
-  shrunk_ = true;
+  cut_back_ = true;
   if (!peel(doomed)) {
     for (const CellId c : protected_)
       for (const VertexId v : mesh_->cell(c).vertices)

@@ -155,7 +155,7 @@ VertexId Delaunay<D>::prepare(const Point<D>& p, CellId hint) {
   // Perturbed heights make the cavity star-shaped whatever the input; asserted, not tested.
 #ifndef NDEBUG
   const auto status = cavity_.make_star_shaped();
-  assert(status == Cavity<D>::Status::ok && !cavity_.shrunk());
+  assert(status == Cavity<D>::Status::ok && !cavity_.cut_back());
 #endif
   return no_vertex;
 }

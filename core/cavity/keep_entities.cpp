@@ -65,19 +65,19 @@ bool Cavity<D>::has_subsegments() const {
 }
 
 template <int D>
-auto Cavity<D>::find_swallowed(std::vector<CellId>& behind) -> Status {
+auto Cavity<D>::find_lost_entities(std::vector<CellId>& behind) -> Status {
   for (const BoundaryFace& f : boundary_)
     if (const Link out = mesh_->cell(f.cell).links[f.face]; out && mesh_->marked(out.cell())) return Status::not_star_shaped;
   const bool edges = has_subsegments();
   // F triangles (edges) that are connected through their ridges have at most F + 2 vertices; each piece of the cavity has a
   // protected cell.
-  if (boundary_.size() + 2 * protected_.size() <= SmallNumbers::most) return find_swallowed(SmallRim(numbers_, edges), behind);
-  return find_swallowed(LargeRim(rim_keys_, boundary_.size(), edges), behind);
+  if (boundary_.size() + 2 * protected_.size() <= SmallNumbers::most) return find_lost_entities(SmallRim(numbers_, edges), behind);
+  return find_lost_entities(LargeRim(rim_keys_, boundary_.size(), edges), behind);
 }
 
 template <int D>
 template <class Rim>
-auto Cavity<D>::find_swallowed(Rim rim, std::vector<CellId>& behind) const -> Status {
+auto Cavity<D>::find_lost_entities(Rim rim, std::vector<CellId>& behind) const -> Status {
   const bool any_edges = has_subsegments();
   for (const BoundaryFace& f : boundary_) {
     const auto& k = mesh_->cell(f.cell);
@@ -89,7 +89,7 @@ auto Cavity<D>::find_swallowed(Rim rim, std::vector<CellId>& behind) const -> St
   for (const CellId c : cells_) {
     const auto& k = mesh_->cell(c);
     for (const VertexId v : k.vertices)
-      if (!rim.has(v)) return Status::swallows;
+      if (!rim.has(v)) return Status::loses_entity;
     if constexpr (D == 3) {
       const auto* constraints = any_edges ? mesh_->constraints(c) : nullptr;
       if (!constraints || !constraints->edges) continue;
@@ -99,7 +99,7 @@ auto Cavity<D>::find_swallowed(Rim rim, std::vector<CellId>& behind) const -> St
         const bool split = (a == split_edge_[0] && b == split_edge_[1]) || (a == split_edge_[1] && b == split_edge_[0]);
         if (split || rim.has(a, b)) continue;
         find_behind(a, b, behind);
-        return Status::swallows;
+        return Status::loses_entity;
       }
     }
   }
@@ -127,14 +127,14 @@ void Cavity<D>::find_behind(VertexId a, VertexId b, std::vector<CellId>& behind)
 /// Two subsegments that the middle of each encroaches upon the other would wait for each other for ever. So the first cuts
 /// its cavity back to keep the second, whose turn it then is.
 template <int D>
-auto Cavity<D>::check_nothing_swallowed() -> Status {
+auto Cavity<D>::keep_entities() -> Status {
   std::vector<CellId> behind;
   while (true) {
     behind.clear();
-    const Status swallowed = find_swallowed(behind);
+    const Status swallowed = find_lost_entities(behind);
     if (behind.empty()) return swallowed;
-    if (const Status s = drop_cells(behind); s != Status::ok) return s == Status::not_owned ? s : Status::swallows;
-    if (const Status s = make_star_shaped(); s != Status::ok) return s == Status::not_owned ? s : Status::swallows;
+    if (const Status s = drop_cells(behind); s != Status::ok) return s == Status::not_owned ? s : Status::loses_entity;
+    if (const Status s = make_star_shaped(); s != Status::ok) return s == Status::not_owned ? s : Status::loses_entity;
   }
 }
 

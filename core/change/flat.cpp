@@ -30,7 +30,7 @@ std::optional<std::array<int, 2>> LocalFlips<D>::faces_of_flat(CellId c) const {
 }
 
 template <int D>
-auto LocalFlips<D>::take_off_flat(Pools& pools, CellId c) -> Outcome {
+auto LocalFlips<D>::remove_flat_cell(Pools& pools, CellId c) -> Outcome {
   if constexpr (D == 3) {
     assert(owns(c));
     const auto tips = faces_of_flat(c);

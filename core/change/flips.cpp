@@ -67,7 +67,7 @@ auto LocalFlips<D>::rewrap(Pools& pools, CellId c, int face, LocalRewrap::Effort
 
 template <int D>
 bool LocalFlips<D>::rewrap_pays(std::uint64_t allowance) const {
-  if constexpr (D == 3) return rewrap_.lost_work() <= allowance + 2 * rewrap_.useful_work();
+  if constexpr (D == 3) return rewrap_.ineffective_work() <= allowance + 2 * rewrap_.effective_work();
   return false;
 }
 

@@ -69,7 +69,7 @@ class LocalFlips {
   Outcome rewrap(Pools& pools, CellId c, int face, LocalRewrap::Effort effort);
   /// A cell with all its vertices on one facet, and two subfacets of it, is flat but for rounding: takes it out, which flips
   /// the facet's triangulation there. Stuck: c is no such cell, or cannot be taken out.
-  Outcome take_off_flat(Pools& pools, CellId c);
+  Outcome remove_flat_cell(Pools& pools, CellId c);
   /// 3D: the flips of faces and edges of c that leave positively oriented cells, none of them with all corners on one facet. Adds
   /// the cells about each edge to `seen`. Not owned: there might be more.
   Outcome find_flips(CellId c, std::vector<Flip>& flips, std::vector<CellId>& seen) const;

@@ -34,7 +34,7 @@ bool LocalRewrap::repair(Pools& pools, CellId c, int face, Effort effort) {
     repaired = wrap_again(pools);
   }
   release();
-  (repaired ? useful_work_ : lost_work_) += work_;
+  (repaired ? effective_work_ : ineffective_work_) += work_;
   return repaired;
 }
 
@@ -45,7 +45,7 @@ bool LocalRewrap::wrap_again(Pools& pools) {
   const int before = violations_before();
   if (before == 0) return false;
   const std::uint64_t attempt = number_of_attempt();
-  if (in_vain_.contains(attempt)) return false;
+  if (without_effect_.contains(attempt)) return false;
   find_rim();
   front_.clear();
   rim_by_face_.clear();
@@ -60,7 +60,7 @@ bool LocalRewrap::wrap_again(Pools& pools) {
     replace(pools);
     return true;
   }
-  if (!is_ended()) in_vain_.insert(attempt);
+  if (!is_ended()) without_effect_.insert(attempt);
   return false;
 }
 

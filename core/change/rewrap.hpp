@@ -41,8 +41,8 @@ class LocalRewrap {
   /// What the visit may change; null: everything.
   void begin_visit(const VisitArea<3>* area) {
     area_ = area;
-    lost_work_ = useful_work_ = 0;
-    if (!in_vain_.empty()) in_vain_ = {};
+    ineffective_work_ = effective_work_ = 0;
+    if (!without_effect_.empty()) without_effect_ = {};
   }
   /// Did the last repair end because it would have needed cells that the visit does not own?
   bool reached_border() const { return reached_border_; }
@@ -50,8 +50,8 @@ class LocalRewrap {
   const std::vector<CellId>& new_cells() const { return new_cells_; }
 
   /// What repairs have cost in this visit (cells times vertices), those that did nothing and the others.
-  std::uint64_t lost_work() const { return lost_work_; }
-  std::uint64_t useful_work() const { return useful_work_; }  ///< likewise, of those that did something
+  std::uint64_t ineffective_work() const { return ineffective_work_; }
+  std::uint64_t effective_work() const { return effective_work_; }  ///< likewise, of those that did something
 
  private:
   using Index = GiftWrap::Index;
@@ -109,8 +109,8 @@ class LocalRewrap {
   std::size_t most_cells_ = 0;
   /// What was tried in this visit in vain, by number_of_attempt. Each face of a region that is not locally Delaunay leads to the
   /// same attempts, and so do the looks at it when something changes beside it.
-  std::unordered_set<std::uint64_t> in_vain_;
-  std::uint64_t work_ = 0, lost_work_ = 0, useful_work_ = 0;
+  std::unordered_set<std::uint64_t> without_effect_;
+  std::uint64_t work_ = 0, ineffective_work_ = 0, effective_work_ = 0;
   std::uint16_t region_ = 0;
 };
 

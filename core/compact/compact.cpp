@@ -369,7 +369,7 @@ Compacted<D> compact(Mesh<D>&& mesh, const Domain<D>& domain, std::span<const do
 }
 
 template <int D>
-Compacted<D> compact_hastily(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes,
+Compacted<D> compact_by_slots(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes,
                              bool parallel, const FillPoints<D>& fill) {
   const detail::Bulk bulk(parallel, {});
   Compacted<D> out;
@@ -392,7 +392,7 @@ template Compacted<2> compact<2>(Mesh<2>&&, const Domain<2>&, std::span<const do
                                  const FillPoints<2>&, std::stop_token);
 template Compacted<3> compact<3>(Mesh<3>&&, const Domain<3>&, std::span<const double>, bool, std::stop_token,
                                  const FillPoints<3>&, std::stop_token);
-template Compacted<2> compact_hastily<2>(const Mesh<2>&, const Domain<2>&, std::span<const double>, bool, const FillPoints<2>&);
-template Compacted<3> compact_hastily<3>(const Mesh<3>&, const Domain<3>&, std::span<const double>, bool, const FillPoints<3>&);
+template Compacted<2> compact_by_slots<2>(const Mesh<2>&, const Domain<2>&, std::span<const double>, bool, const FillPoints<2>&);
+template Compacted<3> compact_by_slots<3>(const Mesh<3>&, const Domain<3>&, std::span<const double>, bool, const FillPoints<3>&);
 
 }  // namespace pgdr

@@ -40,7 +40,7 @@ Compacted<D> compact(Mesh<D>&& mesh, const Domain<D>& domain, std::span<const do
 /// The same of a run that was stopped, when the mesh is chance anyway: Steiner points and cells are numbered as their slots
 /// come, in a fifth of the time.
 template <int D>
-Compacted<D> compact_hastily(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes,
+Compacted<D> compact_by_slots(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes,
                              bool parallel, const FillPoints<D>& fill = {});
 
 }  // namespace pgdr

@@ -6,7 +6,7 @@ namespace pgdr {
 
 /// It is asked for the same cells again and again.
 double ChangeJudge::excess_of(CellId c) {
-  KnownExcess& known = known_excess_[index(c) % known_excess_.size()];
+  KnownExcess& known = excess_cache_[index(c) % excess_cache_.size()];
   if (known.cell != c || known.birth != w_->mesh.birth(c)) {
     const bool poor = static_cast<bool>(w_->context.bounds.test(w_->mesh, c));
     known = {c, w_->mesh.birth(c), poor ? w_->context.bounds.excess(w_->mesh.simplex(c), w_->mesh.region(c)) : 0};

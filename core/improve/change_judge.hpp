@@ -25,7 +25,7 @@
 namespace pgdr {
 
 constexpr double least_gain = 1.0 / 128;       ///< by which anything lessens the excess
-constexpr double least_gain_without = -1e-9;   ///< the same of a vertex that is taken out: none, but for rounding
+constexpr double least_gain_of_collapse = -1e-9;   ///< the same of a vertex that is taken out: none, but for rounding
 constexpr std::size_t most_cells_changed = 100;  ///< at once: more, of tangles, are slow and gain little
 
 /// See above. Part of a worker.
@@ -49,7 +49,7 @@ class ChangeJudge {
 
   Workspace<3>* w_;
   const PoorReasons<3>* reasons_;  ///< which no visit changes
-  std::vector<KnownExcess> known_excess_ = std::vector<KnownExcess>(1024);  ///< of the cells asked for last
+  std::vector<KnownExcess> excess_cache_ = std::vector<KnownExcess>(1024);  ///< of the cells asked for last
 };
 
 }  // namespace pgdr

@@ -47,7 +47,7 @@ bool FlipChanges::flip_is_explained(const Flip& flip, const Violations& violatio
   return true;
 }
 
-Outcome FlipChanges::flip_for_less(const Entry<3>& e) {
+Outcome FlipChanges::flip_to_improve(const Entry<3>& e) {
   using Flips = LocalFlips<3>;
   std::vector<Flip> flips;
   if (flips_->find_flips(e.cell, flips, w_->trace) == Flips::Outcome::not_owned) return Outcome::not_owned;
@@ -78,7 +78,7 @@ bool FlipChanges::flip_to_delaunay(CellId c, int face) {
   for (const Flip& flip : flips) {
     const auto& old = flip.old.cells;
     if (std::find(old.begin(), old.end(), beyond) == old.end()) continue;
-    if (!gain_of_flip(flip, least_gain_without)) continue;
+    if (!gain_of_flip(flip, least_gain_of_collapse)) continue;
     const auto violations = flips_->violations_after(flip);
     if (!violations) continue;
     const auto inner = std::count_if(violations->begin(), violations->end(), [](const auto& v) { return v.inner; });
@@ -113,7 +113,7 @@ Outcome FlipChanges::finish(const Entry<3>& e, std::vector<CellId> new_cells, bo
     for (const VertexId v : w_->mesh.cell(c).vertices) ++w_->mesh.note(v).version;
     lister_->list_if_poor(c);
   }
-  if (w_->alive(e)) lister_->list_again(e);  // the change was beside it
+  if (w_->alive(e)) lister_->relist_cell(e);  // the change was beside it
   return Outcome::committed;
 }
 

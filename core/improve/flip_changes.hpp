@@ -24,7 +24,7 @@ class FlipChanges {
       : w_(&workspace), lister_(&lister), flips_(&flips), judge_(&judge) {}
 
   /// Makes the flip of a face or edge of the element that lessens the excess most, the first of those that do.
-  Outcome flip_for_less(const Entry<3>& e);
+  Outcome flip_to_improve(const Entry<3>& e);
   /// The tail of every change made for e: flips at new cells, if a new face is not locally Delaunay (`violates`), and lists what is
   /// poor after that.
   Outcome finish(const Entry<3>& e, std::vector<CellId> new_cells, bool violates);

@@ -28,11 +28,11 @@ class Improver final : public ElementTreatment<3> {
     vertices_.begin_visit();
   }
   Outcome treat(const Entry<3>& e) override {
-    Outcome outcome = vertices_.change(e, VertexChanges::Kind::take_out);
-    if (!stage_->takes_out_alone) {
-      if (outcome == Outcome::refused) outcome = flips_.flip_for_less(e);
+    Outcome outcome = vertices_.change(e, VertexChanges::Kind::collapse);
+    if (!stage_->collapses_only) {
+      if (outcome == Outcome::refused) outcome = flips_.flip_to_improve(e);
       if (outcome == Outcome::refused) outcome = vertices_.change(e, VertexChanges::Kind::move);
-      if (outcome == Outcome::refused) outcome = points_.insert_for_less(e);
+      if (outcome == Outcome::refused) outcome = points_.insert_to_improve(e);
     }
     w_->visit->counts.refused += outcome == Outcome::refused;
     return outcome;

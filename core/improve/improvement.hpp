@@ -21,7 +21,7 @@ class Improvement final : public ElementStage<3> {
                                                  DelaunayRepair<3>& repair) const override;
   std::uint64_t version(CellId c) const override;
 
-  bool takes_out_alone = true;  ///< vertices are taken out, and nothing else is done
+  bool collapses_only = true;  ///< vertices are taken out, and nothing else is done
 
  private:
   const Mesh<3>* mesh_;

@@ -204,14 +204,14 @@ bool PointChanges::violations_are_explained(const Place& p, bool& any) {
   return all_new_violations([&](std::size_t n, VertexId further) { return any = true, is_explained(p, n, further); });
 }
 
-Outcome PointChanges::insert_for_less(const Entry<3>& e) {
+Outcome PointChanges::insert_to_improve(const Entry<3>& e) {
   using Status = Cavity<3>::Status;
   std::optional<Place> best;
   double most = least_gain;
   bool violates = false;
   for (const Place& p : places_for(e.cell)) {
     Status status = collect_at(p);
-    if (status == Status::ok && gain_of_collected() > most) status = w_->cavity.check_nothing_swallowed();
+    if (status == Status::ok && gain_of_collected() > most) status = w_->cavity.keep_entities();
     if (status == Status::not_owned) return w_->give_up(Outcome::not_owned);
     if (status != Status::ok || insertion_radius<3>(w_->mesh, w_->cavity) < w_->options.min_edge) continue;
     const double gain = gain_of_collected();  // the check may have cut it back
@@ -223,7 +223,7 @@ Outcome PointChanges::insert_for_less(const Entry<3>& e) {
   }
   if (!best) return w_->give_up(Outcome::refused);
   collect_at(*best);
-  w_->cavity.check_nothing_swallowed();
+  w_->cavity.keep_entities();
   w_->cavity.commit(w_->pools, best->home, rounded_down(insertion_radius<3>(w_->mesh, w_->cavity)));
   ++w_->visit->counts.committed;
   return flips_->finish(e, w_->cavity.new_cells(), violates);

@@ -19,7 +19,7 @@ class PointChanges {
   PointChanges(Workspace<3>& workspace, ChangeJudge& judge, FlipChanges& flips) : w_(&workspace), judge_(&judge), flips_(&flips) {}  ///< all outlive it
 
   /// Inserts the point that lessens the excess most, the first of those that do.
-  Outcome insert_for_less(const Entry<3>& e);
+  Outcome insert_to_improve(const Entry<3>& e);
 
  private:
   /// Where a point may go, and on what.

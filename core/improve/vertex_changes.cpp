@@ -128,18 +128,18 @@ Outcome VertexChanges::change(const Entry<3>& e, Kind kind) {
     Point3 x;
     bool violates;
   };
-  const bool takes_out = kind == Kind::take_out;
+  const bool collapses = kind == Kind::collapse;
   const auto aim = [this](VertexId u, const Point3& x) { u == no_vertex ? move_.aim(x) : move_.aim(u); };
   std::vector<std::pair<VertexId, CellId>> vertices;
   for (const VertexId v : w_->mesh.cell(e.cell).vertices) vertices.push_back({v, e.cell});
-  if (takes_out && !add_vertices_beyond(e.cell, vertices)) return Outcome::not_owned;
+  if (collapses && !add_vertices_beyond(e.cell, vertices)) return Outcome::not_owned;
   std::optional<Best> best;
-  double most = takes_out ? least_gain_without : least_gain;
+  double most = collapses ? least_gain_of_collapse : least_gain;
   for (const auto& candidate : vertices) {
     const VertexId v = candidate.first;
     const CellId at = candidate.second;
     VertexNote& note = w_->mesh.note(v);
-    std::uint32_t& settled = note.settled[takes_out ? 0 : 1];
+    std::uint32_t& settled = note.settled[collapses ? 0 : 1];
     if (settled == note.version + 1) continue;
     const auto status = move_.collect(v, at, most_cells_changed);
     if (status == VertexMove::Status::not_owned) return Outcome::not_owned;
@@ -153,15 +153,15 @@ Outcome VertexChanges::change(const Entry<3>& e, Kind kind) {
     move_.put_first([this](CellId c) { return judge_->excess_of(c) > 0; });
     const auto consider = [&](VertexId u, const Point3& x) {
       aim(u, x);
-      if (takes_out && move_.turns_cell_over()) return;  // most do, which is quicker to tell than what they gain
+      if (collapses && move_.turns_cell_over()) return;  // most do, which is quicker to tell than what they gain
       const auto gain = gain_of_move(excess, most);
       bool violates = false;
-      if (gain && !takes_out && w_->visit->area && !w_->visit->area->owns(x)) may_go_elsewhere = true;
+      if (gain && !collapses && w_->visit->area && !w_->visit->area->owns(x)) may_go_elsewhere = true;
       if (!gain || !move_.is_valid() || !move_keeps_sizes() || !move_is_explained(violates)) return;
       most = *gain;
       best = Best{v, at, u, x, violates};
     };
-    if (takes_out)
+    if (collapses)
       for (const VertexId u : move_.targets()) consider(u, w_->mesh.point(u));
     else
       for (const Point3& x : places_to_move_to()) consider(no_vertex, x);

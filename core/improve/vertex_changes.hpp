@@ -25,7 +25,7 @@ class VertexChanges {
   VertexChanges(Workspace<3>& workspace, ChangeJudge& judge, FlipChanges& flips)
       : w_(&workspace), judge_(&judge), flips_(&flips), move_(workspace.mesh, workspace.domain) {}
 
-  enum class Kind { take_out, move };  ///< of a change
+  enum class Kind { collapse, move };  ///< of a change
   /// Before the visit does anything.
   void begin_visit() { move_.set_area(w_->visit->area); }
   /// Does what lessens the excess most with a vertex of the element, or of a neighbour of it: takes it out, or else moves it.

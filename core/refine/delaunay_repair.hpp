@@ -30,7 +30,7 @@ class DelaunayRepair {
   /// Mends the face of an entry of kind flip, or sets it aside, or lists its cell as poor.
   void treat(const Entry<D>& e);
   /// Takes a cell with all its vertices on one facet, which is flat but for rounding, out; refused if the cell is no such, or has to stay.
-  Outcome take_off_flat(CellId c);
+  Outcome remove_flat_cell(CellId c);
 
   LocalFlips<D>& flips() { return flips_; }  ///< the worker's
 

@@ -27,7 +27,7 @@ CellVerdict ElementSplitter<D>::verdict_of(const Entry<D>& e, const FilterSphere
 
 template <int D>
 Outcome ElementSplitter<D>::split(const Entry<D>& e) {
-  if (const Outcome flat = repair_->take_off_flat(e.cell); flat != Outcome::refused) return flat;
+  if (const Outcome flat = repair_->remove_flat_cell(e.cell); flat != Outcome::refused) return flat;
   const FilterSphere<D> sphere = mesh_->sphere(e.cell);
   Candidate<D> c{e, verdict_of(e, sphere), sphere, {}, !w_->options.selector};
   if constexpr (D == 2) {
@@ -96,7 +96,7 @@ class ElementSplitter<D>::RefusedFace final : public Cavity<D>::FaceWatch {
 /// Collects the candidate's cavity on the way. The short cuts come first: a far point's wall, and a face that was refused before.
 template <int D>
 auto ElementSplitter<D>::find_obstacle(const Candidate<D>& c) -> Obstacle {
-  if (const auto wall = wall_before_far_point<D>(*w_, c.entry.cell, c.x)) return {wall};
+  if (const auto wall = wall_before_distant_point<D>(*w_, c.entry.cell, c.x)) return {wall};
   Status status;
   if (entities_->knows_refused_faces()) {
     RefusedFace refused(*w_, *entities_, c.x, demand_on_entity(c));
@@ -112,7 +112,7 @@ auto ElementSplitter<D>::find_obstacle(const Candidate<D>& c) -> Obstacle {
   }
   if (status != Status::ok) return {{}, Outcome::refused};
   if (const auto encroached = encroached_entity<D>(*mesh_, *cavity_, w_->options, c.x)) return {encroached};
-  return {hiding_wall<D>(*w_, c.entry.cell, c.x)};
+  return {wall_that_hides<D>(*w_, c.entry.cell, c.x)};
 }
 
 /// Where the boundary is kept: the incentre of an element too big whose circumcentre the boundary hides.
@@ -151,7 +151,7 @@ Outcome ElementSplitter<D>::split_instead(const Entry<D>& entity, const Candidat
   cavity_->release();
   const Outcome outcome = entities_->split(entity, &demand);
   // The element is looked at again if the split left it as it was.
-  if (outcome == Outcome::committed && w_->alive(c.entry)) lister_->list_again(c.entry);
+  if (outcome == Outcome::committed && w_->alive(c.entry)) lister_->relist_cell(c.entry);
   return outcome;
 }
 
@@ -159,10 +159,10 @@ Outcome ElementSplitter<D>::split_instead(const Entry<D>& entity, const Candidat
 template <int D>
 auto ElementSplitter<D>::judge(const Candidate<D>& c) -> Judgement {
   Status status = cavity_->make_star_shaped();
-  if (status == Status::ok && (cavity_->shrunk() || cavity_->touches_constraints())) status = cavity_->check_nothing_swallowed();
+  if (status == Status::ok && (cavity_->cut_back() || cavity_->touches_constraints())) status = cavity_->keep_entities();
   if (status != Status::ok) return {status == Status::not_owned ? Outcome::not_owned : Outcome::refused};
   // Unshrunk, the circumcentre's nearest vertices are the element's own; but not where rounding moves it, even onto another vertex.
-  const bool plain = c.at_center && !cavity_->shrunk() && mesh_->is_accurate(c.sphere);
+  const bool plain = c.at_center && !cavity_->cut_back() && mesh_->is_accurate(c.sphere);
   const double r = plain ? std::sqrt(mesh_->squared_radius_bounds(c.sphere).first) : insertion_radius<D>(*mesh_, *cavity_);
   if (inserter_->is_too_short(r)) return {Outcome::refused};
   // Among volume vertices r >= d holds by itself, but for bounds below one and elements that are not poor in shape.

@@ -101,7 +101,7 @@ template <int D>
 Outcome EntitySplitter<D>::commit_split(EntityRef entity, std::span<const VertexId> own, const Demand* cause,
                                         std::span<const VertexId> twins) {
   Status status = cavity_->make_star_shaped();
-  if (status == Status::ok) status = cavity_->check_nothing_swallowed();
+  if (status == Status::ok) status = cavity_->keep_entities();
   if (status == Status::not_owned) return w_->give_up(Outcome::not_owned);
   if (status != Status::ok) return refuse(entity, own);
   std::vector<VertexId> left_out(twins.begin(), twins.end());
@@ -267,7 +267,7 @@ std::optional<SplitPlace> EntitySplitter<D>::place_beside(const Entry<D>& e, std
   if constexpr (D == 3) {
     const EntityId s = mesh_->constraints(e.cell)->edge_entity[e.which()];
     const auto [t0, t1] = parameters_of(w_->context, s, own[0], own[1]);
-    PlaceBeside places(*domain_, s, t0, t1, Beside::as_far);
+    TwinPlaces places(*domain_, s, t0, t1, Beside::as_far);
     for_cells_round(*mesh_, e.cell, edge_ends[e.which()][0], edge_ends[e.which()][1], [&](const RidgeWalk<D>& walk) {
       owned = cavity_->owns(walk.cell);
       if (!owned) return RoundEdge::stop;

@@ -34,7 +34,7 @@ class Inserter {
     visit.changed_mesh = true;
     lister_->list_inserted();
     // A cavity that was not cut back keeps every face locally Delaunay, if all were.
-    if (w_->cavity.shrunk() || visit.violations_seen) repair_->look_at(w_->cavity.new_cells());
+    if (w_->cavity.cut_back() || visit.violations_seen) repair_->look_at(w_->cavity.new_cells());
     return Outcome::committed;
   }
 

@@ -95,7 +95,7 @@ void Refiner<D>::record_refusal(const Entry<D>& e) {
 }
 
 /// One entry. Whether one that the visit does not own is still alive depends on timing: of those set aside, what is dead by
-/// the end of the generation is left out (put_off), so that what remains does not.
+/// the end of the generation is left out (defer), so that what remains does not.
 template <int D>
 void Refiner<D>::treat(const Entry<D>& e) {
   RegionVisit<D>& visit = *workspace_.visit;

@@ -49,13 +49,13 @@ std::optional<Entry<D>> wall_in_claim(Workspace<D>& w, CellId c, const Point<D>&
 }
 
 template <int D>
-std::optional<Entry<D>> hiding_wall(Workspace<D>& w, CellId c, const Point<D>& x) {
+std::optional<Entry<D>> wall_that_hides(Workspace<D>& w, CellId c, const Point<D>& x) {
   if (!w.cavity.touches_constraints() || w.cavity.surely_star_shaped()) return std::nullopt;
   return wall_before<D>(w, c, x, [&w](CellId k) { return w.mesh.marked(k); });
 }
 
 template <int D>
-std::optional<Entry<D>> wall_before_far_point(Workspace<D>& w, CellId c, const Point<D>& x) {
+std::optional<Entry<D>> wall_before_distant_point(Workspace<D>& w, CellId c, const Point<D>& x) {
   if constexpr (D == 2) return std::nullopt;
   constexpr int far = 12;  // powers of two: nearer ones often encroach upon flat subfacets, whose splits leave fewer poor cells
   constexpr double far_for_its_edges = 128;
@@ -69,9 +69,9 @@ std::optional<Entry<D>> wall_before_far_point(Workspace<D>& w, CellId c, const P
 
 template std::optional<Entry<2>> wall_in_claim(Workspace<2>&, CellId, const Point<2>&);
 template std::optional<Entry<3>> wall_in_claim(Workspace<3>&, CellId, const Point<3>&);
-template std::optional<Entry<2>> hiding_wall(Workspace<2>&, CellId, const Point<2>&);
-template std::optional<Entry<3>> hiding_wall(Workspace<3>&, CellId, const Point<3>&);
-template std::optional<Entry<2>> wall_before_far_point(Workspace<2>&, CellId, const Point<2>&);
-template std::optional<Entry<3>> wall_before_far_point(Workspace<3>&, CellId, const Point<3>&);
+template std::optional<Entry<2>> wall_that_hides(Workspace<2>&, CellId, const Point<2>&);
+template std::optional<Entry<3>> wall_that_hides(Workspace<3>&, CellId, const Point<3>&);
+template std::optional<Entry<2>> wall_before_distant_point(Workspace<2>&, CellId, const Point<2>&);
+template std::optional<Entry<3>> wall_before_distant_point(Workspace<3>&, CellId, const Point<3>&);
 
 }  // namespace pgdr

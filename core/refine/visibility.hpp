@@ -17,12 +17,12 @@ std::optional<Entry<D>> wall_in_claim(Workspace<D>& w, CellId c, const Point<D>&
 
 /// The wall beyond which the collected point x of cell c lies; none where the cavity is star-shaped for sure.
 template <int D>
-std::optional<Entry<D>> hiding_wall(Workspace<D>& w, CellId c, const Point<D>& x);
+std::optional<Entry<D>> wall_that_hides(Workspace<D>& w, CellId c, const Point<D>& x);
 
 /// 3D: the wall that hides the point of an element so flat that it lies many times the domain, or the element's longest edge, away.
 /// Where facets are nearly coplanar other flat ones are in conflict with it, often thousands. They are not collected for the entity
 /// that it encroaches upon, if any: mostly there is none, and the wall is split in the end.
 template <int D>
-std::optional<Entry<D>> wall_before_far_point(Workspace<D>& w, CellId c, const Point<D>& x);
+std::optional<Entry<D>> wall_before_distant_point(Workspace<D>& w, CellId c, const Point<D>& x);
 
 }  // namespace pgdr

@@ -30,7 +30,7 @@ class WorkLister {
   /// A poor element; `why` and `order` as of Entry.
   void list_poor(CellId c, int why, const FilterSphere<D>& sphere, std::uint32_t order);
   /// The same element, which is looked at once more.
-  void list_again(const Entry<D>& e) { list_poor(e.cell, e.which(), mesh_->sphere(e.cell), e.order); }
+  void relist_cell(const Entry<D>& e) { list_poor(e.cell, e.which(), mesh_->sphere(e.cell), e.order); }
   /// What is encroached or poor at the cells that the insertion of the collected point has made.
   void list_inserted();
   /// The faces of the cells that are not locally Delaunay; as many as that were.

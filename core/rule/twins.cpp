@@ -26,13 +26,13 @@ int common_end(const Domain<3>& domain, EntityId segment, Home home) {
 
 }  // namespace
 
-PlaceBeside::PlaceBeside(const Domain<3>& domain, EntityId segment, double t0, double t1, Beside where)
+TwinPlaces::TwinPlaces(const Domain<3>& domain, EntityId segment, double t0, double t1, Beside where)
     : domain_(&domain), segment_(segment), t0_(t0), t1_(t1), where_(where) {
   const auto& ends = domain.segments()[segment].points;
   whole_ = distance(domain.points()[ends[0]], domain.points()[ends[1]]);
 }
 
-void PlaceBeside::look_at(const VertexRecord<3>& q) {
+void TwinPlaces::look_at(const VertexRecord<3>& q) {
   const double length = whole_ * (t1_ - t0_);
   if (q.home.kind() == EntityKind::vertex) {
     const double t = segment_parameter<3>(*domain_, segment_, q.point);
@@ -48,7 +48,7 @@ void PlaceBeside::look_at(const VertexRecord<3>& q) {
   }
 }
 
-void PlaceBeside::add(double t, const Point3& q, double least_room, std::uint32_t apex) {
+void TwinPlaces::add(double t, const Point3& q, double least_room, std::uint32_t apex) {
   if (!(t > t0_ && t < t1_) || whole_ * std::min(t - t0_, t1_ - t) < least_room) return;
   const SplitPlace place{t, point_on_segment<3>(*domain_, segment_, t), apex,
                          apex == no_entity ? 0.0 : distance(domain_->points()[apex], q)};

@@ -46,10 +46,10 @@ enum class Beside {
 };
 
 /// Of the piece of a segment from t0 to t1, looks for the place beside a vertex that is nearest to its middle.
-class PlaceBeside {
+class TwinPlaces {
  public:
   /// 0 <= t0 < t1 <= 1
-  PlaceBeside(const Domain<3>& domain, EntityId segment, double t0, double t1, Beside where);
+  TwinPlaces(const Domain<3>& domain, EntityId segment, double t0, double t1, Beside where);
 
   void look_at(const VertexRecord<3>& q);  ///< any vertex; the order in which they come does not matter
   const std::optional<SplitPlace>& best() const { return best_; }  ///< nothing without any

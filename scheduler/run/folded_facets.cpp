@@ -103,7 +103,7 @@ bool may_fold(const Domain<3>& domain) {
 void require_unfolded(const Mesh<3>& mesh, const Domain<3>& domain, RegionMode regions, std::span<const double> region_attributes) {
   if (!may_fold(domain)) return;
   require_whole_segments(mesh, domain);
-  if (conforms(compact_hastily<3>(mesh, domain, region_attributes, false).mesh, domain, regions)) return;
+  if (conforms(compact_by_slots<3>(mesh, domain, region_attributes, false).mesh, domain, regions)) return;
   const EntityId f = most_bent_facet(domain);
   Diagnostic d = detail::about_points<3>(Errc::boundary_not_recovered, domain, domain.facet_points(f));
   char defect[32];

@@ -69,13 +69,13 @@ void Generations<D>::run_visit(const Visit<D>& visit, Planned& planned) {
 
 /// For assertions: large meshes are not looked at, lest debug builds take for ever.
 template <int D>
-bool Generations<D>::looks_whole() const {
+bool Generations<D>::is_whole_if_small() const {
   return context_.mesh.cell_bound() > 200000 || is_whole<D>(context_.mesh);
 }
 
 template <int D>
 void Generations<D>::finish(Generation<D>& generation, std::vector<Planned>& planned) {
-  assert(looks_whole());
+  assert(is_whole_if_small());
   std::vector<double> seconds;
   std::vector<Node> candidates;
   for (std::size_t v = 0; v < planned.size(); ++v) {

@@ -33,7 +33,7 @@ class Generations final : public LeafRefinement<D> {
   void run_visit(const Visit<D>& visit, Planned& planned);
   void execute(const VisitGraph& graph, const VisitBody& body);
   void finish(Generation<D>& generation, std::vector<Planned>& planned);
-  bool looks_whole() const;
+  bool is_whole_if_small() const;
   void execute_pieces(std::size_t pieces, const VisitBody& piece);
   void renew_buffers(std::span<const VisitRequest> requests);
   void touch_memory(std::span<const VisitRequest> requests);

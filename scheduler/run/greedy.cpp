@@ -124,11 +124,11 @@ void Greedy<D>::hand_over(Running& visit) {
     for (const Entry<D>& e : box.entries) {
       if (!e.alive(context_.mesh)) continue;
       const Node leaf = tree_.leaf_at(context_.mesh.center(e.cell));
-      auto letter = std::find_if(letters.rbegin(), letters.rend(), [leaf](const auto& l) { return l.first == leaf; });
-      if (letter == letters.rend()) {
+      auto batch = std::find_if(letters.rbegin(), letters.rend(), [leaf](const auto& l) { return l.first == leaf; });
+      if (batch == letters.rend()) {
         letters.push_back({leaf, {e}});
       } else {
-        letter->second.push_back(e);
+        batch->second.push_back(e);
       }
     }
     for (auto& [leaf, entries] : letters) {

@@ -33,7 +33,7 @@ void LeafRefinement<D>::list_for_improvement() {
 /// Of bounds below what theory proves many elements may be over, for no reason but that. Where they are too many, it would take
 /// many times as long as all before, and mend few of them; taking vertices out is the quickest, and mends most.
 template <int D>
-bool LeafRefinement<D>::may_improve(bool takes_out_alone) const {
+bool LeafRefinement<D>::may_improve(bool collapses_only) const {
   if (context_.options.radius_edge_bound >= smallest_proved_bound<D>()) return true;
   const Mesh<D>& mesh = context_.mesh;
   std::size_t cells = 0, poor = 0;
@@ -42,7 +42,7 @@ bool LeafRefinement<D>::may_improve(bool takes_out_alone) const {
     ++cells;
     poor += context_.bounds.test(mesh, CellId{i}) ? 1 : 0;
   }
-  const std::size_t least_cells = takes_out_alone ? 6 : 16;  // for each that is poor
+  const std::size_t least_cells = collapses_only ? 6 : 16;  // for each that is poor
   return least_cells * poor <= cells;
 }
 
@@ -68,7 +68,7 @@ StopCause LeafRefinement<D>::improve(PoorReasons<D>& reasons, std::vector<PoorCe
     const std::uint64_t before = counts_.improved;
     for (const bool alone : {true, false}) {
       if (!alone && !may_improve(false)) break;
-      improvement_->takes_out_alone = alone;
+      improvement_->collapses_only = alone;
       list_for_improvement();
       if (stop == StopCause::finished) stop = improve_listed();
     }

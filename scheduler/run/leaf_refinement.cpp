@@ -309,8 +309,8 @@ void LeafRefinement<D>::account(const VisitRequest& request, RegionVisit<D>& vis
   violations_seen_ = violations_seen_ || visit.violations_seen;
   entities_refused_ = entities_refused_ || visit.entities_refused;
   min_edge_hit_ = min_edge_hit_ || visit.min_edge_hit;
-  put_off(request, visit.set_aside);
-  if (context_.stop != 0) left_over_.insert(left_over_.end(), visit.given.begin(), visit.given.end());
+  defer(request, visit.set_aside);
+  if (context_.stop != 0) given_and_not_processed_.insert(given_and_not_processed_.end(), visit.given.begin(), visit.given.end());
 }
 
 template <int D>
@@ -322,7 +322,7 @@ void LeafRefinement<D>::post(Node leaf, std::vector<Entry<D>>&& entries) {
 
 /// For a larger claim, what is still alive now that the visits that ran beside this one have ended.
 template <int D>
-void LeafRefinement<D>::put_off(const VisitRequest& request, const std::vector<Entry<D>>& entries) {
+void LeafRefinement<D>::defer(const VisitRequest& request, const std::vector<Entry<D>>& entries) {
   std::uint32_t order = whole_tree;
   for (const std::uint32_t larger : set_aside_orders)
     if (larger > request.order && larger > options_.claim_order) order = std::min(order, larger);
@@ -374,12 +374,12 @@ std::optional<PoorCount> LeafRefinement<D>::take_poor() {
   const auto count_all = [&](const auto& entries) { std::for_each(entries.begin(), entries.end(), count); };
   for (Node n = 0; n < tree_.node_count(); ++n) {
     works_[n].list.drain(count);
-    for (const auto& letter : works_[n].inbox) count_all(letter);
+    for (const auto& batch : works_[n].inbox) count_all(batch);
     for (const auto& entries : works_[n].set_aside) count_all(entries);
   }
   whole_list_.drain(count);
   count_all(whole_set_aside_);
-  count_all(left_over_);
+  count_all(given_and_not_processed_);
   for_each_refused([&](std::span<const Refusal<D>> refused) {
     for (const Refusal<D>& r : refused) count(r.entry);
   });

@@ -118,7 +118,7 @@ class LeafRefinement {
   void for_each_refused(const std::function<void(std::span<const Refusal<D>>)>& f);
   std::vector<PoorCell> look_for_poor(PoorReasons<D>& reasons);
   bool lists_all_poor(std::span<const PoorCell> found) const;
-  bool may_improve(bool takes_out_alone) const;
+  bool may_improve(bool collapses_only) const;
   void list_for_improvement();
   StopCause improve_listed();
   StopCause improve(PoorReasons<D>& reasons, std::vector<PoorCell>& found);
@@ -131,7 +131,7 @@ class LeafRefinement {
   void set_aside(Node leaf, std::uint32_t order, const Entry<D>& e);
   bool relist_refused();
   void relist(const Entry<D>& e);
-  void put_off(const VisitRequest& request, const std::vector<Entry<D>>& entries);
+  void defer(const VisitRequest& request, const std::vector<Entry<D>>& entries);
   Worker check_out();
   void shuffle_workers();
   void check_in(Worker worker);
@@ -139,7 +139,7 @@ class LeafRefinement {
   WorkList<D> whole_list_;               ///< entities that visits of the whole tree come upon
   std::vector<Entry<D>> whole_set_aside_;
   std::vector<Refusal<D>> refused_before_;  ///< poor elements, until they were improved
-  std::vector<Entry<D>> left_over_;      ///< given to visits that the end of the run has overtaken
+  std::vector<Entry<D>> given_and_not_processed_;      ///< given to visits that the end of the run has overtaken
   std::uint64_t whole_changed_ = 0, last_change_ = 0;  ///< generation: of a visit of the whole tree; of others
   std::vector<std::uint16_t> births_looked_at_;  ///< by slot: of the cell when violations were last looked for everywhere
   std::vector<Entry<D>> violations_;             ///< that were there then

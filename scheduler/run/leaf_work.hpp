@@ -34,8 +34,8 @@ struct LeafWork {
   bool has_list() const { return !list.empty() || !inbox.empty(); }
   /// Moves the inbox into the list.
   void open_inbox() {
-    for (const auto& letter : inbox)
-      for (const Entry<D>& e : letter) list.push(e);
+    for (const auto& batch : inbox)
+      for (const Entry<D>& e : batch) list.push(e);
     std::vector<std::vector<Entry<D>>>().swap(inbox);
   }
 };

@@ -93,7 +93,7 @@ PoorCount count_poor(const RefineContext<D>& context) {
 }
 
 /// Was the run ended by a clock or a person, who wants it to return now? The mesh is chance then, and so may its numbering be.
-bool in_haste(StopCause stop) { return stop == StopCause::cancelled || stop == StopCause::time_limit; }
+bool was_interrupted(StopCause stop) { return stop == StopCause::cancelled || stop == StopCause::time_limit; }
 
 /// Of each region number; none where there are no labels.
 std::span<const double> attributes_of(const RegionTable& regions) {
@@ -103,7 +103,7 @@ std::span<const double> attributes_of(const RegionTable& regions) {
 
 template <int D>
 Compacted<D> compact_mesh(Mesh<D>& mesh, const Domain<D>& domain, const RegionTable& regions, const PointData<D>& data,
-                          const RefineOptions<D>& options, bool in_haste) {
+                          const RefineOptions<D>& options, bool was_interrupted) {
   const std::span<const double> attributes = attributes_of(regions);
   // The mesh is used up: where a partial one is wanted its numbering goes on to the end, in haste.
   const std::stop_token none, stop = options.partial_mesh ? none : options.stop;
@@ -111,7 +111,7 @@ Compacted<D> compact_mesh(Mesh<D>& mesh, const Domain<D>& domain, const RegionTa
   Compacted<D> compacted;
   const auto make = [&](bool parallel) {
     const FillPoints<D> fill = [&](const Mesh<D>& m, Compacted<D>& out) { data.fill(m, out, parallel, stop); };
-    compacted = in_haste ? compact_hastily<D>(mesh, domain, attributes, parallel, fill)
+    compacted = was_interrupted ? compact_by_slots<D>(mesh, domain, attributes, parallel, fill)
                          : compact<D>(std::move(mesh), domain, attributes, parallel, stop, fill, hurry);
   };
   if (options.schedule.executor != Executor::flow_graph)
@@ -146,7 +146,7 @@ RefineResult<D> without_mesh(RefineResult<D> result, Clock::time_point start) {
 }
 
 template <int D>
-void note_what_theory_lacks(const RefineOptions<D>& options, std::vector<Diagnostic>& warnings) {
+void warn_beyond_theory(const RefineOptions<D>& options, std::vector<Diagnostic>& warnings) {
   if (D == 2 && options.radius_edge_bound < smallest_proved_bound<D>() && options.refine)
     warnings.push_back({Errc::beyond_theory,
                         "the bound on circumradius over shortest edge is below sqrt 2 (angles above 20.7 degrees): the "
@@ -219,7 +219,7 @@ std::vector<PoorCell> take_poor(const RefineContext<D>& context, Refined<D>& ref
     result.poor_unavoidable = count_in_sharp_corners<D>(context.mesh, context.domain, options.radius_edge_bound, over_bound);
     return std::move(refined.poor);
   }
-  const PoorCount count = refined.counted && in_haste(result.stop) ? *refined.counted : count_poor(context);
+  const PoorCount count = refined.counted && was_interrupted(result.stop) ? *refined.counted : count_poor(context);
   result.poor_left = count.cells;
   result.size_met = !count.over_size;
   return {};
@@ -252,7 +252,7 @@ RefineResult<D> make_mesh(const Domain<D>& domain, const RefineOptions<D>& optio
 
   std::vector<std::array<VertexId, D + 1>> poor_vertices;
   for (const PoorCell& p : poor) poor_vertices.push_back(mesh.cell(p.cell).vertices);
-  Compacted<D> compacted = compact_mesh(mesh, domain, regions, data, options, in_haste(result.stop));
+  Compacted<D> compacted = compact_mesh(mesh, domain, regions, data, options, was_interrupted(result.stop));
   if (options.stop.stop_requested()) {
     result.stop = StopCause::cancelled;
     poor.clear();
@@ -279,7 +279,7 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   before.repairs = domain.repairs();
   before.warnings = domain.warnings();
   before.precision = domain.precision();
-  note_what_theory_lacks(options, before.warnings);
+  warn_beyond_theory(options, before.warnings);
   try {
     require_no_errors(domain, options.stop, options.schedule.executor == Executor::flow_graph);
   } catch (const CancelledError&) {
