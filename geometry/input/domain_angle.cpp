@@ -68,9 +68,11 @@ double angle_between(const Vector& u, const Vector& w) {
   return a;
 }
 
-// The smallest angle between r and a direction into the corner from b to c.
+// The smallest angle between r and a direction into the corner from b to c. Such a direction is a positive combination of b and c, so
+// that it is acute only if that to b or to c is: rounding must not say otherwise, where the checker decides exactly.
 double angle_to_corner(const Vector& r, const Vector& b, const Vector& c) {
   const double rays = std::min(angle_between(r, b), angle_between(r, c));
+  if (rays >= 90) return rays;
   const Vector n = cross(b, c);
   if (!(dot(cross(n, b), r).hi > 0 && dot(cross(c, n), r).hi > 0)) return rays;
   const Vector along = cross(n, r);
