@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "input/entities.hpp"
+#include "numbers/dihedral_sign.hpp"
 #include "numbers/double_double.hpp"
 #include "pgdr/domain.hpp"
 #include "space/triangle.hpp"
@@ -94,18 +95,34 @@ std::vector<Corner> corners_at(const Domain<3>& domain, EntityId f, std::uint32_
   return out;
 }
 
-// For each triangle of f at a segment the normal of its half-plane: angles of half-planes are angles of these.
-std::vector<Vector> half_planes(const Domain<3>& domain, EntityId f, const DomainSegment& s) {
-  std::vector<Vector> out;
+// A triangle at a segment: its third corner, and the normal of its half-plane; angles of half-planes are angles of these.
+struct HalfPlane {
+  std::uint32_t apex;
+  Vector normal;
+};
+
+std::vector<HalfPlane> half_planes(const Domain<3>& domain, EntityId f, const DomainSegment& s) {
+  std::vector<HalfPlane> out;
   const auto p = domain.points();
   const auto [a, b] = s.points;
   for (const std::uint32_t k : domain.triangles_at(f, a)) {
     const auto& t = domain.triangles(f)[k - domain.facets()[f].first_triangle];
     if (std::find(t.begin(), t.end(), b) == t.end()) continue;
     const std::uint32_t c = detail::corner_beside(t, a, b);
-    out.push_back(cross(direction(p[a], p[b]), direction(p[a], p[c])));
+    out.push_back({c, cross(direction(p[a], p[b]), direction(p[a], p[c]))});
   }
   return out;
+}
+
+// The angle of two half-planes at the segment. The product of their normals has more digits than two doubles: near 90 degrees its
+// sign is had exactly.
+double dihedral_angle(const Domain<3>& domain, const DomainSegment& s, const HalfPlane& u, const HalfPlane& w) {
+  constexpr double near = 1e-6;
+  const double angle = angle_between(u.normal, w.normal);
+  if (std::fabs(angle - 90) > near) return angle;
+  const auto p = domain.points();
+  const Sign sign = detail::dihedral_sign(p[s.points[0]], p[s.points[1]], p[u.apex], p[w.apex]);
+  return sign == Sign::positive ? std::min(angle, std::nextafter(90.0, 0.0)) : std::max(angle, 90.0);
 }
 
 // Of two sorted ranges, one of which may be much longer.
@@ -148,8 +165,8 @@ double facet_angle(const Domain<3>& domain, EntityId f, EntityId g) {
     const DomainSegment& segment = domain.segments()[s];
     done.insert(done.end(), segment.points.begin(), segment.points.end());
     const auto with = half_planes(domain, g, segment);
-    for (const Vector& u : half_planes(domain, f, segment))
-      for (const Vector& w : with) least = std::min(least, angle_between(u, w));
+    for (const HalfPlane& u : half_planes(domain, f, segment))
+      for (const HalfPlane& w : with) least = std::min(least, dihedral_angle(domain, segment, u, w));
   }
   for (const std::uint32_t v : common(domain.facet_points(f), domain.facet_points(g))) {
     if (std::find(done.begin(), done.end(), v) != done.end()) continue;  // along the segment the angle is 0
