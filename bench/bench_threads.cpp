@@ -136,9 +136,9 @@ std::vector<Row<D>> make_rows(const Arguments& a) {
   std::vector<Row<D>> rows;
   for (std::size_t k = 0; k < a.sizes.size(); ++k) {
     const RefineOptions<D> base = options_of<D>(a, a.sizes[k]);
-    auto add = [&](std::string name) -> ScheduleOptions& {
+    auto add = [&](const std::string& name) -> ScheduleOptions& {
       Row<D> row;
-      row.name = std::move(name);
+      row.name = name;
       row.size = k;
       row.options = base;
       rows.push_back(std::move(row));

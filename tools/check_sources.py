@@ -76,7 +76,7 @@ INSTANTIATION = re.compile(r"^\s*template (?!<|class|struct)[^;(]*?\b(\w+)(?:<[2
 # A parameter by value of a function that never returns.
 MOVED_AWAY = re.compile(r"\[\[noreturn\]\][^;{]*?[(,]\s*(std::(?:string|vector<[^;{}()&]*>) \w+)\s*[,)=]")
 SOURCES = {".cpp", ".hpp", ".py", ".cmake", ".sh"}
-SCRIPTS = ["demo", "run-tests", ".ci/run", ".ci/long", ".ci/stages.sh", ".ci/install-packages"]
+SCRIPTS = ["demo", "run-tests", ".ci/run", ".ci/long", ".ci/stages.sh", ".ci/style", ".ci/install-packages"]
 MOST_LINES = 500
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 

@@ -22,7 +22,7 @@ constexpr const char* exit_codes =
     "written; 6 a check failed; 7 out of memory or an internal error, no output file.";
 
 /// A number in the given range; `nan` is never one.
-CLI::Validator number(std::string range, bool (*accept)(double)) {
+CLI::Validator number(const std::string& range, bool (*accept)(double)) {
   return {[range, accept](std::string& text) {
             double value = 0;
             const bool ok = CLI::detail::lexical_cast(text, value) && accept(value);
@@ -84,7 +84,7 @@ bool is_plane(const std::string& text) {
 
 bool is_region_size(const std::string& text) { return split_region_size(text).has_value(); }
 
-CLI::Validator shaped(bool (*accept)(const std::string&), std::string what) {
+CLI::Validator shaped(bool (*accept)(const std::string&), const std::string& what) {
   return {[accept, what](std::string& text) {
             return accept(text) ? std::string() : "must be " + what + ", not \"" + text + '"';
           },

@@ -52,7 +52,7 @@ class LocalFlips {
   };
 
   /// Both must outlive it.
-  LocalFlips(Mesh<D>& mesh, const Domain<D>& domain) : mesh_(&mesh), domain_(&domain), rewrap_(mesh, domain) {}
+  LocalFlips(Mesh<D>& mesh, const Domain<D>& domain) : mesh_(&mesh), domain_(&domain), rewrap_(mesh) {}
 
   /// Asked often by what is slow; once it says true, nothing more is mended by that.
   void set_ended(std::function<bool()> ended) { rewrap_.set_ended(std::move(ended)); }
@@ -125,7 +125,7 @@ class LocalFlips {
   const OuterFace* outer(const Face& f) const;
 
   struct NoRewrap {
-    NoRewrap(Mesh<D>&, const Domain<D>&) {}
+    explicit NoRewrap(Mesh<D>&) {}
     void begin_visit(const VisitArea<D>*) {}
     void set_ended(const std::function<bool()>&) {}
   };

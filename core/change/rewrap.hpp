@@ -29,7 +29,7 @@ class LocalRewrap {
   /// Small regions only; or large ones.
   enum class Effort { quick, wide };
 
-  LocalRewrap(Mesh<3>& mesh, const Domain<3>& domain) : mesh_(&mesh), domain_(&domain) {}  ///< both must outlive it
+  explicit LocalRewrap(Mesh<3>& mesh) : mesh_(&mesh) {}  ///< the mesh must outlive it
   ~LocalRewrap() { release(); }
   LocalRewrap(const LocalRewrap&) = delete;
   LocalRewrap& operator=(const LocalRewrap&) = delete;
@@ -89,7 +89,6 @@ class LocalRewrap {
   void release();
 
   Mesh<3>* mesh_;
-  const Domain<3>* domain_;
   const VisitArea<3>* area_ = nullptr;
   bool reached_border_ = false;
   std::function<bool()> ended_;  ///< may be empty

@@ -119,7 +119,7 @@ class CellOrder {
       : stripped_(&stripped),
         bulk_(&bulk),
         vertices_(vertices),
-        shift_(std::bit_width(std::max<std::size_t>(vertices / most_buckets, fewest_vertices))),
+        shift_(static_cast<int>(std::bit_width(std::max<std::size_t>(vertices / most_buckets, fewest_vertices)))),
         buckets_((vertices >> shift_) + 1),
         begin_(stripped.block_count() * buckets_ + 1, 0) {}
 

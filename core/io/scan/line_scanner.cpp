@@ -215,8 +215,7 @@ std::uint32_t LineScanner::reference(Subject s, std::uint32_t first, std::size_t
   ids.push_back(id);
   const std::string range = std::to_string(first) + " to " + std::to_string(first + n - 1);
   const std::string known = n == 0 ? "there are no points" : "points are numbered " + range;
-  fail(Errc::index_out_of_range, described(s) + " refers to point " + std::to_string(id) + ", but " + known,
-       std::move(ids));
+  fail(Errc::index_out_of_range, described(s) + " refers to point " + std::to_string(id) + ", but " + known, ids);
 }
 
 void LineScanner::fail_at(Errc code, Subject s, std::string_view token, std::string_view why) const {
