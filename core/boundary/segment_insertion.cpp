@@ -13,6 +13,7 @@ struct SegmentInsertion::Forcible {
   using Vertex = VertexId;
   using Cell = CellId;
   using Side = CellSide<CellId>;
+  static constexpr bool from_b = true;
 
   SegmentInsertion& all;
 

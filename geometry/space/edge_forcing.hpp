@@ -33,6 +33,7 @@ struct CellSide {
 /// A triangulation as forcing sees it: cells of three corners, counter-clockwise, closed by ghosts about a vertex at infinity.
 template <class T>
 concept ForcibleTriangles = requires(T& t, const T& c, typename T::Cell cell, typename T::Vertex v, CellSide<typename T::Cell> side) {
+  { T::from_b } -> std::convertible_to<bool>;  // crossed cells are used again from b on, not from a: refinement depends on the order
   { c.corner(cell, 0) } -> std::same_as<typename T::Vertex>;
   { c.across(side) } -> std::same_as<CellSide<typename T::Cell>>;  // the same edge, seen from the cell behind it
   { c.is_constraint(side) } -> std::same_as<bool>;
@@ -181,23 +182,27 @@ class EdgeForcing {
       if (t.k == none) return false;
       const auto number = static_cast<std::uint32_t>(polygon.triangles.size());
       polygon.triangles.push_back(t);
-      if (t.k + 1 < t.j) todo_.push_back({t.k, t.j, none, 2 * number});
-      if (t.i + 1 < t.k) todo_.push_back({t.i, t.k, none, 2 * number + 1});
+      const Triangle at_j{t.k, t.j, none, 2 * number}, at_i{t.i, t.k, none, 2 * number + 1};
+      for (const Triangle& next : {Triangles::from_b ? at_i : at_j, Triangles::from_b ? at_j : at_i})
+        if (next.i + 1 < next.j) todo_.push_back(next);
     }
     return true;
   }
+
+  /// The crossed cell whose place the n-th triangle takes.
+  Cell place(std::size_t n) const { return crossed_[Triangles::from_b ? crossed_.size() - 1 - n : n]; }
 
   /// New cells in the places of crossed ones, from the one numbered `next` on; the side that is the edge.
   Side write(Triangles& triangles, Polygon& polygon, std::size_t& next) {
     const std::size_t begin = next;
     for (const Triangle& t : polygon.triangles) {
-      const Cell c = crossed_[next++];
+      const Cell c = place(next++);
       triangles.set(c, {polygon.vertices[t.i], polygon.vertices[t.j], polygon.vertices[t.k]});
-      if (t.below != none) triangles.link({c, 2}, {crossed_[begin + t.below / 2], static_cast<int>(t.below % 2)});
+      if (t.below != none) triangles.link({c, 2}, {place(begin + t.below / 2), static_cast<int>(t.below % 2)});
       if (t.k + 1 == t.j) polygon.edges[t.k].now = {c, 0};
       if (t.i + 1 == t.k) polygon.edges[t.i].now = {c, 1};
     }
-    return {crossed_[begin], 2};
+    return {place(begin), 2};
   }
 
   /// Links the edges of both polygons to what is behind them.

@@ -12,6 +12,7 @@ struct PlanarTriangulation::Forcible {
   using Vertex = std::uint32_t;
   using Cell = std::uint32_t;
   using Side = CellSide<Cell>;
+  static constexpr bool from_b = false;
 
   PlanarTriangulation& all;
   bool inside = false;
