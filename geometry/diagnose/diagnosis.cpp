@@ -185,9 +185,9 @@ Diagnosis<D> diagnose(const Plc<D>& plc, const DiagnosisOptions& options, std::o
 }
 
 template <int D>
-void require_no_errors(const Domain<D>& domain, std::stop_token stop, bool parallel) {
+void require_no_errors(const Domain<D>& domain, const std::stop_token& stop, bool parallel) {
   const Diagnosis<D> diagnosis =
-      diagnose(domain, {.most_listed = 1, .errors_only = true, .stop = std::move(stop), .parallel = parallel});
+      diagnose(domain, {.most_listed = 1, .errors_only = true, .stop = stop, .parallel = parallel});
   const std::uint64_t count = diagnosis.error_count();
   if (count == 0) return;
   Diagnostic first = diagnosis.errors().front();
@@ -201,7 +201,7 @@ void require_no_errors(const Domain<D>& domain, std::stop_token stop, bool paral
   template PGDR_API Diagnosis<D> diagnose<D>(const Domain<D>&, const DiagnosisOptions&);   \
   template PGDR_API Diagnosis<D> diagnose<D>(const Plc<D>&, const DiagnosisOptions&);      \
   template PGDR_API Diagnosis<D> diagnose<D>(const Plc<D>&, const DiagnosisOptions&, std::optional<Domain<D>>&); \
-  template PGDR_API void require_no_errors<D>(const Domain<D>&, std::stop_token, bool);
+  template PGDR_API void require_no_errors<D>(const Domain<D>&, const std::stop_token&, bool);
 PGDR_INSTANTIATE(2)
 PGDR_INSTANTIATE(3)
 #undef PGDR_INSTANTIATE

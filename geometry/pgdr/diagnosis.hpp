@@ -108,6 +108,6 @@ Diagnosis<D> diagnose(const Plc<D>& plc, const DiagnosisOptions& options, std::o
 /// DiagnosisOptions::parallel.
 /// @throws DiagnosedError the first error, if there is one, and how many more there are; CancelledError.
 template <int D>
-void require_no_errors(const Domain<D>& domain, std::stop_token stop = {}, bool parallel = true);
+void require_no_errors(const Domain<D>& domain, const std::stop_token& stop = {}, bool parallel = true);
 
 }  // namespace pgdr
