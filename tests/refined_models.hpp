@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The shared models with the sizes they are refined to, and a refinement that goes through the independent checker.
+// The shared models with the sizes they are refined to, and a refinement that goes through the checker.
 #pragma once
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// From input to mesh on the shared models, plain and turned, each mesh through the independent checker.
+// From input to mesh on the shared models, plain and turned, each mesh through the checker.
 #include "pgdr/refine.hpp"
 
 #include <gtest/gtest.h>

@@ -70,7 +70,7 @@ double smallest_angle(const Domain<D>& domain) {
   return smallest;
 }
 
-/// Of a Domain, all that takes time to find out.
+/// What takes time to find out of a Domain.
 struct Looks {
   std::uint64_t open;
   double smallest_angle;
@@ -118,8 +118,8 @@ void describe(const Domain<D>& domain, const Looks& looks, bool quiet, JsonObjec
   }
 }
 
-/// Boundary recovery alone decides the rest: seeds, whether anything is enclosed. `domain`, of `plc` if it is there, gets the one
-/// that was used.
+/// Recovers the boundary, which decides the rest: seeds, and whether anything is enclosed. `domain`: that of `plc`, or null; gets
+/// the one that was used.
 template <int D>
 RefineResult<D> recover(const Plc<D>& plc, std::shared_ptr<const Domain<D>>& domain) {
   RefineOptions<D> options;
@@ -130,81 +130,103 @@ RefineResult<D> recover(const Plc<D>& plc, std::shared_ptr<const Domain<D>>& dom
   });
 }
 
+/// What `info` does with an input: read, diagnose, recover the boundary, print. Each step puts into the report what it knows.
 template <int D>
-int info_of_input(const InfoArguments& a, Report& report) {
-  const Stopwatch clock;
-  std::vector<Diagnostic> repairs;
-  const Plc<D> plc = read_input<D>(a.file, a.reading, repairs);
-  JsonObject seconds{{"read", clock.seconds()}};
-  report.set("kind", "input");
-  JsonObject d;
-  d.set("accepted", false);
-  d.set("points", plc.points.size());
-  d.set("segments", plc.segments.size());
-  if (D == 3) d.set("facets", plc.facets.size());
-  d.set("holes", plc.holes.size());
-  d.set("regions", plc.regions.size());
-  report.set("diagnosis", d);  // what is known so far, should the next step refuse the input
-  if (!a.quiet) {
-    print_row("input", format("%s (%dD)", a.file.c_str(), D));
-    std::string counts = count(plc.points.size(), "point", "points") + ", " +
-                         count(plc.segments.size(), "segment", "segments");
-    if (D == 3) counts += ", " + count(plc.facets.size(), "facet", "facets");
-    print_row("file", counts + ", " + count(plc.holes.size(), "hole", "holes") + ", " +
-                          count(plc.regions.size(), "region", "regions"));
+class InputInfo {
+ public:
+  InputInfo(const InfoArguments& a, Report& report) : a_(a), report_(report) {}
+
+  /// @returns the exit code
+  int run() {
+    read();
+    std::optional<Domain<D>> prepared;
+    const double diagnosis_at = clock_.seconds();
+    const Diagnosis<D> diagnosis = diagnose(plc_, {}, prepared);
+    recovery_at_ = clock_.seconds();
+    seconds_.set("diagnosis", recovery_at_ - diagnosis_at);
+    set_findings(findings_, diagnosis);
+    report_.set("seconds", seconds_);
+    report_.set("diagnosis", findings_);
+    if (!a_.quiet) print_findings(diagnosis);
+    if (diagnosis.error_count() > 0) return refuse(plc_, diagnosis, report_);
+    const RefineResult<D> recovered = recover_and_describe(std::make_shared<const Domain<D>>(*std::move(prepared)));
+    accept(recovered);
+    return exit_done;
   }
 
-  std::optional<Domain<D>> prepared;
-  const double diagnosis_at = clock.seconds();
-  const Diagnosis<D> diagnosis = diagnose(plc, {}, prepared);
-  const double recovery_at = clock.seconds();
-  seconds.set("diagnosis", recovery_at - diagnosis_at);
-  set_findings(d, diagnosis);
-  report.set("seconds", seconds);
-  report.set("diagnosis", d);
-  if (!a.quiet) print_findings(diagnosis);
-  if (diagnosis.error_count() > 0) return refuse(plc, diagnosis, report);
+ private:
+  void read() {
+    plc_ = read_input<D>(a_.file, a_.reading, repairs_);
+    seconds_.set("read", clock_.seconds());
+    report_.set("kind", "input");
+    findings_.set("accepted", false);
+    findings_.set("points", plc_.points.size());
+    findings_.set("segments", plc_.segments.size());
+    if (D == 3) findings_.set("facets", plc_.facets.size());
+    findings_.set("holes", plc_.holes.size());
+    findings_.set("regions", plc_.regions.size());
+    report_.set("diagnosis", findings_);  // what is known so far, should the next step refuse the input
+    if (a_.quiet) return;
+    print_row("input", format("%s (%dD)", a_.file.c_str(), D));
+    std::string counts = count(plc_.points.size(), "point", "points") + ", " +
+                         count(plc_.segments.size(), "segment", "segments");
+    if (D == 3) counts += ", " + count(plc_.facets.size(), "facet", "facets");
+    print_row("file", counts + ", " + count(plc_.holes.size(), "hole", "holes") + ", " +
+                          count(plc_.regions.size(), "region", "regions"));
+  }
 
-  const auto first = std::make_shared<const Domain<D>>(*std::move(prepared));
-  auto domain = first;
-  std::optional<RefineResult<D>> recovered;
-  std::exception_ptr refused;
-  std::optional<Looks> looks;
-  tbb::parallel_invoke(
-      [&] {
-        try {
-          recovered = recover(plc, domain);
-        } catch (const InputError&) {
-          refused = std::current_exception();
-        }
-      },
-      [&] { looks = look_at(plc, *first, a); });
-  if (domain != first) looks = look_at(plc, *domain, a);
-  seconds.set("recovery", clock.seconds() - recovery_at);
-  describe(*domain, *looks, a.quiet, d);
-  if (D == 3) report.set("precision", domain->precision());
-  report.set("merge_points", plc.merge_within);
-  report.set("diagnosis", d);
-  if (!a.quiet && !refused) note_precision(plc, domain->precision());
-  if (!a.quiet) note_merge(plc, a.reading);
-  give(looks->precision_hint, a.quiet, report);
-  give(looks->merge_hint, !a.quiet, report);
-  seconds.set("total", clock.seconds());
-  report.set("seconds", seconds);
-  if (refused) std::rethrow_exception(refused);
+  /// Recovers the boundary, and looks at the Domain meanwhile; describes that. @throws InputError if the boundary is not
+  /// recovered
+  RefineResult<D> recover_and_describe(const std::shared_ptr<const Domain<D>>& first) {
+    auto domain = first;
+    std::optional<RefineResult<D>> recovered;
+    std::exception_ptr refused;
+    std::optional<Looks> looks;
+    tbb::parallel_invoke(
+        [&] {
+          try {
+            recovered = recover(plc_, domain);
+          } catch (const InputError&) {
+            refused = std::current_exception();
+          }
+        },
+        [&] { looks = look_at(plc_, *first, a_); });
+    if (domain != first) looks = look_at(plc_, *domain, a_);
+    seconds_.set("recovery", clock_.seconds() - recovery_at_);
+    describe(*domain, *looks, a_.quiet, findings_);
+    if (D == 3) report_.set("precision", domain->precision());
+    report_.set("merge_points", plc_.merge_within);
+    report_.set("diagnosis", findings_);
+    if (!a_.quiet && !refused) note_precision(plc_, domain->precision());
+    if (!a_.quiet) note_merge(plc_, a_.reading);
+    give(looks->precision_hint, a_.quiet, report_);
+    give(looks->merge_hint, !a_.quiet, report_);
+    seconds_.set("total", clock_.seconds());
+    report_.set("seconds", seconds_);
+    if (refused) std::rethrow_exception(refused);
+    return *std::move(recovered);
+  }
 
-  d.set("accepted", true);
-  report.set("diagnosis", d);
-  report.set("warnings", to_json(recovered->warnings));
-  repairs.insert(repairs.end(), recovered->repairs.begin(), recovered->repairs.end());
-  report.set("repairs", to_json(repairs));
-  if (!a.quiet) {
-    print_warnings(recovered->warnings);
-    if (!repairs.empty()) print_row("repaired", count(repairs.size(), "defect", "defects"));
+  void accept(const RefineResult<D>& recovered) {
+    findings_.set("accepted", true);
+    report_.set("diagnosis", findings_);
+    report_.set("warnings", to_json(recovered.warnings));
+    repairs_.insert(repairs_.end(), recovered.repairs.begin(), recovered.repairs.end());
+    report_.set("repairs", to_json(repairs_));
+    if (a_.quiet) return;
+    print_warnings(recovered.warnings);
+    if (!repairs_.empty()) print_row("repaired", count(repairs_.size(), "defect", "defects"));
     print_row("verdict", "pgdr mesh takes it");
   }
-  return exit_done;
-}
+
+  const InfoArguments& a_;
+  Report& report_;
+  const Stopwatch clock_;
+  Plc<D> plc_;
+  std::vector<Diagnostic> repairs_;
+  JsonObject seconds_, findings_;
+  double recovery_at_ = 0;
+};
 
 template <int D>
 int info_of_mesh(const InfoArguments& a, Report& report) {
@@ -247,7 +269,7 @@ int info(const InfoArguments& arguments, Report& report) {
   report.set("dimension", dimension);
   if (holds_cells(arguments.file))
     return dimension == 2 ? info_of_mesh<2>(arguments, report) : info_of_mesh<3>(arguments, report);
-  return dimension == 2 ? info_of_input<2>(arguments, report) : info_of_input<3>(arguments, report);
+  return dimension == 2 ? InputInfo<2>(arguments, report).run() : InputInfo<3>(arguments, report).run();
 }
 
 }  // namespace pgdr::tool

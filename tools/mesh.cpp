@@ -99,8 +99,8 @@ std::size_t threads_that_ran(const RefineResult<D>& r) {
   return std::max<std::size_t>(r.scheduler.busy_seconds.size(), 1);
 }
 
-/// A look at every face would take more than a tenth of the time of meshing. Who ends a run does not want to wait: there are
-/// many in a mesh that was not mended, decided in rationals.
+/// The violations of the finished mesh; null after a run that was ended early, when nobody wants to wait for it: such a mesh may
+/// have many, and each takes rationals. (A look at every face would take more than a tenth of the time of meshing.)
 template <int D>
 Json not_delaunay(const RefineResult<D>& r) {
   if (r.stop == StopCause::cancelled || r.stop == StopCause::time_limit) return nullptr;
@@ -227,93 +227,140 @@ Hints hints_for(const Plc<D>& plc, const InputArguments& reading, bool precision
 }
 
 template <int D>
-int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
-  const Bounds<D> bounds = resolve<D>(a.bounds, smallest_proved_bound<D>());
+Bounds<D> bounds_of(const MeshArguments& a) {
+  Bounds<D> bounds = resolve<D>(a.bounds, smallest_proved_bound<D>());
   if (D == 2 && a.bounds.min_angle.value_or(0) > most_min_angle)
     throw UsageError({.code = Errc::bad_option,
                       .message = format("--min-angle takes up to %.0f degrees: few elements meet more", most_min_angle)});
-  RefineOptions<D> options = make_options<D>(a, bounds);
-  const StopOnSignal signals;
-  const Threads threads(a.threads);
-  options.stop = signals.token();
-
-  Seconds seconds;
-  seconds.read_at = total.seconds();
-  std::vector<Diagnostic> repairs;
-  const Plc<D> plc = read_input<D>(a.input, a.reading, repairs);
-  if constexpr (D == 3) report.set("precision", plc.precision);
-  report.set("merge_points", plc.merge_within);
-  if constexpr (D == 2) {
-    report.set("resolve_crossings", a.reading.resolve_crossings);
-    report.set("convex_hull", a.reading.convex_hull);
-  }
-  report.set("region_mode", name(a.regions));
-  seconds.mesh_at = total.seconds();
-  seconds.read = seconds.mesh_at - seconds.read_at;
-
-  RefineResult<D> result;
-  bool hinted = false;  // whoever waits should know soon that it need not take long
-  try {
-    ProgressLine line(!a.quiet);
-    if (!a.quiet)
-      options.progress = [&](const Progress& p) {
-        line(p);
-        if (hinted || total.seconds() < patience_seconds) return;
-        hinted = true;
-        line.clear();
-        give(find_precision_hint<D>(plc, nullptr, a.reading), a.quiet, report);
-        std::fflush(stdout);
-      };
-    result = refine(plc, options);
-  } catch (const InputError&) {  // which names one culprit: find them all
-    const Diagnosis<D> diagnosis = diagnose(plc);
-    JsonObject findings;
-    set_findings(findings, diagnosis);
-    report.set("diagnosis", findings);
-    if (diagnosis.error_count() == 0) {
-      give(find_merge_hint<D>(plc, nullptr), !a.quiet, report);
-      throw;
-    }
-    return refuse(plc, diagnosis, report);
-  }
-  result.repairs.insert(result.repairs.begin(), repairs.begin(), repairs.end());
-  if (!a.quiet) print_warnings(result.warnings);
-  const QualitySummary quality = summarize_quality(result.mesh);
-  if constexpr (D == 3) report.set("precision", result.precision);
-  fill(report, a, threads, bounds, result, quality);
-
-  seconds.write_at = total.seconds();
-  Hints hints;
-  const auto write = [&] {
-    if (!result.mesh.cells.empty()) write_as_asked(a, plc, result.mesh, report);
-    seconds.write = total.seconds() - seconds.write_at;
-  };
-  const auto find_hints = [&] {
-    if (result.poor_left > 0 && result.stop != StopCause::cancelled) hints = hints_for(plc, a.reading, hinted);
-  };
-  tbb::parallel_invoke(write, find_hints);
-  seconds.total = total.seconds();
-  report.set("seconds", JsonObject{{"read", seconds.read}, {"mesh", result.statistics.seconds_mesh},
-                                   {"initial", result.statistics.seconds_initial},
-                                   {"refine", result.statistics.seconds_refine}, {"write", seconds.write},
-                                   {"total", seconds.total}});
-  report.set("peak_rss_bytes", peak_rss_bytes());
-  if (!a.quiet) print_summary(a, plc, bounds, result, quality, seconds);
-  if (!a.quiet) {
-    note_precision(plc, result.precision);
-    note_merge(plc, a.reading);
-  }
-  give(hints.precision, a.quiet, report);
-  give(hints.merge, !a.quiet, report);
-  if (!a.trace.empty()) {
-    std::string trace_file = a.trace;
-    write_trace(a, result, seconds);
-    report.trace_file = std::move(trace_file);
-  }
-
-  if (result.stop != StopCause::finished) return exit_stopped;
-  return a.no_refine || (result.poor_left == 0 && result.size_met) ? exit_done : exit_poor_left;
+  return bounds;
 }
+
+/// One run: read, mesh, write, print. Each step puts into the report what it knows.
+template <int D>
+class MeshRun {
+ public:
+  MeshRun(const MeshArguments& a, Report& report, const Stopwatch& total)
+      : a_(a),
+        report_(report),
+        total_(total),
+        bounds_(bounds_of<D>(a)),
+        options_(make_options<D>(a, bounds_)),
+        threads_(a.threads) {
+    options_.stop = signals_.token();
+  }
+
+  /// @returns the exit code
+  int run() {
+    read();
+    if (const std::optional<int> refused = mesh()) return *refused;
+    const QualitySummary quality = summarize_quality(result_.mesh);
+    if constexpr (D == 3) report_.set("precision", result_.precision);
+    fill(report_, a_, threads_, bounds_, result_, quality);
+    const Hints hints = write();
+    report_seconds();
+    print(quality, hints);
+    if (!a_.trace.empty()) {
+      std::string trace_file = a_.trace;
+      write_trace(a_, result_, seconds_);
+      report_.trace_file = std::move(trace_file);
+    }
+    if (result_.stop != StopCause::finished) return exit_stopped;
+    return a_.no_refine || (result_.poor_left == 0 && result_.size_met) ? exit_done : exit_poor_left;
+  }
+
+ private:
+  void read() {
+    seconds_.read_at = total_.seconds();
+    plc_ = read_input<D>(a_.input, a_.reading, repairs_);
+    if constexpr (D == 3) report_.set("precision", plc_.precision);
+    report_.set("merge_points", plc_.merge_within);
+    if constexpr (D == 2) {
+      report_.set("resolve_crossings", a_.reading.resolve_crossings);
+      report_.set("convex_hull", a_.reading.convex_hull);
+    }
+    report_.set("region_mode", name(a_.regions));
+    seconds_.mesh_at = total_.seconds();
+    seconds_.read = seconds_.mesh_at - seconds_.read_at;
+  }
+
+  /// The exit code if a diagnosis refuses the input.
+  std::optional<int> mesh() {
+    try {
+      ProgressLine line(!a_.quiet);
+      if (!a_.quiet) options_.progress = [&](const Progress& p) { show(line, p); };
+      result_ = refine(plc_, options_);
+    } catch (const InputError&) {  // which names one culprit: find them all
+      const Diagnosis<D> diagnosis = diagnose(plc_);
+      JsonObject findings;
+      set_findings(findings, diagnosis);
+      report_.set("diagnosis", findings);
+      if (diagnosis.error_count() == 0) {
+        give(find_merge_hint<D>(plc_, nullptr), !a_.quiet, report_);
+        throw;
+      }
+      return refuse(plc_, diagnosis, report_);
+    }
+    result_.repairs.insert(result_.repairs.begin(), repairs_.begin(), repairs_.end());
+    if (!a_.quiet) print_warnings(result_.warnings);
+    return std::nullopt;
+  }
+
+  /// The progress; and once, to whoever has waited for a while, the hint that it need not take long.
+  void show(ProgressLine& line, const Progress& p) {
+    line(p);
+    if (hinted_ || total_.seconds() < patience_seconds) return;
+    hinted_ = true;
+    line.clear();
+    give(find_precision_hint<D>(plc_, nullptr, a_.reading), a_.quiet, report_);
+    std::fflush(stdout);
+  }
+
+  /// Writes the mesh, and looks for hints meanwhile.
+  Hints write() {
+    seconds_.write_at = total_.seconds();
+    Hints hints;
+    const auto write_mesh = [&] {
+      if (!result_.mesh.cells.empty()) write_as_asked(a_, plc_, result_.mesh, report_);
+      seconds_.write = total_.seconds() - seconds_.write_at;
+    };
+    const auto find_hints = [&] {
+      if (result_.poor_left > 0 && result_.stop != StopCause::cancelled) hints = hints_for(plc_, a_.reading, hinted_);
+    };
+    tbb::parallel_invoke(write_mesh, find_hints);
+    return hints;
+  }
+
+  void report_seconds() {
+    const RefineStatistics& s = result_.statistics;
+    seconds_.total = total_.seconds();
+    report_.set("seconds", JsonObject{{"read", seconds_.read}, {"mesh", s.seconds_mesh}, {"initial", s.seconds_initial},
+                                      {"refine", s.seconds_refine}, {"write", seconds_.write}, {"total", seconds_.total}});
+    report_.set("peak_rss_bytes", peak_rss_bytes());
+  }
+
+  void print(const QualitySummary& quality, const Hints& hints) {
+    if (!a_.quiet) {
+      print_summary(a_, plc_, bounds_, result_, quality, seconds_);
+      note_precision(plc_, result_.precision);
+      note_merge(plc_, a_.reading);
+    }
+    give(hints.precision, a_.quiet, report_);
+    give(hints.merge, !a_.quiet, report_);
+  }
+
+  const MeshArguments& a_;
+  Report& report_;
+  const Stopwatch& total_;
+  const Bounds<D> bounds_;
+  RefineOptions<D> options_;
+  const StopOnSignal signals_;
+  const Threads threads_;
+  Seconds seconds_;
+  std::vector<Diagnostic> repairs_;
+  Plc<D> plc_;
+  RefineResult<D> result_;
+  bool hinted_ = false;  ///< has the precision hint been given while the mesh was made?
+};
 
 }  // namespace
 
@@ -326,7 +373,7 @@ int mesh(const MeshArguments& arguments, Report& report) {
     require_writable(arguments.trace, {arguments.input, arguments.output, arguments.report});
   const int dimension = file_dimension(arguments.input);
   report.set("dimension", dimension);
-  return dimension == 2 ? mesh_as<2>(arguments, report, total) : mesh_as<3>(arguments, report, total);
+  return dimension == 2 ? MeshRun<2>(arguments, report, total).run() : MeshRun<3>(arguments, report, total).run();
 }
 
 }  // namespace pgdr::tool

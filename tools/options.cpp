@@ -91,7 +91,7 @@ CLI::Validator shaped(bool (*accept)(const std::string&), const std::string& wha
           "", what};
 }
 
-/// One of the words of a map from words to values. Words of the contract may be missing in it: it says what there is.
+/// A word of the map from words to values.
 template <class Value>
 CLI::Validator one_of(const std::map<std::string, Value>& words, std::string what) {
   return {[&words, what](std::string& text) {

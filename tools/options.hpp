@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The arguments of the command as data. Flags are a fixed contract: they may be added, never changed.
+// The arguments of the command as data. docs/usage.md describes every flag.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ struct InputArguments {
   bool resolve_crossings = false, convex_hull = false;
   std::optional<double> precision;     ///< none: that of Plc
   bool precision_auto = false;         ///< instead: suggested_precision
-  std::optional<double> merge_points;  ///< likewise
+  std::optional<double> merge_points;  ///< none: that of Plc
 };
 
 struct MeshArguments {
@@ -53,7 +53,7 @@ struct MeshArguments {
   std::optional<std::uint64_t> max_vertices;
   std::optional<double> time_limit;
   std::string report;   ///< empty: none
-  std::string trace;    ///< likewise
+  std::string trace;    ///< empty: none
   bool quiet = false;
 };
 
@@ -100,8 +100,8 @@ std::optional<std::pair<double, std::string>> split_region_size(const std::strin
 /// The word of --schedule.
 const char* name(Schedule schedule);
 
-/// What the command line asks for, or, when there is nothing left to do (--help, --version, wrong usage: printed),
-/// the exit code.
+/// Parses the command line. The exit code if there is nothing left to do: --help, --version, and wrong usage, which are printed
+/// here.
 std::variant<Arguments, int> parse(int argc, const char* const* argv);
 
 }  // namespace pgdr::tool

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The JSON report of --report. Its keys are a fixed contract (docs/usage.md): they may be added, never changed, and a
-// key is there only with a value that was measured.
+// The JSON report of --report. docs/usage.md describes its keys. A key is there only with a value that was measured.
 #pragma once
 
 #include <optional>
@@ -17,7 +16,7 @@
 
 namespace pgdr::tool {
 
-/// The object, with `errors` and the writing of the file.
+/// The report: an object with `errors`, which can be written to a file.
 class Report : public JsonObject {
  public:
   void add_error(const Diagnostic& error);
@@ -38,7 +37,7 @@ JsonObject to_json(const PoorReason& r);
 JsonObject to_json(const PredicateCounts& counts);  ///< shares by stage, and `calls`
 JsonObject to_json(const SchedulerStatistics& s);
 JsonObject to_json(const CheckFinding& finding);
-/// The same of a list.
+/// An array of these.
 template <class Value>
 Json to_json(const std::vector<Value>& list) {
   std::vector<Json> values;
@@ -51,12 +50,12 @@ const char* name(EntityKind kind);
 const char* name(StopCause cause);
 const char* name(RegionMode mode);
 
-/// What a report that `pgdr mesh` wrote says of poor cells.
+/// What a report of `pgdr mesh` says that its check needs.
 struct ReportedBounds {
   std::vector<PoorReason> reasons;
   std::optional<double> radius_edge;  ///< the bound of a run that was not stopped
-  std::optional<double> precision;    ///< of the facets, 3D
-  std::optional<double> merge_points; ///< within which points were one
+  std::optional<double> precision;    ///< 3D: Plc::precision
+  std::optional<double> merge_points; ///< Plc::merge_within
   bool resolve_crossings = false, convex_hull = false;  ///< what was done to the input, 2D
   RegionMode regions = RegionMode::seeds;
 };

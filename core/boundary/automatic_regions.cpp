@@ -144,12 +144,12 @@ std::vector<std::uint32_t> components_in_order(const Mesh<D>& mesh, const Domain
     const auto* k = mesh.alive(CellId{i}) ? mesh.constraints(CellId{i}) : nullptr;
     if (k == nullptr) continue;
     for (int f = 0; f <= D; ++f) {
-      if ((k->faces >> f & 1) == 0) continue;
+      if (!k->has_face(f)) continue;
       if constexpr (D == 2) {
         add(component[i], k->face_entity[static_cast<std::size_t>(f)]);
       } else {
-        for (std::size_t e = 0; e < 6; ++e)
-          if ((k->edges >> e & 1) != 0 && edge_ends[e][0] != f && edge_ends[e][1] != f)
+        for (int e = 0; e < 6; ++e)
+          if (k->has_edge(e) && edge_ends[e][0] != f && edge_ends[e][1] != f)
             add(component[i], k->edge_entity[e]);
       }
     }

@@ -12,14 +12,14 @@
 namespace pgdr::detail {
 namespace {
 
-constexpr double strips = 4;  // times the bound: what a triangle is over where segments meet at less than 60 degrees
+constexpr double strips = 4;  // the factor of the bound where segments meet at less than 60 degrees
 
 template <class T>
 std::array<T, 2> sorted_ends(T a, T b) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-/// Of length one, square to ab, towards c.
+/// The unit vector perpendicular to ab, towards c.
 Vector<3> direction_into(const Point3& a, const Point3& b, const Point3& c) {
   const auto along = difference(b, a), up = difference(c, a);
   const double part = dot(up, along) / dot(along, along);
@@ -30,7 +30,7 @@ Vector<3> direction_into(const Point3& a, const Point3& b, const Point3& c) {
   return d;
 }
 
-/// By segment: does it make less than 20 degrees with another one?
+/// For each segment: does it make less than 20 degrees with another one?
 std::vector<bool> at_sharp_angle(const Domain<3>& domain) {
   constexpr double squared_cosine = 0.8830222215594890;  // of 20 degrees
   const auto segments = domain.segments();
@@ -55,7 +55,7 @@ std::vector<bool> at_sharp_angle(const Domain<3>& domain) {
   return sharp;
 }
 
-/// By segment: do all facets there meet at 60 degrees at least?
+/// For each segment: do all facets there meet at 60 degrees at least?
 std::vector<bool> with_wide_ridge(const Domain<3>& domain) {
   const auto segments = domain.segments();
   const auto points = domain.points();
@@ -81,8 +81,8 @@ std::vector<bool> with_wide_ridge(const Domain<3>& domain) {
 
 }  // namespace
 
-/// By the least angle that a segment of the facet makes with another one; 0 but where its facets meet at no less than 60 degrees
-/// and it is plane but for rounding.
+/// Finds the factor of each facet, by the least angle that a segment of it makes with another one. It is 0 unless the facets at
+/// all of these segments meet at 60 degrees or more, and the facet is plane but for rounding.
 void FacetPatches::find_factors() {
   const std::vector<bool> wide = with_wide_ridge(*domain_), sharp = at_sharp_angle(*domain_);
   for (EntityId f = 0; f < triangles_.size(); ++f) {

@@ -205,9 +205,9 @@ Point3 FacetPatches::centroid_of(const Triangle& t) const {
   return c;
 }
 
-/// Of the subsegments of the facet that x lies beyond, the one nearest to triangle t, which hides what is behind it: to split one of
-/// those does nothing about t, and would go on for ever. If there is none, the first whose diametral ball contains x. `tree` is over
-/// the rim's balls in the facet's projection.
+/// The subsegment that hides x from triangle t: of those of the facet that x lies beyond, the one nearest to t. (To split one of
+/// the others does nothing about t, and would go on for ever.) If there is none, the first whose diametral ball contains x.
+/// `tree` is over the rim's balls in the facet's projection.
 auto FacetPatches::in_the_way(const std::vector<Subsegment>& rim, const BoxTree<2>& tree, EntityId facet, const Triangle& t,
                               const Point3& x) const -> std::optional<Subsegment> {
   const int axis = domain_->facets()[facet].axis;
@@ -291,13 +291,8 @@ bool FacetPatches::split_triangles(EntityId facet, std::vector<Candidate> candid
   return any;
 }
 
-/// On both sides of each triangle. @pre none is missing
+/// Marks the faces on both sides of each triangle. @pre none is missing
 void FacetPatches::mark(Mesh<3>::Pools& pools) {
-  const auto mark_face = [&](CellId c, int face, EntityId f) {
-    auto& k = mesh_->ensure_constraints(pools, c);
-    k.faces |= static_cast<std::uint8_t>(1 << face);
-    k.face_entity[face] = f;
-  };
   for (EntityId f = 0; f < triangles_.size(); ++f)
     for (std::size_t i = 0; i < triangles_[f].size(); ++i) {
       const Triangle& t = triangles_[f][i];
@@ -307,8 +302,8 @@ void FacetPatches::mark(Mesh<3>::Pools& pools) {
       const auto is_other = [&](VertexId w) { return std::find(t.begin(), t.end(), w) == t.end(); };
       const int face = static_cast<int>(std::find_if(v.begin(), v.end(), is_other) - v.begin());
       const Link beyond = mesh_->cell(c).links[face];
-      mark_face(c, face, f);
-      mark_face(beyond.cell(), beyond.face(), f);
+      mesh_->constrain_face(pools, c, face, f);
+      mesh_->constrain_face(pools, beyond.cell(), beyond.face(), f);
     }
 }
 

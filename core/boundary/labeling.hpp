@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is inside: the exterior and the holes are carved away, regions get their numbers. Serial.
+// Carving: the exterior and the holes are taken out of the mesh, and regions get their numbers. Serial.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@
 
 namespace pgdr {
 
-/// What is known of the regions.
+/// The regions of the mesh.
 struct RegionTable {
   std::vector<double> attribute{0.0};  ///< by region number; 0 is what no seed labels
   std::vector<double> measure;         ///< bound of each region, infinity for none; empty if no region has one

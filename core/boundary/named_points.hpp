@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is refused after a Domain was made is named by points of the input. Pure functions, any thread.
+// Words for errors that are found after a Domain was made: they name points of the input. Pure functions, any thread.
 #pragma once
 
 #include <span>
@@ -12,7 +12,7 @@
 
 namespace pgdr::detail {
 
-/// About these domain points: their numbers in the input and coordinates, the file, and the line of the first.
+/// A diagnostic about these domain points, with their numbers in the input and coordinates, the file, and the line of the first.
 template <int D>
 Diagnostic about_points(Errc code, const Domain<D>& domain, std::span<const std::uint32_t> points);
 

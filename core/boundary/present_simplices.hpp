@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which edges or triangles of a mesh are there, asked again and again of a mesh that changes little in between. Each is remembered
-// with a cell that had it. It needs another look only once this cell was deleted; and if it is still there, one of the cells made
-// since has it: of an edge or triangle that is left of a cavity, a face of its boundary has it, and the new cell on that face. So it
-// is with those that were missing, and with those that have a new vertex.
+// A look-up of which edges or triangles are in a mesh, for a mesh that changes little from one look to the next. Each is
+// remembered with a cell that had it, and needs another look only once this cell was deleted. If it is still there, one of the
+// cells made since has it: an edge or triangle that is left of a cavity is in a face of its boundary, and so in the new cell on
+// that face. The same holds for those that were missing, and for those that have a new vertex.
 #pragma once
 
 #include <algorithm>
@@ -26,11 +26,11 @@ template <std::size_t K>
 bool has_corners(const Mesh<3>& mesh, CellId c, const std::array<VertexId, K>& vertices) {
   if (c == not_seen || c == never_asked || !mesh.alive(c)) return false;
   const auto& corners = mesh.cell(c).vertices;
-  return std::all_of(vertices.begin(), vertices.end(), [&](VertexId v) { return std::find(corners.begin(), corners.end(), v) != corners.end(); });
+  return std::all_of(vertices.begin(), vertices.end(), [&](VertexId v) { return has_corner(corners, v); });
 }
 
-/// K: how many vertices each has, 2 or 3. Looks are: take_due(), ask() for all simplices of these owners and of those that have got
-/// new ones, find(). The mesh does not change during one.
+/// The edges (K = 2) or triangles (K = 3) that were asked for. A look is take_due(), then ask() for all simplices of these owners
+/// and of owners that have new ones, then find(). The mesh must not change during a look.
 template <std::size_t K>
 class PresentSimplices {
  public:
@@ -38,7 +38,7 @@ class PresentSimplices {
 
   ChangedCells& changed() { return changed_; }  ///< gets every cell that is made or deleted
 
-  /// Owners of simplices that were seen in a cell which is no more; with repetitions.
+  /// The owners of simplices that were seen in a cell which was deleted; with repetitions.
   std::vector<EntityId> take_due() {
     std::vector<EntityId> due;
     for (const CellId c : changed_.list()) {
@@ -52,7 +52,8 @@ class PresentSimplices {
     }
     return due;
   }
-  /// `seen`: where it was seen last, not_seen, or never_asked; to stay where it is until find() has set it.
+  /// Asks for a simplex. `seen`: the cell where it was seen last, not_seen, or never_asked; find() sets it, so it must live until
+  /// then.
   void ask(EntityId owner, const std::array<VertexId, K>& vertices, CellId& seen) {
     if (has_corners(*mesh_, seen, vertices)) {
       if (changed_.contains(seen)) watch(seen, owner);  // another cell, in its place
@@ -64,7 +65,7 @@ class PresentSimplices {
     wanted_.add(vertices, static_cast<EntityId>(asked_.size()));
     asked_.push_back({owner, &seen});
   }
-  /// Sets for each simplex that was asked for the cell that has it; not_seen if there is none.
+  /// Answers: sets `seen` of each simplex that was asked for to a cell that has it, or to not_seen.
   void find() {
     for (const CellId c : changed_.list())
       if (mesh_->alive(c)) note_vertices(c);

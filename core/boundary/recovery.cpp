@@ -14,20 +14,22 @@
 namespace pgdr {
 namespace {
 
-/// Recovery by Steiner points on facets need not end where facets meet at small angles or nearly touch: past this many points it is
-/// given up with a typed error, unless less is missing than was before. (Between two faces 1e-9 apart 1.85 times as many triangles
-/// are missing round by round; in a terrain with facets at a tenth of a degree it is twice as many segments, until there are 300
-/// points for one of the input, and soon a third from there on.)
+/// The most points of missing pieces. Recovery by Steiner points need not end where facets meet at small angles or nearly touch.
+/// (Between two faces 1e-9 apart 1.85 times as many triangles are missing round by round. In a terrain with facets at a tenth of
+/// a degree it is twice as many segments, until there are 300 points for one of the input, and soon a third from there on.)
 std::uint64_t most_points(std::size_t input_points) {
   return 200000 + 100 * std::uint64_t{input_points} + std::min<std::uint64_t>(300 * std::uint64_t{input_points}, 1500000);
 }
-constexpr std::uint64_t most_points_more = 5000000;  // while it becomes less
+constexpr std::uint64_t most_points_more = 5000000;  // in addition, while less is missing than was before
 constexpr std::uint64_t most_rounds = 2000;          // of these
 
-/// Nothing is missing before triangles are split for their shape: where that takes more points than this is to be done without.
+/// The most points of pieces that went missing since triangles are split for their shape, which `improving` points were for.
 std::uint64_t most_points_after(std::size_t input_points, std::uint64_t improving) {
   return 20000 + 10 * std::uint64_t{input_points} + 4 * improving;
 }
+
+constexpr auto time_between_reports = std::chrono::milliseconds(200);
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The least angle at which two facets of the segment meet, in degrees.
 double least_angle_at(const Domain<3>& domain, EntityId segment) {
@@ -39,7 +41,7 @@ double least_angle_at(const Domain<3>& domain, EntityId segment) {
   return least;
 }
 
-/// Names the segment, or the facet, that has got the most points, by its points in the input.
+/// The error that ends a recovery: it names the segment or facet with the most points.
 InputError not_recovered(const Domain<3>& domain, const detail::SegmentChains& chains, const detail::FacetPatches& patches,
                          std::uint64_t points) {
   EntityRef most;
@@ -62,74 +64,143 @@ InputError not_recovered(const Domain<3>& domain, const detail::SegmentChains& c
   return InputError(std::move(d));
 }
 
+/// What ends a recovery early: the caller, or the time.
+template <int D>
+class EarlyEnd {
+ public:
+  EarlyEnd(const RefineOptions<D>& options, std::chrono::steady_clock::time_point start) : options_(&options), start_(start) {}
+
+  /// Asks the clock and the stop token.
+  bool is_reached() {
+    if (options_->stop.stop_requested()) cause_ = StopCause::cancelled;
+    if (options_->time_limit && std::chrono::steady_clock::now() - start_ >= *options_->time_limit)
+      cause_ = StopCause::time_limit;
+    return cause_ != StopCause::finished;
+  }
+  void set(StopCause cause) { cause_ = cause; }  ///< for another reason
+  StopCause cause() const { return cause_; }     ///< finished: it has not ended early
+
+ private:
+  const RefineOptions<D>* options_;
+  std::chrono::steady_clock::time_point start_;
+  StopCause cause_ = StopCause::finished;
+};
+
+/// The recovery in 3D: rounds that split what is missing, then rounds that split poor triangles and what goes missing by that.
+class BoundaryRecovery {
+ public:
+  BoundaryRecovery(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>& domain, const RefineOptions<3>& options,
+                   std::chrono::steady_clock::time_point start, RecoveryCounts& counts)
+      : domain_(&domain),
+        options_(&options),
+        counts_(&counts),
+        chains_(mesh, delaunay, domain),
+        patches_(mesh, delaunay, domain, chains_),
+        end_(options, start),
+        last_report_(start) {}
+
+  StopCause run(Mesh<3>::Pools& pools) {
+    if (recover()) {
+      patches_.mark(pools);
+      chains_.mark(pools);
+    }
+    counts_->segment_points = chains_.points();
+    counts_->facet_points = patches_.points();
+    return end_.cause();
+  }
+
+ private:
+  bool recover();
+  bool improve();
+  bool is_over();
+  void check_budget() const;
+  bool must_end();
+  void report();
+  std::uint64_t points() const { return chains_.points() + patches_.points(); }
+  std::uint64_t vertices() const { return domain_->points().size() + points(); }
+
+  const Domain<3>* domain_;
+  const RefineOptions<3>* options_;
+  RecoveryCounts* counts_;
+  detail::SegmentChains chains_;
+  detail::FacetPatches patches_;
+  EarlyEnd<3> end_;
+  std::chrono::steady_clock::time_point last_report_;
+  std::uint64_t needed_ = 0;  ///< points, before any was for the shape of a triangle
+};
+
+/// Is nothing missing in the end, and no triangle poor? False: it ended early.
+bool BoundaryRecovery::recover() {
+  const auto stop = [this] { return is_over(); };
+  while (true) {
+    ++counts_->rounds;
+    if (is_over() || !chains_.recover(stop)) return false;
+    if (!patches_.recover_once(stop) && !improve()) return true;
+  }
+}
+
+/// Splits poor triangles, one round. False if there are none. Triangles up to twice the bound are left to the refinement, which
+/// splits them in the order that makes few points.
+bool BoundaryRecovery::improve() {
+  const double bound = options_->refine ? 2 * std::max(options_->radius_edge_bound, 2.0) : infinity;
+  if (!(bound < infinity)) return false;
+  const std::uint64_t before = points();
+  if (counts_->improving == 0) needed_ = before;
+  const bool any = patches_.split_poor_triangles(bound, options_->min_edge, [this] { return must_end(); });
+  counts_->improving += points() - before;
+  return any;
+}
+
+/// Must it end? @throws InputError boundary_not_recovered, past the budget of points
+bool BoundaryRecovery::is_over() {
+  check_budget();
+  return must_end();
+}
+
+void BoundaryRecovery::check_budget() const {
+  const std::size_t input_points = domain_->points().size();
+  const std::uint64_t missing = points() - counts_->improving;
+  const bool is_falling = patches_.trend().rounds() > 1 ? patches_.trend().is_falling() : chains_.trend().is_falling();
+  const std::uint64_t more = is_falling && counts_->rounds < most_rounds ? most_points_more : 0;
+  const bool too_many = missing > most_points(input_points) + more;
+  const bool too_many_after = counts_->improving > 0 && missing - needed_ > most_points_after(input_points, counts_->improving);
+  if (too_many || too_many_after) throw not_recovered(*domain_, chains_, patches_, missing);
+}
+
+/// Do the limits of the caller end it? Reports progress, too.
+bool BoundaryRecovery::must_end() {
+  report();
+  if (vertices() >= options_->max_vertices) end_.set(StopCause::max_vertices);
+  return end_.is_reached();
+}
+
+void BoundaryRecovery::report() {
+  if (!options_->progress) return;
+  const auto now = std::chrono::steady_clock::now();
+  if (now - last_report_ < time_between_reports) return;
+  last_report_ = now;
+  options_->progress({vertices(), 0});
+}
+
+/// The recovery in 2D, which needs no points.
+StopCause insert_segments(Mesh<2>& mesh, Mesh<2>::Pools& pools, const Delaunay<2>& delaunay, const Domain<2>& domain,
+                          EarlyEnd<2> end) {
+  const auto stop = [&end] { return end.is_reached(); };
+  if (!stop()) detail::SegmentInsertion(mesh, pools, delaunay, domain).run(stop);
+  return end.cause();
+}
+
 }  // namespace
 
 template <int D>
-StopCause recover_boundary(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, Delaunay<D>& delaunay,
-                           const Domain<D>& domain, const RefineOptions<D>& options,
-                           std::chrono::steady_clock::time_point start, RecoveryCounts& counts) {
-  StopCause cause = StopCause::finished;
-  auto stopped = [&] {
-    if (options.stop.stop_requested()) cause = StopCause::cancelled;
-    if (options.time_limit && std::chrono::steady_clock::now() - start >= *options.time_limit)
-      cause = StopCause::time_limit;
-    return cause != StopCause::finished;
-  };
+StopCause recover_boundary(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, Delaunay<D>& delaunay, const Domain<D>& domain,
+                           const RefineOptions<D>& options, std::chrono::steady_clock::time_point start, RecoveryCounts& counts) {
   if constexpr (D == 3) {
-    detail::SegmentChains chains(mesh, delaunay, domain);
-    detail::FacetPatches patches(mesh, delaunay, domain, chains);
-    // Triangles up to twice the bound are left to the refinement, which splits them in the order that makes few points.
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    const double bound = options.refine ? 2 * std::max(options.radius_edge_bound, 2.0) : infinity;
-    const std::uint64_t most = most_points(domain.points().size());
-    auto steiner = [&] { return chains.points() + patches.points(); };
-    auto told = start;
-    auto tell = [&] {
-      if (!options.progress) return;
-      const auto now = std::chrono::steady_clock::now();
-      if (now - told < std::chrono::milliseconds(200)) return;
-      told = now;
-      options.progress({domain.points().size() + steiner(), 0});
-    };
-    auto ended = [&] {
-      tell();
-      if (domain.points().size() + steiner() >= options.max_vertices) cause = StopCause::max_vertices;
-      return stopped();
-    };
-    std::uint64_t needed = 0;  // points, before any was for the shape of a triangle
-    auto stop = [&] {
-      const std::uint64_t missing = steiner() - counts.improving;
-      const bool is_falling = patches.trend().rounds() > 1 ? patches.trend().is_falling() : chains.trend().is_falling();
-      const bool too_many = missing > most + (is_falling && counts.rounds < most_rounds ? most_points_more : 0);
-      const bool too_many_after =
-          counts.improving > 0 && missing - needed > most_points_after(domain.points().size(), counts.improving);
-      if (too_many || too_many_after) throw not_recovered(domain, chains, patches, missing);
-      return ended();
-    };
-    auto improve = [&] {
-      const std::uint64_t before = steiner();
-      if (counts.improving == 0) needed = before;
-      const bool any = patches.split_poor_triangles(bound, options.min_edge, ended);
-      counts.improving += steiner() - before;
-      return any;
-    };
-    do {
-      ++counts.rounds;
-      if (stop() || !chains.recover(stop)) break;
-      if (!patches.recover_once(stop)) {
-        if (bound < infinity && improve()) continue;
-        patches.mark(pools);
-        chains.mark(pools);
-        break;
-      }
-    } while (true);
-    counts.segment_points = chains.points();
-    counts.facet_points = patches.points();
+    return BoundaryRecovery(mesh, delaunay, domain, options, start, counts).run(pools);
   } else {
-    if (!stopped()) detail::SegmentInsertion(mesh, pools, delaunay, domain).run(stopped);
     counts.rounds = 1;
+    return insert_segments(mesh, pools, delaunay, domain, {options, start});
   }
-  return cause;
 }
 
 template StopCause recover_boundary<2>(Mesh<2>&, Mesh<2>::Pools&, Delaunay<2>&, const Domain<2>&,

@@ -115,9 +115,7 @@ void SegmentInsertion::mark() {
     for (int f = 0; f < 3; ++f) {
       if (!fixed(c, f)) continue;
       const auto& v = mesh_->cell(c).vertices;
-      auto& k = mesh_->ensure_constraints(*pools_, c);
-      k.faces |= static_cast<std::uint8_t>(1 << f);
-      k.face_entity[f] = edges.find({v[(f + 1) % 3], v[(f + 2) % 3]})->entity;
+      mesh_->constrain_face(*pools_, c, f, edges.find({v[(f + 1) % 3], v[(f + 2) % 3]})->entity);
     }
   }
 }

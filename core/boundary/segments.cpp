@@ -6,6 +6,7 @@
 
 #include "boundary/named_points.hpp"
 #include "boundary/state.hpp"
+#include "mesh/ridge.hpp"
 
 namespace pgdr::detail {
 
@@ -92,31 +93,21 @@ std::vector<EntityId> SegmentChains::take_changed() {
   return std::exchange(changed_, {});
 }
 
-/// In all cells at each subsegment, one after the other round it, from that in which it was seen. @pre none is missing
+/// Marks the edge in all cells at each subsegment, round it from the cell in which it was seen. @pre none is missing
 void SegmentChains::mark(Mesh<3>::Pools& pools) {
   for (EntityId s = 0; s < chains_.size(); ++s)
     for (std::size_t i = 1; i < chains_[s].size(); ++i) {
       const VertexId a = chains_[s][i - 1].vertex, b = chains_[s][i].vertex;
       const CellId first = chains_[s][i].seen;
       assert(has_corners<2>(*mesh_, first, {a, b}));
-      CellId c = first;
-      VertexId behind = no_vertex;  // the way goes on through the face without it
-      do {
+      const auto edge_in = [&](CellId c) {
         const auto& v = mesh_->cell(c).vertices;
-        int at_a = -1, at_b = -1, out = -1, next = -1;
-        for (int k = 0; k < 4; ++k) {
-          if (v[k] == a) at_a = k;
-          else if (v[k] == b) at_b = k;
-          else if (out < 0 && (behind == no_vertex || v[k] == behind)) out = k;
-          else next = k;
-        }
-        auto& constraints = mesh_->ensure_constraints(pools, c);
-        const int e = edge_of_ends[at_a][at_b];
-        constraints.edges |= static_cast<std::uint8_t>(1 << e);
-        constraints.edge_entity[e] = s;
-        behind = v[next];
-        c = mesh_->cell(c).links[out].cell();
-      } while (c != first);
+        return edge_of_ends[corner_of(v, a)][corner_of(v, b)];
+      };
+      for_cells_round(*mesh_, first, edge_in(first), [&](const RidgeWalk<3>& walk) {
+        mesh_->constrain_edge(pools, walk.cell, edge_in(walk.cell), s);
+        return RoundEdge::go_on;
+      });
     }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What boundary recovery works on; private to this room.
+// The state of boundary recovery in 3D: the chains of subsegments and the triangulated facets. Private to this room.
 #pragma once
 
 #include <algorithm>
@@ -25,13 +25,14 @@
 
 namespace pgdr::detail {
 
+/// A piece of a segment between two neighbours in its chain.
 struct Subsegment {
   EntityId segment;
   VertexId a, b;
   double t;  ///< parameter of a on the segment
 };
 
-/// How many were missing, round by round.
+/// The trend of how many simplices were missing, round by round.
 class MissingTrend {
  public:
   void note(std::size_t missing) {
@@ -40,7 +41,7 @@ class MissingTrend {
     ++rounds_;
   }
   std::uint64_t rounds() const { return rounds_; }
-  bool is_falling() const { return last_ < most_; }  ///< there were more
+  bool is_falling() const { return last_ < most_; }  ///< were more missing before?
 
  private:
   std::size_t most_ = 0, last_ = 0;
@@ -50,11 +51,12 @@ class MissingTrend {
 /// 3D: the subsegments of every segment, and where to split them.
 class SegmentChains {
  public:
+  /// A vertex of a chain.
   struct Link {
     VertexId vertex;
     double t;  ///< parameter on the segment
     std::uint32_t round = 0;  ///< in which it was made
-    CellId seen = never_asked;  ///< that has the edge to it from the one before
+    CellId seen = never_asked;  ///< a cell that has the edge to it from the vertex before
   };
 
   SegmentChains(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>& domain);

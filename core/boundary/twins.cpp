@@ -14,14 +14,14 @@
 namespace pgdr::detail {
 namespace {
 
-/// Of a segment, away from one of its ends.
+/// The direction of a segment away from one of its ends.
 struct Direction {
   std::uint32_t apex;
   Point3 unit;
   EntityId segment;
 };
 
-/// By apex and first coordinate.
+/// The order by apex and first coordinate.
 std::vector<Direction> directions_of(const Domain<3>& domain) {
   std::vector<Direction> all;
   for (EntityId s = 0; s < domain.segments().size(); ++s)

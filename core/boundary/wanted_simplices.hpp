@@ -14,6 +14,7 @@
 
 namespace pgdr::detail {
 
+/// Edges (K = 2) or triangles (K = 3), each with an entity. add() all, then sort() or index_by_first(), then find().
 template <std::size_t K>
 class WantedSimplices {
  public:
@@ -26,11 +27,11 @@ class WantedSimplices {
     std::sort(vertices.begin(), vertices.end());
     items_.push_back({vertices, entity});
   }
-  /// To be called after all `add`s: so that find() takes a search among all.
+  /// Makes find() a binary search among all.
   void sort() {
     std::sort(items_.begin(), items_.end(), [](const Item& a, const Item& b) { return a.vertices < b.vertices; });
   }
-  /// Or this, which takes time for every vertex: a search among those with the same first vertex.
+  /// Makes find() a binary search among those with the same first vertex; takes time for every vertex of the mesh.
   void index_by_first(std::uint32_t vertex_bound) {
     sort();
     begin_.assign(vertex_bound + 1, 0);

@@ -1,16 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One insertion (Bowyer-Watson) in its phases: collect and judge read, commit writes; giving up before commit is free.
-// The cavity is the set of cells in conflict with the new point p that are reached from a seed without crossing a
-// constrained face, except the part of the facet (segment) that p lies on: of a subfacet in that part the cells on
-// both sides are taken as soon as one of them is in conflict. Then it is cut back, by exact orientation, to its
-// largest star-shaped part; the cells next to the split entity, or the seed, are never given up.
+// One insertion (Bowyer-Watson) in its phases: collect and judge read, commit writes. Giving up before commit is free.
 //
-// Ownership is part of collect: a cell in conflict that the visit does not own ends the attempt before any neighbour of it
-// is read, and walks round a ridge step from owned cells only (visit_area.hpp).
+// The cavity is the set of cells in conflict with the new point p that are reached from a seed without crossing a constrained
+// face. The part of the facet (2D: segment) that p lies on may be crossed: of a subfacet in that part the cells on both sides are
+// taken as soon as one of them is in conflict. Then the cavity is cut back, by exact orientation, to its largest star-shaped
+// part. The cells next to the split entity, or the seed, are never given up.
 //
-// A Cavity is the workspace of one visit: one thread at a time; reused from insertion to insertion.
+// Ownership is part of collect: a cell in conflict that the visit does not own ends the attempt before any neighbour of it is
+// read, and walks round a ridge step from owned cells only (visit_area.hpp).
+//
+// Threads: a Cavity is part of a worker, one thread at a time. It is reused from insertion to insertion.
 #pragma once
 
 #include <cassert>
@@ -29,7 +30,7 @@
 
 namespace pgdr {
 
-/// What one insertion deletes and makes: see above. A workspace of one thread.
+/// The cavity of one insertion: the cells that it deletes and makes. One thread at a time.
 template <int D>
 class Cavity {
  public:
@@ -45,28 +46,28 @@ class Cavity {
     int face;  ///< opposite this vertex of the cell
     EntityId entity;  ///< the facet (2D: segment)
   };
-  /// Why a point may not go in.
+  /// May the point go in, as far as the last step could tell? Else why not.
   enum class Status {
-    ok,
+    ok,               ///< it may
     not_in_conflict,  ///< the rounded point does not lie in the seed's circumsphere
     not_star_shaped,  ///< a cell that must go cannot be seen from the point
     duplicate,        ///< the point is a vertex already
-    loses_entity,         ///< a vertex or a subsegment would vanish
+    loses_entity,     ///< a vertex or a subsegment would vanish
     not_owned,        ///< the visit's claim is too small
-    too_near,         ///< a vertex is nearer than asked for
-    too_many,         ///< it has more cells than asked for
-    stopped,          ///< the watch said so
+    too_near,         ///< a vertex is nearer than the demand allows
+    too_many,         ///< it has more cells than set_most_cells() allows
+    stopped,          ///< the FaceWatch ended it
   };
-  /// Is shown the constrained faces that bound the cavity, as they are found.
+  /// An observer, who is shown the constrained faces that bound the cavity as they are found.
   class FaceWatch {
    public:
-    virtual bool stops_at(CellId c, int face) = 0;  ///< Is the rest of no interest?
+    virtual bool stops_at(CellId c, int face) = 0;  ///< true: ends collect()
 
    protected:
     ~FaceWatch() = default;
   };
 
-  /// `domain` may be null where no insertion splits a facet.
+  /// Both outlive it. `domain` may be null where no insertion splits a facet.
   explicit Cavity(Mesh<D>& mesh, const Domain<D>* domain = nullptr) : mesh_(&mesh), domain_(domain) {}
   ~Cavity() {
     seen_ = nullptr;
@@ -74,62 +75,62 @@ class Cavity {
   }
   /// What the visit may change; null: everything.
   void set_area(const VisitArea<D>* area) { area_ = area; }
-  /// Of how many cells it may be, if not of any number.
+  /// The most cells that it may have; without a call, any number.
   void set_most_cells(std::size_t most) { most_cells_ = most; }
-  /// Where to add the cells that were collected and given up, with repetitions; null: nowhere.
+  /// A list that gets the cells that were collected and given up, with repetitions; null: none.
   void set_seen(std::vector<CellId>* seen) { seen_ = seen; }
   Cavity(const Cavity&) = delete;
   Cavity& operator=(const Cavity&) = delete;
 
   // ---- collect -----------------------------------------------------------------------------------------------------
-  /// A point in the volume; the seed must be in conflict with it.
+  /// Collects for a point in the volume. The seed must be in conflict with it.
   Status collect(const Point<D>& p, CellId seed, FaceWatch* watch = nullptr);
-  /// A point on the facet (2D: segment) that the constrained face belongs to, inside the face's circumcircle.
+  /// Collects for a point on the facet (2D: segment) that the constrained face belongs to, inside the face's circumcircle.
   Status collect_on_face(const Point<D>& p, CellId cell, int face);
-  /// 3D: a point on the subsegment that is edge `edge` of `cell`. Ends as soon as a vertex is nearer than `least`, twins of
-  /// `place`, if it is that, left out.
+  /// 3D: collects for a point on the subsegment that is edge `edge` of `cell`. Ends as soon as a vertex is nearer than `least`.
+  /// If the point is that of `place`, its twins may be nearer.
   Status collect_on_edge(const Point<D>& p, CellId cell, int edge, double least = 0, const SplitPlace* place = nullptr)
     requires(D == 3);
 
-  /// Does a look at the filter show that all of it is star-shaped about the point, which then lies in it? After `collect` said ok.
+  /// Do the filters show that all of it is star-shaped about the point, which then lies in it? @pre collect() said ok
   bool surely_star_shaped();
-  /// Cuts back to the star-shaped part. After `collect...` said ok.
+  /// Cuts back to the star-shaped part. @pre one of the collect functions said ok
   Status make_star_shaped();
-  /// Would a vertex or subsegment vanish? Cuts back further where that keeps the subsegment. Asked of cavities next to
-  /// constraints or cut back; costs a pass over all cells.
+  /// Cuts back further where a subsegment would vanish, if that keeps it; else, and if a vertex would vanish, loses_entity.
+  /// Needed for cavities that are cut back or next to constraints; costs a pass over all cells.
   Status keep_entities();
 
   // ---- what was collected ------------------------------------------------------------------------------------------
-  const Point<D>& point() const { return point_; }  ///< to be inserted
-  const std::vector<CellId>& cells() const { return cells_; }  ///< to be deleted
-  const std::vector<BoundaryFace>& boundary() const { return boundary_; }  ///< of these, constrained faces of the part left out
-  const std::vector<PartFace>& part() const { return part_; }  ///< what of the point's own facet (segment) it splits
-  CellId near_cell() const { return near_cell_; }  ///< of it, with a vertex that is too near. After `collect...` said so.
-  bool cut_back() const { return cut_back_; }  ///< was it cut back?
-  bool touches_constraints() const { return touches_constraints_; }  ///< has a cell of it any?
+  const Point<D>& point() const { return point_; }  ///< the point to be inserted
+  const std::vector<CellId>& cells() const { return cells_; }  ///< the cells to be deleted
+  const std::vector<BoundaryFace>& boundary() const { return boundary_; }  ///< their outer faces, but those of the part
+  const std::vector<PartFace>& part() const { return part_; }  ///< what it splits of the facet (2D: segment) that the point is on
+  CellId near_cell() const { return near_cell_; }  ///< a cell of it with a vertex too near. @pre a collect function said too_near
+  bool cut_back() const { return cut_back_; }  ///< has it given cells back?
+  bool touches_constraints() const { return touches_constraints_; }  ///< has a cell of it constraints?
 
   // ---- looking round -----------------------------------------------------------------------------------------------
   bool owns(CellId c) const { return !area_ || area_->owns(*mesh_, c); }  ///< may the visit change the cell?
-  /// The other constrained face of `entity` at the ridge of face `face` of `cell` that leaves out vertex `corner`, looked
-  /// for by walking round the ridge, first the one way, then (where that ends at the hull) the other. `owned` becomes
-  /// false where the walk would have to step on from a cell that is not.
+  /// The other constrained face of `entity` at the ridge of face `face` of `cell` that leaves out vertex `corner`. Walks round
+  /// the ridge, first the one way, then (where that ends at the hull) the other. `owned` becomes false where the walk would have
+  /// to step on from a cell that the visit does not own.
   Link entity_face_round_ridge(CellId cell, int face, int corner, EntityId entity, bool& owned) const;
 
   // ---- commit ------------------------------------------------------------------------------------------------------
-  /// Writes the star of the new vertex. Its entity's new subfacets and subsegments are marked.
+  /// Writes the star of the new vertex, and marks the new subfacets and subsegments of its entity. @returns the vertex
   VertexId commit(Pools& pools, Home home, float relaxed_radius);
   /// The cells made by the last commit.
   const std::vector<CellId>& new_cells() const { return new_cells_; }
-  /// What is known of the i-th of them.
+  /// The shape of the i-th new cell.
   CellShape shape_of_new(std::size_t i) const { return shape_of_new(i, sphere_of_new(i)); }
-  /// The same, given its circumsphere.
+  /// The shape of the i-th new cell, given its circumsphere.
   CellShape shape_of_new(std::size_t i, const FilterSphere<D>& sphere) const {
     const ShapeBlock<D>& block = shapes_[i / shape_lanes];
     const std::size_t lane = i % shape_lanes;
     const auto [low, high] = mesh_->squared_radius_bounds(sphere);
     return {block.shortest_edge_squared[lane], low, high, block.det[lane], block.det_error[lane]};
   }
-  /// Its circumsphere. @pre no ghost
+  /// The circumsphere of the i-th new cell. @pre it is no ghost
   FilterSphere<D> sphere_of_new(std::size_t i) const {
     if constexpr (D == 3) return mesh_->sphere(new_cells_[i]);
     else return computed_sphere(i);
@@ -152,7 +153,7 @@ class Cavity {
     cells_.push_back(c);
     for (const Link next : mesh_->cell(c).links) mesh_->prefetch(next.cell());
   }
-  /// The same of a cell in conflict with the point, across a face of a cell that is owned: all its vertices but one are in the
+  /// Does the visit own a cell in conflict with the point, across a face of an owned cell? All its vertices but one are in the
   /// claim. In 3D this one is mostly known to be, as it is within a diameter of the cell's circumball from the point.
   bool owns_next(Link next) const {
     const CellId c = next.cell();
@@ -162,7 +163,7 @@ class Cavity {
   bool may_read(CellId c) const { return !area_ || area_->may_read(*mesh_, c); }  ///< for assertions
   bool owns_point() const { return !area_ || area_->owns(point_); }
   Status collect_all();
-  Status take_fan(CellId cell, int a, int b);  // in 3D; no constraint, which Clang before 16 does not see satisfied
+  Status take_fan(CellId cell, int edge);  // in 3D; no constraint, which Clang before 16 does not see satisfied
   Status grow_part();
   Status add_part_face(CellId cell, int face, EntityId entity);
   bool in_part(CellId cell, int face) const {
@@ -209,21 +210,21 @@ class Cavity {
   const VisitArea<D>* area_ = nullptr;
   std::vector<CellId>* seen_ = nullptr;
   Point<D> point_;
-  double squared_depth_ = 0;  ///< of the point in the visit's area, as that has it
+  double squared_depth_ = 0;  ///< VisitArea::squared_depth of the point
   FaceWatch* watch_ = nullptr;
-  double least_ = 0;  ///< distance that vertices must have
-  const SplitPlace* place_ = nullptr;  ///< twins of which need not
+  double least_ = 0;  ///< distance that vertices must have from the point
+  const SplitPlace* place_ = nullptr;  ///< a place whose twins may be nearer; null: none
   CellId near_cell_{0xffffffffu};
-  std::size_t most_cells_ = std::numeric_limits<std::size_t>::max();  ///< that it may have
+  std::size_t most_cells_ = std::numeric_limits<std::size_t>::max();
   std::vector<CellId> cells_, new_cells_;
   std::vector<CellId> protected_;
   std::vector<BoundaryFace> boundary_;
   std::vector<SimplexBlock<D>> prospects_;  ///< the cells that the boundary faces make with the point, in their order
   std::vector<ShapeBlock<D>> shapes_;       ///< of the prospects; none of faces at infinity
-  bool shapes_known_ = false;               ///< for the boundary as it is
-  bool star_shaped_ = false;                ///< likewise, found by make_star_shaped
+  bool shapes_known_ = false;               ///< are the shapes those of the boundary as it is?
+  bool star_shaped_ = false;                ///< did make_star_shaped() find the boundary as it is star-shaped?
   std::vector<PartFace> part_;
-  /// Rim of the part: ridges that get a new constrained face with the new vertex, and of which entity.
+  /// A ridge of the part's rim, which gets a new constrained face of this entity with the new vertex.
   struct RimRidge {
     std::array<VertexId, D - 1> ridge;  // sorted
     EntityId entity;
@@ -235,7 +236,7 @@ class Cavity {
     std::uint32_t slot;
   };
   std::vector<NewFace> new_faces_;  ///< of new cells, at the ridges of the boundary
-  /// Those whose slot in the table is not one pair's alone: their vertices but the new one, sorted, and links to them.
+  /// New faces whose slot in the table is not one pair's alone: their vertices but the new one, sorted, and links to them.
   std::vector<std::pair<std::array<VertexId, D + 1>, std::uint32_t>> shared_slots_;
   PairTable ridges_;
   SmallNumbers numbers_;  ///< of the vertices of a small boundary

@@ -87,7 +87,7 @@ Link Cavity<D>::entity_face_round_ridge(CellId cell, int face, int corner, Entit
   const Mesh<D>& mesh = *mesh_;
   auto belongs = [&](CellId c, int f) {
     const auto* k = mesh.constraints(c);
-    return k && (k->faces >> f & 1) && k->face_entity[f] == entity;
+    return k && k->has_face(f) && k->face_entity[f] == entity;
   };
   for (const bool across : {false, true}) {
     // Within the cell the walk leaves through the face opposite `corner`; beyond the face it starts in the neighbour.
@@ -110,7 +110,7 @@ Link Cavity<D>::entity_face_round_ridge(CellId cell, int face, int corner, Entit
   return {};
 }
 
-/// Breadth first over the entity's faces, across ridges that are no subsegments.
+/// Grows the part, breadth first over the faces of the entity, across ridges that are no subsegments.
 template <int D>
 auto Cavity<D>::grow_part() -> Status {
   if constexpr (D == 3) {
@@ -118,10 +118,7 @@ auto Cavity<D>::grow_part() -> Status {
       const PartFace f = part_[i];
       for (int corner = 0; corner <= D; ++corner) {
         if (corner == f.face) continue;
-        int ends[2], n = 0;
-        for (int j = 0; j <= D; ++j)
-          if (j != f.face && j != corner) ends[n++] = j;
-        if (mesh_->constraints(f.cell)->edges >> edge_of_ends[ends[0]][ends[1]] & 1) continue;
+        if (mesh_->constraints(f.cell)->has_edge(edge_without(f.face, corner))) continue;
         bool owned = true;
         const Link other = entity_face_round_ridge(f.cell, f.face, corner, f.entity, owned);
         if (!owned) return Status::not_owned;
@@ -136,7 +133,7 @@ auto Cavity<D>::grow_part() -> Status {
   return Status::ok;
 }
 
-/// The rest of a cavity whose first part faces and cells are there.
+/// Collects the rest of a cavity whose first part faces and cells are there.
 template <int D>
 auto Cavity<D>::collect_all() -> Status {
   if (!owns_point()) return Status::not_owned;
@@ -157,18 +154,18 @@ auto Cavity<D>::collect_on_face(const Point<D>& p, CellId cell, int face) -> Sta
   return collect_all();
 }
 
-/// All cells round the edge between corners a and b, the one way and, where that ends at the hull, the other.
+/// Takes all cells round the edge, the one way and, where that ends at the hull, the other.
 template <int D>
-auto Cavity<D>::take_fan(CellId cell, int a, int b) -> Status {
+auto Cavity<D>::take_fan(CellId cell, int edge) -> Status {
   Status status = Status::ok;
   if constexpr (D == 3)
-    for_cells_round(*mesh_, cell, a, b, [&](const RidgeWalk<D>& walk) {
+    for_cells_round(*mesh_, cell, edge, [&](const RidgeWalk<D>& walk) {
       assert(may_read(walk.cell));
       if (!owns(walk.cell)) status = Status::not_owned;
       if (status != Status::ok) return RoundEdge::stop;
       take(walk.cell);
       const auto* k = mesh_->constraints(walk.cell);
-      if (k && (k->faces >> walk.exit & 1)) status = add_part_face(walk.cell, walk.exit, k->face_entity[walk.exit]);
+      if (k && k->has_face(walk.exit)) status = add_part_face(walk.cell, walk.exit, k->face_entity[walk.exit]);
       return status == Status::ok ? RoundEdge::go_on : RoundEdge::stop;
     });
   return status;
@@ -181,16 +178,15 @@ auto Cavity<D>::collect_on_edge(const Point<D>& p, CellId cell, int edge, double
   begin(p);
   least_ = least;
   place_ = place;
-  const auto [a, b] = edge_ends[edge];
-  split_edge_ = {mesh_->cell(cell).vertices[a], mesh_->cell(cell).vertices[b]};
+  split_edge_ = ends_of_edge(mesh_->cell(cell).vertices, edge);
   split_segment_ = mesh_->constraints(cell)->edge_entity[edge];
-  if (const Status status = take_fan(cell, a, b); status != Status::ok) return status;
+  if (const Status status = take_fan(cell, edge); status != Status::ok) return status;
   if (const PinchedEdges* pinched = mesh_->pinched_edges(); pinched && pinched->has(split_segment_))
     for (const CellId c : pinched->cells(split_edge_[0], split_edge_[1])) {
       if (mesh_->marked(c)) continue;
       const auto& v = mesh_->cell(c).vertices;  // its ends are claimed, so that no other visit changes it
-      const auto at = [&](VertexId x) { return static_cast<int>(std::find(v.begin(), v.end(), x) - v.begin()); };
-      if (const Status status = take_fan(c, at(split_edge_[0]), at(split_edge_[1])); status != Status::ok) return status;
+      const int there = edge_of_ends[corner_of(v, split_edge_[0])][corner_of(v, split_edge_[1])];
+      if (const Status status = take_fan(c, there); status != Status::ok) return status;
     }
   protected_ = cells_;
   bool conflict = false;
@@ -257,7 +253,7 @@ bool Cavity<D>::in_line(CellId c, int i, int j) const {
     if (split_segment_ == no_entity) return false;
     const auto* k = mesh_->constraints(c);
     const int e = edge_of_ends[i][j];
-    return k && (k->edges >> e & 1) && k->edge_entity[e] == split_segment_;
+    return k && k->has_edge(e) && k->edge_entity[e] == split_segment_;
   }
   return false;
 }
@@ -265,10 +261,7 @@ bool Cavity<D>::in_line(CellId c, int i, int j) const {
 /// Is the ridge of the cell that lacks the two corners a subsegment?
 template <int D>
 bool Cavity<D>::is_subsegment(CellId cell, int i, int j) const {
-  int ends[2] = {0, 0}, n = 0;
-  for (int k = 0; k <= D; ++k)
-    if (k != i && k != j) ends[n++ % 2] = k;
-  return mesh_->constraints(cell)->edges >> edge_of_ends[ends[0]][ends[1]] & 1;
+  return mesh_->constraints(cell)->has_edge(edge_without(i, j));
 }
 
 /// A ridge between two faces of the part (no subsegment: about the free rim of a facet its two sides see each other, with
@@ -323,9 +316,7 @@ void Cavity<D>::find_turned_over(std::vector<CellId>& doomed) const {
       const int axis = domain_->facets()[f.entity].axis;
       for (int corner = 0; corner <= D; ++corner) {
         if (corner == f.face) continue;
-        int ends[2], n = 0;
-        for (int j = 0; j <= D; ++j)
-          if (j != f.face && j != corner) ends[n++] = j;
+        const auto ends = corners_without(f.face, corner);
         const VertexId a = v[ends[0]], b = v[ends[1]];
         const bool split = (a == split_edge_[0] && b == split_edge_[1]) || (a == split_edge_[1] && b == split_edge_[0]);
         if (split || !is_rim(f, a, b)) continue;
@@ -419,7 +410,7 @@ void Cavity<D>::keep_whole_part_faces() {
   }
 }
 
-/// Of the marked cells those that the protected ones reach through faces; the others lose their mark.
+/// Keeps the marked cells that the protected ones reach through faces; the others lose their mark.
 template <int D>
 void Cavity<D>::keep_connected_cells() {
   std::vector<CellId> kept = protected_;

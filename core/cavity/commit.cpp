@@ -22,11 +22,7 @@ std::array<VertexId, N> sorted(std::array<VertexId, N> r) {
 /// The vertices of cell k but numbers i and j.
 template <int D>
 std::array<VertexId, D - 1> ridge_without(const CellRecord<D>& k, int i, int j) {
-  std::array<VertexId, D - 1> r{};
-  int n = 0;
-  for (int v = 0; v <= D; ++v)
-    if (v != i && v != j) r[n++] = k.vertices[v];
-  return sorted(r);
+  return sorted(face_without(face_without(k.vertices, std::max(i, j)), std::min(i, j)));
 }
 
 /// Calls f(link, slot) for the faces of the new cells at the ridges of the boundary; slot is that of the ridge in the table.
@@ -88,7 +84,7 @@ VertexId Cavity<D>::commit(Pools& pools, Home home, float relaxed_radius) {
   return v;
 }
 
-/// On the boundary faces, in their order; of their links those across these alone.
+/// Makes the new cells on the boundary faces, in their order, and of their links those across these faces.
 template <int D>
 void Cavity<D>::make_cells(Pools& pools, VertexId v) {
   Mesh<D>& mesh = *mesh_;
@@ -115,7 +111,7 @@ template <int D>
 void Cavity<D>::inherit_constraints(Pools& pools, const BoundaryFace& f, CellId c) {
   const ConstraintRecord<D>* old = mesh_->constraints(f.cell);
   if (!old) return;
-  const bool face = old->faces >> f.face & 1;
+  const bool face = old->has_face(f.face);
   unsigned edges = 0;
   if constexpr (D == 3) {
     edges = old->edges;
@@ -124,16 +120,14 @@ void Cavity<D>::inherit_constraints(Pools& pools, const BoundaryFace& f, CellId 
   }
   if (!face && !edges) return;
   ConstraintRecord<D>& k = mesh_->ensure_constraints(pools, c);
-  if (face) {
-    k.faces |= static_cast<std::uint8_t>(1 << f.face);
-    k.face_entity[f.face] = old->face_entity[f.face];
-  }
+  if (face) k.set_face(f.face, old->face_entity[f.face]);
   k.edges = static_cast<std::uint8_t>(edges);
   if (edges) k.edge_entity = old->edge_entity;
 }
 
-/// Neighbours among the new cells where no constrained face is made: the rim of a star-shaped cavity is a closed surface, two
-/// faces of which meet at each ridge, one each way round. Its vertices are numbered, and ridges found by the numbers of their ends.
+/// Links neighbours among the new cells, where no constrained face is made: the rim of a star-shaped cavity is a closed surface,
+/// two faces of which meet at each ridge, one each way round. Its vertices are numbered, and ridges found by the numbers of their
+/// ends.
 template <int D>
 void Cavity<D>::link_by_numbers() {
   Mesh<D>& mesh = *mesh_;
@@ -162,7 +156,7 @@ void Cavity<D>::link_by_numbers() {
   for (const auto [link, other] : std::span(open_links_.data(), out)) *link = links_at_[other];
 }
 
-/// The same of any number of them, by hashes of the ridges.
+/// Links neighbours among any number of new cells, where no constrained face is made, by hashes of the ridges.
 template <int D>
 void Cavity<D>::link_by_ridges() {
   ridges_.reserve(boundary_.size() * D / 2 + 1);
@@ -207,11 +201,11 @@ void Cavity<D>::link_shared_slots() {
   }
 }
 
-/// Neighbours among the new cells, found by walking round each ridge of the boundary through the old cells: what lies
+/// Links neighbours among the new cells by walks round each ridge of the boundary through the old cells: what lies
 /// between the two is a new constrained face, or the hull, at the rim of the part.
 template <int D>
 void Cavity<D>::link_by_walks(Pools& pools) {
-  // Only now do old cells point to their successors: make_cell reads the old links.
+  // Only now do old cells point to their successors: make_cells() reads the old links.
   for (std::size_t i = 0; i < boundary_.size(); ++i)
     mesh_->cell(boundary_[i].cell).links[boundary_[i].face] = Link(new_cells_[i], boundary_[i].face);
   for (std::size_t i = 0; i < boundary_.size(); ++i) {
@@ -239,31 +233,22 @@ void Cavity<D>::link_by_walks(Pools& pools) {
         assert(next);
         continue;
       }
-      auto constrain = [&](CellId cell, int f) {
-        ConstraintRecord<D>& k = mesh_->ensure_constraints(pools, cell);
-        k.faces |= static_cast<std::uint8_t>(1 << f);
-        k.face_entity[f] = rim->entity;
-      };
-      constrain(c, j);
-      if (partner) constrain(partner.cell(), partner.face());
+      mesh_->constrain_face(pools, c, j, rim->entity);
+      if (partner) mesh_->constrain_face(pools, partner.cell(), partner.face(), rim->entity);
     }
   }
 }
 
-/// 3D: the two halves of a split subsegment, on every new cell that contains one.
+/// 3D: marks the two halves of a split subsegment, on every new cell that contains one.
 template <int D>
 void Cavity<D>::mark_split_entities(Pools& pools, VertexId v) {
   if constexpr (D == 3) {
     for (const CellId c : new_cells_) {
-      const auto& k = mesh_->cell(c);
-      const int p = static_cast<int>(std::find(k.vertices.begin(), k.vertices.end(), v) - k.vertices.begin());
-      for (int i = 0; i <= D; ++i) {
-        if (k.vertices[i] != split_edge_[0] && k.vertices[i] != split_edge_[1]) continue;
-        const int e = edge_of_ends[p][i];
-        ConstraintRecord<D>& r = mesh_->ensure_constraints(pools, c);
-        r.edges |= static_cast<std::uint8_t>(1 << e);
-        r.edge_entity[e] = split_segment_;
-      }
+      const auto& vertices = mesh_->cell(c).vertices;
+      const int p = corner_of(vertices, v);
+      for (int i = 0; i <= D; ++i)
+        if (vertices[i] == split_edge_[0] || vertices[i] == split_edge_[1])
+          mesh_->constrain_edge(pools, c, edge_of_ends[p][i], split_segment_);
     }
   }
 }

@@ -33,12 +33,12 @@ class Delaunay {
   /// if the points lie in one line (2D) or plane (3D). Ends early, with some of the points, once `stop` is requested.
   bool build(std::span<const Point<D>> points, const std::stop_token& stop = {});
 
-  /// Inserts one more point, searched for from the star of vertex `near`, with its insertion radius. Returns no_vertex, and
-  /// does nothing, if the next vertex is nearer than `least`; else the vertex there already, if there is one.
-  /// `twins` do not count for that radius.
+  /// Inserts one more point, with its insertion radius, for which `twins` do not count. The search begins at the star of vertex
+  /// `near`.
+  /// @returns the new vertex; the vertex that is there already; no_vertex, without a change, if a vertex is nearer than `least`
   VertexId insert(const Point<D>& p, Home home, VertexId near, double least = 0, std::span<const VertexId> twins = {});
 
-  /// From now on `changed`, which stays where it is as long as this, gets the cells that insertions delete and make.
+  /// Adds the cells that insertions delete and make to `changed` from now on. It must outlive this.
   void tell_changes(detail::ChangedCells& changed) { listeners_.push_back(&changed); }
 
   /// Vertices in the order of `points`.

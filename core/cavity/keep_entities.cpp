@@ -36,7 +36,7 @@ class SmallRim {
   std::array<std::uint64_t, SmallNumbers::bound> edges_;
 };
 
-/// Those of any.
+/// The rim of a boundary of any size.
 class LargeRim {
  public:
   LargeRim(KeySet& keys, std::size_t faces, bool edges) : keys_(keys) { keys_.reset((edges ? 6 : 3) * faces); }
@@ -94,8 +94,8 @@ auto Cavity<D>::find_lost_entities(Rim rim, std::vector<CellId>& behind) const -
       const auto* constraints = any_edges ? mesh_->constraints(c) : nullptr;
       if (!constraints || !constraints->edges) continue;
       for (int e = 0; e < 6; ++e) {
-        if (!(constraints->edges >> e & 1)) continue;
-        const VertexId a = k.vertices[edge_ends[e][0]], b = k.vertices[edge_ends[e][1]];
+        if (!constraints->has_edge(e)) continue;
+        const auto [a, b] = ends_of_edge(k.vertices, e);
         const bool split = (a == split_edge_[0] && b == split_edge_[1]) || (a == split_edge_[1] && b == split_edge_[0]);
         if (split || rim.has(a, b)) continue;
         find_behind(a, b, behind);
@@ -112,7 +112,7 @@ template <int D>
 void Cavity<D>::find_behind(VertexId a, VertexId b, std::vector<CellId>& behind) const {
   for (const CellId c : cells_) {
     const auto& v = mesh_->cell(c).vertices;
-    if (std::find(v.begin(), v.end(), a) == v.end() || std::find(v.begin(), v.end(), b) == v.end()) continue;
+    if (!has_corner(v, a) || !has_corner(v, b)) continue;
     bool in_front = false;
     for (int i = 0; i <= D && !in_front; ++i) {
       if (v[i] == a || v[i] == b) continue;
@@ -131,8 +131,8 @@ auto Cavity<D>::keep_entities() -> Status {
   std::vector<CellId> behind;
   while (true) {
     behind.clear();
-    const Status swallowed = find_lost_entities(behind);
-    if (behind.empty()) return swallowed;
+    const Status status = find_lost_entities(behind);
+    if (behind.empty()) return status;
     if (const Status s = drop_cells(behind); s != Status::ok) return s == Status::not_owned ? s : Status::loses_entity;
     if (const Status s = make_star_shaped(); s != Status::ok) return s == Status::not_owned ? s : Status::loses_entity;
   }

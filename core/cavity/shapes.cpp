@@ -98,7 +98,7 @@ auto Cavity<D>::make_star_shaped() -> Status {
   return Status::ok;
 }
 
-/// Of the i-th new cell, mostly from what look_at_shapes found.
+/// The circumsphere of the i-th new cell, mostly from what look_at_shapes() found.
 template <int D>
 FilterSphere<D> Cavity<D>::computed_sphere(std::size_t i) const {
   const ShapeBlock<D>& block = shapes_[i / shape_lanes];

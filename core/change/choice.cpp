@@ -13,7 +13,7 @@
 
 namespace pgdr {
 
-/// Adds it, if there is one and no new cell is flat but for rounding.
+/// Adds the flip, if it has cells, and none of them is flat but for rounding.
 template <int D>
 void LocalFlips<D>::add_flip(Flip flip, std::vector<Flip>& flips) const {
   if (flip.cells.empty()) return;
@@ -28,36 +28,35 @@ void LocalFlips<D>::add_flip(Flip flip, std::vector<Flip>& flips) const {
   flips.push_back(std::move(flip));
 }
 
+/// find_flips() of one edge.
 template <int D>
-auto LocalFlips<D>::find_edge_flips(CellId c, int a, int b, std::vector<Flip>& flips, std::vector<CellId>& seen) const -> Outcome {
-  Ring ring;
-  const Outcome outcome = take_ring(c, a, b, longest_ring, ring);
-  seen.insert(seen.end(), ring.cells.begin(), ring.cells.end());
-  if (outcome != Outcome::flipped) return outcome;
-  const auto& v = mesh_->cell(c).vertices;
-  const std::array edge{v[a], v[b]};
-  if (!ring.tips.empty() && !crosses_in_facet<D>(*mesh_, *domain_, ring.entity, edge, {ring.tips[0], ring.tips[1]}))
-    return Outcome::stuck;
-  for (const VertexId hub : hubs(ring, v[a], v[b])) add_flip({ring, edge, fans(ring, v[a], v[b], hub)}, flips);
-  return Outcome::flipped;
+bool LocalFlips<D>::find_edge_flips(CellId c, int edge, std::vector<Flip>& flips, std::vector<CellId>& seen) const {
+  if constexpr (D == 3) {
+    Ring ring;
+    const RingStatus status = take_ring(c, edge, longest_ring, ring);
+    seen.insert(seen.end(), ring.cells.begin(), ring.cells.end());
+    if (status != RingStatus::whole) return status != RingStatus::not_owned;
+    const std::array<VertexId, 2> ends = ends_of_edge(mesh_->cell(c).vertices, edge);
+    if (!ring.tips.empty() && !crosses_in_facet<D>(*mesh_, *domain_, ring.entity, ends, {ring.tips[0], ring.tips[1]}))
+      return true;
+    for (const VertexId hub : hubs(ring, ends[0], ends[1])) add_flip({ring, ends, fans(ring, ends[0], ends[1], hub)}, flips);
+  }
+  return true;
 }
 
 template <int D>
-auto LocalFlips<D>::find_flips(CellId c, std::vector<Flip>& flips, std::vector<CellId>& seen) const -> Outcome {
+bool LocalFlips<D>::find_flips(CellId c, std::vector<Flip>& flips, std::vector<CellId>& seen) const {
   if constexpr (D == 3) {
     for (int face = 0; face <= D; ++face) {
       const Link link = mesh_->cell(c).links[face];
       if (!link || mesh_->constrained(c, face)) continue;
-      if (!owns(link.cell())) return Outcome::not_owned;
+      if (!owns(link.cell())) return false;
       add_flip({{{c, link.cell()}, {}, no_entity}, {no_vertex, no_vertex}, cells_across(c, face)}, flips);
     }
-    const auto* k = mesh_->constraints(c);
-    for (int e = 0; e < 6; ++e) {
-      if (k && (k->edges >> e & 1)) continue;
-      if (find_edge_flips(c, edge_ends[e][0], edge_ends[e][1], flips, seen) == Outcome::not_owned) return Outcome::not_owned;
-    }
+    for (int e = 0; e < 6; ++e)
+      if (!mesh_->is_subsegment(c, e) && !find_edge_flips(c, e, flips, seen)) return false;
   }
-  return flips.empty() ? Outcome::stuck : Outcome::flipped;
+  return true;
 }
 
 template <int D>

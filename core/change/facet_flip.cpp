@@ -38,7 +38,7 @@ std::vector<EntityId> facets_at(const Mesh<3>& mesh, std::span<const CellId> cel
   for (const CellId c : cells)
     if (const auto* k = mesh.constraints(c))
       for (int f = 0; f < 4; ++f)
-        if ((k->faces >> f & 1) && std::find(facets.begin(), facets.end(), k->face_entity[f]) == facets.end())
+        if (k->has_face(f) && std::find(facets.begin(), facets.end(), k->face_entity[f]) == facets.end())
           facets.push_back(k->face_entity[f]);
   return facets;
 }

@@ -38,12 +38,10 @@ auto LocalFlips<D>::remove_flat_cell(Pools& pools, CellId c) -> Outcome {
     const auto [i, j] = *tips;
     const auto cell = mesh_->cell(c);
     const auto old = *mesh_->constraints(c);
-    std::array<int, 2> ends;
-    for (int k = 0, n = 0; k <= D; ++k)
-      if (k != i && k != j) ends[n++] = k;
-    if (cell.links[i]) return try_edge(pools, c, ends[0], ends[1], Condition::no_worse);
+    const auto ends = corners_without(i, j);
+    if (cell.links[i]) return try_edge(pools, c, edge_without(i, j), Condition::no_worse);
     // The ridge between the two faces may be no segment, nor the one that takes its place.
-    if ((old.edges >> edge_of_ends[i][j] & 1) || (old.edges >> edge_of_ends[ends[0]][ends[1]] & 1)) return Outcome::stuck;
+    if (old.has_edge(edge_of_ends[i][j]) || old.has_edge(edge_without(i, j))) return Outcome::stuck;
     const std::array edge{cell.vertices[ends[0]], cell.vertices[ends[1]]}, across{cell.vertices[i], cell.vertices[j]};
     if (!crosses_in_facet<D>(*mesh_, *domain_, old.face_entity[i], edge, across)) return Outcome::stuck;
     for (const int end : ends) {
@@ -54,9 +52,7 @@ auto LocalFlips<D>::remove_flat_cell(Pools& pools, CellId c) -> Outcome {
     new_cells_.clear();
     for (const int end : ends) {
       const Link beyond = cell.links[end];
-      auto& constraints = mesh_->ensure_constraints(pools, beyond.cell());
-      constraints.faces |= static_cast<std::uint8_t>(1 << beyond.face());
-      constraints.face_entity[beyond.face()] = old.face_entity[i];
+      mesh_->constrain_face(pools, beyond.cell(), beyond.face(), old.face_entity[i]);
       mesh_->cell(beyond.cell()).links[beyond.face()] = Link{};
       new_cells_.push_back(beyond.cell());
     }

@@ -11,33 +11,19 @@
 namespace pgdr {
 namespace {
 
-template <int D>
-std::array<VertexId, D> face_without(const std::array<VertexId, D + 1>& v, int i) {
-  std::array<VertexId, D> f{};
-  int n = 0;
-  for (int j = 0; j <= D; ++j)
-    if (j != i) f[n++] = v[j];
+/// The vertices of the face opposite corner i, sorted.
+template <std::size_t N>
+std::array<VertexId, N - 1> sorted_face(const std::array<VertexId, N>& v, int i) {
+  auto f = face_without(v, i);
   std::sort(f.begin(), f.end());
   return f;
-}
-
-template <std::size_t N>
-bool has(const std::array<VertexId, N>& v, VertexId x) {
-  return std::find(v.begin(), v.end(), x) != v.end();
 }
 
 }  // namespace
 
 template <int D>
-Simplex<D> LocalFlips<D>::simplex(const Vertices& v) const {
-  Simplex<D> s;
-  for (int i = 0; i <= D; ++i) s[i] = mesh_->point(v[i]);
-  return s;
-}
-
-template <int D>
 bool LocalFlips<D>::positive(const Vertices& v) const {
-  return orient<D>(simplex(v)) == Sign::positive;
+  return orient<D>(mesh_->points(v)) == Sign::positive;
 }
 
 template <int D>
@@ -49,7 +35,8 @@ auto LocalFlips<D>::repair(Pools& pools, CellId c, int face) -> Outcome {
     for (int a = 0; a <= D; ++a)
       for (int b = a + 1; b <= D; ++b)
         if (a != face && b != face)
-          if (const Outcome outcome = try_edge(pools, c, a, b, Condition::better); outcome != Outcome::stuck) return outcome;
+          if (const Outcome outcome = try_edge(pools, c, edge_of_ends[a][b], Condition::better); outcome != Outcome::stuck)
+            return outcome;
   }
   return Outcome::stuck;
 }
@@ -108,35 +95,35 @@ bool LocalFlips<D>::note_wall(const RidgeWalk<D>& walk, Ring& ring) const {
   return true;
 }
 
-/// The cells round edge ab of c, in order, and the constrained faces among them: none, or two of one facet, between which
-/// the edge may be flipped within the facet. At the hull the ring is open, from the one to the other. Stuck: the edge must stay.
+/// The cells round the edge of c, in order, and the constrained faces among them: none, or two of one facet, between which
+/// the edge may be flipped within the facet. At the hull the ring is open, from the one to the other.
 template <int D>
-auto LocalFlips<D>::take_ring(CellId c, int a, int b, std::size_t longest, Ring& ring) const -> Outcome {
-  Outcome outcome = Outcome::flipped;
+auto LocalFlips<D>::take_ring(CellId c, int edge, std::size_t longest, Ring& ring) const -> RingStatus {
+  RingStatus status = RingStatus::whole;
   if constexpr (D == 3)
-    for_cells_round(*mesh_, c, a, b, [&](const RidgeWalk<D>& walk) {
+    for_cells_round(*mesh_, c, edge, [&](const RidgeWalk<D>& walk) {
       if (walk.cell != c || ring.cells.empty()) ring.cells.push_back(walk.cell);
-      if (ring.cells.size() > longest) outcome = Outcome::stuck;
-      if (outcome != Outcome::flipped) return RoundEdge::stop;
+      if (ring.cells.size() > longest) status = RingStatus::edge_stays;
+      if (status != RingStatus::whole) return RoundEdge::stop;
       assert(may_read(walk.cell));
-      if (!owns(walk.cell)) outcome = Outcome::not_owned;
+      if (!owns(walk.cell)) status = RingStatus::not_owned;
       // The face opposite `exit` has the ridge and the vertex `entry`.
-      else if (mesh_->constrained(walk.cell, walk.exit) && !note_wall(walk, ring)) outcome = Outcome::stuck;
-      return outcome == Outcome::flipped ? RoundEdge::go_on : RoundEdge::stop;
+      else if (mesh_->constrained(walk.cell, walk.exit) && !note_wall(walk, ring)) status = RingStatus::edge_stays;
+      return status == RingStatus::whole ? RoundEdge::go_on : RoundEdge::stop;
     });
-  if (outcome != Outcome::flipped) return outcome;
-  const bool whole = ring.tips.empty() || (ring.tips.size() == 2 && ring.tips[0] != ring.tips[1]);
-  return whole ? Outcome::flipped : Outcome::stuck;
+  if (status != RingStatus::whole || ring.tips.empty()) return status;
+  return ring.tips.size() == 2 && ring.tips[0] != ring.tips[1] ? RingStatus::whole : RingStatus::edge_stays;
 }
 
 /// The ring of cells round an edge becomes two fans about one vertex of the ring; the edge vanishes. Where the edge lies
 /// inside a facet the fans are about a tip of its two subfacets there, which are flipped with it.
 template <int D>
-auto LocalFlips<D>::try_edge(Pools& pools, CellId c, int a, int b, Condition condition) -> Outcome {
-  const VertexId u = mesh_->cell(c).vertices[a], w = mesh_->cell(c).vertices[b];
-  if (const auto* k = mesh_->constraints(c); k && (k->edges >> edge_of_ends[a][b] & 1)) return Outcome::stuck;
+auto LocalFlips<D>::try_edge(Pools& pools, CellId c, int edge, Condition condition) -> Outcome {
+  const VertexId u = mesh_->cell(c).vertices[edge_ends[edge][0]], w = mesh_->cell(c).vertices[edge_ends[edge][1]];
+  if (mesh_->is_subsegment(c, edge)) return Outcome::stuck;
   Ring ring;
-  if (const Outcome outcome = take_ring(c, a, b, longest_ring, ring); outcome != Outcome::flipped) return outcome;
+  const RingStatus status = take_ring(c, edge, longest_ring, ring);
+  if (status != RingStatus::whole) return status == RingStatus::not_owned ? Outcome::not_owned : Outcome::stuck;
   if (!ring.tips.empty() && !crosses_in_facet<D>(*mesh_, *domain_, ring.entity, {u, w}, {ring.tips[0], ring.tips[1]}))
     return Outcome::stuck;
   int most = -1;  // of violations; most hubs have no fans and need none counted
@@ -172,7 +159,7 @@ auto LocalFlips<D>::fans(const Ring& ring, VertexId u, VertexId w, VertexId hub)
   std::vector<NewCell> cells;
   for (const CellId r : ring.cells) {
     const Vertices& v = mesh_->cell(r).vertices;
-    if (has(v, hub)) continue;
+    if (has_corner(v, hub)) continue;
     for (const VertexId gone : {u, w}) {
       Vertices fan = v;
       *std::find(fan.begin(), fan.end(), gone) = hub;
@@ -213,16 +200,15 @@ void LocalFlips<D>::take_old(std::vector<CellId> cells) {
       const bool constrained = mesh_->constrained(c, f);
       const Link link = k.links[f];
       const bool inner = link && std::find(old_.begin(), old_.end(), link.cell()) != old_.end();
-      if (inner && constrained) old_walls_.push_back(face_without<D>(k.vertices, f));
+      if (inner && constrained) old_walls_.push_back(sorted_face(k.vertices, f));
       if (!inner)
-        outer_.push_back({face_without<D>(k.vertices, f), link, constrained,
+        outer_.push_back({sorted_face(k.vertices, f), link, constrained,
                           constrained ? constraints->face_entity[f] : no_entity});
     }
     if constexpr (D == 3) {
       if (!constraints) continue;
       for (int e = 0; e < 6; ++e)
-        if (constraints->edges >> e & 1)
-          subsegments_.push_back({k.vertices[edge_ends[e][0]], k.vertices[edge_ends[e][1]], constraints->edge_entity[e]});
+        if (constraints->has_edge(e)) subsegments_.push_back({ends_of_edge(k.vertices, e), constraints->edge_entity[e]});
     }
   }
 }
@@ -239,7 +225,7 @@ template <int D>
 int LocalFlips<D>::violations() const {
   int count = 0;
   for (const CellId c : old_)
-    for (int f = 0; f <= D; ++f) count += pgdr::violates(*mesh_, c, f) && !is_wall(face_without<D>(mesh_->cell(c).vertices, f));
+    for (int f = 0; f <= D; ++f) count += pgdr::violates(*mesh_, c, f) && !is_wall(sorted_face(mesh_->cell(c).vertices, f));
   return count;
 }
 
@@ -264,7 +250,7 @@ auto LocalFlips<D>::violations_of(const std::vector<NewCell>& cells, std::size_t
   std::vector<Violation> found;
   faces_.clear();
   for (const NewCell& cell : cells)
-    for (int f = 0; f <= D; ++f) faces_.push_back(face_without<D>(cell.vertices, f));
+    for (int f = 0; f <= D; ++f) faces_.push_back(sorted_face(cell.vertices, f));
   for (std::size_t i = 0; i < faces_.size() && found.size() <= most; ++i) {
     if (is_wall(faces_[i])) continue;
     VertexId apex = no_vertex;
@@ -278,7 +264,8 @@ auto LocalFlips<D>::violations_of(const std::vector<NewCell>& cells, std::size_t
     }
     if (apex == no_vertex) continue;
     const std::size_t cell = i / (D + 1);
-    if (in_sphere<D>(simplex(cells[cell].vertices), mesh_->point(apex)) == Sign::positive) found.push_back({cell, apex, !o});
+    if (in_sphere<D>(mesh_->points(cells[cell].vertices), mesh_->point(apex)) == Sign::positive)
+      found.push_back({cell, apex, !o});
   }
   return found;
 }
@@ -294,24 +281,17 @@ CellId LocalFlips<D>::make_cell(Pools& pools, const NewCell& cell) {
   mesh_->set_region(c, cell.region);
   mesh_->set_sphere(c);
   for (int f = 0; f <= D; ++f) {
-    const OuterFace* o = outer(face_without<D>(v, f));
+    const OuterFace* o = outer(sorted_face(v, f));
     if (!o) continue;
     k.links[f] = o->link;
     assert(!o->link || may_read(o->link.cell()));
     if (o->link) mesh_->cell(o->link.cell()).links[o->link.face()] = Link(c, f);
-    if (!o->constrained) continue;
-    auto& constraints = mesh_->ensure_constraints(pools, c);
-    constraints.faces |= static_cast<std::uint8_t>(1 << f);
-    constraints.face_entity[f] = o->entity;
+    if (o->constrained) mesh_->constrain_face(pools, c, f, o->entity);
   }
   if constexpr (D == 3) {
     for (const Subsegment& s : subsegments_) {
-      const auto a = std::find(v.begin(), v.end(), s.a), b = std::find(v.begin(), v.end(), s.b);
-      if (a == v.end() || b == v.end()) continue;
-      const int e = edge_of_ends[a - v.begin()][b - v.begin()];
-      auto& constraints = mesh_->ensure_constraints(pools, c);
-      constraints.edges |= static_cast<std::uint8_t>(1 << e);
-      constraints.edge_entity[e] = s.entity;
+      const int a = corner_of(v, s.ends[0]), b = corner_of(v, s.ends[1]);
+      if (a <= D && b <= D) mesh_->constrain_edge(pools, c, edge_of_ends[a][b], s.entity);
     }
   }
   mesh_->enlist(c);
@@ -323,27 +303,23 @@ void LocalFlips<D>::replace(Pools& pools, const std::vector<NewCell>& cells) {
   assert(std::all_of(old_.begin(), old_.end(), [this](CellId c) { return mesh_->alive(c) && owns(c); }));
   new_cells_.clear();
   for (const NewCell& cell : cells) new_cells_.push_back(make_cell(pools, cell));
-  auto constrain = [&](CellId c, int f) {
-    assert(may_read(c));
-    auto& constraints = mesh_->ensure_constraints(pools, c);
-    constraints.faces |= static_cast<std::uint8_t>(1 << f);
-    constraints.face_entity[f] = wall_entity_;
-  };
   for (const CellId c : new_cells_)
     for (int f = 0; f <= D; ++f) {
-      const Face face = face_without<D>(mesh_->cell(c).vertices, f);
+      const Face face = sorted_face(mesh_->cell(c).vertices, f);
       const bool wall = std::find(new_walls_.begin(), new_walls_.end(), face) != new_walls_.end();
       if (!outer(face))
         for (const CellId other : new_cells_)
           for (int g = 0; g <= D; ++g)
-            if (other != c && face_without<D>(mesh_->cell(other).vertices, g) == face)
+            if (other != c && sorted_face(mesh_->cell(other).vertices, g) == face)
               mesh_->cell(c).links[f] = Link(other, g);
       const Link link = mesh_->cell(c).links[f];
       assert(link || wall || mesh_->constrained(c, f));
       if (!wall) continue;
       // Across the wall may lie an old neighbour, where the cell between the subfacets was a flat one.
-      constrain(c, f);
-      if (link) constrain(link.cell(), link.face());
+      mesh_->constrain_face(pools, c, f, wall_entity_);
+      if (!link) continue;
+      assert(may_read(link.cell()));
+      mesh_->constrain_face(pools, link.cell(), link.face(), wall_entity_);
     }
   for (const CellId c : old_) mesh_->free_cell(pools, c);
 }

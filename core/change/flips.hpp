@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Flips that restore the local Delaunay property where an insertion could not keep it. A constrained Delaunay
-// triangulation of space need not exist while a subsegment is encroached upon from behind a wall: the cavity is then cut
-// back, and a face of its rim may have a vertex of the one side in the sphere of the other. Once the subsegment is split
-// such faces are flipped away: two triangles for two in 2D; two tetrahedra for three, or an edge taken out of a ring of
-// up to seven, in 3D, if need be together with the two subfacets of one facet that it lies between. A workspace of one visit, as the cavity.
+// Flips that restore the local Delaunay property where an insertion could not keep it. A constrained Delaunay triangulation of
+// space need not exist while a subsegment is encroached upon from behind a wall. The cavity is then cut back, and a face of its
+// rim may have a vertex of the one side in the sphere of the other. Once the subsegment is split such faces are flipped away. In
+// 2D two triangles become two others. In 3D two tetrahedra become three, or an edge leaves a ring of up to seven, if need be
+// together with the two subfacets of one facet that it lies between.
 #pragma once
 
 #include <type_traits>
@@ -20,41 +20,41 @@
 
 namespace pgdr {
 
-/// Mends faces that are not locally Delaunay: see above.
+/// Flips at the faces and edges of cells. One thread at a time, as the cavity.
 template <int D>
 class LocalFlips {
  public:
   using Pools = typename Mesh<D>::Pools;  ///< of the worker
-  /// As `repair` says.
+  /// What became of an attempt. Stuck: no flip does it. Not owned: to find that out would need cells that the visit does not own.
   enum class Outcome { flipped, stuck, not_owned };
   /// A cell that a flip makes.
   struct NewCell {
     std::array<VertexId, D + 1> vertices;  ///< in positive order
-    std::uint16_t region;  ///< that it is in
+    std::uint16_t region;  ///< its region
   };
-  /// Cells about an edge.
+  /// The cells round an edge, or on both sides of a face.
   struct Ring {
     std::vector<CellId> cells;  ///< in order
     std::vector<VertexId> tips;  ///< far corners of the two subfacets at the edge, if it lies inside a facet
     EntityId entity = no_entity;  ///< that facet
   };
-  /// Other cells for some: a face, or an edge and with it perhaps two subfacets, makes room for what crosses it.
+  /// A flip: a face, or an edge and with it perhaps two subfacets, makes room for what crosses it.
   struct Flip {
     Ring old;  ///< the cells that go
-    std::array<VertexId, 2> edge{no_vertex, no_vertex};  ///< likewise
+    std::array<VertexId, 2> edge{no_vertex, no_vertex};  ///< the edge that goes; no vertices: a face goes
     std::vector<NewCell> cells;  ///< those that come
   };
-  /// A face that would not be locally Delaunay.
+  /// A face of a new cell that would not be locally Delaunay.
   struct Violation {
     std::size_t cell;  ///< index of a new cell
-    VertexId beyond;  ///< in its sphere
-    bool inner;  ///< between two new cells: comes twice
+    VertexId beyond;  ///< the vertex beyond the face, in the circumsphere of the cell
+    bool inner;  ///< the face is between two new cells: it comes twice
   };
 
   /// Both must outlive it.
   LocalFlips(Mesh<D>& mesh, const Domain<D>& domain) : mesh_(&mesh), domain_(&domain), rewrap_(mesh) {}
 
-  /// Asked often by what is slow; once it says true, nothing more is mended by that.
+  /// A function that gift wrapping asks often; once it says true, gift wrapping ends.
   void set_ended(std::function<bool()> ended) { rewrap_.set_ended(std::move(ended)); }
   /// What the visit may change; null: everything.
   void set_area(const VisitArea<D>* area) {
@@ -62,26 +62,26 @@ class LocalFlips {
     rewrap_.begin_visit(area);
   }
 
-  /// Replaces the cells at the violating face by others with fewer violations. Stuck: no flip does that. Not owned: to find
-  /// that out would need cells that the visit does not own.
+  /// Flips the face, or an edge of it, if that leaves fewer violations.
   Outcome repair(Pools& pools, CellId c, int face);
-  /// 3D: the same by gift wrapping (change/rewrap.hpp); slower.
+  /// 3D: makes the cells about the face anew by gift wrapping, if that leaves fewer violations (change/rewrap.hpp); slower.
   Outcome rewrap(Pools& pools, CellId c, int face, LocalRewrap::Effort effort);
-  /// A cell with all its vertices on one facet, and two subfacets of it, is flat but for rounding: takes it out, which flips
-  /// the facet's triangulation there. Stuck: c is no such cell, or cannot be taken out.
+  /// Removes c if all its vertices lie on one facet, and two of its faces are subfacets of that: it is flat but for rounding.
+  /// This flips the facet's triangulation there. Stuck: c is no such cell, or has to stay.
   Outcome remove_flat_cell(Pools& pools, CellId c);
   /// 3D: the flips of faces and edges of c that leave positively oriented cells, none of them with all corners on one facet. Adds
-  /// the cells about each edge to `seen`. Not owned: there might be more.
-  Outcome find_flips(CellId c, std::vector<Flip>& flips, std::vector<CellId>& seen) const;
-  /// The faces that are not locally Delaunay after a flip; no value if it may not be, as a subfacet is where it makes one.
+  /// the cells about each edge to `seen`. False: there may be more, of cells that the visit does not own.
+  bool find_flips(CellId c, std::vector<Flip>& flips, std::vector<CellId>& seen) const;
+  /// The faces that would not be locally Delaunay after a flip. No value: the flip is not allowed, as a subfacet is where it
+  /// makes one.
   std::optional<std::vector<Violation>> violations_after(const Flip& flip);
   /// How many faces that a flip would change are not locally Delaunay?
   std::size_t violations_before(const Flip& flip) const;
-  /// Makes one of these flips.
+  /// Makes one of the flips that find_flips() found.
   void make(Pools& pools, const Flip& flip);
-  /// Has it, so far in this visit, been worth its while in large regions? `allowance`: what may be spent in vain.
+  /// Has gift wrapping paid in this visit so far? `allowance`: the work that may be without effect in any case.
   bool rewrap_pays(std::uint64_t allowance) const;
-  /// The cells made, or laid bare, by the last success.
+  /// The cells that the last success made, or laid bare.
   const std::vector<CellId>& new_cells() const { return new_cells_; }
 
  private:
@@ -94,29 +94,30 @@ class LocalFlips {
     EntityId entity;
   };
   struct Subsegment {
-    VertexId a, b;
+    std::array<VertexId, 2> ends;
     EntityId entity;
   };
+  /// What is known of the ring of cells round an edge. Edge stays: it is too long, or its constrained faces allow no flip.
+  enum class RingStatus { whole, not_owned, edge_stays };
 
   bool owns(CellId c) const { return !area_ || area_->owns(*mesh_, c); }
   bool may_read(CellId c) const { return !area_ || area_->may_read(*mesh_, c); }  ///< for assertions
   std::vector<NewCell> cells_across(CellId c, int face) const;
   bool try_two_cells(Pools& pools, CellId c, int face);
-  /// Of the number of violations: fewer, or as many in a smaller ring; at most as many.
+  /// The condition on the number of violations. Better: fewer, or as many if three cells become two. No worse: at most as many.
   enum class Condition { better, no_worse };
-  Outcome try_edge(Pools& pools, CellId c, int a, int b, Condition condition);
+  Outcome try_edge(Pools& pools, CellId c, int edge, Condition condition);
   bool note_wall(const RidgeWalk<D>& walk, Ring& ring) const;
-  Outcome take_ring(CellId c, int a, int b, std::size_t longest, Ring& ring) const;
+  RingStatus take_ring(CellId c, int edge, std::size_t longest, Ring& ring) const;
   std::optional<std::array<int, 2>> faces_of_flat(CellId c) const;
   void take_old(std::vector<CellId> cells);
   int violations() const;
   std::vector<VertexId> hubs(const Ring& ring, VertexId u, VertexId w) const;
   void add_flip(Flip flip, std::vector<Flip>& flips) const;
-  Outcome find_edge_flips(CellId c, int a, int b, std::vector<Flip>& flips, std::vector<CellId>& seen) const;
+  bool find_edge_flips(CellId c, int edge, std::vector<Flip>& flips, std::vector<CellId>& seen) const;
   std::vector<NewCell> fans(const Ring& ring, VertexId u, VertexId w, VertexId hub) const;
   void add_walls(const Ring& ring, VertexId u, VertexId w);
   bool positive(const Vertices& v) const;
-  Simplex<D> simplex(const Vertices& v) const;
   bool is_wall(const Face& f) const;
   bool walls_are_free() const;
   std::vector<Violation> violations_of(const std::vector<NewCell>& cells, std::size_t most);

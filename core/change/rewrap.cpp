@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t quick_cells = 20, wide_cells = 512;  // of a region: few where this is done for very many faces
 constexpr std::size_t least_growth = 2;  // of a region by one part in so many, before all of it is wrapped again
-constexpr int far_weight = 10000;  // of a violation that no entity is beside
+constexpr int far_weight = 10000;  // of a violation between vertices in the volume
 
 }  // namespace
 
@@ -44,7 +44,7 @@ bool LocalRewrap::in_volume(VertexId v) const { return mesh_->vertex(v).home.kin
 bool LocalRewrap::wrap_again(Pools& pools) {
   const int before = violations_before();
   if (before == 0) return false;
-  const std::uint64_t attempt = number_of_attempt();
+  const std::uint64_t attempt = attempt_hash();
   if (without_effect_.contains(attempt)) return false;
   find_rim();
   front_.clear();
@@ -64,8 +64,8 @@ bool LocalRewrap::wrap_again(Pools& pools) {
   return false;
 }
 
-/// Another one for other cells, or cells about them, and more that is tried.
-std::uint64_t LocalRewrap::number_of_attempt() const {
+/// A hash of the cells of the region, the cells about them, and how many cells it may have.
+std::uint64_t LocalRewrap::attempt_hash() const {
   std::vector<CellId> cells = old_;
   std::sort(cells.begin(), cells.end());
   const std::uint64_t number = *surroundings_of<3>(*mesh_, cells);
@@ -139,21 +139,21 @@ void LocalRewrap::find_rim() {
     }
     if (!constraints) continue;
     for (int e = 0; e < 6; ++e)
-      if (constraints->edges >> e & 1)
-        subsegments_.push_back({cell[edge_ends[e][0]], cell[edge_ends[e][1]], constraints->edge_entity[e]});
+      if (constraints->has_edge(e))
+        subsegments_.push_back({ends_of_edge(cell, e), constraints->edge_entity[e]});
   }
 }
 
 /// A subsegment inside the region that bounds no facet must be an edge of the new cells, too.
 bool LocalRewrap::keeps_subsegments() const {
-  auto has = [](const GiftWrap::Cell& cell, Index v) { return std::find(cell.begin(), cell.end(), v) != cell.end(); };
   return std::all_of(subsegments_.begin(), subsegments_.end(), [&](const Subsegment& s) {
     return std::any_of(wrap_.cells().begin(), wrap_.cells().end(),
-                       [&](const GiftWrap::Cell& cell) { return has(cell, s.a) && has(cell, s.b); });
+                       [&](const GiftWrap::Cell& cell) { return has_corner(cell, s.ends[0]) && has_corner(cell, s.ends[1]); });
   });
 }
 
-/// What a violation counts. One that no entity is beside counts for more than all others, so that what cannot be mended moves to the walls that hide what is in its way.
+/// The weight of a violation. One between vertices in the volume outweighs all others: so what cannot be repaired moves to the
+/// walls, which explain it.
 int LocalRewrap::weight(const std::array<VertexId, 4>& cell, VertexId apex) const {
   const bool far = in_volume(apex) && std::all_of(cell.begin(), cell.end(), [this](VertexId v) { return in_volume(v); });
   return far ? far_weight : 1;
@@ -180,7 +180,7 @@ int LocalRewrap::violations_before() const {
   return count;
 }
 
-/// The same of the new ones; no further than to `enough`.
+/// Violating faces of the new cells by their weights, each counted twice; counts no further than to `enough`.
 int LocalRewrap::violations_after(int enough) {
   sides_.clear();
   for (const GiftWrap::Cell& cell : wrap_.cells())
@@ -215,18 +215,11 @@ CellId LocalRewrap::make_cell(Pools& pools, const GiftWrap::Cell& cell) {
   mesh_->set_sphere(c);
   for (int f = 0; f < 4; ++f) {
     const RimFace* r = rim_face(GiftWrap::face_of(cell, f));
-    if (!r || !r->constrained) continue;
-    auto& constraints = mesh_->ensure_constraints(pools, c);
-    constraints.faces |= static_cast<std::uint8_t>(1 << f);
-    constraints.face_entity[f] = r->entity;
+    if (r && r->constrained) mesh_->constrain_face(pools, c, f, r->entity);
   }
   for (const Subsegment& s : subsegments_) {
-    const auto a = std::find(cell.begin(), cell.end(), s.a), b = std::find(cell.begin(), cell.end(), s.b);
-    if (a == cell.end() || b == cell.end()) continue;
-    const int e = edge_of_ends[a - cell.begin()][b - cell.begin()];
-    auto& constraints = mesh_->ensure_constraints(pools, c);
-    constraints.edges |= static_cast<std::uint8_t>(1 << e);
-    constraints.edge_entity[e] = s.entity;
+    const int a = corner_of(cell, s.ends[0]), b = corner_of(cell, s.ends[1]);
+    if (a < 4 && b < 4) mesh_->constrain_edge(pools, c, edge_of_ends[a][b], s.entity);
   }
   mesh_->enlist(c);
   return c;

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where no single flip makes a face locally Delaunay: the cells about it are made anew, as the constrained Delaunay
-// triangulation of their vertices. Flips in three dimensions can get stuck although this exists, at an edge whose ring
-// is not that of any flip; gift wrapping cannot.
+// Gift wrapping of the cells about a face that no single flip makes locally Delaunay: they are made anew, as the constrained
+// Delaunay triangulation of their vertices. Flips in three dimensions can get stuck although this exists, at an edge whose ring
+// is not that of any flip. Gift wrapping cannot.
 //
-// The region grows from the two cells at the face: over every face that is not constrained, to a cell whose sphere
-// contains a vertex of the region. Where that ends, the faces of the rim have spheres without vertices of the region,
-// so that they are faces of the new triangulation, but where vertices hide behind walls. A workspace of one visit.
+// The region grows from the two cells at the face, over every face that is not constrained, to a cell whose sphere contains a
+// vertex of the region. Where that ends, the spheres of the faces at the rim contain no vertices of the region, so that these are
+// faces of the new triangulation, but where vertices hide behind walls.
 #pragma once
 
 #include <functional>
@@ -21,12 +21,12 @@
 
 namespace pgdr {
 
-/// Makes the cells of a region anew: see above. A workspace of one thread.
+/// Makes the cells of a region anew. Part of a worker: one thread at a time.
 class LocalRewrap {
  public:
   using Pools = Mesh<3>::Pools;  ///< of the worker
 
-  /// Small regions only; or large ones.
+  /// How large a region may grow. Quick: few cells, where this is done for very many faces.
   enum class Effort { quick, wide };
 
   explicit LocalRewrap(Mesh<3>& mesh) : mesh_(&mesh) {}  ///< the mesh must outlive it
@@ -34,9 +34,9 @@ class LocalRewrap {
   LocalRewrap(const LocalRewrap&) = delete;
   LocalRewrap& operator=(const LocalRewrap&) = delete;
 
-  /// Replaces cells about the unconstrained face by others with fewer violating faces. False if that cannot be done.
+  /// Replaces cells about the unconstrained face by others with fewer violations. False: that cannot be done.
   bool repair(Pools& pools, CellId c, int face, Effort effort);
-  /// Asked often; once it says true, nothing more is repaired.
+  /// A function that is asked often; once it says true, nothing more is repaired.
   void set_ended(std::function<bool()> ended) { ended_ = std::move(ended); }
   /// What the visit may change; null: everything.
   void begin_visit(const VisitArea<3>* area) {
@@ -49,9 +49,10 @@ class LocalRewrap {
   /// The cells made by the last successful repair.
   const std::vector<CellId>& new_cells() const { return new_cells_; }
 
-  /// What repairs have cost in this visit (cells times vertices), those that did nothing and the others.
+  /// The cost (cells times vertices) of the repairs of this visit that changed nothing.
   std::uint64_t ineffective_work() const { return ineffective_work_; }
-  std::uint64_t effective_work() const { return effective_work_; }  ///< likewise, of those that did something
+  /// The cost of the repairs of this visit that changed the mesh.
+  std::uint64_t effective_work() const { return effective_work_; }
 
  private:
   using Index = GiftWrap::Index;
@@ -63,7 +64,7 @@ class LocalRewrap {
     EntityId entity;
   };
   struct Subsegment {
-    Index a, b;
+    std::array<Index, 2> ends;
     EntityId entity;
   };
 
@@ -72,7 +73,7 @@ class LocalRewrap {
   void begin(CellId c, CellId d);
   bool grow();
   bool wrap_again(Pools& pools);
-  std::uint64_t number_of_attempt() const;
+  std::uint64_t attempt_hash() const;
   bool owns(CellId c) const { return !area_ || area_->owns(*mesh_, c); }
   void take(CellId c);
   bool in_conflict(CellId c) const;
@@ -106,8 +107,8 @@ class LocalRewrap {
   std::vector<Side> sides_;  ///< of new cells, and of cells beyond the rim
   std::vector<Subsegment> subsegments_;
   std::size_t most_cells_ = 0;
-  /// What was tried in this visit in vain, by number_of_attempt. Each face of a region that is not locally Delaunay leads to the
-  /// same attempts, and so do the looks at it when something changes beside it.
+  /// Attempts of this visit without effect, by attempt_hash. Each violation of a region leads to the same attempts, and so do
+  /// further looks at it when something changes beside it.
   std::unordered_set<std::uint64_t> without_effect_;
   std::uint64_t work_ = 0, ineffective_work_ = 0, effective_work_ = 0;
   std::uint16_t region_ = 0;

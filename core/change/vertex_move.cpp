@@ -80,8 +80,8 @@ std::vector<VertexId> VertexMove::targets() const {
     for (int i = 0; i < 4; ++i) {
       if (i == at) continue;
       bool may = false;
-      if (home.kind() == EntityKind::segment) may = k && (k->edges >> edge_of_ends[at][i] & 1);
-      for (int f = 0; f < 4 && home.kind() == EntityKind::facet && k && !may; ++f) may = f != at && f != i && (k->faces >> f & 1);
+      if (home.kind() == EntityKind::segment) may = k && k->has_edge(edge_of_ends[at][i]);
+      for (int f = 0; f < 4 && home.kind() == EntityKind::facet && k && !may; ++f) may = f != at && f != i && k->has_face(f);
       if (may) add_new(to, vertices[i]);
     }
   }
@@ -95,9 +95,9 @@ bool VertexMove::may_flatten(const Flattened& x) {
   if (!k) return true;
   for (int i = 0; i < 4; ++i) {
     if (i == x.of_u || i == x.of_v) continue;
-    if (k->edges >> edge_of_ends[x.of_v][i] & 1) return false;
+    if (k->has_edge(edge_of_ends[x.of_v][i])) return false;
     const int e = edge_of_ends[x.of_u][i];
-    if (k->edges >> e & 1) edges_.push_back({mesh_->cell(x.cell).vertices[i], k->edge_entity[e]});
+    if (k->has_edge(e)) edges_.push_back({mesh_->cell(x.cell).vertices[i], k->edge_entity[e]});
   }
   return true;
 }
@@ -109,8 +109,8 @@ bool VertexMove::keeps_subfacets(const Turned& t) const {
   if (!k) return true;
   const auto& v = mesh_->cell(c).vertices;
   for (int f = 0; f < 4; ++f) {
-    if (f == of_v || !(k->faces >> f & 1)) continue;
-    const int i = f == 0 ? (of_v == 1 ? 2 : 1) : (of_v == 0 ? (f == 1 ? 2 : 1) : 0), j = 6 - f - of_v - i;
+    if (f == of_v || !k->has_face(f)) continue;
+    const auto [i, j] = corners_without(f, of_v);
     const int axis = domain_->facets()[k->face_entity[f]].axis;
     if (lie_in_line<3>(*mesh_, *domain_, {u_ == no_vertex ? v_ : u_, v[i], v[j]})) return false;
     const auto side = [&](const Point3& x) { return orient_projected(mesh_->point(v[i]), mesh_->point(v[j]), x, axis); };
@@ -194,12 +194,6 @@ auto VertexMove::open_faces() const -> std::vector<OpenFace> {
   return faces;
 }
 
-void VertexMove::constrain(Pools& pools, CellId c, int face, EntityId entity) {
-  auto& k = mesh_->ensure_constraints(pools, c);
-  k.faces |= static_cast<std::uint8_t>(1 << face);
-  k.face_entity[face] = entity;
-}
-
 /// The cell with the target for the vertex, its links still those of the old one.
 CellId VertexMove::turn(Pools& pools, const Turned& t) {
   auto vertices = mesh_->cell(t.cell).vertices;
@@ -215,10 +209,7 @@ CellId VertexMove::turn(Pools& pools, const Turned& t) {
   for (const Edge& edge : edges_) {
     const int i = number_of(c, edge.end);
     if (i < 0) continue;
-    auto& k = mesh_->ensure_constraints(pools, c);
-    const int e = edge_of_ends[t.corner][i];
-    k.edges |= static_cast<std::uint8_t>(1 << e);
-    k.edge_entity[e] = edge.entity;
+    mesh_->constrain_edge(pools, c, edge_of_ends[t.corner][i], edge.entity);
   }
   return c;
 }
@@ -231,7 +222,8 @@ void VertexMove::link(Pools& pools, std::size_t i) {
     if (!to) continue;
     if (f != turned_[i].corner) {
       if (const Flattened* x = flattened(to.cell())) {
-        if (mesh_->constrained(x->cell, x->of_v)) constrain(pools, c, f, mesh_->constraints(x->cell)->face_entity[x->of_v]);
+        if (mesh_->constrained(x->cell, x->of_v))
+          mesh_->constrain_face(pools, c, f, mesh_->constraints(x->cell)->face_entity[x->of_v]);
         to = mesh_->cell(x->cell).links[x->of_v];
       } else {
         const auto at = std::find_if(turned_.begin(), turned_.end(), [&](const Turned& t) { return t.cell == to.cell(); });
@@ -248,7 +240,7 @@ void VertexMove::link(Pools& pools, std::size_t i) {
 void VertexMove::close(Pools& pools, const Flattened& x) {
   if (!mesh_->constrained(x.cell, x.of_u)) return;
   const Link beyond = mesh_->cell(x.cell).links[x.of_v];
-  constrain(pools, beyond.cell(), beyond.face(), mesh_->constraints(x.cell)->face_entity[x.of_u]);
+  mesh_->constrain_face(pools, beyond.cell(), beyond.face(), mesh_->constraints(x.cell)->face_entity[x.of_u]);
   if (!mesh_->cell(x.cell).links[x.of_u]) mesh_->cell(beyond.cell()).links[beyond.face()] = Link{};
 }
 

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Moves a Steiner vertex v: to a neighbour u, which takes it out of the mesh (every cell at v gets u in the place of v, and
-// those that had both vanish), or to another place on its own entity. A vertex on a segment goes to a neighbour on it, one on
-// a facet to one on that, so that segments and facets stay unions of edges and faces. The new cells cover what the old ones
-// did if all of them are positively oriented (the whole border of the star of v is seen from the new place then), and the new
-// subfacets likewise if none turns over in the facet's projection. What is new need not be Delaunay: the caller asks for the
-// faces to look at.
+// A move of a Steiner vertex v. A collapse moves it to a neighbour u, which takes it out of the mesh: every cell at v gets u in
+// the place of v, and those that had both vanish. A relocation moves it to another place on its own entity.
+//
+// A vertex on a segment collapses onto a neighbour on it, one on a facet onto one on that, so that segments and facets stay
+// unions of edges and faces. The new cells cover what the old ones did if all of them are positively oriented: then the whole
+// border of the star of v is seen from the new place. So do the new subfacets if none turns over in the facet's projection. New
+// faces need not be Delaunay: the caller asks for those to look at (open_faces).
 #pragma once
 
 #include <cstddef>
@@ -18,13 +19,13 @@
 
 namespace pgdr {
 
-/// See above. A workspace of one visit: one thread at a time.
+/// One collapse or relocation at a time: collect, aim, ask, commit. Part of a worker: one thread at a time.
 class VertexMove {
  public:
   using Pools = Mesh<3>::Pools;  ///< of the worker
-  /// Stays: the vertex is one of the input, or has too many cells.
+  /// May the vertex be moved? Stays: it is one of the input, or has too many cells.
   enum class Status { ok, not_owned, stays };
-  /// A cell that gets the new place for one corner.
+  /// A cell at the vertex that does not vanish: it gets the new place for one corner.
   struct Turned {
     CellId cell;  ///< as it is
     int corner;  ///< where the vertex is
@@ -41,10 +42,10 @@ class VertexMove {
 
   /// Collects the cells at v, of which c is one that the visit owns.
   Status collect(VertexId v, CellId c, std::size_t most_cells);
-  VertexId vertex() const { return v_; }  ///< that was collected last
-  const std::vector<CellId>& cells() const { return cells_; }  ///< at it
-  std::vector<VertexId> neighbours() const;  ///< vertices of these
-  std::vector<VertexId> targets() const;  ///< neighbours that it may go to
+  VertexId vertex() const { return v_; }  ///< the vertex that was collected last
+  const std::vector<CellId>& cells() const { return cells_; }  ///< the cells at it
+  std::vector<VertexId> neighbours() const;  ///< the other vertices of these cells
+  std::vector<VertexId> targets() const;  ///< the neighbours that it may collapse onto
   /// The cells for which f is true first, otherwise in their order: `turned` has them so.
   template <class F>
   void put_first(F f) {
@@ -59,19 +60,21 @@ class VertexMove {
     cells_ = std::move(cells);
     corners_ = std::move(corners);
   }
-  void aim(VertexId u);  ///< at a neighbour
-  void aim(const Point3& x);  ///< at a place on the vertex's own entity
-  bool turns_over(std::size_t i) const { return orient<3>(prospect(i)) != Sign::positive; }  ///< the i-th turned cell
-  bool turns_cell_over() const;  ///< any, so that the vertex may not go there; most that may not do
+  void aim(VertexId u);  ///< plans a collapse onto a neighbour
+  void aim(const Point3& x);  ///< plans a relocation to a place on the vertex's own entity
+  bool turns_over(std::size_t i) const {
+    return orient<3>(prospect(i)) != Sign::positive;
+  }                              ///< does the i-th turned cell turn over?
+  bool turns_cell_over() const;  ///< does any? Most moves that are not valid do this, and it is quick to tell
   /// May the vertex go there?
   bool is_valid();
-  Home home() const { return home_; }  ///< of what was aimed at last
+  Home home() const { return home_; }  ///< of the target
   const std::vector<Turned>& turned() const { return turned_; }  ///< the cells that do not vanish
   Simplex<3> prospect(std::size_t i) const;  ///< what becomes of the i-th of them
-  std::vector<OpenFace> open_faces() const;  ///< of these
-  /// Writes what was aimed at last. @pre is_valid()
+  std::vector<OpenFace> open_faces() const;  ///< of the cells that they become
+  /// Makes the planned move. @pre is_valid()
   void commit(Pools& pools);
-  const std::vector<CellId>& new_cells() const { return new_cells_; }  ///< by the last commit
+  const std::vector<CellId>& new_cells() const { return new_cells_; }  ///< made by the last commit
 
  private:
   /// A cell that vanishes: the numbers of the two vertices in it.
@@ -93,7 +96,6 @@ class VertexMove {
   bool is_flat(const Turned& t) const;
   const Flattened* flattened(CellId c) const;
   CellId turn(Pools& pools, const Turned& t);
-  void constrain(Pools& pools, CellId c, int face, EntityId entity);
   void link(Pools& pools, std::size_t i);
   void close(Pools& pools, const Flattened& x);
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "check/findings.hpp"
+#include "numbers/corners.hpp"
 
 namespace pgdr::checking {
 
@@ -46,9 +47,7 @@ template <int D>
 std::array<std::uint32_t, D> face_vertices(const OutputMesh<D>& mesh, std::uint32_t face) {
   const auto& cell = mesh.cells[face / (D + 1)];
   const int opposite = static_cast<int>(face % (D + 1));
-  std::array<std::uint32_t, D> v;
-  for (int i = 0, n = 0; i <= D; ++i)
-    if (i != opposite) v[n++] = cell[i];
+  auto v = face_without(cell, opposite);
   if ((D - opposite) % 2) std::swap(v[0], v[1]);
   return v;
 }

@@ -195,7 +195,7 @@ void number_cells(const detail::StrippedCells<D>& stripped, const detail::Bulk& 
 
 /// Vertices and cells in the order of their slots, in two passes over the cells.
 template <int D>
-void number_hastily(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes,
+void number_by_slots(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes,
                     const detail::Bulk& bulk, Compacted<D>& out) {
   constexpr std::uint32_t used = 0;
   auto& number = out.vertex_number;
@@ -265,9 +265,7 @@ struct MarkedFaces {
 
 template <int D>
 std::array<VertexId, D> face_vertices(const CellRecord<D>& cell, int f) {
-  std::array<VertexId, D> face;
-  for (int j = 0, n = 0; j <= D; ++j)
-    if (j != f) face[n++] = cell.vertices[j];
+  auto face = face_without(cell.vertices, f);
   if (f % 2 == 1) std::swap(face[D - 2], face[D - 1]);
   return face;
 }
@@ -291,7 +289,7 @@ MarkedFaces<D> gather_constraints(const Mesh<D>& mesh, const Domain<D>& domain, 
     const auto* k = mesh.constraints(c);
     for (int f = 0; f <= D; ++f) {
       const Link beyond = mesh.cell(c).links[f];
-      if ((k->faces >> f & 1) && !(beyond && beyond.cell() < c))
+      if (k->has_face(f) && !(beyond && beyond.cell() < c))
         faces.push_back({face_vertices<D>(mesh.cell(c), f), marker(k->face_entity[f]), !beyond});
     }
   });
@@ -300,8 +298,8 @@ MarkedFaces<D> gather_constraints(const Mesh<D>& mesh, const Domain<D>& domain, 
       const auto* k = mesh.constraints(constrained[i]);
       const auto& v = mesh.cell(constrained[i]).vertices;
       for (int e = 0; e < 6; ++e)
-        if (k->edges >> e & 1)
-          edges.push_back({{v[edge_ends[e][0]], v[edge_ends[e][1]]}, domain.segments()[k->edge_entity[e]].marker});
+        if (k->has_edge(e))
+          edges.push_back({ends_of_edge(v, e), domain.segments()[k->edge_entity[e]].marker});
     });
   return found;
 }
@@ -373,7 +371,7 @@ Compacted<D> compact_by_slots(const Mesh<D>& mesh, const Domain<D>& domain, std:
                              bool parallel, const FillPoints<D>& fill) {
   const detail::Bulk bulk(parallel, {});
   Compacted<D> out;
-  number_hastily<D>(mesh, domain, region_attributes, bulk, out);
+  number_by_slots<D>(mesh, domain, region_attributes, bulk, out);
   if (fill) fill(mesh, out);
   number_constraints<D>(gather_constraints<D>(mesh, domain, bulk), out.vertex_number, bulk, out.mesh);
   return out;

@@ -129,7 +129,7 @@ void fill_attributes(const Mesh<D>& mesh, const Domain<D>& domain, Numbers numbe
   if constexpr (D == 3) fill_on_facets(mesh, domain, numbers, bulk, rows);
 }
 
-/// Of a segment, or, in 3D where it has none, of the first of its facets that has one.
+/// The marker of a segment or facet; in 3D, of a segment without one, that of the first of its facets that has one.
 template <int D>
 int marker_of(const Domain<D>& domain, Home home) {
   if (D == 3 && home.kind() == EntityKind::facet) return domain.facets()[home.id()].marker;

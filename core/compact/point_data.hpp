@@ -24,13 +24,13 @@ template <int D>
 class MeshInterpolation;
 }
 
-/// What is interpolated on, made before the refinement; used after it.
+/// The data of points: made before the refinement, of what is interpolated on, and used after it.
 template <int D>
 class PointData {
  public:
   /// `unrefined`: the mesh once the boundary is there and the exterior gone. Kept if the input has attributes. Linear time.
   PointData(const Mesh<D>& unrefined, const Domain<D>& domain);
-  PointData(PointData&&) noexcept;  ///< as usual
+  PointData(PointData&&) noexcept;  ///< moves the data
   ~PointData();
 
   /// Sets markers and attributes of the points of `out`, which is `refined` in compact form. `parallel` and `stop` as for

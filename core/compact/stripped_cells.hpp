@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The vertices of the cells of a mesh, side by side, in the memory of these cells, most of which is given back: what a
-// finished mesh is made from, so that both take little more memory than the one that was refined.
+// Stripped cells: the vertices of the cells of a mesh, side by side in the memory of these cells, most of which is given back.
+// The finished mesh is made of them, so that both take little more memory than the mesh that was refined.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ class StrippedCells {
  public:
   using Cell = std::array<std::uint32_t, D + 1>;  ///< indices of vertices, in the order of the cell
 
-  /// Of the mesh its vertices alone are left. `regions`: keep the region of each cell.
+  /// Takes the cells of the mesh apart: its vertices alone can be used after that. `regions`: keep the region of each cell.
   StrippedCells(Mesh<D>& mesh, const Bulk& bulk, bool regions) : bulk_(&bulk) {
     const std::uint32_t bound = mesh.cell_bound();
     block_ = std::clamp(std::bit_ceil(bound / 16), 1u << 12, 1u << 18);  // most of it several huge pages, where that counts
@@ -46,7 +46,7 @@ class StrippedCells {
     });
   }
   std::size_t block_count() const { return blocks_.size(); }
-  /// Those of one block; the blocks hold all cells, each once.
+  /// The cells of one block. The blocks hold all cells, each once.
   std::span<Cell> block(std::size_t i) const { return {blocks_[i].cells, blocks_[i].count}; }
 
  private:

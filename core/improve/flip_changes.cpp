@@ -14,7 +14,7 @@ Simplex<3> FlipChanges::simplex_of(const std::array<VertexId, 4>& vertices) cons
   return s;
 }
 
-/// By how much the flip lessens the excess, if that is more than `least` and no edge is too short.
+/// The amount by which the flip lowers the excess, if that is more than `least` and no edge is too short.
 std::optional<double> FlipChanges::gain_of_flip(const Flip& flip, double least) {
   const double shortest = w_->options.min_edge * w_->options.min_edge;
   double excess = judge_->excess_of(flip.old.cells);
@@ -48,9 +48,8 @@ bool FlipChanges::flip_is_explained(const Flip& flip, const Violations& violatio
 }
 
 Outcome FlipChanges::flip_to_improve(const Entry<3>& e) {
-  using Flips = LocalFlips<3>;
   std::vector<Flip> flips;
-  if (flips_->find_flips(e.cell, flips, w_->trace) == Flips::Outcome::not_owned) return Outcome::not_owned;
+  if (!flips_->find_flips(e.cell, flips, w_->trace)) return Outcome::not_owned;
   const Flip* best = nullptr;
   bool violates = false;
   double most = least_gain;

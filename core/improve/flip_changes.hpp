@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Flips that leave less excess (change_judge.hpp says what that is, why this ends, and what may be new), and after any change
-// those that leave no more excess, and fewer faces that are not locally Delaunay. Part of a worker.
+// Flips of the last stage (change_judge.hpp says what excess is, why this ends, and what may be new). Flips for a poor element
+// lower the excess. Flips after any change lower the number of violations, and do not raise the excess.
 #pragma once
 
 #include <array>
@@ -16,17 +16,17 @@
 
 namespace pgdr {
 
-/// See above.
+/// The flips of the last stage. Part of a worker: one thread at a time.
 class FlipChanges {
  public:
   /// All outlive it.
   FlipChanges(Workspace<3>& workspace, WorkLister<3>& lister, LocalFlips<3>& flips, ChangeJudge& judge)
       : w_(&workspace), lister_(&lister), flips_(&flips), judge_(&judge) {}
 
-  /// Makes the flip of a face or edge of the element that lessens the excess most, the first of those that do.
+  /// Makes the flip of a face or edge of the element that lowers the excess most, the first of those that do.
   Outcome flip_to_improve(const Entry<3>& e);
-  /// The tail of every change made for e: flips at new cells, if a new face is not locally Delaunay (`violates`), and lists what is
-  /// poor after that.
+  /// Finishes a change that was made for e: flips at its new cells, if a new face is not locally Delaunay (`violates`), and lists
+  /// what is poor after that.
   Outcome finish(const Entry<3>& e, std::vector<CellId> new_cells, bool violates);
 
  private:

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The last stage of a run, in 3D, which changes the mesh for elements that stay poor: vertices are taken out and moved, faces and
-// edges flipped, and points put in, wherever that leaves fewer of these elements, or better ones (change_judge.hpp).
+// The last stage of a run in 3D. It changes the mesh for elements that stay poor: it collapses and relocates vertices, flips
+// faces and edges, and inserts points, wherever that leaves fewer poor elements, or better ones (change_judge.hpp).
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@
 
 namespace pgdr {
 
-/// See above. Read by all visits at once; changed between them alone.
+/// The stage. Threads: read by all visits at once, changed between them alone.
 class Improvement final : public ElementStage<3> {
  public:
   Improvement(const Mesh<3>& mesh, const PoorReasons<3>& reasons) : mesh_(&mesh), reasons_(&reasons) {}  ///< both outlive it
@@ -21,7 +21,7 @@ class Improvement final : public ElementStage<3> {
                                                  DelaunayRepair<3>& repair) const override;
   std::uint64_t version(CellId c) const override;
 
-  bool collapses_only = true;  ///< vertices are taken out, and nothing else is done
+  bool collapses_only = true;  ///< vertices are collapsed, and nothing else is done
 
  private:
   const Mesh<3>* mesh_;

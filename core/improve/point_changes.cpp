@@ -89,9 +89,9 @@ auto PointChanges::places_for(CellId c) -> std::vector<Place> {
   add(detail::mean_of_corners<3>(s, 15u));
   if (const auto* k = w_->mesh.constraints(c)) {
     for (int f = 0; f < 4; ++f)
-      if (k->faces >> f & 1) add_places_on_face(c, f, places);
+      if (k->has_face(f)) add_places_on_face(c, f, places);
     for (int e = 0; e < 6; ++e)
-      if (k->edges >> e & 1) add_places_on_edge(c, e, places);
+      if (k->has_edge(e)) add_places_on_edge(c, e, places);
   }
   const Point3 center = places.front().x;
   const auto encroached = w_->cavity.collect(center, c) == Cavity<3>::Status::ok ? encroached_entity<3>(w_->mesh, w_->cavity, w_->options, center) : std::nullopt;
@@ -122,7 +122,7 @@ Simplex<3> PointChanges::prospect(std::size_t n) const {
   return s;
 }
 
-/// By how much the collected point makes the excess less; nothing if it does not.
+/// The amount by which the collected point lowers the excess.
 double PointChanges::gain_of_collected() {
   double left = judge_->excess_of(w_->cavity.cells());
   for (std::size_t n = 0; n < w_->cavity.boundary().size() && left > 0; ++n)
@@ -153,7 +153,7 @@ bool PointChanges::poor_ones_are_explained(const Place& p) {
   return true;
 }
 
-/// Of its corners on entities, each once.
+/// The homes of the corners of the cavity that lie on entities, each once.
 std::vector<Home> PointChanges::homes_of_cavity() const {
   std::vector<Home> homes;
   for (const CellId c : w_->cavity.cells())
@@ -199,7 +199,7 @@ bool PointChanges::all_new_violations(F f) const {
   return true;
 }
 
-/// The same of the faces that would not be locally Delaunay. `any`: are there any?
+/// Would all new violations be explained? `any`: are there any?
 bool PointChanges::violations_are_explained(const Place& p, bool& any) {
   return all_new_violations([&](std::size_t n, VertexId further) { return any = true, is_explained(p, n, further); });
 }

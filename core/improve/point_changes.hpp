@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Points for elements that stay poor, wherever that leaves less excess (change_judge.hpp). Part of a worker.
+// Points of the last stage: insertions for poor elements that lower the excess (change_judge.hpp).
 #pragma once
 
 #include <cstddef>
@@ -13,12 +13,14 @@
 
 namespace pgdr {
 
-/// See above.
+/// The insertions of the last stage. Part of a worker: one thread at a time.
 class PointChanges {
  public:
-  PointChanges(Workspace<3>& workspace, ChangeJudge& judge, FlipChanges& flips) : w_(&workspace), judge_(&judge), flips_(&flips) {}  ///< all outlive it
+  /// All outlive it.
+  PointChanges(Workspace<3>& workspace, ChangeJudge& judge, FlipChanges& flips)
+      : w_(&workspace), judge_(&judge), flips_(&flips) {}
 
-  /// Inserts the point that lessens the excess most, the first of those that do.
+  /// Inserts the point that lowers the excess most, the first of those that do.
   Outcome insert_to_improve(const Entry<3>& e);
 
  private:

@@ -22,7 +22,7 @@ Point3 between(const Point3& a, const Point3& b, double part) {
 
 }  // namespace
 
-/// By how much the move that was aimed at lessens the excess, if that is more than `least`, and it turns over none of the cells that
+/// The amount by which the planned move lowers the excess, if that is more than `least`, and it turns over none of the cells that
 /// it takes to tell. Notes what is poor then.
 std::optional<double> VertexChanges::gain_of_move(double excess, double least) {
   poor_turned_.clear();
@@ -46,7 +46,7 @@ bool VertexChanges::move_keeps_sizes() const {
   return true;
 }
 
-/// Of the corners of the i-th new cell.
+/// The homes of the corners of the i-th new cell.
 std::vector<Home> VertexChanges::homes_of_turned(std::size_t i) const {
   const auto [c, corner] = move_.turned()[i];
   std::vector<Home> homes;
@@ -71,7 +71,7 @@ bool VertexChanges::move_is_explained(bool& any) {
   return true;
 }
 
-/// On its two subsegments: some parts of these, and the projections of the vertices about it.
+/// Adds places on its two subsegments: some parts of these, and the projections of the vertices about it.
 void VertexChanges::add_places_on_segment(const std::vector<VertexId>& ends, std::vector<Point3>& places) const {
   if (ends.size() != 2) return;
   const EntityId segment = w_->mesh.vertex(move_.vertex()).home.id();
@@ -124,7 +124,7 @@ Outcome VertexChanges::change(const Entry<3>& e, Kind kind) {
   struct Best {
     VertexId v;
     CellId at;
-    VertexId u;  // if it is taken out
+    VertexId u;  // the neighbour that it collapses onto
     Point3 x;
     bool violates;
   };
@@ -139,12 +139,12 @@ Outcome VertexChanges::change(const Entry<3>& e, Kind kind) {
     const VertexId v = candidate.first;
     const CellId at = candidate.second;
     VertexNote& note = w_->mesh.note(v);
-    std::uint32_t& settled = note.settled[collapses ? 0 : 1];
-    if (settled == note.version + 1) continue;
+    std::uint32_t& unchangeable_until = collapses ? note.no_collapse_until : note.no_move_until;
+    if (note.version < unchangeable_until) continue;
     const auto status = move_.collect(v, at, most_cells_changed);
     if (status == VertexMove::Status::not_owned) return Outcome::not_owned;
     if (status != VertexMove::Status::ok) {
-      settled = note.version + 1;
+      unchangeable_until = note.version + 1;
       continue;
     }
     bool may_go_elsewhere = false;  // in another visit
@@ -165,7 +165,7 @@ Outcome VertexChanges::change(const Entry<3>& e, Kind kind) {
       for (const VertexId u : move_.targets()) consider(u, w_->mesh.point(u));
     else
       for (const Point3& x : places_to_move_to()) consider(no_vertex, x);
-    if (!best && !may_go_elsewhere) settled = note.version + 1;
+    if (!best && !may_go_elsewhere) unchangeable_until = note.version + 1;
   }
   if (!best) return Outcome::refused;
   move_.collect(best->v, best->at, most_cells_changed);

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Steiner vertices are taken out where that leaves no more excess, and moved where it leaves less (change_judge.hpp says what that
-// is, why this ends, and what may be new). Between segments at a small angle every vertex makes short edges, to those on the other
-// segment, and poor elements at these; what needed it when it was inserted may be gone by now. Part of a worker.
+// Collapses and relocations of Steiner vertices in the last stage (change_judge.hpp says what excess is, why this ends, and what
+// may be new). A collapse leaves no more excess, a relocation less. Between segments at a small angle every vertex makes short
+// edges, to the vertices on the other segment, and poor elements at these. What a vertex was inserted for may be gone by now.
 #pragma once
 
 #include <cstddef>
@@ -18,17 +18,17 @@
 
 namespace pgdr {
 
-/// See above.
+/// The collapses and relocations of the last stage. Part of a worker: one thread at a time.
 class VertexChanges {
  public:
   /// All outlive it.
   VertexChanges(Workspace<3>& workspace, ChangeJudge& judge, FlipChanges& flips)
       : w_(&workspace), judge_(&judge), flips_(&flips), move_(workspace.mesh, workspace.domain) {}
 
-  enum class Kind { collapse, move };  ///< of a change
-  /// Before the visit does anything.
+  enum class Kind { collapse, move };  ///< what a change does with a vertex
+  /// Must be called before the visit does anything.
   void begin_visit() { move_.set_area(w_->visit->area); }
-  /// Does what lessens the excess most with a vertex of the element, or of a neighbour of it: takes it out, or else moves it.
+  /// Makes the change of a vertex of the element that lowers the excess most; of a neighbour, too, if it is a collapse.
   Outcome change(const Entry<3>& e, Kind kind);
 
  private:

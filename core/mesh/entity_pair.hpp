@@ -10,9 +10,9 @@
 
 namespace pgdr {
 
-/// Two input entities that meet where something was refused.
+/// Two input entities that meet where a split or a point was refused.
 struct EntityPair {
-  std::array<EntityRef, 2> entities;  ///< of the Domain
+  std::array<EntityRef, 2> entities;  ///< the two, of the Domain
 };
 
 }  // namespace pgdr

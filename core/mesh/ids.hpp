@@ -9,15 +9,15 @@
 
 namespace pgdr {
 
-/// Typed 32-bit ids of the mesh under refinement; converted explicitly where an array is indexed, nowhere else. (A finished
-/// mesh has plain indices, see OutputMesh.)
+/// The id of a vertex. It is converted explicitly where an array is indexed, nowhere else. (A finished mesh has plain indices,
+/// see OutputMesh.)
 enum class VertexId : std::uint32_t {};
-/// Likewise, of cells.
+/// The id of a cell: of its slot, which may hold another cell later (Mesh::birth).
 enum class CellId : std::uint32_t {};
 inline constexpr VertexId no_vertex{0xffffffffu};  ///< no vertex has this id
 inline constexpr CellId no_cell{0xffffffffu};      ///< no cell has this id
 
-/// Where an array is indexed by an id.
+/// The id as an index of an array.
 template <class Id>
   requires std::same_as<Id, VertexId> || std::same_as<Id, CellId>
 constexpr std::uint32_t index(Id id) {

@@ -23,9 +23,9 @@ class KeySet {
       stamp_ = 1;
     }
   }
-  /// Into the set. False if it was there.
+  /// Adds the key. False if it was there.
   bool insert(std::uint64_t key) { return std::exchange(slots_[find(key)], Slot{key, stamp_}).stamp != stamp_; }
-  /// Since the last time that it was emptied.
+  /// Was the key added since the set was emptied?
   bool contains(std::uint64_t key) const { return slots_[find(key)].stamp == stamp_; }
 
  private:
@@ -44,7 +44,7 @@ class KeySet {
   std::uint32_t stamp_ = 0;
 };
 
-/// Numbers of few vertices, or of whatever has ids, given out as they are asked for. One thread.
+/// Small numbers for few ids, given out as they are asked for. One thread.
 class SmallNumbers {
  public:
   static constexpr std::uint32_t bound = 64;  ///< of the numbers
@@ -52,7 +52,7 @@ class SmallNumbers {
 
   /// Forgets all.
   void reset() { ids_.fill(none); }
-  /// That of this id, which is not all ones.
+  /// The number of the id, which is not all ones; a new one if it has none.
   std::uint32_t of(std::uint32_t id) {
     std::uint32_t i = first_place(id);
     while (ids_[i] != id) {
@@ -61,7 +61,7 @@ class SmallNumbers {
     }
     return i;
   }
-  /// Has it one?
+  /// Has the id a number?
   bool has(std::uint32_t id) const {
     std::uint32_t i = first_place(id);
     while (ids_[i] != id && ids_[i] != none) i = (i + 1) % bound;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Is a face locally Delaunay? A face that is not, a violation, is what flips and gift wrapping mend.
+// The local Delaunay test. A face that fails it is a violation, which flips and gift wrapping repair.
 #pragma once
 
 #include "mesh/mesh.hpp"

@@ -104,9 +104,9 @@ void Mesh<D>::find_pinched_edges(std::size_t segments) {
     for (std::uint32_t i = 0; i < cell_bound(); ++i) {
       const auto* k = alive(CellId{i}) ? constraints(CellId{i}) : nullptr;
       if (k == nullptr || k->edges == 0) continue;
-      for (std::size_t e = 0; e < 6; ++e) {
-        if ((k->edges >> e & 1) == 0) continue;
-        std::array<VertexId, 2> v{cell(CellId{i}).vertices[edge_ends[e][0]], cell(CellId{i}).vertices[edge_ends[e][1]]};
+      for (int e = 0; e < 6; ++e) {
+        if (!k->has_edge(e)) continue;
+        std::array<VertexId, 2> v = ends_of_edge(cell(CellId{i}).vertices, e);
         std::sort(v.begin(), v.end());
         for (int f = 0; f <= D; ++f)
           if (f != edge_ends[e][0] && f != edge_ends[e][1] && !cell(CellId{i}).links[f]) ends.emplace_back(v, k->edge_entity[e]);
@@ -129,10 +129,9 @@ void Mesh<D>::change_pinched(CellId c, bool add) {
   if constexpr (D == 3) {
     const auto* k = constraints(c);
     if (k == nullptr || k->edges == 0) return;
-    const auto& v = cell(c).vertices;
-    for (std::size_t e = 0; e < 6; ++e) {
-      if ((k->edges >> e & 1) == 0 || !pinched_->has(k->edge_entity[e])) continue;
-      const VertexId a = v[edge_ends[e][0]], b = v[edge_ends[e][1]];
+    for (int e = 0; e < 6; ++e) {
+      if (!k->has_edge(e) || !pinched_->has(k->edge_entity[e])) continue;
+      const auto [a, b] = ends_of_edge(cell(c).vertices, e);
       if (add) pinched_->add(a, b, c);
       else pinched_->remove(a, b, c);
     }

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The mesh while it is refined: flat arrays of vertices and cells, growing without moving. A cell is one cache line in
-// 3D: vertices, links to its neighbours, and its cached circumsphere, which answers nearly every in-sphere question
-// without touching a vertex; half of one in 2D, without a circumcircle. Constrained faces and edges are marked on the cells that contain them, in side records
-// of the few cells that have any.
+// The mesh while it is refined: flat arrays of vertices and cells, which grow without moving. In 3D a cell is one cache line: its
+// vertices, links to its neighbours, and its circumsphere, which answers nearly every in-sphere question without touching a
+// vertex. In 2D a cell is half a cache line, without a circumcircle. Constrained faces and edges are marked on the cells that
+// contain them, in side records of the few cells that have any.
 //
-// Threads: elements carry no lock. A cell is written by the visit that owns it alone; see design notes in docs/.
-// Until the exterior is carved away, the complement of the convex hull is filled with ghost cells at `infinite_vertex`.
+// Ghosts: until the exterior is carved away, cells at `infinite_vertex` fill the complement of the convex hull.
+// Threads: elements carry no lock. A cell is written by the visit that owns it, and by no other (visit_area.hpp).
 #pragma once
 
 #include <array>
@@ -23,6 +23,7 @@
 #include "mesh/ids.hpp"
 #include "mesh/pinched_edges.hpp"
 #include "mesh/pool.hpp"
+#include "numbers/corners.hpp"
 #include "pgdr/circumsphere.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/predicates.hpp"
@@ -30,14 +31,14 @@
 
 namespace pgdr {
 
-inline constexpr VertexId infinite_vertex{0xfffffffeu};  ///< of ghosts
+inline constexpr VertexId infinite_vertex{0xfffffffeu};  ///< the vertex at infinity, which all ghosts have
 
 /// A face seen from a cell: the cell beyond it and the number of the same face there; or nothing.
 struct Link {
   std::uint32_t code = 0xffffffffu;  ///< cell and face, packed; all ones: nothing
 
   Link() = default;
-  Link(CellId cell, int face) : code(index(cell) << 2 | static_cast<std::uint32_t>(face)) {}  ///< to that face of that cell
+  Link(CellId cell, int face) : code(index(cell) << 2 | static_cast<std::uint32_t>(face)) {}  ///< leads to that face of that cell
   /// The link with this code.
   static Link from_code(std::uint32_t code) {
     Link l;
@@ -50,44 +51,46 @@ struct Link {
   friend bool operator==(Link, Link) = default;  ///< the same cell and face
 };
 
-/// What a vertex lies on, packed: two bits of EntityKind, thirty of id.
+/// The entity of lowest dimension that a vertex lies on, packed: two bits of EntityKind, thirty of id.
 struct Home {
   std::uint32_t code = 0;  ///< kind and id
 
   Home() = default;
-  /// The entity, or of a vertex of the input its domain point.
+  /// `id`: of the segment or facet; of an input vertex, its domain point.
   Home(EntityKind kind, EntityId id) : code(static_cast<std::uint32_t>(kind) << 30 | (id & 0x3fffffffu)) {}
-  EntityKind kind() const { return static_cast<EntityKind>(code >> 30); }  ///< of the entity
-  EntityId id() const { return code & 0x3fffffffu; }  ///< of the entity, or the domain point
+  EntityKind kind() const { return static_cast<EntityKind>(code >> 30); }  ///< vertex, segment, facet or volume
+  EntityId id() const { return code & 0x3fffffffu; }  ///< of the segment or facet; of an input vertex, its domain point
   EntityRef entity() const { return {kind(), kind() == EntityKind::volume ? no_entity : id()}; }  ///< both; the volume has no id
   bool operator==(const Home&) const = default;  ///< the same entity
 };
 
-/// `relaxed_radius` is R(p) of the small-angle rule (refiner.hpp), rounded down; infinity for input vertices.
+/// A vertex.
 template <int D>
 struct VertexRecord {
   Point<D> point;  ///< where it is
   Home home;  ///< what it lies on
-  float relaxed_radius = std::numeric_limits<float>::infinity();  ///< as said above
+  /// The relaxed insertion radius R(p) of rule/insertion_rule.hpp, rounded down; infinity for input vertices.
+  float relaxed_radius = std::numeric_limits<float>::infinity();
 };
 
-/// What is known of a vertex (improve/vertex_moves.cpp).
+/// What the last stage of a run knows of a vertex (improve/vertex_changes.hpp). All zero at first, as fresh memory is.
 struct VertexNote {
-  std::uint32_t version;     ///< how often the cells at it have changed
-  std::uint32_t settled[2];  ///< one more than that was when it was found to have to stay, or to have nowhere to go; 0: not yet
+  std::uint32_t version;  ///< how often the cells at it have changed
+  std::uint32_t no_collapse_until;  ///< no collapse of it helps while its version is below this
+  std::uint32_t no_move_until;      ///< no move of it helps while its version is below this
 };
 
-/// Of a slot: the side record of its cell and the mark of a cavity, and how many cells it has held.
+/// What a slot knows of its cell: the number of its side record, the mark of a cavity, and how many cells the slot has held.
 template <int D>
 struct alignas(D == 3 ? 8 : 2) CellTag {
-  static constexpr std::uint32_t mark_bit = 1u << 31;  ///< of `get()`
+  static constexpr std::uint32_t mark_bit = 1u << 31;  ///< of `get()`: the cell is marked
 
   std::array<std::uint16_t, 2> constraints;  ///< one number, in halves
-  std::uint16_t birth;  ///< see Mesh
+  std::uint16_t birth;  ///< how many cells the slot has held (Mesh::birth)
 
-  /// Number of the side record, from 1, and the mark.
+  /// The number of the side record, from 1, or 0 without one; and the mark.
   std::uint32_t get() const { return std::bit_cast<std::uint32_t>(constraints); }
-  void set(std::uint32_t v) { constraints = std::bit_cast<std::array<std::uint16_t, 2>>(v); }  ///< both
+  void set(std::uint32_t v) { constraints = std::bit_cast<std::array<std::uint16_t, 2>>(v); }  ///< number and mark
 };
 
 template <int D>
@@ -104,10 +107,10 @@ static_assert(sizeof(CellRecord<3>) == 64);
 /// A triangle, half a cache line. Its circumcircle is not kept: its corners, which are few to read, answer as soon.
 template <>
 struct alignas(32) CellRecord<2> {
-  std::array<VertexId, 3> vertices;  ///< as in space
-  std::array<Link, 3> links;  ///< likewise
+  std::array<VertexId, 3> vertices;  ///< positively oriented; the first is no_vertex in a slot that is free
+  std::array<Link, 3> links;  ///< links[i]: across the edge opposite vertices[i]
   CellTag<2> tag;             ///< of the slot
-  std::uint16_t region;       ///< number
+  std::uint16_t region;       ///< number of its region
 };
 static_assert(sizeof(CellRecord<2>) == 32);
 
@@ -125,30 +128,11 @@ struct FilterSphere {
     const std::uint64_t bits = std::bit_cast<std::uint64_t>(squared_radius);
     return {center, std::bit_cast<double>((bits & ~std::uint64_t{15}) | static_cast<std::uint64_t>(level))};
   }
-  /// Of a sphere that is not side by side with others.
+  /// Of one sphere with the error of its centre.
   static FilterSphere of(const Circumsphere<D>& sphere) {
     return of(sphere.center, sphere.squared_radius, 6 * sphere.center_error / std::sqrt(sphere.squared_radius));
   }
 };
-
-inline constexpr int edge_count(int dimension) { return dimension == 3 ? 6 : 3; }  ///< of a simplex
-/// The two ends of edge e of a tetrahedron, and e of two corners.
-inline constexpr std::array<std::array<int, 2>, 6> edge_ends = {{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
-/// The number of the edge between two corners of a tetrahedron.
-inline constexpr int edge_of_ends[4][4] = {{-1, 0, 1, 2}, {0, -1, 3, 4}, {1, 3, -1, 5}, {2, 4, 5, -1}};
-
-/// The numbers of the corners of each face of a cell, which is opposite the corner of its number. With that corner behind them they
-/// are an even permutation. (-fvisibility=hidden overlooks templates of variables.)
-template <int D>
-[[gnu::visibility("hidden")]] inline constexpr auto face_corners = [] {
-  std::array<std::array<std::uint8_t, D>, D + 1> table{};
-  for (std::size_t face = 0; face <= D; ++face) {
-    for (std::size_t corner = 0, n = 0; corner <= D; ++corner)
-      if (corner != face) table[face][n++] = static_cast<std::uint8_t>(corner);
-    if ((D - face) % 2 == 1) std::swap(table[face][0], table[face][1]);
-  }
-  return table;
-}();
 
 /// Which faces and edges of a cell are constrained, and by what. In 2D the faces are the subsegments.
 template <int D>
@@ -158,42 +142,55 @@ struct ConstraintRecord {
   std::uint8_t part = 0;                      ///< scratch of a cavity: bit i: face i is being split
   std::array<EntityId, D + 1> face_entity{};  ///< facet (3D) or segment (2D)
   std::array<EntityId, D == 3 ? 6 : 1> edge_entity{};  ///< segment of each constrained edge, 3D
+
+  bool has_face(int face) const { return faces >> face & 1; }  ///< is the face a subfacet (2D: subsegment)?
+  bool has_edge(int edge) const { return edges >> edge & 1; }  ///< 3D: is the edge a subsegment?
+  /// The face is part of this facet (2D: segment).
+  void set_face(int face, EntityId entity) {
+    faces |= static_cast<std::uint8_t>(1 << face);
+    face_entity[face] = entity;
+  }
+  /// 3D: the edge is part of this segment.
+  void set_edge(int edge, EntityId segment) {
+    edges |= static_cast<std::uint8_t>(1 << edge);
+    edge_entity[edge] = segment;
+  }
 };
 
-/// Vertices and cells by their ids: see above.
+/// The mesh: its vertices and cells by their ids, and the pools that new ones come from.
 template <int D>
 class Mesh {
  public:
   Mesh();
 
-  VertexRecord<D>& vertex(VertexId v) { return vertices_[index(v)]; }  ///< by its id
-  const VertexRecord<D>& vertex(VertexId v) const { return vertices_[index(v)]; }  ///< by its id
+  VertexRecord<D>& vertex(VertexId v) { return vertices_[index(v)]; }  ///< to be changed
+  const VertexRecord<D>& vertex(VertexId v) const { return vertices_[index(v)]; }  ///< to be read
   const Point<D>& point(VertexId v) const { return vertices_[index(v)].point; }  ///< where the vertex is
-  /// 3D: what the visits at the end of a run know of it; all 0 before. Whoever may change its cells.
+  /// 3D: what the last stage knows of the vertex. Threads: for the visit that owns the cells at it.
   VertexNote& note(VertexId v) { return notes_[index(v)]; }
-  const VertexNote& note(VertexId v) const { return notes_[index(v)]; }  ///< likewise
-  CellRecord<D>& cell(CellId c) { return cells_[index(c)]; }  ///< by its id
-  const CellRecord<D>& cell(CellId c) const { return cells_[index(c)]; }  ///< by its id
+  const VertexNote& note(VertexId v) const { return notes_[index(v)]; }  ///< to be read
+  CellRecord<D>& cell(CellId c) { return cells_[index(c)]; }  ///< to be changed
+  const CellRecord<D>& cell(CellId c) const { return cells_[index(c)]; }  ///< to be read
 
-  /// A hint that the cell is about to be read; any id will do.
+  /// Hints that the cell is about to be read; any id will do.
   void prefetch(CellId c) const {
     __builtin_prefetch(&cells_[index(c)]);
     if constexpr (D == 3) __builtin_prefetch(&tags_[index(c)]);
   }
-  /// The same of the vertices of whatever cell is in that slot.
+  /// Hints that the vertices of whatever cell is in that slot are about to be read.
   void prefetch_vertices(CellId c) const {
     for (const VertexId& v : cell(c).vertices) prefetch(atomic(v).load(std::memory_order_relaxed));
   }
-  void prefetch(VertexId v) const { __builtin_prefetch(&vertices_[index(v)]); }  ///< likewise
+  void prefetch(VertexId v) const { __builtin_prefetch(&vertices_[index(v)]); }  ///< hints that the vertex is about to be read
 
   bool alive(CellId c) const { return cell(c).vertices[0] != no_vertex; }  ///< does the slot hold a cell?
-  static constexpr std::uint16_t last_birth = 0xffff;  ///< no cell has it
-  /// Counts the cells that the slot has held: with the slot it names a cell for good, since a slot whose count is full holds
-  /// no other. A flip may bring a cell back, in whatever slot: it is another one. From any thread.
+  static constexpr std::uint16_t last_birth = 0xffff;  ///< the count of a slot that holds no cell any more
+  /// The number of cells that the slot has held before. Slot and birth name a cell for good, since a slot whose count is full is
+  /// not used again. (A flip may bring back a cell of the same vertices: it has another slot, or another birth.) Any thread.
   std::uint16_t birth(CellId c) const { return atomic(tag(c).birth).load(std::memory_order_relaxed); }
-  /// The vertices of the cell that was born there; false if it is dead. From any thread: the slot may be in use by another
-  /// meanwhile, so that what the caller does not own may die any moment. (Whoever reads a vertex of a later cell, or the one
-  /// that stands for none, has seen the birth counted before it, by release and acquire: plain moves on x86.)
+  /// Reads the vertices of the cell that was born there; false if it is dead. Any thread: a cell that the caller does not own may
+  /// die at any moment, and its slot be used by another. (Whoever reads a vertex of a later cell, or no_vertex, has seen the
+  /// birth counted before it, by release and acquire: plain moves on x86.)
   bool read_vertices(CellId c, std::uint16_t born, std::array<VertexId, D + 1>& vertices) const {
     if (birth(c) != born) return false;
     for (int i = 0; i <= D; ++i) vertices[i] = atomic(cell(c).vertices[i]).load(std::memory_order_acquire);
@@ -205,41 +202,53 @@ class Mesh {
 #pragma GCC unroll 4
     for (int i = 0; i <= D; ++i) atomic(slot[i]).store(vertices[i], std::memory_order_release);
   }
-  /// Does it stand for what is beyond the hull?
+  /// Is the cell a ghost, beyond the hull?
   bool is_ghost(CellId c) const {
     for (const VertexId v : cell(c).vertices)
       if (v == infinite_vertex) return true;
     return false;
   }
-  /// The points of the cell's vertices, in its order.
-  Simplex<D> simplex(CellId c) const {
-    Simplex<D> s;
-    for (int i = 0; i <= D; ++i) s[i] = point(cell(c).vertices[i]);
-    return s;
+  /// Where these vertices are, in their order.
+  template <std::size_t N>
+  std::array<Point<D>, N> points(const std::array<VertexId, N>& vertices) const {
+    std::array<Point<D>, N> p;
+    for (std::size_t i = 0; i < N; ++i) p[i] = point(vertices[i]);
+    return p;
   }
+  /// The points of the cell's vertices, in its order.
+  Simplex<D> simplex(CellId c) const { return points(cell(c).vertices); }
 
-  // Marks of a cavity under construction: owner of the cell alone.
-  bool marked(CellId c) const { return tag(c).get() & mark_bit; }       ///< is it?
-  void mark(CellId c) { tag(c).set(tag(c).get() | mark_bit); }     ///< marks it
+  // Marks: of the cells of a cavity that is being collected, for example. Threads: for the visit that owns the cell.
+  bool marked(CellId c) const { return tag(c).get() & mark_bit; }  ///< is the cell marked?
+  void mark(CellId c) { tag(c).set(tag(c).get() | mark_bit); }     ///< marks the cell
   void unmark(CellId c) { tag(c).set(tag(c).get() & ~mark_bit); }  ///< takes the mark off
 
-  /// Constraints of c, or null if none of its faces or edges is constrained.
+  /// The constraints of c, to be changed; null if none of its faces or edges is constrained.
   ConstraintRecord<D>* constraints(CellId c) {
     const std::uint32_t id = tag(c).get() & ~mark_bit;
     return id == 0 ? nullptr : &constraints_[id - 1];
   }
-  const ConstraintRecord<D>* constraints(CellId c) const { return const_cast<Mesh*>(this)->constraints(c); }  ///< likewise
+  const ConstraintRecord<D>* constraints(CellId c) const { return const_cast<Mesh*>(this)->constraints(c); }  ///< to be read
   /// Is the face a subfacet (2D: subsegment)?
   bool constrained(CellId c, int face) const {
     const auto* k = constraints(c);
-    return k && (k->faces >> face & 1);
+    return k && k->has_face(face);
   }
-  /// The number of its region.
+  /// The facet (2D: segment) that the face is part of. @pre constrained(c, face)
+  EntityRef entity_of_face(CellId c, int face) const {
+    return {D == 3 ? EntityKind::facet : EntityKind::segment, constraints(c)->face_entity[face]};
+  }
+  /// 3D: is the edge a subsegment?
+  bool is_subsegment(CellId c, int edge) const {
+    const auto* k = constraints(c);
+    return k && k->has_edge(edge);
+  }
+  /// The number of the cell's region.
   std::uint16_t region(CellId c) const {
     if constexpr (D == 2) return cell(c).region;
     else return several_regions_ ? regions_[index(c)] : std::uint16_t{0};
   }
-  /// Of the cell's owner alone; the first of a region other than 0: on one thread.
+  /// Threads: for the visit that owns the cell; but one thread alone sets the first region other than 0.
   void set_region(CellId c, std::uint16_t r) {
     if constexpr (D == 2) {
       cell(c).region = r;
@@ -249,27 +258,27 @@ class Mesh {
     }
   }
 
-  /// 3D: stores it as the filter of `conflicts`. Ghosts: `set_ghost_sphere`.
+  /// 3D: stores the circumsphere, the filter of `conflicts`. Ghosts have set_ghost_sphere().
   void set_sphere(CellId c, const FilterSphere<D>& sphere) {
     if constexpr (D == 3) {
       cell(c).center = sphere.center;
       cell(c).radius2 = sphere.radius2;
     }
   }
-  /// Of the cell's corners.
+  /// 3D: computes and stores the circumsphere.
   void set_sphere(CellId c) {
     if constexpr (D == 3) set_sphere(c, FilterSphere<D>::of(circumsphere<D>(simplex(c))));
   }
-  /// Which answers nothing.
+  /// 3D: stores a sphere that decides nothing, so that the exact test is asked.
   void set_ghost_sphere(CellId c) {
     if constexpr (D == 3) cell(c).radius2 = std::numeric_limits<double>::quiet_NaN();
   }
-  /// The circumsphere; in 2D it is computed. @pre no ghost
+  /// The circumsphere: in 3D the stored one, in 2D it is computed. @pre the cell is no ghost
   FilterSphere<D> sphere(CellId c) const {
     if constexpr (D == 3) return {cell(c).center, cell(c).radius2};
     else return FilterSphere<D>::of(circumsphere<D>(simplex(c)));
   }
-  Point<D> center(CellId c) const { return sphere(c).center; }  ///< of the circumsphere
+  Point<D> center(CellId c) const { return sphere(c).center; }  ///< the circumcentre, rounded
 
   /// Exactly: is p inside the (perturbed) circumsphere of c? For a ghost: beyond its hull face, or in that face's plane
   /// and inside the sphere of the cell behind it. p must not be a vertex of c.
@@ -277,7 +286,7 @@ class Mesh {
     const CellRecord<D>& k = cell(c);
     if constexpr (D == 3) {
       const double d2 = squared_distance(k.center, p);
-      const auto& band = bands[std::bit_cast<std::uint64_t>(k.radius2) & 15];
+      const Band& band = bands[band_level(k.radius2)];
       if (d2 < k.radius2 * band.inner) return true;
       if (d2 > k.radius2 * band.outer) return false;
     } else {
@@ -291,23 +300,24 @@ class Mesh {
 
   /// Bounds of the exact squared circumradius, from the rounded one.
   static std::pair<double, double> squared_radius_bounds(const FilterSphere<D>& sphere) {
-    const auto& band = bands[std::bit_cast<std::uint64_t>(sphere.radius2) & 15];
+    const Band& band = bands[band_level(sphere.radius2)];
     return {sphere.radius2 * band.inner, sphere.radius2 * band.outer};
   }
-  std::pair<double, double> squared_radius_bounds(CellId c) const { return squared_radius_bounds(sphere(c)); }  ///< likewise
-  /// Is the centre good enough to be a Steiner point?
-  static bool is_accurate(const FilterSphere<D>& sphere) { return (std::bit_cast<std::uint64_t>(sphere.radius2) & 15) < 9; }
+  std::pair<double, double> squared_radius_bounds(CellId c) const { return squared_radius_bounds(sphere(c)); }  ///< of the cell
+  /// Is the centre good enough to be a Steiner point: off by less than 2^-22 of the radius?
+  static bool is_accurate(const FilterSphere<D>& sphere) { return band_level(sphere.radius2) < first_inaccurate_level; }
 
-  /// Ids below these bounds may be alive; `alive` tells for cells.
+  /// Above the ids of all cells; `alive` tells which of the ids below have one.
   std::uint32_t cell_bound() const { return cell_source_.bound(); }
-  std::uint32_t vertex_bound() const { return vertex_source_.bound(); }  ///< likewise, whether any cell has them or not
+  /// Above the ids of all vertices; some below may be in no cell, or unused.
+  std::uint32_t vertex_bound() const { return vertex_source_.bound(); }
 
-  // What compaction does to a mesh that nobody needs any more, bit by bit.
-  /// Where the slot's record is.
+  // For compaction, which takes apart a mesh that nobody needs any more.
+  /// Where the record of the slot is.
   std::byte* memory_of(CellId c) { return reinterpret_cast<std::byte*>(&cells_[index(c)]); }
   /// Gives back most of the memory of the cells numbered [first, last), but for the first `kept` bytes.
   void discard_cells(std::uint32_t first, std::uint32_t last, std::size_t kept) { cells_.discard(first, last, kept); }
-  /// Gives back the memory of what is known of cells beside their records.
+  /// Gives back the memory of the tags of all cells.
   void discard_tags() {
     if constexpr (D == 3) tags_.discard(0, cell_bound());
   }
@@ -317,8 +327,8 @@ class Mesh {
     if constexpr (D == 3) notes_.discard(0, vertex_bound());
   }
 
-  /// The pages of so many more cells and vertices, in pieces of a huge page, for touch_pages: whoever needs them first would wait
-  /// for the kernel. While nobody makes any. @throws std::bad_alloc
+  /// The pages of so many more cells and vertices, in pieces of a huge page, for touch_pages(): whoever used them first would
+  /// wait for the kernel. @pre nobody makes cells or vertices meanwhile. @throws std::bad_alloc
   std::vector<std::span<std::byte>> fresh_pages(std::uint64_t cells, std::uint64_t vertices);
 
   /// The pools of one thread.
@@ -327,17 +337,17 @@ class Mesh {
     IdPool vertices;     ///< ids of vertices
     IdPool constraints;  ///< numbers of side records
   };
-  /// For one more thread.
+  /// The pools of one more thread.
   Pools make_pools() { return {IdPool(cell_source_), IdPool(vertex_source_), IdPool(constraint_source_)}; }
 
-  /// A slot without constraints, to be filled.
+  /// A fresh slot without constraints, for set_vertices().
   CellId new_cell(Pools& pools, std::uint16_t region = 0) {
     const std::uint32_t id = pools.cells.take();
     assert(tag(CellId{id}).get() == 0);
     set_region(CellId{id}, region);
     return CellId{id};
   }
-  /// And its constraints; takes off its mark.
+  /// Frees the cell and its constraints, and takes off its mark.
   void free_cell(Pools& pools, CellId c) {
     CellTag<D>& slot = tag(c);
     if (const std::uint32_t id = slot.get() & ~mark_bit) {
@@ -354,15 +364,21 @@ class Mesh {
   VertexId new_vertex(Pools& pools, const Point<D>& p, Home home, float relaxed_radius);  ///< a vertex that no cell has yet
   /// The constraints of c, made if it has none yet.
   ConstraintRecord<D>& ensure_constraints(Pools& pools, CellId c);
+  /// Makes the face, on the side of c, a part of this facet (2D: segment).
+  void constrain_face(Pools& pools, CellId c, int face, EntityId entity) { ensure_constraints(pools, c).set_face(face, entity); }
+  /// 3D: makes the edge, in c, a part of this segment.
+  void constrain_edge(Pools& pools, CellId c, int edge, EntityId segment) {
+    ensure_constraints(pools, c).set_edge(edge, segment);
+  }
 
-  /// 3D, once the exterior is gone: finds the subsegments with several fans of cells, and lists the cells at them from
-  /// now on. Whoever makes a cell then calls `enlist` when its constraints are there.
+  /// 3D, once the exterior is gone: finds the pinched edges, and lists the cells at them from now on (pinched_edges.hpp). Whoever
+  /// makes a cell then calls `enlist` when its constraints are there.
   void find_pinched_edges(std::size_t segments);
-  /// Lists a cell that has its constraints now.
+  /// Lists a new cell at the pinched edges that it has. Its constraints must be there.
   void enlist(CellId c) {
     if (pinched_) change_pinched(c, true);
   }
-  /// null: no subsegment has several fans
+  /// Null: there are no pinched edges.
   const PinchedEdges* pinched_edges() const { return pinched_.get(); }
 
  private:
@@ -371,7 +387,9 @@ class Mesh {
   template <class T>
   static std::atomic_ref<T> atomic(const T& v) { return std::atomic_ref<T>(const_cast<T&>(v)); }
   struct Band { double inner, outer; };
-  static const std::array<Band, 16> bands;
+  static const std::array<Band, 16> bands;  ///< by level
+  static int band_level(double radius2) { return static_cast<int>(std::bit_cast<std::uint64_t>(radius2) & 15); }
+  static constexpr int first_inaccurate_level = 9;
 
   bool conflicts_exactly(CellId c, const Point<D>& p) const;
   void change_pinched(CellId c, bool add);

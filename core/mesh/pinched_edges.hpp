@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Subsegments at which the kept cells are several fans with nothing but outside and voids between them (two bodies that
-// touch along an edge): no walk across faces leads from one fan to the other, yet all must be split at once. So the cells
-// at these are listed, by the two vertices.
+// Pinched edges: subsegments at which the kept cells are several fans, with outside and voids between them, as where two bodies
+// touch along an edge. No walk across faces leads from one fan to the other, yet all fans must be split at once. So the cells at
+// pinched edges are listed, by the two vertices.
 //
-// Threads: an entry is read and written only by visits that own a cell with both vertices. Claims of concurrent visits are
-// disjoint, so that no two of them have business with one entry, and its order is a function of the mesh's history alone;
-// only the tables that hold the entries are shared, and locked.
+// Threads: the list of an edge is read and written only by visits that own a cell with both vertices. Claims of concurrent visits
+// are disjoint, so that no two of them use one list, and its order depends on the history of the mesh alone. The tables that hold
+// the lists are shared, and locked.
 #pragma once
 
 #include <array>
@@ -22,15 +22,15 @@
 
 namespace pgdr {
 
-/// The cells at such subsegments: see above.
+/// The cells at pinched edges.
 class PinchedEdges {
  public:
-  /// `segments`: of each segment of the Domain, whether its subsegments are such.
+  /// `segments`: of each segment of the Domain, whether subsegments of it are pinched.
   explicit PinchedEdges(std::vector<bool> segments) : segments_(std::move(segments)) {}
 
-  bool has(EntityId segment) const { return segments_[segment]; }  ///< are its subsegments such?
-  void add(VertexId a, VertexId b, CellId c);  ///< a cell with the subsegment ab
-  void remove(VertexId a, VertexId b, CellId c);  ///< when it dies
+  bool has(EntityId segment) const { return segments_[segment]; }  ///< are subsegments of it pinched?
+  void add(VertexId a, VertexId b, CellId c);  ///< lists a cell with the subsegment ab
+  void remove(VertexId a, VertexId b, CellId c);  ///< takes a cell that dies off the list
   /// The cells with this subsegment, of all fans.
   std::vector<CellId> cells(VertexId a, VertexId b) const;
 

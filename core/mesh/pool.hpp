@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Storage that grows without moving, and the per-thread pools of ids that hand its slots out. An `IdSource` is shared:
-// it deals out blocks of ids and makes the storage behind them (one atomic per block, a lock per growth). An `IdPool`
-// belongs to one thread at a time: ids it is given back are handed out again by the same pool, last in first out, while
-// they are still in the cache. No element carries a lock; who may touch a slot is decided above (see mesh.hpp).
+// Storage that grows without moving, and the pools of ids, one a thread, that hand out its slots. An `IdSource` is shared: it
+// deals out blocks of ids and makes the storage behind them, with one atomic operation a block and one lock a growth. An `IdPool`
+// belongs to one thread at a time. It hands out ids that came back last first, while they are in the cache. No element carries a
+// lock: mesh.hpp says who may use a slot.
 #pragma once
 
 #include <atomic>
@@ -36,11 +36,11 @@ class ReservedArray {
 
   /// Makes the slots [0, count) exist. @throws std::bad_alloc
   void grow_to(std::uint32_t count) { memory_.grow_to(std::size_t{count} * sizeof(T)); }
-  /// Of the slots [first, count), which nobody has used and which exist then: see ReservedMemory.
+  /// ReservedMemory::fresh_pages of the slots [first, count), which exist then. @pre nobody has used them
   std::vector<std::span<std::byte>> fresh_pages(std::uint32_t first, std::uint32_t count) {
     return memory_.fresh_pages(std::size_t{first} * sizeof(T), std::size_t{count} * sizeof(T));
   }
-  /// Gives back most of the memory of the slots [first, last), but for the first `kept` bytes. While nobody uses them.
+  /// Gives back most of the memory of the slots [first, last), but for the first `kept` bytes. @pre nobody uses them meanwhile
   void discard(std::uint32_t first, std::uint32_t last, std::size_t kept = 0) {
     memory_.discard(std::size_t{first} * sizeof(T) + kept, std::size_t{last} * sizeof(T));
   }
@@ -50,12 +50,12 @@ class ReservedArray {
   T* items_;
 };
 
-/// Deals out ids 0, 1, 2, ... in blocks, below a capacity; `most` were it not for want of memory.
+/// Deals out ids 0, 1, 2, ... in blocks, below a capacity, which is `most` unless addresses are scarce.
 class IdSource {
  public:
   static constexpr std::uint32_t block = 512;  ///< ids dealt out at once
 
-  static constexpr std::uint32_t most = (1u << 30) - 1024;  ///< ids, were it not for want of memory
+  static constexpr std::uint32_t most = (1u << 30) - 1024;  ///< the largest capacity
 
   /// `grow(n)` is called before any id below n is handed out; from any thread.
   IdSource(const char* what, std::uint32_t capacity, std::function<void(std::uint32_t)> grow)
@@ -87,7 +87,7 @@ class IdPool {
  public:
   explicit IdPool(IdSource& source) : source_(&source) {}  ///< which must outlive it
 
-  /// An id that nobody has. @throws as IdSource::take_block.
+  /// Hands out an id that nobody has. @throws as IdSource::take_block.
   std::uint32_t take() {
     if (!free_.empty()) {
       const std::uint32_t id = free_.back();
@@ -100,7 +100,7 @@ class IdPool {
     }
     return next_++;
   }
-  void give(std::uint32_t id) { free_.push_back(id); }  ///< back, to be taken again
+  void give(std::uint32_t id) { free_.push_back(id); }  ///< takes an id back, to hand it out again
 
  private:
   IdSource* source_;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A range of addresses whose pages come as it grows: what makes an array grow without moving and without a table of
-// chunks between an id and its element. Fresh memory is zero. Huge pages are asked for where it is large.
+// A range of addresses whose pages come as it grows. An array in it grows without moving, and without a table of chunks between
+// an id and its element. Fresh memory is zero. Large ranges ask for huge pages.
 #pragma once
 
 #include <atomic>
@@ -13,11 +13,10 @@
 
 namespace pgdr {
 
-/// Has the kernel find memory for pages that nothing has been written to. It clears them, which takes longer than anything that
-/// is done to them later.
+/// Makes the kernel find memory for pages that nothing has been written to, and clear it, which takes longer than all later use.
 void touch_pages(std::span<std::byte> fresh);
 
-/// See above.
+/// A reserved range of addresses, of which a growing part is usable.
 class ReservedMemory {
  public:
   /// Reserves addresses, no memory. @throws std::bad_alloc
@@ -31,12 +30,13 @@ class ReservedMemory {
   void grow_to(std::size_t bytes) {
     if (bytes > usable_.load(std::memory_order_acquire)) grow(bytes);
   }
-  /// Makes the first `bytes` usable and returns what of them is from `first` on, in pieces of a huge page, but for what earlier
-  /// calls returned. Nothing must have been written there yet, so that the pages can be had before they are needed.
+  /// Makes the first `bytes` usable. Returns the part from `first` on that no earlier call returned, in pieces of a huge page,
+  /// for touch_pages(). @pre nothing has been written there
   std::vector<std::span<std::byte>> fresh_pages(std::size_t first, std::size_t bytes);
-  /// Gives the whole huge pages among the bytes [first, last) back; what is in these bytes is lost. While nobody uses them.
+  /// Gives back the whole huge pages among the bytes [first, last). What is in these bytes is lost. @pre nobody uses them
+  /// meanwhile
   void discard(std::size_t first, std::size_t last);
-  /// Of `elements` with all that belongs to them, as many as there are addresses for.
+  /// How many of so many elements, with all that belongs to them, there are addresses for.
   static std::size_t affordable_elements(std::size_t elements);
 
  private:

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Corners and edges of a tetrahedron, and the walk round a ridge (a vertex in 2D, an edge in 3D).
+// The walk round a ridge (a vertex in 2D, an edge in 3D), from cell to cell. (numbers/corners.hpp has the numbers of edges and
+// corners.)
 #pragma once
 
-#include <array>
-
 #include "mesh/mesh.hpp"
+#include "numbers/corners.hpp"
 
 namespace pgdr {
 
@@ -32,14 +32,6 @@ struct RidgeWalk {
   }
 };
 
-/// The two corners of a tetrahedron that are neither of these, the lower one first.
-constexpr std::array<int, 2> corners_without(int i, int j) {
-  std::array<int, 2> others{};
-  for (int k = 0, n = 0; k < 4; ++k)
-    if (k != i && k != j) others[n++] = k;
-  return others;
-}
-
 /// What a visitor of the cells round an edge wants next.
 enum class RoundEdge {
   go_on,      ///< the next cell in this direction
@@ -47,12 +39,12 @@ enum class RoundEdge {
   stop,       ///< no more cells
 };
 
-/// Calls f(walk) at the cells round the edge between corners a and b of c, beginning with c: in one direction until the walk is back
+/// Calls f(walk) at the cells round edge `edge` of c, beginning with c: in one direction until the walk is back
 /// at c, or at a face with nothing beyond; then in the other one, c again first. Reads a cell only after f has said `go_on` at the one
 /// before.
 template <class F>
-void for_cells_round(const Mesh<3>& mesh, CellId c, int a, int b, F f) {
-  const auto others = corners_without(a, b);
+void for_cells_round(const Mesh<3>& mesh, CellId c, int edge, F f) {
+  const auto others = corners_without(edge_ends[edge][0], edge_ends[edge][1]);
   for (const int way : {0, 1}) {
     RidgeWalk<3> walk{c, others[1 - way], others[way]};
     while (true) {

@@ -9,7 +9,7 @@ namespace pgdr {
 template <int D>
 std::optional<std::uint64_t> surroundings_of(const Mesh<D>& mesh, std::span<const CellId> slots) {
   std::uint64_t sum = 0;
-  // Of two multiplications, each a bijection of its operand: cells in another order make another number.
+  // A hash of two multiplications, each a bijection of its operand: cells in another order make another number.
   const auto add = [&](CellId c) {
     const std::uint64_t cell = std::uint64_t{index(c)} << 16 | mesh.birth(c);
     sum = (std::rotl(sum, 25) ^ cell * 0x9e3779b97f4a7c15u) * 0xbf58476d1ce4e5b9u;

@@ -12,12 +12,12 @@
 
 namespace pgdr {
 
-/// A number that says which cells are in these slots and beside them: another one, but for a chance of 2^-64, once any of
-/// them is another cell than before; nothing if one of the slots is empty. @pre no other thread writes to these cells
+/// A hash of which cells are in these slots and beside them: it changes, but for a chance of 2^-64, once any of them is another
+/// cell. Nothing if one of the slots is empty. @pre no other thread writes to these cells
 template <int D>
 std::optional<std::uint64_t> surroundings_of(const Mesh<D>& mesh, std::span<const CellId> slots);
 
-/// 3D: a number that says how often the cells at the corners of this one and of its neighbours have changed (VertexNote).
+/// 3D: a hash of how often the cells at the corners of this one and of its neighbours have changed (VertexNote::version).
 template <int D>
 std::uint64_t versions_about(const Mesh<D>& mesh, CellId c);
 

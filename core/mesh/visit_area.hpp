@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What one visit may change. A visit owns the cells all of whose vertices lie in the part of space that it has claimed;
-// the claims of concurrent visits are disjoint. It deletes only cells that it owns, and reads only these and the cells
-// that share a face with one: such a cell has D vertices in this claim, so that no other claim can hold D of its D+1
-// vertices too, and no other visit comes near it (2D > D+1).
+// The area of a visit: what it may read and change. A visit owns the cells all of whose vertices lie in the part of space that it
+// has claimed. The claims of concurrent visits are disjoint. A visit deletes only cells that it owns. It reads only these and the
+// cells that share a face with one. Such a cell has D vertices in this claim, so that no other claim can hold D of its D + 1
+// vertices too (2D > D + 1): no other visit reads or changes it.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace pgdr {
 
-/// Immutable during a visit. `claimed` and `leaf_of` are called by the visit's thread alone.
+/// The area of a visit, which does not change during the visit. `claimed` and `leaf_of` are called by the visit's thread alone.
 template <int D>
 class VisitArea {
  public:
@@ -40,7 +40,7 @@ class VisitArea {
       if (!(p[i] >= home_low[i] && p[i] < home_high[i])) return false;
     return true;
   }
-  /// All points nearer to p than the root of this are in the inner box; 0 if p is not.
+  /// The square of a distance: all points nearer to p are in the inner box. 0 if p is not in it.
   double squared_depth(const Point<D>& p) const {
     double depth = std::numeric_limits<double>::infinity();
     for (int i = 0; i < D; ++i) depth = std::min({depth, p[i] - inner_low[i], inner_high[i] - p[i]});
@@ -52,20 +52,19 @@ class VisitArea {
       if (!(p[i] >= inner_low[i] && p[i] < inner_high[i])) return claimed(p);
     return true;
   }
-  /// Are all of these vertices?
+  /// Are all of these vertices claimed?
   [[gnu::noinline]] bool owns(const Mesh<D>& mesh, const std::array<VertexId, D + 1>& vertices) const {
     for (const VertexId v : vertices)
       if (!owns(mesh.point(v))) return false;
     return true;
   }
-  /// A cell whose circumball, where that is kept, lies in the inner box has its vertices there.
+  /// Does the visit own the cell? (In 3D a circumball in the inner box tells: the vertices are on its sphere.)
   bool owns(const Mesh<D>& mesh, CellId c) const {
     const auto& k = mesh.cell(c);
     if constexpr (D == 2) return owns(mesh, k.vertices);
     else return ball_is_inner(mesh, c) || owns(mesh, k.vertices);
   }
-  /// Does the cell live, and is it owned or does it share a face with an owned cell? Such cells no other visit comes near.
-  /// What debug builds assert; a visit does not ask it.
+  /// Is the cell alive, and is it owned, or does it share a face with an owned cell? Debug builds assert this of what is read.
   bool may_read(const Mesh<D>& mesh, CellId c) const {
     int owned = 0;
     for (const VertexId v : mesh.cell(c).vertices) {

@@ -19,7 +19,7 @@ std::optional<EntityId> wall(const Mesh<D>& mesh, CellId c, int f) {
 std::optional<EntityId> subsegment(const Mesh<3>& mesh, CellId c, int i, int j) {
   const auto* k = mesh.constraints(c);
   const int e = edge_of_ends[i][j];
-  if (!k || !(k->edges >> e & 1)) return std::nullopt;
+  if (!k || !k->has_edge(e)) return std::nullopt;
   return k->edge_entity[e];
 }
 
@@ -31,7 +31,7 @@ bool agree(const Mesh<D>& mesh, CellId a, int f, CellId b, int g) {
   std::array<int, D + 1> there{};
   for (int i = 0; i <= D; ++i) {
     if (i == f) continue;
-    there[i] = static_cast<int>(std::find(v.begin(), v.end(), u[i]) - v.begin());
+    there[i] = corner_of(v, u[i]);
     if (there[i] > D || there[i] == g) return false;
   }
   if constexpr (D == 3) {

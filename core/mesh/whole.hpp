@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What holds between any two insertions, for assertions. Any thread, while nobody writes.
+// The invariants of a mesh, which hold between any two insertions; for assertions. Any thread, while nobody writes.
 #pragma once
 
 #include "mesh/mesh.hpp"

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "numbers/corners.hpp"
 #include "numbers/rounding.hpp"
 #include "pgdr/predicates.hpp"
 
@@ -59,9 +60,7 @@ std::vector<std::array<std::uint32_t, D>> boundary(const std::vector<std::array<
   std::vector<std::array<std::uint32_t, D>> faces;
   for (const auto& cell : cells)
     for (int f = 0; f <= D; ++f) {
-      std::array<std::uint32_t, D> face;
-      for (int i = 0, n = 0; i <= D; ++i)
-        if (i != f) face[n++] = cell[i];
+      auto face = face_without(cell, f);
       std::sort(face.begin(), face.end());
       faces.push_back(face);
     }

@@ -1,13 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The independent checker: decides from the input and the finished mesh alone whether the mesh is sound, Delaunay,
-// conforming and within its bounds. It shares nothing with the refiner but the predicates and the bound tests.
-// Any thread; no state. Exact arithmetic wherever a verdict depends on a sign.
+// The checker: decides from the input and the finished mesh alone whether the mesh is sound, Delaunay, conforming and within its
+// bounds.
 //
-// With the input at hand the verdict is complete: positively oriented cells whose faces match, and whose boundary is,
-// triangle by triangle, a triangulation of the boundary of the volume that they are to fill, cover that volume exactly
-// once. Without it, cells that overlap are found where they share a vertex, not where two far boundaries cross.
+// It shares with the mesher what lies below both: the Domain (repairs and merged points of the input, its facets and the
+// triangles of each), the predicates, the tests of bounds, and what rounding may explain. A fault there, as in how an input is
+// read, is invisible to both. It shares nothing of how meshes are made. Exact arithmetic wherever a verdict depends on a sign.
+// Any thread; no state.
+//
+// With the input at hand the verdict is complete. Positively oriented cells cover the volume that they are to fill exactly once,
+// if their faces match, and if their boundary is, triangle by triangle, a triangulation of the boundary of that volume. Without
+// the input, cells that overlap are found where they share a vertex, not where two far boundaries cross.
 #pragma once
 
 #include <array>

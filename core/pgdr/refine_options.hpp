@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the caller may ask of a refinement, and what is counted. Plain values.
+// The options of a refinement. Plain values.
 #pragma once
 
 #include <chrono>
@@ -19,23 +19,27 @@
 
 namespace pgdr PGDR_API {
 
-/// How far a run is, for a progress line. Approximate; a run that makes its mesh once more (docs/design.md) starts again.
+/// How far a run is, for a progress line; approximate. It falls back to the beginning where a run tries another precision.
 struct Progress {
-  std::uint64_t vertices = 0;  ///< so far
-  std::uint64_t waiting = 0;   ///< entries in the lists of what is to be treated; 0 while the boundary is recovered
+  std::uint64_t vertices = 0;  ///< vertices so far
+  std::uint64_t waiting = 0;   ///< entries on the work lists; 0 while the boundary is recovered
 };
 
-/// How leaves of the tree are visited. `reproducible`: the same mesh, bit for bit, for any number of threads. `greedy`:
-/// whatever is free runs next, and the mesh depends on timing; it shows what reproducibility costs.
+/// The order in which leaves of the tree are visited. `reproducible`: the mesh is the same, bit for bit, for any number of
+/// threads. `greedy`: whatever is free runs next, and the mesh depends on timing, which shows what reproducibility costs.
 enum class Schedule { reproducible, greedy };
-/// What runs the visits: a oneTBB flow graph in the caller's arena; plain threads (for thread sanitizers, which do not see
-/// through TBB); the calling thread alone; or, for tests, this thread in a random order of what need not wait, with as many pools of
-/// memory as `threads` says, which seeds the order, too: so an error that takes luck elsewhere is there again at the next run.
-/// A reproducible mesh does not depend on it.
-enum class Executor { flow_graph, threads, serial, shuffled };
+/// What runs the visits. A reproducible mesh does not depend on it.
+enum class Executor {
+  flow_graph,  ///< a oneTBB flow graph in the caller's arena
+  threads,     ///< plain threads, for thread sanitizers, which do not see through TBB
+  serial,      ///< the calling thread alone
+  /// For tests: the calling thread, in a random order of the visits that need not wait. `threads` seeds the order, and says how
+  /// many pools of memory there are. So an error that takes luck elsewhere is there again at the next run.
+  shuffled,
+};
 
-/// How the work is divided. The defaults are good; a reproducible mesh depends on `granularity`, `split_ratio`, `floor`
-/// and `claim_order`, and on nothing else here.
+/// How the work is divided; the defaults are good. A reproducible mesh depends on `granularity`, `split_ratio`, `floor` and
+/// `claim_order`, and on nothing else here.
 struct ScheduleOptions {
   Schedule schedule = Schedule::reproducible;  ///< order of the visits
   Executor executor = Executor::flow_graph;    ///< what runs them
@@ -60,12 +64,12 @@ struct RefineOptions {
   /// Upper bound on circumradius over shortest edge. Proved for >= 2 (3D), >= sqrt 2 (2D).
   double radius_edge_bound = smallest_proved_bound<D>();
   SizingField<D> size;            ///< circumradius (3D) or area (2D) bound at the centroid
-  RegionSizes<D> region_sizes;    ///< further ones of the cells of single regions
+  RegionSizes<D> region_sizes;    ///< further such bounds, on the cells of single regions
   double max_volume = std::numeric_limits<double>::infinity();  ///< 3D: volume bound of all cells
   RegionMode regions = RegionMode::seeds;  ///< what is meshed, and how it is labelled
   PointSelector<D> selector;      ///< empty: circumcentre
-  DiskOptions disk;               ///< in which the selector may put a point
-  OutsidePolicy outside = OutsidePolicy::replace_by_circumcenter;  ///< of the selector's points outside of it (and NaN)
+  DiskOptions disk;               ///< the disk in which the selector may put a point
+  OutsidePolicy outside = OutsidePolicy::replace_by_circumcenter;  ///< what becomes of points outside of it (and NaN)
   bool refine = true;             ///< false: boundary recovery alone
   /// 2D: no new point on any segment. Elements that this leaves poor have the reason kept_boundary.
   bool keep_boundary = false;
@@ -78,7 +82,7 @@ struct RefineOptions {
   /// What a run that was cancelled (by `stop`, or as part of the caller's tasks) returns. True: the mesh so far, valid, its
   /// Steiner points and cells in no particular order (as after the time limit), without reasons. False: no mesh, sooner.
   bool partial_mesh = true;
-  bool leaves = false;            ///< say of each cell which leaf of the tree holds its circumcentre (OutputMesh::leaves)
+  bool leaves = false;            ///< tell for each cell which leaf of the tree holds its circumcentre (OutputMesh::leaves)
   ScheduleOptions schedule;       ///< threads, and how work is divided among them
   /// Called by one thread at a time, a few times a second at most, from any of the threads. May throw.
   std::function<void(const Progress&)> progress;

@@ -19,7 +19,7 @@
 
 namespace pgdr {
 
-/// See above.
+/// How regions are found and labelled.
 enum class RegionMode { seeds, automatic };
 
 }  // namespace pgdr

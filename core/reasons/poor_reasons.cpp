@@ -86,7 +86,7 @@ template <class F>
 bool PoorReasons<D>::any_constrained(CellId c, F f) const {
   const auto* k = mesh_->constraints(c);
   for (int i = 0; k && i <= D; ++i)
-    if (k->faces >> i & 1 && f({D == 3 ? EntityKind::facet : EntityKind::segment, k->face_entity[i]})) return true;
+    if (k->has_face(i) && f(mesh_->entity_of_face(c, i))) return true;
   return false;
 }
 

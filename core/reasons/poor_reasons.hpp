@@ -22,10 +22,10 @@ namespace pgdr {
 /// An element that stays poor, or has a face that is not locally Delaunay, and why. `PoorReason::cell` is filled when
 /// the mesh is compacted.
 struct PoorCell {
-  CellId cell;  ///< which
+  CellId cell;  ///< the element
   bool over_bound = false;  ///< over any bound
   bool over_size = false;   ///< over one of size, volume or area
-  PoorReason reason;  ///< why
+  PoorReason reason;  ///< why it is poor
   bool beside = false;  ///< has a vertex on one of the entities named
 };
 
@@ -40,7 +40,7 @@ struct PoorCount {
 template <int D>
 PoorCount count_poor_cells(const Mesh<D>& mesh, const CellBounds<D>& bounds, std::uint32_t first, std::uint32_t last);
 
-/// Finds the reasons: see above.
+/// Finds the reasons of elements that stay poor.
 template <int D>
 class PoorReasons {
  public:
@@ -56,12 +56,12 @@ class PoorReasons {
   /// For the next look: a small angle that explains a cell does so for as long as the cell is there.
   void remember(std::span<const PoorCell> found);
 
-  /// Of the cells numbered [first, last) every one over a bound, with its reason, and every one with a face that is not locally
+  /// Every cell numbered [first, last) that is over a bound, with its reason, and every one with a face that is not locally
   /// Delaunay beside a small angle, with that. `violated`, by cell: those with a face that is not locally Delaunay.
   /// @pre the refinement has finished. Several threads at once. Ends early, with some of them, once `stop` is requested.
   std::vector<PoorCell> of_cells(std::uint32_t first, std::uint32_t last, const std::vector<bool>& violated,
                                  const std::stop_token& stop = {}) const;
-  /// The same of the cells that were refused: all there are where every face is locally Delaunay.
+  /// of_cells() for the cells that were refused, which are all poor cells where every face is locally Delaunay.
   std::vector<PoorCell> of_refused(const std::stop_token& stop = {}) const;
   /// Would entities with vertices of these homes on them, of which two meet at a small angle near enough, explain an element
   /// with this circumsphere? Several threads at once. (False where very many meet.)

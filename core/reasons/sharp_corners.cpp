@@ -49,7 +49,7 @@ bool any_corner(const Mesh<D>& mesh, CellId c, const F& f) {
     const auto* constraints = mesh.constraints(c);
     for (int i = 0; constraints && i <= D; ++i) {
       const auto& face = face_corners<D>[i];
-      if ((constraints->faces >> i & 1) && in_triangle({v[face[0]], v[face[1]], v[face[2]]}, constraints->face_entity[i]))
+      if (constraints->has_face(i) && in_triangle({v[face[0]], v[face[1]], v[face[2]]}, constraints->face_entity[i]))
         return true;
     }
     return false;

@@ -24,7 +24,7 @@ class ElementStage;
 /// the progress report, and decide nothing else.
 template <int D>
 struct RefineContext {
-  /// `start`: when the caller's time limit began to run.
+  /// `start_time`: when the caller's time limit began to run.
   RefineContext(Mesh<D>& m, const Domain<D>& d, const RefineOptions<D>& o, CellBounds<D> b, std::uint64_t vertices_so_far,
                 std::chrono::steady_clock::time_point start_time);
 
@@ -39,11 +39,11 @@ struct RefineContext {
   const RefineOptions<D>& options;  ///< as the caller gave them
   const CellBounds<D> bounds;       ///< of cells
   const std::chrono::steady_clock::time_point start;  ///< of the time limit
-  /// 3D: what is poor now would stay so, and asks for c times the room. Set while no visit runs.
+  /// 3D: the last resort has begun, when what is poor would stay so (rule/insertion_rule.hpp). Set while no visit runs.
   bool last_resort = false;
-  /// Who treats poor elements; null: points are inserted for them (element_splitter.hpp). Set while no visit runs.
+  /// The stage that treats poor elements; null: points are inserted for them (element_splitter.hpp). Set while no visit runs.
   const ElementStage<D>* stage = nullptr;
-  const Shells<D> shells;  ///< none in 3D, where the front end alone splits on them
+  const Shells<D> shells;  ///< none in 3D, where boundary recovery alone splits on them
   int base_exponent = 0;   ///< of bucket 0: circumradii of the size of the domain and above
   static constexpr int buckets = 64;  ///< of circumradii
 

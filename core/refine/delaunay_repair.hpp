@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Mends faces that are not locally Delaunay while points come: by flips, and where these are stuck by gift wrapping.
+// Repair of violations, faces that are not locally Delaunay, while points come: by flips, and where these are stuck by gift
+// wrapping.
 #pragma once
 
 #include <cstdint>
@@ -14,28 +15,29 @@
 
 namespace pgdr {
 
-/// Part of a worker: see above.
+/// Flips and gift wrapping for the violations that a visit meets. Part of a worker: one thread at a time.
 template <int D>
 class DelaunayRepair {
  public:
   /// Both must outlive it.
   DelaunayRepair(Workspace<D>& workspace, WorkLister<D>& lister);
 
-  /// Before the visit does anything.
+  /// Must be called before the visit does anything.
   void begin_visit();
-  /// More faces wait than the visit has found itself.
+  /// Allows flips for faces that wait, beside those that the visit will find.
   void allow_for(std::uint64_t faces) { flips_left_ += flips_for_each * faces; }
   /// Lists the violations at cells that an insertion has made.
   void look_at(std::span<const CellId> made);
-  /// Mends the face of an entry of kind flip, or sets it aside, or lists its cell as poor.
+  /// Repairs the face of an entry of kind flip, or sets it aside, or lists its cell as poor.
   void treat(const Entry<D>& e);
-  /// Takes a cell with all its vertices on one facet, which is flat but for rounding, out; refused if the cell is no such, or has to stay.
+  /// Removes a cell with all its vertices on one facet, which is flat but for rounding. Refused: the cell is no such, or has to
+  /// stay.
   Outcome remove_flat_cell(CellId c);
 
   LocalFlips<D>& flips() { return flips_; }  ///< the worker's
 
  private:
-  /// An allowance, so that flips that trade violations end.
+  /// The allowance of flips for each violation, so that flips that trade violations for others end.
   static constexpr std::uint64_t flips_for_each = 16;
 
   std::optional<LocalRewrap::Effort> rewrap_effort(const Entry<D>& e) const;

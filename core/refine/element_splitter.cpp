@@ -12,7 +12,7 @@
 
 namespace pgdr {
 
-/// As much of it as is not known from why the cell is listed: sizes may be slow functions.
+/// The bounds that the cell is over. What the entry says of them is not asked again: sizes may be slow functions.
 template <int D>
 CellVerdict ElementSplitter<D>::verdict_of(const Entry<D>& e, const FilterSphere<D>& sphere) const {
   const auto& bounds = w_->context.bounds;
@@ -47,7 +47,7 @@ Outcome ElementSplitter<D>::split(const Entry<D>& e) {
     if (!selected) return Outcome::not_owned;
     c.x = *selected;
   }
-  // A cell with a face that no flip makes locally Delaunay asks for as much as one with a poor shape.
+  // A cell beside a violation that no flip repairs has the demand of one of poor shape.
   if (e.which() == Entry<D>::not_delaunay) c.verdict.over_radius_edge = true;
   Outcome outcome = insert(c);
   if (outcome == Outcome::refused && !(c.x == center) && w_->alive(e)) {
@@ -144,7 +144,7 @@ Outcome ElementSplitter<D>::insert_inside(Candidate<D> c) {
 template <int D>
 Outcome ElementSplitter<D>::split_instead(const Entry<D>& entity, const Candidate<D>& c) {
   if (w_->options.keep_boundary) {
-    w_->refused_by = EntityPair{{EntityRef{EntityKind::segment, mesh_->constraints(entity.cell)->face_entity[entity.which()]}, {}}};
+    w_->refused_by = EntityPair{{mesh_->entity_of_face(entity.cell, entity.which()), {}}};
     return c.verdict.over_size > 0 ? insert_inside(c) : Outcome::refused;
   }
   const Demand demand = demand_on_entity(c);
@@ -161,7 +161,8 @@ auto ElementSplitter<D>::judge(const Candidate<D>& c) -> Judgement {
   Status status = cavity_->make_star_shaped();
   if (status == Status::ok && (cavity_->cut_back() || cavity_->touches_constraints())) status = cavity_->keep_entities();
   if (status != Status::ok) return {status == Status::not_owned ? Outcome::not_owned : Outcome::refused};
-  // Unshrunk, the circumcentre's nearest vertices are the element's own; but not where rounding moves it, even onto another vertex.
+  // If the cavity was not cut back, the circumcentre's nearest vertices are the element's own; but not where rounding moves it,
+  // even onto another vertex.
   const bool plain = c.at_center && !cavity_->cut_back() && mesh_->is_accurate(c.sphere);
   const double r = plain ? std::sqrt(mesh_->squared_radius_bounds(c.sphere).first) : insertion_radius<D>(*mesh_, *cavity_);
   if (inserter_->is_too_short(r)) return {Outcome::refused};
@@ -193,19 +194,19 @@ Demand ElementSplitter<D>::demand_of(const Candidate<D>& c) {
     for (int j = i + 1; j <= D; ++j)
       least = std::min(least, relaxed_length<D>(w_->domain, mesh_->vertex(v[i]), mesh_->vertex(v[j])));
   if (!c.verdict.over_radius_edge) least = std::min(least, std::sqrt(mesh_->squared_radius_bounds(c.entry.cell).first) / 2);
-  // Without it a point may come nearer than the element's edges are long only beside a small angle or below the proved
-  // bound. There a little of that, with the radius inherited, makes elements good that would stay poor; in 3D it is for those
-  // alone that stayed so.
-  const bool asks_for_less = D == 2 || (w_->context.last_resort && may_ask_for_less(c.entry.cell));
-  if (asks_for_less) return {inherited_fraction * least, least};
+  // A smaller demand lets points come nearer than the element's edges are long, beside small angles or below the proved bound.
+  // There a few such points, which inherit the radius, make elements good that would stay poor. In 3D it is for those alone that
+  // stayed so.
+  const bool is_halved = D == 2 || (w_->context.last_resort && may_halve_demand(c.entry.cell));
+  if (is_halved) return {inherited_fraction * least, least};
   return {least, 0};
 }
 
-/// In the last resort: may less room mend more cells than it makes poor? Not where two of the entities that the cell's corners,
-/// faces and edges lie on meet at a sharp angle, nor at an input vertex, where others may, unless two of these meet at a
-/// small one. (bench/notebook/small_angles.md)
+/// May the cell's demand be halved in the last resort, as that repairs more cells than it makes poor? Not where two of the
+/// entities that the cell's corners, faces and edges lie on meet at a sharp angle. Not at an input vertex either, where others
+/// may meet so, unless two of these meet at a small angle. (bench/notebook/small_angles.md)
 template <int D>
-bool ElementSplitter<D>::may_ask_for_less(CellId c) {
+bool ElementSplitter<D>::may_halve_demand(CellId c) {
   std::vector<EntityRef> entities;
   const auto add = [&entities](EntityRef e) {
     const bool known = std::find(entities.begin(), entities.end(), e) != entities.end();
@@ -219,10 +220,10 @@ bool ElementSplitter<D>::may_ask_for_less(CellId c) {
   }
   if (const auto* k = mesh_->constraints(c)) {
     for (int f = 0; f <= D; ++f)
-      if (k->faces >> f & 1) add({D == 3 ? EntityKind::facet : EntityKind::segment, k->face_entity[f]});
+      if (k->has_face(f)) add(mesh_->entity_of_face(c, f));
     if constexpr (D == 3)
       for (int e = 0; e < 6; ++e)
-        if (k->edges >> e & 1) add({EntityKind::segment, k->edge_entity[e]});
+        if (k->has_edge(e)) add({EntityKind::segment, k->edge_entity[e]});
   }
   for (std::size_t i = 0; i < entities.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
@@ -233,7 +234,7 @@ bool ElementSplitter<D>::may_ask_for_less(CellId c) {
   return small || !at_input_vertex;
 }
 
-/// What it asks of an entity that is split for it. Below the smallest proved bound a midpoint may be nearer to its
+/// The demand on an entity that is split for the candidate. Below the smallest proved bound a midpoint may be nearer to its
 /// neighbours than the element's edges are long, as beside a small angle.
 template <int D>
 Demand ElementSplitter<D>::demand_on_entity(const Candidate<D>& c) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Splits poor elements. A candidate, the element's circumcentre or what the caller's selector makes of it, is inserted if
-// nothing blocks it and the insertion rule allows; an entity that blocks it is split in its place:
+// Splits of poor elements. A candidate, the element's circumcentre or the point of the caller's selector, is inserted if nothing
+// blocks it and the insertion rule allows. An entity that blocks it is split in its place:
 //
 //   candidate -> blocked by? -> judged -> committed -> listed      (ElementSplitter::insert, Inserter::commit)
 #pragma once
@@ -27,11 +27,11 @@ struct Candidate {
   bool at_center = true;    ///< is x the circumcentre, where there is no selector?
 };
 
-/// Part of a worker: see above.
+/// Splits poor elements. Part of a worker: one thread at a time.
 template <int D>
 class ElementSplitter {
  public:
-  /// They must outlive it.
+  /// All five must outlive it.
   ElementSplitter(Workspace<D>& workspace, WorkLister<D>& lister, Inserter<D>& inserter, DelaunayRepair<D>& repair,
                   EntitySplitter<D>& entities)
       : w_(&workspace),
@@ -42,7 +42,7 @@ class ElementSplitter {
         repair_(&repair),
         entities_(&entities) {}
 
-  /// The element of an entry of kind cell. @throws what a callback throws
+  /// Splits the element of an entry of kind cell. @throws what a callback throws
   Outcome split(const Entry<D>& e);
 
  private:
@@ -68,7 +68,7 @@ class ElementSplitter {
   Outcome split_instead(const Entry<D>& entity, const Candidate<D>& c);
   Demand demand_of(const Candidate<D>& c);
   Demand demand_on_entity(const Candidate<D>& c);
-  bool may_ask_for_less(CellId c);
+  bool may_halve_demand(CellId c);
 
   Workspace<D>* w_;
   Mesh<D>* mesh_;

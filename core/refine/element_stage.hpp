@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a stage of a run does for poor elements in place of inserting points (element_splitter.hpp).
+// A stage of a run that does something else for poor elements than inserting points (element_splitter.hpp).
 #pragma once
 
 #include <cstddef>
@@ -19,12 +19,13 @@ template <int D>
 class ElementTreatment {
  public:
   virtual ~ElementTreatment() = default;
-  virtual void begin_visit() = 0;                     ///< before a visit does anything
-  virtual Outcome treat(const Entry<D>& e) = 0;       ///< the element of an entry of kind cell
-  virtual std::uint64_t version(CellId c) const = 0;  ///< of what a decision about the element rests on; kept with a refusal
+  virtual void begin_visit() = 0;                     ///< is called before a visit does anything
+  virtual Outcome treat(const Entry<D>& e) = 0;       ///< treats the element of an entry of kind cell
+  virtual std::uint64_t version(
+      CellId c) const = 0;  ///< a hash of what a decision about the element rests on (Refusal::versions)
 };
 
-/// A stage: makes a treatment for each worker. Any thread.
+/// A stage, which makes a treatment for each worker. Any thread.
 template <int D>
 class ElementStage {
  public:

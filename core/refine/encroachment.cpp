@@ -65,9 +65,7 @@ std::optional<Entry<D>> encroached_face(const Mesh<D>& mesh, const Cavity<D>& ca
 
 template <int D>
 Encroachment encroachment(const Mesh<D>& mesh, CellId c, int face, const Point<D>& x) {
-  std::array<Point<D>, D> corner;
-  for (int i = 0, n = 0; i <= D; ++i)
-    if (i != face) corner[n++] = mesh.point(mesh.cell(c).vertices[i]);
+  const std::array<Point<D>, D> corner = mesh.points(face_without(mesh.cell(c).vertices, face));
   bool inside;
   if constexpr (D == 2) {
     inside = in_diametral_ball<2>(corner[0], corner[1], x);
@@ -111,11 +109,11 @@ std::optional<Entry<D>> encroached_edge(const Mesh<D>& mesh, const Cavity<D>& ca
     for (const CellId c : cavity.cells()) {
       const auto* k = mesh.constraints(c);
       if (!k || !k->edges) continue;
-      const auto& vertices = mesh.cell(c).vertices;
-      for (int e = 0; e < 6; ++e)
-        if ((k->edges >> e & 1) &&
-            in_diametral_ball<D>(mesh.point(vertices[edge_ends[e][0]]), mesh.point(vertices[edge_ends[e][1]]), x))
-          return entry_of(mesh, c, EntryKind::edge, e);
+      for (int e = 0; e < 6; ++e) {
+        if (!k->has_edge(e)) continue;
+        const auto [a, b] = ends_of_edge(mesh.cell(c).vertices, e);
+        if (in_diametral_ball<D>(mesh.point(a), mesh.point(b), x)) return entry_of(mesh, c, EntryKind::edge, e);
+      }
     }
   }
   return std::nullopt;
@@ -156,7 +154,7 @@ std::optional<Entry<D>> edge_beyond(const Mesh<D>& mesh, const Domain<D>& domain
       const int axis = domain.facets()[part.entity].axis;
       for (int i = 0; i <= D; ++i)
         for (int j = i + 1; j <= D; ++j) {
-          if (i == part.face || j == part.face || !(k->edges >> edge_of_ends[i][j] & 1)) continue;
+          if (i == part.face || j == part.face || !k->has_edge(edge_of_ends[i][j])) continue;
           const int corner = 6 - part.face - i - j;
           const Point<D>&a = mesh.point(vertices[i]), &b = mesh.point(vertices[j]);
           const Sign inside = orient_projected(a, b, mesh.point(vertices[corner]), axis);

@@ -61,7 +61,7 @@ auto EntitySplitter<D>::walk_in_facet(const Entry<D>& e, const Point<D>& x) -> F
         const Sign inside = orient_projected(a, b, mesh_->point(v[corner]), axis);
         if (inside == Sign::zero || orient_projected(a, b, x, axis) != -inside) continue;
         const int ridge = edge_of_ends[ends[0]][ends[1]];
-        if (mesh_->constraints(c)->edges >> ridge & 1) {
+        if (mesh_->constraints(c)->has_edge(ridge)) {
           edge = w_->entry(c, EntryKind::edge, ridge);
         } else {
           bool owned = true;
@@ -120,10 +120,8 @@ Outcome EntitySplitter<D>::commit_split(EntityRef entity, std::span<const Vertex
 
 template <int D>
 Outcome EntitySplitter<D>::split_face(const Entry<D>& e, const Demand* cause) {
-  const EntityRef entity{D == 3 ? EntityKind::facet : EntityKind::segment, mesh_->constraints(e.cell)->face_entity[e.which()]};
-  std::array<VertexId, D> own;
-  for (int i = 0, n = 0; i <= D; ++i)
-    if (i != e.which()) own[n++] = mesh_->cell(e.cell).vertices[i];
+  const EntityRef entity = mesh_->entity_of_face(e.cell, e.which());
+  const std::array<VertexId, D> own = face_without(mesh_->cell(e.cell).vertices, e.which());
   if (cause && is_refused_as_before(e, *cause)) return Outcome::refused;
   const Point<D> x = split_point_of_face(w_->context, e.cell, e.which());
   Status status = cavity_->collect_on_face(x, e.cell, e.which());
@@ -178,7 +176,7 @@ std::optional<CellId> EntitySplitter<D>::cell_near_edge(const Entry<D>& e, const
   std::optional<CellId> near;
   if constexpr (D == 3) {
     const EntityId s = mesh_->constraints(e.cell)->edge_entity[e.which()];
-    for_cells_round(*mesh_, e.cell, edge_ends[e.which()][0], edge_ends[e.which()][1], [&](const RidgeWalk<D>& walk) {
+    for_cells_round(*mesh_, e.cell, e.which(), [&](const RidgeWalk<D>& walk) {
       if (!cavity_->owns(walk.cell)) return RoundEdge::turn_back;
       if (distance_to_corners(walk.cell, x, s, place) < distance) near = walk.cell;
       return near ? RoundEdge::stop : RoundEdge::go_on;
@@ -187,7 +185,7 @@ std::optional<CellId> EntitySplitter<D>::cell_near_edge(const Entry<D>& e, const
   return near;
 }
 
-/// Of x on the segment from the nearest corner that is no twin of `place`.
+/// The distance of x, on the segment, from the nearest corner of the cell that is no twin of `place`.
 template <int D>
 double EntitySplitter<D>::distance_to_corners(CellId c, const Point<D>& x, EntityId segment, const SplitPlace* place) const {
   double least = std::numeric_limits<double>::infinity();
@@ -213,8 +211,8 @@ template <int D>
 auto EntitySplitter<D>::refused_before(const Entry<D>& face, const Demand& cause) const -> std::optional<std::pair<Entry<D>, CellId>> {
   const auto edge = memo_.passed_on(*mesh_, face);
   if (!edge) return std::nullopt;
-  const auto& v = mesh_->cell(edge->cell).vertices;
-  const auto near = memo_.nearer_than(*mesh_, v[edge_ends[edge->which()][0]], v[edge_ends[edge->which()][1]], cause.d);
+  const auto [a, b] = ends_of_edge(mesh_->cell(edge->cell).vertices, edge->which());
+  const auto near = memo_.nearer_than(*mesh_, a, b, cause.d);
   return near ? std::optional(std::pair(*edge, near->cell)) : std::nullopt;
 }
 
@@ -223,8 +221,7 @@ bool EntitySplitter<D>::is_refused_as_before(const Entry<D>& face, const Demand&
   const auto known = refused_before(face, cause);
   if (!known) return false;
   const auto& [edge, near] = *known;
-  const auto& v = mesh_->cell(edge.cell).vertices;
-  refuse_near(edge, std::array{v[edge_ends[edge.which()][0]], v[edge_ends[edge.which()][1]]}, near);
+  refuse_near(edge, ends_of_edge(mesh_->cell(edge.cell).vertices, edge.which()), near);
   w_->trace.push_back(face.cell);
   return true;
 }
@@ -233,8 +230,7 @@ template <int D>
 Outcome EntitySplitter<D>::split_edge(const Entry<D>& e, const Demand* cause) {
   if constexpr (D == 3) {
     const EntityId s = mesh_->constraints(e.cell)->edge_entity[e.which()];
-    const auto& vertices = mesh_->cell(e.cell).vertices;
-    const std::array<VertexId, 2> own{vertices[edge_ends[e.which()][0]], vertices[edge_ends[e.which()][1]]};
+    const std::array<VertexId, 2> own = ends_of_edge(mesh_->cell(e.cell).vertices, e.which());
     bool owned = true;
     const auto beside_other = place_beside(e, own, owned);
     if (!owned) return w_->give_up(Outcome::not_owned);
@@ -268,7 +264,7 @@ std::optional<SplitPlace> EntitySplitter<D>::place_beside(const Entry<D>& e, std
     const EntityId s = mesh_->constraints(e.cell)->edge_entity[e.which()];
     const auto [t0, t1] = parameters_of(w_->context, s, own[0], own[1]);
     TwinPlaces places(*domain_, s, t0, t1, Beside::as_far);
-    for_cells_round(*mesh_, e.cell, edge_ends[e.which()][0], edge_ends[e.which()][1], [&](const RidgeWalk<D>& walk) {
+    for_cells_round(*mesh_, e.cell, e.which(), [&](const RidgeWalk<D>& walk) {
       owned = cavity_->owns(walk.cell);
       if (!owned) return RoundEdge::stop;
       for (const int i : {walk.entry, walk.exit})

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Splits encroached subsegments and subfacets, or refuses to, as the insertion rule says. A subfacet whose point encroaches upon a
-// subsegment has that split in its place.
+// Splits of encroached subsegments and subfacets, as far as the insertion rule allows. Where the point of a subfacet encroaches
+// upon a subsegment, that is split in its place.
 #pragma once
 
 #include <array>
@@ -19,24 +19,25 @@
 
 namespace pgdr {
 
-/// Part of a worker: see above.
+/// Splits subsegments and subfacets. Part of a worker: one thread at a time.
 template <int D>
 class EntitySplitter {
  public:
-  /// They must outlive it.
+  /// Both must outlive it.
   EntitySplitter(Workspace<D>& workspace, Inserter<D>& inserter)
       : w_(&workspace), mesh_(&workspace.mesh), domain_(&workspace.domain), cavity_(&workspace.cavity), inserter_(&inserter) {}
 
-  /// Before the visit does anything.
+  /// Must be called before the visit does anything.
   void begin_visit() { memo_.clear(); }
-  /// Splits the subsegment or subfacet of the entry. `cause`: what an element asks for it is split for; null: its own encroachment.
+  /// Splits the subsegment or subfacet of the entry. `cause`: the demand of the element that it is split for; null: it is
+  /// encroached.
   Outcome split(const Entry<D>& e, const Demand* cause) {
     return e.kind() == EntryKind::edge ? split_edge(e, cause) : split_face(e, cause);
   }
 
   bool knows_refused_faces() const { return memo_.knows_faces(); }  ///< has the split of any subfacet been refused in this visit?
-  /// Of a subfacet that has asked for the split of a subsegment that is refused: that, and the cell with the vertex that is too near,
-  /// if that still holds.
+  /// For a subfacet in whose place a subsegment was to be split and was refused: that subsegment, and the cell with the vertex
+  /// that is too near. Nothing if that no longer holds.
   std::optional<std::pair<Entry<D>, CellId>> refused_before(const Entry<D>& face, const Demand& cause) const;
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The tail of every insertion: is no edge too short, commit, list what is new.
+// The end of every insertion: test that no edge becomes too short, commit, list what is new.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,11 @@
 
 namespace pgdr {
 
-/// Part of a worker: see above.
+/// Commits insertions. Part of a worker: one thread at a time.
 template <int D>
 class Inserter {
  public:
-  /// They must outlive it.
+  /// All three must outlive it.
   Inserter(Workspace<D>& workspace, WorkLister<D>& lister, DelaunayRepair<D>& repair)
       : w_(&workspace), lister_(&lister), repair_(&repair) {}
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a visit knows of splits that were refused. Beside a small angle hundreds of poor elements, one after the other, ask for a
-// point on the same subsegment, most of them by way of one of a few subfacets, and a vertex there is too near for each. Whether
-// it still is takes one look at the cell that it was found in. One thread at a time.
+// A memo of the splits that a visit was refused. Beside a small angle hundreds of poor elements, one after the other, are blocked
+// by the same subsegment, most of them by way of one of a few subfacets, and a vertex there is too near for each. One look at the
+// cell where that vertex was found tells whether it still is. One thread at a time.
 #pragma once
 
 #include <algorithm>
@@ -16,16 +16,16 @@
 
 namespace pgdr {
 
-/// What a visit knows of splits that were refused: see above.
+/// The refused splits of one visit.
 template <int D>
 class RefusalMemo {
  public:
-  /// A cell of the cavity of a subsegment's point, and how near a corner of it is.
+  /// A cell in the cavity of a subsegment's point, with a corner near the point.
   struct Near {
     CellId cell;  ///< its slot
     std::uint16_t birth;  ///< of that cell
     Point<D> x;  ///< the point
-    double distance;  ///< of its nearest corner from there
+    double distance;  ///< of its nearest corner from the point
   };
 
   /// Forgets everything, at no cost where there is nothing.
@@ -33,7 +33,7 @@ class RefusalMemo {
     if (!near_.empty()) near_ = {};
     if (!passed_on_.empty()) passed_on_ = {};
   }
-  /// Of the subsegment ab.
+  /// Notes it for the subsegment ab.
   void note_near(VertexId a, VertexId b, const Near& near) { near_.insert_or_assign(key(a, b), near); }
   /// The cell that was noted last, if it is still there and has a corner nearer than this.
   std::optional<Near> nearer_than(const Mesh<D>& mesh, VertexId a, VertexId b, double distance) const {
@@ -41,9 +41,9 @@ class RefusalMemo {
     if (at == near_.end() || !(at->second.distance < distance) || mesh.birth(at->second.cell) != at->second.birth) return {};
     return at->second;
   }
-  /// The point of the subfacet encroaches upon the subsegment.
+  /// Notes that the subsegment was to be split in the place of the subfacet.
   void note_passed_on(const Entry<D>& face, const Entry<D>& edge) { passed_on_.insert_or_assign(key(face), edge); }
-  bool knows_faces() const { return !passed_on_.empty(); }  ///< has any been noted?
+  bool knows_faces() const { return !passed_on_.empty(); }  ///< has note_passed_on() been called?
   /// The subsegment noted for the subfacet, if the cell that it was noted with is still there.
   std::optional<Entry<D>> passed_on(const Mesh<D>& mesh, const Entry<D>& face) const {
     const auto at = passed_on_.find(key(face));

@@ -38,15 +38,15 @@ struct RegionVisit {
   WorkList<D>* list = nullptr;         ///< of the region
   std::vector<Entry<D>> given;         ///< set aside by earlier visits: these alone are treated, and what they bring
   bool treat_list = true;              ///< false: `given` only
-  std::uint32_t level = 0;             ///< of the region in its tree, for the record
-  std::uint32_t order = 1;             ///< of the claim, likewise
-  std::uint64_t generation = 0;        ///< in which the visit runs, likewise
+  std::uint32_t level = 0;             ///< level of the region in its tree; for the trace
+  std::uint32_t order = 1;             ///< order of the claim; for the trace and for Refusal
+  std::uint64_t generation = 0;        ///< the generation that the visit is of; for the trace and for Refusal
   double small_radius = 0;             ///< end once no poor element is larger ...
   std::size_t floor = 0;               ///< ... and the list is crowded by this
   int granularity = std::numeric_limits<int>::max();  ///< end this many buckets after the first
   std::uint64_t most_insertions = std::numeric_limits<std::uint64_t>::max();  ///< share of the budget
   bool violations_seen = false;        ///< look for faces that are not locally Delaunay at every insertion
-  bool entities_refused = false;       ///< by any visit before; after the visit, by this one too
+  bool entities_refused = false;       ///< has any visit refused an entity's split; after the visit, this one included?
   // done
   /// Entries for another region.
   struct Outbox {

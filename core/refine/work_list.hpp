@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What waits to be treated in one region: encroached subsegments, then subfacets, then faces to be flipped, each first in
-// first out, then poor elements. Of these, those that are too big go by buckets of their circumradius, largest first; those
-// of poor shape alone go by their shortest edge, shortest first, which makes meshes up to a third smaller than the largest
-// circumradius first (docs/selectors.md), or, where a region must become fit to be split, by buckets too.
-// Plain containers; one thread at a time.
+// The work list of one region. Encroached subsegments go first, then subfacets, then violations to be flipped, each first in
+// first out, then poor elements. Elements that are too big go by buckets of their circumradius, largest first. Elements of poor
+// shape alone go by their shortest edge, shortest first, which makes meshes up to a third smaller than the largest circumradius
+// first (docs/selectors.md). Where a region must become fit to be split, they go by buckets, too. Plain containers; one thread at
+// a time.
 #pragma once
 
 #include <algorithm>
@@ -23,19 +23,19 @@
 
 namespace pgdr {
 
-/// What waits: a subsegment, a subfacet, a face that is not locally Delaunay, a poor element.
+/// What an entry is: a subsegment, a subfacet, a face that is not locally Delaunay, a poor element.
 enum class EntryKind : std::uint8_t { edge, face, flip, cell };
 
-/// An entity or element as its cell and which of its edges or faces. The entry is dead when the slot `cell` no longer holds
-/// that cell: whatever took its place has been listed anew.
+/// A subsegment, subfacet, violation or poor element that waits: a cell, and which of its edges or faces. The entry is dead once
+/// the slot no longer holds that cell: whatever took its place was listed anew.
 template <int D>
 struct Entry {
-  /// `which` of kind cell, why it is listed: too big, whatever its shape; beside a face that no flip mends; poor in shape.
-  static constexpr int over_size = 0;         ///< too big
-  static constexpr int not_delaunay = 1;      ///< beside such a face
-  static constexpr int over_radius_edge = 2;  ///< poor in shape alone
+  // Why an element is listed, the `which` of kind cell.
+  static constexpr int over_size = 0;         ///< it is too big, whatever its shape
+  static constexpr int not_delaunay = 1;      ///< it is beside a violation that no flip repairs
+  static constexpr int over_radius_edge = 2;  ///< it is poor in shape alone
 
-  /// `place` is its order.
+  /// `place`: its order.
   Entry(CellId slot, std::uint16_t born, EntryKind kind, int which, int size_bucket = 0, std::uint32_t place = 0)
       : cell(slot),
         order(place),
@@ -43,14 +43,14 @@ struct Entry {
         bucket(static_cast<std::uint8_t>(size_bucket)),
         what_(static_cast<std::uint8_t>(static_cast<int>(kind) << 4 | which)) {}
 
-  CellId cell;          ///< its slot
-  /// Of cells over the radius-edge bound alone: the least goes first. Of those that are too big: CellVerdict::over_size.
+  CellId cell;          ///< the slot of the cell
+  /// For elements of poor shape alone: the least goes first. For elements that are too big: CellVerdict::over_size.
   std::uint32_t order;
   std::uint16_t birth;  ///< of the cell
   std::uint8_t bucket;  ///< kind cell: floor(log2(side of the domain / circumradius)), clamped
 
   EntryKind kind() const { return static_cast<EntryKind>(what_ >> 4); }  ///< what it is
-  int which() const { return what_ & 15; }  ///< edge or face of the cell; why, of kind cell
+  int which() const { return what_ & 15; }  ///< the number of the edge or face in the cell; for kind cell, why it is listed
   bool alive(const Mesh<D>& mesh) const { return mesh.birth(cell) == birth; }  ///< is the cell still there?
 
  private:
@@ -58,8 +58,8 @@ struct Entry {
 };
 static_assert(sizeof(Entry<3>) == 12 && sizeof(Entry<2>) == 12);
 
-/// First in, first out, in blocks: what was read is given back at once and used again while it is in the cache. The first
-/// block of a list is small, since a tree has thousands of lists with few entries.
+/// A queue, first in first out, in blocks: the memory of what was read is used again while it is in the cache. The first block is
+/// small, since a tree has thousands of queues with few entries.
 template <class T>
 class Fifo {
  public:
@@ -74,9 +74,9 @@ class Fifo {
   }
   ~Fifo() { clear(); }
 
-  bool empty() const { return size_ == 0; }  ///< nothing waits
-  std::size_t size() const { return size_; }  ///< so many wait
-  /// Puts it behind all others.
+  bool empty() const { return size_ == 0; }  ///< is nothing in it?
+  std::size_t size() const { return size_; }  ///< so many are in it
+  /// Puts the item behind all others.
   void push(const T& item) {
     if (!last_ || tail_ == last_->capacity) [[unlikely]] append_block();
     last_->items()[tail_++] = item;
@@ -156,11 +156,11 @@ class Fifo {
   std::size_t size_ = 0;
 };
 
-/// Least `order` first; ties in an order that depends on what was pushed and popped alone.
+/// A heap, least `order` first; ties in an order that depends on what was pushed and popped alone.
 template <int D>
 class EntryHeap {
  public:
-  bool empty() const { return items_.empty(); }  ///< nothing waits
+  bool empty() const { return items_.empty(); }  ///< is nothing in it?
   const Entry<D>& top() const { return items_.front(); }  ///< the least. @pre !empty()
   /// Adds it.
   void push(const Entry<D>& e) {
@@ -187,29 +187,29 @@ class EntryHeap {
   std::vector<Entry<D>> items_;
 };
 
-/// An entry that was refused, and by what; nothing if no pair of entities was at fault.
+/// A refused entry, and what the decision rested on.
 template <int D>
 struct Refusal {
-  Entry<D> entry;  ///< what
-  std::optional<EntityPair> pair;  ///< by what
-  std::uint32_t order = 1;       ///< of the claim that it took to find out
-  std::uint64_t generation = 0;  ///< in which
-  /// Of the cells that were looked at: while these and their neighbours stay, so does the decision. Empty: not known.
+  Entry<D> entry;  ///< the entry
+  std::optional<EntityPair> pair;  ///< the two entities at fault; nothing if none were
+  std::uint32_t order = 1;       ///< order of the claim of the visit that decided
+  std::uint64_t generation = 0;  ///< the generation of that visit
+  /// The cells that were looked at: while these and their neighbours stay, so does the decision. Empty: not known.
   std::vector<CellId> seen;
-  std::uint64_t surroundings = 0;  ///< `surroundings_of` these, then
-  std::uint64_t versions = 0;      ///< `versions_about` the element, then; of improvement
+  std::uint64_t surroundings = 0;  ///< `surroundings_of` these cells, when it was decided
+  std::uint64_t versions = 0;      ///< in the last stage: `versions_about` the element, when it was decided
 };
 
-/// What waits in one region, and what was refused there.
+/// The work list of one region, and what was refused there.
 template <int D>
 class WorkList {
  public:
   Fifo<Entry<D>> edges;  ///< encroached subsegments
   Fifo<Entry<D>> faces;  ///< encroached subfacets
   Fifo<Entry<D>> flips;  ///< faces that are not locally Delaunay
-  std::vector<Refusal<D>> refused;  ///< for good, unless the mesh changes
+  std::vector<Refusal<D>> refused;  ///< what was refused, for as long as the cells that decided are there
 
-  /// Puts it where its kind waits.
+  /// Adds an entry of any kind.
   void push(const Entry<D>& e) {
     switch (e.kind()) {
       case EntryKind::edge: return edges.push(e);
@@ -218,7 +218,7 @@ class WorkList {
       case EntryKind::cell: return push_poor(e);
     }
   }
-  /// An element.
+  /// Adds a poor element.
   void push_poor(const Entry<D>& e) {
     if (static_cast<std::size_t>(e.bucket - first_) >= poor_.size()) [[unlikely]] make_bucket(e.bucket);
     Bucket& bucket = poor_[static_cast<std::size_t>(e.bucket - first_)];
@@ -232,18 +232,18 @@ class WorkList {
     ++waiting_;
   }
 
-  /// Nothing waits.
+  /// Does nothing wait?
   bool empty() const { return edges.empty() && faces.empty() && flips.empty() && waiting_ == 0; }
-  /// So many wait, dead ones among them.
+  /// How many entries wait, dead ones among them.
   std::size_t size() const { return edges.size() + faces.size() + flips.size() + waiting_; }
-  /// Poor elements, dead ones among them.
+  /// How many poor elements wait, dead ones among them.
   std::size_t poor() const { return waiting_; }
   /// About how many cells will take the place of those that are too big, dead ones among them.
   std::uint64_t to_come() const { return to_come_; }
   /// Is there work for several regions: do `least` poor elements wait, or will three times as many cells take the place of those
   /// that are too big?
   bool is_crowded(std::size_t least) const { return waiting_ >= least || to_come_ >= 3 * least; }
-  /// Bucket of the largest poor element. @pre poor() > 0
+  /// The bucket of the largest poor element. @pre poor() > 0
   int first_bucket() {
     while (poor_.front().empty()) {
       poor_.erase(poor_.begin());
@@ -251,12 +251,12 @@ class WorkList {
     }
     return first_;
   }
-  /// One of the largest. Those that come soon after are fetched into the cache. @pre poor() > 0
+  /// Takes one of the largest poor elements out. Those that come soon after are fetched into the cache. @pre poor() > 0
   Entry<D> pop_largest(const Mesh<D>& mesh) {
     Bucket& bucket = poor_[static_cast<std::size_t>(first_bucket() - first_)];
     return bucket.others.empty() ? pop(bucket.by_shape) : pop_other(bucket, mesh);
   }
-  /// One of the largest that are too big, or else the one of poor shape that goes first. @pre poor() > 0
+  /// Takes out one of the largest elements that are too big, or else the element of poor shape that goes first. @pre poor() > 0
   Entry<D> pop_poor(const Mesh<D>& mesh) {
     Bucket* best = nullptr;
     for (Bucket& bucket : poor_) {
@@ -280,7 +280,7 @@ class WorkList {
     std::vector<Bucket>().swap(poor_);
     waiting_ = others_ = to_come_ = 0;
   }
-  /// Without a word before.
+  /// Calls f for every entry, and empties the list.
   template <class F>
   void drain(F f) {
     drain(f, [](const Entry<D>&) {});

@@ -35,11 +35,11 @@ void WorkLister<D>::list_entities(CellId c, const ConstraintRecord<D>& k) {
   if (w_->options.keep_boundary) return;
   const auto& vertices = mesh_->cell(c).vertices;
   for (int f = 0; f <= D; ++f)
-    if ((k.faces >> f & 1) && is_face_encroached_by<D>(*mesh_, w_->domain, c, f, vertices[f]))
+    if (k.has_face(f) && is_face_encroached_by<D>(*mesh_, w_->domain, c, f, vertices[f]))
       w_->visit->list->push(w_->entry(c, EntryKind::face, f));
   if constexpr (D == 3)
     for (int e = 0; e < 6; ++e)
-      if ((k.edges >> e & 1) && is_edge_encroached(*mesh_, w_->domain, c, e)) w_->visit->list->push(w_->entry(c, EntryKind::edge, e));
+      if (k.has_edge(e) && is_edge_encroached(*mesh_, w_->domain, c, e)) w_->visit->list->push(w_->entry(c, EntryKind::edge, e));
 }
 
 template <int D>
@@ -57,7 +57,7 @@ void WorkLister<D>::list_if_poor(CellId c) {
   list_poor(c, Entry<D>::over_radius_edge, sphere, order_of(c, sphere));
 }
 
-/// The same of the i-th cell that the last insertion has made, whose shape is known.
+/// list_if_poor() of the i-th cell that the last insertion has made, whose shape is known.
 template <int D>
 void WorkLister<D>::list_inserted_if_poor(std::size_t i) {
   using Answer = typename QuickBounds<D>::Answer;

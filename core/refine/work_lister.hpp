@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lists what a visit has to do: encroached entities and poor elements at cells that are new, and faces that are not locally
-// Delaunay. Elements whose circumcentre lies in another leaf go to that leaf's outbox at the end of the visit.
+// The lister of work: it puts encroached entities and poor elements at new cells, and violations, on the work list of the visit.
+// Elements whose circumcentre lies in another leaf go to the outbox for that leaf at the end of the visit.
 #pragma once
 
 #include <cstdint>
@@ -15,25 +15,25 @@
 
 namespace pgdr {
 
-/// Part of a worker: see above.
+/// Fills the work list of a visit. Part of a worker: one thread at a time.
 template <int D>
 class WorkLister {
  public:
   explicit WorkLister(Workspace<D>& workspace) : w_(&workspace), mesh_(&workspace.mesh), quick_bounds_(workspace.context.bounds) {}
 
-  /// Before the visit does anything.
+  /// Must be called before the visit does anything.
   void begin_visit() { elsewhere_.clear(); }
-  /// What is encroached or poor at a cell that the visit owns.
+  /// Lists what is encroached or poor at a cell that the visit owns.
   void list_cell(CellId c);
-  /// The element, if it is poor.
+  /// Lists the element, if it is poor.
   void list_if_poor(CellId c);
-  /// A poor element; `why` and `order` as of Entry.
+  /// Lists a poor element; `why` is Entry::which, `order` is Entry::order.
   void list_poor(CellId c, int why, const FilterSphere<D>& sphere, std::uint32_t order);
-  /// The same element, which is looked at once more.
+  /// Lists the element of the entry again.
   void relist_cell(const Entry<D>& e) { list_poor(e.cell, e.which(), mesh_->sphere(e.cell), e.order); }
-  /// What is encroached or poor at the cells that the insertion of the collected point has made.
+  /// Lists what is encroached or poor at the cells that the last commit of the cavity has made.
   void list_inserted();
-  /// The faces of the cells that are not locally Delaunay; as many as that were.
+  /// Lists the violations at the cells. @returns how many there were
   std::uint64_t list_violations(std::span<const CellId> cells);
   /// Fills the outboxes of the visit. Most entries do not live until its end, and the visit, which owns their cells, can tell.
   void fill_outboxes();

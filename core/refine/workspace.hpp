@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the parts of one worker share: the mesh with the worker's pools, its one cavity, the visit that runs, and the trace of
-// the entry that is treated. One thread at a time.
+// The workspace of a worker, which its parts share: the mesh with the worker's pools, its one cavity, the visit that runs, and
+// the trace of the entry that is treated.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ enum class Outcome {
   not_owned,  ///< that would need cells that the visit does not own
 };
 
-/// The angles at which entities meet, each of which takes microseconds: those asked for are kept.
+/// A cache of the angles at which entities meet, each of which takes microseconds.
 template <int D>
 class EntityAngles {
  public:
@@ -44,7 +44,7 @@ class EntityAngles {
   std::map<std::pair<std::uint64_t, std::uint64_t>, double> angles_;
 };
 
-/// See above.
+/// What the parts of one worker share. One thread at a time.
 template <int D>
 struct Workspace {
   using Pools = typename Mesh<D>::Pools;
@@ -57,13 +57,13 @@ struct Workspace {
   Workspace(const Workspace&) = delete;
   Workspace& operator=(const Workspace&) = delete;
 
-  /// The face, edge or cell as an entry of today.
+  /// An entry for the face, edge or cell as it is now.
   Entry<D> entry(CellId c, EntryKind kind, int which, int bucket = 0, std::uint32_t order = 0) const {
     return {c, mesh.birth(c), kind, which, bucket, order};
   }
   bool alive(const Entry<D>& e) const { return e.alive(mesh); }  ///< is its cell still there?
   bool in_volume(VertexId v) const { return mesh.vertex(v).home.kind() == EntityKind::volume; }  ///< on no entity?
-  /// Gives up what is collected.
+  /// Releases the cavity. @returns the outcome
   Outcome give_up(Outcome outcome) {
     cavity.release();
     return outcome;
@@ -74,10 +74,10 @@ struct Workspace {
   const Domain<D>& domain;
   const RefineOptions<D>& options;
   Pools pools;                            ///< of this worker
-  Cavity<D> cavity;                       ///< of the insertion that is tried
+  Cavity<D> cavity;                       ///< of the insertion that is being tried
   RegionVisit<D>* visit = nullptr;        ///< that runs
   EntityAngles<D> angles;
-  std::vector<CellId> trace;              ///< cells that it took to decide about the entry treated, with repetitions
+  std::vector<CellId> trace;              ///< cells that were looked at to decide about the entry treated, with repetitions
   std::optional<EntityPair> refused_by;   ///< entities that the entry treated was refused for
 };
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Is a cell within its bounds? Decided as the checker decides it (the exact functions of predicates.hpp), most often from
-// the cached circumsphere alone. Reads one cell and its vertices; any thread that may read these.
+// The bounds of cells: is a cell within them? Decided as the checker decides it, by the exact functions of predicates.hpp, most
+// often from the cached circumsphere alone. Reads one cell and its vertices; any thread that may read these.
 #pragma once
 
 #include <algorithm>
@@ -16,21 +16,21 @@
 
 namespace pgdr {
 
-/// What is known of a cell besides its circumsphere.
+/// The shape of a cell, as far as tests of bounds need it.
 struct CellShape {
-  double shortest_edge_squared;  ///< as circumsphere.hpp has it
-  double squared_radius_low;     ///< bound of the square of the circumradius
-  double squared_radius_high;    ///< likewise
+  double shortest_edge_squared;  ///< as circumsphere.hpp computes it
+  double squared_radius_low;     ///< lower bound of the square of the circumradius
+  double squared_radius_high;    ///< upper bound of the same
   double det;        ///< of orient(), see ShapeBlock
   double det_error;  ///< its error; infinite: not known
 };
 
 /// Which bounds a cell is over.
 struct CellVerdict {
-  bool over_radius_edge = false;  ///< of shape
-  /// Of size, volume or area: 0 if within, else about how many cells within will take its place.
+  bool over_radius_edge = false;  ///< over the bound of shape
+  /// Over a bound of size, volume or area: about how many cells within it will take its place; 0 if it is within.
   std::uint32_t over_size = 0;
-  explicit operator bool() const { return over_radius_edge || over_size > 0; }  ///< any of them
+  explicit operator bool() const { return over_radius_edge || over_size > 0; }  ///< is it over any?
 };
 
 /// CellVerdict::over_size of a cell of this determinant (D! times its measure), where cells are of that one on average. Not more
@@ -55,27 +55,27 @@ class CellBounds {
   static constexpr double infinity = std::numeric_limits<double>::infinity();  ///< no bound
 
   double radius_edge_bound = infinity;  ///< on circumradius over shortest edge
-  SizingField<D> size;            ///< of all cells
-  /// Further ones of each region (by region number). Empty: none at all.
+  SizingField<D> size;            ///< bound on the size of all cells
+  /// Further bounds on size of each region (by region number). Empty: none at all.
   std::vector<SizingField<D>> region_size;
-  double max_measure = infinity;  ///< of all cells
+  double max_measure = infinity;  ///< bound on the volume (2D: area) of all cells
   /// Measure bound of each region (by region number); infinity for none. Empty: none at all.
   std::vector<double> region_measure;
 
   /// @throws UsageError bad_size if the size function returns a value that is not positive.
   CellVerdict test(const Mesh<D>& mesh, CellId c) const;
-  /// The same of a cell whose shape is known.
+  /// test() of a cell whose shape is known.
   CellVerdict test(const Mesh<D>& mesh, CellId c, const CellShape& shape) const;
   /// How far a cell of these corners in the region would be over its bounds: 0 within; over any of them 1, and over that of shape an
   /// eighth more for each power of two by which it is, up to 2.5 more. Called of cells that are not there, too.
   double excess(const Simplex<D>& s, int region) const;
-  /// Would it be within those of size?
+  /// Would a cell of these corners in the region be within the bounds of size?
   bool within_size(const Simplex<D>& s, int region) const;
-  /// Is it over the bound of shape?
+  /// Is the cell over the bound of shape?
   bool over_radius_edge(const Mesh<D>& mesh, CellId c) const;
-  /// The same of a cell whose shape is known.
+  /// over_radius_edge() of a cell whose shape is known.
   bool over_radius_edge(const Mesh<D>& mesh, CellId c, const CellShape& shape) const;
-  /// CellVerdict::over_size of it. @throws as test()
+  /// CellVerdict::over_size of the cell. @throws as test()
   std::uint32_t over_size(const Mesh<D>& mesh, CellId c, const CellShape& shape) const;
 
  private:
@@ -85,14 +85,14 @@ class CellBounds {
   bool within_measure(const Mesh<D>& mesh, CellId c, const CellShape& shape, double bound) const;
 };
 
-/// A quick look at cells where one size bounds all, which decides about nearly all of them as CellBounds does.
+/// A quick test where one size bounds all cells. It decides about nearly all cells, as CellBounds does.
 template <int D>
 class QuickBounds {
  public:
-  /// About all bounds; `over_size` whatever the shape.
+  /// Within all bounds, or over one of size whatever the shape, or unknown.
   enum class Answer { unknown, within, over_size };
 
-  /// Where sizes vary it knows nothing.
+  /// Where sizes vary every answer is `unknown`.
   explicit QuickBounds(const CellBounds<D>& bounds) {
     const bool varies = !bounds.size.is_constant() || !bounds.region_size.empty() || !bounds.region_measure.empty() ||
                         bounds.max_measure != CellBounds<D>::infinity;
@@ -102,7 +102,7 @@ class QuickBounds {
     squared_ratio_ = bounds.radius_edge_bound * bounds.radius_edge_bound;
     average_det_ = D == 3 ? average_det_of_radius(size) : average_det_of_measure<D>(size);
   }
-  /// About a cell of this shape.
+  /// Tests a cell of this shape.
   Answer look(const CellShape& shape) const {
     double least = shape.squared_radius_low, most = shape.squared_radius_high;  // of the square of the circumradius, or of twice the area
     if constexpr (D == 2) {
@@ -113,7 +113,7 @@ class QuickBounds {
     const bool fits = shape.squared_radius_high < squared_ratio_ * shape.shortest_edge_squared;
     return most < most_size_ && fits ? Answer::within : Answer::unknown;
   }
-  /// CellVerdict::over_size of one that is.
+  /// CellVerdict::over_size of a cell that is over the size.
   std::uint32_t over_size(const CellShape& shape) const { return cells_to_fill(shape.det, average_det_); }
 
  private:

@@ -30,9 +30,9 @@ bool lies_on(const Domain<D>& domain, Home home_of_vertex, EntityRef entity) {
 template <int D>
 Demand encroachment_demand(const Domain<D>& domain, EntityRef entity, const VertexRecord<D>& q) {
   const EntityRef home = q.home.entity();
-  const bool honest = home.kind == EntityKind::vertex ||
-                      (home.kind != EntityKind::volume && !entities_touch<D>(domain, home, entity));
-  if (honest) return {};
+  const bool is_independent = home.kind == EntityKind::vertex ||
+                              (home.kind != EntityKind::volume && !entities_touch<D>(domain, home, entity));
+  if (is_independent) return {};
   return {inherited_fraction * q.relaxed_radius, q.relaxed_radius};
 }
 
@@ -42,8 +42,8 @@ double relaxed_length(const Domain<D>& domain, const VertexRecord<D>& u, const V
   const double relaxed = std::min(u.relaxed_radius, v.relaxed_radius);
   if (relaxed <= length || relaxed == std::numeric_limits<double>::infinity()) return length;
   const EntityRef a = u.home.entity(), b = v.home.entity();
-  const bool honest = a.kind != EntityKind::volume && b.kind != EntityKind::volume && !entities_touch<D>(domain, a, b);
-  return honest ? length : relaxed;
+  const bool is_independent = a.kind != EntityKind::volume && b.kind != EntityKind::volume && !entities_touch<D>(domain, a, b);
+  return is_independent ? length : relaxed;
 }
 
 std::optional<EntityPair> small_angle_across(const Domain<2>& domain, const std::array<const VertexRecord<2>*, 3>& corners,

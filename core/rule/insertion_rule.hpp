@@ -1,38 +1,51 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// When a Steiner point may be inserted, so that every run ends, whatever the input angles.
+// The insertion rule: when a Steiner point x may be inserted, so that every run ends, whatever the input angles.
 //
-// Each vertex p has a home (the input vertex, segment or facet it lies on, or the volume) and a relaxed insertion radius
-// R(p): infinity for input vertices. The relaxed length of an edge uv is |uv| between input vertices and between vertices
-// of entities that do not touch, else max(|uv|, min(R(u), R(v))). (Between entities that do not touch an edge is no child
-// of a small angle, though both ends may have inherited a large R from one: asked for more, the cells of a thin wall
-// would stay poor without a small angle anywhere near.) Let r(x) be the distance from a new point x to the nearest vertex
-// of its cavity (of a subsegment that is split for something else, in 3D: of all cells in conflict with it, cut back or not). x is inserted only if r(x) >= d, and gets R(x) = max(r(x), h), where
-//   * for a poor element, or an entity that it encroaches upon or that hides its point: d is the least relaxed length
-//     of the element's edges (of an element only too big, at most half its circumradius); h = 0. In 2D c times that
-//     length is d, and that length is h; in 3D so for an entity that is split for an element of poor shape, where the
-//     radius-edge bound is below the smallest proved one, and for what is poor once all else is done, but for elements
-//     at angles below 20 degrees, or at input vertices without one below 60, that have a reason; whether a point goes in at the
-//     circumcentre, inside of the element, or on an entity;
-//   * for an entity encroached upon by q, the cavity's nearest vertex that is none of the entity's: if q is an input
-//     vertex or the entities of q and x do not touch, d = h = 0 (r(x) is then at least the least distance of disjoint
-//     entities; passed on from a facet to a segment, d = |xq| / 2); else d = c R(q), h = R(q); in 3D d = R(q) where the
-//     two meet at less than 60 degrees;
-//   * for a missing subsegment or subfacet of the boundary recovery: d = h = 0;
-//   * 3D: for a point of a subsegment with twins, on other segments as far from a common end (twins.hpp), r(x) here is the
-//     distance from the nearest other vertex; likewise in the recovery;
-//   * 2D: for a point of a subsegment on a shell (shells.hpp), the first at its end or no nearer to it than q, on another
-//     segment there, d = 0 in any case, and h is at least R(q).
-// c = 1/2. Since R is inherited along a chain of small angles the factor c is paid once, not once a link: with lambda =
-// min(half the least distance of disjoint entities, the shortest edge of the recovered mesh, half the least size, the least
-// first shell) relaxed lengths are at least lambda as long as R is, and every Steiner point of the refinement has R >=
-// lambda and r >= c lambda, by induction over the insertions (on shells: r >= c lambda min(1, 2 sin(a / 2)), a the least
-// angle between segments, as distances from their end do not shrink from one shell to the other, nor, of twins, from one to
-// the other). Mutually visible vertices are thus c lambda apart, and the domain is bounded: finitely many insertions.
-// Vertices of the volume that are taken out again (change/rewrap.hpp) are finitely many, too. Without inheritance c would
-// have to be 1. (That it is 1 at small angles in 3D is for the size of the meshes, not for the proof: docs/performance.md.)
-// What ends a run in 3D follows rules of its own (improve/improve.cpp). Pure functions; any thread.
+// Each vertex p has a home, the input vertex, segment or facet that it lies on, or the volume. It has a relaxed insertion radius
+// R(p), which is infinite for input vertices. The insertion radius r(x) is the distance from x to the nearest vertex of its
+// cavity (1). x is inserted only if r(x) >= d, and gets R(x) = max(r(x), h). Let c = 1/2. The demand (d, h) depends on what x is
+// for:
+//
+//   cause                                                    | 2D: d      h      | 3D: d      h
+//   ---------------------------------------------------------+-------------------+------------------------------
+//   a poor element (2), or an entity that blocks its point   | c l        l      | l          0        (3) (4)
+//   an entity encroached upon by q (5), where                |                   |
+//     q is an input vertex, or their entities do not touch   | 0          0      | 0          0        (6)
+//     they meet at less than 60 degrees                      | c R(q)     R(q)   | R(q)       R(q)     (7)
+//     otherwise                                              | c R(q)     R(q)   | c R(q)     R(q)
+//   a point of a subsegment on a shell (8)                   | 0          R(q)   | as without shells
+//   a missing subsegment or subfacet of the recovery         | 0          0      | 0          0
+//
+// l is the least relaxed length of the element's edges. The relaxed length of an edge uv is max(|uv|, min(R(u), R(v))). It is
+// |uv| between two input vertices, and between vertices of entities that do not touch: such an edge is no child of a small angle,
+// though both ends may have inherited a large R from one. (Asked for more, the cells of a thin wall would stay poor without a
+// small angle anywhere near.)
+//
+// (1) Of a subsegment that is split for something else, in 3D: of all cells in conflict with x, cut back or not. A point of a
+//     subsegment with twins, on other segments as far from a common end (twins.hpp), has the distance from the nearest other
+//     vertex.
+// (2) Of an element that is only too big, l is at most half its circumradius.
+// (3) c l and l, if an entity is split for an element of poor shape, and the radius-edge bound is below the smallest proved one.
+// (4) c l and l in the last resort, when nothing else waits. Elements at angles below 20 degrees, and at input vertices without
+//     an angle below 60 degrees, still demand l: they have a reason to stay poor.
+// (5) q is the nearest vertex of the cavity that is none of the entity's.
+// (6) r(x) is then at least the least distance of disjoint entities. If the split is passed on from a facet to a segment, d is
+//     half the distance from x to q.
+// (7) That d is not c R(q) in 3D is for the size of the meshes, not for the proof (bench/notebook/small_angles.md).
+// (8) The first shell at its end, or one no nearer to it than q is on another segment there (shells.hpp). h is at least R(q).
+//
+// Proof. R is inherited along a chain of small angles, so that the factor c is paid once, not once a link. Let lambda be the
+// least of: half the least distance of disjoint entities, the shortest edge of the recovered mesh, half the least size, the least
+// first shell. Relaxed lengths are at least lambda as long as R is. By induction over the insertions every Steiner point of the
+// refinement has R >= lambda and r >= c lambda. On shells r >= c lambda min(1, 2 sin(a / 2)), where a is the least angle between
+// segments: the distance from their end does not shrink from one shell to the other, nor from one twin to the other. So mutually
+// visible vertices are c lambda apart (on shells, that much less). The domain is bounded: there are finitely many insertions.
+// Without inheritance c would have to be 1. Gift wrapping and flips insert nothing. What ends the last stage in 3D is another
+// argument (improve/change_judge.hpp).
+//
+// Pure functions; any thread.
 #pragma once
 
 #include <array>
@@ -43,14 +56,14 @@
 
 namespace pgdr {
 
-inline constexpr double inherited_fraction = 0.5;  ///< c
+inline constexpr double inherited_fraction = 0.5;  ///< c of the table above
 inline constexpr double small_angle = 60;  ///< degrees; 3D: entities that meet at less are split less often
-inline constexpr double sharp_angle = 20;  ///< degrees; 3D: there nothing asks for less in the end
+inline constexpr double sharp_angle = 20;  ///< degrees; 3D: elements at a smaller angle get no last resort
 
-/// What an insertion asks for: r(x) >= d, and R(x) is at least h.
+/// The demand of what a point is inserted for: r(x) >= d, and R(x) is at least h.
 struct Demand {
-  double d = 0;  ///< least distance from the cavity's vertices
-  double h = 0;  ///< least relaxed radius
+  double d = 0;  ///< least insertion radius
+  double h = 0;  ///< least relaxed insertion radius
 };
 
 /// Does a vertex with this home lie on the entity (a segment or facet)?

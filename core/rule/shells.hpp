@@ -14,7 +14,7 @@
 
 namespace pgdr {
 
-/// Splits at ends with small angles: see above. Immutable.
+/// The shells at the ends of all segments. Immutable.
 template <int D>
 class Shells {
  public:

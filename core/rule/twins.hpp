@@ -1,23 +1,29 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// 3D: where to split a subsegment that other vertices are close beside, as those of a needle, a triangle whose corner lies next
-// to the opposite side (programs that subtract solids leave such). Along its sides, the subsegments of the one would be split
-// for the vertices of the other, and these for the new ones: were each split in the middle, the distances between their points
-// would become those at which they are split next, and so on, down to how far apart the sides are. So a subsegment is split
-//   * as far from an end of its segment as a vertex beside it is that lies on another segment there: its twin. No vertex of
-//     the one side is then between two of the other, in the sense that counts: none is in a diametral ball there;
-//   * or next to an input vertex beside it, so that no diametral ball has it inside; in the recovery, where the subsegment does not
-//     reach the common end, next to any vertex of a segment that runs along it. (Where four segments run from two near points to
-//     two others, places as far from one end and from the other differ, and copies of copies would come back at a distance; the
-//     nearest points of lines do not. The recovery has a limit of its own; for the refinement, the distance from the end bounds
-//     that of the twins, and must not become less. Subsegments at the common end o must be equally long in any case: the nearest
-//     point to q at an angle a is cos a times as far from o as q is, so of three side by side the middle one may be the longest, op,
-//     and then both others' ends see it at more than 90 degrees. The circles through o, p and them leave op no empty one, so it is
-//     missing and is split, and the next round may have the same three at half the size, and so on.)
-// The distance between twins is not counted: the insertion radius of a point, which is compared with what is asked of it, and
-// which later points inherit, is that from all other vertices (insertion_rule.hpp has the proof that this ends). Pure functions
-// of the domain and of points; any thread.
+// Twins, in 3D: places to split a subsegment that other vertices are close beside, as along a needle, a triangle whose corner
+// lies next to the opposite side (programs that subtract solids leave such).
+//
+// Along the sides of a needle the subsegments of the one side would be split for the vertices of the other, and these for the new
+// ones. Were each split in the middle, the distances between their points would become those at which they are split next, and so
+// on, down to how far apart the sides are. So a subsegment is split at one of these places:
+//   * As far from an end of its segment as a vertex beside it that lies on another segment there: its twin. No vertex of the one
+//     side is then in a diametral ball of the other.
+//   * Next to an input vertex beside it, so that no diametral ball has that inside.
+//   * In the recovery, where the subsegment does not reach the common end: next to any vertex of a segment that runs along it.
+//     (Where four segments run from two near points to two others, places as far from one end and from the other differ, and
+//     copies of copies would come back at a distance. The nearest points of lines do not.) The recovery has a limit of its own.
+//     For the refinement the distance from the end bounds that of the twins, and must not become less.
+//
+// Subsegments at the common end o must be equally long in any case. The nearest point to q at an angle a is cos a times as far
+// from o as q is. So of three side by side the middle one, op, may be the longest, and both others' ends see it at more than 90
+// degrees. The circles through o, p and them leave op no empty one: it is missing and is split, and the next round may have the
+// same three at half the size.
+//
+// The distance between twins is not counted: the insertion radius of a point, which is compared with its demand, and which later
+// points inherit, is the distance from all other vertices (insertion_rule.hpp has the proof that this ends).
+//
+// Pure functions of the domain and of points; any thread.
 #pragma once
 
 #include <optional>
@@ -27,8 +33,8 @@
 
 namespace pgdr {
 
-/// Of a subsegment's length: a vertex nearer than that is beside it. At larger angles, from about one degree, few points make most
-/// elements between the segments good, if they may go where that takes the fewest.
+/// The part of a subsegment's length within which a vertex is beside it. At larger angles, from about one degree, few points make
+/// most elements between the segments good, if they may go where that takes the fewest.
 inline constexpr double beside = 0.0078125;
 
 /// Where to split a subsegment.
@@ -39,13 +45,13 @@ struct SplitPlace {
   double radius = 0;               ///< that distance
 };
 
-/// Where next to a vertex on another segment.
+/// Which place next to a vertex on another segment.
 enum class Beside {
   as_far,   ///< from the common end
   nearest,  ///< to it; as far if the piece reaches the common end
 };
 
-/// Of the piece of a segment from t0 to t1, looks for the place beside a vertex that is nearest to its middle.
+/// Finds, on the piece of a segment from t0 to t1, the place beside a vertex that is nearest to the middle of the piece.
 class TwinPlaces {
  public:
   /// 0 <= t0 < t1 <= 1

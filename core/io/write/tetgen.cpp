@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/formats.hpp"
+#include "numbers/corners.hpp"
 
 namespace pgdr::detail {
 namespace {
@@ -131,9 +132,7 @@ void put_neighbors(FileOutput& out, const OutputMesh<D>& mesh, std::uint32_t fir
   faces.reserve(mesh.cells.size() * (D + 1));
   for (std::uint32_t c = 0; c < mesh.cells.size(); ++c)
     for (int i = 0; i <= D; ++i) {
-      FaceOfCell<D>& face = faces.emplace_back(FaceOfCell<D>{{}, c, i});
-      for (int j = 0, n = 0; j <= D; ++j)
-        if (j != i) face.vertices[n++] = mesh.cells[c][j];
+      FaceOfCell<D>& face = faces.emplace_back(FaceOfCell<D>{face_without(mesh.cells[c], i), c, i});
       std::sort(face.vertices.begin(), face.vertices.end());
     }
   std::sort(faces.begin(), faces.end(), [](const auto& a, const auto& b) {
