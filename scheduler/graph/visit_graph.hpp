@@ -64,8 +64,7 @@ VisitRun run_shuffled(const VisitGraph& graph, const VisitBody& body, std::mt199
 /// Runs the visits in the caller's task arena. Parallel work inside a body never starts another visit on top of it.
 VisitRun run_flow_graph(const VisitGraph& graph, const VisitBody& body);
 
-/// Runs the visits on `threads` threads (at least one), the caller's among them; lower numbers first of those that are free to
-/// run.
+/// Runs the visits on `threads` threads, the caller's among them (at least one); lower numbers first of those that may run.
 VisitRun run_threads(const VisitGraph& graph, const VisitBody& body, unsigned threads);
 
 /// The seconds of the longest chain of visits, where visit v takes `seconds[v]`.

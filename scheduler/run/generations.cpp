@@ -31,8 +31,7 @@ StopCause Generations<D>::drain() {
   }
 }
 
-/// Plans the visits of a generation, runs them, and lets what they found for others, and splits, take effect; false if nothing
-/// waits.
+/// Plans the visits of a generation, runs them, takes in what they did, and splits leaves; false if nothing waits.
 template <int D>
 bool Generations<D>::one_generation() {
   const std::vector<VisitRequest> wanted = waiting_->requests();
@@ -61,7 +60,7 @@ bool Generations<D>::one_generation() {
   return true;
 }
 
-/// What it finds for other leaves that it has claimed is there when these are visited, if after it: whether it is, is in the
+/// Runs the visit, and posts what it finds for other leaves that it has claimed, for the visits of these that come after it in the
 /// plan.
 template <int D>
 void Generations<D>::run_visit(const Visit<D>& visit, Planned& planned) {

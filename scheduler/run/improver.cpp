@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "rule/insertion_rule.hpp"
+#include "pgdr/point_selector.hpp"
 
 namespace pgdr::detail {
 

@@ -188,20 +188,20 @@ Refined<D> refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools,
                        RefineResult<D>& result) {
   detail::Refinement<D> refinement(context, std::move(pools), vertices);
   result.stop = refinement.run();
-  detail::RunState<D>& run = refinement.state();
-  result.violations_seen = run.totals.violations_seen;
-  result.statistics.insertions_committed = run.totals.counts.committed;
-  result.statistics.insertions_refused = run.totals.counts.refused;
-  result.statistics.selector_outside = run.totals.counts.selector_outside;
-  result.statistics.predicates += run.recorder.predicates_elsewhere();
-  result.scheduler = run.recorder.statistics();
+  detail::RunState<D>& state = refinement.state();
+  result.violations_seen = state.totals.violations_seen;
+  result.statistics.insertions_committed = state.totals.counts.committed;
+  result.statistics.insertions_refused = state.totals.counts.refused;
+  result.statistics.selector_outside = state.totals.counts.selector_outside;
+  result.statistics.predicates += state.recorder.predicates_elsewhere();
+  result.scheduler = state.recorder.statistics();
   result.scheduler.threads = detail::threads_of(context.options.schedule);
-  result.trace = run.recorder.take_trace();
+  result.trace = state.recorder.take_trace();
   if (is_unwanted(context.options, result.stop)) return {};
   Refined<D> refined;
   refined.explained = refinement.take_explained();
-  refined.counted = run.waiting.take_poor();
-  if (context.options.leaves) refined.tree = run.waiting.take_tree();
+  refined.counted = state.waiting.take_poor();
+  if (context.options.leaves) refined.tree = state.waiting.take_tree();
   return refined;
 }
 

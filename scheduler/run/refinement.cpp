@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/refinement.hpp"
 
-#include "rule/insertion_rule.hpp"
+#include "pgdr/point_selector.hpp"
 #include "run/generations.hpp"
 #include "run/greedy.hpp"
 
