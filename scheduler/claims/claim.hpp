@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The leaves that one visit owns, as the guard asks for them: does this vertex lie in my claim? A claim does not change
-// once it is made, and is good for as long as no leaf of its tree is split and the tree stays where it is.
-// Threads: const members from any thread, several visits and claims at once.
+// The leaves that one visit holds, and the question whether a vertex lies in them. A claim does not change once it is made, and
+// holds for as long as no leaf of its tree is split and the tree stays where it is. Threads: const members from any thread,
+// several visits and claims at once.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ template <int D>
 class Claim {
  public:
   using Node = typename Orthtree<D>::Node;  ///< of the tree
-  using Box = typename Orthtree<D>::Box;  ///< half-open
+  using Box = typename Orthtree<D>::Box;    ///< half-open
 
   /// {leaf} + `zone`, where `zone` is BUF^order(leaf) without the leaf, in any order; order >= 1.
   Claim(const Orthtree<D>& tree, Node leaf, std::span<const Node> zone, std::uint32_t order);
@@ -32,7 +32,7 @@ class Claim {
   static Claim whole(const Orthtree<D>& tree, Node leaf);
 
   bool whole() const { return leaves_.empty(); }  ///< is it the whole tree?
-  Node leaf() const { return leaf_; }  ///< which is visited
+  Node leaf() const { return leaf_; }             ///< which is visited
   /// Sorted; empty if the claim is the whole tree.
   const std::vector<Node>& leaves() const { return leaves_; }
   /// A box around the visit's leaf that holds points of claimed leaves only; what lies beyond the root counts for the
@@ -48,9 +48,7 @@ class Claim {
     }
   }
   /// Does the point lie in a claimed leaf?
-  bool contains(const Point<D>& p) const {
-    return inner_.contains(p) || whole() || contains_leaf(tree_->leaf_at(p));
-  }
+  bool contains(const Point<D>& p) const { return inner_.contains(p) || whole() || contains_leaf(tree_->leaf_at(p)); }
 
  private:
   Claim(const Orthtree<D>& tree, Node leaf);

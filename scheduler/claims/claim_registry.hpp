@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Who holds which leaf at this moment: what debug builds watch the claims with. Concurrent visits must never hold the same
-// leaf, and a visit of the whole tree must be alone. The atomics are relaxed, so that they order nothing and hide no race
-// from a thread sanitizer.
+// A record of who holds which leaf at this moment, with which debug builds watch the claims. Concurrent visits must never hold
+// the same leaf, and a visit of the whole tree must be alone. The atomics are relaxed, so that they order nothing and hide no
+// race from a thread sanitizer.
 #pragma once
 
 #include <atomic>
@@ -15,15 +15,16 @@
 
 namespace pgdr::detail {
 
+/// See above.
 template <int D>
 class ClaimRegistry {
  public:
-  /// Makes room for the nodes of a tree. While nobody holds anything.
+  /// Makes room for the nodes of a tree. @pre nobody holds anything
   void reset(std::uint32_t nodes) {
     assert(running_.load(std::memory_order_relaxed) == 0);
     if (nodes > size_) holders_ = std::make_unique<std::atomic<bool>[]>(size_ = 2 * nodes);
   }
-  /// @returns false if somebody else holds a part of the claim. Any thread; and so is leave.
+  /// Holds the claim. Any thread. @returns false if somebody else holds a part of it
   bool enter(const Claim<D>& claim) {
     bool alone = true;
     if (claim.whole()) {
@@ -34,7 +35,7 @@ class ClaimRegistry {
     for (const auto leaf : claim.leaves()) alone = !holders_[leaf].exchange(true, std::memory_order_relaxed) && alone;
     return alone;
   }
-  /// @returns false if a part of the claim was not held.
+  /// Gives the claim up. Any thread. @returns false if a part of it was not held
   bool leave(const Claim<D>& claim) {
     bool held = true;
     for (const auto leaf : claim.leaves()) held = holders_[leaf].exchange(false, std::memory_order_relaxed) && held;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The claim of a visit as the refiner asks for it.
+// The area that a visit may change, as the refiner asks for it: the leaves of its claim. One thread.
 #pragma once
 
 #include <array>
@@ -14,6 +14,7 @@
 
 namespace pgdr::detail {
 
+/// See above.
 template <int D>
 class ClaimedArea final : public VisitArea<D> {
  public:
@@ -26,7 +27,7 @@ class ClaimedArea final : public VisitArea<D> {
     // A visit of the whole tree has no leaf of its own.
     if (claim.whole()) this->home_low[0] = infinity;
   }
-  /// The box of all points that belong to the leaf: what lies beyond the root counts for the leaf nearest to it.
+  /// The box of all points that belong to the leaf: points beyond the root belong to the leaf nearest to them.
   static typename Orthtree<D>::Box unbounded_box(const Orthtree<D>& tree, std::uint32_t leaf) {
     auto box = tree.box(leaf);
     for (int i = 0; i < D; ++i) {
@@ -36,7 +37,7 @@ class ClaimedArea final : public VisitArea<D> {
     }
     return box;
   }
-  /// Of the vertices about an element, which are asked for again and again, the answers are kept.
+  /// Is the point in a claimed leaf? Answers are kept, as the vertices around an element are asked for again and again.
   bool claimed(const Point<D>& p) const override {
     std::uint64_t hash = 0;
     for (int i = 0; i < D; ++i) hash = (std::rotl(hash, 21) ^ std::bit_cast<std::uint64_t>(p[i])) * 0x9e3779b97f4a7c15u;

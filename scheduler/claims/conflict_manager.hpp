@@ -19,8 +19,8 @@ namespace pgdr {
 /// A leaf that has work.
 struct VisitRequest {
   std::uint32_t leaf = 0;  ///< node of the tree
-  /// 1 for an ordinary visit; 2, 4, ... for one that handles what was set aside, with the claim {L} + BUF^order(L);
-  /// `whole_tree` for the last resort.
+  /// 1 for an ordinary visit; 2, 4, ... for one that treats what was set aside, with the claim {L} + BUF^order(L);
+  /// `whole_tree` for one that claims every leaf.
   std::uint32_t order = 1;
   /// The generation in which the leaf's list (of that order) last became non-empty.
   std::uint64_t generation = 0;
@@ -29,11 +29,11 @@ struct VisitRequest {
 /// A visit that is to run.
 template <int D>
 struct Visit {
-  VisitRequest request;  ///< what for
-  std::uint32_t claim_order;  ///< it holds its leaf and BUF^claim_order of it meanwhile
+  VisitRequest request;                            ///< that it answers
+  std::uint32_t claim_order;                       ///< it holds its leaf and BUF^claim_order of it meanwhile
   std::vector<typename Orthtree<D>::Node> leaves;  ///< these, sorted; none: the whole tree
 
-  /// Of these leaves, as the guard asks for them; made when the visit runs, as it takes longer than to plan it.
+  /// The claim of these leaves. It is made when the visit runs, as that takes longer than to plan it.
   Claim<D> claim(const Orthtree<D>& tree) const { return Claim<D>::of_leaves(tree, request.leaf, leaves, claim_order); }
 };
 
@@ -41,7 +41,7 @@ struct Visit {
 template <int D>
 struct Generation {
   std::vector<Visit<D>> visits;  ///< in their order
-  VisitGraph graph;  ///< which waits for which
+  VisitGraph graph;              ///< which waits for which
 };
 
 /// Orders visits so that those whose claims meet run one after the other. One thread.
@@ -59,13 +59,13 @@ class ConflictManager {
   /// A leaf may be asked for once per order. @throws ResourceError internal otherwise, or if it is no leaf
   Generation<D> plan(std::span<const VisitRequest> requests);
 
-  /// The visit, as `plan` would have it.
+  /// The visit that `plan` makes of the request.
   Visit<D> visit_of(const VisitRequest& r);
   /// BUF(leaf), sorted, from the cache. Valid until the next call of a member.
   const std::vector<Node>& buffer(Node leaf);
-  /// Has the cache to be brought up to date for the leaf?
+  /// Is BUF(leaf) not in the cache, or may a split have changed it?
   bool is_stale(Node leaf);
-  /// Does so. Of different leaves from several threads. @pre is_stale
+  /// Brings BUF(leaf) in the cache up to date. Threads: different leaves at once. @pre is_stale(leaf)
   void renew(Node leaf);
 
  private:
@@ -78,8 +78,8 @@ class ConflictManager {
 
   const Orthtree<D>* tree_;
   std::uint32_t ordinary_order_;
-  std::vector<Cached> cache_;          // by node
-  std::vector<std::uint64_t> reached_; // by node: the last search that came by
+  std::vector<Cached> cache_;           // by node
+  std::vector<std::uint64_t> reached_;  // by node: the last search that came by
   std::uint64_t search_ = 0;
 };
 

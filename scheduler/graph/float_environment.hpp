@@ -9,7 +9,7 @@
 
 namespace pgdr::detail {
 
-/// The default environment while it lives, then the thread's own again. On the thread that made it.
+/// Sets the default environment while it lives, and restores the thread's own. It is destroyed on the thread that made it.
 class DefaultFloats {
  public:
   DefaultFloats() {

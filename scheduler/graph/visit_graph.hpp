@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which visits of a generation wait for which, and three ways to run them: one after the other, as nodes of a oneTBB flow
-// graph, and on plain threads (so that a thread sanitizer sees our code without the reports of TBB's own). The graph
-// only wires: a visit is a number, its body one call.
+// The graph of the visits of a generation, in which each waits for some of the earlier ones, and its executors: one after the
+// other, shuffled, as nodes of a oneTBB flow graph, and on plain threads (so that a thread sanitizer sees our code without the
+// reports of TBB's own). A visit is a number here, and its body one call.
 //
 //      visit 0 ----> visit 2 ----> visit 4        an edge u -> v, always u < v: v starts when u has ended
 //              \--> visit 3 --/
@@ -33,7 +33,7 @@ class VisitGraph {
   Visit add_visit(std::span<const Visit> predecessors = {});
 
   Visit visits() const { return static_cast<Visit>(first_.size() - 1); }  ///< so many
-  std::size_t edges() const { return predecessors_.size(); }  ///< pairs of a visit and one that it waits for
+  std::size_t edges() const { return predecessors_.size(); }              ///< pairs of a visit and one that it waits for
   /// The visits that v waits for.
   std::span<const Visit> predecessors(Visit v) const {
     return std::span(predecessors_).subspan(first_[v], first_[v + 1] - first_[v]);
@@ -47,7 +47,7 @@ class VisitGraph {
 /// How a graph was worked off.
 struct VisitRun {
   std::uint32_t visits_planned = 0;  ///< of the graph
-  std::uint32_t visits_run = 0;  ///< of these
+  std::uint32_t visits_run = 0;      ///< of these
   std::uint32_t max_concurrent = 0;  ///< most bodies that ran at one time
   /// False if somebody cancelled the task group in which the caller runs: the rest was not run, and nothing was thrown.
   bool complete() const { return visits_run == visits_planned; }
@@ -55,19 +55,19 @@ struct VisitRun {
 
 using VisitBody = std::function<void(VisitGraph::Visit)>;  ///< runs one visit; may throw
 
-/// In the order of the numbers, on the calling thread.
+/// Runs the visits in the order of their numbers, on the calling thread.
 VisitRun run_serial(const VisitGraph& graph, const VisitBody& body);
 
-/// On the calling thread, each time one at random of those that are free to run.
+/// Runs the visits on the calling thread, each time one at random of those that are free to run.
 VisitRun run_shuffled(const VisitGraph& graph, const VisitBody& body, std::mt19937_64& random);
 
-/// In the caller's task arena. Parallel work inside a body never starts another visit on top of it.
+/// Runs the visits in the caller's task arena. Parallel work inside a body never starts another visit on top of it.
 VisitRun run_flow_graph(const VisitGraph& graph, const VisitBody& body);
 
-/// On `threads` threads of its own (at least one); lower numbers first among those that are free to run.
+/// Runs the visits on `threads` threads, the caller's among them (at least one); lower numbers first of those that may run.
 VisitRun run_threads(const VisitGraph& graph, const VisitBody& body, unsigned threads);
 
-/// The longest chain of visits, where visit v takes `seconds[v]`.
+/// The seconds of the longest chain of visits, where visit v takes `seconds[v]`.
 double critical_path(const VisitGraph& graph, std::span<const double> seconds);
 
 }  // namespace pgdr

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the concurrent executors of a visit graph have in common: the count of bodies that run, and the exception that
-// comes out in the end. Any thread, except finish().
+// The log of the concurrent executors of a visit graph: it counts the bodies that run, and keeps the exception that comes out in
+// the end. Any thread, except finish().
 #pragma once
 
 #include <atomic>
@@ -14,6 +14,7 @@
 
 namespace pgdr {
 
+/// See above.
 class VisitLog {
  public:
   explicit VisitLog(std::uint32_t planned) : planned_(planned) {}
@@ -34,7 +35,7 @@ class VisitLog {
     }
     running_.fetch_sub(1, std::memory_order_relaxed);
   }
-  /// Within a handler: keeps the exception of visit v, and stops.
+  /// Keeps the exception that is handled as that of visit v, and stops.
   void fail(VisitGraph::Visit v) noexcept {
     std::lock_guard lock(mutex_);
     if (!exception_ || v < thrower_) {
@@ -45,7 +46,7 @@ class VisitLog {
   }
   bool stopped() const noexcept { return stopped_.load(std::memory_order_relaxed); }
 
-  /// When all threads are done: the counts, or the exception.
+  /// Returns the counts, or throws the exception. @pre all threads are done
   VisitRun finish() {
     if (exception_) std::rethrow_exception(exception_);
     return {planned_, run_.load(std::memory_order_relaxed), most_.load(std::memory_order_relaxed)};

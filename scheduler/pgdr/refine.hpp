@@ -25,65 +25,68 @@ namespace pgdr PGDR_API {
 
 /// What was done. Times are of the clock on the wall.
 struct RefineStatistics {
-  double seconds_mesh = 0;     ///< from the input in memory to the finished mesh in memory
-  double seconds_initial = 0;  ///< of these, until the boundary is there
-  double seconds_refine = 0;   ///< of these, the refinement
-  std::uint64_t segment_points = 0;  ///< Steiner points on segments, of the boundary recovery
-  std::uint64_t facet_points = 0;    ///< likewise, on facets
+  double seconds_mesh = 0;                 ///< from the input in memory to the finished mesh in memory
+  double seconds_initial = 0;              ///< of these, until the boundary is there
+  double seconds_refine = 0;               ///< of these, the refinement
+  std::uint64_t segment_points = 0;        ///< Steiner points on segments, of the boundary recovery
+  std::uint64_t facet_points = 0;          ///< Steiner points on facets, of the boundary recovery
   std::uint64_t insertions_committed = 0;  ///< points that the refinement inserted
   std::uint64_t insertions_refused = 0;    ///< beside small angles, or with `min_edge`
   std::uint64_t selector_outside = 0;      ///< points of the selector outside their disk, replaced
   PredicateCounts predicates;              ///< of all threads
 };
 
-/// How the visits went (design notes, "Scheduler").
+/// How the visits went (docs/design.md, "Generations").
 struct SchedulerStatistics {
-  std::uint64_t leaves = 1;                 ///< of the tree, in the end
-  std::uint64_t generations = 0;            ///< of visits
-  std::uint64_t visits = 0;                 ///< all
-  std::uint64_t set_aside = 0;              ///< attempts that were left to a visit that claims more
-  std::uint32_t max_concurrent = 0;         ///< most visits that ran at one time
-  int threads = 1;                          ///< threads that visits could run on
-  double serial_seconds = 0;                ///< of the refinement outside visits
-  double work_seconds = 0;                  ///< all visits and serial_seconds
-  double critical_path_seconds = 0;         ///< likewise, of what is done side by side the longest; and longest chains of visits
-  double seconds_in_generations = 0;        ///< from the start of each generation's first visit to the end of its last
-  std::vector<double> busy_seconds;         ///< in visits, of each thread that ran any; a thread that ended has a successor
+  std::uint64_t leaves = 1;          ///< of the tree, in the end
+  std::uint64_t generations = 0;     ///< of visits
+  std::uint64_t visits = 0;          ///< all
+  std::uint64_t set_aside = 0;       ///< attempts that were left to a visit that claims more
+  std::uint32_t max_concurrent = 0;  ///< most visits that ran at one time
+  int threads = 1;                   ///< threads that visits could run on
+  double serial_seconds = 0;         ///< of the refinement outside visits
+  double work_seconds = 0;           ///< all visits and serial_seconds
+  /// The longest chain of visits of each generation, and serial_seconds, of which parts that were done side by side count as the
+  /// longest one.
+  double critical_path_seconds = 0;
+  double seconds_in_generations = 0;  ///< from the start of each generation's first visit to the end of its last
+  std::vector<double> busy_seconds;   ///< in visits, of each thread that ran any; a thread that ended has a successor
 };
 
 /// One visit, as it ran. Seconds since the meshing began.
 struct VisitTrace {
   static constexpr std::uint32_t whole_tree = 0xffffffffu;  ///< an order
-  std::uint32_t thread;      ///< as in SchedulerStatistics::busy_seconds
-  double start;              ///< seconds
-  double end;                ///< seconds
-  std::uint32_t leaf;        ///< node of the tree
-  std::uint32_t level;       ///< of the leaf; 0 is the root
-  std::uint32_t order;       ///< of its claim, BUF^order; `whole_tree` for all of space
-  std::uint64_t generation;  ///< counted from 1
-  std::uint64_t committed;   ///< insertions
-  std::uint64_t set_aside;   ///< attempts left to a visit that claims more
+  std::uint32_t thread;                                     ///< as in SchedulerStatistics::busy_seconds
+  double start;                                             ///< seconds
+  double end;                                               ///< seconds
+  std::uint32_t leaf;                                       ///< node of the tree
+  std::uint32_t level;                                      ///< of the leaf; 0 is the root
+  std::uint32_t order;                                      ///< of its claim, BUF^order; `whole_tree` for all of space
+  std::uint64_t generation;                                 ///< counted from 1
+  std::uint64_t committed;                                  ///< insertions
+  std::uint64_t set_aside;                                  ///< attempts left to a visit that claims more
 };
 
 /// A mesh and all that is known about how it came to be. `mesh` and its arrays may be moved out.
 template <int D>
 struct RefineResult {
-  OutputMesh<D> mesh;                 ///< valid, whatever `stop` says; empty as said there
-  /// Ended before the boundary was recovered, or cancelled without wish for a partial mesh: `mesh` is empty.
+  OutputMesh<D> mesh;  ///< valid, whatever `stop` says; empty as said there
+  /// Why the run ended. If that was before the boundary was recovered, or if it was cancelled and no partial mesh is wanted,
+  /// `mesh` is empty.
   StopCause stop = StopCause::finished;
-  std::uint64_t poor_left = 0;        ///< cells over a bound
+  std::uint64_t poor_left = 0;  ///< cells over a bound
   /// Of these, when finished, those in a corner of a facet that is so sharp that every mesh has one there (sharp_corners.hpp).
   std::uint64_t poor_unavoidable = 0;
-  bool size_met = true;               ///< every cell within the size and measure bounds; false without a mesh
-  std::vector<PoorReason> reasons;    ///< one for every poor cell when finished
-  RefineStatistics statistics;        ///< counts and times
-  SchedulerStatistics scheduler;      ///< how the visits went
-  /// Faces that are not locally Delaunay were met. Without, none is left but by rounding, beside slanted entities.
+  bool size_met = true;             ///< every cell within the size and measure bounds; false without a mesh
+  std::vector<PoorReason> reasons;  ///< one for every poor cell when finished
+  RefineStatistics statistics;      ///< counts and times
+  SchedulerStatistics scheduler;    ///< how the visits went
+  /// Were faces met that are not locally Delaunay? If not, none is left but by rounding, beside slanted entities.
   bool violations_seen = false;
-  double precision = 0;               ///< 3D: within which facets that lie in one plane are one, Plc::precision or its default
-  std::vector<VisitTrace> trace;      ///< if asked for; in the order in which the visits ended
-  std::vector<Diagnostic> repairs;    ///< of the input, see Domain
-  std::vector<Diagnostic> warnings;   ///< likewise, and seeds that lie outside
+  double precision = 0;              ///< 3D: within which facets that lie in one plane are one, Plc::precision or its default
+  std::vector<VisitTrace> trace;     ///< if asked for; in the order in which the visits ended
+  std::vector<Diagnostic> repairs;   ///< of the input, see Domain
+  std::vector<Diagnostic> warnings;  ///< of the input, see Domain; and seeds that lie outside
 };
 
 /// The input with a tenth of its precision, or with the default where that is below 1e-7, if it has that of its file
@@ -92,8 +95,8 @@ struct RefineResult {
 template <int D>
 std::optional<Plc<D>> with_less_precision(const Plc<D>& plc);
 
-/// What `attempt` makes of the input, or, if that throws an InputError that no diagnosis finds, of the input with_less_precision, as
-/// long as there is one.
+/// What `attempt` makes of the input, or, if that throws an InputError that no diagnosis finds, of the input with_less_precision,
+/// as long as there is one.
 template <int D, class Attempt>
 auto with_fitting_precision(const Plc<D>& plc, const Attempt& attempt) {
   std::optional<Plc<D>> less;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Looks at every cell, in parts of many side by side, by the same executor as the visits.
+// Loops over all cells, in parts that the executor of the visits runs side by side.
 #pragma once
 
 #include <cstdint>
@@ -11,19 +11,19 @@
 
 namespace pgdr::detail {
 
-/// Threads that visits can run on.
+/// The number of threads that visits can run on.
 int threads_of(const ScheduleOptions& options);
 
-/// A part of the cells' slots: [first, last), in all but the last as many as are whole words of a SlotSet. Its number says where
-/// it stands among all.
+/// A part of the cells' slots: [first, last), whole words of a SlotSet in all but the last. Parts are numbered in the order of
+/// the slots, from 0.
 struct CellPart {
   std::uint32_t number, first, last;
 };
 
-/// So many parts there are of so many slots.
+/// The number of parts of so many slots.
 std::uint32_t count_parts(std::uint32_t cells);
 
-/// Time that parts took: all of them, on the wall, and the one that took longest.
+/// The seconds that parts took: all of them, on the wall, and the one that took longest.
 struct PartSeconds {
   double all = 0, longest = 0;
 };

@@ -20,7 +20,7 @@ constexpr const char* advice = "; another precision may keep them apart";
 constexpr double more_than_rounding = 0x1p-40;  // of the largest coordinate
 constexpr double whole = 1 - 0x1p-30;           // the sum of the pieces, each of which is rounded
 constexpr double as_short = 0x1p-34;            // of the largest coordinate: longer segments no rounding folds over
-constexpr double as_near = 1e-6;                // degrees, likewise, of facets that are not thin themselves
+constexpr double as_near = 1e-6;  // degrees: at larger angles no rounding folds facets over that are not thin themselves
 
 bool is_bent(const Domain<3>& domain, EntityId f, double by_more_than) {
   return domain.facets()[f].planarity_defect > by_more_than * domain.facet_magnitude(f);
@@ -47,7 +47,7 @@ std::vector<Piece> subsegments(const Mesh<3>& mesh) {
   return pieces;
 }
 
-/// Of the segment: it is so short, or two facets at it, one of them not exactly planar, are so near, that rounding may fold them.
+/// May rounding fold facets at the segment, one of them not exactly planar, as it is so short or they are so near?
 bool is_tight(const Domain<3>& domain, EntityId s) {
   const auto facets = domain.facets_of_segment(s);
   if (std::none_of(facets.begin(), facets.end(), [&](EntityId f) { return is_bent(domain, f, 0); })) return false;
@@ -80,7 +80,7 @@ EntityId most_bent_facet(const Domain<3>& domain) {
   return most;
 }
 
-/// Whether this is a mesh of the domain. Before the refinement it need not be Delaunay, which flat cells at bent facets may prevent.
+/// Is this a mesh of the domain? Before the refinement it need not be Delaunay, which flat cells at bent facets may prevent.
 bool conforms(const OutputMesh<3>& mesh, const Domain<3>& domain, RegionMode regions) {
   CheckOptions<3> options;
   options.domain = &domain;
@@ -100,7 +100,8 @@ bool may_fold(const Domain<3>& domain) {
   return false;
 }
 
-void require_unfolded(const Mesh<3>& mesh, const Domain<3>& domain, RegionMode regions, std::span<const double> region_attributes) {
+void require_unfolded(const Mesh<3>& mesh, const Domain<3>& domain, RegionMode regions,
+                      std::span<const double> region_attributes) {
   if (!may_fold(domain)) return;
   require_whole_segments(mesh, domain);
   if (conforms(compact_by_slots<3>(mesh, domain, region_attributes, false).mesh, domain, regions)) return;
@@ -108,8 +109,8 @@ void require_unfolded(const Mesh<3>& mesh, const Domain<3>& domain, RegionMode r
   Diagnostic d = detail::about_points<3>(Errc::boundary_not_recovered, domain, domain.facet_points(f));
   char defect[32];
   std::snprintf(defect, sizeof defect, "%.3g", domain.facets()[f].planarity_defect);
-  d.message = "facets that are planar only within the precision fold over, or touch; " + detail::facet_words(d) + " is off its plane by " +
-              defect + advice;
+  d.message = "facets that are planar only within the precision fold over, or touch; " + detail::facet_words(d) +
+              " is off its plane by " + defect + advice;
   throw InputError(std::move(d));
 }
 

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A facet that is planar only within a tolerance (Plc::precision, a bent polygon) is triangulated anew, within that tolerance of
-// its triangles. Where other facets are as near, at edges or walls as short as the tolerance, the new surface may pass on the wrong
-// side of a point, or have a triangle in common with another one, and carving takes cells that belong to the domain, or leaves
-// others. Nothing of the mesh alone tells all of that (one that is inside out has all its triangles), so the checker is asked.
+// its triangles. Where other facets are as near, at edges or walls as short as the tolerance, the new surface may pass on the
+// wrong side of a point, or have a triangle in common with another one, and carving takes cells that belong to the domain, or
+// leaves others. Nothing of the mesh alone tells all of that (one that is inside out has all its triangles), so the checker is
+// asked.
 #pragma once
 
 #include <span>
@@ -15,15 +16,16 @@
 
 namespace pgdr {
 
-/// A facet is bent by more than rounding; or by less, but it has a segment as short as that, or meets another there at an angle as
-/// small. Any thread.
+/// Is any facet bent by more than rounding? Or by less, with a segment as short as that, or another facet there at an angle as
+/// small? Any thread.
 bool may_fold(const Domain<3>& domain);
 
-/// After carving, before the refinement, which keeps what is right so. Looks at nothing unless may_fold(domain); else takes some 5
-/// microseconds a cell. `region_attributes`: of each region number, empty without labels. Any thread; nobody changes the mesh
-/// meanwhile.
+/// Checks that the mesh is one of the domain, after carving and before the refinement, which keeps what is right so. Looks at
+/// nothing unless may_fold(domain); else takes some 5 microseconds a cell. `region_attributes`: of each region number, empty
+/// without labels. Any thread; nobody changes the mesh meanwhile.
 /// @throws InputError boundary_not_recovered: the least segment that is in the mesh in part, its ends in `ids` and `points`; or, if
 ///   the checker finds the mesh not to be one of the domain, the facet that is off its plane by most, with its points
-void require_unfolded(const Mesh<3>& mesh, const Domain<3>& domain, RegionMode regions, std::span<const double> region_attributes);
+void require_unfolded(const Mesh<3>& mesh, const Domain<3>& domain, RegionMode regions,
+                      std::span<const double> region_attributes);
 
 }  // namespace pgdr

@@ -7,41 +7,50 @@
 // same mesh. What they find for other leaves or set aside, and splits, take effect at the end of the generation, in their order.
 #pragma once
 
+#include <random>
+#include <span>
+#include <vector>
+
 #include "claims/claim_registry.hpp"
-#include "run/leaf_refinement.hpp"
+#include "run/run_state.hpp"
 
 namespace pgdr::detail {
 
+/// The schedule of a run, see above.
 template <int D>
-class Generations final : public LeafRefinement<D> {
+class Generations final : public VisitSchedule<D> {
  public:
-  using Base = LeafRefinement<D>;
-  using typename Base::Node;
+  using Node = typename Orthtree<D>::Node;
 
-  Generations(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices_so_far);
+  explicit Generations(RunState<D>& state);  ///< it must outlive this
+
+  StopCause drain() override;
 
  private:
-  using typename Base::Clock;
-  using Base::seconds_since;
+  using Clock = VisitRecorder::Clock;
   struct Planned {
     RegionVisit<D> work;
     double seconds = 0;
   };
 
-  StopCause drain() override;
   bool one_generation();
   void run_visit(const Visit<D>& visit, Planned& planned);
   void execute(const VisitGraph& graph, const VisitBody& body);
-  void finish(Generation<D>& generation, std::vector<Planned>& planned);
+  double account(Generation<D>& generation, std::vector<Planned>& planned);
   bool is_whole_if_small() const;
   void execute_pieces(std::size_t pieces, const VisitBody& piece);
   void renew_buffers(std::span<const VisitRequest> requests);
   void touch_memory(std::span<const VisitRequest> requests);
   void split_leaves(std::vector<Node> candidates);
 
-  using Base::context_, Base::generation_, Base::options_, Base::random_, Base::statistics_, Base::tree_, Base::vertices_, Base::works_;
+  RunState<D>* state_;
+  RefineContext<D>* context_;
+  const ScheduleOptions* options_;
+  WaitingWork<D>* waiting_;
+  VisitRecorder* recorder_;
   ConflictManager<D> conflicts_;
   ClaimRegistry<D> registry_;
+  std::mt19937_64 random_;  ///< of the executor that shuffles
 };
 
 extern template class Generations<2>;

@@ -9,57 +9,65 @@
 
 #include <condition_variable>
 #include <map>
+#include <memory>
+#include <mutex>
 #include <set>
 #include <tuple>
+#include <utility>
+#include <vector>
 
-#include "run/leaf_refinement.hpp"
+#include "run/run_state.hpp"
 
 namespace pgdr::detail {
 
+/// The schedule of a run, see above.
 template <int D>
-class Greedy final : public LeafRefinement<D> {
+class Greedy final : public VisitSchedule<D> {
  public:
-  using Base = LeafRefinement<D>;
-  using typename Base::Node;
+  using Node = typename Orthtree<D>::Node;
 
-  /// `threads`: visits that may run at once.
-  Greedy(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices_so_far, int threads);
+  /// `threads`: visits that may run at once. The state must outlive this.
+  Greedy(RunState<D>& state, int threads);
+
+  StopCause drain() override;
 
  private:
-  using typename Base::Clock;
   struct Running;
   /// Level, arrival, order, leaf: the order of the pool.
   using Waiting = std::tuple<int, std::uint64_t, std::uint32_t, Node>;
   /// What was found out when the pool was last looked through.
   struct Wanted {
-    std::vector<Node> claim;              ///< leaves; none yet if `tree_nodes` is 0
-    std::uint32_t tree_nodes = 0;         ///< of the tree when the claim was last found to hold
-    Node held = Orthtree<D>::none;        ///< a leaf of the claim that another visit held
+    std::vector<Node> claim;        ///< leaves; none yet if `tree_nodes` is 0
+    std::uint32_t tree_nodes = 0;   ///< of the tree when the claim was last found to hold
+    Node held = Orthtree<D>::none;  ///< a leaf of the claim that another visit held
   };
 
-  StopCause drain() override;
   void run_in_arena();
   void run_on_threads();
   // Under the lock:
   void pool(Node leaf);
-  void pool(const VisitRequest& request, int level);
+  void pool(const VisitRequest& request);
   std::unique_ptr<Running> pick();
+  std::unique_ptr<Running> begin(const VisitRequest& request, std::uint64_t vertices_left);
   bool is_free(const VisitRequest& r, Wanted& wanted);
   void claim(Running& visit);
   void end(Running& visit);
   void run_visit(Running& visit);
   void hand_over(Running& visit);
   void split(Node leaf);
-  bool done() const { return running_ == 0 && (pool_.empty() || context_.stop != 0); }
+  bool done() const { return running_ == 0 && (pool_.empty() || context_->stop != 0); }
 
-  using Base::context_, Base::generation_, Base::options_, Base::statistics_, Base::tree_, Base::vertices_, Base::works_;
+  RunState<D>* state_;
+  RefineContext<D>* context_;
+  WaitingWork<D>* waiting_;
+  const Orthtree<D>* tree_;
   ConflictManager<D> conflicts_;
   const int threads_;
-  std::mutex mutex_;  ///< of all below, and of the tree, the inboxes and the counts
+  std::mutex mutex_;  ///< of all below, and of the tree, the inboxes and the totals
   std::condition_variable ended_;
   std::map<Waiting, Wanted> pool_;
   std::set<std::pair<Node, std::uint32_t>> pooled_;  ///< leaf and order of what is in the pool
-  std::vector<char> claimed_;  ///< by node
+  std::vector<char> claimed_;                        ///< by node
   std::uint64_t arrivals_ = 0, reserved_ = 0;
   int running_ = 0;
 };

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What waits in each leaf of the tree, and how it moves when leaves split. One thread at a time, except that during a
-// generation a visit uses the work of the leaves that it has claimed.
+// The work of each leaf of the tree: what waits there, and how it moves to the children when the leaf splits. One thread at a
+// time, except that during a generation a visit uses the work of the leaves that it has claimed.
 #pragma once
 
 #include <array>
@@ -16,17 +16,19 @@
 
 namespace pgdr::detail {
 
-/// Claims of visits for what was set aside: BUF^2, BUF^4; then the whole tree, which is nobody's leaf.
+/// The orders of claims for what was set aside: BUF^2, BUF^4; then the whole tree, which is nobody's leaf.
 inline constexpr std::array<std::uint32_t, 2> set_aside_orders{2, 4};
 
+/// The work of one leaf.
 template <int D>
 struct LeafWork {
   WorkList<D> list;
   std::vector<std::vector<Entry<D>>> inbox;  ///< from visits of other leaves, in their order; not looked at yet
   std::array<std::vector<Entry<D>>, set_aside_orders.size()> set_aside;
-  std::uint64_t since = 0;                   ///< generation in which the list last became non-empty
+  std::uint64_t since = 0;  ///< generation in which the list last became non-empty
   std::array<std::uint64_t, set_aside_orders.size()> set_aside_since{};
-  std::uint64_t changed = 0;                 ///< generation in which a visit that had claimed it last changed the mesh; see pass_up_changes
+  /// Generation in which a visit that had claimed it last changed the mesh; of inner nodes, see pass_up_changes.
+  std::uint64_t changed = 0;
   /// Claims with which something was refused here, one for each order, as they were first: later ones lie within, as
   /// leaves split.
   std::map<std::uint32_t, std::vector<std::uint32_t>> zones;
@@ -40,6 +42,7 @@ struct LeafWork {
   }
 };
 
+/// The work of all nodes of a tree, which must outlive it.
 template <int D>
 class LeafWorks {
  public:
@@ -53,7 +56,7 @@ class LeafWorks {
   void grow() {
     while (works_.size() < tree_->node_count()) works_.push_back(std::make_unique<LeafWork<D>>());
   }
-  /// So that each node knows of changes in any of its parts. Until then leaves alone do.
+  /// Makes each node know of changes in any of its parts. Until then leaves alone do.
   void pass_up_changes();
   /// Hands all that waits at a node that was split to its children, by the circumcentres of the cells. What was set aside
   /// starts again as ordinary. Threads: different parents at once.

@@ -24,8 +24,7 @@
 #include "rule/cell_bounds.hpp"
 #include "run/cell_parts.hpp"
 #include "run/folded_facets.hpp"
-#include "run/generations.hpp"
-#include "run/greedy.hpp"
+#include "run/refinement.hpp"
 #include "size/region_sizes.hpp"
 
 namespace pgdr {
@@ -67,15 +66,6 @@ CellBounds<D> bounds_of(const RefineOptions<D>& options, const RegionTable& regi
   return bounds;
 }
 
-template <int D>
-std::unique_ptr<detail::LeafRefinement<D>> make_refinement(RefineContext<D>& context, typename Mesh<D>::Pools pools,
-                                                           std::uint64_t vertices) {
-  const ScheduleOptions& options = context.options.schedule;
-  if (options.schedule == Schedule::greedy)
-    return std::make_unique<detail::Greedy<D>>(context, std::move(pools), vertices, detail::threads_of(options));
-  return std::make_unique<detail::Generations<D>>(context, std::move(pools), vertices);
-}
-
 /// The cells over a bound.
 template <int D>
 PoorCount count_poor(const RefineContext<D>& context) {
@@ -95,7 +85,13 @@ PoorCount count_poor(const RefineContext<D>& context) {
 /// Was the run ended by a clock or a person, who wants it to return now? The mesh is chance then, and so may its numbering be.
 bool was_interrupted(StopCause stop) { return stop == StopCause::cancelled || stop == StopCause::time_limit; }
 
-/// Of each region number; none where there are no labels.
+/// Has the run been cancelled, and is no partial mesh wanted?
+template <int D>
+bool is_unwanted(const RefineOptions<D>& options, StopCause stop) {
+  return !options.partial_mesh && (options.stop.stop_requested() || stop == StopCause::cancelled);
+}
+
+/// The label of each region number; none where there are no labels.
 std::span<const double> attributes_of(const RegionTable& regions) {
   if (!regions.labelled) return {};
   return regions.attribute;
@@ -112,7 +108,7 @@ Compacted<D> compact_mesh(Mesh<D>& mesh, const Domain<D>& domain, const RegionTa
   const auto make = [&](bool parallel) {
     const FillPoints<D> fill = [&](const Mesh<D>& m, Compacted<D>& out) { data.fill(m, out, parallel, stop); };
     compacted = was_interrupted ? compact_by_slots<D>(mesh, domain, attributes, parallel, fill)
-                         : compact<D>(std::move(mesh), domain, attributes, parallel, stop, fill, hurry);
+                                : compact<D>(std::move(mesh), domain, attributes, parallel, stop, fill, hurry);
   };
   if (options.schedule.executor != Executor::flow_graph)
     make(false);
@@ -121,7 +117,7 @@ Compacted<D> compact_mesh(Mesh<D>& mesh, const Domain<D>& domain, const RegionTa
   return compacted;
 }
 
-/// Of each cell of the mesh, the leaf that holds its circumcentre.
+/// For each cell of the mesh, the leaf that holds its circumcentre.
 template <int D>
 std::vector<std::uint32_t> leaves_of(const OutputMesh<D>& mesh, const Orthtree<D>& tree) {
   std::vector<std::uint32_t> leaves;
@@ -151,10 +147,14 @@ void warn_beyond_theory(const RefineOptions<D>& options, std::vector<Diagnostic>
     warnings.push_back({Errc::beyond_theory,
                         "the bound on circumradius over shortest edge is below sqrt 2 (angles above 20.7 degrees): the "
                         "refinement ends, but elements may stay poor without a small angle of the input",
-                        {}, 0, {}, {}});
+                        {},
+                        0,
+                        {},
+                        {}});
 }
 
-/// The mesh before its refinement. Where the run is stopped before the boundary is there, `result.stop` says why.
+/// Makes the mesh before its refinement: all input points, the boundary, no exterior. Where the run is stopped before the
+/// boundary is there, `result.stop` says why.
 template <int D>
 RegionTable make_initial(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Domain<D>& domain, const RefineOptions<D>& options,
                          Clock::time_point start, RefineResult<D>& result) {
@@ -175,59 +175,87 @@ RegionTable make_initial(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Do
   return regions;
 }
 
-/// What is known of the refinement once it has ended.
+/// What is known of the poor cells, and of the tree, once the refinement has ended.
 template <int D>
 struct Refined {
-  std::vector<PoorCell> poor;        ///< with their reasons, if it came to its end
-  std::optional<PoorCount> counted;  ///< else how many there are, where the lists tell
+  std::vector<PoorCell> explained;   ///< with their reasons, if the refinement has finished
+  std::optional<PoorCount> counted;  ///< how many there are, where the lists tell
   std::optional<Orthtree<D>> tree;   ///< as it is in the end, if the leaves of cells are asked for
 };
 
 template <int D>
-Refined<D> refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices, RefineResult<D>& result) {
-  const auto refinement = make_refinement<D>(context, std::move(pools), vertices);
-  Refined<D> refined;
-  result.stop = refinement->run();
-  if (result.stop == StopCause::finished) refined.poor = refinement->explain(result.stop);
-  result.violations_seen = refinement->violations_seen();
-  const RefineCounts& counts = refinement->counts();
-  result.statistics.insertions_committed = counts.committed;
-  result.statistics.insertions_refused = counts.refused;
-  result.statistics.selector_outside = counts.selector_outside;
-  result.statistics.predicates += refinement->predicates_elsewhere();
-  result.scheduler = refinement->statistics();
+Refined<D> refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices,
+                       RefineResult<D>& result) {
+  detail::Refinement<D> refinement(context, std::move(pools), vertices);
+  result.stop = refinement.run();
+  detail::RunState<D>& state = refinement.state();
+  result.violations_seen = state.totals.violations_seen;
+  result.statistics.insertions_committed = state.totals.counts.committed;
+  result.statistics.insertions_refused = state.totals.counts.refused;
+  result.statistics.selector_outside = state.totals.counts.selector_outside;
+  result.statistics.predicates += state.recorder.predicates_elsewhere();
+  result.scheduler = state.recorder.statistics();
   result.scheduler.threads = detail::threads_of(context.options.schedule);
-  result.trace = refinement->take_trace();
-  if (!context.options.partial_mesh && result.stop == StopCause::cancelled) return {};
-  refined.counted = refinement->take_poor();
-  if (context.options.leaves) refined.tree = refinement->take_tree();
+  result.trace = state.recorder.take_trace();
+  if (is_unwanted(context.options, result.stop)) return {};
+  Refined<D> refined;
+  refined.explained = refinement.take_explained();
+  refined.counted = state.waiting.take_poor();
+  if (context.options.leaves) refined.tree = state.waiting.take_tree();
   return refined;
 }
 
-/// The poor cells with their reasons, if the refinement came to its end; else they are counted, by a look at every cell unless
-/// it is known how many there are.
+/// Counts the cells that stay poor. Unless the refinement has finished, and has explained them, every cell is looked at, or none
+/// where the run was interrupted and the lists tell.
 template <int D>
-std::vector<PoorCell> take_poor(const RefineContext<D>& context, Refined<D>& refined, RefineResult<D>& result) {
+void count_poor_left(const RefineContext<D>& context, const Refined<D>& refined, RefineResult<D>& result) {
   const RefineOptions<D>& options = context.options;
-  if (options.refine && result.stop == StopCause::finished) {
-    std::vector<CellId> over_bound;
-    for (const PoorCell& p : refined.poor) {
-      if (p.over_bound) over_bound.push_back(p.cell);
-      result.size_met = result.size_met && !p.over_size;
-    }
-    result.poor_left = over_bound.size();
-    result.poor_unavoidable = count_in_sharp_corners<D>(context.mesh, context.domain, options.radius_edge_bound, over_bound);
-    return std::move(refined.poor);
+  if (!options.refine || result.stop != StopCause::finished) {
+    const PoorCount count = refined.counted && was_interrupted(result.stop) ? *refined.counted : count_poor(context);
+    result.poor_left = count.cells;
+    result.size_met = !count.over_size;
+    return;
   }
-  const PoorCount count = refined.counted && was_interrupted(result.stop) ? *refined.counted : count_poor(context);
-  result.poor_left = count.cells;
-  result.size_met = !count.over_size;
-  return {};
+  std::vector<CellId> over_bound;
+  for (const PoorCell& p : refined.explained) {
+    if (p.over_bound) over_bound.push_back(p.cell);
+    result.size_met = result.size_met && !p.over_size;
+  }
+  result.poor_left = over_bound.size();
+  result.poor_unavoidable = count_in_sharp_corners<D>(context.mesh, context.domain, options.radius_edge_bound, over_bound);
+}
+
+/// Numbers the finished mesh, which uses `mesh` up, and the poor cells in it. Where the run is cancelled meanwhile and no partial
+/// mesh is wanted, the result has none.
+template <int D>
+void number_mesh(const RefineContext<D>& context, const RegionTable& regions, const PointData<D>& data, const Refined<D>& refined,
+                 RefineResult<D>& result) {
+  const RefineOptions<D>& options = context.options;
+  std::vector<PoorCell> poor;
+  if (options.refine && result.stop == StopCause::finished) poor = refined.explained;
+  std::vector<std::array<VertexId, D + 1>> poor_vertices;
+  for (const PoorCell& p : poor) poor_vertices.push_back(context.mesh.cell(p.cell).vertices);
+  Compacted<D> compacted = compact_mesh(context.mesh, context.domain, regions, data, options, was_interrupted(result.stop));
+  if (options.stop.stop_requested()) {
+    result.stop = StopCause::cancelled;
+    poor.clear();
+    if (!options.partial_mesh) return;
+  }
+  for (std::size_t i = 0; i < poor.size(); ++i) {
+    PoorReason reason = poor[i].reason;
+    reason.cell = compacted.cell_number(poor_vertices[i]);
+    result.reasons.push_back(reason);
+  }
+  std::sort(result.reasons.begin(), result.reasons.end(),
+            [](const PoorReason& a, const PoorReason& b) { return a.cell < b.cell; });
+  result.mesh = std::move(compacted.mesh);
+  if (refined.tree) result.mesh.leaves = leaves_of(result.mesh, *refined.tree);
 }
 
 /// The mesh of the domain. `result`: what is known before. `start`: of the run, for its limits.
 template <int D>
-RefineResult<D> make_mesh(const Domain<D>& domain, const RefineOptions<D>& options, Clock::time_point start, RefineResult<D> result) {
+RefineResult<D> make_mesh(const Domain<D>& domain, const RefineOptions<D>& options, Clock::time_point start,
+                          RefineResult<D> result) {
   Mesh<D> mesh;
   auto pools = mesh.make_pools();
   const RegionTable regions = make_initial<D>(mesh, pools, domain, options, start, result);
@@ -236,37 +264,17 @@ RefineResult<D> make_mesh(const Domain<D>& domain, const RefineOptions<D>& optio
     result.size_met = false;
     return result;  // no boundary yet, so no mesh
   }
-
   const auto refine_start = Clock::now();
   const PointData<D> data(mesh, domain);
   const std::uint64_t vertices = domain.points().size() + result.statistics.segment_points + result.statistics.facet_points;
   RefineContext<D> context(mesh, domain, options, bounds_of(options, regions), vertices, start);
   Refined<D> refined;
   if (options.refine) refined = refine_mesh<D>(context, std::move(pools), vertices, result);
-  const auto dropped = [&] {
-    return !options.partial_mesh && (options.stop.stop_requested() || result.stop == StopCause::cancelled);
-  };
-  if (dropped()) return without_mesh(std::move(result), start);
-  std::vector<PoorCell> poor = take_poor<D>(context, refined, result);
+  if (is_unwanted(options, result.stop)) return without_mesh(std::move(result), start);
+  count_poor_left<D>(context, refined, result);
   result.statistics.seconds_refine = seconds_since(refine_start);
-
-  std::vector<std::array<VertexId, D + 1>> poor_vertices;
-  for (const PoorCell& p : poor) poor_vertices.push_back(mesh.cell(p.cell).vertices);
-  Compacted<D> compacted = compact_mesh(mesh, domain, regions, data, options, was_interrupted(result.stop));
-  if (options.stop.stop_requested()) {
-    result.stop = StopCause::cancelled;
-    poor.clear();
-  }
-  if (dropped()) return without_mesh(std::move(result), start);
-  for (std::size_t i = 0; i < poor.size(); ++i) {
-    PoorReason reason = poor[i].reason;
-    reason.cell = compacted.cell_number(poor_vertices[i]);
-    result.reasons.push_back(reason);
-  }
-  result.mesh = std::move(compacted.mesh);
-  if (refined.tree) result.mesh.leaves = leaves_of(result.mesh, *refined.tree);
-  std::sort(result.reasons.begin(), result.reasons.end(),
-            [](const PoorReason& a, const PoorReason& b) { return a.cell < b.cell; });
+  number_mesh<D>(context, regions, data, refined, result);
+  if (is_unwanted(options, result.stop)) return without_mesh(std::move(result), start);
   return result;
 }
 
@@ -324,7 +332,7 @@ RefineResult<D> prepare_and_run(const Plc<D>& plc, const RefineOptions<D>& optio
 
 }  // namespace
 
-constexpr double least_of_file = 0.99e-7;  // with less than that few of the facets that belong together are taken for one
+constexpr double least_of_file = 0.99e-7;  // with less, few of the facets that belong together are taken for one
 
 template <int D>
 std::optional<Plc<D>> with_less_precision(const Plc<D>& plc) {

@@ -16,12 +16,14 @@
 
 namespace pgdr::detail {
 
+/// See above.
 class ThreadNumbers {
  public:
   explicit ThreadNumbers(Executor executor) : executor_(executor) {}
 
-  /// Is it the thread that made this object?
+  /// Does the thread that made this object call?
   bool at_home() const { return std::this_thread::get_id() == home_; }
+  /// The number of the calling thread.
   std::uint32_t of_this_one() {
     Key key{std::this_thread::get_id(), nowhere};
     if (executor_ == Executor::flow_graph && !at_home()) key = {{}, arena_slot()};
@@ -33,7 +35,7 @@ class ThreadNumbers {
     }
     return static_cast<std::uint32_t>(k - keys_.begin());
   }
-  /// All threads but the one that made this object.
+  /// Frees the numbers of all threads but the one that made this object.
   void others_have_ended() {
     for (Key& k : keys_)
       if (k.thread != home_) k = {};

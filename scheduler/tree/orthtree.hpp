@@ -20,16 +20,16 @@ namespace pgdr {
 template <int D>
 class Orthtree {
  public:
-  using Node = std::uint32_t;  ///< a leaf, or an inner node
-  static constexpr Node root = 0;  ///< the first
+  using Node = std::uint32_t;                ///< a leaf, or an inner node
+  static constexpr Node root = 0;            ///< the first
   static constexpr Node none = 0xffffffffu;  ///< no node
-  static constexpr int children = 1 << D;  ///< of an inner node
-  /// Integer coordinates of the finest level fill a Morton key of 64 bits.
+  static constexpr int children = 1 << D;    ///< of an inner node
+  /// The finest level: its integer coordinates fill a Morton key of 64 bits.
   static constexpr int max_level = D == 2 ? 31 : 21;
   /// A node's place among the nodes of its own level, counted from the root's low corner.
   using Place = std::array<std::uint32_t, D>;
 
-  /// Half-open: low <= x < high on every axis.
+  /// A half-open box: low <= x < high on every axis.
   struct Box {
     Point<D> low;   ///< in it
     Point<D> high;  ///< not in it
@@ -43,8 +43,8 @@ class Orthtree {
   };
 
   /// A tree of one leaf over the bounding box [low, high] of the points: a cube whose side has few bits, 1/16 to 1/8 larger than
-  /// the box and beyond it on all sides, placed so that neither the box's faces nor the dyadic fractions of it are borders of leaves.
-  /// Scaling the box by a power of two scales the tree exactly. @throws InputError not_finite (also: too large)
+  /// the box and beyond it on all sides, placed so that neither the box's faces nor the dyadic fractions of it are borders of
+  /// leaves. Scaling the box by a power of two scales the tree exactly. @throws InputError not_finite (also: too large)
   Orthtree(const Point<D>& low, const Point<D>& high);
 
   /// The leaf that holds the point; of a point outside the root, the leaf nearest to it; of a NaN, some leaf.
@@ -60,21 +60,21 @@ class Orthtree {
     return nodes_[node].first_child + child;
   }
 
-  bool is_leaf(Node node) const { return nodes_[node].first_child == 0; }  ///< has it no children?
-  Node first_child(Node node) const { return nodes_[node].first_child; }  ///< the others follow
-  Node parent(Node node) const { return nodes_[node].parent; }  ///< `none` for the root
-  int level(Node node) const { return places_[node].level; }    ///< 0 for the root
-  const Place& place(Node node) const { return places_[node].at; }  ///< on its level
-  const Point<D>& centre(Node node) const { return nodes_[node].centre; }  ///< where its children meet
+  bool is_leaf(Node node) const { return nodes_[node].first_child == 0; }                ///< has it no children?
+  Node first_child(Node node) const { return nodes_[node].first_child; }                 ///< the others follow
+  Node parent(Node node) const { return nodes_[node].parent; }                           ///< `none` for the root
+  int level(Node node) const { return places_[node].level; }                             ///< 0 for the root
+  const Place& place(Node node) const { return places_[node].at; }                       ///< on its level
+  const Point<D>& centre(Node node) const { return nodes_[node].centre; }                ///< where its children meet
   double side(Node node) const { return side_[static_cast<std::size_t>(level(node))]; }  ///< length, exact
-  Box box(Node node) const;  ///< half-open
+  Box box(Node node) const;                                                              ///< half-open
 
-  /// All nodes ever made have smaller numbers.
+  /// The number of nodes made so far, which are numbered from 0.
   Node node_count() const { return static_cast<Node>(nodes_.size()); }
   std::size_t leaf_count() const { return leaf_count_; }  ///< of the tree
-  std::vector<Node> leaves() const;  ///< in Morton order
+  std::vector<Node> leaves() const;                       ///< in Morton order
 
-  /// False at the greatest depth, or where the doubles are too coarse to halve the box.
+  /// Can the leaf be split? Not at max_level, nor where the doubles are too coarse to halve the box.
   bool can_split(Node leaf) const;
   /// Makes 2^D children, numbered one after the other; bit i of a child's rank says that it is the upper half on axis i.
   /// @returns the first; `none`, and nothing is done, if the leaf cannot be split.
@@ -91,7 +91,8 @@ class Orthtree {
   /// Leaves that share a face (a piece of positive area) with `leaf`; side 0 = below on that axis, 1 = above.
   /// Empty at the root's border.
   std::vector<Node> face_neighbours(Node leaf, int axis, int side) const;
-  void append_face_neighbours(Node leaf, int axis, int side, std::vector<Node>& out) const;  ///< likewise, behind what is there
+  /// Appends the face neighbours to `out`.
+  void append_face_neighbours(Node leaf, int axis, int side, std::vector<Node>& out) const;
 
   /// BUF(leaf), sorted: its face neighbours, their face neighbours along the axes not used yet, and so on, for every
   /// order of the axes. Holds every leaf that touches `leaf`. The leaf itself is not in it. (No chain that uses each
@@ -104,11 +105,11 @@ class Orthtree {
 
   /// The double at a position of the finest grid, 0 .. 2^max_level from the root's low border to its high one.
   double border(int axis, std::uint64_t position) const { return low_[axis] + static_cast<double>(position) * unit_; }
-  /// Positions of a node's low border and of its extent on the finest grid.
+  /// The position of a node's low border on the finest grid.
   std::uint64_t position(Node node, int axis) const {
     return std::uint64_t{place(node)[static_cast<std::size_t>(axis)]} << (max_level - level(node));
   }
-  /// How many positions it extends over.
+  /// The number of positions of the finest grid that a node extends over.
   std::uint64_t extent(Node node) const { return std::uint64_t{1} << (max_level - level(node)); }
 
  private:

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "run/refinement.hpp"
+
+#include "pgdr/point_selector.hpp"
+#include "run/generations.hpp"
+#include "run/greedy.hpp"
+
+namespace pgdr::detail {
+namespace {
+
+template <int D>
+std::unique_ptr<VisitSchedule<D>> make_schedule(RunState<D>& state) {
+  if (state.options.schedule == Schedule::greedy) return std::make_unique<Greedy<D>>(state, threads_of(state.options));
+  return std::make_unique<Generations<D>>(state);
+}
+
+}  // namespace
+
+template <int D>
+Refinement<D>::Refinement(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices)
+    : state_(context, std::move(pools), vertices), schedule_(make_schedule(state_)), violations_(state_) {}
+
+template <int D>
+StopCause Refinement<D>::run() {
+  using Stage = StopCause (Refinement::*)();
+  static constexpr Stage stages[] = {
+      &Refinement::list_everything,
+      &Refinement::refine,
+      &Refinement::refine_as_last_resort,
+      &Refinement::look_for_violations,
+      &Refinement::end_if_min_edge_hit,
+      &Refinement::explain,
+      &Refinement::collapse,
+      &Refinement::improve,
+      &Refinement::explain_what_was_improved,
+      &Refinement::end_if_min_edge_hit,
+      &Refinement::end_if_vertices_are_spent,
+  };
+  const auto start = Clock::now();
+  StopCause stop = StopCause::finished;
+  for (const Stage stage : stages) {
+    stop = (this->*stage)();
+    if (stop == StopCause::finished) stop = state_.stop();
+    if (stop != StopCause::finished) break;
+  }
+  state_.recorder.finish(start, state_.waiting.tree().leaf_count());
+  return stop;
+}
+
+/// Lists what is encroached or poor in the root, before the first split.
+template <int D>
+StopCause Refinement<D>::list_everything() {
+  constexpr std::uint32_t between_looks = 1024;  // at the caller's wish to cancel
+  const auto worker = state_.workers.lease();
+  RegionVisit<D> listing;
+  listing.list = &state_.waiting[Orthtree<D>::root].list;
+  worker->begin(listing);
+  const Mesh<D>& mesh = state_.context.mesh;
+  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i) {
+    if (i % between_looks == 0 && state_.is_cancelled()) break;
+    if (mesh.alive(CellId{i})) worker->list_cell(CellId{i});
+  }
+  state_.waiting.set_all_listed(state_.context.stop == 0);
+  return StopCause::finished;
+}
+
+/// Treats all that waits, and what was refused as often as its surroundings change.
+template <int D>
+StopCause Refinement<D>::refine() {
+  while (true) {
+    const std::uint64_t before = state_.totals.counts.committed;
+    const StopCause stop = schedule_->drain();
+    if (stop != StopCause::finished || state_.totals.counts.committed == before) return stop;
+    for (const Entry<D>& e : violations_.look_if_any()) state_.waiting.relist(e);
+    state_.refused.relist_changed();
+    if (state_.waiting.is_empty()) return stop;
+  }
+}
+
+/// Tries what is poor beside small angles once more, with a part of the demand. In that order the meshes are smaller than where
+/// all demand little. Not where nothing proves that most is good by now.
+template <int D>
+StopCause Refinement<D>::refine_as_last_resort() {
+  if (D == 2 || state_.context.options.radius_edge_bound < smallest_proved_bound<D>()) return StopCause::finished;
+  state_.context.last_resort = true;
+  state_.refused.relist_elements();
+  return state_.waiting.is_empty() ? StopCause::finished : refine();
+}
+
+/// Looks for those that the last visits left, so that they are seen.
+template <int D>
+StopCause Refinement<D>::look_for_violations() {
+  violations_.look_if_any();
+  return StopCause::finished;
+}
+
+template <int D>
+StopCause Refinement<D>::end_if_min_edge_hit() {
+  return state_.totals.min_edge_hit ? StopCause::min_edge : StopCause::finished;
+}
+
+template <int D>
+StopCause Refinement<D>::explain() {
+  poor_.emplace(state_, violations_);
+  explained_ = poor_->look();
+  state_.is_cancelled();
+  return StopCause::finished;
+}
+
+/// Collapses come before what else improves: that leaves as few poor elements, and fewer elements in all.
+template <int D>
+StopCause Refinement<D>::collapse() {
+  if constexpr (D == 3) {
+    if (explained_.empty()) return StopCause::finished;
+    improver_ = std::make_unique<Improver>(state_, *schedule_, *poor_);
+    return improver_->collapse();
+  }
+  return StopCause::finished;
+}
+
+template <int D>
+StopCause Refinement<D>::improve() {
+  return improver_ ? improver_->improve() : StopCause::finished;
+}
+
+template <int D>
+StopCause Refinement<D>::explain_what_was_improved() {
+  if (state_.totals.counts.improved > 0) explained_ = poor_->look();
+  return StopCause::finished;
+}
+
+template <int D>
+StopCause Refinement<D>::end_if_vertices_are_spent() {
+  const bool spent = state_.totals.vertices >= state_.context.options.max_vertices;
+  return spent && state_.waiting.whole_list_waits() ? StopCause::max_vertices : StopCause::finished;
+}
+
+template class Refinement<2>;
+template class Refinement<3>;
+
+}  // namespace pgdr::detail

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the schedules and the stages of a run share.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+
+#include "run/refused_work.hpp"
+#include "run/visit_recorder.hpp"
+#include "run/waiting_work.hpp"
+#include "run/worker_pool.hpp"
+
+namespace pgdr::detail {
+
+/// What all visits did together. Plain data; one thread at a time.
+struct RunTotals {
+  RefineCounts counts;
+  std::uint64_t vertices = 0;     ///< of the mesh
+  bool violations_seen = false;   ///< were there ever faces that are not locally Delaunay?
+  bool entities_refused = false;  ///< was the split of an entity ever refused?
+  bool min_edge_hit = false;      ///< was anything refused for `min_edge`?
+
+  template <int D>
+  void add(const RegionVisit<D>& visit) {
+    counts += visit.counts;
+    vertices += visit.counts.committed;
+    violations_seen = violations_seen || visit.violations_seen;
+    entities_refused = entities_refused || visit.entities_refused;
+    min_edge_hit = min_edge_hit || visit.min_edge_hit;
+  }
+};
+
+/// See above. One thread at a time where a part does not say otherwise.
+template <int D>
+struct RunState {
+  using Node = typename Orthtree<D>::Node;
+
+  /// `pools`: those that made the mesh so far. `vertices`: it has so many. The context must outlive this.
+  RunState(RefineContext<D>& c, typename Mesh<D>::Pools pools, std::uint64_t vertices)
+      : context(c),
+        options(c.options.schedule),
+        totals{{}, vertices},
+        waiting(c),
+        refused(c, waiting),
+        workers(c, std::move(pools)),
+        recorder(options, c.start) {}
+  RunState(const RunState&) = delete;
+  RunState& operator=(const RunState&) = delete;
+
+  /// Fills in what the visit is asked to do. Any thread that may use the work of its leaf, while the totals stay.
+  void prepare(const VisitRequest& request, RegionVisit<D>& visit) {
+    visit.violations_seen = totals.violations_seen;
+    visit.entities_refused = totals.entities_refused;
+    waiting.prepare(request, visit);
+  }
+  /// Takes in what a visit that has ended did, and what it set aside. `claim`: its leaves; none for the whole tree.
+  void account(const VisitRequest& request, const RegionVisit<D>& visit, std::span<const Node> claim) {
+    refused.account(request, visit, claim);
+    totals.add(visit);
+    recorder.count_set_aside(waiting.defer(request, visit.set_aside));
+    if (context.stop != 0) waiting.keep_given(visit.given);
+  }
+  /// How the run stands: what has stopped it, or finished.
+  StopCause stop() const { return static_cast<StopCause>(context.stop.load()); }
+  /// Has the run been cancelled? It is stopped with that. For loops over all cells, which end then.
+  bool is_cancelled() {
+    if (!context.options.stop.stop_requested()) return false;
+    context.stop = static_cast<int>(StopCause::cancelled);
+    return true;
+  }
+
+  RefineContext<D>& context;
+  const ScheduleOptions& options;
+  RunTotals totals;
+  WaitingWork<D> waiting;
+  RefusedWork<D> refused;
+  WorkerPool<D> workers;
+  VisitRecorder recorder;
+};
+
+/// A schedule: decides which visits run at once, and runs them.
+template <int D>
+class VisitSchedule {
+ public:
+  virtual ~VisitSchedule() = default;
+  /// Works off all that waits, and what that brings forth. @throws what a callback throws
+  virtual StopCause drain() = 0;
+};
+
+}  // namespace pgdr::detail

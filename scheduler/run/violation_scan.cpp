@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "run/violation_scan.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "input/bent_facets.hpp"
+#include "space/bulk.hpp"
+
+namespace pgdr::detail {
+namespace {
+
+/// Subfacets that are Delaunay in the projection of an uneven facet may have violations beside them though no cavity was cut
+/// back.
+template <int D>
+bool has_uneven_facets(const Domain<D>& domain) {
+  if constexpr (D == 3)
+    for (EntityId f = 0; f < domain.facets().size(); ++f)
+      if (is_uneven(domain, f)) return true;
+  return false;
+}
+
+/// Sorts by the vertices, as the slots of cells depend on timing.
+template <int D>
+void sort_by_vertices(const Mesh<D>& mesh, std::vector<Entry<D>>& entries) {
+  std::sort(entries.begin(), entries.end(), [&mesh](const Entry<D>& a, const Entry<D>& b) {
+    const int order = compare_vertices<D>(mesh, a.cell, b.cell);
+    return order != 0 ? order < 0 : a.which() < b.which();
+  });
+}
+
+}  // namespace
+
+template <int D>
+ViolationScan<D>::ViolationScan(RunState<D>& state) : state_(&state), uneven_(has_uneven_facets(state.context.domain)) {}
+
+/// The slots with another cell than at the last look, or with none now, or with a cell beside such: of a given cell, born
+/// before or since, dead or alive, that says the same whatever slot it was given.
+template <int D>
+SlotSet ViolationScan<D>::changed_surroundings() {
+  const Mesh<D>& mesh = state_->context.mesh;
+  const bool is_first = births_looked_at_.empty();
+  if (is_first) births_looked_at_ = vector_of_capacity<std::uint16_t>(mesh.cell_bound());
+  births_looked_at_.resize(mesh.cell_bound(), Mesh<D>::last_birth);
+  SlotSet changed(mesh.cell_bound());
+  std::vector<std::vector<CellId>> beside(count_parts(mesh.cell_bound()));
+  const auto look_at = [&](const CellPart& part) {
+    for (std::uint32_t i = part.first; i < part.last; ++i) {
+      const CellId c{i};
+      const bool alive = mesh.alive(c);
+      const std::uint16_t born = alive ? mesh.birth(c) : Mesh<D>::last_birth;
+      if (std::exchange(births_looked_at_[i], born) == born && alive) continue;
+      changed.add(i);
+      if (!alive || is_first) continue;
+      for (const Link next : mesh.cell(c).links)
+        if (next) beside[part.number].push_back(next.cell());
+    }
+  };
+  state_->recorder.add_parts(each_part(mesh.cell_bound(), state_->options, look_at));
+  for (const auto& part : beside)
+    for (const CellId c : part) changed.add(index(c));
+  return changed;
+}
+
+template <int D>
+std::vector<Entry<D>> ViolationScan<D>::look() {
+  const Mesh<D>& mesh = state_->context.mesh;
+  // Nothing but what is new since then, or beside such, can have a violation that was not found.
+  const SlotSet changed = changed_surroundings();
+  std::erase_if(standing_, [&](const Entry<D>& e) {
+    if (!e.alive(mesh) || mesh.constrained(e.cell, e.which())) return true;  // constrained: a flat cell beside it was taken off
+    return changed[index(e.cell)];
+  });
+  const std::stop_token& stop = state_->context.options.stop;
+  std::vector<std::vector<Entry<D>>> parts(count_parts(mesh.cell_bound()));
+  const auto look_at = [&](const CellPart& part) {
+    for (std::uint32_t i = part.first; i < part.last && !stop.stop_requested(); ++i)
+      if (changed[i] && mesh.alive(CellId{i})) add_violations(mesh, CellId{i}, changed, parts[part.number]);
+  };
+  state_->recorder.add_parts(each_part(mesh.cell_bound(), state_->options, look_at));
+  state_->is_cancelled();
+  std::vector<Entry<D>> found;
+  for (const auto& part : parts) found.insert(found.end(), part.begin(), part.end());
+  sort_by_vertices(mesh, found);
+  standing_.insert(standing_.end(), found.begin(), found.end());
+  return found;
+}
+
+/// Beside entities that were refused a constrained Delaunay triangulation need not exist, so that whole cavities may bring
+/// violations, too.
+template <int D>
+std::vector<Entry<D>> ViolationScan<D>::look_if_any() {
+  RunTotals& totals = state_->totals;
+  if (!totals.violations_seen && !totals.entities_refused && !uneven_) return {};
+  std::vector<Entry<D>> found = look();
+  totals.violations_seen = totals.violations_seen || !found.empty();
+  return found;
+}
+
+template class ViolationScan<2>;
+template class ViolationScan<3>;
+
+}  // namespace pgdr::detail

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The tree, what waits in its leaves, and what waits for a visit of the whole tree. One thread at a time, except that during a
+// generation a visit uses the work of the leaves that it has claimed.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "claims/conflict_manager.hpp"
+#include "reasons/poor_reasons.hpp"
+#include "refine/context.hpp"
+#include "refine/region_visit.hpp"
+#include "run/leaf_work.hpp"
+
+namespace pgdr::detail {
+
+/// Part of a run: see above.
+template <int D>
+class WaitingWork {
+ public:
+  using Node = typename Orthtree<D>::Node;
+
+  explicit WaitingWork(const RefineContext<D>& context);  ///< it must outlive this
+  WaitingWork(const WaitingWork&) = delete;
+  WaitingWork& operator=(const WaitingWork&) = delete;
+
+  const Orthtree<D>& tree() const { return tree_; }
+  Orthtree<D> take_tree() { return std::move(tree_); }
+  LeafWork<D>& operator[](Node n) { return works_[n]; }
+  const LeafWork<D>& operator[](Node n) const { return works_[n]; }
+  std::uint64_t generation() const { return generation_; }  ///< that runs, or that ran last; counted from 1
+  void begin_generation() { ++generation_; }
+
+  /// Requests for all that waits: one for each leaf and order, and one, last, for the whole tree.
+  std::vector<VisitRequest> requests() const;
+  void append_requests(Node leaf, std::vector<VisitRequest>& out) const;
+  bool is_empty() const { return requests().empty(); }
+  /// The request for the whole tree, if anything waits for it. It names any leaf, as the tree is nobody's.
+  std::optional<VisitRequest> whole_tree_request() const;
+  bool whole_list_waits() const { return !whole_list_.empty(); }
+  /// Gives the visit the list of its leaf and what was set aside for it, and says when it ends.
+  void prepare(const VisitRequest& request, RegionVisit<D>& visit);
+
+  /// Puts entries that a visit of another leaf has found into the inbox of this one.
+  void post(Node leaf, std::vector<Entry<D>>&& entries);
+  /// Lists the entry in the leaf that holds the circumcentre of its cell.
+  void relist(const Entry<D>& e);
+  /// Leaves the entry to a visit of that leaf, or of the whole tree, with the claim of that order.
+  void set_aside(Node leaf, std::uint32_t order, const Entry<D>& e);
+  /// Sets what the visit has set aside aside for one with a larger claim, if it is still alive now that the visits that ran
+  /// beside this one have ended. Returns how many entries that are.
+  std::uint64_t defer(const VisitRequest& request, const std::vector<Entry<D>>& entries);
+  /// Keeps what was given to a visit that the end of the run has overtaken, so that take_poor() counts it.
+  void keep_given(const std::vector<Entry<D>>& given) {
+    given_and_not_processed_.insert(given_and_not_processed_.end(), given.begin(), given.end());
+  }
+
+  /// Splits the leaf if it is so crowded, and its elements so small, that its children can be refined concurrently. What waits
+  /// stays with the parent until hand_down().
+  bool split_if_crowded(Node leaf);
+  /// Hands what waits at a node that was split to its children. Threads: different parents at once.
+  void hand_down(Node parent) { works_.hand_down(context_->mesh, parent, generation_); }
+  /// Makes inner nodes know of changes in any of their leaves.
+  void pass_up_changes() { works_.pass_up_changes(); }
+
+  /// Calls f(list, work) for the list of each node, and for that of the whole tree, for which `work` is null.
+  template <class F>
+  void for_each_list(F f) {
+    for (Node n = 0; n < tree_.node_count(); ++n) f(works_[n].list, &works_[n]);
+    f(whole_list_, static_cast<const LeafWork<D>*>(nullptr));
+  }
+
+  /// Says whether every poor element is on a list between visits.
+  void set_all_listed(bool all) { all_listed_ = all; }
+  /// The cells over a bound, at the end of a run or where it was stopped, by what waits and what was refused: no other cell is
+  /// looked at, and the size function is not called. Empties the lists. Nothing where some may be on no list.
+  std::optional<PoorCount> take_poor();
+
+ private:
+  std::size_t floor() const { return options_->floor != 0 ? options_->floor : D == 3 ? 1000 : 2000; }
+  double small_radius(Node leaf) const { return options_->split_ratio * tree_.side(leaf) / 2; }
+  bool is_crowded(Node leaf);
+
+  const RefineContext<D>* context_;
+  const ScheduleOptions* options_;
+  Orthtree<D> tree_;
+  LeafWorks<D> works_;
+  std::uint64_t generation_ = 0;
+  WorkList<D> whole_list_;  ///< of entries that visits of the whole tree come upon
+  std::vector<Entry<D>> whole_set_aside_;
+  std::vector<Entry<D>> given_and_not_processed_;
+  bool all_listed_ = false;
+};
+
+extern template class WaitingWork<2>;
+extern template class WaitingWork<3>;
+
+}  // namespace pgdr::detail
