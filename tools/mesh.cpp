@@ -320,10 +320,10 @@ int mesh_as(const MeshArguments& a, Report& report, const Stopwatch& total) {
 int mesh(const MeshArguments& arguments, Report& report) {
   const Stopwatch total;
   report.set("input", arguments.input);
-  require_writable(arguments.output, arguments.input);
+  require_input_format(arguments.input);
+  require_mesh_writable(arguments.output);
   require_format(arguments);
-  if (!arguments.trace.empty())
-    require_writable(arguments.trace, {arguments.input, arguments.output, arguments.report});
+  if (!arguments.trace.empty()) require_writable(arguments.trace);
   const int dimension = file_dimension(arguments.input);
   report.set("dimension", dimension);
   return dimension == 2 ? mesh_as<2>(arguments, report, total) : mesh_as<3>(arguments, report, total);
