@@ -118,6 +118,7 @@ void fill(Report& report, const MeshArguments& a, const Threads& threads, const 
   report.set("schedule", name(a.schedule));
   report.set("reproducible", a.schedule == Schedule::reproducible && r.stop != StopCause::time_limit && r.stop != StopCause::cancelled);
   report.set("stop", name(r.stop));
+  report.set("refined", !a.no_refine);
   report.set("selector", a.selector);
   report.set("seconds", nullptr);  // their places; the values come last
   report.set("peak_rss_bytes", nullptr);

@@ -54,7 +54,7 @@ const char* name(RegionMode mode);
 /// What a report that `pgdr mesh` wrote says of poor cells.
 struct ReportedBounds {
   std::vector<PoorReason> reasons;
-  std::optional<double> radius_edge;  ///< the bound of a run that was not stopped
+  std::optional<double> radius_edge;  ///< the bound of a run that refined to its end
   std::optional<double> precision;    ///< of the facets, 3D
   std::optional<double> merge_points; ///< within which points were one
   bool resolve_crossings = false, convex_hull = false;  ///< what was done to the input, 2D

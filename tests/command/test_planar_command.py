@@ -16,7 +16,7 @@ class Planar(Case):
     def checked(self, model, bounds, *flags, expect=0):
         """Meshes, checks with the same flags, and returns the report of the mesh."""
         self.mesh(model, *bounds, *flags, "--report", self.report, expect=expect)
-        shared = [f for f in flags if f not in ("--keep-boundary", "--neighbors", "--edges")]
+        shared = [f for f in flags if f not in ("--keep-boundary", "--no-refine", "--neighbors", "--edges")]
         self.pgdr("check", self.output, "--input", model, *bounds, *shared, "--reasons", self.report, expect=expect)
         return self.json()
 
