@@ -69,20 +69,6 @@ TEST(DomainErrors, IndexOutOfRange) {
   EXPECT_EQ(refusal(flat).code, Errc::index_out_of_range);
 }
 
-TEST(DomainErrors, DegenerateSegment) {
-  Plc<3> plc = numbered(box());
-  plc.points.push_back(plc.points[3]);
-  plc.segments = {{{0, 2}, 0}, {{8, 3}, 0}};
-  Diagnostic d = refusal(plc);
-  EXPECT_EQ(d.code, Errc::degenerate_segment);
-  EXPECT_EQ(d.ids, (Ids{2, 9, 4}));
-  EXPECT_EQ(d.line, 301u);
-  Plc<2> flat;
-  flat.points = {{0, 0}, {1, 0}, {0, 1}};
-  flat.segments = {{{1, 1}, 0}};
-  EXPECT_EQ(refusal(flat).code, Errc::degenerate_segment);
-}
-
 TEST(DomainErrors, DegenerateFacet) {
   const auto with_facet = [](std::vector<std::vector<std::uint32_t>> polygons) {
     Plc<3> plc = numbered(box());

@@ -125,6 +125,21 @@ TEST(ResolveCrossings, IsReportedByNumbersOfTheInput) {
   EXPECT_EQ(out.segments.size(), 4u);
 }
 
+TEST(ResolveCrossings, SegmentsOfNoLengthAreDropped) {
+  Plc<2> plc;
+  plc.first_index = 1;
+  plc.points = {{{0, 0}}, {{2, 2}}, {{0, 2}}, {{2, 0}}, {{0, 0}}};
+  add_segment(plc, 0, 1, 5);
+  add_segment(plc, 2, 3, 6);
+  add_segment(plc, 4, 0, 7);
+  add_segment(plc, 2, 2, 8);
+  std::vector<Diagnostic> repairs;
+  EXPECT_EQ(resolve_crossings(plc, repairs).segments.size(), 4u);
+  ASSERT_EQ(repairs.size(), 2u);
+  EXPECT_EQ(repairs[0].code, Errc::degenerate_segment);
+  EXPECT_EQ(repairs[0].ids, (std::vector<std::int64_t>{3, 5, 1, 4, 3, 3}));
+}
+
 /// Touching and overlapping is left to Domain, which adds no point.
 TEST(ResolveCrossings, WhatTouchesIsLeftAlone) {
   Plc<2> plc;

@@ -53,6 +53,33 @@ std::uint32_t add(Plc<3>& plc, const Point3& p) {
   return static_cast<std::uint32_t>(plc.points.size() - 1);
 }
 
+TEST(Repairs, SegmentsOfNoLength) {
+  Plc<2> ring;  // closed twice, and once from a point to itself
+  ring.points = {{0, 0}, {4, 0}, {0, 3}, {0, 0}};
+  ring.segments = {{{0, 1}, 1}, {{1, 2}, 2}, {{2, 3}, 3}, {{3, 0}, 4}, {{1, 1}, 5}};
+  const Domain<2> triangle(ring);
+  ASSERT_EQ(triangle.segments().size(), 3u);
+  ASSERT_EQ(triangle.repairs().size(), 2u);
+  EXPECT_EQ(triangle.repairs()[0].ids, (Ids{3, 0}));  // the point
+  EXPECT_EQ(triangle.repairs()[1].code, Errc::degenerate_segment);
+  EXPECT_EQ(triangle.repairs()[1].ids, (Ids{3, 3, 0, 4, 1, 1}));
+  expect_meshed(ring);
+
+  Plc<3> solid = box();  // one from a point to itself, one that is a facet, as TetGen's files have them, between points at one place
+  const std::uint32_t first = add(solid, {0.5, 0.5, 0.5}), second = add(solid, {0.5, 0.5, 0.5});
+  solid.segments = {{{0, 0}, 1}};
+  solid.facets.push_back({{{first, second}}, {}, 2});
+  const auto facet = static_cast<std::int64_t>(solid.facets.size() - 1);
+  const Domain<3> d(solid);
+  EXPECT_EQ(d.segments().size(), 12u);
+  ASSERT_EQ(d.repairs().size(), 2u);
+  EXPECT_EQ(d.repairs()[1].ids, (Ids{0, 0, 0, facet, first, second}));
+  expect_meshed(solid);
+
+  ring.segments = {{{1, 1}, 0}, {{0, 3}, 0}};  // all that is left is points
+  EXPECT_EQ(diagnose(ring)[Finding::encloses_nothing].count, 1u);
+}
+
 TEST(Repairs, APointInsideAnEdge) {
   for (Plc<3> plc : {box(), triangulated(box())}) {
     add(plc, {1, 0, 0});

@@ -11,6 +11,7 @@
 #include "bounds.hpp"
 #include "command.hpp"
 #include "console.hpp"
+#include "files.hpp"
 #include "input.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/refine.hpp"
@@ -23,6 +24,7 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
 template <int D>
 std::optional<Plc<D>> read_input_of_mesh(const std::string& input, const InputArguments& reading) {
   if (input.empty()) return std::nullopt;
+  require_input_format(input);
   if (file_dimension(input) != D)
     throw UsageError(
         {.code = Errc::bad_option, .message = format("the mesh is %dD, its input is not", D), .file = input});

@@ -6,6 +6,7 @@
 #include <new>
 
 #include "pgdr/version.hpp"
+#include "run_files.hpp"
 
 namespace pgdr::tool {
 namespace {
@@ -44,7 +45,12 @@ int guarded(Report& report, Action action) {
 
 int execute(const Arguments& arguments, Report& report) {
   report.set("version", PGDR_VERSION_STRING);
+  bool writes_report = false;
   const int code = guarded(report, [&] {
+    const RunFiles files(arguments);
+    files.require_own_report();
+    writes_report = true;
+    files.require_own_outputs();
     return std::visit(
         [&report](const auto& a) {
           using A = std::decay_t<decltype(a)>;
@@ -56,7 +62,7 @@ int execute(const Arguments& arguments, Report& report) {
         arguments);
   });
   const std::string& file = std::visit([](const auto& a) -> const std::string& { return a.report; }, arguments);
-  if (file.empty()) return code;
+  if (file.empty() || !writes_report) return code;
   const int written = guarded(report, [&] { return report.write(file), exit_done; });
   if (written == exit_done) return code;
   return code == exit_done || code == exit_poor_left || written == exit_resource ? written : code;

@@ -39,6 +39,7 @@ class Evaluator {
     return parser_.Eval();
   }
   bool constant() const { return parser_.GetUsedVar().empty(); }
+  int values() const { return parser_.GetNumResults(); }  ///< of the last evaluation: commas separate several
 
   static constexpr const char* power_sign = "**";
 
@@ -51,13 +52,16 @@ template <int D>
 class Expression {
  public:
   Expression(std::string text, std::string flag) : text_(std::move(text)), flag_(std::move(flag)) {
+    int values = 1;
     try {
       Evaluator<D> evaluator(text_);
       evaluator.at({});  // compiles: names and syntax are decided here
       constant_ = evaluator.constant();
+      values = evaluator.values();
     } catch (const mu::Parser::exception_type& e) {
       refuse(text_, flag_, explain(e));
     }
+    if (values != 1) refuse(text_, flag_, "these are " + std::to_string(values) + " values; a decimal point is no comma");
     for (std::size_t i = text_.find('^'); i != std::string::npos; i = text_.find('^', i + 1))
       text_.replace(i, 1, Evaluator<D>::power_sign);
   }

@@ -16,17 +16,6 @@
 namespace pgdr::tool {
 
 namespace fs = std::filesystem;
-namespace {
-
-void require_place(const std::string& file) {
-  const fs::path path(file);
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  std::error_code ignored;
-  if (fs::is_directory(path, ignored) || !fs::is_directory(folder, ignored) || access(folder.c_str(), W_OK | X_OK) != 0)
-    throw FileError({.code = Errc::cannot_write, .message = "no file can be written there", .file = file});
-}
-
-}  // namespace
 
 bool has_extension(const std::string& file, std::initializer_list<const char*> extensions) {
   const std::string own = fs::path(file).extension().string();
@@ -34,28 +23,27 @@ bool has_extension(const std::string& file, std::initializer_list<const char*> e
                      [&own](const char* extension) { return strcasecmp(own.c_str(), extension) == 0; });
 }
 
-void require_writable(const std::string& output, const std::string& input) {
+void require_writable(const std::string& file) {
+  const fs::path path(file);
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored) || !fs::is_directory(folder, ignored) || access(folder.c_str(), W_OK | X_OK) != 0)
+    throw FileError({.code = Errc::cannot_write, .message = "no file can be written there", .file = file});
+}
+
+void require_mesh_writable(const std::string& output) {
   if (!is_mesh_format(output))
     throw InputError({.code = Errc::unknown_format,
                       .message = "meshes are written as .vtu, .msh, .mesh, or .node with .ele", .file = output});
-  fs::path points;  // a .poly or .smesh may leave its points to a .node file
-  if (has_extension(input, {".poly", ".smesh"}))
-    points = fs::path(input).replace_extension(".node");
-  for (const std::string& file : files_of_mesh(output)) {
-    require_place(file);
-    std::error_code ignored;
-    if (fs::equivalent(file, input, ignored) || fs::equivalent(file, points, ignored))
-      throw UsageError(
-          {.code = Errc::bad_option, .message = "the output would replace the input", .file = file});
-  }
+  for (const std::string& file : files_of_mesh(output)) require_writable(file);
 }
 
-void require_writable(const std::string& file, const std::vector<std::string>& others) {
-  require_place(file);
-  std::error_code ignored;
-  for (const std::string& other : others)  // of which some do not exist yet
-    if (!other.empty() && fs::weakly_canonical(file, ignored) == fs::weakly_canonical(other, ignored))
-      throw UsageError({.code = Errc::bad_option, .message = "two files of one name", .file = file});
+void require_input_format(const std::string& file) {
+  if (has_extension(file, {".vtu", ".ele"}))
+    throw InputError({.code = Errc::unknown_format,
+                      .message = "this is a mesh in a format that is no input: give what it was made of, or write the mesh as .mesh "
+                                 "or .msh, which are inputs, too",
+                      .file = file});
 }
 
 void write_whole(const std::string& file, const char* what, const std::function<void(std::ostream&)>& write) {

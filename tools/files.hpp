@@ -8,17 +8,18 @@
 #include <initializer_list>
 #include <iosfwd>
 #include <string>
-#include <vector>
 
 namespace pgdr::tool {
 
 /// Upper or lower case.
 bool has_extension(const std::string& file, std::initializer_list<const char*> extensions);
-/// What can be known of the output file without writing it is said before the work, not after it.
-/// @throws InputError unknown_format, FileError cannot_write, UsageError if it would replace the input.
-void require_writable(const std::string& output, const std::string& input);
-/// The same of a file of any name. @throws FileError cannot_write, UsageError if it is one of the others.
-void require_writable(const std::string& file, const std::vector<std::string>& others);
+/// What can be known of a file without writing it is said before the work, not after it. @throws FileError cannot_write
+void require_writable(const std::string& file);
+/// The same of all files of a mesh. @throws InputError unknown_format, FileError cannot_write
+void require_mesh_writable(const std::string& output);
+
+/// Meshes in formats that are no inputs are refused with what can be done. @throws InputError unknown_format
+void require_input_format(const std::string& file);
 
 /// Writes to a temporary name beside `file` and renames it. @param what the subject of "... cannot be written".
 /// @throws FileError cannot_write

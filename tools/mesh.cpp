@@ -118,6 +118,7 @@ void fill(Report& report, const MeshArguments& a, const Threads& threads, const 
   report.set("schedule", name(a.schedule));
   report.set("reproducible", a.schedule == Schedule::reproducible && r.stop != StopCause::time_limit && r.stop != StopCause::cancelled);
   report.set("stop", name(r.stop));
+  report.set("refined", !a.no_refine);
   report.set("selector", a.selector);
   report.set("seconds", nullptr);  // their places; the values come last
   report.set("peak_rss_bytes", nullptr);
@@ -367,10 +368,10 @@ class MeshRun {
 int mesh(const MeshArguments& arguments, Report& report) {
   const Stopwatch total;
   report.set("input", arguments.input);
-  require_writable(arguments.output, arguments.input);
+  require_input_format(arguments.input);
+  require_mesh_writable(arguments.output);
   require_format(arguments);
-  if (!arguments.trace.empty())
-    require_writable(arguments.trace, {arguments.input, arguments.output, arguments.report});
+  if (!arguments.trace.empty()) require_writable(arguments.trace);
   const int dimension = file_dimension(arguments.input);
   report.set("dimension", dimension);
   return dimension == 2 ? MeshRun<2>(arguments, report, total).run() : MeshRun<3>(arguments, report, total).run();

@@ -130,7 +130,8 @@ ReportedBounds read_bounds(const std::string& file) {
     const auto& bounds = report.at("bounds");
     for (const auto& j : bounds.at("reasons")) read.reasons.push_back(parse_reason(j));
     const auto bound = bounds.find("radius_edge");
-    if (bound != bounds.end() && bound->is_number() && report.value("stop", "finished") == "finished")
+    const bool refined = report.value("refined", true) && report.value("stop", "finished") == "finished";
+    if (bound != bounds.end() && bound->is_number() && refined)
       read.radius_edge = bound->get<double>();
     const auto part_of_coordinates = [&report](const char* key) -> std::optional<double> {
       const auto found = report.find(key);

@@ -41,7 +41,7 @@ int view(const ViewArguments& a, Report& report) {
   if (png && !has_png())
     throw UsageError({.code = Errc::bad_option, .message = "this pgdr was built without Cairo: pictures are .svg alone",
                       .file = a.output});
-  require_writable(a.output, std::vector<std::string>{a.mesh, a.report});
+  require_writable(a.output);
   const int dimension = file_dimension(a.mesh);
   report.set("dimension", dimension);
   if (!holds_cells(a.mesh))

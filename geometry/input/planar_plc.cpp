@@ -257,6 +257,13 @@ void report(const CrossingResolver& resolved, const Plc<2>& plc, std::vector<Dia
     const auto words = [&] { return std::to_string(point) + " in " + std::to_string(from) + "-" + std::to_string(to); };
     touching.add(words, {point, from, to});
   }
+  detail::RepairList dropped;
+  for (std::uint32_t s = 0; s < plc.segments.size(); ++s) {
+    const auto [a, b] = plc.segments[s].points;
+    const std::int64_t segment = number(s);
+    if (plc.points[a] == plc.points[b]) dropped.add([&] { return std::to_string(segment); }, {segment, number(a), number(b)});
+  }
+  dropped.report(Errc::degenerate_segment, "segments of no length, dropped", plc.source.file, repairs);
   touching.report(Errc::point_on_segment, "points inside a segment, which is split there", plc.source.file, repairs);
   list.report(Errc::entities_intersect, "segments that cross, now split there", plc.source.file, repairs);
 }
@@ -295,6 +302,7 @@ Plc<2> resolve_crossings(const Plc<2>& plc, std::vector<Diagnostic>& repairs) {
   out.segments.clear();
   out.source.segment_lines.clear();
   for (const detail::OwnedEdge& e : resolver.edges()) {
+    if (e.edge[0] == e.edge[1]) continue;  // it has no length, and is dropped
     out.segments.push_back({e.edge, plc.segments[e.owner].marker});
     if (e.owner < plc.source.segment_lines.size()) out.source.segment_lines.push_back(plc.source.segment_lines[e.owner]);
   }

@@ -79,17 +79,17 @@ Point<3> point_on_facet(const Domain<3>& domain, EntityId f, const Point<3>& x);
 template <int D>
 class Domain {
  public:
-  /// Checks and prepares. What can be repaired without changing the geometry (exact duplicates of points, polygon edges
-  /// between such, repeated segments and facets of the same triangles, -0, and what is said above) is, and is reported
+  /// Checks and prepares. What can be repaired without changing the geometry (exact duplicates of points, segments and polygon
+  /// edges of no length, repeated segments and facets of the same triangles, -0, and what is said above) is, and is reported
   /// in `repairs()`, one entry a kind: `ids` has all of them (pairs: the dropped one, the kept one; a point and the ends
   /// of its edge, point_on_segment; a point and a facet, point_on_facet; the ends of an edge and a facet,
   /// entities_intersect; a flat facet, degenerate_facet), the message at most twenty; `code` is that of the error which
   /// it would have been.
   /// @throws InputError with ids, coordinates, and file and line if known: not_finite, index_out_of_range,
-  ///   degenerate_segment (both ends equal), degenerate_facet (of none or several polygons: fewer than three distinct
-  ///   points, or all collinear; enclosing nothing), self_crossing_facet (two polygon edges cross, or a vertex lies inside an edge, though in the
-  ///   projection alone), seed_on_boundary (the hole of a facet lies on its polygons), no_volume. CancelledError once
-  ///   `stop` is requested, from any thread: as soon as DiagnosisOptions::stop ends a diagnosis.
+  ///   degenerate_facet (of none or several polygons: fewer than three distinct points, or all collinear; enclosing nothing),
+  ///   self_crossing_facet (two polygon edges cross, or a vertex lies inside an edge, though in the projection alone),
+  ///   seed_on_boundary (the hole of a facet lies on its polygons), no_volume. UsageError bad_option: arrays of another length.
+  ///   CancelledError once `stop` is requested, from any thread: as soon as DiagnosisOptions::stop ends a diagnosis.
   explicit Domain(const Plc<D>& plc, std::stop_token stop = {});
   /// The same without the entities that cannot be: each is left out, and named in `refused`, as the exception that the
   /// constructor would have thrown. Empty if points are not finite or do not exist. For diagnosis only: if anything was

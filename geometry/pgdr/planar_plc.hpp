@@ -21,7 +21,8 @@ namespace pgdr PGDR_API {
 /// list; attributes of the new points are interpolated along one of the segments.
 /// @param plc the input.
 /// @param repairs gets one entry entities_intersect, if anything crosses: `ids` are pairs of segments, in the numbering of
-///   the input, `points` the new points; and one point_on_segment for what is split at points that are there (the point, both ends).
+///   the input, `points` the new points; one point_on_segment for what is split at points that are there (the point, both
+///   ends); and one degenerate_segment for segments of no length, which are dropped where anything is split (the segment, both ends).
 /// @throws InputError entities_intersect if there is no end of it, which no input is known to cause.
 Plc<2> resolve_crossings(const Plc<2>& plc, std::vector<Diagnostic>& repairs);
 

@@ -103,6 +103,10 @@ class Usage(Case):
         for size in ("1+", "w", "", "x)", "0", "-1", "nan", "0/0", "1-2"):
             self.refused("mesh", BRACKET, "-o", self.output, "--size=" + size, saying="--size")
         self.refused("mesh", PLATE, "-o", self.output, "--size", "0.1+z", saying="z")
+        for size in ("0,2", "x,1", "1+x,2,3"):  # several values, of which the last would count
+            self.refused("mesh", BRACKET, "-o", self.output, "--size", size, saying="values")
+            self.refused("mesh", BRACKET, "-o", self.output, "--region-size", "1=" + size, saying="values")
+        self.mesh(PLATE, "--size", "min(1,2)")
 
     def test_output_is_not_the_input(self):
         self.output = self.file("both.vtu", "")

@@ -16,7 +16,7 @@ class Planar(Case):
     def checked(self, model, bounds, *flags, expect=0):
         """Meshes, checks with the same flags, and returns the report of the mesh."""
         self.mesh(model, *bounds, *flags, "--report", self.report, expect=expect)
-        shared = [f for f in flags if f not in ("--keep-boundary", "--neighbors", "--edges")]
+        shared = [f for f in flags if f not in ("--keep-boundary", "--no-refine", "--neighbors", "--edges")]
         self.pgdr("check", self.output, "--input", model, *bounds, *shared, "--reasons", self.report, expect=expect)
         return self.json()
 
@@ -37,6 +37,7 @@ class Planar(Case):
         model = self.file("crossed.poly", CROSSED)
         done = self.mesh(model, "--report", self.report, expect=3)
         self.assertIn("cross at (2, 2)", done.stderr)
+        self.assertIn("--resolve-crossings makes it valid", done.stderr)
         self.assertEqual(sorted(self.json()["errors"][0]["ids"]), [0, 1, 2, 3])
         self.assertFalse(self.output.exists())
         report = self.checked(model, ["--size", 1], "--resolve-crossings")
@@ -51,6 +52,8 @@ class Planar(Case):
         points = self.file("points.node", "5 2 0 0\n" + SQUARE + "4 1 1.5\n")
         done = self.mesh(points, expect=3)
         self.assertIn("enclose nothing", done.stderr)
+        self.assertIn("--convex-hull makes it valid", done.stderr)
+        self.assertIn("--convex-hull makes it valid", self.pgdr("info", points, expect=3).stderr)
         self.checked(points, ["--min-angle", 20], "--convex-hull")
         self.pgdr("check", self.output, "--input", points, expect=6)
         self.pgdr("check", self.output, "--input", points, "--min-angle", 20, "--reasons", self.report, expect=0)
@@ -59,6 +62,23 @@ class Planar(Case):
         model = self.file("open.poly", "4 2 0 0\n" + SQUARE + "3 0\n0 0 1\n1 1 2\n2 2 3\n0\n")
         done = self.mesh(model, expect=3)
         self.assertIn("enclose nothing", done.stderr)
+        self.assertIn("--convex-hull makes it valid", done.stderr)
+        cross = self.file("cross.poly", "4 2 0 0\n" + SQUARE + "2 0\n0 0 2\n1 1 3\n0\n")
+        done = self.mesh(cross, expect=3)
+        self.assertIn("--resolve-crossings with --convex-hull makes it valid", done.stderr)
+        self.checked(cross, ["--size", 1], "--resolve-crossings", "--convex-hull")
+
+    def test_flags_that_would_not_work_are_not_named(self):
+        line = self.file("line.node", "3 2 0 0\n0 0 0\n1 1 1\n2 2 2\n")
+        self.assertNotIn("--convex-hull", self.mesh(line, expect=3).stderr)
+        done = self.mesh(self.file("cross.poly", "4 2 0 0\n" + SQUARE + "2 0\n0 0 2\n1 1 3\n0\n"), "--resolve-crossings", expect=3)
+        self.assertNotIn("--resolve-crossings", done.stderr)
+        self.assertIn("--convex-hull makes it valid", done.stderr)
+
+    def test_without_refinement(self):
+        model = self.file("thin.poly", "3 2 0 0\n0 0 0\n1 8 0\n2 4 0.1\n3 0\n0 0 1\n1 1 2\n2 2 0\n0\n")
+        self.assertIs(self.checked(model, [], "--no-refine")["refined"], False)
+        self.pgdr("check", self.output, "--input", model, "--reasons", self.report, "--radius-edge", 1.5, expect=6)  # asked for
 
     def test_keep_boundary(self):
         report = self.checked(PLATE, ["--size", 0.02], "--keep-boundary", expect=1)

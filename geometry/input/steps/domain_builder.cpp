@@ -75,7 +75,7 @@ template <int D>
 void DomainBuilder<D>::resolve_contacts(const Input& in, const Segments& segments) {
   for (std::uint32_t s = 0; s < segments.ends().size(); ++s) {
     const auto& [a, b] = segments.ends()[s];
-    if (a == b) continue;  // it was refused
+    if (a == b) continue;  // it has no length
     const auto points = near_.chain(a, b);
     for (std::size_t k = 1; k < points.size(); ++k) segment_edges_.push_back({{points[k - 1], points[k]}, s});
   }

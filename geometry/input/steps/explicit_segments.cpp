@@ -11,32 +11,30 @@ ExplicitSegments<D>::ExplicitSegments(const BuildInput<D>& in, BuildReport<D>& r
     const auto [i, j] = plc.segments[s].points;
     const std::uint32_t a = in.point_of_input[i], b = in.point_of_input[j];
     ends_.push_back({a, b});
-    if (a != b) continue;
-    const std::int64_t number = report.number(s), first = report.number(i), second = report.number(j);
-    if (!(plc.points[i] == plc.points[j])) {  // merged, as the caller wishes
-      report.repairs.dropped_edges.add([&] { return "segment " + std::to_string(number); }, {number, first, second});
-      continue;
-    }
-    report.attempt([&] {
-      report.fail(Errc::degenerate_segment,
-                  "segment " + std::to_string(number) + ": its ends, points " + std::to_string(first) + " and " +
-                      std::to_string(second) + ", are both at " + to_text(in.points[a]),
-                  plc.source.segment_lines, s, {number, first, second}, {in_space(in.points[a])});
-    });
+    if (a == b) drop("segment ", static_cast<std::uint32_t>(s), {i, j}, report);
   }
   if constexpr (D == 3) {
-    take_line_facets();
+    take_line_facets(report);
     index_by_first();
   }
 }
 
+/// Reports a segment of which nothing is left: `kind` and `item` name it, `ends` are points of the input.
 template <int D>
-void ExplicitSegments<D>::take_line_facets() {
+void ExplicitSegments<D>::drop(const char* kind, std::uint32_t item, std::array<std::uint32_t, 2> ends, BuildReport<D>& report) {
+  const std::int64_t number = report.number(item);
+  report.repairs.dropped_edges.add([&] { return kind + std::to_string(number); },
+                                   {number, report.number(ends[0]), report.number(ends[1])});
+}
+
+template <int D>
+void ExplicitSegments<D>::take_line_facets(BuildReport<D>& report) {
   for (std::uint32_t f = 0; f < in_.plc.facets.size(); ++f) {
     const auto& facet = in_.plc.facets[f];
     if (facet.polygons.size() != 1 || facet.polygons[0].size() != 2 || !facet.holes.empty()) continue;
-    const std::uint32_t a = in_.point_of_input[facet.polygons[0][0]], b = in_.point_of_input[facet.polygons[0][1]];
-    if (a == b) continue;
+    const std::uint32_t i = facet.polygons[0][0], j = facet.polygons[0][1];
+    const std::uint32_t a = in_.point_of_input[i], b = in_.point_of_input[j];
+    if (a == b) drop("facet ", f, {i, j}, report);
     ends_.push_back({a, b});
     line_facets_.push_back(f);
   }

@@ -19,10 +19,10 @@ namespace pgdr::detail {
 template <int D>
 class ExplicitSegments {
  public:
-  /// @throws InputError degenerate_segment where both ends are one point
+  /// Segments whose ends are one point are among the repairs.
   ExplicitSegments(const BuildInput<D>& in, BuildReport<D>& report);
 
-  /// The distinct points of each; twice the same of one that was refused, or of which nothing is left.
+  /// The distinct points of each; twice the same of one of no length, which is dropped.
   std::span<const std::array<std::uint32_t, 2>> ends() const { return ends_; }
   /// 3D: the numbers of those whose first point is v.
   std::span<const std::uint32_t> from(std::uint32_t v) const {
@@ -38,7 +38,8 @@ class ExplicitSegments {
   }
 
  private:
-  void take_line_facets();
+  static void drop(const char* kind, std::uint32_t item, std::array<std::uint32_t, 2> ends, BuildReport<D>& report);
+  void take_line_facets(BuildReport<D>& report);
   void index_by_first();
 
   BuildInput<D> in_;
