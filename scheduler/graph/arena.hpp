@@ -8,8 +8,8 @@
 
 namespace pgdr::detail {
 
-/// The number of threads that `in_arena(threads, ...)` has: what is asked for (0: all of the caller's arena), but no more than TBB
-/// allows the program, so that TBB prints no warning.
+/// The number of threads that `in_arena(threads, ...)` has: as many as are asked for (0: all of the caller's arena), but no more
+/// than TBB allows the program, so that TBB prints no warning.
 int arena_threads(int threads);
 
 /// Calls f in the caller's arena if that has as many threads as asked for, else in an arena of its own.

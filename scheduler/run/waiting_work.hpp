@@ -32,7 +32,6 @@ class WaitingWork {
   Orthtree<D> take_tree() { return std::move(tree_); }
   LeafWork<D>& operator[](Node n) { return works_[n]; }
   const LeafWork<D>& operator[](Node n) const { return works_[n]; }
-  std::uint64_t generation() const { return generation_; }  ///< that runs, or that ran last; counted from 1
   void begin_generation() { ++generation_; }
 
   /// Requests for all that waits: one for each leaf and order, and one, last, for the whole tree.
@@ -89,7 +88,7 @@ class WaitingWork {
   const ScheduleOptions* options_;
   Orthtree<D> tree_;
   LeafWorks<D> works_;
-  std::uint64_t generation_ = 0;
+  std::uint64_t generation_ = 0;  ///< that runs, or that ran last; counted from 1
   WorkList<D> whole_list_;  ///< of entries that visits of the whole tree come upon
   std::vector<Entry<D>> whole_set_aside_;
   std::vector<Entry<D>> given_and_not_processed_;
