@@ -49,8 +49,7 @@ constexpr int edge_without(int i, int j) {
 template <class T, std::size_t N>
 constexpr std::array<T, N - 1> face_without(const std::array<T, N>& corners, int i) {
   std::array<T, N - 1> face{};
-  std::copy_n(corners.begin(), i, face.begin());
-  std::copy(corners.begin() + i + 1, corners.end(), face.begin() + i);
+  for (int k = 0; k + 1 < static_cast<int>(N); ++k) face[k] = corners[k < i ? k : k + 1];  // std::copy would call memmove
   return face;
 }
 /// Of what the corners of a tetrahedron have, that of the two ends of edge e. (A triangle has it if both ends are its corners.)
