@@ -127,6 +127,9 @@ TEST(PointAttributes, MustBeEquallyMany) {
   plc.point_attributes.assign(plc.points.size() + 1, 0);
   EXPECT_THROW(refine<2>(plc, {}), UsageError);
   EXPECT_TRUE(refine<2>(square_with_hole(), {}).mesh.point_attributes.empty());
+  plc.point_attributes.clear();
+  plc.point_markers = {1, 2};
+  EXPECT_THROW(refine<2>(plc, {}), UsageError);
 }
 
 /// Points that lie on subsegments of some marker, with all these markers.

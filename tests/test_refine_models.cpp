@@ -271,10 +271,25 @@ TEST(Refine, BadOptionsAndSizesAreTypedErrors) {
   options.radius_edge_bound = NAN;
   EXPECT_EQ(code(options), Errc::bad_option);
   options = {};
+  options.schedule.threads = -1;
+  EXPECT_EQ(code(options), Errc::bad_option);
+  options = {};
+  options.schedule.granularity = 0;
+  EXPECT_EQ(code(options), Errc::bad_option);
+  options = {};
+  options.schedule.split_ratio = 0;
+  EXPECT_EQ(code(options), Errc::bad_option);
+  options = {};
   options.size = [](const Point3& p) { return p[0] > 0.5 ? NAN : 1.0; };
   EXPECT_EQ(code(options), Errc::bad_size);
   options.size = [](const Point3&) { return 0.0; };
   EXPECT_EQ(code(options), Errc::bad_size);
+}
+
+TEST(Refine, VolumesAreFor3D) {
+  RefineOptions<2> options;
+  options.max_volume = 0.01;
+  EXPECT_THROW(refine<2>(test::square_with_hole(), options), UsageError);
 }
 
 // With a bound below one a circumcentre can be nearer to the element than its edges are long: without the insertion rule

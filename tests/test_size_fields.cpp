@@ -9,6 +9,7 @@
 
 #include <fstream>
 #include <random>
+#include <utility>
 
 #include "parallel_support.hpp"
 #include "pgdr/flat_arrays.hpp"
@@ -238,6 +239,12 @@ TYPED_TEST(SizeFields, WhatCannotBeAFieldIsATypedError) {
   EXPECT_EQ(code_of([&] { limit_growth<D>(mesh, values, 1); }), Errc::index_out_of_range);
 }
 
+/// There is a view of what is gone at once.
+template <class Mesh>
+concept CanDangle = requires(Mesh&& mesh) { flat_points(std::forward<Mesh>(mesh)); } ||
+                    requires(Mesh&& mesh) { flat_cells(std::forward<Mesh>(mesh)); };
+static_assert(CanDangle<OutputMesh<3>&> && !CanDangle<OutputMesh<3>> && !CanDangle<const OutputMesh<2>>);
+
 TYPED_TEST(SizeFields, FlatArrays) {
   constexpr int D = TypeParam::value;
   const OutputMesh<D> mesh = background<D>(0.2);
@@ -247,7 +254,8 @@ TYPED_TEST(SizeFields, FlatArrays) {
   const OutputMesh<D> copy = mesh_from_arrays<D>(flat_points(mesh), flat_cells(mesh));
   EXPECT_EQ(copy.points, mesh.points);
   EXPECT_EQ(copy.cells, mesh.cells);
-  EXPECT_TRUE(flat_cells(OutputMesh<D>{}).empty());
+  const OutputMesh<D> none;
+  EXPECT_TRUE(flat_cells(none).empty());
   const std::vector<double> coordinates(D * 4, 0.5);
   std::vector<std::uint32_t> indices(D * 2, 3);
   EXPECT_EQ(code_of([&] { plc_from_arrays<D>(std::span(coordinates).first(D * 4 - 1), indices); }), Errc::bad_option);

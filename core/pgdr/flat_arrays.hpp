@@ -24,16 +24,20 @@ template <int D>
 std::span<const double> flat(std::span<const Point<D>> points) {
   return {points.empty() ? nullptr : points.front().x.data(), points.size() * D};
 }
-/// Coordinates of the points of a mesh: points.size() * D. A view.
+/// Coordinates of the points of a mesh: points.size() * D. A view: of a mesh that ends with the statement there is none.
 template <int D>
 std::span<const double> flat_points(const OutputMesh<D>& mesh) {
   return flat<D>(std::span<const Point<D>>(mesh.points));
 }
-/// Vertices of the cells of a mesh, D + 1 each: cells.size() * (D + 1). A view.
+template <int D>
+std::span<const double> flat_points(const OutputMesh<D>&& mesh) = delete;
+/// Vertices of the cells of a mesh, D + 1 each: cells.size() * (D + 1). A view, likewise.
 template <int D>
 std::span<const std::uint32_t> flat_cells(const OutputMesh<D>& mesh) {
   return {mesh.cells.empty() ? nullptr : mesh.cells.front().data(), mesh.cells.size() * (D + 1)};
 }
+template <int D>
+std::span<const std::uint32_t> flat_cells(const OutputMesh<D>&& mesh) = delete;
 
 /// An input from flat arrays. One copy, linear time; what is wrong with the geometry is found by Domain or `refine`.
 /// @param coordinates  D a point

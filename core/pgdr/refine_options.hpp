@@ -39,9 +39,9 @@ enum class Executor { flow_graph, threads, serial, shuffled };
 struct ScheduleOptions {
   Schedule schedule = Schedule::reproducible;  ///< order of the visits
   Executor executor = Executor::flow_graph;    ///< what runs them
-  /// Threads to ask for; 0: all that the caller's arena has. Never more run than TBB allows the program.
+  /// Threads to ask for, not negative; 0: all that the caller's arena has. Never more run than TBB allows the program.
   int threads = 0;
-  /// A visit ends after this many buckets (factors of two) of circumradius below its largest, if the leaf still holds work.
+  /// A visit ends after this many buckets, at least 1 (factors of two) of circumradius below its largest, if the leaf still holds work.
   int granularity = std::numeric_limits<int>::max();
   /// A leaf splits once no poor element in it has a circumradius above split_ratio times its children's side ...
   double split_ratio = 0.5;
@@ -61,7 +61,7 @@ struct RefineOptions {
   double radius_edge_bound = smallest_proved_bound<D>();
   SizingField<D> size;            ///< circumradius (3D) or area (2D) bound at the centroid
   RegionSizes<D> region_sizes;    ///< further ones of the cells of single regions
-  double max_volume = std::numeric_limits<double>::infinity();  ///< 3D: volume bound of all cells
+  double max_volume = std::numeric_limits<double>::infinity();  ///< 3D: volume bound of all cells; 2D: must be infinite
   RegionMode regions = RegionMode::seeds;  ///< what is meshed, and how it is labelled
   PointSelector<D> selector;      ///< empty: circumcentre
   DiskOptions disk;               ///< in which the selector may put a point

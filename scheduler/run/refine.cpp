@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -45,9 +46,14 @@ void validate(const RefineOptions<D>& options) {
     if (s.size.is_constant() && !(s.size.at({}) > 0))
       bad_option("the size of the region with label " + detail::label_words(s.label) + " must be positive");
   if (!(options.max_volume > 0)) bad_option("the volume bound must be positive");
+  if (D == 2 && options.max_volume < std::numeric_limits<double>::infinity())
+    bad_option("the volume bound is for 3D; in 2D the size bounds the area");
   if (!(options.min_edge >= 0)) bad_option("the shortest edge allowed must not be negative");
   if (options.time_limit && !(options.time_limit->count() >= 0)) bad_option("the time limit must not be negative");
   if (D == 3 && options.keep_boundary) bad_option("the boundary can be kept as it is in 2D only");
+  if (options.schedule.threads < 0) bad_option("the number of threads must not be negative");
+  if (options.schedule.granularity < 1) bad_option("the granularity must be at least 1");
+  if (!(options.schedule.split_ratio > 0)) bad_option("the split ratio must be positive");
   const double delta = options.disk.delta;
   if (delta != 0 && !(delta >= smallest_proved_bound<D>() / options.radius_edge_bound && delta <= 1))
     bad_option("delta must lie between " + std::to_string(smallest_proved_bound<D>()) + " / radius-edge bound and 1");

@@ -22,12 +22,15 @@ Point<D> with_positive_zeros(Point<D> p) {
 }
 
 template <int D>
+[[noreturn]] void bad_length(const Plc<D>& plc, std::size_t length, const char* of) {
+  throw UsageError({Errc::bad_option, std::to_string(length) + of + " for " + std::to_string(plc.points.size()) + " points",
+                    plc.source.file, 0, {}, {}});
+}
+
+template <int D>
 std::size_t attributes_per_point(const Plc<D>& plc) {
   const std::size_t n = plc.points.size(), attributes = n == 0 ? 0 : plc.point_attributes.size() / n;
-  if (attributes * n != plc.point_attributes.size())
-    throw UsageError({Errc::bad_option,
-                      std::to_string(plc.point_attributes.size()) + " attributes for " + std::to_string(n) + " points",
-                      plc.source.file, 0, {}, {}});
+  if (attributes * n != plc.point_attributes.size()) bad_length(plc, plc.point_attributes.size(), " attributes");
   return attributes;
 }
 
@@ -35,7 +38,7 @@ template <int D>
 void keep_point(const Plc<D>& plc, std::uint32_t i, const Point<D>& p, std::size_t attributes, DistinctPoints<D>& out) {
   out.points.push_back(p);
   out.input_of_point.push_back(i);
-  out.markers.push_back(i < plc.point_markers.size() ? plc.point_markers[i] : 0);
+  out.markers.push_back(plc.point_markers.empty() ? 0 : plc.point_markers[i]);
   const auto first = plc.point_attributes.begin() + static_cast<std::ptrdiff_t>(i * attributes);
   out.attributes.insert(out.attributes.end(), first, first + static_cast<std::ptrdiff_t>(attributes));
 }
@@ -104,6 +107,7 @@ DistinctPoints<D> merge_points(const Plc<D>& plc, BuildReport<D>& report) {
     throw UsageError({Errc::bad_option, "points are merged within a distance from 0 to 0.01 times the largest coordinate",
                       plc.source.file, 0, {}, {}});
   const std::size_t n = plc.points.size(), attributes = attributes_per_point(plc);
+  if (!plc.point_markers.empty() && plc.point_markers.size() != n) bad_length(plc, plc.point_markers.size(), " markers");
   const bool near = plc.merge_within > 0;
   const auto [scale, largest] = scale_of<D>(plc.points);
   DistinctPoints<D> out;
