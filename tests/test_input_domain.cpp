@@ -350,6 +350,7 @@ TEST(Domain, DuplicatesAreMergedAndReported) {
   plc.point_markers.assign(8, 0);
   plc.point_markers[2] = 42;
   for (int k = 0; k < 30; ++k) plc.points.push_back(plc.points[static_cast<std::size_t>(k % 8)]);
+  plc.point_markers.resize(plc.points.size());
   plc.points[9][0] = -0.0 + plc.points[1][0];
   plc.points[8][0] = -0.0;
   for (auto& v : plc.facets[4].polygons[0]) v += 8;
