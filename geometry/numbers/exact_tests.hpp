@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Exact tests with tolerances: distances in ulps, order along a line, whether rounding explains an in-sphere sign. The checker asks
-// them, and the refiner where it looks for what explains a poor cell. Each is decided by a filter in extended precision, then by
-// rationals. Pure functions, any thread.
+// Exact tests with tolerances: distances in ulps, order along a line, whether rounding explains an in-sphere sign. The checker
+// alone asks them. Each is decided by a filter in extended precision, then by rationals. Pure functions, any thread.
 #pragma once
 
 #include <array>
