@@ -31,7 +31,7 @@ std::span<const double> flat_points(const OutputMesh<D>& mesh) {
 }
 template <int D>
 std::span<const double> flat_points(const OutputMesh<D>&& mesh) = delete;
-/// Vertices of the cells of a mesh, D + 1 each: cells.size() * (D + 1). A view, likewise.
+/// Vertices of the cells of a mesh, D + 1 each: cells.size() * (D + 1). A view: the mesh must outlive it.
 template <int D>
 std::span<const std::uint32_t> flat_cells(const OutputMesh<D>& mesh) {
   return {mesh.cells.empty() ? nullptr : mesh.cells.front().data(), mesh.cells.size() * (D + 1)};

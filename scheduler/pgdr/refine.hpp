@@ -36,7 +36,7 @@ struct RefineStatistics {
   PredicateCounts predicates;              ///< of all threads
 };
 
-/// How the visits went (docs/design.md, "Generations").
+/// How the visits went (docs/design.md, "Generations, and why meshes are reproducible").
 struct SchedulerStatistics {
   std::uint64_t leaves = 1;          ///< of the tree, in the end
   std::uint64_t generations = 0;     ///< of visits
@@ -70,7 +70,7 @@ struct VisitTrace {
 /// A mesh and all that is known about how it came to be. `mesh` and its arrays may be moved out.
 template <int D>
 struct RefineResult {
-  OutputMesh<D> mesh;  ///< valid, whatever `stop` says; empty as said there
+  OutputMesh<D> mesh;  ///< valid, whatever `stop` says; empty where it says that no partial mesh was wanted
   /// Why the run ended. If that was before the boundary was recovered, or if it was cancelled and no partial mesh is wanted,
   /// `mesh` is empty.
   StopCause stop = StopCause::finished;
