@@ -35,11 +35,16 @@ Arguments parse(int argc, char** argv) {
   Arguments a;
   for (int i = 1; i + 1 < argc; i += 2) {
     const std::string flag = argv[i];
-    if (flag == "--size") a.size = std::atof(argv[i + 1]);
-    else if (flag == "--cancels") a.cancels = std::max(1, std::atoi(argv[i + 1]));
-    else if (flag == "--threads") a.threads = std::atoi(argv[i + 1]);
-    else if (flag == "--limit") a.limit = std::atof(argv[i + 1]);
-    else std::exit((std::fprintf(stderr, "bench_cancel: unknown flag %s\n", argv[i]), 2));
+    if (flag == "--size")
+      a.size = std::atof(argv[i + 1]);
+    else if (flag == "--cancels")
+      a.cancels = std::max(1, std::atoi(argv[i + 1]));
+    else if (flag == "--threads")
+      a.threads = std::atoi(argv[i + 1]);
+    else if (flag == "--limit")
+      a.limit = std::atof(argv[i + 1]);
+    else
+      std::exit((std::fprintf(stderr, "bench_cancel: unknown flag %s\n", argv[i]), 2));
   }
   return a;
 }
@@ -101,7 +106,8 @@ int main(int argc, char** argv) {
       const auto delay = time * i / a.cancels * 99 / 100;
       const Cancelled c = cancelled_after(delay, domain, options);
       std::printf("%-12s %-10.0f %10s %10zu %12.1f %8.1f%s\n", partial ? "yes" : "no", milliseconds(delay),
-                  c.stop == StopCause::cancelled ? "cancelled" : "finished", c.cells, c.latency, c.cpu, c.valid ? "" : "  NOT VALID");
+                  c.stop == StopCause::cancelled ? "cancelled" : "finished", c.cells, c.latency, c.cpu,
+                  c.valid ? "" : "  NOT VALID");
       good = good && c.valid && c.latency <= a.limit;
     }
   if (!good) std::printf("WRONG: a mesh is not valid, or a run took longer than %.0f ms to end\n", a.limit);

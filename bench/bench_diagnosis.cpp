@@ -47,12 +47,15 @@ Arguments parse(int argc, char** argv) {
       continue;
     }
     if (++i == argc) usage("a flag lacks its value");
-    if (flag == "--repeat") a.repeat = std::max(1, std::atoi(argv[i]));
-    else if (flag == "--threads") a.threads = std::max(0, std::atoi(argv[i]));
+    if (flag == "--repeat")
+      a.repeat = std::max(1, std::atoi(argv[i]));
+    else if (flag == "--threads")
+      a.threads = std::max(0, std::atoi(argv[i]));
     else if (flag == "--triangles") {
       a.triangles.clear();
       for (const char* p = argv[i]; *p; p += std::strcspn(p, ","), p += *p == ',') a.triangles.push_back(std::atoi(p));
-    } else usage("unknown flag");
+    } else
+      usage("unknown flag");
   }
   return a;
 }
@@ -116,18 +119,20 @@ int main(int argc, char** argv) {
   tbb::task_arena arena(a.threads > 0 ? a.threads : tbb::task_arena::automatic);
   bool good = true;
   const char* separator = "";
-  if (a.json) std::printf("{\"rows\": [");
-  else std::printf("%-20s %10s %10s %10s %12s %12s\n", "surface", "triangles", "seconds", "processor", "us/triangle",
-                   "pairs found");
+  if (a.json)
+    std::printf("{\"rows\": [");
+  else
+    std::printf("%-20s %10s %10s %10s %12s %12s\n", "surface", "triangles", "seconds", "processor", "us/triangle", "pairs found");
   for (const int triangles : a.triangles)
     for (const Surface& s : surfaces(triangles)) {
       const Row row = arena.execute([&] { return time(s.plc, a.repeat); });
       const std::size_t n = s.plc.facets.size();
       good = good && (row.errors == 0) == s.sound && (row.pairs == 0) == s.sound;
       if (a.json)
-        std::printf("%s{\"surface\": \"%s\", \"triangles\": %zu, \"seconds\": %.6f, \"processor_seconds\": %.6f, "
-                    "\"pairs\": %llu}",
-                    separator, s.name, n, row.seconds, row.processor, static_cast<unsigned long long>(row.pairs));
+        std::printf(
+            "%s{\"surface\": \"%s\", \"triangles\": %zu, \"seconds\": %.6f, \"processor_seconds\": %.6f, "
+            "\"pairs\": %llu}",
+            separator, s.name, n, row.seconds, row.processor, static_cast<unsigned long long>(row.pairs));
       else
         std::printf("%-20s %10zu %10.3f %10.3f %12.3f %12llu\n", s.name, n, row.seconds, row.processor,
                     1e6 * row.processor / static_cast<double>(n), static_cast<unsigned long long>(row.pairs));

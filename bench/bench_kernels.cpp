@@ -64,16 +64,14 @@ BENCHMARK(in_sphere_test)->Arg(0)->Arg(4);
 void mesh_of_a_cube(benchmark::State& state) {
   Plc<3> cube;
   for (int i = 0; i < 8; ++i) cube.points.push_back({{double(i & 1), double(i >> 1 & 1), double(i >> 2)}});
-  const std::uint32_t sides[6][4] = {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                                     {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}};
+  const std::uint32_t sides[6][4] = {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}};
   for (const auto& s : sides) cube.facets.push_back({.polygons = {{s[0], s[1], s[2], s[3]}}});
   RefineOptions<3> options;
   options.size = 1.0 / static_cast<double>(state.range(0));
   std::size_t cells = 0;
   for (auto _ : state) cells = refine(cube, options).mesh.cells.size();
   state.counters["cells"] = static_cast<double>(cells);
-  state.counters["cells/s"] =
-      benchmark::Counter(static_cast<double>(cells), benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["cells/s"] = benchmark::Counter(static_cast<double>(cells), benchmark::Counter::kIsIterationInvariantRate);
 }
 BENCHMARK(mesh_of_a_cube)->Arg(5)->Arg(10)->Arg(20)->Unit(benchmark::kMillisecond);
 

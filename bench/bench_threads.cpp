@@ -67,13 +67,20 @@ Arguments parse(int argc, char** argv) {
     }
     if (++i == argc) usage("a flag lacks its value");
     const char* value = argv[i];
-    if (flag == "--model") a.model = value;
-    else if (flag == "--size") a.sizes = values<double>(value, std::atof);
-    else if (flag == "--split-ratio") a.split_ratio = std::atof(value);
-    else if (flag == "--pause") a.pause = std::atof(value);
-    else if (flag == "--repeat") a.repeat = std::max(1, std::atoi(value));
-    else if (flag == "--threads") a.threads = values<int>(value, std::atoi);
-    else usage("unknown flag");
+    if (flag == "--model")
+      a.model = value;
+    else if (flag == "--size")
+      a.sizes = values<double>(value, std::atof);
+    else if (flag == "--split-ratio")
+      a.split_ratio = std::atof(value);
+    else if (flag == "--pause")
+      a.pause = std::atof(value);
+    else if (flag == "--repeat")
+      a.repeat = std::max(1, std::atoi(value));
+    else if (flag == "--threads")
+      a.threads = values<int>(value, std::atoi);
+    else
+      usage("unknown flag");
   }
   for (const int t : a.threads)
     if (t < 1) usage("not a number of threads");

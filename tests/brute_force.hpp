@@ -23,8 +23,8 @@ class BruteForce {
   using Index = std::uint32_t;
   using Face = std::array<Index, D>;  ///< sorted
   struct Cavity {
-    std::vector<Index> cells;     ///< sorted
-    std::vector<Face> boundary;   ///< sorted
+    std::vector<Index> cells;    ///< sorted
+    std::vector<Face> boundary;  ///< sorted
   };
 
   explicit BruteForce(OutputMesh<D> m) : mesh(std::move(m)) {
@@ -98,8 +98,8 @@ std::vector<T> common(const std::vector<T>& a, const std::vector<T>& b) {
 /// The criterion of theorem 3.1: the cavities have no cell in common, and across a common face neither new cell's
 /// circumball holds the other point.
 template <int D>
-bool are_independent(const BruteForce<D>& brute, const Point<D>& p, const typename BruteForce<D>::Cavity& of_p,
-                     const Point<D>& q, const typename BruteForce<D>::Cavity& of_q) {
+bool are_independent(const BruteForce<D>& brute, const Point<D>& p, const typename BruteForce<D>::Cavity& of_p, const Point<D>& q,
+                     const typename BruteForce<D>::Cavity& of_q) {
   if (p == q || !common(of_p.cells, of_q.cells).empty()) return false;
   for (const auto& f : common(of_p.boundary, of_q.boundary)) {
     const auto s = brute.join(q, f);

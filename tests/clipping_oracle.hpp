@@ -92,8 +92,10 @@ struct Entity {
 
 template <int D>
 Vector lifted(const Point<D>& p) {
-  if constexpr (D == 3) return {p[0], p[1], p[2]};
-  else return {p[0], p[1], 0};
+  if constexpr (D == 3)
+    return {p[0], p[1], p[2]};
+  else
+    return {p[0], p[1], 0};
 }
 
 template <int D>

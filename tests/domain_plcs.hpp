@@ -17,8 +17,7 @@ namespace pgdr::test {
 
 inline std::vector<std::vector<std::uint32_t>> prism_sides(std::uint32_t first, std::uint32_t n) {
   std::vector<std::vector<std::uint32_t>> sides;
-  for (std::uint32_t k = 0; k < n; ++k)
-    sides.push_back({first + k, first + (k + 1) % n, first + n + (k + 1) % n, first + n + k});
+  for (std::uint32_t k = 0; k < n; ++k) sides.push_back({first + k, first + (k + 1) % n, first + n + (k + 1) % n, first + n + k});
   return sides;
 }
 
@@ -26,8 +25,7 @@ inline std::vector<std::vector<std::uint32_t>> prism_sides(std::uint32_t first, 
 inline Plc<3> box() {
   Plc<3> plc;
   for (const double z : {0.0, 3.0})
-    for (const auto& [x, y] : {std::pair{0.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}, {0.0, 1.0}})
-      plc.points.push_back({x, y, z});
+    for (const auto& [x, y] : {std::pair{0.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}, {0.0, 1.0}}) plc.points.push_back({x, y, z});
   plc.facets.push_back({{{0, 1, 2, 3}}, {}, 0});
   plc.facets.push_back({{{4, 5, 6, 7}}, {}, 0});
   for (auto& side : prism_sides(0, 4)) plc.facets.push_back({{side}, {}, 0});
@@ -62,8 +60,7 @@ inline Plc<3> numbered(Plc<3> plc) {
 inline Plc<3> plate_with_pentagon() {
   Plc<3> plc;
   for (const double z : {0.0, 0.5})
-    for (const auto& [x, y] : {std::pair{-3.0, -3.0}, {3.0, -3.0}, {3.0, 3.0}, {-3.0, 3.0}})
-      plc.points.push_back({x, y, z});
+    for (const auto& [x, y] : {std::pair{-3.0, -3.0}, {3.0, -3.0}, {3.0, 3.0}, {-3.0, 3.0}}) plc.points.push_back({x, y, z});
   for (const double z : {0.0, 0.5})
     for (int k = 0; k < 5; ++k) {
       const double a = 2 * std::acos(-1) * k / 5;

@@ -47,8 +47,8 @@ class Fnv {
 };
 
 /// Four columns, each a count and a hash, so that a difference says where it is: points (places and markers), cells (corners and
-/// regions), pieces of the boundary (subsegments, subfacets and their markers), and reasons (why cells stayed poor; but for angles,
-/// which the C library computes).
+/// regions), pieces of the boundary (subsegments, subfacets and their markers), and reasons (why cells stayed poor; but for
+/// angles, which the C library computes).
 template <int D>
 std::string fingerprint(const RefineResult<D>& r) {
   const OutputMesh<D>& mesh = r.mesh;

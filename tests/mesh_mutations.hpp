@@ -48,8 +48,7 @@ Simplex<D> corners(const OutputMesh<D>& mesh, const std::array<std::uint32_t, D 
 template <int D>
 struct VertexKinds {
   std::vector<int> subsegments, subfacets;
-  explicit VertexKinds(const OutputMesh<D>& mesh)
-      : subsegments(mesh.points.size(), 0), subfacets(mesh.points.size(), 0) {
+  explicit VertexKinds(const OutputMesh<D>& mesh) : subsegments(mesh.points.size(), 0), subfacets(mesh.points.size(), 0) {
     for (const auto& s : mesh.subsegments)
       for (const auto v : s.vertices) ++subsegments[v];
     for (const auto& s : mesh.subfacets)
@@ -187,9 +186,8 @@ std::vector<Mutation<D>> soundness_mutations() {
                     std::size_t v;
                     const auto inner = [&](auto u) { return kinds.in_volume(u) && u >= m.input_points; };
                     if (!first_vertex(m, inner, v)) return false;
-                    const auto cell = *std::find_if(m.cells.begin(), m.cells.end(), [&](const auto& c) {
-                      return std::find(c.begin(), c.end(), v) != c.end();
-                    });
+                    const auto cell = *std::find_if(m.cells.begin(), m.cells.end(),
+                                                    [&](const auto& c) { return std::find(c.begin(), c.end(), v) != c.end(); });
                     auto& p = m.points[v];  // its mirror image in the centroid of the opposite face
                     for (int i = 0; i < D; ++i) {
                       double sum = 0;
@@ -296,13 +294,13 @@ std::vector<Mutation<D>> conformity_mutations() {
     list.push_back({"shift a point of a facet by 100 ulps", {K::facet_not_conforming}, [](auto& m) {
                       const VertexKinds<D> kinds(m);
                       std::size_t v;
-                      if (!first_vertex(m, [&](auto u) { return u >= m.input_points && kinds.on_facet(u); }, v))
+                      if (!first_vertex(
+                              m, [&](auto u) { return u >= m.input_points && kinds.on_facet(u); }, v))
                         return false;
                       for (int i = 0; i < D; ++i) nudge(m, v, i, 100 + 30 * i);
                       return true;
                     }});
-    list.push_back({"a face inside a region listed as a subfacet", {K::facet_not_conforming, K::stray_constraint},
-                    [](auto& m) {
+    list.push_back({"a face inside a region listed as a subfacet", {K::facet_not_conforming, K::stray_constraint}, [](auto& m) {
                       const auto walls = wall_set(m);
                       for (const auto& [face, cells] : cells_by_face(m))
                         if (cells.size() == 2 && !walls.contains(face)) {

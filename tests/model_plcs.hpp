@@ -96,9 +96,7 @@ inline Plc<3> prism(const std::vector<Point2>& outline, double height) {
 }
 
 inline Plc<3> l_block() { return prism({{{0, 0}}, {{2, 0}}, {{2, 1}}, {{1, 1}}, {{1, 2}}, {{0, 2}}}, 1); }
-inline Plc<3> u_block() {
-  return prism({{{0, 0}}, {{3, 0}}, {{3, 2}}, {{2, 2}}, {{2, 1}}, {{1, 1}}, {{1, 2}}, {{0, 2}}}, 1);
-}
+inline Plc<3> u_block() { return prism({{{0, 0}}, {{3, 0}}, {{3, 2}}, {{2, 2}}, {{2, 1}}, {{1, 1}}, {{1, 2}}, {{0, 2}}}, 1); }
 
 /// A plate with a hexagonal hole through it: its two large facets have a hole.
 inline Plc<3> plate_with_hole() {
@@ -206,8 +204,8 @@ inline Plc<3> icosphere(int levels) {
 /// A square with a polygonal hole, inner segments and an isolated point.
 inline Plc<2> square_with_hole() {
   Plc<2> plc;
-  plc.points = {{{0, 0}},     {{4, 0}},   {{4, 4}},   {{0, 4}},   {{1, 1}},   {{2, 0.75}}, {{2.5, 1.5}},
-                {{1.75, 2.25}}, {{0.75, 2}}, {{3, 2.5}}, {{3.5, 3.5}}, {{2, 3.5}},  {{3.4, 0.6}}};
+  plc.points = {{{0, 0}},       {{4, 0}},    {{4, 4}},   {{0, 4}},     {{1, 1}},   {{2, 0.75}}, {{2.5, 1.5}},
+                {{1.75, 2.25}}, {{0.75, 2}}, {{3, 2.5}}, {{3.5, 3.5}}, {{2, 3.5}}, {{3.4, 0.6}}};
   auto loop = [&](Index first, Index count, int marker) {
     for (Index i = 0; i < count; ++i) plc.segments.push_back({{first + i, first + (i + 1) % count}, marker});
   };

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Real inputs: those of tests/models/real, or of the folder that PGDR_MODELS names. INDEX.tsv there has a row a file: set (which is
-// its folder), file, origin, licence, format, counts of vertices and faces (or segments), and what is known of it.
+// Real inputs: those of tests/models/real, or of the folder that PGDR_MODELS names. INDEX.tsv there has a row a file: set (which
+// is its folder), file, origin, licence, format, counts of vertices and faces (or segments), and what is known of it.
 #pragma once
 
 #include <cstdlib>

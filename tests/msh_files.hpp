@@ -17,10 +17,10 @@
 namespace pgdr::test {
 
 struct MshVariant {
-  int version = 4;      ///< 2 or 4
+  int version = 4;  ///< 2 or 4
   bool binary = false;
   bool big_endian = false;
-  int size_bytes = 8;   ///< of a count or tag in version 4
+  int size_bytes = 8;  ///< of a count or tag in version 4
 
   std::string name() const {
     std::string text = version == 2 ? "msh22" : "msh41";
@@ -29,13 +29,12 @@ struct MshVariant {
   }
 };
 
-inline const std::vector<MshVariant> msh_variants{{2, false}, {2, true},       {2, true, true},
-                                                  {4, false}, {4, true},       {4, true, true},
-                                                  {4, true, false, 4}};
+inline const std::vector<MshVariant> msh_variants{{2, false}, {2, true},       {2, true, true},    {4, false},
+                                                  {4, true},  {4, true, true}, {4, true, false, 4}};
 
 struct MshElement {
-  int type;      ///< gmsh's number
-  int entity;    ///< of the dimension of the type
+  int type;    ///< gmsh's number
+  int entity;  ///< of the dimension of the type
   std::vector<int> nodes;
 };
 
@@ -48,8 +47,8 @@ struct MshModel {
     int tag;
     std::array<double, 3> point;
   };
-  std::vector<std::string> names;                 ///< lines of $PhysicalNames
-  std::array<std::vector<Entity>, 4> entities;    ///< by dimension
+  std::vector<std::string> names;               ///< lines of $PhysicalNames
+  std::array<std::vector<Entity>, 4> entities;  ///< by dimension
   std::vector<Node> nodes;
   std::vector<MshElement> elements;
   std::string other_sections;
@@ -223,9 +222,9 @@ inline MshModel two_tetrahedra() {
   m.entities[3] = {{1, {7}}, {2, {8}}};
   // Tags with gaps, in no order.
   m.nodes = {{10, {0, 0, 0}}, {3, {1, 0, 0}}, {20, {0, 1, 0}}, {21, {0, 0, 1}}, {5, {0.75, 0.75, 0.75}}};
-  m.elements = {{15, 3, {10}},         {15, 4, {5}},         {1, 1, {10, 3}},          {1, 2, {3, 20}},
-                {2, 1, {10, 20, 3}},   {2, 1, {10, 3, 21}},  {2, 5, {10, 21, 20}},     {2, 5, {3, 20, 5}},
-                {2, 5, {20, 21, 5}},   {4, 1, {10, 3, 20, 21}}, {4, 2, {3, 20, 21, 5}}};
+  m.elements = {{15, 3, {10}},         {15, 4, {5}},         {1, 1, {10, 3}},    {1, 2, {3, 20}},     {2, 1, {10, 20, 3}},
+                {2, 1, {10, 3, 21}},   {2, 5, {10, 21, 20}}, {2, 5, {3, 20, 5}}, {2, 5, {20, 21, 5}}, {4, 1, {10, 3, 20, 21}},
+                {4, 2, {3, 20, 21, 5}}};
   return m;
 }
 

@@ -36,8 +36,7 @@ class PlyText {
     }
     std::array<char, sizeof(T)> bytes;
     std::memcpy(bytes.data(), &value, sizeof value);
-    if ((encoding_ == PlyEncoding::big) == (std::endian::native == std::endian::little))
-      std::reverse(bytes.begin(), bytes.end());
+    if ((encoding_ == PlyEncoding::big) == (std::endian::native == std::endian::little)) std::reverse(bytes.begin(), bytes.end());
     text.append(bytes.data(), bytes.size());
   }
   void end() {

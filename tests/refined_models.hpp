@@ -56,9 +56,9 @@ inline std::string findings(const CheckReport& report) {
 struct Model {
   const char* name;
   Plc<3> (*make)();
-  double size;         ///< of the circumradius; infinity: none
-  double most_poor;    ///< share of the cells that may stay poor
-  double fine;         ///< a size for some thousands of cells
+  double size;       ///< of the circumradius; infinity: none
+  double most_poor;  ///< share of the cells that may stay poor
+  double fine;       ///< a size for some thousands of cells
 };
 
 inline const Model refined_models[] = {
@@ -95,7 +95,8 @@ double volume_of(const OutputMesh<D>& mesh) {
       for (int k = 0; k < D; ++k) m[i][k] = mesh.points[cell[i + 1]][k] - mesh.points[cell[0]][k];
     if constexpr (D == 3)
       sum += (m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-              m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])) / 6;
+              m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])) /
+             6;
     else
       sum += (m[0][0] * m[1][1] - m[0][1] * m[1][0]) / 2;
   }

@@ -23,8 +23,10 @@ inline Plc<2> square() {
 template <int D>
 Plc<D> box_with_pairs(int pairs, double apart, std::uint64_t seed) {
   Plc<D> plc;
-  if constexpr (D == 2) plc = square();
-  else plc = cube();
+  if constexpr (D == 2)
+    plc = square();
+  else
+    plc = cube();
   std::mt19937_64 random(seed);
   auto draw = [&random] { return static_cast<double>(random() >> 11) * 0x1p-53; };
   for (int i = 0; i < pairs; ++i) {

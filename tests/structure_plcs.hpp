@@ -79,25 +79,21 @@ inline std::vector<Structure> nested_structures() {
   {
     Structure s{"five_nested_spheres", {}, {}};
     for (const double r : {16.0, 8.0, 4.0, 2.0, 1.0}) append(s.plc, icosphere(1), r, {});
-    s.probes = {{{{20, 0, 0}}, 0}, {{{0, 12, 0}}, 1},    {{{0, 6, 0}}, 0},
-                {{{0, 3, 0}}, 2},  {{{0, 0.1, 1.5}}, 0}, {{{0, 0, 0}}, 3}};
+    s.probes = {{{{20, 0, 0}}, 0}, {{{0, 12, 0}}, 1}, {{{0, 6, 0}}, 0}, {{{0, 3, 0}}, 2}, {{{0, 0.1, 1.5}}, 0}, {{{0, 0, 0}}, 3}};
     out.push_back(s);
   }
   out.push_back({"boxes_side_by_side",
                  boxes({{{{4, 0, 0}}, {{5, 1, 1}}}, {{{0, 0, 0}}, {{1, 1, 1}}}}),
                  {{{{0.5, 0.5, 0.5}}, 1}, {{{4.5, 0.5, 0.5}}, 2}, {{{2, 0.5, 0.5}}, 0}}});
-  out.push_back(
-      {"two_cavities",
-       boxes({{{{0, 0, 0}}, {{5, 2, 2}}}, {{{3, 0.5, 0.5}}, {{4, 1.5, 1.5}}}, {{{1, 0.5, 0.5}}, {{2, 1.5, 1.5}}}}),
-       {{{{0.5, 0.5, 0.5}}, 1}, {{{3.5, 1, 1}}, 0}, {{{1.5, 1, 1}}, 0}}});
+  out.push_back({"two_cavities",
+                 boxes({{{{0, 0, 0}}, {{5, 2, 2}}}, {{{3, 0.5, 0.5}}, {{4, 1.5, 1.5}}}, {{{1, 0.5, 0.5}}, {{2, 1.5, 1.5}}}}),
+                 {{{{0.5, 0.5, 0.5}}, 1}, {{{3.5, 1, 1}}, 0}, {{{1.5, 1, 1}}, 0}}});
   {
     // A body of two materials in a cavity is solid again; the wall between its halves makes it a group.
-    Structure s{"divided_box_in_a_cavity",
-                boxes({{{{0, 0, 0}}, {{6, 6, 6}}},
-                       {{{1, 1, 1}}, {{5, 5, 5}}},
-                       {{{2, 2, 2}}, {{3, 4, 4}}},
-                       {{{3, 2, 2}}, {{4, 4, 4}}}}),
-                {}};
+    Structure s{
+        "divided_box_in_a_cavity",
+        boxes({{{{0, 0, 0}}, {{6, 6, 6}}}, {{{1, 1, 1}}, {{5, 5, 5}}}, {{{2, 2, 2}}, {{3, 4, 4}}}, {{{3, 2, 2}}, {{4, 4, 4}}}}),
+        {}};
     s.probes = {{{{0.5, 3, 3}}, 1}, {{{1.5, 3, 3}}, 0}, {{{2.5, 3, 3}}, 2}, {{{3.5, 3, 3}}, 3}};
     out.push_back(s);
   }
@@ -118,9 +114,8 @@ inline std::vector<Structure> touching_structures() {
   out.push_back({"cubes_at_an_edge",
                  boxes({{o, e}, {{{1, 1, 0}}, {{2, 2, 1}}}}),
                  {{{{0.5, 0.5, 0.5}}, 1}, {{{1.5, 1.5, 0.5}}, 2}, {{{0.5, 1.5, 0.5}}, 0}}});
-  out.push_back({"cubes_at_a_face",
-                 boxes({{o, e}, {{{1, 0, 0}}, {{2, 1, 1}}}}),
-                 {{{{0.5, 0.5, 0.5}}, 1}, {{{1.5, 0.5, 0.5}}, 2}}});
+  out.push_back(
+      {"cubes_at_a_face", boxes({{o, e}, {{{1, 0, 0}}, {{2, 1, 1}}}}), {{{{0.5, 0.5, 0.5}}, 1}, {{{1.5, 0.5, 0.5}}, 2}}});
   {
     // Half a face in common: the common half is one facet, the other half another.
     Plc<3> plc;
@@ -133,8 +128,7 @@ inline std::vector<Structure> touching_structures() {
     add_rectangle(plc, 0, 1, {{0, 1}}, {{1, 1.5}}, 3);
     for (const double y : {0.0, 1.0}) add_rectangle(plc, 1, y, {{1, 0.5}}, {{2, 1.5}}, 4);
     for (const double z : {0.5, 1.5}) add_rectangle(plc, 2, z, {{1, 0}}, {{2, 1}}, 5);
-    out.push_back(
-        {"cubes_at_half_a_face", plc, {{{{0.5, 0.5, 0.5}}, 1}, {{{1.5, 0.5, 1}}, 2}, {{{1.5, 0.5, 0.25}}, 0}}, false});
+    out.push_back({"cubes_at_half_a_face", plc, {{{{0.5, 0.5, 0.5}}, 1}, {{{1.5, 0.5, 1}}, 2}, {{{1.5, 0.5, 0.25}}, 0}}, false});
   }
   {
     // From within: at a vertex and at an edge a void, with a part of a facet in common a body of its own.
@@ -176,10 +170,8 @@ inline std::vector<Structure> touching_structures() {
                  {{{{0, 0, 0}}, 1}}});
   {
     // A ring of four boxes, each two with a common edge: what they enclose is void, and no seed says so.
-    Plc<3> plc = boxes({{{{0, 1, 0}}, {{1, 2, 1}}},
-                        {{{1, 0, 0}}, {{2, 1, 1}}},
-                        {{{2, 1, 0}}, {{3, 2, 1}}},
-                        {{{1, 2, 0}}, {{2, 3, 1}}}});
+    Plc<3> plc = boxes(
+        {{{{0, 1, 0}}, {{1, 2, 1}}}, {{{1, 0, 0}}, {{2, 1, 1}}}, {{{2, 1, 0}}, {{3, 2, 1}}}, {{{1, 2, 0}}, {{2, 3, 1}}}});
     add_rectangle(plc, 2, 0, {{1, 1}}, {{2, 2}}, 9);
     add_rectangle(plc, 2, 1, {{1, 1}}, {{2, 2}}, 9);
     // Its lids lie between it and the outside: that it were void is not consistent. Five bodies.
@@ -208,10 +200,8 @@ inline std::vector<Structure> inner_structures() {
     add_rectangle(plc, 0, 4, {{0, 0}}, {{4, 4}}, 7);
     add_rectangle(plc, 2, 2, {{4, 0}}, {{6, 4}}, 8);
     add_rectangle(plc, 1, 2, {{3, 1}}, {{3.5, 3}}, 8);
-    out.push_back({"wall_void_and_fins",
-                   plc,
-                   {{{{0.5, 0.5, 0.5}}, 1}, {{{5, 1, 1}}, 2}, {{{5, 1, 3}}, 2}, {{{2, 2, 2}}, 0}},
-                   false});
+    out.push_back(
+        {"wall_void_and_fins", plc, {{{{0.5, 0.5, 0.5}}, 1}, {{{5, 1, 1}}, 2}, {{{5, 1, 3}}, 2}, {{{2, 2, 2}}, 0}}, false});
   }
   {
     Plc<3> plc = boxes({{o, e}});
@@ -258,8 +248,7 @@ inline std::vector<Structure> inner_structures() {
     middle.holes = {{{4, 4, 4}}};
     middle.marker = 21;
     Plc<3>::Facet island;
-    island.polygons = {
-        ring(2, 6, 4), {add_point(plc, {{3, 3, 4}}), add_point(plc, {{5, 5, 4}})}, {add_point(plc, {{5, 3, 4}})}};
+    island.polygons = {ring(2, 6, 4), {add_point(plc, {{3, 3, 4}}), add_point(plc, {{5, 5, 4}})}, {add_point(plc, {{5, 3, 4}})}};
     island.marker = 22;
     plc.facets.push_back(middle);
     plc.facets.push_back(island);
@@ -278,17 +267,14 @@ inline std::vector<Structure> inner_structures() {
   {
     // Pages that reach the cover divide the box.
     Plc<3> plc;
-    for (const auto& [a, b] : {std::pair{Point2{{-1, -1}}, Point2{{1, -1}}},
-                               {{{1, -1}}, {{1, 1}}},
-                               {{{1, 1}}, {{-1, 1}}},
-                               {{{-1, 1}}, {{-1, -1}}}}) {
+    for (const auto& [a, b] :
+         {std::pair{Point2{{-1, -1}}, Point2{{1, -1}}}, {{{1, -1}}, {{1, 1}}}, {{{1, 1}}, {{-1, 1}}}, {{{-1, 1}}, {{-1, -1}}}}) {
       add_facet(plc, {{{a[0], a[1], 0}}, {{b[0], b[1], 0}}, {{b[0], b[1], 1}}, {{a[0], a[1], 1}}}, 1);
       add_facet(plc, {{{0, 0, 0}}, {{a[0], a[1], 0}}, {{a[0], a[1], 1}}, {{0, 0, 1}}}, 2);
       for (const double z : {0.0, 1.0}) add_facet(plc, {{{0, 0, z}}, {{a[0], a[1], z}}, {{b[0], b[1], z}}}, 3);
     }
-    out.push_back({"divided_by_pages",
-                   plc,
-                   {{{{-0.5, 0, 0.5}}, 1}, {{{0, -0.5, 0.5}}, 2}, {{{0, 0.5, 0.5}}, 3}, {{{0.5, 0, 0.5}}, 4}}});
+    out.push_back(
+        {"divided_by_pages", plc, {{{{-0.5, 0, 0.5}}, 1}, {{{0, -0.5, 0.5}}, 2}, {{{0, 0.5, 0.5}}, 3}, {{{0.5, 0, 0.5}}, 4}}});
   }
   for (const int k : {5, 12}) {
     const double gap = std::ldexp(1.0, -k);

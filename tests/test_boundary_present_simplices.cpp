@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which edges and triangles are in a mesh, after every few insertions, against all of its cells. (A sphere of 222 meridians took 544
-// rounds of recovery, each of which looked at all 150,000 segments and all cells: five seconds of six.)
+// Which edges and triangles are in a mesh, after every few insertions, against all of its cells. (A sphere of 222 meridians took
+// 544 rounds of recovery, each of which looked at all 150,000 segments and all cells: five seconds of six.)
 #include <gtest/gtest.h>
 
 #include <deque>
@@ -70,7 +70,8 @@ void expect_as_all_cells_say(std::uint32_t seed) {
     for (unsigned k = 0; k < K; ++k) w.vertices[k] = mesh.cell(c).vertices[(first + k) % 4];
     if (random() % 2) w.vertices[0] = vertices[random() % vertices.size()];
     std::sort(w.vertices.begin(), w.vertices.end());
-    if (w.vertices[K - 1] == infinite_vertex || std::adjacent_find(w.vertices.begin(), w.vertices.end()) != w.vertices.end()) return;
+    if (w.vertices[K - 1] == infinite_vertex || std::adjacent_find(w.vertices.begin(), w.vertices.end()) != w.vertices.end())
+      return;
     wanted.push_back(w);
     look_again.push_back(owner);
   };
@@ -89,8 +90,10 @@ void expect_as_all_cells_say(std::uint32_t seed) {
     for (const auto& w : wanted) {
       const bool is_there = all.contains(w.vertices);
       ASSERT_EQ(w.seen != detail::not_seen, is_there) << look;
-      if (is_there) ASSERT_TRUE(detail::has_corners(mesh, w.seen, w.vertices)) << look;
-      else look_again.push_back(w.owner);
+      if (is_there)
+        ASSERT_TRUE(detail::has_corners(mesh, w.seen, w.vertices)) << look;
+      else
+        look_again.push_back(w.owner);
       there += is_there;
       lost += !is_there;
     }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// When boundary recovery is given up. A terrain of 725 points with facets at a tenth of a degree was refused after 272,101 Steiner
-// points, with a few hundred triangles missing of ten thousand: it takes some thousand more.
+// When boundary recovery is given up. A terrain of 725 points with facets at a tenth of a degree was refused after 272,101
+// Steiner points, with a few hundred triangles missing of ten thousand: it takes some thousand more.
 #include <gtest/gtest.h>
 
 #include <random>

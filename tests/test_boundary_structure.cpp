@@ -189,8 +189,7 @@ TEST(Seeds, WinOverNesting) {
     plc.holes = cases[i].holes;
     plc.regions = cases[i].regions;
     for (const bool automatic : {true, false}) {
-      const auto out =
-          refined<3>(plc, automatic ? RegionMode::automatic : RegionMode::seeds, automatic ? "automatic" : "seeds");
+      const auto out = refined<3>(plc, automatic ? RegionMode::automatic : RegionMode::seeds, automatic ? "automatic" : "seeds");
       const auto& wanted = automatic ? cases[i].automatic : cases[i].seeds;
       for (int k = 0; k < 3; ++k) {
         const auto& holes = cases[i].holes;
@@ -198,8 +197,7 @@ TEST(Seeds, WinOverNesting) {
         const bool hole = std::find(holes.begin(), holes.end(), p) != holes.end();
         if (!automatic && !hole && wanted[k] == 0) {
           bool found = false;  // label 0 is that of cells without seed
-          for (std::size_t c = 0; c < out.result.mesh.cells.size(); ++c)
-            found = found || holds<3>(out.result.mesh, c, p);
+          for (std::size_t c = 0; c < out.result.mesh.cells.size(); ++c) found = found || holds<3>(out.result.mesh, c, p);
           EXPECT_TRUE(found);
         }
         EXPECT_EQ(label_at<3>(out.result.mesh, p), wanted[k]) << k << automatic;
@@ -248,8 +246,10 @@ TEST(Seeds, OnWallsAreRefused) {
   plc.first_index = 1;
   const auto refusal = [&](const Point3& p, bool hole, double scale) -> std::optional<Diagnostic> {
     Plc<3> with = plc;
-    if (hole) with.holes = {p};
-    else with.regions = {{{{0.5, 1.5, 1.5}}, 5, 0}, {p, 5, 0}};
+    if (hole)
+      with.holes = {p};
+    else
+      with.regions = {{{{0.5, 1.5, 1.5}}, 5, 0}, {p, 5, 0}};
     with = test::oblique(with);
     test::for_each_point(with, [&](Point3& q) {
       for (double& x : q.x) x *= scale;
@@ -305,7 +305,8 @@ TEST(Segments, LooseOnesOfAPolyFileKeepTheirMarkers) {
   EXPECT_EQ(report.exit_code(), 0) << test::findings(report);
   double length = 0;
   for (const auto& s : result.mesh.subsegments)
-    if (s.marker == 7) length += std::sqrt(squared_distance(result.mesh.points[s.vertices[0]], result.mesh.points[s.vertices[1]]));
+    if (s.marker == 7)
+      length += std::sqrt(squared_distance(result.mesh.points[s.vertices[0]], result.mesh.points[s.vertices[1]]));
   EXPECT_NEAR(length, std::sqrt(0.3125), 1e-12);
 }
 

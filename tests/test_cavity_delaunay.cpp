@@ -84,8 +84,7 @@ TYPED_TEST(DelaunayTest, MeetsItsDefinition) {
         }
     }
     EXPECT_EQ(seen.size(), set.points.size());
-    for (std::size_t i = 0; i < set.points.size(); ++i)
-      ASSERT_EQ(mesh.point(delaunay.vertices()[i]), set.points[i]);
+    for (std::size_t i = 0; i < set.points.size(); ++i) ASSERT_EQ(mesh.point(delaunay.vertices()[i]), set.points[i]);
   }
 }
 

@@ -26,8 +26,7 @@ EntityRef point(EntityId p) { return {EntityKind::vertex, p}; }
 EntityRef between(const Model<2>& model, std::uint32_t a, std::uint32_t b) {
   const Domain<2> domain(model.plc);
   for (EntityId s = 0; s < domain.segments().size(); ++s)
-    if (const auto& p = domain.segments()[s].points; (p[0] == a && p[1] == b) || (p[0] == b && p[1] == a))
-      return segment(s);
+    if (const auto& p = domain.segments()[s].points; (p[0] == a && p[1] == b) || (p[0] == b && p[1] == a)) return segment(s);
   return {};
 }
 
@@ -42,8 +41,7 @@ CheckReport run(const Model<D>& model, CheckOptions<D> options, const std::vecto
 /// Two triangles far from each other, each with an angle of about 20 degrees at its first point (0 and 3).
 Model<2> two_needles() {
   Model<2> m;
-  for (const double x : {0.0, 100.0})
-    m.plc.points.insert(m.plc.points.end(), {{{x, 0}}, {{x + 1, 0}}, {{x + 0.9375, 0.34375}}});
+  for (const double x : {0.0, 100.0}) m.plc.points.insert(m.plc.points.end(), {{{x, 0}}, {{x + 1, 0}}, {{x + 0.9375, 0.34375}}});
   for (const std::uint32_t i : {0u, 3u}) {
     m.plc.segments.push_back({{i, i + 1}, 0});
     m.plc.segments.push_back({{i + 1, i + 2}, 0});
@@ -321,9 +319,9 @@ TEST(CheckReport, CountsAllAndListsSome) {
   const auto report = run(m, options, {});
   EXPECT_EQ(report.count(Kind::inverted_cell), m.mesh.cells.size());
   EXPECT_GE(report.finding_count, m.mesh.cells.size());
-  EXPECT_EQ(std::count_if(report.findings.begin(), report.findings.end(),
-                          [](const auto& f) { return f.kind == Kind::inverted_cell; }),
-            5);
+  EXPECT_EQ(
+      std::count_if(report.findings.begin(), report.findings.end(), [](const auto& f) { return f.kind == Kind::inverted_cell; }),
+      5);
   for (const auto& f : report.findings) {
     EXPECT_EQ(f.message.back(), '.');
     EXPECT_TRUE(std::isupper(static_cast<unsigned char>(f.message[0]))) << f.message;

@@ -59,7 +59,8 @@ TYPED_TEST(Check, EachKindOfDamageIsFound) {
         const auto found = [&](Kind k) { return report.count(k) > 0; };
         EXPECT_EQ(report.exit_code(), 6) << model.name << ": " << mutation.name;
         EXPECT_TRUE(std::any_of(mutation.expected.begin(), mutation.expected.end(), found))
-            << model.name << ": " << mutation.name << " is found as\n" << listed(report);
+            << model.name << ": " << mutation.name << " is found as\n"
+            << listed(report);
       }
   for (const auto& [mutation, times] : applied) EXPECT_GT(times, 0) << mutation << " was never tried";
 }

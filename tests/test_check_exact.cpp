@@ -99,8 +99,8 @@ TEST(CheckExact, RoundingCancelsWhatItCanReach) {
   }
 }
 
-// What the long doubles decide is what the rationals do: of all moves of one point, those that are long enough are told apart from
-// those that are not at one length, that of the first order.
+// What the long doubles decide is what the rationals do: of all moves of one point, those that are long enough are told apart
+// from those that are not at one length, that of the first order.
 TEST(CheckExact, RoundingCancelsFromOneLengthOn) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> coordinate(-1, 1);
@@ -179,15 +179,18 @@ TYPED_TEST(CheckInput, NestedBoxes) {
     const Domain<D> domain(maker.plc);
     const InputVolumes<D> input(domain);
     ASSERT_EQ(input.volumes().size(), 5u);
-    const double cube = std::abs(signed_measure<D>([&] {
-                          std::array<Point<D>, D> s;
-                          for (int k = 0; k < D; ++k) {
-                            auto corner = all<D>(0);
-                            corner[k] = 3;
-                            s[k] = map(corner);
-                          }
-                          return s;
-                        }(), map(all<D>(0))).first);
+    const double cube = std::abs(signed_measure<D>(
+                                     [&] {
+                                       std::array<Point<D>, D> s;
+                                       for (int k = 0; k < D; ++k) {
+                                         auto corner = all<D>(0);
+                                         corner[k] = 3;
+                                         s[k] = map(corner);
+                                       }
+                                       return s;
+                                     }(),
+                                     map(all<D>(0)))
+                                     .first);
     const auto at = [&](int i) { return *input.locate(map(all<D>(i))); };
     EXPECT_EQ(at(-1), 0u);
     double inner = std::pow(4, D);
@@ -253,7 +256,8 @@ TEST(SlackOfVertices, OfABentFacetIsRoundingHoweverBentItIs) {
   Plc<3> plc;
   for (int i = 0; i < 8; ++i) plc.points.push_back({{double(i & 1), double(i >> 1 & 1), double(i >> 2 & 1)}});
   plc.points[7][2] = 1 + 0x1p-14;
-  for (const auto& f : {std::array{0u, 1u, 3u, 2u}, {4u, 5u, 7u, 6u}, {0u, 1u, 5u, 4u}, {2u, 3u, 7u, 6u}, {0u, 2u, 6u, 4u}, {1u, 3u, 7u, 5u}})
+  for (const auto& f :
+       {std::array{0u, 1u, 3u, 2u}, {4u, 5u, 7u, 6u}, {0u, 1u, 5u, 4u}, {2u, 3u, 7u, 6u}, {0u, 2u, 6u, 4u}, {1u, 3u, 7u, 5u}})
     plc.facets.push_back({{{f.begin(), f.end()}}, {}, 0});
   const Domain<3> domain(plc);
   EntityId bent = no_entity;

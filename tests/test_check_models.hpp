@@ -375,9 +375,7 @@ inline Model<3> patchwork(const AffineMap<3>& map, int u) {
       for (int& x : c) x *= u;
     return corners;
   };
-  const auto polygon = [&](const std::vector<Lattice<3>>& corners, int marker) {
-    maker.polygon(scaled(corners), marker);
-  };
+  const auto polygon = [&](const std::vector<Lattice<3>>& corners, int marker) { maker.polygon(scaled(corners), marker); };
   const auto point = [&](int x, int y, int z) { return maker.point({u * x, u * y, u * z}); };
   polygon({{0, 0, 0}, {0, 1, 0}, {0, 1, 3}, {0, 0, 3}}, 1);
   polygon({{0, 1, 0}, {0, 3, 0}, {0, 3, 3}, {0, 1, 3}}, 1);

@@ -55,9 +55,9 @@ TYPED_TEST(CheckRefined, SoundMeshesPassAndDamageIsFound) {
         ++applied[mutation.name];
         const auto report = check(mesh, options);
         EXPECT_EQ(report.exit_code(), 6) << name << ": " << mutation.name;
-        EXPECT_TRUE(std::any_of(mutation.expected.begin(), mutation.expected.end(),
-                                [&](Kind k) { return report.count(k) > 0; }))
-            << name << ": " << mutation.name << " is found as\n" << listed(report);
+        EXPECT_TRUE(std::any_of(mutation.expected.begin(), mutation.expected.end(), [&](Kind k) { return report.count(k) > 0; }))
+            << name << ": " << mutation.name << " is found as\n"
+            << listed(report);
       }
   }
   for (const auto& [mutation, times] : applied) EXPECT_GT(times, 0) << mutation << " was never tried";

@@ -102,7 +102,8 @@ TYPED_TEST(ConflictManagerTest, ClaimsAreTheBuffersOfTheirOrder) {
         expected.push_back(leaf);
         std::sort(expected.begin(), expected.end());
         EXPECT_EQ(claim.leaves(), expected);
-        for (const auto l : tree.leaves()) EXPECT_EQ(claim.contains_leaf(l), std::binary_search(expected.begin(), expected.end(), l));
+        for (const auto l : tree.leaves())
+          EXPECT_EQ(claim.contains_leaf(l), std::binary_search(expected.begin(), expected.end(), l));
       }
       const auto leaves = tree.leaves();
       for (int s = 0; s < round; ++s) tree.split(leaves[random() % leaves.size()]);
@@ -118,11 +119,10 @@ TYPED_TEST(ConflictManagerTest, OrderIsByLevelVolumeGenerationColourPlace) {
   const Generation<D> generation = manager.plan(random_requests(tree, random));
   const auto key = [&](const Visit<D>& v) {
     const std::uint32_t period = v.request.order == whole_tree ? 1 : 2 * v.request.order + 1;
-    return std::tuple(v.request.order, -tree.side(v.request.leaf), v.request.generation,
-                      tree.colour(v.request.leaf, period), tree.morton(v.request.leaf));
+    return std::tuple(v.request.order, -tree.side(v.request.leaf), v.request.generation, tree.colour(v.request.leaf, period),
+                      tree.morton(v.request.leaf));
   };
-  for (std::size_t i = 1; i < generation.visits.size(); ++i)
-    EXPECT_LT(key(generation.visits[i - 1]), key(generation.visits[i]));
+  for (std::size_t i = 1; i < generation.visits.size(); ++i) EXPECT_LT(key(generation.visits[i - 1]), key(generation.visits[i]));
   EXPECT_TRUE(generation.visits.back().leaves.empty());
 }
 
@@ -186,7 +186,8 @@ TYPED_TEST(ConflictManagerTest, LeavesHaveOneWriterAtATime) {
     for (const auto leaf : claimed.empty() ? leaves : claimed) of[leaf] = of[leaf] * 6364136223846793005u + v + 1;
   };
   run_serial(generation.graph, [&](std::uint32_t v) { visit(expected, v); });
-  const VisitRun run = run_threads(generation.graph, [&](std::uint32_t v) { visit(history, v); }, 4);
+  const VisitRun run = run_threads(
+      generation.graph, [&](std::uint32_t v) { visit(history, v); }, 4);
   EXPECT_TRUE(run.complete());
   EXPECT_EQ(history, expected) << "any order that the graph allows gives the same";
 }

@@ -68,8 +68,7 @@ Point<D> random_point(std::mt19937_64& random) {
 template <int D>
 Point<D> beside(const Point<D>& p, double distance, std::mt19937_64& random) {
   Point<D> q = p;
-  for (int i = 0; i < D; ++i)
-    q[i] = std::clamp(p[i] + distance * (2 * oracle::uniform(random) - 1), 1e-3, extent(i) - 1e-3);
+  for (int i = 0; i < D; ++i) q[i] = std::clamp(p[i] + distance * (2 * oracle::uniform(random) - 1), 1e-3, extent(i) - 1e-3);
   return q;
 }
 

@@ -220,8 +220,7 @@ void expect_leaves(const Plc<D>& plc, double size) {
   for (auto a = boxes.begin(); a != boxes.end(); ++a)
     for (auto b = std::next(a); b != boxes.end(); ++b) {
       bool apart = false;
-      for (int k = 0; k < D; ++k)
-        apart = apart || a->second.high[k] < b->second.low[k] || b->second.high[k] < a->second.low[k];
+      for (int k = 0; k < D; ++k) apart = apart || a->second.high[k] < b->second.low[k] || b->second.high[k] < a->second.low[k];
       EXPECT_TRUE(apart) << a->first << " and " << b->first;
     }
 }

@@ -44,9 +44,9 @@ TEST(Diagnosis, ABoxHasNothing) {
   for (const Plc<3>& plc : {box(), triangulated(box()), test::plate_with_pentagon()}) {
     const Diagnosis<3> d = diagnose(plc);
     EXPECT_EQ(d.error_count(), 0u);
-    for (const Finding kind : {Finding::open_boundary, Finding::non_manifold_edge, Finding::non_manifold_point,
-                               Finding::unreferenced_point, Finding::duplicate_point, Finding::segments_below_60,
-                               Finding::facets_below_90, Finding::segment_facet_below_90})
+    for (const Finding kind :
+         {Finding::open_boundary, Finding::non_manifold_edge, Finding::non_manifold_point, Finding::unreferenced_point,
+          Finding::duplicate_point, Finding::segments_below_60, Finding::facets_below_90, Finding::segment_facet_below_90})
       EXPECT_EQ(d[kind].count, 0u) << name(kind);
     EXPECT_EQ(diagnose(turned(plc)).error_count(), 0u);
     EXPECT_NO_THROW(require_no_errors(Domain<3>(plc)));
@@ -265,8 +265,10 @@ Plc<3> crossing_tori(std::uint32_t side) {
     const std::uint32_t first = k / (side * side) * side * side, i = k / side % side, j = k % side;
     const auto at = [&](std::uint32_t di, std::uint32_t dj) { return first + (i + di) % side * side + (j + dj) % side; };
     plc.facets.push_back({{{at(0, 0), at(1, 0), at(1, 1)}}, {}, 0});
-    if (k % 3 == 0) plc.facets.push_back({{{at(0, 0), at(0, 1), at(1, 1)}}, {}, 0});
-    else plc.facets.push_back({{{at(0, 0), at(1, 1), at(0, 1)}}, {}, 0});
+    if (k % 3 == 0)
+      plc.facets.push_back({{{at(0, 0), at(0, 1), at(1, 1)}}, {}, 0});
+    else
+      plc.facets.push_back({{{at(0, 0), at(1, 1), at(0, 1)}}, {}, 0});
   }
   return plc;
 }
@@ -275,7 +277,8 @@ std::string in_words(const Diagnosis<3>& d) {
   std::string words;
   for (std::size_t k = 0; k < finding_kinds; ++k) {
     words += std::to_string(d.found[k].count);
-    for (const FindingList::Item& item : d.found[k].listed) words += "; " + item.what.message + " " + std::to_string(item.measure);
+    for (const FindingList::Item& item : d.found[k].listed)
+      words += "; " + item.what.message + " " + std::to_string(item.measure);
     words += '\n';
   }
   return words;

@@ -32,8 +32,7 @@ Findings found_by(const Diagnosis<D>& d, const Domain<D>& domain) {
   for (const auto& i : d[Finding::segments_cross].listed)
     out.segments_cross.insert({segment(i.what.ids[0], i.what.ids[1]), segment(i.what.ids[2], i.what.ids[3])});
   for (const auto& i : d[Finding::point_on_facet].listed) out.on_facet.insert({i.what.ids[0], i.what.ids[1]});
-  for (const auto& i : d[Finding::point_on_segment].listed)
-    out.on_edge.insert({i.what.ids[0], i.what.ids[1], i.what.ids[2]});
+  for (const auto& i : d[Finding::point_on_segment].listed) out.on_edge.insert({i.what.ids[0], i.what.ids[1], i.what.ids[2]});
   return out;
 }
 
@@ -103,8 +102,8 @@ TEST(DiagnosisOracle, SpaceWithFewCoordinates) {
   std::mt19937_64 random(oracle::seed());
   Tally tally;
   for (int k = 0; k < (test::sanitized ? 4000 : 10000) && !HasFatalFailure(); ++k) compare(random_plc<3>(random, 2), tally);
-  for (const int n : {tally.valid, tally.cross, tally.overlap, tally.segment_facet, tally.segments, tally.on_facet,
-                      tally.on_edge})
+  for (const int n :
+       {tally.valid, tally.cross, tally.overlap, tally.segment_facet, tally.segments, tally.on_facet, tally.on_edge})
     EXPECT_GT(n, 30);
   EXPECT_GT(tally.inner_edges, 10);
 }

@@ -84,14 +84,14 @@ VisitRun flow_on_eight(const VisitGraph& graph, const VisitBody& body) {
 #endif
 
 std::vector<Executor> executors() {
-  std::vector<Executor> all{
-      {"serial", run_serial},
-      {"shuffled", [](const VisitGraph& g, const VisitBody& b) {
-         std::mt19937_64 random(seed);
-         return run_shuffled(g, b, random);
-       }},
-      {"one thread", [](const VisitGraph& g, const VisitBody& b) { return run_threads(g, b, 1); }},
-      {"threads", [](const VisitGraph& g, const VisitBody& b) { return run_threads(g, b, eight); }}};
+  std::vector<Executor> all{{"serial", run_serial},
+                            {"shuffled",
+                             [](const VisitGraph& g, const VisitBody& b) {
+                               std::mt19937_64 random(seed);
+                               return run_shuffled(g, b, random);
+                             }},
+                            {"one thread", [](const VisitGraph& g, const VisitBody& b) { return run_threads(g, b, 1); }},
+                            {"threads", [](const VisitGraph& g, const VisitBody& b) { return run_threads(g, b, eight); }}};
 #if PGDR_TEST_TBB
   all.push_back({"flow graph", flow_on_eight});
   all.push_back({"flow graph on one thread", [](const VisitGraph& g, const VisitBody& b) {
@@ -320,11 +320,14 @@ TEST(VisitFlowGraphTest, TheWaitRunsNoneOfTheCallersOtherTasks) {
   tbb::task_arena arena(eight);
   std::atomic<int> stolen{0};
   arena.execute([&] {
-    tbb::parallel_for(0, 64, [&](int i) {
-      const Nesting guard(stolen);
-      const VisitGraph graph = random_graph(40, 2, 20, seed + 30 + static_cast<std::uint64_t>(i));
-      EXPECT_TRUE(run_flow_graph(graph, [](std::uint32_t) { std::this_thread::sleep_for(20us); }).complete());
-    }, tbb::simple_partitioner());
+    tbb::parallel_for(
+        0, 64,
+        [&](int i) {
+          const Nesting guard(stolen);
+          const VisitGraph graph = random_graph(40, 2, 20, seed + 30 + static_cast<std::uint64_t>(i));
+          EXPECT_TRUE(run_flow_graph(graph, [](std::uint32_t) { std::this_thread::sleep_for(20us); }).complete());
+        },
+        tbb::simple_partitioner());
   });
   EXPECT_EQ(stolen, 0);
 }

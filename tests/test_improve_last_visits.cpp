@@ -51,8 +51,7 @@ TEST_P(Wedges, KeepFewPoorCells) {
   EXPECT_GE(result.reasons.size(), result.poor_left);
 }
 
-INSTANTIATE_TEST_SUITE_P(Improvement, Wedges,
-                         testing::Values(Case{1, 6, 171}, Case{2, 6, 75}, Case{5, 10, 40}, Case{10, 5, 10}),
+INSTANTIATE_TEST_SUITE_P(Improvement, Wedges, testing::Values(Case{1, 6, 171}, Case{2, 6, 75}, Case{5, 10, 40}, Case{10, 5, 10}),
                          [](const auto& info) { return std::to_string(static_cast<int>(info.param.degrees)); });
 
 /// Of those with an end that is no point of the input.
@@ -96,7 +95,8 @@ TEST(Improvement, IsReproducibleBelowTheProvedBound) {
     for (const double height : {0.017, 0.05, 0.2}) {
       Plc<3> plc;  // a wedge again, with whole faces
       plc.points = {{{0, 0, 0}}, {{0, 1, 0}}, {{1, 0, 0}}, {{1, 1, 0}}, {{1, 0, height}}, {{1, 1, height}}};
-      for (const auto& polygon : std::vector<std::vector<std::uint32_t>>{{0, 2, 3, 1}, {0, 4, 5, 1}, {0, 2, 4}, {1, 3, 5}, {2, 3, 5, 4}})
+      for (const auto& polygon :
+           std::vector<std::vector<std::uint32_t>>{{0, 2, 3, 1}, {0, 4, 5, 1}, {0, 2, 4}, {1, 3, 5}, {2, 3, 5, 4}})
         plc.facets.push_back({{polygon}, {}, 0});
       RefineOptions<3> options;
       options.radius_edge_bound = bound;

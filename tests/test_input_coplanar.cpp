@@ -154,8 +154,11 @@ TEST(Coplanar, ThePrecisionThatDigitsAllow) {
   EXPECT_EQ(written_precision(std::vector<Point3>{{{0, 1, double{1.0f / 3}}}}), 0x1p-22);
   EXPECT_EQ(written_precision(std::vector<Point3>{{{0, double{1.0f / 3}, 1.0 / 3}}}), rounding);
   EXPECT_EQ(written_precision(std::vector<Point3>{{{0, 0.015625, 1.359375}}}), rounding);  // 64ths
-  for (const double unit : {1e-3, 1e3, 1e-9})  // which rounds
-    EXPECT_EQ(written_precision(std::vector<Point3>{{{0, unit * 0.171717, unit * 123.457}}, {{unit * 0.300001, unit * 77.0703, unit * 0.999999}}}), 1e-5) << unit;
+  for (const double unit : {1e-3, 1e3, 1e-9})                                              // which rounds
+    EXPECT_EQ(written_precision(std::vector<Point3>{{{0, unit * 0.171717, unit * 123.457}},
+                                                    {{unit * 0.300001, unit * 77.0703, unit * 0.999999}}}),
+              1e-5)
+        << unit;
   for (const int scale : {-300, -77, -1, 1, 10, 300}) {  // which takes nothing away
     const auto scaled = [scale](double x) { return std::ldexp(x, scale); };
     EXPECT_EQ(written_precision(std::vector<Point3>{{{0, scaled(1200), scaled(0.1)}}}), rounding) << scale;
@@ -190,7 +193,8 @@ Plc<3> plate_with_boss(int n, double height, double off) {
   }
   std::vector<std::uint32_t> rim, top;
   for (int i = 0; i < n; ++i) {
-    const double angle = 2 * std::numbers::pi * i / n - 3 * std::numbers::pi / 4, x = 0.6 * std::cos(angle), y = 0.6 * std::sin(angle);
+    const double angle = 2 * std::numbers::pi * i / n - 3 * std::numbers::pi / 4, x = 0.6 * std::cos(angle),
+                 y = 0.6 * std::sin(angle);
     rim.push_back(point(x, y, height + off * (static_cast<int>(random() % 17) - 8)));
     top.push_back(point(x, y, 2 * height));
   }
@@ -264,7 +268,8 @@ TEST(Coplanar, AFaceOfManyTrianglesIsCheckedTriangleByTriangle) {
   const CheckReport report = check<3>(result.mesh, check_options);
   EXPECT_EQ(report.exit_code(), 0) << test::findings(report);
   const auto& subfacets = result.mesh.subfacets;
-  const auto at = std::find_if(subfacets.begin(), subfacets.end(), [&](const auto& t) { return t.vertices[2] >= result.mesh.input_points; });
+  const auto at = std::find_if(subfacets.begin(), subfacets.end(),
+                               [&](const auto& t) { return t.vertices[2] >= result.mesh.input_points; });
   ASSERT_NE(at, subfacets.end());
   for (double& x : result.mesh.points[at->vertices[2]].x) x += 1e-12;
   const CheckReport moved = check<3>(result.mesh, check_options);

@@ -9,11 +9,11 @@
 #include <cmath>
 #include <set>
 
-#include "space/planar_cdt.hpp"
 #include "domain_plcs.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/predicates.hpp"
+#include "space/planar_cdt.hpp"
 
 namespace pgdr::test_input_domain {
 
@@ -227,7 +227,7 @@ TEST(Domain, InnerSegmentAndIsolatedPoint) {
   auto& bottom = plc.facets[0];
   bottom.polygons.push_back({n, n + 1});
   bottom.polygons.push_back({n + 2});
-  plc.segments.push_back({{n + 3, 0}, 5});      // dangling, in no facet
+  plc.segments.push_back({{n + 3, 0}, 5});       // dangling, in no facet
   plc.facets[0].polygons.push_back({1, n + 4});  // of the facet's polygons, outside of it
   const Domain<3> d(plc);
   expect_consistent(d);
@@ -238,8 +238,7 @@ TEST(Domain, InnerSegmentAndIsolatedPoint) {
   EXPECT_TRUE(has_segment(d, n + 3, 0));
   EXPECT_TRUE(has_segment(d, 1, n + 4));
   EXPECT_EQ(d.segments().size(), 15u);
-  for (EntityId s = 0; s < d.segments().size(); ++s)
-    EXPECT_TRUE(d.segments()[s].marker != 5 || d.facets_of_segment(s).empty());
+  for (EntityId s = 0; s < d.segments().size(); ++s) EXPECT_TRUE(d.segments()[s].marker != 5 || d.facets_of_segment(s).empty());
 }
 
 TEST(Domain, AFacetThatIsFarFromPlanarIsItsTriangles) {
@@ -304,8 +303,7 @@ TEST(Domain, AFacetOfTwoCornersIsASegment) {
   EXPECT_EQ(d.segments().size(), 13u);
   for (const DomainSegment& s : d.segments()) EXPECT_EQ(s.marker, s.points[0] == 8 ? 5 : 0);
   ASSERT_EQ(d.repairs().size(), 1u);
-  EXPECT_NE(d.repairs()[0].message.find("2 (facet 2 = 0, facet 7 = 0)"), std::string::npos)
-      << d.repairs()[0].message;
+  EXPECT_NE(d.repairs()[0].message.find("2 (facet 2 = 0, facet 7 = 0)"), std::string::npos) << d.repairs()[0].message;
   EXPECT_EQ(d.warnings().size(), 2u);
 }
 
@@ -370,9 +368,9 @@ TEST(Domain, DuplicatesAreMergedAndReported) {
   EXPECT_EQ(d.repairs()[0].ids[0], 9);
   EXPECT_EQ(d.repairs()[0].ids[1], 1);
   EXPECT_EQ(std::ranges::count(d.repairs()[0].message, '='), 20);
-  EXPECT_EQ(d.repairs()[2].ids.size(), 3u);                                     // facet, two points
-  EXPECT_EQ(d.repairs()[3].ids, (std::vector<std::int64_t>{2, 1, 3, 1}));       // segments
-  EXPECT_EQ(d.warnings().size(), 1u);                                           // their markers
+  EXPECT_EQ(d.repairs()[2].ids.size(), 3u);                                // facet, two points
+  EXPECT_EQ(d.repairs()[3].ids, (std::vector<std::int64_t>{2, 1, 3, 1}));  // segments
+  EXPECT_EQ(d.warnings().size(), 1u);                                      // their markers
 }
 
 TEST(Domain, RepeatedFacetsAreDropped) {

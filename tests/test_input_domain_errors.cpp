@@ -76,13 +76,12 @@ TEST(DomainErrors, DegenerateFacet) {
     plc.facets.push_back({std::move(polygons), {}, 0});
     return plc;
   };
-  for (const auto& polygons : std::vector<std::vector<std::vector<std::uint32_t>>>{
-           {},                                  // nothing
-           {{}},                                // a polygon of nothing
-           {{8, 12}},                           // two points at one place
-           {{8, 9, 10}, {9, 10, 11}},           // on a line
-           {{0, 1}, {1, 2}, {2, 5}},            // enclosing nothing
-           {{0}, {1}, {6}}}) {
+  for (const auto& polygons : std::vector<std::vector<std::vector<std::uint32_t>>>{{},         // nothing
+                                                                                   {{}},       // a polygon of nothing
+                                                                                   {{8, 12}},  // two points at one place
+                                                                                   {{8, 9, 10}, {9, 10, 11}},  // on a line
+                                                                                   {{0, 1}, {1, 2}, {2, 5}},  // enclosing nothing
+                                                                                   {{0}, {1}, {6}}}) {
     const Diagnostic d = refusal(with_facet(polygons));
     EXPECT_EQ(d.code, Errc::degenerate_facet) << d.message;
     ASSERT_FALSE(d.ids.empty());

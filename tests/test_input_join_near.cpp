@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Plc::merge_within, of what misses edges and facets. The story: bodies that stand on each other, walls and T-junctions are mended
-// where points lie exactly on what they touch; turned by any angle, none does any more, and all were refused, or taken with gaps of
-// an ulp, for which the recovery wanted 200,000 points.
+// Plc::merge_within, of what misses edges and facets. The story: bodies that stand on each other, walls and T-junctions are
+// mended where points lie exactly on what they touch; turned by any angle, none does any more, and all were refused, or taken
+// with gaps of an ulp, for which the recovery wanted 200,000 points.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 #include <set>
 #include <utility>
 
-#include "numbers/vectors.hpp"
 #include "domain_plcs.hpp"
+#include "numbers/vectors.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "planar_plcs.hpp"
 #include "refined_models.hpp"
@@ -83,8 +83,8 @@ std::map<int, double> areas(const Domain<3>& d) {
 // Whatever is mended of pieces that meet exactly is mended of turned ones, and of those whose every corner is off by itself, and
 // comes out with the same points, segments and areas, also where edges cross between points. (Which of two coplanar facets has a
 // part that segments cut off may differ.) Two of the seeds are refused instead: one has a facet on one line that is dropped for a
-// diagonal of another, of two that are as good. What is refused as it is may come out of its copy, but only with a mesh that holds:
-// seed 420 had an edge along a facet that was none of it, for an edge that was thought to cross a facet that it leaves.
+// diagonal of another, of two that are as good. What is refused as it is may come out of its copy, but only with a mesh that
+// holds: seed 420 had an edge along a facet that was none of it, for an edge that was thought to cross a facet that it leaves.
 void expect_as_exact(std::uint64_t seed, double noise, double within, int& joined, int& refused) {
   test::GridPlcs grid(seed);
   const Plc<3> plc = grid.cube();
@@ -133,8 +133,8 @@ TEST(JoinNear, QuickLook) {
     plc.merge_within = 1e-14;
     const Domain<3> joined = Domain<3>::without_invalid(plc, refused);
     const bool may = may_join(apart, plc.merge_within);
-    const bool does = !refused.empty() || joined.points().size() < apart.points().size() || joined.segments().size() != apart.segments().size() ||
-                      areas(joined) != areas(apart);
+    const bool does = !refused.empty() || joined.points().size() < apart.points().size() ||
+                      joined.segments().size() != apart.segments().size() || areas(joined) != areas(apart);
     EXPECT_TRUE(may || !does) << seed;
     joinable += does;
   }
@@ -152,7 +152,8 @@ TEST(JoinNear, QuickLook) {
   }
 }
 
-// T-junctions in a file of floats: two of three triangles of a box have a point, rounded, on an edge that their neighbours do not know.
+// T-junctions in a file of floats: two of three triangles of a box have a point, rounded, on an edge that their neighbours do not
+// know.
 TEST(JoinNear, TJunctionsOfFloats) {
   for (const double angle : {0.3, 0.9, 2.1}) {
     Plc<3> plc = turned(triangulated(box()), angle);
@@ -182,7 +183,8 @@ TEST(JoinNear, TJunctionsOfFloats) {
   }
 }
 
-// A side with a needle beside an edge: its corner is near the side opposite, which goes through it; nothing is left of the needle.
+// A side with a needle beside an edge: its corner is near the side opposite, which goes through it; nothing is left of the
+// needle.
 TEST(JoinNear, NeedlesGo) {
   Plc<3> plc = triangulated(box());
   const auto n = static_cast<std::uint32_t>(plc.points.size());
@@ -236,8 +238,10 @@ TEST(JoinNear, ThoseOfBruteForce) {
           const auto v = static_cast<std::int64_t>(plc.points.size());
           plc.points.push_back(p);
           if (std::fabs(height) > 1) continue;
-          if (!on_edge) in_facets.insert({v, static_cast<std::int64_t>(f)});
-          else on_edges.insert({v, std::min(polygon[0], polygon[1]), std::max(polygon[0], polygon[1])});
+          if (!on_edge)
+            in_facets.insert({v, static_cast<std::int64_t>(f)});
+          else
+            on_edges.insert({v, std::min(polygon[0], polygon[1]), std::max(polygon[0], polygon[1])});
         }
     }
     plc.merge_within = within;

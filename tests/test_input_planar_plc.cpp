@@ -152,7 +152,8 @@ TEST(ResolveCrossings, WhatTouchesIsLeftAlone) {
   EXPECT_TRUE(repairs.empty());
 }
 
-/// Roads that end on others, in a file that keeps no point on a slanted one: nothing crosses, but the ends are up to four ulps off.
+/// Roads that end on others, in a file that keeps no point on a slanted one: nothing crosses, but the ends are up to four ulps
+/// off.
 TEST(ResolveCrossings, SegmentsGoThroughPointsThatTheyNearlyMeet) {
   Random random(7);
   Plc<2> plc;
@@ -264,7 +265,8 @@ TEST(ConvexHull, AgainstAllPairs) {
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     Random random(seed);
     Plc<2> plc;
-    for (int i = 0; i < 30; ++i) plc.points.push_back({{static_cast<double>(below(random, 7)), static_cast<double>(below(random, 7))}});
+    for (int i = 0; i < 30; ++i)
+      plc.points.push_back({{static_cast<double>(below(random, 7)), static_cast<double>(below(random, 7))}});
     const Plc<2> out = with_convex_hull(plc);
     std::set<std::pair<Point2, Point2>, bool (*)(const std::pair<Point2, Point2>&, const std::pair<Point2, Point2>&)> wanted(
         [](const auto& s, const auto& t) {

@@ -20,9 +20,7 @@ using oracle::Rational;
 using test::find_segment;
 using Vector = std::array<Rational, 3>;
 
-Vector minus(const Point3& a, const Point3& b) {
-  return {Rational(a[0]) - b[0], Rational(a[1]) - b[1], Rational(a[2]) - b[2]};
-}
+Vector minus(const Point3& a, const Point3& b) { return {Rational(a[0]) - b[0], Rational(a[1]) - b[1], Rational(a[2]) - b[2]}; }
 Rational dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
@@ -215,8 +213,8 @@ TEST(EntityAngle, BoxIsRectangular) {
   EXPECT_EQ(entity_angle(d, facet(0), {}), 180);
 }
 
-/// Pairs of facets with many points are looked up, others are compared point by point: plates whose top has 50 more points along each
-/// of two edges, which the walls there have too.
+/// Pairs of facets with many points are looked up, others are compared point by point: plates whose top has 50 more points along
+/// each of two edges, which the walls there have too.
 TEST(Domain, FacetsWithManyPointsTouchWhereTheyShareOne) {
   Plc<3> plc;
   constexpr std::uint32_t more = 50;

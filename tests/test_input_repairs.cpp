@@ -30,8 +30,7 @@ Ids repaired(const Plc<D>& plc, Errc code) {
 
 template <int D>
 void expect_meshed(const Plc<D>& plc) {
-  for (const auto& [by, exponent, offset] :
-       {std::tuple{0, 0, 0.0}, {1, 0, 0.0}, {2, -30, 0.0}, {0, 12, 0.375}, {1, 40, -3.25}}) {
+  for (const auto& [by, exponent, offset] : {std::tuple{0, 0, 0.0}, {1, 0, 0.0}, {2, -30, 0.0}, {0, 12, 0.375}, {1, 40, -3.25}}) {
     const Domain<D> domain(moved(exponent == 12 ? test::oblique(plc) : plc, by, exponent, offset));
     EXPECT_EQ(diagnose(domain).error_count(), 0u);
     const RefineOptions<D> options;
@@ -65,7 +64,8 @@ TEST(Repairs, SegmentsOfNoLength) {
   EXPECT_EQ(triangle.repairs()[1].ids, (Ids{3, 3, 0, 4, 1, 1}));
   expect_meshed(ring);
 
-  Plc<3> solid = box();  // one from a point to itself, one that is a facet, as TetGen's files have them, between points at one place
+  Plc<3> solid =
+      box();  // one from a point to itself, one that is a facet, as TetGen's files have them, between points at one place
   const std::uint32_t first = add(solid, {0.5, 0.5, 0.5}), second = add(solid, {0.5, 0.5, 0.5});
   solid.segments = {{{0, 0}, 1}};
   solid.facets.push_back({{{first, second}}, {}, 2});
@@ -106,7 +106,7 @@ TEST(Repairs, APointOfAFacetOnItsOwnEdge) {
       floor.holes = {{1.2, 0.3, 0}};
       plc.facets.push_back({{{m, other, inner}}, {}, 7});
     }
-    if (kind == 4) floor.polygons.push_back({m, 1});  // a segment along the edge
+    if (kind == 4) floor.polygons.push_back({m, 1});        // a segment along the edge
     if (kind == 5) floor.polygons[0] = {0, 3, 2, 1, m, 1};  // there and back
     const Ids ids = repaired(plc, Errc::point_on_segment);
     EXPECT_EQ(ids, (Ids{8, 0, 1}));
@@ -171,13 +171,12 @@ TEST(Repairs, DegenerateTriangles) {
 
 // As a body of revolution with corners on its axis has them, in the files of some programs: no edge of others covers them.
 TEST(Repairs, FacetsWithoutAnAreaInTheInside) {
-  for (const std::vector<std::uint32_t>& polygon : std::vector<std::vector<std::uint32_t>>{
-           {0, 0, 6},        // two points
-           {0, 6, 0, 6},     //
-           {0, 8, 6},        // on a line
-           {0, 8, 6, 8},     //
-           {8, 6, 0},        //
-           {9, 10, 9}}) {    // on an axis
+  for (const std::vector<std::uint32_t>& polygon : std::vector<std::vector<std::uint32_t>>{{0, 0, 6},      // two points
+                                                                                           {0, 6, 0, 6},   //
+                                                                                           {0, 8, 6},      // on a line
+                                                                                           {0, 8, 6, 8},   //
+                                                                                           {8, 6, 0},      //
+                                                                                           {9, 10, 9}}) {  // on an axis
     Plc<3> plc = triangulated(box());
     for (std::uint32_t k = 0; k < 3; ++k) add(plc, {k == 0 ? 1.0 : 0.5 + 0.5 * k, 0.5, k == 0 ? 1.5 : 1.0});
     plc.facets.push_back({{polygon}, {}, 0});

@@ -65,8 +65,8 @@ void mesh(const Plc<D>& plc, RegionMode regions, Tally& tally) {
     const CheckReport report = check<D>(result.mesh, check_options);
     if (result.stop == StopCause::finished) {
       EXPECT_LE(report.exit_code(), 1) << findings(report);
-    }
-    else for (const auto& f : report.findings) EXPECT_EQ(f.kind, CheckFinding::Kind::bad_reason) << findings(report);
+    } else
+      for (const auto& f : report.findings) EXPECT_EQ(f.kind, CheckFinding::Kind::bad_reason) << findings(report);
     ++tally.meshed;
     tally.repaired += !domain.repairs().empty();
   } catch (const InputError& e) {
@@ -96,20 +96,23 @@ void run(int n, Make&& make, Tally& tally) {
 
 TEST(RepairsFuzz, Cubes) {
   Tally tally;
-  run(count(150), [](test::GridPlcs& p) { return p.cube(); }, tally);
+  run(
+      count(150), [](test::GridPlcs& p) { return p.cube(); }, tally);
   EXPECT_GT(tally.repaired, 40);
   EXPECT_GT(tally.refused, 10);
 }
 
 TEST(RepairsFuzz, Soups) {
   Tally tally;
-  run(count(200), [](test::GridPlcs& p) { return p.soup(); }, tally);
+  run(
+      count(200), [](test::GridPlcs& p) { return p.soup(); }, tally);
   EXPECT_GT(tally.refused, 30);
 }
 
 TEST(RepairsFuzz, Planes) {
   Tally tally;
-  run(count(300), [](test::GridPlcs& p) { return p.plane(); }, tally);
+  run(
+      count(300), [](test::GridPlcs& p) { return p.plane(); }, tally);
   EXPECT_GT(tally.repaired, 50);
   EXPECT_GT(tally.refused, 20);
 }

@@ -89,7 +89,11 @@ std::vector<Format> formats() {
       {"off", "a.off", [] { return std::string(colour_off); }, read_input<3>, false},
       {"obj", "a.obj", [] { return std::string(wavefront_obj); }, read_input<3>, false},
       {"stl_ascii", "a.stl", [] { return std::string(ascii_stl); }, read_input<3>, false},
-      {"stl_binary", "a.stl", [] { return binary_stl("solid", {{1, 2, 3}, {4, 5, 6, 7, 8, 9}}); }, read_input<3>, true},
+      {"stl_binary", "a.stl",
+       [] {
+         return binary_stl("solid", {{1, 2, 3}, {4, 5, 6, 7, 8, 9}});
+       },
+       read_input<3>, true},
       {"mesh_2d", "a.mesh", [] { return mesh_bytes<2>(".mesh"); }, read_output<2>, true},
       {"mesh_3d", "a.mesh", [] { return mesh_bytes<3>(".mesh"); }, read_output<3>, true},
       {"vtu_2d", "a.vtu", [] { return mesh_bytes<2>(".vtu"); }, read_output<2>, true},

@@ -70,7 +70,7 @@ TEST(ReadPly, MistakesAreNamed) {
   expect("list uint8 int32", "list float int32", Errc::syntax, 16);
   expect("element edge 1\n", "element edge 1\nelement none 0\n", Errc::syntax, 22);
   expect("property float quality\n", "hello\n", Errc::syntax, 15);
-  expect("0 2 1 1 2", "0 300 1 1 2", Errc::syntax, 26);   // beyond a uchar
+  expect("0 2 1 1 2", "0 300 1 1 2", Errc::syntax, 26);  // beyond a uchar
   expect("0 0 0 0 0", "inf 0 0 0 0", Errc::not_finite, 24);
   expect("0 1 1 0 1 0.5", "0 1 x 0 1 0.5", Errc::syntax, 25);
   expect("0 1 1 0 1 0.5", "0 1 1 0 2 0.5", Errc::syntax, 25);  // one too few
@@ -168,8 +168,8 @@ TEST(ReadMsh, PointsOfCellsAloneAreDropped) {
   MshModel m;
   m.entities[0] = {{1, {}}};
   m.entities[3] = {{1, {1}}};
-  m.nodes = {{1, {0, 0, 0}}, {2, {0.25, 0.25, 0.25}}, {3, {4, 0, 0}}, {4, {0, 4, 0}}, {5, {0, 0, 4}},
-             {6, {1, 0.5, 0.5}}, {7, {0.5, 1, 0.5}}};
+  m.nodes = {{1, {0, 0, 0}}, {2, {0.25, 0.25, 0.25}}, {3, {4, 0, 0}},    {4, {0, 4, 0}},
+             {5, {0, 0, 4}}, {6, {1, 0.5, 0.5}},      {7, {0.5, 1, 0.5}}};
   m.elements = {{15, 1, {7}}, {4, 1, {2, 3, 4, 5}}, {4, 1, {1, 3, 4, 2}}, {4, 1, {1, 5, 3, 2}}, {4, 1, {1, 4, 5, 2}}};
   for (const MshVariant& v : msh_variants) {
     SCOPED_TRACE(v.name());
@@ -318,8 +318,9 @@ TEST(ReadMedit, PointsThatAreRequiredAreKept) {
   EXPECT_EQ(detail::read_plc_from<3>(cells + "End\n", "a.mesh").points.size(), 5u);  // a corner of the quadrilateral
   const std::string without = cells.substr(0, cells.find("Quad")) + "Tetrahedra 1\n1 2 3 5 2\n";
   EXPECT_EQ(detail::read_plc_from<3>(without + "End\n", "a.mesh").facets.size(), 6u);  // with three faces of the cell
-  const std::string flat = "MeshVersionFormatted 2\nDimension 2\nVertices 4\n0 0 0\n4 0 0\n0 4 0\n1 1 0\n"
-                           "Triangles 3\n1 2 4 0\n2 3 4 0\n3 1 4 0\n";
+  const std::string flat =
+      "MeshVersionFormatted 2\nDimension 2\nVertices 4\n0 0 0\n4 0 0\n0 4 0\n1 1 0\n"
+      "Triangles 3\n1 2 4 0\n2 3 4 0\n3 1 4 0\n";
   const Plc<2> dropped = detail::read_plc_from<2>(flat + "End\n", "a.mesh");
   EXPECT_EQ(dropped.points.size(), 3u);
   EXPECT_EQ(dropped.segments.size(), 3u);
@@ -329,8 +330,9 @@ TEST(ReadMedit, PointsThatAreRequiredAreKept) {
 
 TEST(ReadMedit, AFlatFileWithoutCellsIs2D) {
   const TempFolder folder;
-  const auto file = folder.put("a.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices 3\n0 0 0 0\n1 0 0 0\n0 1 0 0\n"
-                                         "Edges 3\n1 2 3\n2 3 3\n3 1 4\nEnd\n");
+  const auto file = folder.put("a.mesh",
+                               "MeshVersionFormatted 2\nDimension 3\nVertices 3\n0 0 0 0\n1 0 0 0\n0 1 0 0\n"
+                               "Edges 3\n1 2 3\n2 3 3\n3 1 4\nEnd\n");
   EXPECT_EQ(file_dimension(file), 2);
   EXPECT_EQ(read_plc<2>(file).segments.size(), 3u);
   EXPECT_FALSE(holds_cells(file));
@@ -380,8 +382,7 @@ TEST(WriteTetgen, TextIsWhatOthersExpect) {
   mesh.subsegments = {{{2, 3}, 4}};
   const TempFolder folder;
   write_mesh<3>(mesh, folder / "a.b.node");
-  EXPECT_EQ(content(folder / "a.b.node"),
-            "# pgdr input_points 4\n4 3 0 1\n1 0 0 0 1\n2 1 0 0 0\n3 0 1 0 0\n4 0 0 0.1 -2\n");
+  EXPECT_EQ(content(folder / "a.b.node"), "# pgdr input_points 4\n4 3 0 1\n1 0 0 0 1\n2 1 0 0 0\n3 0 1 0 0\n4 0 0 0.1 -2\n");
   EXPECT_EQ(content(folder / "a.b.ele"), "1 4 1\n1 1 2 3 4 7.5\n");
   EXPECT_EQ(content(folder / "a.b.face"), "1 1\n1 1 2 3 -3\n");
   EXPECT_EQ(content(folder / "a.b.edge"), "1 1\n1 3 4 4\n");
@@ -392,8 +393,7 @@ TEST(WriteTetgen, TextIsWhatOthersExpect) {
   EXPECT_EQ(content(folder / "a.b.node"),
             "# pgdr input_points 4\n4 3 2 1\n0 0 0 0 0.5 1 1\n1 1 0 0 -1 2 0\n2 0 1 0 0 3 0\n3 0 0 0.1 1e+100 4 -2\n");
   EXPECT_EQ(content(folder / "a.b.ele"), "1 4 1\n0 0 1 2 3 7.5\n");
-  EXPECT_EQ(content(folder / "a.b.edge"),
-            "# pgdr subsegments 1\n6 1\n0 2 3 4\n1 0 1 0\n2 0 2 0\n3 0 3 0\n4 1 2 0\n5 1 3 0\n");
+  EXPECT_EQ(content(folder / "a.b.edge"), "# pgdr subsegments 1\n6 1\n0 2 3 4\n1 0 1 0\n2 0 2 0\n3 0 3 0\n4 1 2 0\n5 1 3 0\n");
   EXPECT_EQ(content(folder / "a.b.neigh"), "1 4\n0 -1 -1 -1 -1\n");
   EXPECT_EQ(files_of_mesh(folder / "a.b.vtu"), (std::vector<std::string>{(folder / "a.b.vtu").string()}));
 }

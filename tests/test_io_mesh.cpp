@@ -161,15 +161,14 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"word", "Dimension 3\nVertices 1\n0 here 0 0\nEnd\n", Errc::syntax, 3, "'here'"},
         Mistake{"reference", medit + "Tetrahedra 1\n1 2 3 5 0\nEnd\n", Errc::index_out_of_range, 10, "point 5"},
         Mistake{"reference_0", medit + "Edges 1\n1 0 0\nEnd\n", Errc::index_out_of_range, 10, "point 0"},
-        Mistake{"cells_first", "Dimension 3\nTetrahedra 1\n1 2 3 4 0\n" + medit,
-                Errc::index_out_of_range, 3, "no points"},
+        Mistake{"cells_first", "Dimension 3\nTetrahedra 1\n1 2 3 4 0\n" + medit, Errc::index_out_of_range, 3, "no points"},
         Mistake{"twice", medit + "Vertices 1\n0 0 0 0\nEnd\n", Errc::syntax, 9, "twice"},
         Mistake{"marker", medit + "Edges 1\n1 2 1.5\nEnd\n", Errc::syntax, 10, "'1.5'"},
         Mistake{"number", medit + "1 2 3\nEnd\n", Errc::syntax, 9, "'1'"},
         Mistake{"hexahedra", medit + "Hexahedra 1\n1 2 3 4 1 2 3 4 0\nEnd\n", Errc::unknown_format, 9, "Hexahedra"},
         Mistake{"behind", medit + "End\nmore\n", Errc::syntax, 10, "'more'"},
-        Mistake{"region", "# region 1 = 0.5\n" + medit + "Tetrahedra 1\n1 2 3 4 2\nEnd\n",
-                Errc::index_out_of_range, 11, "region 2"},
+        Mistake{"region", "# region 1 = 0.5\n" + medit + "Tetrahedra 1\n1 2 3 4 2\nEnd\n", Errc::index_out_of_range, 11,
+                "region 2"},
         Mistake{"comment", "# region 2 = 0.5\n" + medit + "End\n", Errc::syntax, 1, "# region 2 = 0.5"}),
     [](const auto& info) { return info.param.name; });
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Real inputs (models_folder.hpp). Files of the formats that are read must have the counts of vertices and faces (or segments) that
-// the index gives; those of the set "defective" may be refused instead, with a line.
+// Real inputs (models_folder.hpp). Files of the formats that are read must have the counts of vertices and faces (or segments)
+// that the index gives; those of the set "defective" may be refused instead, with a line.
 #include <set>
 
 #include "models_folder.hpp"

@@ -136,8 +136,8 @@ TEST(ReadOff, ColoursAndLargeFaces) {
 TEST(ReadOff, EveryWayToBegin) {
   const TempFolder folder;
   const std::string rest = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
-  for (const std::string head : {"OFF\n3 1 0\n", "OFF 3 1\n", "OFF3 1 0\n", "3 1 3\n", "# x\n\nNOFF\n\n3 1 0\n",
-                                 "STCNOFF 3 1 0 # x\n", "OFF\n3\n1\n"}) {
+  for (const std::string head :
+       {"OFF\n3 1 0\n", "OFF 3 1\n", "OFF3 1 0\n", "3 1 3\n", "# x\n\nNOFF\n\n3 1 0\n", "STCNOFF 3 1 0 # x\n", "OFF\n3\n1\n"}) {
     const auto plc = read_plc<3>(folder.put("a.off", head + rest));
     EXPECT_EQ(plc.points.size(), 3u) << head;
     EXPECT_EQ(plc.facets.size(), 1u) << head;
@@ -169,13 +169,13 @@ TEST(ReadStl, SeveralAsciiSolidsShareTheirPoints) {
   EXPECT_EQ(plc.facets[0].marker, 1);
   EXPECT_EQ(plc.facets[1].marker, 2);
   EXPECT_EQ(plc.source.facet_lines, (Lines{2, 11}));
-  EXPECT_EQ(read_plc<3>(folder.put("mark.stl", "\xEF\xBB\xBF" + std::string(ascii_stl))).points, plc.points) << "a byte order mark";
+  EXPECT_EQ(read_plc<3>(folder.put("mark.stl", "\xEF\xBB\xBF" + std::string(ascii_stl))).points, plc.points)
+      << "a byte order mark";
 }
 
 TEST(ReadStl, BinaryThatCallsItselfSolid) {
   const TempFolder folder;
-  const std::string bytes =
-      binary_stl("solid facet", {{0, 0, 0, 1, 0, 0, 0, .5f, 0}, {-0.f, 0, 0, 0, .5f, 0, 0, 0, 3}});
+  const std::string bytes = binary_stl("solid facet", {{0, 0, 0, 1, 0, 0, 0, .5f, 0}, {-0.f, 0, 0, 0, .5f, 0, 0, 0, 3}});
   const auto plc = read_plc<3>(folder.put("a.stl", bytes));
   EXPECT_EQ(plc.points, (std::vector<Point3>{{{0, 0, 0}}, {{1, 0, 0}}, {{0, .5, 0}}, {{0, 0, 3}}}));
   ASSERT_EQ(plc.facets.size(), 2u);
@@ -197,8 +197,7 @@ TEST(ReadStl, ManyDistinctPointsKeepTheirNumbers) {
   }
   EXPECT_EQ(plc.points.size(), distinct.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
-    for (std::size_t k = 0; k < 9; ++k)
-      ASSERT_EQ(plc.points.at(plc.facets[i].polygons[0][k / 3]).x[k % 3], triangles[i][k]);
+    for (std::size_t k = 0; k < 9; ++k) ASSERT_EQ(plc.points.at(plc.facets[i].polygons[0][k / 3]).x[k % 3], triangles[i][k]);
   }
 }
 
@@ -239,55 +238,47 @@ const std::string stl_start = "solid\nfacet normal 0 0 1\nouter loop\n";
 
 INSTANTIATE_TEST_SUITE_P(
     Nodes, ReadMistake,
-    testing::Values(
-        Mistake{"empty", "2.node", "# nothing\n", Errc::truncated, 2, {}, "file ends"},
-        Mistake{"billion", "2.node", "#\n1000000000 2 0 0\n1 0 0\n", Errc::count_too_large, 2, {}, "1000000000"},
-        Mistake{"astronomic", "3.node", "99999999999999999999999 3\n1 0 0 0\n", Errc::count_too_large, 1, {}, ""},
-        Mistake{"negative", "3.node", "-4 3\n", Errc::syntax, 1, {}, "'-4' is not a count"},
-        Mistake{"dimension", "3.node", "1 4 0 0\n1 0 0 0 0\n", Errc::syntax, 1, {}, "4"},
-        Mistake{"planar", "3.node", "1 2 0 0\n1 0 0\n", Errc::syntax, 1, {}, "2 coordinates"},
-        Mistake{"garbage", "2.node", "2 2\n1 0 0\n2 1 1x5\n", Errc::syntax, 3, {2}, "'1x5' is not a number"},
-        Mistake{"nan", "2.node", "2 2\n1 0 0\n\n2 NaN 5\n", Errc::not_finite, 4, {2}, "'NaN'"},
-        Mistake{"infinite", "2.node", "2 2\n0 -inf 0\n1 0 5\n", Errc::not_finite, 2, {0}, "'-inf'"},
-        Mistake{"overflow", "2.node", "1 2\n1 0 1e400\n", Errc::not_finite, 2, {1}, "'1e400'"},
-        Mistake{"microsoft", "2.node", "1 2\n1 0 1.#QNAN\n", Errc::not_finite, 2, {1}, "1.#QNAN"},
-        Mistake{"short_line", "2.node", "2 2\n1 0\n2 0 0\n", Errc::syntax, 2, {1}, "line ends within point 1"},
-        Mistake{"cut_line", "2.node", "2 2\n1 0 0\n2 0", Errc::truncated, 3, {2}, "file ends within point 2"},
-        Mistake{"cut", "2.node", "3 2\n1 0 0.00\n2 0 0.00\n", Errc::truncated, 4, {3}, "point 3"},
-        Mistake{"numbers", "2.node", "2 2\n1 0 0\n3 1 1\n", Errc::syntax, 3, {3}, "point 2 belongs"},
-        Mistake{"first", "2.node", "1 2\n5 0 0\n", Errc::syntax, 2, {}, "number 5"},
-        Mistake{"marker", "2.node", "1 2 0 1\n1 0 0 99999999999\n", Errc::syntax, 2, {1}, "'99999999999'"},
-        Mistake{"more", "2.node", "1 2 0 0\n1 0 0 5 6\n", Errc::syntax, 2, {}, "'6' is left over"},
-        Mistake{"behind", "2.node", "1 2 0 0\n1 0 0\nmore\n", Errc::syntax, 3, {}, "'more'"}),
+    testing::Values(Mistake{"empty", "2.node", "# nothing\n", Errc::truncated, 2, {}, "file ends"},
+                    Mistake{"billion", "2.node", "#\n1000000000 2 0 0\n1 0 0\n", Errc::count_too_large, 2, {}, "1000000000"},
+                    Mistake{"astronomic", "3.node", "99999999999999999999999 3\n1 0 0 0\n", Errc::count_too_large, 1, {}, ""},
+                    Mistake{"negative", "3.node", "-4 3\n", Errc::syntax, 1, {}, "'-4' is not a count"},
+                    Mistake{"dimension", "3.node", "1 4 0 0\n1 0 0 0 0\n", Errc::syntax, 1, {}, "4"},
+                    Mistake{"planar", "3.node", "1 2 0 0\n1 0 0\n", Errc::syntax, 1, {}, "2 coordinates"},
+                    Mistake{"garbage", "2.node", "2 2\n1 0 0\n2 1 1x5\n", Errc::syntax, 3, {2}, "'1x5' is not a number"},
+                    Mistake{"nan", "2.node", "2 2\n1 0 0\n\n2 NaN 5\n", Errc::not_finite, 4, {2}, "'NaN'"},
+                    Mistake{"infinite", "2.node", "2 2\n0 -inf 0\n1 0 5\n", Errc::not_finite, 2, {0}, "'-inf'"},
+                    Mistake{"overflow", "2.node", "1 2\n1 0 1e400\n", Errc::not_finite, 2, {1}, "'1e400'"},
+                    Mistake{"microsoft", "2.node", "1 2\n1 0 1.#QNAN\n", Errc::not_finite, 2, {1}, "1.#QNAN"},
+                    Mistake{"short_line", "2.node", "2 2\n1 0\n2 0 0\n", Errc::syntax, 2, {1}, "line ends within point 1"},
+                    Mistake{"cut_line", "2.node", "2 2\n1 0 0\n2 0", Errc::truncated, 3, {2}, "file ends within point 2"},
+                    Mistake{"cut", "2.node", "3 2\n1 0 0.00\n2 0 0.00\n", Errc::truncated, 4, {3}, "point 3"},
+                    Mistake{"numbers", "2.node", "2 2\n1 0 0\n3 1 1\n", Errc::syntax, 3, {3}, "point 2 belongs"},
+                    Mistake{"first", "2.node", "1 2\n5 0 0\n", Errc::syntax, 2, {}, "number 5"},
+                    Mistake{"marker", "2.node", "1 2 0 1\n1 0 0 99999999999\n", Errc::syntax, 2, {1}, "'99999999999'"},
+                    Mistake{"more", "2.node", "1 2 0 0\n1 0 0 5 6\n", Errc::syntax, 2, {}, "'6' is left over"},
+                    Mistake{"behind", "2.node", "1 2 0 0\n1 0 0\nmore\n", Errc::syntax, 3, {}, "'more'"}),
     [](const auto& info) { return info.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
     Polys, ReadMistake,
     testing::Values(
-        Mistake{"reference", "2.poly", "2 2\n1 0 0\n2 1 0\n1\n1 1 3\n0\n",
-                Errc::index_out_of_range, 5, {1, 3}, "point 3"},
-        Mistake{"reference_0", "2.poly", "2 2\n1 0 0\n2 1 0\n1\n1 0 1\n0\n",
-                Errc::index_out_of_range, 5, {1, 0}, "1 to 2"},
+        Mistake{"reference", "2.poly", "2 2\n1 0 0\n2 1 0\n1\n1 1 3\n0\n", Errc::index_out_of_range, 5, {1, 3}, "point 3"},
+        Mistake{"reference_0", "2.poly", "2 2\n1 0 0\n2 1 0\n1\n1 0 1\n0\n", Errc::index_out_of_range, 5, {1, 0}, "1 to 2"},
         Mistake{"segments", "2.poly", "2 2\n1 0 0\n2 1 0\n800\n1 1 2\n0\n", Errc::count_too_large, 4, {}, "800"},
         Mistake{"no_holes", "2.poly", "2 2\n1 0 0\n2 1 0\n1\n1 1 2\n", Errc::truncated, 6, {}, "list of holes"},
         Mistake{"hole", "2.poly", "2 2\n1 0 0\n2 1 0\n0\n1\n1 0.5\n0\n", Errc::syntax, 6, {1}, "hole 1"},
         Mistake{"region", "2.poly", "2 2\n1 0 0\n2 1 0\n0\n0\n1\n1 0 0 z\n", Errc::syntax, 7, {1}, "'z'"},
         Mistake{"region_nan", "2.poly", "2 2\n1 0 0\n2 1 0\n0\n0\n1\n1 0 0 nan\n", Errc::not_finite, 7, {1}, "'nan'"},
-        Mistake{"corner", "3.poly", four_points + "1 0\n1 0\n3 1 2 -7\n0\n",
-                Errc::index_out_of_range, 8, {1, -7}, "facet 1"},
+        Mistake{"corner", "3.poly", four_points + "1 0\n1 0\n3 1 2 -7\n0\n", Errc::index_out_of_range, 8, {1, -7}, "facet 1"},
         Mistake{"corners", "3.poly", four_points + "1 0\n1 0\n3000 1 2 3\n0\n", Errc::count_too_large, 8, {1}, "3000"},
-        Mistake{"no_corner", "3.poly", four_points + "1 0\n1 0\n0  \n0 #####\n",
-                Errc::degenerate_facet, 8, {1}, "corners"},
+        Mistake{"no_corner", "3.poly", four_points + "1 0\n1 0\n0  \n0 #####\n", Errc::degenerate_facet, 8, {1}, "corners"},
         Mistake{"no_polygon", "3.poly", four_points + "1 0\n0 0\n0   \n0\n", Errc::degenerate_facet, 7, {1}, "facet 1"},
         Mistake{"facets", "3.poly", four_points + "90 0\n1 0\n3 1 2 3\n0\n", Errc::count_too_large, 6, {}, "90"},
-        Mistake{"facet_hole", "3.poly", four_points + "1 0\n1 1\n3 1 2 3\n1 0 inf 0\n0\n",
-                Errc::not_finite, 9, {1}, "inf"},
+        Mistake{"facet_hole", "3.poly", four_points + "1 0\n1 1\n3 1 2 3\n1 0 inf 0\n0\n", Errc::not_finite, 9, {1}, "inf"},
         Mistake{"polygon_end", "3.poly", four_points + "1 0\n1 0\n3 1 2 3 4\n0\n", Errc::syntax, 8, {}, "'4'"},
         Mistake{"smesh_cut", "3.smesh", four_points + "2 0\n3 1 2 3\n3 1", Errc::truncated, 8, {2}, "facet 2"},
-        Mistake{"smesh_word", "3.smesh", four_points + "1 0\n3 1 two 3\n0\n",
-                Errc::syntax, 7, {1}, "'two' is not an integer"},
-        Mistake{"smesh_corner", "3.smesh", four_points + "1 0\n3 1 2\n\n5\n0\n",
-                Errc::index_out_of_range, 9, {1, 5}, "point 5"}),
+        Mistake{"smesh_word", "3.smesh", four_points + "1 0\n3 1 two 3\n0\n", Errc::syntax, 7, {1}, "'two' is not an integer"},
+        Mistake{"smesh_corner", "3.smesh", four_points + "1 0\n3 1 2\n\n5\n0\n", Errc::index_out_of_range, 9, {1, 5}, "point 5"}),
     [](const auto& info) { return info.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
@@ -317,14 +308,23 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"stl_empty", "3.stl", "", Errc::truncated, 0, {}, "header"},
         Mistake{"stl_binary_more", "3.stl", binary_stl("x", {{}}) + "x", Errc::syntax, 0, {}, "135"},
         Mistake{"stl_binary_cut", "3.stl", binary_stl("x", {{}}).substr(0, 120), Errc::count_too_large, 0, {}, "134"},
-        Mistake{"stl_binary_nan", "3.stl", binary_stl("x", {{}, {0, 0, 0, NAN, 0, 0, 0, 0, 0}}),
-                Errc::not_finite, 0, {1}, "triangle 1"},
+        Mistake{"stl_binary_nan",
+                "3.stl",
+                binary_stl("x", {{}, {0, 0, 0, NAN, 0, 0, 0, 0, 0}}),
+                Errc::not_finite,
+                0,
+                {1},
+                "triangle 1"},
         Mistake{"stl_word", "3.stl", stl_start + "vertex 0 0 blah\n", Errc::syntax, 4, {0}, "'blah'"},
         Mistake{"stl_nan", "3.stl", stl_start + "vertex 0 0 -nan(ind)\n", Errc::not_finite, 4, {0}, "nan"},
-        Mistake{"stl_four", "3.stl", stl_start + "vertex 0 0 0\nvertex 0 0 0\nvertex 0 0 0\nvertex 0 0 0\n",
-                Errc::syntax, 7, {}, "'endloop'"},
-        Mistake{"stl_cut", "3.stl", stl_start + "vertex 0 0 0\nvertex 0 0 0\nvertex",
-                Errc::truncated, 6, {0}, "facet 0"},
+        Mistake{"stl_four",
+                "3.stl",
+                stl_start + "vertex 0 0 0\nvertex 0 0 0\nvertex 0 0 0\nvertex 0 0 0\n",
+                Errc::syntax,
+                7,
+                {},
+                "'endloop'"},
+        Mistake{"stl_cut", "3.stl", stl_start + "vertex 0 0 0\nvertex 0 0 0\nvertex", Errc::truncated, 6, {0}, "facet 0"},
         Mistake{"stl_unfinished", "3.stl", "solid x\n", Errc::truncated, 2, {}, "end of the solid"},
         Mistake{"stl_behind", "3.stl", "solid x\nendsolid x\nmore\n", Errc::syntax, 3, {}, "'solid'"}),
     [](const auto& info) { return info.param.name; });

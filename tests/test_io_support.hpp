@@ -41,9 +41,7 @@ class TempFolder {
     std::ofstream(path_ / name, std::ios::binary) << content;
     return path_ / name;
   }
-  std::size_t files() const {
-    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path_), {}));
-  }
+  std::size_t files() const { return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path_), {})); }
 
  private:
   std::filesystem::path path_;
@@ -124,9 +122,7 @@ OutputMesh<D> some_mesh(std::uint64_t seed, std::size_t points = 40) {
 /// The bytes of a binary STL file: a header of 80 bytes, triangles of 9 floats.
 inline std::string binary_stl(std::string header, const std::vector<std::array<float, 9>>& triangles) {
   header.resize(80, ' ');
-  const auto append = [&header](const auto& value) {
-    header.append(reinterpret_cast<const char*>(&value), sizeof value);
-  };
+  const auto append = [&header](const auto& value) { header.append(reinterpret_cast<const char*>(&value), sizeof value); };
   append(static_cast<std::uint32_t>(triangles.size()));
   for (const auto& t : triangles) {
     append(std::array<float, 3>{});

@@ -10,8 +10,8 @@
 #include <bit>
 #include <limits>
 
-#include "numbers/predicate_stages.hpp"
 #include "dimensions.hpp"
+#include "numbers/predicate_stages.hpp"
 #include "pgdr/predicates.hpp"
 #include "random_simplices.hpp"
 

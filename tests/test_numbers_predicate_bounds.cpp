@@ -6,8 +6,8 @@
 
 #include <limits>
 
-#include "numbers/predicate_stages.hpp"
 #include "dimensions.hpp"
+#include "numbers/predicate_stages.hpp"
 #include "pgdr/predicates.hpp"
 #include "random_simplices.hpp"
 #include "sanitized.hpp"
@@ -30,8 +30,7 @@ struct Exact {
 
 template <int D>
 Exact<D> exact(const Simplex<D>& s) {
-  return {oracle::circumsphere<D>(s).squared_radius, oracle::shortest_edge_squared<D>(s),
-          abs(oracle::orient_det<D>(s))};
+  return {oracle::circumsphere<D>(s).squared_radius, oracle::shortest_edge_squared<D>(s), abs(oracle::orient_det<D>(s))};
 }
 
 template <int D>
@@ -126,8 +125,10 @@ TEST(Bound, OfAShortestEdgeWithoutASquare) {
 // determinants are multiples of 6 resp. 2.
 template <int D>
 Simplex<D> with_ratio_65_over_32() {
-  if constexpr (D == 2) return {Point2{{16, 63}}, {{-16, 63}}, {{0, -65}}};
-  else return {Point3{{16, 63, 0}}, {{-16, 63, 0}}, {{0, -33, 56}}, {{0, -39, -52}}};
+  if constexpr (D == 2)
+    return {Point2{{16, 63}}, {{-16, 63}}, {{0, -65}}};
+  else
+    return {Point3{{16, 63, 0}}, {{-16, 63, 0}}, {{0, -33, 56}}, {{0, -39, -52}}};
 }
 
 TYPED_TEST(Bounds, ExactlyOnTheBoundIsWithin) {

@@ -9,9 +9,9 @@
 
 #include <thread>
 
+#include "dimensions.hpp"
 #include "numbers/predicate_stages.hpp"
 #include "numbers/side_of_plane.hpp"
-#include "dimensions.hpp"
 #include "oracles.hpp"
 #include "sanitized.hpp"
 
@@ -274,8 +274,7 @@ std::vector<std::array<Point3, 4>> coplanar_quadruples(Random& random) {
       const Point3 v{{y, -x, 0}}, w{{x * z, y * z, -(x * x + y * y)}};
       const double step = round % 3 == 1 ? 0.125 : 1024;
       for (int i = 0; i < 4; ++i)
-        for (int k = 0; k < 3; ++k)
-          q[static_cast<std::size_t>(i)][k] = 7 * step + step * ((i & 1) * v[k] + (i >> 1) * w[k]);
+        for (int k = 0; k < 3; ++k) q[static_cast<std::size_t>(i)][k] = 7 * step + step * ((i & 1) * v[k] + (i >> 1) * w[k]);
       std::shuffle(q.begin(), q.end(), random);
     }
     if (distinct(std::array{q[0], q[1], q[2]}, q[3])) result.push_back(q);
@@ -349,8 +348,7 @@ TYPED_TEST(Predicates, AnglesAgreeWithRationals) {
       oracle::Rational dot = 0, a2 = oracle::squared_distance<D>(oracle::exact<D>(v), a);
       const oracle::Rational b2 = oracle::squared_distance<D>(oracle::exact<D>(v), b);
       for (std::size_t i = 0; i < D; ++i)
-        dot += (oracle::Rational(a.x[i]) - oracle::Rational(v.x[i])) *
-               (oracle::Rational(b.x[i]) - oracle::Rational(v.x[i]));
+        dot += (oracle::Rational(a.x[i]) - oracle::Rational(v.x[i])) * (oracle::Rational(b.x[i]) - oracle::Rational(v.x[i]));
       const oracle::Rational excess = 4 * dot * dot - a2 * b2;
       const Sign dot_sign = oracle::sign(dot), excess_sign = oracle::sign(excess);
       expect_agrees("dot filter", detail::dot_filter<D>(v, a, b), dot_sign);

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Files whose numbers are floats. (A tray of 2,216 points, 65,680 cells within every bound, had 23,005 poor ones after 280 seconds
-// once it was turned and written as .stl again: faces are then off their planes by the seventh digit, and every edge between the
-// thin triangles of one was a segment.)
+// Files whose numbers are floats. (A tray of 2,216 points, 65,680 cells within every bound, had 23,005 poor ones after 280
+// seconds once it was turned and written as .stl again: faces are then off their planes by the seventh digit, and every edge
+// between the thin triangles of one was a segment.)
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -67,13 +67,15 @@ TEST(FilePrecision, IsThatOfFloatsAlone) {
 
   Plc<3> box;
   box.points = {{{0, 0, 0}}, {{1, 0, 0}}, {{0, 0.5, 0}}, {{0, 0, 0.125}}};
-  for (const std::vector<std::uint32_t>& t : {std::vector<std::uint32_t>{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}) box.facets.push_back({{t}, {}, 0});
+  for (const std::vector<std::uint32_t>& t : {std::vector<std::uint32_t>{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}})
+    box.facets.push_back({{t}, {}, 0});
   const Plc<3> exact = read_plc<3>(folder.put("few.stl", stl_of(box)));
   EXPECT_EQ(exact.precision, default_precision);
   EXPECT_FALSE(exact.precision_of_file);
 }
 
-/// A plate of n x n rectangles, each of two triangles; the points of its upper side are from one to two times as high as `height`.
+/// A plate of n x n rectangles, each of two triangles; the points of its upper side are from one to two times as high as
+/// `height`.
 Plc<3> rough_plate(int n, double height, std::mt19937& random) {
   Plc<3> plc;
   const auto number = [n](int side, int i, int j) { return static_cast<std::uint32_t>((side * (n + 1) + i) * (n + 1) + j); };
@@ -276,7 +278,8 @@ TEST(FilePrecision, DigitsOfWhatIsNoInput) {
 Plc<3> flat_tetrahedron() {
   Plc<3> plc;
   plc.points = {{{0.123456789, 0, 0}}, {{1.0000001, 0, 0}}, {{0, 1.0000001, 0}}, {{0.7654321, 0.7654321, 1e-7}}};
-  for (const std::vector<std::uint32_t>& t : {std::vector<std::uint32_t>{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}) plc.facets.push_back({{t}, {}, 0});
+  for (const std::vector<std::uint32_t>& t : {std::vector<std::uint32_t>{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}})
+    plc.facets.push_back({{t}, {}, 0});
   return plc;
 }
 
@@ -343,8 +346,14 @@ TEST(FilePrecision, ATenthOfItMayDo) {
 // base, with all segments, and volumes that are none.
 TEST(FilePrecision, DefaultGivesWayToExactPlanes) {
   Plc<3> plc;
-  plc.points = {{{0.12887, -2.08387, -0.86967}}, {{-0.12887, -1.13085, 0.86967}}, {{0.31905, -0.75708, -0.41860}}, {{-0.31905, -2.45764, 0.41860}}, {{0, -1.60736, 0}}};
-  for (const std::vector<std::uint32_t>& t : {std::vector<std::uint32_t>{0, 1, 2}, {0, 3, 1}, {0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}}) plc.facets.push_back({{t}, {}, 0});
+  plc.points = {{{0.12887, -2.08387, -0.86967}},
+                {{-0.12887, -1.13085, 0.86967}},
+                {{0.31905, -0.75708, -0.41860}},
+                {{-0.31905, -2.45764, 0.41860}},
+                {{0, -1.60736, 0}}};
+  for (const std::vector<std::uint32_t>& t :
+       {std::vector<std::uint32_t>{0, 1, 2}, {0, 3, 1}, {0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}})
+    plc.facets.push_back({{t}, {}, 0});
   ASSERT_LT(Domain<3>(plc).facets().size(), 4u);
   RefineOptions<3> recovery;
   recovery.refine = false;
@@ -360,15 +369,16 @@ TEST(FilePrecision, DefaultGivesWayToExactPlanes) {
   EXPECT_THROW(refine(plc, recovery), InputError);
 }
 
-// Plates as thin as that, or twice as thick: their sides had triangles in common, or were inside out, with all their segments in the
-// mesh, which lacked cells or had others.
+// Plates as thin as that, or twice as thick: their sides had triangles in common, or were inside out, with all their segments in
+// the mesh, which lacked cells or had others.
 TEST(FilePrecision, MakesNoOtherVolume) {
   const test::TempFolder folder;
   std::mt19937 random(7);
   int made_with[2] = {0, 0};
   for (int k = 0; k < 60; ++k) {
     const double height = std::exp2(-27 + 0.14 * k);  // from 7e-9 to 2e-6
-    const Plc<3> plc = read_plc<3>(folder.put("plate.stl", stl_of(test::turned<3>(rough_plate(1 + k % 4, height, random), 0.1 * k))));
+    const Plc<3> plc = read_plc<3>(
+        folder.put("plate.stl", stl_of(test::turned<3>(rough_plate(1 + k % 4, height, random), 0.1 * k))));
     RefineOptions<3> recovery;
     recovery.refine = false;
     RefineResult<3> result;

@@ -65,9 +65,9 @@ TEST_P(Uneven, CapsOfSixDigitsAreMeshed) {
   test::expect_reproducible<3>(plc, {}, "star", test::eight_threads);
 }
 
-// Steiner points are off the plane of their facet by an ulp, here of 1e7: in its in-circle tests, which compare |x|^2, that counted
-// as much as the origin is far, so that triangles were taken which are not Delaunay, along segments even flat ones, and both
-// were refused.
+// Steiner points are off the plane of their facet by an ulp, here of 1e7: in its in-circle tests, which compare |x|^2, that
+// counted as much as the origin is far, so that triangles were taken which are not Delaunay, along segments even flat ones, and
+// both were refused.
 TEST(FarFromTheOrigin, AsNearby) {
   for (const auto& [corners, inner, height] : {std::tuple{68u, 0.5, 0.5}, {100u, 0.95, 0.3}}) {
     const Plc<3> plc = star_prism(corners, inner, height);

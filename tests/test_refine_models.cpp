@@ -101,9 +101,7 @@ TEST(Refine, RelaxedLengthsAreOfEntitiesThatTouch) {
 TEST(Refine, GradedOverFourOrdersOfVolume) {
   RefineOptions<3> options;
   // Sizes from 0.01 to 0.22: volumes differ by (22)^3 = 1e4.
-  options.size = [](const Point3& p) {
-    return 0.01 + 0.12 * std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
-  };
+  options.size = [](const Point3& p) { return 0.01 + 0.12 * std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]); };
   for (const bool is_turned : {false, true}) {
     const Plc<3> plc = is_turned ? test::turned<3>(test::cube(), 0) : test::cube();
     const auto [result, report] = refine_and_check<3>(plc, options);

@@ -12,8 +12,8 @@
 #include "pgdr/planar_plc.hpp"
 #include "pgdr/quality.hpp"
 #include "pgdr/selectors.hpp"
-#include "space/spatial_order.hpp"
 #include "planar_plcs.hpp"
+#include "space/spatial_order.hpp"
 
 namespace pgdr::test_refine_planar {
 
@@ -160,8 +160,8 @@ TEST(PlanarRefinement, GraphsWithSmallAngles) {
 TEST(PlanarRefinement, SmallFeaturesDoNotFillAWedge) {
   Plc<2> plc;
   add_square(plc, -3, 3);
-  plc.points.insert(plc.points.end(), {{{0, 0}}, {{1, 1.5e-5}}, {{1, 3.2e-5}}, {{0.55, 2.5e-5}}, {{1, 6.5e-5}}, {{1, 9.4e-5}},
-                                       {{1, 8.5e-5}}});
+  plc.points.insert(plc.points.end(),
+                    {{{0, 0}}, {{1, 1.5e-5}}, {{1, 3.2e-5}}, {{0.55, 2.5e-5}}, {{1, 6.5e-5}}, {{1, 9.4e-5}}, {{1, 8.5e-5}}});
   for (const std::uint32_t end : {5u, 6u, 7u, 8u, 9u}) add_segment(plc, 4, end);
   for (const double degrees : {5.0, 20.7, 28.0}) {
     const auto result = expect_reproducible<2>(plc, to_angle(degrees), "wedge to " + std::to_string(degrees));
@@ -273,17 +273,18 @@ TEST_P(LookAlikes, AsFewTrianglesAsTriangle) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, LookAlikes,
-    testing::Values(Counts{"cylinder_like", 10, 190, 157}, Counts{"cylinder_like", 20, 305, 235},
-                    Counts{"cylinder_like", 25, 466, 297}, Counts{"cylinder_like", 30, 847, 556},
-                    Counts{"pipe_like", 10, 4964, 4902}, Counts{"pipe_like", 20, 8368, 7376},
-                    Counts{"pipe_like", 25, 11754, 11068}, Counts{"pipe_like", 30, 16880, 15032},
-                    Counts{"key_like", 10, 80, 82}, Counts{"key_like", 20, 136, 130}, Counts{"key_like", 25, 157, 145},
-                    Counts{"key_like", 30, 189, 191}, Counts{"square1000", 10, 2412, 2336},
-                    Counts{"square1000", 20, 3781, 3311}, Counts{"square1000", 25, 5371, 4178},
-                    Counts{"square1000", 30, 10567, 5932}),
-    [](const auto& info) { return std::string(info.param.model) + "_" + std::to_string(static_cast<int>(info.param.degrees)); });
+INSTANTIATE_TEST_SUITE_P(All, LookAlikes,
+                         testing::Values(Counts{"cylinder_like", 10, 190, 157}, Counts{"cylinder_like", 20, 305, 235},
+                                         Counts{"cylinder_like", 25, 466, 297}, Counts{"cylinder_like", 30, 847, 556},
+                                         Counts{"pipe_like", 10, 4964, 4902}, Counts{"pipe_like", 20, 8368, 7376},
+                                         Counts{"pipe_like", 25, 11754, 11068}, Counts{"pipe_like", 30, 16880, 15032},
+                                         Counts{"key_like", 10, 80, 82}, Counts{"key_like", 20, 136, 130},
+                                         Counts{"key_like", 25, 157, 145}, Counts{"key_like", 30, 189, 191},
+                                         Counts{"square1000", 10, 2412, 2336}, Counts{"square1000", 20, 3781, 3311},
+                                         Counts{"square1000", 25, 5371, 4178}, Counts{"square1000", 30, 10567, 5932}),
+                         [](const auto& info) {
+                           return std::string(info.param.model) + "_" + std::to_string(static_cast<int>(info.param.degrees));
+                         });
 
 /// Where an area bound decides, the selector does not matter: the optimised points make no more triangles.
 TEST(LookAlikesOfBoundedArea, OptimizedIsNoLarger) {
@@ -326,7 +327,7 @@ TEST(KeptBoundary, LongSidesExcuseLittle) {
   EXPECT_LE(report.exit_code(), 1) << findings(report);
   EXPECT_EQ(result.mesh.subsegments.size(), 4u);
   EXPECT_GT(result.mesh.cells.size(), 500u);  // the inside is refined as it would be
-  EXPECT_GE(result.poor_left, 4u);  // each side has one
+  EXPECT_GE(result.poor_left, 4u);            // each side has one
   EXPECT_EQ(result.reasons.size(), result.poor_left);
   for (const PoorReason& reason : result.reasons) EXPECT_EQ(reason.code, PoorReason::Code::kept_boundary);
 }

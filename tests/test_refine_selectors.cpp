@@ -81,7 +81,7 @@ TYPED_TEST(SelectorsRefine, SameBytesForAnyThreads) {
         if (sanitized && ratio > 1) continue;
         options.schedule.split_ratio = ratio;
         const auto result = expect_reproducible<D>(plc, options, std::string(name) + (is_turned ? ", turned" : ""),
-                                                     sanitized ? test::eight_threads : test::concurrent_runners);
+                                                   sanitized ? test::eight_threads : test::concurrent_runners);
         EXPECT_EQ(result.poor_left, 0u) << name;
         EXPECT_EQ(result.statistics.selector_outside, 0u) << name;
         EXPECT_GT(result.scheduler.leaves, 16u) << name;
@@ -103,7 +103,8 @@ TEST(SelectorsModels, MeshesAreChecked) {
         options.size = model.size;
         const Plc<3> plc = is_turned ? test::turned<3>(model.make()) : model.make();
         const auto [result, report] = refine_and_check<3>(plc, options);
-        EXPECT_LE(report.exit_code(), model.most_poor > 0 ? 1 : 0) << model.name << ", " << name << "\n" << test::findings(report);
+        EXPECT_LE(report.exit_code(), model.most_poor > 0 ? 1 : 0) << model.name << ", " << name << "\n"
+                                                                   << test::findings(report);
         EXPECT_LE(static_cast<double>(result.poor_left), model.most_poor * static_cast<double>(result.mesh.cells.size()));
       }
 }
@@ -228,7 +229,10 @@ Preview<D> brute_force(const OutputMesh<D>& mesh, const Point<D>& p, double boun
 // The last insertion of a run that stops at n vertices, against the mesh of the run that stops at one less.
 TYPED_TEST(SelectorsRefine, PreviewsAgreeWithTheMesh) {
   constexpr int D = TypeParam::value;
-  const Plc<D> plc = box_with_pairs<D>(D == 2 ? 30 : sanitized ? 6 : 15, 0.02, 9);  // along the axes: no wall is some ulps off its plane
+  const Plc<D> plc = box_with_pairs<D>(D == 2      ? 30
+                                       : sanitized ? 6
+                                                   : 15,
+                                       0.02, 9);  // along the axes: no wall is some ulps off its plane
   RefineOptions<D> options;
   options.schedule.floor = std::numeric_limits<std::size_t>::max();  // one leaf: the budget is kept to the vertex
   options.radius_edge_bound = D == 2 ? 1.6 : 2.2;
@@ -287,16 +291,19 @@ TYPED_TEST(SelectorsRefine, PointsOutsideTheDisk) {
   constexpr int D = TypeParam::value;
   const Plc<D> plc = box_with_pairs<D>(20, 0.01, 2);
   const auto plain = refine<D>(plc, {});
-  const PointSelector<D> wrong[] = {
-      [](const PoorElement<D>& e) {
-        Point<D> p = e.circumcenter;
-        p[0] += 1.001 * e.disk.radius;
-        if (p == e.circumcenter) p[0] += e.circumradius;
-        return p;
-      },
-      [](const PoorElement<D>& e) { return e.corners[0]; },
-      [](const PoorElement<D>&) { return Point<D>{{NAN, 0}}; },
-      [](const PoorElement<D>&) { return Point<D>{{INFINITY, 0}}; }};
+  const PointSelector<D> wrong[] = {[](const PoorElement<D>& e) {
+                                      Point<D> p = e.circumcenter;
+                                      p[0] += 1.001 * e.disk.radius;
+                                      if (p == e.circumcenter) p[0] += e.circumradius;
+                                      return p;
+                                    },
+                                    [](const PoorElement<D>& e) { return e.corners[0]; },
+                                    [](const PoorElement<D>&) {
+                                      return Point<D>{{NAN, 0}};
+                                    },
+                                    [](const PoorElement<D>&) {
+                                      return Point<D>{{INFINITY, 0}};
+                                    }};
   for (const auto& selector : wrong) {
     RefineOptions<D> options;
     options.selector = selector;

@@ -37,7 +37,8 @@ Item skinny(int bucket, std::uint32_t order) { return poor(bucket, Item::over_ra
 
 TEST(WorkList, TooBigOnesGoFirstLargestFirst) {
   WorkList<3> list;
-  for (const Item& e : {skinny(2, 5), big(7, 1), big(4, 2), skinny(1, 9), big(7, 3), poor(5, Item::not_delaunay, 0, 4)}) list.push(e);
+  for (const Item& e : {skinny(2, 5), big(7, 1), big(4, 2), skinny(1, 9), big(7, 3), poor(5, Item::not_delaunay, 0, 4)})
+    list.push(e);
   EXPECT_EQ(list.poor(), 6u);
   EXPECT_EQ(list.first_bucket(), 1);
   std::vector<std::uint32_t> ids;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Needles: triangles whose corner is next to the opposite side. A side of one is split next to the points of the other, not in its
-// middle. (Whole meshes of needles: tests/regressions/needle*.)
+// Needles: triangles whose corner is next to the opposite side. A side of one is split next to the points of the other, not in
+// its middle. (Whole meshes of needles: tests/regressions/needle*.)
 #include <gtest/gtest.h>
 
 #include <algorithm>

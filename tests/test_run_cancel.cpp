@@ -240,7 +240,8 @@ TEST(Cancel, ProgressIsToldWhileTheBoundaryIsRecovered) {
     source.request_stop();
   };
   std::vector<Point2> circle;
-  for (int i = 0; i < 1200; ++i) circle.push_back({{0.02 * std::cos(i * std::numbers::pi / 600), 0.02 * std::sin(i * std::numbers::pi / 600)}});
+  for (int i = 0; i < 1200; ++i)
+    circle.push_back({{0.02 * std::cos(i * std::numbers::pi / 600), 0.02 * std::sin(i * std::numbers::pi / 600)}});
   const Plc<3> plc = test::prism(circle, 1);  // each of whose sides needs some ten thousand triangles
   const auto result = refine(plc, options);
   EXPECT_EQ(result.stop, StopCause::cancelled);

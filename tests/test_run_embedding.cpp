@@ -28,7 +28,8 @@ struct Case {
 };
 std::vector<Case> cases() {
   std::vector<Case> all;
-  for (const auto& model : {test::cube(), test::turned<3>(test::u_block()), test::icosphere(1), test::turned<3>(test::l_block())}) {
+  for (const auto& model :
+       {test::cube(), test::turned<3>(test::u_block()), test::icosphere(1), test::turned<3>(test::l_block())}) {
     Case c{model, {}, {}};
     c.options.size = 0.25;
     c.options.schedule.floor = 10;
@@ -51,8 +52,7 @@ TEST(ParallelEmbedding, SeveralMeshesAtOnceFromSeveralThreads) {
           results[i] = refine<3>(c.plc, test::with<3>(c.options, runner));
         });
     }
-    for (std::size_t i = 0; i < results.size(); ++i)
-      expect_same<3>(all[i % all.size()].expected, results[i], runner.name);
+    for (std::size_t i = 0; i < results.size(); ++i) expect_same<3>(all[i % all.size()].expected, results[i], runner.name);
   }
 }
 
@@ -78,7 +78,9 @@ TEST(ParallelEmbedding, TheCallersArenaIsUsed) {
   for (const Case& c : cases())
     for (const int slots : {1, 2, 3}) {
       tbb::task_arena arena(slots);
-      const auto result = arena.execute([&] { return refine<3>(c.plc, test::with<3>(c.options, {"", Executor::flow_graph, 0})); });
+      const auto result = arena.execute([&] {
+        return refine<3>(c.plc, test::with<3>(c.options, {"", Executor::flow_graph, 0}));
+      });
       expect_same<3>(c.expected, result, "arena of " + std::to_string(slots));
       EXPECT_EQ(result.scheduler.threads, slots);
       EXPECT_LE(result.scheduler.max_concurrent, static_cast<std::uint32_t>(slots));

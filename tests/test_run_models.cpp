@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The same bytes for 1, 2 and 8 threads on real inputs: every .off, .stl, .obj, .poly and .smesh file of the real models
-// (models_folder.hpp) of at most PGDR_MODELS_KB kilobytes (100) that the calling thread alone meshes within PGDR_MODELS_SECONDS (3;
-// where it does not, the model is passed over and named).
+// (models_folder.hpp) of at most PGDR_MODELS_KB kilobytes (100) that the calling thread alone meshes within PGDR_MODELS_SECONDS
+// (3; where it does not, the model is passed over and named).
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -63,8 +63,7 @@ TEST_P(ParallelModel, SameBytesForAnyThreads) {
   EXPECT_GT(expect_reproducible_in_all_builds<3>(plc, options, name + ", small leaves", eight_threads).scheduler.set_aside, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, ParallelModel,
-                         ::testing::Combine(::testing::ValuesIn(test::refined_models), ::testing::Bool()),
+INSTANTIATE_TEST_SUITE_P(Models, ParallelModel, ::testing::Combine(::testing::ValuesIn(test::refined_models), ::testing::Bool()),
                          [](const auto& info) {
                            return std::string(std::get<0>(info.param).name) + (std::get<1>(info.param) ? "_turned" : "");
                          });
@@ -101,16 +100,18 @@ TEST(Parallel, Plane) {
   expect_reproducible_in_all_builds<2>(read_plc<2>(PGDR_TEST_MODELS "/plate.poly"), options, "plate");
 }
 
-// Beside small angles nearly all local changes have work: flips, collapses, relocations, refilled cavities, points beside what was
-// refused. (tests/regressions has the stories of these.)
+// Beside small angles nearly all local changes have work: flips, collapses, relocations, refilled cavities, points beside what
+// was refused. (tests/regressions has the stories of these.)
 TEST(Parallel, SmallAngles) {
   RefineOptions<3> options;
   options.schedule.floor = 10;
   for (const std::string file : {"wedge_of_1_degree.off", "plate_one_cell.poly", "plate_fifty_cells.poly", "needle_1e-7.off",
                                  "needles_1e-5.off", "twisted_strips.off"}) {
     const Plc<3> plc = with_default_precision(read_plc<3>(PGDR_TEST_REGRESSIONS "/" + file));
-    if (file.starts_with("wedge")) options.size = 0.15;  // else it has three cells
-    else options.size = {};
+    if (file.starts_with("wedge"))
+      options.size = 0.15;  // else it has three cells
+    else
+      options.size = {};
     const auto result = expect_reproducible_in_all_builds<3>(plc, options, file, eight_threads);
     EXPECT_GT(result.reasons.size(), 0u) << file;
     EXPECT_GE(result.reasons.size(), result.poor_left) << file;
@@ -145,9 +146,7 @@ TEST(Parallel, Fan) {
 
 TEST(Parallel, GradedCube) {
   RefineOptions<3> options;
-  options.size = [](const Point3& p) {
-    return 0.01 + 0.15 * std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
-  };
+  options.size = [](const Point3& p) { return 0.01 + 0.15 * std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]); };
   options.schedule.floor = 20;
   expect_reproducible_in_all_builds<3>(test::cube(), options, "graded cube", eight_threads);
   const Plc<3> plc = test::turned<3>(test::cube(), 0);
@@ -176,10 +175,20 @@ TEST(Parallel, AnyWayToDivideTheWork) {
   const auto small = run([](ScheduleOptions& s) { s.floor = 1; }, "no floor");
   EXPECT_GT(small.leaves, 16u);
   run([](ScheduleOptions& s) { s.split_ratio = 1.0 / 6; }, "split ratio 1/6");
-  const auto early = run([](ScheduleOptions& s) { s.split_ratio = 2; s.floor = 5; }, "split ratio 2");
+  const auto early = run(
+      [](ScheduleOptions& s) {
+        s.split_ratio = 2;
+        s.floor = 5;
+      },
+      "split ratio 2");
   EXPECT_GT(early.set_aside, 0u);
   run([](ScheduleOptions& s) { s.claim_order = 2; }, "claim order 2");
-  run([](ScheduleOptions& s) { s.claim_order = 4; s.floor = 10; }, "claim order 4");
+  run(
+      [](ScheduleOptions& s) {
+        s.claim_order = 4;
+        s.floor = 10;
+      },
+      "claim order 4");
   run([](ScheduleOptions& s) { s.claim_order = 9; }, "claim order 9");
   run([](ScheduleOptions& s) { s.granularity = 1; }, "granularity 1");
 }

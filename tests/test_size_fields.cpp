@@ -241,8 +241,10 @@ TYPED_TEST(SizeFields, WhatCannotBeAFieldIsATypedError) {
 
 /// There is a view of what is gone at once.
 template <class Mesh>
-concept CanDangle = requires(Mesh&& mesh) { flat_points(std::forward<Mesh>(mesh)); } ||
-                    requires(Mesh&& mesh) { flat_cells(std::forward<Mesh>(mesh)); };
+concept CanDangle = requires(Mesh&& mesh) {
+  flat_points(std::forward<Mesh>(mesh));
+}
+|| requires(Mesh&& mesh) { flat_cells(std::forward<Mesh>(mesh)); };
 static_assert(CanDangle<OutputMesh<3>&> && !CanDangle<OutputMesh<3>> && !CanDangle<const OutputMesh<2>>);
 
 TYPED_TEST(SizeFields, FlatArrays) {

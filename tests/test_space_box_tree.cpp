@@ -8,9 +8,9 @@
 #include <cmath>
 #include <random>
 
+#include "pgdr/predicates.hpp"
 #include "space/box_tree.hpp"
 #include "space/contact.hpp"
-#include "pgdr/predicates.hpp"
 
 namespace pgdr::detail::test_space_box_tree {
 
@@ -120,8 +120,7 @@ TEST(BoxTree, Simplices) {
         if (piece.count == 2) continue;
         if (at(1) == at(2) || at(0) == at(2) || collinear<3>(at(0), at(1), at(2))) return false;
         while (orient_projected(at(0), at(1), at(2), piece.axis) == Sign::zero) ++piece.axis;
-        if (orient_projected(at(0), at(1), at(2), piece.axis) == Sign::negative)
-          std::swap(piece.corners[1], piece.corners[2]);
+        if (orient_projected(at(0), at(1), at(2), piece.axis) == Sign::negative) std::swap(piece.corners[1], piece.corners[2]);
       }
       for (const std::uint32_t v : pieces[0].corners)
         for (const std::uint32_t w : pieces[1].corners)

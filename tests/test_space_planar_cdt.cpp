@@ -9,9 +9,9 @@
 #include <numeric>
 #include <set>
 
-#include "space/planar_cdt.hpp"
 #include "oracles.hpp"
 #include "pgdr/predicates.hpp"
+#include "space/planar_cdt.hpp"
 
 namespace pgdr::detail::test_space_planar_cdt {
 
@@ -93,8 +93,7 @@ Rational doubled_area(const PlanarTriangulation& t, const std::vector<Point3>& p
 }
 
 // Constraints that fit, of `tries` random ones.
-std::vector<PlanarEdge> random_constraints(const std::vector<Point3>& points, int axis, int tries,
-                                           std::mt19937_64& random) {
+std::vector<PlanarEdge> random_constraints(const std::vector<Point3>& points, int axis, int tries, std::mt19937_64& random) {
   PlanarTriangulation t;
   std::vector<PlanarEdge> edges;
   const auto v = all_of(points);
@@ -123,8 +122,7 @@ TEST_F(PlanarCdt, NoPointInAnyCircle) {
         seen.insert(tri.begin(), tri.end());
         for (std::uint32_t v = 0; v < points.size(); ++v) {
           if (v == tri[0] || v == tri[1] || v == tri[2]) continue;
-          ASSERT_EQ(in_circle_perturbed(points[tri[0]], points[tri[1]], points[tri[2]], points[v], plane.axis),
-                    Sign::negative);
+          ASSERT_EQ(in_circle_perturbed(points[tri[0]], points[tri[1]], points[tri[2]], points[v], plane.axis), Sign::negative);
         }
       }
       EXPECT_EQ(seen.size(), points.size());

@@ -9,9 +9,9 @@
 #include <numeric>
 #include <set>
 
-#include "space/planar_cdt.hpp"
 #include "oracles.hpp"
 #include "pgdr/predicates.hpp"
+#include "space/planar_cdt.hpp"
 
 namespace pgdr::detail::test_space_planar_insert {
 
@@ -73,9 +73,8 @@ TEST_F(PlanarInsert, GivesTheTriangulationOfAllPoints) {
         ASSERT_TRUE(t.is_constraint(e[0], e[1]));
         r = t.split_edge(e[0], e[1], id, p, &change);
         ASSERT_TRUE(r);
-        edges.erase(std::find_if(edges.begin(), edges.end(), [&](const PlanarEdge& f) {
-          return std::minmax(e[0], e[1]) == std::minmax(f[0], f[1]);
-        }));
+        edges.erase(std::find_if(edges.begin(), edges.end(),
+                                 [&](const PlanarEdge& f) { return std::minmax(e[0], e[1]) == std::minmax(f[0], f[1]); }));
         edges.push_back({e[0], id});
         edges.push_back({id, e[1]});
       }

@@ -140,8 +140,7 @@ TYPED_TEST(OrthtreeTest, EveryPointHasOneLeaf) {
       Point<D> p = random_point<D>(random, -2, 3);
       if (s % 4 == 0) p = tree.box(leaves[random() % leaves.size()]).low;  // on borders: the leaf above has them
       Point<D> inside = p;
-      for (int i = 0; i < D; ++i)
-        inside[i] = std::clamp(p[i], root.low[i], std::nextafter(root.high[i], -infinity));
+      for (int i = 0; i < D; ++i) inside[i] = std::clamp(p[i], root.low[i], std::nextafter(root.high[i], -infinity));
       int found = 0;
       for (const auto leaf : leaves)
         if (tree.box(leaf).contains(inside)) {

@@ -27,9 +27,7 @@ SizingField<D> background_sizes(const std::filesystem::path& file, std::optional
 
 template <int D>
 Bounds<D> resolve(const BoundArguments& arguments, double default_radius_edge) {
-  const auto refuse = [](const char* sentence) {
-    throw UsageError({.code = Errc::bad_option, .message = sentence});
-  };
+  const auto refuse = [](const char* sentence) { throw UsageError({.code = Errc::bad_option, .message = sentence}); };
   if (D == 2 && arguments.max_volume) refuse("--max-volume is for 3D; the area bound of a 2D mesh is --size");
   if (D == 3 && arguments.min_angle) refuse("--min-angle is for 2D; use --radius-edge in 3D");
 

@@ -26,8 +26,7 @@ std::optional<Plc<D>> read_input_of_mesh(const std::string& input, const InputAr
   if (input.empty()) return std::nullopt;
   require_input_format(input);
   if (file_dimension(input) != D)
-    throw UsageError(
-        {.code = Errc::bad_option, .message = format("the mesh is %dD, its input is not", D), .file = input});
+    throw UsageError({.code = Errc::bad_option, .message = format("the mesh is %dD, its input is not", D), .file = input});
   std::vector<Diagnostic> repairs;
   return read_input<D>(input, reading, repairs);
 }
@@ -42,8 +41,10 @@ void fill(Report& report, const OutputMesh<D>& mesh, const Bounds<D>& bounds, co
     quality.set("not_delaunay", JsonObject{{"rounding", r.not_delaunay_rounding}, {"refused", r.not_delaunay_refused}});
     report.set("quality", quality);
   }
-  report.set("bounds", JsonObject{{"radius_edge", bounds.radius_edge}, {"size_met", r.over_size == 0},
-                                  {"over_radius_edge", r.over_radius_edge}, {"over_size", r.over_size},
+  report.set("bounds", JsonObject{{"radius_edge", bounds.radius_edge},
+                                  {"size_met", r.over_size == 0},
+                                  {"over_radius_edge", r.over_radius_edge},
+                                  {"over_size", r.over_size},
                                   {"explained", r.explained}});
   report.set("verdict", r.exit_code());
   report.set("finding_count", r.finding_count);
@@ -62,14 +63,13 @@ void print_summary(const CheckArguments& a, const OutputMesh<D>& mesh, const Bou
   if (bounds.radius_edge == unbounded) print_row("bounds", "no radius-edge bound was given");
   if (r.over_radius_edge + r.over_size > 0)
     print_row("bounds", count(r.over_radius_edge, "cell", "cells") + " over the radius-edge bound, " +
-                            count(r.over_size, "cell", "cells") + " over a size bound, " +
-                            count(r.explained, "cell", "cells") + " with a reason that holds");
+                            count(r.over_size, "cell", "cells") + " over a size bound, " + count(r.explained, "cell", "cells") +
+                            " with a reason that holds");
   if (r.not_delaunay_rounding + r.not_delaunay_refused > 0)
     print_row("delaunay", count(r.not_delaunay_rounding, "local violation", "local violations") + " by rounding, " +
                               std::to_string(r.not_delaunay_refused) + " beside refused entities");
   for (const CheckFinding& f : r.findings) print_row("found", std::string(name(f.kind)) + ": " + f.message);
-  if (r.finding_count > r.findings.size())
-    print_row("found", count(r.finding_count - r.findings.size(), "more", "more"));
+  if (r.finding_count > r.findings.size()) print_row("found", count(r.finding_count - r.findings.size(), "more", "more"));
   const int code = r.exit_code();
   print_row("verdict", code == exit_done        ? r.not_delaunay_refused == 0 ? "everything holds" : "every bound holds"
                        : code == exit_poor_left ? "sound; over a bound only where the reasons explain it"

@@ -54,10 +54,14 @@ int execute(const Arguments& arguments, Report& report) {
     return std::visit(
         [&report](const auto& a) {
           using A = std::decay_t<decltype(a)>;
-          if constexpr (std::is_same_v<A, MeshArguments>) return mesh(a, report);
-          else if constexpr (std::is_same_v<A, CheckArguments>) return check(a, report);
-          else if constexpr (std::is_same_v<A, InfoArguments>) return info(a, report);
-          else return view(a, report);
+          if constexpr (std::is_same_v<A, MeshArguments>)
+            return mesh(a, report);
+          else if constexpr (std::is_same_v<A, CheckArguments>)
+            return check(a, report);
+          else if constexpr (std::is_same_v<A, InfoArguments>)
+            return info(a, report);
+          else
+            return view(a, report);
         },
         arguments);
   });

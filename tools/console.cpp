@@ -38,8 +38,7 @@ std::string format(const char* pattern, ...) {
 
 std::string count(std::uint64_t n, std::string_view one, std::string_view many) {
   std::string digits = std::to_string(n);
-  for (auto i = static_cast<std::ptrdiff_t>(digits.size()) - 3; i > 0; i -= 3)
-    digits.insert(static_cast<std::size_t>(i), 1, ' ');
+  for (auto i = static_cast<std::ptrdiff_t>(digits.size()) - 3; i > 0; i -= 3) digits.insert(static_cast<std::size_t>(i), 1, ' ');
   return digits.append(" ").append(n == 1 ? one : many);
 }
 

@@ -29,7 +29,8 @@ std::array<const char*, 2> words(Finding kind) {
     case Finding::repeated_facet: return {"facet given twice, dropped", "facets given twice, dropped"};
     case Finding::open_boundary: return {"open boundary", "open boundaries"};
     case Finding::near_points:
-      return {"pair of points of open boundaries that nearly coincide", "pairs of points of open boundaries that nearly coincide"};
+      return {"pair of points of open boundaries that nearly coincide",
+              "pairs of points of open boundaries that nearly coincide"};
     case Finding::non_manifold_edge: return {"edge of more than two facets", "edges of more than two facets"};
     case Finding::non_manifold_point: return {"point where surfaces touch", "points where surfaces touch"};
     case Finding::inconsistent_orientation: return {"edge of ill-oriented facets", "edges of ill-oriented facets"};
@@ -42,7 +43,9 @@ std::array<const char*, 2> words(Finding kind) {
   return {"", ""};
 }
 
-bool has_measure(Finding kind) { return kind == Finding::open_boundary || kind == Finding::near_points || kind >= Finding::segments_below_60; }
+bool has_measure(Finding kind) {
+  return kind == Finding::open_boundary || kind == Finding::near_points || kind >= Finding::segments_below_60;
+}
 
 }  // namespace
 
@@ -72,7 +75,11 @@ void print_findings(const Diagnosis<D>& diagnosis) {
     if (found.listed.empty()) continue;
     const Diagnostic& first = found.listed[0].what;
     const std::string place = first.line == 0 ? "" : "line " + std::to_string(first.line) + ": ";
-    print_row("", (found.count == 1 ? "" : kind >= Finding::segments_below_60 ? "least: " : kind == Finding::near_points ? "farthest: " : "first: ") + place + first.message);
+    print_row("", (found.count == 1                     ? ""
+                   : kind >= Finding::segments_below_60 ? "least: "
+                   : kind == Finding::near_points       ? "farthest: "
+                                                        : "first: ") +
+                      place + first.message);
   }
 }
 
@@ -91,9 +98,9 @@ int refuse(const Plc<D>& plc, const Diagnosis<D>& diagnosis, Report& report) {
   return exit_input;
 }
 
-#define PGDR_INSTANTIATE(D)                                             \
-  template void set_findings<D>(JsonObject&, const Diagnosis<D>&);      \
-  template void print_findings<D>(const Diagnosis<D>&);                 \
+#define PGDR_INSTANTIATE(D)                                        \
+  template void set_findings<D>(JsonObject&, const Diagnosis<D>&); \
+  template void print_findings<D>(const Diagnosis<D>&);            \
   template int refuse<D>(const Plc<D>&, const Diagnosis<D>&, Report&);
 PGDR_INSTANTIATE(2)
 PGDR_INSTANTIATE(3)

@@ -33,17 +33,18 @@ void require_writable(const std::string& file) {
 
 void require_mesh_writable(const std::string& output) {
   if (!is_mesh_format(output))
-    throw InputError({.code = Errc::unknown_format,
-                      .message = "meshes are written as .vtu, .msh, .mesh, or .node with .ele", .file = output});
+    throw InputError(
+        {.code = Errc::unknown_format, .message = "meshes are written as .vtu, .msh, .mesh, or .node with .ele", .file = output});
   for (const std::string& file : files_of_mesh(output)) require_writable(file);
 }
 
 void require_input_format(const std::string& file) {
   if (has_extension(file, {".vtu", ".ele"}))
-    throw InputError({.code = Errc::unknown_format,
-                      .message = "this is a mesh in a format that is no input: give what it was made of, or write the mesh as .mesh "
-                                 "or .msh, which are inputs, too",
-                      .file = file});
+    throw InputError(
+        {.code = Errc::unknown_format,
+         .message = "this is a mesh in a format that is no input: give what it was made of, or write the mesh as .mesh "
+                    "or .msh, which are inputs, too",
+         .file = file});
 }
 
 void write_whole(const std::string& file, const char* what, const std::function<void(std::ostream&)>& write) {
@@ -55,8 +56,7 @@ void write_whole(const std::string& file, const char* what, const std::function<
   if (out) write(out);
   out.close();
   if (!out || std::rename(temporary.name.c_str(), file.c_str()) != 0)
-    throw FileError(
-        {.code = Errc::cannot_write, .message = std::string(what) + " cannot be written", .file = file});
+    throw FileError({.code = Errc::cannot_write, .message = std::string(what) + " cannot be written", .file = file});
 }
 
 }  // namespace pgdr::tool

@@ -14,10 +14,10 @@
 #include "console.hpp"
 #include "diagnosis.hpp"
 #include "input.hpp"
+#include "merge_hint.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/refine.hpp"
-#include "merge_hint.hpp"
 #include "precision_hint.hpp"
 
 namespace pgdr::tool {
@@ -109,11 +109,12 @@ void describe(const Domain<D>& domain, const Looks& looks, bool quiet, JsonObjec
                          count(domain.segments().size(), "segment", "segments");
     if (D == 3) counts += ", " + count(domain.facets().size(), "facet", "facets");
     print_row("maximal", counts);
-    if (open == 0) print_row("closed", "yes");
-    else print_row("closed", "no: " + count(open, D == 3 ? "edge of one facet only" : "end of one segment only",
-                                            D == 3 ? "edges of one facet only" : "ends of one segment only"));
-    if (warped > 0)
-      print_row("planar", count(warped, "facet is not", "facets are not") + format(", by up to %.3g", defect));
+    if (open == 0)
+      print_row("closed", "yes");
+    else
+      print_row("closed", "no: " + count(open, D == 3 ? "edge of one facet only" : "end of one segment only",
+                                         D == 3 ? "edges of one facet only" : "ends of one segment only"));
+    if (warped > 0) print_row("planar", count(warped, "facet is not", "facets are not") + format(", by up to %.3g", defect));
     print_row("angles", format("%.3f degrees is the smallest between segments, or facets at a segment", looks.smallest_angle));
   }
 }
@@ -168,11 +169,10 @@ class InputInfo {
     report_.set("diagnosis", findings_);  // what is known so far, should the next step refuse the input
     if (a_.quiet) return;
     print_row("input", format("%s (%dD)", a_.file.c_str(), D));
-    std::string counts = count(plc_.points.size(), "point", "points") + ", " +
-                         count(plc_.segments.size(), "segment", "segments");
+    std::string counts = count(plc_.points.size(), "point", "points") + ", " + count(plc_.segments.size(), "segment", "segments");
     if (D == 3) counts += ", " + count(plc_.facets.size(), "facet", "facets");
-    print_row("file", counts + ", " + count(plc_.holes.size(), "hole", "holes") + ", " +
-                          count(plc_.regions.size(), "region", "regions"));
+    print_row("file",
+              counts + ", " + count(plc_.holes.size(), "hole", "holes") + ", " + count(plc_.regions.size(), "region", "regions"));
   }
 
   /// Recovers the boundary, and looks at the Domain meanwhile; describes that. @throws InputError if the boundary is not
@@ -245,8 +245,7 @@ int info_of_mesh(const InfoArguments& a, Report& report) {
   if (a.quiet) return exit_done;
 
   print_row("mesh", format("%s (%dD)", a.file.c_str(), D));
-  std::string counts = count(mesh.points.size(), "vertex", "vertices") + ", " +
-                       count_cells<D>(mesh.cells.size()) + ", " +
+  std::string counts = count(mesh.points.size(), "vertex", "vertices") + ", " + count_cells<D>(mesh.cells.size()) + ", " +
                        count(mesh.subsegments.size(), "subsegment", "subsegments");
   if (D == 3) counts += ", " + count(mesh.subfacets.size(), "subfacet", "subfacets");
   print_row("counts", counts);

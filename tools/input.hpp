@@ -27,7 +27,8 @@ Plc<D> read_input(const std::string& file, const InputArguments& reading, std::v
     if (reading.precision_auto) plc.precision = suggested_precision(plc);
     return plc;
   } else {
-    if (reading.precision || reading.precision_auto) throw UsageError({.code = Errc::bad_option, .message = "--precision is for 3D"});
+    if (reading.precision || reading.precision_auto)
+      throw UsageError({.code = Errc::bad_option, .message = "--precision is for 3D"});
     Plc<2> plc = read_plc<2>(file);
     if (reading.merge_points) plc.merge_within = *reading.merge_points;
     if (reading.convex_hull) plc = with_convex_hull(plc);

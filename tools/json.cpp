@@ -33,10 +33,14 @@ std::string quoted(std::string_view s) {
   while (!s.empty()) {
     const std::size_t length = sequence_length(s);
     const auto c = static_cast<unsigned char>(s[0]);
-    if (length == 0) text += "\\ufffd";
-    else if (c == '"' || c == '\\') text.append({'\\', s[0]});
-    else if (c < 0x20) text.append("\\u00").append({hex[c >> 4], hex[c & 15]});
-    else text.append(s.substr(0, length));
+    if (length == 0)
+      text += "\\ufffd";
+    else if (c == '"' || c == '\\')
+      text.append({'\\', s[0]});
+    else if (c < 0x20)
+      text.append("\\u00").append({hex[c >> 4], hex[c & 15]});
+    else
+      text.append(s.substr(0, length));
     s.remove_prefix(length ? length : 1);
   }
   return text += '"';

@@ -29,15 +29,21 @@ class Json {
   Json(const char* value) : Json(std::string_view(value)) {}
 
   template <class Value>
-  Json(const std::vector<Value>& values) : Json(begin_array()) { append_all(values); }
+  Json(const std::vector<Value>& values) : Json(begin_array()) {
+    append_all(values);
+  }
   template <class Value, std::size_t N>
-  Json(const std::array<Value, N>& values) : Json(begin_array()) { append_all(values); }
+  Json(const std::array<Value, N>& values) : Json(begin_array()) {
+    append_all(values);
+  }
 
   const std::string& text() const { return text_; }
 
  private:
   friend class JsonObject;
-  struct Raw { std::string text; };
+  struct Raw {
+    std::string text;
+  };
   Json(Raw raw) : text_(std::move(raw.text)) {}
   static Raw begin_array() { return {"["}; }
   template <class Values>

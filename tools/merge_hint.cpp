@@ -26,18 +26,22 @@ double sufficient_merge(const Plc<3>& plc, const FindingList& near) {
   std::sort(tried.begin(), tried.end());
   std::vector<std::stop_source> needed(tried.size());  // until a smaller one will do
   std::vector<char> is_valid(tried.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tried.size(), 1), [&](const tbb::blocked_range<std::size_t>& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      Plc<3> merged = plc;
-      merged.merge_within = tried[i];
-      try {
-        is_valid[i] = diagnose(merged, {.most_listed = 0, .errors_only = true, .stop = needed[i].get_token()}).error_count() == 0;
-      } catch (const CancelledError&) {
-      }
-      if (is_valid[i])
-        for (std::size_t k = i + 1; k < tried.size(); ++k) needed[k].request_stop();
-    }
-  }, tbb::simple_partitioner());
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, tried.size(), 1),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+          Plc<3> merged = plc;
+          merged.merge_within = tried[i];
+          try {
+            is_valid[i] =
+                diagnose(merged, {.most_listed = 0, .errors_only = true, .stop = needed[i].get_token()}).error_count() == 0;
+          } catch (const CancelledError&) {
+          }
+          if (is_valid[i])
+            for (std::size_t k = i + 1; k < tried.size(); ++k) needed[k].request_stop();
+        }
+      },
+      tbb::simple_partitioner());
   const auto least = std::find(is_valid.begin(), is_valid.end(), 1);
   return least == is_valid.end() ? 0 : tried[static_cast<std::size_t>(least - is_valid.begin())];
 }
@@ -59,10 +63,13 @@ void hint_at_merge_of_refused(const Plc<D>& plc, const FindingList& near) {
   double within = 0;
   if constexpr (D == 3) within = plc.merge_within == 0 ? sufficient_merge(plc, near) : 0;
   if (within > 0) {
-    std::fprintf(stderr, "pgdr: --merge-points %.1e makes it valid: what is apart, or crosses, by no more than that then meets\n", within);
+    std::fprintf(stderr, "pgdr: --merge-points %.1e makes it valid: what is apart, or crosses, by no more than that then meets\n",
+                 within);
   } else if (!near.listed.empty()) {
     std::fprintf(stderr, "pgdr: %s; --merge-points %.1e makes %s one\n",
-                 count(near.count, "pair of points of open boundaries nearly coincides", "pairs of points of open boundaries nearly coincide").c_str(),
+                 count(near.count, "pair of points of open boundaries nearly coincides",
+                       "pairs of points of open boundaries nearly coincide")
+                     .c_str(),
                  1.1 * near.listed[0].measure, near.count == 1 ? "it" : "each");
   }
 }
@@ -88,7 +95,8 @@ std::optional<MergeHint> find_merge_hint(const Plc<D>& plc, const Domain<D>* dom
 template <int D>
 void note_merge(const Plc<D>& plc, const InputArguments& reading) {
   if (plc.merge_within > 0 && !reading.merge_points)
-    print_row("merged", format("--merge-points %.0e: points that are apart by what floats keep of zeros (0 keeps them so)", plc.merge_within));
+    print_row("merged", format("--merge-points %.0e: points that are apart by what floats keep of zeros (0 keeps them so)",
+                               plc.merge_within));
 }
 
 void give(const std::optional<MergeHint>& hint, bool shown, Report& report) {
@@ -96,7 +104,8 @@ void give(const std::optional<MergeHint>& hint, bool shown, Report& report) {
   report.set("merge_hint", JsonObject{{"merge_points", hint->merge_points}, {"points", hint->points}});
   if (shown)
     print_row("hint", format("--merge-points %.0e joins ", hint->merge_points) +
-                          count(hint->points, "point to a point, an edge or a facet that it misses", "points to points, edges or facets that they miss") +
+                          count(hint->points, "point to a point, an edge or a facet that it misses",
+                                "points to points, edges or facets that they miss") +
                           " by rounding");
 }
 

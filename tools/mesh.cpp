@@ -16,8 +16,8 @@
 #include "diagnosis.hpp"
 #include "files.hpp"
 #include "input.hpp"
-#include "pgdr/io.hpp"
 #include "merge_hint.hpp"
+#include "pgdr/io.hpp"
 #include "precision_hint.hpp"
 #include "selector.hpp"
 #include "signals.hpp"
@@ -28,7 +28,7 @@ namespace pgdr::tool {
 namespace {
 
 constexpr double patience_seconds = 10;  // before a hint that could save the rest
-constexpr double most_min_angle = 34;  // degrees; beyond, the number of points explodes
+constexpr double most_min_angle = 34;    // degrees; beyond, the number of points explodes
 
 template <int D>
 RefineOptions<D> make_options(const MeshArguments& a, const Bounds<D>& bounds) {
@@ -68,9 +68,7 @@ WriteOptions write_options(const MeshArguments& a, const Plc<D>& plc) {
 
 /// What only some formats can hold is refused for the others.
 void require_format(const MeshArguments& a) {
-  const auto refuse = [&a](const char* what) {
-    throw UsageError({.code = Errc::bad_option, .message = what, .file = a.output});
-  };
+  const auto refuse = [&a](const char* what) { throw UsageError({.code = Errc::bad_option, .message = what, .file = a.output}); };
   if ((a.neighbors || a.edges || a.first_index) && !has_extension(a.output, {".node", ".ele"}))
     refuse("--neighbors, --edges and --first-index are for .node and .ele");
   if (a.leaves && !has_extension(a.output, {".vtu"})) refuse("--leaves is for .vtu");
@@ -109,14 +107,15 @@ Json not_delaunay(const RefineResult<D>& r) {
 }
 
 template <int D>
-void fill(Report& report, const MeshArguments& a, const Threads& threads, const Bounds<D>& bounds,
-          const RefineResult<D>& r, const QualitySummary& q) {
+void fill(Report& report, const MeshArguments& a, const Threads& threads, const Bounds<D>& bounds, const RefineResult<D>& r,
+          const QualitySummary& q) {
   const RefineStatistics& s = r.statistics;
   report.set("vertices", r.mesh.points.size());
   report.set("cells", r.mesh.cells.size());
   report.set("threads", JsonObject{{"requested", threads.requested()}, {"ran", threads_that_ran(r)}});
   report.set("schedule", name(a.schedule));
-  report.set("reproducible", a.schedule == Schedule::reproducible && r.stop != StopCause::time_limit && r.stop != StopCause::cancelled);
+  report.set("reproducible",
+             a.schedule == Schedule::reproducible && r.stop != StopCause::time_limit && r.stop != StopCause::cancelled);
   report.set("stop", name(r.stop));
   report.set("refined", !a.no_refine);
   report.set("selector", a.selector);
@@ -125,8 +124,10 @@ void fill(Report& report, const MeshArguments& a, const Threads& threads, const 
   JsonObject quality = to_json(q);
   quality.set("not_delaunay", not_delaunay(r));
   report.set("quality", quality);
-  report.set("bounds", JsonObject{{"radius_edge", bounds.radius_edge}, {"size_met", r.size_met},
-                                  {"poor_left", r.poor_left}, {"poor_unavoidable", r.poor_unavoidable},
+  report.set("bounds", JsonObject{{"radius_edge", bounds.radius_edge},
+                                  {"size_met", r.size_met},
+                                  {"poor_left", r.poor_left},
+                                  {"poor_unavoidable", r.poor_unavoidable},
                                   {"reasons", to_json(r.reasons)}});
   report.set("scheduler", to_json(r.scheduler));
   report.set("insertions", JsonObject{{"committed", s.insertions_committed}, {"refused", s.insertions_refused}});
@@ -142,8 +143,7 @@ std::string verdict(const RefineResult<D>& r) {
   std::string text = !r.size_met && r.poor_left == 0 ? "the size bound is not met everywhere"
                      : r.poor_left == 0              ? "every bound is met"
                                                      : count(r.poor_left, "element stays poor", "elements stay poor");
-  if (r.reasons.size() > r.poor_left)
-    text += ", " + count(r.reasons.size() - r.poor_left, "is", "are") + " not Delaunay";
+  if (r.reasons.size() > r.poor_left) text += ", " + count(r.reasons.size() - r.poor_left, "is", "are") + " not Delaunay";
   std::array<std::uint64_t, 4> by_code{};
   for (const PoorReason& reason : r.reasons) ++by_code[static_cast<std::size_t>(reason.code)];
   const char* separator = ": ";
@@ -166,26 +166,22 @@ std::string words(const SchedulerStatistics& s, std::size_t threads) {
 template <int D>
 void print_summary(const MeshArguments& a, const Plc<D>& plc, const Bounds<D>& bounds, const RefineResult<D>& r,
                    const QualitySummary& q, const Seconds& seconds) {
-  print_row("input", format("%s (%dD, %s)", a.input.c_str(), D,
-                            count(plc.points.size(), "point", "points").c_str()));
+  print_row("input", format("%s (%dD, %s)", a.input.c_str(), D, count(plc.points.size(), "point", "points").c_str()));
   if (!r.repairs.empty()) print_row("repaired", count(r.repairs.size(), "defect", "defects") + ", see --report");
-  print_row("mesh", count(r.mesh.points.size(), "vertex", "vertices") + ", " +
-                        count_cells<D>(r.mesh.cells.size()));
+  print_row("mesh", count(r.mesh.points.size(), "vertex", "vertices") + ", " + count_cells<D>(r.mesh.cells.size()));
   if (!r.mesh.cells.empty())
     print_row("quality", format("radius-edge up to %.4f (bound %.4g), %s %.2f to %.2f degrees", q.max_radius_edge,
-                                bounds.radius_edge, D == 3 ? "dihedral angles" : "angles", q.min_angle_deg,
-                                q.max_angle_deg));
+                                bounds.radius_edge, D == 3 ? "dihedral angles" : "angles", q.min_angle_deg, q.max_angle_deg));
   if (r.stop != StopCause::finished && r.mesh.cells.empty())
     print_row("stopped", format("%s, before the boundary was there: there is no mesh to write", words(r.stop)));
   else if (r.stop != StopCause::finished)
-    print_row("stopped", format("%s: the mesh is valid, ", words(r.stop)) +
-                             count(r.poor_left, "element is poor", "elements are poor"));
+    print_row("stopped",
+              format("%s: the mesh is valid, ", words(r.stop)) + count(r.poor_left, "element is poor", "elements are poor"));
   else if (a.no_refine)
     print_row("bounds", "not refined: " + count(r.poor_left, "element is", "elements are") + " over a bound");
   else
     print_row("bounds", verdict(r));
-  print_row("time", format("%.3f s meshing (%.3f s read, %.3f s write)", r.statistics.seconds_mesh, seconds.read,
-                           seconds.write));
+  print_row("time", format("%.3f s meshing (%.3f s read, %.3f s write)", r.statistics.seconds_mesh, seconds.read, seconds.write));
   print_row("threads", words(r.scheduler, threads_that_ran(r)));
   print_row("memory", format("%.1f MiB at most", static_cast<double>(peak_rss_bytes()) / (1 << 20)));
   if (!r.mesh.cells.empty()) print_row("wrote", a.output);
@@ -334,8 +330,12 @@ class MeshRun {
   void report_seconds() {
     const RefineStatistics& s = result_.statistics;
     seconds_.total = total_.seconds();
-    report_.set("seconds", JsonObject{{"read", seconds_.read}, {"mesh", s.seconds_mesh}, {"initial", s.seconds_initial},
-                                      {"refine", s.seconds_refine}, {"write", seconds_.write}, {"total", seconds_.total}});
+    report_.set("seconds", JsonObject{{"read", seconds_.read},
+                                      {"mesh", s.seconds_mesh},
+                                      {"initial", s.seconds_initial},
+                                      {"refine", s.seconds_refine},
+                                      {"write", seconds_.write},
+                                      {"total", seconds_.total}});
     report_.set("peak_rss_bytes", peak_rss_bytes());
   }
 

@@ -42,8 +42,9 @@ CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
             std::uint64_t value = 0;
             const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
             const bool ok = error == std::errc() && end == text.data() + text.size() && value >= least && value <= most;
-            return ok ? std::string() : "must be a whole number from " + std::to_string(least) + " to " +
-                                            std::to_string(most) + ", not \"" + text + '"';
+            return ok ? std::string()
+                      : "must be a whole number from " + std::to_string(least) + " to " + std::to_string(most) + ", not \"" +
+                            text + '"';
           },
           "", "whole number"};
 }
@@ -53,8 +54,7 @@ constexpr int most_threads = 1024;  // what TBB starts, it starts all at once: t
 bool positive(double v) { return v > 0; }
 bool not_negative(double v) { return v >= 0 && std::isfinite(v); }
 
-const std::map<std::string, Schedule> schedules{{"reproducible", Schedule::reproducible},
-                                                {"greedy", Schedule::greedy}};
+const std::map<std::string, Schedule> schedules{{"reproducible", Schedule::reproducible}, {"greedy", Schedule::greedy}};
 
 const std::map<std::string, RegionMode> region_modes{{"seeds", RegionMode::seeds}, {"auto", RegionMode::automatic}};
 
@@ -85,10 +85,9 @@ bool is_plane(const std::string& text) {
 bool is_region_size(const std::string& text) { return split_region_size(text).has_value(); }
 
 CLI::Validator shaped(bool (*accept)(const std::string&), const std::string& what) {
-  return {[accept, what](std::string& text) {
-            return accept(text) ? std::string() : "must be " + what + ", not \"" + text + '"';
-          },
-          "", what};
+  return {
+      [accept, what](std::string& text) { return accept(text) ? std::string() : "must be " + what + ", not \"" + text + '"'; },
+      "", what};
 }
 
 /// A word of the map from words to values.
@@ -107,14 +106,16 @@ CLI::Validator one_of(const std::map<std::string, Value>& words, std::string wha
 void add_bounds(CLI::App& app, BoundArguments& b, const std::string& without) {
   auto* radius_edge = app.add_option("--radius-edge", b.radius_edge,
                                      "bound on circumradius over shortest edge (default " + without + ")")
-                          ->type_name("R")->check(number("> 0", positive));
+                          ->type_name("R")
+                          ->check(number("> 0", positive));
   app.add_option("--size", b.size,
                  "bound on the circumradius (3D) or the area (2D), at the centroid: a number, or an expression in x, "
                  "y, z")
       ->type_name("S");
   app.add_option("--region-size", b.region_sizes,
                  "as --size, for the cells of the region with this label alone; repeatable, and all bounds are met")
-      ->type_name("LABEL=S")->allow_extra_args(false)
+      ->type_name("LABEL=S")
+      ->allow_extra_args(false)
       ->check(shaped(is_region_size, "LABEL=S: a region's label, and a size"));
   auto* size_mesh = app.add_option("--size-mesh", b.size_mesh,
                                    "as --size, from a background mesh (.mesh, .vtu): a size for each vertex in the .sol "
@@ -122,12 +123,17 @@ void add_bounds(CLI::App& app, BoundArguments& b, const std::string& without) {
                         ->type_name("MESH");
   app.add_option("--size-growth", b.size_growth,
                  "most that sizes of --size-mesh may grow a unit of length along an edge (2D: their square roots)")
-      ->type_name("G")->check(number(">= 0", not_negative))->needs(size_mesh);
+      ->type_name("G")
+      ->check(number(">= 0", not_negative))
+      ->needs(size_mesh);
   app.add_option("--max-volume", b.max_volume, "bound on the volume of every tetrahedron (3D)")
-      ->type_name("V")->check(number("> 0", positive));
-  app.add_option("--min-angle", b.min_angle, "2D: smallest angle in degrees, for --radius-edge 1/(2 sin A); proved up to 20.7, `mesh` takes "
+      ->type_name("V")
+      ->check(number("> 0", positive));
+  app.add_option("--min-angle", b.min_angle,
+                 "2D: smallest angle in degrees, for --radius-edge 1/(2 sin A); proved up to 20.7, `mesh` takes "
                  "up to 34")
-      ->type_name("A")->check(number("between 0 and 60", [](double v) { return v > 0 && v < 60; }))
+      ->type_name("A")
+      ->check(number("between 0 and 60", [](double v) { return v > 0 && v < 60; }))
       ->excludes(radius_edge);
 }
 
@@ -136,27 +142,35 @@ void add_input(CLI::App& app, InputArguments& p) {
     p.precision_auto = text == "auto";
     if (double value = 0; !p.precision_auto && CLI::detail::lexical_cast(text, value)) p.precision = value;
   };
-  app.add_option_function<std::string>("--precision", set_precision,
-                 "3D: facets that meet at an edge and lie in one plane within R times their largest coordinate are one "
-                 "(default 3.6e-15, 16 ulps: rounding; for .stl, .ply of floats, and files of six to nine digits whose planar faces are "
-                 "needles that these keep apart, auto, if no facets fold over then; the surface moves by so much; "
-                 "auto: by the digits that its coordinates have, or by how far faces that look planar are off)")
-      ->type_name("R|auto")->check(auto_or(number("between 0 and 0.01, or auto", [](double v) { return v >= 0 && v <= 0.01; })));
-  app.add_option("--merge-points", p.merge_points,
-                 "points within R times the largest coordinate are one: the nearest before them in the file; 3D: those as near to an "
-                 "edge or a facet become points of it (default 0: exact tests alone; 1e-13 for .stl and .ply of floats with corners that are "
-                 "apart by what was computed for zero)")
-      ->type_name("R")->check(number("between 0 and 0.01", [](double v) { return v >= 0 && v <= 0.01; }));
-  app.add_flag("--resolve-crossings", p.resolve_crossings, "2D: split segments that cross, at new points, and at points that they miss by rounding");
+  app.add_option_function<std::string>(
+         "--precision", set_precision,
+         "3D: facets that meet at an edge and lie in one plane within R times their largest coordinate are one "
+         "(default 3.6e-15, 16 ulps: rounding; for .stl, .ply of floats, and files of six to nine digits whose planar faces are "
+         "needles that these keep apart, auto, if no facets fold over then; the surface moves by so much; "
+         "auto: by the digits that its coordinates have, or by how far faces that look planar are off)")
+      ->type_name("R|auto")
+      ->check(auto_or(number("between 0 and 0.01, or auto", [](double v) { return v >= 0 && v <= 0.01; })));
+  app.add_option(
+         "--merge-points", p.merge_points,
+         "points within R times the largest coordinate are one: the nearest before them in the file; 3D: those as near to an "
+         "edge or a facet become points of it (default 0: exact tests alone; 1e-13 for .stl and .ply of floats with corners that "
+         "are "
+         "apart by what was computed for zero)")
+      ->type_name("R")
+      ->check(number("between 0 and 0.01", [](double v) { return v >= 0 && v <= 0.01; }));
+  app.add_flag("--resolve-crossings", p.resolve_crossings,
+               "2D: split segments that cross, at new points, and at points that they miss by rounding");
   app.add_flag("--convex-hull", p.convex_hull, "2D: the edges of the convex hull of all points are segments, too");
 }
 
 template <class Mode>  // a RegionMode, maybe an optional one
 void add_regions(CLI::App& app, Mode& mode) {
-  app.add_option_function<std::string>("--regions", [&mode](const std::string& t) { mode = region_modes.at(t); },
-                                       "seeds (default): the hole and region seeds of the input say what is meshed and "
-                                       "labelled; auto: voids by nesting, and a label for each volume")
-      ->type_name("NAME")->check(one_of(region_modes, "ways to tell regions"));
+  app.add_option_function<std::string>(
+         "--regions", [&mode](const std::string& t) { mode = region_modes.at(t); },
+         "seeds (default): the hole and region seeds of the input say what is meshed and "
+         "labelled; auto: voids by nesting, and a label for each volume")
+      ->type_name("NAME")
+      ->check(one_of(region_modes, "ways to tell regions"));
 }
 
 void add_report(CLI::App& app, std::string& report, bool& quiet) {
@@ -169,7 +183,8 @@ void add_output(CLI::App& app, MeshArguments& a) {
   app.add_flag("--neighbors", a.neighbors, ".node, .ele: write X.neigh, too, the neighbours of each cell");
   app.add_flag("--edges", a.edges, ".node, .ele: all edges in X.edge, not the subsegments alone");
   app.add_option("--first-index", a.first_index, ".node, .ele: count from 0 or 1 (default: as a .poly, .smesh or .node input; 1)")
-      ->type_name("N")->check(whole_number(0, 1));
+      ->type_name("N")
+      ->check(whole_number(0, 1));
   app.add_flag("--leaves", a.leaves, ".vtu: say of each cell which leaf of the tree it was refined in");
 }
 
@@ -180,35 +195,46 @@ void add_mesh(CLI::App& app, MeshArguments& a) {
   add_input(app, a.reading);
   add_regions(app, a.regions);
   app.add_flag("--keep-boundary", a.keep_boundary, "2D: no new points on segments");
-  app.add_flag("--no-refine", a.no_refine, "2D: the constrained Delaunay triangulation, without new points; 3D: the "
+  app.add_flag("--no-refine", a.no_refine,
+               "2D: the constrained Delaunay triangulation, without new points; 3D: the "
                "triangulation with its boundary recovered");
   app.add_option("--selector", a.selector,
                  "where new points go: circumcenter (default), off-center[:FACTOR], optimized[:SAMPLES], "
                  "sliver-avoiding[:CANDIDATES]")
-      ->type_name("NAME")->check(CLI::Validator([](std::string& text) { return selector_error(text); }, "", "selector"));
-  app.add_option_function<std::string>("--disk", [&a](const std::string& t) { a.disk = t == "type1" ? DiskType::type1 : DiskType::type2; },
-                                       "selection disk: type1 or type2 (default: type2, or type1 for a --selector other "
-                                       "than circumcenter without --delta)")
-      ->type_name("TYPE")->check(CLI::IsMember({"type1", "type2"}));
-  app.add_option("--delta", a.delta,
-                 "radius of a type 2 disk, 1 - D circumradii; 0 (default): as far as the bound allows")
-      ->type_name("D")->check(number("between 0 and 1", [](double v) { return v >= 0 && v <= 1; }));
+      ->type_name("NAME")
+      ->check(CLI::Validator([](std::string& text) { return selector_error(text); }, "", "selector"));
+  app.add_option_function<std::string>(
+         "--disk", [&a](const std::string& t) { a.disk = t == "type1" ? DiskType::type1 : DiskType::type2; },
+         "selection disk: type1 or type2 (default: type2, or type1 for a --selector other "
+         "than circumcenter without --delta)")
+      ->type_name("TYPE")
+      ->check(CLI::IsMember({"type1", "type2"}));
+  app.add_option("--delta", a.delta, "radius of a type 2 disk, 1 - D circumradii; 0 (default): as far as the bound allows")
+      ->type_name("D")
+      ->check(number("between 0 and 1", [](double v) { return v >= 0 && v <= 1; }));
   app.add_option("--threads", a.threads, "threads to use (default: one a core); the mesh does not depend on it")
-      ->type_name("N")->check(whole_number(1, most_threads));
-  app.add_option_function<std::string>("--schedule", [&a](const std::string& t) { a.schedule = schedules.at(t); },
-                                       "reproducible (default): the same mesh for any number of threads; greedy: whatever is free "
-                                       "runs next, and the mesh depends on timing")
-      ->type_name("NAME")->check(one_of(schedules, "schedules"));
+      ->type_name("N")
+      ->check(whole_number(1, most_threads));
+  app.add_option_function<std::string>(
+         "--schedule", [&a](const std::string& t) { a.schedule = schedules.at(t); },
+         "reproducible (default): the same mesh for any number of threads; greedy: whatever is free "
+         "runs next, and the mesh depends on timing")
+      ->type_name("NAME")
+      ->check(one_of(schedules, "schedules"));
   app.add_option("--granularity", a.granularity,
                  "a visit of a leaf ends this many halvings of the circumradius below its largest (default: when the "
                  "leaf has no work left); the mesh depends on it")
-      ->type_name("G")->check(whole_number(1, std::numeric_limits<int>::max()));
+      ->type_name("G")
+      ->check(whole_number(1, std::numeric_limits<int>::max()));
   app.add_option("--min-edge", a.min_edge, "refuse points that would make an edge shorter than this, and say so")
-      ->type_name("E")->check(number(">= 0", not_negative));
+      ->type_name("E")
+      ->check(number(">= 0", not_negative));
   app.add_option("--max-vertices", a.max_vertices, "stop with a valid partial mesh at this number of vertices")
-      ->type_name("N")->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
+      ->type_name("N")
+      ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
   app.add_option("--time-limit", a.time_limit, "stop with a valid partial mesh after this time")
-      ->type_name("SECONDS")->check(number(">= 0", not_negative));
+      ->type_name("SECONDS")
+      ->check(number(">= 0", not_negative));
   add_report(app, a.report, a.quiet);
   app.add_option("--trace", a.trace, "write when each leaf was visited, and by which thread, as Chrome trace events")
       ->type_name("FILE.json");
@@ -221,7 +247,8 @@ void add_check(CLI::App& app, CheckArguments& a) {
   add_input(app, a.reading);
   add_regions(app, a.regions);
   app.add_option("--reasons", a.reasons, "report of `pgdr mesh`, whose bounds.reasons explain poor cells")
-      ->type_name("REPORT.json")->needs("--input");
+      ->type_name("REPORT.json")
+      ->needs("--input");
   add_report(app, a.report, a.quiet);
 }
 
@@ -234,24 +261,30 @@ void add_info(CLI::App& app, InfoArguments& a) {
 void add_view(CLI::App& app, ViewArguments& a) {
   app.add_option("MESH", a.mesh, "the mesh: .vtu .msh .mesh .node .ele")->required()->type_name("");
   app.add_option("-o,--output", a.output, "the picture: .svg .png")->required()->type_name("PICTURE");
-  app.add_option_function<std::string>("--color", [&a](const std::string& t) { a.color = view_colors.at(t); },
-                                       "quality (default): by the smallest (dihedral) angle, red is poor; in 3D of the "
-                                       "cells that a cut opens; region: by label; leaf: by leaf of the tree, of a mesh made "
-                                       "with --leaves")
-      ->type_name("NAME")->check(one_of(view_colors, "colourings"));
-  app.add_option_function<std::string>("--cut",
-                                       [&a](const std::string& t) {
-                                         a.cut = CutPlane{t[0] - 'x', numbers(t.substr(2))[0]};
-                                       },
-                                       "3D: leave out the cells on the eye's side of a plane, e.g. x=0.5")
-      ->type_name("PLANE")->check(shaped(is_plane, "x=, y= or z= and a number"));
-  app.add_option_function<std::string>("--from",
-                                       [&a](const std::string& t) {
-                                         const std::vector<double> v = numbers(t);
-                                         a.from = Point3{{v[0], v[1], v[2]}};
-                                       },
-                                       "3D: the direction towards the eye (default 1,-1.5,0.8)")
-      ->type_name("X,Y,Z")->check(shaped(is_direction, "three numbers with commas, not all 0"));
+  app.add_option_function<std::string>(
+         "--color", [&a](const std::string& t) { a.color = view_colors.at(t); },
+         "quality (default): by the smallest (dihedral) angle, red is poor; in 3D of the "
+         "cells that a cut opens; region: by label; leaf: by leaf of the tree, of a mesh made "
+         "with --leaves")
+      ->type_name("NAME")
+      ->check(one_of(view_colors, "colourings"));
+  app.add_option_function<std::string>(
+         "--cut",
+         [&a](const std::string& t) {
+           a.cut = CutPlane{t[0] - 'x', numbers(t.substr(2))[0]};
+         },
+         "3D: leave out the cells on the eye's side of a plane, e.g. x=0.5")
+      ->type_name("PLANE")
+      ->check(shaped(is_plane, "x=, y= or z= and a number"));
+  app.add_option_function<std::string>(
+         "--from",
+         [&a](const std::string& t) {
+           const std::vector<double> v = numbers(t);
+           a.from = Point3{{v[0], v[1], v[2]}};
+         },
+         "3D: the direction towards the eye (default 1,-1.5,0.8)")
+      ->type_name("X,Y,Z")
+      ->check(shaped(is_direction, "three numbers with commas, not all 0"));
   app.add_option("--size", a.width, "width of the picture (default 1000)")->type_name("PIXELS")->check(whole_number(16, 8000));
   add_report(app, a.report, a.quiet);
 }

@@ -19,10 +19,10 @@ namespace pgdr::tool {
 /// The bounds that `mesh` makes and `check` verifies.
 struct BoundArguments {
   std::optional<double> radius_edge;
-  std::optional<std::string> size;  ///< a number or an expression in x, y, z
+  std::optional<std::string> size;        ///< a number or an expression in x, y, z
   std::vector<std::string> region_sizes;  ///< LABEL=S each, S as above
-  std::string size_mesh;             ///< a background mesh, with its sizes in a .sol file beside it; empty: none
-  std::optional<double> size_growth; ///< of these sizes; none: as they are
+  std::string size_mesh;                  ///< a background mesh, with its sizes in a .sol file beside it; empty: none
+  std::optional<double> size_growth;      ///< of these sizes; none: as they are
   std::optional<double> max_volume;
   std::optional<double> min_angle;
 };
@@ -37,7 +37,7 @@ struct InputArguments {
 
 struct MeshArguments {
   std::string input, output;
-  std::optional<int> first_index;  ///< of .node and .ele; none: as in the input, or 1
+  std::optional<int> first_index;                         ///< of .node and .ele; none: as in the input, or 1
   bool edges = false, neighbors = false, leaves = false;  ///< what is written beside the mesh
   BoundArguments bounds;
   InputArguments reading;
@@ -46,14 +46,14 @@ struct MeshArguments {
   std::optional<DiskType> disk;           ///< none: as usual for the selector
   RegionMode regions = RegionMode::seeds;
   double delta = 0;
-  std::optional<int> threads;      ///< none: one a core
+  std::optional<int> threads;  ///< none: one a core
   Schedule schedule = Schedule::reproducible;
   std::optional<int> granularity;  ///< none: a visit ends when its leaf has no work left
   double min_edge = 0;
   std::optional<std::uint64_t> max_vertices;
   std::optional<double> time_limit;
-  std::string report;   ///< empty: none
-  std::string trace;    ///< empty: none
+  std::string report;  ///< empty: none
+  std::string trace;   ///< empty: none
   bool quiet = false;
 };
 
@@ -62,7 +62,7 @@ struct CheckArguments {
   BoundArguments bounds;
   InputArguments reading;
   std::optional<RegionMode> regions;  ///< none: as `reasons` says, or seeds
-  std::string reasons;      ///< a report of `mesh`
+  std::string reasons;                ///< a report of `mesh`
   std::string report;
   bool quiet = false;
 };

@@ -55,8 +55,10 @@ Point<D> outward(const Simplex<D>& s, std::size_t i) {
   const Point<D>& a = s[(i + 1) % (D + 1)];
   const Point<D> u = minus(s[(i + 2) % (D + 1)], a);
   Point<D> n;
-  if constexpr (D == 2) n = {{u[1], -u[0]}};
-  else n = cross(u, minus(s[(i + 3) % (D + 1)], a));
+  if constexpr (D == 2)
+    n = {{u[1], -u[0]}};
+  else
+    n = cross(u, minus(s[(i + 3) % (D + 1)], a));
   if (dot(n, minus(s[i], a)) > 0)
     for (double& x : n.x) x = -x;
   return n;
@@ -84,8 +86,8 @@ Color mix(const Color& a, const Color& b, double t) {
 
 /// From red (poor) through pale to blue (good): ColorBrewer's RdBu, which people tell apart who see no green.
 Color quality_color(double q) {
-  constexpr std::array<Color, 6> stops{{{178, 24, 43}, {239, 138, 98}, {253, 219, 199}, {209, 229, 240}, {103, 169, 207},
-                                        {33, 102, 172}}};
+  constexpr std::array<Color, 6> stops{
+      {{178, 24, 43}, {239, 138, 98}, {253, 219, 199}, {209, 229, 240}, {103, 169, 207}, {33, 102, 172}}};
   const double at = q * (stops.size() - 1);
   const std::size_t i = std::min<std::size_t>(static_cast<std::size_t>(at), stops.size() - 2);
   return mix(stops[i], stops[i + 1], at - static_cast<double>(i));
@@ -233,9 +235,8 @@ std::vector<Face> surface(const OutputMesh<3>& mesh, const std::vector<bool>& ke
       std::sort(side.vertices.begin(), side.vertices.end());
       sides.push_back(side);
     }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return a.vertices != b.vertices ? a.vertices < b.vertices : a.cell < b.cell;
-  });
+  std::sort(sides.begin(), sides.end(),
+            [](const Side& a, const Side& b) { return a.vertices != b.vertices ? a.vertices < b.vertices : a.cell < b.cell; });
   std::vector<Face> faces;
   for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
     std::size_t one = 0, count = 0;
@@ -299,8 +300,10 @@ template <int D>
 Picture draw(const OutputMesh<D>& mesh, const ViewArguments& a) {
   if (mesh.cells.empty())
     throw InputError({.code = Errc::encloses_nothing, .message = "there are no cells to draw", .file = a.mesh});
-  if constexpr (D == 2) return draw_plane(mesh, a);
-  else return draw_space(mesh, a);
+  if constexpr (D == 2)
+    return draw_plane(mesh, a);
+  else
+    return draw_space(mesh, a);
 }
 
 template Picture draw<2>(const OutputMesh<2>&, const ViewArguments&);

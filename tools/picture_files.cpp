@@ -40,8 +40,8 @@ std::string hex(const Color& c) {
 
 void write_svg(const Picture& picture, std::ostream& out) {
   const std::string width = std::to_string(picture.width), height = std::to_string(picture.height);
-  out << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << width << "\" height=\"" << height << "\" viewBox=\"0 0 "
-      << width << ' ' << height << "\">\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n"
+  out << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << width << "\" height=\"" << height << "\" viewBox=\"0 0 " << width
+      << ' ' << height << "\">\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n"
       << "<g stroke-width=\"" << edge_width << "\" stroke-linejoin=\"round\">\n";
   std::string line;
   for (const Picture::Triangle& t : picture.triangles) {

@@ -34,8 +34,9 @@ void hint_at_flags_of_refused(const Plc<D>& plc, const Diagnosis<D>& diagnosis) 
     else if (crosses && is_valid_with(plc, false, true))
       std::fprintf(stderr, "pgdr: --resolve-crossings makes it valid: segments are split then where they cross\n");
     else if (crosses && is_valid_with(plc, true, true))
-      std::fprintf(stderr, "pgdr: --resolve-crossings with --convex-hull makes it valid: segments are split where they cross, "
-                           "and the convex hull of all points is meshed\n");
+      std::fprintf(stderr,
+                   "pgdr: --resolve-crossings with --convex-hull makes it valid: segments are split where they cross, "
+                   "and the convex hull of all points is meshed\n");
   }
 }
 

@@ -37,19 +37,23 @@ std::optional<PrecisionHint> find_precision_hint(const Plc<D>& plc, const Domain
 
 void give(const std::optional<PrecisionHint>& hint, bool quiet, Report& report) {
   if (!hint) return;
-  report.set("precision_hint", JsonObject{{"precision", hint->precision}, {"facets", hint->facets}, {"facets_then", hint->facets_then}});
+  report.set("precision_hint",
+             JsonObject{{"precision", hint->precision}, {"facets", hint->facets}, {"facets_then", hint->facets_then}});
   if (!quiet)
-    print_row("hint", format("--precision auto (%.1e, by %s) makes %s out of %s", hint->precision,
-                             hint->by_digits ? "the digits of the coordinates" : "how far faces are off their planes",
-                             count(hint->facets_then, "facet", "facets").c_str(), count(hint->facets, "facet", "facets").c_str()));
+    print_row("hint",
+              format("--precision auto (%.1e, by %s) makes %s out of %s", hint->precision,
+                     hint->by_digits ? "the digits of the coordinates" : "how far faces are off their planes",
+                     count(hint->facets_then, "facet", "facets").c_str(), count(hint->facets, "facet", "facets").c_str()));
 }
 
 template <int D>
 void note_precision(const Plc<D>& plc, double used) {
   if (!plc.precision_of_file) return;
   print_row("precision", used < plc.precision
-                             ? format("--precision %.1e: the numbers of the file allow %.1e, but its facets then fold over", used, plc.precision)
-                             : format("--precision %.1e: what the numbers of the file allow (%.1e keeps apart what they bend)", used, Plc<3>{}.precision));
+                             ? format("--precision %.1e: the numbers of the file allow %.1e, but its facets then fold over", used,
+                                      plc.precision)
+                             : format("--precision %.1e: what the numbers of the file allow (%.1e keeps apart what they bend)",
+                                      used, Plc<3>{}.precision));
 }
 
 template void note_precision<2>(const Plc<2>&, double);

@@ -14,7 +14,8 @@
 
 namespace pgdr::tool {
 
-/// Says what the precision of the file (Plc::precision_of_file) is, or that the default was `used` since facets fold over within it.
+/// Says what the precision of the file (Plc::precision_of_file) is, or that the default was `used` since facets fold over within
+/// it.
 template <int D>
 void note_precision(const Plc<D>& plc, double used);
 

@@ -61,8 +61,8 @@ void Report::write(const std::string& file) {
 }
 
 JsonObject to_json(const Diagnostic& d) {
-  return {{"code", pgdr::name(d.code)}, {"message", d.message}, {"file", d.file},
-          {"line", d.line},             {"ids", d.ids},         {"points", d.points}};
+  return {{"code", pgdr::name(d.code)}, {"message", d.message}, {"file", d.file}, {"line", d.line}, {"ids", d.ids},
+          {"points", d.points}};
 }
 
 JsonObject to_json(const QualitySummary& q) {
@@ -81,9 +81,7 @@ JsonObject to_json(const PoorReason& r) {
 
 JsonObject to_json(const PredicateCounts& c) {
   const std::uint64_t calls = c.filter + c.expansion + c.exact + c.perturbed;  // each call counts at one stage
-  const auto share = [calls](std::uint64_t n) {
-    return calls ? static_cast<double>(n) / static_cast<double>(calls) : 0.0;
-  };
+  const auto share = [calls](std::uint64_t n) { return calls ? static_cast<double>(n) / static_cast<double>(calls) : 0.0; };
   return {{"filter", share(c.filter)},
           {"expansion", share(c.expansion)},
           {"exact", share(c.exact)},
@@ -103,9 +101,7 @@ JsonObject to_json(const SchedulerStatistics& s) {
           {"busy_seconds", s.busy_seconds}};
 }
 
-JsonObject to_json(const CheckFinding& f) {
-  return {{"kind", pgdr::name(f.kind)}, {"message", f.message}, {"ids", f.ids}};
-}
+JsonObject to_json(const CheckFinding& f) { return {{"kind", pgdr::name(f.kind)}, {"message", f.message}, {"ids", f.ids}}; }
 
 const char* name(StopCause cause) {
   switch (cause) {
@@ -131,8 +127,7 @@ ReportedBounds read_bounds(const std::string& file) {
     for (const auto& j : bounds.at("reasons")) read.reasons.push_back(parse_reason(j));
     const auto bound = bounds.find("radius_edge");
     const bool refined = report.value("refined", true) && report.value("stop", "finished") == "finished";
-    if (bound != bounds.end() && bound->is_number() && refined)
-      read.radius_edge = bound->get<double>();
+    if (bound != bounds.end() && bound->is_number() && refined) read.radius_edge = bound->get<double>();
     const auto part_of_coordinates = [&report](const char* key) -> std::optional<double> {
       const auto found = report.find(key);
       if (found == report.end() || !found->is_number() || !(*found >= 0.0 && *found <= 0.01)) return std::nullopt;

@@ -85,7 +85,8 @@ void RunFiles::require_none_of(const std::vector<File>& others, const File& writ
   for (const File& other : others)
     if (are_same(written.name, other.name))
       throw UsageError({.code = Errc::bad_option,
-                        .message = std::string(written.what) + " would replace " + other.what, .file = written.name});
+                        .message = std::string(written.what) + " would replace " + other.what,
+                        .file = written.name});
 }
 
 void RunFiles::require_own_report() const {

@@ -49,7 +49,9 @@ std::string parse(const std::string& text, Choice& choice) {
   if (choice.kind == Kind::off_center)
     return is_number && value > 0 ? "" : "the factor of off-center must be a number > 0, not \"" + text + '"';
   const bool is_count = is_number && value >= 1 && value <= most_samples && value == std::floor(value);
-  return is_count ? "" : "the parameter of " + std::string(named->name) + " must be a whole number from 1 to 1000000, not \"" + text + '"';
+  return is_count
+             ? ""
+             : "the parameter of " + std::string(named->name) + " must be a whole number from 1 to 1000000, not \"" + text + '"';
 }
 
 Choice parsed(const std::string& text) {

@@ -24,8 +24,8 @@ void try_threads(int n) {
     for (int i = 0; i < n; ++i) threads.emplace_back([&all_there] { all_there.wait(); });
   } catch (const std::system_error&) {
     all_there.count_down();
-    throw ResourceError({.code = Errc::out_of_memory,
-                         .message = "out of memory or threads: " + std::to_string(n + 1) + " cannot be started"});
+    throw ResourceError(
+        {.code = Errc::out_of_memory, .message = "out of memory or threads: " + std::to_string(n + 1) + " cannot be started"});
   } catch (...) {
     all_there.count_down();
     throw;
@@ -42,8 +42,8 @@ struct Threads::Control {
 Threads::Threads(std::optional<int> asked) : requested_(asked.value_or(tbb::info::default_concurrency())) {
   try_threads(requested_ - 1);
   if (requested_ != tbb::info::default_concurrency())
-    control_.reset(new Control{tbb::global_control(tbb::global_control::max_allowed_parallelism,
-                                                   static_cast<std::size_t>(requested_))});
+    control_.reset(
+        new Control{tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(requested_))});
 }
 
 Threads::~Threads() = default;

@@ -12,7 +12,8 @@ namespace pgdr::tool {
 
 class Threads {
  public:
-  /// While it lives, TBB may run as many as were asked for and no more, even if there are fewer cores. @param asked none: one a core.
+  /// While it lives, TBB may run as many as were asked for and no more, even if there are fewer cores. @param asked none: one a
+  /// core.
   /// @throws ResourceError if so many cannot be started: TBB would end the process over that.
   explicit Threads(std::optional<int> asked);
   ~Threads();

@@ -22,11 +22,7 @@ class Events {
 
   void name_row(int row, const std::string& name) {
     put({{"name", "thread_name"}, {"ph", "M"}, {"pid", process}, {"tid", row}, {"args", JsonObject{{"name", name}}}});
-    put({{"name", "thread_sort_index"},
-         {"ph", "M"},
-         {"pid", process},
-         {"tid", row},
-         {"args", JsonObject{{"sort_index", row}}}});
+    put({{"name", "thread_sort_index"}, {"ph", "M"}, {"pid", process}, {"tid", row}, {"args", JsonObject{{"sort_index", row}}}});
   }
   /// Both ends are rounded to nanoseconds, which keeps slices that follow each other from overlapping.
   void slice(int row, const std::string& name, double start, double end, const JsonObject& arguments) {
@@ -52,8 +48,7 @@ class Events {
 
 void put_visit(Events& events, const VisitTrace& v, double mesh_at) {
   const bool whole = v.order == VisitTrace::whole_tree;
-  const std::string name =
-      whole ? "whole tree" : "leaf " + std::to_string(v.leaf) + " L" + std::to_string(v.level);
+  const std::string name = whole ? "whole tree" : "leaf " + std::to_string(v.leaf) + " L" + std::to_string(v.level);
   events.slice(row_of_thread(v.thread), name, mesh_at + v.start, mesh_at + v.end,
                {{"generation", v.generation},
                 {"order", whole ? Json("whole tree") : Json(v.order)},
@@ -63,16 +58,14 @@ void put_visit(Events& events, const VisitTrace& v, double mesh_at) {
 
 }  // namespace
 
-void write_trace(const std::string& file, std::span<const Phase> phases, std::span<const VisitTrace> visits,
-                 double mesh_at) {
+void write_trace(const std::string& file, std::span<const Phase> phases, std::span<const VisitTrace> visits, double mesh_at) {
   std::uint32_t threads = 0;
   for (const VisitTrace& v : visits) threads = std::max(threads, v.thread + 1);
   write_whole(file, "the trace", [&](std::ostream& out) {
     out << "{\"displayTimeUnit\": \"ms\", \"traceEvents\": [\n";
     Events events(out);
     events.name_row(row_of_phases, "phases");
-    for (std::uint32_t t = 0; t < threads; ++t)
-      events.name_row(row_of_thread(t), "thread " + std::to_string(t));
+    for (std::uint32_t t = 0; t < threads; ++t) events.name_row(row_of_thread(t), "thread " + std::to_string(t));
     for (const Phase& p : phases) events.slice(row_of_phases, p.name, p.start, p.end, {});
     for (const VisitTrace& v : visits) put_visit(events, v, mesh_at);
     out << "\n]}\n";

@@ -20,7 +20,6 @@ struct Phase {
 
 /// Writes to a temporary name and renames. @param mesh_at when the meshing began, from which visits count their time.
 /// @throws FileError cannot_write
-void write_trace(const std::string& file, std::span<const Phase> phases, std::span<const VisitTrace> visits,
-                 double mesh_at);
+void write_trace(const std::string& file, std::span<const Phase> phases, std::span<const VisitTrace> visits, double mesh_at);
 
 }  // namespace pgdr::tool

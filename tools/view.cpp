@@ -39,8 +39,8 @@ int view(const ViewArguments& a, Report& report) {
   if (!has_extension(a.output, {".png", ".svg"}))
     throw InputError({.code = Errc::unknown_format, .message = "pictures are written as .svg or .png", .file = a.output});
   if (png && !has_png())
-    throw UsageError({.code = Errc::bad_option, .message = "this pgdr was built without Cairo: pictures are .svg alone",
-                      .file = a.output});
+    throw UsageError(
+        {.code = Errc::bad_option, .message = "this pgdr was built without Cairo: pictures are .svg alone", .file = a.output});
   require_writable(a.output);
   const int dimension = file_dimension(a.mesh);
   report.set("dimension", dimension);

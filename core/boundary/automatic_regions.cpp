@@ -89,8 +89,10 @@ class Nesting {
     bool consistent = true;
     for (const auto& [at, to] : block.edges) {
       const bool forward = number_[to] > number_[at];
-      if (forward) solid_[to] = !solid_[at];
-      else consistent &= solid_[to] != solid_[at];
+      if (forward)
+        solid_[to] = !solid_[at];
+      else
+        consistent &= solid_[to] != solid_[at];
     }
     if (consistent) return;
     for (const auto& [at, to] : block.edges)
@@ -131,8 +133,7 @@ std::vector<std::uint32_t> components_in_order(const Mesh<D>& mesh, const Domain
   const auto points = domain.points();
   std::vector<std::uint32_t> by_place(points.size()), rank(points.size());
   std::iota(by_place.begin(), by_place.end(), 0u);
-  std::sort(by_place.begin(), by_place.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return lex_less(points[a], points[b]); });
+  std::sort(by_place.begin(), by_place.end(), [&](std::uint32_t a, std::uint32_t b) { return lex_less(points[a], points[b]); });
   for (std::uint32_t i = 0; i < by_place.size(); ++i) rank[by_place[i]] = i;
 
   std::vector<std::pair<std::uint32_t, std::uint64_t>> keys;  // of a component: its segments
@@ -149,8 +150,7 @@ std::vector<std::uint32_t> components_in_order(const Mesh<D>& mesh, const Domain
         add(component[i], k->face_entity[static_cast<std::size_t>(f)]);
       } else {
         for (int e = 0; e < 6; ++e)
-          if (k->has_edge(e) && edge_ends[e][0] != f && edge_ends[e][1] != f)
-            add(component[i], k->edge_entity[e]);
+          if (k->has_edge(e) && edge_ends[e][0] != f && edge_ends[e][1] != f) add(component[i], k->edge_entity[e]);
       }
     }
   }
@@ -168,10 +168,10 @@ std::vector<std::uint32_t> components_in_order(const Mesh<D>& mesh, const Domain
   return order;
 }
 
-#define PGDR_INSTANTIATE(D)                                                                                    \
-  template std::vector<Pair> neighbouring_components(const Mesh<D>&, std::span<const std::uint32_t>);          \
-  template std::vector<std::uint32_t> components_in_order(const Mesh<D>&, const Domain<D>&,                    \
-                                                          std::span<const std::uint32_t>, std::uint32_t);
+#define PGDR_INSTANTIATE(D)                                                                                                 \
+  template std::vector<Pair> neighbouring_components(const Mesh<D>&, std::span<const std::uint32_t>);                       \
+  template std::vector<std::uint32_t> components_in_order(const Mesh<D>&, const Domain<D>&, std::span<const std::uint32_t>, \
+                                                          std::uint32_t);
 PGDR_INSTANTIATE(2)
 PGDR_INSTANTIATE(3)
 #undef PGDR_INSTANTIATE

@@ -22,8 +22,7 @@ std::vector<bool> solid_by_nesting(std::uint32_t volumes, std::vector<std::array
 /// Pairs of components with a constrained face between them, each once. `component` by slot of cells; ghosts have
 /// components, too.
 template <int D>
-std::vector<std::array<std::uint32_t, 2>> neighbouring_components(const Mesh<D>& mesh,
-                                                                  std::span<const std::uint32_t> component);
+std::vector<std::array<std::uint32_t, 2>> neighbouring_components(const Mesh<D>& mesh, std::span<const std::uint32_t> component);
 
 /// Components 0 <= c < count in the order of their least segments.
 template <int D>

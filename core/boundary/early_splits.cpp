@@ -60,7 +60,8 @@ std::vector<bool> with_wide_ridge(const Domain<3>& domain) {
   const auto segments = domain.segments();
   const auto points = domain.points();
   std::vector<std::pair<std::array<std::uint32_t, 2>, EntityId>> by_ends;
-  for (EntityId s = 0; s < segments.size(); ++s) by_ends.push_back({sorted_ends(segments[s].points[0], segments[s].points[1]), s});
+  for (EntityId s = 0; s < segments.size(); ++s)
+    by_ends.push_back({sorted_ends(segments[s].points[0], segments[s].points[1]), s});
   std::sort(by_ends.begin(), by_ends.end());
   std::vector<std::vector<Vector<3>>> into(segments.size());  // directions from each segment into its facets
   for (EntityId f = 0; f < domain.facets().size(); ++f)

@@ -145,8 +145,8 @@ void FacetPatches::replace_triangles(EntityId facet, const Fill& fill) {
     std::sort(t.begin(), t.end());
     return t;
   };
-  auto &triangles = triangles_[facet];
-  auto &seen = seen_[facet];
+  auto& triangles = triangles_[facet];
+  auto& seen = seen_[facet];
   std::vector<std::pair<Triangle, CellId>> before;
   for (std::size_t i = 0; i < seen.size(); ++i) before.emplace_back(sorted(triangles[i]), seen[i]);
   std::sort(before.begin(), before.end());

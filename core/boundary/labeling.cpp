@@ -41,7 +41,11 @@ struct Seed {
     const auto& lines = of_hole ? domain.source().hole_lines : domain.source().region_lines;
     const std::int64_t number = static_cast<std::int64_t>(index) + domain.first_index();
     const std::string words = (of_hole ? "hole seed " : "region seed ") + std::to_string(number) + " at " + coordinates<D>(point);
-    return {code, words + " " + what, domain.source().file, index < lines.size() ? lines[index] : 0, {number},
+    return {code,
+            words + " " + what,
+            domain.source().file,
+            index < lines.size() ? lines[index] : 0,
+            {number},
             {{point[0], point[1], D == 3 ? point[D - 1] : 0.0}}};
   }
 };
@@ -111,8 +115,7 @@ class Labeling {
     // The ghosts' component is number 0, so it is flooded first.
     for (const bool ghosts : {true, false})
       for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i)
-        if (mesh.alive(CellId{i}) && component_[i] == unlabelled && (!ghosts || mesh.is_ghost(CellId{i})))
-          flood(CellId{i});
+        if (mesh.alive(CellId{i}) && component_[i] == unlabelled && (!ghosts || mesh.is_ghost(CellId{i}))) flood(CellId{i});
   }
 
   std::uint32_t components() const { return count_; }
@@ -153,7 +156,11 @@ template <int D>
 class Regions {
  public:
   Regions(const Mesh<D>& mesh, const Labeling<D>& labeling, const Domain<D>& domain, std::vector<Diagnostic>& warnings)
-      : mesh_(mesh), labeling_(labeling), domain_(domain), warnings_(warnings), removed_(labeling.components(), false),
+      : mesh_(mesh),
+        labeling_(labeling),
+        domain_(domain),
+        warnings_(warnings),
+        removed_(labeling.components(), false),
         region_(labeling.components(), 0) {
     removed_[0] = true;
     table_.measure = {unbounded};
@@ -164,8 +171,10 @@ class Regions {
     refuse_seeds_on_walls(domain_, seeds);
     for (const Seed<D>& seed : seeds) {
       const std::uint32_t c = labeling_.find(seed.point);
-      if (seed.of_hole) place_hole(seed, c);
-      else place_region(seed, c);
+      if (seed.of_hole)
+        place_hole(seed, c);
+      else
+        place_region(seed, c);
     }
     if (mode == RegionMode::automatic) {
       remove_voids();
@@ -209,16 +218,15 @@ class Regions {
   }
 
   std::uint16_t add(double attribute, double measure) {
-    if (table_.attribute.size() > 0xffff)
-      throw ResourceError({Errc::ids_exhausted, "more than 65535 regions", {}, 0, {}, {}});
+    if (table_.attribute.size() > 0xffff) throw ResourceError({Errc::ids_exhausted, "more than 65535 regions", {}, 0, {}, {}});
     table_.attribute.push_back(attribute);
     table_.measure.push_back(measure);
     return static_cast<std::uint16_t>(table_.attribute.size() - 1);
   }
 
   void remove_voids() {
-    const auto solid =
-        detail::solid_by_nesting(labeling_.components(), detail::neighbouring_components<D>(mesh_, labeling_.of_cells()));
+    const auto solid = detail::solid_by_nesting(labeling_.components(),
+                                                detail::neighbouring_components<D>(mesh_, labeling_.of_cells()));
     for (std::uint32_t c = 0; c < removed_.size(); ++c)
       if (!solid[c] && region_[c] == 0) removed_[c] = true;
   }
@@ -228,8 +236,7 @@ class Regions {
     std::vector<double> of_seeds(table_.attribute.begin() + 1, table_.attribute.end());
     std::sort(of_seeds.begin(), of_seeds.end());
     double label = 0;
-    for (const std::uint32_t c :
-         detail::components_in_order<D>(mesh_, domain_, labeling_.of_cells(), labeling_.components())) {
+    for (const std::uint32_t c : detail::components_in_order<D>(mesh_, domain_, labeling_.of_cells(), labeling_.components())) {
       if (removed_[c] || region_[c] != 0) continue;
       do ++label;
       while (std::binary_search(of_seeds.begin(), of_seeds.end(), label));
@@ -242,8 +249,7 @@ class Regions {
     if (std::find(removed_.begin(), removed_.end(), false) != removed_.end()) return;
     Diagnostic d{Errc::encloses_nothing, {}, domain_.source().file, 0, {}, {}};
     if (labeling_.components() > 1) {
-      d.message = "nothing is left to mesh: every enclosed " + std::string(D == 3 ? "volume" : "area") +
-                  " has a hole seed";
+      d.message = "nothing is left to mesh: every enclosed " + std::string(D == 3 ? "volume" : "area") + " has a hole seed";
     } else {
       d.message = std::string("the ") + (D == 3 ? "facets" : "segments") +
                   " enclose nothing: the outside reaches every part of the input's convex hull through gaps";

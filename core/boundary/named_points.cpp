@@ -14,8 +14,10 @@ Diagnostic about_points(Errc code, const Domain<D>& domain, std::span<const std:
     if (d.ids.empty() && input < domain.source().point_lines.size()) d.line = domain.source().point_lines[input];
     d.ids.push_back(std::int64_t{input} + domain.first_index());
     const Point<D>& x = domain.points()[p];
-    if constexpr (D == 3) d.points.push_back(x.x);
-    else d.points.push_back({x[0], x[1], 0});
+    if constexpr (D == 3)
+      d.points.push_back(x.x);
+    else
+      d.points.push_back({x[0], x[1], 0});
   }
   return d;
 }

@@ -18,7 +18,7 @@
 
 namespace pgdr::detail {
 
-inline constexpr CellId not_seen{0xffffffff};   ///< no cell had it at the last look
+inline constexpr CellId not_seen{0xffffffff};     ///< no cell had it at the last look
 inline constexpr CellId never_asked{0xfffffffe};  ///< it was not asked for
 
 /// Is this a cell that has these corners?
@@ -140,15 +140,17 @@ class PresentSimplices {
     for (std::size_t a = 0; a + K <= 4; ++a) {
       if (index(v[a]) >= not_found_.size() || not_found_[index(v[a])] == 0) continue;
       for (std::size_t b = a + 1; b < 4; ++b) {
-        if constexpr (K == 2) note({v[a], v[b]});
-        else for (std::size_t d = b + 1; d < 4; ++d) note({v[a], v[b], v[d]});
+        if constexpr (K == 2)
+          note({v[a], v[b]});
+        else
+          for (std::size_t d = b + 1; d < 4; ++d) note({v[a], v[b], v[d]});
       }
     }
   }
 
   const Mesh<3>* mesh_;
   ChangedCells changed_;
-  bool anywhere_ = false;            ///< one that was asked for may be in cells that have not changed
+  bool anywhere_ = false;                      ///< one that was asked for may be in cells that have not changed
   std::uint32_t known_vertices_ = 0xffffffff;  ///< bound of those there were at the last look; all, at the first one
   std::uint32_t met_vertices_ = 0;             ///< bound of those met in cells
   WantedSimplices<K> wanted_;

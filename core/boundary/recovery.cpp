@@ -203,9 +203,9 @@ StopCause recover_boundary(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, Delaun
   }
 }
 
-template StopCause recover_boundary<2>(Mesh<2>&, Mesh<2>::Pools&, Delaunay<2>&, const Domain<2>&,
-                                       const RefineOptions<2>&, std::chrono::steady_clock::time_point, RecoveryCounts&);
-template StopCause recover_boundary<3>(Mesh<3>&, Mesh<3>::Pools&, Delaunay<3>&, const Domain<3>&,
-                                       const RefineOptions<3>&, std::chrono::steady_clock::time_point, RecoveryCounts&);
+template StopCause recover_boundary<2>(Mesh<2>&, Mesh<2>::Pools&, Delaunay<2>&, const Domain<2>&, const RefineOptions<2>&,
+                                       std::chrono::steady_clock::time_point, RecoveryCounts&);
+template StopCause recover_boundary<3>(Mesh<3>&, Mesh<3>::Pools&, Delaunay<3>&, const Domain<3>&, const RefineOptions<3>&,
+                                       std::chrono::steady_clock::time_point, RecoveryCounts&);
 
 }  // namespace pgdr

@@ -46,8 +46,7 @@ struct RecoveryCounts {
 /// @returns a StopCause other than finished if options.max_vertices, the time limit or the stop token ended it early; the
 ///   mesh is then without marks.
 template <int D>
-StopCause recover_boundary(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, Delaunay<D>& delaunay,
-                           const Domain<D>& domain, const RefineOptions<D>& options,
-                           std::chrono::steady_clock::time_point start, RecoveryCounts& counts);
+StopCause recover_boundary(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, Delaunay<D>& delaunay, const Domain<D>& domain,
+                           const RefineOptions<D>& options, std::chrono::steady_clock::time_point start, RecoveryCounts& counts);
 
 }  // namespace pgdr

@@ -46,13 +46,8 @@ struct SegmentInsertion::Forcible {
   void constrain(Side s) { all.fix(s.cell, s.edge); }
 };
 
-SegmentInsertion::SegmentInsertion(Mesh<2>& mesh, Mesh<2>::Pools& pools, const Delaunay<2>& delaunay,
-                                   const Domain<2>& domain)
-    : mesh_(&mesh),
-      pools_(&pools),
-      domain_(&domain),
-      fixed_(mesh.cell_bound(), 0),
-      cell_at_(mesh.vertex_bound(), no_cell) {
+SegmentInsertion::SegmentInsertion(Mesh<2>& mesh, Mesh<2>::Pools& pools, const Delaunay<2>& delaunay, const Domain<2>& domain)
+    : mesh_(&mesh), pools_(&pools), domain_(&domain), fixed_(mesh.cell_bound(), 0), cell_at_(mesh.vertex_bound(), no_cell) {
   for (const DomainSegment& s : domain.segments())
     ends_.push_back({delaunay.vertices()[s.points[0]], delaunay.vertices()[s.points[1]]});
 }
@@ -80,8 +75,7 @@ void SegmentInsertion::find_segments() {
 void SegmentInsertion::fail(EntityId s, VertexId through) const {
   const auto& ends = domain_->segments()[s].points;
   Diagnostic d = about_points<2>(Errc::entities_intersect, *domain_, ends);
-  d.message = segment_words(d) +
-              (through == no_vertex ? " crosses another segment" : " passes through another point");
+  d.message = segment_words(d) + (through == no_vertex ? " crosses another segment" : " passes through another point");
   const Point2& p = through == no_vertex ? domain_->points()[ends[0]] : mesh_->point(through);
   d.points = {{p[0], p[1], 0}};
   throw InputError(std::move(d));

@@ -63,9 +63,12 @@ Diagnostic SegmentChains::not_resolved(EntityId segment, bool is_its_end, Home h
   if (at_input) points.push_back(home.id());
   Diagnostic d = about_points<3>(is_its_end ? Errc::boundary_not_recovered : Errc::entities_intersect, *domain_, points);
   d.message = segment_words(d);
-  if (is_its_end) d.message += " cannot be resolved in double precision; something touches or crosses it here";
-  else if (at_input) d.message += " passes through point " + std::to_string(d.ids[2]) + ", but for rounding";
-  else d.message += " passes through another segment or facet";
+  if (is_its_end)
+    d.message += " cannot be resolved in double precision; something touches or crosses it here";
+  else if (at_input)
+    d.message += " passes through point " + std::to_string(d.ids[2]) + ", but for rounding";
+  else
+    d.message += " passes through another segment or facet";
   d.points = {x.x};
   return d;
 }

@@ -54,8 +54,8 @@ class SegmentChains {
   /// A vertex of a chain.
   struct Link {
     VertexId vertex;
-    double t;  ///< parameter on the segment
-    std::uint32_t round = 0;  ///< in which it was made
+    double t;                   ///< parameter on the segment
+    std::uint32_t round = 0;    ///< in which it was made
     CellId seen = never_asked;  ///< a cell that has the edge to it from the vertex before
   };
 
@@ -110,7 +110,7 @@ class SegmentChains {
   const Domain<3>* domain_;
   std::vector<std::vector<Link>> chains_;
   Shells<3> shells_;
-  std::vector<std::vector<EntityId>> companions_;  ///< of each segment, those that run along it from a common end
+  std::vector<std::vector<EntityId>> companions_;                 ///< of each segment, those that run along it from a common end
   std::unordered_map<EntityId, std::vector<Link>> input_beside_;  ///< of segments that were split
   std::unique_ptr<BoxTree<3>> points_tree_;                       ///< of the input points; made where a segment is split
   PresentSimplices<2> edges_;
@@ -164,12 +164,12 @@ class FacetPatches {
   const Domain<3>* domain_;
   SegmentChains* chains_;
   std::vector<std::vector<Triangle>> triangles_;
-  std::vector<std::vector<CellId>> seen_;  ///< of each triangle, a cell that has it
+  std::vector<std::vector<CellId>> seen_;            ///< of each triangle, a cell that has it
   std::vector<std::vector<VertexId>> inner_points_;  ///< Steiner points inside each facet
   PresentSimplices<3> faces_;
-  std::vector<EntityId> look_again_;  ///< facets that were triangulated anew, or had triangles missing
-  std::vector<EntityId> changed_;     ///< to be triangulated anew
-  std::vector<double> factors_of_bound_;  ///< of each facet; 0 where no triangle is split for its shape
+  std::vector<EntityId> look_again_;              ///< facets that were triangulated anew, or had triangles missing
+  std::vector<EntityId> changed_;                 ///< to be triangulated anew
+  std::vector<double> factors_of_bound_;          ///< of each facet; 0 where no triangle is split for its shape
   std::vector<std::array<VertexId, 2>> fragile_;  ///< sorted: edges at triangles so flat that rounding may turn them over
   std::uint64_t points_ = 0;
   MissingTrend trend_;

@@ -47,8 +47,7 @@ class WantedSimplices {
       end = begin + begin_[first + 1];
       begin += begin_[first];
     }
-    const auto at = std::lower_bound(begin, end, vertices,
-                                     [](const Item& item, const auto& v) { return item.vertices < v; });
+    const auto at = std::lower_bound(begin, end, vertices, [](const Item& item, const auto& v) { return item.vertices < v; });
     return at != end && at->vertices == vertices ? &*at : nullptr;
   }
   std::vector<Item>& items() { return items_; }

@@ -22,8 +22,8 @@
 
 #include "mesh/key_set.hpp"
 #include "mesh/mesh.hpp"
-#include "mesh/visit_area.hpp"
 #include "mesh/ridge.hpp"
+#include "mesh/visit_area.hpp"
 #include "numbers/simplex_shapes.hpp"
 #include "rule/cell_bounds.hpp"
 #include "rule/twins.hpp"
@@ -38,12 +38,12 @@ class Cavity {
   /// A face of the cavity's boundary, seen from inside.
   struct BoundaryFace {
     CellId cell;  ///< inside
-    int face;  ///< opposite this vertex of the cell
+    int face;     ///< opposite this vertex of the cell
   };
   /// A subfacet (2D: subsegment) that the insertion splits, seen from one side.
   struct PartFace {
-    CellId cell;  ///< on that side
-    int face;  ///< opposite this vertex of the cell
+    CellId cell;      ///< on that side
+    int face;         ///< opposite this vertex of the cell
     EntityId entity;  ///< the facet (2D: segment)
   };
   /// May the point go in, as far as the last step could tell? Else why not.
@@ -89,8 +89,8 @@ class Cavity {
   Status collect_on_face(const Point<D>& p, CellId cell, int face);
   /// 3D: collects for a point on the subsegment that is edge `edge` of `cell`. Ends as soon as a vertex is nearer than `least`.
   /// If the point is that of `place`, its twins may be nearer.
-  Status collect_on_edge(const Point<D>& p, CellId cell, int edge, double least = 0, const SplitPlace* place = nullptr)
-    requires(D == 3);
+  Status collect_on_edge(const Point<D>& p, CellId cell, int edge, double least = 0,
+                         const SplitPlace* place = nullptr) requires(D == 3);
 
   /// Do the filters show that all of it is star-shaped about the point, which then lies in it? @pre collect() said ok
   bool surely_star_shaped();
@@ -101,12 +101,12 @@ class Cavity {
   Status keep_entities();
 
   // ---- what was collected ------------------------------------------------------------------------------------------
-  const Point<D>& point() const { return point_; }  ///< the point to be inserted
-  const std::vector<CellId>& cells() const { return cells_; }  ///< the cells to be deleted
+  const Point<D>& point() const { return point_; }                         ///< the point to be inserted
+  const std::vector<CellId>& cells() const { return cells_; }              ///< the cells to be deleted
   const std::vector<BoundaryFace>& boundary() const { return boundary_; }  ///< their outer faces, but those of the part
   const std::vector<PartFace>& part() const { return part_; }  ///< what it splits of the facet (2D: segment) that the point is on
   CellId near_cell() const { return near_cell_; }  ///< a cell of it with a vertex too near. @pre a collect function said too_near
-  bool cut_back() const { return cut_back_; }  ///< has it given cells back?
+  bool cut_back() const { return cut_back_; }      ///< has it given cells back?
   bool touches_constraints() const { return touches_constraints_; }  ///< has a cell of it constraints?
 
   // ---- looking round -----------------------------------------------------------------------------------------------
@@ -132,8 +132,10 @@ class Cavity {
   }
   /// The circumsphere of the i-th new cell. @pre it is no ghost
   FilterSphere<D> sphere_of_new(std::size_t i) const {
-    if constexpr (D == 3) return mesh_->sphere(new_cells_[i]);
-    else return computed_sphere(i);
+    if constexpr (D == 3)
+      return mesh_->sphere(new_cells_[i]);
+    else
+      return computed_sphere(i);
   }
 
   /// Gives up what was collected. Free.
@@ -212,7 +214,7 @@ class Cavity {
   Point<D> point_;
   double squared_depth_ = 0;  ///< VisitArea::squared_depth of the point
   FaceWatch* watch_ = nullptr;
-  double least_ = 0;  ///< distance that vertices must have from the point
+  double least_ = 0;                   ///< distance that vertices must have from the point
   const SplitPlace* place_ = nullptr;  ///< a place whose twins may be nearer; null: none
   CellId near_cell_{0xffffffffu};
   std::size_t most_cells_ = std::numeric_limits<std::size_t>::max();

@@ -173,8 +173,7 @@ auto Cavity<D>::take_fan(CellId cell, int edge) -> Status {
 
 template <int D>
 auto Cavity<D>::collect_on_edge(const Point<D>& p, CellId cell, int edge, double least, const SplitPlace* place) -> Status
-  requires(D == 3)
-{
+    requires(D == 3) {
   begin(p);
   least_ = least;
   place_ = place;

@@ -27,7 +27,8 @@ std::array<VertexId, D - 1> ridge_without(const CellRecord<D>& k, int i, int j) 
 
 /// Calls f(link, slot) for the faces of the new cells at the ridges of the boundary; slot is that of the ridge in the table.
 template <int D, class Boundary, class F>
-void each_new_face(const Mesh<D>& mesh, const Boundary& boundary, const std::vector<CellId>& cells, const PairTable& ridges, F f) {
+void each_new_face(const Mesh<D>& mesh, const Boundary& boundary, const std::vector<CellId>& cells, const PairTable& ridges,
+                   F f) {
   for (std::size_t i = 0; i < boundary.size(); ++i) {
     const CellId c = cells[i];
     const auto& corners = face_corners<D>[boundary[i].face];
@@ -51,9 +52,7 @@ VertexId Cavity<D>::commit(Pools& pools, Home home, float relaxed_radius) {
     for (int corner = 0; corner <= D; ++corner)
       if (corner != f.face) rim_.push_back({ridge_without<D>(mesh_->cell(f.cell), f.face, corner), f.entity});
   if (!rim_.empty()) {
-    auto less = [](const RimRidge& a, const RimRidge& b) {
-      return a.ridge != b.ridge ? a.ridge < b.ridge : a.entity < b.entity;
-    };
+    auto less = [](const RimRidge& a, const RimRidge& b) { return a.ridge != b.ridge ? a.ridge < b.ridge : a.entity < b.entity; };
     std::sort(rim_.begin(), rim_.end(), less);
     std::size_t kept = 0;
     for (std::size_t i = 0, j; i < rim_.size(); i = j) {

@@ -152,7 +152,7 @@ VertexId Delaunay<D>::prepare(const Point<D>& p, CellId hint) {
   for (const VertexId v : mesh_->cell(seed).vertices)
     if (v != infinite_vertex && mesh_->point(v) == p) return v;
   if (cavity_.collect(p, seed) != Cavity<D>::Status::ok) broken("a located point is not in conflict with its cell");
-  // Perturbed heights make the cavity star-shaped whatever the input; asserted, not tested.
+    // Perturbed heights make the cavity star-shaped whatever the input; asserted, not tested.
 #ifndef NDEBUG
   const auto status = cavity_.make_star_shaped();
   assert(status == Cavity<D>::Status::ok && !cavity_.cut_back());

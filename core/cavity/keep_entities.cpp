@@ -71,7 +71,8 @@ auto Cavity<D>::find_lost_entities(std::vector<CellId>& behind) -> Status {
   const bool edges = has_subsegments();
   // F triangles (edges) that are connected through their ridges have at most F + 2 vertices; each piece of the cavity has a
   // protected cell.
-  if (boundary_.size() + 2 * protected_.size() <= SmallNumbers::most) return find_lost_entities(SmallRim(numbers_, edges), behind);
+  if (boundary_.size() + 2 * protected_.size() <= SmallNumbers::most)
+    return find_lost_entities(SmallRim(numbers_, edges), behind);
   return find_lost_entities(LargeRim(rim_keys_, boundary_.size(), edges), behind);
 }
 

@@ -52,7 +52,8 @@ bool Cavity<D>::visible(std::size_t i) const {
   const std::size_t lane = i % shape_lanes;
   const double det = block.det[lane], error = block.det_error[lane];
   if (split_segment_ == no_entity) {
-    if (det > error) [[likely]] return true;
+    if (det > error) [[likely]]
+      return true;
     if (det < -error) return false;
   }
   return visible_exactly(boundary_[i]);
@@ -116,8 +117,10 @@ void Cavity<D>::set_spheres() {
   if constexpr (D == 3) {
     for (std::size_t i = 0; i < new_cells_.size(); ++i) {
       const bool accurate = shapes_[i / shape_lanes].center_error[i % shape_lanes] < std::numeric_limits<double>::infinity();
-      if (!accurate && mesh_->is_ghost(new_cells_[i])) [[unlikely]] mesh_->set_ghost_sphere(new_cells_[i]);
-      else mesh_->set_sphere(new_cells_[i], computed_sphere(i));
+      if (!accurate && mesh_->is_ghost(new_cells_[i])) [[unlikely]]
+        mesh_->set_ghost_sphere(new_cells_[i]);
+      else
+        mesh_->set_sphere(new_cells_[i], computed_sphere(i));
     }
   }
 }

@@ -73,7 +73,8 @@ std::size_t LocalFlips<D>::violations_before(const Flip& flip) const {
   const auto& old = flip.old.cells;
   for (const CellId c : old)
     for (int f = 0; f <= D; ++f)
-      if (pgdr::violates(*mesh_, c, f)) ++(std::find(old.begin(), old.end(), mesh_->cell(c).links[f].cell()) == old.end() ? outer : inner);
+      if (pgdr::violates(*mesh_, c, f))
+        ++(std::find(old.begin(), old.end(), mesh_->cell(c).links[f].cell()) == old.end() ? outer : inner);
   return outer + inner / 2;
 }
 

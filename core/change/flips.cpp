@@ -108,7 +108,8 @@ auto LocalFlips<D>::take_ring(CellId c, int edge, std::size_t longest, Ring& rin
       assert(may_read(walk.cell));
       if (!owns(walk.cell)) status = RingStatus::not_owned;
       // The face opposite `exit` has the ridge and the vertex `entry`.
-      else if (mesh_->constrained(walk.cell, walk.exit) && !note_wall(walk, ring)) status = RingStatus::edge_stays;
+      else if (mesh_->constrained(walk.cell, walk.exit) && !note_wall(walk, ring))
+        status = RingStatus::edge_stays;
       return status == RingStatus::whole ? RoundEdge::go_on : RoundEdge::stop;
     });
   if (status != RingStatus::whole || ring.tips.empty()) return status;
@@ -202,8 +203,7 @@ void LocalFlips<D>::take_old(std::vector<CellId> cells) {
       const bool inner = link && std::find(old_.begin(), old_.end(), link.cell()) != old_.end();
       if (inner && constrained) old_walls_.push_back(sorted_face(k.vertices, f));
       if (!inner)
-        outer_.push_back({sorted_face(k.vertices, f), link, constrained,
-                          constrained ? constraints->face_entity[f] : no_entity});
+        outer_.push_back({sorted_face(k.vertices, f), link, constrained, constrained ? constraints->face_entity[f] : no_entity});
     }
     if constexpr (D == 3) {
       if (!constraints) continue;
@@ -310,8 +310,7 @@ void LocalFlips<D>::replace(Pools& pools, const std::vector<NewCell>& cells) {
       if (!outer(face))
         for (const CellId other : new_cells_)
           for (int g = 0; g <= D; ++g)
-            if (other != c && sorted_face(mesh_->cell(other).vertices, g) == face)
-              mesh_->cell(c).links[f] = Link(other, g);
+            if (other != c && sorted_face(mesh_->cell(other).vertices, g) == face) mesh_->cell(c).links[f] = Link(other, g);
       const Link link = mesh_->cell(c).links[f];
       assert(link || wall || mesh_->constrained(c, f));
       if (!wall) continue;

@@ -8,9 +8,9 @@
 // together with the two subfacets of one facet that it lies between.
 #pragma once
 
-#include <type_traits>
 #include <functional>
 #include <optional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -30,25 +30,25 @@ class LocalFlips {
   /// A cell that a flip makes.
   struct NewCell {
     std::array<VertexId, D + 1> vertices;  ///< in positive order
-    std::uint16_t region;  ///< its region
+    std::uint16_t region;                  ///< its region
   };
   /// The cells round an edge, or on both sides of a face.
   struct Ring {
-    std::vector<CellId> cells;  ///< in order
-    std::vector<VertexId> tips;  ///< far corners of the two subfacets at the edge, if it lies inside a facet
+    std::vector<CellId> cells;    ///< in order
+    std::vector<VertexId> tips;   ///< far corners of the two subfacets at the edge, if it lies inside a facet
     EntityId entity = no_entity;  ///< that facet
   };
   /// A flip: a face, or an edge and with it perhaps two subfacets, makes room for what crosses it.
   struct Flip {
-    Ring old;  ///< the cells that go
+    Ring old;                                            ///< the cells that go
     std::array<VertexId, 2> edge{no_vertex, no_vertex};  ///< the edge that goes; no vertices: a face goes
-    std::vector<NewCell> cells;  ///< those that come
+    std::vector<NewCell> cells;                          ///< those that come
   };
   /// A face of a new cell that would not be locally Delaunay.
   struct Violation {
     std::size_t cell;  ///< index of a new cell
-    VertexId beyond;  ///< the vertex beyond the face, in the circumsphere of the cell
-    bool inner;  ///< the face is between two new cells: it comes twice
+    VertexId beyond;   ///< the vertex beyond the face, in the circumsphere of the cell
+    bool inner;        ///< the face is between two new cells: it comes twice
   };
 
   /// Both must outlive it.
@@ -140,7 +140,7 @@ class LocalFlips {
   std::vector<CellId> old_, new_cells_;
   std::vector<OuterFace> outer_;
   std::vector<Subsegment> subsegments_;
-  std::vector<Face> faces_;  ///< of the cells whose violations are counted
+  std::vector<Face> faces_;                  ///< of the cells whose violations are counted
   std::vector<Face> old_walls_, new_walls_;  ///< constrained faces between the old, resp. of the new cells
   EntityId wall_entity_ = no_entity;
 };

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t quick_cells = 20, wide_cells = 512;  // of a region: few where this is done for very many faces
 constexpr std::size_t least_growth = 2;  // of a region by one part in so many, before all of it is wrapped again
-constexpr int far_weight = 10000;  // of a violation between vertices in the volume
+constexpr int far_weight = 10000;        // of a violation between vertices in the volume
 
 }  // namespace
 
@@ -134,13 +134,12 @@ void LocalRewrap::find_rim() {
     for (int f = 0; f < 4; ++f) {
       const bool constrained = mesh_->constrained(c, f);
       if (!constrained && mesh_->marked(k.links[f].cell())) continue;
-      rim_.push_back({GiftWrap::face_of(cell, f), k.links[f], constrained,
-                      constrained ? constraints->face_entity[f] : no_entity});
+      rim_.push_back(
+          {GiftWrap::face_of(cell, f), k.links[f], constrained, constrained ? constraints->face_entity[f] : no_entity});
     }
     if (!constraints) continue;
     for (int e = 0; e < 6; ++e)
-      if (constraints->has_edge(e))
-        subsegments_.push_back({ends_of_edge(cell, e), constraints->edge_entity[e]});
+      if (constraints->has_edge(e)) subsegments_.push_back({ends_of_edge(cell, e), constraints->edge_entity[e]});
   }
 }
 

@@ -164,7 +164,8 @@ bool VertexMove::is_valid() {
   if (u_ == no_vertex && area_ && !area_->owns(x_)) return false;
   edges_.clear();
   return std::all_of(flattened_.begin(), flattened_.end(), [this](const Flattened& x) { return may_flatten(x); }) &&
-         !turns_cell_over() && std::all_of(turned_.begin(), turned_.end(), [this](const Turned& t) { return keeps_subfacets(t) && !is_flat(t); });
+         !turns_cell_over() &&
+         std::all_of(turned_.begin(), turned_.end(), [this](const Turned& t) { return keeps_subfacets(t) && !is_flat(t); });
 }
 
 Simplex<3> VertexMove::prospect(std::size_t i) const {

@@ -28,12 +28,12 @@ class VertexMove {
   /// A cell at the vertex that does not vanish: it gets the new place for one corner.
   struct Turned {
     CellId cell;  ///< as it is
-    int corner;  ///< where the vertex is
+    int corner;   ///< where the vertex is
   };
   /// An unconstrained face of a new cell. Those between two new cells come twice.
   struct OpenFace {
     std::size_t turned;  ///< index of the cell among these
-    VertexId beyond;  ///< opposite the face, in its other cell
+    VertexId beyond;     ///< opposite the face, in its other cell
   };
 
   VertexMove(Mesh<3>& mesh, const Domain<3>& domain) : mesh_(&mesh), domain_(&domain) {}  ///< both must outlive it
@@ -42,10 +42,10 @@ class VertexMove {
 
   /// Collects the cells at v, of which c is one that the visit owns.
   Status collect(VertexId v, CellId c, std::size_t most_cells);
-  VertexId vertex() const { return v_; }  ///< the vertex that was collected last
+  VertexId vertex() const { return v_; }                       ///< the vertex that was collected last
   const std::vector<CellId>& cells() const { return cells_; }  ///< the cells at it
-  std::vector<VertexId> neighbours() const;  ///< the other vertices of these cells
-  std::vector<VertexId> targets() const;  ///< the neighbours that it may collapse onto
+  std::vector<VertexId> neighbours() const;                    ///< the other vertices of these cells
+  std::vector<VertexId> targets() const;                       ///< the neighbours that it may collapse onto
   /// The cells for which f is true first, otherwise in their order: `turned` has them so.
   template <class F>
   void put_first(F f) {
@@ -60,7 +60,7 @@ class VertexMove {
     cells_ = std::move(cells);
     corners_ = std::move(corners);
   }
-  void aim(VertexId u);  ///< plans a collapse onto a neighbour
+  void aim(VertexId u);       ///< plans a collapse onto a neighbour
   void aim(const Point3& x);  ///< plans a relocation to a place on the vertex's own entity
   bool turns_over(std::size_t i) const {
     return orient<3>(prospect(i)) != Sign::positive;
@@ -68,10 +68,10 @@ class VertexMove {
   bool turns_cell_over() const;  ///< does any? Most moves that are not valid do this, and it is quick to tell
   /// May the vertex go there?
   bool is_valid();
-  Home home() const { return home_; }  ///< of the target
+  Home home() const { return home_; }                            ///< of the target
   const std::vector<Turned>& turned() const { return turned_; }  ///< the cells that do not vanish
-  Simplex<3> prospect(std::size_t i) const;  ///< what becomes of the i-th of them
-  std::vector<OpenFace> open_faces() const;  ///< of the cells that they become
+  Simplex<3> prospect(std::size_t i) const;                      ///< what becomes of the i-th of them
+  std::vector<OpenFace> open_faces() const;                      ///< of the cells that they become
   /// Makes the planned move. @pre is_valid()
   void commit(Pools& pools);
   const std::vector<CellId>& new_cells() const { return new_cells_; }  ///< made by the last commit

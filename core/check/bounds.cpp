@@ -21,8 +21,8 @@ double size_at(const SizingField<D>& field, const Point<D>& x) {
   if (size > 0) return size;
   std::array<double, 3> where{};
   std::copy(x.x.begin(), x.x.end(), where.begin());
-  throw UsageError({Errc::bad_size, "The size is " + words(size) + " at " + words(x) + "; it must be positive.", {}, 0,
-                    {}, {where}});
+  throw UsageError(
+      {Errc::bad_size, "The size is " + words(size) + " at " + words(x) + "; it must be positive.", {}, 0, {}, {where}});
 }
 
 template <int D>
@@ -66,8 +66,8 @@ bool size_over(const Simplex<D>& s, const SizingField<D>& field) {
 }  // namespace
 
 template <int D>
-void check_bounds(const OutputMesh<D>& mesh, const CheckOptions<D>& options, const Links<D>& links,
-                  const Components& components, const InputVolumes<D>* input, Reasons<D>& reasons, Findings& findings) {
+void check_bounds(const OutputMesh<D>& mesh, const CheckOptions<D>& options, const Links<D>& links, const Components& components,
+                  const InputVolumes<D>* input, Reasons<D>& reasons, Findings& findings) {
   CheckReport& report = findings.report();
   const double ratio = options.radius_edge_bound;
   const LabelledSizes<D> of_labels(mesh, options.region_sizes);
@@ -78,7 +78,8 @@ void check_bounds(const OutputMesh<D>& mesh, const CheckOptions<D>& options, con
     const bool thin = ratio < std::numeric_limits<double>::infinity() && !radius_edge_within<D>(s, ratio);
     const SizingField<D>* of_region = of_labels.of_cell(c);
     const bool large = size_over<D>(s, options.size) || (of_region && size_over<D>(s, *of_region)) ||
-                       measure_over<D>(s, options.max_measure) || (volume != none && measure_over<D>(s, input->volumes()[volume].size));
+                       measure_over<D>(s, options.max_measure) ||
+                       (volume != none && measure_over<D>(s, input->volumes()[volume].size));
     report.over_radius_edge += thin;
     report.over_size += large;
     if (!thin && !large) continue;
@@ -158,11 +159,11 @@ std::vector<double> slack_without_input(const OutputMesh<D>& mesh, int ulps) {
   return slack;
 }
 
-#define PGDR_INSTANTIATE(D)                                                                                          \
-  template void check_bounds(const OutputMesh<D>&, const CheckOptions<D>&, const Links<D>&, const Components&,       \
-                             const InputVolumes<D>*, Reasons<D>&, Findings&);                                        \
-  template void check_delaunay(const OutputMesh<D>&, const Links<D>&, std::span<const double>,                       \
-                               std::span<const std::uint8_t>, Findings&);                                            \
+#define PGDR_INSTANTIATE(D)                                                                                                   \
+  template void check_bounds(const OutputMesh<D>&, const CheckOptions<D>&, const Links<D>&, const Components&,                \
+                             const InputVolumes<D>*, Reasons<D>&, Findings&);                                                 \
+  template void check_delaunay(const OutputMesh<D>&, const Links<D>&, std::span<const double>, std::span<const std::uint8_t>, \
+                               Findings&);                                                                                    \
   template std::vector<double> slack_without_input(const OutputMesh<D>&, int);
 PGDR_INSTANTIATE(2)
 PGDR_INSTANTIATE(3)

@@ -13,8 +13,8 @@ namespace pgdr::checking {
 
 /// Every cell is within its bounds, or a reason holds. @param input null if there is no domain.
 template <int D>
-void check_bounds(const OutputMesh<D>& mesh, const CheckOptions<D>& options, const Links<D>& links,
-                  const Components& components, const InputVolumes<D>* input, Reasons<D>& reasons, Findings& findings);
+void check_bounds(const OutputMesh<D>& mesh, const CheckOptions<D>& options, const Links<D>& links, const Components& components,
+                  const InputVolumes<D>* input, Reasons<D>& reasons, Findings& findings);
 
 /// No vertex opposite an unconstrained face lies inside the circumsphere of the cell on its other side.
 /// @param slack of each vertex: how far it may be off its entity by rounding.

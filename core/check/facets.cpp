@@ -21,9 +21,8 @@ namespace pgdr::checking {
 bool axis_aligned_facet(const Domain<3>& domain, EntityId facet) {
   const DomainFacet& f = domain.facets()[facet];
   const auto points = domain.facet_points(facet);
-  return std::all_of(points.begin(), points.end(), [&](std::uint32_t p) {
-    return domain.points()[p][f.axis] == domain.points()[points[0]][f.axis];
-  });
+  return std::all_of(points.begin(), points.end(),
+                     [&](std::uint32_t p) { return domain.points()[p][f.axis] == domain.points()[points[0]][f.axis]; });
 }
 
 namespace {
@@ -37,8 +36,7 @@ std::pair<double, double> projected_area(const std::array<Point3, 3>& t, int axi
 }
 
 double longest_edge(const std::array<Point3, 3>& t) {
-  return std::sqrt(
-      std::max({squared_distance(t[0], t[1]), squared_distance(t[1], t[2]), squared_distance(t[2], t[0])}));
+  return std::sqrt(std::max({squared_distance(t[0], t[1]), squared_distance(t[1], t[2]), squared_distance(t[2], t[0])}));
 }
 
 class FacetMatcher {
@@ -91,8 +89,7 @@ class FacetMatcher {
   /// Twice the signed projected area of the piece, in its own sense.
   double area(const Piece& piece, int axis) const {
     CompensatedSum sum;
-    for (const std::uint32_t t : piece.subfacets)
-      sum.add(projected_area(corners(t), axis).first * (pieces_.turned[t] ? -1 : 1));
+    for (const std::uint32_t t : piece.subfacets) sum.add(projected_area(corners(t), axis).first * (pieces_.turned[t] ? -1 : 1));
     return sum.value();
   }
 
@@ -107,8 +104,7 @@ class FacetMatcher {
           if (bound.reversed != (piece.bounds[i].reversed != against)) continue;
           Candidate c{bound.patch, against, 0};
           for (const std::uint32_t v : vertices) c.faults += !on_facet(bound.patch, v);
-          for (const PieceBound& b : piece.bounds)
-            c.faults += !bound_of({bound.patch, b.segment, b.reversed != against});
+          for (const PieceBound& b : piece.bounds) c.faults += !bound_of({bound.patch, b.segment, b.reversed != against});
           if (best.patch == none || c.faults < best.faults) best = c;
         }
     return best;
@@ -142,8 +138,8 @@ class FacetMatcher {
       points_seen_.push_back({f, home.id});
     } else if (home.kind == EntityKind::facet && home.id != f) {
       task_.findings.add(Kind::facet_not_conforming, {v, f, home.id}, [&] {
-        return "The " + vertex_words(mesh_, v) + " is inside facets " + std::to_string(home.id) + " and " +
-               std::to_string(f) + ".";
+        return "The " + vertex_words(mesh_, v) + " is inside facets " + std::to_string(home.id) + " and " + std::to_string(f) +
+               ".";
       });
     }
   }
@@ -273,8 +269,8 @@ class FacetMatcher {
     slack += 4 * tolerance(f).width() * boundary + wanted.error() + sums_[patch].area.error();
     if (std::abs(found - wanted.value()) <= slack) return;
     task_.findings.add(Kind::facet_not_conforming, {f}, [&] {
-      return "In its projection, the subfacets of facet " + std::to_string(f) + " cover an area of " +
-             words(found / 2) + " instead of " + words(wanted.value() / 2) + ".";
+      return "In its projection, the subfacets of facet " + std::to_string(f) + " cover an area of " + words(found / 2) +
+             " instead of " + words(wanted.value() / 2) + ".";
     });
   }
 
@@ -295,8 +291,8 @@ class FacetMatcher {
   void report_bound(std::uint32_t patch, EntityId s, std::uint32_t uses) {
     task_.findings.add(Kind::facet_not_conforming, {facet(patch), s}, [&] {
       return "The subfacets of facet " + std::to_string(facet(patch)) + " have " + std::to_string(uses) +
-             " edges along one side of segment " + std::to_string(s) + ", whose chain has " +
-             std::to_string(out_.pieces[s]) + ".";
+             " edges along one side of segment " + std::to_string(s) + ", whose chain has " + std::to_string(out_.pieces[s]) +
+             ".";
     });
   }
 
@@ -324,16 +320,15 @@ class FacetMatcher {
     const EntityId f = facet(patch);
     task_.findings.add(Kind::facet_not_conforming, {v, f}, [&] {
       const double off = distance_from_plane(triangle(domain_.triangles(f)[0]), mesh_.points[v]);
-      return "The " + vertex_words(mesh_, v) + " is " + words(off) + " off the plane of facet " + std::to_string(f) +
-             ", " + words(off / Tolerance{1, domain_.facet_magnitude(f)}.width()) + " ulps.";
+      return "The " + vertex_words(mesh_, v) + " is " + words(off) + " off the plane of facet " + std::to_string(f) + ", " +
+             words(off / Tolerance{1, domain_.facet_magnitude(f)}.width()) + " ulps.";
     });
   }
 
   void report_stray(const Piece& piece) {
     for (const std::uint32_t t : piece.subfacets)
       task_.findings.add(Kind::stray_constraint, {t}, [&] {
-        return "Subfacet " + std::to_string(t) + " (" + list_words(mesh_.subfacets[t].vertices) +
-               ") belongs to no input facet.";
+        return "Subfacet " + std::to_string(t) + " (" + list_words(mesh_.subfacets[t].vertices) + ") belongs to no input facet.";
       });
   }
 
@@ -341,8 +336,8 @@ class FacetMatcher {
     const EntityId f = facet(patch);
     task_.findings.add(Kind::facet_not_conforming, {f}, [&] {
       const auto t = input_.simplex(input_.patches()[patch].first);
-      return "No subfacets cover facet " + std::to_string(f) + " at " + words(t[0]) + ", " + words(t[1]) + ", " +
-             words(t[2]) + ".";
+      return "No subfacets cover facet " + std::to_string(f) + " at " + words(t[0]) + ", " + words(t[1]) + ", " + words(t[2]) +
+             ".";
     });
   }
 
@@ -361,8 +356,8 @@ class FacetMatcher {
   std::vector<Sums> sums_;
   std::vector<bool> aligned_, facet_used_;
   std::vector<std::unique_ptr<detail::BoxTree<3>>> trees_;  // of patches
-  std::vector<std::uint32_t> uses_;               ///< of each Bound of the input: edges of pieces along it
-  std::map<BoundKey, std::uint32_t> inner_uses_;  ///< along segments that are no bounds of the patch
+  std::vector<std::uint32_t> uses_;                         ///< of each Bound of the input: edges of pieces along it
+  std::map<BoundKey, std::uint32_t> inner_uses_;            ///< along segments that are no bounds of the patch
   std::vector<std::pair<EntityId, std::uint32_t>> points_seen_;
 };
 

@@ -10,12 +10,26 @@
 namespace pgdr {
 
 std::string_view name(CheckFinding::Kind kind) {
-  static constexpr std::string_view names[] = {
-      "not_finite",        "bad_index",         "repeated_vertex",     "duplicate_point",
-      "unreferenced_point", "inverted_cell",    "bad_link",            "overlapping",
-      "not_delaunay",      "missing_input_point", "segment_not_conforming", "facet_not_conforming",
-      "wrong_marker",      "stray_constraint",  "wrong_region",        "wrong_volume",
-      "hole_filled",       "over_radius_edge",  "over_size",           "bad_reason"};
+  static constexpr std::string_view names[] = {"not_finite",
+                                               "bad_index",
+                                               "repeated_vertex",
+                                               "duplicate_point",
+                                               "unreferenced_point",
+                                               "inverted_cell",
+                                               "bad_link",
+                                               "overlapping",
+                                               "not_delaunay",
+                                               "missing_input_point",
+                                               "segment_not_conforming",
+                                               "facet_not_conforming",
+                                               "wrong_marker",
+                                               "stray_constraint",
+                                               "wrong_region",
+                                               "wrong_volume",
+                                               "hole_filled",
+                                               "over_radius_edge",
+                                               "over_size",
+                                               "bad_reason"};
   static_assert(std::size(names) == CheckFinding::kinds);
   return names[static_cast<std::size_t>(kind)];
 }

@@ -23,8 +23,7 @@ class Findings {
   template <class Message>
   void add(Kind kind, std::initializer_list<std::int64_t> ids, Message&& message) {
     ++report_.finding_count;
-    if (report_.count_of_kind[static_cast<std::size_t>(kind)]++ < max_listed_)
-      report_.findings.push_back({kind, message(), ids});
+    if (report_.count_of_kind[static_cast<std::size_t>(kind)]++ < max_listed_) report_.findings.push_back({kind, message(), ids});
   }
   CheckReport& report() { return report_; }
   bool clean() const { return report_.finding_count == 0; }

@@ -73,8 +73,7 @@ class Linker {
         links_.bits[c] = 0x80;
       else
         findings_.add(Kind::inverted_cell, {c}, [&] {
-          return "The " + cell_words(mesh_, c) + " is flat or turned over, at " +
-                 words(mesh_.points[mesh_.cells[c][0]]) + ".";
+          return "The " + cell_words(mesh_, c) + " is flat or turned over, at " + words(mesh_.points[mesh_.cells[c][0]]) + ".";
         });
     }
   }
@@ -101,8 +100,7 @@ class Linker {
 
   /// All cells and walls that share one face.
   void join(std::span<const Record> group) {
-    const auto first_wall =
-        std::partition_point(group.begin(), group.end(), [](const Record& r) { return !r.is_wall(); });
+    const auto first_wall = std::partition_point(group.begin(), group.end(), [](const Record& r) { return !r.is_wall(); });
     const std::span cells(group.begin(), first_wall);
     const std::span walls_here(first_wall, group.end());
     if (cells.size() == 2 && cells[0].odd() != cells[1].odd()) {
@@ -121,8 +119,7 @@ class Linker {
   void mark_wall(std::span<const Record> cells, std::span<const Record> walls_here) {
     for (const Record& cell : cells) links_.bits[cell.index() / (D + 1)] |= 1u << (cell.index() % (D + 1));
     const std::uint32_t wall = walls_here[0].index();
-    for (const Record& cell : cells)
-      links_.wall_sides[wall][cell.odd() == walls_here[0].odd() ? 0 : 1] = cell.index();
+    for (const Record& cell : cells) links_.wall_sides[wall][cell.odd() == walls_here[0].odd() ? 0 : 1] = cell.index();
     if (cells.empty() || walls_here.size() > 1)
       findings_.add(Kind::stray_constraint, {wall}, [&] {
         return std::string(D == 2 ? "Subsegment " : "Subfacet ") + std::to_string(wall) + " (" +
@@ -134,9 +131,9 @@ class Linker {
   void bad_face(std::span<const Record> cells) {
     const std::uint32_t a = cells[0].index(), b = cells[1].index();
     findings_.add(Kind::bad_link, {a / (D + 1), b / (D + 1)}, [&] {
-      return "The face with " + list_words(face_vertices(mesh_, a)) + " is shared by " + std::to_string(cells.size()) +
-             " cells" + (cells.size() == 2 ? " on the same side" : "") + ", among them " +
-             cell_words(mesh_, a / (D + 1)) + " and " + cell_words(mesh_, b / (D + 1)) + ".";
+      return "The face with " + list_words(face_vertices(mesh_, a)) + " is shared by " + std::to_string(cells.size()) + " cells" +
+             (cells.size() == 2 ? " on the same side" : "") + ", among them " + cell_words(mesh_, a / (D + 1)) + " and " +
+             cell_words(mesh_, b / (D + 1)) + ".";
     });
   }
 

@@ -154,9 +154,8 @@ Reasons<D>::Reasons(const OutputMesh<D>& mesh, const CheckOptions<D>& options, c
       return "Reason " + std::to_string(i) + " names cell " + std::to_string(cell) + ", which does not exist.";
     });
   }
-  std::stable_sort(by_cell_.begin(), by_cell_.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return (*options.reasons)[a].cell < (*options.reasons)[b].cell;
-  });
+  std::stable_sort(by_cell_.begin(), by_cell_.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return (*options.reasons)[a].cell < (*options.reasons)[b].cell; });
 }
 
 template <int D>
@@ -183,8 +182,7 @@ bool Reasons<D>::holds(const PoorReason& reason, std::string& why) {
   switch (reason.code) {
     case PoorReason::Code::rounding: return true;
     case PoorReason::Code::beyond_theory:
-      return options_.radius_edge_bound < smallest_proved_bound<D>() ||
-             fail("the radius-edge bound is not below the proved one");
+      return options_.radius_edge_bound < smallest_proved_bound<D>() || fail("the radius-edge bound is not below the proved one");
     case PoorReason::Code::kept_boundary: return beside_kept(reason, why);
     case PoorReason::Code::small_angle: break;
   }
@@ -210,7 +208,8 @@ bool Reasons<D>::beside_kept(const PoorReason& reason, std::string& why) const {
   const Point<D> middle = along(options_.domain->points()[ends[0]], options_.domain->points()[ends[1]], 0.5);
   const auto ball = circumsphere<D>(corners_of(mesh_, reason.cell));
   const double reach = std::sqrt(squared_distance(middle, options_.domain->points()[ends[0]]));
-  const bool encroached = std::sqrt(squared_distance(middle, ball.center)) <= reach * (1 + rounding::of_blame_checked) + ball.center_error;
+  const bool encroached = std::sqrt(squared_distance(middle, ball.center)) <=
+                          reach * (1 + rounding::of_blame_checked) + ball.center_error;
   return encroached || near(reason.cell, s) || fail("its circumcentre is not beside " + words(s));
 }
 
@@ -241,8 +240,7 @@ bool Reasons<D>::measure_angle(EntityRef a, EntityRef b) const {
   std::vector<std::uint32_t> on_common;  // two facets with a common segment make no other angle at its ends
   if constexpr (D == 3) {
     if (contains_segment(domain, a, b) || contains_segment(domain, b, a)) return false;
-    if (a.kind == EntityKind::facet && b.kind == EntityKind::facet && dihedral_below(domain, a.id, b.id, on_common))
-      return true;
+    if (a.kind == EntityKind::facet && b.kind == EntityKind::facet && dihedral_below(domain, a.id, b.id, on_common)) return true;
   }
   for (const std::uint32_t p : common_points(domain, a, b))
     if (std::find(on_common.begin(), on_common.end(), p) == on_common.end() && below_at(domain, a, b, p)) return true;
@@ -254,9 +252,7 @@ template <int D>
 bool Reasons<D>::small_at_point(std::uint32_t point, EntityRef b) const {
   const Domain<D>& domain = *options_.domain;
   if (edges_at(domain, b, point).empty()) return false;
-  const auto meets = [&](EntityRef c) {
-    return !(c == b) && !edges_at(domain, c, point).empty() && measure_angle(c, b);
-  };
+  const auto meets = [&](EntityRef c) { return !(c == b) && !edges_at(domain, c, point).empty() && measure_angle(c, b); };
   for (EntityId s = 0; s < domain.segments().size(); ++s)
     if (meets({EntityKind::segment, s})) return true;
   for (EntityId f = 0; f < domain.facets().size(); ++f)

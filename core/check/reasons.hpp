@@ -16,8 +16,7 @@ template <int D>
 class Reasons {
  public:
   /// Reasons for cells that do not exist are findings. @param conformity null if there is no domain.
-  Reasons(const OutputMesh<D>& mesh, const CheckOptions<D>& options, const Conformity<D>* conformity,
-          Findings& findings);
+  Reasons(const OutputMesh<D>& mesh, const CheckOptions<D>& options, const Conformity<D>* conformity, Findings& findings);
 
   enum class Verdict { absent, holds, fails };
   /// @param why set to a clause that says why the (last) reason fails.

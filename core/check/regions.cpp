@@ -33,9 +33,8 @@ Components flood_cells(const OutputMesh<D>& mesh, const Links<D>& links, Finding
         const std::uint32_t other = links.neighbour[face] / (D + 1);
         if (!mesh.regions.empty() && other > c && mesh.regions[other] != mesh.regions[c])
           findings.add(Kind::wrong_region, {c, other}, [&] {
-            return "The label changes from " + words(mesh.regions[c]) + " to " + words(mesh.regions[other]) +
-                   " between " + cell_words(mesh, c) + " and " + cell_words(mesh, other) +
-                   ", with no constraint between them.";
+            return "The label changes from " + words(mesh.regions[c]) + " to " + words(mesh.regions[other]) + " between " +
+                   cell_words(mesh, c) + " and " + cell_words(mesh, other) + ", with no constraint between them.";
           });
         if (out.of_cell[other] != none) continue;
         out.of_cell[other] = number;
@@ -51,10 +50,8 @@ namespace {
 template <int D>
 class RegionChecker {
  public:
-  RegionChecker(const ConformityTask<D>& task, const Links<D>& links, const Conformity<D>& conformity,
-                Components& components)
-      : task_(task), mesh_(task.mesh), input_(task.input), links_(links), conformity_(conformity),
-        components_(components) {}
+  RegionChecker(const ConformityTask<D>& task, const Links<D>& links, const Conformity<D>& conformity, Components& components)
+      : task_(task), mesh_(task.mesh), input_(task.input), links_(links), conformity_(conformity), components_(components) {}
 
   void run() {
     bad_side_.assign(components_.volume.size(), 0);
@@ -88,8 +85,7 @@ class RegionChecker {
     if (!input_.volumes()[volume].kept) {
       bad_side_[component] = 1;
       task_.findings.add(Kind::hole_filled, {face / (D + 1)}, [&] {
-        return "The " + cell_words(mesh_, face / (D + 1)) +
-               (volume == 0 ? " lies outside the domain." : " lies in a hole.");
+        return "The " + cell_words(mesh_, face / (D + 1)) + (volume == 0 ? " lies outside the domain." : " lies in a hole.");
       });
     } else if (known == none) {
       known = volume;
@@ -104,8 +100,8 @@ class RegionChecker {
 
   void report_empty_side(std::uint32_t w) {
     task_.findings.add(Kind::wrong_volume, {w}, [&] {
-      return std::string(D == 2 ? "Subsegment " : "Subfacet ") + std::to_string(w) + " (" +
-             list_words(walls(mesh_)[w].vertices) + ") has no cell on a side that belongs to the domain.";
+      return std::string(D == 2 ? "Subsegment " : "Subfacet ") + std::to_string(w) + " (" + list_words(walls(mesh_)[w].vertices) +
+             ") has no cell on a side that belongs to the domain.";
     });
   }
 
@@ -121,8 +117,7 @@ class RegionChecker {
       const double t = Tolerance{task_.ulps, input_.domain().facet_magnitude(entity)}.width() +
                        2 * input_.domain().facets()[entity].planarity_defect;
       const auto &a = mesh_.points[v[0]], &b = mesh_.points[v[1]], &c = mesh_.points[v[2]];
-      const double longest =
-          std::sqrt(std::max({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)}));
+      const double longest = std::sqrt(std::max({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)}));
       double doubled = 0;  // at most the sum of the three projections
       for (int axis = 0; axis < 3; ++axis) {
         const int j = (axis + 1) % 3, k = (axis + 2) % 3;
@@ -155,9 +150,8 @@ class RegionChecker {
       const double slack = errors[v] + sums[v].error() + wanted.measure_error + boundary_slack_[v];
       if (components[v] == 1 && std::abs(sums[v].value() - wanted.measure) <= slack) continue;
       task_.findings.add(Kind::wrong_volume, {v}, [&] {
-        return "Volume " + std::to_string(v) + " of the input measures " + words(wanted.measure) +
-               " and is filled by " + std::to_string(components[v]) + " connected sets of cells, which measure " +
-               words(sums[v].value()) + ".";
+        return "Volume " + std::to_string(v) + " of the input measures " + words(wanted.measure) + " and is filled by " +
+               std::to_string(components[v]) + " connected sets of cells, which measure " + words(sums[v].value()) + ".";
       });
     }
   }
@@ -205,16 +199,14 @@ class RegionChecker {
 
   void report_seed(std::uint32_t i, const char* where) {
     task_.findings.add(Kind::wrong_region, {i}, [&] {
-      return "The seed of region " + std::to_string(i) + " " + words(input_.domain().regions()[i].point) + " lies " +
-             where + ".";
+      return "The seed of region " + std::to_string(i) + " " + words(input_.domain().regions()[i].point) + " lies " + where + ".";
     });
   }
 
   void visit_seeds(std::uint32_t c) {
     const Simplex<D> s = corners_of(mesh_, c);
     const auto [low, high] = detail::Box<D>::of(s);
-    auto seed = std::lower_bound(seeds_.begin(), seeds_.end(), low[0],
-                                 [](const Seed& a, double x) { return a.point[0] < x; });
+    auto seed = std::lower_bound(seeds_.begin(), seeds_.end(), low[0], [](const Seed& a, double x) { return a.point[0] < x; });
     for (; seed != seeds_.end() && seed->point[0] <= high[0]; ++seed) {
       bool in_box = true;
       for (int i = 1; i < D; ++i) in_box &= low[i] <= seed->point[i] && seed->point[i] <= high[i];
@@ -250,8 +242,8 @@ class RegionChecker {
     const double wanted = input_.domain().regions()[seed.index].attribute;
     if (label == wanted) return;
     task_.findings.add(Kind::wrong_region, {c, seed.index}, [&] {
-      return "The " + cell_words(mesh_, c) + " contains the seed of region " + std::to_string(seed.index) +
-             " and has label " + words(label) + " instead of " + words(wanted) + ".";
+      return "The " + cell_words(mesh_, c) + " contains the seed of region " + std::to_string(seed.index) + " and has label " +
+             words(label) + " instead of " + words(wanted) + ".";
     });
   }
 
@@ -261,9 +253,9 @@ class RegionChecker {
   const Links<D>& links_;
   const Conformity<D>& conformity_;
   Components& components_;
-  std::vector<std::uint8_t> bad_side_;   ///< of each component: reported already
-  std::vector<double> boundary_slack_;   ///< of each volume
-  std::vector<Seed> seeds_;              ///< by x
+  std::vector<std::uint8_t> bad_side_;  ///< of each component: reported already
+  std::vector<double> boundary_slack_;  ///< of each volume
+  std::vector<Seed> seeds_;             ///< by x
   std::vector<bool> found_;
 };
 
@@ -275,8 +267,8 @@ void check_regions(const ConformityTask<D>& task, const Links<D>& links, const C
   RegionChecker<D>(task, links, conformity, components).run();
 }
 
-#define PGDR_INSTANTIATE(D)                                                                                 \
-  template Components flood_cells(const OutputMesh<D>&, const Links<D>&, Findings&);                        \
+#define PGDR_INSTANTIATE(D)                                                          \
+  template Components flood_cells(const OutputMesh<D>&, const Links<D>&, Findings&); \
   template void check_regions(const ConformityTask<D>&, const Links<D>&, const Conformity<D>&, Components&);
 PGDR_INSTANTIATE(2)
 PGDR_INSTANTIATE(3)

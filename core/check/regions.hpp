@@ -23,7 +23,6 @@ Components flood_cells(const OutputMesh<D>& mesh, const Links<D>& links, Finding
 
 /// Components against volumes of the input; seeds; measures.
 template <int D>
-void check_regions(const ConformityTask<D>& task, const Links<D>& links, const Conformity<D>& conformity,
-                   Components& components);
+void check_regions(const ConformityTask<D>& task, const Links<D>& links, const Conformity<D>& conformity, Components& components);
 
 }  // namespace pgdr::checking

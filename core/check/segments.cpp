@@ -69,9 +69,8 @@ void match_points(const ConformityTask<D>& task, std::span<const std::uint32_t> 
       const int marker = mesh.point_markers.empty() ? 0 : mesh.point_markers[*at];
       if (marker == domain.point_markers()[p] || (domain.point_markers()[p] == 0 && handed_on.count({p, marker}) > 0)) continue;
       task.findings.add(Kind::wrong_marker, {*at}, [&] {
-        return "Input point " + std::to_string(p) + ", " + vertex_words(mesh, *at) + ", has marker " +
-               std::to_string(marker) + " instead of " +
-               std::to_string(domain.point_markers()[p]) + ".";
+        return "Input point " + std::to_string(p) + ", " + vertex_words(mesh, *at) + ", has marker " + std::to_string(marker) +
+               " instead of " + std::to_string(domain.point_markers()[p]) + ".";
       });
     } else if (task.input.wants_point(p)) {
       task.findings.add(Kind::missing_input_point, {p}, [&] {
@@ -189,8 +188,8 @@ class SegmentMatcher {
     if (!task_.input.wants_segment(s)) return;
     task_.findings.add(Kind::segment_not_conforming, {s}, [&] {
       return "No chain of subsegments joins the ends of segment " + std::to_string(s) + ", input points " +
-             std::to_string(points[0]) + " " + words(domain_.points()[points[0]]) + " and " +
-             std::to_string(points[1]) + " " + words(domain_.points()[points[1]]) + ".";
+             std::to_string(points[0]) + " " + words(domain_.points()[points[0]]) + " and " + std::to_string(points[1]) + " " +
+             words(domain_.points()[points[1]]) + ".";
     });
   }
 
@@ -211,8 +210,7 @@ class SegmentMatcher {
       const std::uint32_t here = path.vertices.back();
       bool stepped = false;
       for (const auto& [from, to, number] : chains(here, none)) {
-        if (!collinear(points[p], points[q], points[to]) || !advances(points[p], points[q], points[here], points[to]))
-          continue;
+        if (!collinear(points[p], points[q], points[to]) || !advances(points[p], points[q], points[here], points[to])) continue;
         if (to != q && !advances(points[p], points[q], points[to], points[q])) continue;
         const Chain step = directed(number, from);
         if (count_off(s, step) > 0) continue;
@@ -266,9 +264,9 @@ class SegmentMatcher {
   void check_marker(EntityId s, std::uint32_t sub) {
     if (mesh_.subsegments[sub].marker == domain_.segments()[s].marker) return;
     task_.findings.add(Kind::wrong_marker, {sub, s}, [&] {
-      return "Subsegment " + std::to_string(sub) + " (" + list_words(mesh_.subsegments[sub].vertices) +
-             ") has marker " + std::to_string(mesh_.subsegments[sub].marker) + ", its segment " + std::to_string(s) +
-             " has " + std::to_string(domain_.segments()[s].marker) + ".";
+      return "Subsegment " + std::to_string(sub) + " (" + list_words(mesh_.subsegments[sub].vertices) + ") has marker " +
+             std::to_string(mesh_.subsegments[sub].marker) + ", its segment " + std::to_string(s) + " has " +
+             std::to_string(domain_.segments()[s].marker) + ".";
     });
   }
 
@@ -276,8 +274,8 @@ class SegmentMatcher {
     task_.findings.add(Kind::segment_not_conforming, {v, s}, [&] {
       const auto& ends = domain_.segments()[s].points;
       const double off = distance_from_line(domain_.points()[ends[0]], domain_.points()[ends[1]], mesh_.points[v]);
-      return "The " + vertex_words(mesh_, v) + " is " + words(off) + " off the line of segment " + std::to_string(s) +
-             ", " + words(off / Tolerance{1, domain_.segment_magnitude(s)}.width()) + " ulps.";
+      return "The " + vertex_words(mesh_, v) + " is " + words(off) + " off the line of segment " + std::to_string(s) + ", " +
+             words(off / Tolerance{1, domain_.segment_magnitude(s)}.width()) + " ulps.";
     });
   }
 
@@ -306,10 +304,10 @@ void match_segments(const ConformityTask<D>& task, Conformity<D>& out) {
   SegmentMatcher<D>(task, out).run();
 }
 
-#define PGDR_INSTANTIATE(D)                                                                                   \
-  template bool axis_aligned_segment(const Domain<D>&, EntityId);                                             \
-  template std::vector<double> slack_of_vertices(const Domain<D>&, std::span<const EntityRef>, int);          \
-  template void match_points(const ConformityTask<D>&, std::span<const std::uint32_t>, Conformity<D>&);       \
+#define PGDR_INSTANTIATE(D)                                                                             \
+  template bool axis_aligned_segment(const Domain<D>&, EntityId);                                       \
+  template std::vector<double> slack_of_vertices(const Domain<D>&, std::span<const EntityRef>, int);    \
+  template void match_points(const ConformityTask<D>&, std::span<const std::uint32_t>, Conformity<D>&); \
   template void match_segments(const ConformityTask<D>&, Conformity<D>&);
 PGDR_INSTANTIATE(2)
 PGDR_INSTANTIATE(3)

@@ -28,9 +28,8 @@ bool check_vertices(const List& list, Vertices vertices, std::size_t points, con
     const auto text = [&] { return what + std::to_string(n) + " (" + list_words(v) + ") "; };
     if (*std::max_element(v.begin(), v.end()) >= points) {
       usable = false;
-      findings.add(Kind::bad_index, {id}, [&] {
-        return text() + "names a vertex that does not exist; there are " + std::to_string(points) + ".";
-      });
+      findings.add(Kind::bad_index, {id},
+                   [&] { return text() + "names a vertex that does not exist; there are " + std::to_string(points) + "."; });
     } else if (has_repeated(v)) {
       findings.add(Kind::repeated_vertex, {id}, [&] { return text() + "has a vertex twice."; });
     }
@@ -43,35 +42,33 @@ bool check_vertices(const List& list, Vertices vertices, std::size_t points, con
 template <int D>
 bool check_indices(const OutputMesh<D>& mesh, Findings& findings) {
   if (mesh.cells.size() >= none / (D + 1) || mesh.points.size() >= none)
-    throw ResourceError(
-        {Errc::ids_exhausted, "The mesh has too many cells for 32-bit numbers of faces.", {}, 0, {}, {}});
+    throw ResourceError({Errc::ids_exhausted, "The mesh has too many cells for 32-bit numbers of faces.", {}, 0, {}, {}});
   bool usable = true;
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
     bool finite = true;
     for (const double x : mesh.points[v].x) finite = finite && std::isfinite(x);
     if (finite) continue;
     usable = false;
-    findings.add(Kind::not_finite, {static_cast<std::int64_t>(v)}, [&] {
-      return "Vertex " + std::to_string(v) + " has coordinates that are not finite.";
-    });
+    findings.add(Kind::not_finite, {static_cast<std::int64_t>(v)},
+                 [&] { return "Vertex " + std::to_string(v) + " has coordinates that are not finite."; });
   }
   const std::size_t n = mesh.points.size();
-  usable &= check_vertices(mesh.cells, [](const auto& c) -> const auto& { return c; }, n, "Cell ", findings);
+  usable &= check_vertices(
+      mesh.cells, [](const auto& c) -> const auto& { return c; }, n, "Cell ", findings);
   const auto of_constraint = [](const auto& c) -> const auto& { return c.vertices; };
   usable &= check_vertices(mesh.subsegments, of_constraint, n, "Subsegment ", findings);
   usable &= check_vertices(mesh.subfacets, of_constraint, n, "Subfacet ", findings);
   if (!mesh.regions.empty() && mesh.regions.size() != mesh.cells.size()) {
     usable = false;
     findings.add(Kind::bad_index, {}, [&] {
-      return "There are " + std::to_string(mesh.regions.size()) + " region labels for " +
-             std::to_string(mesh.cells.size()) + " cells.";
+      return "There are " + std::to_string(mesh.regions.size()) + " region labels for " + std::to_string(mesh.cells.size()) +
+             " cells.";
     });
   }
   if (!mesh.point_markers.empty() && mesh.point_markers.size() != n) {
     usable = false;
     findings.add(Kind::bad_index, {}, [&] {
-      return "There are " + std::to_string(mesh.point_markers.size()) + " point markers for " + std::to_string(n) +
-             " points.";
+      return "There are " + std::to_string(mesh.point_markers.size()) + " point markers for " + std::to_string(n) + " points.";
     });
   }
   return usable;
@@ -89,8 +86,7 @@ std::vector<std::uint32_t> sort_points(const OutputMesh<D>& mesh, Findings& find
     const std::uint32_t a = order[i - 1], b = order[i];
     if (!(mesh.points[a] == mesh.points[b])) continue;
     findings.add(Kind::duplicate_point, {a, b}, [&] {
-      return "Vertices " + std::to_string(a) + " and " + std::to_string(b) + " are both at " + words(mesh.points[a]) +
-             ".";
+      return "Vertices " + std::to_string(a) + " and " + std::to_string(b) + " are both at " + words(mesh.points[a]) + ".";
     });
   }
   return order;

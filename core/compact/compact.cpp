@@ -46,7 +46,9 @@ std::vector<std::uint32_t> number_vertices(const Mesh<D>& mesh, const detail::St
   const auto record = [&](std::size_t i) -> const auto& { return mesh.vertex(VertexId{static_cast<std::uint32_t>(i)}); };
   auto steiner = bulk.collect<Steiner>(
       number.size(), [&](std::size_t i) { return number[i] != none && record(i).home.kind() != EntityKind::vertex; },
-      [&](std::size_t i) { return Steiner{curve.key(record(i).point), static_cast<std::uint32_t>(i)}; });
+      [&](std::size_t i) {
+        return Steiner{curve.key(record(i).point), static_cast<std::uint32_t>(i)};
+      });
   bulk.each(number.size(), [&](std::size_t i) {
     if (number[i] != none) number[i] = record(i).home.id();
   });
@@ -196,7 +198,7 @@ void number_cells(const detail::StrippedCells<D>& stripped, const detail::Bulk& 
 /// Vertices and cells in the order of their slots, in two passes over the cells.
 template <int D>
 void number_by_slots(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes,
-                    const detail::Bulk& bulk, Compacted<D>& out) {
+                     const detail::Bulk& bulk, Compacted<D>& out) {
   constexpr std::uint32_t used = 0;
   auto& number = out.vertex_number;
   number.assign(mesh.vertex_bound(), none);
@@ -280,8 +282,10 @@ MarkedFaces<D> gather_constraints(const Mesh<D>& mesh, const Domain<D>& domain, 
     if (mesh.constraints(c) && mesh.alive(c)) cells.push_back(c);
   });
   auto marker = [&](EntityId entity) {
-    if constexpr (D == 3) return domain.facets()[entity].marker;
-    else return domain.segments()[entity].marker;
+    if constexpr (D == 3)
+      return domain.facets()[entity].marker;
+    else
+      return domain.segments()[entity].marker;
   };
   MarkedFaces<D> found;
   found.faces = bulk.gather<Face>(constrained.size(), [&](std::size_t i, std::vector<Face>& faces) {
@@ -298,8 +302,7 @@ MarkedFaces<D> gather_constraints(const Mesh<D>& mesh, const Domain<D>& domain, 
       const auto* k = mesh.constraints(constrained[i]);
       const auto& v = mesh.cell(constrained[i]).vertices;
       for (int e = 0; e < 6; ++e)
-        if (k->has_edge(e))
-          edges.push_back({ends_of_edge(v, e), domain.segments()[k->edge_entity[e]].marker});
+        if (k->has_edge(e)) edges.push_back({ends_of_edge(v, e), domain.segments()[k->edge_entity[e]].marker});
     });
   return found;
 }
@@ -359,16 +362,15 @@ Compacted<D> compact(Mesh<D>&& mesh, const Domain<D>& domain, std::span<const do
   number_constraints<D>(constraints, out.vertex_number, bulk, out.mesh);
   if (!region_attributes.empty()) {
     out.mesh.regions.resize(out.mesh.cells.size());
-    stripped.each([&](const auto& cell, std::uint16_t region) {
-      out.mesh.regions[position_of<D>(out, cell)] = region_attributes[region];
-    });
+    stripped.each(
+        [&](const auto& cell, std::uint16_t region) { out.mesh.regions[position_of<D>(out, cell)] = region_attributes[region]; });
   }
   return out;
 }
 
 template <int D>
 Compacted<D> compact_by_slots(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes,
-                             bool parallel, const FillPoints<D>& fill) {
+                              bool parallel, const FillPoints<D>& fill) {
   const detail::Bulk bulk(parallel, {});
   Compacted<D> out;
   number_by_slots<D>(mesh, domain, region_attributes, bulk, out);

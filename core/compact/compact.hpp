@@ -44,6 +44,6 @@ Compacted<D> compact(Mesh<D>&& mesh, const Domain<D>& domain, std::span<const do
 /// numbered by their slots, in a fifth of the time.
 template <int D>
 Compacted<D> compact_by_slots(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes,
-                             bool parallel, const FillPoints<D>& fill = {});
+                              bool parallel, const FillPoints<D>& fill = {});
 
 }  // namespace pgdr

@@ -57,20 +57,20 @@ class FacetInterpolation {
     std::uint32_t best = none;
     detail::WeightedCorners<3> place{triangles_[0], {1, 0, 0}};
     tree_.nearest([&](const Box& box, std::uint32_t) { return box.squared_distance_to(x) * (1 - rounding::of_pruning); },
-                 [&](std::uint32_t t) {
-                   const auto& v = triangles_[t];
-                   const auto weight = detail::nearest_weights({points_[v[0]], points_[v[1]], points_[v[2]]}, x);
-                   Point3 p{};
-                   for (std::size_t i = 0; i < 3; ++i)
-                     for (int k = 0; k < 3; ++k) p[k] += weight[i] * points_[v[i]][k];
-                   const double d = squared_distance(p, x);
-                   if (d < nearest || (d == nearest && t < best)) {
-                     nearest = d;
-                     best = t;
-                     place = {v, weight};
-                   }
-                   return nearest;
-                 });
+                  [&](std::uint32_t t) {
+                    const auto& v = triangles_[t];
+                    const auto weight = detail::nearest_weights({points_[v[0]], points_[v[1]], points_[v[2]]}, x);
+                    Point3 p{};
+                    for (std::size_t i = 0; i < 3; ++i)
+                      for (int k = 0; k < 3; ++k) p[k] += weight[i] * points_[v[i]][k];
+                    const double d = squared_distance(p, x);
+                    if (d < nearest || (d == nearest && t < best)) {
+                      nearest = d;
+                      best = t;
+                      place = {v, weight};
+                    }
+                    return nearest;
+                  });
     return place;
   }
 
@@ -107,9 +107,8 @@ void fill_on_facets(const Mesh<3>& mesh, const Domain<3>& domain, Numbers number
   for (std::size_t i = 0, j; i < list.size() && !bulk.stopped(); i = j) {
     for (j = i; j < list.size() && list[j].facet == list[i].facet;) ++j;
     const FacetInterpolation facet(domain, list[i].facet);
-    bulk.each(j - i, [&](std::size_t k) {
-      rows.set(list[i + k].number, facet.at(list[i + k].point), domain.point_attributes());
-    });
+    bulk.each(j - i,
+              [&](std::size_t k) { rows.set(list[i + k].number, facet.at(list[i + k].point), domain.point_attributes()); });
   }
 }
 

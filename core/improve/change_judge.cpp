@@ -23,7 +23,7 @@ double ChangeJudge::excess_of(const std::vector<CellId>& cells) {
 bool ChangeJudge::is_explained(const std::vector<Home>& homes, const Simplex<3>& s) {
   const auto sphere = circumsphere<3>(s);
   return reasons_->has_reason(homes, {sphere.center, sphere.squared_radius},
-                               [this](EntityRef a, EntityRef b) { return w_->angles.between(a, b); });
+                              [this](EntityRef a, EntityRef b) { return w_->angles.between(a, b); });
 }
 
 }  // namespace pgdr

@@ -32,7 +32,8 @@ constexpr std::size_t most_cells_changed = 100;   ///< by one change: more, of t
 /// The judge. Part of a worker: one thread at a time.
 class ChangeJudge {
  public:
-  ChangeJudge(Workspace<3>& workspace, const PoorReasons<3>& reasons) : w_(&workspace), reasons_(&reasons) {}  ///< both outlive it
+  ChangeJudge(Workspace<3>& workspace, const PoorReasons<3>& reasons)
+      : w_(&workspace), reasons_(&reasons) {}  ///< both outlive it
 
   double excess_of(CellId c);                          ///< the excess of an element of the mesh
   double excess_of(const std::vector<CellId>& cells);  ///< their sum
@@ -49,7 +50,7 @@ class ChangeJudge {
   };
 
   Workspace<3>* w_;
-  const PoorReasons<3>* reasons_;  ///< changed by no visit
+  const PoorReasons<3>* reasons_;                                           ///< changed by no visit
   std::vector<KnownExcess> excess_cache_ = std::vector<KnownExcess>(1024);  ///< of the cells asked for last
 };
 

@@ -7,10 +7,10 @@
 #include <optional>
 #include <tuple>
 
-#include "space/corner_means.hpp"
 #include "input/entities.hpp"
 #include "refine/encroachment.hpp"
 #include "refine/split_points.hpp"
+#include "space/corner_means.hpp"
 
 namespace pgdr {
 namespace {
@@ -66,7 +66,8 @@ void PointChanges::add_places_on_edge(CellId c, int edge, std::vector<Place>& pl
   const auto [from, to] = edge_ends[edge];
   const auto [t0, t1] = parameters_of(w_->context, segment, v[from], v[to]);
   const auto add = [&](double t) {
-    places.push_back({w_->entry(c, EntryKind::edge, edge), point_on_segment<3>(w_->domain, segment, t), Home(EntityKind::segment, segment)});
+    places.push_back(
+        {w_->entry(c, EntryKind::edge, edge), point_on_segment<3>(w_->domain, segment, t), Home(EntityKind::segment, segment)});
   };
   add((t0 + t1) / 2);
   for (int i = 0; i < 4; ++i) {
@@ -94,7 +95,9 @@ auto PointChanges::places_for(CellId c) -> std::vector<Place> {
       if (k->has_edge(e)) add_places_on_edge(c, e, places);
   }
   const Point3 center = places.front().x;
-  const auto encroached = w_->cavity.collect(center, c) == Cavity<3>::Status::ok ? encroached_entity<3>(w_->mesh, w_->cavity, w_->options, center) : std::nullopt;
+  const auto encroached = w_->cavity.collect(center, c) == Cavity<3>::Status::ok
+                              ? encroached_entity<3>(w_->mesh, w_->cavity, w_->options, center)
+                              : std::nullopt;
   if (encroached && encroached->kind() == EntryKind::face) add_places_on_face(encroached->cell, encroached->which(), places);
   if (encroached && encroached->kind() == EntryKind::edge) add_places_on_edge(encroached->cell, encroached->which(), places);
   return places;
@@ -110,7 +113,8 @@ auto PointChanges::collect_at(const Place& p) -> Cavity<3>::Status {
   };
   w_->cavity.release();
   Status status = collect();
-  if (status == Status::ok && p.at.kind() == EntryKind::face && edge_beyond<3>(w_->mesh, w_->domain, w_->cavity, p.x)) return Status::not_star_shaped;
+  if (status == Status::ok && p.at.kind() == EntryKind::face && edge_beyond<3>(w_->mesh, w_->domain, w_->cavity, p.x))
+    return Status::not_star_shaped;
   return status == Status::ok ? w_->cavity.make_star_shaped() : status;
 }
 
@@ -158,7 +162,8 @@ std::vector<Home> PointChanges::homes_of_cavity() const {
   std::vector<Home> homes;
   for (const CellId c : w_->cavity.cells())
     for (const VertexId v : w_->mesh.cell(c).vertices)
-      if (const Home home = w_->mesh.vertex(v).home; home.kind() != EntityKind::volume && std::find(homes.begin(), homes.end(), home) == homes.end())
+      if (const Home home = w_->mesh.vertex(v).home;
+          home.kind() != EntityKind::volume && std::find(homes.begin(), homes.end(), home) == homes.end())
         homes.push_back(home);
   return homes;
 }

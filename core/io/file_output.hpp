@@ -42,8 +42,7 @@ class FileOutput {
   }
   /// The shortest decimal that reads back to the same bits; integers in decimal.
   template <class Number>
-    requires(std::integral<Number> || std::floating_point<Number>)
-  void put_number(Number value) {
+  requires(std::integral<Number> || std::floating_point<Number>) void put_number(Number value) {
     reserve(longest_number);
     char* const begin = buffer_.data() + used_;
     used_ += static_cast<std::size_t>(std::to_chars(begin, begin + longest_number, value).ptr - begin);
@@ -51,8 +50,7 @@ class FileOutput {
 
   /// The bytes of a number, the least significant first.
   template <class Number>
-    requires(std::integral<Number> || std::floating_point<Number>)
-  void put_binary(Number value) {
+  requires(std::integral<Number> || std::floating_point<Number>) void put_binary(Number value) {
     auto bytes = std::bit_cast<std::array<char, sizeof(Number)>>(value);
     if constexpr (std::endian::native == std::endian::big) std::reverse(bytes.begin(), bytes.end());
     reserve(bytes.size());

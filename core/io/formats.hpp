@@ -37,7 +37,7 @@ Plc<3> read_ply(std::string_view text, const std::filesystem::path& file);
 Plc<3> read_stl(std::string_view text, const std::filesystem::path& file);
 
 enum class Purpose {
-  input,     ///< lines are kept
+  input,  ///< lines are kept
   mesh,
   dimension  ///< what is read may end where the dimension is known
 };

@@ -65,9 +65,7 @@ bool is_tetgen_mesh(const std::string& extension) { return extension == ".node" 
 /// The texts of the mesh that a .node or .ele file belongs to.
 template <int D>
 OutputMesh<D> read_tetgen_files(const Path& file) {
-  const auto text = [&file](std::string_view extension) {
-    return detail::read_whole_file(detail::tetgen_name(file, extension));
-  };
+  const auto text = [&file](std::string_view extension) { return detail::read_whole_file(detail::tetgen_name(file, extension)); };
   const auto optional_text = [&](std::string_view extension) {
     std::error_code ignored;
     const bool there = std::filesystem::exists(detail::tetgen_name(file, extension), ignored);
@@ -114,8 +112,7 @@ Plc<D> read_plc_from(std::string_view bytes, const Path& name) {
 template <int D>
 OutputMesh<D> read_mesh_from(std::string_view bytes, const Path& name) {
   const std::string extension = lower_extension(name);
-  if (const FileMeshReader read = file_mesh_reader(extension))
-    return to_output_mesh<D>(read(bytes, name, {Purpose::mesh, D}));
+  if (const FileMeshReader read = file_mesh_reader(extension)) return to_output_mesh<D>(read(bytes, name, {Purpose::mesh, D}));
   if (extension == ".vtu") return read_vtu<D>(bytes, name);
   unknown_format(name, "a mesh");
 }
@@ -154,8 +151,7 @@ Plc<D> read_plc(const Path& file) {
 template <int D>
 OutputMesh<D> read_mesh(const Path& file) {
   if (is_tetgen_mesh(lower_extension(file))) return guarded(file, [&] { return read_tetgen_files<D>(file); });
-  return with_bytes(file, is_mesh_format(file),
-                    [&](const std::string& bytes) { return detail::read_mesh_from<D>(bytes, file); });
+  return with_bytes(file, is_mesh_format(file), [&](const std::string& bytes) { return detail::read_mesh_from<D>(bytes, file); });
 }
 
 int file_dimension(const Path& file) {
@@ -170,8 +166,7 @@ int file_dimension(const Path& file) {
       const Path node = detail::tetgen_name(file, ".node");
       return detail::node_dimension(detail::read_whole_file(node), node);
     }
-    if (extension == ".poly" || extension == ".node")
-      return detail::node_dimension(detail::read_whole_file(file), file);
+    if (extension == ".poly" || extension == ".node") return detail::node_dimension(detail::read_whole_file(file), file);
     if (extension == ".vtu") return detail::vtu_dimension(detail::read_whole_file(file), file);
     unknown_format(file, "a file that is read");
   });

@@ -19,9 +19,7 @@ inline constexpr CellId no_cell{0xffffffffu};      ///< no cell has this id
 
 /// The id as an index of an array.
 template <class Id>
-  requires std::same_as<Id, VertexId> || std::same_as<Id, CellId>
-constexpr std::uint32_t index(Id id) {
-  return static_cast<std::uint32_t>(id);
-}
+requires std::same_as<Id, VertexId> || std::same_as<Id, CellId>
+constexpr std::uint32_t index(Id id) { return static_cast<std::uint32_t>(id); }
 
 }  // namespace pgdr

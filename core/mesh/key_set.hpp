@@ -56,8 +56,10 @@ class SmallNumbers {
   std::uint32_t of(std::uint32_t id) {
     std::uint32_t i = first_place(id);
     while (ids_[i] != id) {
-      if (ids_[i] == none) ids_[i] = id;
-      else i = (i + 1) % bound;
+      if (ids_[i] == none)
+        ids_[i] = id;
+      else
+        i = (i + 1) % bound;
     }
     return i;
   }

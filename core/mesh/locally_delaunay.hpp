@@ -8,8 +8,8 @@
 
 namespace pgdr {
 
-/// Is the face unconstrained, and the vertex beyond it strictly inside the (unperturbed) circumsphere of c? Any thread that may read
-/// the cell and the one beyond the face.
+/// Is the face unconstrained, and the vertex beyond it strictly inside the (unperturbed) circumsphere of c? Any thread that may
+/// read the cell and the one beyond the face.
 template <int D>
 bool violates(const Mesh<D>& mesh, CellId c, int face) {
   const Link link = mesh.cell(c).links[face];

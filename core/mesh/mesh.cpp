@@ -132,8 +132,10 @@ void Mesh<D>::change_pinched(CellId c, bool add) {
     for (int e = 0; e < 6; ++e) {
       if (!k->has_edge(e) || !pinched_->has(k->edge_entity[e])) continue;
       const auto [a, b] = ends_of_edge(cell(c).vertices, e);
-      if (add) pinched_->add(a, b, c);
-      else pinched_->remove(a, b, c);
+      if (add)
+        pinched_->add(a, b, c);
+      else
+        pinched_->remove(a, b, c);
     }
   }
 }

@@ -46,9 +46,9 @@ struct Link {
     return l;
   }
   explicit operator bool() const { return code != 0xffffffffu; }  ///< does it lead anywhere?
-  CellId cell() const { return CellId{code >> 2}; }  ///< the cell beyond
-  int face() const { return static_cast<int>(code & 3u); }  ///< the number of the face there
-  friend bool operator==(Link, Link) = default;  ///< the same cell and face
+  CellId cell() const { return CellId{code >> 2}; }               ///< the cell beyond
+  int face() const { return static_cast<int>(code & 3u); }        ///< the number of the face there
+  friend bool operator==(Link, Link) = default;                   ///< the same cell and face
 };
 
 /// The entity of lowest dimension that a vertex lies on, packed: two bits of EntityKind, thirty of id.
@@ -61,21 +61,21 @@ struct Home {
   EntityKind kind() const { return static_cast<EntityKind>(code >> 30); }  ///< vertex, segment, facet or volume
   EntityId id() const { return code & 0x3fffffffu; }  ///< of the segment or facet; of an input vertex, its domain point
   EntityRef entity() const { return {kind(), kind() == EntityKind::volume ? no_entity : id()}; }  ///< both; the volume has no id
-  bool operator==(const Home&) const = default;  ///< the same entity
+  bool operator==(const Home&) const = default;                                                   ///< the same entity
 };
 
 /// A vertex.
 template <int D>
 struct VertexRecord {
   Point<D> point;  ///< where it is
-  Home home;  ///< what it lies on
+  Home home;       ///< what it lies on
   /// The relaxed insertion radius R(p) of rule/insertion_rule.hpp, rounded down; infinity for input vertices.
   float relaxed_radius = std::numeric_limits<float>::infinity();
 };
 
 /// What the last stage of a run knows of a vertex (improve/vertex_changes.hpp). All zero at first, as fresh memory is.
 struct VertexNote {
-  std::uint32_t version;  ///< how often the cells at it have changed
+  std::uint32_t version;            ///< how often the cells at it have changed
   std::uint32_t no_collapse_until;  ///< no collapse of it helps while its version is below this
   std::uint32_t no_move_until;      ///< no move of it helps while its version is below this
 };
@@ -86,7 +86,7 @@ struct alignas(D == 3 ? 8 : 2) CellTag {
   static constexpr std::uint32_t mark_bit = 1u << 31;  ///< of `get()`: the cell is marked
 
   std::array<std::uint16_t, 2> constraints;  ///< one number, in halves
-  std::uint16_t birth;  ///< how many cells the slot has held (Mesh::birth)
+  std::uint16_t birth;                       ///< how many cells the slot has held (Mesh::birth)
 
   /// The number of the side record, from 1, or 0 without one; and the mark.
   std::uint32_t get() const { return std::bit_cast<std::uint32_t>(constraints); }
@@ -99,18 +99,18 @@ struct CellRecord;
 template <>
 struct alignas(64) CellRecord<3> {
   std::array<VertexId, 4> vertices;  ///< positively oriented; the first is no_vertex in a slot that is free
-  std::array<Link, 4> links;  ///< links[i]: across the face opposite vertices[i]
-  Point<3> center;            ///< of the circumsphere, rounded
-  double radius2;             ///< squared; its lowest four bits are the level of the filter's error band
+  std::array<Link, 4> links;         ///< links[i]: across the face opposite vertices[i]
+  Point<3> center;                   ///< of the circumsphere, rounded
+  double radius2;                    ///< squared; its lowest four bits are the level of the filter's error band
 };
 static_assert(sizeof(CellRecord<3>) == 64);
 /// A triangle, half a cache line. Its circumcircle is not kept: its corners, which are few to read, answer as soon.
 template <>
 struct alignas(32) CellRecord<2> {
   std::array<VertexId, 3> vertices;  ///< positively oriented; the first is no_vertex in a slot that is free
-  std::array<Link, 3> links;  ///< links[i]: across the edge opposite vertices[i]
-  CellTag<2> tag;             ///< of the slot
-  std::uint16_t region;       ///< number of its region
+  std::array<Link, 3> links;         ///< links[i]: across the edge opposite vertices[i]
+  CellTag<2> tag;                    ///< of the slot
+  std::uint16_t region;              ///< number of its region
 };
 static_assert(sizeof(CellRecord<2>) == 32);
 
@@ -137,10 +137,10 @@ struct FilterSphere {
 /// Which faces and edges of a cell are constrained, and by what. In 2D the faces are the subsegments.
 template <int D>
 struct ConstraintRecord {
-  std::uint8_t faces = 0;                     ///< bit i: the face opposite vertex i is constrained
-  std::uint8_t edges = 0;                     ///< 3D, bit e: edge e is a subsegment
-  std::uint8_t part = 0;                      ///< scratch of a cavity: bit i: face i is being split
-  std::array<EntityId, D + 1> face_entity{};  ///< facet (3D) or segment (2D)
+  std::uint8_t faces = 0;                              ///< bit i: the face opposite vertex i is constrained
+  std::uint8_t edges = 0;                              ///< 3D, bit e: edge e is a subsegment
+  std::uint8_t part = 0;                               ///< scratch of a cavity: bit i: face i is being split
+  std::array<EntityId, D + 1> face_entity{};           ///< facet (3D) or segment (2D)
   std::array<EntityId, D == 3 ? 6 : 1> edge_entity{};  ///< segment of each constrained edge, 3D
 
   bool has_face(int face) const { return faces >> face & 1; }  ///< is the face a subfacet (2D: subsegment)?
@@ -163,13 +163,13 @@ class Mesh {
  public:
   Mesh();
 
-  VertexRecord<D>& vertex(VertexId v) { return vertices_[index(v)]; }  ///< to be changed
+  VertexRecord<D>& vertex(VertexId v) { return vertices_[index(v)]; }              ///< to be changed
   const VertexRecord<D>& vertex(VertexId v) const { return vertices_[index(v)]; }  ///< to be read
-  const Point<D>& point(VertexId v) const { return vertices_[index(v)].point; }  ///< where the vertex is
+  const Point<D>& point(VertexId v) const { return vertices_[index(v)].point; }    ///< where the vertex is
   /// 3D: what the last stage knows of the vertex. Threads: for the visit that owns the cells at it.
   VertexNote& note(VertexId v) { return notes_[index(v)]; }
-  const VertexNote& note(VertexId v) const { return notes_[index(v)]; }  ///< to be read
-  CellRecord<D>& cell(CellId c) { return cells_[index(c)]; }  ///< to be changed
+  const VertexNote& note(VertexId v) const { return notes_[index(v)]; }   ///< to be read
+  CellRecord<D>& cell(CellId c) { return cells_[index(c)]; }              ///< to be changed
   const CellRecord<D>& cell(CellId c) const { return cells_[index(c)]; }  ///< to be read
 
   /// Hints that the cell is about to be read; any id will do.
@@ -184,7 +184,7 @@ class Mesh {
   void prefetch(VertexId v) const { __builtin_prefetch(&vertices_[index(v)]); }  ///< hints that the vertex is about to be read
 
   bool alive(CellId c) const { return cell(c).vertices[0] != no_vertex; }  ///< does the slot hold a cell?
-  static constexpr std::uint16_t last_birth = 0xffff;  ///< the count of a slot that holds no cell any more
+  static constexpr std::uint16_t last_birth = 0xffff;                      ///< the count of a slot that holds no cell any more
   /// The number of cells that the slot has held before. Slot and birth name a cell for good, since a slot whose count is full is
   /// not used again. (A flip may bring back a cell of the same vertices: it has another slot, or another birth.) Any thread.
   std::uint16_t birth(CellId c) const { return atomic(tag(c).birth).load(std::memory_order_relaxed); }
@@ -245,8 +245,10 @@ class Mesh {
   }
   /// The number of the cell's region.
   std::uint16_t region(CellId c) const {
-    if constexpr (D == 2) return cell(c).region;
-    else return several_regions_ ? regions_[index(c)] : std::uint16_t{0};
+    if constexpr (D == 2)
+      return cell(c).region;
+    else
+      return several_regions_ ? regions_[index(c)] : std::uint16_t{0};
   }
   /// Threads: for the visit that owns the cell; but one thread alone sets the first region other than 0.
   void set_region(CellId c, std::uint16_t r) {
@@ -275,8 +277,10 @@ class Mesh {
   }
   /// The circumsphere: in 3D the stored one, in 2D it is computed. @pre the cell is no ghost
   FilterSphere<D> sphere(CellId c) const {
-    if constexpr (D == 3) return {cell(c).center, cell(c).radius2};
-    else return FilterSphere<D>::of(circumsphere<D>(simplex(c)));
+    if constexpr (D == 3)
+      return {cell(c).center, cell(c).radius2};
+    else
+      return FilterSphere<D>::of(circumsphere<D>(simplex(c)));
   }
   Point<D> center(CellId c) const { return sphere(c).center; }  ///< the circumcentre, rounded
 
@@ -385,8 +389,12 @@ class Mesh {
   static constexpr std::uint32_t mark_bit = CellTag<D>::mark_bit;
 
   template <class T>
-  static std::atomic_ref<T> atomic(const T& v) { return std::atomic_ref<T>(const_cast<T&>(v)); }
-  struct Band { double inner, outer; };
+  static std::atomic_ref<T> atomic(const T& v) {
+    return std::atomic_ref<T>(const_cast<T&>(v));
+  }
+  struct Band {
+    double inner, outer;
+  };
   static const std::array<Band, 16> bands;  ///< by level
   static int band_level(double radius2) { return static_cast<int>(std::bit_cast<std::uint64_t>(radius2) & 15); }
   static constexpr int first_inaccurate_level = 9;
@@ -396,8 +404,10 @@ class Mesh {
 
   std::unique_ptr<PinchedEdges> pinched_;
   CellTag<D>& tag(CellId c) {
-    if constexpr (D == 3) return tags_[index(c)];
-    else return cell(c).tag;
+    if constexpr (D == 3)
+      return tags_[index(c)];
+    else
+      return cell(c).tag;
   }
   const CellTag<D>& tag(CellId c) const { return const_cast<Mesh*>(this)->tag(c); }
   void grow_cells_to(std::uint32_t n);
@@ -414,7 +424,8 @@ class Mesh {
   IdSource cell_source_, vertex_source_, constraint_source_;
 };
 
-/// The order of two cells by the points of their vertices, which slots have no part in: below 0 if a comes before b, 0 if it is b.
+/// The order of two cells by the points of their vertices, which slots have no part in: below 0 if a comes before b, 0 if it is
+/// b.
 template <int D>
 int compare_vertices(const Mesh<D>& mesh, CellId a, CellId b) {
   const auto &u = mesh.cell(a).vertices, &v = mesh.cell(b).vertices;

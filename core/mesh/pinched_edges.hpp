@@ -29,8 +29,8 @@ class PinchedEdges {
   explicit PinchedEdges(std::vector<bool> segments) : segments_(std::move(segments)) {}
 
   bool has(EntityId segment) const { return segments_[segment]; }  ///< are subsegments of it pinched?
-  void add(VertexId a, VertexId b, CellId c);  ///< lists a cell with the subsegment ab
-  void remove(VertexId a, VertexId b, CellId c);  ///< takes a cell that dies off the list
+  void add(VertexId a, VertexId b, CellId c);                      ///< lists a cell with the subsegment ab
+  void remove(VertexId a, VertexId b, CellId c);                   ///< takes a cell that dies off the list
   /// The cells with this subsegment, of all fans.
   std::vector<CellId> cells(VertexId a, VertexId b) const;
 

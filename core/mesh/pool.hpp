@@ -31,7 +31,7 @@ class ReservedArray {
   explicit ReservedArray(std::uint32_t capacity)
       : memory_(std::size_t{capacity} * sizeof(T)), items_(static_cast<T*>(memory_.base())) {}
 
-  T& operator[](std::uint32_t i) { return items_[i]; }  ///< slot i
+  T& operator[](std::uint32_t i) { return items_[i]; }              ///< slot i
   const T& operator[](std::uint32_t i) const { return items_[i]; }  ///< slot i
 
   /// Makes the slots [0, count) exist. @throws std::bad_alloc

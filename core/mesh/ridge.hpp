@@ -40,8 +40,8 @@ enum class RoundEdge {
 };
 
 /// Calls f(walk) at the cells round edge `edge` of c, beginning with c: in one direction until the walk is back
-/// at c, or at a face with nothing beyond; then in the other one, c again first. Reads a cell only after f has said `go_on` at the one
-/// before.
+/// at c, or at a face with nothing beyond; then in the other one, c again first. Reads a cell only after f has said `go_on` at
+/// the one before.
 template <class F>
 void for_cells_round(const Mesh<3>& mesh, CellId c, int edge, F f) {
   const auto others = corners_without(edge_ends[edge][0], edge_ends[edge][1]);

@@ -61,8 +61,10 @@ class VisitArea {
   /// Does the visit own the cell? (In 3D a circumball in the inner box tells: the vertices are on its sphere.)
   bool owns(const Mesh<D>& mesh, CellId c) const {
     const auto& k = mesh.cell(c);
-    if constexpr (D == 2) return owns(mesh, k.vertices);
-    else return ball_is_inner(mesh, c) || owns(mesh, k.vertices);
+    if constexpr (D == 2)
+      return owns(mesh, k.vertices);
+    else
+      return ball_is_inner(mesh, c) || owns(mesh, k.vertices);
   }
   /// Is the cell alive, and is it owned, or does it share a face with an owned cell? Debug builds assert this of what is read.
   bool may_read(const Mesh<D>& mesh, CellId c) const {

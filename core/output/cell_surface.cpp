@@ -128,8 +128,8 @@ CellSurface<D> surface_of(const std::vector<Point<D>>& points, const std::vector
 }
 
 template CellSurface<2> surface_of<2>(const std::vector<Point2>&, const std::vector<LabelledCell<2>>&,
-                                   const std::vector<std::array<std::uint32_t, 2>>&);
+                                      const std::vector<std::array<std::uint32_t, 2>>&);
 template CellSurface<3> surface_of<3>(const std::vector<Point3>&, const std::vector<LabelledCell<3>>&,
-                                   const std::vector<std::array<std::uint32_t, 3>>&);
+                                      const std::vector<std::array<std::uint32_t, 3>>&);
 
 }  // namespace pgdr::detail

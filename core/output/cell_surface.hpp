@@ -10,8 +10,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "space/disjoint_sets.hpp"
 #include "pgdr/plc.hpp"
+#include "space/disjoint_sets.hpp"
 
 namespace pgdr::detail {
 

@@ -45,10 +45,10 @@ DisjointSets parts_of(const std::vector<HullFace<D>>& hull) {
 /// A face with what lies beyond it.
 template <int D>
 struct Side {
-  Simplex<D> cell;      ///< the face, then the opposite corner
-  Point<D> centre;      ///< of the face
-  Point<D> outward;     ///< normal, as long as the face is large; approximate
-  double squared = 0;   ///< its squared length
+  Simplex<D> cell;     ///< the face, then the opposite corner
+  Point<D> centre;     ///< of the face
+  Point<D> outward;    ///< normal, as long as the face is large; approximate
+  double squared = 0;  ///< its squared length
 };
 
 template <int D>

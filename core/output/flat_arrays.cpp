@@ -32,7 +32,10 @@ std::vector<std::array<std::uint32_t, N>> simplices_of(std::span<const std::uint
       throw InputError({Errc::index_out_of_range,
                         "simplex " + std::to_string(i / N) + " has index " + std::to_string(indices[i]) + ", there are " +
                             std::to_string(points) + " points",
-                        {}, 0, {static_cast<std::int64_t>(i / N), indices[i]}, {}});
+                        {},
+                        0,
+                        {static_cast<std::int64_t>(i / N), indices[i]},
+                        {}});
     simplices[i / N][i % N] = indices[i];
   }
   return simplices;

@@ -172,25 +172,25 @@ auto MeshInterpolation<D>::outside(const Point<D>& x) const -> WeightedCorners<D
   result.corner.fill(faces_[0][0]);
   result.weight[0] = 1;
   face_tree_.nearest([&](const Box<D>& box, std::uint32_t) { return box.squared_distance_to(x) * (1 - rounding::of_pruning); },
-                    [&](std::uint32_t f) {
-                      std::array<Point<D>, D> face;
-                      for (int i = 0; i < D; ++i) face[i] = points_[faces_[f][i]];
-                      const auto weight = nearest_weights(face, x);
-                      Point<D> p{};
-                      for (int i = 0; i < D; ++i)
-                        for (int j = 0; j < D; ++j) p[j] += weight[i] * face[i][j];
-                      const double d = squared_distance(p, x);
-                      if (d > nearest || (d == nearest && f > best)) return nearest;
-                      nearest = d;
-                      best = f;
-                      for (int i = 0; i < D; ++i) {
-                        result.corner[i] = faces_[f][i];
-                        result.weight[i] = weight[i];
-                      }
-                      result.corner[D] = result.corner[0];
-                      result.weight[D] = 0;
-                      return nearest;
-                    });
+                     [&](std::uint32_t f) {
+                       std::array<Point<D>, D> face;
+                       for (int i = 0; i < D; ++i) face[i] = points_[faces_[f][i]];
+                       const auto weight = nearest_weights(face, x);
+                       Point<D> p{};
+                       for (int i = 0; i < D; ++i)
+                         for (int j = 0; j < D; ++j) p[j] += weight[i] * face[i][j];
+                       const double d = squared_distance(p, x);
+                       if (d > nearest || (d == nearest && f > best)) return nearest;
+                       nearest = d;
+                       best = f;
+                       for (int i = 0; i < D; ++i) {
+                         result.corner[i] = faces_[f][i];
+                         result.weight[i] = weight[i];
+                       }
+                       result.corner[D] = result.corner[0];
+                       result.weight[D] = 0;
+                       return nearest;
+                     });
   return result;
 }
 

@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
-#include "space/box_tree.hpp"
 #include "pgdr/types.hpp"
+#include "space/box_tree.hpp"
 
 namespace pgdr::detail {
 

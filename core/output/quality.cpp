@@ -146,8 +146,7 @@ template <int D>
 std::array<double, D == 2 ? 3 : 6> angles_deg(const Simplex<D>& s) {
   if constexpr (D == 2) {
     std::array<double, 3> angle;
-    for (int i = 0; i < 3; ++i)
-      angle[i] = angle_between(difference(s[(i + 1) % 3], s[i]), difference(s[(i + 2) % 3], s[i]));
+    for (int i = 0; i < 3; ++i) angle[i] = angle_between(difference(s[(i + 1) % 3], s[i]), difference(s[(i + 2) % 3], s[i]));
     return angle;
   } else {
     // At edge ij the dihedral angle is that between the parts of ik and il normal to ij.

@@ -34,17 +34,17 @@ namespace pgdr PGDR_API {
 /// What is checked.
 template <int D>
 struct CheckOptions {
-  const Domain<D>* domain = nullptr;  ///< null: no conformity, no regions
-  RegionMode regions = RegionMode::seeds;   ///< what the mesh was made with
+  const Domain<D>* domain = nullptr;                                   ///< null: no conformity, no regions
+  RegionMode regions = RegionMode::seeds;                              ///< what the mesh was made with
   double radius_edge_bound = std::numeric_limits<double>::infinity();  ///< on circumradius over shortest edge
-  SizingField<D> size;                ///< circumradius (3D) or area (2D) bound at the centroid
-  RegionSizes<D> region_sizes;        ///< further ones of the cells with these labels
-  double max_measure = std::numeric_limits<double>::infinity();  ///< volume (3D) bound of all cells
+  SizingField<D> size;                                                 ///< circumradius (3D) or area (2D) bound at the centroid
+  RegionSizes<D> region_sizes;                                         ///< further ones of the cells with these labels
+  double max_measure = std::numeric_limits<double>::infinity();        ///< volume (3D) bound of all cells
   const std::vector<PoorReason>* reasons = nullptr;  ///< of poor cells, each of which is verified; null: there are none
   /// Widest distance, in ulps of the entity's largest coordinate, of a vertex from the line or plane it is on.
   /// One ulp is 2^-52 times that coordinate. Axis-aligned entities must be met exactly.
   int conformity_ulps = 2;
-  std::size_t max_listed = 20;        ///< at most so many findings of one kind in words; all are counted
+  std::size_t max_listed = 20;  ///< at most so many findings of one kind in words; all are counted
 };
 
 /// Something that makes the check fail.
@@ -73,7 +73,7 @@ struct CheckFinding {
     bad_reason,              ///< a reason that does not hold
   };
   static constexpr std::size_t kinds = static_cast<std::size_t>(Kind::bad_reason) + 1;  ///< so many
-  Kind kind;                      ///< what is wrong
+  Kind kind;                                                                            ///< what is wrong
   std::string message;            ///< one sentence; numbers of points, cells and entities count from 0
   std::vector<std::int64_t> ids;  ///< the cells, vertices or entities of the message, in its order
 };
@@ -84,11 +84,11 @@ std::string_view name(CheckFinding::Kind kind);
 struct CheckReport {
   std::uint64_t not_delaunay_rounding = 0;  ///< local violations that moving slanted points by conformity_ulps cancels
   std::uint64_t not_delaunay_refused = 0;   ///< other violations, beside an entity whose split was refused (in reasons)
-  std::uint64_t over_radius_edge = 0;                 ///< cells over the radius-edge bound
-  std::uint64_t over_size = 0;                        ///< cells over a bound of size, volume or area
-  std::uint64_t explained = 0;                        ///< cells over a bound with a reason that holds
-  std::vector<CheckFinding> findings;                 ///< what makes the check fail, at most max_listed a kind
-  std::uint64_t finding_count = 0;                    ///< all of them
+  std::uint64_t over_radius_edge = 0;       ///< cells over the radius-edge bound
+  std::uint64_t over_size = 0;              ///< cells over a bound of size, volume or area
+  std::uint64_t explained = 0;              ///< cells over a bound with a reason that holds
+  std::vector<CheckFinding> findings;       ///< what makes the check fail, at most max_listed a kind
+  std::uint64_t finding_count = 0;          ///< all of them
   std::array<std::uint64_t, CheckFinding::kinds> count_of_kind{};  ///< findings, by kind
   /// Findings of one kind.
   std::uint64_t count(CheckFinding::Kind kind) const { return count_of_kind[static_cast<std::size_t>(kind)]; }

@@ -28,17 +28,17 @@ struct OutputMesh {
   /// The distinct input points in the order of the input, then Steiner points along a Hilbert curve (in no particular order
   /// if the run was cancelled, or ended by its time limit).
   std::vector<Point<D>> points;
-  std::size_t input_points = 0;           ///< how many of `points` are the input's (0: unknown, e.g. read from a file)
+  std::size_t input_points = 0;  ///< how many of `points` are the input's (0: unknown, e.g. read from a file)
   /// Empty, or one a point. Of a Steiner point that of the segment or facet that it lies on.
   std::vector<int> point_markers;
   /// Of the first point, of the second, ...: equally many each, or none at all. Those of Steiner points are interpolated
   /// (point_data.hpp).
   std::vector<double> point_attributes;
   std::vector<std::array<Index, D + 1>> cells;  ///< positively oriented
-  std::vector<double> regions;            ///< empty (one region), or the attribute of each cell
-  std::vector<std::uint32_t> leaves;      ///< on request: node of the tree, a leaf, in which each cell's circumcentre lies
-  std::vector<Constraint<2>> subsegments; ///< each once, sorted by vertices; so are the subfacets
-  std::vector<Constraint<3>> subfacets;   ///< 3D only
+  std::vector<double> regions;                  ///< empty (one region), or the attribute of each cell
+  std::vector<std::uint32_t> leaves;            ///< on request: node of the tree, a leaf, in which each cell's circumcentre lies
+  std::vector<Constraint<2>> subsegments;       ///< each once, sorted by vertices; so are the subfacets
+  std::vector<Constraint<3>> subfacets;         ///< 3D only
 };
 
 }  // namespace pgdr

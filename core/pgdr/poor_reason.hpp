@@ -18,7 +18,7 @@ struct PoorReason {
   /// asked for is below the smallest proved one. kept_boundary: the first entity is a segment without points of its own,
   /// which hides the circumcentre or is encroached upon by it (RefineOptions::keep_boundary).
   enum class Code { small_angle, rounding, beyond_theory, kept_boundary };
-  std::uint32_t cell = 0;  ///< index into OutputMesh::cells
+  std::uint32_t cell = 0;             ///< index into OutputMesh::cells
   Code code = Code::small_angle;      ///< what kind of reason
   std::array<EntityRef, 2> entities;  ///< input entities (of the Domain) that meet at the angle
   double angle = 0;                   ///< degrees

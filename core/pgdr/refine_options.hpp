@@ -45,7 +45,8 @@ struct ScheduleOptions {
   Executor executor = Executor::flow_graph;    ///< what runs them
   /// Threads to ask for, not negative; 0: all that the caller's arena has. Never more run than TBB allows the program.
   int threads = 0;
-  /// A visit ends after this many buckets, at least 1 (factors of two) of circumradius below its largest, if the leaf still holds work.
+  /// A visit ends after this many buckets, at least 1 (factors of two) of circumradius below its largest, if the leaf still holds
+  /// work.
   int granularity = std::numeric_limits<int>::max();
   /// A leaf splits once no poor element in it has a circumradius above split_ratio times its children's side ...
   double split_ratio = 0.5;
@@ -63,17 +64,17 @@ template <int D>
 struct RefineOptions {
   /// Upper bound on circumradius over shortest edge. Proved for >= 2 (3D), >= sqrt 2 (2D).
   double radius_edge_bound = smallest_proved_bound<D>();
-  SizingField<D> size;            ///< circumradius (3D) or area (2D) bound at the centroid
-  RegionSizes<D> region_sizes;    ///< further such bounds, on the cells of single regions
-  double max_volume = std::numeric_limits<double>::infinity();  ///< 3D: volume bound of all cells; 2D: must be infinite
-  RegionMode regions = RegionMode::seeds;  ///< what is meshed, and how it is labelled
-  PointSelector<D> selector;      ///< empty: circumcentre
-  DiskOptions disk;               ///< the disk in which the selector may put a point
+  SizingField<D> size;                                             ///< circumradius (3D) or area (2D) bound at the centroid
+  RegionSizes<D> region_sizes;                                     ///< further such bounds, on the cells of single regions
+  double max_volume = std::numeric_limits<double>::infinity();     ///< 3D: volume bound of all cells; 2D: must be infinite
+  RegionMode regions = RegionMode::seeds;                          ///< what is meshed, and how it is labelled
+  PointSelector<D> selector;                                       ///< empty: circumcentre
+  DiskOptions disk;                                                ///< the disk in which the selector may put a point
   OutsidePolicy outside = OutsidePolicy::replace_by_circumcenter;  ///< what becomes of points outside of it (and NaN)
-  bool refine = true;             ///< false: boundary recovery alone
+  bool refine = true;                                              ///< false: boundary recovery alone
   /// 2D: no new point on any segment. Elements that this leaves poor have the reason kept_boundary.
   bool keep_boundary = false;
-  double min_edge = 0;            ///< insertions that would make an edge shorter than this are refused
+  double min_edge = 0;  ///< insertions that would make an edge shorter than this are refused
   std::uint64_t max_vertices = std::numeric_limits<std::uint64_t>::max();  ///< a budget; input points count
   std::optional<std::chrono::duration<double>> time_limit;  ///< seconds from the call; then the mesh so far is returned
   /// Cancels the run, from any thread. Each visit ends with the insertion that it is at; then the mesh so far is returned,
@@ -82,8 +83,8 @@ struct RefineOptions {
   /// What a run that was cancelled (by `stop`, or as part of the caller's tasks) returns. True: the mesh so far, valid, its
   /// Steiner points and cells in no particular order (as after the time limit), without reasons. False: no mesh, sooner.
   bool partial_mesh = true;
-  bool leaves = false;            ///< tell for each cell which leaf of the tree holds its circumcentre (OutputMesh::leaves)
-  ScheduleOptions schedule;       ///< threads, and how work is divided among them
+  bool leaves = false;       ///< tell for each cell which leaf of the tree holds its circumcentre (OutputMesh::leaves)
+  ScheduleOptions schedule;  ///< threads, and how work is divided among them
   /// Called by one thread at a time, a few times a second at most, from any of the threads. May throw.
   std::function<void(const Progress&)> progress;
 };

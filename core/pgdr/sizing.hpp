@@ -27,13 +27,13 @@ using SizeFunction = std::function<double(const Point<D>&)>;
 template <int D>
 class SizingField {
  public:
-  SizingField() = default;                              ///< no bound
+  SizingField() = default;  ///< no bound
   /// The same everywhere, in units of the input (3D) or their squares (2D).
-  SizingField(double constant) : constant_(constant) {} // NOLINT: implicit by design
+  SizingField(double constant) : constant_(constant) {}  // NOLINT: implicit by design
   /// f(x), for any point x of the domain; see SizeFunction.
   template <class F>
-    requires std::is_invocable_r_v<double, F, const Point<D>&>
-  SizingField(F f) : function_(std::move(f)) {}         // NOLINT
+  requires std::is_invocable_r_v < double, F, const Point<D>
+  & > SizingField(F f) : function_(std::move(f)) {}  // NOLINT
   /// Can any cell be too large?
   bool bounded() const { return function_ || constant_ != std::numeric_limits<double>::infinity(); }
   /// No function; at() is the same everywhere.
@@ -49,8 +49,8 @@ class SizingField {
 /// The sizes of one region.
 template <int D>
 struct RegionSize {
-  double label = 0;      ///< of its cells: the attribute of its seed, its number with RegionMode::automatic, 0 without either
-  SizingField<D> size;   ///< as RefineOptions::size, asked at the centroids of the region's cells alone
+  double label = 0;     ///< of its cells: the attribute of its seed, its number with RegionMode::automatic, 0 without either
+  SizingField<D> size;  ///< as RefineOptions::size, asked at the centroids of the region's cells alone
 };
 
 /// Sizes by region. Those of several entries with one label are all met.

@@ -60,8 +60,7 @@ template <int D>
 bool PoorReasons<D>::is_beside(EntityRef segment, const Ball<D>& doubled) const {
   if (segment.kind != EntityKind::segment) return false;
   const auto& ends = domain_->segments()[segment.id].points;
-  return in_diametral_ball<D>(domain_->points()[ends[0]], domain_->points()[ends[1]], doubled.center) ||
-         meets(segment, doubled);
+  return in_diametral_ball<D>(domain_->points()[ends[0]], domain_->points()[ends[1]], doubled.center) || meets(segment, doubled);
 }
 
 /// Calls `f` with the entities that a vertex of this home lies on until it says true. Has it?
@@ -175,9 +174,7 @@ void PoorReasons<D>::look_at(CellId c, bool violated, std::vector<PoorCell>& fou
   const CellVerdict verdict = bounds_->test(*mesh_, c);
   if (!verdict && !violated) return;
   const Remembered* before = remembered(c);
-  const auto reason_of = [&](bool beside) {
-    return before && (before->beside || !beside) ? before->reason : explain(c, beside);
-  };
+  const auto reason_of = [&](bool beside) { return before && (before->beside || !beside) ? before->reason : explain(c, beside); };
   PoorReason reason;
   // Without a small angle nearby a violation is one of rounding, which needs no reason.
   const bool beside = violated && (reason = reason_of(true)).code == PoorReason::Code::small_angle;

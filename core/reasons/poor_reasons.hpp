@@ -22,17 +22,17 @@ namespace pgdr {
 /// An element that stays poor, or has a face that is not locally Delaunay, and why. `PoorReason::cell` is filled when
 /// the mesh is compacted.
 struct PoorCell {
-  CellId cell;  ///< the element
+  CellId cell;              ///< the element
   bool over_bound = false;  ///< over any bound
   bool over_size = false;   ///< over one of size, volume or area
-  PoorReason reason;  ///< why it is poor
-  bool beside = false;  ///< has a vertex on one of the entities named
+  PoorReason reason;        ///< why it is poor
+  bool beside = false;      ///< has a vertex on one of the entities named
 };
 
 /// Cells over a bound.
 struct PoorCount {
   std::uint64_t cells = 0;  ///< so many
-  bool over_size = false;  ///< any of them
+  bool over_size = false;   ///< any of them
 };
 
 /// How many of the cells numbered [first, last) are over a bound: of a run that a budget ended, or of none. Several
@@ -71,7 +71,7 @@ class PoorReasons {
   using EntityIds = std::vector<EntityId>;
   struct Remembered {
     std::uint16_t birth;  ///< of the cell
-    bool beside;  ///< as of PoorCell
+    bool beside;          ///< as of PoorCell
     PoorReason reason;
   };
 

@@ -49,8 +49,7 @@ bool any_corner(const Mesh<D>& mesh, CellId c, const F& f) {
     const auto* constraints = mesh.constraints(c);
     for (int i = 0; constraints && i <= D; ++i) {
       const auto& face = face_corners<D>[i];
-      if (constraints->has_face(i) && in_triangle({v[face[0]], v[face[1]], v[face[2]]}, constraints->face_entity[i]))
-        return true;
+      if (constraints->has_face(i) && in_triangle({v[face[0]], v[face[1]], v[face[2]]}, constraints->face_entity[i])) return true;
     }
     return false;
   }
@@ -65,9 +64,8 @@ class SharpCorners {
     for (EntityId s = 0; s < domain.segments().size(); ++s)
       for (const std::uint32_t p : domain.segments()[s].points)
         if (wanted[p]) add_sides(s, p);
-    std::sort(sides_.begin(), sides_.end(), [](const Side& a, const Side& b) {
-      return std::tuple(a.place(), a.polar) < std::tuple(b.place(), b.polar);
-    });
+    std::sort(sides_.begin(), sides_.end(),
+              [](const Side& a, const Side& b) { return std::tuple(a.place(), a.polar) < std::tuple(b.place(), b.polar); });
   }
 
   bool meets(const Mesh<D>& mesh, CellId c) const {
@@ -119,7 +117,7 @@ class SharpCorners {
   }
 
   const Domain<D>* domain_;
-  double largest_;  // angle of a sharp corner, in degrees
+  double largest_;           // angle of a sharp corner, in degrees
   std::vector<Side> sides_;  // by place, then counter-clockwise
 };
 

@@ -34,22 +34,22 @@ struct RefineContext {
   /// Has the run been cancelled, or is its time up? It is stopped with that. Any thread.
   bool ended();
 
-  Mesh<D>& mesh;                    ///< which visits change
-  const Domain<D>& domain;          ///< the input
-  const RefineOptions<D>& options;  ///< as the caller gave them
-  const CellBounds<D> bounds;       ///< of cells
+  Mesh<D>& mesh;                                      ///< which visits change
+  const Domain<D>& domain;                            ///< the input
+  const RefineOptions<D>& options;                    ///< as the caller gave them
+  const CellBounds<D> bounds;                         ///< of cells
   const std::chrono::steady_clock::time_point start;  ///< of the time limit
   /// 3D: the last resort has begun, when what is poor would stay so (rule/insertion_rule.hpp). Set while no visit runs.
   bool last_resort = false;
   /// The stage that treats poor elements; null: points are inserted for them (element_splitter.hpp). Set while no visit runs.
   const ElementStage<D>* stage = nullptr;
-  const Shells<D> shells;  ///< none in 3D, where boundary recovery alone splits on them
-  int base_exponent = 0;   ///< of bucket 0: circumradii of the size of the domain and above
+  const Shells<D> shells;             ///< none in 3D, where boundary recovery alone splits on them
+  int base_exponent = 0;              ///< of bucket 0: circumradii of the size of the domain and above
   static constexpr int buckets = 64;  ///< of circumradii
 
-  std::atomic<int> stop{0};             ///< a StopCause other than `finished`, once there is one
-  std::atomic<std::uint64_t> vertices;  ///< in all, for the progress report
-  std::mutex progress_mutex;            ///< held while the caller's function runs
+  std::atomic<int> stop{0};                             ///< a StopCause other than `finished`, once there is one
+  std::atomic<std::uint64_t> vertices;                  ///< in all, for the progress report
+  std::mutex progress_mutex;                            ///< held while the caller's function runs
   std::chrono::steady_clock::time_point last_progress;  ///< under the mutex
 };
 

@@ -9,8 +9,8 @@
 namespace pgdr {
 namespace {
 
-constexpr std::uint64_t most_ineffective_work = 20'000'000;  // of rewrapping large regions in one visit: some seconds
-constexpr std::uint64_t most_ineffective_work_inside = 50'000;    // likewise, once entities have been refused
+constexpr std::uint64_t most_ineffective_work = 20'000'000;     // of rewrapping large regions in one visit: some seconds
+constexpr std::uint64_t most_ineffective_work_inside = 50'000;  // likewise, once entities have been refused
 
 }  // namespace
 
@@ -42,7 +42,8 @@ auto DelaunayRepair<D>::rewrap_effort(const Entry<D>& e) const -> std::optional<
   const auto& vertices = w_->mesh.cell(e.cell).vertices;
   const auto inside = std::count_if(vertices.begin(), vertices.end(), [this](VertexId v) { return w_->in_volume(v); });
   const bool refused = w_->visit->entities_refused;
-  if ((!refused || inside == D + 1) && flips_.rewrap_pays(refused ? most_ineffective_work_inside : most_ineffective_work)) return LocalRewrap::Effort::wide;
+  if ((!refused || inside == D + 1) && flips_.rewrap_pays(refused ? most_ineffective_work_inside : most_ineffective_work))
+    return LocalRewrap::Effort::wide;
   if (inside >= few) return LocalRewrap::Effort::quick;
   return std::nullopt;
 }

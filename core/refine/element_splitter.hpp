@@ -20,11 +20,11 @@ namespace pgdr {
 /// A point that is to go in for a poor element.
 template <int D>
 struct Candidate {
-  Entry<D> entry;           ///< the element
-  CellVerdict verdict;      ///< the bounds that it is over
-  FilterSphere<D> sphere;   ///< its circumsphere
-  Point<D> x;               ///< the point
-  bool at_center = true;    ///< is x the circumcentre, where there is no selector?
+  Entry<D> entry;          ///< the element
+  CellVerdict verdict;     ///< the bounds that it is over
+  FilterSphere<D> sphere;  ///< its circumsphere
+  Point<D> x;              ///< the point
+  bool at_center = true;   ///< is x the circumcentre, where there is no selector?
 };
 
 /// Splits poor elements. Part of a worker: one thread at a time.

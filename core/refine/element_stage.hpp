@@ -19,8 +19,8 @@ template <int D>
 class ElementTreatment {
  public:
   virtual ~ElementTreatment() = default;
-  virtual void begin_visit() = 0;                     ///< is called before a visit does anything
-  virtual Outcome treat(const Entry<D>& e) = 0;       ///< treats the element of an entry of kind cell
+  virtual void begin_visit() = 0;                ///< is called before a visit does anything
+  virtual Outcome treat(const Entry<D>& e) = 0;  ///< treats the element of an entry of kind cell
   virtual std::uint64_t version(
       CellId c) const = 0;  ///< a hash of what a decision about the element rests on (Refusal::versions)
 };

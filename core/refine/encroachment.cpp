@@ -85,8 +85,8 @@ bool is_face_encroached_by(const Mesh<D>& mesh, const Domain<D>& domain, CellId 
     return in_diametral_ball<2>(mesh.point(a), mesh.point(b), mesh.point(v)) &&
            !lies_on<D>(domain, mesh.vertex(v).home, {EntityKind::segment, id});
   } else {
-    const Ball<3> ball =
-        equatorial_ball(mesh.point(k[(face + 1) & 3]), mesh.point(k[(face + 2) & 3]), mesh.point(k[(face + 3) & 3]));
+    const Ball<3> ball = equatorial_ball(mesh.point(k[(face + 1) & 3]), mesh.point(k[(face + 2) & 3]),
+                                         mesh.point(k[(face + 3) & 3]));
     return in_equatorial_ball(ball, mesh.point(v)) && !lies_on<D>(domain, mesh.vertex(v).home, {EntityKind::facet, id});
   }
 }

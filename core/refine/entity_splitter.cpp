@@ -132,8 +132,8 @@ Outcome EntitySplitter<D>::split_face(const Entry<D>& e, const Demand* cause) {
   return edge ? split_edge_instead(e, *edge, entity, own, cause) : commit_split(entity, own, cause, {});
 }
 
-/// 3D: the subsegment that is to be split in place of the subfacet with the collected point x, if there is one. Where its cavity is
-/// not star-shaped about x, it is collected anew from the subfacet that x lies in.
+/// 3D: the subsegment that is to be split in place of the subfacet with the collected point x, if there is one. Where its cavity
+/// is not star-shaped about x, it is collected anew from the subfacet that x lies in.
 template <int D>
 auto EntitySplitter<D>::find_edge_in_the_way(const Entry<D>& e, const Point<D>& x, std::optional<Entry<D>>& edge) -> Status {
   if constexpr (D == 3) {
@@ -168,8 +168,8 @@ Outcome EntitySplitter<D>::split_edge_instead(const Entry<D>& face, const Entry<
   return outcome;
 }
 
-/// A cell at the subsegment with a corner nearer than this to x on it; not counted are twins of `place`, if x is that. Such cells are
-/// in the cavity of x, whatever else is, and are found long before that is collected. Ends where the claim does.
+/// A cell at the subsegment with a corner nearer than this to x on it; not counted are twins of `place`, if x is that. Such cells
+/// are in the cavity of x, whatever else is, and are found long before that is collected. Ends where the claim does.
 template <int D>
 std::optional<CellId> EntitySplitter<D>::cell_near_edge(const Entry<D>& e, const Point<D>& x, double distance,
                                                         const SplitPlace* place) const {
@@ -208,7 +208,8 @@ Outcome EntitySplitter<D>::refuse_near(const Entry<D>& e, std::span<const Vertex
 }
 
 template <int D>
-auto EntitySplitter<D>::refused_before(const Entry<D>& face, const Demand& cause) const -> std::optional<std::pair<Entry<D>, CellId>> {
+auto EntitySplitter<D>::refused_before(const Entry<D>& face, const Demand& cause) const
+    -> std::optional<std::pair<Entry<D>, CellId>> {
   const auto edge = memo_.passed_on(*mesh_, face);
   if (!edge) return std::nullopt;
   const auto [a, b] = ends_of_edge(mesh_->cell(edge->cell).vertices, edge->which());
@@ -238,7 +239,8 @@ Outcome EntitySplitter<D>::split_edge(const Entry<D>& e, const Demand* cause) {
     const Point<D> x = place ? place->x : split_point(w_->context, s, own[0], own[1]);
     const EntityRef entity{EntityKind::segment, s};
     const double least = cause ? cause->d : 0;
-    if (const auto near = memo_.nearer_than(*mesh_, own[0], own[1], least); near && near->x == x) return refuse_near(e, own, near->cell);
+    if (const auto near = memo_.nearer_than(*mesh_, own[0], own[1], least); near && near->x == x)
+      return refuse_near(e, own, near->cell);
     auto near = cause ? cell_near_edge(e, x, least, place) : std::nullopt;
     const Status status = near ? Status::too_near : cavity_->collect_on_edge(x, e.cell, e.which(), least, place);
     if (status == Status::not_owned) return w_->give_up(Outcome::not_owned);

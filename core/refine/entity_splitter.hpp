@@ -50,7 +50,8 @@ class EntitySplitter {
   Outcome split_edge(const Entry<D>& e, const Demand* cause);
   Outcome split_face(const Entry<D>& e, const Demand* cause);
   Status find_edge_in_the_way(const Entry<D>& face, const Point<D>& x, std::optional<Entry<D>>& edge);
-  Outcome split_edge_instead(const Entry<D>& face, const Entry<D>& edge, EntityRef facet, std::span<const VertexId> own, const Demand* cause);
+  Outcome split_edge_instead(const Entry<D>& face, const Entry<D>& edge, EntityRef facet, std::span<const VertexId> own,
+                             const Demand* cause);
   Outcome commit_split(EntityRef entity, std::span<const VertexId> own, const Demand* cause, std::span<const VertexId> twins);
   Outcome refuse(EntityRef entity, std::span<const VertexId> own);
   Outcome refuse_near(const Entry<D>& e, std::span<const VertexId> own, CellId near);

@@ -26,7 +26,8 @@ class Inserter {
     w_->visit->min_edge_hit = true;
     return true;
   }
-  /// Inserts the point whose cavity was collected and judged, and lists what is encroached, poor or not locally Delaunay at its cells.
+  /// Inserts the point whose cavity was collected and judged, and lists what is encroached, poor or not locally Delaunay at its
+  /// cells.
   Outcome commit(Home home, double relaxed_radius) {
     w_->cavity.commit(w_->pools, home, rounded_down(relaxed_radius));
     RegionVisit<D>& visit = *w_->visit;

@@ -90,7 +90,8 @@ void Refiner<D>::record_refusal(const Entry<D>& e) {
   std::vector<CellId> seen = distinct_trace(e);
   const std::uint64_t surroundings = surroundings_of<D>(workspace_.mesh, seen).value_or(0);
   const std::uint64_t versions = treatment_ ? treatment_->version(e.cell) : 0;
-  visit.list->refused.push_back({e, workspace_.refused_by, visit.order, visit.generation, std::move(seen), surroundings, versions});
+  visit.list->refused.push_back(
+      {e, workspace_.refused_by, visit.order, visit.generation, std::move(seen), surroundings, versions});
   visit.entities_refused = visit.entities_refused || e.kind() != EntryKind::cell;
 }
 

@@ -62,7 +62,7 @@ class Refiner {
   Inserter<D> inserter_;
   EntitySplitter<D> entities_;
   ElementSplitter<D> elements_;
-  const ElementStage<D>* stage_ = nullptr;         ///< that the treatment is of
+  const ElementStage<D>* stage_ = nullptr;          ///< that the treatment is of
   std::unique_ptr<ElementTreatment<D>> treatment_;  ///< of poor elements; null: points are inserted
   std::uint64_t checked_at_ = 0, reported_ = 0;
   std::uint64_t stride_ = 1;  ///< insertions between two looks at the clock

@@ -22,10 +22,10 @@ class RefusalMemo {
  public:
   /// A cell in the cavity of a subsegment's point, with a corner near the point.
   struct Near {
-    CellId cell;  ///< its slot
+    CellId cell;          ///< its slot
     std::uint16_t birth;  ///< of that cell
-    Point<D> x;  ///< the point
-    double distance;  ///< of its nearest corner from the point
+    Point<D> x;           ///< the point
+    double distance;      ///< of its nearest corner from the point
   };
 
   /// Forgets everything, at no cost where there is nothing.

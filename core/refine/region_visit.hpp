@@ -43,10 +43,10 @@ struct RegionVisit {
   std::uint64_t generation = 0;        ///< the generation that the visit is of; for the trace and for Refusal
   double small_radius = 0;             ///< end once no poor element is larger ...
   std::size_t floor = 0;               ///< ... and the list is crowded by this
-  int granularity = std::numeric_limits<int>::max();  ///< end this many buckets after the first
+  int granularity = std::numeric_limits<int>::max();                          ///< end this many buckets after the first
   std::uint64_t most_insertions = std::numeric_limits<std::uint64_t>::max();  ///< share of the budget
-  bool violations_seen = false;        ///< look for faces that are not locally Delaunay at every insertion
-  bool entities_refused = false;       ///< has any visit refused an entity's split; after the visit, this one included?
+  bool violations_seen = false;   ///< look for faces that are not locally Delaunay at every insertion
+  bool entities_refused = false;  ///< has any visit refused an entity's split; after the visit, this one included?
   // done
   /// Entries for another region.
   struct Outbox {

@@ -44,8 +44,9 @@ double sharpest_cosine(const Simplex<D>& s) {
   }
 }
 
-/// What a selector may ask. Collects in the worker's own cavity, which is empty while a selector runs, so that it obeys the claim as an insertion
-/// does: where that would step on from a cell that the visit does not own, there is no answer, now or to later questions.
+/// What a selector may ask. Collects in the worker's own cavity, which is empty while a selector runs, so that it obeys the claim
+/// as an insertion does: where that would step on from a cell that the visit does not own, there is no answer, now or to later
+/// questions.
 template <int D>
 class View final : public Neighborhood<D> {
  public:
@@ -91,8 +92,9 @@ class View final : public Neighborhood<D> {
     if (status == Collected::not_owned) preview.status = end();
     if (status != Collected::ok) return preview;
     for (const CellId c : cavity.cells()) ++(w_->context.bounds.test(w_->mesh, c) ? preview.poor : preview.good);
-    preview.status = encroached_entity<D>(w_->mesh, cavity, w_->options, p) || wall_that_hides<D>(*w_, seed_, p) ? Status::encroaches
-                                                                                                          : Status::possible;
+    preview.status = encroached_entity<D>(w_->mesh, cavity, w_->options, p) || wall_that_hides<D>(*w_, seed_, p)
+                         ? Status::encroaches
+                         : Status::possible;
     return preview;
   }
 

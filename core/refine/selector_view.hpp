@@ -10,8 +10,8 @@
 
 namespace pgdr {
 
-/// Where the selector puts the point of a cell over the radius-edge bound; nothing if the claim is too small to tell. `center`: the
-/// cell's circumcentre. Uses the cavity, which must be empty.
+/// Where the selector puts the point of a cell over the radius-edge bound; nothing if the claim is too small to tell. `center`:
+/// the cell's circumcentre. Uses the cavity, which must be empty.
 /// @throws UsageError bad_option for a point outside the disk, if the caller wants that to be an error; what the selector throws
 template <int D>
 std::optional<Point<D>> selected_point(Workspace<D>& w, CellId c, const Point<D>& center);

@@ -33,8 +33,8 @@ Point<D> split_point_of_face(const RefineContext<D>& context, CellId c, int face
   if constexpr (D == 2) {
     return split_point(context, id, k[(face + 1) % 3], k[(face + 2) % 3]);
   } else {
-    const Ball<3> ball =
-        equatorial_ball(mesh.point(k[(face + 1) & 3]), mesh.point(k[(face + 2) & 3]), mesh.point(k[(face + 3) & 3]));
+    const Ball<3> ball = equatorial_ball(mesh.point(k[(face + 1) & 3]), mesh.point(k[(face + 2) & 3]),
+                                         mesh.point(k[(face + 3) & 3]));
     return point_on_facet(context.domain, id, ball.center);
   }
 }

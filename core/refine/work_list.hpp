@@ -43,7 +43,7 @@ struct Entry {
         bucket(static_cast<std::uint8_t>(size_bucket)),
         what_(static_cast<std::uint8_t>(static_cast<int>(kind) << 4 | which)) {}
 
-  CellId cell;          ///< the slot of the cell
+  CellId cell;  ///< the slot of the cell
   /// For elements of poor shape alone: the least goes first. For elements that are too big: CellVerdict::over_size.
   std::uint32_t order;
   std::uint16_t birth;  ///< of the cell
@@ -74,11 +74,12 @@ class Fifo {
   }
   ~Fifo() { clear(); }
 
-  bool empty() const { return size_ == 0; }  ///< is nothing in it?
+  bool empty() const { return size_ == 0; }   ///< is nothing in it?
   std::size_t size() const { return size_; }  ///< so many are in it
   /// Puts the item behind all others.
   void push(const T& item) {
-    if (!last_ || tail_ == last_->capacity) [[unlikely]] append_block();
+    if (!last_ || tail_ == last_->capacity) [[unlikely]]
+      append_block();
     last_->items()[tail_++] = item;
     ++size_;
   }
@@ -160,7 +161,7 @@ class Fifo {
 template <int D>
 class EntryHeap {
  public:
-  bool empty() const { return items_.empty(); }  ///< is nothing in it?
+  bool empty() const { return items_.empty(); }           ///< is nothing in it?
   const Entry<D>& top() const { return items_.front(); }  ///< the least. @pre !empty()
   /// Adds it.
   void push(const Entry<D>& e) {
@@ -190,10 +191,10 @@ class EntryHeap {
 /// A refused entry, and what the decision rested on.
 template <int D>
 struct Refusal {
-  Entry<D> entry;  ///< the entry
+  Entry<D> entry;                  ///< the entry
   std::optional<EntityPair> pair;  ///< the two entities at fault; nothing if none were
-  std::uint32_t order = 1;       ///< order of the claim of the visit that decided
-  std::uint64_t generation = 0;  ///< the generation of that visit
+  std::uint32_t order = 1;         ///< order of the claim of the visit that decided
+  std::uint64_t generation = 0;    ///< the generation of that visit
   /// The cells that were looked at: while these and their neighbours stay, so does the decision. Empty: not known.
   std::vector<CellId> seen;
   std::uint64_t surroundings = 0;  ///< `surroundings_of` these cells, when it was decided
@@ -204,9 +205,9 @@ struct Refusal {
 template <int D>
 class WorkList {
  public:
-  Fifo<Entry<D>> edges;  ///< encroached subsegments
-  Fifo<Entry<D>> faces;  ///< encroached subfacets
-  Fifo<Entry<D>> flips;  ///< faces that are not locally Delaunay
+  Fifo<Entry<D>> edges;             ///< encroached subsegments
+  Fifo<Entry<D>> faces;             ///< encroached subfacets
+  Fifo<Entry<D>> flips;             ///< faces that are not locally Delaunay
   std::vector<Refusal<D>> refused;  ///< what was refused, for as long as the cells that decided are there
 
   /// Adds an entry of any kind.
@@ -220,7 +221,8 @@ class WorkList {
   }
   /// Adds a poor element.
   void push_poor(const Entry<D>& e) {
-    if (static_cast<std::size_t>(e.bucket - first_) >= poor_.size()) [[unlikely]] make_bucket(e.bucket);
+    if (static_cast<std::size_t>(e.bucket - first_) >= poor_.size()) [[unlikely]]
+      make_bucket(e.bucket);
     Bucket& bucket = poor_[static_cast<std::size_t>(e.bucket - first_)];
     if (e.which() == Entry<D>::over_radius_edge) {
       bucket.by_shape.push(e);

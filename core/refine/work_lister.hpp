@@ -19,7 +19,8 @@ namespace pgdr {
 template <int D>
 class WorkLister {
  public:
-  explicit WorkLister(Workspace<D>& workspace) : w_(&workspace), mesh_(&workspace.mesh), quick_bounds_(workspace.context.bounds) {}
+  explicit WorkLister(Workspace<D>& workspace)
+      : w_(&workspace), mesh_(&workspace.mesh), quick_bounds_(workspace.context.bounds) {}
 
   /// Must be called before the visit does anything.
   void begin_visit() { elsewhere_.clear(); }

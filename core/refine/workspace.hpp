@@ -51,7 +51,13 @@ struct Workspace {
 
   /// The context must outlive it.
   Workspace(RefineContext<D>& c, Pools p)
-      : context(c), mesh(c.mesh), domain(c.domain), options(c.options), pools(std::move(p)), cavity(c.mesh, &c.domain), angles(c.domain) {
+      : context(c),
+        mesh(c.mesh),
+        domain(c.domain),
+        options(c.options),
+        pools(std::move(p)),
+        cavity(c.mesh, &c.domain),
+        angles(c.domain) {
     cavity.set_seen(&trace);
   }
   Workspace(const Workspace&) = delete;
@@ -61,7 +67,7 @@ struct Workspace {
   Entry<D> entry(CellId c, EntryKind kind, int which, int bucket = 0, std::uint32_t order = 0) const {
     return {c, mesh.birth(c), kind, which, bucket, order};
   }
-  bool alive(const Entry<D>& e) const { return e.alive(mesh); }  ///< is its cell still there?
+  bool alive(const Entry<D>& e) const { return e.alive(mesh); }                                  ///< is its cell still there?
   bool in_volume(VertexId v) const { return mesh.vertex(v).home.kind() == EntityKind::volume; }  ///< on no entity?
   /// Releases the cavity. @returns the outcome
   Outcome give_up(Outcome outcome) {
@@ -73,12 +79,12 @@ struct Workspace {
   Mesh<D>& mesh;
   const Domain<D>& domain;
   const RefineOptions<D>& options;
-  Pools pools;                            ///< of this worker
-  Cavity<D> cavity;                       ///< of the insertion that is being tried
-  RegionVisit<D>* visit = nullptr;        ///< that runs
+  Pools pools;                      ///< of this worker
+  Cavity<D> cavity;                 ///< of the insertion that is being tried
+  RegionVisit<D>* visit = nullptr;  ///< that runs
   EntityAngles<D> angles;
-  std::vector<CellId> trace;              ///< cells that were looked at to decide about the entry treated, with repetitions
-  std::optional<EntityPair> refused_by;   ///< entities that the entry treated was refused for
+  std::vector<CellId> trace;             ///< cells that were looked at to decide about the entry treated, with repetitions
+  std::optional<EntityPair> refused_by;  ///< entities that the entry treated was refused for
 };
 
 }  // namespace pgdr

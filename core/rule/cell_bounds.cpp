@@ -19,13 +19,13 @@ double checked_size(const SizingField<D>& size, const Point<D>& x) {
   const double s = size.at(x);
   if (s > 0) return s;  // false for NaN too
   Diagnostic d{Errc::bad_size, {}, {}, 0, {}, {{x[0], x[1], D == 3 ? x[D - 1] : 0.0}}};
-  d.message = "the size function returned " + std::to_string(s) + " at (" + std::to_string(x[0]) + ", " +
-              std::to_string(x[1]) + (D == 3 ? ", " + std::to_string(x[D - 1]) : "") + "); sizes must be positive";
+  d.message = "the size function returned " + std::to_string(s) + " at (" + std::to_string(x[0]) + ", " + std::to_string(x[1]) +
+              (D == 3 ? ", " + std::to_string(x[D - 1]) : "") + "); sizes must be positive";
   throw UsageError(std::move(d));
 }
 
-/// The binary logarithm of a positive number, to 1e-12. Of operations that IEEE 754 defines alone, since meshes rest on it: std::log2
-/// differs from library to library.
+/// The binary logarithm of a positive number, to 1e-12. Of operations that IEEE 754 defines alone, since meshes rest on it:
+/// std::log2 differs from library to library.
 double log2_of(double x) {
   if (x == std::numeric_limits<double>::infinity()) return x;
   int exponent;

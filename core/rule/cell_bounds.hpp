@@ -21,8 +21,8 @@ struct CellShape {
   double shortest_edge_squared;  ///< as circumsphere.hpp computes it
   double squared_radius_low;     ///< lower bound of the square of the circumradius
   double squared_radius_high;    ///< upper bound of the same
-  double det;        ///< of orient(), see ShapeBlock
-  double det_error;  ///< its error; infinite: not known
+  double det;                    ///< of orient(), see ShapeBlock
+  double det_error;              ///< its error; infinite: not known
 };
 
 /// Which bounds a cell is over.
@@ -55,7 +55,7 @@ class CellBounds {
   static constexpr double infinity = std::numeric_limits<double>::infinity();  ///< no bound
 
   double radius_edge_bound = infinity;  ///< on circumradius over shortest edge
-  SizingField<D> size;            ///< bound on the size of all cells
+  SizingField<D> size;                  ///< bound on the size of all cells
   /// Further bounds on size of each region (by region number). Empty: none at all.
   std::vector<SizingField<D>> region_size;
   double max_measure = infinity;  ///< bound on the volume (2D: area) of all cells
@@ -66,8 +66,8 @@ class CellBounds {
   CellVerdict test(const Mesh<D>& mesh, CellId c) const;
   /// test() of a cell whose shape is known.
   CellVerdict test(const Mesh<D>& mesh, CellId c, const CellShape& shape) const;
-  /// How far a cell of these corners in the region would be over its bounds: 0 within; over any of them 1, and over that of shape an
-  /// eighth more for each power of two by which it is, up to 2.5 more. Called of cells that are not there, too.
+  /// How far a cell of these corners in the region would be over its bounds: 0 within; over any of them 1, and over that of shape
+  /// an eighth more for each power of two by which it is, up to 2.5 more. Called of cells that are not there, too.
   double excess(const Simplex<D>& s, int region) const;
   /// Would a cell of these corners in the region be within the bounds of size?
   bool within_size(const Simplex<D>& s, int region) const;
@@ -104,7 +104,8 @@ class QuickBounds {
   }
   /// Tests a cell of this shape.
   Answer look(const CellShape& shape) const {
-    double least = shape.squared_radius_low, most = shape.squared_radius_high;  // of the square of the circumradius, or of twice the area
+    double least = shape.squared_radius_low,
+           most = shape.squared_radius_high;  // of the square of the circumradius, or of twice the area
     if constexpr (D == 2) {
       least = (std::fabs(shape.det) - shape.det_error) * (1 - rounding::of_determinant);
       most = (std::fabs(shape.det) + shape.det_error) * (1 + rounding::of_determinant);

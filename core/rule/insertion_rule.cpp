@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "input/entities.hpp"
 #include "rule/insertion_rule.hpp"
+#include "input/entities.hpp"
 
 #include <algorithm>
 #include <array>

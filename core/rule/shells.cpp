@@ -23,9 +23,8 @@ Shells<D>::Shells(const Domain<D>& domain, bool any) : domain_(&domain) {
   std::vector<Use> uses;
   for (EntityId s = 0; s < segments.size(); ++s)
     for (int end : {0, 1}) uses.push_back({segments[s].points[end], s, end});
-  std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) {
-    return std::pair(a.point, a.segment) < std::pair(b.point, b.segment);
-  });
+  std::sort(uses.begin(), uses.end(),
+            [](const Use& a, const Use& b) { return std::pair(a.point, a.segment) < std::pair(b.point, b.segment); });
   auto far_end = [&](const Use& u) { return domain_->points()[segments[u.segment].points[1 - u.end]]; };
   for (std::size_t i = 0, j; i < uses.size(); i = j) {
     for (j = i; j < uses.size() && uses[j].point == uses[i].point;) ++j;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
+#include "rule/twins.hpp"
 #include "input/entities.hpp"
 #include "numbers/rounding.hpp"
-#include "rule/twins.hpp"
 
 #include <algorithm>
 #include <cmath>

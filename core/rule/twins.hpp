@@ -57,7 +57,7 @@ class TwinPlaces {
   /// 0 <= t0 < t1 <= 1
   TwinPlaces(const Domain<3>& domain, EntityId segment, double t0, double t1, Beside where);
 
-  void look_at(const VertexRecord<3>& q);  ///< any vertex; the order in which they come does not matter
+  void look_at(const VertexRecord<3>& q);                          ///< any vertex; the order in which they come does not matter
   const std::optional<SplitPlace>& best() const { return best_; }  ///< nothing without any
 
  private:

@@ -33,7 +33,11 @@ template <int D>
 void require_sizes(std::span<const Point<D>> points, std::span<const double> sizes) {
   if (points.size() != sizes.size())
     throw UsageError({Errc::bad_option,
-                      std::to_string(sizes.size()) + " sizes for " + std::to_string(points.size()) + " points", {}, 0, {}, {}});
+                      std::to_string(sizes.size()) + " sizes for " + std::to_string(points.size()) + " points",
+                      {},
+                      0,
+                      {},
+                      {}});
   for (std::size_t i = 0; i < points.size(); ++i) {
     Diagnostic d{Errc::bad_size, {}, {}, 0, {static_cast<std::int64_t>(i)}, {}};
     d.points.push_back({points[i][0], points[i][1], D == 3 ? points[i][D - 1] : 0.0});
@@ -55,10 +59,13 @@ void require_indices(const OutputMesh<D>& mesh) {
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
     for (const std::uint32_t v : mesh.cells[c])
       if (v >= mesh.points.size())
-        throw InputError({Errc::index_out_of_range,
-                          "cell " + std::to_string(c) + " has vertex " + std::to_string(v) + " of " +
-                              std::to_string(mesh.points.size()),
-                          {}, 0, {static_cast<std::int64_t>(c)}, {}});
+        throw InputError(
+            {Errc::index_out_of_range,
+             "cell " + std::to_string(c) + " has vertex " + std::to_string(v) + " of " + std::to_string(mesh.points.size()),
+             {},
+             0,
+             {static_cast<std::int64_t>(c)},
+             {}});
 }
 
 }  // namespace pgdr::detail

@@ -47,7 +47,10 @@ void require_labels(const RegionSizes<D>& sizes, std::span<const double> labels)
     throw UsageError({Errc::bad_option,
                       "a size is given for the region label " + label_words(s.label) + ", which no region has; there " +
                           (known.empty() ? "are none" : "are " + words),
-                      {}, 0, {}, {}});
+                      {},
+                      0,
+                      {},
+                      {}});
   }
 }
 

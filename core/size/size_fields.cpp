@@ -64,14 +64,13 @@ SizingField<D> sizes_at_points(std::span<const Point<D>> points, std::span<const
       Source{{points.begin(), points.end()}, std::move(lengths), std::move(tree), std::move(least)});
   return [source, growth](const Point<D>& x) {
     double least = std::numeric_limits<double>::infinity();
-    source->tree.nearest(
-        [&](const detail::Box<D>& box, std::uint32_t node) {
-          return source->least[node] + growth * std::sqrt(box.squared_distance_to(x));
-        },
-        [&](std::uint32_t i) {
-          least = std::min(least, source->lengths[i] + growth * std::sqrt(squared_distance(x, source->points[i])));
-          return least;
-        });
+    source->tree.nearest([&](const detail::Box<D>& box,
+                             std::uint32_t node) { return source->least[node] + growth * std::sqrt(box.squared_distance_to(x)); },
+                         [&](std::uint32_t i) {
+                           least = std::min(least,
+                                            source->lengths[i] + growth * std::sqrt(squared_distance(x, source->points[i])));
+                           return least;
+                         });
     return detail::size_of_length<D>(least);
   };
 }
@@ -133,8 +132,10 @@ std::vector<double> sizes_of_regions(const OutputMesh<D>& mesh, const RegionSize
         if (done[v]) continue;
         done[v] = true;
         const double size = field.at(mesh.points[v]);
-        if (!(size > 0)) values[v] = size;  // said of the vertex below
-        else if (values[v] > 0) values[v] = std::min(values[v], size);
+        if (!(size > 0))
+          values[v] = size;  // said of the vertex below
+        else if (values[v] > 0)
+          values[v] = std::min(values[v], size);
       }
     }
   }

@@ -136,8 +136,7 @@ void Diagnoser<D>::note_facet_angles(std::uint32_t v, Angles& found) const requi
         const std::uint32_t i = corners[next] % 3, b = t.corners[(i + 1) % 3], c = t.corners[(i + 2) % 3];
         const bool near_b = angle_below_90<D>(p_[v], p_[end], p_[b]), near_c = angle_below_90<D>(p_[v], p_[end], p_[c]);
         if (!near_b && !near_c) continue;
-        const double sine2 =
-            sine2_to_corner(r, direction<D>(p_[v], p_[b]), direction<D>(p_[v], p_[c]), near_b, near_c);
+        const double sine2 = sine2_to_corner(r, direction<D>(p_[v], p_[b]), direction<D>(p_[v], p_[c]), near_b, near_c);
         if (sine2 < least.sine2) least = {sine2, {v, end, t.origin.facet, 0}};
       }
       if (least.sine2 <= 1) found.segment_facet_90.add(least);
@@ -187,19 +186,24 @@ void Diagnoser<D>::report_angles(const Angles& found) {
     }
   };
   report(Finding::segments_below_60, found.below_60, [this](const At& at, const std::string& angle) -> Account {
-    return {"the segments from point " + point_words(at[0]) + " to points " + point_words(at[1]) + " and " +
-                point_words(at[2]) + " meet at " + angle,
-            point_line(at[0]), {point_number(at[0]), point_number(at[1]), point_number(at[2])}, {p_[at[0]]}};
+    return {"the segments from point " + point_words(at[0]) + " to points " + point_words(at[1]) + " and " + point_words(at[2]) +
+                " meet at " + angle,
+            point_line(at[0]),
+            {point_number(at[0]), point_number(at[1]), point_number(at[2])},
+            {p_[at[0]]}};
   });
   report(Finding::segment_facet_below_90, found.segment_facet_90, [this](const At& at, const std::string& angle) -> Account {
-    return {"the segment from point " + point_words(at[0]) + " to " + point_words(at[1]) + " meets facet " +
-                facet_words(at[2]) + " at " + angle,
-            facet_line(at[2]), {point_number(at[0]), point_number(at[1]), number(at[2])}, {p_[at[0]]}};
+    return {"the segment from point " + point_words(at[0]) + " to " + point_words(at[1]) + " meets facet " + facet_words(at[2]) +
+                " at " + angle,
+            facet_line(at[2]),
+            {point_number(at[0]), point_number(at[1]), number(at[2])},
+            {p_[at[0]]}};
   });
   report(Finding::facets_below_90, found.facets_90, [this](const At& at, const std::string& angle) -> Account {
     return {"facets " + facet_words(at[2]) + " and " + facet_words(at[3]) + " meet at " + angle + " at the edge " +
                 edge_words({at[0], at[1]}),
-            facet_line(at[2]), {number(at[2]), number(at[3]), point_number(at[0]), point_number(at[1])},
+            facet_line(at[2]),
+            {number(at[2]), number(at[3]), point_number(at[0]), point_number(at[1])},
             {p_[at[0]], p_[at[1]]}};
   });
 }

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The maker of a Diagnosis of a Domain: what meets where it should not (pairs.cpp), how facets hang together (topology.cpp), small
-// angles (angles.cpp), points that may be meant to be one (near_points.cpp). Used by one thread, once; long loops run in its task
-// arena, too.
+// The maker of a Diagnosis of a Domain: what meets where it should not (pairs.cpp), how facets hang together (topology.cpp),
+// small angles (angles.cpp), points that may be meant to be one (near_points.cpp). Used by one thread, once; long loops run in
+// its task arena, too.
 #pragma once
 
 #include <algorithm>
@@ -51,7 +51,12 @@ template <int D>
 class Diagnoser {
  public:
   Diagnoser(const Domain<D>& domain, const DiagnosisOptions& options, Diagnosis<D>& out)
-      : domain_(domain), options_(options), bulk_(options.parallel, options.stop), stop_check_(options.stop), out_(out), p_(domain.points()) {}
+      : domain_(domain),
+        options_(options),
+        bulk_(options.parallel, options.stop),
+        stop_check_(options.stop),
+        out_(out),
+        p_(domain.points()) {}
   void run();
 
  private:
@@ -72,7 +77,7 @@ class Diagnoser {
   };
   /// Two pieces that meet, by the input entities that they belong to.
   struct Meeting {
-    std::uint32_t first, second;              // input facet, domain segment
+    std::uint32_t first, second;  // input facet, domain segment
     std::array<std::uint32_t, 2> pieces;
     bool overlap;
     friend auto operator<=>(const Meeting&, const Meeting&) = default;
@@ -91,9 +96,7 @@ class Diagnoser {
   struct Angle {
     double sine2;
     std::array<std::uint32_t, 4> at;
-    friend bool operator<(const Angle& a, const Angle& b) {
-      return a.sine2 != b.sine2 ? a.sine2 < b.sine2 : a.at < b.at;
-    }
+    friend bool operator<(const Angle& a, const Angle& b) { return a.sine2 != b.sine2 ? a.sine2 < b.sine2 : a.at < b.at; }
   };
   struct Angles {
     explicit Angles(std::size_t most) : below_60(most), segment_facet_90(most), facets_90(most) {}
@@ -112,15 +115,11 @@ class Diagnoser {
   std::string segment_words(EntityId s) const;
   std::uint32_t segment_line(EntityId s) const;
   std::uint32_t facet_line(std::uint32_t f) const { return line(domain_.source().facet_lines, f); }
-  std::uint32_t point_line(std::uint32_t v) const {
-    return line(domain_.source().point_lines, domain_.input_of_point()[v]);
-  }
-  static std::uint32_t line(const std::vector<std::uint32_t>& lines, std::size_t i) {
-    return i < lines.size() ? lines[i] : 0;
-  }
+  std::uint32_t point_line(std::uint32_t v) const { return line(domain_.source().point_lines, domain_.input_of_point()[v]); }
+  static std::uint32_t line(const std::vector<std::uint32_t>& lines, std::size_t i) { return i < lines.size() ? lines[i] : 0; }
   bool wants_more(Finding kind) const { return out_[kind].listed.size() < options_.most_listed; }
-  void list(Finding kind, Errc code, std::string message, std::uint32_t line, Ids ids,
-            const std::vector<Point<D>>& where, double measure = 0);
+  void list(Finding kind, Errc code, std::string message, std::uint32_t line, Ids ids, const std::vector<Point<D>>& where,
+            double measure = 0);
   std::vector<Point<D>> points_of(std::span<const std::uint32_t> vertices) const;
   void collect_triangles();
   std::span<const EdgeUse> uses_at(std::size_t begin) const;
@@ -168,12 +167,12 @@ class Diagnoser {
   const StopCheck stop_check_;
   Diagnosis<D>& out_;
   std::span<const Point<D>> p_;
-  std::vector<Triangle> triangles_;   // all facets'
+  std::vector<Triangle> triangles_;  // all facets'
   std::vector<EdgeUse> uses_;
-  std::vector<Piece> pieces_;         // the triangles, then segments of no facet, then points of neither
+  std::vector<Piece> pieces_;  // the triangles, then segments of no facet, then points of neither
   std::vector<EntityId> piece_segments_;
-  std::vector<std::uint32_t> segment_begin_, corner_begin_;   // by point
-  std::vector<std::uint32_t> corner_at_;                      // 3 * triangle + corner
+  std::vector<std::uint32_t> segment_begin_, corner_begin_;  // by point
+  std::vector<std::uint32_t> corner_at_;                     // 3 * triangle + corner
   std::vector<EntityId> segment_at_;
 };
 

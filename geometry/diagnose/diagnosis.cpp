@@ -13,11 +13,11 @@ namespace pgdr {
 
 std::string_view name(Finding kind) {
   constexpr std::array<std::string_view, finding_kinds> names{
-      "invalid_entities",   "facets_cross",       "facets_overlap",      "segments_cross_facets",
-      "segments_cross",     "points_on_facets",   "points_on_segments",  "encloses_nothing",
-      "duplicate_points",   "unreferenced_points", "repeated_facets",    "open_boundaries",     "near_points",
-      "non_manifold_edges", "non_manifold_points", "inconsistent_orientation",
-      "segments_below_60",  "segment_facet_below_90", "facets_below_90"};
+      "invalid_entities",  "facets_cross",           "facets_overlap",      "segments_cross_facets",
+      "segments_cross",    "points_on_facets",       "points_on_segments",  "encloses_nothing",
+      "duplicate_points",  "unreferenced_points",    "repeated_facets",     "open_boundaries",
+      "near_points",       "non_manifold_edges",     "non_manifold_points", "inconsistent_orientation",
+      "segments_below_60", "segment_facet_below_90", "facets_below_90"};
   return names[static_cast<std::size_t>(kind)];
 }
 
@@ -101,8 +101,7 @@ void Diagnoser<D>::collect_triangles() {
     }
     uses_.reserve(3 * triangles_.size());
     for (std::uint32_t t = 0; t < triangles_.size(); ++t)
-      for (std::size_t i = 0; i < 3; ++i)
-        uses_.push_back({key(triangles_[t].corners[i], triangles_[t].corners[(i + 1) % 3]), t});
+      for (std::size_t i = 0; i < 3; ++i) uses_.push_back({key(triangles_[t].corners[i], triangles_[t].corners[(i + 1) % 3]), t});
     stop_check_.sort(bulk_, uses_);
   }
 }
@@ -125,14 +124,13 @@ bool Diagnoser<D>::is_segment(const Edge& e) const {
   return at != segments.end() && key_of(*at) == wanted;
 }
 
-#define PGDR_INSTANTIATE(D)                                                                                  \
-  template std::string Diagnoser<D>::point_words(std::uint32_t) const;                                       \
-  template std::string Diagnoser<D>::segment_words(EntityId) const;                                          \
-  template std::uint32_t Diagnoser<D>::segment_line(EntityId) const;                                         \
-  template void Diagnoser<D>::list(Finding, Errc, std::string, std::uint32_t, Ids, const std::vector<Point<D>>&, \
-                                   double);                                                                  \
-  template std::vector<Point<D>> Diagnoser<D>::points_of(std::span<const std::uint32_t>) const;              \
-  template auto Diagnoser<D>::uses_at(std::size_t) const -> std::span<const EdgeUse>;                        \
+#define PGDR_INSTANTIATE(D)                                                                                               \
+  template std::string Diagnoser<D>::point_words(std::uint32_t) const;                                                    \
+  template std::string Diagnoser<D>::segment_words(EntityId) const;                                                       \
+  template std::uint32_t Diagnoser<D>::segment_line(EntityId) const;                                                      \
+  template void Diagnoser<D>::list(Finding, Errc, std::string, std::uint32_t, Ids, const std::vector<Point<D>>&, double); \
+  template std::vector<Point<D>> Diagnoser<D>::points_of(std::span<const std::uint32_t>) const;                           \
+  template auto Diagnoser<D>::uses_at(std::size_t) const->std::span<const EdgeUse>;                                       \
   template bool Diagnoser<D>::is_segment(const Edge&) const;
 PGDR_INSTANTIATE(2)
 PGDR_INSTANTIATE(3)
@@ -186,8 +184,7 @@ Diagnosis<D> diagnose(const Plc<D>& plc, const DiagnosisOptions& options, std::o
 
 template <int D>
 void require_no_errors(const Domain<D>& domain, const std::stop_token& stop, bool parallel) {
-  const Diagnosis<D> diagnosis =
-      diagnose(domain, {.most_listed = 1, .errors_only = true, .stop = stop, .parallel = parallel});
+  const Diagnosis<D> diagnosis = diagnose(domain, {.most_listed = 1, .errors_only = true, .stop = stop, .parallel = parallel});
   const std::uint64_t count = diagnosis.error_count();
   if (count == 0) return;
   Diagnostic first = diagnosis.errors().front();
@@ -195,11 +192,11 @@ void require_no_errors(const Domain<D>& domain, const std::stop_token& stop, boo
   throw DiagnosedError(std::move(first));
 }
 
-#define PGDR_INSTANTIATE(D)                                                                \
-  template std::uint64_t Diagnosis<D>::error_count() const;                                \
-  template std::vector<Diagnostic> Diagnosis<D>::errors() const;                           \
-  template PGDR_API Diagnosis<D> diagnose<D>(const Domain<D>&, const DiagnosisOptions&);   \
-  template PGDR_API Diagnosis<D> diagnose<D>(const Plc<D>&, const DiagnosisOptions&);      \
+#define PGDR_INSTANTIATE(D)                                                                                      \
+  template std::uint64_t Diagnosis<D>::error_count() const;                                                      \
+  template std::vector<Diagnostic> Diagnosis<D>::errors() const;                                                 \
+  template PGDR_API Diagnosis<D> diagnose<D>(const Domain<D>&, const DiagnosisOptions&);                         \
+  template PGDR_API Diagnosis<D> diagnose<D>(const Plc<D>&, const DiagnosisOptions&);                            \
   template PGDR_API Diagnosis<D> diagnose<D>(const Plc<D>&, const DiagnosisOptions&, std::optional<Domain<D>>&); \
   template PGDR_API void require_no_errors<D>(const Domain<D>&, const std::stop_token&, bool);
 PGDR_INSTANTIATE(2)

@@ -37,8 +37,9 @@ void Diagnoser<D>::find_meetings() {
   std::vector<std::array<std::uint32_t, 3>> corners;
   corners.reserve(pieces_.size());
   for (const Piece& piece : pieces_) corners.push_back(piece.corners);
-  const auto parts = BoxTree<D>(corners, p_).template self_pairs_in_parts<Meetings>(
-      bulk_, [this](std::uint32_t i, std::uint32_t j, Meetings& found) { note(i, j, found); });
+  const auto parts = BoxTree<D>(corners, p_)
+                         .template self_pairs_in_parts<Meetings>(
+                             bulk_, [this](std::uint32_t i, std::uint32_t j, Meetings& found) { note(i, j, found); });
   stop_check_();
   const auto all = [&](auto Meetings::*list) {
     auto joined = parts.front().*list;
@@ -89,31 +90,28 @@ auto Diagnoser<D>::resting(const Contact::Corner& corner, std::uint32_t on_piece
     const EdgeUse wanted{key(corner.edge[0], corner.edge[1]), 0};
     const auto at = std::lower_bound(uses_.begin(), uses_.end(), wanted);
     const auto uses = uses_at(static_cast<std::size_t>(at - uses_.begin()));
-    on_edge = std::any_of(uses.begin(), uses.end(), [&](const EdgeUse& u) {
-      return triangles_[u.triangle].origin.facet != owner(on_piece);
-    });
+    on_edge = std::any_of(uses.begin(), uses.end(),
+                          [&](const EdgeUse& u) { return triangles_[u.triangle].origin.facet != owner(on_piece); });
   }
   if (!on_edge) return {corner.point, owner(on_piece), no_entity};
   return {corner.point, std::min(corner.edge[0], corner.edge[1]), std::max(corner.edge[0], corner.edge[1])};
 }
 
 template <int D>
-void Diagnoser<D>::report_meetings(std::vector<Meeting> meetings, std::size_t first_corners,
-                                   std::size_t second_corners) {
+void Diagnoser<D>::report_meetings(std::vector<Meeting> meetings, std::size_t first_corners, std::size_t second_corners) {
   std::sort(meetings.begin(), meetings.end());
   for (std::size_t begin = 0, end; begin < meetings.size(); begin = end) {
     bool overlap = false;
-    for (end = begin; end < meetings.size() && meetings[end].first == meetings[begin].first &&
-                      meetings[end].second == meetings[begin].second;
+    for (end = begin;
+         end < meetings.size() && meetings[end].first == meetings[begin].first && meetings[end].second == meetings[begin].second;
          ++end)
       overlap = overlap || meetings[end].overlap;
-    const Finding kind = overlap              ? Finding::facets_overlap
+    const Finding kind = overlap               ? Finding::facets_overlap
                          : first_corners == 3  ? Finding::facets_cross
                          : second_corners == 3 ? Finding::segment_crosses_facet
                                                : Finding::segments_cross;
     ++out_[kind].count;
-    if (wants_more(kind))
-      list_meeting(std::span(meetings).subspan(begin, end - begin), first_corners, second_corners, kind);
+    if (wants_more(kind)) list_meeting(std::span(meetings).subspan(begin, end - begin), first_corners, second_corners, kind);
   }
 }
 
@@ -137,16 +135,15 @@ void Diagnoser<D>::list_meeting(std::span<const Meeting> same, std::size_t first
   };
   std::string message = first_corners == 3 ? "facets " + facet_words(a) + " and " + facet_words(b)
                                            : name_of(a, 2) + " and " + name_of(b, second_corners);
-  message += kind == Finding::facets_overlap ? " lie in one plane and overlap"
-             : first_corners == 3            ? " intersect"
-                                             : " cross";
+  message += kind == Finding::facets_overlap ? " lie in one plane and overlap" : first_corners == 3 ? " intersect" : " cross";
   if (where.size() == 1) message += " at " + to_text(where[0]);
   if (where.size() > 1)
-    message += (where.size() == 2 ? " from " : ", between ") + to_text(where.front()) +
-               (where.size() == 2 ? " to " : " and ") + to_text(where.back());
+    message += (where.size() == 2 ? " from " : ", between ") + to_text(where.front()) + (where.size() == 2 ? " to " : " and ") +
+               to_text(where.back());
   Ids ids;
   for (const auto& [e, corners] : {std::pair{a, first_corners}, {b, second_corners}}) {
-    if (corners == 3) ids.push_back(number(e));
+    if (corners == 3)
+      ids.push_back(number(e));
     else
       for (const std::uint32_t v : domain_.segments()[e].points) ids.push_back(point_number(v));
   }

@@ -62,8 +62,8 @@ void Diagnoser<D>::find_open_boundary() {
       if (degree[v] != 1) continue;
       ++out_[Finding::open_boundary].count;
       if (wants_more(Finding::open_boundary))
-        list(Finding::open_boundary, Errc::open_boundary, "one segment alone ends at point " + point_words(v),
-             point_line(v), {point_number(v)}, {p_[v]});
+        list(Finding::open_boundary, Errc::open_boundary, "one segment alone ends at point " + point_words(v), point_line(v),
+             {point_number(v)}, {p_[v]});
     }
   }
 }
@@ -150,8 +150,8 @@ void Diagnoser<D>::find_non_manifold_edges() requires(D == 3) {
       words += (words.empty() ? "" : ", ") + facet_words(f);
     }
     list(Finding::non_manifold_edge, Errc::non_manifold,
-         std::to_string(n) + " facets meet at the edge " + edge_words(e) + ": " + words, facet_line(facets[0]),
-         std::move(ids), {p_[e[0]], p_[e[1]]});
+         std::to_string(n) + " facets meet at the edge " + edge_words(e) + ": " + words, facet_line(facets[0]), std::move(ids),
+         {p_[e[0]], p_[e[1]]});
   }
 }
 
@@ -183,8 +183,8 @@ void Diagnoser<D>::find_non_manifold_points() requires(D == 3) {
     ++out_[Finding::non_manifold_point].count;
     if (wants_more(Finding::non_manifold_point))
       list(Finding::non_manifold_point, Errc::non_manifold,
-           std::to_string(parts[v]) + " surfaces touch each other at point " + point_words(v), point_line(v),
-           {point_number(v)}, {p_[v]});
+           std::to_string(parts[v]) + " surfaces touch each other at point " + point_words(v), point_line(v), {point_number(v)},
+           {p_[v]});
   }
 }
 
@@ -208,8 +208,7 @@ void Diagnoser<D>::find_orientation() requires(D == 3) {
     if (f > g) std::swap(f, g);
     const Edge e = uses[0].edge();
     list(Finding::inconsistent_orientation, Errc::inconsistent_orientation,
-         "facets " + facet_words(f) + " and " + facet_words(g) + " are oriented against each other at the edge " +
-             edge_words(e),
+         "facets " + facet_words(f) + " and " + facet_words(g) + " are oriented against each other at the edge " + edge_words(e),
          facet_line(f), {number(f), number(g), point_number(e[0]), point_number(e[1])}, {p_[e[0]], p_[e[1]]});
   }
 }
@@ -226,8 +225,8 @@ void Diagnoser<D>::find_encloses_nothing() {
     first = open.listed[0].what;
     message += "; open boundaries: " + std::to_string(open.count) + ", the first " + first.message;
   }
-  list(Finding::encloses_nothing, Errc::encloses_nothing, std::move(message), static_cast<std::uint32_t>(first.line),
-       first.ids, {});
+  list(Finding::encloses_nothing, Errc::encloses_nothing, std::move(message), static_cast<std::uint32_t>(first.line), first.ids,
+       {});
   out_[Finding::encloses_nothing].listed.back().what.points = first.points;
   if (options_.errors_only) out_[Finding::open_boundary] = {};
 }
@@ -283,10 +282,10 @@ bool Diagnoser<D>::all_collapses() const {
   return remaining == 0;
 }
 
-#define PGDR_INSTANTIATE(D)                            \
-  template void Diagnoser<D>::find_repairs();          \
-  template void Diagnoser<D>::find_unreferenced();     \
-  template void Diagnoser<D>::find_open_boundary();    \
+#define PGDR_INSTANTIATE(D)                         \
+  template void Diagnoser<D>::find_repairs();       \
+  template void Diagnoser<D>::find_unreferenced();  \
+  template void Diagnoser<D>::find_open_boundary(); \
   template void Diagnoser<D>::find_encloses_nothing();
 PGDR_INSTANTIATE(2)
 PGDR_INSTANTIATE(3)

@@ -26,9 +26,9 @@ inline bool is_uneven(const Domain<3>& domain, EntityId f) {
   return domain.facets()[f].planarity_defect > rounding::of_plane * domain.facet_magnitude(f);
 }
 
-/// A point of the facet for in-circle tests. Their heights are |x|^2, in which a bend, or an ulp by which a Steiner point is off its
-/// facet, counts the more the farther away the origin is; so the dropped coordinate is taken from one of its points instead (the
-/// others are compared by differences alone), where that is exact, or the facet is uneven anyway.
+/// A point of the facet for in-circle tests. Their heights are |x|^2, in which a bend, or an ulp by which a Steiner point is off
+/// its facet, counts the more the farther away the origin is; so the dropped coordinate is taken from one of its points instead
+/// (the others are compared by differences alone), where that is exact, or the facet is uneven anyway.
 inline Point3 levelled(const Domain<3>& domain, EntityId f, Point3 p) {
   const int axis = domain.facets()[f].axis;
   p[axis] -= is_uneven(domain, f) ? domain.points()[domain.triangles(f)[0][0]][axis] : domain.facet_level(f);

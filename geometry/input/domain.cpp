@@ -32,7 +32,8 @@ std::span<const std::array<std::uint32_t, 3>> Domain<D>::triangles(EntityId f) c
 
 template <int D>
 std::span<const std::uint32_t> Domain<D>::triangles_at(EntityId f, std::uint32_t point) const {
-  const auto begin = triangles_at_.begin() + triangles_at_begin_[point], end = triangles_at_.begin() + triangles_at_begin_[point + 1];
+  const auto begin = triangles_at_.begin() + triangles_at_begin_[point],
+             end = triangles_at_.begin() + triangles_at_begin_[point + 1];
   const std::uint32_t first = facets_[f].first_triangle, last = first + facets_[f].triangle_count;
   return {std::lower_bound(begin, end, first), std::lower_bound(begin, end, last)};
 }
@@ -52,7 +53,8 @@ bool Domain<D>::facets_touch(EntityId f, EntityId g) const {
   if (f == g) return true;
   auto few = facet_points(f), many = facet_points(g);
   if (few.size() > many.size()) std::swap(few, many);
-  if (few.size() > few_points) return std::binary_search(touching_.begin(), touching_.end(), std::array{std::min(f, g), std::max(f, g)});
+  if (few.size() > few_points)
+    return std::binary_search(touching_.begin(), touching_.end(), std::array{std::min(f, g), std::max(f, g)});
   return std::ranges::any_of(few, [&](std::uint32_t v) { return std::binary_search(many.begin(), many.end(), v); });
 }
 

@@ -41,15 +41,15 @@ Vector direction(const Point<D>& p, const Point<D>& q) {
   return v;
 }
 
-// The angle whose sine and cosine these are, times something, in degrees; sine >= 0. Of operations that IEEE 754 defines alone, since
-// meshes rest on it: std::atan2 differs from library to library.
+// The angle whose sine and cosine these are, times something, in degrees; sine >= 0. Of operations that IEEE 754 defines alone,
+// since meshes rest on it: std::atan2 differs from library to library.
 double degrees(double sine, double cosine) {
   if (cosine < 0) return 180 - degrees(sine, -cosine);
   const double most = std::max(sine, cosine);
   if (most == 0) return 0;
   if (cosine == 0) return 90;
   const double s = sine / most, c = cosine / most;
-  double t = s / (c + std::sqrt(s * s + c * c));                         // the tangent of half the angle, at most 1
+  double t = s / (c + std::sqrt(s * s + c * c));                                  // the tangent of half the angle, at most 1
   for (int halved = 0; halved < 3; ++halved) t = t / (1 + std::sqrt(1 + t * t));  // of a 16th in the end, below 0.0985
   const double t2 = t * t;
   double sum = 0;  // arctan t = t - t^3 / 3 + t^5 / 5 - ...; the next term is below 2^-67 t
@@ -69,8 +69,8 @@ double angle_between(const Vector& u, const Vector& w) {
   return a;
 }
 
-// The smallest angle between r and a direction into the corner from b to c. Such a direction is a positive combination of b and c, so
-// that it is acute only if that to b or to c is: rounding must not say otherwise, where the checker decides exactly.
+// The smallest angle between r and a direction into the corner from b to c. Such a direction is a positive combination of b and
+// c, so that it is acute only if that to b or to c is: rounding must not say otherwise, where the checker decides exactly.
 double angle_to_corner(const Vector& r, const Vector& b, const Vector& c) {
   const double rays = std::min(angle_between(r, b), angle_between(r, c));
   if (rays >= 90) return rays;
@@ -173,8 +173,8 @@ double facet_angle(const Domain<3>& domain, EntityId f, EntityId g) {
     const auto with = corners_at(domain, g, v);
     for (const Corner& k : corners_at(domain, f, v))
       for (const Corner& l : with)
-        least = std::min({least, angle_to_corner(k.b, l.b, l.c), angle_to_corner(k.c, l.b, l.c),
-                          angle_to_corner(l.b, k.b, k.c), angle_to_corner(l.c, k.b, k.c)});
+        least = std::min({least, angle_to_corner(k.b, l.b, l.c), angle_to_corner(k.c, l.b, l.c), angle_to_corner(l.b, k.b, k.c),
+                          angle_to_corner(l.c, k.b, k.c)});
   }
   return least;
 }
@@ -196,7 +196,8 @@ bool entities_touch(const Domain<D>& domain, EntityRef a, EntityRef b) {
     if (b.kind == EntityKind::facet) {
       if (a.kind == EntityKind::facet) return domain.facets_touch(a.id, b.id);
       const auto points = domain.facet_points(b.id);
-      return std::ranges::any_of(few_points(domain, a), [&](std::uint32_t v) { return std::binary_search(points.begin(), points.end(), v); });
+      return std::ranges::any_of(few_points(domain, a),
+                                 [&](std::uint32_t v) { return std::binary_search(points.begin(), points.end(), v); });
     }
   }
   const auto p = few_points(domain, a), q = few_points(domain, b);

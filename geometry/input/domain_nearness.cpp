@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A quick look at whether it is worth while to join what is near (steps/near_search.hpp): one tree over the pieces of an input, and its
-// points looked up in that.
+// A quick look at whether it is worth while to join what is near (steps/near_search.hpp): one tree over the pieces of an input,
+// and its points looked up in that.
 #include <array>
 #include <vector>
 
@@ -23,7 +23,8 @@ std::vector<Corners> pieces_of(const Domain<3>& domain) {
   for (EntityId f = 0; f < domain.facets().size(); ++f)
     for (const auto& t : domain.triangles(f)) pieces.push_back(t);
   for (EntityId s = 0; s < domain.segments().size(); ++s)
-    if (domain.facets_of_segment(s).empty()) pieces.push_back({domain.segments()[s].points[0], domain.segments()[s].points[1], no_entity});
+    if (domain.facets_of_segment(s).empty())
+      pieces.push_back({domain.segments()[s].points[0], domain.segments()[s].points[1], no_entity});
   for (const Corners& piece : pieces)
     for (const std::uint32_t v : piece)
       if (v != no_entity) used[v] = true;

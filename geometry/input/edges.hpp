@@ -17,9 +17,7 @@ inline std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
   return static_cast<std::uint64_t>(std::min(a, b)) << 32 | std::max(a, b);
 }
 /// The ends of the edge with this key, the smaller index first.
-inline PlanarEdge edge_of(std::uint64_t key) {
-  return {static_cast<std::uint32_t>(key >> 32), static_cast<std::uint32_t>(key)};
-}
+inline PlanarEdge edge_of(std::uint64_t key) { return {static_cast<std::uint32_t>(key >> 32), static_cast<std::uint32_t>(key)}; }
 
 /// An edge of an input facet or segment.
 struct OwnedEdge {

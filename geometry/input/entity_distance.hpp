@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The distance of a point from an input entity, in doubles: which seeds lie on a facet, which points beside a segment, which entity a
-// poor cell is near. Pure functions, any thread.
+// The distance of a point from an input entity, in doubles: which seeds lie on a facet, which points beside a segment, which
+// entity a poor cell is near. Pure functions, any thread.
 #pragma once
 
 #include <algorithm>
@@ -29,8 +29,8 @@ double squared_distance_to_edge(const Point<D>& a, const Point<D>& b, const Poin
 
 /// The squared distance of x from the triangle abc.
 inline double squared_distance_to_triangle(const Point3& a, const Point3& b, const Point3& c, const Point3& x) {
-  const double edges = std::min({squared_distance_to_edge(a, b, x), squared_distance_to_edge(b, c, x),
-                                 squared_distance_to_edge(c, a, x)});
+  const double edges = std::min(
+      {squared_distance_to_edge(a, b, x), squared_distance_to_edge(b, c, x), squared_distance_to_edge(c, a, x)});
   const auto normal = cross(difference(b, a), difference(c, a));
   const bool above = dot(cross(difference(b, a), difference(x, a)), normal) >= 0 &&
                      dot(cross(difference(c, b), difference(x, b)), normal) >= 0 &&
@@ -44,8 +44,10 @@ inline double squared_distance_to_triangle(const Point3& a, const Point3& b, con
 /// The squared distance of x from an edge (2D) or a triangle (3D).
 template <int D>
 double squared_distance_to_simplex(const std::array<Point<D>, D>& s, const Point<D>& x) {
-  if constexpr (D == 2) return squared_distance_to_edge<2>(s[0], s[1], x);
-  else return squared_distance_to_triangle(s[0], s[1], s[2], x);
+  if constexpr (D == 2)
+    return squared_distance_to_edge<2>(s[0], s[1], x);
+  else
+    return squared_distance_to_triangle(s[0], s[1], s[2], x);
 }
 
 /// The squared distance of x from a segment or a facet. @pre it is one of these

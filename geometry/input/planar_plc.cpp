@@ -64,8 +64,7 @@ Point2 intersection(Point2 a, Point2 b, Point2 c, Point2 d) {
   const std::array from{detail::difference(c[0], a[0]), detail::difference(c[1], a[1])};
   const DoubleDouble t = (from[0] * w[1] - from[1] * w[0]) / (u[0] * w[1] - u[1] * w[0]);
   Point2 x;
-  for (int i = 0; i < 2; ++i)
-    x[i] = std::ldexp((DoubleDouble(a[i]) + u[static_cast<std::size_t>(i)] * t).rounded(), e) + 0.0;
+  for (int i = 0; i < 2; ++i) x[i] = std::ldexp((DoubleDouble(a[i]) + u[static_cast<std::size_t>(i)] * t).rounded(), e) + 0.0;
   return x;
 }
 
@@ -237,7 +236,7 @@ class CrossingResolver {
   std::vector<detail::OwnedEdge> edges_;
   std::vector<std::array<std::uint32_t, 2>> origins_;
   std::vector<detail::PointOn> touching_;
-  std::vector<detail::PointOn> inside_;          ///< of this round, sorted
+  std::vector<detail::PointOn> inside_;  ///< of this round, sorted
   std::vector<std::pair<std::uint64_t, std::uint64_t>> crossed_;
   std::set<std::pair<std::uint32_t, std::uint32_t>> pairs_;
 };
@@ -292,7 +291,8 @@ Plc<2> resolve_crossings(const Plc<2>& plc, std::vector<Diagnostic>& repairs) {
   int rounds = 0;
   while (resolver.split_once())
     if (++rounds == most_rounds)
-      throw InputError({Errc::entities_intersect, "crossings of segments lead to ever new crossings", plc.source.file, 0, {}, {}});
+      throw InputError(
+          {Errc::entities_intersect, "crossings of segments lead to ever new crossings", plc.source.file, 0, {}, {}});
   if (rounds == 0) return plc;
   report(resolver, plc, repairs);
   Plc<2> out = plc;

@@ -102,8 +102,8 @@ std::size_t nearest_triangle(std::span<const std::array<std::uint32_t, 3>> trian
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < triangles.size(); ++k) {
     const Point3 &a = points[triangles[k][0]], &b = points[triangles[k][1]], &c = points[triangles[k][2]];
-    const double d = std::min({projected_distance(a, b, x, axis), projected_distance(b, c, x, axis),
-                               projected_distance(c, a, x, axis)});
+    const double d = std::min(
+        {projected_distance(a, b, x, axis), projected_distance(b, c, x, axis), projected_distance(c, a, x, axis)});
     if (d < least) {
       least = d;
       best = k;

@@ -23,8 +23,10 @@ std::string to_text(const Point<D>& p);
 /// `p` for a diagnostic.
 template <int D>
 std::array<double, 3> in_space(const Point<D>& p) {
-  if constexpr (D == 3) return p.x;
-  else return {p[0], p[1], 0};
+  if constexpr (D == 3)
+    return p.x;
+  else
+    return {p[0], p[1], 0};
 }
 
 /// In words at most so many culprits of one kind of repair; all are counted, and in `ids`.

@@ -37,8 +37,7 @@ inline Bounded sub(const Bounded& a, const Bounded& b) {
 
 inline Bounded mul(const Bounded& a, const Bounded& b) {
   const double v = a.value * b.value;
-  return {v, std::fabs(a.value) * b.error + (std::fabs(b.value) + b.error) * a.error + unit_roundoff * std::fabs(v) +
-                 0x1p-1000};
+  return {v, std::fabs(a.value) * b.error + (std::fabs(b.value) + b.error) * a.error + unit_roundoff * std::fabs(v) + 0x1p-1000};
 }
 
 inline std::optional<Sign> sign(const Bounded& a) {

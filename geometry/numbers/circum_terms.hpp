@@ -30,8 +30,10 @@ struct CircumTerms {
 // three (2u): 12u * 3 * sqrt(2) M^4 < 51u M^4 for the length of the numerator's error. The determinant: 4u, 1u for the
 // difference, 1u for the product, 2u for the sum: 8 sqrt(2) u M^3 < 11.4u M^3. In 2D: 7u * 2 M^3, and 4u |B||C|, where
 // |Bx Cy| + |By Cx| <= |B||C|. The constants below leave room for terms in u^2 and the rounding of M.
-template <int D> inline constexpr double numerator_error = (D == 3 ? 52 : 14.5) * unit_roundoff;  ///< times M^(D+1)
-template <int D> inline constexpr double det_error = (D == 3 ? 12 : 4.5) * unit_roundoff;         ///< times M^D
+template <int D>
+inline constexpr double numerator_error = (D == 3 ? 52 : 14.5) * unit_roundoff;  ///< times M^(D+1)
+template <int D>
+inline constexpr double det_error = (D == 3 ? 12 : 4.5) * unit_roundoff;  ///< times M^D
 
 /// Where M^2 lies in this range, nothing overflows and what underflows is far below the bounds above.
 inline constexpr double least_safe = 0x1p-200, most_safe = 0x1p200;

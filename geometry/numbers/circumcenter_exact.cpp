@@ -157,11 +157,12 @@ Point<D> rounded_center(const std::array<Point<D>, Corners>& corners, Numerator 
 
 template <int D>
 Point<D> of_simplex(const Simplex<D>& s) {
-  return rounded_center<D, D>(s, [](const auto& m) { return circum_numerator(m); },
-                              [](const auto& m) {
-                                const auto det = orient_det(m);
-                                return add(det, det);
-                              });
+  return rounded_center<D, D>(
+      s, [](const auto& m) { return circum_numerator(m); },
+      [](const auto& m) {
+        const auto det = orient_det(m);
+        return add(det, det);
+      });
 }
 
 }  // namespace

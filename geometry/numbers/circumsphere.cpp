@@ -125,7 +125,8 @@ template <int D, std::size_t N, std::size_t Corners, class Function>
 Center<D> center_of(const std::array<Point<D>, Corners>& corners, const std::array<std::array<double, D>, N>& edges,
                     Function offset) {
   const Offset<D> o = offset(edges);
-  if (accurate<D>(o)) [[likely]] return add_offset<D>(corners[0], o);
+  if (accurate<D>(o)) [[likely]]
+    return add_offset<D>(corners[0], o);
   return difficult_center<D, N>(corners, edges, offset);
 }
 
@@ -222,9 +223,7 @@ Ball<D> diametral_ball(const Point<D>& a, const Point<D>& b) {
 
 Ball<3> equatorial_ball(const Point3& a, const Point3& b, const Point3& c) {
   const std::array<Point3, 3> p = sorted<3, 3>({a, b, c});
-  const auto edge = [&](std::size_t i) {
-    return std::array{p[i][0] - p[0][0], p[i][1] - p[0][1], p[i][2] - p[0][2]};
-  };
+  const auto edge = [&](std::size_t i) { return std::array{p[i][0] - p[0][0], p[i][1] - p[0][1], p[i][2] - p[0][2]}; };
   const Center<3> center = center_of<3, 2>(p, {edge(1), edge(2)}, triangle_offset);
   return {center.point, squared_distance(center.point, p[0])};
 }
@@ -234,9 +233,7 @@ bool in_diametral_ball(const Point<D>& a, const Point<D>& b, const Point<D>& x) 
   return detail::dot_sign<D>(x, a, b) == Sign::negative;
 }
 
-bool in_equatorial_ball(const Ball<3>& ball, const Point3& x) {
-  return squared_distance(ball.center, x) < ball.squared_radius;
-}
+bool in_equatorial_ball(const Ball<3>& ball, const Point3& x) { return squared_distance(ball.center, x) < ball.squared_radius; }
 
 template PGDR_API std::optional<double> squared_circumradius_quickly<2>(const Simplex<2>&, double);
 template PGDR_API std::optional<double> squared_circumradius_quickly<3>(const Simplex<3>&, double);

@@ -211,9 +211,10 @@ Movable<Number> moved_determinant(const Simplex<D>& s, const Point<D>& p, const 
   return {abs(value), change, m, h};
 }
 
-// With u = epsilon / 2: no monomial takes more than 20 roundings, so that W, 72 of at most m^5, is off by 1440 u m^5; a component of
-// the gradient, 30 of at most m^4, by 600 u m^4, and that of p by 2400 u m^4, so that their sums are off by less than 4 * 3 * 600 +
-// 3 * 2400 < 18000 times u h m^4, and by 20 u of themselves. In 2D all of these are less. The bounds are about twice as much.
+// With u = epsilon / 2: no monomial takes more than 20 roundings, so that W, 72 of at most m^5, is off by 1440 u m^5; a component
+// of the gradient, 30 of at most m^4, by 600 u m^4, and that of p by 2400 u m^4, so that their sums are off by less than 4 * 3 *
+// 600 + 3 * 2400 < 18000 times u h m^4, and by 20 u of themselves. In 2D all of these are less. The bounds are about twice as
+// much.
 template <int D>
 Filtered cancels_by_filter(const Simplex<D>& s, const Point<D>& p, const std::array<double, D + 2>& delta) {
   const auto w = moved_determinant<long double, D>(s, p, delta);
@@ -267,13 +268,13 @@ std::vector<std::uint32_t> order_along(const Point<D>& q, const Point<D>& p,
   return order;
 }
 
-#define PGDR_INSTANTIATE(D)                                                                                    \
-  template bool near_line(const Point<D>&, const Point<D>&, const Point<D>&, const Tolerance&);                \
-  template double distance_from_line(const Point<D>&, const Point<D>&, const Point<D>&);                       \
-  template bool advances(const Point<D>&, const Point<D>&, const Point<D>&, const Point<D>&);                  \
-  template bool rounding_cancels<D>(const Simplex<D>&, const Point<D>&, const std::array<double, D + 2>&);     \
-  template bool is_as_short_as_rounding<D>(const Simplex<D>&);                                                 \
-  template std::vector<std::uint32_t> order_along<D>(const Point<D>&, const Point<D>&,                         \
+#define PGDR_INSTANTIATE(D)                                                                                \
+  template bool near_line(const Point<D>&, const Point<D>&, const Point<D>&, const Tolerance&);            \
+  template double distance_from_line(const Point<D>&, const Point<D>&, const Point<D>&);                   \
+  template bool advances(const Point<D>&, const Point<D>&, const Point<D>&, const Point<D>&);              \
+  template bool rounding_cancels<D>(const Simplex<D>&, const Point<D>&, const std::array<double, D + 2>&); \
+  template bool is_as_short_as_rounding<D>(const Simplex<D>&);                                             \
+  template std::vector<std::uint32_t> order_along<D>(const Point<D>&, const Point<D>&,                     \
                                                      const std::vector<std::array<Point<D>, D>>&);
 PGDR_INSTANTIATE(2)
 PGDR_INSTANTIATE(3)

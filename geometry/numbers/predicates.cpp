@@ -107,10 +107,9 @@ MaybeSign in_sphere_filter<3>(const Simplex<3>& s, const Point3& p) {
   const double za = std::fabs(az), zb = std::fabs(bz), zc = std::fabs(cz), zd = std::fabs(dz);
   const double ha = ax * ax + ay * ay + az * az, hb = bx * bx + by * by + bz * bz;
   const double hc = cx * cx + cy * cy + cz * cz, hd = dx * dx + dy * dy + dz * dz;
-  const double det = (ha * (cd.value * bz - bd.value * cz + bc.value * dz) -
-                      hb * (cd.value * az - ad.value * cz + ac.value * dz)) +
-                     (hc * (bd.value * az - ad.value * bz + ab.value * dz) -
-                      hd * (bc.value * az - ac.value * bz + ab.value * cz));
+  const double det =
+      (ha * (cd.value * bz - bd.value * cz + bc.value * dz) - hb * (cd.value * az - ad.value * cz + ac.value * dz)) +
+      (hc * (bd.value * az - ad.value * bz + ab.value * dz) - hd * (bc.value * az - ac.value * bz + ab.value * cz));
   const double permanent = (ha * (cd.magnitude * zb + bd.magnitude * zc + bc.magnitude * zd) +
                             hb * (cd.magnitude * za + ad.magnitude * zc + ac.magnitude * zd)) +
                            (hc * (bd.magnitude * za + ad.magnitude * zb + ab.magnitude * zd) +
@@ -142,9 +141,7 @@ Bounded rounded_difference(double a, double b) {
 
 MaybeSign in_circle_filter(const Triangle3& t, const Point3& p, int axis) {
   const int i = (axis + 1) % 3, j = (axis + 2) % 3;
-  const auto row = [&](const Point3& q) {
-    return std::array{rounded_difference(q[i], p[i]), rounded_difference(q[j], p[j])};
-  };
+  const auto row = [&](const Point3& q) { return std::array{rounded_difference(q[i], p[i]), rounded_difference(q[j], p[j])}; };
   const auto drop = [&](const Point3& q) { return rounded_difference(q[axis], p[axis]); };
   const auto sum = [&](const Point3& q) { return rounded_difference(q[axis], -p[axis]); };
   return sign(in_circle_det<Bounded>({row(t[0]), row(t[1]), row(t[2])}, {drop(t[0]), drop(t[1]), drop(t[2])},
@@ -153,8 +150,7 @@ MaybeSign in_circle_filter(const Triangle3& t, const Point3& p, int axis) {
 
 template <int D>
 Sign dot_sign(const Point<D>& v, const Point<D>& a, const Point<D>& b) {
-  return ladder([&] { return dot_filter(v, a, b); }, [&] { return dot_middle(v, a, b); },
-                [&] { return dot_exact(v, a, b); });
+  return ladder([&] { return dot_filter(v, a, b); }, [&] { return dot_middle(v, a, b); }, [&] { return dot_exact(v, a, b); });
 }
 
 template <int D>
@@ -184,8 +180,7 @@ Sign orient(const Simplex<D>& s) {
 
 template <int D>
 Sign in_sphere(const Simplex<D>& s, const Point<D>& p) {
-  return detail::ladder([&] { return detail::in_sphere_filter<D>(s, p); },
-                        [&] { return detail::in_sphere_middle<D>(s, p); },
+  return detail::ladder([&] { return detail::in_sphere_filter<D>(s, p); }, [&] { return detail::in_sphere_middle<D>(s, p); },
                         [&] { return detail::in_sphere_exact<D>(s, p); });
 }
 
@@ -205,9 +200,8 @@ template <int N, class P, class Coefficient>
 Sign perturbed_sign(const std::array<P, N>& corners, const P& p, Coefficient coefficient) {
   std::array<int, N> rank;
   for (int i = 0; i < N; ++i) rank[static_cast<std::size_t>(i)] = i;
-  std::sort(rank.begin(), rank.end(), [&](int i, int j) {
-    return lex_less(corners[static_cast<std::size_t>(i)], corners[static_cast<std::size_t>(j)]);
-  });
+  std::sort(rank.begin(), rank.end(),
+            [&](int i, int j) { return lex_less(corners[static_cast<std::size_t>(i)], corners[static_cast<std::size_t>(j)]); });
   for (const int i : rank) {
     const auto k = static_cast<std::size_t>(i);
     if (lex_less(p, corners[k])) return Sign::negative;

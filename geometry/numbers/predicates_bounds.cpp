@@ -35,8 +35,10 @@ std::optional<bool> radius_within(const Simplex<D>& s, double limit) {
 }
 
 std::optional<bool> counted(std::optional<bool> filtered) {
-  if (filtered) ++counts.filter;
-  else ++counts.exact;
+  if (filtered)
+    ++counts.filter;
+  else
+    ++counts.exact;
   return filtered;
 }
 

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The middle stage of the predicates: determinants that are exact without allocation. First in integers, where all
-// coordinates lie on one lattice (grids, and most other cells), of few digits or of many; then in expansions: of doubles where all differences of
-// coordinates are doubles, else of differences of two terms. Nothing is decided where under- or overflow could spoil it.
+// coordinates lie on one lattice (grids, and most other cells), of few digits or of many; then in expansions: of doubles where
+// all differences of coordinates are doubles, else of differences of two terms. Nothing is decided where under- or overflow could
+// spoil it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -50,8 +51,7 @@ auto expansions(const TwiceMatrix<D, Rows>& m) {
 }
 
 template <std::size_t D, std::size_t Rows, class Polynomial>
-MaybeSign by_expansion(const TwiceMatrix<D, Rows>& entries, std::span<const double> coordinates,
-                       Polynomial polynomial) {
+MaybeSign by_expansion(const TwiceMatrix<D, Rows>& entries, std::span<const double> coordinates, Polynomial polynomial) {
   for (const double x : coordinates)
     if (!in_expansion_range(x)) return std::nullopt;
   bool doubles = true;
@@ -61,8 +61,7 @@ MaybeSign by_expansion(const TwiceMatrix<D, Rows>& entries, std::span<const doub
 }
 
 template <std::size_t D, std::size_t Rows, class Polynomial>
-MaybeSign by(Middle stage, const TwiceMatrix<D, Rows>& entries, std::span<const double> coordinates,
-             Polynomial polynomial) {
+MaybeSign by(Middle stage, const TwiceMatrix<D, Rows>& entries, std::span<const double> coordinates, Polynomial polynomial) {
   const auto is_asked_for = [stage](Middle m) { return stage == m || stage == Middle::all; };
   if (is_asked_for(Middle::short_int))
     if (const MaybeSign s = on_lattice<ShortInt>(entries, Lattice(ShortInt::bits), polynomial)) return s;
@@ -115,8 +114,7 @@ MaybeSign in_circle_middle(const Triangle3& t, const Point3& p, int axis, Middle
   const int i = (axis + 1) % 3, j = (axis + 2) % 3;
   TwiceMatrix<4, 3> m;
   for (std::size_t k = 0; k < 3; ++k)
-    m[k] = {two_diff(t[k][i], p[i]), two_diff(t[k][j], p[j]), two_diff(t[k][axis], p[axis]),
-            two_sum(t[k][axis], p[axis])};
+    m[k] = {two_diff(t[k][i], p[i]), two_diff(t[k][j], p[j]), two_diff(t[k][axis], p[axis]), two_sum(t[k][axis], p[axis])};
   return by(stage, m, flat<3, 4>({t[0], t[1], t[2], p}), []<class T>(const std::array<std::array<T, 4>, 3>& e) {
     Matrix<T, 2, 3> d;
     std::array<T, 3> drop, drop_sum;

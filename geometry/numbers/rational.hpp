@@ -20,9 +20,7 @@ struct Rational {
 inline Rational add(const Rational& a, const Rational& b) { return {Rational::Number(a.q + b.q)}; }
 inline Rational sub(const Rational& a, const Rational& b) { return {Rational::Number(a.q - b.q)}; }
 inline Rational mul(const Rational& a, const Rational& b) { return {Rational::Number(a.q * b.q)}; }
-inline Rational rational_difference(double a, double b) {
-  return {Rational::Number(Rational::Number(a) - Rational::Number(b))};
-}
+inline Rational rational_difference(double a, double b) { return {Rational::Number(Rational::Number(a) - Rational::Number(b))}; }
 inline Sign sign(const Rational& a) { return sign_of(a.q.sign()); }
 
 }  // namespace pgdr::detail

@@ -19,16 +19,17 @@ inline constexpr double of_determinant = 8 * 0x1p-53;
 /// The error of a sum of products in each of which a coordinate of a box, or of a point, is taken times one of a direction: up to
 /// six such products and their sums are 12 roundings, the sum of absolute values, of up to 30 terms, as many again; 64 u.
 inline constexpr double of_separation = 64 * 0x1p-53;
-/// By so much a squared distance to a box, a depth, or a radius is made smaller or larger where it only tells what need not be looked
-/// at: such a value has some 30 roundings at most, 2^-48. The rest is for what they are compared with.
+/// By so much a squared distance to a box, a depth, or a radius is made smaller or larger where it only tells what need not be
+/// looked at: such a value has some 30 roundings at most, 2^-48. The rest is for what they are compared with.
 inline constexpr double of_pruning = 0x1p-40;
 /// The error of a computed circumcentre, relative to its distance from the first corner, above which it is computed anew in more
 /// digits. Not derived: the error goes with the centre, and widens the doubt of what is decided by it.
 inline constexpr double of_circumcenter = 0x1p-20;
-/// The checker widens radii by this where it looks for the entity that a poor cell is blamed on: the radius of a ball in doubles is
-/// off by a few u, plus the error of the centre, which is added apart.
+/// The checker widens radii by this where it looks for the entity that a poor cell is blamed on: the radius of a ball in doubles
+/// is off by a few u, plus the error of the centre, which is added apart.
 inline constexpr double of_blame_checked = 0x1p-30;
-/// The refiner narrows squared radii by this where it blames an entity: what it finds is within the checker's reach whatever both round.
+/// The refiner narrows squared radii by this where it blames an entity: what it finds is within the checker's reach whatever both
+/// round.
 inline constexpr double of_blame = 0x1p-20;
 
 // Absolute, to be taken times the largest coordinate of the points in question.
@@ -37,14 +38,14 @@ inline constexpr double of_blame = 0x1p-20;
 /// coordinate, sqrt(3)/2 in space; its distance from an end, in doubles, is off by two ulps more at most.
 inline constexpr double of_point = 4 * ulp;
 /// How far points of one plane are off it once they were turned and shifted: each coordinate is a sum of three products and a
-/// shift, six roundings of numbers of at most sqrt(3) times the largest, which is 5.2 ulps a coordinate and 9 along the normal. The
-/// plane itself is that of such points. The default of Plc::precision.
+/// shift, six roundings of numbers of at most sqrt(3) times the largest, which is 5.2 ulps a coordinate and 9 along the normal.
+/// The plane itself is that of such points. The default of Plc::precision.
 inline constexpr double of_plane = 16 * ulp;
-/// Above this a facet is more than rounding off its plane, that of its largest triangle, which may be much smaller than the facet: not
-/// derived, sixteen times of_plane.
+/// Above this a facet is more than rounding off its plane, that of its largest triangle, which may be much smaller than the
+/// facet: not derived, sixteen times of_plane.
 inline constexpr double of_large_plane = 16 * of_plane;
-/// A triangle of less height above an edge is not to be split there: a point of the edge that is off by 2^-50 would turn it by more
-/// than 2^-14, 0.0035 degrees.
+/// A triangle of less height above an edge is not to be split there: a point of the edge that is off by 2^-50 would turn it by
+/// more than 2^-14, 0.0035 degrees.
 inline constexpr double of_fragile_height = 0x1p-36;
 
 }  // namespace pgdr::rounding

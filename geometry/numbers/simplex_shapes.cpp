@@ -128,8 +128,8 @@ template <int D>
 }
 
 const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
-const bool has_avx512 =
-    has_avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq");
+const bool has_avx512 = has_avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+                        __builtin_cpu_supports("avx512dq");
 #endif
 
 }  // namespace

@@ -30,13 +30,13 @@ struct alignas(32) SimplexBlock {
 /// does to |p - centre|^2 - radius^2 over radius^2 near the sphere.
 template <int D>
 struct alignas(32) ShapeBlock {
-  double center[D][shape_lanes];  ///< of the circumsphere, by axis
-  double squared_radius[shape_lanes];  ///< of the circumsphere
-  double power_error[shape_lanes];     ///< 6 center_error / radius
-  double center_error[shape_lanes];    ///< as Circumsphere has it
+  double center[D][shape_lanes];              ///< of the circumsphere, by axis
+  double squared_radius[shape_lanes];         ///< of the circumsphere
+  double power_error[shape_lanes];            ///< 6 center_error / radius
+  double center_error[shape_lanes];           ///< as Circumsphere has it
   double shortest_edge_squared[shape_lanes];  ///< length of the shortest edge
-  double det[shape_lanes];        ///< D! times the measure
-  double det_error[shape_lanes];  ///< its error
+  double det[shape_lanes];                    ///< D! times the measure
+  double det_error[shape_lanes];              ///< its error
 };
 
 /// @pre out.size() == in.size()

@@ -39,10 +39,10 @@ class BentFacets;
 
 /// A maximal segment, which the mesh has as a chain of subsegments.
 struct DomainSegment {
-  std::array<std::uint32_t, 2> points;  ///< indices into Domain::points, lexicographically smaller coordinates first
-  int marker = 0;                  ///< of the first such segment of the input; 0 of an edge of facets alone
-  bool explicit_in_input = false;  ///< one of Plc::segments, or a facet of one polygon of two corners
-  std::uint32_t input = no_entity;  ///< index in Plc::segments of the first such segment; no_entity: none
+  std::array<std::uint32_t, 2> points;    ///< indices into Domain::points, lexicographically smaller coordinates first
+  int marker = 0;                         ///< of the first such segment of the input; 0 of an edge of facets alone
+  bool explicit_in_input = false;         ///< one of Plc::segments, or a facet of one polygon of two corners
+  std::uint32_t input = no_entity;        ///< index in Plc::segments of the first such segment; no_entity: none
   std::uint32_t input_facet = no_entity;  ///< in its place, index in Plc::facets where the first one is such a facet
 };
 
@@ -103,26 +103,26 @@ class Domain {
   std::span<const std::uint32_t> point_of_input() const { return point_of_input_; }
   /// First Plc point of each domain point.
   std::span<const std::uint32_t> input_of_point() const { return input_of_point_; }
-  std::span<const int> point_markers() const { return point_markers_; }        ///< one a domain point, or empty
+  std::span<const int> point_markers() const { return point_markers_; }  ///< one a domain point, or empty
   /// points().size() times attributes_per_point(), one point after the other.
   std::span<const double> point_attributes() const { return point_attributes_; }
   /// How many attributes each point has.
   std::size_t attributes_per_point() const { return points_.empty() ? 0 : point_attributes_.size() / points_.size(); }
-  std::span<const DomainSegment> segments() const { return segments_; }        ///< by EntityId
-  std::span<const DomainFacet> facets() const { return facets_; }              ///< by EntityId; 2D: none
-  std::span<const std::array<std::uint32_t, 3>> triangles(EntityId f) const;   ///< that define facet f, by domain points
-  std::span<const TriangleOrigin> triangle_origins(EntityId f) const;          ///< of each of triangles(f)
-  /// The triangles of facet f with a corner at this domain point, ascending; counted from the first triangle of all facets, so that
-  /// f's first one is `first_triangle`.
+  std::span<const DomainSegment> segments() const { return segments_; }       ///< by EntityId
+  std::span<const DomainFacet> facets() const { return facets_; }             ///< by EntityId; 2D: none
+  std::span<const std::array<std::uint32_t, 3>> triangles(EntityId f) const;  ///< that define facet f, by domain points
+  std::span<const TriangleOrigin> triangle_origins(EntityId f) const;         ///< of each of triangles(f)
+  /// The triangles of facet f with a corner at this domain point, ascending; counted from the first triangle of all facets, so
+  /// that f's first one is `first_triangle`.
   std::span<const std::uint32_t> triangles_at(EntityId f, std::uint32_t point) const;
-  std::span<const EntityId> facet_segments(EntityId f) const;                  ///< of facet f
-  std::span<const std::uint32_t> facet_points(EntityId f) const;               ///< of facet f, inner points included
+  std::span<const EntityId> facet_segments(EntityId f) const;     ///< of facet f
+  std::span<const std::uint32_t> facet_points(EntityId f) const;  ///< of facet f, inner points included
   /// 3D: have facets f and g a point in common?
   bool facets_touch(EntityId f, EntityId g) const;
   /// Facets that have segment s among theirs, ascending.
   std::span<const EntityId> facets_of_segment(EntityId s) const;
-  std::span<const Point<D>> holes() const { return holes_; }              ///< Plc::holes
-  std::span<const RegionSeed<D>> regions() const { return regions_; }     ///< Plc::regions
+  std::span<const Point<D>> holes() const { return holes_; }           ///< Plc::holes
+  std::span<const RegionSeed<D>> regions() const { return regions_; }  ///< Plc::regions
 
   std::uint32_t first_index() const { return first_index_; }  ///< Plc::first_index
   const PlcSource& source() const { return source_; }         ///< Plc::source
@@ -132,7 +132,7 @@ class Domain {
   /// A number near the coordinates of the facet's points on its axis: their differences from it are exact. 0 if there is none.
   double facet_level(EntityId f) const { return facet_levels_[f]; }
 
-  double precision() const { return precision_; }  ///< Plc::precision
+  double precision() const { return precision_; }                        ///< Plc::precision
   const std::vector<Diagnostic>& repairs() const { return repairs_; }    ///< what was mended, one entry a kind
   const std::vector<Diagnostic>& warnings() const { return warnings_; }  ///< what was found, and taken as it is
   /// Known: no two of facets, segments and points meet outside of their common points and edges.
@@ -169,8 +169,9 @@ class Domain {
   std::shared_ptr<const detail::BentFacets> bent_facets_;  // 3D; copies share it
 };
 
-/// 3D: may something be joined, by Plc::merge_within of this size, that is not so in this Domain, which was made without? False only
-/// if no point is within `within` times the largest coordinate of all of another, or of an edge or facet that it does not belong to.
+/// 3D: may something be joined, by Plc::merge_within of this size, that is not so in this Domain, which was made without? False
+/// only if no point is within `within` times the largest coordinate of all of another, or of an edge or facet that it does not
+/// belong to.
 bool may_join(const Domain<3>& domain, double within);
 
 /// The point P + t (Q - P) of segment s (P, Q its ends, in that order), evaluated in double-double and rounded once

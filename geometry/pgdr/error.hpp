@@ -67,18 +67,18 @@ std::string_view name(Errc code);
 
 /// One error or warning, as data. Ids are those of the input file or spans (its own numbering, see `Plc::first_index`).
 struct Diagnostic {
-  Errc code = Errc::internal;                ///< what kind it is
-  std::string message;                       ///< one sentence that names the culprit
-  std::string file;                          ///< empty if the input came from memory
-  std::uint64_t line = 0;                    ///< 1-based; 0 = unknown
-  std::vector<std::int64_t> ids;             ///< of the culprits (points, facets, segments, as the message says)
-  std::vector<std::array<double, 3>> points; ///< where; z = 0 in 2D
+  Errc code = Errc::internal;                 ///< what kind it is
+  std::string message;                        ///< one sentence that names the culprit
+  std::string file;                           ///< empty if the input came from memory
+  std::uint64_t line = 0;                     ///< 1-based; 0 = unknown
+  std::vector<std::int64_t> ids;              ///< of the culprits (points, facets, segments, as the message says)
+  std::vector<std::array<double, 3>> points;  ///< where; z = 0 in 2D
 };
 
 /// Base of all exceptions of the library. `what()` is file:line: message.
 class Error : public std::exception {
  public:
-  explicit Error(Diagnostic d);  ///< keeps d, and composes what()
+  explicit Error(Diagnostic d);                                          ///< keeps d, and composes what()
   const Diagnostic& diagnostic() const noexcept { return diagnostic_; }  ///< all that is known
   Errc code() const noexcept { return diagnostic_.code; }                ///< of the diagnostic
   /// "file:line: message", without what is not known. Valid as long as this object.
@@ -90,16 +90,28 @@ class Error : public std::exception {
 };
 
 /// An option or callback that cannot be used (exit code 2 of the command).
-struct UsageError : Error { using Error::Error; };
+struct UsageError : Error {
+  using Error::Error;
+};
 /// Malformed or invalid input (exit code 3).
-struct InputError : Error { using Error::Error; };
+struct InputError : Error {
+  using Error::Error;
+};
 /// Of these, what a diagnosis finds wrong (diagnosis.hpp), before anything is meshed.
-struct DiagnosedError : InputError { using InputError::InputError; };
+struct DiagnosedError : InputError {
+  using InputError::InputError;
+};
 /// A file that cannot be opened or written (exit code 4).
-struct FileError : Error { using Error::Error; };
+struct FileError : Error {
+  using Error::Error;
+};
 /// The caller's stop token was requested where there is nothing to return: while a Domain or a Diagnosis is made.
-struct CancelledError : Error { using Error::Error; };
+struct CancelledError : Error {
+  using Error::Error;
+};
 /// Memory or ids exhausted, or a broken invariant (exit code 7).
-struct ResourceError : Error { using Error::Error; };
+struct ResourceError : Error {
+  using Error::Error;
+};
 
 }  // namespace pgdr

@@ -50,7 +50,7 @@ struct DiskOptions {
 /// A poor element, as a selector sees it. An element that is only too big has a disk of radius 0.
 template <int D>
 struct PoorElement {
-  Simplex<D> corners;  ///< in lexicographic order
+  Simplex<D> corners;             ///< in lexicographic order
   Point<D> circumcenter;          ///< rounded
   double circumradius = 0;        ///< rounded; lengths in units of the input
   double shortest_edge = 0;       ///< its length, rounded
@@ -74,8 +74,8 @@ struct Preview {
     unknown,     ///< the visit's claim ends before the answer: what the selector returns now is not used, it is asked again
   };
   Status status = Status::unknown;  ///< what of the rest is set
-  int poor = 0;  ///< cells deleted that are over a bound
-  int good = 0;  ///< cells deleted that are within their bounds
+  int poor = 0;                     ///< cells deleted that are over a bound
+  int good = 0;                     ///< cells deleted that are within their bounds
   /// Cosine of the smallest angle (2D) or dihedral angle (3D) of all cells made: 1 for a flat one. By correctly rounded
   /// operations alone, so that a choice by it is the same everywhere. Set by `Neighborhood::measure`.
   double sharpest_cosine = 1;
@@ -105,10 +105,9 @@ class PointSelector {
   PointSelector(std::nullptr_t) {}  ///< empty
   /// Holds a copy of f, which is called from several threads at once; empty if f is an empty std::function.
   template <class F>
-    requires(!std::same_as<std::remove_cvref_t<F>, PointSelector> &&
-             (std::is_invocable_r_v<Point<D>, std::decay_t<F>&, const PoorElement<D>&> ||
-              std::is_invocable_r_v<Point<D>, std::decay_t<F>&, const PoorElement<D>&, Neighborhood<D>&>))
-  PointSelector(F&& f) {
+  requires(!std::same_as<std::remove_cvref_t<F>, PointSelector> &&
+           (std::is_invocable_r_v<Point<D>, std::decay_t<F>&, const PoorElement<D>&> ||
+            std::is_invocable_r_v<Point<D>, std::decay_t<F>&, const PoorElement<D>&, Neighborhood<D>&>)) PointSelector(F&& f) {
     if constexpr (std::is_invocable_r_v<Point<D>, std::decay_t<F>&, const PoorElement<D>&>) {
       std::function<Point<D>(const PoorElement<D>&)> simple(std::forward<F>(f));
       if (simple) call_ = [simple = std::move(simple)](const PoorElement<D>& e, Neighborhood<D>&) { return simple(e); };
@@ -119,9 +118,7 @@ class PointSelector {
 
   explicit operator bool() const { return static_cast<bool>(call_); }  ///< is there a function?
   /// Where the function puts the point; throws what it throws. @pre not empty.
-  Point<D> operator()(const PoorElement<D>& element, Neighborhood<D>& neighborhood) const {
-    return call_(element, neighborhood);
-  }
+  Point<D> operator()(const PoorElement<D>& element, Neighborhood<D>& neighborhood) const { return call_(element, neighborhood); }
 
  private:
   std::function<Point<D>(const PoorElement<D>&, Neighborhood<D>&)> call_;

@@ -24,9 +24,7 @@ Sign orient(const Simplex<D>& s);
 /// orient<2>({a, b, c})
 inline Sign orient2d(const Point2& a, const Point2& b, const Point2& c) { return orient<2>({a, b, c}); }
 /// orient<3>({a, b, c, d})
-inline Sign orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
-  return orient<3>({a, b, c, d});
-}
+inline Sign orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3& d) { return orient<3>({a, b, c, d}); }
 
 /// Where p lies about the sphere through the corners of s: positive inside, zero on it, negative outside.
 /// @pre orient(s) is positive (where it is negative, so is the answer).
@@ -92,11 +90,11 @@ bool measure_within(const Simplex<D>& s, double bound);
 /// How often each stage decided, per thread, since the thread began: summed by whoever owns the threads. `expansion` is
 /// the second stage, `perturbed` counts ties on top of what found them (and the orientations that break them count, too).
 struct PredicateCounts {
-  std::uint64_t filter = 0;     ///< decided by the floating-point filter
-  std::uint64_t expansion = 0;  ///< by integers or expansions
-  std::uint64_t exact = 0;      ///< by rationals
-  std::uint64_t perturbed = 0;  ///< ties that the perturbation broke
-  PredicateCounts& operator+=(const PredicateCounts& o);       ///< adds each
+  std::uint64_t filter = 0;                                   ///< decided by the floating-point filter
+  std::uint64_t expansion = 0;                                ///< by integers or expansions
+  std::uint64_t exact = 0;                                    ///< by rationals
+  std::uint64_t perturbed = 0;                                ///< ties that the perturbation broke
+  PredicateCounts& operator+=(const PredicateCounts& o);      ///< adds each
   PredicateCounts operator-(const PredicateCounts& o) const;  ///< what came since o was read
 };
 PredicateCounts predicate_counts();  ///< of the calling thread

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Corners of .stl files that should be one point and miss each other by the rounding of zero. What a program computes as
-// 0 comes out as 1e-17 at one corner and as 0 or 2e-17 at the other; floats keep all of these, while a coordinate as large as the model
-// would be off by 6e-8 of it. Of 307 .stl files of other programs 37 have such corners, 8e-15 of the largest coordinate apart at most, and
-// 5e-14 in two of them; none has any from there to 1e-9. Left apart, they are open boundaries, walls of no width that intersect, or
-// needles that take millions of cells.
+// 0 comes out as 1e-17 at one corner and as 0 or 2e-17 at the other; floats keep all of these, while a coordinate as large as the
+// model would be off by 6e-8 of it. Of 307 .stl files of other programs 37 have such corners, 8e-15 of the largest coordinate
+// apart at most, and 5e-14 in two of them; none has any from there to 1e-9. Left apart, they are open boundaries, walls of no
+// width that intersect, or needles that take millions of cells.
 #include <algorithm>
 #include <cmath>
 
@@ -34,8 +34,10 @@ bool has_near_points(std::span<const Point3> points) {
   detail::PointGrid<3> grid(points.size(), scale, of_rounding * largest);
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     const std::uint32_t near = grid.nearest(points[i], points);
-    if (near == no_entity) grid.insert(points[i], i);
-    else if (points[near] != points[i]) return true;
+    if (near == no_entity)
+      grid.insert(points[i], i);
+    else if (points[near] != points[i])
+      return true;
   }
   return false;
 }

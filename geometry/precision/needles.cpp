@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Whether a file lacks the digits that would have made its planar faces planar, where that matters. The share of needles is by an
-// estimate of how many elements a facet takes for its shape alone: d^2 / A, of its diameter and its area, is the number of squares as
-// wide as a strip that fill it, and 2 / sin a of a triangle with a corner of a small angle a. At 8 such a corner has 14.47 degrees, and
-// every mesh that keeps the facet has a poor cell there (sharp_corners.hpp).
+// estimate of how many elements a facet takes for its shape alone: d^2 / A, of its diameter and its area, is the number of
+// squares as wide as a strip that fill it, and 2 / sin a of a triangle with a corner of a small angle a. At 8 such a corner
+// has 14.47 degrees, and every mesh that keeps the facet has a poor cell there (sharp_corners.hpp).
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -21,9 +21,9 @@
 namespace pgdr {
 namespace {
 
-constexpr double needle = 8;            // d^2 / A from there on
+constexpr double needle = 8;  // d^2 / A from there on
 constexpr double share_of_needles = 1. / 3;
-constexpr double least_digits = 1e-5;   // of six; with fewer, a face may be as far off as one wants to see
+constexpr double least_digits = 1e-5;  // of six; with fewer, a face may be as far off as one wants to see
 
 /// A facet of the file, or several in one plane.
 struct Shape {
@@ -66,8 +66,10 @@ class FileFacets {
     std::vector<std::uint32_t> nearly;
     for_each_joint([&](std::uint32_t f, std::uint32_t g) {
       const double off = distance_off_plane(f, g);
-      if (off <= plc_.precision) planes.unite(f, g);
-      else if (off <= precision) nearly.insert(nearly.end(), {f, g});
+      if (off <= plc_.precision)
+        planes.unite(f, g);
+      else if (off <= precision)
+        nearly.insert(nearly.end(), {f, g});
     });
     std::vector<bool> is_nearly(shapes_.size());
     for (const std::uint32_t f : nearly) is_nearly[planes.find(f)] = true;
@@ -93,8 +95,8 @@ class FileFacets {
     return off;
   }
 
-  /// Looks from now on at faces alone that are planar within `precision` with all facets of them, one after the other, that are. (The
-  /// sides of a round body are no more off than that, each from the next. Needles narrower than that lie in any plane.)
+  /// Looks from now on at faces alone that are planar within `precision` with all facets of them, one after the other, that are.
+  /// (The sides of a round body are no more off than that, each from the next. Needles narrower than that lie in any plane.)
   void keep_to_planar_faces(double precision) {
     detail::DisjointSets faces(shapes_.size());
     const auto has_plane = [&](std::uint32_t f) { return shapes_[f].width() > precision * shapes_[f].magnitude(); };
@@ -106,7 +108,8 @@ class FileFacets {
     is_of_planar_face_.assign(shapes_.size(), true);
     for (std::uint32_t f = 0; f < shapes_.size(); ++f) {
       const std::uint32_t face = faces.find(f);
-      if (shapes_[f].area > 0 && distance_off(planes[face], f) > precision * planes[face].whole.magnitude()) is_of_planar_face_[face] = false;
+      if (shapes_[f].area > 0 && distance_off(planes[face], f) > precision * planes[face].whole.magnitude())
+        is_of_planar_face_[face] = false;
     }
     for (std::uint32_t f = 0; f < shapes_.size(); ++f) is_of_planar_face_[f] = is_of_planar_face_[faces.find(f)];
   }
@@ -145,7 +148,8 @@ class FileFacets {
     shape.box = detail::Box<3>::around(origin);
     for (std::size_t i = 1; i < polygon.size(); ++i) {
       shape.box.add(points_[polygon[i]]);
-      const auto part = detail::cross(detail::difference(points_[polygon[i - 1]], origin), detail::difference(points_[polygon[i]], origin));
+      const auto part = detail::cross(detail::difference(points_[polygon[i - 1]], origin),
+                                      detail::difference(points_[polygon[i]], origin));
       for (std::size_t k = 0; k < 3; ++k) shape.normal[k] += part[k];
     }
     shape.area = std::sqrt(detail::dot(shape.normal, shape.normal)) / 2;
@@ -193,7 +197,8 @@ class FileFacets {
     for (int k = 0; k < 3; ++k) origin[k] = plane.origin[static_cast<std::size_t>(k)] / plane.whole.area;
     double off = 0;
     for (const auto& polygon : plc_.facets[f].polygons)
-      for (const std::uint32_t v : polygon) off = std::max(off, std::fabs(detail::dot(plane.normal, detail::difference(points_[v], origin))));
+      for (const std::uint32_t v : polygon)
+        off = std::max(off, std::fabs(detail::dot(plane.normal, detail::difference(points_[v], origin))));
     return off / std::sqrt(detail::dot(plane.normal, plane.normal));
   }
 
@@ -205,9 +210,9 @@ class FileFacets {
   std::vector<bool> is_of_planar_face_;     // of each facet; empty: all count
 };
 
-/// What coordinates look rounded to by how far facets are off the planes of others. In a file of few digits that was turned, needles
-/// tell their planes, and how far others are off these, within ten times their rounding. Floats that were converted once more,
-/// from other units or another place, are off by some units of their last digit, and bent faces by far more.
+/// What coordinates look rounded to by how far facets are off the planes of others. In a file of few digits that was turned,
+/// needles tell their planes, and how far others are off these, within ten times their rounding. Floats that were converted once
+/// more, from other units or another place, are off by some units of their last digit, and bent faces by far more.
 double precision_by_looks(const FileFacets& facets, const Plc<3>& plc) {
   std::vector<double> off = facets.distances_off_planes();
   const std::size_t edges = off.size();

@@ -21,13 +21,14 @@ namespace {
 constexpr int exact_digits = 4;  // and less: as people choose coordinates
 constexpr int few_digits = 9;    // floats have them at most
 constexpr double of_floats = 0x1p-22;
-constexpr double most_off = 1e-5;        // of a face that looks planar
-constexpr double clearly_bent = 1e-3;    // distances from there on are not told apart
-constexpr double gap = 10;               // between the distances of planar faces and those of others
-constexpr double allowance = 4;          // a plane that is fitted to many triangles may be off by more than that of one
-constexpr std::size_t least_part = 20;   // one of so many segments is between triangles of such a face, if there is one
+constexpr double most_off = 1e-5;       // of a face that looks planar
+constexpr double clearly_bent = 1e-3;   // distances from there on are not told apart
+constexpr double gap = 10;              // between the distances of planar faces and those of others
+constexpr double allowance = 4;         // a plane that is fitted to many triangles may be off by more than that of one
+constexpr std::size_t least_part = 20;  // one of so many segments is between triangles of such a face, if there is one
 
-/// Of the shortest decimal number that is this double, d.ddde+xx, within what is rounded where units are changed; few_digits + 1: more.
+/// Of the shortest decimal number that is this double, d.ddde+xx, within what is rounded where units are changed; few_digits + 1:
+/// more.
 int significant_digits(double value) {
   char text[32];
   const char* const end = std::to_chars(text, text + sizeof text, value, std::chars_format::scientific, few_digits - 1).ptr;
@@ -39,8 +40,8 @@ int significant_digits(double value) {
                                                 [](char c) { return c >= '0' && c <= '9'; }));
 }
 
-/// Of the coordinates, times the power of two with which this is least (of those that make the largest 2^-40 to 2^40): a file that was
-/// scaled by a power of two has lost nothing.
+/// Of the coordinates, times the power of two with which this is least (of those that make the largest 2^-40 to 2^40): a file
+/// that was scaled by a power of two has lost nothing.
 int most_digits(std::span<const Point3> points) {
   constexpr int farthest = 40;
   const double largest = detail::largest_coordinate(points);
@@ -114,7 +115,9 @@ std::size_t most_facets_saved(const Domain<3>& domain, double precision) {
 
 double precision_of_distances(std::vector<double> off, std::size_t edges, const LooksOfPlanes& looks) {
   std::sort(off.begin(), off.end());
-  const auto up_to = [&off](double x) { return static_cast<std::size_t>(std::upper_bound(off.begin(), off.end(), x) - off.begin()); };
+  const auto up_to = [&off](double x) {
+    return static_cast<std::size_t>(std::upper_bound(off.begin(), off.end(), x) - off.begin());
+  };
   const std::size_t rounded = up_to(Plc<3>{}.precision), end = up_to(most_off);
   const auto begin = std::max({rounded + 1, rounded + (edges + least_part - 1) / least_part, up_to(looks.known / allowance)});
   const auto has_gap = [&](std::size_t n) { return looks.within_gap * (up_to(gap * off[n - 1]) - n) <= n - rounded; };

@@ -17,10 +17,14 @@ SelectionDisk<D> selection_disk(const PoorElement<D>& element, const DiskOptions
   const double r = element.circumradius;
   if (!element.over_radius_edge) return {element.circumcenter, 0};
   double radius = 0;
-  if (options.type == DiskType::type1) radius = r - k * element.shortest_edge;
-  else if (!(element.radius_edge_bound >= k)) radius = 0;
-  else if (options.delta > 0) radius = r * (1 - options.delta);
-  else radius = r * (1 - k / element.radius_edge_bound);
+  if (options.type == DiskType::type1)
+    radius = r - k * element.shortest_edge;
+  else if (!(element.radius_edge_bound >= k))
+    radius = 0;
+  else if (options.delta > 0)
+    radius = r * (1 - options.delta);
+  else
+    radius = r * (1 - k / element.radius_edge_bound);
   return {element.circumcenter, std::max(radius, 0.0)};
 }
 

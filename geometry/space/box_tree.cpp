@@ -133,8 +133,10 @@ void BoxTree<D>::find_anchors(std::span<const Corners> corners, std::span<const 
   };
   for (std::uint32_t node = 2 * leaves_; node-- > 1;) {
     const auto take = [&](const Corners& c) {
-      if (any[node]) keep_common(common[node], c);
-      else common[node] = c;
+      if (any[node])
+        keep_common(common[node], c);
+      else
+        common[node] = c;
       any[node] = true;
     };
     if (is_leaf(node)) {
@@ -170,7 +172,8 @@ void BoxTree<D>::find_anchors(std::span<const Corners> corners, std::span<const 
 template <int D>
 void BoxTree<D>::append_children(const NodePair& pair, std::vector<NodePair>& out) const {
   const auto [a, b] = pair;
-  if (a == b) out.insert(out.end(), {{2 * a, 2 * a}, {2 * a, 2 * a + 1}, {2 * a + 1, 2 * a + 1}});
+  if (a == b)
+    out.insert(out.end(), {{2 * a, 2 * a}, {2 * a, 2 * a + 1}, {2 * a + 1, 2 * a + 1}});
   else if (!apart(a, b))
     out.insert(out.end(), {{2 * a, 2 * b}, {2 * a, 2 * b + 1}, {2 * a + 1, 2 * b}, {2 * a + 1, 2 * b + 1}});
 }
@@ -207,8 +210,7 @@ bool BoxTree<D>::separable(const Hull& a, const Hull& b) {
   if (a.apex == nullptr && b.apex == nullptr) return !a.box.meets(b.box);
   constexpr int most_steps = 16;
   Point<D> d;
-  for (int i = 0; i < D; ++i)
-    d[i] = (b.box.low[i] / 2 + b.box.high[i] / 2) - (a.box.low[i] / 2 + a.box.high[i] / 2);
+  for (int i = 0; i < D; ++i) d[i] = (b.box.low[i] / 2 + b.box.high[i] / 2) - (a.box.low[i] / 2 + a.box.high[i] / 2);
   for (int step = 0; step < most_steps; ++step) {
     Point<D> back, w;
     for (int i = 0; i < D; ++i) back[i] = -d[i];

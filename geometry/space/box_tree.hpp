@@ -51,8 +51,8 @@ class BoxTree {
   void self_pairs(Visit&& visit) const {
     pairs_below({1, 1}, visit);
   }
-  /// The same pairs in the same order, but in parts, several of which may be looked through at once: visit(i, j, out) for those of
-  /// a part, with a Part of its own. @returns these in the order of the parts.
+  /// The same pairs in the same order, but in parts, several of which may be looked through at once: visit(i, j, out) for those
+  /// of a part, with a Part of its own. @returns these in the order of the parts.
   template <class Part, class Bulk, class Visit>
   std::vector<Part> self_pairs_in_parts(const Bulk& bulk, const Visit& visit) const {
     const std::vector<NodePair> tops = pairs_of_some_level();
@@ -145,8 +145,10 @@ template <class Visit>
 void BoxTree<D>::pairs_below(const NodePair& top, const Visit& visit) const {
   const auto report = [&](const Item& a, const Item& b) {
     if (!a.box.meets(b.box)) return;
-    if (a.index < b.index) visit(a.index, b.index);
-    else visit(b.index, a.index);
+    if (a.index < b.index)
+      visit(a.index, b.index);
+    else
+      visit(b.index, a.index);
   };
   std::vector<NodePair> stack{top};  // both of a pair are on one level
   while (!stack.empty()) {

@@ -40,8 +40,10 @@ class Tester {
   const Point<D>& at(std::uint32_t v) const { return p_[v]; }
 
   Sign flat_orient(std::uint32_t i, std::uint32_t j, std::uint32_t k, int axis) const {
-    if constexpr (D == 2) return orient2d(at(i), at(j), at(k));
-    else return orient_projected(at(i), at(j), at(k), axis);
+    if constexpr (D == 2)
+      return orient2d(at(i), at(j), at(k));
+    else
+      return orient_projected(at(i), at(j), at(k), axis);
   }
 
   Sign side(const Piece& t, std::uint32_t v) const {
@@ -153,10 +155,11 @@ class Tester {
 
   // An axis along which the common plane of four points can be seen; none if they lie on one line.
   std::optional<int> common_axis(const Edge& e, const Edge& f) const {
-    if constexpr (D == 2) return flat_orient(e[0], e[1], f[0], 2) != Sign::zero ? std::optional(2) : std::nullopt;
-    else for (int axis = 0; axis < 3; ++axis)
-      if (flat_orient(e[0], e[1], f[0], axis) != Sign::zero || flat_orient(e[0], e[1], f[1], axis) != Sign::zero)
-        return axis;
+    if constexpr (D == 2)
+      return flat_orient(e[0], e[1], f[0], 2) != Sign::zero ? std::optional(2) : std::nullopt;
+    else
+      for (int axis = 0; axis < 3; ++axis)
+        if (flat_orient(e[0], e[1], f[0], axis) != Sign::zero || flat_orient(e[0], e[1], f[1], axis) != Sign::zero) return axis;
     return {};
   }
 
@@ -172,8 +175,7 @@ class Tester {
   bool crosses_inside(const Edge& e, const Piece& t) const requires(D == 3) {
     if (t.has(e[0]) || t.has(e[1]) || !opposite(side(t, e[0]), side(t, e[1]))) return false;
     std::array<Sign, 3> turn;
-    for (std::size_t i = 0; i < 3; ++i)
-      turn[i] = orient3d(at(e[0]), at(e[1]), at(t.corners[i]), at(t.corners[(i + 1) % 3]));
+    for (std::size_t i = 0; i < 3; ++i) turn[i] = orient3d(at(e[0]), at(e[1]), at(t.corners[i]), at(t.corners[(i + 1) % 3]));
     return turn[0] != Sign::zero && turn[0] == turn[1] && turn[1] == turn[2];
   }
 
@@ -216,9 +218,7 @@ std::array<double, 3> cross(const std::array<double, 3>& a, const std::array<dou
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-double dot(const std::array<double, 3>& a, const std::array<double, 3>& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+double dot(const std::array<double, 3>& a, const std::array<double, 3>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 // The parameter along e of the crossing: where it meets the plane of the triangle, or the plane through the other edge
 // that is normal to the common plane.

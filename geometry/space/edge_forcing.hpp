@@ -32,17 +32,20 @@ struct CellSide {
 
 /// A triangulation as forcing sees it: cells of three corners, counter-clockwise, closed by ghosts about a vertex at infinity.
 template <class T>
-concept ForcibleTriangles = requires(T& t, const T& c, typename T::Cell cell, typename T::Vertex v, CellSide<typename T::Cell> side) {
-  { T::from_b } -> std::convertible_to<bool>;  // crossed cells are used again from b on, not from a: refinement depends on the order
+concept ForcibleTriangles = requires(T& t, const T& c, typename T::Cell cell, typename T::Vertex v,
+                                     CellSide<typename T::Cell> side) {
+  {
+    T::from_b
+    } -> std::convertible_to<bool>;  // crossed cells are used again from b on, not from a: refinement depends on the order
   { c.corner(cell, 0) } -> std::same_as<typename T::Vertex>;
   { c.across(side) } -> std::same_as<CellSide<typename T::Cell>>;  // the same edge, seen from the cell behind it
   { c.is_constraint(side) } -> std::same_as<bool>;
   { c.is_ghost(v) } -> std::same_as<bool>;
-  { c.cell_at(v) } -> std::same_as<typename T::Cell>;       // some cell with this corner
+  { c.cell_at(v) } -> std::same_as<typename T::Cell>;  // some cell with this corner
   { c.orient(v, v, v) } -> std::same_as<Sign>;
-  { c.is_ahead(v, v, v) } -> std::same_as<bool>;            // of c on the line ab: on the side of a where b is
-  { c.in_circle(v, v, v, v) } -> std::same_as<bool>;        // the fourth inside the circle through the others
-  t.set(cell, std::array<typename T::Vertex, 3>{});         // new corners, no constraints
+  { c.is_ahead(v, v, v) } -> std::same_as<bool>;      // of c on the line ab: on the side of a where b is
+  { c.in_circle(v, v, v, v) } -> std::same_as<bool>;  // the fourth inside the circle through the others
+  t.set(cell, std::array<typename T::Vertex, 3>{});   // new corners, no constraints
   t.link(side, side);
   t.constrain(side);
 };
@@ -96,9 +99,10 @@ class EdgeForcing {
     Side old;     ///< of a crossed cell
     Side beyond;  ///< of a cell outside, or (dangling edge) of another crossed one
     bool is_constraint;
-    Side now{};   ///< of a new cell
+    Side now{};  ///< of a new cell
   };
-  /// A triangle of a polygon: its corners by their places in the chain, and the triangle and edge below it, 2 * triangle + (0, 1).
+  /// A triangle of a polygon: its corners by their places in the chain, and the triangle and edge below it, 2 * triangle + (0,
+  /// 1).
   struct Triangle {
     std::uint32_t i, j, k = none, below = none;
   };

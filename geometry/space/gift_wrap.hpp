@@ -24,7 +24,7 @@ namespace pgdr {
 /// A gift wrapper, with the memory it works in.
 class GiftWrap {
  public:
-  using Index = std::uint16_t;  ///< into the points
+  using Index = std::uint16_t;        ///< into the points
   using Face = std::array<Index, 3>;  ///< orient3d of the three and a point of the region beside them is positive
   using Cell = std::array<Index, 4>;  ///< positively oriented
 

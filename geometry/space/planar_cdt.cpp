@@ -87,8 +87,10 @@ PlanarResult PlanarTriangulation::build(std::span<const Point3> points, std::spa
   PlanarResult result = build_delaunay(points, vertices);
   for (std::size_t k = 0; result && k < constraints.size(); ++k) {
     const std::uint32_t a = local(constraints[k][0]), b = local(constraints[k][1]);
-    if (a == none || b == none) result = {PlanarStatus::no_such_edge, constraints[k], {}};
-    else if (a != b) result = constrain_local(a, b, false);
+    if (a == none || b == none)
+      result = {PlanarStatus::no_such_edge, constraints[k], {}};
+    else if (a != b)
+      result = constrain_local(a, b, false);
   }
   if (!result) {
     *this = {};
@@ -102,8 +104,7 @@ PlanarResult PlanarTriangulation::build(std::span<const Point3> points, std::spa
   return result;
 }
 
-PlanarResult PlanarTriangulation::build_delaunay(std::span<const Point3> points,
-                                                 std::span<const std::uint32_t> vertices) {
+PlanarResult PlanarTriangulation::build_delaunay(std::span<const Point3> points, std::span<const std::uint32_t> vertices) {
   points_.clear();
   ids_.assign(vertices.begin(), vertices.end());
   cells_.clear();
@@ -150,16 +151,14 @@ PlanarResult PlanarTriangulation::start(std::vector<std::uint32_t>& order) {
 
 PlanarResult PlanarTriangulation::insert_in_hull(std::uint32_t v) {
   const Location where = locate(points_[v]);
-  if (where.vertex >= 0)
-    return problem(PlanarStatus::coincident, cells_[where.t].v[static_cast<std::size_t>(where.vertex)], v);
+  if (where.vertex >= 0) return problem(PlanarStatus::coincident, cells_[where.t].v[static_cast<std::size_t>(where.vertex)], v);
   std::vector<std::uint32_t> cells{where.t};
   if (where.edge >= 0) cells.push_back(cells_[where.t].n[static_cast<std::size_t>(where.edge)]);
   fill_star(v, rim_of(where), cells, {none, none}, true);
   return {};
 }
 
-PlanarTriangulation::Location PlanarTriangulation::locate_in(std::uint32_t t,
-                                                             const std::array<Sign, 3>& side) const {
+PlanarTriangulation::Location PlanarTriangulation::locate_in(std::uint32_t t, const std::array<Sign, 3>& side) const {
   const int zeros = static_cast<int>(std::count(side.begin(), side.end(), Sign::zero));
   Location where{t, -1, -1};
   for (int i = 0; i < 3; ++i) {

@@ -76,8 +76,7 @@ class PlanarTriangulation {
   /// Replaces edge a-b by a-id-b; the pieces are constraints if a-b was. p may be off the edge by its rounding: where a
   /// triangle of the domain would be turned over thereby, unconstrained neighbours are taken into the retriangulation.
   /// @return ok, no_such_edge, inverted.
-  PlanarResult split_edge(std::uint32_t a, std::uint32_t b, std::uint32_t id, const Point3& p,
-                          PlanarChange* change = nullptr);
+  PlanarResult split_edge(std::uint32_t a, std::uint32_t b, std::uint32_t id, const Point3& p, PlanarChange* change = nullptr);
 
   /// The triangles of the domain, counter-clockwise in the projection, in an order that depends on the calls alone.
   std::vector<PlanarTriangle> triangles() const;
@@ -166,9 +165,9 @@ class PlanarTriangulation {
   void forget_last_vertex();
 
   int axis_ = 2;
-  std::vector<Point3> points_;          // by local number
-  std::vector<std::uint32_t> ids_;      // by local number
-  std::vector<std::uint32_t> cell_of_;  // some cell at each vertex
+  std::vector<Point3> points_;                                     // by local number
+  std::vector<std::uint32_t> ids_;                                 // by local number
+  std::vector<std::uint32_t> cell_of_;                             // some cell at each vertex
   std::vector<std::pair<std::uint32_t, std::uint32_t>> local_of_;  // (id, local number), sorted
   std::vector<Cell> cells_;
   std::uint32_t hint_ = 0;

@@ -27,8 +27,7 @@ Sign PlanarTriangulation::orient(std::uint32_t a, std::uint32_t b, std::uint32_t
   return orient_projected(points_[a], points_[b], points_[c], axis_);
 }
 
-bool PlanarTriangulation::in_circle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d,
-                                    bool flat) const {
+bool PlanarTriangulation::in_circle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d, bool flat) const {
   if (!flat) return in_circle_perturbed(points_[a], points_[b], points_[c], points_[d], axis_) == Sign::positive;
   Point3 p[4] = {points_[a], points_[b], points_[c], points_[d]};
   for (Point3& q : p) q[axis_] = 0;
@@ -40,8 +39,7 @@ void PlanarTriangulation::link(Side a, Side b) {
   cells_[b.t].n[static_cast<std::size_t>(b.i)] = a.t;
 }
 
-void PlanarTriangulation::set_cell(std::uint32_t t, const std::array<std::uint32_t, 3>& v, std::uint8_t fixed,
-                                   bool inside) {
+void PlanarTriangulation::set_cell(std::uint32_t t, const std::array<std::uint32_t, 3>& v, std::uint8_t fixed, bool inside) {
   cells_[t].v = v;
   cells_[t].fixed = fixed;
   cells_[t].inside = inside;
@@ -104,15 +102,11 @@ void PlanarTriangulation::flip(std::uint32_t t, int i) {
   const auto bit = [](const Cell& cell, std::size_t from, int to) { return is_fixed(cell, from) ? 1 << to : 0; };
   // A pocket of the hull: the triangle without the ghost is new, and in the domain if nothing bounds it there.
   const bool hull = a == ghost || b == ghost;
-  const auto open = [&](const Cell& cell, std::size_t e) {
-    return !is_fixed(cell, e) && cells_[cell.n[e]].inside;
-  };
+  const auto open = [&](const Cell& cell, std::size_t e) { return !is_fixed(cell, e) && cells_[cell.n[e]].inside; };
   const bool t_inside = hull ? a != ghost && (open(d, k(j + 1)) || open(c, k(i + 2))) : c.inside;
   const bool u_inside = hull ? b != ghost && (open(d, k(j + 2)) || open(c, k(i + 1))) : c.inside;
-  set_cell(t, {p, a, q}, static_cast<std::uint8_t>(bit(d, k(j + 1), 0) | bit(c, k(i + 2), 2)),
-           t_inside);
-  set_cell(u, {p, q, b}, static_cast<std::uint8_t>(bit(d, k(j + 2), 0) | bit(c, k(i + 1), 1)),
-           u_inside);
+  set_cell(t, {p, a, q}, static_cast<std::uint8_t>(bit(d, k(j + 1), 0) | bit(c, k(i + 2), 2)), t_inside);
+  set_cell(u, {p, q, b}, static_cast<std::uint8_t>(bit(d, k(j + 2), 0) | bit(c, k(i + 1), 1)), u_inside);
   link({t, 1}, {u, 2});
   link({t, 0}, aq);
   link({t, 2}, pa);
@@ -178,8 +172,7 @@ bool PlanarTriangulation::is_valid(bool delaunay) const {
       if (c.n[i] >= cells_.size()) return false;
       const int j = mirror(t, static_cast<int>(i));
       const Cell& d = cells_[c.n[i]];
-      if (d.n[static_cast<std::size_t>(j)] != t || d.v[static_cast<std::size_t>((j + 2) % 3)] != c.v[(i + 1) % 3])
-        return false;
+      if (d.n[static_cast<std::size_t>(j)] != t || d.v[static_cast<std::size_t>((j + 2) % 3)] != c.v[(i + 1) % 3]) return false;
       const bool fixed = is_fixed(c, i);
       if (fixed != is_fixed(d, j)) return false;
       if (!fixed && c.inside != d.inside && !is_ghost(c) && !is_ghost(d)) return false;

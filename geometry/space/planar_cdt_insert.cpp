@@ -21,8 +21,7 @@ std::vector<PlanarTriangulation::RimEdge> PlanarTriangulation::rim_of(Location w
   const auto push = [&](std::uint32_t t, int i) {
     const Cell& c = cells_[t];
     const auto k = [](int x) { return static_cast<std::size_t>(x % 3); };
-    rim.push_back({c.v[k(i + 1)], c.v[k(i + 2)], {c.n[k(i)], mirror(t, i)}, is_fixed(c, i), c.inside,
-                   is_ghost(c)});
+    rim.push_back({c.v[k(i + 1)], c.v[k(i + 2)], {c.n[k(i)], mirror(t, i)}, is_fixed(c, i), c.inside, is_ghost(c)});
   };
   const int first = where.edge < 0 ? 0 : where.edge + 1;
   for (int i = first; i < first + (where.edge < 0 ? 3 : 2); ++i) push(where.t, i % 3);
@@ -35,8 +34,7 @@ std::vector<PlanarTriangulation::RimEdge> PlanarTriangulation::rim_of(Location w
   return rim;
 }
 
-bool PlanarTriangulation::make_star_shaped(std::uint32_t p, std::vector<RimEdge>& rim,
-                                           std::vector<std::uint32_t>& cells) const {
+bool PlanarTriangulation::make_star_shaped(std::uint32_t p, std::vector<RimEdge>& rim, std::vector<std::uint32_t>& cells) const {
   for (std::size_t e = 0; e < rim.size();) {
     const RimEdge edge = rim[e];
     if (!edge.inside || orient(p, edge.a, edge.b) == Sign::positive) {
@@ -52,16 +50,15 @@ bool PlanarTriangulation::make_star_shaped(std::uint32_t p, std::vector<RimEdge>
     // Behind a -> b the outer cell has b -> a; its other edges are a -> apex and apex -> b.
     const auto side = [&](int x) { return Side{c.n[k(x)], mirror(edge.outer.t, static_cast<int>(k(x)))}; };
     rim[e] = {edge.a, apex, side(1), is_fixed(c, k(1)), edge.inside, false};
-    rim.insert(rim.begin() + static_cast<std::ptrdiff_t>(e) + 1,
-               {apex, edge.b, side(2), is_fixed(c, k(2)), edge.inside, false});
+    rim.insert(rim.begin() + static_cast<std::ptrdiff_t>(e) + 1, {apex, edge.b, side(2), is_fixed(c, k(2)), edge.inside, false});
   }
   return true;
 }
 
 // Replaces the cells by the triangles from p to the rim; the edges from p to the two vertices `fixed_spokes` become
 // constraints. The rim has two edges more than there are cells.
-void PlanarTriangulation::fill_star(std::uint32_t p, const std::vector<RimEdge>& rim,
-                                    const std::vector<std::uint32_t>& cells, PlanarEdge fixed_spokes, bool flat) {
+void PlanarTriangulation::fill_star(std::uint32_t p, const std::vector<RimEdge>& rim, const std::vector<std::uint32_t>& cells,
+                                    PlanarEdge fixed_spokes, bool flat) {
   std::vector<std::uint32_t> slots = cells;
   for (const std::uint32_t t : cells) touch(t);
   while (slots.size() < rim.size()) {
@@ -105,8 +102,7 @@ PlanarResult PlanarTriangulation::insert(std::uint32_t id, const Point3& p, Plan
   if (where.edge >= 0) {
     cells.push_back(c.n[static_cast<std::size_t>(where.edge)]);
     inside = inside || cells_[cells[1]].inside;
-    if (inside && is_fixed(c, where.edge))
-      return problem(PlanarStatus::on_constraint, at(where.edge + 1), at(where.edge + 2));
+    if (inside && is_fixed(c, where.edge)) return problem(PlanarStatus::on_constraint, at(where.edge + 1), at(where.edge + 2));
   }
   if (!inside) return {PlanarStatus::outside};
   begin_change(change);

@@ -180,8 +180,7 @@ template <int D>
 std::uint64_t HilbertCurve<D>::key(const Point<D>& p) const {
   constexpr double most = static_cast<double>((1u << bits_per_axis<D>)-1);
   std::array<std::uint32_t, D> x;
-  for (int i = 0; i < D; ++i)
-    x[i] = static_cast<std::uint32_t>(std::clamp((p[i] - corner_[i]) * scale_, 0.0, most));
+  for (int i = 0; i < D; ++i) x[i] = static_cast<std::uint32_t>(std::clamp((p[i] - corner_[i]) * scale_, 0.0, most));
   return hilbert_index(x);
 }
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A check for cancellation, asked between steps and in loops over the whole input: an exception ends what the caller has cancelled.
+// A check for cancellation, asked between steps and in loops over the whole input: an exception ends what the caller has
+// cancelled.
 #pragma once
 
 #include <algorithm>

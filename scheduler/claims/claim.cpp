@@ -52,8 +52,7 @@ Claim<D> Claim<D>::whole(const Orthtree<D>& tree, Node leaf) {
 }
 
 template <int D>
-Claim<D>::Claim(const Orthtree<D>& tree, Node leaf, std::span<const Node> zone, std::uint32_t order)
-    : Claim(tree, leaf) {
+Claim<D>::Claim(const Orthtree<D>& tree, Node leaf, std::span<const Node> zone, std::uint32_t order) : Claim(tree, leaf) {
   std::vector<Node> leaves(zone.begin(), zone.end());
   leaves.push_back(leaf);
   std::sort(leaves.begin(), leaves.end());

@@ -14,9 +14,7 @@ namespace {
 
 constexpr VisitGraph::Visit nobody = 0xffffffffu;
 
-[[noreturn]] void fail(const std::string& message) {
-  throw ResourceError({Errc::internal, message, {}, 0, {}, {}});
-}
+[[noreturn]] void fail(const std::string& message) { throw ResourceError({Errc::internal, message, {}, 0, {}, {}}); }
 
 }  // namespace
 
@@ -35,8 +33,7 @@ void ConflictManager<D>::renew(Node leaf) {
   Cached& cached = cache_[leaf];
   // A split changes BUF(leaf) only if it splits one of its leaves.
   const auto split = [this](Node l) { return !tree_->is_leaf(l); };
-  if (cached.node_count == 0 || std::any_of(cached.zone.begin(), cached.zone.end(), split))
-    cached.zone = tree_->buffer(leaf);
+  if (cached.node_count == 0 || std::any_of(cached.zone.begin(), cached.zone.end(), split)) cached.zone = tree_->buffer(leaf);
   cached.node_count = tree_->node_count();
 }
 

@@ -21,9 +21,7 @@ static_assert(cells_a_part % SlotSet::slots_a_word == 0);
 void run_all(const VisitGraph& independent, const ScheduleOptions& options, const VisitBody& body) {
   if (independent.visits() == 1) return body(0);
   switch (options.executor) {
-    case Executor::flow_graph:
-      in_arena_to_the_end(options.threads, [&] { run_flow_graph(independent, body); });
-      break;
+    case Executor::flow_graph: in_arena_to_the_end(options.threads, [&] { run_flow_graph(independent, body); }); break;
     case Executor::threads: run_threads(independent, body, static_cast<unsigned>(threads_of(options))); break;
     case Executor::serial: run_serial(independent, body); break;
     case Executor::shuffled: {

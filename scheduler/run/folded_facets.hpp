@@ -23,7 +23,8 @@ bool may_fold(const Domain<3>& domain);
 /// Checks that the mesh is one of the domain, after carving and before the refinement, which keeps what is right so. Looks at
 /// nothing unless may_fold(domain); else takes some 5 microseconds a cell. `region_attributes`: of each region number, empty
 /// without labels. Any thread; nobody changes the mesh meanwhile.
-/// @throws InputError boundary_not_recovered: the least segment that is in the mesh in part, its ends in `ids` and `points`; or, if
+/// @throws InputError boundary_not_recovered: the least segment that is in the mesh in part, its ends in `ids` and `points`; or,
+/// if
 ///   the checker finds the mesh not to be one of the domain, the facet that is off its plane by most, with its points
 void require_unfolded(const Mesh<3>& mesh, const Domain<3>& domain, RegionMode regions,
                       std::span<const double> region_attributes);

@@ -60,8 +60,8 @@ bool Generations<D>::one_generation() {
   return true;
 }
 
-/// Runs the visit, and posts what it finds for other leaves that it has claimed, for the visits of these that come after it in the
-/// plan.
+/// Runs the visit, and posts what it finds for other leaves that it has claimed, for the visits of these that come after it in
+/// the plan.
 template <int D>
 void Generations<D>::run_visit(const Visit<D>& visit, Planned& planned) {
   const VisitRecorder::Watch watch;

@@ -24,8 +24,7 @@ void LeafWorks<D>::hand_down(const Mesh<D>& mesh, Node parent, std::uint64_t gen
     to.list.push(e);
     to.since = generation;
   };
-  for (Node child = 0; child < Orthtree<D>::children; ++child)
-    works_[tree_->first_child(parent) + child]->changed = from.changed;
+  for (Node child = 0; child < Orthtree<D>::children; ++child) works_[tree_->first_child(parent) + child]->changed = from.changed;
   from.open_inbox();
   from.list.drain(pass_on, [&mesh](const Entry<D>& e) { mesh.prefetch(e.cell); });
   for (auto& entries : from.set_aside) {

@@ -89,7 +89,7 @@ class WaitingWork {
   Orthtree<D> tree_;
   LeafWorks<D> works_;
   std::uint64_t generation_ = 0;  ///< that runs, or that ran last; counted from 1
-  WorkList<D> whole_list_;  ///< of entries that visits of the whole tree come upon
+  WorkList<D> whole_list_;        ///< of entries that visits of the whole tree come upon
   std::vector<Entry<D>> whole_set_aside_;
   std::vector<Entry<D>> given_and_not_processed_;
   bool all_listed_ = false;

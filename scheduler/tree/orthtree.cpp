@@ -127,8 +127,7 @@ std::uint64_t Orthtree<D>::morton(Node node) const {
   const int shift = max_level - level(node);
   std::uint64_t key = 0;
   for (int b = 0; b < level(node); ++b)
-    for (unsigned i = 0; i < D; ++i)
-      key |= std::uint64_t{place(node)[i] >> b & 1} << (D * static_cast<unsigned>(b + shift) + i);
+    for (unsigned i = 0; i < D; ++i) key |= std::uint64_t{place(node)[i] >> b & 1} << (D * static_cast<unsigned>(b + shift) + i);
   return key;
 }
 

@@ -127,9 +127,7 @@ TEST_F(OutOfMemory, OnceIn2D) { sweep(plate, {"--size", "0.05"}, false, 300); }
 TEST_F(OutOfMemory, ForGoodIn2D) { sweep(plate, {"--size", "0.05"}, true, 300); }
 TEST_F(OutOfMemory, OnceIn3D) { sweep(bracket, {"--size", "0.5"}, false, 100); }
 TEST_F(OutOfMemory, ForGoodIn3D) { sweep(bracket, {"--size", "0.5"}, true, 100); }
-TEST_F(OutOfMemory, WithReportAndExpression) {
-  sweep(plate, {"--size", expression, "--report", report_.string()}, false, 200);
-}
+TEST_F(OutOfMemory, WithReportAndExpression) { sweep(plate, {"--size", expression, "--report", report_.string()}, false, 200); }
 TEST_F(OutOfMemory, WithThreadsAndTrace) {
   sweep(plate, {"--size", "0.05", "--threads", "3", "--trace", trace_.string(), "--report", report_.string()}, false, 200);
 }

@@ -7,11 +7,11 @@
 #include <cstdio>
 #include <cstdlib>
 
-#define FUZZ_EXPECT(condition, ...)                                                      \
-  do {                                                                                   \
-    if (!(condition)) {                                                                  \
-      std::fprintf(stderr, "%s:%d: expected %s\n", __FILE__, __LINE__, #condition);      \
-      __VA_OPT__(std::fprintf(stderr, "%s\n", std::string(__VA_ARGS__).c_str());)        \
-      std::abort();                                                                      \
-    }                                                                                    \
+#define FUZZ_EXPECT(condition, ...)                                                 \
+  do {                                                                              \
+    if (!(condition)) {                                                             \
+      std::fprintf(stderr, "%s:%d: expected %s\n", __FILE__, __LINE__, #condition); \
+      __VA_OPT__(std::fprintf(stderr, "%s\n", std::string(__VA_ARGS__).c_str());)   \
+      std::abort();                                                                 \
+    }                                                                               \
   } while (false)

@@ -85,18 +85,21 @@ void read_tetgen_texts(std::string_view bytes) {
   std::string texts[4];
   std::size_t n = 0;
   for (const char c : bytes) {
-    if (c == '\0' && n < 3) ++n;
-    else texts[n] += c;
+    if (c == '\0' && n < 3)
+      ++n;
+    else
+      texts[n] += c;
   }
   look_at<D>(detail::read_tetgen<D>({texts[0], texts[1], n >= 2 ? &texts[2] : nullptr, n >= 3 ? &texts[3] : nullptr}, name));
 }
 
 template <int D>
 void read(std::string_view bytes) {
-  if (input)
-    guarded(bytes, [&] { expect_in_range<D>(detail::read_plc_from<D>(bytes, name)); });
-  if (tetgen) guarded(bytes, [&] { read_tetgen_texts<D>(bytes); });
-  else if (mesh) guarded(bytes, [&] { look_at<D>(detail::read_mesh_from<D>(bytes, name)); });
+  if (input) guarded(bytes, [&] { expect_in_range<D>(detail::read_plc_from<D>(bytes, name)); });
+  if (tetgen)
+    guarded(bytes, [&] { read_tetgen_texts<D>(bytes); });
+  else if (mesh)
+    guarded(bytes, [&] { look_at<D>(detail::read_mesh_from<D>(bytes, name)); });
 }
 
 }  // namespace

@@ -104,8 +104,9 @@ void mesh(const fuzz::GridInput<D>& input) {
     expect_sound(domain, options, result);
     expect_same_shuffled(domain, options, result);
   } catch (const InputError& e) {
-    const bool about_seeds = e.code() == Errc::encloses_nothing ? !input.plc.holes.empty()  // nothing is left
-                             : seeds && (e.code() == Errc::seed_on_boundary || e.code() == Errc::conflicting_seeds);
+    const bool about_seeds = e.code() == Errc::encloses_nothing
+                                 ? !input.plc.holes.empty()  // nothing is left
+                                 : seeds && (e.code() == Errc::seed_on_boundary || e.code() == Errc::conflicting_seeds);
     FUZZ_EXPECT(!possible || about_seeds, e.what());
     FUZZ_EXPECT(!e.diagnostic().message.empty());
   }

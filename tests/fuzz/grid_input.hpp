@@ -76,8 +76,10 @@ class GridReader {
   }
   void seed(Point<D> p, std::uint8_t what) {
     for (int i = 0; i < D; ++i) p[i] += 0.25;
-    if (what >= 128) plc_.holes.push_back(p);
-    else plc_.regions.push_back({p, static_cast<double>(what), 0});
+    if (what >= 128)
+      plc_.holes.push_back(p);
+    else
+      plc_.regions.push_back({p, static_cast<double>(what), 0});
   }
 
   void box() {

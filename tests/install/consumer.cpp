@@ -68,7 +68,8 @@ void functors(pgdr::Plc<D> plc) {
   options.radius_edge_bound = 4;
   mesh<D>(plc, options, "circumcentres");
   options.disk.type = pgdr::DiskType::type1;
-  for (const auto& [name, selector] : {std::pair{"off-centres", pgdr::off_center<D>()}, {"optimised points", pgdr::optimized<D>()},
+  for (const auto& [name, selector] : {std::pair{"off-centres", pgdr::off_center<D>()},
+                                       {"optimised points", pgdr::optimized<D>()},
                                        {"points that avoid slivers", pgdr::sliver_avoiding<D>()}}) {
     options.selector = selector;
     mesh<D>(plc, options, name);
@@ -99,8 +100,8 @@ void fields(const pgdr::Plc<D>& plc) {
   values[0] = 0.01;
   values = pgdr::limit_growth<D>(coarse, values, 0.3);
   const std::vector<pgdr::Point<D>> points = {coarse.points[1]};
-  options.size = pgdr::smallest<D>({0.2, pgdr::sizes_on_mesh<D>(coarse, values),
-                                    pgdr::sizes_at_points<D>(points, std::vector<double>{0.02}, 0.3)});
+  options.size = pgdr::smallest<D>(
+      {0.2, pgdr::sizes_on_mesh<D>(coarse, values), pgdr::sizes_at_points<D>(points, std::vector<double>{0.02}, 0.3)});
   const pgdr::OutputMesh<D> fine = mesh<D>(plc, options, "fields combined");
   expect(fine.cells.size() > 2 * coarse.cells.size(), "sizes are met");
   options = {};

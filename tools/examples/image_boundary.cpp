@@ -112,7 +112,8 @@ struct Picture {
         for (int i = 0; i <= side; ++i) {
           const double t = double(i) / side, x = a[0] + t * (b[0] - a[0]), y = a[1] + t * (b[1] - a[1]);
           const auto pixel = [](double c) { return std::min(side - 1, static_cast<int>(c * side)); };
-          set(left + pixel(x), pixel(1 - y), red ? std::array<unsigned char, 3>{230, 30, 30} : std::array<unsigned char, 3>{60, 110, 200});
+          set(left + pixel(x), pixel(1 - y),
+              red ? std::array<unsigned char, 3>{230, 30, 30} : std::array<unsigned char, 3>{60, 110, 200});
         }
       }
   }

@@ -105,14 +105,17 @@ int main(int argc, char** argv) {
   });
   tbb::task_arena arena;
   arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
-      try {
-        mesh(jobs[i]);
-      } catch (const pgdr::Error& e) {  // names the culprits; the other parts go on
-        jobs[i].error = e.what();
-      }
-      ++done;
-    }, tbb::simple_partitioner());
+    tbb::parallel_for(
+        std::size_t{0}, jobs.size(),
+        [&](std::size_t i) {
+          try {
+            mesh(jobs[i]);
+          } catch (const pgdr::Error& e) {  // names the culprits; the other parts go on
+            jobs[i].error = e.what();
+          }
+          ++done;
+        },
+        tbb::simple_partitioner());
   });
   watcher.request_stop();
   watcher.join();
@@ -121,7 +124,10 @@ int main(int argc, char** argv) {
   for (const Job& job : jobs) {
     const bool cancelled = job.stop == pgdr::StopCause::cancelled;
     std::printf("%-20s %8zu tetrahedra, %s\n", job.surface.name.c_str(), job.cells.size(),
-                !job.error.empty() ? job.error.c_str() : cancelled ? "cancelled" : job.valid ? "valid" : "NOT VALID");
+                !job.error.empty() ? job.error.c_str()
+                : cancelled        ? "cancelled"
+                : job.valid        ? "valid"
+                                   : "NOT VALID");
     good = good && job.error.empty() && (&job == &unwanted ? cancelled && job.cells.empty() : job.valid);
   }
   return good ? 0 : 1;

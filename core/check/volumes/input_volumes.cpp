@@ -59,8 +59,7 @@ struct AtRidge {
 template <int D>
 class InputBuilder {
  public:
-  explicit InputBuilder(InputVolumes<D>& out)
-      : out_(out), domain_(*out.domain_), sides_(0), patches_(0), components_(0) {}
+  explicit InputBuilder(InputVolumes<D>& out) : out_(out), domain_(*out.domain_), sides_(0), patches_(0), components_(0) {}
 
   void run(RegionMode mode) {
     collect_walls();
@@ -121,9 +120,8 @@ class InputBuilder {
         }
       }
     }
-    std::sort(ridges_.begin(), ridges_.end(), [](const AtRidge& x, const AtRidge& y) {
-      return x.ridge != y.ridge ? x.ridge < y.ridge : x.simplex < y.simplex;
-    });
+    std::sort(ridges_.begin(), ridges_.end(),
+              [](const AtRidge& x, const AtRidge& y) { return x.ridge != y.ridge ? x.ridge < y.ridge : x.simplex < y.simplex; });
   }
 
   Sign turn(const std::array<std::uint32_t, 2>& ridge, std::uint32_t from, std::uint32_t to) const {
@@ -176,8 +174,7 @@ class InputBuilder {
     for (const std::uint32_t root : first_of_component)
       for (std::uint64_t attempt = 0; !linked[root]; ++attempt) {
         if (attempt == 1000)
-          throw InputError(
-              {Errc::entities_intersect, "Two walls of the input overlap.", {}, 0, {facet_or_segment(root)}, {}});
+          throw InputError({Errc::entities_intersect, "Two walls of the input overlap.", {}, 0, {facet_or_segment(root)}, {}});
         cast_line(target(root, attempt), attempt, linked);
       }
   }
@@ -243,8 +240,8 @@ class InputBuilder {
     std::vector<std::uint32_t> place(n);
     for (const std::uint32_t i : order) {
       if (simplices.empty() || patches_.find(i) != patches_.find(order[simplices.size() - 1]))
-        out_.patches_.push_back({facet_or_segment(i), static_cast<std::uint32_t>(simplices.size()), 0,
-                                 {volume_at(2 * i), volume_at(2 * i + 1)}});
+        out_.patches_.push_back(
+            {facet_or_segment(i), static_cast<std::uint32_t>(simplices.size()), 0, {volume_at(2 * i), volume_at(2 * i + 1)}});
       ++out_.patches_.back().count;
       place[i] = static_cast<std::uint32_t>(out_.patches_.size() - 1);
       out_.patch_of_.push_back(place[i]);
@@ -276,9 +273,7 @@ class InputBuilder {
     auto &point = out_.wants_point_, &segment = out_.wants_segment_;
     point.assign(domain_.points().size(), Wanted::unknown);
     segment.assign(domain_.segments().size(), Wanted::unknown);
-    const auto mark = [](Wanted& flag, bool wanted) {
-      flag = flag == Wanted::yes || wanted ? Wanted::yes : Wanted::no;
-    };
+    const auto mark = [](Wanted& flag, bool wanted) { flag = flag == Wanted::yes || wanted ? Wanted::yes : Wanted::no; };
     for (std::uint32_t i = 0; i < out_.simplices_.size(); ++i) {
       const std::uint32_t patch = out_.patch_of_[i];
       for (const std::uint32_t v : out_.simplices_[i]) mark(point[v], out_.wants_patch(patch));

@@ -21,8 +21,8 @@ namespace pgdr::checking {
 /// A maximal part of an entity that no segment divides: a segment in 2D; in 3D triangles of one facet.
 struct Patch {
   EntityId entity = no_entity;
-  std::uint32_t first = 0, count = 0;          ///< of the simplices
-  std::array<std::uint32_t, 2> volume{};       ///< on the positive side of its simplices, and on the negative
+  std::uint32_t first = 0, count = 0;     ///< of the simplices
+  std::array<std::uint32_t, 2> volume{};  ///< on the positive side of its simplices, and on the negative
 };
 
 /// A patch has triangles along this segment. `reversed`: they run along it from its second point to its first.
@@ -34,8 +34,8 @@ struct Bound {
 };
 
 struct Volume {
-  bool kept = true;            ///< to be meshed: neither outside nor a hole, and not void by nesting
-  std::vector<std::uint32_t> seeds;  ///< region seeds in it
+  bool kept = true;                                       ///< to be meshed: neither outside nor a hole, and not void by nesting
+  std::vector<std::uint32_t> seeds;                       ///< region seeds in it
   double size = std::numeric_limits<double>::infinity();  ///< measure bound of its cells
   double measure = 0, measure_error = 0;
   /// Its label if RegionMode::automatic gives it one: between these (equal but for volumes with the same segments).

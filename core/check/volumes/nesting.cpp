@@ -20,8 +20,7 @@ using Neighbours = std::vector<std::set<std::uint32_t>>;
 class NestingTree {
  public:
   explicit NestingTree(const Neighbours& neighbours)
-      : parent_(neighbours.size(), none), depth_(neighbours.size(), 0), classes_(neighbours.size()),
-        odd_(neighbours.size(), 0) {
+      : parent_(neighbours.size(), none), depth_(neighbours.size(), 0), classes_(neighbours.size()), odd_(neighbours.size(), 0) {
     order_.push_back(0);
     for (std::size_t i = 0; i < order_.size(); ++i)
       for (const std::uint32_t v : neighbours[order_[i]]) {

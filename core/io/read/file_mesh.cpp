@@ -21,8 +21,7 @@ namespace {
 void require_dimension(const FileMesh& mesh, int wanted) {
   const int d = dimension_of(mesh);
   if (d != wanted)
-    fail(mesh, Errc::syntax, "the dimension is " + std::to_string(d) + ", not " + std::to_string(wanted),
-         mesh.dimension_line);
+    fail(mesh, Errc::syntax, "the dimension is " + std::to_string(d) + ", not " + std::to_string(wanted), mesh.dimension_line);
 }
 
 [[noreturn]] void refuse_cells(const FileMesh& mesh, const std::string& what, std::uint64_t line) {
@@ -58,8 +57,7 @@ class PlcBuilder {
 
   Plc<D> build() {
     if (!mesh_.other_cells.empty() && facet_count() == 0)
-      fail(mesh_, Errc::unknown_format, mesh_.other_cells + " have no surface here: the file must list it",
-           mesh_.other_line);
+      fail(mesh_, Errc::unknown_format, mesh_.other_cells + " have no surface here: the file must list it", mesh_.other_line);
     plc_.source.file = mesh_.file;
     plc_.first_index = mesh_.first_index;
     for (const Point3& p : mesh_.points) plc_.points.push_back(flattened<D>(p));
@@ -75,9 +73,7 @@ class PlcBuilder {
   }
 
  private:
-  std::size_t facet_count() const {
-    return D == 2 ? mesh_.edges.size() : mesh_.triangles.size() + mesh_.quadrilaterals.size();
-  }
+  std::size_t facet_count() const { return D == 2 ? mesh_.edges.size() : mesh_.triangles.size() + mesh_.quadrilaterals.size(); }
 
   void add_segments() {
     plc_.segments.reserve(mesh_.edges.size());

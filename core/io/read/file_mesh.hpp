@@ -26,12 +26,12 @@ struct FileMesh {
   };
 
   std::string file;
-  int dimension = 3;                ///< as stated: 2 or 3; where it is 3, flat files are 2D all the same
-  bool dimension_certain = false;   ///< the statement holds for flat files, too
+  int dimension = 3;               ///< as stated: 2 or 3; where it is 3, flat files are 2D all the same
+  bool dimension_certain = false;  ///< the statement holds for flat files, too
   std::uint64_t dimension_line = 0;
 
   std::vector<Point3> points;
-  std::vector<int> point_markers;    ///< one a point
+  std::vector<int> point_markers;      ///< one a point
   std::vector<std::uint8_t> required;  ///< one a point, or empty: points that are kept although no surface has them
   std::vector<std::uint32_t> point_lines;
   std::size_t input_points = 0;

@@ -121,8 +121,7 @@ class MeditReader {
       const Subject s{"point", static_cast<std::int64_t>(i + 1)};
       for (int k = 0; k < mesh_.dimension; ++k) {
         in_.require(s);
-        if (k == 0 && want_.purpose == Purpose::input)
-          mesh_.point_lines.push_back(static_cast<std::uint32_t>(in_.line()));
+        if (k == 0 && want_.purpose == Purpose::input) mesh_.point_lines.push_back(static_cast<std::uint32_t>(in_.line()));
         mesh_.points[i][k] = in_.number(s);
       }
       mesh_.point_markers[i] = label(s);
@@ -148,8 +147,7 @@ class MeditReader {
   /// What the comments say that a reference of a cell stands for.
   double region_value(Subject s, int reference) const {
     if (reference < 1 || static_cast<std::size_t>(reference) > region_values_.size())
-      in_.fail(Errc::index_out_of_range, "no comment says what region " + std::to_string(reference) + " is",
-               {s.id, reference});
+      in_.fail(Errc::index_out_of_range, "no comment says what region " + std::to_string(reference) + " is", {s.id, reference});
     return region_values_[static_cast<std::size_t>(reference) - 1];
   }
 

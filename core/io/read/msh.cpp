@@ -145,8 +145,7 @@ class MshReader {
       return in_.number(s);
     }
     const auto x = take<double>(s);
-    if (!std::isfinite(x))
-      in_.fail(Errc::not_finite, "a coordinate of node " + std::to_string(s.id) + " is not finite", {s.id});
+    if (!std::isfinite(x)) in_.fail(Errc::not_finite, "a coordinate of node " + std::to_string(s.id) + " is not finite", {s.id});
     return x;
   }
   /// A count of things of which each takes so many bytes at least.
@@ -295,8 +294,7 @@ class MshReader {
     for (int k = 0; k < parameters; ++k) skip_number(s);
     mesh_.points.push_back(p);
     if (p[2] == 0) return;
-    if (mesh_.dimension == 2)
-      in_.fail(Errc::syntax, "node " + std::to_string(s.id) + " has a third coordinate, in 2D", {s.id});
+    if (mesh_.dimension == 2) in_.fail(Errc::syntax, "node " + std::to_string(s.id) + " has a third coordinate, in 2D", {s.id});
     decided_ = only_dimension_;
   }
 

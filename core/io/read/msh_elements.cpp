@@ -12,9 +12,14 @@ namespace {
 
 constexpr std::int32_t line = 1, triangle = 2, quadrilateral = 3, tetrahedron = 4, point = 15;
 constexpr MshType types[] = {
-    {line, 1, 2, "Lines"},        {triangle, 2, 3, "Triangles"}, {quadrilateral, 2, 4, "Quadrilaterals"},
-    {tetrahedron, 3, 4, "Tetrahedra"}, {5, 3, 8, "Hexahedra"},   {6, 3, 6, "Prisms"},
-    {7, 3, 5, "Pyramids"},        {point, 0, 1, "Points"},
+    {line, 1, 2, "Lines"},
+    {triangle, 2, 3, "Triangles"},
+    {quadrilateral, 2, 4, "Quadrilaterals"},
+    {tetrahedron, 3, 4, "Tetrahedra"},
+    {5, 3, 8, "Hexahedra"},
+    {6, 3, 6, "Prisms"},
+    {7, 3, 5, "Pyramids"},
+    {point, 0, 1, "Points"},
 };
 
 }  // namespace
@@ -97,8 +102,7 @@ void MshElements::sort(List<N>& list) {
   if (std::is_sorted(list.tags.begin(), list.tags.end())) return;
   std::vector<std::size_t> order(list.tags.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&list](std::size_t a, std::size_t b) { return list.tags[a] < list.tags[b]; });
+  std::stable_sort(order.begin(), order.end(), [&list](std::size_t a, std::size_t b) { return list.tags[a] < list.tags[b]; });
   list.elements = permuted(list.elements, order);
   if (!list.lines.empty()) list.lines = permuted(list.lines, order);
 }

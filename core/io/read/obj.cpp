@@ -15,8 +15,8 @@ namespace pgdr::detail {
 namespace {
 
 constexpr std::string_view ignored[] = {
-    "vt", "vn", "vp", "g", "o", "s", "mg", "usemtl", "mtllib", "usemap", "maplib",
-    "l",  "p",  "bevel", "lod", "shadow_obj", "trace_obj", "c_interp", "d_interp",
+    "vt",     "vn", "vp", "g",     "o",   "s",          "mg",        "usemtl",   "mtllib",   "usemap",
+    "maplib", "l",  "p",  "bevel", "lod", "shadow_obj", "trace_obj", "c_interp", "d_interp",
 };
 
 class ObjReader {

@@ -62,8 +62,7 @@ void read_off_faces(LineScanner& in, const OffHeader& h, Plc<3>& plc) {
     in.require(s);
     plc.source.facet_lines.push_back(static_cast<std::uint32_t>(in.line()));
     const std::size_t corners = in.count(s, 2);
-    if (corners < 3)
-      in.fail(Errc::degenerate_facet, "face " + std::to_string(i) + " has fewer than three corners", {s.id});
+    if (corners < 3) in.fail(Errc::degenerate_facet, "face " + std::to_string(i) + " has fewer than three corners", {s.id});
     auto& polygon = plc.facets.emplace_back().polygons.emplace_back(corners);
     for (auto& c : polygon) {
       in.require(s);

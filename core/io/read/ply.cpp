@@ -30,9 +30,9 @@ struct TypeName {
   Type type;
 };
 constexpr TypeName type_names[] = {
-    {"char", Type::i8},   {"int8", Type::i8},    {"uchar", Type::u8},    {"uint8", Type::u8},
-    {"short", Type::i16}, {"int16", Type::i16},  {"ushort", Type::u16},  {"uint16", Type::u16},
-    {"int", Type::i32},   {"int32", Type::i32},  {"uint", Type::u32},    {"uint32", Type::u32},
+    {"char", Type::i8},   {"int8", Type::i8},     {"uchar", Type::u8},   {"uint8", Type::u8},
+    {"short", Type::i16}, {"int16", Type::i16},   {"ushort", Type::u16}, {"uint16", Type::u16},
+    {"int", Type::i32},   {"int32", Type::i32},   {"uint", Type::u32},   {"uint32", Type::u32},
     {"float", Type::f32}, {"float32", Type::f32}, {"double", Type::f64}, {"float64", Type::f64},
 };
 constexpr bool is_integer(Type t) { return t != Type::f32 && t != Type::f64; }
@@ -166,8 +166,7 @@ class HeaderReader {
   void check_size(const Element& e) const {
     if (e.properties.empty()) in_.fail(Errc::syntax, "the element " + quoted(e.name) + " has no properties");
     std::size_t bytes = 0;
-    for (const Property& p : e.properties)
-      bytes += header_.encoding == Encoding::text ? 2 : size_of(p.list ? p.length : p.type);
+    for (const Property& p : e.properties) bytes += header_.encoding == Encoding::text ? 2 : size_of(p.list ? p.length : p.type);
     in_.check_count({e.name}, e.count, bytes);
   }
 
@@ -179,8 +178,7 @@ class HeaderReader {
 class Values {
  public:
   Values(LineScanner& in, Encoding encoding)
-      : in_(in), text_(encoding == Encoding::text),
-        order_(encoding == Encoding::big ? std::endian::big : std::endian::little) {}
+      : in_(in), text_(encoding == Encoding::text), order_(encoding == Encoding::big ? std::endian::big : std::endian::little) {}
 
   void begin_entry(Subject s) {
     if (text_) in_.require(s);
@@ -309,8 +307,7 @@ class PlyReader {
 
   void read_face(const Property& p, Subject s) {
     const std::size_t n = values_.length(p, s);
-    if (n < 3)
-      in_.fail(Errc::degenerate_facet, "face " + std::to_string(s.id) + " has fewer than three corners", {s.id});
+    if (n < 3) in_.fail(Errc::degenerate_facet, "face " + std::to_string(s.id) + " has fewer than three corners", {s.id});
     auto& polygon = plc_.facets.emplace_back().polygons.emplace_back(n);
     for (auto& corner : polygon) {
       const std::int64_t v = values_.integer(p.type, s);

@@ -44,8 +44,8 @@ NodeHeader read_node_header(LineScanner& in) {
 template <int D>
 void require_dimension(const LineScanner& in, const NodeHeader& h) {
   if (h.dimension == D || h.dimension == 0) return;
-  in.fail(Errc::syntax, "the points have " + std::to_string(h.dimension) + " coordinates, but " + std::to_string(D) +
-                            " are asked for");
+  in.fail(Errc::syntax,
+          "the points have " + std::to_string(h.dimension) + " coordinates, but " + std::to_string(D) + " are asked for");
 }
 
 template <int D>
@@ -66,18 +66,15 @@ void read_points(LineScanner& in, const NodeHeader& h, Plc<D>& plc) {
     in.require(s);
     const std::int64_t id = in.integer(s);
     if (i == 0) {
-      if (id != 0 && id != 1)
-        in.fail(Errc::syntax, "the first point has number " + std::to_string(id) + ", not 0 or 1");
+      if (id != 0 && id != 1) in.fail(Errc::syntax, "the first point has number " + std::to_string(id) + ", not 0 or 1");
       plc.first_index = static_cast<std::uint32_t>(id);
       s.id = id;
     }
     if (id != s.id)
-      in.fail(Errc::syntax,
-              "point " + std::to_string(id) + " stands where point " + std::to_string(s.id) + " belongs", {id});
+      in.fail(Errc::syntax, "point " + std::to_string(id) + " stands where point " + std::to_string(s.id) + " belongs", {id});
     plc.source.point_lines.push_back(static_cast<std::uint32_t>(in.line()));
     plc.points.push_back(read_coordinates<D>(in, s));
-    for (std::size_t a = 0; a < h.attributes; ++a)
-      plc.point_attributes.push_back(in.more_on_line() ? in.number(s, false) : 0);
+    for (std::size_t a = 0; a < h.attributes; ++a) plc.point_attributes.push_back(in.more_on_line() ? in.number(s, false) : 0);
     const int marker = in.more_on_line() ? in.marker(s) : 0;
     if (h.markers) plc.point_markers.push_back(marker);
     in.end_line({"the end of a point"});
@@ -140,8 +137,7 @@ void read_segments(LineScanner& in, Plc<2>& plc) {
 std::vector<std::uint32_t> read_polygon(LineScanner& in, Subject s, const Plc<3>& plc) {
   in.require(s);
   const std::size_t n = in.count(s, 2);
-  if (n == 0)
-    in.fail(Errc::degenerate_facet, "facet " + std::to_string(s.id) + " has a polygon without corners", {s.id});
+  if (n == 0) in.fail(Errc::degenerate_facet, "facet " + std::to_string(s.id) + " has a polygon without corners", {s.id});
   std::vector<std::uint32_t> corners(n);
   for (auto& c : corners) {
     in.require(s);
@@ -153,8 +149,7 @@ std::vector<std::uint32_t> read_polygon(LineScanner& in, Subject s, const Plc<3>
 Plc<3>::Facet read_poly_facet(LineScanner& in, const ListHeader& h, Subject s, const Plc<3>& plc) {
   Plc<3>::Facet facet;
   const std::size_t polygons = in.count(s, 4);  // "1 1\n"
-  if (polygons == 0)
-    in.fail(Errc::degenerate_facet, "facet " + std::to_string(s.id) + " has no polygon", {s.id});
+  if (polygons == 0) in.fail(Errc::degenerate_facet, "facet " + std::to_string(s.id) + " has no polygon", {s.id});
   const std::size_t holes = in.more_on_line() ? in.count({"the holes of facet", s.id}, 8) : 0;  // "1 0 0 0\n"
   facet.marker = read_last_marker(in, h, s);
   facet.polygons.reserve(polygons);

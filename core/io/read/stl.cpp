@@ -204,9 +204,8 @@ class AsciiReader {
 Plc<3> read_stl(std::string_view text, const std::filesystem::path& file) {
   Plc<3> plc;
   plc.source.file = file.string();
-  const bool sizes_agree =
-      text.size() >= binary_header &&
-      text.size() == binary_header + std::uint64_t{little_endian(text, binary_header - 4)} * binary_triangle;
+  const bool sizes_agree = text.size() >= binary_header &&
+                           text.size() == binary_header + std::uint64_t{little_endian(text, binary_header - 4)} * binary_triangle;
   if (!sizes_agree && starts_with_solid(text)) {
     AsciiReader(text, plc).read();
   } else {

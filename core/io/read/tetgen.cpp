@@ -50,8 +50,8 @@ void read_ele(std::string_view text, const std::string& file, const Numbering& n
   const std::size_t n = in.count(header, 2 * (D + 2));
   const std::int64_t corners = in.more_on_line() ? in.integer(header) : D + 1;
   if (corners != D + 1)
-    in.fail(Errc::unknown_format, "cells of " + std::to_string(corners) + " points are not read in " +
-                                      std::to_string(D) + "D: only simplices are");
+    in.fail(Errc::unknown_format,
+            "cells of " + std::to_string(corners) + " points are not read in " + std::to_string(D) + "D: only simplices are");
   const std::size_t attributes = in.more_on_line() ? in.count({"attributes of a cell"}, 1) : 0;
   in.end_line(header);
   mesh.cells.reserve(n);
@@ -119,8 +119,7 @@ OutputMesh<D> read_tetgen(const TetgenTexts& texts, const std::filesystem::path&
     mesh.subsegments.resize(read_comment(*texts.edge, subsegments_comment, edges, edges, name(".edge")));
   }
   if constexpr (D == 3) {
-    if (texts.face != nullptr)
-      read_constraints<3, D>(*texts.face, name(".face"), numbering, mesh.subfacets);
+    if (texts.face != nullptr) read_constraints<3, D>(*texts.face, name(".face"), numbering, mesh.subfacets);
   }
   return mesh;
 }

@@ -33,7 +33,7 @@ struct Array {
 struct Head {
   std::uint64_t points = 0, cells = 0;
   std::map<std::string, Array> arrays;
-  std::string_view data;  ///< behind the '_' that begins the appended data
+  std::string_view data;                   ///< behind the '_' that begins the appended data
   std::uint64_t line = 0, piece_line = 0;  ///< of the data, of the counts
 };
 
@@ -49,8 +49,7 @@ class HeadReader {
         require(tag, "type", "UnstructuredGrid");
         require(tag, "byte_order", "LittleEndian");
         require(tag, "header_type", "UInt64");
-        if (tag.attributes.contains("compressor"))
-          fail(Errc::unknown_format, "compressed arrays are not read", tag.line);
+        if (tag.attributes.contains("compressor")) fail(Errc::unknown_format, "compressed arrays are not read", tag.line);
       } else if (tag.name == "Piece") {
         head_.piece_line = tag.line;
         head_.points = unsigned_attribute(tag, "NumberOfPoints");
@@ -122,15 +121,13 @@ class HeadReader {
 
   std::string_view attribute(const Tag& tag, std::string_view name) const {
     const auto it = tag.attributes.find(name);
-    if (it == tag.attributes.end())
-      fail(Errc::syntax, quoted(tag.name) + " has no " + std::string(name), tag.line);
+    if (it == tag.attributes.end()) fail(Errc::syntax, quoted(tag.name) + " has no " + std::string(name), tag.line);
     return it->second;
   }
   void require(const Tag& tag, std::string_view name, std::string_view value) const {
     const std::string_view found = attribute(tag, name);
     if (found != value)
-      fail(Errc::unknown_format, std::string(name) + " is " + quoted(found) + ", only " + quoted(value) + " is read",
-           tag.line);
+      fail(Errc::unknown_format, std::string(name) + " is " + quoted(found) + ", only " + quoted(value) + " is read", tag.line);
   }
   std::uint64_t unsigned_attribute(const Tag& tag, std::string_view name) const {
     const auto value = parse_integer(attribute(tag, name));
@@ -177,8 +174,7 @@ class Arrays {
     const Array& a = it->second;
     if (a.type != type) fail(Errc::unknown_format, name, " is not of type " + std::string(type));
     constexpr std::size_t prefix = sizeof(std::uint64_t);
-    if (size(name) != n * bytes_each)
-      fail(Errc::syntax, name, " has not the size that the counts of points and cells imply");
+    if (size(name) != n * bytes_each) fail(Errc::syntax, name, " has not the size that the counts of points and cells imply");
     const std::string_view rest = head_.data.substr(static_cast<std::size_t>(a.offset));
     if (rest.size() - prefix < n * bytes_each) fail(Errc::truncated, name, " reaches beyond the end of the file");
     end_ = std::max(end_, static_cast<std::size_t>(a.offset) + prefix + n * bytes_each);
@@ -265,8 +261,7 @@ class GridReader {
     if (!arrays_.has("PointData/marker")) return;
     const std::string_view markers = arrays_.bytes("PointData/marker", "Int32", arrays_.points(), sizeof(std::int32_t));
     mesh_.point_markers.resize(arrays_.points());
-    for (std::size_t i = 0; i < mesh_.point_markers.size(); ++i)
-      mesh_.point_markers[i] = little_endian<std::int32_t>(markers, i);
+    for (std::size_t i = 0; i < mesh_.point_markers.size(); ++i) mesh_.point_markers[i] = little_endian<std::int32_t>(markers, i);
   }
 
   void read_point_attributes() {
@@ -277,8 +272,7 @@ class GridReader {
       arrays_.fail(Errc::syntax, name, " has not as many numbers for each point");
     const std::string_view values = arrays_.bytes(name, "Float64", static_cast<std::size_t>(count), sizeof(double));
     mesh_.point_attributes.resize(static_cast<std::size_t>(count));
-    for (std::size_t i = 0; i < mesh_.point_attributes.size(); ++i)
-      mesh_.point_attributes[i] = little_endian<double>(values, i);
+    for (std::size_t i = 0; i < mesh_.point_attributes.size(); ++i) mesh_.point_attributes[i] = little_endian<double>(values, i);
   }
 
   void read_input_points() {
@@ -302,8 +296,7 @@ class GridReader {
     mesh_.cells.resize(run(D == 3 ? tetrahedron : triangle));
     if constexpr (D == 3) mesh_.subfacets.resize(run(triangle));
     mesh_.subsegments.resize(run(line));
-    if (at != types.size())
-      arrays_.fail(Errc::syntax, "Cells/types", " has a type that does not belong where it stands");
+    if (at != types.size()) arrays_.fail(Errc::syntax, "Cells/types", " has a type that does not belong where it stands");
   }
 
   void read_offsets() {
@@ -318,15 +311,13 @@ class GridReader {
 
   void read_connectivity() {
     const std::string name = "Cells/connectivity";
-    const std::size_t corners =
-        (D + 1) * mesh_.cells.size() + 3 * mesh_.subfacets.size() + 2 * mesh_.subsegments.size();
+    const std::size_t corners = (D + 1) * mesh_.cells.size() + 3 * mesh_.subfacets.size() + 2 * mesh_.subsegments.size();
     const std::string_view ids = arrays_.bytes(name, "Int64", corners, sizeof(std::int64_t));
     std::size_t at = 0;
     const auto fill = [&](auto& vertices) {
       for (std::uint32_t& v : vertices) {
         const auto id = static_cast<std::uint64_t>(little_endian<std::int64_t>(ids, at++));
-        if (id >= arrays_.points())
-          arrays_.fail(Errc::index_out_of_range, name, " refers to a point that is not there");
+        if (id >= arrays_.points()) arrays_.fail(Errc::index_out_of_range, name, " refers to a point that is not there");
         v = static_cast<std::uint32_t>(id);
       }
     };

@@ -21,9 +21,7 @@ std::string described(Subject s) {
   return text;
 }
 
-std::vector<std::int64_t> ids_of(Subject s) {
-  return s.id < 0 ? std::vector<std::int64_t>{} : std::vector<std::int64_t>{s.id};
-}
+std::vector<std::int64_t> ids_of(Subject s) { return s.id < 0 ? std::vector<std::int64_t>{} : std::vector<std::int64_t>{s.id}; }
 
 /// The value of a decimal number that from_chars found out of range: its order of magnitude decides.
 double beyond_range(std::string_view token) {
@@ -146,8 +144,8 @@ bool LineScanner::accept(std::string_view literal) {
 std::string_view LineScanner::take() {
   const std::size_t begin = pos_;
   while (pos_ < text_.size() && !is_blank(text_[pos_]) && text_[pos_] != '\n') {
-    const bool comment = text_[pos_] == '#' && (pos_ == begin || text_[pos_ - 1] != '.' || pos_ + 1 == text_.size() ||
-                                                text_[pos_ + 1] < 'A');
+    const bool comment = text_[pos_] == '#' &&
+                         (pos_ == begin || text_[pos_ - 1] != '.' || pos_ + 1 == text_.size() || text_[pos_ + 1] < 'A');
     if (comment) break;
     ++pos_;
   }
@@ -199,11 +197,9 @@ void LineScanner::check_count(Subject s, std::uint64_t n, std::size_t bytes_each
   constexpr std::uint64_t few = 64;
   const std::string left = std::to_string(remaining()) + " bytes";
   if (n <= few)
-    fail(Errc::truncated,
-         "the file ends within " + described(s) + ": " + left + " are left for " + std::to_string(n), ids_of(s));
+    fail(Errc::truncated, "the file ends within " + described(s) + ": " + left + " are left for " + std::to_string(n), ids_of(s));
   const std::string promised = n == std::numeric_limits<std::uint64_t>::max() ? "that many" : std::to_string(n);
-  fail(Errc::count_too_large,
-       "the file cannot hold " + promised + " entries of " + described(s) + " in " + left, ids_of(s));
+  fail(Errc::count_too_large, "the file cannot hold " + promised + " entries of " + described(s) + " in " + left, ids_of(s));
 }
 
 std::uint32_t LineScanner::reference(Subject s, std::uint32_t first, std::size_t n) {

@@ -41,9 +41,7 @@ class Groups {
 
  private:
   static bool before(double a, double b) { return std::strong_order(a, b) < 0; }
-  static bool is_physical(double v) {
-    return v >= 1 && v <= 2147483647.0 && v == static_cast<double>(static_cast<int>(v));
-  }
+  static bool is_physical(double v) { return v >= 1 && v <= 2147483647.0 && v == static_cast<double>(static_cast<int>(v)); }
   /// The smallest numbers that no positive label takes, for the others.
   void number_groups() {
     std::vector<int> taken;
@@ -108,7 +106,7 @@ struct Box {
 /// The elements of one dimension, as the sections need them.
 struct Layer {
   Groups groups;
-  std::int32_t type;                 ///< gmsh's number
+  std::int32_t type;  ///< gmsh's number
   std::size_t corners;
   std::vector<std::uint32_t> group;  ///< of each element; `none`: it is not written
   std::uint64_t first_tag = 1;       ///< element i has tag first_tag + i
@@ -246,8 +244,7 @@ class MshWriter {
       for (std::size_t i = layer.buckets.items.size(); i-- > 0;) {
         const std::uint32_t element = layer.buckets.items[i];
         for (std::size_t k = 0; k < layer.corners; ++k)
-          home[corner(layer.groups.dimension(), element, k)] =
-              static_cast<std::uint32_t>(first_group[d] + layer.group[element]);
+          home[corner(layer.groups.dimension(), element, k)] = static_cast<std::uint32_t>(first_group[d] + layer.group[element]);
       }
     }
     return home;
@@ -309,8 +306,7 @@ class MshWriter {
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t element = layer.buckets.items[i];
       put_size(static_cast<std::size_t>(layer.first_tag + element));
-      for (std::size_t k = 0; k < layer.corners; ++k)
-        put_size(std::size_t{corner(layer.groups.dimension(), element, k)} + 1);
+      for (std::size_t k = 0; k < layer.corners; ++k) put_size(std::size_t{corner(layer.groups.dimension(), element, k)} + 1);
     }
   }
 

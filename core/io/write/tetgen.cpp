@@ -135,9 +135,8 @@ void put_neighbors(FileOutput& out, const OutputMesh<D>& mesh, std::uint32_t fir
       FaceOfCell<D>& face = faces.emplace_back(FaceOfCell<D>{face_without(mesh.cells[c], i), c, i});
       std::sort(face.vertices.begin(), face.vertices.end());
     }
-  std::sort(faces.begin(), faces.end(), [](const auto& a, const auto& b) {
-    return a.vertices != b.vertices ? a.vertices < b.vertices : a.cell < b.cell;
-  });
+  std::sort(faces.begin(), faces.end(),
+            [](const auto& a, const auto& b) { return a.vertices != b.vertices ? a.vertices < b.vertices : a.cell < b.cell; });
   constexpr std::uint32_t none = 0xffffffffu;
   std::array<std::uint32_t, D + 1> alone;
   alone.fill(none);

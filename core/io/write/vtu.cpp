@@ -94,8 +94,8 @@ std::vector<Block> blocks_of(const OutputMesh<D>& mesh) {
   const std::uint64_t corners = (D + 1) * mesh.cells.size() + 3 * mesh.subfacets.size() + 2 * mesh.subsegments.size();
   const std::string scalar = " NumberOfTuples=\"1\"", vector = " NumberOfComponents=\"3\"";
   std::vector<Block> blocks;
-  const auto add = [&blocks](std::string_view section, std::string_view type, std::string_view name,
-                             std::string shape, std::uint64_t bytes, std::function<void(FileOutput&)> put) {
+  const auto add = [&blocks](std::string_view section, std::string_view type, std::string_view name, std::string shape,
+                             std::uint64_t bytes, std::function<void(FileOutput&)> put) {
     blocks.push_back({section, type, name, std::move(shape), bytes, std::move(put)});
   };
   add("FieldData", "Int64", "dimension", scalar, 8, [](auto& out) { out.put_binary(std::int64_t{D}); });
@@ -105,14 +105,12 @@ std::vector<Block> blocks_of(const OutputMesh<D>& mesh) {
     add("PointData", "Int32", "marker", "", 4 * points, [&mesh](auto& out) { put_point_markers(mesh, out); });
   if (!mesh.point_attributes.empty())
     add("PointData", "Float64", "attributes",
-        " NumberOfComponents=\"" + std::to_string(mesh.point_attributes.size() / points) + "\"",
-        8 * mesh.point_attributes.size(), [&mesh](auto& out) {
+        " NumberOfComponents=\"" + std::to_string(mesh.point_attributes.size() / points) + "\"", 8 * mesh.point_attributes.size(),
+        [&mesh](auto& out) {
           for (const double a : mesh.point_attributes) out.put_binary(a);
         });
-  if (!mesh.leaves.empty())
-    add("CellData", "Int64", "leaf", "", 8 * cells, [&mesh](auto& out) { put_leaves(mesh, out); });
-  if (!mesh.regions.empty())
-    add("CellData", "Float64", "region", "", 8 * cells, [&mesh](auto& out) { put_regions(mesh, out); });
+  if (!mesh.leaves.empty()) add("CellData", "Int64", "leaf", "", 8 * cells, [&mesh](auto& out) { put_leaves(mesh, out); });
+  if (!mesh.regions.empty()) add("CellData", "Float64", "region", "", 8 * cells, [&mesh](auto& out) { put_regions(mesh, out); });
   add("CellData", "Int32", "marker", "", 4 * cells, [&mesh](auto& out) { put_markers(mesh, out); });
   add("Points", "Float64", "Points", vector, 24 * points, [&mesh](auto& out) { put_points(mesh, out); });
   add("Cells", "Int64", "connectivity", "", 8 * corners, [&mesh](auto& out) { put_connectivity(mesh, out); });
@@ -152,9 +150,10 @@ template <int D>
 void write_vtu(const OutputMesh<D>& mesh, FileOutput& out) {
   std::vector<Block> blocks = blocks_of(mesh);
   lay_out(blocks);
-  out.put("<?xml version=\"1.0\"?>\n"
-          "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
-          "<UnstructuredGrid>\n");
+  out.put(
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
+      "<UnstructuredGrid>\n");
   put_section(out, "FieldData", blocks);
   out.put("<Piece NumberOfPoints=\"" + std::to_string(mesh.points.size()) + "\" NumberOfCells=\"" +
           std::to_string(grid_cells(mesh)) + "\">\n");

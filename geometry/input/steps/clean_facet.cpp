@@ -23,8 +23,10 @@ CleanFacet clean_facet(const BuildInput<3>& in, std::uint32_t f, const NearConta
     };
     for (std::size_t k = 0; k < polygon.size(); ++k) {
       const std::uint32_t v = in.point_of_input[polygon[k]];
-      if (!loop.empty() && loop.back() == v) drop(polygon[k - 1], polygon[k]);
-      else loop.push_back(v);
+      if (!loop.empty() && loop.back() == v)
+        drop(polygon[k - 1], polygon[k]);
+      else
+        loop.push_back(v);
     }
     while (loop.size() > 1 && polygon.size() > 2 && loop.front() == loop.back()) {
       drop(polygon.back(), polygon.front());

@@ -89,8 +89,10 @@ void ContactResolver<D>::split_at_points() {
   std::vector<PointOn> on_edges, in_triangles;
   for (const auto& [first, second, what] : contacts_)
     for (const Contact::Corner& corner : what.corners) {
-      if (corner.edge[0] != no_entity) on_edges.emplace_back(edge_key(corner.edge[0], corner.edge[1]), corner.point);
-      else in_triangles.emplace_back(corner.of_second ? first : second, corner.point);
+      if (corner.edge[0] != no_entity)
+        on_edges.emplace_back(edge_key(corner.edge[0], corner.edge[1]), corner.point);
+      else
+        in_triangles.emplace_back(corner.of_second ? first : second, corner.point);
     }
   make_set(on_edges);
   make_set(in_triangles);

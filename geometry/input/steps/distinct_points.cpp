@@ -23,8 +23,12 @@ Point<D> with_positive_zeros(Point<D> p) {
 
 template <int D>
 [[noreturn]] void bad_length(const Plc<D>& plc, std::size_t length, const char* of) {
-  throw UsageError({Errc::bad_option, std::to_string(length) + of + " for " + std::to_string(plc.points.size()) + " points",
-                    plc.source.file, 0, {}, {}});
+  throw UsageError({Errc::bad_option,
+                    std::to_string(length) + of + " for " + std::to_string(plc.points.size()) + " points",
+                    plc.source.file,
+                    0,
+                    {},
+                    {}});
 }
 
 template <int D>
@@ -48,12 +52,11 @@ void keep_point(const Plc<D>& plc, std::uint32_t i, const Point<D>& p, std::size
 template <int D>
 void check_finite(const Plc<D>& plc, const BuildReport<D>& report) {
   const auto number = [&](std::size_t i) { return std::to_string(report.number(i)); };
-  const auto check = [&](const Point<D>& p, const std::string& what, const std::vector<std::uint32_t>& lines,
-                         std::size_t i) {
+  const auto check = [&](const Point<D>& p, const std::string& what, const std::vector<std::uint32_t>& lines, std::size_t i) {
     if (is_finite(p)) return;
     report.attempt([&] {
-      report.fail(Errc::not_finite, what + " " + number(i) + " " + to_text(p) + " is not finite",
-           lines, i, {report.number(i)}, {in_space(p)});
+      report.fail(Errc::not_finite, what + " " + number(i) + " " + to_text(p) + " is not finite", lines, i, {report.number(i)},
+                  {in_space(p)});
     });
   };
   for (std::size_t i = 0; i < plc.points.size(); ++i) check(plc.points[i], "point", plc.source.point_lines, i);
@@ -64,7 +67,7 @@ void check_finite(const Plc<D>& plc, const BuildReport<D>& report) {
     if (!std::isnan(r.attribute) && !std::isnan(r.size)) continue;
     report.attempt([&] {
       report.fail(Errc::not_finite, "region " + number(i) + " has an attribute or a size that is no number",
-           plc.source.region_lines, i, {report.number(i)}, {in_space(r.point)});
+                  plc.source.region_lines, i, {report.number(i)}, {in_space(r.point)});
     });
   }
   for (std::size_t f = 0; f < plc.facets.size(); ++f)
@@ -77,16 +80,12 @@ void check_indices(const Plc<D>& plc, const BuildReport<D>& report) {
   const std::size_t n = plc.points.size();
   if (n >= std::numeric_limits<std::uint32_t>::max() - 2)
     throw ResourceError(Diagnostic{Errc::ids_exhausted, "more than 2^32 - 3 points", plc.source.file, 0, {}, {}});
-  const auto check = [&](std::uint32_t v, const std::string& what, const std::vector<std::uint32_t>& lines,
-                         std::size_t i) {
+  const auto check = [&](std::uint32_t v, const std::string& what, const std::vector<std::uint32_t>& lines, std::size_t i) {
     if (v < n) return;
-    const std::string range = n == 0 ? "there are no points"
-                                     : "the points are " + number(0) + " to " +
-                                           number(n - 1);
+    const std::string range = n == 0 ? "there are no points" : "the points are " + number(0) + " to " + number(n - 1);
     report.attempt([&] {
-      report.fail(Errc::index_out_of_range,
-           what + " " + number(i) + " refers to point " + number(v) + "; " + range,
-           lines, i, {report.number(i), report.number(v)}, {});
+      report.fail(Errc::index_out_of_range, what + " " + number(i) + " refers to point " + number(v) + "; " + range, lines, i,
+                  {report.number(i), report.number(v)}, {});
     });
   };
   for (std::size_t s = 0; s < plc.segments.size(); ++s)
@@ -97,15 +96,19 @@ void check_indices(const Plc<D>& plc, const BuildReport<D>& report) {
   if (D == 2 && !plc.facets.empty())
     report.attempt([&] {
       report.fail(Errc::degenerate_facet, "a planar straight line graph has no facets", plc.source.facet_lines, 0,
-           {report.number(0)}, {});
+                  {report.number(0)}, {});
     });
 }
 
 template <int D>
 DistinctPoints<D> merge_points(const Plc<D>& plc, BuildReport<D>& report) {
   if (!(plc.merge_within >= 0 && plc.merge_within <= most_merge_within))
-    throw UsageError({Errc::bad_option, "points are merged within a distance from 0 to 0.01 times the largest coordinate",
-                      plc.source.file, 0, {}, {}});
+    throw UsageError({Errc::bad_option,
+                      "points are merged within a distance from 0 to 0.01 times the largest coordinate",
+                      plc.source.file,
+                      0,
+                      {},
+                      {}});
   const std::size_t n = plc.points.size(), attributes = attributes_per_point(plc);
   if (!plc.point_markers.empty() && plc.point_markers.size() != n) bad_length(plc, plc.point_markers.size(), " markers");
   const bool near = plc.merge_within > 0;
@@ -161,9 +164,9 @@ void check_spans_space(std::span<const Point<D>> p, const BuildReport<D>& report
   report.fail(Errc::no_volume, n <= D ? count + " are too few" : "all " + count + where, {}, 0, {}, {});
 }
 
-#define PGDR_INSTANTIATE(D)                                                  \
-  template void check_finite<D>(const Plc<D>&, const BuildReport<D>&);       \
-  template void check_indices<D>(const Plc<D>&, const BuildReport<D>&);      \
+#define PGDR_INSTANTIATE(D)                                                   \
+  template void check_finite<D>(const Plc<D>&, const BuildReport<D>&);        \
+  template void check_indices<D>(const Plc<D>&, const BuildReport<D>&);       \
   template DistinctPoints<D> merge_points<D>(const Plc<D>&, BuildReport<D>&); \
   template void check_spans_space<D>(std::span<const Point<D>>, const BuildReport<D>&);
 PGDR_INSTANTIATE(2)

@@ -119,8 +119,7 @@ void DomainBuilder<D>::group_facets(const Input& in, const EdgeUses& uses) requi
 
 template <int D>
 void DomainBuilder<D>::write_segments(const Input& in, const EdgeUses& uses, const Segments& segments) {
-  detail::MaximalSegments made =
-      detail::make_maximal_segments<D>(in, uses, soft_, segments, group_of_, out_.facets_, report_);
+  detail::MaximalSegments made = detail::make_maximal_segments<D>(in, uses, soft_, segments, group_of_, out_.facets_, report_);
   out_.segments_ = std::move(made.segments);
   out_.facet_segments_ = std::move(made.of_facets);
   out_.facets_of_segment_begin_ = std::move(made.facets_begin);

@@ -6,7 +6,8 @@
 
 namespace pgdr::detail {
 
-EdgeUses::EdgeUses(const FacetTriangles& faces, std::span<const OwnedEdge> segment_edges, const Bulk& bulk, const StopCheck& stop) {
+EdgeUses::EdgeUses(const FacetTriangles& faces, std::span<const OwnedEdge> segment_edges, const Bulk& bulk,
+                   const StopCheck& stop) {
   using Kind = EdgeUse::Kind;
   std::size_t count = segment_edges.size() + faces.polygon_edges.size();
   for (const auto& f : faces.facets) count += 3 * f.count;

@@ -33,9 +33,7 @@ class ExplicitSegments {
   bool is_in_plc(std::uint32_t s) const { return s < in_.plc.segments.size(); }
   /// Its index in Plc::segments, or in Plc::facets.
   std::uint32_t item_of(std::uint32_t s) const { return is_in_plc(s) ? s : line_facets_[s - in_.plc.segments.size()]; }
-  int marker_of(std::uint32_t s) const {
-    return is_in_plc(s) ? in_.plc.segments[s].marker : in_.plc.facets[item_of(s)].marker;
-  }
+  int marker_of(std::uint32_t s) const { return is_in_plc(s) ? in_.plc.segments[s].marker : in_.plc.facets[item_of(s)].marker; }
 
  private:
   static void drop(const char* kind, std::uint32_t item, std::array<std::uint32_t, 2> ends, BuildReport<D>& report);
@@ -44,7 +42,7 @@ class ExplicitSegments {
 
   BuildInput<D> in_;
   std::vector<std::array<std::uint32_t, 2>> ends_;
-  std::vector<std::uint32_t> line_facets_;         // of each further segment its facet
+  std::vector<std::uint32_t> line_facets_;        // of each further segment its facet
   std::vector<std::uint32_t> from_begin_, from_;  // by their first point
 };
 

@@ -122,10 +122,10 @@ void FacetTriangulator::carve(std::uint32_t f) {
     const std::string words = "facet " + std::to_string(report_.number(f)) + ": its hole " + to_text(seed);
     if (result.status == PlanarStatus::on_constraint)
       report_.fail(Errc::seed_on_boundary, words + " lies on a point or an edge of its polygons", in_.plc.source.facet_lines, f,
-           {report_.number(f)}, {seed.x});
+                   {report_.number(f)}, {seed.x});
     if (result.status == PlanarStatus::outside)
       report_.warn(Errc::encloses_nothing, words + " lies outside of it or in another hole", in_.plc.source.facet_lines, f,
-           {report_.number(f)});
+                   {report_.number(f)});
   }
 }
 
@@ -152,7 +152,7 @@ bool FacetTriangulator::is_reversed(const CleanFacet& facet) const {
 }
 
 void FacetTriangulator::fail_degenerate(std::uint32_t f, const std::string& why,
-                                       const std::vector<std::uint32_t>& vertices) const {
+                                        const std::vector<std::uint32_t>& vertices) const {
   std::string words;
   std::vector<std::int64_t> ids{report_.number(f)};
   std::vector<std::array<double, 3>> where;
@@ -162,8 +162,8 @@ void FacetTriangulator::fail_degenerate(std::uint32_t f, const std::string& why,
     ids.push_back(report_.point_number(vertices[k]));
     where.push_back(in_.points[vertices[k]].x);
   }
-  report_.fail(Errc::degenerate_facet, "facet " + std::to_string(report_.number(f)) + " " + why + words, in_.plc.source.facet_lines, f,
-       ids, where);
+  report_.fail(Errc::degenerate_facet, "facet " + std::to_string(report_.number(f)) + " " + why + words,
+               in_.plc.source.facet_lines, f, ids, where);
 }
 
 void FacetTriangulator::fail_facet(std::uint32_t f, const PlanarResult& result) const {
@@ -181,8 +181,7 @@ void FacetTriangulator::fail_facet(std::uint32_t f, const PlanarResult& result) 
       where.push_back(p[result.other[k]].x);
     }
     message = cross ? facet + "its edges " + edge(result.edge) + " and " + edge(result.other) + " cross"
-                    : facet + "its point " + report_.point_words(result.other[0]) + " lies inside its edge " +
-                          edge(result.edge);
+                    : facet + "its point " + report_.point_words(result.other[0]) + " lies inside its edge " + edge(result.edge);
   } else {  // coincident; no_such_edge and inverted do not happen
     code = Errc::degenerate_facet;
     message = facet + "its points " + edge(result.edge) + " are one behind the other: it is far from planar";

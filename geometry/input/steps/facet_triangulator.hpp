@@ -35,7 +35,8 @@ struct TriangulatedFacets {
 
 class FacetTriangulator {
  public:
-  FacetTriangulator(const BuildInput<3>& in, const ExplicitSegments<3>& segments, const NearContacts& near, BuildReport<3>& report)
+  FacetTriangulator(const BuildInput<3>& in, const ExplicitSegments<3>& segments, const NearContacts& near,
+                    BuildReport<3>& report)
       : in_(in), shapes_(in.points, in.scale), segments_(segments), near_(near), report_(report) {}
 
   /// @throws InputError for a facet that has no triangles

@@ -23,7 +23,8 @@ bool is_covered_nearly(const FlatFacet& facet, const std::vector<PlanarEdge>& ed
 }
 
 /// `edges`: both ways, sorted.
-bool is_covered(const FlatFacet& facet, const std::vector<PlanarEdge>& edges, std::span<const Point3> p, const NearContacts* near) {
+bool is_covered(const FlatFacet& facet, const std::vector<PlanarEdge>& edges, std::span<const Point3> p,
+                const NearContacts* near) {
   const auto less = [&](std::uint32_t v, std::uint32_t w) { return lex_less(p[v], p[w]); };
   const auto [low, high] = std::ranges::minmax(facet.vertices, less);
   std::uint32_t at = low;

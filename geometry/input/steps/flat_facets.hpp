@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Continues the fourth step of a Domain (3D): a facet all of whose points lie on one line is dropped. If the edges of others cover
-// it, it adds nothing to the union of all facets and segments; edges have no points inside by now, so that a walk from one end
-// along the line sees it. If not, it adds a piece of that line, which bounds nothing: its edges, split at its own points, run
+// Continues the fourth step of a Domain (3D): a facet all of whose points lie on one line is dropped. If the edges of others
+// cover it, it adds nothing to the union of all facets and segments; edges have no points inside by now, so that a walk from one
+// end along the line sees it. If not, it adds a piece of that line, which bounds nothing: its edges, split at its own points, run
 // through each place of the line as often there as back, so that no surface is open without them. CAD programs write such where
 // a corner lies on an axis of revolution. It is told apart in the report.
 #pragma once

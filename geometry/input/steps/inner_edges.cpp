@@ -43,9 +43,8 @@ void InnerEdges::constrain(const ContactResolver<3>& met) {
     retriangulate(patch, inner, uses);
   }
   make_set(given_up_);
-  std::erase_if(faces_.polygon_edges, [&](const auto& e) {
-    return std::ranges::binary_search(given_up_, edge_key(e.edge[0], e.edge[1]));
-  });
+  std::erase_if(faces_.polygon_edges,
+                [&](const auto& e) { return std::ranges::binary_search(given_up_, edge_key(e.edge[0], e.edge[1])); });
   faces_.triangles = std::move(made_);
   faces_.masks = std::move(made_masks_);
 }
@@ -114,8 +113,10 @@ void InnerEdges::join_crossed(std::uint64_t key, std::uint32_t t, const EdgeUses
         !opposite(orient_projected(p[a], p[b], p[u], axis), orient_projected(p[a], p[b], p[v], axis)))
       continue;
     const std::uint32_t next = other_side(edge_key(u, v), t, uses);
-    if (next != no_entity && std::ranges::binary_search(inner_, std::pair{next, key})) patches.unite(t, next);
-    else blocked_.push_back(key);
+    if (next != no_entity && std::ranges::binary_search(inner_, std::pair{next, key}))
+      patches.unite(t, next);
+    else
+      blocked_.push_back(key);
   }
 }
 
@@ -168,7 +169,8 @@ void InnerEdges::retriangulate(std::span<const std::uint32_t> patch, std::span<c
   if (planar_.triangles().size() != patch.size()) return;
   for (const std::uint32_t t : patch)
     for (std::size_t i = 0; i < 3; ++i)
-      if (const std::uint64_t key = faces_.key_of_edge(t, i); !std::ranges::binary_search(rim_keys, key)) given_up_.push_back(key);
+      if (const std::uint64_t key = faces_.key_of_edge(t, i); !std::ranges::binary_search(rim_keys, key))
+        given_up_.push_back(key);
   replace(patch, fixed, done);
 }
 
@@ -211,12 +213,12 @@ void InnerEdges::refuse_near_crossings() const {
   });
   near_.passing_edges(faces_, segment_edges_, [&](const PlanarEdge& e, const PlanarEdge& f) {
     report_.attempt([&] {
-      report_.fail(Errc::entities_intersect,
-                   "the edges " + words(e[0], e[1]) + " and " + words(f[0], f[1]) +
-                       " come as near to each other as points are merged, where neither has a point",
-                   {}, 0,
-                   {report_.point_number(e[0]), report_.point_number(e[1]), report_.point_number(f[0]), report_.point_number(f[1])},
-                   {p[e[0]].x, p[e[1]].x, p[f[0]].x, p[f[1]].x});
+      report_.fail(
+          Errc::entities_intersect,
+          "the edges " + words(e[0], e[1]) + " and " + words(f[0], f[1]) +
+              " come as near to each other as points are merged, where neither has a point",
+          {}, 0, {report_.point_number(e[0]), report_.point_number(e[1]), report_.point_number(f[0]), report_.point_number(f[1])},
+          {p[e[0]].x, p[e[1]].x, p[f[0]].x, p[f[1]].x});
     });
   });
 }

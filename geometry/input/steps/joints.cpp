@@ -15,8 +15,7 @@ bool Joints::is_joint(std::span<const EdgeUse> uses) const {
   // Both are planar parts of one bent polygon, of which an edge that is drawn inside of it is a segment.
   const bool within_facet = a.owner != b.owner && facets[a.owner].input == facets[b.owner].input;
   for (const EdgeUse& use : uses.subspan(2))
-    if (use.kind != Kind::polygon || within_facet ||
-        (use.owner != a.owner && use.owner != b.owner && !facets[use.owner].mixed))
+    if (use.kind != Kind::polygon || within_facet || (use.owner != a.owner && use.owner != b.owner && !facets[use.owner].mixed))
       return false;
   if (a.owner == b.owner) return a.kind == Kind::diagonal && b.kind == Kind::diagonal;
   return in_.plc.facets[facets[a.owner].input].marker == in_.plc.facets[facets[b.owner].input].marker;

@@ -15,7 +15,8 @@ namespace pgdr::detail {
 namespace {
 
 /// Facets and their triangles, those of a group one after the other.
-void collect_groups(const BuildInput<3>& in, const FacetTriangles& faces, std::span<const std::uint32_t> roots, MaximalFacets& out) {
+void collect_groups(const BuildInput<3>& in, const FacetTriangles& faces, std::span<const std::uint32_t> roots,
+                    MaximalFacets& out) {
   out.group_of.resize(faces.facets.size());
   for (std::uint32_t f = 0; f < faces.facets.size(); ++f) {
     const TriangulatedFacet& facet = faces.facets[f];
@@ -118,7 +119,8 @@ void find_touching(const BuildInput<3>& in, std::size_t few_points, MaximalFacet
   in.stop.sort(in.bulk, uses);
   for (std::size_t i = 0; i < uses.size(); ++i) {
     in.stop();
-    for (std::size_t j = i + 1; j < uses.size() && uses[j][0] == uses[i][0]; ++j) out.touching.push_back({uses[i][1], uses[j][1]});
+    for (std::size_t j = i + 1; j < uses.size() && uses[j][0] == uses[i][0]; ++j)
+      out.touching.push_back({uses[i][1], uses[j][1]});
   }
   in.stop.sort(in.bulk, out.touching);
   out.touching.erase(std::unique(out.touching.begin(), out.touching.end()), out.touching.end());
@@ -137,8 +139,9 @@ MaximalFacets make_maximal_facets(const BuildInput<3>& in, const FacetTriangles&
     orient(f, in.points, shapes, out);
     take_points(f, in.points, points, out);
   }
-  sort_by_points(in.points.size(), out.triangles.size(), [&](std::uint32_t t) { return out.triangles[t]; }, out.triangles_at_begin,
-                 out.triangles_at);
+  sort_by_points(
+      in.points.size(), out.triangles.size(), [&](std::uint32_t t) { return out.triangles[t]; }, out.triangles_at_begin,
+      out.triangles_at);
   auto bent = std::make_shared<BentFacets>();
   for (EntityId f = 0; f < out.facets.size(); ++f)
     if (const DomainFacet& facet = out.facets[f]; !facet.planar) bent->add(f, {out.triangles_of(facet), in.points, facet.axis});

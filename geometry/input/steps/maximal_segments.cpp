@@ -75,9 +75,9 @@ MaximalSegments make_maximal_segments(const BuildInput<D>& in, const EdgeUses& a
   return out;
 }
 
-#define PGDR_INSTANTIATE(D)                                                                                       \
+#define PGDR_INSTANTIATE(D)                                                                                          \
   template MaximalSegments make_maximal_segments<D>(const BuildInput<D>&, const EdgeUses&, const std::vector<bool>&, \
-                                                    const ExplicitSegments<D>&, std::span<const EntityId>,        \
+                                                    const ExplicitSegments<D>&, std::span<const EntityId>,           \
                                                     std::span<DomainFacet>, BuildReport<D>&);
 PGDR_INSTANTIATE(2)
 PGDR_INSTANTIATE(3)

@@ -20,13 +20,13 @@ namespace pgdr::detail {
 /// The members of a Domain that speak of segments.
 struct MaximalSegments {
   std::vector<DomainSegment> segments;
-  std::vector<EntityId> of_facets;                       ///< the segments of each facet, facet by facet
-  std::vector<std::uint32_t> facets_begin;               ///< of each segment, and one more: into `facets`
-  std::vector<EntityId> facets;                          ///< that have the segment
+  std::vector<EntityId> of_facets;          ///< the segments of each facet, facet by facet
+  std::vector<std::uint32_t> facets_begin;  ///< of each segment, and one more: into `facets`
+  std::vector<EntityId> facets;             ///< that have the segment
 };
 
-/// `soft`: by position in `uses`, at the first use of each edge. `group_of`: the Domain's facet of each triangulated one. Sets which
-/// segments the facets have.
+/// `soft`: by position in `uses`, at the first use of each edge. `group_of`: the Domain's facet of each triangulated one. Sets
+/// which segments the facets have.
 template <int D>
 MaximalSegments make_maximal_segments(const BuildInput<D>& in, const EdgeUses& uses, const std::vector<bool>& soft,
                                       const ExplicitSegments<D>& segments, std::span<const EntityId> group_of,

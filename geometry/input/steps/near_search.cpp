@@ -105,7 +105,8 @@ NearContacts NearSearch::find(const TriangulatedFacets& facets, const ExplicitSe
 }
 
 /// Edges of facets and segments, and the points within the width of them.
-std::vector<NearPoint> NearSearch::points_near_edges(const TriangulatedFacets& facets, const ExplicitSegments<3>& segments) const {
+std::vector<NearPoint> NearSearch::points_near_edges(const TriangulatedFacets& facets,
+                                                     const ExplicitSegments<3>& segments) const {
   std::vector<std::uint64_t> keys = constrained_edges(facets.faces, {});
   for (const auto& [a, b] : segments.ends())
     if (a != b) keys.push_back(edge_key(a, b));
@@ -185,9 +186,7 @@ bool NearSearch::runs_near(std::uint32_t a, std::uint32_t b, const PlanarTriangl
     if (at_p > 0 && at_q < 0) to = std::min(to, at_p / (at_p - at_q));
   }
   const double most = width_ * std::sqrt(dot(n, n));
-  const auto height = [&](double part) {
-    return (1 - part) * dot(n, difference(p, s[0])) + part * dot(n, difference(q, s[0]));
-  };
+  const auto height = [&](double part) { return (1 - part) * dot(n, difference(p, s[0])) + part * dot(n, difference(q, s[0])); };
   // Edges that leave a corner steeply, beside the triangle but for rounding, have a part inside that is as short as the distance.
   const auto along = difference(q, p);
   const bool is_long = (to - from) * std::sqrt(dot(along, along)) > 64 * width_;

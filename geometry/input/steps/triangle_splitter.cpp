@@ -32,8 +32,10 @@ class TriangleSplitter {
         rim.push_back({points[k - 1], points[k]});
         if (is_edge) fixed.push_back(edge_key(points[k - 1], points[k]));
         if (k + 1 == points.size()) break;
-        if (is_edge) report_.note_on_edge(points[k], a, b);
-        else report_.note_in_facet(points[k], facet.input);
+        if (is_edge)
+          report_.note_on_edge(points[k], a, b);
+        else
+          report_.note_in_facet(points[k], facet.input);
       }
     }
     for (const auto& [triangle, v] : inside) {
