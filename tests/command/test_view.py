@@ -148,7 +148,7 @@ class View(Case):
         self.view(plane, "--cut", "x=1", expect=2)
         self.view(plane, "--from", "1,2,3", expect=2)
         self.pgdr("view", plane, expect=2)
-        self.pgdr("view", plane, "-o", self.report, "--report", self.report, expect=3)
+        self.pgdr("view", plane, "-o", self.report, "--report", self.report, expect=2)
         self.assertIn("Usage", self.pgdr("view", "--help", expect=0).stdout)
 
     def test_bad_files(self):
