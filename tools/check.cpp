@@ -76,23 +76,6 @@ void print_summary(const CheckArguments& a, const OutputMesh<D>& mesh, const Bou
                                                 : "FAILED");
 }
 
-bool is_sound(const CheckReport& r) { return r.exit_code() == exit_done || r.exit_code() == exit_poor_left; }
-
-/// The mesh may have been made with less precision than the input is read with: then that verdict is the one.
-template <int D>
-void take_fitting_precision(std::optional<Plc<D>> plc, const OutputMesh<D>& mesh, CheckOptions<D> options, CheckReport& verdict) {
-  while (plc && !is_sound(verdict) && (plc = with_less_precision(*plc))) {
-    std::optional<Domain<D>> domain;
-    try {
-      domain.emplace(*plc);
-    } catch (const InputError&) {
-      continue;  // no mesh was made with that
-    }
-    options.domain = &*domain;
-    if (CheckReport other = pgdr::check(mesh, options); is_sound(other)) verdict = std::move(other);
-  }
-}
-
 template <int D>
 int check_as(const CheckArguments& a, Report& report) {
   ReportedBounds reported;
@@ -100,8 +83,7 @@ int check_as(const CheckArguments& a, Report& report) {
   const Bounds<D> bounds = resolve<D>(a.bounds, reported.radius_edge.value_or(unbounded));
   const OutputMesh<D> mesh = read_mesh<D>(a.mesh);
   InputArguments reading = a.reading;
-  if (D == 3 && !reading.precision && !reading.precision_auto) reading.precision = reported.precision;
-  if (!reading.merge_points) reading.merge_points = reported.merge_points;
+  if (!reading.tolerance) reading.tolerance = reported.tolerance;
   reading.resolve_crossings = reading.resolve_crossings || reported.resolve_crossings;
   reading.convex_hull = reading.convex_hull || reported.convex_hull;
   const std::optional<Plc<D>> plc = read_input_of_mesh<D>(a.input, reading);
@@ -115,8 +97,7 @@ int check_as(const CheckArguments& a, Report& report) {
   options.max_measure = bounds.max_volume;
   options.regions = a.regions.value_or(reported.regions);
   if (!a.reasons.empty()) options.reasons = &reported.reasons;
-  CheckReport verdict = pgdr::check(mesh, options);
-  if (!reading.precision && !reading.precision_auto) take_fitting_precision(plc, mesh, options, verdict);
+  const CheckReport verdict = pgdr::check(mesh, options);
   std::optional<QualitySummary> quality;  // of a mesh whose numbers can be used at all
   if (verdict.count(CheckFinding::Kind::bad_index) + verdict.count(CheckFinding::Kind::not_finite) == 0)
     quality = summarize_quality(mesh);

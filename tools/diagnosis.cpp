@@ -7,7 +7,6 @@
 
 #include "command.hpp"
 #include "console.hpp"
-#include "merge_hint.hpp"
 #include "planar_hint.hpp"
 
 namespace pgdr::tool {
@@ -94,7 +93,6 @@ int refuse(const Plc<D>& plc, const Diagnosis<D>& diagnosis, Report& report) {
   if (const std::uint64_t all = diagnosis.error_count(); all > most)
     std::fprintf(stderr, "pgdr: and %llu more errors\n", static_cast<unsigned long long>(all - most));
   hint_at_flags_of_refused(plc, diagnosis);
-  hint_at_merge_of_refused(plc, diagnosis[Finding::near_points]);
   return exit_input;
 }
 

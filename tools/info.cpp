@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <exception>
-#include <memory>
 #include <optional>
 
 #include <tbb/parallel_invoke.h>
@@ -14,11 +13,9 @@
 #include "console.hpp"
 #include "diagnosis.hpp"
 #include "input.hpp"
-#include "merge_hint.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/refine.hpp"
-#include "precision_hint.hpp"
 
 namespace pgdr::tool {
 namespace {
@@ -74,14 +71,11 @@ double smallest_angle(const Domain<D>& domain) {
 struct Looks {
   std::uint64_t open;
   double smallest_angle;
-  std::optional<PrecisionHint> precision_hint;
-  std::optional<MergeHint> merge_hint;
 };
 
 template <int D>
-Looks look_at(const Plc<D>& plc, const Domain<D>& domain, const InfoArguments& a) {
-  return {count_open(domain), smallest_angle(domain), find_precision_hint(plc, &domain, a.reading),
-          find_merge_hint(plc, &domain)};
+Looks look_at(const Domain<D>& domain) {
+  return {count_open(domain), smallest_angle(domain)};
 }
 
 /// What the input is without repetitions, its maximal entities, and how these meet.
@@ -119,16 +113,12 @@ void describe(const Domain<D>& domain, const Looks& looks, bool quiet, JsonObjec
   }
 }
 
-/// Recovers the boundary, which decides the rest: seeds, and whether anything is enclosed. `domain`: that of `plc`, or null; gets
-/// the one that was used.
+/// Recovers the boundary, which decides the rest: seeds, and whether anything is enclosed.
 template <int D>
-RefineResult<D> recover(const Plc<D>& plc, std::shared_ptr<const Domain<D>>& domain) {
+RefineResult<D> recover(const Domain<D>& domain) {
   RefineOptions<D> options;
   options.refine = false;
-  return with_fitting_precision(plc, [&](const Plc<D>& input) {
-    if (!domain || &input != &plc) domain = std::make_shared<const Domain<D>>(input);
-    return refine(*domain, options);
-  });
+  return refine(domain, options);
 }
 
 /// What `info` does with an input: read, diagnose, recover the boundary, print. Each step puts into the report what it knows.
@@ -150,7 +140,7 @@ class InputInfo {
     report_.set("diagnosis", findings_);
     if (!a_.quiet) print_findings(diagnosis);
     if (diagnosis.error_count() > 0) return refuse(plc_, diagnosis, report_);
-    const RefineResult<D> recovered = recover_and_describe(std::make_shared<const Domain<D>>(*std::move(prepared)));
+    const RefineResult<D> recovered = recover_and_describe(*prepared);
     accept(recovered);
     return exit_done;
   }
@@ -177,30 +167,24 @@ class InputInfo {
 
   /// Recovers the boundary, and looks at the Domain meanwhile; describes that. @throws InputError if the boundary is not
   /// recovered
-  RefineResult<D> recover_and_describe(const std::shared_ptr<const Domain<D>>& first) {
-    auto domain = first;
+  RefineResult<D> recover_and_describe(const Domain<D>& domain) {
     std::optional<RefineResult<D>> recovered;
     std::exception_ptr refused;
     std::optional<Looks> looks;
     tbb::parallel_invoke(
         [&] {
           try {
-            recovered = recover(plc_, domain);
+            recovered = recover(domain);
           } catch (const InputError&) {
             refused = std::current_exception();
           }
         },
-        [&] { looks = look_at(plc_, *first, a_); });
-    if (domain != first) looks = look_at(plc_, *domain, a_);
+        [&] { looks = look_at(domain); });
     seconds_.set("recovery", clock_.seconds() - recovery_at_);
-    describe(*domain, *looks, a_.quiet, findings_);
-    if (D == 3) report_.set("precision", domain->precision());
-    report_.set("merge_points", plc_.merge_within);
+    describe(domain, *looks, a_.quiet, findings_);
+    report_.set("tolerance", domain.tolerance());
+    report_.set("largest_move", domain.largest_move());
     report_.set("diagnosis", findings_);
-    if (!a_.quiet && !refused) note_precision(plc_, domain->precision());
-    if (!a_.quiet) note_merge(plc_, a_.reading);
-    give(looks->precision_hint, a_.quiet, report_);
-    give(looks->merge_hint, !a_.quiet, report_);
     seconds_.set("total", clock_.seconds());
     report_.set("seconds", seconds_);
     if (refused) std::rethrow_exception(refused);

@@ -5,10 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <exception>
 #include <optional>
-
-#include <tbb/parallel_invoke.h>
 
 #include "bounds.hpp"
 #include "command.hpp"
@@ -16,9 +13,7 @@
 #include "diagnosis.hpp"
 #include "files.hpp"
 #include "input.hpp"
-#include "merge_hint.hpp"
 #include "pgdr/io.hpp"
-#include "precision_hint.hpp"
 #include "selector.hpp"
 #include "signals.hpp"
 #include "threads.hpp"
@@ -27,7 +22,6 @@
 namespace pgdr::tool {
 namespace {
 
-constexpr double patience_seconds = 10;  // before a hint that could save the rest
 constexpr double most_min_angle = 34;    // degrees; beyond, the number of points explodes
 
 template <int D>
@@ -207,22 +201,6 @@ void write_as_asked(const MeshArguments& a, const Plc<D>& plc, const OutputMesh<
   report.mesh_files = std::move(mesh_files);
 }
 
-/// What may be done about elements that stayed poor.
-struct Hints {
-  std::optional<PrecisionHint> precision;
-  std::optional<MergeHint> merge;
-};
-
-template <int D>
-Hints hints_for(const Plc<D>& plc, const InputArguments& reading, bool precision_told) {
-  try {
-    const Domain<D> domain(plc);
-    return {precision_told ? std::nullopt : find_precision_hint<D>(plc, &domain, reading), find_merge_hint<D>(plc, &domain)};
-  } catch (const std::exception&) {  // the mesh is there without
-    return {};
-  }
-}
-
 template <int D>
 Bounds<D> bounds_of(const MeshArguments& a) {
   Bounds<D> bounds = resolve<D>(a.bounds, smallest_proved_bound<D>());
@@ -251,11 +229,12 @@ class MeshRun {
     read();
     if (const std::optional<int> refused = mesh()) return *refused;
     const QualitySummary quality = summarize_quality(result_.mesh);
-    if constexpr (D == 3) report_.set("precision", result_.precision);
+    report_.set("tolerance", result_.tolerance);
+    report_.set("largest_move", result_.largest_move);
     fill(report_, a_, threads_, bounds_, result_, quality);
-    const Hints hints = write();
+    write();
     report_seconds();
-    print(quality, hints);
+    print(quality);
     if (!a_.trace.empty()) {
       std::string trace_file = a_.trace;
       write_trace(a_, result_, seconds_);
@@ -269,8 +248,8 @@ class MeshRun {
   void read() {
     seconds_.read_at = total_.seconds();
     plc_ = read_input<D>(a_.input, a_.reading, repairs_);
-    if constexpr (D == 3) report_.set("precision", plc_.precision);
-    report_.set("merge_points", plc_.merge_within);
+    report_.set("tolerance", tolerance_of(plc_));
+    report_.set("largest_move", 0.0);
     if constexpr (D == 2) {
       report_.set("resolve_crossings", a_.reading.resolve_crossings);
       report_.set("convex_hull", a_.reading.convex_hull);
@@ -284,17 +263,14 @@ class MeshRun {
   std::optional<int> mesh() {
     try {
       ProgressLine line(!a_.quiet);
-      if (!a_.quiet) options_.progress = [&](const Progress& p) { show(line, p); };
+      if (!a_.quiet) options_.progress = [&](const Progress& p) { line(p); };
       result_ = refine(plc_, options_);
     } catch (const InputError&) {  // which names one culprit: find them all
       const Diagnosis<D> diagnosis = diagnose(plc_);
       JsonObject findings;
       set_findings(findings, diagnosis);
       report_.set("diagnosis", findings);
-      if (diagnosis.error_count() == 0) {
-        give(find_merge_hint<D>(plc_, nullptr), !a_.quiet, report_);
-        throw;
-      }
+      if (diagnosis.error_count() == 0) throw;
       return refuse(plc_, diagnosis, report_);
     }
     result_.repairs.insert(result_.repairs.begin(), repairs_.begin(), repairs_.end());
@@ -302,29 +278,10 @@ class MeshRun {
     return std::nullopt;
   }
 
-  /// The progress; and once, to whoever has waited for a while, the hint that it need not take long.
-  void show(ProgressLine& line, const Progress& p) {
-    line(p);
-    if (hinted_ || total_.seconds() < patience_seconds) return;
-    hinted_ = true;
-    line.clear();
-    give(find_precision_hint<D>(plc_, nullptr, a_.reading), a_.quiet, report_);
-    std::fflush(stdout);
-  }
-
-  /// Writes the mesh, and looks for hints meanwhile.
-  Hints write() {
+  void write() {
     seconds_.write_at = total_.seconds();
-    Hints hints;
-    const auto write_mesh = [&] {
-      if (!result_.mesh.cells.empty()) write_as_asked(a_, plc_, result_.mesh, report_);
-      seconds_.write = total_.seconds() - seconds_.write_at;
-    };
-    const auto find_hints = [&] {
-      if (result_.poor_left > 0 && result_.stop != StopCause::cancelled) hints = hints_for(plc_, a_.reading, hinted_);
-    };
-    tbb::parallel_invoke(write_mesh, find_hints);
-    return hints;
+    if (!result_.mesh.cells.empty()) write_as_asked(a_, plc_, result_.mesh, report_);
+    seconds_.write = total_.seconds() - seconds_.write_at;
   }
 
   void report_seconds() {
@@ -339,14 +296,8 @@ class MeshRun {
     report_.set("peak_rss_bytes", peak_rss_bytes());
   }
 
-  void print(const QualitySummary& quality, const Hints& hints) {
-    if (!a_.quiet) {
-      print_summary(a_, plc_, bounds_, result_, quality, seconds_);
-      note_precision(plc_, result_.precision);
-      note_merge(plc_, a_.reading);
-    }
-    give(hints.precision, a_.quiet, report_);
-    give(hints.merge, !a_.quiet, report_);
+  void print(const QualitySummary& quality) {
+    if (!a_.quiet) print_summary(a_, plc_, bounds_, result_, quality, seconds_);
   }
 
   const MeshArguments& a_;
@@ -360,7 +311,6 @@ class MeshRun {
   std::vector<Diagnostic> repairs_;
   Plc<D> plc_;
   RefineResult<D> result_;
-  bool hinted_ = false;  ///< has the precision hint been given while the mesh was made?
 };
 
 }  // namespace

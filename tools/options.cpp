@@ -138,26 +138,12 @@ void add_bounds(CLI::App& app, BoundArguments& b, const std::string& without) {
 }
 
 void add_input(CLI::App& app, InputArguments& p) {
-  const auto set_precision = [&p](const std::string& text) {
-    p.precision_auto = text == "auto";
-    if (double value = 0; !p.precision_auto && CLI::detail::lexical_cast(text, value)) p.precision = value;
-  };
-  app.add_option_function<std::string>(
-         "--precision", set_precision,
-         "3D: facets that meet at an edge and lie in one plane within R times their largest coordinate are one "
-         "(default 3.6e-15, 16 ulps: rounding; for .stl, .ply of floats, and files of six to nine digits whose planar faces are "
-         "needles that these keep apart, auto, if no facets fold over then; the surface moves by so much; "
-         "auto: by the digits that its coordinates have, or by how far faces that look planar are off)")
-      ->type_name("R|auto")
-      ->check(auto_or(number("between 0 and 0.01, or auto", [](double v) { return v >= 0 && v <= 0.01; })));
-  app.add_option(
-         "--merge-points", p.merge_points,
-         "points within R times the largest coordinate are one: the nearest before them in the file; 3D: those as near to an "
-         "edge or a facet become points of it (default 0: exact tests alone; 1e-13 for .stl and .ply of floats with corners that "
-         "are "
-         "apart by what was computed for zero)")
-      ->type_name("R")
-      ->check(number("between 0 and 0.01", [](double v) { return v >= 0 && v <= 0.01; }));
+  app.add_option("--tolerance", p.tolerance,
+                 "what lies within T meets, in the units of the coordinates: points are one, or lie on edges and facets, and facets of "
+                 "one plane are one (default: the rounding of doubles, or of floats in .stl and .ply; 0: exactly as given)")
+      ->type_name("T")
+      ->check(number(">= 0", [](double v) { return v >= 0; }));
+  app.add_flag("--yes-coarse", p.yes_coarse, "a --tolerance above a thousandth of the model's diagonal is meant");
   app.add_flag("--resolve-crossings", p.resolve_crossings,
                "2D: split segments that cross, at new points, and at points that they miss by rounding");
   app.add_flag("--convex-hull", p.convex_hull, "2D: the edges of the convex hull of all points are segments, too");

@@ -30,9 +30,8 @@ struct BoundArguments {
 /// How an input is read, and what is done to it before anything else.
 struct InputArguments {
   bool resolve_crossings = false, convex_hull = false;
-  std::optional<double> precision;     ///< none: that of Plc
-  bool precision_auto = false;         ///< instead: suggested_precision
-  std::optional<double> merge_points;  ///< none: that of Plc
+  std::optional<double> tolerance;  ///< none: the default of Plc
+  bool yes_coarse = false;          ///< Plc::is_coarse
 };
 
 struct MeshArguments {

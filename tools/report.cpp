@@ -128,13 +128,8 @@ ReportedBounds read_bounds(const std::string& file) {
     const auto bound = bounds.find("radius_edge");
     const bool refined = report.value("refined", true) && report.value("stop", "finished") == "finished";
     if (bound != bounds.end() && bound->is_number() && refined) read.radius_edge = bound->get<double>();
-    const auto part_of_coordinates = [&report](const char* key) -> std::optional<double> {
-      const auto found = report.find(key);
-      if (found == report.end() || !found->is_number() || !(*found >= 0.0 && *found <= 0.01)) return std::nullopt;
-      return found->get<double>();
-    };
-    read.precision = part_of_coordinates("precision");
-    read.merge_points = part_of_coordinates("merge_points");
+    const auto tolerance = report.find("tolerance");
+    if (tolerance != report.end() && tolerance->is_number() && *tolerance >= 0.0) read.tolerance = tolerance->get<double>();
     const auto holds = [&report](const char* key, const nlohmann::json& value) {
       const auto found = report.find(key);
       return found != report.end() && *found == value;

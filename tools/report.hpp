@@ -54,8 +54,7 @@ const char* name(RegionMode mode);
 struct ReportedBounds {
   std::vector<PoorReason> reasons;
   std::optional<double> radius_edge;                    ///< the bound of a run that refined to its end
-  std::optional<double> precision;                      ///< 3D: Plc::precision
-  std::optional<double> merge_points;                   ///< Plc::merge_within
+  std::optional<double> tolerance;                      ///< Domain::tolerance
   bool resolve_crossings = false, convex_hull = false;  ///< what was done to the input, 2D
   RegionMode regions = RegionMode::seeds;
 };

@@ -14,7 +14,6 @@
 #include "io/file_input.hpp"
 #include "io/file_output.hpp"
 #include "io/formats.hpp"
-#include "pgdr/written_precision.hpp"
 
 namespace pgdr {
 namespace detail {
@@ -101,12 +100,7 @@ namespace detail {
 
 template <int D>
 Plc<D> read_plc_from(std::string_view bytes, const Path& name) {
-  Plc<D> plc = read_by_extension<D>(bytes, name);
-  if constexpr (D == 3) {
-    set_merge_of_file(plc);
-    set_precision_of_digits(plc);
-  }
-  return plc;
+  return read_by_extension<D>(bytes, name);
 }
 
 template <int D>

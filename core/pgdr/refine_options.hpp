@@ -19,7 +19,7 @@
 
 namespace pgdr PGDR_API {
 
-/// How far a run is, for a progress line; approximate. It falls back to the beginning where a run tries another precision.
+/// How far a run is, for a progress line; approximate.
 struct Progress {
   std::uint64_t vertices = 0;  ///< vertices so far
   std::uint64_t waiting = 0;   ///< entries on the work lists; 0 while the boundary is recovered

@@ -64,7 +64,7 @@ void Diagnoser<D>::find_near_points() {
       grid.insert(p_[v], v);
       continue;
     }
-    pairs.add({-scaled_distance(p_[w], p_[v], scale) / largest, {w, v}});
+    pairs.add({-scaled_distance(p_[w], p_[v], scale) / scale, {w, v}});
   }
   out_[Finding::near_points].count = pairs.count();
   for (const auto& [negative, pair] : pairs.kept()) {

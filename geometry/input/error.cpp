@@ -38,10 +38,12 @@ std::string_view name(Errc code) {
     case Errc::encloses_nothing: return "encloses_nothing";
     case Errc::seed_on_boundary: return "seed_on_boundary";
     case Errc::conflicting_seeds: return "conflicting_seeds";
+    case Errc::tolerance_too_large: return "tolerance_too_large";
     case Errc::no_volume: return "no_volume";
     case Errc::boundary_not_recovered: return "boundary_not_recovered";
     case Errc::duplicate_point: return "duplicate_point";
     case Errc::near_points: return "near_points";
+    case Errc::ambiguous: return "ambiguous";
     case Errc::unreferenced_point: return "unreferenced_point";
     case Errc::repeated_facet: return "repeated_facet";
     case Errc::open_boundary: return "open_boundary";

@@ -7,14 +7,15 @@
 
 namespace pgdr::detail {
 
+std::string to_text(double x) {
+  char digits[40];
+  return {digits, std::to_chars(digits, digits + sizeof digits, x).ptr};
+}
+
 template <int D>
 std::string to_text(const Point<D>& p) {
   std::string s = "(";
-  for (int i = 0; i < D; ++i) {
-    char digits[40];
-    const auto end = std::to_chars(digits, digits + sizeof digits, p[i]).ptr;
-    s.append(i == 0 ? "" : ", ").append(digits, end);
-  }
+  for (int i = 0; i < D; ++i) s += (i == 0 ? "" : ", ") + to_text(p[i]);
   return s + ")";
 }
 template std::string to_text<2>(const Point2&);

@@ -19,6 +19,8 @@ namespace pgdr::detail {
 /// "(1, 2.5, -3)", shortest digits that read back to the same doubles.
 template <int D>
 std::string to_text(const Point<D>& p);
+/// The shortest digits that read back to the same double.
+std::string to_text(double x);
 
 /// `p` for a diagnostic.
 template <int D>

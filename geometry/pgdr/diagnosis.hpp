@@ -43,7 +43,7 @@ enum class Finding : std::uint8_t {
   open_boundary,             ///< loop (or path) of edges of one facet each: its points; measure: its length. 2D: a point
                              ///< where one segment ends
   near_points,               ///< two on open boundaries, within a millionth of the extent (or four ulps of a float): they may
-                             ///< be meant to be one. measure: the Plc::merge_within that makes them one; greatest first
+                             ///< be meant to be one. measure: their distance; greatest first
   non_manifold_edge,         ///< of more than two facets
   non_manifold_point,        ///< whose facets hang together there at this point alone
   inconsistent_orientation,  ///< an edge that its two facets run through in the same direction

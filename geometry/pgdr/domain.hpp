@@ -6,7 +6,7 @@
 //
 // Definitions (3D). A polygon is the union of the triangles of one deterministic triangulation in its projection; its
 // planarity defect is reported. A polygon with points off its plane by more than 1e-4 of its extent is several facets,
-// one for each exactly planar part of this union. Facets that are coplanar, exactly or up to Plc::precision, share an
+// one for each exactly planar part of this union. Facets that are coplanar, exactly or up to the tolerance, share an
 // edge used by just these two, and have equal markers, are one facet. A segment is an edge that bounds a facet, is used
 // by one or by more than two triangles, is explicit in the input (a segment, or an edge of a polygon: also one inside its
 // facet), or lies between two facets. Diagonals inside one input polygon that is one facet are never segments, also where
@@ -98,7 +98,7 @@ class Domain {
   static Domain without_invalid(const Plc<D>& plc, std::vector<Diagnostic>& refused, std::stop_token stop = {});
 
   std::span<const Point<D>> points() const { return points_; }  ///< distinct; views live as long as the Domain
-  /// Domain point of each Plc point (exact duplicates, and what Plc::merge_within makes one, share one). Distinct points keep
+  /// Domain point of each Plc point (exact duplicates, and those within the tolerance, share one). Distinct points keep
   /// the order of the input.
   std::span<const std::uint32_t> point_of_input() const { return point_of_input_; }
   /// First Plc point of each domain point.
@@ -132,7 +132,8 @@ class Domain {
   /// A number near the coordinates of the facet's points on its axis: their differences from it are exact. 0 if there is none.
   double facet_level(EntityId f) const { return facet_levels_[f]; }
 
-  double precision() const { return precision_; }                        ///< Plc::precision
+  double tolerance() const { return tolerance_; }  ///< within which things meet, in units of the coordinates; see Plc::tolerance
+  double largest_move() const { return largest_move_; }  ///< farthest that a point of the input is from its Domain point
   const std::vector<Diagnostic>& repairs() const { return repairs_; }    ///< what was mended, one entry a kind
   const std::vector<Diagnostic>& warnings() const { return warnings_; }  ///< what was found, and taken as it is
   /// Known: no two of facets, segments and points meet outside of their common points and edges.
@@ -164,15 +165,10 @@ class Domain {
   std::vector<RegionSeed<D>> regions_;
   std::uint32_t first_index_ = 0;
   PlcSource source_;
-  double precision_ = 0;
+  double tolerance_ = 0, largest_move_ = 0;
   std::vector<Diagnostic> repairs_, warnings_;
   std::shared_ptr<const detail::BentFacets> bent_facets_;  // 3D; copies share it
 };
-
-/// 3D: may something be joined, by Plc::merge_within of this size, that is not so in this Domain, which was made without? False
-/// only if no point is within `within` times the largest coordinate of all of another, or of an edge or facet that it does not
-/// belong to.
-bool may_join(const Domain<3>& domain, double within);
 
 /// The point P + t (Q - P) of segment s (P, Q its ends, in that order), evaluated in double-double and rounded once
 /// (<= 1 ulp of the segment's magnitude off its line; exactly on it where the segment is axis-aligned). 0 < t < 1.

@@ -39,11 +39,13 @@ enum class Errc {
   encloses_nothing,
   seed_on_boundary,
   conflicting_seeds,
+  tolerance_too_large,  ///< it joins what is apart, or destroys what it should keep
   no_volume,  ///< all points lie in one plane (3D) or on one line (2D)
   boundary_not_recovered,
   // input: found, and taken as it is
   duplicate_point,
   near_points,  ///< two points that may be meant to be one
+  ambiguous,    ///< what hangs together within the tolerance is wider than that allows
   unreferenced_point,
   repeated_facet,
   open_boundary,

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,7 +51,7 @@ struct Plc {
     int marker = 0;                                    ///< handed on to its subfacets
   };
 
-  std::vector<Point<D>> points;          ///< exact duplicates become one vertex; others, too, if merge_within says so
+  std::vector<Point<D>> points;          ///< exact duplicates become one vertex; others within `tolerance`, too
   std::vector<int> point_markers;        ///< empty, or one a point
   std::vector<double> point_attributes;  ///< of the first point, of the second, ...: equally many each, or none at all
   std::vector<Segment> segments;         ///< 2D: the boundary and inner constraints; 3D: those that no facet has
@@ -58,29 +59,29 @@ struct Plc {
   std::vector<Point<D>> holes;           ///< a point in each volume (area) that is to stay empty
   std::vector<RegionSeed<D>> regions;    ///< labels and bounds of volumes (areas)
 
-  /// 3D: facets that meet at an edge, with all their points within `precision` times the largest of their coordinates
-  /// of one plane, count as coplanar. For the rounding of coordinates that were turned or shifted: 16 ulps.
-  double precision = 0x1p-48;
-  /// `precision` is what the numbers of the file allow (written_precision), and nobody's wish: where facets fold over within it,
-  /// `refine` of a Plc takes less, in the end the default (with_less_precision, which goes from there to 0, should it come to
-  /// that).
-  bool precision_of_file = false;
-  /// Points within this times the largest coordinate of all are one: each goes to the nearest kept one before it. 0, as it is
-  /// unless asked for (or the file is of floats, set_merge_of_file): exact duplicates alone. Edges, segments and facets of which
-  /// nothing is left go; 0.01 at most. In 3D edges, segments and facets then go through points within that distance of them, and
-  /// facets along edges that run as near to them.
-  double merge_within = 0;
+  /// What lies within this distance meets (domain.hpp): an absolute length, in the units of the coordinates. None: the rounding of
+  /// the coordinates, `rounding_tolerance`. 0: everything is exactly as given.
+  std::optional<double> tolerance;
+  /// A `tolerance` above a thousandth of the diagonal of all points is meant, and no slip of units; else a Domain refuses it.
+  bool is_coarse = false;
+  /// The coordinates were stored in single precision: rounding moves them by the ulps of floats.
+  bool are_floats = false;
 
   std::uint32_t first_index = 0;  ///< the number the source gives its first point (0 or 1), for messages
   PlcSource source;               ///< for messages
 };
 
-/// A copy for which Plc::precision_of_file does not hold.
+/// What rounding may have done to these coordinates: 8 ulps of a double at the largest one; where they are floats, 2 ulps of a
+/// float there, if that is no more than a millionth of the diagonal of all points. The default of Plc::tolerance. (Each turn or
+/// shift of a point is a sum of up to four rounded terms, 2 to 3 ulps a coordinate; a rounding to floats is half an ulp of these.)
+/// 0 of no points, or where coordinates are not finite.
 template <int D>
-Plc<D> with_default_precision(Plc<D> plc) {
-  plc.precision = Plc<D>{}.precision;
-  plc.precision_of_file = false;
-  return plc;
+double rounding_tolerance(const Plc<D>& plc);
+
+/// The tolerance that a Domain of this input is made with: its own, or else the default.
+template <int D>
+double tolerance_of(const Plc<D>& plc) {
+  return plc.tolerance ? *plc.tolerance : rounding_tolerance(plc);
 }
 
 }  // namespace pgdr

@@ -27,4 +27,3 @@
 #include "pgdr/sizing.hpp"
 #include "pgdr/types.hpp"
 #include "pgdr/version.hpp"
-#include "pgdr/written_precision.hpp"

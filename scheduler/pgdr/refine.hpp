@@ -6,8 +6,6 @@
 #pragma once
 
 #include <cstdint>
-#include <exception>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -83,39 +81,14 @@ struct RefineResult {
   SchedulerStatistics scheduler;    ///< how the visits went
   /// Were faces met that are not locally Delaunay? If not, none is left but by rounding, beside slanted entities.
   bool violations_seen = false;
-  double precision = 0;              ///< 3D: within which facets that lie in one plane are one, Plc::precision or its default
+  double tolerance = 0;              ///< Domain::tolerance
+  double largest_move = 0;           ///< Domain::largest_move
   std::vector<VisitTrace> trace;     ///< if asked for; in the order in which the visits ended
   std::vector<Diagnostic> repairs;   ///< of the input, see Domain
   std::vector<Diagnostic> warnings;  ///< of the input, see Domain; and seeds that lie outside
 };
 
-/// The input with a tenth of its precision, or with the default where that is below 1e-7, if it has that of its file
-/// (Plc::precision_of_file), as most facets may do with little less than all of it; with precision 0, if it has the default
-/// and walls or angles as small as rounding, so that its facets may fold over within that; else nothing.
-template <int D>
-std::optional<Plc<D>> with_less_precision(const Plc<D>& plc);
-
-/// What `attempt` makes of the input, or, if that throws an InputError that no diagnosis finds, of the input with_less_precision,
-/// as long as there is one.
-template <int D, class Attempt>
-auto with_fitting_precision(const Plc<D>& plc, const Attempt& attempt) {
-  std::optional<Plc<D>> less;
-  while (true) {
-    const Plc<D>& input = less ? *less : plc;
-    std::exception_ptr refused;
-    try {
-      return attempt(input);
-    } catch (const DiagnosedError&) {
-      throw;
-    } catch (const InputError&) {
-      refused = std::current_exception();
-    }
-    less = with_less_precision(input);
-    if (!less) std::rethrow_exception(refused);
-  }
-}
-
-/// Meshes the input, with_fitting_precision.
+/// Meshes the Domain of the input.
 /// @throws UsageError (bad option or size), InputError (see Domain; the first error of its diagnosis, found
 ///   before anything is meshed; seeds), ResourceError. An exception of a callback comes out as it is.
 template <int D>

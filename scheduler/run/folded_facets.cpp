@@ -16,7 +16,7 @@
 namespace pgdr {
 namespace {
 
-constexpr const char* advice = "; another precision may keep them apart";
+constexpr const char* advice = "; another tolerance may keep them apart";
 constexpr double more_than_rounding = 0x1p-40;  // of the largest coordinate
 constexpr double whole = 1 - 0x1p-30;           // the sum of the pieces, each of which is rounded
 constexpr double as_short = 0x1p-34;            // of the largest coordinate: longer segments no rounding folds over
@@ -68,7 +68,7 @@ void require_whole_segments(const Mesh<3>& mesh, const Domain<3>& domain) {
     const Point3 &p = domain.points()[ends[0]], &q = domain.points()[ends[1]];
     if (length[s] == 0 || length[s] >= whole * std::sqrt(squared_distance(p, q))) continue;
     Diagnostic d = detail::about_points<3>(Errc::boundary_not_recovered, domain, ends);
-    d.message = "facets that are planar only within the precision fold over at " + detail::segment_words(d) + advice;
+    d.message = "facets that are planar only within the tolerance fold over at " + detail::segment_words(d) + advice;
     throw InputError(std::move(d));
   }
 }
@@ -109,7 +109,7 @@ void require_unfolded(const Mesh<3>& mesh, const Domain<3>& domain, RegionMode r
   Diagnostic d = detail::about_points<3>(Errc::boundary_not_recovered, domain, domain.facet_points(f));
   char defect[32];
   std::snprintf(defect, sizeof defect, "%.3g", domain.facets()[f].planarity_defect);
-  d.message = "facets that are planar only within the precision fold over, or touch; " + detail::facet_words(d) +
+  d.message = "facets that are planar only within the tolerance fold over, or touch; " + detail::facet_words(d) +
               " is off its plane by " + defect + advice;
   throw InputError(std::move(d));
 }

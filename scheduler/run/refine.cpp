@@ -292,7 +292,8 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   RefineResult<D> before;
   before.repairs = domain.repairs();
   before.warnings = domain.warnings();
-  before.precision = domain.precision();
+  before.tolerance = domain.tolerance();
+  before.largest_move = domain.largest_move();
   warn_beyond_theory(options, before.warnings);
   try {
     require_no_errors(domain, options.stop, options.schedule.executor == Executor::flow_graph);
@@ -322,7 +323,7 @@ RefineResult<D> prepare_and_run(const Plc<D>& plc, const RefineOptions<D>& optio
     domain.emplace(plc, options.stop);
   } catch (const CancelledError&) {
     RefineResult<D> none;
-    none.precision = plc.precision;
+    none.tolerance = tolerance_of(plc);
     return without_mesh(std::move(none), start);
   }
   const double prepare = seconds_since(start);
@@ -338,40 +339,13 @@ RefineResult<D> prepare_and_run(const Plc<D>& plc, const RefineOptions<D>& optio
 
 }  // namespace
 
-constexpr double least_of_file = 0.99e-7;  // with less, few of the facets that belong together are taken for one
-
-template <int D>
-std::optional<Plc<D>> with_less_precision(const Plc<D>& plc) {
-  if (plc.precision_of_file) {
-    const double less = plc.precision / 10;
-    if (less < least_of_file) return with_default_precision(plc);
-    Plc<D> finer = plc;
-    finer.precision = less;
-    return finer;
-  }
-  if constexpr (D == 3)
-    if (plc.precision == Plc<D>{}.precision) {
-      try {
-        if (!may_fold(Domain<D>(plc))) return std::nullopt;
-      } catch (const InputError&) {
-        return std::nullopt;
-      }
-      Plc<D> exact = plc;
-      exact.precision = 0;
-      return exact;
-    }
-  return std::nullopt;
-}
-
 template <int D>
 RefineResult<D> refine(const Plc<D>& plc, const RefineOptions<D>& options) {
   const detail::DefaultFloats floats;
   const auto start = Clock::now();
-  return with_fitting_precision(plc, [&](const Plc<D>& input) { return prepare_and_run(input, options, start); });
+  return prepare_and_run(plc, options, start);
 }
 
-template PGDR_API std::optional<Plc<2>> with_less_precision(const Plc<2>&);
-template PGDR_API std::optional<Plc<3>> with_less_precision(const Plc<3>&);
 template PGDR_API RefineResult<2> refine<2>(const Plc<2>&, const RefineOptions<2>&);
 template PGDR_API RefineResult<3> refine<3>(const Plc<3>&, const RefineOptions<3>&);
 template PGDR_API RefineResult<2> refine<2>(const Domain<2>&, const RefineOptions<2>&);

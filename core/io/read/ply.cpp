@@ -18,7 +18,6 @@
 #include "io/formats.hpp"
 #include "io/scan/byte_order.hpp"
 #include "io/scan/line_scanner.hpp"
-#include "pgdr/written_precision.hpp"
 
 namespace pgdr::detail {
 namespace {
@@ -283,7 +282,7 @@ class PlyReader {
       plc_.points.push_back(p);
     }
     if (std::all_of(column.begin(), column.end(), [&e](std::size_t c) { return e.properties[c].type == Type::f32; }))
-      set_precision_of_file(plc_);
+      plc_.are_floats = true;
   }
 
   void read_faces(const Element& e) {

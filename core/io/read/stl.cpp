@@ -14,7 +14,6 @@
 
 #include "io/formats.hpp"
 #include "io/scan/line_scanner.hpp"
-#include "pgdr/written_precision.hpp"
 
 namespace pgdr::detail {
 namespace {
@@ -212,7 +211,7 @@ Plc<3> read_stl(std::string_view text, const std::filesystem::path& file) {
     check_binary_size(text, plc);
     read_binary(text, plc);
   }
-  set_precision_of_file(plc);
+  plc.are_floats = true;
   return plc;
 }
 

@@ -21,6 +21,7 @@ struct BuildInput {
   /// A power of two that makes the largest coordinate from one to two: areas and normals are formed of such coordinates, and
   /// neither overflow nor depend on the unit of length.
   double scale;
+  double tolerance;  ///< within which things meet, in units of the coordinates
   const Bulk& bulk;
   const StopCheck& stop;
 };

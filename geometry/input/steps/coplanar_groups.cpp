@@ -26,24 +26,21 @@ class FittedPlane {
       const auto k = static_cast<std::size_t>(i);
       normal_[k] += normal[k];
       centre_[k] += weight / 3 * ((a[i] - origin_[i]) + (b[i] - origin_[i]) + (c[i] - origin_[i]));
-      for (const Point3* p : {&a, &b, &c}) magnitude_ = std::max(magnitude_, std::fabs((*p)[i]));
     }
   }
-  bool holds(const Point3& p, double precision) const {
+  bool holds(const Point3& p, double tolerance) const {
     Vector<3> d;
-    double magnitude = magnitude_;
     for (int i = 0; i < 3; ++i) {
       const auto k = static_cast<std::size_t>(i);
       d[k] = (p[i] - origin_[i]) - centre_[k] / weight_;
-      magnitude = std::max(magnitude, std::fabs(p[i]));
     }
-    return std::fabs(dot(d, normal_)) <= precision * magnitude * std::sqrt(dot(normal_, normal_));
+    return std::fabs(dot(d, normal_)) <= tolerance * std::sqrt(dot(normal_, normal_));
   }
 
  private:
   Point3 origin_;
   Vector<3> normal_{}, centre_{};
-  double weight_ = 0, magnitude_ = 0;
+  double weight_ = 0;
 };
 
 }  // namespace
@@ -122,7 +119,7 @@ void CoplanarGroups::grow_plane(std::uint32_t seed) {
   const auto held = [&](std::uint32_t f) {
     for (const PlanarTriangle& t : faces_.of(faces_.facets[f]))
       for (const std::uint32_t v : t)
-        if (!plane.holds(shapes_.scaled(v), in_.plc.precision)) return false;
+        if (!plane.holds(shapes_.scaled(v), in_.tolerance * in_.scale)) return false;
     return true;
   };
 

@@ -3,7 +3,7 @@
 //
 // Continues the third step of a Domain (3D): which facets become one. Two that meet at an edge of just these two, with
 // equal markers, on different sides of it in their projection, are one if they are exactly coplanar; or if all points of
-// both lie in one plane up to Plc::precision. A planar face of triangles that was turned, or printed with so many
+// both lie in one plane up to the tolerance. A planar face of triangles that was turned, or printed with so many
 // digits, is planar no more; every edge between its triangles would be a segment, at small angles with its neighbours
 // wherever the triangles are long and thin.
 //

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "input/diagonal.hpp"
+#include "input/steps/point_groups.hpp"
 #include "numbers/finite.hpp"
 #include "pgdr/predicates.hpp"
 #include "space/point_places.hpp"
@@ -13,7 +15,7 @@
 namespace pgdr::detail {
 namespace {
 
-constexpr double most_merge_within = 0.01;
+constexpr double most_of_diagonal = 1e-3;  // of a tolerance that nobody has confirmed
 
 template <int D>
 Point<D> with_positive_zeros(Point<D> p) {
@@ -100,45 +102,117 @@ void check_indices(const Plc<D>& plc, const BuildReport<D>& report) {
     });
 }
 
+namespace {
+
+/// The points of a Plc at distinct places, in their order.
 template <int D>
-DistinctPoints<D> merge_points(const Plc<D>& plc, BuildReport<D>& report) {
-  if (!(plc.merge_within >= 0 && plc.merge_within <= most_merge_within))
+class ExactPoints {
+ public:
+  ExactPoints(const Plc<D>& plc, BuildReport<D>& report) : at_(plc.points.size()) {
+    PointPlaces places(plc.points.size());
+    for (std::uint32_t i = 0; i < plc.points.size(); ++i) {
+      const Point<D> p = with_positive_zeros(plc.points[i]);
+      note_negative_zeros(plc.points[i], i, report);
+      const std::size_t hash = hash_of(p);
+      at_[i] = places.find(hash, [&](std::uint32_t v) { return points_[v] == p; });
+      if (at_[i] == no_entity) {
+        at_[i] = static_cast<std::uint32_t>(points_.size());
+        places.insert(hash, at_[i]);
+        points_.push_back(p);
+        first_.push_back(i);
+      } else {
+        const std::int64_t number = report.number(i), first = report.number(first_[at_[i]]);
+        report.repairs.merged.add([&] { return std::to_string(number) + " = " + std::to_string(first); }, {number, first});
+      }
+    }
+  }
+
+  std::span<const Point<D>> points() const { return points_; }
+  std::uint32_t at(std::uint32_t i) const { return at_[i]; }        ///< of the Plc's point i
+  std::uint32_t first(std::uint32_t v) const { return first_[v]; }  ///< the first of the Plc's points there
+
+ private:
+  static void note_negative_zeros(const Point<D>& p, std::uint32_t i, BuildReport<D>& report) {
+    if (std::any_of(p.x.begin(), p.x.end(), [](double x) { return x == 0 && std::signbit(x); }))
+      report.repairs.negative_zeros.add([&] { return std::to_string(report.number(i)); }, {report.number(i)});
+  }
+
+  std::vector<Point<D>> points_;
+  std::vector<std::uint32_t> at_, first_;
+};
+
+template <int D>
+void refuse_or_warn(const ExactPoints<D>& exact, const AmbiguousGroup& group, double scale, const Plc<D>& plc,
+                    BuildReport<D>& report) {
+  const std::uint32_t i = exact.first(group.first), k = exact.first(group.second);
+  const auto words = [&](std::uint32_t v) { return std::to_string(report.number(v)) + " " + to_text(plc.points[v]); };
+  const std::string message = std::to_string(group.size) + " points, each within the tolerance of the next, are " +
+                              to_text(group.distance / scale) + " apart, more than twice the tolerance: points " + words(i) +
+                              " and " + words(k);
+  const std::vector<std::int64_t> ids{report.number(i), report.number(k)};
+  if (plc.tolerance)
+    report.attempt([&] {
+      report.fail(Errc::ambiguous, message, plc.source.point_lines, i, ids, {in_space(plc.points[i]), in_space(plc.points[k])});
+    });
+  else
+    report.warn(Errc::ambiguous, message + "; they are left apart", plc.source.point_lines, i, ids);
+}
+
+template <int D>
+PointGroups groups_of(const ExactPoints<D>& exact, double tolerance, const StopCheck& stop, const Plc<D>& plc,
+                      BuildReport<D>& report) {
+  const double scale = scale_of<D>(exact.points()).first;
+  std::vector<Point<D>> scaled(exact.points().begin(), exact.points().end());
+  for (Point<D>& p : scaled)
+    for (double& x : p.x) x *= scale;
+  PointGroups groups = group_points<D>(scaled, tolerance * scale, stop);
+  for (const AmbiguousGroup& group : groups.ambiguous) refuse_or_warn(exact, group, scale, plc, report);
+  return groups;
+}
+
+/// Where tolerances end.
+template <int D>
+void check_tolerance(const Plc<D>& plc) {
+  if (!plc.tolerance) return;
+  const double tolerance = *plc.tolerance, diagonal = diagonal_of<D>(Box<D>::of(plc.points));
+  if (!(tolerance >= 0) || !std::isfinite(tolerance))
+    throw UsageError({Errc::bad_option, "the tolerance must be a length, or 0", plc.source.file, 0, {}, {}});
+  if (!(tolerance <= most_of_diagonal * diagonal) && tolerance > 0 && !plc.is_coarse)
     throw UsageError({Errc::bad_option,
-                      "points are merged within a distance from 0 to 0.01 times the largest coordinate",
+                      "a tolerance of " + to_text(tolerance) + " is more than a thousandth of the diagonal, " + to_text(diagonal) +
+                          "; it is an absolute length, and has to be confirmed (--yes-coarse, Plc::is_coarse) if it is meant",
                       plc.source.file,
                       0,
                       {},
                       {}});
+}
+
+}  // namespace
+
+template <int D>
+DistinctPoints<D> merge_points(const Plc<D>& plc, double tolerance, const StopCheck& stop, BuildReport<D>& report) {
+  check_tolerance(plc);
   const std::size_t n = plc.points.size(), attributes = attributes_per_point(plc);
   if (!plc.point_markers.empty() && plc.point_markers.size() != n) bad_length(plc, plc.point_markers.size(), " markers");
-  const bool near = plc.merge_within > 0;
-  const auto [scale, largest] = scale_of<D>(plc.points);
+  const ExactPoints<D> exact(plc, report);
+  PointGroups groups;
+  if (tolerance > 0) groups = groups_of(exact, tolerance, stop, plc, report);
   DistinctPoints<D> out;
-  PointPlaces places(n);
-  PointGrid<D> grid(near ? n : 0, scale, std::max(plc.merge_within * largest, 0x1p-200));
-  out.points.reserve(n);
-  out.point_of_input.resize(n);
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const Point<D> p = with_positive_zeros(plc.points[i]);
-    if (std::any_of(p.x.begin(), p.x.end(), [](double x) { return x == 0; }))
-      if (std::any_of(plc.points[i].x.begin(), plc.points[i].x.end(), [](double x) { return x == 0 && std::signbit(x); }))
-        report.repairs.negative_zeros.add([&] { return std::to_string(report.number(i)); }, {report.number(i)});
-    const std::size_t hash = hash_of(p);
-    std::uint32_t at = places.find(hash, [&](std::uint32_t v) { return out.points[v] == p; });
-    const bool repeated = at != no_entity;
-    if (!repeated && near) at = grid.nearest(p, out.points);
-    if (at == no_entity) {
-      at = static_cast<std::uint32_t>(out.points.size());
-      keep_point(plc, i, p, attributes, out);
-      places.insert(hash, at);
-      if (near) grid.insert(p, at);
+  std::vector<std::uint32_t> number(exact.points().size(), no_entity);  // of each exact point among those of `out`
+  for (std::uint32_t v = 0; v < exact.points().size(); ++v) {
+    const std::uint32_t group = tolerance > 0 ? groups.group_of[v] : v;
+    const Point<D>& p = exact.points()[tolerance > 0 ? groups.place_of[group] : v];
+    if (group == v) {
+      number[v] = static_cast<std::uint32_t>(out.points.size());
+      keep_point(plc, exact.first(v), p, attributes, out);
     } else {
-      const std::int64_t first = report.number(out.input_of_point[at]);
-      const auto words = [&] { return std::to_string(report.number(i)) + " = " + std::to_string(first); };
-      (repeated ? report.repairs.merged : report.repairs.merged_near).add(words, {report.number(i), first});
+      number[v] = number[group];
+      const std::int64_t mine = report.number(exact.first(v)), first = report.number(exact.first(group));
+      report.repairs.merged_near.add([&] { return std::to_string(mine) + " = " + std::to_string(first); }, {mine, first});
     }
-    out.point_of_input[i] = at;
+    out.largest_move = std::max(out.largest_move, std::sqrt(squared_distance(p, exact.points()[v])));
   }
+  for (std::uint32_t i = 0; i < n; ++i) out.point_of_input.push_back(number[exact.at(i)]);
   for (const Point<D>& p : plc.holes) out.holes.push_back(with_positive_zeros(p));
   for (RegionSeed<D> r : plc.regions) {
     r.point = with_positive_zeros(r.point);
@@ -167,7 +241,7 @@ void check_spans_space(std::span<const Point<D>> p, const BuildReport<D>& report
 #define PGDR_INSTANTIATE(D)                                                   \
   template void check_finite<D>(const Plc<D>&, const BuildReport<D>&);        \
   template void check_indices<D>(const Plc<D>&, const BuildReport<D>&);       \
-  template DistinctPoints<D> merge_points<D>(const Plc<D>&, BuildReport<D>&); \
+  template DistinctPoints<D> merge_points<D>(const Plc<D>&, double, const StopCheck&, BuildReport<D>&); \
   template void check_spans_space<D>(std::span<const Point<D>>, const BuildReport<D>&);
 PGDR_INSTANTIATE(2)
 PGDR_INSTANTIATE(3)

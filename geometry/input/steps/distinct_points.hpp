@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The first step of a Domain: numbers that are finite, indices that exist, and the distinct points. Exact duplicates are one
-// point, and, only where the caller asks for it, points within a distance. Each point then goes to the nearest of those before
-// it that are kept, if it is near enough: none moves by more than that distance, and what comes of a file depends on its order,
-// but on nothing else.
+// point, and so are the groups of points within the tolerance (point_groups.hpp).
 #pragma once
 
 #include <cstdint>
@@ -13,6 +11,7 @@
 
 #include "input/steps/build_report.hpp"
 #include "pgdr/plc.hpp"
+#include "space/stop_check.hpp"
 
 namespace pgdr::detail {
 
@@ -25,6 +24,7 @@ struct DistinctPoints {
   std::vector<double> attributes;
   std::vector<Point<D>> holes;
   std::vector<RegionSeed<D>> regions;
+  double largest_move = 0;  ///< of a point to its group's place
 };
 
 /// @throws InputError not_finite
@@ -33,9 +33,9 @@ void check_finite(const Plc<D>& plc, const BuildReport<D>& report);
 /// @throws InputError index_out_of_range; ResourceError if there are too many points for ids
 template <int D>
 void check_indices(const Plc<D>& plc, const BuildReport<D>& report);
-/// @throws UsageError bad_option
+/// @throws UsageError bad_option; InputError ambiguous for a tolerance that was given
 template <int D>
-DistinctPoints<D> merge_points(const Plc<D>& plc, BuildReport<D>& report);
+DistinctPoints<D> merge_points(const Plc<D>& plc, double tolerance, const StopCheck& stop, BuildReport<D>& report);
 /// Exact. @throws InputError no_volume unless some D + 1 points span the space
 template <int D>
 void check_spans_space(std::span<const Point<D>> points, const BuildReport<D>& report);

@@ -22,9 +22,10 @@ void DomainBuilder<D>::run() {
   detail::check_finite(plc_, report_);
   detail::check_indices(plc_, report_);
   if (report_.has_refused()) return;
+  out_.tolerance_ = tolerance_of(plc_);
   take_points();
   stop_();
-  const Input in{plc_, out_.points_, out_.point_of_input_, detail::scale_of<D>(out_.points_).first, bulk_, stop_};
+  const Input in{plc_, out_.points_, out_.point_of_input_, detail::scale_of<D>(out_.points_).first, out_.tolerance_, bulk_, stop_};
   const Segments segments(in, report_);
   report_.attempt([this] { detail::check_spans_space<D>(out_.points_, report_); });
   if (out_.points_.empty()) return;
@@ -37,13 +38,13 @@ void DomainBuilder<D>::run() {
   if constexpr (D == 3) group_facets(in, uses);
   stop_();
   write_segments(in, uses, segments);
-  out_.precision_ = plc_.precision;
   report_.write(out_.repairs_, out_.warnings_);
 }
 
 template <int D>
 void DomainBuilder<D>::take_points() {
-  detail::DistinctPoints<D> distinct = detail::merge_points(plc_, report_);
+  detail::DistinctPoints<D> distinct = detail::merge_points(plc_, out_.tolerance_, stop_, report_);
+  out_.largest_move_ = distinct.largest_move;
   out_.points_ = std::move(distinct.points);
   out_.point_of_input_ = std::move(distinct.point_of_input);
   out_.input_of_point_ = std::move(distinct.input_of_point);

@@ -63,12 +63,7 @@ std::vector<PlanarEdge> edges_of(std::span<const std::uint64_t> keys) {
 
 }  // namespace
 
-NearSearch::NearSearch(const BuildInput<3>& in) : in_(in), shapes_(in.points, in.scale) {
-  double largest = 0;
-  for (std::uint32_t v = 0; v < in.points.size(); ++v)
-    for (const double x : shapes_.scaled(v).x) largest = std::max(largest, std::fabs(x));
-  width_ = in.plc.merge_within * largest;
-}
+NearSearch::NearSearch(const BuildInput<3>& in) : in_(in), shapes_(in.points, in.scale), width_(in.tolerance * in.scale) {}
 
 template <std::size_t N>
 Box<3> NearSearch::box(const std::array<std::uint32_t, N>& corners) const {

@@ -14,7 +14,7 @@
 #include "parallel_support.hpp"
 #include "pgdr/io.hpp"
 
-namespace pgdr::test_precision_uneven {
+namespace pgdr::test_input_uneven {
 
 /// Its outline alternates between the radii 1 and `inner`; all its faces are polygons.
 Plc<3> star_prism(std::uint32_t corners, double inner, double height) {
@@ -92,4 +92,4 @@ TEST(Fans, NeighboursDoNotHalveEdgesInTurns) {
   EXPECT_LT(outcome.result.mesh.cells.size(), 5000u);
 }
 
-}  // namespace pgdr::test_precision_uneven
+}  // namespace pgdr::test_input_uneven
