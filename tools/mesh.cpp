@@ -22,7 +22,7 @@
 namespace pgdr::tool {
 namespace {
 
-constexpr double most_min_angle = 34;    // degrees; beyond, the number of points explodes
+constexpr double most_min_angle = 34;  // degrees; beyond, the number of points explodes
 
 template <int D>
 RefineOptions<D> make_options(const MeshArguments& a, const Bounds<D>& bounds) {

@@ -138,9 +138,10 @@ void add_bounds(CLI::App& app, BoundArguments& b, const std::string& without) {
 }
 
 void add_input(CLI::App& app, InputArguments& p) {
-  app.add_option("--tolerance", p.tolerance,
-                 "what lies within T meets, in the units of the coordinates: points are one, or lie on edges and facets, and facets of "
-                 "one plane are one (default: the rounding of doubles, or of floats in .stl and .ply; 0: exactly as given)")
+  app.add_option(
+         "--tolerance", p.tolerance,
+         "what lies within T meets, in the units of the coordinates: points are one, or lie on edges and facets, and facets of "
+         "one plane are one (default: the rounding of doubles, or of floats in .stl and .ply; 0: exactly as given)")
       ->type_name("T")
       ->check(number(">= 0", [](double v) { return v >= 0; }));
   app.add_flag("--yes-coarse", p.yes_coarse, "a --tolerance above a thousandth of the model's diagonal is meant");

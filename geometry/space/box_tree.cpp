@@ -58,14 +58,14 @@ BoxTree<D>::BoxTree(std::span<const Box<D>> boxes, TreeCut cut) {
 }
 
 template <int D>
-BoxTree<D>::BoxTree(std::span<const Corners> corners, std::span<const Point<D>> points) {
+BoxTree<D>::BoxTree(std::span<const Corners> corners, std::span<const Point<D>> points, double within) : within_(within) {
   std::vector<Box<D>> boxes;
   boxes.reserve(corners.size());
   for (const Corners& simplex : corners) {
     Box<D> box = Box<D>::empty();
     for (const std::uint32_t v : simplex)
       if (v != no_corner) box.add(points[v]);
-    boxes.push_back(box);
+    boxes.push_back(box.widened(within));
   }
   build(boxes, TreeCut::along_curve);
   find_anchors(corners, points);
@@ -166,6 +166,7 @@ void BoxTree<D>::find_anchors(std::span<const Corners> corners, std::span<const 
     for (const Item& item : items_below(node))
       for (const std::uint32_t v : corners[item.index])
         if (v != no_corner && v != anchor.corner) anchor.opposite.add(points[v]);
+    anchor.opposite = anchor.opposite.widened(within_);
   }
 }
 
@@ -206,7 +207,7 @@ Point<D> BoxTree<D>::farthest(const Hull& h, const Point<D>& direction) {
 // Goes from the difference of two points towards that of the two nearest ones (Gilbert 1966) until the direction tells
 // the hulls apart beyond all rounding; overflow and not-a-number tell nothing.
 template <int D>
-bool BoxTree<D>::separable(const Hull& a, const Hull& b) {
+bool BoxTree<D>::separable(const Hull& a, const Hull& b) const {
   if (a.apex == nullptr && b.apex == nullptr) return !a.box.meets(b.box);
   constexpr int most_steps = 16;
   Point<D> d;
@@ -215,9 +216,10 @@ bool BoxTree<D>::separable(const Hull& a, const Hull& b) {
     Point<D> back, w;
     for (int i = 0; i < D; ++i) back[i] = -d[i];
     const Point<D> p = farthest(a, d), q = farthest(b, back);
-    double gap = 0, size = 0, change = 0, towards = 0;
+    double gap = 0, size = 0, change = 0, towards = 0, square = 0;
     for (int i = 0; i < D; ++i) {
       gap += d[i] * q[i] - d[i] * p[i];
+      square += d[i] * d[i];
       size += std::fabs(d[i] * q[i]) + std::fabs(d[i] * p[i]);
       for (const Hull* h : {&a, &b}) {
         size += std::fabs(d[i] * h->box.low[i]) + std::fabs(d[i] * h->box.high[i]);
@@ -227,7 +229,7 @@ bool BoxTree<D>::separable(const Hull& a, const Hull& b) {
       change += w[i] * w[i];
       towards -= d[i] * w[i];
     }
-    if (gap > rounding::of_separation * size + 0x1p-1000) return true;
+    if (gap > rounding::of_separation * size + within_ * std::sqrt(square) + 0x1p-1000) return true;
     if (!(towards > 0 && change > 0)) return false;
     const double t = std::min(1.0, towards / change);
     for (int i = 0; i < D; ++i) d[i] += t * w[i];

@@ -42,8 +42,9 @@ class BoxTree {
  public:
   /// @pre boxes are not empty, coordinates finite; at most 2^31 boxes.
   explicit BoxTree(std::span<const Box<D>> boxes, TreeCut cut = TreeCut::along_curve);
-  /// The boxes of simplices, by their corners (as many of three as there are, then no_corner).
-  BoxTree(std::span<const std::array<std::uint32_t, 3>> corners, std::span<const Point<D>> points);
+  /// The boxes of simplices, by their corners (as many of three as there are, then no_corner), each larger by `within` on all
+  /// sides: pairs that come within that distance are found, too, unless it is beside a common corner.
+  BoxTree(std::span<const std::array<std::uint32_t, 3>> corners, std::span<const Point<D>> points, double within = 0);
 
   /// Calls visit(i, j), i < j, once for every pair of boxes that meet (common borders count). Of simplices, pairs that
   /// meet nowhere but at a common corner may be left out.
@@ -118,7 +119,7 @@ class BoxTree {
     return {&anchor.apex, anchor.opposite};
   }
   /// True only if a plane was found that has them strictly on its two sides; not all that are apart are found to be.
-  static bool separable(const Hull& a, const Hull& b);
+  bool separable(const Hull& a, const Hull& b) const;
   static Point<D> farthest(const Hull& h, const Point<D>& direction);
   /// Where two nodes are not apart: the pairs of their children, or of the node's own, in the order in which they are looked at.
   void append_children(const NodePair& pair, std::vector<NodePair>& out) const;
@@ -138,6 +139,7 @@ class BoxTree {
   std::vector<Item> items_;      // leaf by leaf
   std::vector<Box<D>> nodes_;    // 2 * leaves_, the first unused
   std::vector<Anchor> anchors_;  // of nodes, for simplices
+  double within_ = 0;            // by which the boxes of simplices are larger; an apex is not
 };
 
 template <int D>

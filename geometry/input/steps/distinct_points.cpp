@@ -179,7 +179,8 @@ void check_tolerance(const Plc<D>& plc) {
     throw UsageError({Errc::bad_option, "the tolerance must be a length, or 0", plc.source.file, 0, {}, {}});
   if (!(tolerance <= most_of_diagonal * diagonal) && tolerance > 0 && !plc.is_coarse)
     throw UsageError({Errc::bad_option,
-                      "a tolerance of " + to_text(tolerance) + " is more than a thousandth of the diagonal, " + to_text(diagonal) +
+                      "a tolerance of " + to_text(tolerance) + " is more than a thousandth of the diagonal, " +
+                          to_text(diagonal) +
                           "; it is an absolute length, and has to be confirmed (--yes-coarse, Plc::is_coarse) if it is meant",
                       plc.source.file,
                       0,
@@ -238,9 +239,9 @@ void check_spans_space(std::span<const Point<D>> p, const BuildReport<D>& report
   report.fail(Errc::no_volume, n <= D ? count + " are too few" : "all " + count + where, {}, 0, {}, {});
 }
 
-#define PGDR_INSTANTIATE(D)                                                   \
-  template void check_finite<D>(const Plc<D>&, const BuildReport<D>&);        \
-  template void check_indices<D>(const Plc<D>&, const BuildReport<D>&);       \
+#define PGDR_INSTANTIATE(D)                                                                             \
+  template void check_finite<D>(const Plc<D>&, const BuildReport<D>&);                                  \
+  template void check_indices<D>(const Plc<D>&, const BuildReport<D>&);                                 \
   template DistinctPoints<D> merge_points<D>(const Plc<D>&, double, const StopCheck&, BuildReport<D>&); \
   template void check_spans_space<D>(std::span<const Point<D>>, const BuildReport<D>&);
 PGDR_INSTANTIATE(2)

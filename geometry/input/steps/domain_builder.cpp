@@ -25,13 +25,14 @@ void DomainBuilder<D>::run() {
   out_.tolerance_ = tolerance_of(plc_);
   take_points();
   stop_();
-  const Input in{plc_, out_.points_, out_.point_of_input_, detail::scale_of<D>(out_.points_).first, out_.tolerance_, bulk_, stop_};
+  const Input in{plc_,  out_.points_, out_.point_of_input_, detail::scale_of<D>(out_.points_).first, out_.tolerance_,
+                 bulk_, stop_};
   const Segments segments(in, report_);
   report_.attempt([this] { detail::check_spans_space<D>(out_.points_, report_); });
   if (out_.points_.empty()) return;
-  if constexpr (D == 3) triangulate_facets(in, segments);
+  join_near(in, segments);
   stop_();
-  resolve_contacts(in, segments);
+  resolve_contacts(in);
   stop_();
   const EdgeUses uses(facets_.faces, segment_edges_, bulk_, stop_);
   soft_.assign(uses.size(), false);
@@ -55,41 +56,44 @@ void DomainBuilder<D>::take_points() {
   report_.set_points(out_.points_, out_.input_of_point_);
 }
 
-/// Once more where there is anything near to join.
+/// Facets to triangles: once more where there is anything near to join.
 template <int D>
-void DomainBuilder<D>::triangulate_facets(const Input& in, const Segments& segments) requires(D == 3) {
+void DomainBuilder<D>::join_near(const Input& in, const Segments& segments) {
   const auto mark = report_.mark();
-  const auto triangulated = [&] { return detail::FacetTriangulator(in, segments, near_, report_).run(); };
-  facets_ = triangulated();
+  const auto triangulate = [&] {
+    if constexpr (D == 3) facets_ = detail::FacetTriangulator(in, segments, near_, report_).run();
+  };
+  triangulate();
+  for (std::uint32_t s = 0; s < segments.ends().size(); ++s)
+    if (const auto& [a, b] = segments.ends()[s]; a != b) segment_edges_.push_back({{a, b}, s});
   near_search_.emplace(in);
-  if (near_search_->width() > 0) near_ = near_search_->find(facets_, segments);
+  meets_ = near_search_->find_pairs(facets_.faces, segment_edges_, facets_.flat);
+  if (meets_ && near_search_->width() > 0) near_ = near_search_->contacts();
   if (!near_.empty()) {
     report_.go_back_to(mark);
-    facets_ = triangulated();
+    triangulate();
+    near_.split(segment_edges_);
     near_.note(report_);
   }
-  detail::drop_repeated_facets(in, facets_.faces, report_);
+  if constexpr (D == 3) detail::drop_repeated_facets(in, facets_.faces, report_);
 }
 
 /// Fits pieces to each other that meet; where nothing does, that is known from here on.
 template <int D>
-void DomainBuilder<D>::resolve_contacts(const Input& in, const Segments& segments) {
-  for (std::uint32_t s = 0; s < segments.ends().size(); ++s) {
-    const auto& [a, b] = segments.ends()[s];
-    if (a == b) continue;  // it has no length
-    const auto points = near_.chain(a, b);
-    for (std::size_t k = 1; k < points.size(); ++k) segment_edges_.push_back({{points[k - 1], points[k]}, s});
-  }
-  const bool joins = near_search_ && near_search_->width() > 0;
-  detail::ContactResolver<D> resolver(in, facets_.faces, segment_edges_, report_);
-  out_.nothing_meets_ = !resolver.find() && !joins;
-  if (!out_.nothing_meets_) {
-    resolver.split_at_points();
+void DomainBuilder<D>::resolve_contacts(const Input& in) {
+  out_.nothing_meets_ = !meets_;
+  if (meets_) {
+    detail::ContactResolver<D> resolver(in, facets_.faces, segment_edges_, report_);
+    if (resolver.find()) resolver.split_at_points();
     if constexpr (D == 3) {
-      const bool meets = resolver.find();
+      const bool joins = near_search_->width() > 0, meets = resolver.find();
+      const bool near = joins && near_search_->find_pairs(facets_.faces, segment_edges_, facets_.flat);
       detail::InnerEdges inner(in, *near_search_, facets_.faces, segment_edges_, report_);
-      if (meets || joins) inner.constrain(resolver);
-      if (joins) inner.refuse_near_crossings();
+      if (meets || near) inner.constrain(resolver);
+      if (near) {
+        near_search_->find_pairs(facets_.faces, segment_edges_, facets_.flat);
+        inner.refuse_near_crossings();
+      }
       detail::drop_repeated_facets(in, facets_.faces, report_);
     }
   }

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The maker of a Domain of a Plc, in this order: points (finite, merged), indices, facets to triangles, repeated facets,
-// points and edges that lie on what they do not belong to, coplanar groups, segments, incidences. Each step has a header of its
+// The maker of a Domain of a Plc, in this order: points (finite, grouped), indices, facets to triangles, what is near to what
+// (decided once, on that), repeated facets, points and edges that lie on what they do not belong to, coplanar groups, segments,
+// incidences. Each step has a header of its
 // own, included here. Everything is sorting and hashing: n log n in the size of the input, but for constraint edges
 // of a facet that cross many triangles.
 // Used by one thread, once; long loops run in its task arena, too.
@@ -40,8 +41,8 @@ class DomainBuilder {
   using Segments = detail::ExplicitSegments<D>;
 
   void take_points();
-  void triangulate_facets(const Input& in, const Segments& segments) requires(D == 3);
-  void resolve_contacts(const Input& in, const Segments& segments);
+  void join_near(const Input& in, const Segments& segments);
+  void resolve_contacts(const Input& in);
   void group_facets(const Input& in, const detail::EdgeUses& uses) requires(D == 3);
   void write_segments(const Input& in, const detail::EdgeUses& uses, const Segments& segments);
 
@@ -51,12 +52,12 @@ class DomainBuilder {
   const detail::StopCheck stop_;
   detail::BuildReport<D> report_;
   std::vector<detail::OwnedEdge> segment_edges_;  // explicit segments, or what they were split into
-  std::vector<bool> soft_;                        // by position in the uses of edges: no segment for this edge
-  // 3D
-  detail::TriangulatedFacets facets_;
+  std::optional<detail::NearSearch<D>> near_search_;
   detail::NearContacts near_;
-  std::optional<detail::NearSearch> near_search_;
-  std::vector<EntityId> group_of_;  // domain facet of each triangulated one
+  bool meets_ = false;                 // does anything meet, or come near?
+  std::vector<bool> soft_;             // by position in the uses of edges: no segment for this edge
+  detail::TriangulatedFacets facets_;  // 2D: none
+  std::vector<EntityId> group_of_;     // 3D: domain facet of each triangulated one
 };
 
 }  // namespace pgdr

@@ -64,7 +64,7 @@ void InnerEdges::find(const ContactResolver<3>& met) {
     look(second, first);
   }
   if (near_.width() > 0)  // edges that run along triangles although they meet nowhere
-    near_.edges_and_triangles(faces_, segment_edges_, [this](std::uint32_t a, std::uint32_t b, std::uint32_t t) {
+    near_.edges_and_triangles([this](std::uint32_t a, std::uint32_t b, std::uint32_t t) {
       if (runs_inside(a, b, t)) inner_.emplace_back(t, edge_key(a, b));
     });
   make_set(inner_);
@@ -174,6 +174,17 @@ void InnerEdges::retriangulate(std::span<const std::uint32_t> patch, std::span<c
   replace(patch, fixed, done);
 }
 
+/// Are all triangles of the patch, as they were, in the plane of this one?
+bool InnerEdges::is_exactly_flat(std::span<const std::uint32_t> patch, const PlanarTriangle& plane) const {
+  const auto& p = in_.points;
+  return std::ranges::all_of(patch, [&](std::uint32_t t) {
+    return std::ranges::all_of(faces_.triangles[t], [&](std::uint32_t v) {
+      const auto& [a, b, c] = plane;
+      return v == a || v == b || v == c || orient3d(p[a], p[b], p[c], p[v]) == Sign::zero;
+    });
+  });
+}
+
 void InnerEdges::replace(std::span<const std::uint32_t> patch, const std::vector<std::uint64_t>& fixed,
                          const std::vector<std::uint64_t>& edges) {
   const std::uint32_t first = faces_.facet_of[patch[0]];
@@ -182,7 +193,7 @@ void InnerEdges::replace(std::span<const std::uint32_t> patch, const std::vector
   for (std::size_t k = 0; k < patch.size(); ++k) {
     TriangulatedFacet& facet = faces_.facets[faces_.facet_of[patch[k]]];
     facet.mixed |= mixed;
-    facet.planar &= near_.width() == 0;
+    facet.planar = facet.planar && is_exactly_flat(patch, faces_.of(facet)[0]);
     PlanarTriangle& t = made_[patch[k]];
     t = triangles[k];
     const auto& p = in_.points;
@@ -200,7 +211,7 @@ void InnerEdges::replace(std::span<const std::uint32_t> patch, const std::vector
 void InnerEdges::refuse_near_crossings() const {
   const auto& p = in_.points;
   const auto words = [this](std::uint32_t a, std::uint32_t b) { return report_.point_words(a) + " - " + report_.point_words(b); };
-  near_.edges_and_triangles(faces_, segment_edges_, [&](std::uint32_t a, std::uint32_t b, std::uint32_t t) {
+  near_.edges_and_triangles([&](std::uint32_t a, std::uint32_t b, std::uint32_t t) {
     if (!runs_inside(a, b, t)) return;
     const std::uint32_t f = faces_.facets[faces_.facet_of[t]].input;
     report_.attempt([&] {
@@ -211,7 +222,7 @@ void InnerEdges::refuse_near_crossings() const {
                    {p[a].x, p[b].x});
     });
   });
-  near_.passing_edges(faces_, segment_edges_, [&](const PlanarEdge& e, const PlanarEdge& f) {
+  near_.passing_edges([&](const PlanarEdge& e, const PlanarEdge& f) {
     report_.attempt([&] {
       report_.fail(
           Errc::entities_intersect,

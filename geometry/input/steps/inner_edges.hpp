@@ -27,7 +27,7 @@ namespace pgdr::detail {
 class InnerEdges {
  public:
   /// @pre the facets of triangles are indexed
-  InnerEdges(const BuildInput<3>& in, const NearSearch& near, FacetTriangles& faces, std::span<const OwnedEdge> segment_edges,
+  InnerEdges(const BuildInput<3>& in, const NearSearch<3>& near, FacetTriangles& faces, std::span<const OwnedEdge> segment_edges,
              BuildReport<3>& report)
       : in_(in), near_(near), faces_(faces), segment_edges_(segment_edges), report_(report), joints_(in, faces) {}
 
@@ -45,11 +45,12 @@ class InnerEdges {
   void retriangulate(std::span<const std::uint32_t> patch, std::span<const std::uint64_t> edges, const EdgeUses& uses);
   std::vector<PlanarEdge> rim_of(std::span<const std::uint32_t> patch, int axis, const EdgeUses& uses) const;
   std::vector<std::uint64_t> constraints_on(std::span<const std::uint32_t> patch, std::span<const std::uint64_t> rim) const;
+  bool is_exactly_flat(std::span<const std::uint32_t> patch, const PlanarTriangle& plane) const;
   void replace(std::span<const std::uint32_t> patch, const std::vector<std::uint64_t>& fixed,
                const std::vector<std::uint64_t>& edges);
 
   const BuildInput<3>& in_;
-  const NearSearch& near_;
+  const NearSearch<3>& near_;
   FacetTriangles& faces_;
   std::span<const OwnedEdge> segment_edges_;
   BuildReport<3>& report_;

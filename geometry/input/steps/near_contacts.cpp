@@ -66,9 +66,22 @@ auto NearContacts::joined(std::uint32_t f, Polygons polygons) const -> Polygons 
   return out;
 }
 
-void NearContacts::note(BuildReport<3>& report) const {
+void NearContacts::split(std::vector<OwnedEdge>& edges) const {
+  std::vector<OwnedEdge> pieces;
+  for (const auto& [e, owner] : edges) {
+    const auto points = chain(e[0], e[1]);
+    for (std::size_t k = 1; k < points.size(); ++k) pieces.push_back({{points[k - 1], points[k]}, owner});
+  }
+  edges = std::move(pieces);
+}
+
+template <int D>
+void NearContacts::note(BuildReport<D>& report) const {
   for (const NearPoint& near : on_edges_) report.note_on_edge(near.point, edge_of(near.key)[0], edge_of(near.key)[1]);
   for (const auto& [f, v] : in_facets_) report.note_in_facet(v, f);
 }
+
+template void NearContacts::note<2>(BuildReport<2>&) const;
+template void NearContacts::note<3>(BuildReport<3>&) const;
 
 }  // namespace pgdr::detail

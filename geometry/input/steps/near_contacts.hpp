@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The points of a Domain in the making (3D) that are near to an edge, or to the inside of a facet, that they do not belong to.
-// There are none unless the caller wants points within a distance merged. Nothing moves where they are joined: an edge goes
-// through its new points, and a facet through its own.
+// The points of a Domain in the making that are near to an edge, or (3D) to the inside of a facet, that they do not belong to.
+// Nothing moves where they are joined: an edge goes through its new points, and a facet through its own.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "input/edges.hpp"
 #include "input/steps/build_report.hpp"
 #include "pgdr/plc.hpp"
 
@@ -23,6 +23,7 @@ struct NearPoint {
   double part;
   std::uint32_t point;
   bool operator<(const NearPoint& o) const { return std::tie(key, part, point) < std::tie(o.key, o.part, o.point); }
+  bool operator==(const NearPoint&) const = default;
 };
 
 class NearContacts {
@@ -52,8 +53,11 @@ class NearContacts {
   bool closes(std::span<const std::uint32_t> triangle) const;
   /// The polygons of facet f through the points near their edges; points near the inside are polygons of their own.
   Polygons joined(std::uint32_t f, Polygons polygons) const;
+  /// Splits the edges at the points near them.
+  void split(std::vector<OwnedEdge>& edges) const;
   /// Notes all of them.
-  void note(BuildReport<3>& report) const;
+  template <int D>
+  void note(BuildReport<D>& report) const;
 
  private:
   std::vector<NearPoint> on_edges_;

@@ -4,174 +4,266 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
+#include "input/steps/near_tests.hpp"
 #include "numbers/vectors.hpp"
 #include "pgdr/predicates.hpp"
+#include "space/box_tree.hpp"
 #include "space/make_set.hpp"
 
 namespace pgdr::detail {
 namespace {
 
-/// How far on the way from a to b the point of the line nearest to p is; NaN if p is not within `width` of the line there.
-double part_of_edge_near(const Point3& p, const Point3& a, const Point3& b, double width) {
-  const auto along = difference(b, a), to = difference(p, a);
-  const double t = dot(to, along) / dot(along, along);
-  double square = 0;
-  for (std::size_t k = 0; k < 3; ++k) square += (to[k] - t * along[k]) * (to[k] - t * along[k]);
-  return t > 0 && t < 1 && square <= width * width ? t : std::nan("");
-}
-
-/// Are two edges, which are not parallel, within `width` of each other somewhere inside both?
-bool pass_within(const std::array<Point3, 2>& e, const std::array<Point3, 2>& f, double width) {
-  const auto u = difference(e[1], e[0]), v = difference(f[1], f[0]), w = difference(f[0], e[0]);
-  const auto n = cross(u, v);
-  const double square = dot(n, n), height = dot(n, w);
-  if (!(height * height <= width * width * square) || !(square > 0)) return false;
-  const double s = dot(cross(w, v), n) / square, t = dot(cross(w, u), n) / square;
-  return s > 0 && s < 1 && t > 0 && t < 1;
-}
-
-/// Is p within `width` of the inside of the triangle?
-bool is_near_triangle(const Point3& p, const std::array<Point3, 3>& t, double width) {
-  const auto n = cross(difference(t[1], t[0]), difference(t[2], t[0]));
-  const double height = dot(n, difference(p, t[0]));
-  if (!(height * height <= width * width * dot(n, n))) return false;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Point3 &a = t[i], &b = t[(i + 1) % 3];
-    if (!(dot(cross(difference(b, a), difference(p, a)), n) >= 0)) return false;
-  }
-  return true;
-}
-
-/// The edges of facets and segments, by their keys, sorted.
-std::vector<std::uint64_t> constrained_edges(const FacetTriangles& faces, std::span<const OwnedEdge> segment_edges) {
-  std::vector<std::uint64_t> keys;
-  for (std::uint32_t t = 0; t < faces.triangles.size(); ++t)
-    for (std::size_t i = 0; i < 3; ++i)
-      if (faces.is_constraint(t, i)) keys.push_back(faces.key_of_edge(t, i));
-  for (const auto edges : {std::span<const OwnedEdge>(faces.polygon_edges), segment_edges})
-    for (const OwnedEdge& e : edges) keys.push_back(edge_key(e.edge[0], e.edge[1]));
-  make_set(keys);
-  return keys;
-}
-
-std::vector<PlanarEdge> edges_of(std::span<const std::uint64_t> keys) {
-  std::vector<PlanarEdge> edges;
-  for (const std::uint64_t key : keys) edges.push_back(edge_of(key));
-  return edges;
+bool have_common_end(const PlanarEdge& e, const PlanarEdge& f) {
+  return e[0] == f[0] || e[0] == f[1] || e[1] == f[0] || e[1] == f[1];
 }
 
 }  // namespace
 
-NearSearch::NearSearch(const BuildInput<3>& in) : in_(in), shapes_(in.points, in.scale), width_(in.tolerance * in.scale) {}
-
-template <std::size_t N>
-Box<3> NearSearch::box(const std::array<std::uint32_t, N>& corners) const {
-  auto box = Box<3>::around(shapes_.scaled(corners[0]));
-  for (const std::uint32_t v : corners) box.add(shapes_.scaled(v));
-  return box;
+template <int D>
+NearSearch<D>::NearSearch(const BuildInput<D>& in)
+    : in_(in), width_(in.tolerance * in.scale), scaled_(in.points.begin(), in.points.end()) {
+  for (Point<D>& p : scaled_)
+    for (double& x : p.x) x *= in.scale;
 }
 
-/// Of edges or triangles, each larger by the width on all sides.
-template <std::size_t N>
-BoxTree<3> NearSearch::widened_boxes(std::span<const std::array<std::uint32_t, N>> simplices) const {
-  std::vector<Box<3>> boxes;
-  for (const auto& corners : simplices) boxes.push_back(box(corners).widened(width_));
-  return BoxTree<3>(boxes);
-}
-
-std::array<Point3, 3> NearSearch::scaled(const PlanarTriangle& t) const {
-  return {shapes_.scaled(t[0]), shapes_.scaled(t[1]), shapes_.scaled(t[2])};
-}
-
-NearContacts NearSearch::find(const TriangulatedFacets& facets, const ExplicitSegments<3>& segments) const {
-  const FacetTriangles& faces = facets.faces;
-  NearContacts on_edges(points_near_edges(facets, segments), {});
-  std::vector<std::vector<std::uint32_t>> points(in_.plc.facets.size());
-  for (const TriangulatedFacet& facet : faces.facets)
-    for (std::uint32_t t = facet.first; t < facet.first + facet.count; ++t)
-      for (std::size_t i = 0; i < 3; ++i) {
-        points[facet.input].push_back(faces.triangles[t][i]);
-        if (!faces.is_constraint(t, i)) continue;
-        for (const NearPoint& near : on_edges.on_edge(faces.key_of_edge(t, i))) points[facet.input].push_back(near.point);
-      }
-  for (auto& list : points) make_set(list);
-  return std::move(on_edges).with_points_in_facets(points_near_facets(faces, std::move(points)));
-}
-
-/// Edges of facets and segments, and the points within the width of them.
-std::vector<NearPoint> NearSearch::points_near_edges(const TriangulatedFacets& facets,
-                                                     const ExplicitSegments<3>& segments) const {
-  std::vector<std::uint64_t> keys = constrained_edges(facets.faces, {});
-  for (const auto& [a, b] : segments.ends())
-    if (a != b) keys.push_back(edge_key(a, b));
-  for (const FlatFacet& flat : facets.flat)
-    for (std::size_t k = 0; k < flat.vertices.size(); ++k)
-      if (const std::uint32_t a = flat.vertices[k], b = flat.vertices[(k + 1) % flat.vertices.size()]; a != b)
-        keys.push_back(edge_key(a, b));
-  make_set(keys);
-  const std::vector<PlanarEdge> edges = edges_of(keys);
-  const BoxTree<3> tree = widened_boxes(std::span<const PlanarEdge>(edges));
-  std::vector<NearPoint> found;
-  for (std::uint32_t v = 0; v < in_.points.size(); ++v) {
-    in_.stop();
-    const Point3 p = shapes_.scaled(v);
-    tree.at(p, [&](std::size_t i) {
-      const auto& [a, b] = edges[i];
-      if (v == a || v == b) return;
-      const double t = part_of_edge_near(p, shapes_.scaled(a), shapes_.scaled(b), width_);
-      if (t > 0) found.push_back({keys[i], t, v});
-    });
+template <int D>
+void NearSearch<D>::collect_pieces(std::span<const OwnedEdge> segment_edges, std::span<const FlatFacet> flat) {
+  pieces_.clear();
+  std::vector<bool> used(in_.points.size(), false);
+  for (std::uint32_t t = 0; t < faces_->triangles.size(); ++t) {
+    pieces_.push_back({faces_->triangles[t], 3, static_cast<std::uint8_t>(faces_->facets[faces_->facet_of[t]].axis)});
+    for (const std::uint32_t v : faces_->triangles[t]) used[v] = true;
   }
-  std::sort(found.begin(), found.end());
-  return found;
+  std::vector<std::uint64_t> loose, of_triangles;
+  for (const auto edges : {segment_edges, std::span<const OwnedEdge>(faces_->polygon_edges)})
+    for (const OwnedEdge& e : edges) loose.push_back(edge_key(e.edge[0], e.edge[1]));
+  for (const FlatFacet& facet : flat)
+    for (std::size_t k = 0, n = facet.vertices.size(); k < n; ++k)
+      if (facet.vertices[k] != facet.vertices[(k + 1) % n])
+        loose.push_back(edge_key(facet.vertices[k], facet.vertices[(k + 1) % n]));
+  make_set(loose);
+  if (!loose.empty()) {
+    for (std::uint32_t t = 0; t < faces_->triangles.size(); ++t)
+      for (std::size_t i = 0; i < 3; ++i) of_triangles.push_back(faces_->key_of_edge(t, i));
+    make_set(of_triangles);
+  }
+  for (const std::uint64_t key : loose) {
+    const auto [a, b] = edge_of(key);
+    used[a] = used[b] = true;
+    if (!std::binary_search(of_triangles.begin(), of_triangles.end(), key)) pieces_.push_back({{a, b, no_entity}, 2, 0});
+  }
+  for (std::uint32_t v = 0; v < used.size(); ++v)
+    if (!used[v]) pieces_.push_back({{v, no_entity, no_entity}, 1, 0});
 }
 
-/// Pairs of an input facet and a point near to its inside that is not among its `points`, which are sorted.
-std::vector<std::pair<std::uint32_t, std::uint32_t>> NearSearch::points_near_facets(
-    const FacetTriangles& faces, std::vector<std::vector<std::uint32_t>> points) const {
-  std::vector<std::uint32_t> facet_of;
-  for (const TriangulatedFacet& facet : faces.facets) facet_of.resize(facet.first + facet.count, facet.input);
-  const BoxTree<3> tree = widened_boxes(std::span<const PlanarTriangle>(faces.triangles));
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
-  for (std::uint32_t v = 0; v < in_.points.size(); ++v) {
+template <int D>
+bool NearSearch<D>::find_pairs(FacetTriangles& faces, std::span<const OwnedEdge> segment_edges, std::span<const FlatFacet> flat) {
+  faces.index_facets();
+  faces_ = &faces;
+  collect_pieces(segment_edges, flat);
+  std::vector<std::array<std::uint32_t, 3>> corners;
+  corners.reserve(pieces_.size());
+  for (const Piece& piece : pieces_) corners.push_back(piece.corners);
+  const BoxTree<D> tree(corners, scaled_, width_);
+  using Found = std::vector<Pair>;
+  auto parts = tree.template self_pairs_in_parts<Found>(in_.bulk, [&](std::uint32_t i, std::uint32_t j, Found& found) {
     in_.stop();
-    const Point3 p = shapes_.scaled(v);
-    tree.at(p, [&](std::size_t t) {
-      const std::uint32_t f = facet_of[t];
-      if (std::binary_search(points[f].begin(), points[f].end(), v)) return;
-      if (is_near_triangle(p, scaled(faces.triangles[t]), width_)) found.emplace_back(f, v);
-    });
+    const bool meet = !have_one_facet(i, j) && contact<D>(in_.points, pieces_[i], pieces_[j]).kind != Contact::Kind::none;
+    if (meet || (width_ > 0 && come_near(i, j))) found.push_back({i, j});
+  });
+  in_.stop();
+  pairs_.clear();
+  for (const Found& part : parts) pairs_.insert(pairs_.end(), part.begin(), part.end());
+  closed_.clear();
+  if (width_ > 0)
+    for (std::uint32_t t = 0; t < faces.triangles.size(); ++t)
+      if (is_near_corner(t, t)) closed_.push_back(t);
+  return !pairs_.empty() || !closed_.empty();
+}
+
+/// Is a corner of the one near the other, which has it not; or do edges pass each other?
+template <int D>
+bool NearSearch<D>::come_near(std::uint32_t i, std::uint32_t j) const {
+  if (is_near_corner(i, j) || is_near_corner(j, i)) return true;
+  if constexpr (D == 3) {
+    if (have_one_facet(i, j) || (is_triangle(i) && is_clear_of_plane(j, i)) || (is_triangle(j) && is_clear_of_plane(i, j)))
+      return false;
+  }
+  return have_passing_edges(i, j);
+}
+
+/// Is a corner of piece i near piece j, which has it not? Of one facet's triangles, and of a triangle with itself, edges alone
+/// count.
+template <int D>
+bool NearSearch<D>::is_near_corner(std::uint32_t i, std::uint32_t j) const {
+  const Piece &from = pieces_[i], &to = pieces_[j];
+  for (std::size_t k = 0; k < from.count; ++k) {
+    const std::uint32_t v = from.corners[k];
+    if (to.has(v) && i != j) continue;
+    const Point<D>& p = scaled_[v];
+    if constexpr (D == 3)
+      if (to.count == 3 && !have_one_facet(i, j)) {
+        if (is_near_triangle(p, triangle(j), width_)) return true;
+        continue;
+      }
+    if (to.count == 1 && squared_distance(p, scaled_[to.corners[0]]) <= width_ * width_) return true;
+    for (const auto& [a, b] : edges_of(j, true))
+      if (v != a && v != b && part_of_edge_near<D>(p, scaled_[a], scaled_[b], width_)) return true;
+  }
+  return false;
+}
+
+/// Are the corners of piece i that triangle j has not all on one side of its plane, and not near that?
+template <int D>
+bool NearSearch<D>::is_clear_of_plane(std::uint32_t i, std::uint32_t j) const requires(D == 3) {
+  const auto t = triangle(j);
+  const auto n = cross(difference(t[1], t[0]), difference(t[2], t[0]));
+  const double most = 2 * width_ * std::sqrt(dot(n, n));  // twice, for the rounding here
+  bool above = true, below = true;
+  for (std::size_t k = 0; k < pieces_[i].count; ++k) {
+    if (pieces_[j].has(pieces_[i].corners[k])) continue;
+    const double height = dot(n, difference(scaled_[pieces_[i].corners[k]], t[0]));
+    above = above && height > most;
+    below = below && height < -most;
+  }
+  return above || below;
+}
+
+template <int D>
+bool NearSearch<D>::have_passing_edges(std::uint32_t i, std::uint32_t j) const {
+  if constexpr (D == 3)
+    for (const PlanarEdge& e : edges_of(i, false))
+      for (const PlanarEdge& f : edges_of(j, false))
+        if (!have_common_end(e, f) && pass_within({scaled_[e[0]], scaled_[e[1]]}, {scaled_[f[0]], scaled_[f[1]]}, width_))
+          return true;
+  return false;
+}
+
+/// The edges of a piece, or those of them that are edges of facets and segments.
+template <int D>
+auto NearSearch<D>::edges_of(std::uint32_t piece, bool constrained) const -> PieceEdges {
+  const auto& c = pieces_[piece].corners;
+  PieceEdges edges;
+  if (pieces_[piece].count == 2) edges.add(c[0], c[1]);
+  if (pieces_[piece].count == 3)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (!constrained || faces_->is_constraint(piece, k)) edges.add(c[(k + 1) % 3], c[(k + 2) % 3]);
+  return edges;
+}
+
+template <int D>
+std::array<Point3, 3> NearSearch<D>::triangle(std::uint32_t piece) const requires(D == 3) {
+  const auto& c = pieces_[piece].corners;
+  return {scaled_[c[0]], scaled_[c[1]], scaled_[c[2]]};
+}
+
+template <int D>
+NearContacts NearSearch<D>::contacts() const {
+  std::vector<NearPoint> found;
+  for (const std::uint32_t t : closed_) add_points_on_edges(t, t, found);
+  for (const auto& [i, j] : pairs_) {
+    add_points_on_edges(i, j, found);
+    add_points_on_edges(j, i, found);
   }
   make_set(found);
-  return found;
+  NearContacts on_edges(std::move(found), {});
+  if constexpr (D == 3) {
+    PointsInFacets in_facets = points_in_facets(on_edges);
+    return std::move(on_edges).with_points_in_facets(std::move(in_facets));
+  }
+  return on_edges;
 }
 
-void NearSearch::edges_and_triangles(const FacetTriangles& faces, std::span<const OwnedEdge> segment_edges,
-                                     const std::function<void(std::uint32_t, std::uint32_t, std::uint32_t)>& visit) const {
-  const BoxTree<3> tree = widened_boxes(std::span<const PlanarTriangle>(faces.triangles));
-  for (const auto& [a, b] : edges_of(constrained_edges(faces, segment_edges))) {
-    in_.stop();
-    tree.meeting(box(PlanarEdge{a, b}), [&, a = a, b = b](std::uint32_t t) { visit(a, b, t); });
+/// The corners of piece i that are near edges of piece j.
+template <int D>
+void NearSearch<D>::add_points_on_edges(std::uint32_t i, std::uint32_t j, std::vector<NearPoint>& found) const {
+  for (const auto& [a, b] : edges_of(j, true)) {
+    const std::uint64_t key = edge_key(a, b);
+    const auto [first, second] = edge_of(key);
+    for (std::size_t k = 0; k < pieces_[i].count; ++k) {
+      const std::uint32_t v = pieces_[i].corners[k];
+      if (v == a || v == b) continue;
+      if (const auto part = part_of_edge_near<D>(scaled_[v], scaled_[first], scaled_[second], width_))
+        found.push_back({key, *part, v});
+    }
   }
 }
 
-void NearSearch::passing_edges(const FacetTriangles& faces, std::span<const OwnedEdge> segment_edges,
-                               const std::function<void(const PlanarEdge&, const PlanarEdge&)>& visit) const {
-  const std::vector<PlanarEdge> edges = edges_of(constrained_edges(faces, segment_edges));
-  const auto& p = in_.points;
-  widened_boxes(std::span<const PlanarEdge>(edges)).self_pairs([&](std::uint32_t i, std::uint32_t j) {
-    in_.stop();
-    const auto &e = edges[i], &f = edges[j];
-    if (e[0] == f[0] || e[0] == f[1] || e[1] == f[0] || e[1] == f[1]) return;
-    if (!pass_within({shapes_.scaled(e[0]), shapes_.scaled(e[1])}, {shapes_.scaled(f[0]), shapes_.scaled(f[1])}, width_)) return;
-    if (orient3d(p[e[0]], p[e[1]], p[f[0]], p[f[1]]) != Sign::zero) visit(e, f);
-  });
+/// Pairs of an input facet and a point near to its inside that is neither a point of it nor on an edge of it.
+template <int D>
+auto NearSearch<D>::points_in_facets(const NearContacts& on_edges) const -> PointsInFacets requires(D == 3) {
+  PointsInFacets near;
+  const auto look = [&](std::uint32_t i, std::uint32_t j) {
+    if (!is_triangle(j)) return;
+    const std::uint32_t f = faces_->facets[faces_->facet_of[j]].input;
+    for (std::size_t k = 0; k < pieces_[i].count; ++k)
+      if (const std::uint32_t v = pieces_[i].corners[k]; !pieces_[j].has(v) && is_near_triangle(scaled_[v], triangle(j), width_))
+        near.emplace_back(f, v);
+  };
+  for (const auto& [i, j] : pairs_) {
+    if (have_one_facet(i, j)) continue;
+    look(i, j);
+    look(j, i);
+  }
+  make_set(near);
+  if (near.empty()) return near;
+  PointsInFacets known;  // points of these facets, and on their edges
+  for (const TriangulatedFacet& facet : faces_->facets) {
+    const auto at = std::ranges::lower_bound(near, std::pair{facet.input, 0u});
+    if (at == near.end() || at->first != facet.input) continue;
+    for (std::uint32_t t = facet.first; t < facet.first + facet.count; ++t)
+      for (std::size_t i = 0; i < 3; ++i) {
+        known.emplace_back(facet.input, faces_->triangles[t][i]);
+        if (!faces_->is_constraint(t, i)) continue;
+        for (const NearPoint& p : on_edges.on_edge(faces_->key_of_edge(t, i))) known.emplace_back(facet.input, p.point);
+      }
+  }
+  make_set(known);
+  std::erase_if(near, [&](const auto& pair) { return std::ranges::binary_search(known, pair); });
+  return near;
 }
 
-bool NearSearch::runs_near(std::uint32_t a, std::uint32_t b, const PlanarTriangle& t) const {
-  const auto s = scaled(t);
-  const Point3 p = shapes_.scaled(a), q = shapes_.scaled(b);
+template <int D>
+void NearSearch<D>::edges_and_triangles(const std::function<void(std::uint32_t, std::uint32_t, std::uint32_t)>& visit) const
+    requires(D == 3) {
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> found;
+  const auto look = [&](std::uint32_t i, std::uint32_t j) {
+    if (!is_triangle(j)) return;
+    for (const auto& [a, b] : edges_of(i, true)) found.emplace_back(edge_key(a, b), j);
+  };
+  for (const auto& [i, j] : pairs_) {
+    look(i, j);
+    look(j, i);
+  }
+  make_set(found);
+  for (const auto& [key, t] : found) visit(edge_of(key)[0], edge_of(key)[1], t);
+}
+
+template <int D>
+void NearSearch<D>::passing_edges(const std::function<void(const PlanarEdge&, const PlanarEdge&)>& visit) const requires(D == 3) {
+  std::vector<std::array<std::uint64_t, 2>> found;
+  for (const auto& [i, j] : pairs_)
+    for (const PlanarEdge& e : edges_of(i, true))
+      for (const PlanarEdge& f : edges_of(j, true)) {
+        if (have_common_end(e, f) || !pass_within({scaled_[e[0]], scaled_[e[1]]}, {scaled_[f[0]], scaled_[f[1]]}, width_))
+          continue;
+        const std::uint64_t first = edge_key(e[0], e[1]), second = edge_key(f[0], f[1]);
+        found.push_back({std::min(first, second), std::max(first, second)});
+      }
+  make_set(found);
+  const auto& p = in_.points;
+  for (const auto& [first, second] : found) {
+    const PlanarEdge e = edge_of(first), f = edge_of(second);
+    if (orient3d(p[e[0]], p[e[1]], p[f[0]], p[f[1]]) != Sign::zero) visit(e, f);
+  }
+}
+
+template <int D>
+bool NearSearch<D>::runs_near(std::uint32_t a, std::uint32_t b, const PlanarTriangle& t) const requires(D == 3) {
+  const std::array s{scaled_[t[0]], scaled_[t[1]], scaled_[t[2]]};
+  const Point3 &p = scaled_[a], &q = scaled_[b];
   const auto n = cross(difference(s[1], s[0]), difference(s[2], s[0]));
   double from = 0, to = 1;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -188,10 +280,13 @@ bool NearSearch::runs_near(std::uint32_t a, std::uint32_t b, const PlanarTriangl
   return is_long && std::fabs(height(from)) <= most && std::fabs(height(to)) <= most;
 }
 
-bool NearSearch::is_nearly_flat(const std::array<Point3, 4>& corners_of_joint) const {
+template <int D>
+bool NearSearch<D>::is_nearly_flat(const std::array<Point3, 4>& corners_of_joint) const requires(D == 3) {
   const auto& [a, b, c, d] = corners_of_joint;
-  const double most = width_ / in_.scale;
-  return plane_distance(a, b, c, d) <= most && plane_distance(a, b, d, c) <= most;
+  return plane_distance(a, b, c, d) <= in_.tolerance && plane_distance(a, b, d, c) <= in_.tolerance;
 }
+
+template class NearSearch<2>;
+template class NearSearch<3>;
 
 }  // namespace pgdr::detail

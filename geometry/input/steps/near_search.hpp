@@ -1,58 +1,86 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Finds what is near to what it does not belong to (3D), where the caller wants points within a distance merged: points near
-// edges and facets, and edges that run along facets. Looks at the triangles of all facets as they are.
+// Finds what meets, or comes within the tolerance of what it does not belong to: points near edges and facets, and edges that run
+// along facets. One pass over the pairs of pieces whose boxes meet tells whether there is anything at all, which of most inputs
+// there is not; the rest looks at the pairs that it found. Used by one thread; its loops run in parallel.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "input/steps/build_input.hpp"
-#include "input/steps/explicit_segments.hpp"
 #include "input/steps/facet_triangulator.hpp"
-
 #include "input/steps/near_contacts.hpp"
 #include "input/triangle_shapes.hpp"
-#include "space/box_tree.hpp"
+#include "space/contact.hpp"
 
 namespace pgdr::detail {
 
+template <int D>
 class NearSearch {
  public:
-  explicit NearSearch(const BuildInput<3>& in);
+  explicit NearSearch(const BuildInput<D>& in);
 
-  /// Within which, times BuildInput::scale; 0: nothing is near.
+  /// Within which, times BuildInput::scale; 0: only what meets exactly is found.
   double width() const { return width_; }
 
-  /// Points near edges and the inside of facets.
-  NearContacts find(const TriangulatedFacets& facets, const ExplicitSegments<3>& segments) const;
-  /// Calls visit(a, b, t) for edges of facets and segments, and triangles whose boxes, larger by the width, meet.
-  void edges_and_triangles(const FacetTriangles& faces, std::span<const OwnedEdge> segment_edges,
-                           const std::function<void(std::uint32_t, std::uint32_t, std::uint32_t)>& visit) const;
+  /// Finds the pairs of pieces (triangles, edges of no triangle, points of neither) that meet or come near where they have no
+  /// corner in common, of which all else here speaks; true if there are any, or a triangle with a corner near its edge opposite.
+  /// The facets of triangles are indexed then.
+  bool find_pairs(FacetTriangles& faces, std::span<const OwnedEdge> segment_edges, std::span<const FlatFacet> flat);
+
+  /// Points near edges, and near the inside of facets.
+  NearContacts contacts() const;
+  /// Calls visit(a, b, t) for edges of facets and segments, and triangles, that meet or are near each other.
+  void edges_and_triangles(const std::function<void(std::uint32_t, std::uint32_t, std::uint32_t)>& visit) const requires(D == 3);
   /// Calls visit(e, f) for edges, of no common point and not in one plane, that pass each other within the width.
-  void passing_edges(const FacetTriangles& faces, std::span<const OwnedEdge> segment_edges,
-                     const std::function<void(const PlanarEdge&, const PlanarEdge&)>& visit) const;
+  void passing_edges(const std::function<void(const PlanarEdge&, const PlanarEdge&)>& visit) const requires(D == 3);
   /// Is the part of ab that is seen inside of the triangle, along its normal, within the width of its plane?
-  bool runs_near(std::uint32_t a, std::uint32_t b, const PlanarTriangle& t) const;
+  bool runs_near(std::uint32_t a, std::uint32_t b, const PlanarTriangle& t) const requires(D == 3);
   /// Do the corners opposite a joint's edge lie within the width of the planes of each other's triangles?
-  bool is_nearly_flat(const std::array<Point3, 4>& corners_of_joint) const;
+  bool is_nearly_flat(const std::array<Point3, 4>& corners_of_joint) const requires(D == 3);
 
  private:
-  template <std::size_t N>
-  Box<3> box(const std::array<std::uint32_t, N>& corners) const;
-  template <std::size_t N>
-  BoxTree<3> widened_boxes(std::span<const std::array<std::uint32_t, N>> simplices) const;
-  std::array<Point3, 3> scaled(const PlanarTriangle& t) const;
-  std::vector<NearPoint> points_near_edges(const TriangulatedFacets& facets, const ExplicitSegments<3>& segments) const;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> points_near_facets(const FacetTriangles& faces,
-                                                                          std::vector<std::vector<std::uint32_t>> points) const;
+  using Pair = std::array<std::uint32_t, 2>;  // of pieces
 
-  const BuildInput<3>& in_;
-  TriangleShapes shapes_;
+  void collect_pieces(std::span<const OwnedEdge> segment_edges, std::span<const FlatFacet> flat);
+  bool is_triangle(std::uint32_t piece) const { return piece < faces_->triangles.size(); }
+  bool have_one_facet(std::uint32_t i, std::uint32_t j) const {
+    return is_triangle(j) && is_triangle(i) && faces_->facet_of[i] == faces_->facet_of[j];
+  }
+  bool come_near(std::uint32_t i, std::uint32_t j) const;
+  bool is_near_corner(std::uint32_t i, std::uint32_t j) const;
+  bool have_passing_edges(std::uint32_t i, std::uint32_t j) const;
+  bool is_clear_of_plane(std::uint32_t i, std::uint32_t j) const requires(D == 3);
+  /// The edges of a piece; memory of its own would cost more than all else.
+  class PieceEdges {
+   public:
+    void add(std::uint32_t a, std::uint32_t b) { edges_[count_++] = {a, b}; }
+    const PlanarEdge* begin() const { return edges_.data(); }
+    const PlanarEdge* end() const { return edges_.data() + count_; }
+
+   private:
+    std::array<PlanarEdge, 3> edges_;
+    std::size_t count_ = 0;
+  };
+  PieceEdges edges_of(std::uint32_t piece, bool constrained) const;
+  std::array<Point3, 3> triangle(std::uint32_t piece) const requires(D == 3);
+  void add_points_on_edges(std::uint32_t i, std::uint32_t j, std::vector<NearPoint>& found) const;
+  using PointsInFacets = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+  PointsInFacets points_in_facets(const NearContacts& on_edges) const requires(D == 3);
+
+  const BuildInput<D>& in_;
   double width_;
+  std::vector<Point<D>> scaled_;
+  const FacetTriangles* faces_ = nullptr;
+  std::vector<Piece> pieces_;
+  std::vector<Pair> pairs_;
+  std::vector<std::uint32_t> closed_;  // triangles with a corner near the edge opposite
 };
 
 }  // namespace pgdr::detail

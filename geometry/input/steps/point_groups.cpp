@@ -13,8 +13,8 @@
 namespace pgdr::detail {
 namespace {
 
-/// Cubes of a grid so much wider than the tolerance that few points are near a wall of theirs, and moved off the origin, where many
-/// points have their coordinates.
+/// Cubes of a grid so much wider than the tolerance that few points are near a wall of theirs, and moved off the origin, where
+/// many points have their coordinates.
 constexpr double width_of_cube = 64, moved_by = 0.37;
 constexpr std::size_t most_compared = 256;  // points of a group, each with each; a larger one is measured by its box
 
@@ -114,8 +114,8 @@ PointGroups group_points(std::span<const Point<D>> points, double tolerance, con
       continue;
     }
     for (const std::uint32_t v : group) out.group_of[v] = group[0];
-    out.place_of[group[0]] =
-        *std::ranges::min_element(group, [&](std::uint32_t v, std::uint32_t w) { return lex_less(points[v], points[w]); });
+    out.place_of[group[0]] = *std::ranges::min_element(
+        group, [&](std::uint32_t v, std::uint32_t w) { return lex_less(points[v], points[w]); });
   }
   return out;
 }

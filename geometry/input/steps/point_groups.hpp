@@ -22,9 +22,9 @@ struct AmbiguousGroup {
 };
 
 struct PointGroups {
-  std::vector<std::uint32_t> group_of;     ///< of each point the smallest number in its group, which may be its own
-  std::vector<std::uint32_t> place_of;     ///< by that number: the point at whose place the group is, lexicographically the least
-  std::vector<AmbiguousGroup> ambiguous;   ///< whose points are left apart
+  std::vector<std::uint32_t> group_of;    ///< of each point the smallest number in its group, which may be its own
+  std::vector<std::uint32_t> place_of;    ///< by that number: the point at whose place the group is, lexicographically the least
+  std::vector<AmbiguousGroup> ambiguous;  ///< whose points are left apart
 };
 
 /// Groups distinct points, whose coordinates are of the size of 1. Near-linear. @param tolerance  > 0
