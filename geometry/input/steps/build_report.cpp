@@ -75,6 +75,10 @@ void BuildReport<D>::write(std::vector<Diagnostic>& mended, std::vector<Diagnost
   list(repairs.dropped_flat, Errc::degenerate_facet, "facets with all their points on edges of others, dropped");
   list(repairs.dropped_bare, Errc::degenerate_facet, "facets without an area, with all their points on one line, dropped");
   warnings.insert(warnings.end(), warnings_.begin(), warnings_.end());
+  repairs.ambiguous_planes.report(Errc::ambiguous,
+                                  "groups of facets of which each lies in one plane with the next, within the tolerance, but not "
+                                  "all together: taken as they are",
+                                  plc_.source.file, warnings);
   repairs.bent_facets.report(Errc::bent_facet, "facets that are far from planar, taken as triangles with segments between them",
                              plc_.source.file, warnings);
 }

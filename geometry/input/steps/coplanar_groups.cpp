@@ -3,67 +3,38 @@
 #include "input/steps/coplanar_groups.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
+#include <string>
+#include <utility>
 
-#include "numbers/vectors.hpp"
+#include "space/make_set.hpp"
 
 namespace pgdr::detail {
-namespace {
 
-/// The plane of triangles, in coordinates of at most 1. The first one added should not be thin.
-class FittedPlane {
- public:
-  explicit FittedPlane(const Point3& origin) : origin_(origin) {}
-
-  /// @param normal  (b - a) x (c - a), to either side.
-  void add(const Point3& a, const Point3& b, const Point3& c, Vector<3> normal) {
-    if (dot(normal, normal_) < 0)
-      for (double& x : normal) x = -x;
-    const double weight = std::sqrt(dot(normal, normal));
-    weight_ += weight;
-    for (int i = 0; i < 3; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      normal_[k] += normal[k];
-      centre_[k] += weight / 3 * ((a[i] - origin_[i]) + (b[i] - origin_[i]) + (c[i] - origin_[i]));
-    }
-  }
-  bool holds(const Point3& p, double tolerance) const {
-    Vector<3> d;
-    for (int i = 0; i < 3; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      d[k] = (p[i] - origin_[i]) - centre_[k] / weight_;
-    }
-    return std::fabs(dot(d, normal_)) <= tolerance * std::sqrt(dot(normal_, normal_));
-  }
-
- private:
-  Point3 origin_;
-  Vector<3> normal_{}, centre_{};
-  double weight_ = 0;
-};
-
-}  // namespace
-
-CoplanarGroups::CoplanarGroups(const BuildInput<3>& in, FacetTriangles& faces, const EdgeUses& uses)
+CoplanarGroups::CoplanarGroups(const BuildInput<3>& in, FacetTriangles& faces, const EdgeUses& uses, BuildReport<3>& report)
     : in_(in),
       shapes_(in.points, in.scale),
       faces_(faces),
       uses_(uses),
+      report_(report),
       joints_(in, faces),
-      state_(faces.facets.size(), State::ungrouped),
+      width_(in.tolerance * in.scale),
+      exactly_(faces.facets.size()),
+      nearly_(faces.facets.size()),
       root_(faces.facets.size()) {
   std::iota(root_.begin(), root_.end(), 0u);
-  find_joints();
-  std::vector<std::pair<double, std::uint32_t>> seeds;  // largest first: minus its size
-  for (std::uint32_t f = 0; f < faces_.facets.size(); ++f)
-    if (at_begin_[f] != at_begin_[f + 1]) seeds.emplace_back(-largest_triangle(f).second, f);
-  std::sort(seeds.begin(), seeds.end());
-  for (const auto& [size, f] : seeds)
-    if (state_[f] == State::ungrouped) {
-      in_.stop();
-      grow_plane(f);
-    }
+  if (faces.facets.empty()) return;
+  fit_planes();
+  unite_pairs();
+  std::vector<std::uint32_t> by_group(root_);
+  std::stable_sort(by_group.begin(), by_group.end(),
+                   [this](std::uint32_t f, std::uint32_t g) { return nearly_.find(f) < nearly_.find(g); });
+  const std::span<const std::uint32_t> all(by_group);
+  for (std::size_t begin = 0, end; begin < all.size(); begin = end) {
+    in_.stop();
+    for (end = begin + 1; end < all.size() && nearly_.find(all[end]) == nearly_.find(all[begin]);) ++end;
+    if (end - begin > 1) settle(all.subspan(begin, end - begin));
+  }
 }
 
 std::vector<bool> CoplanarGroups::find_soft_edges() const {
@@ -77,73 +48,98 @@ std::vector<bool> CoplanarGroups::find_soft_edges() const {
   return soft;
 }
 
-/// The joints between different facets, of each of these.
-void CoplanarGroups::find_joints() {
-  const auto each = [&](auto&& visit) {
-    uses_.each_edge([&](std::size_t begin, std::span<const EdgeUse> uses) {
-      if (uses.size() >= 2 && uses[0].owner != uses[1].owner && joints_.is_joint(uses)) visit(static_cast<std::uint32_t>(begin));
-    });
-  };
-  at_begin_.assign(faces_.facets.size() + 1, 0);
-  each([&](std::uint32_t begin) {
-    for (const std::size_t k : {0, 1}) ++at_begin_[uses_[begin + k].owner + 1];
-  });
-  for (std::size_t f = 1; f < at_begin_.size(); ++f) at_begin_[f] += at_begin_[f - 1];
-  at_.resize(at_begin_.back());
-  std::vector<std::uint32_t> next(at_begin_);
-  each([&](std::uint32_t begin) {
-    for (const std::size_t k : {0, 1}) at_[next[uses_[begin + k].owner]++] = begin;
+void CoplanarGroups::fit_planes() {
+  const Point3 origin = shapes_.scaled(faces_.triangles[0][0]);
+  planes_.assign(faces_.facets.size(), FittedPlane(origin));
+  in_.bulk.each(faces_.facets.size(), [&](std::size_t f) {
+    for (const PlanarTriangle& t : faces_.of(faces_.facets[f]))
+      planes_[f].add(shapes_.scaled(t[0]), shapes_.scaled(t[1]), shapes_.scaled(t[2]), shapes_.normal(t));
   });
 }
 
-/// A facet's triangle of the longest normal, and this length.
-std::pair<std::uint32_t, double> CoplanarGroups::largest_triangle(std::uint32_t f) const {
-  const TriangulatedFacet& facet = faces_.facets[f];
-  std::pair<std::uint32_t, double> largest{facet.first, -1};
-  for (std::uint32_t t = facet.first; t < facet.first + facet.count; ++t) {
-    const auto n = shapes_.normal(faces_.triangles[t]);
-    if (const double size = std::sqrt(dot(n, n)); size > largest.second) largest = {t, size};
-  }
-  return largest;
-}
-
-// Facets that are reached by exactly coplanar ones alone are taken as they are, whatever the doubles of the fit say.
-void CoplanarGroups::grow_plane(std::uint32_t seed) {
-  const PlanarTriangle& first = faces_.triangles[largest_triangle(seed).first];
-  const int axis = axes_by_size(shapes_.normal(first))[0];
-  FittedPlane plane(shapes_.scaled(first[0]));
-  const auto add = [&](std::uint32_t f) {
-    for (const PlanarTriangle& t : faces_.of(faces_.facets[f]))
-      plane.add(shapes_.scaled(t[0]), shapes_.scaled(t[1]), shapes_.scaled(t[2]), shapes_.normal(t));
-  };
-  const auto held = [&](std::uint32_t f) {
-    for (const PlanarTriangle& t : faces_.of(faces_.facets[f]))
-      for (const std::uint32_t v : t)
-        if (!plane.holds(shapes_.scaled(v), in_.tolerance * in_.scale)) return false;
-    return true;
-  };
-
-  std::vector<std::uint32_t> group{seed};
-  state_[seed] = State::exactly;
-  add(seed);
-  bool all_exact = true;
-  for (std::size_t k = 0; k < group.size(); ++k)
-    for (std::uint32_t j = at_begin_[group[k]]; j < at_begin_[group[k] + 1]; ++j) {
-      const auto joint = uses_.all().subspan(at_[j], 2);
-      const std::uint32_t g = joint[0].owner == group[k] ? joint[1].owner : joint[0].owner;
-      if (state_[g] != State::ungrouped || !joints_.opens(joint, axis)) continue;
-      const bool flat = state_[group[k]] == State::exactly && joints_.is_flat(joint);
-      if (!flat && !held(g)) continue;
-      state_[g] = flat ? State::exactly : State::nearly;
-      all_exact &= flat;
-      add(g);
-      group.push_back(g);
+void CoplanarGroups::unite_pairs() {
+  std::vector<Pair> pairs;
+  uses_.each_edge([&](std::size_t, std::span<const EdgeUse> uses) {
+    if (uses.size() < 2 || uses[0].owner == uses[1].owner || !joints_.is_joint(uses)) return;
+    const auto [f, g] = std::minmax(uses[0].owner, uses[1].owner);
+    const auto& larger = planes_[planes_[f].weight() < planes_[g].weight() ? g : f];
+    if (!joints_.opens(uses, axes_by_size(larger.normal())[0])) return;
+    if (joints_.is_flat(uses)) {
+      exactly_.unite(f, g);
+      nearly_.unite(f, g);
+    } else if (width_ > 0) {
+      pairs.push_back({f, g});
     }
-  const std::uint32_t root = *std::min_element(group.begin(), group.end());
+  });
+  make_set(pairs);
+  std::vector<char> one_plane(pairs.size());
+  in_.bulk.each(pairs.size(), [&](std::size_t k) { one_plane[k] = have_one_plane(pairs[k]); });
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    if (one_plane[k]) nearly_.unite(pairs[k][0], pairs[k][1]);
+}
+
+/// Looks at the smaller facet first: most often it is that which is not in the plane.
+bool CoplanarGroups::have_one_plane(const Pair& pair) const {
+  auto [f, g] = pair;
+  if (planes_[f].weight() < planes_[g].weight()) std::swap(f, g);
+  FittedPlane plane = planes_[f];
+  plane.add(planes_[g]);
+  return farthest_off(plane, g).distance <= width_ && farthest_off(plane, f).distance <= width_;
+}
+
+CoplanarGroups::Farthest CoplanarGroups::farthest_off(const FittedPlane& plane, std::uint32_t f) const {
+  Farthest farthest;
+  for (const PlanarTriangle& t : faces_.of(faces_.facets[f]))
+    for (const std::uint32_t v : t)
+      if (const double d = plane.distance(shapes_.scaled(v)); !(d <= farthest.distance)) farthest = {v, d};
+  return farthest;
+}
+
+/// Facets that are reached by exactly coplanar ones alone are taken as they are, whatever the doubles of the fit say.
+void CoplanarGroups::settle(std::span<const std::uint32_t> group) {
+  const auto largest = std::ranges::max_element(group, {}, [this](std::uint32_t f) { return planes_[f].weight(); });
+  FittedPlane plane = planes_[*largest];
+  for (const std::uint32_t f : group)
+    if (f != *largest) plane.add(planes_[f]);
+  const std::uint32_t first = exactly_.find(group[0]);
+  const bool exactly = std::ranges::all_of(group, [&](std::uint32_t f) { return exactly_.find(f) == first; });
+  if (exactly) return take(group, plane, true);
+  Farthest farthest;
+  for (const std::uint32_t f : group)
+    if (const Farthest here = farthest_off(plane, f); here.distance > farthest.distance) farthest = here;
+  if (farthest.distance <= width_) return take(group, plane, false);
+  leave_exact(group, farthest);
+}
+
+void CoplanarGroups::take(std::span<const std::uint32_t> group, const FittedPlane& plane, bool exactly) {
+  const std::uint32_t root = group[0];
   for (const std::uint32_t f : group) root_[f] = root;
-  if (group.size() == 1) return;
-  faces_.facets[root].axis = axis;
-  faces_.facets[root].planar &= all_exact;
+  faces_.facets[root].axis = axes_by_size(plane.normal())[0];
+  faces_.facets[root].planar = faces_.facets[root].planar && exactly;
+}
+
+void CoplanarGroups::leave_exact(std::span<const std::uint32_t> group, const Farthest& farthest) {
+  const auto number = [this](std::uint32_t f) { return report_.number(faces_.facets[f].input); };
+  const std::string words = std::to_string(group.size()) + " from facet " + std::to_string(number(group[0])) + " on, point " +
+                            report_.point_words(farthest.point) + " is off by " + to_text(farthest.distance / in_.scale);
+  if (in_.plc.tolerance)
+    report_.attempt([&] {
+      report_.fail(Errc::ambiguous,
+                   "facets of which each lies in one plane with the next, within the tolerance, but not all together: " + words,
+                   in_.plc.source.facet_lines, faces_.facets[group[0]].input,
+                   {number(group[0]), report_.point_number(farthest.point)}, {in_.points[farthest.point].x});
+    });
+  report_.repairs.ambiguous_planes.add([&] { return words; }, {number(group[0]), report_.point_number(farthest.point)});
+  std::vector<std::uint32_t> by_plane(group.begin(), group.end());
+  std::stable_sort(by_plane.begin(), by_plane.end(),
+                   [this](std::uint32_t f, std::uint32_t g) { return exactly_.find(f) < exactly_.find(g); });
+  const std::span<const std::uint32_t> all(by_plane);
+  for (std::size_t begin = 0, end; begin < all.size(); begin = end) {
+    FittedPlane plane = planes_[all[begin]];
+    for (end = begin + 1; end < all.size() && exactly_.find(all[end]) == exactly_.find(all[begin]); ++end)
+      plane.add(planes_[all[end]]);
+    if (end - begin > 1) take(all.subspan(begin, end - begin), plane, true);
+  }
 }
 
 }  // namespace pgdr::detail

@@ -105,7 +105,7 @@ void DomainBuilder<D>::group_facets(const Input& in, const EdgeUses& uses) requi
   stop_();
   const bool joins = near_search_->width() > 0;
   detail::report_flat_facets(in, facets_.flat, uses, joins ? &near_ : nullptr, report_);
-  const detail::CoplanarGroups groups(in, facets_.faces, uses);
+  const detail::CoplanarGroups groups(in, facets_.faces, uses, report_);
   soft_ = groups.find_soft_edges();
   stop_();
   detail::MaximalFacets facets = detail::make_maximal_facets(in, facets_.faces, groups.roots(), Domain<D>::few_points);
