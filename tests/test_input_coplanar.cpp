@@ -12,7 +12,6 @@
 #include <random>
 
 #include "parallel_support.hpp"
-#include "pgdr/written_precision.hpp"
 
 namespace pgdr::test_input_coplanar {
 
@@ -85,7 +84,7 @@ TEST_P(Turned, BoxOfTrianglesHasSixFacetsAndNoPoorElement) {
   EXPECT_EQ(domain.facets().size(), 6u);
   EXPECT_EQ(domain.segments().size(), 60u);
   Plc<3> exact = plc;
-  exact.precision = 0;
+  exact.tolerance = 0;
   EXPECT_GT(Domain<3>(exact).facets().size(), 50u);
   const auto result = test::expect_reproducible<3>(plc, {}, "turned box");
   EXPECT_EQ(result.poor_left, 0u);
@@ -124,54 +123,55 @@ TEST(Coplanar, MarkersKeepFacetsApart) {
 TEST(Coplanar, SmoothSurfacesStayAsTheyAre) {
   Plc<3> plc = turned(test::icosphere(4), 0);
   EXPECT_EQ(Domain<3>(plc).facets().size(), plc.facets.size());
-  plc.precision = 1e-6;
+  plc.tolerance = 1e-6;
   EXPECT_EQ(Domain<3>(plc).facets().size(), plc.facets.size());
 }
 
+// Each facet of a fine round surface lies in one plane with the next, within floats, and all together do not.
+TEST(Coplanar, AmbiguousGroupsStayAsTheyAre) {
+  Plc<3> plc = turned(test::icosphere(4), 0);
+  constexpr double sagitta = 1e-2;  // of two triangles of this sphere
+  plc.tolerance = sagitta;
+  plc.is_coarse = true;
+  try {
+    const Domain<3> domain(plc);
+    ADD_FAILURE();
+  } catch (const InputError& e) {
+    EXPECT_EQ(e.code(), Errc::ambiguous);
+    EXPECT_EQ(e.diagnostic().points.size(), 1u);
+  }
+  for_each_point(plc, [](Point3& p) {  // so small beside its coordinates that the default is as wide
+    p[0] = p[0] * 1e-13 + 1;
+    p[1] = p[1] * 1e-13;
+    p[2] = p[2] * 1e-13;
+  });
+  plc.tolerance.reset();
+  std::vector<Diagnostic> refused;
+  const Domain<3> domain = Domain<3>::without_invalid(plc, refused);
+  EXPECT_TRUE(std::ranges::any_of(domain.warnings(), [](const Diagnostic& d) { return d.code == Errc::ambiguous; }));
+}
+
 // As many programs write them.
-TEST(Coplanar, SixDigitsAndAPrecisionToMatch) {
+TEST(Coplanar, SixDigitsAndAToleranceToMatch) {
   Plc<3> plc = turned(gridded_box(5), 0);
   for_each_point(plc, [](Point3& p) {
     for (double& x : p.x) x = std::round(x * 1e6) / 1e6;
   });
   EXPECT_GT(Domain<3>(plc).facets().size(), 50u);
-  plc.precision = 2e-6;
+  plc.tolerance = 2e-6;
   EXPECT_EQ(Domain<3>(plc).facets().size(), 6u);
   const auto outcome = test::refine_and_check<3>(plc, {});
   EXPECT_EQ(outcome.report.exit_code(), 0) << test::findings(outcome.report);
   EXPECT_EQ(outcome.result.poor_left, 0u);
 }
 
-// As programs print them: six significant digits, and floats. That of people, of few digits, is meant as it is.
-TEST(Coplanar, ThePrecisionThatDigitsAllow) {
-  const double rounding = Plc<3>{}.precision;
-  EXPECT_EQ(written_precision({}), rounding);
-  EXPECT_EQ(written_precision(std::vector<Point3>{{{0, 1, -2.25}}, {{1e-3, 1200, 0.1}}}), rounding);
-  EXPECT_EQ(written_precision(std::vector<Point3>{{{0.71233, 1, 0.12347}}}), 1e-4);
-  EXPECT_EQ(written_precision(std::vector<Point3>{{{0, 0.171717, 123.457}}}), 1e-5);
-  EXPECT_EQ(written_precision(std::vector<Point3>{{{0, 1, -1.234567e-9}}}), 1e-6);
-  EXPECT_EQ(written_precision(std::vector<Point3>{{{0, 1, 1.23456789}}}), 0x1p-22);
-  EXPECT_EQ(written_precision(std::vector<Point3>{{{0, 1, double{1.0f / 3}}}}), 0x1p-22);
-  EXPECT_EQ(written_precision(std::vector<Point3>{{{0, double{1.0f / 3}, 1.0 / 3}}}), rounding);
-  EXPECT_EQ(written_precision(std::vector<Point3>{{{0, 0.015625, 1.359375}}}), rounding);  // 64ths
-  for (const double unit : {1e-3, 1e3, 1e-9})                                              // which rounds
-    EXPECT_EQ(written_precision(std::vector<Point3>{{{0, unit * 0.171717, unit * 123.457}},
-                                                    {{unit * 0.300001, unit * 77.0703, unit * 0.999999}}}),
-              1e-5)
-        << unit;
-  for (const int scale : {-300, -77, -1, 1, 10, 300}) {  // which takes nothing away
-    const auto scaled = [scale](double x) { return std::ldexp(x, scale); };
-    EXPECT_EQ(written_precision(std::vector<Point3>{{{0, scaled(1200), scaled(0.1)}}}), rounding) << scale;
-    EXPECT_EQ(written_precision(std::vector<Point3>{{{0, scaled(0.171717), scaled(123.457)}}}), 1e-5) << scale;
-    EXPECT_EQ(written_precision(std::vector<Point3>{{{0, 0, scaled(double{1.0f / 3})}}}), 0x1p-22) << scale;
-  }
-
+TEST(Coplanar, FloatsAreToldByTheirReader) {
   Plc<3> plc = turned(gridded_box(5), 0);
   for_each_point(plc, [](Point3& p) {
     for (double& x : p.x) x = static_cast<float>(x);
   });
   EXPECT_GT(Domain<3>(plc).facets().size(), 50u);
-  plc.precision = written_precision(plc.points);
+  plc.are_floats = true;
   EXPECT_EQ(Domain<3>(plc).facets().size(), 6u);
 }
 
@@ -218,38 +218,19 @@ Plc<3> plate_with_boss(int n, double height, double off) {
   return plc;
 }
 
-// A file that was turned has all digits, of points that are no more exact for it. (Of the plate, a face of which is 64 long
-// and thin facets then, came elements that stayed poor for no reason that `check` takes, after more than a minute.)
-TEST(Coplanar, ThePrecisionOfFacesThatLookPlanar) {
-  Plc<3> plc = turned(gridded_box(5), 0);
-  for_each_point(plc, [](Point3& p) {
-    for (double& x : p.x) x = static_cast<float>(x);
-  });
-  for (const double scale : {1.0, 37.0}) {
-    Plc<3> again = turned(plc, 10);
-    for_each_point(again, [scale](Point3& p) {
-      for (double& x : p.x) x *= scale;
-    });
-    EXPECT_EQ(written_precision(again.points), again.precision);
-    again.precision = suggested_precision(again);
-    EXPECT_LT(again.precision, 2e-6);
-    EXPECT_EQ(Domain<3>(again).facets().size(), 6u);
-  }
+// (Of the plate, a face of which is 64 long and thin facets, came elements that stayed poor for no reason that `check` takes, after
+// more than a minute.)
+TEST(Coplanar, FacesThatLookPlanar) {
+  Plc<3> plc;
   for (const double off : {1e-12, 1e-9, 3e-7}) {
     plc = plate_with_boss(64, 0.01, off);
     EXPECT_GT(Domain<3>(plc).facets().size(), 130u);
-    plc.precision = suggested_precision(plc);
+    plc.tolerance = 12 * off;
     EXPECT_EQ(Domain<3>(plc).facets().size(), 71u) << off;
   }
   const auto outcome = test::refine_and_check<3>(plc, {});
   EXPECT_EQ(outcome.report.exit_code(), 0) << test::findings(outcome.report);
   EXPECT_EQ(outcome.result.poor_left, 0u);
-}
-
-// What is bent is not planar, and exact faces need no precision; nor is it the place to refuse an input.
-TEST(Coplanar, OtherSurfacesHaveNoSuchPrecision) {
-  for (const Plc<3>& plc : {turned(test::icosphere(4), 0), turned(gridded_box(4), 0), plate_with_boss(64, 0.01, 0), Plc<3>{}})
-    EXPECT_EQ(suggested_precision(plc), Plc<3>{}.precision);
 }
 
 // Each vertex on such a face asks which triangle it is on. (Of a tray whose bottom has 1,200 triangles, turned, the checker

@@ -161,7 +161,7 @@ TEST(Domain, TrianglesThatAreCoplanarUpToRoundingAreOneFacet) {
   }
   EXPECT_GT(defect, 0x1p-54);
   EXPECT_LT(defect, 0x1p-51);
-  plc.precision = 0;
+  plc.tolerance = 0;
   EXPECT_GT(Domain<3>(plc).facets().size(), 6u);
 }
 

@@ -1,19 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Plc::merge_within: points that files write with different digits. The story: an STL file of a demo of gmsh whose corners
+// Points within the tolerance: points that files write with different digits. The story: an STL file of a demo of gmsh whose corners
 // differ by 1e-16 from one triangle to the next was refused for facets that intersect, without a word about why.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "domain_plcs.hpp"
 #include "pgdr/check.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/refine.hpp"
-#include "pgdr/written_precision.hpp"
 #include "planar_plcs.hpp"
 #include "refined_models.hpp"
 #include "repair_plcs.hpp"
@@ -71,7 +71,7 @@ TEST(MergePoints, ASoupOfTriangles) {
     const Diagnosis<3> before = diagnose(plc);
     EXPECT_EQ(before[Finding::near_points].count, 36u - 8);
     EXPECT_GE(before[Finding::open_boundary].count, 1u);
-    plc.merge_within = 1e-9;
+    plc.tolerance = std::ldexp(1e-9, exponent);
     const Domain<3> d(plc);
     EXPECT_EQ(d.points().size(), 8u);
     EXPECT_EQ(count_of(d.repairs(), Errc::near_points), 28u);
@@ -94,32 +94,30 @@ TEST(MergePoints, ByTheMeasureOfTheDiagnosis) {
   EXPECT_GT(found.listed[0].measure, found.listed[1].measure);
   const double measure = found.listed[0].measure;
   EXPECT_GT(measure, 1e-10);
-  plc.merge_within = measure * (1 + 1e-9);
+  plc.tolerance = measure * (1 + 1e-9);
   EXPECT_EQ(Domain<3>(plc).points().size(), 8u);
-  plc.merge_within = measure * (1 - 1e-9);
-  EXPECT_GT(Domain<3>(plc).points().size(), 8u);
 }
 
+/// Of each point the first of its group: the connected components of "within the distance", but for those wider than twice it.
 template <int D>
 std::vector<std::uint32_t> by_brute_force(const std::vector<Point<D>>& points, double distance) {
-  std::vector<Point<D>> kept;
-  std::vector<std::uint32_t> place;
-  for (const Point<D>& p : points) {
-    std::uint32_t best = no_entity;
-    double least = distance * distance;
-    for (std::uint32_t v = 0; v < kept.size(); ++v) {
-      const double d = squared_distance(p, kept[v]);
-      if (d > least || (best != no_entity && d == least)) continue;
-      least = d;
-      best = v;
-    }
-    if (best == no_entity) {
-      best = static_cast<std::uint32_t>(kept.size());
-      kept.push_back(p);
-    }
-    place.push_back(best);
-  }
-  return place;
+  const auto n = static_cast<std::uint32_t>(points.size());
+  std::vector<std::uint32_t> group(n);
+  std::iota(group.begin(), group.end(), 0u);
+  for (bool changed = true; std::exchange(changed, false);)
+    for (std::uint32_t v = 0; v < n; ++v)
+      for (std::uint32_t w = 0; w < n; ++w)
+        if (group[w] < group[v] && std::sqrt(squared_distance(points[v], points[w])) <= distance) {
+          group[v] = group[w];
+          changed = true;
+        }
+  std::vector<std::uint32_t> out(group);
+  for (std::uint32_t v = 0; v < n; ++v)
+    for (std::uint32_t w = 0; w < n; ++w)
+      if (group[v] == group[w] && std::sqrt(squared_distance(points[v], points[w])) > 2 * distance)
+        for (std::uint32_t u = 0; u < n; ++u)
+          if (group[u] == group[v]) out[u] = static_cast<std::uint32_t>(std::ranges::find(points, points[u]) - points.begin());
+  return out;
 }
 
 // Clusters, chains of points each near enough to the next, repeated points; the largest coordinate is 1.
@@ -145,12 +143,18 @@ void compare_with_brute_force() {
       for (double& x : p.x) x = std::clamp(x, -1.0, 1.0);
       plc.points.push_back(p);
     }
-    plc.merge_within = distance;
+    plc.tolerance = distance;
+    plc.is_coarse = true;
     std::vector<Diagnostic> refused;
     const Domain<D> d = Domain<D>::without_invalid(plc, refused);
-    EXPECT_TRUE(std::ranges::equal(d.point_of_input(), by_brute_force(plc.points, distance))) << round;
+    std::vector<std::uint32_t> first;
+    for (const std::uint32_t v : d.point_of_input()) first.push_back(d.input_of_point()[v]);
+    EXPECT_EQ(first, by_brute_force(plc.points, distance)) << round;
+    double farthest = 0;
     for (std::size_t i = 0; i < plc.points.size(); ++i)
-      EXPECT_LE(squared_distance(plc.points[i], d.points()[d.point_of_input()[i]]), distance * distance);
+      farthest = std::max(farthest, std::sqrt(squared_distance(plc.points[i], d.points()[d.point_of_input()[i]])));
+    EXPECT_LE(farthest, 2 * distance);
+    EXPECT_EQ(d.largest_move(), farthest);
   }
 }
 TEST(MergePoints, AreThoseOfBruteForce2D) { compare_with_brute_force<2>(); }
@@ -169,7 +173,7 @@ TEST(MergePoints, WhatCollapsesGoes) {
   plc.points.push_back({1, 0.5, 1.5});
   plc.points.push_back({1, 0.5, 1.5 + 1e-10});
   plc.segments.push_back({{n + 1, n + 2}, 3});
-  plc.merge_within = 1e-8;
+  plc.tolerance = 1e-8;
   const Domain<3> d(plc);
   EXPECT_EQ(d.points().size(), 9u);
   EXPECT_EQ(d.facets().size(), 6u);
@@ -194,16 +198,28 @@ TEST(MergePoints, InThePlane) {
     plc.segments.push_back({{2 * i, 2 * i + 1}, 1});
   }
   EXPECT_EQ(diagnose(plc)[Finding::near_points].count, 4u);
-  plc.merge_within = 1e-8;
+  plc.tolerance = 1e-8;
   const Domain<2> d(plc);
   EXPECT_EQ(d.points().size(), 4u);
   expect_meshed(d, 2);
 }
 
-TEST(MergePoints, OnlyWhereAsked) {
-  const Plc<3> plc = soup(triangulated(box()), 1e-15);
+// By default what rounding moved, and nothing else.
+TEST(MergePoints, TheDefault) {
+  Plc<3> plc = soup(triangulated(box()), 2e-16);
+  EXPECT_EQ(Domain<3>(plc).points().size(), 8u);
+  plc.tolerance = 0;
   std::vector<Diagnostic> refused;
   EXPECT_GT(Domain<3>::without_invalid(plc, refused).points().size(), 20u);
+  refused.clear();
+  EXPECT_GT(Domain<3>::without_invalid(soup(triangulated(box()), 1e-13), refused).points().size(), 20u);
+  EXPECT_EQ(rounding_tolerance(box()), 0x1p-48) << "8 ulps of 3";
+  Plc<3> floats = box();
+  floats.are_floats = true;
+  EXPECT_EQ(rounding_tolerance(floats), 0x1p-21) << "2 ulps of a float";
+  for (Point3& p : floats.points) p[0] += 1e6;
+  EXPECT_EQ(rounding_tolerance(floats), std::ldexp(8.0, 19 - 52)) << "floats have no shape so far from the origin";
+  EXPECT_EQ(rounding_tolerance(Plc<3>{}), 0);
   EXPECT_EQ(diagnose(soup(triangulated(box()), 0.001))[Finding::near_points].count, 0u);
   EXPECT_EQ(diagnose(box())[Finding::near_points].count, 0u);
 }
@@ -211,8 +227,35 @@ TEST(MergePoints, OnlyWhereAsked) {
 TEST(MergePoints, OtherDistancesAreRefused) {
   for (const double within : {-1e-9, 0.011, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
     Plc<3> plc = box();
-    plc.merge_within = within;
+    plc.tolerance = within;
     EXPECT_THROW(Domain<3>{plc}, UsageError) << within;
+    plc.is_coarse = true;
+    if (within > 0 && within < 1)
+      EXPECT_EQ(Domain<3>(plc).points().size(), 8u);
+    else
+      EXPECT_THROW(Domain<3>{plc}, UsageError) << within;
+  }
+}
+
+// Three points in a row, each within the tolerance of the next: which two are one?
+TEST(MergePoints, AmbiguousGroups) {
+  Plc<2> plc;
+  plc.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0.5, 0.5}, {0.5 + 9e-4, 0.5}, {0.5 + 18e-4, 0.5}, {0.5 + 27e-4, 0.5}};
+  for (std::uint32_t i = 0; i < 4; ++i) plc.segments.push_back({{i, (i + 1) % 4}, 0});
+  plc.tolerance = 1e-3;
+  try {
+    const Domain<2> d(plc);
+    ADD_FAILURE();
+  } catch (const InputError& e) {
+    EXPECT_EQ(e.code(), Errc::ambiguous);
+    EXPECT_EQ(e.diagnostic().ids, (std::vector<std::int64_t>{4, 7}));
+  }
+  plc.points.pop_back();
+  EXPECT_EQ(Domain<2>(plc).points().size(), 5u) << "no wider than twice the tolerance";
+  for (const auto& order : {std::array{4, 5, 6}, {6, 5, 4}, {5, 4, 6}}) {
+    Plc<2> permuted = plc;
+    for (std::size_t k = 0; k < 3; ++k) permuted.points[4 + k] = plc.points[static_cast<std::size_t>(order[k])];
+    EXPECT_EQ(Domain<2>(permuted).points()[4], plc.points[4]) << "the place of a group does not depend on the order";
   }
 }
 
@@ -221,45 +264,31 @@ Plc<3> with_noise_for_zeros(Plc<3> plc, double noise) {
   Random random(7);
   for (Point3& p : plc.points)
     for (double& x : p.x) x = static_cast<float>(x == 0 ? noise * (2 * uniform(random) - 1) : x + 0.1);
-  set_precision_of_file(plc);
-  set_merge_of_file(plc);
+  plc.are_floats = true;
   return plc;
 }
 
 // Five parts of robots, four tables of printers and a demo of gmsh were refused for walls that intersect, 1e-17 wide; a hull with
 // twelve such edges had 34 million cells when it was stopped.
 TEST(MergePoints, FloatsOfWhatWasComputedForZero) {
-  const Plc<3> exact = soup(triangulated(box()), 0);
-  const Plc<3> plc = with_noise_for_zeros(exact, 3e-15);
+  const Plc<3> plc = with_noise_for_zeros(soup(triangulated(box()), 0), 3e-15);
   Plc<3> apart = plc;
-  apart.merge_within = 0;
+  apart.tolerance = 0;
   EXPECT_GE(diagnose(apart).error_count(), 1u);
-  EXPECT_EQ(plc.merge_within, 1e-13);
   const Domain<3> d(plc);
   EXPECT_EQ(d.points().size(), 8u);
   EXPECT_EQ(d.facets().size(), 6u);
   EXPECT_EQ(count_of(d.repairs(), Errc::near_points), 36u - 8 - 4) << "the corner without a zero is the same in five triangles";
   expect_meshed(d, 2.1 * 1.1 * 3.1);
-
-  EXPECT_EQ(with_noise_for_zeros(exact, 0).merge_within, 0);
-  EXPECT_EQ(with_noise_for_zeros(exact, 1e-11).merge_within, 0) << "more than rounding leaves";
-  Plc<3> doubles = soup(triangulated(box()), 3e-15);
-  set_precision_of_file(doubles);
-  set_merge_of_file(doubles);
-  EXPECT_EQ(doubles.merge_within, 0) << "for these, it has to be asked for";
 }
 
-TEST(MergePoints, ASheetOfFloatsStaysASheet) {
+// Of a sheet that is thinner than the rounding of floats nothing is left, which is said.
+TEST(MergePoints, ASheetOfFloats) {
   Plc<3> sheet = triangulated(box());
-  for (Point3& p : sheet.points) p = {{p[0] + 0.1, p[1] + 0.1, p[2] * 1e-17}};
   for (Point3& p : sheet.points)
-    for (double& x : p.x) x = static_cast<float>(x);
-  set_precision_of_file(sheet);
-  ASSERT_TRUE(sheet.precision_of_file);
-  set_merge_of_file(sheet);
-  EXPECT_EQ(sheet.merge_within, 0);
-  sheet.merge_within = 1e-13;
-  EXPECT_GE(diagnose(sheet).error_count(), 1u) << "nothing would be left of it";
+    p = {{static_cast<float>(p[0] + 0.1), static_cast<float>(p[1] + 0.1), static_cast<float>(p[2] * 1e-17)}};
+  sheet.are_floats = true;
+  EXPECT_GE(diagnose(sheet).error_count(), 1u);
 }
 
 }  // namespace pgdr::test_input_merge_points
