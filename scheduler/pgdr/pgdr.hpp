@@ -25,5 +25,6 @@
 #include "pgdr/selectors.hpp"
 #include "pgdr/size_fields.hpp"
 #include "pgdr/sizing.hpp"
+#include "pgdr/surface_counts.hpp"
 #include "pgdr/types.hpp"
 #include "pgdr/version.hpp"

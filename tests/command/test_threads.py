@@ -133,42 +133,30 @@ class Threads(Case):
             checked = checked["quality"]["not_delaunay"]
             self.assertEqual(sum(made.values()), sum(checked.values()) + beyond, name)
 
-    def test_the_checker_takes_the_precision_from_the_report(self):
+    def test_the_checker_takes_the_tolerance_from_the_report(self):
         exact = box_stl(2, 1, 0.5)
         digits = "".join("vertex %.5f %.5f %.5f\n" % tuple(float(x) for x in line.split()[1:]) if line.startswith("vertex")
                          else line + "\n" for line in exact.splitlines())
-        as_stl = self.file("box.stl", digits)
         box = self.file("box.off", off_of_stl(digits))
-        self.mesh(box, "--precision", "1e-5", "--size", "0.2", "--report", self.report, expect=0)
-        self.assertEqual(self.json()["precision"], 1e-5)
+        self.mesh(box, "--tolerance", "2e-5", "--size", "0.2", "--report", self.report, expect=0)
+        self.assertEqual(self.json()["tolerance"], 2e-5)
         self.pgdr("check", self.output, "--input", box, "--reasons", self.report, expect=0)
-        self.pgdr("check", self.output, "--input", box, "--precision", "1e-5", expect=0)
+        self.pgdr("check", self.output, "--input", box, "--tolerance", "2e-5", expect=0)
         self.pgdr("check", self.output, "--input", box, expect=6)  # the diagonals of the faces are segments then
+        self.mesh(box, "--tolerance", "auto", expect=2)
+        self.mesh(box, "--tolerance", "-1", expect=2)
+        self.assertIn("--yes-coarse", self.mesh(box, "--tolerance", "0.02", expect=2).stderr)
 
-        # What fits the digits of the file, without being told; and where nothing was asked for, that it would help.
-        self.mesh(box, "--precision", "auto", "--size", "0.2", "--report", self.report, expect=0)
-        self.assertEqual(self.json()["precision"], 1e-5)
-        self.pgdr("check", self.output, "--input", box, "--precision", "auto", expect=0)
-        self.assertNotIn("hint", self.pgdr("info", box, "--precision", "auto", expect=0).stdout)
-        self.assertIn("--precision auto (1.0e-05, by the digits of the coordinates) makes 6 facets out of",
-                      self.pgdr("info", box, "--report", self.report, expect=0).stdout)
-        hint = self.json()["precision_hint"]
-        self.assertEqual((hint["precision"], hint["facets_then"]), (1e-5, 6))
-        self.assertGreater(hint["facets"], 6)
-        self.mesh(box, "--precision", "automatic", expect=2)
-
-        # The numbers of .stl are floats: their precision needs no word.
-        made = self.mesh(as_stl, "--size", "0.2", "--report", self.report, expect=0)
-        self.assertIn("--precision 1.0e-05: what the numbers of the file allow", made.stdout)
-        self.assertEqual(self.json()["precision"], 1e-5)
+        # The numbers of .stl are floats, which needs no word.
+        as_stl = self.file("box.stl", exact)
+        self.mesh(as_stl, "--size", "0.2", "--report", self.report, expect=0)
+        self.assertEqual(self.json()["tolerance"], 2.0 ** -21)  # 2 ulps of a float from 2 to 4
         self.pgdr("check", self.output, "--input", as_stl, expect=0)
-        self.assertEqual(self.pgdr("info", as_stl, "--report", self.report, expect=0).stdout.count("precision"), 2)
-        self.assertEqual((self.json()["diagnosis"]["maximal_facets"], self.json()["precision"]), (6, 1e-5))
-        self.mesh(as_stl, "--precision", "3.6e-15", "--size", "0.2", "--report", self.report, expect=1)
-        self.pgdr("check", self.output, "--input", as_stl, expect=0)  # the checker finds by itself that this was another one
+        self.pgdr("info", as_stl, "--report", self.report, expect=0)
+        self.assertEqual((self.json()["diagnosis"]["maximal_facets"], self.json()["tolerance"]), (6, 2.0 ** -21))
 
     def test_points_written_with_different_digits(self):
-        """Refused, with the distance that makes them one; taken with that, by the checker too."""
+        """In a file of floats they are one; in others with a tolerance, by the checker too."""
         count = 0
         lines = []
         for line in box_stl(2, 1, 0.5).splitlines():
@@ -178,51 +166,37 @@ class Threads(Case):
                 line = "vertex %r %r %r" % (x + 1e-11 * (count % 3 - 1), y, z + 1e-11 * (count % 5 - 2))
             lines.append(line)
         box = self.file("box.stl", "\n".join(lines) + "\n")
-        done = self.mesh(box, "--report", self.report, expect=3)
+        self.mesh(box, "--report", self.report, expect=None)
+        self.assertIn("near_points", [repair["code"] for repair in self.json()["repairs"]])
+        self.mesh(box, "--tolerance", "0", "--report", self.report, expect=3)
         self.assertGreater(self.json()["diagnosis"]["near_points"]["count"], 8)
-        within = re.search(r"--merge-points (\S+) makes", done.stderr).group(1)
-        self.assertLess(float(within), 1e-10)
-        self.mesh(box, "--merge-points", within, "--precision", "1e-9", "--size", "0.2", "--report", self.report, expect=0)
-        report = self.json()
-        self.assertEqual(report["merge_points"], float(within))
-        self.assertIn("near_points", [repair["code"] for repair in report["repairs"]])
+        self.mesh(box, "--tolerance", "1e-9", "--size", "0.2", "--report", self.report, expect=0)
+        self.assertLess(self.json()["largest_move"], 2e-10)
         self.pgdr("check", self.output, "--input", box, "--reasons", self.report, expect=0)
-        self.pgdr("check", self.output, "--input", box, "--precision", "1e-9", "--merge-points", within, expect=0)
-        self.pgdr("check", self.output, "--input", box, "--precision", "1e-9", expect=6)
-        self.pgdr("info", box, "--merge-points", within, expect=0)
-        self.mesh(box, "--merge-points", "0.02", expect=2)
+        self.pgdr("check", self.output, "--input", box, "--tolerance", "1e-9", expect=0)
+        self.pgdr("info", box, "--tolerance", "1e-9", expect=0)
 
-    def test_a_tower_that_misses_its_plate_by_rounding(self):
-        """Turned, it is refused with the distance that lets it stand on it; taken with that, by the checker too."""
+    def test_a_tower_on_its_plate_turned(self):
         points = [(x, y, z) for z in (0, 2) for y in (0, 8) for x in (0, 10)]
         points += [(x, y, z) for z in (2, 6) for y in (2, 5) for x in (3, 5)]
         sides = [(0, 1, 5, 4), (2, 3, 7, 6), (0, 2, 6, 4), (1, 3, 7, 5), (4, 5, 7, 6)]
         facets = [(0, 1, 3, 2)] + sides + [tuple(8 + v for v in side) for side in sides]
-        refused = 0
         for k in range(1, 6):
             a, b = 0.3 * k, 0.17 * k
             there = [(x * math.cos(a) - y * math.sin(a), x * math.sin(a) + y * math.cos(a), z) for x, y, z in points]
             there = [(x, y * math.cos(b) - z * math.sin(b), y * math.sin(b) + z * math.cos(b)) for x, y, z in there]
             tower = self.file("tower.poly", "16 3 0 0\n" + "".join("%d %r %r %r\n" % (i, *p) for i, p in enumerate(there)) +
                               "11 1\n" + "".join("1 0 %d\n4 %d %d %d %d\n" % (f, *p) for f, p in enumerate(facets)) + "0\n0\n")
-            done = self.mesh(tower, "--max-vertices", "500", expect=None)
-            if done.returncode == 3:
-                self.assertIn("--merge-points 1.0e-14 makes it valid", done.stderr)
-                refused += 1
-            self.mesh(tower, "--merge-points", "1e-14", "--report", self.report, expect=0)
-            codes = [repair["code"] for repair in self.json()["repairs"]]
-            self.assertIn("point_on_facet", codes)
-            self.assertNotIn("merge_hint", self.json())
-            self.pgdr("check", self.output, "--input", tower, "--merge-points", "1e-14", "--radius-edge", "2", expect=0)
-        self.assertGreater(refused, 0)
+            self.mesh(tower, "--report", self.report, expect=0)
+            self.assertIn("point_on_facet", [repair["code"] for repair in self.json()["repairs"]])
+            self.pgdr("check", self.output, "--input", tower, "--radius-edge", "2", expect=0)
 
-        # A wall that ends an ulp above the plate is valid, with a gap that nobody meant.
+        # A wall that ends an ulp above the plate stands on it.
         gap = self.file("gap.poly", "12 3 0 0\n" + "".join("%d %d %d %d\n" % (i, *p) for i, p in enumerate(points[:8])) +
                         "8 2 2 1.9999999999999996\n9 5 2 1.9999999999999996\n10 5 2 1\n11 2 2 1\n" + "7 1\n" +
                         "".join("1 0 1\n4 %d %d %d %d\n" % p for p in facets[:6] + [(8, 9, 10, 11)]) + "0\n0\n")
-        self.mesh(gap, "--report", self.report, "--max-vertices", "3000", expect=None)
-        self.assertEqual(self.json()["merge_hint"], {"merge_points": 1e-14, "points": 2})
-        self.mesh(gap, "--merge-points", "1e-14", "--report", self.report, expect=0)
+        self.mesh(gap, "--report", self.report, expect=0)
+        self.assertIn("point_on_facet", [repair["code"] for repair in self.json()["repairs"]])
 
     def test_granularity(self):
         whole, r = self.made(BRACKET, "--size", "0.12", threads=2)
