@@ -73,6 +73,19 @@ void mesh_of_a_cube(benchmark::State& state) {
   state.counters["cells"] = static_cast<double>(cells);
   state.counters["cells/s"] = benchmark::Counter(static_cast<double>(cells), benchmark::Counter::kIsIterationInvariantRate);
 }
+/// What a call costs that makes two triangles, or with a size of 1 / n some n.
+void mesh_of_a_square(benchmark::State& state) {
+  Plc<2> square;
+  square.points = {{{0, 0}}, {{1, 0}}, {{1, 1}}, {{0, 1}}};
+  square.segments = {{{0, 1}}, {{1, 2}}, {{2, 3}}, {{3, 0}}};
+  const Domain<2> domain(square);
+  RefineOptions<2> options;
+  options.size = 1.0 / static_cast<double>(state.range(0));
+  options.schedule.executor = Executor::serial;
+  for (auto _ : state) benchmark::DoNotOptimize(refine(domain, options));
+}
+BENCHMARK(mesh_of_a_square)->Arg(1)->Arg(100)->Arg(1000)->Unit(benchmark::kMicrosecond);
+
 BENCHMARK(mesh_of_a_cube)->Arg(5)->Arg(10)->Arg(20)->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -33,6 +33,16 @@ class Fnv {
     if (!all.empty()) bytes(all.data(), all.size() * sizeof(T));
     return *this;
   }
+  /// Of subsegments or subfacets, their vertices and markers.
+  template <class Constraint>
+  Fnv& constraints(const std::vector<Constraint>& all) {
+    number(all.size());
+    for (const Constraint& c : all) {
+      bytes(c.vertices.data(), sizeof c.vertices);
+      bytes(&c.marker, sizeof c.marker);
+    }
+    return *this;
+  }
   std::string text() const {
     char digits[17];
     std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash_));
@@ -55,7 +65,7 @@ std::string fingerprint(const RefineResult<D>& r) {
   Fnv points, cells, boundary, reasons;
   points.number(mesh.input_points).list(mesh.points).list(mesh.point_markers);
   cells.list(mesh.cells).list(mesh.regions);
-  boundary.list(mesh.subsegments).list(mesh.subfacets);
+  boundary.constraints(mesh.subsegments).constraints(mesh.subfacets);
   reasons.number(r.poor_left);
   for (const PoorReason& reason : r.reasons) {
     reasons.number(reason.cell).number(static_cast<std::uint64_t>(reason.code));

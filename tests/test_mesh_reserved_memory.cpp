@@ -8,6 +8,8 @@
 #include <cstring>
 #include <vector>
 
+#include "mesh/mesh.hpp"
+
 namespace pgdr::test_mesh_reserved_memory {
 
 constexpr std::size_t mib = std::size_t{1} << 20;
@@ -66,6 +68,49 @@ TEST(ReservedMemory, FreshPagesComeOnce) {
   EXPECT_EQ(begins.back(), 62u);
   EXPECT_EQ(begins.size(), 3u + 22u);
   EXPECT_TRUE(std::all_of(bytes, bytes + 5 * mib, [](std::byte b) { return b == std::byte{7}; }));
+}
+
+struct alignas(64) Line {
+  std::uint32_t number;
+};
+
+TEST(ReservedArray, LeavesTheHeapWithWhatItHas) {
+  ReservedArray<Line> array;
+  array.begin_small(100);
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    EXPECT_EQ(array[i].number, 0u);
+    array[i].number = i;
+  }
+  array.grow_to(100);
+  array.discard(0, 100);
+  array.reserve(1 << 20);
+  const Line* const base = &array[0];
+  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(base) % alignof(Line), 0u);
+  array.grow_to(100000);
+  EXPECT_EQ(&array[0], base);
+  for (std::uint32_t i = 0; i < 100000; ++i) EXPECT_EQ(array[i].number, i < 100 ? i : 0);
+}
+
+/// What is small asks the system for nothing; it grows where it must.
+TEST(SmallMesh, LeavesTheHeapBeforeItsSlotsAreUsedUp) {
+  EXPECT_FALSE(Mesh<2>().is_small());
+  EXPECT_FALSE(Mesh<3>(4).is_small());
+  EXPECT_FALSE(Mesh<2>(1000).is_small());
+  Mesh<2> mesh(4);
+  ASSERT_TRUE(mesh.is_small());
+  auto pools = mesh.make_pools();
+  std::vector<CellId> cells;
+  for (std::uint32_t i = 0; i < 10000; ++i) {
+    mesh.make_room(pools);
+    cells.push_back(mesh.new_cell(pools));
+    mesh.set_vertices(cells.back(), {VertexId{i}, VertexId{i + 1}, VertexId{i + 2}});
+    mesh.constrain_face(pools, cells.back(), 0, i);
+    EXPECT_EQ(mesh.is_small(), i < 241);
+  }
+  for (std::uint32_t i = 0; i < cells.size(); ++i) {
+    EXPECT_EQ(mesh.cell(cells[i]).vertices[2], VertexId{i + 2});
+    EXPECT_EQ(mesh.entity_of_face(cells[i], 0).id, i);
+  }
 }
 
 }  // namespace pgdr::test_mesh_reserved_memory

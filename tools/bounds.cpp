@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bounds.hpp"
 
-#include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "expression.hpp"
 #include "pgdr/error.hpp"
@@ -33,7 +31,7 @@ Bounds<D> resolve(const BoundArguments& arguments, double default_radius_edge) {
 
   Bounds<D> bounds{default_radius_edge, {}, {}, std::numeric_limits<double>::infinity()};
   if (arguments.radius_edge) bounds.radius_edge = *arguments.radius_edge;
-  if (arguments.min_angle) bounds.radius_edge = 1 / (2 * std::sin(*arguments.min_angle * std::numbers::pi / 180));
+  if (arguments.min_angle) bounds.radius_edge = min_angle_degrees(*arguments.min_angle);
   if (arguments.size) bounds.size = parse_size<D>(*arguments.size, "--size");
   for (const std::string& text : arguments.region_sizes) {
     const auto [label, size] = split_region_size(text).value();

@@ -61,6 +61,8 @@ OutputMesh<D> part_beside_slanted_points(const OutputMesh<D>& mesh, const std::v
 
 template <int D>
 CheckReport check(const OutputMesh<D>& mesh, const CheckOptions<D>& options) {
+  if (options.domain && options.domain->points().empty())
+    throw UsageError({Errc::bad_option, "the Domain is empty: it was moved from", {}, 0, {}, {}});
   CheckReport report;
   Findings findings(report, options.max_listed);
   if (!check_indices(mesh, findings)) return report;

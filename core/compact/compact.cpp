@@ -254,12 +254,12 @@ template <int D>
 struct MarkedFaces {
   struct Face {
     std::array<VertexId, D> vertices;  ///< counter-clockwise seen from outside the cell
-    int marker;
+    EntityId entity;
     bool on_hull;
   };
   struct Edge {
     std::array<VertexId, 2> vertices;
-    int marker;
+    EntityId entity;
   };
   std::vector<Face> faces;  ///< each once
   std::vector<Edge> edges;  ///< 3D: subsegments, from every cell that has them
@@ -273,7 +273,7 @@ std::array<VertexId, D> face_vertices(const CellRecord<D>& cell, int f) {
 }
 
 template <int D>
-MarkedFaces<D> gather_constraints(const Mesh<D>& mesh, const Domain<D>& domain, const detail::Bulk& bulk) {
+MarkedFaces<D> gather_constraints(const Mesh<D>& mesh, const detail::Bulk& bulk) {
   using Face = typename MarkedFaces<D>::Face;
   using Edge = typename MarkedFaces<D>::Edge;
   // Few cells have constraints: those that are dead are asked last.
@@ -281,12 +281,6 @@ MarkedFaces<D> gather_constraints(const Mesh<D>& mesh, const Domain<D>& domain, 
     const CellId c{static_cast<std::uint32_t>(i)};
     if (mesh.constraints(c) && mesh.alive(c)) cells.push_back(c);
   });
-  auto marker = [&](EntityId entity) {
-    if constexpr (D == 3)
-      return domain.facets()[entity].marker;
-    else
-      return domain.segments()[entity].marker;
-  };
   MarkedFaces<D> found;
   found.faces = bulk.gather<Face>(constrained.size(), [&](std::size_t i, std::vector<Face>& faces) {
     const CellId c = constrained[i];
@@ -294,7 +288,7 @@ MarkedFaces<D> gather_constraints(const Mesh<D>& mesh, const Domain<D>& domain, 
     for (int f = 0; f <= D; ++f) {
       const Link beyond = mesh.cell(c).links[f];
       if (k->has_face(f) && !(beyond && beyond.cell() < c))
-        faces.push_back({face_vertices<D>(mesh.cell(c), f), marker(k->face_entity[f]), !beyond});
+        faces.push_back({face_vertices<D>(mesh.cell(c), f), k->face_entity[f], !beyond});
     }
   });
   if constexpr (D == 3)
@@ -302,42 +296,42 @@ MarkedFaces<D> gather_constraints(const Mesh<D>& mesh, const Domain<D>& domain, 
       const auto* k = mesh.constraints(constrained[i]);
       const auto& v = mesh.cell(constrained[i]).vertices;
       for (int e = 0; e < 6; ++e)
-        if (k->has_edge(e)) edges.push_back({ends_of_edge(v, e), domain.segments()[k->edge_entity[e]].marker});
+        if (k->has_edge(e)) edges.push_back({ends_of_edge(v, e), k->edge_entity[e]});
     });
   return found;
 }
 
 /// Subsegments and subfacets, each once, sorted by their vertices; hull subfacets (subsegments) face outwards.
 template <int D>
-void number_constraints(const MarkedFaces<D>& found, const std::vector<std::uint32_t>& number, const detail::Bulk& bulk,
-                        OutputMesh<D>& out) {
+void number_constraints(const MarkedFaces<D>& found, const Domain<D>& domain, const std::vector<std::uint32_t>& number,
+                        const detail::Bulk& bulk, OutputMesh<D>& out) {
   auto numbered = [&]<std::size_t N>(const std::array<VertexId, N>& v) {
     std::array<std::uint32_t, N> n;
     for (std::size_t j = 0; j < N; ++j) n[j] = number[index(v[j])];
     return n;
   };
-  auto number_faces = [&](auto& constraints) {
+  auto number_faces = [&](auto& constraints, const auto& entities) {
     for (const auto& f : found.faces) {
       auto v = numbered(f.vertices);
       if (!f.on_hull) std::sort(v.begin(), v.end());
       if (D == 3) std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
-      constraints.push_back({v, f.marker});
+      constraints.push_back({v, entities[f.entity].marker, f.entity});
     }
   };
   auto by_vertices = [](const auto& a, const auto& b) { return a.vertices < b.vertices; };
   auto same = [](const auto& a, const auto& b) { return a.vertices == b.vertices; };
   if constexpr (D == 3) {
     out.subfacets.reserve(found.faces.size());
-    number_faces(out.subfacets);
+    number_faces(out.subfacets, domain.facets());
     bulk.sort(out.subfacets, by_vertices);
     for (const auto& e : found.edges) {
       auto v = numbered(e.vertices);
       std::sort(v.begin(), v.end());
-      out.subsegments.push_back({v, e.marker});
+      out.subsegments.push_back({v, domain.segments()[e.entity].marker, e.entity});
     }
   } else {
     out.subsegments.reserve(found.faces.size());
-    number_faces(out.subsegments);
+    number_faces(out.subsegments, domain.segments());
   }
   bulk.sort(out.subsegments, by_vertices);
   out.subsegments.erase(std::unique(out.subsegments.begin(), out.subsegments.end(), same), out.subsegments.end());
@@ -351,7 +345,7 @@ Compacted<D> compact(Mesh<D>&& mesh, const Domain<D>& domain, std::span<const do
   if (!region_attributes.empty()) hurry = {};  // cells are looked up to label them
   const detail::Bulk bulk(parallel, std::move(stop));
   Compacted<D> out;
-  const MarkedFaces<D> constraints = gather_constraints<D>(mesh, domain, bulk);
+  const MarkedFaces<D> constraints = gather_constraints<D>(mesh, bulk);
   const detail::StrippedCells<D> stripped(mesh, bulk, !region_attributes.empty());
   if (bulk.stopped()) return {};
   out.vertex_number = number_vertices<D>(mesh, stripped, domain, bulk, hurry, out.mesh);
@@ -359,7 +353,7 @@ Compacted<D> compact(Mesh<D>&& mesh, const Domain<D>& domain, std::span<const do
   mesh.discard_vertices();
   if (!bulk.stopped()) number_cells<D>(stripped, bulk, hurry, out);
   if (bulk.stopped()) return {};
-  number_constraints<D>(constraints, out.vertex_number, bulk, out.mesh);
+  number_constraints<D>(constraints, domain, out.vertex_number, bulk, out.mesh);
   if (!region_attributes.empty()) {
     out.mesh.regions.resize(out.mesh.cells.size());
     stripped.each(
@@ -375,7 +369,7 @@ Compacted<D> compact_by_slots(const Mesh<D>& mesh, const Domain<D>& domain, std:
   Compacted<D> out;
   number_by_slots<D>(mesh, domain, region_attributes, bulk, out);
   if (fill) fill(mesh, out);
-  number_constraints<D>(gather_constraints<D>(mesh, domain, bulk), out.vertex_number, bulk, out.mesh);
+  number_constraints<D>(gather_constraints<D>(mesh, bulk), domain, out.vertex_number, bulk, out.mesh);
   return out;
 }
 

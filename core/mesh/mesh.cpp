@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pgdr {
 
@@ -25,17 +26,39 @@ const std::array<typename Mesh<D>::Band, 16> Mesh<D>::bands = [] {
 }();
 
 template <int D>
-Mesh<D>::Mesh()
-    : capacity_(static_cast<std::uint32_t>(ReservedMemory::affordable_elements(IdSource::most))),
-      cells_(capacity_),
-      tags_(D == 3 ? capacity_ : 0),
-      regions_(D == 3 ? capacity_ : 0),
-      vertices_(capacity_),
-      notes_(D == 3 ? capacity_ : 0),
-      constraints_(capacity_),
-      cell_source_("cells", capacity_, [this](std::uint32_t n) { grow_cells_to(n); }),
-      vertex_source_("vertices", capacity_, [this](std::uint32_t n) { grow_vertices_to(n); }),
-      constraint_source_("constrained cells", capacity_, [this](std::uint32_t n) { constraints_.grow_to(n); }) {}
+Mesh<D>::Mesh() : Mesh(std::numeric_limits<std::size_t>::max()) {}
+
+// A triangulation of n points, closed by ghosts, has 2 n - 2 triangles.
+template <int D>
+Mesh<D>::Mesh(std::size_t points)
+    : is_small_(D == 2 && points <= most_used_slots / 2),
+      cell_source_("cells", [this](std::uint32_t n) { grow_cells_to(n); }),
+      vertex_source_("vertices", [this](std::uint32_t n) { grow_vertices_to(n); }),
+      constraint_source_("constrained cells", [this](std::uint32_t n) { constraints_.grow_to(n); }) {
+  if (!is_small_) {
+    reserve();
+    return;
+  }
+  cells_.begin_small(small_slots);
+  vertices_.begin_small(small_slots);
+  constraints_.begin_small(small_slots);
+  for (IdSource* source : {&cell_source_, &vertex_source_, &constraint_source_}) source->set_capacity(small_slots);
+}
+
+template <int D>
+void Mesh<D>::reserve() {
+  capacity_ = static_cast<std::uint32_t>(ReservedMemory::affordable_elements(IdSource::most));
+  cells_.reserve(capacity_);
+  vertices_.reserve(capacity_);
+  constraints_.reserve(capacity_);
+  if constexpr (D == 3) {
+    tags_.reserve(capacity_);
+    regions_.reserve(capacity_);
+    notes_.reserve(capacity_);
+  }
+  for (IdSource* source : {&cell_source_, &vertex_source_, &constraint_source_}) source->set_capacity(capacity_);
+  is_small_ = false;
+}
 
 template <int D>
 void Mesh<D>::grow_cells_to(std::uint32_t n) {
@@ -57,6 +80,8 @@ void Mesh<D>::grow_vertices_to(std::uint32_t n) {
 template <int D>
 std::vector<std::span<std::byte>> Mesh<D>::fresh_pages(std::uint64_t cells, std::uint64_t vertices) {
   std::vector<std::span<std::byte>> all;
+  if (is_small_ && cells <= most_used_slots) return all;
+  leave_heap();
   const auto add = [&](auto& array, std::uint32_t used, std::uint64_t more) {
     const auto pages = array.fresh_pages(used, static_cast<std::uint32_t>(std::min<std::uint64_t>(used + more, capacity_)));
     all.insert(all.end(), pages.begin(), pages.end());

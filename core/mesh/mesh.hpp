@@ -161,7 +161,17 @@ struct ConstraintRecord {
 template <int D>
 class Mesh {
  public:
-  Mesh();
+  Mesh();  ///< with addresses for as many cells as there can be. @throws std::bad_alloc
+  /// For an input of so many points. Where they are few (2D), it is small: in memory of the heap alone, since to reserve
+  /// addresses takes ten times as long as to triangulate four points.
+  explicit Mesh(std::size_t points);
+
+  /// Is it small? One pool may take ids then, and make_room has to be called for it between changes.
+  bool is_small() const { return is_small_; }
+  /// Reserves addresses, and moves there, if it is small. @pre nobody else uses it, or has a reference to a part of it
+  void leave_heap() {
+    if (is_small_) reserve();
+  }
 
   VertexRecord<D>& vertex(VertexId v) { return vertices_[index(v)]; }              ///< to be changed
   const VertexRecord<D>& vertex(VertexId v) const { return vertices_[index(v)]; }  ///< to be read
@@ -341,6 +351,10 @@ class Mesh {
     IdPool vertices;     ///< ids of vertices
     IdPool constraints;  ///< numbers of side records
   };
+  /// Leaves the heap if the next change could need more than there is. @pre as of leave_heap; all ids were taken from these pools
+  void make_room(const Pools& pools) {
+    if (is_small_ && pools.cells.next() > most_used_slots) reserve();
+  }
   /// The pools of one more thread.
   Pools make_pools() { return {IdPool(cell_source_), IdPool(vertex_source_), IdPool(constraint_source_)}; }
 
@@ -410,10 +424,18 @@ class Mesh {
       return cell(c).tag;
   }
   const CellTag<D>& tag(CellId c) const { return const_cast<Mesh*>(this)->tag(c); }
+  void reserve();
   void grow_cells_to(std::uint32_t n);
   void grow_vertices_to(std::uint32_t n);
 
-  std::uint32_t capacity_;
+  static constexpr std::uint32_t small_slots = IdSource::block;  ///< of each array of a small mesh
+  /// From so many slots on that were ever used a small mesh makes room. One change of a triangulation of n triangles makes n + 2
+  /// at most, as the rim of a cavity of n has n + 2 edges, before it frees any; entries of the work lists take two changes, the
+  /// second of which has what the first has freed.
+  static constexpr std::uint32_t most_used_slots = small_slots / 2 - 16;
+
+  std::uint32_t capacity_ = 0;
+  bool is_small_ = false;
   ReservedArray<CellRecord<D>> cells_;
   ReservedArray<CellTag<D>> tags_;        ///< 3D
   ReservedArray<std::uint16_t> regions_;  ///< 3D; takes memory only once there are several

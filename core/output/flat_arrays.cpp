@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "pgdr/error.hpp"
 
@@ -13,41 +14,54 @@ namespace {
 [[noreturn]] void bad_length(const std::string& what) { throw UsageError({Errc::bad_option, what, {}, 0, {}, {}}); }
 
 template <int D>
-std::vector<Point<D>> points_of(std::span<const double> coordinates) {
-  if (coordinates.size() % D != 0)
-    bad_length(std::to_string(coordinates.size()) + " coordinates, which is no multiple of " + std::to_string(D));
-  std::vector<Point<D>> points(coordinates.size() / D);
-  for (std::size_t i = 0; i < points.size(); ++i) std::copy_n(coordinates.begin() + i * D, D, points[i].x.begin());
-  return points;
+std::vector<Point<D>> points_of(const CoordinateArray& coordinates) {
+  return std::visit(
+      [](const auto& numbers) {
+        if (numbers.size() % D != 0)
+          bad_length(std::to_string(numbers.size()) + " coordinates, which is no multiple of " + std::to_string(D));
+        std::vector<Point<D>> points(numbers.size() / D);
+        for (std::size_t i = 0; i < points.size(); ++i) std::copy_n(numbers.begin() + i * D, D, points[i].x.begin());
+        return points;
+      },
+      coordinates);
+}
+
+template <class Index>
+[[noreturn]] void bad_index(std::size_t simplex, Index index, std::size_t points) {
+  throw InputError({Errc::index_out_of_range,
+                    "simplex " + std::to_string(simplex) + " has index " + std::to_string(index) + ", there are " +
+                        std::to_string(points) + " points",
+                    {},
+                    0,
+                    {static_cast<std::int64_t>(simplex), static_cast<std::int64_t>(index)},
+                    {}});
 }
 
 /// N indices each, all of them below `points`.
 template <std::size_t N>
-std::vector<std::array<std::uint32_t, N>> simplices_of(std::span<const std::uint32_t> indices, std::size_t points) {
-  if (indices.size() % N != 0)
-    bad_length(std::to_string(indices.size()) + " indices, which is no multiple of " + std::to_string(N));
-  std::vector<std::array<std::uint32_t, N>> simplices(indices.size() / N);
-  for (std::size_t i = 0; i < indices.size(); ++i) {
-    if (indices[i] >= points)
-      throw InputError({Errc::index_out_of_range,
-                        "simplex " + std::to_string(i / N) + " has index " + std::to_string(indices[i]) + ", there are " +
-                            std::to_string(points) + " points",
-                        {},
-                        0,
-                        {static_cast<std::int64_t>(i / N), indices[i]},
-                        {}});
-    simplices[i / N][i % N] = indices[i];
-  }
-  return simplices;
+std::vector<std::array<std::uint32_t, N>> simplices_of(const IndexArray& array, std::size_t points) {
+  return std::visit(
+      [points](const auto& indices) {
+        if (indices.size() % N != 0)
+          bad_length(std::to_string(indices.size()) + " indices, which is no multiple of " + std::to_string(N));
+        std::vector<std::array<std::uint32_t, N>> simplices(indices.size() / N);
+        for (std::size_t i = 0; i < indices.size(); ++i) {
+          if (!std::in_range<std::uint32_t>(indices[i]) || static_cast<std::uint32_t>(indices[i]) >= points)
+            bad_index(i / N, indices[i], points);
+          simplices[i / N][i % N] = static_cast<std::uint32_t>(indices[i]);
+        }
+        return simplices;
+      },
+      array);
 }
 
 }  // namespace
 
 template <int D>
-Plc<D> plc_from_arrays(std::span<const double> coordinates, std::span<const std::uint32_t> simplices,
-                       std::span<const int> markers) {
+Plc<D> plc_from_arrays(CoordinateArray coordinates, IndexArray simplices, std::span<const int> markers) {
   Plc<D> plc;
   plc.points = points_of<D>(coordinates);
+  plc.are_floats = std::holds_alternative<std::span<const float>>(coordinates);
   const auto faces = simplices_of<D>(simplices, plc.points.size());
   if (!markers.empty() && markers.size() != faces.size())
     bad_length(std::to_string(markers.size()) + " markers for " + std::to_string(faces.size()) + " simplices");
@@ -63,16 +77,16 @@ Plc<D> plc_from_arrays(std::span<const double> coordinates, std::span<const std:
 }
 
 template <int D>
-OutputMesh<D> mesh_from_arrays(std::span<const double> coordinates, std::span<const std::uint32_t> cells) {
+OutputMesh<D> mesh_from_arrays(CoordinateArray coordinates, IndexArray cells) {
   OutputMesh<D> mesh;
   mesh.points = points_of<D>(coordinates);
   mesh.cells = simplices_of<D + 1>(cells, mesh.points.size());
   return mesh;
 }
 
-template PGDR_API Plc<2> plc_from_arrays<2>(std::span<const double>, std::span<const std::uint32_t>, std::span<const int>);
-template PGDR_API Plc<3> plc_from_arrays<3>(std::span<const double>, std::span<const std::uint32_t>, std::span<const int>);
-template PGDR_API OutputMesh<2> mesh_from_arrays<2>(std::span<const double>, std::span<const std::uint32_t>);
-template PGDR_API OutputMesh<3> mesh_from_arrays<3>(std::span<const double>, std::span<const std::uint32_t>);
+template PGDR_API Plc<2> plc_from_arrays<2>(CoordinateArray, IndexArray, std::span<const int>);
+template PGDR_API Plc<3> plc_from_arrays<3>(CoordinateArray, IndexArray, std::span<const int>);
+template PGDR_API OutputMesh<2> mesh_from_arrays<2>(CoordinateArray, IndexArray);
+template PGDR_API OutputMesh<3> mesh_from_arrays<3>(CoordinateArray, IndexArray);
 
 }  // namespace pgdr

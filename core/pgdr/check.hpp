@@ -111,7 +111,7 @@ NotDelaunay count_not_delaunay(const OutputMesh<D>& mesh, bool everywhere = true
 /// Runs all checks for which `options` has the data. Bad indices and coordinates that are not finite end it early.
 /// About 5 microseconds a cell, on the calling thread.
 /// @throws UsageError bad_size if a size function returns a value that is not positive, bad_option if no cell has the label
-///   of a region size (but 0); InputError entities_intersect
+///   of a region size (but 0), or for a Domain that was moved from; InputError entities_intersect
 ///   if walls of the input overlap so that no line crosses them one after the other; ResourceError.
 template <int D>
 CheckReport check(const OutputMesh<D>& mesh, const CheckOptions<D>& options);

@@ -84,7 +84,7 @@ OutputMesh<D> read_mesh(const std::filesystem::path& file);
 /// Replaces a file of that name when all is written, not before (.node and .ele: the files of both and of .face and
 /// .edge; a process that is killed in the middle leaves no .ele).
 /// @throws FileError cannot_write (nothing is left behind, an older file is as it was), InputError unknown_format,
-///   UsageError bad_option (a first index other than 0 and 1)
+///   UsageError bad_option (a first index other than 0 and 1; neighbours of a mesh that has none, see neighbors_of_cells)
 template <int D>
 void write_mesh(const OutputMesh<D>& mesh, const std::filesystem::path& file, const WriteOptions& options = {});
 

@@ -23,6 +23,7 @@ struct OutputMesh {
   struct Constraint {
     std::array<Index, K> vertices;  ///< those on the hull face outwards, the others are sorted
     int marker = 0;                 ///< of its segment or facet
+    EntityId entity = no_entity;    ///< its segment or facet in the Domain; no_entity: unknown, e.g. read from a file
   };
 
   /// The distinct input points in the order of the input, then Steiner points along a Hilbert curve (in no particular order

@@ -89,6 +89,12 @@ struct RefineOptions {
   std::function<void(const Progress&)> progress;
 };
 
+/// 2D: the radius-edge bound that no triangle without an angle below `degrees` exceeds, and no other meets: 1 / (2 sin). For
+/// `options.radius_edge_bound = min_angle_degrees(25)`, and for CheckOptions. Up to 20.7 degrees there is a proof; beyond some 33
+/// few triangles meet it.
+/// @throws UsageError bad_option: not above 0 and at most 60
+double min_angle_degrees(double degrees);
+
 /// Why a run ended.
 enum class StopCause { finished, max_vertices, min_edge, time_limit, cancelled };
 

@@ -100,6 +100,7 @@ void Refiner<D>::record_refusal(const Entry<D>& e) {
 template <int D>
 void Refiner<D>::treat(const Entry<D>& e) {
   RegionVisit<D>& visit = *workspace_.visit;
+  workspace_.mesh.make_room(workspace_.pools);
   std::array<VertexId, D + 1> vertices;
   if (!workspace_.mesh.read_vertices(e.cell, e.birth, vertices)) return;
   if (visit.area && !visit.area->owns(workspace_.mesh, vertices)) return visit.set_aside.push_back(e);

@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string>
 
+#include "input/words.hpp"
 #include "numbers/vectors.hpp"
 #include "pgdr/error.hpp"
+#include "pgdr/refine_options.hpp"
 
 namespace pgdr {
 namespace {
@@ -19,8 +22,7 @@ double checked_size(const SizingField<D>& size, const Point<D>& x) {
   const double s = size.at(x);
   if (s > 0) return s;  // false for NaN too
   Diagnostic d{Errc::bad_size, {}, {}, 0, {}, {{x[0], x[1], D == 3 ? x[D - 1] : 0.0}}};
-  d.message = "the size function returned " + std::to_string(s) + " at (" + std::to_string(x[0]) + ", " + std::to_string(x[1]) +
-              (D == 3 ? ", " + std::to_string(x[D - 1]) : "") + "); sizes must be positive";
+  d.message = "the size function returned " + detail::to_text(s) + " at " + detail::to_text<D>(x) + "; sizes must be positive";
   throw UsageError(std::move(d));
 }
 
@@ -167,6 +169,13 @@ std::uint32_t CellBounds<D>::over_size(const Mesh<D>& mesh, CellId c, const Cell
   const double measure = measure_of(mesh.region(c));
   if (measure != std::numeric_limits<double>::infinity()) bound_measure(measure);
   return cells;
+}
+
+double min_angle_degrees(double degrees) {
+  constexpr double equilateral = 60;
+  if (!(degrees > 0 && degrees <= equilateral))
+    throw UsageError({Errc::bad_option, "the smallest angle of triangles must be above 0 and at most 60 degrees", {}, 0, {}, {}});
+  return 1 / (2 * std::sin(degrees * std::numbers::pi / 180));
 }
 
 template class CellBounds<2>;

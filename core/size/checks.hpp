@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 
+#include "input/words.hpp"
 #include "pgdr/error.hpp"
 #include "pgdr/output_mesh.hpp"
 
@@ -48,8 +49,7 @@ void require_sizes(std::span<const Point<D>> points, std::span<const double> siz
         throw InputError(std::move(d));
       }
     if (sizes[i] > 0 && std::isfinite(sizes[i])) continue;
-    d.message = "the size at point " + std::to_string(i) + " is " + std::to_string(sizes[i]) +
-                "; sizes must be positive and finite";
+    d.message = "the size at point " + std::to_string(i) + " is " + to_text(sizes[i]) + "; sizes must be positive and finite";
     throw UsageError(std::move(d));
   }
 }

@@ -26,6 +26,12 @@ std::span<const TriangleOrigin> Domain<D>::triangle_origins(EntityId f) const {
 }
 
 template <int D>
+std::span<const SegmentOrigin> Domain<D>::segment_origins(EntityId s) const {
+  const std::uint32_t begin = segment_origins_begin_[s];
+  return std::span(segment_origins_).subspan(begin, segment_origins_begin_[s + 1] - begin);
+}
+
+template <int D>
 std::span<const std::array<std::uint32_t, 3>> Domain<D>::triangles(EntityId f) const {
   return std::span(triangles_).subspan(facets_[f].first_triangle, facets_[f].triangle_count);
 }

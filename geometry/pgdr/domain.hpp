@@ -46,6 +46,13 @@ struct DomainSegment {
   std::uint32_t input_facet = no_entity;  ///< in its place, index in Plc::facets where the first one is such a facet
 };
 
+/// What a segment, or a part of it, is in the input.
+struct SegmentOrigin {
+  std::uint32_t index;                                     ///< in Plc::segments, or in Plc::facets
+  bool is_facet = false;                                   ///< a facet of one polygon of two corners
+  auto operator<=>(const SegmentOrigin&) const = default;  ///< by index
+};
+
 /// Where a triangle of a facet comes from.
 struct TriangleOrigin {
   std::uint32_t facet;    ///< index in Plc::facets
@@ -74,8 +81,9 @@ class Domain;
 /// projection (nearest one if none does), in double-double, rounded once; exactly on it where axis-aligned.
 Point<3> point_on_facet(const Domain<3>& domain, EntityId f, const Point<3>& x);
 
-/// The input as everything else reads it. About 200 bytes and 2 microseconds a triangle; made on the threads of the caller's
-/// tbb::task_arena, the same for any number of them.
+/// The input as everything else reads it. One that was moved from is empty, without points and entities: `refine` and `check`
+/// refuse it with a UsageError, and nothing else finds anything in it. About 200 bytes and 2 microseconds a triangle; made on the
+/// threads of the caller's tbb::task_arena, the same for any number of them.
 template <int D>
 class Domain {
  public:
@@ -108,8 +116,16 @@ class Domain {
   std::span<const double> point_attributes() const { return point_attributes_; }
   /// How many attributes each point has.
   std::size_t attributes_per_point() const { return points_.empty() ? 0 : point_attributes_.size() / points_.size(); }
-  std::span<const DomainSegment> segments() const { return segments_; }       ///< by EntityId
-  std::span<const DomainFacet> facets() const { return facets_; }             ///< by EntityId; 2D: none
+  std::span<const DomainSegment> segments() const { return segments_; }  ///< by EntityId
+  std::span<const DomainFacet> facets() const { return facets_; }        ///< by EntityId; 2D: none
+  /// What of the input runs along the whole of segment s: more than one where segments of the input repeat each other or
+  /// overlap, none where s is an edge of facets alone. Those of Plc::segments first, ascending.
+  std::span<const SegmentOrigin> segment_origins(EntityId s) const;
+  /// Facets of the input that triangles stand for beside those of triangle_origins, since they repeat these or overlap them:
+  /// (number of the triangle among those of all facets, index in Plc::facets), sorted.
+  std::span<const std::array<std::uint32_t, 2>> further_origins() const { return further_origins_; }
+  std::size_t input_segments() const { return input_segments_; }              ///< how many Plc::segments there were
+  std::size_t input_facets() const { return input_facets_; }                  ///< how many Plc::facets there were
   std::span<const std::array<std::uint32_t, 3>> triangles(EntityId f) const;  ///< that define facet f, by domain points
   std::span<const TriangleOrigin> triangle_origins(EntityId f) const;         ///< of each of triangles(f)
   /// The triangles of facet f with a corner at this domain point, ascending; counted from the first triangle of all facets, so
@@ -154,6 +170,10 @@ class Domain {
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   std::vector<std::uint32_t> triangles_at_begin_, triangles_at_;
   std::vector<TriangleOrigin> triangle_origins_;
+  std::vector<std::array<std::uint32_t, 2>> further_origins_;
+  std::vector<std::uint32_t> segment_origins_begin_;
+  std::vector<SegmentOrigin> segment_origins_;
+  std::size_t input_segments_ = 0, input_facets_ = 0;
   std::vector<EntityId> facet_segments_;
   std::vector<std::uint32_t> facet_points_;
   std::vector<std::array<EntityId, 2>> touching_;  // sorted: of facets with more than few_points

@@ -8,7 +8,7 @@
 namespace pgdr::detail {
 
 void Bulk::run(std::size_t count, std::size_t block, const std::function<void(std::size_t, std::size_t)>& f) const {
-  if (!parallel_) {
+  if (!parallel_ || count <= block) {  // one block needs no help
     for (std::size_t first = 0; first < count && !stopped(); first += block) f(first, std::min(count, first + block));
     return;
   }

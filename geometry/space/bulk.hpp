@@ -87,7 +87,7 @@ class Bulk {
   template <class T, class Less>
   void sort(std::vector<T>& items, const Less& less) const {
     if (stopped()) return;
-    if (!parallel_) return std::sort(items.begin(), items.end(), less);
+    if (!parallel_ || items.size() <= grain) return std::sort(items.begin(), items.end(), less);
     tbb::this_task_arena::isolate([&] {
       tbb::task_group_context context(tbb::task_group_context::isolated);
       const std::stop_callback stop(stop_, [&] { context.cancel_group_execution(); });

@@ -12,6 +12,7 @@
 #include "pgdr/export.hpp"
 #include "pgdr/flat_arrays.hpp"
 #include "pgdr/io.hpp"
+#include "pgdr/mesh_maps.hpp"
 #include "pgdr/output_mesh.hpp"
 #include "pgdr/planar_plc.hpp"
 #include "pgdr/plc.hpp"

@@ -43,6 +43,7 @@ bool Generations<D>::one_generation() {
   Generation<D> generation = conflicts_.plan(wanted);
   std::vector<Planned> planned(wanted.size());
   const std::uint64_t left = context_->options.max_vertices - state_->totals.vertices, n = planned.size();
+  if (n > 1) context_->mesh.leave_heap();          // several visits have pools of their own
   registry_.reset(waiting_->tree().node_count());  // grows geometrically; of use to debug builds alone
   const auto start = Clock::now();
   execute(generation.graph, [&](VisitGraph::Visit v) {

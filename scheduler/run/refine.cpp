@@ -116,7 +116,8 @@ Compacted<D> compact_mesh(Mesh<D>& mesh, const Domain<D>& domain, const RegionTa
     compacted = was_interrupted ? compact_by_slots<D>(mesh, domain, attributes, parallel, fill)
                                 : compact<D>(std::move(mesh), domain, attributes, parallel, stop, fill, hurry);
   };
-  if (options.schedule.executor != Executor::flow_graph)
+  constexpr std::uint32_t few_cells = 1 << 12;  // a thread's least share (stripped_cells.hpp): no other would help
+  if (options.schedule.executor != Executor::flow_graph || mesh.cell_bound() <= few_cells)
     make(false);
   else
     detail::in_arena_to_the_end(options.schedule.threads, [&] { make(true); });
@@ -262,7 +263,7 @@ void number_mesh(const RefineContext<D>& context, const RegionTable& regions, co
 template <int D>
 RefineResult<D> make_mesh(const Domain<D>& domain, const RefineOptions<D>& options, Clock::time_point start,
                           RefineResult<D> result) {
-  Mesh<D> mesh;
+  Mesh<D> mesh(domain.points().size());
   auto pools = mesh.make_pools();
   const RegionTable regions = make_initial<D>(mesh, pools, domain, options, start, result);
   result.statistics.seconds_initial = seconds_since(start);
@@ -287,6 +288,7 @@ RefineResult<D> make_mesh(const Domain<D>& domain, const RefineOptions<D>& optio
 template <int D>
 RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   validate(options);
+  if (domain.points().empty()) bad_option("the Domain is empty: it was moved from");
   const auto start = Clock::now();
   const PredicateCounts predicates_before = predicate_counts();
   RefineResult<D> before;

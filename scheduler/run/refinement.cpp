@@ -19,7 +19,10 @@ std::unique_ptr<VisitSchedule<D>> make_schedule(RunState<D>& state) {
 
 template <int D>
 Refinement<D>::Refinement(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices)
-    : state_(context, std::move(pools), vertices), schedule_(make_schedule(state_)), violations_(state_) {}
+    : state_(context, std::move(pools), vertices), schedule_(make_schedule(state_)), violations_(state_) {
+  const ScheduleOptions& options = context.options.schedule;
+  if (options.schedule == Schedule::greedy || options.executor == Executor::shuffled) context.mesh.leave_heap();  // several pools
+}
 
 template <int D>
 StopCause Refinement<D>::run() {

@@ -95,6 +95,11 @@ void fields(const pgdr::Plc<D>& plc) {
   const pgdr::OutputMesh<D> coarse = mesh<D>(plc, options, "constant size");
   const auto xyz = pgdr::flat_points(coarse);
   const auto copy = pgdr::mesh_from_arrays<D>(xyz, pgdr::flat_cells(coarse));
+  const std::vector<std::array<std::uint32_t, D + 1>> neighbors = pgdr::neighbors_of_cells(copy);
+  expect(neighbors.size() == copy.cells.size(), "neighbours");
+  const pgdr::InputMap<D> map = pgdr::input_map(pgdr::Domain<D>(plc), coarse);
+  expect(map.vertex_of_point.size() == plc.points.size(), "a map of points");
+  expect((D == 2 ? map.subsegments_of_segment[0] : map.subfacets_of_facet[0]).size() > 0, "a map of the boundary");
   expect(copy.points == coarse.points && copy.cells == coarse.cells, "flat arrays there and back");
   std::vector<double> values(coarse.points.size(), 0.3);
   values[0] = 0.01;
@@ -171,6 +176,7 @@ void the_rest() {
   expect(pgdr::centroid<3>(s)[0] == 0.25 && pgdr::shortest_edge_squared<3>(s) < length, "simplices");
   expect(pgdr::point_on_segment<3>(domain, 0, 0.5) != domain.points()[0], "points of entities");
   expect(pgdr::angles_deg<3>(s)[0] > 50, "angles");
+  expect(std::abs(pgdr::min_angle_degrees(30) - 1) < 1e-15, "smallest angles");
 }
 
 }  // namespace

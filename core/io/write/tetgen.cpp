@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "io/formats.hpp"
-#include "numbers/corners.hpp"
+#include "pgdr/mesh_maps.hpp"
 
 namespace pgdr::detail {
 namespace {
@@ -118,42 +118,16 @@ void put_edges(FileOutput& out, const OutputMesh<D>& mesh, const WriteOptions& o
   }
 }
 
-/// A face by its sorted vertices, and the cell that it is a face of, with the corner opposite.
-template <int D>
-struct FaceOfCell {
-  std::array<std::uint32_t, D> vertices;
-  std::uint32_t cell;
-  int corner;
-};
-
 template <int D>
 void put_neighbors(FileOutput& out, const OutputMesh<D>& mesh, std::uint32_t first) {
-  std::vector<FaceOfCell<D>> faces;
-  faces.reserve(mesh.cells.size() * (D + 1));
-  for (std::uint32_t c = 0; c < mesh.cells.size(); ++c)
-    for (int i = 0; i <= D; ++i) {
-      FaceOfCell<D>& face = faces.emplace_back(FaceOfCell<D>{face_without(mesh.cells[c], i), c, i});
-      std::sort(face.vertices.begin(), face.vertices.end());
-    }
-  std::sort(faces.begin(), faces.end(),
-            [](const auto& a, const auto& b) { return a.vertices != b.vertices ? a.vertices < b.vertices : a.cell < b.cell; });
-  constexpr std::uint32_t none = 0xffffffffu;
-  std::array<std::uint32_t, D + 1> alone;
-  alone.fill(none);
-  std::vector<std::array<std::uint32_t, D + 1>> neighbors(mesh.cells.size(), alone);
-  for (std::size_t i = 1; i < faces.size(); ++i) {
-    const auto &a = faces[i - 1], &b = faces[i];
-    if (a.vertices != b.vertices) continue;
-    neighbors[a.cell][a.corner] = b.cell;
-    neighbors[b.cell][b.corner] = a.cell;
-  }
+  const auto neighbors = neighbors_of_cells<D>(mesh);
   out.put_number(mesh.cells.size());
   out.put(D == 2 ? " 3\n" : " 4\n");
   for (std::size_t c = 0; c < neighbors.size(); ++c) {
     out.put_number(c + first);
     for (const std::uint32_t n : neighbors[c]) {
       out.put(' ');
-      out.put_number(n == none ? std::int64_t{-1} : std::int64_t{n} + first);
+      out.put_number(n == no_cell_beyond ? std::int64_t{-1} : std::int64_t{n} + first);
     }
     out.put('\n');
   }

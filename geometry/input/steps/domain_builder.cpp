@@ -18,6 +18,8 @@ template <int D>
 void DomainBuilder<D>::run() {
   out_.first_index_ = plc_.first_index;
   out_.source_ = plc_.source;
+  out_.input_segments_ = plc_.segments.size();
+  out_.input_facets_ = plc_.facets.size();
   stop_();
   detail::check_finite(plc_, report_);
   detail::check_indices(plc_, report_);
@@ -113,6 +115,7 @@ void DomainBuilder<D>::group_facets(const Input& in, const EdgeUses& uses) requi
   out_.facets_ = std::move(facets.facets);
   out_.triangles_ = std::move(facets.triangles);
   out_.triangle_origins_ = std::move(facets.origins);
+  out_.further_origins_ = std::move(facets.further_origins);
   out_.facet_points_ = std::move(facets.points);
   out_.facet_magnitudes_ = std::move(facets.magnitudes);
   out_.facet_levels_ = std::move(facets.levels);
@@ -126,6 +129,8 @@ template <int D>
 void DomainBuilder<D>::write_segments(const Input& in, const EdgeUses& uses, const Segments& segments) {
   detail::MaximalSegments made = detail::make_maximal_segments<D>(in, uses, soft_, segments, group_of_, out_.facets_, report_);
   out_.segments_ = std::move(made.segments);
+  out_.segment_origins_begin_ = std::move(made.origins_begin);
+  out_.segment_origins_ = std::move(made.origins);
   out_.facet_segments_ = std::move(made.of_facets);
   out_.facets_of_segment_begin_ = std::move(made.facets_begin);
   out_.facets_of_segment_ = std::move(made.facets);

@@ -34,6 +34,10 @@ struct FacetTriangles {
   std::vector<std::uint8_t> masks;        ///< of each triangle, bit i: edge i (opposite corner i) is a constraint
   std::vector<OwnedEdge> polygon_edges;   ///< of facets that are no single triangle
   std::vector<std::uint32_t> facet_of;    ///< of each triangle, in `facets`; as index_facets() left it
+  /// What of the input was left out since it repeats other facets: (the one of `facets` that is kept, index in Plc::facets).
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> repeated;
+  /// The same of single triangles, where facets overlap: (in `triangles`, index in Plc::facets). Made last: nothing renumbers it.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> overlapped;
 
   bool is_constraint(std::uint32_t t, std::size_t edge) const { return (masks[t] >> edge & 1) != 0; }
   std::uint64_t key_of_edge(std::uint32_t t, std::size_t edge) const {

@@ -14,9 +14,10 @@
 namespace pgdr::detail {
 namespace {
 
-/// Facets and their triangles, those of a group one after the other.
-void collect_groups(const BuildInput<3>& in, const FacetTriangles& faces, std::span<const std::uint32_t> roots,
-                    MaximalFacets& out) {
+/// Facets and their triangles, those of a group one after the other. Returns where those of each of the FacetTriangles' facets
+/// begin.
+std::vector<std::uint32_t> collect_groups(const BuildInput<3>& in, const FacetTriangles& faces,
+                                          std::span<const std::uint32_t> roots, MaximalFacets& out) {
   out.group_of.resize(faces.facets.size());
   for (std::uint32_t f = 0; f < faces.facets.size(); ++f) {
     const TriangulatedFacet& facet = faces.facets[f];
@@ -35,6 +36,7 @@ void collect_groups(const BuildInput<3>& in, const FacetTriangles& faces, std::s
   }
   out.triangles.resize(total);
   out.origins.resize(total);
+  std::vector<std::uint32_t> places;
   for (std::uint32_t f = 0; f < faces.facets.size(); ++f) {
     const TriangulatedFacet& facet = faces.facets[f];
     DomainFacet& group = out.facets[out.group_of[f]];
@@ -42,11 +44,32 @@ void collect_groups(const BuildInput<3>& in, const FacetTriangles& faces, std::s
     std::ranges::copy(faces.of(facet), out.triangles.begin() + at);
     std::fill_n(out.origins.begin() + at, facet.count, TriangleOrigin{facet.input, facet.reversed, facet.mixed});
     group.triangle_count += facet.count;
+    places.push_back(at);
   }
+  return places;
 }
 
-/// The largest triangle first; one projection for all, each triangle positive in it.
-void orient(DomainFacet& facet, std::span<const Point3> p, const TriangleShapes& shapes, MaximalFacets& out) {
+/// What triangles stand for beside their own facets. `places`: of collect_groups. `exchanged`: the triangle of each facet that
+/// has changed places with its first one since.
+void list_further_origins(const FacetTriangles& faces, std::span<const std::uint32_t> places,
+                          std::span<const std::uint32_t> exchanged, MaximalFacets& out) {
+  const auto add = [&](std::uint32_t f, std::uint32_t k, std::uint32_t input) {
+    const EntityId group = out.group_of[f];
+    const std::uint32_t t = places[f] + k, first = out.facets[group].first_triangle, other = exchanged[group];
+    out.further_origins.push_back({t == first ? other : t == other ? first : t, input});
+  };
+  for (const auto& [f, input] : faces.repeated)
+    for (std::uint32_t k = 0; k < faces.facets[f].count; ++k) add(f, k, input);
+  for (const auto& [t, input] : faces.overlapped) {
+    const auto after = std::ranges::upper_bound(faces.facets, t, {}, &TriangulatedFacet::first);
+    const auto f = static_cast<std::uint32_t>(after - faces.facets.begin() - 1);
+    add(f, t - faces.facets[f].first, input);
+  }
+  make_set(out.further_origins);
+}
+
+/// The largest triangle first; one projection for all, each triangle positive in it. Returns which one was the largest.
+std::uint32_t orient(DomainFacet& facet, std::span<const Point3> p, const TriangleShapes& shapes, MaximalFacets& out) {
   PlanarTriangle* const t = out.triangles.data() + facet.first_triangle;
   const auto size = [&](const PlanarTriangle& s) { return std::fabs(shapes.normal(s)[static_cast<std::size_t>(facet.axis)]); };
   std::uint32_t largest = 0;
@@ -69,6 +92,7 @@ void orient(DomainFacet& facet, std::span<const Point3> p, const TriangleShapes&
       std::swap(t[k][1], t[k][2]);
       origin[k].reversed = !origin[k].reversed;
     }
+  return facet.first_triangle + largest;
 }
 
 /// Of two doubles within a factor of 2 the difference is exact (Sterbenz); 1.9 leaves room for points between, which are rounded.
@@ -131,14 +155,16 @@ void find_touching(const BuildInput<3>& in, std::size_t few_points, MaximalFacet
 MaximalFacets make_maximal_facets(const BuildInput<3>& in, const FacetTriangles& faces, std::span<const std::uint32_t> roots,
                                   std::size_t few_points) {
   MaximalFacets out;
-  collect_groups(in, faces, roots, out);
+  const std::vector<std::uint32_t> places = collect_groups(in, faces, roots, out);
+  std::vector<std::uint32_t> exchanged;
   const TriangleShapes shapes(in.points, in.scale);
   std::vector<std::uint32_t> points;
   for (DomainFacet& f : out.facets) {
     in.stop();
-    orient(f, in.points, shapes, out);
+    exchanged.push_back(orient(f, in.points, shapes, out));
     take_points(f, in.points, points, out);
   }
+  list_further_origins(faces, places, exchanged, out);
   sort_by_points(
       in.points.size(), out.triangles.size(), [&](std::uint32_t t) { return out.triangles[t]; }, out.triangles_at_begin,
       out.triangles_at);

@@ -23,6 +23,7 @@ struct MaximalFacets {
   std::vector<DomainFacet> facets;
   std::vector<PlanarTriangle> triangles;
   std::vector<TriangleOrigin> origins;
+  std::vector<std::array<std::uint32_t, 2>> further_origins;  ///< Domain::further_origins
   std::vector<std::uint32_t> points;
   std::vector<double> magnitudes, levels;
   std::vector<std::uint32_t> triangles_at_begin, triangles_at;

@@ -44,6 +44,17 @@ DomainSegment segment_of(const BuildInput<D>& in, std::span<const EdgeUse> uses,
   return segment;
 }
 
+/// Adds what of the input the uses of one segment are: Plc::segments come first, as their numbers do.
+template <int D>
+void add_origins(std::span<const EdgeUse> uses, const ExplicitSegments<D>& segments, MaximalSegments& out) {
+  const auto first = static_cast<std::ptrdiff_t>(out.origins.size());
+  for (const EdgeUse& use : uses)
+    if (use.kind == EdgeUse::Kind::explicit_segment)
+      out.origins.push_back({segments.item_of(use.owner), !segments.is_in_plc(use.owner)});
+  out.origins.erase(std::unique(out.origins.begin() + first, out.origins.end()), out.origins.end());
+  out.origins_begin.push_back(static_cast<std::uint32_t>(out.origins.size()));
+}
+
 }  // namespace
 
 template <int D>
@@ -51,6 +62,7 @@ MaximalSegments make_maximal_segments(const BuildInput<D>& in, const EdgeUses& a
                                       const ExplicitSegments<D>& segments, std::span<const EntityId> group_of,
                                       std::span<DomainFacet> facets, BuildReport<D>& report) {
   MaximalSegments out;
+  out.origins_begin.push_back(0);
   std::vector<std::pair<EntityId, EntityId>> pairs;  // facet, segment
   all.each_edge([&](std::size_t begin, std::span<const EdgeUse> uses) {
     if (soft[begin]) return;
@@ -58,6 +70,7 @@ MaximalSegments make_maximal_segments(const BuildInput<D>& in, const EdgeUses& a
     for (const EdgeUse& use : uses)
       if (use.is_triangle()) pairs.emplace_back(group_of[use.owner], id);
     out.segments.push_back(segment_of(in, uses, segments, report));
+    add_origins(uses, segments, out);
   });
   in.stop.sort(in.bulk, pairs);
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());

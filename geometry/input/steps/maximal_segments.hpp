@@ -20,6 +20,8 @@ namespace pgdr::detail {
 /// The members of a Domain that speak of segments.
 struct MaximalSegments {
   std::vector<DomainSegment> segments;
+  std::vector<std::uint32_t> origins_begin;  ///< of each segment, and one more: into `origins`
+  std::vector<SegmentOrigin> origins;
   std::vector<EntityId> of_facets;          ///< the segments of each facet, facet by facet
   std::vector<std::uint32_t> facets_begin;  ///< of each segment, and one more: into `facets`
   std::vector<EntityId> facets;             ///< that have the segment

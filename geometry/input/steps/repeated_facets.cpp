@@ -51,6 +51,7 @@ void drop_repeated_facets(const BuildInput<3>& in, FacetTriangles& faces, BuildR
   std::vector<std::uint32_t> new_index(facets.size());
   std::size_t kept = 0;
   std::uint32_t last = no_entity;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> repeated;
   for (std::uint32_t f = 0; f < facets.size(); ++f) {
     new_index[f] = static_cast<std::uint32_t>(kept);
     if (same[f] == no_entity) {
@@ -58,6 +59,8 @@ void drop_repeated_facets(const BuildInput<3>& in, FacetTriangles& faces, BuildR
       continue;
     }
     const std::uint32_t mine = facets[f].input, other = facets[new_index[same[f]]].input;
+    new_index[f] = new_index[same[f]];
+    repeated.emplace_back(new_index[f], mine);
     if (std::exchange(last, mine) == mine) continue;  // another part of it
     const std::int64_t number = report.number(mine), first = report.number(other);
     const std::string words = std::to_string(number) + " = " + std::to_string(first);
@@ -68,6 +71,8 @@ void drop_repeated_facets(const BuildInput<3>& in, FacetTriangles& faces, BuildR
   }
   std::erase_if(faces.polygon_edges, [&](const auto& e) { return same[e.owner] != no_entity; });
   for (auto& e : faces.polygon_edges) e.owner = new_index[e.owner];
+  for (auto& e : faces.repeated) e.first = new_index[e.first];
+  faces.repeated.insert(faces.repeated.end(), repeated.begin(), repeated.end());
   facets.resize(kept);
   std::uint32_t end = 0;
   for (TriangulatedFacet& f : facets) {

@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "pgdr/mesh_maps.hpp"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "numbers/corners.hpp"
+#include "output/facet_parts.hpp"
+#include "pgdr/error.hpp"
+
+namespace pgdr {
+namespace {
+
+[[noreturn]] void refuse(const char* what) { throw UsageError({Errc::bad_option, what, {}, 0, {}, {}}); }
+
+/// Pairs (list, number), in the order of the numbers.
+using Pairs = std::vector<std::array<std::uint32_t, 2>>;
+
+/// Turns pairs to lists, by counting: in linear time, and each list in the order of the pairs.
+NumberLists lists_of(const Pairs& pairs, std::size_t lists) {
+  NumberLists out;
+  out.begin.assign(lists + 1, 0);
+  for (const auto& [list, number] : pairs) ++out.begin[list + 1];
+  for (std::size_t i = 1; i <= lists; ++i) out.begin[i] += out.begin[i - 1];
+  out.numbers.resize(pairs.size());
+  std::vector<std::uint32_t> next(out.begin.begin(), out.begin.end() - 1);
+  for (const auto& [list, number] : pairs) out.numbers[next[list]++] = number;
+  return out;
+}
+
+/// Both ways: the lists of `forward`, and for each of the numbers in them, of which there are so many, the lists that have it.
+/// @param forward  by the numbers, and for one number by the lists
+std::pair<NumberLists, NumberLists> both_ways(const Pairs& forward, std::size_t lists, std::size_t numbers) {
+  Pairs back(forward);
+  for (auto& [list, number] : back) std::swap(list, number);
+  return {lists_of(forward, lists), lists_of(back, numbers)};
+}
+
+template <class Constraint, class Entities>
+void require_entities(const std::vector<Constraint>& constraints, const Entities& entities) {
+  for (const Constraint& c : constraints)
+    if (c.entity >= entities.size()) refuse("a subsegment or subfacet of the mesh is of no segment or facet of this Domain");
+}
+
+template <int D>
+void map_points(const Domain<D>& domain, const OutputMesh<D>& mesh, InputMap<D>& out) {
+  if (mesh.input_points != domain.points().size() || mesh.points.size() < mesh.input_points)
+    refuse("the mesh was not made of this Domain: it has another number of input points");
+  const auto vertices = domain.point_of_input();
+  out.vertex_of_point.assign(vertices.begin(), vertices.end());
+  Pairs pairs;
+  pairs.reserve(vertices.size());
+  for (std::uint32_t i = 0; i < vertices.size(); ++i) pairs.push_back({vertices[i], i});
+  out.points_of_vertex = lists_of(pairs, mesh.input_points);
+}
+
+template <int D>
+void map_segments(const Domain<D>& domain, const OutputMesh<D>& mesh, InputMap<D>& out) {
+  require_entities(mesh.subsegments, domain.segments());
+  Pairs segments, facets;
+  for (std::uint32_t i = 0; i < mesh.subsegments.size(); ++i)
+    for (const SegmentOrigin& origin : domain.segment_origins(mesh.subsegments[i].entity))
+      (origin.is_facet ? facets : segments).push_back({origin.index, i});
+  std::tie(out.subsegments_of_segment, out.segments_of_subsegment) = both_ways(segments, domain.input_segments(),
+                                                                               mesh.subsegments.size());
+  if constexpr (D == 3) out.subsegments_of_facet = lists_of(facets, domain.input_facets());
+}
+
+void map_facets(const Domain<3>& domain, const OutputMesh<3>& mesh, InputMap<3>& out) {
+  require_entities(mesh.subfacets, domain.facets());
+  const detail::FacetParts parts(domain);
+  const std::vector<std::uint32_t> part = parts.parts_of_subfacets(mesh);
+  Pairs pairs;
+  for (std::uint32_t i = 0; i < mesh.subfacets.size(); ++i)
+    for (const std::uint32_t facet : parts.inputs(part[i])) pairs.push_back({facet, i});
+  std::tie(out.subfacets_of_facet, out.facets_of_subfacet) = both_ways(pairs, domain.input_facets(), mesh.subfacets.size());
+}
+
+/// A face by its vertices other than the smallest, ascending, and where it is: the number of its cell times D + 1, and its
+/// corner.
+template <int D>
+struct Face {
+  std::array<std::uint32_t, D - 1> others;
+  std::uint64_t place;
+};
+
+/// Joins the cells of equal faces. The faces of one bucket have the same smallest vertex; there are few.
+template <int D>
+void join_equal(std::span<Face<D>> bucket, std::vector<std::array<std::uint32_t, D + 1>>& neighbors) {
+  std::sort(bucket.begin(), bucket.end(), [](const Face<D>& a, const Face<D>& b) { return a.others < b.others; });
+  for (std::size_t i = 1; i < bucket.size(); ++i) {
+    if (bucket[i].others != bucket[i - 1].others) continue;
+    if (i >= 2 && bucket[i].others == bucket[i - 2].others) refuse("the mesh has a face with more than two cells");
+    const std::uint64_t a = bucket[i - 1].place, b = bucket[i].place;
+    neighbors[a / (D + 1)][a % (D + 1)] = static_cast<std::uint32_t>(b / (D + 1));
+    neighbors[b / (D + 1)][b % (D + 1)] = static_cast<std::uint32_t>(a / (D + 1));
+  }
+}
+
+}  // namespace
+
+template <int D>
+InputMap<D> input_map(const Domain<D>& domain, const OutputMesh<D>& mesh) {
+  InputMap<D> out;
+  map_points(domain, mesh, out);
+  map_segments(domain, mesh, out);
+  if constexpr (D == 3) map_facets(domain, mesh, out);
+  return out;
+}
+
+template <int D>
+std::vector<std::array<std::uint32_t, D + 1>> neighbors_of_cells(const OutputMesh<D>& mesh) {
+  std::vector<std::size_t> begin(mesh.points.size() + 1, 0);  // of the faces with each vertex as their smallest
+  const auto each_face = [&](const auto& visit) {
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+      for (int i = 0; i <= D; ++i) {
+        auto face = face_without(mesh.cells[c], i);
+        std::sort(face.begin(), face.end());
+        visit(face, (D + 1) * std::uint64_t{c} + static_cast<std::uint64_t>(i));
+      }
+  };
+  each_face([&](const auto& face, std::uint64_t) {
+    if (face.back() >= mesh.points.size())
+      throw InputError({Errc::index_out_of_range, "a cell has a vertex that does not exist", {}, 0, {face.back()}, {}});
+    ++begin[face[0] + 1];
+  });
+  for (std::size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];
+  std::vector<Face<D>> faces(begin.back());
+  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+  each_face([&](const auto& face, std::uint64_t place) {
+    Face<D>& f = faces[next[face[0]]++];
+    std::copy(face.begin() + 1, face.end(), f.others.begin());
+    f.place = place;
+  });
+  std::array<std::uint32_t, D + 1> alone;
+  alone.fill(no_cell_beyond);
+  std::vector<std::array<std::uint32_t, D + 1>> neighbors(mesh.cells.size(), alone);
+  for (std::size_t v = 0; v + 1 < begin.size(); ++v)
+    join_equal<D>(std::span(faces).subspan(begin[v], begin[v + 1] - begin[v]), neighbors);
+  return neighbors;
+}
+
+template PGDR_API InputMap<2> input_map<2>(const Domain<2>&, const OutputMesh<2>&);
+template PGDR_API InputMap<3> input_map<3>(const Domain<3>&, const OutputMesh<3>&);
+template PGDR_API std::vector<std::array<std::uint32_t, 3>> neighbors_of_cells<2>(const OutputMesh<2>&);
+template PGDR_API std::vector<std::array<std::uint32_t, 4>> neighbors_of_cells<3>(const OutputMesh<3>&);
+
+}  // namespace pgdr
