@@ -139,6 +139,27 @@ TEST(InputMap, FacetsInOnePlaneAndRepeatedOnes) {
   for (const std::uint32_t i : map.subsegments_of_segment[0]) EXPECT_EQ(mesh.subsegments[i].marker, 3);
 }
 
+/// A box on a slab: what they have in common is of both, the rest of the slab's top is not the box's.
+TEST(InputMap, FacetsThatOverlap) {
+  Plc<3> plc;
+  test::add_box(plc, {{0, 0, -1}}, {{4, 4, 0}}, 1);
+  test::add_box(plc, {{1, 1, 0}}, {{2, 2, 1}}, 11);
+  const auto facet_at = [&](std::size_t first, double z) {
+    for (std::uint32_t f = static_cast<std::uint32_t>(first); f < first + 6; ++f)
+      if (std::ranges::all_of(plc.facets[f].polygons[0], [&](std::uint32_t v) { return plc.points[v][2] == z; })) return f;
+    return no_entity;
+  };
+  const std::uint32_t top = facet_at(0, 0), bottom = facet_at(6, 0);
+  ASSERT_TRUE(top < 6 && bottom < 12);
+  const Domain<3> domain(plc);
+  const OutputMesh<3> mesh = refine(domain, RefineOptions<3>{}).mesh;
+  const InputMap<3> map = input_map(domain, mesh);
+  expect_both_ways(map.subfacets_of_facet, map.facets_of_subfacet);
+  EXPECT_NEAR(area(mesh, map.subfacets_of_facet[top]), 16, 1e-12);
+  EXPECT_NEAR(area(mesh, map.subfacets_of_facet[bottom]), 1, 1e-12);
+  for (const std::uint32_t i : map.subfacets_of_facet[bottom]) EXPECT_EQ(list(map.facets_of_subfacet, i), (Numbers{top, bottom}));
+}
+
 TEST(InputMap, OfAMeshThatWasNumberedInHaste) {
   const Plc<3> plc = test::block_with_cavity();
   const Domain<3> domain(plc);

@@ -72,6 +72,10 @@ void BuildReport<D>::write(std::vector<Diagnostic>& mended, std::vector<Diagnost
   list(repairs.points_on_edges, Errc::point_on_segment, "points inside an edge, which is split there");
   list(repairs.points_in_facets, Errc::point_on_facet, "points inside a facet, now points of it");
   list(repairs.edges_in_facets, Errc::entities_intersect, "edges that run inside a facet, now segments of it");
+  list(repairs.overlaps, Errc::facets_overlap,
+       "facets that overlap one before them in its plane, subdivided along each other's outlines; what is of both is the "
+       "latter's");
+  list(repairs.added_points, Errc::entities_intersect, "points added where edges cross inside of a plane that they lie in");
   list(repairs.dropped_flat, Errc::degenerate_facet, "facets with all their points on edges of others, dropped");
   list(repairs.dropped_bare, Errc::degenerate_facet, "facets without an area, with all their points on one line, dropped");
   warnings.insert(warnings.end(), warnings_.begin(), warnings_.end());

@@ -23,7 +23,7 @@ namespace pgdr::detail {
 /// The lists of repairs, by kind.
 struct Repairs {
   RepairList merged, merged_near, negative_zeros, dropped_edges, repeated_segments, repeated_facets, points_on_edges,
-      points_in_facets, edges_in_facets, bent_facets, ambiguous_planes, dropped_flat, dropped_bare;
+      points_in_facets, edges_in_facets, overlaps, added_points, bent_facets, ambiguous_planes, dropped_flat, dropped_bare;
 };
 
 template <int D>
@@ -63,12 +63,18 @@ class BuildReport {
   }
   bool has_refused() const { return refused_ != nullptr && !refused_->empty(); }
 
-  /// Notes that point v lies inside the edge ab, which is split there.
+  /// Is the point none of the input's, but one that a step has added behind them?
+  bool is_added(std::uint32_t v) const { return input_of_point_[v] >= plc_.points.size(); }
+
+  /// Notes that point v lies inside the edge ab, which is split there. Added points are listed on their own.
   void note_on_edge(std::uint32_t v, std::uint32_t a, std::uint32_t b) {
+    if (is_added(v)) return;
     on_edges_.push_back({v, std::min(a, b), std::max(a, b)});
   }
   /// Notes that point v lies inside input facet f, and becomes one of its points.
-  void note_in_facet(std::uint32_t v, std::uint32_t f) { in_facets_.emplace_back(v, f); }
+  void note_in_facet(std::uint32_t v, std::uint32_t f) {
+    if (!is_added(v)) in_facets_.emplace_back(v, f);
+  }
   /// Counts the points noted so far among the repairs, each once.
   void list_points();
 

@@ -3,6 +3,7 @@
 #include "input/steps/contact_resolver.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "input/steps/triangle_splitter.hpp"
@@ -12,14 +13,47 @@
 namespace pgdr::detail {
 
 template <int D>
+std::vector<Piece> pieces_of(const BuildInput<D>& in, FacetTriangles& faces, std::span<const OwnedEdge> segment_edges) {
+  std::vector<Piece> pieces;
+  faces.index_facets();
+  std::vector<bool> used(in.points.size(), false);
+  std::vector<std::uint64_t> of_triangles, loose;
+  for (std::uint32_t t = 0; t < faces.triangles.size(); ++t) {
+    pieces.push_back({faces.triangles[t], 3, static_cast<std::uint8_t>(faces.facets[faces.facet_of[t]].axis)});
+    for (const std::uint32_t v : faces.triangles[t]) used[v] = true;
+  }
+  for (const auto edges : {segment_edges, std::span<const OwnedEdge>(faces.polygon_edges)})
+    for (const auto& [e, owner] : edges) {
+      loose.push_back(edge_key(e[0], e[1]));
+      used[e[0]] = used[e[1]] = true;
+    }
+  make_set(loose);
+  if (!loose.empty()) {
+    for (std::uint32_t t = 0; t < faces.triangles.size(); ++t)
+      for (std::size_t i = 0; i < 3; ++i) of_triangles.push_back(faces.key_of_edge(t, i));
+    make_set(of_triangles);
+  }
+  for (const std::uint64_t key : loose)
+    if (!std::binary_search(of_triangles.begin(), of_triangles.end(), key))
+      pieces.push_back({{edge_of(key)[0], edge_of(key)[1], no_entity}, 2, 0});
+  for (std::uint32_t v = 0; v < used.size(); ++v)
+    if (!used[v]) pieces.push_back({{v, no_entity, no_entity}, 1, 0});
+  return pieces;
+}
+
+template <int D>
 std::vector<std::uint32_t> PointsOnEdges<D>::chain(std::uint32_t a, std::uint32_t b) const {
   std::vector<std::uint32_t> out{a};
   const std::uint64_t edge = edge_key(a, b);
   for (auto at = std::lower_bound(found_.begin(), found_.end(), PointOn{edge, 0}); at != found_.end() && at->first == edge; ++at)
     out.push_back(at->second);
   out.push_back(b);
-  const auto& p = points_;  // lexicographic order is that along a line
-  std::sort(out.begin(), out.end(), [&](std::uint32_t v, std::uint32_t w) { return lex_less(p[v], p[w]); });
+  // In the order along the coordinate in which the ends are farthest apart: the others tell nothing where points are rounded.
+  const Point<D>&p = points_[a], &q = points_[b];
+  int axis = 0;
+  for (int i = 1; i < D; ++i)
+    if (std::fabs(q[i] - p[i]) > std::fabs(q[axis] - p[axis])) axis = i;
+  std::sort(out.begin(), out.end(), [&](std::uint32_t v, std::uint32_t w) { return points_[v][axis] < points_[w][axis]; });
   if (out.front() != a) std::reverse(out.begin(), out.end());
   return out;
 }
@@ -36,36 +70,8 @@ void PointsOnEdges<D>::split(std::vector<OwnedEdge>& edges, BuildReport<D>& repo
 }
 
 template <int D>
-void ContactResolver<D>::collect_pieces() {
-  pieces_.clear();
-  faces_.index_facets();
-  std::vector<bool> used(in_.points.size(), false);
-  std::vector<std::uint64_t> of_triangles, loose;
-  for (std::uint32_t t = 0; t < faces_.triangles.size(); ++t) {
-    pieces_.push_back({faces_.triangles[t], 3, static_cast<std::uint8_t>(faces_.facets[faces_.facet_of[t]].axis)});
-    for (const std::uint32_t v : faces_.triangles[t]) used[v] = true;
-  }
-  for (const auto* edges : {&segment_edges_, &faces_.polygon_edges})
-    for (const auto& [e, owner] : *edges) {
-      loose.push_back(edge_key(e[0], e[1]));
-      used[e[0]] = used[e[1]] = true;
-    }
-  make_set(loose);
-  if (!loose.empty()) {
-    for (std::uint32_t t = 0; t < faces_.triangles.size(); ++t)
-      for (std::size_t i = 0; i < 3; ++i) of_triangles.push_back(faces_.key_of_edge(t, i));
-    make_set(of_triangles);
-  }
-  for (const std::uint64_t key : loose)
-    if (!std::binary_search(of_triangles.begin(), of_triangles.end(), key))
-      pieces_.push_back({{edge_of(key)[0], edge_of(key)[1], no_entity}, 2, 0});
-  for (std::uint32_t v = 0; v < used.size(); ++v)
-    if (!used[v]) pieces_.push_back({{v, no_entity, no_entity}, 1, 0});
-}
-
-template <int D>
 bool ContactResolver<D>::find() {
-  collect_pieces();
+  pieces_ = pieces_of(in_, faces_, segment_edges_);
   contacts_.clear();
   std::vector<std::array<std::uint32_t, 3>> corners;
   corners.reserve(pieces_.size());
@@ -103,6 +109,8 @@ void ContactResolver<D>::split_at_points() {
   if constexpr (D == 3) split_triangles(in_, points, in_triangles, faces_, report_);
 }
 
+template std::vector<Piece> pieces_of(const BuildInput<2>&, FacetTriangles&, std::span<const OwnedEdge>);
+template std::vector<Piece> pieces_of(const BuildInput<3>&, FacetTriangles&, std::span<const OwnedEdge>);
 template class PointsOnEdges<2>;
 template class PointsOnEdges<3>;
 template class ContactResolver<2>;

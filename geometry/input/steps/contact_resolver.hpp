@@ -18,13 +18,18 @@
 
 namespace pgdr::detail {
 
-/// Two pieces that meet where they should not: triangles, then edges of no triangle, then points of neither.
+/// The pieces of a Domain in the making: triangles, then edges that no triangle has, then points of neither. Indexes the facets
+/// of triangles.
+template <int D>
+std::vector<Piece> pieces_of(const BuildInput<D>& in, FacetTriangles& faces, std::span<const OwnedEdge> segment_edges);
+
+/// Two pieces that meet where they should not.
 struct FoundContact {
   std::uint32_t first, second;
   Contact what;
 };
 
-/// Points exactly inside edges.
+/// Points inside edges: exactly, or but for the rounding of points that were added.
 template <int D>
 class PointsOnEdges {
  public:
@@ -55,13 +60,7 @@ class ContactResolver {
   /// Splits edges and triangles at the points that were found on them.
   void split_at_points();
 
-  /// Triangles, then edges that no triangle has, then points of neither.
-  std::span<const Piece> pieces() const { return pieces_; }
-  std::span<const FoundContact> contacts() const { return contacts_; }
-
  private:
-  void collect_pieces();
-
   const BuildInput<D>& in_;
   FacetTriangles& faces_;
   std::vector<OwnedEdge>& segment_edges_;

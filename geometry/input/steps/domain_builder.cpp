@@ -6,7 +6,8 @@
 
 #include "input/steps/coplanar_groups.hpp"
 #include "input/steps/flat_facets.hpp"
-#include "input/steps/inner_edges.hpp"
+#include "input/steps/near_crossings.hpp"
+#include "input/steps/plane_subdivider.hpp"
 #include "input/steps/repeated_facets.hpp"
 #include "space/point_places.hpp"
 
@@ -27,8 +28,7 @@ void DomainBuilder<D>::run() {
   out_.tolerance_ = tolerance_of(plc_);
   take_points();
   stop_();
-  const Input in{plc_,  out_.points_, out_.point_of_input_, detail::scale_of<D>(out_.points_).first, out_.tolerance_,
-                 bulk_, stop_};
+  Input in{plc_, out_.points_, out_.point_of_input_, detail::scale_of<D>(out_.points_).first, out_.tolerance_, bulk_, stop_};
   const Segments segments(in, report_);
   report_.attempt([this] { detail::check_spans_space<D>(out_.points_, report_); });
   if (out_.points_.empty()) return;
@@ -82,24 +82,27 @@ void DomainBuilder<D>::join_near(const Input& in, const Segments& segments) {
 
 /// Fits pieces to each other that meet; where nothing does, that is known from here on.
 template <int D>
-void DomainBuilder<D>::resolve_contacts(const Input& in) {
+void DomainBuilder<D>::resolve_contacts(Input& in) {
   out_.nothing_meets_ = !meets_;
   if (meets_) {
     detail::ContactResolver<D> resolver(in, facets_.faces, segment_edges_, report_);
     if (resolver.find()) resolver.split_at_points();
-    if constexpr (D == 3) {
-      const bool joins = near_search_->width() > 0, meets = resolver.find();
-      const bool near = joins && near_search_->find_pairs(facets_.faces, segment_edges_, facets_.flat);
-      detail::InnerEdges inner(in, *near_search_, facets_.faces, segment_edges_, report_);
-      if (meets || near) inner.constrain(resolver);
-      if (near) {
-        near_search_->find_pairs(facets_.faces, segment_edges_, facets_.flat);
-        inner.refuse_near_crossings();
-      }
-      detail::drop_repeated_facets(in, facets_.faces, report_);
-    }
+    if constexpr (D == 3) subdivide_planes(in);
   }
   report_.list_points();
+}
+
+template <int D>
+void DomainBuilder<D>::subdivide_planes(Input& in) requires(D == 3) {
+  detail::drop_repeated_facets(in, facets_.faces, report_);
+  const detail::PointLists lists{out_.points_, out_.input_of_point_, out_.point_markers_, out_.point_attributes_};
+  detail::PlaneSubdivider planes(in, lists, facets_.faces, segment_edges_, report_);
+  const bool met = planes.run();
+  near_search_.emplace(in);  // there may be more points
+  if (near_search_->width() == 0) return;
+  if (met) planes.refuse_rest();
+  if (near_search_->find_pairs(facets_.faces, segment_edges_, {}))  // flat facets are dropped in the end
+    detail::refuse_near_crossings(in, *near_search_, report_);
 }
 
 template <int D>

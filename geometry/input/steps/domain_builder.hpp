@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The maker of a Domain of a Plc, in this order: points (finite, grouped), indices, facets to triangles, what is near to what
-// (decided once, on that), repeated facets, points and edges that lie on what they do not belong to, coplanar groups, segments,
-// incidences. Each step has a header of its
-// own, included here. Everything is sorting and hashing: n log n in the size of the input, but for constraint edges
-// of a facet that cross many triangles.
-// Used by one thread, once; long loops run in its task arena, too.
+// (decided once, on that), repeated facets, points and edges that lie on what they do not belong to, facets that overlap,
+// coplanar groups, segments, incidences. Each step has a header of its own, included here. Everything is sorting and hashing: n
+// log n in the size of the input, but for constraint edges of a facet that cross many triangles. Used by one thread, once; long
+// loops run in its task arena, too.
 #pragma once
 
 #include <optional>
@@ -42,7 +41,8 @@ class DomainBuilder {
 
   void take_points();
   void join_near(const Input& in, const Segments& segments);
-  void resolve_contacts(const Input& in);
+  void resolve_contacts(Input& in);
+  void subdivide_planes(Input& in) requires(D == 3);
   void group_facets(const Input& in, const detail::EdgeUses& uses) requires(D == 3);
   void write_segments(const Input& in, const detail::EdgeUses& uses, const Segments& segments);
 

@@ -19,8 +19,9 @@ namespace pgdr::detail {
 
 /// One use of an edge.
 struct EdgeUse {
-  /// A rim is a constraint of its facet, a diagonal lies inside it.
-  enum class Kind : std::uint8_t { diagonal, rim, polygon, explicit_segment };
+  /// A rim is a constraint of its facet, a diagonal lies inside it; an outline is that of a facet, inside of another one that
+  /// overlaps it.
+  enum class Kind : std::uint8_t { diagonal, rim, polygon, explicit_segment, outline };
   std::uint64_t key;       ///< of the edge, see edge_key
   std::uint32_t owner;     ///< triangulated facet, or for explicit_segment its number among the ExplicitSegments
   std::uint32_t triangle;  ///< diagonal and rim only

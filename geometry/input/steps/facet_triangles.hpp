@@ -33,6 +33,7 @@ struct FacetTriangles {
   std::vector<PlanarTriangle> triangles;  ///< facet by facet
   std::vector<std::uint8_t> masks;        ///< of each triangle, bit i: edge i (opposite corner i) is a constraint
   std::vector<OwnedEdge> polygon_edges;   ///< of facets that are no single triangle
+  std::vector<std::uint64_t> outlines;    ///< edges of facets, by their keys, inside of others that overlap these
   std::vector<std::uint32_t> facet_of;    ///< of each triangle, in `facets`; as index_facets() left it
   /// What of the input was left out since it repeats other facets: (the one of `facets` that is kept, index in Plc::facets).
   std::vector<std::pair<std::uint32_t, std::uint32_t>> repeated;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "input/steps/joints.hpp"
 
+#include "input/triangle_shapes.hpp"
 #include "pgdr/predicates.hpp"
 #include "space/triangle.hpp"
 
@@ -40,9 +41,15 @@ std::array<Point3, 4> Joints::corners(std::span<const EdgeUse> joint) const {
           p[corner_beside(faces_.triangles[joint[1].triangle], a, b)]};
 }
 
-bool Joints::is_soft(std::span<const EdgeUse> uses) const {
+bool Joints::is_soft(std::span<const EdgeUse> uses, const PlaneWidth& width) const {
   if (!is_joint(uses)) return false;
-  return uses[0].owner == uses[1].owner || (is_flat(uses) && opens(uses, faces_.facets[uses[0].owner].axis));
+  if (uses[0].owner == uses[1].owner) return true;
+  if (!opens(uses, faces_.facets[uses[0].owner].axis)) return false;
+  if (is_flat(uses)) return true;
+  const auto [a, b, c, d] = corners(uses);
+  const PlanarTriangle &s = faces_.triangles[uses[0].triangle], &t = faces_.triangles[uses[1].triangle];
+  const double most = width.of(std::array{s[0], s[1], s[2], t[0], t[1], t[2]}) / in_.scale;
+  return most > 0 && plane_distance(a, b, c, d) <= most && plane_distance(a, b, d, c) <= most;
 }
 
 }  // namespace pgdr::detail

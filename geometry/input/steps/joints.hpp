@@ -10,6 +10,7 @@
 #include "input/steps/build_input.hpp"
 #include "input/steps/edge_uses.hpp"
 #include "input/steps/facet_triangles.hpp"
+#include "input/steps/plane_meetings.hpp"
 
 namespace pgdr::detail {
 
@@ -20,8 +21,8 @@ class Joints {
 
   /// Two triangles, of one facet or of facets with equal markers, and nothing but the polygons of these?
   bool is_joint(std::span<const EdgeUse> uses) const;
-  /// Is it a joint inside one facet, or between two that are exactly coplanar?
-  bool is_soft(std::span<const EdgeUse> uses) const;
+  /// Is it a joint inside one facet, or between two that are coplanar there, exactly or within the width?
+  bool is_soft(std::span<const EdgeUse> uses, const PlaneWidth& width) const;
   /// Are the triangles of a joint on different sides of its edge, in this projection?
   bool opens(std::span<const EdgeUse> joint, int axis) const;
   /// Are both of planar facets, and exactly coplanar?

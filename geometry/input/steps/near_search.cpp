@@ -226,22 +226,6 @@ auto NearSearch<D>::points_in_facets(const NearContacts& on_edges) const -> Poin
 }
 
 template <int D>
-void NearSearch<D>::edges_and_triangles(const std::function<void(std::uint32_t, std::uint32_t, std::uint32_t)>& visit) const
-    requires(D == 3) {
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> found;
-  const auto look = [&](std::uint32_t i, std::uint32_t j) {
-    if (!is_triangle(j)) return;
-    for (const auto& [a, b] : edges_of(i, true)) found.emplace_back(edge_key(a, b), j);
-  };
-  for (const auto& [i, j] : pairs_) {
-    look(i, j);
-    look(j, i);
-  }
-  make_set(found);
-  for (const auto& [key, t] : found) visit(edge_of(key)[0], edge_of(key)[1], t);
-}
-
-template <int D>
 void NearSearch<D>::passing_edges(const std::function<void(const PlanarEdge&, const PlanarEdge&)>& visit) const requires(D == 3) {
   std::vector<std::array<std::uint64_t, 2>> found;
   for (const auto& [i, j] : pairs_)
@@ -258,32 +242,6 @@ void NearSearch<D>::passing_edges(const std::function<void(const PlanarEdge&, co
     const PlanarEdge e = edge_of(first), f = edge_of(second);
     if (orient3d(p[e[0]], p[e[1]], p[f[0]], p[f[1]]) != Sign::zero) visit(e, f);
   }
-}
-
-template <int D>
-bool NearSearch<D>::runs_near(std::uint32_t a, std::uint32_t b, const PlanarTriangle& t) const requires(D == 3) {
-  const std::array s{scaled_[t[0]], scaled_[t[1]], scaled_[t[2]]};
-  const Point3 &p = scaled_[a], &q = scaled_[b];
-  const auto n = cross(difference(s[1], s[0]), difference(s[2], s[0]));
-  double from = 0, to = 1;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto inward = cross(n, difference(s[(i + 1) % 3], s[i]));
-    const double at_p = dot(inward, difference(p, s[i])), at_q = dot(inward, difference(q, s[i]));
-    if (at_p < 0 && at_q > 0) from = std::max(from, at_p / (at_p - at_q));
-    if (at_p > 0 && at_q < 0) to = std::min(to, at_p / (at_p - at_q));
-  }
-  const double most = width_ * std::sqrt(dot(n, n));
-  const auto height = [&](double part) { return (1 - part) * dot(n, difference(p, s[0])) + part * dot(n, difference(q, s[0])); };
-  // Edges that leave a corner steeply, beside the triangle but for rounding, have a part inside that is as short as the distance.
-  const auto along = difference(q, p);
-  const bool is_long = (to - from) * std::sqrt(dot(along, along)) > 64 * width_;
-  return is_long && std::fabs(height(from)) <= most && std::fabs(height(to)) <= most;
-}
-
-template <int D>
-bool NearSearch<D>::is_nearly_flat(const std::array<Point3, 4>& corners_of_joint) const requires(D == 3) {
-  const auto& [a, b, c, d] = corners_of_joint;
-  return plane_distance(a, b, c, d) <= in_.tolerance && plane_distance(a, b, d, c) <= in_.tolerance;
 }
 
 template class NearSearch<2>;

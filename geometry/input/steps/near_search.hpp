@@ -36,14 +36,8 @@ class NearSearch {
 
   /// Points near edges, and near the inside of facets.
   NearContacts contacts() const;
-  /// Calls visit(a, b, t) for edges of facets and segments, and triangles, that meet or are near each other.
-  void edges_and_triangles(const std::function<void(std::uint32_t, std::uint32_t, std::uint32_t)>& visit) const requires(D == 3);
   /// Calls visit(e, f) for edges, of no common point and not in one plane, that pass each other within the width.
   void passing_edges(const std::function<void(const PlanarEdge&, const PlanarEdge&)>& visit) const requires(D == 3);
-  /// Is the part of ab that is seen inside of the triangle, along its normal, within the width of its plane?
-  bool runs_near(std::uint32_t a, std::uint32_t b, const PlanarTriangle& t) const requires(D == 3);
-  /// Do the corners opposite a joint's edge lie within the width of the planes of each other's triangles?
-  bool is_nearly_flat(const std::array<Point3, 4>& corners_of_joint) const requires(D == 3);
 
  private:
   using Pair = std::array<std::uint32_t, 2>;  // of pieces

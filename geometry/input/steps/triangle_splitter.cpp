@@ -43,6 +43,7 @@ class TriangleSplitter {
       report_.note_in_facet(v, facet.input);
     }
     if (vertices.size() == 3 || !planar_.build(in_.points, vertices, rim, facet.axis)) return;
+    planar_.carve_outside();  // a point may be off its edge by its rounding
     faces_.resize(faces_.triangles.size() - 1);
     std::sort(fixed.begin(), fixed.end());
     for (const PlanarTriangle& s : planar_.triangles()) faces_.add(s, mask_of(s, fixed));
