@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "pgdr/diagnosis.hpp"
 #include "planar_plcs.hpp"
 #include "refined_models.hpp"
@@ -58,7 +60,8 @@ void expect_resolved(const Plc<2>& plc, const std::string& what) {
       EXPECT_EQ(piece.marker, s.marker) << what;
       EXPECT_EQ(out.points[piece.points[0]], at) << what;
       at = out.points[piece.points[1]];
-      EXPECT_LE(distance_from(a, b, at), 0x1p-47) << what;  // coordinates up to 2: four ulps, some more in a crowd
+      EXPECT_LE(distance_from(a, b, at), 0x1p-46)
+          << what;  // coordinates up to 2: 8 ulps of 2^-51, up to four times that in a crowd
     }
     EXPECT_EQ(at, b) << what;
   }
@@ -152,8 +155,8 @@ TEST(ResolveCrossings, WhatTouchesIsLeftAlone) {
   EXPECT_TRUE(repairs.empty());
 }
 
-/// Roads that end on others, in a file that keeps no point on a slanted one: nothing crosses, but the ends are up to four ulps
-/// off.
+/// Roads that end on others, in a file that keeps no point on a slanted one: the ends are up to four ulps off. That is no
+/// crossing, unless something else is.
 TEST(ResolveCrossings, SegmentsGoThroughPointsThatTheyNearlyMeet) {
   Random random(7);
   Plc<2> plc;
@@ -165,12 +168,18 @@ TEST(ResolveCrossings, SegmentsGoThroughPointsThatTheyNearlyMeet) {
     plc.points.insert(plc.points.end(), {{{0.1 + 0.8 * t - off, 0.2 + 0.5 * t + off}}, {{0.2 + 0.8 * t, 0.1 + 0.5 * t}}});
     add_segment(plc, 4 + 2 * i, 5 + 2 * i, 8);
   }
-  expect_resolved(plc, "ends on a segment");
   std::vector<Diagnostic> repairs;
+  EXPECT_EQ(resolve_crossings(plc, repairs).segments.size(), plc.segments.size());
+  EXPECT_TRUE(repairs.empty());
+  EXPECT_EQ(refine<2>(plc, {}).poor_left, 0u);
+  plc.points.insert(plc.points.end(), {{{0.1, 1.2}}, {{0.9, 1.7}}, {{0.1, 1.7}}, {{0.9, 1.2}}});
+  const auto last = static_cast<std::uint32_t>(plc.points.size());
+  add_segment(plc, last - 4, last - 3, 9);
+  add_segment(plc, last - 2, last - 1, 9);
   const Plc<2> out = resolve_crossings(plc, repairs);
-  EXPECT_EQ(out.points.size(), plc.points.size());
-  EXPECT_EQ(out.segments.size(), plc.segments.size() + 20);
-  ASSERT_EQ(repairs.size(), 1u);
+  EXPECT_EQ(out.points.size(), plc.points.size() + 1);
+  EXPECT_EQ(out.segments.size(), plc.segments.size() + 22);
+  ASSERT_EQ(repairs.size(), 2u);
   EXPECT_EQ(repairs[0].code, Errc::point_on_segment);
   EXPECT_EQ(repairs[0].ids.size(), 3 * 20u);
   EXPECT_EQ(refine<2>(out, {}).poor_left, 0u);
@@ -257,6 +266,76 @@ TEST(ResolveCrossings, BundlesComeToAnEnd) {
     options.radius_edge_bound = 1e18;
     const auto [result, report] = refine_and_check<2>(out, options);
     EXPECT_LE(report.exit_code(), 1) << findings(report);
+  }
+}
+
+/// The edges of a graph, by the coordinates of their ends.
+std::vector<std::array<double, 4>> edges_of(const Plc<2>& plc) {
+  std::vector<std::array<double, 4>> edges;
+  for (const auto& s : plc.segments) {
+    Point2 a = plc.points[s.points[0]], b = plc.points[s.points[1]];
+    if (lex_less(b, a)) std::swap(a, b);
+    edges.push_back({a[0], a[1], b[0], b[1]});
+  }
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
+/// A crossing near a point that is there becomes that point; and the third of three lines passes through that of two.
+TEST(ResolveCrossings, CrossingsJoinWhatIsWithinTheTolerance) {
+  Plc<2> plc;
+  plc.points = {{{0, 0}}, {{2, 2}}, {{0, 2}}, {{2, 0}}, {{1.0005, 1}}};
+  add_segment(plc, 0, 1);
+  add_segment(plc, 2, 3);
+  std::vector<Diagnostic> repairs;
+  plc.tolerance = 1e-3;
+  EXPECT_EQ(resolve_crossings(plc, repairs).points.size(), 5u);
+  plc.tolerance = 1e-4;  // not even twice that
+  EXPECT_EQ(resolve_crossings(plc, repairs).points.size(), 6u);
+  plc.points[4] = {{0.9, 0.0001}};
+  plc.points.push_back({{1.1, 2}});
+  add_segment(plc, 4, 5);
+  plc.tolerance = 1e-3;
+  const Plc<2> out = resolve_crossings(plc, repairs);
+  EXPECT_EQ(out.points.size(), 7u);
+  EXPECT_EQ(out.segments.size(), 6u);
+}
+
+/// Whatever the tolerance, what comes of it does not depend on the order of points and segments, and once is enough.
+TEST(ResolveCrossings, InAnyOrder) {
+  for (const double tolerance : {0.0, 1e-9, 0.003, 0.01})
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+      Plc<2> plc = tangle(30, 0, seed);
+      plc.tolerance = tolerance;
+      std::vector<Diagnostic> repairs, again;
+      const Plc<2> out = resolve_crossings(plc, repairs);
+      resolve_crossings(out, again);
+      EXPECT_TRUE(again.empty()) << tolerance << ", seed " << seed;
+      Random random(seed);
+      std::vector<std::uint32_t> place(plc.points.size());
+      std::iota(place.begin(), place.end(), 0);
+      std::shuffle(place.begin(), place.end(), random);
+      Plc<2> other = plc;
+      for (std::size_t i = 0; i < place.size(); ++i) other.points[place[i]] = plc.points[i];
+      for (auto& s : other.segments) s = {{place[s.points[1]], place[s.points[0]]}, s.marker};
+      std::shuffle(other.segments.begin(), other.segments.end(), random);
+      EXPECT_EQ(edges_of(resolve_crossings(other, repairs)), edges_of(out)) << tolerance << ", seed " << seed;
+    }
+}
+
+/// Points of a side that rounding has put beside it are on it.
+TEST(ConvexHull, GoesThroughPointsThatItNearlyMeets) {
+  Random random(5);
+  for (int k = 0; k < 20; ++k) {
+    const double angle = uniform(random), c = std::cos(angle), s = std::sin(angle);
+    Plc<2> plc;
+    for (int i = 0; i < 36; ++i) {
+      const double x = i % 6, y = i / 6;
+      plc.points.push_back({{47 + c * x - s * y, 8 + s * x + c * y}});
+    }
+    EXPECT_EQ(with_convex_hull(plc).segments.size(), 20u) << angle;
+    plc.tolerance = 0;
+    EXPECT_LE(with_convex_hull(plc).segments.size(), 20u) << angle;
   }
 }
 

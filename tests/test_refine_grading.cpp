@@ -112,6 +112,7 @@ void expect_graded(const Plc<D>& plc, const std::string& what) {
       for (const Case& c : cases) {
         RefineOptions<D> options;
         options.radius_edge_bound = factor * smallest_proved_bound<D>();
+        options.disk.type = DiskType::type2;
         options.disk.delta = 1 - reach * (1 - 1 / factor);  // delta times the bound is above the smallest proved one
         options.selector = c.selector;
         const auto [result, report] = test::refine_and_check<D>(plc, options);

@@ -290,7 +290,9 @@ TYPED_TEST(SelectorsRefine, PreviewsAgreeWithTheMesh) {
 TYPED_TEST(SelectorsRefine, PointsOutsideTheDisk) {
   constexpr int D = TypeParam::value;
   const Plc<D> plc = box_with_pairs<D>(20, 0.01, 2);
-  const auto plain = refine<D>(plc, {});
+  RefineOptions<D> circumcenters;
+  circumcenters.selector = {};
+  const auto plain = refine<D>(plc, circumcenters);
   const PointSelector<D> wrong[] = {[](const PoorElement<D>& e) {
                                       Point<D> p = e.circumcenter;
                                       p[0] += 1.001 * e.disk.radius;

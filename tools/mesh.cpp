@@ -31,8 +31,9 @@ RefineOptions<D> make_options(const MeshArguments& a, const Bounds<D>& bounds) {
   options.size = bounds.size;
   options.region_sizes = bounds.region_sizes;
   options.max_volume = bounds.max_volume;
-  options.selector = make_selector<D>(a.selector);
-  options.disk = {a.disk.value_or(a.delta > 0 ? DiskType::type2 : usual_disk(a.selector)), a.delta};
+  const std::string selector = a.selector.value_or(usual_selector<D>());
+  options.selector = make_selector<D>(selector);
+  options.disk = {a.disk.value_or(a.delta > 0 ? DiskType::type2 : usual_disk(selector)), a.delta};
   options.keep_boundary = a.keep_boundary;
   options.refine = !a.no_refine;
   options.leaves = a.leaves;
@@ -112,7 +113,7 @@ void fill(Report& report, const MeshArguments& a, const Threads& threads, const 
              a.schedule == Schedule::reproducible && r.stop != StopCause::time_limit && r.stop != StopCause::cancelled);
   report.set("stop", name(r.stop));
   report.set("refined", !a.no_refine);
-  report.set("selector", a.selector);
+  report.set("selector", a.selector.value_or(usual_selector<D>()));
   report.set("seconds", nullptr);  // their places; the values come last
   report.set("peak_rss_bytes", nullptr);
   JsonObject quality = to_json(q);

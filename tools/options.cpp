@@ -186,13 +186,13 @@ void add_mesh(CLI::App& app, MeshArguments& a) {
                "2D: the constrained Delaunay triangulation, without new points; 3D: the "
                "triangulation with its boundary recovered");
   app.add_option("--selector", a.selector,
-                 "where new points go: circumcenter (default), off-center[:FACTOR], optimized[:SAMPLES], "
-                 "sliver-avoiding[:CANDIDATES]")
+                 "where new points go: circumcenter (default in 3D), off-center[:FACTOR] (default in 2D), "
+                 "optimized[:SAMPLES], sliver-avoiding[:CANDIDATES]")
       ->type_name("NAME")
       ->check(CLI::Validator([](std::string& text) { return selector_error(text); }, "", "selector"));
   app.add_option_function<std::string>(
          "--disk", [&a](const std::string& t) { a.disk = t == "type1" ? DiskType::type1 : DiskType::type2; },
-         "selection disk: type1 or type2 (default: type2, or type1 for a --selector other "
+         "selection disk: type1 or type2 (default: type2, or type1 for a selector other "
          "than circumcenter without --delta)")
       ->type_name("TYPE")
       ->check(CLI::IsMember({"type1", "type2"}));

@@ -41,8 +41,8 @@ struct MeshArguments {
   BoundArguments bounds;
   InputArguments reading;
   bool keep_boundary = false, no_refine = false;
-  std::string selector = "circumcenter";  ///< NAME or NAME:PARAMETER (selector.hpp)
-  std::optional<DiskType> disk;           ///< none: as usual for the selector
+  std::optional<std::string> selector;  ///< NAME or NAME:PARAMETER (selector.hpp); none: as usual for the dimension
+  std::optional<DiskType> disk;         ///< none: as usual for the selector
   RegionMode regions = RegionMode::seeds;
   double delta = 0;
   std::optional<int> threads;  ///< none: one a core

@@ -13,6 +13,12 @@ namespace pgdr::tool {
 /// What is wrong with the argument of --selector; empty if nothing is.
 std::string selector_error(const std::string& text);
 
+/// The selector that is taken unless one is asked for, by name: off-center in 2D, circumcenter in 3D.
+template <int D>
+std::string usual_selector() {
+  return D == 2 ? "off-center" : "circumcenter";
+}
+
 /// @pre selector_error(text) is empty.
 template <int D>
 PointSelector<D> make_selector(const std::string& text);

@@ -68,8 +68,8 @@ struct RefineOptions {
   RegionSizes<D> region_sizes;                                     ///< further such bounds, on the cells of single regions
   double max_volume = std::numeric_limits<double>::infinity();     ///< 3D: volume bound of all cells; 2D: must be infinite
   RegionMode regions = RegionMode::seeds;                          ///< what is meshed, and how it is labelled
-  PointSelector<D> selector;                                       ///< empty: circumcentre
-  DiskOptions disk;                                                ///< the disk in which the selector may put a point
+  PointSelector<D> selector = default_selector<D>();               ///< empty: circumcentre
+  DiskOptions disk = default_disk<D>();                            ///< the disk in which the selector may put a point
   OutsidePolicy outside = OutsidePolicy::replace_by_circumcenter;  ///< what becomes of points outside of it (and NaN)
   bool refine = true;                                              ///< false: boundary recovery alone
   /// 2D: no new point on any segment. Elements that this leaves poor have the reason kept_boundary.

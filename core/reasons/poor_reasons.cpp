@@ -212,10 +212,10 @@ PoorCount count_poor_cells(const Mesh<D>& mesh, const CellBounds<D>& bounds, std
 
 template <int D>
 std::vector<PoorCell> PoorReasons<D>::of_cells(std::uint32_t first, std::uint32_t last, const std::vector<bool>& violated,
-                                               const std::stop_token& stop) const {
+                                               const std::function<bool()>& must_end) const {
   std::vector<PoorCell> found;
   for (std::uint32_t i = first; i < last; ++i) {
-    if (i % 1024 == 0 && stop.stop_requested()) break;
+    if (i % 64 == 0 && must_end()) break;  // of each thousands of cells may be looked at
     if (mesh_->alive(CellId{i})) look_at(CellId{i}, violated[i], found);
   }
   return found;
@@ -223,10 +223,10 @@ std::vector<PoorCell> PoorReasons<D>::of_cells(std::uint32_t first, std::uint32_
 
 // After a run to the end a poor cell is alive only because it was refused.
 template <int D>
-std::vector<PoorCell> PoorReasons<D>::of_refused(const std::stop_token& stop) const {
+std::vector<PoorCell> PoorReasons<D>::of_refused(const std::function<bool()>& must_end) const {
   std::vector<PoorCell> found;
   for (const auto& why : why_) {
-    if (stop.stop_requested()) break;
+    if (must_end()) break;
     look_at(CellId{why.first}, false, found);
   }
   return found;

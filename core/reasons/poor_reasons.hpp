@@ -8,7 +8,6 @@
 
 #include <functional>
 #include <span>
-#include <stop_token>
 #include <unordered_map>
 #include <vector>
 
@@ -58,11 +57,11 @@ class PoorReasons {
 
   /// Every cell numbered [first, last) that is over a bound, with its reason, and every one with a face that is not locally
   /// Delaunay beside a small angle, with that. `violated`, by cell: those with a face that is not locally Delaunay.
-  /// @pre the refinement has finished. Several threads at once. Ends early, with some of them, once `stop` is requested.
+  /// @pre the refinement has finished. Several threads at once. Ends early, with some of them, once `must_end` says so.
   std::vector<PoorCell> of_cells(std::uint32_t first, std::uint32_t last, const std::vector<bool>& violated,
-                                 const std::stop_token& stop = {}) const;
+                                 const std::function<bool()>& must_end) const;
   /// of_cells() for the cells that were refused, which are all poor cells where every face is locally Delaunay.
-  std::vector<PoorCell> of_refused(const std::stop_token& stop = {}) const;
+  std::vector<PoorCell> of_refused(const std::function<bool()>& must_end) const;
   /// Would entities with vertices of these homes on them, of which two meet at a small angle near enough, explain an element
   /// with this circumsphere? Several threads at once. (False where very many meet.)
   bool has_reason(std::span<const Home> homes, const Ball<D>& sphere, const Angle& angle) const;

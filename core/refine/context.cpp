@@ -8,9 +8,22 @@
 #include <limits>
 #include <utility>
 
+#include "numbers/rounding.hpp"
 #include "space/box.hpp"
 
 namespace pgdr {
+namespace {
+
+/// When the refinement has to end so that the run ends within 1.1 times the limit and a second. In 2D, where an insertion takes
+/// little more than a microsecond, numbering and measuring the mesh take a third of the time of the refinement: 0.31 of it on one
+/// thread, of a million triangles between two plots of land that nearly have a common border. 0.4 has room for a busy machine.
+template <int D>
+std::chrono::duration<double> most_time(std::chrono::duration<double> limit) {
+  constexpr double rest = D == 2 ? 0.4 : 0;
+  return std::min(limit, (1.1 * limit + std::chrono::seconds(1)) / (1 + rest));
+}
+
+}  // namespace
 
 template <int D>
 RefineContext<D>::RefineContext(Mesh<D>& m, const Domain<D>& d, const RefineOptions<D>& o, CellBounds<D> b,
@@ -23,7 +36,13 @@ RefineContext<D>::RefineContext(Mesh<D>& m, const Domain<D>& d, const RefineOpti
       shells(d, D == 2),
       vertices(vertices_so_far),
       last_progress(start_time) {
-  base_exponent = std::ilogb(detail::Box<D>::of(domain.points()).longest_side());
+  const auto box = detail::Box<D>::of(domain.points());
+  base_exponent = std::ilogb(box.longest_side());
+  if constexpr (D == 2) {
+    double largest = 0;
+    for (int i = 0; i < D; ++i) largest = std::max({largest, std::fabs(box.low[i]), std::fabs(box.high[i])});
+    least_apart = std::ldexp(8 * rounding::ulp, std::ilogb(largest));
+  }
 }
 
 template <int D>
@@ -45,7 +64,7 @@ template <int D>
 bool RefineContext<D>::ended() {
   if (options.stop.stop_requested()) {
     stop = static_cast<int>(StopCause::cancelled);
-  } else if (stop == 0 && options.time_limit && std::chrono::steady_clock::now() - start >= *options.time_limit) {
+  } else if (stop == 0 && options.time_limit && std::chrono::steady_clock::now() - start >= most_time<D>(*options.time_limit)) {
     stop = static_cast<int>(StopCause::time_limit);
   }
   return stop != 0;

@@ -46,6 +46,10 @@ struct RefineContext {
   const Shells<D> shells;             ///< none in 3D, where boundary recovery alone splits on them
   int base_exponent = 0;              ///< of bucket 0: circumradii of the size of the domain and above
   static constexpr int buckets = 64;  ///< of circumradii
+  /// 2D: no new vertex comes nearer than this to another: 8 ulps of the largest coordinate. Two points that are up to an ulp a
+  /// coordinate off their places are up to 2 sqrt 2 ulps farther apart than these, which has to be less than the half that the
+  /// insertion rule may lose; and what is nearer would be taken for one point by default, were it given (Plc::tolerance).
+  double least_apart = 0;
 
   std::atomic<int> stop{0};                             ///< a StopCause other than `finished`, once there is one
   std::atomic<std::uint64_t> vertices;                  ///< in all, for the progress report

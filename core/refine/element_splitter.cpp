@@ -166,7 +166,7 @@ auto ElementSplitter<D>::judge(const Candidate<D>& c) -> Judgement {
   // even onto another vertex.
   const bool plain = c.at_center && !cavity_->cut_back() && mesh_->is_accurate(c.sphere);
   const double r = plain ? std::sqrt(mesh_->squared_radius_bounds(c.sphere).first) : insertion_radius<D>(*mesh_, *cavity_);
-  if (inserter_->is_too_short(r)) return {Outcome::refused};
+  if (r < w_->context.least_apart || inserter_->is_too_short(r)) return {Outcome::refused};
   // Among volume vertices r >= d holds by itself, but for bounds below one and elements that are not poor in shape.
   bool ordinary = plain && c.entry.which() != Entry<D>::not_delaunay && !w_->refused_by &&
                   (w_->options.radius_edge_bound >= 1 || !c.verdict.over_radius_edge);

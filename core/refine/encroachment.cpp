@@ -38,6 +38,16 @@ bool projects_into(const std::array<Point<D>, D>& corner, const Point<D>& x) {
   }
 }
 
+/// Is the angle at x, of the triangle with ab, above 180 degrees less twice the smallest that the bound allows? Its cosine is
+/// below
+/// -(1 - 2 sin^2) then.
+bool is_flat_at(const Point2& x, const Point2& a, const Point2& b, double radius_edge_bound) {
+  const double limit = 1 - 1 / (2 * radius_edge_bound * radius_edge_bound);
+  const double product = (a[0] - x[0]) * (b[0] - x[0]) + (a[1] - x[1]) * (b[1] - x[1]);
+  const double cosine = product / std::sqrt(squared_distance(a, x) * squared_distance(b, x));
+  return !(cosine >= -limit);
+}
+
 /// Is x close beside an end of pq, at a right angle from it, but for 4e-6 of it? Split next to an input vertex (twins.hpp), a
 /// subsegment would else be split for it again and again where the rounded point is some ulps off its place.
 template <int D>
@@ -77,13 +87,15 @@ Encroachment encroachment(const Mesh<D>& mesh, CellId c, int face, const Point<D
 }
 
 template <int D>
-bool is_face_encroached_by(const Mesh<D>& mesh, const Domain<D>& domain, CellId c, int face, VertexId v) {
+bool is_face_encroached_by(const Mesh<D>& mesh, const Domain<D>& domain, CellId c, int face, VertexId v,
+                           double radius_edge_bound) {
   const auto& k = mesh.cell(c).vertices;
   const EntityId id = mesh.constraints(c)->face_entity[face];
   if constexpr (D == 2) {
-    const VertexId a = k[(face + 1) % 3], b = k[(face + 2) % 3];
-    return in_diametral_ball<2>(mesh.point(a), mesh.point(b), mesh.point(v)) &&
-           !lies_on<D>(domain, mesh.vertex(v).home, {EntityKind::segment, id});
+    const Point<D>&a = mesh.point(k[(face + 1) % 3]), &b = mesh.point(k[(face + 2) % 3]), &x = mesh.point(v);
+    const Home home = mesh.vertex(v).home;
+    return in_diametral_ball<2>(a, b, x) && !lies_on<D>(domain, home, {EntityKind::segment, id}) &&
+           (home.kind() == EntityKind::volume || is_flat_at(x, a, b, radius_edge_bound));
   } else {
     const Ball<3> ball = equatorial_ball(mesh.point(k[(face + 1) & 3]), mesh.point(k[(face + 2) & 3]),
                                          mesh.point(k[(face + 3) & 3]));
@@ -123,15 +135,11 @@ template <int D>
 std::optional<Entry<D>> flattened_face(const Mesh<D>& mesh, const Cavity<D>& cavity, const RefineOptions<D>& options,
                                        const Point<D>& x) {
   if constexpr (D == 2) {
-    // An angle at x above 180 degrees less twice the bound: cosine below -(1 - 2 sin^2).
-    const double rho = options.radius_edge_bound, limit = 1 - 1 / (2 * rho * rho);
     for (const auto& f : cavity.boundary()) {
       if (!mesh.constrained(f.cell, f.face)) continue;
       const auto& v = mesh.cell(f.cell).vertices;
       const Point<D>&a = mesh.point(v[(f.face + 1) % 3]), &b = mesh.point(v[(f.face + 2) % 3]);
-      const double product = (a[0] - x[0]) * (b[0] - x[0]) + (a[1] - x[1]) * (b[1] - x[1]);
-      const double cosine = product / std::sqrt(squared_distance(a, x) * squared_distance(b, x));
-      if (!(cosine >= -limit)) return entry_of(mesh, f.cell, EntryKind::face, f.face);
+      if (is_flat_at(x, a, b, options.radius_edge_bound)) return entry_of(mesh, f.cell, EntryKind::face, f.face);
     }
   }
   return std::nullopt;
@@ -167,8 +175,8 @@ std::optional<Entry<D>> edge_beyond(const Mesh<D>& mesh, const Domain<D>& domain
 
 template Encroachment encroachment(const Mesh<2>&, CellId, int, const Point<2>&);
 template Encroachment encroachment(const Mesh<3>&, CellId, int, const Point<3>&);
-template bool is_face_encroached_by(const Mesh<2>&, const Domain<2>&, CellId, int, VertexId);
-template bool is_face_encroached_by(const Mesh<3>&, const Domain<3>&, CellId, int, VertexId);
+template bool is_face_encroached_by(const Mesh<2>&, const Domain<2>&, CellId, int, VertexId, double);
+template bool is_face_encroached_by(const Mesh<3>&, const Domain<3>&, CellId, int, VertexId, double);
 template std::optional<Entry<3>> encroached_edge(const Mesh<3>&, const Cavity<3>&, const Point<3>&);
 template std::optional<Entry<2>> encroached_entity(const Mesh<2>&, const Cavity<2>&, const RefineOptions<2>&, const Point<2>&);
 template std::optional<Entry<3>> encroached_entity(const Mesh<3>&, const Cavity<3>&, const RefineOptions<3>&, const Point<3>&);

@@ -21,9 +21,14 @@ template <int D>
 Encroachment encroachment(const Mesh<D>& mesh, CellId c, int face, const Point<D>& x);
 
 /// Does the vertex encroach upon the constrained face? Vertices of the entity itself never do, though rounding may put them some
-/// ulps inside a ball.
+/// ulps inside a ball. In 2D a vertex of the boundary does only if the triangle with the subsegment has an angle below the bound
+/// on its account, that at v above 180 degrees less twice the bound (diametral lenses, Chew 1993, Shewchuk 1997): what is no
+/// obstacle to a good triangle is none, and if the triangle is poor for another reason, that splits the subsegment. (Vertices of
+/// the volume are never inserted inside a diametral ball. So no such split has one near, and none has to be deleted.)
+/// `radius_edge_bound`: of the run.
 template <int D>
-bool is_face_encroached_by(const Mesh<D>& mesh, const Domain<D>& domain, CellId c, int face, VertexId v);
+bool is_face_encroached_by(const Mesh<D>& mesh, const Domain<D>& domain, CellId c, int face, VertexId v,
+                           double radius_edge_bound);
 
 /// 3D: do any vertices of the cell encroach upon its constrained edge?
 bool is_edge_encroached(const Mesh<3>& mesh, const Domain<3>& domain, CellId c, int edge);

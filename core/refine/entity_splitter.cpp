@@ -13,6 +13,14 @@
 namespace pgdr {
 namespace {
 
+/// 2D: does x, beside the line pq, come between p and q on the axis along which that runs? With few doubles between them it may
+/// not.
+template <int D>
+bool is_between(const Point<D>& p, const Point<D>& q, const Point<D>& x) {
+  const int axis = std::fabs(q[0] - p[0]) >= std::fabs(q[1] - p[1]) ? 0 : 1;
+  return std::min(p[axis], q[axis]) < x[axis] && x[axis] < std::max(p[axis], q[axis]);
+}
+
 constexpr int most_steps = 1000;  // of a walk in a facet; it can run in a circle where the facet is not Delaunay
 
 }  // namespace
@@ -88,6 +96,14 @@ Demand EntitySplitter<D>::demand_of(EntityRef entity, std::span<const VertexId> 
   return demand;
 }
 
+/// 2D: is the vertex of the cavity that is nearest to the point of a subsegment one of the boundary? Then it encroaches upon the
+/// subsegment, which merely was not split for it yet (encroachment.hpp).
+template <int D>
+bool EntitySplitter<D>::is_near_boundary(std::span<const VertexId> own) const {
+  const VertexId q = nearest_vertex<D>(*mesh_, *cavity_, own);
+  return q != no_vertex && mesh_->vertex(q).home.kind() != EntityKind::volume;
+}
+
 template <int D>
 Outcome EntitySplitter<D>::refuse(EntityRef entity, std::span<const VertexId> own) {
   const VertexId q = nearest_vertex<D>(*mesh_, *cavity_, own);
@@ -108,12 +124,14 @@ Outcome EntitySplitter<D>::commit_split(EntityRef entity, std::span<const Vertex
   if (!twins.empty()) left_out.insert(left_out.end(), own.begin(), own.end());
   Demand demand = cause ? *cause : demand_of(entity, twins.empty() ? own : left_out, false);
   const double r = insertion_radius<D>(*mesh_, *cavity_, twins);
+  if (D == 2 && cause && r < demand.d && is_near_boundary(own)) demand = demand_of(entity, own, false);
   if (r < demand.d) {
     const VertexId q = nearest_vertex<D>(*mesh_, *cavity_, own);
     if (entity.kind != EntityKind::segment || !may_be_near(entity.id, own, q)) return refuse(entity, own);
     if (q != no_vertex && mesh_->vertex(q).home.kind() != EntityKind::vertex)
       demand.h = std::max(demand.h, double{mesh_->vertex(q).relaxed_radius});
   }
+  if (D == 2 && r < w_->context.least_apart) return refuse(entity, own);
   if (w_->options.min_edge > 0 && inserter_->is_too_short(insertion_radius<D>(*mesh_, *cavity_))) return refuse(entity, own);
   return inserter_->commit(Home(entity.kind, entity.id), std::max(r, demand.h));
 }
@@ -124,6 +142,7 @@ Outcome EntitySplitter<D>::split_face(const Entry<D>& e, const Demand* cause) {
   const std::array<VertexId, D> own = face_without(mesh_->cell(e.cell).vertices, e.which());
   if (cause && is_refused_as_before(e, *cause)) return Outcome::refused;
   const Point<D> x = split_point_of_face(w_->context, e.cell, e.which());
+  if (D == 2 && !is_between<D>(mesh_->point(own[0]), mesh_->point(own[1]), x)) return refuse(entity, own);
   Status status = cavity_->collect_on_face(x, e.cell, e.which());
   std::optional<Entry<D>> edge;
   if (D == 3 && status == Status::ok) status = find_edge_in_the_way(e, x, edge);

@@ -53,6 +53,7 @@ class EntitySplitter {
   Outcome split_edge_instead(const Entry<D>& face, const Entry<D>& edge, EntityRef facet, std::span<const VertexId> own,
                              const Demand* cause);
   Outcome commit_split(EntityRef entity, std::span<const VertexId> own, const Demand* cause, std::span<const VertexId> twins);
+  bool is_near_boundary(std::span<const VertexId> own) const;
   Outcome refuse(EntityRef entity, std::span<const VertexId> own);
   Outcome refuse_near(const Entry<D>& e, std::span<const VertexId> own, CellId near);
   bool is_refused_as_before(const Entry<D>& face, const Demand& cause);

@@ -19,7 +19,8 @@ std::array<double, 2> parameters_of(const RefineContext<D>& context, EntityId se
 template <int D>
 Point<D> split_point(const RefineContext<D>& context, EntityId segment, VertexId a, VertexId b);
 
-/// The point that splits the subfacet (2D: subsegment): in 3D its circumcentre, in the facet.
+/// The point that splits the subfacet (2D: subsegment): in 3D its circumcentre, in the facet; in 2D, at the rim of the mesh,
+/// rounded to the side on which that lies.
 template <int D>
 Point<D> split_point_of_face(const RefineContext<D>& context, CellId c, int face);
 

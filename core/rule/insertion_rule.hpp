@@ -10,7 +10,7 @@
 //
 //   cause                                                    | 2D: d      h      | 3D: d      h
 //   ---------------------------------------------------------+-------------------+------------------------------
-//   a poor element (2), or an entity that blocks its point   | c l        l      | l          0        (3) (4)
+//   a poor element (2), or an entity that blocks its point   | c l        l      | l          0        (3) (4) (9)
 //   an entity encroached upon by q (5), where                |                   |
 //     q is an input vertex, or their entities do not touch   | 0          0      | 0          0        (6)
 //     they meet at less than 60 degrees                      | c R(q)     R(q)   | R(q)       R(q)     (7)
@@ -35,6 +35,9 @@
 //     half the distance from x to q.
 // (7) That d is not c R(q) in 3D is for the size of the meshes, not for the proof (bench/notebook/small_angles.md).
 // (8) The first shell at its end, or one no nearer to it than q is on another segment there (shells.hpp). h is at least R(q).
+// (9) Of a subsegment in 2D, if r(x) is less and q is no vertex of the volume: what an entity encroached upon by q demands. It
+// may
+//     be that, and was not split for it at once (encroachment.hpp).
 //
 // Proof. R is inherited along a chain of small angles, so that the factor c is paid once, not once a link. Let lambda be the
 // least of: half the least distance of disjoint entities, the shortest edge of the recovered mesh, half the least size, the least
@@ -42,6 +45,8 @@
 // refinement has R >= lambda and r >= c lambda. On shells r >= c lambda min(1, 2 sin(a / 2)), where a is the least angle between
 // segments: the distance from their end does not shrink from one shell to the other, nor from one twin to the other. So mutually
 // visible vertices are c lambda apart (on shells, that much less). The domain is bounded: there are finitely many insertions.
+// In doubles lambda could be less than their rounding, if the least distance of disjoint entities is. In 2D r >= 8 ulps of the
+// largest coordinate, too (RefineContext::least_apart); what that refuses stays poor by rounding.
 // Without inheritance c would have to be 1. Gift wrapping and flips insert nothing. What ends the last stage in 3D is another
 // argument (improve/change_judge.hpp).
 //

@@ -243,7 +243,15 @@ bool is_as_short_as_rounding(const Simplex<D>& s) {
   double magnitude = 0;
   for (const Point<D>& p : s)
     for (const double x : p.x) magnitude = std::max(magnitude, std::abs(x));
-  return std::sqrt(shortest_edge_squared<D>(s)) <= Tolerance{8, magnitude}.width();
+  const double width = Tolerance{8, magnitude}.width();
+  if (std::sqrt(shortest_edge_squared<D>(s)) <= width) return true;
+  if constexpr (D == 2) {
+    double longest = 0;
+    for (int i = 0; i < 3; ++i) longest = std::max(longest, squared_distance(s[i], s[(i + 1) % 3]));
+    const Matrix<long double, 2> edges{difference<long double, 2>(s[1], s[0]), difference<long double, 2>(s[2], s[0])};
+    return std::abs(determinant(edges)) <= width * std::sqrt(longest);
+  }
+  return false;
 }
 
 // A simplex is crossed at q + t (p - q), t = o(q) / (o(q) - o(p)), where o(x) = det(simplex, x).

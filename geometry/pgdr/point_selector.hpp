@@ -124,6 +124,16 @@ class PointSelector {
   std::function<Point<D>(const PoorElement<D>&, Neighborhood<D>&)> call_;
 };
 
+/// The default of RefineOptions: in 2D off-centres (`off_center<2>()` of selectors.hpp), in disks of type 1, which make fewer
+/// triangles than circumcentres on nearly every input, whatever the bound; in 3D circumcentres.
+template <int D>
+PointSelector<D> default_selector();
+/// The disk for it.
+template <int D>
+constexpr DiskOptions default_disk() {
+  return {D == 2 ? DiskType::type1 : DiskType::type2, 0};
+}
+
 /// What to do with a selector's point outside its disk.
 enum class OutsidePolicy { replace_by_circumcenter, error };
 

@@ -263,6 +263,14 @@ PointSelector<D> sliver_avoiding(int candidates) {
   return [candidates](const PoorElement<D>& e, Neighborhood<D>& n) { return sharpest_avoided<D>(e, n, candidates); };
 }
 
+template <int D>
+PointSelector<D> default_selector() {
+  if constexpr (D == 2) return off_center<2>();
+  return {};
+}
+
+template PGDR_API PointSelector<2> default_selector<2>();
+template PGDR_API PointSelector<3> default_selector<3>();
 template PGDR_API PointSelector<2> off_center<2>(double);
 template PGDR_API PointSelector<3> off_center<3>(double);
 template PGDR_API PointSelector<2> optimized<2>(int);

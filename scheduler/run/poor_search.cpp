@@ -13,7 +13,7 @@ PoorSearch<D>::PoorSearch(RunState<D>& state, ViolationScan<D>& violations)
       violations_(&violations),
       reasons_(state.context.mesh, state.context.domain, state.context.bounds, state.context.options.keep_boundary) {}
 
-/// For an assertion: large meshes are not looked at, lest debug builds take for ever, nor those of a run that is cancelled.
+/// For an assertion: large meshes are not looked at, lest debug builds take for ever, nor those of a run that has to end.
 template <int D>
 bool PoorSearch<D>::lists_all_poor(std::size_t found) const {
   const RefineContext<D>& context = state_->context;
@@ -21,7 +21,7 @@ bool PoorSearch<D>::lists_all_poor(std::size_t found) const {
   if (cells > 200000) return true;
   std::uint64_t poor = 0;
   for (std::uint32_t c = 0; c < cells; c += part) {
-    if (context.options.stop.stop_requested()) return true;
+    if (state_->context.ended()) return true;
     poor += count_poor_cells(context.mesh, context.bounds, c, std::min(c + part, cells)).cells;
   }
   return poor == found;
@@ -34,7 +34,7 @@ std::vector<PoorCell> PoorSearch<D>::look() {
   state_->refused.for_each_list([this](std::span<const Refusal<D>> refused) { reasons_.add(refused); });
   reasons_.add(refused_before_);
   if (state_->totals.violations_seen) return look_at_all();
-  std::vector<PoorCell> found = reasons_.of_refused(state_->context.options.stop);
+  std::vector<PoorCell> found = reasons_.of_refused([this] { return state_->context.ended(); });
   assert(lists_all_poor(found.size()));
   return found;
 }
@@ -47,7 +47,7 @@ std::vector<PoorCell> PoorSearch<D>::look_at_all() {
   for (const Entry<D>& e : violations_->standing()) violated[index(e.cell)] = true;
   std::vector<std::vector<PoorCell>> parts(count_parts(cells));
   state_->recorder.add_parts(each_part(cells, state_->options, [&](const CellPart& part) {
-    parts[part.number] = reasons_.of_cells(part.first, part.last, violated, state_->context.options.stop);
+    parts[part.number] = reasons_.of_cells(part.first, part.last, violated, [this] { return state_->context.ended(); });
   }));
   std::vector<PoorCell> all;
   for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());

@@ -21,7 +21,7 @@ class PoorSearch {
   PoorSearch(RunState<D>& state, ViolationScan<D>& violations);  ///< both must outlive it
 
   /// Returns every cell over a bound, and every one beside a face that is not locally Delaunay and a small angle, with its
-  /// reason. Part of them if the run is cancelled meanwhile.
+  /// reason. Part of them if the run is cancelled meanwhile, or its time is up.
   std::vector<PoorCell> look();
   /// Remembers what an element was refused for, of a refusal that is taken off the lists.
   void remember(Refusal<D> refusal) { refused_before_.push_back(std::move(refusal)); }

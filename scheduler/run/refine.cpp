@@ -54,6 +54,7 @@ void validate(const RefineOptions<D>& options) {
   if (options.schedule.granularity < 1) bad_option("the granularity must be at least 1");
   if (!(options.schedule.split_ratio > 0)) bad_option("the split ratio must be positive");
   const double delta = options.disk.delta;
+  if (delta != 0 && options.disk.type == DiskType::type1) bad_option("delta is for disks of type 2");
   if (delta != 0 && !(delta >= smallest_proved_bound<D>() / options.radius_edge_bound && delta <= 1))
     bad_option("delta must lie between " + std::to_string(smallest_proved_bound<D>()) + " / radius-edge bound and 1");
 }

@@ -54,14 +54,14 @@ StopCause Refinement<D>::run() {
 /// Lists what is encroached or poor in the root, before the first split.
 template <int D>
 StopCause Refinement<D>::list_everything() {
-  constexpr std::uint32_t between_looks = 1024;  // at the caller's wish to cancel
+  constexpr std::uint32_t between_looks = 1024;  // at the clock, and at the caller's wish to cancel
   const auto worker = state_.workers.lease();
   RegionVisit<D> listing;
   listing.list = &state_.waiting[Orthtree<D>::root].list;
   worker->begin(listing);
   const Mesh<D>& mesh = state_.context.mesh;
   for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i) {
-    if (i % between_looks == 0 && state_.is_cancelled()) break;
+    if (i % between_looks == 0 && state_.context.ended()) break;
     if (mesh.alive(CellId{i})) worker->list_cell(CellId{i});
   }
   state_.waiting.set_all_listed(state_.context.stop == 0);

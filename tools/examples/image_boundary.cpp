@@ -139,6 +139,7 @@ Outcome mesh(const Image& image, const std::vector<Point2>& points, bool with_se
   const pgdr::Domain<2> domain(plc);
   pgdr::RefineOptions<2> options;
   options.disk.type = pgdr::DiskType::type1;
+  options.selector = {};  // circumcentres
   if (with_selector) options.selector = [&image](const pgdr::PoorElement<2>& e) { return choose(e, image); };
   options.schedule.threads = threads;
   pgdr::RefineResult<2> result = pgdr::refine(domain, options);
