@@ -22,7 +22,7 @@ Plc<3> bent_cube(double height, double scale) {
   return plc;
 }
 
-// A facet that is planar within the tolerance of --precision alone may fold over another where that has edges as short. (A
+// A facet that is planar within the tolerance alone may fold over another where that has edges as short. (A
 // surface of 18,000 triangles with six digits lost a corner so, with some cells, where it had edges of 0.001 and the
 // facets were coplanar within 0.0013; the mesh was written.) Here the pieces of segments are half as long as these.
 TEST(FoldedFacets, SegmentsAreThereInWholeBesideBentFacets) {
@@ -37,6 +37,27 @@ TEST(FoldedFacets, SegmentsAreThereInWholeBesideBentFacets) {
     EXPECT_EQ(e.diagnostic().ids.size(), 2u);
     EXPECT_EQ(e.diagnostic().points.size(), 2u);
   }
+}
+
+// A bent quadrilateral has two triangles in the mesh, of one diagonal or the other. A facet that is one of these has it in common
+// with the quadrilateral: no face of the mesh can be a part of both. (It was marked as that of one, and the other had a gap.)
+TEST(FoldedFacets, ATriangleOfTwoFacetsIsAnError) {
+  const Plc<3> cube = bent_cube(1e-5, 1);
+  const auto top = cube.facets[5].polygons[0];
+  int in_common = 0;
+  for (std::size_t left_out = 0; left_out < top.size(); ++left_out) {
+    Plc<3> plc = cube;
+    std::vector<std::uint32_t> triangle = top;
+    triangle.erase(triangle.begin() + static_cast<std::ptrdiff_t>(left_out));
+    plc.facets.push_back({{triangle}, {}, 7});
+    try {
+      const Carved carved(plc);
+    } catch (const InputError& e) {
+      EXPECT_FALSE(e.diagnostic().ids.empty());
+      in_common += e.code() == Errc::boundary_not_recovered && e.diagnostic().points.size() == 3;
+    }
+  }
+  EXPECT_EQ(in_common, 2);
 }
 
 }  // namespace pgdr::test_boundary_folded_facets

@@ -310,7 +310,7 @@ TEST(Segments, LooseOnesOfAPolyFileKeepTheirMarkers) {
   EXPECT_NEAR(length, std::sqrt(0.3125), 1e-12);
 }
 
-/// A loose segment that ends an ulp beside another. They do not touch, but no subsegment beside the end is as it should be; what
+/// A loose segment that ends an ulp beside another, exactly as given. They do not touch, but no subsegment beside the end is as it should be; what
 /// says so has the numbers of the input, which counts from 1 here, its file and its line.
 TEST(Segments, WhatTheyPassByRoundingIsNamed) {
   Plc<3> plc;
@@ -321,6 +321,7 @@ TEST(Segments, WhatTheyPassByRoundingIsNamed) {
                                        {{-28.888352598413537, 28.19885178117923, 21.4565267363734}},
                                        {{-28.54940140865598, 28.294698954978614, 22.001969518129123}}});
   plc.segments = {{{8, 9}, 0}, {{10, 11}, 0}};
+  plc.tolerance = 0;
   plc.first_index = 1;
   plc.source.file = "an_ulp.poly";
   for (std::uint32_t line = 2; line < 14; ++line) plc.source.point_lines.push_back(line);

@@ -10,6 +10,7 @@
 #include "boundary/named_points.hpp"
 #include "boundary/state.hpp"
 #include "input/bent_facets.hpp"
+#include "mesh/ridge.hpp"
 #include "numbers/rounding.hpp"
 #include "numbers/vectors.hpp"
 #include "space/planar_cdt.hpp"
@@ -46,6 +47,18 @@ Box<3> box_around(const Ball<3>& ball) {
     box.high[i] = std::isfinite(high) ? high : std::numeric_limits<double>::max();
   }
   return box;
+}
+
+/// The mesh has a face or an edge, of these vertices, that would have to be inside of two facets.
+InputError folded_over(const Domain<3>& domain, EntityId f, EntityId g, const Mesh<3>& mesh, std::span<const VertexId> common) {
+  const Diagnostic other = about_points<3>(Errc::boundary_not_recovered, domain, domain.facet_points(g));
+  Diagnostic d = about_points<3>(Errc::boundary_not_recovered, domain, domain.facet_points(f));
+  d.message = facet_words(d) + " folds over onto " + facet_words(other) + ": within the tolerance they have " +
+              (common.size() == 3 ? "a triangle" : "an edge") + " in common";
+  d.ids.insert(d.ids.end(), other.ids.begin(), other.ids.end());
+  d.points.clear();
+  for (const VertexId v : common) d.points.push_back(mesh.point(v).x);
+  return InputError(std::move(d));
 }
 
 /// How far on the way from p to q the line through a and b is, in the projection.
@@ -292,6 +305,7 @@ bool FacetPatches::split_triangles(EntityId facet, std::vector<Candidate> candid
 }
 
 /// Marks the faces on both sides of each triangle. @pre none is missing
+/// @throws InputError boundary_not_recovered: a triangle is one of two facets
 void FacetPatches::mark(Mesh<3>::Pools& pools) {
   for (EntityId f = 0; f < triangles_.size(); ++f)
     for (std::size_t i = 0; i < triangles_[f].size(); ++i) {
@@ -301,10 +315,35 @@ void FacetPatches::mark(Mesh<3>::Pools& pools) {
       const auto& v = mesh_->cell(c).vertices;
       const auto is_other = [&](VertexId w) { return std::find(t.begin(), t.end(), w) == t.end(); };
       const int face = static_cast<int>(std::find_if(v.begin(), v.end(), is_other) - v.begin());
+      if (mesh_->constrained(c, face)) throw folded_over(*domain_, mesh_->entity_of_face(c, face).id, f, *mesh_, t);
       const Link beyond = mesh_->cell(c).links[face];
       mesh_->constrain_face(pools, c, face, f);
       mesh_->constrain_face(pools, beyond.cell(), beyond.face(), f);
     }
+}
+
+/// An edge inside of a facet has two subfacets, of that facet. What makes and changes cavities relies on it. Facets that bend by
+/// more than their distance from others can break it. @pre subfacets and subsegments are marked
+/// @throws InputError boundary_not_recovered: an edge is inside of one facet, and of another one, too
+void FacetPatches::require_edges_inside_one() const {
+  for (EntityId f = 0; f < triangles_.size(); ++f) {
+    if (triangles_[f].size() < 2) continue;
+    for (std::size_t i = 0; i < triangles_[f].size(); ++i)
+      for (int k = 0; k < 3; ++k) {
+        const VertexId a = triangles_[f][i][k], b = triangles_[f][i][(k + 1) % 3];
+        if (b < a) continue;  // the triangle on the other side looks at it
+        const CellId c = seen_[f][i];
+        const auto& v = mesh_->cell(c).vertices;
+        const int edge = edge_of_ends[corner_of(v, a)][corner_of(v, b)];
+        if (mesh_->is_subsegment(c, edge)) continue;
+        for_cells_round(*mesh_, c, edge, [&](const RidgeWalk<3>& walk) {
+          if (!mesh_->constrained(walk.cell, walk.exit)) return RoundEdge::go_on;
+          const EntityId g = mesh_->entity_of_face(walk.cell, walk.exit).id;
+          if (g != f) throw folded_over(*domain_, f, g, *mesh_, std::array{a, b});
+          return RoundEdge::go_on;
+        });
+      }
+  }
 }
 
 }  // namespace pgdr::detail

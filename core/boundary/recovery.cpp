@@ -103,6 +103,7 @@ class BoundaryRecovery {
     if (recover()) {
       patches_.mark(pools);
       chains_.mark(pools);
+      patches_.require_edges_inside_one();
     }
     counts_->segment_points = chains_.points();
     counts_->facet_points = patches_.points();

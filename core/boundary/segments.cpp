@@ -96,7 +96,18 @@ std::vector<EntityId> SegmentChains::take_changed() {
   return std::exchange(changed_, {});
 }
 
+/// Segments s and u have the same edge ab in the mesh.
+InputError SegmentChains::in_common(EntityId s, EntityId u, VertexId a, VertexId b) const {
+  const Diagnostic other = about_points<3>(Errc::boundary_not_recovered, *domain_, domain_->segments()[u].points);
+  Diagnostic d = about_points<3>(Errc::boundary_not_recovered, *domain_, domain_->segments()[s].points);
+  d.message = segment_words(d) + " and " + segment_words(other) + " run along each other within rounding";
+  d.ids.insert(d.ids.end(), other.ids.begin(), other.ids.end());
+  d.points = {mesh_->point(a).x, mesh_->point(b).x};
+  return InputError(std::move(d));
+}
+
 /// Marks the edge in all cells at each subsegment, round it from the cell in which it was seen. @pre none is missing
+/// @throws InputError boundary_not_recovered: an edge is one of two segments
 void SegmentChains::mark(Mesh<3>::Pools& pools) {
   for (EntityId s = 0; s < chains_.size(); ++s)
     for (std::size_t i = 1; i < chains_[s].size(); ++i) {
@@ -107,6 +118,8 @@ void SegmentChains::mark(Mesh<3>::Pools& pools) {
         const auto& v = mesh_->cell(c).vertices;
         return edge_of_ends[corner_of(v, a)][corner_of(v, b)];
       };
+      if (mesh_->is_subsegment(first, edge_in(first)))
+        throw in_common(mesh_->constraints(first)->edge_entity[edge_in(first)], s, a, b);
       for_cells_round(*mesh_, first, edge_in(first), [&](const RidgeWalk<3>& walk) {
         mesh_->constrain_edge(pools, walk.cell, edge_in(walk.cell), s);
         return RoundEdge::go_on;

@@ -94,6 +94,7 @@ class SegmentChains {
 
  private:
   Diagnostic not_resolved(EntityId segment, bool is_its_end, Home home, const Point3& x) const;
+  InputError in_common(EntityId s, EntityId u, VertexId a, VertexId b) const;
   std::vector<Subsegment> missing();
   std::size_t position(const Subsegment& s) const;
   // boundary/twins.cpp
@@ -134,6 +135,7 @@ class FacetPatches {
   std::uint64_t points() const { return points_; }
   const MissingTrend& trend() const { return trend_; }
   void mark(Mesh<3>::Pools& pools);
+  void require_edges_inside_one() const;
   std::size_t inner_points(EntityId facet) const { return inner_points_[facet].size(); }  ///< Steiner points inside the facet
 
  private:

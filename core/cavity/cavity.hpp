@@ -185,6 +185,8 @@ class Cavity {
   bool is_subsegment(CellId cell, int i, int j) const;
   Status find_broken_fans(std::vector<CellId>& doomed) const;
   void find_turned_over(std::vector<CellId>& doomed) const;
+  bool is_turned_over(const PartFace& f, int corner) const;
+  bool is_corner_of_other(std::size_t i, int corner) const;
   bool is_rim(const PartFace& f, VertexId a, VertexId b) const;
   Status look_at_fan(RidgeWalk<D> walk, EntityId entity, bool& broken) const;
   Status find_lost_entities(std::vector<CellId>& behind);

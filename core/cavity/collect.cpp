@@ -305,29 +305,53 @@ auto Cavity<D>::look_at_fan(RidgeWalk<D> walk, EntityId entity, bool& broken) co
   return Status::ok;
 }
 
-/// The facet's part must be star-shaped about p too, in the facet's projection: where p, by its rounding, lies on or
-/// beyond a ridge of the part's rim, the face at that ridge leaves the part. The split subsegment itself is no rim.
+/// Each facet's part must be star-shaped about p too, in the facet's projection: where p, by its rounding, lies on or
+/// beyond a ridge of the part's rim, the face at that ridge leaves the part. The split subsegment itself is no rim; any other
+/// one is, on both sides. And an edge from p is inside of one facet alone: of faces of two facets that have a corner in common,
+/// but the ends of the split subsegment, the later one leaves. (In planes none have. Facets that are planar within a tolerance
+/// may have two segments in common.)
 template <int D>
 void Cavity<D>::find_turned_over(std::vector<CellId>& doomed) const {
   if constexpr (D == 3) {
-    for (const PartFace& f : part_) {
-      const auto& v = mesh_->cell(f.cell).vertices;
-      const int axis = domain_->facets()[f.entity].axis;
-      for (int corner = 0; corner <= D; ++corner) {
-        if (corner == f.face) continue;
-        const auto ends = corners_without(f.face, corner);
-        const VertexId a = v[ends[0]], b = v[ends[1]];
-        const bool split = (a == split_edge_[0] && b == split_edge_[1]) || (a == split_edge_[1] && b == split_edge_[0]);
-        if (split || !is_rim(f, a, b)) continue;
-        const Point<D>&p = mesh_->point(a), &q = mesh_->point(b);
-        const Sign inside = orient_projected(p, q, mesh_->point(v[corner]), axis);
-        if (!in_line(f.cell, ends[0], ends[1]) && orient_projected(p, q, point_, axis) == inside) continue;
-        doomed.push_back(f.cell);
-        if (const Link across = mesh_->cell(f.cell).links[f.face]) doomed.push_back(across.cell());
-        return;  // what is left is looked at anew
-      }
+    for (std::size_t i = 0; i < part_.size(); ++i) {
+      const PartFace& f = part_[i];
+      bool leaves = false;
+      for (int corner = 0; corner <= D && !leaves; ++corner)
+        leaves = corner != f.face && (is_turned_over(f, corner) || is_corner_of_other(i, corner));
+      if (!leaves) continue;
+      doomed.push_back(f.cell);
+      if (const Link across = mesh_->cell(f.cell).links[f.face]) doomed.push_back(across.cell());
+      return;  // what is left is looked at anew
     }
   }
+}
+
+/// Is the ridge opposite the corner a rim of the part, and p not before it?
+template <int D>
+bool Cavity<D>::is_turned_over(const PartFace& f, int corner) const {
+  if constexpr (D == 3) {
+    const auto& v = mesh_->cell(f.cell).vertices;
+    const int axis = domain_->facets()[f.entity].axis;
+    const auto ends = corners_without(f.face, corner);
+    const VertexId a = v[ends[0]], b = v[ends[1]];
+    const bool split = (a == split_edge_[0] && b == split_edge_[1]) || (a == split_edge_[1] && b == split_edge_[0]);
+    if (split || !(is_subsegment(f.cell, f.face, corner) || is_rim(f, a, b))) return false;
+    const Point<D>&p = mesh_->point(a), &q = mesh_->point(b);
+    const Sign inside = orient_projected(p, q, mesh_->point(v[corner]), axis);
+    return in_line(f.cell, ends[0], ends[1]) || orient_projected(p, q, point_, axis) != inside;
+  }
+  return false;
+}
+
+/// Has a face of the part before the i-th, of another entity, this corner of it? Not asked of the ends of the split subsegment.
+template <int D>
+bool Cavity<D>::is_corner_of_other(std::size_t i, int corner) const {
+  const PartFace& f = part_[i];
+  const VertexId a = mesh_->cell(f.cell).vertices[corner];
+  if (a == split_edge_[0] || a == split_edge_[1]) return false;
+  return std::any_of(part_.begin(), part_.begin() + static_cast<std::ptrdiff_t>(i), [&](const PartFace& g) {
+    return g.entity != f.entity && mesh_->cell(g.cell).vertices[g.face] != a && has_corner(mesh_->cell(g.cell).vertices, a);
+  });
 }
 
 /// Is no other face of the part and of f's entity at the ridge ab?

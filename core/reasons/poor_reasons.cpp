@@ -183,6 +183,17 @@ void PoorReasons<D>::look_at(CellId c, bool violated, std::vector<PoorCell>& fou
 }
 
 template <int D>
+std::vector<PoorCell> PoorReasons<D>::of_violated(std::span<const CellId> cells, const std::function<bool()>& ended) const {
+  std::vector<PoorCell> found;
+  for (const CellId c : cells) {
+    if (ended()) break;
+    const PoorReason reason = explain(c, true);
+    if (reason.code == PoorReason::Code::small_angle) found.push_back({c, false, false, reason, true});
+  }
+  return found;
+}
+
+template <int D>
 bool PoorReasons<D>::has_reason(std::span<const Home> homes, const Ball<D>& sphere, const Angle& angle) const {
   constexpr std::size_t most_entities = 64;  // each pair of which takes microseconds
   std::vector<EntityRef> near;

@@ -62,6 +62,9 @@ class PoorReasons {
                                  const std::function<bool()>& must_end) const;
   /// of_cells() for the cells that were refused, which are all poor cells where every face is locally Delaunay.
   std::vector<PoorCell> of_refused(const std::function<bool()>& must_end) const;
+  /// The reasons of those of these cells, each with a face that is not locally Delaunay, that are beside a small angle: of a run
+  /// that a limit has ended. Ends early, with some of them, once `ended` says so.
+  std::vector<PoorCell> of_violated(std::span<const CellId> cells, const std::function<bool()>& ended) const;
   /// Would entities with vertices of these homes on them, of which two meet at a small angle near enough, explain an element
   /// with this circumsphere? Several threads at once. (False where very many meet.)
   bool has_reason(std::span<const Home> homes, const Ball<D>& sphere, const Angle& angle) const;

@@ -64,7 +64,8 @@ template <int D>
 bool RefineContext<D>::ended() {
   if (options.stop.stop_requested()) {
     stop = static_cast<int>(StopCause::cancelled);
-  } else if (stop == 0 && options.time_limit && std::chrono::steady_clock::now() - start >= most_time<D>(*options.time_limit)) {
+  } else if (stop == 0 && options.time_limit &&
+             std::chrono::steady_clock::now() - start >= most_time<D>(*options.time_limit) + put_off) {
     stop = static_cast<int>(StopCause::time_limit);
   }
   return stop != 0;

@@ -170,6 +170,16 @@ void Refiner<D>::run(RegionVisit<D>& visit) {
   workspace_.visit = nullptr;
 }
 
+template <int D>
+void Refiner<D>::repair(RegionVisit<D>& visit) {
+  begin(visit);
+  auto& flips = visit.list->flips;
+  repair_.allow_for(flips.size());
+  while (!flips.empty() && !workspace_.context.ended())
+    if (const Entry<D> e = flips.pop(); workspace_.alive(e)) repair_.treat(e);
+  workspace_.visit = nullptr;
+}
+
 template class Refiner<2>;
 template class Refiner<3>;
 

@@ -42,6 +42,9 @@ class Refiner {
   /// @throws what a callback throws; the mesh is whole then.
   void run(RegionVisit<D>& visit);
 
+  /// Repairs the violations on the visit's list, and those that this brings, and treats nothing else; until the run is stopped.
+  void repair(RegionVisit<D>& visit);
+
   /// Makes `visit` the one that list_cell lists for.
   void begin(RegionVisit<D>& visit);
   /// Lists what is encroached or poor at a cell that the visit owns.

@@ -76,7 +76,8 @@ struct RefineResult {
   /// Of these, when finished, those in a corner of a facet that is so sharp that every mesh has one there (sharp_corners.hpp).
   std::uint64_t poor_unavoidable = 0;
   bool size_met = true;             ///< every cell within the size and measure bounds; false without a mesh
-  std::vector<PoorReason> reasons;  ///< one for every poor cell when finished
+  /// One for every poor cell when finished. Of a mesh that a limit has ended: for cells with faces that are not locally Delaunay.
+  std::vector<PoorReason> reasons;
   RefineStatistics statistics;      ///< counts and times
   SchedulerStatistics scheduler;    ///< how the visits went
   /// Were faces met that are not locally Delaunay? If not, none is left but by rounding, beside slanted entities.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A facet that is planar only within a tolerance (Plc::precision, a bent polygon) is triangulated anew, within that tolerance of
+// A facet that is planar only within a tolerance (Plc::tolerance, a bent polygon) is triangulated anew, within that tolerance of
 // its triangles. Where other facets are as near, at edges or walls as short as the tolerance, the new surface may pass on the
 // wrong side of a point, or have a triangle in common with another one, and carving takes cells that belong to the domain, or
 // leaves others. Nothing of the mesh alone tells all of that (one that is inside out has all its triangles), so the checker is

@@ -55,6 +55,15 @@ std::vector<PoorCell> PoorSearch<D>::look_at_all() {
   return all;
 }
 
+template <int D>
+std::vector<PoorCell> PoorSearch<D>::look_at_violations() {
+  std::vector<CellId> cells;
+  for (const Entry<D>& e : violations_->standing()) cells.push_back(e.cell);
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  return reasons_.of_violated(cells, [this] { return state_->context.ended(); });
+}
+
 template class PoorSearch<2>;
 template class PoorSearch<3>;
 

@@ -23,6 +23,8 @@ class PoorSearch {
   /// Returns every cell over a bound, and every one beside a face that is not locally Delaunay and a small angle, with its
   /// reason. Part of them if the run is cancelled meanwhile, or its time is up.
   std::vector<PoorCell> look();
+  /// Of a run that a limit has ended: only what is beside the violations that are known.
+  std::vector<PoorCell> look_at_violations();
   /// Remembers what an element was refused for, of a refusal that is taken off the lists.
   void remember(Refusal<D> refusal) { refused_before_.push_back(std::move(refusal)); }
   /// The reasons as of the last look.

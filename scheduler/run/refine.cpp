@@ -233,6 +233,18 @@ void count_poor_left(const RefineContext<D>& context, const Refined<D>& refined,
   result.poor_unavoidable = count_in_sharp_corners<D>(context.mesh, context.domain, options.radius_edge_bound, over_bound);
 }
 
+/// The numbers that compact_by_slots() gives these cells, which are in the order of their slots.
+template <int D>
+std::vector<std::uint32_t> numbers_by_slots(const Mesh<D>& mesh, std::span<const PoorCell> cells) {
+  std::vector<std::uint32_t> numbers;
+  std::uint32_t number = 0;
+  for (std::uint32_t i = 0; i < mesh.cell_bound() && numbers.size() < cells.size(); ++i) {
+    if (CellId{i} == cells[numbers.size()].cell) numbers.push_back(number);
+    number += mesh.alive(CellId{i}) ? 1 : 0;
+  }
+  return numbers;
+}
+
 /// Numbers the finished mesh, which uses `mesh` up, and the poor cells in it. Where the run is cancelled meanwhile and no partial
 /// mesh is wanted, the result has none.
 template <int D>
@@ -240,10 +252,12 @@ void number_mesh(const RefineContext<D>& context, const RegionTable& regions, co
                  RefineResult<D>& result) {
   const RefineOptions<D>& options = context.options;
   std::vector<PoorCell> poor;
-  if (options.refine && result.stop == StopCause::finished) poor = refined.explained;
+  if (options.refine && result.stop != StopCause::cancelled) poor = refined.explained;
+  const bool by_slots = was_interrupted(result.stop);
+  const std::vector<std::uint32_t> numbers = by_slots ? numbers_by_slots<D>(context.mesh, poor) : std::vector<std::uint32_t>();
   std::vector<std::array<VertexId, D + 1>> poor_vertices;
   for (const PoorCell& p : poor) poor_vertices.push_back(context.mesh.cell(p.cell).vertices);
-  Compacted<D> compacted = compact_mesh(context.mesh, context.domain, regions, data, options, was_interrupted(result.stop));
+  Compacted<D> compacted = compact_mesh(context.mesh, context.domain, regions, data, options, by_slots);
   if (options.stop.stop_requested()) {
     result.stop = StopCause::cancelled;
     poor.clear();
@@ -251,7 +265,7 @@ void number_mesh(const RefineContext<D>& context, const RegionTable& regions, co
   }
   for (std::size_t i = 0; i < poor.size(); ++i) {
     PoorReason reason = poor[i].reason;
-    reason.cell = compacted.cell_number(poor_vertices[i]);
+    reason.cell = by_slots ? numbers[i] : compacted.cell_number(poor_vertices[i]);
     result.reasons.push_back(reason);
   }
   std::sort(result.reasons.begin(), result.reasons.end(),

@@ -47,6 +47,11 @@ StopCause Refinement<D>::run() {
     if (stop == StopCause::finished) stop = state_.stop();
     if (stop != StopCause::finished) break;
   }
+  if (stop != StopCause::finished && stop != StopCause::cancelled) {
+    leave_in_order();
+    if (!state_.is_cancelled()) state_.context.stop = static_cast<int>(stop);
+    stop = state_.stop();
+  }
   state_.recorder.finish(start, state_.waiting.tree().leaf_count());
   return stop;
 }
@@ -137,6 +142,42 @@ template <int D>
 StopCause Refinement<D>::end_if_vertices_are_spent() {
   const bool spent = state_.totals.vertices >= state_.context.options.max_vertices;
   return spent && state_.waiting.whole_list_waits() ? StopCause::max_vertices : StopCause::finished;
+}
+
+/// A limit ends a run between an insertion and the repair of the faces that it left not locally Delaunay. This makes up for it,
+/// and names the small angles beside which such faces stay. It takes part of what a run may take beyond its time limit: a tenth
+/// of that, and a second; the rest is for numbering and writing the mesh.
+template <int D>
+void Refinement<D>::leave_in_order() {
+  constexpr double part = 0.03, seconds = 0.3;
+  RefineContext<D>& context = state_.context;
+  if (context.options.time_limit) context.put_off = part * *context.options.time_limit + std::chrono::duration<double>(seconds);
+  context.stop = static_cast<int>(StopCause::finished);
+  violations_.look();
+  for (std::size_t before = violations_.standing().size() + 1; violations_.standing().size() < before && !context.ended();) {
+    before = violations_.standing().size();
+    repair_standing_violations();
+    violations_.look();
+  }
+  if (!poor_) poor_.emplace(state_, violations_);
+  explained_ = poor_->look_at_violations();
+}
+
+/// One visit by one worker, which inserts nothing.
+template <int D>
+void Refinement<D>::repair_standing_violations() {
+  WorkList<D> list;
+  for (const Entry<D>& e : violations_.standing()) list.flips.push(e);
+  RegionVisit<D> visit;
+  visit.list = &list;
+  visit.entities_refused = state_.totals.entities_refused;
+  {
+    const auto worker = state_.workers.lease();
+    worker->repair(visit);
+  }
+  list.drain([this](const Entry<D>& e) {
+    if (e.alive(state_.context.mesh)) state_.waiting.relist(e);
+  });
 }
 
 template class Refinement<2>;

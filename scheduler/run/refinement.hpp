@@ -30,6 +30,7 @@ class Refinement {
   StopCause run();
 
   /// If the run has finished: every cell over a bound, or beside a face that is not locally Delaunay and a small angle, and why.
+  /// If a limit has ended it, the latter.
   std::vector<PoorCell> take_explained() { return std::move(explained_); }
   RunState<D>& state() { return state_; }
 
@@ -47,6 +48,9 @@ class Refinement {
   StopCause improve();
   StopCause explain_what_was_improved();
   StopCause end_if_vertices_are_spent();
+
+  void leave_in_order();
+  void repair_standing_violations();
 
   std::unique_ptr<Improver> improver_;  ///< 3D; declared before the workers, which may hold on to it
   RunState<D> state_;

@@ -9,22 +9,14 @@
 #include <string>
 
 #include "clipping_oracle.hpp"
-#include "expect.hpp"
 #include "grid_input.hpp"
-#include "pgdr/check.hpp"
 #include "pgdr/diagnosis.hpp"
-#include "pgdr/refine.hpp"
+#include "sound.hpp"
 
 namespace pgdr {
 namespace {
 
 constexpr int D = PGDR_FUZZ_DIMENSION;
-
-std::string findings(const CheckReport& report) {
-  std::string text;
-  for (const auto& f : report.findings) text += std::string(name(f.kind)) + ": " + f.message + "\n";
-  return text;
-}
 
 /// Facets as triangles (2D: segments). What has a side that nothing else has bounds nothing; without it, is anything left?
 bool all_collapses(const Domain<D>& domain) {
@@ -65,44 +57,17 @@ bool has_mesh(const Plc<D>& plc) {
   }
 }
 
-void expect_sound(const Domain<D>& domain, const RefineOptions<D>& options, const RefineResult<D>& result) {
-  CheckOptions<D> check_options;
-  check_options.domain = &domain;
-  check_options.regions = options.regions;
-  if (result.stop == StopCause::finished) check_options.radius_edge_bound = options.radius_edge_bound;
-  check_options.reasons = &result.reasons;
-  const CheckReport report = check<D>(result.mesh, check_options);
-  if (result.stop == StopCause::finished) {
-    FUZZ_EXPECT(report.exit_code() <= 1, findings(report));
-    return;
-  }
-  for (const auto& f : report.findings) FUZZ_EXPECT(f.kind == CheckFinding::Kind::bad_reason, findings(report));
-}
-
-/// In another order, and with other slots and numbers of cells and vertices, the same comes out.
-void expect_same_shuffled(const Domain<D>& domain, RefineOptions<D> options, const RefineResult<D>& result) {
-  options.schedule.executor = Executor::shuffled;
-  options.schedule.threads = 3;
-  const auto again = refine<D>(domain, options);
-  FUZZ_EXPECT(again.mesh.points == result.mesh.points && again.mesh.cells == result.mesh.cells);
-  FUZZ_EXPECT(again.mesh.regions == result.mesh.regions && again.poor_left == result.poor_left && again.stop == result.stop);
-}
-
 void mesh(const fuzz::GridInput<D>& input) {
   const bool possible = has_mesh(input.plc);
   FUZZ_EXPECT((diagnose(input.plc).error_count() == 0) == possible);
   const bool seeds = !input.plc.holes.empty() || !input.plc.regions.empty();
   try {
     const Domain<D> domain(input.plc);
-    RefineOptions<D> options;
-    options.max_vertices = 400;
-    options.regions = input.automatic ? RegionMode::automatic : RegionMode::seeds;
-    options.schedule.executor = Executor::serial;
-    options.schedule.floor = 5;  // a few leaves
+    const RefineOptions<D> options = fuzz::small_run<D>(input.automatic);
     const auto result = refine<D>(domain, options);
     FUZZ_EXPECT(possible);
-    expect_sound(domain, options, result);
-    expect_same_shuffled(domain, options, result);
+    fuzz::expect_sound(domain, options, result);
+    fuzz::expect_same_shuffled(domain, options, result);
   } catch (const InputError& e) {
     const bool about_seeds = e.code() == Errc::encloses_nothing
                                  ? !input.plc.holes.empty()  // nothing is left

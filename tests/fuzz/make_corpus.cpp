@@ -74,6 +74,17 @@ void put_random(const std::string& target, std::size_t files, std::size_t most) 
   }
 }
 
+/// As above, each of them as another copy: see fuzz_rounded.cpp.
+void put_copies(const std::string& target, std::size_t files, std::size_t most) {
+  std::mt19937_64 random(20261126);
+  for (std::size_t k = 0; k < files; ++k) {
+    std::string bytes(5 + k * most / files, '\0');
+    for (char& c : bytes) c = static_cast<char>(random());
+    bytes[4] = static_cast<char>(k % 8);
+    put(target, "random_" + std::to_string(k), bytes);
+  }
+}
+
 }  // namespace
 }  // namespace pgdr::test
 
@@ -85,4 +96,6 @@ int main(int argc, char** argv) {
   pgdr::test::put_meshes<3>();
   pgdr::test::put_random("refine_2d", 24, 24);
   pgdr::test::put_random("refine_3d", 24, 32);
+  pgdr::test::put_copies("rounded_2d", 24, 24);
+  pgdr::test::put_copies("rounded_3d", 24, 32);
 }
