@@ -42,7 +42,7 @@ ROOMS = {
     },
     "core": {
         "output": Room("what is a finished mesh, and how good is it?", "", "quality.cpp",
-                       "output_mesh mesh_maps region_mode poor_reason quality flat_arrays"),
+                       "output_mesh mesh_maps region_mode region_volume poor_reason quality flat_arrays"),
         "size": Room("how large may a cell be here?", "output", "size_fields.cpp", "sizing size_fields"),
         "mesh": Room("what are cells, vertices and constraints, and who owns them?", "", "mesh.hpp visit_area.hpp", ""),
         "rule": Room("may a point go in, and why does that end?", "mesh size", "insertion_rule.hpp", "refine_options"),

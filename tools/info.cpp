@@ -197,6 +197,7 @@ class InputInfo {
     report_.set("warnings", to_json(recovered.warnings));
     repairs_.insert(repairs_.end(), recovered.repairs.begin(), recovered.repairs.end());
     report_.set("repairs", to_json(repairs_));
+    report_.set("regions", to_json(recovered.regions));
     if (a_.quiet) return;
     print_warnings(recovered.warnings);
     if (!repairs_.empty()) print_row("repaired", count(repairs_.size(), "defect", "defects"));
@@ -221,10 +222,7 @@ int info_of_mesh(const InfoArguments& a, Report& report) {
   report.set("cells", mesh.cells.size());
   report.set("subsegments", mesh.subsegments.size());
   if (D == 3) report.set("subfacets", mesh.subfacets.size());
-  std::vector<double> regions = mesh.regions;
-  std::sort(regions.begin(), regions.end());
-  regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
-  report.set("regions", std::max<std::size_t>(1, regions.size()));
+  report.set("regions", to_json(measure_regions(mesh)));
   report.set("quality", to_json(q));
   if (a.quiet) return exit_done;
 

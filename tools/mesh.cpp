@@ -124,6 +124,7 @@ void fill(Report& report, const MeshArguments& a, const Threads& threads, const 
                                   {"poor_left", r.poor_left},
                                   {"poor_unavoidable", r.poor_unavoidable},
                                   {"reasons", to_json(r.reasons)}});
+  report.set("regions", to_json(r.regions));
   report.set("scheduler", to_json(r.scheduler));
   report.set("insertions", JsonObject{{"committed", s.insertions_committed}, {"refused", s.insertions_refused}});
   report.set("predicates", to_json(s.predicates));

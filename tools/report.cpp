@@ -79,6 +79,12 @@ JsonObject to_json(const PoorReason& r) {
           {"angle", r.angle}};
 }
 
+JsonObject to_json(const RegionVolume& r) {
+  return {{"label", r.label},
+          {"volume_meshed", r.volume_meshed},
+          {"volume_given", r.volume_given ? Json(*r.volume_given) : Json(nullptr)}};
+}
+
 JsonObject to_json(const PredicateCounts& c) {
   const std::uint64_t calls = c.filter + c.expansion + c.exact + c.perturbed;  // each call counts at one stage
   const auto share = [calls](std::uint64_t n) { return calls ? static_cast<double>(n) / static_cast<double>(calls) : 0.0; };

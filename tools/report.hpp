@@ -34,6 +34,7 @@ class Report : public JsonObject {
 JsonObject to_json(const Diagnostic& d);
 JsonObject to_json(const QualitySummary& q);
 JsonObject to_json(const PoorReason& r);
+JsonObject to_json(const RegionVolume& r);
 JsonObject to_json(const PredicateCounts& counts);  ///< shares by stage, and `calls`
 JsonObject to_json(const SchedulerStatistics& s);
 JsonObject to_json(const CheckFinding& finding);

@@ -23,6 +23,7 @@
 #include "pgdr/refine.hpp"
 #include "pgdr/refine_options.hpp"
 #include "pgdr/region_mode.hpp"
+#include "pgdr/region_volume.hpp"
 #include "pgdr/selectors.hpp"
 #include "pgdr/size_fields.hpp"
 #include "pgdr/sizing.hpp"

@@ -17,6 +17,7 @@
 #include "pgdr/poor_reason.hpp"
 #include "pgdr/predicates.hpp"
 #include "pgdr/refine_options.hpp"
+#include "pgdr/region_volume.hpp"
 #include "pgdr/sizing.hpp"
 
 namespace pgdr PGDR_API {
@@ -75,11 +76,12 @@ struct RefineResult {
   std::uint64_t poor_left = 0;  ///< cells over a bound
   /// Of these, when finished, those in a corner of a facet that is so sharp that every mesh has one there (sharp_corners.hpp).
   std::uint64_t poor_unavoidable = 0;
-  bool size_met = true;             ///< every cell within the size and measure bounds; false without a mesh
+  bool size_met = true;  ///< every cell within the size and measure bounds; false without a mesh
   /// One for every poor cell when finished. Of a mesh that a limit has ended: for cells with faces that are not locally Delaunay.
   std::vector<PoorReason> reasons;
-  RefineStatistics statistics;      ///< counts and times
-  SchedulerStatistics scheduler;    ///< how the visits went
+  std::vector<RegionVolume> regions;  ///< one a label that cells have, ascending; none without a mesh
+  RefineStatistics statistics;        ///< counts and times
+  SchedulerStatistics scheduler;      ///< how the visits went
   /// Were faces met that are not locally Delaunay? If not, none is left but by rounding, beside slanted entities.
   bool violations_seen = false;
   double tolerance = 0;              ///< Domain::tolerance

@@ -17,6 +17,7 @@
 #include "cavity/delaunay.hpp"
 #include "compact/compact.hpp"
 #include "compact/point_data.hpp"
+#include "compact/region_volumes.hpp"
 #include "graph/arena.hpp"
 #include "graph/float_environment.hpp"
 #include "pgdr/diagnosis.hpp"
@@ -143,6 +144,7 @@ template <int D>
 RefineResult<D> without_mesh(RefineResult<D> result, Clock::time_point start) {
   result.mesh = {};
   result.reasons.clear();
+  result.regions.clear();
   result.stop = StopCause::cancelled;
   result.size_met = false;
   result.statistics.seconds_mesh = seconds_since(start);
@@ -294,6 +296,7 @@ RefineResult<D> make_mesh(const Domain<D>& domain, const RefineOptions<D>& optio
   if (options.refine) refined = refine_mesh<D>(context, std::move(pools), vertices, result);
   if (is_unwanted(options, result.stop)) return without_mesh(std::move(result), start);
   count_poor_left<D>(context, refined, result);
+  result.regions = region_volumes<D>(mesh, domain, attributes_of(regions));
   result.statistics.seconds_refine = seconds_since(refine_start);
   number_mesh<D>(context, regions, data, refined, result);
   if (is_unwanted(options, result.stop)) return without_mesh(std::move(result), start);

@@ -34,7 +34,7 @@ class Regions(Case):
     def regions(self):
         """How many labels the mesh has; and that it passes the check made with, or without, the same flag."""
         self.pgdr("info", self.output, "--report", self.report, expect=0)
-        return self.json()["regions"]
+        return len(self.json()["regions"])
 
     def test_voids_by_nesting(self):
         nested = self.file("nested.poly", boxes_poly(*self.NESTED))
@@ -50,6 +50,18 @@ class Regions(Case):
         self.pgdr("check", self.output, "--input", nested, "--radius-edge", 2, expect=0)
         self.pgdr("check", self.output, "--input", nested, "--radius-edge", 2, "--regions", "auto", expect=6)
         self.mesh(nested, "--regions", "seeds")
+
+    def test_volumes(self):
+        """`mesh` and `info` of the input have both volumes of each label, `info` of the mesh has one."""
+        nested = self.file("nested.poly", boxes_poly(*self.NESTED))
+        expected = [{"label": label, "volume_meshed": volume, "volume_given": volume} for label, volume in
+                    ((1, 512 - 216), (2, 64 - 8))]
+        self.mesh(nested, "--regions", "auto", "--report", self.report)
+        self.assertEqual(self.json()["regions"], expected)
+        self.pgdr("info", self.output, "--report", self.report, expect=0)
+        self.assertEqual(self.json()["regions"], [{**entry, "volume_given": None} for entry in expected])
+        self.pgdr("info", nested, "--report", self.report, expect=0)
+        self.assertEqual(self.json()["regions"], [{"label": 0, "volume_meshed": 512, "volume_given": 512}])
 
     def test_seeds_win(self):
         seeded = self.file("seeded.poly", boxes_poly(*self.NESTED, holes=[(0.5, 4.0, 4.0)], regions=[(1.5, 4.0, 4.0, 1, 0)]))

@@ -6,6 +6,8 @@ itself, and compares the meshes of several numbers of threads byte for byte. REA
 
 Usage: run.py INPUT...            (PGDR_COMMAND: the command; PGDR_SANITIZE: its sanitizers, if any)
        run.py --files FOLDER...   whether each input there has its .expect, and each .expect its input
+       run.py --copies INPUT...   whether random copies come to the same (PGDR_SEEDS of each kind: 1); files, names of shapes.py, or
+                                  `all` of these
 """
 import collections
 import json
@@ -16,8 +18,15 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "oracles"))
+# pylint: disable=wrong-import-position
 import copies
 import expect_file
+import given_volumes
+import input_files
+import motions
+import same_outcome
+import shapes
 
 COMMAND = os.environ.get("PGDR_COMMAND", "build/release/pgdr")
 SANITIZED = bool(os.environ.get("PGDR_SANITIZE", ""))
@@ -137,6 +146,7 @@ class Driver:
                 self.complain("what was refused left a mesh")
             return self.complaints
         self.expect_checked(done, output, report)
+        self.expect_volumes_as_given(output, report)
         self.expect_measures(output, json.loads(report.read_text(encoding="utf-8")))
         if not self.is_copy:
             self.expect_same_for_any_threads(output, report)
@@ -162,6 +172,13 @@ class Driver:
         expected = self.run.check if self.run.check is not None else (done.returncode,)
         if checked is not None and checked.returncode not in expected:
             self.complain(f"check ended with {checked.returncode}, not {expected}: {checked.stdout}{checked.stderr}".strip())
+
+    def expect_volumes_as_given(self, output, report):
+        """By the file and the mesh alone."""
+        try:
+            self.complaints += given_volumes.compare(self.path, output, report, self.run.flags)
+        except input_files.UnknownInput:
+            pass  # the .expect has the volumes
 
     def expect_measures(self, output, report):
         mesh, run = Mesh(output), self.run
@@ -222,6 +239,16 @@ def complaints_about(path):
     return found
 
 
+def complaints_about_copies(names):
+    """What does not come to the same, of copies of inputs."""
+    if "all" in names:
+        names = [*(n for n in names if n != "all"), *shapes.ALL]
+    for name, given, flags in same_outcome.inputs(names):
+        for seed in range(int(os.environ.get("PGDR_SEEDS", "1"))):
+            for kind, complaint in same_outcome.of_input(COMMAND, name, given, flags, 60 * SLOWER, seed, motions.KINDS):
+                yield f"{name} ({kind}): {complaint}"
+
+
 def unpaired(folder):
     """Inputs without .expect, and so on, below a folder."""
     files = [p for p in sorted(folder.rglob("*")) if p.is_file() and "__pycache__" not in p.parts and p.suffix not in BESIDES]
@@ -249,6 +276,8 @@ def main(arguments):
         return 2
     if arguments[0] == "--files":
         complaints = [c for folder in arguments[1:] for c in unpaired(pathlib.Path(folder))]
+    elif arguments[0] == "--copies":
+        complaints = complaints_about_copies(arguments[1:])
     else:
         complaints = []
         for path in map(pathlib.Path, arguments):
@@ -256,9 +285,11 @@ def main(arguments):
                 complaints += complaints_about(path)
             except (expect_file.ExpectError, copies.CopyError) as e:
                 complaints.append(f"{path.name}: {e}")
+    failed = False
     for complaint in complaints:
-        print(complaint)
-    return 1 if complaints else 0
+        print(complaint, flush=True)
+        failed = True
+    return 1 if failed else 0
 
 
 if __name__ == "__main__":

@@ -10,10 +10,15 @@ import io
 import pathlib
 import tempfile
 import unittest
+from fractions import Fraction
 
 import copies
+import run  # which finds the oracles
 import expect_file
-import run
+import given_volumes
+import motions
+import same_outcome
+import shapes
 
 SQUARE = "4 2 0 0\n1 0 0\n2 1.5 0\n3 1.5 1.5\n4 0 1.5\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n1\n1 0.5 0.5 7 0.25\n"
 CUBE = ("8 3 0 0\n" + "".join(f"{i} {i & 1} {i >> 1 & 1} {i >> 2}.25\n" for i in range(8)) + "6 0\n" + "".join(
@@ -132,6 +137,32 @@ class Driver(Folder):
         self.file("b.off", "")
         self.file("b.obj", "")
         self.assertIn("2 inputs", self.main("--files", self.folder)[1])
+
+
+class FakeOutcome:
+    """What became of an input, without a run."""
+
+    def __init__(self, exit="meshed", volumes=None, given=True, entities=6):
+        self.exit, self.volumes, self.report, self.ulp = exit, volumes or {1.0: Fraction(8)}, {"dimension": 3, "tolerance": 1e-9}, 1e-12
+        self.entities = {"maximal_facets": entities}
+        self.given = given_volumes.Given({1.0: given_volumes.Volume(Fraction(8), area=24)}, False) if given else None
+
+
+class SameOutcome(unittest.TestCase):
+    def test_what_differs_is_found(self):
+        first = FakeOutcome()
+        for copy, factor, word in ((FakeOutcome(), 1, ""), (FakeOutcome("no end"), 1, "exit no end"), (FakeOutcome(3), 1, "exit 3"),
+                                   (FakeOutcome(volumes={2.0: Fraction(8)}), 1, "regions"), (FakeOutcome(), 2, "region 1"),
+                                   (FakeOutcome(entities=7), 1, "facets"), (FakeOutcome(volumes={1.0: Fraction(64)}), 2, ""),
+                                   (FakeOutcome(volumes={1.0: Fraction(9)}, given=False), 1, ""),
+                                   (FakeOutcome(volumes={1.0: 8 + Fraction(1, 10 ** 6)}), 1, "region 1")):
+            found = list(same_outcome.differences(first, copy, factor, 1e-12))
+            self.assertEqual(len(found), 1 if word else 0, found)
+            self.assertIn(word, "".join(found))
+
+    def test_copies_of_a_pile(self):
+        given = shapes.ALL["pile"]().input()
+        self.assertEqual(same_outcome.of_input(run.COMMAND, "pile", given, [], 120, 0, motions.KINDS), [])
 
 
 if __name__ == "__main__":
