@@ -5,7 +5,9 @@
 // Steiner points, with a few hundred triangles missing of ten thousand: it takes some thousand more.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <random>
+#include <vector>
 
 #include "model_plcs.hpp"
 #include "refined_models.hpp"
@@ -42,6 +44,40 @@ Plc<3> terrain(std::uint32_t side, double height) {
   }
   plc.facets.push_back({{{base.rbegin(), base.rend()}}, {}, 0});
   return plc;
+}
+
+/// A block on a wedge of six millionths of a degree: its boundary takes more points than there is time for.
+Plc<3> block_on_a_wedge() {
+  Plc<3> plc;
+  const double thin = 1.064650843716545e-05;
+  plc.points = {{{0, 0, 0}},       {{100, 0, 0}}, {{100, 40, 0}}, {{0, 40, 0}},    {{100, 0, thin}},
+                {{100, 40, thin}}, {{0, 0, 50}},  {{100, 0, 50}}, {{100, 40, 50}}, {{0, 40, 50}}};
+  for (const std::vector<std::uint32_t>& polygon : std::vector<std::vector<std::uint32_t>>{{0, 1, 2, 3},
+                                                                                           {0, 4, 5, 3},
+                                                                                           {6, 7, 8, 9},
+                                                                                           {0, 1, 4},
+                                                                                           {3, 2, 5},
+                                                                                           {1, 2, 5, 4},
+                                                                                           {0, 4, 7, 6},
+                                                                                           {3, 5, 8, 9},
+                                                                                           {4, 5, 8, 7},
+                                                                                           {0, 3, 9, 6}})
+    plc.facets.push_back({{polygon}, {}, 0});
+  return plc;
+}
+
+/// The time was looked at between rounds alone, which take as long as all before: 39 seconds of 20.
+TEST(RecoveryLimits, EndsInTime) {
+  for (const double seconds : {0.5, 2.0}) {
+    RefineOptions<3> options;
+    options.time_limit = std::chrono::duration<double>(seconds);
+    const auto begin = std::chrono::steady_clock::now();
+    const auto result = refine(block_on_a_wedge(), options);
+    const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    EXPECT_EQ(result.stop, StopCause::time_limit);
+    EXPECT_TRUE(result.mesh.cells.empty());
+    EXPECT_LT(took, (test::sanitized ? 20 : 2) * (1.1 * seconds + 1));  // twice as much, for machines with other work to do
+  }
 }
 
 TEST(RecoveryLimits, GoesOnWhileLessIsMissing) {

@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <stdexcept>
 
 #include "parallel_support.hpp"
 #include "pgdr/flat_arrays.hpp"
@@ -87,6 +88,38 @@ TYPED_TEST(Callbacks, PointsThatCannotBeAreReplacedAndCounted) {
         EXPECT_EQ(e.diagnostic().points.size(), 2u);  // the point, the centre of the disk
       }
     }
+}
+
+// Once, with what is meshed, before anything is; what it throws ends the run.
+TYPED_TEST(Callbacks, PreparedIsCalledOnceBeforeTheMesh) {
+  constexpr int D = TypeParam::value;
+  auto o = test::with<D>(options<D>(), test::serial);
+  int calls = 0;
+  bool meshing = false;
+  o.progress = [&](const Progress&) { meshing = true; };
+  o.prepared = [&](const Domain<D>& domain) {
+    ++calls;
+    EXPECT_FALSE(meshing);
+    EXPECT_EQ(domain.points().size(), model<D>().points.size());
+  };
+  refine<D>(model<D>(), o);
+  EXPECT_EQ(calls, 1);
+  refine<D>(Domain<D>(model<D>()), o);
+  EXPECT_EQ(calls, 2);
+  o.prepared = [](const Domain<D>&) { throw std::runtime_error("enough"); };
+  EXPECT_THROW(refine<D>(model<D>(), o), std::runtime_error);
+}
+
+// Also where nothing is there yet but the input.
+TYPED_TEST(Callbacks, ATimeLimitEndsWhatComesBeforeTheMesh) {
+  constexpr int D = TypeParam::value;
+  auto o = test::with<D>(options<D>(), test::serial);
+  o.time_limit = std::chrono::duration<double>(0);
+  const auto result = refine<D>(model<D>(), o);
+  EXPECT_EQ(result.stop, StopCause::time_limit);
+  EXPECT_TRUE(result.mesh.cells.empty());
+  o.time_limit = std::chrono::duration<double>(1e300);  // which no clock counts
+  EXPECT_EQ(refine<D>(model<D>(), o).stop, StopCause::finished);
 }
 
 TYPED_TEST(Callbacks, SizesThatCannotBeNameThePoint) {

@@ -37,7 +37,8 @@ ROOMS = {
         "space": Room("which of many boxes, points, triangles meet?", "numbers", "box_tree.hpp", ""),
         "input": Room("which points, segments and facets does an input have?", "space", "steps/domain_builder.cpp",
                       "plc domain planar_plc"),
-        "diagnose": Room("what is wrong with an input, and where?", "input", "diagnosis.cpp", "diagnosis surface_counts"),
+        "diagnose": Room("what is wrong with an input, and where?", "input", "diagnosis.cpp cell_estimate.cpp",
+                         "diagnosis estimate surface_counts"),
         "select": Room("where may a point go?", "numbers", "selectors.cpp", "point_selector selectors"),
     },
     "core": {

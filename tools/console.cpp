@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <charconv>
 #include <cstdarg>
 #include <cstdio>
 
@@ -34,6 +35,11 @@ std::string format(const char* pattern, ...) {
   }
   va_end(again);
   return text;
+}
+
+std::string digits(double value) {
+  char text[40];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
 std::string count(std::uint64_t n, std::string_view one, std::string_view many) {

@@ -22,6 +22,8 @@ void print_row(std::string_view label, const std::string& text);
 void print_warnings(const std::vector<Diagnostic>& warnings);
 /// printf into a string.
 [[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...);
+/// The shortest digits that read back to the same double.
+std::string digits(double value);
 /// 1 vertex, 2 vertices; thousands are set apart.
 std::string count(std::uint64_t n, std::string_view one, std::string_view many);
 

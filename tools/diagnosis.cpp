@@ -8,6 +8,7 @@
 #include "command.hpp"
 #include "console.hpp"
 #include "planar_hint.hpp"
+#include "proposal.hpp"
 
 namespace pgdr::tool {
 namespace {
@@ -93,6 +94,7 @@ int refuse(const Plc<D>& plc, const Diagnosis<D>& diagnosis, Report& report) {
   if (const std::uint64_t all = diagnosis.error_count(); all > most)
     std::fprintf(stderr, "pgdr: and %llu more errors\n", static_cast<unsigned long long>(all - most));
   hint_at_flags_of_refused(plc, diagnosis);
+  propose_for_refused(plc);
   return exit_input;
 }
 

@@ -12,10 +12,12 @@
 #include "command.hpp"
 #include "console.hpp"
 #include "diagnosis.hpp"
+#include "estimate.hpp"
 #include "input.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/refine.hpp"
+#include "proposal.hpp"
 
 namespace pgdr::tool {
 namespace {
@@ -71,11 +73,12 @@ double smallest_angle(const Domain<D>& domain) {
 struct Looks {
   std::uint64_t open;
   double smallest_angle;
+  std::optional<Proposal> proposal;
 };
 
 template <int D>
-Looks look_at(const Domain<D>& domain) {
-  return {count_open(domain), smallest_angle(domain)};
+Looks look_at(const Plc<D>& plc, const Domain<D>& domain, const InfoArguments& a) {
+  return {count_open(domain), smallest_angle(domain), find_proposal(plc, domain, a.reading)};
 }
 
 /// What the input is without repetitions, its maximal entities, and how these meet.
@@ -109,7 +112,6 @@ void describe(const Domain<D>& domain, const Looks& looks, bool quiet, JsonObjec
       print_row("closed", "no: " + count(open, D == 3 ? "edge of one facet only" : "end of one segment only",
                                          D == 3 ? "edges of one facet only" : "ends of one segment only"));
     if (warped > 0) print_row("planar", count(warped, "facet is not", "facets are not") + format(", by up to %.3g", defect));
-    print_row("angles", format("%.3f degrees is the smallest between segments, or facets at a segment", looks.smallest_angle));
   }
 }
 
@@ -140,6 +142,7 @@ class InputInfo {
     report_.set("diagnosis", findings_);
     if (!a_.quiet) print_findings(diagnosis);
     if (diagnosis.error_count() > 0) return refuse(plc_, diagnosis, report_);
+    say_what_is_ahead(*prepared);
     const RefineResult<D> recovered = recover_and_describe(*prepared);
     accept(recovered);
     return exit_done;
@@ -165,6 +168,14 @@ class InputInfo {
               counts + ", " + count(plc_.holes.size(), "hole", "holes") + ", " + count(plc_.regions.size(), "region", "regions"));
   }
 
+  /// What `mesh` would say, with its default bounds: before the recovery, which may take long.
+  void say_what_is_ahead(const Domain<D>& domain) {
+    const Outlook<D> outlook = look_ahead<D>(domain, resolve<D>({}, smallest_proved_bound<D>()), true, {});
+    set_outlook(report_, domain, outlook);
+    if (!a_.quiet) print_outlook(domain, outlook);
+    recovery_at_ = clock_.seconds();
+  }
+
   /// Recovers the boundary, and looks at the Domain meanwhile; describes that. @throws InputError if the boundary is not
   /// recovered
   RefineResult<D> recover_and_describe(const Domain<D>& domain) {
@@ -179,12 +190,13 @@ class InputInfo {
             refused = std::current_exception();
           }
         },
-        [&] { looks = look_at(domain); });
+        [&] { looks = look_at(plc_, domain, a_); });
     seconds_.set("recovery", clock_.seconds() - recovery_at_);
     describe(domain, *looks, a_.quiet, findings_);
     report_.set("tolerance", domain.tolerance());
     report_.set("largest_move", domain.largest_move());
     report_.set("diagnosis", findings_);
+    give(looks->proposal, a_.quiet, report_);
     seconds_.set("total", clock_.seconds());
     report_.set("seconds", seconds_);
     if (refused) std::rethrow_exception(refused);

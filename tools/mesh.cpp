@@ -7,13 +7,17 @@
 #include <cstdio>
 #include <optional>
 
+#include <tbb/parallel_invoke.h>
+
 #include "bounds.hpp"
 #include "command.hpp"
 #include "console.hpp"
 #include "diagnosis.hpp"
+#include "estimate.hpp"
 #include "files.hpp"
 #include "input.hpp"
 #include "pgdr/io.hpp"
+#include "proposal.hpp"
 #include "selector.hpp"
 #include "signals.hpp"
 #include "threads.hpp"
@@ -22,6 +26,8 @@
 namespace pgdr::tool {
 namespace {
 
+/// Of the time limit: to number a large mesh and to measure it takes up to a tenth of the time that it took to make.
+constexpr double part_for_meshing = 0.95;
 constexpr double most_min_angle = 34;  // degrees; beyond, the number of points explodes
 
 template <int D>
@@ -44,7 +50,6 @@ RefineOptions<D> make_options(const MeshArguments& a, const Bounds<D>& bounds) {
   options.schedule.schedule = a.schedule;
   if (a.granularity) options.schedule.granularity = *a.granularity;
   options.schedule.trace = !a.trace.empty();
-  if (a.time_limit) options.time_limit = std::chrono::duration<double>(*a.time_limit);
   return options;
 }
 
@@ -234,9 +239,10 @@ class MeshRun {
     report_.set("tolerance", result_.tolerance);
     report_.set("largest_move", result_.largest_move);
     fill(report_, a_, threads_, bounds_, result_, quality);
-    write();
+    const std::optional<Proposal> proposal = write();
     report_seconds();
     print(quality);
+    give(proposal, a_.quiet, report_);
     if (!a_.trace.empty()) {
       std::string trace_file = a_.trace;
       write_trace(a_, result_, seconds_);
@@ -266,6 +272,12 @@ class MeshRun {
     try {
       ProgressLine line(!a_.quiet);
       if (!a_.quiet) options_.progress = [&](const Progress& p) { line(p); };
+      options_.prepared = [&](const Domain<D>& domain) {
+        line.clear();
+        say_what_is_ahead(domain);
+      };
+      if (a_.time_limit)
+        options_.time_limit = std::chrono::duration<double>(std::max(0.0, *a_.time_limit - total_.seconds()) * part_for_meshing);
       result_ = refine(plc_, options_);
     } catch (const InputError&) {  // which names one culprit: find them all
       const Diagnosis<D> diagnosis = diagnose(plc_);
@@ -280,10 +292,29 @@ class MeshRun {
     return std::nullopt;
   }
 
-  void write() {
+  /// The estimate and the narrowest gap, before anything takes long. Refuses what there is no memory for, unless the user has
+  /// bounded it.
+  void say_what_is_ahead(const Domain<D>& domain) {
+    const Outlook<D> outlook = look_ahead<D>(domain, bounds_, !a_.no_refine, options_.stop);
+    set_outlook(report_, domain, outlook);
+    if (!a_.quiet) print_outlook(domain, outlook);
+    if (!a_.max_vertices && !a_.time_limit) require_memory(domain, outlook);
+  }
+
+  /// Writes the mesh. Where elements stay poor it looks meanwhile for a tolerance that may help.
+  std::optional<Proposal> write() {
     seconds_.write_at = total_.seconds();
-    if (!result_.mesh.cells.empty()) write_as_asked(a_, plc_, result_.mesh, report_);
-    seconds_.write = total_.seconds() - seconds_.write_at;
+    std::optional<Proposal> proposal;
+    const auto write_mesh = [&] {
+      if (!result_.mesh.cells.empty()) write_as_asked(a_, plc_, result_.mesh, report_);
+      seconds_.write = total_.seconds() - seconds_.write_at;
+    };
+    const auto look_for_proposal = [&] {
+      if (a_.no_refine || result_.poor_left == 0 || result_.stop != StopCause::finished) return;
+      proposal = find_proposal(plc_, Domain<D>(plc_), a_.reading);
+    };
+    tbb::parallel_invoke(write_mesh, look_for_proposal);
+    return proposal;
   }
 
   void report_seconds() {

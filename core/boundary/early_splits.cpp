@@ -133,7 +133,7 @@ bool FacetPatches::split_poor_triangles(double bound, double min_edge, const std
       const Ball<3> ball = equatorial_ball(a, b, c);
       if (ball.squared_radius > largest * largest * shortest) poor.push_back({ball, t, std::max(std::sqrt(shortest), min_edge)});
     }
-    if (!poor.empty() && !stop()) any = split_triangles(f, std::move(poor)) || any;
+    if (!poor.empty() && !stop()) any = split_triangles(f, std::move(poor), stop) || any;
   }
   return any;
 }

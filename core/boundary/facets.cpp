@@ -189,7 +189,10 @@ bool FacetPatches::recover_once(const std::function<bool()>& stop) {
   for (const EntityId s : chains_->take_changed())
     for (const EntityId f : domain_->facets_of_segment(s)) changed_.push_back(f);
   make_set(changed_);
-  for (const EntityId f : changed_) triangulate(f);
+  for (const EntityId f : changed_) {
+    if (stop()) return true;
+    triangulate(f);
+  }
   look_again_.insert(look_again_.end(), changed_.begin(), changed_.end());
   changed_.clear();
   std::vector<std::pair<EntityId, std::vector<Candidate>>> missing;
@@ -208,7 +211,7 @@ bool FacetPatches::recover_once(const std::function<bool()>& stop) {
   }
   trend_.note(triangles);
   for (auto& [f, candidates] : missing)
-    if (!stop()) split_triangles(f, std::move(candidates));
+    if (!stop()) split_triangles(f, std::move(candidates), stop);
   return !missing.empty();
 }
 
@@ -265,7 +268,7 @@ VertexId FacetPatches::insert_inside(EntityId facet, const Candidate& c, const P
 
 /// Largest triangles first; a triangle that a point of this round has reached already waits for the next. Trees of boxes say
 /// what is near a point: strips have many triangles, and the same facet many rounds.
-bool FacetPatches::split_triangles(EntityId facet, std::vector<Candidate> candidates) {
+bool FacetPatches::split_triangles(EntityId facet, std::vector<Candidate> candidates, const std::function<bool()>& stop) {
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     if (a.ball.squared_radius != b.ball.squared_radius) return a.ball.squared_radius > b.ball.squared_radius;
     return lex_less(a.ball.center, b.ball.center);
@@ -288,6 +291,7 @@ bool FacetPatches::split_triangles(EntityId facet, std::vector<Candidate> candid
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const Candidate& c = candidates[i];
     if (reached[i]) continue;
+    if (stop()) break;
     const Point3 x = point_on_facet(*domain_, facet, c.ball.center);
     if (const auto s = in_the_way(rim, rim_tree, facet, c.triangle, x)) {
       if (c.least > 0 && !may_split(*s)) continue;

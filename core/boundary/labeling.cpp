@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <span>
 
 #include "boundary/automatic_regions.hpp"
 #include "input/entity_distance.hpp"
+#include "input/words.hpp"
 #include "numbers/rounding.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "space/box.hpp"
@@ -18,17 +18,6 @@ namespace pgdr {
 namespace {
 
 constexpr std::uint32_t unlabelled = 0xffffffffu;
-
-template <int D>
-std::string coordinates(const Point<D>& p) {
-  char text[96];
-  if constexpr (D == 3) {
-    std::snprintf(text, sizeof text, "(%.17g, %.17g, %.17g)", p[0], p[1], p[2]);
-  } else {
-    std::snprintf(text, sizeof text, "(%.17g, %.17g)", p[0], p[1]);
-  }
-  return text;
-}
 
 /// A hole or region seed of the input; one that is in the wrong place is named by its number there.
 template <int D>
@@ -40,7 +29,8 @@ struct Seed {
   Diagnostic diagnostic(const Domain<D>& domain, Errc code, const std::string& what) const {
     const auto& lines = of_hole ? domain.source().hole_lines : domain.source().region_lines;
     const std::int64_t number = static_cast<std::int64_t>(index) + domain.first_index();
-    const std::string words = (of_hole ? "hole seed " : "region seed ") + std::to_string(number) + " at " + coordinates<D>(point);
+    const std::string words = (of_hole ? "hole seed " : "region seed ") + std::to_string(number) + " at " +
+                              detail::to_text(point);
     return {code,
             words + " " + what,
             domain.source().file,
@@ -212,8 +202,8 @@ class Regions {
       bounded_ = bounded_ || size > 0;
     } else if (table_.attribute[region_[c]] != attribute) {
       throw InputError(seed.diagnostic(domain_, Errc::conflicting_seeds,
-                                       "has the attribute " + std::to_string(attribute) + ", another seed in its region " +
-                                           std::to_string(table_.attribute[region_[c]])));
+                                       "has the attribute " + detail::to_text(attribute) + ", another seed in its region " +
+                                           detail::to_text(table_.attribute[region_[c]])));
     }
   }
 

@@ -10,6 +10,7 @@
 #include "boundary/named_points.hpp"
 #include "boundary/segment_insertion.hpp"
 #include "boundary/state.hpp"
+#include "input/words.hpp"
 
 namespace pgdr {
 namespace {
@@ -60,7 +61,7 @@ InputError not_recovered(const Domain<3>& domain, const detail::SegmentChains& c
               " Steiner points: facets meet at very small angles, or nearly touch. The most, " + std::to_string(on_it) +
               ", are on " + (is_facet ? detail::facet_words(d) : detail::segment_words(d));
   if (const double angle = is_facet ? 180 : least_angle_at(domain, most.id); angle < 180)
-    d.message += ", where facets meet at " + std::to_string(angle) + " degrees";
+    d.message += ", where facets meet at " + detail::to_text(angle) + " degrees";
   return InputError(std::move(d));
 }
 

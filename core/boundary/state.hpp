@@ -148,7 +148,7 @@ class FacetPatches {
     Triangle triangle;
     double least;  ///< how near its point may be to others
   };
-  bool split_triangles(EntityId facet, std::vector<Candidate> candidates);
+  bool split_triangles(EntityId facet, std::vector<Candidate> candidates, const std::function<bool()>& stop);
   bool may_split(const Subsegment& s) const;
   void find_factors();
   void find_fragile();

@@ -11,6 +11,7 @@
 #include <optional>
 #include <stop_token>
 
+#include "pgdr/domain.hpp"
 #include "pgdr/export.hpp"
 #include "pgdr/point_selector.hpp"
 #include "pgdr/predicates.hpp"
@@ -85,6 +86,9 @@ struct RefineOptions {
   bool partial_mesh = true;
   bool leaves = false;       ///< tell for each cell which leaf of the tree holds its circumcentre (OutputMesh::leaves)
   ScheduleOptions schedule;  ///< threads, and how work is divided among them
+  /// Called once, by the thread that calls `refine`, with the input that was checked and before anything is meshed: for an
+  /// estimate, say. May throw.
+  std::function<void(const Domain<D>&)> prepared;
   /// Called by one thread at a time, a few times a second at most, from any of the threads. May throw.
   std::function<void(const Progress&)> progress;
 };

@@ -9,6 +9,7 @@
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/error.hpp"
+#include "pgdr/estimate.hpp"
 #include "pgdr/export.hpp"
 #include "pgdr/flat_arrays.hpp"
 #include "pgdr/io.hpp"

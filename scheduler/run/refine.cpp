@@ -20,11 +20,13 @@
 #include "compact/region_volumes.hpp"
 #include "graph/arena.hpp"
 #include "graph/float_environment.hpp"
+#include "input/words.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "reasons/poor_reasons.hpp"
 #include "reasons/sharp_corners.hpp"
 #include "rule/cell_bounds.hpp"
 #include "run/cell_parts.hpp"
+#include "run/deadline.hpp"
 #include "run/folded_facets.hpp"
 #include "run/refinement.hpp"
 #include "size/region_sizes.hpp"
@@ -57,7 +59,7 @@ void validate(const RefineOptions<D>& options) {
   const double delta = options.disk.delta;
   if (delta != 0 && options.disk.type == DiskType::type1) bad_option("delta is for disks of type 2");
   if (delta != 0 && !(delta >= smallest_proved_bound<D>() / options.radius_edge_bound && delta <= 1))
-    bad_option("delta must lie between " + std::to_string(smallest_proved_bound<D>()) + " / radius-edge bound and 1");
+    bad_option("delta must lie between " + detail::to_text(smallest_proved_bound<D>()) + " / radius-edge bound and 1");
 }
 
 template <int D>
@@ -139,13 +141,13 @@ std::vector<std::uint32_t> leaves_of(const OutputMesh<D>& mesh, const Orthtree<D
   return leaves;
 }
 
-/// What a run that was cancelled returns where no partial mesh is wanted.
+/// What a run returns that was ended before there was a mesh, or was cancelled where no partial one is wanted.
 template <int D>
-RefineResult<D> without_mesh(RefineResult<D> result, Clock::time_point start) {
+RefineResult<D> without_mesh(RefineResult<D> result, Clock::time_point start, StopCause cause = StopCause::cancelled) {
   result.mesh = {};
   result.reasons.clear();
   result.regions.clear();
-  result.stop = StopCause::cancelled;
+  result.stop = cause;
   result.size_met = false;
   result.statistics.seconds_mesh = seconds_since(start);
   return result;
@@ -167,13 +169,12 @@ void warn_beyond_theory(const RefineOptions<D>& options, std::vector<Diagnostic>
 /// boundary is there, `result.stop` says why.
 template <int D>
 RegionTable make_initial(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Domain<D>& domain, const RefineOptions<D>& options,
-                         Clock::time_point start, RefineResult<D>& result) {
+                         Clock::time_point start, const detail::Deadline& deadline, RefineResult<D>& result) {
   Delaunay<D> delaunay(mesh, pools);
-  if (!delaunay.build(domain.points(), options.stop))
+  if (!delaunay.build(domain.points(), deadline.token()))
     throw InputError({Errc::no_volume, D == 3 ? "all points lie in one plane" : "all points lie on one line", {}, 0, {}, {}});
-  if (options.stop.stop_requested()) {
-    result.stop = StopCause::cancelled;  // the triangulation may lack points
-  } else {
+  result.stop = deadline.cause();
+  if (result.stop == StopCause::finished) {  // else the triangulation may lack points
     RecoveryCounts counts;
     result.stop = recover_boundary<D>(mesh, pools, delaunay, domain, options, start, counts);
     result.statistics.segment_points = counts.segment_points;
@@ -279,10 +280,10 @@ void number_mesh(const RefineContext<D>& context, const RegionTable& regions, co
 /// The mesh of the domain. `result`: what is known before. `start`: of the run, for its limits.
 template <int D>
 RefineResult<D> make_mesh(const Domain<D>& domain, const RefineOptions<D>& options, Clock::time_point start,
-                          RefineResult<D> result) {
+                          const detail::Deadline& deadline, RefineResult<D> result) {
   Mesh<D> mesh(domain.points().size());
   auto pools = mesh.make_pools();
-  const RegionTable regions = make_initial<D>(mesh, pools, domain, options, start, result);
+  const RegionTable regions = make_initial<D>(mesh, pools, domain, options, start, deadline, result);
   result.statistics.seconds_initial = seconds_since(start);
   if (result.stop != StopCause::finished) {
     result.size_met = false;
@@ -304,10 +305,9 @@ RefineResult<D> make_mesh(const Domain<D>& domain, const RefineOptions<D>& optio
 }
 
 template <int D>
-RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
-  validate(options);
+RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options, Clock::time_point start,
+                    const detail::Deadline& deadline) {
   if (domain.points().empty()) bad_option("the Domain is empty: it was moved from");
-  const auto start = Clock::now();
   const PredicateCounts predicates_before = predicate_counts();
   RefineResult<D> before;
   before.repairs = domain.repairs();
@@ -316,11 +316,12 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
   before.largest_move = domain.largest_move();
   warn_beyond_theory(options, before.warnings);
   try {
-    require_no_errors(domain, options.stop, options.schedule.executor == Executor::flow_graph);
+    require_no_errors(domain, deadline.token(), options.schedule.executor == Executor::flow_graph);
+    if (options.prepared) options.prepared(domain);
   } catch (const CancelledError&) {
-    return without_mesh(std::move(before), start);
+    return without_mesh(std::move(before), start, deadline.cause());
   }
-  RefineResult<D> result = make_mesh<D>(domain, options, start, std::move(before));
+  RefineResult<D> result = make_mesh<D>(domain, options, start, deadline, std::move(before));
   result.statistics.predicates += predicate_counts() - predicates_before;
   result.statistics.seconds_mesh = seconds_since(start);
   return result;
@@ -331,30 +332,25 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options) {
 template <int D>
 RefineResult<D> refine(const Domain<D>& domain, const RefineOptions<D>& options) {
   const detail::DefaultFloats floats;
-  return run<D>(domain, options);
+  validate(options);
+  const auto start = Clock::now();
+  return run<D>(domain, options, start, detail::Deadline(options, start));
 }
 
 namespace {
 
 template <int D>
 RefineResult<D> prepare_and_run(const Plc<D>& plc, const RefineOptions<D>& options, Clock::time_point start) {
+  const detail::Deadline deadline(options, start);
   std::optional<Domain<D>> domain;
   try {
-    domain.emplace(plc, options.stop);
+    domain.emplace(plc, deadline.token());
   } catch (const CancelledError&) {
     RefineResult<D> none;
     none.tolerance = tolerance_of(plc);
-    return without_mesh(std::move(none), start);
+    return without_mesh(std::move(none), start, deadline.cause());
   }
-  const double prepare = seconds_since(start);
-  RefineResult<D> result = run<D>(*domain, options);
-  result.statistics.seconds_mesh += prepare;
-  result.statistics.seconds_initial += prepare;
-  for (VisitTrace& v : result.trace) {
-    v.start += prepare;
-    v.end += prepare;
-  }
-  return result;
+  return run<D>(*domain, options, start, deadline);
 }
 
 }  // namespace
@@ -362,8 +358,8 @@ RefineResult<D> prepare_and_run(const Plc<D>& plc, const RefineOptions<D>& optio
 template <int D>
 RefineResult<D> refine(const Plc<D>& plc, const RefineOptions<D>& options) {
   const detail::DefaultFloats floats;
-  const auto start = Clock::now();
-  return prepare_and_run(plc, options, start);
+  validate(options);
+  return prepare_and_run(plc, options, Clock::now());
 }
 
 template PGDR_API RefineResult<2> refine<2>(const Plc<2>&, const RefineOptions<2>&);

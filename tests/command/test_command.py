@@ -323,7 +323,7 @@ class Stopped(Case):
     def test_time_limit(self):
         for model, size in ((BRACKET, "0.005"), (PLATE, "0.000001")):
             begin = time.monotonic()
-            done = self.mesh(model, "--size", size, "--time-limit", "0.2", "--report", self.report, expect=5)
+            done = self.mesh(model, "--size", size, "--time-limit", "1", "--report", self.report, expect=5)
             self.assertLess(time.monotonic() - begin, 60)
             self.assertIn("--time-limit", done.stdout)
             self.assertFalse(self.json()["reproducible"])

@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "input/words.hpp"
 #include "output/cell_surface.hpp"
 #include "pgdr/error.hpp"
 
@@ -32,7 +33,7 @@ std::uint64_t first_of(const std::vector<std::uint32_t>& lines) { return lines.e
 
 int marker_of(const FileMesh& mesh, double label) {
   if (!(label >= -2147483648.0 && label <= 2147483647.0) || label != std::floor(label))
-    fail(mesh, Errc::syntax, "the label " + std::to_string(label) + " is no marker: markers are integers", 0);
+    fail(mesh, Errc::syntax, "the label " + detail::to_text(label) + " is no marker: markers are integers", 0);
   return static_cast<int>(label);
 }
 

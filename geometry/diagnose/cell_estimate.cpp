@@ -1,0 +1,282 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// How many cells there will be: the integral of one over the volume of a cell at x, over all x inside. A cell at x is up to a
+// regular simplex with edges of h(x) (size_field_of_gaps.hpp), or as large as sizes ask for. The integral of the former is taken
+// over the leaves of a tree that halves boxes until they are as small as h at their centres. Of these there may be as many as
+// cells; so only some hundred paths from the root are followed. At each node they are shared between the two halves in proportion
+// to what these look like, and what a leaf has is divided by the share that got there. So the mean of the estimate is the whole
+// sum, whatever the shares are; the better they are, the nearer to the mean is one estimate.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "diagnose/cells_of_sizes.hpp"
+#include "diagnose/chance.hpp"
+#include "diagnose/free_ways.hpp"
+#include "diagnose/size_field_of_gaps.hpp"
+#include "numbers/vectors.hpp"
+#include "pgdr/estimate.hpp"
+#include "space/stop_check.hpp"
+
+namespace pgdr {
+namespace {
+
+using detail::Box;
+using detail::Chance;
+using detail::FreeWays;
+using detail::SizeFieldOfGaps;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Simplices in a unit of volume (area) where none may have longer edges than 1: regular ones would be 6 sqrt 2 (2D: 4 / sqrt 3),
+/// but on the average they are not as large as they may be, 0.54 (0.65) of it in meshes of cubes (squares).
+template <int D>
+constexpr double simplices_a_unit = D == 3 ? 8.48528137423857 / 0.54 : 2.309401076758503 / 0.65;
+
+template <int D>
+Point<D> center_of(const Box<D>& box) {
+  Point<D> c;
+  for (int i = 0; i < D; ++i) c[i] = box.low[i] / 2 + box.high[i] / 2;
+  return c;
+}
+template <int D>
+double volume_of(const Box<D>& box) {
+  double v = 1;
+  for (int i = 0; i < D; ++i) v *= box.high[i] - box.low[i];
+  return v;
+}
+
+constexpr double least_size = 0x1p-52;  // in unit scale: nothing is nearer but what meets
+
+/// Cells in a unit of volume (area), where edges are as long as h.
+template <int D>
+double density_of(double h) {
+  return simplices_a_unit<D> / std::pow(std::max(h, least_size), D);
+}
+
+/// The integral of what gaps ask for. Used once.
+template <int D>
+class PathsThroughTree {
+ public:
+  PathsThroughTree(const SizeFieldOfGaps<D>& field, const FreeWays<D>& ways, const std::stop_token& stop)
+      : field_(field), ways_(ways), stop_check_(stop) {}
+
+  /// The middle one of some estimates: one that has found what others have missed may be far above the mean.
+  double cells() {
+    const auto p = field_.pieces().points();
+    const auto box = Box<D>::of(p);
+    if (!(volume_of(box) > 0)) return 0;
+    constexpr double least = 48, most = 256, pieces_a_path = 1000;
+    const double paths = std::floor(std::clamp(static_cast<double>(p.size()) / pieces_a_path, least, most));
+    order_.resize(p.size());
+    std::iota(order_.begin(), order_.end(), 0u);
+    const Node root = look_at(box, 0, p.size());
+    std::array<double, 3> estimates;
+    for (double& estimate : estimates) estimate = follow({root, paths, 1});
+    std::sort(estimates.begin(), estimates.end());
+    return estimates[1];
+  }
+
+ private:
+  struct Node {
+    Box<D> box;
+    std::size_t first, last;  ///< its points in order_
+    double cells;             ///< if all of it is as at its centre
+    double forecast;          ///< with what seems to be in it
+    bool is_leaf;
+  };
+  struct Paths {
+    Node node;
+    double count, share;
+  };
+
+  double follow(const Paths& all) {
+    double sum = 0;
+    std::vector<Paths> waiting{all};
+    while (!waiting.empty()) {
+      stop_check_();
+      const Paths here = waiting.back();
+      waiting.pop_back();
+      if (here.node.is_leaf) {
+        sum += here.count / (all.count * here.share) * here.node.cells * ways_.part_inside(here.node.box);
+        continue;
+      }
+      const auto [a, b] = halves(here.node);
+      const auto part_of = [](double mine, double other) { return mine / (mine + other); };
+      // Mostly by the forecast; not by it alone, as there may be nothing of what it has seen.
+      constexpr double trust = 7.0 / 8;
+      const double part = (1 - trust) * part_of(a.cells, b.cells) + trust * part_of(a.forecast, b.forecast);
+      const double to_a = std::floor(here.count * part + chance_());
+      if (to_a > 0) waiting.push_back({a, to_a, here.share * part});
+      if (to_a < here.count) waiting.push_back({b, here.count - to_a, here.share * (1 - part)});
+    }
+    return sum;
+  }
+
+  Node look_at(const Box<D>& box, std::size_t first, std::size_t last) const {
+    constexpr double unit = simplices_a_unit<D>;
+    const Point<D> x = center_of(box);
+    const auto look = field_.look(x);
+    const double width = box.longest_side();
+    Node node{box, first, last, density_of<D>(look.h) * volume_of(box), 0, !(width > std::max(look.h, least_size))};
+    node.forecast = node.cells + unit * static_cast<double>(last - first) + layer(box, x, look.nearest);
+    const auto& [off, gap, place] = look.on_segment;
+    if (off < width && box.meets(Box<D>::around(place)))
+      node.forecast += unit * width / std::max(gap, least_size);  // along an edge
+    return node;
+  }
+  /// The cells of a layer along the plane (line) that has this place nearest to the middle of the box: none if that misses the
+  /// box.
+  static double layer(const Box<D>& box, const Point<D>& middle, const typename SizeFieldOfGaps<D>::Narrow& narrow) {
+    if (!(narrow.gap < infinity)) return 0;
+    double reach = 0;  // of the box, at right angles to the plane
+    for (int i = 0; i < D; ++i) {
+      const double slope = narrow.distance > 0 ? std::fabs(middle[i] - narrow.place[i]) / narrow.distance : 1.0 / D;
+      reach += slope * (box.high[i] - box.low[i]) / 2;
+    }
+    const double off = narrow.distance / reach;
+    if (!(off < 1)) return 0;
+    constexpr double mean = 1.5;  // of 1 over that of 1 - off^2, as the part of the plane in the box falls off to its corners
+    const double part = mean * (1 - off * off) * volume_of(box) / (2 * reach);
+    return simplices_a_unit<D> / (D - 1) * part / std::pow(std::max(narrow.gap, least_size), D - 1);
+  }
+  std::pair<Node, Node> halves(const Node& node) {
+    const Box<D>& box = node.box;
+    int axis = 0;
+    for (int i = 1; i < D; ++i)
+      if (box.high[i] - box.low[i] > box.high[axis] - box.low[axis]) axis = i;
+    Box<D> low = box, high = box;
+    const double middle = low.high[axis] = high.low[axis] = center_of(box)[axis];
+    const auto p = field_.pieces().points();
+    const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
+    const auto split = std::partition(at(node.first), at(node.last), [&](std::uint32_t v) { return p[v][axis] < middle; });
+    const auto second = static_cast<std::size_t>(split - order_.begin());
+    return {look_at(low, node.first, second), look_at(high, second, node.last)};
+  }
+
+  const SizeFieldOfGaps<D>& field_;
+  const FreeWays<D>& ways_;
+  const detail::StopCheck stop_check_;
+  Chance chance_;
+  std::vector<std::uint32_t> order_;  ///< points, those of each node together
+};
+
+/// The cells that are needed between entities that are near. Let two parallel facets be d apart, and p a vertex on one of them.
+/// The subfacet of the other that p is above is not encroached upon. With w_i the barycentric coordinates of p's foot there, c
+/// its circumcentre and R its radius, sum w_i |foot - v_i|^2 = R^2 - |foot - c|^2 <= d^2: so one of its vertices is within sqrt 2
+/// d of p. A cell with such an edge has a circumradius of up to r = sqrt 2 B d, with B the bound on radius over edge, and so has
+/// a subfacet of it: its area is up to 3/4 sqrt 3 r^2 (2D: its length up to 2 r). Facets that are not quite parallel are as far
+/// apart as at the other end of such a subfacet.
+template <int D>
+class CellsBetween {
+ public:
+  CellsBetween(const SizeFieldOfGaps<D>& field, double radius_edge_bound)
+      : field_(field), pieces_(field.pieces()), bound_(radius_edge_bound) {}
+
+  /// Looks at places on the pieces, spread evenly over their area (length).
+  void add_to(CellEstimate<D>& estimate) {
+    if (!(bound_ < infinity)) return;
+    constexpr int places = 256;
+    std::vector<double> until;  // area of all pieces up to this one
+    double all = 0;
+    for (const auto& piece : pieces_.pieces()) until.push_back(all += measure_of(piece));
+    Chance chance;
+    for (int k = 0; k < places; ++k) {
+      const auto at = std::upper_bound(until.begin(), until.end(), (k + chance()) / places * all);
+      if (at == until.end()) continue;
+      look_at(static_cast<std::uint32_t>(at - until.begin()), all / places, chance);
+    }
+    for (const auto& [pair, between] : between_) {
+      estimate.at_least += between.cells;
+      if (between.cells > most_) estimate.most_due_to = between.gap;
+      most_ = std::max(most_, between.cells);
+    }
+  }
+
+ private:
+  using Piece = typename detail::NearPieces<D>::Piece;
+  struct Between {
+    double cells = 0;
+    Gap<D> gap{infinity, {}, {}};
+  };
+
+  const Point<D>& corner(const Piece& piece, std::size_t i) const { return pieces_.points()[piece.corners[i]]; }
+  /// Its length is twice the area (2D: the length).
+  detail::Vector<D> normal_of(const Piece& piece) const {
+    const auto u = detail::difference(corner(piece, 1), corner(piece, 0));
+    if constexpr (D == 3)
+      return detail::cross(u, detail::difference(corner(piece, 2), corner(piece, 0)));
+    else
+      return {u[1], -u[0]};
+  }
+  double measure_of(const Piece& piece) const {
+    if (piece.count < D) return 0;
+    const auto n = normal_of(piece);
+    return std::sqrt(detail::dot(n, n)) / (D == 3 ? 2 : 1);
+  }
+
+  void look_at(std::uint32_t i, double measure, Chance& chance) {
+    const Piece& piece = pieces_.pieces()[i];
+    double u = chance(), v = D == 3 ? chance() : 0.0;
+    if (u + v > 1) u = 1 - u, v = 1 - v;
+    Point<D> x = detail::on_edge(corner(piece, 0), corner(piece, 1), u);
+    if constexpr (D == 3)
+      for (int k = 0; k < D; ++k) x[k] += v * (corner(piece, 2)[k] - corner(piece, 0)[k]);
+    const auto near = field_.nearest_disjoint(x, i, infinity);
+    if (near.piece == no_entity || pieces_.pieces()[near.piece].count < D || !(near.distance > 0)) return;
+    const Piece& other = pieces_.pieces()[near.piece];
+    const auto n = normal_of(piece), m = normal_of(other), way = detail::difference(x, near.place);
+    const double nn = detail::dot(n, n), mm = detail::dot(m, m), nm = detail::dot(n, m), above = std::fabs(detail::dot(way, m));
+    if (!(mm > 0) || !(above >= (1 - 0x1p-20) * near.distance * std::sqrt(mm)) || nm == 0) return;  // its rim is nearest
+    const double cosine = std::min(1.0, std::fabs(nm) / std::sqrt(nn * mm)), tangent = std::sqrt(1 - cosine * cosine) / cosine;
+    const double radius = std::sqrt(2.0) * bound_ * near.distance, farther = near.distance + 2 * radius * tangent;
+    const double most_radius = std::sqrt(2.0) * bound_ * farther;
+    constexpr double largest_triangle = 1.299038105676658;  // of those in a circle: 3/4 sqrt 3
+    const double most = D == 3 ? largest_triangle * most_radius * most_radius : 2 * most_radius;
+    const EntityRef a = piece.entity(), b = other.entity();
+    Between& between = between_[std::minmax(a.id, b.id)];
+    between.cells += measure * cosine / most;
+    if (near.distance * pieces_.unit() < between.gap.distance) between.gap = gap_between(a, b, x, near);
+  }
+
+  Gap<D> gap_between(EntityRef a, EntityRef b, const Point<D>& x, const typename SizeFieldOfGaps<D>::Near& near) const {
+    Gap<D> gap{near.distance * pieces_.unit(), {a, b}, {}};
+    for (int k = 0; k < D; ++k) {
+      gap.points[0][k] = x[k] * pieces_.unit();
+      gap.points[1][k] = near.place[k] * pieces_.unit();
+    }
+    return gap;
+  }
+
+  const SizeFieldOfGaps<D>& field_;
+  const detail::NearPieces<D>& pieces_;
+  const double bound_;
+  std::map<std::pair<EntityId, EntityId>, Between> between_;  // by their entities
+  double most_ = 0;
+};
+
+}  // namespace
+
+template <int D>
+CellEstimate<D> estimate_cells(const Domain<D>& domain, const EstimateOptions<D>& options) {
+  const SizeFieldOfGaps<D> field(domain, options.narrowest);
+  CellEstimate<D> estimate;
+  CellsBetween<D>(field, options.radius_edge_bound).add_to(estimate);
+  const FreeWays<D> ways(field);
+  estimate.cells = PathsThroughTree<D>(field, ways, options.stop).cells();
+  const auto density = [&](const Point<D>& x) { return density_of<D>(field.look(x).h); };
+  estimate.cells += detail::cells_of_sizes<D>(field, ways, options, estimate.cells, density);
+  estimate.cells = std::max(estimate.cells, 1.0);
+  return estimate;
+}
+
+template PGDR_API CellEstimate<2> estimate_cells<2>(const Domain<2>&, const EstimateOptions<2>&);
+template PGDR_API CellEstimate<3> estimate_cells<3>(const Domain<3>&, const EstimateOptions<3>&);
+
+}  // namespace pgdr

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a mesh of an input will be like, before it is made: how near its entities are to each other, at what angles they meet, and
+// about how many cells that takes. Near-linear time (half a second for a million triangles), but for inputs of long thin
+// triangles whose boxes all overlap. What comes out does not depend on the number of threads. Pure functions; long loops run on
+// the threads of the caller's tbb::task_arena, and any number of calls may run at once.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <stop_token>
+
+#include "pgdr/domain.hpp"
+#include "pgdr/export.hpp"
+#include "pgdr/types.hpp"
+
+namespace pgdr PGDR_API {
+
+/// Two entities of a Domain without a common point, and where they are nearest to each other.
+template <int D>
+struct Gap {
+  double distance = 0;                ///< in units of the input, rounded
+  std::array<EntityRef, 2> entities;  ///< vertices (domain points), segments or facets, those of the largest dimension there
+  std::array<Point<D>, 2> points;     ///< on each of them, rounded
+};
+
+/// Two segments with a common point, or two facets with a common segment, and their angle.
+template <int D>
+struct SharpAngle {
+  double degrees = 180;
+  std::array<EntityRef, 2> entities;
+  Point<D> point;  ///< that they share
+};
+
+/// The nearest two entities without a common point; none if there are no two. Of more than some hundred million pairs of pieces
+/// with boxes that meet not all are looked at: then it is one of the nearest.
+/// @throws CancelledError
+template <int D>
+std::optional<Gap<D>> narrowest_gap(const Domain<D>& domain, const std::stop_token& stop = {});
+
+/// The least angle between two segments at a point or two facets at a segment; none where nothing meets. At a point of more than
+/// 2000 segments only the first are compared.
+/// @throws CancelledError
+template <int D>
+std::optional<SharpAngle<D>> least_angle(const Domain<D>& domain, const std::stop_token& stop = {});
+
+/// What is known beside the Domain.
+template <int D>
+struct EstimateOptions {
+  std::optional<Gap<D>> narrowest;  ///< what narrowest_gap() has found: nothing smaller is looked for
+  double radius_edge_bound = 2;     ///< as RefineOptions
+  /// The average volume (area) of the cells about x, in a region of this label, that sizes ask for; infinity: none do. Empty:
+  /// none do anywhere. Those of the regions' seeds (RegionSeed::size) are looked at without it.
+  std::function<double(const Point<D>& x, double label)> measure;
+  std::stop_token stop = {};
+};
+
+/// How many cells there will be.
+template <int D>
+struct CellEstimate {
+  /// About so many, mostly within a factor of three. Infinity is none.
+  double cells = 0;
+  /// No mesh that meets the bounds has fewer, as entities without a common point are so near to each other. Sizes do not count.
+  double at_least = 0;
+  std::optional<Gap<D>> most_due_to;  ///< the two entities that `at_least` owes most to
+};
+
+/// Looks at some thousand places at most.
+/// @throws CancelledError, and what `measure` throws
+template <int D>
+CellEstimate<D> estimate_cells(const Domain<D>& domain, const EstimateOptions<D>& options = {});
+
+}  // namespace pgdr

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What is said before a mesh is made: about how many cells it will have, and which entities of the input are nearest to each
+// other.
+#pragma once
+
+#include <optional>
+
+#include "bounds.hpp"
+#include "options.hpp"
+#include "pgdr/estimate.hpp"
+#include "report.hpp"
+
+namespace pgdr::tool {
+
+template <int D>
+struct Outlook {
+  std::optional<Gap<D>> gap;
+  std::optional<SharpAngle<D>> angle;
+  std::optional<CellEstimate<D>> estimate;  ///< none where nothing is refined
+};
+
+/// @throws CancelledError
+template <int D>
+Outlook<D> look_ahead(const Domain<D>& domain, const Bounds<D>& bounds, bool refines, const std::stop_token& stop);
+
+/// In the report as `estimated_cells` and `narrowest_gap`.
+template <int D>
+void set_outlook(Report& report, const Domain<D>& domain, const Outlook<D>& outlook);
+/// In rows, at once.
+template <int D>
+void print_outlook(const Domain<D>& domain, const Outlook<D>& outlook);
+
+/// @throws ResourceError out_of_memory if the gaps alone need more cells than there is memory for. Sizes do not count.
+template <int D>
+void require_memory(const Domain<D>& domain, const Outlook<D>& outlook);
+
+}  // namespace pgdr::tool
