@@ -20,12 +20,14 @@ struct Outcome {
   CheckReport report;
 };
 
-/// Refines and checks with the same bounds.
+/// Refines, and checks with the same bounds against the input as given.
 template <int D>
 Outcome<D> refine_and_check(const Plc<D>& plc, const RefineOptions<D>& options) {
   const Domain<D> domain(plc);
   Outcome<D> outcome{refine<D>(domain, options), {}};
   CheckOptions<D> check_options;
+  check_options.input = &plc;
+  check_options.tolerance = domain.tolerance();
   check_options.domain = &domain;
   check_options.regions = options.regions;
   check_options.radius_edge_bound = options.radius_edge_bound;

@@ -5,6 +5,7 @@
 // degeneracy is common; the same scaled, and turned and rounded.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <set>
 
@@ -39,7 +40,7 @@ Findings found_by(const Diagnosis<D>& d, const Domain<D>& domain) {
 }
 
 struct Tally {
-  int valid = 0, cross = 0, overlap = 0, segment_facet = 0, segments = 0, on_facet = 0, on_edge = 0, inner_edges = 0;
+  int valid = 0, cross = 0, added = 0, segment_facet = 0, segments = 0, on_facet = 0, on_edge = 0, inner_edges = 0;
 };
 
 template <int D>
@@ -53,14 +54,18 @@ void compare(const Plc<D>& plc, Tally& tally) {
   ASSERT_EQ(found.overlap, expected.overlap);
   ASSERT_EQ(found.segment_facet, expected.segment_facet);
   ASSERT_EQ(found.segments_cross, expected.segments_cross);
-  ASSERT_EQ(found.on_facet, expected.on_facet);
-  ASSERT_EQ(found.on_edge, expected.on_edge);
+  // Where facets are crossed at a point that was added, it rests on what crosses them.
+  const bool adds_points = domain.points().size() > plc.points.size();
+  if (!adds_points) {
+    ASSERT_EQ(found.on_facet, expected.on_facet);
+    ASSERT_EQ(found.on_edge, expected.on_edge);
+  }
   tally.valid += expected == Findings{};
   tally.cross += !expected.cross.empty();
-  tally.overlap += !expected.overlap.empty();
+  tally.added += adds_points;
   tally.segment_facet += !expected.segment_facet.empty();
   tally.segments += !expected.segments_cross.empty();
-  EXPECT_TRUE(expected.on_facet.empty() && expected.on_edge.empty());  // the Domain has repaired these
+  EXPECT_TRUE(adds_points || (expected.on_facet.empty() && expected.on_edge.empty()));  // the Domain has repaired these
   for (const Diagnostic& repair : domain.repairs()) {
     tally.on_facet += repair.code == Errc::point_on_facet;
     tally.on_edge += repair.code == Errc::point_on_segment;
@@ -105,9 +110,8 @@ TEST(DiagnosisOracle, SpaceWithFewCoordinates) {
   Tally tally;
   for (int k = 0; k < (test::sanitized ? 4000 : 10000) && !HasFatalFailure(); ++k) compare(random_plc<3>(random, 2), tally);
   for (const int n :
-       {tally.valid, tally.cross, tally.segment_facet, tally.segments})
+       {tally.valid, tally.cross, tally.segment_facet, tally.segments, tally.on_facet, tally.on_edge, tally.added})
     EXPECT_GT(n, 30);
-  std::cout<<tally.overlap<<" "<<tally.on_facet<<" "<<tally.on_edge<<" tally\n";
   EXPECT_GT(tally.inner_edges, 10);
 }
 

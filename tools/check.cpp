@@ -21,14 +21,23 @@ namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
+/// As it was given: where segments cross, too.
 template <int D>
-std::optional<Plc<D>> read_input_of_mesh(const std::string& input, const InputArguments& reading) {
+std::optional<Plc<D>> read_input_of_mesh(const std::string& input, InputArguments reading) {
   if (input.empty()) return std::nullopt;
   require_input_format(input);
   if (file_dimension(input) != D)
     throw UsageError({.code = Errc::bad_option, .message = format("the mesh is %dD, its input is not", D), .file = input});
+  if constexpr (D == 2) reading.resolve_crossings = false;
   std::vector<Diagnostic> repairs;
   return read_input<D>(input, reading, repairs);
+}
+
+template <int D>
+Plc<D> resolved(const Plc<D>& plc, const InputArguments& reading) {
+  if constexpr (D == 2)
+    if (std::vector<Diagnostic> repairs; reading.resolve_crossings) return resolve_crossings(plc, repairs);
+  return plc;
 }
 
 template <int D>
@@ -87,9 +96,13 @@ int check_as(const CheckArguments& a, Report& report) {
   reading.resolve_crossings = reading.resolve_crossings || reported.resolve_crossings;
   reading.convex_hull = reading.convex_hull || reported.convex_hull;
   const std::optional<Plc<D>> plc = read_input_of_mesh<D>(a.input, reading);
-  const std::optional<Domain<D>> domain = plc ? std::optional<Domain<D>>(std::in_place, *plc) : std::nullopt;
+  // Reasons name the entities of a Domain, with crossings resolved; nothing else of the verdict depends on that.
+  std::optional<Domain<D>> domain;
+  if (plc && !reported.reasons.empty()) domain.emplace(resolved<D>(*plc, reading));
 
   CheckOptions<D> options;
+  if (plc) options.input = &*plc;
+  options.tolerance = reading.tolerance;
   if (domain) options.domain = &*domain;
   options.radius_edge_bound = bounds.radius_edge;
   options.size = bounds.size;

@@ -5,7 +5,10 @@
 // cannot be used at all.
 #include "pgdr/check.hpp"
 
+#include <optional>
+
 #include "check/bounds.hpp"
+#include "check/given/volumes.hpp"
 
 namespace pgdr {
 namespace {
@@ -25,8 +28,8 @@ void check_loose_points(const OutputMesh<D>& mesh, Findings& findings) {
 }
 
 template <int D>
-void check_against_input(const OutputMesh<D>& mesh, const CheckOptions<D>& options, const Links<D>& links,
-                         std::span<const std::uint32_t> sorted, Components& components, Findings& findings) {
+void check_against_domain(const OutputMesh<D>& mesh, const CheckOptions<D>& options, const Links<D>& links,
+                          std::span<const std::uint32_t> sorted, Components& components, Findings& findings) {
   const Domain<D>& domain = *options.domain;
   const InputVolumes<D> input(domain, options.regions);
   const ConformityTask<D> task{mesh, input, options.conformity_ulps, findings};
@@ -36,6 +39,59 @@ void check_against_input(const OutputMesh<D>& mesh, const CheckOptions<D>& optio
   check_delaunay<D>(mesh, links, slack_of_vertices<D>(domain, conformity.home, options.conformity_ulps),
                     reasons.vertices_at_refused(input), findings);
   check_bounds(mesh, options, links, components, &input, reasons, findings);
+}
+
+/// The volumes of the input, once everything in the mesh lies on something given and the other way round; none if its walls
+/// bound no volumes.
+template <int D>
+std::optional<InputVolumes<D>> check_volumes(const GivenTask<D>& task, const CheckOptions<D>& options, const GivenMatch<D>& match,
+                                             const Links<D>& links, Components& components) {
+  std::optional<InputVolumes<D>> volumes;
+  try {
+    volumes.emplace(walls_of_mesh(task, match), options.regions);
+  } catch (const InputError& e) {
+    task.findings.add(Kind::wrong_volume, {},
+                      [&] { return std::string("What the walls of the mesh bound cannot be told: ") + e.what(); });
+    return {};
+  }
+  Conformity<D> own;  // each wall is its own entity
+  for (std::uint32_t w = 0; w < walls(task.mesh).size(); ++w) own.patch_of.push_back({w, false});
+  check_regions(ConformityTask<D>{task.mesh, *volumes, 0, task.findings}, links, own, components);
+  check_further_walls(task, *volumes);
+  check_given_measures(task, match, *volumes);
+  return volumes;
+}
+
+template <int D>
+void check_against_given(const OutputMesh<D>& mesh, const CheckOptions<D>& options, const Links<D>& links,
+                         std::span<const std::uint32_t> sorted, Components& components, Findings& findings) {
+  const GivenInput<D> input(*options.input, options.tolerance, findings);
+  const GivenTask<D> task{mesh, input, findings};
+  GivenMatch<D> match;
+  match_given_points(task, sorted, match);
+  match_given_segments(task, match);
+  if constexpr (D == 3) {
+    match_given_facets(task, match);
+    check_creases(task, match);
+  }
+  check_leftovers(task, match);
+  const std::optional<InputVolumes<D>> volumes = check_volumes(task, options, match, links, components);
+  const InputVolumes<D>* known = volumes ? &*volumes : nullptr;
+  if (!options.domain) {
+    Reasons<D> reasons(mesh, options, nullptr, findings);
+    check_delaunay<D>(mesh, links, slack_without_input(mesh, options.conformity_ulps), {}, findings);
+    check_bounds(mesh, options, links, components, known, reasons, findings);
+    return;
+  }
+  // Reasons name entities of the Domain: where these are in the mesh, is asked, and what is found amiss there is not a verdict.
+  CheckReport unheard;
+  Findings ignored(unheard, 0);
+  const InputVolumes<D> of_domain(*options.domain, options.regions);
+  const Conformity<D> conformity = check_conformity(ConformityTask<D>{mesh, of_domain, options.conformity_ulps, ignored}, sorted);
+  Reasons<D> reasons(mesh, options, &conformity, findings);
+  check_delaunay<D>(mesh, links, slack_of_vertices<D>(*options.domain, conformity.home, options.conformity_ulps),
+                    reasons.vertices_at_refused(of_domain), findings);
+  check_bounds(mesh, options, links, components, known, reasons, findings);
 }
 
 /// The cells with a point that may be off its entity, those that share a face with one, and few more.
@@ -71,8 +127,12 @@ CheckReport check(const OutputMesh<D>& mesh, const CheckOptions<D>& options) {
   check_subsegments_used(mesh, findings);
   if (findings.clean()) check_stars(mesh, links, findings);
   Components components = flood_cells(mesh, links, findings);
+  if (options.input) {
+    check_against_given(mesh, options, links, sorted, components, findings);
+    return report;
+  }
   if (options.domain) {
-    check_against_input(mesh, options, links, sorted, components, findings);
+    check_against_domain(mesh, options, links, sorted, components, findings);
     return report;
   }
   check_loose_points(mesh, findings);

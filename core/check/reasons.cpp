@@ -144,6 +144,8 @@ Reasons<D>::Reasons(const OutputMesh<D>& mesh, const CheckOptions<D>& options, c
                     Findings& findings)
     : mesh_(mesh), options_(options), conformity_(conformity) {
   if (!options.reasons) return;
+  for (const Point<D>& p : mesh.points)
+    for (const double x : p.x) largest_ = std::max(largest_, std::abs(x));
   for (std::uint32_t i = 0; i < options.reasons->size(); ++i) {
     const std::uint32_t cell = (*options.reasons)[i].cell;
     if (cell < mesh.cells.size()) {
@@ -167,7 +169,8 @@ auto Reasons<D>::judge(std::uint32_t cell, std::string& why) -> Verdict {
   if (i == by_cell_.end() || reasons[*i].cell != cell) return Verdict::absent;
   for (; i != by_cell_.end() && reasons[*i].cell == cell; ++i)
     if (holds(reasons[*i], why)) {
-      rounded_ += reasons[*i].code == PoorReason::Code::rounding && !is_as_short_as_rounding<D>(corners_of(mesh_, cell));
+      rounded_ += reasons[*i].code == PoorReason::Code::rounding &&
+                  !is_as_short_as_rounding<D>(corners_of(mesh_, cell), largest_);
       return Verdict::holds;
     }
   return Verdict::fails;

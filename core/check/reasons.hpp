@@ -43,6 +43,7 @@ class Reasons {
   std::vector<std::uint32_t> by_cell_;  ///< indices of reasons, sorted by cell
   std::map<std::array<std::uint64_t, 2>, bool> angles_;
   std::uint64_t rounded_ = 0;
+  double largest_ = 0;  ///< coordinate of the mesh
 };
 
 }  // namespace pgdr::checking

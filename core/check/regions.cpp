@@ -109,6 +109,7 @@ class RegionChecker {
   // sweeps at most t * its measure, which itself changes by at most t * its boundary (and pi t^2); doubled. A facet
   // that is planar only within rounding is met by subfacets across its folds, up to twice its defect away.
   double slack(std::uint32_t w, EntityId entity) const {
+    if (!input_.made_of()) return 0;  // the walls themselves bound the volumes
     const auto& v = walls(mesh_)[w].vertices;
     if constexpr (D == 2) {
       const double t = Tolerance{task_.ulps, input_.domain().segment_magnitude(entity)}.width();
@@ -158,16 +159,15 @@ class RegionChecker {
 
   // Every seed is located twice: in the input (its volume, by a line) and in the mesh (the cells that contain it).
   void check_seeds() {
-    const auto& domain = input_.domain();
-    for (std::uint32_t i = 0; i < domain.regions().size(); ++i) {
-      seeds_.push_back({domain.regions()[i].point, i, false});
+    for (std::uint32_t i = 0; i < input_.regions().size(); ++i) {
+      seeds_.push_back({input_.regions()[i].point, i, false});
       if (!input_.region_volumes()[i]) report_seed(i, "on a wall");  // outside or in a hole, it has no say
     }
-    for (std::uint32_t i = 0; i < domain.holes().size(); ++i) seeds_.push_back({domain.holes()[i], i, true});
+    for (std::uint32_t i = 0; i < input_.holes().size(); ++i) seeds_.push_back({input_.holes()[i], i, true});
     std::sort(seeds_.begin(), seeds_.end(), [](const Seed& a, const Seed& b) { return a.point[0] < b.point[0]; });
-    found_.assign(domain.regions().size(), false);
+    found_.assign(input_.regions().size(), false);
     for (std::uint32_t c = 0; c < mesh_.cells.size() && !seeds_.empty(); ++c) visit_seeds(c);
-    for (std::uint32_t i = 0; i < domain.regions().size(); ++i)
+    for (std::uint32_t i = 0; i < input_.regions().size(); ++i)
       if (!found_[i] && input_.region_volumes()[i] && input_.volumes()[*input_.region_volumes()[i]].kept)
         report_seed(i, "in no cell");
   }
@@ -183,7 +183,7 @@ class RegionChecker {
       if (components_.volume[i] == none) continue;
       const Volume& volume = input_.volumes()[components_.volume[i]];
       std::optional<std::array<double, 2>> wanted = volume.automatic;
-      if (!wanted && volume.seeds.empty() && !input_.domain().regions().empty()) wanted = {0, 0};
+      if (!wanted && volume.seeds.empty() && !input_.regions().empty()) wanted = {0, 0};
       if (!wanted) continue;
       if (volume.automatic) used.push_back(label_of[i]);
       if (label_of[i] >= (*wanted)[0] && label_of[i] <= (*wanted)[1]) continue;
@@ -199,7 +199,7 @@ class RegionChecker {
 
   void report_seed(std::uint32_t i, const char* where) {
     task_.findings.add(Kind::wrong_region, {i}, [&] {
-      return "The seed of region " + std::to_string(i) + " " + words(input_.domain().regions()[i].point) + " lies " + where + ".";
+      return "The seed of region " + std::to_string(i) + " " + words(input_.regions()[i].point) + " lies " + where + ".";
     });
   }
 
@@ -239,7 +239,7 @@ class RegionChecker {
     }
     found_[seed.index] = true;
     const double label = mesh_.regions.empty() ? 0 : mesh_.regions[c];
-    const double wanted = input_.domain().regions()[seed.index].attribute;
+    const double wanted = input_.regions()[seed.index].attribute;
     if (label == wanted) return;
     task_.findings.add(Kind::wrong_region, {c, seed.index}, [&] {
       return "The " + cell_words(mesh_, c) + " contains the seed of region " + std::to_string(seed.index) + " and has label " +

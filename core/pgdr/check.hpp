@@ -4,10 +4,27 @@
 // The checker: decides from the input and the finished mesh alone whether the mesh is sound, Delaunay, conforming and within its
 // bounds.
 //
-// It shares with the mesher what lies below both: the Domain (repairs and merged points of the input, its facets and the
-// triangles of each), the predicates, the tests of bounds, and what rounding may explain. A fault there, as in how an input is
-// read, is invisible to both. It shares nothing of how meshes are made. Exact arithmetic wherever a verdict depends on a sign.
-// Any thread; no state.
+// It shares with the mesher what lies below both: the readers of files, the predicates, the planar triangulation of a polygon,
+// the tests of bounds, and what rounding may explain. It shares nothing of how meshes are made, and, where it has the input as
+// given, nothing of what is joined or repaired in it: only reasons for poor cells go by the entities of a Domain. Exact
+// arithmetic wherever a verdict depends on a sign. Any thread; no state.
+//
+// Against the input as given (CheckOptions::input), with T the tolerance and u two ulps of its largest coordinate:
+//
+// * Each given point is a vertex; or, if another given point is within 2 T, a vertex is within 2 T of it.
+// * Each subfacet (2D: subsegment) lies within T + u of given facets (segments) of its marker, all of it. Instead of T, 2 T at
+//   facets whose points have moved by so much, and at those that may be one facet with others, since their points are within T of
+//   one plane: that facet, and what was given, are both within T of it. A facet whose points are not in one plane is only known
+//   up to the thickness b of the layer that they lie in, since its polygons can be triangulated in several ways: T + u + b.
+// * Each given facet is covered by subfacets within that distance of it, of any marker, as they lie on given facets of that
+//   marker. So are given segments by subsegments. Areas are not summed up: what is not covered is computed. It is not asked of
+//   triangles that are not ten times as high as T + u, nor of segments as short.
+// * What was given and is not in the mesh lies outside of all cells, and bounds no volume that is to be meshed.
+// * Cells fill the volumes that are to be meshed, exactly, as far as the walls of the mesh bound them; holes and the outside
+//   are empty. Labels are those of the seeds; those of RegionMode::automatic are in order, but for volumes whose least segments
+//   begin at one point, which may be in any order.
+// * The measure of a volume whose given facets close exactly differs from theirs by no more than (area of its boundary) (T + u)
+//   + (perimeter of its subfacets) (T + u)^2, with what was said above in the place of T + u.
 //
 // With the input at hand the verdict is complete. Positively oriented cells cover the volume that they are to fill exactly once,
 // if their faces match, and if their boundary is, triangle by triangle, a triangulation of the boundary of that volume. Without
@@ -18,6 +35,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +43,7 @@
 #include "pgdr/domain.hpp"
 #include "pgdr/export.hpp"
 #include "pgdr/output_mesh.hpp"
+#include "pgdr/plc.hpp"
 #include "pgdr/poor_reason.hpp"
 #include "pgdr/region_mode.hpp"
 #include "pgdr/sizing.hpp"
@@ -34,7 +53,13 @@ namespace pgdr PGDR_API {
 /// What is checked.
 template <int D>
 struct CheckOptions {
-  const Domain<D>* domain = nullptr;                                   ///< null: no conformity, no regions
+  /// The input as given: the mesh is certified against it, and nothing that was made of it. Null: see `domain`.
+  const Plc<D>* input = nullptr;
+  /// The absolute one that the mesh was made with (Domain::tolerance). None: the default of Plc::tolerance.
+  std::optional<double> tolerance;
+  /// Without `input`, what the mesh is compared with (null: no conformity, no regions). With it, only reasons are verified by it,
+  /// which name its entities.
+  const Domain<D>* domain = nullptr;
   RegionMode regions = RegionMode::seeds;                              ///< what the mesh was made with
   double radius_edge_bound = std::numeric_limits<double>::infinity();  ///< on circumradius over shortest edge
   SizingField<D> size;                                                 ///< circumradius (3D) or area (2D) bound at the centroid
@@ -111,8 +136,8 @@ NotDelaunay count_not_delaunay(const OutputMesh<D>& mesh, bool everywhere = true
 /// Runs all checks for which `options` has the data. Bad indices and coordinates that are not finite end it early.
 /// About 5 microseconds a cell, on the calling thread.
 /// @throws UsageError bad_size if a size function returns a value that is not positive, bad_option if no cell has the label
-///   of a region size (but 0), or for a Domain that was moved from; InputError entities_intersect
-///   if walls of the input overlap so that no line crosses them one after the other; ResourceError.
+///   of a region size (but 0), or for a Domain that was moved from; InputError index_out_of_range, not_finite of the input as given,
+///   entities_intersect if walls of the Domain overlap so that no line crosses them one after the other; ResourceError.
 template <int D>
 CheckReport check(const OutputMesh<D>& mesh, const CheckOptions<D>& options);
 

@@ -239,11 +239,8 @@ bool rounding_cancels(const Simplex<D>& s, const Point<D>& p, const std::array<d
 }
 
 template <int D>
-bool is_as_short_as_rounding(const Simplex<D>& s) {
-  double magnitude = 0;
-  for (const Point<D>& p : s)
-    for (const double x : p.x) magnitude = std::max(magnitude, std::abs(x));
-  const double width = Tolerance{8, magnitude}.width();
+bool is_as_short_as_rounding(const Simplex<D>& s, double largest) {
+  const double width = Tolerance{8, largest}.width();
   if (std::sqrt(shortest_edge_squared<D>(s)) <= width) return true;
   if constexpr (D == 2) {
     double longest = 0;
@@ -281,7 +278,7 @@ std::vector<std::uint32_t> order_along(const Point<D>& q, const Point<D>& p,
   template double distance_from_line(const Point<D>&, const Point<D>&, const Point<D>&);                   \
   template bool advances(const Point<D>&, const Point<D>&, const Point<D>&, const Point<D>&);              \
   template bool rounding_cancels<D>(const Simplex<D>&, const Point<D>&, const std::array<double, D + 2>&); \
-  template bool is_as_short_as_rounding<D>(const Simplex<D>&);                                             \
+  template bool is_as_short_as_rounding<D>(const Simplex<D>&, double);                                     \
   template std::vector<std::uint32_t> order_along<D>(const Point<D>&, const Point<D>&,                     \
                                                      const std::vector<std::array<Point<D>, D>>&);
 PGDR_INSTANTIATE(2)

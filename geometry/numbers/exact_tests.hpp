@@ -45,10 +45,10 @@ bool dihedral_below_90(const Point3& a, const Point3& b, const Point3& c, const 
 template <int D>
 bool rounding_cancels(const Simplex<D>& s, const Point<D>& p, const std::array<double, D + 2>& delta);
 
-/// Is an edge (2D: or a height) at most 8 ulps of the corners' largest coordinate long? Where input points are so near to others,
-/// or to segments, few places are left for points between, and poor cells stay.
+/// Is an edge (2D: or a height) at most 8 ulps of `largest` long, the largest coordinate of all? Where input points are so near
+/// to others, or to segments, few places are left for points between, and poor cells stay.
 template <int D>
-bool is_as_short_as_rounding(const Simplex<D>& s);
+bool is_as_short_as_rounding(const Simplex<D>& s, double largest);
 
 /// The order in which the open segment from q to p crosses the given simplices of dimension D - 1; empty if two of them
 /// are crossed at the same point. @pre q lies strictly on one side of each, p on the other.

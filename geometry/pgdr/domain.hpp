@@ -15,9 +15,10 @@
 //
 // Pieces that meet exactly where they have no corner in common are fitted to each other, which changes no point of the
 // union of all: a point inside a segment or an edge of a facet splits it, and the facets with it; a point inside a facet
-// becomes a point of it; an edge or a segment that runs inside of a facet, between points of it, becomes one of its
-// segments, unless it crosses others. A facet of one polygon all of whose points lie on a line is dropped, as it has no area and
-// bounds nothing. What meets otherwise (see diagnosis.hpp) is not refused here. No point is added, and none is moved.
+// becomes a point of it; an edge or a segment that runs inside of a facet becomes one of its segments; facets that overlap in
+// one plane are subdivided along each other's outlines, and what several have is the first one's. A point is added where edges
+// cross inside of such a plane. A facet of one polygon all of whose points lie on a line is dropped, as it has no area and
+// bounds nothing. What meets otherwise (see diagnosis.hpp) is not refused here.
 #pragma once
 
 #include <cstdint>
@@ -109,7 +110,8 @@ class Domain {
   /// Domain point of each Plc point (exact duplicates, and those within the tolerance, share one). Distinct points keep
   /// the order of the input.
   std::span<const std::uint32_t> point_of_input() const { return point_of_input_; }
-  /// First Plc point of each domain point.
+  /// First Plc point of each domain point. Those that were added stand behind all others, and count on from the number of Plc
+  /// points: they are none of these.
   std::span<const std::uint32_t> input_of_point() const { return input_of_point_; }
   std::span<const int> point_markers() const { return point_markers_; }  ///< one a domain point, or empty
   /// points().size() times attributes_per_point(), one point after the other.

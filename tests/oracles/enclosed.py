@@ -397,6 +397,19 @@ def divided_by_open_edges(points, faces):
     return out
 
 
+def refuse_bent(points, polygons):
+    """@raises UnknownInput of a facet that has no plane to speak of: what it bounds depends on how it is triangulated"""
+    largest = max(polygons, key=len)
+    normal, origin = normal_of(points, list(zip(largest, largest[1:] + largest[:1]))), points[largest[0]]
+    size = math.isqrt(dot(normal, normal))
+    if len(largest) < 4 or size == 0:
+        return
+    heights = [dot(normal, minus(points[v], origin)) for p in polygons for v in p]
+    extent = max(max(c) - min(c) for c in zip(*(points[v] for p in polygons for v in p)))
+    if 10000 * (max(heights) - min(heights)) > extent * size:
+        raise UnknownInput("a polygon far from planar")
+
+
 def faces_of(given, points, number, unit):
     """The faces of all facets, by the numbers of distinct points; repeated ones once."""
     faces, seen = [], set()
@@ -405,6 +418,7 @@ def faces_of(given, points, number, unit):
         polygons = [[v for k, v in enumerate(p) if v != p[k - 1]] for p in polygons if p]
         if not any(len(set(p)) > 2 for p in polygons):
             continue
+        refuse_bent(points, polygons)
         if len(polygons) == 1 and len(set(polygons[0])) == len(polygons[0]):
             p = polygons[0]
             new = [list(zip(p, p[1:] + p[:1]))]

@@ -39,6 +39,7 @@ class Given:
     """What an input encloses: by label, and (`unlabelled`) volumes whose labels are not known, of RegionMode::automatic."""
     volumes: dict
     leaks: bool           # some faces end in the open, by the coordinates as they are
+    is_hull: bool = False  # of points that lie beside its edges, too, which count as on them within the tolerance
     unlabelled: list = dataclasses.field(default_factory=list)
 
 
@@ -143,16 +144,16 @@ def volumes_given(path, flags=()):
         label_of[shape.volume_at(enclosed.in_steps(hole, unit))] = None
     for point, attribute in given.regions:
         label_of.setdefault(shape.volume_at(enclosed.in_steps(point, unit)), attribute)
-    leaks = bool(shape.open_ridges)
+    leaks, is_hull = bool(shape.open_ridges), "--convex-hull" in flags
     measures = Measures(shape, unit)
     if not automatic:
-        return Given(measures.of_labels(lambda side: label_of.get(side, 0.0)), leaks)
+        return Given(measures.of_labels(lambda side: label_of.get(side, 0.0)), leaks, is_hull)
     solid = solid_sides(shape)
     if solid is None:
         raise UnknownInput("nesting is ambiguous")
     volumes = measures.of_labels(lambda side: label_of.get(side, ("volume", side) if side in solid else None))
     unlabelled = [v for label, v in volumes.items() if isinstance(label, tuple)]
-    return Given({label: v for label, v in volumes.items() if not isinstance(label, tuple)}, leaks, unlabelled)
+    return Given({label: v for label, v in volumes.items() if not isinstance(label, tuple)}, leaks, is_hull, unlabelled)
 
 
 class Mesh:
@@ -227,8 +228,9 @@ def complaints_about(given, mesh, report):
         if abs(meshed[label] - volume.given) > allowed:
             yield (f"region {label:g}: {float(meshed[label])!r} meshed, {float(volume.given)!r} given, "
                    f"off by {float(abs(meshed[label] - volume.given)):.3g}, not {allowed:.3g} at most")
-        if label in told and abs(Fraction(told[label]["volume_given"]) - volume.given) > max(
-                Fraction(volume.bent), abs(Fraction(float(volume.given)) - volume.given)):
+        rounding = abs(Fraction(float(volume.given)) - volume.given)
+        off = abs(Fraction(told[label]["volume_given"]) - volume.given) if label in told else 0
+        if off > (allowed if given.is_hull else max(Fraction(volume.bent), rounding)):
             yield f"region {label:g}: volume_given is {told[label]['volume_given']!r}, not {float(volume.given)!r}"
 
 

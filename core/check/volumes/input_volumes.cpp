@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "numbers/rounding.hpp"
 #include "pgdr/predicates.hpp"
@@ -59,13 +60,13 @@ struct AtRidge {
 template <int D>
 class InputBuilder {
  public:
-  explicit InputBuilder(InputVolumes<D>& out) : out_(out), domain_(*out.domain_), sides_(0), patches_(0), components_(0) {}
+  explicit InputBuilder(InputVolumes<D>& out) : out_(out), walls_(out.walls_), sides_(0), patches_(0), components_(0) {}
 
   void run(RegionMode mode) {
     collect_walls();
     out_.box_simplices();
     collect_ridges();
-    const auto n = static_cast<std::uint32_t>(out_.simplices_.size());
+    const auto n = static_cast<std::uint32_t>(walls_.simplices.size());
     sides_ = DisjointSets(2 * n + 1);  // side 2 i: positive, 2 i + 1: negative, 2 n: outside
     patches_ = DisjointSets(n);
     components_ = DisjointSets(n);
@@ -87,20 +88,12 @@ class InputBuilder {
 
  private:
   void collect_walls() {
-    const auto points = domain_.points();
-    const detail::Box<D> box = detail::Box<D>::of(points);
+    const detail::Box<D> box = detail::Box<D>::of(walls_.points);
     out_.span_ = std::max(out_.span_, box.longest_side());
     for (int k = 0; k < D; ++k) centre_[k] = box.low[k] + (box.high[k] - box.low[k]) / 2;
-    if constexpr (D == 2) {
-      for (const DomainSegment& s : domain_.segments()) out_.simplices_.push_back(s.points);
-    } else {
-      for (EntityId f = 0; f < domain_.facets().size(); ++f)
-        for (const auto& t : domain_.triangles(f)) {
-          out_.simplices_.push_back(t);
-          facet_of_.push_back(f);
-        }
-      for (EntityId s = 0; s < domain_.segments().size(); ++s) {
-        auto key = domain_.segments()[s].points;
+    if constexpr (D == 3) {
+      for (EntityId s = 0; s < walls_.segments.size(); ++s) {
+        auto key = walls_.segments[s];
         std::sort(key.begin(), key.end());
         segments_.push_back({key, s});
       }
@@ -109,8 +102,8 @@ class InputBuilder {
   }
 
   void collect_ridges() {
-    for (std::uint32_t i = 0; i < out_.simplices_.size(); ++i) {
-      const auto& s = out_.simplices_[i];
+    for (std::uint32_t i = 0; i < walls_.simplices.size(); ++i) {
+      const auto& s = walls_.simplices[i];
       for (int k = 0; k < D; ++k) {
         if constexpr (D == 2) {
           ridges_.push_back({{s[k], 0}, i, s[1 - k], k == 1});
@@ -125,7 +118,7 @@ class InputBuilder {
   }
 
   Sign turn(const std::array<std::uint32_t, 2>& ridge, std::uint32_t from, std::uint32_t to) const {
-    const auto p = domain_.points();
+    const auto& p = walls_.points;
     if constexpr (D == 2)
       return orient2d(p[ridge[0]], p[from], p[to]);
     else
@@ -155,18 +148,18 @@ class InputBuilder {
   void note_bounds(std::span<const AtRidge> walls) {
     const auto at = std::lower_bound(segments_.begin(), segments_.end(), std::pair{walls[0].ridge, EntityId{0}});
     if (at == segments_.end() || at->first != walls[0].ridge) {
-      if (walls.size() == 2 && facet_of_[walls[0].simplex] == facet_of_[walls[1].simplex])
+      if (walls.size() == 2 && walls_.entities[walls[0].simplex] == walls_.entities[walls[1].simplex])
         patches_.unite(walls[0].simplex, walls[1].simplex);
       return;
     }
     // ahead_negative: the triangle runs from the larger point number to the smaller.
-    const bool larger_first = domain_.segments()[at->second].points[0] > domain_.segments()[at->second].points[1];
+    const bool larger_first = walls_.segments[at->second][0] > walls_.segments[at->second][1];
     for (const AtRidge& w : walls) out_.bounds_.push_back({at->second, w.ahead_negative != larger_first, w.simplex});
   }
 
   /// Along a line, what lies between two walls that follow each other is one volume; both its ends are outside.
   void cast_lines() {
-    const auto n = static_cast<std::uint32_t>(out_.simplices_.size());
+    const auto n = static_cast<std::uint32_t>(walls_.simplices.size());
     std::vector<std::uint8_t> linked(n, 0);
     std::vector<std::uint32_t> first_of_component;
     for (std::uint32_t i = 0; i < n; ++i)
@@ -174,16 +167,14 @@ class InputBuilder {
     for (const std::uint32_t root : first_of_component)
       for (std::uint64_t attempt = 0; !linked[root]; ++attempt) {
         if (attempt == 1000)
-          throw InputError({Errc::entities_intersect, "Two walls of the input overlap.", {}, 0, {facet_or_segment(root)}, {}});
+          throw InputError({Errc::entities_intersect, "Two walls of the input overlap.", {}, 0, {walls_.entities[root]}, {}});
         cast_line(target(root, attempt), attempt, linked);
       }
   }
 
-  EntityId facet_or_segment(std::uint32_t simplex) const { return D == 2 ? simplex : facet_of_[simplex]; }
-
   /// The centroid of a wall of the component; of another one at each attempt.
   Point<D> target(std::uint32_t root, std::uint64_t attempt) {
-    const auto n = static_cast<std::uint32_t>(out_.simplices_.size());
+    const auto n = static_cast<std::uint32_t>(walls_.simplices.size());
     auto i = static_cast<std::uint32_t>((root + 7919 * attempt) % n);
     while (components_.find(i) != root) i = (i + 1) % n;
     const auto s = out_.simplex(i);
@@ -202,14 +193,14 @@ class InputBuilder {
     for (int k = 0; k < D; ++k) p[k] = through[k] + (through[k] - q[k]);
     const auto hits = out_.crossings(q, p);
     if (!hits || hits->empty()) return;
-    std::uint32_t open = 2 * static_cast<std::uint32_t>(out_.simplices_.size());
+    std::uint32_t open = 2 * static_cast<std::uint32_t>(walls_.simplices.size());
     for (const std::uint32_t i : *hits) {
       const bool from_negative = side_of(i, q) == Sign::negative;
       sides_.unite(open, 2 * i + from_negative);
       open = 2 * i + !from_negative;
       linked[components_.find(i)] = 1;
     }
-    sides_.unite(open, 2 * static_cast<std::uint32_t>(out_.simplices_.size()));
+    sides_.unite(open, 2 * static_cast<std::uint32_t>(walls_.simplices.size()));
   }
 
   Sign side_of(std::uint32_t i, const Point<D>& x) const {
@@ -221,7 +212,7 @@ class InputBuilder {
   }
 
   void number_patches_and_volumes() {
-    const auto n = static_cast<std::uint32_t>(out_.simplices_.size());
+    const auto n = static_cast<std::uint32_t>(walls_.simplices.size());
     std::vector<std::uint32_t> order(n), volume_of(2 * n + 1, 0xffffffffu);
     std::iota(order.begin(), order.end(), 0u);
     std::stable_sort(order.begin(), order.end(),
@@ -241,24 +232,24 @@ class InputBuilder {
     for (const std::uint32_t i : order) {
       if (simplices.empty() || patches_.find(i) != patches_.find(order[simplices.size() - 1]))
         out_.patches_.push_back(
-            {facet_or_segment(i), static_cast<std::uint32_t>(simplices.size()), 0, {volume_at(2 * i), volume_at(2 * i + 1)}});
+            {walls_.entities[i], static_cast<std::uint32_t>(simplices.size()), 0, {volume_at(2 * i), volume_at(2 * i + 1)}});
       ++out_.patches_.back().count;
       place[i] = static_cast<std::uint32_t>(out_.patches_.size() - 1);
       out_.patch_of_.push_back(place[i]);
-      simplices.push_back(out_.simplices_[i]);
+      simplices.push_back(walls_.simplices[i]);
     }
-    out_.simplices_ = std::move(simplices);
+    walls_.simplices = std::move(simplices);
     for (Bound& b : out_.bounds_) b.patch = place[b.patch];
     std::sort(out_.bounds_.begin(), out_.bounds_.end());
   }
 
   void place_seeds() {
-    for (const auto& p : domain_.holes()) {
+    for (const auto& p : walls_.holes) {
       out_.hole_volumes_.push_back(out_.locate(p));
       if (const auto v = out_.hole_volumes_.back()) out_.volumes_[*v].kept = false;
     }
-    for (std::uint32_t i = 0; i < domain_.regions().size(); ++i) {
-      const RegionSeed<D>& seed = domain_.regions()[i];
+    for (std::uint32_t i = 0; i < walls_.regions.size(); ++i) {
+      const RegionSeed<D>& seed = walls_.regions[i];
       out_.region_volumes_.push_back(out_.locate(seed.point));
       if (const auto v = out_.region_volumes_.back()) {
         out_.volumes_[*v].seeds.push_back(i);
@@ -271,12 +262,12 @@ class InputBuilder {
   void collect_wanted() {
     using Wanted = typename InputVolumes<D>::Wanted;
     auto &point = out_.wants_point_, &segment = out_.wants_segment_;
-    point.assign(domain_.points().size(), Wanted::unknown);
-    segment.assign(domain_.segments().size(), Wanted::unknown);
+    point.assign(walls_.points.size(), Wanted::unknown);
+    segment.assign(walls_.segments.size(), Wanted::unknown);
     const auto mark = [](Wanted& flag, bool wanted) { flag = flag == Wanted::yes || wanted ? Wanted::yes : Wanted::no; };
-    for (std::uint32_t i = 0; i < out_.simplices_.size(); ++i) {
+    for (std::uint32_t i = 0; i < walls_.simplices.size(); ++i) {
       const std::uint32_t patch = out_.patch_of_[i];
-      for (const std::uint32_t v : out_.simplices_[i]) mark(point[v], out_.wants_patch(patch));
+      for (const std::uint32_t v : walls_.simplices[i]) mark(point[v], out_.wants_patch(patch));
       if constexpr (D == 2) mark(segment[out_.patches_[patch].entity], out_.wants_patch(patch));
     }
     for (const Bound& b : out_.bounds_) mark(segment[b.segment], out_.wants_patch(b.patch));
@@ -285,7 +276,7 @@ class InputBuilder {
   void measure() {
     constexpr double parts = D == 2 ? 2 : 6;
     std::vector<CompensatedSum> sum(out_.volumes_.size());
-    for (std::uint32_t i = 0; i < out_.simplices_.size(); ++i) {
+    for (std::uint32_t i = 0; i < walls_.simplices.size(); ++i) {
       const auto [value, error] = signed_measure<D>(out_.simplex(i), centre_);
       const auto& side = out_.patches_[out_.patch_of_[i]].volume;
       if (side[0] == side[1]) continue;
@@ -300,16 +291,45 @@ class InputBuilder {
   }
 
   InputVolumes<D>& out_;
-  const Domain<D>& domain_;
+  VolumeWalls<D>& walls_;
   Point<D> centre_;
-  std::vector<EntityId> facet_of_;
   std::vector<std::pair<std::array<std::uint32_t, 2>, EntityId>> segments_;
   std::vector<AtRidge> ridges_;
   DisjointSets sides_, patches_, components_;
 };
 
+namespace {
+
 template <int D>
-InputVolumes<D>::InputVolumes(const Domain<D>& domain, RegionMode mode) : domain_(&domain) {
+VolumeWalls<D> walls_of(const Domain<D>& domain) {
+  VolumeWalls<D> walls;
+  walls.points.assign(domain.points().begin(), domain.points().end());
+  for (const DomainSegment& s : domain.segments()) walls.segments.push_back(s.points);
+  if constexpr (D == 2) {
+    walls.simplices = walls.segments;
+    walls.entities.resize(walls.simplices.size());
+    std::iota(walls.entities.begin(), walls.entities.end(), 0u);
+  } else {
+    for (EntityId f = 0; f < domain.facets().size(); ++f)
+      for (const auto& t : domain.triangles(f)) {
+        walls.simplices.push_back(t);
+        walls.entities.push_back(f);
+      }
+  }
+  walls.holes.assign(domain.holes().begin(), domain.holes().end());
+  walls.regions.assign(domain.regions().begin(), domain.regions().end());
+  return walls;
+}
+
+}  // namespace
+
+template <int D>
+InputVolumes<D>::InputVolumes(const Domain<D>& domain, RegionMode mode) : InputVolumes(walls_of(domain), mode) {
+  domain_ = &domain;
+}
+
+template <int D>
+InputVolumes<D>::InputVolumes(VolumeWalls<D> walls, RegionMode mode) : walls_(std::move(walls)) {
   InputBuilder<D>(*this).run(mode);
 }
 
@@ -333,16 +353,16 @@ bool InputVolumes<D>::keeps(const Point<D>& p) const {
 template <int D>
 bool InputVolumes<D>::wants_segment(EntityId segment) const {
   if (wants_segment_[segment] != Wanted::unknown) return wants_segment_[segment] == Wanted::yes;
-  const auto& ends = domain_->segments()[segment].points;
+  const auto& ends = walls_.segments[segment];
   Point<D> middle;
-  for (int k = 0; k < D; ++k) middle[k] = domain_->points()[ends[0]][k] / 2 + domain_->points()[ends[1]][k] / 2;
+  for (int k = 0; k < D; ++k) middle[k] = walls_.points[ends[0]][k] / 2 + walls_.points[ends[1]][k] / 2;
   return keeps(middle);
 }
 
 template <int D>
 bool InputVolumes<D>::wants_point(std::uint32_t point) const {
   if (wants_point_[point] != Wanted::unknown) return wants_point_[point] == Wanted::yes;
-  return keeps(domain_->points()[point]);
+  return keeps(walls_.points[point]);
 }
 
 template <int D>

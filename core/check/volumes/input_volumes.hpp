@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The input as the checker sees it: its walls (segments in 2D, the triangles of the facets in 3D) and the volumes that
-// they separate, found from the input alone and exactly. Two sides of walls belong to one volume if they follow each
+// The volumes that walls separate (segments in 2D, triangles in 3D): those of a Domain, or of a mesh with what else was given,
+// found from these alone and exactly. Two sides of walls belong to one volume if they follow each
 // other round a common ridge (a point in 2D, an edge in 3D), or along a line that crosses both with nothing between;
 // such lines are cast once per connected component, and once per seed. Immutable once made.
 #pragma once
@@ -42,14 +42,32 @@ struct Volume {
   std::optional<std::array<double, 2>> automatic;
 };
 
+/// What separates volumes: simplices that meet at common corners alone; and the seeds.
+template <int D>
+struct VolumeWalls {
+  std::vector<Point<D>> points;
+  std::vector<std::array<std::uint32_t, D>> simplices;
+  std::vector<EntityId> entities;                      ///< of each simplex, what it is a part of
+  std::vector<std::array<std::uint32_t, 2>> segments;  ///< lesser coordinates first; 2D: of each simplex
+  /// The segments are pieces of those of the input, whose lesser ends alone are known: those of the pieces.
+  bool segments_are_pieces = false;
+  std::vector<Point<D>> holes;
+  std::vector<RegionSeed<D>> regions;
+};
+
 template <int D>
 class InputVolumes {
  public:
   explicit InputVolumes(const Domain<D>& domain, RegionMode mode = RegionMode::seeds);
+  InputVolumes(VolumeWalls<D> walls, RegionMode mode);
 
+  /// Null if it was made of other walls.
+  const Domain<D>* made_of() const { return domain_; }
   const Domain<D>& domain() const { return *domain_; }
+  std::span<const Point<D>> holes() const { return walls_.holes; }
+  std::span<const RegionSeed<D>> regions() const { return walls_.regions; }
   /// Points of the walls, grouped by patch; in 3D all of a facet run the same way in its projection.
-  std::span<const std::array<std::uint32_t, D>> simplices() const { return simplices_; }
+  std::span<const std::array<std::uint32_t, D>> simplices() const { return walls_.simplices; }
   std::array<Point<D>, D> simplex(std::uint32_t i) const;
   std::span<const Patch> patches() const { return patches_; }
   /// Volume 0 is the outside.
@@ -60,7 +78,7 @@ class InputVolumes {
   std::span<const Bound> bounds() const { return bounds_; }
   /// The volume at p; empty if p is on a wall.
   std::optional<std::uint32_t> locate(const Point<D>& p) const;
-  /// The volume of each region seed and hole of the domain; empty if it is on a wall.
+  /// The volume of each region seed and hole; empty if it is on a wall.
   std::span<const std::optional<std::uint32_t>> region_volumes() const { return region_volumes_; }
   std::span<const std::optional<std::uint32_t>> hole_volumes() const { return hole_volumes_; }
 
@@ -82,9 +100,9 @@ class InputVolumes {
   std::uint32_t side_volume(std::uint32_t simplex, bool negative) const;
   bool keeps(const Point<D>& p) const;
 
-  const Domain<D>* domain_;
-  double span_ = 0;  ///< longer than the bounding box of the input
-  std::vector<std::array<std::uint32_t, D>> simplices_;
+  const Domain<D>* domain_ = nullptr;
+  VolumeWalls<D> walls_;
+  double span_ = 0;                    ///< longer than the bounding box of the input
   std::vector<detail::Box<D>> boxes_;  ///< of `boxed` simplices each that follow each other: inputs are mostly listed by place
   static constexpr std::uint32_t boxed = 32;
   std::vector<std::uint32_t> patch_of_;

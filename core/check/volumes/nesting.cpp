@@ -93,8 +93,8 @@ void InputVolumes<D>::number() {
   };
   std::vector<std::vector<Ends>> segments(volumes_.size());
   const auto add = [&](EntityId s, const Patch& patch) {
-    const auto& ends = domain_->segments()[s].points;
-    for (const std::uint32_t v : patch.volume) segments[v].emplace_back(domain_->points()[ends[0]], domain_->points()[ends[1]]);
+    const Point<D>&a = walls_.points[walls_.segments[s][0]], &b = walls_.points[walls_.segments[s][1]];
+    for (const std::uint32_t v : patch.volume) segments[v].emplace_back(a, walls_.segments_are_pieces ? a : b);
   };
   if constexpr (D == 2) {
     for (const Patch& patch : patches_) add(patch.entity, patch);
@@ -107,9 +107,11 @@ void InputVolumes<D>::number() {
     auto& own = segments[v];
     std::sort(own.begin(), own.end(), less);
     own.erase(std::unique(own.begin(), own.end()), own.end());
+    // Further points of pieces may be points of the mesh: only the least one is an end of a segment.
+    if (walls_.segments_are_pieces && !own.empty()) own.resize(1);
     if (!volumes_[v].kept) continue;
     if (volumes_[v].seeds.empty()) order.push_back(v);
-    for (const std::uint32_t seed : volumes_[v].seeds) of_seeds.push_back(domain_->regions()[seed].attribute);
+    for (const std::uint32_t seed : volumes_[v].seeds) of_seeds.push_back(walls_.regions[seed].attribute);
   }
   const auto before = [&](std::uint32_t v, std::uint32_t w) {
     return std::ranges::lexicographical_compare(segments[v], segments[w], less);

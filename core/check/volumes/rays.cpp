@@ -100,14 +100,14 @@ class Strip {
 template <int D>
 std::array<Point<D>, D> InputVolumes<D>::simplex(std::uint32_t i) const {
   std::array<Point<D>, D> s;
-  for (int k = 0; k < D; ++k) s[k] = domain_->points()[simplices_[i][k]];
+  for (int k = 0; k < D; ++k) s[k] = walls_.points[walls_.simplices[i][k]];
   return s;
 }
 
 template <int D>
 void InputVolumes<D>::box_simplices() {
   boxes_.clear();
-  for (std::uint32_t i = 0; i < simplices_.size(); ++i) {
+  for (std::uint32_t i = 0; i < walls_.simplices.size(); ++i) {
     const detail::Box<D> box = detail::Box<D>::of(simplex(i));
     if (i % boxed == 0) boxes_.push_back(box);
     boxes_.back().add(box);
@@ -122,7 +122,7 @@ std::optional<std::vector<std::uint32_t>> InputVolumes<D>::crossings(const Point
   const Strip<D> strip(q, p, magnitude);
   std::vector<std::uint32_t> hits;
   std::vector<std::array<Point<D>, D>> hit_simplices;
-  for (std::uint32_t i = 0; i < simplices_.size(); ++i) {
+  for (std::uint32_t i = 0; i < walls_.simplices.size(); ++i) {
     if (i % boxed == 0 && !strip.may_cross(boxes_[i / boxed].low, boxes_[i / boxed].high)) {
       i += boxed - 1;
       continue;

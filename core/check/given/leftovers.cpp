@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What was given and is not in the mesh must lie outside of all cells: whether it may, the volumes tell. What leaves the
+// mesh at an angle a stays within r of it for r / a. So a leftover of diameter d is a finding where it lies within r of a cell
+// for more than sqrt(r d): any angle above sqrt(r / d) makes less. Two r are tried. Rounding finds what lies between cells or in
+// them, and is so small that little is missed. The reach finds what lies beside the hull, where it should have been joined.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "check/given/match.hpp"
+#include "numbers/vectors.hpp"
+#include "space/box_tree.hpp"
+
+namespace pgdr::checking {
+namespace {
+
+using detail::cross;
+using detail::difference;
+using detail::dot;
+using detail::Vector;
+
+/// Points with n . (x - origin) <= offset.
+template <int D>
+struct HalfSpace {
+  Vector<D> n;  // of length 1
+  Point<D> origin;
+  double offset;
+  double height(const Point<D>& x) const { return dot(difference(x, origin), n) - offset; }
+};
+
+/// The cell and what is within r of its planes.
+template <int D>
+std::array<HalfSpace<D>, D + 1> widened_cell(const Simplex<D>& s, double r) {
+  std::array<HalfSpace<D>, D + 1> out;
+  for (int i = 0; i <= D; ++i) {
+    const Point<D>&a = s[(i + 1) % (D + 1)], &b = s[(i + 2) % (D + 1)];
+    Vector<D> n;
+    if constexpr (D == 2) {
+      const auto d = difference(b, a);
+      n = {d[1], -d[0]};
+    } else {
+      n = cross(difference(b, a), difference(s[(i + 3) % 4], a));
+    }
+    const double length = std::sqrt(dot(n, n));
+    const double sense = dot(difference(s[i], a), n) > 0 ? -1 : 1;
+    for (double& x : n) x *= sense / length;
+    out[i] = {n, a, r};
+  }
+  return out;
+}
+
+/// The part of a convex point set (a point, a segment, a polygon) in a half-space.
+template <int D>
+std::vector<Point<D>> clip(const std::vector<Point<D>>& corners, const HalfSpace<D>& side) {
+  std::vector<Point<D>> out;
+  const std::size_t n = corners.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const Point<D>&p = corners[k], &q = corners[(k + 1) % n];
+    const double of_p = side.height(p), of_q = side.height(q);
+    if (of_p <= 0) out.push_back(p);
+    if (n == 1 || (n == 2 && k == 1) || !((of_p < 0 && of_q > 0) || (of_p > 0 && of_q < 0))) continue;
+    const double t = of_p / (of_p - of_q);
+    Point<D> x;
+    for (int i = 0; i < D; ++i) x[i] = p[i] + t * (q[i] - p[i]);
+    out.push_back(x);
+  }
+  return out;
+}
+
+/// The largest distance of two corners, and for a polygon the largest one of a corner from the line of these two.
+template <int D>
+std::array<double, 2> extents(const std::vector<Point<D>>& corners) {
+  double longest = 0, widest = 0;
+  Point<D> a{}, b{};
+  for (const auto& p : corners)
+    for (const auto& q : corners)
+      if (const double d = std::sqrt(squared_distance(p, q)); d > longest) {
+        longest = d;
+        a = p;
+        b = q;
+      }
+  if (longest == 0) return {0, 0};
+  const auto along = difference(b, a);
+  for (const auto& p : corners) {
+    auto off = difference(p, a);
+    const double t = dot(off, along) / dot(along, along);
+    for (int i = 0; i < D; ++i) off[i] -= t * along[i];
+    widest = std::max(widest, std::sqrt(dot(off, off)));
+  }
+  return {longest, widest};
+}
+
+template <int D>
+class LeftoverChecker {
+ public:
+  LeftoverChecker(const GivenTask<D>& task, const GivenMatch<D>& match)
+      : task_(task), mesh_(task.mesh), match_(match), reported_(match.leftovers.size(), 0) {}
+
+  void run() {
+    if (match_.leftovers.empty()) return;
+    look(task_.input.rounding());
+    if (task_.input.tolerance() > 0) look(task_.input.reach());
+  }
+
+ private:
+  void look(double r) {
+    std::vector<detail::Box<D>> boxes;
+    limits_.clear();
+    for (const auto& leftover : match_.leftovers) {
+      boxes.push_back(detail::Box<D>::of(leftover.corners).widened(r));
+      limits_.push_back(std::sqrt(r * extents(leftover.corners)[0]));
+    }
+    const detail::BoxTree<D> tree(boxes);
+    for (std::uint32_t c = 0; c < mesh_.cells.size(); ++c) {
+      const Simplex<D> s = corners_of(mesh_, c);
+      std::optional<std::array<HalfSpace<D>, D + 1>> cell;
+      tree.meeting(detail::Box<D>::of(s), [&](std::uint32_t i) {
+        if (reported_[i]) return;
+        if (!cell) cell = widened_cell<D>(s, r);
+        compare(c, i, *cell);
+      });
+    }
+  }
+
+  void compare(std::uint32_t c, std::uint32_t i, const std::array<HalfSpace<D>, D + 1>& cell) {
+    const Leftover<D>& leftover = match_.leftovers[i];
+    std::vector<Point<D>> part = leftover.corners;
+    for (const auto& side : cell) part = clip<D>(part, side);
+    if (part.empty()) return;
+    const auto [length, width] = extents(part);
+    const bool large = leftover.kind == EntityKind::vertex    ? true
+                       : leftover.kind == EntityKind::segment ? length > limits_[i]
+                                                              : width > limits_[i];
+    if (!large) return;
+    reported_[i] = 1;
+    report(c, leftover, part[0]);
+  }
+
+  void report(std::uint32_t c, const Leftover<D>& leftover, const Point<D>& where) {
+    const GivenInput<D>& input = task_.input;
+    if (leftover.kind == EntityKind::vertex) {
+      task_.findings.add(Kind::missing_input_point, {leftover.id}, [&] {
+        return "Input point " + std::to_string(leftover.id) + " " + words(where) + " is no vertex of the mesh, but lies in " +
+               cell_words(mesh_, c) + ".";
+      });
+    } else if (leftover.kind == EntityKind::segment) {
+      const GivenSegment& s = input.segments()[leftover.id];
+      task_.findings.add(Kind::segment_not_conforming, {s.item}, [&] {
+        return "No subsegment of marker " + std::to_string(s.marker) + " covers " + (s.of_facet ? "facet " : "segment ") +
+               std::to_string(s.item) + " of the input, from point " + std::to_string(s.points[0]) + " to " +
+               std::to_string(s.points[1]) + ", at " + words(where) + ", in " + cell_words(mesh_, c) + ".";
+      });
+    } else {
+      const std::uint32_t f = input.triangles()[leftover.id].facet;
+      task_.findings.add(Kind::facet_not_conforming, {f}, [&] {
+        return "No subfacet covers facet " + std::to_string(f) + " of the input at " + words(where) + ", in " +
+               cell_words(mesh_, c) + ".";
+      });
+    }
+  }
+
+  const GivenTask<D>& task_;
+  const OutputMesh<D>& mesh_;
+  const GivenMatch<D>& match_;
+  std::vector<std::uint8_t> reported_;
+  std::vector<double> limits_;
+};
+
+}  // namespace
+
+template <int D>
+void check_leftovers(const GivenTask<D>& task, const GivenMatch<D>& match) {
+  LeftoverChecker<D>(task, match).run();
+}
+
+template void check_leftovers(const GivenTask<2>&, const GivenMatch<2>&);
+template void check_leftovers(const GivenTask<3>&, const GivenMatch<3>&);
+
+}  // namespace pgdr::checking
