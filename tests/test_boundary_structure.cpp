@@ -310,8 +310,8 @@ TEST(Segments, LooseOnesOfAPolyFileKeepTheirMarkers) {
   EXPECT_NEAR(length, std::sqrt(0.3125), 1e-12);
 }
 
-/// A loose segment that ends an ulp beside another, exactly as given. They do not touch, but no subsegment beside the end is as it should be; what
-/// says so has the numbers of the input, which counts from 1 here, its file and its line.
+/// A loose segment that ends an ulp beside another, exactly as given. They do not touch, but no subsegment beside the end is as
+/// it should be; what says so has the numbers of the input, which counts from 1 here, its file and its line.
 TEST(Segments, WhatTheyPassByRoundingIsNamed) {
   Plc<3> plc;
   const Point3 low{{-29.250860471007904, 27.794698954978614, 21.101969518129124}};

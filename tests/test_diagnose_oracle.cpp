@@ -109,8 +109,7 @@ TEST(DiagnosisOracle, SpaceWithFewCoordinates) {
   std::mt19937_64 random(oracle::seed());
   Tally tally;
   for (int k = 0; k < (test::sanitized ? 4000 : 10000) && !HasFatalFailure(); ++k) compare(random_plc<3>(random, 2), tally);
-  for (const int n :
-       {tally.valid, tally.cross, tally.segment_facet, tally.segments, tally.on_facet, tally.on_edge, tally.added})
+  for (const int n : {tally.valid, tally.cross, tally.segment_facet, tally.segments, tally.on_facet, tally.on_edge, tally.added})
     EXPECT_GT(n, 30);
   EXPECT_GT(tally.inner_edges, 10);
 }

@@ -218,8 +218,8 @@ Plc<3> plate_with_boss(int n, double height, double off) {
   return plc;
 }
 
-// (Of the plate, a face of which is 64 long and thin facets, came elements that stayed poor for no reason that `check` takes, after
-// more than a minute.)
+// (Of the plate, a face of which is 64 long and thin facets, came elements that stayed poor for no reason that `check` takes,
+// after more than a minute.)
 TEST(Coplanar, FacesThatLookPlanar) {
   Plc<3> plc;
   for (const double off : {1e-12, 1e-9, 3e-7}) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Points within the tolerance: points that files write with different digits. The story: an STL file of a demo of gmsh whose corners
-// differ by 1e-16 from one triangle to the next was refused for facets that intersect, without a word about why.
+// Points within the tolerance: points that files write with different digits. The story: an STL file of a demo of gmsh whose
+// corners differ by 1e-16 from one triangle to the next was refused for facets that intersect, without a word about why.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -20,14 +20,22 @@ using namespace test;
 /// `ulps`: how far points are off, at most. Somewhat above the rounding of coordinates elements of its size can be made, but not
 /// with good angles, and the checker does not take that for a reason.
 void expect_sound(const Plc<2>& plc, int ulps, std::size_t most_cells, const std::string& what) {
-  const auto [result, report] = refine_and_check<2>(plc, {});
+  // Held against the Domain: without a tolerance, which of segments an ulp apart a subsegment belongs to is not seen in the mesh.
+  const Domain<2> domain(plc);
+  const RefineOptions<2> options;
+  const RefineResult<2> result = refine<2>(domain, options);
+  CheckOptions<2> check_options;
+  check_options.domain = &domain;
+  check_options.radius_edge_bound = options.radius_edge_bound;
+  check_options.reasons = &result.reasons;
+  const CheckReport report = check<2>(result.mesh, check_options);
   EXPECT_EQ(result.stop, StopCause::finished) << what;
   EXPECT_LE(result.mesh.cells.size(), most_cells) << what;
   std::vector<Point2> points = result.mesh.points;
   std::sort(points.begin(), points.end(), lex_less<2>);
   EXPECT_EQ(std::adjacent_find(points.begin(), points.end()), points.end()) << what;
   const std::uint64_t unreasoned = ulps > 8 && ulps < 64 ? report.count(CheckFinding::Kind::bad_reason) : 0;
-  EXPECT_TRUE(report.exit_code() <= 1 || report.findings.size() == unreasoned) << what << findings(report);
+  EXPECT_TRUE(report.exit_code() <= 1 || report.finding_count == unreasoned) << what << findings(report);
 }
 
 /// A polygon with points on its sides, rounded, and moved by up to so many ulps of its largest coordinate.

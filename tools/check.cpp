@@ -92,10 +92,15 @@ int check_as(const CheckArguments& a, Report& report) {
   const Bounds<D> bounds = resolve<D>(a.bounds, reported.radius_edge.value_or(unbounded));
   const OutputMesh<D> mesh = read_mesh<D>(a.mesh);
   InputArguments reading = a.reading;
-  if (!reading.tolerance) reading.tolerance = reported.tolerance;
   reading.resolve_crossings = reading.resolve_crossings || reported.resolve_crossings;
   reading.convex_hull = reading.convex_hull || reported.convex_hull;
-  const std::optional<Plc<D>> plc = read_input_of_mesh<D>(a.input, reading);
+  std::optional<Plc<D>> plc = read_input_of_mesh<D>(a.input, reading);
+  if (!reading.tolerance) reading.tolerance = reported.tolerance;
+  // The default is no tolerance that was given: what is ambiguous within it is left as it is, and not refused.
+  if (plc && reading.tolerance && *reading.tolerance != tolerance_of(*plc)) {
+    plc->tolerance = reading.tolerance;
+    plc->is_coarse = true;
+  }
   // Reasons name the entities of a Domain, with crossings resolved; nothing else of the verdict depends on that.
   std::optional<Domain<D>> domain;
   if (plc && !reported.reasons.empty()) domain.emplace(resolved<D>(*plc, reading));

@@ -17,7 +17,7 @@ void set_findings(JsonObject& object, const Diagnosis<D>& diagnosis);
 template <int D>
 void print_findings(const Diagnosis<D>& diagnosis);
 
-/// Puts all listed errors into the report and a few on stderr, and there what --merge-points may do about them (in 3D tried out).
+/// Puts all listed errors into the report and a few on stderr, and there which flags have been found to help.
 /// Returns exit_input.
 template <int D>
 int refuse(const Plc<D>& plc, const Diagnosis<D>& diagnosis, Report& report);

@@ -195,6 +195,8 @@ class InputInfo {
     describe(domain, *looks, a_.quiet, findings_);
     report_.set("tolerance", domain.tolerance());
     report_.set("largest_move", domain.largest_move());
+    if constexpr (D == 3)
+      report_.set("surface", JsonObject{{"given", to_json(surface_counts(plc_))}, {"meshed", to_json(surface_counts(domain))}});
     report_.set("diagnosis", findings_);
     give(looks->proposal, a_.quiet, report_);
     seconds_.set("total", clock_.seconds());

@@ -297,6 +297,9 @@ class MeshRun {
   void say_what_is_ahead(const Domain<D>& domain) {
     const Outlook<D> outlook = look_ahead<D>(domain, bounds_, !a_.no_refine, options_.stop);
     set_outlook(report_, domain, outlook);
+    if constexpr (D == 3)
+      if (!domain.repairs().empty())
+        report_.set("surface", JsonObject{{"given", to_json(surface_counts(plc_))}, {"meshed", to_json(surface_counts(domain))}});
     if (!a_.quiet) print_outlook(domain, outlook);
     if (!a_.max_vertices && !a_.time_limit) require_memory(domain, outlook);
   }

@@ -79,6 +79,12 @@ JsonObject to_json(const PoorReason& r) {
           {"angle", r.angle}};
 }
 
+JsonObject to_json(const SurfaceCounts& counts) {
+  return {{"components", counts.components},
+          {"open_loops", counts.open_loops},
+          {"handles", counts.handles ? Json(*counts.handles) : Json(nullptr)}};
+}
+
 JsonObject to_json(const RegionVolume& r) {
   return {{"label", r.label},
           {"volume_meshed", r.volume_meshed},

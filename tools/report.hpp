@@ -13,6 +13,7 @@
 #include "pgdr/error.hpp"
 #include "pgdr/quality.hpp"
 #include "pgdr/refine.hpp"
+#include "pgdr/surface_counts.hpp"
 
 namespace pgdr::tool {
 
@@ -35,6 +36,7 @@ JsonObject to_json(const Diagnostic& d);
 JsonObject to_json(const QualitySummary& q);
 JsonObject to_json(const PoorReason& r);
 JsonObject to_json(const RegionVolume& r);
+JsonObject to_json(const SurfaceCounts& counts);
 JsonObject to_json(const PredicateCounts& counts);  ///< shares by stage, and `calls`
 JsonObject to_json(const SchedulerStatistics& s);
 JsonObject to_json(const CheckFinding& finding);

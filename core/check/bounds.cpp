@@ -97,11 +97,6 @@ void check_bounds(const OutputMesh<D>& mesh, const CheckOptions<D>& options, con
       });
     }
   }
-  if (reasons.rounded() * 10000 > mesh.cells.size())
-    findings.add(Kind::bad_reason, {}, [&] {
-      return "Rounding is given as the reason for " + std::to_string(reasons.rounded()) +
-             " cells whose edges are longer than 8 ulps, more than 0.01 % of all " + std::to_string(mesh.cells.size()) + ".";
-    });
 }
 
 template <int D>

@@ -41,15 +41,34 @@ void check_against_domain(const OutputMesh<D>& mesh, const CheckOptions<D>& opti
   check_bounds(mesh, options, links, components, &input, reasons, findings);
 }
 
+/// The volumes by the walls of a Domain, which has taken apart what overlaps outside of the mesh.
+template <int D>
+InputVolumes<D> check_volumes_of_domain(const GivenTask<D>& task, const CheckOptions<D>& options, const Domain<D>& domain,
+                                        std::span<const std::uint32_t> sorted, const Links<D>& links, Components& components) {
+  InputVolumes<D> volumes(domain, options.regions);
+  CheckReport unheard;
+  Findings ignored(unheard, 0);
+  const Conformity<D> homes = check_conformity(ConformityTask<D>{task.mesh, volumes, options.conformity_ulps, ignored}, sorted);
+  check_regions(ConformityTask<D>{task.mesh, volumes, options.conformity_ulps, task.findings}, links, homes, components);
+  return volumes;
+}
+
 /// The volumes of the input, once everything in the mesh lies on something given and the other way round; none if its walls
-/// bound no volumes.
+/// bound no volumes. `made`: room for the Domain of the input, where no other is at hand and it is needed.
 template <int D>
 std::optional<InputVolumes<D>> check_volumes(const GivenTask<D>& task, const CheckOptions<D>& options, const GivenMatch<D>& match,
-                                             const Links<D>& links, Components& components) {
+                                             std::span<const std::uint32_t> sorted, const Links<D>& links, Components& components,
+                                             std::optional<Domain<D>>& made) {
   std::optional<InputVolumes<D>> volumes;
   try {
     volumes.emplace(walls_of_mesh(task, match), options.regions);
   } catch (const InputError& e) {
+    try {
+      if (match.leftovers.empty()) throw;
+      const Domain<D>& domain = options.domain ? *options.domain : made.emplace(*options.input);
+      return check_volumes_of_domain(task, options, domain, sorted, links, components);
+    } catch (const InputError&) {
+    }
     task.findings.add(Kind::wrong_volume, {},
                       [&] { return std::string("What the walls of the mesh bound cannot be told: ") + e.what(); });
     return {};
@@ -75,7 +94,8 @@ void check_against_given(const OutputMesh<D>& mesh, const CheckOptions<D>& optio
     check_creases(task, match);
   }
   check_leftovers(task, match);
-  const std::optional<InputVolumes<D>> volumes = check_volumes(task, options, match, links, components);
+  std::optional<Domain<D>> made;
+  const std::optional<InputVolumes<D>> volumes = check_volumes(task, options, match, sorted, links, components, made);
   const InputVolumes<D>* known = volumes ? &*volumes : nullptr;
   if (!options.domain) {
     Reasons<D> reasons(mesh, options, nullptr, findings);

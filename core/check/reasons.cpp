@@ -168,11 +168,7 @@ auto Reasons<D>::judge(std::uint32_t cell, std::string& why) -> Verdict {
                             [&](std::uint32_t r, std::uint32_t c) { return reasons[r].cell < c; });
   if (i == by_cell_.end() || reasons[*i].cell != cell) return Verdict::absent;
   for (; i != by_cell_.end() && reasons[*i].cell == cell; ++i)
-    if (holds(reasons[*i], why)) {
-      rounded_ += reasons[*i].code == PoorReason::Code::rounding &&
-                  !is_as_short_as_rounding<D>(corners_of(mesh_, cell), largest_);
-      return Verdict::holds;
-    }
+    if (holds(reasons[*i], why)) return Verdict::holds;
   return Verdict::fails;
 }
 
@@ -183,7 +179,9 @@ bool Reasons<D>::holds(const PoorReason& reason, std::string& why) {
     return false;
   };
   switch (reason.code) {
-    case PoorReason::Code::rounding: return true;
+    case PoorReason::Code::rounding:
+      return is_as_short_as_rounding<D>(corners_of(mesh_, reason.cell), largest_) ||
+             fail("it has no edge as short as the rounding of coordinates");
     case PoorReason::Code::beyond_theory:
       return options_.radius_edge_bound < smallest_proved_bound<D>() || fail("the radius-edge bound is not below the proved one");
     case PoorReason::Code::kept_boundary: return beside_kept(reason, why);

@@ -21,8 +21,6 @@ class Reasons {
   enum class Verdict { absent, holds, fails };
   /// @param why set to a clause that says why the (last) reason fails.
   Verdict judge(std::uint32_t cell, std::string& why);
-  /// How many cells `judge` excused by rounding.
-  std::uint64_t rounded() const { return rounded_; }
 
   /// Of each vertex: it lies on an entity of a small angle that some reason names; empty if there are no reasons.
   std::vector<std::uint8_t> vertices_at_refused(const InputVolumes<D>& input);
@@ -42,7 +40,6 @@ class Reasons {
   const Conformity<D>* conformity_;
   std::vector<std::uint32_t> by_cell_;  ///< indices of reasons, sorted by cell
   std::map<std::array<std::uint64_t, 2>, bool> angles_;
-  std::uint64_t rounded_ = 0;
   double largest_ = 0;  ///< coordinate of the mesh
 };
 

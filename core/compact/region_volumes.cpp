@@ -25,7 +25,6 @@ struct Sides {
   double size = -1;                                      ///< of the largest so far
   std::array<std::uint32_t, 2> label{nothing, nothing};  ///< on the side of the normal (2D: on the left), and on the other
   bool is_known() const { return size >= 0; }
-  bool same(const Sides& o) const { return label == o.label; }
   bool same_on_both() const { return label[0] == label[1]; }
   void take(const Sides& o) {
     if (o.size > size) *this = o;
@@ -126,6 +125,11 @@ class Patches {
     if (const std::uint32_t t = triangle_along(a, b); t != nothing) sides_[sets_.find(t)].take(sides);
   }
   Sides of_triangle(std::uint32_t t) { return sides_[sets_.find(t)]; }
+  bool are_several() {
+    for (std::uint32_t t = 1; t < triangles_.size(); ++t)
+      if (sets_.find(t) != sets_.find(0)) return true;
+    return false;
+  }
 
  private:
   /// The triangle that has the edge in this direction.
@@ -182,29 +186,28 @@ class RegionMeasure {
 
   void look_at_faces() {
     sides_.resize(D == 3 ? domain_.facets().size() : domain_.segments().size());
-    is_divided_.resize(sides_.size());
     each_wall_face<D>(mesh_, labels_, [&](const WallFace<D>& wall) {
       has_cells_[wall.here] = true;
       if (wall.here != wall.beyond) add(meshed_[wall.here], mesh_.points(wall.vertices), true);
-      const Sides sides = sides_at(mesh_, domain_, wall);
-      Sides& of_all = sides_[wall.entity];
-      if (of_all.is_known() && !of_all.same(sides)) is_divided_[wall.entity] = true;
-      of_all.take(sides);
+      sides_[wall.entity].take(sides_at(mesh_, domain_, wall));
     });
   }
 
   void add_facets() requires(D == 3) {
-    std::unordered_map<EntityId, Patches> divided;
-    for (EntityId f = 0; f < sides_.size(); ++f)
-      if (is_divided_[f]) divided.try_emplace(f, domain_, f);
+    std::unordered_map<EntityId, Patches> divided;  // also where a part is in the mesh, and another is outside
+    for (EntityId f = 0; f < sides_.size(); ++f) {
+      if (!sides_[f].is_known() || domain_.facets()[f].triangle_count == 1) continue;
+      if (Patches patches(domain_, f); patches.are_several()) divided.try_emplace(f, std::move(patches));
+    }
     if (!divided.empty())
       each_wall_face<D>(mesh_, labels_, [&](const WallFace<D>& wall) {
-        if (is_divided_[wall.entity]) look_at_segments(wall, divided.at(wall.entity));
+        if (const auto found = divided.find(wall.entity); found != divided.end()) look_at_segments(wall, found->second);
       });
     for (EntityId f = 0; f < sides_.size(); ++f) {
       const auto triangles = domain_.triangles(f);
+      const auto parts = divided.find(f);
       for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-        const Sides sides = is_divided_[f] ? divided.at(f).of_triangle(t) : sides_[f];
+        const Sides sides = parts != divided.end() ? parts->second.of_triangle(t) : sides_[f];
         add_piece(sides, triangles[t], is_given(f, t));
       }
     }
@@ -257,8 +260,7 @@ class RegionMeasure {
   const detail::JoinedPoints<D> joined_;
   std::vector<detail::ExactSum> meshed_, given_;  // by label; so are these
   std::vector<bool> has_cells_, is_known_;
-  std::vector<Sides> sides_;      // of each facet (2D: segment)
-  std::vector<bool> is_divided_;  // of each facet: its parts have different sides
+  std::vector<Sides> sides_;  // of each facet (2D: segment)
 };
 
 }  // namespace

@@ -110,18 +110,24 @@ InputMap<D> input_map(const Domain<D>& domain, const OutputMesh<D>& mesh) {
   return out;
 }
 
+namespace {
+
+/// Calls visit(face, place) for the faces of all cells, the vertices of each sorted.
+template <int D, class Visit>
+void each_face(const OutputMesh<D>& mesh, const Visit& visit) {
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    for (int i = 0; i <= D; ++i) {
+      auto face = face_without(mesh.cells[c], i);
+      std::sort(face.begin(), face.end());
+      visit(face, (D + 1) * std::uint64_t{c} + static_cast<std::uint64_t>(i));
+    }
+}
+
+/// The faces of all cells, by their smallest vertices. `begin`: of those of each vertex, and the end.
 template <int D>
-std::vector<std::array<std::uint32_t, D + 1>> neighbors_of_cells(const OutputMesh<D>& mesh) {
-  std::vector<std::size_t> begin(mesh.points.size() + 1, 0);  // of the faces with each vertex as their smallest
-  const auto each_face = [&](const auto& visit) {
-    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-      for (int i = 0; i <= D; ++i) {
-        auto face = face_without(mesh.cells[c], i);
-        std::sort(face.begin(), face.end());
-        visit(face, (D + 1) * std::uint64_t{c} + static_cast<std::uint64_t>(i));
-      }
-  };
-  each_face([&](const auto& face, std::uint64_t) {
+std::vector<Face<D>> faces_by_vertex(const OutputMesh<D>& mesh, std::vector<std::size_t>& begin) {
+  begin.assign(mesh.points.size() + 1, 0);
+  each_face<D>(mesh, [&](const auto& face, std::uint64_t) {
     if (face.back() >= mesh.points.size())
       throw InputError({Errc::index_out_of_range, "a cell has a vertex that does not exist", {}, 0, {face.back()}, {}});
     ++begin[face[0] + 1];
@@ -129,11 +135,20 @@ std::vector<std::array<std::uint32_t, D + 1>> neighbors_of_cells(const OutputMes
   for (std::size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];
   std::vector<Face<D>> faces(begin.back());
   std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-  each_face([&](const auto& face, std::uint64_t place) {
+  each_face<D>(mesh, [&](const auto& face, std::uint64_t place) {
     Face<D>& f = faces[next[face[0]]++];
     std::copy(face.begin() + 1, face.end(), f.others.begin());
     f.place = place;
   });
+  return faces;
+}
+
+}  // namespace
+
+template <int D>
+std::vector<std::array<std::uint32_t, D + 1>> neighbors_of_cells(const OutputMesh<D>& mesh) {
+  std::vector<std::size_t> begin;
+  std::vector<Face<D>> faces = faces_by_vertex<D>(mesh, begin);
   std::array<std::uint32_t, D + 1> alone;
   alone.fill(no_cell_beyond);
   std::vector<std::array<std::uint32_t, D + 1>> neighbors(mesh.cells.size(), alone);

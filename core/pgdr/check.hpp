@@ -6,8 +6,9 @@
 //
 // It shares with the mesher what lies below both: the readers of files, the predicates, the planar triangulation of a polygon,
 // the tests of bounds, and what rounding may explain. It shares nothing of how meshes are made, and, where it has the input as
-// given, nothing of what is joined or repaired in it: only reasons for poor cells go by the entities of a Domain. Exact
-// arithmetic wherever a verdict depends on a sign. Any thread; no state.
+// given, nothing of what is joined or repaired in it. Only reasons for poor cells go by the entities of a Domain, and, where what
+// was given outside of the mesh overlaps itself, the question which volumes are to be meshed. Exact arithmetic wherever a verdict
+// depends on a sign. Any thread; no state.
 //
 // Against the input as given (CheckOptions::input), with T the tolerance and u two ulps of its largest coordinate:
 //
@@ -136,8 +137,8 @@ NotDelaunay count_not_delaunay(const OutputMesh<D>& mesh, bool everywhere = true
 /// Runs all checks for which `options` has the data. Bad indices and coordinates that are not finite end it early.
 /// About 5 microseconds a cell, on the calling thread.
 /// @throws UsageError bad_size if a size function returns a value that is not positive, bad_option if no cell has the label
-///   of a region size (but 0), or for a Domain that was moved from; InputError index_out_of_range, not_finite of the input as given,
-///   entities_intersect if walls of the Domain overlap so that no line crosses them one after the other; ResourceError.
+///   of a region size (but 0), or for a Domain that was moved from; InputError index_out_of_range, not_finite of the input as
+///   given, entities_intersect if walls of the Domain overlap so that no line crosses them one after the other; ResourceError.
 template <int D>
 CheckReport check(const OutputMesh<D>& mesh, const CheckOptions<D>& options);
 

@@ -23,8 +23,7 @@
 // - .stl: equal points become one. If an ASCII file has several solids, markers number them from 1.
 // - .off, .obj, .ply: normals, colours, textures and groups are dropped; .obj counts points and faces from 1. The edges
 //   of a .ply are not read.
-// - .stl, and .ply whose coordinates are floats: Plc::precision is what these numbers allow (Plc::precision_of_file); of others
-//   where set_precision_of_digits finds that it matters. Plc::merge_within is as set_merge_of_file sets it.
+// - .stl, and .ply whose coordinates are floats: Plc::are_floats is set. Nothing else is read out of the numbers.
 // - .mesh: references are markers and region attributes; attributes that are not integers are numbered, and comments
 //   "# region <n> = <value>" tell which is which. Labels that are all 0 read back as none. RequiredVertices lists the
 //   input points. Sections that a mesh has no place for are skipped.

@@ -52,6 +52,7 @@ struct InputMap {
 };
 
 /// The map of an input and its mesh. Subsegments and subfacets inside holes and outside are gone with the cells there.
+/// @param domain  the input as it was meshed
 /// @param mesh  as `refine` made it of this Domain; its lists of subsegments and subfacets may be in any order
 /// @throws UsageError bad_option: a mesh with another number of input points, or with subsegments or subfacets whose
 ///   `entity` is not of the Domain, as those of a mesh that was read from a file

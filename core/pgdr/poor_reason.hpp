@@ -14,7 +14,8 @@ namespace pgdr PGDR_API {
 
 /// Why a cell stayed over a bound; one entry of the report's `bounds.reasons`.
 struct PoorReason {
-  /// small_angle: of the input, between the two entities. rounding: none of the others, and few. beyond_theory: the bound
+  /// small_angle: of the input, between the two entities. rounding: none of the others, which the checker takes
+  /// only where an edge is as short as the rounding of coordinates. beyond_theory: the bound
   /// asked for is below the smallest proved one. kept_boundary: the first entity is a segment without points of its own,
   /// which hides the circumcentre or is encroached upon by it (RefineOptions::keep_boundary).
   enum class Code { small_angle, rounding, beyond_theory, kept_boundary };

@@ -18,8 +18,6 @@
 namespace pgdr::detail {
 namespace {
 
-DoubleDoubles<2> exact_difference(const Point2& a, const Point2& b) { return {difference(a[0], b[0]), difference(a[1], b[1])}; }
-
 DoubleDouble exact_cross(const DoubleDoubles<2>& a, const DoubleDoubles<2>& b) { return a[0] * b[1] - a[1] * b[0]; }
 
 /// Where the lines ab and cd meet, rounded once. @pre the insides of the segments cross; the points are of the size of 1

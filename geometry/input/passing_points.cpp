@@ -11,12 +11,6 @@
 #include "pgdr/predicates.hpp"
 
 namespace pgdr::detail {
-namespace {
-
-DoubleDoubles<2> exact_difference(const Point2& a, const Point2& b) { return {difference(a[0], b[0]), difference(a[1], b[1])}; }
-
-}  // namespace
-
 bool splits_into_shorter(const Point2& p, const Point2& q, const Point2& x) {
   const double length2 = squared_distance(p, q);
   const double along = (x[0] - p[0]) * (q[0] - p[0]) + (x[1] - p[1]) * (q[1] - p[1]);

@@ -10,6 +10,7 @@
 #include <array>
 
 #include "numbers/expansion.hpp"
+#include "pgdr/types.hpp"
 
 namespace pgdr::detail {
 
@@ -58,6 +59,11 @@ inline DoubleDouble difference(double a, double b) { return two_diff(a, b); }
 
 template <std::size_t N>
 using DoubleDoubles = std::array<DoubleDouble, N>;
+
+/// The difference of two points of the plane, exactly.
+inline DoubleDoubles<2> exact_difference(const Point2& a, const Point2& b) {
+  return {difference(a[0], b[0]), difference(a[1], b[1])};
+}
 
 template <std::size_t N>
 DoubleDouble dot(const DoubleDoubles<N>& a, const DoubleDoubles<N>& b) {

@@ -79,7 +79,7 @@ void ExactSum::add_product(double a, double b, double c) {
   if (digits_.size() < at + product_digits) digits_.resize(at + product_digits);
   const std::array<std::uint64_t, 3> words{shifted_low, static_cast<std::uint64_t>(shifted_high),
                                            static_cast<std::uint64_t>(shifted_high >> 64)};
-  const std::int64_t sign = x.negative != y.negative != z.negative ? -1 : 1;
+  const std::int64_t sign = (x.negative != y.negative) != z.negative ? -1 : 1;
   for (std::size_t i = 0; i < words.size(); ++i) {
     digits_[at + 2 * i] += sign * static_cast<std::int64_t>(words[i] & digit_mask);
     digits_[at + 2 * i + 1] += sign * static_cast<std::int64_t>(words[i] >> digit_bits);

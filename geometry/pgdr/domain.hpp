@@ -13,12 +13,15 @@
 // it is not exactly planar. A segment of the input from one point of a polygon facet to another, through the inside of
 // the facet, is one of its segments.
 //
-// Pieces that meet exactly where they have no corner in common are fitted to each other, which changes no point of the
-// union of all: a point inside a segment or an edge of a facet splits it, and the facets with it; a point inside a facet
-// becomes a point of it; an edge or a segment that runs inside of a facet becomes one of its segments; facets that overlap in
-// one plane are subdivided along each other's outlines, and what several have is the first one's. A point is added where edges
-// cross inside of such a plane. A facet of one polygon all of whose points lie on a line is dropped, as it has no area and
-// bounds nothing. What meets otherwise (see diagnosis.hpp) is not refused here.
+// What lies within the tolerance meets (docs/inputs.md): points become one, by at most twice the tolerance; a point within it of
+// an edge or of the inside of a facet lies on it, without moving; so does an edge along a facet. Decided once, as given.
+//
+// Pieces that meet where they have no corner in common are fitted to each other: a point inside a segment or an edge of a facet
+// splits it, and the facets with it; a point inside a facet becomes a point of it; an edge or a segment that runs inside of a
+// facet becomes one of its segments; facets that overlap in one plane are subdivided along each other's outlines, and what
+// several have is the first one's. A point is added where edges cross inside of such a plane. A facet of one polygon all of whose
+// points lie on a line is dropped, as it has no area and bounds nothing. What meets otherwise (see diagnosis.hpp) is not refused
+// here.
 #pragma once
 
 #include <cstdint>

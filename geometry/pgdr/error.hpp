@@ -40,7 +40,7 @@ enum class Errc {
   seed_on_boundary,
   conflicting_seeds,
   tolerance_too_large,  ///< it joins what is apart, or destroys what it should keep
-  no_volume,  ///< all points lie in one plane (3D) or on one line (2D)
+  no_volume,            ///< all points lie in one plane (3D) or on one line (2D)
   boundary_not_recovered,
   // input: found, and taken as it is
   duplicate_point,

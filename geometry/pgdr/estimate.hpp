@@ -29,9 +29,9 @@ struct Gap {
 /// Two segments with a common point, or two facets with a common segment, and their angle.
 template <int D>
 struct SharpAngle {
-  double degrees = 180;
-  std::array<EntityRef, 2> entities;
-  Point<D> point;  ///< that they share
+  double degrees = 180;               ///< the angle
+  std::array<EntityRef, 2> entities;  ///< that meet at it
+  Point<D> point;                     ///< that they share
 };
 
 /// The nearest two entities without a common point; none if there are no two. Of more than some hundred million pairs of pieces
@@ -54,7 +54,7 @@ struct EstimateOptions {
   /// The average volume (area) of the cells about x, in a region of this label, that sizes ask for; infinity: none do. Empty:
   /// none do anywhere. Those of the regions' seeds (RegionSeed::size) are looked at without it.
   std::function<double(const Point<D>& x, double label)> measure;
-  std::stop_token stop = {};
+  std::stop_token stop = {};  ///< ends it by a CancelledError
 };
 
 /// How many cells there will be.

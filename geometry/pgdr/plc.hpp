@@ -59,8 +59,8 @@ struct Plc {
   std::vector<Point<D>> holes;           ///< a point in each volume (area) that is to stay empty
   std::vector<RegionSeed<D>> regions;    ///< labels and bounds of volumes (areas)
 
-  /// What lies within this distance meets (domain.hpp): an absolute length, in the units of the coordinates. None: the rounding of
-  /// the coordinates, `rounding_tolerance`. 0: everything is exactly as given.
+  /// What lies within this distance meets (domain.hpp): an absolute length, in the units of the coordinates. None: the rounding
+  /// of the coordinates, `rounding_tolerance`. 0: everything is exactly as given.
   std::optional<double> tolerance;
   /// A `tolerance` above a thousandth of the diagonal of all points is meant, and no slip of units; else a Domain refuses it.
   bool is_coarse = false;
@@ -73,8 +73,8 @@ struct Plc {
 
 /// What rounding may have done to these coordinates: 8 ulps of a double at the largest one; where they are floats, 2 ulps of a
 /// float there, if that is no more than a millionth of the diagonal of all points. The default of Plc::tolerance. (Each turn or
-/// shift of a point is a sum of up to four rounded terms, 2 to 3 ulps a coordinate; a rounding to floats is half an ulp of these.)
-/// 0 of no points, or where coordinates are not finite.
+/// shift of a point is a sum of up to four rounded terms, 2 to 3 ulps a coordinate; a rounding to floats is half an ulp of
+/// these.) 0 of no points, or where coordinates are not finite.
 template <int D>
 double rounding_tolerance(const Plc<D>& plc);
 

@@ -21,7 +21,7 @@ struct SurfaceCounts {
   /// Tunnels through it: of a torus 1. None where an edge has more than two facets, or facets touch at a point alone, so that it
   /// is no surface; or where it has one side only.
   std::optional<std::uint64_t> handles;
-  bool operator==(const SurfaceCounts&) const = default;
+  bool operator==(const SurfaceCounts&) const = default;  ///< all counts equal
 };
 
 /// Of the facets as given: points are one where their coordinates are equal.

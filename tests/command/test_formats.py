@@ -332,7 +332,7 @@ class Tetgen(FormatCase):
             self.pgdr("check", self.folder / name, "--input", model, "--report", self.report, expect=6)
             for finding in self.json()["findings"]:
                 self.assertEqual(finding["kind"], "wrong_marker")
-                self.assertRegex(finding["message"], "^Subsegment .* has marker 1, its segment .* has 0")
+                self.assertRegex(finding["message"], "^Subsegment .* has marker 1, but no input segment with that marker has all of it")
 
 
 @unittest.skipUnless(python_with("meshio"), "no Python has meshio")

@@ -11,14 +11,15 @@ import re
 import subprocess
 import sys
 
-DECLARED = re.compile(r"\b(?:class|struct|enum class)\s+(?:\[\[\w+\]\]\s*)?(?:PGDR_API\s+)?(\w+)|\b(\w+)\s*\(")
+DECLARED = re.compile(r"\b(?:class|struct|enum class)\s+(?:\[\[\w+\]\]\s*)?(?:PGDR_API\s+)?(\w+)|\b(\w+)\s*\("
+                      r"|\binline constexpr \w+ (\w+)")
 NESTED = re.compile(r"^_Z(?:T[ISV]|GV|Z)?NK?4pgdr(?:(\d+)|([a-z]{2}))")  # pgdr::NAME... or an operator
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 LEAST = 30  # symbols: fewer, and something is wrong
 
 
 def declared(folder):
-    """Names of classes and functions in public headers whose namespace is exported."""
+    """Names of classes, functions and constants in public headers whose namespace is exported."""
     names = set()
     for path in pathlib.Path(folder, "pgdr").glob("*.hpp"):
         text = COMMENT.sub("", path.read_text(encoding="utf-8"))

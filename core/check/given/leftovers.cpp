@@ -11,6 +11,7 @@
 
 #include "check/given/match.hpp"
 #include "numbers/vectors.hpp"
+#include "pgdr/predicates.hpp"
 #include "space/box_tree.hpp"
 
 namespace pgdr::checking {
@@ -126,6 +127,9 @@ class LeftoverChecker {
 
   void compare(std::uint32_t c, std::uint32_t i, const std::array<HalfSpace<D>, D + 1>& cell) {
     const Leftover<D>& leftover = match_.leftovers[i];
+    // Without a tolerance a point beside the mesh is outside, however near it is.
+    const bool exactly = leftover.kind == EntityKind::vertex && task_.input.tolerance() == 0;
+    if (exactly && !has(corners_of(mesh_, c), leftover.corners[0])) return;
     std::vector<Point<D>> part = leftover.corners;
     for (const auto& side : cell) part = clip<D>(part, side);
     if (part.empty()) return;
@@ -136,6 +140,15 @@ class LeftoverChecker {
     if (!large) return;
     reported_[i] = 1;
     report(c, leftover, part[0]);
+  }
+
+  static bool has(const Simplex<D>& s, const Point<D>& x) {
+    for (int i = 0; i <= D; ++i) {
+      Simplex<D> t = s;
+      t[i] = x;
+      if (orient<D>(t) == Sign::negative) return false;
+    }
+    return true;
   }
 
   void report(std::uint32_t c, const Leftover<D>& leftover, const Point<D>& where) {
