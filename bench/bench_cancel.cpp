@@ -79,6 +79,7 @@ Cancelled cancelled_after(Clock::duration delay, const Domain<3>& domain, Refine
   if (c.cells == 0) return c;
   CheckOptions<3> check_options;
   check_options.domain = &domain;
+  check_options.delaunay = result.delaunay;
   c.valid = check(result.mesh, check_options).exit_code() == 0;
   return c;
 }
@@ -97,7 +98,8 @@ int main(int argc, char** argv) {
   const auto whole = refine(domain, options);
   const auto time = Clock::now() - start;
   std::printf("%zu tetrahedra in %.0f ms (refined after %.0f) on %d threads\n", whole.mesh.cells.size(), milliseconds(time),
-              1000 * (whole.statistics.seconds_initial + whole.statistics.seconds_refine), whole.scheduler.threads);
+              1000 * (whole.statistics.seconds_initial + whole.statistics.seconds_refine + whole.statistics.seconds_optimize),
+              whole.scheduler.threads);
   std::printf("%-12s %-10s %10s %10s %12s %8s\n", "partial mesh", "after ms", "stop", "cells", "latency ms", "cpu ms");
   bool good = true;
   for (const bool partial : {true, false})

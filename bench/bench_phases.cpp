@@ -118,8 +118,8 @@ bool whole_run(const Arguments& a, double size) {
   const auto& s = result.statistics;
   std::printf("%10.0f %7.3f %8.3f %8.3f %7.3f %8.3f %8.3f %7.3f %9.3f %8.3f %8.3f %8.3f %8.3f %9.1f\n", cells, meshing - begin,
               s.seconds_initial, result.scheduler.work_seconds - result.scheduler.serial_seconds, result.scheduler.serial_seconds,
-              s.seconds_mesh - s.seconds_initial - s.seconds_refine, writing - summing, written - writing, ended - reading,
-              s.seconds_mesh, user, system, 1e6 * (user + system) / cells, peak / cells);
+              s.seconds_mesh - s.seconds_initial - s.seconds_refine - s.seconds_optimize, writing - summing, written - writing,
+              ended - reading, s.seconds_mesh, user, system, 1e6 * (user + system) / cells, peak / cells);
   std::fflush(stdout);
   return again.cells == result.mesh.cells && quality.max_radius_edge > 0;
 }

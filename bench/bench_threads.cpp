@@ -193,6 +193,8 @@ bool run(const Domain<D>& domain, bool last, Row<D>& row) {
     options.domain = &domain;
     options.radius_edge_bound = row.options.radius_edge_bound;
     options.size = row.options.size;
+    options.largest_cosine = result.optimization.claimed_cosine;
+    options.delaunay = result.delaunay;
     options.reasons = &result.reasons;
     row.checked = check<D>(result.mesh, options).exit_code();
   }

@@ -178,9 +178,9 @@ def remarks(r):
         yield "more than 10 times TetGen's seconds"
 
 
-def write_table(file, lines):
-    """In place of what is between the marks of the file, which is kept otherwise."""
-    begin, end = "<!-- begin of the table -->", "<!-- end of the table -->"
+def write_table(file, lines, name="table"):
+    """In place of what is between the marks of the file that have this name; all else is kept."""
+    begin, end = f"<!-- begin of the {name} -->", f"<!-- end of the {name} -->"
     old = file.read_text() if file.exists() else ""
     before, after = (old.split(begin)[0], old.split(end)[1]) if begin in old and end in old else ("", "\n")
     file.write_text(before + "\n".join([begin, ""] + lines + ["", end]) + after)

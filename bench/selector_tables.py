@@ -7,7 +7,8 @@ Usage: selector_tables.py COMMAND [--planar FOLDER] [--surface FILE.off]
 
 COMMAND is the pgdr command. FOLDER has pipe_like.poly, cylinder_like.poly, key_like.poly and square1000.poly; FILE.off is
 the elephant of CGAL's demo data (CC0). Tables whose models are not given are left out. Every mesh is checked with
-`pgdr check`; a mesh that is not sound ends the script. Poor elements that are left are shown as +N.
+`pgdr check`; a mesh that is not sound ends the script. Poor elements that are left are shown as +N. Meshes in 3D are those of the
+refinement, without the optimiser, which would move the points that the selectors have chosen.
 """
 import argparse
 import json
@@ -41,7 +42,7 @@ class Command:
 
     def mesh(self, model, selector, *bounds):
         """Meshes and checks; the report."""
-        done = subprocess.run([self.path, "mesh", model, "-o", self.mesh_file, "--selector", selector, "--quiet",
+        done = subprocess.run([self.path, "mesh", model, "-o", self.mesh_file, "--selector", selector, "--no-optimize", "--quiet",
                                "--report", self.report_file, *bounds], check=False)
         checked = subprocess.run([self.path, "check", self.mesh_file, "--input", model, "--reasons", self.report_file,
                                   "--quiet", *bounds], check=False)

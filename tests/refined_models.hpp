@@ -34,6 +34,8 @@ Outcome<D> refine_and_check(const Plc<D>& plc, const RefineOptions<D>& options) 
   check_options.size = options.size;
   check_options.region_sizes = options.region_sizes;
   check_options.max_measure = options.max_volume;
+  check_options.largest_cosine = outcome.result.optimization.claimed_cosine;
+  check_options.delaunay = outcome.result.delaunay;
   check_options.reasons = &outcome.result.reasons;
   outcome.report = check<D>(outcome.result.mesh, check_options);
   return outcome;

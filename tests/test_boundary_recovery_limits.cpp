@@ -88,6 +88,7 @@ TEST(RecoveryLimits, GoesOnWhileLessIsMissing) {
   const Domain<3> domain(plc);
   CheckOptions<3> options;
   options.domain = &domain;
+  options.delaunay = result.delaunay;
   const CheckReport report = check(result.mesh, options);
   EXPECT_EQ(report.exit_code(), 0) << test::findings(report);
   const std::uint64_t points = result.statistics.segment_points + result.statistics.facet_points;

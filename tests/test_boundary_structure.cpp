@@ -53,6 +53,8 @@ test::Outcome<D> refined(const Plc<D>& plc, RegionMode mode, const std::string& 
   check_options.regions = mode;
   check_options.size = size;
   check_options.radius_edge_bound = options.radius_edge_bound;
+  check_options.largest_cosine = out.result.optimization.claimed_cosine;
+  check_options.delaunay = out.result.delaunay;
   check_options.reasons = &out.result.reasons;
   out.report = check<D>(out.result.mesh, check_options);
   EXPECT_EQ(out.result.stop, StopCause::finished) << what;

@@ -34,6 +34,7 @@ template <int D>
 CheckReport run(const Model<D>& model, CheckOptions<D> options, const std::vector<PoorReason>& reasons) {
   const Domain<D> domain(model.plc);
   options.domain = &domain;
+  options.delaunay = true;
   options.reasons = &reasons;
   return check(model.mesh, options);
 }

@@ -17,6 +17,7 @@ CheckReport check_given(const Plc<D>& plc, const OutputMesh<D>& mesh, std::optio
   CheckOptions<D> options;
   options.input = &plc;
   options.tolerance = tolerance;
+  options.delaunay = true;
   return check(mesh, options);
 }
 

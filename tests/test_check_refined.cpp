@@ -36,11 +36,13 @@ TYPED_TEST(CheckRefined, SoundMeshesPassAndDamageIsFound) {
     const Domain<D> domain(model.plc);
     RefineOptions<D> refine_options;
     refine_options.size = 0.9;
+    refine_options.min_dihedral = 0;
     const auto refined = refine(domain, refine_options);
     CheckOptions<D> options;
     options.domain = &domain;
     options.radius_edge_bound = refine_options.radius_edge_bound;
     options.size = refine_options.size;
+    options.delaunay = true;
     options.reasons = &refined.reasons;
     const auto sound = check(refined.mesh, options);
     EXPECT_EQ(sound.exit_code(), refined.reasons.empty() ? 0 : 1) << name << "\n" << listed(sound);

@@ -47,6 +47,7 @@ OutputMesh<D> graded_mesh(double finest, double growth) {
     options.size = [=](const Point3& p) { return finest + growth * std::hypot(p[0], p[1]); };
   }
   options.schedule.executor = Executor::serial;
+  options.min_dihedral = 0;  // the definition is one of Delaunay meshes
   const auto outcome = test::refine_and_check<D>(plc, options);
   EXPECT_EQ(outcome.report.exit_code(), 0) << test::findings(outcome.report);
   return outcome.result.mesh;

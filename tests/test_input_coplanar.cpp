@@ -246,6 +246,8 @@ TEST(Coplanar, AFaceOfManyTrianglesIsCheckedTriangleByTriangle) {
   CheckOptions<3> check_options;
   check_options.domain = &domain;
   check_options.radius_edge_bound = options.radius_edge_bound;
+  check_options.largest_cosine = result.optimization.claimed_cosine;
+  check_options.delaunay = result.delaunay;
   const CheckReport report = check<3>(result.mesh, check_options);
   EXPECT_EQ(report.exit_code(), 0) << test::findings(report);
   const auto& subfacets = result.mesh.subfacets;

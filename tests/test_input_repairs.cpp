@@ -39,6 +39,8 @@ void expect_meshed(const Plc<D>& plc) {
     CheckOptions<D> check_options;
     check_options.domain = &domain;
     check_options.radius_edge_bound = options.radius_edge_bound;
+    check_options.largest_cosine = result.optimization.claimed_cosine;
+    check_options.delaunay = result.delaunay;
     check_options.reasons = &result.reasons;
     const CheckReport report = check<D>(result.mesh, check_options);
     EXPECT_LE(report.exit_code(), 1);

@@ -61,6 +61,8 @@ void mesh(const Plc<D>& plc, RegionMode regions, Tally& tally) {
     check_options.domain = &domain;
     check_options.regions = regions;
     if (result.stop == StopCause::finished) check_options.radius_edge_bound = options.radius_edge_bound;
+    check_options.largest_cosine = result.optimization.claimed_cosine;
+    check_options.delaunay = result.delaunay;
     check_options.reasons = &result.reasons;
     const CheckReport report = check<D>(result.mesh, check_options);
     if (result.stop == StopCause::finished) {

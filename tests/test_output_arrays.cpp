@@ -137,6 +137,7 @@ TEST(Embedding, SmallMeshesGrow) {
     CheckOptions<2> check_options;
     check_options.domain = &domain;
     check_options.size = options.size;
+    check_options.delaunay = true;
     EXPECT_EQ(check(expected.mesh, check_options).exit_code(), 0);
     options.schedule.floor = 10;
     for (const Executor executor : {Executor::flow_graph, Executor::threads, Executor::shuffled}) {

@@ -27,6 +27,7 @@ void expect_sound(const Plc<2>& plc, int ulps, std::size_t most_cells, const std
   CheckOptions<2> check_options;
   check_options.domain = &domain;
   check_options.radius_edge_bound = options.radius_edge_bound;
+  check_options.delaunay = result.delaunay;
   check_options.reasons = &result.reasons;
   const CheckReport report = check<2>(result.mesh, check_options);
   EXPECT_EQ(result.stop, StopCause::finished) << what;

@@ -115,6 +115,7 @@ void expect_graded(const Plc<D>& plc, const std::string& what) {
         options.disk.type = DiskType::type2;
         options.disk.delta = 1 - reach * (1 - 1 / factor);  // delta times the bound is above the smallest proved one
         options.selector = c.selector;
+        options.min_dihedral = 0;  // the bounds are those of the refinement
         const auto [result, report] = test::refine_and_check<D>(plc, options);
         EXPECT_EQ(report.exit_code(), 0) << what << ", " << c.name << "\n" << test::findings(report);
         EXPECT_EQ(result.statistics.selector_outside, 0u);

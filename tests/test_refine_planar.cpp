@@ -67,6 +67,7 @@ void expect_constrained_delaunay(const Plc<2>& plc, std::uint64_t seed) {
   CheckOptions<2> options;
   const Domain<2> domain(plc);
   options.domain = &domain;
+  options.delaunay = true;
   const auto result = refine<2>(domain, unrefined());
   EXPECT_EQ(result.mesh.points.size(), domain.points().size());
   EXPECT_EQ(result.mesh.subsegments.size(), domain.segments().size());
@@ -346,6 +347,7 @@ TEST(KeptBoundary, ReasonsAreVerified) {
   check_options.domain = &domain;
   check_options.radius_edge_bound = options.radius_edge_bound;
   check_options.size = options.size;
+  check_options.delaunay = true;
   check_options.reasons = &result.reasons;
   EXPECT_EQ(check<2>(result.mesh, check_options).exit_code(), 1);
   for (PoorReason& reason : result.reasons) reason.entities[0].id = 7;  // there are four segments

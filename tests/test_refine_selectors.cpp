@@ -150,6 +150,7 @@ TEST(SelectorsModels, FewerCellsAndBlunterAngles) {
     options.selector = selector;
     options.disk.type = DiskType::type1;
     options.radius_edge_bound = bound;
+    options.min_dihedral = 0;
     return refine<3>(test::cube_with_two_points(), options).mesh.cells.size();
   };
   for (const double bound : {2.0, 4.0, 8.0, 16.0}) EXPECT_LT(10 * cells(off_center<3>(), bound), 9 * cells({}, bound));
@@ -163,6 +164,7 @@ TEST(SelectorsModels, FewerCellsAndBlunterAngles) {
     RefineOptions<3> options;
     options.selector = selector;
     options.disk.type = DiskType::type1;
+    options.min_dihedral = 0;
     const auto result = refine<3>(box_with_pairs<3>(150, 0.01, 4), options);
     std::vector<double> least;
     for (const auto& cell : result.mesh.cells) {
@@ -292,6 +294,7 @@ TYPED_TEST(SelectorsRefine, PointsOutsideTheDisk) {
   const Plc<D> plc = box_with_pairs<D>(20, 0.01, 2);
   RefineOptions<D> circumcenters;
   circumcenters.selector = {};
+  circumcenters.min_dihedral = 0;  // as with a selector of one's own
   const auto plain = refine<D>(plc, circumcenters);
   const PointSelector<D> wrong[] = {[](const PoorElement<D>& e) {
                                       Point<D> p = e.circumcenter;

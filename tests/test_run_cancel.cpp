@@ -17,6 +17,7 @@
 #include "pgdr/circumsphere.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/flat_arrays.hpp"
+#include "pgdr/io.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr::test_run_cancel {
@@ -117,6 +118,7 @@ TYPED_TEST(Cancel, PartialMeshesAreValidAndTheirPoorCellsCounted) {
       EXPECT_EQ(result.mesh.regions.size(), whole.mesh.regions.empty() ? 0 : result.mesh.cells.size());
       CheckOptions<D> check_options;
       check_options.domain = &domain;
+      check_options.delaunay = result.delaunay;
       const auto report = check<D>(result.mesh, check_options);
       EXPECT_TRUE(test::unfinished_but_valid(report)) << runner.name << percent << "\n" << test::findings(report);
       const Counted counted = count_poor<D>(result.mesh, o.radius_edge_bound);
@@ -128,6 +130,41 @@ TYPED_TEST(Cancel, PartialMeshesAreValidAndTheirPoorCellsCounted) {
       }
     }
   }
+}
+
+// Beside small angles cavities are cut back, and faces that are not locally Delaunay wait for their repair. A run that is
+// cancelled then does not say that its mesh is Delaunay.
+TEST(Cancel, MeshWithoutItsRepairsIsNotCalledDelaunay) {
+  const Domain<3> domain(read_plc<3>(PGDR_TEST_REGRESSIONS "/plate_fifty_cells.poly"));
+  std::uint64_t calls = 0, stop_at = 0;
+  std::stop_source* source = nullptr;
+  auto o = test::with<3>(options<3>(), test::serial);
+  o.min_dihedral = 0;
+  o.size = SizingField<3>([&](const Point3&) {
+    if (++calls == stop_at) source->request_stop();
+    return 10.0;
+  });
+  ASSERT_TRUE(refine<3>(domain, o).delaunay);
+  const std::uint64_t all = calls;
+  int not_delaunay = 0;
+  for (int part = 1; part < 12; ++part) {
+    std::stop_source this_one;
+    source = &this_one;
+    o.stop = this_one.get_token();
+    calls = 0;
+    stop_at = all * static_cast<std::uint64_t>(part) / 12;
+    const auto result = refine<3>(domain, o);
+    stop_at = 0;
+    ASSERT_EQ(result.stop, StopCause::cancelled) << part;
+    CheckOptions<3> check_options;
+    check_options.domain = &domain;
+    check_options.delaunay = result.delaunay;
+    const auto report = check<3>(result.mesh, check_options);
+    EXPECT_TRUE(test::unfinished_but_valid(report)) << part << "\n" << test::findings(report);
+    check_options.delaunay = true;
+    not_delaunay += check<3>(result.mesh, check_options).count(CheckFinding::Kind::not_delaunay) > 0 ? 1 : 0;
+  }
+  EXPECT_GT(not_delaunay, 0);
 }
 
 // What a time limit leaves is numbered likewise.
@@ -143,6 +180,7 @@ TYPED_TEST(Cancel, TimeLimit) {
     if (result.mesh.cells.empty()) continue;  // a slow machine: no boundary yet
     CheckOptions<D> check_options;
     check_options.domain = &domain;
+    check_options.delaunay = result.delaunay;
     const auto report = check<D>(result.mesh, check_options);
     EXPECT_TRUE(test::unfinished_but_valid(report)) << test::findings(report);
   }

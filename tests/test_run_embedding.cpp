@@ -145,6 +145,7 @@ TEST(ParallelEmbedding, CancelledWithTheCallersTasks) {
   const Domain<3> domain(plc);
   CheckOptions<3> check_options;
   check_options.domain = &domain;
+  check_options.delaunay = outcome.result.delaunay;
   const CheckReport report = check<3>(outcome.result.mesh, check_options);
   EXPECT_EQ(report.exit_code(), 0) << test::findings(report);
   if (outcome.result.stop == StopCause::finished) {

@@ -91,6 +91,7 @@ TEST(ParallelModels, MovedCopiesAreRecovered) {
   for (const fs::path& file : models_below(test::models_folder())) {
     RefineOptions<3> options;
     options.radius_edge_bound = std::numeric_limits<double>::infinity();
+    options.min_dihedral = 0;  // it is the recovery that is tested
     options.time_limit = std::chrono::duration<double>(number_from("PGDR_MODELS_SECONDS", 3));
     try {
       if (file_dimension(file) != 3) continue;

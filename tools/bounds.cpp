@@ -28,8 +28,9 @@ Bounds<D> resolve(const BoundArguments& arguments, double default_radius_edge) {
   const auto refuse = [](const char* sentence) { throw UsageError({.code = Errc::bad_option, .message = sentence}); };
   if (D == 2 && arguments.max_volume) refuse("--max-volume is for 3D; the area bound of a 2D mesh is --size");
   if (D == 3 && arguments.min_angle) refuse("--min-angle is for 2D; use --radius-edge in 3D");
+  if (D == 2 && arguments.min_dihedral) refuse("--min-dihedral is for 3D; use --min-angle in 2D");
 
-  Bounds<D> bounds{default_radius_edge, {}, {}, std::numeric_limits<double>::infinity()};
+  Bounds<D> bounds{default_radius_edge, {}, {}, std::numeric_limits<double>::infinity(), arguments.min_dihedral};
   if (arguments.radius_edge) bounds.radius_edge = *arguments.radius_edge;
   if (arguments.min_angle) bounds.radius_edge = min_angle_degrees(*arguments.min_angle);
   if (arguments.size) bounds.size = parse_size<D>(*arguments.size, "--size");

@@ -4,6 +4,8 @@
 // The bound flags as the library takes them, one reading for `mesh` and `check`.
 #pragma once
 
+#include <optional>
+
 #include "options.hpp"
 #include "pgdr/sizing.hpp"
 
@@ -15,6 +17,7 @@ struct Bounds {
   SizingField<D> size;
   RegionSizes<D> region_sizes;
   double max_volume;
+  std::optional<double> min_dihedral;  ///< degrees; none: not asked for
 };
 
 /// @throws UsageError for a flag of the other dimension or a size that cannot be used.

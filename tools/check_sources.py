@@ -50,11 +50,11 @@ ROOMS = {
         "cavity": Room("what does a new point delete and make?", "rule", "cavity.hpp", ""),
         "boundary": Room("how do the input's segments, facets and regions get into the mesh?", "cavity",
                          "recovery.hpp labeling.hpp", ""),
-        "change": Room("how do cells change without a new point?", "cavity", "flips.hpp rewrap.hpp", ""),
-        "refine": Room("what waits, what is encroached or hidden, what is split?", "change",
+        "change": Room("how do cells change without a new point?", "rule", "replacement.hpp flips.hpp", ""),
+        "refine": Room("what waits, what is encroached or hidden, what is split?", "cavity change",
                        "refiner.hpp element_splitter.hpp encroachment.hpp", ""),
+        "optimize": Room("which change makes the worst cells better?", "refine", "optimizer.hpp", ""),
         "reasons": Room("which small angle is to blame for a poor element?", "refine", "poor_reasons.hpp", ""),
-        "improve": Room("what else helps elements that stay poor?", "reasons", "improvement.hpp change_judge.hpp", ""),
         "compact": Room("how is the finished mesh numbered?", "mesh output", "compact.hpp", ""),
         "check": Room("is a finished mesh what it should be?", "size", "check.cpp", "check"),
         "io": Room("how are files read and written?", "output", "io.cpp read/ply.cpp", "io"),
@@ -64,7 +64,7 @@ ROOMS = {
         "graph": Room("what runs visits that wait for each other?", "", "visit_graph.hpp", ""),
         "claims": Room("what may a visit change, and which visits wait?", "tree graph mesh", "claim.hpp", ""),
         "run": Room("how does an input become a mesh, and which leaf is refined when?",
-                    "claims boundary improve compact check", "refine.cpp generations.hpp", "refine pgdr"),
+                    "claims boundary optimize reasons compact check", "refine.cpp generations.hpp", "refine pgdr"),
     },
 }
 EVERYWHERE = {"export", "types", "error", "version"}  # public headers of geometry/ that belong to no room

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <exception>
+#include <numeric>
 #include <optional>
 
 #include <tbb/parallel_invoke.h>
@@ -228,6 +229,41 @@ class InputInfo {
 };
 
 template <int D>
+std::string angle_range(const QualityMeasures& q) {
+  return format("%s %.2f to %.2f degrees", D == 3 ? "dihedral angles" : "angles", q.min_angle_deg, q.max_angle_deg);
+}
+
+std::string words(const MeasureSummary& m) {
+  return format("from %.3f, 1 %% quantile %.3f, mean %.3f", m.least, m.one_percent, m.mean);
+}
+
+/// What is summed up of all cells, and in a line each of the first regions, if there are several.
+template <int D>
+void print_quality(const QualitySummary& q) {
+  constexpr std::size_t most_regions = 20;
+  print_row("quality", format("radius-edge up to %.4f, ", q.max_radius_edge) + angle_range<D>(q));
+  const auto& [least, one, five] = q.smallest_angle_quantiles_deg;
+  print_row("", format("smallest angle of a cell: 0.1, 1, 5 %% quantile %.2f, %.2f, %.2f degrees", least, one, five));
+  print_row("", "radius ratio " + words(q.radius_ratio));
+  print_row("", "scaled Jacobian " + words(q.scaled_jacobian));
+  const std::uint64_t most = *std::max_element(q.histogram.begin(), q.histogram.end());
+  for (std::size_t i = 0; i < q.histogram.size(); ++i) {
+    const auto bar = most ? static_cast<std::size_t>(50 * q.histogram[i] / most) : 0;
+    print_row("", format("%3zu-%3zu %12llu", 10 * i, 10 * i + 10, static_cast<unsigned long long>(q.histogram[i])) +
+                      (bar ? ' ' + std::string(bar, '#') : ""));
+  }
+  if (q.regions.size() < 2) return;
+  for (std::size_t r = 0; r < std::min(most_regions, q.regions.size()); ++r) {
+    const RegionQuality& region = q.regions[r];
+    const auto& cells = region.cells_by_smallest_angle;
+    print_row("region " + digits(region.label), count_cells<D>(std::accumulate(cells.begin(), cells.end(), std::uint64_t{0})) +
+                                                    ", " + angle_range<D>(region) +
+                                                    format(", 1 %% quantile %.2f", region.smallest_angle_quantiles_deg[1]));
+  }
+  if (q.regions.size() > most_regions) print_row("", count(q.regions.size() - most_regions, "more region", "more regions"));
+}
+
+template <int D>
 int info_of_mesh(const InfoArguments& a, Report& report) {
   const OutputMesh<D> mesh = read_mesh<D>(a.file);
   const QualitySummary q = summarize_quality(mesh);
@@ -245,14 +281,7 @@ int info_of_mesh(const InfoArguments& a, Report& report) {
                        count(mesh.subsegments.size(), "subsegment", "subsegments");
   if (D == 3) counts += ", " + count(mesh.subfacets.size(), "subfacet", "subfacets");
   print_row("counts", counts);
-  print_row("quality", format("radius-edge up to %.4f, %s %.2f to %.2f degrees", q.max_radius_edge,
-                              D == 3 ? "dihedral angles" : "angles", q.min_angle_deg, q.max_angle_deg));
-  const std::uint64_t most = *std::max_element(q.histogram.begin(), q.histogram.end());
-  for (std::size_t i = 0; i < q.histogram.size(); ++i) {
-    const auto bar = most ? static_cast<std::size_t>(50 * q.histogram[i] / most) : 0;
-    print_row("", format("%3zu-%3zu %12llu", 10 * i, 10 * i + 10, static_cast<unsigned long long>(q.histogram[i])) +
-                      (bar ? ' ' + std::string(bar, '#') : ""));
-  }
+  print_quality<D>(q);
   return exit_done;
 }
 

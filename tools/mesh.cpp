@@ -37,6 +37,7 @@ RefineOptions<D> make_options(const MeshArguments& a, const Bounds<D>& bounds) {
   options.size = bounds.size;
   options.region_sizes = bounds.region_sizes;
   options.max_volume = bounds.max_volume;
+  options.min_dihedral = a.no_optimize ? 0 : bounds.min_dihedral;
   const std::string selector = a.selector.value_or(usual_selector<D>());
   options.selector = make_selector<D>(selector);
   options.disk = {a.disk.value_or(a.delta > 0 ? DiskType::type2 : usual_disk(selector)), a.delta};
@@ -98,10 +99,11 @@ std::size_t threads_that_ran(const RefineResult<D>& r) {
 }
 
 /// The violations of the finished mesh; null after a run that was ended early, when nobody wants to wait for it: such a mesh may
-/// have many, and each takes rationals. (A look at every face would take more than a tenth of the time of meshing.)
+/// have many, and each takes rationals; and where the optimiser ran, which makes them. (A look at every face would take more than
+/// a tenth of the time of meshing.)
 template <int D>
 Json not_delaunay(const RefineResult<D>& r) {
-  if (r.stop == StopCause::cancelled || r.stop == StopCause::time_limit) return nullptr;
+  if (!r.delaunay || r.stop == StopCause::cancelled || r.stop == StopCause::time_limit) return nullptr;
   const NotDelaunay n = count_not_delaunay(r.mesh, r.violations_seen);
   return JsonObject{{"rounding", n.rounding}, {"refused", n.other}};
 }
@@ -124,6 +126,8 @@ void fill(Report& report, const MeshArguments& a, const Threads& threads, const 
   JsonObject quality = to_json(q);
   quality.set("not_delaunay", not_delaunay(r));
   report.set("quality", quality);
+  report.set("delaunay", r.delaunay);
+  if (r.optimization.target > 0) report.set("optimization", to_json(r.optimization, r.stop == StopCause::finished));
   report.set("bounds", JsonObject{{"radius_edge", bounds.radius_edge},
                                   {"size_met", r.size_met},
                                   {"poor_left", r.poor_left},
@@ -131,6 +135,7 @@ void fill(Report& report, const MeshArguments& a, const Threads& threads, const 
                                   {"reasons", to_json(r.reasons)}});
   report.set("regions", to_json(r.regions));
   report.set("scheduler", to_json(r.scheduler));
+  report.set("stages", to_json(s.stages));
   report.set("insertions", JsonObject{{"committed", s.insertions_committed}, {"refused", s.insertions_refused}});
   report.set("predicates", to_json(s.predicates));
   report.set("selector_outside", s.selector_outside);
@@ -145,7 +150,7 @@ std::string verdict(const RefineResult<D>& r) {
                      : r.poor_left == 0              ? "every bound is met"
                                                      : count(r.poor_left, "element stays poor", "elements stay poor");
   if (r.reasons.size() > r.poor_left) text += ", " + count(r.reasons.size() - r.poor_left, "is", "are") + " not Delaunay";
-  std::array<std::uint64_t, 4> by_code{};
+  std::array<std::uint64_t, static_cast<std::size_t>(PoorReason::Code::budget) + 1> by_code{};
   for (const PoorReason& reason : r.reasons) ++by_code[static_cast<std::size_t>(reason.code)];
   const char* separator = ": ";
   for (std::size_t i = 0; i < by_code.size(); ++i) {
@@ -170,9 +175,12 @@ void print_summary(const MeshArguments& a, const Plc<D>& plc, const Bounds<D>& b
   print_row("input", format("%s (%dD, %s)", a.input.c_str(), D, count(plc.points.size(), "point", "points").c_str()));
   if (!r.repairs.empty()) print_row("repaired", count(r.repairs.size(), "defect", "defects") + ", see --report");
   print_row("mesh", count(r.mesh.points.size(), "vertex", "vertices") + ", " + count_cells<D>(r.mesh.cells.size()));
-  if (!r.mesh.cells.empty())
-    print_row("quality", format("radius-edge up to %.4f (bound %.4g), %s %.2f to %.2f degrees", q.max_radius_edge,
-                                bounds.radius_edge, D == 3 ? "dihedral angles" : "angles", q.min_angle_deg, q.max_angle_deg));
+  if (!r.mesh.cells.empty()) {
+    const std::string least = r.optimization.target > 0 ? format(" (bound %.4g)", r.optimization.target) : "";
+    print_row("quality",
+              format("radius-edge up to %.4f (bound %.4g), %s %.2f to %.2f degrees%s", q.max_radius_edge, bounds.radius_edge,
+                     D == 3 ? "dihedral angles" : "angles", q.min_angle_deg, q.max_angle_deg, least.c_str()));
+  }
   if (r.stop != StopCause::finished && r.mesh.cells.empty())
     print_row("stopped", format("%s, before the boundary was there: there is no mesh to write", words(r.stop)));
   else if (r.stop != StopCause::finished)
@@ -191,13 +199,15 @@ void print_summary(const MeshArguments& a, const Plc<D>& plc, const Bounds<D>& b
 template <int D>
 void write_trace(const MeshArguments& a, const RefineResult<D>& r, const Seconds& seconds) {
   const RefineStatistics& s = r.statistics;
-  const double refine_at = seconds.mesh_at + s.seconds_initial, compact_at = refine_at + s.seconds_refine;
+  const double refine_at = seconds.mesh_at + s.seconds_initial, optimize_at = refine_at + s.seconds_refine;
+  const double compact_at = optimize_at + s.seconds_optimize;
   std::vector<Phase> phases{{"read", seconds.read_at, seconds.read_at + seconds.read},
                             {"initial", seconds.mesh_at, refine_at},
-                            {"refine", refine_at, compact_at},
+                            {"refine", refine_at, optimize_at},
+                            {"optimize", optimize_at, compact_at},
                             {"compact", compact_at, seconds.mesh_at + s.seconds_mesh},
                             {"write", seconds.write_at, seconds.write_at + seconds.write}};
-  write_trace(a.trace, phases, r.trace, seconds.mesh_at);
+  write_trace(a.trace, phases, s.stages, r.trace, seconds.mesh_at);
 }
 
 template <int D>
@@ -327,6 +337,7 @@ class MeshRun {
                                       {"mesh", s.seconds_mesh},
                                       {"initial", s.seconds_initial},
                                       {"refine", s.seconds_refine},
+                                      {"optimize", s.seconds_optimize},
                                       {"write", seconds_.write},
                                       {"total", seconds_.total}});
     report_.set("peak_rss_bytes", peak_rss_bytes());

@@ -31,11 +31,6 @@ CLI::Validator number(const std::string& range, bool (*accept)(double)) {
           "", "number " + range};
 }
 
-/// What the other validator takes, or the word.
-CLI::Validator auto_or(const CLI::Validator& other) {
-  return {[other](std::string& text) { return text == "auto" ? std::string() : other(text); }, "", "number or auto"};
-}
-
 /// A whole number in decimal digits, which CLI11 alone would let wrap round zero.
 CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
   return {[least, most](std::string& text) {
@@ -59,7 +54,7 @@ const std::map<std::string, Schedule> schedules{{"reproducible", Schedule::repro
 const std::map<std::string, RegionMode> region_modes{{"seeds", RegionMode::seeds}, {"auto", RegionMode::automatic}};
 
 const std::map<std::string, ViewColor> view_colors{
-    {"quality", ViewColor::quality}, {"region", ViewColor::region}, {"leaf", ViewColor::leaf}};
+    {"quality", ViewColor::quality}, {"dihedral", ViewColor::dihedral}, {"region", ViewColor::region}, {"leaf", ViewColor::leaf}};
 
 /// Finite numbers between commas; none if the text is anything else.
 std::vector<double> numbers(const std::string& text) {
@@ -103,7 +98,8 @@ CLI::Validator one_of(const std::map<std::string, Value>& words, std::string wha
 }
 
 /// @param without  what holds if --radius-edge is not given
-void add_bounds(CLI::App& app, BoundArguments& b, const std::string& without) {
+/// @param without_dihedral  likewise
+CLI::Option* add_bounds(CLI::App& app, BoundArguments& b, const std::string& without, const std::string& without_dihedral) {
   auto* radius_edge = app.add_option("--radius-edge", b.radius_edge,
                                      "bound on circumradius over shortest edge (default " + without + ")")
                           ->type_name("R")
@@ -135,6 +131,11 @@ void add_bounds(CLI::App& app, BoundArguments& b, const std::string& without) {
       ->type_name("A")
       ->check(number("between 0 and 60", [](double v) { return v > 0 && v < 60; }))
       ->excludes(radius_edge);
+  return app
+      .add_option("--min-dihedral", b.min_dihedral,
+                  "3D: smallest dihedral angle in degrees, up to 35 (default " + without_dihedral + ")")
+      ->type_name("A")
+      ->check(number("between 0 and 35", [](double v) { return v >= 0 && v <= most_min_dihedral; }));
 }
 
 void add_input(CLI::App& app, InputArguments& p) {
@@ -177,7 +178,11 @@ void add_output(CLI::App& app, MeshArguments& a) {
 void add_mesh(CLI::App& app, MeshArguments& a) {
   app.add_option("INPUT", a.input, "what to mesh: .poly .smesh .node .off .obj .ply .stl .mesh .msh")->required()->type_name("");
   add_output(app, a);
-  add_bounds(app, a.bounds, "2 in 3D, sqrt 2 in 2D, the smallest with a proof");
+  auto* min_dihedral = add_bounds(app, a.bounds, "2 in 3D, sqrt 2 in 2D, the smallest with a proof",
+                                  "15; 0 with a --selector other than circumcenter");
+  app.add_flag("--no-optimize", a.no_optimize,
+               "3D: leave the refined mesh as it is, Delaunay, with any dihedral angles; as --min-dihedral 0")
+      ->excludes(min_dihedral);
   add_input(app, a.reading);
   add_regions(app, a.regions);
   app.add_flag("--keep-boundary", a.keep_boundary, "2D: no new points on segments");
@@ -229,7 +234,9 @@ void add_mesh(CLI::App& app, MeshArguments& a) {
 void add_check(CLI::App& app, CheckArguments& a) {
   app.add_option("MESH", a.mesh, "the mesh to check: .vtu .msh .mesh .node .ele")->required()->type_name("");
   app.add_option("--input", a.input, "what it is a mesh of; without it, conformity is not checked")->type_name("INPUT");
-  add_bounds(app, a.bounds, "that of the report of --reasons; none without one");
+  add_bounds(app, a.bounds, "that of the report of --reasons; none without one", "likewise");
+  app.add_flag("--delaunay", a.delaunay,
+               "ask for a Delaunay mesh, also where the report of --reasons does not say that it is one");
   add_input(app, a.reading);
   add_regions(app, a.regions);
   app.add_option("--reasons", a.reasons, "report of `pgdr mesh`, whose bounds.reasons explain poor cells")
@@ -250,7 +257,8 @@ void add_view(CLI::App& app, ViewArguments& a) {
   app.add_option_function<std::string>(
          "--color", [&a](const std::string& t) { a.color = view_colors.at(t); },
          "quality (default): by the smallest (dihedral) angle, red is poor; in 3D of the "
-         "cells that a cut opens; region: by label; leaf: by leaf of the tree, of a mesh made "
+         "cells that a cut opens; dihedral: of all cells, in classes of degrees, red is below 5; region: by label; leaf: by leaf "
+         "of the tree, of a mesh made "
          "with --leaves")
       ->type_name("NAME")
       ->check(one_of(view_colors, "colourings"));

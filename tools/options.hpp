@@ -25,6 +25,7 @@ struct BoundArguments {
   std::optional<double> size_growth;      ///< of these sizes; none: as they are
   std::optional<double> max_volume;
   std::optional<double> min_angle;
+  std::optional<double> min_dihedral;
 };
 
 /// How an input is read, and what is done to it before anything else.
@@ -40,7 +41,7 @@ struct MeshArguments {
   bool edges = false, neighbors = false, leaves = false;  ///< what is written beside the mesh
   BoundArguments bounds;
   InputArguments reading;
-  bool keep_boundary = false, no_refine = false;
+  bool keep_boundary = false, no_refine = false, no_optimize = false;
   std::optional<std::string> selector;  ///< NAME or NAME:PARAMETER (selector.hpp); none: as usual for the dimension
   std::optional<DiskType> disk;         ///< none: as usual for the selector
   RegionMode regions = RegionMode::seeds;
@@ -62,6 +63,7 @@ struct CheckArguments {
   InputArguments reading;
   std::optional<RegionMode> regions;  ///< none: as `reasons` says, or seeds
   std::string reasons;                ///< a report of `mesh`
+  bool delaunay = false;              ///< is it to be Delaunay?
   std::string report;
   bool quiet = false;
 };
@@ -73,7 +75,7 @@ struct InfoArguments {
   bool quiet = false;
 };
 
-enum class ViewColor { quality, region, leaf };
+enum class ViewColor { quality, dihedral, region, leaf };
 
 /// The plane where coordinate `axis` has this value.
 struct CutPlane {

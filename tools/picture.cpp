@@ -11,6 +11,7 @@
 #include "pgdr/circumsphere.hpp"
 #include "pgdr/error.hpp"
 #include "pgdr/predicates.hpp"
+#include "pgdr/quality.hpp"
 
 namespace pgdr::tool {
 namespace {
@@ -79,6 +80,13 @@ double quality(const Simplex<D>& s) {
   return std::min(1.0, smallest / std::acos(1.0 / D));
 }
 
+/// In degrees.
+template <int D>
+double smallest_angle(const Simplex<D>& s) {
+  const auto angles = angles_deg<D>(s);
+  return *std::min_element(angles.begin(), angles.end());
+}
+
 Color mix(const Color& a, const Color& b, double t) {
   const auto channel = [t](double from, double to) { return static_cast<std::uint8_t>(std::lround(from + t * (to - from))); };
   return {channel(a.red, b.red), channel(a.green, b.green), channel(a.blue, b.blue)};
@@ -91,6 +99,14 @@ Color quality_color(double q) {
   const double at = q * (stops.size() - 1);
   const std::size_t i = std::min<std::size_t>(static_cast<std::size_t>(at), stops.size() - 2);
   return mix(stops[i], stops[i + 1], at - static_cast<double>(i));
+}
+
+/// The colour of the class of an angle in degrees, from red (below 5) to blue (40 or more): ColorBrewer's RdYlBu.
+Color angle_color(double angle) {
+  constexpr std::array<double, 6> limits{5, 10, 15, 20, 30, 40};
+  constexpr std::array<Color, 7> classes{
+      {{215, 48, 39}, {252, 141, 89}, {254, 224, 144}, {255, 255, 191}, {224, 243, 248}, {145, 191, 219}, {69, 117, 180}}};
+  return classes[static_cast<std::size_t>(std::upper_bound(limits.begin(), limits.end(), angle) - limits.begin())];
 }
 
 /// The n-th of colours whose hues are far apart.
@@ -114,6 +130,7 @@ class Colors {
   }
   Color of(std::size_t cell) const {
     if (by_ == ViewColor::quality) return quality_color(quality(simplex(mesh_, cell)));
+    if (by_ == ViewColor::dihedral) return angle_color(smallest_angle(simplex(mesh_, cell)));
     if (labels_.empty()) return region_color(0);
     const double label = by_ == ViewColor::leaf ? static_cast<double>(mesh_.leaves[cell]) : mesh_.regions[cell];
     const auto at = std::lower_bound(labels_.begin(), labels_.end(), label);

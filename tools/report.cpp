@@ -12,7 +12,22 @@
 namespace pgdr::tool {
 namespace {
 
-constexpr std::array<const char*, 4> code_names{"small_angle", "rounding", "beyond_theory", "kept_boundary"};
+JsonObject to_json(const MeasureSummary& m) { return {{"min", m.least}, {"1%", m.one_percent}, {"mean", m.mean}}; }
+
+void set_measures(JsonObject& o, const QualityMeasures& q) {
+  const auto& [least, one, five] = q.smallest_angle_quantiles_deg;
+  o.set("max_radius_edge", q.max_radius_edge);
+  o.set("min_angle_deg", q.min_angle_deg);
+  o.set("max_angle_deg", q.max_angle_deg);
+  o.set("smallest_angles_deg", JsonObject{{"0.1%", least}, {"1%", one}, {"5%", five}});
+  o.set("radius_ratio", to_json(q.radius_ratio));
+  o.set("scaled_jacobian", to_json(q.scaled_jacobian));
+  o.set("cells_by_smallest_angle", q.cells_by_smallest_angle);
+  o.set("histogram", q.histogram);
+}
+
+constexpr std::array<const char*, 7> code_names{"small_angle",    "rounding",  "beyond_theory", "kept_boundary",
+                                                "input_dihedral", "not_found", "budget"};
 constexpr std::array<const char*, 4> kind_names{"vertex", "segment", "facet", "volume"};
 
 Json to_json(const EntityRef& e) {
@@ -66,10 +81,16 @@ JsonObject to_json(const Diagnostic& d) {
 }
 
 JsonObject to_json(const QualitySummary& q) {
-  return {{"max_radius_edge", q.max_radius_edge},
-          {"min_angle_deg", q.min_angle_deg},
-          {"max_angle_deg", q.max_angle_deg},
-          {"histogram", q.histogram}};
+  JsonObject all;
+  set_measures(all, q);
+  std::vector<Json> regions;
+  for (const RegionQuality& r : q.regions) {
+    JsonObject region{{"label", r.label}};
+    set_measures(region, r);
+    regions.push_back(std::move(region));
+  }
+  all.set("regions", regions);
+  return all;
 }
 
 JsonObject to_json(const PoorReason& r) {
@@ -113,6 +134,22 @@ JsonObject to_json(const SchedulerStatistics& s) {
           {"busy_seconds", s.busy_seconds}};
 }
 
+JsonObject to_json(const OptimizationStatistics& s, bool finished) {
+  const auto when_finished = [finished](auto value) { return finished ? Json(value) : Json(nullptr); };
+  return {{"target", s.target},
+          {"claimed_cosine", when_finished(s.claimed_cosine)},
+          {"moves", s.moves},
+          {"edge_removals", s.edge_removals},
+          {"reconnections", s.reconnections},
+          {"inserted", s.inserted},
+          {"removed", s.removed},
+          {"evaluated", s.evaluated},
+          {"left", when_finished(s.left)},
+          {"unexplained", when_finished(s.unexplained)}};
+}
+
+JsonObject to_json(const StageTime& s) { return {{"name", s.name}, {"seconds", s.seconds}}; }
+
 JsonObject to_json(const CheckFinding& f) { return {{"kind", pgdr::name(f.kind)}, {"message", f.message}, {"ids", f.ids}}; }
 
 const char* name(StopCause cause) {
@@ -148,6 +185,9 @@ ReportedBounds read_bounds(const std::string& file) {
     };
     read.resolve_crossings = holds("resolve_crossings", true);
     read.convex_hull = holds("convex_hull", true);
+    read.delaunay = holds("delaunay", true);
+    if (const auto o = report.find("optimization"); o != report.end() && o->is_object())
+      if (const auto k = o->find("claimed_cosine"); k != o->end() && k->is_number()) read.largest_cosine = k->get<double>();
     if (holds("region_mode", name(RegionMode::automatic))) read.regions = RegionMode::automatic;
   } catch (const std::bad_alloc&) {
     throw;

@@ -39,6 +39,8 @@ JsonObject to_json(const RegionVolume& r);
 JsonObject to_json(const SurfaceCounts& counts);
 JsonObject to_json(const PredicateCounts& counts);  ///< shares by stage, and `calls`
 JsonObject to_json(const SchedulerStatistics& s);
+JsonObject to_json(const OptimizationStatistics& s, bool finished);  ///< `finished`: the run did, so that its claims hold
+JsonObject to_json(const StageTime& s);
 JsonObject to_json(const CheckFinding& finding);
 /// An array of these.
 template <class Value>
@@ -58,6 +60,8 @@ struct ReportedBounds {
   std::vector<PoorReason> reasons;
   std::optional<double> radius_edge;                    ///< the bound of a run that refined to its end
   std::optional<double> tolerance;                      ///< Domain::tolerance
+  std::optional<double> largest_cosine;                 ///< of dihedral angles, as the optimiser claims it
+  bool delaunay = false;                                ///< does the report say that the mesh is?
   bool resolve_crossings = false, convex_hull = false;  ///< what was done to the input, 2D
   RegionMode regions = RegionMode::seeds;
 };

@@ -12,8 +12,8 @@
 namespace pgdr::tool {
 namespace {
 
-constexpr int process = 1, row_of_phases = 0;
-int row_of_thread(std::uint32_t thread) { return static_cast<int>(thread) + 1; }
+constexpr int process = 1, row_of_phases = 0, row_of_stages = 1;
+int row_of_thread(std::uint32_t thread) { return static_cast<int>(thread) + 2; }
 
 /// Events, one a line.
 class Events {
@@ -58,15 +58,18 @@ void put_visit(Events& events, const VisitTrace& v, double mesh_at) {
 
 }  // namespace
 
-void write_trace(const std::string& file, std::span<const Phase> phases, std::span<const VisitTrace> visits, double mesh_at) {
+void write_trace(const std::string& file, std::span<const Phase> phases, std::span<const StageTime> stages,
+                 std::span<const VisitTrace> visits, double mesh_at) {
   std::uint32_t threads = 0;
   for (const VisitTrace& v : visits) threads = std::max(threads, v.thread + 1);
   write_whole(file, "the trace", [&](std::ostream& out) {
     out << "{\"displayTimeUnit\": \"ms\", \"traceEvents\": [\n";
     Events events(out);
     events.name_row(row_of_phases, "phases");
+    events.name_row(row_of_stages, "stages");
     for (std::uint32_t t = 0; t < threads; ++t) events.name_row(row_of_thread(t), "thread " + std::to_string(t));
     for (const Phase& p : phases) events.slice(row_of_phases, p.name, p.start, p.end, {});
+    for (const StageTime& s : stages) events.slice(row_of_stages, s.name, mesh_at + s.start, mesh_at + s.start + s.seconds, {});
     for (const VisitTrace& v : visits) put_visit(events, v, mesh_at);
     out << "\n]}\n";
   });

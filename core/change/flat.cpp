@@ -49,14 +49,11 @@ auto LocalFlips<D>::remove_flat_cell(Pools& pools, CellId c) -> Outcome {
       assert(may_read(cell.links[end].cell()));
       if (!owns(cell.links[end].cell())) return Outcome::not_owned;
     }
-    new_cells_.clear();
-    for (const int end : ends) {
-      const Link beyond = cell.links[end];
-      mesh_->constrain_face(pools, beyond.cell(), beyond.face(), old.face_entity[i]);
-      mesh_->cell(beyond.cell()).links[beyond.face()] = Link{};
-      new_cells_.push_back(beyond.cell());
-    }
-    mesh_->free_cell(pools, c);
+    old_ = {c};
+    new_walls_.clear();
+    for (const int end : ends) new_walls_.push_back(face_without(cell.vertices, end));
+    wall_entity_ = old.face_entity[i];
+    replace(pools, {});
     return Outcome::flipped;
   }
   return Outcome::stuck;

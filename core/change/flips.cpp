@@ -80,7 +80,7 @@ bool LocalFlips<D>::try_two_cells(Pools& pools, CellId c, int face) {
   const std::vector<NewCell> cells = cells_across(c, face);
   if (cells.empty()) return false;
   take_old({c, mesh_->cell(c).links[face].cell()});
-  if (const int before = violations(); violations_of(cells, before).size() > static_cast<std::size_t>(before)) return false;
+  if (const int before = violations(); violations_of(cells, before) > before) return false;
   replace(pools, cells);
   return true;
 }
@@ -136,7 +136,7 @@ auto LocalFlips<D>::try_edge(Pools& pools, CellId c, int edge, Condition conditi
       add_walls(ring, u, w);
       most = violations() - (condition == Condition::better && ring.cells.size() > 3);
     }
-    if (most < 0 || !walls_are_free() || violations_of(cells, most).size() > static_cast<std::size_t>(most)) continue;
+    if (most < 0 || !walls_are_free() || violations_of(cells, most) > most) continue;
     replace(pools, cells);
     return Outcome::flipped;
   }
@@ -186,29 +186,21 @@ void LocalFlips<D>::add_walls(const Ring& ring, VertexId u, VertexId w) {
   }
 }
 
-/// Records the outer faces and subsegments of the cells, and the constrained faces between them.
+/// Records the outer faces of the cells, and the constrained faces between them.
 template <int D>
 void LocalFlips<D>::take_old(std::vector<CellId> cells) {
   old_ = std::move(cells);
   outer_.clear();
-  subsegments_.clear();
   old_walls_.clear();
   new_walls_.clear();
   for (const CellId c : old_) {
     const auto& k = mesh_->cell(c);
-    const auto* constraints = mesh_->constraints(c);
     for (int f = 0; f <= D; ++f) {
       const bool constrained = mesh_->constrained(c, f);
       const Link link = k.links[f];
       const bool inner = link && std::find(old_.begin(), old_.end(), link.cell()) != old_.end();
       if (inner && constrained) old_walls_.push_back(sorted_face(k.vertices, f));
-      if (!inner)
-        outer_.push_back({sorted_face(k.vertices, f), link, constrained, constrained ? constraints->face_entity[f] : no_entity});
-    }
-    if constexpr (D == 3) {
-      if (!constraints) continue;
-      for (int e = 0; e < 6; ++e)
-        if (constraints->has_edge(e)) subsegments_.push_back({ends_of_edge(k.vertices, e), constraints->edge_entity[e]});
+      if (!inner) outer_.push_back({sorted_face(k.vertices, f), link, constrained});
     }
   }
 }
@@ -244,14 +236,14 @@ bool LocalFlips<D>::is_wall(const Face& f) const {
          std::find(new_walls_.begin(), new_walls_.end(), f) != new_walls_.end();
 }
 
-/// The same that these cells would have, in place of the old ones; no more are looked for than one above `most`.
+/// The same that these cells would have, in place of the old ones; no more are counted than one above `most`.
 template <int D>
-auto LocalFlips<D>::violations_of(const std::vector<NewCell>& cells, std::size_t most) -> std::vector<Violation> {
-  std::vector<Violation> found;
+int LocalFlips<D>::violations_of(const std::vector<NewCell>& cells, int most) {
+  int count = 0;
   faces_.clear();
   for (const NewCell& cell : cells)
     for (int f = 0; f <= D; ++f) faces_.push_back(sorted_face(cell.vertices, f));
-  for (std::size_t i = 0; i < faces_.size() && found.size() <= most; ++i) {
+  for (std::size_t i = 0; i < faces_.size() && count <= most; ++i) {
     if (is_wall(faces_[i])) continue;
     VertexId apex = no_vertex;
     const OuterFace* o = outer(faces_[i]);
@@ -263,64 +255,19 @@ auto LocalFlips<D>::violations_of(const std::vector<NewCell>& cells, std::size_t
         if (j != i && faces_[j] == faces_[i]) apex = cells[j / (D + 1)].vertices[j % (D + 1)];
     }
     if (apex == no_vertex) continue;
-    const std::size_t cell = i / (D + 1);
-    if (in_sphere<D>(mesh_->points(cells[cell].vertices), mesh_->point(apex)) == Sign::positive)
-      found.push_back({cell, apex, !o});
+    count += in_sphere<D>(mesh_->points(cells[i / (D + 1)].vertices), mesh_->point(apex)) == Sign::positive;
   }
-  return found;
-}
-
-template <int D>
-CellId LocalFlips<D>::make_cell(Pools& pools, const NewCell& cell) {
-  const Vertices& v = cell.vertices;
-  assert(!area_ || area_->owns(*mesh_, v));
-  const CellId c = mesh_->new_cell(pools);
-  auto& k = mesh_->cell(c);
-  mesh_->set_vertices(c, v);
-  k.links.fill(Link{});
-  mesh_->set_region(c, cell.region);
-  mesh_->set_sphere(c);
-  for (int f = 0; f <= D; ++f) {
-    const OuterFace* o = outer(sorted_face(v, f));
-    if (!o) continue;
-    k.links[f] = o->link;
-    assert(!o->link || may_read(o->link.cell()));
-    if (o->link) mesh_->cell(o->link.cell()).links[o->link.face()] = Link(c, f);
-    if (o->constrained) mesh_->constrain_face(pools, c, f, o->entity);
-  }
-  if constexpr (D == 3) {
-    for (const Subsegment& s : subsegments_) {
-      const int a = corner_of(v, s.ends[0]), b = corner_of(v, s.ends[1]);
-      if (a <= D && b <= D) mesh_->constrain_edge(pools, c, edge_of_ends[a][b], s.entity);
-    }
-  }
-  mesh_->enlist(c);
-  return c;
+  return count;
 }
 
 template <int D>
 void LocalFlips<D>::replace(Pools& pools, const std::vector<NewCell>& cells) {
-  assert(std::all_of(old_.begin(), old_.end(), [this](CellId c) { return mesh_->alive(c) && owns(c); }));
-  new_cells_.clear();
-  for (const NewCell& cell : cells) new_cells_.push_back(make_cell(pools, cell));
-  for (const CellId c : new_cells_)
-    for (int f = 0; f <= D; ++f) {
-      const Face face = sorted_face(mesh_->cell(c).vertices, f);
-      const bool wall = std::find(new_walls_.begin(), new_walls_.end(), face) != new_walls_.end();
-      if (!outer(face))
-        for (const CellId other : new_cells_)
-          for (int g = 0; g <= D; ++g)
-            if (other != c && sorted_face(mesh_->cell(other).vertices, g) == face) mesh_->cell(c).links[f] = Link(other, g);
-      const Link link = mesh_->cell(c).links[f];
-      assert(link || wall || mesh_->constrained(c, f));
-      if (!wall) continue;
-      // Across the wall may lie an old neighbour, where the cell between the subfacets was a flat one.
-      mesh_->constrain_face(pools, c, f, wall_entity_);
-      if (!link) continue;
-      assert(may_read(link.cell()));
-      mesh_->constrain_face(pools, link.cell(), link.face(), wall_entity_);
-    }
-  for (const CellId c : old_) mesh_->free_cell(pools, c);
+  replacement_.clear();
+  replacement_.old = old_;
+  replacement_.cells = cells;
+  for (const Face& wall : new_walls_) replacement_.walls.push_back({wall, wall_entity_});
+  replacer_.commit(pools, replacement_);
+  new_cells_ = replacer_.new_cells();
 }
 
 template class LocalFlips<2>;

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "change/replacement.hpp"
 #include "change/rewrap.hpp"
 #include "mesh/ridge.hpp"
 #include "mesh/visit_area.hpp"
@@ -27,32 +28,9 @@ class LocalFlips {
   using Pools = typename Mesh<D>::Pools;  ///< of the worker
   /// What became of an attempt. Stuck: no flip does it. Not owned: to find that out would need cells that the visit does not own.
   enum class Outcome { flipped, stuck, not_owned };
-  /// A cell that a flip makes.
-  struct NewCell {
-    std::array<VertexId, D + 1> vertices;  ///< in positive order
-    std::uint16_t region;                  ///< its region
-  };
-  /// The cells round an edge, or on both sides of a face.
-  struct Ring {
-    std::vector<CellId> cells;    ///< in order
-    std::vector<VertexId> tips;   ///< far corners of the two subfacets at the edge, if it lies inside a facet
-    EntityId entity = no_entity;  ///< that facet
-  };
-  /// A flip: a face, or an edge and with it perhaps two subfacets, makes room for what crosses it.
-  struct Flip {
-    Ring old;                                            ///< the cells that go
-    std::array<VertexId, 2> edge{no_vertex, no_vertex};  ///< the edge that goes; no vertices: a face goes
-    std::vector<NewCell> cells;                          ///< those that come
-  };
-  /// A face of a new cell that would not be locally Delaunay.
-  struct Violation {
-    std::size_t cell;  ///< index of a new cell
-    VertexId beyond;   ///< the vertex beyond the face, in the circumsphere of the cell
-    bool inner;        ///< the face is between two new cells: it comes twice
-  };
 
   /// Both must outlive it.
-  LocalFlips(Mesh<D>& mesh, const Domain<D>& domain) : mesh_(&mesh), domain_(&domain), rewrap_(mesh) {}
+  LocalFlips(Mesh<D>& mesh, const Domain<D>& domain) : mesh_(&mesh), domain_(&domain), rewrap_(mesh), replacer_(mesh) {}
 
   /// A function that gift wrapping asks often; once it says true, gift wrapping ends.
   void set_ended(std::function<bool()> ended) { rewrap_.set_ended(std::move(ended)); }
@@ -60,6 +38,7 @@ class LocalFlips {
   void set_area(const VisitArea<D>* area) {
     area_ = area;
     rewrap_.begin_visit(area);
+    replacer_.set_area(area);
   }
 
   /// Flips the face, or an edge of it, if that leaves fewer violations.
@@ -69,16 +48,6 @@ class LocalFlips {
   /// Removes c if all its vertices lie on one facet, and two of its faces are subfacets of that: it is flat but for rounding.
   /// This flips the facet's triangulation there. Stuck: c is no such cell, or has to stay.
   Outcome remove_flat_cell(Pools& pools, CellId c);
-  /// 3D: the flips of faces and edges of c that leave positively oriented cells, none of them with all corners on one facet. Adds
-  /// the cells about each edge to `seen`. False: there may be more, of cells that the visit does not own.
-  bool find_flips(CellId c, std::vector<Flip>& flips, std::vector<CellId>& seen) const;
-  /// The faces that would not be locally Delaunay after a flip. No value: the flip is not allowed, as a subfacet is where it
-  /// makes one.
-  std::optional<std::vector<Violation>> violations_after(const Flip& flip);
-  /// How many faces that a flip would change are not locally Delaunay?
-  std::size_t violations_before(const Flip& flip) const;
-  /// Makes one of the flips that find_flips() found.
-  void make(Pools& pools, const Flip& flip);
   /// Has gift wrapping paid in this visit so far? `allowance`: the work that may be without effect in any case.
   bool rewrap_pays(std::uint64_t allowance) const;
   /// The cells that the last success made, or laid bare.
@@ -86,16 +55,18 @@ class LocalFlips {
 
  private:
   using Vertices = std::array<VertexId, D + 1>;
+  using NewCell = typename Replacement<D>::Cell;
   using Face = std::array<VertexId, D>;  // sorted
   struct OuterFace {
     Face vertices;
     Link link;
     bool constrained;
-    EntityId entity;
   };
-  struct Subsegment {
-    std::array<VertexId, 2> ends;
-    EntityId entity;
+  /// The cells round an edge.
+  struct Ring {
+    std::vector<CellId> cells;    ///< in order
+    std::vector<VertexId> tips;   ///< far corners of the two subfacets at the edge, if it lies inside a facet
+    EntityId entity = no_entity;  ///< that facet
   };
   /// What is known of the ring of cells round an edge. Edge stays: it is too long, or its constrained faces allow no flip.
   enum class RingStatus { whole, not_owned, edge_stays };
@@ -113,16 +84,13 @@ class LocalFlips {
   void take_old(std::vector<CellId> cells);
   int violations() const;
   std::vector<VertexId> hubs(const Ring& ring, VertexId u, VertexId w) const;
-  void add_flip(Flip flip, std::vector<Flip>& flips) const;
-  bool find_edge_flips(CellId c, int edge, std::vector<Flip>& flips, std::vector<CellId>& seen) const;
   std::vector<NewCell> fans(const Ring& ring, VertexId u, VertexId w, VertexId hub) const;
   void add_walls(const Ring& ring, VertexId u, VertexId w);
   bool positive(const Vertices& v) const;
   bool is_wall(const Face& f) const;
   bool walls_are_free() const;
-  std::vector<Violation> violations_of(const std::vector<NewCell>& cells, std::size_t most);
+  int violations_of(const std::vector<NewCell>& cells, int most);
   void replace(Pools& pools, const std::vector<NewCell>& cells);
-  CellId make_cell(Pools& pools, const NewCell& cell);
   const OuterFace* outer(const Face& f) const;
 
   struct NoRewrap {
@@ -137,9 +105,10 @@ class LocalFlips {
   const Domain<D>* domain_;
   const VisitArea<D>* area_ = nullptr;
   std::conditional_t<D == 3, LocalRewrap, NoRewrap> rewrap_;
+  Replacer<D> replacer_;
+  Replacement<D> replacement_;
   std::vector<CellId> old_, new_cells_;
   std::vector<OuterFace> outer_;
-  std::vector<Subsegment> subsegments_;
   std::vector<Face> faces_;                  ///< of the cells whose violations are counted
   std::vector<Face> old_walls_, new_walls_;  ///< constrained faces between the old, resp. of the new cells
   EntityId wall_entity_ = no_entity;

@@ -134,20 +134,19 @@ void LocalRewrap::find_rim() {
     for (int f = 0; f < 4; ++f) {
       const bool constrained = mesh_->constrained(c, f);
       if (!constrained && mesh_->marked(k.links[f].cell())) continue;
-      rim_.push_back(
-          {GiftWrap::face_of(cell, f), k.links[f], constrained, constrained ? constraints->face_entity[f] : no_entity});
+      rim_.push_back({GiftWrap::face_of(cell, f), k.links[f], constrained});
     }
     if (!constraints) continue;
     for (int e = 0; e < 6; ++e)
-      if (constraints->has_edge(e)) subsegments_.push_back({ends_of_edge(cell, e), constraints->edge_entity[e]});
+      if (constraints->has_edge(e)) subsegments_.push_back(ends_of_edge(cell, e));
   }
 }
 
 /// A subsegment inside the region that bounds no facet must be an edge of the new cells, too.
 bool LocalRewrap::keeps_subsegments() const {
-  return std::all_of(subsegments_.begin(), subsegments_.end(), [&](const Subsegment& s) {
+  return std::all_of(subsegments_.begin(), subsegments_.end(), [&](const std::array<Index, 2>& ends) {
     return std::any_of(wrap_.cells().begin(), wrap_.cells().end(),
-                       [&](const GiftWrap::Cell& cell) { return has_corner(cell, s.ends[0]) && has_corner(cell, s.ends[1]); });
+                       [&](const GiftWrap::Cell& cell) { return has_corner(cell, ends[0]) && has_corner(cell, ends[1]); });
   });
 }
 
@@ -205,49 +204,13 @@ auto LocalRewrap::rim_face(const GiftWrap::Face& f) const -> const RimFace* {
   return at != rim_by_face_.end() && at->first == f ? &rim_[at->second] : nullptr;
 }
 
-CellId LocalRewrap::make_cell(Pools& pools, const GiftWrap::Cell& cell) {
-  const CellId c = mesh_->new_cell(pools);
-  auto& k = mesh_->cell(c);
-  mesh_->set_vertices(c, {vertices_[cell[0]], vertices_[cell[1]], vertices_[cell[2]], vertices_[cell[3]]});
-  k.links.fill(Link{});
-  mesh_->set_region(c, region_);
-  mesh_->set_sphere(c);
-  for (int f = 0; f < 4; ++f) {
-    const RimFace* r = rim_face(GiftWrap::face_of(cell, f));
-    if (r && r->constrained) mesh_->constrain_face(pools, c, f, r->entity);
-  }
-  for (const Subsegment& s : subsegments_) {
-    const int a = corner_of(cell, s.ends[0]), b = corner_of(cell, s.ends[1]);
-    if (a < 4 && b < 4) mesh_->constrain_edge(pools, c, edge_of_ends[a][b], s.entity);
-  }
-  mesh_->enlist(c);
-  return c;
-}
-
 void LocalRewrap::replace(Pools& pools) {
-  new_cells_.clear();
-  for (const GiftWrap::Cell& cell : wrap_.cells()) new_cells_.push_back(make_cell(pools, cell));
-  const auto& cells = wrap_.cells();
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    for (int f = 0; f < 4; ++f) {
-      const GiftWrap::Face face = GiftWrap::face_of(cells[i], f);
-      Link& link = mesh_->cell(new_cells_[i]).links[f];
-      // Rim faces whose other side is a constrained face of the region, too, meet a new cell there.
-      if (const RimFace* r = rim_face(face); r && !(r->link && mesh_->marked(r->link.cell()))) {
-        link = r->link;
-        if (link) mesh_->cell(link.cell()).links[link.face()] = Link(new_cells_[i], f);
-        continue;
-      }
-      for (std::size_t j = 0; j < cells.size(); ++j)
-        for (int g = 0; g < 4; ++g)
-          if (GiftWrap::face_of(cells[j], g) == GiftWrap::turned_over(face)) link = Link(new_cells_[j], g);
-      assert(link);
-    }
-  for (const CellId c : old_) {
-    mesh_->unmark(c);
-    mesh_->free_cell(pools, c);
-  }
-  old_.clear();
+  replacement_.clear();
+  replacement_.old = old_;
+  for (const GiftWrap::Cell& cell : wrap_.cells())
+    replacement_.cells.push_back({{vertices_[cell[0]], vertices_[cell[1]], vertices_[cell[2]], vertices_[cell[3]]}, region_});
+  release();
+  replacer_.commit(pools, replacement_);
 }
 
 }  // namespace pgdr

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "change/replacement.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/visit_area.hpp"
 #include "space/gift_wrap.hpp"
@@ -29,7 +30,7 @@ class LocalRewrap {
   /// How large a region may grow. Quick: few cells, where this is done for very many faces.
   enum class Effort { quick, wide };
 
-  explicit LocalRewrap(Mesh<3>& mesh) : mesh_(&mesh) {}  ///< the mesh must outlive it
+  explicit LocalRewrap(Mesh<3>& mesh) : mesh_(&mesh), replacer_(mesh) {}  ///< the mesh must outlive it
   ~LocalRewrap() { release(); }
   LocalRewrap(const LocalRewrap&) = delete;
   LocalRewrap& operator=(const LocalRewrap&) = delete;
@@ -41,13 +42,14 @@ class LocalRewrap {
   /// What the visit may change; null: everything.
   void begin_visit(const VisitArea<3>* area) {
     area_ = area;
+    replacer_.set_area(area);
     ineffective_work_ = effective_work_ = 0;
     if (!without_effect_.empty()) without_effect_ = {};
   }
   /// Did the last repair end because it would have needed cells that the visit does not own?
   bool reached_border() const { return reached_border_; }
   /// The cells made by the last successful repair.
-  const std::vector<CellId>& new_cells() const { return new_cells_; }
+  const std::vector<CellId>& new_cells() const { return replacer_.new_cells(); }
 
   /// The cost (cells times vertices) of the repairs of this visit that changed nothing.
   std::uint64_t ineffective_work() const { return ineffective_work_; }
@@ -61,11 +63,6 @@ class LocalRewrap {
     GiftWrap::Face vertices;
     Link link;
     bool constrained;
-    EntityId entity;
-  };
-  struct Subsegment {
-    std::array<Index, 2> ends;
-    EntityId entity;
   };
 
   bool is_ended() const { return ended_ && ended_(); }
@@ -85,7 +82,6 @@ class LocalRewrap {
   int weight(const std::array<VertexId, 4>& cell, VertexId apex) const;
   int violation(const GiftWrap::Cell& cell, VertexId apex) const;
   void replace(Pools& pools);
-  CellId make_cell(Pools& pools, const GiftWrap::Cell& cell);
   const RimFace* rim_face(const GiftWrap::Face& f) const;
   void release();
 
@@ -94,7 +90,9 @@ class LocalRewrap {
   bool reached_border_ = false;
   std::function<bool()> ended_;  ///< may be empty
   GiftWrap wrap_;
-  std::vector<CellId> old_, new_cells_;
+  Replacer<3> replacer_;
+  Replacement<3> replacement_;
+  std::vector<CellId> old_;
   std::vector<VertexId> vertices_;  ///< of the region; gift wrapping knows them by their place here
   std::vector<Point3> points_;
   std::vector<RimFace> rim_;
@@ -104,8 +102,8 @@ class LocalRewrap {
     GiftWrap::Face face;
     VertexId apex;
   };
-  std::vector<Side> sides_;  ///< of new cells, and of cells beyond the rim
-  std::vector<Subsegment> subsegments_;
+  std::vector<Side> sides_;                        ///< of new cells, and of cells beyond the rim
+  std::vector<std::array<Index, 2>> subsegments_;  ///< by their ends
   std::size_t most_cells_ = 0;
   /// Attempts of this visit without effect, by attempt_hash. Each violation of a region leads to the same attempts, and so do
   /// further looks at it when something changes beside it.

@@ -63,6 +63,29 @@ bool size_over(const Simplex<D>& s, const SizingField<D>& field) {
     return size < std::numeric_limits<double>::infinity() && !circumradius_within<3>(s, size);
 }
 
+bool dihedral_holds(const Simplex<2>&, double) { return true; }
+bool dihedral_holds(const Simplex<3>& s, double largest_cosine) { return dihedral_within(s, largest_cosine); }
+
+/// Counts a cell that is over a bound of shape (`thin`) or of size, and perhaps `below` that on dihedral angles.
+template <int D>
+void judge_poor_cell(const OutputMesh<D>& mesh, std::uint32_t c, bool thin, bool below, Reasons<D>& reasons, Findings& findings) {
+  using Verdict = typename Reasons<D>::Verdict;
+  std::string why;
+  const Verdict verdict = reasons.judge(c, why);
+  if (verdict == Verdict::fails) {
+    findings.add(Kind::bad_reason, {c},
+                 [&] { return "The reason given for " + cell_words(mesh, c) + " does not hold: " + why + "."; });
+  } else if (verdict == Verdict::absent) {
+    findings.add(thin ? Kind::over_radius_edge : Kind::over_size, {c}, [&] {
+      return "The " + cell_words(mesh, c) + " at " + words(centroid<D>(corners_of(mesh, c))) + " is over the " +
+             (thin ? "radius-edge bound" : "size bound") + ", without a reason.";
+    });
+  } else {
+    const bool excused = verdict == Verdict::holds && (!below || reasons.excuses_dihedral(c));
+    ++(excused ? findings.report().explained : findings.report().unexplained);
+  }
+}
+
 }  // namespace
 
 template <int D>
@@ -80,22 +103,14 @@ void check_bounds(const OutputMesh<D>& mesh, const CheckOptions<D>& options, con
     const bool large = size_over<D>(s, options.size) || (of_region && size_over<D>(s, *of_region)) ||
                        measure_over<D>(s, options.max_measure) ||
                        (volume != none && measure_over<D>(s, input->volumes()[volume].size));
+    const bool below = !dihedral_holds(s, options.largest_cosine);
     report.over_radius_edge += thin;
     report.over_size += large;
-    if (!thin && !large) continue;
-    std::string why;
-    const auto verdict = reasons.judge(c, why);
-    if (verdict == Reasons<D>::Verdict::holds) {
-      ++report.explained;
-    } else if (verdict == Reasons<D>::Verdict::fails) {
-      findings.add(Kind::bad_reason, {c},
-                   [&] { return "The reason given for " + cell_words(mesh, c) + " does not hold: " + why + "."; });
-    } else {
-      findings.add(thin ? Kind::over_radius_edge : Kind::over_size, {c}, [&] {
-        return "The " + cell_words(mesh, c) + " at " + words(centroid<D>(s)) + " is over the " +
-               (thin ? "radius-edge bound" : "size bound") + ", without a reason.";
-      });
-    }
+    report.below_dihedral += below;
+    if (thin || large)
+      judge_poor_cell(mesh, c, thin, below, reasons, findings);
+    else if (below)
+      ++(reasons.excuses_dihedral(c) ? report.explained : report.unexplained);
   }
 }
 

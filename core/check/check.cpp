@@ -35,9 +35,10 @@ void check_against_domain(const OutputMesh<D>& mesh, const CheckOptions<D>& opti
   const ConformityTask<D> task{mesh, input, options.conformity_ulps, findings};
   const Conformity<D> conformity = check_conformity(task, sorted);
   check_regions(task, links, conformity, components);
-  Reasons<D> reasons(mesh, options, &conformity, findings);
-  check_delaunay<D>(mesh, links, slack_of_vertices<D>(domain, conformity.home, options.conformity_ulps),
-                    reasons.vertices_at_refused(input), findings);
+  Reasons<D> reasons(mesh, options, links, &conformity, findings);
+  if (options.delaunay)
+    check_delaunay<D>(mesh, links, slack_of_vertices<D>(domain, conformity.home, options.conformity_ulps),
+                      reasons.vertices_at_refused(input), findings);
   check_bounds(mesh, options, links, components, &input, reasons, findings);
 }
 
@@ -98,8 +99,8 @@ void check_against_given(const OutputMesh<D>& mesh, const CheckOptions<D>& optio
   const std::optional<InputVolumes<D>> volumes = check_volumes(task, options, match, sorted, links, components, made);
   const InputVolumes<D>* known = volumes ? &*volumes : nullptr;
   if (!options.domain) {
-    Reasons<D> reasons(mesh, options, nullptr, findings);
-    check_delaunay<D>(mesh, links, slack_without_input(mesh, options.conformity_ulps), {}, findings);
+    Reasons<D> reasons(mesh, options, links, nullptr, findings);
+    if (options.delaunay) check_delaunay<D>(mesh, links, slack_without_input(mesh, options.conformity_ulps), {}, findings);
     check_bounds(mesh, options, links, components, known, reasons, findings);
     return;
   }
@@ -108,9 +109,10 @@ void check_against_given(const OutputMesh<D>& mesh, const CheckOptions<D>& optio
   Findings ignored(unheard, 0);
   const InputVolumes<D> of_domain(*options.domain, options.regions);
   const Conformity<D> conformity = check_conformity(ConformityTask<D>{mesh, of_domain, options.conformity_ulps, ignored}, sorted);
-  Reasons<D> reasons(mesh, options, &conformity, findings);
-  check_delaunay<D>(mesh, links, slack_of_vertices<D>(*options.domain, conformity.home, options.conformity_ulps),
-                    reasons.vertices_at_refused(of_domain), findings);
+  Reasons<D> reasons(mesh, options, links, &conformity, findings);
+  if (options.delaunay)
+    check_delaunay<D>(mesh, links, slack_of_vertices<D>(*options.domain, conformity.home, options.conformity_ulps),
+                      reasons.vertices_at_refused(of_domain), findings);
   check_bounds(mesh, options, links, components, known, reasons, findings);
 }
 
@@ -156,8 +158,8 @@ CheckReport check(const OutputMesh<D>& mesh, const CheckOptions<D>& options) {
     return report;
   }
   check_loose_points(mesh, findings);
-  Reasons<D> reasons(mesh, options, nullptr, findings);
-  check_delaunay<D>(mesh, links, slack_without_input(mesh, options.conformity_ulps), {}, findings);
+  Reasons<D> reasons(mesh, options, links, nullptr, findings);
+  if (options.delaunay) check_delaunay<D>(mesh, links, slack_without_input(mesh, options.conformity_ulps), {}, findings);
   check_bounds<D>(mesh, options, links, components, nullptr, reasons, findings);
   return report;
 }

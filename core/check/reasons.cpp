@@ -10,6 +10,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "check/wedges.hpp"
 #include "numbers/rounding.hpp"
 #include "pgdr/circumsphere.hpp"
 #include "pgdr/point_selector.hpp"
@@ -140,9 +141,9 @@ double distance_to_triangle(const Point3& x, const Point3& a, const Point3& b, c
 }  // namespace
 
 template <int D>
-Reasons<D>::Reasons(const OutputMesh<D>& mesh, const CheckOptions<D>& options, const Conformity<D>* conformity,
-                    Findings& findings)
-    : mesh_(mesh), options_(options), conformity_(conformity) {
+Reasons<D>::Reasons(const OutputMesh<D>& mesh, const CheckOptions<D>& options, const Links<D>& links,
+                    const Conformity<D>* conformity, Findings& findings)
+    : mesh_(mesh), options_(options), links_(links), conformity_(conformity) {
   if (!options.reasons) return;
   for (const Point<D>& p : mesh.points)
     for (const double x : p.x) largest_ = std::max(largest_, std::abs(x));
@@ -161,37 +162,114 @@ Reasons<D>::Reasons(const OutputMesh<D>& mesh, const CheckOptions<D>& options, c
 }
 
 template <int D>
-auto Reasons<D>::judge(std::uint32_t cell, std::string& why) -> Verdict {
-  if (!options_.reasons) return Verdict::absent;
+std::span<const std::uint32_t> Reasons<D>::of_cell(std::uint32_t cell) const {
+  if (!options_.reasons) return {};
   const auto& reasons = *options_.reasons;
-  auto i = std::lower_bound(by_cell_.begin(), by_cell_.end(), cell,
-                            [&](std::uint32_t r, std::uint32_t c) { return reasons[r].cell < c; });
-  if (i == by_cell_.end() || reasons[*i].cell != cell) return Verdict::absent;
-  for (; i != by_cell_.end() && reasons[*i].cell == cell; ++i)
-    if (holds(reasons[*i], why)) return Verdict::holds;
-  return Verdict::fails;
+  const auto first = std::partition_point(by_cell_.begin(), by_cell_.end(),
+                                          [&](std::uint32_t r) { return reasons[r].cell < cell; });
+  return {first, std::partition_point(first, by_cell_.end(), [&](std::uint32_t r) { return reasons[r].cell == cell; })};
 }
 
 template <int D>
-bool Reasons<D>::holds(const PoorReason& reason, std::string& why) {
+auto Reasons<D>::judge(std::uint32_t cell, std::string& why) -> Verdict {
+  Verdict of_all = Verdict::absent;
+  for (const std::uint32_t r : of_cell(cell)) {
+    const Verdict verdict = judge((*options_.reasons)[r], why);
+    if (verdict == Verdict::holds) return verdict;
+    if (of_all != Verdict::admitted) of_all = verdict;
+  }
+  return of_all;
+}
+
+template <int D>
+bool Reasons<D>::excuses_dihedral(std::uint32_t cell) {
+  std::string why;
+  const auto of = of_cell(cell);
+  return std::any_of(of.begin(), of.end(), [&](std::uint32_t r) {
+    const PoorReason& reason = (*options_.reasons)[r];
+    return is_at_corner(reason) || (reason.code == PoorReason::Code::input_dihedral && in_wedge(reason, why) == Verdict::holds);
+  });
+}
+
+template <int D>
+auto Reasons<D>::judge(const PoorReason& reason, std::string& why) -> Verdict {
   const auto fail = [&](std::string text) {
     why = std::move(text);
-    return false;
+    return Verdict::fails;
   };
   switch (reason.code) {
+    case PoorReason::Code::not_found:
+    case PoorReason::Code::budget: return Verdict::admitted;
     case PoorReason::Code::rounding:
-      return is_as_short_as_rounding<D>(corners_of(mesh_, reason.cell), largest_) ||
-             fail("it has no edge as short as the rounding of coordinates");
+      return is_as_short_as_rounding<D>(corners_of(mesh_, reason.cell), largest_)
+                 ? Verdict::holds
+                 : fail("it has no edge as short as the rounding of coordinates");
     case PoorReason::Code::beyond_theory:
-      return options_.radius_edge_bound < smallest_proved_bound<D>() || fail("the radius-edge bound is not below the proved one");
-    case PoorReason::Code::kept_boundary: return beside_kept(reason, why);
+      return options_.radius_edge_bound < smallest_proved_bound<D>() ? Verdict::holds
+                                                                     : fail("the radius-edge bound is not below the proved one");
+    case PoorReason::Code::kept_boundary: return beside_kept(reason, why) ? Verdict::holds : Verdict::fails;
+    case PoorReason::Code::input_dihedral:
+      if (!asks_for_dihedral()) return Verdict::admitted;
+      return in_wedge(reason, why);
     case PoorReason::Code::small_angle: break;
   }
   if (!options_.domain) return fail("an angle of the input cannot be measured without the input");
   const auto& [a, b] = reason.entities;
   if (!exists(a) || !exists(b)) return fail("it names an entity that does not exist");
-  if (!small_angle(a, b)) return fail(words(a) + " and " + words(b) + " meet at no small angle");
-  return near(reason.cell, a) || fail("its circumball, doubled, does not meet " + words(a));
+  const Meeting angle = meeting(a, b);
+  if (!angle.small && !angle.sharp) return fail(words(a) + " and " + words(b) + " meet at no small angle");
+  if (!near(reason.cell, a)) return fail("its circumball, doubled, does not meet " + words(a));
+  return angle.sharp || !asks_for_dihedral() ? Verdict::holds : Verdict::admitted;
+}
+
+/// Does it name two segments of one facet that meet at a vertex of the cell, at a planar angle that is too small?
+template <int D>
+bool Reasons<D>::is_at_corner(const PoorReason& reason) const {
+  if constexpr (D == 3) {
+    const auto& [a, b] = reason.entities;
+    if (reason.code != PoorReason::Code::small_angle || !options_.domain || !conformity_) return false;
+    if (a.kind != EntityKind::segment || b.kind != EntityKind::segment || !exists(a) || !exists(b)) return false;
+    for (const std::uint32_t p : common_points(*options_.domain, a, b))
+      if (const std::uint32_t v = conformity_->vertex_of_point[p]; v != none && has_corner(mesh_.cells[reason.cell], v))
+        return is_sharp_corner(*options_.domain, p, a.id, b.id, angle_bounds());
+  }
+  return false;
+}
+
+/// Has the cell an edge on the segment at which the walls on both sides make an angle below the bound, with the cell between? If
+/// they make a larger one the cell is at the segment, but not excused.
+template <int D>
+auto Reasons<D>::in_wedge(const PoorReason& reason, std::string& why) -> Verdict {
+  const auto fail = [&](std::string text) {
+    why = std::move(text);
+    return Verdict::fails;
+  };
+  const EntityRef s = reason.entities[0];
+  if (!options_.domain || !conformity_) return fail("an angle of the input cannot be measured without the input");
+  if (s.kind != EntityKind::segment || !exists(s)) return fail("it names no segment of the input");
+  bool at_segment = false;
+  if constexpr (D == 3) {
+    list_subsegments();
+    for (int e = 0; e < edge_count(3); ++e) {
+      auto ends = ends_of_edge(mesh_.cells[reason.cell], e);
+      std::sort(ends.begin(), ends.end());
+      if (!std::binary_search(subsegments_.begin(), subsegments_.end(), std::pair{ends, EntityId{s.id}})) continue;
+      if (is_wedge_below(mesh_, links_, reason.cell, e, options_.largest_cosine)) return Verdict::holds;
+      at_segment = true;
+    }
+  }
+  return at_segment ? Verdict::admitted : fail("it has no edge on " + words(s));
+}
+
+template <int D>
+void Reasons<D>::list_subsegments() {
+  if (!subsegments_.empty()) return;
+  for (std::size_t i = 0; i < mesh_.subsegments.size(); ++i) {
+    auto ends = mesh_.subsegments[i].vertices;
+    std::sort(ends.begin(), ends.end());
+    subsegments_.push_back({ends, conformity_->segment_of[i].entity});
+  }
+  std::sort(subsegments_.begin(), subsegments_.end());
 }
 
 /// A segment in one piece that meets the cell's circumball, doubled, or has its centre in the diametral ball.
@@ -225,10 +303,12 @@ bool Reasons<D>::exists(EntityRef entity) const {
 }
 
 template <int D>
-bool Reasons<D>::small_angle(EntityRef a, EntityRef b) {
+auto Reasons<D>::meeting(EntityRef a, EntityRef b) -> Meeting {
   const auto code = [](EntityRef e) { return std::uint64_t{static_cast<std::uint8_t>(e.kind)} << 32 | e.id; };
-  const auto [at, fresh] = angles_.try_emplace({code(a), code(b)}, false);
-  if (fresh) at->second = measure_angle(a, b);
+  const auto [at, fresh] = angles_.try_emplace({code(a), code(b)}, Meeting{});
+  if (!fresh) return at->second;
+  at->second.small = measure_angle(a, b);
+  if constexpr (D == 3) at->second.sharp = asks_for_dihedral() && meet_too_sharply(*options_.domain, a, b, angle_bounds());
   return at->second;
 }
 
@@ -290,7 +370,7 @@ std::vector<std::uint8_t> Reasons<D>::vertices_at_refused(const InputVolumes<D>&
       facet(options_.domain->facets().size(), 0);
   for (const PoorReason& r : *options_.reasons) {
     const auto& [a, b] = r.entities;
-    if (r.code != PoorReason::Code::small_angle || !exists(a) || !exists(b) || !small_angle(a, b)) continue;
+    if (r.code != PoorReason::Code::small_angle || !exists(a) || !exists(b) || !meeting(a, b).small) continue;
     for (const EntityRef e : r.entities) {
       if (e.kind == EntityKind::segment) segment[e.id] = 1;
       if (e.kind == EntityKind::facet) facet[e.id] = 1;

@@ -73,11 +73,9 @@ struct VertexRecord {
   float relaxed_radius = std::numeric_limits<float>::infinity();
 };
 
-/// What the last stage of a run knows of a vertex (improve/vertex_changes.hpp). All zero at first, as fresh memory is.
+/// What the optimiser knows of a vertex (optimize/optimizer.hpp). All zero at first, as fresh memory is.
 struct VertexNote {
-  std::uint32_t version;            ///< how often the cells at it have changed
-  std::uint32_t no_collapse_until;  ///< no collapse of it helps while its version is below this
-  std::uint32_t no_move_until;      ///< no move of it helps while its version is below this
+  std::uint32_t version;  ///< how often the cells at it have changed
 };
 
 /// What a slot knows of its cell: the number of its side record, the mark of a cavity, and how many cells the slot has held.
@@ -176,7 +174,7 @@ class Mesh {
   VertexRecord<D>& vertex(VertexId v) { return vertices_[index(v)]; }              ///< to be changed
   const VertexRecord<D>& vertex(VertexId v) const { return vertices_[index(v)]; }  ///< to be read
   const Point<D>& point(VertexId v) const { return vertices_[index(v)].point; }    ///< where the vertex is
-  /// 3D: what the last stage knows of the vertex. Threads: for the visit that owns the cells at it.
+  /// 3D: what the optimiser knows of the vertex. Threads: for the visit that owns the cells at it.
   VertexNote& note(VertexId v) { return notes_[index(v)]; }
   const VertexNote& note(VertexId v) const { return notes_[index(v)]; }   ///< to be read
   CellRecord<D>& cell(CellId c) { return cells_[index(c)]; }              ///< to be changed

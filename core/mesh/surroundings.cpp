@@ -24,20 +24,16 @@ std::optional<std::uint64_t> surroundings_of(const Mesh<D>& mesh, std::span<cons
 }
 
 template <int D>
-std::uint64_t versions_about(const Mesh<D>& mesh, CellId c) {
+std::uint64_t versions_at(const Mesh<D>& mesh, CellId c) {
   std::uint64_t sum = 0;
-  const auto add = [&](VertexId v) {
+  for (const VertexId v : mesh.cell(c).vertices)
     sum = (std::rotl(sum, 25) ^ mesh.note(v).version * 0x9e3779b97f4a7c15u) * 0xbf58476d1ce4e5b9u;
-  };
-  for (const VertexId v : mesh.cell(c).vertices) add(v);
-  for (const Link next : mesh.cell(c).links)
-    if (next) add(mesh.cell(next.cell()).vertices[next.face()]);
   return sum;
 }
 
 template std::optional<std::uint64_t> surroundings_of<2>(const Mesh<2>&, std::span<const CellId>);
 template std::optional<std::uint64_t> surroundings_of<3>(const Mesh<3>&, std::span<const CellId>);
-template std::uint64_t versions_about<2>(const Mesh<2>&, CellId);
-template std::uint64_t versions_about<3>(const Mesh<3>&, CellId);
+template std::uint64_t versions_at<2>(const Mesh<2>&, CellId);
+template std::uint64_t versions_at<3>(const Mesh<3>&, CellId);
 
 }  // namespace pgdr

@@ -17,8 +17,9 @@ namespace pgdr {
 template <int D>
 std::optional<std::uint64_t> surroundings_of(const Mesh<D>& mesh, std::span<const CellId> slots);
 
-/// 3D: a hash of how often the cells at the corners of this one and of its neighbours have changed (VertexNote::version).
+/// 3D: a hash of how often the cells at the corners of this one have changed (VertexNote::version). Not at those of its
+/// neighbours, which another visit may own. @pre this visit owns the cell, or none runs
 template <int D>
-std::uint64_t versions_about(const Mesh<D>& mesh, CellId c);
+std::uint64_t versions_at(const Mesh<D>& mesh, CellId c);
 
 }  // namespace pgdr

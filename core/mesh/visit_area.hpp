@@ -22,7 +22,8 @@ class VisitArea {
  public:
   virtual ~VisitArea() = default;
 
-  /// An element belongs to the visit if its circumcentre lies in this half-open box (unbounded where space ends).
+  /// An element belongs to the visit if its place (RefineContext::place_of) lies in this half-open box (unbounded where space
+  /// ends).
   Point<D> home_low;   ///< its low corner
   Point<D> home_high;  ///< its high corner
   /// A half-open box wholly claimed: a quick yes.
@@ -31,10 +32,10 @@ class VisitArea {
 
   /// Is the point in the claimed part of space? Asked beyond the inner box.
   virtual bool claimed(const Point<D>& p) const = 0;
-  /// The region that an element with its circumcentre at p belongs to.
+  /// The region that an element with its place at p belongs to.
   virtual std::uint32_t leaf_of(const Point<D>& p) const = 0;
 
-  /// Does an element with this circumcentre belong to the visit?
+  /// Does an element with this place belong to the visit?
   bool is_home(const Point<D>& p) const {
     for (int i = 0; i < D; ++i)
       if (!(p[i] >= home_low[i] && p[i] < home_high[i])) return false;

@@ -66,6 +66,9 @@ struct CheckOptions {
   SizingField<D> size;                                                 ///< circumradius (3D) or area (2D) bound at the centroid
   RegionSizes<D> region_sizes;                                         ///< further ones of the cells with these labels
   double max_measure = std::numeric_limits<double>::infinity();        ///< volume (3D) bound of all cells
+  /// 3D: bound on dihedral angles, as its cosine rounded to a double (claimed_cosine); 1: none.
+  double largest_cosine = 1;
+  bool delaunay = false;  ///< are faces to be locally Delaunay, but for what rounding or a refused split explains?
   const std::vector<PoorReason>* reasons = nullptr;  ///< of poor cells, each of which is verified; null: there are none
   /// Widest distance, in ulps of the entity's largest coordinate, of a vertex from the line or plane it is on.
   /// One ulp is 2^-52 times that coordinate. Axis-aligned entities must be met exactly.
@@ -94,9 +97,9 @@ struct CheckFinding {
     wrong_region,            ///< label not constant in a volume, or not that of its seed, or not the automatic one
     wrong_volume,            ///< a volume without cells, only partly filled, or of another measure
     hole_filled,             ///< cells outside the domain or in a hole
-    over_radius_edge,        ///< without a reason that holds
-    over_size,               ///< without a reason that holds
-    bad_reason,              ///< a reason that does not hold
+    over_radius_edge,        ///< without a reason
+    over_size,               ///< without a reason
+    bad_reason,              ///< a reason that is not true
   };
   static constexpr std::size_t kinds = static_cast<std::size_t>(Kind::bad_reason) + 1;  ///< so many
   Kind kind;                                                                            ///< what is wrong
@@ -112,14 +115,17 @@ struct CheckReport {
   std::uint64_t not_delaunay_refused = 0;   ///< other violations, beside an entity whose split was refused (in reasons)
   std::uint64_t over_radius_edge = 0;       ///< cells over the radius-edge bound
   std::uint64_t over_size = 0;              ///< cells over a bound of size, volume or area
+  std::uint64_t below_dihedral = 0;         ///< cells with a dihedral angle below the bound
   std::uint64_t explained = 0;              ///< cells over a bound with a reason that holds
-  std::vector<CheckFinding> findings;       ///< what makes the check fail, at most max_listed a kind
-  std::uint64_t finding_count = 0;          ///< all of them
+  /// Cells over a bound without an excuse: those that the reasons admit, and all others below the bound on dihedral angles.
+  std::uint64_t unexplained = 0;
+  std::vector<CheckFinding> findings;                              ///< what makes the check fail, at most max_listed a kind
+  std::uint64_t finding_count = 0;                                 ///< all of them
   std::array<std::uint64_t, CheckFinding::kinds> count_of_kind{};  ///< findings, by kind
   /// Findings of one kind.
   std::uint64_t count(CheckFinding::Kind kind) const { return count_of_kind[static_cast<std::size_t>(kind)]; }
-  /// 0: sound, conforming and within all bounds; 1: over a bound, where the reasons explain it alone; 6: anything else. Faces
-  /// that are not locally Delaunay, but for causes that are counted above, change nothing.
+  /// 0: sound, conforming and within all bounds; 1: cells are over a bound, but explained, or `unexplained`, and nothing else is
+  /// wrong; 6: anything else. Faces that are not locally Delaunay, but for causes that are counted above, change nothing.
   int exit_code() const;
 };
 

@@ -60,15 +60,23 @@ struct ScheduleOptions {
   bool trace = false;
 };
 
+constexpr double default_min_dihedral = 15;  ///< degrees; mostly reached where the input has no needles and no small angles
+constexpr double most_min_dihedral = 35;     ///< degrees; above 30 there is mostly no such mesh
+
 /// What `refine` is asked for. A plain value: the callbacks in it are copied with it, and are called from several threads.
 template <int D>
 struct RefineOptions {
-  /// Upper bound on circumradius over shortest edge. Proved for >= 2 (3D), >= sqrt 2 (2D).
+  /// Upper bound on circumradius over shortest edge. Proved for >= 2 (3D, without the optimiser), >= sqrt 2 (2D), away from small
+  /// angles of the input.
   double radius_edge_bound = smallest_proved_bound<D>();
-  SizingField<D> size;                                             ///< circumradius (3D) or area (2D) bound at the centroid
-  RegionSizes<D> region_sizes;                                     ///< further such bounds, on the cells of single regions
-  double max_volume = std::numeric_limits<double>::infinity();     ///< 3D: volume bound of all cells; 2D: must be infinite
-  RegionMode regions = RegionMode::seeds;                          ///< what is meshed, and how it is labelled
+  SizingField<D> size;                                          ///< circumradius (3D) or area (2D) bound at the centroid
+  RegionSizes<D> region_sizes;                                  ///< further such bounds, on the cells of single regions
+  double max_volume = std::numeric_limits<double>::infinity();  ///< 3D: volume bound of all cells; 2D: must be infinite
+  RegionMode regions = RegionMode::seeds;                       ///< what is meshed, and how it is labelled
+  /// 3D: bound on the dihedral angles of all cells in degrees, from 0 to most_min_dihedral, reached by an optimiser after the
+  /// refinement, which gives up that cells are Delaunay. None: default_min_dihedral, or 0 with a selector that is not the default
+  /// one, whose points the optimiser would move. 0: no optimiser.
+  std::optional<double> min_dihedral;
   PointSelector<D> selector = default_selector<D>();               ///< empty: circumcentre
   DiskOptions disk = default_disk<D>();                            ///< the disk in which the selector may put a point
   OutsidePolicy outside = OutsidePolicy::replace_by_circumcenter;  ///< what becomes of points outside of it (and NaN)

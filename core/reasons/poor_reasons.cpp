@@ -21,10 +21,6 @@ constexpr std::size_t most_cells_about = 4096;  // an element are looked at for 
 
 bool has_extent(EntityRef e) { return e.kind == EntityKind::segment || e.kind == EntityKind::facet; }
 
-void add_new(std::vector<EntityRef>& list, EntityRef e) {
-  if (std::find(list.begin(), list.end(), e) == list.end()) list.push_back(e);
-}
-
 /// A hair less than doubled, so that another's rounding cannot disagree.
 template <int D>
 Ball<D> doubled_ball(const Ball<D>& ball) {
@@ -87,12 +83,6 @@ bool PoorReasons<D>::any_constrained(CellId c, F f) const {
   for (int i = 0; k && i <= D; ++i)
     if (k->has_face(i) && f(mesh_->entity_of_face(c, i))) return true;
   return false;
-}
-
-/// Adds the entities that a vertex of this home lies on.
-template <int D>
-void PoorReasons<D>::add_entities_of(Home of, std::vector<EntityRef>& list) const {
-  any_entity_of(of, [&](EntityRef e) { return add_new(list, e), false; });
 }
 
 /// What refused the element if that is a pair with a small angle, else the first such pair among the entities of ever
@@ -191,22 +181,6 @@ std::vector<PoorCell> PoorReasons<D>::of_violated(std::span<const CellId> cells,
     if (reason.code == PoorReason::Code::small_angle) found.push_back({c, false, false, reason, true});
   }
   return found;
-}
-
-template <int D>
-bool PoorReasons<D>::has_reason(std::span<const Home> homes, const Ball<D>& sphere, const Angle& angle) const {
-  constexpr std::size_t most_entities = 64;  // each pair of which takes microseconds
-  std::vector<EntityRef> near;
-  for (const Home home : homes) {
-    add_entities_of(home, near);
-    if (near.size() > most_entities) return false;
-  }
-  const Ball<D> doubled = doubled_ball(sphere);
-  PoorReason reason;
-  for (std::size_t i = 0; i < near.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (explains({near[i], near[j]}, doubled, angle, reason)) return true;
-  return false;
 }
 
 template <int D>

@@ -65,9 +65,6 @@ class PoorReasons {
   /// The reasons of those of these cells, each with a face that is not locally Delaunay, that are beside a small angle: of a run
   /// that a limit has ended. Ends early, with some of them, once `ended` says so.
   std::vector<PoorCell> of_violated(std::span<const CellId> cells, const std::function<bool()>& ended) const;
-  /// Would entities with vertices of these homes on them, of which two meet at a small angle near enough, explain an element
-  /// with this circumsphere? Several threads at once. (False where very many meet.)
-  bool has_reason(std::span<const Home> homes, const Ball<D>& sphere, const Angle& angle) const;
 
  private:
   using EntityIds = std::vector<EntityId>;
@@ -86,7 +83,6 @@ class PoorReasons {
   bool any_entity_of(Home home, F f) const;
   template <class F>
   bool any_constrained(CellId c, F f) const;
-  void add_entities_of(Home home, std::vector<EntityRef>& list) const;
   void look_at(CellId c, bool violated, std::vector<PoorCell>& found) const;
 
   const Mesh<D>* mesh_;

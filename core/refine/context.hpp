@@ -10,6 +10,7 @@
 #include <mutex>
 
 #include "mesh/mesh.hpp"
+#include "pgdr/circumsphere.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/refine_options.hpp"
 #include "rule/cell_bounds.hpp"
@@ -31,6 +32,9 @@ struct RefineContext {
   int bucket_of(const FilterSphere<D>& sphere) const;  ///< by its radius, 0 being the largest
   /// No circumradius of this bucket or a later one is larger.
   double largest_radius(int bucket) const;
+  /// The element belongs to the region that holds this point: its circumcentre; in a stage with a treatment its centroid, as the
+  /// circumcentres of flat cells are anywhere. A function of the points of its vertices.
+  Point<D> place_of(CellId c) const { return stage ? centroid<D>(mesh.simplex(c)) : mesh.center(c); }
   /// Has the run been cancelled, or is its time up? It is stopped with that. Any thread.
   bool ended();
 

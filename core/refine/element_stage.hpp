@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A stage of a run that does something else for poor elements than inserting points (element_splitter.hpp).
+// A stage of a run that does something else for poor elements than inserting points (element_splitter.hpp). What is poor is for
+// the stage to say. In it elements belong to the leaves that hold their centroids, all have bucket 0, so that no leaf splits, and
+// go by an order that the stage gives them. What was refused is tried again once the version of the element is another.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +16,18 @@
 
 namespace pgdr {
 
-/// Treats the poor elements of a worker's visits in a stage of the run. One thread at a time.
+/// The most qualities of cells that a treatment should ask for to treat one element. A visit ends its treatments once it has
+/// asked for so many, and for the others for each element that waits when it begins.
+constexpr std::uint64_t evaluations_a_poor_cell = 10000, evaluations_a_waiting_cell = 1000;
+
+/// Entry::order of an element whose quality has this level (CellQuality::level): the worst goes first, and of equals the one
+/// with the lesser hash of the coordinates of its vertices, which does not depend on the unit of length.
+template <int D>
+std::uint32_t order_by_level(const Mesh<D>& mesh, CellId c, int level);
+
+/// Treats the poor elements of a worker's visits in a stage of the run. One thread at a time. It counts in RegionVisit::counts
+/// what it changes and evaluates, but for `refused`; inserts no point once RegionVisit::most_insertions are committed; and lists
+/// the poor elements that it makes (WorkLister::list_element).
 template <int D>
 class ElementTreatment {
  public:

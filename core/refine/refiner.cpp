@@ -48,7 +48,7 @@ void Refiner<D>::look_at_budget() {
   const RefineOptions<D>& options = workspace_.options;
   const auto& counts = workspace_.visit->counts;
   if (options.stop.stop_requested()) context.stop = static_cast<int>(StopCause::cancelled);
-  const std::uint64_t treated = counts.committed + counts.improved + counts.refused;
+  const std::uint64_t treated = counts.changes() + counts.refused;
   if (treated < checked_at_) return;
   const std::uint64_t vertices = context.vertices.fetch_add(counts.committed - reported_) + counts.committed - reported_;
   reported_ = counts.committed;
@@ -70,7 +70,8 @@ template <int D>
 bool Refiner<D>::may_go_on() {
   look_at_budget();
   const RegionVisit<D>& visit = *workspace_.visit;
-  return workspace_.context.stop.load(std::memory_order_relaxed) == 0 && visit.counts.committed < visit.most_insertions;
+  if (workspace_.context.stop.load(std::memory_order_relaxed) != 0) return false;
+  return treatment_ || visit.counts.committed < visit.most_insertions;  // without points a treatment still has something to do
 }
 
 /// The cells that it took to decide about e, each once; none where a selector may have looked at others.
@@ -87,12 +88,32 @@ std::vector<CellId> Refiner<D>::distinct_trace(const Entry<D>& e) {
 template <int D>
 void Refiner<D>::record_refusal(const Entry<D>& e) {
   RegionVisit<D>& visit = *workspace_.visit;
-  std::vector<CellId> seen = distinct_trace(e);
-  const std::uint64_t surroundings = surroundings_of<D>(workspace_.mesh, seen).value_or(0);
-  const std::uint64_t versions = treatment_ ? treatment_->version(e.cell) : 0;
-  visit.list->refused.push_back(
-      {e, workspace_.refused_by, visit.order, visit.generation, std::move(seen), surroundings, versions});
+  Refusal<D> refusal{e, workspace_.refused_by, visit.order, visit.generation, {}, 0, 0};
+  if (treatment_) {
+    refusal.versions = treatment_->version(e.cell) ^ (undecided_ ? 1 : 0);  // another: it is not known that nothing helps
+  } else {
+    refusal.seen = distinct_trace(e);
+    refusal.surroundings = surroundings_of<D>(workspace_.mesh, refusal.seen).value_or(0);
+  }
+  visit.list->refused.push_back(std::move(refusal));
   visit.entities_refused = visit.entities_refused || e.kind() != EntryKind::cell;
+}
+
+/// Within the visit's share of the budget.
+template <int D>
+Outcome Refiner<D>::treat_in_stage(const Entry<D>& e) {
+  RegionVisit<D>& visit = *workspace_.visit;
+  Outcome outcome = Outcome::refused;
+  undecided_ = visit.counts.evaluated >= most_evaluated_;
+  if (!undecided_) {
+    const std::uint64_t before = visit.counts.changes();
+    outcome = treatment_->treat(e);
+    visit.changed_mesh = visit.changed_mesh || visit.counts.changes() != before;
+  } else {
+    ++visit.counts.out_of_budget;
+  }
+  visit.counts.refused += outcome == Outcome::refused ? 1 : 0;
+  return outcome;
 }
 
 /// One entry. Whether one that the visit does not own is still alive depends on timing: of those set aside, what is dead by
@@ -142,6 +163,8 @@ void Refiner<D>::run(RegionVisit<D>& visit) {
   WorkList<D>& list = *visit.list;
   repair_.allow_for(list.flips.size());
   for (const Entry<D>& e : visit.given) repair_.allow_for(e.kind() == EntryKind::flip ? 1 : 0);
+  most_evaluated_ = std::min(visit.most_evaluated,
+                             evaluations_a_poor_cell + evaluations_a_waiting_cell * (list.size() + visit.given.size()));
   bool go_on = treat_entities();
   for (std::size_t i = 0; i < visit.given.size(); ++i) {
     if (go_on) {
@@ -165,7 +188,7 @@ void Refiner<D>::run(RegionVisit<D>& visit) {
     treat(e);
     go_on = treat_entities();
   }
-  context.vertices += visit.counts.committed - reported_;
+  context.vertices += visit.counts.committed - reported_ - visit.counts.removed;
   lister_.fill_outboxes();
   workspace_.visit = nullptr;
 }

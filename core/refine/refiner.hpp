@@ -53,7 +53,8 @@ class Refiner {
  private:
   bool treat_entities();
   void treat(const Entry<D>& e);
-  Outcome treat_poor(const Entry<D>& e) { return treatment_ ? treatment_->treat(e) : elements_.split(e); }
+  Outcome treat_poor(const Entry<D>& e) { return treatment_ ? treat_in_stage(e) : elements_.split(e); }
+  Outcome treat_in_stage(const Entry<D>& e);
   bool may_go_on();
   void look_at_budget();
   void record_refusal(const Entry<D>& e);
@@ -67,6 +68,8 @@ class Refiner {
   ElementSplitter<D> elements_;
   const ElementStage<D>* stage_ = nullptr;          ///< that the treatment is of
   std::unique_ptr<ElementTreatment<D>> treatment_;  ///< of poor elements; null: points are inserted
+  std::uint64_t most_evaluated_ = 0;                ///< by the treatment, in the visit
+  bool undecided_ = false;                          ///< of the entry treated: was it beyond that?
   std::uint64_t checked_at_ = 0, reported_ = 0;
   std::uint64_t stride_ = 1;  ///< insertions between two looks at the clock
   std::chrono::steady_clock::time_point checked_time_;

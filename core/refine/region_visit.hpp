@@ -16,16 +16,29 @@ namespace pgdr {
 /// What was done, in one visit or in all.
 struct RefineCounts {
   std::uint64_t committed = 0;         ///< insertions
-  std::uint64_t improved = 0;          ///< changes for elements that stay poor, insertions among them
-  std::uint64_t refused = 0;           ///< entries that the insertion rule refused
+  std::uint64_t refused = 0;           ///< entries that stay as they are: the insertion rule, or the stage, found nothing
   std::uint64_t selector_outside = 0;  ///< points of the selector outside their disk
+  // The optimiser; what it undid does not count.
+  std::uint64_t moves = 0;          ///< vertices that got another place
+  std::uint64_t edge_removals = 0;  ///< edges that went, and faces in whose place one came
+  std::uint64_t reconnections = 0;  ///< small polyhedra that were filled anew
+  std::uint64_t removed = 0;        ///< vertices that went
+  std::uint64_t evaluated = 0;      ///< qualities of cells that were asked for
+  std::uint64_t out_of_budget = 0;  ///< entries that the visit did not look at, since it had evaluated as many as it may
 
+  /// Changes of the mesh.
+  std::uint64_t changes() const { return committed + moves + edge_removals + reconnections + removed; }
   /// Adds each.
   RefineCounts& operator+=(const RefineCounts& o) {
     committed += o.committed;
-    improved += o.improved;
     refused += o.refused;
     selector_outside += o.selector_outside;
+    moves += o.moves;
+    edge_removals += o.edge_removals;
+    reconnections += o.reconnections;
+    removed += o.removed;
+    evaluated += o.evaluated;
+    out_of_budget += o.out_of_budget;
     return *this;
   }
 };
@@ -45,6 +58,7 @@ struct RegionVisit {
   std::size_t floor = 0;               ///< ... and the list is crowded by this
   int granularity = std::numeric_limits<int>::max();                          ///< end this many buckets after the first
   std::uint64_t most_insertions = std::numeric_limits<std::uint64_t>::max();  ///< share of the budget
+  std::uint64_t most_evaluated = std::numeric_limits<std::uint64_t>::max();   ///< what is left of the budget of a stage
   bool violations_seen = false;   ///< look for faces that are not locally Delaunay at every insertion
   bool entities_refused = false;  ///< has any visit refused an entity's split; after the visit, this one included?
   // done
@@ -53,7 +67,7 @@ struct RegionVisit {
     std::uint32_t leaf;             ///< which
     std::vector<Entry<D>> entries;  ///< in the order in which they were found
   };
-  std::vector<Outbox> outboxes;     ///< elements with their circumcentre in other regions, alive at the end
+  std::vector<Outbox> outboxes;     ///< elements that belong to other regions, alive at the end
   std::vector<Entry<D>> set_aside;  ///< would have changed cells that the visit does not own
   RefineCounts counts;              ///< of this visit
   bool changed_mesh = false;        ///< by an insertion or a flip

@@ -47,7 +47,7 @@ struct Entry {
   /// For elements of poor shape alone: the least goes first. For elements that are too big: CellVerdict::over_size.
   std::uint32_t order;
   std::uint16_t birth;  ///< of the cell
-  std::uint8_t bucket;  ///< kind cell: floor(log2(side of the domain / circumradius)), clamped
+  std::uint8_t bucket;  ///< kind cell: floor(log2(side of the domain / circumradius)), clamped; 0 in a stage with a treatment
 
   EntryKind kind() const { return static_cast<EntryKind>(what_ >> 4); }  ///< what it is
   int which() const { return what_ & 15; }  ///< the number of the edge or face in the cell; for kind cell, why it is listed
@@ -198,7 +198,7 @@ struct Refusal {
   /// The cells that were looked at: while these and their neighbours stay, so does the decision. Empty: not known.
   std::vector<CellId> seen;
   std::uint64_t surroundings = 0;  ///< `surroundings_of` these cells, when it was decided
-  std::uint64_t versions = 0;      ///< in the last stage: `versions_about` the element, when it was decided
+  std::uint64_t versions = 0;      ///< in a stage with a treatment: ElementStage::version of the element, when it was decided
 };
 
 /// The work list of one region, and what was refused there.

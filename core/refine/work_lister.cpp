@@ -13,10 +13,14 @@ namespace pgdr {
 
 template <int D>
 void WorkLister<D>::list_poor(CellId c, int why, const FilterSphere<D>& sphere, std::uint32_t order) {
+  list(w_->entry(c, EntryKind::cell, why, w_->context.bucket_of(sphere), order), sphere.center);
+}
+
+template <int D>
+void WorkLister<D>::list(const Entry<D>& e, const Point<D>& place) {
   const RegionVisit<D>& visit = *w_->visit;
-  assert(!visit.area || visit.area->owns(*mesh_, c));
-  const Entry<D> e = w_->entry(c, EntryKind::cell, why, w_->context.bucket_of(sphere), order);
-  if (!visit.area || visit.area->is_home(sphere.center)) return visit.list->push_poor(e);
+  assert(!visit.area || visit.area->owns(*mesh_, e.cell));
+  if (!visit.area || visit.area->is_home(place)) return visit.list->push_poor(e);
   elsewhere_.push_back(e);
 }
 
@@ -101,7 +105,7 @@ void WorkLister<D>::fill_outboxes() {
   box_of_.clear();
   box_sizes_.clear();
   for (const Entry<D>& e : elsewhere_) {
-    const std::uint32_t leaf = w_->visit->area->leaf_of(mesh_->center(e.cell));
+    const std::uint32_t leaf = w_->visit->area->leaf_of(w_->context.place_of(e.cell));
     std::size_t box = boxes.size();
     while (box > 0 && boxes[box - 1].leaf != leaf) --box;
     if (box == 0) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The lister of work: it puts encroached entities and poor elements at new cells, and violations, on the work list of the visit.
-// Elements whose circumcentre lies in another leaf go to the outbox for that leaf at the end of the visit.
+// Elements that belong to another leaf (RefineContext::place_of) go to the outbox for that leaf at the end of the visit.
 #pragma once
 
 #include <cstdint>
@@ -30,6 +30,10 @@ class WorkLister {
   void list_if_poor(CellId c);
   /// Lists a poor element; `why` is Entry::which, `order` is Entry::order.
   void list_poor(CellId c, int why, const FilterSphere<D>& sphere, std::uint32_t order);
+  /// Lists an element in a stage with a treatment; `order` is Entry::order, such as `order_by_level`.
+  void list_element(CellId c, std::uint32_t order) {
+    list(w_->entry(c, EntryKind::cell, Entry<D>::over_radius_edge, 0, order), w_->context.place_of(c));
+  }
   /// Lists the element of the entry again.
   void relist_cell(const Entry<D>& e) { list_poor(e.cell, e.which(), mesh_->sphere(e.cell), e.order); }
   /// Lists what is encroached or poor at the cells that the last commit of the cavity has made.
@@ -40,6 +44,7 @@ class WorkLister {
   void fill_outboxes();
 
  private:
+  void list(const Entry<D>& e, const Point<D>& place);
   void list_entities(CellId c, const ConstraintRecord<D>& k);
   void list_inserted_if_poor(std::size_t i);
   std::uint32_t order_of(CellId c, const FilterSphere<D>& sphere) const;
@@ -47,7 +52,7 @@ class WorkLister {
   Workspace<D>* w_;
   Mesh<D>* mesh_;
   const QuickBounds<D> quick_bounds_;
-  std::vector<Entry<D>> elsewhere_;                ///< elements with their circumcentre in other leaves
+  std::vector<Entry<D>> elsewhere_;                ///< elements that belong to other leaves
   std::vector<std::uint32_t> box_of_, box_sizes_;  ///< scratch of fill_outboxes: of each element; of each box
   std::vector<Entry<D>> violations_;               ///< at new cells, before they are listed
 };

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <optional>
 #include <string>
 
 #include "input/words.hpp"
@@ -24,23 +23,6 @@ double checked_size(const SizingField<D>& size, const Point<D>& x) {
   Diagnostic d{Errc::bad_size, {}, {}, 0, {}, {{x[0], x[1], D == 3 ? x[D - 1] : 0.0}}};
   d.message = "the size function returned " + detail::to_text(s) + " at " + detail::to_text<D>(x) + "; sizes must be positive";
   throw UsageError(std::move(d));
-}
-
-/// The binary logarithm of a positive number, to 1e-12. Of operations that IEEE 754 defines alone, since meshes rest on it:
-/// std::log2 differs from library to library.
-double log2_of(double x) {
-  if (x == std::numeric_limits<double>::infinity()) return x;
-  int exponent;
-  double m = std::frexp(x, &exponent);  // in [1/2, 1)
-  constexpr double root_half = 0.7071067811865476, two_over_ln2 = 2.8853900817779268;
-  if (m < root_half) {
-    m *= 2;
-    --exponent;
-  }
-  const double t = (m - 1) / (m + 1), t2 = t * t;  // ln m = 2 (t + t^3 / 3 + t^5 / 5 + ...), |t| < 0.172
-  double sum = 0;
-  for (int k = 15; k > 1; k -= 2) sum = t2 * (1.0 / k + sum);
-  return exponent + two_over_ln2 * (t + t * sum);
 }
 
 template <int D>
@@ -107,40 +89,21 @@ double CellBounds<D>::size_of(SimplexOf simplex, int region) const {
 }
 
 template <int D>
-double CellBounds<D>::measure_of(int region) const {
-  return region_measure.empty() ? max_measure : std::min(max_measure, region_measure[region]);
+double CellBounds<D>::size_at(const Simplex<D>& s, int region) const {
+  if (!size.bounded() && region_size.empty()) return infinity;
+  return size_of([&s]() -> const Simplex<D>& { return s; }, region);
 }
 
 template <int D>
-double CellBounds<D>::excess(const Simplex<D>& s, int region) const {
-  constexpr int most_powers = 20;
-  constexpr double of_power = 1.0 / 8, margin = 0x1p-16;
-  constexpr double roughly = 0x1p-8, rough_margin = 0x1p-5;  // a gain of 1/128 is 1/16 of a power
-  const auto of_powers = [](double powers) {
-    return 1 + of_power * (powers < most_powers ? std::max(powers, 0.0) : most_powers);  // of rounding's NaN: the most
-  };
-  const double shortest2 = shortest_edge_squared<D>(s), limit2 = radius_edge_bound * radius_edge_bound * shortest2;
-  std::optional<double> radius2 = squared_circumradius_quickly<D>(s);
-  // Of cells flatter than that the centre would be had in integers, which took half of the time where there are many.
-  if (const auto rough = radius2 ? std::nullopt : squared_circumradius_quickly<D>(s, roughly))
-    if (*rough > limit2 * (1 + rough_margin) && limit2 > 0) return of_powers(log2_of(*rough / limit2) / 2);
-  if (!radius2) radius2 = squared_circumradius_of_flat<D>(s);
-  if (radius2 && *radius2 > limit2 * (1 + margin) && limit2 > 0) return of_powers(log2_of(*radius2 / limit2) / 2);
-  const bool within = radius2 && *radius2 < limit2 * (1 - margin);
-  if (!within && !radius_edge_within<D>(s, radius_edge_bound)) {
-    const double limit = radius_edge_bound * std::sqrt(shortest2);
-    // A comparison alone, as the circumcentre of a flat one takes many times as long.
-    if (!circumradius_within<D>(s, std::ldexp(limit, most_powers + 1))) return of_powers(most_powers);
-    return of_powers(log2_of(std::sqrt(circumsphere<D>(s).squared_radius) / limit));
-  }
-  return within_size(s, region) ? 0 : 1;
+double CellBounds<D>::measure_of(int region) const {
+  return region_measure.empty() ? max_measure : std::min(max_measure, region_measure[region]);
 }
 
 template <int D>
 bool CellBounds<D>::within_size(const Simplex<D>& s, int region) const {
   if (!measure_within<D>(s, measure_of(region))) return false;
   if (!size.bounded() && region_size.empty()) return true;
-  const double bound = size_of([&s]() -> const Simplex<D>& { return s; }, region);
+  const double bound = size_at(s, region);
   if constexpr (D == 3) {
     return circumradius_within<D>(s, bound);
   } else {

@@ -66,9 +66,9 @@ class CellBounds {
   CellVerdict test(const Mesh<D>& mesh, CellId c) const;
   /// test() of a cell whose shape is known.
   CellVerdict test(const Mesh<D>& mesh, CellId c, const CellShape& shape) const;
-  /// How far a cell of these corners in the region would be over its bounds: 0 within; over any of them 1, and over that of shape
-  /// an eighth more for each power of two by which it is, up to 2.5 more. Called of cells that are not there, too.
-  double excess(const Simplex<D>& s, int region) const;
+  /// The least bound of size that applies to a cell of these corners in the region; infinity: none. @throws as test()
+  double size_at(const Simplex<D>& s, int region) const;
+  double measure_of(int region) const;  ///< the least bound of its volume (2D: area); infinity: none
   /// Would a cell of these corners in the region be within the bounds of size?
   bool within_size(const Simplex<D>& s, int region) const;
   /// Is the cell over the bound of shape?
@@ -81,7 +81,6 @@ class CellBounds {
  private:
   template <class SimplexOf>
   double size_of(SimplexOf simplex, int region) const;
-  double measure_of(int region) const;
   bool within_measure(const Mesh<D>& mesh, CellId c, const CellShape& shape, double bound) const;
 };
 

@@ -47,8 +47,8 @@
 // visible vertices are c lambda apart (on shells, that much less). The domain is bounded: there are finitely many insertions.
 // In doubles lambda could be less than their rounding, if the least distance of disjoint entities is. In 2D r >= 8 ulps of the
 // largest coordinate, too (RefineContext::least_apart); what that refuses stays poor by rounding.
-// Without inheritance c would have to be 1. Gift wrapping and flips insert nothing. What ends the last stage in 3D is another
-// argument (improve/change_judge.hpp).
+// Without inheritance c would have to be 1. Gift wrapping and flips insert nothing. The optimiser, which comes after all this in
+// 3D, does not ask the rule; what ends it is another argument (optimize/judge.hpp).
 //
 // Pure functions; any thread.
 #pragma once

@@ -14,7 +14,6 @@
 
 #include "numbers/circum_terms.hpp"
 #include "numbers/determinants.hpp"
-#include "numbers/double_double.hpp"
 #include "numbers/predicate_stages.hpp"
 
 namespace pgdr {
@@ -71,10 +70,10 @@ Offset<3> triangle_offset(const std::array<std::array<double, 3>, 2>& d) {
 }
 
 template <int D>
-bool accurate(const Offset<D>& o, double accuracy = detail::accepted_error) {
+bool accurate(const Offset<D>& o) {
   double largest = 0;  // at most r, and within sqrt(D) of it; no squares, which might underflow
   for (const double x : o.w) largest = std::max(largest, std::fabs(x));
-  return o.error <= accuracy * largest && largest < infinity;
+  return o.error <= detail::accepted_error * largest && largest < infinity;
 }
 
 /// The centre first + o.w, rounded, and what bounds its error.
@@ -140,43 +139,6 @@ Circumsphere<D> circumsphere(const Simplex<D>& s) {
   return {c.point, squared_distance(c.point, corners[0]), c.error};
 }
 
-// The offset is off by at most `accuracy` times its largest component (and, as the bound on the error is, a factor that the
-// largest accuracy makes 1 + 2^-8), so that its square is by twice that and little more.
-template <int D>
-std::optional<double> squared_circumradius_quickly(const Simplex<D>& s, double accuracy) {
-  const Offset<D> o = simplex_offset<D>(detail::edges_from_first<D>(sorted<D + 1, D>(s)));
-  if (!accurate<D>(o, accuracy)) return std::nullopt;
-  double square = 0;
-  for (const double x : o.w) square += x * x;
-  return square;
-}
-
-// Of edges scaled to components below 2 the determinant and the numerators are sums of at most 18 products of at most 16 (of
-// squared lengths below 12 with minors), each off by some 2^-102 of that: 2^-92 in all. Where they are above 2^-70, the
-// quotient's square is within 2^-20.
-template <int D>
-std::optional<double> squared_circumradius_of_flat(const Simplex<D>& s) {
-  const Simplex<D> p = sorted<D + 1, D>(s);
-  double largest = 0;
-  for (std::size_t i = 1; i <= D; ++i)
-    for (int k = 0; k < D; ++k) largest = std::max(largest, std::fabs(p[i][k] - p[0][k]));
-  if (!(largest > 0x1p-300 && largest < 0x1p300)) return std::nullopt;
-  const int order = std::ilogb(largest);
-  const double scale = std::ldexp(1, -order);
-  detail::Matrix<detail::DoubleDouble, D, D> edges;
-  for (std::size_t i = 0; i < D; ++i)
-    for (std::size_t k = 0; k < D; ++k) {
-      const detail::Twice edge = detail::two_diff(p[i + 1].x[k], p[0].x[k]);
-      edges[i][k] = {edge.hi * scale, edge.lo * scale};
-    }
-  const auto numerator = detail::circum_numerator(edges);
-  const double det = detail::orient_det(edges).rounded();
-  double square = 0;
-  for (const detail::DoubleDouble& n : numerator) square += n.rounded() * n.rounded();
-  if (!(std::fabs(det) > 0x1p-70 && square > 0x1p-140)) return std::nullopt;
-  return std::ldexp(square / (4 * det * det), 2 * order);
-}
-
 template <int D>
 double shortest_edge_squared(const Simplex<D>& s) {
   double shortest = squared_distance(s[0], s[1]);
@@ -235,10 +197,6 @@ bool in_diametral_ball(const Point<D>& a, const Point<D>& b, const Point<D>& x) 
 
 bool in_equatorial_ball(const Ball<3>& ball, const Point3& x) { return squared_distance(ball.center, x) < ball.squared_radius; }
 
-template PGDR_API std::optional<double> squared_circumradius_quickly<2>(const Simplex<2>&, double);
-template PGDR_API std::optional<double> squared_circumradius_quickly<3>(const Simplex<3>&, double);
-template PGDR_API std::optional<double> squared_circumradius_of_flat<2>(const Simplex<2>&);
-template PGDR_API std::optional<double> squared_circumradius_of_flat<3>(const Simplex<3>&);
 template PGDR_API Circumsphere<2> circumsphere<2>(const Simplex<2>&);
 template PGDR_API Circumsphere<3> circumsphere<3>(const Simplex<3>&);
 template PGDR_API double shortest_edge_squared<2>(const Simplex<2>&);

@@ -52,6 +52,12 @@ constexpr std::array<T, N - 1> face_without(const std::array<T, N>& corners, int
   for (int k = 0; k + 1 < static_cast<int>(N); ++k) face[k] = corners[k < i ? k : k + 1];  // std::copy would call memmove
   return face;
 }
+/// The same of a tetrahedron, in an order that, with what corner i has behind it, is an even permutation.
+template <class T>
+constexpr std::array<T, 3> face_inwards(const std::array<T, 4>& corners, int i) {
+  const auto& order = face_corners<3>[i];
+  return {corners[order[0]], corners[order[1]], corners[order[2]]};
+}
 /// Of what the corners of a tetrahedron have, that of the two ends of edge e. (A triangle has it if both ends are its corners.)
 template <class T, std::size_t N>
 constexpr std::array<T, 2> ends_of_edge(const std::array<T, N>& corners, int e) {

@@ -5,7 +5,6 @@
 // that each is a function of the vertex set. Pure functions, any thread.
 #pragma once
 
-#include <optional>
 #include <span>
 
 #include "pgdr/export.hpp"
@@ -27,15 +26,6 @@ struct Circumsphere {
 /// @pre the corners are affinely independent (exactly).
 template <int D>
 Circumsphere<D> circumsphere(const Simplex<D>& s);
-
-/// The square of the circumradius where the plain evaluation tells it within four times `accuracy` of itself, else nothing. A
-/// function of the vertex set, too, though not the one that circumsphere() has. @pre accuracy <= 1/256
-template <int D>
-std::optional<double> squared_circumradius_quickly(const Simplex<D>& s, double accuracy = 0x1p-20);
-
-/// The same within 2^-20 of itself from numbers of 106 bits, for cells so flat that doubles do not tell; some ten times as slow.
-template <int D>
-std::optional<double> squared_circumradius_of_flat(const Simplex<D>& s);
 
 /// Squared length of the shortest edge (rounded differences, canonical order of the two ends).
 template <int D>

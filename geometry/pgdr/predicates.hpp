@@ -86,6 +86,12 @@ bool circumradius_within(const Simplex<D>& s, double size);
 /// |volume| (area in 2D) <= bound, exactly; bound >= 0.
 template <int D>
 bool measure_within(const Simplex<D>& s, double bound);
+/// All six dihedral angles at least the one whose cosine is `largest_cosine`, decided exactly as the others are. So it is not by
+/// a flat tetrahedron, unless largest_cosine >= 1, which is no bound. NaN holds for nothing.
+bool dihedral_within(const Simplex<3>& s, double largest_cosine);
+/// The cosine of so many degrees, rounded to the nearest double: the shortest decimal that stands for `degrees` is taken as it
+/// is. NaN of what is not finite. Takes microseconds.
+double claimed_cosine(double degrees);
 
 /// How often each stage decided, per thread, since the thread began: summed by whoever owns the threads. `expansion` is
 /// the second stage, `perturbed` counts ties on top of what found them (and the orientations that break them count, too).

@@ -22,17 +22,40 @@
 
 namespace pgdr PGDR_API {
 
+/// When a stage of a run began, and how long it took.
+struct StageTime {
+  std::string name;    ///< of the stage
+  double start = 0;    ///< seconds since the meshing began
+  double seconds = 0;  ///< on the wall
+};
+
 /// What was done. Times are of the clock on the wall.
 struct RefineStatistics {
   double seconds_mesh = 0;                 ///< from the input in memory to the finished mesh in memory
   double seconds_initial = 0;              ///< of these, until the boundary is there
   double seconds_refine = 0;               ///< of these, the refinement
+  double seconds_optimize = 0;             ///< of these, the optimiser
+  std::vector<StageTime> stages;           ///< of the refinement and the optimiser, those that ran, in their order
   std::uint64_t segment_points = 0;        ///< Steiner points on segments, of the boundary recovery
   std::uint64_t facet_points = 0;          ///< Steiner points on facets, of the boundary recovery
   std::uint64_t insertions_committed = 0;  ///< points that the refinement inserted
   std::uint64_t insertions_refused = 0;    ///< beside small angles, or with `min_edge`
   std::uint64_t selector_outside = 0;      ///< points of the selector outside their disk, replaced
   PredicateCounts predicates;              ///< of all threads
+};
+
+/// What the optimiser did (RefineOptions::min_dihedral).
+struct OptimizationStatistics {
+  double target = 0;          ///< degrees; 0: there was no optimiser
+  double claimed_cosine = 1;  ///< of the target, correctly rounded: what CheckOptions::largest_cosine is compared with exactly
+  std::uint64_t moves = 0;    ///< vertices that got another place
+  std::uint64_t edge_removals = 0;  ///< edges that went, and faces in whose place one came
+  std::uint64_t reconnections = 0;  ///< small polyhedra that were filled anew
+  std::uint64_t inserted = 0;       ///< vertices that came
+  std::uint64_t removed = 0;        ///< vertices that went
+  std::uint64_t evaluated = 0;      ///< qualities of cells that were computed: the unit of work
+  std::uint64_t left = 0;           ///< when finished: cells over a bound in the end
+  std::uint64_t unexplained = 0;    ///< of these, without an excuse
 };
 
 /// How the visits went (docs/design.md, "Generations, and why meshes are reproducible").
@@ -73,15 +96,21 @@ struct RefineResult {
   /// Why the run ended. If that was before the boundary was recovered, or if it was cancelled and no partial mesh is wanted,
   /// `mesh` is empty.
   StopCause stop = StopCause::finished;
-  std::uint64_t poor_left = 0;  ///< cells over a bound
+  /// Cells over a bound. Where a limit has ended the run, the bound on dihedral angles does not count.
+  std::uint64_t poor_left = 0;
   /// Of these, when finished, those in a corner of a facet that is so sharp that every mesh has one there (sharp_corners.hpp).
   std::uint64_t poor_unavoidable = 0;
   bool size_met = true;  ///< every cell within the size and measure bounds; false without a mesh
-  /// One for every poor cell when finished. Of a mesh that a limit has ended: for cells with faces that are not locally Delaunay.
+  /// One for every poor cell when finished. Of a mesh that a limit has ended before the optimiser began: for cells with faces
+  /// that are not locally Delaunay.
   std::vector<PoorReason> reasons;
-  std::vector<RegionVolume> regions;  ///< one a label that cells have, ascending; none without a mesh
-  RefineStatistics statistics;        ///< counts and times
-  SchedulerStatistics scheduler;      ///< how the visits went
+  std::vector<RegionVolume> regions;    ///< one a label that cells have, ascending; none without a mesh
+  RefineStatistics statistics;          ///< counts and times
+  SchedulerStatistics scheduler;        ///< how the visits went
+  OptimizationStatistics optimization;  ///< 3D: what the optimiser did
+  /// Is the mesh constrained Delaunay, but for rounding and beside the entities in `reasons`? False once the optimiser has begun,
+  /// and where a clock or the caller has ended a run in which faces were met that are not locally Delaunay.
+  bool delaunay = true;
   /// Were faces met that are not locally Delaunay? If not, none is left but by rounding, beside slanted entities.
   bool violations_seen = false;
   double tolerance = 0;              ///< Domain::tolerance

@@ -25,8 +25,8 @@ template <int D>
 StopCause Generations<D>::drain() {
   while (true) {
     if (context_->options.stop.stop_requested()) return StopCause::cancelled;
-    if (state_->totals.vertices >= context_->options.max_vertices) return StopCause::max_vertices;
-    if (!one_generation()) return StopCause::finished;
+    if (!context_->stage && state_->totals.vertices >= context_->options.max_vertices) return StopCause::max_vertices;
+    if (state_->is_spent() || !one_generation()) return StopCause::finished;
     if (state_->stop() != StopCause::finished) return state_->stop();
   }
 }
@@ -42,7 +42,8 @@ bool Generations<D>::one_generation() {
   touch_memory(wanted);
   Generation<D> generation = conflicts_.plan(wanted);
   std::vector<Planned> planned(wanted.size());
-  const std::uint64_t left = context_->options.max_vertices - state_->totals.vertices, n = planned.size();
+  const std::uint64_t most = context_->options.max_vertices, n = planned.size();
+  const std::uint64_t left = most - std::min(most, state_->totals.vertices);
   if (n > 1) context_->mesh.leave_heap();          // several visits have pools of their own
   registry_.reset(waiting_->tree().node_count());  // grows geometrically; of use to debug builds alone
   const auto start = Clock::now();

@@ -105,7 +105,7 @@ template <int D>
 auto Greedy<D>::pick() -> std::unique_ptr<Running> {
   const std::uint64_t most = context_->options.max_vertices;
   const std::uint64_t left = most - std::min(most, state_->totals.vertices + reserved_);
-  if (running_ >= threads_ || context_->stop != 0 || left == 0) return nullptr;
+  if (running_ >= threads_ || context_->stop != 0 || (left == 0 && !context_->stage)) return nullptr;
   claimed_.resize(tree_->node_count(), 0);
   for (auto next = pool_.begin(); next != pool_.end(); ++next) {
     const VisitRequest request{std::get<3>(next->first), std::get<2>(next->first), 0};
@@ -125,7 +125,8 @@ auto Greedy<D>::begin(const VisitRequest& request, std::uint64_t vertices_left) 
   claim(*visit);
   state_->prepare(request, visit->work);
   if (request.order == 1) (*waiting_)[request.leaf].open_inbox();
-  visit->work.most_insertions = std::max<std::uint64_t>(vertices_left / static_cast<std::uint64_t>(threads_), 1);
+  visit->work.most_insertions = std::min(vertices_left,
+                                         std::max<std::uint64_t>(vertices_left / static_cast<std::uint64_t>(threads_), 1));
   reserved_ += visit->work.most_insertions;
   ++running_;
   state_->recorder.count_concurrent(static_cast<std::uint32_t>(running_));
@@ -139,7 +140,7 @@ void Greedy<D>::hand_over(Running& visit) {
     std::vector<std::pair<Node, std::vector<Entry<D>>>> letters;
     for (const Entry<D>& e : box.entries) {
       if (!e.alive(context_->mesh)) continue;
-      const Node leaf = tree_->leaf_at(context_->mesh.center(e.cell));
+      const Node leaf = tree_->leaf_at(context_->place_of(e.cell));
       auto batch = std::find_if(letters.rbegin(), letters.rend(), [leaf](const auto& l) { return l.first == leaf; });
       if (batch == letters.rend()) {
         letters.push_back({leaf, {e}});

@@ -15,12 +15,13 @@ void LeafWorks<D>::pass_up_changes() {
 }
 
 template <int D>
-void LeafWorks<D>::hand_down(const Mesh<D>& mesh, Node parent, std::uint64_t generation) {
+void LeafWorks<D>::hand_down(const RefineContext<D>& context, Node parent, std::uint64_t generation) {
+  const Mesh<D>& mesh = context.mesh;
   LeafWork<D>& from = *works_[parent];
   auto pass_on = [&](const Entry<D>& e) {
     if (!e.alive(mesh)) return;
     // To a child of this parent, though an entity that was set aside may be on a cell with its centre elsewhere.
-    LeafWork<D>& to = *works_[tree_->child_at(parent, mesh.center(e.cell))];
+    LeafWork<D>& to = *works_[tree_->child_at(parent, context.place_of(e.cell))];
     to.list.push(e);
     to.since = generation;
   };

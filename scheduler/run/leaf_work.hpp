@@ -58,9 +58,9 @@ class LeafWorks {
   }
   /// Makes each node know of changes in any of its parts. Until then leaves alone do.
   void pass_up_changes();
-  /// Hands all that waits at a node that was split to its children, by the circumcentres of the cells. What was set aside
-  /// starts again as ordinary. Threads: different parents at once.
-  void hand_down(const Mesh<D>& mesh, Node parent, std::uint64_t generation);
+  /// Hands all that waits at a node that was split to its children, by the places of the cells
+  /// (RefineContext::place_of). What was set aside starts again as ordinary. Threads: different parents at once.
+  void hand_down(const RefineContext<D>& context, Node parent, std::uint64_t generation);
 
  private:
   const Orthtree<D>* tree_;

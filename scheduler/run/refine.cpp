@@ -36,6 +36,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr double most_practical_dihedral = 30;  // degrees
+
 double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
 
 [[noreturn]] void bad_option(const std::string& what) { throw UsageError({Errc::bad_option, what, {}, 0, {}, {}}); }
@@ -52,6 +54,12 @@ void validate(const RefineOptions<D>& options) {
     bad_option("the volume bound is for 3D; in 2D the size bounds the area");
   if (!(options.min_edge >= 0)) bad_option("the shortest edge allowed must not be negative");
   if (options.time_limit && !(options.time_limit->count() >= 0)) bad_option("the time limit must not be negative");
+  if (options.min_dihedral && !(*options.min_dihedral >= 0 && *options.min_dihedral <= most_min_dihedral))
+    bad_option("the bound on dihedral angles must lie between 0 and " + detail::to_text(most_min_dihedral) + " degrees");
+  if (!options.refine && options.min_dihedral.value_or(0) > 0)
+    bad_option("a bound on dihedral angles needs the refinement: the optimiser follows it");
+  if (D == 2 && options.min_dihedral.value_or(0) > 0)
+    bad_option("the bound on dihedral angles is for 3D; in 2D the radius-edge bound is one on angles");
   if (D == 3 && options.keep_boundary) bad_option("the boundary can be kept as it is in 2D only");
   if (options.schedule.threads < 0) bad_option("the number of threads must not be negative");
   if (options.schedule.granularity < 1) bad_option("the granularity must be at least 1");
@@ -60,6 +68,14 @@ void validate(const RefineOptions<D>& options) {
   if (delta != 0 && options.disk.type == DiskType::type1) bad_option("delta is for disks of type 2");
   if (delta != 0 && !(delta >= smallest_proved_bound<D>() / options.radius_edge_bound && delta <= 1))
     bad_option("delta must lie between " + detail::to_text(smallest_proved_bound<D>()) + " / radius-edge bound and 1");
+}
+
+/// The optimiser's target in degrees; 0: there is no optimiser.
+template <int D>
+double target_of(const RefineOptions<D>& options) {
+  if (D == 2 || !options.refine) return 0;
+  const bool is_usual = !options.selector;  // circumcentres are the default selector of 3D
+  return options.min_dihedral.value_or(is_usual ? default_min_dihedral : 0);
 }
 
 template <int D>
@@ -76,13 +92,18 @@ CellBounds<D> bounds_of(const RefineOptions<D>& options, const RegionTable& regi
   return bounds;
 }
 
-/// The cells over a bound.
+/// The cells over a bound. `sizes_are_met`: none is over one of size, so that the size function need not be called.
 template <int D>
-PoorCount count_poor(const RefineContext<D>& context) {
+PoorCount count_poor(const RefineContext<D>& context, bool sizes_are_met) {
   const std::uint32_t cells = context.mesh.cell_bound();
   std::vector<PoorCount> parts(detail::count_parts(cells));
   detail::each_part(cells, context.options.schedule, [&](const detail::CellPart& part) {
-    parts[part.number] = count_poor_cells<D>(context.mesh, context.bounds, part.first, part.last);
+    if (!sizes_are_met) {
+      parts[part.number] = count_poor_cells<D>(context.mesh, context.bounds, part.first, part.last);
+      return;
+    }
+    for (std::uint32_t i = part.first; i < part.last; ++i)
+      if (context.mesh.alive(CellId{i}) && context.bounds.over_radius_edge(context.mesh, CellId{i})) ++parts[part.number].cells;
   });
   PoorCount poor;
   for (const PoorCount& part : parts) {
@@ -163,6 +184,14 @@ void warn_beyond_theory(const RefineOptions<D>& options, std::vector<Diagnostic>
                         0,
                         {},
                         {}});
+  if (target_of(options) > most_practical_dihedral)
+    warnings.push_back({Errc::beyond_theory,
+                        "the bound on dihedral angles is beyond practice: above " + detail::to_text(most_practical_dihedral) +
+                            " degrees some cells mostly stay below it",
+                        {},
+                        0,
+                        {},
+                        {}});
 }
 
 /// Makes the mesh before its refinement: all input points, the boundary, no exterior. Where the run is stopped before the
@@ -189,20 +218,28 @@ RegionTable make_initial(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Do
 /// What is known of the poor cells, and of the tree, once the refinement has ended.
 template <int D>
 struct Refined {
-  std::vector<PoorCell> explained;   ///< with their reasons, if the refinement has finished
-  std::optional<PoorCount> counted;  ///< how many there are, where the lists tell
-  std::optional<Orthtree<D>> tree;   ///< as it is in the end, if the leaves of cells are asked for
+  std::vector<PoorCell> explained;         ///< with their reasons, if the refinement has finished
+  std::optional<PoorCount> counted;        ///< how many there are, where the lists tell
+  bool sizes_are_met = false;              ///< none is over a bound of size: known once the optimiser has begun
+  std::optional<Orthtree<D>> tree;         ///< as it is in the end, if the leaves of cells are asked for
+  std::optional<double> optimizing_since;  ///< seconds after the run began
 };
 
 template <int D>
 Refined<D> refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices,
                        RefineResult<D>& result) {
-  detail::Refinement<D> refinement(context, std::move(pools), vertices);
+  detail::Refinement<D> refinement(context, std::move(pools), vertices, target_of(context.options));
   result.stop = refinement.run();
   detail::RunState<D>& state = refinement.state();
-  result.violations_seen = state.totals.violations_seen;
-  result.statistics.insertions_committed = state.totals.counts.committed;
-  result.statistics.insertions_refused = state.totals.counts.refused;
+  const detail::Optimizing* optimizing = refinement.optimizing();
+  const RefineCounts& counts = optimizing ? optimizing->counts_before() : state.totals.counts;
+  if (optimizing) result.optimization = optimizing->statistics();
+  // Who interrupts a run does not wait for the repair of what is not locally Delaunay.
+  result.delaunay = !optimizing && !(was_interrupted(result.stop) && state.totals.violations_seen);
+  result.violations_seen = state.totals.violations_seen || optimizing;
+  result.statistics.insertions_committed = counts.committed;
+  result.statistics.insertions_refused = counts.refused;
+  result.statistics.stages = refinement.stage_times();
   result.statistics.selector_outside = state.totals.counts.selector_outside;
   result.statistics.predicates += state.recorder.predicates_elsewhere();
   result.scheduler = state.recorder.statistics();
@@ -210,8 +247,10 @@ Refined<D> refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools,
   result.trace = state.recorder.take_trace();
   if (is_unwanted(context.options, result.stop)) return {};
   Refined<D> refined;
+  refined.optimizing_since = refinement.optimizing_since();
   refined.explained = refinement.take_explained();
   refined.counted = state.waiting.take_poor();
+  refined.sizes_are_met = refinement.sizes_are_met();
   if (context.options.leaves) refined.tree = state.waiting.take_tree();
   return refined;
 }
@@ -222,17 +261,19 @@ template <int D>
 void count_poor_left(const RefineContext<D>& context, const Refined<D>& refined, RefineResult<D>& result) {
   const RefineOptions<D>& options = context.options;
   if (!options.refine || result.stop != StopCause::finished) {
-    const PoorCount count = refined.counted && was_interrupted(result.stop) ? *refined.counted : count_poor(context);
+    const PoorCount count = refined.counted && was_interrupted(result.stop) ? *refined.counted
+                                                                            : count_poor(context, refined.sizes_are_met);
     result.poor_left = count.cells;
     result.size_met = !count.over_size;
     return;
   }
   std::vector<CellId> over_bound;
   for (const PoorCell& p : refined.explained) {
-    if (p.over_bound) over_bound.push_back(p.cell);
+    if (!p.over_bound) continue;
+    ++result.poor_left;
+    if (result.delaunay || context.bounds.test(context.mesh, p.cell)) over_bound.push_back(p.cell);
     result.size_met = result.size_met && !p.over_size;
   }
-  result.poor_left = over_bound.size();
   result.poor_unavoidable = count_in_sharp_corners<D>(context.mesh, context.domain, options.radius_edge_bound, over_bound);
 }
 
@@ -289,7 +330,6 @@ RefineResult<D> make_mesh(const Domain<D>& domain, const RefineOptions<D>& optio
     result.size_met = false;
     return result;  // no boundary yet, so no mesh
   }
-  const auto refine_start = Clock::now();
   const PointData<D> data(mesh, domain);
   const std::uint64_t vertices = domain.points().size() + result.statistics.segment_points + result.statistics.facet_points;
   RefineContext<D> context(mesh, domain, options, bounds_of(options, regions), vertices, start);
@@ -298,7 +338,9 @@ RefineResult<D> make_mesh(const Domain<D>& domain, const RefineOptions<D>& optio
   if (is_unwanted(options, result.stop)) return without_mesh(std::move(result), start);
   count_poor_left<D>(context, refined, result);
   result.regions = region_volumes<D>(mesh, domain, attributes_of(regions));
-  result.statistics.seconds_refine = seconds_since(refine_start);
+  const double end = seconds_since(start), optimizing_since = refined.optimizing_since.value_or(end);
+  result.statistics.seconds_refine = optimizing_since - result.statistics.seconds_initial;
+  result.statistics.seconds_optimize = end - optimizing_since;
   number_mesh<D>(context, regions, data, refined, result);
   if (is_unwanted(options, result.stop)) return without_mesh(std::move(result), start);
   return result;

@@ -18,37 +18,61 @@ std::unique_ptr<VisitSchedule<D>> make_schedule(RunState<D>& state) {
 }  // namespace
 
 template <int D>
-Refinement<D>::Refinement(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices)
-    : state_(context, std::move(pools), vertices), schedule_(make_schedule(state_)), violations_(state_) {
+Refinement<D>::Refinement(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices, double min_dihedral)
+    : min_dihedral_(min_dihedral),
+      state_(context, std::move(pools), vertices),
+      schedule_(make_schedule(state_)),
+      violations_(state_) {
   const ScheduleOptions& options = context.options.schedule;
   if (options.schedule == Schedule::greedy || options.executor == Executor::shuffled) context.mesh.leave_heap();  // several pools
 }
 
 template <int D>
-StopCause Refinement<D>::run() {
-  using Stage = StopCause (Refinement::*)();
-  static constexpr Stage stages[] = {
-      &Refinement::list_everything,
-      &Refinement::refine,
-      &Refinement::refine_as_last_resort,
-      &Refinement::look_for_violations,
-      &Refinement::end_if_min_edge_hit,
-      &Refinement::explain,
-      &Refinement::collapse,
-      &Refinement::improve,
-      &Refinement::explain_what_was_improved,
-      &Refinement::end_if_min_edge_hit,
-      &Refinement::end_if_vertices_are_spent,
+auto Refinement<D>::plan(bool optimizes) -> std::span<const Stage> {
+  using R = Refinement;
+  static constexpr Stage refining[] = {
+      {"list", &R::list_everything},
+      {"insert", &R::refine},
+      {"last_resort", &R::refine_as_last_resort},
+      {"violations", &R::look_for_violations},
+      {"shortest_edge", &R::end_if_min_edge_hit},
+      {"reasons", &R::explain},
+      {"budget", &R::end_if_vertices_are_spent},
   };
+  static constexpr Stage with_optimizer[] = {
+      {"list", &R::list_everything},
+      {"insert", &R::refine},
+      {"last_resort", &R::refine_as_last_resort},
+      {"shortest_edge", &R::end_if_min_edge_hit},
+      {"budget", &R::end_if_vertices_are_spent},
+      {"optimize_cheap", &R::optimize_cheaply, true},
+      {"optimize_strong", &R::optimize_strongly, true},
+      {"optimize_worst", &R::optimize_the_worst, true},
+      {"optimize_again", &R::optimize_strongly, true},
+      {"reasons", &R::explain_what_is_left, true},
+  };
+  return optimizes ? std::span<const Stage>(with_optimizer) : std::span<const Stage>(refining);
+}
+
+template <int D>
+StopCause Refinement<D>::run() {
   const auto start = Clock::now();
+  const auto since_origin = [this] { return VisitRecorder::seconds_since(state_.context.start); };
   StopCause stop = StopCause::finished;
-  for (const Stage stage : stages) {
-    stop = (this->*stage)();
+  for (const Stage& stage : plan(min_dihedral_ > 0)) {
+    const double begin = since_origin();
+    if (stage.optimizes && !optimizing_since_) optimizing_since_ = begin;
+    stop = (this->*stage.run)();
+    times_.push_back({stage.name, begin, since_origin() - begin});
     if (stop == StopCause::finished) stop = state_.stop();
     if (stop != StopCause::finished) break;
   }
+  state_.context.stage = nullptr;
   if (stop != StopCause::finished && stop != StopCause::cancelled) {
-    leave_in_order();
+    if (optimizing_)
+      explained_.clear();  // which may be a part; and nothing is Delaunay by intent
+    else
+      leave_in_order();
     if (!state_.is_cancelled()) state_.context.stop = static_cast<int>(stop);
     stop = state_.stop();
   }
@@ -116,32 +140,41 @@ StopCause Refinement<D>::explain() {
   return StopCause::finished;
 }
 
-/// Collapses come before what else improves: that leaves as few poor elements, and fewer elements in all.
 template <int D>
-StopCause Refinement<D>::collapse() {
+StopCause Refinement<D>::end_if_vertices_are_spent() {
+  const bool spent = state_.totals.vertices >= state_.context.options.max_vertices;
+  return spent && state_.waiting.whole_list_waits() ? StopCause::max_vertices : StopCause::finished;
+}
+
+template <int D>
+StopCause Refinement<D>::optimize(Optimization::Phase phase) {
   if constexpr (D == 3) {
-    if (explained_.empty()) return StopCause::finished;
-    improver_ = std::make_unique<Improver>(state_, *schedule_, *poor_);
-    return improver_->collapse();
+    if (!optimizing_) optimizing_ = std::make_unique<Optimizing>(state_, *schedule_, min_dihedral_);
+    return optimizing_->run(phase);
   }
   return StopCause::finished;
 }
 
 template <int D>
-StopCause Refinement<D>::improve() {
-  return improver_ ? improver_->improve() : StopCause::finished;
+StopCause Refinement<D>::optimize_cheaply() {
+  return optimize(Optimization::Phase::cheap);
 }
 
 template <int D>
-StopCause Refinement<D>::explain_what_was_improved() {
-  if (state_.totals.counts.improved > 0) explained_ = poor_->look();
+StopCause Refinement<D>::optimize_strongly() {
+  return optimize(Optimization::Phase::strong);
+}
+
+/// Passes through more poor cells where that makes the worst ones better.
+template <int D>
+StopCause Refinement<D>::optimize_the_worst() {
+  return optimize(Optimization::Phase::worst);
+}
+
+template <int D>
+StopCause Refinement<D>::explain_what_is_left() {
+  if (optimizing_) explained_ = optimizing_->explain_left();
   return StopCause::finished;
-}
-
-template <int D>
-StopCause Refinement<D>::end_if_vertices_are_spent() {
-  const bool spent = state_.totals.vertices >= state_.context.options.max_vertices;
-  return spent && state_.waiting.whole_list_waits() ? StopCause::max_vertices : StopCause::finished;
 }
 
 /// A limit ends a run between an insertion and the repair of the faces that it left not locally Delaunay. This makes up for it,

@@ -1,18 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A run of refinement, from a mesh with its boundary to one whose elements are good, or stay poor for a reason. run() has the
-// stages in their order.
+// A run of refinement, from a mesh with its boundary to one whose elements are good, or stay poor for a reason, and of the
+// optimiser. A plan has the stages in their order.
 #pragma once
 
 #include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
-#include "run/improver.hpp"
+#include "run/optimizing.hpp"
 #include "run/poor_search.hpp"
 #include "run/run_state.hpp"
 #include "run/violation_scan.hpp"
@@ -23,16 +24,34 @@ namespace pgdr::detail {
 template <int D>
 class Refinement {
  public:
-  /// `pools`: those that made the mesh so far. `vertices`: it has so many. The context must outlive this.
-  Refinement(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices);
+  /// A stage of the plan.
+  struct Stage {
+    const char* name;                ///< for reports
+    StopCause (Refinement::*run)();  ///< does it
+    bool optimizes = false;          ///< is it the optimiser's?
+  };
 
+  /// `pools`: those that made the mesh so far. `vertices`: it has so many. `min_dihedral`: the optimiser's target in degrees; 0:
+  /// none. The context must outlive this.
+  Refinement(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices, double min_dihedral);
+
+  /// The stages in their order, with the optimiser or without.
+  static std::span<const Stage> plan(bool optimizes);
   /// Runs the stages until one does not finish. Once. @throws what a callback throws
   StopCause run();
 
-  /// If the run has finished: every cell over a bound, or beside a face that is not locally Delaunay and a small angle, and why.
-  /// If a limit has ended it, the latter.
+  /// If the run has finished: every cell over a bound and why, and without the optimiser every cell beside a face that is not
+  /// locally Delaunay and a small angle. If a limit has ended it before the optimiser began, the latter.
   std::vector<PoorCell> take_explained() { return std::move(explained_); }
+  /// The seconds of the stages that ran, and when the optimiser began, if it has (StageTime::start).
+  const std::vector<StageTime>& stage_times() const { return times_; }
+  std::optional<double> optimizing_since() const { return optimizing_since_; }
+  /// The optimiser's part; null if it has not begun.
+  const Optimizing* optimizing() const { return optimizing_.get(); }
   RunState<D>& state() { return state_; }
+
+  /// Has the optimiser begun, with no cell over a bound of size?
+  bool sizes_are_met() const { return optimizing_ && optimizing_->sizes_are_met(); }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -44,20 +63,26 @@ class Refinement {
   StopCause look_for_violations();
   StopCause end_if_min_edge_hit();
   StopCause explain();
-  StopCause collapse();
-  StopCause improve();
-  StopCause explain_what_was_improved();
   StopCause end_if_vertices_are_spent();
+  StopCause optimize_cheaply();
+  StopCause optimize_strongly();
+  StopCause optimize_the_worst();
+  StopCause explain_what_is_left();
 
   void leave_in_order();
   void repair_standing_violations();
 
-  std::unique_ptr<Improver> improver_;  ///< 3D; declared before the workers, which may hold on to it
+  StopCause optimize(Optimization::Phase phase);
+
+  const double min_dihedral_;
+  std::unique_ptr<Optimizing> optimizing_;  ///< 3D; declared before the workers, which may hold on to it
   RunState<D> state_;
   std::unique_ptr<VisitSchedule<D>> schedule_;
   ViolationScan<D> violations_;
   std::optional<PoorSearch<D>> poor_;  ///< from explain() on
   std::vector<PoorCell> explained_;
+  std::vector<StageTime> times_;
+  std::optional<double> optimizing_since_;
 };
 
 extern template class Refinement<2>;

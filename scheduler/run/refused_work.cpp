@@ -53,7 +53,7 @@ bool RefusedWork<D>::may_have_changed(const Refusal<D>& refusal, const LeafWork<
 /// Has anything changed that the visit did see, or may have?
 template <int D>
 bool RefusedWork<D>::has_changed(const Refusal<D>& refusal) const {
-  if (context_->stage && context_->stage->version(refusal.entry.cell) != refusal.versions) return true;
+  if (context_->stage) return context_->stage->version(refusal.entry.cell) != refusal.versions;
   return refusal.seen.empty() || surroundings_of<D>(context_->mesh, refusal.seen) != refusal.surroundings;
 }
 
@@ -69,7 +69,7 @@ void RefusedWork<D>::relist_changed() {
     if (r.order == 1)
       waiting_->relist(r.entry);
     else
-      waiting_->set_aside(waiting_->tree().leaf_at(context_->mesh.center(r.entry.cell)), r.order, r.entry);
+      waiting_->set_aside(waiting_->tree().leaf_at(context_->place_of(r.entry.cell)), r.order, r.entry);
 }
 
 template <int D>

@@ -4,7 +4,9 @@
 // What the schedules and the stages of a run share.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -26,7 +28,7 @@ struct RunTotals {
   template <int D>
   void add(const RegionVisit<D>& visit) {
     counts += visit.counts;
-    vertices += visit.counts.committed;
+    vertices += visit.counts.committed - visit.counts.removed;
     violations_seen = violations_seen || visit.violations_seen;
     entities_refused = entities_refused || visit.entities_refused;
     min_edge_hit = min_edge_hit || visit.min_edge_hit;
@@ -54,6 +56,7 @@ struct RunState {
   void prepare(const VisitRequest& request, RegionVisit<D>& visit) {
     visit.violations_seen = totals.violations_seen;
     visit.entities_refused = totals.entities_refused;
+    visit.most_evaluated = most_evaluated - std::min(most_evaluated, totals.counts.evaluated);
     waiting.prepare(request, visit);
   }
   /// Takes in what a visit that has ended did, and what it set aside. `claim`: its leaves; none for the whole tree.
@@ -63,6 +66,8 @@ struct RunState {
     recorder.count_set_aside(waiting.defer(request, visit.set_aside));
     if (context.stop != 0) waiting.keep_given(visit.given);
   }
+  /// Is the budget of evaluations spent? Between generations, so that it does not depend on timing.
+  bool is_spent() const { return totals.counts.evaluated >= most_evaluated; }
   /// How the run stands: what has stopped it, or finished.
   StopCause stop() const { return static_cast<StopCause>(context.stop.load()); }
   /// Has the run been cancelled? It is stopped with that. For loops over all cells, which end then.
@@ -75,6 +80,7 @@ struct RunState {
   RefineContext<D>& context;
   const ScheduleOptions& options;
   RunTotals totals;
+  std::uint64_t most_evaluated = std::numeric_limits<std::uint64_t>::max();  ///< in all, by the end of this stage
   WaitingWork<D> waiting;
   RefusedWork<D> refused;
   WorkerPool<D> workers;

@@ -75,7 +75,7 @@ void WaitingWork<D>::post(Node leaf, std::vector<Entry<D>>&& entries) {
 
 template <int D>
 void WaitingWork<D>::relist(const Entry<D>& e) {
-  LeafWork<D>& work = works_[tree_.leaf_at(context_->mesh.center(e.cell))];
+  LeafWork<D>& work = works_[tree_.leaf_at(context_->place_of(e.cell))];
   if (!work.has_list()) work.since = generation_;
   work.list.push(e);
 }

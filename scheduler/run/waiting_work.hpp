@@ -46,7 +46,7 @@ class WaitingWork {
 
   /// Puts entries that a visit of another leaf has found into the inbox of this one.
   void post(Node leaf, std::vector<Entry<D>>&& entries);
-  /// Lists the entry in the leaf that holds the circumcentre of its cell.
+  /// Lists the entry in the leaf that its cell belongs to (RefineContext::place_of).
   void relist(const Entry<D>& e);
   /// Leaves the entry to a visit of that leaf, or of the whole tree, with the claim of that order.
   void set_aside(Node leaf, std::uint32_t order, const Entry<D>& e);
@@ -62,7 +62,7 @@ class WaitingWork {
   /// stays with the parent until hand_down().
   bool split_if_crowded(Node leaf);
   /// Hands what waits at a node that was split to its children. Threads: different parents at once.
-  void hand_down(Node parent) { works_.hand_down(context_->mesh, parent, generation_); }
+  void hand_down(Node parent) { works_.hand_down(*context_, parent, generation_); }
   /// Makes inner nodes know of changes in any of their leaves.
   void pass_up_changes() { works_.pass_up_changes(); }
 

@@ -89,6 +89,20 @@ class View(Case):
         left, right = self.polygons(self.view(same, "--color", "region"))
         self.assertEqual(left.get("fill"), right.get("fill"))
 
+    def test_classes_of_dihedral_angles(self):
+        # A corner of a cube (54.7 degrees), and one that is flattened to a dihedral angle of 8.05.
+        for height, fill in ((1, "#4575b4"), (0.1, "#fc8d59")):
+            text = ("MeshVersionFormatted 2\nDimension 3\nVertices 4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n"
+                    f"0 0 {height} 0\nTetrahedra 1\n1 2 3 4 1\nEnd\n")
+            seen = self.polygons(self.view(self.file("cell.mesh", text), "--color", "dihedral"))
+            self.assertGreater(len(seen), 0)
+            for polygon in seen:  # shaded: the colour times a brightness
+                ratios = [int(polygon.get("fill")[i:i + 2], 16) / int(fill[i:i + 2], 16) for i in (1, 3, 5)]
+                self.assertLess(max(ratios) - min(ratios), 0.02)
+        # Of triangles: 45 and 36.9 degrees.
+        left, right = self.polygons(self.view(self.file("two.mesh", TWO), "--color", "dihedral"))
+        self.assertEqual((left.get("fill"), right.get("fill")), ("#4575b4", "#91bfdb"))
+
     def test_cells_of_a_plane_mesh(self):
         self.mesh(PLATE, "--size", 0.01)
         for flags in ([], ["--color", "region"]):

@@ -27,6 +27,8 @@ void expect_sound(const Domain<D>& domain, const RefineOptions<D>& options, cons
   check_options.domain = &domain;
   check_options.regions = options.regions;
   if (result.stop == StopCause::finished) check_options.radius_edge_bound = options.radius_edge_bound;
+  check_options.largest_cosine = result.optimization.claimed_cosine;
+  check_options.delaunay = result.delaunay;
   check_options.reasons = &result.reasons;
   const CheckReport report = check<D>(result.mesh, check_options);
   if (result.stop == StopCause::finished) {

@@ -48,6 +48,8 @@ pgdr::OutputMesh<D> mesh(const pgdr::Plc<D>& plc, const pgdr::RefineOptions<D>& 
   check.radius_edge_bound = options.radius_edge_bound;
   check.size = options.size;
   check.region_sizes = options.region_sizes;
+  check.largest_cosine = result.optimization.claimed_cosine;
+  check.delaunay = result.delaunay;
   const pgdr::CheckReport report = pgdr::check(result.mesh, check);
   std::printf("%-28s %7zu cells, %llu poor, verdict %d\n", what, result.mesh.cells.size(),
               static_cast<unsigned long long>(result.poor_left), report.exit_code());

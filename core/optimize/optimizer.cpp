@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "optimize/optimizer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "mesh/surroundings.hpp"
+#include "optimize/flips.hpp"
+#include "optimize/insertions.hpp"
+#include "optimize/reconnect.hpp"
+#include "optimize/surgery.hpp"
+#include "optimize/vertex_changes.hpp"
+
+namespace pgdr {
+namespace {
+
+constexpr double much = 5;             // parts of the target, below which an angle is much worse
+constexpr int rounds_of_compound = 3;  // of cheap changes about what a detour or a split has made
+
+/// The bounds, but for that of shape, which is wider as the angles are smaller: the shortest edge across an angle is as short.
+CellBounds<3> widened(CellBounds<3> bounds) {
+  bounds.radius_edge_bound *= much;
+  return bounds;
+}
+
+/// Treats poor cells. Part of a worker: one thread at a time.
+class Optimizer final : public ElementTreatment<3> {
+ public:
+  Optimizer(Workspace<3>& workspace, WorkLister<3>& lister, const Optimization& stage)
+      : s_(workspace, stage.min_dihedral()),
+        lister_(&lister),
+        stage_(&stage),
+        flip_(s_),
+        vertices_(s_),
+        reconnect_(s_),
+        insertions_(s_),
+        wide_bounds_(widened(workspace.context.bounds)),
+        much_worse_(wide_bounds_, stage.min_dihedral() / much) {}
+
+  void begin_visit() override {
+    s_.replacer.set_area(s_.area());
+    rule_ = stage_->phase == Optimization::Phase::worst ? Judge::Rule::better : Judge::Rule::no_more_poor;
+  }
+  Outcome treat(const Entry<3>& e) override;
+  std::uint64_t version(CellId c) const override { return stage_->version(c); }
+
+ private:
+  bool is_spent() const { return s_.judge.asked() - evaluated_before_ > evaluations_a_poor_cell; }
+  bool is_worth_more_poor(CellId c);
+  bool change(CellId c);
+  bool change_cheaply(CellId c, Judge::Rule rule);
+  bool make_detour(CellId c);
+  bool split_an_edge(CellId c);
+  bool end_compound(bool begun);
+  void list_made(const std::vector<CellId>& made);
+
+  Surgery s_;
+  WorkLister<3>* lister_;
+  const Optimization* stage_;
+  BestFlip flip_;
+  VertexChanges vertices_;
+  Reconnect reconnect_;
+  Insertions insertions_;
+  const CellBounds<3> wide_bounds_;
+  const CellQuality much_worse_;                  ///< its poor cells are much worse than the bounds
+  Judge::Rule rule_ = Judge::Rule::no_more_poor;  ///< of the visit
+  std::uint64_t evaluated_before_ = 0;            ///< the element that is treated
+  RefineCounts counts_before_;                    ///< a compound
+};
+
+bool Optimizer::change_cheaply(CellId c, Judge::Rule rule) {
+  if (flip_.make(c, rule)) {
+    ++s_.w->visit->counts.edge_removals;
+    return true;
+  }
+  return vertices_.move(c, rule);
+}
+
+/// Ends a transaction: mends the poor cells that it has made, and keeps all if they are better than what was there, together.
+bool Optimizer::end_compound(bool begun) {
+  for (int round = 0; begun && round < rounds_of_compound && !is_spent(); ++round) {
+    bool any = false;
+    const std::vector<CellId> made = s_.transaction.made();
+    for (const CellId c : made) {
+      const auto& now = s_.transaction.made();
+      if (is_spent() || std::find(now.begin(), now.end(), c) == now.end() || s_.judge.of(c) >= 1) continue;
+      any = change_cheaply(c, Judge::Rule::better) || any;
+    }
+    if (!any) break;
+  }
+  const bool kept = begun && s_.judge.accepts(s_.transaction.made(), s_.judge.standing_of(s_.transaction.removed()), rule_);
+  if (kept) {
+    const std::vector<CellId> made = s_.transaction.made();
+    s_.transaction.keep(s_.w->pools);
+    list_made(made);
+  } else {
+    s_.transaction.undo(s_.w->pools);
+    s_.w->visit->counts = counts_before_;
+  }
+  return kept;
+}
+
+bool Optimizer::make_detour(CellId c) {
+  counts_before_ = s_.w->visit->counts;
+  s_.transaction.begin();
+  return end_compound(change_cheaply(c, Judge::Rule::better));
+}
+
+/// The longest first.
+bool Optimizer::split_an_edge(CellId c) {
+  const Simplex<3> s = s_.mesh->simplex(c);
+  std::array<int, 6> edges{0, 1, 2, 3, 4, 5};
+  const auto length2 = [&](int e) { return squared_distance(s[edge_ends[e][0]], s[edge_ends[e][1]]); };
+  std::stable_sort(edges.begin(), edges.end(), [&](int a, int b) { return length2(a) > length2(b); });
+  for (const int edge : edges) {
+    if (is_spent()) return false;
+    counts_before_ = s_.w->visit->counts;
+    s_.transaction.begin();
+    if (end_compound(insertions_.split_edge(c, edge))) return true;
+  }
+  return false;
+}
+
+bool Optimizer::change(CellId c) {
+  const bool strong = stage_->phase != Optimization::Phase::cheap;
+  const auto list = [this](bool changed) {
+    if (changed) list_made(s_.replacer.new_cells());
+    return changed;
+  };
+  const bool has_short_edge = s_.w->context.bounds.over_radius_edge(*s_.mesh, c);
+  if (list(change_cheaply(c, rule_) || (has_short_edge && vertices_.contract(c, rule_)))) return true;
+  if (!strong) return false;
+  if (list(reconnect_.make(c, rule_) || insertions_.dig(c, rule_))) return true;
+  if ((rule_ == Judge::Rule::no_more_poor && make_detour(c)) || split_an_edge(c)) return true;
+  return !is_spent() && !has_short_edge && list(vertices_.contract(c, rule_));
+}
+
+void Optimizer::list_made(const std::vector<CellId>& made) {
+  for (const CellId c : made)
+    if (const double q = s_.judge.of(c); q < 1) lister_->list_element(c, order_by_level(*s_.mesh, c, CellQuality::level(q)));
+}
+
+/// Beside angles of the input that are too small some cells stay poor, and to make the worst of them better makes more of them
+/// poor. So only what is much worse than the bounds is worth that there.
+bool Optimizer::is_worth_more_poor(CellId c) {
+  const auto& vertices = s_.mesh->cell(c).vertices;
+  const bool beside_sharp = std::any_of(vertices.begin(), vertices.end(),
+                                        [this](VertexId v) { return stage_->sharp->touches(s_.mesh->vertex(v).home); });
+  return !beside_sharp || much_worse_.of(s_.mesh->simplex(c), s_.mesh->region(c)) < 1;
+}
+
+Outcome Optimizer::treat(const Entry<3>& e) {
+  if (rule_ == Judge::Rule::better && !is_worth_more_poor(e.cell)) return Outcome::refused;
+  s_.out_of_reach = false;
+  evaluated_before_ = s_.judge.asked();
+  const bool changed = change(e.cell);
+  s_.w->visit->counts.evaluated += s_.judge.asked() - evaluated_before_;
+  if (changed && s_.w->alive(e)) list_made({e.cell});  // a contraction beside it
+  if (changed) return Outcome::committed;
+  return s_.out_of_reach ? Outcome::not_owned : Outcome::refused;
+}
+
+}  // namespace
+
+std::unique_ptr<ElementTreatment<3>> Optimization::treatment(Workspace<3>& workspace, WorkLister<3>& lister,
+                                                             DelaunayRepair<3>&) const {
+  return std::make_unique<Optimizer>(workspace, lister, *this);
+}
+
+std::uint64_t Optimization::version(CellId c) const { return versions_at(*mesh_, c); }
+
+}  // namespace pgdr

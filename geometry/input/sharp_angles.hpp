@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Angles of the input at which no mesh meets the bounds that are asked for, decided exactly. Reads a Domain; any thread.
+#pragma once
+
+#include <cstdint>
+
+#include "pgdr/domain.hpp"
+
+namespace pgdr {
+
+/// The bounds of shape of a mesh, by which angles of its input are too small.
+struct AngleBounds {
+  double radius_edge;  ///< on circumradius over shortest edge: planar angles below arcsin(1 / (2 bound)) are too small
+  double largest_cosine =
+      1;  ///< of dihedral angles (claimed_cosine): of the input those with a larger one are too small; 1: none
+};
+
+/// Do they meet at an angle that is too small: two facets at a common segment, between their half-planes there, or two segments
+/// at a common end?
+bool meet_too_sharply(const Domain<3>& domain, EntityRef a, EntityRef b, const AngleBounds& bounds);
+
+/// Do the segments, of one facet, meet at this point at a planar angle that is too small, with a part of the facet between them?
+/// Then some cell there is over the bound, whatever the mesh (core/reasons/sharp_corners.hpp has the proof).
+bool is_sharp_corner(const Domain<3>& domain, std::uint32_t point, EntityId s, EntityId t, const AngleBounds& bounds);
+
+}  // namespace pgdr

@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "run/optimizing.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "pgdr/predicates.hpp"
+#include "reasons/optimized_reasons.hpp"
+#include "rule/cell_quality.hpp"
+
+namespace pgdr::detail {
+namespace {
+
+/// The budget of a phase: so many evaluations for each cell of the mesh, and for each poor cell that it begins with. For these it
+/// is at most some hundred for each cell of the mesh, which take about as long as its refinement took.
+constexpr std::uint64_t evaluations_a_cell = 20, evaluations_a_listed_cell = 1000, most_for_listed = 100;
+
+}  // namespace
+
+Optimizing::Optimizing(RunState<3>& state, VisitSchedule<3>& schedule, double min_dihedral)
+    : state_(&state),
+      schedule_(&schedule),
+      min_dihedral_(min_dihedral),
+      claimed_cosine_(claimed_cosine(min_dihedral)),
+      stage_(state.context.mesh, min_dihedral),
+      before_(state.totals.counts) {
+  // After the refinement a cell that is poor was refused.
+  state.refused.for_each_list([this](std::span<const Refusal<3>> refused) {
+    for (const Refusal<3>& r : refused)
+      if (r.entry.kind() == EntryKind::cell && r.entry.which() != Entry<3>::over_radius_edge &&
+          r.entry.alive(state_->context.mesh))
+        sizes_are_met_ = false;
+  });
+  state.waiting.set_all_listed(false);  // what is listed from now on need not be over a bound of size or shape
+}
+
+/// All poor cells, in an order that does not depend on their slots, which depend on timing.
+std::vector<Entry<3>> Optimizing::find_poor() {
+  constexpr std::uint32_t between_looks = 1024;  // at the clock, and at the caller's wish to cancel
+  RefineContext<3>& context = state_->context;
+  const Mesh<3>& mesh = context.mesh;
+  struct Part {
+    std::vector<Entry<3>> poor;
+    std::uint64_t cells = 0;
+  };
+  std::vector<Part> parts(count_parts(mesh.cell_bound()));
+  const auto look_at = [&](const CellPart& part) {
+    const CellQuality quality(context.bounds, min_dihedral_);
+    Part& found = parts[part.number];
+    for (std::uint32_t i = part.first; i < part.last; ++i) {
+      const CellId c{i};
+      if (i % between_looks == 0 && context.ended()) break;
+      if (!mesh.alive(c)) continue;
+      ++found.cells;
+      const double q = quality.of(mesh.simplex(c), mesh.region(c));
+      if (q >= 1) continue;
+      const std::uint32_t order = order_by_level(mesh, c, CellQuality::level(q));
+      found.poor.push_back({c, mesh.birth(c), EntryKind::cell, Entry<3>::over_radius_edge, 0, order});
+    }
+  };
+  state_->recorder.add_parts(each_part(mesh.cell_bound(), state_->options, look_at));
+  state_->is_cancelled();
+  std::vector<Entry<3>> all;
+  cells_ = 0;
+  for (const Part& part : parts) {
+    all.insert(all.end(), part.poor.begin(), part.poor.end());
+    cells_ += part.cells;
+  }
+  state_->totals.counts.evaluated += cells_;
+  std::sort(all.begin(), all.end(), [&mesh](const Entry<3>& a, const Entry<3>& b) {
+    return a.order != b.order ? a.order < b.order : compare_vertices<3>(mesh, a.cell, b.cell) < 0;
+  });
+  return all;
+}
+
+/// Returns how many it has listed, as list_refused().
+std::size_t Optimizing::list_all_poor() {
+  state_->refused.take_all();
+  const std::vector<Entry<3>> poor = find_poor();
+  for (const Entry<3>& e : poor) state_->waiting.relist(e);
+  return poor.size();
+}
+
+std::size_t Optimizing::list_refused(Phase next) {
+  std::size_t count = 0;
+  std::vector<bool> listed(state_->context.mesh.cell_bound());
+  for (const Refusal<3>& r : state_->refused.take_all()) {
+    const std::uint32_t slot = index(r.entry.cell);
+    if (listed[slot]) continue;
+    listed[slot] = true;
+    const std::pair known{r.entry.birth, r.versions};
+    if (last_ == Phase::strong) refused_strongly_[slot] = known;
+    const auto before = refused_strongly_.find(slot);
+    if (next == Phase::strong && before != refused_strongly_.end() && before->second == known) continue;
+    state_->waiting.relist(r.entry);
+    ++count;
+  }
+  return count;
+}
+
+StopCause Optimizing::run(Phase phase) {
+  RefineContext<3>& context = state_->context;
+  stage_.phase = phase;
+  if (phase == Phase::worst && !sharp_)
+    sharp_.emplace(context.domain, AngleBounds{context.bounds.radius_edge_bound, claimed_cosine_});
+  if (sharp_) stage_.sharp = &*sharp_;
+  context.stage = &stage_;
+  const std::size_t listed = last_ ? list_refused(phase) : list_all_poor();
+  state_->most_evaluated = state_->totals.counts.evaluated + evaluations_a_cell * cells_ +
+                           std::min<std::uint64_t>(evaluations_a_listed_cell * listed, most_for_listed * cells_);
+  last_ = phase;
+  bool some_undecided = false;  // when the lists were drained last, had some visit used up its share?
+  while (!state_->waiting.is_empty() && !state_->is_spent()) {
+    const RefineCounts counts = state_->totals.counts;
+    const StopCause stop = schedule_->drain();
+    if (stop != StopCause::finished) return stop;
+    some_undecided = state_->totals.counts.out_of_budget > counts.out_of_budget;
+    if (state_->totals.counts.changes() == counts.changes()) break;
+    state_->refused.relist_changed();
+  }
+  is_limited_ = some_undecided || !state_->waiting.is_empty() || state_->totals.vertices >= context.options.max_vertices;
+  return StopCause::finished;
+}
+
+std::vector<PoorCell> Optimizing::explain_left() {
+  RefineContext<3>& context = state_->context;
+  context.stage = nullptr;
+  std::vector<CellId> poor;
+  for (const Entry<3>& e : find_poor()) poor.push_back(e.cell);
+  OptimizedReasons reasons(context.mesh, context.domain, context.bounds, claimed_cosine_);
+  const auto otherwise = is_limited_ ? PoorReason::Code::budget : PoorReason::Code::not_found;
+  std::vector<PoorCell> left = reasons.of_cells(poor, otherwise, [&context] { return context.ended(); });
+  left_ = left.size();
+  for (const PoorCell& p : left) unexplained_ += OptimizedReasons::is_excuse(p.reason.code) ? 0 : 1;
+  return left;
+}
+
+OptimizationStatistics Optimizing::statistics() const {
+  const RefineCounts& now = state_->totals.counts;
+  OptimizationStatistics s;
+  s.target = min_dihedral_;
+  s.claimed_cosine = claimed_cosine_;
+  s.moves = now.moves;
+  s.edge_removals = now.edge_removals;
+  s.reconnections = now.reconnections;
+  s.inserted = now.committed - before_.committed;
+  s.removed = now.removed;
+  s.evaluated = evaluated();
+  s.left = left_;
+  s.unexplained = unexplained_;
+  return s;
+}
+
+}  // namespace pgdr::detail

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The optimiser's part of a run, in 3D (optimize/optimizer.hpp): visits of leaves, as those before them, with claims as large as
+// it takes, in phases that try more and more. A phase ends by a measure of its own, or once its budget of evaluations is spent;
+// no clock decides anything but a time limit. One thread, beside those that the schedule runs.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "optimize/optimizer.hpp"
+#include "pgdr/refine.hpp"
+#include "reasons/poor_reasons.hpp"
+#include "run/run_state.hpp"
+
+namespace pgdr::detail {
+
+/// Part of a run: see above. Workers may hold on to it: it must outlive them.
+class Optimizing {
+ public:
+  using Phase = Optimization::Phase;
+
+  /// `min_dihedral`: the target in degrees, above 0. The others must outlive the last visit. @pre nothing waits
+  Optimizing(RunState<3>& state, VisitSchedule<3>& schedule, double min_dihedral);
+
+  /// Visits until nothing that was refused is worth another try, or the phase's budget is spent. The first phase begins with all
+  /// poor cells, each other with what the one before has refused, but for what the same phase has refused before, with nothing
+  /// changed about it since. @throws what a callback throws
+  StopCause run(Phase phase);
+  /// The cells that are still over a bound, with their reasons. The last call. Part of them if the run is cancelled meanwhile,
+  /// or its time is up.
+  std::vector<PoorCell> explain_left();
+
+  /// Was no cell over a bound of size when it began? Then none is, since it never puts one that is in the place of others.
+  bool sizes_are_met() const { return sizes_are_met_; }
+  /// What was done before the optimiser began.
+  const RefineCounts& counts_before() const { return before_; }
+  /// What it did. `left` and `unexplained` are there after explain_left().
+  OptimizationStatistics statistics() const;
+
+ private:
+  std::uint64_t evaluated() const { return state_->totals.counts.evaluated - before_.evaluated; }
+  std::vector<Entry<3>> find_poor();
+  std::size_t list_all_poor();
+  std::size_t list_refused(Phase next);
+
+  RunState<3>* state_;
+  VisitSchedule<3>* schedule_;
+  const double min_dihedral_, claimed_cosine_;
+  Optimization stage_;
+  std::optional<SharpPlaces> sharp_;  ///< once they are asked for
+  const RefineCounts before_;
+  bool sizes_are_met_ = true;
+  std::uint64_t cells_ = 0;    ///< of the mesh, at the last look at all
+  std::optional<Phase> last_;  ///< that ran
+  bool is_limited_ = false;    ///< did a limit keep the last phase from anything?
+  /// What was refused in the last phase that was Phase::strong: by slot, the births and versions of the cells.
+  std::unordered_map<std::uint32_t, std::pair<std::uint16_t, std::uint64_t>> refused_strongly_;
+  std::uint64_t left_ = 0, unexplained_ = 0;
+};
+
+}  // namespace pgdr::detail
