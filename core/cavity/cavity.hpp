@@ -55,7 +55,6 @@ class Cavity {
     loses_entity,     ///< a vertex or a subsegment would vanish
     not_owned,        ///< the visit's claim is too small
     too_near,         ///< a vertex is nearer than the demand allows
-    too_many,         ///< it has more cells than set_most_cells() allows
     stopped,          ///< the FaceWatch ended it
   };
   /// An observer, who is shown the constrained faces that bound the cavity as they are found.
@@ -75,8 +74,6 @@ class Cavity {
   }
   /// What the visit may change; null: everything.
   void set_area(const VisitArea<D>* area) { area_ = area; }
-  /// The most cells that it may have; without a call, any number.
-  void set_most_cells(std::size_t most) { most_cells_ = most; }
   /// A list that gets the cells that were collected and given up, with repetitions; null: none.
   void set_seen(std::vector<CellId>* seen) { seen_ = seen; }
   Cavity(const Cavity&) = delete;
@@ -219,7 +216,6 @@ class Cavity {
   double least_ = 0;                   ///< distance that vertices must have from the point
   const SplitPlace* place_ = nullptr;  ///< a place whose twins may be nearer; null: none
   CellId near_cell_{0xffffffffu};
-  std::size_t most_cells_ = std::numeric_limits<std::size_t>::max();
   std::vector<CellId> cells_, new_cells_;
   std::vector<CellId> protected_;
   std::vector<BoundaryFace> boundary_;

@@ -198,7 +198,6 @@ template <int D>
 auto Cavity<D>::grow() -> Status {
   boundary_.clear();
   for (std::size_t i = 0; i < cells_.size(); ++i) {
-    if (cells_.size() > most_cells_) return Status::too_many;
     const CellId c = cells_[i];
     const CellRecord<D>& k = mesh_->cell(c);
     const ConstraintRecord<D>* constraints = mesh_->constraints(c);

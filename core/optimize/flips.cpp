@@ -28,7 +28,7 @@ void BestFlip::take_if_best(const Judge::Standing& before, Judge::Rule rule) {
 /// The cells of one side of the ring without the edge, and the two faces that close it. False if none is better than `enough`.
 bool BestFlip::fill_side(const RingSide& side, double enough) {
   const Mesh<3>& mesh = *s_->mesh;
-  const bool whole = s_->mesh && ring_.closed && side.count == ring_.cells.size();
+  const bool whole = ring_.closed && side.count == ring_.cells.size();
   const std::size_t n = whole ? side.count : side.count + 1;
   if (n < 3) return true;  // one flat cell between two subfacets: it is taken off
   std::array<Point3, EdgeRemoval::longest_ring> points;

@@ -11,7 +11,6 @@
 #include "optimize/vertex_changes.hpp"
 #include "pgdr/predicates.hpp"
 #include "refine/split_points.hpp"
-#include "space/corner_means.hpp"
 
 namespace pgdr {
 namespace {

@@ -3,13 +3,15 @@
 //
 // The judge of changes: is what comes better than what goes?
 //
-// Better: at the worst level of which the numbers of cells differ, fewer cells come than go. Rule `no_more_poor` asks, too, that
-// not more cells are poor. A cell that is too big never takes the place of cells that are not.
+// Better: at the worst level of which the numbers of cells differ, fewer cells come than go. Rule `better` asks for that.
+// Rule `no_more_poor` asks that fewer cells are poor, or as many, and that they are better. By both no cell that comes is below
+// the worst level of those that go, and none that is too big takes the place of cells that are not.
 //
-// Why optimising ends. There are finitely many levels. In the order of Dershowitz and Manna, which compares multisets by what is
-// said of "better" and has no infinite descent, the multiset of the levels of all poor cells gets smaller with each change,
-// whoever makes it, and in whatever order. What no change could help, a flat cell between walls that stay, say, holds up nothing
-// beside it.
+// Why each phase ends, as each has one rule. There are finitely many levels, and the order of Dershowitz and Manna, which
+// compares multisets by what is said of "better", has no infinite descent. By `better` the multiset of the levels of all poor
+// cells gets smaller with each change. By `no_more_poor` the number of poor cells gets smaller, or stays, and the multiset gets
+// smaller. That is so whoever makes the changes, and in whatever order. What no change could help, a flat cell between walls that
+// stay, say, holds up nothing beside it.
 #pragma once
 
 #include <cstddef>

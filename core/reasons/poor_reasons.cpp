@@ -147,28 +147,13 @@ void PoorReasons<D>::add(std::span<const Refusal<D>> refused) {
 }
 
 template <int D>
-void PoorReasons<D>::remember(std::span<const PoorCell> found) {
-  remembered_.clear();
-  for (const PoorCell& p : found)
-    if (p.reason.code == PoorReason::Code::small_angle) remembered_[index(p.cell)] = {mesh_->birth(p.cell), p.beside, p.reason};
-}
-
-template <int D>
-auto PoorReasons<D>::remembered(CellId c) const -> const Remembered* {
-  const auto at = remembered_.find(index(c));
-  return at != remembered_.end() && at->second.birth == mesh_->birth(c) ? &at->second : nullptr;
-}
-
-template <int D>
 void PoorReasons<D>::look_at(CellId c, bool violated, std::vector<PoorCell>& found) const {
   const CellVerdict verdict = bounds_->test(*mesh_, c);
   if (!verdict && !violated) return;
-  const Remembered* before = remembered(c);
-  const auto reason_of = [&](bool beside) { return before && (before->beside || !beside) ? before->reason : explain(c, beside); };
   PoorReason reason;
   // Without a small angle nearby a violation is one of rounding, which needs no reason.
-  const bool beside = violated && (reason = reason_of(true)).code == PoorReason::Code::small_angle;
-  if (verdict && !beside) reason = reason_of(false);
+  const bool beside = violated && (reason = explain(c, true)).code == PoorReason::Code::small_angle;
+  if (verdict && !beside) reason = explain(c, false);
   if (verdict || beside) found.push_back({c, static_cast<bool>(verdict), verdict.over_size > 0, reason, beside});
 }
 

@@ -48,12 +48,8 @@ class PoorReasons {
   /// `keep_boundary`: no segment was split (RefineOptions).
   PoorReasons(const Mesh<D>& mesh, const Domain<D>& domain, const CellBounds<D>& bounds, bool keep_boundary = false);
 
-  /// What was added before is no longer so.
-  void forget() { why_.clear(); }
   /// What was refused in one region. What is said of a cell last counts, if it names a pair.
   void add(std::span<const Refusal<D>> refused);
-  /// For the next look: a small angle that explains a cell does so for as long as the cell is there.
-  void remember(std::span<const PoorCell> found);
 
   /// Every cell numbered [first, last) that is over a bound, with its reason, and every one with a face that is not locally
   /// Delaunay beside a small angle, with that. `violated`, by cell: those with a face that is not locally Delaunay.
@@ -68,14 +64,8 @@ class PoorReasons {
 
  private:
   using EntityIds = std::vector<EntityId>;
-  struct Remembered {
-    std::uint16_t birth;  ///< of the cell
-    bool beside;          ///< as of PoorCell
-    PoorReason reason;
-  };
 
   PoorReason explain(CellId c, bool beside) const;
-  const Remembered* remembered(CellId c) const;
   bool explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, const Angle& angle, PoorReason& reason) const;
   bool meets(EntityRef e, const Ball<D>& ball) const;
   bool is_beside(EntityRef segment, const Ball<D>& doubled) const;
@@ -92,7 +82,6 @@ class PoorReasons {
   std::vector<EntityIds> segments_at_;  ///< of each input point
   /// Of the refused elements that are still there: by what; no entities if no pair was at fault.
   std::unordered_map<std::uint32_t, std::optional<EntityPair>> why_;
-  std::unordered_map<std::uint32_t, Remembered> remembered_;  ///< by cell
 };
 
 extern template class PoorReasons<2>;

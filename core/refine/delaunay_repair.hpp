@@ -34,8 +34,6 @@ class DelaunayRepair {
   /// stay.
   Outcome remove_flat_cell(CellId c);
 
-  LocalFlips<D>& flips() { return flips_; }  ///< the worker's
-
  private:
   /// The allowance of flips for each violation, so that flips that trade violations for others end.
   static constexpr std::uint64_t flips_for_each = 16;

@@ -30,7 +30,6 @@ void Refiner<D>::begin(RegionVisit<D>& visit) {
   workspace_.visit = &visit;
   workspace_.trace.clear();
   workspace_.cavity.set_area(visit.area);
-  workspace_.cavity.set_most_cells(std::numeric_limits<std::size_t>::max());
   lister_.begin_visit();
   repair_.begin_visit();
   entities_.begin_visit();

@@ -53,8 +53,7 @@ class CellQuality {
   /// The least q of the level.
   static double least_of_level(int level);
 
-  std::uint64_t evaluated() const { return evaluated_; }    ///< how often `of` was called
-  const CellBounds<3>& bounds() const { return *bounds_; }  ///< which it measures by
+  std::uint64_t evaluated() const { return evaluated_; }  ///< how often `of` was called
 
  private:
   static constexpr double of_large_angles = 0.7;  ///< d = 0.7 (1 + c) where c < 0

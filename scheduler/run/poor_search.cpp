@@ -30,9 +30,7 @@ bool PoorSearch<D>::lists_all_poor(std::size_t found) const {
 /// Unless there may be violations, nothing is poor but what was refused.
 template <int D>
 std::vector<PoorCell> PoorSearch<D>::look() {
-  reasons_.forget();
   state_->refused.for_each_list([this](std::span<const Refusal<D>> refused) { reasons_.add(refused); });
-  reasons_.add(refused_before_);
   if (state_->totals.violations_seen) return look_at_all();
   std::vector<PoorCell> found = reasons_.of_refused([this] { return state_->context.ended(); });
   assert(lists_all_poor(found.size()));
@@ -51,7 +49,6 @@ std::vector<PoorCell> PoorSearch<D>::look_at_all() {
   }));
   std::vector<PoorCell> all;
   for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
-  reasons_.remember(all);
   return all;
 }
 

@@ -25,8 +25,6 @@ class PoorSearch {
   std::vector<PoorCell> look();
   /// Of a run that a limit has ended: only what is beside the violations that are known.
   std::vector<PoorCell> look_at_violations();
-  /// Remembers what an element was refused for, of a refusal that is taken off the lists.
-  void remember(Refusal<D> refusal) { refused_before_.push_back(std::move(refusal)); }
   /// The reasons as of the last look.
   const PoorReasons<D>& reasons() const { return reasons_; }
 
@@ -37,7 +35,6 @@ class PoorSearch {
   RunState<D>* state_;
   ViolationScan<D>* violations_;
   PoorReasons<D> reasons_;
-  std::vector<Refusal<D>> refused_before_;
 };
 
 extern template class PoorSearch<2>;
