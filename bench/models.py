@@ -27,7 +27,7 @@ READABLE = {".off", ".obj", ".stl", ".ply", ".poly", ".smesh", ".mesh", ".msh"}
 SURFACES = {".off", ".obj", ".stl", ".ply"}
 TETGEN_READS = {".off", ".stl", ".ply", ".poly", ".smesh", ".mesh"}
 WAIT = 20  # times the limit on the wall, should a command sleep
-TETGEN_BYTES = 8 << 30  # where it does not end, it may take all memory
+PEER_BYTES = 8 << 30  # a peer that does not end may take all memory
 
 
 def run(command, limit, memory=resource.RLIM_INFINITY):
@@ -112,7 +112,7 @@ def tetgen_of_copy(args, copy, folder, limit=None):
     """The same of a file that may lie beside what TetGen writes."""
     limit = limit or args.limit
     volumes = "aA" if copy.suffix in {".poly", ".smesh"} else ""  # bounds of regions, which pgdr always heeds
-    code, seconds, _ = run([args.tetgen, f"-pq{args.bound:g}{volumes}BF", copy], limit, TETGEN_BYTES)
+    code, seconds, _ = run([args.tetgen, f"-pq{args.bound:g}{volumes}BF", copy], limit, PEER_BYTES)
     mesh = copy.with_suffix(".1.ele")
     if code is None:
         return {"failure": f"over {limit:g} s"}

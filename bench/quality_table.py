@@ -17,6 +17,7 @@ import collections
 import dataclasses
 import json
 import pathlib
+import resource
 import shutil
 import sys
 import tempfile
@@ -68,9 +69,9 @@ class Table:
             raise Failure("a mesh that cannot be read")
         return {**json.loads(info.read_text()), "over": found["bounds"]["over_radius_edge"], "exit": code}
 
-    def seconds(self, command):
-        """The seconds that a command takes. @raises Failure if it does not end well"""
-        code, seconds, words = models.run(list(map(str, command)), self.args.limit, models.TETGEN_BYTES)
+    def seconds(self, command, memory=resource.RLIM_INFINITY):
+        """The seconds that a command takes, with so many bytes at most. @raises Failure if it does not end well"""
+        code, seconds, words = models.run(list(map(str, command)), self.args.limit, memory)
         if code is None:
             raise Failure(f"over {self.args.limit:g} s")
         if code not in (0, 1):
@@ -95,7 +96,7 @@ class Table:
             copy = models.as_off(*models.surface(given.path), copy.with_suffix(".off"))
         volume = f"a{CUBE.volume * given.size ** 3:.12f}" if given.size else ""
         regions = "aA" if copy.suffix in {".poly", ".smesh"} and not given.size else ""
-        seconds = self.seconds([self.args.tetgen, f"{switches}{volume}{regions}BF", copy])
+        seconds = self.seconds([self.args.tetgen, f"{switches}{volume}{regions}BF", copy], models.PEER_BYTES)
         mesh = copy.with_suffix(".1.ele")
         if not mesh.exists():
             raise Failure("no mesh")
@@ -110,7 +111,7 @@ class Table:
         shutil.copy(suite_models.ROOT / "bench" / "peers" / geo, self.folder)
         mesh = self.folder / "hxt.msh"
         seconds = self.seconds([self.args.gmsh, "-3", "-algo", "hxt", "-nt", 1, "-setnumber", "edge", edge, "-setnumber", "optimize",
-                                1, self.folder / geo, "-o", mesh])
+                                1, self.folder / geo, "-o", mesh], models.PEER_BYTES)
         found = self.measured(mesh)
         if not found["cells"]:
             raise Failure("no mesh")

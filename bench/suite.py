@@ -27,8 +27,9 @@ from suite_programs import COLUMNS, Configuration, Suite
 
 SUMMARY = ["model", "program", "schedule", "threads", "runs", "cells", "seconds_mesh", "seconds_mesh_min", "seconds_mesh_max",
            "seconds_refine", "seconds_read", "seconds_write", "seconds_total", "cpu_seconds", "cells_per_second", "speed_up",
-           "efficiency", "beside_pgdr", "work_over_path", "bytes_per_cell", "max_radius_edge", "min_angle_deg",
+           "efficiency", "beside_pgdr", "critical_path_seconds", "work_over_path", "bytes_per_cell", "max_radius_edge", "min_angle_deg",
            "max_angle_deg", "over_radius_edge", "exit", "check", "remark"]
+STAGES = ["model", "schedule", "threads", "stage", "seconds", "work", "path"]
 
 
 def names_of(text, known, what):
@@ -100,7 +101,7 @@ def summarize(runs):
     for (model, program, schedule, threads), rows in groups.items():
         s = {**dict.fromkeys(SUMMARY), "model": model, "program": program, "schedule": schedule, "threads": threads}
         for key in ("cells", "seconds_mesh", "seconds_refine", "seconds_read", "seconds_write", "seconds_total",
-                    "work_over_path", "bytes_per_cell"):
+                    "critical_path_seconds", "work_over_path", "bytes_per_cell"):
             s[key] = median(rows, key)
         for key in ("max_radius_edge", "min_angle_deg", "max_angle_deg", "over_radius_edge", "exit", "check", "remark"):
             s[key] = rows[-1][key]
@@ -123,9 +124,23 @@ def summarize(runs):
     return summary
 
 
+def summarize_stages(runs):
+    """Medians of each stage of pgdr's configurations, in the order in which stages ran."""
+    groups = {}
+    for r in runs:
+        sums = {}
+        for s in r["stages"]:  # a stage may run more than once
+            into = sums.setdefault(s["name"], dict.fromkeys(("seconds", "work", "path"), 0))
+            for key in into:
+                into[key] += s.get(key, 0)
+        for name, found in sums.items():
+            groups.setdefault((r["model"], r["schedule"], r["threads"], name), []).append(found)
+    return [dict(zip(STAGES, key)) | {k: median(rows, k) for k in ("seconds", "work", "path")} for key, rows in groups.items()]
+
+
 def write_csv(path, columns, rows):
     with open(path, "w", newline="", encoding="utf-8") as file:
-        out = csv.DictWriter(file, columns, lineterminator="\n")
+        out = csv.DictWriter(file, columns, lineterminator="\n", extrasaction="ignore")
         out.writeheader()
         out.writerows(rows)
 
@@ -134,7 +149,8 @@ def print_table(summary):
     """The columns that matter most, for the eye."""
     shown = [("cells", "cells", "11,.0f"), ("mesh s", "seconds_mesh", "9.3f"), ("cpu s", "cpu_seconds", "8.2f"),
              ("cells/s", "cells_per_second", "11,.0f"), ("effic.", "efficiency", "6.2f"), ("to pgdr", "beside_pgdr", "7.2f"),
-             ("work/path", "work_over_path", "9.1f"), ("B/cell", "bytes_per_cell", "6.0f"),
+             ("work/path", "work_over_path", "9.1f"), ("path s", "critical_path_seconds", "8.3f"),
+             ("B/cell", "bytes_per_cell", "6.0f"),
              ("ratio", "max_radius_edge", "9.4g"), ("over", "over_radius_edge", "7d"), ("check", "check", "5d")]
     width = {key: int(re.match(r"\d+", form).group()) for _, key, form in shown}
     print(f"\n{'model':10} {'program, schedule':34} {'thr':>3} " + " ".join(f"{head:>{width[key]}}" for head, key, _ in shown))
@@ -151,21 +167,6 @@ def run_diagnosis(a):
     flags = ["--json", "--repeat", "1", "--triangles", "1000,4000"] if a.quick else ["--json", "--repeat", str(a.repeat)]
     said = suite_machine.said([program, *flags], a.limit)
     return (json.loads(said)["rows"], []) if said else ([], ["bench_diagnosis fails"])
-
-
-def prepare_inputs(models, a, folder):
-    """Files of the models that are there; the others are named and left out."""
-    inputs, kept = {}, []
-    for model in models:
-        path = suite_models.find(model, a.model_folder) if model.file else folder / "cube.poly"
-        if path is None:
-            print(f"{model.name} is left out: no {model.file[-1]} in --model-folder or $PGDR_MODELS", file=sys.stderr)
-            continue
-        if not model.file:
-            suite_models.write_cube(path)
-        inputs[model.name] = path.resolve()
-        kept.append(model)
-    return inputs, kept
 
 
 def run_all(suite, todo, a, runs):
@@ -210,7 +211,7 @@ def chosen(a):
 
 def remove_old(folder):
     """Results of an earlier suite."""
-    for name in ["runs.csv", "summary.csv", "diagnosis.csv", "results.json", "wrong.txt"]:
+    for name in ["runs.csv", "summary.csv", "stages.csv", "diagnosis.csv", "results.json", "wrong.txt"]:
         (folder / name).unlink(missing_ok=True)
     suite_plots.remove(folder)
 
@@ -218,13 +219,14 @@ def remove_old(folder):
 def write_results(folder, record):
     write_csv(folder / "runs.csv", COLUMNS, record["runs"])
     write_csv(folder / "summary.csv", SUMMARY, record["summary"])
+    write_csv(folder / "stages.csv", STAGES, record["stages"])
     if record["diagnosis"]:
         write_csv(folder / "diagnosis.csv", list(record["diagnosis"][0]), record["diagnosis"])
     (folder / "results.json").write_text(json.dumps(record, indent=1) + "\n")
     (folder / "wrong.txt").write_text("".join(w + "\n" for w in record["wrong"]))
     print_table(record["summary"])
     try:
-        suite_plots.draw(folder, record["summary"], record["diagnosis"])
+        suite_plots.draw(folder, record["summary"], record["stages"], record["diagnosis"])
     except suite_plots.NoGnuplot as error:
         print(error, file=sys.stderr)
 
@@ -245,7 +247,8 @@ def main():
 
     runs = []
     with tempfile.TemporaryDirectory(prefix="pgdr_suite_") as folder:
-        inputs, models = prepare_inputs(models, a, pathlib.Path(folder))
+        inputs = suite_models.inputs_of(models, a.model_folder, pathlib.Path(folder))
+        models = [m for m in models if m.name in inputs]
         if not models:
             return usage("none of these models is there")
         sizes = {m.name: m.quick if a.quick else m.size for m in models}
@@ -254,7 +257,7 @@ def main():
     diagnosis, wrong = run_diagnosis(a) if ended else ([], ["ended by Ctrl-C"])
     wrong = list(wrong_runs(runs)) + wrong
     record.update(programs=versions(pgdr, peers), quick=a.quick, repeat=a.repeat, sizes=sizes, wrong=wrong,
-                  summary=summarize(runs), diagnosis=diagnosis, runs=runs)
+                  summary=summarize(runs), stages=summarize_stages(runs), diagnosis=diagnosis, runs=runs)
     write_results(a.out, record)
     for w in wrong:
         print("WRONG: " + w)

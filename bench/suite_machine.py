@@ -70,6 +70,13 @@ def compiler(command):
     return {"compiler": "unknown", "build_type": "unknown", "flags": "unknown"}
 
 
+def words(found):
+    """A record in few words, for the foot of a table."""
+    m = found["machine"]
+    return (f"{m['processor']}, {m['usable_cores']} usable cores, {found['date'][:10]}, commit {found['commit'][:12]}, load before "
+            f"{m['load_before']:.1f}")
+
+
 def record(root, command):
     return {"date": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"), "machine": machine(),
             **commit(root), **compiler(command)}

@@ -48,15 +48,15 @@ def lines(title, x_label, y_label, curves, more=""):
             f"plot {', '.join(plots)}")
 
 
-def bars(title, y_label, groups, table):
-    """A cluster of bars a group; table: {(group, bar): value}."""
+def bars(title, y_label, groups, table, style="clustered gap 1", missing="NaN"):
+    """A cluster of bars a group; table: {(group, bar): value}. Style `rowstacked`, with 0 for what is missing: a stack a group."""
     names = list(dict.fromkeys(bar for _, bar in table))
     if not table:
         return ""
-    rows = [[quoted(g)] + [f"{table[g, n]:.6g}" if (g, n) in table else "NaN" for n in names] for g in groups]
+    rows = [[quoted(g)] + [f"{table[g, n]:.6g}" if (g, n) in table else missing for n in names] for g in groups]
     plots = [f"$d using {i + 2}:xtic(1) title {quoted(n)}" for i, n in enumerate(names)]
     return (f"{block('d', rows)}set title {quoted(title)}\nset ylabel {quoted(y_label)}\nset yrange [0:*]\n"
-            f"set style data histogram\nset style histogram clustered gap 1\nset style fill solid 0.8\n"
+            f"set style data histogram\nset style histogram {style}\nset style fill solid 0.8\n"
             f"plot {', '.join(plots)}")
 
 
@@ -67,12 +67,30 @@ def label(row):
 
 def remove(folder):
     """Plots of an earlier suite."""
-    names = ["efficiency", "work_path", "bytes_per_cell", "rate", "diagnosis"]
+    names = ["efficiency", "work_path", "path", "path_stages", "work_path_stages", "bytes_per_cell", "rate", "diagnosis"]
     for file in [folder / (n + ".svg") for n in names] + list(folder.glob("time_*.svg")):
         file.unlink(missing_ok=True)
 
 
-def draw(folder, summary, diagnosis):
+def of_stages(stages):
+    """Of the reproducible schedule with the fewest threads: the plots of path, and of work over path, by stage. What is less than a
+    hundredth of a model's path is left out, or put together."""
+    rows = [s for s in stages if s["schedule"] == "reproducible"]
+    rows = [s for s in rows if s["threads"] == min(r["threads"] for r in rows)]
+    models = list(dict.fromkeys(s["model"] for s in rows))
+    total = {(m, key): sum(s[key] for s in rows if s["model"] == m) for m in models for key in ("work", "path")}
+    large = list(dict.fromkeys(s["stage"] for s in rows if s["path"] > total[s["model"], "path"] / 100))
+    shares = {(m, name): 0 for m in models for name in large + ["others"]}
+    for s in rows:
+        shares[s["model"], s["stage"] if s["stage"] in large else "others"] += 100 * s["path"] / total[s["model"], "work"]
+    ratios = {(s["stage"], s["model"]): s["work"] / s["path"] for s in rows if s["stage"] in large and s["path"]}
+    return {"path_stages": bars("pgdr, reproducible: critical path by stage", "per cent of all work, which no machine goes below",
+                                models, shares, "rowstacked", "0"),
+            "work_path_stages": bars("pgdr, reproducible: work / critical path by stage", "no machine is faster than so many times",
+                                     large, ratios)}
+
+
+def draw(folder, summary, stages, diagnosis):
     """The files that were drawn. @throws NoGnuplot"""
     measured = [r for r in summary if r["seconds_mesh"]]
     models = list(dict.fromkeys(r["model"] for r in measured))
@@ -94,6 +112,9 @@ def draw(folder, summary, diagnosis):
     pick = lambda key, rows: {(r["model"], f"{label(r)}, {r['threads']}"): r[key] for r in rows if r[key]}
     scripts["work_path"] = bars("pgdr, reproducible: work / critical path", "no schedule is faster than so many times",
                                 models, pick("work_over_path", own))
+    curves = {m: [(r["threads"], r["critical_path_seconds"]) for r in own if r["model"] == m and r["critical_path_seconds"]] for m in models}
+    scripts["path"] = lines("pgdr, reproducible: critical path", "threads", "seconds", list(curves.items()), ticks + "\nset logscale y")
+    scripts.update(of_stages(stages))
     least = [r for r in measured if r["threads"] == min(x["threads"] for x in measured if x["program"] == r["program"])]
     scripts["bytes_per_cell"] = bars("peak memory of the program", "bytes a cell", models, pick("bytes_per_cell", least))
     rate = {k: v / 1e6 for k, v in pick("cells_per_second", least).items()}

@@ -18,10 +18,10 @@ import tempfile
 
 import suite_models
 
-COLUMNS = ["model", "program", "schedule", "threads", "round", "cells", "vertices", "seconds_mesh", "seconds_refine",
+COLUMNS = ["model", "program", "schedule", "claims", "threads", "round", "cells", "vertices", "seconds_mesh", "seconds_refine",
            "seconds_read", "seconds_write", "seconds_total", "cpu_user", "cpu_system", "peak_bytes", "bytes_per_cell",
-           "leaves", "visits", "set_aside", "work_seconds", "critical_path_seconds", "work_over_path", "max_radius_edge",
-           "min_angle_deg", "max_angle_deg", "over_radius_edge", "findings", "exit", "check", "sha256", "load", "remark"]
+           "leaves", "visits", "set_aside", "committed", "refused", "work_seconds", "critical_path_seconds", "work_over_path",
+           "max_radius_edge", "min_angle_deg", "max_angle_deg", "over_radius_edge", "findings", "exit", "check", "sha256", "load", "remark"]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -31,6 +31,7 @@ class Configuration:
     schedule: str
     threads: int
     geo: str = ""  # gmsh
+    claims: str = ""  # pgdr; none: its default
 
 
 def measure(command, folder, limit, environment=None):
@@ -74,15 +75,16 @@ def quality(report):
 class Suite:
     """What all runs have in common. Verdicts of equal meshes with equal reasons are asked for once."""
 
-    def __init__(self, pgdr, inputs, sizes, limit, tetgen, gmsh):
+    def __init__(self, pgdr, inputs, sizes, limit, tetgen=None, gmsh=None, flags=()):
+        """`flags`: more of them for `pgdr mesh`."""
         self.pgdr, self.inputs, self.sizes, self.limit = pathlib.Path(pgdr).resolve(), inputs, sizes, limit
-        self.tetgen_program, self.gmsh_program = tetgen, gmsh
+        self.tetgen_program, self.gmsh_program, self.flags = tetgen, gmsh, list(flags)
         self.verdicts = {}
 
     def run(self, configuration, number):
         row = {**dict.fromkeys(COLUMNS), "model": configuration.model.name, "program": configuration.program,
-               "schedule": configuration.schedule, "threads": configuration.threads, "round": number,
-               "load": round(os.getloadavg()[0], 2)}
+               "schedule": configuration.schedule, "claims": configuration.claims, "threads": configuration.threads, "round": number,
+               "stages": [], "load": round(os.getloadavg()[0], 2)}
         with tempfile.TemporaryDirectory(prefix="pgdr_suite_") as folder:
             program = {"pgdr": self.run_pgdr, "TetGen": self.run_tetgen}.get(configuration.program, self.run_gmsh)
             row.update(program(configuration, pathlib.Path(folder)))
@@ -99,8 +101,9 @@ class Suite:
     def run_pgdr(self, c, folder):
         source, flags = self.inputs[c.model.name], c.model.pgdr_flags(self.sizes[c.model.name])
         mesh, report = folder / "mesh.vtu", folder / "report.json"
-        code, said, row = measure([self.pgdr, "mesh", source, "-o", mesh, "--threads", c.threads, "--schedule", c.schedule,
-                                   "--report", report, "--quiet", *flags], folder, self.limit)
+        claims = ["--claims", c.claims] if c.claims else []
+        code, said, row = measure([self.pgdr, "mesh", source, "-o", mesh, "--threads", c.threads, "--schedule", c.schedule, *claims,
+                                   "--report", report, "--quiet", *flags, *self.flags], folder, self.limit)
         row["exit"] = code
         data = read_json(report)
         if code not in (0, 1) or not mesh.exists():
@@ -111,6 +114,8 @@ class Suite:
         row.update({k: visits[k] for k in ("leaves", "visits", "set_aside", "work_seconds", "critical_path_seconds")})
         if c.schedule == "reproducible" and row["critical_path_seconds"]:  # greedy has no generations to add up
             row["work_over_path"] = row["work_seconds"] / row["critical_path_seconds"]
+        row.update({k: data["insertions"][k] for k in ("committed", "refused")})
+        row["stages"] = data.get("stages", [])
         row["peak_bytes"] = data["peak_rss_bytes"]
         row["sha256"] = sha256(mesh)
         key = row["sha256"], json.dumps(data["bounds"])
@@ -122,12 +127,12 @@ class Suite:
 
     def run_tetgen(self, c, folder):
         size, model = self.sizes[c.model.name], c.model
-        source = pathlib.Path(shutil.copy(self.inputs[model.name], folder))
+        source = suite_models.for_peers(self.inputs[model.name], folder)
         if model.background:
             suite_models.write_background(source.with_suffix(""), model.background * size, 20)
             switches = "-pq2mBF"
         else:
-            switches = f"-pq2a{model.volume * size ** 3:.12f}BF"
+            switches = model.tetgen_switches(size)
         code, said, row = measure([self.tetgen_program, switches, source], folder, self.limit)
         seconds = {k: float(v) for k, v in re.findall(r"^(.+?) seconds: *([\d.eE+-]+)", said, re.M)}
         mesh = source.with_suffix(".1.ele")
@@ -146,7 +151,7 @@ class Suite:
     def run_gmsh(self, c, folder):
         edge = c.model.edge * self.sizes[c.model.name]
         if c.geo in ("surface.geo", "remesh.geo"):
-            suite_models.off_to_msh(self.inputs[c.model.name], folder / "surface.msh")
+            suite_models.off_to_msh(suite_models.for_peers(self.inputs[c.model.name], folder), folder / "surface.msh")
         geo = shutil.copy(suite_models.ROOT / "bench" / "peers" / c.geo, folder)
         # Threads of OpenMP, which some systems put on one core.
         places = ",".join(f"{{{i}}}" for i in sorted(os.sched_getaffinity(0))[:c.threads])

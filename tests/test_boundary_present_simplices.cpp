@@ -11,6 +11,7 @@
 
 #include "boundary/present_simplices.hpp"
 #include "cavity/delaunay.hpp"
+#include "space/make_set.hpp"
 
 namespace pgdr::test_boundary_present_simplices {
 
@@ -81,10 +82,12 @@ void expect_as_all_cells_say(std::uint32_t seed) {
   for (int look = 0; look < 60; ++look) {
     std::vector<EntityId> due = present.take_due();
     due.insert(due.end(), look_again.begin(), look_again.end());
-    const std::set<EntityId> owners(due.begin(), due.end());
-    for (auto& w : wanted)
-      if (owners.contains(w.owner)) present.ask(w.owner, w.vertices, w.seen);
-    present.find();
+    detail::make_set(due);
+    const auto ask_for = [&](EntityId owner, const auto& ask) {
+      for (auto& w : wanted)
+        if (w.owner == owner) ask(w.vertices, w.seen);
+    };
+    present.look(due, ask_for, detail::Bulk(false));
     look_again.clear();
     const auto all = all_of<K>(mesh);
     for (const auto& w : wanted) {

@@ -16,6 +16,7 @@
 #include "domain_plcs.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "planar_plcs.hpp"
+#include "space/bulk.hpp"
 
 namespace pgdr::test_diagnose_estimate {
 
@@ -376,6 +377,35 @@ TEST(Estimate, LeavesOutWhatIsOutside) {
   EstimateOptions<3> options;
   options.measure = [](const Point3&, double) { return 1e-7; };
   EXPECT_NEAR(estimate_cells<3>(Domain<3>(plc), options).cells * 1e-7, 1.0 / 3, 0.1);
+}
+
+/// One after the other, the last first.
+class LastFirst final : public detail::Pieces {
+ public:
+  void run(std::size_t count, const std::function<void(std::size_t)>& piece) const override {
+    for (std::size_t i = count; i-- > 0;) piece(i);
+  }
+  bool is_parallel() const override { return false; }
+};
+
+// Whoever runs the pieces, and in whatever order.
+TEST(Estimate, DoesNotDependOnTheOrderOfPieces) {
+  const Plc<3> plc = turned(two_boxes(0.01));
+  EstimateOptions<3> options;
+  options.measure = [](const Point3& x, double) { return 1e-4 * (1 + x[0] * x[0]); };
+  const Domain<3> domain(plc);
+  const auto gap = narrowest_gap(domain);
+  const auto angle = least_angle(domain);
+  const CellEstimate<3> expected = estimate_cells(domain, options);
+  const LastFirst pieces;
+  const detail::PiecesHere here(pieces);
+  const Domain<3> again(plc);
+  EXPECT_EQ(again.facets().size(), domain.facets().size());
+  EXPECT_EQ(narrowest_gap(again)->points, gap->points);
+  EXPECT_EQ(least_angle(again)->entities, angle->entities);
+  const CellEstimate<3> estimate = estimate_cells(again, options);
+  EXPECT_EQ(estimate.cells, expected.cells);
+  EXPECT_EQ(estimate.at_least, expected.at_least);
 }
 
 TEST(Estimate, IsTheSameAgain) {

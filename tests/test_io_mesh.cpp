@@ -4,6 +4,7 @@
 // Meshes in files: what is written reads back bit for bit, other programs' .mesh files are understood, mistakes are
 // named, and a write that fails leaves everything as it was.
 #include <sys/resource.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <csignal>
@@ -47,6 +48,24 @@ void expect_round_trips() {
 
 TEST(MeshFiles, RoundTripBitForBitIn3D) { expect_round_trips<3>(); }
 TEST(MeshFiles, RoundTripBitForBitIn2D) { expect_round_trips<2>(); }
+
+// Blocks of a large file are formatted side by side where there are threads.
+TEST(MeshFiles, DoNotDependOnTheNumberOfThreads) {
+  const TempFolder folder;
+  OutputMesh<3> mesh = some_mesh<3>(7, 20000);
+  const auto cells = mesh.cells;
+  while (mesh.cells.size() < 600000) mesh.cells.insert(mesh.cells.end(), cells.begin(), cells.end());
+  mesh.regions.resize(mesh.cells.size(), 2);
+  for (const std::string extension : {".mesh", ".vtu", ".msh", ".ele"}) {
+    std::array<std::string, 2> written;
+    for (const int threads : {1, 4}) {
+      const auto file = folder / (std::to_string(threads) + extension);
+      tbb::task_arena(threads).execute([&] { write_mesh<3>(mesh, file); });
+      written[threads == 1 ? 0 : 1] = content(file);
+    }
+    EXPECT_TRUE(written[0] == written[1]) << extension;
+  }
+}
 
 /// What .vtu and .node alone keep, and .vtu alone.
 template <int D>

@@ -59,6 +59,25 @@ TEST(ExactSum, OfTermsThatCancelIsExact) {
   EXPECT_EQ(sum.divided_by(6), -0x1p-600);
 }
 
+TEST(ExactSum, OfSumsIsThatOfAllTerms) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> mantissa(-1, 1);
+  std::uniform_int_distribution<int> exponent(-300, 300);
+  for (int round = 0; round < 200; ++round) {
+    detail::ExactSum all, sum;
+    for (int part = 0; part < 4; ++part) {
+      detail::ExactSum some;
+      for (int term = 0; term < (round + part) % 5; ++term) {
+        const double a = std::ldexp(mantissa(random), exponent(random)), b = mantissa(random);
+        all.add_product(a, b);
+        some.add_product(a, b);
+      }
+      sum.add(some);
+    }
+    EXPECT_EQ(sum.divided_by(6), all.divided_by(6)) << round;
+  }
+}
+
 TEST(ExactSum, TiesGoToEven) {
   const auto one_and = [](double rest, double tiny) {
     detail::ExactSum sum;

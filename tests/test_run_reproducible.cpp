@@ -190,6 +190,14 @@ TEST(Parallel, AnyWayToDivideTheWork) {
       },
       "claim order 4");
   run([](ScheduleOptions& s) { s.claim_order = 9; }, "claim order 9");
+  run([](ScheduleOptions& s) { s.claims = ClaimRule::leaves; }, "leaves");
+  run(
+      [](ScheduleOptions& s) {
+        s.claims = ClaimRule::leaves;
+        s.claim_order = 2;
+        s.floor = 10;
+      },
+      "leaves, claim order 2");
   run([](ScheduleOptions& s) { s.granularity = 1; }, "granularity 1");
 }
 

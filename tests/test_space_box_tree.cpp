@@ -10,6 +10,7 @@
 
 #include "pgdr/predicates.hpp"
 #include "space/box_tree.hpp"
+#include "space/bulk.hpp"
 #include "space/contact.hpp"
 
 namespace pgdr::detail::test_space_box_tree {
@@ -60,7 +61,7 @@ void compare_nearest(const std::vector<Box<D>>& a, const std::vector<Box<D>>& b,
   std::vector<double> weights(a.size());
   for (double& w : weights) w = std::uniform_real_distribution<double>(0, 0.3)(random);
   const BoxTree<D> tree(a, cut);
-  const std::vector<double> least = tree.least_below(weights);
+  const std::vector<double> least = tree.least_below(weights, Bulk(false));
   for (const Box<D>& box : b) {
     const Point<D>& x = box.low;
     double expected = infinity, expected_weighted = infinity, nearest = infinity, weighted = infinity;

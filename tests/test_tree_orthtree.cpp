@@ -13,6 +13,7 @@
 #include <numeric>
 
 #include "claims/claim.hpp"
+#include "claims/placement.hpp"
 #include "dimensions.hpp"
 #include "graded_trees.hpp"
 #include "pgdr/error.hpp"
@@ -311,11 +312,10 @@ TYPED_TEST(OrthtreeTest, ClaimsHoldWhatTheySay) {
     for (const auto leaf : boxes.leaves)
       for (const std::uint32_t order : {1u, 2u, 4u}) {
         const auto zone = tree.buffer(leaf, order);
-        const Claim<D> claim(tree, leaf, zone, order);
         trees::Set<D> expected(zone.begin(), zone.end());
         expected.insert(leaf);
-        EXPECT_EQ(set_of<D>(claim.leaves()), expected);
-        for (const auto other : boxes.leaves) EXPECT_EQ(claim.contains_leaf(other), expected.contains(other));
+        const Claim<D> claim = Claim<D>::of_leaves(tree, leaf, {expected.begin(), expected.end()}, order);
+        for (const auto other : boxes.leaves) EXPECT_EQ(claim.holds(other), expected.contains(other));
 
         // Exactly: no leaf outside the claim meets the interior of the inner box; the leaf itself lies in it.
         const auto& inner = claim.inner();
@@ -354,15 +354,72 @@ TYPED_TEST(OrthtreeTest, ClaimsHoldWhatTheySay) {
   EXPECT_GT(infinite, 0u);
 }
 
+/// The box of a node, grown by its side, holds the points that it says, and the nodes that lie in it.
+TYPED_TEST(OrthtreeTest, BoxesAreGrownByTheirSide) {
+  constexpr int D = TypeParam::value;
+  std::mt19937_64 random(seed + 8);
+  const Orthtree<D> tree = trees::graded<D>(random, D == 2 ? 60 : 20);
+  const auto root = tree.box(0);
+  for (std::uint32_t node = 1; node < tree.node_count(); ++node)
+    for (const std::uint64_t sides : {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{3}, ~std::uint64_t{0}}) {
+      const auto grid = GridBox<D>::around(tree, node, sides);
+      const Claim<D> claim = Claim<D>::of_box(tree, node, grid);
+      const auto box = tree.box(node);
+      for (int s = 0; s < 20; ++s) {
+        const Point<D> p = random_point<D>(random, -1, 2);
+        bool inside = true;
+        for (int i = 0; i < D; ++i) {
+          const double reach = static_cast<double>(sides) * tree.side(node);
+          const double low = box.low[i] - reach, high = box.high[i] + reach;
+          inside = inside && (p[i] >= low || low <= root.low[i]) && (p[i] < high || high >= root.high[i]);
+        }
+        EXPECT_EQ(claim.contains(p), inside);
+      }
+      for (std::uint32_t other = 0; other < tree.node_count(); ++other) {
+        const auto b = GridBox<D>::around(tree, other, 0);
+        EXPECT_EQ(claim.holds(other), grid.holds(b));
+        EXPECT_EQ(grid.meets(b), b.meets(grid));
+        EXPECT_TRUE(!claim.holds(other) || (claim.contains(tree.centre(other)) && grid.meets(b)));
+      }
+    }
+}
+
+/// Every element belongs to one node: the smallest around its place whose side is large enough.
+TYPED_TEST(OrthtreeTest, ElementsBelongToTheSmallestNodeThatIsLargeEnough) {
+  constexpr int D = TypeParam::value;
+  std::mt19937_64 random(seed + 9);
+  const Orthtree<D> tree = trees::graded<D>(random, 60);
+  const double share = 0.5;
+  const Placement<D> by_boxes(tree, ClaimRule::boxes, share), by_leaves(tree, ClaimRule::leaves, share);
+  std::size_t inner = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const Point<D> p = random_point<D>(random, -0.5, 1.5);
+    const double radius = std::ldexp(1.0, -static_cast<int>(random() % 12));
+    EXPECT_EQ(by_leaves.node_of(p, radius), tree.leaf_at(p));
+    const auto node = by_boxes.node_of(p, radius);
+    inner += !tree.is_leaf(node);
+    EXPECT_TRUE(node == Orthtree<D>::root || radius <= share * tree.side(node));
+    EXPECT_TRUE(tree.is_leaf(node) || radius > share * tree.side(tree.child_at(node, p)));
+    EXPECT_TRUE(radius > by_boxes.radius_below(node) && radius <= by_boxes.most_radius(node));
+    for (auto at = tree.leaf_at(p); at != node; at = tree.parent(at))
+      EXPECT_FALSE(radius > by_boxes.radius_below(at) && radius <= by_boxes.most_radius(at)) << "of one node alone";
+  }
+  EXPECT_GT(inner, 100u);
+}
+
 TYPED_TEST(OrthtreeTest, InAUniformTreeTheInnerBoxIsTheWholeClaim) {
   constexpr int D = TypeParam::value;
   const Orthtree<D> tree = trees::uniform<D>(D == 2 ? 4 : 3);
   for (const auto leaf : tree.leaves())
     for (const std::uint32_t order : {1u, 2u}) {
-      const Claim<D> claim(tree, leaf, tree.buffer(leaf, order), order);
+      auto leaves = tree.buffer(leaf, order);
+      leaves.insert(std::lower_bound(leaves.begin(), leaves.end(), leaf), leaf);
+      const Claim<D> claim = Claim<D>::of_leaves(tree, leaf, leaves, order);
       std::size_t held = 0;
       for (const auto other : tree.leaves()) held += claim.inner().contains(tree.centre(other));
-      EXPECT_EQ(held, claim.leaves().size());
+      EXPECT_EQ(held, leaves.size());
+      const Claim<D> box = Claim<D>::of_box(tree, leaf, GridBox<D>::around(tree, leaf, order));
+      EXPECT_EQ(box.inner(), claim.inner()) << "both rules claim the same";
     }
 }
 

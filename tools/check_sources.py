@@ -62,7 +62,7 @@ ROOMS = {
     "scheduler": {
         "tree": Room("which leaf is a point in, what is around it, how does it split?", "", "orthtree.hpp", ""),
         "graph": Room("what runs visits that wait for each other?", "", "visit_graph.hpp", ""),
-        "claims": Room("what may a visit change, and which visits wait?", "tree graph mesh", "claim.hpp", ""),
+        "claims": Room("what may a visit change, and which visits wait?", "tree graph mesh rule", "claim.hpp", ""),
         "run": Room("how does an input become a mesh, and which leaf is refined when?",
                     "claims boundary optimize reasons compact check", "refine.cpp generations.hpp", "refine pgdr"),
     },

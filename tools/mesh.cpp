@@ -49,6 +49,7 @@ RefineOptions<D> make_options(const MeshArguments& a, const Bounds<D>& bounds) {
   if (a.max_vertices) options.max_vertices = *a.max_vertices;
   options.schedule.threads = a.threads.value_or(0);
   options.schedule.schedule = a.schedule;
+  options.schedule.claims = a.claims;
   if (a.granularity) options.schedule.granularity = *a.granularity;
   options.schedule.trace = !a.trace.empty();
   return options;
@@ -116,6 +117,7 @@ void fill(Report& report, const MeshArguments& a, const Threads& threads, const 
   report.set("cells", r.mesh.cells.size());
   report.set("threads", JsonObject{{"requested", threads.requested()}, {"ran", threads_that_ran(r)}});
   report.set("schedule", name(a.schedule));
+  report.set("claims", name(a.claims));
   report.set("reproducible",
              a.schedule == Schedule::reproducible && r.stop != StopCause::time_limit && r.stop != StopCause::cancelled);
   report.set("stop", name(r.stop));

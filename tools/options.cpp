@@ -51,6 +51,8 @@ bool not_negative(double v) { return v >= 0 && std::isfinite(v); }
 
 const std::map<std::string, Schedule> schedules{{"reproducible", Schedule::reproducible}, {"greedy", Schedule::greedy}};
 
+const std::map<std::string, ClaimRule> claim_rules{{"boxes", ClaimRule::boxes}, {"leaves", ClaimRule::leaves}};
+
 const std::map<std::string, RegionMode> region_modes{{"seeds", RegionMode::seeds}, {"auto", RegionMode::automatic}};
 
 const std::map<std::string, ViewColor> view_colors{
@@ -212,6 +214,13 @@ void add_mesh(CLI::App& app, MeshArguments& a) {
          "runs next, and the mesh depends on timing")
       ->type_name("NAME")
       ->check(one_of(schedules, "schedules"));
+  app.add_option_function<std::string>(
+         "--claims", [&a](const std::string& t) { a.claims = claim_rules.at(t); },
+         "what a visit of a leaf keeps others out of. boxes (default): its box, grown by its side; leaves: whole leaves around "
+         "it, "
+         "so that fine leaves beside a coarse one wait for each other; the mesh depends on it")
+      ->type_name("RULE")
+      ->check(one_of(claim_rules, "rules of claims"));
   app.add_option("--granularity", a.granularity,
                  "a visit of a leaf ends this many halvings of the circumradius below its largest (default: when the "
                  "leaf has no work left); the mesh depends on it")
@@ -297,6 +306,12 @@ std::optional<std::pair<double, std::string>> split_region_size(const std::strin
 const char* name(Schedule schedule) {
   for (const auto& [word, value] : schedules)
     if (value == schedule) return word.c_str();
+  return "";
+}
+
+const char* name(ClaimRule rule) {
+  for (const auto& [word, value] : claim_rules)
+    if (value == rule) return word.c_str();
   return "";
 }
 

@@ -48,6 +48,7 @@ struct MeshArguments {
   double delta = 0;
   std::optional<int> threads;  ///< none: one a core
   Schedule schedule = Schedule::reproducible;
+  ClaimRule claims = ClaimRule::boxes;
   std::optional<int> granularity;  ///< none: a visit ends when its leaf has no work left
   double min_edge = 0;
   std::optional<std::uint64_t> max_vertices;
@@ -100,6 +101,8 @@ std::optional<std::pair<double, std::string>> split_region_size(const std::strin
 
 /// The word of --schedule.
 const char* name(Schedule schedule);
+/// The word of --claims.
+const char* name(ClaimRule rule);
 
 /// Parses the command line. The exit code if there is nothing left to do: --help, --version, and wrong usage, which are printed
 /// here.

@@ -148,7 +148,7 @@ JsonObject to_json(const OptimizationStatistics& s, bool finished) {
           {"unexplained", when_finished(s.unexplained)}};
 }
 
-JsonObject to_json(const StageTime& s) { return {{"name", s.name}, {"seconds", s.seconds}}; }
+JsonObject to_json(const StageTime& s) { return {{"name", s.name}, {"seconds", s.seconds}, {"work", s.work}, {"path", s.path}}; }
 
 JsonObject to_json(const CheckFinding& f) { return {{"kind", pgdr::name(f.kind)}, {"message", f.message}, {"ids", f.ids}}; }
 

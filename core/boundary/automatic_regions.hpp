@@ -11,6 +11,7 @@
 
 #include "mesh/mesh.hpp"
 #include "pgdr/domain.hpp"
+#include "space/bulk.hpp"
 
 namespace pgdr::detail {
 
@@ -22,11 +23,12 @@ std::vector<bool> solid_by_nesting(std::uint32_t volumes, std::vector<std::array
 /// Pairs of components with a constrained face between them, each once. `component` by slot of cells; ghosts have
 /// components, too.
 template <int D>
-std::vector<std::array<std::uint32_t, 2>> neighbouring_components(const Mesh<D>& mesh, std::span<const std::uint32_t> component);
+std::vector<std::array<std::uint32_t, 2>> neighbouring_components(const Mesh<D>& mesh, std::span<const std::uint32_t> component,
+                                                                  const Bulk& bulk);
 
 /// Components 0 <= c < count in the order of their least segments.
 template <int D>
 std::vector<std::uint32_t> components_in_order(const Mesh<D>& mesh, const Domain<D>& domain,
-                                               std::span<const std::uint32_t> component, std::uint32_t count);
+                                               std::span<const std::uint32_t> component, std::uint32_t count, const Bulk& bulk);
 
 }  // namespace pgdr::detail

@@ -10,9 +10,12 @@
 #include "boundary/automatic_regions.hpp"
 #include "input/entity_distance.hpp"
 #include "input/words.hpp"
+#include "mesh/cell_blocks.hpp"
 #include "numbers/rounding.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "space/box.hpp"
+#include "space/bulk.hpp"
+#include "space/disjoint_sets.hpp"
 
 namespace pgdr {
 namespace {
@@ -66,10 +69,12 @@ bool is_within(std::array<Point<D>, D> s, Point<D> x, double width) {
 /// would not be the one on which it is in the input. A bent facet's subfacets are off it by up to twice its defect.
 /// @throws InputError seed_on_boundary
 template <int D>
-void refuse_seeds_on_walls(const Domain<D>& domain, std::vector<Seed<D>> seeds) {
+void refuse_seeds_on_walls(const Domain<D>& domain, std::vector<Seed<D>> seeds, const detail::Bulk& bulk) {
   if (seeds.empty()) return;
+  using OnWall = std::pair<const Seed<D>*, std::uint32_t>;  // and the facet
   std::stable_sort(seeds.begin(), seeds.end(), [](const Seed<D>& a, const Seed<D>& b) { return a.point[0] < b.point[0]; });
-  const auto visit = [&](const std::array<std::uint32_t, D>& corners, double width, std::uint32_t facet) {
+  const auto look_at = [&](const std::array<std::uint32_t, D>& corners, double width, std::uint32_t facet,
+                           std::vector<OnWall>& out) {
     std::array<Point<D>, D> s;
     for (std::size_t k = 0; k < D; ++k) s[k] = domain.points()[corners[k]];
     const detail::Box<D> box = detail::Box<D>::of(s);
@@ -78,38 +83,62 @@ void refuse_seeds_on_walls(const Domain<D>& domain, std::vector<Seed<D>> seeds) 
     for (; seed != seeds.end() && seed->point[0] <= box.high[0] + width; ++seed) {
       bool near = true;
       for (int i = 1; i < D; ++i) near &= box.low[i] - width <= seed->point[i] && seed->point[i] <= box.high[i] + width;
-      if (near && is_within<D>(s, seed->point, width))
-        throw InputError(seed->diagnostic(domain, Errc::seed_on_boundary,
-                                          D == 2 ? "lies on a segment" : "lies on facet " + std::to_string(facet)));
+      if (near && is_within<D>(s, seed->point, width)) out.emplace_back(&*seed, facet);
     }
   };
   constexpr double ulps = 16 * rounding::ulp;
+  std::vector<OnWall> found;
   if constexpr (D == 3) {
-    for (EntityId f = 0; f < domain.facets().size(); ++f) {
+    found = bulk.gather<OnWall>(domain.facets().size(), [&](std::size_t i, std::vector<OnWall>& out) {
+      const auto f = static_cast<EntityId>(i);
       const double width = ulps * domain.facet_magnitude(f) + 2 * domain.facets()[f].planarity_defect;
       const auto origins = domain.triangle_origins(f);
       for (std::size_t k = 0; k < origins.size(); ++k)
-        visit(domain.triangles(f)[k], width, origins[k].facet + domain.first_index());
-    }
+        look_at(domain.triangles(f)[k], width, origins[k].facet + domain.first_index(), out);
+    });
   } else {
-    for (EntityId e = 0; e < domain.segments().size(); ++e)
-      visit(domain.segments()[e].points, ulps * domain.segment_magnitude(e), no_entity);
+    found = bulk.gather<OnWall>(domain.segments().size(), [&](std::size_t i, std::vector<OnWall>& out) {
+      const auto e = static_cast<EntityId>(i);
+      look_at(domain.segments()[e].points, ulps * domain.segment_magnitude(e), no_entity, out);
+    });
   }
+  if (found.empty()) return;
+  const auto& [seed, facet] = found.front();
+  throw InputError(
+      seed->diagnostic(domain, Errc::seed_on_boundary, D == 2 ? "lies on a segment" : "lies on facet " + std::to_string(facet)));
 }
 
+/// The parts of the mesh that hang together through unconstrained faces. Number 0 is that of the ghosts, the others go by the
+/// least slot that they have.
 template <int D>
 class Labeling {
  public:
-  Labeling(Mesh<D>& mesh, const Delaunay<D>& delaunay)
+  Labeling(const Mesh<D>& mesh, const Delaunay<D>& delaunay, const detail::Bulk& bulk)
       : mesh_(mesh), delaunay_(delaunay), component_(mesh.cell_bound(), unlabelled) {
-    // The ghosts' component is number 0, so it is flooded first.
-    for (const bool ghosts : {true, false})
-      for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i)
-        if (mesh.alive(CellId{i}) && component_[i] == unlabelled && (!ghosts || mesh.is_ghost(CellId{i}))) flood(CellId{i});
+    std::vector<std::uint32_t> numbers(mesh.cell_bound());
+    bulk.each(numbers.size(), [&](std::size_t i) { numbers[i] = static_cast<std::uint32_t>(i); });
+    detail::SharedDisjointSets sets(std::move(numbers));
+    bulk.each(component_.size(), [&](std::size_t i) { join(CellId{static_cast<std::uint32_t>(i)}, sets); });
+    const std::vector<CellId> ghosts = bulk.gather<CellId>(component_.size(), [&](std::size_t i, std::vector<CellId>& out) {
+      const CellId c{static_cast<std::uint32_t>(i)};
+      if (mesh.alive(c) && mesh.is_ghost(c)) out.push_back(CellId{sets.find(index(c))});
+    });
+    const auto is_root = [&](std::uint32_t i) { return mesh.alive(CellId{i}) && sets.find(i) == i; };
+    first_cells_ = bulk.gather<CellId>(component_.size(), [&](std::size_t i, std::vector<CellId>& out) {
+      if (const auto c = static_cast<std::uint32_t>(i); is_root(c)) out.push_back(CellId{c});
+    });
+    const auto at = std::find(first_cells_.begin(), first_cells_.end(), ghosts.front());
+    std::rotate(first_cells_.begin(), at, at + 1);
+    for (std::uint32_t k = 0; k < first_cells_.size(); ++k) component_[index(first_cells_[k])] = k;
+    bulk.each(component_.size(), [&](std::size_t i) {
+      const auto c = static_cast<std::uint32_t>(i);
+      if (const std::uint32_t root = sets.find(c); root != c) component_[c] = component_[root];
+    });
   }
 
-  std::uint32_t components() const { return count_; }
+  std::uint32_t components() const { return static_cast<std::uint32_t>(first_cells_.size()); }
   std::uint32_t component(CellId c) const { return component_[index(c)]; }
+  CellId first_cell(std::uint32_t component) const { return first_cells_[component]; }
   std::span<const std::uint32_t> of_cells() const { return component_; }
 
   /// Component of a point that is on no wall; 0 if it lies outside.
@@ -118,37 +147,29 @@ class Labeling {
   }
 
  private:
-  void flood(CellId from) {
-    std::vector<CellId> stack{from};
-    component_[index(from)] = count_;
-    while (!stack.empty()) {
-      const CellId c = stack.back();
-      stack.pop_back();
-      for (int f = 0; f <= D; ++f) {
-        if (mesh_.constrained(c, f)) continue;
-        const CellId next = mesh_.cell(c).links[f].cell();
-        if (component_[index(next)] != unlabelled) continue;
-        component_[index(next)] = count_;
-        stack.push_back(next);
-      }
-    }
-    ++count_;
+  void join(CellId c, detail::SharedDisjointSets& sets) const {
+    if (!mesh_.alive(c)) return;
+    for (int f = 0; f <= D; ++f)  // from the larger of two neighbours
+      if (const CellId next = mesh_.cell(c).links[f].cell(); next < c && !mesh_.constrained(c, f))
+        sets.unite(index(c), index(next));
   }
 
-  Mesh<D>& mesh_;
+  const Mesh<D>& mesh_;
   const Delaunay<D>& delaunay_;
   std::vector<std::uint32_t> component_;
-  std::uint32_t count_ = 0;
+  std::vector<CellId> first_cells_;  ///< of the components
 };
 
 /// What becomes of each component.
 template <int D>
 class Regions {
  public:
-  Regions(const Mesh<D>& mesh, const Labeling<D>& labeling, const Domain<D>& domain, std::vector<Diagnostic>& warnings)
+  Regions(const Mesh<D>& mesh, const Labeling<D>& labeling, const Domain<D>& domain, std::vector<Diagnostic>& warnings,
+          const detail::Bulk& bulk)
       : mesh_(mesh),
         labeling_(labeling),
         domain_(domain),
+        bulk_(bulk),
         warnings_(warnings),
         removed_(labeling.components(), false),
         region_(labeling.components(), 0) {
@@ -158,7 +179,7 @@ class Regions {
 
   RegionTable run(RegionMode mode) {
     const std::vector<Seed<D>> seeds = seeds_of(domain_);
-    refuse_seeds_on_walls(domain_, seeds);
+    refuse_seeds_on_walls(domain_, seeds, bulk_);
     for (const Seed<D>& seed : seeds) {
       const std::uint32_t c = labeling_.find(seed.point);
       if (seed.of_hole)
@@ -216,7 +237,7 @@ class Regions {
 
   void remove_voids() {
     const auto solid = detail::solid_by_nesting(labeling_.components(),
-                                                detail::neighbouring_components<D>(mesh_, labeling_.of_cells()));
+                                                detail::neighbouring_components<D>(mesh_, labeling_.of_cells(), bulk_));
     for (std::uint32_t c = 0; c < removed_.size(); ++c)
       if (!solid[c] && region_[c] == 0) removed_[c] = true;
   }
@@ -226,7 +247,8 @@ class Regions {
     std::vector<double> of_seeds(table_.attribute.begin() + 1, table_.attribute.end());
     std::sort(of_seeds.begin(), of_seeds.end());
     double label = 0;
-    for (const std::uint32_t c : detail::components_in_order<D>(mesh_, domain_, labeling_.of_cells(), labeling_.components())) {
+    for (const std::uint32_t c :
+         detail::components_in_order<D>(mesh_, domain_, labeling_.of_cells(), labeling_.components(), bulk_)) {
       if (removed_[c] || region_[c] != 0) continue;
       do ++label;
       while (std::binary_search(of_seeds.begin(), of_seeds.end(), label));
@@ -258,6 +280,7 @@ class Regions {
   const Mesh<D>& mesh_;
   const Labeling<D>& labeling_;
   const Domain<D>& domain_;
+  const detail::Bulk& bulk_;
   std::vector<Diagnostic>& warnings_;
   RegionTable table_;
   bool bounded_ = false;
@@ -269,29 +292,32 @@ class Regions {
 
 template <int D>
 RegionTable carve(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Delaunay<D>& delaunay, const Domain<D>& domain,
-                  RegionMode mode, std::vector<Diagnostic>& warnings) {
-  const Labeling<D> labeling(mesh, delaunay);
-  Regions<D> regions(mesh, labeling, domain, warnings);
+                  RegionMode mode, std::vector<Diagnostic>& warnings, const detail::Pieces& pieces) {
+  const detail::Bulk bulk(pieces);
+  const Labeling<D> labeling(mesh, delaunay, bulk);
+  Regions<D> regions(mesh, labeling, domain, warnings, bulk);
   RegionTable table = regions.run(mode);
 
-  const std::uint32_t bound = mesh.cell_bound();
-  auto doomed = [&](CellId c) { return regions.removed(labeling.component(c)); };
-  for (std::uint32_t i = 0; i < bound; ++i) {
-    const CellId c{i};
-    if (!mesh.alive(c) || doomed(c)) continue;
+  const auto is_doomed = [&](CellId c) { return regions.removed(labeling.component(c)); };
+  for (std::uint32_t k = 0; k < labeling.components(); ++k)  // one thread alone may set the first
+    if (!regions.removed(k)) mesh.set_region(labeling.first_cell(k), regions.region(k));
+  bulk.each(mesh.cell_bound(), [&](std::size_t i) {
+    const CellId c{static_cast<std::uint32_t>(i)};
+    if (!mesh.alive(c) || is_doomed(c)) return;
     mesh.set_region(c, regions.region(labeling.component(c)));
     for (int f = 0; f <= D; ++f)
-      if (doomed(mesh.cell(c).links[f].cell())) mesh.cell(c).links[f] = Link{};
-  }
-  for (std::uint32_t i = 0; i < bound; ++i)
-    if (mesh.alive(CellId{i}) && doomed(CellId{i})) mesh.free_cell(pools, CellId{i});
-  mesh.find_pinched_edges(domain.segments().size());
+      if (is_doomed(mesh.cell(c).links[f].cell())) mesh.cell(c).links[f] = Link{};
+  });
+  detail::each_cell(mesh, pools, bulk, [&](CellId c, typename Mesh<D>::Pools& own) {
+    if (is_doomed(c)) mesh.free_cell(own, c);
+  });
+  mesh.find_pinched_edges(domain.segments().size(), bulk);
   return table;
 }
 
 template RegionTable carve<2>(Mesh<2>&, Mesh<2>::Pools&, const Delaunay<2>&, const Domain<2>&, RegionMode,
-                              std::vector<Diagnostic>&);
+                              std::vector<Diagnostic>&, const detail::Pieces&);
 template RegionTable carve<3>(Mesh<3>&, Mesh<3>::Pools&, const Delaunay<3>&, const Domain<3>&, RegionMode,
-                              std::vector<Diagnostic>&);
+                              std::vector<Diagnostic>&, const detail::Pieces&);
 
 }  // namespace pgdr

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Carving: the exterior and the holes are taken out of the mesh, and regions get their numbers. Serial.
+// Carving: the exterior and the holes are taken out of the mesh, and regions get their numbers.
 #pragma once
 
 #include <vector>
@@ -10,6 +10,7 @@
 #include "mesh/mesh.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/region_mode.hpp"
+#include "space/pieces.hpp"
 
 namespace pgdr {
 
@@ -22,10 +23,11 @@ struct RegionTable {
 
 /// Floods the cells through unconstrained faces: what reaches the ghosts is outside, what a hole seed reaches is a hole,
 /// and so is what `mode` makes void. Frees these cells and all ghosts; the faces left open have no link.
+/// `pieces` run the passes over all cells; the result does not depend on them.
 /// @throws InputError encloses_nothing (with the open boundaries of the input), seed_on_boundary, conflicting_seeds;
 ///   ResourceError ids_exhausted. `warnings` gets seeds that lie outside, and region seeds in holes.
 template <int D>
 RegionTable carve(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Delaunay<D>& delaunay, const Domain<D>& domain,
-                  RegionMode mode, std::vector<Diagnostic>& warnings);
+                  RegionMode mode, std::vector<Diagnostic>& warnings, const detail::Pieces& pieces = detail::OneByOne());
 
 }  // namespace pgdr

@@ -5,16 +5,22 @@
 // remembered with a cell that had it, and needs another look only once this cell was deleted. If it is still there, one of the
 // cells made since has it: an edge or triangle that is left of a cavity is in a face of its boundary, and so in the new cell on
 // that face. The same holds for those that were missing, and for those that have a new vertex.
+//
+// One thread looks; the loops of a look run as pieces. Of several cells that have a simplex the one with the least id counts, so
+// that the order of the pieces does not matter.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "boundary/wanted_simplices.hpp"
 #include "mesh/changed_cells.hpp"
 #include "mesh/mesh.hpp"
+#include "space/bulk.hpp"
 
 namespace pgdr::detail {
 
@@ -29,8 +35,8 @@ bool has_corners(const Mesh<3>& mesh, CellId c, const std::array<VertexId, K>& v
   return std::all_of(vertices.begin(), vertices.end(), [&](VertexId v) { return has_corner(corners, v); });
 }
 
-/// The edges (K = 2) or triangles (K = 3) that were asked for. A look is take_due(), then ask() for all simplices of these owners
-/// and of owners that have new ones, then find(). The mesh must not change during a look.
+/// The edges (K = 2) or triangles (K = 3) that were asked for. A look is take_due(), then look() with these owners and those that
+/// have new simplices. The mesh must not change during a look.
 template <std::size_t K>
 class PresentSimplices {
  public:
@@ -38,44 +44,38 @@ class PresentSimplices {
 
   ChangedCells& changed() { return changed_; }  ///< gets every cell that is made or deleted
 
-  /// The owners of simplices that were seen in a cell which was deleted; with repetitions.
+  /// The owners of simplices that were seen in a cell which was deleted; with repetitions, in any order.
   std::vector<EntityId> take_due() {
     std::vector<EntityId> due;
     for (const CellId c : changed_.list()) {
       if (index(c) >= first_.size()) continue;
-      for (std::uint32_t w = first_[index(c)]; w != none;) {
+      for (std::uint32_t w = std::exchange(first_[index(c)], none); w != none; w = watches_[w].next) {
         due.push_back(watches_[w].owner);
-        const std::uint32_t next = std::exchange(watches_[w].next, free_);
-        free_ = std::exchange(w, next);
+        free_.push_back(w);
       }
-      first_[index(c)] = none;
     }
     return due;
   }
-  /// Asks for a simplex. `seen`: the cell where it was seen last, not_seen, or never_asked; find() sets it, so it must live until
-  /// then.
-  void ask(EntityId owner, const std::array<VertexId, K>& vertices, CellId& seen) {
-    if (has_corners(*mesh_, seen, vertices)) {
-      if (changed_.contains(seen)) watch(seen, owner);  // another cell, in its place
-      return;
+  /// Asks for all simplices of these owners, each of which is named once, and finds them: each_of(owner, ask) calls
+  /// ask(vertices, seen) for each. `seen` is the cell where it was seen last, not_seen, or never_asked. It becomes a cell that
+  /// has the simplex, or not_seen.
+  template <class EachOf>
+  void look(std::span<const EntityId> owners, const EachOf& each_of, const Bulk& bulk) {
+    std::vector<Item> asked = bulk.template gather<Item>(owners.size(), [&](std::size_t i, std::vector<Item>& out) {
+      each_of(owners[i], [&](const std::array<VertexId, K>& vertices, CellId& seen) { ask(owners[i], vertices, seen, out); });
+    });
+    const bool anywhere = anywhere_.exchange(false, std::memory_order_relaxed);
+    wanted_.set(std::move(asked), mesh_->vertex_bound(), bulk);
+    if (anywhere) {
+      search(
+          mesh_->cell_bound(), [](std::size_t i) { return CellId{static_cast<std::uint32_t>(i)}; }, bulk);
+    } else {
+      search(
+          changed_.list().size(), [this](std::size_t i) { return changed_.list()[i]; }, bulk);
     }
-    const auto is_new = [this](VertexId v) { return index(v) >= known_vertices_; };
-    if (seen == never_asked && std::none_of(vertices.begin(), vertices.end(), is_new)) anywhere_ = true;
-    seen = not_seen;
-    wanted_.add(vertices, static_cast<EntityId>(asked_.size()));
-    asked_.push_back({owner, &seen});
-  }
-  /// Answers: sets `seen` of each simplex that was asked for to a cell that has it, or to not_seen.
-  void find() {
-    for (const CellId c : changed_.list())
-      if (mesh_->alive(c)) note_vertices(c);
-    if (!asked_.empty()) search();
-    for (const Asked& a : asked_)
-      if (*a.seen != not_seen) watch(*a.seen, a.owner);
-    asked_.clear();
-    wanted_.clear();
+    remember(bulk);
+    wanted_.clear(bulk);
     changed_.clear();
-    anywhere_ = false;
     known_vertices_ = met_vertices_;
   }
 
@@ -85,80 +85,81 @@ class PresentSimplices {
     EntityId owner;
     CellId* seen;
   };
+  using Item = typename WantedSimplices<K, Asked>::Item;
   struct Watch {
     EntityId owner;
-    std::uint32_t next;  ///< of the same cell, or of those that are free
+    std::uint32_t next;  ///< of the same cell
   };
 
-  void watch(CellId c, EntityId owner) {
-    if (index(c) >= first_.size()) first_.resize(std::max<std::size_t>(mesh_->cell_bound(), first_.size() * 3 / 2), none);
-    std::uint32_t& first = first_[index(c)];
-    if (free_ == none) {
-      watches_.push_back({owner, first});
-      first = static_cast<std::uint32_t>(watches_.size() - 1);
-      return;
-    }
-    const std::uint32_t w = std::exchange(free_, watches_[free_].next);
-    watches_[w] = {owner, first};
-    first = w;
-  }
-  void search() {
-    const auto& items = wanted_.items();
-    not_found_.resize(mesh_->vertex_bound(), 0);
-    for (const auto& item : items) ++not_found_[index(item.vertices[0])];
-    if (anywhere_) {
-      wanted_.index_by_first(mesh_->vertex_bound());
-      for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) {
-        if (!mesh_->alive(CellId{i})) continue;
-        note_vertices(CellId{i});
-        look_at(CellId{i});
-      }
+  /// Lists what a look has to be taken for. One that is seen where another cell is by now is listed as well, for remember().
+  void ask(EntityId owner, const std::array<VertexId, K>& vertices, CellId& seen, std::vector<Item>& out) {
+    if (has_corners(*mesh_, seen, vertices)) {
+      if (!changed_.contains(seen)) return;
     } else {
-      wanted_.sort();
-      for (const CellId c : changed_.list())
-        if (mesh_->alive(c)) look_at(c);
+      const auto is_new = [this](VertexId v) { return index(v) >= known_vertices_; };
+      if (seen == never_asked && std::none_of(vertices.begin(), vertices.end(), is_new))
+        anywhere_.store(true, std::memory_order_relaxed);
+      seen = not_seen;
     }
-    for (const auto& item : items) not_found_[index(item.vertices[0])] = 0;
-    for (std::size_t i = 1; i < items.size(); ++i)  // those asked for twice
-      if (items[i].vertices == items[i - 1].vertices) *asked_[items[i].entity].seen = *asked_[items[i - 1].entity].seen;
+    out.push_back(WantedSimplices<K, Asked>::item(vertices, {owner, &seen}));
   }
-  /// Ids rise: what is made later has larger ones.
-  void note_vertices(CellId c) {
-    for (const VertexId v : mesh_->cell(c).vertices)
-      if (v != infinite_vertex) met_vertices_ = std::max(met_vertices_, index(v) + 1);
+  /// Looks for what is wanted in these cells.
+  template <class CellAt>
+  void search(std::size_t cells, const CellAt& cell_at, const Bulk& bulk) {
+    std::uint32_t met = met_vertices_;
+    bulk.blocks(cells, [&](std::size_t first, std::size_t last) {
+      std::uint32_t most = 0;
+      for (std::size_t i = first; i < last; ++i)
+        if (const CellId c = cell_at(i); mesh_->alive(c)) most = std::max(most, look_at(c));
+      raise(met, most);
+    });
+    met_vertices_ = met;
   }
-  void look_at(CellId c) {
+  /// @returns the bound of its vertices. Ids rise: what is made later has larger ones.
+  std::uint32_t look_at(CellId c) {
     std::array<VertexId, 4> v = mesh_->cell(c).vertices;
     std::sort(v.begin(), v.end());
-    const auto note = [&](const std::array<VertexId, K>& vertices) {
-      const auto* item = wanted_.find(vertices);
-      if (item == nullptr) return;
-      CellId& seen = *asked_[item->entity].seen;
-      if (seen == not_seen) --not_found_[index(vertices[0])];
-      seen = c;
-    };
-    for (std::size_t a = 0; a + K <= 4; ++a) {
-      if (index(v[a]) >= not_found_.size() || not_found_[index(v[a])] == 0) continue;
-      for (std::size_t b = a + 1; b < 4; ++b) {
-        if constexpr (K == 2)
-          note({v[a], v[b]});
-        else
-          for (std::size_t d = b + 1; d < 4; ++d) note({v[a], v[b], v[d]});
-      }
-    }
+    wanted_.each_of(v, [&](const Item& item) { lower(*item.what.seen, c); });
+    return index(v[3] != infinite_vertex ? v[3] : v[2]) + 1;
+  }
+  // Which thread comes first does not matter to what is there in the end, and nobody reads it before all have ended.
+  static void lower(CellId& at, CellId c) {
+    const std::atomic_ref<CellId> seen(at);
+    for (CellId now = seen.load(std::memory_order_relaxed); c < now;)
+      if (seen.compare_exchange_weak(now, c, std::memory_order_relaxed)) break;
+  }
+  static void raise(std::uint32_t& at, std::uint32_t v) {
+    const std::atomic_ref<std::uint32_t> most(at);
+    for (std::uint32_t now = most.load(std::memory_order_relaxed); now < v;)
+      if (most.compare_exchange_weak(now, v, std::memory_order_relaxed)) break;
+  }
+  /// Remembers where each was seen. The order within the list of a cell is that of the threads, and means nothing.
+  void remember(const Bulk& bulk) {
+    const std::vector<Asked> found = bulk.template gather<Asked>(wanted_.items().size(), [&](std::size_t i, auto& out) {
+      const Asked& asked = wanted_.items()[i].what;
+      if (*asked.seen != not_seen) out.push_back(asked);
+    });
+    if (first_.size() < mesh_->cell_bound())
+      first_.resize(std::max<std::size_t>(mesh_->cell_bound(), first_.size() * 3 / 2), none);
+    const std::size_t reused = std::min(free_.size(), found.size()), left = free_.size() - reused, fresh = watches_.size();
+    watches_.resize(fresh + found.size() - reused);
+    bulk.each(found.size(), [&](std::size_t i) {
+      const auto w = i < reused ? free_[left + i] : static_cast<std::uint32_t>(fresh + i - reused);
+      const std::atomic_ref<std::uint32_t> first(first_[index(*found[i].seen)]);
+      watches_[w] = {found[i].owner, first.exchange(w, std::memory_order_relaxed)};
+    });
+    free_.resize(left);
   }
 
   const Mesh<3>* mesh_;
   ChangedCells changed_;
-  bool anywhere_ = false;                      ///< one that was asked for may be in cells that have not changed
+  std::atomic<bool> anywhere_ = false;         ///< one that was asked for may be in cells that have not changed
   std::uint32_t known_vertices_ = 0xffffffff;  ///< bound of those there were at the last look; all, at the first one
   std::uint32_t met_vertices_ = 0;             ///< bound of those met in cells
-  WantedSimplices<K> wanted_;
-  std::vector<std::uint32_t> not_found_;  ///< by vertex, of those that are wanted and have it first; 0 between looks
-  std::vector<Asked> asked_;
+  WantedSimplices<K, Asked> wanted_;
   std::vector<std::uint32_t> first_;  ///< of each cell, its first watch, or none
   std::vector<Watch> watches_;
-  std::uint32_t free_ = none;
+  std::vector<std::uint32_t> free_;  ///< watches of no cell
 };
 
 }  // namespace pgdr::detail

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include "boundary/marking.hpp"
 #include "boundary/named_points.hpp"
 #include "boundary/segment_insertion.hpp"
 #include "boundary/state.hpp"
@@ -91,21 +92,19 @@ class EarlyEnd {
 class BoundaryRecovery {
  public:
   BoundaryRecovery(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>& domain, const RefineOptions<3>& options,
-                   std::chrono::steady_clock::time_point start, RecoveryCounts& counts)
-      : domain_(&domain),
+                   std::chrono::steady_clock::time_point start, RecoveryCounts& counts, const detail::Pieces& pieces)
+      : mesh_(&mesh),
+        domain_(&domain),
         options_(&options),
         counts_(&counts),
-        chains_(mesh, delaunay, domain),
-        patches_(mesh, delaunay, domain, chains_),
+        bulk_(pieces),
+        chains_(mesh, delaunay, domain, bulk_),
+        patches_(mesh, delaunay, domain, chains_, bulk_),
         end_(options, start),
         last_report_(start) {}
 
   StopCause run(Mesh<3>::Pools& pools) {
-    if (recover()) {
-      patches_.mark(pools);
-      chains_.mark(pools);
-      patches_.require_edges_inside_one();
-    }
+    if (recover()) mark(pools);
     counts_->segment_points = chains_.points();
     counts_->facet_points = patches_.points();
     return end_.cause();
@@ -113,6 +112,7 @@ class BoundaryRecovery {
 
  private:
   bool recover();
+  void mark(Mesh<3>::Pools& pools);
   bool improve();
   bool is_over();
   void check_budget() const;
@@ -121,9 +121,11 @@ class BoundaryRecovery {
   std::uint64_t points() const { return chains_.points() + patches_.points(); }
   std::uint64_t vertices() const { return domain_->points().size() + points(); }
 
+  Mesh<3>* mesh_;
   const Domain<3>* domain_;
   const RefineOptions<3>* options_;
   RecoveryCounts* counts_;
+  const detail::Bulk bulk_;
   detail::SegmentChains chains_;
   detail::FacetPatches patches_;
   EarlyEnd<3> end_;
@@ -139,6 +141,16 @@ bool BoundaryRecovery::recover() {
     if (is_over() || !chains_.recover(stop)) return false;
     if (!patches_.recover_once(stop) && !improve()) return true;
   }
+}
+
+/// @throws InputError boundary_not_recovered: an edge or triangle would be a part of two entities
+void BoundaryRecovery::mark(Mesh<3>::Pools& pools) {
+  const detail::WantedFaces faces = patches_.wanted();
+  patches_.require_distinct(faces);
+  const detail::WantedEdges edges = chains_.wanted();
+  chains_.require_distinct(edges);
+  detail::mark_constraints(*mesh_, pools, faces, edges, bulk_);
+  patches_.require_edges_inside_one();
 }
 
 /// Splits poor triangles, one round. False if there are none. Triangles up to twice the bound are left to the refinement, which
@@ -186,9 +198,9 @@ void BoundaryRecovery::report() {
 
 /// The recovery in 2D, which needs no points.
 StopCause insert_segments(Mesh<2>& mesh, Mesh<2>::Pools& pools, const Delaunay<2>& delaunay, const Domain<2>& domain,
-                          EarlyEnd<2> end) {
+                          EarlyEnd<2> end, const detail::Pieces& pieces) {
   const auto stop = [&end] { return end.is_reached(); };
-  if (!stop()) detail::SegmentInsertion(mesh, pools, delaunay, domain).run(stop);
+  if (!stop()) detail::SegmentInsertion(mesh, pools, delaunay, domain, detail::Bulk(pieces)).run(stop);
   return end.cause();
 }
 
@@ -196,18 +208,19 @@ StopCause insert_segments(Mesh<2>& mesh, Mesh<2>::Pools& pools, const Delaunay<2
 
 template <int D>
 StopCause recover_boundary(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, Delaunay<D>& delaunay, const Domain<D>& domain,
-                           const RefineOptions<D>& options, std::chrono::steady_clock::time_point start, RecoveryCounts& counts) {
+                           const RefineOptions<D>& options, std::chrono::steady_clock::time_point start, RecoveryCounts& counts,
+                           const detail::Pieces& pieces) {
   if constexpr (D == 3) {
-    return BoundaryRecovery(mesh, delaunay, domain, options, start, counts).run(pools);
+    return BoundaryRecovery(mesh, delaunay, domain, options, start, counts, pieces).run(pools);
   } else {
     counts.rounds = 1;
-    return insert_segments(mesh, pools, delaunay, domain, {options, start});
+    return insert_segments(mesh, pools, delaunay, domain, {options, start}, pieces);
   }
 }
 
 template StopCause recover_boundary<2>(Mesh<2>&, Mesh<2>::Pools&, Delaunay<2>&, const Domain<2>&, const RefineOptions<2>&,
-                                       std::chrono::steady_clock::time_point, RecoveryCounts&);
+                                       std::chrono::steady_clock::time_point, RecoveryCounts&, const detail::Pieces&);
 template StopCause recover_boundary<3>(Mesh<3>&, Mesh<3>::Pools&, Delaunay<3>&, const Domain<3>&, const RefineOptions<3>&,
-                                       std::chrono::steady_clock::time_point, RecoveryCounts&);
+                                       std::chrono::steady_clock::time_point, RecoveryCounts&, const detail::Pieces&);
 
 }  // namespace pgdr

@@ -29,6 +29,7 @@
 #include "cavity/delaunay.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/refine_options.hpp"
+#include "space/pieces.hpp"
 
 namespace pgdr {
 
@@ -40,13 +41,15 @@ struct RecoveryCounts {
   std::uint64_t rounds = 0;          ///< passes over all that was missing
 };
 
-/// Recovers and marks the boundary.
+/// Recovers and marks the boundary. `pieces` run what can go side by side: all but the insertion of points (in 3D) and the
+/// forcing of segments (in 2D), which are few where the input is fine. The result does not depend on them.
 /// @pre `delaunay` has built the triangulation of domain.points(), in that order.
 /// @throws InputError boundary_not_recovered, entities_intersect, with the entities' ids and coordinates.
 /// @returns a StopCause other than finished if options.max_vertices, the time limit or the stop token ended it early; the
 ///   mesh is then without marks.
 template <int D>
 StopCause recover_boundary(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, Delaunay<D>& delaunay, const Domain<D>& domain,
-                           const RefineOptions<D>& options, std::chrono::steady_clock::time_point start, RecoveryCounts& counts);
+                           const RefineOptions<D>& options, std::chrono::steady_clock::time_point start, RecoveryCounts& counts,
+                           const detail::Pieces& pieces = detail::OneByOne());
 
 }  // namespace pgdr

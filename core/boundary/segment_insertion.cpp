@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "boundary/segment_insertion.hpp"
 
+#include <algorithm>
+#include <atomic>
+#include <utility>
+
 #include "boundary/named_points.hpp"
-#include "boundary/wanted_simplices.hpp"
+#include "mesh/cell_blocks.hpp"
 #include "space/edge_forcing.hpp"
 
 namespace pgdr::detail {
@@ -46,30 +50,57 @@ struct SegmentInsertion::Forcible {
   void constrain(Side s) { all.fix(s.cell, s.edge); }
 };
 
-SegmentInsertion::SegmentInsertion(Mesh<2>& mesh, Mesh<2>::Pools& pools, const Delaunay<2>& delaunay, const Domain<2>& domain)
-    : mesh_(&mesh), pools_(&pools), domain_(&domain), fixed_(mesh.cell_bound(), 0), cell_at_(mesh.vertex_bound(), no_cell) {
-  for (const DomainSegment& s : domain.segments())
-    ends_.push_back({delaunay.vertices()[s.points[0]], delaunay.vertices()[s.points[1]]});
+SegmentInsertion::SegmentInsertion(Mesh<2>& mesh, Mesh<2>::Pools& pools, const Delaunay<2>& delaunay, const Domain<2>& domain,
+                                   Bulk bulk)
+    : mesh_(&mesh),
+      pools_(&pools),
+      domain_(&domain),
+      bulk_(std::move(bulk)),
+      ends_(domain.segments().size()),
+      present_(ends_.size(), 0),
+      fixed_(mesh.cell_bound(), 0),
+      cell_at_(mesh.vertex_bound(), no_cell) {
+  bulk_.each(ends_.size(), [&](std::size_t s) {
+    const auto& points = domain.segments()[s].points;
+    ends_[s] = {delaunay.vertices()[points[0]], delaunay.vertices()[points[1]]};
+  });
+  wanted_.set(bulk_.gather<Wanted::Item>(ends_.size(),
+                                         [this](std::size_t s, std::vector<Wanted::Item>& out) {
+                                           out.push_back(Wanted::item(ends_[s], static_cast<EntityId>(s)));
+                                         }),
+              mesh.vertex_bound(), bulk_);
 }
 
-/// One pass over all cells: which segments are edges, and a cell at each vertex.
+/// One pass over all cells: which segments are edges, and a cell at each vertex. Of the cells at a vertex the one with the
+/// largest id counts, whichever thread comes last.
 void SegmentInsertion::find_segments() {
-  WantedSimplices<2> edges;
-  for (EntityId s = 0; s < ends_.size(); ++s) edges.add(ends_[s], s);
-  edges.index_by_first(mesh_->vertex_bound());
-  present_.assign(ends_.size(), false);
-  for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) {
-    const CellId c{i};
-    if (!mesh_->alive(c)) continue;
-    const auto& v = mesh_->cell(c).vertices;
-    for (int f = 0; f < 3; ++f) {
-      if (v[f] != infinite_vertex) cell_at_[index(v[f])] = c;
-      const auto* edge = edges.find({v[(f + 1) % 3], v[(f + 2) % 3]});
-      if (!edge) continue;
-      fix(c, f);
-      present_[edge->entity] = true;
+  bulk_.each(mesh_->cell_bound(), [this](std::size_t i) {
+    const CellId c{static_cast<std::uint32_t>(i)};
+    if (!mesh_->alive(c)) return;
+    const auto& corners = mesh_->cell(c).vertices;
+    for (const VertexId v : corners) {
+      if (v == infinite_vertex) continue;
+      const std::atomic_ref<CellId> at(cell_at_[index(v)]);
+      for (CellId now = at.load(std::memory_order_relaxed); now == no_cell || now < c;)
+        if (at.compare_exchange_weak(now, c, std::memory_order_relaxed)) break;
     }
-  }
+    each_segment_of(c, [&](int face, EntityId s) {
+      fix(c, face);
+      std::atomic_ref<std::uint8_t>(present_[s]).store(1, std::memory_order_relaxed);
+    });
+  });
+}
+
+/// Calls f(face, segment) for the faces of the cell that are segments.
+template <class F>
+void SegmentInsertion::each_segment_of(CellId c, const F& f) const {
+  const auto& corners = mesh_->cell(c).vertices;
+  std::array<VertexId, 3> v = corners;
+  std::sort(v.begin(), v.end());
+  wanted_.each_of(v, [&](const Wanted::Item& edge) {
+    // The corners' numbers add up to 3.
+    f(3 - corner_of(corners, edge.vertices[0]) - corner_of(corners, edge.vertices[1]), edge.what);
+  });
 }
 
 void SegmentInsertion::fail(EntityId s, VertexId through) const {
@@ -100,18 +131,10 @@ void SegmentInsertion::force(EntityId s) {
 
 /// Writes the constraints.
 void SegmentInsertion::mark() {
-  WantedSimplices<2> edges;
-  for (EntityId s = 0; s < ends_.size(); ++s) edges.add(ends_[s], s);
-  edges.index_by_first(mesh_->vertex_bound());
-  for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) {
-    const CellId c{i};
-    if (!mesh_->alive(c)) continue;
-    for (int f = 0; f < 3; ++f) {
-      if (!fixed(c, f)) continue;
-      const auto& v = mesh_->cell(c).vertices;
-      mesh_->constrain_face(*pools_, c, f, edges.find({v[(f + 1) % 3], v[(f + 2) % 3]})->entity);
-    }
-  }
+  each_cell(*mesh_, *pools_, bulk_, [this](CellId c, Mesh<2>::Pools& own) {
+    if (fixed_[index(c)] == 0) return;
+    each_segment_of(c, [&](int face, EntityId s) { mesh_->constrain_face(own, c, face, s); });
+  });
 }
 
 }  // namespace pgdr::detail

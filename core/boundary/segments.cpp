@@ -1,20 +1,29 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cassert>
+#include <map>
 #include <utility>
 
 #include "boundary/named_points.hpp"
 #include "boundary/state.hpp"
-#include "mesh/ridge.hpp"
+#include "space/make_set.hpp"
 
 namespace pgdr::detail {
 
-SegmentChains::SegmentChains(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>& domain)
-    : mesh_(&mesh), delaunay_(&delaunay), domain_(&domain), shells_(domain), edges_(mesh) {
-  for (const DomainSegment& s : domain.segments())
-    chains_.push_back({{delaunay.vertices()[s.points[0]], 0.0}, {delaunay.vertices()[s.points[1]], 1.0}});
-  for (EntityId s = 0; s < chains_.size(); ++s) look_again_.push_back(s);
+SegmentChains::SegmentChains(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>& domain, const Bulk& bulk)
+    : mesh_(&mesh),
+      delaunay_(&delaunay),
+      domain_(&domain),
+      bulk_(&bulk),
+      chains_(domain.segments().size()),
+      shells_(domain, true, bulk),
+      edges_(mesh),
+      look_again_(chains_.size()) {
+  bulk.each(chains_.size(), [&](std::size_t s) {
+    const auto& ends = domain.segments()[s].points;
+    chains_[s] = {{delaunay.vertices()[ends[0]], 0.0}, {delaunay.vertices()[ends[1]], 1.0}};
+    look_again_[s] = static_cast<EntityId>(s);
+  });
   delaunay.tell_changes(edges_.changed());
   find_companions();
 }
@@ -22,21 +31,19 @@ SegmentChains::SegmentChains(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<
 std::vector<Subsegment> SegmentChains::missing() {
   std::vector<EntityId> due = edges_.take_due();
   due.insert(due.end(), look_again_.begin(), look_again_.end());
-  make_set(due);
-  for (const EntityId s : due) {
+  make_set(due, *bulk_);
+  const auto ask_for = [this](EntityId s, const auto& ask) {
     auto& chain = chains_[s];
-    for (std::size_t i = 1; i < chain.size(); ++i) edges_.ask(s, {chain[i - 1].vertex, chain[i].vertex}, chain[i].seen);
-  }
-  edges_.find();
-  std::vector<Subsegment> list;
+    for (std::size_t i = 1; i < chain.size(); ++i) ask({chain[i - 1].vertex, chain[i].vertex}, chain[i].seen);
+  };
+  edges_.look(due, ask_for, *bulk_);
+  std::vector<Subsegment> list = bulk_->gather<Subsegment>(due.size(), [&](std::size_t k, std::vector<Subsegment>& out) {
+    const auto& chain = chains_[due[k]];
+    for (std::size_t i = 1; i < chain.size(); ++i)
+      if (chain[i].seen == not_seen) out.push_back({due[k], chain[i - 1].vertex, chain[i].vertex, chain[i - 1].t});
+  });
   look_again_.clear();
-  for (const EntityId s : due)
-    for (std::size_t i = 1; i < chains_[s].size(); ++i) {
-      const Link &a = chains_[s][i - 1], &b = chains_[s][i];
-      if (b.seen != not_seen) continue;
-      list.push_back({s, a.vertex, b.vertex, a.t});
-      look_again_.push_back(s);
-    }
+  for (const Subsegment& s : list) look_again_.push_back(s.segment);
   return list;
 }
 
@@ -90,40 +97,39 @@ VertexId SegmentChains::split(const Subsegment& s, double least) {
 }
 
 std::vector<EntityId> SegmentChains::take_changed() {
-  std::sort(changed_.begin(), changed_.end());
-  changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+  make_set(changed_, *bulk_);
   ++round_;
   return std::exchange(changed_, {});
 }
 
-/// Segments s and u have the same edge ab in the mesh.
-InputError SegmentChains::in_common(EntityId s, EntityId u, VertexId a, VertexId b) const {
-  const Diagnostic other = about_points<3>(Errc::boundary_not_recovered, *domain_, domain_->segments()[u].points);
-  Diagnostic d = about_points<3>(Errc::boundary_not_recovered, *domain_, domain_->segments()[s].points);
-  d.message = segment_words(d) + " and " + segment_words(other) + " run along each other within rounding";
-  d.ids.insert(d.ids.end(), other.ids.begin(), other.ids.end());
-  d.points = {mesh_->point(a).x, mesh_->point(b).x};
-  return InputError(std::move(d));
+WantedEdges SegmentChains::wanted() const {
+  using Item = WantedEdges::Item;
+  WantedEdges edges;
+  edges.set(
+      bulk_->gather<Item>(chains_.size(),
+                          [this](std::size_t s, std::vector<Item>& out) {
+                            const auto& chain = chains_[s];
+                            for (std::size_t i = 1; i < chain.size(); ++i)
+                              out.push_back(WantedEdges::item({chain[i - 1].vertex, chain[i].vertex}, static_cast<EntityId>(s)));
+                          }),
+      mesh_->vertex_bound(), *bulk_);
+  return edges;
 }
 
-/// Marks the edge in all cells at each subsegment, round it from the cell in which it was seen. @pre none is missing
-/// @throws InputError boundary_not_recovered: an edge is one of two segments
-void SegmentChains::mark(Mesh<3>::Pools& pools) {
+void SegmentChains::require_distinct(const WantedEdges& wanted) const {
+  if (!wanted.has_equal(*bulk_)) return;
+  std::map<std::array<VertexId, 2>, EntityId> before;  // to name the first of those that run along others
   for (EntityId s = 0; s < chains_.size(); ++s)
     for (std::size_t i = 1; i < chains_[s].size(); ++i) {
       const VertexId a = chains_[s][i - 1].vertex, b = chains_[s][i].vertex;
-      const CellId first = chains_[s][i].seen;
-      assert(has_corners<2>(*mesh_, first, {a, b}));
-      const auto edge_in = [&](CellId c) {
-        const auto& v = mesh_->cell(c).vertices;
-        return edge_of_ends[corner_of(v, a)][corner_of(v, b)];
-      };
-      if (mesh_->is_subsegment(first, edge_in(first)))
-        throw in_common(mesh_->constraints(first)->edge_entity[edge_in(first)], s, a, b);
-      for_cells_round(*mesh_, first, edge_in(first), [&](const RidgeWalk<3>& walk) {
-        mesh_->constrain_edge(pools, walk.cell, edge_in(walk.cell), s);
-        return RoundEdge::go_on;
-      });
+      const auto [at, is_new] = before.try_emplace({std::min(a, b), std::max(a, b)}, s);
+      if (is_new) continue;
+      const Diagnostic other = about_points<3>(Errc::boundary_not_recovered, *domain_, domain_->segments()[s].points);
+      Diagnostic d = about_points<3>(Errc::boundary_not_recovered, *domain_, domain_->segments()[at->second].points);
+      d.message = segment_words(d) + " and " + segment_words(other) + " run along each other within rounding";
+      d.ids.insert(d.ids.end(), other.ids.begin(), other.ids.end());
+      d.points = {mesh_->point(a).x, mesh_->point(b).x};
+      throw InputError(std::move(d));
     }
 }
 

@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -21,7 +22,7 @@
 #include "mesh/ids.hpp"
 #include "rule/shells.hpp"
 #include "space/box_tree.hpp"
-#include "space/make_set.hpp"
+#include "space/bulk.hpp"
 
 namespace pgdr::detail {
 
@@ -31,6 +32,9 @@ struct Subsegment {
   VertexId a, b;
   double t;  ///< parameter of a on the segment
 };
+
+using WantedEdges = WantedSimplices<2, EntityId>;  ///< with segments
+using WantedFaces = WantedSimplices<3, EntityId>;  ///< with facets
 
 /// The trend of how many simplices were missing, round by round.
 class MissingTrend {
@@ -59,7 +63,7 @@ class SegmentChains {
     CellId seen = never_asked;  ///< a cell that has the edge to it from the vertex before
   };
 
-  SegmentChains(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>& domain);
+  SegmentChains(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>& domain, const Bulk& bulk);
 
   /// Splits every subsegment that is no edge of the mesh, until none is missing. False if `stop` says so.
   template <class Stop>
@@ -90,11 +94,13 @@ class SegmentChains {
   std::vector<EntityId> take_changed();
   std::uint64_t points() const { return points_; }
   const MissingTrend& trend() const { return trend_; }  ///< of the last recover()
-  void mark(Mesh<3>::Pools& pools);
+  /// All subsegments, with their segments.
+  WantedEdges wanted() const;
+  /// @throws InputError boundary_not_recovered: an edge is one of two segments
+  void require_distinct(const WantedEdges& wanted) const;
 
  private:
   Diagnostic not_resolved(EntityId segment, bool is_its_end, Home home, const Point3& x) const;
-  InputError in_common(EntityId s, EntityId u, VertexId a, VertexId b) const;
   std::vector<Subsegment> missing();
   std::size_t position(const Subsegment& s) const;
   // boundary/twins.cpp
@@ -109,6 +115,7 @@ class SegmentChains {
   Mesh<3>* mesh_;
   Delaunay<3>* delaunay_;
   const Domain<3>* domain_;
+  const Bulk* bulk_;
   std::vector<std::vector<Link>> chains_;
   Shells<3> shells_;
   std::vector<std::vector<EntityId>> companions_;                 ///< of each segment, those that run along it from a common end
@@ -122,10 +129,11 @@ class SegmentChains {
   MissingTrend trend_;
 };
 
-/// The triangulation of every facet in its plane.
+/// The triangulation of every facet in its plane. What is missing in a round is found, and its splits are planned, for all facets
+/// side by side; the points go in one after the other.
 class FacetPatches {
  public:
-  FacetPatches(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>& domain, SegmentChains& chains);
+  FacetPatches(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>& domain, SegmentChains& chains, const Bulk& bulk);
 
   /// Puts points where triangles are missing, one round. False if none was missing. Ends early if `stop` says so.
   bool recover_once(const std::function<bool()>& stop);
@@ -134,13 +142,19 @@ class FacetPatches {
   bool split_poor_triangles(double bound, double min_edge, const std::function<bool()>& stop);
   std::uint64_t points() const { return points_; }
   const MissingTrend& trend() const { return trend_; }
-  void mark(Mesh<3>::Pools& pools);
+  /// All triangles, with their facets.
+  WantedFaces wanted() const;
+  /// @throws InputError boundary_not_recovered: a triangle is one of two facets
+  void require_distinct(const WantedFaces& wanted) const;
   void require_edges_inside_one() const;
   std::size_t inner_points(EntityId facet) const { return inner_points_[facet].size(); }  ///< Steiner points inside the facet
 
  private:
   using Triangle = std::array<VertexId, 3>;
-  void triangulate(EntityId facet);
+  bool triangulate_changed(const std::function<bool()>& stop);
+  /// An edge that is no edge of a plane graph: two vertices; none, if all is well.
+  using Crossing = std::optional<std::array<VertexId, 2>>;
+  Crossing triangulate(EntityId facet);
   template <class Fill>
   void replace_triangles(EntityId facet, const Fill& fill);
   struct Candidate {
@@ -148,23 +162,25 @@ class FacetPatches {
     Triangle triangle;
     double least;  ///< how near its point may be to others
   };
-  bool split_triangles(EntityId facet, std::vector<Candidate> candidates, const std::function<bool()>& stop);
+  class SplitPlan;
+  std::vector<SplitPlan> plan_splits(std::span<const EntityId> facets,
+                                     const std::function<std::vector<Candidate>(EntityId)>& candidates_of) const;
+  bool split_triangles(SplitPlan& plan, const std::function<bool()>& stop);
   bool may_split(const Subsegment& s) const;
+  std::vector<Candidate> poor_triangles(EntityId facet, double bound, double min_edge) const;
   void find_factors();
   void find_fragile();
   Point3 centroid_of(const Triangle& t) const;
   VertexId insert_inside(EntityId facet, const Candidate& c, const Point3& x);
   void add_inner_point(EntityId facet, VertexId v);
-  std::optional<Subsegment> in_the_way(const std::vector<Subsegment>& rim, const BoxTree<2>& tree, EntityId facet,
-                                       const Triangle& t, const Point3& x) const;
   std::vector<Subsegment> subsegments(EntityId facet) const;
-  BoxTree<2> tree_of_diametral_balls(const std::vector<Subsegment>& rim, int axis) const;
   std::vector<EntityId> find_present();
 
   Mesh<3>* mesh_;
   Delaunay<3>* delaunay_;
   const Domain<3>* domain_;
   SegmentChains* chains_;
+  const Bulk* bulk_;
   std::vector<std::vector<Triangle>> triangles_;
   std::vector<std::vector<CellId>> seen_;            ///< of each triangle, a cell that has it
   std::vector<std::vector<VertexId>> inner_points_;  ///< Steiner points inside each facet
@@ -176,5 +192,8 @@ class FacetPatches {
   std::uint64_t points_ = 0;
   MissingTrend trend_;
 };
+
+/// The segments of the facet cross or touch in its projection, at these vertices.
+InputError not_a_plane_graph(const Domain<3>& domain, EntityId f, const Mesh<3>& mesh, std::span<const VertexId> at);
 
 }  // namespace pgdr::detail

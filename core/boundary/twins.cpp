@@ -22,16 +22,17 @@ struct Direction {
 };
 
 /// The order by apex and first coordinate.
-std::vector<Direction> directions_of(const Domain<3>& domain) {
-  std::vector<Direction> all;
-  for (EntityId s = 0; s < domain.segments().size(); ++s)
+std::vector<Direction> directions_of(const Domain<3>& domain, const Bulk& bulk) {
+  std::vector<Direction> all = bulk.gather<Direction>(domain.segments().size(), [&](std::size_t s, std::vector<Direction>& out) {
     for (const int end : {0, 1}) {
       const auto& ends = domain.segments()[s].points;
       const Point3 &p = domain.points()[ends[end]], &q = domain.points()[ends[1 - end]];
       const double length = std::sqrt(squared_distance(p, q));
-      all.push_back({ends[end], {(q[0] - p[0]) / length, (q[1] - p[1]) / length, (q[2] - p[2]) / length}, s});
+      const Point3 unit{(q[0] - p[0]) / length, (q[1] - p[1]) / length, (q[2] - p[2]) / length};
+      out.push_back({ends[end], unit, static_cast<EntityId>(s)});
     }
-  std::sort(all.begin(), all.end(), [](const Direction& a, const Direction& b) {
+  });
+  bulk.sort(all, [](const Direction& a, const Direction& b) {
     return std::tuple(a.apex, a.unit[0], a.segment) < std::tuple(b.apex, b.unit[0], b.segment);
   });
   return all;
@@ -41,14 +42,18 @@ std::vector<Direction> directions_of(const Domain<3>& domain) {
 
 void SegmentChains::find_companions() {
   companions_.resize(chains_.size());
-  const std::vector<Direction> all = directions_of(*domain_);
-  for (std::size_t i = 0; i < all.size(); ++i)
+  const std::vector<Direction> all = directions_of(*domain_, *bulk_);
+  using Pair = std::array<EntityId, 2>;
+  const std::vector<Pair> pairs = bulk_->gather<Pair>(all.size(), [&all](std::size_t i, std::vector<Pair>& out) {
     for (std::size_t j = i + 1; j < all.size() && all[j].apex == all[i].apex; ++j) {
       if (all[j].unit[0] - all[i].unit[0] > beside) break;
-      if (squared_distance(all[i].unit, all[j].unit) > beside * beside) continue;
-      companions_[all[i].segment].push_back(all[j].segment);
-      companions_[all[j].segment].push_back(all[i].segment);
+      if (!(squared_distance(all[i].unit, all[j].unit) > beside * beside)) out.push_back({all[i].segment, all[j].segment});
     }
+  });
+  for (const auto& [s, t] : pairs) {
+    companions_[s].push_back(t);
+    companions_[t].push_back(s);
+  }
 }
 
 /// Vertices of the companion as far from the common end as points of the piece are.

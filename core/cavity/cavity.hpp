@@ -23,6 +23,7 @@
 #include "mesh/key_set.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/ridge.hpp"
+#include "mesh/vertex_claim.hpp"
 #include "mesh/visit_area.hpp"
 #include "numbers/simplex_shapes.hpp"
 #include "rule/cell_bounds.hpp"
@@ -74,6 +75,8 @@ class Cavity {
   }
   /// What the visit may change; null: everything.
   void set_area(const VisitArea<D>* area) { area_ = area; }
+  /// The same, for a visit that claims ranges of vertices. @pre no area is set
+  void set_claim(const VertexClaim<D>* claim) { claim_ = claim; }
   /// A list that gets the cells that were collected and given up, with repetitions; null: none.
   void set_seen(std::vector<CellId>* seen) { seen_ = seen; }
   Cavity(const Cavity&) = delete;
@@ -107,7 +110,8 @@ class Cavity {
   bool touches_constraints() const { return touches_constraints_; }  ///< has a cell of it constraints?
 
   // ---- looking round -----------------------------------------------------------------------------------------------
-  bool owns(CellId c) const { return !area_ || area_->owns(*mesh_, c); }  ///< may the visit change the cell?
+  /// May the visit change the cell?
+  bool owns(CellId c) const { return claim_ ? claim_->owns(mesh_->cell(c).vertices) : !area_ || area_->owns(*mesh_, c); }
   /// The other constrained face of `entity` at the ridge of face `face` of `cell` that leaves out vertex `corner`. Walks round
   /// the ridge, first the one way, then (where that ends at the hull) the other. `owned` becomes false where the walk would have
   /// to step on from a cell that the visit does not own.
@@ -115,7 +119,13 @@ class Cavity {
 
   // ---- commit ------------------------------------------------------------------------------------------------------
   /// Writes the star of the new vertex, and marks the new subfacets and subsegments of its entity. @returns the vertex
-  VertexId commit(Pools& pools, Home home, float relaxed_radius);
+  VertexId commit(Pools& pools, Home home, float relaxed_radius) {
+    const VertexId v = mesh_->new_vertex(pools, point_, home, relaxed_radius);
+    commit(pools, v);
+    return v;
+  }
+  /// The same for a vertex that is there, at the point, in no cell.
+  void commit(Pools& pools, VertexId v);
   /// The cells made by the last commit.
   const std::vector<CellId>& new_cells() const { return new_cells_; }
   /// The shape of the i-th new cell.
@@ -156,10 +166,13 @@ class Cavity {
   /// claim. In 3D this one is mostly known to be, as it is within a diameter of the cell's circumball from the point.
   bool owns_next(Link next) const {
     const CellId c = next.cell();
+    if (claim_) return claim_->owns(mesh_->cell(c).vertices);
     if (D == 3 && 4 * mesh_->squared_radius_bounds(c).second < squared_depth_) return true;
     return !area_ || area_->owns(mesh_->point(mesh_->cell(c).vertices[next.face()]));
   }
-  bool may_read(CellId c) const { return !area_ || area_->may_read(*mesh_, c); }  ///< for assertions
+  bool may_read(CellId c) const {  ///< for assertions
+    return claim_ ? claim_->may_read(mesh_->cell(c).vertices) : !area_ || area_->may_read(*mesh_, c);
+  }
   bool owns_point() const { return !area_ || area_->owns(point_); }
   Status collect_all();
   Status take_fan(CellId cell, int edge);  // in 3D; no constraint, which Clang before 16 does not see satisfied
@@ -209,6 +222,7 @@ class Cavity {
   Mesh<D>* mesh_;
   const Domain<D>* domain_;
   const VisitArea<D>* area_ = nullptr;
+  const VertexClaim<D>* claim_ = nullptr;
   std::vector<CellId>* seen_ = nullptr;
   Point<D> point_;
   double squared_depth_ = 0;  ///< VisitArea::squared_depth of the point

@@ -42,10 +42,9 @@ void each_new_face(const Mesh<D>& mesh, const Boundary& boundary, const std::vec
 }  // namespace
 
 template <int D>
-VertexId Cavity<D>::commit(Pools& pools, Home home, float relaxed_radius) {
-  assert(owns_point());
+void Cavity<D>::commit(Pools& pools, VertexId v) {
+  assert(owns_point() && mesh_->point(v) == point_);
   assert(std::all_of(cells_.begin(), cells_.end(), [this](CellId c) { return mesh_->alive(c) && owns(c); }));
-  const VertexId v = mesh_->new_vertex(pools, point_, home, relaxed_radius);
   // The rim of the part: ridges of one part face of their entity alone, the split subsegment itself left out.
   rim_.clear();
   for (const PartFace& f : part_)
@@ -80,7 +79,6 @@ VertexId Cavity<D>::commit(Pools& pools, Home home, float relaxed_radius) {
   cells_.clear();
   boundary_.clear();
   protected_.clear();
-  return v;
 }
 
 /// Makes the new cells on the boundary faces, in their order, and of their links those across these faces.
@@ -97,6 +95,7 @@ void Cavity<D>::make_cells(Pools& pools, VertexId v) {
     const Link outside = old.links[face];
     vertices[face] = v;
     assert(!area_ || area_->owns(mesh, vertices));
+    assert(!claim_ || claim_->owns(vertices));
     mesh.set_vertices(c, vertices);
     k.links.fill(Link{});
     k.links[face] = outside;

@@ -6,51 +6,21 @@
 #include <cassert>
 #include <utility>
 
+#include "cavity/bulk_insertion.hpp"
+#include "cavity/walk.hpp"
 #include "mesh/changed_cells.hpp"
 #include "space/spatial_order.hpp"
 
 namespace pgdr {
 namespace {
 
-template <int D>
-int corner_at_infinity(const CellRecord<D>& k) {
-  for (int i = 0; i <= D; ++i)
-    if (k.vertices[i] == infinite_vertex) return i;
-  return -1;
-}
-
-constexpr unsigned in_turn = 10000;  // steps of a walk before chance takes over
-
 [[noreturn]] void broken(const char* what) { throw ResourceError({Errc::internal, what, {}, 0, {}, {}}); }
 
 }  // namespace
 
-// In a Delaunay triangulation, perturbed or not, a visibility walk cannot cycle (Edelsbrunner 1990), whichever of the
-// faces that hide p it crosses. In another one it ends if that is left to chance (Devillers, Pion, Teillaud 2002).
 template <int D>
 CellId locate(const Mesh<D>& mesh, const Point<D>& p, CellId hint) {
-  CellId c = hint;
-  if (const int i = corner_at_infinity<D>(mesh.cell(c)); i >= 0) c = mesh.cell(c).links[i].cell();
-  int from = -1;
-  std::uint32_t random = 1;
-  for (unsigned step = 0;; ++step) {
-    random = random * 1664525 + 1013904223;
-    const unsigned turn = step < in_turn ? step : random >> 16;
-    const CellRecord<D>& k = mesh.cell(c);
-    const Simplex<D> corners = mesh.simplex(c);
-    int exit = -1;
-    for (int j = 0; j <= D && exit < 0; ++j) {
-      const int i = static_cast<int>((j + turn) % (D + 1));
-      if (i == from) continue;
-      Simplex<D> s = corners;
-      s[i] = p;
-      if (orient<D>(s) == Sign::negative) exit = i;
-    }
-    if (exit < 0) return c;
-    from = k.links[exit].face();
-    c = k.links[exit].cell();
-    if (corner_at_infinity<D>(mesh.cell(c)) >= 0) return c;
-  }
+  return detail::walk_to<D>(mesh, p, hint, [](CellId) { return true; });
 }
 
 template <int D>
@@ -78,15 +48,11 @@ bool Delaunay<D>::first_simplex(std::span<const Point<D>> points, std::array<std
 }
 
 template <int D>
-void Delaunay<D>::make_first_cells(std::span<const Point<D>> points, const std::array<std::uint32_t, D + 1>& corners) {
+void Delaunay<D>::make_first_cells(const std::array<std::uint32_t, D + 1>& corners) {
   std::array<CellId, D + 2> cells;  // the simplex, then the ghost beyond each of its faces
   for (CellId& c : cells) c = mesh_->new_cell(*pools_);
   auto& first = mesh_->cell(cells[0]);
-  for (int i = 0; i <= D; ++i) {
-    const std::uint32_t p = corners[i];
-    first.vertices[i] = vertices_[p] = mesh_->new_vertex(*pools_, points[p], Home(EntityKind::vertex, p),
-                                                         std::numeric_limits<float>::infinity());
-  }
+  for (int i = 0; i <= D; ++i) first.vertices[i] = vertices_[corners[i]];
   for (int i = 0; i <= D; ++i) {
     auto& ghost = mesh_->cell(cells[i + 1]);
     ghost.vertices = first.vertices;
@@ -111,29 +77,75 @@ void Delaunay<D>::make_first_cells(std::span<const Point<D>> points, const std::
   for (const CellId c : cells) {
     mesh_->set_region(c, 0);
     for (const VertexId v : mesh_->cell(c).vertices)
-      if (v != infinite_vertex) {
-        if (cell_at_.size() <= index(v)) cell_at_.resize(index(v) + 1, no_cell);
-        cell_at_[index(v)] = c;
-      }
+      if (v != infinite_vertex) cell_at_[index(v)] = c;
   }
 }
 
 template <int D>
-bool Delaunay<D>::build(std::span<const Point<D>> points, const std::stop_token& stop) {
+bool Delaunay<D>::build(std::span<const Point<D>> points, const detail::Pieces& pieces, const std::stop_token& stop) {
+  const detail::Bulk bulk(pieces, stop);
   vertices_.assign(points.size(), no_vertex);
   std::array<std::uint32_t, D + 1> corners;
   if (!first_simplex(points, corners)) return false;
-  make_first_cells(points, corners);
-  CellId hint = cell_at(vertices_[corners[0]]);
-  std::size_t inserted = 0;
-  for (const std::uint32_t i : insertion_order<D>(points)) {
-    if (vertices_[i] != no_vertex) continue;
-    if (++inserted % 1024 == 0 && stop.stop_requested()) break;
-    if (prepare(points[i], hint) != no_vertex) broken("two input points coincide");
-    vertices_[i] = commit(Home(EntityKind::vertex, i), std::numeric_limits<float>::infinity());
-    hint = cell_at(vertices_[i]);
-  }
+  const CurveOrder order = curve_order<D>(points, bulk);
+  if (stop.stop_requested()) return true;
+  make_vertices(points, order, detail::Bulk(pieces));  // all, whatever is requested: the first cells have some
+  make_first_cells(corners);
+  insert_rounds(order, vertices_[corners[0]], pieces, stop);
   return true;
+}
+
+/// All vertices, numbered along the curve, in no cell yet.
+template <int D>
+void Delaunay<D>::make_vertices(std::span<const Point<D>> points, const CurveOrder& order, const detail::Bulk& bulk) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  for (std::size_t k = 0; k < points.size(); ++k) vertices_[order.points[k]] = VertexId{pools_->vertices.take()};
+  bulk.each(points.size(), [&](std::size_t p) {
+    mesh_->vertex(vertices_[p]) = {points[p], Home(EntityKind::vertex, static_cast<EntityId>(p)), infinity};
+  });
+  cell_at_.assign(points.size(), no_cell);
+}
+
+template <int D>
+void Delaunay<D>::insert_rounds(const CurveOrder& order, VertexId first, const detail::Pieces& pieces,
+                                const std::stop_token& stop) {
+  detail::BulkInsertion<D> side_by_side(*mesh_, cell_at_, pieces, stop);
+  std::vector<std::vector<VertexId>> rounds(static_cast<std::size_t>(order.round_count));
+  for (std::size_t k = 0; k < order.points.size(); ++k)
+    if (const VertexId v = vertices_[order.points[k]]; cell_at(v) == no_cell) rounds[order.rounds[k]].push_back(v);
+  VertexId near = first;
+  std::vector<VertexId> waiting;
+  for (auto& round : rounds) {
+    const auto middle = static_cast<std::ptrdiff_t>(waiting.size());
+    waiting.insert(waiting.end(), round.begin(), round.end());
+    std::inplace_merge(waiting.begin(), waiting.begin() + middle, waiting.end());
+    const bool is_last = &round == &rounds.back();
+    while (!waiting.empty() && !stop.stop_requested()) {
+      std::vector<VertexId> left = side_by_side.insert(waiting);
+      if (4 * (waiting.size() - left.size()) < waiting.size()) {
+        near = insert_all(left, near, stop);
+        left.clear();
+      }
+      waiting = std::move(left);
+      if (!is_last) break;
+    }
+  }
+  side_by_side.give_slots_to(*pools_);
+}
+
+/// One after the other; the first is looked for from vertex `near`. Returns the last one.
+template <int D>
+VertexId Delaunay<D>::insert_all(std::span<const VertexId> vertices, VertexId near, const std::stop_token& stop) {
+  std::size_t inserted = 0;
+  for (const VertexId v : vertices) {
+    if (++inserted % 1024 == 0 && stop.stop_requested()) break;
+    const Point<D> p = mesh_->point(v);
+    if (prepare(p, cell_at(near)) != no_vertex) broken("two input points coincide");
+    cavity_.commit(*pools_, v);
+    note_cells();
+    near = v;
+  }
+  return near;
 }
 
 template <int D>
@@ -149,8 +161,7 @@ VertexId Delaunay<D>::insert(const Point<D>& p, Home home, VertexId near, double
 template <int D>
 VertexId Delaunay<D>::prepare(const Point<D>& p, CellId hint) {
   const CellId seed = locate<D>(*mesh_, p, hint);
-  for (const VertexId v : mesh_->cell(seed).vertices)
-    if (v != infinite_vertex && mesh_->point(v) == p) return v;
+  if (const VertexId there = detail::vertex_at(*mesh_, seed, p); there != no_vertex) return there;
   if (cavity_.collect(p, seed) != Cavity<D>::Status::ok) broken("a located point is not in conflict with its cell");
     // Perturbed heights make the cavity star-shaped whatever the input; asserted, not tested.
 #ifndef NDEBUG
@@ -165,13 +176,13 @@ VertexId Delaunay<D>::commit(Home home, float relaxed_radius) {
   for (auto* changed : listeners_) changed->add(cavity_.cells());
   const VertexId v = cavity_.commit(*pools_, home, relaxed_radius);
   for (auto* changed : listeners_) changed->add(cavity_.new_cells());
-  note_cells(v);
+  if (cell_at_.size() <= index(v)) cell_at_.resize(std::max<std::size_t>(index(v) + 1, cell_at_.size() * 3 / 2), no_cell);
+  note_cells();
   return v;
 }
 
 template <int D>
-void Delaunay<D>::note_cells(VertexId v) {
-  if (cell_at_.size() <= index(v)) cell_at_.resize(std::max<std::size_t>(index(v) + 1, cell_at_.size() * 3 / 2), no_cell);
+void Delaunay<D>::note_cells() {
   for (const CellId c : cavity_.new_cells())
     for (const VertexId u : mesh_->cell(c).vertices)
       if (u != infinite_vertex) cell_at_[index(u)] = c;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The (perturbed) Delaunay triangulation of a point set, built by insertion into a Mesh, its convex hull closed by
-// ghost cells. Unique for a set of points: independent of the order of insertion. Serial.
+// ghost cells. Unique for a set of points: independent of the order of insertion.
 #pragma once
 
 #include <span>
@@ -11,18 +11,21 @@
 
 #include "cavity/cavity.hpp"
 #include "mesh/mesh.hpp"
+#include "space/pieces.hpp"
 
 namespace pgdr {
 namespace detail {
+class Bulk;
 class ChangedCells;
 }
+struct CurveOrder;
 
 /// The cell that contains p (closed), or the ghost beyond whose hull face p lies, by a visibility walk from `hint`.
 /// @pre the mesh is a triangulation, Delaunay or not, closed by ghosts.
 template <int D>
 CellId locate(const Mesh<D>& mesh, const Point<D>& p, CellId hint);
 
-/// Triangulates points one after the other, with cavities. One thread.
+/// Triangulates points by insertion, with cavities. One thread calls it.
 template <int D>
 class Delaunay {
  public:
@@ -31,7 +34,10 @@ class Delaunay {
 
   /// Triangulates distinct points; vertex k of the result is points[k], at home at input vertex k. False (and no cell)
   /// if the points lie in one line (2D) or plane (3D). Ends early, with some of the points, once `stop` is requested.
-  bool build(std::span<const Point<D>> points, const std::stop_token& stop = {});
+  /// Many points go in side by side, as pieces. The mesh does not depend on the threads, and neither do its slots.
+  bool build(std::span<const Point<D>> points, const detail::Pieces& pieces, const std::stop_token& stop = {});
+  /// The same on the calling thread.
+  bool build(std::span<const Point<D>> points) { return build(points, detail::OneByOne()); }
 
   /// Inserts one more point, with its insertion radius, for which `twins` do not count. The search begins at the star of vertex
   /// `near`.
@@ -48,11 +54,14 @@ class Delaunay {
 
  private:
   bool first_simplex(std::span<const Point<D>> points, std::array<std::uint32_t, D + 1>& corners) const;
-  void make_first_cells(std::span<const Point<D>> points, const std::array<std::uint32_t, D + 1>& corners);
+  void make_vertices(std::span<const Point<D>> points, const CurveOrder& order, const detail::Bulk& bulk);
+  void make_first_cells(const std::array<std::uint32_t, D + 1>& corners);
+  void insert_rounds(const CurveOrder& order, VertexId first, const detail::Pieces& pieces, const std::stop_token& stop);
+  VertexId insert_all(std::span<const VertexId> vertices, VertexId near, const std::stop_token& stop);
   /// Collects the cavity of p, or returns the vertex that is there already.
   VertexId prepare(const Point<D>& p, CellId hint);
   VertexId commit(Home home, float relaxed_radius);
-  void note_cells(VertexId v);
+  void note_cells();
 
   Mesh<D>* mesh_;
   typename Mesh<D>::Pools* pools_;

@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint32_t none = 0xffffffffu;
 
 /// A block of slots, so many that a loop over it is much work.
-constexpr std::uint32_t slots_a_part = 1 << 15;
+constexpr std::uint32_t slots_a_block = 1 << 15;
 
 /// With room for so many more.
 template <int D>
@@ -202,9 +202,10 @@ void number_by_slots(const Mesh<D>& mesh, const Domain<D>& domain, std::span<con
   constexpr std::uint32_t used = 0;
   auto& number = out.vertex_number;
   number.assign(mesh.vertex_bound(), none);
-  const std::size_t parts = mesh.cell_bound() / slots_a_part + 1;
+  const std::size_t parts = mesh.cell_bound() / slots_a_block + 1;
   auto each_cell = [&](std::size_t part, auto f) {
-    const auto first = static_cast<std::uint32_t>(part) * slots_a_part, last = std::min(mesh.cell_bound(), first + slots_a_part);
+    const auto first = static_cast<std::uint32_t>(part) * slots_a_block,
+               last = std::min(mesh.cell_bound(), first + slots_a_block);
     for (std::uint32_t i = first; i < last; ++i)
       if (mesh.alive(CellId{i})) f(CellId{i});
   };
@@ -311,39 +312,43 @@ void number_constraints(const MarkedFaces<D>& found, const Domain<D>& domain, co
     return n;
   };
   auto number_faces = [&](auto& constraints, const auto& entities) {
-    for (const auto& f : found.faces) {
+    constraints.resize(found.faces.size());
+    bulk.each(constraints.size(), [&](std::size_t i) {
+      const auto& f = found.faces[i];
       auto v = numbered(f.vertices);
       if (!f.on_hull) std::sort(v.begin(), v.end());
       if (D == 3) std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
-      constraints.push_back({v, entities[f.entity].marker, f.entity});
-    }
+      constraints[i] = {v, entities[f.entity].marker, f.entity};
+    });
   };
   auto by_vertices = [](const auto& a, const auto& b) { return a.vertices < b.vertices; };
-  auto same = [](const auto& a, const auto& b) { return a.vertices == b.vertices; };
   if constexpr (D == 3) {
-    out.subfacets.reserve(found.faces.size());
     number_faces(out.subfacets, domain.facets());
     bulk.sort(out.subfacets, by_vertices);
-    for (const auto& e : found.edges) {
-      auto v = numbered(e.vertices);
+    auto edges = decltype(out.subsegments)(found.edges.size());
+    bulk.each(edges.size(), [&](std::size_t i) {
+      auto v = numbered(found.edges[i].vertices);
       std::sort(v.begin(), v.end());
-      out.subsegments.push_back({v, domain.segments()[e.entity].marker, e.entity});
-    }
+      edges[i] = {v, domain.segments()[found.edges[i].entity].marker, found.edges[i].entity};
+    });
+    bulk.sort(edges, by_vertices);
+    using Edge = typename decltype(edges)::value_type;
+    out.subsegments = bulk.collect<Edge>(
+        edges.size(), [&](std::size_t i) { return i == 0 || edges[i].vertices != edges[i - 1].vertices; },
+        [&](std::size_t i) { return edges[i]; });
   } else {
-    out.subsegments.reserve(found.faces.size());
     number_faces(out.subsegments, domain.segments());
+    bulk.sort(out.subsegments, by_vertices);
   }
-  bulk.sort(out.subsegments, by_vertices);
-  out.subsegments.erase(std::unique(out.subsegments.begin(), out.subsegments.end(), same), out.subsegments.end());
 }
 
 }  // namespace
 
 template <int D>
-Compacted<D> compact(Mesh<D>&& mesh, const Domain<D>& domain, std::span<const double> region_attributes, bool parallel,
-                     std::stop_token stop, const FillPoints<D>& fill, std::stop_token hurry) {
+Compacted<D> compact(Mesh<D>&& mesh, const Domain<D>& domain, std::span<const double> region_attributes,
+                     const detail::Pieces& pieces, std::stop_token stop, const FillPoints<D>& fill, std::stop_token hurry) {
   if (!region_attributes.empty()) hurry = {};  // cells are looked up to label them
-  const detail::Bulk bulk(parallel, std::move(stop));
+  const detail::Bulk bulk(pieces, std::move(stop));
   Compacted<D> out;
   const MarkedFaces<D> constraints = gather_constraints<D>(mesh, bulk);
   const detail::StrippedCells<D> stripped(mesh, bulk, !region_attributes.empty());
@@ -364,8 +369,8 @@ Compacted<D> compact(Mesh<D>&& mesh, const Domain<D>& domain, std::span<const do
 
 template <int D>
 Compacted<D> compact_by_slots(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes,
-                              bool parallel, const FillPoints<D>& fill) {
-  const detail::Bulk bulk(parallel, {});
+                              const detail::Pieces& pieces, const FillPoints<D>& fill) {
+  const detail::Bulk bulk(pieces);
   Compacted<D> out;
   number_by_slots<D>(mesh, domain, region_attributes, bulk, out);
   if (fill) fill(mesh, out);
@@ -382,11 +387,13 @@ std::uint32_t Compacted<D>::cell_number(const std::array<VertexId, D + 1>& verti
 
 template struct Compacted<2>;
 template struct Compacted<3>;
-template Compacted<2> compact<2>(Mesh<2>&&, const Domain<2>&, std::span<const double>, bool, std::stop_token,
+template Compacted<2> compact<2>(Mesh<2>&&, const Domain<2>&, std::span<const double>, const detail::Pieces&, std::stop_token,
                                  const FillPoints<2>&, std::stop_token);
-template Compacted<3> compact<3>(Mesh<3>&&, const Domain<3>&, std::span<const double>, bool, std::stop_token,
+template Compacted<3> compact<3>(Mesh<3>&&, const Domain<3>&, std::span<const double>, const detail::Pieces&, std::stop_token,
                                  const FillPoints<3>&, std::stop_token);
-template Compacted<2> compact_by_slots<2>(const Mesh<2>&, const Domain<2>&, std::span<const double>, bool, const FillPoints<2>&);
-template Compacted<3> compact_by_slots<3>(const Mesh<3>&, const Domain<3>&, std::span<const double>, bool, const FillPoints<3>&);
+template Compacted<2> compact_by_slots<2>(const Mesh<2>&, const Domain<2>&, std::span<const double>, const detail::Pieces&,
+                                          const FillPoints<2>&);
+template Compacted<3> compact_by_slots<3>(const Mesh<3>&, const Domain<3>&, std::span<const double>, const detail::Pieces&,
+                                          const FillPoints<3>&);
 
 }  // namespace pgdr

@@ -13,6 +13,7 @@
 
 #include "mesh/mesh.hpp"
 #include "pgdr/output_mesh.hpp"
+#include "space/pieces.hpp"
 
 namespace pgdr {
 
@@ -32,18 +33,19 @@ using FillPoints = std::function<void(const Mesh<D>&, Compacted<D>&)>;
 
 /// Makes the finished mesh in the memory of the refined one, which cannot be used after that.
 /// @param region_attributes  the attribute of each region number; empty: cells get no labels
-/// @param parallel  use the threads of the caller's task arena; the result is the same
+/// @param pieces  the threads; the result does not depend on them
 /// @param stop  once it is requested the call ends soon, and its result is of no use
 /// @param fill  may be empty
 /// @param hurry  once it is requested the rest is numbered by slots, and cell_number() may not be called
 template <int D>
-Compacted<D> compact(Mesh<D>&& mesh, const Domain<D>& domain, std::span<const double> region_attributes, bool parallel,
-                     std::stop_token stop = {}, const FillPoints<D>& fill = {}, std::stop_token hurry = {});
+Compacted<D> compact(Mesh<D>&& mesh, const Domain<D>& domain, std::span<const double> region_attributes,
+                     const detail::Pieces& pieces, std::stop_token stop = {}, const FillPoints<D>& fill = {},
+                     std::stop_token hurry = {});
 
 /// Makes the finished mesh of a run that was stopped, when the mesh depends on chance anyway: Steiner points and cells are
 /// numbered by their slots, in a fifth of the time.
 template <int D>
 Compacted<D> compact_by_slots(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes,
-                              bool parallel, const FillPoints<D>& fill = {});
+                              const detail::Pieces& pieces, const FillPoints<D>& fill = {});
 
 }  // namespace pgdr

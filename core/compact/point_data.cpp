@@ -3,6 +3,7 @@
 #include "compact/point_data.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <utility>
 
@@ -104,11 +105,27 @@ void fill_on_facets(const Mesh<3>& mesh, const Domain<3>& domain, Numbers number
     if (v.home.kind() == EntityKind::facet) found.push_back({v.home.id(), numbers[i], v.point});
   });
   bulk.sort(list, [](const OnFacet& a, const OnFacet& b) { return a.facet < b.facet; });
-  for (std::size_t i = 0, j; i < list.size() && !bulk.stopped(); i = j) {
-    for (j = i; j < list.size() && list[j].facet == list[i].facet;) ++j;
-    const FacetInterpolation facet(domain, list[i].facet);
-    bulk.each(j - i,
-              [&](std::size_t k) { rows.set(list[i + k].number, facet.at(list[i + k].point), domain.point_attributes()); });
+  // The facets of few points side by side, then those of many, each with its points side by side.
+  constexpr std::size_t many = 4096, facets_a_part = 64;
+  const auto begin = bulk.gather<std::size_t>(list.size(), [&](std::size_t i, std::vector<std::size_t>& found) {
+    if (i == 0 || list[i].facet != list[i - 1].facet) found.push_back(i);
+  });
+  const auto end_of = [&](std::size_t k) { return k + 1 < begin.size() ? begin[k + 1] : list.size(); };
+  const auto is_small = [&](std::size_t k) { return end_of(k) - begin[k] < many; };
+  const auto set = [&](const FacetInterpolation& facet, std::size_t i) {
+    rows.set(list[i].number, facet.at(list[i].point), domain.point_attributes());
+  };
+  bulk.parts((begin.size() + facets_a_part - 1) / facets_a_part, [&](std::size_t part) {
+    for (std::size_t k = part * facets_a_part; k < std::min(begin.size(), (part + 1) * facets_a_part); ++k) {
+      if (!is_small(k)) continue;
+      const FacetInterpolation facet(domain, list[begin[k]].facet);
+      for (std::size_t i = begin[k]; i < end_of(k); ++i) set(facet, i);
+    }
+  });
+  for (std::size_t k = 0; k < begin.size() && !bulk.stopped(); ++k) {
+    if (is_small(k)) continue;
+    const FacetInterpolation facet(domain, list[begin[k]].facet);
+    bulk.each(end_of(k) - begin[k], [&](std::size_t i) { set(facet, begin[k] + i); });
   }
 }
 
@@ -143,33 +160,41 @@ int marker_of(const Domain<D>& domain, Home home) {
 }  // namespace
 
 template <int D>
-PointData<D>::PointData(const Mesh<D>& unrefined, const Domain<D>& domain) : domain_(&domain) {
+PointData<D>::PointData(const Mesh<D>& unrefined, const Domain<D>& domain, const detail::Pieces& pieces) : domain_(&domain) {
   const std::size_t columns = domain.attributes_per_point();
   if (columns == 0) return;
+  const detail::Bulk bulk(pieces);
   std::vector<std::uint32_t> numbers(unrefined.vertex_bound(), none);
   std::vector<Point<D>> points(numbers.size());
-  std::vector<std::array<std::uint32_t, D + 1>> cells;
   attributes_.resize(numbers.size() * columns);
-  for (std::uint32_t c = 0; c < unrefined.cell_bound(); ++c) {
-    if (!unrefined.alive(CellId{c})) continue;
-    auto& cell = cells.emplace_back();
-    for (int i = 0; i <= D; ++i) {
-      const VertexId v = unrefined.cell(CellId{c}).vertices[i];
-      cell[i] = numbers[index(v)] = index(v);
-      points[index(v)] = unrefined.point(v);
-      const Home home = unrefined.vertex(v).home;
-      if (home.kind() == EntityKind::vertex)
-        std::copy_n(domain.point_attributes().begin() + home.id() * columns, columns, attributes_.begin() + index(v) * columns);
+  using Cell = std::array<std::uint32_t, D + 1>;
+  const auto is_before = [&](std::uint32_t v, std::uint32_t w) {
+    return lex_less(unrefined.point(VertexId{v}), unrefined.point(VertexId{w}));
+  };
+  std::vector<Cell> cells = bulk.gather<Cell>(unrefined.cell_bound(), [&](std::size_t i, std::vector<Cell>& out) {
+    const CellId c{static_cast<std::uint32_t>(i)};
+    if (!unrefined.alive(c)) return;
+    Cell cell;
+    for (int k = 0; k <= D; ++k) {
+      cell[k] = index(unrefined.cell(c).vertices[k]);
+      std::atomic_ref<std::uint32_t>(numbers[cell[k]]).store(cell[k], std::memory_order_relaxed);  // as other cells at it do
     }
-    std::sort(cell.begin(), cell.end(), [&](std::uint32_t v, std::uint32_t w) { return lex_less(points[v], points[w]); });
-  }
+    std::sort(cell.begin(), cell.end(), is_before);
+    out.push_back(cell);
+  });
+  bulk.each(numbers.size(), [&](std::size_t i) {
+    if (numbers[i] == none) return;
+    const VertexRecord<D>& v = unrefined.vertex(VertexId{numbers[i]});
+    points[i] = v.point;
+    if (v.home.kind() == EntityKind::vertex)
+      std::copy_n(domain.point_attributes().begin() + v.home.id() * columns, columns, attributes_.begin() + i * columns);
+  });
   // The cell with the smallest number counts where several hold a point: numbers that are no matter of chance.
-  std::sort(cells.begin(), cells.end(), [&](const auto& a, const auto& b) {
-    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(),
-                                        [&](std::uint32_t v, std::uint32_t w) { return lex_less(points[v], points[w]); });
+  bulk.sort(cells, [&](const Cell& a, const Cell& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), is_before);
   });
   const Rows rows(attributes_, columns);
-  fill_attributes<D>(unrefined, domain, numbers, detail::Bulk(false), nullptr, {}, rows);
+  fill_attributes<D>(unrefined, domain, numbers, bulk, nullptr, {}, rows);
   unrefined_ = std::make_unique<detail::MeshInterpolation<D>>(std::move(points), cells);
 }
 
@@ -199,8 +224,8 @@ void PointData<D>::fill_markers(const Mesh<D>& refined, const detail::Bulk& bulk
 }
 
 template <int D>
-void PointData<D>::fill(const Mesh<D>& refined, Compacted<D>& out, bool parallel, std::stop_token stop) const {
-  const detail::Bulk bulk(parallel, std::move(stop));
+void PointData<D>::fill(const Mesh<D>& refined, Compacted<D>& out, const detail::Pieces& pieces, std::stop_token stop) const {
+  const detail::Bulk bulk(pieces, std::move(stop));
   fill_markers(refined, bulk, out);
   if (!unrefined_) return;
   const std::size_t columns = domain_->attributes_per_point();

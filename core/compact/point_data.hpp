@@ -15,6 +15,7 @@
 
 #include "compact/compact.hpp"
 #include "pgdr/domain.hpp"
+#include "space/pieces.hpp"
 
 namespace pgdr {
 
@@ -29,13 +30,13 @@ template <int D>
 class PointData {
  public:
   /// `unrefined`: the mesh once the boundary is there and the exterior gone. Kept if the input has attributes. Linear time.
-  PointData(const Mesh<D>& unrefined, const Domain<D>& domain);
+  PointData(const Mesh<D>& unrefined, const Domain<D>& domain, const detail::Pieces& pieces = detail::OneByOne());
   PointData(PointData&&) noexcept;  ///< moves the data
   ~PointData();
 
-  /// Sets markers and attributes of the points of `out`, which is `refined` in compact form. `parallel` and `stop` as for
-  /// compact(): the result is the same.
-  void fill(const Mesh<D>& refined, Compacted<D>& out, bool parallel, std::stop_token stop = {}) const;
+  /// Sets markers and attributes of the points of `out`, which is `refined` in compact form. `pieces` and `stop` as for
+  /// compact().
+  void fill(const Mesh<D>& refined, Compacted<D>& out, const detail::Pieces& pieces, std::stop_token stop = {}) const;
 
  private:
   void fill_markers(const Mesh<D>& refined, const detail::Bulk& bulk, Compacted<D>& out) const;

@@ -6,12 +6,15 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
 
 #include "compact/joined_points.hpp"
 #include "numbers/exact_sum.hpp"
+#include "space/bulk.hpp"
 #include "space/disjoint_sets.hpp"
 
 namespace pgdr {
@@ -20,14 +23,14 @@ namespace {
 constexpr std::uint32_t nothing = 0xffffffffu;  ///< in place of a label: no cell is there
 
 /// The labels on the two sides of a part of an entity. A subfacet of no area to speak of may be turned over by rounding, so the
-/// largest one is asked.
+/// largest one is asked; of several, whoever comes first, the one of the least labels.
 struct Sides {
   double size = -1;                                      ///< of the largest so far
   std::array<std::uint32_t, 2> label{nothing, nothing};  ///< on the side of the normal (2D: on the left), and on the other
   bool is_known() const { return size >= 0; }
   bool same_on_both() const { return label[0] == label[1]; }
   void take(const Sides& o) {
-    if (o.size > size) *this = o;
+    if (o.size > size || (o.size == size && o.label < label)) *this = o;
   }
 };
 
@@ -56,9 +59,13 @@ struct WallFace {
   std::uint32_t here, beyond;        ///< labels
 };
 
+constexpr std::size_t slots_a_part = 1 << 14;
+
+/// Those of the cells in one part of the slots.
 template <int D, class Visit>
-void each_wall_face(const Mesh<D>& mesh, const Labels& labels, const Visit& visit) {
-  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i) {
+void each_wall_face(const Mesh<D>& mesh, const Labels& labels, std::size_t part, const Visit& visit) {
+  const auto end = static_cast<std::uint32_t>(std::min<std::size_t>(mesh.cell_bound(), (part + 1) * slots_a_part));
+  for (auto i = static_cast<std::uint32_t>(part * slots_a_part); i < end; ++i) {
     const CellId c{i};
     if (!mesh.alive(c)) continue;
     const ConstraintRecord<D>* constraints = mesh.constraints(c);
@@ -144,35 +151,59 @@ class Patches {
   std::vector<Sides> sides_;                         // of each set
 };
 
+/// What is known of one label.
+struct Volumes {
+  detail::ExactSum meshed, given;
+  bool has_cells = false, is_known = true;
+};
+
+/// The labels that some of the faces have to do with. Few in one place, mostly one after the other.
+class VolumesOfLabels {
+ public:
+  Volumes& operator[](std::uint32_t label) {
+    if (last_ == nullptr || label != last_label_) {
+      last_ = &of_[label];
+      last_label_ = label;
+    }
+    return *last_;
+  }
+  void add_to(std::vector<Volumes>& all) const {
+    for (const auto& [label, volumes] : of_) {
+      all[label].meshed.add(volumes.meshed);
+      all[label].given.add(volumes.given);
+      all[label].has_cells = all[label].has_cells || volumes.has_cells;
+      all[label].is_known = all[label].is_known && volumes.is_known;
+    }
+  }
+
+ private:
+  std::unordered_map<std::uint32_t, Volumes> of_;
+  std::uint32_t last_label_ = nothing;
+  Volumes* last_ = nullptr;
+};
+
 template <int D>
 class RegionMeasure {
  public:
-  RegionMeasure(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> attributes)
-      : mesh_(mesh),
-        domain_(domain),
-        labels_(attributes),
-        joined_(domain),
-        meshed_(labels_.values.size()),
-        given_(labels_.values.size()),
-        has_cells_(labels_.values.size(), false),
-        is_known_(labels_.values.size(), true) {}
+  RegionMeasure(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> attributes, const detail::Pieces& pieces)
+      : mesh_(mesh), domain_(domain), labels_(attributes), joined_(domain), bulk_(pieces), volumes_(labels_.values.size()) {}
 
   std::vector<RegionVolume> run() {
     look_at_faces();
     if constexpr (D == 3) {
       add_facets();
     } else {
-      for (EntityId s = 0; s < sides_.size(); ++s) {
+      add_in_parts(sides_.size(), entities_a_part, [this](std::size_t s, VolumesOfLabels& volumes) {
         const auto& ends = domain_.segments()[s].points;
-        add_piece(sides_[s], ends, !joined_.with_point_or_edge(ends[0]) && !joined_.with_point_or_edge(ends[1]));
-      }
+        add_piece(sides_[s], ends, !joined_.with_point_or_edge(ends[0]) && !joined_.with_point_or_edge(ends[1]), volumes);
+      });
     }
     constexpr unsigned divisor = D == 3 ? 6 : 2;
     std::vector<RegionVolume> volumes;
     for (std::size_t l = 0; l < labels_.values.size(); ++l) {
-      if (!has_cells_[l]) continue;
-      volumes.push_back({labels_.values[l], meshed_[l].divided_by(divisor), std::nullopt});
-      if (is_known_[l]) volumes.back().volume_given = given_[l].divided_by(divisor);
+      if (!volumes_[l].has_cells) continue;
+      volumes.push_back({labels_.values[l], volumes_[l].meshed.divided_by(divisor), std::nullopt});
+      if (volumes_[l].is_known) volumes.back().volume_given = volumes_[l].given.divided_by(divisor);
     }
     return volumes;
   }
@@ -184,33 +215,60 @@ class RegionMeasure {
     std::apply([&sum](const auto&... p) { sum.add_determinant(p...); }, corners);
   }
 
+  static constexpr std::size_t entities_a_part = 1024, locks = 256;
+
+  /// Calls add(i, volumes) for i < count, side by side, and takes in what the volumes get.
+  template <class Add>
+  void add_in_parts(std::size_t count, std::size_t part, const Add& add) {
+    std::vector<VolumesOfLabels> found((count + part - 1) / part);
+    bulk_.parts(found.size(), [&](std::size_t k) {
+      VolumesOfLabels volumes;
+      for (std::size_t i = k * part; i < std::min(count, (k + 1) * part); ++i) add(i, volumes);
+      found[k] = std::move(volumes);
+    });
+    for (const VolumesOfLabels& volumes : found) volumes.add_to(volumes_);
+  }
+  std::size_t slot_parts() const { return (mesh_.cell_bound() + slots_a_part - 1) / slots_a_part; }
+
   void look_at_faces() {
     sides_.resize(D == 3 ? domain_.facets().size() : domain_.segments().size());
-    each_wall_face<D>(mesh_, labels_, [&](const WallFace<D>& wall) {
-      has_cells_[wall.here] = true;
-      if (wall.here != wall.beyond) add(meshed_[wall.here], mesh_.points(wall.vertices), true);
-      sides_[wall.entity].take(sides_at(mesh_, domain_, wall));
+    add_in_parts(slot_parts(), 1, [this](std::size_t part, VolumesOfLabels& volumes) {
+      each_wall_face<D>(mesh_, labels_, part, [&](const WallFace<D>& wall) {
+        volumes[wall.here].has_cells = true;
+        if (wall.here != wall.beyond) add(volumes[wall.here].meshed, mesh_.points(wall.vertices), true);
+        const Sides sides = sides_at(mesh_, domain_, wall);
+        const std::lock_guard locked(lock_of(wall.entity));
+        sides_[wall.entity].take(sides);
+      });
     });
   }
 
   void add_facets() requires(D == 3) {
-    std::unordered_map<EntityId, Patches> divided;  // also where a part is in the mesh, and another is outside
-    for (EntityId f = 0; f < sides_.size(); ++f) {
-      if (!sides_[f].is_known() || domain_.facets()[f].triangle_count == 1) continue;
-      if (Patches patches(domain_, f); patches.are_several()) divided.try_emplace(f, std::move(patches));
-    }
-    if (!divided.empty())
-      each_wall_face<D>(mesh_, labels_, [&](const WallFace<D>& wall) {
-        if (const auto found = divided.find(wall.entity); found != divided.end()) look_at_segments(wall, found->second);
-      });
-    for (EntityId f = 0; f < sides_.size(); ++f) {
-      const auto triangles = domain_.triangles(f);
-      const auto parts = divided.find(f);
-      for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-        const Sides sides = parts != divided.end() ? parts->second.of_triangle(t) : sides_[f];
-        add_piece(sides, triangles[t], is_given(f, t));
+    const std::size_t facets = sides_.size();
+    std::vector<std::unique_ptr<Patches>> parts(facets);  // also where a part is in the mesh, and another is outside
+    std::vector<char> any((facets + entities_a_part - 1) / entities_a_part);
+    bulk_.parts(any.size(), [&](std::size_t k) {
+      for (std::size_t f = k * entities_a_part; f < std::min(facets, (k + 1) * entities_a_part); ++f) {
+        if (!sides_[f].is_known() || domain_.facets()[f].triangle_count == 1) continue;
+        if (Patches patches(domain_, static_cast<EntityId>(f)); patches.are_several())
+          parts[f] = std::make_unique<Patches>(std::move(patches));
+        any[k] = any[k] || parts[f];
       }
-    }
+    });
+    if (std::ranges::count(any, 0) < std::ssize(any))
+      bulk_.parts(slot_parts(), [&](std::size_t part) {
+        each_wall_face<D>(mesh_, labels_, part, [&](const WallFace<D>& wall) {
+          if (!parts[wall.entity]) return;
+          const std::lock_guard locked(lock_of(wall.entity));
+          look_at_segments(wall, *parts[wall.entity]);
+        });
+      });
+    add_in_parts(facets, entities_a_part, [&](std::size_t i, VolumesOfLabels& volumes) {
+      const auto f = static_cast<EntityId>(i);
+      const auto triangles = domain_.triangles(f);
+      for (std::uint32_t t = 0; t < triangles.size(); ++t)
+        add_piece(parts[f] ? parts[f]->of_triangle(t) : sides_[f], triangles[t], is_given(f, t), volumes);
+    });
   }
 
   /// Tells the parts of the facet on whose segments the subfacet lies.
@@ -232,6 +290,8 @@ class RegionMeasure {
     }
   }
 
+  std::mutex& lock_of(EntityId e) { return locks_[e % locks]; }
+
   /// Is the triangle of the facet part of what was given, and not of what the tolerance has made of that?
   bool is_given(EntityId f, std::uint32_t triangle) const requires(D == 3) {
     const bool planar = domain_.facets()[f].planar;
@@ -242,15 +302,16 @@ class RegionMeasure {
   }
 
   /// A segment (2D), or a triangle of a facet.
-  void add_piece(const Sides& sides, const std::array<std::uint32_t, D>& corners, bool given) {
+  void add_piece(const Sides& sides, const std::array<std::uint32_t, D>& corners, bool given, VolumesOfLabels& volumes) const {
     if (sides.same_on_both()) return;
     std::array<Point<D>, D> points;
     for (std::size_t k = 0; k < D; ++k) points[k] = domain_.points()[corners[k]];
     for (const std::size_t side : {0u, 1u}) {
       const std::uint32_t label = sides.label[side];
       if (label == nothing) continue;
-      add(given_[label], points, side == 0);
-      if (!given) is_known_[label] = false;
+      Volumes& of = volumes[label];
+      add(of.given, points, side == 0);
+      if (!given) of.is_known = false;
     }
   }
 
@@ -258,20 +319,23 @@ class RegionMeasure {
   const Domain<D>& domain_;
   const Labels labels_;
   const detail::JoinedPoints<D> joined_;
-  std::vector<detail::ExactSum> meshed_, given_;  // by label; so are these
-  std::vector<bool> has_cells_, is_known_;
-  std::vector<Sides> sides_;  // of each facet (2D: segment)
+  const detail::Bulk bulk_;
+  std::vector<Volumes> volumes_;         // by label
+  std::vector<Sides> sides_;             // of each facet (2D: segment)
+  std::array<std::mutex, locks> locks_;  // for what is known of an entity
 };
 
 }  // namespace
 
 template <int D>
-std::vector<RegionVolume> region_volumes(const Mesh<D>& mesh, const Domain<D>& domain,
-                                         std::span<const double> region_attributes) {
-  return RegionMeasure<D>(mesh, domain, region_attributes).run();
+std::vector<RegionVolume> region_volumes(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes,
+                                         const detail::Pieces& pieces) {
+  return RegionMeasure<D>(mesh, domain, region_attributes, pieces).run();
 }
 
-template std::vector<RegionVolume> region_volumes(const Mesh<2>&, const Domain<2>&, std::span<const double>);
-template std::vector<RegionVolume> region_volumes(const Mesh<3>&, const Domain<3>&, std::span<const double>);
+template std::vector<RegionVolume> region_volumes(const Mesh<2>&, const Domain<2>&, std::span<const double>,
+                                                  const detail::Pieces&);
+template std::vector<RegionVolume> region_volumes(const Mesh<3>&, const Domain<3>&, std::span<const double>,
+                                                  const detail::Pieces&);
 
 }  // namespace pgdr

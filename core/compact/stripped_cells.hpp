@@ -27,7 +27,7 @@ class StrippedCells {
   /// Takes the cells of the mesh apart: its vertices alone can be used after that. `regions`: keep the region of each cell.
   StrippedCells(Mesh<D>& mesh, const Bulk& bulk, bool regions) : bulk_(&bulk) {
     const std::uint32_t bound = mesh.cell_bound();
-    block_ = std::clamp(std::bit_ceil(bound / 16), 1u << 12, 1u << 18);  // most of it several huge pages, where that counts
+    block_ = std::clamp(std::bit_ceil(bound / 64), 1u << 12, 1u << 18);  // most of it several huge pages, where that counts
     blocks_.resize((bound + block_ - 1) / block_);
     bulk.parts(blocks_.size(), [&](std::size_t i) {
       const auto first = static_cast<std::uint32_t>(i) * block_;

@@ -3,7 +3,8 @@
 //
 // A file that appears under its name complete or not at all: it grows under a temporary name in the same folder and is
 // renamed by `commit`. Numbers are formatted straight into the buffer by std::to_chars, since for millions of them
-// that is most of the time of writing. Files that mean something only together are committed together. One thread a file.
+// that is most of the time of writing, and side by side where there are threads. Files that mean something only together are
+// committed together. One thread a file.
 #pragma once
 
 #include <algorithm>
@@ -14,6 +15,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -22,17 +24,14 @@
 
 namespace pgdr::detail {
 
-class FileOutput {
+/// Text and bytes, as they are put one after the other.
+class TextBuffer {
  public:
-  /// @throws FileError cannot_write if no file can be made in that folder, or the target is not a regular file
-  explicit FileOutput(const std::filesystem::path& target);
-  FileOutput(const FileOutput&) = delete;
-  FileOutput& operator=(const FileOutput&) = delete;
-  /// Removes the temporary file unless it was committed.
-  ~FileOutput();
+  explicit TextBuffer(std::size_t room = 0) : buffer_(room) {}
+  virtual ~TextBuffer() = default;
 
   void put(std::string_view text) {
-    if (text.size() > buffer_.size() - used_) return put_long(text);
+    reserve(text.size());
     text.copy(buffer_.data() + used_, text.size());
     used_ += text.size();
   }
@@ -58,6 +57,43 @@ class FileOutput {
     used_ += bytes.size();
   }
 
+  /// What has been put, but for what has gone elsewhere since.
+  std::string_view text() const { return {buffer_.data(), used_}; }
+  void clear() { used_ = 0; }
+
+ protected:
+  /// Makes room for n more bytes.
+  virtual void make_room(std::size_t n) { buffer_.resize(std::max(used_ + n, 2 * buffer_.size())); }
+  std::size_t room() const { return buffer_.size(); }
+
+ private:
+  static constexpr std::size_t longest_number = 32;  // -1.7976931348623157e+308 has 24 characters
+
+  void reserve(std::size_t n) {
+    if (buffer_.size() - used_ < n) make_room(n);
+  }
+
+  std::vector<char> buffer_;
+  std::size_t used_ = 0;
+};
+
+class FileOutput final : public TextBuffer {
+ public:
+  /// @throws FileError cannot_write if no file can be made in that folder, or the target is not a regular file
+  explicit FileOutput(const std::filesystem::path& target);
+  FileOutput(const FileOutput&) = delete;
+  FileOutput& operator=(const FileOutput&) = delete;
+  /// Removes the temporary file unless it was committed.
+  ~FileOutput() override;
+
+  /// What put_item(text, i) puts for i < count, in their order. Side by side in blocks, on the threads of the caller's arena.
+  template <class PutItem>
+  void put_each(std::size_t count, const PutItem& put_item) {
+    put_blocks(count, [&put_item](TextBuffer& text, std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) put_item(text, i);
+    });
+  }
+
   /// Writes what is buffered, closes, renames. The only way to make the file appear. @throws FileError cannot_write
   void commit();
 
@@ -67,25 +103,20 @@ class FileOutput {
   friend void commit_together(std::span<const std::unique_ptr<FileOutput>> files);
 
  private:
+  using PutBlock = std::function<void(TextBuffer&, std::size_t first, std::size_t last)>;
+
+  void make_room(std::size_t n) override;
+  void put_blocks(std::size_t count, const PutBlock& put_block);
   /// Writes what is buffered and closes.
   void finish();
   /// Renames what is finished.
   void publish();
-
-  static constexpr std::size_t longest_number = 32;  // -1.7976931348623157e+308 has 24 characters
-
-  void reserve(std::size_t n) {
-    if (buffer_.size() - used_ < n) flush();
-  }
-  void put_long(std::string_view text);
   void flush();
   void write(std::string_view bytes);
   [[noreturn]] void fail(const std::string& why) const;
 
   std::string target_, temporary_;  // strings: libstdc++'s path does not survive a failing allocation
   std::FILE* stream_ = nullptr;
-  std::vector<char> buffer_;
-  std::size_t used_ = 0;
 };
 
 void commit_together(std::span<const std::unique_ptr<FileOutput>> files);

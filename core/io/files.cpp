@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cerrno>
 #include <memory>
 #include <random>
@@ -10,6 +11,7 @@
 #include "io/file_input.hpp"
 #include "io/file_output.hpp"
 #include "pgdr/error.hpp"
+#include "space/bulk.hpp"
 
 namespace pgdr::detail {
 namespace fs = std::filesystem;
@@ -69,7 +71,7 @@ std::string read_whole_file(const fs::path& file) {
   return text;
 }
 
-FileOutput::FileOutput(const fs::path& target) : target_(target.native()), buffer_(std::size_t{1} << 20) {
+FileOutput::FileOutput(const fs::path& target) : TextBuffer(std::size_t{1} << 20), target_(target.native()) {
   std::error_code ec;
   // A link keeps pointing at the file that is replaced.
   if (fs::is_symlink(target_, ec)) {
@@ -92,15 +94,32 @@ FileOutput::~FileOutput() {
   if (!temporary_.empty()) std::remove(temporary_.c_str());
 }
 
-void FileOutput::put_long(std::string_view text) {
+void FileOutput::make_room(std::size_t n) {
   flush();
-  if (text.size() > buffer_.size()) return write(text);
-  put(text);
+  if (n > room()) TextBuffer::make_room(n);
+}
+
+/// Some blocks at a time, so that they take little memory whatever the file does.
+void FileOutput::put_blocks(std::size_t count, const PutBlock& put_block) {
+  constexpr std::size_t items = 1 << 13, most_blocks = 32;
+  const Bulk bulk(true);
+  if (!bulk.is_parallel()) return put_block(*this, 0, count);
+  std::vector<TextBuffer> texts(std::min(most_blocks, (count + items - 1) / items));
+  for (std::size_t first = 0; first < count; first += most_blocks * items) {
+    const std::size_t last = std::min(count, first + most_blocks * items);
+    const std::size_t blocks = (last - first + items - 1) / items;
+    bulk.parts(blocks, [&](std::size_t k) {
+      texts[k].clear();
+      put_block(texts[k], first + k * items, std::min(last, first + (k + 1) * items));
+    });
+    flush();
+    for (std::size_t k = 0; k < blocks; ++k) write(texts[k].text());
+  }
 }
 
 void FileOutput::flush() {
-  write({buffer_.data(), used_});
-  used_ = 0;
+  write(text());
+  clear();
 }
 
 void FileOutput::write(std::string_view bytes) {

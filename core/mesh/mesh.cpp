@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+
+#include "space/bulk.hpp"
 
 namespace pgdr {
 
@@ -123,29 +126,41 @@ ConstraintRecord<D>& Mesh<D>::ensure_constraints(Pools& pools, CellId c) {
 
 // The fans at a subsegment end at the hull: of each, two faces with the subsegment have nothing beyond.
 template <int D>
-void Mesh<D>::find_pinched_edges(std::size_t segments) {
+void Mesh<D>::find_pinched_edges(std::size_t segments, const detail::Bulk& bulk) {
   if constexpr (D == 3) {
-    std::vector<std::pair<std::array<VertexId, 2>, EntityId>> ends;
-    for (std::uint32_t i = 0; i < cell_bound(); ++i) {
+    using Fan = std::pair<std::array<VertexId, 2>, EntityId>;
+    const auto edges_of = [this](std::uint32_t i) {
       const auto* k = alive(CellId{i}) ? constraints(CellId{i}) : nullptr;
-      if (k == nullptr || k->edges == 0) continue;
+      return k && k->edges != 0 ? k : nullptr;
+    };
+    std::vector<Fan> ends = bulk.gather<Fan>(cell_bound(), [&](std::size_t at, std::vector<Fan>& out) {
+      const auto i = static_cast<std::uint32_t>(at);
+      const auto* k = edges_of(i);
+      if (k == nullptr) return;
       for (int e = 0; e < 6; ++e) {
         if (!k->has_edge(e)) continue;
         std::array<VertexId, 2> v = ends_of_edge(cell(CellId{i}).vertices, e);
         std::sort(v.begin(), v.end());
         for (int f = 0; f <= D; ++f)
-          if (f != edge_ends[e][0] && f != edge_ends[e][1] && !cell(CellId{i}).links[f]) ends.emplace_back(v, k->edge_entity[e]);
+          if (f != edge_ends[e][0] && f != edge_ends[e][1] && !cell(CellId{i}).links[f]) out.emplace_back(v, k->edge_entity[e]);
       }
-    }
-    std::sort(ends.begin(), ends.end());
+    });
+    bulk.sort(ends, std::less<>());
+    std::vector<EntityId> found = bulk.gather<EntityId>(ends.size(), [&](std::size_t i, std::vector<EntityId>& out) {
+      if (i >= 2 && ends[i].first == ends[i - 2].first) out.push_back(ends[i].second);
+    });
+    if (found.empty()) return;
     std::vector<bool> pinched(segments, false);
-    bool any = false;
-    for (std::size_t i = 2; i < ends.size(); ++i)
-      if (ends[i].first == ends[i - 2].first) any = pinched[ends[i].second] = true;
-    if (!any) return;
+    for (const EntityId s : found) pinched[s] = true;
     pinched_ = std::make_unique<PinchedEdges>(std::move(pinched));
-    for (std::uint32_t i = 0; i < cell_bound(); ++i)
-      if (alive(CellId{i})) enlist(CellId{i});
+    const std::vector<CellId> cells = bulk.gather<CellId>(cell_bound(), [&](std::size_t at, std::vector<CellId>& out) {
+      const auto i = static_cast<std::uint32_t>(at);
+      const auto* k = edges_of(i);
+      if (k == nullptr) return;
+      for (int e = 0; e < 6; ++e)
+        if (k->has_edge(e) && pinched_->has(k->edge_entity[e])) return out.push_back(CellId{i});
+    });
+    for (const CellId c : cells) enlist(c);
   }
 }
 

@@ -30,6 +30,9 @@
 #include "pgdr/types.hpp"
 
 namespace pgdr {
+namespace detail {
+class Bulk;
+}
 
 inline constexpr VertexId infinite_vertex{0xfffffffeu};  ///< the vertex at infinity, which all ghosts have
 
@@ -348,6 +351,13 @@ class Mesh {
     IdPool cells;        ///< ids of cells
     IdPool vertices;     ///< ids of vertices
     IdPool constraints;  ///< numbers of side records
+
+    /// Takes over what other pools of the same mesh have.
+    void absorb(Pools&& other) {
+      cells.absorb(std::move(other.cells));
+      vertices.absorb(std::move(other.vertices));
+      constraints.absorb(std::move(other.constraints));
+    }
   };
   /// Leaves the heap if the next change could need more than there is. @pre as of leave_heap; all ids were taken from these pools
   void make_room(const Pools& pools) {
@@ -389,7 +399,7 @@ class Mesh {
 
   /// 3D, once the exterior is gone: finds the pinched edges, and lists the cells at them from now on (pinched_edges.hpp). Whoever
   /// makes a cell then calls `enlist` when its constraints are there.
-  void find_pinched_edges(std::size_t segments);
+  void find_pinched_edges(std::size_t segments, const detail::Bulk& bulk);
   /// Lists a new cell at the pinched edges that it has. Its constraints must be there.
   void enlist(CellId c) {
     if (pinched_) change_pinched(c, true);

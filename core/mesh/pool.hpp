@@ -94,15 +94,22 @@ class IdSource {
 
   /// First id of a fresh block. @throws ResourceError ids_exhausted, std::bad_alloc
   std::uint32_t take_block() {
+    const std::uint32_t first = reserve_block();
+    open_block(first);
+    return first;
+  }
+  /// First id of a fresh block without storage, which open_block() makes. @throws ResourceError ids_exhausted, std::bad_alloc
+  std::uint32_t reserve_block() {
     const std::uint32_t first = next_.fetch_add(block, std::memory_order_relaxed);
     if (first + block > capacity_) {
       next_.fetch_sub(block, std::memory_order_relaxed);
       if (capacity_ < most) throw std::bad_alloc();
       throw ResourceError({Errc::ids_exhausted, std::string("more than 2^30 ") + what_ + " are needed", {}, 0, {}, {}});
     }
-    grow_(first + block);
     return first;
   }
+  /// Makes the storage of a block that was reserved. @throws std::bad_alloc
+  void open_block(std::uint32_t first) const { grow_(first + block); }
   /// All ids ever handed out are below this.
   std::uint32_t bound() const { return next_.load(std::memory_order_relaxed); }
 
@@ -126,18 +133,62 @@ class IdPool {
       return id;
     }
     if (next_ == end_) {
-      next_ = source_->take_block();
-      end_ = next_ + IdSource::block;
+      if (!reserved_.empty()) {
+        open_reserved();
+      } else {
+        next_ = source_->take_block();
+        end_ = next_ + IdSource::block;
+      }
     }
     return next_++;
   }
   void give(std::uint32_t id) { free_.push_back(id); }  ///< takes an id back, to hand it out again
   std::uint32_t next() const { return next_; }          ///< the id that comes next of its block, once none came back
+  /// Takes over the ids that another pool of the same source could hand out; that one has none then.
+  /// @pre the other has reserved no blocks
+  void absorb(IdPool&& other) {
+    other.free_rest();
+    take_over(other);
+  }
+
+  // Pools that run side by side, and hand out ids that do not depend on which is ahead: blocks are reserved beforehand, for one
+  // pool after the other.
+  /// How many ids it can hand out before it asks the source.
+  std::size_t available() const { return free_.size() + (end_ - next_) + reserved_.size() * IdSource::block; }
+  /// Makes so many available. @throws as IdSource::take_block.
+  void reserve(std::size_t count) {
+    while (available() < count) reserved_.insert(reserved_.begin(), source_->reserve_block());
+  }
+  /// Makes the storage of what is available. @throws std::bad_alloc
+  void open() {
+    while (!reserved_.empty()) {
+      free_rest();
+      open_reserved();
+    }
+    free_rest();
+  }
+  /// Takes over all that the other pool, of the same source, has available. @pre it is open
+  void take_over(IdPool& other) {
+    free_.insert(free_.end(), other.free_.begin(), other.free_.end());
+    other.free_.clear();
+  }
 
  private:
+  void open_reserved() {
+    next_ = reserved_.back();
+    reserved_.pop_back();
+    end_ = next_ + IdSource::block;
+    source_->open_block(next_);
+  }
+  void free_rest() {
+    for (std::uint32_t id = end_; id > next_; --id) free_.push_back(id - 1);
+    next_ = end_;
+  }
+
   IdSource* source_;
   std::uint32_t next_ = 0, end_ = 0;
   std::vector<std::uint32_t> free_;
+  std::vector<std::uint32_t> reserved_;  ///< first ids of blocks without storage, the last is next
 };
 
 }  // namespace pgdr

@@ -4,13 +4,14 @@
 // A set of slots of cells, a bit each, which threads can fill side by side.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace pgdr {
 
-/// Const members from any thread; one thread at a time may change the slots of one word.
+/// Const members from any thread, while none adds; one thread at a time may add slots of one word, but for add_shared().
 class SlotSet {
  public:
   static constexpr std::size_t slots_a_word = 64;  ///< side by side
@@ -22,6 +23,12 @@ class SlotSet {
   bool operator[](std::size_t slot) const { return words_[slot / slots_a_word] >> slot % slots_a_word & 1; }
   /// Adds it.
   void add(std::size_t slot) { words_[slot / slots_a_word] |= std::uint64_t{1} << slot % slots_a_word; }
+  /// Adds it while others may add slots of the same word, in this way.
+  void add_shared(std::size_t slot) {
+    const std::uint64_t bit = std::uint64_t{1} << slot % slots_a_word;
+    const std::atomic_ref word(words_[slot / slots_a_word]);
+    if ((word.load(std::memory_order_relaxed) & bit) == 0) word.fetch_or(bit, std::memory_order_relaxed);  // read after the loop
+  }
 
  private:
   std::vector<std::uint64_t> words_;

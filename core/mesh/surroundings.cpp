@@ -7,7 +7,7 @@
 namespace pgdr {
 
 template <int D>
-std::optional<std::uint64_t> surroundings_of(const Mesh<D>& mesh, std::span<const CellId> slots) {
+std::optional<std::uint64_t> surroundings_of(const Mesh<D>& mesh, std::span<const CellId> slots, bool alone) {
   std::uint64_t sum = 0;
   // A hash of two multiplications, each a bijection of its operand: cells in another order make another number.
   const auto add = [&](CellId c) {
@@ -17,6 +17,7 @@ std::optional<std::uint64_t> surroundings_of(const Mesh<D>& mesh, std::span<cons
   for (const CellId c : slots) {
     if (!mesh.alive(c)) return std::nullopt;
     add(c);
+    if (alone) continue;
     for (const Link next : mesh.cell(c).links)
       if (next) add(next.cell());
   }
@@ -31,8 +32,8 @@ std::uint64_t versions_at(const Mesh<D>& mesh, CellId c) {
   return sum;
 }
 
-template std::optional<std::uint64_t> surroundings_of<2>(const Mesh<2>&, std::span<const CellId>);
-template std::optional<std::uint64_t> surroundings_of<3>(const Mesh<3>&, std::span<const CellId>);
+template std::optional<std::uint64_t> surroundings_of<2>(const Mesh<2>&, std::span<const CellId>, bool);
+template std::optional<std::uint64_t> surroundings_of<3>(const Mesh<3>&, std::span<const CellId>, bool);
 template std::uint64_t versions_at<2>(const Mesh<2>&, CellId);
 template std::uint64_t versions_at<3>(const Mesh<3>&, CellId);
 

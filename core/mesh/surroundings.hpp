@@ -12,10 +12,10 @@
 
 namespace pgdr {
 
-/// A hash of which cells are in these slots and beside them: it changes, but for a chance of 2^-64, once any of them is another
-/// cell. Nothing if one of the slots is empty. @pre no other thread writes to these cells
+/// A hash of which cells are in these slots and, unless `alone`, beside them: it changes, but for a chance of 2^-64, once any of
+/// them is another cell. Nothing if one of the slots is empty. @pre no other thread writes to these cells
 template <int D>
-std::optional<std::uint64_t> surroundings_of(const Mesh<D>& mesh, std::span<const CellId> slots);
+std::optional<std::uint64_t> surroundings_of(const Mesh<D>& mesh, std::span<const CellId> slots, bool alone = false);
 
 /// 3D: a hash of how often the cells at the corners of this one have changed (VertexNote::version). Not at those of its
 /// neighbours, which another visit may own. @pre this visit owns the cell, or none runs

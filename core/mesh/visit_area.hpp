@@ -16,27 +16,30 @@
 
 namespace pgdr {
 
-/// The area of a visit, which does not change during the visit. `claimed` and `leaf_of` are called by the visit's thread alone.
+/// The area of a visit, which does not change during the visit. `claimed` and `region_of` are called by the visit's thread alone.
 template <int D>
 class VisitArea {
  public:
   virtual ~VisitArea() = default;
 
   /// An element belongs to the visit if its place (RefineContext::place_of) lies in this half-open box (unbounded where space
-  /// ends).
-  Point<D> home_low;   ///< its low corner
-  Point<D> home_high;  ///< its high corner
+  /// ends), and its circumradius (RefineContext::radius_of) between these bounds.
+  Point<D> home_low;                                             ///< its low corner
+  Point<D> home_high;                                            ///< its high corner
+  double radius_above = -1;                                      ///< larger than this ...
+  double most_radius = std::numeric_limits<double>::infinity();  ///< ... and at most this
   /// A half-open box wholly claimed: a quick yes.
   Point<D> inner_low;   ///< its low corner
   Point<D> inner_high;  ///< its high corner
 
   /// Is the point in the claimed part of space? Asked beyond the inner box.
   virtual bool claimed(const Point<D>& p) const = 0;
-  /// The region that an element with its place at p belongs to.
-  virtual std::uint32_t leaf_of(const Point<D>& p) const = 0;
+  /// The region that an element with its place at p and this circumradius belongs to.
+  virtual std::uint32_t region_of(const Point<D>& p, double radius) const = 0;
 
-  /// Does an element with this place belong to the visit?
-  bool is_home(const Point<D>& p) const {
+  /// Does an element with this place and circumradius belong to the visit?
+  bool is_home(const Point<D>& p, double radius) const {
+    if (!(radius > radius_above && radius <= most_radius)) return false;
     for (int i = 0; i < D; ++i)
       if (!(p[i] >= home_low[i] && p[i] < home_high[i])) return false;
     return true;

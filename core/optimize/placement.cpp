@@ -280,9 +280,19 @@ Placement::Direction Placement::step(double trust) {
   }
 }
 
-/// Goes to x if the worst cell is better there; else says which cell is not.
+/// The first of the cells that is flat or turned over at x; their number if none is.
+std::size_t Placement::first_turned_over(const Point3& x) const {
+  detail::Vector<3> normal;
+  std::size_t i = 0;
+  while (i < rated_.size() && height_over_base(star_->cells[rated_[i].cell], x, normal) > 0) ++i;
+  return i;
+}
+
+/// Goes to x if the worst cell is better there; else says which cell is not. Where no cell is turned over, x and all cells are in
+/// the star as it was, so that sizes are asked for in the domain alone.
 bool Placement::try_place(const Point3& x, bool heights, std::size_t& stopped_by) {
   at_trial_.clear();
+  if (!heights && quality_->asks_sizes() && (stopped_by = first_turned_over(x)) < rated_.size()) return false;
   for (std::size_t i = 0; i < rated_.size(); ++i) {
     const double value = value_at(rated_[i], x, heights, least_);
     if (!(value > least_)) {

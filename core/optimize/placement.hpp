@@ -60,6 +60,7 @@ class Placement {
   void model(std::size_t i, bool heights);
   Direction step(double trust);
   bool try_place(const Point3& x, bool heights, std::size_t& stopped_by);
+  std::size_t first_turned_over(const Point3& x) const;
   double value_at(const Rated& r, const Point3& x, bool heights, double enough) const;
 
   const Star* star_ = nullptr;

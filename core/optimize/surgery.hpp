@@ -39,10 +39,7 @@ struct Surgery {
   /// Takes back a vertex that no cell ever had. The last one first.
   void drop_vertex(VertexId v) { w->pools.vertices.give(index(v)); }
   /// Makes a replacement that the judge has accepted.
-  void commit(const Replacement<3>& r) {
-    transaction.commit(w->pools, r);
-    w->visit->changed_mesh = true;
-  }
+  void commit(const Replacement<3>& r) { transaction.commit(w->pools, r); }
 
   Workspace<3>* w;
   Mesh<3>* mesh;

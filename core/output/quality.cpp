@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -246,7 +245,7 @@ void add_cells(const OutputMesh<D>& mesh, std::size_t first, std::size_t last, S
 }
 
 /// More than `rank` of the least values, and mostly not many more: those up to a value that a sample suggests.
-std::vector<float> low_values(std::span<const float> values, std::size_t rank) {
+std::vector<float> low_values(std::span<const float> values, std::size_t rank, const detail::Bulk& bulk) {
   constexpr std::size_t sampled = 1000;
   std::vector<float> low;
   if (const std::size_t step = values.size() / sampled; step > 1) {
@@ -254,8 +253,9 @@ std::vector<float> low_values(std::span<const float> values, std::size_t rank) {
     const std::size_t at = std::min(low.size() - 1, rank / step + rank / step / 2 + 5);
     std::nth_element(low.begin(), low.begin() + static_cast<std::ptrdiff_t>(at), low.end());
     const float limit = low[at];
-    low.clear();
-    std::copy_if(values.begin(), values.end(), std::back_inserter(low), [limit](float v) { return v <= limit; });
+    low = bulk.gather<float>(values.size(), [&](std::size_t i, std::vector<float>& found) {
+      if (values[i] <= limit) found.push_back(values[i]);
+    });
     if (low.size() > rank) return low;
   }
   low.assign(values.begin(), values.end());
@@ -264,10 +264,11 @@ std::vector<float> low_values(std::span<const float> values, std::size_t rank) {
 
 /// The 1/n-quantiles for the n of `one_in`, which descend: at least one in n values is at most that.
 template <std::size_t N>
-std::array<double, N> quantiles(std::span<const float> values, const std::array<std::size_t, N>& one_in) {
+std::array<double, N> quantiles(std::span<const float> values, const std::array<std::size_t, N>& one_in,
+                                const detail::Bulk& bulk) {
   std::array<std::size_t, N> rank;
   for (std::size_t i = 0; i < N; ++i) rank[i] = (values.size() - 1) / one_in[i];
-  std::vector<float> low = low_values(values, rank.back());
+  std::vector<float> low = low_values(values, rank.back(), bulk);
   std::array<double, N> found;
   std::size_t count = low.size();  // that are sure to hold what is looked for
   for (std::size_t i = N; i-- > 0;) {
@@ -280,13 +281,13 @@ std::array<double, N> quantiles(std::span<const float> values, const std::array<
 }
 
 /// @param values  as ValuesOfCells, of the cells that `q` is about
-void set_quantiles(QualityMeasures& q, const std::array<std::span<const float>, 3>& values) {
+void set_quantiles(QualityMeasures& q, const std::array<std::span<const float>, 3>& values, const detail::Bulk& bulk) {
   constexpr std::array<std::size_t, 3> one_in{1000, 100, 20};
-  const std::array<double, 3> angles = quantiles(values[0], one_in);
+  const std::array<double, 3> angles = quantiles(values[0], one_in, bulk);
   for (std::size_t i = 0; i < angles.size(); ++i)
     q.smallest_angle_quantiles_deg[i] = std::max(q.min_angle_deg, 2 * std::asin(std::sqrt(angles[i] / 2)) * degrees);
-  q.radius_ratio.one_percent = std::max(q.radius_ratio.least, quantiles<1>(values[1], {100})[0]);
-  q.scaled_jacobian.one_percent = std::max(q.scaled_jacobian.least, quantiles<1>(values[2], {100})[0]);
+  q.radius_ratio.one_percent = std::max(q.radius_ratio.least, quantiles<1>(values[1], {100}, bulk)[0]);
+  q.scaled_jacobian.one_percent = std::max(q.scaled_jacobian.least, quantiles<1>(values[2], {100}, bulk)[0]);
 }
 
 /// Puts the values of the cells of each region together, the regions in the order of their labels.
@@ -312,7 +313,8 @@ void group(const OutputMesh<D>& mesh, const std::vector<RegionQuality>& regions,
 
 /// @param parts  of which each has the sums of some cells
 template <int D>
-QualitySummary summarize(const OutputMesh<D>& mesh, const std::vector<SumsOfRegions<D>>& parts, ValuesOfCells& values) {
+QualitySummary summarize(const OutputMesh<D>& mesh, const std::vector<SumsOfRegions<D>>& parts, const detail::Bulk& bulk,
+                         ValuesOfCells& values) {
   SumsOfRegions<D> by_label;
   for (const SumsOfRegions<D>& part : parts)
     for (const auto& [label, sums] : part) by_label[label].add(sums);
@@ -332,9 +334,9 @@ QualitySummary summarize(const OutputMesh<D>& mesh, const std::vector<SumsOfRegi
     for (std::size_t k = 0; k < spans.size(); ++k) spans[k] = std::span(values[k]).subspan(from, to - from);
     return spans;
   };
-  for (std::size_t r = 0; r < summary.regions.size(); ++r) set_quantiles(summary.regions[r], some(begin[r], begin[r + 1]));
+  for (std::size_t r = 0; r < summary.regions.size(); ++r) set_quantiles(summary.regions[r], some(begin[r], begin[r + 1]), bulk);
   if (by_label.size() > 1)
-    set_quantiles(summary, some(0, begin.back()));
+    set_quantiles(summary, some(0, begin.back()), bulk);
   else
     static_cast<QualityMeasures&>(summary) = summary.regions[0];
   return summary;
@@ -353,7 +355,7 @@ QualitySummary summary_of(const OutputMesh<D>& mesh) {
   bulk.parts(parts, [&](std::size_t part) {
     add_cells(mesh, part * part_size, std::min(count, (part + 1) * part_size), sums[part], values);
   });
-  return summarize(mesh, sums, values);
+  return summarize(mesh, sums, bulk, values);
 }
 
 }  // namespace

@@ -39,8 +39,15 @@ enum class Executor {
   shuffled,
 };
 
-/// How the work is divided; the defaults are good. A reproducible mesh depends on `granularity`, `split_ratio`, `floor` and
-/// `claim_order`, and on nothing else here.
+/// What a visit of a leaf claims: no other visit runs there meanwhile. Where all leaves are of one size both are the same.
+enum class ClaimRule {
+  boxes,   ///< the leaf's box, grown by its own side on every face, whatever leaves that is in
+  leaves,  ///< the leaf and BUF(leaf), whole leaves however large: the dissertation's rule, by which fine leaves beside a coarse
+           ///< one wait
+};
+
+/// How the work is divided; the defaults are good. A reproducible mesh depends on `granularity`, `split_ratio`, `floor`, `claims`
+/// and `claim_order`, and on nothing else here.
 struct ScheduleOptions {
   Schedule schedule = Schedule::reproducible;  ///< order of the visits
   Executor executor = Executor::flow_graph;    ///< what runs them
@@ -49,12 +56,15 @@ struct ScheduleOptions {
   /// A visit ends after this many buckets, at least 1 (factors of two) of circumradius below its largest, if the leaf still holds
   /// work.
   int granularity = std::numeric_limits<int>::max();
-  /// A leaf splits once no poor element in it has a circumradius above split_ratio times its children's side ...
+  /// An element belongs to the smallest node around it whose side times split_ratio is its circumradius or more; by leaves, to
+  /// the leaf, which does not split while an element in it is too large for its children.
   double split_ratio = 0.5;
-  /// ... and this many poor elements wait in it at least, or three times as many will take the place of those that are too big.
-  /// 0: 1000 in 3D, 2000 in 2D.
+  /// A leaf splits once this many poor elements wait in it for its children, or three times as many will take the place of those
+  /// that are too big.
+  /// 0: 500 in 3D, 2000 in 2D.
   std::size_t floor = 0;
-  /// A visit of leaf L claims {L} and BUF^claim_order(L).
+  ClaimRule claims = ClaimRule::boxes;  ///< what a visit claims
+  /// By boxes a visit claims its leaf's box, grown by claim_order times its side; by leaves, the leaf L and BUF^claim_order(L).
   std::uint32_t claim_order = 1;
   /// Record when each visit ran, and where (`RefineResult::trace`).
   bool trace = false;

@@ -13,6 +13,7 @@
 #include "numbers/rounding.hpp"
 #include "pgdr/refine_options.hpp"
 #include "rule/insertion_rule.hpp"
+#include "space/sort_by_points.hpp"
 
 namespace pgdr {
 namespace {
@@ -72,7 +73,8 @@ bool PoorReasons<D>::any_entity_of(Home of, F f) const {
   if (home.kind == EntityKind::facet) return f(home);
   if (home.kind == EntityKind::segment) return any_at_segment(home.id);
   if (home.kind != EntityKind::vertex) return false;
-  return std::any_of(segments_at_[home.id].begin(), segments_at_[home.id].end(), any_at_segment);
+  const auto at = [&](std::uint32_t v) { return segments_at_.begin() + segments_begin_[v]; };
+  return std::any_of(at(home.id), at(home.id + 1), any_at_segment);
 }
 
 /// The same with those constrained on the cell.
@@ -133,10 +135,11 @@ PoorReason PoorReasons<D>::explain(CellId c, bool beside) const {
 }
 
 template <int D>
-PoorReasons<D>::PoorReasons(const Mesh<D>& mesh, const Domain<D>& domain, const CellBounds<D>& bounds, bool keep_boundary)
-    : mesh_(&mesh), domain_(&domain), bounds_(&bounds), keep_boundary_(keep_boundary), segments_at_(domain.points().size()) {
-  for (EntityId s = 0; s < domain.segments().size(); ++s)
-    for (const std::uint32_t p : domain.segments()[s].points) segments_at_[p].push_back(s);
+PoorReasons<D>::PoorReasons(const Mesh<D>& mesh, const Domain<D>& domain, const CellBounds<D>& bounds, bool keep_boundary,
+                            const detail::Bulk& bulk)
+    : mesh_(&mesh), domain_(&domain), bounds_(&bounds), keep_boundary_(keep_boundary) {
+  const auto ends = [&](EntityId s) { return domain.segments()[s].points; };
+  detail::sort_by_points(domain.points().size(), domain.segments().size(), ends, bulk, segments_begin_, segments_at_);
 }
 
 template <int D>
@@ -193,13 +196,19 @@ std::vector<PoorCell> PoorReasons<D>::of_cells(std::uint32_t first, std::uint32_
 
 // After a run to the end a poor cell is alive only because it was refused.
 template <int D>
-std::vector<PoorCell> PoorReasons<D>::of_refused(const std::function<bool()>& must_end) const {
-  std::vector<PoorCell> found;
-  for (const auto& why : why_) {
-    if (must_end()) break;
-    look_at(CellId{why.first}, false, found);
-  }
-  return found;
+std::vector<PoorCell> PoorReasons<D>::of_refused(const std::function<bool()>& must_end, const detail::Bulk& bulk) const {
+  constexpr std::size_t cells_a_part = 16;  // of each thousands of others may be looked at
+  std::vector<CellId> cells;
+  for (const auto& why : why_) cells.push_back(CellId{why.first});
+  std::vector<std::vector<PoorCell>> found((cells.size() + cells_a_part - 1) / cells_a_part);
+  bulk.parts(found.size(), [&](std::size_t part) {
+    if (must_end()) return;
+    for (std::size_t i = part * cells_a_part; i < std::min(cells.size(), (part + 1) * cells_a_part); ++i)
+      look_at(cells[i], false, found[part]);
+  });
+  std::vector<PoorCell> all;
+  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+  return all;
 }
 
 template PoorCount count_poor_cells(const Mesh<2>&, const CellBounds<2>&, std::uint32_t, std::uint32_t);

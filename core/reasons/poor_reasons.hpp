@@ -15,6 +15,7 @@
 #include "pgdr/poor_reason.hpp"
 #include "refine/work_list.hpp"
 #include "rule/cell_bounds.hpp"
+#include "space/bulk.hpp"
 
 namespace pgdr {
 
@@ -46,7 +47,8 @@ class PoorReasons {
   using Angle = std::function<double(EntityRef, EntityRef)>;  ///< entity_angle of two, or what a caller remembers of it
 
   /// `keep_boundary`: no segment was split (RefineOptions).
-  PoorReasons(const Mesh<D>& mesh, const Domain<D>& domain, const CellBounds<D>& bounds, bool keep_boundary = false);
+  PoorReasons(const Mesh<D>& mesh, const Domain<D>& domain, const CellBounds<D>& bounds, bool keep_boundary,
+              const detail::Bulk& bulk);
 
   /// What was refused in one region. What is said of a cell last counts, if it names a pair.
   void add(std::span<const Refusal<D>> refused);
@@ -57,14 +59,12 @@ class PoorReasons {
   std::vector<PoorCell> of_cells(std::uint32_t first, std::uint32_t last, const std::vector<bool>& violated,
                                  const std::function<bool()>& must_end) const;
   /// of_cells() for the cells that were refused, which are all poor cells where every face is locally Delaunay.
-  std::vector<PoorCell> of_refused(const std::function<bool()>& must_end) const;
+  std::vector<PoorCell> of_refused(const std::function<bool()>& must_end, const detail::Bulk& bulk) const;
   /// The reasons of those of these cells, each with a face that is not locally Delaunay, that are beside a small angle: of a run
   /// that a limit has ended. Ends early, with some of them, once `ended` says so.
   std::vector<PoorCell> of_violated(std::span<const CellId> cells, const std::function<bool()>& ended) const;
 
  private:
-  using EntityIds = std::vector<EntityId>;
-
   PoorReason explain(CellId c, bool beside) const;
   bool explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, const Angle& angle, PoorReason& reason) const;
   bool meets(EntityRef e, const Ball<D>& ball) const;
@@ -79,7 +79,8 @@ class PoorReasons {
   const Domain<D>* domain_;
   const CellBounds<D>* bounds_;
   bool keep_boundary_;
-  std::vector<EntityIds> segments_at_;  ///< of each input point
+  /// Of each input point its segments: segments_at_ from segments_begin_ on.
+  std::vector<std::uint32_t> segments_begin_, segments_at_;
   /// Of the refused elements that are still there: by what; no entities if no pair was at fault.
   std::unordered_map<std::uint32_t, std::optional<EntityPair>> why_;
 };

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <tuple>
 #include <vector>
 
@@ -13,7 +15,7 @@
 #include "numbers/vectors.hpp"
 
 namespace pgdr {
-namespace {
+namespace sharp_corners {
 
 /// A segment of a facet (2D: of no facet) at one of its ends, seen along the facet's axis.
 struct Side {
@@ -59,13 +61,15 @@ template <int D>
 class SharpCorners {
  public:
   /// `wanted`: the domain points that will be asked for.
-  SharpCorners(const Domain<D>& domain, double radius_edge_bound, const std::vector<bool>& wanted)
+  SharpCorners(const Domain<D>& domain, double radius_edge_bound, const std::vector<char>& wanted, const detail::Bulk& bulk)
       : domain_(&domain), largest_(std::asin(std::min(0.5 / radius_edge_bound, 1.0)) * (180 / std::numbers::pi)) {
-    for (EntityId s = 0; s < domain.segments().size(); ++s)
+    sides_ = bulk.gather<Side>(domain.segments().size(), [&](std::size_t s, std::vector<Side>& found) {
       for (const std::uint32_t p : domain.segments()[s].points)
-        if (wanted[p]) add_sides(s, p);
-    std::sort(sides_.begin(), sides_.end(),
-              [](const Side& a, const Side& b) { return std::tuple(a.place(), a.polar) < std::tuple(b.place(), b.polar); });
+        if (wanted[p] != 0) add_sides(static_cast<EntityId>(s), p, found);
+    });
+    bulk.sort(sides_, [](const Side& a, const Side& b) {
+      return std::tuple(a.place(), a.polar, a.segment) < std::tuple(b.place(), b.polar, b.segment);
+    });
   }
 
   bool meets(const Mesh<D>& mesh, CellId c) const {
@@ -88,11 +92,11 @@ class SharpCorners {
            entity_angle(*domain_, {EntityKind::segment, left.segment}, {EntityKind::segment, right.segment}) < largest_;
   }
 
-  void add_sides(EntityId s, std::uint32_t p) {
+  void add_sides(EntityId s, std::uint32_t p, std::vector<Side>& sides) const {
     const auto& ends = domain_->segments()[s].points;
     const Point<D>& from = domain_->points()[p];
     const Point<D>& to = domain_->points()[ends[0] == p ? ends[1] : ends[0]];
-    const auto add = [&](EntityId facet) { sides_.push_back({p, facet, middle(facet, from, to, to), s}); };
+    const auto add = [&](EntityId facet) { sides.push_back({p, facet, middle(facet, from, to, to), s}); };
     if constexpr (D == 2) {
       add(no_entity);
     } else {
@@ -121,24 +125,31 @@ class SharpCorners {
   std::vector<Side> sides_;  // by place, then counter-clockwise
 };
 
-}  // namespace
+}  // namespace sharp_corners
 
 template <int D>
 std::uint64_t count_in_sharp_corners(const Mesh<D>& mesh, const Domain<D>& domain, double radius_edge_bound,
-                                     std::span<const CellId> cells) {
-  std::vector<bool> wanted(domain.points().size());
-  for (const CellId c : cells)
-    any_corner(mesh, c, [&](const Corner& corner) {
-      wanted[corner.point] = true;
+                                     std::span<const CellId> cells, const detail::Bulk& bulk) {
+  std::vector<char> wanted(domain.points().size());
+  bulk.each(cells.size(), [&](std::size_t i) {
+    sharp_corners::any_corner(mesh, cells[i], [&](const sharp_corners::Corner& corner) {
+      std::atomic_ref(wanted[corner.point]).store(1, std::memory_order_relaxed);
       return false;
     });
-  const SharpCorners<D> sharp(domain, radius_edge_bound, wanted);
-  std::uint64_t count = 0;
-  for (const CellId c : cells) count += sharp.meets(mesh, c) ? 1 : 0;
-  return count;
+  });
+  const sharp_corners::SharpCorners<D> sharp(domain, radius_edge_bound, wanted, bulk);
+  constexpr std::size_t cells_a_part = 512;
+  std::vector<std::uint64_t> counts((cells.size() + cells_a_part - 1) / cells_a_part);
+  bulk.parts(counts.size(), [&](std::size_t part) {
+    for (std::size_t i = part * cells_a_part; i < std::min(cells.size(), (part + 1) * cells_a_part); ++i)
+      counts[part] += sharp.meets(mesh, cells[i]) ? 1 : 0;
+  });
+  return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
 }
 
-template std::uint64_t count_in_sharp_corners<2>(const Mesh<2>&, const Domain<2>&, double, std::span<const CellId>);
-template std::uint64_t count_in_sharp_corners<3>(const Mesh<3>&, const Domain<3>&, double, std::span<const CellId>);
+template std::uint64_t count_in_sharp_corners<2>(const Mesh<2>&, const Domain<2>&, double, std::span<const CellId>,
+                                                 const detail::Bulk&);
+template std::uint64_t count_in_sharp_corners<3>(const Mesh<3>&, const Domain<3>&, double, std::span<const CellId>,
+                                                 const detail::Bulk&);
 
 }  // namespace pgdr

@@ -12,6 +12,7 @@
 #include <span>
 
 #include "mesh/mesh.hpp"
+#include "space/bulk.hpp"
 
 namespace pgdr {
 
@@ -20,6 +21,6 @@ namespace pgdr {
 /// may read the mesh.
 template <int D>
 std::uint64_t count_in_sharp_corners(const Mesh<D>& mesh, const Domain<D>& domain, double radius_edge_bound,
-                                     std::span<const CellId> cells);
+                                     std::span<const CellId> cells, const detail::Bulk& bulk);
 
 }  // namespace pgdr

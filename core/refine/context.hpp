@@ -13,6 +13,7 @@
 #include "pgdr/circumsphere.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/refine_options.hpp"
+#include "refine/work_list.hpp"
 #include "rule/cell_bounds.hpp"
 #include "rule/shells.hpp"
 
@@ -35,6 +36,9 @@ struct RefineContext {
   /// The element belongs to the region that holds this point: its circumcentre; in a stage with a treatment its centroid, as the
   /// circumcentres of flat cells are anywhere. A function of the points of its vertices.
   Point<D> place_of(CellId c) const { return stage ? centroid<D>(mesh.simplex(c)) : mesh.center(c); }
+  /// An upper bound of the entry's circumradius, by which it belongs to a larger or a smaller region; 0 where that does not
+  /// count: of other entries than elements, and in a stage.
+  double radius_of(const Entry<D>& e) const { return stage || e.kind() != EntryKind::cell ? 0 : largest_radius(e.bucket); }
   /// Has the run been cancelled, or is its time up? It is stopped with that. Any thread.
   bool ended();
 

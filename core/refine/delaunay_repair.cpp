@@ -77,7 +77,6 @@ Outcome DelaunayRepair<D>::remove_flat_cell(CellId c) {
 /// What the last flip, or rewrapping, has made.
 template <int D>
 void DelaunayRepair<D>::list_made() {
-  w_->visit->changed_mesh = true;
   const std::vector<CellId> made = flips_.new_cells();
   for (const CellId c : made) lister_->list_cell(c);
   lister_->list_violations(made);

@@ -55,7 +55,6 @@ Outcome ElementSplitter<D>::split(const Entry<D>& e) {
     c.x = center;
     outcome = insert(c);
   }
-  if (outcome == Outcome::refused) ++w_->visit->counts.refused;
   return w_->give_up(outcome);
 }
 
@@ -63,9 +62,15 @@ Outcome ElementSplitter<D>::split(const Entry<D>& e) {
 template <int D>
 Outcome ElementSplitter<D>::insert(const Candidate<D>& c) {
   const Obstacle obstacle = find_obstacle(c);
-  if (obstacle.entity) return split_instead(*obstacle.entity, c);
-  if (obstacle.outcome != Outcome::committed) return obstacle.outcome;
-  return commit(c);
+  if (obstacle.entity && !w_->options.keep_boundary) return split_instead(*obstacle.entity, c);
+  Outcome outcome = obstacle.outcome;
+  if (obstacle.entity)
+    outcome = pass_by(*obstacle.entity, c);
+  else if (outcome == Outcome::committed)
+    outcome = commit(c);
+  // An entity that was refused in place of the element has been counted, if it was asked anew.
+  w_->visit->counts.refused += outcome == Outcome::refused ? 1 : 0;
+  return outcome;
 }
 
 /// Looks, while the cavity of x is collected for a poor element, for a face that x encroaches upon and that is known to be
@@ -141,13 +146,16 @@ Outcome ElementSplitter<D>::insert_inside(Candidate<D> c) {
   return w_->give_up(Outcome::refused);
 }
 
+/// Where the boundary is kept: an entity hides the candidate, or is encroached upon.
+template <int D>
+Outcome ElementSplitter<D>::pass_by(const Entry<D>& entity, const Candidate<D>& c) {
+  w_->refused_by = EntityPair{{mesh_->entity_of_face(entity.cell, entity.which()), {}}};
+  return c.verdict.over_size > 0 ? insert_inside(c) : Outcome::refused;
+}
+
 /// Splits the entity that hides the candidate, or that it encroaches upon, in its place.
 template <int D>
 Outcome ElementSplitter<D>::split_instead(const Entry<D>& entity, const Candidate<D>& c) {
-  if (w_->options.keep_boundary) {
-    w_->refused_by = EntityPair{{mesh_->entity_of_face(entity.cell, entity.which()), {}}};
-    return c.verdict.over_size > 0 ? insert_inside(c) : Outcome::refused;
-  }
   const Demand demand = demand_on_entity(c);
   cavity_->release();
   const Outcome outcome = entities_->split(entity, &demand);

@@ -64,6 +64,7 @@ class ElementSplitter {
   Obstacle find_obstacle(const Candidate<D>& c);
   Judgement judge(const Candidate<D>& c);
   Outcome commit(const Candidate<D>& c);
+  Outcome pass_by(const Entry<D>& entity, const Candidate<D>& c);
   Outcome insert_inside(Candidate<D> c);
   Outcome split_instead(const Entry<D>& entity, const Candidate<D>& c);
   Demand demand_of(const Candidate<D>& c);

@@ -9,6 +9,7 @@
 #include "mesh/ridge.hpp"
 #include "refine/encroachment.hpp"
 #include "refine/split_points.hpp"
+#include "refine/subsegment_ring.hpp"
 
 namespace pgdr {
 namespace {
@@ -89,9 +90,7 @@ template <int D>
 Demand EntitySplitter<D>::demand_of(EntityRef entity, std::span<const VertexId> own, bool passed_on) {
   const VertexId q = nearest_vertex<D>(*mesh_, *cavity_, own);
   if (q == no_vertex) return {};
-  Demand demand = encroachment_demand<D>(*domain_, entity, mesh_->vertex(q));
-  const EntityRef home = mesh_->vertex(q).home.entity();
-  if (D == 3 && demand.h > 0 && w_->angles.between(entity, home) < small_angle) demand.d = demand.h;
+  Demand demand = demand_beside<D>(*w_, entity, q);
   if (passed_on && demand.h == 0) demand.d = std::sqrt(squared_distance(cavity_->point(), mesh_->point(q))) / 2;
   return demand;
 }
@@ -197,43 +196,48 @@ std::optional<CellId> EntitySplitter<D>::cell_near_edge(const Entry<D>& e, const
     const EntityId s = mesh_->constraints(e.cell)->edge_entity[e.which()];
     for_cells_round(*mesh_, e.cell, e.which(), [&](const RidgeWalk<D>& walk) {
       if (!cavity_->owns(walk.cell)) return RoundEdge::turn_back;
-      if (distance_to_corners(walk.cell, x, s, place) < distance) near = walk.cell;
+      const VertexId v = nearest_corner(walk.cell, x, s, place);
+      if (v != no_vertex && std::sqrt(squared_distance(mesh_->point(v), x)) < distance) near = walk.cell;
       return near ? RoundEdge::stop : RoundEdge::go_on;
     });
   }
   return near;
 }
 
-/// The distance of x, on the segment, from the nearest corner of the cell that is no twin of `place`.
+/// The corner of the cell that is nearest to x on the segment and no twin of `place`; none if all are.
 template <int D>
-double EntitySplitter<D>::distance_to_corners(CellId c, const Point<D>& x, EntityId segment, const SplitPlace* place) const {
+VertexId EntitySplitter<D>::nearest_corner(CellId c, const Point<D>& x, EntityId segment, const SplitPlace* place) const {
+  VertexId nearest = no_vertex;
   double least = std::numeric_limits<double>::infinity();
   for (const VertexId v : mesh_->cell(c).vertices) {
     const double squared = squared_distance(mesh_->point(v), x);
+    if (!(squared < least)) continue;
     if constexpr (D == 3)
-      if (place && squared < least && is_twin(*domain_, segment, *place, mesh_->vertex(v))) continue;
-    least = std::min(least, squared);
+      if (place && is_twin(*domain_, segment, *place, mesh_->vertex(v))) continue;
+    least = squared;
+    nearest = v;
   }
-  return std::sqrt(least);
+  return nearest;
 }
 
 /// A subsegment whose point is too near to a corner of this cell of its cavity. These two cells decide that: whatever was
 /// looked at before may change.
 template <int D>
-Outcome EntitySplitter<D>::refuse_near(const Entry<D>& e, std::span<const VertexId> own, CellId near) {
-  const Outcome outcome = refuse({EntityKind::segment, mesh_->constraints(e.cell)->edge_entity[e.which()]}, own);
-  w_->trace.assign({e.cell, near});
-  return outcome;
+Outcome EntitySplitter<D>::refuse_near(const Entry<D>& e, const Near& near) {
+  w_->refused_by = EntityPair{{EntityRef{EntityKind::segment, mesh_->constraints(e.cell)->edge_entity[e.which()]}, near.home}};
+  w_->trace.assign({e.cell, near.cell});
+  w_->trace_alone = true;
+  return w_->give_up(Outcome::refused);
 }
 
 template <int D>
 auto EntitySplitter<D>::refused_before(const Entry<D>& face, const Demand& cause) const
-    -> std::optional<std::pair<Entry<D>, CellId>> {
+    -> std::optional<std::pair<Entry<D>, Near>> {
   const auto edge = memo_.passed_on(*mesh_, face);
   if (!edge) return std::nullopt;
   const auto [a, b] = ends_of_edge(mesh_->cell(edge->cell).vertices, edge->which());
   const auto near = memo_.nearer_than(*mesh_, a, b, cause.d);
-  return near ? std::optional(std::pair(*edge, near->cell)) : std::nullopt;
+  return near ? std::optional(std::pair(*edge, *near)) : std::nullopt;
 }
 
 template <int D>
@@ -241,7 +245,7 @@ bool EntitySplitter<D>::is_refused_as_before(const Entry<D>& face, const Demand&
   const auto known = refused_before(face, cause);
   if (!known) return false;
   const auto& [edge, near] = *known;
-  refuse_near(edge, ends_of_edge(mesh_->cell(edge.cell).vertices, edge.which()), near);
+  refuse_near(edge, near);
   w_->trace.push_back(face.cell);
   return true;
 }
@@ -251,22 +255,24 @@ Outcome EntitySplitter<D>::split_edge(const Entry<D>& e, const Demand* cause) {
   if constexpr (D == 3) {
     const EntityId s = mesh_->constraints(e.cell)->edge_entity[e.which()];
     const std::array<VertexId, 2> own = ends_of_edge(mesh_->cell(e.cell).vertices, e.which());
-    bool owned = true;
-    const auto beside_other = place_beside(e, own, owned);
-    if (!owned) return w_->give_up(Outcome::not_owned);
-    const SplitPlace* place = beside_other ? &*beside_other : nullptr;
-    const Point<D> x = place ? place->x : split_point(w_->context, s, own[0], own[1]);
+    const SubsegmentRing ring(*w_, e.cell, e.which());
+    if (!ring.owned()) return w_->give_up(Outcome::not_owned);
+    const SplitPlace* place = ring.place();
+    const Point<D> x = ring.x();
     const EntityRef entity{EntityKind::segment, s};
     const double least = cause ? cause->d : 0;
-    if (const auto near = memo_.nearer_than(*mesh_, own[0], own[1], least); near && near->x == x)
-      return refuse_near(e, own, near->cell);
+    if (const auto near = memo_.nearer_than(*mesh_, own[0], own[1], least); near && near->x == x) return refuse_near(e, *near);
     auto near = cause ? cell_near_edge(e, x, least, place) : std::nullopt;
     const Status status = near ? Status::too_near : cavity_->collect_on_edge(x, e.cell, e.which(), least, place);
     if (status == Status::not_owned) return w_->give_up(Outcome::not_owned);
     if (status == Status::too_near) {
       if (!near) near = cavity_->near_cell();
-      memo_.note_near(own[0], own[1], {*near, mesh_->birth(*near), x, distance_to_corners(*near, x, s, place)});
-      return refuse_near(e, own, *near);
+      const VertexId v = nearest_corner(*near, x, s, place);
+      const double distance = std::sqrt(squared_distance(mesh_->point(v), x));
+      const Near noted{*near, mesh_->birth(*near), x, distance, mesh_->vertex(v).home.entity()};
+      memo_.note_near(own[0], own[1], noted);
+      ++w_->visit->counts.refused;
+      return refuse_near(e, noted);
     }
     if (status != Status::ok) return refuse(entity, own);
     return commit_split(entity, own, cause, place ? twins_of(s, *place) : std::vector<VertexId>{});
@@ -275,26 +281,6 @@ Outcome EntitySplitter<D>::split_edge(const Entry<D>& e, const Demand* cause) {
     static_cast<void>(cause);
     return Outcome::refused;
   }
-}
-
-/// Where to split the subsegment for a vertex at its cells that is close beside it. Nothing if there is none, or, with
-/// `owned` false, if the claim is too small to tell.
-template <int D>
-std::optional<SplitPlace> EntitySplitter<D>::place_beside(const Entry<D>& e, std::span<const VertexId> own, bool& owned) const {
-  if constexpr (D == 3) {
-    const EntityId s = mesh_->constraints(e.cell)->edge_entity[e.which()];
-    const auto [t0, t1] = parameters_of(w_->context, s, own[0], own[1]);
-    TwinPlaces places(*domain_, s, t0, t1, Beside::as_far);
-    for_cells_round(*mesh_, e.cell, e.which(), [&](const RidgeWalk<D>& walk) {
-      owned = cavity_->owns(walk.cell);
-      if (!owned) return RoundEdge::stop;
-      for (const int i : {walk.entry, walk.exit})
-        if (const VertexId v = mesh_->cell(walk.cell).vertices[i]; v != infinite_vertex) places.look_at(mesh_->vertex(v));
-      return RoundEdge::go_on;
-    });
-    return owned ? places.best() : std::nullopt;
-  }
-  return std::nullopt;
 }
 
 /// Vertices of the cavity whose distances from the place do not count.

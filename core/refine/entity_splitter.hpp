@@ -38,10 +38,12 @@ class EntitySplitter {
   bool knows_refused_faces() const { return memo_.knows_faces(); }  ///< has the split of any subfacet been refused in this visit?
   /// For a subfacet in whose place a subsegment was to be split and was refused: that subsegment, and the cell with the vertex
   /// that is too near. Nothing if that no longer holds.
-  std::optional<std::pair<Entry<D>, CellId>> refused_before(const Entry<D>& face, const Demand& cause) const;
+  std::optional<std::pair<Entry<D>, typename RefusalMemo<D>::Near>> refused_before(const Entry<D>& face,
+                                                                                   const Demand& cause) const;
 
  private:
   using Status = typename Cavity<D>::Status;
+  using Near = typename RefusalMemo<D>::Near;
   struct FacetWalk {
     std::optional<Entry<D>> edge, face;
     bool owned = true;
@@ -55,15 +57,14 @@ class EntitySplitter {
   Outcome commit_split(EntityRef entity, std::span<const VertexId> own, const Demand* cause, std::span<const VertexId> twins);
   bool is_near_boundary(std::span<const VertexId> own) const;
   Outcome refuse(EntityRef entity, std::span<const VertexId> own);
-  Outcome refuse_near(const Entry<D>& e, std::span<const VertexId> own, CellId near);
+  Outcome refuse_near(const Entry<D>& e, const Near& near);
   bool is_refused_as_before(const Entry<D>& face, const Demand& cause);
   Demand demand_of(EntityRef entity, std::span<const VertexId> own, bool passed_on);
   bool may_be_near(EntityId s, std::span<const VertexId> own, VertexId q) const;
   FacetWalk walk_in_facet(const Entry<D>& e, const Point<D>& x);
   std::optional<CellId> cell_near_edge(const Entry<D>& e, const Point<D>& x, double distance, const SplitPlace* place) const;
-  double distance_to_corners(CellId c, const Point<D>& x, EntityId segment, const SplitPlace* place) const;
+  VertexId nearest_corner(CellId c, const Point<D>& x, EntityId segment, const SplitPlace* place) const;
   // 3D: subsegments that vertices are close beside (twins.hpp)
-  std::optional<SplitPlace> place_beside(const Entry<D>& e, std::span<const VertexId> own, bool& owned) const;
   std::vector<VertexId> twins_of(EntityId s, const SplitPlace& place) const;
 
   Workspace<D>* w_;

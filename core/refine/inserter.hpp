@@ -32,7 +32,6 @@ class Inserter {
     w_->cavity.commit(w_->pools, home, rounded_down(relaxed_radius));
     RegionVisit<D>& visit = *w_->visit;
     ++visit.counts.committed;
-    visit.changed_mesh = true;
     lister_->list_inserted();
     // A cavity that was not cut back keeps every face locally Delaunay, if all were.
     if (w_->cavity.cut_back() || visit.violations_seen) repair_->look_at(w_->cavity.new_cells());

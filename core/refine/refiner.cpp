@@ -38,7 +38,7 @@ void Refiner<D>::begin(RegionVisit<D>& visit) {
     treatment_ = stage_ ? stage_->treatment(workspace_, lister_, repair_) : nullptr;
   }
   if (treatment_) treatment_->begin_visit();
-  checked_at_ = reported_ = 0;
+  treated_ = checked_at_ = reported_ = 0;
 }
 
 template <int D>
@@ -47,15 +47,14 @@ void Refiner<D>::look_at_budget() {
   const RefineOptions<D>& options = workspace_.options;
   const auto& counts = workspace_.visit->counts;
   if (options.stop.stop_requested()) context.stop = static_cast<int>(StopCause::cancelled);
-  const std::uint64_t treated = counts.changes() + counts.refused;
-  if (treated < checked_at_) return;
+  if (treated_ < checked_at_) return;
   const std::uint64_t vertices = context.vertices.fetch_add(counts.committed - reported_) + counts.committed - reported_;
   reported_ = counts.committed;
   const auto now = std::chrono::steady_clock::now();
   // Callbacks may be slow: the clock is looked at about every other millisecond.
   stride_ = now - checked_time_ > std::chrono::milliseconds(2) ? std::max<std::uint64_t>(stride_ / 4, 1)
                                                                : std::min<std::uint64_t>(stride_ * 2, 256);
-  checked_at_ = treated + stride_;
+  checked_at_ = treated_ + stride_;
   checked_time_ = now;
   context.ended();
   if (!options.progress) return;
@@ -73,10 +72,9 @@ bool Refiner<D>::may_go_on() {
   return treatment_ || visit.counts.committed < visit.most_insertions;  // without points a treatment still has something to do
 }
 
-/// The cells that it took to decide about e, each once; none where a selector may have looked at others.
+/// The cells that it took to decide about e, each once.
 template <int D>
 std::vector<CellId> Refiner<D>::distinct_trace(const Entry<D>& e) {
-  if (workspace_.options.selector) return {};
   std::vector<CellId>& trace = workspace_.trace;
   trace.push_back(e.cell);
   distinct_.reset(trace.size());
@@ -87,12 +85,13 @@ std::vector<CellId> Refiner<D>::distinct_trace(const Entry<D>& e) {
 template <int D>
 void Refiner<D>::record_refusal(const Entry<D>& e) {
   RegionVisit<D>& visit = *workspace_.visit;
-  Refusal<D> refusal{e, workspace_.refused_by, visit.order, visit.generation, {}, 0, 0};
+  Refusal<D> refusal{e, workspace_.refused_by, visit.order, {}, false, 0, 0};
   if (treatment_) {
     refusal.versions = treatment_->version(e.cell) ^ (undecided_ ? 1 : 0);  // another: it is not known that nothing helps
   } else {
     refusal.seen = distinct_trace(e);
-    refusal.surroundings = surroundings_of<D>(workspace_.mesh, refusal.seen).value_or(0);
+    refusal.alone = workspace_.trace_alone;
+    refusal.surroundings = surroundings_of<D>(workspace_.mesh, refusal.seen, refusal.alone).value_or(0);
   }
   visit.list->refused.push_back(std::move(refusal));
   visit.entities_refused = visit.entities_refused || e.kind() != EntryKind::cell;
@@ -105,9 +104,7 @@ Outcome Refiner<D>::treat_in_stage(const Entry<D>& e) {
   Outcome outcome = Outcome::refused;
   undecided_ = visit.counts.evaluated >= most_evaluated_;
   if (!undecided_) {
-    const std::uint64_t before = visit.counts.changes();
     outcome = treatment_->treat(e);
-    visit.changed_mesh = visit.changed_mesh || visit.counts.changes() != before;
   } else {
     ++visit.counts.out_of_budget;
   }
@@ -119,6 +116,7 @@ Outcome Refiner<D>::treat_in_stage(const Entry<D>& e) {
 /// the end of the generation is left out (defer), so that what remains does not.
 template <int D>
 void Refiner<D>::treat(const Entry<D>& e) {
+  ++treated_;
   RegionVisit<D>& visit = *workspace_.visit;
   workspace_.mesh.make_room(workspace_.pools);
   std::array<VertexId, D + 1> vertices;
@@ -126,9 +124,12 @@ void Refiner<D>::treat(const Entry<D>& e) {
   if (visit.area && !visit.area->owns(workspace_.mesh, vertices)) return visit.set_aside.push_back(e);
   workspace_.refused_by.reset();
   workspace_.trace.clear();
+  workspace_.trace_alone = false;
   Outcome outcome = Outcome::committed;
   switch (e.kind()) {
     case EntryKind::edge:
+      if (lister_.is_refused_by_ring(e.cell, e.which())) return;
+      [[fallthrough]];
     case EntryKind::face: outcome = entities_.split(e, nullptr); break;
     case EntryKind::flip: return repair_.treat(e);
     case EntryKind::cell: outcome = treat_poor(e); break;

@@ -26,6 +26,7 @@ class RefusalMemo {
     std::uint16_t birth;  ///< of that cell
     Point<D> x;           ///< the point
     double distance;      ///< of its nearest corner from the point
+    EntityRef home;       ///< of that corner
   };
 
   /// Forgets everything, at no cost where there is nothing.

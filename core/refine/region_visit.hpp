@@ -53,7 +53,7 @@ struct RegionVisit {
   bool treat_list = true;              ///< false: `given` only
   std::uint32_t level = 0;             ///< level of the region in its tree; for the trace
   std::uint32_t order = 1;             ///< order of the claim; for the trace and for Refusal
-  std::uint64_t generation = 0;        ///< the generation that the visit is of; for the trace and for Refusal
+  std::uint64_t generation = 0;        ///< the generation that the visit is of; for the trace
   double small_radius = 0;             ///< end once no poor element is larger ...
   std::size_t floor = 0;               ///< ... and the list is crowded by this
   int granularity = std::numeric_limits<int>::max();                          ///< end this many buckets after the first
@@ -64,13 +64,12 @@ struct RegionVisit {
   // done
   /// Entries for another region.
   struct Outbox {
-    std::uint32_t leaf;             ///< which
+    std::uint32_t region;           ///< which
     std::vector<Entry<D>> entries;  ///< in the order in which they were found
   };
   std::vector<Outbox> outboxes;     ///< elements that belong to other regions, alive at the end
   std::vector<Entry<D>> set_aside;  ///< would have changed cells that the visit does not own
   RefineCounts counts;              ///< of this visit
-  bool changed_mesh = false;        ///< by an insertion or a flip
   bool min_edge_hit = false;        ///< something was refused for `min_edge`
 };
 

@@ -162,6 +162,7 @@ template <int D>
 class EntryHeap {
  public:
   bool empty() const { return items_.empty(); }           ///< is nothing in it?
+  std::size_t size() const { return items_.size(); }      ///< so many are in it
   const Entry<D>& top() const { return items_.front(); }  ///< the least. @pre !empty()
   /// Adds it.
   void push(const Entry<D>& e) {
@@ -194,9 +195,9 @@ struct Refusal {
   Entry<D> entry;                  ///< the entry
   std::optional<EntityPair> pair;  ///< the two entities at fault; nothing if none were
   std::uint32_t order = 1;         ///< order of the claim of the visit that decided
-  std::uint64_t generation = 0;    ///< the generation of that visit
-  /// The cells that were looked at: while these and their neighbours stay, so does the decision. Empty: not known.
+  /// The cells that were looked at: while these and their neighbours stay, so does the decision.
   std::vector<CellId> seen;
+  bool alone = false;              ///< these decided, whatever their neighbours are
   std::uint64_t surroundings = 0;  ///< `surroundings_of` these cells, when it was decided
   std::uint64_t versions = 0;      ///< in a stage with a treatment: ElementStage::version of the element, when it was decided
 };
@@ -230,6 +231,7 @@ class WorkList {
       bucket.others.push(e);
       ++others_;
       to_come_ += e.order;
+      bucket.to_come += e.order;
     }
     ++waiting_;
   }
@@ -245,6 +247,18 @@ class WorkList {
   /// Is there work for several regions: do `least` poor elements wait, or will three times as many cells take the place of those
   /// that are too big?
   bool is_crowded(std::size_t least) const { return waiting_ >= least || to_come_ >= 3 * least; }
+  /// The same of the elements in those buckets alone that `counts(bucket)`.
+  template <class Counts>
+  bool is_crowded(std::size_t least, Counts counts) const {
+    std::size_t waiting = 0;
+    std::uint64_t to_come = 0;
+    for (std::size_t i = 0; i < poor_.size(); ++i)
+      if (counts(first_ + static_cast<int>(i))) {
+        waiting += poor_[i].others.size() + poor_[i].by_shape.size();
+        to_come += poor_[i].to_come;
+      }
+    return waiting >= least || to_come >= 3 * least;
+  }
   /// The bucket of the largest poor element. @pre poor() > 0
   int first_bucket() {
     while (poor_.front().empty()) {
@@ -293,7 +307,8 @@ class WorkList {
 
   struct alignas(64) Bucket {
     Fifo<Entry<D>> others;
-    EntryHeap<D> by_shape;  ///< over the radius-edge bound alone
+    EntryHeap<D> by_shape;      ///< over the radius-edge bound alone
+    std::uint64_t to_come = 0;  ///< see to_come()
     bool empty() const { return others.empty() && by_shape.empty(); }
   };
   [[gnu::noinline]] void make_bucket(int number) {
@@ -312,6 +327,7 @@ class WorkList {
     if (const Entry<D>* e = bucket.others.ahead(fetched_ahead)) mesh.prefetch_vertices(e->cell);
     const Entry<D> e = bucket.others.pop();
     to_come_ -= e.order;
+    bucket.to_come -= e.order;
     return e;
   }
 

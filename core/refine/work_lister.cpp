@@ -8,6 +8,7 @@
 
 #include "mesh/locally_delaunay.hpp"
 #include "refine/encroachment.hpp"
+#include "refine/subsegment_ring.hpp"
 
 namespace pgdr {
 
@@ -20,7 +21,7 @@ template <int D>
 void WorkLister<D>::list(const Entry<D>& e, const Point<D>& place) {
   const RegionVisit<D>& visit = *w_->visit;
   assert(!visit.area || visit.area->owns(*mesh_, e.cell));
-  if (!visit.area || visit.area->is_home(place)) return visit.list->push_poor(e);
+  if (!visit.area || visit.area->is_home(place, w_->context.radius_of(e))) return visit.list->push_poor(e);
   elsewhere_.push_back(e);
 }
 
@@ -43,7 +44,19 @@ void WorkLister<D>::list_entities(CellId c, const ConstraintRecord<D>& k) {
       w_->visit->list->push(w_->entry(c, EntryKind::face, f));
   if constexpr (D == 3)
     for (int e = 0; e < 6; ++e)
-      if (k.has_edge(e) && is_edge_encroached(*mesh_, w_->domain, c, e)) w_->visit->list->push(w_->entry(c, EntryKind::edge, e));
+      if (k.has_edge(e) && is_edge_encroached(*mesh_, w_->domain, c, e) && !is_refused_by_ring(c, e))
+        w_->visit->list->push(w_->entry(c, EntryKind::edge, e));
+}
+
+template <int D>
+bool WorkLister<D>::is_refused_by_ring(CellId c, int edge) const {
+  bool refused = false;
+  if constexpr (D == 3) {
+    const SubsegmentRing ring(*w_, c, edge);
+    refused = ring.owned() && ring.refuses();
+    w_->visit->entities_refused = w_->visit->entities_refused || refused;
+  }
+  return refused;
 }
 
 template <int D>
@@ -105,11 +118,11 @@ void WorkLister<D>::fill_outboxes() {
   box_of_.clear();
   box_sizes_.clear();
   for (const Entry<D>& e : elsewhere_) {
-    const std::uint32_t leaf = w_->visit->area->leaf_of(w_->context.place_of(e.cell));
+    const std::uint32_t region = w_->visit->area->region_of(w_->context.place_of(e.cell), w_->context.radius_of(e));
     std::size_t box = boxes.size();
-    while (box > 0 && boxes[box - 1].leaf != leaf) --box;
+    while (box > 0 && boxes[box - 1].region != region) --box;
     if (box == 0) {
-      boxes.push_back({leaf, {}});
+      boxes.push_back({region, {}});
       box_sizes_.push_back(0);
       box = boxes.size();
     }

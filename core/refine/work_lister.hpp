@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The lister of work: it puts encroached entities and poor elements at new cells, and violations, on the work list of the visit.
-// Elements that belong to another leaf (RefineContext::place_of) go to the outbox for that leaf at the end of the visit.
+// Elements that belong to another region (VisitArea) go to the outbox for that at the end of the visit.
 #pragma once
 
 #include <cstdint>
@@ -38,6 +38,9 @@ class WorkLister {
   void relist_cell(const Entry<D>& e) { list_poor(e.cell, e.which(), mesh_->sphere(e.cell), e.order); }
   /// Lists what is encroached or poor at the cells that the last commit of the cavity has made.
   void list_inserted();
+  /// 3D: is the subsegment, should it be encroached, not to be split as its ring is? Then nothing is to be done about it until
+  /// there is another ring, which is listed anew.
+  bool is_refused_by_ring(CellId c, int edge) const;
   /// Lists the violations at the cells. @returns how many there were
   std::uint64_t list_violations(std::span<const CellId> cells);
   /// Fills the outboxes of the visit. Most entries do not live until its end, and the visit, which owns their cells, can tell.

@@ -84,6 +84,7 @@ struct Workspace {
   RegionVisit<D>* visit = nullptr;  ///< that runs
   EntityAngles<D> angles;
   std::vector<CellId> trace;             ///< cells that were looked at to decide about the entry treated, with repetitions
+  bool trace_alone = false;              ///< do these decide, whatever their neighbours are?
   std::optional<EntityPair> refused_by;  ///< entities that the entry treated was refused for
 };
 

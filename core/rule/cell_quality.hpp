@@ -39,6 +39,9 @@ class CellQuality {
   /// be at most `enough`, some number that is at most `enough`. @throws UsageError bad_size as CellBounds::test
   double of(const Simplex<3>& s, int region, double enough = 0) const;
 
+  /// Does `of` ask a size function, which need not know places outside of the domain?
+  bool asks_sizes() const;
+
   /// One of the numbers whose least is q, for each dihedral angle, the ratio, the radius, and the volume; not cut off at 1.
   struct Term {
     double value;                    ///< of it

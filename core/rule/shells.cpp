@@ -11,7 +11,7 @@
 namespace pgdr {
 
 template <int D>
-Shells<D>::Shells(const Domain<D>& domain, bool any) : domain_(&domain) {
+Shells<D>::Shells(const Domain<D>& domain, bool any, const detail::Bulk& bulk) : domain_(&domain) {
   const auto segments = domain_->segments();
   at_end_.assign(segments.size(), {false, false});
   if (!any) return;
@@ -20,14 +20,15 @@ Shells<D>::Shells(const Domain<D>& domain, bool any) : domain_(&domain) {
     EntityId segment;
     int end;
   };
-  std::vector<Use> uses;
-  for (EntityId s = 0; s < segments.size(); ++s)
-    for (int end : {0, 1}) uses.push_back({segments[s].points[end], s, end});
-  std::sort(uses.begin(), uses.end(),
-            [](const Use& a, const Use& b) { return std::pair(a.point, a.segment) < std::pair(b.point, b.segment); });
-  auto far_end = [&](const Use& u) { return domain_->points()[segments[u.segment].points[1 - u.end]]; };
-  for (std::size_t i = 0, j; i < uses.size(); i = j) {
-    for (j = i; j < uses.size() && uses[j].point == uses[i].point;) ++j;
+  std::vector<Use> uses = bulk.gather<Use>(segments.size(), [&](std::size_t s, std::vector<Use>& out) {
+    for (const int end : {0, 1}) out.push_back({segments[s].points[end], static_cast<EntityId>(s), end});
+  });
+  bulk.sort(uses, [](const Use& a, const Use& b) { return std::pair(a.point, a.segment) < std::pair(b.point, b.segment); });
+  const auto far_end = [&](const Use& u) { return domain_->points()[segments[u.segment].points[1 - u.end]]; };
+  bulk.each(uses.size(), [&](std::size_t i) {  // for the first use of each point
+    if (i > 0 && uses[i - 1].point == uses[i].point) return;
+    std::size_t j = i;
+    while (j < uses.size() && uses[j].point == uses[i].point) ++j;
     const Point<D>& v = domain_->points()[uses[i].point];
     for (std::size_t a = i; a < j; ++a)
       for (std::size_t b = a + 1; b < j; ++b) {
@@ -36,7 +37,7 @@ Shells<D>::Shells(const Domain<D>& domain, bool any) : domain_(&domain) {
         if ((shell_a && shell_b) || !angle_below_60<D>(v, far_end(uses[a]), far_end(uses[b]))) continue;
         shell_a = shell_b = true;
       }
-  }
+  });
 }
 
 template <int D>

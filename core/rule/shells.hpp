@@ -11,6 +11,7 @@
 
 #include "numbers/rounding.hpp"
 #include "pgdr/domain.hpp"
+#include "space/bulk.hpp"
 
 namespace pgdr {
 
@@ -19,7 +20,7 @@ template <int D>
 class Shells {
  public:
   /// `any`: false if no end is to have shells.
-  explicit Shells(const Domain<D>& domain, bool any = true);
+  explicit Shells(const Domain<D>& domain, bool any = true, const detail::Bulk& bulk = detail::Bulk(false));
 
   /// Parameter, on the segment, of the point that splits its piece from t0 to t1, 0 <= t0 < t1 <= 1: the middle, but next
   /// to an end with a shell the one on a shell between a third and two thirds of the piece.

@@ -13,6 +13,7 @@
 #include "size/checks.hpp"
 #include "size/region_sizes.hpp"
 #include "space/box_tree.hpp"
+#include "space/bulk.hpp"
 
 namespace pgdr {
 
@@ -59,7 +60,7 @@ SizingField<D> sizes_at_points(std::span<const Point<D>> points, std::span<const
     boxes.push_back(detail::Box<D>::around(points[i]));
   }
   detail::BoxTree<D> tree(boxes, detail::TreeCut::at_medians);
-  std::vector<double> least = tree.least_below(lengths);
+  std::vector<double> least = tree.least_below(lengths, detail::Bulk(false));
   const auto source = std::make_shared<const Source>(
       Source{{points.begin(), points.end()}, std::move(lengths), std::move(tree), std::move(least)});
   return [source, growth](const Point<D>& x) {

@@ -13,6 +13,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -64,8 +65,9 @@ double density_of(double h) {
 template <int D>
 class PathsThroughTree {
  public:
-  PathsThroughTree(const SizeFieldOfGaps<D>& field, const FreeWays<D>& ways, const std::stop_token& stop)
-      : field_(field), ways_(ways), stop_check_(stop) {}
+  PathsThroughTree(const SizeFieldOfGaps<D>& field, const FreeWays<D>& ways, const detail::Bulk& bulk,
+                   const std::stop_token& stop)
+      : field_(field), ways_(ways), bulk_(bulk), stop_check_(stop) {}
 
   /// The middle one of some estimates: one that has found what others have missed may be far above the mean.
   double cells() {
@@ -76,9 +78,7 @@ class PathsThroughTree {
     const double paths = std::floor(std::clamp(static_cast<double>(p.size()) / pieces_a_path, least, most));
     order_.resize(p.size());
     std::iota(order_.begin(), order_.end(), 0u);
-    const Node root = look_at(box, 0, p.size());
-    std::array<double, 3> estimates;
-    for (double& estimate : estimates) estimate = follow({root, paths, 1});
+    Estimates estimates = follow(look_at(box, 0, p.size()), paths);
     std::sort(estimates.begin(), estimates.end());
     return estimates[1];
   }
@@ -91,32 +91,60 @@ class PathsThroughTree {
     double forecast;          ///< with what seems to be in it
     bool is_leaf;
   };
+  using Estimates = std::array<double, 3>;
+  /// Those of all estimates that go through a node. The part of the paths that gets there is the same for all.
   struct Paths {
     Node node;
-    double count, share;
+    Estimates count;
+    double share;
+    bool any() const { return count != Estimates{}; }
+  };
+  /// What is below a node: its halves, or the cells of a leaf.
+  struct Below {
+    Node first, second;
+    double cells;
   };
 
-  double follow(const Paths& all) {
-    double sum = 0;
-    std::vector<Paths> waiting{all};
-    while (!waiting.empty()) {
+  /// All paths together, from level to level, so that the nodes of one are looked at side by side, each once.
+  Estimates follow(const Node& root, double paths) {
+    Estimates sums{};
+    std::vector<Paths> level{{root, {paths, paths, paths}, 1}}, next;
+    while (!level.empty()) {
+      std::vector<Below> below(level.size());
+      bulk_.parts(level.size(), [&](std::size_t i) { below[i] = look_below(level[i].node); });
       stop_check_();
-      const Paths here = waiting.back();
-      waiting.pop_back();
-      if (here.node.is_leaf) {
-        sum += here.count / (all.count * here.share) * here.node.cells * ways_.part_inside(here.node.box);
-        continue;
+      next.clear();
+      for (std::size_t i = 0; i < level.size(); ++i) {
+        const Paths& here = level[i];
+        for (std::size_t e = 0; here.node.is_leaf && e < sums.size(); ++e)
+          sums[e] += here.count[e] / (paths * here.share) * below[i].cells;
+        if (!here.node.is_leaf) share_out(here, below[i], next);
       }
-      const auto [a, b] = halves(here.node);
-      const auto part_of = [](double mine, double other) { return mine / (mine + other); };
-      // Mostly by the forecast; not by it alone, as there may be nothing of what it has seen.
-      constexpr double trust = 7.0 / 8;
-      const double part = (1 - trust) * part_of(a.cells, b.cells) + trust * part_of(a.forecast, b.forecast);
-      const double to_a = std::floor(here.count * part + chance_());
-      if (to_a > 0) waiting.push_back({a, to_a, here.share * part});
-      if (to_a < here.count) waiting.push_back({b, here.count - to_a, here.share * (1 - part)});
+      level.swap(next);
     }
-    return sum;
+    return sums;
+  }
+
+  Below look_below(const Node& node) {
+    if (node.is_leaf) return {{}, {}, node.cells * ways_.part_inside(node.box)};
+    const auto [first, second] = halves(node);
+    return {first, second, 0};
+  }
+
+  void share_out(const Paths& here, const Below& below, std::vector<Paths>& next) {
+    const Node &a = below.first, &b = below.second;
+    const auto part_of = [](double mine, double other) { return mine / (mine + other); };
+    // Mostly by the forecast; not by it alone, as there may be nothing of what it has seen.
+    constexpr double trust = 7.0 / 8;
+    const double part = (1 - trust) * part_of(a.cells, b.cells) + trust * part_of(a.forecast, b.forecast);
+    Paths to_a{a, {}, here.share * part}, to_b{b, {}, here.share * (1 - part)};
+    for (std::size_t e = 0; e < here.count.size(); ++e) {
+      if (here.count[e] == 0) continue;
+      to_a.count[e] = std::floor(here.count[e] * part + chance_());
+      to_b.count[e] = here.count[e] - to_a.count[e];
+    }
+    for (const Paths& to : {to_a, to_b})
+      if (to.any()) next.push_back(to);
   }
 
   Node look_at(const Box<D>& box, std::size_t first, std::size_t last) const {
@@ -162,6 +190,7 @@ class PathsThroughTree {
 
   const SizeFieldOfGaps<D>& field_;
   const FreeWays<D>& ways_;
+  const detail::Bulk& bulk_;
   const detail::StopCheck stop_check_;
   Chance chance_;
   std::vector<std::uint32_t> order_;  ///< points, those of each node together
@@ -176,21 +205,20 @@ class PathsThroughTree {
 template <int D>
 class CellsBetween {
  public:
-  CellsBetween(const SizeFieldOfGaps<D>& field, double radius_edge_bound)
-      : field_(field), pieces_(field.pieces()), bound_(radius_edge_bound) {}
+  CellsBetween(const SizeFieldOfGaps<D>& field, double radius_edge_bound, const detail::Bulk& bulk)
+      : field_(field), pieces_(field.pieces()), bound_(radius_edge_bound), bulk_(bulk) {}
 
   /// Looks at places on the pieces, spread evenly over their area (length).
   void add_to(CellEstimate<D>& estimate) {
     if (!(bound_ < infinity)) return;
-    constexpr int places = 256;
-    std::vector<double> until;  // area of all pieces up to this one
-    double all = 0;
-    for (const auto& piece : pieces_.pieces()) until.push_back(all += measure_of(piece));
-    Chance chance;
-    for (int k = 0; k < places; ++k) {
-      const auto at = std::upper_bound(until.begin(), until.end(), (k + chance()) / places * all);
-      if (at == until.end()) continue;
-      look_at(static_cast<std::uint32_t>(at - until.begin()), all / places, chance);
+    const std::vector<Place> places = choose_places();
+    std::vector<std::optional<Found>> found(places.size());
+    bulk_.parts(places.size(), [&](std::size_t k) { found[k] = look_at(places[k]); });
+    for (const std::optional<Found>& f : found) {
+      if (!f) continue;
+      Between& between = between_[f->pair];
+      between.cells += f->cells;
+      if (f->gap.distance < between.gap.distance) between.gap = f->gap;
     }
     for (const auto& [pair, between] : between_) {
       estimate.at_least += between.cells;
@@ -205,6 +233,33 @@ class CellsBetween {
     double cells = 0;
     Gap<D> gap{infinity, {}, {}};
   };
+  /// A place on a piece, by its coordinates in it, and the area (length) that it stands for.
+  struct Place {
+    std::uint32_t piece;
+    double u, v, measure;
+  };
+  struct Found {
+    std::pair<EntityId, EntityId> pair;
+    double cells;
+    Gap<D> gap;
+  };
+
+  std::vector<Place> choose_places() const {
+    constexpr int count = 256;
+    std::vector<double> until(pieces_.pieces().size());  // area of all pieces up to this one
+    bulk_.each(until.size(), [&](std::size_t i) { until[i] = measure_of(pieces_.pieces()[i]); });
+    std::partial_sum(until.begin(), until.end(), until.begin());
+    std::vector<Place> places;
+    Chance chance;
+    for (int k = 0; k < count && !until.empty(); ++k) {
+      const auto at = std::upper_bound(until.begin(), until.end(), (k + chance()) / count * until.back());
+      if (at == until.end()) continue;
+      double u = chance(), v = D == 3 ? chance() : 0.0;
+      if (u + v > 1) u = 1 - u, v = 1 - v;
+      places.push_back({static_cast<std::uint32_t>(at - until.begin()), u, v, until.back() / count});
+    }
+    return places;
+  }
 
   const Point<D>& corner(const Piece& piece, std::size_t i) const { return pieces_.points()[piece.corners[i]]; }
   /// Its length is twice the area (2D: the length).
@@ -221,28 +276,25 @@ class CellsBetween {
     return std::sqrt(detail::dot(n, n)) / (D == 3 ? 2 : 1);
   }
 
-  void look_at(std::uint32_t i, double measure, Chance& chance) {
-    const Piece& piece = pieces_.pieces()[i];
-    double u = chance(), v = D == 3 ? chance() : 0.0;
-    if (u + v > 1) u = 1 - u, v = 1 - v;
-    Point<D> x = detail::on_edge(corner(piece, 0), corner(piece, 1), u);
+  std::optional<Found> look_at(const Place& place) const {
+    const Piece& piece = pieces_.pieces()[place.piece];
+    Point<D> x = detail::on_edge(corner(piece, 0), corner(piece, 1), place.u);
     if constexpr (D == 3)
-      for (int k = 0; k < D; ++k) x[k] += v * (corner(piece, 2)[k] - corner(piece, 0)[k]);
-    const auto near = field_.nearest_disjoint(x, i, infinity);
-    if (near.piece == no_entity || pieces_.pieces()[near.piece].count < D || !(near.distance > 0)) return;
+      for (int k = 0; k < D; ++k) x[k] += place.v * (corner(piece, 2)[k] - corner(piece, 0)[k]);
+    const auto near = field_.nearest_disjoint(x, place.piece, infinity);
+    if (near.piece == no_entity || pieces_.pieces()[near.piece].count < D || !(near.distance > 0)) return std::nullopt;
     const Piece& other = pieces_.pieces()[near.piece];
     const auto n = normal_of(piece), m = normal_of(other), way = detail::difference(x, near.place);
     const double nn = detail::dot(n, n), mm = detail::dot(m, m), nm = detail::dot(n, m), above = std::fabs(detail::dot(way, m));
-    if (!(mm > 0) || !(above >= (1 - 0x1p-20) * near.distance * std::sqrt(mm)) || nm == 0) return;  // its rim is nearest
+    if (!(mm > 0) || !(above >= (1 - 0x1p-20) * near.distance * std::sqrt(mm)) || nm == 0)
+      return std::nullopt;  // its rim is nearest
     const double cosine = std::min(1.0, std::fabs(nm) / std::sqrt(nn * mm)), tangent = std::sqrt(1 - cosine * cosine) / cosine;
     const double radius = std::sqrt(2.0) * bound_ * near.distance, farther = near.distance + 2 * radius * tangent;
     const double most_radius = std::sqrt(2.0) * bound_ * farther;
     constexpr double largest_triangle = 1.299038105676658;  // of those in a circle: 3/4 sqrt 3
     const double most = D == 3 ? largest_triangle * most_radius * most_radius : 2 * most_radius;
     const EntityRef a = piece.entity(), b = other.entity();
-    Between& between = between_[std::minmax(a.id, b.id)];
-    between.cells += measure * cosine / most;
-    if (near.distance * pieces_.unit() < between.gap.distance) between.gap = gap_between(a, b, x, near);
+    return Found{std::minmax(a.id, b.id), place.measure * cosine / most, gap_between(a, b, x, near)};
   }
 
   Gap<D> gap_between(EntityRef a, EntityRef b, const Point<D>& x, const typename SizeFieldOfGaps<D>::Near& near) const {
@@ -257,6 +309,7 @@ class CellsBetween {
   const SizeFieldOfGaps<D>& field_;
   const detail::NearPieces<D>& pieces_;
   const double bound_;
+  const detail::Bulk& bulk_;
   std::map<std::pair<EntityId, EntityId>, Between> between_;  // by their entities
   double most_ = 0;
 };
@@ -265,13 +318,17 @@ class CellsBetween {
 
 template <int D>
 CellEstimate<D> estimate_cells(const Domain<D>& domain, const EstimateOptions<D>& options) {
-  const SizeFieldOfGaps<D> field(domain, options.narrowest);
+  const detail::Bulk bulk(true, options.stop);
+  const detail::StopCheck stop_check(options.stop);
+  const SizeFieldOfGaps<D> field(domain, options.narrowest, bulk);
+  stop_check();
   CellEstimate<D> estimate;
-  CellsBetween<D>(field, options.radius_edge_bound).add_to(estimate);
+  CellsBetween<D>(field, options.radius_edge_bound, bulk).add_to(estimate);
+  stop_check();
   const FreeWays<D> ways(field);
-  estimate.cells = PathsThroughTree<D>(field, ways, options.stop).cells();
+  estimate.cells = PathsThroughTree<D>(field, ways, bulk, options.stop).cells();
   const auto density = [&](const Point<D>& x) { return density_of<D>(field.look(x).h); };
-  estimate.cells += detail::cells_of_sizes<D>(field, ways, options, estimate.cells, density);
+  estimate.cells += detail::cells_of_sizes<D>(field, ways, options, estimate.cells, density, bulk);
   estimate.cells = std::max(estimate.cells, 1.0);
   return estimate;
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "diagnose/chance.hpp"
@@ -94,11 +95,9 @@ class PlacesOfSeeds {
   std::vector<int> seeds_;
 };
 
-}  // namespace
-
 template <int D>
-double cells_of_sizes(const SizeFieldOfGaps<D>& field, const FreeWays<D>& ways, const EstimateOptions<D>& options, double of_gaps,
-                      const std::function<double(const Point<D>&)>& gap_density) {
+double sum_of_places(const SizeFieldOfGaps<D>& field, const FreeWays<D>& ways, const EstimateOptions<D>& options, double of_gaps,
+                     const std::function<double(const Point<D>&)>& gap_density, const Bulk& bulk) {
   const auto regions = field.pieces().domain().regions();
   const bool any_in_region = std::ranges::any_of(regions, [](const RegionSeed<D>& r) { return r.size > 0; });
   if (!options.measure && !any_in_region) return 0;
@@ -109,11 +108,9 @@ double cells_of_sizes(const SizeFieldOfGaps<D>& field, const FreeWays<D>& ways, 
   const double unit = field.pieces().unit();
   double volume = 1;
   for (int i = 0; i < D; ++i) volume *= box.high[i] - box.low[i];
-  double sum = 0;
-  for (int k = 0; k < PlacesOfSeeds<D>::count; ++k) {
-    stop_check();
+  const auto density_at = [&](int k) {
     const int seed = places.seed(k);
-    if (seed >= static_cast<int>(regions.size())) continue;  // in a hole
+    if (seed >= static_cast<int>(regions.size())) return 0.0;  // in a hole
     Point<D> x = places.place(k), given = x;
     for (double& c : given.x) c *= unit;
     double measure = std::numeric_limits<double>::infinity(), label = 0;
@@ -124,16 +121,31 @@ double cells_of_sizes(const SizeFieldOfGaps<D>& field, const FreeWays<D>& ways, 
     }
     if (options.measure) measure = std::min(measure, options.measure(given, label));
     const double density = std::pow(unit, D) / measure;
-    if (!(density * volume > worth_while * of_gaps) || !ways.is_inside(x)) continue;
+    if (!(density * volume > worth_while * of_gaps) || !ways.is_inside(x)) return 0.0;
     const bool is_most = worth_while * density * volume > of_gaps;
-    sum += is_most ? density : std::max(0.0, density - gap_density(x));
-  }
-  return sum / PlacesOfSeeds<D>::count * volume;
+    return is_most ? density : std::max(0.0, density - gap_density(x));
+  };
+  constexpr int places_a_part = 16;
+  std::array<double, PlacesOfSeeds<D>::count> densities{};
+  bulk.parts(densities.size() / places_a_part, [&](std::size_t part) {
+    const int first = static_cast<int>(part) * places_a_part;
+    for (int k = first; k < first + places_a_part; ++k) densities[static_cast<std::size_t>(k)] = density_at(k);
+  });
+  stop_check();
+  return std::accumulate(densities.begin(), densities.end(), 0.0) / PlacesOfSeeds<D>::count * volume;
+}
+
+}  // namespace
+
+template <int D>
+double cells_of_sizes(const SizeFieldOfGaps<D>& field, const FreeWays<D>& ways, const EstimateOptions<D>& options, double of_gaps,
+                      const std::function<double(const Point<D>&)>& gap_density, const Bulk& bulk) {
+  return sum_of_places<D>(field, ways, options, of_gaps, gap_density, bulk);
 }
 
 template double cells_of_sizes<2>(const SizeFieldOfGaps<2>&, const FreeWays<2>&, const EstimateOptions<2>&, double,
-                                  const std::function<double(const Point<2>&)>&);
+                                  const std::function<double(const Point<2>&)>&, const Bulk&);
 template double cells_of_sizes<3>(const SizeFieldOfGaps<3>&, const FreeWays<3>&, const EstimateOptions<3>&, double,
-                                  const std::function<double(const Point<3>&)>&);
+                                  const std::function<double(const Point<3>&)>&, const Bulk&);
 
 }  // namespace pgdr::detail

@@ -11,6 +11,6 @@ namespace pgdr::detail {
 /// places are looked at. @throws CancelledError, and what the sizes throw
 template <int D>
 double cells_of_sizes(const SizeFieldOfGaps<D>& field, const FreeWays<D>& ways, const EstimateOptions<D>& options, double of_gaps,
-                      const std::function<double(const Point<D>&)>& gap_density);
+                      const std::function<double(const Point<D>&)>& gap_density, const Bulk& bulk);
 
 }  // namespace pgdr::detail

@@ -94,14 +94,18 @@ std::vector<Point<D>> Diagnoser<D>::points_of(std::span<const std::uint32_t> ver
 template <int D>
 void Diagnoser<D>::collect_triangles() {
   if constexpr (D == 3) {
-    for (EntityId f = 0; f < domain_.facets().size(); ++f) {
+    triangles_ = bulk_.gather<Triangle>(domain_.facets().size(), [this](std::size_t i, std::vector<Triangle>& found) {
+      const auto f = static_cast<EntityId>(i);
       const auto triangles = domain_.triangles(f);
       const auto origins = domain_.triangle_origins(f);
-      for (std::size_t k = 0; k < triangles.size(); ++k) triangles_.push_back({triangles[k], f, origins[k]});
-    }
-    uses_.reserve(3 * triangles_.size());
-    for (std::uint32_t t = 0; t < triangles_.size(); ++t)
-      for (std::size_t i = 0; i < 3; ++i) uses_.push_back({key(triangles_[t].corners[i], triangles_[t].corners[(i + 1) % 3]), t});
+      for (std::size_t k = 0; k < triangles.size(); ++k) found.push_back({triangles[k], f, origins[k]});
+    });
+    uses_.resize(3 * triangles_.size());
+    bulk_.each(triangles_.size(), [this](std::size_t t) {
+      const auto& corners = triangles_[t].corners;
+      for (std::size_t i = 0; i < 3; ++i)
+        uses_[3 * t + i] = {key(corners[i], corners[(i + 1) % 3]), static_cast<std::uint32_t>(t)};
+    });
     stop_check_.sort(bulk_, uses_);
   }
 }

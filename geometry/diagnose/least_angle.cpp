@@ -52,7 +52,8 @@ class AngleSearch {
   std::optional<SharpAngle<D>> run() {
     const auto segments = domain_.segments();
     const auto ends = [&](std::uint32_t s) { return segments[s].points; };
-    detail::sort_by_points(p_.size(), segments.size(), ends, begin_, at_);
+    detail::sort_by_points(p_.size(), segments.size(), ends, bulk_, begin_, at_);
+    stop_check_();
     Found least = least_of(p_.size(), [this](std::size_t v, Found& found) { at_point(static_cast<std::uint32_t>(v), found); });
     [[maybe_unused]] constexpr double about = 1 + 1e-9;  // where segments meet as facets do, the facets say more
     if constexpr (D == 3) {
@@ -72,7 +73,7 @@ class AngleSearch {
  private:
   template <class Look>
   Found least_of(std::size_t count, const Look& look) const {
-    constexpr std::size_t block = 4096;
+    constexpr std::size_t block = 1024;  // of some microseconds each
     std::vector<Found> found((count + block - 1) / block);
     bulk_.parts(found.size(), [&](std::size_t k) {
       for (std::size_t i = k * block; i < std::min(count, (k + 1) * block); ++i) look(i, found[k]);

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "diagnose/near_pieces.hpp"
 #include "input/entities.hpp"
@@ -40,11 +41,10 @@ template <int D>
 class GapSearch {
  public:
   GapSearch(const Domain<D>& domain, const std::stop_token& stop)
-      : pieces_(domain), p_(pieces_.points()), boxes_(pieces_.boxes(0)), bulk_(true, stop), stop_check_(stop) {}
+      : bulk_(true, stop), stop_check_(stop), pieces_(domain, bulk_), p_(pieces_.points()), boxes_(pieces_.boxes(0, bulk_)) {}
 
   std::optional<Gap<D>> run() {
-    NearPair least;
-    for (const Piece& piece : pieces_.pieces()) note_inside(piece, least);
+    NearPair least = least_inside();
     stop_check_();
     look_between(least);
     if (!(least.square < std::numeric_limits<double>::infinity())) return std::nullopt;
@@ -59,6 +59,15 @@ class GapSearch {
     bool begun = false;
   };
 
+  NearPair least_inside() const {
+    constexpr std::size_t block = 4096;
+    const std::size_t count = pieces_.pieces().size();
+    std::vector<NearPair> found((count + block - 1) / block);
+    bulk_.parts(found.size(), [&](std::size_t k) {
+      for (std::size_t i = k * block; i < std::min(count, (k + 1) * block); ++i) note_inside(pieces_.pieces()[i], found[k]);
+    });
+    return found.empty() ? NearPair{} : *std::min_element(found.begin(), found.end());
+  }
   /// Of one piece: its corners, and each from the edge opposite to it.
   void note_inside(const Piece& piece, NearPair& least) const {
     const auto corners = piece.points();
@@ -76,7 +85,7 @@ class GapSearch {
       width = std::sqrt(least.square) / 2 * (1 + 0x1p-40);
     else
       width = detail::Box<D>::of(p_).longest_side();
-    const detail::BoxTree<D> tree(pieces_.boxes(width));
+    const detail::BoxTree<D> tree(pieces_.boxes(width, bulk_), bulk_);
     const std::uint64_t most = most_pairs(pieces_.pieces().size());
     stop_check_();
     const auto parts = tree.template self_pairs_in_parts<Part>(bulk_, [&](std::uint32_t i, std::uint32_t j, Part& part) {
@@ -223,11 +232,11 @@ class GapSearch {
     return all;
   }
 
+  const detail::Bulk bulk_;
+  const detail::StopCheck stop_check_;
   const NearPieces<D> pieces_;
   const std::span<const Point<D>> p_;
   const std::vector<detail::Box<D>> boxes_;
-  const detail::Bulk bulk_;
-  const detail::StopCheck stop_check_;
 };
 
 }  // namespace

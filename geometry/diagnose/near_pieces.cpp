@@ -3,6 +3,7 @@
 #include "diagnose/near_pieces.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -27,29 +28,35 @@ std::vector<Point<D>> scaled(std::span<const Point<D>> given, double& unit) {
 }  // namespace
 
 template <int D>
-NearPieces<D>::NearPieces(const Domain<D>& domain) : domain_(&domain), points_(scaled<D>(domain.points(), unit_)) {
-  std::vector<bool> used(points_.size());
-  for (EntityId f = 0; f < domain.facets().size(); ++f)
-    for (const auto& t : domain.triangles(f)) pieces_.push_back({t, 3, f, no_entity});
-  for (EntityId s = 0; s < domain.segments().size(); ++s) {
+NearPieces<D>::NearPieces(const Domain<D>& domain, const Bulk& bulk)
+    : domain_(&domain), points_(scaled<D>(domain.points(), unit_)) {
+  const auto append = [this](const std::vector<Piece>& more) { pieces_.insert(pieces_.end(), more.begin(), more.end()); };
+  pieces_ = bulk.gather<Piece>(domain.facets().size(), [&](std::size_t i, std::vector<Piece>& found) {
+    const auto f = static_cast<EntityId>(i);
+    for (const auto& t : domain.triangles(f)) found.push_back({t, 3, f, no_entity});
+  });
+  append(bulk.gather<Piece>(domain.segments().size(), [&](std::size_t i, std::vector<Piece>& found) {
+    const auto s = static_cast<EntityId>(i);
     const auto& [a, b] = domain.segments()[s].points;
-    if (D == 2 || domain.facets_of_segment(s).empty()) pieces_.push_back({{a, b, no_entity}, 2, no_entity, s});
-  }
-  for (const Piece& piece : pieces_)
-    for (const std::uint32_t v : piece.points()) used[v] = true;
-  for (std::uint32_t v = 0; v < used.size(); ++v)
-    if (!used[v]) pieces_.push_back({{v, no_entity, no_entity}, 1, no_entity, no_entity});
+    if (D == 2 || domain.facets_of_segment(s).empty()) found.push_back({{a, b, no_entity}, 2, no_entity, s});
+  }));
+  std::vector<char> used(points_.size());
+  bulk.each(pieces_.size(), [&](std::size_t i) {
+    for (const std::uint32_t v : pieces_[i].points()) std::atomic_ref(used[v]).store(1, std::memory_order_relaxed);
+  });
+  append(bulk.gather<Piece>(used.size(), [&](std::size_t v, std::vector<Piece>& found) {
+    if (used[v] == 0) found.push_back({{static_cast<std::uint32_t>(v), no_entity, no_entity}, 1, no_entity, no_entity});
+  }));
 }
 
 template <int D>
-std::vector<Box<D>> NearPieces<D>::boxes(double width) const {
-  std::vector<Box<D>> all;
-  all.reserve(pieces_.size());
-  for (const Piece& piece : pieces_) {
+std::vector<Box<D>> NearPieces<D>::boxes(double width, const Bulk& bulk) const {
+  std::vector<Box<D>> all(pieces_.size());
+  bulk.each(all.size(), [&](std::size_t i) {
     auto box = Box<D>::empty();
-    for (const std::uint32_t v : piece.points()) box.add(points_[v]);
-    all.push_back(box.widened(width));
-  }
+    for (const std::uint32_t v : pieces_[i].points()) box.add(points_[v]);
+    all[i] = box.widened(width);
+  });
   return all;
 }
 

@@ -13,6 +13,7 @@
 #include "diagnose/closest_points.hpp"
 #include "pgdr/domain.hpp"
 #include "space/box.hpp"
+#include "space/bulk.hpp"
 
 namespace pgdr::detail {
 
@@ -32,13 +33,14 @@ class NearPieces {
     }
   };
 
-  explicit NearPieces(const Domain<D>& domain);
+  NearPieces(const Domain<D>& domain, const Bulk& bulk);
 
   const Domain<D>& domain() const { return *domain_; }
   std::span<const Point<D>> points() const { return points_; }  ///< of the Domain, in unit scale
   double unit() const { return unit_; }                         ///< the length of the input that is 1 here
   const std::vector<Piece>& pieces() const { return pieces_; }
-  std::vector<Box<D>> boxes(double width) const;  ///< of all pieces, larger by `width` on all sides
+  /// Of all pieces, larger by `width` on all sides.
+  std::vector<Box<D>> boxes(double width, const Bulk& bulk) const;
 
   /// Is the edge a segment of the Domain?
   bool is_segment(std::uint32_t a, std::uint32_t b) const;

@@ -5,6 +5,7 @@
 // pairs to look at; pairs of triangles are told as pairs of input facets, touching ones by the point that lies on the
 // other alone.
 #include <algorithm>
+#include <atomic>
 
 #include "diagnose/diagnoser.hpp"
 #include "input/words.hpp"
@@ -15,31 +16,38 @@ namespace pgdr::detail {
 
 template <int D>
 void Diagnoser<D>::collect_pieces() {
-  std::vector<bool> used(p_.size(), false);
-  for (const Triangle& t : triangles_) {
-    pieces_.push_back({t.corners, 3, static_cast<std::uint8_t>(domain_.facets()[t.facet].axis)});
-    for (const std::uint32_t v : t.corners) used[v] = true;
-  }
-  for (EntityId s = 0; s < domain_.segments().size(); ++s) {
-    const auto [a, b] = domain_.segments()[s].points;
-    used[a] = used[b] = true;
-    if (!domain_.facets_of_segment(s).empty()) continue;
-    pieces_.push_back({{a, b, no_entity}, 2, 0});
-    piece_segments_.push_back(s);
-  }
-  for (std::uint32_t v = 0; v < p_.size(); ++v)
-    if (!used[v]) pieces_.push_back({{v, no_entity, no_entity}, 1, 0});
+  const auto number_of = [](std::size_t i) { return static_cast<std::uint32_t>(i); };
+  const auto append = [this](const std::vector<Piece>& more) { pieces_.insert(pieces_.end(), more.begin(), more.end()); };
+  std::vector<char> used(p_.size());
+  const auto use = [&used](std::uint32_t v) { std::atomic_ref(used[v]).store(1, std::memory_order_relaxed); };
+  pieces_.resize(triangles_.size());
+  bulk_.each(triangles_.size(), [&](std::size_t i) {
+    const Triangle& t = triangles_[i];
+    pieces_[i] = {t.corners, 3, static_cast<std::uint8_t>(domain_.facets()[t.facet].axis)};
+    for (const std::uint32_t v : t.corners) use(v);
+  });
+  piece_segments_ = bulk_.gather<EntityId>(domain_.segments().size(), [&](std::size_t i, std::vector<EntityId>& found) {
+    for (const std::uint32_t v : domain_.segments()[i].points) use(v);
+    if (domain_.facets_of_segment(number_of(i)).empty()) found.push_back(number_of(i));
+  });
+  append(bulk_.gather<Piece>(piece_segments_.size(), [&](std::size_t i, std::vector<Piece>& found) {
+    const auto [a, b] = domain_.segments()[piece_segments_[i]].points;
+    found.push_back({{a, b, no_entity}, 2, 0});
+  }));
+  append(bulk_.gather<Piece>(p_.size(), [&](std::size_t v, std::vector<Piece>& found) {
+    if (used[v] == 0) found.push_back({{number_of(v), no_entity, no_entity}, 1, 0});
+  }));
 }
 
 template <int D>
 void Diagnoser<D>::find_meetings() {
   if (domain_.nothing_meets()) return;
-  std::vector<std::array<std::uint32_t, 3>> corners;
-  corners.reserve(pieces_.size());
-  for (const Piece& piece : pieces_) corners.push_back(piece.corners);
-  const auto parts = BoxTree<D>(corners, p_)
-                         .template self_pairs_in_parts<Meetings>(
-                             bulk_, [this](std::uint32_t i, std::uint32_t j, Meetings& found) { note(i, j, found); });
+  std::vector<std::array<std::uint32_t, 3>> corners(pieces_.size());
+  bulk_.each(corners.size(), [&](std::size_t i) { corners[i] = pieces_[i].corners; });
+  const BoxTree<D> tree(corners, p_, 0, bulk_);
+  stop_check_();
+  const auto parts = tree.template self_pairs_in_parts<Meetings>(
+      bulk_, [this](std::uint32_t i, std::uint32_t j, Meetings& found) { note(i, j, found); });
   stop_check_();
   const auto all = [&](auto Meetings::*list) {
     auto joined = parts.front().*list;

@@ -3,6 +3,7 @@
 #include "diagnose/size_field_of_gaps.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace pgdr::detail {
@@ -34,31 +35,39 @@ std::vector<Box<D>> boxes_of_segments(const NearPieces<D>& pieces) {
 }  // namespace
 
 template <int D>
-SizeFieldOfGaps<D>::SizeFieldOfGaps(const Domain<D>& domain, const std::optional<Gap<D>>& narrowest)
-    : pieces_(domain),
-      tree_(pieces_.boxes(0)),
-      points_tree_(boxes_of<D>(pieces_.points())),
-      segments_tree_(boxes_of_segments(pieces_)),
-      sizes_(sizes_at_points(narrowest)),
-      least_size_below_(points_tree_.least_below(sizes_)) {
-  least_facet_below_ = tree_.least_below(facets_of_pieces(1));
-  greatest_facet_below_ = tree_.least_below(facets_of_pieces(-1));
+SizeFieldOfGaps<D>::SizeFieldOfGaps(const Domain<D>& domain, const std::optional<Gap<D>>& narrowest, const Bulk& bulk)
+    : pieces_(domain, bulk),
+      tree_(pieces_.boxes(0, bulk), bulk),
+      points_tree_(boxes_of<D>(pieces_.points()), bulk),
+      segments_tree_(boxes_of_segments(pieces_), bulk),
+      sizes_(sizes_at_points(narrowest, bulk)),
+      least_size_below_(points_tree_.least_below(sizes_, bulk)) {
+  least_facet_below_ = tree_.least_below(facets_of_pieces(1, bulk), bulk);
+  greatest_facet_below_ = tree_.least_below(facets_of_pieces(-1, bulk), bulk);
 }
 
 /// Of each piece its facet, with a sign; of those that are of none a number that no facet has.
 template <int D>
-std::vector<double> SizeFieldOfGaps<D>::facets_of_pieces(double sign) const {
-  std::vector<double> facets;
-  for (const auto& piece : pieces_.pieces()) facets.push_back(sign * (piece.count == 3 ? piece.facet : double{no_entity}));
+std::vector<double> SizeFieldOfGaps<D>::facets_of_pieces(double sign, const Bulk& bulk) const {
+  std::vector<double> facets(pieces_.pieces().size());
+  bulk.each(facets.size(), [&](std::size_t i) {
+    const auto& piece = pieces_.pieces()[i];
+    facets[i] = sign * (piece.count == 3 ? piece.facet : double{no_entity});
+  });
   return facets;
 }
 
 template <int D>
-std::vector<double> SizeFieldOfGaps<D>::sizes_at_points(const std::optional<Gap<D>>& narrowest) const {
+std::vector<double> SizeFieldOfGaps<D>::sizes_at_points(const std::optional<Gap<D>>& narrowest, const Bulk& bulk) const {
   const auto p = pieces_.points();
   std::vector<double> square(p.size(), infinity);
-  const auto note = [&](std::uint32_t v, double s) { square[v] = std::min(square[v], s); };
-  for (const auto& piece : pieces_.pieces()) {
+  const auto known = [&](std::uint32_t v) { return std::atomic_ref(square[v]).load(std::memory_order_relaxed); };
+  const auto note = [&](std::uint32_t v, double s) {  // the least one, whoever comes first
+    std::atomic_ref least(square[v]);
+    for (double before = known(v); s < before && !least.compare_exchange_weak(before, s, std::memory_order_relaxed);) continue;
+  };
+  bulk.each(pieces_.pieces().size(), [&](std::size_t number) {
+    const auto& piece = pieces_.pieces()[number];
     const auto corners = piece.points();
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const std::uint32_t a = corners[i], b = corners[(i + 1) % corners.size()], c = corners[(i + 2) % corners.size()];
@@ -67,9 +76,9 @@ std::vector<double> SizeFieldOfGaps<D>::sizes_at_points(const std::optional<Gap<
       note(b, squared_distance(p[a], p[b]));
       if (corners.size() < 3) continue;
       const double height = closest_to_edge(p[a], p[b], p[c]).square;
-      if (height < square[a] && pieces_.is_segment(piece, b, c)) note(a, height);
+      if (height < known(a) && pieces_.is_segment(piece, b, c)) note(a, height);
     }
-  }
+  });
   if (narrowest) {
     const double gap = narrowest->distance / pieces_.unit();
     for (const EntityRef& e : narrowest->entities)

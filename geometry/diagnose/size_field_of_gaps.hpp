@@ -30,7 +30,7 @@ class SizeFieldOfGaps {
     Point<D> place;
   };
 
-  SizeFieldOfGaps(const Domain<D>& domain, const std::optional<Gap<D>>& narrowest);
+  SizeFieldOfGaps(const Domain<D>& domain, const std::optional<Gap<D>>& narrowest, const Bulk& bulk);
 
   const NearPieces<D>& pieces() const { return pieces_; }
   const BoxTree<D>& tree() const { return tree_; }  ///< of the pieces
@@ -55,10 +55,10 @@ class SizeFieldOfGaps {
 
  private:
   Near nearest_disjoint(const Point<D>& x, const typename NearPieces<D>::Piece& own, double most) const;
-  std::vector<double> sizes_at_points(const std::optional<Gap<D>>& narrowest) const;
+  std::vector<double> sizes_at_points(const std::optional<Gap<D>>& narrowest, const Bulk& bulk) const;
   double from_points(const Point<D>& x) const;
   Near nearest_segment(const Point<D>& x, double most) const requires(D == 3);
-  std::vector<double> facets_of_pieces(double sign) const;
+  std::vector<double> facets_of_pieces(double sign, const Bulk& bulk) const;
 
   NearPieces<D> pieces_;
   BoxTree<D> tree_, points_tree_, segments_tree_;

@@ -72,13 +72,15 @@ void Diagnoser<D>::find_open_boundary() {
 // until there is none. Paths from points of odd degree first, so that what is left are loops.
 template <int D>
 void Diagnoser<D>::find_open_loops() requires(D == 3) {
-  std::vector<Edge> half;
-  for (std::size_t begin = 0, n; begin < uses_.size(); begin += n) {
-    n = uses_at(begin).size();
-    const auto [a, b] = uses_[begin].edge();
-    if (n == 1) half.insert(half.end(), {{a, b}, {b, a}});
-  }
-  std::sort(half.begin(), half.end());
+  const auto is_alone = [this](std::size_t i) {
+    if (i > 0 && uses_[i - 1].key == uses_[i].key) return false;
+    return i + 1 == uses_.size() || uses_[i + 1].key != uses_[i].key;
+  };
+  std::vector<Edge> half = bulk_.gather<Edge>(uses_.size(), [&](std::size_t i, std::vector<Edge>& found) {
+    const auto [a, b] = uses_[i].edge();
+    if (is_alone(i)) found.insert(found.end(), {{a, b}, {b, a}});
+  });
+  stop_check_.sort(bulk_, half);
   std::vector<bool> taken(half.size(), false);
   const auto first_at = [&](std::uint32_t v) {
     return static_cast<std::size_t>(std::lower_bound(half.begin(), half.end(), Edge{v, 0}) - half.begin());
@@ -235,6 +237,7 @@ void Diagnoser<D>::find_encloses_nothing() {
 // others with such; if nothing is left, nothing bounds anything.
 template <int D>
 bool Diagnoser<D>::all_collapses() const {
+  if (out_[Finding::open_boundary].count == 0) return D == 3 ? triangles_.empty() : domain_.segments().empty();
   // Walls by ridges: triangles by edges, segments by points.
   std::vector<std::array<std::uint32_t, D>> ridges_of;
   std::vector<std::uint32_t> begin{0}, walls_at;

@@ -87,6 +87,20 @@ void ExactSum::add_product(double a, double b, double c) {
   if (++added_ == most_added) carry();
 }
 
+void ExactSum::add(const ExactSum& other) {
+  if (other.digits_.empty()) return;
+  if (digits_.empty()) first_ = other.first_;
+  if (other.first_ < first_) {
+    digits_.insert(digits_.begin(), static_cast<std::size_t>(first_ - other.first_), 0);
+    first_ = other.first_;
+  }
+  const auto at = static_cast<std::size_t>(other.first_ - first_);
+  if (digits_.size() < at + other.digits_.size()) digits_.resize(at + other.digits_.size());
+  for (std::size_t i = 0; i < other.digits_.size(); ++i) digits_[at + i] += other.digits_[i];
+  added_ += other.added_ + 1;  // of a digit that was carried, too; below 2^31, as either was below `most_added`
+  if (added_ >= most_added) carry();
+}
+
 void ExactSum::carry() {
   carry_digits(digits_);
   added_ = 0;

@@ -21,6 +21,8 @@ class ExactSum {
   void add_determinant(const Point2& a, const Point2& b);
   /// Adds the determinant of the three points: six times the volume of the tetrahedron of the origin, a, b and c.
   void add_determinant(const Point3& a, const Point3& b, const Point3& c);
+  /// Adds another sum.
+  void add(const ExactSum& other);
   /// The double nearest to the sum over a small number, ties to even (below 2^-1022, where doubles have fewer digits, rounded
   /// twice).
   double divided_by(unsigned divisor) const;

@@ -52,7 +52,7 @@ struct EstimateOptions {
   std::optional<Gap<D>> narrowest;  ///< what narrowest_gap() has found: nothing smaller is looked for
   double radius_edge_bound = 2;     ///< as RefineOptions
   /// The average volume (area) of the cells about x, in a region of this label, that sizes ask for; infinity: none do. Empty:
-  /// none do anywhere. Those of the regions' seeds (RegionSeed::size) are looked at without it.
+  /// none do anywhere. Those of the regions' seeds (RegionSeed::size) are looked at without it. Several threads call it.
   std::function<double(const Point<D>& x, double label)> measure;
   std::stop_token stop = {};  ///< ends it by a CancelledError
 };

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "numbers/rounding.hpp"
+#include "space/bulk.hpp"
 
 namespace pgdr::detail {
 namespace {
@@ -33,14 +34,15 @@ std::uint64_t place(const Box<D>& box, const Box<D>& all) {
 }
 
 template <int D>
-std::vector<std::uint32_t> order_along_curve(std::span<const Box<D>> boxes) {
+std::vector<std::uint32_t> order_along_curve(std::span<const Box<D>> boxes, const Bulk& bulk) {
   Box<D> all = Box<D>::empty();
   for (const Box<D>& b : boxes) all.add(b);
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> places(boxes.size());
-  for (std::uint32_t i = 0; i < boxes.size(); ++i) places[i] = {place(boxes[i], all), i};
-  std::sort(places.begin(), places.end());
+  using Place = std::pair<std::uint64_t, std::uint32_t>;
+  std::vector<Place> places(boxes.size());
+  bulk.each(places.size(), [&](std::size_t i) { places[i] = {place(boxes[i], all), static_cast<std::uint32_t>(i)}; });
+  bulk.sort(places, std::less<Place>());
   std::vector<std::uint32_t> order(boxes.size());
-  std::transform(places.begin(), places.end(), order.begin(), [](const auto& p) { return p.second; });
+  bulk.each(order.size(), [&](std::size_t i) { order[i] = places[i].second; });
   return order;
 }
 
@@ -54,37 +56,55 @@ std::vector<std::uint32_t> order_of_input(std::size_t count) {
 
 template <int D>
 BoxTree<D>::BoxTree(std::span<const Box<D>> boxes, TreeCut cut) {
-  build(boxes, cut);
+  build(boxes, cut, Bulk(false));
 }
 
 template <int D>
-BoxTree<D>::BoxTree(std::span<const Corners> corners, std::span<const Point<D>> points, double within) : within_(within) {
-  std::vector<Box<D>> boxes;
-  boxes.reserve(corners.size());
-  for (const Corners& simplex : corners) {
+BoxTree<D>::BoxTree(std::span<const Box<D>> boxes, const Bulk& bulk) {
+  build(boxes, TreeCut::along_curve, bulk);
+}
+
+template <int D>
+BoxTree<D>::BoxTree(std::span<const Corners> corners, std::span<const Point<D>> points, double within)
+    : BoxTree(corners, points, within, Bulk(false)) {}
+
+template <int D>
+BoxTree<D>::BoxTree(std::span<const Corners> corners, std::span<const Point<D>> points, double within, const Bulk& bulk)
+    : within_(within) {
+  std::vector<Box<D>> boxes(corners.size());
+  bulk.each(boxes.size(), [&](std::size_t i) {
     Box<D> box = Box<D>::empty();
-    for (const std::uint32_t v : simplex)
+    for (const std::uint32_t v : corners[i])
       if (v != no_corner) box.add(points[v]);
-    boxes.push_back(box.widened(within));
-  }
-  build(boxes, TreeCut::along_curve);
-  find_anchors(corners, points);
+    boxes[i] = box.widened(within);
+  });
+  build(boxes, TreeCut::along_curve, bulk);
+  find_anchors(corners, points, bulk);
 }
 
 template <int D>
-void BoxTree<D>::build(std::span<const Box<D>> boxes, TreeCut cut) {
+template <class F>
+void BoxTree<D>::bottom_up(const Bulk& bulk, const F& f) const {
+  for (std::uint32_t first = leaves_; first > 0; first /= 2)  // a level after the other; the nodes of one do not wait
+    bulk.each(first, [&](std::size_t i) { f(first + static_cast<std::uint32_t>(i)); });
+}
+
+template <int D>
+void BoxTree<D>::build(std::span<const Box<D>> boxes, TreeCut cut, const Bulk& bulk) {
   leaves_ = static_cast<std::uint32_t>(std::bit_ceil(std::max<std::size_t>(1, boxes.size() / boxes_a_leaf)));
-  items_.reserve(boxes.size());
-  for (const std::uint32_t i : cut == TreeCut::along_curve ? order_along_curve(boxes) : order_of_input(boxes.size()))
-    items_.push_back({boxes[i], i});
+  items_.resize(boxes.size());
+  const auto order = cut == TreeCut::along_curve ? order_along_curve(boxes, bulk) : order_of_input(boxes.size());
+  bulk.each(items_.size(), [&](std::size_t i) { items_[i] = {boxes[order[i]], order[i]}; });
   if (cut == TreeCut::at_medians) cut_at_medians(0, leaves_);
   nodes_.assign(2 * std::size_t{leaves_}, Box<D>::empty());
-  for (std::uint32_t leaf = leaves_; leaf < 2 * leaves_; ++leaf)
-    for (const Item& item : items_of(leaf)) nodes_[leaf].add(item.box);
-  for (std::uint32_t node = leaves_; node-- > 1;) {
-    nodes_[node].add(nodes_[2 * node]);
-    nodes_[node].add(nodes_[2 * node + 1]);
-  }
+  bottom_up(bulk, [this](std::uint32_t node) {
+    if (is_leaf(node)) {
+      for (const Item& item : items_of(node)) nodes_[node].add(item.box);
+    } else {
+      nodes_[node].add(nodes_[2 * node]);
+      nodes_[node].add(nodes_[2 * node + 1]);
+    }
+  });
 }
 
 template <int D>
@@ -108,36 +128,36 @@ void BoxTree<D>::cut_at_medians(std::uint64_t first_leaf, std::uint64_t last_lea
 }
 
 template <int D>
-std::vector<double> BoxTree<D>::least_below(std::span<const double> values) const {
+std::vector<double> BoxTree<D>::least_below(std::span<const double> values, const Bulk& bulk) const {
   std::vector<double> least(nodes_.size(), std::numeric_limits<double>::infinity());
-  for (std::uint32_t node = 2 * leaves_; node-- > 1;) {
+  bottom_up(bulk, [&](std::uint32_t node) {
     if (is_leaf(node)) {
       for (const Item& item : items_of(node)) least[node] = std::min(least[node], values[item.index]);
     } else {
       least[node] = std::min(least[2 * node], least[2 * node + 1]);
     }
-  }
+  });
   return least;
 }
 
 // From the leaves up: which corners all simplices of a node share; where that is one alone, the box opposite it. A fan
 // of k simplices has k log k of them below its nodes.
 template <int D>
-void BoxTree<D>::find_anchors(std::span<const Corners> corners, std::span<const Point<D>> points) {
+void BoxTree<D>::find_anchors(std::span<const Corners> corners, std::span<const Point<D>> points, const Bulk& bulk) {
   constexpr Corners none{no_corner, no_corner, no_corner};
   std::vector<Corners> common(nodes_.size(), none);
-  std::vector<bool> any(nodes_.size(), false);  // holds something
+  std::vector<char> any(nodes_.size(), 0);  // holds something
   const auto keep_common = [](Corners& mine, const Corners& other) {
     for (std::uint32_t& v : mine)
       if (std::find(other.begin(), other.end(), v) == other.end()) v = no_corner;
   };
-  for (std::uint32_t node = 2 * leaves_; node-- > 1;) {
+  bottom_up(bulk, [&](std::uint32_t node) {
     const auto take = [&](const Corners& c) {
       if (any[node])
         keep_common(common[node], c);
       else
         common[node] = c;
-      any[node] = true;
+      any[node] = 1;
     };
     if (is_leaf(node)) {
       for (const Item& item : items_of(node)) take(corners[item.index]);
@@ -145,7 +165,7 @@ void BoxTree<D>::find_anchors(std::span<const Corners> corners, std::span<const 
       for (const std::uint32_t child : {2 * node, 2 * node + 1})
         if (any[child]) take(common[child]);
     }
-  }
+  });
   anchors_.resize(nodes_.size());
   const auto items_below = [&](std::uint32_t node) {
     std::uint32_t first = node, last = node;
@@ -156,9 +176,10 @@ void BoxTree<D>::find_anchors(std::span<const Corners> corners, std::span<const 
     const auto begin = items_of(first), end = items_of(last);
     return std::span(begin.data(), end.data() + end.size());
   };
-  for (std::uint32_t node = 1; node < nodes_.size(); ++node) {
+  bulk.each(nodes_.size(), [&](std::size_t i) {
+    const auto node = static_cast<std::uint32_t>(i);
     const Corners& c = common[node];
-    if ((c[0] != no_corner) + (c[1] != no_corner) + (c[2] != no_corner) != 1) continue;
+    if ((c[0] != no_corner) + (c[1] != no_corner) + (c[2] != no_corner) != 1) return;
     Anchor& anchor = anchors_[node];
     anchor.corner = std::min({c[0], c[1], c[2]});
     anchor.apex = points[anchor.corner];
@@ -167,7 +188,7 @@ void BoxTree<D>::find_anchors(std::span<const Corners> corners, std::span<const 
       for (const std::uint32_t v : corners[item.index])
         if (v != no_corner && v != anchor.corner) anchor.opposite.add(points[v]);
     anchor.opposite = anchor.opposite.widened(within_);
-  }
+  });
 }
 
 template <int D>

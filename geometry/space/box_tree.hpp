@@ -28,6 +28,8 @@
 
 namespace pgdr::detail {
 
+class Bulk;
+
 inline constexpr std::uint32_t no_corner = 0xffffffffu;
 
 /// How boxes are put into the order in which the tree halves them. Medians take twice the time to find, and make nodes so much
@@ -42,9 +44,13 @@ class BoxTree {
  public:
   /// @pre boxes are not empty, coordinates finite; at most 2^31 boxes.
   explicit BoxTree(std::span<const Box<D>> boxes, TreeCut cut = TreeCut::along_curve);
+  /// The same tree, made by bulk loops. Of no use if they were stopped.
+  BoxTree(std::span<const Box<D>> boxes, const Bulk& bulk);
   /// The boxes of simplices, by their corners (as many of three as there are, then no_corner), each larger by `within` on all
   /// sides: pairs that come within that distance are found, too, unless it is beside a common corner.
   BoxTree(std::span<const std::array<std::uint32_t, 3>> corners, std::span<const Point<D>> points, double within = 0);
+  BoxTree(std::span<const std::array<std::uint32_t, 3>> corners, std::span<const Point<D>> points, double within,
+          const Bulk& bulk);
 
   /// Calls visit(i, j), i < j, once for every pair of boxes that meet (common borders count). Of simplices, pairs that
   /// meet nowhere but at a common corner may be left out.
@@ -54,8 +60,8 @@ class BoxTree {
   }
   /// The same pairs in the same order, but in parts, several of which may be looked through at once: visit(i, j, out) for those
   /// of a part, with a Part of its own. @returns these in the order of the parts.
-  template <class Part, class Bulk, class Visit>
-  std::vector<Part> self_pairs_in_parts(const Bulk& bulk, const Visit& visit) const {
+  template <class Part, class Loops, class Visit>
+  std::vector<Part> self_pairs_in_parts(const Loops& bulk, const Visit& visit) const {
     const std::vector<NodePair> tops = pairs_of_some_level();
     std::vector<Part> parts(tops.size());
     bulk.parts(tops.size(), [&](std::size_t k) {
@@ -82,7 +88,7 @@ class BoxTree {
     if (!items_.empty()) descend(1, bound(nodes_[1], 1), bound, visit, least);
   }
   /// Of each node the smallest of the values, one a box, of the boxes below it: for bounds of nearest().
-  std::vector<double> least_below(std::span<const double> values) const;
+  std::vector<double> least_below(std::span<const double> values, const Bulk& bulk) const;
 
  private:
   struct Item {
@@ -98,9 +104,12 @@ class BoxTree {
     Box<D> opposite;
   };
 
-  void build(std::span<const Box<D>> boxes, TreeCut cut);
+  void build(std::span<const Box<D>> boxes, TreeCut cut, const Bulk& bulk);
+  /// Calls f(node) for each node, its children before it.
+  template <class F>
+  void bottom_up(const Bulk& bulk, const F& f) const;
   void cut_at_medians(std::uint64_t first_leaf, std::uint64_t last_leaf);
-  void find_anchors(std::span<const Corners> corners, std::span<const Point<D>> points);
+  void find_anchors(std::span<const Corners> corners, std::span<const Point<D>> points, const Bulk& bulk);
   bool apart(std::uint32_t a, std::uint32_t b) const {
     if (!nodes_[a].meets(nodes_[b])) return true;
     if (anchors_.empty() || (anchors_[a].corner == no_corner && anchors_[b].corner == no_corner)) return false;

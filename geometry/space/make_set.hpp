@@ -3,7 +3,10 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <vector>
+
+#include "space/bulk.hpp"
 
 namespace pgdr::detail {
 
@@ -11,6 +14,13 @@ namespace pgdr::detail {
 template <class T>
 void make_set(std::vector<T>& v) {
   std::sort(v.begin(), v.end());
+  v.erase(std::unique(v.begin(), v.end()), v.end());
+}
+
+/// The same, sorted side by side.
+template <class T>
+void make_set(std::vector<T>& v, const Bulk& bulk) {
+  if (!std::is_sorted(v.begin(), v.end())) bulk.sort(v, std::less<>());
   v.erase(std::unique(v.begin(), v.end()), v.end());
 }
 

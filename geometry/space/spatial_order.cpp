@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 #include "space/box.hpp"
@@ -185,32 +184,48 @@ std::uint64_t HilbertCurve<D>::key(const Point<D>& p) const {
 }
 
 template <int D>
-std::vector<std::uint32_t> insertion_order(std::span<const Point<D>> points) {
+CurveOrder curve_order(std::span<const Point<D>> points, const detail::Bulk& bulk) {
   struct Entry {
-    int round;
     std::uint64_t key;
     std::uint32_t index;
+    std::uint8_t round;
   };
   const HilbertCurve<D> curve(points);
   const double unit = curve.unit();  // the rounds of points that are scaled by a power of two are those of the points
+  CurveOrder order;
+  order.round_count = std::max(1, static_cast<int>(std::bit_width(points.size() / 64)));
   std::vector<Entry> entries(points.size());
-  // The last round holds half of the points, the one before a quarter, ...
-  const int rounds = std::max(1, static_cast<int>(std::bit_width(points.size() / 64)));
-  for (std::uint32_t i = 0; i < points.size(); ++i) {
-    const int back = std::min(std::countr_zero(coordinate_hash(points[i], unit) | 1ull << 63), rounds - 1);
-    entries[i] = {rounds - 1 - back, curve.key(points[i]), i};
-  }
-  std::sort(entries.begin(), entries.end(), [&](const Entry& a, const Entry& b) {
-    if (a.round != b.round || a.key != b.key) return std::tie(a.round, a.key) < std::tie(b.round, b.key);
-    return lex_less(points[a.index], points[b.index]);
+  bulk.each(points.size(), [&](std::size_t i) {
+    const int back = std::min(std::countr_zero(coordinate_hash(points[i], unit) | 1ull << 63), order.round_count - 1);
+    entries[i] = {curve.key(points[i]), static_cast<std::uint32_t>(i), static_cast<std::uint8_t>(order.round_count - 1 - back)};
   });
-  std::vector<std::uint32_t> order(points.size());
-  for (std::size_t i = 0; i < entries.size(); ++i) order[i] = entries[i].index;
+  bulk.sort(entries, [&](const Entry& a, const Entry& b) {
+    return a.key != b.key ? a.key < b.key : lex_less(points[a.index], points[b.index]);
+  });
+  order.points.resize(points.size());
+  order.rounds.resize(points.size());
+  bulk.each(points.size(), [&](std::size_t i) {
+    order.points[i] = entries[i].index;
+    order.rounds[i] = entries[i].round;
+  });
+  return order;
+}
+
+template <int D>
+std::vector<std::uint32_t> insertion_order(std::span<const Point<D>> points) {
+  const CurveOrder along = curve_order(points, detail::Bulk(false));
+  std::vector<std::uint32_t> order;
+  order.reserve(points.size());
+  for (int round = 0; round < along.round_count; ++round)
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (along.rounds[i] == round) order.push_back(along.points[i]);
   return order;
 }
 
 template class HilbertCurve<2>;
 template class HilbertCurve<3>;
+template CurveOrder curve_order<2>(std::span<const Point<2>>, const detail::Bulk&);
+template CurveOrder curve_order<3>(std::span<const Point<3>>, const detail::Bulk&);
 template std::vector<std::uint32_t> insertion_order<2>(std::span<const Point<2>>);
 template std::vector<std::uint32_t> insertion_order<3>(std::span<const Point<3>>);
 

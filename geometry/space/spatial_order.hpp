@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "pgdr/types.hpp"
+#include "space/bulk.hpp"
 
 namespace pgdr {
 
@@ -27,7 +28,17 @@ class HilbertCurve {
   double scale_ = 1, unit_ = 1;
 };
 
-/// A permutation of the indices of `points` in which to insert them.
+/// Points in the order of the curve, and the round that each is drawn into: the last round has half of the points, the one before
+/// a quarter, ...
+struct CurveOrder {
+  std::vector<std::uint32_t> points;  ///< their indices along the curve; those of one key in the order of their coordinates
+  std::vector<std::uint8_t> rounds;   ///< of each, in the same order
+  int round_count = 1;
+};
+template <int D>
+CurveOrder curve_order(std::span<const Point<D>> points, const detail::Bulk& bulk);
+
+/// A permutation of the indices of `points` in which to insert them: round by round, each along the curve.
 template <int D>
 std::vector<std::uint32_t> insertion_order(std::span<const Point<D>> points);
 

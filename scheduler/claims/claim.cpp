@@ -8,38 +8,9 @@
 
 namespace pgdr {
 
-namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// A box in positions of the finest grid.
 template <int D>
-struct GridBox {
-  std::array<std::uint64_t, D> low, high;
-};
-
-template <int D>
-GridBox<D> grid_box(const Orthtree<D>& tree, std::uint32_t node) {
-  GridBox<D> b;
-  for (int i = 0; i < D; ++i) {
-    b.low[static_cast<std::size_t>(i)] = tree.position(node, i);
-    b.high[static_cast<std::size_t>(i)] = tree.position(node, i) + tree.extent(node);
-  }
-  return b;
-}
-
-/// Have the closed boxes a point in common?
-template <int D>
-bool touch(const GridBox<D>& a, const GridBox<D>& b) {
-  for (std::size_t i = 0; i < D; ++i)
-    if (a.low[i] > b.high[i] || b.low[i] > a.high[i]) return false;
-  return true;
-}
-
-}  // namespace
-
-template <int D>
-Claim<D>::Claim(const Orthtree<D>& tree, Node leaf) : tree_(&tree), leaf_(leaf) {
+Claim<D>::Claim(const Orthtree<D>& tree, Node node, Kind kind) : tree_(&tree), node_(node), kind_(kind) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   for (int i = 0; i < D; ++i) {
     inner_.low[i] = -infinity;
     inner_.high[i] = infinity;
@@ -47,42 +18,42 @@ Claim<D>::Claim(const Orthtree<D>& tree, Node leaf) : tree_(&tree), leaf_(leaf) 
 }
 
 template <int D>
-Claim<D> Claim<D>::whole(const Orthtree<D>& tree, Node leaf) {
-  return Claim(tree, leaf);
+Claim<D> Claim<D>::whole(const Orthtree<D>& tree, Node node) {
+  return Claim(tree, node, Kind::whole);
 }
 
 template <int D>
-Claim<D>::Claim(const Orthtree<D>& tree, Node leaf, std::span<const Node> zone, std::uint32_t order) : Claim(tree, leaf) {
-  std::vector<Node> leaves(zone.begin(), zone.end());
-  leaves.push_back(leaf);
-  std::sort(leaves.begin(), leaves.end());
-  hold(std::move(leaves), order);
-}
-
-template <int D>
-Claim<D> Claim<D>::of_leaves(const Orthtree<D>& tree, Node leaf, std::vector<Node> leaves, std::uint32_t order) {
-  Claim claim(tree, leaf);
-  if (!leaves.empty()) claim.hold(std::move(leaves), order);
+Claim<D> Claim<D>::of_box(const Orthtree<D>& tree, Node node, const GridBox<D>& box) {
+  Claim claim(tree, node, Kind::box);
+  claim.box_ = box;
+  claim.set_inner(box);
   return claim;
 }
 
 template <int D>
-void Claim<D>::hold(std::vector<Node> leaves, std::uint32_t order) {
-  leaves_ = std::move(leaves);
-  make_table();
-  grow_inner(order);
+Claim<D> Claim<D>::of_leaves(const Orthtree<D>& tree, Node leaf, std::vector<Node> leaves, std::uint32_t order) {
+  Claim claim(tree, leaf, Kind::leaves);
+  claim.leaves_ = std::move(leaves);
+  claim.set_inner(claim.grown(order));
+  return claim;
 }
 
 template <int D>
-void Claim<D>::make_table() {
-  std::size_t size = 4;
-  while (size < 2 * leaves_.size()) size *= 2;
-  mask_ = size - 1;
-  table_.assign(size, Orthtree<D>::none);
-  for (const Node leaf : leaves_) {
-    std::size_t i = slot(leaf);
-    while (table_[i] != Orthtree<D>::none) i = (i + 1) & mask_;
-    table_[i] = leaf;
+bool Claim<D>::holds(Node node) const {
+  switch (kind_) {
+    case Kind::box: return box_.holds(GridBox<D>::around(*tree_, node, 0));
+    case Kind::leaves: return std::binary_search(leaves_.begin(), leaves_.end(), node);
+    case Kind::whole: break;
+  }
+  return true;
+}
+
+template <int D>
+void Claim<D>::set_inner(const GridBox<D>& box) {
+  for (int i = 0; i < D; ++i) {
+    const std::uint64_t low = box.low[static_cast<std::size_t>(i)], high = box.high[static_cast<std::size_t>(i)];
+    if (low > 0) inner_.low[i] = tree_->border(i, low);
+    if (high < tree_->extent(Orthtree<D>::root)) inner_.high[i] = tree_->border(i, high);
   }
 }
 
@@ -93,28 +64,23 @@ void Claim<D>::make_table() {
 // the larger box touches, at a common point, one of those that cover it, and so is that leaf or in its BUF. So BUF, which
 // holds every leaf that touches L, allows one such step from L's own box, and BUF^i allows i.
 template <int D>
-void Claim<D>::grow_inner(std::uint32_t order) {
-  GridBox<D> box = grid_box(*tree_, leaf_);
+GridBox<D> Claim<D>::grown(std::uint32_t order) const {
+  auto box = GridBox<D>::around(*tree_, node_, 0);
   for (std::uint32_t step = 0; step < order; ++step) {
-    GridBox<D> grown;
-    grown.low.fill(0);  // where nothing lies beyond, the side is at the root's border
-    grown.high.fill(tree_->extent(Orthtree<D>::root));
+    GridBox<D> larger;
+    larger.high.fill(tree_->extent(Orthtree<D>::root));  // where nothing lies beyond, the side is at the root's border
     for (const Node leaf : leaves_) {
-      const GridBox<D> k = grid_box(*tree_, leaf);
-      if (!touch<D>(box, k)) continue;
+      const auto k = GridBox<D>::around(*tree_, leaf, 0);
+      if (!box.touches(k)) continue;
       for (std::size_t i = 0; i < D; ++i) {
-        if (k.low[i] < box.low[i]) grown.low[i] = std::max(grown.low[i], k.low[i]);
-        if (k.high[i] > box.high[i]) grown.high[i] = std::min(grown.high[i], k.high[i]);
+        if (k.low[i] < box.low[i]) larger.low[i] = std::max(larger.low[i], k.low[i]);
+        if (k.high[i] > box.high[i]) larger.high[i] = std::min(larger.high[i], k.high[i]);
       }
     }
-    if (grown.low == box.low && grown.high == box.high) break;
-    box = grown;
+    if (larger == box) break;
+    box = larger;
   }
-  for (int i = 0; i < D; ++i) {
-    const std::uint64_t low = box.low[static_cast<std::size_t>(i)], high = box.high[static_cast<std::size_t>(i)];
-    if (low > 0) inner_.low[i] = tree_->border(i, low);
-    if (high < tree_->extent(Orthtree<D>::root)) inner_.high[i] = tree_->border(i, high);
-  }
+  return box;
 }
 
 template class Claim<2>;

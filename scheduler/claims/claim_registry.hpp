@@ -1,17 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A record of who holds which leaf at this moment, with which debug builds watch the claims. Concurrent visits must never hold
-// the same leaf, and a visit of the whole tree must be alone. The atomics are relaxed, so that they order nothing and hide no
-// race from a thread sanitizer.
+// A record of the visits that run at this moment, with which debug builds watch the claims: those of visits that run at once must
+// not meet. The atomics are relaxed, so that they order nothing and hide no race from a thread sanitizer. A visit reads of
+// another one what was there before both began.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cassert>
-#include <cstdint>
-#include <memory>
 
-#include "claims/claim.hpp"
+#include "claims/conflict_manager.hpp"
 
 namespace pgdr::detail {
 
@@ -19,57 +18,48 @@ namespace pgdr::detail {
 template <int D>
 class ClaimRegistry {
  public:
-  /// Makes room for the nodes of a tree. @pre nobody holds anything
-  void reset(std::uint32_t nodes) {
-    assert(running_.load(std::memory_order_relaxed) == 0);
-    if (nodes > size_) holders_ = std::make_unique<std::atomic<bool>[]>(size_ = 2 * nodes);
-  }
-  /// Holds the claim. Any thread. @returns false if somebody else holds a part of it
-  bool enter(const Claim<D>& claim) {
-    bool alone = true;
-    if (claim.whole()) {
-      alone = running_.fetch_add(whole, std::memory_order_relaxed) == 0;
-    } else {
-      alone = running_.fetch_add(1, std::memory_order_relaxed) < whole;
+  /// Enters the visit, which must stay where it is until it leaves. Any thread. @returns false if it meets one that runs
+  bool enter(const Visit<D>& visit) {
+    std::size_t own = running_.size();
+    for (std::size_t i = 0; i < running_.size() && own == running_.size(); ++i) {
+      const Visit<D>* nobody = nullptr;
+      if (running_[i].compare_exchange_strong(nobody, &visit, std::memory_order_relaxed)) own = i;
     }
-    for (const auto leaf : claim.leaves()) alone = !holders_[leaf].exchange(true, std::memory_order_relaxed) && alone;
+    bool alone = true;
+    for (std::size_t i = 0; i < running_.size(); ++i) {
+      const Visit<D>* other = i == own ? nullptr : running_[i].load(std::memory_order_relaxed);
+      alone = alone && !(other && meet(visit, *other));
+    }
     return alone;
   }
-  /// Gives the claim up. Any thread. @returns false if a part of it was not held
-  bool leave(const Claim<D>& claim) {
-    bool held = true;
-    for (const auto leaf : claim.leaves()) held = holders_[leaf].exchange(false, std::memory_order_relaxed) && held;
-    running_.fetch_sub(claim.whole() ? whole : 1, std::memory_order_relaxed);
-    return held;
+  /// Takes it out. Any thread.
+  void leave(const Visit<D>& visit) {
+    for (auto& slot : running_) {
+      const Visit<D>* own = &visit;
+      if (slot.compare_exchange_strong(own, nullptr, std::memory_order_relaxed)) return;
+    }
   }
 
  private:
-  static constexpr std::uint64_t whole = std::uint64_t{1} << 32;
-  std::atomic<std::uint64_t> running_{0};
-  std::unique_ptr<std::atomic<bool>[]> holders_;
-  std::uint32_t size_ = 0;
+  std::array<std::atomic<const Visit<D>*>, 256> running_{};  ///< more than run at once; a visit that finds no room is not watched
 };
 
 /// Holds a claim while it lives, in debug builds; in others it does nothing.
 template <int D>
 class HeldClaim {
  public:
-  HeldClaim([[maybe_unused]] ClaimRegistry<D>& registry, [[maybe_unused]] const Claim<D>& claim)
+  HeldClaim([[maybe_unused]] ClaimRegistry<D>& registry, [[maybe_unused]] const Visit<D>& visit)
 #ifndef NDEBUG
-      : registry_(registry), claim_(claim) {
-    const bool alone = registry.enter(claim);
-    assert(alone && "two running visits hold one leaf");
+      : registry_(registry), visit_(visit) {
+    const bool alone = registry.enter(visit);
+    assert(alone && "the claims of two running visits meet");
     static_cast<void>(alone);
   }
-  ~HeldClaim() {
-    const bool held = registry_.leave(claim_);
-    assert(held);
-    static_cast<void>(held);
-  }
+  ~HeldClaim() { registry_.leave(visit_); }
 
  private:
   ClaimRegistry<D>& registry_;
-  const Claim<D>& claim_;
+  const Visit<D>& visit_;
 #else
   {
   }

@@ -27,6 +27,8 @@ struct StageTime {
   std::string name;    ///< of the stage
   double start = 0;    ///< seconds since the meshing began
   double seconds = 0;  ///< on the wall
+  double work = 0;     ///< seconds of all threads together
+  double path = 0;     ///< seconds of its critical path: with any number of threads it takes these at least
 };
 
 /// What was done. Times are of the clock on the wall.
@@ -35,13 +37,15 @@ struct RefineStatistics {
   double seconds_initial = 0;              ///< of these, until the boundary is there
   double seconds_refine = 0;               ///< of these, the refinement
   double seconds_optimize = 0;             ///< of these, the optimiser
-  std::vector<StageTime> stages;           ///< of the refinement and the optimiser, those that ran, in their order
+  std::vector<StageTime> stages;           ///< those that ran, in their order
   std::uint64_t segment_points = 0;        ///< Steiner points on segments, of the boundary recovery
   std::uint64_t facet_points = 0;          ///< Steiner points on facets, of the boundary recovery
   std::uint64_t insertions_committed = 0;  ///< points that the refinement inserted
-  std::uint64_t insertions_refused = 0;    ///< beside small angles, or with `min_edge`
-  std::uint64_t selector_outside = 0;      ///< points of the selector outside their disk, replaced
-  PredicateCounts predicates;              ///< of all threads
+  /// Beside small angles, or with `min_edge`. Not counted: encroached subsegments that their rings refuse, which are never listed
+  /// (refine/subsegment_ring.hpp), and elements that lean on the refusal of an entity, which counts once.
+  std::uint64_t insertions_refused = 0;
+  std::uint64_t selector_outside = 0;  ///< points of the selector outside their disk, replaced
+  PredicateCounts predicates;          ///< of all threads
 };
 
 /// What the optimiser did (RefineOptions::min_dihedral).
@@ -66,10 +70,10 @@ struct SchedulerStatistics {
   std::uint64_t set_aside = 0;       ///< attempts that were left to a visit that claims more
   std::uint32_t max_concurrent = 0;  ///< most visits that ran at one time
   int threads = 1;                   ///< threads that visits could run on
-  double serial_seconds = 0;         ///< of the refinement outside visits
-  double work_seconds = 0;           ///< all visits and serial_seconds
-  /// The longest chain of visits of each generation, and serial_seconds, of which parts that were done side by side count as the
-  /// longest one.
+  double serial_seconds = 0;         ///< of the whole run, outside of all that runs side by side
+  double work_seconds = 0;           ///< of the whole run, of all threads
+  /// Of the whole run, from the input in memory to the finished mesh: serial_seconds, the longest chain of visits of each
+  /// generation, and the longest piece of each loop. No number of threads makes the run shorter.
   double critical_path_seconds = 0;
   double seconds_in_generations = 0;  ///< from the start of each generation's first visit to the end of its last
   std::vector<double> busy_seconds;   ///< in visits, of each thread that ran any; a thread that ended has a successor

@@ -3,6 +3,7 @@
 #include "run/folded_facets.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -12,6 +13,7 @@
 #include "boundary/named_points.hpp"
 #include "compact/compact.hpp"
 #include "pgdr/check.hpp"
+#include "space/bulk.hpp"
 
 namespace pgdr {
 namespace {
@@ -92,19 +94,25 @@ bool conforms(const OutputMesh<3>& mesh, const Domain<3>& domain, RegionMode reg
 
 }  // namespace
 
-bool may_fold(const Domain<3>& domain) {
-  for (EntityId f = 0; f < domain.facets().size(); ++f)
-    if (is_bent(domain, f, more_than_rounding)) return true;
-  for (EntityId s = 0; s < domain.segments().size(); ++s)
-    if (is_tight(domain, s)) return true;
-  return false;
+bool may_fold(const Domain<3>& domain, const detail::Pieces& pieces) {
+  const detail::Bulk bulk(pieces);
+  std::atomic<bool> may = false;
+  const auto look = [&](std::size_t count, const auto& is_suspect) {
+    bulk.each(count, [&](std::size_t i) {
+      if (!may.load(std::memory_order_relaxed) && is_suspect(static_cast<EntityId>(i)))
+        may.store(true, std::memory_order_relaxed);
+    });
+  };
+  look(domain.facets().size(), [&](EntityId f) { return is_bent(domain, f, more_than_rounding); });
+  look(domain.segments().size(), [&](EntityId s) { return is_tight(domain, s); });
+  return may;
 }
 
-void require_unfolded(const Mesh<3>& mesh, const Domain<3>& domain, RegionMode regions,
-                      std::span<const double> region_attributes) {
-  if (!may_fold(domain)) return;
+void require_unfolded(const Mesh<3>& mesh, const Domain<3>& domain, RegionMode regions, std::span<const double> region_attributes,
+                      const detail::Pieces& pieces) {
+  if (!may_fold(domain, pieces)) return;
   require_whole_segments(mesh, domain);
-  if (conforms(compact_by_slots<3>(mesh, domain, region_attributes, false).mesh, domain, regions)) return;
+  if (conforms(compact_by_slots<3>(mesh, domain, region_attributes, pieces).mesh, domain, regions)) return;
   const EntityId f = most_bent_facet(domain);
   Diagnostic d = detail::about_points<3>(Errc::boundary_not_recovered, domain, domain.facet_points(f));
   char defect[32];

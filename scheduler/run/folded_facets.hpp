@@ -13,12 +13,13 @@
 #include "mesh/mesh.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/region_mode.hpp"
+#include "space/pieces.hpp"
 
 namespace pgdr {
 
 /// Is any facet bent by more than rounding? Or by less, with a segment as short as that, or another facet there at an angle as
 /// small? Any thread.
-bool may_fold(const Domain<3>& domain);
+bool may_fold(const Domain<3>& domain, const detail::Pieces& pieces = detail::OneByOne());
 
 /// Checks that the mesh is one of the domain, after carving and before the refinement, which keeps what is right so. Looks at
 /// nothing unless may_fold(domain); else takes some 5 microseconds a cell. `region_attributes`: of each region number, empty
@@ -26,7 +27,7 @@ bool may_fold(const Domain<3>& domain);
 /// @throws InputError boundary_not_recovered: the least segment that is in the mesh in part, its ends in `ids` and `points`; or,
 /// if
 ///   the checker finds the mesh not to be one of the domain, the facet that is off its plane by most, with its points
-void require_unfolded(const Mesh<3>& mesh, const Domain<3>& domain, RegionMode regions,
-                      std::span<const double> region_attributes);
+void require_unfolded(const Mesh<3>& mesh, const Domain<3>& domain, RegionMode regions, std::span<const double> region_attributes,
+                      const detail::Pieces& pieces = detail::OneByOne());
 
 }  // namespace pgdr

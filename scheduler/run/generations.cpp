@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
 
 #include "claims/claimed_area.hpp"
 #include "graph/arena.hpp"
@@ -18,11 +19,12 @@ Generations<D>::Generations(RunState<D>& state)
       options_(&state.options),
       waiting_(&state.waiting),
       recorder_(&state.recorder),
-      conflicts_(state.waiting.tree(), state.options.claim_order),
+      conflicts_(state.waiting.tree(), state.options.claims, state.options.claim_order),
       random_(static_cast<std::uint64_t>(state.options.threads)) {}
 
 template <int D>
 StopCause Generations<D>::drain() {
+  split_leaves(waiting_->tree().leaves());
   while (true) {
     if (context_->options.stop.stop_requested()) return StopCause::cancelled;
     if (!context_->stage && state_->totals.vertices >= context_->options.max_vertices) return StopCause::max_vertices;
@@ -38,14 +40,13 @@ bool Generations<D>::one_generation() {
   if (wanted.empty()) return false;
   waiting_->begin_generation();
   recorder_->count_generation();
-  renew_buffers(wanted);
+  if (options_->claims == ClaimRule::leaves) renew_buffers(wanted);
   touch_memory(wanted);
   Generation<D> generation = conflicts_.plan(wanted);
   std::vector<Planned> planned(wanted.size());
   const std::uint64_t most = context_->options.max_vertices, n = planned.size();
   const std::uint64_t left = most - std::min(most, state_->totals.vertices);
-  if (n > 1) context_->mesh.leave_heap();          // several visits have pools of their own
-  registry_.reset(waiting_->tree().node_count());  // grows geometrically; of use to debug builds alone
+  if (n > 1) context_->mesh.leave_heap();  // several visits have pools of their own
   const auto start = Clock::now();
   execute(generation.graph, [&](VisitGraph::Visit v) {
     // Of the vertices still allowed each visit gets its share, fixed by its number.
@@ -54,31 +55,30 @@ bool Generations<D>::one_generation() {
   });
   const double seconds = VisitRecorder::seconds_since(start);
   assert(is_whole_if_small());
-  recorder_->add_generation(seconds, account(generation, planned));
+  account(generation, planned, seconds);
   std::vector<Node> candidates;
   for (const Visit<D>& visit : generation.visits)
-    if (visit.request.order == 1) candidates.push_back(visit.request.leaf);
+    if (visit.request.order == 1) candidates.push_back(visit.request.node);
   split_leaves(std::move(candidates));
   return true;
 }
 
-/// Runs the visit, and posts what it finds for other leaves that it has claimed, for the visits of these that come after it in
-/// the plan.
+/// Runs the visit, and posts what it finds for other nodes that it has claimed whole, for the visits of these that come after it
+/// in the plan: their claims hold these nodes, too.
 template <int D>
 void Generations<D>::run_visit(const Visit<D>& visit, Planned& planned) {
   const VisitRecorder::Watch watch;
   state_->prepare(visit.request, planned.work);
   const Claim<D> claim = visit.claim(waiting_->tree());
-  const HeldClaim<D> held(registry_, claim);
-  const ClaimedArea<D> area(waiting_->tree(), claim);
-  if (visit.request.order == 1) (*waiting_)[visit.request.leaf].open_inbox();
+  const HeldClaim<D> held(registry_, visit);
+  const ClaimedArea<D> area(waiting_->placement(), claim);
+  if (visit.request.order == 1) (*waiting_)[visit.request.node].open_inbox();
   if (!state_->workers.run(area, planned.work)) return;
   std::erase_if(planned.work.outboxes, [&](typename RegionVisit<D>::Outbox& box) {
-    const bool claimed = visit.leaves.empty() || std::binary_search(visit.leaves.begin(), visit.leaves.end(), box.leaf);
-    if (claimed) waiting_->post(box.leaf, std::move(box.entries));
+    const bool claimed = claim.holds(box.region);
+    if (claimed) waiting_->post(box.region, std::move(box.entries));
     return claimed;
   });
-  state_->refused.mark_changed(planned.work, visit.leaves);
   planned.seconds = recorder_->record(visit.request, planned.work, watch);
 }
 
@@ -88,46 +88,30 @@ bool Generations<D>::is_whole_if_small() const {
   return context_->mesh.cell_bound() > 200000 || is_whole<D>(context_->mesh);
 }
 
-/// Takes in what the visits did, in their order. Returns the seconds of their longest chain.
+/// Takes in what the visits did, in their order. `wall`: the seconds that they took.
 template <int D>
-double Generations<D>::account(Generation<D>& generation, std::vector<Planned>& planned) {
+void Generations<D>::account(Generation<D>& generation, std::vector<Planned>& planned, double wall) {
   std::vector<double> seconds;
   for (std::size_t v = 0; v < planned.size(); ++v) {
     const Visit<D>& visit = generation.visits[v];
     seconds.push_back(planned[v].seconds);
-    state_->account(visit.request, planned[v].work, visit.leaves);
-    for (auto& box : planned[v].work.outboxes) waiting_->post(box.leaf, std::move(box.entries));
+    state_->account(visit.request, planned[v].work);
+    for (auto& box : planned[v].work.outboxes) waiting_->post(box.region, std::move(box.entries));
   }
-  return critical_path(generation.graph, seconds);
-}
-
-/// Runs pieces of what is done between generations, which do not wait for each other.
-template <int D>
-void Generations<D>::execute_pieces(std::size_t pieces, const VisitBody& piece) {
-  VisitGraph independent;
-  for (std::size_t i = 0; i < pieces; ++i) independent.add_visit();
-  double longest = 0;
-  std::vector<double> seconds(pieces, 0.0);
-  const auto start = Clock::now();
-  execute(independent, [&](VisitGraph::Visit v) {
-    const auto piece_start = Clock::now();
-    piece(v);
-    seconds[v] = VisitRecorder::seconds_since(piece_start);
-  });
-  for (const double s : seconds) longest = std::max(longest, s);
-  recorder_->add_parts({VisitRecorder::seconds_since(start), longest});
+  recorder_->add_generation(wall);
+  const double work = std::accumulate(seconds.begin(), seconds.end(), 0.0);
+  state_->pieces.clock().add_section(wall, work, critical_path(generation.graph, seconds), state_->pieces.is_parallel());
 }
 
 /// Finds BUF of the leaves that are to be visited anew where a split has changed it.
 template <int D>
 void Generations<D>::renew_buffers(std::span<const VisitRequest> requests) {
-  constexpr std::size_t leaves_a_piece = 32;
-  std::vector<Node> stale;
-  for (const VisitRequest& r : requests)
-    if (r.order == 1 && conflicts_.is_stale(r.leaf)) stale.push_back(r.leaf);
-  execute_pieces((stale.size() + leaves_a_piece - 1) / leaves_a_piece, [&](VisitGraph::Visit v) {
-    const std::size_t first = v * leaves_a_piece, last = std::min(stale.size(), first + leaves_a_piece);
-    for (std::size_t i = first; i < last; ++i) conflicts_.renew(stale[i]);
+  constexpr std::size_t requests_a_piece = 32;
+  conflicts_.make_room();
+  state_->pieces.run((requests.size() + requests_a_piece - 1) / requests_a_piece, [&](std::size_t piece) {
+    const std::size_t first = piece * requests_a_piece, last = std::min(requests.size(), first + requests_a_piece);
+    for (std::size_t i = first; i < last; ++i)
+      if (requests[i].order == 1) conflicts_.renew(requests[i].node);
   });
 }
 
@@ -138,14 +122,14 @@ void Generations<D>::touch_memory(std::span<const VisitRequest> requests) {
   std::uint64_t made = 0, replaced = 0;
   for (const VisitRequest& r : requests) {
     if (r.order != 1) continue;
-    made += (*waiting_)[r.leaf].list.to_come();
-    replaced += (*waiting_)[r.leaf].list.poor();
+    made += (*waiting_)[r.node].list.to_come();
+    replaced += (*waiting_)[r.node].list.poor();
   }
   constexpr std::uint64_t cells_a_vertex = D == 3 ? 7 : 2;
   const std::uint64_t cells = made - std::min(made, made / 16 + replaced);
   const std::uint64_t vertices = std::min(cells / cells_a_vertex, context_->options.max_vertices - state_->totals.vertices);
   const auto pages = context_->mesh.fresh_pages(cells_a_vertex * vertices, vertices);
-  execute_pieces(pages.size(), [&](VisitGraph::Visit v) {
+  state_->pieces.run(pages.size(), [&](std::size_t v) {
     if (!context_->ended()) touch_pages(pages[v]);
   });
 }
@@ -157,7 +141,7 @@ void Generations<D>::split_leaves(std::vector<Node> candidates) {
     std::vector<Node> parents;
     for (const Node leaf : candidates)
       if (waiting_->split_if_crowded(leaf)) parents.push_back(leaf);
-    execute_pieces(parents.size(), [&](VisitGraph::Visit v) { waiting_->hand_down(parents[v]); });
+    state_->pieces.run(parents.size(), [&](std::size_t v) { waiting_->hand_down(parents[v]); });
     candidates.clear();
     for (const Node parent : parents)
       for (Node child = 0; child < Orthtree<D>::children; ++child)

@@ -36,9 +36,8 @@ class Generations final : public VisitSchedule<D> {
   bool one_generation();
   void run_visit(const Visit<D>& visit, Planned& planned);
   void execute(const VisitGraph& graph, const VisitBody& body);
-  double account(Generation<D>& generation, std::vector<Planned>& planned);
+  void account(Generation<D>& generation, std::vector<Planned>& planned, double wall);
   bool is_whole_if_small() const;
-  void execute_pieces(std::size_t pieces, const VisitBody& piece);
   void renew_buffers(std::span<const VisitRequest> requests);
   void touch_memory(std::span<const VisitRequest> requests);
   void split_leaves(std::vector<Node> candidates);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <exception>
 #include <functional>
+#include <numeric>
 #include <thread>
 
 #include "claims/claimed_area.hpp"
@@ -20,31 +21,33 @@ namespace {
 template <int D>
 class CopiedArea final : public VisitArea<D> {
  public:
-  CopiedArea(const Orthtree<D>& tree, const Claim<D>& claim) {
-    const ClaimedArea<D> area(tree, claim);
+  CopiedArea(const Placement<D>& placement, const Visit<D>& visit) {
+    const Claim<D> claim = visit.claim(placement.tree());
+    const ClaimedArea<D> area(placement, claim);
     static_cast<VisitArea<D>&>(*this) = area;
     whole_ = claim.whole();
-    for (const std::uint32_t leaf : claim.leaves()) boxes_.push_back(ClaimedArea<D>::unbounded_box(tree, leaf));
+    for (const std::uint32_t leaf : visit.leaves) boxes_.push_back(ClaimedArea<D>::unbounded_box(placement.tree(), leaf));
   }
   bool claimed(const Point<D>& p) const override {
     return whole_ || std::any_of(boxes_.begin(), boxes_.end(), [&p](const auto& box) { return box.contains(p); });
   }
   /// Found out when the visit has ended.
-  std::uint32_t leaf_of(const Point<D>&) const override { return 0; }
+  std::uint32_t region_of(const Point<D>&, double) const override { return 0; }
 
  private:
   bool whole_ = false;
-  std::vector<typename Orthtree<D>::Box> boxes_;
+  std::vector<typename Orthtree<D>::Box> boxes_;  ///< beyond the inner one
 };
 
 }  // namespace
 
 template <int D>
 struct Greedy<D>::Running {
-  VisitRequest request;
+  Running(const Placement<D>& placement, Visit<D> v) : visit(std::move(v)), area(placement, visit) {}
+
+  Visit<D> visit;
   RegionVisit<D> work;
-  std::unique_ptr<CopiedArea<D>> area;
-  std::vector<Node> leaves;  ///< claimed
+  CopiedArea<D> area;
 };
 
 template <int D>
@@ -53,7 +56,7 @@ Greedy<D>::Greedy(RunState<D>& state, int threads)
       context_(&state.context),
       waiting_(&state.waiting),
       tree_(&state.waiting.tree()),
-      conflicts_(*tree_, state.options.claim_order),
+      conflicts_(*tree_, state.options.claims, state.options.claim_order),
       threads_(threads) {}
 
 /// Puts the leaf's work, of every order, into the pool.
@@ -67,37 +70,22 @@ void Greedy<D>::pool(Node leaf) {
 /// What is in the pool already keeps its place. The whole tree comes last.
 template <int D>
 void Greedy<D>::pool(const VisitRequest& request) {
-  const int level = request.order == whole_tree ? Orthtree<D>::max_level + 1 : tree_->level(request.leaf);
-  if (pooled_.insert({request.leaf, request.order}).second) pool_.try_emplace({level, arrivals_++, request.order, request.leaf});
+  const int level = request.order == whole_tree ? Orthtree<D>::max_level + 1 : tree_->level(request.node);
+  if (pooled_.insert({request.node, request.order}).second) pool_.try_emplace({level, arrivals_++, request.order, request.node});
 }
 
-/// Could the visit run now? Asked of the whole pool whenever a visit ends: leaves are looked up once, and again only when
-/// some of them were split.
+/// Could the visit run now? Asked of the whole pool whenever a visit ends: what it claims is found out once, and again only when
+/// a leaf of that was split.
 template <int D>
 bool Greedy<D>::is_free(const VisitRequest& r, Wanted& wanted) {
-  if (r.order == whole_tree) return running_ == 0 && pool_.size() == 1;
-  if (claimed_[r.leaf]) return false;
+  if (r.order == whole_tree) return running_.empty() && pool_.size() == 1;
   if (wanted.tree_nodes != tree_->node_count()) {
     const auto was_split = [this](Node leaf) { return !tree_->is_leaf(leaf); };
-    if (wanted.tree_nodes == 0 || std::any_of(wanted.claim.begin(), wanted.claim.end(), was_split)) {
-      wanted.claim = conflicts_.visit_of(r).leaves;
-      wanted.held = Orthtree<D>::none;
-    }
+    if (wanted.tree_nodes == 0 || std::any_of(wanted.visit.leaves.begin(), wanted.visit.leaves.end(), was_split))
+      wanted.visit = conflicts_.visit_of(r);
     wanted.tree_nodes = tree_->node_count();
   }
-  if (wanted.held != Orthtree<D>::none && claimed_[wanted.held]) return false;
-  const auto held = std::find_if(wanted.claim.begin(), wanted.claim.end(), [this](Node leaf) { return claimed_[leaf] != 0; });
-  if (held == wanted.claim.end()) return true;
-  wanted.held = *held;
-  return false;
-}
-
-template <int D>
-void Greedy<D>::claim(Running& visit) {
-  const Claim<D> claim = conflicts_.visit_of(visit.request).claim(*tree_);
-  visit.leaves = claim.leaves();
-  for (const Node leaf : visit.leaves) claimed_[leaf] = 1;
-  visit.area = std::make_unique<CopiedArea<D>>(*tree_, claim);
+  return std::none_of(running_.begin(), running_.end(), [&](const Running* other) { return meet(wanted.visit, other->visit); });
 }
 
 /// The first in the pool that can run now; null if none can.
@@ -105,13 +93,12 @@ template <int D>
 auto Greedy<D>::pick() -> std::unique_ptr<Running> {
   const std::uint64_t most = context_->options.max_vertices;
   const std::uint64_t left = most - std::min(most, state_->totals.vertices + reserved_);
-  if (running_ >= threads_ || context_->stop != 0 || (left == 0 && !context_->stage)) return nullptr;
-  claimed_.resize(tree_->node_count(), 0);
+  if (static_cast<int>(running_.size()) >= threads_ || context_->stop != 0 || (left == 0 && !context_->stage)) return nullptr;
   for (auto next = pool_.begin(); next != pool_.end(); ++next) {
     const VisitRequest request{std::get<3>(next->first), std::get<2>(next->first), 0};
     if (!is_free(request, next->second)) continue;
     pool_.erase(next);
-    pooled_.erase({request.leaf, request.order});
+    pooled_.erase({request.node, request.order});
     return begin(request, left);
   }
   return nullptr;
@@ -120,37 +107,35 @@ auto Greedy<D>::pick() -> std::unique_ptr<Running> {
 /// Claims what the visit needs, and gives it its work and its share of the vertices that are left.
 template <int D>
 auto Greedy<D>::begin(const VisitRequest& request, std::uint64_t vertices_left) -> std::unique_ptr<Running> {
-  auto visit = std::make_unique<Running>();
-  visit->request = request;
-  claim(*visit);
+  auto visit = std::make_unique<Running>(waiting_->placement(), conflicts_.visit_of(request));
   state_->prepare(request, visit->work);
-  if (request.order == 1) (*waiting_)[request.leaf].open_inbox();
+  if (request.order == 1) (*waiting_)[request.node].open_inbox();
   visit->work.most_insertions = std::min(vertices_left,
                                          std::max<std::uint64_t>(vertices_left / static_cast<std::uint64_t>(threads_), 1));
   reserved_ += visit->work.most_insertions;
-  ++running_;
-  state_->recorder.count_concurrent(static_cast<std::uint32_t>(running_));
+  running_.push_back(visit.get());
+  state_->recorder.count_concurrent(static_cast<std::uint32_t>(running_.size()));
   return visit;
 }
 
-/// Posts elements to the leaves that they belong to, which are looked up now that the visit has ended and still owns their cells.
+/// Posts elements to the nodes that they belong to, which are looked up now that the visit has ended and still owns their cells.
 template <int D>
 void Greedy<D>::hand_over(Running& visit) {
   for (auto& box : visit.work.outboxes) {
     std::vector<std::pair<Node, std::vector<Entry<D>>>> letters;
     for (const Entry<D>& e : box.entries) {
       if (!e.alive(context_->mesh)) continue;
-      const Node leaf = tree_->leaf_at(context_->place_of(e.cell));
-      auto batch = std::find_if(letters.rbegin(), letters.rend(), [leaf](const auto& l) { return l.first == leaf; });
+      const Node node = waiting_->node_of(e);
+      auto batch = std::find_if(letters.rbegin(), letters.rend(), [node](const auto& l) { return l.first == node; });
       if (batch == letters.rend()) {
-        letters.push_back({leaf, {e}});
+        letters.push_back({node, {e}});
       } else {
         batch->second.push_back(e);
       }
     }
-    for (auto& [leaf, entries] : letters) {
-      waiting_->post(leaf, std::move(entries));
-      if (leaf != visit.request.leaf) pool(leaf);
+    for (auto& [node, entries] : letters) {
+      waiting_->post(node, std::move(entries));
+      if (node != visit.visit.request.node) pool(node);
     }
   }
 }
@@ -169,33 +154,30 @@ void Greedy<D>::split(Node leaf) {
     std::erase_if(pool_,
                   [parent](const auto& w) { return std::get<3>(w.first) == parent && std::get<2>(w.first) != whole_tree; });
     std::erase_if(pooled_, [parent](const auto& p) { return p.first == parent && p.second != whole_tree; });
+    pool(parent);  // for what is too large for the children
     for (Node child = 0; child < Orthtree<D>::children; ++child) candidates.push_back(tree_->first_child(parent) + child);
   }
 }
 
 template <int D>
 void Greedy<D>::end(Running& visit) {
+  const VisitRequest& request = visit.visit.request;
   reserved_ -= std::min(reserved_, visit.work.most_insertions);
-  state_->refused.mark_changed(visit.work, visit.leaves);
-  state_->account(visit.request, visit.work, visit.leaves);
+  state_->account(request, visit.work);
   hand_over(visit);
-  for (const Node leaf : visit.leaves) claimed_[leaf] = 0;
-  --running_;
-  if (visit.request.order == 1) {
-    split(visit.request.leaf);
-  } else if (visit.request.order != whole_tree) {
-    pool(visit.request.leaf);
+  std::erase(running_, &visit);
+  if (request.order == 1) split(request.node);
+  for (Node node = request.node;; node = tree_->parent(node)) {  // what was set aside is for one of these
+    pool(node);
+    if (node == Orthtree<D>::root) break;
   }
-  const auto of_whole_tree = [](const auto& w) { return std::get<2>(w.first) == whole_tree; };
-  if (std::none_of(pool_.begin(), pool_.end(), of_whole_tree))
-    if (const auto request = waiting_->whole_tree_request()) pool(*request);
   ended_.notify_all();
 }
 
 template <int D>
 void Greedy<D>::run_visit(Running& visit) {
   const VisitRecorder::Watch watch;
-  if (state_->workers.run(*visit.area, visit.work)) state_->recorder.record(visit.request, visit.work, watch);
+  if (state_->workers.run(visit.area, visit.work)) state_->recorder.record(visit.visit.request, visit.work, watch);
 }
 
 template <int D>
@@ -206,7 +188,7 @@ void Greedy<D>::run_on_threads() {
     while (!done() && !error) {
       auto visit = pick();
       if (!visit) {
-        if (running_ == 0) return;
+        if (running_.empty()) return;
         ended_.wait(lock);
         continue;
       }
@@ -268,6 +250,8 @@ StopCause Greedy<D>::drain() {
   waiting_->begin_generation();
   state_->recorder.count_generation();
   const auto start = VisitRecorder::Clock::now();
+  const std::vector<double>& busy_so_far = state_->recorder.statistics().busy_seconds;
+  const double busy_before = std::accumulate(busy_so_far.begin(), busy_so_far.end(), 0.0);
   for (const VisitRequest& r : waiting_->requests()) pool(r);
   if (state_->options.executor == Executor::flow_graph) {
     run_in_arena();
@@ -275,7 +259,10 @@ StopCause Greedy<D>::drain() {
     run_on_threads();
   }
   const double seconds = VisitRecorder::seconds_since(start);
-  state_->recorder.add_generation(seconds, seconds);
+  const std::vector<double>& busy = state_->recorder.statistics().busy_seconds;
+  const double work = std::accumulate(busy.begin(), busy.end(), 0.0) - busy_before;
+  state_->recorder.add_generation(seconds);
+  state_->pieces.clock().add_section(seconds, work, seconds, true);  // what waited for what is not recorded
   if (state_->stop() != StopCause::finished) return state_->stop();
   const bool spent = state_->totals.vertices >= context_->options.max_vertices;
   return spent && !pool_.empty() ? StopCause::max_vertices : StopCause::finished;

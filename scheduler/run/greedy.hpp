@@ -37,9 +37,8 @@ class Greedy final : public VisitSchedule<D> {
   using Waiting = std::tuple<int, std::uint64_t, std::uint32_t, Node>;
   /// What was found out when the pool was last looked through.
   struct Wanted {
-    std::vector<Node> claim;        ///< leaves; none yet if `tree_nodes` is 0
-    std::uint32_t tree_nodes = 0;   ///< of the tree when the claim was last found to hold
-    Node held = Orthtree<D>::none;  ///< a leaf of the claim that another visit held
+    Visit<D> visit{};              ///< none yet if `tree_nodes` is 0
+    std::uint32_t tree_nodes = 0;  ///< of the tree when its claim was last found to hold
   };
 
   void run_in_arena();
@@ -50,12 +49,11 @@ class Greedy final : public VisitSchedule<D> {
   std::unique_ptr<Running> pick();
   std::unique_ptr<Running> begin(const VisitRequest& request, std::uint64_t vertices_left);
   bool is_free(const VisitRequest& r, Wanted& wanted);
-  void claim(Running& visit);
   void end(Running& visit);
   void run_visit(Running& visit);
   void hand_over(Running& visit);
   void split(Node leaf);
-  bool done() const { return running_ == 0 && (pool_.empty() || context_->stop != 0); }
+  bool done() const { return running_.empty() && (pool_.empty() || context_->stop != 0); }
 
   RunState<D>* state_;
   RefineContext<D>* context_;
@@ -67,9 +65,8 @@ class Greedy final : public VisitSchedule<D> {
   std::condition_variable ended_;
   std::map<Waiting, Wanted> pool_;
   std::set<std::pair<Node, std::uint32_t>> pooled_;  ///< leaf and order of what is in the pool
-  std::vector<char> claimed_;                        ///< by node
+  std::vector<const Running*> running_;
   std::uint64_t arrivals_ = 0, reserved_ = 0;
-  int running_ = 0;
 };
 
 extern template class Greedy<2>;

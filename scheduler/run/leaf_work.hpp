@@ -5,10 +5,10 @@
 // time, except that during a generation a visit uses the work of the leaves that it has claimed.
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cstdint>
-#include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "refine/refiner.hpp"
@@ -16,24 +16,37 @@
 
 namespace pgdr::detail {
 
-/// The orders of claims for what was set aside: BUF^2, BUF^4; then the whole tree, which is nobody's leaf.
-inline constexpr std::array<std::uint32_t, 2> set_aside_orders{2, 4};
+/// What was set aside for a visit with a claim of this order.
+template <int D>
+struct SetAside {
+  std::uint32_t order;
+  std::uint64_t since;  ///< generation in which it last became non-empty
+  std::vector<Entry<D>> entries;
+};
 
-/// The work of one leaf.
+/// The work of one leaf, or of an inner node: elements that are too large for smaller ones, and what was set aside.
 template <int D>
 struct LeafWork {
   WorkList<D> list;
   std::vector<std::vector<Entry<D>>> inbox;  ///< from visits of other leaves, in their order; not looked at yet
-  std::array<std::vector<Entry<D>>, set_aside_orders.size()> set_aside;
-  std::uint64_t since = 0;  ///< generation in which the list last became non-empty
-  std::array<std::uint64_t, set_aside_orders.size()> set_aside_since{};
-  /// Generation in which a visit that had claimed it last changed the mesh; of inner nodes, see pass_up_changes.
-  std::uint64_t changed = 0;
-  /// Claims with which something was refused here, one for each order, as they were first: later ones lie within, as
-  /// leaves split.
-  std::map<std::uint32_t, std::vector<std::uint32_t>> zones;
+  std::vector<SetAside<D>> set_aside;        ///< at most one of an order
+  std::uint64_t since = 0;                   ///< generation in which the list last became non-empty
 
   bool has_list() const { return !list.empty() || !inbox.empty(); }
+  /// Adds to what was set aside for this order.
+  void add_set_aside(std::uint32_t order, std::uint64_t generation, const Entry<D>& e) {
+    const auto of_order = [order](const SetAside<D>& s) { return s.order == order; };
+    auto s = std::find_if(set_aside.begin(), set_aside.end(), of_order);
+    if (s == set_aside.end()) s = set_aside.insert(s, {order, generation, {}});
+    if (s->entries.empty()) s->since = generation;
+    s->entries.push_back(e);
+  }
+  /// Takes out what was set aside for this order.
+  std::vector<Entry<D>> take_set_aside(std::uint32_t order) {
+    for (SetAside<D>& s : set_aside)
+      if (s.order == order) return std::exchange(s.entries, {});
+    return {};
+  }
   /// Moves the inbox into the list.
   void open_inbox() {
     for (const auto& batch : inbox)
@@ -56,11 +69,10 @@ class LeafWorks {
   void grow() {
     while (works_.size() < tree_->node_count()) works_.push_back(std::make_unique<LeafWork<D>>());
   }
-  /// Makes each node know of changes in any of its parts. Until then leaves alone do.
-  void pass_up_changes();
-  /// Hands all that waits at a node that was split to its children, by the places of the cells
-  /// (RefineContext::place_of). What was set aside starts again as ordinary. Threads: different parents at once.
-  void hand_down(const RefineContext<D>& context, Node parent, std::uint64_t generation);
+  /// Hands what waits at a node that was split to its children, by the places of the cells (RefineContext::place_of), but for
+  /// elements with a circumradius above `most_radius`, which belong to the node itself. What was set aside for a visit of a leaf
+  /// starts again as ordinary. Threads: different parents at once.
+  void hand_down(const RefineContext<D>& context, Node parent, double most_radius, std::uint64_t generation);
 
  private:
   const Orthtree<D>* tree_;

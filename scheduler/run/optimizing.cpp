@@ -8,6 +8,7 @@
 #include "pgdr/predicates.hpp"
 #include "reasons/optimized_reasons.hpp"
 #include "rule/cell_quality.hpp"
+#include "space/bulk.hpp"
 
 namespace pgdr::detail {
 namespace {
@@ -59,7 +60,7 @@ std::vector<Entry<3>> Optimizing::find_poor() {
       found.poor.push_back({c, mesh.birth(c), EntryKind::cell, Entry<3>::over_radius_edge, 0, order});
     }
   };
-  state_->recorder.add_parts(each_part(mesh.cell_bound(), state_->options, look_at));
+  each_part(mesh.cell_bound(), state_->pieces, look_at);
   state_->is_cancelled();
   std::vector<Entry<3>> all;
   cells_ = 0;
@@ -68,7 +69,7 @@ std::vector<Entry<3>> Optimizing::find_poor() {
     cells_ += part.cells;
   }
   state_->totals.counts.evaluated += cells_;
-  std::sort(all.begin(), all.end(), [&mesh](const Entry<3>& a, const Entry<3>& b) {
+  Bulk(state_->pieces).sort(all, [&mesh](const Entry<3>& a, const Entry<3>& b) {
     return a.order != b.order ? a.order < b.order : compare_vertices<3>(mesh, a.cell, b.cell) < 0;
   });
   return all;

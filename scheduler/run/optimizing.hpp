@@ -15,6 +15,7 @@
 #include "optimize/optimizer.hpp"
 #include "pgdr/refine.hpp"
 #include "reasons/poor_reasons.hpp"
+#include "run/cell_parts.hpp"
 #include "run/run_state.hpp"
 
 namespace pgdr::detail {

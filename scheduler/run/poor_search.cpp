@@ -11,7 +11,8 @@ template <int D>
 PoorSearch<D>::PoorSearch(RunState<D>& state, ViolationScan<D>& violations)
     : state_(&state),
       violations_(&violations),
-      reasons_(state.context.mesh, state.context.domain, state.context.bounds, state.context.options.keep_boundary) {}
+      reasons_(state.context.mesh, state.context.domain, state.context.bounds, state.context.options.keep_boundary,
+               Bulk(state.pieces)) {}
 
 /// For an assertion: large meshes are not looked at, lest debug builds take for ever, nor those of a run that has to end.
 template <int D>
@@ -32,7 +33,7 @@ template <int D>
 std::vector<PoorCell> PoorSearch<D>::look() {
   state_->refused.for_each_list([this](std::span<const Refusal<D>> refused) { reasons_.add(refused); });
   if (state_->totals.violations_seen) return look_at_all();
-  std::vector<PoorCell> found = reasons_.of_refused([this] { return state_->context.ended(); });
+  std::vector<PoorCell> found = reasons_.of_refused([this] { return state_->context.ended(); }, Bulk(state_->pieces));
   assert(lists_all_poor(found.size()));
   return found;
 }
@@ -44,9 +45,9 @@ std::vector<PoorCell> PoorSearch<D>::look_at_all() {
   std::vector<bool> violated(cells);
   for (const Entry<D>& e : violations_->standing()) violated[index(e.cell)] = true;
   std::vector<std::vector<PoorCell>> parts(count_parts(cells));
-  state_->recorder.add_parts(each_part(cells, state_->options, [&](const CellPart& part) {
+  each_part(cells, state_->pieces, [&](const CellPart& part) {
     parts[part.number] = reasons_.of_cells(part.first, part.last, violated, [this] { return state_->context.ended(); });
-  }));
+  });
   std::vector<PoorCell> all;
   for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
   return all;

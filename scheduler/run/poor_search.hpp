@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "reasons/poor_reasons.hpp"
+#include "run/cell_parts.hpp"
 #include "run/run_state.hpp"
 #include "run/violation_scan.hpp"
 

@@ -18,7 +18,6 @@
 #include "compact/compact.hpp"
 #include "compact/point_data.hpp"
 #include "compact/region_volumes.hpp"
-#include "graph/arena.hpp"
 #include "graph/float_environment.hpp"
 #include "input/words.hpp"
 #include "pgdr/diagnosis.hpp"
@@ -29,6 +28,7 @@
 #include "run/deadline.hpp"
 #include "run/folded_facets.hpp"
 #include "run/refinement.hpp"
+#include "run/run_pieces.hpp"
 #include "size/region_sizes.hpp"
 
 namespace pgdr {
@@ -94,10 +94,10 @@ CellBounds<D> bounds_of(const RefineOptions<D>& options, const RegionTable& regi
 
 /// The cells over a bound. `sizes_are_met`: none is over one of size, so that the size function need not be called.
 template <int D>
-PoorCount count_poor(const RefineContext<D>& context, bool sizes_are_met) {
+PoorCount count_poor(const RefineContext<D>& context, bool sizes_are_met, const detail::RunPieces& pieces) {
   const std::uint32_t cells = context.mesh.cell_bound();
   std::vector<PoorCount> parts(detail::count_parts(cells));
-  detail::each_part(cells, context.options.schedule, [&](const detail::CellPart& part) {
+  detail::each_part(cells, pieces, [&](const detail::CellPart& part) {
     if (!sizes_are_met) {
       parts[part.number] = count_poor_cells<D>(context.mesh, context.bounds, part.first, part.last);
       return;
@@ -130,35 +130,25 @@ std::span<const double> attributes_of(const RegionTable& regions) {
 
 template <int D>
 Compacted<D> compact_mesh(Mesh<D>& mesh, const Domain<D>& domain, const RegionTable& regions, const PointData<D>& data,
-                          const RefineOptions<D>& options, bool was_interrupted) {
+                          const RefineOptions<D>& options, bool was_interrupted, const detail::RunPieces& pieces) {
   const std::span<const double> attributes = attributes_of(regions);
   // The mesh is used up: where a partial one is wanted its numbering goes on to the end, in haste.
   const std::stop_token none, stop = options.partial_mesh ? none : options.stop;
   const std::stop_token hurry = options.partial_mesh ? options.stop : none;
-  Compacted<D> compacted;
-  const auto make = [&](bool parallel) {
-    const FillPoints<D> fill = [&](const Mesh<D>& m, Compacted<D>& out) { data.fill(m, out, parallel, stop); };
-    compacted = was_interrupted ? compact_by_slots<D>(mesh, domain, attributes, parallel, fill)
-                                : compact<D>(std::move(mesh), domain, attributes, parallel, stop, fill, hurry);
-  };
-  constexpr std::uint32_t few_cells = 1 << 12;  // a thread's least share (stripped_cells.hpp): no other would help
-  if (options.schedule.executor != Executor::flow_graph || mesh.cell_bound() <= few_cells)
-    make(false);
-  else
-    detail::in_arena_to_the_end(options.schedule.threads, [&] { make(true); });
-  return compacted;
+  const FillPoints<D> fill = [&](const Mesh<D>& m, Compacted<D>& out) { data.fill(m, out, pieces, stop); };
+  return was_interrupted ? compact_by_slots<D>(mesh, domain, attributes, pieces, fill)
+                         : compact<D>(std::move(mesh), domain, attributes, pieces, stop, fill, hurry);
 }
 
 /// For each cell of the mesh, the leaf that holds its circumcentre.
 template <int D>
-std::vector<std::uint32_t> leaves_of(const OutputMesh<D>& mesh, const Orthtree<D>& tree) {
-  std::vector<std::uint32_t> leaves;
-  leaves.reserve(mesh.cells.size());
-  for (const auto& cell : mesh.cells) {
+std::vector<std::uint32_t> leaves_of(const OutputMesh<D>& mesh, const Orthtree<D>& tree, const detail::Bulk& bulk) {
+  std::vector<std::uint32_t> leaves(mesh.cells.size());
+  bulk.each(leaves.size(), [&](std::size_t c) {
     Simplex<D> s;
-    for (int i = 0; i <= D; ++i) s[i] = mesh.points[cell[i]];
-    leaves.push_back(tree.leaf_at(circumsphere<D>(s).center));
-  }
+    for (int i = 0; i <= D; ++i) s[i] = mesh.points[mesh.cells[c][i]];
+    leaves[c] = tree.leaf_at(circumsphere<D>(s).center);
+  });
   return leaves;
 }
 
@@ -198,20 +188,29 @@ void warn_beyond_theory(const RefineOptions<D>& options, std::vector<Diagnostic>
 /// boundary is there, `result.stop` says why.
 template <int D>
 RegionTable make_initial(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Domain<D>& domain, const RefineOptions<D>& options,
-                         Clock::time_point start, const detail::Deadline& deadline, RefineResult<D>& result) {
+                         Clock::time_point start, const detail::Deadline& deadline, const detail::RunPieces& pieces,
+                         RefineResult<D>& result) {
+  detail::RunClock& clock = pieces.clock();
   Delaunay<D> delaunay(mesh, pools);
-  if (!delaunay.build(domain.points(), deadline.token()))
+  bool is_solid = false;
+  {
+    const detail::RunClock::Stage timed(clock, "triangulate");
+    is_solid = delaunay.build(domain.points(), pieces, deadline.token());
+  }
+  if (!is_solid)
     throw InputError({Errc::no_volume, D == 3 ? "all points lie in one plane" : "all points lie on one line", {}, 0, {}, {}});
   result.stop = deadline.cause();
   if (result.stop == StopCause::finished) {  // else the triangulation may lack points
+    const detail::RunClock::Stage timed(clock, "recover");
     RecoveryCounts counts;
-    result.stop = recover_boundary<D>(mesh, pools, delaunay, domain, options, start, counts);
+    result.stop = recover_boundary<D>(mesh, pools, delaunay, domain, options, start, counts, pieces);
     result.statistics.segment_points = counts.segment_points;
     result.statistics.facet_points = counts.facet_points;
   }
   if (result.stop != StopCause::finished) return {};
-  RegionTable regions = carve<D>(mesh, pools, delaunay, domain, options.regions, result.warnings);
-  if constexpr (D == 3) require_unfolded(mesh, domain, options.regions, attributes_of(regions));
+  const detail::RunClock::Stage timed(clock, "carve");
+  RegionTable regions = carve<D>(mesh, pools, delaunay, domain, options.regions, result.warnings, pieces);
+  if constexpr (D == 3) require_unfolded(mesh, domain, options.regions, attributes_of(regions), pieces);
   return regions;
 }
 
@@ -227,8 +226,8 @@ struct Refined {
 
 template <int D>
 Refined<D> refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices,
-                       RefineResult<D>& result) {
-  detail::Refinement<D> refinement(context, std::move(pools), vertices, target_of(context.options));
+                       const detail::RunPieces& pieces, RefineResult<D>& result) {
+  detail::Refinement<D> refinement(context, std::move(pools), vertices, target_of(context.options), pieces);
   result.stop = refinement.run();
   detail::RunState<D>& state = refinement.state();
   const detail::Optimizing* optimizing = refinement.optimizing();
@@ -239,7 +238,6 @@ Refined<D> refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools,
   result.violations_seen = state.totals.violations_seen || optimizing;
   result.statistics.insertions_committed = counts.committed;
   result.statistics.insertions_refused = counts.refused;
-  result.statistics.stages = refinement.stage_times();
   result.statistics.selector_outside = state.totals.counts.selector_outside;
   result.statistics.predicates += state.recorder.predicates_elsewhere();
   result.scheduler = state.recorder.statistics();
@@ -258,11 +256,12 @@ Refined<D> refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools,
 /// Counts the cells that stay poor. Unless the refinement has finished, and has explained them, every cell is looked at, or none
 /// where the run was interrupted and the lists tell.
 template <int D>
-void count_poor_left(const RefineContext<D>& context, const Refined<D>& refined, RefineResult<D>& result) {
+void count_poor_left(const RefineContext<D>& context, const Refined<D>& refined, const detail::RunPieces& pieces,
+                     RefineResult<D>& result) {
   const RefineOptions<D>& options = context.options;
   if (!options.refine || result.stop != StopCause::finished) {
     const PoorCount count = refined.counted && was_interrupted(result.stop) ? *refined.counted
-                                                                            : count_poor(context, refined.sizes_are_met);
+                                                                            : count_poor(context, refined.sizes_are_met, pieces);
     result.poor_left = count.cells;
     result.size_met = !count.over_size;
     return;
@@ -274,7 +273,8 @@ void count_poor_left(const RefineContext<D>& context, const Refined<D>& refined,
     if (result.delaunay || context.bounds.test(context.mesh, p.cell)) over_bound.push_back(p.cell);
     result.size_met = result.size_met && !p.over_size;
   }
-  result.poor_unavoidable = count_in_sharp_corners<D>(context.mesh, context.domain, options.radius_edge_bound, over_bound);
+  result.poor_unavoidable = count_in_sharp_corners<D>(context.mesh, context.domain, options.radius_edge_bound, over_bound,
+                                                      detail::Bulk(pieces));
 }
 
 /// The numbers that compact_by_slots() gives these cells, which are in the order of their slots.
@@ -292,63 +292,68 @@ std::vector<std::uint32_t> numbers_by_slots(const Mesh<D>& mesh, std::span<const
 /// Numbers the finished mesh, which uses `mesh` up, and the poor cells in it. Where the run is cancelled meanwhile and no partial
 /// mesh is wanted, the result has none.
 template <int D>
-void number_mesh(const RefineContext<D>& context, const RegionTable& regions, const PointData<D>& data, const Refined<D>& refined,
-                 RefineResult<D>& result) {
+void number_mesh(const RefineContext<D>& context, const RegionTable& regions, const PointData<D>& data, Refined<D>& refined,
+                 const detail::RunPieces& pieces, RefineResult<D>& result) {
   const RefineOptions<D>& options = context.options;
+  const detail::Bulk bulk(pieces);
   std::vector<PoorCell> poor;
-  if (options.refine && result.stop != StopCause::cancelled) poor = refined.explained;
+  if (options.refine && result.stop != StopCause::cancelled) poor = std::move(refined.explained);
   const bool by_slots = was_interrupted(result.stop);
   const std::vector<std::uint32_t> numbers = by_slots ? numbers_by_slots<D>(context.mesh, poor) : std::vector<std::uint32_t>();
-  std::vector<std::array<VertexId, D + 1>> poor_vertices;
-  for (const PoorCell& p : poor) poor_vertices.push_back(context.mesh.cell(p.cell).vertices);
-  Compacted<D> compacted = compact_mesh(context.mesh, context.domain, regions, data, options, by_slots);
+  std::vector<std::array<VertexId, D + 1>> poor_vertices(poor.size());
+  bulk.each(poor.size(), [&](std::size_t i) { poor_vertices[i] = context.mesh.cell(poor[i].cell).vertices; });
+  Compacted<D> compacted = compact_mesh(context.mesh, context.domain, regions, data, options, by_slots, pieces);
   if (options.stop.stop_requested()) {
     result.stop = StopCause::cancelled;
     poor.clear();
     if (!options.partial_mesh) return;
   }
-  for (std::size_t i = 0; i < poor.size(); ++i) {
-    PoorReason reason = poor[i].reason;
-    reason.cell = by_slots ? numbers[i] : compacted.cell_number(poor_vertices[i]);
-    result.reasons.push_back(reason);
-  }
-  std::sort(result.reasons.begin(), result.reasons.end(),
-            [](const PoorReason& a, const PoorReason& b) { return a.cell < b.cell; });
+  result.reasons.resize(poor.size());
+  bulk.each(poor.size(), [&](std::size_t i) {
+    result.reasons[i] = poor[i].reason;
+    result.reasons[i].cell = by_slots ? numbers[i] : compacted.cell_number(poor_vertices[i]);
+  });
+  bulk.sort(result.reasons, [](const PoorReason& a, const PoorReason& b) { return a.cell < b.cell; });
   result.mesh = std::move(compacted.mesh);
-  if (refined.tree) result.mesh.leaves = leaves_of(result.mesh, *refined.tree);
+  if (refined.tree) result.mesh.leaves = leaves_of(result.mesh, *refined.tree, bulk);
 }
 
 /// The mesh of the domain. `result`: what is known before. `start`: of the run, for its limits.
 template <int D>
 RefineResult<D> make_mesh(const Domain<D>& domain, const RefineOptions<D>& options, Clock::time_point start,
-                          const detail::Deadline& deadline, RefineResult<D> result) {
+                          const detail::Deadline& deadline, const detail::RunPieces& pieces, RefineResult<D> result) {
   Mesh<D> mesh(domain.points().size());
   auto pools = mesh.make_pools();
-  const RegionTable regions = make_initial<D>(mesh, pools, domain, options, start, deadline, result);
+  const RegionTable regions = make_initial<D>(mesh, pools, domain, options, start, deadline, pieces, result);
   result.statistics.seconds_initial = seconds_since(start);
   if (result.stop != StopCause::finished) {
     result.size_met = false;
     return result;  // no boundary yet, so no mesh
   }
-  const PointData<D> data(mesh, domain);
+  const PointData<D> data(mesh, domain, pieces);
   const std::uint64_t vertices = domain.points().size() + result.statistics.segment_points + result.statistics.facet_points;
   RefineContext<D> context(mesh, domain, options, bounds_of(options, regions), vertices, start);
   Refined<D> refined;
-  if (options.refine) refined = refine_mesh<D>(context, std::move(pools), vertices, result);
+  if (options.refine) refined = refine_mesh<D>(context, std::move(pools), vertices, pieces, result);
   if (is_unwanted(options, result.stop)) return without_mesh(std::move(result), start);
-  count_poor_left<D>(context, refined, result);
-  result.regions = region_volumes<D>(mesh, domain, attributes_of(regions));
+  detail::RunClock& clock = pieces.clock();
+  {
+    const detail::RunClock::Stage timed(clock, "count");
+    count_poor_left<D>(context, refined, pieces, result);
+    result.regions = region_volumes<D>(mesh, domain, attributes_of(regions), pieces);
+  }
   const double end = seconds_since(start), optimizing_since = refined.optimizing_since.value_or(end);
   result.statistics.seconds_refine = optimizing_since - result.statistics.seconds_initial;
   result.statistics.seconds_optimize = end - optimizing_since;
-  number_mesh<D>(context, regions, data, refined, result);
+  const detail::RunClock::Stage timed(clock, "number");
+  number_mesh<D>(context, regions, data, refined, pieces, result);
   if (is_unwanted(options, result.stop)) return without_mesh(std::move(result), start);
   return result;
 }
 
 template <int D>
 RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options, Clock::time_point start,
-                    const detail::Deadline& deadline) {
+                    const detail::Deadline& deadline, const detail::RunPieces& pieces) {
   if (domain.points().empty()) bad_option("the Domain is empty: it was moved from");
   const PredicateCounts predicates_before = predicate_counts();
   RefineResult<D> before;
@@ -357,15 +362,24 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options, Cl
   before.tolerance = domain.tolerance();
   before.largest_move = domain.largest_move();
   warn_beyond_theory(options, before.warnings);
+  detail::RunClock& clock = pieces.clock();
   try {
-    require_no_errors(domain, deadline.token(), options.schedule.executor == Executor::flow_graph);
+    const detail::RunClock::Stage timed(clock, "diagnose");
+    const detail::PiecesHere here(pieces);
+    require_no_errors(domain, deadline.token());
     if (options.prepared) options.prepared(domain);
   } catch (const CancelledError&) {
     return without_mesh(std::move(before), start, deadline.cause());
   }
-  RefineResult<D> result = make_mesh<D>(domain, options, start, deadline, std::move(before));
+  RefineResult<D> result = make_mesh<D>(domain, options, start, deadline, pieces, std::move(before));
   result.statistics.predicates += predicate_counts() - predicates_before;
-  result.statistics.seconds_mesh = seconds_since(start);
+  result.statistics.predicates += pieces.predicates_elsewhere();
+  result.statistics.stages = clock.stages();
+  result.statistics.seconds_mesh = clock.now();
+  const detail::SectionSeconds total = clock.total();
+  result.scheduler.work_seconds = total.work;
+  result.scheduler.critical_path_seconds = total.path;
+  result.scheduler.serial_seconds = total.wall - clock.sections().wall;
   return result;
 }
 
@@ -376,7 +390,8 @@ RefineResult<D> refine(const Domain<D>& domain, const RefineOptions<D>& options)
   const detail::DefaultFloats floats;
   validate(options);
   const auto start = Clock::now();
-  return run<D>(domain, options, start, detail::Deadline(options, start));
+  detail::RunClock clock(start);
+  return run<D>(domain, options, start, detail::Deadline(options, start), {options.schedule, clock});
 }
 
 namespace {
@@ -385,14 +400,18 @@ template <int D>
 RefineResult<D> prepare_and_run(const Plc<D>& plc, const RefineOptions<D>& options, Clock::time_point start) {
   const detail::Deadline deadline(options, start);
   std::optional<Domain<D>> domain;
+  detail::RunClock clock(start);
+  const detail::RunPieces pieces(options.schedule, clock);
   try {
+    const detail::RunClock::Stage timed(clock, "prepare");
+    const detail::PiecesHere here(pieces);
     domain.emplace(plc, deadline.token());
   } catch (const CancelledError&) {
     RefineResult<D> none;
     none.tolerance = tolerance_of(plc);
     return without_mesh(std::move(none), start, deadline.cause());
   }
-  return run<D>(*domain, options, start, deadline);
+  return run<D>(*domain, options, start, deadline, pieces);
 }
 
 }  // namespace

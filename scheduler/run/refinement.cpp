@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/refinement.hpp"
 
+#include <algorithm>
+
 #include "pgdr/point_selector.hpp"
 #include "run/generations.hpp"
 #include "run/greedy.hpp"
+#include "space/bulk.hpp"
 
 namespace pgdr::detail {
 namespace {
@@ -18,9 +21,10 @@ std::unique_ptr<VisitSchedule<D>> make_schedule(RunState<D>& state) {
 }  // namespace
 
 template <int D>
-Refinement<D>::Refinement(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices, double min_dihedral)
+Refinement<D>::Refinement(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices, double min_dihedral,
+                          const RunPieces& pieces)
     : min_dihedral_(min_dihedral),
-      state_(context, std::move(pools), vertices),
+      state_(context, std::move(pools), vertices, pieces),
       schedule_(make_schedule(state_)),
       violations_(state_) {
   const ScheduleOptions& options = context.options.schedule;
@@ -56,14 +60,14 @@ auto Refinement<D>::plan(bool optimizes) -> std::span<const Stage> {
 
 template <int D>
 StopCause Refinement<D>::run() {
-  const auto start = Clock::now();
-  const auto since_origin = [this] { return VisitRecorder::seconds_since(state_.context.start); };
+  RunClock& clock = state_.pieces.clock();
   StopCause stop = StopCause::finished;
   for (const Stage& stage : plan(min_dihedral_ > 0)) {
-    const double begin = since_origin();
-    if (stage.optimizes && !optimizing_since_) optimizing_since_ = begin;
-    stop = (this->*stage.run)();
-    times_.push_back({stage.name, begin, since_origin() - begin});
+    if (stage.optimizes && !optimizing_since_) optimizing_since_ = clock.now();
+    {
+      const RunClock::Stage timed(clock, stage.name);
+      stop = (this->*stage.run)();
+    }
     if (stop == StopCause::finished) stop = state_.stop();
     if (stop != StopCause::finished) break;
   }
@@ -76,25 +80,44 @@ StopCause Refinement<D>::run() {
     if (!state_.is_cancelled()) state_.context.stop = static_cast<int>(stop);
     stop = state_.stop();
   }
-  state_.recorder.finish(start, state_.waiting.tree().leaf_count());
+  state_.recorder.count_leaves(state_.waiting.tree().leaf_count());
   return stop;
 }
 
-/// Lists what is encroached or poor in the root, before the first split.
+/// Lists what is encroached or poor in the root, before the first split: what one worker would list, cell by cell.
 template <int D>
 StopCause Refinement<D>::list_everything() {
-  constexpr std::uint32_t between_looks = 1024;  // at the clock, and at the caller's wish to cancel
-  const auto worker = state_.workers.lease();
-  RegionVisit<D> listing;
-  listing.list = &state_.waiting[Orthtree<D>::root].list;
-  worker->begin(listing);
-  const Mesh<D>& mesh = state_.context.mesh;
-  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i) {
-    if (i % between_looks == 0 && state_.context.ended()) break;
-    if (mesh.alive(CellId{i})) worker->list_cell(CellId{i});
+  RefineContext<D>& context = state_.context;
+  const Bulk bulk(state_.pieces);
+  const std::size_t cells = context.mesh.cell_bound(), block = bulk.grain_of(cells);
+  std::vector<Listed> found((cells + block - 1) / block);
+  bulk.parts(found.size(), [&](std::size_t part) {
+    if (!context.ended()) found[part] = list_cells(part * block, std::min(cells, (part + 1) * block));
+  });
+  for (Listed& listed : found) {
+    for (const Entry<D>& e : listed.entries) state_.waiting[Orthtree<D>::root].list.push(e);
+    state_.totals.entities_refused = state_.totals.entities_refused || listed.entities_refused;
+    listed = {};
   }
-  state_.waiting.set_all_listed(state_.context.stop == 0);
+  state_.waiting.set_all_listed(context.stop == 0);
   return StopCause::finished;
+}
+
+/// What is to be listed of the cells numbered [first, last), in their order. Any thread.
+template <int D>
+auto Refinement<D>::list_cells(std::size_t first, std::size_t last) -> Listed {
+  WorkList<D> list;
+  RegionVisit<D> listing;
+  listing.list = &list;
+  const auto worker = state_.workers.lease();
+  worker->begin(listing);
+  for (std::size_t i = first; i < last; ++i)
+    if (const CellId c{static_cast<std::uint32_t>(i)}; state_.context.mesh.alive(c)) worker->list_cell(c);
+  std::vector<Entry<D>> entries;
+  entries.reserve(list.size());
+  list.drain([&](const Entry<D>& e) { entries.push_back(e); });
+  std::stable_sort(entries.begin(), entries.end(), [](const Entry<D>& a, const Entry<D>& b) { return a.cell < b.cell; });
+  return {std::move(entries), listing.entities_refused};
 }
 
 /// Treats all that waits, and what was refused as often as its surroundings change.
@@ -143,7 +166,7 @@ StopCause Refinement<D>::explain() {
 template <int D>
 StopCause Refinement<D>::end_if_vertices_are_spent() {
   const bool spent = state_.totals.vertices >= state_.context.options.max_vertices;
-  return spent && state_.waiting.whole_list_waits() ? StopCause::max_vertices : StopCause::finished;
+  return spent && !state_.waiting.is_empty() ? StopCause::max_vertices : StopCause::finished;
 }
 
 template <int D>
@@ -208,6 +231,7 @@ void Refinement<D>::repair_standing_violations() {
     const auto worker = state_.workers.lease();
     worker->repair(visit);
   }
+  state_.totals.entities_refused = state_.totals.entities_refused || visit.entities_refused;
   list.drain([this](const Entry<D>& e) {
     if (e.alive(state_.context.mesh)) state_.waiting.relist(e);
   });

@@ -5,7 +5,6 @@
 // optimiser. A plan has the stages in their order.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -32,8 +31,9 @@ class Refinement {
   };
 
   /// `pools`: those that made the mesh so far. `vertices`: it has so many. `min_dihedral`: the optimiser's target in degrees; 0:
-  /// none. The context must outlive this.
-  Refinement(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices, double min_dihedral);
+  /// none. The context and the pieces must outlive this.
+  Refinement(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices, double min_dihedral,
+             const RunPieces& pieces);
 
   /// The stages in their order, with the optimiser or without.
   static std::span<const Stage> plan(bool optimizes);
@@ -43,8 +43,7 @@ class Refinement {
   /// If the run has finished: every cell over a bound and why, and without the optimiser every cell beside a face that is not
   /// locally Delaunay and a small angle. If a limit has ended it before the optimiser began, the latter.
   std::vector<PoorCell> take_explained() { return std::move(explained_); }
-  /// The seconds of the stages that ran, and when the optimiser began, if it has (StageTime::start).
-  const std::vector<StageTime>& stage_times() const { return times_; }
+  /// When the optimiser began, if it has (StageTime::start).
   std::optional<double> optimizing_since() const { return optimizing_since_; }
   /// The optimiser's part; null if it has not begun.
   const Optimizing* optimizing() const { return optimizing_.get(); }
@@ -54,10 +53,14 @@ class Refinement {
   bool sizes_are_met() const { return optimizing_ && optimizing_->sizes_are_met(); }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   // The stages.
   StopCause list_everything();
+  /// What is to be listed of some cells, and whether an entity there was refused already.
+  struct Listed {
+    std::vector<Entry<D>> entries;
+    bool entities_refused = false;
+  };
+  Listed list_cells(std::size_t first, std::size_t last);
   StopCause refine();
   StopCause refine_as_last_resort();
   StopCause look_for_violations();
@@ -81,7 +84,6 @@ class Refinement {
   ViolationScan<D> violations_;
   std::optional<PoorSearch<D>> poor_;  ///< from explain() on
   std::vector<PoorCell> explained_;
-  std::vector<StageTime> times_;
   std::optional<double> optimizing_since_;
 };
 

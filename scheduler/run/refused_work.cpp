@@ -3,6 +3,7 @@
 #include "run/refused_work.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
 #include "mesh/surroundings.hpp"
@@ -10,72 +11,55 @@
 
 namespace pgdr::detail {
 
-template <int D>
-void RefusedWork<D>::mark_changed(const RegionVisit<D>& visit, std::span<const Node> claim) {
-  if (!visit.changed_mesh) return;
-  for (const Node leaf : claim) (*waiting_)[leaf].changed = visit.generation;
-}
-
-template <int D>
-void RefusedWork<D>::account(const VisitRequest& request, const RegionVisit<D>& visit, std::span<const Node> claim) {
-  if (visit.changed_mesh) (claim.empty() ? whole_changed_ : last_change_) = visit.generation;
-  if (!claim.empty() && visit.counts.refused > 0)
-    (*waiting_)[request.leaf].zones.try_emplace(request.order, claim.begin(), claim.end());
-}
-
-/// Takes those of which the answer is yes off the lists, and drops those that are dead.
+/// Takes those of which the answer is yes off the lists, in the order of the lists, and drops those that are dead.
 template <int D>
 std::vector<Refusal<D>> RefusedWork<D>::take_if(const Question& question) {
-  std::vector<Refusal<D>> taken, kept;
-  waiting_->for_each_list([&](WorkList<D>& list, const LeafWork<D>* work) {
-    for (Refusal<D>& r : list.refused)
-      if (r.entry.alive(context_->mesh)) (question(r, work) ? taken : kept).push_back(std::move(r));
-    list.refused = std::exchange(kept, {});
+  enum class Fate : char { stays, is_taken, is_dead };
+  constexpr std::size_t refusals_a_piece = 256;
+  std::vector<const Refusal<D>*> all;
+  waiting_->for_each_list([&all](WorkList<D>& list) {
+    for (const Refusal<D>& r : list.refused) all.push_back(&r);
+  });
+  std::vector<Fate> fates(all.size());
+  pieces_->run((all.size() + refusals_a_piece - 1) / refusals_a_piece, [&](std::size_t piece) {
+    const std::size_t first = piece * refusals_a_piece, last = std::min(all.size(), first + refusals_a_piece);
+    for (std::size_t i = first; i < last; ++i)
+      fates[i] = !all[i]->entry.alive(context_->mesh) ? Fate::is_dead : question(*all[i]) ? Fate::is_taken : Fate::stays;
+  });
+  std::vector<Refusal<D>> taken;
+  auto fate = fates.begin();
+  waiting_->for_each_list([&](WorkList<D>& list) {
+    std::vector<Refusal<D>> stay;
+    for (Refusal<D>& r : list.refused) {
+      if (*fate != Fate::is_dead) (*fate == Fate::stays ? stay : taken).push_back(std::move(r));
+      ++fate;
+    }
+    list.refused = std::move(stay);
   });
   return taken;
 }
 
 template <int D>
 std::vector<Refusal<D>> RefusedWork<D>::take_all() {
-  return take_if([](const Refusal<D>&, const LeafWork<D>*) { return true; });
-}
-
-/// Has anything changed that the visit could see?
-template <int D>
-bool RefusedWork<D>::may_have_changed(const Refusal<D>& refusal, const LeafWork<D>* work) const {
-  if (whole_changed_ >= refusal.generation) return true;
-  if (!work || refusal.order == whole_tree) return last_change_ >= refusal.generation;
-  const auto zone = work->zones.find(refusal.order);
-  return zone == work->zones.end() || std::any_of(zone->second.begin(), zone->second.end(),
-                                                  [&](Node n) { return (*waiting_)[n].changed >= refusal.generation; });
+  return take_if([](const Refusal<D>&) { return true; });
 }
 
 /// Has anything changed that the visit did see, or may have?
 template <int D>
 bool RefusedWork<D>::has_changed(const Refusal<D>& refusal) const {
   if (context_->stage) return context_->stage->version(refusal.entry.cell) != refusal.versions;
-  return refusal.seen.empty() || surroundings_of<D>(context_->mesh, refusal.seen) != refusal.surroundings;
+  return surroundings_of<D>(context_->mesh, refusal.seen, refusal.alone) != refusal.surroundings;
 }
 
 template <int D>
 void RefusedWork<D>::relist_changed() {
-  bool any = false;
-  for_each_list([&any](std::span<const Refusal<D>> refused) { any = any || !refused.empty(); });
-  if (!any) return;
-  waiting_->pass_up_changes();
-  const auto refused = take_if(
-      [this](const Refusal<D>& r, const LeafWork<D>* work) { return may_have_changed(r, work) && has_changed(r); });
-  for (const Refusal<D>& r : refused)
-    if (r.order == 1)
-      waiting_->relist(r.entry);
-    else
-      waiting_->set_aside(waiting_->tree().leaf_at(context_->place_of(r.entry.cell)), r.order, r.entry);
+  for (const Refusal<D>& r : take_if([this](const Refusal<D>& r) { return has_changed(r); })) waiting_->relist(r.entry, r.order);
 }
 
 template <int D>
 void RefusedWork<D>::relist_elements() {
-  const auto elements = take_if([](const Refusal<D>& r, const LeafWork<D>*) { return r.entry.kind() == EntryKind::cell; });
-  for (const Refusal<D>& r : elements) waiting_->relist(r.entry);
+  for (const Refusal<D>& r : take_if([](const Refusal<D>& r) { return r.entry.kind() == EntryKind::cell; }))
+    waiting_->relist(r.entry);
 }
 
 template class RefusedWork<2>;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "run/refused_work.hpp"
+#include "run/run_pieces.hpp"
 #include "run/visit_recorder.hpp"
 #include "run/waiting_work.hpp"
 #include "run/worker_pool.hpp"
@@ -40,13 +41,14 @@ template <int D>
 struct RunState {
   using Node = typename Orthtree<D>::Node;
 
-  /// `pools`: those that made the mesh so far. `vertices`: it has so many. The context must outlive this.
-  RunState(RefineContext<D>& c, typename Mesh<D>::Pools pools, std::uint64_t vertices)
+  /// `pools`: those that made the mesh so far. `vertices`: it has so many. The context and the pieces must outlive this.
+  RunState(RefineContext<D>& c, typename Mesh<D>::Pools pools, std::uint64_t vertices, const RunPieces& run_pieces)
       : context(c),
         options(c.options.schedule),
+        pieces(run_pieces),
         totals{{}, vertices},
         waiting(c),
-        refused(c, waiting),
+        refused(c, waiting, run_pieces),
         workers(c, std::move(pools)),
         recorder(options, c.start) {}
   RunState(const RunState&) = delete;
@@ -59,9 +61,8 @@ struct RunState {
     visit.most_evaluated = most_evaluated - std::min(most_evaluated, totals.counts.evaluated);
     waiting.prepare(request, visit);
   }
-  /// Takes in what a visit that has ended did, and what it set aside. `claim`: its leaves; none for the whole tree.
-  void account(const VisitRequest& request, const RegionVisit<D>& visit, std::span<const Node> claim) {
-    refused.account(request, visit, claim);
+  /// Takes in what a visit that has ended did, and what it set aside.
+  void account(const VisitRequest& request, const RegionVisit<D>& visit) {
     totals.add(visit);
     recorder.count_set_aside(waiting.defer(request, visit.set_aside));
     if (context.stop != 0) waiting.keep_given(visit.given);
@@ -79,6 +80,7 @@ struct RunState {
 
   RefineContext<D>& context;
   const ScheduleOptions& options;
+  const RunPieces& pieces;  ///< for loops between visits
   RunTotals totals;
   std::uint64_t most_evaluated = std::numeric_limits<std::uint64_t>::max();  ///< in all, by the end of this stage
   WaitingWork<D> waiting;

@@ -23,8 +23,8 @@ bool has_uneven_facets(const Domain<D>& domain) {
 
 /// Sorts by the vertices, as the slots of cells depend on timing.
 template <int D>
-void sort_by_vertices(const Mesh<D>& mesh, std::vector<Entry<D>>& entries) {
-  std::sort(entries.begin(), entries.end(), [&mesh](const Entry<D>& a, const Entry<D>& b) {
+void sort_by_vertices(const Mesh<D>& mesh, const Pieces& pieces, std::vector<Entry<D>>& entries) {
+  Bulk(pieces).sort(entries, [&mesh](const Entry<D>& a, const Entry<D>& b) {
     const int order = compare_vertices<D>(mesh, a.cell, b.cell);
     return order != 0 ? order < 0 : a.which() < b.which();
   });
@@ -44,22 +44,19 @@ SlotSet ViolationScan<D>::changed_surroundings() {
   if (is_first) births_looked_at_ = vector_of_capacity<std::uint16_t>(mesh.cell_bound());
   births_looked_at_.resize(mesh.cell_bound(), Mesh<D>::last_birth);
   SlotSet changed(mesh.cell_bound());
-  std::vector<std::vector<CellId>> beside(count_parts(mesh.cell_bound()));
   const auto look_at = [&](const CellPart& part) {
     for (std::uint32_t i = part.first; i < part.last; ++i) {
       const CellId c{i};
       const bool alive = mesh.alive(c);
       const std::uint16_t born = alive ? mesh.birth(c) : Mesh<D>::last_birth;
       if (std::exchange(births_looked_at_[i], born) == born && alive) continue;
-      changed.add(i);
+      changed.add_shared(i);
       if (!alive || is_first) continue;
       for (const Link next : mesh.cell(c).links)
-        if (next) beside[part.number].push_back(next.cell());
+        if (next) changed.add_shared(index(next.cell()));
     }
   };
-  state_->recorder.add_parts(each_part(mesh.cell_bound(), state_->options, look_at));
-  for (const auto& part : beside)
-    for (const CellId c : part) changed.add(index(c));
+  each_part(mesh.cell_bound(), state_->pieces, look_at);
   return changed;
 }
 
@@ -80,11 +77,11 @@ std::vector<Entry<D>> ViolationScan<D>::look() {
       if (changed[i] && mesh.alive(CellId{i})) add_violations(mesh, CellId{i}, changed, parts[part.number]);
     }
   };
-  state_->recorder.add_parts(each_part(mesh.cell_bound(), state_->options, look_at));
+  each_part(mesh.cell_bound(), state_->pieces, look_at);
   state_->is_cancelled();
   std::vector<Entry<D>> found;
   for (const auto& part : parts) found.insert(found.end(), part.begin(), part.end());
-  sort_by_vertices(mesh, found);
+  sort_by_vertices(mesh, state_->pieces, found);
   standing_.insert(standing_.end(), found.begin(), found.end());
   return found;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mesh/slot_set.hpp"
+#include "run/cell_parts.hpp"
 #include "run/run_state.hpp"
 
 namespace pgdr::detail {

@@ -3,7 +3,6 @@
 #include "run/visit_recorder.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace pgdr::detail {
 
@@ -20,26 +19,13 @@ double VisitRecorder::record(const VisitRequest& request, const RegionVisit<D>& 
   busy[thread] += seconds;
   if (!keeps_trace_) return seconds;
   const auto since_origin = [this](Clock::time_point t) { return std::chrono::duration<double>(t - origin_).count(); };
-  trace_.push_back({thread, since_origin(watch.start), since_origin(end), request.leaf, visit.level, request.order,
+  trace_.push_back({thread, since_origin(watch.start), since_origin(end), request.node, visit.level, request.order,
                     visit.generation, visit.counts.committed, visit.set_aside.size()});
   return seconds;
 }
 
 void VisitRecorder::count_concurrent(std::uint32_t visits) {
   statistics_.max_concurrent = std::max(statistics_.max_concurrent, visits);
-}
-
-void VisitRecorder::add_generation(double seconds, double critical_path) {
-  statistics_.seconds_in_generations += seconds;
-  statistics_.critical_path_seconds += critical_path;
-}
-
-void VisitRecorder::finish(Clock::time_point start, std::uint64_t leaves) {
-  statistics_.leaves = leaves;
-  statistics_.serial_seconds = seconds_since(start) - statistics_.seconds_in_generations;
-  const std::vector<double>& busy = statistics_.busy_seconds;
-  statistics_.work_seconds = std::accumulate(busy.begin(), busy.end(), 0.0) + statistics_.serial_seconds;
-  statistics_.critical_path_seconds += statistics_.serial_seconds;
 }
 
 template double VisitRecorder::record(const VisitRequest&, const RegionVisit<2>&, const Watch&);

@@ -15,7 +15,6 @@
 #include "pgdr/predicates.hpp"
 #include "pgdr/refine.hpp"
 #include "refine/region_visit.hpp"
-#include "run/cell_parts.hpp"
 #include "run/thread_numbers.hpp"
 
 namespace pgdr::detail {
@@ -46,13 +45,10 @@ class VisitRecorder {
   void count_set_aside(std::uint64_t entries) { statistics_.set_aside += entries; }
   /// So many visits ran at one time.
   void count_concurrent(std::uint32_t visits);
-  /// Adds a generation: its seconds on the wall, and those of its longest chain of visits.
-  void add_generation(double seconds, double critical_path);
-  /// Adds work outside visits that was done in parts side by side: all of it counts as serial, but on the critical path the
-  /// longest part alone.
-  void add_parts(const PartSeconds& seconds) { statistics_.critical_path_seconds += seconds.longest - seconds.all; }
-  /// Ends the record of a run that began at `start` and leaves a tree of so many leaves.
-  void finish(Clock::time_point start, std::uint64_t leaves);
+  /// Adds the seconds of a generation on the wall.
+  void add_generation(double seconds) { statistics_.seconds_in_generations += seconds; }
+  /// The tree has so many leaves in the end.
+  void count_leaves(std::uint64_t leaves) { statistics_.leaves = leaves; }
 
   const SchedulerStatistics& statistics() const { return statistics_; }
   std::vector<VisitTrace> take_trace() { return std::move(trace_); }

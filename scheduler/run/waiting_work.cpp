@@ -3,6 +3,7 @@
 #include "run/waiting_work.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "pgdr/refine.hpp"
 #include "space/box.hpp"
@@ -22,94 +23,105 @@ Orthtree<D> tree_over(std::span<const Point<D>> points) {
 
 template <int D>
 WaitingWork<D>::WaitingWork(const RefineContext<D>& context)
-    : context_(&context), options_(&context.options.schedule), tree_(tree_over<D>(context.domain.points())), works_(tree_) {}
+    : context_(&context),
+      options_(&context.options.schedule),
+      tree_(tree_over<D>(context.domain.points())),
+      placement_(tree_, options_->claims, options_->split_ratio),
+      works_(tree_) {}
 
 template <int D>
-void WaitingWork<D>::append_requests(Node leaf, std::vector<VisitRequest>& out) const {
-  const LeafWork<D>& work = works_[leaf];
-  if (work.has_list()) out.push_back({leaf, 1, work.since});
-  for (std::size_t level = 0; level < set_aside_orders.size(); ++level)
-    if (!work.set_aside[level].empty()) out.push_back({leaf, set_aside_orders[level], work.set_aside_since[level]});
-}
-
-template <int D>
-std::optional<VisitRequest> WaitingWork<D>::whole_tree_request() const {
-  if (whole_set_aside_.empty() && whole_list_.empty()) return std::nullopt;
-  return VisitRequest{tree_.leaf_at(context_->domain.points()[0]), whole_tree, 0};
+void WaitingWork<D>::append_requests(Node node, std::vector<VisitRequest>& out) const {
+  const LeafWork<D>& work = works_[node];
+  const bool has_ordinary_visits = by_boxes() || tree_.is_leaf(node);
+  if (work.has_list()) out.push_back({node, has_ordinary_visits ? 1 : whole_tree, work.since});
+  for (const SetAside<D>& s : work.set_aside)
+    if (!s.entries.empty() && (has_ordinary_visits || !work.has_list())) out.push_back({node, s.order, s.since});
 }
 
 template <int D>
 std::vector<VisitRequest> WaitingWork<D>::requests() const {
   std::vector<VisitRequest> all;
-  for (Node n = 0; n < tree_.node_count(); ++n)
-    if (tree_.is_leaf(n)) append_requests(n, all);
-  if (const auto request = whole_tree_request()) all.push_back(*request);
+  for (Node n = 0; n < tree_.node_count(); ++n) append_requests(n, all);
   return all;
 }
 
 template <int D>
 void WaitingWork<D>::prepare(const VisitRequest& request, RegionVisit<D>& visit) {
+  LeafWork<D>& work = works_[request.node];
   visit.floor = floor();
   visit.granularity = options_->granularity;
   visit.treat_list = request.order == 1;
   visit.order = request.order;
   visit.generation = generation_;
-  visit.level = static_cast<std::uint32_t>(tree_.level(request.leaf));
-  if (request.order == whole_tree) {
-    visit.list = &whole_list_;
-    visit.given = std::exchange(whole_set_aside_, {});
+  visit.level = static_cast<std::uint32_t>(tree_.level(request.node));
+  visit.list = &work.list;
+  if (request.order != 1) {
+    visit.given = work.take_set_aside(request.order);
     return;
   }
-  visit.list = &works_[request.leaf].list;
-  if (request.order == 1 && tree_.can_split(request.leaf)) visit.small_radius = small_radius(request.leaf);
-  for (std::size_t level = 0; level < set_aside_orders.size(); ++level)
-    if (set_aside_orders[level] == request.order) visit.given = std::exchange(works_[request.leaf].set_aside[level], {});
+  if (tree_.can_split(request.node)) visit.small_radius = small_radius(request.node);
 }
 
 template <int D>
-void WaitingWork<D>::post(Node leaf, std::vector<Entry<D>>&& entries) {
-  LeafWork<D>& to = works_[leaf];
+void WaitingWork<D>::post(Node node, std::vector<Entry<D>>&& entries) {
+  LeafWork<D>& to = works_[node];
   if (!to.has_list()) to.since = generation_;
   to.inbox.push_back(std::move(entries));
 }
 
 template <int D>
 void WaitingWork<D>::relist(const Entry<D>& e) {
-  LeafWork<D>& work = works_[tree_.leaf_at(context_->place_of(e.cell))];
+  LeafWork<D>& work = works_[node_of(e)];
   if (!work.has_list()) work.since = generation_;
   work.list.push(e);
 }
 
 template <int D>
-void WaitingWork<D>::set_aside(Node leaf, std::uint32_t order, const Entry<D>& e) {
-  for (std::size_t level = 0; level < set_aside_orders.size(); ++level) {
-    if (set_aside_orders[level] != order) continue;
-    auto& waiting = works_[leaf].set_aside[level];
-    if (waiting.empty()) works_[leaf].set_aside_since[level] = generation_;
-    return waiting.push_back(e);
-  }
-  whole_set_aside_.push_back(e);
+void WaitingWork<D>::relist(const Entry<D>& e, std::uint32_t order) {
+  if (order == 1) return relist(e);
+  const Node node = node_of(e);
+  if (by_boxes()) return set_aside_above(node, e);
+  set_aside(order == whole_tree ? Orthtree<D>::root : node, order, e);
+}
+
+template <int D>
+void WaitingWork<D>::set_aside(Node node, std::uint32_t order, const Entry<D>& e) {
+  works_[node].add_set_aside(order, generation_, e);
+}
+
+/// By the rule of boxes: to a visit of the next larger node, with all of space after the root.
+template <int D>
+void WaitingWork<D>::set_aside_above(Node node, const Entry<D>& e) {
+  const Node above = node == Orthtree<D>::root ? node : tree_.parent(node);
+  set_aside(above, above == Orthtree<D>::root ? whole_tree : 2, e);
 }
 
 template <int D>
 std::uint64_t WaitingWork<D>::defer(const VisitRequest& request, const std::vector<Entry<D>>& entries) {
+  constexpr std::array<std::uint32_t, 2> orders{2, 4};  // of whole leaves: BUF^2, BUF^4; then the whole tree
   std::uint32_t order = whole_tree;
-  for (const std::uint32_t larger : set_aside_orders)
+  for (const std::uint32_t larger : orders)
     if (larger > request.order && larger > options_->claim_order) order = std::min(order, larger);
   std::uint64_t deferred = 0;
   for (const Entry<D>& e : entries) {
     if (!e.alive(context_->mesh)) continue;
     ++deferred;
-    set_aside(request.leaf, order, e);
+    if (by_boxes())
+      set_aside_above(request.node, e);
+    else
+      set_aside(order == whole_tree ? Orthtree<D>::root : request.node, order, e);
   }
   return deferred;
 }
 
+/// Only what the children can take counts. By the rule of boxes the rest stays with the node, by that of leaves it must be none.
 template <int D>
 bool WaitingWork<D>::is_crowded(Node leaf) {
   WorkList<D>& list = works_[leaf].list;
-  return tree_.can_split(leaf) && list.poor() > 0 && list.is_crowded(floor()) &&
-         context_->largest_radius(list.first_bucket()) <= small_radius(leaf);
+  if (!tree_.can_split(leaf) || list.poor() == 0 || !list.is_crowded(floor())) return false;
+  const double most = small_radius(leaf);
+  if (!by_boxes()) return context_->largest_radius(list.first_bucket()) <= most;
+  return list.is_crowded(floor(), [this, most](int bucket) { return context_->largest_radius(bucket) <= most; });
 }
 
 template <int D>
@@ -133,14 +145,14 @@ std::optional<PoorCount> WaitingWork<D>::take_poor() {
     counted[index(e.cell)] = true;
   };
   const auto count_all = [&](const std::vector<Entry<D>>& entries) { std::for_each(entries.begin(), entries.end(), count); };
-  for_each_list([&](WorkList<D>& list, const LeafWork<D>* work) {
+  for_each_list([&](WorkList<D>& list) {
     list.drain(count);
     for (const Refusal<D>& r : list.refused) count(r.entry);
-    if (!work) return;
-    std::for_each(work->inbox.begin(), work->inbox.end(), count_all);
-    std::for_each(work->set_aside.begin(), work->set_aside.end(), count_all);
   });
-  count_all(whole_set_aside_);
+  for (Node n = 0; n < tree_.node_count(); ++n) {
+    std::for_each(works_[n].inbox.begin(), works_[n].inbox.end(), count_all);
+    for (const SetAside<D>& s : works_[n].set_aside) count_all(s.entries);
+  }
   count_all(given_and_not_processed_);
   return poor;
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "claims/conflict_manager.hpp"
+#include "claims/placement.hpp"
 #include "reasons/poor_reasons.hpp"
 #include "refine/context.hpp"
 #include "refine/region_visit.hpp"
@@ -29,27 +30,27 @@ class WaitingWork {
   WaitingWork& operator=(const WaitingWork&) = delete;
 
   const Orthtree<D>& tree() const { return tree_; }
+  const Placement<D>& placement() const { return placement_; }
+  /// The node that the entry belongs to.
+  Node node_of(const Entry<D>& e) const { return placement_.node_of(context_->place_of(e.cell), context_->radius_of(e)); }
   Orthtree<D> take_tree() { return std::move(tree_); }
   LeafWork<D>& operator[](Node n) { return works_[n]; }
   const LeafWork<D>& operator[](Node n) const { return works_[n]; }
   void begin_generation() { ++generation_; }
 
-  /// Requests for all that waits: one for each leaf and order, and one, last, for the whole tree.
+  /// Requests for all that waits: one for each node and order.
   std::vector<VisitRequest> requests() const;
-  void append_requests(Node leaf, std::vector<VisitRequest>& out) const;
+  void append_requests(Node node, std::vector<VisitRequest>& out) const;
   bool is_empty() const { return requests().empty(); }
-  /// The request for the whole tree, if anything waits for it. It names any leaf, as the tree is nobody's.
-  std::optional<VisitRequest> whole_tree_request() const;
-  bool whole_list_waits() const { return !whole_list_.empty(); }
-  /// Gives the visit the list of its leaf and what was set aside for it, and says when it ends.
+  /// Gives the visit the list of its node and what was set aside for it, and says when it ends.
   void prepare(const VisitRequest& request, RegionVisit<D>& visit);
 
-  /// Puts entries that a visit of another leaf has found into the inbox of this one.
-  void post(Node leaf, std::vector<Entry<D>>&& entries);
-  /// Lists the entry in the leaf that its cell belongs to (RefineContext::place_of).
+  /// Puts entries that a visit of another node has found into the inbox of this one.
+  void post(Node node, std::vector<Entry<D>>&& entries);
+  /// Lists the entry in the node that it belongs to.
   void relist(const Entry<D>& e);
-  /// Leaves the entry to a visit of that leaf, or of the whole tree, with the claim of that order.
-  void set_aside(Node leaf, std::uint32_t order, const Entry<D>& e);
+  /// Lists the entry, which a visit with a claim of this order refused, for another such.
+  void relist(const Entry<D>& e, std::uint32_t order);
   /// Sets what the visit has set aside aside for one with a larger claim, if it is still alive now that the visits that ran
   /// beside this one have ended. Returns how many entries that are.
   std::uint64_t defer(const VisitRequest& request, const std::vector<Entry<D>>& entries);
@@ -62,15 +63,14 @@ class WaitingWork {
   /// stays with the parent until hand_down().
   bool split_if_crowded(Node leaf);
   /// Hands what waits at a node that was split to its children. Threads: different parents at once.
-  void hand_down(Node parent) { works_.hand_down(*context_, parent, generation_); }
-  /// Makes inner nodes know of changes in any of their leaves.
-  void pass_up_changes() { works_.pass_up_changes(); }
+  void hand_down(Node parent) {
+    works_.hand_down(*context_, parent, placement_.most_radius(tree_.first_child(parent)), generation_);
+  }
 
-  /// Calls f(list, work) for the list of each node, and for that of the whole tree, for which `work` is null.
+  /// Calls f for the list of each node.
   template <class F>
   void for_each_list(F f) {
-    for (Node n = 0; n < tree_.node_count(); ++n) f(works_[n].list, &works_[n]);
-    f(whole_list_, static_cast<const LeafWork<D>*>(nullptr));
+    for (Node n = 0; n < tree_.node_count(); ++n) f(works_[n].list);
   }
 
   /// Says whether every poor element is on a list between visits.
@@ -80,17 +80,19 @@ class WaitingWork {
   std::optional<PoorCount> take_poor();
 
  private:
-  std::size_t floor() const { return options_->floor != 0 ? options_->floor : D == 3 ? 1000 : 2000; }
+  std::size_t floor() const { return options_->floor != 0 ? options_->floor : D == 3 ? 500 : 2000; }
   double small_radius(Node leaf) const { return options_->split_ratio * tree_.side(leaf) / 2; }
+  bool by_boxes() const { return placement_.by_boxes(); }
+  void set_aside(Node node, std::uint32_t order, const Entry<D>& e);
+  void set_aside_above(Node node, const Entry<D>& e);
   bool is_crowded(Node leaf);
 
   const RefineContext<D>* context_;
   const ScheduleOptions* options_;
   Orthtree<D> tree_;
+  Placement<D> placement_;
   LeafWorks<D> works_;
   std::uint64_t generation_ = 0;  ///< that runs, or that ran last; counted from 1
-  WorkList<D> whole_list_;        ///< of entries that visits of the whole tree come upon
-  std::vector<Entry<D>> whole_set_aside_;
   std::vector<Entry<D>> given_and_not_processed_;
   bool all_listed_ = false;
 };

@@ -70,6 +70,14 @@ class BenchSuite(unittest.TestCase):
                 self.assertAlmostEqual(float(s["seconds_mesh"]), sum(times) / 2)
                 self.assertEqual((float(s["seconds_mesh_min"]), float(s["seconds_mesh_max"])), (times[0], times[1]))
                 self.assertAlmostEqual(float(s["efficiency"]) * int(s["threads"]), float(s["speed_up"]))
+        for s in summary:
+            if s["program"] == "pgdr" and s["schedule"] == "reproducible":
+                mine = [t for t in self.rows("stages.csv") if all(t[k] == s[k] for k in ("model", "schedule", "threads"))]
+                self.assertGreater(len(mine), 3)
+                for t in mine:
+                    self.assertLessEqual(float(t["path"]), float(t["work"]) + 1e-9, t)
+                self.assertAlmostEqual(sum(float(t["path"]) for t in mine), float(s["critical_path_seconds"]),
+                                       delta=0.2 * float(s["critical_path_seconds"]) + 0.005)
         data = json.loads((self.out / "results.json").read_text())
         self.assertEqual(data["wrong"], [])
         self.assertEqual((self.out / "wrong.txt").read_text(), "")
@@ -86,7 +94,8 @@ class BenchSuite(unittest.TestCase):
         self.suite("--models", "cube", "--threads", "1,2", "--repeat", "1", "--peers", "")
         for name, words in {"time_cube": {"cube: seconds of meshing", "pgdr, greedy", "threads"},
                             "efficiency": {"cube", "threads"}, "rate": {"pgdr, greedy, 1"},
-                            "work_path": {"pgdr, reproducible, 1"}, "bytes_per_cell": {"bytes a cell"}}.items():
+                            "path": {"pgdr, reproducible: critical path"}, "work_path": {"pgdr, reproducible, 1"},
+                            "path_stages": {"insert", "others", "cube"}, "work_path_stages": {"insert", "cube"}, "bytes_per_cell": {"bytes a cell"}}.items():
             root = ElementTree.parse(self.out / (name + ".svg")).getroot()
             self.assertEqual(root.tag, SVG + "svg")
             said = {"".join(t.itertext()).strip() for t in root.iter(SVG + "text")}

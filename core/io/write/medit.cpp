@@ -11,7 +11,7 @@
 #include "io/formats.hpp"
 
 namespace pgdr::detail {
-namespace {
+namespace medit {
 
 /// Region attributes as references: themselves where all are integers, else their rank among the distinct values.
 class RegionReferences {
@@ -44,6 +44,9 @@ class RegionReferences {
   std::vector<double> values_;
 };
 
+}  // namespace medit
+namespace {
+
 void put_section(FileOutput& out, std::string_view keyword, std::size_t n) {
   out.put(keyword);
   out.put('\n');
@@ -52,7 +55,7 @@ void put_section(FileOutput& out, std::string_view keyword, std::size_t n) {
 }
 
 template <std::size_t N>
-void put_simplex(FileOutput& out, const std::array<std::uint32_t, N>& vertices, int reference) {
+void put_simplex(TextBuffer& out, const std::array<std::uint32_t, N>& vertices, int reference) {
   for (const std::uint32_t v : vertices) {
     out.put_number(std::uint64_t{v} + 1);
     out.put(' ');
@@ -65,11 +68,12 @@ template <class Constraints>
 void put_constraints(FileOutput& out, std::string_view keyword, const Constraints& constraints) {
   if (constraints.empty()) return;
   put_section(out, keyword, constraints.size());
-  for (const auto& c : constraints) put_simplex(out, c.vertices, c.marker);
+  out.put_each(constraints.size(),
+               [&](TextBuffer& text, std::size_t i) { put_simplex(text, constraints[i].vertices, constraints[i].marker); });
 }
 
 template <int D>
-void put_header(FileOutput& out, const RegionReferences& reference) {
+void put_header(FileOutput& out, const medit::RegionReferences& reference) {
   out.put("MeshVersionFormatted 2\nDimension ");
   out.put_number(D);
   out.put('\n');
@@ -86,27 +90,27 @@ void put_header(FileOutput& out, const RegionReferences& reference) {
 
 template <int D>
 void write_medit(const OutputMesh<D>& mesh, FileOutput& out) {
-  const RegionReferences reference(mesh.regions);
+  const medit::RegionReferences reference(mesh.regions);
   put_header<D>(out, reference);
   put_section(out, "Vertices", mesh.points.size());
-  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+  out.put_each(mesh.points.size(), [&](TextBuffer& text, std::size_t i) {
     for (int k = 0; k < D; ++k) {
-      out.put_number(mesh.points[i][k]);
-      out.put(' ');
+      text.put_number(mesh.points[i][k]);
+      text.put(' ');
     }
-    out.put_number(mesh.point_markers.empty() ? 0 : mesh.point_markers[i]);
-    out.put('\n');
-  }
+    text.put_number(mesh.point_markers.empty() ? 0 : mesh.point_markers[i]);
+    text.put('\n');
+  });
   put_constraints(out, "Edges", mesh.subsegments);
   if constexpr (D == 3) put_constraints(out, "Triangles", mesh.subfacets);
   put_section(out, D == 2 ? "Triangles" : "Tetrahedra", mesh.cells.size());
-  for (std::size_t i = 0; i < mesh.cells.size(); ++i) put_simplex(out, mesh.cells[i], reference(i));
+  out.put_each(mesh.cells.size(), [&](TextBuffer& text, std::size_t i) { put_simplex(text, mesh.cells[i], reference(i)); });
   if (mesh.input_points != 0) {
     put_section(out, "RequiredVertices", mesh.input_points);
-    for (std::size_t i = 1; i <= mesh.input_points; ++i) {
-      out.put_number(i);
-      out.put('\n');
-    }
+    out.put_each(mesh.input_points, [](TextBuffer& text, std::size_t i) {
+      text.put_number(i + 1);
+      text.put('\n');
+    });
   }
   out.put("End\n");
 }

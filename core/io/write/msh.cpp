@@ -272,10 +272,11 @@ class MshWriter {
         put(static_cast<std::int32_t>(g + 1));
         put(std::int32_t{0});  // not parametric
         put_size(end - begin);
-        for (std::size_t i = begin; i < end; ++i) put_size(std::size_t{buckets.items[i]} + 1);
-        for (std::size_t i = begin; i < end; ++i) {
-          for (const double x : coordinates(buckets.items[i])) put(x);
-        }
+        out_.put_each(end - begin,
+                      [&](TextBuffer& bytes, std::size_t i) { bytes.put_binary(std::uint64_t{buckets.items[begin + i]} + 1); });
+        out_.put_each(end - begin, [&](TextBuffer& bytes, std::size_t i) {
+          for (const double x : coordinates(buckets.items[begin + i])) bytes.put_binary(x);
+        });
       }
     }
     out_.put("\n$EndNodes\n");
@@ -303,11 +304,12 @@ class MshWriter {
     put(static_cast<std::int32_t>(g + 1));
     put(layer.type);
     put_size(end - begin);
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::uint32_t element = layer.buckets.items[i];
-      put_size(static_cast<std::size_t>(layer.first_tag + element));
-      for (std::size_t k = 0; k < layer.corners; ++k) put_size(std::size_t{corner(layer.groups.dimension(), element, k)} + 1);
-    }
+    out_.put_each(end - begin, [&](TextBuffer& bytes, std::size_t i) {
+      const std::uint32_t element = layer.buckets.items[begin + i];
+      bytes.put_binary(layer.first_tag + element);
+      for (std::size_t k = 0; k < layer.corners; ++k)
+        bytes.put_binary(std::uint64_t{corner(layer.groups.dimension(), element, k)} + 1);
+    });
   }
 
   const OutputMesh<D>& mesh_;

@@ -15,7 +15,7 @@ namespace {
 
 /// "<i> <vertex> ... "
 template <std::size_t N>
-void put_simplex(FileOutput& out, std::size_t i, const std::array<std::uint32_t, N>& vertices, std::uint32_t first) {
+void put_simplex(TextBuffer& out, std::size_t i, const std::array<std::uint32_t, N>& vertices, std::uint32_t first) {
   out.put_number(i + first);
   for (const std::uint32_t v : vertices) {
     out.put(' ');
@@ -37,22 +37,22 @@ void put_node(FileOutput& out, const OutputMesh<D>& mesh, std::uint32_t first) {
   out.put(D == 2 ? " 2 " : " 3 ");
   out.put_number(attributes);
   out.put(mesh.point_markers.empty() ? " 0\n" : " 1\n");
-  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-    out.put_number(i + first);
+  out.put_each(mesh.points.size(), [&](TextBuffer& text, std::size_t i) {
+    text.put_number(i + first);
     for (int k = 0; k < D; ++k) {
-      out.put(' ');
-      out.put_number(mesh.points[i][k]);
+      text.put(' ');
+      text.put_number(mesh.points[i][k]);
     }
     for (std::size_t k = 0; k < attributes; ++k) {
-      out.put(' ');
-      out.put_number(mesh.point_attributes[i * attributes + k]);
+      text.put(' ');
+      text.put_number(mesh.point_attributes[i * attributes + k]);
     }
     if (!mesh.point_markers.empty()) {
-      out.put(' ');
-      out.put_number(mesh.point_markers[i]);
+      text.put(' ');
+      text.put_number(mesh.point_markers[i]);
     }
-    out.put('\n');
-  }
+    text.put('\n');
+  });
 }
 
 template <int D>
@@ -60,26 +60,26 @@ void put_ele(FileOutput& out, const OutputMesh<D>& mesh, std::uint32_t first) {
   out.put_number(mesh.cells.size());
   out.put(D == 2 ? " 3 " : " 4 ");
   out.put(mesh.regions.empty() ? "0\n" : "1\n");
-  for (std::size_t i = 0; i < mesh.cells.size(); ++i) {
-    put_simplex(out, i, mesh.cells[i], first);
+  out.put_each(mesh.cells.size(), [&](TextBuffer& text, std::size_t i) {
+    put_simplex(text, i, mesh.cells[i], first);
     if (!mesh.regions.empty()) {
-      out.put(' ');
-      out.put_number(mesh.regions[i]);
+      text.put(' ');
+      text.put_number(mesh.regions[i]);
     }
-    out.put('\n');
-  }
+    text.put('\n');
+  });
 }
 
 template <class Constraints>
 void put_constraints(FileOutput& out, const Constraints& constraints, std::size_t count, std::uint32_t first) {
   out.put_number(count);
   out.put(" 1\n");
-  for (std::size_t i = 0; i < constraints.size(); ++i) {
-    put_simplex(out, i, constraints[i].vertices, first);
-    out.put(' ');
-    out.put_number(constraints[i].marker);
-    out.put('\n');
-  }
+  out.put_each(constraints.size(), [&](TextBuffer& text, std::size_t i) {
+    put_simplex(text, i, constraints[i].vertices, first);
+    text.put(' ');
+    text.put_number(constraints[i].marker);
+    text.put('\n');
+  });
 }
 
 using Edge = std::array<std::uint32_t, 2>;
@@ -112,10 +112,10 @@ void put_edges(FileOutput& out, const OutputMesh<D>& mesh, const WriteOptions& o
   const std::vector<Edge> others = other_edges(mesh);
   put_count(out, subsegments_comment, n);
   put_constraints(out, mesh.subsegments, n + others.size(), options.first_index);
-  for (std::size_t i = 0; i < others.size(); ++i) {
-    put_simplex(out, n + i, others[i], options.first_index);
-    out.put(" 0\n");
-  }
+  out.put_each(others.size(), [&](TextBuffer& text, std::size_t i) {
+    put_simplex(text, n + i, others[i], options.first_index);
+    text.put(" 0\n");
+  });
 }
 
 template <int D>
@@ -123,14 +123,14 @@ void put_neighbors(FileOutput& out, const OutputMesh<D>& mesh, std::uint32_t fir
   const auto neighbors = neighbors_of_cells<D>(mesh);
   out.put_number(mesh.cells.size());
   out.put(D == 2 ? " 3\n" : " 4\n");
-  for (std::size_t c = 0; c < neighbors.size(); ++c) {
-    out.put_number(c + first);
+  out.put_each(neighbors.size(), [&](TextBuffer& text, std::size_t c) {
+    text.put_number(c + first);
     for (const std::uint32_t n : neighbors[c]) {
-      out.put(' ');
-      out.put_number(n == no_cell_beyond ? std::int64_t{-1} : std::int64_t{n} + first);
+      text.put(' ');
+      text.put_number(n == no_cell_beyond ? std::int64_t{-1} : std::int64_t{n} + first);
     }
-    out.put('\n');
-  }
+    text.put('\n');
+  });
 }
 
 }  // namespace

@@ -30,9 +30,9 @@ std::size_t grid_cells(const OutputMesh<D>& mesh) {
 
 template <int D>
 void put_points(const OutputMesh<D>& mesh, FileOutput& out) {
-  for (const auto& p : mesh.points) {
-    for (int k = 0; k < 3; ++k) out.put_binary(k < D ? p[k] : 0.0);
-  }
+  out.put_each(mesh.points.size(), [&](TextBuffer& bytes, std::size_t i) {
+    for (int k = 0; k < 3; ++k) bytes.put_binary(k < D ? mesh.points[i][k] : 0.0);
+  });
 }
 
 template <int D>
@@ -42,19 +42,25 @@ void put_point_markers(const OutputMesh<D>& mesh, FileOutput& out) {
 
 template <int D>
 void put_connectivity(const OutputMesh<D>& mesh, FileOutput& out) {
-  const auto put = [&out](const auto& vertices) {
-    for (const std::uint32_t v : vertices) out.put_binary(std::int64_t{v});
+  const auto put = [&out](const auto& simplices, const auto& vertices_of) {
+    out.put_each(simplices.size(), [&](TextBuffer& bytes, std::size_t i) {
+      for (const std::uint32_t v : vertices_of(simplices[i])) bytes.put_binary(std::int64_t{v});
+    });
   };
-  for (const auto& c : mesh.cells) put(c);
-  for (const auto& c : mesh.subfacets) put(c.vertices);
-  for (const auto& c : mesh.subsegments) put(c.vertices);
+  const auto of_constraint = [](const auto& c) -> const auto& { return c.vertices; };
+  put(
+      mesh.cells, [](const auto& c) -> const auto& { return c; });
+  put(mesh.subfacets, of_constraint);
+  put(mesh.subsegments, of_constraint);
 }
 
 template <int D>
 void put_offsets(const OutputMesh<D>& mesh, FileOutput& out) {
   std::int64_t end = 0;
   const auto put = [&](std::size_t n, std::int64_t corners) {
-    for (std::size_t i = 0; i < n; ++i) out.put_binary(end += corners);
+    out.put_each(n,
+                 [&](TextBuffer& bytes, std::size_t i) { bytes.put_binary(end + static_cast<std::int64_t>(i + 1) * corners); });
+    end += static_cast<std::int64_t>(n) * corners;
   };
   put(mesh.cells.size(), D + 1);
   put(mesh.subfacets.size(), 3);
@@ -64,26 +70,26 @@ void put_offsets(const OutputMesh<D>& mesh, FileOutput& out) {
 template <int D>
 void put_types(const OutputMesh<D>& mesh, FileOutput& out) {
   constexpr char line = 3, triangle = 5, tetrahedron = 10;  // VTK's numbers
-  for (std::size_t i = 0; i < mesh.cells.size(); ++i) out.put(D == 3 ? tetrahedron : triangle);
+  out.put_each(mesh.cells.size(), [](TextBuffer& bytes, std::size_t) { bytes.put(D == 3 ? tetrahedron : triangle); });
   for (std::size_t i = 0; i < mesh.subfacets.size(); ++i) out.put(triangle);
   for (std::size_t i = 0; i < mesh.subsegments.size(); ++i) out.put(line);
 }
 
 template <int D>
 void put_regions(const OutputMesh<D>& mesh, FileOutput& out) {
-  for (const double r : mesh.regions) out.put_binary(r);
+  out.put_each(mesh.regions.size(), [&](TextBuffer& bytes, std::size_t i) { bytes.put_binary(mesh.regions[i]); });
   for (std::size_t i = mesh.cells.size(); i < grid_cells(mesh); ++i) out.put_binary(0.0);
 }
 
 template <int D>
 void put_leaves(const OutputMesh<D>& mesh, FileOutput& out) {
-  for (const std::uint32_t leaf : mesh.leaves) out.put_binary(std::int64_t{leaf});
+  out.put_each(mesh.leaves.size(), [&](TextBuffer& bytes, std::size_t i) { bytes.put_binary(std::int64_t{mesh.leaves[i]}); });
   for (std::size_t i = mesh.cells.size(); i < grid_cells(mesh); ++i) out.put_binary(std::int64_t{-1});
 }
 
 template <int D>
 void put_markers(const OutputMesh<D>& mesh, FileOutput& out) {
-  for (std::size_t i = 0; i < mesh.cells.size(); ++i) out.put_binary(std::int32_t{0});
+  out.put_each(mesh.cells.size(), [](TextBuffer& bytes, std::size_t) { bytes.put_binary(std::int32_t{0}); });
   for (const auto& c : mesh.subfacets) out.put_binary(std::int32_t{c.marker});
   for (const auto& c : mesh.subsegments) out.put_binary(std::int32_t{c.marker});
 }

@@ -39,12 +39,14 @@ CoplanarGroups::CoplanarGroups(const BuildInput<3>& in, FacetTriangles& faces, c
 
 std::vector<bool> CoplanarGroups::find_soft_edges() const {
   std::vector<bool> soft(uses_.size(), false);
-  uses_.each_edge([&](std::size_t begin, std::span<const EdgeUse> uses) {
-    in_.stop();
+  using Found = std::vector<std::size_t>;
+  const auto look_at = [&](std::size_t begin, std::span<const EdgeUse> uses, Found& found) {
     if (!joints_.is_joint(uses)) return;
     const std::uint32_t f = uses[0].owner, g = uses[1].owner;
-    soft[begin] = f == g || (root_[f] == root_[g] && joints_.opens(uses, faces_.facets[root_[f]].axis));
-  });
+    if (f == g || (root_[f] == root_[g] && joints_.opens(uses, faces_.facets[root_[f]].axis))) found.push_back(begin);
+  };
+  for (const std::size_t begin : uses_.gather<std::size_t>(in_.bulk, look_at)) soft[begin] = true;
+  in_.stop();
   return soft;
 }
 
@@ -58,20 +60,28 @@ void CoplanarGroups::fit_planes() {
 }
 
 void CoplanarGroups::unite_pairs() {
-  std::vector<Pair> pairs;
-  uses_.each_edge([&](std::size_t, std::span<const EdgeUse> uses) {
+  struct Found {
+    Pair pair;
+    bool is_flat;
+  };
+  const auto look_at = [&](std::size_t, std::span<const EdgeUse> uses, std::vector<Found>& found) {
     if (uses.size() < 2 || uses[0].owner == uses[1].owner || !joints_.is_joint(uses)) return;
     const auto [f, g] = std::minmax(uses[0].owner, uses[1].owner);
     const auto& larger = planes_[planes_[f].weight() < planes_[g].weight() ? g : f];
     if (!joints_.opens(uses, axes_by_size(larger.normal())[0])) return;
-    if (joints_.is_flat(uses)) {
-      exactly_.unite(f, g);
-      nearly_.unite(f, g);
-    } else if (width_ > 0) {
-      pairs.push_back({f, g});
+    if (const bool is_flat = joints_.is_flat(uses); is_flat || width_ > 0) found.push_back({{f, g}, is_flat});
+  };
+  std::vector<Pair> pairs;
+  for (const auto& [pair, is_flat] : uses_.gather<Found>(in_.bulk, look_at)) {
+    if (is_flat) {
+      exactly_.unite(pair[0], pair[1]);
+      nearly_.unite(pair[0], pair[1]);
+    } else {
+      pairs.push_back(pair);
     }
-  });
-  make_set(pairs);
+  }
+  in_.stop.sort(in_.bulk, pairs);
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   std::vector<char> one_plane(pairs.size());
   in_.bulk.each(pairs.size(), [&](std::size_t k) { one_plane[k] = have_one_plane(pairs[k]); });
   for (std::size_t k = 0; k < pairs.size(); ++k)

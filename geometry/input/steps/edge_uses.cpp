@@ -9,13 +9,13 @@ namespace pgdr::detail {
 EdgeUses::EdgeUses(const FacetTriangles& faces, std::span<const OwnedEdge> segment_edges, const Bulk& bulk,
                    const StopCheck& stop) {
   using Kind = EdgeUse::Kind;
-  std::size_t count = segment_edges.size() + faces.polygon_edges.size() + faces.outlines.size();
-  for (const auto& f : faces.facets) count += 3 * f.count;
-  uses_.reserve(count);
-  for (std::uint32_t f = 0; f < faces.facets.size(); ++f)
+  uses_ = bulk.gather<EdgeUse>(faces.facets.size(), [&](std::size_t number, std::vector<EdgeUse>& found) {
+    const auto f = static_cast<std::uint32_t>(number);
     for (std::uint32_t t = faces.facets[f].first; t < faces.facets[f].first + faces.facets[f].count; ++t)
       for (std::size_t i = 0; i < 3; ++i)
-        uses_.push_back({faces.key_of_edge(t, i), f, t, faces.is_constraint(t, i) ? Kind::rim : Kind::diagonal});
+        found.push_back({faces.key_of_edge(t, i), f, t, faces.is_constraint(t, i) ? Kind::rim : Kind::diagonal});
+  });
+  uses_.reserve(uses_.size() + segment_edges.size() + faces.polygon_edges.size() + faces.outlines.size());
   for (const auto& [e, f] : faces.polygon_edges) uses_.push_back({edge_key(e[0], e[1]), f, 0, Kind::polygon});
   for (const auto& [e, s] : segment_edges) uses_.push_back({edge_key(e[0], e[1]), s, 0, Kind::explicit_segment});
   for (const std::uint64_t key : faces.outlines) uses_.push_back({key, 0, 0, Kind::outline});

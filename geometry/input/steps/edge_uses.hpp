@@ -52,6 +52,13 @@ class EdgeUses {
       visit(begin, uses);
     }
   }
+  /// What find(begin, uses, out) appends to `out` for each edge, in their order, by bulk loops.
+  template <class T, class Find>
+  std::vector<T> gather(const Bulk& bulk, const Find& find) const {
+    return bulk.gather<T>(uses_.size(), [&](std::size_t k, std::vector<T>& out) {
+      if (k == 0 || uses_[k - 1].key != uses_[k].key) find(k, from(k), out);
+    });
+  }
 
  private:
   std::vector<EdgeUse> uses_;

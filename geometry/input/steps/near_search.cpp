@@ -3,6 +3,7 @@
 #include "input/steps/near_search.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <iterator>
 
@@ -30,12 +31,12 @@ NearSearch<D>::NearSearch(const BuildInput<D>& in)
 
 template <int D>
 void NearSearch<D>::collect_pieces(std::span<const OwnedEdge> segment_edges, std::span<const FlatFacet> flat) {
-  pieces_.clear();
-  std::vector<bool> used(in_.points.size(), false);
-  for (std::uint32_t t = 0; t < faces_->triangles.size(); ++t) {
-    pieces_.push_back({faces_->triangles[t], 3, static_cast<std::uint8_t>(faces_->facets[faces_->facet_of[t]].axis)});
-    for (const std::uint32_t v : faces_->triangles[t]) used[v] = true;
-  }
+  pieces_.resize(faces_->triangles.size());
+  std::vector<char> used(in_.points.size());
+  in_.bulk.each(pieces_.size(), [&](std::size_t t) {
+    pieces_[t] = {faces_->triangles[t], 3, static_cast<std::uint8_t>(faces_->facets[faces_->facet_of[t]].axis)};
+    for (const std::uint32_t v : faces_->triangles[t]) std::atomic_ref(used[v]).store(1, std::memory_order_relaxed);
+  });
   std::vector<std::uint64_t> loose, of_triangles;
   for (const auto edges : {segment_edges, std::span<const OwnedEdge>(faces_->polygon_edges)})
     for (const OwnedEdge& e : edges) loose.push_back(edge_key(e.edge[0], e.edge[1]));
@@ -45,13 +46,14 @@ void NearSearch<D>::collect_pieces(std::span<const OwnedEdge> segment_edges, std
         loose.push_back(edge_key(facet.vertices[k], facet.vertices[(k + 1) % n]));
   make_set(loose);
   if (!loose.empty()) {
-    for (std::uint32_t t = 0; t < faces_->triangles.size(); ++t)
-      for (std::size_t i = 0; i < 3; ++i) of_triangles.push_back(faces_->key_of_edge(t, i));
-    make_set(of_triangles);
+    of_triangles.resize(3 * faces_->triangles.size());
+    in_.bulk.each(of_triangles.size(),
+                  [&](std::size_t k) { of_triangles[k] = faces_->key_of_edge(static_cast<std::uint32_t>(k / 3), k % 3); });
+    in_.stop.sort(in_.bulk, of_triangles);
   }
   for (const std::uint64_t key : loose) {
     const auto [a, b] = edge_of(key);
-    used[a] = used[b] = true;
+    used[a] = used[b] = 1;
     if (!std::binary_search(of_triangles.begin(), of_triangles.end(), key)) pieces_.push_back({{a, b, no_entity}, 2, 0});
   }
   for (std::uint32_t v = 0; v < used.size(); ++v)
@@ -63,10 +65,10 @@ bool NearSearch<D>::find_pairs(FacetTriangles& faces, std::span<const OwnedEdge>
   faces.index_facets();
   faces_ = &faces;
   collect_pieces(segment_edges, flat);
-  std::vector<std::array<std::uint32_t, 3>> corners;
-  corners.reserve(pieces_.size());
-  for (const Piece& piece : pieces_) corners.push_back(piece.corners);
-  const BoxTree<D> tree(corners, scaled_, width_);
+  std::vector<std::array<std::uint32_t, 3>> corners(pieces_.size());
+  in_.bulk.each(corners.size(), [&](std::size_t i) { corners[i] = pieces_[i].corners; });
+  const BoxTree<D> tree(corners, scaled_, width_, in_.bulk);
+  in_.stop();
   using Found = std::vector<Pair>;
   auto parts = tree.template self_pairs_in_parts<Found>(in_.bulk, [&](std::uint32_t i, std::uint32_t j, Found& found) {
     in_.stop();
@@ -78,8 +80,10 @@ bool NearSearch<D>::find_pairs(FacetTriangles& faces, std::span<const OwnedEdge>
   for (const Found& part : parts) pairs_.insert(pairs_.end(), part.begin(), part.end());
   closed_.clear();
   if (width_ > 0)
-    for (std::uint32_t t = 0; t < faces.triangles.size(); ++t)
-      if (is_near_corner(t, t)) closed_.push_back(t);
+    closed_ = in_.bulk.template gather<std::uint32_t>(faces.triangles.size(), [&](std::size_t i, auto& found) {
+      if (const auto t = static_cast<std::uint32_t>(i); is_near_corner(t, t)) found.push_back(t);
+    });
+  in_.stop();
   return !pairs_.empty() || !closed_.empty();
 }
 
