@@ -26,6 +26,13 @@ foreach(kind IN ITEMS static shared)
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ${where} NAMELINK_COMPONENT pgdr_${kind}
     FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${where})
   install(EXPORT pgdr_${kind} NAMESPACE pgdr:: FILE pgdrTargets_${kind}.cmake DESTINATION ${package_dir} ${where})
+  if(PGDR_MPI)
+    install(TARGETS pgdr_mpi_${kind} EXPORT pgdr_mpi_${kind}
+      ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} ${where}
+      LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ${where} NAMELINK_COMPONENT pgdr_${kind}
+      FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${where})
+    install(EXPORT pgdr_mpi_${kind} NAMESPACE pgdr:: FILE pgdrMpiTargets_${kind}.cmake DESTINATION ${package_dir} ${where})
+  endif()
   set(made ${PROJECT_BINARY_DIR}/package/${kind})
   configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/pgdrConfig.cmake.in ${made}/pgdrConfig.cmake
     INSTALL_DESTINATION ${package_dir})
@@ -38,4 +45,7 @@ foreach(kind IN ITEMS static shared)
 endforeach()
 if(PGDR_TOOLS)
   install(TARGETS pgdr_command RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  if(PGDR_MPI)
+    install(TARGETS pgdr_mpi_command RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  endif()
 endif()

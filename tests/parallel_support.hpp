@@ -39,6 +39,12 @@ inline const std::vector<Runner> concurrent_runners = {
     {"threads 8", Executor::threads, 8},
 };
 inline const std::vector<Runner> eight_threads(concurrent_runners.end() - (PGDR_TEST_TBB ? 2 : 1), concurrent_runners.end());
+/// Beside these, visits in other orders and other numbers for cells and vertices.
+inline const std::vector<Runner> eight_threads_or_shuffled = [] {
+  std::vector<Runner> all = eight_threads;
+  all.insert(all.end(), {shuffled, {"shuffled 5", Executor::shuffled, 5}});
+  return all;
+}();
 
 /// For what takes long: with the address sanitizer the calling thread alone. Others look for errors of concurrency there.
 inline const std::vector<Runner> two_if_quick = sanitized ? std::vector<Runner>{} : std::vector{shuffled, eight_threads[0]};

@@ -3,11 +3,9 @@
 //
 // Meshes in files: what is written reads back bit for bit, other programs' .mesh files are understood, mistakes are
 // named, and a write that fails leaves everything as it was.
-#include <sys/resource.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <csignal>
 
 #include "test_io_support.hpp"
 
@@ -270,26 +268,6 @@ TEST(WriteMesh, ReplacesAFileAndKeepsALink) {
   expect_same(read_mesh<2>(folder / "a.mesh"), mesh);
   EXPECT_EQ(folder.files(), 2u);
 }
-
-/// Files cannot grow beyond `bytes` while this lives: what a full disk looks like to a program.
-class FullDisk {
- public:
-  explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  FullDisk(const FullDisk&) = delete;
-  FullDisk& operator=(const FullDisk&) = delete;
-  ~FullDisk() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  rlimit before_{};
-  void (*handler_)(int);
-};
 
 TEST(WriteMesh, AFullDiskLeavesTheOldFileAndNoOther) {
   const TempFolder folder;

@@ -50,6 +50,27 @@ TEST(WorkList, TooBigOnesGoFirstLargestFirst) {
   EXPECT_TRUE(list.empty());
 }
 
+// Every entry is passed once, may be changed, and stays in its place.
+TEST(WorkList, EntriesMayBeChangedWhereTheyWait) {
+  WorkList<3> list;
+  constexpr std::uint32_t many = 700;  // several blocks
+  for (std::uint32_t i = 0; i < many; ++i) list.push({CellId{i}, 0, EntryKind::flip, 0});
+  for (std::uint32_t i = 0; i < 300; ++i) list.flips.pop();
+  for (const Item& e : {skinny(2, 9), big(3, 1), skinny(4, 1), Item{CellId{5}, 0, EntryKind::edge, 1}}) list.push(e);
+  std::size_t passed = 0;
+  list.for_each([&](Item& e) {
+    e.cell = CellId{index(e.cell) + 1000};
+    ++passed;
+  });
+  EXPECT_EQ(passed, list.size());
+  EXPECT_EQ(index(list.edges.pop().cell), 1005u);
+  for (std::uint32_t i = 300; i < many; ++i) ASSERT_EQ(index(list.flips.pop().cell), 1000 + i);
+  EXPECT_EQ(index(list.pop_poor(mesh).cell), 1001u);
+  EXPECT_EQ(list.pop_poor(mesh).order, 1u);
+  EXPECT_EQ(list.pop_poor(mesh).order, 9u);
+  WorkList<3>().for_each([](Item&) { FAIL() << "there is none"; });
+}
+
 TEST(WorkList, LargestFirstWhereARegionIsToBeSplit) {
   WorkList<3> list;
   for (const Item& e : {skinny(4, 1), big(3), skinny(2, 9), skinny(2, 6), big(4)}) list.push(e);

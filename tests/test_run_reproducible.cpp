@@ -23,6 +23,7 @@
 namespace pgdr::test_run_reproducible {
 
 using test::eight_threads;
+using test::eight_threads_or_shuffled;
 using test::expect_same;
 using test::Model;
 
@@ -57,10 +58,12 @@ TEST_P(ParallelModel, SameBytesForAnyThreads) {
   // As large as the model is itself; and in leaves so small that many insertions reach beyond a claim.
   options.schedule.floor = 5;
   options.size = model.size;
-  expect_reproducible_in_all_builds<3>(plc, options, name + ", coarse", eight_threads);
+  expect_reproducible_in_all_builds<3>(plc, options, name + ", coarse", eight_threads_or_shuffled);
   options.size = model.fine;
   options.schedule.split_ratio = 1.5;
-  EXPECT_GT(expect_reproducible_in_all_builds<3>(plc, options, name + ", small leaves", eight_threads).scheduler.set_aside, 0u);
+  EXPECT_GT(
+      expect_reproducible_in_all_builds<3>(plc, options, name + ", small leaves", eight_threads_or_shuffled).scheduler.set_aside,
+      0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, ParallelModel, ::testing::Combine(::testing::ValuesIn(test::refined_models), ::testing::Bool()),
@@ -73,13 +76,13 @@ TEST(Parallel, PartFromAFile) {
   RefineOptions<3> options;
   options.schedule.floor = 30;
   expect_reproducible_in_all_builds<3>(plc, options, "bracket");
-  expect_reproducible_in_all_builds<3>(test::turned<3>(plc), options, "bracket, turned", eight_threads);
+  expect_reproducible_in_all_builds<3>(test::turned<3>(plc), options, "bracket, turned", eight_threads_or_shuffled);
 }
 
 TEST(Parallel, Pipe) {
   RefineOptions<3> options;
   options.schedule.floor = 10;
-  expect_reproducible_in_all_builds<3>(test::pipe(40, 0.17, 0.311), options, "pipe", eight_threads);
+  expect_reproducible_in_all_builds<3>(test::pipe(40, 0.17, 0.311), options, "pipe", eight_threads_or_shuffled);
 }
 
 TEST(Parallel, Plane) {
@@ -112,12 +115,13 @@ TEST(Parallel, SmallAngles) {
       options.size = 0.15;  // else it has three cells
     else
       options.size = {};
-    const auto result = expect_reproducible_in_all_builds<3>(plc, options, file, eight_threads);
+    const auto result = expect_reproducible_in_all_builds<3>(plc, options, file, eight_threads_or_shuffled);
     EXPECT_GT(result.reasons.size(), 0u) << file;
     EXPECT_GE(result.reasons.size(), result.poor_left) << file;
   }
   const Plc<3> plate = read_plc<3>(PGDR_TEST_REGRESSIONS "/plate_fifty_cells.poly");
-  expect_reproducible_in_all_builds<3>(test::turned<3>(plate), options, "plate_fifty_cells.poly, turned", eight_threads);
+  expect_reproducible_in_all_builds<3>(test::turned<3>(plate), options, "plate_fifty_cells.poly, turned",
+                                       eight_threads_or_shuffled);
 }
 
 /// Nine segments of two lengths from one corner of a square, three degrees apart or so.
@@ -148,9 +152,9 @@ TEST(Parallel, GradedCube) {
   RefineOptions<3> options;
   options.size = [](const Point3& p) { return 0.01 + 0.15 * std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]); };
   options.schedule.floor = 20;
-  expect_reproducible_in_all_builds<3>(test::cube(), options, "graded cube", eight_threads);
+  expect_reproducible_in_all_builds<3>(test::cube(), options, "graded cube", eight_threads_or_shuffled);
   const Plc<3> plc = test::turned<3>(test::cube(), 0);
-  const auto result = expect_reproducible_in_all_builds<3>(plc, options, "graded cube, turned", eight_threads);
+  const auto result = expect_reproducible_in_all_builds<3>(plc, options, "graded cube, turned", eight_threads_or_shuffled);
   EXPECT_GT(result.scheduler.leaves, 64u);
 }
 
@@ -167,7 +171,7 @@ TEST(Parallel, AnyWayToDivideTheWork) {
     options.schedule.floor = 30;
     change(options.schedule);
     const std::string name = std::string("plate_with_hole divided: ") + what;
-    return expect_reproducible_in_all_builds<3>(plc, options, name, eight_threads).scheduler;
+    return expect_reproducible_in_all_builds<3>(plc, options, name, eight_threads_or_shuffled).scheduler;
   };
   const auto one = run([](ScheduleOptions& s) { s.floor = std::numeric_limits<std::size_t>::max(); }, "one leaf");
   EXPECT_EQ(one.leaves, 1u);

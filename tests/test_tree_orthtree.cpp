@@ -43,6 +43,24 @@ trees::Set<D> set_of(const std::vector<std::uint32_t>& nodes) {
   return set;
 }
 
+TYPED_TEST(OrthtreeTest, NodesGoByTheirBoxesWhateverTheOrderOfSplits) {
+  constexpr int D = TypeParam::value;
+  std::mt19937_64 random(seed);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Orthtree<D> tree = trees::graded<D>(random, trial * 5), other = trees::split_otherwise<D>(tree, random);
+    using Place = std::pair<std::uint64_t, int>;  // of the low corner, and how deep: parents first
+    const auto places = [](const Orthtree<D>& of) {
+      std::vector<Place> all;
+      of.for_each_node([&](std::uint32_t node) { all.emplace_back(of.morton(node), of.level(node)); });
+      return all;
+    };
+    const std::vector<Place> found = places(tree);
+    EXPECT_EQ(found.size(), tree.node_count());
+    EXPECT_EQ(std::adjacent_find(found.begin(), found.end(), std::greater_equal<>()), found.end());
+    EXPECT_EQ(places(other), found);
+  }
+}
+
 TYPED_TEST(OrthtreeTest, RootIsALargerCubeWithAnotherCentre) {
   constexpr int D = TypeParam::value;
   std::mt19937_64 random(seed);

@@ -4,7 +4,7 @@
 """The rules of the source tree that a compiler does not hold. Prints what breaks them; exit code 1 if anything does.
 
   * every source opens with the SPDX lines and has at most 500 lines;
-  * a layer includes its own headers and those of lower layers only: geometry <- core <- scheduler <- tools, bench;
+  * a layer includes its own headers and those of lower layers only: geometry <- core <- scheduler <- mpi <- tools, bench;
   * a room, a folder of a layer, includes its own headers and those of the rooms that ROOMS lets it reach;
   * a public header (<layer>/pgdr/) includes public headers alone, belongs to one room, and no two layers have one of the same
     name; every other header is private;
@@ -24,7 +24,7 @@ import pathlib
 import re
 import sys
 
-LAYERS = ["geometry", "core", "scheduler"]
+LAYERS = ["geometry", "core", "scheduler", "mpi"]
 
 # The rooms of the layers, lowest first. `may`: the rooms that it may include, all of them further up in this table, beside its
 # own; it may then include what these may. Every room of core/ and scheduler/ may include those of geometry/. `start`: the files to
@@ -43,7 +43,7 @@ ROOMS = {
     },
     "core": {
         "output": Room("what is a finished mesh, and how good is it?", "", "quality.cpp",
-                       "output_mesh mesh_maps region_mode region_volume poor_reason quality flat_arrays"),
+                       "output_mesh mesh_maps mesh_piece region_mode region_volume poor_reason quality flat_arrays"),
         "size": Room("how large may a cell be here?", "output", "size_fields.cpp", "sizing size_fields"),
         "mesh": Room("what are cells, vertices and constraints, and who owns them?", "", "mesh.hpp visit_area.hpp", ""),
         "rule": Room("may a point go in, and why does that end?", "mesh size", "insertion_rule.hpp", "refine_options"),
@@ -65,6 +65,11 @@ ROOMS = {
         "claims": Room("what may a visit change, and which visits wait?", "tree graph mesh rule", "claim.hpp", ""),
         "run": Room("how does an input become a mesh, and which leaf is refined when?",
                     "claims boundary optimize reasons compact check", "refine.cpp generations.hpp", "refine pgdr"),
+        "transport": Room("how do ranks talk to each other?", "", "collectives.hpp", "transport"),
+        "ranks": Room("how do several ranks make one mesh?", "run transport io", "refine.cpp", "ranks"),
+    },
+    "mpi": {
+        "processes": Room("how do processes talk by MPI?", "ranks", "mpi.cpp", "mpi"),
     },
 }
 EVERYWHERE = {"export", "types", "error", "version"}  # public headers of geometry/ that belong to no room

@@ -13,16 +13,20 @@ namespace {
 
 void say(const char* what) noexcept { std::fprintf(stderr, "pgdr: error: %s\n", what); }
 
-/// Runs `action`, turns what it throws into words on stderr, an entry of the report, and an exit code.
+/// Runs `action`, turns what it throws into words on stderr, an entry of the report, and an exit code. Of several ranks the first
+/// speaks, unless it cannot be reached.
 template <class Action>
-int guarded(Report& report, Action action) {
-  const auto fail = [&report](const Error& e, ExitCode code) {
-    say(e.what());
+int guarded(Report& report, const Ranks& ranks, Action action) {
+  const auto say_here = [&ranks](const char* what) {
+    if (ranks.is_first() || ranks.are_lost()) say(what);
+  };
+  const auto fail = [&](const Error& e, ExitCode code) {
+    say_here(e.what());
     report.add_error(e.diagnostic());
     return code;
   };
   const auto fail_untyped = [&](Errc code, const char* what) {
-    say(what);
+    say_here(what);
     report.add_error({.code = code, .message = what});
     return exit_resource;
   };
@@ -43,19 +47,21 @@ int guarded(Report& report, Action action) {
   }
 }
 
-int execute(const Arguments& arguments, Report& report) {
+int execute(const Arguments& arguments, Report& report, const Ranks& ranks) {
   report.set("version", PGDR_VERSION_STRING);
   bool writes_report = false;
-  const int code = guarded(report, [&] {
-    const RunFiles files(arguments);
-    files.require_own_report();
-    writes_report = true;
-    files.require_own_outputs();
+  const int code = guarded(report, ranks, [&] {
+    ranks.on_first([&] {
+      const RunFiles files(arguments);
+      files.require_own_report();
+      writes_report = true;
+      files.require_own_outputs();
+    });
     return std::visit(
-        [&report](const auto& a) {
+        [&](const auto& a) {
           using A = std::decay_t<decltype(a)>;
           if constexpr (std::is_same_v<A, MeshArguments>)
-            return mesh(a, report);
+            return mesh(a, report, ranks);
           else if constexpr (std::is_same_v<A, CheckArguments>)
             return check(a, report);
           else if constexpr (std::is_same_v<A, InfoArguments>)
@@ -67,7 +73,7 @@ int execute(const Arguments& arguments, Report& report) {
   });
   const std::string& file = std::visit([](const auto& a) -> const std::string& { return a.report; }, arguments);
   if (file.empty() || !writes_report) return code;
-  const int written = guarded(report, [&] { return report.write(file), exit_done; });
+  const int written = guarded(report, ranks, [&] { return report.write(file), exit_done; });
   if (written == exit_done) return code;
   return code == exit_done || code == exit_poor_left || written == exit_resource ? written : code;
 }
@@ -89,9 +95,9 @@ int last_resort(Action action) noexcept {
 
 }  // namespace
 
-int execute(const Arguments& arguments) noexcept {
+int execute(const Arguments& arguments, const Ranks& ranks) noexcept {
   Report report;
-  const int code = last_resort([&] { return execute(arguments, report); });
+  const int code = last_resort([&] { return ranks.largest(execute(arguments, report, ranks)); });
   if (code == exit_resource) {
     for (const std::string& file : report.mesh_files) std::remove(file.c_str());
     if (!report.trace_file.empty()) std::remove(report.trace_file.c_str());

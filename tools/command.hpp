@@ -6,6 +6,7 @@
 #pragma once
 
 #include "options.hpp"
+#include "ranks.hpp"
 #include "report.hpp"
 
 namespace pgdr::tool {
@@ -25,11 +26,12 @@ enum ExitCode : int {
 /// The whole command, from the arguments to the exit code. Never throws.
 int run(int argc, const char* const* argv) noexcept;
 /// The part of the command that follows once the arguments are understood. It survives any failure to allocate (CLI11, which
-/// reads the arguments, does not).
-int execute(const Arguments& arguments) noexcept;
+/// reads the arguments, does not). On several ranks, which all call it at once: `mesh` alone, and all return the same, unless
+/// they are lost.
+int execute(const Arguments& arguments, const Ranks& ranks = {}) noexcept;
 
 // The subcommands. They print their summary, fill the report, and return the exit code; errors are thrown.
-int mesh(const MeshArguments& arguments, Report& report);
+int mesh(const MeshArguments& arguments, Report& report, const Ranks& ranks);
 int check(const CheckArguments& arguments, Report& report);
 int info(const InfoArguments& arguments, Report& report);
 int view(const ViewArguments& arguments, Report& report);

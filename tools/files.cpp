@@ -33,13 +33,14 @@ void require_writable(const std::string& file) {
 
 void require_mesh_writable(const std::string& output) {
   if (!is_mesh_format(output))
-    throw InputError(
-        {.code = Errc::unknown_format, .message = "meshes are written as .vtu, .msh, .mesh, or .node with .ele", .file = output});
+    throw InputError({.code = Errc::unknown_format,
+                      .message = "meshes are written as .vtu, .pvtu, .msh, .mesh, or .node with .ele",
+                      .file = output});
   for (const std::string& file : files_of_mesh(output)) require_writable(file);
 }
 
 void require_input_format(const std::string& file) {
-  if (has_extension(file, {".vtu", ".ele"}))
+  if (has_extension(file, {".vtu", ".pvtu", ".ele"}))
     throw InputError(
         {.code = Errc::unknown_format,
          .message = "this is a mesh in a format that is no input: give what it was made of, or write the mesh as .mesh "

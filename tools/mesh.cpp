@@ -18,6 +18,7 @@
 #include "input.hpp"
 #include "pgdr/io.hpp"
 #include "proposal.hpp"
+#include "ranks.hpp"
 #include "selector.hpp"
 #include "signals.hpp"
 #include "threads.hpp"
@@ -50,6 +51,7 @@ RefineOptions<D> make_options(const MeshArguments& a, const Bounds<D>& bounds) {
   options.schedule.threads = a.threads.value_or(0);
   options.schedule.schedule = a.schedule;
   options.schedule.claims = a.claims;
+  options.schedule.lattice = a.lattice.value_or(0);
   if (a.granularity) options.schedule.granularity = *a.granularity;
   options.schedule.trace = !a.trace.empty();
   return options;
@@ -63,6 +65,7 @@ WriteOptions write_options(const MeshArguments& a, const Plc<D>& plc) {
     options.first_index = static_cast<std::uint32_t>(*a.first_index);
   else if (has_extension(a.input, {".poly", ".smesh", ".node"}))
     options.first_index = plc.first_index;
+  options.pieces = static_cast<std::uint32_t>(a.pieces.value_or(0));
   options.edges = a.edges;
   options.neighbors = a.neighbors;
   return options;
@@ -73,7 +76,14 @@ void require_format(const MeshArguments& a) {
   const auto refuse = [&a](const char* what) { throw UsageError({.code = Errc::bad_option, .message = what, .file = a.output}); };
   if ((a.neighbors || a.edges || a.first_index) && !has_extension(a.output, {".node", ".ele"}))
     refuse("--neighbors, --edges and --first-index are for .node and .ele");
-  if (a.leaves && !has_extension(a.output, {".vtu"})) refuse("--leaves is for .vtu");
+  if (a.leaves && !has_extension(a.output, {".vtu", ".pvtu"})) refuse("--leaves is for .vtu and .pvtu");
+  if (a.pieces && !has_extension(a.output, {".pvtu"})) refuse("--pieces is for .pvtu");
+}
+
+/// What needs several ranks, and what they cannot do.
+void require_ranks(const MeshArguments& a, const Ranks& ranks) {
+  if (a.rank_timeout && !ranks.transport())
+    throw UsageError({.code = Errc::bad_option, .message = "--rank-timeout is for pgdr-mpi"});
 }
 
 const char* words(StopCause cause) {
@@ -99,34 +109,57 @@ std::size_t threads_that_ran(const RefineResult<D>& r) {
   return std::max<std::size_t>(r.scheduler.busy_seconds.size(), 1);
 }
 
-/// The violations of the finished mesh; null after a run that was ended early, when nobody wants to wait for it: such a mesh may
-/// have many, and each takes rationals; and where the optimiser ran, which makes them. (A look at every face would take more than
-/// a tenth of the time of meshing.)
+/// What is known of the mesh itself, wherever it is.
+struct Measured {
+  std::uint64_t vertices = 0, cells = 0;
+  QualitySummary quality;
+  std::optional<NotDelaunay> not_delaunay;  ///< if they were counted
+};
+
+/// Are the violations of the finished mesh counted? Not after a run that was ended early, when nobody wants to wait for it: such
+/// a mesh may have many, and each takes rationals; and not where the optimiser ran, which makes them. (A look at every face would
+/// take more than a tenth of the time of meshing.)
 template <int D>
-Json not_delaunay(const RefineResult<D>& r) {
-  if (!r.delaunay || r.stop == StopCause::cancelled || r.stop == StopCause::time_limit) return nullptr;
-  const NotDelaunay n = count_not_delaunay(r.mesh, r.violations_seen);
-  return JsonObject{{"rounding", n.rounding}, {"refused", n.other}};
+bool counts_violations(const RefineResult<D>& r) {
+  return r.delaunay && r.stop != StopCause::cancelled && r.stop != StopCause::time_limit;
+}
+
+template <int D>
+Measured measure(const RefineResult<D>& r) {
+  Measured m{r.mesh.points.size(), r.mesh.cells.size(), summarize_quality(r.mesh), std::nullopt};
+  if (counts_violations(r)) m.not_delaunay = count_not_delaunay(r.mesh, r.violations_seen);
+  return m;
+}
+
+/// The same on all ranks.
+template <int D>
+Measured measure(Transport& transport, const DistributedResult<D>& r) {
+  Measured m{r.piece.total.points, r.piece.total.cells, summarize_quality(transport, r.piece), std::nullopt};
+  if (counts_violations(r.run)) m.not_delaunay = count_not_delaunay(transport, r);
+  return m;
+}
+
+Json json_of(const std::optional<NotDelaunay>& n) {
+  return n ? Json(JsonObject{{"rounding", n->rounding}, {"refused", n->other}}) : Json(nullptr);
 }
 
 template <int D>
 void fill(Report& report, const MeshArguments& a, const Threads& threads, const Bounds<D>& bounds, const RefineResult<D>& r,
-          const QualitySummary& q) {
+          const Measured& measured) {
   const RefineStatistics& s = r.statistics;
-  report.set("vertices", r.mesh.points.size());
-  report.set("cells", r.mesh.cells.size());
+  report.set("vertices", measured.vertices);
+  report.set("cells", measured.cells);
   report.set("threads", JsonObject{{"requested", threads.requested()}, {"ran", threads_that_ran(r)}});
   report.set("schedule", name(a.schedule));
   report.set("claims", name(a.claims));
-  report.set("reproducible",
-             a.schedule == Schedule::reproducible && r.stop != StopCause::time_limit && r.stop != StopCause::cancelled);
+  report.set("reproducible", a.schedule != Schedule::greedy && r.stop != StopCause::time_limit && r.stop != StopCause::cancelled);
   report.set("stop", name(r.stop));
   report.set("refined", !a.no_refine);
   report.set("selector", a.selector.value_or(usual_selector<D>()));
   report.set("seconds", nullptr);  // their places; the values come last
   report.set("peak_rss_bytes", nullptr);
-  JsonObject quality = to_json(q);
-  quality.set("not_delaunay", not_delaunay(r));
+  JsonObject quality = to_json(measured.quality);
+  quality.set("not_delaunay", json_of(measured.not_delaunay));
   report.set("quality", quality);
   report.set("delaunay", r.delaunay);
   if (r.optimization.target > 0) report.set("optimization", to_json(r.optimization, r.stop == StopCause::finished));
@@ -173,17 +206,18 @@ std::string words(const SchedulerStatistics& s, std::size_t threads) {
 
 template <int D>
 void print_summary(const MeshArguments& a, const Plc<D>& plc, const Bounds<D>& bounds, const RefineResult<D>& r,
-                   const QualitySummary& q, const Seconds& seconds) {
+                   const Measured& measured, const Seconds& seconds) {
+  const QualitySummary& q = measured.quality;
   print_row("input", format("%s (%dD, %s)", a.input.c_str(), D, count(plc.points.size(), "point", "points").c_str()));
   if (!r.repairs.empty()) print_row("repaired", count(r.repairs.size(), "defect", "defects") + ", see --report");
-  print_row("mesh", count(r.mesh.points.size(), "vertex", "vertices") + ", " + count_cells<D>(r.mesh.cells.size()));
-  if (!r.mesh.cells.empty()) {
+  print_row("mesh", count(measured.vertices, "vertex", "vertices") + ", " + count_cells<D>(measured.cells));
+  if (measured.cells > 0) {
     const std::string least = r.optimization.target > 0 ? format(" (bound %.4g)", r.optimization.target) : "";
     print_row("quality",
               format("radius-edge up to %.4f (bound %.4g), %s %.2f to %.2f degrees%s", q.max_radius_edge, bounds.radius_edge,
                      D == 3 ? "dihedral angles" : "angles", q.min_angle_deg, q.max_angle_deg, least.c_str()));
   }
-  if (r.stop != StopCause::finished && r.mesh.cells.empty())
+  if (r.stop != StopCause::finished && measured.cells == 0)
     print_row("stopped", format("%s, before the boundary was there: there is no mesh to write", words(r.stop)));
   else if (r.stop != StopCause::finished)
     print_row("stopped",
@@ -195,7 +229,7 @@ void print_summary(const MeshArguments& a, const Plc<D>& plc, const Bounds<D>& b
   print_row("time", format("%.3f s meshing (%.3f s read, %.3f s write)", r.statistics.seconds_mesh, seconds.read, seconds.write));
   print_row("threads", words(r.scheduler, threads_that_ran(r)));
   print_row("memory", format("%.1f MiB at most", static_cast<double>(peak_rss_bytes()) / (1 << 20)));
-  if (!r.mesh.cells.empty()) print_row("wrote", a.output);
+  if (measured.cells > 0) print_row("wrote", a.output);
 }
 
 template <int D>
@@ -213,14 +247,6 @@ void write_trace(const MeshArguments& a, const RefineResult<D>& r, const Seconds
 }
 
 template <int D>
-void write_as_asked(const MeshArguments& a, const Plc<D>& plc, const OutputMesh<D>& mesh, Report& report) {
-  const WriteOptions how = write_options(a, plc);
-  std::vector<std::string> mesh_files = files_of_mesh(a.output, how);
-  write_mesh(mesh, a.output, how);
-  report.mesh_files = std::move(mesh_files);
-}
-
-template <int D>
 Bounds<D> bounds_of(const MeshArguments& a) {
   Bounds<D> bounds = resolve<D>(a.bounds, smallest_proved_bound<D>());
   if (D == 2 && a.bounds.min_angle.value_or(0) > most_min_angle)
@@ -233,9 +259,10 @@ Bounds<D> bounds_of(const MeshArguments& a) {
 template <int D>
 class MeshRun {
  public:
-  MeshRun(const MeshArguments& a, Report& report, const Stopwatch& total)
+  MeshRun(const MeshArguments& a, Report& report, const Ranks& ranks, const Stopwatch& total)
       : a_(a),
         report_(report),
+        ranks_(ranks),
         total_(total),
         bounds_(bounds_of<D>(a)),
         options_(make_options<D>(a, bounds_)),
@@ -247,27 +274,36 @@ class MeshRun {
   int run() {
     read();
     if (const std::optional<int> refused = mesh()) return *refused;
-    const QualitySummary quality = summarize_quality(result_.mesh);
-    report_.set("tolerance", result_.tolerance);
-    report_.set("largest_move", result_.largest_move);
-    fill(report_, a_, threads_, bounds_, result_, quality);
-    const std::optional<Proposal> proposal = write();
+    Transport* const transport = ranks_.transport();
+    const Measured measured = transport ? measure(*transport, made_) : measure(result_);
+    ranks_.on_first([&] {
+      report_.set("tolerance", result_.tolerance);
+      report_.set("largest_move", result_.largest_move);
+      fill(report_, a_, threads_, bounds_, result_, measured);
+    });
+    const std::optional<Proposal> proposal = write(measured.cells > 0);
+    if (!ranks_.is_first()) return exit_code();
     report_seconds();
-    print(quality);
+    print(measured);
     give(proposal, a_.quiet, report_);
     if (!a_.trace.empty()) {
       std::string trace_file = a_.trace;
       write_trace(a_, result_, seconds_);
       report_.trace_file = std::move(trace_file);
     }
+    return exit_code();
+  }
+
+ private:
+  int exit_code() const {
     if (result_.stop != StopCause::finished) return exit_stopped;
     return a_.no_refine || (result_.poor_left == 0 && result_.size_met) ? exit_done : exit_poor_left;
   }
 
- private:
   void read() {
     seconds_.read_at = total_.seconds();
-    plc_ = read_input<D>(a_.input, a_.reading, repairs_);
+    ranks_.on_first([&] { plc_ = read_input<D>(a_.input, a_.reading, repairs_); });
+    if (ranks_.transport()) plc_ = broadcast(*ranks_.transport(), plc_);
     report_.set("tolerance", tolerance_of(plc_));
     report_.set("largest_move", 0.0);
     if constexpr (D == 2) {
@@ -284,14 +320,16 @@ class MeshRun {
     try {
       ProgressLine line(!a_.quiet);
       if (!a_.quiet) options_.progress = [&](const Progress& p) { line(p); };
-      options_.prepared = [&](const Domain<D>& domain) {
-        line.clear();
-        say_what_is_ahead(domain);
-      };
+      if (ranks_.is_first())
+        options_.prepared = [&](const Domain<D>& domain) {
+          line.clear();
+          say_what_is_ahead(domain);
+        };
       if (a_.time_limit)
         options_.time_limit = std::chrono::duration<double>(std::max(0.0, *a_.time_limit - total_.seconds()) * part_for_meshing);
-      result_ = refine(plc_, options_);
+      refine_here();
     } catch (const InputError&) {  // which names one culprit: find them all
+      if (!ranks_.is_first()) throw;
       const Diagnosis<D> diagnosis = diagnose(plc_);
       JsonObject findings;
       set_findings(findings, diagnosis);
@@ -302,6 +340,16 @@ class MeshRun {
     result_.repairs.insert(result_.repairs.begin(), repairs_.begin(), repairs_.end());
     if (!a_.quiet) print_warnings(result_.warnings);
     return std::nullopt;
+  }
+
+  void refine_here() {
+    if (Transport* const transport = ranks_.transport()) {
+      made_ = refine(*transport, plc_, options_);
+      report_.set("ranks", transport->size());
+      report_.set("distributed", to_json(made_.distributed));
+    } else {
+      result_ = refine(plc_, options_);
+    }
   }
 
   /// The estimate and the narrowest gap, before anything takes long. Refuses what there is no memory for, unless the user has
@@ -316,20 +364,38 @@ class MeshRun {
     if (!a_.max_vertices && !a_.time_limit) require_memory(domain, outlook);
   }
 
-  /// Writes the mesh. Where elements stay poor it looks meanwhile for a tolerance that may help.
-  std::optional<Proposal> write() {
+  /// Writes the mesh, if there is one. Where elements stay poor the first rank looks for a tolerance that may help: meanwhile, if
+  /// it is alone, for else it has to talk to the others.
+  std::optional<Proposal> write(bool has_mesh) {
     seconds_.write_at = total_.seconds();
     std::optional<Proposal> proposal;
     const auto write_mesh = [&] {
-      if (!result_.mesh.cells.empty()) write_as_asked(a_, plc_, result_.mesh, report_);
+      if (has_mesh) write_as_asked();
       seconds_.write = total_.seconds() - seconds_.write_at;
     };
     const auto look_for_proposal = [&] {
       if (a_.no_refine || result_.poor_left == 0 || result_.stop != StopCause::finished) return;
       proposal = find_proposal(plc_, Domain<D>(plc_), a_.reading);
     };
-    tbb::parallel_invoke(write_mesh, look_for_proposal);
+    if (ranks_.transport()) {
+      write_mesh();
+      if (ranks_.is_first()) look_for_proposal();
+    } else {
+      tbb::parallel_invoke(write_mesh, look_for_proposal);
+    }
     return proposal;
+  }
+
+  void write_as_asked() {
+    Transport* const transport = ranks_.transport();
+    WriteOptions how = write_options(a_, plc_);
+    if (transport && how.pieces == 0) how.pieces = static_cast<std::uint32_t>(transport->size());
+    std::vector<std::string> mesh_files = files_of_mesh(a_.output, how);
+    if (transport)
+      pgdr::write_mesh(*transport, a_.output, made_, how);
+    else
+      pgdr::write_mesh(result_.mesh, a_.output, how);
+    if (ranks_.is_first()) report_.mesh_files = std::move(mesh_files);
   }
 
   void report_seconds() {
@@ -345,12 +411,13 @@ class MeshRun {
     report_.set("peak_rss_bytes", peak_rss_bytes());
   }
 
-  void print(const QualitySummary& quality) {
-    if (!a_.quiet) print_summary(a_, plc_, bounds_, result_, quality, seconds_);
+  void print(const Measured& measured) {
+    if (!a_.quiet) print_summary(a_, plc_, bounds_, result_, measured, seconds_);
   }
 
   const MeshArguments& a_;
   Report& report_;
+  const Ranks& ranks_;
   const Stopwatch& total_;
   const Bounds<D> bounds_;
   RefineOptions<D> options_;
@@ -359,21 +426,34 @@ class MeshRun {
   Seconds seconds_;
   std::vector<Diagnostic> repairs_;
   Plc<D> plc_;
-  RefineResult<D> result_;
+  DistributedResult<D> made_;  ///< on ranks with a piece of the mesh each
+  RefineResult<D>& result_ = made_.run;
 };
+
+template <int D>
+int run(const MeshArguments& arguments, Report& report, const Ranks& ranks, const Stopwatch& total) {
+  std::optional<MeshRun<D>> run;
+  ranks.together([&] { run.emplace(arguments, report, ranks, total); });
+  return run->run();
+}
 
 }  // namespace
 
-int mesh(const MeshArguments& arguments, Report& report) {
+int mesh(const MeshArguments& arguments, Report& report, const Ranks& ranks) {
   const Stopwatch total;
   report.set("input", arguments.input);
-  require_input_format(arguments.input);
-  require_mesh_writable(arguments.output);
-  require_format(arguments);
-  if (!arguments.trace.empty()) require_writable(arguments.trace);
-  const int dimension = file_dimension(arguments.input);
+  int dimension = 0;
+  ranks.on_first([&] {
+    require_input_format(arguments.input);
+    require_mesh_writable(arguments.output);
+    require_format(arguments);
+    require_ranks(arguments, ranks);
+    if (!arguments.trace.empty()) require_writable(arguments.trace);
+    dimension = file_dimension(arguments.input);
+  });
+  dimension = ranks.largest(dimension);
   report.set("dimension", dimension);
-  return dimension == 2 ? MeshRun<2>(arguments, report, total).run() : MeshRun<3>(arguments, report, total).run();
+  return dimension == 2 ? run<2>(arguments, report, ranks, total) : run<3>(arguments, report, ranks, total);
 }
 
 }  // namespace pgdr::tool

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "command.hpp"
+#include "pgdr/io.hpp"
 #include "pgdr/version.hpp"
 #include "selector.hpp"
 
@@ -49,7 +50,8 @@ constexpr int most_threads = 1024;  // what TBB starts, it starts all at once: t
 bool positive(double v) { return v > 0; }
 bool not_negative(double v) { return v >= 0 && std::isfinite(v); }
 
-const std::map<std::string, Schedule> schedules{{"reproducible", Schedule::reproducible}, {"greedy", Schedule::greedy}};
+const std::map<std::string, Schedule> schedules{
+    {"reproducible", Schedule::reproducible}, {"uniform", Schedule::uniform}, {"greedy", Schedule::greedy}};
 
 const std::map<std::string, ClaimRule> claim_rules{{"boxes", ClaimRule::boxes}, {"leaves", ClaimRule::leaves}};
 
@@ -168,7 +170,10 @@ void add_report(CLI::App& app, std::string& report, bool& quiet) {
 }
 
 void add_output(CLI::App& app, MeshArguments& a) {
-  app.add_option("-o,--output", a.output, "the mesh: .vtu .msh .mesh .node .ele")->required()->type_name("OUTPUT");
+  app.add_option("-o,--output", a.output, "the mesh: .vtu .pvtu .msh .mesh .node .ele")->required()->type_name("OUTPUT");
+  app.add_option("--pieces", a.pieces, ".pvtu: in so many files, X_0.vtu, X_1.vtu, ... (default: 1)")
+      ->type_name("K")
+      ->check(whole_number(1, most_pieces));
   app.add_flag("--neighbors", a.neighbors, ".node, .ele: write X.neigh, too, the neighbours of each cell");
   app.add_flag("--edges", a.edges, ".node, .ele: all edges in X.edge, not the subsegments alone");
   app.add_option("--first-index", a.first_index, ".node, .ele: count from 0 or 1 (default: as a .poly, .smesh or .node input; 1)")
@@ -210,8 +215,8 @@ void add_mesh(CLI::App& app, MeshArguments& a) {
       ->check(whole_number(1, most_threads));
   app.add_option_function<std::string>(
          "--schedule", [&a](const std::string& t) { a.schedule = schedules.at(t); },
-         "reproducible (default): the same mesh for any number of threads; greedy: whatever is free "
-         "runs next, and the mesh depends on timing")
+         "reproducible (default): the same mesh for any number of threads; uniform: that, by leaves of one size, for sizes that "
+         "vary little and for runs of many ranks; greedy: whatever is free runs next, and the mesh depends on timing")
       ->type_name("NAME")
       ->check(one_of(schedules, "schedules"));
   app.add_option_function<std::string>(
@@ -221,6 +226,13 @@ void add_mesh(CLI::App& app, MeshArguments& a) {
          "so that fine leaves beside a coarse one wait for each other; the mesh depends on it")
       ->type_name("RULE")
       ->check(one_of(claim_rules, "rules of claims"));
+  app.add_option(
+         "--lattice", a.lattice,
+         "with --schedule uniform: at most 2^K cells of the lattice along each axis, K up to 7, in 2D 10 (default: by the "
+         "number of elements); the mesh "
+         "depends on it")
+      ->type_name("K")
+      ->check(whole_number(1, most_lattice<2>()));
   app.add_option("--granularity", a.granularity,
                  "a visit of a leaf ends this many halvings of the circumradius below its largest (default: when the "
                  "leaf has no work left); the mesh depends on it")
@@ -235,13 +247,17 @@ void add_mesh(CLI::App& app, MeshArguments& a) {
   app.add_option("--time-limit", a.time_limit, "stop with a valid partial mesh after this time")
       ->type_name("SECONDS")
       ->check(number(">= 0", not_negative));
+  app.add_option("--rank-timeout", a.rank_timeout,
+                 "pgdr-mpi: give up when a rank has waited for another for this time (default: never)")
+      ->type_name("SECONDS")
+      ->check(number("> 0", [](double v) { return v > 0; }));
   add_report(app, a.report, a.quiet);
   app.add_option("--trace", a.trace, "write when each leaf was visited, and by which thread, as Chrome trace events")
       ->type_name("FILE.json");
 }
 
 void add_check(CLI::App& app, CheckArguments& a) {
-  app.add_option("MESH", a.mesh, "the mesh to check: .vtu .msh .mesh .node .ele")->required()->type_name("");
+  app.add_option("MESH", a.mesh, "the mesh to check: .vtu .pvtu .msh .mesh .node .ele")->required()->type_name("");
   app.add_option("--input", a.input, "what it is a mesh of; without it, conformity is not checked")->type_name("INPUT");
   add_bounds(app, a.bounds, "that of the report of --reasons; none without one", "likewise");
   app.add_flag("--delaunay", a.delaunay,
@@ -261,7 +277,7 @@ void add_info(CLI::App& app, InfoArguments& a) {
 }
 
 void add_view(CLI::App& app, ViewArguments& a) {
-  app.add_option("MESH", a.mesh, "the mesh: .vtu .msh .mesh .node .ele")->required()->type_name("");
+  app.add_option("MESH", a.mesh, "the mesh: .vtu .pvtu .msh .mesh .node .ele")->required()->type_name("");
   app.add_option("-o,--output", a.output, "the picture: .svg .png")->required()->type_name("PICTURE");
   app.add_option_function<std::string>(
          "--color", [&a](const std::string& t) { a.color = view_colors.at(t); },
@@ -315,7 +331,7 @@ const char* name(ClaimRule rule) {
   return "";
 }
 
-std::variant<Arguments, int> parse(int argc, const char* const* argv) {
+std::variant<Arguments, int> parse(int argc, const char* const* argv, bool speaks) {
   MeshArguments mesh;
   CheckArguments check;
   InfoArguments info;
@@ -336,10 +352,10 @@ std::variant<Arguments, int> parse(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {  // --help, --version
-    app.exit(e);
+    if (speaks) app.exit(e);
     return exit_done;
   } catch (const CLI::ParseError& e) {
-    std::cerr << "pgdr: error: " << e.what() << "\nRun pgdr --help for the usage.\n";
+    if (speaks) std::cerr << "pgdr: error: " << e.what() << "\nRun pgdr --help for the usage.\n";
     return exit_usage;
   }
   if (mesh_app->parsed()) return Arguments(std::move(mesh));

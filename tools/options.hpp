@@ -38,6 +38,7 @@ struct InputArguments {
 struct MeshArguments {
   std::string input, output;
   std::optional<int> first_index;                         ///< of .node and .ele; none: as in the input, or 1
+  std::optional<std::uint64_t> pieces;                    ///< of a .pvtu; none: one
   bool edges = false, neighbors = false, leaves = false;  ///< what is written beside the mesh
   BoundArguments bounds;
   InputArguments reading;
@@ -49,12 +50,14 @@ struct MeshArguments {
   std::optional<int> threads;  ///< none: one a core
   Schedule schedule = Schedule::reproducible;
   ClaimRule claims = ClaimRule::boxes;
+  std::optional<int> lattice;      ///< none: by the number of elements
   std::optional<int> granularity;  ///< none: a visit ends when its leaf has no work left
   double min_edge = 0;
   std::optional<std::uint64_t> max_vertices;
   std::optional<double> time_limit;
-  std::string report;  ///< empty: none
-  std::string trace;   ///< empty: none
+  std::optional<double> rank_timeout;  ///< seconds; none: a rank waits for the others as long as it takes
+  std::string report;                  ///< empty: none
+  std::string trace;                   ///< empty: none
   bool quiet = false;
 };
 
@@ -105,7 +108,7 @@ const char* name(Schedule schedule);
 const char* name(ClaimRule rule);
 
 /// Parses the command line. The exit code if there is nothing left to do: --help, --version, and wrong usage, which are printed
-/// here.
-std::variant<Arguments, int> parse(int argc, const char* const* argv);
+/// here, if `speaks`.
+std::variant<Arguments, int> parse(int argc, const char* const* argv, bool speaks = true);
 
 }  // namespace pgdr::tool

@@ -125,6 +125,7 @@ JsonObject to_json(const PredicateCounts& c) {
 JsonObject to_json(const SchedulerStatistics& s) {
   return {{"leaves", s.leaves},
           {"generations", s.generations},
+          {"cycles", s.cycles},
           {"visits", s.visits},
           {"set_aside", s.set_aside},
           {"serial_seconds", s.serial_seconds},
@@ -149,6 +150,21 @@ JsonObject to_json(const OptimizationStatistics& s, bool finished) {
 }
 
 JsonObject to_json(const StageTime& s) { return {{"name", s.name}, {"seconds", s.seconds}, {"work", s.work}, {"path", s.path}}; }
+
+JsonObject to_json(const DistributedStatistics& s) {
+  return {{"messages", s.messages},
+          {"bytes_sent", s.bytes_sent},
+          {"cut_generation", s.cut_generation},
+          {"cut_cells", s.cut_cells},
+          {"cells_applied", s.cells_applied},
+          {"gathered", s.gathered},
+          {"seconds", JsonObject{{"prologue", s.seconds_prologue},
+                                 {"pack", s.seconds_pack},
+                                 {"apply", s.seconds_apply},
+                                 {"wait", s.seconds_wait},
+                                 {"finish", s.seconds_finish}}},
+          {"peak_rss_bytes", JsonObject{{"min", s.least_peak_rss}, {"max", s.largest_peak_rss}}}};
+}
 
 JsonObject to_json(const CheckFinding& f) { return {{"kind", pgdr::name(f.kind)}, {"message", f.message}, {"ids", f.ids}}; }
 

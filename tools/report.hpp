@@ -12,6 +12,7 @@
 #include "pgdr/check.hpp"
 #include "pgdr/error.hpp"
 #include "pgdr/quality.hpp"
+#include "pgdr/ranks.hpp"
 #include "pgdr/refine.hpp"
 #include "pgdr/surface_counts.hpp"
 
@@ -41,6 +42,7 @@ JsonObject to_json(const PredicateCounts& counts);  ///< shares by stage, and `c
 JsonObject to_json(const SchedulerStatistics& s);
 JsonObject to_json(const OptimizationStatistics& s, bool finished);  ///< `finished`: the run did, so that its claims hold
 JsonObject to_json(const StageTime& s);
+JsonObject to_json(const DistributedStatistics& s);
 JsonObject to_json(const CheckFinding& finding);
 /// An array of these.
 template <class Value>

@@ -22,6 +22,11 @@ std::vector<std::string> family(const std::string& file) {
   };
   if (has_extension(file, {".poly", ".smesh"})) add({".node"});
   if (has_extension(file, {".node", ".ele"})) add({".node", ".ele", ".face", ".edge"});
+  if (has_extension(file, {".pvtu"})) {  // its pieces: as many as there are
+    std::vector<std::string> all = files_of_mesh(file, {.pieces = most_pieces});
+    std::error_code ignored;
+    for (std::size_t i = 1; i < all.size() && fs::exists(all[i], ignored); ++i) files.push_back(std::move(all[i]));
+  }
   return files;
 }
 
@@ -52,6 +57,7 @@ RunFiles::RunFiles(const Arguments& arguments) {
       read(a.bounds);
       WriteOptions all;
       all.neighbors = a.neighbors;
+      all.pieces = static_cast<std::uint32_t>(a.pieces.value_or(0));
       for (const std::string& file : files_of_mesh(a.output, all)) outputs_.push_back({file, "the output"});
       if (!a.trace.empty()) outputs_.push_back({a.trace, "the trace"});
     } else if constexpr (std::is_same_v<A, CheckArguments>) {

@@ -180,13 +180,17 @@ auto Cavity<D>::collect_on_edge(const Point<D>& p, CellId cell, int edge, double
   split_edge_ = ends_of_edge(mesh_->cell(cell).vertices, edge);
   split_segment_ = mesh_->constraints(cell)->edge_entity[edge];
   if (const Status status = take_fan(cell, edge); status != Status::ok) return status;
-  if (const PinchedEdges* pinched = mesh_->pinched_edges(); pinched && pinched->has(split_segment_))
-    for (const CellId c : pinched->cells(split_edge_[0], split_edge_[1])) {
+  if (const PinchedEdges* pinched = mesh_->pinched_edges(); pinched && pinched->has(split_segment_)) {
+    // The list is in the order in which the cells came, which is not the same everywhere.
+    std::vector<CellId> cells = pinched->cells(split_edge_[0], split_edge_[1]);
+    std::sort(cells.begin(), cells.end(), [this](CellId a, CellId b) { return compare_vertices<D>(*mesh_, a, b) < 0; });
+    for (const CellId c : cells) {
       if (mesh_->marked(c)) continue;
       const auto& v = mesh_->cell(c).vertices;  // its ends are claimed, so that no other visit changes it
       const int there = edge_of_ends[corner_of(v, split_edge_[0])][corner_of(v, split_edge_[1])];
       if (const Status status = take_fan(c, there); status != Status::ok) return status;
     }
+  }
   protected_ = cells_;
   bool conflict = false;
   for (const CellId c : protected_) conflict = conflict || mesh_->conflicts(c, p);

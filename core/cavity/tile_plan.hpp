@@ -45,6 +45,7 @@ class TilePlan {
  private:
   using Pair = std::uint64_t;  ///< a tile, above; and a range of another one, which shares a cell with it
 
+  // The triangulation is the same whatever these are: they are about time.
   static constexpr int ranges_shift = 2;
   static constexpr std::size_t points_of_visit = 48;   ///< some hundred microseconds
   static constexpr std::uint32_t slots_a_point = 128;  ///< to look at, for which a plan pays

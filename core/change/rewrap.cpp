@@ -64,12 +64,14 @@ bool LocalRewrap::wrap_again(Pools& pools) {
   return false;
 }
 
-/// A hash of the cells of the region, the cells about them, and how many cells it may have.
+/// A hash of the cells of the region, in any order, the cells about them, and how many cells it may have.
 std::uint64_t LocalRewrap::attempt_hash() const {
-  std::vector<CellId> cells = old_;
-  std::sort(cells.begin(), cells.end());
-  const std::uint64_t number = *surroundings_of<3>(*mesh_, cells);
-  return std::rotl(number, 25) ^ most_cells_;
+  std::uint64_t sum = 0;
+  for (const CellId c : old_) {
+    const CellName name{c, mesh_->birth(c)};
+    sum += place_hash<3>(*mesh_, c) ^ std::rotl(*surroundings_of<3>(*mesh_, {&name, 1}, 1), 32);
+  }
+  return std::rotl(sum, 25) ^ most_cells_;
 }
 
 void LocalRewrap::release() {

@@ -145,11 +145,16 @@ void check_delaunay(const OutputMesh<D>& mesh, const Links<D>& links, std::span<
 }
 
 template <int D>
-std::vector<double> slack_without_input(const OutputMesh<D>& mesh, int ulps) {
-  double magnitude = 0;
+double largest_coordinate(const OutputMesh<D>& mesh) {
+  double largest = 0;
   for (const Point<D>& p : mesh.points)
-    for (const double x : p.x) magnitude = std::max(magnitude, std::abs(x));
-  const double width = Tolerance{ulps, magnitude}.width();
+    for (const double x : p.x) largest = std::max(largest, std::abs(x));
+  return largest;
+}
+
+template <int D>
+std::vector<double> slack_without_input(const OutputMesh<D>& mesh, int ulps) {
+  const double width = Tolerance{ulps, largest_coordinate(mesh)}.width();
   std::vector<double> slack = detail::vector_of_capacity<double>(mesh.points.size());
   slack.resize(mesh.points.size(), 0);
   const auto mark = [&](const auto& constraints, int aligned_axes) {
@@ -174,6 +179,7 @@ std::vector<double> slack_without_input(const OutputMesh<D>& mesh, int ulps) {
                              const InputVolumes<D>*, Reasons<D>&, Findings&);                                                 \
   template void check_delaunay(const OutputMesh<D>&, const Links<D>&, std::span<const double>, std::span<const std::uint8_t>, \
                                Findings&);                                                                                    \
+  template double largest_coordinate(const OutputMesh<D>&);                                                                   \
   template std::vector<double> slack_without_input(const OutputMesh<D>&, int);
 PGDR_INSTANTIATE(2)
 PGDR_INSTANTIATE(3)

@@ -23,6 +23,10 @@ template <int D>
 void check_delaunay(const OutputMesh<D>& mesh, const Links<D>& links, std::span<const double> slack,
                     std::span<const std::uint8_t> refused, Findings& findings);
 
+/// The largest absolute value of a coordinate.
+template <int D>
+double largest_coordinate(const OutputMesh<D>& mesh);
+
 /// The slack of vertices when the input is unknown: any vertex of a constraint that is not axis-aligned may be off by
 /// so many ulps of the largest coordinate of the mesh; an input point may be one of a facet that is planar within rounding.
 template <int D>

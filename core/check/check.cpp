@@ -116,25 +116,6 @@ void check_against_given(const OutputMesh<D>& mesh, const CheckOptions<D>& optio
   check_bounds(mesh, options, links, components, known, reasons, findings);
 }
 
-/// The cells with a point that may be off its entity, those that share a face with one, and few more.
-template <int D>
-OutputMesh<D> part_beside_slanted_points(const OutputMesh<D>& mesh, const std::vector<double>& slack) {
-  const auto slanted = [&](std::uint32_t v) { return slack[v] > 0; };
-  std::vector<bool> near(mesh.points.size());
-  for (const auto& cell : mesh.cells)
-    if (std::any_of(cell.begin(), cell.end(), slanted))
-      for (const std::uint32_t v : cell) near[v] = true;
-  OutputMesh<D> part;
-  for (const auto& cell : mesh.cells)
-    if (std::count_if(cell.begin(), cell.end(), [&](std::uint32_t v) { return near[v]; }) >= D) part.cells.push_back(cell);
-  if (part.cells.empty()) return part;
-  part.points = mesh.points;
-  part.input_points = mesh.input_points;
-  part.subfacets = mesh.subfacets;
-  part.subsegments = mesh.subsegments;
-  return part;
-}
-
 }  // namespace
 
 template <int D>
@@ -164,19 +145,6 @@ CheckReport check(const OutputMesh<D>& mesh, const CheckOptions<D>& options) {
   return report;
 }
 
-template <int D>
-NotDelaunay count_not_delaunay(const OutputMesh<D>& mesh, bool everywhere) {
-  CheckReport report;
-  Findings findings(report, 0);
-  const std::vector<double> slack = slack_without_input(mesh, CheckOptions<D>{}.conformity_ulps);
-  const OutputMesh<D> part = everywhere ? OutputMesh<D>{} : part_beside_slanted_points(mesh, slack);
-  const OutputMesh<D>& looked_at = everywhere ? mesh : part;
-  check_delaunay<D>(looked_at, link_cells(looked_at, findings), slack, {}, findings);
-  return {report.not_delaunay_rounding, report.count(Kind::not_delaunay)};
-}
-
-template PGDR_API NotDelaunay count_not_delaunay(const OutputMesh<2>&, bool);
-template PGDR_API NotDelaunay count_not_delaunay(const OutputMesh<3>&, bool);
 template PGDR_API CheckReport check(const OutputMesh<2>&, const CheckOptions<2>&);
 template PGDR_API CheckReport check(const OutputMesh<3>&, const CheckOptions<3>&);
 

@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "compact/canonical.hpp"
 #include "compact/stripped_cells.hpp"
 #include "space/bulk.hpp"
 #include "space/spatial_order.hpp"
@@ -67,26 +68,6 @@ std::vector<std::uint32_t> number_vertices(const Mesh<D>& mesh, const detail::St
   return number;
 }
 
-/// Sorts the numbers, but for the last two if that is what the orientation asks for. Any order is as likely: it is done so that
-/// compilers make no branches of it.
-template <std::size_t N>
-std::array<std::uint32_t, N> canonical(std::array<std::uint32_t, N> v) {
-  std::uint32_t odd = 0;  // all bits, after an odd number of exchanges
-  for (std::size_t end = N; end > 1; --end)
-    for (std::size_t i = 1; i < end; ++i) {
-      const std::int64_t difference = std::int64_t{v[i]} - std::int64_t{v[i - 1]};
-      const auto exchanged = static_cast<std::uint32_t>(difference >> 63);
-      const std::uint32_t below = static_cast<std::uint32_t>(difference) & exchanged;
-      v[i - 1] += below;
-      v[i] -= below;
-      odd ^= exchanged;
-    }
-  const std::uint32_t last_two = (v[N - 2] ^ v[N - 1]) & odd;
-  v[N - 2] ^= last_two;
-  v[N - 1] ^= last_two;
-  return v;
-}
-
 /// Sorts cells whose first vertex is the same. Few, as most are, by their ranks, without branches that depend on the order.
 template <std::size_t N>
 void sort_few(std::array<std::uint32_t, N>* cells, std::size_t count) {
@@ -131,7 +112,7 @@ class CellOrder {
       for (Cell& cell : stripped_->block(block)) {
         Cell numbers;
         for (int j = 0; j <= D; ++j) numbers[j] = number[cell[j]];
-        cell = canonical(numbers);
+        cell = detail::canonical(numbers);
         ++slot(block, cell);
       }
     });
@@ -237,7 +218,7 @@ void number_by_slots(const Mesh<D>& mesh, const Domain<D>& domain, std::span<con
     each_cell(part, [&](CellId c) {
       auto& cell = out.mesh.cells[at];
       for (int j = 0; j <= D; ++j) cell[j] = number[index(mesh.cell(c).vertices[j])];
-      cell = canonical(cell);
+      cell = detail::canonical(cell);
       if (!region_attributes.empty()) out.mesh.regions[at] = region_attributes[mesh.region(c)];
       ++at;
     });
@@ -267,13 +248,6 @@ struct MarkedFaces {
 };
 
 template <int D>
-std::array<VertexId, D> face_vertices(const CellRecord<D>& cell, int f) {
-  auto face = face_without(cell.vertices, f);
-  if (f % 2 == 1) std::swap(face[D - 2], face[D - 1]);
-  return face;
-}
-
-template <int D>
 MarkedFaces<D> gather_constraints(const Mesh<D>& mesh, const detail::Bulk& bulk) {
   using Face = typename MarkedFaces<D>::Face;
   using Edge = typename MarkedFaces<D>::Edge;
@@ -289,7 +263,7 @@ MarkedFaces<D> gather_constraints(const Mesh<D>& mesh, const detail::Bulk& bulk)
     for (int f = 0; f <= D; ++f) {
       const Link beyond = mesh.cell(c).links[f];
       if (k->has_face(f) && !(beyond && beyond.cell() < c))
-        faces.push_back({face_vertices<D>(mesh.cell(c), f), k->face_entity[f], !beyond});
+        faces.push_back({detail::face_vertices<D>(mesh.cell(c), f), k->face_entity[f], !beyond});
     }
   });
   if constexpr (D == 3)
@@ -315,10 +289,7 @@ void number_constraints(const MarkedFaces<D>& found, const Domain<D>& domain, co
     constraints.resize(found.faces.size());
     bulk.each(constraints.size(), [&](std::size_t i) {
       const auto& f = found.faces[i];
-      auto v = numbered(f.vertices);
-      if (!f.on_hull) std::sort(v.begin(), v.end());
-      if (D == 3) std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
-      constraints[i] = {v, entities[f.entity].marker, f.entity};
+      constraints[i] = {detail::canonical_face(numbered(f.vertices), f.on_hull), entities[f.entity].marker, f.entity};
     });
   };
   auto by_vertices = [](const auto& a, const auto& b) { return a.vertices < b.vertices; };
@@ -382,7 +353,7 @@ template <int D>
 std::uint32_t Compacted<D>::cell_number(const std::array<VertexId, D + 1>& vertices) const {
   std::array<std::uint32_t, D + 1> v;
   for (int j = 0; j <= D; ++j) v[j] = vertex_number[index(vertices[j])];
-  return position_of<D>(*this, canonical(v));
+  return position_of<D>(*this, detail::canonical(v));
 }
 
 template struct Compacted<2>;

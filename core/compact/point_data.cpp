@@ -21,13 +21,38 @@ constexpr std::uint32_t none = 0xffffffffu;
 /// What each vertex of a mesh is numbered, by index(VertexId); `none` if it is not.
 using Numbers = std::span<const std::uint32_t>;
 
+/// The numbered vertices of a mesh.
+template <int D>
+class VerticesOfMesh {
+ public:
+  VerticesOfMesh(const Mesh<D>& mesh, Numbers numbers) : mesh_(&mesh), numbers_(numbers) {}
+  std::size_t size() const { return numbers_.size(); }
+  std::uint32_t number(std::size_t i) const { return numbers_[i]; }  ///< `none`: there is no such vertex
+  const VertexRecord<D>& operator[](std::size_t i) const { return mesh_->vertex(VertexId{static_cast<std::uint32_t>(i)}); }
+
+ private:
+  const Mesh<D>* mesh_;
+  Numbers numbers_;
+};
+
+/// Vertices in the order of their numbers.
+template <int D>
+class ListedVertices {
+ public:
+  explicit ListedVertices(std::span<const VertexRecord<D>> vertices) : vertices_(vertices) {}
+  std::size_t size() const { return vertices_.size(); }
+  std::uint32_t number(std::size_t i) const { return static_cast<std::uint32_t>(i); }
+  const VertexRecord<D>& operator[](std::size_t i) const { return vertices_[i]; }
+
+ private:
+  std::span<const VertexRecord<D>> vertices_;
+};
+
 /// Calls f(number, record) for each numbered vertex that is no input point.
-template <int D, class F>
-void each_steiner_point(const Mesh<D>& mesh, Numbers numbers, const detail::Bulk& bulk, const F& f) {
-  bulk.each(numbers.size(), [&](std::size_t i) {
-    if (numbers[i] == none) return;
-    const VertexRecord<D>& v = mesh.vertex(VertexId{static_cast<std::uint32_t>(i)});
-    if (v.home.kind() != EntityKind::vertex) f(numbers[i], v);
+template <class Vertices, class F>
+void each_steiner_point(const Vertices& vertices, const detail::Bulk& bulk, const F& f) {
+  bulk.each(vertices.size(), [&](std::size_t i) {
+    if (vertices.number(i) != none && vertices[i].home.kind() != EntityKind::vertex) f(vertices.number(i), vertices[i]);
   });
 }
 
@@ -93,16 +118,17 @@ class FacetInterpolation {
 };
 
 /// Attributes of the Steiner points on facets, facet by facet.
-void fill_on_facets(const Mesh<3>& mesh, const Domain<3>& domain, Numbers numbers, const detail::Bulk& bulk, const Rows& rows) {
+template <class Vertices>
+void fill_on_facets(const Vertices& vertices, const Domain<3>& domain, const detail::Bulk& bulk, const Rows& rows) {
   struct OnFacet {
     EntityId facet;
     std::uint32_t number;
     Point3 point;
   };
-  auto list = bulk.gather<OnFacet>(numbers.size(), [&](std::size_t i, std::vector<OnFacet>& found) {
-    if (numbers[i] == none) return;
-    const VertexRecord<3>& v = mesh.vertex(VertexId{static_cast<std::uint32_t>(i)});
-    if (v.home.kind() == EntityKind::facet) found.push_back({v.home.id(), numbers[i], v.point});
+  auto list = bulk.gather<OnFacet>(vertices.size(), [&](std::size_t i, std::vector<OnFacet>& found) {
+    if (vertices.number(i) == none) return;
+    const VertexRecord<3>& v = vertices[i];
+    if (v.home.kind() == EntityKind::facet) found.push_back({v.home.id(), vertices.number(i), v.point});
   });
   bulk.sort(list, [](const OnFacet& a, const OnFacet& b) { return a.facet < b.facet; });
   // The facets of few points side by side, then those of many, each with its points side by side.
@@ -130,10 +156,10 @@ void fill_on_facets(const Mesh<3>& mesh, const Domain<3>& domain, Numbers number
 }
 
 /// Sets the attributes of all numbered points but those of the input. `unrefined`: what those inside are interpolated on.
-template <int D>
-void fill_attributes(const Mesh<D>& mesh, const Domain<D>& domain, Numbers numbers, const detail::Bulk& bulk,
+template <int D, class Vertices>
+void fill_attributes(const Vertices& vertices, const Domain<D>& domain, const detail::Bulk& bulk,
                      const detail::MeshInterpolation<D>* unrefined, std::span<const double> of_unrefined, const Rows& rows) {
-  each_steiner_point<D>(mesh, numbers, bulk, [&](std::uint32_t number, const VertexRecord<D>& v) {
+  each_steiner_point(vertices, bulk, [&](std::uint32_t number, const VertexRecord<D>& v) {
     if (v.home.kind() == EntityKind::segment) {
       const double t = segment_parameter<D>(domain, v.home.id(), v.point);
       const detail::WeightedCorners<2> place{domain.segments()[v.home.id()].points, {1 - t, t}};
@@ -142,7 +168,7 @@ void fill_attributes(const Mesh<D>& mesh, const Domain<D>& domain, Numbers numbe
       rows.set(number, unrefined->at(v.point), of_unrefined);
     }
   });
-  if constexpr (D == 3) fill_on_facets(mesh, domain, numbers, bulk, rows);
+  if constexpr (D == 3) fill_on_facets(vertices, domain, bulk, rows);
 }
 
 /// The marker of a segment or facet; in 3D, of a segment without one, that of the first of its facets that has one.
@@ -194,7 +220,7 @@ PointData<D>::PointData(const Mesh<D>& unrefined, const Domain<D>& domain, const
     return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), is_before);
   });
   const Rows rows(attributes_, columns);
-  fill_attributes<D>(unrefined, domain, numbers, bulk, nullptr, {}, rows);
+  fill_attributes<D>(VerticesOfMesh<D>(unrefined, numbers), domain, bulk, nullptr, {}, rows);
   unrefined_ = std::make_unique<detail::MeshInterpolation<D>>(std::move(points), cells);
 }
 
@@ -203,6 +229,23 @@ PointData<D>::PointData(PointData&&) noexcept = default;
 template <int D>
 PointData<D>::~PointData() = default;
 
+/// Has a segment or facet a marker?
+template <int D>
+bool has_markers(const Domain<D>& domain) {
+  const auto is_marked = [](const auto& entity) { return entity.marker != 0; };
+  return std::any_of(domain.segments().begin(), domain.segments().end(), is_marked) ||
+         std::any_of(domain.facets().begin(), domain.facets().end(), is_marked);
+}
+
+/// 2D: gives input points without a marker that of a segment.
+template <int D>
+void mark_input_points(const Domain<D>& domain, std::vector<int>& markers) {
+  if constexpr (D == 2)
+    for (const DomainSegment& s : domain.segments())
+      for (const std::uint32_t v : s.points)
+        if (markers[v] == 0) markers[v] = s.marker;
+}
+
 template <int D>
 void PointData<D>::fill_markers(const Mesh<D>& refined, const detail::Bulk& bulk, Compacted<D>& out) const {
   auto& markers = out.mesh.point_markers;
@@ -210,17 +253,10 @@ void PointData<D>::fill_markers(const Mesh<D>& refined, const detail::Bulk& bulk
   markers = detail::vector_of_capacity<int>(out.mesh.points.size());
   markers.assign(input.begin(), input.end());
   markers.resize(out.mesh.points.size(), 0);
-  const auto is_marked = [](const auto& entity) { return entity.marker != 0; };
-  if (std::none_of(domain_->segments().begin(), domain_->segments().end(), is_marked) &&
-      std::none_of(domain_->facets().begin(), domain_->facets().end(), is_marked))
-    return;
-  each_steiner_point<D>(refined, out.vertex_number, bulk, [&](std::uint32_t number, const VertexRecord<D>& v) {
-    markers[number] = marker_of<D>(*domain_, v.home);
-  });
-  if constexpr (D == 2)
-    for (const DomainSegment& s : domain_->segments())
-      for (const std::uint32_t v : s.points)
-        if (markers[v] == 0) markers[v] = s.marker;
+  if (!has_markers(*domain_)) return;
+  each_steiner_point(VerticesOfMesh<D>(refined, out.vertex_number), bulk,
+                     [&](std::uint32_t number, const VertexRecord<D>& v) { markers[number] = marker_of<D>(*domain_, v.home); });
+  mark_input_points(*domain_, markers);
 }
 
 template <int D>
@@ -233,7 +269,29 @@ void PointData<D>::fill(const Mesh<D>& refined, Compacted<D>& out, const detail:
   values = detail::vector_of_capacity<double>(out.mesh.points.size() * columns);
   values.assign(domain_->point_attributes().begin(), domain_->point_attributes().end());
   values.resize(out.mesh.points.size() * columns);
-  fill_attributes<D>(refined, *domain_, out.vertex_number, bulk, unrefined_.get(), attributes_, Rows(values, columns));
+  fill_attributes<D>(VerticesOfMesh<D>(refined, out.vertex_number), *domain_, bulk, unrefined_.get(), attributes_,
+                     Rows(values, columns));
+}
+
+template <int D>
+void PointData<D>::fill_rows(std::span<const VertexRecord<D>> vertices, OutputMesh<D>& out, const detail::Pieces& pieces) const {
+  const detail::Bulk bulk(pieces);
+  const ListedVertices<D> list(vertices);
+  std::vector<int> of_input(domain_->point_markers().begin(), domain_->point_markers().end());
+  of_input.resize(domain_->points().size(), 0);
+  mark_input_points(*domain_, of_input);
+  out.point_markers.assign(vertices.size(), 0);
+  const std::size_t columns = unrefined_ ? domain_->attributes_per_point() : 0;
+  out.point_attributes.assign(vertices.size() * columns, 0);
+  bulk.each(vertices.size(), [&](std::size_t i) {
+    const Home home = vertices[i].home;
+    const bool is_input = home.kind() == EntityKind::vertex;
+    out.point_markers[i] = is_input ? of_input[home.id()] : marker_of<D>(*domain_, home);
+    if (is_input)
+      std::copy_n(domain_->point_attributes().begin() + static_cast<std::ptrdiff_t>(home.id() * columns), columns,
+                  out.point_attributes.begin() + static_cast<std::ptrdiff_t>(i * columns));
+  });
+  if (columns > 0) fill_attributes<D>(list, *domain_, bulk, unrefined_.get(), attributes_, Rows(out.point_attributes, columns));
 }
 
 template class PointData<2>;

@@ -38,6 +38,9 @@ class PointData {
   /// compact().
   void fill(const Mesh<D>& refined, Compacted<D>& out, const detail::Pieces& pieces, std::stop_token stop = {}) const;
 
+  /// Sets those of some points, which are all that `out` has, by the records of their vertices in the same order.
+  void fill_rows(std::span<const VertexRecord<D>> vertices, OutputMesh<D>& out, const detail::Pieces& pieces) const;
+
  private:
   void fill_markers(const Mesh<D>& refined, const detail::Bulk& bulk, Compacted<D>& out) const;
 

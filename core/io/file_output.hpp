@@ -60,6 +60,11 @@ class TextBuffer {
   /// What has been put, but for what has gone elsewhere since.
   std::string_view text() const { return {buffer_.data(), used_}; }
   void clear() { used_ = 0; }
+  /// As clear(), and gives the memory back.
+  void release() {
+    clear();
+    buffer_ = {};
+  }
 
  protected:
   /// Makes room for n more bytes.
@@ -76,6 +81,20 @@ class TextBuffer {
   std::vector<char> buffer_;
   std::size_t used_ = 0;
 };
+
+/// Puts items [first, last) of some.
+using PutBlock = std::function<void(TextBuffer&, std::size_t first, std::size_t last)>;
+/// Gives `sink` the bytes of `count` items, in their order. Blocks are put side by side, on the threads of the caller's arena.
+void put_in_blocks(std::size_t count, const PutBlock& put_block, const std::function<void(std::string_view)>& sink);
+
+/// A whole file under a temporary name.
+struct PendingFile {
+  std::string temporary, target;
+};
+/// Makes all the files appear, or none: what was there before stays, or comes back, if one cannot be. The last file is
+/// away from before the first is replaced until all are, so that its presence means a whole set even if the process is
+/// killed. @throws FileError cannot_write
+void publish_together(std::span<const PendingFile> files);
 
 class FileOutput final : public TextBuffer {
  public:
@@ -94,23 +113,19 @@ class FileOutput final : public TextBuffer {
     });
   }
 
+  /// As put_each, of what puts whole blocks.
+  void put_blocks(std::size_t count, const PutBlock& put_block);
+
+  /// Its two names, once it is closed; whoever renames it says so by set_published().
+  PendingFile pending() const { return {temporary_, target_}; }
+  void set_published() { temporary_.clear(); }
+  /// Writes what is buffered and closes, so that nothing more can be put. Gives the memory back. @throws FileError cannot_write
+  void close();
   /// Writes what is buffered, closes, renames. The only way to make the file appear. @throws FileError cannot_write
   void commit();
 
-  /// Makes all the files appear, or none: what was there before stays, or comes back, if one cannot be. The last file is
-  /// away from before the first is replaced until all are, so that its presence means a whole set even if the process is
-  /// killed. @throws FileError cannot_write
-  friend void commit_together(std::span<const std::unique_ptr<FileOutput>> files);
-
  private:
-  using PutBlock = std::function<void(TextBuffer&, std::size_t first, std::size_t last)>;
-
   void make_room(std::size_t n) override;
-  void put_blocks(std::size_t count, const PutBlock& put_block);
-  /// Writes what is buffered and closes.
-  void finish();
-  /// Renames what is finished.
-  void publish();
   void flush();
   void write(std::string_view bytes);
   [[noreturn]] void fail(const std::string& why) const;
@@ -119,6 +134,7 @@ class FileOutput final : public TextBuffer {
   std::FILE* stream_ = nullptr;
 };
 
+/// Closes the files and publishes them together. @throws FileError cannot_write
 void commit_together(std::span<const std::unique_ptr<FileOutput>> files);
 
 }  // namespace pgdr::detail

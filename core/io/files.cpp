@@ -23,6 +23,14 @@ std::string reason(int error_number) { return std::generic_category().message(er
   throw FileError(Diagnostic{Errc::cannot_open, "cannot be read: " + why, file.string(), 0, {}, {}});
 }
 
+[[noreturn]] void cannot_write(const std::string& file, const std::string& why) {
+  throw FileError(Diagnostic{Errc::cannot_write, "cannot be written: " + why, file, 0, {}, {}});
+}
+
+void publish(const PendingFile& file) {
+  if (std::rename(file.temporary.c_str(), file.target.c_str()) != 0) cannot_write(file.target, reason(errno));
+}
+
 std::string random_suffix() {
   std::random_device device;
   constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz234567";
@@ -100,10 +108,10 @@ void FileOutput::make_room(std::size_t n) {
 }
 
 /// Some blocks at a time, so that they take little memory whatever the file does.
-void FileOutput::put_blocks(std::size_t count, const PutBlock& put_block) {
-  constexpr std::size_t items = 1 << 13, most_blocks = 32;
+void put_in_blocks(std::size_t count, const PutBlock& put_block, const std::function<void(std::string_view)>& sink) {
+  constexpr std::size_t items = 1 << 13;
   const Bulk bulk(true);
-  if (!bulk.is_parallel()) return put_block(*this, 0, count);
+  const std::size_t most_blocks = bulk.is_parallel() ? 32 : 1;
   std::vector<TextBuffer> texts(std::min(most_blocks, (count + items - 1) / items));
   for (std::size_t first = 0; first < count; first += most_blocks * items) {
     const std::size_t last = std::min(count, first + most_blocks * items);
@@ -112,9 +120,14 @@ void FileOutput::put_blocks(std::size_t count, const PutBlock& put_block) {
       texts[k].clear();
       put_block(texts[k], first + k * items, std::min(last, first + (k + 1) * items));
     });
-    flush();
-    for (std::size_t k = 0; k < blocks; ++k) write(texts[k].text());
+    for (std::size_t k = 0; k < blocks; ++k) sink(texts[k].text());
   }
+}
+
+void FileOutput::put_blocks(std::size_t count, const PutBlock& put_block) {
+  if (!Bulk(true).is_parallel()) return put_block(*this, 0, count);
+  flush();
+  put_in_blocks(count, put_block, [this](std::string_view bytes) { write(bytes); });
 }
 
 void FileOutput::flush() {
@@ -126,46 +139,51 @@ void FileOutput::write(std::string_view bytes) {
   if (std::fwrite(bytes.data(), 1, bytes.size(), stream_) != bytes.size()) fail(reason(errno));
 }
 
-void FileOutput::finish() {
+void FileOutput::close() {
+  if (stream_ == nullptr) return;
   flush();
+  release();
   if (std::fclose(std::exchange(stream_, nullptr)) != 0) fail(reason(errno));
 }
 
-void FileOutput::publish() {
-  if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail(reason(errno));
-  temporary_.clear();
-}
-
 void FileOutput::commit() {
-  finish();
-  publish();
+  close();
+  publish(pending());
+  set_published();
 }
 
-void commit_together(std::span<const std::unique_ptr<FileOutput>> files) {
-  for (const auto& f : files) f->finish();
+void publish_together(std::span<const PendingFile> files) {
   std::vector<std::string> aside(files.size());  // where the older files are meanwhile
-  for (std::size_t i = 0; i < files.size(); ++i) aside[i] = name_beside(files[i]->target_);
+  for (std::size_t i = 0; i < files.size(); ++i) aside[i] = name_beside(files[i].target);
   std::size_t kept = files.size(), published = 0;  // files[kept...] are aside, those before `published` are new
   try {
     for (; kept > 0; --kept) {
-      const std::string& target = files[kept - 1]->target_;
+      const std::string& target = files[kept - 1].target;
       if (std::rename(target.c_str(), aside[kept - 1].c_str()) == 0) continue;
-      if (errno != ENOENT) files[kept - 1]->fail(reason(errno));
+      if (errno != ENOENT) cannot_write(target, reason(errno));
       aside[kept - 1].clear();
     }
-    for (; published < files.size(); ++published) files[published]->publish();
+    for (; published < files.size(); ++published) publish(files[published]);
   } catch (...) {
-    for (std::size_t i = 0; i < published; ++i) std::remove(files[i]->target_.c_str());
+    for (std::size_t i = 0; i < published; ++i) std::remove(files[i].target.c_str());
     for (std::size_t i = kept; i < files.size(); ++i)
-      if (!aside[i].empty()) std::rename(aside[i].c_str(), files[i]->target_.c_str());
+      if (!aside[i].empty()) std::rename(aside[i].c_str(), files[i].target.c_str());
     throw;
   }
   for (const std::string& name : aside)
     if (!name.empty()) std::remove(name.c_str());
 }
 
-void FileOutput::fail(const std::string& why) const {
-  throw FileError(Diagnostic{Errc::cannot_write, "cannot be written: " + why, target_, 0, {}, {}});
+void commit_together(std::span<const std::unique_ptr<FileOutput>> files) {
+  std::vector<PendingFile> pending;
+  for (const auto& f : files) {
+    f->close();
+    pending.push_back(f->pending());
+  }
+  publish_together(pending);
+  for (const auto& f : files) f->set_published();
 }
+
+void FileOutput::fail(const std::string& why) const { cannot_write(target_, why); }
 
 }  // namespace pgdr::detail

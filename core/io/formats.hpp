@@ -11,8 +11,10 @@
 #include <string_view>
 
 #include "io/file_output.hpp"
+#include "io/file_slices.hpp"
 #include "io/read/file_mesh.hpp"
 #include "pgdr/io.hpp"
+#include "pgdr/mesh_piece.hpp"
 #include "pgdr/output_mesh.hpp"
 #include "pgdr/plc.hpp"
 
@@ -56,6 +58,38 @@ template <int D>
 void write_msh(const OutputMesh<D>& mesh, FileOutput& out);
 template <int D>
 void write_vtu(const OutputMesh<D>& mesh, FileOutput& out);
+/// The file of a piece alone, with the numbers of its points and cells in the whole mesh.
+template <int D>
+void write_vtu_of_piece(const MeshPiece<D>& piece, FileOutput& out);
+/// The rows of a piece, at their places in the file of the whole mesh, which is there when all pieces are written. Closes the
+/// file.
+/// @param frame  what belongs to no piece, too: one of them has to do it
+/// @throws FileError cannot_write
+template <int D>
+void write_vtu_rows(const MeshPiece<D>& piece, bool frame, FileSlices& out);
+
+/// A file that write_vtu_of_piece() has made.
+template <int D>
+MeshPiece<D> read_vtu_piece(std::string_view text, const std::filesystem::path& file);
+/// With the files of its pieces beside it.
+template <int D>
+OutputMesh<D> read_pvtu(std::string_view text, const std::filesystem::path& file);
+/// X.pvtu and X_0.vtu, X_1.vtu, ... of so many pieces: all or none.
+template <int D>
+void write_pvtu(const OutputMesh<D>& mesh, const std::filesystem::path& file, std::uint64_t count);
+/// The text of a .pvtu of so many pieces, of which this is any.
+template <int D>
+std::string pvtu_text(const MeshPiece<D>& piece, std::uint64_t count, const std::filesystem::path& file);
+/// The file of piece k of a .pvtu.
+std::string name_of_piece(const std::filesystem::path& file, std::uint64_t k);
+/// Names of arrays of a piece.
+inline constexpr std::string_view point_ids = "GlobalPointIds", cell_ids = "GlobalCellIds";
+/// What stands for a character in an attribute of XML.
+struct XmlEscape {
+  char character;
+  std::string_view text;
+};
+inline constexpr XmlEscape xml_escapes[] = {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&apos;"}};
 
 /// A mesh as TetGen and Triangle have it: one text a file, named `file` with another extension. Null: there is none.
 struct TetgenTexts {
@@ -76,6 +110,7 @@ void write_tetgen(const OutputMesh<D>& mesh, const std::filesystem::path& file, 
 /// The dimension that the header states; anything but 2 and 3 is a syntax error.
 int node_dimension(std::string_view text, const std::filesystem::path& file);  ///< .node, .poly
 int vtu_dimension(std::string_view text, const std::filesystem::path& file);
+int pvtu_dimension(std::string_view text, const std::filesystem::path& file);  ///< that of the first piece
 
 /// In lower case, with its dot.
 std::string lower_extension(const std::filesystem::path& file);

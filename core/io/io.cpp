@@ -61,6 +61,8 @@ FileMeshReader file_mesh_reader(const std::string& extension) {
 
 bool is_tetgen_mesh(const std::string& extension) { return extension == ".node" || extension == ".ele"; }
 
+bool is_vtk(const std::string& extension) { return extension == ".vtu" || extension == ".pvtu"; }
+
 /// The texts of the mesh that a .node or .ele file belongs to.
 template <int D>
 OutputMesh<D> read_tetgen_files(const Path& file) {
@@ -108,6 +110,7 @@ OutputMesh<D> read_mesh_from(std::string_view bytes, const Path& name) {
   const std::string extension = lower_extension(name);
   if (const FileMeshReader read = file_mesh_reader(extension)) return to_output_mesh<D>(read(bytes, name, {Purpose::mesh, D}));
   if (extension == ".vtu") return read_vtu<D>(bytes, name);
+  if (extension == ".pvtu") return read_pvtu<D>(bytes, name);
   unknown_format(name, "a mesh");
 }
 
@@ -162,6 +165,7 @@ int file_dimension(const Path& file) {
     }
     if (extension == ".poly" || extension == ".node") return detail::node_dimension(detail::read_whole_file(file), file);
     if (extension == ".vtu") return detail::vtu_dimension(detail::read_whole_file(file), file);
+    if (extension == ".pvtu") return detail::pvtu_dimension(detail::read_whole_file(file), file);
     unknown_format(file, "a file that is read");
   });
 }
@@ -170,17 +174,21 @@ bool holds_cells(const Path& file) {
   const std::string extension = lower_extension(file);
   if (const FileMeshReader read = file_mesh_reader(extension))
     return guarded(file, [&] { return has_cells(read(detail::read_whole_file(file), file, {Purpose::mesh, 0})); });
-  return extension == ".vtu" || extension == ".ele";
+  return is_vtk(extension) || extension == ".ele";
 }
 
 bool is_mesh_format(const Path& file) {
   const std::string extension = lower_extension(file);
-  return file_mesh_reader(extension) != nullptr || is_tetgen_mesh(extension) || extension == ".vtu";
+  return file_mesh_reader(extension) != nullptr || is_tetgen_mesh(extension) || is_vtk(extension);
 }
 
 std::vector<std::string> files_of_mesh(const Path& file, const WriteOptions& options) {
-  if (!is_tetgen_mesh(lower_extension(file))) return {file.native()};
+  const std::string own = lower_extension(file);
   std::vector<std::string> files;
+  if (!is_tetgen_mesh(own)) files.push_back(file.native());
+  for (std::uint32_t k = 0; own == ".pvtu" && k < std::max(options.pieces, 1u); ++k)
+    files.push_back(detail::name_of_piece(file, k));
+  if (!is_tetgen_mesh(own)) return files;
   for (const std::string_view extension : {".node", ".ele", ".face", ".edge"})
     files.push_back(detail::tetgen_name(file, extension));
   if (options.neighbors) files.push_back(detail::tetgen_name(file, ".neigh"));
@@ -192,6 +200,9 @@ void write_mesh(const OutputMesh<D>& mesh, const Path& file, const WriteOptions&
   if (options.first_index > 1)
     throw UsageError(Diagnostic{Errc::bad_option, "points are numbered from 0 or 1", file.string(), 0, {}, {}});
   const std::string extension = lower_extension(file);
+  if (extension == ".pvtu" && options.pieces > most_pieces)
+    throw UsageError(Diagnostic{Errc::bad_option, "a mesh is written in up to 100,000 pieces", file.string(), 0, {}, {}});
+  if (extension == ".pvtu") return guarded(file, [&] { detail::write_pvtu<D>(mesh, file, std::max(options.pieces, 1u)); });
   if (is_tetgen_mesh(extension)) return guarded(file, [&] { detail::write_tetgen<D>(mesh, file, options); });
   using Writer = void (*)(const OutputMesh<D>&, detail::FileOutput&);
   Writer writer = nullptr;

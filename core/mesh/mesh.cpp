@@ -117,6 +117,7 @@ VertexId Mesh<D>::new_vertex(Pools& pools, const Point<D>& p, Home home, float r
 
 template <int D>
 ConstraintRecord<D>& Mesh<D>::ensure_constraints(Pools& pools, CellId c) {
+  if (pools.log) pools.log->add_changed(c, birth(c));
   if (ConstraintRecord<D>* k = constraints(c)) return *k;
   const std::uint32_t id = pools.constraints.take();
   constraints_[id] = {};

@@ -20,6 +20,7 @@
 #include <memory>
 #include <utility>
 
+#include "mesh/change_log.hpp"
 #include "mesh/ids.hpp"
 #include "mesh/pinched_edges.hpp"
 #include "mesh/pool.hpp"
@@ -32,11 +33,14 @@
 namespace pgdr {
 namespace detail {
 class Bulk;
+template <int D>
+class Renumbering;
 }
 
 inline constexpr VertexId infinite_vertex{0xfffffffeu};  ///< the vertex at infinity, which all ghosts have
 
-/// A face seen from a cell: the cell beyond it and the number of the same face there; or nothing.
+/// A face seen from a cell: the cell beyond it and the number of the same face there; or nothing; or a cell that this part of a
+/// mesh does not hold.
 struct Link {
   std::uint32_t code = 0xffffffffu;  ///< cell and face, packed; all ones: nothing
 
@@ -48,10 +52,12 @@ struct Link {
     l.code = code;
     return l;
   }
-  explicit operator bool() const { return code != 0xffffffffu; }  ///< does it lead anywhere?
-  CellId cell() const { return CellId{code >> 2}; }               ///< the cell beyond
-  int face() const { return static_cast<int>(code & 3u); }        ///< the number of the face there
-  friend bool operator==(Link, Link) = default;                   ///< the same cell and face
+  /// The link to a cell that is not held.
+  static Link not_held() { return from_code(0xfffffffeu); }
+  explicit operator bool() const { return code < 0xfffffffeu; }  ///< does it lead to a cell?
+  CellId cell() const { return CellId{code >> 2}; }              ///< the cell beyond
+  int face() const { return static_cast<int>(code & 3u); }       ///< the number of the face there
+  friend bool operator==(Link, Link) = default;                  ///< the same cell and face
 };
 
 /// The entity of lowest dimension that a vertex lies on, packed: two bits of EntityKind, thirty of id.
@@ -348,9 +354,10 @@ class Mesh {
 
   /// The pools of one thread.
   struct Pools {
-    IdPool cells;        ///< ids of cells
-    IdPool vertices;     ///< ids of vertices
-    IdPool constraints;  ///< numbers of side records
+    IdPool cells;                 ///< ids of cells
+    IdPool vertices;              ///< ids of vertices
+    IdPool constraints;           ///< numbers of side records
+    ChangeLog<D>* log = nullptr;  ///< where to log the cells that are freed and made; null: nowhere
 
     /// Takes over what other pools of the same mesh have.
     void absorb(Pools&& other) {
@@ -364,18 +371,20 @@ class Mesh {
     if (is_small_ && pools.cells.next() > most_used_slots) reserve();
   }
   /// The pools of one more thread.
-  Pools make_pools() { return {IdPool(cell_source_), IdPool(vertex_source_), IdPool(constraint_source_)}; }
+  Pools make_pools() { return {IdPool(cell_source_), IdPool(vertex_source_), IdPool(constraint_source_), nullptr}; }
 
   /// A fresh slot without constraints, for set_vertices().
   CellId new_cell(Pools& pools, std::uint16_t region = 0) {
     const std::uint32_t id = pools.cells.take();
     assert(tag(CellId{id}).get() == 0);
     set_region(CellId{id}, region);
+    if (pools.log) pools.log->add_made(CellId{id}, birth(CellId{id}));
     return CellId{id};
   }
   /// Frees the cell and its constraints, and takes off its mark.
   void free_cell(Pools& pools, CellId c) {
     CellTag<D>& slot = tag(c);
+    if (pools.log) pools.log->add_freed(c, birth(c), cell(c).vertices);
     if (const std::uint32_t id = slot.get() & ~mark_bit) {
       if (pinched_) change_pinched(c, false);
       pools.constraints.give(id - 1);
@@ -408,6 +417,7 @@ class Mesh {
   const PinchedEdges* pinched_edges() const { return pinched_.get(); }
 
  private:
+  friend class detail::Renumbering<D>;
   static constexpr std::uint32_t mark_bit = CellTag<D>::mark_bit;
 
   template <class T>

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <mutex>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "mesh/ids.hpp"
@@ -33,8 +34,23 @@ class PinchedEdges {
   void remove(VertexId a, VertexId b, CellId c);                   ///< takes a cell that dies off the list
   /// The cells with this subsegment, of all fans.
   std::vector<CellId> cells(VertexId a, VertexId b) const;
+  /// Renames all vertices v to to(v), and all cells c to to(c). One thread.
+  template <class To>
+  void rename(const To& to) {
+    std::array<std::unordered_map<std::uint64_t, std::vector<CellId>>, tables> before;
+    for (std::size_t i = 0; i < tables; ++i) before[i].swap(tables_[i].cells);
+    for (auto& cells_of : before)
+      for (auto& [k, cells] : cells_of) {
+        for (CellId& c : cells) c = to(c);
+        const std::uint64_t renamed = key(to(VertexId{static_cast<std::uint32_t>(k >> 32)}),
+                                          to(VertexId{static_cast<std::uint32_t>(k)}));
+        table(renamed).cells[renamed] = std::move(cells);
+      }
+  }
 
  private:
+  static constexpr std::size_t tables = 64;
+
   struct Table {
     mutable std::mutex mutex;
     std::unordered_map<std::uint64_t, std::vector<CellId>> cells;
@@ -44,7 +60,7 @@ class PinchedEdges {
   const Table& table(std::uint64_t key) const { return const_cast<PinchedEdges*>(this)->table(key); }
 
   std::vector<bool> segments_;
-  std::array<Table, 64> tables_;
+  std::array<Table, tables> tables_;
 };
 
 }  // namespace pgdr

@@ -53,7 +53,7 @@ bool cell_is_whole(const Mesh<D>& mesh, CellId c) {
   for (int f = 0; f <= D; ++f) {
     const Link link = k.links[f];
     if (!link) {
-      if (!mesh.constrained(c, f)) return false;
+      if (link != Link::not_held() && !mesh.constrained(c, f)) return false;
       continue;
     }
     if (index(link.cell()) >= mesh.cell_bound() || !mesh.alive(link.cell())) return false;

@@ -7,23 +7,28 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <numeric>
-#include <span>
+#include <vector>
 
 #include "numbers/simplex_shapes.hpp"
 #include "numbers/vectors.hpp"
 #include "output/cell_proportions.hpp"
+#include "output/quality_counts.hpp"
 #include "pgdr/circumsphere.hpp"
 #include "space/bulk.hpp"
 
 namespace pgdr {
-namespace {
+// Named, since lambdas of exported templates capture its types.
+namespace measuring {
 
 using detail::cross;
 using detail::difference;
 using detail::dot;
 
+using detail::QualityCounts;
+using detail::ValuesOfCells;
+
 constexpr double degrees = 180 / std::numbers::pi;
+constexpr double unit = 0x1p53;  // a value of 1 in MeasureCounts
 
 /// Angle between two vectors, accurate near 0 and 180 too.
 template <std::size_t N>
@@ -75,10 +80,7 @@ const CosineBins& cosine_bins() {
   return bins;
 }
 
-/// What is measured of one cell, for the quantiles: 1 - cosine of its smallest angle, which tells small angles apart; radius
-/// ratio; scaled Jacobian.
-using CellValues = std::array<float, 3>;
-using ValuesOfCells = std::array<std::vector<float>, 3>;
+using CellValues = std::array<float, 3>;  // as ValuesOfCells has them
 
 /// Takes in one cell after the other. What it finds of angles is as if every one had been computed by angles_deg, though it
 /// computes most cosines alone.
@@ -87,58 +89,21 @@ class Sums {
  public:
   /// @param determinant  D! times the measure of the cell
   CellValues add(const Simplex<D>& s, Proportions<D> p, double squared_radius, double shortest_edge_squared, double determinant) {
-    most_ratio2_ = std::max(most_ratio2_, squared_radius / shortest_edge_squared);
+    counts_.most_ratio2 = std::max(counts_.most_ratio2, squared_radius / shortest_edge_squared);
     const double smallest = add_angles(s, p);
     double radius = std::sqrt(squared_radius);
     if (!p.moderate) rescale(s, p, radius, determinant);
     constexpr double regular = D == 2 ? 2 / std::numbers::sqrt3 : std::numbers::sqrt2;
     const double largest_corner = std::max(std::sqrt(p.largest_corner2), std::abs(determinant));
-    ++cells_;
-    return {static_cast<float>(1 - smallest), add(radius_ratio_, D * determinant / (p.surface * radius)),
-            add(scaled_jacobian_, regular * determinant / largest_corner)};
+    ++counts_.cells;
+    return {static_cast<float>(1 - smallest), counts_.radius_ratio.add(D * determinant / (p.surface * radius)),
+            counts_.scaled_jacobian.add(regular * determinant / largest_corner)};
   }
 
-  void add(const Sums& other) {
-    cells_ += other.cells_;
-    most_ratio2_ = std::max(most_ratio2_, other.most_ratio2_);
-    q_.min_angle_deg = std::min(q_.min_angle_deg, other.q_.min_angle_deg);
-    q_.max_angle_deg = std::max(q_.max_angle_deg, other.q_.max_angle_deg);
-    for (std::size_t i = 0; i < q_.histogram.size(); ++i) q_.histogram[i] += other.q_.histogram[i];
-    for (std::size_t i = 0; i < q_.cells_by_smallest_angle.size(); ++i)
-      q_.cells_by_smallest_angle[i] += other.q_.cells_by_smallest_angle[i];
-    radius_ratio_.add(other.radius_ratio_);
-    scaled_jacobian_.add(other.scaled_jacobian_);
-  }
-
-  std::size_t cells() const { return cells_; }
-  /// But for the quantiles.
-  QualityMeasures measures() const {
-    QualityMeasures q = q_;
-    q.max_radius_edge = std::sqrt(most_ratio2_);
-    if (cells_ == 0) return q;
-    q.radius_ratio = radius_ratio_.summary(cells_);
-    q.scaled_jacobian = scaled_jacobian_.summary(cells_);
-    return q;
-  }
+  const QualityCounts& counts() const { return counts_; }
 
  private:
-  struct Measure {
-    double least = 1, sum = 0;
-    void add(const Measure& other) {
-      least = std::min(least, other.least);
-      sum += other.sum;
-    }
-    MeasureSummary summary(std::size_t cells) const { return {least, 0, sum / static_cast<double>(cells)}; }
-  };
-
-  static float add(Measure& measure, double value) {
-    if (!(std::abs(value) <= 1)) value = value > 1 ? 1 : 0;  // by rounding; what is no number is of a flat cell
-    measure.least = std::min(measure.least, value);
-    measure.sum += value;
-    return static_cast<float>(value);
-  }
-
-  /// @returns the cosine of the smallest angle
+  /// @returns the cosine of the smallest angle, which is the same whatever other cells were looked at
   double add_angles(const Simplex<D>& s, const Proportions<D>& p) {
     std::array<int, angle_count<D>> bin;
     bool plain = p.good;
@@ -146,27 +111,30 @@ class Sums {
       bin[i] = bins_->bin(p.cosine[i]);
       plain = bin[i] >= 0 && p.cosine[i] < most_ - cosine_error && p.cosine[i] > least_ + cosine_error;
     }
-    if (!plain) return look(s);
-    for (const int b : bin) ++q_.histogram[static_cast<std::size_t>(b / 2)];
-    count_smallest(*std::min_element(bin.begin(), bin.end()));
+    if (plain) {
+      for (const int b : bin) ++counts_.q.histogram[static_cast<std::size_t>(b / 2)];
+      count_smallest(*std::min_element(bin.begin(), bin.end()));
+    } else if (const double cosine = look(s); !p.good) {
+      return cosine;
+    }
     return *std::max_element(p.cosine.begin(), p.cosine.end());
   }
 
   double look(const Simplex<D>& s) {
     const auto angles = angles_deg<D>(s);
-    for (const double a : angles) ++q_.histogram[static_cast<std::size_t>(CosineBins::bin_of_degrees(a) / 2)];
+    for (const double a : angles) ++counts_.q.histogram[static_cast<std::size_t>(CosineBins::bin_of_degrees(a) / 2)];
     const auto [smallest, largest] = std::minmax_element(angles.begin(), angles.end());
     count_smallest(CosineBins::bin_of_degrees(*smallest));
-    q_.min_angle_deg = std::min(q_.min_angle_deg, *smallest);
-    q_.max_angle_deg = std::max(q_.max_angle_deg, *largest);
-    most_ = std::cos(q_.min_angle_deg / degrees);
-    least_ = std::cos(q_.max_angle_deg / degrees);
+    counts_.q.min_angle_deg = std::min(counts_.q.min_angle_deg, *smallest);
+    counts_.q.max_angle_deg = std::max(counts_.q.max_angle_deg, *largest);
+    most_ = std::cos(counts_.q.min_angle_deg / degrees);
+    least_ = std::cos(counts_.q.max_angle_deg / degrees);
     return std::cos(*smallest / degrees);
   }
 
   void count_smallest(int bin) {
-    const std::size_t last = q_.cells_by_smallest_angle.size() - 1;
-    ++q_.cells_by_smallest_angle[std::min(static_cast<std::size_t>(bin), last)];
+    const std::size_t last = counts_.q.cells_by_smallest_angle.size() - 1;
+    ++counts_.q.cells_by_smallest_angle[std::min(static_cast<std::size_t>(bin), last)];
   }
 
   /// The same of a copy of a moderate size.
@@ -194,21 +162,13 @@ class Sums {
   }
 
   const CosineBins* bins_ = &cosine_bins();
-  QualityMeasures q_;
-  std::size_t cells_ = 0;
-  double most_ratio2_ = 0;
+  QualityCounts counts_;
   double most_ = -1, least_ = 1;  ///< of the cosines of the angles that were looked at
-  Measure radius_ratio_, scaled_jacobian_;
 };
 
 /// By label.
 template <int D>
 using SumsOfRegions = std::map<double, Sums<D>>;
-
-template <int D>
-double label_of(const OutputMesh<D>& mesh, std::size_t cell) {
-  return mesh.regions.empty() ? 0.0 : mesh.regions[cell];
-}
 
 /// Adds cells from `first` to `last`, and notes their values, one a cell of the mesh.
 template <int D>
@@ -235,7 +195,7 @@ void add_cells(const OutputMesh<D>& mesh, std::size_t first, std::size_t last, S
       const std::size_t lane = n % shape_lanes;
       const bool known = shape.center_error[lane] < std::numeric_limits<double>::infinity();
       const double radius2 = known ? shape.squared_radius[lane] : circumsphere<D>(simplices[n]).squared_radius;
-      const double label = label_of(mesh, first + n);
+      const double label = detail::label_of(mesh, first + n);
       if (region == sums.end() || region->first != label) region = sums.try_emplace(label).first;
       const CellValues of_cell = region->second.add(simplices[n], {proportions[n / shape_lanes], lane}, radius2,
                                                     shape.shortest_edge_squared[lane], shape.det[lane]);
@@ -244,121 +204,77 @@ void add_cells(const OutputMesh<D>& mesh, std::size_t first, std::size_t last, S
   }
 }
 
-/// More than `rank` of the least values, and mostly not many more: those up to a value that a sample suggests.
-std::vector<float> low_values(std::span<const float> values, std::size_t rank, const detail::Bulk& bulk) {
-  constexpr std::size_t sampled = 1000;
-  std::vector<float> low;
-  if (const std::size_t step = values.size() / sampled; step > 1) {
-    for (std::size_t i = 0; i < values.size(); i += step) low.push_back(values[i]);
-    const std::size_t at = std::min(low.size() - 1, rank / step + rank / step / 2 + 5);
-    std::nth_element(low.begin(), low.begin() + static_cast<std::ptrdiff_t>(at), low.end());
-    const float limit = low[at];
-    low = bulk.gather<float>(values.size(), [&](std::size_t i, std::vector<float>& found) {
-      if (values[i] <= limit) found.push_back(values[i]);
-    });
-    if (low.size() > rank) return low;
-  }
-  low.assign(values.begin(), values.end());
-  return low;
+}  // namespace measuring
+
+using namespace measuring;
+
+namespace detail {
+
+float MeasureCounts::add(double value) {
+  if (!(std::abs(value) <= 1)) value = value > 1 ? 1 : 0;  // by rounding; what is no number is of a flat cell
+  least_ = std::min(least_, value);
+  sum_ += static_cast<std::int64_t>(value * unit);
+  return static_cast<float>(value);
 }
 
-/// The 1/n-quantiles for the n of `one_in`, which descend: at least one in n values is at most that.
-template <std::size_t N>
-std::array<double, N> quantiles(std::span<const float> values, const std::array<std::size_t, N>& one_in,
-                                const detail::Bulk& bulk) {
-  std::array<std::size_t, N> rank;
-  for (std::size_t i = 0; i < N; ++i) rank[i] = (values.size() - 1) / one_in[i];
-  std::vector<float> low = low_values(values, rank.back(), bulk);
-  std::array<double, N> found;
-  std::size_t count = low.size();  // that are sure to hold what is looked for
-  for (std::size_t i = N; i-- > 0;) {
-    const auto at = low.begin() + static_cast<std::ptrdiff_t>(rank[i]);
-    std::nth_element(low.begin(), at, low.begin() + static_cast<std::ptrdiff_t>(count));
-    found[i] = *at;
-    count = rank[i] + 1;
-  }
-  return found;
+void MeasureCounts::add(const MeasureCounts& other) {
+  least_ = std::min(least_, other.least_);
+  sum_ += other.sum_;
 }
 
-/// @param values  as ValuesOfCells, of the cells that `q` is about
-void set_quantiles(QualityMeasures& q, const std::array<std::span<const float>, 3>& values, const detail::Bulk& bulk) {
-  constexpr std::array<std::size_t, 3> one_in{1000, 100, 20};
-  const std::array<double, 3> angles = quantiles(values[0], one_in, bulk);
-  for (std::size_t i = 0; i < angles.size(); ++i)
-    q.smallest_angle_quantiles_deg[i] = std::max(q.min_angle_deg, 2 * std::asin(std::sqrt(angles[i] / 2)) * degrees);
-  q.radius_ratio.one_percent = std::max(q.radius_ratio.least, quantiles<1>(values[1], {100}, bulk)[0]);
-  q.scaled_jacobian.one_percent = std::max(q.scaled_jacobian.least, quantiles<1>(values[2], {100}, bulk)[0]);
+MeasureSummary MeasureCounts::summary(std::uint64_t cells) const {
+  return {least_, 0, static_cast<double>(sum_) / unit / static_cast<double>(cells)};
 }
 
-/// Puts the values of the cells of each region together, the regions in the order of their labels.
+void QualityCounts::add(const QualityCounts& other) {
+  cells += other.cells;
+  most_ratio2 = std::max(most_ratio2, other.most_ratio2);
+  q.min_angle_deg = std::min(q.min_angle_deg, other.q.min_angle_deg);
+  q.max_angle_deg = std::max(q.max_angle_deg, other.q.max_angle_deg);
+  for (std::size_t i = 0; i < q.histogram.size(); ++i) q.histogram[i] += other.q.histogram[i];
+  for (std::size_t i = 0; i < q.cells_by_smallest_angle.size(); ++i)
+    q.cells_by_smallest_angle[i] += other.q.cells_by_smallest_angle[i];
+  radius_ratio.add(other.radius_ratio);
+  scaled_jacobian.add(other.scaled_jacobian);
+}
+
+QualityMeasures QualityCounts::measures() const {
+  QualityMeasures measures = q;
+  measures.max_radius_edge = std::sqrt(most_ratio2);
+  if (cells == 0) return measures;
+  measures.radius_ratio = radius_ratio.summary(cells);
+  measures.scaled_jacobian = scaled_jacobian.summary(cells);
+  return measures;
+}
+
+std::vector<CountsOfRegion> joined(const std::vector<CountsOfRegion>& parts) {
+  std::map<double, QualityCounts> by_label;
+  for (const CountsOfRegion& part : parts) by_label[part.label].add(part.counts);
+  std::vector<CountsOfRegion> regions;
+  for (const auto& [label, counts] : by_label) regions.push_back({label, counts});
+  return regions;
+}
+
 template <int D>
-void group(const OutputMesh<D>& mesh, const std::vector<RegionQuality>& regions, const std::vector<std::size_t>& begin,
-           ValuesOfCells& values) {
-  const auto less = [](const RegionQuality& r, double label) { return r.label < label; };
-  std::vector<std::uint32_t> place(mesh.cells.size());
-  std::vector<std::size_t> next(begin);
-  std::size_t r = 0;
-  for (std::size_t c = 0; c < place.size(); ++c) {
-    const double label = label_of(mesh, c);
-    if (regions[r].label != label)
-      r = static_cast<std::size_t>(std::lower_bound(regions.begin(), regions.end(), label, less) - regions.begin());
-    place[c] = static_cast<std::uint32_t>(next[r]++);
-  }
-  std::vector<float> grouped(place.size());
-  for (std::vector<float>& v : values) {
-    for (std::size_t c = 0; c < place.size(); ++c) grouped[place[c]] = v[c];
-    v.swap(grouped);
-  }
-}
-
-/// @param parts  of which each has the sums of some cells
-template <int D>
-QualitySummary summarize(const OutputMesh<D>& mesh, const std::vector<SumsOfRegions<D>>& parts, const detail::Bulk& bulk,
-                         ValuesOfCells& values) {
-  SumsOfRegions<D> by_label;
-  for (const SumsOfRegions<D>& part : parts)
-    for (const auto& [label, sums] : part) by_label[label].add(sums);
-  Sums<D> all;
-  QualitySummary summary;
-  std::vector<std::size_t> begin{0};
-  for (const auto& [label, sums] : by_label) {
-    all.add(sums);
-    summary.regions.push_back({sums.measures(), label});
-    begin.push_back(begin.back() + sums.cells());
-  }
-  static_cast<QualityMeasures&>(summary) = all.measures();
-
-  if (by_label.size() > 1) group(mesh, summary.regions, begin, values);
-  const auto some = [&values](std::size_t from, std::size_t to) {
-    std::array<std::span<const float>, 3> spans;
-    for (std::size_t k = 0; k < spans.size(); ++k) spans[k] = std::span(values[k]).subspan(from, to - from);
-    return spans;
-  };
-  for (std::size_t r = 0; r < summary.regions.size(); ++r) set_quantiles(summary.regions[r], some(begin[r], begin[r + 1]), bulk);
-  if (by_label.size() > 1)
-    set_quantiles(summary, some(0, begin.back()), bulk);
-  else
-    static_cast<QualityMeasures&>(summary) = summary.regions[0];
-  return summary;
-}
-
-/// summarize_quality().
-template <int D>
-QualitySummary summary_of(const OutputMesh<D>& mesh) {
+MeasuredCells measure_cells(const OutputMesh<D>& mesh, const Bulk& bulk) {
   constexpr std::size_t part_size = 1 << 14;
   const std::size_t count = mesh.cells.size(), parts = (count + part_size - 1) / part_size;
-  if (count == 0) return {};
-  ValuesOfCells values;
-  for (std::vector<float>& v : values) v.resize(count);
+  MeasuredCells measured;
+  for (std::vector<float>& v : measured.values) v.resize(count);
   std::vector<SumsOfRegions<D>> sums(parts);
-  const detail::Bulk bulk(true);
   bulk.parts(parts, [&](std::size_t part) {
-    add_cells(mesh, part * part_size, std::min(count, (part + 1) * part_size), sums[part], values);
+    add_cells(mesh, part * part_size, std::min(count, (part + 1) * part_size), sums[part], measured.values);
   });
-  return summarize(mesh, sums, bulk, values);
+  for (const SumsOfRegions<D>& part : sums)
+    for (const auto& [label, of_part] : part) measured.regions.push_back({label, of_part.counts()});
+  measured.regions = joined(measured.regions);
+  return measured;
 }
 
-}  // namespace
+template MeasuredCells measure_cells<2>(const OutputMesh<2>&, const Bulk&);
+template MeasuredCells measure_cells<3>(const OutputMesh<3>&, const Bulk&);
+
+}  // namespace detail
 
 template <int D>
 std::array<double, D == 2 ? 3 : 6> angles_deg(const Simplex<D>& s) {
@@ -379,14 +295,7 @@ std::array<double, D == 2 ? 3 : 6> angles_deg(const Simplex<D>& s) {
   }
 }
 
-template <int D>
-QualitySummary summarize_quality(const OutputMesh<D>& mesh) {
-  return summary_of(mesh);
-}
-
 template PGDR_API std::array<double, 3> angles_deg<2>(const Simplex<2>&);
 template PGDR_API std::array<double, 6> angles_deg<3>(const Simplex<3>&);
-template PGDR_API QualitySummary summarize_quality<2>(const OutputMesh<2>&);
-template PGDR_API QualitySummary summarize_quality<3>(const OutputMesh<3>&);
 
 }  // namespace pgdr

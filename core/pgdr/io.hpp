@@ -14,7 +14,7 @@
 // | .off .obj .ply .stl    |                    | triangles, polygons |             |            |
 // | .mesh                  | edges              | triangles, quads    | Medit       | Medit      |
 // | .msh                   | lines              | triangles, quads    | 2.x and 4.1 | 4.1 binary |
-// | .vtu                   |                    |                     | ours        | VTK XML    |
+// | .vtu .pvtu             |                    |                     | ours        | VTK XML    |
 //
 // docs/formats.md has what each format keeps. Choices that the formats leave open:
 // - A .poly or .smesh that lists 0 points takes them from the .node file beside it. Point numbers start at 0 or 1 and
@@ -38,6 +38,8 @@
 //   has no cells of volume.
 // - .vtu: cells, then subfacets, then subsegments; cell data "region", "leaf" (of the cells) and "marker" (of the others),
 //   point data "marker" and "attributes", field data "dimension" and "input_points"; raw appended data.
+// - .pvtu: X.pvtu names the files X_0.vtu, X_1.vtu, ... of the pieces (mesh_piece.hpp), which have "GlobalPointIds" and
+//   "GlobalCellIds", too. They are read as one mesh, and written all or none.
 #pragma once
 
 #include <filesystem>
@@ -64,16 +66,19 @@ int file_dimension(const std::filesystem::path& file);
 /// Always so for .vtu and .ele, never for formats of inputs alone; .node counts as points. @throws as read_plc
 bool holds_cells(const std::filesystem::path& file);
 
-/// What the files of TetGen and Triangle leave open. Other formats take no notice of it.
+inline constexpr std::uint32_t most_pieces = 100000;  ///< of a .pvtu
+
+/// What the formats leave open. Those that do not leave it open take no notice of it.
 struct WriteOptions {
-  std::uint32_t first_index = 1;  ///< number of the first point, cell, ...: 0 or 1
-  bool edges = false;      ///< X.edge has all edges: first the subsegments, which a comment counts, then the others, marker 0
-  bool neighbors = false;  ///< write X.neigh, too: of each cell, in the order of its corners, the cell opposite; -1: none
+  std::uint32_t first_index = 1;  ///< .node, .ele: number of the first point, cell, ...: 0 or 1
+  bool edges = false;        ///< X.edge has all edges: first the subsegments, which a comment counts, then the others, marker 0
+  bool neighbors = false;    ///< write X.neigh, too: of each cell, in the order of its corners, the cell opposite; -1: none
+  std::uint32_t pieces = 0;  ///< .pvtu: in so many files, up to most_pieces; 0: one, of a mesh on ranks one a rank
 };
 
 /// Whether `read_mesh` and `write_mesh` know the extension. The file is not opened.
 bool is_mesh_format(const std::filesystem::path& file);
-/// The files that `write_mesh` to this name replaces: itself, but for .node and .ele, which come as four or five.
+/// The files that `write_mesh` to this name replaces: itself, and with .node and .ele their family, with .pvtu its pieces.
 std::vector<std::string> files_of_mesh(const std::filesystem::path& file, const WriteOptions& options = {});
 
 /// Vertex indices are in range; whether the cells are a mesh is the checker's business. @throws as read_plc
@@ -83,7 +88,8 @@ OutputMesh<D> read_mesh(const std::filesystem::path& file);
 /// Replaces a file of that name when all is written, not before (.node and .ele: the files of both and of .face and
 /// .edge; a process that is killed in the middle leaves no .ele).
 /// @throws FileError cannot_write (nothing is left behind, an older file is as it was), InputError unknown_format,
-///   UsageError bad_option (a first index other than 0 and 1; neighbours of a mesh that has none, see neighbors_of_cells)
+///   UsageError bad_option (a first index other than 0 and 1; too many pieces; neighbours of a mesh that has none, see
+///   neighbors_of_cells)
 template <int D>
 void write_mesh(const OutputMesh<D>& mesh, const std::filesystem::path& file, const WriteOptions& options = {});
 

@@ -37,9 +37,9 @@ struct OutputMesh {
   std::vector<double> point_attributes;
   std::vector<std::array<Index, D + 1>> cells;  ///< positively oriented
   std::vector<double> regions;                  ///< empty (one region), or the attribute of each cell
-  std::vector<std::uint32_t> leaves;            ///< on request: node of the tree, a leaf, in which each cell's circumcentre lies
-  std::vector<Constraint<2>> subsegments;       ///< each once, sorted by vertices; so are the subfacets
-  std::vector<Constraint<3>> subfacets;         ///< 3D only
+  std::vector<std::uint32_t> leaves;       ///< on request: which leaf each cell's circumcentre lies in, by their Morton order
+  std::vector<Constraint<2>> subsegments;  ///< each once, sorted by vertices; so are the subfacets
+  std::vector<Constraint<3>> subfacets;    ///< 3D only
 };
 
 }  // namespace pgdr

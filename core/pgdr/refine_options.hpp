@@ -26,16 +26,22 @@ struct Progress {
   std::uint64_t waiting = 0;   ///< entries on the work lists; 0 while the boundary is recovered
 };
 
-/// The order in which leaves of the tree are visited. `reproducible`: the mesh is the same, bit for bit, for any number of
-/// threads. `greedy`: whatever is free runs next, and the mesh depends on timing, which shows what reproducibility costs.
-enum class Schedule { reproducible, greedy };
+/// The order in which leaves of the tree are visited.
+enum class Schedule {
+  reproducible,  ///< the tree follows the mesh, and the mesh is the same, bit for bit, for any number of threads
+  /// All leaves are of one size, and are visited in 2^D phases, each of leaves that are apart. Such a mesh does not depend on the
+  /// number of threads either, nor on that of ranks (pgdr/ranks.hpp). For sizes that vary little.
+  uniform,
+  greedy,  ///< whatever is free runs next, and the mesh depends on timing, which shows what reproducibility costs
+};
 /// What runs the visits. A reproducible mesh does not depend on it.
 enum class Executor {
   flow_graph,  ///< a oneTBB flow graph in the caller's arena
   threads,     ///< plain threads, for thread sanitizers, which do not see through TBB
   serial,      ///< the calling thread alone
-  /// For tests: the calling thread, in a random order of the visits that need not wait. `threads` seeds the order, and says how
-  /// many pools of memory there are. So an error that takes luck elsewhere is there again at the next run.
+  /// For tests: the calling thread, in a random order of the visits that need not wait, with other numbers for all cells and
+  /// vertices after each generation. `threads` seeds both, and says how many pools of memory there are. So an error that takes
+  /// luck elsewhere is there again at the next run.
   shuffled,
 };
 
@@ -46,8 +52,8 @@ enum class ClaimRule {
            ///< one wait
 };
 
-/// How the work is divided; the defaults are good. A reproducible mesh depends on `granularity`, `split_ratio`, `floor`, `claims`
-/// and `claim_order`, and on nothing else here.
+/// How the work is divided; the defaults are good. A mesh that is not made greedily depends on `schedule`, `granularity`,
+/// `split_ratio`, `floor`, `claims`, `claim_order` and `lattice`, and on nothing else here.
 struct ScheduleOptions {
   Schedule schedule = Schedule::reproducible;  ///< order of the visits
   Executor executor = Executor::flow_graph;    ///< what runs them
@@ -57,18 +63,28 @@ struct ScheduleOptions {
   /// work.
   int granularity = std::numeric_limits<int>::max();
   /// An element belongs to the smallest node around it whose side times split_ratio is its circumradius or more; by leaves, to
-  /// the leaf, which does not split while an element in it is too large for its children.
+  /// the leaf, which does not split while an element in it is too large for its children. Uniform: half of its side, as the
+  /// claims grow by half a side.
   double split_ratio = 0.5;
   /// A leaf splits once this many poor elements wait in it for its children, or three times as many will take the place of those
   /// that are too big.
-  /// 0: 500 in 3D, 2000 in 2D.
+  /// 0: 1000 in 3D, 2000 in 2D.
   std::size_t floor = 0;
   ClaimRule claims = ClaimRule::boxes;  ///< what a visit claims
   /// By boxes a visit claims its leaf's box, grown by claim_order times its side; by leaves, the leaf L and BUF^claim_order(L).
   std::uint32_t claim_order = 1;
+  /// Uniform: the lattice has 2^lattice cells at most along each axis of the tree's root, two along the side of a leaf, also
+  /// called a window. 1 to most_lattice<D>(). 0: as many as give a leaf some four thousand elements.
+  int lattice = 0;
   /// Record when each visit ran, and where (`RefineResult::trace`).
   bool trace = false;
 };
+
+/// The finest lattice of the uniform schedule.
+template <int D>
+constexpr int most_lattice() {
+  return D == 2 ? 10 : 7;
+}
 
 constexpr double default_min_dihedral = 15;  ///< degrees; mostly reached where the input has no needles and no small angles
 constexpr double most_min_dihedral = 35;     ///< degrees; above 30 there is mostly no such mesh

@@ -8,8 +8,6 @@
 #include <limits>
 #include <mutex>
 
-#include "mesh/surroundings.hpp"
-
 namespace pgdr {
 
 template <int D>
@@ -30,6 +28,7 @@ void Refiner<D>::begin(RegionVisit<D>& visit) {
   workspace_.visit = &visit;
   workspace_.trace.clear();
   workspace_.cavity.set_area(visit.area);
+  workspace_.pools.log = visit.log;
   lister_.begin_visit();
   repair_.begin_visit();
   entities_.begin_visit();
@@ -74,24 +73,30 @@ bool Refiner<D>::may_go_on() {
 
 /// The cells that it took to decide about e, each once.
 template <int D>
-std::vector<CellId> Refiner<D>::distinct_trace(const Entry<D>& e) {
+std::vector<CellName> Refiner<D>::distinct_trace(const Entry<D>& e) {
   std::vector<CellId>& trace = workspace_.trace;
   trace.push_back(e.cell);
   distinct_.reset(trace.size());
   std::erase_if(trace, [this](CellId c) { return !distinct_.insert(index(c)); });
-  return {trace.begin(), trace.end()};
+  std::vector<CellName> names;
+  names.reserve(trace.size());
+  for (const CellId c : trace) names.push_back({c, workspace_.mesh.birth(c)});
+  return names;
 }
 
 template <int D>
 void Refiner<D>::record_refusal(const Entry<D>& e) {
   RegionVisit<D>& visit = *workspace_.visit;
-  Refusal<D> refusal{e, workspace_.refused_by, visit.order, {}, false, 0, 0};
+  Refusal<D> refusal{e, workspace_.refused_by, visit.order, {}, 0, false, 0, 0};
   if (treatment_) {
     refusal.versions = treatment_->version(e.cell) ^ (undecided_ ? 1 : 0);  // another: it is not known that nothing helps
   } else {
     refusal.seen = distinct_trace(e);
-    refusal.alone = workspace_.trace_alone;
-    refusal.surroundings = surroundings_of<D>(workspace_.mesh, refusal.seen, refusal.alone).value_or(0);
+    // Of a cell that it does not own the visit has not read the neighbours.
+    const auto is_owned = [&](const CellName& c) { return !visit.area || visit.area->owns(workspace_.mesh, c.cell); };
+    const auto others = std::stable_partition(refusal.seen.begin(), refusal.seen.end(), is_owned);
+    if (!workspace_.trace_alone) refusal.owned = static_cast<std::size_t>(others - refusal.seen.begin());
+    refusal.surroundings = surroundings_of<D>(workspace_.mesh, refusal.seen, refusal.owned).value_or(0);
   }
   visit.list->refused.push_back(std::move(refusal));
   visit.entities_refused = visit.entities_refused || e.kind() != EntryKind::cell;

@@ -45,6 +45,11 @@ class Refiner {
   /// Repairs the violations on the visit's list, and those that this brings, and treats nothing else; until the run is stopped.
   void repair(RegionVisit<D>& visit);
 
+  /// Forgets what its treatment has learnt of cells, as when these have got other numbers. Between visits.
+  void forget_cells() {
+    stage_ = nullptr;
+    treatment_ = nullptr;
+  }
   /// Makes `visit` the one that list_cell lists for.
   void begin(RegionVisit<D>& visit);
   /// Lists what is encroached or poor at a cell that the visit owns.
@@ -58,7 +63,7 @@ class Refiner {
   bool may_go_on();
   void look_at_budget();
   void record_refusal(const Entry<D>& e);
-  std::vector<CellId> distinct_trace(const Entry<D>& e);
+  std::vector<CellName> distinct_trace(const Entry<D>& e);
 
   Workspace<D> workspace_;
   WorkLister<D> lister_;

@@ -61,6 +61,7 @@ struct RegionVisit {
   std::uint64_t most_evaluated = std::numeric_limits<std::uint64_t>::max();   ///< what is left of the budget of a stage
   bool violations_seen = false;   ///< look for faces that are not locally Delaunay at every insertion
   bool entities_refused = false;  ///< has any visit refused an entity's split; after the visit, this one included?
+  ChangeLog<D>* log = nullptr;    ///< where to log what changes; null: nowhere
   // done
   /// Entries for another region.
   struct Outbox {

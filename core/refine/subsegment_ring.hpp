@@ -4,7 +4,8 @@
 // The ring of a subsegment, in 3D: the cells round it, which say where it is split, and mostly whether that is refused. Beside
 // small angles most encroached subsegments are: a vertex of the ring is too near to the point. No vertex goes before the
 // optimiser begins, so that more vertices elsewhere do not make such a point fit. What the ring refuses is therefore not put on a
-// list: only a new ring, whose cells are new, asks again.
+// list: only a new ring, whose cells are new, asks again. It may refuse more than the whole cavity would: a vertex beyond the
+// ring that is nearer still may demand less.
 #pragma once
 
 #include <optional>

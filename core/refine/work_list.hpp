@@ -20,6 +20,7 @@
 
 #include "mesh/entity_pair.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/surroundings.hpp"
 
 namespace pgdr {
 
@@ -103,6 +104,13 @@ class Fifo {
     i -= first_->capacity;
     return i < first_->next->capacity ? &first_->next->items()[i] : nullptr;
   }
+  /// Calls f for each in order, to be changed.
+  template <class F>
+  void for_each(F f) {
+    std::uint32_t i = head_;
+    for (Block* b = first_; b; b = b->next, i = 0)
+      for (const std::uint32_t end = b == last_ ? tail_ : b->capacity; i < end; ++i) f(b->items()[i]);
+  }
   /// Calls f for each in order, and empties the list; `soon(item)` some turns before.
   template <class F, class Soon>
   void drain(F f, Soon soon) {
@@ -177,6 +185,11 @@ class EntryHeap {
     if (items_.empty()) std::vector<Entry<D>>().swap(items_);
     return e;
   }
+  /// Calls f for each, to be changed, but for its order.
+  template <class F>
+  void for_each(F f) {
+    for (Entry<D>& e : items_) f(e);
+  }
   /// Calls f for each, and empties the heap.
   template <class F>
   void drain(F f) {
@@ -195,9 +208,10 @@ struct Refusal {
   Entry<D> entry;                  ///< the entry
   std::optional<EntityPair> pair;  ///< the two entities at fault; nothing if none were
   std::uint32_t order = 1;         ///< order of the claim of the visit that decided
-  /// The cells that were looked at: while these and their neighbours stay, so does the decision.
-  std::vector<CellId> seen;
-  bool alone = false;              ///< these decided, whatever their neighbours are
+  /// The cells that were looked at: while these stay, and the neighbours of those that the visit owned, so does the decision.
+  std::vector<CellName> seen;
+  std::size_t owned = 0;           ///< the first of these are so many that the visit owned; 0 also if neighbours do not count
+  bool again = false;              ///< it is to be tried again, whatever has changed
   std::uint64_t surroundings = 0;  ///< `surroundings_of` these cells, when it was decided
   std::uint64_t versions = 0;      ///< in a stage with a treatment: ElementStage::version of the element, when it was decided
 };
@@ -300,6 +314,17 @@ class WorkList {
   template <class F>
   void drain(F f) {
     drain(f, [](const Entry<D>&) {});
+  }
+  /// Calls f for every entry that waits, to be changed, but for what decides its place.
+  template <class F>
+  void for_each(F f) {
+    edges.for_each(f);
+    faces.for_each(f);
+    flips.for_each(f);
+    for (Bucket& bucket : poor_) {
+      bucket.others.for_each(f);
+      bucket.by_shape.for_each(f);
+    }
   }
 
  private:

@@ -57,6 +57,8 @@ std::string_view name(Errc code) {
     case Errc::cannot_write: return "cannot_write";
     case Errc::out_of_memory: return "out_of_memory";
     case Errc::ids_exhausted: return "ids_exhausted";
+    case Errc::rank_failed: return "rank_failed";
+    case Errc::unlike_ranks: return "unlike_ranks";
     case Errc::internal: return "internal";
   }
   return "internal";

@@ -61,6 +61,9 @@ enum class Errc {
   cancelled,  ///< the caller's stop token said so
   out_of_memory,
   ids_exhausted,
+  // several processes that make one mesh
+  rank_failed,   ///< another one has ended, or does not answer
+  unlike_ranks,  ///< they did not make the same mesh
   internal,
 };
 

@@ -37,7 +37,11 @@ class Placement {
     return node;
   }
   /// The largest circumradius of elements that belong to the node.
-  double most_radius(Node node) const { return by_boxes_ && node != Orthtree<D>::root ? share_ * tree_->side(node) : infinity; }
+  double most_radius(Node node) const {
+    return by_boxes_ && node != Orthtree<D>::root ? most_radius_of_side(tree_->side(node)) : infinity;
+  }
+  /// By boxes, that of a node of this side.
+  double most_radius_of_side(double side) const { return share_ * side; }
   /// Elements that belong to the node have larger circumradii than this.
   double radius_below(Node node) const {
     if (tree_->is_leaf(node)) return -1;

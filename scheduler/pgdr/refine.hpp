@@ -64,8 +64,10 @@ struct OptimizationStatistics {
 
 /// How the visits went (docs/design.md, "Generations, and why meshes are reproducible").
 struct SchedulerStatistics {
-  std::uint64_t leaves = 1;          ///< of the tree, in the end
-  std::uint64_t generations = 0;     ///< of visits
+  std::uint64_t leaves = 1;       ///< of the tree, in the end
+  std::uint64_t generations = 0;  ///< of visits
+  /// Uniform: how many times the phases of the finest lattice came round, before the optimiser; other schedules: 0.
+  std::uint64_t cycles = 0;
   std::uint64_t visits = 0;          ///< all
   std::uint64_t set_aside = 0;       ///< attempts that were left to a visit that claims more
   std::uint32_t max_concurrent = 0;  ///< most visits that ran at one time

@@ -7,12 +7,11 @@
 // same mesh. What they find for other leaves or set aside, and splits, take effect at the end of the generation, in their order.
 #pragma once
 
-#include <random>
 #include <span>
 #include <vector>
 
-#include "claims/claim_registry.hpp"
 #include "run/run_state.hpp"
+#include "run/visit_runner.hpp"
 
 namespace pgdr::detail {
 
@@ -27,29 +26,16 @@ class Generations final : public VisitSchedule<D> {
   StopCause drain() override;
 
  private:
-  using Clock = VisitRecorder::Clock;
-  struct Planned {
-    RegionVisit<D> work;
-    double seconds = 0;
-  };
-
   bool one_generation();
-  void run_visit(const Visit<D>& visit, Planned& planned);
-  void execute(const VisitGraph& graph, const VisitBody& body);
-  void account(Generation<D>& generation, std::vector<Planned>& planned, double wall);
-  bool is_whole_if_small() const;
   void renew_buffers(std::span<const VisitRequest> requests);
-  void touch_memory(std::span<const VisitRequest> requests);
   void split_leaves(std::vector<Node> candidates);
 
   RunState<D>* state_;
   RefineContext<D>* context_;
   const ScheduleOptions* options_;
   WaitingWork<D>* waiting_;
-  VisitRecorder* recorder_;
+  VisitRunner<D> runner_;
   ConflictManager<D> conflicts_;
-  ClaimRegistry<D> registry_;
-  std::mt19937_64 random_;  ///< of the executor that shuffles
 };
 
 extern template class Generations<2>;

@@ -64,7 +64,7 @@ class Greedy final : public VisitSchedule<D> {
   std::mutex mutex_;  ///< of all below, and of the tree, the inboxes and the totals
   std::condition_variable ended_;
   std::map<Waiting, Wanted> pool_;
-  std::set<std::pair<Node, std::uint32_t>> pooled_;  ///< leaf and order of what is in the pool
+  std::set<std::pair<Node, std::uint32_t>> pooled_;  ///< node and order of what is in the pool
   std::vector<const Running*> running_;
   std::uint64_t arrivals_ = 0, reserved_ = 0;
 };

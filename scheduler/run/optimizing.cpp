@@ -90,10 +90,10 @@ std::size_t Optimizing::list_refused(Phase next) {
     const std::uint32_t slot = index(r.entry.cell);
     if (listed[slot]) continue;
     listed[slot] = true;
-    const std::pair known{r.entry.birth, r.versions};
-    if (last_ == Phase::strong) refused_strongly_[slot] = known;
-    const auto before = refused_strongly_.find(slot);
-    if (next == Phase::strong && before != refused_strongly_.end() && before->second == known) continue;
+    const std::uint64_t place = place_hash<3>(state_->context.mesh, r.entry.cell);
+    if (last_ == Phase::strong) refused_strongly_[place] = r.versions;
+    const auto before = refused_strongly_.find(place);
+    if (next == Phase::strong && before != refused_strongly_.end() && before->second == r.versions) continue;
     state_->waiting.relist(r.entry);
     ++count;
   }

@@ -59,8 +59,8 @@ class Optimizing {
   std::uint64_t cells_ = 0;    ///< of the mesh, at the last look at all
   std::optional<Phase> last_;  ///< that ran
   bool is_limited_ = false;    ///< did a limit keep the last phase from anything?
-  /// What was refused in the last phase that was Phase::strong: by slot, the births and versions of the cells.
-  std::unordered_map<std::uint32_t, std::pair<std::uint16_t, std::uint64_t>> refused_strongly_;
+  /// What was refused in the last phase that was Phase::strong: by place_hash, the versions of the cells.
+  std::unordered_map<std::uint64_t, std::uint64_t> refused_strongly_;
   std::uint64_t left_ = 0, unexplained_ = 0;
 };
 

@@ -64,6 +64,11 @@ void validate(const RefineOptions<D>& options) {
   if (options.schedule.threads < 0) bad_option("the number of threads must not be negative");
   if (options.schedule.granularity < 1) bad_option("the granularity must be at least 1");
   if (!(options.schedule.split_ratio > 0)) bad_option("the split ratio must be positive");
+  if (options.schedule.lattice < 0 || options.schedule.lattice > most_lattice<D>())
+    bad_option("the lattice must lie between 1 and " + std::to_string(most_lattice<D>()));
+  const bool is_uniform = options.schedule.schedule == Schedule::uniform;
+  if (options.schedule.lattice > 0 && !is_uniform) bad_option("a lattice is for the uniform schedule");
+  if (is_uniform && options.schedule.claims != ClaimRule::boxes) bad_option("the uniform schedule claims boxes");
   const double delta = options.disk.delta;
   if (delta != 0 && options.disk.type == DiskType::type1) bad_option("delta is for disks of type 2");
   if (delta != 0 && !(delta >= smallest_proved_bound<D>() / options.radius_edge_bound && delta <= 1))
@@ -140,14 +145,16 @@ Compacted<D> compact_mesh(Mesh<D>& mesh, const Domain<D>& domain, const RegionTa
                          : compact<D>(std::move(mesh), domain, attributes, pieces, stop, fill, hurry);
 }
 
-/// For each cell of the mesh, the leaf that holds its circumcentre.
+/// For each cell of the mesh, the rank of the leaf that holds its circumcentre among the leaves in Morton order.
 template <int D>
 std::vector<std::uint32_t> leaves_of(const OutputMesh<D>& mesh, const Orthtree<D>& tree, const detail::Bulk& bulk) {
-  std::vector<std::uint32_t> leaves(mesh.cells.size());
+  std::vector<std::uint32_t> leaves(mesh.cells.size()), ranks(tree.node_count());
+  std::uint32_t rank = 0;
+  for (const auto leaf : tree.leaves()) ranks[leaf] = rank++;
   bulk.each(leaves.size(), [&](std::size_t c) {
     Simplex<D> s;
     for (int i = 0; i <= D; ++i) s[i] = mesh.points[mesh.cells[c][i]];
-    leaves[c] = tree.leaf_at(circumsphere<D>(s).center);
+    leaves[c] = ranks[tree.leaf_at(circumsphere<D>(s).center)];
   });
   return leaves;
 }
@@ -226,8 +233,8 @@ struct Refined {
 
 template <int D>
 Refined<D> refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices,
-                       const detail::RunPieces& pieces, RefineResult<D>& result) {
-  detail::Refinement<D> refinement(context, std::move(pools), vertices, target_of(context.options), pieces);
+                       const detail::RunPieces& pieces, detail::RunHooks<D>* hooks, RefineResult<D>& result) {
+  detail::Refinement<D> refinement(context, std::move(pools), vertices, target_of(context.options), pieces, hooks);
   result.stop = refinement.run();
   detail::RunState<D>& state = refinement.state();
   const detail::Optimizing* optimizing = refinement.optimizing();
@@ -321,7 +328,8 @@ void number_mesh(const RefineContext<D>& context, const RegionTable& regions, co
 /// The mesh of the domain. `result`: what is known before. `start`: of the run, for its limits.
 template <int D>
 RefineResult<D> make_mesh(const Domain<D>& domain, const RefineOptions<D>& options, Clock::time_point start,
-                          const detail::Deadline& deadline, const detail::RunPieces& pieces, RefineResult<D> result) {
+                          const detail::Deadline& deadline, const detail::RunPieces& pieces, detail::RunHooks<D>* hooks,
+                          RefineResult<D> result) {
   Mesh<D> mesh(domain.points().size());
   auto pools = mesh.make_pools();
   const RegionTable regions = make_initial<D>(mesh, pools, domain, options, start, deadline, pieces, result);
@@ -334,9 +342,15 @@ RefineResult<D> make_mesh(const Domain<D>& domain, const RefineOptions<D>& optio
   const std::uint64_t vertices = domain.points().size() + result.statistics.segment_points + result.statistics.facet_points;
   RefineContext<D> context(mesh, domain, options, bounds_of(options, regions), vertices, start);
   Refined<D> refined;
-  if (options.refine) refined = refine_mesh<D>(context, std::move(pools), vertices, pieces, result);
+  if (options.refine) refined = refine_mesh<D>(context, std::move(pools), vertices, pieces, hooks, result);
   if (is_unwanted(options, result.stop)) return without_mesh(std::move(result), start);
   detail::RunClock& clock = pieces.clock();
+  if (hooks && hooks->has_part()) {
+    const detail::RunClock::Stage timed(clock, "number");
+    result.statistics.seconds_refine = seconds_since(start) - result.statistics.seconds_initial;
+    hooks->finish(context, regions, data, pieces, result);
+    return result;
+  }
   {
     const detail::RunClock::Stage timed(clock, "count");
     count_poor_left<D>(context, refined, pieces, result);
@@ -353,7 +367,7 @@ RefineResult<D> make_mesh(const Domain<D>& domain, const RefineOptions<D>& optio
 
 template <int D>
 RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options, Clock::time_point start,
-                    const detail::Deadline& deadline, const detail::RunPieces& pieces) {
+                    const detail::Deadline& deadline, const detail::RunPieces& pieces, detail::RunHooks<D>* hooks = nullptr) {
   if (domain.points().empty()) bad_option("the Domain is empty: it was moved from");
   const PredicateCounts predicates_before = predicate_counts();
   RefineResult<D> before;
@@ -371,7 +385,7 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options, Cl
   } catch (const CancelledError&) {
     return without_mesh(std::move(before), start, deadline.cause());
   }
-  RefineResult<D> result = make_mesh<D>(domain, options, start, deadline, pieces, std::move(before));
+  RefineResult<D> result = make_mesh<D>(domain, options, start, deadline, pieces, hooks, std::move(before));
   result.statistics.predicates += predicate_counts() - predicates_before;
   result.statistics.predicates += pieces.predicates_elsewhere();
   result.statistics.stages = clock.stages();
@@ -397,7 +411,8 @@ RefineResult<D> refine(const Domain<D>& domain, const RefineOptions<D>& options)
 namespace {
 
 template <int D>
-RefineResult<D> prepare_and_run(const Plc<D>& plc, const RefineOptions<D>& options, Clock::time_point start) {
+RefineResult<D> prepare_and_run(const Plc<D>& plc, const RefineOptions<D>& options, Clock::time_point start,
+                                detail::RunHooks<D>* hooks) {
   const detail::Deadline deadline(options, start);
   std::optional<Domain<D>> domain;
   detail::RunClock clock(start);
@@ -411,7 +426,7 @@ RefineResult<D> prepare_and_run(const Plc<D>& plc, const RefineOptions<D>& optio
     none.tolerance = tolerance_of(plc);
     return without_mesh(std::move(none), start, deadline.cause());
   }
-  return run<D>(*domain, options, start, deadline, pieces);
+  return run<D>(*domain, options, start, deadline, pieces, hooks);
 }
 
 }  // namespace
@@ -420,8 +435,18 @@ template <int D>
 RefineResult<D> refine(const Plc<D>& plc, const RefineOptions<D>& options) {
   const detail::DefaultFloats floats;
   validate(options);
-  return prepare_and_run(plc, options, Clock::now());
+  return prepare_and_run<D>(plc, options, Clock::now(), nullptr);
 }
+
+template <int D>
+RefineResult<D> detail::refine_with(const Plc<D>& plc, const RefineOptions<D>& options, RunHooks<D>& hooks) {
+  const DefaultFloats floats;
+  validate(options);
+  return prepare_and_run<D>(plc, options, Clock::now(), &hooks);
+}
+
+template RefineResult<2> detail::refine_with<2>(const Plc<2>&, const RefineOptions<2>&, detail::RunHooks<2>&);
+template RefineResult<3> detail::refine_with<3>(const Plc<3>&, const RefineOptions<3>&, detail::RunHooks<3>&);
 
 template PGDR_API RefineResult<2> refine<2>(const Plc<2>&, const RefineOptions<2>&);
 template PGDR_API RefineResult<3> refine<3>(const Plc<3>&, const RefineOptions<3>&);

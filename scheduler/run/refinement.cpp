@@ -7,14 +7,17 @@
 #include "pgdr/point_selector.hpp"
 #include "run/generations.hpp"
 #include "run/greedy.hpp"
+#include "run/uniform.hpp"
 #include "space/bulk.hpp"
 
 namespace pgdr::detail {
 namespace {
 
 template <int D>
-std::unique_ptr<VisitSchedule<D>> make_schedule(RunState<D>& state) {
+std::unique_ptr<VisitSchedule<D>> make_schedule(RunState<D>& state, RunHooks<D>* hooks, bool optimizes) {
+  if (hooks) return hooks->make_schedule(state, optimizes);
   if (state.options.schedule == Schedule::greedy) return std::make_unique<Greedy<D>>(state, threads_of(state.options));
+  if (state.options.schedule == Schedule::uniform) return std::make_unique<Uniform<D>>(state);
   return std::make_unique<Generations<D>>(state);
 }
 
@@ -22,10 +25,10 @@ std::unique_ptr<VisitSchedule<D>> make_schedule(RunState<D>& state) {
 
 template <int D>
 Refinement<D>::Refinement(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices, double min_dihedral,
-                          const RunPieces& pieces)
+                          const RunPieces& pieces, RunHooks<D>* hooks)
     : min_dihedral_(min_dihedral),
       state_(context, std::move(pools), vertices, pieces),
-      schedule_(make_schedule(state_)),
+      schedule_(make_schedule(state_, hooks, min_dihedral > 0)),
       violations_(state_) {
   const ScheduleOptions& options = context.options.schedule;
   if (options.schedule == Schedule::greedy || options.executor == Executor::shuffled) context.mesh.leave_heap();  // several pools

@@ -14,6 +14,7 @@
 
 #include "run/optimizing.hpp"
 #include "run/poor_search.hpp"
+#include "run/run_hooks.hpp"
 #include "run/run_state.hpp"
 #include "run/violation_scan.hpp"
 
@@ -31,9 +32,9 @@ class Refinement {
   };
 
   /// `pools`: those that made the mesh so far. `vertices`: it has so many. `min_dihedral`: the optimiser's target in degrees; 0:
-  /// none. The context and the pieces must outlive this.
+  /// none. `hooks`: of a run on ranks; or null. The context, the pieces and the hooks must outlive this.
   Refinement(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices, double min_dihedral,
-             const RunPieces& pieces);
+             const RunPieces& pieces, RunHooks<D>* hooks);
 
   /// The stages in their order, with the optimiser or without.
   static std::span<const Stage> plan(bool optimizes);

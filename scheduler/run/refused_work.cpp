@@ -47,13 +47,24 @@ std::vector<Refusal<D>> RefusedWork<D>::take_all() {
 /// Has anything changed that the visit did see, or may have?
 template <int D>
 bool RefusedWork<D>::has_changed(const Refusal<D>& refusal) const {
+  if (refusal.again) return true;
   if (context_->stage) return context_->stage->version(refusal.entry.cell) != refusal.versions;
-  return surroundings_of<D>(context_->mesh, refusal.seen, refusal.alone) != refusal.surroundings;
+  return surroundings_of<D>(context_->mesh, refusal.seen, refusal.owned) != refusal.surroundings;
 }
 
 template <int D>
 void RefusedWork<D>::relist_changed() {
   for (const Refusal<D>& r : take_if([this](const Refusal<D>& r) { return has_changed(r); })) waiting_->relist(r.entry, r.order);
+}
+
+template <int D>
+void RefusedWork<D>::try_all_again() {
+  waiting_->for_each_list([](WorkList<D>& list) {
+    for (Refusal<D>& r : list.refused) {
+      r.again = true;
+      r.seen = {};
+    }
+  });
 }
 
 template <int D>

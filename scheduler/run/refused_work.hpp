@@ -24,8 +24,11 @@ class RefusedWork {
   RefusedWork(const RefineContext<D>& context, WaitingWork<D>& waiting, const Pieces& pieces)
       : context_(&context), waiting_(&waiting), pieces_(&pieces) {}
 
-  /// Lists what was refused, and may be decided otherwise since the mesh has changed, for the claim that it took to refuse it.
+  /// Lists what was refused, and may be decided otherwise since the mesh has changed. What took a larger claim gets a larger one
+  /// (WaitingWork).
   void relist_changed();
+  /// From now on all counts as changed.
+  void try_all_again();
   /// Lists the elements that were refused in their leaves.
   void relist_elements();
   /// Takes all refusals that are still alive off the lists.

@@ -6,9 +6,12 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <random>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "run/refused_work.hpp"
 #include "run/run_pieces.hpp"
@@ -67,6 +70,16 @@ struct RunState {
     recorder.count_set_aside(waiting.defer(request, visit.set_aside));
     if (context.stop != 0) waiting.keep_given(visit.given);
   }
+  /// For tests, between visits: gives all cells and vertices other numbers, and tells those who asked for it, too.
+  void renumber(std::mt19937_64& random) {
+    Renumbering<D> to(context.mesh, random);
+    to.apply();
+    waiting.rename(to);
+    workers.forget_cells();
+    for (const auto& rename : renamers) rename(to);
+  }
+  /// f(renumbering) is called whenever renumber() has been.
+  void on_renumbered(std::function<void(const Renumbering<D>&)> f) { renamers.push_back(std::move(f)); }
   /// Is the budget of evaluations spent? Between generations, so that it does not depend on timing.
   bool is_spent() const { return totals.counts.evaluated >= most_evaluated; }
   /// How the run stands: what has stopped it, or finished.
@@ -87,6 +100,7 @@ struct RunState {
   RefusedWork<D> refused;
   WorkerPool<D> workers;
   VisitRecorder recorder;
+  std::vector<std::function<void(const Renumbering<D>&)>> renamers;
 };
 
 /// A schedule: decides which visits run at once, and runs them.

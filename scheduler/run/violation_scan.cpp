@@ -11,16 +11,6 @@
 namespace pgdr::detail {
 namespace {
 
-/// Subfacets that are Delaunay in the projection of an uneven facet may have violations beside them though no cavity was cut
-/// back.
-template <int D>
-bool has_uneven_facets(const Domain<D>& domain) {
-  if constexpr (D == 3)
-    for (EntityId f = 0; f < domain.facets().size(); ++f)
-      if (is_uneven(domain, f)) return true;
-  return false;
-}
-
 /// Sorts by the vertices, as the slots of cells depend on timing.
 template <int D>
 void sort_by_vertices(const Mesh<D>& mesh, const Pieces& pieces, std::vector<Entry<D>>& entries) {
@@ -33,7 +23,32 @@ void sort_by_vertices(const Mesh<D>& mesh, const Pieces& pieces, std::vector<Ent
 }  // namespace
 
 template <int D>
-ViolationScan<D>::ViolationScan(RunState<D>& state) : state_(&state), uneven_(has_uneven_facets(state.context.domain)) {}
+bool has_uneven_facets(const Domain<D>& domain) {
+  if constexpr (D == 3)
+    for (EntityId f = 0; f < domain.facets().size(); ++f)
+      if (is_uneven(domain, f)) return true;
+  return false;
+}
+
+template <int D>
+ViolationScan<D>::ViolationScan(RunState<D>& state) : state_(&state), uneven_(has_uneven_facets(state.context.domain)) {
+  state.on_renumbered([this](const Renumbering<D>& to) { rename(to); });
+}
+
+template <int D>
+void ViolationScan<D>::rename(const Renumbering<D>& to) {
+  for (Entry<D>& e : standing_) to.rename(e.cell, e.birth);
+  if (births_looked_at_.empty()) return;
+  const Mesh<D>& mesh = state_->context.mesh;
+  std::vector<std::uint16_t> looked_at(mesh.cell_bound(), Mesh<D>::last_birth);
+  for (std::uint32_t i = 0; i < births_looked_at_.size(); ++i) {
+    CellId c{i};
+    std::uint16_t birth = births_looked_at_[i];
+    to.rename(c, birth);
+    if (birth == mesh.birth(c)) looked_at[index(c)] = birth;  // else the cell that was there is gone
+  }
+  births_looked_at_ = std::move(looked_at);
+}
 
 /// The slots with another cell than at the last look, or with none now, or with a cell beside such: of a given cell, born
 /// before or since, dead or alive, that says the same whatever slot it was given.
@@ -97,6 +112,8 @@ std::vector<Entry<D>> ViolationScan<D>::look_if_any() {
   return found;
 }
 
+template bool has_uneven_facets(const Domain<2>&);
+template bool has_uneven_facets(const Domain<3>&);
 template class ViolationScan<2>;
 template class ViolationScan<3>;
 

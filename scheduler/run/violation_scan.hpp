@@ -14,6 +14,11 @@
 
 namespace pgdr::detail {
 
+/// Subfacets that are Delaunay in the projection of an uneven facet may have violations beside them though no cavity was cut
+/// back.
+template <int D>
+bool has_uneven_facets(const Domain<D>& domain);
+
 /// Part of a run: see above.
 template <int D>
 class ViolationScan {
@@ -30,6 +35,7 @@ class ViolationScan {
 
  private:
   SlotSet changed_surroundings();
+  void rename(const Renumbering<D>& to);
 
   RunState<D>* state_;
   const bool uneven_;                            ///< there may be some that no insertion brings

@@ -47,6 +47,8 @@ class VisitRecorder {
   void count_concurrent(std::uint32_t visits);
   /// Adds the seconds of a generation on the wall.
   void add_generation(double seconds) { statistics_.seconds_in_generations += seconds; }
+  /// The phases of the finest lattice so far came round so many times.
+  void count_cycles(std::uint64_t cycles) { statistics_.cycles = cycles; }
   /// The tree has so many leaves in the end.
   void count_leaves(std::uint64_t leaves) { statistics_.leaves = leaves; }
 

@@ -26,7 +26,7 @@ WaitingWork<D>::WaitingWork(const RefineContext<D>& context)
     : context_(&context),
       options_(&context.options.schedule),
       tree_(tree_over<D>(context.domain.points())),
-      placement_(tree_, options_->claims, options_->split_ratio),
+      placement_(tree_, options_->claims, is_uniform() ? options_->split_ratio / 2 : options_->split_ratio),
       works_(tree_) {}
 
 template <int D>
@@ -41,7 +41,7 @@ void WaitingWork<D>::append_requests(Node node, std::vector<VisitRequest>& out) 
 template <int D>
 std::vector<VisitRequest> WaitingWork<D>::requests() const {
   std::vector<VisitRequest> all;
-  for (Node n = 0; n < tree_.node_count(); ++n) append_requests(n, all);
+  tree_.for_each_node([&](Node n) { append_requests(n, all); });
   return all;
 }
 
@@ -59,7 +59,7 @@ void WaitingWork<D>::prepare(const VisitRequest& request, RegionVisit<D>& visit)
     visit.given = work.take_set_aside(request.order);
     return;
   }
-  if (tree_.can_split(request.node)) visit.small_radius = small_radius(request.node);
+  if (!is_uniform() && tree_.can_split(request.node)) visit.small_radius = small_radius(request.node);
 }
 
 template <int D>
@@ -132,6 +132,32 @@ bool WaitingWork<D>::split_if_crowded(Node leaf) {
 }
 
 template <int D>
+bool WaitingWork<D>::split(std::span<const Node> leaves, const Pieces& pieces) {
+  if (!std::all_of(leaves.begin(), leaves.end(), [this](Node leaf) { return tree_.can_split(leaf); })) return false;
+  for (const Node leaf : leaves) tree_.split(leaf);
+  works_.grow();
+  pieces.run(leaves.size(), [&](std::size_t i) { hand_down(leaves[i]); });
+  return true;
+}
+
+template <int D>
+void WaitingWork<D>::rename(const Renumbering<D>& to) {
+  const auto rename_one = [&](Entry<D>& e) { to.rename(e.cell, e.birth); };
+  const auto rename_all = [&](std::vector<Entry<D>>& entries) { std::for_each(entries.begin(), entries.end(), rename_one); };
+  tree_.for_each_node([&](Node n) {
+    LeafWork<D>& work = works_[n];
+    work.list.for_each(rename_one);
+    std::for_each(work.inbox.begin(), work.inbox.end(), rename_all);
+    for (SetAside<D>& s : work.set_aside) rename_all(s.entries);
+    for (Refusal<D>& r : work.list.refused) {
+      rename_one(r.entry);
+      for (CellName& seen : r.seen) to.rename(seen.cell, seen.birth);
+    }
+  });
+  rename_all(given_and_not_processed_);
+}
+
+template <int D>
 std::optional<PoorCount> WaitingWork<D>::take_poor() {
   if (!all_listed_) return std::nullopt;
   PoorCount poor;
@@ -149,10 +175,10 @@ std::optional<PoorCount> WaitingWork<D>::take_poor() {
     list.drain(count);
     for (const Refusal<D>& r : list.refused) count(r.entry);
   });
-  for (Node n = 0; n < tree_.node_count(); ++n) {
+  tree_.for_each_node([&](Node n) {
     std::for_each(works_[n].inbox.begin(), works_[n].inbox.end(), count_all);
     for (const SetAside<D>& s : works_[n].set_aside) count_all(s.entries);
-  }
+  });
   count_all(given_and_not_processed_);
   return poor;
 }

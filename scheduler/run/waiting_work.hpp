@@ -7,15 +7,18 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "claims/conflict_manager.hpp"
 #include "claims/placement.hpp"
+#include "mesh/renumbering.hpp"
 #include "reasons/poor_reasons.hpp"
 #include "refine/context.hpp"
 #include "refine/region_visit.hpp"
 #include "run/leaf_work.hpp"
+#include "space/pieces.hpp"
 
 namespace pgdr::detail {
 
@@ -49,7 +52,7 @@ class WaitingWork {
   void post(Node node, std::vector<Entry<D>>&& entries);
   /// Lists the entry in the node that it belongs to.
   void relist(const Entry<D>& e);
-  /// Lists the entry, which a visit with a claim of this order refused, for another such.
+  /// Lists the entry, which a visit of this order refused: for one of its node if that is 1, else for one with a larger claim.
   void relist(const Entry<D>& e, std::uint32_t order);
   /// Sets what the visit has set aside aside for one with a larger claim, if it is still alive now that the visits that ran
   /// beside this one have ended. Returns how many entries that are.
@@ -67,11 +70,17 @@ class WaitingWork {
     works_.hand_down(*context_, parent, placement_.most_radius(tree_.first_child(parent)), generation_);
   }
 
-  /// Calls f for the list of each node.
+  /// Splits these leaves, in their order, and hands what waits there down; false, and nothing is done, if one cannot be split.
+  bool split(std::span<const Node> leaves, const Pieces& pieces);
+
+  /// Calls f for the list of each node, in an order in which the order of splits has no part (Orthtree::for_each_node).
   template <class F>
   void for_each_list(F f) {
-    for (Node n = 0; n < tree_.node_count(); ++n) f(works_[n].list);
+    tree_.for_each_node([&](Node n) { f(works_[n].list); });
   }
+
+  /// For tests: renames the cells of all that waits, and of what was refused.
+  void rename(const Renumbering<D>& to);
 
   /// Says whether every poor element is on a list between visits.
   void set_all_listed(bool all) { all_listed_ = all; }
@@ -80,9 +89,10 @@ class WaitingWork {
   std::optional<PoorCount> take_poor();
 
  private:
-  std::size_t floor() const { return options_->floor != 0 ? options_->floor : D == 3 ? 500 : 2000; }
+  std::size_t floor() const { return options_->floor != 0 ? options_->floor : D == 3 ? 1000 : 2000; }
   double small_radius(Node leaf) const { return options_->split_ratio * tree_.side(leaf) / 2; }
   bool by_boxes() const { return placement_.by_boxes(); }
+  bool is_uniform() const { return options_->schedule == Schedule::uniform; }
   void set_aside(Node node, std::uint32_t order, const Entry<D>& e);
   void set_aside_above(Node node, const Entry<D>& e);
   bool is_crowded(Node leaf);

@@ -56,6 +56,12 @@ void WorkerPool<D>::give_back(Worker worker) noexcept {
 }
 
 template <int D>
+void WorkerPool<D>::forget_cells() {
+  const std::lock_guard lock(mutex_);
+  for (const Worker& worker : idle_) worker->forget_cells();
+}
+
+template <int D>
 bool WorkerPool<D>::run(const VisitArea<D>& area, RegionVisit<D>& visit) {
   if (context_->stop.load(std::memory_order_relaxed) != 0) return false;
   const DefaultFloats floats;

@@ -39,6 +39,8 @@ class WorkerPool {
   /// `pools`: those that made the mesh so far; they go to the first worker. The context must outlive this.
   WorkerPool(RefineContext<D>& context, Pools pools);
 
+  /// Refiner::forget_cells of all workers. @pre none is leased
+  void forget_cells();
   Lease lease() { return {*this, take()}; }
   /// Runs the visit in `area` on a worker of its own, with the floating-point environment of a visit; false if the run is over.
   bool run(const VisitArea<D>& area, RegionVisit<D>& visit);

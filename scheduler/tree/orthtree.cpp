@@ -79,17 +79,11 @@ auto Orthtree<D>::box(Node node) const -> Box {
 
 template <int D>
 auto Orthtree<D>::leaves() const -> std::vector<Node> {
-  std::vector<Node> out, stack{root};
+  std::vector<Node> out;
   out.reserve(leaf_count_);
-  while (!stack.empty()) {
-    const Node node = stack.back();
-    stack.pop_back();
-    if (is_leaf(node)) {
-      out.push_back(node);
-      continue;
-    }
-    for (Node c = children; c-- > 0;) stack.push_back(first_child(node) + c);
-  }
+  for_each_node([&](Node node) {
+    if (is_leaf(node)) out.push_back(node);
+  });
   return out;
 }
 

@@ -72,7 +72,23 @@ class Orthtree {
   /// The number of nodes made so far, which are numbered from 0.
   Node node_count() const { return static_cast<Node>(nodes_.size()); }
   std::size_t leaf_count() const { return leaf_count_; }  ///< of the tree
-  std::vector<Node> leaves() const;                       ///< in Morton order
+  /// Calls f for all nodes, each before its children, and these in their order: an order by the boxes alone, in which leaves go
+  /// by morton(), and in which the order of splits has no part.
+  template <class F>
+  void for_each_node(F f) const {
+    Node node = root;
+    while (true) {
+      f(node);
+      if (!is_leaf(node)) {
+        node = first_child(node);
+        continue;
+      }
+      while (node != root && node == first_child(parent(node)) + children - 1) node = parent(node);
+      if (node == root) return;
+      ++node;
+    }
+  }
+  std::vector<Node> leaves() const;  ///< in Morton order
 
   /// Can the leaf be split? Not at max_level, nor where the doubles are too coarse to halve the box.
   bool can_split(Node leaf) const;

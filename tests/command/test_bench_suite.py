@@ -5,41 +5,27 @@
 import csv
 import json
 import os
-import pathlib
 import shutil
-import stat
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 import xml.etree.ElementTree as ElementTree
 
-COMMAND = os.environ["PGDR_COMMAND"]
+from scripts import BENCH, COMMAND, ScriptCase
+
 DIAGNOSIS = os.environ.get("PGDR_BENCH_DIAGNOSIS", "")
-SUITE = pathlib.Path(__file__).resolve().parents[2] / "bench" / "suite.py"
+SUITE = BENCH / "suite.py"
 SVG = "{http://www.w3.org/2000/svg}"
 
 
-class BenchSuite(unittest.TestCase):
+class BenchSuite(ScriptCase):
     def setUp(self):
-        self.temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(self.temporary.cleanup)
-        self.folder = pathlib.Path(self.temporary.name)
+        super().setUp()
         self.out = self.folder / "out"
 
     def suite(self, *flags, command=COMMAND, path=None, expect=0):
-        environment = {**os.environ, "PATH": str(path or os.environ["PATH"])}
-        done = subprocess.run([sys.executable, "-B", SUITE, command, "--quick", "--out", self.out, *flags],
-                              capture_output=True, text=True, timeout=500, env=environment)
-        self.assertEqual(done.returncode, expect, done.stdout + done.stderr)
-        return done
-
-    def script(self, name, text):
-        file = self.folder / name
-        file.write_text("#!/bin/sh\n" + text)
-        file.chmod(file.stat().st_mode | stat.S_IXUSR)
-        return file
+        return self.run_script(SUITE, command, "--quick", "--out", self.out, *flags, path=path, expect=expect)
 
     def rows(self, name):
         with open(self.out / name, newline="", encoding="utf-8") as file:

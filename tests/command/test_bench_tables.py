@@ -6,27 +6,18 @@ import collections
 import json
 import math
 import os
-import pathlib
-import stat
 import subprocess
 import sys
-import tempfile
 import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-BENCH = ROOT / "bench"
-COMMAND = os.environ["PGDR_COMMAND"]
+from scripts import BENCH, COMMAND, ScriptCase
+
 sys.path.insert(0, str(BENCH))
 import bat  # noqa: E402
 import made_inputs  # noqa: E402
 
 
-class MadeInputs(unittest.TestCase):
-    def setUp(self):
-        self.temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(self.temporary.cleanup)
-        self.folder = pathlib.Path(self.temporary.name)
-
+class MadeInputs(ScriptCase):
     def closed(self, points, triangles):
         """Every edge has two triangles, which run through it in opposite directions; a sphere; outwards. Returns the least
         angle in degrees, and the volume."""
@@ -94,23 +85,7 @@ class MadeInputs(unittest.TestCase):
         self.accepted(file, volume)
 
 
-class BenchTables(unittest.TestCase):
-    def setUp(self):
-        self.temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(self.temporary.cleanup)
-        self.folder = pathlib.Path(self.temporary.name)
-
-    def run_script(self, *command, expect=0):
-        done = subprocess.run([sys.executable, "-B", *map(str, command)], capture_output=True, text=True, timeout=500)
-        self.assertEqual(done.returncode, expect, done.stdout + done.stderr)
-        return done
-
-    def script(self, name, text):
-        file = self.folder / name
-        file.write_text("#!/bin/sh\n" + text)
-        file.chmod(file.stat().st_mode | stat.S_IXUSR)
-        return file
-
+class BenchTables(ScriptCase):
     def rows(self, text):
         """The table in a text, as dictionaries."""
         lines = [[cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines() if line.startswith("|")]

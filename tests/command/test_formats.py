@@ -20,7 +20,7 @@ from test_command import BRACKET, PLATE, WEDGE, Case
 
 sys.dont_write_bytecode = True
 
-FORMATS = ("vtu", "msh", "mesh", "node", "ele")
+FORMATS = ("vtu", "pvtu", "msh", "mesh", "node", "ele")
 
 # Two boxes side by side, of which the wall between them is a facet, with markers and regions of all kinds.
 BOXES = """12 3 0 1

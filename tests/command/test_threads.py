@@ -48,7 +48,7 @@ def tetrahedron_poly():
     return text + "".join("1 0\n3 %d %d %d\n" % f for f in ((0, 1, 2), (0, 1, 3), (1, 2, 3), (0, 2, 3))) + "0\n0\n"
 
 
-class Threads(Case):
+class AnyThreads(Case):
     """Eight threads run on any machine: the command tells TBB that they may."""
 
     def made(self, *arguments, threads, expect=0):
@@ -71,6 +71,8 @@ class Threads(Case):
                 self.assertEqual(r["scheduler"][key], first["scheduler"][key], key)
         return first
 
+
+class Threads(AnyThreads):
     def test_same_mesh(self):
         box = self.file("box.stl", box_stl(2, 1, 0.5))
         tetrahedron = self.file("tetrahedron.poly", tetrahedron_poly())
@@ -109,7 +111,7 @@ class Threads(Case):
         for model, size in ((BRACKET, "0.1"), (PLATE, "0.0005")):
             _, r = self.made(model, "--size", size, threads=2)
             s, seconds = r["scheduler"], r["seconds"]
-            self.assertEqual(set(s), {"leaves", "generations", "visits", "set_aside", "serial_seconds", "work_seconds",
+            self.assertEqual(set(s), {"leaves", "generations", "cycles", "visits", "set_aside", "serial_seconds", "work_seconds",
                                       "critical_path_seconds", "max_concurrent", "busy_seconds"})
             self.assertGreater(s["leaves"], 8)
             self.assertGreater(s["generations"], 1)
@@ -206,13 +208,13 @@ class Threads(Case):
         self.assertIn("point_on_facet", [repair["code"] for repair in self.json()["repairs"]])
 
     def test_granularity(self):
-        whole, r = self.made(BRACKET, "--size", "0.12", threads=2)
-        for g in ("1", "3"):
-            first = self.assert_same_for_all(BRACKET, "--size", "0.12", "--granularity", g)
-            self.assertGreaterEqual(first["scheduler"]["generations"], r["scheduler"]["generations"])
+        whole, _ = self.made(BRACKET, "--size", "0.12", threads=2)
+        for g in ("3", "1"):
+            self.assert_same_for_all(BRACKET, "--size", "0.12", "--granularity", g)
             self.pgdr("check", self.output, "--input", BRACKET, "--radius-edge", "2", "--size", "0.12", expect=0)
+        self.assertTrue(self.output.read_bytes() != whole, "a granularity of 1 makes no other mesh")
         self.made(BRACKET, "--size", "0.12", "--granularity", 2 ** 31 - 1, threads=2)
-        self.assertEqual(self.output.read_bytes(), whole)
+        self.assertTrue(self.output.read_bytes() == whole, "an unlimited granularity makes another mesh")
 
     def test_wrong_usage(self):
         for flag, values in {"--threads": "0 -1 1.5 x 1025 4294967297", "--granularity": "0 -1 1.5 x 4294967297",
@@ -220,6 +222,48 @@ class Threads(Case):
             for value in values.split():
                 done = self.mesh(BRACKET, flag + "=" + value, expect=2)
                 self.assertIn(flag, done.stderr)
+                self.assert_only()
+
+
+class Uniform(AnyThreads):
+    """--schedule uniform, and --lattice."""
+
+    def test_same_mesh(self):
+        for model, size in ((BRACKET, "0.1"), (PLATE, "0.0005")):
+            arguments = (model, "--size", size, "--schedule", "uniform")
+            r = self.assert_same_for_all(*arguments)
+            self.assertEqual((r["schedule"], r["reproducible"]), ("uniform", True))
+            s = r["scheduler"]
+            self.assertTrue(1 <= s["cycles"] <= 3, s)
+            self.assertGreaterEqual(s["leaves"], 8)
+            self.pgdr("check", self.output, "--input", model, "--reasons", self.report, expect=0)
+            by_default = self.output.read_bytes()
+            for lattice, leaves in ((1, 1), (2, 8 if model == BRACKET else 4)):
+                r = self.assert_same_for_all(*arguments, "--lattice", lattice)
+                self.assertEqual(r["scheduler"]["leaves"], leaves)
+                self.assertTrue(self.output.read_bytes() != by_default, "another lattice makes no other mesh")
+            self.mesh(model, "--size", size, "--report", self.report)
+            self.assertEqual(self.json()["scheduler"]["cycles"], 0)
+
+    def test_same_partial_mesh(self):
+        r = self.assert_same_for_all(PLATE, "--size", "0.0002", "--schedule", "uniform", "--max-vertices", "5000", expect=5)
+        self.assertEqual((r["stop"], r["reproducible"]), ("max_vertices", True))
+        self.assertLessEqual(r["vertices"], 5000)
+
+    def test_poor_left(self):
+        wedge = self.file("wedge.poly", WEDGE)
+        r = self.assert_same_for_all(wedge, "--min-angle", "20", "--size", "0.0002", "--schedule", "uniform", expect=1)
+        self.assertGreater(r["bounds"]["poor_left"], 0)
+
+    def test_wrong_usage(self):
+        uniform = ("--schedule", "uniform")
+        for arguments in ((BRACKET, *uniform, "--lattice", "0"), (BRACKET, *uniform, "--lattice", "x"),
+                          (BRACKET, *uniform, "--lattice", "8"), (PLATE, *uniform, "--lattice", "11"),
+                          (BRACKET, "--lattice", "3"), (BRACKET, "--schedule", "greedy", "--lattice", "3"),
+                          (BRACKET, *uniform, "--claims", "leaves")):
+            with self.subTest(arguments):
+                done = self.mesh(*arguments, expect=2)
+                self.assertRegex(done.stderr, "lattice|claims")
                 self.assert_only()
 
 

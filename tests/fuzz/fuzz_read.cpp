@@ -11,6 +11,7 @@
 
 #include "expect.hpp"
 #include "io/formats.hpp"
+#include "output/piece_join.hpp"
 #include "pgdr/check.hpp"
 #include "pgdr/error.hpp"
 
@@ -23,8 +24,9 @@ const std::string_view extension = fuzz_extension;
 const bool spatial = extension == ".smesh" || extension == ".obj" || extension == ".off" || extension == ".ply" ||
                      extension == ".stl";
 const bool tetgen = extension == ".ele";
-const bool input = !tetgen && extension != ".vtu";
-const bool mesh = tetgen || extension == ".vtu" || extension == ".mesh" || extension == ".msh";
+const bool vtk = extension == ".vtu" || extension == ".pvtu";
+const bool input = !tetgen && !vtk;
+const bool mesh = tetgen || vtk || extension == ".mesh" || extension == ".msh";
 constexpr std::size_t most_cells = 30;  // for the checker
 
 /// In a folder that does not exist: what refers to a file beside it finds none.
@@ -40,8 +42,8 @@ void guarded(std::string_view bytes, Read read) {
     FUZZ_EXPECT(!d.message.empty());
     FUZZ_EXPECT(d.line <= static_cast<std::uint64_t>(std::count(bytes.begin(), bytes.end(), '\n')) + 1, e.what());
   } catch (const FileError& e) {
-    // No points here: they are in the .node file beside it.
-    FUZZ_EXPECT(extension == ".poly" || extension == ".smesh", e.what());
+    // No points here: they are in the .node file beside it. Or no cells: they are in the files of the pieces.
+    FUZZ_EXPECT(extension == ".poly" || extension == ".smesh" || extension == ".pvtu", e.what());
     FUZZ_EXPECT(e.code() == Errc::cannot_open, e.what());
   }
 }
@@ -93,6 +95,15 @@ void read_tetgen_texts(std::string_view bytes) {
   look_at<D>(detail::read_tetgen<D>({texts[0], texts[1], n >= 2 ? &texts[2] : nullptr, n >= 3 ? &texts[3] : nullptr}, name));
 }
 
+/// The file of a piece that is all of its mesh.
+template <int D>
+void read_piece(std::string_view bytes) {
+  const MeshPiece<D> piece = detail::read_vtu_piece<D>(bytes, name);
+  expect_in_range<D>(piece.mesh);
+  const detail::PieceView<D> view{&piece, name};
+  look_at<D>(detail::join_views<D>({&view, 1}, name));
+}
+
 template <int D>
 void read(std::string_view bytes) {
   if (input) guarded(bytes, [&] { expect_in_range<D>(detail::read_plc_from<D>(bytes, name)); });
@@ -100,6 +111,7 @@ void read(std::string_view bytes) {
     guarded(bytes, [&] { read_tetgen_texts<D>(bytes); });
   else if (mesh)
     guarded(bytes, [&] { look_at<D>(detail::read_mesh_from<D>(bytes, name)); });
+  if (extension == ".vtu") guarded(bytes, [&] { read_piece<D>(bytes); });
 }
 
 }  // namespace

@@ -40,9 +40,12 @@ template <int D>
 void put_meshes() {
   const TempFolder temporary;
   const std::string dimension = std::to_string(D) + "d";
-  for (const std::string extension : {"mesh", "msh", "vtu", "ele"}) write_mesh<D>(simplex<D>(), temporary / ("a." + extension));
+  for (const std::string extension : {"mesh", "msh", "vtu", "ele", "pvtu"})
+    write_mesh<D>(simplex<D>(), temporary / ("a." + extension));
   for (const std::string extension : {"mesh", "msh", "vtu"})
     put("read_" + extension, "simplex_" + dimension, content(temporary / ("a." + extension)));
+  put("read_pvtu", "simplex_" + dimension, content(temporary / "a.pvtu"));
+  put("read_vtu", "piece_" + dimension, content(temporary / "a_0.vtu"));
   std::string all = content(temporary / "a.node") + '\0' + content(temporary / "a.ele") + '\0';
   if (D == 3) all += content(temporary / "a.face");
   put("read_ele", "simplex_" + dimension, all + '\0' + content(temporary / "a.edge"));

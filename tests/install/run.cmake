@@ -3,7 +3,7 @@
 # Installs the build into a fresh folder, builds the consumer against it, with CMake and with pkg-config, and runs it.
 # cmake -DBUILD=<build folder> -DSOURCE=<repository> -DWORK=<scratch folder> -DFLAGS=<compiler flags> -DKIND=static|shared
 #   -DCXX=<compiler> -DPKG_CONFIG=<pkg-config> -DPYTHON=<interpreter> -DNM=<nm> -DCOMMAND=<archives of the command>
-#   -P run.cmake
+#   -DMPI_COMPILER=<of the MPI that pgdr::mpi is for; empty: it was not built> -P run.cmake
 function(run)
   execute_process(COMMAND ${ARGV} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
@@ -44,13 +44,19 @@ if(KIND STREQUAL shared)
   run(${PYTHON} ${SOURCE}/tests/install/check_exports.py ${NM} ${library} ${WORK}/moved/include ${COMMAND})
 endif()
 
+if(MPI_COMPILER)
+  set(with_mpi -DWITH_MPI=ON -DMPI_CXX_COMPILER=${MPI_COMPILER})
+endif()
 if(KIND STREQUAL static)  # once: both kinds have the same headers
   set(each_header -DHEADERS=${WORK}/moved/include/pgdr)
 endif()
 run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${SOURCE}/tests/install -B ${WORK}/build -DCMAKE_BUILD_TYPE=Debug
-  -DCMAKE_CXX_COMPILER=${CXX} "-DCMAKE_CXX_FLAGS=${FLAGS}" "-Dpgdr_ROOT=${WORK}/moved" ${each_header})
+  -DCMAKE_CXX_COMPILER=${CXX} "-DCMAKE_CXX_FLAGS=${FLAGS}" "-Dpgdr_ROOT=${WORK}/moved" ${each_header} ${with_mpi})
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/consumer)
+if(MPI_COMPILER)
+  run(${WORK}/build/mpi_consumer)  # one process needs no launcher
+endif()
 
 # Without CMake.
 cmake_path(GET library PARENT_PATH libraries)

@@ -12,21 +12,14 @@
 #include <string>
 
 #include "io/formats.hpp"
-#include "io/scan/line_scanner.hpp"
+#include "io/scan/xml_tags.hpp"
 
 namespace pgdr::detail {
 namespace {
 
-/// "<Name a="v" b="w">", "</Name>" or "<?...?>".
-struct Tag {
-  std::string_view name;  ///< with its '/' if it closes, "?" for a declaration
-  std::map<std::string_view, std::string_view> attributes;
-  std::uint64_t line = 0;
-};
-
 struct Array {
-  std::string_view type;
-  std::uint64_t offset = 0, line = 0;
+  std::string type;
+  std::uint64_t offset = 0, components = 1, line = 0;
 };
 
 /// The head: counts, and where the arrays are, by "Section/Name".
@@ -37,115 +30,38 @@ struct Head {
   std::uint64_t line = 0, piece_line = 0;  ///< of the data, of the counts
 };
 
-class HeadReader {
- public:
-  HeadReader(std::string_view text, const std::string& file) : text_(text), file_(file) {}
-
-  Head read() {
-    std::string section;
-    for (;;) {
-      const Tag tag = next_tag();
-      if (tag.name == "VTKFile") {
-        require(tag, "type", "UnstructuredGrid");
-        require(tag, "byte_order", "LittleEndian");
-        require(tag, "header_type", "UInt64");
-        if (tag.attributes.contains("compressor")) fail(Errc::unknown_format, "compressed arrays are not read", tag.line);
-      } else if (tag.name == "Piece") {
-        head_.piece_line = tag.line;
-        head_.points = unsigned_attribute(tag, "NumberOfPoints");
-        head_.cells = unsigned_attribute(tag, "NumberOfCells");
-      } else if (tag.name == "DataArray") {
-        read_array(tag, section);
-      } else if (tag.name == "AppendedData") {
-        require(tag, "encoding", "raw");
-        break;
-      } else if (!tag.name.starts_with('/')) {
-        section = tag.name;
-      }
+Head read_head(std::string_view text, const std::string& file) {
+  Head head;
+  TagScanner tags(text, file);
+  std::string section;
+  for (;;) {
+    const Tag tag = tags.next();
+    if (tag.name == "VTKFile") {
+      tags.require(tag, "type", "UnstructuredGrid");
+      tags.require(tag, "byte_order", "LittleEndian");
+      tags.require(tag, "header_type", "UInt64");
+      if (tag.attributes.contains("compressor")) tags.fail(Errc::unknown_format, "compressed arrays are not read", tag.line);
+    } else if (tag.name == "Piece") {
+      head.piece_line = tag.line;
+      head.points = tags.unsigned_attribute(tag, "NumberOfPoints");
+      head.cells = tags.unsigned_attribute(tag, "NumberOfCells");
+    } else if (tag.name == "DataArray") {
+      tags.require(tag, "format", "appended");
+      const std::string name = section + "/" + std::string(tags.attribute(tag, "Name"));
+      const bool one = !tag.attributes.contains("NumberOfComponents");
+      head.arrays[name] = {std::string(tags.attribute(tag, "type")), tags.unsigned_attribute(tag, "offset"),
+                           one ? 1 : tags.unsigned_attribute(tag, "NumberOfComponents"), tag.line};
+    } else if (tag.name == "AppendedData") {
+      tags.require(tag, "encoding", "raw");
+      break;
+    } else if (!tag.name.starts_with('/')) {
+      section = tag.name;
     }
-    while (at_ < text_.size() && text_[at_] != '_') step();
-    if (at_ == text_.size()) fail(Errc::truncated, "the file ends before its data", line_);
-    head_.data = text_.substr(at_ + 1);
-    head_.line = line_;
-    return std::move(head_);
   }
-
-  [[noreturn]] void fail(Errc code, const std::string& message, std::uint64_t line) const {
-    throw InputError(Diagnostic{code, message, file_, line, {}, {}});
-  }
-
- private:
-  void step() {
-    if (text_[at_] == '\n') ++line_;
-    ++at_;
-  }
-  static bool is_space(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }
-  void skip_space() {
-    while (at_ < text_.size() && is_space(text_[at_])) step();
-  }
-  /// Up to, and over, one of `ends`.
-  std::string_view until(std::string_view ends) {
-    const std::size_t begin = at_;
-    while (at_ < text_.size() && ends.find(text_[at_]) == std::string_view::npos) step();
-    if (at_ == text_.size()) fail(Errc::truncated, "the file ends within its head", line_);
-    return text_.substr(begin, at_ - begin);
-  }
-
-  Tag next_tag() {
-    skip_space();
-    if (at_ == text_.size()) fail(Errc::truncated, "the file ends within its head", line_);
-    Tag tag;
-    tag.line = line_;
-    if (text_[at_] != '<') fail(Errc::syntax, quoted(until(" \n<>")) + " stands where an XML tag is expected", line_);
-    step();
-    if (at_ < text_.size() && text_[at_] == '?') {
-      until(">");
-      step();
-      tag.name = "?";
-      return tag;
-    }
-    tag.name = until(" \t\r\n>");
-    for (;;) {
-      skip_space();
-      const std::string_view name = until("=>");
-      if (text_[at_] == '>') break;
-      step();
-      if (at_ == text_.size() || text_[at_] != '"') fail(Errc::syntax, quoted(name) + " has no value in quotes", line_);
-      step();
-      tag.attributes[name] = until("\"");
-      step();
-    }
-    step();
-    return tag;
-  }
-
-  std::string_view attribute(const Tag& tag, std::string_view name) const {
-    const auto it = tag.attributes.find(name);
-    if (it == tag.attributes.end()) fail(Errc::syntax, quoted(tag.name) + " has no " + std::string(name), tag.line);
-    return it->second;
-  }
-  void require(const Tag& tag, std::string_view name, std::string_view value) const {
-    const std::string_view found = attribute(tag, name);
-    if (found != value)
-      fail(Errc::unknown_format, std::string(name) + " is " + quoted(found) + ", only " + quoted(value) + " is read", tag.line);
-  }
-  std::uint64_t unsigned_attribute(const Tag& tag, std::string_view name) const {
-    const auto value = parse_integer(attribute(tag, name));
-    if (!value || *value < 0) fail(Errc::syntax, std::string(name) + " is " + quoted(attribute(tag, name)), tag.line);
-    return static_cast<std::uint64_t>(*value);
-  }
-  void read_array(const Tag& tag, const std::string& section) {
-    require(tag, "format", "appended");
-    const std::string name = section + "/" + std::string(attribute(tag, "Name"));
-    head_.arrays[name] = {attribute(tag, "type"), unsigned_attribute(tag, "offset"), tag.line};
-  }
-
-  std::string_view text_;
-  const std::string& file_;
-  std::size_t at_ = 0;
-  std::uint64_t line_ = 1;
-  Head head_;
-};
+  head.data = tags.behind('_');
+  head.line = tags.line();
+  return head;
+}
 
 template <class T>
 T little_endian(std::string_view bytes, std::size_t i) {
@@ -158,7 +74,7 @@ T little_endian(std::string_view bytes, std::size_t i) {
 /// The arrays of a file, each checked for its type and size when it is asked for.
 class Arrays {
  public:
-  Arrays(std::string_view text, const std::string& file) : reader_(text, file), head_(reader_.read()) {
+  Arrays(std::string_view text, const std::string& file) : file_(file), head_(read_head(text, file)) {
     check_count(head_.points, 3 * sizeof(double), "points");
     check_count(head_.cells, sizeof(std::uint8_t) + sizeof(std::int64_t), "cells");
   }
@@ -170,7 +86,7 @@ class Arrays {
   /// The bytes of an array of `n` numbers.
   std::string_view bytes(const std::string& name, std::string_view type, std::size_t n, std::size_t bytes_each) {
     const auto it = head_.arrays.find(name);
-    if (it == head_.arrays.end()) reader_.fail(Errc::syntax, "the file has no array " + name, head_.line);
+    if (it == head_.arrays.end()) fail_at(Errc::syntax, "the file has no array " + name, head_.line);
     const Array& a = it->second;
     if (a.type != type) fail(Errc::unknown_format, name, " is not of type " + std::string(type));
     constexpr std::size_t prefix = sizeof(std::uint64_t);
@@ -199,22 +115,27 @@ class Arrays {
     constexpr std::string_view end = "</AppendedData></VTKFile>";
     if (found == end) return;
     const bool cut = end.starts_with(found);
-    if (cut) reader_.fail(Errc::truncated, "the file ends too early", 0);
-    reader_.fail(Errc::syntax, "bytes are left behind the data", 0);
+    if (cut) fail_at(Errc::truncated, "the file ends too early", 0);
+    fail_at(Errc::syntax, "bytes are left behind the data", 0);
   }
 
+  std::uint64_t components(const std::string& name) const { return head_.arrays.at(name).components; }
+
   [[noreturn]] void fail(Errc code, const std::string& name, const std::string& why) const {
-    reader_.fail(code, "the array " + name + why, head_.arrays.at(name).line);
+    fail_at(code, "the array " + name + why, head_.arrays.at(name).line);
   }
 
  private:
+  [[noreturn]] void fail_at(Errc code, const std::string& message, std::uint64_t line) const {
+    throw InputError(Diagnostic{code, message, file_, line, {}, {}});
+  }
   void check_count(std::uint64_t n, std::size_t bytes_each, const std::string& what) const {
     constexpr std::uint64_t most_ids = 0xfffffffe;
     if (n <= head_.data.size() / bytes_each && n <= most_ids) return;
-    reader_.fail(Errc::count_too_large, "the file cannot hold " + std::to_string(n) + " " + what, head_.piece_line);
+    fail_at(Errc::count_too_large, "the file cannot hold " + std::to_string(n) + " " + what, head_.piece_line);
   }
 
-  HeadReader reader_;
+  const std::string& file_;
   Head head_;
   std::size_t end_ = 0;
 };
@@ -232,6 +153,38 @@ class GridReader {
   explicit GridReader(Arrays& arrays) : arrays_(arrays) {}
 
   OutputMesh<D> read() {
+    read_mesh();
+    arrays_.check_end();
+    return std::move(mesh_);
+  }
+
+  MeshPiece<D> read_piece() {
+    MeshPiece<D> piece;
+    const std::vector<std::uint64_t> of_whole = numbers("FieldData/piece", 7);
+    auto& total = piece.total;
+    read_mesh();
+    total.points = of_whole[0];
+    total.input_points = of_whole[1];
+    total.cells = of_whole[2];
+    total.subfacets = of_whole[3];
+    total.subsegments = of_whole[4];
+    piece.first_point = of_whole[5];
+    piece.own_points = of_whole[6];
+    total.attributes_per_point = arrays_.has(attributes) ? arrays_.components(attributes) : 0;
+    total.point_markers = arrays_.has("PointData/marker");
+    total.regions = arrays_.has("CellData/region");
+    total.leaves = arrays_.has("CellData/leaf");
+    if (mesh_.point_attributes.size() != mesh_.points.size() * total.attributes_per_point)
+      arrays_.fail(Errc::syntax, attributes, " has not as many numbers as it says");
+    piece.point_numbers = numbers("PointData/" + std::string(point_ids), arrays_.points());
+    read_cell_ids(piece);
+    arrays_.check_end();
+    piece.mesh = std::move(mesh_);
+    return piece;
+  }
+
+ private:
+  void read_mesh() {
     if (read_dimension(arrays_) != D) arrays_.fail(Errc::syntax, "FieldData/dimension", " is not " + std::to_string(D));
     read_points();
     read_input_points();
@@ -239,11 +192,37 @@ class GridReader {
     read_offsets();
     read_connectivity();
     read_labels();
-    arrays_.check_end();
-    return std::move(mesh_);
   }
 
- private:
+  /// All of an array of n numbers that count or name something.
+  std::vector<std::uint64_t> numbers(const std::string& name, std::size_t n) {
+    const std::string_view bytes = arrays_.bytes(name, "Int64", n, sizeof(std::int64_t));
+    std::vector<std::uint64_t> all(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto value = little_endian<std::int64_t>(bytes, i);
+      if (value < 0) arrays_.fail(Errc::index_out_of_range, name, " has a number below 0");
+      all[i] = static_cast<std::uint64_t>(value);
+    }
+    return all;
+  }
+
+  /// Those of the cells, of the subfacets and of the subsegments are successive each.
+  void read_cell_ids(MeshPiece<D>& piece) {
+    const std::string name = "CellData/" + std::string(cell_ids);
+    const std::vector<std::uint64_t> ids = numbers(name, arrays_.cells());
+    std::size_t at = 0;
+    const auto take = [&](std::size_t count, std::uint64_t begin) {
+      const std::uint64_t first = count == 0 ? begin : ids[at];
+      if (first < begin) arrays_.fail(Errc::index_out_of_range, name, " has the number of a cell for something else");
+      for (std::size_t i = 0; i < count; ++i, ++at)
+        if (ids[at] != first + i) arrays_.fail(Errc::syntax, name, " has " + std::to_string(ids[at]) + " out of its order");
+      return first - begin;
+    };
+    piece.first_cell = take(mesh_.cells.size(), 0);
+    piece.first_subfacet = take(mesh_.subfacets.size(), piece.total.cells);
+    piece.first_subsegment = take(mesh_.subsegments.size(), piece.total.cells + piece.total.subfacets);
+  }
+
   void read_points() {
     const std::string_view xyz = arrays_.bytes("Points/Points", "Float64", 3 * arrays_.points(), sizeof(double));
     mesh_.points.resize(arrays_.points());
@@ -265,10 +244,10 @@ class GridReader {
   }
 
   void read_point_attributes() {
-    const std::string name = "PointData/attributes";
+    const std::string& name = attributes;
     if (!arrays_.has(name)) return;
     const std::uint64_t count = arrays_.size(name) / sizeof(double);
-    if (arrays_.points() == 0 || count % arrays_.points() != 0)
+    if (arrays_.points() == 0 ? count != 0 : count % arrays_.points() != 0)
       arrays_.fail(Errc::syntax, name, " has not as many numbers for each point");
     const std::string_view values = arrays_.bytes(name, "Float64", static_cast<std::size_t>(count), sizeof(double));
     mesh_.point_attributes.resize(static_cast<std::size_t>(count));
@@ -350,6 +329,8 @@ class GridReader {
     }
   }
 
+  static inline const std::string attributes = "PointData/attributes";
+
   Arrays& arrays_;
   OutputMesh<D> mesh_;
 };
@@ -363,6 +344,13 @@ OutputMesh<D> read_vtu(std::string_view text, const std::filesystem::path& file)
   return GridReader<D>(arrays).read();
 }
 
+template <int D>
+MeshPiece<D> read_vtu_piece(std::string_view text, const std::filesystem::path& file) {
+  const std::string name = file.string();
+  Arrays arrays(text, name);
+  return GridReader<D>(arrays).read_piece();
+}
+
 int vtu_dimension(std::string_view text, const std::filesystem::path& file) {
   const std::string name = file.string();
   Arrays arrays(text, name);
@@ -371,5 +359,7 @@ int vtu_dimension(std::string_view text, const std::filesystem::path& file) {
 
 template OutputMesh<2> read_vtu<2>(std::string_view, const std::filesystem::path&);
 template OutputMesh<3> read_vtu<3>(std::string_view, const std::filesystem::path&);
+template MeshPiece<2> read_vtu_piece<2>(std::string_view, const std::filesystem::path&);
+template MeshPiece<3> read_vtu_piece<3>(std::string_view, const std::filesystem::path&);
 
 }  // namespace pgdr::detail

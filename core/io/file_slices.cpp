@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/file_slices.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include "pgdr/error.hpp"
+
+namespace pgdr::detail {
+namespace {
+
+constexpr std::uint64_t slice = 1 << 20;
+
+}  // namespace
+
+FileSlices::FileSlices(const std::string& name, std::string target) : target_(std::move(target)) {
+  waiting_.reserve(slice);
+  file_ = ::open(name.c_str(), O_WRONLY | O_CLOEXEC);
+  if (file_ < 0) fail(errno);
+}
+
+FileSlices::~FileSlices() {
+  if (file_ >= 0) ::close(file_);
+}
+
+void FileSlices::begin_at(std::uint64_t place) {
+  write(std::exchange(waiting_, {}));
+  waiting_.reserve(slice);
+  place_ = place;
+}
+
+void FileSlices::put(std::string_view bytes) {
+  const std::uint64_t end = place_ + waiting_.size() + bytes.size(), whole = end - end % slice;
+  if (whole <= place_ + waiting_.size()) {
+    waiting_ += bytes;
+    return;
+  }
+  if (!waiting_.empty()) {  // up to the next multiple as one slice, then many at once
+    const auto rest = static_cast<std::size_t>(slice - (place_ + waiting_.size()) % slice);
+    waiting_ += bytes.substr(0, rest);
+    bytes.remove_prefix(std::min(rest, bytes.size()));
+    write(waiting_);
+    waiting_.clear();
+  }
+  const auto now = static_cast<std::size_t>(whole - std::min(whole, place_));
+  write(bytes.substr(0, now));
+  waiting_ = bytes.substr(now);
+}
+
+void FileSlices::close() {
+  begin_at(0);
+  if (::close(std::exchange(file_, -1)) != 0) fail(errno);
+}
+
+void FileSlices::write(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::pwrite(file_, bytes.data(), bytes.size(), static_cast<off_t>(place_));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) fail(n < 0 ? errno : EIO);
+    bytes.remove_prefix(static_cast<std::size_t>(n));
+    place_ += static_cast<std::uint64_t>(n);
+  }
+}
+
+void FileSlices::fail(int error_number) const {
+  const std::string why = "cannot be written: " + std::generic_category().message(error_number);
+  throw FileError({Errc::cannot_write, why, target_, 0, {}, {}});
+}
+
+}  // namespace pgdr::detail

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Where everything of a .vtu file lies, which follows from the totals of its mesh alone, and what puts the rows that somebody has
+// of it. So it can be written from its beginning to its end by one who has all rows, or by several at once, each its own rows.
+//
+// VTK's XML file of an unstructured grid, all arrays appended as raw bytes, so that writing is copying and doubles keep
+// their bits. Cells come first, then subfacets (3D), then subsegments; "region" and "leaf" (-1 elsewhere) mean something for
+// the cells and "marker" for the others. Field data "dimension" and "input_points" let our reader restore the mesh. The file of
+// a piece has the numbers of its points and cells in the whole mesh, too, and field data "piece".
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/file_output.hpp"
+#include "pgdr/mesh_piece.hpp"
+
+namespace pgdr::detail {
+
+/// What of a file somebody has.
+template <int D>
+struct VtuPart {
+  using Number = std::uint64_t;
+
+  const OutputMesh<D>* mesh;
+  typename MeshPiece<D>::Totals total;                 ///< of the file
+  const std::vector<Number>* point_numbers = nullptr;  ///< of mesh->points in the file; null: they are all points, in their order
+  Number first_point = 0, own_points = 0;              ///< the rows of points, by their numbers in the file
+  Number first_cell = 0, first_subfacet = 0, first_subsegment = 0;
+  const MeshPiece<D>* piece = nullptr;  ///< of a whole mesh whose numbers the file has, too
+
+  static VtuPart whole(const OutputMesh<D>& mesh);          ///< all rows of the file of a mesh
+  static VtuPart rows_of(const MeshPiece<D>& piece);        ///< its rows of the file of the whole mesh
+  static VtuPart file_of_piece(const MeshPiece<D>& piece);  ///< all rows of a file of the piece alone
+};
+
+/// An array of the file: how it is announced, how large it is, where it lies.
+struct VtuArray {
+  /// Successive rows of it.
+  struct Rows {
+    std::uint64_t at;  ///< in the array, in bytes
+    std::size_t count;
+    PutBlock put;
+  };
+  std::string_view section, type, name;
+  std::string shape;  ///< further attributes of the announcement, or empty
+  std::uint64_t bytes = 0;
+  std::uint64_t offset = 0;  ///< of its size, which its rows follow, in the appended data
+  std::vector<Rows> rows;    ///< those of the part
+  std::string content;       ///< instead of rows: what everybody knows
+};
+
+/// The arrays as they are announced, with the rows of a part, which must outlive them. They lie in the file in the opposite
+/// order.
+template <int D>
+std::vector<VtuArray> arrays_of(const VtuPart<D>& part);
+
+/// What comes before the appended data.
+template <int D>
+std::string vtu_head(const typename MeshPiece<D>::Totals& total, const std::vector<VtuArray>& arrays);
+inline constexpr std::string_view vtu_tail = "\n</AppendedData>\n</VTKFile>\n";
+
+}  // namespace pgdr::detail

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What ranks that do the same make sure of when they meet.
+#pragma once
+
+#include <cstdint>
+
+#include "transport/collectives.hpp"
+
+namespace pgdr::detail {
+
+/// Another rank's run was interrupted before the ranks parted: it has what there is of the mesh.
+struct InterruptedElsewhere {};
+
+/// All ranks call it. @throws ResourceError unlike_ranks, on all, if one has another hash
+inline void require_alike(Collectives& ranks, std::uint64_t hash) {
+  if (ranks.min(hash) == ranks.max(hash)) return;
+  throw ResourceError({.code = Errc::unlike_ranks,
+                       .message = "the ranks did not make the same mesh: their inputs, options, callbacks or builds differ"});
+}
+
+/// Ranks meet: here if their runs go on, and in has_another_gone_on() if they have ended.
+/// @throws what another rank has thrown on its way; InterruptedElsewhere
+inline void require_all_go_on(Collectives& ranks) {
+  ranks.together([] {});
+  if (ranks.sum(std::uint64_t{0}) != 0) throw InterruptedElsewhere();
+}
+/// This rank's run has ended without the ranks having parted. Did that of another go on?
+inline bool has_another_gone_on(Collectives& ranks) {
+  ranks.together([] {});
+  return ranks.sum(std::uint64_t{1}) != static_cast<std::uint64_t>(ranks.size());
+}
+
+}  // namespace pgdr::detail

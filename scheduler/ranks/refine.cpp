@@ -1,0 +1,314 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The entry of a run on ranks. Every rank makes the whole mesh, since a reproducible mesh is the same on all, and keeps its
+// piece.
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "pgdr/ranks.hpp"
+#include "ranks/alike.hpp"
+#include "ranks/numbering.hpp"
+#include "ranks/uniform_on_ranks.hpp"
+#include "ranks/values.hpp"
+#include "ranks/wall_cells.hpp"
+#include "run/run_hooks.hpp"
+#include "run/violation_scan.hpp"
+#include "transport/collectives.hpp"
+
+namespace pgdr {
+namespace {
+
+std::uint64_t peak_rss_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts kilobytes
+}
+
+/// FNV-1a over words of 64 bits: for meshes of gigabytes.
+class Hash {
+ public:
+  void add(std::uint64_t word) { hash_ = (hash_ ^ word) * 0x100000001b3u, hash_ ^= hash_ >> 32; }
+  /// The bytes of the values: no type of an OutputMesh has padding.
+  template <class T>
+  void add(const std::vector<T>& values) {
+    const std::size_t size = values.size() * sizeof(T);
+    add(size);
+    const auto* const bytes = reinterpret_cast<const unsigned char*>(values.data());
+    for (std::size_t i = 0; i < size; i += sizeof(std::uint64_t)) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bytes + i, std::min(sizeof word, size - i));
+      add(word);
+    }
+  }
+  std::uint64_t value() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 0xcbf29ce484222325u;
+};
+
+template <int D>
+std::uint64_t hash_of(const OutputMesh<D>& mesh) {
+  Hash hash;
+  hash.add(mesh.points);
+  hash.add(mesh.point_markers);
+  hash.add(mesh.point_attributes);
+  hash.add(mesh.cells);
+  hash.add(mesh.regions);
+  hash.add(mesh.subsegments);
+  hash.add(mesh.subfacets);
+  return hash.value();
+}
+
+bool was_interrupted(StopCause stop) { return stop == StopCause::cancelled || stop == StopCause::time_limit; }
+
+/// What a rank's own mesh, the same on all, leaves it with.
+template <int D>
+DistributedResult<D> keep_piece(const detail::Collectives& ranks, RefineResult<D> run) {
+  DistributedResult<D> result;
+  result.piece = piece_of(run.mesh, static_cast<std::uint64_t>(ranks.rank()), static_cast<std::uint64_t>(ranks.size()));
+  run.mesh = {};
+  result.run = std::move(run);
+  return result;
+}
+
+/// The result of rank 0, in pieces: where a clock or a signal has ended the runs, at another point on each rank.
+template <int D>
+DistributedResult<D> share_of_first(detail::Collectives& ranks, RefineResult<D> run) {
+  const std::vector<Bytes> messages = ranks.together([&] {
+    std::vector<Bytes> to_each;
+    for (int q = 1; ranks.rank() == 0 && q < ranks.size(); ++q) {
+      detail::MessageWriter message;
+      detail::put_result(message, run);
+      detail::put_piece(message, piece_of(run.mesh, static_cast<std::uint64_t>(q), static_cast<std::uint64_t>(ranks.size())));
+      to_each.push_back(message.take());
+    }
+    return to_each;
+  });
+  std::vector<Bytes> to_each(1);
+  to_each.insert(to_each.end(), messages.begin(), messages.end());
+  const Bytes own = ranks.scatter(0, std::move(to_each));
+  if (ranks.rank() == 0) return keep_piece(ranks, std::move(run));
+  detail::MessageReader message(own);
+  DistributedResult<D> result;
+  result.run = detail::get_result<D>(message);
+  result.piece = detail::get_piece<D>(message);
+  message.require_end();
+  return result;
+}
+
+/// What the visits of this rank were, and those that all ranks have made alike.
+struct OwnVisits {
+  SchedulerStatistics all, alike;
+};
+
+/// Visits that ranks made alike count once; the others, and all work, are sums. Who waits for a message does not work.
+template <int D>
+void sum_up_visits(detail::Collectives& ranks, const OwnVisits& own, DistributedResult<D>& result) {
+  SchedulerStatistics& s = result.run.scheduler;
+  if (result.distributed.cut_cells > 0) {
+    const auto since = ranks.sum(std::array<std::uint64_t, 2>{own.all.visits - own.alike.visits,  //
+                                                              own.all.set_aside - own.alike.set_aside});
+    s.visits = own.alike.visits + since[0];
+    s.set_aside = own.alike.set_aside + since[1];
+  }
+  const auto without_waiting = [waiting = ranks.traffic().seconds_waiting](double seconds) {
+    return std::max(0.0, seconds - waiting);
+  };
+  s.work_seconds = ranks.sum(std::array{without_waiting(own.all.work_seconds)}).front();
+  const auto largest = ranks.max(
+      std::array{without_waiting(own.all.critical_path_seconds), without_waiting(own.all.serial_seconds)});
+  s.critical_path_seconds = largest[0];
+  s.serial_seconds = largest[1];
+}
+
+/// Counts and bytes of all ranks, the longest seconds of any.
+template <int D>
+void set_statistics(detail::Collectives& ranks, const OwnVisits& own, DistributedResult<D>& result) {
+  sum_up_visits(ranks, own, result);
+  const std::uint64_t peak = peak_rss_bytes();
+  DistributedStatistics& s = result.distributed;
+  const detail::Traffic traffic = ranks.traffic();
+  const auto counts = ranks.sum(std::array<std::uint64_t, 3>{traffic.messages, traffic.bytes_sent, s.cells_applied});
+  const auto seconds = ranks.max(
+      std::array<double, 5>{s.seconds_prologue, s.seconds_pack, s.seconds_apply, traffic.seconds_waiting, s.seconds_finish});
+  s.ranks = ranks.size();
+  s.messages = counts[0];
+  s.bytes_sent = counts[1];
+  s.cells_applied = counts[2];
+  s.seconds_prologue = seconds[0];
+  s.seconds_pack = seconds[1];
+  s.seconds_apply = seconds[2];
+  s.seconds_wait = seconds[3];
+  s.seconds_finish = seconds[4];
+  s.least_peak_rss = ranks.min(peak);
+  s.largest_peak_rss = ranks.max(peak);
+}
+
+/// A uniform run, of which ranks do parts.
+template <int D>
+class SharedRun final : public detail::RunHooks<D> {
+ public:
+  SharedRun(detail::Collectives& ranks, DistributedResult<D>& result) : ranks_(&ranks), result_(&result) {}
+
+  std::unique_ptr<detail::VisitSchedule<D>> make_schedule(detail::RunState<D>& state, bool optimizes) override {
+    const RefineContext<D>& context = state.context;
+    const bool needs_all = optimizes || context.options.leaves || detail::has_uneven_facets(context.domain);
+    return std::make_unique<detail::UniformOnRanks<D>>(state, *ranks_, needs_all, part_, result_->distributed);
+  }
+  bool has_part() const override { return part_.held != nullptr; }
+  /// `run`: as this rank ended it, empty if it left it to the first.
+  OwnVisits visits(const RefineResult<D>& run, bool has_left) const {
+    OwnVisits own{has_left ? part_.until_gather : run.scheduler, part_.until_cut};
+    if (has_left)  // all else that it did is not known
+      for (const double busy : own.all.busy_seconds) own.all.work_seconds += busy;
+    return own;
+  }
+  void finish(const RefineContext<D>& context, const RegionTable& regions, const PointData<D>& data,
+              const detail::RunPieces& pieces, RefineResult<D>& result) override;
+  /// Is the mesh in pieces already?
+  bool is_finished() const { return is_finished_; }
+
+ private:
+  detail::Collectives* ranks_;
+  DistributedResult<D>* result_;
+  detail::Part<D> part_;
+  bool is_finished_ = false;
+};
+
+/// Nothing was refused and nothing is left, so that all cells are within the bounds.
+template <int D>
+void SharedRun<D>::finish(const RefineContext<D>& context, const RegionTable& regions, const PointData<D>& data,
+                          const detail::RunPieces& pieces, RefineResult<D>& result) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::vector<CellId> own = ranks_->together([&] { return part_.held->own_cells(); });
+  const std::span<const double> attributes = regions.labelled ? std::span<const double>(regions.attribute)
+                                                              : std::span<const double>();
+  result.regions = detail::region_volumes_on_ranks<D>(*ranks_, context.mesh, own, context.domain, attributes, pieces);
+  result_->piece = detail::number_on_ranks<D>(*ranks_, context.mesh, own, context.domain, attributes, data, pieces);
+  result_->distributed.cells_applied += part_.held->cells_applied();
+  result_->distributed.seconds_finish = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  is_finished_ = true;
+}
+
+/// One run of all ranks, or of rank 0 in the end.
+template <int D>
+DistributedResult<D> share_run(detail::Collectives& ranks, const Plc<D>& plc, const RefineOptions<D>& options,
+                               OwnVisits& visits) {
+  DistributedResult<D> result;
+  SharedRun<D> shared(ranks, result);
+  RefineResult<D> run;
+  bool is_first_alone = false, has_left = false;
+  try {
+    run = detail::refine_with<D>(plc, options, shared);
+  } catch (const detail::GatheredElsewhere&) {
+    has_left = true;
+  } catch (const detail::InterruptedElsewhere&) {
+    is_first_alone = true;
+  } catch (const RankFailure&) {
+    throw;
+  } catch (...) {
+    if (!ranks.has_failed()) ranks.together([] { throw; });  // where the others meet next
+    throw;
+  }
+  if (result.distributed.cut_cells == 0 && !is_first_alone) is_first_alone = detail::has_another_gone_on(ranks);
+  ranks.together([&] { visits = shared.visits(run, has_left); });
+  const DistributedStatistics statistics = result.distributed;
+  if (shared.is_finished()) {
+    result.run = std::move(run);
+  } else if (statistics.gathered || ranks.max(is_first_alone || was_interrupted(run.stop) ? 1 : 0) != 0) {
+    result = share_of_first(ranks, std::move(run));
+  } else {
+    detail::require_alike(ranks, hash_of(run.mesh));
+    result = ranks.together([&] { return keep_piece(ranks, std::move(run)); });
+  }
+  result.distributed = statistics;
+  return result;
+}
+
+}  // namespace
+
+template <int D>
+DistributedResult<D> refine(Transport& transport, const Plc<D>& plc, const RefineOptions<D>& options) {
+  if (options.schedule.schedule == Schedule::greedy)
+    throw UsageError(
+        {.code = Errc::bad_option, .message = "the greedy schedule depends on timing: ranks need one that does not"});
+  detail::Collectives ranks(transport);
+  RefineOptions<D> own = options;
+  if (ranks.rank() > 0) {
+    own.progress = nullptr;
+    own.time_limit.reset();
+    own.stop = {};
+  }
+  DistributedResult<D> result;
+  OwnVisits visits;
+  if (options.schedule.schedule == Schedule::uniform) {
+    result = share_run(ranks, plc, own, visits);
+  } else {
+    RefineResult<D> run = ranks.together([&] { return refine(plc, own); });
+    visits = {run.scheduler, run.scheduler};
+    if (ranks.max(was_interrupted(run.stop) ? 1 : 0) > 0) {
+      result = share_of_first(ranks, std::move(run));
+    } else {
+      detail::require_alike(ranks, hash_of(run.mesh));
+      result = ranks.together([&] { return keep_piece(ranks, std::move(run)); });
+    }
+  }
+  result.sharing = detail::sharing_of(ranks, result.piece);
+  set_statistics(ranks, visits, result);
+  return result;
+}
+
+template <int D>
+Plc<D> broadcast(Transport& transport, const Plc<D>& plc) {
+  detail::Collectives ranks(transport);
+  detail::MessageWriter own;
+  if (ranks.rank() == 0) detail::put_plc(own, plc);
+  const Bytes bytes = ranks.broadcast(0, own.take());
+  if (ranks.rank() == 0) return plc;
+  detail::MessageReader message(bytes);
+  Plc<D> copy = detail::get_plc<D>(message);
+  message.require_end();
+  return copy;
+}
+
+template <int D>
+OutputMesh<D> gather(Transport& transport, const MeshPiece<D>& piece) {
+  detail::Collectives ranks(transport);
+  detail::MessageWriter own;
+  if (ranks.rank() > 0) detail::put_piece(own, piece);
+  std::vector<Bytes> messages = ranks.gather(0, own.take());
+  return ranks.together([&] {
+    std::vector<MeshPiece<D>> pieces;
+    for (std::size_t q = 0; q < messages.size(); ++q) {
+      const Bytes bytes = std::move(messages[q]);  // freed once it has been read
+      detail::MessageReader message(bytes);
+      pieces.push_back(q == 0 ? piece : detail::get_piece<D>(message));
+      message.require_end();
+    }
+    return pieces.empty() ? OutputMesh<D>() : join_pieces<D>(pieces);
+  });
+}
+
+void throw_together(Transport& transport, const std::exception_ptr& error) { detail::Collectives(transport).agree(error); }
+
+int largest_of_ranks(Transport& transport, int number) {
+  const auto value = static_cast<double>(number);
+  return static_cast<int>(detail::Collectives(transport).max(std::span(&value, 1)).front());
+}
+
+template PGDR_API DistributedResult<2> refine<2>(Transport&, const Plc<2>&, const RefineOptions<2>&);
+template PGDR_API DistributedResult<3> refine<3>(Transport&, const Plc<3>&, const RefineOptions<3>&);
+template PGDR_API OutputMesh<2> gather<2>(Transport&, const MeshPiece<2>&);
+template PGDR_API OutputMesh<3> gather<3>(Transport&, const MeshPiece<3>&);
+template PGDR_API Plc<2> broadcast<2>(Transport&, const Plc<2>&);
+template PGDR_API Plc<3> broadcast<3>(Transport&, const Plc<3>&);
+
+}  // namespace pgdr

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// An entry of a work list in a message: its cell by the coordinates of the vertices, in their order.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "ranks/held_mesh.hpp"
+#include "refine/work_list.hpp"
+#include "transport/message.hpp"
+
+namespace pgdr::detail {
+
+/// See above.
+template <int D>
+struct SentEntry {
+  SentPoints<D> cell;
+  std::uint32_t order, kind, which, bucket;
+  std::uint32_t is_alive;  ///< 0: its cell is gone, and only its place in line counts
+
+  static SentEntry of(const Mesh<D>& mesh, const Entry<D>& e) {
+    SentEntry sent{};
+    sent.is_alive = e.alive(mesh) && mesh.alive(e.cell) ? 1 : 0;
+    if (sent.is_alive != 0) sent.cell = points_of(mesh, e.cell);
+    sent.order = e.order;
+    sent.kind = static_cast<std::uint32_t>(e.kind());
+    sent.which = static_cast<std::uint32_t>(e.which());
+    sent.bucket = e.bucket;
+    return sent;
+  }
+  /// @throws ResourceError internal: the cell is not held
+  Entry<D> entry(const Mesh<D>& mesh, const HeldMesh<D>& held) const {
+    if (is_alive == 0) return Entry<D>(CellId{0}, Mesh<D>::last_birth, EntryKind::cell, Entry<D>::over_size);
+    const CellId c = held.find(cell);
+    if (c == no_cell) fail_message("another rank has an entry for a cell that is not held");
+    return Entry<D>(c, mesh.birth(c), static_cast<EntryKind>(kind), static_cast<int>(which), static_cast<int>(bucket), order);
+  }
+};
+
+}  // namespace pgdr::detail

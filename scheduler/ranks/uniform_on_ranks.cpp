@@ -1,0 +1,445 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ranks/uniform_on_ranks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <chrono>
+#include <utility>
+
+#include "ranks/alike.hpp"
+#include "ranks/sent_entry.hpp"
+
+namespace pgdr::detail {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point t) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - t).count();
+}
+
+/// Adds the seconds of a scope.
+class Timed {
+ public:
+  explicit Timed(double& seconds) : seconds_(&seconds) {}
+  Timed(const Timed&) = delete;
+  Timed& operator=(const Timed&) = delete;
+  ~Timed() { *seconds_ += seconds_since(start_); }
+
+ private:
+  double* seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Of the points of all cells, whatever slots they are in.
+template <int D>
+std::uint64_t hash_of_cells(const Mesh<D>& mesh) {
+  std::uint64_t sum = 0;
+  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i) {
+    if (!mesh.alive(CellId{i})) continue;
+    WordHash hash;
+    for (const auto& point : points_of(mesh, CellId{i}))
+      for (const double x : point) hash.add(std::bit_cast<std::uint64_t>(x));
+    sum += hash.value();
+  }
+  return sum;
+}
+
+}  // namespace
+
+template <int D>
+UniformOnRanks<D>::UniformOnRanks(RunState<D>& state, Collectives& ranks, bool needs_all, Part<D>& part,
+                                  DistributedStatistics& statistics)
+    : Uniform<D>(state),
+      ranks_(&ranks),
+      needs_all_(needs_all),
+      statistics_(&statistics),
+      part_(&part),
+      territory_(part.territory),
+      held_(part.held) {}
+
+template <int D>
+StopCause UniformOnRanks<D>::run_phases() {
+  if (!territory_) {
+    const StopCause stop = Uniform<D>::run_phases();
+    if (!territory_) return stop;
+  }
+  const StopCause stop = drain_together();
+  if (stop == StopCause::finished && !is_alone_at_the_end()) {
+    share_unsent();
+    return stop;
+  }
+  gather();
+  return stop == StopCause::finished ? Uniform<D>::run_phases() : stop;
+}
+
+/// Before the cut: in the order of one process. Nothing once the mesh is cut.
+template <int D>
+std::optional<Phase> UniformOnRanks<D>::next_phase() {
+  std::uint64_t first = this->first_at_hand();
+  while (first == this->no_phase && this->is_any_left() && halve()) {
+    if (territory_) return std::nullopt;
+    first = this->first_at_hand();
+  }
+  if (first == this->no_phase) first = this->first_of_larger_claims();
+  if (first == this->no_phase) return std::nullopt;
+  return this->take_turn(first);
+}
+
+/// After the cut, until nothing waits that ranks do side by side, or one of them has to stop.
+template <int D>
+StopCause UniformOnRanks<D>::drain_together() {
+  while (true) {
+    const auto own = ranks_->together([&] {
+      const auto goes_on = 255 - static_cast<std::uint64_t>(this->stop_before_phase());
+      return std::array<std::uint64_t, 3>{goes_on, this->first_at_hand(), this->is_any_left() ? 0u : 1u};
+    });
+    const std::vector<std::uint64_t> least = ranks_->min(own);
+    const auto stop = static_cast<StopCause>(255 - least[0]);
+    if (stop != StopCause::finished) return stop;
+    if (least[1] != this->no_phase)
+      run_together(this->take_turn(least[1]));
+    else if (least[2] == 0)
+      ranks_->together([&] { Uniform<D>::halve(); });
+    else
+      return StopCause::finished;
+  }
+}
+
+template <int D>
+bool UniformOnRanks<D>::halve() {
+  std::unique_ptr<Territory<D>> territory;
+  Windows left;
+  if (ranks_->size() > 1) {
+    left = windows();
+    territory = std::make_unique<Territory<D>>(this->tree(), left.nodes, owners_of(left), ranks_->size(), ranks_->rank());
+    if (!may_cut() || !pays_to_cut(left, *territory)) territory.reset();
+    // Here ranks meet for the first time: one that has failed, or whose run was interrupted, says so.
+    require_all_go_on(*ranks_);
+    if (ranks_->max(territory ? 0 : 1) != 0) territory.reset();
+  }
+  if (!Uniform<D>::halve()) return false;
+  if (territory) cut(std::move(territory), left);
+  return true;
+}
+
+/// Lists of the nodes above are empty, but for what was found for them last, and there is a node for each rank.
+template <int D>
+bool UniformOnRanks<D>::may_cut() const {
+  for (Node node = 0; node < this->tree().node_count(); ++node)
+    if (this->tree().level(node) < this->finest() && !this->state().waiting[node].list.empty()) return false;
+  return true;
+}
+
+/// The nodes of the finest level, in Morton order, with the elements that are to come there.
+template <int D>
+auto UniformOnRanks<D>::windows() const -> Windows {
+  Windows windows;
+  for (unsigned parity = 0; parity < this->parities; ++parity)
+    windows.nodes.insert(windows.nodes.end(), this->nodes(this->finest(), parity).begin(),
+                         this->nodes(this->finest(), parity).end());
+  std::sort(windows.nodes.begin(), windows.nodes.end(),
+            [this](Node a, Node b) { return this->tree().morton(a) < this->tree().morton(b); });
+  for (const Node node : windows.nodes) {
+    const WorkList<D>& list = this->state().waiting[node].list;
+    windows.to_come.push_back(static_cast<double>(list.to_come() + list.poor()));
+  }
+  return windows;
+}
+
+/// Successive nodes for each rank, so that the elements to come are shared out evenly.
+template <int D>
+std::vector<int> UniformOnRanks<D>::owners_of(const Windows& windows) const {
+  double all = 0, before = 0;
+  for (const double w : windows.to_come) all += w + 1;
+  std::vector<int> owners;
+  for (const double w : windows.to_come) {
+    const double middle = (before + (w + 1) / 2) / all * ranks_->size();
+    owners.push_back(std::min(static_cast<int>(middle), ranks_->size() - 1));
+    before += w + 1;
+  }
+  return owners;
+}
+
+/// What ranks do alike before the cut, and what they hold beside their own, cost least if it is cut now: when the next level is
+/// due there will be 2^D times as many cells, and half as much beside each rank's own. If none will be due it is now or never.
+template <int D>
+bool UniformOnRanks<D>::pays_to_cut(const Windows& windows, const Territory<D>& territory) const {
+  bool is_last = true;
+  double all = 0, cells = 0;
+  for (const double w : windows.to_come) {
+    is_last = is_last && !this->is_halved_with(static_cast<std::uint64_t>(w) / this->parities);
+    all += w;
+  }
+  const Mesh<D>& mesh = this->state().context.mesh;
+  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i) cells += mesh.alive(CellId{i}) ? 1 : 0;
+  const std::vector<double> held = territory.held_of(windows.nodes, windows.to_come, ranks_->size());
+  const double most = *std::max_element(held.begin(), held.end()), own = all / ranks_->size();
+  const double later = is_last ? cells + all : this->parities * cells + own + (most - own) / 2;
+  return cells + most <= later;
+}
+
+/// @pre the windows have been split
+template <int D>
+void UniformOnRanks<D>::cut(std::unique_ptr<Territory<D>> territory, const Windows& windows) {
+  const Mesh<D>& mesh = this->state().context.mesh;
+  WordHash hash;
+  hash.add(hash_of_cells(mesh));
+  for (const double w : windows.to_come) hash.add(std::bit_cast<std::uint64_t>(w));
+  require_alike(*ranks_, hash.value());
+  territory_ = std::move(territory);
+  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i) statistics_->cut_cells += mesh.alive(CellId{i}) ? 1 : 0;
+  ranks_->together([&] {
+    keep_late_work();
+    held_ = std::make_unique<HeldMesh<D>>(this->state().context.mesh, *territory_);
+  });
+  statistics_->cut_generation = phases_;
+  part_->until_cut = this->state().recorder.statistics();
+  statistics_->seconds_prologue = seconds_since(start_);
+}
+
+/// Of the nodes above the cut; and empties the lists of nodes that others visit.
+template <int D>
+void UniformOnRanks<D>::keep_late_work() {
+  for (Node node = 0; node < this->tree().node_count(); ++node) {
+    if (this->tree().level(node) < territory_->level())
+      keep_work(node, [this](const Entry<D>& e) { return ranks_->rank() == owner_of(e); });
+    else if (!is_own(node))
+      this->state().waiting[node] = LeafWork<D>();
+  }
+}
+
+/// Takes what waits at the node and what was refused there off its lists, and keeps what is(entry) of it.
+template <int D>
+template <class Is>
+void UniformOnRanks<D>::keep_work(Node node, Is is) {
+  using Kind = typename LateWork<D>::Kind;
+  LeafWork<D>& work = this->state().waiting[node];
+  std::uint64_t number = 0;
+  const auto keep = [&](Kind kind, std::uint32_t order, const Entry<D>& e) {
+    if (is(e)) late_.add_entry({0, 0, number}, kind, node, order, e);
+    ++number;
+  };
+  for (const SetAside<D>& s : work.set_aside)
+    for (const Entry<D>& e : s.entries) keep(Kind::set_aside, s.order, e);
+  for (const auto& batch : work.inbox)
+    for (const Entry<D>& e : batch) keep(Kind::found, 1, e);
+  for (const Refusal<D>& r : work.list.refused) {
+    if (is(r.entry)) late_.add({{0, 0, number}, Kind::refused, node, 1, r});
+    ++number;
+  }
+  work = LeafWork<D>();
+}
+
+/// The first rank keeps the place of what is dead.
+template <int D>
+int UniformOnRanks<D>::owner_of(const Entry<D>& e) const {
+  const Mesh<D>& mesh = this->state().context.mesh;
+  return e.alive(mesh) && mesh.alive(e.cell) ? territory_->owner(first_point(mesh, e.cell)) : 0;
+}
+
+template <int D>
+void UniformOnRanks<D>::run_phase(const Phase& phase) {
+  ++phases_;
+  Uniform<D>::run_phase(phase);
+}
+
+template <int D>
+void UniformOnRanks<D>::run_together(const Phase& phase) {
+  ++phases_;
+  this->state().waiting.begin_generation();
+  const RunTotals before = this->state().totals;
+  const Generation<D> generation = ranks_->together([&] { return this->plan(phase); });
+  // Ranks own successive nodes of the Morton curve, which orders the visits.
+  const std::uint64_t count = generation.visits.size();
+  const typename VisitRunner<D>::Numbers numbers{ranks_->exclusive_sum(count), ranks_->sum(count)};
+  std::vector<VisitChanges<D>> changes;
+  std::vector<EndedVisit<D>> ended;
+  ranks_->together([&] {
+    changes.resize(generation.visits.size());
+    ended = run_visits(generation, changes, numbers);
+  });
+  Letters<D> letters(this->tree(), *territory_, this->state().context.mesh);
+  ranks_->together([&] {
+    for (std::size_t v = 0; v < ended.size(); ++v) letters.take(generation.visits[v].request.node, phases_, ended[v].work, late_);
+  });
+  exchange(changes, letters);
+  ranks_->together([&] {
+    take_in(generation, ended);
+    letters.post(this->state().waiting);
+  });
+  add_up(before);
+}
+
+/// Each visit packs what others have to know of it, on its thread.
+template <int D>
+std::vector<EndedVisit<D>> UniformOnRanks<D>::run_visits(const Generation<D>& generation, std::vector<VisitChanges<D>>& changes,
+                                                         const typename VisitRunner<D>::Numbers& numbers) {
+  const auto before = [&](VisitGraph::Visit v, RegionVisit<D>& visit) {
+    this->limit(visit);
+    changes[v].log.logs_cells(territory_->is_shared(generation.visits[v].box));
+    visit.log = &changes[v].log;
+  };
+  const auto after = [&](VisitGraph::Visit v, RegionVisit<D>& visit) {
+    changes[v].pack(this->state().context.mesh, *territory_);
+    visit.log = nullptr;
+  };
+  return this->runner().run(generation, Posting::afterwards, numbers, {before, after});
+}
+
+/// Sends each neighbour what has changed where it holds the mesh and what was found for its nodes; puts in what comes.
+template <int D>
+void UniformOnRanks<D>::exchange(std::vector<VisitChanges<D>>& changes, Letters<D>& letters) {
+  const std::vector<int>& neighbours = territory_->neighbours();
+  std::vector<Bytes> messages = ranks_->together([&] {
+    const Timed timed(statistics_->seconds_pack);
+    std::vector<Bytes> to_each;
+    for (std::size_t n = 0; n < neighbours.size(); ++n) to_each.push_back(message_for(n, changes, letters));
+    return to_each;
+  });
+  const std::vector<Bytes> arrived = ranks_->exchange_with(neighbours, std::move(messages));
+  ranks_->together([&] {
+    const Timed timed(statistics_->seconds_apply);
+    unsent_.add(this->state().context.mesh, changes);
+    for (const VisitChanges<D>& c : changes) held_->note_gone(c.net);
+    for (const VisitChanges<D>& c : changes) held_->note_made(c.shared);
+    std::vector<VisitChanges<D>>().swap(changes);
+    for (const Bytes& bytes : arrived) {
+      MessageReader message(bytes);
+      for (auto parts = message.get<std::uint64_t>(); parts > 0; --parts) held_->apply(SentCells<D>::get(message));
+      letters.get(message, *held_);
+      message.require_end();
+    }
+  });
+}
+
+template <int D>
+Bytes UniformOnRanks<D>::message_for(std::size_t neighbour, const std::vector<VisitChanges<D>>& changes,
+                                     const Letters<D>& letters) const {
+  MessageWriter message;
+  message.put(static_cast<std::uint64_t>(
+      std::count_if(changes.begin(), changes.end(), [&](const auto& c) { return !c.is_empty_for(neighbour); })));
+  for (const VisitChanges<D>& c : changes)
+    if (!c.is_empty_for(neighbour)) c.parts[neighbour].put(message);
+  letters.put(message, neighbour);
+  return message.take();
+}
+
+/// Takes in what the visits did, and puts what they set aside into lists, in their order.
+template <int D>
+void UniformOnRanks<D>::take_in(const Generation<D>& generation, std::vector<EndedVisit<D>>& ended) {
+  RunState<D>& state = this->state();
+  for (std::size_t v = 0; v < ended.size(); ++v) {
+    const VisitRequest& request = generation.visits[v].request;
+    RegionVisit<D>& work = ended[v].work;
+    if (this->tree().level(request.node) == territory_->level()) {  // the node above is nobody's
+      const Node above = this->tree().parent(request.node);
+      const std::uint32_t order = above == Orthtree<D>::root ? whole_tree : 2;
+      std::uint64_t number = 0;
+      for (const Entry<D>& e : work.set_aside)
+        if (e.alive(state.context.mesh))
+          late_.add_entry({phases_, this->tree().morton(request.node), number++}, LateWork<D>::Kind::set_aside, above, order, e);
+      state.recorder.count_set_aside(number);
+      work.set_aside.clear();
+    }
+    state.account(request, work);
+  }
+}
+
+/// Makes the totals those of all ranks.
+template <int D>
+void UniformOnRanks<D>::add_up(const RunTotals& before) {
+  RunTotals& totals = this->state().totals;
+  const RefineCounts &now = totals.counts, &then = before.counts;
+  const std::array<std::uint64_t, 8> own{
+      now.committed - then.committed,    now.refused - then.refused,        now.selector_outside - then.selector_outside,
+      now.removed - then.removed,        totals.vertices - before.vertices, totals.violations_seen ? 1u : 0u,
+      totals.entities_refused ? 1u : 0u, totals.min_edge_hit ? 1u : 0u};
+  const std::vector<std::uint64_t> all = ranks_->sum(own);
+  totals = before;
+  totals.counts.committed += all[0];
+  totals.counts.refused += all[1];
+  totals.counts.selector_outside += all[2];
+  totals.counts.removed += all[3];
+  totals.vertices += all[4];
+  totals.violations_seen = all[5] != 0;
+  totals.entities_refused = all[6] != 0;
+  totals.min_edge_hit = all[7] != 0;
+}
+
+template <int D>
+void UniformOnRanks<D>::share_unsent() {
+  const std::vector<Bytes> all = ranks_->all_gather(ranks_->together([&] {
+    MessageWriter own;
+    unsent_.put(own);
+    return own.take();
+  }));
+  ranks_->together([&] {
+    for (const Bytes& bytes : all) {
+      MessageReader message(bytes);
+      LateConstraints<D>::apply(message, *held_);
+    }
+  });
+}
+
+/// Is anything left that one rank does alone?
+template <int D>
+bool UniformOnRanks<D>::is_alone_at_the_end() {
+  RunState<D>& state = this->state();
+  bool has_refused = false;
+  state.refused.for_each_list([&](std::span<const Refusal<D>> list) { has_refused = has_refused || !list.empty(); });
+  const bool has_work = this->first_of_larger_claims() != this->no_phase;
+  const bool needs_one = needs_all_ || has_work || !late_.empty() || has_refused || state.totals.violations_seen ||
+                         state.totals.entities_refused;
+  return ranks_->max(needs_one ? 1 : 0) != 0;
+}
+
+/// Rank 0 gets all cells that it does not hold, each from its owner, and all work that is left. The others leave.
+template <int D>
+void UniformOnRanks<D>::gather() {
+  statistics_->gathered = true;
+  part_->until_gather = this->state().recorder.statistics();
+  const Bytes own = ranks_->together([&] { return pack_all(); });
+  const std::vector<Bytes> all = ranks_->gather(0, own);
+  ranks_->together([&] {
+    if (ranks_->rank() == 0) take_all(all);
+  });
+  if (ranks_->rank() != 0) throw GatheredElsewhere();
+  statistics_->cells_applied += held_->cells_applied();
+  held_.reset();
+  territory_.reset();
+}
+
+/// What rank 0 has to get from this one.
+template <int D>
+Bytes UniformOnRanks<D>::pack_all() {
+  for (Node node = 0; node < this->tree().node_count(); ++node)
+    if (ranks_->rank() != 0 && this->tree().level(node) >= territory_->level() && is_own(node))
+      keep_work(node, [](const Entry<D>&) { return true; });
+  MessageWriter message;
+  if (ranks_->rank() != 0) held_->own_beyond(0).put(message);
+  unsent_.put(message);
+  late_.put(message, this->state().context.mesh);
+  return message.take();
+}
+
+/// Makes the mesh of this rank the whole one, from what all ranks sent.
+template <int D>
+void UniformOnRanks<D>::take_all(const std::vector<Bytes>& all) {
+  std::vector<MessageReader> messages;
+  for (const Bytes& bytes : all) messages.emplace_back(bytes);
+  for (std::size_t r = 1; r < messages.size(); ++r) held_->add(SentCells<D>::get(messages[r]));
+  held_->complete();
+  held_->find_all();
+  for (MessageReader& message : messages) {
+    LateConstraints<D>::apply(message, *held_);
+    late_.get(message, this->state().context.mesh, *held_);
+    message.require_end();
+  }
+  late_.deliver(this->state().waiting);
+}
+
+template class UniformOnRanks<2>;
+template class UniformOnRanks<3>;
+
+}  // namespace pgdr::detail

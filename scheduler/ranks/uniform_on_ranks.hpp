@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The uniform schedule on several ranks, with the mesh that it makes on one. At first all ranks do the same, so that nothing need
+// be sent. When the lattice is halved and it pays, the mesh is cut: each rank keeps what it holds (territory.hpp), and visits its
+// own nodes alone. After each phase ranks send their neighbours what their visits have changed there, one message each, with the
+// elements that were found for the nodes of these.
+//
+// That is the same run. The visits of a phase read and write nothing in common, so that each finds on its rank what it would find
+// in one process; what they found and set aside is put into lists in the order of the visits. What would need a larger claim than
+// the nodes of the cut have is kept for the end. When nothing else waits, and some of this is left, or something was refused or
+// is to be optimised, rank 0 gets all of the mesh and goes on alone, as one process would; the others leave by GatheredElsewhere.
+//
+// A rank holds what it has to: the sides of nodes are four times the circumradii of the elements that wait there (split_ratio
+// 0.5), so that their vertices are in the claims of these, and a refusal rests on cells that its visit owned, and on their
+// neighbours.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "pgdr/ranks.hpp"
+#include "ranks/cell_message.hpp"
+#include "ranks/held_mesh.hpp"
+#include "ranks/late_work.hpp"
+#include "ranks/letters.hpp"
+#include "ranks/territory.hpp"
+#include "ranks/visit_changes.hpp"
+#include "run/uniform.hpp"
+#include "transport/collectives.hpp"
+
+namespace pgdr::detail {
+
+/// Rank 0 has all of the mesh now, and finishes the run.
+struct GatheredElsewhere {};
+
+/// What a rank holds, from the cut until all is gathered; null: all of the mesh.
+template <int D>
+struct Part {
+  std::unique_ptr<Territory<D>> territory;
+  std::unique_ptr<HeldMesh<D>> held;
+  SchedulerStatistics until_cut;     ///< of visits that all ranks do alike
+  SchedulerStatistics until_gather;  ///< of all visits of a rank that leaves then
+};
+
+/// See above.
+template <int D>
+class UniformOnRanks final : public Uniform<D> {
+ public:
+  using typename Uniform<D>::Node;
+
+  /// `needs_all`: the run goes on, after the refinement, with what one rank does alone. All must outlive it.
+  UniformOnRanks(RunState<D>& state, Collectives& ranks, bool needs_all, Part<D>& part, DistributedStatistics& statistics);
+
+ protected:
+  /// @throws GatheredElsewhere on all ranks but the first; what any rank's visits throw
+  StopCause run_phases() override;
+  std::optional<Phase> next_phase() override;
+  void run_phase(const Phase& phase) override;
+  bool halve() override;
+  bool is_own(Node node) const override { return !territory_ || territory_->owner(node) == ranks_->rank(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  /// Nodes of one level, with the elements that are to come in each.
+  struct Windows {
+    std::vector<Node> nodes;  ///< in Morton order
+    std::vector<double> to_come;
+  };
+
+  // The cut.
+  Windows windows() const;
+  std::vector<int> owners_of(const Windows& windows) const;
+  bool may_cut() const;
+  bool pays_to_cut(const Windows& windows, const Territory<D>& territory) const;
+  void cut(std::unique_ptr<Territory<D>> territory, const Windows& windows);
+  void keep_late_work();
+  template <class Is>
+  void keep_work(Node node, Is is);
+  int owner_of(const Entry<D>& e) const;
+
+  // A phase.
+  StopCause drain_together();
+  void run_together(const Phase& phase);
+  std::vector<EndedVisit<D>> run_visits(const Generation<D>& generation, std::vector<VisitChanges<D>>& changes,
+                                        const typename VisitRunner<D>::Numbers& numbers);
+  void exchange(std::vector<VisitChanges<D>>& changes, Letters<D>& letters);
+  Bytes message_for(std::size_t neighbour, const std::vector<VisitChanges<D>>& changes, const Letters<D>& letters) const;
+  void take_in(const Generation<D>& generation, std::vector<EndedVisit<D>>& ended);
+  void add_up(const RunTotals& before);
+
+  // The end.
+  void share_unsent();
+  bool is_alone_at_the_end();
+  void gather();
+  Bytes pack_all();
+  void take_all(const std::vector<Bytes>& all);
+
+  Collectives* ranks_;
+  const bool needs_all_;
+  DistributedStatistics* statistics_;
+  Part<D>* part_;
+  std::unique_ptr<Territory<D>>& territory_;
+  std::unique_ptr<HeldMesh<D>>& held_;
+  LateWork<D> late_;
+  LateConstraints<D> unsent_;
+  std::uint64_t phases_ = 0;
+  Clock::time_point start_ = Clock::now();
+};
+
+extern template class UniformOnRanks<2>;
+extern template class UniformOnRanks<3>;
+
+}  // namespace pgdr::detail

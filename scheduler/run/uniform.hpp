@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The uniform schedule (dissertation, section 3.2). The tree is full: its leaves, the windows, are of one size, and so are the
+// nodes of any level above. A visit of a node claims the node's box, grown by half its side on every face: of a window that is a
+// block of 4^D cells of the lattice, the window being the inner 2^D. The nodes of one level whose places have the same parity on
+// each axis are a phase. Their claims tile space, so that all visits of a phase run at once; what they find for others, and what
+// they set aside, takes effect at its end. A level has 2^D phases, a cycle, which come in turn.
+//
+// The lattice begins with one window and is halved as long as elements are in plenty: a window is left when many wait in it and
+// all are small enough for its quarters (eighths). When all windows are left or empty, all are split. So the coarse stage is the
+// same algorithm. Of the windows and the nodes right above them what waits goes first, the coarser level before the finer, then
+// what the windows have set aside; then the lattice is halved. At last comes what needs larger claims than these.
+//
+// Theorem U. Let the mesh be Delaunay without encroached boundary, and let all circumradii be r at most. Then an insertion for an
+// element with its circumcentre in a node deletes owned cells only, if half of the node's side is (2 + d) r or more, where d is
+// the dimension of the boundary that the point may come to lie on instead: 0 in the interior, up to 1 in 2D and 2 in 3D. Proof:
+// the point is within d r of the circumcentre, since diametral and equatorial balls are the smallest through their corners, so of
+// radius r at most. A cell that is deleted has the point in its circumball, so that all its vertices are within 2 r of it. By
+// default half of the side is 2 r (split_ratio): interior insertions are never set aside, and some at the boundary are. What is
+// set aside costs a later visit, never an error: ownership (mesh/visit_area.hpp) makes phases safe, whatever the radii are.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "run/run_state.hpp"
+#include "run/visit_runner.hpp"
+
+namespace pgdr::detail {
+
+/// Which visits run next.
+struct Phase {
+  std::uint32_t order = 1;  ///< of their requests: 1, 2 for what was set aside, whole_tree
+  int level = 0;            ///< of their nodes
+  unsigned parity = 0;      ///< of the places of these: bit i for axis i
+};
+
+/// The schedule of a run, see above.
+template <int D>
+class Uniform : public VisitSchedule<D> {
+ public:
+  using Node = typename Orthtree<D>::Node;
+  static constexpr unsigned parities = 1u << D;
+
+  explicit Uniform(RunState<D>& state);  ///< it must outlive this
+
+  /// Afterwards the lattice is not halved any more.
+  StopCause drain() final;
+
+ protected:
+  /// Works off all that waits.
+  virtual StopCause run_phases();
+  /// What ends the run before the next phase; finished: nothing.
+  virtual StopCause stop_before_phase();
+  /// The phase that comes next, after which its level is at the next parity; nothing if nothing waits.
+  virtual std::optional<Phase> next_phase();
+  /// Runs it.
+  virtual void run_phase(const Phase& phase);
+
+  /// Halves the lattice if windows have been left for that.
+  virtual bool halve();
+  /// Will the lattice be halved once more, after the next time, for a window in which so many elements are to come?
+  bool is_halved_with(std::uint64_t to_come) const;
+  /// Has any window been left, to be split?
+  bool is_any_left() const;
+  // The number of a phase says when it would come: less is sooner. no_phase: none has work.
+  /// Of what waits, and was set aside, in windows and the nodes right above them.
+  std::uint64_t first_at_hand() const;
+  /// Of all.
+  std::uint64_t first_of_larger_claims() const;
+  /// The phase of this number.
+  Phase take_turn(std::uint64_t number);
+  /// The visits of the phase that have work, in Morton order.
+  Generation<D> plan(const Phase& phase) const;
+  /// Says when the visit ends.
+  void limit(RegionVisit<D>& visit) const;
+  /// Whether this rank visits the node. One process visits all.
+  virtual bool is_own(Node) const { return true; }
+
+  static constexpr std::uint64_t no_phase = ~std::uint64_t{0};
+
+  RunState<D>& state() const { return *state_; }
+  VisitRunner<D>& runner() { return runner_; }
+  const Orthtree<D>& tree() const { return state_->waiting.tree(); }
+  int finest() const { return static_cast<int>(levels_.size()) - 1; }  ///< level of the windows
+  const std::vector<Node>& nodes(int level, unsigned parity) const {
+    return levels_[static_cast<std::size_t>(level)].nodes[parity];
+  }
+
+ private:
+  struct Level {
+    std::array<std::vector<Node>, parities> nodes;  ///< of each parity, in Morton order
+    unsigned turn = 0;                              ///< the parity that comes next
+    std::uint64_t turns = 0;                        ///< so many parities had their turn, or were passed over
+  };
+
+  void add_level();
+  int most_levels() const;
+  double small_radius() const;
+  std::size_t floor() const;
+  bool is_left(Node node) const;
+  bool has_work(Node node, std::uint32_t order) const;
+  bool has_work(int level, unsigned parity, std::uint32_t order) const;
+  std::uint64_t first_in_turn(std::size_t order, int from, int to) const;
+  Visit<D> visit_of(Node node, std::uint32_t order) const;
+
+  RunState<D>* state_;
+  VisitRunner<D> runner_;
+  std::vector<Level> levels_;  ///< from the root's on
+  bool is_final_ = false;      ///< the lattice is not halved any more
+};
+
+extern template class Uniform<2>;
+extern template class Uniform<3>;
+
+}  // namespace pgdr::detail
