@@ -8,52 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "local_ranks.hpp"
 #include "model_plcs.hpp"
-#include "pgdr/ranks.hpp"
 #include "planar_plcs.hpp"
-#include "same_bytes.hpp"
+#include "uniform_on_ranks.hpp"
 
 namespace pgdr::test {
 namespace {
-
-template <int D>
-RefineOptions<D> uniform(double size, int threads = 1) {
-  RefineOptions<D> options;
-  options.size = size;
-  options.schedule.schedule = Schedule::uniform;
-  options.schedule.threads = threads;
-  options.schedule.floor = 60;  // small windows, so that small meshes are cut
-  if constexpr (D == 3) options.min_dihedral = 0;
-  return options;
-}
-
-template <int D>
-void expect_same(const OutputMesh<D>& a, const OutputMesh<D>& b, const std::string& what) {
-  EXPECT_TRUE(same_bytes(a.points, b.points)) << what;
-  EXPECT_TRUE(same_bytes(a.cells, b.cells)) << what;
-  EXPECT_TRUE(same_bytes(a.regions, b.regions)) << what;
-  EXPECT_TRUE(same_bytes(a.point_markers, b.point_markers)) << what;
-  EXPECT_TRUE(same_bytes(a.subfacets, b.subfacets)) << what;
-  EXPECT_TRUE(same_bytes(a.subsegments, b.subsegments)) << what;
-}
-
-/// Does the run on ranks make the mesh of one process? @returns how the ranks shared it
-template <int D>
-DistributedStatistics expect_same_on_ranks(const Plc<D>& plc, const RefineOptions<D>& options, int ranks, std::uint64_t seed) {
-  const RefineResult<D> whole = refine(plc, options);
-  std::vector<DistributedResult<D>> results(static_cast<std::size_t>(ranks));
-  run_on_local_ranks(ranks, seed, [&](Transport& transport) {
-    results[static_cast<std::size_t>(transport.rank())] = refine(transport, plc, options);
-  });
-  std::vector<MeshPiece<D>> pieces;
-  for (auto& r : results) pieces.push_back(std::move(r.piece));
-  expect_same(join_pieces<D>(pieces), whole.mesh, std::to_string(ranks) + " ranks, seed " + std::to_string(seed));
-  // Its phases, too: what is refused for good or set aside is the same.
-  EXPECT_EQ(results.front().run.scheduler.generations, whole.scheduler.generations);
-  for (const auto& r : results) EXPECT_EQ(r.run.poor_left, whole.poor_left);
-  return results.front().distributed;
-}
 
 struct Solid {
   std::string name;
@@ -79,11 +39,11 @@ std::vector<Solid> solids() {
 /// Where nothing is refused or set aside, no rank ever has all of the mesh.
 TEST(RanksUniform, NobodyGathers) {
   for (const int ranks : {2, 4}) {
-    const DistributedStatistics solid = expect_same_on_ranks(cube(), uniform<3>(0.045), ranks, 1);
+    const DistributedStatistics solid = expect_same_on_ranks(cube(), uniform_options<3>(0.045), ranks, 1);
     EXPECT_GT(solid.cut_cells, 0u);
     EXPECT_GT(solid.cells_applied, 0u);
     EXPECT_FALSE(solid.gathered);
-    const DistributedStatistics planar = expect_same_on_ranks(square_with_hole(), uniform<2>(0.0002), ranks, 1);
+    const DistributedStatistics planar = expect_same_on_ranks(square_with_hole(), uniform_options<2>(0.0002), ranks, 1);
     EXPECT_GT(planar.cut_cells, 0u);
     EXPECT_GT(planar.cells_applied, 0u);
     EXPECT_FALSE(planar.gathered);
@@ -93,11 +53,12 @@ TEST(RanksUniform, NobodyGathers) {
 class RanksSolid : public testing::TestWithParam<Solid> {};
 
 TEST_P(RanksSolid, SameBytes) {
-  RefineOptions<3> options = uniform<3>(GetParam().size);
+  RefineOptions<3> options = uniform_options<3>(GetParam().size);
   options.min_dihedral = GetParam().min_dihedral;
+  const RefineResult<3> alone = checked_alone<3>(GetParam().plc, options);
   for (const int ranks : {2, 3, 5}) {
     options.schedule.threads = ranks == 3 ? 2 : 1;
-    expect_same_on_ranks(GetParam().plc, options, ranks, static_cast<std::uint64_t>(ranks));
+    expect_on_ranks<3>(GetParam().plc, options, alone, ranks, static_cast<std::uint64_t>(ranks));
   }
 }
 
@@ -120,10 +81,11 @@ std::vector<Planar> planars() {
 class RanksPlanar : public testing::TestWithParam<Planar> {};
 
 TEST_P(RanksPlanar, SameBytes) {
-  RefineOptions<2> options = uniform<2>(GetParam().size);
+  RefineOptions<2> options = uniform_options<2>(GetParam().size);
+  const RefineResult<2> alone = checked_alone<2>(GetParam().plc, options);
   for (const int ranks : {2, 3, 5, 7}) {
     options.schedule.threads = ranks == 3 ? 2 : 1;
-    expect_same_on_ranks(GetParam().plc, options, ranks, static_cast<std::uint64_t>(ranks));
+    expect_on_ranks<2>(GetParam().plc, options, alone, ranks, static_cast<std::uint64_t>(ranks));
   }
 }
 
