@@ -20,42 +20,31 @@ template <int D>
 class ChangeLog {
  public:
   using Vertices = std::array<VertexId, D + 1>;
-  /// A cell by its slot, and how many cells the slot had held before it (Mesh::birth).
-  struct Born {
-    CellId cell;
-    std::uint16_t birth;
-  };
 
   /// Are cells that are freed and made logged, or constraints alone?
   bool logs_cells() const { return logs_cells_; }
   void logs_cells(bool does) { logs_cells_ = does; }
 
-  /// Forgets all.
-  void clear() {
-    freed_.clear();
-    made_.clear();
-    changed_.clear();
-  }
   void add_freed(CellId c, std::uint16_t birth, const Vertices& vertices) {
     if (logs_cells_) freed_.push_back({{c, birth}, vertices});
   }
   void add_made(CellId c, std::uint16_t birth) {
     if (logs_cells_) made_.push_back({c, birth});
   }
-  /// The constraints of the cell are about to change. That of a cell made since the log was cleared does not count, if cells are
+  /// The constraints of the cell are about to change. That of a cell made since it was begun does not count, if cells are
   /// logged.
   void add_changed(CellId c, std::uint16_t birth) { changed_.push_back({c, birth}); }
 
   /// A cell that is not there any more.
   struct Freed {
-    Born was;
+    CellName was;
     Vertices vertices;
   };
   /// What has changed in all.
   struct Net {
-    std::vector<Freed> gone;      ///< that were there before and are not any more
-    std::vector<Born> made;       ///< that were not there before, and are
-    std::vector<Born> survivors;  ///< that were there before, and may have other constraints
+    std::vector<Freed> gone;          ///< that were there before and are not any more
+    std::vector<CellName> made;       ///< that were not there before, and are
+    std::vector<CellName> survivors;  ///< that were there before, and may have other constraints
   };
   /// Threads: the one that changed the cells, before another may.
   template <class Mesh>
@@ -64,25 +53,25 @@ class ChangeLog {
     net.made.clear();
     net.survivors.clear();
     keys_.reset(made_.size() + changed_.size());
-    for (const Born& b : made_) {
+    for (const CellName& b : made_) {
       keys_.insert(key(b));
       if (is_alive(mesh, b)) net.made.push_back(b);
     }
     for (const Freed& f : freed_)
       if (!keys_.contains(key(f.was))) net.gone.push_back(f);
-    for (const Born& b : changed_)
+    for (const CellName& b : changed_)
       if (is_alive(mesh, b) && keys_.insert(key(b))) net.survivors.push_back(b);
   }
 
  private:
-  static std::uint64_t key(const Born& b) { return std::uint64_t{index(b.cell)} << 16 | b.birth; }
+  static std::uint64_t key(const CellName& b) { return std::uint64_t{index(b.cell)} << 16 | b.birth; }
   template <class Mesh>
-  static bool is_alive(const Mesh& mesh, const Born& b) {
+  static bool is_alive(const Mesh& mesh, const CellName& b) {
     return mesh.alive(b.cell) && mesh.birth(b.cell) == b.birth;
   }
 
   std::vector<Freed> freed_;
-  std::vector<Born> made_, changed_;
+  std::vector<CellName> made_, changed_;
   KeySet keys_;
   bool logs_cells_ = true;
 };

@@ -17,6 +17,12 @@ enum class CellId : std::uint32_t {};
 inline constexpr VertexId no_vertex{0xffffffffu};  ///< no vertex has this id
 inline constexpr CellId no_cell{0xffffffffu};      ///< no cell has this id
 
+/// A cell, and no other that the slot holds later.
+struct CellName {
+  CellId cell;          ///< its slot
+  std::uint16_t birth;  ///< Mesh::birth
+};
+
 /// The id as an index of an array.
 template <class Id>
 requires std::same_as<Id, VertexId> || std::same_as<Id, CellId>

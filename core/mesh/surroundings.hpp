@@ -13,12 +13,6 @@
 
 namespace pgdr {
 
-/// A cell, and no other that the slot holds later.
-struct CellName {
-  CellId cell;          ///< its slot
-  std::uint16_t birth;  ///< Mesh::birth
-};
-
 /// A hash of where the vertices are that lie opposite the first `with_neighbours` of these cells, across their faces: it changes,
 /// but for a chance of 2^-64, once another cell with another such vertex is beside one of them. Nothing if one of all the cells
 /// is gone.

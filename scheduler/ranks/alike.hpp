@@ -13,11 +13,15 @@ namespace pgdr::detail {
 /// Another rank's run was interrupted before the ranks parted: it has what there is of the mesh.
 struct InterruptedElsewhere {};
 
-/// All ranks call it. @throws ResourceError unlike_ranks, on all, if one has another hash
-inline void require_alike(Collectives& ranks, std::uint64_t hash) {
-  if (ranks.min(hash) == ranks.max(hash)) return;
+/// @throws ResourceError unlike_ranks
+[[noreturn]] inline void fail_unlike_ranks() {
   throw ResourceError({.code = Errc::unlike_ranks,
                        .message = "the ranks did not make the same mesh: their inputs, options, callbacks or builds differ"});
+}
+
+/// All ranks call it. @throws ResourceError unlike_ranks, on all, if one has another hash
+inline void require_alike(Collectives& ranks, std::uint64_t hash) {
+  if (ranks.min(hash) != ranks.max(hash)) fail_unlike_ranks();
 }
 
 /// Ranks meet: here if their runs go on, and in has_another_gone_on() if they have ended.

@@ -17,7 +17,6 @@ class IdTable {
  public:
   static constexpr std::uint32_t none = 0xffffffffu;
 
-  std::size_t size() const { return size_; }  ///< so many ids are in it
   /// Takes all out, and gives the memory back.
   void clear() { *this = IdTable(); }
   /// The id of this hash of which is(id) holds; none.

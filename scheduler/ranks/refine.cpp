@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The entry of a run on ranks. Every rank makes the whole mesh, since a reproducible mesh is the same on all, and keeps its
-// piece.
+// The entry of a run on ranks. By the uniform schedule ranks share the run (uniform_on_ranks.hpp). By the reproducible one, or
+// where there is too little to share, every rank makes the whole mesh, which is the same on all, and keeps its piece.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -15,6 +15,7 @@
 
 #include "pgdr/ranks.hpp"
 #include "ranks/alike.hpp"
+#include "ranks/id_table.hpp"
 #include "ranks/numbering.hpp"
 #include "ranks/uniform_on_ranks.hpp"
 #include "ranks/values.hpp"
@@ -32,38 +33,29 @@ std::uint64_t peak_rss_bytes() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts kilobytes
 }
 
-/// FNV-1a over words of 64 bits: for meshes of gigabytes.
-class Hash {
- public:
-  void add(std::uint64_t word) { hash_ = (hash_ ^ word) * 0x100000001b3u, hash_ ^= hash_ >> 32; }
-  /// The bytes of the values: no type of an OutputMesh has padding.
-  template <class T>
-  void add(const std::vector<T>& values) {
-    const std::size_t size = values.size() * sizeof(T);
-    add(size);
-    const auto* const bytes = reinterpret_cast<const unsigned char*>(values.data());
-    for (std::size_t i = 0; i < size; i += sizeof(std::uint64_t)) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, bytes + i, std::min(sizeof word, size - i));
-      add(word);
-    }
+/// The bytes of the values: no type of an OutputMesh has padding.
+template <class T>
+void add(detail::WordHash& hash, const std::vector<T>& values) {
+  const std::size_t size = values.size() * sizeof(T);
+  hash.add(size);
+  const auto* const bytes = reinterpret_cast<const unsigned char*>(values.data());
+  for (std::size_t i = 0; i < size; i += sizeof(std::uint64_t)) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes + i, std::min(sizeof word, size - i));
+    hash.add(word);
   }
-  std::uint64_t value() const { return hash_; }
-
- private:
-  std::uint64_t hash_ = 0xcbf29ce484222325u;
-};
+}
 
 template <int D>
 std::uint64_t hash_of(const OutputMesh<D>& mesh) {
-  Hash hash;
-  hash.add(mesh.points);
-  hash.add(mesh.point_markers);
-  hash.add(mesh.point_attributes);
-  hash.add(mesh.cells);
-  hash.add(mesh.regions);
-  hash.add(mesh.subsegments);
-  hash.add(mesh.subfacets);
+  detail::WordHash hash;
+  add(hash, mesh.points);
+  add(hash, mesh.point_markers);
+  add(hash, mesh.point_attributes);
+  add(hash, mesh.cells);
+  add(hash, mesh.regions);
+  add(hash, mesh.subsegments);
+  add(hash, mesh.subfacets);
   return hash.value();
 }
 
@@ -102,6 +94,14 @@ DistributedResult<D> share_of_first(detail::Collectives& ranks, RefineResult<D> 
   result.piece = detail::get_piece<D>(message);
   message.require_end();
   return result;
+}
+
+/// The pieces of a run of which each rank has the whole mesh, or rank 0 alone (`of_first`, on any rank).
+template <int D>
+DistributedResult<D> share_whole(detail::Collectives& ranks, RefineResult<D> run, bool of_first) {
+  if (ranks.max(of_first || was_interrupted(run.stop) ? 1 : 0) != 0) return share_of_first(ranks, std::move(run));
+  detail::require_alike(ranks, hash_of(run.mesh));
+  return ranks.together([&] { return keep_piece(ranks, std::move(run)); });
 }
 
 /// What the visits of this rank were, and those that all ranks have made alike.
@@ -221,14 +221,12 @@ DistributedResult<D> share_run(detail::Collectives& ranks, const Plc<D>& plc, co
   if (result.distributed.cut_cells == 0 && !is_first_alone) is_first_alone = detail::has_another_gone_on(ranks);
   ranks.together([&] { visits = shared.visits(run, has_left); });
   const DistributedStatistics statistics = result.distributed;
-  if (shared.is_finished()) {
+  // Where one has ended, and another goes on, a clock or a signal has ended it, or they do not the same.
+  if (ranks.max(is_first_alone ? 1 : 0) != 0 && ranks.max(was_interrupted(run.stop) ? 1 : 0) == 0) detail::fail_unlike_ranks();
+  if (shared.is_finished())
     result.run = std::move(run);
-  } else if (statistics.gathered || ranks.max(is_first_alone || was_interrupted(run.stop) ? 1 : 0) != 0) {
-    result = share_of_first(ranks, std::move(run));
-  } else {
-    detail::require_alike(ranks, hash_of(run.mesh));
-    result = ranks.together([&] { return keep_piece(ranks, std::move(run)); });
-  }
+  else
+    result = share_whole(ranks, std::move(run), statistics.gathered || is_first_alone);
   result.distributed = statistics;
   return result;
 }
@@ -254,12 +252,7 @@ DistributedResult<D> refine(Transport& transport, const Plc<D>& plc, const Refin
   } else {
     RefineResult<D> run = ranks.together([&] { return refine(plc, own); });
     visits = {run.scheduler, run.scheduler};
-    if (ranks.max(was_interrupted(run.stop) ? 1 : 0) > 0) {
-      result = share_of_first(ranks, std::move(run));
-    } else {
-      detail::require_alike(ranks, hash_of(run.mesh));
-      result = ranks.together([&] { return keep_piece(ranks, std::move(run)); });
-    }
+    result = share_whole(ranks, std::move(run), false);
   }
   result.sharing = detail::sharing_of(ranks, result.piece);
   set_statistics(ranks, visits, result);

@@ -110,8 +110,8 @@ int Territory<D>::owner(Node node) const {
 }
 
 template <int D>
-std::vector<double> Territory<D>::held_of(std::span<const Node> nodes, std::span<const double> weights, int ranks) const {
-  std::vector<double> held(static_cast<std::size_t>(ranks));
+std::vector<double> Territory<D>::held_of(std::span<const Node> nodes, std::span<const double> weights) const {
+  std::vector<double> held(static_cast<std::size_t>(ranks()));
   for (std::size_t n = 0; n < nodes.size(); ++n)
     for (unsigned half = 0; half < 1u << D; ++half) {
       Halves place;

@@ -54,7 +54,7 @@ class Territory {
   /// Does another rank hold a part of the box?
   bool is_shared(const GridBox<D>& box) const;
   /// Of a weight spread over each of the nodes, in the order of the constructor, the share that each rank holds.
-  std::vector<double> held_of(std::span<const Node> nodes, std::span<const double> weights, int ranks) const;
+  std::vector<double> held_of(std::span<const Node> nodes, std::span<const double> weights) const;
   /// The ranks that hold points that this one holds, too, without this one, ascending.
   const std::vector<int>& neighbours() const { return neighbours_; }
 

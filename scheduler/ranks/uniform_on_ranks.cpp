@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <chrono>
 #include <utility>
 
 #include "ranks/alike.hpp"
@@ -14,32 +13,39 @@
 namespace pgdr::detail {
 namespace {
 
-double seconds_since(std::chrono::steady_clock::time_point t) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - t).count();
-}
-
 /// Adds the seconds of a scope.
 class Timed {
  public:
   explicit Timed(double& seconds) : seconds_(&seconds) {}
   Timed(const Timed&) = delete;
   Timed& operator=(const Timed&) = delete;
-  ~Timed() { *seconds_ += seconds_since(start_); }
+  ~Timed() { *seconds_ += VisitRecorder::seconds_since(start_); }
 
  private:
   double* seconds_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  VisitRecorder::Clock::time_point start_ = VisitRecorder::Clock::now();
 };
 
-/// Of the points of all cells, whatever slots they are in.
 template <int D>
-std::uint64_t hash_of_cells(const Mesh<D>& mesh) {
+std::uint64_t count_cells(const Mesh<D>& mesh) {
+  std::uint64_t count = 0;
+  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i) count += mesh.alive(CellId{i}) ? 1 : 0;
+  return count;
+}
+
+/// Of the points of all cells, whatever slots they are in, and of the sizes that are asked for there. @throws what the caller's
+/// function throws
+template <int D>
+std::uint64_t hash_of_cells(const RefineContext<D>& context) {
+  const Mesh<D>& mesh = context.mesh;
   std::uint64_t sum = 0;
   for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i) {
-    if (!mesh.alive(CellId{i})) continue;
+    const CellId c{i};
+    if (!mesh.alive(c)) continue;
     WordHash hash;
-    for (const auto& point : points_of(mesh, CellId{i}))
+    for (const auto& point : points_of(mesh, c))
       for (const double x : point) hash.add(std::bit_cast<std::uint64_t>(x));
+    hash.add(std::bit_cast<std::uint64_t>(context.bounds.size_at(mesh.simplex(c), mesh.region(c))));
     sum += hash.value();
   }
   return sum;
@@ -106,24 +112,22 @@ StopCause UniformOnRanks<D>::drain_together() {
   }
 }
 
+/// Cuts the mesh then if it pays. This is where ranks meet for the first time: one that has failed, or whose run was interrupted,
+/// says so there.
 template <int D>
 bool UniformOnRanks<D>::halve() {
-  std::unique_ptr<Territory<D>> territory;
-  Windows left;
-  if (ranks_->size() > 1) {
-    left = windows();
-    territory = std::make_unique<Territory<D>>(this->tree(), left.nodes, owners_of(left), ranks_->size(), ranks_->rank());
-    if (!may_cut() || !pays_to_cut(left, *territory)) territory.reset();
-    // Here ranks meet for the first time: one that has failed, or whose run was interrupted, says so.
-    require_all_go_on(*ranks_);
-    if (ranks_->max(territory ? 0 : 1) != 0) territory.reset();
-  }
-  if (!Uniform<D>::halve()) return false;
-  if (territory) cut(std::move(territory), left);
+  if (ranks_->size() == 1 || statistics_->gathered) return Uniform<D>::halve();
+  const Windows left = windows();
+  auto territory = std::make_unique<Territory<D>>(this->tree(), left.nodes, owners_of(left), ranks_->size(), ranks_->rank());
+  const bool pays = may_cut() && pays_to_cut(left, *territory);
+  require_all_go_on(*ranks_);
+  const bool is_due = ranks_->max(pays ? 0 : 1) == 0;
+  if (!ranks_->together([this] { return Uniform<D>::halve(); })) return false;
+  if (is_due) cut(std::move(territory), left);
   return true;
 }
 
-/// Lists of the nodes above are empty, but for what was found for them last, and there is a node for each rank.
+/// Lists of the nodes above are empty, but for what was found for them last.
 template <int D>
 bool UniformOnRanks<D>::may_cut() const {
   for (Node node = 0; node < this->tree().node_count(); ++node)
@@ -166,36 +170,37 @@ std::vector<int> UniformOnRanks<D>::owners_of(const Windows& windows) const {
 template <int D>
 bool UniformOnRanks<D>::pays_to_cut(const Windows& windows, const Territory<D>& territory) const {
   bool is_last = true;
-  double all = 0, cells = 0;
+  double all = 0;
   for (const double w : windows.to_come) {
     is_last = is_last && !this->is_halved_with(static_cast<std::uint64_t>(w) / this->parities);
     all += w;
   }
-  const Mesh<D>& mesh = this->state().context.mesh;
-  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i) cells += mesh.alive(CellId{i}) ? 1 : 0;
-  const std::vector<double> held = territory.held_of(windows.nodes, windows.to_come, ranks_->size());
+  const auto cells = static_cast<double>(count_cells(this->state().context.mesh));
+  const std::vector<double> held = territory.held_of(windows.nodes, windows.to_come);
   const double most = *std::max_element(held.begin(), held.end()), own = all / ranks_->size();
   const double later = is_last ? cells + all : this->parities * cells + own + (most - own) / 2;
-  return cells + most <= later;
+  return cells + most < later;
 }
 
 /// @pre the windows have been split
 template <int D>
 void UniformOnRanks<D>::cut(std::unique_ptr<Territory<D>> territory, const Windows& windows) {
-  const Mesh<D>& mesh = this->state().context.mesh;
-  WordHash hash;
-  hash.add(hash_of_cells(mesh));
-  for (const double w : windows.to_come) hash.add(std::bit_cast<std::uint64_t>(w));
-  require_alike(*ranks_, hash.value());
+  const RefineContext<D>& context = this->state().context;
+  require_alike(*ranks_, ranks_->together([&] {
+    WordHash hash;
+    hash.add(hash_of_cells(context));
+    for (const double w : windows.to_come) hash.add(std::bit_cast<std::uint64_t>(w));
+    return hash.value();
+  }));
   territory_ = std::move(territory);
-  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i) statistics_->cut_cells += mesh.alive(CellId{i}) ? 1 : 0;
+  statistics_->cut_cells = count_cells(context.mesh);
   ranks_->together([&] {
     keep_late_work();
     held_ = std::make_unique<HeldMesh<D>>(this->state().context.mesh, *territory_);
   });
   statistics_->cut_generation = phases_;
   part_->until_cut = this->state().recorder.statistics();
-  statistics_->seconds_prologue = seconds_since(start_);
+  statistics_->seconds_prologue = this->state().pieces.clock().now();
 }
 
 /// Of the nodes above the cut; and empties the lists of nodes that others visit.
@@ -429,10 +434,11 @@ void UniformOnRanks<D>::take_all(const std::vector<Bytes>& all) {
   std::vector<MessageReader> messages;
   for (const Bytes& bytes : all) messages.emplace_back(bytes);
   for (std::size_t r = 1; r < messages.size(); ++r) held_->add(SentCells<D>::get(messages[r]));
-  held_->complete();
   held_->find_all();
+  // Before the links: of a face that has come to lie on the hull, a rank far away may think that a cell is beyond.
+  for (MessageReader& message : messages) LateConstraints<D>::apply(message, *held_);
+  held_->complete();
   for (MessageReader& message : messages) {
-    LateConstraints<D>::apply(message, *held_);
     late_.get(message, this->state().context.mesh, *held_);
     message.require_end();
   }

@@ -16,7 +16,6 @@
 // neighbours.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -64,7 +63,6 @@ class UniformOnRanks final : public Uniform<D> {
   bool is_own(Node node) const override { return !territory_ || territory_->owner(node) == ranks_->rank(); }
 
  private:
-  using Clock = std::chrono::steady_clock;
   /// Nodes of one level, with the elements that are to come in each.
   struct Windows {
     std::vector<Node> nodes;  ///< in Morton order
@@ -108,7 +106,6 @@ class UniformOnRanks final : public Uniform<D> {
   LateWork<D> late_;
   LateConstraints<D> unsent_;
   std::uint64_t phases_ = 0;
-  Clock::time_point start_ = Clock::now();
 };
 
 extern template class UniformOnRanks<2>;

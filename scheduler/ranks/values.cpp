@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "transport/shared_error.hpp"
+
 namespace pgdr::detail {
 namespace {
 
@@ -24,26 +26,12 @@ std::optional<double> get_optional(MessageReader& message) {
 
 void put_diagnostics(MessageWriter& message, const std::vector<Diagnostic>& all) {
   message.put(static_cast<std::uint64_t>(all.size()));
-  for (const Diagnostic& d : all) {
-    message.put(d.code);
-    message.put(d.message);
-    message.put(d.file);
-    message.put(d.line);
-    message.put(d.ids);
-    message.put(d.points);
-  }
+  for (const Diagnostic& d : all) put_diagnostic(message, d);
 }
 
 std::vector<Diagnostic> get_diagnostics(MessageReader& message) {
   std::vector<Diagnostic> all(message.get_count(sizeof(Errc)));
-  for (Diagnostic& d : all) {
-    d.code = message.get<Errc>();
-    d.message = message.get_text();
-    d.file = message.get_text();
-    d.line = message.get<std::uint64_t>();
-    d.ids = message.get_all<std::int64_t>();
-    d.points = message.get_all<std::array<double, 3>>();
-  }
+  for (Diagnostic& d : all) d = get_diagnostic(message);
   return all;
 }
 

@@ -26,12 +26,7 @@ Type type_of(const Error& error) {
 
 void put(MessageWriter& message, Type type, const Diagnostic& d) {
   message.put(type);
-  message.put(d.code);
-  message.put(d.message);
-  message.put(d.file);
-  message.put(d.line);
-  message.put(d.ids);
-  message.put(d.points);
+  put_diagnostic(message, d);
 }
 
 std::string words(int rank, const char* what) { return "rank " + std::to_string(rank) + ": " + what; }
@@ -45,6 +40,26 @@ Errc get_code(MessageReader& message) {
 }  // namespace
 
 void fail_message(const char* what) { throw ResourceError({.code = Errc::internal, .message = what}); }
+
+void put_diagnostic(MessageWriter& message, const Diagnostic& d) {
+  message.put(d.code);
+  message.put(d.message);
+  message.put(d.file);
+  message.put(d.line);
+  message.put(d.ids);
+  message.put(d.points);
+}
+
+Diagnostic get_diagnostic(MessageReader& message) {
+  Diagnostic d;
+  d.code = get_code(message);
+  d.message = message.get_text();
+  d.file = message.get_text();
+  d.line = message.get<std::uint64_t>();
+  d.ids = message.get_all<std::int64_t>();
+  d.points = message.get_all<std::array<double, 3>>();
+  return d;
+}
 
 void put_error(MessageWriter& message, const std::exception_ptr& error, int rank) {
   try {
@@ -62,13 +77,7 @@ void put_error(MessageWriter& message, const std::exception_ptr& error, int rank
 
 void throw_error(MessageReader& message) {
   const auto type = message.get<Type>();
-  Diagnostic d;
-  d.code = get_code(message);
-  d.message = message.get_text();
-  d.file = message.get_text();
-  d.line = message.get<std::uint64_t>();
-  d.ids = message.get_all<std::int64_t>();
-  d.points = message.get_all<std::array<double, 3>>();
+  Diagnostic d = get_diagnostic(message);
   message.require_end();
   switch (type) {
     case Type::usage: throw UsageError(std::move(d));

@@ -10,6 +10,10 @@
 
 namespace pgdr::detail {
 
+void put_diagnostic(MessageWriter& message, const Diagnostic& d);
+/// @throws ResourceError internal if it is none
+Diagnostic get_diagnostic(MessageReader& message);
+
 /// The error of this rank, for the others. An exception that is no Error travels as its words.
 void put_error(MessageWriter& message, const std::exception_ptr& error, int rank);
 
