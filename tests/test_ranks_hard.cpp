@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "domain_plcs.hpp"
+#include "model_plcs.hpp"
 #include "pgdr/selectors.hpp"
 #include "planar_plcs.hpp"
 #include "scattered_models.hpp"
@@ -25,51 +27,84 @@ using test::uniform_options;
 
 constexpr double fine = 0.0003;  // area; the square is cut for three ranks
 
-struct Planar {
+template <int D>
+struct Hard {
   std::string name;
-  Plc<2> plc;
-  RefineOptions<2> options;
+  Plc<D> plc;
+  RefineOptions<D> options;
+};
+
+template <int D>
+class HardModels {
+ public:
+  RefineOptions<D>& add(std::string name, Plc<D> plc, double size) {
+    all_.push_back({std::move(name), std::move(plc), uniform_options<D>(size)});
+    return all_.back().options;
+  }
+  std::vector<Hard<D>> take() { return std::move(all_); }
+
+ private:
+  std::vector<Hard<D>> all_;
 };
 
 /// What runs end with on rank 0, each for its own reason, and what they do not.
-std::vector<Planar> planars() {
-  std::vector<Planar> all;
-  const auto add = [&](std::string name, Plc<2> plc, double size) -> RefineOptions<2>& {
-    all.push_back({std::move(name), std::move(plc), uniform_options<2>(size)});
-    return all.back().options;
-  };
+std::vector<Hard<2>> planars() {
+  HardModels<2> all;
   // Elements as large as a side, which wait for nodes above the cut.
-  add("boundary_kept", test::square_with_hole(), 0.001).keep_boundary = true;
-  add("with_leaves", test::square(), fine).leaves = true;
-  add("shortest_edge", test::square(), fine).min_edge = 0.02;
+  all.add("boundary_kept", test::square_with_hole(), 0.001).keep_boundary = true;
+  all.add("with_leaves", test::square(), fine).leaves = true;
+  all.add("shortest_edge", test::square(), fine).min_edge = 0.02;
   for (const std::uint64_t most : {200, 1000, 1400, 2200})
-    add("budget_" + std::to_string(most), test::square(), fine).max_vertices = most;
-  add("given_lattice", test::square(), fine).schedule.lattice = 5;
-  add("varying", test::square_with_hole(), 1).size = [](const Point2& p) { return 0.0008 + 0.002 * p[0]; };
-  add("off_center", test::square_with_hole(), 0.002).selector = off_center<2>();
-  add("far", test::turned(test::square_with_hole(), 1e7), 0.002);
-  add("pairs", test::box_with_pairs<2>(6, 1e-3, 5), 0.0005);
+    all.add("budget_" + std::to_string(most), test::square(), fine).max_vertices = most;
+  all.add("given_lattice", test::square(), fine).schedule.lattice = 5;
+  all.add("varying", test::square_with_hole(), 1).size = [](const Point2& p) { return 0.0008 + 0.002 * p[0]; };
+  all.add("off_center", test::square_with_hole(), 0.002).selector = off_center<2>();
+  all.add("far", test::turned(test::square_with_hole(), 1e7), 0.002);
+  all.add("pairs", test::box_with_pairs<2>(6, 1e-3, 5), 0.0005);
   for (const std::uint64_t seed : {0, 10, 11})
-    add("graph_" + std::to_string(seed), test::random_graph(40, 30, seed % 2 ? 64 : 0, seed), 0.002);
+    all.add("graph_" + std::to_string(seed), test::random_graph(40, 30, seed % 2 ? 64 : 0, seed), 0.002);
   for (const std::uint64_t seed : {0, 4})
-    add("fan_" + std::to_string(seed), test::fan(9, 1.0 + static_cast<double>(seed), seed), 0.004);
-  return all;
+    all.add("fan_" + std::to_string(seed), test::fan(9, 1.0 + static_cast<double>(seed), seed), 0.004);
+  return all.take();
 }
 
-class HardOnRanks : public testing::TestWithParam<Planar> {};
+std::vector<Hard<3>> solids() {
+  HardModels<3> all;
+  constexpr double side = 0.06;
+  all.add("with_leaves", test::cube(), side).leaves = true;
+  all.add("shortest_edge", test::cube(), side).min_edge = 0.04;
+  for (const std::uint64_t most : {200, 2000, 3000})
+    all.add("budget_" + std::to_string(most), test::cube(), side).max_vertices = most;
+  all.add("given_lattice", test::cube(), side).schedule.lattice = 4;
+  all.add("varying", test::l_block(), 1).size = [](const Point3& p) { return 0.08 + 0.04 * p[0]; };
+  all.add("off_center", test::turned(test::two_region_cube()), 0.07).selector = off_center<3>();
+  all.add("pairs", test::box_with_pairs<3>(4, 1e-3, 5), 0.06);
+  all.add("small_angle", test::prism({{{0, 0}}, {{2, 0}}, {{2, 0.3}}}, 1), 0.05);
+  all.add("optimised", test::l_block(), 0.1).min_dihedral = 12;
+  return all.take();
+}
 
-TEST_P(HardOnRanks, SameMesh) {
-  RefineOptions<2> options = GetParam().options;
-  const RefineResult<2> alone = test::checked_alone<2>(GetParam().plc, options);
+/// On one rank, some, and more; the run of one process first. `is_tiny`: it ends before a cut would pay.
+template <int D>
+void expect_same_mesh_on_ranks(const Hard<D>& hard, bool is_tiny) {
+  RefineOptions<D> options = hard.options;
+  const RefineResult<D> alone = test::checked_alone<D>(hard.plc, options);
   std::uint64_t cut = 0;
   for (const int ranks : {1, 3, 5}) {
     options.schedule.threads = ranks == 3 ? 2 : 1;
-    cut += expect_on_ranks<2>(GetParam().plc, options, alone, ranks, static_cast<std::uint64_t>(ranks)).cut_cells;
+    cut += expect_on_ranks<D>(hard.plc, options, alone, ranks, static_cast<std::uint64_t>(ranks)).cut_cells;
   }
-  EXPECT_EQ(cut > 0, GetParam().name != "budget_200");
+  EXPECT_EQ(cut > 0, !is_tiny);
 }
 
+class HardOnRanks : public testing::TestWithParam<Hard<2>> {};
+TEST_P(HardOnRanks, SameMesh) { expect_same_mesh_on_ranks<2>(GetParam(), GetParam().name == "budget_200"); }
 INSTANTIATE_TEST_SUITE_P(Models, HardOnRanks, testing::ValuesIn(planars()), [](const auto& info) { return info.param.name; });
+
+class HardSolidsOnRanks : public testing::TestWithParam<Hard<3>> {};
+TEST_P(HardSolidsOnRanks, SameMesh) { expect_same_mesh_on_ranks<3>(GetParam(), GetParam().name == "budget_200"); }
+INSTANTIATE_TEST_SUITE_P(Models, HardSolidsOnRanks, testing::ValuesIn(solids()),
+                         [](const auto& info) { return info.param.name; });
 
 TEST(OrdersOnRanks, MessagesMayComeInAny) {
   RefineOptions<2> options = uniform_options<2>(fine);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <utility>
 
 namespace pgdr::detail {
@@ -16,9 +17,15 @@ SentCells<D> SentCells<D>::get(MessageReader& message) {
   cells.made = message.get_all<SentCell<D>>();
   cells.constraints = message.get_all<ConstraintRecord<D>>();
   cells.changed = message.get_all<SentConstraints<D>>();
+  for (const SentVertex<D>& v : cells.vertices)
+    if (!std::all_of(v.point.begin(), v.point.end(), [](double x) { return std::isfinite(x); }))
+      fail_message("a message of another rank has a vertex that is at no point");
   const auto check = [&](const SentCorners<D>& corners) {
-    for (const std::uint32_t v : corners)
-      if (v >= cells.vertices.size()) fail_message("a message of another rank has a cell of vertices that it lacks");
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      if (corners[i] >= cells.vertices.size()) fail_message("a message of another rank has a cell of vertices that it lacks");
+      if (std::find(corners.begin(), corners.begin() + i, corners[i]) != corners.begin() + i)
+        fail_message("a message of another rank has a cell that has a vertex twice");
+    }
   };
   for (const auto& corners : cells.gone) check(corners);
   for (const auto& changed : cells.changed) check(changed.vertices);

@@ -62,7 +62,8 @@ struct SentCells {
     message.put(constraints);
     message.put(changed);
   }
-  /// @throws ResourceError internal: no such message, or numbers beyond what there is
+  /// @throws ResourceError internal: no such message, numbers beyond what there is, points that are none, or a cell with a vertex
+  ///   twice
   static SentCells get(MessageReader& message);
 };
 

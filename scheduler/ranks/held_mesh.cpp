@@ -159,7 +159,7 @@ void HeldMesh<D>::take_out(const SentCells<D>& cells, std::span<const VertexId> 
   rim_.clear();
   for (const SentCorners<D>& corners : cells.gone) {
     const CellId c = find_cell(sorted(local(corners, vertices)));
-    if (c == no_cell) fail("another rank has deleted a cell that is not held");
+    if (c == no_cell || mesh_->marked(c)) fail("another rank has deleted a cell that is not held, or one twice");
     mesh_->mark(c);
     leaving_.push_back(c);
   }

@@ -46,10 +46,13 @@ void LateWork<D>::put(MessageWriter& message, const Mesh<D>& mesh) {
 }
 
 template <int D>
-void LateWork<D>::get(MessageReader& message, const Mesh<D>& mesh, const HeldMesh<D>& held) {
+void LateWork<D>::get(MessageReader& message, const Orthtree<D>& tree, const Mesh<D>& mesh, const HeldMesh<D>& held) {
   for (auto left = message.get<std::uint64_t>(); left > 0; --left) {
     const Sent sent = message.get<Sent>();
     const std::vector<SentPoints<D>> seen = message.get_all<SentPoints<D>>();
+    if (sent.kind > code(Kind::refused) || sent.node >= tree.node_count() || (sent.again == 0 && sent.owned > seen.size()) ||
+        std::max(sent.pair[0], sent.pair[2]) > code(EntityKind::volume))
+      fail_message("another rank has late work that is none");
     const Entry<D> entry = sent.entry.entry(mesh, held);
     Refusal<D> refusal{entry, {}, sent.claim_order, {}, sent.owned, sent.again != 0, sent.surroundings, 0};
     if (sent.has_pair != 0)

@@ -46,7 +46,8 @@ class LateWork {
   /// Writes all, with cells by the coordinates of their vertices, and takes it out.
   void put(MessageWriter& message, const Mesh<D>& mesh);
   /// Adds what another rank wrote. `held`: this rank holds all cells, and can find them.
-  void get(MessageReader& message, const Mesh<D>& mesh, const HeldMesh<D>& held);
+  /// @throws ResourceError internal: there is no such work, node or cell
+  void get(MessageReader& message, const Orthtree<D>& tree, const Mesh<D>& mesh, const HeldMesh<D>& held);
   /// Puts all where it belongs, in line, and takes it out.
   void deliver(WaitingWork<D>& waiting);
 

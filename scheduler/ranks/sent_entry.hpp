@@ -30,12 +30,26 @@ struct SentEntry {
     sent.bucket = e.bucket;
     return sent;
   }
-  /// @throws ResourceError internal: the cell is not held
+  /// @throws ResourceError internal: the cell is not held, or there is no such entry
   Entry<D> entry(const Mesh<D>& mesh, const HeldMesh<D>& held) const {
     if (is_alive == 0) return Entry<D>(CellId{0}, Mesh<D>::last_birth, EntryKind::cell, Entry<D>::over_size);
+    if (kind > static_cast<std::uint32_t>(EntryKind::cell) || which >= whiches(static_cast<EntryKind>(kind)) || bucket > 0xff)
+      fail_message("another rank has an entry that is none");
     const CellId c = held.find(cell);
     if (c == no_cell) fail_message("another rank has an entry for a cell that is not held");
     return Entry<D>(c, mesh.birth(c), static_cast<EntryKind>(kind), static_cast<int>(which), static_cast<int>(bucket), order);
+  }
+
+ private:
+  /// How many values `which` has.
+  static std::uint32_t whiches(EntryKind kind) {
+    switch (kind) {
+      case EntryKind::edge: return D == 3 ? 6 : D + 1;
+      case EntryKind::face:
+      case EntryKind::flip: return D + 1;
+      case EntryKind::cell: return Entry<D>::over_radius_edge + 1;
+    }
+    return 0;
   }
 };
 

@@ -439,7 +439,7 @@ void UniformOnRanks<D>::take_all(const std::vector<Bytes>& all) {
   for (MessageReader& message : messages) LateConstraints<D>::apply(message, *held_);
   held_->complete();
   for (MessageReader& message : messages) {
-    late_.get(message, this->state().context.mesh, *held_);
+    late_.get(message, this->tree(), this->state().context.mesh, *held_);
     message.require_end();
   }
   late_.deliver(this->state().waiting);

@@ -9,6 +9,7 @@
 #include "io/formats.hpp"
 #include "msh_files.hpp"
 #include "ply_files.hpp"
+#include "rank_messages.hpp"
 #include "test_io_support.hpp"
 
 namespace pgdr::test {
@@ -88,6 +89,16 @@ void put_copies(const std::string& target, std::size_t files, std::size_t most) 
   }
 }
 
+/// A message of each kind: see read_any_message.
+template <int D>
+void put_messages() {
+  for (unsigned kind = 0; kind < message_kinds; ++kind) {
+    std::string bytes(1, static_cast<char>(2 * kind + D - 2));
+    for (const std::byte b : RankMessages<D>().sample(static_cast<MessageKind>(kind))) bytes += static_cast<char>(b);
+    put("rank_messages", "kind_" + std::to_string(kind) + "_" + std::to_string(D) + "d", bytes);
+  }
+}
+
 }  // namespace
 }  // namespace pgdr::test
 
@@ -97,6 +108,8 @@ int main(int argc, char** argv) {
   pgdr::test::put_inputs();
   pgdr::test::put_meshes<2>();
   pgdr::test::put_meshes<3>();
+  pgdr::test::put_messages<2>();
+  pgdr::test::put_messages<3>();
   pgdr::test::put_random("refine_2d", 24, 24);
   pgdr::test::put_random("refine_3d", 24, 32);
   pgdr::test::put_copies("rounded_2d", 24, 24);
