@@ -1,0 +1,31 @@
+# SPDX-FileCopyrightText: 2026 The pgdr authors
+# SPDX-License-Identifier: Apache-2.0
+"""Installs the package by pip into a clean prefix, from a copy of what git has, and runs there what a stranger would do.
+
+Usage: install.py SOURCE BUILD    (BUILD: a build folder with PGDR_PYTHON=ON, whose module is taken)
+"""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+source, build = (pathlib.Path(p).resolve() for p in sys.argv[1:3])
+with tempfile.TemporaryDirectory() as name:
+    folder = pathlib.Path(name)
+    copy = folder / "source"
+    for file in ("pyproject.toml", "setup.py", "README.md", "geometry/pgdr/version.hpp"):
+        (copy / file).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(source / file, copy / file)
+    shutil.copytree(source / "tools/python", copy / "tools/python", ignore=shutil.ignore_patterns("__pycache__"))
+    environment = {k: v for k, v in os.environ.items() if k != "PYTHONPATH"}
+    subprocess.run([sys.executable, "-m", "pip", "install", copy, "--no-build-isolation", "--no-deps", "--no-index",
+                    "--prefix", folder / "prefix"], check=True, env={**environment, "PGDR_BUILD_FOLDER": str(build)})
+    place, = folder.glob("prefix/**/pgdr/__init__.py")
+    shutil.copy(source / "tests/python/test_tasks.py", folder)
+    environment["PYTHONPATH"] = str(place.parents[1])
+    where = subprocess.run([sys.executable, "-c", "import pgdr; print(pgdr.__file__)"], check=True, env=environment, cwd=folder,
+                           capture_output=True, text=True).stdout.strip()
+    assert where == str(place), where
+    subprocess.run([sys.executable, "test_tasks.py"], check=True, env=environment, cwd=folder)

@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "callbacks.hpp"
+
+#include <cstring>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "arrays.hpp"
+
+namespace pgdr::python {
+namespace {
+
+/// A function of Python that any thread may copy and drop.
+class SharedFunction {
+ public:
+  explicit SharedFunction(py::function f) : f_(new py::function(std::move(f)), GilDeleter{}) {}
+  /// Calls it, and hands its result to `read`. What either raises leaves as a PythonError. Has the GIL.
+  template <class Read, class... Arguments>
+  void operator()(const Read& read, Arguments&&... arguments) const {
+    try {
+      read((*f_)(std::forward<Arguments>(arguments)...));
+    } catch (py::error_already_set& raised) {
+      throw PythonError(std::move(raised));
+    }
+  }
+
+ private:
+  std::shared_ptr<py::function> f_;
+};
+
+std::string shape_words(const py::array& array) {
+  std::string words = "(";
+  for (py::ssize_t i = 0; i < array.ndim(); ++i) words += (i ? ", " : "") + std::to_string(array.shape(i));
+  return words + (array.ndim() == 1 ? ",)" : ")");
+}
+
+/// The numbers that a callback has returned, one after the other. @throws UsageError
+void take_numbers(const py::object& returned, const Shape& shape, const char* who, std::span<double> numbers) {
+  const auto refuse = [&](const std::string& what) {
+    py::array wanted(py::dtype::of<char>(), shape);
+    throw UsageError({.code = Errc::bad_option,
+                      .message = std::string(who) + " must return numbers of shape " + shape_words(wanted) + ", not " + what});
+  };
+  if (returned.is_none()) refuse("None");
+  const py::array array = py::array::ensure(returned);
+  if (!array) refuse("an object of the type " + std::string(py::str(py::type::of(returned).attr("__name__"))));
+  if (std::string_view("fiu").find(array.dtype().kind()) == std::string_view::npos)
+    refuse("an array of the type " + std::string(py::str(array.dtype())));
+  if (array.ndim() != static_cast<py::ssize_t>(shape.size()) || !std::equal(shape.begin(), shape.end(), array.shape()))
+    refuse("an array of shape " + shape_words(array));
+  const auto dense = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(array);
+  if (!dense) refuse("an array of the type " + std::string(py::str(array.dtype())));
+  std::memcpy(numbers.data(), dense.data(), numbers.size_bytes());
+}
+
+template <int D>
+void ask_sizes(const SharedFunction& f, std::span<const Point<D>> points, std::span<double> sizes) {
+  const py::gil_scoped_acquire gil;
+  const auto count = static_cast<py::ssize_t>(points.size());
+  py::array_t<double> array({count, static_cast<py::ssize_t>(D)});
+  std::memcpy(array.mutable_data(), points.data(), points.size_bytes());
+  f([&](const py::object& returned) { take_numbers(returned, {count}, "the size function", sizes); }, std::move(array));
+}
+
+/// One array of a value of each element.
+template <std::size_t N, int D, class Get>
+py::array_t<double> gather(std::span<const PoorElement<D>> elements, Shape shape, const Get& get) {
+  shape.insert(shape.begin(), static_cast<py::ssize_t>(elements.size()));
+  py::array_t<double> array(shape);
+  double* to = array.mutable_data();
+  for (const PoorElement<D>& e : elements) {
+    const auto& value = get(e);
+    static_assert(sizeof value == N * sizeof(double));
+    std::memcpy(to, &value, sizeof value);
+    to += N;
+  }
+  return array;
+}
+
+template <int D>
+void ask_points(const SharedFunction& f, const py::object& type, std::span<const PoorElement<D>> elements,
+                std::span<Point<D>> points) {
+  const py::gil_scoped_acquire gil;
+  using Element = PoorElement<D>;
+  py::array_t<bool> over(static_cast<py::ssize_t>(elements.size()));
+  for (std::size_t i = 0; i < elements.size(); ++i) over.mutable_data()[i] = elements[i].over_radius_edge;
+  const py::object asked = type(gather<(D + 1) * D>(
+                                    elements, {D + 1, D}, [](const Element& e) -> const auto& { return e.corners; }),
+                                gather<D>(
+                                    elements, {D}, [](const Element& e) -> const auto& { return e.circumcenter; }),
+                                gather<1>(
+                                    elements, {}, [](const Element& e) -> const auto& { return e.circumradius; }),
+                                gather<1>(
+                                    elements, {}, [](const Element& e) -> const auto& { return e.shortest_edge; }),
+                                gather<D>(
+                                    elements, {D}, [](const Element& e) -> const auto& { return e.disk.center; }),
+                                gather<1>(
+                                    elements, {}, [](const Element& e) -> const auto& { return e.disk.radius; }),
+                                over);
+  const std::span<double> numbers(points.front().x.data(), points.size() * D);
+  f(
+      [&](const py::object& returned) {
+        take_numbers(returned, {static_cast<py::ssize_t>(elements.size()), D}, "the selector", numbers);
+      },
+      asked);
+}
+
+}  // namespace
+
+template <int D>
+SizingField<D> sizes_by(py::function f) {
+  return [f = SharedFunction(std::move(f))](const Point<D>& x) {
+    double size = 0;
+    ask_sizes<D>(f, {&x, 1}, {&size, 1});
+    return size;
+  };
+}
+
+template <int D>
+PointSelector<D> selector_by(py::function f) {
+  const std::shared_ptr<py::object> type(new py::object(py::module_::import("pgdr._run").attr("Elements")), GilDeleter{});
+  return [f = SharedFunction(std::move(f)), type](const PoorElement<D>& e) {
+    Point<D> point;
+    ask_points<D>(f, *type, {&e, 1}, {&point, 1});
+    return point;
+  };
+}
+
+template SizingField<2> sizes_by<2>(py::function);
+template SizingField<3> sizes_by<3>(py::function);
+template PointSelector<2> selector_by<2>(py::function);
+template PointSelector<3> selector_by<3>(py::function);
+
+}  // namespace pgdr::python

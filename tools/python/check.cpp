@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The checker, and the diagnosis of inputs.
+#include "pgdr/check.hpp"
+
+#include <pybind11/stl.h>
+
+#include <memory>
+
+#include "bind.hpp"
+#include "errors.hpp"
+#include "mesh_data.hpp"
+#include "pgdr/diagnosis.hpp"
+#include "pgdr/refine_options.hpp"
+
+namespace pgdr::python {
+namespace {
+
+using namespace pybind11::literals;
+
+py::dict dict_of(const CheckReport& r) {
+  py::list findings;
+  for (const CheckFinding& f : r.findings) findings.append(py::make_tuple(std::string(name(f.kind)), f.message, f.ids));
+  return py::dict("exit_code"_a = r.exit_code(), "findings"_a = findings, "finding_count"_a = r.finding_count,
+                  "over_radius_edge"_a = r.over_radius_edge, "over_size"_a = r.over_size, "below_dihedral"_a = r.below_dihedral,
+                  "explained"_a = r.explained, "unexplained"_a = r.unexplained,
+                  "not_delaunay_rounding"_a = r.not_delaunay_rounding, "not_delaunay_refused"_a = r.not_delaunay_refused);
+}
+
+/// As the command's `check`: against the input as given; reasons by its Domain. `bounds`: those of a run; infinite: none.
+template <int D>
+py::dict check_mesh(const MeshData<D>& data, const Plc<D>* plc, const RefineOptions<D>& bounds, double largest_cosine,
+                    bool delaunay, bool with_reasons) {
+  CheckReport report;
+  {
+    const py::gil_scoped_release others_run;
+    CheckOptions<D> options;
+    std::optional<Domain<D>> domain;
+    options.input = plc;
+    if (plc) options.tolerance = tolerance_of(*plc);
+    if (with_reasons) options.reasons = &data.reasons;
+    if (with_reasons && plc && !data.reasons.empty()) options.domain = &domain.emplace(*plc);
+    options.regions = bounds.regions;
+    options.radius_edge_bound = bounds.radius_edge_bound;
+    options.size = bounds.size;
+    options.region_sizes = bounds.region_sizes;
+    options.max_measure = bounds.max_volume;
+    options.largest_cosine = largest_cosine;
+    options.delaunay = delaunay;
+    report = check(data.mesh, options);
+  }
+  return dict_of(report);
+}
+
+/// A list of (kind, count, is_error, [(Diagnostic, measure)]).
+template <int D>
+py::list diagnose_plc(const Plc<D>& plc, std::size_t most_listed, bool errors_only) {
+  Diagnosis<D> diagnosis;
+  {
+    const py::gil_scoped_release others_run;
+    diagnosis = diagnose(plc, {.most_listed = most_listed, .errors_only = errors_only});
+  }
+  py::list found;
+  for (std::size_t k = 0; k < finding_kinds; ++k) {
+    const auto kind = static_cast<Finding>(k);
+    if (diagnosis[kind].count == 0) continue;
+    py::list listed;
+    for (const FindingList::Item& item : diagnosis[kind].listed)
+      listed.append(py::make_tuple(to_python(item.what), item.measure));
+    found.append(py::make_tuple(std::string(name(kind)), diagnosis[kind].count, is_error(kind), listed));
+  }
+  return found;
+}
+
+template <int D>
+void bind(py::module_& module) {
+  module.def(with_dimension<D>("check").c_str(), &check_mesh<D>);
+  module.def(with_dimension<D>("diagnose").c_str(), &diagnose_plc<D>);
+}
+
+}  // namespace
+
+void bind_check(py::module_& module) {
+  bind<2>(module);
+  bind<3>(module);
+}
+
+}  // namespace pgdr::python

@@ -1,0 +1,215 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Finished meshes: their arrays, read in place, and what is computed of them when asked for.
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "arrays.hpp"
+#include "bind.hpp"
+#include "mesh_data.hpp"
+#include "pgdr/io.hpp"
+#include "pgdr/mesh_maps.hpp"
+#include "reports.hpp"
+
+namespace pgdr::python {
+namespace {
+
+/// What pgdr/_mesh.py pickles: the arrays of a mesh.
+template <int D>
+std::shared_ptr<MeshData<D>> mesh_of(const py::array& points, const py::array& cells) {
+  auto data = std::make_shared<MeshData<D>>();
+  data->mesh = mesh_from_arrays<D>(coordinates_of(points), indices_of(cells));
+  return data;
+}
+
+template <int K, class Given>
+void set_constraints(std::vector<Given>& constraints, std::size_t points, const Dense<std::uint32_t>& vertices,
+                     const Dense<int>& markers, const Dense<std::uint32_t>& entities) {
+  const auto all = span_of(vertices), entity = span_of(entities);
+  const auto marker = span_of(markers);
+  const std::size_t count = all.size() / K;
+  if (marker.size() != count || entity.size() != count) bad_argument("there must be one marker a constraint");
+  if (std::ranges::any_of(all, [&](std::uint32_t v) { return v >= points; })) bad_argument("a constraint without its vertex");
+  constraints.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(i * K), K, constraints[i].vertices.begin());
+    constraints[i].marker = marker[i];
+    constraints[i].entity = entity[i];
+  }
+}
+
+template <int D>
+void set_labels(MeshData<D>& data, const Dense<double>& regions, std::size_t input_points, const Dense<int>& point_markers,
+                const Dense<double>& point_attributes, const Dense<std::uint32_t>& point_of_input) {
+  OutputMesh<D>& mesh = data.mesh;
+  const auto fits = [](std::size_t size, std::size_t count) { return size == 0 || size == count; };
+  if (!fits(span_of(regions).size(), mesh.cells.size())) bad_argument("there must be one label a cell");
+  if (!fits(span_of(point_markers).size(), mesh.points.size())) bad_argument("there must be one marker a point");
+  if (const std::size_t all = span_of(point_attributes).size(); all > 0 && (mesh.points.empty() || all % mesh.points.size() != 0))
+    bad_argument("there must be equally many attributes a point");
+  if (input_points > mesh.points.size()) bad_argument("there are more points of the input than points");
+  mesh.regions = vector_of(regions);
+  mesh.input_points = input_points;
+  mesh.point_markers = vector_of(point_markers);
+  mesh.point_attributes = vector_of(point_attributes);
+  data.point_of_input = vector_of(point_of_input);
+}
+
+template <int D>
+void set_reasons(MeshData<D>& data, const Dense<std::uint32_t>& cells, const Dense<std::uint8_t>& codes,
+                 const Dense<std::uint8_t>& kinds, const Dense<std::uint32_t>& ids, const Dense<double>& angles) {
+  const auto cell = span_of(cells), id = span_of(ids);
+  const auto code = span_of(codes), kind = span_of(kinds);
+  const auto angle = span_of(angles);
+  const std::size_t count = cell.size();
+  if (code.size() != count || angle.size() != count || kind.size() != 2 * count || id.size() != 2 * count)
+    bad_argument("the arrays of reasons have different lengths");
+  data.reasons.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (cell[i] >= data.mesh.cells.size() || code[i] > static_cast<std::uint8_t>(PoorReason::Code::budget) ||
+        kind[2 * i] > static_cast<std::uint8_t>(EntityKind::volume) ||
+        kind[2 * i + 1] > static_cast<std::uint8_t>(EntityKind::volume))
+      bad_argument("a reason that cannot be");
+    data.reasons[i] = {cell[i],
+                       static_cast<PoorReason::Code>(code[i]),
+                       {EntityRef{static_cast<EntityKind>(kind[2 * i]), id[2 * i]},
+                        EntityRef{static_cast<EntityKind>(kind[2 * i + 1]), id[2 * i + 1]}},
+                       angle[i]};
+  }
+}
+
+/// Cells, codes, kinds and ids of two entities each, angles.
+template <int D>
+py::tuple reason_arrays(const MeshData<D>& data) {
+  std::vector<std::uint32_t> cells, ids;
+  std::vector<std::uint8_t> codes, kinds;
+  std::vector<double> angles;
+  for (const PoorReason& r : data.reasons) {
+    cells.push_back(r.cell);
+    codes.push_back(static_cast<std::uint8_t>(r.code));
+    for (const EntityRef& e : r.entities) {
+      kinds.push_back(static_cast<std::uint8_t>(e.kind));
+      ids.push_back(e.id);
+    }
+    angles.push_back(r.angle);
+  }
+  const auto count = static_cast<py::ssize_t>(data.reasons.size());
+  return py::make_tuple(own(std::move(cells)), own(std::move(codes)), own(std::move(kinds), {count, 2}),
+                        own(std::move(ids), {count, 2}), own(std::move(angles)));
+}
+
+/// All edges, each once, sorted.
+template <int D>
+py::array edges_of(const MeshData<D>& data) {
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  {
+    const py::gil_scoped_release others_run;
+    edges.reserve(data.mesh.cells.size() * (D == 2 ? 3 : 6));
+    for (const auto& cell : data.mesh.cells)
+      for (std::size_t i = 0; i <= D; ++i)
+        for (std::size_t k = i + 1; k <= D; ++k) edges.push_back({std::min(cell[i], cell[k]), std::max(cell[i], cell[k])});
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    edges.shrink_to_fit();
+  }
+  return own(std::move(edges));
+}
+
+template <int D>
+py::array neighbors_of(const MeshData<D>& data) {
+  std::vector<std::array<std::uint32_t, D + 1>> found;
+  std::vector<std::int64_t> neighbors;
+  {
+    const py::gil_scoped_release others_run;
+    found = neighbors_of_cells(data.mesh);
+    neighbors.reserve(found.size() * (D + 1));
+    for (const auto& row : found)
+      for (const std::uint32_t cell : row) neighbors.push_back(cell == no_cell_beyond ? -1 : static_cast<std::int64_t>(cell));
+  }
+  return own(std::move(neighbors), {static_cast<py::ssize_t>(found.size()), D + 1});
+}
+
+template <int D>
+void write(const MeshData<D>& data, const std::string& file, std::uint32_t first_index, bool edges, bool neighbors,
+           std::uint32_t pieces) {
+  const py::gil_scoped_release others_run;
+  write_mesh(data.mesh, file, {first_index, edges, neighbors, pieces});
+}
+
+template <int D>
+void bind(py::module_& module) {
+  using Data = MeshData<D>;
+  using Self = const py::object&;
+  const auto get = [](auto read) { return [read](const py::object& self) { return read(self, self.cast<const Data&>()); }; };
+  const auto vertices = [get](auto member) {
+    using Constraint = typename std::remove_cvref_t<decltype(std::declval<Data&>().mesh.*member)>::value_type;
+    return get([member](Self self, const Data& d) { return view_member(self, d.mesh.*member, &Constraint::vertices); });
+  };
+  const auto markers = [get](auto member) {
+    using Constraint = typename std::remove_cvref_t<decltype(std::declval<Data&>().mesh.*member)>::value_type;
+    return get([member](Self self, const Data& d) { return view_member(self, d.mesh.*member, &Constraint::marker); });
+  };
+  const auto entities = [get](auto member) {
+    using Constraint = typename std::remove_cvref_t<decltype(std::declval<Data&>().mesh.*member)>::value_type;
+    return get([member](Self self, const Data& d) { return view_member(self, d.mesh.*member, &Constraint::entity); });
+  };
+  const auto numbers = [get](auto member) {
+    return get([member](Self self, const Data& d) {
+      const auto& values = d.mesh.*member;
+      return view(self, values.data(), {static_cast<py::ssize_t>(values.size())});
+    });
+  };
+  py::class_<Data, std::shared_ptr<Data>>(module, with_dimension<D>("Mesh").c_str())
+      .def(py::init(&mesh_of<D>))
+      .def("set_labels", &set_labels<D>)
+      .def("set_subsegments",
+           [](Data& d, const Dense<std::uint32_t>& v, const Dense<int>& m, const Dense<std::uint32_t>& e) {
+             set_constraints<2>(d.mesh.subsegments, d.mesh.points.size(), v, m, e);
+           })
+      .def("set_subfacets",
+           [](Data& d, const Dense<std::uint32_t>& v, const Dense<int>& m, const Dense<std::uint32_t>& e) {
+             set_constraints<3>(d.mesh.subfacets, d.mesh.points.size(), v, m, e);
+           })
+      .def("set_reasons", &set_reasons<D>)
+      .def_property_readonly("points", get([](Self self, const Data& d) { return view_points<D>(self, d.mesh.points); }))
+      .def_property_readonly(
+          "cells", get([](Self self, const Data& d) {
+            return view(self, flat_cells(d.mesh).data(), {static_cast<py::ssize_t>(d.mesh.cells.size()), D + 1});
+          }))
+      .def_property_readonly("regions", numbers(&OutputMesh<D>::regions))
+      .def_property_readonly("point_markers", numbers(&OutputMesh<D>::point_markers))
+      .def_property_readonly("point_attributes", numbers(&OutputMesh<D>::point_attributes))
+      .def_property_readonly("input_points", [](const Data& d) { return d.mesh.input_points; })
+      .def_property_readonly("subsegments", vertices(&OutputMesh<D>::subsegments))
+      .def_property_readonly("subsegment_markers", markers(&OutputMesh<D>::subsegments))
+      .def_property_readonly("subsegment_entities", entities(&OutputMesh<D>::subsegments))
+      .def_property_readonly("subfacets", vertices(&OutputMesh<D>::subfacets))
+      .def_property_readonly("subfacet_markers", markers(&OutputMesh<D>::subfacets))
+      .def_property_readonly("subfacet_entities", entities(&OutputMesh<D>::subfacets))
+      .def_property_readonly("point_of_input", get([](Self self, const Data& d) {
+                               return view(self, d.point_of_input.data(), {static_cast<py::ssize_t>(d.point_of_input.size())});
+                             }))
+      .def_property_readonly("reason_arrays", &reason_arrays<D>)
+      .def("edges", &edges_of<D>)
+      .def("neighbors", &neighbors_of<D>)
+      .def("quality", &quality_of<D>)
+      .def("write", &write<D>);
+  module.def(with_dimension<D>("read_mesh").c_str(), [](const std::string& file) {
+    const py::gil_scoped_release others_run;
+    auto data = std::make_shared<Data>();
+    data->mesh = read_mesh<D>(file);
+    return data;
+  });
+}
+
+}  // namespace
+
+void bind_mesh(py::module_& module) {
+  bind<2>(module);
+  bind<3>(module);
+}
+
+}  // namespace pgdr::python

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A finished mesh as Python holds it. Never changed once it is in the hands of Python, so that any number of threads may read it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "pgdr/output_mesh.hpp"
+#include "pgdr/poor_reason.hpp"
+
+namespace pgdr::python {
+
+template <int D>
+struct MeshData {
+  OutputMesh<D> mesh;
+  std::vector<PoorReason> reasons;
+  std::vector<std::uint32_t> point_of_input;  ///< vertex of each point of the input; empty: unknown
+};
+
+}  // namespace pgdr::python

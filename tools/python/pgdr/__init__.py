@@ -1,0 +1,24 @@
+# SPDX-FileCopyrightText: 2026 The pgdr authors
+# SPDX-License-Identifier: Apache-2.0
+"""Delaunay meshes with guaranteed quality, in 2D and 3D: arrays in, arrays out.
+
+>>> import pgdr
+>>> square = pgdr.Plc([[0, 0], [1, 0], [1, 1], [0, 1]], segments=[[0, 1], [1, 2], [2, 3], [3, 0]])
+>>> r = pgdr.mesh(square, min_angle=25, size=0.01)
+>>> r.points.shape[1], r.cells.shape[1], bool(r.check(square))
+(2, 3, True)
+"""
+from ._check import CheckFinding, CheckReport, Finding, check, diagnose, info
+from ._errors import (CancelledError, DiagnosedError, Diagnostic, Error, FileError, InputError, ResourceError, UsageError)
+from ._fields import Field, limit_growth, sizes_at_points, sizes_on_mesh, smallest
+from ._mesh import Mesh, Reason
+from ._pgdr import version as __version__
+from ._plc import Plc, resolve_crossings, with_convex_hull
+from ._run import Elements, Progress, StopSource, mesh
+from ._tetgen import Tetrahedralization, tetrahedralize
+from ._triangle import triangulate
+
+__all__ = ["CancelledError", "CheckFinding", "CheckReport", "DiagnosedError", "Diagnostic", "Elements", "Error", "Field", "FileError",
+           "Finding", "InputError", "Mesh", "Plc", "Progress", "Reason", "ResourceError", "StopSource", "Tetrahedralization",
+           "UsageError", "__version__", "check", "diagnose", "info", "limit_growth", "mesh", "resolve_crossings", "sizes_at_points",
+           "sizes_on_mesh", "smallest", "tetrahedralize", "triangulate", "with_convex_hull"]

@@ -1,0 +1,148 @@
+# SPDX-FileCopyrightText: 2026 The pgdr authors
+# SPDX-License-Identifier: Apache-2.0
+"""The checker, the diagnosis of inputs, and what is in a file."""
+from __future__ import annotations
+
+import math
+from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
+
+from . import _arguments, _pgdr
+from ._errors import Diagnostic, usage
+from ._mesh import Mesh
+from ._plc import Plc
+
+_BOUNDS = ("min_angle", "radius_edge", "size", "region_sizes", "min_dihedral", "max_volume", "regions")
+
+
+class CheckFinding(NamedTuple):
+    """Something that is wrong with a mesh."""
+
+    kind: str  #: a stable word such as "inverted_cell"
+    message: str  #: one sentence
+    ids: Sequence[int]  #: the rows of cells, points or entities that it names
+
+
+class CheckReport:
+    """What a check has found. True where a mesh is sound, conforms to its input, and is over a bound only with a reason.
+
+    `exit_code`: 0: everything holds; 1: cells are over a bound, and the reasons say why, or say that nothing better was found;
+    6: anything else. `findings`: the first of what is wrong. The counts: `finding_count`, `over_radius_edge`, `over_size`,
+    `below_dihedral`, `explained`, `unexplained`, `not_delaunay_rounding`, `not_delaunay_refused`.
+    """
+
+    exit_code: int
+    findings: List[CheckFinding]
+    finding_count: int
+    over_radius_edge: int
+    over_size: int
+    below_dihedral: int
+    explained: int
+    unexplained: int
+    not_delaunay_rounding: int
+    not_delaunay_refused: int
+
+    def __init__(self, found: Dict[str, Any]) -> None:
+        self.__dict__.update(found)
+        self.findings = [CheckFinding(*f) for f in found["findings"]]
+
+    def __bool__(self) -> bool:
+        return self.exit_code <= 1
+
+    def __repr__(self) -> str:
+        words = ("everything holds", "sound; cells are over a bound")
+        over = f"{self.finding_count} findings: " + "; ".join(f.message for f in self.findings[:3])
+        return f"<pgdr.CheckReport {self.exit_code}: {words[self.exit_code] if self else over}>"
+
+
+def check(mesh: Mesh, plc: Optional[Plc] = None, *, delaunay: Optional[bool] = None, reasons: bool = True, **bounds: Any) -> CheckReport:
+    """Certifies a mesh, with exact arithmetic: that its cells are one, that it conforms to the input as given, and that the bounds
+    hold but where its reasons, each of which is verified, say why not. Some 5 microseconds a cell.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Of any origin.
+    plc : Plc, optional
+        The input. None: only what can be said without it.
+    delaunay : bool, optional
+        Are faces to be locally Delaunay? None: if the run that made the mesh says so.
+    reasons : bool
+        False: no cell has an excuse.
+    min_angle, radius_edge, size, region_sizes, min_dihedral, max_volume, regions
+        As `pgdr.mesh`. What is not given is no bound; `Mesh.check` takes those that the mesh was made with.
+
+    >>> import pgdr
+    >>> square = pgdr.Plc([[0, 0], [1, 0], [1, 1], [0, 1]], segments=[[0, 1], [1, 2], [2, 3], [3, 0]])
+    >>> coarse = pgdr.mesh(square)
+    >>> pgdr.check(coarse, square, size=0.001).exit_code
+    6
+    """
+    from ._run import bounds_of
+    if not isinstance(mesh, Mesh):
+        raise TypeError(f"mesh must be a pgdr.Mesh, not {type(mesh).__name__}")
+    if plc is not None and not isinstance(plc, Plc):
+        raise TypeError(f"plc must be a pgdr.Plc, not {type(plc).__name__}")
+    if plc is not None and plc.dimension != mesh.dimension:
+        raise usage(f"the mesh has {mesh.dimension} dimensions, the input {plc.dimension}")
+    unknown = sorted(set(bounds) - set(_BOUNDS))
+    if unknown:
+        raise TypeError(f"check() has no argument {unknown[0]!r}")
+    bounds = {name: value for name, value in bounds.items() if value is not None}
+    bounds.setdefault("regions", mesh._bounds.get("regions", "seeds"))
+    options = bounds_of(mesh.dimension, bounds)
+    if "radius_edge" not in bounds and "min_angle" not in bounds:
+        options.radius_edge_bound = math.inf
+    cosine = _pgdr.claimed_cosine(float(bounds["min_dihedral"])) if bounds.get("min_dihedral") else 1.0
+    if delaunay is None:
+        delaunay = bool(mesh.statistics.get("delaunay", False))
+    of_dimension = _pgdr.check2 if mesh.dimension == 2 else _pgdr.check3
+    return CheckReport(of_dimension(mesh._core, plc._core if plc is not None else None, options, cosine,
+                                    _arguments.flag("delaunay", delaunay), _arguments.flag("reasons", reasons)))
+
+
+class Finding(NamedTuple):
+    """All findings of one kind in an input."""
+
+    kind: str  #: a stable word such as "facets_cross"
+    count: int  #: all of them
+    is_error: bool  #: no mesh has these entities
+    listed: Sequence[Tuple[Diagnostic, float]]  #: the first of them, with a measure: degrees of an angle, a length; or 0
+
+
+def diagnose(plc: Plc, *, most_listed: int = 20, errors_only: bool = False) -> List[Finding]:
+    """All that is wrong with an input, and where; then what is odd about it. Exact; about a second a million triangles.
+
+    >>> import pgdr
+    >>> cross = pgdr.Plc([[0, 0], [2, 2], [0, 2], [2, 0]], segments=[[0, 1], [2, 3]])
+    >>> [f.kind for f in pgdr.diagnose(cross) if f.is_error]
+    ['segments_cross']
+    """
+    if not isinstance(plc, Plc):
+        raise TypeError(f"plc must be a pgdr.Plc, not {type(plc).__name__}")
+    of_dimension = _pgdr.diagnose2 if plc.dimension == 2 else _pgdr.diagnose3
+    most = _arguments.whole_number("most_listed", most_listed, 0, 2**32)
+    return [Finding(*found) for found in of_dimension(plc._core, most, _arguments.flag("errors_only", errors_only))]
+
+
+def info(what: Union[Plc, Mesh, _arguments.Path]) -> Dict[str, Any]:
+    """What is in an input, a mesh, or a file of either: counts, extent, labels; of a mesh its quality.
+
+    >>> import pgdr
+    >>> pgdr.info(pgdr.Plc([[0, 0], [1, 0], [1, 2]], segments=[[0, 1], [1, 2], [2, 0]]))["upper"]
+    [1.0, 2.0]
+    """
+    if not isinstance(what, (Plc, Mesh)):
+        file = _arguments.path(what)
+        what = Mesh.read(file) if _pgdr.holds_cells(file) else Plc.read(file)
+    points = what.points
+    found: Dict[str, Any] = {"kind": "input" if isinstance(what, Plc) else "mesh", "dimension": what.dimension, "points": len(points),
+                             "lower": points.min(axis=0).tolist() if len(points) else None,
+                             "upper": points.max(axis=0).tolist() if len(points) else None}
+    if isinstance(what, Plc):
+        found.update(segments=len(what.segments), facets=what._core.facet_count, holes=len(what.holes), regions=len(what.regions),
+                     tolerance=what.tolerance, file=what.file)
+    else:
+        labels = sorted(set(what.regions.tolist()))
+        found.update(cells=len(what.cells), subsegments=len(what.subsegments), subfacets=len(what.subfacets), labels=labels,
+                     quality=what.quality())
+    return found

@@ -1,0 +1,238 @@
+# SPDX-FileCopyrightText: 2026 The pgdr authors
+# SPDX-License-Identifier: Apache-2.0
+"""Finished meshes."""
+from __future__ import annotations
+
+from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Tuple
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _arguments, _pgdr
+from ._errors import Diagnostic, usage
+
+_CORES = {2: _pgdr.Mesh2, 3: _pgdr.Mesh3}
+_KINDS = ("vertex", "segment", "facet", "volume")
+_REASONS = ("small_angle", "rounding", "beyond_theory", "kept_boundary", "input_dihedral", "not_found", "budget")
+
+
+class Reason(NamedTuple):
+    """Why a cell is over a bound: which entities of the input are to blame (docs/small-angles.md)."""
+
+    cell: int  #: its row in `cells`
+    code: str  #: a stable word such as "small_angle"
+    entities: Sequence[Tuple[str, int]]  #: kind and number of each: ("segment", 3)
+    angle: float  #: in degrees, between these; 0: none
+
+
+class Mesh:
+    """A mesh: arrays, and what is known of how it came to be. Never changed; any number of threads may read it.
+
+    The arrays are read-only views of the memory of C++, which they keep alive. Lengths are in the units of the input; rows count
+    from 0. The same input makes the same bytes, whatever the number of threads.
+    """
+
+    def __init__(self) -> None:
+        raise TypeError("meshes are made by pgdr.mesh, Mesh.read and Mesh.from_arrays")
+
+    @classmethod
+    def _of(cls, core: Any, facts: Optional[Dict[str, Any]] = None, bounds: Optional[Dict[str, Any]] = None) -> Mesh:
+        made = cls.__new__(cls)
+        made._core = core
+        made._facts = facts or {}
+        made._bounds = bounds or {}
+        return made
+
+    _core: Any
+    _facts: Dict[str, Any]
+    _bounds: Dict[str, Any]
+
+    @classmethod
+    def read(cls, path: _arguments.Path) -> Mesh:
+        """The mesh in a .vtu, .pvtu, .msh, .mesh or .ele file. Raises FileError, InputError with file and line."""
+        file = _arguments.path(path)
+        read = _pgdr.read_mesh2 if _pgdr.file_dimension(file) == 2 else _pgdr.read_mesh3
+        return cls._of(read(file))
+
+    @classmethod
+    def from_arrays(cls, points: npt.ArrayLike, cells: npt.ArrayLike) -> Mesh:
+        """A mesh of (n, D) points and (m, D + 1) cells, without constraints or labels: a background mesh, or one to check."""
+        at = _arguments.points("points", points)
+        dimension = int(at.shape[1])
+        return cls._of(_CORES[dimension](at, _arguments.indices("cells", cells, dimension + 1)))
+
+    @property
+    def dimension(self) -> int:
+        """2 or 3."""
+        return 2 if isinstance(self._core, _pgdr.Mesh2) else 3
+
+    @property
+    def points(self) -> npt.NDArray[np.float64]:
+        """(n, D) coordinates: first the distinct points of the input, in their order, then the others."""
+        return self._core.points
+
+    @property
+    def cells(self) -> npt.NDArray[np.uint32]:
+        """(m, D + 1) vertices of the triangles (2D, counterclockwise) or tetrahedra (3D, of positive orientation)."""
+        return self._core.cells
+
+    @property
+    def regions(self) -> npt.NDArray[np.float64]:
+        """(m,) label of each cell; (0,) where the mesh has one region without a label."""
+        return self._core.regions
+
+    @property
+    def point_markers(self) -> npt.NDArray[np.int32]:
+        """(n,) markers; (0,) if the input has none."""
+        return self._core.point_markers
+
+    @property
+    def point_attributes(self) -> npt.NDArray[np.float64]:
+        """(n, a) attributes, interpolated at new points."""
+        flat = self._core.point_attributes
+        return flat.reshape(len(self.points), -1) if len(flat) else flat.reshape(len(self.points), 0)
+
+    @property
+    def input_points(self) -> int:
+        """So many of the points, the first ones, are of the input, or crossings of its edges."""
+        return self._core.input_points
+
+    @property
+    def subsegments(self) -> npt.NDArray[np.uint32]:
+        """(k, 2) edges that segments, or edges of facets, have become."""
+        return self._core.subsegments
+
+    @property
+    def subsegment_markers(self) -> npt.NDArray[np.int32]:
+        """(k,) the markers of their segments."""
+        return self._core.subsegment_markers
+
+    @property
+    def subfacets(self) -> npt.NDArray[np.uint32]:
+        """3D: (k, 3) triangles that the facets have become; those on the hull face outwards."""
+        return self._core.subfacets.reshape(-1, 3)
+
+    @property
+    def subfacet_markers(self) -> npt.NDArray[np.int32]:
+        """3D: (k,) the markers of their facets."""
+        return self._core.subfacet_markers
+
+    @property
+    def markers(self) -> npt.NDArray[np.int32]:
+        """(k,) markers of what bounds cells: of `subsegments` in 2D, of `subfacets` in 3D."""
+        return self.subsegment_markers if self.dimension == 2 else self.subfacet_markers
+
+    @property
+    def point_of_input(self) -> npt.NDArray[np.uint32]:
+        """The row in `points` of each point of the input; (0,) of a mesh that was not made here."""
+        return self._core.point_of_input
+
+    def neighbors(self) -> npt.NDArray[np.int64]:
+        """(m, D + 1) the cell beyond the face opposite each vertex; -1: none. Linear time."""
+        return self._core.neighbors()
+
+    def edges(self) -> npt.NDArray[np.uint32]:
+        """(k, 2) all edges, each once, the smaller row first, sorted. n log n."""
+        return self._core.edges()
+
+    def quality(self) -> Dict[str, Any]:
+        """Angles in degrees, radius-edge ratio, radius ratio and scaled Jacobian: of all cells, and of each region."""
+        return self._core.quality()
+
+    @property
+    def reasons(self) -> List[Reason]:
+        """Of each cell over a bound, why. Empty where all bounds hold."""
+        cells, codes, kinds, ids, angles = self._core.reason_arrays
+        return [Reason(int(c), _REASONS[code], [(_KINDS[k], int(i)) for k, i in zip(kind, of) if i != 0xffffffff], float(angle))
+                for c, code, kind, of, angle in zip(cells, codes, kinds, ids, angles)]
+
+    @property
+    def poor_left(self) -> int:
+        """Cells over a bound; each has a reason when `stop` is "finished"."""
+        return self._facts.get("poor_left", 0)
+
+    @property
+    def stop(self) -> str:
+        """Why the run ended: "finished", "max_vertices", "min_edge", "time_limit" or "cancelled"."""
+        return self._facts.get("stop", "finished")
+
+    @property
+    def statistics(self) -> Dict[str, Any]:
+        """Counts and times (seconds) of the run; {} of a mesh that was not made here. As in the command's report (docs/usage.md)."""
+        return self._facts.get("statistics", {})
+
+    @property
+    def repairs(self) -> List[Diagnostic]:
+        """What was done to the input: each repair, with the numbers and places of what it is about."""
+        return list(self._facts.get("repairs", []))
+
+    @property
+    def warnings(self) -> List[Diagnostic]:
+        """What is odd about the input, and was taken as it is."""
+        return list(self._facts.get("warnings", []))
+
+    def check(self, plc: Optional[Any] = None, **bounds: Any) -> Any:
+        """`pgdr.check` with the bounds and the reasons of the run that made this mesh; `bounds` are instead of those."""
+        from ._check import check
+        lost = [name for name, value in self._bounds.items() if value is _Lost and name not in bounds]
+        if lost:
+            raise usage(f"a pickled mesh has no {' and '.join(lost)} that is a function or a field: give it again")
+        asked = dict(self._bounds) if self.stop == "finished" else {}
+        if "radius_edge" in bounds or "min_angle" in bounds:
+            asked.pop("radius_edge", None)
+        asked.update(bounds)
+        return check(self, plc, **asked)
+
+    def write(self, path: _arguments.Path, *, first_index: int = 1, edges: bool = False, neighbors: bool = False,
+              pieces: int = 0) -> None:
+        """Writes .vtu, .pvtu, .msh, .mesh, or .node with .ele, by the extension; a file there is replaced when all is written.
+
+        first_index, edges, neighbors are for .node and .ele; pieces for .pvtu. Raises FileError, UsageError.
+        """
+        self._core.write(_arguments.path(path), _arguments.whole_number("first_index", first_index, 0, 1),
+                         _arguments.flag("edges", edges), _arguments.flag("neighbors", neighbors),
+                         _arguments.whole_number("pieces", pieces, 0, 100000))
+
+    def to_meshio(self) -> Any:
+        """A meshio.Mesh of the cells, the subfacets and the subsegments, with cell data "region" and "marker"."""
+        from ._convert import to_meshio
+        return to_meshio(self)
+
+    def to_pyvista(self) -> Any:
+        """A pyvista.UnstructuredGrid of the cells, with cell data "region"."""
+        from ._convert import to_pyvista
+        return to_pyvista(self)
+
+    def _repr_html_(self) -> str:
+        from ._show import repr_html
+        return repr_html(self)
+
+    def __repr__(self) -> str:
+        words = f"<pgdr.Mesh {self.dimension}D: {len(self.points)} points, {len(self.cells)} cells"
+        words += f", {self.poor_left} over a bound" if self.poor_left else ""
+        return words + ("" if self.stop == "finished" else f", ended by {self.stop}") + ">"
+
+    def __reduce__(self) -> Tuple[Callable[..., Mesh], Tuple[Any, ...]]:
+        core = self._core
+        arrays = {name: np.array(getattr(core, name)) for name in _PICKLED}
+        arrays["reasons"] = tuple(np.array(a) for a in core.reason_arrays)
+        bounds = {name: _Lost if callable(value) or (name == "region_sizes" and any(map(callable, (value or {}).values()))) else value
+                  for name, value in self._bounds.items()}
+        return _restored, (self.dimension, arrays, core.input_points, self._facts, bounds)
+
+
+class _Lost:
+    """Stands for a size that could not be pickled."""
+
+
+_PICKLED = ("points", "cells", "regions", "point_markers", "point_attributes", "subsegments", "subsegment_markers",
+            "subsegment_entities", "subfacets", "subfacet_markers", "subfacet_entities", "point_of_input")
+
+
+def _restored(dimension: int, arrays: Dict[str, Any], input_points: int, facts: Dict[str, Any], bounds: Dict[str, Any]) -> Mesh:
+    core = _CORES[dimension](arrays["points"], arrays["cells"])
+    core.set_labels(arrays["regions"], input_points, arrays["point_markers"], arrays["point_attributes"], arrays["point_of_input"])
+    core.set_subsegments(arrays["subsegments"], arrays["subsegment_markers"], arrays["subsegment_entities"])
+    core.set_subfacets(arrays["subfacets"], arrays["subfacet_markers"], arrays["subfacet_entities"])
+    core.set_reasons(*arrays["reasons"])
+    return Mesh._of(core, facts, bounds)

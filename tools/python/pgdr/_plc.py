@@ -1,0 +1,277 @@
+# SPDX-FileCopyrightText: 2026 The pgdr authors
+# SPDX-License-Identifier: Apache-2.0
+"""Inputs."""
+from __future__ import annotations
+
+from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _arguments, _pgdr
+from ._errors import Diagnostic, usage
+
+_CORES = {2: _pgdr.Plc2, 3: _pgdr.Plc3}
+
+
+class Plc:
+    """An input: a planar straight line graph (2D) or a piecewise linear complex (3D).
+
+    Made once, from arrays or a file, and never changed: any number of threads may read and mesh one. Its arrays are views, which
+    keep it alive, and are read-only. Lengths are in the units of the coordinates; indices count from 0.
+
+    Parameters
+    ----------
+    points : (n, 2) or (n, 3) array
+        The coordinates, which say the dimension. float64 and float32 are read as they are (of float32, rounding of that size is
+        expected), other numbers as float64.
+    segments : (m, 2) array of integers, optional
+        Ends of the straight edges that the mesh is to have. 2D: the boundary and all constraints inside; 3D: those that no
+        facet has.
+    facets : (m, k) array of integers, or list, optional
+        3D: polygons of k corners each, triangles mostly; or a list whose items are polygons, or lists of polygons that lie in one
+        plane (the outer one, then those inside it, as in TetGen's .poly).
+    markers : (m,) array of integers, optional
+        One a segment (2D) or facet (3D); the mesh hands it on. 0 where there are none.
+    point_markers : (n,) array of integers, optional
+        One a point.
+    holes : (k, D) array, optional
+        A point in each area (volume) that stays empty.
+    regions : list of rows, optional
+        Labels: (x, y[, z], attribute[, max_size]) or dicts of point, attribute, max_size, where max_size bounds the area (2D)
+        or volume (3D) of the region's cells.
+    segment_markers : (m,) array of integers, optional
+        3D: one a segment.
+    point_attributes : (n, a) array, optional
+        Numbers that are interpolated at new points.
+    facet_holes : dict, optional
+        3D: for the number of a facet of several polygons, (k, 3) points in its holes.
+    tolerance : float, optional
+        What lies within this distance meets. None: the rounding of the coordinates; 0: everything is exactly as given.
+    coarse : bool
+        A tolerance above a thousandth of the diagonal of all points is meant.
+
+    Raises
+    ------
+    UsageError
+        An array of a wrong shape, length or type.
+    InputError
+        A coordinate that is not finite (ids: the point), an index out of range (ids: the segment or facet, the index).
+
+    Examples
+    --------
+    >>> import pgdr
+    >>> square = pgdr.Plc([[0, 0], [1, 0], [1, 1], [0, 1]], segments=[[0, 1], [1, 2], [2, 3], [3, 0]])
+    >>> square
+    <pgdr.Plc 2D: 4 points, 4 segments>
+    """
+
+    def __init__(self, points: npt.ArrayLike, segments: Optional[npt.ArrayLike] = None, facets: Optional[Any] = None, *,
+                 markers: Optional[npt.ArrayLike] = None, point_markers: Optional[npt.ArrayLike] = None,
+                 holes: Optional[npt.ArrayLike] = None, regions: Optional[Iterable[Any]] = None,
+                 segment_markers: Optional[npt.ArrayLike] = None, point_attributes: Optional[npt.ArrayLike] = None,
+                 facet_holes: Optional[Mapping[int, npt.ArrayLike]] = None, tolerance: Optional[float] = None,
+                 coarse: bool = False) -> None:
+        at = _arguments.points("points", points)
+        dimension = int(at.shape[1])
+        if dimension == 2 and (facets is not None or facet_holes is not None):
+            raise usage("facets are for 3D: the points have two coordinates each")
+        ends = _arguments.indices("segments", [] if segments is None else segments, 2)
+        corners, polygon_sizes, facet_sizes = _arguments.polygons([] if facets is None else facets)
+        facet_count = len(facet_sizes) or len(polygon_sizes)
+        if dimension == 2:
+            if markers is not None and segment_markers is not None:
+                raise usage("markers and segment_markers are the same in 2D: give one of them")
+            segment_markers = segment_markers if markers is None else markers
+            markers = None
+        attributes = np.zeros(0)
+        if point_attributes is not None:
+            attributes = np.ascontiguousarray(point_attributes, dtype=np.float64)
+            if attributes.ndim != 2 or len(attributes) != len(at):
+                raise usage(f"point_attributes must have the shape ({len(at)}, a), not {attributes.shape}")
+        self._core = _CORES[dimension](
+            at, at.dtype == np.float32, ends, _arguments.markers("segment_markers" if dimension == 3 else "markers",
+                                                                 segment_markers, len(ends), "segments"),
+            corners, polygon_sizes, facet_sizes, _arguments.markers("markers", markers, facet_count, "facets"),
+            _hole_rows(facet_holes, facet_count), _arguments.coordinates("holes", [] if holes is None else holes, dimension),
+            _arguments.regions([] if regions is None else regions, dimension),
+            _arguments.markers("point_markers", point_markers, len(at), "points"), attributes.reshape(-1),
+            _tolerance(tolerance), _arguments.flag("coarse", coarse))
+
+    @classmethod
+    def _of(cls, core: Any) -> Plc:
+        made = cls.__new__(cls)
+        made._core = core
+        return made
+
+    @classmethod
+    def read(cls, path: _arguments.Path, *, tolerance: Optional[float] = None, coarse: bool = False) -> Plc:
+        """The input in a file: .poly, .smesh, .node, .off, .obj, .ply, .stl, .msh or .mesh, by its extension.
+
+        Raises FileError if it cannot be opened, InputError with file and line if it is not what its format asks for.
+        """
+        file = _arguments.path(path)
+        read = _pgdr.read_plc2 if _pgdr.file_dimension(file) == 2 else _pgdr.read_plc3
+        made = cls._of(read(file))
+        return made if tolerance is None else made.with_tolerance(tolerance, coarse=coarse)
+
+    @classmethod
+    def from_polygons(cls, outer: npt.ArrayLike, holes: Sequence[npt.ArrayLike] = (), *, markers: Optional[Sequence[int]] = None,
+                      tolerance: Optional[float] = None) -> Plc:
+        """2D: the area inside a ring, less those inside further rings.
+
+        Parameters: `outer` and each of `holes` is an (n, 2) array of the corners of a ring, in either direction, with or without the
+        first one again at the end; holes lie inside `outer`, and apart. `markers`: one a ring, `outer` first; else they are
+        numbered from 1.
+
+        >>> import pgdr
+        >>> pgdr.Plc.from_polygons([[0, 0], [3, 0], [3, 3], [0, 3]], holes=[[[1, 1], [2, 1], [2, 2], [1, 2]]])
+        <pgdr.Plc 2D: 8 points, 8 segments, 1 hole>
+        """
+        from ._convert import from_polygons
+        return from_polygons(outer, holes, markers=markers, tolerance=tolerance)
+
+    @classmethod
+    def from_meshio(cls, mesh: Any) -> Plc:
+        """The triangles (3D) or edges (2D) of a meshio.Mesh; see docs/python.md for what becomes of its data."""
+        from ._convert import from_meshio
+        return from_meshio(mesh)
+
+    @classmethod
+    def from_pyvista(cls, mesh: Any) -> Plc:
+        """The faces of a pyvista.PolyData; see docs/python.md for what becomes of its data."""
+        from ._convert import from_pyvista
+        return from_pyvista(mesh)
+
+    def with_tolerance(self, tolerance: float, *, coarse: bool = False) -> Plc:
+        """The same input with another tolerance. It is copied."""
+        return self._of(self._core.with_tolerance(_tolerance(tolerance), _arguments.flag("coarse", coarse)))
+
+    @property
+    def dimension(self) -> int:
+        """2 or 3."""
+        return 2 if isinstance(self._core, _pgdr.Plc2) else 3
+
+    @property
+    def points(self) -> npt.NDArray[np.float64]:
+        """(n, D) coordinates."""
+        return self._core.points
+
+    @property
+    def segments(self) -> npt.NDArray[np.uint32]:
+        """(m, 2) ends of the segments."""
+        return self._core.segments
+
+    @property
+    def facets(self) -> Union[npt.NDArray[np.int64], List[Any]]:
+        """3D: an (m, k) array where all facets are one polygon of k corners each; else a list of polygons and of lists of polygons."""
+        corners, polygon_sizes, facet_sizes, _, _ = self._core.facet_arrays
+        if len(facet_sizes) == 0 and (len(polygon_sizes) == 0 or (polygon_sizes == polygon_sizes[0]).all()):
+            return corners.reshape(len(polygon_sizes), polygon_sizes[0] if len(polygon_sizes) else 3)
+        all_polygons = [polygon.tolist() for polygon in np.split(corners, np.cumsum(polygon_sizes)[:-1])]
+        if len(facet_sizes) == 0:
+            return all_polygons
+        begin = np.concatenate([[0], np.cumsum(facet_sizes)])
+        return [all_polygons[a] if b - a == 1 else all_polygons[a:b] for a, b in zip(begin[:-1], begin[1:])]
+
+    @property
+    def markers(self) -> npt.NDArray[np.int32]:
+        """(m,) markers: of the segments (2D) or facets (3D)."""
+        return self._core.segment_markers if self.dimension == 2 else self._core.facet_arrays[3]
+
+    @property
+    def segment_markers(self) -> npt.NDArray[np.int32]:
+        """(m,) markers of the segments."""
+        return self._core.segment_markers
+
+    @property
+    def point_markers(self) -> npt.NDArray[np.int32]:
+        """(n,) markers of the points; (0,) if there are none."""
+        return self._core.point_markers
+
+    @property
+    def point_attributes(self) -> npt.NDArray[np.float64]:
+        """(n, a) attributes of the points."""
+        return self._core.point_attributes
+
+    @property
+    def holes(self) -> npt.NDArray[np.float64]:
+        """(k, D) points in what stays empty."""
+        return self._core.holes
+
+    @property
+    def regions(self) -> npt.NDArray[np.float64]:
+        """(k, D + 2) seeds of regions: a point, the attribute, the largest area or volume of the cells (0: none)."""
+        return self._core.regions
+
+    @property
+    def tolerance(self) -> float:
+        """What lies within this distance meets; 0: everything is exactly as given."""
+        return self._core.effective_tolerance
+
+    @property
+    def file(self) -> str:
+        """Where it was read from; empty: it was not."""
+        return self._core.file
+
+    def __repr__(self) -> str:
+        counts = [_count(len(self.points), "point"), _count(len(self.segments), "segment") if len(self.segments) else "",
+                  _count(self._core.facet_count, "facet") if self.dimension == 3 else "",
+                  _count(len(self.holes), "hole") if len(self.holes) else "",
+                  _count(len(self.regions), "region") if len(self.regions) else ""]
+        return f"<pgdr.Plc {self.dimension}D: {', '.join(c for c in counts if c)}>"
+
+    def __reduce__(self) -> Tuple[Callable[..., Plc], Tuple[Any, ...]]:
+        core = self._core
+        corners, polygon_sizes, facet_sizes, facet_markers, facet_holes = core.facet_arrays
+        parts = (np.array(core.points), core.are_floats, np.array(core.segments), np.array(core.segment_markers), corners,
+                 polygon_sizes, facet_sizes, facet_markers, facet_holes, np.array(core.holes), core.regions,
+                 np.array(core.point_markers), np.array(core.point_attributes).reshape(-1), core.tolerance, core.is_coarse)
+        return _restored, (self.dimension, parts)
+
+
+def _restored(dimension: int, parts: Tuple[Any, ...]) -> Plc:
+    return Plc._of(_CORES[dimension](*parts))
+
+
+def _count(number: int, word: str) -> str:
+    return f"{number} {word}{'' if number == 1 else 's'}"
+
+
+def _tolerance(value: Optional[float]) -> Optional[float]:
+    if value is None:
+        return None
+    made = _arguments.number("tolerance", value)
+    if not 0 <= made < float("inf"):
+        raise usage(f"the tolerance must be a length, 0 or more, not {value}")
+    return made
+
+
+def _hole_rows(holes: Optional[Mapping[int, npt.ArrayLike]], facets: int) -> npt.NDArray[np.float64]:
+    rows: List[Any] = []
+    for facet, at in (holes or {}).items():
+        number = _arguments.whole_number("a key of facet_holes", facet, 0, facets - 1)
+        rows += [[number, *point] for point in _arguments.coordinates(f"facet_holes[{facet}]", at, 3)]
+    return np.array(rows, dtype=np.float64).reshape(len(rows), 4)
+
+
+def resolve_crossings(plc: Plc) -> Tuple[Plc, List[Diagnostic]]:
+    """2D: splits segments where they cross, at new points behind those of the input. Returns the input so made, and what was done.
+
+    >>> import pgdr
+    >>> cross = pgdr.Plc([[0, 0], [2, 2], [0, 2], [2, 0]], segments=[[0, 1], [2, 3]])
+    >>> split, repairs = pgdr.resolve_crossings(cross)
+    >>> len(split.segments), [r.code for r in repairs]
+    (4, ['entities_intersect'])
+    """
+    if plc.dimension != 2:
+        raise usage("crossings are resolved in 2D only")
+    core, repairs = _pgdr.resolve_crossings(plc._core)
+    return Plc._of(core), repairs
+
+
+def with_convex_hull(plc: Plc) -> Plc:
+    """2D: the same input with the edges of the convex hull of all points as segments, too, with marker 0."""
+    if plc.dimension != 2:
+        raise usage("the convex hull is added in 2D only")
+    return Plc._of(_pgdr.with_convex_hull(plc._core))

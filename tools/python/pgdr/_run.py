@@ -1,0 +1,264 @@
+# SPDX-FileCopyrightText: 2026 The pgdr authors
+# SPDX-License-Identifier: Apache-2.0
+"""Meshing."""
+from __future__ import annotations
+
+import sys
+from typing import Any, Callable, Dict, Mapping, NamedTuple, Optional, Protocol, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _arguments, _pgdr
+from ._errors import usage
+from ._fields import Size, core_of
+from ._mesh import Mesh
+from ._plc import Plc
+
+
+class Elements(NamedTuple):
+    """Poor elements, as a selector gets them: n rows each. Lengths are in the units of the input."""
+
+    corners: npt.NDArray[np.float64]  #: (n, D + 1, D)
+    circumcenter: npt.NDArray[np.float64]  #: (n, D)
+    circumradius: npt.NDArray[np.float64]  #: (n,)
+    shortest_edge: npt.NDArray[np.float64]  #: (n,) its length
+    disk_center: npt.NDArray[np.float64]  #: (n, D) of the selection disk
+    disk_radius: npt.NDArray[np.float64]  #: (n,) 0: the centre alone
+    over_radius_edge: npt.NDArray[np.bool_]  #: (n,) else it is only too big
+
+
+class Progress(NamedTuple):
+    """How far a run is."""
+
+    vertices: int  #: so far
+    waiting: int  #: elements that wait to be refined
+    finished: bool  #: the last report of a run, however it ended
+
+
+class _Event(Protocol):
+    def is_set(self) -> bool: ...
+
+
+class StopSource:
+    """Stops runs: give it to `mesh(..., stop=)` and call `stop()` from any thread, or a signal handler."""
+
+    def __init__(self) -> None:
+        self._core = _pgdr.StopSource()
+
+    def stop(self) -> None:
+        """Ends all runs that it was given to, within some hundredths of a second; they return the mesh so far."""
+        self._core.stop()
+
+    def is_set(self) -> bool:
+        """Was it stopped?"""
+        return bool(self._core.is_set())
+
+
+def mesh(plc: Plc, *, min_angle: Optional[float] = None, radius_edge: Optional[float] = None, size: Optional[Size] = None,
+         min_dihedral: Optional[float] = None, optimize: bool = True, threads: int = 0, regions: Optional[str] = None,
+         region_sizes: Optional[Mapping[float, Size]] = None,
+         selector: Union[None, str, Callable[[Elements], npt.ArrayLike]] = None, keep_boundary: bool = False,
+         tolerance: Optional[float] = None, max_volume: Optional[float] = None, min_edge: float = 0.0,
+         time_limit: Optional[float] = None, max_vertices: Optional[int] = None, refine: bool = True,
+         schedule: Optional[str] = None, progress: Union[bool, Callable[[Progress], object]] = False,
+         stop: Union[None, StopSource, _Event] = None) -> Mesh:
+    """Meshes an input. Other Python threads run meanwhile, and may mesh, too. The mesh is the same for any number of threads.
+
+    Parameters
+    ----------
+    plc : Plc
+        The input.
+    min_angle : float, optional
+        2D: bound on the angles, in degrees, above 0 and at most 60; up to 20.7 there is a proof, beyond some 33 few inputs have
+        such a mesh. Instead of `radius_edge`.
+    radius_edge : float, optional
+        Bound on circumradius over shortest edge; the default is the smallest with a proof: 2 in 3D, sqrt(2) in 2D (20.7 degrees).
+    size : float, Field, or function, optional
+        Bound on the circumradius (3D, a length) or area (2D) of each cell, at its centroid. A function gets an (n, D) float64
+        array of points, and returns their n sizes; it must say the same whenever it is asked for a point, and what it raises
+        comes out of this call.
+    min_dihedral : float, optional
+        3D: bound on the dihedral angles, in degrees, from 0 to 35, that the optimiser works for. Default: 15.
+    optimize : bool
+        3D. False: no optimiser, and a Delaunay mesh.
+    threads : int
+        How many; 0: as many as there are cores.
+    regions : "seeds" or "auto", optional
+        Which volumes are meshed and how they are labelled: as the input's seeds say (the default), or numbered by nesting.
+    region_sizes : dict, optional
+        Further sizes of the cells with a label: {label: size}.
+    selector : str or function, optional
+        Where new points go: a name as the command has it ("circumcenter", "off-center", "optimized", "sliver-avoiding"), or a
+        function of `Elements` that returns an (n, D) array of points in their selection disks.
+    keep_boundary : bool
+        2D: no new point on any segment.
+    tolerance : float, optional
+        Instead of that of the input: what lies within this distance meets.
+    max_volume : float, optional
+        3D: bound on the volume of each cell.
+    min_edge : float
+        Points that would make an edge shorter than this are not inserted.
+    time_limit : float, optional
+        Seconds; then the mesh so far is returned.
+    max_vertices : int, optional
+        So many at most; then the mesh so far is returned.
+    refine : bool
+        False: no new points but those that the boundary needs.
+    schedule : "reproducible", "uniform" or "greedy", optional
+        The order of the work (docs/usage.md). Only greedy meshes depend on timing.
+    progress : bool or function
+        True: a line on standard error, which ends when the run ends. A function of `Progress`, called by this thread some thirty
+        times a second at most, and once more in the end.
+    stop : StopSource, or an object with is_set()
+        Ends the run; the mesh so far is returned, with `stop` "cancelled".
+
+    Returns
+    -------
+    Mesh
+        Valid, however the run ended.
+
+    Raises
+    ------
+    UsageError
+        An argument of a wrong value, or what a callback returned.
+    InputError
+        An input that has no mesh; `diagnostics` says all that is wrong.
+    KeyboardInterrupt
+        Ctrl-C: its attribute `mesh` is the mesh so far. What a callback raises comes out as it is.
+
+    Examples
+    --------
+    >>> import pgdr
+    >>> square = pgdr.Plc([[0, 0], [1, 0], [1, 1], [0, 1]], segments=[[0, 1], [1, 2], [2, 3], [3, 0]])
+    >>> graded = pgdr.mesh(square, min_angle=25, size=lambda at: 0.001 + 0.01 * at[:, 0])
+    >>> graded.stop, graded.poor_left
+    ('finished', 0)
+    """
+    if not isinstance(plc, Plc):
+        raise TypeError(f"plc must be a pgdr.Plc, not {type(plc).__name__}")
+    if tolerance is not None:
+        plc = plc.with_tolerance(tolerance)
+    dimension = plc.dimension
+    if not _arguments.flag("optimize", optimize):
+        if min_dihedral is not None:
+            raise usage("optimize=False makes no use of min_dihedral")
+        min_dihedral = 0 if dimension == 3 else None
+    bounds = _given(min_angle=min_angle, radius_edge=radius_edge, size=size, region_sizes=region_sizes, min_dihedral=min_dihedral,
+                    max_volume=max_volume, regions=regions)
+    options = bounds_of(dimension, bounds)
+    options.set_threads(_arguments.whole_number("threads", threads, 0, 4096))
+    options.refine = _arguments.flag("refine", refine)
+    options.keep_boundary = _arguments.flag("keep_boundary", keep_boundary)
+    options.min_edge = _arguments.number("min_edge", min_edge)
+    if time_limit is not None:
+        options.set_time_limit(_arguments.number("time_limit", time_limit))
+    if max_vertices is not None:
+        options.max_vertices = _arguments.whole_number("max_vertices", max_vertices, 0, 2**64 - 1)
+    if schedule is not None:
+        options.set_schedule(_arguments.word("schedule", schedule, ("reproducible", "uniform", "greedy")))
+    _select(options, selector)
+    return _run(plc, options, bounds, progress, stop)
+
+
+def _given(**arguments: Any) -> Dict[str, Any]:
+    return {name: value for name, value in arguments.items() if value is not None}
+
+
+def bounds_of(dimension: int, bounds: Mapping[str, Any]) -> Any:
+    """Options of the extension module with these bounds, which `mesh` and `check` share."""
+    options = _pgdr.Options2() if dimension == 2 else _pgdr.Options3()
+    for name in ("min_angle",) if dimension == 3 else ("min_dihedral", "max_volume"):
+        if bounds.get(name) is not None:
+            raise usage(f"{name} is for {5 - dimension}D: " + ("radius_edge bounds circumradius over shortest edge, min_dihedral the "
+                        "dihedral angles" if dimension == 3 else "min_angle bounds the angles of triangles, size their areas"))
+    if "min_angle" in bounds and "radius_edge" in bounds:
+        raise usage("min_angle and radius_edge are the same bound: give one of them")
+    if "min_angle" in bounds:
+        options.radius_edge_bound = _pgdr.min_angle_degrees(_arguments.number("min_angle", bounds["min_angle"]))
+    if "radius_edge" in bounds:
+        options.radius_edge_bound = _arguments.number("radius_edge", bounds["radius_edge"])
+    if "size" in bounds:
+        options.set_size(core_of("size", bounds["size"], dimension))
+    sizes = bounds.get("region_sizes", {})
+    if not isinstance(sizes, Mapping):
+        raise TypeError(f"region_sizes must be a dict of label and size, not {type(sizes).__name__}")
+    for label, size in sizes.items():
+        options.add_region_size(_arguments.number("a label of region_sizes", label),
+                                core_of(f"region_sizes[{label!r}]", size, dimension))
+    if "min_dihedral" in bounds:
+        options.min_dihedral = _arguments.number("min_dihedral", bounds["min_dihedral"])
+    if "max_volume" in bounds:
+        options.max_volume = _arguments.number("max_volume", bounds["max_volume"])
+    if "regions" in bounds:
+        options.set_regions(_arguments.word("regions", bounds["regions"], ("seeds", "auto")) == "auto")
+    return options
+
+
+def _select(options: Any, selector: object) -> None:
+    if isinstance(selector, str):
+        options.select_by_name(selector)
+    elif callable(selector):
+        options.select_by(selector)
+    elif selector is not None:
+        raise TypeError(f"selector must be a name or a function, not {type(selector).__name__}")
+
+
+class _Line:
+    """A line on standard error that tells how far a run is."""
+
+    def __init__(self) -> None:
+        self._written: Optional[Progress] = None
+
+    def __call__(self, progress: Progress) -> None:
+        if progress.finished:
+            if self._written:
+                print(f"\r{progress.vertices:,} vertices{'':20}", file=sys.stderr)
+            return
+        if progress == self._written:
+            return
+        self._written = progress
+        print(f"\r{progress.vertices:,} vertices, {progress.waiting:,} waiting   ", end="", file=sys.stderr, flush=True)
+
+
+def _run(plc: Plc, options: Any, bounds: Dict[str, Any], progress: object, stop: object) -> Mesh:
+    tell: Any = None
+    if callable(progress):
+        tell = progress
+    elif _arguments.flag("progress", progress):
+        tell = _Line()
+    if stop is not None and not callable(getattr(stop, "is_set", None)):
+        raise TypeError(f"stop must be a StopSource, or have is_set(), not {type(stop).__name__}")
+    source = stop._core if isinstance(stop, StopSource) else None
+    asks = stop if source is None else None
+
+    def poll(vertices: int, waiting: int) -> bool:
+        if tell is not None:
+            tell(Progress(vertices, waiting, False))
+        return asks is not None and bool(asks.is_set())  # type: ignore[attr-defined]
+
+    refine = _pgdr.refine2 if plc.dimension == 2 else _pgdr.refine3
+    finished = 0
+    try:
+        core, facts, raised = refine(plc._core, options, source, poll if tell is not None or asks is not None else None)
+        finished = len(core.points)
+    finally:
+        if tell is not None:
+            tell(Progress(finished, 0, True))
+    # The bounds that held when no argument said otherwise are part of what the mesh is certified for.
+    certified = {k: v for k, v in bounds.items() if k != "min_angle"}
+    if options.refine:
+        certified["radius_edge"] = options.radius_edge_bound
+    else:
+        certified = {k: v for k, v in certified.items() if k == "regions"}
+    if plc.dimension == 3 and options.refine:
+        target = facts["statistics"].get("optimization", {}).get("target", 0)
+        certified.pop("min_dihedral", None)
+        if target > 0:
+            certified["min_dihedral"] = target
+    made = Mesh._of(core, facts, certified)
+    if raised is not None:
+        if isinstance(raised, KeyboardInterrupt):
+            raised.mesh = made  # type: ignore[attr-defined]
+        raise raised
+    return made

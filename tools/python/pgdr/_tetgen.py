@@ -1,0 +1,237 @@
+# SPDX-FileCopyrightText: 2026 The pgdr authors
+# SPDX-License-Identifier: Apache-2.0
+"""`tetrahedralize`: what users of TetGen's Python packages call, in terms of `pgdr.mesh`."""
+from __future__ import annotations
+
+import re
+from typing import Any, Dict, Iterator, Mapping, Optional
+
+import numpy as np
+import numpy.typing as npt
+
+from ._errors import usage
+
+# Switches that change nothing here: p is always meant, z counts from 0 as always, Q and V are about printing, which is never done,
+# f, e, n list what the result has anyway, J keeps unused points as always, d finds intersections as always, B and the others are
+# about files.
+_WITHOUT_EFFECT = "pzQVfenJdBNEFIgk"
+_REFUSED = {
+    "r": "a given mesh is not refined: mesh its surface again, with a smaller size",
+    "Y": "the surface may get new points, which the guarantees need: leave Y out",
+    "i": "put further points among `points`: those inside are kept",
+    "m": "give pgdr.mesh a size: a function of points, or pgdr.sizes_on_mesh",
+    "o": "cells have four corners: leave o2 out",
+    "v": "there is no Voronoi diagram",
+    "c": "the convex hull is not kept: add a box, or the hull's facets, to the surface",
+    "X": "signs are always exact: leave X out",
+    "M": "facets of different markers are never merged: leave M out and give them markers",
+    "s": "the mesh is constrained Delaunay: leave s out",
+    "D": "the mesh is constrained Delaunay: leave D out",
+    "w": "there are no weighted triangulations",
+    "R": "meshes are not coarsened: mesh with a larger size",
+    "L": "there are no such limits", "P": "there are no such limits", "K": "no .vtk is written: call Mesh.write",
+    "W": "there are no weighted triangulations",
+    "h": "see help(pgdr.tetrahedralize)",
+}
+# Keywords with no equivalent, for which one value says nothing.
+_NEUTRAL: Mapping[str, Any] = {"order": 1, "nobisect": False, "plc": True, "quality": True, "verbose": 0, "quiet": True}
+
+
+class Tetrahedralization:
+    """What `tetrahedralize` returns; `nodes, elems = ...` unpacks it. Immutable; any thread.
+
+    nodes (n, 3) float64, elems (m, 4) int32, positively oriented. `points` and `elements` are the same, by the names of meshpy;
+    `faces` (k, 3) and `face_markers` (k,) are those of the surface and the facets inside; `attributes` (m,) the labels of the cells;
+    `mesh` is the pgdr.Mesh.
+    """
+
+    def __init__(self, mesh: Any) -> None:
+        self.mesh = mesh
+        self.nodes: npt.NDArray[np.float64] = mesh.points
+        self.elems: npt.NDArray[np.int32] = np.asarray(mesh.cells).astype(np.int32)
+
+    def __iter__(self) -> Iterator[npt.NDArray[Any]]:
+        yield self.nodes
+        yield self.elems
+
+    def __len__(self) -> int:
+        return 2
+
+    def __getitem__(self, index: int) -> npt.NDArray[Any]:
+        return (self.nodes, self.elems)[index]
+
+    @property
+    def points(self) -> npt.NDArray[np.float64]:
+        return self.nodes
+
+    @property
+    def elements(self) -> npt.NDArray[np.int32]:
+        return self.elems
+
+    @property
+    def faces(self) -> npt.NDArray[np.int32]:
+        return np.asarray(self.mesh.subfacets).astype(np.int32)
+
+    @property
+    def face_markers(self) -> npt.NDArray[np.int32]:
+        return self.mesh.subfacet_markers
+
+    @property
+    def attributes(self) -> npt.NDArray[np.float64]:
+        labels = np.asarray(self.mesh.regions, dtype=np.float64)
+        return labels if labels.size else np.zeros(len(self.elems))
+
+    def __repr__(self) -> str:
+        return f"<pgdr.Tetrahedralization: {len(self.nodes)} nodes, {len(self.elems)} elems>"
+
+
+def _switches(text: str) -> Dict[str, Any]:
+    """Keywords of `tetrahedralize` that TetGen's switches stand for."""
+    if not isinstance(text, str):
+        raise TypeError(f"switches must be a str, not {type(text).__name__}")
+    found: Dict[str, Any] = {"quality": False, "varvolume": False, "regionattrib": False, "optimize": True}
+    pattern = r"(.)([0-9.]*(?:e[-+]?[0-9]+)?(?:/[0-9.]*)?)"
+    for letter, number in re.findall(pattern, text.replace(" ", "").lstrip("-"), re.DOTALL):
+        if letter in _REFUSED:
+            raise usage(f"switch {letter} of {text!r}: {_REFUSED[letter]}")
+        try:
+            if letter == "q":
+                found["quality"] = True
+                ratio, _, angle = number.partition("/")
+                found.update({"minratio": float(ratio)} if ratio else {}, **({"mindihedral": float(angle)} if angle else {}))
+            elif letter == "a":
+                found.update({"max_volume": float(number)} if number else {"varvolume": True})
+            elif letter == "A":
+                found["regionattrib"] = True
+            elif letter == "S":
+                found["steinerleft"] = int(number)
+            elif letter == "T":
+                found["epsilon"] = float(number)
+            elif letter == "O":
+                found["optimize"] = number.split("/")[0] not in ("0", "0.")
+            elif letter == "C":
+                found["docheck"] = True
+            elif letter not in _WITHOUT_EFFECT:
+                raise usage(f"{text!r} has the unknown switch {letter!r}")
+        except ValueError as error:
+            if hasattr(error, "code"):
+                raise
+            raise usage(f"switch {letter} of {text!r}: {number!r} is no number") from None
+    return found
+
+
+def _options(plc: Any, minratio: Optional[float], mindihedral: Optional[float], max_volume: Optional[float],
+             steinerleft: Optional[int], quality: bool, optimize: bool) -> Dict[str, Any]:
+    """The arguments of pgdr.mesh."""
+    options: Dict[str, Any] = {"refine": quality or max_volume is not None or bool((plc.regions[:, 4] > 0).any())}
+    options["optimize"] = optimize and options["refine"]
+    if quality:
+        options["radius_edge"] = 2.0 if minratio is None else minratio
+    elif options["refine"]:  # a volume alone
+        options["radius_edge"] = float("inf")
+    if mindihedral and options["optimize"]:
+        options["min_dihedral"] = mindihedral
+    if max_volume is not None:
+        options["max_volume"] = max_volume
+    if steinerleft is not None and steinerleft >= 0:
+        options["max_vertices"] = len(plc.points) + steinerleft
+    return options
+
+
+def tetrahedralize(points: Any, faces: Any = None, *, markers: Any = None, holes: Any = None, regions: Any = None,
+                   minratio: Optional[float] = None, mindihedral: Optional[float] = None, max_volume: Optional[float] = None,
+                   maxvolume: Optional[float] = None, steinerleft: Optional[int] = None, switches: Optional[str] = None,
+                   threads: int = 0, **others: Any) -> Tetrahedralization:
+    """3D: fills a closed surface with tetrahedra, called as PyVista's `tetgen` and `meshpy.tet` are. Any thread; other Python threads
+    run meanwhile.
+
+    Parameters
+    ----------
+    points : (n, 3) array, or a pgdr.Plc, or a pyvista.PolyData
+        The points of the surface; the two latter have faces of their own.
+    faces : (m, 3) array, or a list of polygons
+        As `facets` of pgdr.Plc.
+    markers, holes, regions
+        As of pgdr.Plc: regions are rows of x, y, z, attribute, largest volume.
+    minratio : float
+        Bound on circumradius over shortest edge, 2 by default.
+    mindihedral : float
+        Least dihedral angle in degrees, at most 35; None or 0: that of pgdr.mesh, 15.
+    max_volume, maxvolume : float
+        No cell is larger.
+    steinerleft : int
+        Most points to add; negative: any number.
+    switches : str
+        TetGen's, which alone count then, beside markers, holes, regions and threads: p, q, q1.5, q1.5/18, a0.1, a (largest volumes of
+        regions), A (labels), S100, T1e-8 (times the diagonal of all points), O0 (no optimiser), C (checks the result). z, Q, V, f, e,
+        n, J, d, B, N, E, F, I, g, k change nothing. Others are refused.
+    threads : int
+        As of pgdr.mesh.
+    others
+        order=1, nobisect=False, plc=True, quality=True, verbose=0, quiet=True say what is so anyway; other values are refused.
+
+    Raises
+    ------
+    UsageError
+        A keyword or switch that is unknown or has no equivalent, or an array of a wrong shape or type.
+    InputError
+        What `pgdr.mesh` refuses.
+
+    Examples
+    --------
+    >>> import pgdr
+    >>> points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    >>> nodes, elems = pgdr.tetrahedralize(points, [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]], switches="p")
+    >>> nodes.shape, elems.shape
+    ((4, 3), (1, 4))
+    """
+    import pgdr
+    for name, value in others.items():
+        if name not in _NEUTRAL:
+            raise usage(f"{name} has no equivalent here: see help(pgdr.tetrahedralize) for what there is, and pgdr.mesh")
+        if value != _NEUTRAL[name]:
+            raise usage(f"{name} can only be {_NEUTRAL[name]!r} here, not {value!r}")
+    if max_volume is not None and maxvolume is not None:
+        raise usage("max_volume and maxvolume are the same: give one of them")
+    asked: Dict[str, Any] = {"minratio": minratio, "mindihedral": mindihedral, "steinerleft": steinerleft,
+                             "max_volume": maxvolume if max_volume is None else max_volume}
+    if switches is not None:
+        both = [name for name, value in asked.items() if value is not None]
+        if both:
+            raise usage(f"{', '.join(both)} and switches are two ways to say the same: give one of them")
+        asked = _switches(switches)
+    plc = _plc(points, faces, markers, holes, regions, asked)
+    options = _options(plc, asked.get("minratio"), asked.get("mindihedral"), asked.get("max_volume"), asked.get("steinerleft"),
+                       asked.get("quality", True), asked.get("optimize", True))
+    result = pgdr.mesh(plc, threads=threads, **options)
+    if asked.get("docheck"):
+        report = pgdr.check(result, plc)
+        if not report:
+            raise pgdr.InputError(f"the mesh does not pass the check: {report}", code="internal")
+    return Tetrahedralization(result)
+
+
+def _plc(points: Any, faces: Any, markers: Any, holes: Any, regions: Any, asked: Mapping[str, Any]) -> Any:
+    import pgdr
+    if hasattr(points, "faces") and faces is None:
+        points = pgdr.Plc.from_pyvista(points)
+    if isinstance(points, pgdr.Plc):
+        if any(value is not None for value in (faces, markers, holes, regions)):
+            raise usage("faces, markers, holes and regions come with points that are an array")
+        plc = points
+    elif faces is None:
+        raise usage("faces are missing: the triangles or polygons of a closed surface. Bare points are not tetrahedralized: add the "
+                    "facets of their hull, or of a box around them")
+    else:
+        rows = None if regions is None else np.array(regions, dtype=np.float64)
+        if rows is not None and rows.ndim == 2 and rows.shape[1] == 5:
+            if not asked.get("varvolume", True):
+                rows[:, 4] = 0
+            rows[:, 4] = np.maximum(rows[:, 4], 0)
+        plc = pgdr.Plc(points, facets=faces, markers=markers, holes=holes, regions=rows)
+    if plc.dimension != 3:
+        raise usage("points must have the shape (n, 3)")
+    if "epsilon" in asked:
+        diagonal = float(np.linalg.norm(np.ptp(plc.points, axis=0)))
+        plc = plc.with_tolerance(asked["epsilon"] * diagonal)
+    return plc

@@ -1,0 +1,287 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Inputs: made once, from arrays or a file, and never changed, so that any number of threads may read one.
+#include "pgdr/plc.hpp"
+
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "arrays.hpp"
+#include "bind.hpp"
+#include "errors.hpp"
+#include "pgdr/io.hpp"
+#include "pgdr/planar_plc.hpp"
+
+namespace pgdr::python {
+namespace {
+
+[[noreturn]] void refuse(Errc code, const std::string& message, const std::vector<std::int64_t>& ids) {
+  throw InputError({.code = code, .message = message, .ids = ids});
+}
+
+template <int D>
+void require_finite(const std::vector<Point<D>>& points, const char* what) {
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!std::ranges::all_of(points[i].x, [](double x) { return std::isfinite(x); }))
+      refuse(Errc::not_finite, std::string(what) + ' ' + std::to_string(i) + " has a coordinate that is not finite",
+             {static_cast<std::int64_t>(i)});
+}
+
+/// Indices as they are stored. @throws InputError index_out_of_range
+class Indices {
+ public:
+  Indices(const py::array& array, std::size_t points) : all_(indices_of(array)), points_(points) {}
+  std::size_t size() const {
+    return std::visit([](const auto& all) { return all.size(); }, all_);
+  }
+  /// Index i, of this segment or facet.
+  std::uint32_t at(std::size_t i, const char* what, std::size_t number) const {
+    return std::visit(
+        [&](const auto& all) {
+          if (!std::in_range<std::uint32_t>(all[i]) || static_cast<std::size_t>(all[i]) >= points_)
+            refuse(Errc::index_out_of_range,
+                   std::string(what) + ' ' + std::to_string(number) + " has index " + std::to_string(all[i]) + ", there are " +
+                       std::to_string(points_) + " points",
+                   {static_cast<std::int64_t>(number), static_cast<std::int64_t>(all[i])});
+          return static_cast<std::uint32_t>(all[i]);
+        },
+        all_);
+  }
+
+ private:
+  IndexArray all_;
+  std::size_t points_;
+};
+
+template <int D>
+void set_segments(Plc<D>& plc, const py::array& array, const Dense<int>& markers) {
+  const Indices indices(array, plc.points.size());
+  const auto marker = span_of(markers);
+  plc.segments.resize(indices.size() / 2);
+  if (!marker.empty() && marker.size() != plc.segments.size()) bad_argument("there must be one marker a segment");
+  for (std::size_t s = 0; s < plc.segments.size(); ++s)
+    plc.segments[s] = {{indices.at(2 * s, "segment", s), indices.at(2 * s + 1, "segment", s)}, marker.empty() ? 0 : marker[s]};
+}
+
+/// Facets as arrays: the corners of all polygons, how many each polygon has, and how many polygons each facet has (empty: one);
+/// (facet, x, y, z) of each hole of a facet.
+struct FacetArrays {
+  py::array corners;
+  Dense<std::int64_t> polygon_sizes, facet_sizes;
+  Dense<int> markers;
+  Dense<double> holes;
+};
+
+template <int D>
+void set_facets(Plc<D>& plc, const FacetArrays& arrays) {
+  const Indices corners(arrays.corners, plc.points.size());
+  const auto sizes = span_of(arrays.polygon_sizes), counts = span_of(arrays.facet_sizes);
+  const auto marker = span_of(arrays.markers);
+  const std::size_t facets = counts.empty() ? sizes.size() : counts.size();
+  if (!marker.empty() && marker.size() != facets) bad_argument("there must be one marker a facet");
+  plc.facets.resize(facets);
+  std::size_t corner = 0, polygon = 0;
+  for (std::size_t f = 0; f < facets; ++f) {
+    auto& facet = plc.facets[f];
+    facet.marker = marker.empty() ? 0 : marker[f];
+    facet.polygons.resize(counts.empty() ? 1 : static_cast<std::size_t>(std::max<std::int64_t>(counts[f], 0)));
+    for (auto& points : facet.polygons) {
+      if (polygon >= sizes.size() || sizes[polygon] < 0 || corner + static_cast<std::size_t>(sizes[polygon]) > corners.size())
+        bad_argument("the sizes of polygons and facets do not fit the corners");
+      points.resize(static_cast<std::size_t>(sizes[polygon++]));
+      for (std::uint32_t& point : points) point = corners.at(corner++, "facet", f);
+    }
+  }
+  const auto holes = span_of(arrays.holes);
+  for (std::size_t i = 0; i + D < holes.size(); i += D + 1) {
+    if (!(holes[i] >= 0 && holes[i] < static_cast<double>(facets))) bad_argument("a hole of a facet that is not there");
+    Point<D> hole;
+    std::copy_n(holes.begin() + static_cast<std::ptrdiff_t>(i) + 1, D, hole.x.begin());
+    plc.facets[static_cast<std::size_t>(holes[i])].holes.push_back(hole);
+  }
+}
+
+/// Rows of D coordinates, attribute, size.
+template <int D>
+void set_regions(Plc<D>& plc, const Dense<double>& rows) {
+  const auto numbers = span_of(rows);
+  for (std::size_t i = 0; i + D + 1 < numbers.size(); i += D + 2) {
+    RegionSeed<D> seed;
+    std::copy_n(numbers.begin() + static_cast<std::ptrdiff_t>(i), D, seed.point.x.begin());
+    seed.attribute = numbers[i + D];
+    seed.size = numbers[i + D + 1];
+    plc.regions.push_back(seed);
+  }
+}
+
+template <int D>
+std::vector<Point<D>> points_of_any(const py::array& array) {
+  return std::visit(
+      [](const auto& numbers) {
+        std::vector<Point<D>> points(numbers.size() / D);
+        for (std::size_t i = 0; i < points.size(); ++i)
+          std::copy_n(numbers.begin() + static_cast<std::ptrdiff_t>(i * D), D, points[i].x.begin());
+        return points;
+      },
+      coordinates_of(array));
+}
+
+/// What pgdr/_plc.py passes, and pickles.
+template <int D>
+std::shared_ptr<Plc<D>> make_plc(const py::array& points, bool are_floats, const py::array& segments,
+                                 const Dense<int>& segment_markers, const FacetArrays& facets, const Dense<double>& holes,
+                                 const Dense<double>& regions, const Dense<int>& point_markers,
+                                 const Dense<double>& point_attributes, std::optional<double> tolerance, bool is_coarse) {
+  auto plc = std::make_shared<Plc<D>>();
+  plc->points = points_of_any<D>(points);
+  plc->are_floats = are_floats;
+  require_finite<D>(plc->points, "point");
+  set_segments<D>(*plc, segments, segment_markers);
+  set_facets<D>(*plc, facets);
+  plc->holes = points_of<D>(holes);
+  require_finite<D>(plc->holes, "the hole");
+  set_regions<D>(*plc, regions);
+  plc->point_markers = vector_of(point_markers);
+  plc->point_attributes = vector_of(point_attributes);
+  plc->tolerance = tolerance;
+  plc->is_coarse = is_coarse;
+  return plc;
+}
+
+template <int D>
+FacetArrays facet_arrays(const Plc<D>& plc) {
+  std::vector<std::int64_t> corners, polygon_sizes, facet_sizes;
+  std::vector<double> holes;
+  std::vector<int> markers;
+  bool is_simple = true;
+  for (std::size_t f = 0; f < plc.facets.size(); ++f) {
+    const auto& facet = plc.facets[f];
+    is_simple = is_simple && facet.polygons.size() == 1;
+    facet_sizes.push_back(static_cast<std::int64_t>(facet.polygons.size()));
+    for (const auto& polygon : facet.polygons) {
+      polygon_sizes.push_back(static_cast<std::int64_t>(polygon.size()));
+      corners.insert(corners.end(), polygon.begin(), polygon.end());
+    }
+    for (const Point<D>& hole : facet.holes) {
+      holes.push_back(static_cast<double>(f));
+      holes.insert(holes.end(), hole.x.begin(), hole.x.end());
+    }
+    markers.push_back(facet.marker);
+  }
+  if (is_simple) facet_sizes.clear();
+  const auto count = static_cast<py::ssize_t>(holes.size() / (D + 1));
+  return {own(std::move(corners)), own(std::move(polygon_sizes)), own(std::move(facet_sizes)), own(std::move(markers)),
+          own(std::move(holes), {count, D + 1})};
+}
+
+template <int D>
+py::array region_rows(const Plc<D>& plc) {
+  std::vector<double> rows;
+  for (const RegionSeed<D>& seed : plc.regions) {
+    rows.insert(rows.end(), seed.point.x.begin(), seed.point.x.end());
+    rows.insert(rows.end(), {seed.attribute, seed.size});
+  }
+  return own(std::move(rows), {static_cast<py::ssize_t>(plc.regions.size()), D + 2});
+}
+
+template <int D>
+std::shared_ptr<Plc<D>> with_tolerance(const Plc<D>& plc, double tolerance, bool is_coarse) {
+  auto made = std::make_shared<Plc<D>>(plc);
+  made->tolerance = tolerance;
+  made->is_coarse = is_coarse;
+  return made;
+}
+
+template <int D>
+void bind(py::module_& module) {
+  using Held = Plc<D>;
+  const auto get = [](auto read) { return [read](const py::object& self) { return read(self, self.cast<const Held&>()); }; };
+  using Self = const py::object&;
+  py::class_<Held, std::shared_ptr<Held>>(module, with_dimension<D>("Plc").c_str())
+      .def(py::init([](const py::array& points, bool are_floats, const py::array& segments, const Dense<int>& segment_markers,
+                       const py::array& corners, const Dense<std::int64_t>& polygon_sizes, const Dense<std::int64_t>& facet_sizes,
+                       const Dense<int>& facet_markers, const Dense<double>& facet_holes, const Dense<double>& holes,
+                       const Dense<double>& regions, const Dense<int>& point_markers, const Dense<double>& point_attributes,
+                       std::optional<double> tolerance, bool is_coarse) {
+        return make_plc<D>(points, are_floats, segments, segment_markers,
+                           {corners, polygon_sizes, facet_sizes, facet_markers, facet_holes}, holes, regions, point_markers,
+                           point_attributes, tolerance, is_coarse);
+      }))
+      .def_property_readonly("points", get([](Self self, const Held& p) { return view_points<D>(self, p.points); }))
+      .def_property_readonly("are_floats", [](const Held& p) { return p.are_floats; })
+      .def_property_readonly("segments",
+                             get([](Self self, const Held& p) { return view_member(self, p.segments, &Held::Segment::points); }))
+      .def_property_readonly("segment_markers",
+                             get([](Self self, const Held& p) { return view_member(self, p.segments, &Held::Segment::marker); }))
+      .def_property_readonly("facet_arrays",
+                             [](const Held& p) {
+                               const FacetArrays f = facet_arrays<D>(p);
+                               return py::make_tuple(f.corners, f.polygon_sizes, f.facet_sizes, f.markers, f.holes);
+                             })
+      .def_property_readonly("facet_count", [](const Held& p) { return p.facets.size(); })
+      .def_property_readonly("holes", get([](Self self, const Held& p) { return view_points<D>(self, p.holes); }))
+      .def_property_readonly("regions", [](const Held& p) { return region_rows<D>(p); })
+      .def_property_readonly("point_markers", get([](Self self, const Held& p) {
+                               return view(self, p.point_markers.data(), {static_cast<py::ssize_t>(p.point_markers.size())});
+                             }))
+      .def_property_readonly("point_attributes", get([](Self self, const Held& p) {
+                               const std::size_t all = p.point_attributes.size(), points = p.points.size();
+                               const auto each = static_cast<py::ssize_t>(points == 0 ? 0 : all / points);
+                               return view(self, p.point_attributes.data(), {static_cast<py::ssize_t>(points), each});
+                             }))
+      .def_property_readonly("tolerance", [](const Held& p) { return p.tolerance; })
+      .def_property_readonly("effective_tolerance", [](const Held& p) { return tolerance_of(p); })
+      .def_property_readonly("is_coarse", [](const Held& p) { return p.is_coarse; })
+      .def_property_readonly("first_index", [](const Held& p) { return p.first_index; })
+      .def_property_readonly("file", [](const Held& p) { return p.source.file; })
+      .def("with_tolerance", &with_tolerance<D>);
+  module.def(with_dimension<D>("read_plc").c_str(), [](const std::string& file) {
+    const py::gil_scoped_release others_run;
+    return std::make_shared<Held>(read_plc<D>(file));
+  });
+}
+
+py::tuple resolve(const Plc<2>& plc) {
+  std::vector<Diagnostic> repairs;
+  std::shared_ptr<Plc<2>> made;
+  {
+    const py::gil_scoped_release others_run;
+    made = std::make_shared<Plc<2>>(resolve_crossings(plc, repairs));
+  }
+  return py::make_tuple(made, to_python(repairs));
+}
+
+}  // namespace
+
+CoordinateArray coordinates_of(const py::array& array) {
+  if (py::isinstance<Dense<float>>(array)) return span_of(array.cast<Dense<float>>());
+  if (py::isinstance<Dense<double>>(array)) return span_of(array.cast<Dense<double>>());
+  bad_argument("coordinates are float64 or float32, contiguous");
+}
+
+IndexArray indices_of(const py::array& array) {
+  if (py::isinstance<Dense<std::int64_t>>(array)) return span_of(array.cast<Dense<std::int64_t>>());
+  if (py::isinstance<Dense<std::int32_t>>(array)) return span_of(array.cast<Dense<std::int32_t>>());
+  if (py::isinstance<Dense<std::uint32_t>>(array)) return span_of(array.cast<Dense<std::uint32_t>>());
+  if (py::isinstance<Dense<std::uint64_t>>(array)) return span_of(array.cast<Dense<std::uint64_t>>());
+  bad_argument("indices are integers of 32 or 64 bits, contiguous");
+}
+
+void bind_plc(py::module_& module) {
+  bind<2>(module);
+  bind<3>(module);
+  module.def("file_dimension", [](const std::string& file) { return file_dimension(file); });
+  module.def("holds_cells", [](const std::string& file) { return holds_cells(file); });
+  module.def("resolve_crossings", &resolve);
+  module.def("with_convex_hull", [](const Plc<2>& plc) {
+    const py::gil_scoped_release others_run;
+    return std::make_shared<Plc<2>>(with_convex_hull(plc));
+  });
+}
+
+}  // namespace pgdr::python
