@@ -18,7 +18,7 @@
 namespace pgdr PGDR_API {
 
 /// The smallest of the fields at every point; no bound if there are none. A value that is NaN or not positive comes through,
-/// so that the refinement can name the point. Constants among them cost no call.
+/// so that the refinement can name the point. Constants among them cost no call. Asked by blocks if one of them is.
 template <int D>
 SizingField<D> smallest(std::vector<SizingField<D>> fields);
 

@@ -161,6 +161,28 @@ bool Refiner<D>::treat_entities() {
   return false;
 }
 
+/// Does it depend on cells whose sizes were not asked for yet what is next, or whether the visit ends? Not as long as an element
+/// that is too big waits in their buckets or a larger one, and it is certain, where it counts, whether the list is crowded.
+template <int D>
+bool Refiner<D>::sizes_decide() {
+  const UnaskedCells<D>& unasked = lister_.unasked();
+  if (unasked.empty()) return false;
+  const RegionVisit<D>& visit = *workspace_.visit;
+  WorkList<D>& list = *visit.list;
+  const int next = list.first_bucket_of_too_big();
+  if (unasked.first_bucket() < next) return true;
+  if (visit.small_radius == 0 || list.is_crowded(visit.floor)) return false;
+  const bool counts = list.first_bucket() < next || workspace_.context.largest_radius(next) <= visit.small_radius;
+  return counts && list.may_be_crowded_with(unasked.size(), visit.floor);
+}
+
+/// Does a poor element wait? Asks for sizes where they decide what it is.
+template <int D>
+bool Refiner<D>::any_poor() {
+  if (sizes_decide()) lister_.ask_sizes();
+  return workspace_.visit->list->poor() > 0;
+}
+
 template <int D>
 void Refiner<D>::run(RegionVisit<D>& visit) {
   begin(visit);
@@ -179,9 +201,10 @@ void Refiner<D>::run(RegionVisit<D>& visit) {
       visit.set_aside.push_back(visit.given[i]);
     }
   }
+  lister_.ask_sizes();
   int last_bucket = std::numeric_limits<int>::max();
   if (list.poor() > 0 && visit.granularity < RefineContext<D>::buckets) last_bucket = list.first_bucket() + visit.granularity;
-  while (visit.treat_list && list.poor() > 0 && go_on) {
+  while (visit.treat_list && go_on && any_poor()) {
     const int bucket = list.first_bucket();
     if (bucket > last_bucket) break;
     const bool crowded = list.is_crowded(visit.floor);
@@ -205,6 +228,7 @@ void Refiner<D>::repair(RegionVisit<D>& visit) {
   repair_.allow_for(flips.size());
   while (!flips.empty() && !workspace_.context.ended())
     if (const Entry<D> e = flips.pop(); workspace_.alive(e)) repair_.treat(e);
+  lister_.ask_sizes();
   workspace_.visit = nullptr;
 }
 

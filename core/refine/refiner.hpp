@@ -54,6 +54,8 @@ class Refiner {
   void begin(RegionVisit<D>& visit);
   /// Lists what is encroached or poor at a cell that the visit owns.
   void list_cell(CellId c) { lister_.list_cell(c); }
+  /// Must be called after the last list_cell: some of it may wait for sizes. @throws what a size function throws
+  void end_listing() { lister_.ask_sizes(); }
 
  private:
   bool treat_entities();
@@ -61,6 +63,8 @@ class Refiner {
   Outcome treat_poor(const Entry<D>& e) { return treatment_ ? treat_in_stage(e) : elements_.split(e); }
   Outcome treat_in_stage(const Entry<D>& e);
   bool may_go_on();
+  bool sizes_decide();
+  bool any_poor();
   void look_at_budget();
   void record_refusal(const Entry<D>& e);
   std::vector<CellName> distinct_trace(const Entry<D>& e);

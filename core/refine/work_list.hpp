@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <new>
 #include <optional>
 #include <span>
@@ -21,6 +22,7 @@
 #include "mesh/entity_pair.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/surroundings.hpp"
+#include "rule/cell_bounds.hpp"
 
 namespace pgdr {
 
@@ -272,6 +274,16 @@ class WorkList {
         to_come += poor_[i].to_come;
       }
     return waiting >= least || to_come >= 3 * least;
+  }
+  /// May it be so once this many more cells were looked at, some of which may be poor?
+  bool may_be_crowded_with(std::size_t more, std::size_t least) const {
+    return waiting_ + more >= least || to_come_ + most_cells_to_fill * more >= 3 * least;
+  }
+  /// The bucket of the largest element that is too big; a large number if there is none.
+  int first_bucket_of_too_big() const {
+    std::size_t i = 0;
+    while (others_ > 0 && poor_[i].others.empty()) ++i;
+    return others_ > 0 ? first_ + static_cast<int>(i) : std::numeric_limits<int>::max();
   }
   /// The bucket of the largest poor element. @pre poor() > 0
   int first_bucket() {

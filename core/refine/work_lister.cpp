@@ -18,19 +18,70 @@ void WorkLister<D>::list_poor(CellId c, int why, const FilterSphere<D>& sphere, 
 }
 
 template <int D>
-void WorkLister<D>::list(const Entry<D>& e, const Point<D>& place) {
+bool WorkLister<D>::is_home(const Entry<D>& e, const Point<D>& place) const {
   const RegionVisit<D>& visit = *w_->visit;
   assert(!visit.area || visit.area->owns(*mesh_, e.cell));
-  if (!visit.area || visit.area->is_home(place, w_->context.radius_of(e))) return visit.list->push_poor(e);
+  return !visit.area || visit.area->is_home(place, w_->context.radius_of(e));
+}
+
+template <int D>
+void WorkLister<D>::list(const Entry<D>& e, const Point<D>& place) {
+  const bool home = is_home(e, place);
+  if (home ? unasked_.has(e.bucket) : !unasked_elsewhere_.empty()) return put_off({e, true, {}, 0}, home);
+  if (home) return w_->visit->list->push_poor(e);
   elsewhere_.push_back(e);
+}
+
+/// The cell may be poor; what it is depends on a size that is not asked yet.
+template <int D>
+void WorkLister<D>::put_off(CellId c, const CellShape& shape, const FilterSphere<D>& sphere) {
+  const Entry<D> e = w_->entry(c, EntryKind::cell, Entry<D>::over_size, w_->context.bucket_of(sphere));
+  put_off({e, false, {mesh_->cell(c).vertices, mesh_->region(c), shape}, sphere.radius2}, is_home(e, sphere.center));
+}
+
+template <int D>
+void WorkLister<D>::put_off(const typename UnaskedCells<D>::Cell& cell, bool home) {
+  UnaskedCells<D>& to = home ? unasked_ : unasked_elsewhere_;
+  to.push(cell);
+  if (to.size() < UnaskedCells<D>::most) return;
+  home ? ask_sizes() : ask_elsewhere();
+}
+
+/// The entry of a cell that waited for its size; nothing if it is not poor.
+template <int D>
+std::optional<Entry<D>> WorkLister<D>::if_poor(const typename UnaskedCells<D>::Cell& cell, double size) const {
+  if (cell.is_known) return cell.entry;
+  const Entry<D>& e = cell.entry;
+  const auto entry = [&e](int why, std::uint32_t order) {
+    return Entry<D>(e.cell, e.birth, EntryKind::cell, why, e.bucket, order);
+  };
+  const std::uint32_t over_size = w_->context.bounds.over_size(*mesh_, cell.made, size);
+  if (over_size > 0) return entry(Entry<D>::over_size, over_size);
+  if (!w_->context.bounds.over_radius_edge(*mesh_, cell.made)) return {};
+  return entry(Entry<D>::over_radius_edge, order_of(cell.made.shape.shortest_edge_squared, cell.squared_circumradius));
+}
+
+template <int D>
+void WorkLister<D>::ask_sizes() {
+  unasked_.ask(*mesh_, w_->context.bounds, [this](const auto& cell, double size) {
+    if (const auto e = if_poor(cell, size)) w_->visit->list->push_poor(*e);
+  });
+}
+
+template <int D>
+void WorkLister<D>::ask_elsewhere() {
+  unasked_elsewhere_.drop_dead(*mesh_);
+  unasked_elsewhere_.ask(*mesh_, w_->context.bounds, [this](const auto& cell, double size) {
+    if (const auto e = if_poor(cell, size)) elsewhere_.push_back(*e);
+  });
 }
 
 /// The shortest edge, shortest first, then the circumradius: smallest first, but largest first below the smallest proved
 /// bound, where it makes the smaller meshes (docs/selectors.md). Of both squares the exponent and four bits of the mantissa.
 template <int D>
-std::uint32_t WorkLister<D>::order_of(CellId c, const FilterSphere<D>& sphere) const {
+std::uint32_t WorkLister<D>::order_of(double shortest_edge_squared, double squared_circumradius) const {
   auto leading = [](double v) { return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(v) >> 48); };
-  const std::uint32_t edge = leading(shortest_edge_squared<D>(mesh_->simplex(c))), radius = leading(sphere.radius2);
+  const std::uint32_t edge = leading(shortest_edge_squared), radius = leading(squared_circumradius);
   const bool proved = w_->options.radius_edge_bound >= smallest_proved_bound<D>();
   return edge << 16 | (proved ? radius : 0xffffu - radius);
 }
@@ -67,11 +118,13 @@ void WorkLister<D>::list_cell(CellId c) {
 
 template <int D>
 void WorkLister<D>::list_if_poor(CellId c) {
-  const CellVerdict verdict = w_->context.bounds.test(*mesh_, c);
-  if (!verdict) return;
+  const CellShape shape = shape_of<D>(*mesh_, c);
   const FilterSphere<D> sphere = mesh_->sphere(c);
+  if (asks_blocks_) return put_off(c, shape, sphere);
+  const CellVerdict verdict = w_->context.bounds.test(*mesh_, c, shape);
+  if (!verdict) return;
   if (verdict.over_size > 0) return list_poor(c, Entry<D>::over_size, sphere, verdict.over_size);
-  list_poor(c, Entry<D>::over_radius_edge, sphere, order_of(c, sphere));
+  list_poor(c, Entry<D>::over_radius_edge, sphere, order_of(shape.shortest_edge_squared, sphere.radius2));
 }
 
 /// list_if_poor() of the i-th cell that the last insertion has made, whose shape is known.
@@ -81,6 +134,7 @@ void WorkLister<D>::list_inserted_if_poor(std::size_t i) {
   const Cavity<D>& cavity = w_->cavity;
   const FilterSphere<D> sphere = cavity.sphere_of_new(i);
   const CellShape shape = cavity.shape_of_new(i, sphere);
+  if (asks_blocks_) return put_off(cavity.new_cells()[i], shape, sphere);
   const Answer answer = quick_bounds_.look(shape);
   if (answer == Answer::within) return;
   const CellId c = cavity.new_cells()[i];
@@ -89,7 +143,7 @@ void WorkLister<D>::list_inserted_if_poor(std::size_t i) {
   if (over_size > 0) {
     list_poor(c, Entry<D>::over_size, sphere, over_size);
   } else if (w_->context.bounds.over_radius_edge(*mesh_, c, shape)) {
-    list_poor(c, Entry<D>::over_radius_edge, sphere, order_of(c, sphere));
+    list_poor(c, Entry<D>::over_radius_edge, sphere, order_of(shape.shortest_edge_squared, sphere.radius2));
   }
 }
 
@@ -112,6 +166,8 @@ std::uint64_t WorkLister<D>::list_violations(std::span<const CellId> cells) {
 
 template <int D>
 void WorkLister<D>::fill_outboxes() {
+  ask_sizes();
+  ask_elsewhere();
   auto& boxes = w_->visit->outboxes;
   assert(boxes.empty());
   std::erase_if(elsewhere_, [this](const Entry<D>& e) { return !w_->alive(e); });

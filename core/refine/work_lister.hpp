@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The lister of work: it puts encroached entities and poor elements at new cells, and violations, on the work list of the visit.
-// Elements that belong to another region (VisitArea) go to the outbox for that at the end of the visit.
+// Elements that belong to another region (VisitArea) go to the outbox for that at the end of the visit. Where sizes are asked by
+// blocks, new cells wait until they are asked for (unasked_cells.hpp).
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "mesh/slot_set.hpp"
+#include "refine/unasked_cells.hpp"
 #include "refine/workspace.hpp"
 #include "rule/cell_bounds.hpp"
 
@@ -20,10 +23,17 @@ template <int D>
 class WorkLister {
  public:
   explicit WorkLister(Workspace<D>& workspace)
-      : w_(&workspace), mesh_(&workspace.mesh), quick_bounds_(workspace.context.bounds) {}
+      : w_(&workspace),
+        mesh_(&workspace.mesh),
+        quick_bounds_(workspace.context.bounds),
+        asks_blocks_(workspace.context.bounds.asks_blocks()) {}
 
   /// Must be called before the visit does anything.
-  void begin_visit() { elsewhere_.clear(); }
+  void begin_visit() {
+    elsewhere_.clear();
+    unasked_.clear();
+    unasked_elsewhere_.clear();
+  }
   /// Lists what is encroached or poor at a cell that the visit owns.
   void list_cell(CellId c);
   /// Lists the element, if it is poor.
@@ -43,18 +53,32 @@ class WorkLister {
   bool is_refused_by_ring(CellId c, int edge) const;
   /// Lists the violations at the cells. @returns how many there were
   std::uint64_t list_violations(std::span<const CellId> cells);
-  /// Fills the outboxes of the visit. Most entries do not live until its end, and the visit, which owns their cells, can tell.
+  /// Cells for the visit's list whose sizes are to be asked first.
+  const UnaskedCells<D>& unasked() const { return unasked_; }
+  /// Asks for these, in one block, and lists the poor ones. @throws UsageError bad_size; what the size function throws
+  void ask_sizes();
+  /// Asks for these, and for those that belong to other regions and live, and fills the outboxes of the visit. Most entries do
+  /// not live until its end, and the visit, which owns their cells, can tell.
   void fill_outboxes();
 
  private:
+  using MadeCell = typename CellBounds<D>::MadeCell;
+
   void list(const Entry<D>& e, const Point<D>& place);
   void list_entities(CellId c, const ConstraintRecord<D>& k);
   void list_inserted_if_poor(std::size_t i);
-  std::uint32_t order_of(CellId c, const FilterSphere<D>& sphere) const;
+  bool is_home(const Entry<D>& e, const Point<D>& place) const;
+  void put_off(CellId c, const CellShape& shape, const FilterSphere<D>& sphere);
+  void put_off(const typename UnaskedCells<D>::Cell& cell, bool home);
+  void ask_elsewhere();
+  std::optional<Entry<D>> if_poor(const typename UnaskedCells<D>::Cell& cell, double size) const;
+  std::uint32_t order_of(double shortest_edge_squared, double squared_circumradius) const;
 
   Workspace<D>* w_;
   Mesh<D>* mesh_;
   const QuickBounds<D> quick_bounds_;
+  const bool asks_blocks_;                         ///< are sizes asked by blocks?
+  UnaskedCells<D> unasked_, unasked_elsewhere_;    ///< for the visit's list; for other leaves
   std::vector<Entry<D>> elsewhere_;                ///< elements that belong to other leaves
   std::vector<std::uint32_t> box_of_, box_sizes_;  ///< scratch of fill_outboxes: of each element; of each box
   std::vector<Entry<D>> violations_;               ///< at new cells, before they are listed

@@ -17,12 +17,23 @@ namespace pgdr {
 namespace {
 
 template <int D>
-double checked_size(const SizingField<D>& size, const Point<D>& x) {
-  const double s = size.at(x);
+double checked_size(double s, const Point<D>& x) {
   if (s > 0) return s;  // false for NaN too
   Diagnostic d{Errc::bad_size, {}, {}, 0, {}, {{x[0], x[1], D == 3 ? x[D - 1] : 0.0}}};
   d.message = "the size function returned " + detail::to_text(s) + " at " + detail::to_text<D>(x) + "; sizes must be positive";
   throw UsageError(std::move(d));
+}
+
+template <int D>
+double checked_size(const SizingField<D>& size, const Point<D>& x) {
+  return checked_size<D>(size.at(x), x);
+}
+
+/// checked_size() of all, in one block.
+template <int D>
+void ask_checked(const SizingField<D>& size, std::span<const Point<D>> points, std::span<double> sizes) {
+  size.at(points, sizes);
+  for (std::size_t i = 0; i < points.size(); ++i) checked_size<D>(sizes[i], points[i]);
 }
 
 template <int D>
@@ -35,14 +46,23 @@ double rounded_det(const Simplex<D>& s) {
   }
 }
 
+// The determinant is D! times the measure; the right side is rounded once.
+template <int D, class SimplexOf>
+bool within_measure(SimplexOf simplex, const CellShape& shape, double bound) {
+  const double det = std::fabs(shape.det), limit = bound * (D == 3 ? 6 : 2);
+  if (det + shape.det_error <= limit * (1 - 0x1p-51)) return true;
+  if (det - shape.det_error > limit * (1 + 0x1p-51)) return false;
+  return measure_within<D>(simplex(), bound);
+}
+
+}  // namespace
+
 template <int D>
 CellShape shape_of(const Mesh<D>& mesh, CellId c) {
   const auto [low, high] = mesh.squared_radius_bounds(c);
   const Simplex<D> s = mesh.simplex(c);
   return {shortest_edge_squared<D>(s), low, high, rounded_det<D>(s), CellBounds<D>::infinity};
 }
-
-}  // namespace
 
 // The cached squared radius is off by at most the half width of the filter's band (mesh.cpp: 6 |d| / r bounds the
 // relative error 2 |d| / r of r^2, and 2^-46 the roundings here), so outside the band around the bound it decides.
@@ -63,18 +83,20 @@ bool CellBounds<D>::over_radius_edge(const Mesh<D>& mesh, CellId c) const {
 
 template <int D>
 bool CellBounds<D>::over_radius_edge(const Mesh<D>& mesh, CellId c, const CellShape& shape) const {
-  const double limit = radius_edge_bound * radius_edge_bound * shape.shortest_edge_squared;
-  if (shape.squared_radius_low > limit) return true;
-  return !(shape.squared_radius_high < limit) && !radius_edge_within<D>(mesh.simplex(c), radius_edge_bound);
+  return over_ratio([&] { return mesh.simplex(c); }, shape);
 }
 
-// The determinant is D! times the measure; the right side is rounded once.
 template <int D>
-bool CellBounds<D>::within_measure(const Mesh<D>& mesh, CellId c, const CellShape& shape, double bound) const {
-  const double det = std::fabs(shape.det), limit = bound * (D == 3 ? 6 : 2);
-  if (det + shape.det_error <= limit * (1 - 0x1p-51)) return true;
-  if (det - shape.det_error > limit * (1 + 0x1p-51)) return false;
-  return measure_within<D>(mesh.simplex(c), bound);
+bool CellBounds<D>::over_radius_edge(const Mesh<D>& mesh, const MadeCell& cell) const {
+  return over_ratio([&] { return mesh.points(cell.vertices); }, cell.shape);
+}
+
+template <int D>
+template <class SimplexOf>
+bool CellBounds<D>::over_ratio(SimplexOf simplex, const CellShape& shape) const {
+  const double limit = radius_edge_bound * radius_edge_bound * shape.shortest_edge_squared;
+  if (shape.squared_radius_low > limit) return true;
+  return !(shape.squared_radius_high < limit) && !radius_edge_within<D>(simplex(), radius_edge_bound);
 }
 
 /// The least of the sizes that apply; infinity if there are none. `simplex()` is asked where one is a function.
@@ -112,24 +134,61 @@ bool CellBounds<D>::within_size(const Simplex<D>& s, int region) const {
 }
 
 template <int D>
+void CellBounds<D>::sizes_at(std::span<const Point<D>> centroids, std::span<const int> regions, std::span<double> sizes) const {
+  ask_checked<D>(size, centroids, sizes);
+  if (region_size.empty()) return;
+  std::vector<std::vector<std::size_t>> cells_of(region_size.size());
+  for (std::size_t i = 0; i < centroids.size(); ++i) cells_of[static_cast<std::size_t>(regions[i])].push_back(i);
+  std::vector<Point<D>> points;
+  std::vector<double> of_region;
+  for (std::size_t r = 0; r < region_size.size(); ++r) {
+    points.clear();
+    for (const std::size_t i : cells_of[r]) points.push_back(centroids[i]);
+    of_region.resize(points.size());
+    ask_checked<D>(region_size[r], points, of_region);
+    for (std::size_t k = 0; k < points.size(); ++k) sizes[cells_of[r][k]] = std::min(sizes[cells_of[r][k]], of_region[k]);
+  }
+}
+
+template <int D>
+bool CellBounds<D>::asks_blocks() const {
+  const auto by_blocks = [](const SizingField<D>& field) { return field.is_by_blocks(); };
+  return by_blocks(size) || std::any_of(region_size.begin(), region_size.end(), by_blocks);
+}
+
+template <int D>
 std::uint32_t CellBounds<D>::over_size(const Mesh<D>& mesh, CellId c, const CellShape& shape) const {
+  const auto simplex = [&] { return mesh.simplex(c); };
+  const int region = mesh.region(c);
+  if (!size.bounded() && region_size.empty()) return over(simplex, region, shape, nullptr);
+  const double bound = size_of(simplex, region);
+  return over(simplex, region, shape, &bound);
+}
+
+template <int D>
+std::uint32_t CellBounds<D>::over_size(const Mesh<D>& mesh, const MadeCell& cell, double size) const {
+  return over([&] { return mesh.points(cell.vertices); }, cell.region, cell.shape, &size);
+}
+
+/// `size`: the bound of size; null: there is none.
+template <int D>
+template <class SimplexOf>
+std::uint32_t CellBounds<D>::over(SimplexOf simplex, int region, const CellShape& shape, const double* size) const {
   std::uint32_t cells = 0;
   const auto bound_measure = [&](double bound) {
-    if (within_measure(mesh, c, shape, bound)) return;
+    if (within_measure<D>(simplex, shape, bound)) return;
     cells = std::max(cells, cells_to_fill(shape.det, average_det_of_measure<D>(bound)));
   };
-  if (size.bounded() || !region_size.empty()) {
-    const double bound = size_of([&] { return mesh.simplex(c); }, mesh.region(c));
+  if (size) {
     if constexpr (D == 3) {
-      const double limit = bound * bound;
-      if (shape.squared_radius_low > limit ||
-          (!(shape.squared_radius_high < limit) && !circumradius_within<D>(mesh.simplex(c), bound)))
-        cells = cells_to_fill(shape.det, average_det_of_radius(bound));
+      const double limit = *size * *size;
+      if (shape.squared_radius_low > limit || (!(shape.squared_radius_high < limit) && !circumradius_within<D>(simplex(), *size)))
+        cells = cells_to_fill(shape.det, average_det_of_radius(*size));
     } else {
-      bound_measure(bound);
+      bound_measure(*size);
     }
   }
-  const double measure = measure_of(mesh.region(c));
+  const double measure = measure_of(region);
   if (measure != std::numeric_limits<double>::infinity()) bound_measure(measure);
   return cells;
 }
@@ -141,6 +200,8 @@ double min_angle_degrees(double degrees) {
   return 1 / (2 * std::sin(degrees * std::numbers::pi / 180));
 }
 
+template CellShape shape_of(const Mesh<2>&, CellId);
+template CellShape shape_of(const Mesh<3>&, CellId);
 template class CellBounds<2>;
 template class CellBounds<3>;
 

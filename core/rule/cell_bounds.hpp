@@ -6,8 +6,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "mesh/mesh.hpp"
@@ -25,6 +27,10 @@ struct CellShape {
   double det_error;              ///< its error; infinite: not known
 };
 
+/// The shape of a cell of the mesh.
+template <int D>
+CellShape shape_of(const Mesh<D>& mesh, CellId c);
+
 /// Which bounds a cell is over.
 struct CellVerdict {
   bool over_radius_edge = false;  ///< over the bound of shape
@@ -33,10 +39,11 @@ struct CellVerdict {
   explicit operator bool() const { return over_radius_edge || over_size > 0; }  ///< is it over any?
 };
 
-/// CellVerdict::over_size of a cell of this determinant (D! times its measure), where cells are of that one on average. Not more
-/// than 512, as sizes may vary within it.
+/// CellVerdict::over_size is not more than this, as sizes may vary within the cell.
+constexpr std::uint32_t most_cells_to_fill = 512;
+/// CellVerdict::over_size of a cell of this determinant (D! times its measure), where cells are of that one on average.
 inline std::uint32_t cells_to_fill(double det, double average) {
-  constexpr double most = 512;
+  constexpr double most = most_cells_to_fill;
   const double cells = std::fabs(det) / average;
   return cells < most ? static_cast<std::uint32_t>(std::max(cells, 1.0)) : static_cast<std::uint32_t>(most);
 }
@@ -68,6 +75,10 @@ class CellBounds {
   CellVerdict test(const Mesh<D>& mesh, CellId c, const CellShape& shape) const;
   /// The least bound of size that applies to a cell of these corners in the region; infinity: none. @throws as test()
   double size_at(const Simplex<D>& s, int region) const;
+  /// size_at() of cells with these centroids, in these regions, in one block. @throws as test(); what a size function throws
+  void sizes_at(std::span<const Point<D>> centroids, std::span<const int> regions, std::span<double> sizes) const;
+  /// Is a bound of size to be asked for many cells at once?
+  bool asks_blocks() const;
   double measure_of(int region) const;  ///< the least bound of its volume (2D: area); infinity: none
   /// Would a cell of these corners in the region be within the bounds of size?
   bool within_size(const Simplex<D>& s, int region) const;
@@ -78,10 +89,24 @@ class CellBounds {
   /// CellVerdict::over_size of the cell. @throws as test()
   std::uint32_t over_size(const Mesh<D>& mesh, CellId c, const CellShape& shape) const;
 
+  /// A cell as it was made, which may be gone by now; its vertices are not.
+  struct MadeCell {
+    std::array<VertexId, D + 1> vertices;  ///< of the cell
+    int region;                            ///< it is in
+    CellShape shape;                       ///< of it
+  };
+  /// over_radius_edge() of a cell that was made.
+  bool over_radius_edge(const Mesh<D>& mesh, const MadeCell& cell) const;
+  /// over_size() of a cell that was made, where `size` is the answer of sizes_at(). @pre a size bounds cells
+  std::uint32_t over_size(const Mesh<D>& mesh, const MadeCell& cell, double size) const;
+
  private:
   template <class SimplexOf>
   double size_of(SimplexOf simplex, int region) const;
-  bool within_measure(const Mesh<D>& mesh, CellId c, const CellShape& shape, double bound) const;
+  template <class SimplexOf>
+  bool over_ratio(SimplexOf simplex, const CellShape& shape) const;
+  template <class SimplexOf>
+  std::uint32_t over(SimplexOf simplex, int region, const CellShape& shape, const double* size) const;
 };
 
 /// A quick test where one size bounds all cells. It decides about nearly all cells, as CellBounds does.

@@ -73,6 +73,16 @@ bool CellQuality::asks_sizes() const {
 }
 
 double CellQuality::of(const Simplex<3>& s, int region, double enough) const {
+  return of_with(s, region, enough, [&] { return bounds_->size_at(s, region); });
+}
+
+double CellQuality::of_sized(const Simplex<3>& s, int region, double size) const {
+  return of_with(s, region, 0, [&] { return size; });
+}
+
+/// The size is asked for only where the other measures leave it to say.
+template <class Size>
+double CellQuality::of_with(const Simplex<3>& s, int region, double enough, Size size_of) const {
   ++evaluated_;
   using detail::cross;
   using detail::difference;
@@ -101,7 +111,7 @@ double CellQuality::of(const Simplex<3>& s, int region, double enough) const {
     if (!(part2 >= q2 * q2 * centre2)) q = lower(q, std::sqrt(std::sqrt(part2 / centre2)));
     if (!(q > enough)) return q;
   }
-  const double size = bounds_->size_at(s, region), measure = bounds_->measure_of(region);
+  const double size = size_of(), measure = bounds_->measure_of(region);
   if (size < CellBounds<3>::infinity && !(size * size * twice2 >= q * q * centre2))
     q = lower(q, size * std::sqrt(twice2 / centre2));
   if (measure < CellBounds<3>::infinity) q = lower(q, 6 * measure / (det * (1 + margin)));

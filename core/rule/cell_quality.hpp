@@ -38,6 +38,8 @@ class CellQuality {
   /// q of a cell of these corners in the region; 0 if it is not positively oriented, as far as doubles tell. Once it is known to
   /// be at most `enough`, some number that is at most `enough`. @throws UsageError bad_size as CellBounds::test
   double of(const Simplex<3>& s, int region, double enough = 0) const;
+  /// q where the size is known: CellBounds::size_at of the cell.
+  double of_sized(const Simplex<3>& s, int region, double size) const;
 
   /// Does `of` ask a size function, which need not know places outside of the domain?
   bool asks_sizes() const;
@@ -59,6 +61,8 @@ class CellQuality {
   std::uint64_t evaluated() const { return evaluated_; }  ///< how often `of` was called
 
  private:
+  template <class Size>
+  double of_with(const Simplex<3>& s, int region, double enough, Size size_of) const;
   static constexpr double of_large_angles = 0.7;  ///< d = 0.7 (1 + c) where c < 0
 
   const CellBounds<3>* bounds_;

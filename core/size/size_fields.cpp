@@ -31,7 +31,19 @@ SizingField<D> smallest(std::vector<SizingField<D>> fields) {
   }
   if (functions.empty() || std::isnan(constant)) return constant;
   if (functions.size() == 1 && constant == std::numeric_limits<double>::infinity()) return functions[0];
-  return [constant, functions = std::make_shared<const std::vector<SizingField<D>>>(std::move(functions))](const Point<D>& x) {
+  const bool by_blocks = std::any_of(functions.begin(), functions.end(), [](const auto& f) { return f.is_by_blocks(); });
+  const auto shared = std::make_shared<const std::vector<SizingField<D>>>(std::move(functions));
+  if (by_blocks)
+    return SizingField<D>::by_blocks([constant, functions = shared](std::span<const Point<D>> points, std::span<double> sizes) {
+      std::fill(sizes.begin(), sizes.end(), constant);
+      std::vector<double> values(points.size());
+      for (const SizingField<D>& f : *functions) {
+        f.at(points, values);
+        for (std::size_t i = 0; i < points.size(); ++i)
+          if (!(values[i] >= sizes[i]) && !std::isnan(sizes[i])) sizes[i] = values[i];  // a NaN comes through
+      }
+    });
+  return [constant, functions = shared](const Point<D>& x) {
     double least = constant;
     for (const SizingField<D>& f : *functions) {
       const double value = f.at(x);

@@ -116,6 +116,7 @@ auto Refinement<D>::list_cells(std::size_t first, std::size_t last) -> Listed {
   worker->begin(listing);
   for (std::size_t i = first; i < last; ++i)
     if (const CellId c{static_cast<std::uint32_t>(i)}; state_.context.mesh.alive(c)) worker->list_cell(c);
+  worker->end_listing();
   std::vector<Entry<D>> entries;
   entries.reserve(list.size());
   list.drain([&](const Entry<D>& e) { entries.push_back(e); });

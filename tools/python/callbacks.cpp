@@ -111,11 +111,9 @@ void ask_points(const SharedFunction& f, const py::object& type, std::span<const
 
 template <int D>
 SizingField<D> sizes_by(py::function f) {
-  return [f = SharedFunction(std::move(f))](const Point<D>& x) {
-    double size = 0;
-    ask_sizes<D>(f, {&x, 1}, {&size, 1});
-    return size;
-  };
+  return SizingField<D>::by_blocks([f = SharedFunction(std::move(f))](std::span<const Point<D>> points, std::span<double> sizes) {
+    ask_sizes<D>(f, points, sizes);
+  });
 }
 
 template <int D>

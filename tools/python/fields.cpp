@@ -19,7 +19,7 @@ py::array evaluate(const SizingField<D>& field, const Dense<double>& points) {
   std::vector<double> sizes(at.size());
   {
     const py::gil_scoped_release others_run;
-    for (std::size_t i = 0; i < at.size(); ++i) sizes[i] = field.at(at[i]);
+    field.at(at, sizes);
   }
   return own(std::move(sizes));
 }
