@@ -22,12 +22,13 @@ class CMakeBuild(build_ext):
         folder = os.environ.get("PGDR_BUILD_FOLDER")
         if folder is None:
             folder = pathlib.Path(self.build_temp).resolve()
-            subprocess.run(["cmake", "-S", ROOT, "-B", folder, "-DCMAKE_BUILD_TYPE=Release", "-DPGDR_PYTHON=ON", "-DPGDR_TESTS=OFF",
-                            "-DPGDR_TOOLS=OFF", "-DPGDR_BENCH=OFF", "-DPGDR_INSTALL=OFF", f"-DPGDR_PYTHON_EXECUTABLE={sys.executable}",
+            options = {"CMAKE_BUILD_TYPE": "Release", "CMAKE_UNITY_BUILD": "ON", "PGDR_PYTHON": "ON", "PGDR_TESTS": "OFF",
+                       "PGDR_TOOLS": "OFF", "PGDR_BENCH": "OFF", "PGDR_INSTALL": "OFF", "PGDR_PYTHON_EXECUTABLE": sys.executable}
+            subprocess.run(["cmake", "-S", ROOT, "-B", folder, *[f"-D{name}={value}" for name, value in options.items()],
                             *pybind11_options()], check=True)
         subprocess.run(["cmake", "--build", folder, "--parallel", str(os.cpu_count()), "--target", "pgdr_python"], check=True)
-        made, = pathlib.Path(folder, "python", "pgdr").glob("_pgdr.*.so")
         target = pathlib.Path(self.get_ext_fullpath(ext.name))
+        made = pathlib.Path(folder, "python", "pgdr", target.name)
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(made, target)
 

@@ -26,10 +26,6 @@ void set_measures(JsonObject& o, const QualityMeasures& q) {
   o.set("histogram", q.histogram);
 }
 
-constexpr std::array<const char*, 7> code_names{"small_angle",    "rounding",  "beyond_theory", "kept_boundary",
-                                                "input_dihedral", "not_found", "budget"};
-constexpr std::array<const char*, 4> kind_names{"vertex", "segment", "facet", "volume"};
-
 Json to_json(const EntityRef& e) {
   return JsonObject{{"kind", name(e.kind)}, {"id", e.id == no_entity ? Json(nullptr) : Json(e.id)}};
 }
@@ -64,9 +60,6 @@ PoorReason parse_reason(const nlohmann::json& j) {
 }
 
 }  // namespace
-
-const char* name(PoorReason::Code code) { return code_names[static_cast<std::size_t>(code)]; }
-const char* name(EntityKind kind) { return kind_names[static_cast<std::size_t>(kind)]; }
 
 void Report::add_error(const Diagnostic& error) { errors_.push_back(error); }
 
@@ -167,17 +160,6 @@ JsonObject to_json(const DistributedStatistics& s) {
 }
 
 JsonObject to_json(const CheckFinding& f) { return {{"kind", pgdr::name(f.kind)}, {"message", f.message}, {"ids", f.ids}}; }
-
-const char* name(StopCause cause) {
-  switch (cause) {
-    case StopCause::max_vertices: return "max_vertices";
-    case StopCause::min_edge: return "min_edge";
-    case StopCause::time_limit: return "time_limit";
-    case StopCause::cancelled: return "cancelled";
-    case StopCause::finished: break;
-  }
-  return "finished";
-}
 
 const char* name(RegionMode mode) { return mode == RegionMode::automatic ? "auto" : "seeds"; }
 

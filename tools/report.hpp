@@ -15,6 +15,7 @@
 #include "pgdr/ranks.hpp"
 #include "pgdr/refine.hpp"
 #include "pgdr/surface_counts.hpp"
+#include "words.hpp"
 
 namespace pgdr::tool {
 
@@ -52,9 +53,6 @@ Json to_json(const std::vector<Value>& list) {
   return values;
 }
 
-const char* name(PoorReason::Code code);
-const char* name(EntityKind kind);
-const char* name(StopCause cause);
 const char* name(RegionMode mode);
 
 /// What a report of `pgdr mesh` says that its check needs.

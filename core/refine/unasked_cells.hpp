@@ -27,7 +27,7 @@ namespace pgdr {
 template <int D>
 class UnaskedCells {
  public:
-  /// As many as this are asked for at the latest: more would save no calls to speak of, and leave the cache.
+  /// As many as this are asked for at the latest, which bounds the memory of a visit to all of space.
   static constexpr std::size_t most = 8192;
 
   /// One that waits: an element that may be poor, or one that is known to be and must not overtake the others.

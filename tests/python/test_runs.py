@@ -7,6 +7,7 @@ import os
 import pickle
 import signal
 import subprocess
+import sys
 import tempfile
 import threading
 import unittest
@@ -115,6 +116,14 @@ class Stopping(unittest.TestCase):
             pgdr.mesh(cube(), size=0.003)
         timer.join()
         self.assert_partial(caught.exception.mesh, cube())
+
+    def test_python_ends_while_daemon_threads_mesh(self):
+        script = ("import threading, time, sys; sys.path[:0] = [%r]; import pgdr; from shapes import cube\n"
+                  "for f in (None, lambda at: 0.003 + 0 * at[:, 0]):\n"
+                  "    threading.Thread(target=lambda f=f: pgdr.mesh(cube(), size=f or 0.003), daemon=True).start()\n"
+                  "time.sleep(0.3)\nprint('ends')" % str(Path(__file__).resolve().parent))
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60)
+        self.assertEqual((done.returncode, done.stdout), (0, "ends\n"), done.stderr)
 
     def test_limits(self):
         made = pgdr.mesh(cube(), size=0.01, max_vertices=500)

@@ -13,6 +13,7 @@
 #include "pgdr/io.hpp"
 #include "pgdr/mesh_maps.hpp"
 #include "reports.hpp"
+#include "words.hpp"
 
 namespace pgdr::python {
 namespace {
@@ -69,7 +70,7 @@ void set_reasons(MeshData<D>& data, const Dense<std::uint32_t>& cells, const Den
     bad_argument("the arrays of reasons have different lengths");
   data.reasons.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
-    if (cell[i] >= data.mesh.cells.size() || code[i] > static_cast<std::uint8_t>(PoorReason::Code::budget) ||
+    if (cell[i] >= data.mesh.cells.size() || code[i] >= tool::code_names.size() ||
         kind[2 * i] > static_cast<std::uint8_t>(EntityKind::volume) ||
         kind[2 * i + 1] > static_cast<std::uint8_t>(EntityKind::volume))
       bad_argument("a reason that cannot be");

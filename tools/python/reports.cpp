@@ -6,6 +6,7 @@
 
 #include "errors.hpp"
 #include "pgdr/quality.hpp"
+#include "words.hpp"
 
 namespace pgdr::python {
 namespace {
@@ -34,17 +35,6 @@ py::dict to_python(const OptimizationStatistics& s) {
   return py::dict("target"_a = s.target, "claimed_cosine"_a = s.claimed_cosine, "moves"_a = s.moves,
                   "edge_removals"_a = s.edge_removals, "reconnections"_a = s.reconnections, "inserted"_a = s.inserted,
                   "removed"_a = s.removed, "evaluated"_a = s.evaluated, "left"_a = s.left, "unexplained"_a = s.unexplained);
-}
-
-const char* name(StopCause cause) {
-  switch (cause) {
-    case StopCause::max_vertices: return "max_vertices";
-    case StopCause::min_edge: return "min_edge";
-    case StopCause::time_limit: return "time_limit";
-    case StopCause::cancelled: return "cancelled";
-    case StopCause::finished: break;
-  }
-  return "finished";
 }
 
 }  // namespace
@@ -87,9 +77,9 @@ py::dict to_python(const RefineResult<D>& result) {
                "regions"_a = regions, "delaunay"_a = result.delaunay, "tolerance"_a = result.tolerance,
                "largest_move"_a = result.largest_move);
   if (result.optimization.target > 0) all["optimization"] = to_python(result.optimization);
-  return py::dict("stop"_a = name(result.stop), "poor_left"_a = result.poor_left, "poor_unavoidable"_a = result.poor_unavoidable,
-                  "size_met"_a = result.size_met, "repairs"_a = to_python(result.repairs),
-                  "warnings"_a = to_python(result.warnings), "statistics"_a = all);
+  return py::dict("stop"_a = tool::name(result.stop), "poor_left"_a = result.poor_left,
+                  "poor_unavoidable"_a = result.poor_unavoidable, "size_met"_a = result.size_met,
+                  "repairs"_a = to_python(result.repairs), "warnings"_a = to_python(result.warnings), "statistics"_a = all);
 }
 
 template py::dict quality_of<2>(const MeshData<2>&);

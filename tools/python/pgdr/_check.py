@@ -7,6 +7,7 @@ import math
 from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 from . import _arguments, _pgdr
+from ._ending import WORK
 from ._errors import Diagnostic, usage
 from ._mesh import Mesh
 from ._plc import Plc
@@ -96,15 +97,16 @@ def check(mesh: Mesh, plc: Optional[Plc] = None, *, delaunay: Optional[bool] = N
     if delaunay is None:
         delaunay = bool(mesh.statistics.get("delaunay", False))
     of_dimension = _pgdr.check2 if mesh.dimension == 2 else _pgdr.check3
-    return CheckReport(of_dimension(mesh._core, plc._core if plc is not None else None, options, cosine,
-                                    _arguments.flag("delaunay", delaunay), _arguments.flag("reasons", reasons)))
+    with WORK:
+        return CheckReport(of_dimension(mesh._core, plc._core if plc is not None else None, options, cosine,
+                                        _arguments.flag("delaunay", delaunay), _arguments.flag("reasons", reasons)))
 
 
 class Finding(NamedTuple):
     """All findings of one kind in an input."""
 
     kind: str  #: a stable word such as "facets_cross"
-    count: int  #: all of them
+    number: int  #: of all of them
     is_error: bool  #: no mesh has these entities
     listed: Sequence[Tuple[Diagnostic, float]]  #: the first of them, with a measure: degrees of an angle, a length; or 0
 
@@ -121,7 +123,8 @@ def diagnose(plc: Plc, *, most_listed: int = 20, errors_only: bool = False) -> L
         raise TypeError(f"plc must be a pgdr.Plc, not {type(plc).__name__}")
     of_dimension = _pgdr.diagnose2 if plc.dimension == 2 else _pgdr.diagnose3
     most = _arguments.whole_number("most_listed", most_listed, 0, 2**32)
-    return [Finding(*found) for found in of_dimension(plc._core, most, _arguments.flag("errors_only", errors_only))]
+    with WORK:
+        return [Finding(*found) for found in of_dimension(plc._core, most, _arguments.flag("errors_only", errors_only))]
 
 
 def info(what: Union[Plc, Mesh, _arguments.Path]) -> Dict[str, Any]:

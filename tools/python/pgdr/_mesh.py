@@ -9,11 +9,11 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _arguments, _pgdr
+from ._ending import WORK
 from ._errors import Diagnostic, usage
 
 _CORES = {2: _pgdr.Mesh2, 3: _pgdr.Mesh3}
-_KINDS = ("vertex", "segment", "facet", "volume")
-_REASONS = ("small_angle", "rounding", "beyond_theory", "kept_boundary", "input_dihedral", "not_found", "budget")
+_NO_ENTITY = 0xffffffff
 
 
 class Reason(NamedTuple):
@@ -143,7 +143,8 @@ class Mesh:
     def reasons(self) -> List[Reason]:
         """Of each cell over a bound, why. Empty where all bounds hold."""
         cells, codes, kinds, ids, angles = self._core.reason_arrays
-        return [Reason(int(c), _REASONS[code], [(_KINDS[k], int(i)) for k, i in zip(kind, of) if i != 0xffffffff], float(angle))
+        return [Reason(int(c), _pgdr.reason_codes[code],
+                       [(_pgdr.entity_kinds[k], int(i)) for k, i in zip(kind, of) if i != _NO_ENTITY], float(angle))
                 for c, code, kind, of, angle in zip(cells, codes, kinds, ids, angles)]
 
     @property
@@ -189,9 +190,10 @@ class Mesh:
 
         first_index, edges, neighbors are for .node and .ele; pieces for .pvtu. Raises FileError, UsageError.
         """
-        self._core.write(_arguments.path(path), _arguments.whole_number("first_index", first_index, 0, 1),
-                         _arguments.flag("edges", edges), _arguments.flag("neighbors", neighbors),
-                         _arguments.whole_number("pieces", pieces, 0, 100000))
+        with WORK:
+            self._core.write(_arguments.path(path), _arguments.whole_number("first_index", first_index, 0, 1),
+                             _arguments.flag("edges", edges), _arguments.flag("neighbors", neighbors),
+                             _arguments.whole_number("pieces", pieces, 0, 100000))
 
     def to_meshio(self) -> Any:
         """A meshio.Mesh of the cells, the subfacets and the subsegments, with cell data "region" and "marker"."""

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _arguments, _pgdr
+from ._ending import WORK
 from ._errors import usage
 from ._fields import Size, core_of
 from ._mesh import Mesh
@@ -235,12 +236,13 @@ def _run(plc: Plc, options: Any, bounds: Dict[str, Any], progress: object, stop:
     def poll(vertices: int, waiting: int) -> bool:
         if tell is not None:
             tell(Progress(vertices, waiting, False))
-        return asks is not None and bool(asks.is_set())  # type: ignore[attr-defined]
+        return WORK.is_ending or (asks is not None and bool(asks.is_set()))  # type: ignore[attr-defined]
 
     refine = _pgdr.refine2 if plc.dimension == 2 else _pgdr.refine3
     finished = 0
     try:
-        core, facts, raised = refine(plc._core, options, source, poll if tell is not None or asks is not None else None)
+        with WORK:
+            core, facts, raised = refine(plc._core, options, source, poll)
         finished = len(core.points)
     finally:
         if tell is not None:

@@ -73,7 +73,7 @@ def _surface(mesh: Any) -> npt.NDArray[np.int64]:
     """The faces that one cell has, seen counterclockwise from outside."""
     cells = np.asarray(mesh.cells, dtype=np.int64)
     beyond = np.asarray(mesh.neighbors(), dtype=np.int64)
-    cell, corner = np.nonzero((beyond < 0) | (beyond == 0xFFFFFFFF))
+    cell, corner = np.nonzero(beyond < 0)
     opposite = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
     faces = np.take_along_axis(cells[cell], opposite[corner], axis=1)
     points = np.asarray(mesh.points)

@@ -129,7 +129,9 @@ def _options(plc: Any, minratio: Optional[float], mindihedral: Optional[float], 
         options["radius_edge"] = 2.0 if minratio is None else minratio
     elif options["refine"]:  # a volume alone
         options["radius_edge"] = float("inf")
-    if mindihedral and options["optimize"]:
+    if mindihedral:
+        if not options["optimize"]:
+            raise usage("a bound on dihedral angles is the optimiser's, which is switched off: leave out one of them (TetGen's q/ and O0)")
         options["min_dihedral"] = mindihedral
     if max_volume is not None:
         options["max_volume"] = max_volume

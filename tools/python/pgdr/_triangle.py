@@ -159,7 +159,7 @@ def _boundary_markers(result: Any) -> Tuple[npt.NDArray[np.int32], npt.NDArray[n
     """Markers of vertices and subsegments; what lies on the boundary and has none gets 1, as Triangle does it."""
     cells = np.asarray(result.cells, dtype=np.int64)
     beyond = np.asarray(result.neighbors(), dtype=np.int64)
-    cell, corner = np.nonzero((beyond < 0) | (beyond == 0xFFFFFFFF))
+    cell, corner = np.nonzero(beyond < 0)
     hull = np.sort(np.stack([cells[cell, (corner + 1) % 3], cells[cell, (corner + 2) % 3]], axis=1), axis=1)
     count = len(result.points)
     subsegments = np.sort(np.asarray(result.subsegments, dtype=np.int64), axis=1)
@@ -204,8 +204,7 @@ def _output(result: Any, switches: Mapping[str, Any]) -> Dict[str, npt.NDArray[A
         edges, markers = _edges(result, segment_markers)
         out["edges"], out["edge_markers"] = _ints(new[edges]), _columns(markers)
     if "n" in switches:
-        beyond = np.asarray(result.neighbors(), dtype=np.int64)
-        out["neighbors"] = _ints(np.where(beyond == 0xFFFFFFFF, -1, beyond))
+        out["neighbors"] = _ints(result.neighbors())
     return {key: value for key, value in out.items() if "B" not in switches or not key.endswith("_markers")}
 
 
