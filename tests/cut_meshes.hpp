@@ -32,6 +32,20 @@ struct OwnedTree {
     for (std::size_t i = 0; i < nodes.size(); ++i) owners.push_back(static_cast<int>(random() % static_cast<unsigned>(ranks)));
     std::sort(owners.begin(), owners.end());
   }
+  /// With all nodes split. Nodes of this one are the same in it.
+  OwnedTree halved() const {
+    OwnedTree finer = *this;
+    finer.nodes.clear();
+    finer.owners.clear();
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const auto first = finer.tree.split(nodes[i]);
+      for (unsigned k = 0; k < static_cast<unsigned>(Orthtree<D>::children); ++k) {
+        finer.nodes.push_back(first + k);
+        finer.owners.push_back(owners[i]);
+      }
+    }
+    return finer;
+  }
   detail::Territory<D> territory(int rank) const { return {tree, nodes, owners, ranks, rank}; }
 };
 

@@ -73,7 +73,7 @@ std::vector<Hard<3>> solids() {
   constexpr double side = 0.06;
   all.add("with_leaves", test::cube(), side).leaves = true;
   all.add("shortest_edge", test::cube(), side).min_edge = 0.04;
-  for (const std::uint64_t most : {200, 2000, 3000})
+  for (const std::uint64_t most : {200, 4200, 4300})
     all.add("budget_" + std::to_string(most), test::cube(), side).max_vertices = most;
   all.add("given_lattice", test::cube(), side).schedule.lattice = 4;
   all.add("varying", test::l_block(), 1).size = [](const Point3& p) { return 0.08 + 0.04 * p[0]; };

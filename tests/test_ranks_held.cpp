@@ -72,13 +72,14 @@ TYPED_TEST(Held, WhoHoldsAPointIsSaidByTheBoxesOfNodes) {
       for (int time = 0; time < 300; ++time) {
         const Point<D> p = any_point(owned, random);
         const std::set<int> expected = holders(owned, p);
-        const auto found = territory.holders(p);
+        const auto zone = territory.zone(p);
+        const auto found = territory.holders(zone);
         ASSERT_EQ(std::vector<int>(found.begin(), found.end()), std::vector<int>(expected.begin(), expected.end()));
-        EXPECT_EQ(territory.holds(p), expected.count(rank) == 1);
-        for (int r = 0; r < ranks; ++r) EXPECT_EQ(territory.holds(p, r), expected.count(r) == 1);
-        EXPECT_EQ(territory.is_shared(p), expected.size() > expected.count(rank));
+        EXPECT_EQ(territory.holds(zone), expected.count(rank) == 1);
+        for (int r = 0; r < ranks; ++r) EXPECT_EQ(territory.holds(zone, r), expected.count(r) == 1);
+        EXPECT_EQ(territory.is_shared(zone), expected.size() > expected.count(rank));
         const auto node = std::find(owned.nodes.begin(), owned.nodes.end(), owned.tree.leaf_at(p)) - owned.nodes.begin();
-        EXPECT_EQ(territory.owner(p), owned.owners[static_cast<std::size_t>(node)]);
+        EXPECT_EQ(territory.owner(zone), owned.owners[static_cast<std::size_t>(node)]);
         if (expected.count(rank)) neighbours.insert(expected.begin(), expected.end());
       }
       neighbours.erase(rank);
@@ -117,6 +118,7 @@ TYPED_TEST(Held, NodesAndBoxesBelongToWhoHoldsTheirPoints) {
     const auto first = owned.tree.split(parent);
     for (int k = 0; k < Orthtree<D>::children; ++k)
       EXPECT_EQ(territory.owner(first + static_cast<unsigned>(k)), territory.owner(parent));
+    EXPECT_EQ(territory.owner(owned.tree.parent(parent)), -1);
   }
 }
 
@@ -142,6 +144,32 @@ Neighbours<D> neighbours_of(const Mesh<D>& mesh) {
   return all;
 }
 
+/// The cells of `all` with a vertex that the rank holds, and their neighbours among these.
+template <int D>
+Neighbours<D> held_of(const OwnedTree<D>& owned, int rank, const Neighbours<D>& all) {
+  Neighbours<D> held = all;
+  const auto is_held = [&](const SentPoints<D>& points) {
+    return std::any_of(points.begin(), points.end(), [&](const auto& p) { return holders(owned, Point<D>{p}).count(rank) > 0; });
+  };
+  std::erase_if(held, [&](const auto& cell) { return !is_held(cell.first); });
+  for (auto& [cell, beyond] : held)
+    for (auto& other : beyond)
+      if (other[0][0] != hull && !is_held(other)) {
+        other = {};
+        other[0][0] = missing;
+      }
+  return held;
+}
+
+/// Do others hold all of these points?
+template <int D>
+bool is_named(const OwnedTree<D>& owned, int rank, const SentPoints<D>& points) {
+  return std::all_of(points.begin(), points.end(), [&](const auto& p) {
+    const std::set<int> ranks = holders(owned, Point<D>{p});
+    return ranks.size() > ranks.count(rank);
+  });
+}
+
 template <int D>
 struct Shape {
   int level, ranks, pairs;
@@ -163,34 +191,42 @@ TYPED_TEST(Held, TheCutLeavesTheCellsWithAVertexThatTheRankHolds) {
     const Neighbours<D> all = neighbours_of(whole.mesh);
     std::map<SentPoints<D>, int> owners;
     for (int rank = 0; rank < shape.ranks; ++rank) {
-      Neighbours<D> expected = all;
-      const auto is_held = [&](const SentPoints<D>& points) {
-        return std::any_of(points.begin(), points.end(),
-                           [&](const auto& p) { return holders(owned, Point<D>{p}).count(rank) > 0; });
-      };
-      std::erase_if(expected, [&](const auto& cell) { return !is_held(cell.first); });
-      for (auto& [cell, beyond] : expected)
-        for (auto& other : beyond)
-          if (other[0][0] != hull && !is_held(other)) {
-            other = {};
-            other[0][0] = missing;
-          }
       const CutMesh<D> cut(owned, rank, shape.pairs, shape.seed);
-      EXPECT_TRUE(neighbours_of(cut.part.mesh) == expected);
-      std::size_t own = 0;
+      EXPECT_TRUE(neighbours_of(cut.part.mesh) == held_of<D>(owned, rank, all));
       for (const CellId c : cells_of(cut.part.mesh)) {
         const SentPoints<D> points = detail::points_of(cut.part.mesh, c);
-        if (cut.held.is_own(c)) owners[points] += 1, ++own;
-        const bool is_named = std::all_of(points.begin(), points.end(), [&](const auto& p) {
-          const std::set<int> ranks = holders(owned, Point<D>{p});
-          return ranks.size() > ranks.count(rank);
-        });
-        EXPECT_EQ(cut.held.find(points), is_named ? c : no_cell);
+        if (cut.held.is_own(c)) owners[points] += 1;
+        const CellId found = cut.held.find(points);
+        EXPECT_TRUE(found == c || (found == no_cell && !is_named<D>(owned, rank, points)));
       }
-      EXPECT_EQ(cut.held.own_cells().size(), own);
     }
     EXPECT_EQ(owners.size(), all.size());
     EXPECT_TRUE(std::all_of(owners.begin(), owners.end(), [](const auto& o) { return o.second == 1; }));
+  }
+}
+
+/// Once the nodes have been split claims reach half as far: each rank drops what it does not hold any more.
+TYPED_TEST(Held, AHalvedLatticeLeavesTheCellsThatTheRankStillHolds) {
+  constexpr int D = TypeParam::value;
+  for (const Shape<D>& shape : shapes<D>()) {
+    OwnedTree<D> owned(shape.level, shape.ranks, shape.seed);
+    const Neighbours<D> all = neighbours_of(WholeMesh<D>(shape.pairs, shape.seed).mesh);
+    for (int rank = 0; rank < shape.ranks; ++rank) {
+      CutMesh<D> cut(owned, rank, shape.pairs, shape.seed);
+      const std::size_t before = cells_of(cut.part.mesh).size();
+      OwnedTree<D> finer = owned.halved();
+      const Territory<D> next = Territory<D>(finer.tree, owned.nodes, owned.owners, shape.ranks, rank).of_next_level();
+      EXPECT_EQ(next.level(), cut.territory.level() + 1);
+      cut.held.shrink(next);
+      EXPECT_TRUE(neighbours_of(cut.part.mesh) == held_of<D>(finer, rank, all));
+      EXPECT_LE(cells_of(cut.part.mesh).size(), before);
+      for (const CellId c : cells_of(cut.part.mesh)) {
+        const SentPoints<D> points = detail::points_of(cut.part.mesh, c);
+        if (is_named<D>(finer, rank, points)) {
+          EXPECT_EQ(cut.held.find(points), c);
+        }
+      }
+    }
   }
 }
 

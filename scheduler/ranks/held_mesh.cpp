@@ -10,6 +10,8 @@
 namespace pgdr::detail {
 namespace {
 
+constexpr std::size_t ahead = 12;  ///< cells or vertices
+
 [[noreturn]] void fail(const char* what) { throw ResourceError({Errc::internal, what, {}, 0, {}, {}}); }
 
 }  // namespace
@@ -18,20 +20,53 @@ template <int D>
 HeldMesh<D>::HeldMesh(Mesh<D>& mesh, const Territory<D>& territory)
     : mesh_(&mesh), territory_(&territory), pools_(mesh.make_pools()) {
   mesh.leave_heap();  // for one more pool
+  note_zones();
   // Any vertex of the mesh as it is may come back in a message.
   for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i) {
     const CellId c{i};
     if (!mesh.alive(c)) continue;
-    bool is_held = false;
-    for (const VertexId v : mesh.cell(c).vertices) {
-      is_held = is_held || territory.holds(mesh.point(v));
-      enter(v);
-    }
-    if (is_held)
+    for (const VertexId v : mesh.cell(c).vertices) enter(v);
+    if (is_held(c))
       share(c);
     else
       drop(c);
   }
+  enter_cells();
+}
+
+/// Vertices that were known stay so: those of the cells that go may come back, too.
+template <int D>
+void HeldMesh<D>::shrink(const Territory<D>& territory) {
+  territory_ = &territory;
+  zones_.clear();
+  note_zones();
+  cells_.clear();
+  for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) {
+    const CellId c{i};
+    if (!mesh_->alive(c)) continue;
+    if (is_held(c))
+      share(c);
+    else
+      drop(c);
+  }
+  enter_cells();
+}
+
+/// Notes where the vertices of all cells are.
+template <int D>
+void HeldMesh<D>::note_zones() {
+  zones_.resize(mesh_->vertex_bound(), unknown);
+  for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) {
+    if (!mesh_->alive(CellId{i})) continue;
+    for (const VertexId v : mesh_->cell(CellId{i}).vertices)
+      if (zones_[index(v)] == unknown) zones_[index(v)] = territory_->zone(mesh_->point(v));
+  }
+}
+
+template <int D>
+bool HeldMesh<D>::is_held(CellId c) const {
+  const auto& vertices = mesh_->cell(c).vertices;
+  return std::any_of(vertices.begin(), vertices.end(), [this](VertexId v) { return territory_->holds(zone(v)); });
 }
 
 template <int D>
@@ -41,17 +76,21 @@ std::uint32_t HeldMesh<D>::hash_of(const Point<D>& p) {
   return static_cast<std::uint32_t>(hash.value() >> 32);
 }
 
+/// The same in any order.
 template <int D>
-std::uint32_t HeldMesh<D>::hash_of(const Sorted& vertices) {
-  WordHash hash;
-  for (const VertexId v : vertices) hash.add(index(v));
-  return static_cast<std::uint32_t>(hash.value() >> 32);
+std::uint32_t HeldMesh<D>::hash_of(const Vertices& vertices) {
+  std::uint64_t sum = 0;
+  for (const VertexId v : vertices) {
+    const std::uint64_t mixed = (index(v) + 1) * 0x9e3779b97f4a7c15u;
+    sum += (mixed ^ mixed >> 32) * 0xbf58476d1ce4e5b9u;
+  }
+  return static_cast<std::uint32_t>(sum >> 32);
 }
 
+/// In any order. @pre neither has one twice
 template <int D>
-auto HeldMesh<D>::sorted(Vertices vertices) -> Sorted {
-  std::sort(vertices.begin(), vertices.end());
-  return vertices;
+bool HeldMesh<D>::are_same(const Vertices& a, const Vertices& b) {
+  return std::all_of(a.begin(), a.end(), [&b](VertexId v) { return std::find(b.begin(), b.end(), v) != b.end(); });
 }
 
 template <int D>
@@ -76,9 +115,8 @@ VertexId HeldMesh<D>::find_vertex(const Point<D>& p) const {
 }
 
 template <int D>
-CellId HeldMesh<D>::find_cell(const Sorted& vertices) const {
-  return CellId{
-      cells_.find(hash_of(vertices), [&](std::uint32_t c) { return sorted(mesh_->cell(CellId{c}).vertices) == vertices; })};
+CellId HeldMesh<D>::find_cell(const Vertices& vertices, std::uint32_t hash) const {
+  return CellId{cells_.find(hash, [&](std::uint32_t c) { return are_same(mesh_->cell(CellId{c}).vertices, vertices); })};
 }
 
 template <int D>
@@ -92,25 +130,43 @@ void HeldMesh<D>::enter(VertexId v) {
   vertices_.insert(hash, index(v));
 }
 
-/// Enters what others may name of the cell.
+/// Enters what others may name of the cell; the cell itself by enter_cells().
 template <int D>
 void HeldMesh<D>::share(CellId c) {
   const auto& vertices = mesh_->cell(c).vertices;
   int shared = 0;
-  for (const VertexId v : vertices) shared += territory_->is_shared(mesh_->point(v)) ? 1 : 0;
+  for (const VertexId v : vertices) {
+    if (index(v) >= zones_.size()) zones_.resize(std::max<std::size_t>(mesh_->vertex_bound(), 2 * zones_.size()), unknown);
+    zones_[index(v)] = zone(v);
+    shared += territory_->is_shared(zones_[index(v)]) ? 1 : 0;
+  }
   if (shared == 0) return;
   for (const VertexId v : vertices) enter(v);
-  if (shared == D + 1) cells_.insert(hash_of(sorted(vertices)), index(c));
+  if (shared == D + 1) entering_.push_back({c, hash_of(vertices)});
+}
+
+/// Tables are larger than the cache: what comes a little later is loaded meanwhile, here and below.
+template <int D>
+void HeldMesh<D>::enter_cells() {
+  for (std::size_t i = 0; i < entering_.size(); ++i) {
+    if (i + ahead < entering_.size()) cells_.prefetch(entering_[i + ahead].hash);
+    cells_.insert(entering_[i].hash, index(entering_[i].cell));
+  }
+  entering_.clear();
 }
 
 template <int D>
 void HeldMesh<D>::note_gone(const Net& net) {
-  for (const auto& gone : net.gone) cells_.erase(hash_of(sorted(gone.vertices)), index(gone.was.cell));
+  for (std::size_t i = 0; i < net.gone.size(); ++i) {
+    if (i + ahead < net.gone.size()) cells_.prefetch(hash_of(net.gone[i + ahead].vertices));
+    cells_.erase(hash_of(net.gone[i].vertices), index(net.gone[i].was.cell));
+  }
 }
 
 template <int D>
-void HeldMesh<D>::note_made(std::span<const CellId> made) {
-  for (const CellId c : made) share(c);
+void HeldMesh<D>::note_made(const Net& net) {
+  for (const CellName& c : net.made) share(c.cell);
+  enter_cells();
 }
 
 template <int D>
@@ -128,7 +184,10 @@ template <int D>
 std::vector<VertexId> HeldMesh<D>::vertices_of(const SentCells<D>& cells) {
   std::vector<VertexId> vertices;
   vertices.reserve(cells.vertices.size());
-  for (const SentVertex<D>& sent : cells.vertices) vertices.push_back(vertex_of(sent));
+  for (std::size_t i = 0; i < cells.vertices.size(); ++i) {
+    if (i + ahead < cells.vertices.size()) vertices_.prefetch(hash_of(point_of(cells.vertices[i + ahead].point)));
+    vertices.push_back(vertex_of(cells.vertices[i]));
+  }
   return vertices;
 }
 
@@ -157,13 +216,15 @@ template <int D>
 void HeldMesh<D>::take_out(const SentCells<D>& cells, std::span<const VertexId> vertices) {
   leaving_.clear();
   rim_.clear();
-  for (const SentCorners<D>& corners : cells.gone) {
-    const CellId c = find_cell(sorted(local(corners, vertices)));
+  for (const SentCorners<D>& corners : cells.gone) leaving_.push_back({no_cell, hash_of(local(corners, vertices))});
+  for (std::size_t i = 0; i < leaving_.size(); ++i) {
+    if (i + ahead < leaving_.size()) cells_.prefetch(leaving_[i + ahead].hash);
+    const CellId c = find_cell(local(cells.gone[i], vertices), leaving_[i].hash);
     if (c == no_cell || mesh_->marked(c)) fail("another rank has deleted a cell that is not held, or one twice");
     mesh_->mark(c);
-    leaving_.push_back(c);
+    leaving_[i].cell = c;
   }
-  for (const CellId c : leaving_) {
+  for (const auto& [c, hash] : leaving_) {
     const CellRecord<D>& k = mesh_->cell(c);
     for (int f = 0; f <= D; ++f) {
       const Link beyond = k.links[static_cast<std::size_t>(f)];
@@ -173,8 +234,8 @@ void HeldMesh<D>::take_out(const SentCells<D>& cells, std::span<const VertexId> 
     }
   }
   std::sort(rim_.begin(), rim_.end(), [](const RimFace& a, const RimFace& b) { return a.vertices < b.vertices; });
-  for (const CellId c : leaving_) {
-    cells_.erase(hash_of(sorted(mesh_->cell(c).vertices)), index(c));
+  for (const auto& [c, hash] : leaving_) {
+    cells_.erase(hash, index(c));
     mesh_->free_cell(pools_, c);
   }
 }
@@ -196,6 +257,7 @@ std::vector<CellId> HeldMesh<D>::make(const SentCells<D>& cells, std::span<const
     }
     share(c);
   }
+  enter_cells();
   for (std::size_t i = 0; i < made.size(); ++i)
     for (std::size_t f = 0; f <= D; ++f) {
       const Link link = Link::from_code(cells.made[i].links[f]);
@@ -221,7 +283,7 @@ bool HeldMesh<D>::apply(const SentConstraints<D>& changed, std::span<const SentV
     v[i] = find_vertex(point_of(vertices[changed.vertices[i]].point));
     if (v[i] == no_vertex) return false;
   }
-  const CellId c = find_anywhere(sorted(v));
+  const CellId c = find_anywhere(v);
   if (c == no_cell) return false;
   ConstraintRecord<D>& own = mesh_->ensure_constraints(pools_, c);
   const ConstraintRecord<D>& k = changed.constraints;  // of which none goes while the cell stays
@@ -236,10 +298,10 @@ bool HeldMesh<D>::apply(const SentConstraints<D>& changed, std::span<const SentV
 
 /// Such cells are few, and need not be in the table.
 template <int D>
-CellId HeldMesh<D>::find_anywhere(const Sorted& vertices) const {
-  if (const CellId c = find_cell(vertices); c != no_cell) return c;
+CellId HeldMesh<D>::find_anywhere(const Vertices& vertices) const {
+  if (const CellId c = find_cell(vertices, hash_of(vertices)); c != no_cell) return c;
   for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i)
-    if (mesh_->alive(CellId{i}) && sorted(mesh_->cell(CellId{i}).vertices) == vertices) return CellId{i};
+    if (mesh_->alive(CellId{i}) && are_same(mesh_->cell(CellId{i}).vertices, vertices)) return CellId{i};
   return no_cell;
 }
 
@@ -252,21 +314,13 @@ void HeldMesh<D>::drop(CellId c) {
 }
 
 template <int D>
-std::vector<CellId> HeldMesh<D>::own_cells() const {
-  std::vector<CellId> own;
-  for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i)
-    if (mesh_->alive(CellId{i}) && is_own(CellId{i})) own.push_back(CellId{i});
-  return own;
-}
-
-template <int D>
 SentCells<D> HeldMesh<D>::own_beyond(int rank) const {
   std::vector<CellId> chosen;
   for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) {
     const CellId c{i};
     if (!mesh_->alive(c) || !is_own(c)) continue;
     bool is_held = false;
-    for (const VertexId v : mesh_->cell(c).vertices) is_held = is_held || territory_->holds(mesh_->point(v), rank);
+    for (const VertexId v : mesh_->cell(c).vertices) is_held = is_held || territory_->holds(zone(v), rank);
     if (!is_held) chosen.push_back(c);
   }
   CellWriter<D> writer(*mesh_, chosen.size());
@@ -306,15 +360,18 @@ void HeldMesh<D>::find_all() {
     if (!mesh_->alive(CellId{i})) continue;
     const auto& vertices = mesh_->cell(CellId{i}).vertices;
     for (const VertexId v : vertices) enter(v);
-    cells_.insert(hash_of(sorted(vertices)), i);
+    cells_.insert(hash_of(vertices), i);
   }
 }
 
 template <int D>
 CellId HeldMesh<D>::find(const SentPoints<D>& points) const {
   Vertices v;
-  for (std::size_t i = 0; i < v.size(); ++i) v[i] = find_vertex(point_of(points[i]));
-  return find_cell(sorted(v));
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    v[i] = find_vertex(point_of(points[i]));
+    if (v[i] == no_vertex) return no_cell;
+  }
+  return find_anywhere(v);
 }
 
 template class HeldMesh<2>;

@@ -30,12 +30,12 @@ SentPoints<D> points_of(const Mesh<D>& mesh, CellId c) {
     for (int k = 0; k < D; ++k) points[i][static_cast<std::size_t>(k)] = mesh.point(mesh.cell(c).vertices[i])[k];
   return points;
 }
-/// The first of the points of a cell's vertices, by coordinates: whose it is, the cell is.
+/// The first of a cell's vertices, by coordinates: whose it is, the cell is.
 template <int D>
-Point<D> first_point(const Mesh<D>& mesh, CellId c) {
-  Point<D> first = mesh.point(mesh.cell(c).vertices[0]);
-  for (int i = 1; i <= D; ++i)
-    if (const Point<D>& p = mesh.point(mesh.cell(c).vertices[static_cast<std::size_t>(i)]); lex_less<D>(p, first)) first = p;
+VertexId first_vertex(const Mesh<D>& mesh, CellId c) {
+  VertexId first = mesh.cell(c).vertices[0];
+  for (std::size_t i = 1; i <= D; ++i)
+    if (const VertexId v = mesh.cell(c).vertices[i]; lex_less<D>(mesh.point(v), mesh.point(first))) first = v;
   return first;
 }
 
@@ -45,13 +45,22 @@ class HeldMesh {
  public:
   using Vertices = std::array<VertexId, D + 1>;
   using Net = typename ChangeLog<D>::Net;
+  using Zone = typename Territory<D>::Zone;
 
   /// Drops the cells that this rank does not hold. The mesh and the territory must outlive it.
   HeldMesh(Mesh<D>& mesh, const Territory<D>& territory);
+  /// The rank holds less from now on, see Territory::of_next_level. Drops the cells that it does not hold any more.
+  void shrink(const Territory<D>& territory);
+  /// Where the vertex is. While nobody applies changes: any thread.
+  Zone zone(VertexId v) const {
+    const bool is_known = index(v) < zones_.size() && zones_[index(v)] != unknown;
+    return is_known ? zones_[index(v)] : territory_->zone(mesh_->point(v));
+  }
+  const Territory<D>& territory() const { return *territory_; }
 
   // Takes note of what visits of this rank have changed: first of all that is gone, since slots are used again.
   void note_gone(const Net& net);
-  void note_made(std::span<const CellId> made);
+  void note_made(const Net& net);
   /// Makes the changes of a visit of another rank.
   /// @throws ResourceError internal: it names what is not here, ids_exhausted; std::bad_alloc
   void apply(const SentCells<D>& cells);
@@ -67,31 +76,33 @@ class HeldMesh {
   /// Links all cells across the faces beyond which none was held, and forgets what is shared. Afterwards this is a whole mesh.
   /// @throws ResourceError internal: a cell is missing
   void complete();
-  std::vector<CellId> own_cells() const;  ///< is_own() of each
-  /// Does this rank own the cell: is its first point in its part? Each cell of the mesh has one owner, which holds it.
-  bool is_own(CellId c) const { return territory_->owner(first_point(*mesh_, c)) == territory_->rank(); }
+  /// Which rank owns the cell: has its first vertex in its part? Each cell of the mesh has one owner, which holds it.
+  int owner(CellId c) const { return territory_->owner(zone(first_vertex(*mesh_, c))); }
+  bool is_own(CellId c) const { return owner(c) == territory_->rank(); }
   /// Enters all cells, for find().
   void find_all();
-  /// The cell with vertices at these points; no_cell. @pre others can name it, or find_all() was called and nothing changed since
+  /// The cell with vertices at these points; no_cell. Slow if others cannot name it, unless find_all() was called.
   CellId find(const SentPoints<D>& points) const;
 
  private:
-  using Sorted = std::array<VertexId, D + 1>;
   struct RimFace {
     std::array<VertexId, D> vertices;  ///< sorted
     Link beyond;                       ///< the cell that stays, and its face
   };
 
   static std::uint32_t hash_of(const Point<D>& p);
-  static std::uint32_t hash_of(const Sorted& vertices);
-  static Sorted sorted(Vertices vertices);
+  static std::uint32_t hash_of(const Vertices& vertices);
+  static bool are_same(const Vertices& a, const Vertices& b);
   static std::array<VertexId, D> face_of(const Vertices& vertices, int face);
   static Point<D> point_of(const std::array<double, D>& coordinates);
   VertexId find_vertex(const Point<D>& p) const;
-  CellId find_cell(const Sorted& vertices) const;
-  CellId find_anywhere(const Sorted& vertices) const;
+  CellId find_cell(const Vertices& vertices, std::uint32_t hash) const;
+  CellId find_anywhere(const Vertices& vertices) const;
   void enter(VertexId v);
   void share(CellId c);
+  void enter_cells();
+  bool is_held(CellId c) const;
+  void note_zones();
   VertexId vertex_of(const SentVertex<D>& sent);
   std::vector<VertexId> vertices_of(const SentCells<D>& cells);
   Vertices local(const SentCorners<D>& corners, std::span<const VertexId> vertices) const;
@@ -104,9 +115,16 @@ class HeldMesh {
   const Territory<D>* territory_;
   typename Mesh<D>::Pools pools_;
   IdTable vertices_, cells_;
+  static constexpr Zone unknown{~std::uint32_t{0}};
+  std::vector<Zone> zones_;       ///< by vertex: where those are that were looked at; unknown
   std::vector<bool> is_entered_;  ///< of each vertex: is it in the table?
   std::vector<RimFace> rim_;      ///< of the cells that apply() took out, sorted
-  std::vector<CellId> leaving_;   ///< cells that apply() takes out
+  struct Named {
+    CellId cell;
+    std::uint32_t hash;
+  };
+  std::vector<Named> leaving_;   ///< cells that apply() takes out
+  std::vector<Named> entering_;  ///< cells that are to be entered
   std::uint64_t cells_applied_ = 0;
 };
 

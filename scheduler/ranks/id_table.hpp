@@ -27,6 +27,10 @@ class IdTable {
       if (slots_[i].hash == hash && is(slots_[i].id)) return slots_[i].id;
     return none;
   }
+  /// Begins to load what find(), insert() and erase() of this hash will look at.
+  void prefetch(std::uint32_t hash) const {
+    if (!slots_.empty()) __builtin_prefetch(&slots_[home(hash)]);
+  }
   /// Puts in an id that is not there.
   void insert(std::uint32_t hash, std::uint32_t id) {
     if (2 * (size_ + 1) > slots_.size()) grow();

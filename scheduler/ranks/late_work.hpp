@@ -5,8 +5,10 @@
 // is kept by a rank that holds its cell, and has the place in line that it would have in one process. One thread.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -43,9 +45,18 @@ class LateWork {
     items_.push_back({place, kind, node, order, {e, {}, 1, {}, 0, false, 0, 0}});
   }
 
+  /// Takes the items out of whose entries `is` holds. @returns these
+  template <class Is>
+  LateWork take_if(Is is) {
+    LateWork taken;
+    const auto first = std::stable_partition(items_.begin(), items_.end(), [&](const Item& i) { return !is(i.refusal.entry); });
+    taken.items_.assign(std::make_move_iterator(first), std::make_move_iterator(items_.end()));
+    items_.erase(first, items_.end());
+    return taken;
+  }
   /// Writes all, with cells by the coordinates of their vertices, and takes it out.
   void put(MessageWriter& message, const Mesh<D>& mesh);
-  /// Adds what another rank wrote. `held`: this rank holds all cells, and can find them.
+  /// Adds what another rank wrote. `held`: this rank holds the cells.
   /// @throws ResourceError internal: there is no such work, node or cell
   void get(MessageReader& message, const Orthtree<D>& tree, const Mesh<D>& mesh, const HeldMesh<D>& held);
   /// Puts all where it belongs, in line, and takes it out.

@@ -188,11 +188,11 @@ template <int D>
 void SharedRun<D>::finish(const RefineContext<D>& context, const RegionTable& regions, const PointData<D>& data,
                           const detail::RunPieces& pieces, RefineResult<D>& result) {
   const auto start = std::chrono::steady_clock::now();
-  const std::vector<CellId> own = ranks_->together([&] { return part_.held->own_cells(); });
+  const detail::IsOwnCell is_own = [&held = *part_.held](CellId c) { return held.is_own(c); };
   const std::span<const double> attributes = regions.labelled ? std::span<const double>(regions.attribute)
                                                               : std::span<const double>();
-  result.regions = detail::region_volumes_on_ranks<D>(*ranks_, context.mesh, own, context.domain, attributes, pieces);
-  result_->piece = detail::number_on_ranks<D>(*ranks_, context.mesh, own, context.domain, attributes, data, pieces);
+  result.regions = detail::region_volumes_on_ranks<D>(*ranks_, context.mesh, is_own, context.domain, attributes, pieces);
+  result_->piece = detail::number_on_ranks<D>(*ranks_, context.mesh, is_own, context.domain, attributes, data, pieces);
   result_->distributed.cells_applied += part_.held->cells_applied();
   result_->distributed.seconds_finish = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   is_finished_ = true;

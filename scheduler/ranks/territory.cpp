@@ -3,6 +3,8 @@
 #include "ranks/territory.hpp"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 namespace pgdr::detail {
 namespace {
@@ -42,20 +44,36 @@ Territory<D>::Territory(const Orthtree<D>& tree, std::span<const Node> nodes, st
   }
   std::size_t places = 1;
   for (int i = 0; i < D; ++i) places *= across();
-  std::vector<char> is_neighbour(static_cast<std::size_t>(ranks));
+  std::map<std::pair<int, std::vector<int>>, Zone> known;
   for (std::size_t place = 0; place < places; ++place) {
-    first_.push_back(static_cast<std::uint32_t>(ranks_.size()));
-    const std::vector<int> around = ranks_around(place_of_number<D>(place, across()));
-    ranks_.insert(ranks_.end(), around.begin(), around.end());
+    Halves halves = place_of_number<D>(place, across());
+    const std::vector<int> around = ranks_around(halves);
+    for (std::uint64_t& half : halves) half /= 2;
+    const int own = owners_[number_of(halves, across() / 2)];
+    const auto [at, is_new] = known.try_emplace({own, around}, static_cast<Zone>(zones_.size()));
+    zone_.push_back(at->second);
+    if (!is_new) continue;
     const bool is_held = std::find(around.begin(), around.end(), rank) != around.end();
-    is_held_.push_back(is_held);
-    is_shared_.push_back(around.size() > (is_held ? 1 : 0));
-    if (is_held)
-      for (const int r : around) is_neighbour[static_cast<std::size_t>(r)] = r != rank;
+    zones_.push_back({own, around, is_held, around.size() > (is_held ? 1u : 0u)});
   }
-  first_.push_back(static_cast<std::uint32_t>(ranks_.size()));
+  std::vector<char> is_neighbour(static_cast<std::size_t>(ranks));
+  for (const ZoneRecord& zone : zones_)
+    if (zone.is_held)
+      for (const int r : zone.holders) is_neighbour[static_cast<std::size_t>(r)] = r != rank;
   for (int r = 0; r < ranks; ++r)
     if (is_neighbour[static_cast<std::size_t>(r)]) neighbours_.push_back(r);
+}
+
+template <int D>
+Territory<D> Territory<D>::of_next_level() const {
+  std::vector<Node> nodes;
+  std::vector<int> owners;
+  for (Node node = 0; node < tree_->node_count(); ++node) {
+    if (tree_->level(node) != level_ + 1) continue;
+    nodes.push_back(node);
+    owners.push_back(owner(node));
+  }
+  return {*tree_, nodes, owners, count_, rank_};
 }
 
 /// The owners of the nodes whose boxes, grown by half their side, have this half in them.
@@ -89,21 +107,15 @@ std::uint64_t Territory<D>::half_of(const Point<D>& p, int axis) const {
 }
 
 template <int D>
-std::size_t Territory<D>::place_of(const Point<D>& p) const {
+auto Territory<D>::zone(const Point<D>& p) const -> Zone {
   Halves halves;
   for (int i = 0; i < D; ++i) halves[static_cast<std::size_t>(i)] = half_of(p, i);
-  return number_of(halves, across());
-}
-
-template <int D>
-int Territory<D>::owner(const Point<D>& p) const {
-  Halves node;
-  for (int i = 0; i < D; ++i) node[static_cast<std::size_t>(i)] = half_of(p, i) / 2;
-  return owners_[number_of(node, across() / 2)];
+  return zone_[number_of(halves, across())];
 }
 
 template <int D>
 int Territory<D>::owner(Node node) const {
+  if (tree_->level(node) < level_) return -1;
   Halves place;
   for (std::size_t i = 0; i < D; ++i) place[i] = tree_->place(node)[i] >> (tree_->level(node) - level_);
   return owners_[number_of(place, across() / 2)];
@@ -116,7 +128,8 @@ std::vector<double> Territory<D>::held_of(std::span<const Node> nodes, std::span
     for (unsigned half = 0; half < 1u << D; ++half) {
       Halves place;
       for (std::size_t i = 0; i < D; ++i) place[i] = 2 * std::uint64_t{tree_->place(nodes[n])[i]} + (half >> i & 1);
-      for (const int rank : ranks_of(number_of(place, across()))) held[static_cast<std::size_t>(rank)] += weights[n] / (1u << D);
+      for (const int rank : holders(zone_[number_of(place, across())]))
+        held[static_cast<std::size_t>(rank)] += weights[n] / (1u << D);
     }
   return held;
 }
@@ -130,7 +143,7 @@ bool Territory<D>::is_shared(const GridBox<D>& box) const {
     last[i] = (box.high[i] - 1) / extent;
   }
   for (Halves at = first;;) {
-    if (is_shared_[number_of(at, across())]) return true;
+    if (is_shared(zone_[number_of(at, across())])) return true;
     std::size_t i = 0;
     while (i < D && at[i] == last[i]) {
       at[i] = first[i];

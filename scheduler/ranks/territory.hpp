@@ -29,28 +29,35 @@ template <int D>
 class Territory {
  public:
   using Node = typename Orthtree<D>::Node;
+  /// A part of space that has one owner, and is held by the same ranks. Their number grows with that of the ranks.
+  enum class Zone : std::uint32_t {};
 
   /// `nodes`: all of the level, in Morton order; `owners`: of each. What is asked of nodes and boxes needs the tree, which may be
   /// split; what is asked of points does not.
   Territory(const Orthtree<D>& tree, std::span<const Node> nodes, std::span<const int> owners, int ranks, int rank);
 
+  /// Once the nodes have been split, what the same ranks hold of their parts: the claims of these reach less far beyond them.
+  Territory of_next_level() const;
+
   int level() const { return level_; }  ///< of the nodes that have one owner each
   int rank() const { return rank_; }
   int ranks() const { return count_; }  ///< how many there are
-  /// Who visits the node. @pre its level is level() or below
+  /// Who visits the node; -1: nobody, as it is above level().
   int owner(Node node) const;
-  /// Who owns the node of the cut's level that the point is in.
-  int owner(const Point<D>& p) const;
-  /// The ranks that hold the point, ascending.
-  std::span<const int> holders(const Point<D>& p) const { return ranks_of(place_of(p)); }
-  /// Does this rank hold the point?
-  bool holds(const Point<D>& p) const { return is_held_[place_of(p)]; }
-  bool holds(const Point<D>& p, int rank) const {
-    const auto ranks = holders(p);
+  /// The part of space that the point is in.
+  Zone zone(const Point<D>& p) const;
+  /// Who owns the nodes of the cut's level that the zone is in.
+  int owner(Zone zone) const { return record(zone).owner; }
+  /// The ranks that hold the zone, ascending.
+  std::span<const int> holders(Zone zone) const { return record(zone).holders; }
+  /// Does this rank hold the zone?
+  bool holds(Zone zone) const { return record(zone).is_held; }
+  bool holds(Zone zone, int rank) const {
+    const auto ranks = holders(zone);
     return std::find(ranks.begin(), ranks.end(), rank) != ranks.end();
   }
-  /// Does another rank hold the point?
-  bool is_shared(const Point<D>& p) const { return is_shared_[place_of(p)]; }
+  /// Does another rank hold the zone?
+  bool is_shared(Zone zone) const { return record(zone).is_shared; }
   /// Does another rank hold a part of the box?
   bool is_shared(const GridBox<D>& box) const;
   /// Of a weight spread over each of the nodes, in the order of the constructor, the share that each rank holds.
@@ -63,21 +70,21 @@ class Territory {
   using Halves = std::array<std::uint64_t, D>;
   std::uint64_t across() const { return std::uint64_t{2} << level_; }
   std::uint64_t half_of(const Point<D>& p, int axis) const;
-  std::size_t place_of(const Point<D>& p) const;
-  std::size_t place_of(const Halves& halves) const;
-  std::span<const int> ranks_of(std::size_t place) const {
-    return {ranks_.data() + first_[place], ranks_.data() + first_[place + 1]};
-  }
   std::vector<int> ranks_around(const Halves& halves) const;
+  struct ZoneRecord {
+    int owner;
+    std::vector<int> holders;  ///< ascending
+    bool is_held, is_shared;
+  };
 
   const Orthtree<D>* tree_;
   int level_, rank_, count_;
   std::array<std::vector<double>, D> borders_;  ///< of halves, along each axis, from the root's low one to its high one
   double halves_a_unit_ = 0;                    ///< of length, about
   std::vector<int> owners_;                     ///< by place of the node
-  std::vector<std::uint32_t> first_;            ///< by place of the half: the first in ranks_
-  std::vector<int> ranks_;
-  std::vector<char> is_held_, is_shared_;
+  const ZoneRecord& record(Zone zone) const { return zones_[static_cast<std::size_t>(zone)]; }
+  std::vector<Zone> zone_;  ///< by place of the half
+  std::vector<ZoneRecord> zones_;
   std::vector<int> neighbours_;
 };
 

@@ -106,7 +106,7 @@ StopCause UniformOnRanks<D>::drain_together() {
     if (least[1] != this->no_phase)
       run_together(this->take_turn(least[1]));
     else if (least[2] == 0)
-      ranks_->together([&] { Uniform<D>::halve(); });
+      halve_parts();
     else
       return StopCause::finished;
   }
@@ -165,21 +165,26 @@ std::vector<int> UniformOnRanks<D>::owners_of(const Windows& windows) const {
   return owners;
 }
 
-/// What ranks do alike before the cut, and what they hold beside their own, cost least if it is cut now: when the next level is
-/// due there will be 2^D times as many cells, and half as much beside each rank's own. If none will be due it is now or never.
+/// Until the next level is due there will be 2^D times as many cells. To cut the mesh now saves that all ranks make these alike;
+/// it costs that they put in what they hold beside their own, and that they share all that is to come by coarser nodes: what the
+/// rank with the most gets more than an even share. If no level will be due it is now or never.
 template <int D>
 bool UniformOnRanks<D>::pays_to_cut(const Windows& windows, const Territory<D>& territory) const {
   bool is_last = true;
   double all = 0;
-  for (const double w : windows.to_come) {
+  std::vector<double> own(static_cast<std::size_t>(ranks_->size()));
+  for (std::size_t n = 0; n < windows.nodes.size(); ++n) {
+    const double w = windows.to_come[n];
     is_last = is_last && !this->is_halved_with(static_cast<std::uint64_t>(w) / this->parities);
     all += w;
+    own[static_cast<std::size_t>(territory.owner(windows.nodes[n]))] += w;
   }
-  const auto cells = static_cast<double>(count_cells(this->state().context.mesh));
   const std::vector<double> held = territory.held_of(windows.nodes, windows.to_come);
-  const double most = *std::max_element(held.begin(), held.end()), own = all / ranks_->size();
-  const double later = is_last ? cells + all : this->parities * cells + own + (most - own) / 2;
-  return cells + most < later;
+  const double most = *std::max_element(held.begin(), held.end()), most_own = *std::max_element(own.begin(), own.end());
+  if (is_last) return most < all;
+  const auto cells = static_cast<double>(count_cells(this->state().context.mesh));
+  const double uneven = most_own - all / ranks_->size(), beside = this->parities * cells * (most - most_own) / all;
+  return uneven + beside < (this->parities - 1) * cells;
 }
 
 /// @pre the windows have been split
@@ -203,6 +208,42 @@ void UniformOnRanks<D>::cut(std::unique_ptr<Territory<D>> territory, const Windo
   statistics_->seconds_prologue = this->state().pieces.clock().now();
 }
 
+/// After the cut. The windows and the nodes right above them are what ranks visit from now on: so they hold less.
+template <int D>
+void UniformOnRanks<D>::halve_parts() {
+  if (!ranks_->together([&] { return Uniform<D>::halve(); })) return;
+  std::unique_ptr<Territory<D>> next;
+  std::vector<Bytes> to_each = ranks_->together([&] {
+    next = std::make_unique<Territory<D>>(territory_->of_next_level());
+    for (Node node = 0; node < this->tree().node_count(); ++node)
+      if (this->tree().level(node) == territory_->level() && is_own(node)) keep_work(node, [](const Entry<D>&) { return true; });
+    return late_for_owners();
+  });
+  const std::vector<Bytes> arrived = ranks_->exchange(std::move(to_each));
+  ranks_->together([&] {
+    for (const Bytes& bytes : arrived) {
+      MessageReader message(bytes);
+      late_.get(message, this->tree(), this->state().context.mesh, *held_);
+      message.require_end();
+    }
+    held_->shrink(*next);
+    territory_ = std::move(next);
+  });
+}
+
+/// Late work goes to who owns its cells, and so will hold them to the end.
+template <int D>
+std::vector<Bytes> UniformOnRanks<D>::late_for_owners() {
+  std::vector<Bytes> to_each;
+  for (int rank = 0; rank < ranks_->size(); ++rank) {
+    MessageWriter message;
+    late_.take_if([&](const Entry<D>& e) { return rank != ranks_->rank() && owner_of(e) == rank; })
+        .put(message, this->state().context.mesh);
+    to_each.push_back(message.take());
+  }
+  return to_each;
+}
+
 /// Of the nodes above the cut; and empties the lists of nodes that others visit.
 template <int D>
 void UniformOnRanks<D>::keep_late_work() {
@@ -222,7 +263,7 @@ void UniformOnRanks<D>::keep_work(Node node, Is is) {
   LeafWork<D>& work = this->state().waiting[node];
   std::uint64_t number = 0;
   const auto keep = [&](Kind kind, std::uint32_t order, const Entry<D>& e) {
-    if (is(e)) late_.add_entry({0, 0, number}, kind, node, order, e);
+    if (is(e)) late_.add_entry({phases_, 0, number}, kind, node, order, e);
     ++number;
   };
   for (const SetAside<D>& s : work.set_aside)
@@ -230,7 +271,7 @@ void UniformOnRanks<D>::keep_work(Node node, Is is) {
   for (const auto& batch : work.inbox)
     for (const Entry<D>& e : batch) keep(Kind::found, 1, e);
   for (const Refusal<D>& r : work.list.refused) {
-    if (is(r.entry)) late_.add({{0, 0, number}, Kind::refused, node, 1, r});
+    if (is(r.entry)) late_.add({{phases_, 0, number}, Kind::refused, node, 1, r});
     ++number;
   }
   work = LeafWork<D>();
@@ -240,7 +281,7 @@ void UniformOnRanks<D>::keep_work(Node node, Is is) {
 template <int D>
 int UniformOnRanks<D>::owner_of(const Entry<D>& e) const {
   const Mesh<D>& mesh = this->state().context.mesh;
-  return e.alive(mesh) && mesh.alive(e.cell) ? territory_->owner(first_point(mesh, e.cell)) : 0;
+  return e.alive(mesh) && mesh.alive(e.cell) ? territory_->owner(territory_->zone(mesh.point(first_vertex(mesh, e.cell)))) : 0;
 }
 
 template <int D>
@@ -286,7 +327,7 @@ std::vector<EndedVisit<D>> UniformOnRanks<D>::run_visits(const Generation<D>& ge
     visit.log = &changes[v].log;
   };
   const auto after = [&](VisitGraph::Visit v, RegionVisit<D>& visit) {
-    changes[v].pack(this->state().context.mesh, *territory_);
+    changes[v].pack(this->state().context.mesh, *held_);
     visit.log = nullptr;
   };
   return this->runner().run(generation, Posting::afterwards, numbers, {before, after});
@@ -307,7 +348,7 @@ void UniformOnRanks<D>::exchange(std::vector<VisitChanges<D>>& changes, Letters<
     const Timed timed(statistics_->seconds_apply);
     unsent_.add(this->state().context.mesh, changes);
     for (const VisitChanges<D>& c : changes) held_->note_gone(c.net);
-    for (const VisitChanges<D>& c : changes) held_->note_made(c.shared);
+    for (const VisitChanges<D>& c : changes) held_->note_made(c.net);
     std::vector<VisitChanges<D>>().swap(changes);
     for (const Bytes& bytes : arrived) {
       MessageReader message(bytes);

@@ -8,8 +8,10 @@
 //
 // That is the same run. The visits of a phase read and write nothing in common, so that each finds on its rank what it would find
 // in one process; what they found and set aside is put into lists in the order of the visits. What would need a larger claim than
-// the nodes of the cut have is kept for the end. When nothing else waits, and some of this is left, or something was refused or
-// is to be optimised, rank 0 gets all of the mesh and goes on alone, as one process would; the others leave by GatheredElsewhere.
+// the nodes of the cut have is kept for the end. When the lattice is halved again claims reach less far, and ranks hold less;
+// what was kept goes to who owns its cells, and so holds them on. When nothing else waits, and some of this is left, or something
+// was refused or is to be optimised, rank 0 gets all of the mesh and goes on alone, as one process would; the others leave by
+// GatheredElsewhere.
 //
 // A rank holds what it has to: the sides of nodes are four times the circumradii of the elements that wait there (split_ratio
 // 0.5), so that their vertices are in the claims of these, and a refusal rests on cells that its visit owned, and on their
@@ -75,6 +77,8 @@ class UniformOnRanks final : public Uniform<D> {
   bool may_cut() const;
   bool pays_to_cut(const Windows& windows, const Territory<D>& territory) const;
   void cut(std::unique_ptr<Territory<D>> territory, const Windows& windows);
+  void halve_parts();
+  std::vector<Bytes> late_for_owners();
   void keep_late_work();
   template <class Is>
   void keep_work(Node node, Is is);

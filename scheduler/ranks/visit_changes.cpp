@@ -3,45 +3,63 @@
 #include "ranks/visit_changes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <utility>
 
 namespace pgdr::detail {
+/// Where vertices are. It remembers those that were asked for last, since new ones are in many cells, and not known to HeldMesh.
 template <int D>
-void VisitChanges<D>::pack(const Mesh<D>& mesh, const Territory<D>& territory) {
+class ZoneCache {
+ public:
+  explicit ZoneCache(const HeldMesh<D>& held) : held_(&held) { recent_.fill({no_vertex, {}}); }
+  typename Territory<D>::Zone operator()(VertexId v) {
+    auto& [vertex, zone] = recent_[index(v) % recent_.size()];
+    if (vertex != v) {
+      vertex = v;
+      zone = held_->zone(v);
+    }
+    return zone;
+  }
+  bool is_any_shared(const std::array<VertexId, D + 1>& vertices) {
+    return std::ranges::any_of(vertices, [this](VertexId v) { return held_->territory().is_shared((*this)(v)); });
+  }
+
+ private:
+  const HeldMesh<D>* held_;
+  std::array<std::pair<VertexId, typename Territory<D>::Zone>, 512> recent_;
+};
+
+template <int D>
+void VisitChanges<D>::pack(const Mesh<D>& mesh, const HeldMesh<D>& held) {
   const bool has_cells = log.logs_cells();
   log.find_net(mesh, net);
   log = {};
+  // Of a visit of which no cells were logged none that it made has a vertex there, but one that stays may reach as far.
+  ZoneCache<D> zones(held);
+  const auto is_shared = [&](const CellName& c) { return zones.is_any_shared(mesh.cell(c.cell).vertices); };
+  std::erase_if(net.gone, [&](const auto& gone) { return !zones.is_any_shared(gone.vertices); });
+  std::erase_if(net.made, [&](const CellName& c) { return !is_shared(c); });
   if (!has_cells) {
-    // The cells that such a visit makes have no vertex there, but one that stays may reach as far.
-    std::erase_if(net.survivors, [&](const auto& born) {
-      return std::ranges::none_of(mesh.cell(born.cell).vertices, [&](VertexId v) { return territory.is_shared(mesh.point(v)); });
-    });
+    std::erase_if(net.survivors, [&](const CellName& c) { return !is_shared(c); });
     return;
   }
   CellWriter<D> writer(mesh, net.gone.size() + net.made.size() + net.survivors.size());
   for (const auto& gone : net.gone) writer.add_gone(gone.vertices);
-  for (const auto& born : net.made) writer.add_made(born.cell);
-  for (const auto& born : net.survivors) writer.add_changed(born.cell);
+  for (const CellName& c : net.made) writer.add_made(c.cell);
+  for (const CellName& c : net.survivors) writer.add_changed(c.cell);
   const SentCells<D> all = writer.take();
-  const std::vector<VertexId>& vertices = writer.vertices();
-  std::vector<std::span<const int>> holders;
-  std::vector<char> is_shared;
-  for (const VertexId v : vertices) {
-    holders.push_back(territory.holders(mesh.point(v)));
-    is_shared.push_back(territory.is_shared(mesh.point(v)));
-  }
-  for (std::size_t i = 0; i < all.made.size(); ++i)
-    if (std::ranges::any_of(all.made[i].vertices, [&](std::uint32_t v) { return is_shared[v] != 0; }))
-      shared.push_back(net.made[i].cell);
+  const Territory<D>& territory = held.territory();
+  std::vector<typename Territory<D>::Zone> zone_of;
   std::vector<bool> is_concerned(static_cast<std::size_t>(territory.ranks()));
-  for (const auto& ranks : holders)
-    for (const int rank : ranks) is_concerned[static_cast<std::size_t>(rank)] = true;
+  for (const VertexId v : writer.vertices()) {
+    zone_of.push_back(zones(v));
+    for (const int rank : territory.holders(zone_of.back())) is_concerned[static_cast<std::size_t>(rank)] = true;
+  }
   for (const int neighbour : territory.neighbours()) {
     parts.emplace_back();
-    if (!is_concerned[static_cast<std::size_t>(neighbour)]) continue;
-    std::vector<char> is_held;
-    for (const auto& ranks : holders) is_held.push_back(std::ranges::find(ranks, neighbour) != ranks.end());
-    parts.back() = CellWriter<D>::part(all, [&](std::uint32_t v) { return is_held[v] != 0; });
+    if (is_concerned[static_cast<std::size_t>(neighbour)])
+      parts.back() = CellWriter<D>::part(all, [&](std::uint32_t v) { return territory.holds(zone_of[v], neighbour); });
   }
 }
 

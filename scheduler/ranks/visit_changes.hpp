@@ -18,13 +18,12 @@ namespace pgdr::detail {
 template <int D>
 struct VisitChanges {
   ChangeLog<D> log;
-  typename ChangeLog<D>::Net net;
-  std::vector<CellId> shared;       ///< of the cells made, those with a vertex in what a neighbour holds
+  typename ChangeLog<D>::Net net;   ///< after pack(), of the cells gone and made those with a vertex in what a neighbour holds
   std::vector<SentCells<D>> parts;  ///< what each neighbour has to know; empty: nothing
 
   /// Packs what was logged, and forgets the log, which has no cells if the visit claims nothing that others hold. Threads: that
   /// of the visit, within its claim.
-  void pack(const Mesh<D>& mesh, const Territory<D>& territory);
+  void pack(const Mesh<D>& mesh, const HeldMesh<D>& held);
   bool is_empty_for(std::size_t neighbour) const { return parts.empty() || parts[neighbour].empty(); }
 };
 

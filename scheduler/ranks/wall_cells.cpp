@@ -14,10 +14,12 @@ namespace pgdr::detail {
 namespace {
 
 template <int D>
-Bytes pack_wall_cells(const Mesh<D>& mesh, std::span<const CellId> own) {
+Bytes pack_wall_cells(const Mesh<D>& mesh, const IsOwnCell& is_own) {
   std::vector<CellId> at_walls;
-  for (const CellId c : own)
-    if (const auto* k = mesh.constraints(c); k && k->faces != 0) at_walls.push_back(c);
+  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i) {
+    const auto* k = mesh.constraints(CellId{i});
+    if (k && k->faces != 0 && mesh.alive(CellId{i}) && is_own(CellId{i})) at_walls.push_back(CellId{i});
+  }
   CellWriter<D> writer(mesh, at_walls.size());
   for (const CellId c : at_walls) writer.add_made(c);
   MessageWriter message;
@@ -91,10 +93,10 @@ Bytes pack(const std::vector<RegionVolume>& volumes) {
 }  // namespace
 
 template <int D>
-std::vector<RegionVolume> region_volumes_on_ranks(Collectives& ranks, const Mesh<D>& mesh, std::span<const CellId> own,
+std::vector<RegionVolume> region_volumes_on_ranks(Collectives& ranks, const Mesh<D>& mesh, const IsOwnCell& is_own,
                                                   const Domain<D>& domain, std::span<const double> region_attributes,
                                                   const Pieces& pieces) {
-  const std::vector<Bytes> all = ranks.gather(0, ranks.together([&] { return pack_wall_cells<D>(mesh, own); }));
+  const std::vector<Bytes> all = ranks.gather(0, ranks.together([&] { return pack_wall_cells<D>(mesh, is_own); }));
   Bytes answer = ranks.together([&]() -> Bytes {
     if (ranks.rank() != 0) return {};
     WallMesh<D> walls;
@@ -114,9 +116,9 @@ std::vector<RegionVolume> region_volumes_on_ranks(Collectives& ranks, const Mesh
   return volumes;
 }
 
-template std::vector<RegionVolume> region_volumes_on_ranks<2>(Collectives&, const Mesh<2>&, std::span<const CellId>,
-                                                              const Domain<2>&, std::span<const double>, const Pieces&);
-template std::vector<RegionVolume> region_volumes_on_ranks<3>(Collectives&, const Mesh<3>&, std::span<const CellId>,
-                                                              const Domain<3>&, std::span<const double>, const Pieces&);
+template std::vector<RegionVolume> region_volumes_on_ranks<2>(Collectives&, const Mesh<2>&, const IsOwnCell&, const Domain<2>&,
+                                                              std::span<const double>, const Pieces&);
+template std::vector<RegionVolume> region_volumes_on_ranks<3>(Collectives&, const Mesh<3>&, const IsOwnCell&, const Domain<3>&,
+                                                              std::span<const double>, const Pieces&);
 
 }  // namespace pgdr::detail

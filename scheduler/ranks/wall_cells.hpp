@@ -11,14 +11,15 @@
 #include "mesh/mesh.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/region_volume.hpp"
+#include "ranks/own_cell.hpp"
 #include "space/pieces.hpp"
 #include "transport/collectives.hpp"
 
 namespace pgdr::detail {
 
-/// region_volumes() of the whole mesh, on all ranks, which call it. `own`: the cells of this rank, as each cell is of one rank.
+/// region_volumes() of the whole mesh, on all ranks, which call it.
 template <int D>
-std::vector<RegionVolume> region_volumes_on_ranks(Collectives& ranks, const Mesh<D>& mesh, std::span<const CellId> own,
+std::vector<RegionVolume> region_volumes_on_ranks(Collectives& ranks, const Mesh<D>& mesh, const IsOwnCell& is_own,
                                                   const Domain<D>& domain, std::span<const double> region_attributes,
                                                   const Pieces& pieces);
 

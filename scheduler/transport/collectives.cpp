@@ -74,9 +74,15 @@ std::vector<Bytes> Collectives::exchange(std::vector<Bytes> to_each) {
 
 std::vector<Bytes> Collectives::exchange_with(std::span<const int> neighbours, std::vector<Bytes> messages) {
   begin();
-  for (std::size_t i = 0; i < neighbours.size(); ++i) send(neighbours[i], std::move(messages[i]));
   std::vector<Bytes> received(neighbours.size());
-  for (std::size_t i = 0; i < neighbours.size(); ++i) received[i] = receive(neighbours[i]);
+  for (std::size_t i = 0; i < neighbours.size(); ++i) {
+    if (neighbours[i] == rank_)
+      received[i] = std::move(messages[i]);  // such messages may be the largest
+    else
+      send(neighbours[i], std::move(messages[i]));
+  }
+  for (std::size_t i = 0; i < neighbours.size(); ++i)
+    if (neighbours[i] != rank_) received[i] = receive(neighbours[i]);
   return received;
 }
 
