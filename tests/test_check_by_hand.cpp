@@ -4,6 +4,8 @@
 // The checker on meshes made by hand: sound ones pass, each kind of damage is found as what it is.
 #include <gtest/gtest.h>
 
+#include <stop_token>
+
 #include "dimensions.hpp"
 #include "mesh_mutations.hpp"
 #include "pgdr/check.hpp"
@@ -84,6 +86,31 @@ TYPED_TEST(Check, DamageOfSoundnessIsFoundWithoutTheInput) {
       // In 2D a dropped hull wall is an open hull; nothing else needs the input.
       EXPECT_EQ(report.exit_code(), 6) << model.name << ": " << mutation.name;
     }
+}
+
+TYPED_TEST(Check, AStopTokenEndsIt) {
+  constexpr int D = TypeParam::value;
+  int stopped = 0;
+  for (const auto& model : all_models<D>()) {
+    const Domain<D> domain(model.plc);
+    std::stop_source stop;
+    int asked = 0;
+    CheckOptions<D> options;
+    options.domain = &domain;
+    options.stop = stop.get_token();
+    options.size = [&](const Point<D>&) {
+      ++asked;
+      stop.request_stop();
+      return 1e9;
+    };
+    if (model.mesh.cells.size() < 2) continue;
+    EXPECT_THROW(check(model.mesh, options), CancelledError) << model.name;
+    EXPECT_EQ(asked, 1) << model.name << ": the next cell is not looked at any more";
+    EXPECT_THROW(check(model.mesh, options), CancelledError) << model.name;
+    EXPECT_EQ(asked, 1) << model.name << ": it is asked for before that, too";
+    ++stopped;
+  }
+  EXPECT_GT(stopped, 2);
 }
 
 }  // namespace test_check_by_hand

@@ -209,12 +209,13 @@ TYPED_TEST(Held, TheCutLeavesTheCellsWithAVertexThatTheRankHolds) {
 TYPED_TEST(Held, AHalvedLatticeLeavesTheCellsThatTheRankStillHolds) {
   constexpr int D = TypeParam::value;
   for (const Shape<D>& shape : shapes<D>()) {
-    OwnedTree<D> owned(shape.level, shape.ranks, shape.seed);
+    if (shape.level > 2) continue;  // brute force looks at all nodes
+    const OwnedTree<D> owned(shape.level, shape.ranks, shape.seed);
     const Neighbours<D> all = neighbours_of(WholeMesh<D>(shape.pairs, shape.seed).mesh);
     for (int rank = 0; rank < shape.ranks; ++rank) {
       CutMesh<D> cut(owned, rank, shape.pairs, shape.seed);
       const std::size_t before = cells_of(cut.part.mesh).size();
-      OwnedTree<D> finer = owned.halved();
+      const OwnedTree<D> finer = owned.halved();
       const Territory<D> next = Territory<D>(finer.tree, owned.nodes, owned.owners, shape.ranks, rank).of_next_level();
       EXPECT_EQ(next.level(), cut.territory.level() + 1);
       cut.held.shrink(next);

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "parallel_support.hpp"
+#include "pgdr/check.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/size_fields.hpp"
 #include "planar_plcs.hpp"
@@ -76,6 +77,74 @@ TEST(SizeBlocks, SolidWithAndWithoutTheOptimiser) {
   }
   options.radius_edge_bound = 1.5;  // the other order of elements of one bucket
   expect_same_by_blocks<3>(bracket, options, graded<3>(0.15, 0.1), set_size<3>);
+}
+
+TEST(SizeBlocks, WhereTheOptimiserDoesAllThatItCan) {
+  RefineOptions<3> options;
+  options.schedule.floor = 60;
+  options.min_dihedral = 22;  // reconnection, new vertices, detours, splits of edges
+  expect_same_by_blocks<3>(read_plc<3>(PGDR_TEST_MODELS "/bracket.poly"), options, graded<3>(0.2, 0.1), set_size<3>);
+  options.max_volume = 0.002;
+  expect_same_by_blocks<3>(test::cube(), options, graded<3>(0.08, 0.08), set_size<3>);
+}
+
+/// How often a function is called by a run, or asked point by point.
+std::uint64_t calls_of(RefineOptions<3> options, bool by_blocks) {
+  Counted<3> counted;
+  const SizeFunction<3> f = graded<3>(0.05, 0.05);
+  std::atomic<std::uint64_t> points{0};
+  options.schedule.threads = 1;
+  options.size = by_blocks ? counted.by_blocks(f) : SizingField<3>([&](const Point3& x) {
+    ++points;
+    return f(x);
+  });
+  refine(test::cube(), options);
+  return by_blocks ? counted.calls : points;
+}
+
+TEST(SizeBlocks, TheOptimiserAsksForManyPointsAtOnce) {
+  RefineOptions<3> with, without;
+  without.min_dihedral = 0;
+  const std::uint64_t by_points = calls_of(with, false) - calls_of(without, false);
+  const std::uint64_t by_blocks = calls_of(with, true) - calls_of(without, true);
+  ASSERT_GT(by_points, 10000u);
+  EXPECT_LT(40 * by_blocks, by_points) << by_blocks << " calls for what takes " << by_points << " point by point";
+}
+
+TEST(SizeBlocks, TheCheckerAsksForManyPointsAtOnce) {
+  RefineOptions<3> options;
+  options.regions = RegionMode::automatic;
+  options.region_sizes = {{1, 0.2}};
+  const auto made = refine(test::cube(), options);
+  ASSERT_GT(made.mesh.cells.size(), 200u);
+  Counted<3> of_all, of_label;
+  CheckOptions<3> bounds;
+  bounds.size = of_all.by_blocks([](const Point3& x) { return x[0] < 0.5 ? 0.3 : 0.1; });
+  bounds.region_sizes = {{1, of_label.by_blocks(graded<3>(0.3, 0))}};
+  const CheckReport by_blocks = check(made.mesh, bounds);
+  EXPECT_EQ(of_all.calls, 1u);
+  EXPECT_EQ(of_label.calls, 1u);
+  EXPECT_EQ(of_all.points, made.mesh.cells.size());
+  bounds.size = [](const Point3& x) { return x[0] < 0.5 ? 0.3 : 0.1; };
+  bounds.region_sizes = {{1, graded<3>(0.3, 0)}};
+  const CheckReport by_points = check(made.mesh, bounds);
+  EXPECT_GT(by_points.over_size, 0u);
+  EXPECT_EQ(by_blocks.over_size, by_points.over_size);
+}
+
+TEST(SizeBlocks, WithoutRefinementPoorCellsAreCountedByBlocks) {
+  const Plc<3> bracket = read_plc<3>(PGDR_TEST_MODELS "/bracket.poly");
+  RefineOptions<3> options;
+  options.refine = false;
+  options.size = SizingField<3>(graded<3>(0.1, 0.1));
+  const auto by_points = refine(bracket, options);
+  Counted<3> counted;
+  options.size = counted.by_blocks(graded<3>(0.1, 0.1));
+  const auto by_blocks = refine(bracket, options);
+  test::expect_same_mesh<3>(by_points.mesh, by_blocks.mesh);
+  EXPECT_GT(by_points.poor_left, 10u);
+  EXPECT_EQ(by_points.poor_left, by_blocks.poor_left);
+  EXPECT_GT(counted.points, 10 * counted.calls);
 }
 
 TEST(SizeBlocks, Plane) {

@@ -16,9 +16,8 @@ namespace pgdr::checking {
 namespace {
 
 template <int D>
-double size_at(const SizingField<D>& field, const Point<D>& x) {
-  const double size = field.at(x);
-  if (size > 0) return size;
+void require_positive(double size, const Point<D>& x) {
+  if (size > 0) return;
   std::array<double, 3> where{};
   std::copy(x.x.begin(), x.x.end(), where.begin());
   throw UsageError(
@@ -30,33 +29,69 @@ bool measure_over(const Simplex<D>& s, double bound) {
   return bound < std::numeric_limits<double>::infinity() && !measure_within<D>(s, bound);
 }
 
-/// The sizes of single regions, by label.
+/// The least size that applies to each cell: of all, and of its label. Functions by blocks are asked for many successive cells at
+/// once; any other for each cell when its turn comes, so that a check with a slow one ends when it is stopped.
 template <int D>
-class LabelledSizes {
+class Sizes {
  public:
-  LabelledSizes(const OutputMesh<D>& mesh, const RegionSizes<D>& sizes) : mesh_(mesh) {
+  /// All must outlive it.
+  Sizes(const OutputMesh<D>& mesh, const Links<D>& links, const CheckOptions<D>& options)
+      : mesh_(mesh), links_(links), of_all_(options.size) {
+    const RegionSizes<D>& sizes = options.region_sizes;
     if (sizes.empty()) return;
     std::vector<double> labels = detail::labels_of(mesh);
     detail::require_labels<D>(sizes, labels);
-    for (const RegionSize<D>& s : sizes) fields_.push_back({s.label, detail::sizes_of_label<D>(sizes, s.label)});
+    for (const RegionSize<D>& s : sizes)
+      if (std::none_of(of_labels_.begin(), of_labels_.end(), [&](const auto& known) { return known.label == s.label; }))
+        of_labels_.push_back({s.label, detail::sizes_of_label<D>(sizes, s.label)});
   }
-  /// Those of the cell's label; null if it has none of its own.
-  const SizingField<D>* of_cell(std::uint32_t c) const {
-    if (fields_.empty()) return nullptr;
-    const double label = mesh_.regions.empty() ? 0 : mesh_.regions[c];
-    const auto at = std::find_if(fields_.begin(), fields_.end(), [label](const auto& f) { return f.label == label; });
-    return at == fields_.end() ? nullptr : &at->size;
+  /// Of a positive cell; infinity if there is none. Cells are asked for in ascending order.
+  double of_cell(std::uint32_t c) {
+    if (c >= first_ + sizes_.size()) look(c);
+    return sizes_[c - first_];
   }
 
  private:
+  static constexpr std::size_t most = 4096;  // cells at once
+
+  /// Finds the sizes of cells from this one on.
+  void look(std::uint32_t first) {
+    first_ = first;
+    const bool by_blocks = of_all_.is_by_blocks() ||
+                           std::any_of(of_labels_.begin(), of_labels_.end(), [](const auto& s) { return s.size.is_by_blocks(); });
+    sizes_.assign(by_blocks ? std::min(most, mesh_.cells.size() - first) : 1, std::numeric_limits<double>::infinity());
+    ask(of_all_, [](std::uint32_t) { return true; });
+    for (const RegionSize<D>& s : of_labels_)
+      ask(s.size, [&](std::uint32_t c) { return (mesh_.regions.empty() ? 0 : mesh_.regions[c]) == s.label; });
+  }
+  template <class Applies>
+  void ask(const SizingField<D>& field, Applies applies) {
+    if (!field.bounded()) return;
+    std::vector<std::uint32_t> cells;
+    std::vector<Point<D>> points;
+    for (std::uint32_t c = first_; c < first_ + sizes_.size(); ++c) {
+      if (!links_.positive(c) || !applies(c)) continue;
+      cells.push_back(c);
+      points.push_back(centroid<D>(corners_of(mesh_, c)));
+    }
+    std::vector<double> found(points.size());
+    field.at(points, found);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      require_positive(found[i], points[i]);
+      sizes_[cells[i] - first_] = std::min(sizes_[cells[i] - first_], found[i]);
+    }
+  }
+
   const OutputMesh<D>& mesh_;
-  std::vector<RegionSize<D>> fields_;
+  const Links<D>& links_;
+  const SizingField<D>& of_all_;
+  std::vector<RegionSize<D>> of_labels_;
+  std::uint32_t first_ = 0;
+  std::vector<double> sizes_;  // of cells from first_ on
 };
 
 template <int D>
-bool size_over(const Simplex<D>& s, const SizingField<D>& field) {
-  if (!field.bounded()) return false;
-  const double size = size_at(field, centroid<D>(s));
+bool size_over(const Simplex<D>& s, double size) {
   if constexpr (D == 2)
     return measure_over<2>(s, size);
   else
@@ -93,15 +128,14 @@ void check_bounds(const OutputMesh<D>& mesh, const CheckOptions<D>& options, con
                   const InputVolumes<D>* input, Reasons<D>& reasons, Findings& findings) {
   CheckReport& report = findings.report();
   const double ratio = options.radius_edge_bound;
-  const LabelledSizes<D> of_labels(mesh, options.region_sizes);
+  Sizes<D> sizes(mesh, links, options);
   for (std::uint32_t c = 0; c < mesh.cells.size(); ++c) {
+    findings.heed_stop();
     if (!links.positive(c)) continue;
     const Simplex<D> s = corners_of(mesh, c);
     const std::uint32_t volume = input ? components.volume[components.of_cell[c]] : none;
     const bool thin = ratio < std::numeric_limits<double>::infinity() && !radius_edge_within<D>(s, ratio);
-    const SizingField<D>* of_region = of_labels.of_cell(c);
-    const bool large = size_over<D>(s, options.size) || (of_region && size_over<D>(s, *of_region)) ||
-                       measure_over<D>(s, options.max_measure) ||
+    const bool large = size_over<D>(s, sizes.of_cell(c)) || measure_over<D>(s, options.max_measure) ||
                        (volume != none && measure_over<D>(s, input->volumes()[volume].size));
     const bool below = !dihedral_holds(s, options.largest_cosine);
     report.over_radius_edge += thin;
@@ -123,6 +157,7 @@ void check_delaunay(const OutputMesh<D>& mesh, const Links<D>& links, std::span<
     return !refused.empty() && std::any_of(v.begin(), v.end(), [&](std::uint32_t u) { return refused[u]; });
   };
   for (std::uint32_t face = 0; face < links.neighbour.size(); ++face) {
+    findings.heed_stop();
     const std::uint32_t back = links.neighbour[face], cell = face / (D + 1), other = back / (D + 1);
     if (back == none || back < face || links.is_wall(face) || !links.positive(cell) || !links.positive(other)) continue;
     const std::uint32_t apex = mesh.cells[other][back % (D + 1)];

@@ -48,7 +48,7 @@ InputVolumes<D> check_volumes_of_domain(const GivenTask<D>& task, const CheckOpt
                                         std::span<const std::uint32_t> sorted, const Links<D>& links, Components& components) {
   InputVolumes<D> volumes(domain, options.regions);
   CheckReport unheard;
-  Findings ignored(unheard, 0);
+  Findings ignored(unheard, 0, options.stop);
   const Conformity<D> homes = check_conformity(ConformityTask<D>{task.mesh, volumes, options.conformity_ulps, ignored}, sorted);
   check_regions(ConformityTask<D>{task.mesh, volumes, options.conformity_ulps, task.findings}, links, homes, components);
   return volumes;
@@ -66,7 +66,7 @@ std::optional<InputVolumes<D>> check_volumes(const GivenTask<D>& task, const Che
   } catch (const InputError& e) {
     try {
       if (match.leftovers.empty()) throw;
-      const Domain<D>& domain = options.domain ? *options.domain : made.emplace(*options.input);
+      const Domain<D>& domain = options.domain ? *options.domain : made.emplace(*options.input, options.stop);
       return check_volumes_of_domain(task, options, domain, sorted, links, components);
     } catch (const InputError&) {
     }
@@ -106,7 +106,7 @@ void check_against_given(const OutputMesh<D>& mesh, const CheckOptions<D>& optio
   }
   // Reasons name entities of the Domain: where these are in the mesh, is asked, and what is found amiss there is not a verdict.
   CheckReport unheard;
-  Findings ignored(unheard, 0);
+  Findings ignored(unheard, 0, options.stop);
   const InputVolumes<D> of_domain(*options.domain, options.regions);
   const Conformity<D> conformity = check_conformity(ConformityTask<D>{mesh, of_domain, options.conformity_ulps, ignored}, sorted);
   Reasons<D> reasons(mesh, options, links, &conformity, findings);
@@ -123,9 +123,10 @@ CheckReport check(const OutputMesh<D>& mesh, const CheckOptions<D>& options) {
   if (options.domain && options.domain->points().empty())
     throw UsageError({Errc::bad_option, "the Domain is empty: it was moved from", {}, 0, {}, {}});
   CheckReport report;
-  Findings findings(report, options.max_listed);
+  Findings findings(report, options.max_listed, options.stop);
   if (!check_indices(mesh, findings)) return report;
   const auto sorted = sort_points(mesh, findings);
+  findings.heed_stop();
   const Links<D> links = link_cells(mesh, findings);
   check_subsegments_used(mesh, findings);
   if (findings.clean()) check_stars(mesh, links, findings);

@@ -52,7 +52,10 @@ class FacetMatcher {
     facet_used_.assign(domain_.facets().size(), false);
     for (EntityId f = 0; f < domain_.facets().size(); ++f) aligned_.push_back(axis_aligned_facet(domain_, f));
     plant_trees();
-    for (const Piece& piece : pieces_.list) match(piece);
+    for (const Piece& piece : pieces_.list) {
+      task_.findings.heed_stop();
+      match(piece);
+    }
     for (std::uint32_t p = 0; p < input_.patches().size(); ++p)
       if (sums_[p].used)
         check_cover(p);

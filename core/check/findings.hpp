@@ -9,6 +9,7 @@
 #include <string>
 
 #include "pgdr/check.hpp"
+#include "space/stop_check.hpp"
 
 namespace pgdr::checking {
 
@@ -17,7 +18,8 @@ inline constexpr std::uint32_t none = 0xffffffffu;
 
 class Findings {
  public:
-  Findings(CheckReport& report, std::size_t max_listed) : report_(report), max_listed_(max_listed) {}
+  Findings(CheckReport& report, std::size_t max_listed, const std::stop_token& stop)
+      : report_(report), max_listed_(max_listed), heed_stop_(stop) {}
 
   /// `message` is called only if the finding is listed: words cost more than most checks.
   template <class Message>
@@ -27,10 +29,13 @@ class Findings {
   }
   CheckReport& report() { return report_; }
   bool clean() const { return report_.finding_count == 0; }
+  /// Asked in loops over all cells, or over what takes as long. @throws CancelledError
+  void heed_stop() const { heed_stop_(); }
 
  private:
   CheckReport& report_;
   std::size_t max_listed_;
+  detail::StopCheck heed_stop_;
 };
 
 /// The shortest decimal that reads back to the same double.

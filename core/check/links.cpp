@@ -53,6 +53,7 @@ class Linker {
     links_.neighbour.assign(mesh_.cells.size() * (D + 1), none);
     links_.wall_sides.assign(walls(mesh_).size(), {none, none});
     for (std::size_t b = 0; b + 1 < begin_.size(); ++b) {
+      findings_.heed_stop();
       const auto bucket = std::span(records_).subspan(begin_[b], begin_[b + 1] - begin_[b]);
       std::sort(bucket.begin(), bucket.end(), [](const Record& x, const Record& y) {
         return x.others != y.others ? x.others < y.others : x.source < y.source;
@@ -69,6 +70,7 @@ class Linker {
   void orient_cells() {
     links_.bits.assign(mesh_.cells.size(), 0);
     for (std::uint32_t c = 0; c < mesh_.cells.size(); ++c) {
+      findings_.heed_stop();
       if (orient<D>(corners_of(mesh_, c)) == Sign::positive)
         links_.bits[c] = 0x80;
       else

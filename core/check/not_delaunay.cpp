@@ -19,7 +19,7 @@ std::vector<std::uint8_t> points_beside(const OutputMesh<D>& mesh, const std::ve
 template <int D>
 NotDelaunay count_among(const OutputMesh<D>& mesh, std::span<const double> slack) {
   CheckReport report;
-  Findings findings(report, 0);
+  Findings findings(report, 0, {});
   check_delaunay<D>(mesh, link_cells(mesh, findings), slack, {}, findings);
   return {report.not_delaunay_rounding, report.count(Kind::not_delaunay)};
 }

@@ -26,6 +26,7 @@ Components flood_cells(const OutputMesh<D>& mesh, const Links<D>& links, Finding
     out.of_cell[start] = number;
     stack.push_back(start);
     while (!stack.empty()) {
+      findings.heed_stop();
       const std::uint32_t c = stack.back();
       stack.pop_back();
       for (std::uint32_t face = (D + 1) * c; face < (D + 1) * (c + 1); ++face) {

@@ -122,6 +122,7 @@ void check_stars(const OutputMesh<D>& mesh, const Links<D>& links, Findings& fin
   std::vector<std::uint8_t> covered(mesh.points.size(), 0);  // 0, 1, 2 = more
   std::vector<std::uint8_t> seen(mesh.points.size(), 0);     // bit 0: in a cell, bit 1: on the hull
   for (std::uint32_t c = 0; c < mesh.cells.size(); ++c) {
+    findings.heed_stop();
     int negative = 0, corner = 0;
     for (int i = 0; i <= D; ++i) {
       const std::uint32_t face = (D + 1) * c + static_cast<std::uint32_t>(i);
@@ -159,7 +160,8 @@ void check_subsegments_used(const OutputMesh<D>& mesh, Findings& findings) {
   }
   std::sort(list.begin(), list.end());
   std::vector<std::uint8_t> used(list.size(), 0);
-  for (const auto& cell : mesh.cells)
+  for (const auto& cell : mesh.cells) {
+    findings.heed_stop();
     for (int i = 0; i <= D; ++i)
       for (int j = i + 1; j <= D; ++j) {
         if (!on_segment[cell[i]] || !on_segment[cell[j]]) continue;
@@ -167,6 +169,7 @@ void check_subsegments_used(const OutputMesh<D>& mesh, Findings& findings) {
         const auto at = std::lower_bound(list.begin(), list.end(), key);
         if (at != list.end() && at->first == key.first) used[at - list.begin()] = 1;
       }
+  }
   for (std::size_t n = 0; n < list.size(); ++n) {
     const bool repeated = n > 0 && list[n - 1].first == list[n].first;
     if (used[n] && !repeated) continue;

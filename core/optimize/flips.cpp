@@ -9,12 +9,16 @@
 namespace pgdr {
 
 bool BestFlip::make(CellId c, Judge::Rule rule) {
-  found_ = false;
-  best_quality_ = 0;
-  for (int e = 0; e < 6; ++e) try_edge(c, e, rule);
-  for (int f = 0; f < 4; ++f) try_face(c, f, rule);
-  if (found_) s_->commit(best_);
-  return found_;
+  if (!s_->judge.may_change()) return false;
+  const std::uint64_t asked = s_->judge.asked();
+  do {
+    const SizeGuesses::Short decision(s_->judge.sizes());
+    found_ = false;
+    best_quality_ = 0;
+    for (int e = 0; e < 6; ++e) try_edge(c, e, rule);
+    for (int f = 0; f < 4; ++f) try_face(c, f, rule);
+  } while (!s_->judge.settle(asked));
+  return found_ && s_->commit(best_);
 }
 
 /// Keeps what was tried if its worst cell is better than that of the best one so far.

@@ -82,12 +82,11 @@ bool Insertions::split_ring(const Point3& x, Home home) {
     tried_.subsegments.push_back({{a, m}, ring_.segment});
     tried_.subsegments.push_back({{m, b}, ring_.segment});
   }
-  if (!keeps_sides(m) || !s_->judge.is_valid(tried_)) {
+  if (!keeps_sides(m) || !s_->judge.is_valid(tried_) || !s_->commit(tried_)) {
     s_->drop_vertex(m);
     return false;
   }
   s_->transaction.add_vertex(m);
-  s_->commit(tried_);
   ++s_->w->visit->counts.committed;
   return true;
 }
@@ -116,6 +115,13 @@ bool Insertions::split_edge(CellId c, int edge) {
 /// at a wall, or at too many.
 bool Insertions::dig_out(CellId c, const Point3& p, double enough) {
   const Mesh<3>& mesh = *s_->mesh;
+  const SizeGuesses::Along others(s_->judge.sizes(), [&](SizeGuesses& sizes) {
+    for (const CellId x : cells_)
+      for (int f = 0; f < 4; ++f) {
+        const auto base = mesh.points(face_inwards(mesh.cell(x).vertices, f));
+        sizes.add({base[0], base[1], base[2], p}, mesh.region(x));
+      }
+  });
   take(c);
   while (true) {
     star_.cells.clear();
@@ -185,9 +191,9 @@ bool Insertions::dig(CellId c, Judge::Rule rule) {
   for (const CellId x : cells_) mesh.unmark(x);
   if (!dug || !fill_hole(p)) return false;
   const VertexId m = tried_.cells.front().vertices[3];
-  if (s_->judge.accepts(tried_, s_->judge.standing_of(tried_.old), rule) && !loses_vertex() && s_->replacer.fits(tried_)) {
+  if (s_->judge.accepts(tried_, s_->judge.standing_of(tried_.old), rule) && !loses_vertex() && s_->replacer.fits(tried_) &&
+      s_->commit(tried_)) {
     s_->transaction.add_vertex(m);
-    s_->commit(tried_);
     ++s_->w->visit->counts.committed;
     return true;
   }

@@ -18,9 +18,29 @@ double Judge::of(CellId c) {
   if (known.cell == c && known.birth == w_->mesh.birth(c)) {
     ++remembered_;
   } else {
-    known = {c, w_->mesh.birth(c), quality_.of(w_->mesh.simplex(c), w_->mesh.region(c))};
+    const std::size_t guessed = guesses_.guessed();
+    const double q = quality_.of(w_->mesh.simplex(c), w_->mesh.region(c));
+    if (guesses_.guessed() > guessed) return q;  // it may be another
+    known = {c, w_->mesh.birth(c), q};
   }
   return known.quality;
+}
+
+void Judge::begin(CellId c) {
+  guessed_wrong_ = false;
+  if (asks_blocks_) guesses_.begin(w_->mesh.simplex(c), w_->mesh.region(c));
+}
+
+bool Judge::may_change() {
+  guessed_wrong_ = guessed_wrong_ || !guesses_.settle();
+  return !guessed_wrong_;
+}
+
+bool Judge::settle(std::uint64_t asked_before) {
+  const bool right = guesses_.settle() && !guessed_wrong_;
+  guessed_wrong_ = false;
+  if (!right) repeated_ += asked() - asked_before;
+  return right;
 }
 
 auto Judge::standing_of(std::span<const CellId> cells) -> Standing {
@@ -30,7 +50,7 @@ auto Judge::standing_of(std::span<const CellId> cells) -> Standing {
     const double q = of(c);
     standing.worst = std::min(standing.worst, q);
     if (q < 1) standing.levels.push_back(CellQuality::level(q));
-    if (q < 1 && !w_->context.bounds.within_size(w_->mesh.simplex(c), w_->mesh.region(c))) ++standing.too_big;
+    if (q < 1 && !quality_.is_within_size(w_->mesh.simplex(c), w_->mesh.region(c))) ++standing.too_big;
     if (w_->options.min_edge > 0)
       standing.shortest2 = std::min(standing.shortest2, shortest_edge_squared<3>(w_->mesh.simplex(c)));
   }
@@ -55,7 +75,7 @@ bool Judge::add(const Simplex<3>& s, int region, double enough, Standing& standi
   if (!(q > enough)) return false;
   standing.worst = std::min(standing.worst, q);
   if (q < 1) standing.levels.push_back(CellQuality::level(q));
-  if (q < 1 && !w_->context.bounds.within_size(s, region)) ++standing.too_big;
+  if (q < 1 && !quality_.is_within_size(s, region)) ++standing.too_big;
   if (w_->options.min_edge > 0) standing.shortest2 = std::min(standing.shortest2, shortest_edge_squared<3>(s));
   return true;
 }
@@ -81,6 +101,9 @@ auto Judge::accepts(const Replacement<3>& r, const Standing& before, Rule rule) 
   Standing now;
   now.shortest2 = std::numeric_limits<double>::infinity();
   const double enough = too_bad(before);
+  const SizeGuesses::Along others(sizes(), [&](SizeGuesses& sizes) {
+    for (const auto& cell : r.cells) sizes.add(w_->mesh.points(cell.vertices), cell.region);
+  });
   for (const auto& cell : r.cells) {
     if (!add(w_->mesh.points(cell.vertices), cell.region, enough, now)) return {};
     if (rule == Rule::no_more_poor && now.levels.size() > before.levels.size()) return {};

@@ -40,11 +40,26 @@ class Judge {
 
   /// The workspace must outlive it.
   Judge(Workspace<3>& workspace, double min_dihedral)
-      : w_(&workspace), quality_(workspace.context.bounds, min_dihedral), known_(known_size) {}
+      : w_(&workspace),
+        guesses_(workspace.context.bounds),
+        asks_blocks_(workspace.context.bounds.asks_blocks()),
+        quality_(workspace.context.bounds, min_dihedral, sizes()),
+        known_(known_size) {}
 
   const CellQuality& quality() const { return quality_; }
   /// How many qualities were asked for. It does not depend on what is remembered, as that depends on slots and workers.
-  std::uint64_t asked() const { return quality_.evaluated() + remembered_; }
+  std::uint64_t asked() const { return quality_.evaluated() + remembered_ - repeated_; }
+  /// Where sizes are asked by blocks, what is judged rests on guesses (size_guesses.hpp) of these; null: they are asked at once.
+  SizeGuesses* sizes() { return asks_blocks_ ? &guesses_ : nullptr; }
+  /// Begins decisions about the cell.
+  void begin(CellId c);
+  /// Must be called before the mesh is changed: false if a guess was wrong, so that all since begin() is to be decided again.
+  bool may_change();
+  /// Must be called when all is decided. If it is to be decided again it returns false, and asked() is as it was before.
+  bool settle(std::uint64_t asked_before);
+  bool guessed_wrong() const {
+    return guessed_wrong_ || guesses_.is_wrong();
+  }                     ///< is it known that all since begin() is to be decided again?
   double of(CellId c);  ///< quality of a cell of the mesh
   Standing standing_of(std::span<const CellId> cells);
   /// The largest quality of a level below that of the worst of those: no cell that comes may have it.
@@ -74,9 +89,13 @@ class Judge {
   bool is_flat(const std::array<VertexId, 4>& vertices, std::span<const EntityId> facets) const;
 
   Workspace<3>* w_;
+  SizeGuesses guesses_;
+  const bool asks_blocks_;
+  bool guessed_wrong_ = false;
   CellQuality quality_;
   std::vector<Known> known_;      ///< of the cells asked for last
   std::uint64_t remembered_ = 0;  ///< so many answers were among them
+  std::uint64_t repeated_ = 0;    ///< so many were asked for by decisions that were made again
 };
 
 }  // namespace pgdr

@@ -37,17 +37,21 @@ class Optimizer final : public ElementTreatment<3> {
         reconnect_(s_),
         insertions_(s_),
         wide_bounds_(widened(workspace.context.bounds)),
-        much_worse_(wide_bounds_, stage.min_dihedral() / much) {}
+        much_worse_(wide_bounds_, stage.min_dihedral() / much, s_.judge.sizes()) {}
 
   void begin_visit() override {
     s_.replacer.set_area(s_.area());
     rule_ = stage_->phase == Optimization::Phase::worst ? Judge::Rule::better : Judge::Rule::no_more_poor;
+    if (s_.judge.sizes()) ask_listed(*s_.judge.sizes());
   }
   Outcome treat(const Entry<3>& e) override;
   std::uint64_t version(CellId c) const override { return stage_->version(c); }
 
  private:
-  bool is_spent() const { return s_.judge.asked() - evaluated_before_ > evaluations_a_poor_cell; }
+  /// Is nothing more to be tried for the element?
+  bool is_spent() const { return s_.judge.guessed_wrong() || s_.judge.asked() - evaluated_before_ > evaluations_a_poor_cell; }
+  Outcome try_to_change(const Entry<3>& e);
+  void ask_listed(SizeGuesses& sizes);
   bool is_worth_more_poor(CellId c);
   bool change(CellId c);
   bool change_cheaply(CellId c, Judge::Rule rule);
@@ -68,14 +72,30 @@ class Optimizer final : public ElementTreatment<3> {
   Judge::Rule rule_ = Judge::Rule::no_more_poor;  ///< of the visit
   std::uint64_t evaluated_before_ = 0;            ///< the element that is treated
   RefineCounts counts_before_;                    ///< a compound
+  std::vector<int> levels_;                       ///< scratch of list_made()
 };
+
+/// Asks for the sizes at the cells that wait, by which others are guessed, in one block.
+void Optimizer::ask_listed(SizeGuesses& sizes) {
+  std::size_t count = 0;
+  const auto add = [&](const Entry<3>& e) {
+    std::array<VertexId, 4> vertices;
+    if (e.kind() != EntryKind::cell || count >= SizeGuesses::most_remembered / 2) return;
+    if (!s_.mesh->read_vertices(e.cell, e.birth, vertices) || (s_.area() && !s_.area()->owns(*s_.mesh, vertices))) return;
+    sizes.add(s_.mesh->points(vertices), s_.mesh->region(e.cell));
+    ++count;
+  };
+  if (s_.w->visit->treat_list) s_.w->visit->list->for_each(add);
+  for (const Entry<3>& e : s_.w->visit->given) add(e);
+  sizes.ask_added();
+}
 
 bool Optimizer::change_cheaply(CellId c, Judge::Rule rule) {
   if (flip_.make(c, rule)) {
     ++s_.w->visit->counts.edge_removals;
     return true;
   }
-  return vertices_.move(c, rule);
+  return !s_.judge.guessed_wrong() && vertices_.move(c, rule);
 }
 
 /// Ends a transaction: mends the poor cells that it has made, and keeps all if they are better than what was there, together.
@@ -90,7 +110,8 @@ bool Optimizer::end_compound(bool begun) {
     }
     if (!any) break;
   }
-  const bool kept = begun && s_.judge.accepts(s_.transaction.made(), s_.judge.standing_of(s_.transaction.removed()), rule_);
+  const bool kept = begun && s_.judge.accepts(s_.transaction.made(), s_.judge.standing_of(s_.transaction.removed()), rule_) &&
+                    s_.judge.may_change();
   if (kept) {
     const std::vector<CellId> made = s_.transaction.made();
     s_.transaction.keep(s_.w->pools);
@@ -131,15 +152,21 @@ bool Optimizer::change(CellId c) {
   };
   const bool has_short_edge = s_.w->context.bounds.over_radius_edge(*s_.mesh, c);
   if (list(change_cheaply(c, rule_) || (has_short_edge && vertices_.contract(c, rule_)))) return true;
-  if (!strong) return false;
+  if (!strong || !s_.judge.may_change()) return false;  // what follows takes long
   if (list(reconnect_.make(c, rule_) || insertions_.dig(c, rule_))) return true;
+  if (!s_.judge.may_change()) return false;
   if ((rule_ == Judge::Rule::no_more_poor && make_detour(c)) || split_an_edge(c)) return true;
   return !is_spent() && !has_short_edge && list(vertices_.contract(c, rule_));
 }
 
 void Optimizer::list_made(const std::vector<CellId>& made) {
-  for (const CellId c : made)
-    if (const double q = s_.judge.of(c); q < 1) lister_->list_element(c, order_by_level(*s_.mesh, c, CellQuality::level(q)));
+  const std::uint64_t asked = s_.judge.asked();
+  do {
+    levels_.clear();
+    for (const CellId c : made) levels_.push_back(CellQuality::level(s_.judge.of(c)));
+  } while (!s_.judge.settle(asked));
+  for (std::size_t i = 0; i < made.size(); ++i)
+    if (levels_[i] < 0) lister_->list_element(made[i], order_by_level(*s_.mesh, made[i], levels_[i]));
 }
 
 /// Beside angles of the input that are too small some cells stay poor, and to make the worst of them better makes more of them
@@ -152,6 +179,18 @@ bool Optimizer::is_worth_more_poor(CellId c) {
 }
 
 Outcome Optimizer::treat(const Entry<3>& e) {
+  const RefineCounts counts = s_.w->visit->counts;
+  const std::uint64_t asked = s_.judge.asked();
+  while (true) {
+    s_.judge.begin(e.cell);
+    const Outcome outcome = try_to_change(e);
+    if (s_.judge.settle(asked)) return outcome;
+    s_.w->visit->counts = counts;
+  }
+}
+
+/// One decision about the element, which is made again if it rests on a wrong guess; then nothing was changed.
+Outcome Optimizer::try_to_change(const Entry<3>& e) {
   if (rule_ == Judge::Rule::better && !is_worth_more_poor(e.cell)) return Outcome::refused;
   s_.out_of_reach = false;
   evaluated_before_ = s_.judge.asked();

@@ -168,9 +168,17 @@ void Placement::measure(bool heights) {
   least_ = rated_.empty() ? 1 : rated_[0].value;
 }
 
+/// Where a size is asked for at once, it is for all cells.
+SizeGuesses::Along Placement::all_at(const Point3& x) const {
+  return SizeGuesses::Along(quality_->guesses(), [this, &x](SizeGuesses& sizes) {
+    for (const Star::Cell& cell : star_->cells) sizes.add({cell.base[0], cell.base[1], cell.base[2], x}, cell.region);
+  });
+}
+
 double Placement::value_at(const Rated& r, const Point3& x, bool heights, double enough) const {
   const Star::Cell& cell = star_->cells[r.cell];
   if (!heights) {
+    const SizeGuesses::Along others = all_at(x);
     const double q = quality_->of({cell.base[0], cell.base[1], cell.base[2], x}, cell.region, enough);
     return q > 0 ? q : 0;  // never NaN
   }
@@ -243,6 +251,7 @@ void Placement::model(std::size_t i, bool heights) {
     t.value = height_over_base(cell, x_, t.gradient);
     terms_.push_back(t);
   } else {
+    const SizeGuesses::Along others = all_at(x_);
     quality_->append_terms({cell.base[0], cell.base[1], cell.base[2], x_}, cell.region, share_of_terms, terms_);
   }
   for (std::size_t k = before; k < terms_.size(); ++k) project(*star_, terms_[k].gradient);

@@ -159,8 +159,7 @@ bool Reconnect::make(CellId c, Judge::Rule rule) {
     if (found || !grows) break;
   }
   for (const CellId x : cells_) s_->mesh->unmark(x);
-  if (!found) return false;
-  s_->commit(tried_);
+  if (!found || !s_->commit(tried_)) return false;
   ++s_->w->visit->counts.reconnections;
   return true;
 }

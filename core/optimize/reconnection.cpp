@@ -210,18 +210,31 @@ Reconnection::Set Reconnection::inner_side(FaceNumber f) {
   return f & 1 ? s.below : s.above;
 }
 
+/// Has the sizes of the cells that may stand on open faces asked for along with one of them.
+void Reconnection::add_cells_on_fronts(SizeGuesses& sizes) {
+  for (const OpenFace& on : fronts_)
+    for (Set left = apexes_[on.face] == unknown_set ? inner_side(on.face) : 0; left; left &= left - 1) {
+      const Placed cell = with_apex(on.face, static_cast<Index>(std::countr_zero(left)));
+      if (qualities_[number_of(cell.corners)] < 0) sizes.add(simplex(cell.corners, cell.turned), given_->region);
+    }
+}
+
+Simplex<3> Reconnection::simplex(const Quad& corners, bool turned) const {
+  Simplex<3> s;
+  for (int i = 0; i < 4; ++i) s[i] = points_[corners[i]];
+  if (turned) std::swap(s[2], s[3]);
+  return s;
+}
+
 /// The quality of a cell; 0 if it is in no filling. `turned`: its corners are in negative order.
 double Reconnection::quality_of(const Quad& corners, bool turned) {
   double& q = qualities_[number_of(corners)];
   if (q >= 0) return q;
-  Simplex<3> s;
-  for (int i = 0; i < 4; ++i) s[i] = points_[corners[i]];
-  if (turned) std::swap(s[2], s[3]);
   const Set all = bits(corners);
   q = 0;
   for (const Set flat : flat_sets_)
     if (!(all & ~flat)) return q;
-  const double measured = measure_->of(s, given_->region, bar_);
+  const double measured = measure_->of(simplex(corners, turned), given_->region, bar_);
   if (measured > bar_) q = measured;
   return q;
 }
@@ -285,6 +298,7 @@ bool Reconnection::crosses(Index p, Index q, std::size_t triple) {
 Reconnection::Set Reconnection::apexes_of(FaceNumber f) {
   Set& known = apexes_[f];
   if (known != unknown_set) return known;
+  const SizeGuesses::Along others(measure_->guesses(), [this](SizeGuesses& sizes) { add_cells_on_fronts(sizes); });
   Set good = 0;
   for (Set left = inner_side(f); left; left &= left - 1) {
     const auto v = static_cast<Index>(std::countr_zero(left));
@@ -381,12 +395,10 @@ bool Reconnection::lay(const Quad& cell, bool turned, std::size_t front, std::si
     alive = f.apexes != 0;
     fronts_.push_back(f);
   }
-  for (int i = 0; i < 4 && alive; ++i) {
-    if (!opens[i]) continue;
-    const auto f = static_cast<FaceNumber>(face[i] ^ 1);
-    fronts_.push_back({f, apexes_left(f)});
-    alive = fronts_.back().apexes != 0;
-  }
+  const std::size_t opened = fronts_.size();
+  for (int i = 0; i < 4 && alive; ++i)
+    if (opens[i]) fronts_.push_back({static_cast<FaceNumber>(face[i] ^ 1), 0});
+  for (std::size_t k = opened; k < fronts_.size() && alive; ++k) alive = (fronts_[k].apexes = apexes_left(fronts_[k].face)) != 0;
   return alive;
 }
 

@@ -38,8 +38,12 @@ struct Surgery {
   VertexId new_vertex(const Point3& p, Home home) { return mesh->new_vertex(w->pools, p, home, 0.f); }
   /// Takes back a vertex that no cell ever had. The last one first.
   void drop_vertex(VertexId v) { w->pools.vertices.give(index(v)); }
-  /// Makes a replacement that the judge has accepted.
-  void commit(const Replacement<3>& r) { transaction.commit(w->pools, r); }
+  /// Makes a replacement that the judge has accepted; not if that rests on a wrong guess (Judge::may_change).
+  bool commit(const Replacement<3>& r) {
+    if (!judge.may_change()) return false;
+    transaction.commit(w->pools, r);
+    return true;
+  }
 
   Workspace<3>* w;
   Mesh<3>* mesh;

@@ -75,9 +75,9 @@ bool VertexChanges::move_vertex(CellId c, VertexId v, Judge::Rule rule) {
     return false;
   }
   const VertexId moved = s_->new_vertex(*place, star_.home);
-  if (substitute(mesh, *s_->domain, star_, moved, tried_) && s_->judge.accepts(tried_, s_->judge.standing_of(tried_.old), rule)) {
+  if (substitute(mesh, *s_->domain, star_, moved, tried_) && s_->judge.accepts(tried_, s_->judge.standing_of(tried_.old), rule) &&
+      s_->commit(tried_)) {
     s_->transaction.add_vertex(moved);
-    s_->commit(tried_);
     ++s_->w->visit->counts.moves;
     return true;
   }
@@ -87,8 +87,10 @@ bool VertexChanges::move_vertex(CellId c, VertexId v, Judge::Rule rule) {
 
 bool VertexChanges::move(CellId c, Judge::Rule rule) {
   const auto vertices = s_->mesh->cell(c).vertices;
-  for (const VertexId v : vertices)
+  for (const VertexId v : vertices) {
     if (move_vertex(c, v, rule)) return true;
+    if (s_->judge.guessed_wrong()) return false;
+  }
   return false;
 }
 
@@ -124,8 +126,7 @@ bool VertexChanges::contract(CellId c, Judge::Rule rule) {
       std::swap(best_, tried_);
     }
   }
-  if (!best) return false;
-  s_->commit(best_);
+  if (!best || !s_->commit(best_)) return false;
   ++s_->w->visit->counts.removed;
   return true;
 }

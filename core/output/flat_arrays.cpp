@@ -46,9 +46,10 @@ std::vector<std::array<std::uint32_t, N>> simplices_of(const IndexArray& array, 
           bad_length(std::to_string(indices.size()) + " indices, which is no multiple of " + std::to_string(N));
         std::vector<std::array<std::uint32_t, N>> simplices(indices.size() / N);
         for (std::size_t i = 0; i < indices.size(); ++i) {
-          if (!std::in_range<std::uint32_t>(indices[i]) || static_cast<std::uint32_t>(indices[i]) >= points)
-            bad_index(i / N, indices[i], points);
-          simplices[i / N][i % N] = static_cast<std::uint32_t>(indices[i]);
+          const auto index = indices[i];  // once: the caller's other threads may be writing to the array
+          if (!std::in_range<std::uint32_t>(index) || static_cast<std::uint32_t>(index) >= points)
+            bad_index(i / N, index, points);
+          simplices[i / N][i % N] = static_cast<std::uint32_t>(index);
         }
         return simplices;
       },

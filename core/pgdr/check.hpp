@@ -37,6 +37,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -74,6 +75,7 @@ struct CheckOptions {
   /// One ulp is 2^-52 times that coordinate. Axis-aligned entities must be met exactly.
   int conformity_ulps = 2;
   std::size_t max_listed = 20;  ///< at most so many findings of one kind in words; all are counted
+  std::stop_token stop = {};    ///< ends it by a CancelledError
 };
 
 /// Something that makes the check fail.
@@ -144,7 +146,8 @@ NotDelaunay count_not_delaunay(const OutputMesh<D>& mesh, bool everywhere = true
 /// About 5 microseconds a cell, on the calling thread.
 /// @throws UsageError bad_size if a size function returns a value that is not positive, bad_option if no cell has the label
 ///   of a region size (but 0), or for a Domain that was moved from; InputError index_out_of_range, not_finite of the input as
-///   given, entities_intersect if walls of the Domain overlap so that no line crosses them one after the other; ResourceError.
+///   given, entities_intersect if walls of the Domain overlap so that no line crosses them one after the other; CancelledError
+///   some hundredths of a second after CheckOptions::stop is requested, from any thread; ResourceError.
 template <int D>
 CheckReport check(const OutputMesh<D>& mesh, const CheckOptions<D>& options);
 

@@ -13,6 +13,7 @@
 #include "numbers/rounding.hpp"
 #include "pgdr/refine_options.hpp"
 #include "rule/insertion_rule.hpp"
+#include "rule/sizes_of_cells.hpp"
 #include "space/sort_by_points.hpp"
 
 namespace pgdr {
@@ -174,11 +175,14 @@ std::vector<PoorCell> PoorReasons<D>::of_violated(std::span<const CellId> cells,
 template <int D>
 PoorCount count_poor_cells(const Mesh<D>& mesh, const CellBounds<D>& bounds, std::uint32_t first, std::uint32_t last) {
   PoorCount poor;
-  for (std::uint32_t i = first; i < last; ++i) {
-    if (!mesh.alive(CellId{i})) continue;
-    const CellVerdict verdict = bounds.test(mesh, CellId{i});
-    poor.cells += verdict ? 1 : 0;
-    poor.over_size = poor.over_size || verdict.over_size > 0;
+  SizesOfCells<D> cells(mesh, bounds);
+  for (std::uint32_t i = first; i < last;) {
+    i = cells.look(i, last);
+    for (std::size_t k = 0; k < cells.alive().size(); ++k) {
+      const CellVerdict verdict = cells.test(k);
+      poor.cells += verdict ? 1 : 0;
+      poor.over_size = poor.over_size || verdict.over_size > 0;
+    }
   }
   return poor;
 }

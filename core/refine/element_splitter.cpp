@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "numbers/finite.hpp"
 #include "refine/encroachment.hpp"
-#include "refine/selector_view.hpp"
 #include "refine/visibility.hpp"
 
 namespace pgdr {
@@ -43,14 +43,18 @@ Outcome ElementSplitter<D>::split(const Entry<D>& e) {
   const Point<D> center = mesh_->is_accurate(sphere) ? sphere.center : circumsphere<D>(mesh_->simplex(e.cell)).center;
   c.x = center;
   if (w_->options.selector && c.verdict.over_radius_edge) {
-    const auto selected = selected_point<D>(*w_, e.cell, center);
+    const auto selected = selected_point<D>(*w_, answers_, e, center);
     if (!selected) return Outcome::not_owned;
     c.x = *selected;
+  }
+  if (!detail::is_finite(c.x)) {  // farther than doubles reach: of a flat cell, where coordinates are huge
+    ++w_->visit->counts.refused;
+    return w_->give_up(Outcome::refused);
   }
   // A cell beside a violation that no flip repairs has the demand of one of poor shape.
   if (e.which() == Entry<D>::not_delaunay) c.verdict.over_radius_edge = true;
   Outcome outcome = insert(c);
-  if (outcome == Outcome::refused && !(c.x == center) && w_->alive(e)) {
+  if (outcome == Outcome::refused && !(c.x == center) && detail::is_finite(center) && w_->alive(e)) {
     cavity_->release();
     c.x = center;
     outcome = insert(c);

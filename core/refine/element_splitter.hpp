@@ -11,6 +11,7 @@
 
 #include "refine/entity_splitter.hpp"
 #include "refine/inserter.hpp"
+#include "refine/selector_view.hpp"
 #include "refine/workspace.hpp"
 #include "rule/cell_bounds.hpp"
 #include "rule/insertion_rule.hpp"
@@ -42,6 +43,8 @@ class ElementSplitter {
         repair_(&repair),
         entities_(&entities) {}
 
+  /// Must be called before the visit does anything.
+  void begin_visit() { answers_.begin_visit(); }
   /// Splits the element of an entry of kind cell. @throws what a callback throws
   Outcome split(const Entry<D>& e);
 
@@ -78,6 +81,7 @@ class ElementSplitter {
   Inserter<D>* inserter_;
   DelaunayRepair<D>* repair_;
   EntitySplitter<D>* entities_;
+  SelectorAnswers<D> answers_;  ///< in the visit
 };
 
 extern template class ElementSplitter<2>;

@@ -32,6 +32,7 @@ void Refiner<D>::begin(RegionVisit<D>& visit) {
   lister_.begin_visit();
   repair_.begin_visit();
   entities_.begin_visit();
+  elements_.begin_visit();
   if (stage_ != context.stage) {
     stage_ = context.stage;
     treatment_ = stage_ ? stage_->treatment(workspace_, lister_, repair_) : nullptr;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "numbers/vectors.hpp"
 #include "refine/encroachment.hpp"
@@ -116,10 +118,9 @@ class View final : public Neighborhood<D> {
   bool ended_ = false;
 };
 
-}  // namespace
-
+/// What the selector is told of a cell over the radius-edge bound: a function of the cell alone.
 template <int D>
-std::optional<Point<D>> selected_point(Workspace<D>& w, CellId c, const Point<D>& center) {
+PoorElement<D> poor_element(const Workspace<D>& w, CellId c, const Point<D>& center) {
   PoorElement<D> element;
   element.corners = w.mesh.simplex(c);
   std::sort(element.corners.begin(), element.corners.end(), lex_less<D>);
@@ -129,9 +130,65 @@ std::optional<Point<D>> selected_point(Workspace<D>& w, CellId c, const Point<D>
   element.radius_edge_bound = w.options.radius_edge_bound;
   element.over_radius_edge = true;
   element.disk = selection_disk<D>(element, w.options.disk);
-  View<D> view(w, c, element.disk);
-  const Point<D> p = w.options.selector(element, view);
-  if (view.ended()) return std::nullopt;
+  return element;
+}
+
+}  // namespace
+
+/// Adds the element to what is asked for, if it may come to its turn: if the visit owns it, which others may not change then, and
+/// the selector is asked for such. One whose circumcentre takes exact arithmetic is asked for when it is next.
+template <int D>
+void SelectorAnswers<D>::add(const Workspace<D>& w, const Entry<D>& e) {
+  const Mesh<D>& mesh = w.mesh;
+  std::array<VertexId, D + 1> vertices;
+  if (e.kind() != EntryKind::cell || has(e) || !mesh.read_vertices(e.cell, e.birth, vertices)) return;
+  if (w.visit->area && !w.visit->area->owns(mesh, vertices)) return;
+  const FilterSphere<D> sphere = mesh.sphere(e.cell);
+  if (!mesh.is_accurate(sphere)) return;
+  if (e.which() != Entry<D>::over_radius_edge && !w.context.bounds.over_radius_edge(mesh, e.cell)) return;
+  entries_.push_back(e);
+  elements_.push_back(poor_element<D>(w, e.cell, sphere.center));
+}
+
+template <int D>
+void SelectorAnswers<D>::ask(const Workspace<D>& w, const Entry<D>& next, const PoorElement<D>& element) {
+  entries_.assign(1, next);
+  elements_.assign(1, element);
+  const auto add_too = [&](const Entry<D>& e) {
+    if (entries_.size() < most) add(w, e);
+  };
+  if (std::exchange(is_first_, false)) std::for_each(w.visit->given.begin(), w.visit->given.end(), add_too);
+  if (w.visit->treat_list) w.visit->list->for_next(next, most, add_too);
+  points_.resize(elements_.size());
+  w.options.selector(std::span<const PoorElement<D>>(elements_), std::span<Point<D>>(points_));
+  if (answers_.size() >= 2 * most) drop_dead(w.mesh);
+  for (std::size_t i = 0; i < entries_.size(); ++i)
+    answers_.insert_or_assign(index(entries_[i].cell), Answer{entries_[i].birth, points_[i]});
+}
+
+/// Forgets the answers to elements that are gone.
+template <int D>
+void SelectorAnswers<D>::drop_dead(const Mesh<D>& mesh) {
+  std::erase_if(answers_, [&](const auto& a) { return mesh.birth(CellId{a.first}) != a.second.birth; });
+}
+
+template <int D>
+Point<D> SelectorAnswers<D>::point_of(const Workspace<D>& w, const Entry<D>& e, const PoorElement<D>& element) {
+  if (!has(e)) ask(w, e, element);
+  return answers_.find(index(e.cell))->second.point;
+}
+
+template <int D>
+std::optional<Point<D>> selected_point(Workspace<D>& w, SelectorAnswers<D>& answers, const Entry<D>& e, const Point<D>& center) {
+  const PoorElement<D> element = poor_element<D>(w, e.cell, center);
+  Point<D> p;
+  if (w.options.selector.is_by_blocks()) {
+    p = answers.point_of(w, e, element);
+  } else {
+    View<D> view(w, e.cell, element.disk);
+    p = w.options.selector(element, view);
+    if (view.ended()) return std::nullopt;
+  }
   if (p == center || inside(element.disk, p)) return p;
   if (w.options.outside == OutsidePolicy::error) {
     Diagnostic d{Errc::bad_option, "the selector returned a point outside the selection disk", {}, 0, {}, {}};
@@ -142,7 +199,9 @@ std::optional<Point<D>> selected_point(Workspace<D>& w, CellId c, const Point<D>
   return center;
 }
 
-template std::optional<Point<2>> selected_point(Workspace<2>&, CellId, const Point<2>&);
-template std::optional<Point<3>> selected_point(Workspace<3>&, CellId, const Point<3>&);
+template class SelectorAnswers<2>;
+template class SelectorAnswers<3>;
+template std::optional<Point<2>> selected_point(Workspace<2>&, SelectorAnswers<2>&, const Entry<2>&, const Point<2>&);
+template std::optional<Point<3>> selected_point(Workspace<3>&, SelectorAnswers<3>&, const Entry<3>&, const Point<3>&);
 
 }  // namespace pgdr

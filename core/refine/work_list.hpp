@@ -113,6 +113,13 @@ class Fifo {
     for (Block* b = first_; b; b = b->next, i = 0)
       for (const std::uint32_t end = b == last_ ? tail_ : b->capacity; i < end; ++i) f(b->items()[i]);
   }
+  /// Calls f for the first n in order, or for all if there are fewer.
+  template <class F>
+  void for_first(std::size_t n, F f) const {
+    std::uint32_t i = head_;
+    for (Block* b = first_; b && n > 0; b = b->next, i = 0)
+      for (const std::uint32_t end = b == last_ ? tail_ : b->capacity; i < end && n > 0; ++i, --n) f(b->items()[i]);
+  }
   /// Calls f for each in order, and empties the list; `soon(item)` some turns before.
   template <class F, class Soon>
   void drain(F f, Soon soon) {
@@ -191,6 +198,11 @@ class EntryHeap {
   template <class F>
   void for_each(F f) {
     for (Entry<D>& e : items_) f(e);
+  }
+  /// Calls f for n, or for all if there are fewer: roughly those that go first.
+  template <class F>
+  void for_first(std::size_t n, F f) const {
+    for (std::size_t i = 0; i < std::min(n, items_.size()); ++i) f(items_[i]);
   }
   /// Calls f for each, and empties the heap.
   template <class F>
@@ -307,6 +319,20 @@ class WorkList {
         best = &bucket;
     }
     return pop(best->by_shape);
+  }
+  /// Calls f for up to n elements that wait behind this one, which was taken out, in about the order in which they will be: those
+  /// that are too big in its bucket, or, if it is of poor shape alone, all such. They may be dead.
+  template <class F>
+  void for_next(const Entry<D>& e, std::size_t n, F f) const {
+    const auto of_shape = e.which() == Entry<D>::over_radius_edge;
+    for (std::size_t i = 0; i < poor_.size(); ++i) {
+      if (of_shape) {
+        poor_[i].by_shape.for_first(n, f);
+        n -= std::min(n, poor_[i].by_shape.size());
+      } else if (first_ + static_cast<int>(i) == e.bucket) {
+        poor_[i].others.for_first(n, f);
+      }
+    }
   }
   /// Calls f for every entry that waits, in an order that depends on what was pushed and popped alone; empties the list.
   /// `soon(entry)` some turns before, of most.

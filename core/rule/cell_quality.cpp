@@ -11,6 +11,7 @@
 
 #include "numbers/corners.hpp"
 #include "numbers/vectors.hpp"
+#include "pgdr/predicates.hpp"
 
 namespace pgdr {
 namespace {
@@ -54,6 +55,13 @@ double least_of_angles(const std::array<Vector3, 4>& n, double of_large_angles) 
   return d > 0 ? d : 0;
 }
 
+/// q of a cell whose radius is the root of `centre2 / twice2`, and that is q but for its size.
+double with_size(const Simplex<3>&, const SizeGuesses::Numbers& numbers, double size) {
+  const auto [q, twice2, centre2] = std::array{numbers[0], numbers[1], numbers[2]};
+  if (!(size < CellBounds<3>::infinity) || size * size * twice2 >= q * q * centre2) return q;
+  return lower(q, size * std::sqrt(twice2 / centre2));
+}
+
 }  // namespace
 
 double cosine_complement(double degrees) {
@@ -64,8 +72,10 @@ double cosine_complement(double degrees) {
   return 2 * sine * sine;
 }
 
-CellQuality::CellQuality(const CellBounds<3>& bounds, double min_dihedral)
-    : bounds_(&bounds), one_minus_cos_(min_dihedral > 0 ? cosine_complement(min_dihedral) * (1 + margin) : 0) {}
+CellQuality::CellQuality(const CellBounds<3>& bounds, double min_dihedral, SizeGuesses* guesses)
+    : bounds_(&bounds),
+      guesses_(guesses),
+      one_minus_cos_(min_dihedral > 0 ? cosine_complement(min_dihedral) * (1 + margin) : 0) {}
 
 bool CellQuality::asks_sizes() const {
   const auto varies = [](const SizingField<3>& size) { return !size.is_constant(); };
@@ -73,16 +83,30 @@ bool CellQuality::asks_sizes() const {
 }
 
 double CellQuality::of(const Simplex<3>& s, int region, double enough) const {
-  return of_with(s, region, enough, [&] { return bounds_->size_at(s, region); });
+  return of_with(s, region, enough, [&](const SizeGuesses::Numbers& numbers) { return asked(s, region, with_size, numbers); });
 }
 
 double CellQuality::of_sized(const Simplex<3>& s, int region, double size) const {
-  return of_with(s, region, 0, [&] { return size; });
+  return of_with(s, region, 0, [&](const SizeGuesses::Numbers& numbers) { return with_size(s, numbers, size); });
+}
+
+/// The answer to a question about the size of the cell.
+double CellQuality::asked(const Simplex<3>& s, int region, SizeGuesses::Answer answer,
+                          const SizeGuesses::Numbers& numbers) const {
+  return guesses_ ? guesses_->answer(s, region, answer, numbers) : answer(s, numbers, bounds_->size_at(s, region));
+}
+
+bool CellQuality::is_within_size(const Simplex<3>& s, int region) const {
+  if (!guesses_) return bounds_->within_size(s, region);
+  const auto within = [](const Simplex<3>& cell, const SizeGuesses::Numbers&, double size) {
+    return circumradius_within<3>(cell, size) ? 1.0 : 0.0;
+  };
+  return measure_within<3>(s, bounds_->measure_of(region)) && asked(s, region, within, {}) != 0;
 }
 
 /// The size is asked for only where the other measures leave it to say.
-template <class Size>
-double CellQuality::of_with(const Simplex<3>& s, int region, double enough, Size size_of) const {
+template <class Limited>
+double CellQuality::of_with(const Simplex<3>& s, int region, double enough, Limited limited) const {
   ++evaluated_;
   using detail::cross;
   using detail::difference;
@@ -111,9 +135,8 @@ double CellQuality::of_with(const Simplex<3>& s, int region, double enough, Size
     if (!(part2 >= q2 * q2 * centre2)) q = lower(q, std::sqrt(std::sqrt(part2 / centre2)));
     if (!(q > enough)) return q;
   }
-  const double size = size_of(), measure = bounds_->measure_of(region);
-  if (size < CellBounds<3>::infinity && !(size * size * twice2 >= q * q * centre2))
-    q = lower(q, size * std::sqrt(twice2 / centre2));
+  q = limited({q, twice2, centre2});
+  const double measure = bounds_->measure_of(region);
   if (measure < CellBounds<3>::infinity) q = lower(q, 6 * measure / (det * (1 + margin)));
   return q;
 }

@@ -20,6 +20,7 @@
 
 #include "pgdr/types.hpp"
 #include "rule/cell_bounds.hpp"
+#include "rule/size_guesses.hpp"
 
 namespace pgdr {
 
@@ -32,8 +33,9 @@ class CellQuality {
  public:
   static constexpr int lowest_level = -10000;  ///< of cells that are flat or turned over
 
-  /// `bounds` must outlive it. `min_dihedral`: the target in degrees, in [0, 60); 0: dihedral angles do not count.
-  CellQuality(const CellBounds<3>& bounds, double min_dihedral);
+  /// `bounds` must outlive it. `min_dihedral`: the target in degrees, in [0, 60); 0: dihedral angles do not count. `guesses`: of
+  /// these sizes, which must outlive it, too; null: sizes are asked for at once.
+  CellQuality(const CellBounds<3>& bounds, double min_dihedral, SizeGuesses* guesses = nullptr);
 
   /// q of a cell of these corners in the region; 0 if it is not positively oriented, as far as doubles tell. Once it is known to
   /// be at most `enough`, some number that is at most `enough`. @throws UsageError bad_size as CellBounds::test
@@ -41,6 +43,9 @@ class CellQuality {
   /// q where the size is known: CellBounds::size_at of the cell.
   double of_sized(const Simplex<3>& s, int region, double size) const;
 
+  SizeGuesses* guesses() const { return guesses_; }  ///< null: sizes are asked for at once
+  /// CellBounds::within_size
+  bool is_within_size(const Simplex<3>& s, int region) const;
   /// Does `of` ask a size function, which need not know places outside of the domain?
   bool asks_sizes() const;
 
@@ -61,11 +66,14 @@ class CellQuality {
   std::uint64_t evaluated() const { return evaluated_; }  ///< how often `of` was called
 
  private:
-  template <class Size>
-  double of_with(const Simplex<3>& s, int region, double enough, Size size_of) const;
+  template <class Limited>
+  double of_with(const Simplex<3>& s, int region, double enough, Limited limited) const;
   static constexpr double of_large_angles = 0.7;  ///< d = 0.7 (1 + c) where c < 0
 
+  double asked(const Simplex<3>& s, int region, SizeGuesses::Answer answer, const SizeGuesses::Numbers& numbers) const;
+
   const CellBounds<3>* bounds_;
+  SizeGuesses* guesses_;  ///< null: sizes are asked for at once
   double one_minus_cos_;  ///< of the target; 0: none
   mutable std::uint64_t evaluated_ = 0;
 };

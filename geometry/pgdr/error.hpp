@@ -110,7 +110,8 @@ struct DiagnosedError : InputError {
 struct FileError : Error {
   using Error::Error;
 };
-/// The caller's stop token was requested where there is nothing to return: while a Domain or a Diagnosis is made.
+/// The caller's stop token was requested where there is nothing to return: while a Domain or a Diagnosis is made, or a mesh
+/// checked.
 struct CancelledError : Error {
   using Error::Error;
 };

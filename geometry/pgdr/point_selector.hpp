@@ -5,9 +5,13 @@
 // concurrently from any worker, must be a deterministic function of its argument, may use TBB, may throw.
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <functional>
+#include <limits>
+#include <memory>
+#include <span>
 #include <type_traits>
 #include <utility>
 
@@ -95,6 +99,14 @@ class Neighborhood {
   ~Neighborhood() = default;
 };
 
+/// Where the points of many poor elements go: puts that of elements[i] into points[i], for all i, and keeps neither span. Each
+/// must be a function of its element alone, whatever block the element is in, and of elements that are never treated too: a visit
+/// asks for the element that is next together with those that wait behind it, and some of these go before their turn. It is
+/// called concurrently from any worker, with one element or more: it must be deterministic and thread-safe, may throw. What it
+/// leaves unset is NaN, which is in no disk.
+template <int D>
+using SelectorBlock = std::function<void(std::span<const PoorElement<D>> elements, std::span<Point<D>> points)>;
+
 /// Where the point of a poor element goes. Holds any `Point<D>(const PoorElement<D>&)`, or, to look at the mesh about the
 /// element, `Point<D>(const PoorElement<D>&, Neighborhood<D>&)`; empty: the circumcentre. See selectors.hpp for those that
 /// come with the library.
@@ -116,12 +128,38 @@ class PointSelector {
     }
   }
 
+  /// A function that is asked by blocks; empty if it is empty. It makes the mesh that the same function makes element by element.
+  static PointSelector by_blocks(SelectorBlock<D> block) {
+    PointSelector selector;
+    if (!block) return selector;
+    selector.block_ = std::make_shared<const SelectorBlock<D>>(std::move(block));
+    selector.call_ = [block = selector.block_](const PoorElement<D>& element, Neighborhood<D>&) {
+      Point<D> point = unset();
+      (*block)({&element, 1}, {&point, 1});
+      return point;
+    };
+    return selector;
+  }
+
   explicit operator bool() const { return static_cast<bool>(call_); }  ///< is there a function?
+  bool is_by_blocks() const { return block_ != nullptr; }              ///< is it to be asked for many elements at once?
   /// Where the function puts the point; throws what it throws. @pre not empty.
   Point<D> operator()(const PoorElement<D>& element, Neighborhood<D>& neighborhood) const { return call_(element, neighborhood); }
+  /// Where it puts the points of the elements, asked as one block; throws what it throws. @pre is_by_blocks(); as many points
+  void operator()(std::span<const PoorElement<D>> elements, std::span<Point<D>> points) const {
+    std::fill(points.begin(), points.end(), unset());
+    (*block_)(elements, points);
+  }
 
  private:
+  static Point<D> unset() {
+    Point<D> point;
+    point.x.fill(std::numeric_limits<double>::quiet_NaN());
+    return point;
+  }
+
   std::function<Point<D>(const PoorElement<D>&, Neighborhood<D>&)> call_;
+  std::shared_ptr<const SelectorBlock<D>> block_;  ///< null: asked element by element
 };
 
 /// The default of RefineOptions: in 2D off-centres (`off_center<2>()` of selectors.hpp), in disks of type 1, which make fewer

@@ -9,6 +9,7 @@
 #include "pgdr/predicates.hpp"
 #include "reasons/optimized_reasons.hpp"
 #include "rule/cell_quality.hpp"
+#include "rule/sizes_of_cells.hpp"
 #include "space/bulk.hpp"
 
 namespace pgdr::detail {
@@ -17,48 +18,6 @@ namespace {
 /// The budget of a phase: so many evaluations for each cell of the mesh, and for each poor cell that it begins with. For these it
 /// is at most some hundred for each cell of the mesh, which take about as long as its refinement took.
 constexpr std::uint64_t evaluations_a_cell = 20, evaluations_a_listed_cell = 1000, most_for_listed = 100;
-
-/// The qualities of successive cells, some at a time, which is also as often as the clock is looked at: a size function by blocks
-/// is asked for all of them at once.
-class QualityByBlocks {
- public:
-  static constexpr std::uint32_t cells = 1024;
-
-  QualityByBlocks(const RefineContext<3>& context, double min_dihedral)
-      : mesh_(&context.mesh), bounds_(&context.bounds), quality_(context.bounds, min_dihedral) {}
-
-  /// Looks at the cells in these slots. @throws as CellBounds::sizes_at
-  void look(std::uint32_t first, std::uint32_t last) {
-    alive_.clear();
-    for (std::uint32_t i = first; i < last; ++i)
-      if (mesh_->alive(CellId{i})) alive_.push_back(CellId{i});
-    if (!bounds_->asks_blocks()) return;
-    centroids_.clear();
-    regions_.clear();
-    for (const CellId c : alive_) {
-      centroids_.push_back(centroid<3>(mesh_->simplex(c)));
-      regions_.push_back(mesh_->region(c));
-    }
-    sizes_.resize(alive_.size());
-    bounds_->sizes_at(centroids_, regions_, sizes_);
-  }
-  const std::vector<CellId>& alive() const { return alive_; }
-  /// Of the k-th of these.
-  double of(std::size_t k) const {
-    const Simplex<3> s = mesh_->simplex(alive_[k]);
-    const int region = mesh_->region(alive_[k]);
-    return bounds_->asks_blocks() ? quality_.of_sized(s, region, sizes_[k]) : quality_.of(s, region);
-  }
-
- private:
-  const Mesh<3>* mesh_;
-  const CellBounds<3>* bounds_;
-  CellQuality quality_;
-  std::vector<CellId> alive_;
-  std::vector<Point<3>> centroids_;
-  std::vector<int> regions_;
-  std::vector<double> sizes_;
-};
 
 }  // namespace
 
@@ -90,13 +49,15 @@ std::vector<Entry<3>> Optimizing::find_poor() {
   std::vector<Part> parts(count_parts(mesh.cell_bound()));
   const auto look_at = [&](const CellPart& part) {
     Part& found = parts[part.number];
-    QualityByBlocks qualities(context, min_dihedral_);
-    for (std::uint32_t i = part.first; i < part.last && !context.ended(); i += QualityByBlocks::cells) {
-      qualities.look(i, std::min(part.last, i + QualityByBlocks::cells));
-      found.cells += qualities.alive().size();
-      for (std::size_t k = 0; k < qualities.alive().size(); ++k) {
-        const CellId c = qualities.alive()[k];
-        const double q = qualities.of(k);
+    const CellQuality quality(context.bounds, min_dihedral_);
+    SizesOfCells<3> cells(mesh, context.bounds);
+    for (std::uint32_t i = part.first; i < part.last && !context.ended();) {  // the clock is looked at as often
+      i = cells.look(i, part.last);
+      found.cells += cells.alive().size();
+      for (std::size_t k = 0; k < cells.alive().size(); ++k) {
+        const CellId c = cells.alive()[k];
+        const Simplex<3> s = mesh.simplex(c);
+        const double q = cells.asks_blocks() ? quality.of_sized(s, mesh.region(c), cells.size(k)) : quality.of(s, mesh.region(c));
         if (q >= 1) continue;
         const std::uint32_t order = order_by_level(mesh, c, CellQuality::level(q));
         found.poor.push_back({c, mesh.birth(c), EntryKind::cell, Entry<3>::over_radius_edge, 0, order});

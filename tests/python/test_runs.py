@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 import pgdr
-from shapes import CUBE_POINTS, checked, cube, same, square
+from shapes import CUBE_POINTS, SQUARE_POINTS, SQUARE_SEGMENTS, checked, cube, same, square
 
 MODELS = Path(__file__).resolve().parents[1] / "models"
 COMMAND = os.environ.get("PGDR_COMMAND", "")
@@ -89,6 +89,35 @@ class Selectors(unittest.TestCase):
         self.assertEqual(e.corners.shape[1:], (4, 3))
         radius = np.linalg.norm(e.corners - e.circumcenter[:, None], axis=2)
         np.testing.assert_allclose(radius, e.circumradius[:, None] * np.ones((1, 4)), rtol=1e-9)
+
+    def test_blocks_make_the_mesh_of_single_elements(self):
+        rng = np.random.default_rng(1)
+        plc = pgdr.Plc(np.vstack([SQUARE_POINTS, 0.01 + 0.98 * rng.random((2000, 2))]), SQUARE_SEGMENTS)
+        lengths = []
+
+        def half_way(e):
+            lengths.append(len(e.circumradius))
+            to_corner = e.corners[:, 0] - e.disk_center
+            return e.disk_center + to_corner * (0.5 * e.disk_radius / e.circumradius)[:, None]
+
+        def one_by_one(e):
+            return np.concatenate([half_way(pgdr.Elements(*(a[i:i + 1] for a in e))) for i in range(len(e.circumradius))])
+
+        wanted = checked(self, plc, selector=half_way, threads=1)
+        self.assertGreater(np.mean(lengths), 2)
+        for threads in (1, 2, 8):
+            self.assertTrue(same(wanted, checked(self, plc, selector=one_by_one, threads=threads)), threads)
+
+    def test_what_it_returns_is_looked_at(self):
+        bracket = pgdr.Plc.read(MODELS / "bracket.poly")
+        for selector, words in ((lambda e: e.circumradius, r"selector .*shape \(\d+, 3\), not .*shape \(\d+,\)"),
+                                (lambda e: e.circumcenter[:, :2], r"shape \(\d+, 3\), not .*\(\d+, 2\)"),
+                                (lambda e: e.corners, r"shape \(\d+, 3\)"), (lambda e: None, "None")):
+            with self.subTest(words=words), self.assertRaisesRegex(pgdr.UsageError, words):
+                pgdr.mesh(bracket, selector=selector)
+        nowhere = checked(self, bracket, selector=lambda e: e.circumcenter * np.nan)
+        self.assertTrue(same(nowhere, checked(self, bracket, selector="circumcenter", optimize=False)))
+        self.assertGreater(nowhere.statistics["selector_outside"], 0)
 
     def test_names(self):
         for name in ("off-center", "sliver-avoiding"):

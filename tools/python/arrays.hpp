@@ -8,11 +8,14 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <memory>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -37,6 +40,19 @@ std::span<const T> span_of(const Dense<T>& array) {
   throw UsageError({.code = Errc::bad_option, .message = std::string(what)});
 }
 
+[[noreturn]] inline void bad_input(Errc code, const std::string& message, const std::vector<std::int64_t>& ids) {
+  throw InputError({.code = code, .message = message, .ids = ids});
+}
+
+/// @throws InputError not_finite, with the number of the first that is not
+template <int D>
+void require_finite(const std::vector<Point<D>>& points, const char* what) {
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!std::ranges::all_of(points[i].x, [](double x) { return std::isfinite(x); }))
+      bad_input(Errc::not_finite, std::string(what) + ' ' + std::to_string(i) + " has a coordinate that is not finite",
+                {static_cast<std::int64_t>(i)});
+}
+
 /// The numbers of a contiguous array of float64 or float32.
 CoordinateArray coordinates_of(const py::array& array);
 /// The numbers of a contiguous array of integers of 32 or 64 bits.
@@ -47,7 +63,7 @@ std::vector<Point<D>> points_of(const Dense<double>& array) {
   const auto numbers = span_of(array);
   if (numbers.size() % D != 0) bad_argument("coordinates are no multiple of the dimension");
   std::vector<Point<D>> points(numbers.size() / D);
-  if (!points.empty()) std::memcpy(points.data(), numbers.data(), numbers.size_bytes());
+  if (!points.empty()) std::memcpy(points.front().x.data(), numbers.data(), numbers.size_bytes());
   return points;
 }
 

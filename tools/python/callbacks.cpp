@@ -8,6 +8,7 @@
 #include <string>
 
 #include "arrays.hpp"
+#include "thread_gil.hpp"
 
 namespace pgdr::python {
 namespace {
@@ -16,6 +17,7 @@ namespace {
 class SharedFunction {
  public:
   explicit SharedFunction(py::function f) : f_(new py::function(std::move(f)), GilDeleter{}) {}
+  ThreadGil::Callers& callers() const { return *callers_; }  ///< of it
   /// Calls it, and hands its result to `read`. What either raises leaves as a PythonError. Has the GIL.
   template <class Read, class... Arguments>
   void operator()(const Read& read, Arguments&&... arguments) const {
@@ -28,6 +30,7 @@ class SharedFunction {
 
  private:
   std::shared_ptr<py::function> f_;
+  std::shared_ptr<ThreadGil::Callers> callers_ = std::make_shared<ThreadGil::Callers>(0);
 };
 
 std::string shape_words(const py::array& array) {
@@ -43,13 +46,19 @@ void take_numbers(const py::object& returned, const Shape& shape, const char* wh
     throw UsageError({.code = Errc::bad_option,
                       .message = std::string(who) + " must return numbers of shape " + shape_words(wanted) + ", not " + what});
   };
+  const auto has_shape = [&](const py::array& a) {
+    return a.ndim() == static_cast<py::ssize_t>(shape.size()) && std::equal(shape.begin(), shape.end(), a.shape());
+  };
+  if (Dense<double>::check_(returned)) {  // nearly always
+    const auto dense = py::reinterpret_borrow<Dense<double>>(returned);
+    if (has_shape(dense)) return static_cast<void>(std::memcpy(numbers.data(), dense.data(), numbers.size_bytes()));
+  }
   if (returned.is_none()) refuse("None");
   const py::array array = py::array::ensure(returned);
   if (!array) refuse("an object of the type " + std::string(py::str(py::type::of(returned).attr("__name__"))));
   if (std::string_view("fiu").find(array.dtype().kind()) == std::string_view::npos)
     refuse("an array of the type " + std::string(py::str(array.dtype())));
-  if (array.ndim() != static_cast<py::ssize_t>(shape.size()) || !std::equal(shape.begin(), shape.end(), array.shape()))
-    refuse("an array of shape " + shape_words(array));
+  if (!has_shape(array)) refuse("an array of shape " + shape_words(array));
   const auto dense = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(array);
   if (!dense) refuse("an array of the type " + std::string(py::str(array.dtype())));
   std::memcpy(numbers.data(), dense.data(), numbers.size_bytes());
@@ -57,7 +66,7 @@ void take_numbers(const py::object& returned, const Shape& shape, const char* wh
 
 template <int D>
 void ask_sizes(const SharedFunction& f, std::span<const Point<D>> points, std::span<double> sizes) {
-  const py::gil_scoped_acquire gil;
+  const ThreadGil gil(f.callers());
   const auto count = static_cast<py::ssize_t>(points.size());
   py::array_t<double> array({count, static_cast<py::ssize_t>(D)});
   std::memcpy(array.mutable_data(), points.data(), points.size_bytes());
@@ -82,7 +91,7 @@ py::array_t<double> gather(std::span<const PoorElement<D>> elements, Shape shape
 template <int D>
 void ask_points(const SharedFunction& f, const py::object& type, std::span<const PoorElement<D>> elements,
                 std::span<Point<D>> points) {
-  const py::gil_scoped_acquire gil;
+  const ThreadGil gil(f.callers());
   using Element = PoorElement<D>;
   py::array_t<bool> over(static_cast<py::ssize_t>(elements.size()));
   for (std::size_t i = 0; i < elements.size(); ++i) over.mutable_data()[i] = elements[i].over_radius_edge;
@@ -119,11 +128,10 @@ SizingField<D> sizes_by(py::function f) {
 template <int D>
 PointSelector<D> selector_by(py::function f) {
   const std::shared_ptr<py::object> type(new py::object(py::module_::import("pgdr._run").attr("Elements")), GilDeleter{});
-  return [f = SharedFunction(std::move(f)), type](const PoorElement<D>& e) {
-    Point<D> point;
-    ask_points<D>(f, *type, {&e, 1}, {&point, 1});
-    return point;
-  };
+  return PointSelector<D>::by_blocks(
+      [f = SharedFunction(std::move(f)), type](std::span<const PoorElement<D>> elements, std::span<Point<D>> points) {
+        ask_points<D>(f, *type, elements, points);
+      });
 }
 
 template SizingField<2> sizes_by<2>(py::function);

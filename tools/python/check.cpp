@@ -6,6 +6,7 @@
 
 #include <pybind11/stl.h>
 
+#include <functional>
 #include <memory>
 
 #include "bind.hpp"
@@ -13,6 +14,7 @@
 #include "mesh_data.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/refine_options.hpp"
+#include "run.hpp"
 
 namespace pgdr::python {
 namespace {
@@ -28,19 +30,30 @@ py::dict dict_of(const CheckReport& r) {
                   "not_delaunay_rounding"_a = r.not_delaunay_rounding, "not_delaunay_refused"_a = r.not_delaunay_refused);
 }
 
+/// Runs what takes a stop token as a Watch does. @throws what a signal's handler raises, or `work` throws
+void run_watched(const std::function<void(const std::stop_token&)>& work) {
+  Watch watch({}, py::none());
+  try {
+    watch.run(0, [&] { work(watch.token()); });
+  } catch (const CancelledError&) {
+    if (watch.raised().is_none()) throw;
+  }
+  watch.raise();
+}
+
 /// As the command's `check`: against the input as given; reasons by its Domain. `bounds`: those of a run; infinite: none.
 template <int D>
 py::dict check_mesh(const MeshData<D>& data, const Plc<D>* plc, const RefineOptions<D>& bounds, double largest_cosine,
                     bool delaunay, bool with_reasons) {
   CheckReport report;
-  {
-    const py::gil_scoped_release others_run;
+  run_watched([&](const std::stop_token& stop) {
     CheckOptions<D> options;
     std::optional<Domain<D>> domain;
+    options.stop = stop;
     options.input = plc;
     if (plc) options.tolerance = tolerance_of(*plc);
     if (with_reasons) options.reasons = &data.reasons;
-    if (with_reasons && plc && !data.reasons.empty()) options.domain = &domain.emplace(*plc);
+    if (with_reasons && plc && !data.reasons.empty()) options.domain = &domain.emplace(*plc, stop);
     options.regions = bounds.regions;
     options.radius_edge_bound = bounds.radius_edge_bound;
     options.size = bounds.size;
@@ -49,7 +62,7 @@ py::dict check_mesh(const MeshData<D>& data, const Plc<D>* plc, const RefineOpti
     options.largest_cosine = largest_cosine;
     options.delaunay = delaunay;
     report = check(data.mesh, options);
-  }
+  });
   return dict_of(report);
 }
 
@@ -57,10 +70,9 @@ py::dict check_mesh(const MeshData<D>& data, const Plc<D>* plc, const RefineOpti
 template <int D>
 py::list diagnose_plc(const Plc<D>& plc, std::size_t most_listed, bool errors_only) {
   Diagnosis<D> diagnosis;
-  {
-    const py::gil_scoped_release others_run;
-    diagnosis = diagnose(plc, {.most_listed = most_listed, .errors_only = errors_only});
-  }
+  run_watched([&](const std::stop_token& stop) {
+    diagnosis = diagnose(plc, {.most_listed = most_listed, .errors_only = errors_only, .stop = stop});
+  });
   py::list found;
   for (std::size_t k = 0; k < finding_kinds; ++k) {
     const auto kind = static_cast<Finding>(k);

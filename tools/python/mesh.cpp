@@ -23,6 +23,7 @@ template <int D>
 std::shared_ptr<MeshData<D>> mesh_of(const py::array& points, const py::array& cells) {
   auto data = std::make_shared<MeshData<D>>();
   data->mesh = mesh_from_arrays<D>(coordinates_of(points), indices_of(cells));
+  require_finite<D>(data->mesh.points, "point");
   return data;
 }
 

@@ -7,7 +7,6 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <utility>
 
@@ -20,18 +19,6 @@
 namespace pgdr::python {
 namespace {
 
-[[noreturn]] void refuse(Errc code, const std::string& message, const std::vector<std::int64_t>& ids) {
-  throw InputError({.code = code, .message = message, .ids = ids});
-}
-
-template <int D>
-void require_finite(const std::vector<Point<D>>& points, const char* what) {
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (!std::ranges::all_of(points[i].x, [](double x) { return std::isfinite(x); }))
-      refuse(Errc::not_finite, std::string(what) + ' ' + std::to_string(i) + " has a coordinate that is not finite",
-             {static_cast<std::int64_t>(i)});
-}
-
 /// Indices as they are stored. @throws InputError index_out_of_range
 class Indices {
  public:
@@ -43,12 +30,13 @@ class Indices {
   std::uint32_t at(std::size_t i, const char* what, std::size_t number) const {
     return std::visit(
         [&](const auto& all) {
-          if (!std::in_range<std::uint32_t>(all[i]) || static_cast<std::size_t>(all[i]) >= points_)
-            refuse(Errc::index_out_of_range,
-                   std::string(what) + ' ' + std::to_string(number) + " has index " + std::to_string(all[i]) + ", there are " +
-                       std::to_string(points_) + " points",
-                   {static_cast<std::int64_t>(number), static_cast<std::int64_t>(all[i])});
-          return static_cast<std::uint32_t>(all[i]);
+          const auto index = all[i];  // once: another thread may be writing to the array
+          if (!std::in_range<std::uint32_t>(index) || static_cast<std::size_t>(index) >= points_)
+            bad_input(Errc::index_out_of_range,
+                      std::string(what) + ' ' + std::to_string(number) + " has index " + std::to_string(index) + ", there are " +
+                          std::to_string(points_) + " points, counted from 0",
+                      {static_cast<std::int64_t>(number), static_cast<std::int64_t>(index)});
+          return static_cast<std::uint32_t>(index);
         },
         all_);
   }
@@ -190,7 +178,7 @@ py::array region_rows(const Plc<D>& plc) {
 }
 
 template <int D>
-std::shared_ptr<Plc<D>> with_tolerance(const Plc<D>& plc, double tolerance, bool is_coarse) {
+std::shared_ptr<Plc<D>> with_tolerance(const Plc<D>& plc, std::optional<double> tolerance, bool is_coarse) {
   auto made = std::make_shared<Plc<D>>(plc);
   made->tolerance = tolerance;
   made->is_coarse = is_coarse;

@@ -63,6 +63,12 @@ void Watch::look() {
   if (is_true > 0) stop_.request_stop();
 }
 
+void Watch::raise() const {
+  if (raised_.is_none()) return;
+  PyErr_SetObject(py::type::handle_of(raised_).ptr(), raised_.ptr());
+  throw py::error_already_set();
+}
+
 void Watch::run(int threads, const std::function<void()>& work) {
   look();  // a wish that is there already
   std::promise<void> done;

@@ -34,6 +34,7 @@ class Watch {
 
   /// What was raised meanwhile: an exception of Python, or None.
   py::object raised() const { return raised_; }
+  void raise() const;  ///< raises it, if there was any
 
  private:
   void look();  // has the GIL

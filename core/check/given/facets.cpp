@@ -22,8 +22,14 @@ class GivenFacetMatcher {
   void run() {
     set_reaches();
     plant_trees();
-    for (std::uint32_t s = 0; s < mesh_.subfacets.size(); ++s) match_subfacet(s);
-    for (std::uint32_t t = 0; t < input_.triangles().size(); ++t) cover_triangle(t);
+    for (std::uint32_t s = 0; s < mesh_.subfacets.size(); ++s) {
+      task_.findings.heed_stop();
+      match_subfacet(s);
+    }
+    for (std::uint32_t t = 0; t < input_.triangles().size(); ++t) {
+      task_.findings.heed_stop();
+      cover_triangle(t);
+    }
   }
 
  private:

@@ -115,6 +115,7 @@ class LeftoverChecker {
     }
     const detail::BoxTree<D> tree(boxes);
     for (std::uint32_t c = 0; c < mesh_.cells.size(); ++c) {
+      task_.findings.heed_stop();
       const Simplex<D> s = corners_of(mesh_, c);
       std::optional<std::array<HalfSpace<D>, D + 1>> cell;
       tree.meeting(detail::Box<D>::of(s), [&](std::uint32_t i) {

@@ -31,7 +31,10 @@ class PointMatcher {
     const std::size_t n = task_.input.plc().points.size();
     out_.vertex_of_point.assign(n, none);
     out_.moved.assign(n, 0);
-    for (std::uint32_t p = 0; p < n; ++p) match(p);
+    for (std::uint32_t p = 0; p < n; ++p) {
+      task_.findings.heed_stop();
+      match(p);
+    }
     check_markers();
     check_loose_vertices();
   }

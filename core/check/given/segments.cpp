@@ -48,9 +48,13 @@ class GivenSegmentMatcher {
   void run() {
     // A given segment is covered by subsegments that lie on given segments, its own or others of their marker.
     std::vector<std::uint8_t> on_segment(mesh_.subsegments.size(), 0);
-    for (std::uint32_t i = 0; i < mesh_.subsegments.size(); ++i) on_segment[i] = match_subsegment(i);
+    for (std::uint32_t i = 0; i < mesh_.subsegments.size(); ++i) {
+      task_.findings.heed_stop();
+      on_segment[i] = match_subsegment(i);
+    }
     const SegmentTree<D> subsegments(all_subsegments());
     for (std::uint32_t s = 0; s < input_.segments().size(); ++s) {
+      task_.findings.heed_stop();
       const Ends<D> ends = given_[s].ends;
       if constexpr (D == 2) out_.reach.push_back(given_[s].reach);
       if (is_short(ends, given_[s].reach)) continue;

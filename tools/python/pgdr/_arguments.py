@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 import numbers
 import os
-from typing import Any, Optional, Sequence, Tuple, Union
+from typing import Any, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -27,7 +27,22 @@ def _array(name: str, value: object) -> Array:
     if array.dtype == object:
         raise usage(f"{name} must be an array of numbers, not of the type {type(value).__name__} with rows of different lengths "
                     "or other objects")
+    if isinstance(value, np.ma.MaskedArray) and bool(np.any(value.mask)):
+        raise usage(f"{name} has masked entries: leave their rows out, or fill them in")
     return array
+
+
+def _dense(array: Array, kind: Any) -> Array:
+    """As the extension module reads it in place: contiguous, and where the processor may read it."""
+    return np.require(array, dtype=kind, requirements=["C", "A"])
+
+
+def reals(name: str, value: object) -> Array:
+    """Real numbers in any shape, as float64."""
+    array = _array(name, value)
+    if array.dtype.kind not in "fiu":
+        raise usage(f"{name} must be real numbers, not {array.dtype}")
+    return _dense(array, np.float64)
 
 
 def points(name: str, value: object, dimension: Optional[int] = None) -> Array:
@@ -41,12 +56,12 @@ def points(name: str, value: object, dimension: Optional[int] = None) -> Array:
     if array.dtype.kind not in "fiu":
         raise usage(f"{name} must be real numbers, not {array.dtype}")
     kept = array.dtype if array.dtype in (np.float32, np.float64) and array.dtype.isnative else np.dtype(np.float64)
-    return np.ascontiguousarray(array, dtype=kept)
+    return _dense(array, kept)
 
 
 def coordinates(name: str, value: object, dimension: int) -> Array:
     """(n, dimension) float64."""
-    return np.ascontiguousarray(points(name, value, dimension), dtype=np.float64)
+    return _dense(points(name, value, dimension), np.float64)
 
 
 def indices(name: str, value: object, columns: Optional[int]) -> Array:
@@ -59,7 +74,7 @@ def indices(name: str, value: object, columns: Optional[int]) -> Array:
     if array.dtype.kind not in "iu":
         raise usage(f"{name} must be integers, not {array.dtype}")
     kept = array.dtype if array.dtype.itemsize >= 4 and array.dtype.isnative else np.dtype(np.int64)
-    return np.ascontiguousarray(array, dtype=kept)
+    return _dense(array, kept)
 
 
 def markers(name: str, value: object, count: int, what: str) -> Array:
@@ -76,17 +91,15 @@ def markers(name: str, value: object, count: int, what: str) -> Array:
     narrow = array.astype(np.intc)
     if not np.array_equal(narrow, array):
         raise usage(f"{name} must be integers of 32 bits")
-    return np.ascontiguousarray(narrow)
+    return _dense(narrow, np.intc)
 
 
 def values(name: str, value: object, count: int, what: str) -> Array:
     """(count,) float64."""
-    array = _array(name, value)
-    if array.dtype.kind not in "fiu":
-        raise usage(f"{name} must be real numbers, not {array.dtype}")
+    array = reals(name, value)
     if array.shape != (count,):
         raise usage(f"{name} must have one number for each of {count} {what}, in the shape ({count},), not {array.shape}")
-    return np.ascontiguousarray(array, dtype=np.float64)
+    return array
 
 
 def number(name: str, value: object) -> float:
@@ -113,6 +126,13 @@ def flag(name: str, value: object) -> bool:
     if not isinstance(value, (bool, np.bool_)):
         raise TypeError(f"{name} must be True or False, not {type(value).__name__}")
     return bool(value)
+
+
+def mapping(name: str, value: object, of_what: str) -> Mapping[Any, Any]:
+    """A dict, or what looks like one."""
+    if not isinstance(value, Mapping):
+        raise TypeError(f"{name} must be a dict of {of_what}, not {type(value).__name__}")
+    return value
 
 
 def word(name: str, value: object, words: Sequence[str]) -> str:

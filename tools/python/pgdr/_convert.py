@@ -4,9 +4,7 @@
 from __future__ import annotations
 
 import importlib
-import os
-import tempfile
-from typing import Any, Dict, Iterable, List, Optional, Sequence, Tuple
+from typing import TYPE_CHECKING, Any, Dict, Iterable, List, Optional, Sequence, Tuple
 
 import numpy as np
 import numpy.typing as npt
@@ -14,10 +12,15 @@ import numpy.typing as npt
 from . import _arguments
 from ._errors import usage
 
+if TYPE_CHECKING:
+    from ._mesh import Mesh
+    from ._plc import Plc
+
 _MARKERS = ("marker", "gmsh:physical", "medit:ref")  # of constraints, the first that is there
 _LABELS = ("region", "gmsh:physical", "medit:ref")  # of cells
-_FACETS = ("triangle", "quad", "polygon")
 _VTK_TRIANGLE, _VTK_TETRA = 5, 10
+_VTK_KINDS = {1: "vertex", 2: "vertex", 3: "line", 4: "line", _VTK_TRIANGLE: "polygon", 7: "polygon", 9: "polygon", _VTK_TETRA: "tetra",
+              12: "hexahedron", 13: "wedge", 14: "pyramid"}
 
 
 def _package(name: str) -> Any:
@@ -58,7 +61,7 @@ def _inside(name: str, ring: npt.NDArray[Any]) -> npt.NDArray[np.float64]:
 
 
 def from_polygons(outer: object, holes: Sequence[object] = (), *, markers: Optional[Sequence[int]] = None,
-                  tolerance: Optional[float] = None) -> Any:
+                  tolerance: Optional[float] = None) -> Plc:
     """See Plc.from_polygons."""
     from ._plc import Plc
     rings = [_ring("outer", outer)] + [_ring(f"hole {i}", hole) for i, hole in enumerate(holes)]
@@ -85,79 +88,35 @@ def _numbers_of(data: Dict[str, Any], names: Iterable[str], block: int, count: i
     return np.zeros(count, dtype=np.int64)
 
 
-def _medit(points: npt.NDArray[Any], blocks: Sequence[Tuple[str, npt.NDArray[Any], npt.NDArray[Any]]]) -> Any:
-    """The input that the reader of Medit files makes of cells: their common faces, seeds of labels and of voids."""
-    from ._plc import Plc
-    words = {"line": "Edges", "triangle": "Triangles", "quad": "Quadrilaterals", "tetra": "Tetrahedra"}
-    with tempfile.TemporaryDirectory() as folder:
-        name = os.path.join(folder, "cells.mesh")
-        with open(name, "w", encoding="ascii") as file:
-            file.write(f"MeshVersionFormatted 2\nDimension {points.shape[1]}\nVertices\n{len(points)}\n")
-            np.savetxt(file, np.column_stack([points, np.zeros(len(points))]), fmt=["%.17g"] * points.shape[1] + ["%d"])
-            for kind in words:
-                rows = [np.column_stack([corners + 1, numbers]) for k, corners, numbers in blocks if k == kind and len(corners)]
-                if rows:
-                    file.write(f"{words[kind]}\n{sum(map(len, rows))}\n")
-                    np.savetxt(file, np.concatenate(rows), fmt="%d")
-            file.write("End\n")
-        read = Plc.read(name)
-    arguments: Dict[str, Any] = {"markers": read.markers, "holes": read.holes, "regions": read.regions}
-    if read.dimension == 3:  # made anew, so that errors name no file that is gone
-        arguments.update(facets=read.facets, segment_markers=read.segment_markers)
-    return Plc(read.points, read.segments, **arguments)
-
-
-def from_meshio(mesh: Any) -> Any:
-    """See Plc.from_meshio. Of blocks of cells, line, triangle, quad, polygon, tetra and vertex are taken; vertex blocks add nothing.
-    With cells of the full dimension, their labels and the voids between them become seeds, as with a file of them, and points that cells
-    alone have are left out."""
-    from ._plc import Plc
+def from_meshio(mesh: Any) -> Plc:
+    """See Plc.from_meshio. Vertex blocks add nothing."""
+    from ._cells import FACES, LINES, VOLUMES, block_of, input_of, is_flat
+    if not hasattr(mesh, "points") or not hasattr(mesh, "cells"):
+        raise TypeError(f"a meshio.Mesh is taken, with points and cells, not {type(mesh).__name__}")
     points = np.asarray(mesh.points)
-    kinds = [str(block.type) for block in mesh.cells]
-    unknown = sorted({kind for kind in kinds if kind.rstrip("0123456789") not in ("polygon",)
-                      and kind not in (*_FACETS, "line", "tetra", "vertex")})
+    kinds = ["polygon" if str(block.type).startswith("polygon") else str(block.type) for block in mesh.cells]
+    unknown = sorted(set(kinds) - {*LINES, *FACES, *VOLUMES, "vertex"})
     if unknown:
-        raise usage(f"cells of the type {', '.join(unknown)} are not taken: there are line, triangle, quad, polygon and tetra")
-    flat = points.shape[1] == 2 or (not points[:, 2].any() and "tetra" not in kinds)
-    points = points[:, :2] if flat else points
-    full = "triangle" if flat else "tetra"
-    blocks = []
-    for number, (kind, block) in enumerate(zip(kinds, mesh.cells)):
-        corners = np.asarray(block.data)
-        names = _LABELS if kind == full else _MARKERS
-        blocks.append(("polygon" if kind.startswith("polygon") else kind, corners,
-                       _numbers_of(mesh.cell_data, names, number, len(corners))))
-    if flat and any(kind in ("quad", "polygon") for kind, _, _ in blocks):
-        raise usage("in 2D quadrilaterals and polygons are not taken: give their edges as cells of the type line")
-    if any(kind == full and len(corners) for kind, corners, _ in blocks):
-        if any(kind == "polygon" for kind, _, _ in blocks):
-            raise usage("polygons beside tetrahedra are not taken: split them into triangles")
-        return _medit(points, blocks)
-    lines = [(corners, numbers) for kind, corners, numbers in blocks if kind == "line"]
-    segments = np.concatenate([c for c, _ in lines]) if lines else np.zeros((0, 2), dtype=np.int64)
-    segment_markers = np.concatenate([m for _, m in lines]) if lines else np.zeros(0, dtype=np.int64)
-    if flat:
-        return Plc(points, segments, markers=segment_markers)
-    faces = [(corners, numbers) for kind, corners, numbers in blocks if kind in _FACETS]
-    if len({corners.shape[1] for corners, _ in faces}) == 1:
-        facets: Any = np.concatenate([corners for corners, _ in faces])
-    else:
-        facets = [row.tolist() for corners, _ in faces for row in corners]
-    markers = np.concatenate([numbers for _, numbers in faces]) if faces else None
-    return Plc(points, segments, facets, markers=markers, segment_markers=segment_markers)
+        curved = any(kind.rstrip("0123456789") in (*LINES, *FACES, *VOLUMES) for kind in unknown)
+        raise usage(f"cells of the type {', '.join(unknown)} are not taken: there are {', '.join((*LINES, *FACES, *VOLUMES))}"
+                    + ("; those with further points on their edges would be curved" if curved else ""))
+    full = FACES if is_flat(_arguments.points("points", points), kinds) else VOLUMES
+    return input_of(points, [block_of(kind, block.data, _numbers_of(mesh.cell_data, _LABELS if kind in full else _MARKERS, number,
+                                                                    len(block.data)))
+                             for number, (kind, block) in enumerate(zip(kinds, mesh.cells)) if kind != "vertex"])
 
 
-def _constraints(mesh: Any) -> List[Tuple[str, npt.NDArray[Any], npt.NDArray[Any]]]:
+def _constraints(mesh: Mesh) -> List[Tuple[str, npt.NDArray[Any], npt.NDArray[Any]]]:
     lines = [("line", mesh.subsegments, mesh.subsegment_markers)]
     return lines if mesh.dimension == 2 else [("triangle", mesh.subfacets, mesh.subfacet_markers)] + lines
 
 
-def _labels(mesh: Any) -> npt.NDArray[np.float64]:
+def _labels(mesh: Mesh) -> npt.NDArray[np.float64]:
     labels = np.asarray(mesh.regions, dtype=np.float64)
     return labels if labels.size else np.zeros(len(mesh.cells))
 
 
-def to_meshio(mesh: Any) -> Any:
+def to_meshio(mesh: Mesh) -> Any:
     """A meshio.Mesh: the cells, then in 3D the subfacets, then the subsegments; cell data `region` (0 for constraints) and `marker`
     (0 for cells), as in a .vtu. Raises ImportError without meshio."""
     meshio = _package("meshio")
@@ -171,7 +130,7 @@ def to_meshio(mesh: Any) -> Any:
                        point_data={"marker": point_markers} if point_markers.size else {})
 
 
-def to_pyvista(mesh: Any) -> Any:
+def to_pyvista(mesh: Mesh) -> Any:
     """A pyvista.UnstructuredGrid of the cells, with cell data `region`; z = 0 in 2D. Raises ImportError without pyvista."""
     pyvista = _package("pyvista")
     cells = np.asarray(mesh.cells, dtype=np.int64)
@@ -198,29 +157,58 @@ def _unpadded(name: str, flat: object) -> List[npt.NDArray[np.int64]]:
     return lists
 
 
-def _faces(flat: object) -> Any:
-    numbers = np.asarray(flat, dtype=np.int64).reshape(-1)
-    if len(numbers) and len(numbers) % 4 == 0 and (numbers[::4] == 3).all():
-        return numbers.reshape(-1, 4)[:, 1:]
-    return [face.tolist() for face in _unpadded("faces", numbers)]
+def _numbers(mesh: Any, names: Sequence[str], chosen: npt.NDArray[np.bool_]) -> npt.NDArray[np.int64]:
+    """The markers or labels of some cells of a data set of PyVista, 0 where there are none."""
+    data = {name: [np.asarray(mesh.cell_data[name])[chosen]] for name in names if name in mesh.cell_data}
+    return _numbers_of(data, names, 0, int(chosen.sum()))
 
 
-def from_pyvista(mesh: Any) -> Any:
-    """See Plc.from_pyvista. Faces become facets, with the cell data `marker` if it is there, and lines segments; of a PolyData in
-    the plane z = 0 that has lines alone, an input in 2D is made."""
-    from ._plc import Plc
-    if not hasattr(mesh, "faces"):
-        raise usage(f"a pyvista.PolyData is taken, not {type(mesh).__name__}: of a grid, take extract_surface()")
+def _cells_of_grid(mesh: Any) -> Tuple[List[npt.NDArray[np.int64]], npt.NDArray[Any]]:
+    """The corners of each cell of an UnstructuredGrid, and its kind."""
+    types = np.asarray(mesh.celltypes)
+    other = sorted(set(types.tolist()) - set(_VTK_KINDS))
+    if other:
+        raise usage(f"cells of the VTK types {', '.join(map(str, other))} are not taken: the surface of the grid is what is needed, "
+                    "which grid.extract_surface() gives")
+    cells = _unpadded("cells", mesh.cells)
+    if len(cells) != len(types):
+        raise usage(f"cells is damaged: it has {len(cells)} cells, celltypes has {len(types)}")
+    return cells, np.array([_VTK_KINDS[int(t)] for t in types], dtype=object)
+
+
+def _cells_of_surface(mesh: Any) -> Tuple[List[npt.NDArray[np.int64]], npt.NDArray[Any]]:
+    """The same of a PolyData, whose cells are its vertices, its lines, its faces, then its strips."""
+    if np.size(getattr(mesh, "strips", ())):
+        raise usage("strips of triangles are not taken: call triangulate() first")
+    cells: List[npt.NDArray[np.int64]] = []
+    kinds: List[str] = []
+    for name, kind in (("verts", "vertex"), ("lines", "line"), ("faces", "polygon")):
+        lists = _unpadded(name, getattr(mesh, name, ()))
+        cells += lists
+        kinds += [kind] * len(lists)
+    return cells, np.array(kinds, dtype=object)
+
+
+def from_pyvista(mesh: Any) -> Plc:
+    """See Plc.from_pyvista."""
+    from ._cells import FACES, VOLUMES, block_of, input_of, is_flat
+    if hasattr(mesh, "celltypes"):  # a grid may have `faces`, too, those of its polyhedra
+        cells, kinds = _cells_of_grid(mesh)
+    elif hasattr(mesh, "faces"):
+        cells, kinds = _cells_of_surface(mesh)
+    else:
+        raise TypeError(f"a PolyData or an UnstructuredGrid of PyVista is taken, not {type(mesh).__name__}: other data sets have "
+                        "extract_surface() or cast_to_unstructured_grid()")
     points = np.asarray(mesh.points)
-    facets = _faces(mesh.faces)
-    lines = _unpadded("lines", getattr(mesh, "lines", ()))
-    pieces = [np.stack([line[:-1], line[1:]], axis=1) for line in lines if len(line) > 1]
-    segments = np.concatenate(pieces) if pieces else np.zeros((0, 2), dtype=np.int64)
-    if not len(facets):
-        if points[:, 2].any():
-            raise usage("there are no faces: a closed surface is needed, or lines in the plane z = 0")
-        return Plc(points[:, :2], segments)
-    markers = None
-    if "marker" in mesh.cell_data:  # cells of a PolyData are its vertices, its lines, then its faces
-        markers = _numbers_of({"marker": [np.asarray(mesh.cell_data["marker"])[-len(facets):]]}, ("marker",), 0, len(facets))
-    return Plc(points, segments, facets, markers=markers)
+    full = FACES if is_flat(_arguments.points("points", points), kinds.tolist()) else VOLUMES
+    blocks = []
+    for kind in (*FACES, *VOLUMES, "line"):
+        chosen = kinds == kind
+        rows = [cells[i] for i in np.flatnonzero(chosen)]
+        if rows:
+            numbers = _numbers(mesh, _LABELS if kind in full else _MARKERS, chosen)
+            if kind == "line":  # of two points or more
+                numbers = np.repeat(numbers, [max(len(row) - 1, 0) for row in rows])
+                rows = [row[i:i + 2] for row in rows for i in range(len(row) - 1)]
+            blocks.append(block_of(kind, rows, numbers))
+    return input_of(points, blocks)

@@ -3,7 +3,7 @@
 """Sizing fields that are evaluated in C++, without the GIL. Sizes are bounds of circumradii in 3D, of areas in 2D."""
 from __future__ import annotations
 
-from typing import Any, Callable, Optional, Union
+from typing import Callable, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -19,7 +19,7 @@ Size = Union[float, "Field", Callable[[npt.NDArray[np.float64]], npt.ArrayLike]]
 class Field:
     """A sizing field; `smallest`, `sizes_at_points` and `sizes_on_mesh` make them. Any number of threads may ask one."""
 
-    def __init__(self, core: Any, dimension: int) -> None:
+    def __init__(self, core: _pgdr._Field, dimension: int) -> None:
         self._core = core
         self._dimension = dimension
 
@@ -36,7 +36,7 @@ class Field:
         return f"<pgdr.Field {self._dimension}D>"
 
 
-def core_of(name: str, size: object, dimension: int) -> Any:
+def core_of(name: str, size: object, dimension: int) -> _pgdr._Field:
     """What the extension module takes for a size."""
     made = _pgdr.Field2 if dimension == 2 else _pgdr.Field3
     if isinstance(size, Field):

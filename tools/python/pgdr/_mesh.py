@@ -3,7 +3,7 @@
 """Finished meshes."""
 from __future__ import annotations
 
-from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Tuple
+from typing import TYPE_CHECKING, Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Tuple, Type
 
 import numpy as np
 import numpy.typing as npt
@@ -12,7 +12,11 @@ from . import _arguments, _pgdr
 from ._ending import WORK
 from ._errors import Diagnostic, usage
 
-_CORES = {2: _pgdr.Mesh2, 3: _pgdr.Mesh3}
+if TYPE_CHECKING:
+    from ._check import CheckReport
+    from ._plc import Plc
+
+_CORES: Dict[int, Type[_pgdr._Mesh]] = {2: _pgdr.Mesh2, 3: _pgdr.Mesh3}
 _NO_ENTITY = 0xffffffff
 
 
@@ -36,14 +40,14 @@ class Mesh:
         raise TypeError("meshes are made by pgdr.mesh, Mesh.read and Mesh.from_arrays")
 
     @classmethod
-    def _of(cls, core: Any, facts: Optional[Dict[str, Any]] = None, bounds: Optional[Dict[str, Any]] = None) -> Mesh:
+    def _of(cls, core: _pgdr._Mesh, facts: Optional[Dict[str, Any]] = None, bounds: Optional[Dict[str, Any]] = None) -> Mesh:
         made = cls.__new__(cls)
         made._core = core
         made._facts = facts or {}
         made._bounds = bounds or {}
         return made
 
-    _core: Any
+    _core: _pgdr._Mesh
     _facts: Dict[str, Any]
     _bounds: Dict[str, Any]
 
@@ -172,8 +176,9 @@ class Mesh:
         """What is odd about the input, and was taken as it is."""
         return list(self._facts.get("warnings", []))
 
-    def check(self, plc: Optional[Any] = None, **bounds: Any) -> Any:
-        """`pgdr.check` with the bounds and the reasons of the run that made this mesh; `bounds` are instead of those."""
+    def check(self, plc: Optional[Plc] = None, **bounds: Any) -> CheckReport:
+        """`pgdr.check` with the bounds and the reasons of the run that made this mesh; `bounds` are instead of those. Of a run that
+        ended early (`stop`), the bounds are not asked for."""
         from ._check import check
         lost = [name for name, value in self._bounds.items() if value is _Lost and name not in bounds]
         if lost:
@@ -216,7 +221,7 @@ class Mesh:
 
     def __reduce__(self) -> Tuple[Callable[..., Mesh], Tuple[Any, ...]]:
         core = self._core
-        arrays = {name: np.array(getattr(core, name)) for name in _PICKLED}
+        arrays: Dict[str, Any] = {name: np.array(getattr(core, name)) for name in _PICKLED}
         arrays["reasons"] = tuple(np.array(a) for a in core.reason_arrays)
         bounds = {name: _Lost if callable(value) or (name == "region_sizes" and any(map(callable, (value or {}).values()))) else value
                   for name, value in self._bounds.items()}

@@ -3,7 +3,7 @@
 """Inputs."""
 from __future__ import annotations
 
-from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Type, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -11,7 +11,7 @@ import numpy.typing as npt
 from . import _arguments, _pgdr
 from ._errors import Diagnostic, usage
 
-_CORES = {2: _pgdr.Plc2, 3: _pgdr.Plc3}
+_CORES: Dict[int, Type[_pgdr._Plc]] = {2: _pgdr.Plc2, 3: _pgdr.Plc3}
 
 
 class Plc:
@@ -66,6 +66,8 @@ class Plc:
     <pgdr.Plc 2D: 4 points, 4 segments>
     """
 
+    _core: _pgdr._Plc
+
     def __init__(self, points: npt.ArrayLike, segments: Optional[npt.ArrayLike] = None, facets: Optional[Any] = None, *,
                  markers: Optional[npt.ArrayLike] = None, point_markers: Optional[npt.ArrayLike] = None,
                  holes: Optional[npt.ArrayLike] = None, regions: Optional[Iterable[Any]] = None,
@@ -76,6 +78,9 @@ class Plc:
         dimension = int(at.shape[1])
         if dimension == 2 and (facets is not None or facet_holes is not None):
             raise usage("facets are for 3D: the points have two coordinates each")
+        shape = np.asarray(segments, dtype=object).shape if dimension == 3 and facets is None else ()
+        if len(shape) == 2 and shape[1] > 2:
+            raise usage(f"segments must have the shape (m, 2), not {shape}: triangles and polygons are given by name, as facets=...")
         ends = _arguments.indices("segments", [] if segments is None else segments, 2)
         corners, polygon_sizes, facet_sizes = _arguments.polygons([] if facets is None else facets)
         facet_count = len(facet_sizes) or len(polygon_sizes)
@@ -86,7 +91,7 @@ class Plc:
             markers = None
         attributes = np.zeros(0)
         if point_attributes is not None:
-            attributes = np.ascontiguousarray(point_attributes, dtype=np.float64)
+            attributes = _arguments.reals("point_attributes", point_attributes)
             if attributes.ndim != 2 or len(attributes) != len(at):
                 raise usage(f"point_attributes must have the shape ({len(at)}, a), not {attributes.shape}")
         self._core = _CORES[dimension](
@@ -99,7 +104,7 @@ class Plc:
             _tolerance(tolerance), _arguments.flag("coarse", coarse))
 
     @classmethod
-    def _of(cls, core: Any) -> Plc:
+    def _of(cls, core: _pgdr._Plc) -> Plc:
         made = cls.__new__(cls)
         made._core = core
         return made
@@ -133,18 +138,25 @@ class Plc:
 
     @classmethod
     def from_meshio(cls, mesh: Any) -> Plc:
-        """The triangles (3D) or edges (2D) of a meshio.Mesh; see docs/python.md for what becomes of its data."""
+        """The surface, or the cells to be meshed again, in a meshio.Mesh, as gmsh and others write them.
+
+        line: segments; triangle, quad, polygon: facets. Their markers: cell data "marker", "gmsh:physical" or "medit:ref", else 0.
+        With tetra: also the faces between cells of different labels ("region", "gmsh:physical", "medit:ref") and at the outside; the
+        labels and the voids become seeds, and points that cells alone have are left out. 2D, where all z are 0 (or missing) and
+        nothing has a volume: faces are the cells. Raises UsageError, with what would help, for other cells.
+        """
         from ._convert import from_meshio
         return from_meshio(mesh)
 
     @classmethod
     def from_pyvista(cls, mesh: Any) -> Plc:
-        """The faces of a pyvista.PolyData; see docs/python.md for what becomes of its data."""
+        """The faces and lines of a pyvista.PolyData, or the cells of an UnstructuredGrid: lines, triangles, quadrilaterals, polygons,
+        tetrahedra, taken as `from_meshio` takes them, with the same names of cell data. Of other grids, take extract_surface()."""
         from ._convert import from_pyvista
         return from_pyvista(mesh)
 
-    def with_tolerance(self, tolerance: float, *, coarse: bool = False) -> Plc:
-        """The same input with another tolerance. It is copied."""
+    def with_tolerance(self, tolerance: Optional[float], *, coarse: bool = False) -> Plc:
+        """The same input with another tolerance, None being the rounding of the coordinates. It is copied."""
         return self._of(self._core.with_tolerance(_tolerance(tolerance), _arguments.flag("coarse", coarse)))
 
     @property
@@ -249,7 +261,7 @@ def _tolerance(value: Optional[float]) -> Optional[float]:
 
 def _hole_rows(holes: Optional[Mapping[int, npt.ArrayLike]], facets: int) -> npt.NDArray[np.float64]:
     rows: List[Any] = []
-    for facet, at in (holes or {}).items():
+    for facet, at in ({} if holes is None else _arguments.mapping("facet_holes", holes, "facet and points")).items():
         number = _arguments.whole_number("a key of facet_holes", facet, 0, facets - 1)
         rows += [[number, *point] for point in _arguments.coordinates(f"facet_holes[{facet}]", at, 3)]
     return np.array(rows, dtype=np.float64).reshape(len(rows), 4)
@@ -264,14 +276,18 @@ def resolve_crossings(plc: Plc) -> Tuple[Plc, List[Diagnostic]]:
     >>> len(split.segments), [r.code for r in repairs]
     (4, ['entities_intersect'])
     """
-    if plc.dimension != 2:
-        raise usage("crossings are resolved in 2D only")
-    core, repairs = _pgdr.resolve_crossings(plc._core)
+    core, repairs = _pgdr.resolve_crossings(_planar(plc, "crossings are resolved"))
     return Plc._of(core), repairs
 
 
 def with_convex_hull(plc: Plc) -> Plc:
     """2D: the same input with the edges of the convex hull of all points as segments, too, with marker 0."""
-    if plc.dimension != 2:
-        raise usage("the convex hull is added in 2D only")
-    return Plc._of(_pgdr.with_convex_hull(plc._core))
+    return Plc._of(_pgdr.with_convex_hull(_planar(plc, "the convex hull is added")))
+
+
+def _planar(plc: Plc, what: str) -> _pgdr.Plc2:
+    if not isinstance(plc, Plc):
+        raise TypeError(f"plc must be a pgdr.Plc, not {type(plc).__name__}")
+    if not isinstance(plc._core, _pgdr.Plc2):
+        raise usage(f"{what} in 2D only")
+    return plc._core

@@ -5,10 +5,15 @@ caption says so."""
 from __future__ import annotations
 
 import html
-from typing import Any, List, Sequence, Tuple
+from typing import TYPE_CHECKING, Any, List, Sequence, Tuple
 
 import numpy as np
 import numpy.typing as npt
+
+from ._errors import Error
+
+if TYPE_CHECKING:
+    from ._mesh import Mesh
 
 MOST_CELLS = 4000  # 2D: above, the boundary alone is drawn
 MOST_PIECES = 6000  # faces of a surface, or edges of a boundary: above, evenly chosen ones
@@ -50,7 +55,7 @@ def _rgb(color: npt.NDArray[np.float64]) -> str:
     return "#{:02x}{:02x}{:02x}".format(*(int(c) for c in np.clip(color, 0, 255)))
 
 
-def _planar(mesh: Any) -> Tuple[str, float, float, str]:
+def _planar(mesh: Mesh) -> Tuple[str, float, float, str]:
     places, width, height = _on_paper(np.asarray(mesh.points, dtype=np.float64))
     cells, labels = np.asarray(mesh.cells), np.asarray(mesh.regions)
     parts, caption = [], ""
@@ -69,7 +74,7 @@ def _planar(mesh: Any) -> Tuple[str, float, float, str]:
     return "".join(parts), width, height, caption
 
 
-def _surface(mesh: Any) -> npt.NDArray[np.int64]:
+def _surface(mesh: Mesh) -> npt.NDArray[np.int64]:
     """The faces that one cell has, seen counterclockwise from outside."""
     cells = np.asarray(mesh.cells, dtype=np.int64)
     beyond = np.asarray(mesh.neighbors(), dtype=np.int64)
@@ -83,13 +88,16 @@ def _surface(mesh: Any) -> npt.NDArray[np.int64]:
     return faces
 
 
-def _solid(mesh: Any) -> Tuple[str, float, float, str]:
+def _solid(mesh: Mesh) -> Tuple[str, float, float, str]:
     eye = _EYE / np.linalg.norm(_EYE)
     right = np.cross([0.0, 0.0, 1.0], eye)
     right /= np.linalg.norm(right)
     up = np.cross(eye, right)
     points = np.asarray(mesh.points, dtype=np.float64)
-    faces = _surface(mesh)
+    try:
+        faces = _surface(mesh)
+    except Error:  # cells that are no mesh
+        faces = np.asarray(mesh.subfacets, dtype=np.int64)
     a, b, c = points[faces].transpose(1, 0, 2)
     normals = np.cross(b - a, c - a)
     lengths = np.linalg.norm(normals, axis=1)
@@ -105,7 +113,7 @@ def _solid(mesh: Any) -> Tuple[str, float, float, str]:
     return parts, width, height, caption
 
 
-def _rows(mesh: Any) -> List[Tuple[str, str]]:
+def _rows(mesh: Mesh) -> List[Tuple[str, str]]:
     labels = np.unique(np.asarray(mesh.regions))
     rows = [("dimension", str(mesh.dimension)), ("points", f"{len(mesh.points):,}"), ("cells", f"{len(mesh.cells):,}")]
     if mesh.dimension == 3:
@@ -120,7 +128,7 @@ def _rows(mesh: Any) -> List[Tuple[str, str]]:
     return rows
 
 
-def repr_html(mesh: Any) -> str:
+def repr_html(mesh: Mesh) -> str:
     """HTML of a picture, coloured by region (2D) or shaded (3D), and of a table. At most some 6,000 polygons, whatever the mesh."""
     picture = ""
     if len(mesh.cells):

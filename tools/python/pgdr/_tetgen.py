@@ -9,7 +9,12 @@ from typing import Any, Dict, Iterator, Mapping, Optional
 import numpy as np
 import numpy.typing as npt
 
-from ._errors import usage
+from . import _arguments
+from ._check import check
+from ._errors import InputError, usage
+from ._mesh import Mesh
+from ._plc import Plc
+from ._run import mesh
 
 # Switches that change nothing here: p is always meant, z counts from 0 as always, Q and V are about printing, which is never done,
 # f, e, n list what the result has anyway, J keeps unused points as always, d finds intersections as always, B and the others are
@@ -45,7 +50,7 @@ class Tetrahedralization:
     `mesh` is the pgdr.Mesh.
     """
 
-    def __init__(self, mesh: Any) -> None:
+    def __init__(self, mesh: Mesh) -> None:
         self.mesh = mesh
         self.nodes: npt.NDArray[np.float64] = mesh.points
         self.elems: npt.NDArray[np.int32] = np.asarray(mesh.cells).astype(np.int32)
@@ -120,7 +125,7 @@ def _switches(text: str) -> Dict[str, Any]:
     return found
 
 
-def _options(plc: Any, minratio: Optional[float], mindihedral: Optional[float], max_volume: Optional[float],
+def _options(plc: Plc, minratio: Optional[float], mindihedral: Optional[float], max_volume: Optional[float],
              steinerleft: Optional[int], quality: bool, optimize: bool) -> Dict[str, Any]:
     """The arguments of pgdr.mesh."""
     options: Dict[str, Any] = {"refine": quality or max_volume is not None or bool((plc.regions[:, 4] > 0).any())}
@@ -129,13 +134,13 @@ def _options(plc: Any, minratio: Optional[float], mindihedral: Optional[float], 
         options["radius_edge"] = 2.0 if minratio is None else minratio
     elif options["refine"]:  # a volume alone
         options["radius_edge"] = float("inf")
-    if mindihedral:
+    if mindihedral is not None and _arguments.number("mindihedral", mindihedral) != 0:
         if not options["optimize"]:
             raise usage("a bound on dihedral angles is the optimiser's, which is switched off: leave out one of them (TetGen's q/ and O0)")
         options["min_dihedral"] = mindihedral
     if max_volume is not None:
         options["max_volume"] = max_volume
-    if steinerleft is not None and steinerleft >= 0:
+    if steinerleft is not None and _arguments.whole_number("steinerleft", steinerleft, -2**63, 2**63 - 1) >= 0:
         options["max_vertices"] = len(plc.points) + steinerleft
     return options
 
@@ -187,7 +192,6 @@ def tetrahedralize(points: Any, faces: Any = None, *, markers: Any = None, holes
     >>> nodes.shape, elems.shape
     ((4, 3), (1, 4))
     """
-    import pgdr
     for name, value in others.items():
         if name not in _NEUTRAL:
             raise usage(f"{name} has no equivalent here: see help(pgdr.tetrahedralize) for what there is, and pgdr.mesh")
@@ -205,19 +209,18 @@ def tetrahedralize(points: Any, faces: Any = None, *, markers: Any = None, holes
     plc = _plc(points, faces, markers, holes, regions, asked)
     options = _options(plc, asked.get("minratio"), asked.get("mindihedral"), asked.get("max_volume"), asked.get("steinerleft"),
                        asked.get("quality", True), asked.get("optimize", True))
-    result = pgdr.mesh(plc, threads=threads, **options)
+    result = mesh(plc, threads=threads, **options)
     if asked.get("docheck"):
-        report = pgdr.check(result, plc)
+        report = check(result, plc)
         if not report:
-            raise pgdr.InputError(f"the mesh does not pass the check: {report}", code="internal")
+            raise InputError(f"the mesh does not pass the check: {report}", code="internal")
     return Tetrahedralization(result)
 
 
-def _plc(points: Any, faces: Any, markers: Any, holes: Any, regions: Any, asked: Mapping[str, Any]) -> Any:
-    import pgdr
-    if hasattr(points, "faces") and faces is None:
-        points = pgdr.Plc.from_pyvista(points)
-    if isinstance(points, pgdr.Plc):
+def _plc(points: Any, faces: Any, markers: Any, holes: Any, regions: Any, asked: Mapping[str, Any]) -> Plc:
+    if (hasattr(points, "faces") or hasattr(points, "celltypes")) and faces is None:
+        points = Plc.from_pyvista(points)
+    if isinstance(points, Plc):
         if any(value is not None for value in (faces, markers, holes, regions)):
             raise usage("faces, markers, holes and regions come with points that are an array")
         plc = points
@@ -225,12 +228,12 @@ def _plc(points: Any, faces: Any, markers: Any, holes: Any, regions: Any, asked:
         raise usage("faces are missing: the triangles or polygons of a closed surface. Bare points are not tetrahedralized: add the "
                     "facets of their hull, or of a box around them")
     else:
-        rows = None if regions is None else np.array(regions, dtype=np.float64)
+        rows = None if regions is None else np.array(_arguments.reals("regions", regions))
         if rows is not None and rows.ndim == 2 and rows.shape[1] == 5:
             if not asked.get("varvolume", True):
                 rows[:, 4] = 0
             rows[:, 4] = np.maximum(rows[:, 4], 0)
-        plc = pgdr.Plc(points, facets=faces, markers=markers, holes=holes, regions=rows)
+        plc = Plc(points, facets=faces, markers=markers, holes=holes, regions=rows)
     if plc.dimension != 3:
         raise usage("points must have the shape (n, 3)")
     if "epsilon" in asked:

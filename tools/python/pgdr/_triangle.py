@@ -9,7 +9,12 @@ from typing import Any, Dict, Mapping, Tuple
 import numpy as np
 import numpy.typing as npt
 
+from . import _arguments
+from ._check import check
 from ._errors import InputError, usage
+from ._mesh import Mesh
+from ._plc import Plc, resolve_crossings, with_convex_hull
+from ._run import mesh
 
 _KEYS = ("vertices", "vertex_attributes", "vertex_markers", "segments", "segment_markers", "holes", "regions")
 _RESULTS = ("triangles", "triangle_attributes", "triangle_max_area", "neighbors", "edges", "edge_markers")
@@ -59,10 +64,11 @@ def _switches(opts: str) -> Dict[str, Any]:
 
 def _given(tri: Mapping[str, Any], switches: Mapping[str, Any]) -> Dict[str, Any]:
     """The entries of the input that count."""
+    tri = _arguments.mapping("tri", tri, "arrays")
     unknown = [str(key) for key in tri if key not in _KEYS + _RESULTS]
     if unknown:
         raise usage(f"unknown keys {', '.join(sorted(unknown))}: there are {', '.join(_KEYS)}")
-    if "vertices" not in tri:
+    if tri.get("vertices") is None or not np.size(tri["vertices"]):
         raise usage("the key vertices is missing: an (n, 2) array")
     given = {key: tri[key] for key in _KEYS if tri.get(key) is not None and np.size(tri[key])}
     if "p" not in switches:
@@ -80,29 +86,28 @@ def _flat_markers(value: Any) -> Any:
     return array[:, 0] if array.ndim == 2 and array.shape[1] == 1 else array
 
 
-def _plc(given: Mapping[str, Any], switches: Mapping[str, Any]) -> Any:
-    import pgdr
+def _plc(given: Mapping[str, Any], switches: Mapping[str, Any]) -> Plc:
     arguments: Dict[str, Any] = {"segments": given.get("segments"), "holes": given.get("holes")}
     if "segment_markers" in given:
         arguments["markers"] = _flat_markers(given["segment_markers"])
     if "vertex_markers" in given:
         arguments["point_markers"] = _flat_markers(given["vertex_markers"])
     if "vertex_attributes" in given:
-        attributes = np.asarray(given["vertex_attributes"], dtype=np.float64)
+        attributes = _arguments.reals("vertex_attributes", given["vertex_attributes"])
         arguments["point_attributes"] = attributes[:, None] if attributes.ndim == 1 else attributes
     if "regions" in given:
-        rows = np.array(given["regions"], dtype=np.float64)
+        rows = np.array(_arguments.reals("regions", given["regions"]))
         if rows.ndim != 2 or rows.shape[1] != 4:
             raise usage(f"regions must have the shape (k, 4): x, y, attribute, largest area; not {rows.shape}")
         if "a" not in switches:  # areas of regions count with a bare a
             rows[:, 3] = 0
         arguments["regions"] = np.maximum(rows, [-np.inf, -np.inf, -np.inf, 0])
-    plc = pgdr.Plc(given["vertices"], **arguments)
+    plc = Plc(given["vertices"], **arguments)
     if plc.dimension != 2:
         raise usage("vertices must have the shape (n, 2)")
     if "p" in switches:
-        plc, _ = pgdr.resolve_crossings(plc)
-    return pgdr.with_convex_hull(plc) if "c" in switches or "p" not in switches else plc
+        plc, _ = resolve_crossings(plc)
+    return with_convex_hull(plc) if "c" in switches or "p" not in switches else plc
 
 
 def _options(switches: Mapping[str, Any], points: int) -> Dict[str, Any]:
@@ -122,7 +127,7 @@ def _options(switches: Mapping[str, Any], points: int) -> Dict[str, Any]:
     return options
 
 
-def _numbering(result: Any) -> Tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+def _numbering(result: Mesh) -> Tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
     """For each vertex to be, that of the mesh; and for each vertex of the mesh, the one to be: those of the input first, in its order,
     whether or not several are one in the mesh."""
     of_input = np.asarray(result.point_of_input, dtype=np.int64)
@@ -142,7 +147,7 @@ def _columns(array: Any) -> npt.NDArray[np.int32]:
     return _ints(array).reshape(-1, 1)
 
 
-def _edges(result: Any, boundary: npt.NDArray[np.int32]) -> Tuple[Any, Any]:
+def _edges(result: Mesh, boundary: npt.NDArray[np.int32]) -> Tuple[Any, Any]:
     """All edges, and a marker each: that of its subsegment, else 0."""
     edges = np.sort(np.asarray(result.edges(), dtype=np.int64), axis=1)
     count = len(result.points)
@@ -155,7 +160,7 @@ def _edges(result: Any, boundary: npt.NDArray[np.int32]) -> Tuple[Any, Any]:
     return edges, np.where(found, boundary[order][place], 0)
 
 
-def _boundary_markers(result: Any) -> Tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]]:
+def _boundary_markers(result: Mesh) -> Tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]]:
     """Markers of vertices and subsegments; what lies on the boundary and has none gets 1, as Triangle does it."""
     cells = np.asarray(result.cells, dtype=np.int64)
     beyond = np.asarray(result.neighbors(), dtype=np.int64)
@@ -247,13 +252,12 @@ def triangulate(tri: Mapping[str, Any], opts: str = "") -> Dict[str, npt.NDArray
     >>> sorted(made), made["triangles"].shape
     (['segment_markers', 'segments', 'triangles', 'vertex_markers', 'vertices'], (2, 3))
     """
-    import pgdr
     switches = _switches(opts)
     plc = _plc(_given(tri, switches), switches)
     options = _options(switches, len(plc.points))
-    result = pgdr.mesh(plc, **options)
+    result = mesh(plc, **options)
     if "C" in switches:
-        report = pgdr.check(result, plc)
+        report = check(result, plc)
         if not report:
             raise InputError(f"the mesh does not pass the check: {report}", code="internal")
     return _output(result, switches)
