@@ -57,9 +57,8 @@ class Judge {
   bool may_change();
   /// Must be called when all is decided. If it is to be decided again it returns false, and asked() is as it was before.
   bool settle(std::uint64_t asked_before);
-  bool guessed_wrong() const {
-    return guessed_wrong_ || guesses_.is_wrong();
-  }                     ///< is it known that all since begin() is to be decided again?
+  /// Is it known that all since begin() is to be decided again?
+  bool guessed_wrong() const { return guessed_wrong_ || guesses_.is_wrong(); }
   double of(CellId c);  ///< quality of a cell of the mesh
   Standing standing_of(std::span<const CellId> cells);
   /// The largest quality of a level below that of the worst of those: no cell that comes may have it.

@@ -20,18 +20,11 @@ template <int D>
 HeldMesh<D>::HeldMesh(Mesh<D>& mesh, const Territory<D>& territory)
     : mesh_(&mesh), territory_(&territory), pools_(mesh.make_pools()) {
   mesh.leave_heap();  // for one more pool
-  note_zones();
   // Any vertex of the mesh as it is may come back in a message.
-  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i) {
-    const CellId c{i};
-    if (!mesh.alive(c)) continue;
-    for (const VertexId v : mesh.cell(c).vertices) enter(v);
-    if (is_held(c))
-      share(c);
-    else
-      drop(c);
-  }
-  enter_cells();
+  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i)
+    if (mesh.alive(CellId{i}))
+      for (const VertexId v : mesh.cell(CellId{i}).vertices) enter(v);
+  keep_held();
 }
 
 /// Vertices that were known stay so: those of the cells that go may come back, too.
@@ -39,8 +32,14 @@ template <int D>
 void HeldMesh<D>::shrink(const Territory<D>& territory) {
   territory_ = &territory;
   zones_.clear();
-  note_zones();
   cells_.clear();
+  keep_held();
+}
+
+/// Enters the cells that this rank holds, as far as others may name them, and drops the others.
+template <int D>
+void HeldMesh<D>::keep_held() {
+  note_zones();
   for (std::uint32_t i = 0; i < mesh_->cell_bound(); ++i) {
     const CellId c{i};
     if (!mesh_->alive(c)) continue;

@@ -101,6 +101,7 @@ class HeldMesh {
   void enter(VertexId v);
   void share(CellId c);
   void enter_cells();
+  void keep_held();
   bool is_held(CellId c) const;
   void note_zones();
   VertexId vertex_of(const SentVertex<D>& sent);
