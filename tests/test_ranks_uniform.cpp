@@ -5,11 +5,13 @@
 // threads and the order in which messages come.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
 #include "model_plcs.hpp"
 #include "planar_plcs.hpp"
+#include "ranks/outlook.hpp"
 #include "uniform_on_ranks.hpp"
 
 namespace pgdr::test {
@@ -37,6 +39,47 @@ std::vector<Solid> solids() {
 }
 
 /// Where nothing is refused or set aside, no rank ever has all of the mesh.
+detail::Outlook outlook(StopCause stop, std::uint64_t first, std::uint64_t visits, std::uint64_t committed) {
+  detail::Outlook one;
+  one.stop = stop;
+  one.first = first;
+  one.visits = visits;
+  one.totals.counts.committed = one.totals.vertices = committed;
+  return one;
+}
+
+TEST(RanksUniform, AllGoOnWithThePhaseThatAnyRankHasFirst) {
+  using detail::Outlook;
+  const auto on = StopCause::finished;
+  std::vector<std::vector<std::uint64_t>> rows;
+  for (const Outlook& one :
+       {outlook(on, 5, 3, 10), outlook(on, 4, 2, 20), outlook(on, Outlook::no_phase, 0, 0), outlook(on, 4, 6, 1)})
+    rows.push_back(one.to_row());
+  detail::RunTotals before;
+  before.counts.committed = before.vertices = 100;
+  const std::array<std::uint64_t, 4> visits_before{0, 0, 2, 2};
+  for (int rank = 0; rank < 4; ++rank) {
+    const Outlook all = Outlook::of_all(rows, rank, before);
+    EXPECT_EQ(all.stop, on);
+    EXPECT_EQ(all.first, 4u);
+    EXPECT_EQ(all.visits, 8u);
+    EXPECT_EQ(all.visits_before, visits_before[static_cast<std::size_t>(rank)]);
+    EXPECT_FALSE(all.is_any_left);
+    EXPECT_EQ(all.totals.counts.committed, 131u);
+    EXPECT_EQ(all.totals.vertices, 131u);
+    EXPECT_FALSE(all.totals.min_edge_hit);
+  }
+  Outlook last = outlook(StopCause::cancelled, Outlook::no_phase, 0, 0);
+  last.is_any_left = last.totals.min_edge_hit = true;
+  rows.push_back(last.to_row());
+  rows.push_back(outlook(StopCause::max_vertices, Outlook::no_phase, 0, 0).to_row());
+  const Outlook all = Outlook::of_all(rows, 0, before);
+  EXPECT_EQ(all.stop, StopCause::cancelled);
+  EXPECT_TRUE(all.is_any_left && all.totals.min_edge_hit);
+  rows.back().pop_back();
+  EXPECT_THROW(Outlook::of_all(rows, 0, before), ResourceError);
+}
+
 TEST(RanksUniform, NobodyGathers) {
   for (const int ranks : {2, 4}) {
     const DistributedStatistics solid = expect_same_on_ranks(cube(), uniform_options<3>(0.045), ranks, 1);

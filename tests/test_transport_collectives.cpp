@@ -111,6 +111,18 @@ TEST(Collectives, SumsAndExtremes) {
   });
 }
 
+TEST(Collectives, EachRankGetsTheNumbersOfAll) {
+  each_network([](Transport& transport) {
+    Collectives ranks(transport);
+    const auto row = [](int rank) {
+      return std::vector<std::uint64_t>(static_cast<std::size_t>(rank % 3), 7u + static_cast<unsigned>(rank));
+    };
+    std::vector<std::vector<std::uint64_t>> expected;
+    for (int q = 0; q < ranks.size(); ++q) expected.push_back(row(q));
+    EXPECT_EQ(ranks.all_gather(row(ranks.rank()), nullptr), expected);
+  });
+}
+
 /// The rounding of a sum depends on its order: all ranks must see one.
 TEST(Collectives, SumsOfDoublesAreTheSameOnAllRanks) {
   constexpr int many = 13;
@@ -227,6 +239,19 @@ TEST(Together, TheErrorOfTheLowestRankWins) {
            });
          }))
       EXPECT_EQ(words(error), words(UsageError({.code = Errc::bad_option, .message = "2"})));
+}
+
+TEST(Together, AnErrorBesideNumbersIsThrownByAll) {
+  for (const int size : sizes)
+    for (const std::exception_ptr& found : errors_of_local_ranks(size, 1, [](Transport& transport) {
+           Collectives ranks(transport);
+           EXPECT_EQ(ranks.all_gather(std::array<std::uint64_t, 1>{3}, nullptr).size(), static_cast<std::size_t>(ranks.size()));
+           const auto error = Collectives::caught([&] {
+             if (transport.rank() == transport.size() / 2) throw InputError(named);
+           });
+           ranks.all_gather(std::array<std::uint64_t, 1>{3}, error);
+         }))
+      EXPECT_EQ(words(found), words(InputError(named)));
 }
 
 TEST(Together, ReturnsWhatTheFunctionDoesAndGoesOn) {

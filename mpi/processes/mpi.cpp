@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The only source that calls MPI. Nothing blocks inside of it: some implementations spin there, and take the core from the
-// threads of other ranks. What has to wait tests, and sleeps.
+// threads of other ranks. What has to wait tests, for as long as the shortest sleep takes, and sleeps then: so it never loses
+// more than twice what it would if it knew how long it has to wait.
 //
 // A message is one MPI message, head and bytes, or, if it is long, a head followed by its parts. All have one MPI tag, so that
 // those of one sender come in their order (and no tag is too large for MPI); the tag of the transport is in the head.
@@ -24,8 +25,8 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::microseconds;
 
 constexpr int mpi_tag = 0;
-constexpr std::size_t longest_with_head = 1 << 16;  // bytes: a copy of so few costs less than a message
-constexpr microseconds shortest_sleep{20}, longest_sleep{200};
+constexpr std::size_t longest_with_head = 1 << 16;              // bytes: a copy of so few costs less than a message
+constexpr microseconds shortest_sleep{50}, longest_sleep{200};  // a system may add as much as the first
 
 struct Head {
   std::uint64_t tag, size;
@@ -54,16 +55,19 @@ void require_ready() {
   if (provided == MPI_THREAD_FUNNELED && !is_main) refuse("with MPI_THREAD_FUNNELED only the main thread may use MPI");
 }
 
-/// Sleeps between tests, each time a little longer.
+/// Between tests: lets other threads run at first, then sleeps for an eighth of the time that it has waited.
 class Patience {
  public:
-  void sleep() {
-    std::this_thread::sleep_for(next_);
-    next_ = std::min(next_ * 3 / 2, longest_sleep);
+  void rest() {
+    const auto waited = std::chrono::duration_cast<microseconds>(Clock::now() - start_);
+    if (waited < 2 * shortest_sleep)
+      std::this_thread::yield();
+    else
+      std::this_thread::sleep_for(std::clamp(waited / 8, shortest_sleep, longest_sleep));
   }
 
  private:
-  microseconds next_ = shortest_sleep;
+  Clock::time_point start_ = Clock::now();
 };
 
 MPI_Comm duplicate(MPI_Comm communicator) {
@@ -71,7 +75,7 @@ MPI_Comm duplicate(MPI_Comm communicator) {
   MPI_Request request = MPI_REQUEST_NULL;
   require(MPI_Comm_idup(communicator, &own, &request), "MPI_Comm_idup");
   int done = 0;
-  for (Patience patience; true; patience.sleep()) {
+  for (Patience patience; true; patience.rest()) {
     require(MPI_Test(&request, &done, MPI_STATUS_IGNORE), "MPI_Test");
     if (done) break;
   }
@@ -134,7 +138,7 @@ struct MpiTransport::State {
   template <class IsDone>
   void wait(int other, IsDone is_done) {
     const auto start = Clock::now();
-    for (Patience patience; !is_done(); patience.sleep()) {
+    for (Patience patience; !is_done(); patience.rest()) {
       forget_sent();
       if (options.timeout && Clock::now() - start > *options.timeout) {
         const std::string whom = other < 0 ? "others" : "rank " + std::to_string(other);

@@ -95,21 +95,38 @@ std::optional<Phase> UniformOnRanks<D>::next_phase() {
 /// After the cut, until nothing waits that ranks do side by side, or one of them has to stop.
 template <int D>
 StopCause UniformOnRanks<D>::drain_together() {
-  while (true) {
-    const auto own = ranks_->together([&] {
-      const auto goes_on = 255 - static_cast<std::uint64_t>(this->stop_before_phase());
-      return std::array<std::uint64_t, 3>{goes_on, this->first_at_hand(), this->is_any_left() ? 0u : 1u};
-    });
-    const std::vector<std::uint64_t> least = ranks_->min(own);
-    const auto stop = static_cast<StopCause>(255 - least[0]);
-    if (stop != StopCause::finished) return stop;
-    if (least[1] != this->no_phase)
-      run_together(this->take_turn(least[1]));
-    else if (least[2] == 0)
+  Outlook next = look_ahead(this->state().totals, nullptr);
+  while (next.stop == StopCause::finished) {
+    if (next.first != this->no_phase) {
+      next = run_together(next);
+    } else if (next.is_any_left) {
       halve_parts();
-    else
-      return StopCause::finished;
+      next = look_ahead(this->state().totals, nullptr);
+    } else {
+      break;
+    }
   }
+  return next.stop;
+}
+
+/// What all ranks have done since their totals were these, and what they do next. If there is an error on any, all throw.
+template <int D>
+Outlook UniformOnRanks<D>::look_ahead(const RunTotals& before, std::exception_ptr error) {
+  RunTotals& totals = this->state().totals;
+  Outlook own;
+  if (!error) {
+    error = Collectives::caught([&] {
+      own.stop = this->stop_before_phase();
+      own.first = this->first_at_hand();
+      if (own.first != this->no_phase) own.visits = this->plan(this->phase_of(own.first)).visits.size();
+      own.is_any_left = this->is_any_left();
+      own.totals = totals - before;
+    });
+  }
+  Outlook all = Outlook::of_all(ranks_->all_gather(own.to_row(), error), ranks_->rank(), before);
+  totals = all.totals;
+  if (this->is_full()) all.stop = std::max(all.stop, StopCause::max_vertices);
+  return all;
 }
 
 /// Cuts the mesh then if it pays. This is where ranks meet for the first time: one that has failed, or whose run was interrupted,
@@ -290,31 +307,38 @@ void UniformOnRanks<D>::run_phase(const Phase& phase) {
   Uniform<D>::run_phase(phase);
 }
 
+/// The ranks do not wait for each other but for the messages of their neighbours and, in the end, for how all go on. Who fails
+/// says nothing to its neighbours, and what happened to all.
 template <int D>
-void UniformOnRanks<D>::run_together(const Phase& phase) {
+Outlook UniformOnRanks<D>::run_together(const Outlook& next) {
   ++phases_;
   this->state().waiting.begin_generation();
   const RunTotals before = this->state().totals;
-  const Generation<D> generation = ranks_->together([&] { return this->plan(phase); });
-  // Ranks own successive nodes of the Morton curve, which orders the visits.
-  const std::uint64_t count = generation.visits.size();
-  const typename VisitRunner<D>::Numbers numbers{ranks_->exclusive_sum(count), ranks_->sum(count)};
+  const Phase phase = this->take_turn(next.first);
+  Generation<D> generation;
   std::vector<VisitChanges<D>> changes;
   std::vector<EndedVisit<D>> ended;
-  ranks_->together([&] {
-    changes.resize(generation.visits.size());
-    ended = run_visits(generation, changes, numbers);
-  });
   Letters<D> letters(this->tree(), *territory_, this->state().context.mesh);
-  ranks_->together([&] {
+  std::vector<Bytes> messages(territory_->neighbours().size());
+  std::exception_ptr error = Collectives::caught([&] {
+    generation = this->plan(phase);
+    changes.resize(generation.visits.size());
+    // Ranks own successive nodes of the Morton curve, which orders the visits.
+    ended = run_visits(generation, changes, {next.visits_before, next.visits});
     for (std::size_t v = 0; v < ended.size(); ++v) letters.take(generation.visits[v].request.node, phases_, ended[v].work, late_);
+    messages = messages_for_neighbours(changes, letters);
   });
-  exchange(changes, letters);
-  ranks_->together([&] {
-    take_in(generation, ended);
-    letters.post(this->state().waiting);
-  });
-  add_up(before);
+  if (error) messages.assign(messages.size(), Bytes());
+  const std::vector<Bytes> arrived = ranks_->exchange_with(territory_->neighbours(), std::move(messages));
+  const bool have_all = std::none_of(arrived.begin(), arrived.end(), [](const Bytes& bytes) { return bytes.empty(); });
+  if (!error && have_all) {
+    error = Collectives::caught([&] {
+      put_in(changes, arrived, letters);
+      take_in(generation, ended);
+      letters.post(this->state().waiting);
+    });
+  }
+  return look_ahead(before, error);
 }
 
 /// Each visit packs what others have to know of it, on its thread.
@@ -333,30 +357,30 @@ std::vector<EndedVisit<D>> UniformOnRanks<D>::run_visits(const Generation<D>& ge
   return this->runner().run(generation, Posting::afterwards, numbers, {before, after});
 }
 
-/// Sends each neighbour what has changed where it holds the mesh and what was found for its nodes; puts in what comes.
+/// For each neighbour what has changed where it holds the mesh, and what was found for its nodes.
 template <int D>
-void UniformOnRanks<D>::exchange(std::vector<VisitChanges<D>>& changes, Letters<D>& letters) {
-  const std::vector<int>& neighbours = territory_->neighbours();
-  std::vector<Bytes> messages = ranks_->together([&] {
-    const Timed timed(statistics_->seconds_pack);
-    std::vector<Bytes> to_each;
-    for (std::size_t n = 0; n < neighbours.size(); ++n) to_each.push_back(message_for(n, changes, letters));
-    return to_each;
-  });
-  const std::vector<Bytes> arrived = ranks_->exchange_with(neighbours, std::move(messages));
-  ranks_->together([&] {
-    const Timed timed(statistics_->seconds_apply);
-    unsent_.add(this->state().context.mesh, changes);
-    for (const VisitChanges<D>& c : changes) held_->note_gone(c.net);
-    for (const VisitChanges<D>& c : changes) held_->note_made(c.net);
-    std::vector<VisitChanges<D>>().swap(changes);
-    for (const Bytes& bytes : arrived) {
-      MessageReader message(bytes);
-      for (auto parts = message.get<std::uint64_t>(); parts > 0; --parts) held_->apply(SentCells<D>::get(message));
-      letters.get(message, *held_);
-      message.require_end();
-    }
-  });
+std::vector<Bytes> UniformOnRanks<D>::messages_for_neighbours(const std::vector<VisitChanges<D>>& changes,
+                                                              const Letters<D>& letters) const {
+  const Timed timed(statistics_->seconds_pack);
+  std::vector<Bytes> messages;
+  for (std::size_t n = 0; n < territory_->neighbours().size(); ++n) messages.push_back(message_for(n, changes, letters));
+  return messages;
+}
+
+/// Puts in what the neighbours have changed and found.
+template <int D>
+void UniformOnRanks<D>::put_in(std::vector<VisitChanges<D>>& changes, const std::vector<Bytes>& arrived, Letters<D>& letters) {
+  const Timed timed(statistics_->seconds_apply);
+  unsent_.add(this->state().context.mesh, changes);
+  for (const VisitChanges<D>& c : changes) held_->note_gone(c.net);
+  for (const VisitChanges<D>& c : changes) held_->note_made(c.net);
+  std::vector<VisitChanges<D>>().swap(changes);
+  for (const Bytes& bytes : arrived) {
+    MessageReader message(bytes);
+    for (auto parts = message.get<std::uint64_t>(); parts > 0; --parts) held_->apply(SentCells<D>::get(message));
+    letters.get(message, *held_);
+    message.require_end();
+  }
 }
 
 template <int D>
@@ -390,27 +414,6 @@ void UniformOnRanks<D>::take_in(const Generation<D>& generation, std::vector<End
     }
     state.account(request, work);
   }
-}
-
-/// Makes the totals those of all ranks.
-template <int D>
-void UniformOnRanks<D>::add_up(const RunTotals& before) {
-  RunTotals& totals = this->state().totals;
-  const RefineCounts &now = totals.counts, &then = before.counts;
-  const std::array<std::uint64_t, 8> own{
-      now.committed - then.committed,    now.refused - then.refused,        now.selector_outside - then.selector_outside,
-      now.removed - then.removed,        totals.vertices - before.vertices, totals.violations_seen ? 1u : 0u,
-      totals.entities_refused ? 1u : 0u, totals.min_edge_hit ? 1u : 0u};
-  const std::vector<std::uint64_t> all = ranks_->sum(own);
-  totals = before;
-  totals.counts.committed += all[0];
-  totals.counts.refused += all[1];
-  totals.counts.selector_outside += all[2];
-  totals.counts.removed += all[3];
-  totals.vertices += all[4];
-  totals.violations_seen = all[5] != 0;
-  totals.entities_refused = all[6] != 0;
-  totals.min_edge_hit = all[7] != 0;
 }
 
 template <int D>

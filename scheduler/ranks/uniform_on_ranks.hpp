@@ -4,7 +4,8 @@
 // The uniform schedule on several ranks, with the mesh that it makes on one. At first all ranks do the same, so that nothing need
 // be sent. When the lattice is halved and it pays, the mesh is cut: each rank keeps what it holds (territory.hpp), and visits its
 // own nodes alone. After each phase ranks send their neighbours what their visits have changed there, one message each, with the
-// elements that were found for the nodes of these.
+// elements that were found for the nodes of these; and all tell all how far they are, by which each knows what comes next
+// (outlook.hpp).
 //
 // That is the same run. The visits of a phase read and write nothing in common, so that each finds on its rank what it would find
 // in one process; what they found and set aside is put into lists in the order of the visits. What would need a larger claim than
@@ -19,6 +20,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -28,6 +30,7 @@
 #include "ranks/held_mesh.hpp"
 #include "ranks/late_work.hpp"
 #include "ranks/letters.hpp"
+#include "ranks/outlook.hpp"
 #include "ranks/territory.hpp"
 #include "ranks/visit_changes.hpp"
 #include "run/uniform.hpp"
@@ -86,13 +89,14 @@ class UniformOnRanks final : public Uniform<D> {
 
   // A phase.
   StopCause drain_together();
-  void run_together(const Phase& phase);
+  Outlook look_ahead(const RunTotals& before, std::exception_ptr error);
+  Outlook run_together(const Outlook& next);
   std::vector<EndedVisit<D>> run_visits(const Generation<D>& generation, std::vector<VisitChanges<D>>& changes,
                                         const typename VisitRunner<D>::Numbers& numbers);
-  void exchange(std::vector<VisitChanges<D>>& changes, Letters<D>& letters);
+  std::vector<Bytes> messages_for_neighbours(const std::vector<VisitChanges<D>>& changes, const Letters<D>& letters) const;
+  void put_in(std::vector<VisitChanges<D>>& changes, const std::vector<Bytes>& arrived, Letters<D>& letters);
   Bytes message_for(std::size_t neighbour, const std::vector<VisitChanges<D>>& changes, const Letters<D>& letters) const;
   void take_in(const Generation<D>& generation, std::vector<EndedVisit<D>>& ended);
-  void add_up(const RunTotals& before);
 
   // The end.
   void share_unsent();

@@ -108,8 +108,12 @@ template <int D>
 StopCause Uniform<D>::stop_before_phase() {
   if (state_->stop() != StopCause::finished) return state_->stop();
   if (state_->context.options.stop.stop_requested()) return StopCause::cancelled;
-  const bool is_full = !state_->context.stage && state_->totals.vertices >= state_->context.options.max_vertices;
-  return is_full ? StopCause::max_vertices : StopCause::finished;
+  return is_full() ? StopCause::max_vertices : StopCause::finished;
+}
+
+template <int D>
+bool Uniform<D>::is_full() const {
+  return !state_->context.stage && state_->totals.vertices >= state_->context.options.max_vertices;
 }
 
 template <int D>
@@ -168,15 +172,20 @@ std::uint64_t Uniform<D>::first_of_larger_claims() const {
 }
 
 template <int D>
-Phase Uniform<D>::take_turn(std::uint64_t number) {
+Phase Uniform<D>::phase_of(std::uint64_t number) const {
   Phase phase;
-  const auto ahead = static_cast<unsigned>(number % parities);
   phase.level = static_cast<int>(number / parities % levels_in_turn);
   phase.order = orders_in_turn[number / parities / levels_in_turn];
+  phase.parity = (levels_[static_cast<std::size_t>(phase.level)].turn + static_cast<unsigned>(number % parities)) % parities;
+  return phase;
+}
+
+template <int D>
+Phase Uniform<D>::take_turn(std::uint64_t number) {
+  const Phase phase = phase_of(number);
   Level& level = levels_[static_cast<std::size_t>(phase.level)];
-  phase.parity = (level.turn + ahead) % parities;
   level.turn = (phase.parity + 1) % parities;
-  level.turns += ahead + 1;
+  level.turns += number % parities + 1;
   if (phase.level == finest() && !state_->context.stage) state_->recorder.count_cycles((level.turns + parities - 1) / parities);
   return phase;
 }

@@ -55,6 +55,8 @@ class Uniform : public VisitSchedule<D> {
   virtual StopCause run_phases();
   /// What ends the run before the next phase; finished: nothing.
   virtual StopCause stop_before_phase();
+  /// Does the mesh have as many vertices as it may?
+  bool is_full() const;
   /// The phase that comes next, after which its level is at the next parity; nothing if nothing waits.
   virtual std::optional<Phase> next_phase();
   /// Runs it.
@@ -72,6 +74,8 @@ class Uniform : public VisitSchedule<D> {
   /// Of all.
   std::uint64_t first_of_larger_claims() const;
   /// The phase of this number.
+  Phase phase_of(std::uint64_t number) const;
+  /// The same, after which its level is at the next parity.
   Phase take_turn(std::uint64_t number);
   /// The visits of the phase that have work, in Morton order.
   Generation<D> plan(const Phase& phase) const;

@@ -3,6 +3,7 @@
 #include "transport/collectives.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <utility>
 
@@ -112,26 +113,53 @@ Bytes Collectives::scatter(int root, std::vector<Bytes> to_each) {
   return receive(root);
 }
 
-/// Up the tree of broadcast(0), and down it.
+std::vector<std::vector<std::uint64_t>> Collectives::all_gather(std::span<const std::uint64_t> own,
+                                                                const std::exception_ptr& error) {
+  MessageWriter message;
+  message.put(std::uint64_t{error ? 1u : 0u});
+  message.put(std::vector<std::uint64_t>(own.begin(), own.end()));
+  const std::vector<Bytes> all = all_gather(message.take());
+  std::vector<std::vector<std::uint64_t>> rows;
+  for (const Bytes& bytes : all) {
+    MessageReader reader(bytes);
+    if (reader.get<std::uint64_t>() != 0) throw_of(static_cast<int>(rows.size()), error);
+    rows.push_back(reader.get_all<std::uint64_t>());
+    reader.require_end();
+  }
+  return rows;
+}
+
+/// By recursive doubling: after round k one knows of 2^k ranks, and both of a pair join the same two arrays, so that all come to
+/// the same. Ranks beyond the largest power of two join one below each at first, and hear from it at last.
 template <class T, class Join>
 std::vector<T> Collectives::reduce(std::span<const T> values, Join join) {
   begin();
   std::vector<T> all(values.begin(), values.end());
-  int bit = 1;
-  for (; bit < size_ && !(rank_ & bit); bit *= 2) {
-    if (rank_ + bit >= size_) continue;
-    const Bytes message = receive(rank_ + bit);
+  const auto tell = [&](int to, std::uint64_t round) {
+    MessageWriter message;
+    for (const T& value : all) message.put(value);
+    send(to, message.take(), round);
+  };
+  const auto hear = [&](int from, std::uint64_t round, auto take) {
+    const Bytes message = receive(from, round);
     MessageReader reader(message);
-    for (T& value : all) value = join(value, reader.get<T>());
+    for (T& value : all) value = take(value, reader.get<T>());
     reader.require_end();
+  };
+  const auto other = [](const T&, const T& b) { return b; };
+  const int paired = static_cast<int>(std::bit_floor(static_cast<unsigned>(size_)));
+  if (rank_ >= paired) {
+    tell(rank_ - paired, 0);
+    hear(rank_ - paired, 1, other);
+    return all;
   }
-  MessageWriter message;
-  for (const T& value : all) message.put(value);
-  if (rank_ > 0) send(rank_ - bit, message.take());
-  const Bytes result = broadcast(0, message.take());
-  MessageReader reader(result);
-  for (T& value : all) value = reader.get<T>();
-  reader.require_end();
+  if (rank_ + paired < size_) hear(rank_ + paired, 0, join);
+  std::uint64_t round = 0;
+  for (int bit = 1; bit < paired; bit *= 2, ++round) {
+    tell(rank_ ^ bit, round);
+    hear(rank_ ^ bit, round, join);
+  }
+  if (rank_ + paired < size_) tell(rank_ + paired, 1);
   return all;
 }
 
@@ -166,12 +194,15 @@ std::uint64_t Collectives::exclusive_sum(std::uint64_t value) {
 void Collectives::agree(const std::exception_ptr& error) {
   const auto here = static_cast<std::uint64_t>(rank_), none = static_cast<std::uint64_t>(size_);
   const std::uint64_t first = min(error ? here : none);
-  if (first == none) return;
+  if (first != none) throw_of(static_cast<int>(first), error);
+}
+
+void Collectives::throw_of(int first, const std::exception_ptr& error) {
   has_failed_ = true;
   MessageWriter own;
-  if (first == here) put_error(own, error, rank_);
-  const Bytes message = broadcast(static_cast<int>(first), own.take());
-  if (first == here) std::rethrow_exception(error);
+  if (first == rank_) put_error(own, error, rank_);
+  const Bytes message = broadcast(first, own.take());
+  if (first == rank_) std::rethrow_exception(error);
   MessageReader reader(message);
   throw_error(reader);
 }

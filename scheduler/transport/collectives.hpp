@@ -41,6 +41,8 @@ class Collectives {
   void barrier();
   /// What each rank gave, by rank.
   std::vector<Bytes> all_gather(Bytes own);
+  /// The same for small arrays of numbers. If there is an error on any rank, all throw as together() does.
+  std::vector<std::vector<std::uint64_t>> all_gather(std::span<const std::uint64_t> own, const std::exception_ptr& error);
   /// Rank q gets the q-th message of each, by rank. A rank may give itself one. @pre one message a rank
   std::vector<Bytes> exchange(std::vector<Bytes> to_each);
   /// The same with these ranks alone: the i-th message goes to neighbours[i], and the i-th of the result is from it.
@@ -82,8 +84,7 @@ class Collectives {
 
   /// Throws on all ranks, as together() does, if there is an error on any; null: none here.
   void agree(const std::exception_ptr& error);
-
- private:
+  /// What the action throws; null: nothing. For one of several actions after which ranks agree once. @throws RankFailure
   template <class Action>
   static std::exception_ptr caught(Action action) {
     try {
@@ -95,6 +96,10 @@ class Collectives {
     }
     return nullptr;
   }
+
+ private:
+  /// The error of rank `first`, on all.
+  [[noreturn]] void throw_of(int first, const std::exception_ptr& error);
   /// Begins a function: a number for its tags.
   void begin() { call_ += 1; }
   std::uint64_t tag(std::uint64_t round) const { return conversation_ << 40 | call_ << 8 | round; }
