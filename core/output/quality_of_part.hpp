@@ -23,8 +23,8 @@ class QualityOfPart {
   const std::vector<CountsOfRegion>& own() const { return own_; }
   void take(const std::vector<CountsOfRegion>& all);
 
-  /// Each tells four bits of the quantiles.
-  static constexpr int rounds = 8;
+  /// Each tells eight bits of the quantiles.
+  static constexpr int rounds = 4;
   std::vector<std::uint64_t> counts(int round) const;
   void narrow(int round, const std::vector<std::uint64_t>& sums);
 

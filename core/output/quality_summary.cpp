@@ -127,7 +127,8 @@ std::uint32_t bits_of(float value) {
 
 double value_of(std::uint32_t bits) { return std::bit_cast<float>(bits >> 31 ? bits & 0x7fffffffu : ~bits); }
 
-constexpr int bits_per_round = 4;
+constexpr int bits_per_round = 8;
+static_assert(bits_per_round * detail::QualityOfPart::rounds == 32);
 constexpr std::size_t digits = std::size_t{1} << bits_per_round;
 
 int shift_of(int round) { return 32 - bits_per_round * (round + 1); }

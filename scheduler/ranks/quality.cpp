@@ -13,6 +13,7 @@ template <int D>
 QualitySummary summarize_quality(Transport& transport, const MeshPiece<D>& piece) {
   using detail::CountsOfRegion, detail::QualityOfPart;
   detail::Collectives ranks(transport);
+  if (ranks.size() == 1) return summarize_quality(piece.mesh);
   QualityOfPart part = ranks.together([&] { return QualityOfPart::of(piece.mesh); });
   const std::vector<Bytes> messages = ranks.all_gather(ranks.together([&] {
     detail::MessageWriter own;

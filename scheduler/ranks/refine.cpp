@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cstring>
 #include <memory>
@@ -100,7 +101,7 @@ DistributedResult<D> share_of_first(detail::Collectives& ranks, RefineResult<D> 
 template <int D>
 DistributedResult<D> share_whole(detail::Collectives& ranks, RefineResult<D> run, bool of_first) {
   if (ranks.max(of_first || was_interrupted(run.stop) ? 1 : 0) != 0) return share_of_first(ranks, std::move(run));
-  detail::require_alike(ranks, hash_of(run.mesh));
+  if (ranks.size() > 1) detail::require_alike(ranks, hash_of(run.mesh));
   return ranks.together([&] { return keep_piece(ranks, std::move(run)); });
 }
 
@@ -183,12 +184,31 @@ class SharedRun final : public detail::RunHooks<D> {
   bool is_finished_ = false;
 };
 
+/// Looks up once for each vertex whether it is in this rank's part. All vertices of most cells are, or none.
+template <int D>
+detail::IsOwnCell own_cells(const detail::HeldMesh<D>& held, const Mesh<D>& mesh) {
+  enum State : unsigned char { unknown, here, elsewhere };
+  return [&held, &mesh, states = std::make_shared<std::vector<unsigned char>>(mesh.vertex_bound(), unknown)](CellId c) {
+    std::size_t own = 0;
+    for (const VertexId v : mesh.cell(c).vertices) {
+      const std::atomic_ref state((*states)[index(v)]);  // two threads may find the same
+      unsigned char known = state.load(std::memory_order_relaxed);
+      if (known == unknown) {
+        known = held.territory().owner(held.zone(v)) == held.territory().rank() ? here : elsewhere;
+        state.store(known, std::memory_order_relaxed);
+      }
+      own += known == here ? 1 : 0;
+    }
+    return own == D + 1 || (own > 0 && held.is_own(c));
+  };
+}
+
 /// Nothing was refused and nothing is left, so that all cells are within the bounds.
 template <int D>
 void SharedRun<D>::finish(const RefineContext<D>& context, const RegionTable& regions, const PointData<D>& data,
                           const detail::RunPieces& pieces, RefineResult<D>& result) {
   const auto start = std::chrono::steady_clock::now();
-  const detail::IsOwnCell is_own = [&held = *part_.held](CellId c) { return held.is_own(c); };
+  const detail::IsOwnCell is_own = own_cells<D>(*part_.held, context.mesh);
   const std::span<const double> attributes = regions.labelled ? std::span<const double>(regions.attribute)
                                                               : std::span<const double>();
   result.regions = detail::region_volumes_on_ranks<D>(*ranks_, context.mesh, is_own, context.domain, attributes, pieces);
