@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
 #include <utility>
 
 #include "output/piece_join.hpp"
@@ -166,6 +167,17 @@ MeshPiece<D> piece_of(const OutputMesh<D>& mesh, std::uint64_t k, std::uint64_t 
 }
 
 template <int D>
+MeshPiece<D> detail::whole_piece(OutputMesh<D> mesh) {
+  MeshPiece<D> piece;
+  piece.total = totals_of(mesh);
+  piece.own_points = piece.total.points;
+  piece.point_numbers.resize(mesh.points.size());
+  std::iota(piece.point_numbers.begin(), piece.point_numbers.end(), std::uint64_t{0});
+  piece.mesh = std::move(mesh);
+  return piece;
+}
+
+template <int D>
 MeshPiece<D> detail::part_of_piece(const MeshPiece<D>& piece, std::uint64_t k, std::uint64_t count) {
   const Source<D> source{piece.mesh,       &piece.point_numbers, piece.first_point,     piece.own_points,
                          piece.first_cell, piece.first_subfacet, piece.first_subsegment};
@@ -229,6 +241,8 @@ OutputMesh<D> join_pieces(std::span<const MeshPiece<D>> pieces) {
 
 template MeshPiece<2>::Totals detail::totals_of<2>(const OutputMesh<2>&);
 template MeshPiece<3>::Totals detail::totals_of<3>(const OutputMesh<3>&);
+template MeshPiece<2> detail::whole_piece<2>(OutputMesh<2>);
+template MeshPiece<3> detail::whole_piece<3>(OutputMesh<3>);
 template MeshPiece<2> detail::part_of_piece<2>(const MeshPiece<2>&, std::uint64_t, std::uint64_t);
 template MeshPiece<3> detail::part_of_piece<3>(const MeshPiece<3>&, std::uint64_t, std::uint64_t);
 template MeshPiece<2> detail::joined_parts<2>(std::span<const MeshPiece<2>>, std::uint64_t, std::uint64_t);

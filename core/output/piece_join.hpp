@@ -15,6 +15,9 @@ namespace pgdr::detail {
 /// What a mesh has.
 template <int D>
 typename MeshPiece<D>::Totals totals_of(const OutputMesh<D>& mesh);
+/// All of the mesh, as the only piece.
+template <int D>
+MeshPiece<D> whole_piece(OutputMesh<D> mesh);
 
 /// What a piece has of piece k of `count` of the same mesh.
 template <int D>

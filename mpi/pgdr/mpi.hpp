@@ -5,7 +5,7 @@
 //
 // The caller initialises MPI, with MPI_THREAD_FUNNELED or more, and finalises it; here only the calling thread talks to it, which
 // must be the main one unless MPI was initialised for more. Each call works on a duplicate of the communicator, aborts nothing,
-// and sleeps while it waits.
+// and sleeps while it waits for long.
 #pragma once
 
 #include <mpi.h>

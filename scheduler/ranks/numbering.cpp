@@ -289,13 +289,20 @@ SharingRanks sharing_of(Collectives& ranks, const MeshPiece<D>& piece) {
   for (const Number p : piece.point_numbers)
     held[static_cast<std::size_t>(part_of_row(p, piece.total.points, ranks.size()))].push_back(p);
   const std::vector<std::vector<Number>> of_each = exchange_lists(ranks, std::move(held));
-  std::vector<std::vector<int>> holders(static_cast<std::size_t>(piece.own_points));
+  // The ranks that have each point of this one's rows, ascending, in compressed rows.
+  const auto place = [&piece](Number p) { return static_cast<std::size_t>(p - piece.first_point); };
+  std::vector<std::uint64_t> begin(static_cast<std::size_t>(piece.own_points) + 2, 0);
+  for (const std::vector<Number>& points : of_each)
+    for (const Number p : points) ++begin.at(place(p) + 2);
+  for (std::size_t i = 2; i < begin.size(); ++i) begin[i] += begin[i - 1];
+  std::vector<int> holders(static_cast<std::size_t>(begin.back()));
   for (std::size_t r = 0; r < size; ++r)
-    for (const Number p : of_each[r]) holders[static_cast<std::size_t>(p - piece.first_point)].push_back(static_cast<int>(r));
+    for (const Number p : of_each[r]) holders[static_cast<std::size_t>(begin[place(p) + 1]++)] = static_cast<int>(r);
   std::vector<std::vector<int>> answers(size);  // of each point, how many others have it, and which
   for (std::size_t r = 0; r < size; ++r)
     for (const Number p : of_each[r]) {
-      const std::vector<int>& all = holders[static_cast<std::size_t>(p - piece.first_point)];
+      const std::span all(holders.begin() + static_cast<std::ptrdiff_t>(begin[place(p)]),
+                          holders.begin() + static_cast<std::ptrdiff_t>(begin[place(p) + 1]));
       answers[r].push_back(static_cast<int>(all.size()) - 1);
       for (const int q : all)
         if (q != static_cast<int>(r)) answers[r].push_back(q);

@@ -14,6 +14,7 @@
 #include <string>
 #include <utility>
 
+#include "output/piece_join.hpp"
 #include "pgdr/ranks.hpp"
 #include "ranks/alike.hpp"
 #include "ranks/id_table.hpp"
@@ -66,7 +67,10 @@ bool was_interrupted(StopCause stop) { return stop == StopCause::cancelled || st
 template <int D>
 DistributedResult<D> keep_piece(const detail::Collectives& ranks, RefineResult<D> run) {
   DistributedResult<D> result;
-  result.piece = piece_of(run.mesh, static_cast<std::uint64_t>(ranks.rank()), static_cast<std::uint64_t>(ranks.size()));
+  if (ranks.size() == 1)
+    result.piece = detail::whole_piece(std::move(run.mesh));
+  else
+    result.piece = piece_of(run.mesh, static_cast<std::uint64_t>(ranks.rank()), static_cast<std::uint64_t>(ranks.size()));
   run.mesh = {};
   result.run = std::move(run);
   return result;
