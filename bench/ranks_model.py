@@ -3,20 +3,22 @@
 """What a run on ranks should cost: a count of what is done twice, times what it costs once.
 
 Every rank does alone what comes before the cut, and then puts the cells that others have made, where it holds the mesh as well, into
-its own. How much it holds is counted on the lattice of the cut, with the parts as the schedule makes them (successive nodes of the Morton
-curve, a layer of half a node around each). Constants are measured on one machine, with the cube and the square; a fit, no theory.
+its own. How much it holds is counted on the lattice right above the windows that the schedule ends with, whose claims a rank holds, with
+the parts as the schedule makes them (successive nodes of the Morton curve, a layer of half a node around each). Constants are measured on
+one machine, with the cube and the square; a fit, no theory.
 """
 import itertools
 
-CELLS_A_NODE = {2: 29, 3: 335}  # of the mesh at the cut
-MADE_A_FINAL_CELL = {2: 1.5, 3: 2.5}  # after the cut, by the visits of others that reach what a rank holds
-SHARED_COST = {2: 2.0, 3: 1.5}  # packing, sending and applying a cell, beside making one of the final mesh
+MOST_IN_A_WINDOW = {2: 8000, 3: 4000}  # cells; where there are more the lattice is halved
+MADE_A_FINAL_CELL = {2: 1.5, 3: 2.2}  # after the cut, by the visits of others that reach what a rank holds
+SHARED_COST = {2: 1.5, 3: 0.7}  # packing, sending and applying a cell, beside making one of the final mesh
+NUMBERING_COST = {2: 0.25, 3: 0.15}  # what numbering across ranks costs more than numbering in one process, likewise
 
 
-def lattice(dimension, cut_cells):
-    """Nodes along an axis at the cut: a power of two, at least two."""
+def lattice(dimension, cells):
+    """Nodes right above the windows, along an axis, of a mesh of so many cells: a power of two, at least two."""
     across = 2
-    while (1.5 * across) ** dimension * CELLS_A_NODE[dimension] < cut_cells:
+    while (2 * across) ** dimension * MOST_IN_A_WINDOW[dimension] < cells:
         across *= 2
     return across
 
@@ -40,6 +42,6 @@ def efficiency(dimension, cells, ranks, cut_cells):
     """The CPU seconds of one rank over those of all, for the same mesh."""
     if ranks == 1 or not cut_cells:
         return 1 / ranks  # without a cut each rank makes the whole mesh
-    applied = MADE_A_FINAL_CELL[dimension] * held_beside_own(dimension, lattice(dimension, cut_cells), ranks)
+    applied = MADE_A_FINAL_CELL[dimension] * held_beside_own(dimension, lattice(dimension, cells), ranks)
     again = (ranks - 1) * min(1, cut_cells / cells)
-    return 1 / (1 + again + applied * SHARED_COST[dimension])
+    return 1 / (1 + again + applied * SHARED_COST[dimension] + NUMBERING_COST[dimension])

@@ -32,8 +32,8 @@ class Transport {
   /// Hands a message over and does not wait. Each (from, to, tag) is used once; a rank may send to itself.
   /// @throws RankFailure
   virtual void send(int to, std::uint64_t tag, Bytes message) = 0;
-  /// Waits for that message, and spins no longer than a sleep takes. Others may come before it, and are kept until they are asked for. @throws
-  /// RankFailure
+  /// Waits for that message, and spins no longer than a sleep takes. Others may come before it, and are kept until they are asked
+  /// for. @throws RankFailure
   virtual Bytes receive(int from, std::uint64_t tag) = 0;
   /// Did send() or receive() throw? Then the others cannot be reached any more.
   virtual bool has_failed() const { return false; }
