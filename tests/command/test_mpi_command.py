@@ -181,13 +181,13 @@ class Shared(UniformCase):
         self.assert_same(self.square, "out.pvtu", "--pieces", "3")
 
     def test_time_limit(self):
-        self.ranks(2, "mesh", *self.cube[:-1], "0.012", "-o", self.output, "--time-limit", "2", "--threads", "1", expect=5)
+        self.ranks(2, "mesh", *self.cube[:-1], "0.008", "-o", self.output, "--time-limit", "2", "--threads", "1", expect=5)
         self.pgdr("check", self.output, "--input", self.cube[0], expect=0)
 
     def test_a_signal(self):
         """To the first rank, which decides."""
         run = subprocess.Popen(
-            self.launch(2, MPI_COMMAND, "mesh", *self.cube[:-1], "0.012", "-o", self.output, "--threads", "1", "--quiet"),
+            self.launch(2, MPI_COMMAND, "mesh", *self.cube[:-1], "0.008", "-o", self.output, "--threads", "1", "--quiet"),
             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL)
         patience = time.monotonic() + 30
         while len(ranks_below(run.pid)) < 2 and time.monotonic() < patience:
