@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The only source that calls MPI. Nothing blocks inside of it: some implementations spin there, and take the core from the
-// threads of other ranks. What has to wait tests, for as long as the shortest sleep takes, and sleeps then: so it never loses
-// more than twice what it would if it knew how long it has to wait.
+// threads of other ranks. What has to wait tests for about as long as the shortest sleep takes, since it could not wake up sooner
+// from one, and sleeps then.
 //
 // A message is one MPI message, head and bytes, or, if it is long, a head followed by its parts. All have one MPI tag, so that
 // those of one sender come in their order (and no tag is too large for MPI); the tag of the transport is in the head.
