@@ -3,7 +3,7 @@
 //
 // The same bytes for 1, 2 and 8 threads on real inputs: every .off, .stl, .obj, .poly and .smesh file of the real models
 // (models_folder.hpp) of at most PGDR_MODELS_KB kilobytes (100) that the calling thread alone meshes within PGDR_MODELS_SECONDS
-// (3; where it does not, the model is passed over and named).
+// (3, or 30 under a sanitizer; where it does not, the model is passed over and named).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,6 +30,10 @@ double number_from(const char* variable, double otherwise) {
   return text == nullptr ? otherwise : std::strtod(text, nullptr);
 }
 
+std::chrono::duration<double> time_limit() {
+  return std::chrono::duration<double>(number_from("PGDR_MODELS_SECONDS", test::sanitized ? 30 : 3));
+}
+
 std::vector<fs::path> models_below(const fs::path& folder) {
   const std::set<std::string> formats{".off", ".stl", ".obj", ".poly", ".smesh"};
   const double most = 1000 * number_from("PGDR_MODELS_KB", 100);
@@ -52,7 +56,7 @@ void compare(const fs::path& file, Tally& tally) {
   const testing::ScopedTrace trace(__FILE__, __LINE__, file.string());
   RefineOptions<D> options;
   options.schedule.floor = 10;
-  options.time_limit = std::chrono::duration<double>(number_from("PGDR_MODELS_SECONDS", 3));
+  options.time_limit = time_limit();
   Plc<D> plc;
   test::Outcome<D> first;
   try {
@@ -92,7 +96,7 @@ TEST(ParallelModels, MovedCopiesAreRecovered) {
     RefineOptions<3> options;
     options.radius_edge_bound = std::numeric_limits<double>::infinity();
     options.min_dihedral = 0;  // it is the recovery that is tested
-    options.time_limit = std::chrono::duration<double>(number_from("PGDR_MODELS_SECONDS", 3));
+    options.time_limit = time_limit();
     try {
       if (file_dimension(file) != 3) continue;
       const Plc<3> plc = read_plc<3>(file);
