@@ -49,11 +49,11 @@ detail::Outlook outlook(StopCause stop, std::uint64_t first, std::uint64_t visit
 }
 
 TEST(RanksUniform, AllGoOnWithThePhaseThatAnyRankHasFirst) {
+  using detail::no_phase;
   using detail::Outlook;
   const auto on = StopCause::finished;
   std::vector<std::vector<std::uint64_t>> rows;
-  for (const Outlook& one :
-       {outlook(on, 5, 3, 10), outlook(on, 4, 2, 20), outlook(on, Outlook::no_phase, 0, 0), outlook(on, 4, 6, 1)})
+  for (const Outlook& one : {outlook(on, 5, 3, 10), outlook(on, 4, 2, 20), outlook(on, no_phase, 0, 0), outlook(on, 4, 6, 1)})
     rows.push_back(one.to_row());
   detail::RunTotals before;
   before.counts.committed = before.vertices = 100;
@@ -69,10 +69,10 @@ TEST(RanksUniform, AllGoOnWithThePhaseThatAnyRankHasFirst) {
     EXPECT_EQ(all.totals.vertices, 131u);
     EXPECT_FALSE(all.totals.min_edge_hit);
   }
-  Outlook last = outlook(StopCause::cancelled, Outlook::no_phase, 0, 0);
+  Outlook last = outlook(StopCause::cancelled, no_phase, 0, 0);
   last.is_any_left = last.totals.min_edge_hit = true;
   rows.push_back(last.to_row());
-  rows.push_back(outlook(StopCause::max_vertices, Outlook::no_phase, 0, 0).to_row());
+  rows.push_back(outlook(StopCause::max_vertices, no_phase, 0, 0).to_row());
   const Outlook all = Outlook::of_all(rows, 0, before);
   EXPECT_EQ(all.stop, StopCause::cancelled);
   EXPECT_TRUE(all.is_any_left && all.totals.min_edge_hit);

@@ -24,6 +24,7 @@ RefineOptions<D> uniform_options(double size, int threads = 1) {
   options.schedule.schedule = Schedule::uniform;
   options.schedule.threads = threads;
   options.schedule.floor = 60;
+  if (!PGDR_TEST_TBB) options.schedule.executor = Executor::threads;
   if constexpr (D == 3) options.min_dihedral = 0;
   return options;
 }

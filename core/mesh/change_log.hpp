@@ -46,7 +46,7 @@ class ChangeLog {
     std::vector<CellName> made;       ///< that were not there before, and are
     std::vector<CellName> survivors;  ///< that were there before, and may have other constraints
   };
-  /// Threads: the one that changed the cells, before another may.
+  /// While nobody else may change the cells that are still there.
   template <class Mesh>
   void find_net(const Mesh& mesh, Net& net) {
     net.gone.clear();
@@ -65,9 +65,10 @@ class ChangeLog {
 
  private:
   static std::uint64_t key(const CellName& b) { return std::uint64_t{index(b.cell)} << 16 | b.birth; }
+  /// Of a cell that was there once. Its slot may be in use again, by a visit that runs now: so the birth alone is read.
   template <class Mesh>
   static bool is_alive(const Mesh& mesh, const CellName& b) {
-    return mesh.alive(b.cell) && mesh.birth(b.cell) == b.birth;
+    return mesh.birth(b.cell) == b.birth;
   }
 
   std::vector<Freed> freed_;

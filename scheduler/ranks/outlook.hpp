@@ -9,13 +9,12 @@
 #include <vector>
 
 #include "run/run_state.hpp"
+#include "run/uniform.hpp"
 
 namespace pgdr::detail {
 
 /// Of one rank, or of all.
 struct Outlook {
-  static constexpr std::uint64_t no_phase = ~std::uint64_t{0};
-
   StopCause stop = StopCause::finished;  ///< why it does not go on; of several reasons the last
   std::uint64_t first = no_phase;        ///< number of the phase that comes next
   std::uint64_t visits = 0;              ///< in that phase

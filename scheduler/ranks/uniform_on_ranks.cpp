@@ -83,12 +83,12 @@ StopCause UniformOnRanks<D>::run_phases() {
 template <int D>
 std::optional<Phase> UniformOnRanks<D>::next_phase() {
   std::uint64_t first = this->first_at_hand();
-  while (first == this->no_phase && this->is_any_left() && halve()) {
+  while (first == no_phase && this->is_any_left() && halve()) {
     if (territory_) return std::nullopt;
     first = this->first_at_hand();
   }
-  if (first == this->no_phase) first = this->first_of_larger_claims();
-  if (first == this->no_phase) return std::nullopt;
+  if (first == no_phase) first = this->first_of_larger_claims();
+  if (first == no_phase) return std::nullopt;
   return this->take_turn(first);
 }
 
@@ -97,7 +97,7 @@ template <int D>
 StopCause UniformOnRanks<D>::drain_together() {
   Outlook next = look_ahead(this->state().totals, nullptr);
   while (next.stop == StopCause::finished) {
-    if (next.first != this->no_phase) {
+    if (next.first != no_phase) {
       next = run_together(next);
     } else if (next.is_any_left) {
       halve_parts();
@@ -118,7 +118,7 @@ Outlook UniformOnRanks<D>::look_ahead(const RunTotals& before, std::exception_pt
     error = Collectives::caught([&] {
       own.stop = this->stop_before_phase();
       own.first = this->first_at_hand();
-      if (own.first != this->no_phase) own.visits = this->plan(this->phase_of(own.first)).visits.size();
+      if (own.first != no_phase) own.visits = this->plan(this->phase_of(own.first)).visits.size();
       own.is_any_left = this->is_any_left();
       own.totals = totals - before;
     });
@@ -437,7 +437,7 @@ bool UniformOnRanks<D>::is_alone_at_the_end() {
   RunState<D>& state = this->state();
   bool has_refused = false;
   state.refused.for_each_list([&](std::span<const Refusal<D>> list) { has_refused = has_refused || !list.empty(); });
-  const bool has_work = this->first_of_larger_claims() != this->no_phase;
+  const bool has_work = this->first_of_larger_claims() != no_phase;
   const bool needs_one = needs_all_ || has_work || !late_.empty() || has_refused || state.totals.violations_seen ||
                          state.totals.entities_refused;
   return ranks_->max(needs_one ? 1 : 0) != 0;

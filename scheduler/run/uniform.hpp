@@ -31,6 +31,9 @@
 
 namespace pgdr::detail {
 
+/// Phases have numbers that say when they would come: less is sooner. This is that of none.
+inline constexpr std::uint64_t no_phase = ~std::uint64_t{0};
+
 /// Which visits run next.
 struct Phase {
   std::uint32_t order = 1;  ///< of their requests: 1, 2 for what was set aside, whole_tree
@@ -68,7 +71,7 @@ class Uniform : public VisitSchedule<D> {
   bool is_halved_with(std::uint64_t to_come) const;
   /// Has any window been left, to be split?
   bool is_any_left() const;
-  // The number of a phase says when it would come: less is sooner. no_phase: none has work.
+  // The number of the phase that comes first, no_phase if none has work.
   /// Of what waits, and was set aside, in windows and the nodes right above them.
   std::uint64_t first_at_hand() const;
   /// Of all.
@@ -83,8 +86,6 @@ class Uniform : public VisitSchedule<D> {
   void limit(RegionVisit<D>& visit) const;
   /// Whether this rank visits the node. One process visits all.
   virtual bool is_own(Node) const { return true; }
-
-  static constexpr std::uint64_t no_phase = ~std::uint64_t{0};
 
   RunState<D>& state() const { return *state_; }
   VisitRunner<D>& runner() { return runner_; }
