@@ -137,6 +137,11 @@ TEST(EntriesInMessages, AreOfKindsAndFacesThatThereAre) {
   const auto good = detail::SentEntry<3>::of(mesh, Entry<3>(c, mesh.birth(c), EntryKind::edge, 5, 255, 9));
   const Entry<3> copy = good.entry(mesh, cut.held);
   EXPECT_TRUE(copy.cell == c && copy.kind() == EntryKind::edge && copy.which() == 5 && copy.bucket == 255 && copy.order == 9);
+  // What is gone has its place in heaps and counts still.
+  const Entry<3> gone(c, static_cast<std::uint16_t>(mesh.birth(c) + 1), EntryKind::cell, Entry<3>::over_radius_edge, 7, 11);
+  const Entry<3> place = detail::SentEntry<3>::of(mesh, gone).entry(mesh, cut.held);
+  EXPECT_FALSE(place.alive(mesh));
+  EXPECT_TRUE(place.kind() == gone.kind() && place.which() == gone.which() && place.bucket == 7 && place.order == 11);
   const auto expect_refused = [&](auto damage) {
     auto bad = good;
     damage(bad);

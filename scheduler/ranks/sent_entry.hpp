@@ -18,7 +18,9 @@ template <int D>
 struct SentEntry {
   SentPoints<D> cell;
   std::uint32_t order, kind, which, bucket;
-  std::uint32_t is_alive;  ///< 0: its cell is gone, and only its place in line counts
+  /// 0: its cell is gone. It keeps its place in line: work lists count such entries, and which of two equal ones a heap has first
+  /// depends on all that were pushed.
+  std::uint32_t is_alive;
 
   static SentEntry of(const Mesh<D>& mesh, const Entry<D>& e) {
     SentEntry sent{};
@@ -32,12 +34,12 @@ struct SentEntry {
   }
   /// @throws ResourceError internal: the cell is not held, or there is no such entry
   Entry<D> entry(const Mesh<D>& mesh, const HeldMesh<D>& held) const {
-    if (is_alive == 0) return Entry<D>(CellId{0}, Mesh<D>::last_birth, EntryKind::cell, Entry<D>::over_size);
     if (kind > static_cast<std::uint32_t>(EntryKind::cell) || which >= whiches(static_cast<EntryKind>(kind)) || bucket > 0xff)
       fail_message("another rank has an entry that is none");
-    const CellId c = held.find(cell);
+    const CellId c = is_alive != 0 ? held.find(cell) : CellId{0};
     if (c == no_cell) fail_message("another rank has an entry for a cell that is not held");
-    return Entry<D>(c, mesh.birth(c), static_cast<EntryKind>(kind), static_cast<int>(which), static_cast<int>(bucket), order);
+    const std::uint16_t birth = is_alive != 0 ? mesh.birth(c) : Mesh<D>::last_birth;
+    return Entry<D>(c, birth, static_cast<EntryKind>(kind), static_cast<int>(which), static_cast<int>(bucket), order);
   }
 
  private:
