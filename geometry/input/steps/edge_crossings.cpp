@@ -149,16 +149,14 @@ std::uint32_t EdgeCrossings::add(const Crossing& c, PointLists& lists, BuildRepo
     lists.attributes.push_back((1 - c.part) * from + c.part * to);
   }
   const std::int64_t added = report.number(lists.input_of_point.back());
-  const auto [a, b] = edge_of(c.first);
-  const auto [d, e] = edge_of(c.second);
+  std::array<std::int64_t, 4> ends;  // of the two edges
+  for (std::size_t i = 0; i < 4; ++i) ends[i] = report.point_number(edge_of(i < 2 ? c.first : c.second)[i % 2]);
   report.repairs.added_points.add(
       [&] {
-        const auto edge = [&](std::uint32_t s, std::uint32_t t) {
-          return std::to_string(report.point_number(s)) + " - " + std::to_string(report.point_number(t));
-        };
-        return std::to_string(added) + " " + to_text(c.at) + " on " + edge(a, b) + " and " + edge(d, e);
+        const auto edge = [&](std::size_t i) { return std::to_string(ends[i]) + " - " + std::to_string(ends[i + 1]); };
+        return std::to_string(added) + " " + to_text(c.at) + " on " + edge(0) + " and " + edge(2);
       },
-      {added, report.point_number(a), report.point_number(b), report.point_number(d), report.point_number(e)});
+      {added, ends[0], ends[1], ends[2], ends[3]});
   report.repairs.added_points.diagnostic.points.push_back(c.at.x);
   return v;
 }

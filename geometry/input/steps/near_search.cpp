@@ -121,16 +121,18 @@ bool NearSearch<D>::is_near_corner(std::uint32_t i, std::uint32_t j) const {
 
 /// Are the corners of piece i that triangle j has not all on one side of its plane, and not near that?
 template <int D>
-bool NearSearch<D>::is_clear_of_plane(std::uint32_t i, std::uint32_t j) const requires(D == 3) {
-  const auto t = triangle(j);
-  const auto n = cross(difference(t[1], t[0]), difference(t[2], t[0]));
-  const double most = 2 * width_ * std::sqrt(dot(n, n));  // twice, for the rounding here
+bool NearSearch<D>::is_clear_of_plane(std::uint32_t i, std::uint32_t j) const {
   bool above = true, below = true;
-  for (std::size_t k = 0; k < pieces_[i].count; ++k) {
-    if (pieces_[j].has(pieces_[i].corners[k])) continue;
-    const double height = dot(n, difference(scaled_[pieces_[i].corners[k]], t[0]));
-    above = above && height > most;
-    below = below && height < -most;
+  if constexpr (D == 3) {
+    const auto t = triangle(j);
+    const auto n = cross(difference(t[1], t[0]), difference(t[2], t[0]));
+    const double most = 2 * width_ * std::sqrt(dot(n, n));  // twice, for the rounding here
+    for (std::size_t k = 0; k < pieces_[i].count; ++k) {
+      if (pieces_[j].has(pieces_[i].corners[k])) continue;
+      const double height = dot(n, difference(scaled_[pieces_[i].corners[k]], t[0]));
+      above = above && height > most;
+      below = below && height < -most;
+    }
   }
   return above || below;
 }
@@ -158,9 +160,9 @@ auto NearSearch<D>::edges_of(std::uint32_t piece, bool constrained) const -> Pie
 }
 
 template <int D>
-std::array<Point3, 3> NearSearch<D>::triangle(std::uint32_t piece) const requires(D == 3) {
+std::array<Point<D>, 3> NearSearch<D>::triangle(std::uint32_t piece) const {
   const auto& c = pieces_[piece].corners;
-  return {scaled_[c[0]], scaled_[c[1]], scaled_[c[2]]};
+  return {{scaled_[c[0]], scaled_[c[1]], scaled_[c[2]]}};
 }
 
 template <int D>
@@ -197,14 +199,16 @@ void NearSearch<D>::add_points_on_edges(std::uint32_t i, std::uint32_t j, std::v
 
 /// Pairs of an input facet and a point near to its inside that is neither a point of it nor on an edge of it.
 template <int D>
-auto NearSearch<D>::points_in_facets(const NearContacts& on_edges) const -> PointsInFacets requires(D == 3) {
+auto NearSearch<D>::points_in_facets(const NearContacts& on_edges) const -> PointsInFacets {
   PointsInFacets near;
   const auto look = [&](std::uint32_t i, std::uint32_t j) {
     if (!is_triangle(j)) return;
     const std::uint32_t f = faces_->facets[faces_->facet_of[j]].input;
-    for (std::size_t k = 0; k < pieces_[i].count; ++k)
-      if (const std::uint32_t v = pieces_[i].corners[k]; !pieces_[j].has(v) && is_near_triangle(scaled_[v], triangle(j), width_))
-        near.emplace_back(f, v);
+    if constexpr (D == 3)
+      for (std::size_t k = 0; k < pieces_[i].count; ++k)
+        if (const std::uint32_t v = pieces_[i].corners[k];
+            !pieces_[j].has(v) && is_near_triangle(scaled_[v], triangle(j), width_))
+          near.emplace_back(f, v);
   };
   for (const auto& [i, j] : pairs_) {
     if (have_one_facet(i, j)) continue;
@@ -230,22 +234,26 @@ auto NearSearch<D>::points_in_facets(const NearContacts& on_edges) const -> Poin
 }
 
 template <int D>
-void NearSearch<D>::passing_edges(const std::function<void(const PlanarEdge&, const PlanarEdge&)>& visit) const requires(D == 3) {
-  std::vector<std::array<std::uint64_t, 2>> found;
-  for (const auto& [i, j] : pairs_)
-    for (const PlanarEdge& e : edges_of(i, true))
-      for (const PlanarEdge& f : edges_of(j, true)) {
-        if (have_common_end(e, f) || !pass_within({scaled_[e[0]], scaled_[e[1]]}, {scaled_[f[0]], scaled_[f[1]]}, width_))
-          continue;
-        const std::uint64_t first = edge_key(e[0], e[1]), second = edge_key(f[0], f[1]);
-        found.push_back({std::min(first, second), std::max(first, second)});
-      }
-  make_set(found);
-  const auto& p = in_.points;
-  for (const auto& [first, second] : found) {
-    const PlanarEdge e = edge_of(first), f = edge_of(second);
-    if (orient3d(p[e[0]], p[e[1]], p[f[0]], p[f[1]]) != Sign::zero) visit(e, f);
+std::vector<std::array<PlanarEdge, 2>> NearSearch<D>::passing_edges() const {
+  std::vector<std::array<PlanarEdge, 2>> passing;
+  if constexpr (D == 3) {
+    std::vector<std::array<std::uint64_t, 2>> found;
+    for (const auto& [i, j] : pairs_)
+      for (const PlanarEdge& e : edges_of(i, true))
+        for (const PlanarEdge& f : edges_of(j, true)) {
+          if (have_common_end(e, f) || !pass_within({scaled_[e[0]], scaled_[e[1]]}, {scaled_[f[0]], scaled_[f[1]]}, width_))
+            continue;
+          const std::uint64_t first = edge_key(e[0], e[1]), second = edge_key(f[0], f[1]);
+          found.push_back({std::min(first, second), std::max(first, second)});
+        }
+    make_set(found);
+    const auto& p = in_.points;
+    for (const auto& [first, second] : found) {
+      const PlanarEdge e = edge_of(first), f = edge_of(second);
+      if (orient3d(p[e[0]], p[e[1]], p[f[0]], p[f[1]]) != Sign::zero) passing.push_back({e, f});
+    }
   }
+  return passing;
 }
 
 template class NearSearch<2>;

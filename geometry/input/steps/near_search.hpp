@@ -8,7 +8,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -36,8 +35,8 @@ class NearSearch {
 
   /// Points near edges, and near the inside of facets.
   NearContacts contacts() const;
-  /// Calls visit(e, f) for edges, of no common point and not in one plane, that pass each other within the width.
-  void passing_edges(const std::function<void(const PlanarEdge&, const PlanarEdge&)>& visit) const requires(D == 3);
+  /// Edges, of no common point and not in one plane, that pass each other within the width; none in 2D.
+  std::vector<std::array<PlanarEdge, 2>> passing_edges() const;
 
  private:
   using Pair = std::array<std::uint32_t, 2>;  // of pieces
@@ -50,7 +49,7 @@ class NearSearch {
   bool come_near(std::uint32_t i, std::uint32_t j) const;
   bool is_near_corner(std::uint32_t i, std::uint32_t j) const;
   bool have_passing_edges(std::uint32_t i, std::uint32_t j) const;
-  bool is_clear_of_plane(std::uint32_t i, std::uint32_t j) const requires(D == 3);
+  bool is_clear_of_plane(std::uint32_t i, std::uint32_t j) const;
   /// The edges of a piece; memory of its own would cost more than all else.
   class PieceEdges {
    public:
@@ -63,10 +62,10 @@ class NearSearch {
     std::size_t count_ = 0;
   };
   PieceEdges edges_of(std::uint32_t piece, bool constrained) const;
-  std::array<Point3, 3> triangle(std::uint32_t piece) const requires(D == 3);
+  std::array<Point<D>, 3> triangle(std::uint32_t piece) const;
   void add_points_on_edges(std::uint32_t i, std::uint32_t j, std::vector<NearPoint>& found) const;
   using PointsInFacets = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
-  PointsInFacets points_in_facets(const NearContacts& on_edges) const requires(D == 3);
+  PointsInFacets points_in_facets(const NearContacts& on_edges) const;
 
   const BuildInput<D>& in_;
   double width_;
