@@ -23,7 +23,8 @@ bool keeps_side(const Mesh<3>& mesh, const Domain<3>& domain, CellId c, int face
   const auto [i, j] = corners_without(face, corner);
   const int axis = domain.facets()[mesh.constraints(c)->face_entity[face]].axis;
   if (lie_in_line<3>(mesh, domain, {by, v[i], v[j]})) return false;
-  const auto side = [&](VertexId x) { return orient_projected(mesh.point(v[i]), mesh.point(v[j]), mesh.point(x), axis); };
+  const Point3 &p = mesh.point(v[i]), &q = mesh.point(v[j]);
+  const auto side = [&](VertexId x) { return orient_projected(p, q, mesh.point(x), axis); };
   const Sign now = side(by);
   return now != Sign::zero && now == side(v[corner]);
 }

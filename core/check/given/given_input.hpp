@@ -52,8 +52,8 @@ class GivenInput {
   int marker(const GivenTriangle& t) const { return plc_->facets[t.facet].marker; }
   /// 3D: how far apart two triangulations of the facet may be: all its points lie between two parallel planes as far apart.
   double bend(std::uint32_t facet) const { return bends_[facet]; }
-  std::array<Point<3>, 3> corners(const GivenTriangle& t) const requires(D == 3) {
-    return {point(t.points[0]), point(t.points[1]), point(t.points[2])};
+  std::array<Point<D>, 3> corners(const GivenTriangle& t) const {
+    return {{point(t.points[0]), point(t.points[1]), point(t.points[2])}};
   }
 
  private:

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include <ranges>
 #include <string>
 
 #include "io/file_slices.hpp"
@@ -15,10 +14,10 @@ template <int D>
 void put_file(const VtuPart<D>& part, FileOutput& out) {
   const std::vector<VtuArray> arrays = arrays_of<D>(part);
   out.put(vtu_head<D>(part.total, arrays));
-  for (const VtuArray& array : arrays | std::views::reverse) {
-    out.put_binary(array.bytes);
-    out.put(array.content);
-    for (const VtuArray::Rows& rows : array.rows) out.put_blocks(rows.count, rows.put);
+  for (auto array = arrays.rbegin(); array != arrays.rend(); ++array) {
+    out.put_binary(array->bytes);
+    out.put(array->content);
+    for (const VtuArray::Rows& rows : array->rows) out.put_blocks(rows.count, rows.put);
   }
   out.put(vtu_tail);
 }
@@ -53,10 +52,10 @@ void write_vtu_rows(const MeshPiece<D>& piece, bool frame, FileSlices& out) {
     out.begin_at(head.size() + arrays.front().offset + sizeof(std::uint64_t) + arrays.front().bytes);
     out.put(vtu_tail);
   }
-  for (const VtuArray& array : arrays | std::views::reverse)
-    for (const VtuArray::Rows& rows : array.rows) {
+  for (auto array = arrays.rbegin(); array != arrays.rend(); ++array)
+    for (const VtuArray::Rows& rows : array->rows) {
       if (rows.count == 0) continue;
-      out.begin_at(head.size() + array.offset + sizeof(std::uint64_t) + rows.at);
+      out.begin_at(head.size() + array->offset + sizeof(std::uint64_t) + rows.at);
       put_in_blocks(rows.count, rows.put, [&out](std::string_view bytes) { out.put(bytes); });
     }
   out.close();
