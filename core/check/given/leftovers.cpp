@@ -7,7 +7,7 @@
 // them, and is so small that little is missed. The reach finds what lies beside the hull, where it should have been joined.
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <vector>
 
 #include "check/given/match.hpp"
 #include "numbers/vectors.hpp"
@@ -31,10 +31,32 @@ struct HalfSpace {
   double height(const Point<D>& x) const { return dot(difference(x, origin), n) - offset; }
 };
 
-/// The cell and what is within r of its planes.
+/// 3D: planes at the edges of a cell at which its faces make less than 90 degrees, across the middle of that angle. Without them
+/// the widened planes of a flat cell, which lie in one another, go on without end.
+void cut_sharp_edges(const Simplex<3>& s, double r, std::vector<HalfSpace<3>>& out) {
+  for (const auto& [i, j, k, l] :
+       {std::array{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}}) {
+    const auto edge = difference(s[j], s[i]);
+    std::array<Vector<3>, 2> off{difference(s[k], s[i]), difference(s[l], s[i])};  // from the edge to the other corners
+    for (auto& u : off) {
+      const double t = dot(u, edge) / dot(edge, edge);
+      for (int x = 0; x < 3; ++x) u[x] -= t * edge[x];
+      const double length = std::sqrt(dot(u, u));
+      for (double& x : u) x /= length;
+    }
+    if (!(dot(off[0], off[1]) > 0)) continue;
+    Vector<3> n;
+    for (int x = 0; x < 3; ++x) n[x] = -(off[0][x] + off[1][x]);
+    const double length = std::sqrt(dot(n, n));  // at least the root of 2
+    for (double& x : n) x /= length;
+    out.push_back({n, s[i], r});
+  }
+}
+
+/// The cell and what is within r of it; at an angle a, within r / sin a.
 template <int D>
-std::array<HalfSpace<D>, D + 1> widened_cell(const Simplex<D>& s, double r) {
-  std::array<HalfSpace<D>, D + 1> out;
+std::vector<HalfSpace<D>> widened_cell(const Simplex<D>& s, double r) {
+  std::vector<HalfSpace<D>> out;
   for (int i = 0; i <= D; ++i) {
     const Point<D>&a = s[(i + 1) % (D + 1)], &b = s[(i + 2) % (D + 1)];
     Vector<D> n;
@@ -47,8 +69,9 @@ std::array<HalfSpace<D>, D + 1> widened_cell(const Simplex<D>& s, double r) {
     const double length = std::sqrt(dot(n, n));
     const double sense = dot(difference(s[i], a), n) > 0 ? -1 : 1;
     for (double& x : n) x *= sense / length;
-    out[i] = {n, a, r};
+    out.push_back({n, a, r});
   }
+  if constexpr (D == 3) cut_sharp_edges(s, r, out);
   return out;
 }
 
@@ -117,16 +140,16 @@ class LeftoverChecker {
     for (std::uint32_t c = 0; c < mesh_.cells.size(); ++c) {
       task_.findings.heed_stop();
       const Simplex<D> s = corners_of(mesh_, c);
-      std::optional<std::array<HalfSpace<D>, D + 1>> cell;
+      std::vector<HalfSpace<D>> cell;
       tree.meeting(detail::Box<D>::of(s), [&](std::uint32_t i) {
         if (reported_[i]) return;
-        if (!cell) cell = widened_cell<D>(s, r);
-        compare(c, i, *cell);
+        if (cell.empty()) cell = widened_cell<D>(s, r);
+        compare(c, i, cell);
       });
     }
   }
 
-  void compare(std::uint32_t c, std::uint32_t i, const std::array<HalfSpace<D>, D + 1>& cell) {
+  void compare(std::uint32_t c, std::uint32_t i, const std::vector<HalfSpace<D>>& cell) {
     const Leftover<D>& leftover = match_.leftovers[i];
     // Without a tolerance a point beside the mesh is outside, however near it is.
     const bool exactly = leftover.kind == EntityKind::vertex && task_.input.tolerance() == 0;
