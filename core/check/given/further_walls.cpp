@@ -6,42 +6,33 @@
 #include <memory>
 #include <set>
 
-#include "check/given/cover.hpp"
+#include "check/given/flat_leftovers.hpp"
 #include "check/given/volumes.hpp"
 #include "numbers/vectors.hpp"
 #include "pgdr/predicates.hpp"
 #include "space/box_tree.hpp"
 #include "space/make_set.hpp"
-#include "space/planar_cdt.hpp"
 
 namespace pgdr::checking {
 namespace {
 
-/// Appends what is left over to the walls of the mesh.
-template <int D>
+/// Appends what is left over of segments to the walls of the mesh.
 class FurtherWalls {
  public:
-  FurtherWalls(const GivenTask<D>& task, const GivenMatch<D>& match, VolumeWalls<D>& walls)
+  FurtherWalls(const GivenTask<2>& task, const GivenMatch<2>& match, VolumeWalls<2>& walls)
       : task_(task), mesh_(task.mesh), input_(task.input), match_(match), walls_(walls) {
-    std::vector<detail::Box<D>> boxes;
+    std::vector<detail::Box<2>> boxes;
     for (const auto& s : mesh_.subsegments) {
-      auto box = detail::Box<D>::around(mesh_.points[s.vertices[0]]);
+      auto box = detail::Box<2>::around(mesh_.points[s.vertices[0]]);
       box.add(mesh_.points[s.vertices[1]]);
       boxes.push_back(box);
     }
-    subsegments_ = std::make_unique<detail::BoxTree<D>>(boxes);
+    subsegments_ = std::make_unique<detail::BoxTree<2>>(boxes);
   }
 
   void run() {
-    if constexpr (D == 2) {
-      for (const auto& leftover : match_.leftovers)
-        if (leftover.kind == EntityKind::segment) add_segment(leftover);
-    } else {
-      std::map<std::uint32_t, std::vector<const Leftover<D>*>> of_triangle;
-      for (const auto& leftover : match_.leftovers)
-        if (leftover.kind == EntityKind::facet) of_triangle[leftover.id].push_back(&leftover);
-      for (const auto& [t, parts] : of_triangle) add_triangle(t, parts);
-    }
+    for (const auto& leftover : match_.leftovers)
+      if (leftover.kind == EntityKind::segment) add_segment(leftover);
   }
 
  private:
@@ -54,7 +45,7 @@ class FurtherWalls {
   }
 
   /// Of the corners those two at which a piece ends, which is as much shorter as what is covered reaches.
-  std::array<std::uint32_t, 2> ends_of(const std::array<Point<D>, 2>& piece, std::span<const std::uint32_t> corners) const {
+  std::array<std::uint32_t, 2> ends_of(const std::array<Point<2>, 2>& piece, std::span<const std::uint32_t> corners) const {
     std::array<std::uint32_t, 2> ends{};
     for (int k = 0; k < 2; ++k)
       ends[k] = *std::min_element(corners.begin(), corners.end(), [&](std::uint32_t v, std::uint32_t w) {
@@ -64,7 +55,7 @@ class FurtherWalls {
   }
 
   /// Once each, also where several given ones overlap.
-  void append(const std::array<std::uint32_t, D>& simplex) {
+  void append(const std::array<std::uint32_t, 2>& simplex) {
     auto key = simplex;
     std::sort(key.begin(), key.end());
     if (!appended_.insert(key).second) return;
@@ -73,22 +64,22 @@ class FurtherWalls {
   }
 
   /// From one to the next of the vertices and given points on it.
-  void add_segment(const Leftover<D>& leftover) requires(D == 2) {
+  void add_segment(const Leftover<2>& leftover) {
     const GivenSegment& s = input_.segments()[leftover.id];
     const double reach = match_.reach[leftover.id];
     const auto &a = input_.point(s.points[0]), &b = input_.point(s.points[1]);
     std::vector<std::uint32_t> corners{corner(s.points[0]), corner(s.points[1])};
-    const auto box = detail::Box<D>::of(leftover.corners).widened(3 * reach);
+    const auto box = detail::Box<2>::of(leftover.corners).widened(3 * reach);
     subsegments_->meeting(box, [&](std::uint32_t i) {
       for (const std::uint32_t v : mesh_.subsegments[i].vertices)
-        if (box.meets(detail::Box<D>::around(mesh_.points[v])) && is_along(mesh_.points[v], a, b, reach)) corners.push_back(v);
+        if (box.meets(detail::Box<2>::around(mesh_.points[v])) && is_along(mesh_.points[v], a, b, reach)) corners.push_back(v);
     });
     given_points().meeting(box, [&](std::uint32_t p) {
       if (is_along(input_.point(p), a, b, reach)) corners.push_back(corner(p));
     });
-    const auto at = [&](const Point<D>& x) {
+    const auto at = [&](const Point<2>& x) {
       double t = 0;
-      for (int k = 0; k < D; ++k) t += (x[k] - a[k]) * (b[k] - a[k]);
+      for (int k = 0; k < 2; ++k) t += (x[k] - a[k]) * (b[k] - a[k]);
       return t;
     };
     const auto before = [&](std::uint32_t v, std::uint32_t w) { return at(walls_.points[v]) < at(walls_.points[w]); };
@@ -103,114 +94,31 @@ class FurtherWalls {
   }
 
   /// Within reach of the segment ab.
-  static bool is_along(const Point<D>& x, const Point<D>& a, const Point<D>& b, double reach) {
+  static bool is_along(const Point<2>& x, const Point<2>& a, const Point<2>& b, double reach) {
     const auto d = detail::difference(b, a), u = detail::difference(x, a);
     const double t = std::clamp(detail::dot(u, d) / detail::dot(d, d), 0.0, 1.0);
     double squared = 0;
-    for (int k = 0; k < D; ++k) squared += (u[k] - t * d[k]) * (u[k] - t * d[k]);
+    for (int k = 0; k < 2; ++k) squared += (u[k] - t * d[k]) * (u[k] - t * d[k]);
     return squared <= reach * reach;
   }
 
-  const detail::BoxTree<D>& given_points() {
+  const detail::BoxTree<2>& given_points() {
     if (!given_points_) {
-      std::vector<detail::Box<D>> boxes;
-      for (const Point<D>& p : input_.plc().points) boxes.push_back(detail::Box<D>::around(p));
-      given_points_ = std::make_unique<detail::BoxTree<D>>(boxes);
+      std::vector<detail::Box<2>> boxes;
+      for (const Point<2>& p : input_.plc().points) boxes.push_back(detail::Box<2>::around(p));
+      given_points_ = std::make_unique<detail::BoxTree<2>>(boxes);
     }
     return *given_points_;
   }
 
-  void add_triangle(std::uint32_t t, const std::vector<const Leftover<D>*>& parts) requires(D == 3) {
-    const GivenTriangle& given = input_.triangles()[t];
-    const std::array corners{corner(given.points[0]), corner(given.points[1]), corner(given.points[2])};
-    if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) return;
-    const PlaneFrame frame(input_.corners(given));
-    std::vector<FlatPolygon> polygons;
-    for (const auto* part : parts) {
-      auto& polygon = polygons.emplace_back();
-      for (const Point3& x : part->corners) polygon.push_back(flat(frame, x));
-    }
-    if (!triangulate(t, frame, corners)) {
-      append(corners);
-      return;
-    }
-    const std::vector<detail::PlanarTriangle> triangles = planar_.triangles();
-    for (const auto& piece : triangles) {
-      Point2 c{};
-      for (const std::uint32_t v : piece)
-        for (int i = 0; i < 2; ++i) c[i] += flat(frame, walls_.points[v])[i] / 3;
-      if (std::ranges::any_of(polygons, [&](const FlatPolygon& p) { return is_in(p, c); })) append(piece);
-    }
-  }
-
-  static Point2 flat(const PlaneFrame& frame, const Point3& x) {
-    const auto p = frame.place(x);
-    return {{p[0], p[1]}};
-  }
-
-  static bool is_in(const FlatPolygon& polygon, const Point2& x) {
-    for (std::size_t k = 0; k < polygon.size(); ++k)
-      if (orient2d(polygon[k], polygon[(k + 1) % polygon.size()], x) == Sign::negative) return false;
-    return true;
-  }
-
-  /// With the subsegments on it, so that it meets the walls of the mesh at common edges.
-  bool triangulate(std::uint32_t t, const PlaneFrame& frame, const std::array<std::uint32_t, 3>& corners) requires(D == 3) {
-    const double reach = match_.reach[t];
-    const auto given = input_.corners(input_.triangles()[t]);
-    const CoveringTriangle whole(frame, given, reach, reach);
-    std::vector<std::uint32_t> vertices(corners.begin(), corners.end());
-    std::vector<detail::PlanarEdge> edges;
-    std::vector<CoveringSegment<3>> covers;
-    const auto is_on = [&](std::uint32_t v) {
-      const auto p = frame.place(mesh_.points[v]);
-      return std::abs(p[2]) <= reach && whole.contains({{p[0], p[1]}});
-    };
-    subsegments_->meeting(detail::Box<3>::of(given).widened(reach), [&](std::uint32_t i) {
-      const auto& v = mesh_.subsegments[i].vertices;
-      if (!is_on(v[0]) || !is_on(v[1])) return;
-      vertices.insert(vertices.end(), v.begin(), v.end());
-      edges.push_back({std::min(v[0], v[1]), std::max(v[0], v[1])});
-      covers.push_back({{mesh_.points[v[0]], mesh_.points[v[1]]}, reach});
-    });
-    detail::make_set(vertices);
-    for (int i = 0; i < 3; ++i) {
-      const std::array<Point3, 2> side{given[i], given[(i + 1) % 3]};
-      for (const auto& [from, to] : uncovered_parts(side, covers)) {
-        std::array<Point3, 2> piece;
-        for (int k = 0; k < 3; ++k) {
-          piece[0][k] = side[0][k] + from * (side[1][k] - side[0][k]);
-          piece[1][k] = side[0][k] + to * (side[1][k] - side[0][k]);
-        }
-        const auto ends = ends_of(piece, vertices);
-        if (ends[0] != ends[1]) edges.push_back({std::min(ends[0], ends[1]), std::max(ends[0], ends[1])});
-      }
-    }
-    detail::make_set(edges);
-    int axis = 0;
-    double most = -1;
-    for (int k = 0; k < 3; ++k) {
-      const int j = (k + 1) % 3, l = (k + 2) % 3;
-      const double seen = std::abs((given[1][j] - given[0][j]) * (given[2][l] - given[0][l]) -
-                                   (given[1][l] - given[0][l]) * (given[2][j] - given[0][j]));
-      if (seen <= most) continue;
-      most = seen;
-      axis = k;
-    }
-    if (!planar_.build(walls_.points, vertices, edges, axis)) return false;
-    planar_.carve_outside();
-    return true;
-  }
-
-  const GivenTask<D>& task_;
-  const OutputMesh<D>& mesh_;
-  const GivenInput<D>& input_;
-  const GivenMatch<D>& match_;
-  VolumeWalls<D>& walls_;
-  std::unique_ptr<detail::BoxTree<D>> subsegments_, given_points_;
-  std::set<std::array<std::uint32_t, D>> appended_;
+  const GivenTask<2>& task_;
+  const OutputMesh<2>& mesh_;
+  const GivenInput<2>& input_;
+  const GivenMatch<2>& match_;
+  VolumeWalls<2>& walls_;
+  std::unique_ptr<detail::BoxTree<2>> subsegments_, given_points_;
+  std::set<std::array<std::uint32_t, 2>> appended_;
   std::map<std::uint32_t, std::uint32_t> new_corners_;  // of places
-  detail::PlanarTriangulation planar_;
 };
 
 }  // namespace
@@ -225,7 +133,12 @@ VolumeWalls<D> walls_of_mesh(const GivenTask<D>& task, const GivenMatch<D>& matc
     out.entities.push_back(static_cast<EntityId>(out.simplices.size()));
     out.simplices.push_back(w.vertices);
   }
-  if (!match.leftovers.empty()) FurtherWalls<D>(task, match, out).run();
+  if (!match.leftovers.empty()) {
+    if constexpr (D == 2)
+      FurtherWalls(task, match, out).run();
+    else
+      append_flat_leftovers(task, match, out);
+  }
   const auto add_segment = [&](std::uint32_t a, std::uint32_t b) {
     out.segments.push_back(lex_less(out.points[a], out.points[b]) ? std::array{a, b} : std::array{b, a});
   };
