@@ -45,7 +45,7 @@ struct GivenMatch {
 };
 
 /// Each given point has a vertex in its place, or within twice the tolerance where another given point is as near to it.
-/// Markers of points. A vertex that is in no cell is a given point.
+/// Markers of points. A vertex that is in no cell is a given point, or one of GivenCrossings.
 template <int D>
 void match_given_points(const GivenTask<D>& task, std::span<const std::uint32_t> sorted, GivenMatch<D>& out);
 

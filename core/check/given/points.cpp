@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "check/given/crossings.hpp"
 #include "check/given/match.hpp"
 #include "space/box_tree.hpp"
 #include "space/make_set.hpp"
@@ -112,9 +113,14 @@ class PointMatcher {
     for (const std::uint32_t v : out_.vertex_of_point)
       if (v != none) is_given[v] = 1;
     for (std::uint32_t v = 0; v < mesh_.points.size(); ++v)
-      if (!in_cell_[v] && !is_given[v])
+      if (!in_cell_[v] && !is_given[v] && !is_crossing(mesh_.points[v]))
         task_.findings.add(Kind::unreferenced_point, {v},
                            [&] { return "The " + vertex_words(mesh_, v) + " is neither an input point nor in a cell."; });
+  }
+
+  bool is_crossing(const Point<D>& x) {
+    if (!crossings_) crossings_ = std::make_unique<GivenCrossings<D>>(task_.input, reach() + task_.input.rounding());
+    return crossings_->has(x);
   }
 
   const GivenTask<D>& task_;
@@ -123,6 +129,7 @@ class PointMatcher {
   GivenMatch<D>& out_;
   std::vector<std::uint8_t> in_cell_;
   std::unique_ptr<detail::BoxTree<D>> given_tree_, vertex_tree_;  // where a point is not in its place
+  std::unique_ptr<GivenCrossings<D>> crossings_;                  // where a vertex is in no cell
 };
 
 }  // namespace
