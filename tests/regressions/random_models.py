@@ -218,7 +218,8 @@ def utm(given, _):
 
 
 PLACES = {"as it is": lambda given, _: (given, 1, 0), "turned": motions.turned,
-          "turned at UTM": lambda given, rng: utm(motions.turned(given, rng)[0], rng), "UTM": utm}
+          "turned at UTM": lambda given, rng: utm(motions.turned(given, rng)[0], rng), "UTM": utm,
+          "soup": motions.soup, "coarse": motions.coarse}
 
 
 def model(kind, seed, place):
@@ -228,9 +229,9 @@ def model(kind, seed, place):
     given = shape.input()
     if seed % 2:
         given = in_triangles(given, rng)
-    given, _, rounding = PLACES[place](given, rng)
+    given, _, rounding, *flags = PLACES[place](given, rng)
     size = max(max(c) - min(c) for c in zip(*given.points))
-    return given, expected, 1e-9 * expected + 40 * rounding * size * size, shape.flags
+    return given, expected, 1e-9 * expected + 40 * rounding * size * size, [*shape.flags, *(flags[0] if flags else [])]
 
 
 def complaints_about(given, expected, off, flags, folder, optimize):

@@ -36,7 +36,8 @@ void EdgeNet::cut() {
 }
 
 void EdgeNet::make_chains() {
-  std::vector<std::uint32_t> used = crossings_;
+  std::vector<std::uint32_t> used;
+  for (const auto& [x, v] : crossings_) used.push_back(v);
   for (const Edge& e : edges_) used.insert(used.end(), e.ends.begin(), e.ends.end());
   detail::make_set(used);
   std::vector<Box<3>> boxes;
@@ -116,11 +117,20 @@ bool EdgeNet::meet(const Point3& x, double reach, const PlanarEdge& p, Edge& of_
         changed |= put(of_q, v);
       }
   if (near_end) return changed;
-  points_.push_back(x);
-  crossings_.push_back(static_cast<std::uint32_t>(points_.size() - 1));
-  put(of_p, crossings_.back());
-  put(of_q, crossings_.back());
+  const std::uint32_t v = crossing_at(x, reach);
+  put(of_p, v);
+  put(of_q, v);
   return true;
+}
+
+/// Several pairs of edges may cross at one place.
+std::uint32_t EdgeNet::crossing_at(const Point3& x, double reach) {
+  for (auto at = crossings_.lower_bound(x[0] - reach); at != crossings_.end() && at->first <= x[0] + reach; ++at)
+    if (squared_distance(points_[at->second], x) <= reach * reach) return at->second;
+  const auto v = static_cast<std::uint32_t>(points_.size());
+  points_.push_back(x);
+  crossings_.insert({x[0], v});
+  return v;
 }
 
 std::optional<double> EdgeNet::place_on(const Edge& e, std::uint32_t v) const {

@@ -48,6 +48,7 @@ class EdgeNet {
   bool cross_pieces();
   bool cross(const detail::PlanarEdge& p, Edge& of_p, const detail::PlanarEdge& q, Edge& of_q);
   bool meet(const Point3& x, double reach, const detail::PlanarEdge& p, Edge& of_p, const detail::PlanarEdge& q, Edge& of_q);
+  std::uint32_t crossing_at(const Point3& x, double reach);
   std::optional<double> place_on(const Edge& e, std::uint32_t v) const;
   bool put(Edge& e, std::uint32_t v);
   void note_whole_edges();
@@ -56,7 +57,7 @@ class EdgeNet {
   std::vector<Edge> edges_;
   std::map<detail::PlanarEdge, std::uint32_t> number_;
   std::map<detail::PlanarEdge, detail::PlanarEdge> whole_of_;
-  std::vector<std::uint32_t> crossings_;  // points that were added
+  std::multimap<double, std::uint32_t> crossings_;  // points that were added, by x
 };
 
 /// The lesser end first.
