@@ -158,9 +158,10 @@ class LeftoverChecker {
     for (const auto& side : cell) part = clip<D>(part, side);
     if (part.empty()) return;
     const auto [length, width] = extents(part);
+    // The mesh may be off a facet by its reach, and so may the border of what is left of it.
     const bool large = leftover.kind == EntityKind::vertex    ? true
                        : leftover.kind == EntityKind::segment ? length > limits_[i]
-                                                              : width > limits_[i];
+                                                              : width > std::max(limits_[i], 2 * match_.reach[leftover.id]);
     if (!large) return;
     reported_[i] = 1;
     report(c, leftover, part[0]);
