@@ -197,8 +197,32 @@ def doors(rng):
     return s, 192 * (n - 1)
 
 
+def given_twice(rng):
+    """Bodies that touch, with facets given again: whole, with further points on the edges, or in triangles about a point within."""
+    s = Shape(3)
+    boxes = random_boxes(rng, rng.randint(1, 4), (0, 0, 0), (6, 6, 6))
+    for box in boxes:
+        s.box(*box)
+        s.regions.append((middle(box), float(len(s.regions) + 1)))
+    ways = rng.choice(((0,), (1,), (0, 1, 2), (0, 1, 2, 3)))  # 3: not again
+    for polygons, _, _ in list(s.pieces):
+        corners = [list(s.number)[v] for v in polygons[0]]
+        about = tuple(sum(c) / 4 for c in zip(*corners))
+        halves = [tuple((a + b) / 2 for a, b in zip(p, q)) for p, q in zip(corners, [*corners[1:], corners[0]])]
+        way = rng.choice(ways)
+        if way == 0:
+            s.facet([p for pair in zip(corners, halves) for p in pair])
+        elif way == 1:
+            for p, q in zip(corners, [*corners[1:], corners[0]]):
+                s.facet([p, q, about])
+        elif way == 2:
+            s.facet([corners[0], halves[0], halves[2], corners[3]])
+            s.facet([halves[0], corners[1], corners[2], halves[2]])
+    return s, sum(map(volume, boxes))
+
+
 KINDS = {make.__name__: make for make in (voids_on_floor, auto_voids, floating_voids, bodies_on_plate, tents_on_plate, plates, city,
-                                          doors)}
+                                          doors, given_twice)}
 
 
 def in_triangles(given, rng):
