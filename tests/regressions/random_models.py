@@ -221,8 +221,39 @@ def given_twice(rng):
     return s, sum(map(volume, boxes))
 
 
+def divided(rng):
+    """A box in a box, cut by walls that end on others where these have no points; some of the rooms are holes, so is at times what is
+    around them."""
+    s, rooms = Shape(3), [((1, 1, 1), (9, 9, 9))]
+    s.box((0, 0, rng.choice((0, 1))), (10, 10, 10))
+    s.box(*rooms[0])
+    around = ((0, 0, min(p[2] for p in s.number)), (10, 10, 10))
+    for _ in range(rng.randint(1, 8)):
+        low, high = room = rng.choice(rooms)
+        axis = rng.randrange(3)
+        if high[axis] - low[axis] < 2:
+            continue
+        at = rng.randint(low[axis] + 1, high[axis] - 1)
+        u, v = (axis + 1) % 3, (axis + 2) % 3
+        corners = []
+        for i, k in ((low[u], low[v]), (high[u], low[v]), (high[u], high[v]), (low[u], high[v])):
+            p = [0, 0, 0]
+            p[axis], p[u], p[v] = at, i, k
+            corners.append(p)
+        s.facet(corners)
+        rooms.remove(room)
+        rooms += [(low, tuple(at if k == axis else c for k, c in enumerate(high))),
+                  (tuple(at if k == axis else c for k, c in enumerate(low)), high)]
+    kept = [room for room in rooms if rng.random() < 0.4] or rooms[:1]
+    s.holes = [middle(room) for room in rooms if room not in kept]
+    if rng.random() < 0.5:
+        s.holes.append((0.5, 0.5, 5))
+        return s, sum(map(volume, kept))
+    return s, volume(around) - 8 ** 3 + sum(map(volume, kept))
+
+
 KINDS = {make.__name__: make for make in (voids_on_floor, auto_voids, floating_voids, bodies_on_plate, tents_on_plate, plates, city,
-                                          doors, given_twice)}
+                                          doors, given_twice, divided)}
 
 
 def in_triangles(given, rng):
@@ -243,7 +274,7 @@ def utm(given, _):
 
 PLACES = {"as it is": lambda given, _: (given, 1, 0), "turned": motions.turned,
           "turned at UTM": lambda given, rng: utm(motions.turned(given, rng)[0], rng), "UTM": utm,
-          "soup": motions.soup, "coarse": motions.coarse}
+          "points of its own for each facet": motions.soup}
 
 
 def model(kind, seed, place):
@@ -253,9 +284,9 @@ def model(kind, seed, place):
     given = shape.input()
     if seed % 2:
         given = in_triangles(given, rng)
-    given, _, rounding, *flags = PLACES[place](given, rng)
+    given, _, rounding = PLACES[place](given, rng)
     size = max(max(c) - min(c) for c in zip(*given.points))
-    return given, expected, 1e-9 * expected + 40 * rounding * size * size, [*shape.flags, *(flags[0] if flags else [])]
+    return given, expected, 1e-9 * expected + 40 * rounding * size * size, shape.flags
 
 
 def complaints_about(given, expected, off, flags, folder, optimize):
