@@ -6,15 +6,40 @@
 #include <cmath>
 #include <utility>
 
+#include "input/steps/near_tests.hpp"
 #include "pgdr/predicates.hpp"
+#include "space/box_tree.hpp"
 #include "space/make_set.hpp"
 
 namespace pgdr::detail {
+namespace {
+
+std::vector<std::uint32_t> vertices_of(const CleanFacet::Loops& loops) {
+  std::vector<std::uint32_t> vertices;
+  for (const auto& loop : loops) vertices.insert(vertices.end(), loop.begin(), loop.end());
+  make_set(vertices);
+  return vertices;
+}
+
+std::vector<PlanarEdge> edges_of(const CleanFacet::Loops& loops) {
+  std::vector<PlanarEdge> edges;
+  for (const auto& loop : loops) {
+    const std::size_t n = loop.size();
+    for (std::size_t k = 0; k < (n > 2 ? n : n == 2 ? 1 : 0); ++k) {
+      const auto [a, b] = std::minmax(loop[k], loop[(k + 1) % n]);
+      edges.push_back({a, b});
+    }
+  }
+  make_set(edges);
+  return edges;
+}
+
+}  // namespace
 
 CleanFacet clean_facet(const BuildInput<3>& in, std::uint32_t f, const NearContacts& near, BuildReport<3>& report) {
   CleanFacet facet;
   for (const auto& polygon : in.plc.facets[f].polygons) {
-    auto& loop = facet.loops.emplace_back();
+    auto& loop = facet.given.emplace_back();
     const auto drop = [&](std::uint32_t i, std::uint32_t j) {
       const std::int64_t number = report.number(f), first = report.number(i), second = report.number(j);
       report.repairs.dropped_edges.add(
@@ -33,18 +58,40 @@ CleanFacet clean_facet(const BuildInput<3>& in, std::uint32_t f, const NearConta
       loop.pop_back();
     }
   }
-  facet.loops = near.joined(f, std::move(facet.loops));
-  for (const auto& loop : facet.loops) {
-    facet.vertices.insert(facet.vertices.end(), loop.begin(), loop.end());
-    const std::size_t n = loop.size();
-    for (std::size_t k = 0; k < (n > 2 ? n : n == 2 ? 1 : 0); ++k) {
-      const auto [a, b] = std::minmax(loop[k], loop[(k + 1) % n]);
-      facet.edges.push_back({a, b});
-    }
-  }
-  make_set(facet.vertices);
-  make_set(facet.edges);
+  facet.join(f, near);
   return facet;
+}
+
+void CleanFacet::join(std::uint32_t f, const NearContacts& near) {
+  loops = near.joined(f, given);
+  vertices = vertices_of(loops);
+  edges = edges_of(loops);
+}
+
+std::vector<NearPoint> CleanFacet::points_near_own_edges(const BuildInput<3>& in) const {
+  const double width = in.tolerance * in.scale;
+  const auto scaled = [&](std::uint32_t v) {
+    Point3 p = in.points[v];
+    for (double& x : p.x) x *= in.scale;
+    return p;
+  };
+  const std::vector<PlanarEdge> own = edges_of(given);
+  std::vector<Box<3>> boxes;
+  for (const auto& [a, b] : own) {
+    auto box = Box<3>::around(scaled(a));
+    box.add(scaled(b));
+    boxes.push_back(box.widened(width));
+  }
+  const BoxTree<3> tree(boxes);
+  std::vector<NearPoint> near;
+  for (const std::uint32_t v : vertices_of(given))
+    tree.at(scaled(v), [&](std::uint32_t k) {
+      const auto [a, b] = own[k];
+      if (v == a || v == b) return;
+      if (const auto part = part_of_edge_near<3>(scaled(v), scaled(a), scaled(b), width))
+        near.push_back({edge_key(a, b), *part, v});
+    });
+  return near;
 }
 
 bool CleanFacet::split_at_own_points(std::span<const Point3> p, BuildReport<3>& report) {

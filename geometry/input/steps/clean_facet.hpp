@@ -18,10 +18,17 @@
 namespace pgdr::detail {
 
 struct CleanFacet {
-  std::vector<std::vector<std::uint32_t>> loops;  ///< no two neighbours equal
-  std::vector<std::uint32_t> vertices;            ///< sorted, distinct
-  std::vector<PlanarEdge> edges;                  ///< sorted, distinct, smaller index first
+  using Loops = std::vector<std::vector<std::uint32_t>>;
 
+  Loops given;                          ///< as the input has them, but for neighbours that are one point
+  Loops loops;                          ///< these, through the points that are near to them
+  std::vector<std::uint32_t> vertices;  ///< sorted, distinct
+  std::vector<PlanarEdge> edges;        ///< sorted, distinct, smaller index first
+
+  /// Lets the given loops of facet f go through the points that are near to them.
+  void join(std::uint32_t f, const NearContacts& near);
+  /// The points of the given loops that are within the tolerance of given edges.
+  std::vector<NearPoint> points_near_own_edges(const BuildInput<3>& in) const;
   /// Splits edges, in space, at points of the facet that lie exactly inside them; where points do so in the projection alone
   /// the facet stays as it was. True if any did.
   bool split_at_own_points(std::span<const Point3> points, BuildReport<3>& report);

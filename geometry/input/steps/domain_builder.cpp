@@ -58,7 +58,8 @@ void DomainBuilder<D>::take_points() {
   report_.set_points(out_.points_, out_.input_of_point_);
 }
 
-/// Facets to triangles: once more where there is anything near to join.
+/// Facets to triangles: once more where there is anything near to join. What a facet cannot be triangulated without, since its
+/// polygons touch each other, is joined from the beginning.
 template <int D>
 void DomainBuilder<D>::join_near(const Input& in, const Segments& segments) {
   const auto mark = report_.mark();
@@ -68,7 +69,7 @@ void DomainBuilder<D>::join_near(const Input& in, const Segments& segments) {
   triangulate();
   for (std::uint32_t s = 0; s < segments.ends().size(); ++s)
     if (const auto& [a, b] = segments.ends()[s]; a != b) segment_edges_.push_back({{a, b}, s});
-  near_search_.emplace(in);
+  near_search_.emplace(in, near_);
   meets_ = near_search_->find_pairs(facets_.faces, segment_edges_, facets_.flat);
   if (meets_ && near_search_->width() > 0) near_ = near_search_->contacts();
   if (!near_.empty()) {

@@ -102,9 +102,7 @@ void FacetTriangulator::add_polygons(std::uint32_t f) {
 void FacetTriangulator::triangulate(std::uint32_t f, CleanFacet& facet) {
   PlanarResult first;
   for (const int axis : axes_by_size(facet.normal(shapes_))) {
-    PlanarResult result = planar_.build(in_.points, facet.vertices, facet.edges, axis);
-    if (result.status == PlanarStatus::point_on_edge && facet.split_at_own_points(in_.points, report_))
-      result = planar_.build(in_.points, facet.vertices, facet.edges, axis);
+    const PlanarResult result = build(f, facet, axis);
     if (result) break;
     if (first.status == PlanarStatus::ok || first.status == PlanarStatus::collinear) first = result;
     if (result.status != PlanarStatus::collinear && result.status != PlanarStatus::coincident) {
@@ -113,6 +111,19 @@ void FacetTriangulator::triangulate(std::uint32_t f, CleanFacet& facet) {
     }
   }
   if (planar_.vertex_count() == 0) fail_facet(f, first);
+}
+
+/// Where edges of the facet's own polygons pass its points within the tolerance, or exactly, they go through them.
+PlanarResult FacetTriangulator::build(std::uint32_t f, CleanFacet& facet, int axis) {
+  const auto build = [&] { return planar_.build(in_.points, facet.vertices, facet.edges, axis); };
+  PlanarResult result = build();
+  const bool meets = result.status == PlanarStatus::edges_cross || result.status == PlanarStatus::point_on_edge;
+  if (meets && in_.tolerance > 0 && near_.add(facet.points_near_own_edges(in_))) {
+    facet.join(f, near_);
+    result = build();
+  }
+  if (result.status == PlanarStatus::point_on_edge && facet.split_at_own_points(in_.points, report_)) result = build();
+  return result;
 }
 
 void FacetTriangulator::carve(std::uint32_t f) {

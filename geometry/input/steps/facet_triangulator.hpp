@@ -35,8 +35,9 @@ struct TriangulatedFacets {
 
 class FacetTriangulator {
  public:
-  FacetTriangulator(const BuildInput<3>& in, const ExplicitSegments<3>& segments, const NearContacts& near,
-                    BuildReport<3>& report)
+  /// `near`: what facets go through. Where the polygons of a facet cross or touch each other as they are, their points near their
+  /// own edges are added.
+  FacetTriangulator(const BuildInput<3>& in, const ExplicitSegments<3>& segments, NearContacts& near, BuildReport<3>& report)
       : in_(in), shapes_(in.points, in.scale), segments_(segments), near_(near), report_(report) {}
 
   /// @throws InputError for a facet that has no triangles
@@ -49,6 +50,7 @@ class FacetTriangulator {
   bool add_triangle(std::uint32_t f);
   void add_polygons(std::uint32_t f);
   void triangulate(std::uint32_t f, CleanFacet& facet);
+  PlanarResult build(std::uint32_t f, CleanFacet& facet, int axis);
   void carve(std::uint32_t f);
   void constrain_explicit(const CleanFacet& facet);
   bool is_reversed(const CleanFacet& facet) const;
@@ -58,7 +60,7 @@ class FacetTriangulator {
   const BuildInput<3>& in_;
   TriangleShapes shapes_;
   const ExplicitSegments<3>& segments_;
-  const NearContacts& near_;
+  NearContacts& near_;
   BuildReport<3>& report_;
   TriangulatedFacets out_;
   std::vector<std::uint32_t> polygon_;  // of the facet at hand, if it is one without holes

@@ -5,8 +5,16 @@
 #include <algorithm>
 
 #include "input/edges.hpp"
+#include "space/make_set.hpp"
 
 namespace pgdr::detail {
+
+bool NearContacts::add(std::vector<NearPoint> on_edges) {
+  const std::size_t before = on_edges_.size();
+  on_edges_.insert(on_edges_.end(), on_edges.begin(), on_edges.end());
+  make_set(on_edges_);
+  return on_edges_.size() > before;
+}
 
 std::span<const NearPoint> NearContacts::on_edge(std::uint64_t key) const {
   const auto begin = std::lower_bound(on_edges_.begin(), on_edges_.end(), NearPoint{key, 0, 0});
@@ -64,6 +72,18 @@ auto NearContacts::joined(std::uint32_t f, Polygons polygons) const -> Polygons 
   }
   for (const auto& [same, v] : in_facet(f)) out.push_back({v});
   return out;
+}
+
+std::vector<std::pair<std::uint64_t, std::uint64_t>> NearContacts::pieces() const {
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> pieces;
+  for (std::size_t i = 0; i < on_edges_.size(); ++i) {
+    const std::uint64_t key = on_edges_[i].key;
+    if (i > 0 && on_edges_[i - 1].key == key) continue;
+    const auto points = chain(edge_of(key)[0], edge_of(key)[1]);
+    for (std::size_t k = 1; k < points.size(); ++k) pieces.emplace_back(edge_key(points[k - 1], points[k]), key);
+  }
+  make_set(pieces);
+  return pieces;
 }
 
 void NearContacts::split(std::vector<OwnedEdge>& edges) const {

@@ -40,7 +40,12 @@ class NearContacts {
     return {std::move(on_edges_), std::move(in_facets)};
   }
 
+  /// Adds points near edges; true if there are any new ones among them.
+  bool add(std::vector<NearPoint> on_edges);
+
   bool empty() const { return on_edges_.empty() && in_facets_.empty(); }
+  /// All points near edges.
+  std::span<const NearPoint> on_edges() const { return on_edges_; }
   /// The points near the edge, in their order from its end of smaller index.
   std::span<const NearPoint> on_edge(std::uint64_t key) const;
   /// Pairs of the input facet and a point near to its inside.
@@ -53,6 +58,8 @@ class NearContacts {
   bool closes(std::span<const std::uint32_t> triangle) const;
   /// The polygons of facet f through the points near their edges; points near the inside are polygons of their own.
   Polygons joined(std::uint32_t f, Polygons polygons) const;
+  /// Of all edges that go through points near them: the keys of a piece and of the edge as given, sorted.
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> pieces() const;
   /// Splits the edges at the points near them.
   void split(std::vector<OwnedEdge>& edges) const;
   /// Notes all of them.

@@ -23,8 +23,12 @@ bool have_common_end(const PlanarEdge& e, const PlanarEdge& f) {
 }  // namespace
 
 template <int D>
-NearSearch<D>::NearSearch(const BuildInput<D>& in)
-    : in_(in), width_(in.tolerance * in.scale), scaled_(in.points.begin(), in.points.end()) {
+NearSearch<D>::NearSearch(const BuildInput<D>& in, const NearContacts& own)
+    : in_(in),
+      width_(in.tolerance * in.scale),
+      scaled_(in.points.begin(), in.points.end()),
+      own_(own.on_edges().begin(), own.on_edges().end()),
+      given_of_(own.pieces()) {
   for (Point<D>& p : scaled_)
     for (double& x : p.x) x *= in.scale;
 }
@@ -113,8 +117,11 @@ bool NearSearch<D>::is_near_corner(std::uint32_t i, std::uint32_t j) const {
         continue;
       }
     if (to.count == 1 && squared_distance(p, scaled_[to.corners[0]]) <= width_ * width_) return true;
-    for (const auto& [a, b] : edges_of(j, true))
-      if (v != a && v != b && part_of_edge_near<D>(p, scaled_[a], scaled_[b], width_)) return true;
+    const auto is_near = [&](const PlanarEdge& e) {
+      return v != e[0] && v != e[1] && part_of_edge_near<D>(p, scaled_[e[0]], scaled_[e[1]], width_).has_value();
+    };
+    for (const PlanarEdge& e : edges_of(j, true))
+      if (any_given(e, is_near)) return true;
   }
   return false;
 }
@@ -159,6 +166,19 @@ auto NearSearch<D>::edges_of(std::uint32_t piece, bool constrained) const -> Pie
   return edges;
 }
 
+/// Is the test true of an edge, which may be given as it is, or of one that is given and of which it is a piece?
+template <int D>
+template <class Test>
+bool NearSearch<D>::any_given(const PlanarEdge& edge, const Test& test) const {
+  if (test(edge)) return true;
+  if (given_of_.empty()) return false;
+  const std::uint64_t key = edge_key(edge[0], edge[1]);
+  for (auto at = std::ranges::lower_bound(given_of_, std::pair{key, std::uint64_t{0}}); at != given_of_.end() && at->first == key;
+       ++at)
+    if (test(edge_of(at->second))) return true;
+  return false;
+}
+
 template <int D>
 std::array<Point<D>, 3> NearSearch<D>::triangle(std::uint32_t piece) const {
   const auto& c = pieces_[piece].corners;
@@ -167,7 +187,7 @@ std::array<Point<D>, 3> NearSearch<D>::triangle(std::uint32_t piece) const {
 
 template <int D>
 NearContacts NearSearch<D>::contacts() const {
-  std::vector<NearPoint> found;
+  std::vector<NearPoint> found = own_;
   for (const std::uint32_t t : closed_) add_points_on_edges(t, t, found);
   for (const auto& [i, j] : pairs_) {
     add_points_on_edges(i, j, found);
@@ -185,16 +205,18 @@ NearContacts NearSearch<D>::contacts() const {
 /// The corners of piece i that are near edges of piece j.
 template <int D>
 void NearSearch<D>::add_points_on_edges(std::uint32_t i, std::uint32_t j, std::vector<NearPoint>& found) const {
-  for (const auto& [a, b] : edges_of(j, true)) {
-    const std::uint64_t key = edge_key(a, b);
+  const auto add = [&](const PlanarEdge& e) {
+    const std::uint64_t key = edge_key(e[0], e[1]);
     const auto [first, second] = edge_of(key);
     for (std::size_t k = 0; k < pieces_[i].count; ++k) {
       const std::uint32_t v = pieces_[i].corners[k];
-      if (v == a || v == b) continue;
+      if (v == first || v == second) continue;
       if (const auto part = part_of_edge_near<D>(scaled_[v], scaled_[first], scaled_[second], width_))
         found.push_back({key, *part, v});
     }
-  }
+    return false;  // go on
+  };
+  for (const PlanarEdge& e : edges_of(j, true)) any_given(e, add);
 }
 
 /// Pairs of an input facet and a point near to its inside that is neither a point of it nor on an edge of it.
@@ -225,7 +247,11 @@ auto NearSearch<D>::points_in_facets(const NearContacts& on_edges) const -> Poin
       for (std::size_t i = 0; i < 3; ++i) {
         known.emplace_back(facet.input, faces_->triangles[t][i]);
         if (!faces_->is_constraint(t, i)) continue;
-        for (const NearPoint& p : on_edges.on_edge(faces_->key_of_edge(t, i))) known.emplace_back(facet.input, p.point);
+        const auto [a, b] = edge_of(faces_->key_of_edge(t, i));
+        any_given({a, b}, [&](const PlanarEdge& e) {
+          for (const NearPoint& p : on_edges.on_edge(edge_key(e[0], e[1]))) known.emplace_back(facet.input, p.point);
+          return false;  // go on
+        });
       }
   }
   make_set(known);

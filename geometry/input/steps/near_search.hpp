@@ -23,7 +23,8 @@ namespace pgdr::detail {
 template <int D>
 class NearSearch {
  public:
-  explicit NearSearch(const BuildInput<D>& in);
+  /// `own`: through which points edges of facets go already. Nearness is that to the edges as given, and not to their pieces.
+  explicit NearSearch(const BuildInput<D>& in, const NearContacts& own = {});
 
   /// Within which, times BuildInput::scale; 0: only what meets exactly is found.
   double width() const { return width_; }
@@ -33,7 +34,7 @@ class NearSearch {
   /// The facets of triangles are indexed then.
   bool find_pairs(FacetTriangles& faces, std::span<const OwnedEdge> segment_edges, std::span<const FlatFacet> flat);
 
-  /// Points near edges, and near the inside of facets.
+  /// Points near edges, those that these go through already among them, and near the inside of facets.
   NearContacts contacts() const;
   /// Edges, of no common point and not in one plane, that pass each other within the width; none in 2D.
   std::vector<std::array<PlanarEdge, 2>> passing_edges() const;
@@ -62,6 +63,8 @@ class NearSearch {
     std::size_t count_ = 0;
   };
   PieceEdges edges_of(std::uint32_t piece, bool constrained) const;
+  template <class Test>
+  bool any_given(const PlanarEdge& edge, const Test& test) const;
   std::array<Point<D>, 3> triangle(std::uint32_t piece) const;
   void add_points_on_edges(std::uint32_t i, std::uint32_t j, std::vector<NearPoint>& found) const;
   using PointsInFacets = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
@@ -70,6 +73,8 @@ class NearSearch {
   const BuildInput<D>& in_;
   double width_;
   std::vector<Point<D>> scaled_;
+  std::vector<NearPoint> own_;                                     // the points that edges go through already
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> given_of_;  // the keys of pieces of edges, and of these; sorted
   const FacetTriangles* faces_ = nullptr;
   std::vector<Piece> pieces_;
   std::vector<Pair> pairs_;

@@ -51,7 +51,7 @@ bool PlaneEdges::lies_in_plane(std::span<const EdgeUse> uses, std::uint32_t plan
 }
 
 /// Of a triangle that has the edge as a rim: the facet of equal marker that goes on beyond it. The first on the one side goes
-/// with the first on the other.
+/// with the first on the other. None if the facet has both sides: the edge is drawn inside of it, and stays.
 std::uint32_t PlaneEdges::partner(std::uint32_t t, std::span<const EdgeUse> uses) const {
   const auto& p = in_.points;
   const std::uint32_t f = faces_.facet_of[t];
@@ -64,8 +64,12 @@ std::uint32_t PlaneEdges::partner(std::uint32_t t, std::span<const EdgeUse> uses
   std::vector<std::uint32_t> here, there;
   for (const EdgeUse& use : uses)
     if (use.kind == Kind::rim && marker(use.owner) == marker(f)) (side(use.triangle) == mine ? here : there).push_back(use.owner);
-  const auto rank = static_cast<std::size_t>(std::ranges::find(here, f) - here.begin());
-  return rank < there.size() ? there[rank] : no_entity;
+  std::vector<std::uint32_t> ends_here, ends_there;  // uses come by owner
+  std::ranges::set_difference(here, there, std::back_inserter(ends_here));
+  std::ranges::set_difference(there, here, std::back_inserter(ends_there));
+  const auto at = std::ranges::find(ends_here, f);
+  const auto rank = static_cast<std::size_t>(at - ends_here.begin());
+  return at != ends_here.end() && rank < ends_there.size() ? ends_there[rank] : no_entity;
 }
 
 }  // namespace pgdr::detail
