@@ -5,7 +5,9 @@
 // each is refused for what it is.
 #include <gtest/gtest.h>
 
+#include "domain_plcs.hpp"
 #include "refined_models.hpp"
+#include "repair_plcs.hpp"
 #include "structure_plcs.hpp"
 
 namespace test_check_given_faults {
@@ -101,6 +103,30 @@ TEST(GivenFaults, AFacetOfAWrongMarker) {
     expect_told_apart(plc, other, {Kind::wrong_marker});
     other.facets[f].marker = plc.facets[(f + 1) % 6].marker;
     expect_told_apart(plc, other, {Kind::wrong_marker});
+  }
+}
+
+// Where facets overlap, the marker of the smaller one stays. That of the larger, which the subfacets lie on as well, is wrong
+// there, wherever the facets stand in the input, and however they are turned.
+TEST(GivenFaults, AMarkerOfTheWallOnItsPatch) {
+  Plc<3> plc = test::cube();
+  for (auto& f : plc.facets) f.marker = 1;
+  const auto n = static_cast<test::Index>(plc.points.size());
+  for (const auto& [x, y] : {std::pair{0.25, 0.25}, {0.5, 0.25}, {0.5, 0.75}, {0.25, 0.75}}) plc.points.push_back({{x, y, 0}});
+  plc.facets.insert(plc.facets.begin() + 2, {{{n, n + 1, n + 2, n + 3}}, {}, 7});
+  for (const Plc<3>& given : {plc, test::turned(plc, 0.7), test::moved(test::turned(plc, 0.7), 1, 0, 1000)}) {
+    OutputMesh<3> mesh = mesh_of(given);
+    EXPECT_LE(check_given(given, mesh).exit_code(), 1) << test::findings(check_given(given, mesh));
+    std::size_t patched = 0;
+    for (auto& s : mesh.subfacets)
+      if (s.marker == 7) {
+        s.marker = 1;
+        ++patched;
+      }
+    ASSERT_GT(patched, 0u);
+    const CheckReport report = check_given(given, mesh);
+    EXPECT_EQ(report.exit_code(), 6);
+    EXPECT_EQ(report.count(Kind::wrong_marker), patched) << test::findings(report);
   }
 }
 

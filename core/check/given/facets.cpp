@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
+#include <optional>
 
 #include "check/given/cover.hpp"
+#include "check/given/facet_sizes.hpp"
 #include "check/given/flat_groups.hpp"
 #include "check/given/match.hpp"
 #include "space/box_tree.hpp"
@@ -88,15 +91,50 @@ class GivenFacetMatcher {
     const Triangle t = corners(s);
     const PlaneFrame frame(t);
     const int marker = mesh_.subfacets[s].marker;
-    const auto own = [&](std::uint32_t i) { return input_.marker(input_.triangles()[i]) == marker; };
+    bool beside_others = false;
+    const auto own = [&](std::uint32_t i) {
+      const bool is_own = input_.marker(input_.triangles()[i]) == marker;
+      beside_others |= !is_own;
+      return is_own;
+    };
     if (is_needle(frame, input_.reach())) {
       if (std::ranges::all_of(t, [&](const Point3& x) { return is_on_given(x, own); })) return;
       return report_off(s, t[0], false);
     }
     const auto off = off_given(frame, t, own);
+    if (off.empty() && beside_others) match_overlaps(s, frame, t);
     if (off.empty()) return;
     const bool marked = off_given(frame, t, [](std::uint32_t) { return true; }).empty();
     report_off(s, frame.in_space(centre(off[0])), marked);
+  }
+
+  /// Where facets of several markers have the subfacet, it has the marker of the smallest one: none that is certainly smaller
+  /// than those of its marker has all of it.
+  void match_overlaps(std::uint32_t s, const PlaneFrame& frame, const Triangle& t) {
+    const int marker = mesh_.subfacets[s].marker;
+    const Point2 middle = centre(in_frame(frame, t));
+    std::vector<std::uint32_t> own, others;
+    double reach = 0;
+    given_->meeting(detail::Box<3>::of(t), [&](std::uint32_t i) {
+      const bool is_own = input_.marker(input_.triangles()[i]) == marker;
+      const CoveringTriangle cover(frame, given(i), out_.reach[i], is_own ? out_.reach[i] : input_.tolerance());
+      if (!cover.contains(middle)) return;
+      (is_own ? own : others).push_back(i);
+      reach = std::max(reach, out_.reach[i]);
+    });
+    if (others.empty() || is_needle(frame, reach)) return;
+    if (!sizes_) sizes_.emplace(input_, *given_, out_.reach);
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t i : own) least = std::min(least, sizes_->least(i));
+    const auto is_smaller = [&](std::uint32_t i) {
+      return input_.marker(input_.triangles()[i]) != marker && sizes_->most(i) < least;
+    };
+    if (own.empty() || std::ranges::none_of(others, is_smaller) || !off_given(frame, t, is_smaller).empty()) return;
+    task_.findings.add(Kind::wrong_marker, {s}, [&] {
+      return "Subfacet " + std::to_string(s) + " (" + list_words(mesh_.subfacets[s].vertices) + ") has marker " +
+             std::to_string(marker) + ", but lies on a smaller input facet of another marker, too, at " +
+             words(frame.in_space(middle)) + ".";
+    });
   }
 
   /// Within reach of a triangle, as far as its own plane and sides tell.
@@ -155,6 +193,7 @@ class GivenFacetMatcher {
   const GivenInput<3>& input_;
   GivenMatch<3>& out_;
   std::unique_ptr<detail::BoxTree<3>> given_, subfacets_;
+  std::optional<FacetSizes> sizes_;  // once facets of several markers are beside each other
   std::vector<CoveringTriangle> covers_;
 };
 

@@ -74,7 +74,7 @@ void BuildReport<D>::write(std::vector<Diagnostic>& mended, std::vector<Diagnost
   list(repairs.edges_in_facets, Errc::entities_intersect, "edges that run inside a facet, now segments of it");
   list(repairs.overlaps, Errc::facets_overlap,
        "facets that overlap one before them in its plane, subdivided along each other's outlines; what is of both is the "
-       "latter's");
+       "latter's, or, where markers differ, the smaller one's");
   list(repairs.added_points, Errc::entities_intersect, "points added where edges cross inside of a plane that they lie in");
   list(repairs.dropped_flat, Errc::degenerate_facet, "facets with all their points on edges of others, dropped");
   list(repairs.dropped_bare, Errc::degenerate_facet, "facets without an area, with all their points on one line, dropped");
@@ -83,6 +83,10 @@ void BuildReport<D>::write(std::vector<Diagnostic>& mended, std::vector<Diagnost
                                   "groups of facets of which each lies in one plane with the next, within the tolerance, but not "
                                   "all together: taken as they are",
                                   plc_.source.file, warnings);
+  repairs.hidden_markers.report(Errc::facets_overlap,
+                                "facets that overlap in their plane and have different markers; what is of both has the marker "
+                                "of the smaller one, the first of each pair",
+                                plc_.source.file, warnings);
   repairs.bent_facets.report(Errc::bent_facet, "facets that are far from planar, taken as triangles with segments between them",
                              plc_.source.file, warnings);
 }

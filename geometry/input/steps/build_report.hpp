@@ -23,7 +23,8 @@ namespace pgdr::detail {
 /// The lists of repairs, by kind.
 struct Repairs {
   RepairList merged, merged_near, negative_zeros, dropped_edges, repeated_segments, repeated_facets, points_on_edges,
-      points_in_facets, edges_in_facets, overlaps, added_points, bent_facets, ambiguous_planes, dropped_flat, dropped_bare;
+      points_in_facets, edges_in_facets, overlaps, hidden_markers, added_points, bent_facets, ambiguous_planes, dropped_flat,
+      dropped_bare;
 };
 
 template <int D>

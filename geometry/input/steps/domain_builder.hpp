@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The maker of a Domain of a Plc, in this order: points (finite, grouped), indices, facets to triangles (through
-// what of their own points their edges pass), what is near to what (decided once, on the edges as given), repeated facets, points and edges that lie on what they do not belong to, facets that overlap,
-// coplanar groups, segments, incidences. Each step has a header of its own, included here. Everything is sorting and hashing: n
-// log n in the size of the input, but for constraint edges of a facet that cross many triangles. Used by one thread, once; long
-// loops run in its task arena, too.
+// The maker of a Domain of a Plc, in this order: points (finite, grouped), indices, facets to triangles (where their polygons
+// touch each other: through the points that do), what is near to what (decided once, on the edges as given), repeated facets,
+// points and edges that lie on what they do not belong to, facets that overlap, coplanar groups, segments, incidences. Each step
+// has a header of its own, included here. Everything is sorting and hashing: n log n in the size of the input, but for constraint
+// edges of a facet that cross many triangles. Used by one thread, once; long loops run in its task arena, too.
 #pragma once
 
 #include <optional>

@@ -21,12 +21,13 @@ constexpr std::uint64_t directed(std::uint32_t a, std::uint32_t b) { return stat
 }  // namespace
 
 PlaneClusters::PlaneClusters(const BuildInput<3>& in, const PlaneWidth& width, FacetTriangles& faces, const PlaneEdges& edges,
-                             std::span<const std::uint32_t> plane_of, BuildReport<3>& report)
+                             std::span<const std::uint32_t> plane_of, FacetAreas* areas, BuildReport<3>& report)
     : in_(in),
       width_(width),
       faces_(faces),
       edges_(edges),
       plane_of_(plane_of),
+      areas_(areas),
       report_(report),
       replaced_(faces.facets.size(), false),
       kept_by_(faces.facets.size(), no_entity) {
@@ -39,6 +40,7 @@ bool PlaneClusters::triangulate(std::span<const std::uint32_t> facets, std::span
   find_layers();
   find_rims();
   if (!build(edges) || !cover()) return false;
+  measure_layers();
   take_cells();
   find_outlines();
   turn_facets();
@@ -219,14 +221,36 @@ std::vector<std::vector<std::uint32_t>> PlaneClusters::inputs_of_layers() const 
   return inputs;
 }
 
+int PlaneClusters::marker(std::uint32_t layer) const { return in_.plc.facets[faces_.facets[first_of_[layer]].input].marker; }
+
+void PlaneClusters::measure_layers() {
+  std::vector<std::vector<std::uint32_t>> facets(first_of_.size());
+  for (std::uint32_t k = 0; k < facets_.size(); ++k) facets[layer_of_[k]].push_back(facets_[k]);
+  area_of_.assign(first_of_.size(), {});
+  for (std::size_t layer = 0; areas_ != nullptr && layer < facets.size(); ++layer) area_of_[layer] = areas_->of(facets[layer]);
+}
+
+/// Which of the layers that cover a cell says whose it is: the first, if their markers are equal; else the smallest, the first of
+/// those of one size.
+std::uint32_t PlaneClusters::owner(std::uint32_t cell) const {
+  const auto layers = layers_at(cell);
+  std::uint32_t owner = layers[0].second;
+  if (std::ranges::all_of(layers, [&](const auto& l) { return marker(l.second) == marker(owner); })) return owner;
+  for (const auto& [same, layer] : layers)
+    if (area_of_[layer].is_smaller_than(area_of_[owner], width_.of_added())) owner = layer;
+  return owner;
+}
+
 void PlaneClusters::take_cells() {
   const auto inputs = inputs_of_layers();
   std::vector<std::uint32_t> taken_by(first_of_.size(), no_entity);  // of each layer the first that has a cell of it
   std::vector<bool> has_any(first_of_.size(), false);
   for (std::size_t k = 0; k < covers_.size(); ++k) {
     const auto& [cell, layer] = covers_[k];
-    const std::uint32_t owner = layers_at(cell)[0].second;
+    const std::uint32_t owner = this->owner(cell);
     taken_by[layer] = std::min(taken_by[layer], owner);
+    if (marker(layer) != marker(owner))
+      hidden_.emplace_back(faces_.facets[first_of_[owner]].input, faces_.facets[first_of_[layer]].input);
     if (layer != owner) continue;
     has_any[layer] = true;
     Made& made = made_.emplace_back(Made{first_of_[layer], cells_[cell], mask_of(cells_[cell], hard_), {}});
@@ -292,7 +316,20 @@ void PlaneClusters::write() {
   make_set(given_up_);
   std::erase_if(faces_.polygon_edges,
                 [&](const OwnedEdge& e) { return std::ranges::binary_search(given_up_, edge_key(e.edge[0], e.edge[1])); });
+  note_markers();
   drop_empty_facets();
+}
+
+/// Of each pair of facets of the input: the one whose marker stays where they overlap, and the other.
+void PlaneClusters::note_markers() {
+  make_set(hidden_);
+  for (const auto& [first, second] : hidden_) {
+    const auto words = [&](std::uint32_t f) {
+      return std::to_string(report_.number(f)) + " (marker " + std::to_string(in_.plc.facets[f].marker) + ")";
+    };
+    const std::string text = words(first) + " over " + words(second);
+    report_.repairs.hidden_markers.add([&] { return text; }, {report_.number(first), report_.number(second)});
+  }
 }
 
 void PlaneClusters::drop_empty_facets() {

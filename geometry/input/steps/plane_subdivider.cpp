@@ -74,6 +74,7 @@ bool PlaneSubdivider::run() {
     if (met.empty()) break;
     const EdgeUses uses(faces_, segment_edges_, in_.bulk, in_.stop);
     const PlaneEdges edges(in_, faces_, uses, width);
+    if (!areas_ && !met.overlaps.empty()) areas_.emplace(in_, faces_, uses, width);
     find_crossings(met, edges, width);
     if (crossing_.empty() || round + 1 == most_rounds) {
       triangulate(met, edges, width);
@@ -177,7 +178,7 @@ void PlaneSubdivider::split_at_crossings(const PlaneWidth& width) {
 
 void PlaneSubdivider::triangulate(const PlaneMeetings& met, const PlaneEdges& edges, const PlaneWidth& width) {
   name_planes();
-  PlaneClusters made(in_, width, faces_, edges, plane_of_, report_);
+  PlaneClusters made(in_, width, faces_, edges, plane_of_, areas_ ? &*areas_ : nullptr, report_);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> facets;  // by cluster
   Edges inner;
   for (const std::uint32_t f : touched_) facets.emplace_back(clusters_.find(f), f);

@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Continues the fourth step of a Domain (3D): what meets inside of a common plane. Facets that overlap are subdivided along each
-// other's outlines, and what several of them have becomes that of the first one; an edge that runs inside of a facet becomes an
-// edge of its triangulation. Where edges cross inside of such a plane, but for those between triangles of one plane that are no
-// segments, a point is added, and all facets and segments that have the edges go through it. Then the triangles of each cluster,
-// the facets that hang together by overlapping or by such an edge across what is no segment, are made anew together.
+// other's outlines, and what several of them have becomes that of the first one, or, where markers differ, of the smallest; an
+// edge that runs inside of a facet becomes an edge of its triangulation. Where edges cross inside of such a plane, but for those
+// between triangles of one plane that are no segments, a point is added, and all facets and segments that have the edges go
+// through it. Then the triangles of each cluster, the facets that hang together by overlapping or by such an edge across what is
+// no segment, are made anew together.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -16,6 +18,7 @@
 #include "input/steps/build_input.hpp"
 #include "input/steps/build_report.hpp"
 #include "input/steps/edge_crossings.hpp"
+#include "input/steps/facet_areas.hpp"
 #include "input/steps/facet_triangles.hpp"
 #include "input/steps/plane_edges.hpp"
 #include "input/steps/plane_meetings.hpp"
@@ -55,6 +58,7 @@ class PlaneSubdivider {
   std::vector<OwnedEdge>& segment_edges_;
   BuildReport<3>& report_;
   std::uint32_t first_added_;
+  std::optional<FacetAreas> areas_;  // as facets were before anything was subdivided
   // Of a round.
   DisjointSets clusters_{0};                                       // of facets
   std::vector<std::uint32_t> plane_of_;                            // of each facet the name of its cluster
