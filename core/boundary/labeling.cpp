@@ -22,24 +22,32 @@ namespace {
 
 constexpr std::uint32_t unlabelled = 0xffffffffu;
 
-/// A hole or region seed of the input; one that is in the wrong place is named by its number there.
+/// A hole or region seed of the input; one that is in the wrong place is named by its number there, or, where the reader made it
+/// for cells of the file, by these.
 template <int D>
 struct Seed {
   Point<D> point;
   bool of_hole;
-  std::uint32_t index;  ///< in Plc::holes or Plc::regions
+  std::uint32_t index;  ///< in Domain::holes or Domain::regions
 
-  Diagnostic diagnostic(const Domain<D>& domain, Errc code, const std::string& what) const {
+  bool is_of_cells(const Domain<D>& domain) const {
+    return index < (of_hole ? domain.source().void_widths.size() : domain.source().cell_regions);
+  }
+  /// `of_cells`: what is said instead of a void between cells, or of labelled cells.
+  Diagnostic diagnostic(const Domain<D>& domain, Errc code, const std::string& what, const std::string& of_cells) const {
     const auto& lines = of_hole ? domain.source().hole_lines : domain.source().region_lines;
+    Diagnostic d{code, {}, domain.source().file, 0, {}, {{point[0], point[1], D == 3 ? point[D - 1] : 0.0}}};
+    if (is_of_cells(domain)) {
+      const std::string subject = of_hole ? "the void between cells at "
+                                          : "the cells of label " + detail::to_text(domain.regions()[index].attribute) + " at ";
+      d.message = subject + detail::to_text(point) + " " + of_cells;
+      return d;
+    }
     const std::int64_t number = static_cast<std::int64_t>(index) + domain.first_index();
-    const std::string words = (of_hole ? "hole seed " : "region seed ") + std::to_string(number) + " at " +
-                              detail::to_text(point);
-    return {code,
-            words + " " + what,
-            domain.source().file,
-            index < lines.size() ? lines[index] : 0,
-            {number},
-            {{point[0], point[1], D == 3 ? point[D - 1] : 0.0}}};
+    d.message = (of_hole ? "hole seed " : "region seed ") + std::to_string(number) + " at " + detail::to_text(point) + " " + what;
+    d.line = index < lines.size() ? lines[index] : 0;
+    d.ids = {number};
+    return d;
   }
 };
 
@@ -104,8 +112,11 @@ void refuse_seeds_on_walls(const Domain<D>& domain, std::vector<Seed<D>> seeds, 
   }
   if (found.empty()) return;
   const auto& [seed, facet] = found.front();
-  throw InputError(
-      seed->diagnostic(domain, Errc::seed_on_boundary, D == 2 ? "lies on a segment" : "lies on facet " + std::to_string(facet)));
+  throw InputError(seed->diagnostic(
+      domain, Errc::seed_on_boundary, D == 2 ? "lies on a segment" : "lies on facet " + std::to_string(facet),
+      seed->of_hole ? "is as thin as rounding there, but thicker than the tolerance: faces of neighbouring cells do not match; a "
+                      "larger --tolerance joins them"
+                    : "are as thin as rounding there"));
 }
 
 /// The parts of the mesh that hang together through unconstrained faces. Number 0 is that of the ghosts, the others go by the
@@ -204,12 +215,12 @@ class Regions {
  private:
   static constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-  void warn(const Seed<D>& seed, const char* what) {
-    warnings_.push_back(seed.diagnostic(domain_, Errc::seed_on_boundary, what));
+  void warn(const Seed<D>& seed, const char* what, const char* of_cells) {
+    warnings_.push_back(seed.diagnostic(domain_, Errc::seed_on_boundary, what, of_cells));
   }
 
   void place_hole(const Seed<D>& seed, std::uint32_t c) {
-    if (c == 0) warn(seed, "lies outside; it was left out");
+    if (c == 0) warn(seed, "lies outside; it was left out", "is open to the outside");
     removed_[c] = true;
   }
 
@@ -217,14 +228,19 @@ class Regions {
     table_.labelled = true;
     const auto& [point, attribute, size] = domain_.regions()[seed.index];
     if (removed_[c]) {
-      warn(seed, c == 0 ? "lies outside; it was left out" : "lies in a hole; it was left out");
+      if (c == 0)
+        warn(seed, "lies outside; it was left out", "lie outside of all faces that enclose anything; they are left out");
+      else
+        warn(seed, "lies in a hole; it was left out", "lie in a void between other cells; they are left out");
     } else if (region_[c] == 0) {
       region_[c] = add(attribute, size > 0 ? size : unbounded);
       bounded_ = bounded_ || size > 0;
     } else if (table_.attribute[region_[c]] != attribute) {
-      throw InputError(seed.diagnostic(domain_, Errc::conflicting_seeds,
-                                       "has the attribute " + detail::to_text(attribute) + ", another seed in its region " +
-                                           detail::to_text(table_.attribute[region_[c]])));
+      const std::string other = detail::to_text(table_.attribute[region_[c]]);
+      throw InputError(
+          seed.diagnostic(domain_, Errc::conflicting_seeds,
+                          "has the attribute " + detail::to_text(attribute) + ", another seed in its region " + other,
+                          "are not divided from cells of label " + other + ": they overlap, or their faces do not match"));
     }
   }
 
@@ -261,7 +277,9 @@ class Regions {
     if (std::find(removed_.begin(), removed_.end(), false) != removed_.end()) return;
     Diagnostic d{Errc::encloses_nothing, {}, domain_.source().file, 0, {}, {}};
     if (labeling_.components() > 1) {
-      d.message = "nothing is left to mesh: every enclosed " + std::string(D == 3 ? "volume" : "area") + " has a hole seed";
+      const bool of_cells = !domain_.source().void_widths.empty();
+      d.message = "nothing is left to mesh: every enclosed " + std::string(D == 3 ? "volume" : "area") +
+                  (of_cells ? " is a void between cells" : " has a hole seed");
     } else {
       d.message = std::string("the ") + (D == 3 ? "facets" : "segments") +
                   " enclose nothing: the outside reaches every part of the input's convex hull through gaps";

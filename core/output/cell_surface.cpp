@@ -42,6 +42,29 @@ std::vector<Face<D>> sorted_faces(const std::vector<LabelledCell<D>>& cells,
   return faces;
 }
 
+/// @param faces as sorted_faces() has them
+template <int D>
+CellLinks<D> links_of(const std::vector<LabelledCell<D>>& cells, const std::vector<Face<D>>& faces) {
+  std::array<std::uint32_t, D + 1> none;
+  none.fill(no_entity);
+  CellLinks<D> links(cells.size(), none);
+  const auto link = [&](const Face<D>& face, std::uint32_t beyond) {
+    const auto& v = cells[face.cell].corners;
+    const auto is_opposite = [&](std::uint32_t x) { return !std::binary_search(face.corners.begin(), face.corners.end(), x); };
+    const auto at = std::find_if(v.begin(), v.end(), is_opposite);  // none if the cell has a corner twice
+    if (at != v.end()) links[face.cell][static_cast<std::size_t>(at - v.begin())] = beyond;
+  };
+  for (std::size_t begin = 0, end; begin < faces.size(); begin = end) {
+    end = begin + 1;
+    while (end < faces.size() && faces[end].corners == faces[begin].corners) ++end;
+    const bool are_two = end - begin > 1 && faces[begin + 1].cell != wall && (end - begin == 2 || faces[begin + 2].cell == wall);
+    if (!are_two) continue;
+    link(faces[begin], faces[begin + 1].cell);
+    link(faces[begin + 1], faces[begin].cell);
+  }
+  return links;
+}
+
 /// The centroid, if it lies inside of the cell, strictly and exactly.
 template <int D>
 std::optional<Point<D>> inner_centroid(const Simplex<D>& s) {
@@ -123,7 +146,7 @@ CellSurface<D> surface_of(const std::vector<Point<D>>& points, const std::vector
       surface.faces.push_back(faces[begin].corners);
   }
   surface.seeds = seeds_of<D>(points, cells, parts);
-  surface.holes = points_in_voids<D>(points, cells, hull);
+  surface.voids = voids_of<D>(points, cells, hull, parts_of_hull<D>(points, cells, links_of<D>(cells, faces), hull));
   return surface;
 }
 

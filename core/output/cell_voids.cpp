@@ -2,45 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "output/cell_surface.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr::detail {
 namespace {
-
-/// The parts of the hull, united at the ridges of exactly two faces: elsewhere parts touch.
-template <int D>
-DisjointSets parts_of(const std::vector<HullFace<D>>& hull) {
-  struct Ridge {
-    std::array<std::uint32_t, D - 1> corners;
-    std::uint32_t face;
-    bool operator<(const Ridge& o) const { return corners != o.corners ? corners < o.corners : face < o.face; }
-  };
-  std::vector<Ridge> ridges;
-  ridges.reserve(D * hull.size());
-  for (std::uint32_t f = 0; f < hull.size(); ++f) {
-    for (std::size_t skip = 0; skip < D; ++skip) {
-      Ridge ridge{{}, f};
-      std::size_t k = 0;
-      for (std::size_t i = 0; i < D; ++i) {
-        if (i != skip) ridge.corners[k++] = hull[f].corners[i];
-      }
-      std::sort(ridge.corners.begin(), ridge.corners.end());
-      ridges.push_back(ridge);
-    }
-  }
-  std::sort(ridges.begin(), ridges.end());
-  DisjointSets parts(hull.size());
-  for (std::size_t begin = 0, end; begin < ridges.size(); begin = end) {
-    end = begin + 1;
-    while (end < ridges.size() && ridges[end].corners == ridges[begin].corners) ++end;
-    if (end - begin == 2) parts.unite(ridges[begin].face, ridges[begin + 1].face);
-  }
-  return parts;
-}
 
 /// A face with what lies beyond it.
 template <int D>
@@ -95,64 +66,139 @@ bool contains(const Simplex<D>& s, const Point<D>& p) {
   return true;
 }
 
-/// A point just beyond the face and in no cell: as near as 2^-20 of the size of the face, or nearer if the void is
-/// thinner there.
+/// Is a point of the face's plane (line) inside of it? Approximate: it chooses where to look.
+template <int D>
+bool is_seen_inside(const Side<D>& face, const Point<D>& x) {
+  const auto turn = [&](const Point<D>& p, const Point<D>& q) {  // the part of the normal that p, q and x have
+    double sum = 0;
+    for (int k = 0; k < D; ++k) {
+      const int l = (k + 1) % D, m = (k + 2) % D;
+      if constexpr (D == 3) sum += face.outward[k] * ((p[l] - x[l]) * (q[m] - x[m]) - (p[m] - x[m]) * (q[l] - x[l]));
+      if constexpr (D == 2) sum += (q[k] - p[k]) * (x[k] - p[k]);
+    }
+    return sum;
+  };
+  const auto& c = face.cell;
+  if constexpr (D == 2) return turn(c[0], c[1]) >= 0 && turn(c[1], c[0]) >= 0;
+  const double first = turn(c[0], c[1]), second = turn(c[1], c[2]), third = turn(c[2], c[0]);
+  return (first >= 0 && second >= 0 && third >= 0) || (first <= 0 && second <= 0 && third <= 0);
+}
+
+/// How far from the face's centre, along its normal, the next face is; infinite if there is none.
+template <int D>
+double depth_beyond(const Side<D>& side, const std::vector<Side<D>>& others) {
+  double depth = std::numeric_limits<double>::infinity();
+  const double length = std::sqrt(side.squared);
+  for (const Side<D>& other : others) {
+    double slope = 0, height = 0;
+    for (int k = 0; k < D; ++k) {
+      slope += side.outward[k] / length * other.outward[k];
+      height += (other.centre[k] - side.centre[k]) * other.outward[k];
+    }
+    const double at = height / slope;
+    if (!(slope < 0) || !(at > 0) || !(at < depth)) continue;
+    Point<D> x;
+    for (int k = 0; k < D; ++k) x[k] = side.centre[k] + at * (side.outward[k] / length);
+    if (is_seen_inside(other, x)) depth = at;
+  }
+  return depth;
+}
+
+/// The point beyond the centre of the face, so far, if it is strictly beyond and in no cell.
+template <int D>
+std::optional<Point<D>> free_point(const std::vector<Point<D>>& points, const std::vector<LabelledCell<D>>& cells,
+                                   const Side<D>& side, double distance) {
+  const double length = std::sqrt(side.squared);
+  Point<D> p;
+  for (int k = 0; k < D; ++k) p[k] = side.centre[k] + distance * (side.outward[k] / length);
+  if (!std::all_of(p.x.begin(), p.x.end(), [](double x) { return std::isfinite(x); })) return std::nullopt;
+  Simplex<D> beyond = side.cell;
+  beyond[D] = p;
+  if (orient<D>(beyond) != -orient<D>(side.cell)) return std::nullopt;  // lost in rounding
+  const bool free = std::none_of(cells.begin(), cells.end(), [&](const LabelledCell<D>& c) {
+    Simplex<D> s;
+    for (std::size_t i = 0; i <= D; ++i) s[i] = points[c.corners[i]];
+    return contains<D>(s, p);
+  });
+  return free ? std::optional(p) : std::nullopt;
+}
+
+/// A point beyond the face and in no cell: half way to the face opposite, or, where something is in the way, near the face.
 template <int D>
 std::optional<Point<D>> point_beyond(const std::vector<Point<D>>& points, const std::vector<LabelledCell<D>>& cells,
-                                     const Side<D>& side) {
+                                     const Side<D>& side, double depth) {
   const double length = std::sqrt(side.squared), size = D == 2 ? length : std::sqrt(length);
   if (!(length > 0) || !std::isfinite(length)) return std::nullopt;
-  for (const int halvings : {20, 30, 40}) {
-    Point<D> p;
-    for (int k = 0; k < D; ++k) p[k] = side.centre[k] + std::ldexp(size, -halvings) * (side.outward[k] / length);
-    if (!std::all_of(p.x.begin(), p.x.end(), [](double x) { return std::isfinite(x); })) return std::nullopt;
-    Simplex<D> beyond = side.cell;
-    beyond[D] = p;
-    if (orient<D>(beyond) != -orient<D>(side.cell)) return std::nullopt;  // lost in rounding
-    const bool free = std::none_of(cells.begin(), cells.end(), [&](const LabelledCell<D>& c) {
-      Simplex<D> s;
-      for (std::size_t i = 0; i <= D; ++i) s[i] = points[c.corners[i]];
-      return contains<D>(s, p);
-    });
-    if (free) return p;
+  if (std::isfinite(depth))
+    if (const auto p = free_point<D>(points, cells, side, depth / 2)) return p;
+  for (const int halvings : {20, 30, 40})
+    if (const auto p = free_point<D>(points, cells, side, std::ldexp(size, -halvings))) return p;
+  return std::nullopt;
+}
+
+/// Of the strip between two parallel planes that has these faces: across the sum of their normals, each turned as the largest is.
+template <int D>
+double width_of(const std::vector<Side<D>>& sides, const Side<D>& largest) {
+  Point<D> normal;
+  double squared = 0;
+  for (const Side<D>& side : sides) {
+    double turn = 0;
+    for (int k = 0; k < D; ++k) turn += side.outward[k] * largest.outward[k];
+    for (int k = 0; k < D; ++k) normal[k] += turn < 0 ? -side.outward[k] : side.outward[k];
   }
+  for (const double x : normal.x) squared += x * x;
+  double low = 0, high = 0;
+  for (const Side<D>& side : sides)
+    for (std::size_t i = 0; i < D; ++i) {
+      double height = 0;
+      for (int k = 0; k < D; ++k) height += (side.cell[i][k] - largest.centre[k]) * normal[k];
+      low = std::min(low, height);
+      high = std::max(high, height);
+    }
+  return (high - low) / std::sqrt(squared);
+}
+
+/// What the volume (area) inside of a closed part is, but for a factor; negative where the cells are outside.
+template <int D>
+double measure_inside(const std::vector<Side<D>>& sides) {
+  double measure = 0;
+  for (const Side<D>& side : sides)
+    for (int k = 0; k < D; ++k) measure += (side.centre[k] - sides[0].centre[k]) * side.outward[k];
+  return measure;
+}
+
+/// The largest sides of a void are tried, up to so many, for one that has most room beyond it.
+constexpr std::size_t most_tried = 8;
+
+template <int D>
+std::optional<CellVoid<D>> void_of(const std::vector<Point<D>>& points, const std::vector<LabelledCell<D>>& cells,
+                                   std::vector<Side<D>>& sides) {
+  if (!(measure_inside(sides) < 0)) return std::nullopt;
+  std::stable_sort(sides.begin(), sides.end(), [](const Side<D>& a, const Side<D>& b) { return a.squared > b.squared; });
+  std::vector<std::pair<double, std::size_t>> tried;  // depth, side
+  for (std::size_t k = 0; k < std::min(sides.size(), most_tried); ++k) tried.emplace_back(depth_beyond(sides[k], sides), k);
+  std::stable_sort(tried.begin(), tried.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  for (const auto& [depth, k] : tried)
+    if (const auto p = point_beyond<D>(points, cells, sides[k], depth)) return CellVoid<D>{*p, width_of(sides, sides[0])};
   return std::nullopt;
 }
 
 }  // namespace
 
 template <int D>
-std::vector<Point<D>> points_in_voids(const std::vector<Point<D>>& points, const std::vector<LabelledCell<D>>& cells,
-                                      const std::vector<HullFace<D>>& hull) {
-  struct Part {
-    Point<D> origin;
-    double measure = 0;  ///< of what is inside the part, but for a factor; negative where the cells are outside
-    std::uint32_t largest = 0;
-    double squared = -1;
-  };
-  DisjointSets parts = parts_of<D>(hull);
-  std::map<std::uint32_t, Part> found;
-  for (std::uint32_t f = 0; f < hull.size(); ++f) {
-    const Side<D> side = side_of<D>(points, cells[hull[f].cell], hull[f]);
-    Part& part = found.try_emplace(parts.find(f), Part{side.centre}).first->second;
-    for (int k = 0; k < D; ++k) part.measure += (side.centre[k] - part.origin[k]) * side.outward[k];
-    if (side.squared > part.squared) {
-      part.largest = f;
-      part.squared = side.squared;
-    }
-  }
-  std::vector<Point<D>> holes;
-  for (const auto& [first, part] : found) {
-    if (!(part.measure < 0)) continue;
-    const HullFace<D>& face = hull[part.largest];
-    if (const auto p = point_beyond<D>(points, cells, side_of<D>(points, cells[face.cell], face))) holes.push_back(*p);
-  }
-  return holes;
+std::vector<CellVoid<D>> voids_of(const std::vector<Point<D>>& points, const std::vector<LabelledCell<D>>& cells,
+                                  const std::vector<HullFace<D>>& hull, const std::vector<std::uint32_t>& parts) {
+  std::map<std::uint32_t, std::vector<Side<D>>> by_part;
+  for (std::uint32_t f = 0; f < hull.size(); ++f) by_part[parts[f]].push_back(side_of<D>(points, cells[hull[f].cell], hull[f]));
+  std::vector<CellVoid<D>> voids;
+  for (auto& [first, sides] : by_part)
+    if (const auto found = void_of<D>(points, cells, sides)) voids.push_back(*found);
+  return voids;
 }
 
-template std::vector<Point2> points_in_voids<2>(const std::vector<Point2>&, const std::vector<LabelledCell<2>>&,
-                                                const std::vector<HullFace<2>>&);
-template std::vector<Point3> points_in_voids<3>(const std::vector<Point3>&, const std::vector<LabelledCell<3>>&,
-                                                const std::vector<HullFace<3>>&);
+template std::vector<CellVoid<2>> voids_of<2>(const std::vector<Point2>&, const std::vector<LabelledCell<2>>&,
+                                              const std::vector<HullFace<2>>&, const std::vector<std::uint32_t>&);
+template std::vector<CellVoid<3>> voids_of<3>(const std::vector<Point3>&, const std::vector<LabelledCell<3>>&,
+                                              const std::vector<HullFace<3>>&, const std::vector<std::uint32_t>&);
 
 }  // namespace pgdr::detail

@@ -31,6 +31,11 @@ struct PlcSource {
   std::vector<std::uint32_t> facet_lines;    ///< of each facet
   std::vector<std::uint32_t> hole_lines;     ///< of each hole
   std::vector<std::uint32_t> region_lines;   ///< of each region
+
+  /// Of a file that has cells, and no seeds of its own: how thick the voids between its cells are that the first holes were made
+  /// for, and how many of the first regions were made for labelled cells. What is wrong with such a seed is said of the cells.
+  std::vector<double> void_widths;
+  std::uint32_t cell_regions = 0;
 };
 
 /// The input. Coordinates are in the user's units; all indices count from 0, whatever `first_index` is. From flat arrays:
@@ -82,6 +87,16 @@ double rounding_tolerance(const Plc<D>& plc);
 template <int D>
 double tolerance_of(const Plc<D>& plc) {
   return plc.tolerance ? *plc.tolerance : rounding_tolerance(plc);
+}
+
+/// The holes of an input where what lies within this distance meets: all but those made for voids between cells that are no
+/// thicker, since nothing is left of these.
+template <int D>
+std::vector<Point<D>> holes_within(const Plc<D>& plc, double tolerance) {
+  std::vector<Point<D>> holes;
+  for (std::size_t i = 0; i < plc.holes.size(); ++i)
+    if (i >= plc.source.void_widths.size() || plc.source.void_widths[i] > tolerance) holes.push_back(plc.holes[i]);
+  return holes;
 }
 
 }  // namespace pgdr

@@ -40,6 +40,8 @@ void put_source(MessageWriter& message, const PlcSource& source) {
   for (const auto* lines :
        {&source.point_lines, &source.segment_lines, &source.facet_lines, &source.hole_lines, &source.region_lines})
     message.put(*lines);
+  message.put(source.void_widths);
+  message.put(source.cell_regions);
 }
 
 PlcSource get_source(MessageReader& message) {
@@ -47,6 +49,8 @@ PlcSource get_source(MessageReader& message) {
   source.file = message.get_text();
   for (auto* lines : {&source.point_lines, &source.segment_lines, &source.facet_lines, &source.hole_lines, &source.region_lines})
     *lines = message.get_all<std::uint32_t>();
+  source.void_widths = message.get_all<double>();
+  source.cell_regions = message.get<std::uint32_t>();
   return source;
 }
 

@@ -146,7 +146,7 @@ VolumeWalls<D> walls_of_mesh(const GivenTask<D>& task, const GivenMatch<D>& matc
     for (const auto& w : out.simplices) add_segment(w[0], w[1]);
   else
     for (const auto& s : mesh.subsegments) add_segment(s.vertices[0], s.vertices[1]);
-  out.holes = task.input.plc().holes;
+  out.holes = holes_within(task.input.plc(), task.input.tolerance());
   out.regions = task.input.plc().regions;
   return out;
 }

@@ -138,7 +138,11 @@ class PlcBuilder {
       }
     }
     plc_.regions = std::move(surface.seeds);
-    plc_.holes = std::move(surface.holes);
+    plc_.source.cell_regions = static_cast<std::uint32_t>(plc_.regions.size());
+    for (const auto& [point, width] : surface.voids) {
+      plc_.holes.push_back(point);
+      plc_.source.void_widths.push_back(width);
+    }
   }
 
   /// Points that cells have and nothing that is kept has. What no cell has either was put into the file on its own.

@@ -214,7 +214,7 @@ DistinctPoints<D> merge_points(const Plc<D>& plc, double tolerance, const StopCh
     out.largest_move = std::max(out.largest_move, std::sqrt(squared_distance(p, exact.points()[v])));
   }
   for (std::uint32_t i = 0; i < n; ++i) out.point_of_input.push_back(number[exact.at(i)]);
-  for (const Point<D>& p : plc.holes) out.holes.push_back(with_positive_zeros(p));
+  for (const Point<D>& p : holes_within(plc, tolerance)) out.holes.push_back(with_positive_zeros(p));
   for (RegionSeed<D> r : plc.regions) {
     r.point = with_positive_zeros(r.point);
     out.regions.push_back(r);

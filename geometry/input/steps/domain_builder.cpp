@@ -54,6 +54,7 @@ void DomainBuilder<D>::take_points() {
   out_.point_markers_ = std::move(distinct.markers);
   out_.point_attributes_ = std::move(distinct.attributes);
   out_.holes_ = std::move(distinct.holes);
+  std::erase_if(out_.source_.void_widths, [this](double width) { return width <= out_.tolerance_; });
   out_.regions_ = std::move(distinct.regions);
   report_.set_points(out_.points_, out_.input_of_point_);
 }
