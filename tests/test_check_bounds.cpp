@@ -96,6 +96,49 @@ TEST(CheckBounds, SmallAnglesMustHold) {
   EXPECT_EQ(with({first, {1, Code::small_angle, {c, point(4)}, 20}}).exit_code(), 6);
 }
 
+/// A triangle 100 long, 20 below it a needle of length 1. The long side of the first is in so many pieces, each the base of a
+/// cell.
+Model<2> needle_below(std::uint32_t pieces) {
+  Model<2> m;
+  m.plc.points = {{{0, 0}}, {{128, 0}}, {{128, 48}}, {{32, -20}}, {{33, -20}}, {{32.9375, -19.65625}}};
+  for (const auto& s :
+       {std::array{0u, 1u}, std::array{1u, 2u}, std::array{0u, 2u}, std::array{3u, 4u}, std::array{4u, 5u}, std::array{3u, 5u}})
+    m.plc.segments.push_back({s, 0});
+  m.mesh.points = m.plc.points;
+  m.mesh.input_points = 6;
+  for (std::uint32_t i = 1, last = 0; i <= pieces; ++i) {
+    const std::uint32_t next = i == pieces ? 1 : 5 + i;
+    if (i < pieces) m.mesh.points.push_back({{128.0 * i / pieces, 0}});
+    m.mesh.cells.push_back({last, next, 2});
+    m.mesh.subsegments.push_back({{last, next}, 0});
+    last = next;
+  }
+  m.mesh.cells.push_back({3, 4, 5});
+  for (std::size_t i = 1; i < m.plc.segments.size(); ++i) m.mesh.subsegments.push_back({m.plc.segments[i].points, 0});
+  return m;
+}
+
+// A map with crossings resolved: a triangle had no reason, since the segment that could not be split for it was 2.6 circumradii
+// away.
+TEST(CheckBounds, SegmentsStopWhatMeetsTheirPiecesDisks) {
+  CheckOptions<2> options;
+  options.radius_edge_bound = 1.41422;
+  for (const std::uint32_t pieces : {1u, 2u, 4u, 8u, 16u}) {
+    const Model<2> m = needle_below(pieces);
+    const EntityRef base = between(m, 0, 1), slope = between(m, 0, 2);
+    std::vector<PoorReason> reasons;
+    for (std::uint32_t c = 0; c <= pieces; ++c) reasons.push_back({c, Code::small_angle, {base, slope}, 20});
+    const auto report = run(m, options, reasons);
+    const bool meets = pieces <= 2;  // disks of radius 64, 32, 16 and so on, 20 away
+    EXPECT_EQ(report.exit_code(), meets ? 1 : 6) << pieces;
+    EXPECT_EQ(report.count(Kind::bad_reason), meets ? 0u : 1u) << pieces;
+    reasons.back().entities = {slope, base};  // farther, but in one piece
+    EXPECT_EQ(run(m, options, reasons).count(Kind::bad_reason), 0u) << pieces;
+    reasons.back().entities = {base, between(m, 1, 2)};
+    EXPECT_EQ(run(m, options, reasons).count(Kind::bad_reason), 1u) << pieces << ", a right angle";
+  }
+}
+
 TEST(CheckBounds, BeyondTheoryBelowTheProvedBound) {
   CheckOptions<2> options;
   options.radius_edge_bound = 1.2;

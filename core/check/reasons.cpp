@@ -218,7 +218,9 @@ auto Reasons<D>::judge(const PoorReason& reason, std::string& why) -> Verdict {
   if (!exists(a) || !exists(b)) return fail("it names an entity that does not exist");
   const Meeting angle = meeting(a, b);
   if (!angle.small && !angle.sharp) return fail(words(a) + " and " + words(b) + " meet at no small angle");
-  if (!near(reason.cell, a)) return fail("its circumball, doubled, does not meet " + words(a));
+  if (!near(reason.cell, a) && !meets_piece(reason.cell, a))
+    return fail("its circumball, doubled, does not meet " + words(a) +
+                (D == 2 ? ", nor it the diametral disk of a piece of that" : ""));
   return angle.sharp || !asks_for_dihedral() ? Verdict::holds : Verdict::admitted;
 }
 
@@ -346,6 +348,24 @@ bool Reasons<D>::near(std::uint32_t cell, EntityRef entity) const {
   const auto ball = circumsphere<D>(corners_of(mesh_, cell));
   const double reach = 2 * std::sqrt(ball.squared_radius) * (1 + rounding::of_blame_checked) + ball.center_error;
   return within(ball.center, reach, entity);
+}
+
+/// 2D: does the circumdisk meet the diametral disk of a subsegment of the segment? (docs/small-angles.md has the proof that it
+/// does if that was to be split in place of the cell, however far it is.)
+template <int D>
+bool Reasons<D>::meets_piece(std::uint32_t cell, EntityRef entity) {
+  if (D != 2 || entity.kind != EntityKind::segment || !conformity_) return false;
+  if (pieces_.empty())
+    for (std::uint32_t i = 0; i < mesh_.subsegments.size(); ++i)
+      if (const auto s = conformity_->segment_of[i].entity; s != none) pieces_[s].push_back(i);
+  const auto ball = circumsphere<D>(corners_of(mesh_, cell));
+  const auto& of_segment = pieces_[entity.id];
+  return std::any_of(of_segment.begin(), of_segment.end(), [&](std::uint32_t i) {
+    const auto& ends = mesh_.subsegments[i].vertices;
+    const Ball<D> piece = diametral_ball<D>(mesh_.points[ends[0]], mesh_.points[ends[1]]);
+    const double reach = (std::sqrt(ball.squared_radius) + std::sqrt(piece.squared_radius)) * (1 + rounding::of_blame_checked);
+    return std::sqrt(squared_distance(ball.center, piece.center)) <= reach + ball.center_error;
+  });
 }
 
 template <int D>

@@ -16,6 +16,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -59,6 +60,7 @@ class Reasons {
   bool small_at_point(std::uint32_t point, EntityRef b) const;
   bool exists(EntityRef entity) const;
   bool near(std::uint32_t cell, EntityRef entity) const;
+  bool meets_piece(std::uint32_t cell, EntityRef entity);
   bool within(const Point<D>& x, double distance, EntityRef entity) const;
 
   const OutputMesh<D>& mesh_;
@@ -69,7 +71,8 @@ class Reasons {
   std::map<std::array<std::uint64_t, 2>, Meeting> angles_;
   /// Edges of the mesh on segments, sorted, with the segment; made when the first is asked for.
   std::vector<std::pair<std::array<std::uint32_t, 2>, EntityId>> subsegments_;
-  double largest_ = 0;  ///< coordinate of the mesh
+  std::unordered_map<EntityId, std::vector<std::uint32_t>> pieces_;  ///< 2D: subsegments by segment; made when asked for
+  double largest_ = 0;                                               ///< coordinate of the mesh
 };
 
 }  // namespace pgdr::checking

@@ -36,21 +36,59 @@ bool PoorReasons<D>::meets(EntityRef e, const Ball<D>& ball) const {
   return detail::squared_distance_to<D>(*domain_, e, ball.center) <= ball.squared_radius;
 }
 
-/// As the checker will ask: do they meet at less than 60 (two segments) or 90 degrees, the first within the ball?
+/// As the checker will ask: do they meet at less than 60 (two segments) or 90 degrees? The reason that this is, if so.
+template <int D>
+std::optional<PoorReason> PoorReasons<D>::small_angle(const std::array<EntityRef, 2>& pair, const Angle& angle_of) const {
+  if (!has_extent(pair[0]) || !has_extent(pair[1]) || pair[0] == pair[1]) return {};
+  if (!entities_touch<D>(*domain_, pair[0], pair[1])) return {};
+  const bool segments = pair[0].kind == EntityKind::segment && pair[1].kind == EntityKind::segment;
+  const double angle = angle_of(pair[0], pair[1]);
+  if (angle >= (segments ? 60 : 90)) return {};
+  return PoorReason{0, PoorReason::Code::small_angle, pair, angle};
+}
+
+/// Do they meet at such an angle, one of them within the ball, which is named first then?
 template <int D>
 bool PoorReasons<D>::explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, const Angle& angle_of,
                               PoorReason& reason) const {
-  if (!has_extent(pair[0]) || !has_extent(pair[1]) || pair[0] == pair[1]) return false;
-  if (!entities_touch<D>(*domain_, pair[0], pair[1])) return false;
-  const bool segments = pair[0].kind == EntityKind::segment && pair[1].kind == EntityKind::segment;
-  const double angle = angle_of(pair[0], pair[1]);
-  if (angle >= (segments ? 60 : 90)) return false;
+  const auto found = small_angle(pair, angle_of);
+  if (!found) return false;
   for (const auto& order : {pair, std::array{pair[1], pair[0]}}) {
     if (!meets(order[0], doubled)) continue;
-    reason = {0, PoorReason::Code::small_angle, order, angle};
+    reason = {0, found->code, order, found->angle};
     return true;
   }
   return false;
+}
+
+/// 2D: the small angle of a segment with a subsegment, on one of these cells, that may have been to be split in place of cell
+/// c: its diametral disk meets the circumdisk (small-angles.md has the proof). What refused the cell comes first.
+template <int D>
+std::optional<PoorReason> PoorReasons<D>::explain_by_piece(CellId c, std::span<const CellId> cells,
+                                                           std::span<const EntityRef> near, const Angle& angle) const {
+  if constexpr (D == 2) {
+    const auto sphere = circumsphere<D>(mesh_->simplex(c));
+    const double radius = std::sqrt(sphere.squared_radius);
+    std::optional<EntityPair> why;
+    if (const auto at = why_.find(index(c)); at != why_.end()) why = at->second;
+    std::optional<PoorReason> found;
+    for (const CellId k : cells) {
+      const auto* constraints = mesh_->constraints(k);
+      for (int i = 0; constraints && i <= D; ++i) {
+        if (!constraints->has_face(i)) continue;
+        const auto ends = mesh_->points(face_without(mesh_->cell(k).vertices, i));
+        const Ball<D> ball = diametral_ball<D>(ends[0], ends[1]);
+        const double reach = (radius + std::sqrt(ball.squared_radius)) * (1 - rounding::of_blame);
+        if (std::sqrt(squared_distance(sphere.center, ball.center)) > reach) continue;
+        const EntityRef e = mesh_->entity_of_face(k, i);
+        if (why && why->entities[0] == e)
+          if (const auto reason = small_angle(why->entities, angle)) return reason;
+        for (std::size_t j = 0; j < near.size() && !found; ++j) found = small_angle({e, near[j]}, angle);
+      }
+    }
+    return found;
+  }
+  return {};
 }
 
 /// As the checker will ask: does the segment meet the ball, or have its centre in the diametral ball?
@@ -127,6 +165,8 @@ PoorReason PoorReasons<D>::explain(CellId c, bool beside) const {
     for (const Link link : mesh_->cell(cells[i]).links)
       if (link && cells.size() < most_cells && known.insert(index(link.cell())).second) cells.push_back(link.cell());
   }
+  if (proved && !beside)
+    if (const auto found = explain_by_piece(c, cells, near, angle)) return *found;
   reason.code = proved ? PoorReason::Code::rounding : PoorReason::Code::beyond_theory;
   if (!keep_boundary_ || beside) return reason;
   if (const auto why = why_.find(index(c)); why != why_.end() && why->second) near.insert(near.begin(), why->second->entities[0]);

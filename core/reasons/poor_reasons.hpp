@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Why elements stay poor: the two input entities that meet at a small angle next to them. What refused the element's
-// insertion is named if it is such a pair, else a pair among the entities that the element and its neighbours touch.
+// insertion is named if it is such a pair, else a pair among the entities that the element and its neighbours touch. One of the
+// two has to be near: docs/small-angles.md says how near, and why.
 // Reads the whole mesh, while nothing else is running; one thread where nothing else is said.
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -66,6 +68,9 @@ class PoorReasons {
 
  private:
   PoorReason explain(CellId c, bool beside) const;
+  std::optional<PoorReason> small_angle(const std::array<EntityRef, 2>& pair, const Angle& angle) const;
+  std::optional<PoorReason> explain_by_piece(CellId c, std::span<const CellId> cells, std::span<const EntityRef> near,
+                                             const Angle& angle) const;
   bool explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, const Angle& angle, PoorReason& reason) const;
   bool meets(EntityRef e, const Ball<D>& ball) const;
   bool is_beside(EntityRef segment, const Ball<D>& doubled) const;
