@@ -226,6 +226,54 @@ TEST(AngleBounds, SharpPlanarAngles) {
   EXPECT_FALSE(detail::is_too_sharp<2>(o, x, {2, 1}, 0.5 * 3));
 }
 
+TEST(AngleBounds, DirectionsNearPlanarCorners) {
+  Random random(oracle::seed());
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  int above = 0;
+  for (int round = 0; round < 4000; ++round) {
+    Point3 v, r, b, c;
+    for (Point3* p : {&v, &r, &b, &c})
+      for (double& x : p->x) x = uniform(random);
+    if (round % 2)
+      for (int i = 0; i < 3; ++i) r[i] = 0.5 * (b[i] + c[i]) + 0.2 * r[i];
+    // The nearest of many directions between the two; the angle between is no less than the exact one.
+    const auto angle_to = [&](long double share) {
+      long double xx = 0, xy = 0, yy = 0, bb = 0, cc = 0;
+      for (int i = 0; i < 3; ++i) bb += std::pow(static_cast<long double>(b[i]) - v[i], 2);
+      for (int i = 0; i < 3; ++i) cc += std::pow(static_cast<long double>(c[i]) - v[i], 2);
+      for (int i = 0; i < 3; ++i) {
+        const long double x = static_cast<long double>(r[i]) - v[i];
+        const long double y = (1 - share) * (static_cast<long double>(b[i]) - v[i]) / std::sqrt(bb) +
+                              share * (static_cast<long double>(c[i]) - v[i]) / std::sqrt(cc);
+        xx += x * x;
+        xy += x * y;
+        yy += y * y;
+      }
+      return std::acos(std::clamp<long double>(xy / std::sqrt(xx * yy), -1, 1));
+    };
+    long double angle = 4;
+    constexpr int steps = 256;
+    for (int k = 0; k <= steps; ++k) angle = std::min(angle, angle_to(static_cast<long double>(k) / steps));
+    for (const double bound : {0.6, 1.0, 2.0, 10.0}) {
+      const long double largest = std::asin(1 / (2 * static_cast<long double>(bound)));
+      if (std::abs(angle - largest) < 0.02L) continue;
+      const bool near = detail::is_too_near_corner(v, r, b, c, bound);
+      ASSERT_EQ(near, angle < largest);
+      ASSERT_EQ(detail::is_too_near_corner(v, r, c, b, bound), near);
+      above += near && !detail::is_too_sharp<3>(v, r, b, bound) && !detail::is_too_sharp<3>(v, r, c, bound);
+    }
+  }
+  EXPECT_GT(above, 200);
+  // Exactly: a sine of 1/4 is not below it.
+  const Point3 o{0, 0, 0}, x{8, 0, 0}, y{0, 8, 0}, up{3, 6, std::sqrt(3)};  // a root rounded down; sqrt(45 + 3) = 4 sqrt(3)
+  EXPECT_TRUE(detail::is_too_near_corner(o, up, x, y, 2));
+  EXPECT_FALSE(detail::is_too_near_corner(o, {3, 6, std::nextafter(std::sqrt(3), 2)}, x, y, 2));
+  EXPECT_TRUE(detail::is_too_near_corner(o, {3, 6, 0}, x, y, 2));
+  EXPECT_FALSE(detail::is_too_near_corner(o, {-3, -6, 0}, x, y, 2));
+  EXPECT_FALSE(detail::is_too_near_corner(o, o, x, y, 2));
+  EXPECT_FALSE(detail::is_too_near_corner(o, {0, 0, 1}, x, x, 2));
+}
+
 /// By its series, of more than forty digits.
 Rational cosine_of(const Rational& degrees) {
   static const Rational pi(

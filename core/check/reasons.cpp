@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <unordered_set>
 
 #include "check/wedges.hpp"
 #include "numbers/rounding.hpp"
@@ -187,7 +188,8 @@ bool Reasons<D>::excuses_dihedral(std::uint32_t cell) {
   const auto of = of_cell(cell);
   return std::any_of(of.begin(), of.end(), [&](std::uint32_t r) {
     const PoorReason& reason = (*options_.reasons)[r];
-    return is_at_corner(reason) || (reason.code == PoorReason::Code::input_dihedral && in_wedge(reason, why) == Verdict::holds);
+    return is_at_corner(reason) || is_in_gap(reason) ||
+           (reason.code == PoorReason::Code::input_dihedral && in_wedge(reason, why) == Verdict::holds);
   });
 }
 
@@ -221,7 +223,7 @@ auto Reasons<D>::judge(const PoorReason& reason, std::string& why) -> Verdict {
   if (!near(reason.cell, a) && !meets_piece(reason.cell, a))
     return fail("its circumball, doubled, does not meet " + words(a) +
                 (D == 2 ? ", nor it the diametral disk of a piece of that" : ""));
-  return angle.sharp || !asks_for_dihedral() ? Verdict::holds : Verdict::admitted;
+  return angle.sharp || !asks_for_dihedral() || is_in_gap(reason) ? Verdict::holds : Verdict::admitted;
 }
 
 /// Does it name two segments of one facet that meet at a vertex of the cell, at a planar angle that is too small?
@@ -234,6 +236,69 @@ bool Reasons<D>::is_at_corner(const PoorReason& reason) const {
     for (const std::uint32_t p : common_points(*options_.domain, a, b))
       if (const std::uint32_t v = conformity_->vertex_of_point[p]; v != none && has_corner(mesh_.cells[reason.cell], v))
         return is_sharp_corner(*options_.domain, p, a.id, b.id, angle_bounds());
+  }
+  return false;
+}
+
+/// Of the mesh: does the vertex lie on the segment or facet?
+template <int D>
+bool Reasons<D>::lies_on(std::uint32_t v, EntityRef entity) const {
+  const EntityRef home = conformity_->home[v];
+  if (home == entity) return true;
+  if (home.kind == EntityKind::vertex) {
+    const auto points = points_of(*options_.domain, entity);
+    return std::binary_search(points.begin(), points.end(), home.id);
+  }
+  if constexpr (D == 3) return contains_segment(*options_.domain, entity, home);
+  return false;
+}
+
+/// Is it between two segments or facets that share one of its vertices and no segment at it, and come too near to each other
+/// about that (docs/small-angles.md has the proof)? It has to be as thin there as the proof says, with another vertex on one of
+/// the two, and have a way round the vertex to the middle of the gap, so that this is meshed.
+template <int D>
+bool Reasons<D>::is_in_gap(const PoorReason& reason) const {
+  if constexpr (D == 3) {
+    const auto& [a, b] = reason.entities;
+    if (reason.code != PoorReason::Code::small_angle || !options_.domain || !conformity_ || !exists(a) || !exists(b))
+      return false;
+    const auto& cell = mesh_.cells[reason.cell];
+    for (const std::uint32_t p : common_points(*options_.domain, a, b)) {
+      const std::uint32_t v = conformity_->vertex_of_point[p];
+      if (v == none || !has_corner(cell, v) || !is_thin_at(corners_of(mesh_, reason.cell), corner_of(cell, v), angle_bounds()))
+        continue;
+      const auto touches = [&](std::uint32_t w) { return w != v && (lies_on(w, a) || lies_on(w, b)); };
+      if (std::none_of(cell.begin(), cell.end(), touches)) continue;
+      const auto middle = middle_of_gap(*options_.domain, p, a, b, angle_bounds());
+      if (middle && reaches(reason.cell, v, reason.entities, *middle)) return true;
+    }
+  }
+  return false;
+}
+
+/// Round the vertex, across neither of the two, is there a way from the cell to one that the direction to the middle leads into?
+template <int D>
+bool Reasons<D>::reaches(std::uint32_t cell, std::uint32_t v, const std::array<EntityRef, 2>& pair, const Point3& middle) const {
+  if constexpr (D == 3) {
+    const auto is_on_one = [&](std::uint32_t face) {
+      const auto corners = face_vertices(mesh_, face);
+      return std::any_of(pair.begin(), pair.end(), [&](EntityRef e) {
+        return e.kind == EntityKind::facet &&
+               std::all_of(corners.begin(), corners.end(), [&](std::uint32_t w) { return lies_on(w, e); });
+      });
+    };
+    std::vector<std::uint32_t> cells{cell};
+    std::unordered_set<std::uint32_t> known{cell};
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const int corner = corner_of(mesh_.cells[cells[i]], v);
+      if (!links_.positive(cells[i]) || corner == 4) continue;
+      if (has_direction(corners_of(mesh_, cells[i]), corner, middle)) return true;
+      for (int k = 0; k < 4; ++k) {
+        const std::uint32_t face = 4 * cells[i] + static_cast<std::uint32_t>(k), back = links_.neighbour[face];
+        if (k == corner || back == none || (links_.is_wall(face) && is_on_one(face))) continue;
+        if (known.insert(back / 4).second) cells.push_back(back / 4);
+      }
+    }
   }
   return false;
 }

@@ -9,7 +9,8 @@
 // the bounds. There only angles are an excuse at which the bounds cannot be met, of the input: dihedral angles below the bound on
 // these, and planar angles below arcsin(1 / (2 B)), B the bound on the ratio (input/sharp_angles.hpp). For a ratio or a size they
 // may be near the cell, as they always might. For a dihedral angle they have to be at the cell itself: the wedge of the walls at
-// one of its edges, which the cell fills or shares, or a sharp corner at one of its vertices. A reason that is true but no excuse
+// one of its edges, which the cell fills or shares, a sharp corner at one of its vertices, or a gap there between entities that
+// share that vertex alone. A reason that is true but no excuse
 // leaves the cell unexplained.
 #pragma once
 
@@ -48,6 +49,9 @@ class Reasons {
   AngleBounds angle_bounds() const { return {options_.radius_edge_bound, options_.largest_cosine}; }
   Verdict judge(const PoorReason& reason, std::string& why);
   bool is_at_corner(const PoorReason& reason) const;
+  bool is_in_gap(const PoorReason& reason) const;
+  bool reaches(std::uint32_t cell, std::uint32_t v, const std::array<EntityRef, 2>& pair, const Point3& middle) const;
+  bool lies_on(std::uint32_t v, EntityRef entity) const;
   Verdict in_wedge(const PoorReason& reason, std::string& why);
   void list_subsegments();
   bool beside_kept(const PoorReason& reason, std::string& why) const;

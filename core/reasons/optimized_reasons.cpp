@@ -47,6 +47,7 @@ OptimizedReasons::OptimizedReasons(const Mesh<3>& mesh, const Domain<3>& domain,
       domain_(&domain),
       bounds_(&bounds),
       angles_{bounds.radius_edge_bound, largest_cosine},
+      gaps_(mesh, domain, angles_),
       segments_at_(domain.points().size()) {
   for (const Point3& p : domain.points())
     for (const double x : p.x) largest_ = std::max(largest_, std::abs(x));
@@ -93,6 +94,13 @@ std::optional<PoorReason> OptimizedReasons::corner_of_cell(CellId c) {
     if (at->second) return small_angle(EntityKind::segment, *at->second);
   }
   return {};
+}
+
+/// Two entities that share a vertex of the cell alone, and come too near to each other about it, with the cell between.
+std::optional<PoorReason> OptimizedReasons::gap_at_corner(CellId c) {
+  const auto pair = gaps_.of_cell(c);
+  if (!pair) return {};
+  return PoorReason{0, PoorReason::Code::small_angle, *pair, entity_angle<3>(*domain_, (*pair)[0], (*pair)[1])};
 }
 
 const std::vector<OptimizedReasons::Pair>& OptimizedReasons::segments_sharp_at(EntityId point) {
@@ -161,6 +169,7 @@ std::vector<PoorCell> OptimizedReasons::of_cells(std::span<const CellId> cells, 
     if (!verdict && !below) continue;
     std::optional<PoorReason> reason = wedge_of(c);
     if (!reason) reason = corner_of_cell(c);
+    if (!reason) reason = gap_at_corner(c);
     if (!reason && !below) {
       reason = angle_near(c);
       if (!reason && checking::is_as_short_as_rounding<3>(s, largest_)) reason = PoorReason{0, PoorReason::Code::rounding, {}, 0};

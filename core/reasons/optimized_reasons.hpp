@@ -14,6 +14,7 @@
 
 #include "input/sharp_angles.hpp"
 #include "reasons/poor_reasons.hpp"
+#include "reasons/vertex_gaps.hpp"
 
 namespace pgdr {
 
@@ -36,6 +37,7 @@ class OptimizedReasons {
 
   std::optional<PoorReason> wedge_of(CellId c) const;
   std::optional<PoorReason> corner_of_cell(CellId c);
+  std::optional<PoorReason> gap_at_corner(CellId c);
   std::optional<PoorReason> angle_near(CellId c);
   const std::vector<Pair>& segments_sharp_at(EntityId point);
   const std::vector<Pair>& facets_sharp_at(EntityId segment);
@@ -45,6 +47,7 @@ class OptimizedReasons {
   const Domain<3>* domain_;
   const CellBounds<3>* bounds_;
   AngleBounds angles_;
+  VertexGaps gaps_;
   double largest_ = 0;                                               ///< coordinate of the input
   std::vector<std::vector<EntityId>> segments_at_;                   ///< of each input point
   std::unordered_map<EntityId, std::vector<Pair>> sharp_segments_;   ///< by input point

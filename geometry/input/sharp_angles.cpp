@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <utility>
 #include <vector>
 
 #include "numbers/angle_bounds.hpp"
+#include "numbers/corners.hpp"
+#include "numbers/vectors.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr {
@@ -51,7 +55,105 @@ std::uint32_t far_end(const Domain<3>& domain, EntityId segment, std::uint32_t p
   return a == point ? b : b == point ? a : no_entity;
 }
 
+/// What an entity is about a point of it: the directions between those to two points, which are one for a segment.
+using Sector = std::array<std::uint32_t, 2>;
+
+std::vector<Sector> sectors_at(const Domain<3>& domain, EntityRef e, std::uint32_t point) {
+  std::vector<Sector> out;
+  if (e.kind == EntityKind::segment)
+    if (const std::uint32_t end = far_end(domain, e.id, point); end != no_entity) out.push_back({end, end});
+  if (e.kind == EntityKind::facet)
+    for (const Triangle& t : corner_triangles(domain, e.id, point)) out.push_back({t[1], t[2]});
+  return out;
+}
+
+bool share_segment_at(const Domain<3>& domain, std::uint32_t point, EntityRef a, EntityRef b) {
+  if (a == b) return true;
+  if (a.kind > b.kind) std::swap(a, b);
+  if (b.kind != EntityKind::facet) return false;
+  const auto of_b = domain.facet_segments(b.id);
+  const auto is_of_b = [&of_b](EntityId s) { return std::find(of_b.begin(), of_b.end(), s) != of_b.end(); };
+  if (a.kind != EntityKind::facet) return is_of_b(a.id);
+  const auto of_a = domain.facet_segments(a.id);
+  return std::any_of(of_a.begin(), of_a.end(), [&](EntityId s) { return far_end(domain, s, point) != no_entity && is_of_b(s); });
+}
+
+/// sin δ = sin A / (2 B) as 1 / (2 bound); a hair less than that for the rounding of this number, so that the proof holds.
+double bound_of_gaps(const AngleBounds& bounds) {
+  const double k = bounds.largest_cosine;
+  return bounds.radius_edge / std::sqrt((1 - k) * (1 + k)) * (1 + 0x1p-48);
+}
+
+/// Of the directions between those to b and c the nearest to that to r, if it is not one of these two. In doubles.
+std::optional<detail::Vector<3>> foot_between(const detail::Vector<3>& r, const detail::Vector<3>& b,
+                                              const detail::Vector<3>& c) {
+  const auto n = detail::cross(b, c);
+  if (!(detail::dot(detail::cross(n, b), r) > 0 && detail::dot(detail::cross(c, n), r) > 0)) return {};
+  const double height = detail::dot(n, r) / detail::dot(n, n);
+  return detail::Vector<3>{r[0] - height * n[0], r[1] - height * n[1], r[2] - height * n[2]};
+}
+
+/// The middle between a direction and the nearest one of a sector, and how near that is.
+struct Gap {
+  double squared_sine = 2;
+  Point3 middle;
+
+  void add(const Point3& v, const detail::Vector<3>& x, const detail::Vector<3>& y) {
+    const auto n = detail::cross(x, y);
+    const double x2 = detail::dot(x, x), y2 = detail::dot(y, y), squared = detail::dot(n, n) / (x2 * y2);
+    if (!(detail::dot(x, y) > 0) || squared >= squared_sine) return;
+    squared_sine = squared;
+    const double scale = std::sqrt(x2 / y2);
+    for (int i = 0; i < 3; ++i) middle[i] = v[i] + 0.5 * (x[i] + scale * y[i]);
+  }
+};
+
 }  // namespace
+
+std::optional<Point3> middle_of_gap(const Domain<3>& domain, std::uint32_t point, EntityRef a, EntityRef b,
+                                    const AngleBounds& bounds) {
+  if (bounds.largest_cosine >= 1 || share_segment_at(domain, point, a, b)) return {};
+  const auto p = domain.points();
+  const Point3& v = p[point];
+  const double bound = bound_of_gaps(bounds);
+  Gap gap;
+  const auto look = [&](const std::vector<Sector>& from, const std::vector<Sector>& to) {
+    for (const Sector& s : from)
+      for (const std::uint32_t r : s)
+        for (const auto& [c, d] : to) {
+          const bool near = c == d ? detail::is_too_sharp<3>(v, p[r], p[c], bound)
+                                   : detail::is_too_near_corner(v, p[r], p[c], p[d], bound);
+          if (!near) continue;
+          const auto x = detail::difference(p[r], v), y = detail::difference(p[c], v), z = detail::difference(p[d], v);
+          const auto foot = c == d ? std::nullopt : foot_between(x, y, z);
+          for (const auto& w : foot ? std::array{*foot, *foot} : std::array{y, z}) gap.add(v, x, w);
+        }
+  };
+  const auto of_a = sectors_at(domain, a, point), of_b = sectors_at(domain, b, point);
+  look(of_a, of_b);
+  look(of_b, of_a);
+  return gap.squared_sine <= 1 ? std::optional(gap.middle) : std::nullopt;
+}
+
+bool is_thin_at(const Simplex<3>& s, int i, const AngleBounds& bounds) {
+  if (bounds.largest_cosine >= 1) return false;
+  const double bound = bound_of_gaps(bounds);
+  for (int j = 0; j < 4; ++j) {
+    if (j == i) continue;
+    const auto [k, l] = corners_without(i, j);
+    if (detail::is_too_near_corner(s[i], s[j], s[k], s[l], bound)) return true;
+  }
+  return false;
+}
+
+bool has_direction(const Simplex<3>& s, int i, const Point3& point) {
+  for (int j = 0; j < 4; ++j) {
+    Simplex<3> turned = s;
+    turned[j] = point;
+    if (j != i && orient<3>(turned) == Sign::negative) return false;
+  }
+  return true;
+}
 
 bool meet_too_sharply(const Domain<3>& domain, EntityRef a, EntityRef b, const AngleBounds& bounds) {
   if (a.kind != b.kind || a.id == b.id) return false;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "pgdr/domain.hpp"
 
@@ -24,5 +25,18 @@ bool meet_too_sharply(const Domain<3>& domain, EntityRef a, EntityRef b, const A
 /// Do the segments, of one facet, meet at this point at a planar angle that is too small, with a part of the facet between them?
 /// Then some cell there is over the bound, whatever the mesh (core/reasons/sharp_corners.hpp has the proof).
 bool is_sharp_corner(const Domain<3>& domain, std::uint32_t point, EntityId s, EntityId t, const AngleBounds& bounds);
+
+/// Do two segments or facets, which share this point and no segment at it, come nearer to each other about it than cells can be
+/// thin there within the bounds: at an angle below arcsin(sin A / (2 B)), A the angle of largest_cosine? Then some cell at the
+/// point is over a bound, whatever the mesh, if there are cells between them (docs/small-angles.md has the proof). A point in the
+/// middle between the nearest of their directions, rounded, if they do.
+std::optional<Point3> middle_of_gap(const Domain<3>& domain, std::uint32_t point, EntityRef a, EntityRef b,
+                                    const AngleBounds& bounds);
+
+/// Has the tetrahedron, at corner i, an edge that makes an angle below that with the face beside it? Then it is over a bound.
+bool is_thin_at(const Simplex<3>& s, int i, const AngleBounds& bounds);
+
+/// Does the direction from corner i to the point lead into the tetrahedron, or into its boundary? @pre positively oriented
+bool has_direction(const Simplex<3>& s, int i, const Point3& point);
 
 }  // namespace pgdr

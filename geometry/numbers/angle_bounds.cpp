@@ -106,6 +106,20 @@ std::optional<bool> is_sharp(const Point<D>& v, const Point<D>& a, const Point<D
   return acute == Sign::zero || below == Sign::zero ? std::nullopt : std::optional(true);
 }
 
+// The foot of the direction in the plane is between b and c, and sin^2 = (n.x)^2 / (|n|^2 |x|^2) < 1 / (2 bound)^2, n the normal.
+template <class T>
+std::optional<bool> is_sharp_above(const Point3& v, const Point3& r, const Point3& b, const Point3& c, double bound) {
+  const auto x = vector_between<T, 3>(v, r), y = vector_between<T, 3>(v, b), z = vector_between<T, 3>(v, c);
+  const auto n = cross(y, z);
+  const T height = mul(number(2 * bound, T{}), dot(n, x));
+  const std::array<Sign, 3> signs{definite(sign(dot(cross(n, y), x))), definite(sign(dot(cross(z, n), x))),
+                                  definite(sign(sub(mul(dot(n, n), dot(x, x)), mul(height, height))))};
+  const auto has = [&signs](Sign s) { return std::find(signs.begin(), signs.end(), s) != signs.end(); };
+  if (has(Sign::negative)) return false;
+  if (!has(Sign::zero)) return true;
+  return is_exact<T> ? std::optional(false) : std::nullopt;
+}
+
 }  // namespace
 
 bool dihedral_below(const Point3& a, const Point3& b, const Point3& c, const Point3& d, double cosine) {
@@ -119,6 +133,13 @@ bool is_too_sharp(const Point<D>& v, const Point<D>& a, const Point<D>& b, doubl
   if (!(bound > 0) || std::isinf(2 * bound)) return false;
   if (const auto filtered = is_sharp<Bounded, D>(v, a, b, bound)) return *filtered;
   return *is_sharp<Rational, D>(v, a, b, bound);
+}
+
+bool is_too_near_corner(const Point3& v, const Point3& r, const Point3& b, const Point3& c, double bound) {
+  if (!(bound > 0) || std::isinf(2 * bound)) return false;
+  if (is_too_sharp<3>(v, r, b, bound) || is_too_sharp<3>(v, r, c, bound)) return true;
+  if (const auto filtered = is_sharp_above<Bounded>(v, r, b, c, bound)) return *filtered;
+  return *is_sharp_above<Rational>(v, r, b, c, bound);
 }
 
 template bool is_too_sharp<2>(const Point2&, const Point2&, const Point2&, double);

@@ -17,4 +17,8 @@ bool dihedral_below(const Point3& a, const Point3& b, const Point3& c, const Poi
 template <int D>
 bool is_too_sharp(const Point<D>& v, const Point<D>& a, const Point<D>& b, double bound);
 
+/// The direction from v to r makes an angle below arcsin(1 / (2 bound)) with some direction between those to b and to c, in their
+/// plane: `is_too_sharp` of the nearest. False where r is v, or b and c are on a line with it.
+bool is_too_near_corner(const Point3& v, const Point3& r, const Point3& b, const Point3& c, double bound);
+
 }  // namespace pgdr::detail
