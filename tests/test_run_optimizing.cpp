@@ -105,7 +105,7 @@ TEST(Optimizing, StagesAreInTheReport) {
   EXPECT_EQ(stages_of(options),
             (std::vector<std::string>{"prepare", "diagnose", "triangulate", "recover", "carve", "list", "insert", "last_resort",
                                       "shortest_edge", "budget", "optimize_cheap", "optimize_strong", "optimize_worst",
-                                      "optimize_again", "reasons", "count", "number"}));
+                                      "optimize_again", "optimize_rest", "reasons", "count", "number"}));
   options.min_dihedral = 0;
   EXPECT_EQ(stages_of(options),
             (std::vector<std::string>{"prepare", "diagnose", "triangulate", "recover", "carve", "list", "insert", "last_resort",

@@ -41,7 +41,8 @@ class Optimizer final : public ElementTreatment<3> {
 
   void begin_visit() override {
     s_.replacer.set_area(s_.area());
-    rule_ = stage_->phase == Optimization::Phase::worst ? Judge::Rule::better : Judge::Rule::no_more_poor;
+    const bool may_be_more = stage_->phase == Optimization::Phase::worst || stage_->phase == Optimization::Phase::rest;
+    rule_ = may_be_more ? Judge::Rule::better : Judge::Rule::no_more_poor;
     if (s_.judge.sizes()) ask_listed(*s_.judge.sizes());
   }
   Outcome treat(const Entry<3>& e) override;
@@ -191,7 +192,7 @@ Outcome Optimizer::treat(const Entry<3>& e) {
 
 /// One decision about the element, which is made again if it rests on a wrong guess; then nothing was changed.
 Outcome Optimizer::try_to_change(const Entry<3>& e) {
-  if (rule_ == Judge::Rule::better && !is_worth_more_poor(e.cell)) return Outcome::refused;
+  if (stage_->phase == Optimization::Phase::worst && !is_worth_more_poor(e.cell)) return Outcome::refused;
   s_.out_of_reach = false;
   evaluated_before_ = s_.judge.asked();
   const bool changed = change(e.cell);

@@ -31,6 +31,7 @@ class Optimization final : public ElementStage<3> {
     strong,  ///< all; likewise
     worst,   ///< all; the worst gets better. Beside angles of the input that are too small only of cells much worse than the
              ///< bounds
+    rest,    ///< as `worst`, but of all cells: for those that nothing excuses
   };
 
   /// The mesh must outlive it. `min_dihedral`: the target in degrees.

@@ -3,6 +3,7 @@
 #include "run/optimizing.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "pgdr/circumsphere.hpp"
@@ -18,6 +19,11 @@ namespace {
 /// The budget of a phase: so many evaluations for each cell of the mesh, and for each poor cell that it begins with. For these it
 /// is at most some hundred for each cell of the mesh, which take about as long as its refinement took.
 constexpr std::uint64_t evaluations_a_cell = 20, evaluations_a_listed_cell = 1000, most_for_listed = 100;
+
+/// The budget of what is tried for the cells that nothing excuses: so many evaluations for each of these, ten times as many as
+/// one look at it may take; but no more than a phase has for each cell of the mesh, or in small meshes a million, some half
+/// second.
+constexpr std::uint64_t evaluations_an_unexplained_cell = 100000, least_of_most_for_unexplained = 1000000;
 
 }  // namespace
 
@@ -90,7 +96,9 @@ std::size_t Optimizing::list_all_poor() {
 std::size_t Optimizing::list_refused(Phase next) {
   std::size_t count = 0;
   std::vector<bool> listed(state_->context.mesh.cell_bound());
-  for (const Refusal<3>& r : state_->refused.take_all()) {
+  const std::vector<Refusal<3>> refused = state_->refused.take_all();
+  left_some_ = !refused.empty();
+  for (const Refusal<3>& r : refused) {
     const std::uint32_t slot = index(r.entry.cell);
     if (listed[slot]) continue;
     listed[slot] = true;
@@ -105,16 +113,25 @@ std::size_t Optimizing::list_refused(Phase next) {
 }
 
 StopCause Optimizing::run(Phase phase) {
+  begin(phase);
+  const std::size_t listed = last_ ? list_refused(phase) : list_all_poor();
+  last_ = phase;
+  return work_off(evaluations_a_cell * cells_ +
+                  std::min<std::uint64_t>(evaluations_a_listed_cell * listed, most_for_listed * cells_));
+}
+
+void Optimizing::begin(Phase phase) {
   RefineContext<3>& context = state_->context;
   stage_.phase = phase;
   if (phase == Phase::worst && !sharp_)
     sharp_.emplace(context.domain, AngleBounds{context.bounds.radius_edge_bound, claimed_cosine_});
   if (sharp_) stage_.sharp = &*sharp_;
   context.stage = &stage_;
-  const std::size_t listed = last_ ? list_refused(phase) : list_all_poor();
-  state_->most_evaluated = state_->totals.counts.evaluated + evaluations_a_cell * cells_ +
-                           std::min<std::uint64_t>(evaluations_a_listed_cell * listed, most_for_listed * cells_);
-  last_ = phase;
+}
+
+/// Treats what waits, and what was refused as often as its surroundings change, with so many evaluations.
+StopCause Optimizing::work_off(std::uint64_t budget) {
+  state_->most_evaluated = state_->totals.counts.evaluated + budget;
   bool some_undecided = false;  // when the lists were drained last, had some visit used up its share?
   while (!state_->waiting.is_empty() && !state_->is_spent()) {
     const RefineCounts counts = state_->totals.counts;
@@ -124,7 +141,44 @@ StopCause Optimizing::run(Phase phase) {
     if (state_->totals.counts.changes() == counts.changes()) break;
     state_->refused.relist_changed();
   }
-  is_limited_ = some_undecided || !state_->waiting.is_empty() || state_->totals.vertices >= context.options.max_vertices;
+  is_limited_ = some_undecided || !state_->waiting.is_empty() || state_->totals.vertices >= state_->context.options.max_vertices;
+  return StopCause::finished;
+}
+
+/// The poor cells that nothing excuses, in the order of find_poor().
+std::vector<Entry<3>> Optimizing::find_unexplained() {
+  RefineContext<3>& context = state_->context;
+  const std::vector<Entry<3>> poor = find_poor();
+  std::vector<Entry<3>> unexplained;
+  if (poor.empty()) return unexplained;
+  OptimizedReasons reasons(context.mesh, context.domain, context.bounds, claimed_cosine_);
+  for (const Entry<3>& e : poor) {
+    if (context.ended()) break;
+    const auto found = reasons.of_cells(std::array{e.cell}, PoorReason::Code::not_found, [] { return false; });
+    if (!found.empty() && !OptimizedReasons::is_excuse(found.front().reason.code)) unexplained.push_back(e);
+  }
+  return unexplained;
+}
+
+/// Phase::rest makes more cells poor, which Phase::strong mends, if it has the evaluations. So it is left out where these are not
+/// enough for every cell, and has no more than half of what is left.
+StopCause Optimizing::run_for_unexplained() {
+  if (!left_some_ && state_->refused.take_all().empty()) return StopCause::finished;
+  const std::uint64_t most = std::max(evaluations_a_cell * cells_, least_of_most_for_unexplained);
+  std::uint64_t left = most;
+  for (const Phase phase : {Phase::strong, Phase::rest, Phase::strong, Phase::rest, Phase::strong}) {
+    const std::vector<Entry<3>> unexplained = find_unexplained();
+    const std::uint64_t wanted = evaluations_an_unexplained_cell * unexplained.size();
+    if (unexplained.empty()) break;
+    if (phase == Phase::rest && wanted > left / 2) break;
+    state_->refused.take_all();
+    state_->waiting.for_each_list([](WorkList<3>& list) { list.drain([](const Entry<3>&) {}); });
+    for (const Entry<3>& e : unexplained) state_->waiting.relist(e);
+    begin(phase);
+    const std::uint64_t evaluated = state_->totals.counts.evaluated;
+    if (const StopCause stop = work_off(std::min(left, wanted)); stop != StopCause::finished) return stop;
+    left -= std::min(left, state_->totals.counts.evaluated - evaluated);
+  }
   return StopCause::finished;
 }
 

@@ -32,6 +32,9 @@ class Optimizing {
   /// poor cells, each other with what the one before has refused, but for what the same phase has refused before, with nothing
   /// changed about it since. @throws what a callback throws
   StopCause run(Phase phase);
+  /// Once more, with a budget of its own, for the cells that nothing excuses, if there are any: Phase::rest and Phase::strong in
+  /// turn, a few rounds. @pre run() has run, last with Phase::strong. @throws what a callback throws
+  StopCause run_for_unexplained();
   /// The cells that are still over a bound, with their reasons. The last call. Part of them if the run is cancelled meanwhile,
   /// or its time is up.
   std::vector<PoorCell> explain_left();
@@ -46,6 +49,9 @@ class Optimizing {
  private:
   std::uint64_t evaluated() const { return state_->totals.counts.evaluated - before_.evaluated; }
   std::vector<Entry<3>> find_poor();
+  std::vector<Entry<3>> find_unexplained();
+  void begin(Phase phase);
+  StopCause work_off(std::uint64_t budget);
   std::size_t list_all_poor();
   std::size_t list_refused(Phase next);
 
@@ -58,6 +64,7 @@ class Optimizing {
   bool sizes_are_met_ = true;
   std::uint64_t cells_ = 0;    ///< of the mesh, at the last look at all
   std::optional<Phase> last_;  ///< that ran
+  bool left_some_ = false;     ///< had the phase before the last refused any?
   bool is_limited_ = false;    ///< did a limit keep the last phase from anything?
   /// What was refused in the last phase that was Phase::strong: by place_hash, the versions of the cells.
   std::unordered_map<std::uint64_t, std::uint64_t> refused_strongly_;

@@ -56,6 +56,7 @@ auto Refinement<D>::plan(bool optimizes) -> std::span<const Stage> {
       {"optimize_strong", &R::optimize_strongly, true},
       {"optimize_worst", &R::optimize_the_worst, true},
       {"optimize_again", &R::optimize_strongly, true},
+      {"optimize_rest", &R::optimize_the_rest, true},
       {"reasons", &R::explain_what_is_left, true},
   };
   return optimizes ? std::span<const Stage>(with_optimizer) : std::span<const Stage>(refining);
@@ -196,6 +197,12 @@ StopCause Refinement<D>::optimize_strongly() {
 template <int D>
 StopCause Refinement<D>::optimize_the_worst() {
   return optimize(Optimization::Phase::worst);
+}
+
+/// Gives the cells that nothing excuses more effort.
+template <int D>
+StopCause Refinement<D>::optimize_the_rest() {
+  return optimizing_ ? optimizing_->run_for_unexplained() : StopCause::finished;
 }
 
 template <int D>

@@ -71,6 +71,7 @@ class Refinement {
   StopCause optimize_cheaply();
   StopCause optimize_strongly();
   StopCause optimize_the_worst();
+  StopCause optimize_the_rest();
   StopCause explain_what_is_left();
 
   void leave_in_order();
