@@ -171,38 +171,39 @@ TEST(Seeds, WinOverNesting) {
   struct Case {
     std::vector<Point3> holes;
     std::vector<RegionSeed<3>> regions;
-    double automatic[3], seeds[3];
+    std::array<double, 3> automatic, all, seeds;
     std::size_t warnings = 0;
   };
   const std::vector<Case> cases{
-      {{}, {}, {1, 0, 2}, {-1, -1, -1}},
-      {{outer}, {}, {0, 0, 1}, {0, -1, -1}},
-      {{middle}, {}, {1, 0, 2}, {-1, 0, -1}},
-      {{}, {{middle, 5, 0}}, {1, 5, 2}, {0, 5, 0}},
-      {{}, {{outer, 1, 0}}, {1, 0, 2}, {1, 0, 0}},
-      {{}, {{inner, 1, 0}}, {2, 0, 1}, {0, 0, 1}},
-      {{}, {{inner, -2.5, 0}, {outer, 2, 0}}, {2, 0, -2.5}, {2, 0, -2.5}},
-      {{inner}, {{{{3.5, 3, 3}}, 4, 0}}, {1, 0, 0}, {0, 0, 0}, 1},           // a hole wins over a region
-      {{}, {{{{-1, 3, 3}}, 4, 0}, {inner, 3, 0}}, {1, 0, 3}, {0, 0, 3}, 1},  // outside
+      {{}, {}, {1, 0, 2}, {1, 2, 3}, {-1, -1, -1}},
+      {{outer}, {}, {0, 0, 1}, {0, 1, 2}, {0, -1, -1}},
+      {{middle}, {}, {1, 0, 2}, {1, 0, 2}, {-1, 0, -1}},
+      {{}, {{middle, 5, 0}}, {1, 5, 2}, {1, 5, 2}, {0, 5, 0}},
+      {{}, {{outer, 1, 0}}, {1, 0, 2}, {1, 2, 3}, {1, 0, 0}},
+      {{}, {{inner, 1, 0}}, {2, 0, 1}, {2, 3, 1}, {0, 0, 1}},
+      {{}, {{inner, -2.5, 0}, {outer, 2, 0}}, {2, 0, -2.5}, {2, 1, -2.5}, {2, 0, -2.5}},
+      {{inner}, {{{{3.5, 3, 3}}, 4, 0}}, {1, 0, 0}, {1, 2, 0}, {0, 0, 0}, 1},           // a hole wins over a region
+      {{}, {{{{-1, 3, 3}}, 4, 0}, {inner, 3, 0}}, {1, 0, 3}, {1, 2, 3}, {0, 0, 3}, 1},  // outside
   };
   for (std::size_t i = 0; i < cases.size(); ++i) {
     SCOPED_TRACE(i);
     Plc<3> plc = three_nested_boxes();
     plc.holes = cases[i].holes;
     plc.regions = cases[i].regions;
-    for (const bool automatic : {true, false}) {
-      const auto out = refined<3>(plc, automatic ? RegionMode::automatic : RegionMode::seeds, automatic ? "automatic" : "seeds");
-      const auto& wanted = automatic ? cases[i].automatic : cases[i].seeds;
+    for (const auto& [mode, wanted] : {std::pair(RegionMode::automatic, cases[i].automatic),
+                                       std::pair(RegionMode::all, cases[i].all), std::pair(RegionMode::seeds, cases[i].seeds)}) {
+      SCOPED_TRACE(static_cast<int>(mode));
+      const auto out = refined<3>(plc, mode, "mode");
       for (int k = 0; k < 3; ++k) {
         const auto& holes = cases[i].holes;
         const Point3 p = std::array{outer, middle, inner}[k];
         const bool hole = std::find(holes.begin(), holes.end(), p) != holes.end();
-        if (!automatic && !hole && wanted[k] == 0) {
+        if (mode == RegionMode::seeds && !hole && wanted[k] == 0) {
           bool found = false;  // label 0 is that of cells without seed
           for (std::size_t c = 0; c < out.result.mesh.cells.size(); ++c) found = found || holds<3>(out.result.mesh, c, p);
           EXPECT_TRUE(found);
         }
-        EXPECT_EQ(label_at<3>(out.result.mesh, p), wanted[k]) << k << automatic;
+        EXPECT_EQ(label_at<3>(out.result.mesh, p), wanted[k]) << k;
       }
       EXPECT_EQ(out.result.warnings.size(), cases[i].warnings);
     }
@@ -222,7 +223,7 @@ TEST(Seeds, SizesOfRegionsHoldInAutomaticMode) {
 TEST(Seeds, NothingLeft) {
   Plc<3> plc = three_nested_boxes();
   plc.holes = {outer, middle, inner};
-  for (const RegionMode mode : {RegionMode::seeds, RegionMode::automatic}) {
+  for (const RegionMode mode : {RegionMode::seeds, RegionMode::automatic, RegionMode::all}) {
     RefineOptions<3> options;
     options.regions = mode;
     try {

@@ -55,7 +55,8 @@ const std::map<std::string, Schedule> schedules{
 
 const std::map<std::string, ClaimRule> claim_rules{{"boxes", ClaimRule::boxes}, {"leaves", ClaimRule::leaves}};
 
-const std::map<std::string, RegionMode> region_modes{{"seeds", RegionMode::seeds}, {"auto", RegionMode::automatic}};
+const std::map<std::string, RegionMode> region_modes{
+    {"seeds", RegionMode::seeds}, {"auto", RegionMode::automatic}, {"all", RegionMode::all}};
 
 const std::map<std::string, ViewColor> view_colors{
     {"quality", ViewColor::quality}, {"dihedral", ViewColor::dihedral}, {"region", ViewColor::region}, {"leaf", ViewColor::leaf}};
@@ -159,7 +160,8 @@ void add_regions(CLI::App& app, Mode& mode) {
   app.add_option_function<std::string>(
          "--regions", [&mode](const std::string& t) { mode = region_modes.at(t); },
          "seeds (default): the hole and region seeds of the input say what is meshed and "
-         "labelled; auto: voids by nesting, and a label for each volume")
+         "labelled; auto: voids by nesting, and a label for each volume; all: no voids but of hole seeds, and a label for each "
+         "enclosed volume")
       ->type_name("NAME")
       ->check(one_of(region_modes, "ways to tell regions"));
 }

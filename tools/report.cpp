@@ -161,7 +161,10 @@ JsonObject to_json(const DistributedStatistics& s) {
 
 JsonObject to_json(const CheckFinding& f) { return {{"kind", pgdr::name(f.kind)}, {"message", f.message}, {"ids", f.ids}}; }
 
-const char* name(RegionMode mode) { return mode == RegionMode::automatic ? "auto" : "seeds"; }
+const char* name(RegionMode mode) {
+  constexpr std::array names{"seeds", "auto", "all"};
+  return names[static_cast<std::size_t>(mode)];
+}
 
 ReportedBounds read_bounds(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
@@ -186,7 +189,8 @@ ReportedBounds read_bounds(const std::string& file) {
     read.delaunay = holds("delaunay", true);
     if (const auto o = report.find("optimization"); o != report.end() && o->is_object())
       if (const auto k = o->find("claimed_cosine"); k != o->end() && k->is_number()) read.largest_cosine = k->get<double>();
-    if (holds("region_mode", name(RegionMode::automatic))) read.regions = RegionMode::automatic;
+    for (const RegionMode mode : {RegionMode::automatic, RegionMode::all})
+      if (holds("region_mode", name(mode))) read.regions = mode;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {

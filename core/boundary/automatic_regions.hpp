@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// RegionMode::automatic (region_mode.hpp) on the components of a mesh whose boundary is recovered. Serial.
+// RegionMode::automatic and the order of numbers (region_mode.hpp), on the components of a mesh whose boundary is recovered.
+// Serial.
 #pragma once
 
 #include <array>

@@ -198,13 +198,9 @@ class Regions {
       else
         place_region(seed, c);
     }
-    if (mode == RegionMode::automatic) {
-      remove_voids();
-      require_something();
-      label_rest();
-    } else {
-      require_something();
-    }
+    if (mode == RegionMode::automatic) remove_voids();
+    require_something();
+    if (numbers_volumes(mode)) label_rest();
     if (!bounded_) table_.measure.clear();
     return std::move(table_);
   }

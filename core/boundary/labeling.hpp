@@ -18,7 +18,7 @@ namespace pgdr {
 struct RegionTable {
   std::vector<double> attribute{0.0};  ///< by region number; 0 is what no seed labels
   std::vector<double> measure;         ///< bound of each region, infinity for none; empty if no region has one
-  bool labelled = false;               ///< cells have labels: the input has region seeds, or they are automatic
+  bool labelled = false;               ///< cells have labels: the input has region seeds, or volumes are numbered
 };
 
 /// Floods the cells through unconstrained faces: what reaches the ghosts is outside, what a hole seed reaches is a hole,

@@ -173,7 +173,7 @@ class RegionChecker {
         report_seed(i, "in no cell");
   }
 
-  // What flood_cells found to be one component has one label, or was reported. Without automatic regions it is 0 where no
+  // What flood_cells found to be one component has one label, or was reported. Where volumes are not numbered it is 0 where no
   // seed is; an input without any seed says nothing of labels.
   void check_labels_without_seed() {
     std::vector<double> label_of(components_.volume.size(), 0);
@@ -183,10 +183,10 @@ class RegionChecker {
     for (std::uint32_t i = 0; i < label_of.size(); ++i) {
       if (components_.volume[i] == none) continue;
       const Volume& volume = input_.volumes()[components_.volume[i]];
-      std::optional<std::array<double, 2>> wanted = volume.automatic;
+      std::optional<std::array<double, 2>> wanted = volume.numbered;
       if (!wanted && volume.seeds.empty() && !input_.regions().empty()) wanted = {0, 0};
       if (!wanted) continue;
-      if (volume.automatic) used.push_back(label_of[i]);
+      if (volume.numbered) used.push_back(label_of[i]);
       if (label_of[i] >= (*wanted)[0] && label_of[i] <= (*wanted)[1]) continue;
       task_.findings.add(Kind::wrong_region, {components_.volume[i]}, [&] {
         return "Volume " + std::to_string(components_.volume[i]) + " of the input has label " + words(label_of[i]) +

@@ -22,7 +22,7 @@
 //   triangles that are not ten times as high as T + u, nor of segments as short.
 // * What was given and is not in the mesh lies outside of all cells, and bounds no volume that is to be meshed.
 // * Cells fill the volumes that are to be meshed, exactly, as far as the walls of the mesh bound them; holes and the outside
-//   are empty. Labels are those of the seeds; those of RegionMode::automatic are in order, but for volumes whose least segments
+//   are empty. Labels are those of the seeds; numbers (numbers_volumes) are in order, but for volumes whose least segments
 //   begin at one point, which may be in any order.
 // * The measure of a volume whose given facets close exactly differs from theirs by no more than (area of its boundary) (T + u)
 //   + (perimeter of its subfacets) (T + u)^2, with what was said above in the place of T + u.

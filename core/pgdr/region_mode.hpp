@@ -15,11 +15,17 @@
 // do not change what other volumes are. Solids without seed get the labels 1, 2, 3, ... that no seed has, in the order
 // of their least segments: segments are compared by the coordinates of their lesser end, then of the other, and of two
 // volumes that have the least one both, the next decides, as words are ordered by their letters.
+//
+// `all`: all but the outside and those of hole seeds, as with `seeds`; each without a region seed is numbered, in the same
+// order and likewise without the labels that seeds have. So it is a region of its own wherever facets enclose it.
 #pragma once
 
 namespace pgdr {
 
 /// How regions are found and labelled.
-enum class RegionMode { seeds, automatic };
+enum class RegionMode { seeds, automatic, all };
+
+/// Does each kept volume without a region seed get a number for its label?
+constexpr bool numbers_volumes(RegionMode mode) { return mode != RegionMode::seeds; }
 
 }  // namespace pgdr

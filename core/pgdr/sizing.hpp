@@ -84,7 +84,7 @@ class SizingField {
 /// The sizes of one region.
 template <int D>
 struct RegionSize {
-  double label = 0;     ///< of its cells: the attribute of its seed, its number with RegionMode::automatic, 0 without either
+  double label = 0;     ///< of its cells: the attribute of its seed, its number (numbers_volumes), 0 without either
   SizingField<D> size;  ///< as RefineOptions::size, asked at the centroids of the region's cells alone
 };
 

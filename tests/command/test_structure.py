@@ -51,11 +51,26 @@ class Regions(Case):
         self.pgdr("check", self.output, "--input", nested, "--radius-edge", 2, "--regions", "auto", expect=6)
         self.mesh(nested, "--regions", "seeds")
 
+    def test_every_enclosed_volume(self):
+        """`all` has no voids, and the report tells `check` so; neither of the others passes."""
+        nested = self.file("nested.poly", boxes_poly(*self.NESTED))
+        self.mesh(nested, "--regions", "all", "--report", self.folder / "made.json")
+        self.assertEqual(self.regions(), 4)
+        told = ("check", self.output, "--input", nested, "--radius-edge", 2)
+        self.pgdr(*told, "--reasons", self.folder / "made.json", expect=0)
+        self.pgdr(*told, "--regions", "all", expect=0)
+        self.pgdr(*told, "--regions", "auto", expect=6)
+        self.mesh(nested)
+        self.pgdr(*told, "--regions", "all", expect=6)  # no labels
+
     def test_volumes(self):
         """`mesh` and `info` of the input have both volumes of each label, `info` of the mesh has one."""
         nested = self.file("nested.poly", boxes_poly(*self.NESTED))
         expected = [{"label": label, "volume_meshed": volume, "volume_given": volume} for label, volume in
                     ((1, 512 - 216), (2, 64 - 8))]
+        self.mesh(nested, "--regions", "all", "--report", self.report)
+        self.assertEqual([(r["label"], r["volume_meshed"]) for r in self.json()["regions"]],
+                         [(1, 512 - 216), (2, 216 - 64), (3, 64 - 8), (4, 8)])
         self.mesh(nested, "--regions", "auto", "--report", self.report)
         self.assertEqual(self.json()["regions"], expected)
         self.pgdr("info", self.output, "--report", self.report, expect=0)
@@ -88,8 +103,8 @@ class Regions(Case):
             self.assertEqual(self.json()["diagnosis"]["open_boundaries"]["count"], 1)
 
     def test_usage(self):
-        done = self.pgdr("mesh", "x.poly", "-o", self.output, "--regions", "all", expect=2)
-        self.assertIn("auto, seeds", done.stderr)
+        done = self.pgdr("mesh", "x.poly", "-o", self.output, "--regions", "every", expect=2)
+        self.assertIn("all, auto, seeds", done.stderr)
 
 
 # What is wrong with each, as the first error has it; or None where it is a valid complex; or what is repaired in it.

@@ -36,7 +36,7 @@ class Volume:
 
 @dataclasses.dataclass
 class Given:
-    """What an input encloses: by label, and (`unlabelled`) volumes whose labels are not known, of RegionMode::automatic."""
+    """What an input encloses: by label, and (`unlabelled`) volumes whose labels are not known, of RegionMode::automatic and all."""
     volumes: dict
     leaks: bool           # some faces end in the open, by the coordinates as they are
     is_hull: bool = False  # of points that lie beside its edges, too, which count as on them within the tolerance
@@ -136,7 +136,7 @@ def volumes_given(path, flags=()):
         raise UnknownInput("crossings are not resolved here")
     if "--convex-hull" in flags:
         given.segments += hull_edges(given.points)
-    automatic = "auto" in flags or "--regions=auto" in flags
+    mode = next((m for m in ("auto", "all") if m in flags or f"--regions={m}" in flags), "seeds")
     shape, unit = enclosed.complex_of(given)
     outside = shape.of_side(shape.outside)
     label_of = {outside: None}
@@ -146,12 +146,12 @@ def volumes_given(path, flags=()):
         label_of.setdefault(shape.volume_at(enclosed.in_steps(point, unit)), attribute)
     leaks, is_hull = bool(shape.open_ridges), "--convex-hull" in flags
     measures = Measures(shape, unit)
-    if not automatic:
+    if mode == "seeds":
         return Given(measures.of_labels(lambda side: label_of.get(side, 0.0)), leaks, is_hull)
-    solid = solid_sides(shape)
-    if solid is None:
+    solid = solid_sides(shape) if mode == "auto" else None
+    if mode == "auto" and solid is None:
         raise UnknownInput("nesting is ambiguous")
-    volumes = measures.of_labels(lambda side: label_of.get(side, ("volume", side) if side in solid else None))
+    volumes = measures.of_labels(lambda side: label_of.get(side, ("volume", side) if solid is None or side in solid else None))
     unlabelled = [v for label, v in volumes.items() if isinstance(label, tuple)]
     return Given({label: v for label, v in volumes.items() if not isinstance(label, tuple)}, leaks, is_hull, unlabelled)
 

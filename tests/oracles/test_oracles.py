@@ -71,6 +71,8 @@ class Volumes(Folder):
         self.assertEqual(self.volumes(path), {0: 152, 7: 56})
         automatic = given_volumes.volumes_given(self.file("nested.poly", text + "0\n0\n"), ["--regions", "auto"])
         self.assertEqual((automatic.volumes, sorted(v.given for v in automatic.unlabelled)), ({}, [8, 152]))
+        every = given_volumes.volumes_given(self.file("nested.poly", text + "0\n0\n"), ["--regions", "all"])
+        self.assertEqual((every.volumes, sorted(v.given for v in every.unlabelled)), ({}, [8, 56, 152]))
 
     def test_convex_hull(self):
         path = self.file("points.node", "5 2 0 0\n1 0 0\n2 1 0\n3 3 0\n4 3 2\n5 0 2\n")

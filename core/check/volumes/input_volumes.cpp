@@ -78,10 +78,8 @@ class InputBuilder {
     number_patches_and_volumes();
     out_.box_simplices();
     place_seeds();
-    if (mode == RegionMode::automatic) {
-      out_.nest();
-      out_.number();
-    }
+    if (mode == RegionMode::automatic) out_.nest();
+    if (numbers_volumes(mode)) out_.number();
     collect_wanted();
     measure();
   }

@@ -38,8 +38,8 @@ struct Volume {
   std::vector<std::uint32_t> seeds;                       ///< region seeds in it
   double size = std::numeric_limits<double>::infinity();  ///< measure bound of its cells
   double measure = 0, measure_error = 0;
-  /// Its label if RegionMode::automatic gives it one: between these (equal but for volumes with the same segments).
-  std::optional<std::array<double, 2>> automatic;
+  /// Its label if it is numbered (numbers_volumes): between these (equal but for volumes with the same segments).
+  std::optional<std::array<double, 2>> numbered;
 };
 
 /// What separates volumes: simplices that meet at common corners alone; and the seeds.
@@ -96,7 +96,7 @@ class InputVolumes {
   Point<D> far_from(const Point<D>& p, std::uint64_t attempt) const;
   void box_simplices();
   void nest();    ///< RegionMode::automatic: which are kept
-  void number();  ///< and their labels
+  void number();  ///< labels of those without a seed (numbers_volumes)
   std::uint32_t side_volume(std::uint32_t simplex, bool negative) const;
   bool keeps(const Point<D>& p) const;
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// RegionMode::automatic (region_mode.hpp) from the input alone. Biconnected components by the cycles that a breadth-first
-// tree makes with each other edge: two edges are in one component iff a chain of such cycles, each with an edge of the
-// next, joins them; and a component is consistent iff all its cycles have an even number of edges.
+// RegionMode::automatic and the numbers of volumes (region_mode.hpp), from the input alone. Biconnected components by the cycles
+// that a breadth-first tree makes with each other edge: two edges are in one component iff a chain of such cycles, each with an
+// edge of the next, joins them; and a component is consistent iff all its cycles have an even number of edges.
 #include <algorithm>
 #include <set>
 
@@ -122,7 +122,7 @@ void InputVolumes<D>::number() {
     if (std::find(of_seeds.begin(), of_seeds.end(), label) == of_seeds.end()) labels.push_back(label);
   for (std::size_t i = 0, j; i < order.size(); i = j) {
     for (j = i + 1; j < order.size() && !before(order[i], order[j]);) ++j;
-    for (std::size_t k = i; k < j; ++k) volumes_[order[k]].automatic = {labels[i], labels[j - 1]};
+    for (std::size_t k = i; k < j; ++k) volumes_[order[k]].numbered = {labels[i], labels[j - 1]};
   }
 }
 
