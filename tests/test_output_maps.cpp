@@ -15,6 +15,7 @@
 #include "pgdr/mesh_maps.hpp"
 #include "pgdr/refine.hpp"
 #include "planar_plcs.hpp"
+#include "structure_plcs.hpp"
 
 namespace pgdr::test_output_maps {
 
@@ -248,6 +249,59 @@ TEST(Neighbors, OfWhatIsNoMeshAreRefused) {
   EXPECT_EQ(code_of([&] { neighbors_of_cells(mesh); }), Errc::bad_option);
   mesh.cells = {{0, 1, 5}};
   EXPECT_EQ(code_of([&] { neighbors_of_cells(mesh); }), Errc::index_out_of_range);
+}
+
+/// Markers, label and input point of a mesh come through its boundary, and what that encloses is what the mesh fills.
+template <int D>
+void expect_same_from_boundary(const Plc<D>& plc, double size) {
+  RefineOptions<D> options;
+  options.size = size;
+  const RefineResult<D> made = refine(plc, options);
+  const Plc<D> boundary = boundary_of_mesh(made.mesh);
+  EXPECT_LE(boundary.points.size(), made.mesh.points.size());
+  const RefineResult<D> again = refine(boundary, options);
+  ASSERT_EQ(made.regions.size(), again.regions.size());
+  for (std::size_t i = 0; i < made.regions.size(); ++i) {
+    EXPECT_EQ(made.regions[i].label, again.regions[i].label);
+    EXPECT_NEAR(made.regions[i].volume_meshed, again.regions[i].volume_meshed, 1e-12);
+  }
+  const auto markers_of = [](const OutputMesh<D>& mesh) {
+    std::set<int> markers;
+    for (const auto& s : mesh.subsegments) markers.insert(s.marker);
+    for (const auto& f : mesh.subfacets) markers.insert(f.marker);
+    return markers;
+  };
+  EXPECT_EQ(markers_of(made.mesh), markers_of(again.mesh));
+  for (const Point<D>& p : plc.points) EXPECT_NE(std::ranges::find(again.mesh.points, p), again.mesh.points.end());
+}
+
+TEST(Boundary, OfAMeshIsAnInputAgain) {
+  Plc<2> square = test::square_with_hole();
+  for (std::size_t i = 0; i < square.segments.size(); ++i) square.segments[i].marker = static_cast<int>(i) + 1;
+  expect_same_from_boundary<2>(square, 0.01);
+  Plc<3> block = test::block_with_cavity();
+  for (std::size_t i = 0; i < block.facets.size(); ++i) block.facets[i].marker = static_cast<int>(i) + 1;
+  expect_same_from_boundary<3>(block, 0.3);
+  Plc<3> boxes = test::boxes({{{{0, 0, 0}}, {{6, 6, 6}}}, {{{1, 1, 1}}, {{5, 5, 5}}}});
+  boxes.regions = {{{{0.5, 3, 3}}, 2.5, 0}, {{{3, 3, 3}}, -7, 0}};
+  boxes.points.push_back({{3, 3.25, 2.5}});
+  expect_same_from_boundary<3>(boxes, 2);
+}
+
+TEST(Boundary, OfCellsAlone) {
+  OutputMesh<2> mesh;
+  mesh.points = {{{0, 0}}, {{1, 0}}, {{1, 1}}, {{0, 1}}, {{5, 5}}};
+  mesh.cells = {{0, 1, 2}, {0, 2, 3}};
+  EXPECT_EQ(boundary_of_mesh(mesh).segments.size(), 4u);
+  EXPECT_EQ(boundary_of_mesh(mesh).points.size(), 4u);
+  mesh.regions = {1, 2};
+  EXPECT_EQ(boundary_of_mesh(mesh).segments.size(), 5u);
+  EXPECT_EQ(boundary_of_mesh(mesh).regions.size(), 2u);
+  mesh.regions = {1};
+  EXPECT_EQ(code_of([&] { boundary_of_mesh(mesh); }), Errc::index_out_of_range);
+  mesh.cells = {{0, 1, 5}};
+  EXPECT_EQ(code_of([&] { boundary_of_mesh(mesh); }), Errc::index_out_of_range);
+  EXPECT_EQ(code_of([&] { boundary_of_mesh(OutputMesh<3>{}); }), Errc::bad_option);
 }
 
 }  // namespace pgdr::test_output_maps

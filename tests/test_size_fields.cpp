@@ -105,6 +105,39 @@ TYPED_TEST(SizeFields, MeshesInterpolateLinearly) {
   for (std::size_t v = 0; v < mesh.points.size(); ++v) EXPECT_NEAR(field.at(mesh.points[v]), values[v], 1e-14);
 }
 
+// One value a cell: nowhere in a cell more than its own, and at each vertex the smallest of its cells'.
+TYPED_TEST(SizeFields, ValuesOfCells) {
+  constexpr int D = TypeParam::value;
+  const OutputMesh<D> mesh = background<D>(D == 2 ? 0.01 : 0.2);
+  ASSERT_NE(mesh.cells.size(), mesh.points.size());
+  std::mt19937_64 random(6);
+  std::vector<double> values;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) values.push_back(std::exp(random_point<D>(random, -9, 0)[0]));
+  const SizingField<D> field = sizes_on_mesh<D>(mesh, values);
+  std::vector<double> least(mesh.points.size(), INFINITY);
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    for (const std::uint32_t v : mesh.cells[c]) least[v] = std::min(least[v], values[c]);
+  EXPECT_EQ(smallest_at_vertices<D>(mesh, values), least);
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) EXPECT_NEAR(field.at(mesh.points[v]), least[v], 1e-14);
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    Point<D> centroid{};
+    for (const std::uint32_t v : mesh.cells[c])
+      for (int k = 0; k < D; ++k) centroid[k] += mesh.points[v][k] / (D + 1);
+    EXPECT_LE(field.at(centroid), values[c]);
+  }
+  values[7] = -1;
+  try {
+    sizes_on_mesh<D>(mesh, values);
+    ADD_FAILURE();
+  } catch (const UsageError& e) {
+    EXPECT_EQ(e.code(), Errc::bad_size);
+    EXPECT_EQ(e.diagnostic().ids, std::vector<std::int64_t>{7});
+  }
+  values.pop_back();
+  EXPECT_EQ(code_of([&] { sizes_on_mesh<D>(mesh, values); }), Errc::bad_option);
+  EXPECT_EQ(code_of([&] { smallest_at_vertices<D>(mesh, values); }), Errc::bad_option);
+}
+
 // Whatever the values: the cell that holds the point, found by a loop over all, bounds the interpolation.
 TYPED_TEST(SizeFields, MeshValuesStayWithinTheirCell) {
   constexpr int D = TypeParam::value;

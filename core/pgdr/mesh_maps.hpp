@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What of a finished mesh is what of its input, and which cells lie beside each other: computed when asked for, in linear time
-// and memory, on the calling thread. Pure functions, any thread.
+// What of a finished mesh is what of its input, which cells lie beside each other, and the boundary as an input again: computed
+// when asked for, on the calling thread. Pure functions, any thread.
 #pragma once
 
 #include <array>
@@ -14,6 +14,7 @@
 #include "pgdr/domain.hpp"
 #include "pgdr/export.hpp"
 #include "pgdr/output_mesh.hpp"
+#include "pgdr/plc.hpp"
 #include "pgdr/types.hpp"
 
 namespace pgdr PGDR_API {
@@ -51,7 +52,8 @@ struct InputMap {
   NumberLists subsegments_of_facet;    ///< 3D: of facets of one polygon of two corners, which are segments; else empty
 };
 
-/// The map of an input and its mesh. Subsegments and subfacets inside holes and outside are gone with the cells there.
+/// The map of an input and its mesh, in linear time. Subsegments and subfacets inside holes and outside are gone with the cells
+/// there.
 /// @param domain  the input as it was meshed
 /// @param mesh  as `refine` made it of this Domain; its lists of subsegments and subfacets may be in any order
 /// @throws UsageError bad_option: a mesh with another number of input points, or with subsegments or subfacets whose
@@ -61,10 +63,20 @@ InputMap<D> input_map(const Domain<D>& domain, const OutputMesh<D>& mesh);
 
 inline constexpr std::uint32_t no_cell_beyond = 0xffffffffu;  ///< a neighbour: there is none
 
-/// The neighbours of each cell: `[c][i]` is the cell beyond the face (2D: edge) opposite vertex i of cell c, also where that face
-/// is a subfacet (subsegment); no_cell_beyond on the boundary of the mesh.
+/// The neighbours of each cell, in linear time: `[c][i]` is the cell beyond the face (2D: edge) opposite vertex i of cell c, also
+/// where that face is a subfacet (subsegment); no_cell_beyond on the boundary of the mesh.
 /// @throws InputError index_out_of_range: a vertex that does not exist; UsageError bad_option: more than two cells with one face
 template <int D>
 std::vector<std::array<std::uint32_t, D + 1>> neighbors_of_cells(const OutputMesh<D>& mesh);
+
+/// The boundary of a mesh as an input, which encloses what the mesh fills: its subsegments and subfacets with their markers; the
+/// faces of cells that have no other cell beyond, or one of another label, and are none of these, with marker 0; a region seed in
+/// each part that these enclose with a label other than 0; a hole in each void. Points that cells alone have are left out, but
+/// for the first OutputMesh::input_points; the others keep their order, markers and attributes. The tolerance is the default, and
+/// bounds on the sizes of regions are not known to a mesh. n log n, and linear in the cells for each void.
+/// @throws InputError index_out_of_range: a vertex that does not exist, or labels, markers or attributes that are not one each;
+///   UsageError bad_option: no cells
+template <int D>
+Plc<D> boundary_of_mesh(const OutputMesh<D>& mesh);
 
 }  // namespace pgdr

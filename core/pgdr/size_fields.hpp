@@ -31,13 +31,22 @@ SizingField<D> smallest(std::vector<SizingField<D>> fields);
 template <int D>
 SizingField<D> sizes_at_points(std::span<const Point<D>> points, std::span<const double> sizes, double growth);
 
+/// Values at the vertices of a mesh from one value a cell: the smallest of its cells'. What is interpolated between them is
+/// nowhere above the value of the cell. A vertex in no cell has the largest value of all. Linear time.
+/// @throws UsageError bad_option: not one value a cell; bad_size: a value that is not positive and finite (ids: the cell).
+///   InputError index_out_of_range (ids: the cell)
+template <int D>
+std::vector<double> smallest_at_vertices(const OutputMesh<D>& mesh, std::span<const double> of_cells);
+
 /// Sizes given at the vertices of a background mesh, interpolated linearly (barycentric) in the cell that x lies in; outside
 /// of the mesh the value at the nearest point of its boundary. Which cell x lies in is decided exactly; on faces that
 /// cells share, and where cells overlap, the one with the smallest number counts. Never beyond the values of the vertices
 /// that it is interpolated from. Flat cells and the orientation of cells do not matter; markers and constraints are not read.
 /// About log n steps, more where long thin cells overlap with their boxes. For values that change too fast: limit_growth.
-/// @throws UsageError bad_option: no cell that is not flat, or not one value a vertex; bad_size: a value that is not
-///   positive and finite (ids: the vertex). InputError index_out_of_range (ids: the cell), not_finite.
+/// @param values  one a vertex; or one a cell, which stand for smallest_at_vertices() of them. Of a mesh with as many cells as
+///   vertices they are those of vertices.
+/// @throws UsageError bad_option: no cell that is not flat, or not one value a vertex or cell; bad_size: a value that is not
+///   positive and finite (ids: the vertex or cell). InputError index_out_of_range (ids: the cell), not_finite.
 template <int D>
 SizingField<D> sizes_on_mesh(const OutputMesh<D>& mesh, std::span<const double> values);
 

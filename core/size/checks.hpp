@@ -29,6 +29,17 @@ inline void require_growth(double growth) {
     throw UsageError({Errc::bad_option, "the growth of sizes must be finite and not negative", {}, 0, {}, {}});
 }
 
+/// One size of the `what` each, all positive and finite.
+inline void require_positive(std::span<const double> sizes, const std::string& what) {
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    if (sizes[i] > 0 && std::isfinite(sizes[i])) continue;
+    throw UsageError({.code = Errc::bad_size,
+                      .message = "the size at " + what + " " + std::to_string(i) + " is " + to_text(sizes[i]) +
+                                 "; sizes must be positive and finite",
+                      .ids = {static_cast<std::int64_t>(i)}});
+  }
+}
+
 /// One positive, finite size a point, and finite points.
 template <int D>
 void require_sizes(std::span<const Point<D>> points, std::span<const double> sizes) {

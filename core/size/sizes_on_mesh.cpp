@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Sizes on a background mesh.
+#include <algorithm>
 #include <memory>
+#include <string>
 
 #include "output/interpolation.hpp"
 #include "pgdr/size_fields.hpp"
@@ -31,12 +33,30 @@ class MeshValues {
 }  // namespace
 
 template <int D>
+std::vector<double> smallest_at_vertices(const OutputMesh<D>& mesh, std::span<const double> of_cells) {
+  if (of_cells.size() != mesh.cells.size())
+    throw UsageError({.code = Errc::bad_option,
+                      .message = std::to_string(of_cells.size()) + " sizes for " + std::to_string(mesh.cells.size()) + " cells"});
+  detail::require_indices<D>(mesh);
+  detail::require_positive(of_cells, "cell");
+  const double largest = of_cells.empty() ? 1 : std::ranges::max(of_cells);
+  std::vector<double> values(mesh.points.size(), largest);
+  for (std::size_t c = 0; c < of_cells.size(); ++c)
+    for (const std::uint32_t v : mesh.cells[c]) values[v] = std::min(values[v], of_cells[c]);
+  return values;
+}
+
+template <int D>
 SizingField<D> sizes_on_mesh(const OutputMesh<D>& mesh, std::span<const double> values) {
+  if (values.size() == mesh.cells.size() && values.size() != mesh.points.size())
+    return sizes_on_mesh<D>(mesh, smallest_at_vertices<D>(mesh, values));
   detail::require_sizes<D>(mesh.points, values);
   detail::require_indices<D>(mesh);
   return [source = std::make_shared<const MeshValues<D>>(mesh, values)](const Point<D>& x) { return source->at(x); };
 }
 
+template PGDR_API std::vector<double> smallest_at_vertices<2>(const OutputMesh<2>&, std::span<const double>);
+template PGDR_API std::vector<double> smallest_at_vertices<3>(const OutputMesh<3>&, std::span<const double>);
 template PGDR_API SizingField<2> sizes_on_mesh<2>(const OutputMesh<2>&, std::span<const double>);
 template PGDR_API SizingField<3> sizes_on_mesh<3>(const OutputMesh<3>&, std::span<const double>);
 

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A finished mesh as an input again.
+#include <algorithm>
+#include <string>
+
+#include "output/cell_surface.hpp"
+#include "pgdr/error.hpp"
+#include "pgdr/mesh_maps.hpp"
+
+namespace pgdr {
+namespace {
+
+template <int D>
+void require_whole(const OutputMesh<D>& mesh) {
+  const std::size_t points = mesh.points.size();
+  const auto refuse = [](const std::string& what) { throw InputError({.code = Errc::index_out_of_range, .message = what}); };
+  const auto require_vertices = [&](const auto& vertices, const char* what) {
+    if (std::ranges::any_of(vertices, [&](std::uint32_t v) { return v >= points; }))
+      refuse(std::string(what) + " has a vertex that is none of the " + std::to_string(points) + " points");
+  };
+  for (const auto& cell : mesh.cells) require_vertices(cell, "a cell");
+  for (const auto& s : mesh.subsegments) require_vertices(s.vertices, "a subsegment");
+  for (const auto& f : mesh.subfacets) require_vertices(f.vertices, "a subfacet");
+  if (!mesh.regions.empty() && mesh.regions.size() != mesh.cells.size()) refuse("the labels are not one a cell");
+  if (!mesh.point_markers.empty() && mesh.point_markers.size() != points) refuse("the markers of points are not one a point");
+  if (points > 0 && mesh.point_attributes.size() % points != 0) refuse("the attributes are not equally many a point");
+  if (mesh.cells.empty()) throw UsageError({.code = Errc::bad_option, .message = "the mesh has no cells"});
+}
+
+template <int D>
+const auto& walls(const OutputMesh<D>& mesh) {
+  if constexpr (D == 2)
+    return mesh.subsegments;
+  else
+    return mesh.subfacets;
+}
+
+template <int D>
+detail::CellSurface<D> surface_of_mesh(const OutputMesh<D>& mesh) {
+  std::vector<detail::LabelledCell<D>> cells;
+  cells.reserve(mesh.cells.size());
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    cells.push_back({mesh.cells[c], mesh.regions.empty() ? 0 : mesh.regions[c]});
+  std::vector<std::array<std::uint32_t, D>> given;
+  given.reserve(walls(mesh).size());
+  for (const auto& wall : walls(mesh)) {
+    given.push_back(wall.vertices);
+    std::sort(given.back().begin(), given.back().end());
+  }
+  return detail::surface_of<D>(mesh.points, cells, given);
+}
+
+/// What is no wall or segment, and no point of the input, goes; the rest is numbered anew.
+template <int D>
+class BoundaryPoints {
+ public:
+  explicit BoundaryPoints(const OutputMesh<D>& mesh) : mesh_(mesh), number_(mesh.points.size(), none) {
+    std::vector<std::uint8_t> in_cell(mesh.points.size(), 0);
+    for (const auto& cell : mesh.cells)
+      for (const std::uint32_t v : cell) in_cell[v] = 1;
+    for (std::size_t v = 0; v < std::min(mesh.input_points, in_cell.size()); ++v)
+      if (in_cell[v]) number_[v] = kept;
+  }
+  template <class Vertices>
+  void keep(const Vertices& vertices) {
+    for (const std::uint32_t v : vertices) number_[v] = kept;
+  }
+  /// Into `plc`. From then on at() says the new numbers.
+  void hand_over(Plc<D>& plc) {
+    const std::size_t attributes = mesh_.points.empty() ? 0 : mesh_.point_attributes.size() / mesh_.points.size();
+    for (std::size_t v = 0; v < number_.size(); ++v) {
+      if (number_[v] == none) continue;
+      number_[v] = static_cast<std::uint32_t>(plc.points.size());
+      plc.points.push_back(mesh_.points[v]);
+      if (!mesh_.point_markers.empty()) plc.point_markers.push_back(mesh_.point_markers[v]);
+      const auto first = mesh_.point_attributes.begin() + static_cast<std::ptrdiff_t>(v * attributes);
+      plc.point_attributes.insert(plc.point_attributes.end(), first, first + static_cast<std::ptrdiff_t>(attributes));
+    }
+  }
+  std::uint32_t at(std::uint32_t vertex) const { return number_[vertex]; }
+
+ private:
+  static constexpr std::uint32_t none = 0xffffffffu, kept = 0;
+  const OutputMesh<D>& mesh_;
+  std::vector<std::uint32_t> number_;
+};
+
+}  // namespace
+
+template <int D>
+Plc<D> boundary_of_mesh(const OutputMesh<D>& mesh) {
+  require_whole(mesh);
+  detail::CellSurface<D> surface = surface_of_mesh(mesh);
+  BoundaryPoints<D> points(mesh);
+  for (const auto& s : mesh.subsegments) points.keep(s.vertices);
+  for (const auto& f : mesh.subfacets) points.keep(f.vertices);
+  for (const auto& face : surface.faces) points.keep(face);
+  Plc<D> plc;
+  points.hand_over(plc);
+  const auto add_segment = [&](const std::array<std::uint32_t, 2>& ends, int marker) {
+    plc.segments.push_back({{points.at(ends[0]), points.at(ends[1])}, marker});
+  };
+  for (const auto& s : mesh.subsegments) add_segment(s.vertices, s.marker);
+  if constexpr (D == 2) {
+    for (const auto& face : surface.faces) add_segment(face, 0);
+  } else {
+    const auto add_facet = [&](const std::array<std::uint32_t, 3>& corners, int marker) {
+      auto& facet = plc.facets.emplace_back();
+      facet.polygons.push_back({points.at(corners[0]), points.at(corners[1]), points.at(corners[2])});
+      facet.marker = marker;
+    };
+    for (const auto& f : mesh.subfacets) add_facet(f.vertices, f.marker);
+    for (const auto& face : surface.faces) add_facet(face, 0);
+  }
+  plc.regions = std::move(surface.seeds);
+  plc.holes = std::move(surface.holes);
+  return plc;
+}
+
+template PGDR_API Plc<2> boundary_of_mesh<2>(const OutputMesh<2>&);
+template PGDR_API Plc<3> boundary_of_mesh<3>(const OutputMesh<3>&);
+
+}  // namespace pgdr
