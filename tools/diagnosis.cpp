@@ -93,7 +93,7 @@ int refuse(const Plc<D>& plc, const Diagnosis<D>& diagnosis, Report& report) {
   }
   if (const std::uint64_t all = diagnosis.error_count(); all > most)
     std::fprintf(stderr, "pgdr: and %llu more errors\n", static_cast<unsigned long long>(all - most));
-  hint_at_flags_of_refused(plc, diagnosis);
+  if (const auto flags = flags_for_refused(plc, diagnosis)) std::fprintf(stderr, "pgdr: %s\n", flags->c_str());
   propose_for_refused(plc);
   return exit_input;
 }

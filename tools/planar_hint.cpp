@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "planar_hint.hpp"
 
-#include <cstdio>
 #include <exception>
 #include <vector>
 
@@ -26,21 +25,21 @@ bool is_valid_with(const Plc<2>& plc, bool convex_hull, bool resolve_crossings) 
 }  // namespace
 
 template <int D>
-void hint_at_flags_of_refused(const Plc<D>& plc, const Diagnosis<D>& diagnosis) {
+std::optional<std::string> flags_for_refused(const Plc<D>& plc, const Diagnosis<D>& diagnosis) {
   if constexpr (D == 2) {
     const bool crosses = diagnosis[Finding::segments_cross].count > 0, is_open = diagnosis[Finding::encloses_nothing].count > 0;
     if (is_open && is_valid_with(plc, true, false))
-      std::fprintf(stderr, "pgdr: --convex-hull makes it valid: the convex hull of all points is meshed then\n");
-    else if (crosses && is_valid_with(plc, false, true))
-      std::fprintf(stderr, "pgdr: --resolve-crossings makes it valid: segments are split then where they cross\n");
-    else if (crosses && is_valid_with(plc, true, true))
-      std::fprintf(stderr,
-                   "pgdr: --resolve-crossings with --convex-hull makes it valid: segments are split where they cross, "
-                   "and the convex hull of all points is meshed\n");
+      return "--convex-hull makes it valid: the convex hull of all points is meshed then";
+    if (crosses && is_valid_with(plc, false, true))
+      return "--resolve-crossings makes it valid: segments are split then where they cross";
+    if (crosses && is_valid_with(plc, true, true))
+      return "--resolve-crossings with --convex-hull makes it valid: segments are split where they cross, and the convex hull of "
+             "all points is meshed";
   }
+  return std::nullopt;
 }
 
-template void hint_at_flags_of_refused<2>(const Plc<2>&, const Diagnosis<2>&);
-template void hint_at_flags_of_refused<3>(const Plc<3>&, const Diagnosis<3>&);
+template std::optional<std::string> flags_for_refused<2>(const Plc<2>&, const Diagnosis<2>&);
+template std::optional<std::string> flags_for_refused<3>(const Plc<3>&, const Diagnosis<3>&);
 
 }  // namespace pgdr::tool

@@ -1,16 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whether a refused input in 2D would be taken with --resolve-crossings or --convex-hull.
+// Whether a refused input in 2D would be taken with --resolve-crossings or --convex-hull. Prints nothing.
 #pragma once
+
+#include <optional>
+#include <string>
 
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/plc.hpp"
 
 namespace pgdr::tool {
 
-/// Prints the flags that make the input valid, if the diagnosis has found what they are for, and they do. 3D: nothing.
+/// The flags that make the input valid, and what they do, as one sentence; none if the diagnosis has found nothing that they are
+/// for, or they do not make it valid. 3D: none.
 template <int D>
-void hint_at_flags_of_refused(const Plc<D>& plc, const Diagnosis<D>& diagnosis);
+std::optional<std::string> flags_for_refused(const Plc<D>& plc, const Diagnosis<D>& diagnosis);
 
 }  // namespace pgdr::tool

@@ -8,12 +8,15 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "bind.hpp"
 #include "errors.hpp"
 #include "mesh_data.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/refine_options.hpp"
+#include "planar_hint.hpp"
 #include "run.hpp"
 
 namespace pgdr::python {
@@ -85,10 +88,21 @@ py::list diagnose_plc(const Plc<D>& plc, std::size_t most_listed, bool errors_on
   return found;
 }
 
+/// What makes a refused input valid, in the words of the command; or None.
+template <int D>
+std::optional<std::string> flags_for(const Plc<D>& plc) {
+  std::optional<std::string> flags;
+  run_watched([&](const std::stop_token& stop) {
+    flags = tool::flags_for_refused(plc, diagnose(plc, {.most_listed = 0, .errors_only = true, .stop = stop}));
+  });
+  return flags;
+}
+
 template <int D>
 void bind(py::module_& module) {
   module.def(with_dimension<D>("check").c_str(), &check_mesh<D>);
   module.def(with_dimension<D>("diagnose").c_str(), &diagnose_plc<D>);
+  module.def(with_dimension<D>("flags_for").c_str(), &flags_for<D>);
 }
 
 }  // namespace

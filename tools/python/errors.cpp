@@ -35,7 +35,7 @@ void PythonError::restore() const { PyErr_SetObject(py::type::handle_of(*excepti
 
 py::object to_python(const Diagnostic& d) {
   return py::module_::import("pgdr._errors")
-      .attr("Diagnostic")(std::string(name(d.code)), d.message, d.ids, d.points, d.file, d.line);
+      .attr("diagnostic")(std::string(name(d.code)), d.message, d.ids, d.points, d.file, d.line);
 }
 
 py::list to_python(std::span<const Diagnostic> list) {

@@ -44,6 +44,15 @@ void bind(py::module_& module) {
     const py::gil_scoped_release others_run;
     return sizes_on_mesh<D>(data.mesh, values);
   });
+  module.def(named("smallest_at_vertices").c_str(), [](const MeshData<D>& data, const Dense<double>& of_cells) {
+    const auto values = span_of(of_cells);
+    std::vector<double> made;
+    {
+      const py::gil_scoped_release others_run;
+      made = smallest_at_vertices<D>(data.mesh, values);
+    }
+    return own(std::move(made));
+  });
   module.def(named("limit_growth").c_str(), [](const MeshData<D>& data, const Dense<double>& sizes, double growth) {
     const auto values = span_of(sizes);
     std::vector<double> limited;

@@ -199,6 +199,10 @@ void bind(py::module_& module) {
       .def("neighbors", &neighbors_of<D>)
       .def("quality", &quality_of<D>)
       .def("write", &write<D>);
+  module.def(with_dimension<D>("boundary_of_mesh").c_str(), [](const Data& data) {
+    const py::gil_scoped_release others_run;
+    return std::make_shared<Plc<D>>(boundary_of_mesh(data.mesh));
+  });
   module.def(with_dimension<D>("read_mesh").c_str(), [](const std::string& file) {
     const py::gil_scoped_release others_run;
     auto data = std::make_shared<Data>();

@@ -19,6 +19,10 @@ Schedule schedule_of(const std::string& word) {
   return word == "uniform" ? Schedule::uniform : word == "greedy" ? Schedule::greedy : Schedule::reproducible;
 }
 
+RegionMode region_mode_of(const std::string& word) {
+  return word == "all" ? RegionMode::all : word == "auto" ? RegionMode::automatic : RegionMode::seeds;
+}
+
 /// A selector by its name, as the command takes it, with its usual disk.
 template <int D>
 void select_by_name(RefineOptions<D>& options, const std::string& name) {
@@ -51,7 +55,7 @@ void bind(py::module_& module) {
            [](Options& o, double label, const SizingField<D>& size) {
              o.region_sizes.push_back({label, size});
            })
-      .def("set_regions", [](Options& o, bool automatic) { o.regions = automatic ? RegionMode::automatic : RegionMode::seeds; })
+      .def("set_regions", [](Options& o, const std::string& word) { o.regions = region_mode_of(word); })
       .def("set_time_limit", [](Options& o, double seconds) { o.time_limit = std::chrono::duration<double>(seconds); })
       .def("set_threads", [](Options& o, int threads) { o.schedule.threads = threads; })
       .def("set_schedule", [](Options& o, const std::string& word) { o.schedule.schedule = schedule_of(word); })

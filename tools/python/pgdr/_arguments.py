@@ -77,6 +77,13 @@ def indices(name: str, value: object, columns: Optional[int]) -> Array:
     return _dense(array, kept)
 
 
+def signed(ids: Array) -> npt.NDArray[np.int32]:
+    """Numbers of points, as the extension module has them, as int32 in the same memory: there are fewer than 2**31, and differences
+    of unsigned numbers wrap."""
+    made: npt.NDArray[np.int32] = ids.view(np.int32)
+    return made
+
+
 def markers(name: str, value: object, count: int, what: str) -> Array:
     """(count,) int32; None: empty."""
     if value is None:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The pgdr authors
 # SPDX-License-Identifier: Apache-2.0
-"""Inputs from rings, meshio and PyVista; meshes to meshio and PyVista. Neither package is needed until it is asked for."""
+"""Inputs from meshio and PyVista, meshes to these. Neither package is needed until it is asked for."""
 from __future__ import annotations
 
 import importlib
@@ -30,50 +30,10 @@ def _package(name: str) -> Any:
         raise ImportError(f"this needs the package {name}: python3 -m pip install {name}") from error
 
 
-def _ring(name: str, value: object) -> npt.NDArray[Any]:
-    """The corners of a ring, without the first one again at its end."""
-    ring = _arguments.points(name, value, 2)
-    if len(ring) > 1 and np.array_equal(ring[0], ring[-1]):
-        ring = ring[:-1]
-    if len(np.unique(ring, axis=0)) < 3:
-        raise usage(f"{name} must have three different corners or more, not {len(np.unique(ring, axis=0))}")
-    return ring
-
-
-def _inside(name: str, ring: npt.NDArray[Any]) -> npt.NDArray[np.float64]:
-    """A point inside a ring that does not cross itself: in the middle of the widest span of a horizontal line midway between the two
-    neighbouring levels of corners that are farthest apart."""
-    corners = ring.astype(np.float64)
-    levels = np.unique(corners[:, 1])
-    if len(levels) < 2:
-        raise usage(f"{name} encloses nothing: all its corners are on one line")
-    widest = int(np.argmax(np.diff(levels)))
-    y = levels[widest] + (levels[widest + 1] - levels[widest]) / 2
-    a, b = corners, np.roll(corners, -1, axis=0)
-    crossing = (a[:, 1] < y) != (b[:, 1] < y)
-    a, b = a[crossing], b[crossing]
-    x = np.sort(a[:, 0] + (b[:, 0] - a[:, 0]) * ((y - a[:, 1]) / (b[:, 1] - a[:, 1])))
-    width = x[1::2] - x[0::2]
-    span = int(np.argmax(width))
-    if not width[span] > 0:
-        raise usage(f"{name} encloses nothing: it has no area")
-    return np.array([x[2 * span] + width[span] / 2, y])
-
-
-def from_polygons(outer: object, holes: Sequence[object] = (), *, markers: Optional[Sequence[int]] = None,
-                  tolerance: Optional[float] = None) -> Plc:
-    """See Plc.from_polygons."""
-    from ._plc import Plc
-    rings = [_ring("outer", outer)] + [_ring(f"hole {i}", hole) for i, hole in enumerate(holes)]
-    given = _arguments.markers("markers", list(range(1, len(rings) + 1)) if markers is None else markers, len(rings), "rings")
-    segments, begin = [], 0
-    for ring in rings:
-        number = np.arange(len(ring))
-        segments.append(begin + np.stack([number, (number + 1) % len(ring)], axis=1))
-        begin += len(ring)
-    seeds = [_inside(f"hole {i}", ring) for i, ring in enumerate(rings[1:])]
-    return Plc(np.concatenate(rings), np.concatenate(segments), markers=np.repeat(given, [len(ring) for ring in rings]),
-               holes=np.array(seeds).reshape(-1, 2), tolerance=tolerance)
+def _refuse_own(mesh: Any) -> None:
+    from ._mesh import Mesh
+    if isinstance(mesh, Mesh):
+        raise TypeError("a pgdr.Mesh is taken by pgdr.Plc.from_mesh")
 
 
 def _numbers_of(data: Dict[str, Any], names: Iterable[str], block: int, count: int) -> npt.NDArray[np.int64]:
@@ -91,6 +51,7 @@ def _numbers_of(data: Dict[str, Any], names: Iterable[str], block: int, count: i
 def from_meshio(mesh: Any) -> Plc:
     """See Plc.from_meshio. Vertex blocks add nothing."""
     from ._cells import FACES, LINES, VOLUMES, block_of, input_of, is_flat
+    _refuse_own(mesh)
     if not hasattr(mesh, "points") or not hasattr(mesh, "cells"):
         raise TypeError(f"a meshio.Mesh is taken, with points and cells, not {type(mesh).__name__}")
     points = np.asarray(mesh.points)
@@ -111,11 +72,6 @@ def _constraints(mesh: Mesh) -> List[Tuple[str, npt.NDArray[Any], npt.NDArray[An
     return lines if mesh.dimension == 2 else [("triangle", mesh.subfacets, mesh.subfacet_markers)] + lines
 
 
-def _labels(mesh: Mesh) -> npt.NDArray[np.float64]:
-    labels = np.asarray(mesh.regions, dtype=np.float64)
-    return labels if labels.size else np.zeros(len(mesh.cells))
-
-
 def to_meshio(mesh: Mesh) -> Any:
     """A meshio.Mesh: the cells, then in 3D the subfacets, then the subsegments; cell data `region` (0 for constraints) and `marker`
     (0 for cells), as in a .vtu. Raises ImportError without meshio."""
@@ -123,7 +79,7 @@ def to_meshio(mesh: Mesh) -> Any:
     constraints = [block for block in _constraints(mesh) if len(block[1])]
     cells = [("triangle" if mesh.dimension == 2 else "tetra", np.asarray(mesh.cells))]
     cells += [(kind, np.asarray(vertices)) for kind, vertices, _ in constraints]
-    regions = [_labels(mesh)] + [np.zeros(len(vertices)) for _, vertices, _ in constraints]
+    regions = [np.asarray(mesh.regions)] + [np.zeros(len(vertices)) for _, vertices, _ in constraints]
     markers = [np.zeros(len(mesh.cells), dtype=np.int32)] + [np.asarray(numbers) for _, _, numbers in constraints]
     point_markers = np.asarray(mesh.point_markers)
     return meshio.Mesh(np.asarray(mesh.points), cells, cell_data={"region": regions, "marker": markers},
@@ -140,7 +96,7 @@ def to_pyvista(mesh: Mesh) -> Any:
         points = np.column_stack([points, np.zeros(len(points))])
     kinds = np.full(len(cells), _VTK_TRIANGLE if mesh.dimension == 2 else _VTK_TETRA, dtype=np.uint8)
     grid = pyvista.UnstructuredGrid(padded, kinds, np.ascontiguousarray(points))
-    grid.cell_data["region"] = _labels(mesh)
+    grid.cell_data["region"] = np.array(mesh.regions)
     return grid
 
 
@@ -192,6 +148,7 @@ def _cells_of_surface(mesh: Any) -> Tuple[List[npt.NDArray[np.int64]], npt.NDArr
 def from_pyvista(mesh: Any) -> Plc:
     """See Plc.from_pyvista."""
     from ._cells import FACES, VOLUMES, block_of, input_of, is_flat
+    _refuse_own(mesh)
     if hasattr(mesh, "celltypes"):  # a grid may have `faces`, too, those of its polyhedra
         cells, kinds = _cells_of_grid(mesh)
     elif hasattr(mesh, "faces"):

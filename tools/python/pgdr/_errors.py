@@ -3,7 +3,8 @@
 """The errors of pgdr: what went wrong in one sentence, and the data that a program needs beside it."""
 from __future__ import annotations
 
-from typing import Any, Callable, List, NamedTuple, Optional, Sequence, Tuple, Type, TypeVar
+import re
+from typing import Any, Callable, List, Match, NamedTuple, Optional, Sequence, Tuple, Type, TypeVar
 
 
 class Diagnostic(NamedTuple):
@@ -16,6 +17,28 @@ class Diagnostic(NamedTuple):
     points: Sequence[Sequence[float]] = ()  #: where, (x, y, z) each; z = 0 in 2D
     file: str = ""  #: empty if the input came from memory
     line: int = 0  #: of the file, counted from 1; 0: unknown
+
+
+# What the command's flags are called here, where it is not their name with another sign between its words.
+_CALLS = {"resolve-crossings": "pgdr.resolve_crossings(plc)", "convex-hull": "pgdr.with_convex_hull(plc)", "yes-coarse": "coarse=True",
+          "no-optimize": "optimize=False", "no-refine": "refine=False", "keep-boundary": "keep_boundary=True"}
+_FLAG = re.compile(r"(?<![\w-])--([a-z]+(?:-[a-z]+)*)(?:[ =]([-+]?[0-9][0-9.]*(?:e[-+]?[0-9]+)?|(?:seeds|auto|all|uniform|greedy)\b))?")
+
+
+def in_python(message: str) -> str:
+    """A message of the library, which names flags of the command and members of C++, in the words of this package."""
+    def call(flag: Match[str]) -> str:
+        name, value = flag.groups()
+        if name in _CALLS:
+            return _CALLS[name] + ("" if value is None else f" {value}")
+        keyword = name.replace("-", "_")
+        return keyword if value is None else f"{keyword}={value}" if value[0] in "+-0123456789" else f'{keyword}="{value}"'
+    return _FLAG.sub(call, message.replace("--yes-coarse, Plc::is_coarse", "--yes-coarse"))
+
+
+def diagnostic(code: str, message: str, ids: Sequence[int], points: Sequence[Sequence[float]], file: str, line: int) -> Diagnostic:
+    """What the extension module makes of one of the library."""
+    return Diagnostic(code, in_python(message), ids, points, file, line)
 
 
 _E = TypeVar("_E", bound="Error")
@@ -50,6 +73,11 @@ class Error(Exception):
         self.diagnostics: List[Diagnostic] = list(diagnostics)
         where = file + (f":{line}" if line else "")
         super().__init__(f"{where}: {message}" if where else message)
+
+    def _add(self, words: str) -> None:
+        """One more sentence of what it says."""
+        self.message += words
+        self.args = (f"{self}{words}",)
 
     @classmethod
     def _of(cls: Type[_E], d: Diagnostic) -> _E:

@@ -3,7 +3,7 @@
 """Sizing fields that are evaluated in C++, without the GIL. Sizes are bounds of circumradii in 3D, of areas in 2D."""
 from __future__ import annotations
 
-from typing import Callable, Optional, Union
+from typing import Any, Callable, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -17,11 +17,13 @@ Size = Union[float, "Field", Callable[[npt.NDArray[np.float64]], npt.ArrayLike]]
 
 
 class Field:
-    """A sizing field; `smallest`, `sizes_at_points` and `sizes_on_mesh` make them. Any number of threads may ask one."""
+    """A sizing field; `smallest`, `sizes_at_points` and `sizes_on_mesh` make them. Any number of threads may ask one. It pickles
+    with all that it was made of, as far as that does: not with a lambda."""
 
-    def __init__(self, core: _pgdr._Field, dimension: int) -> None:
+    def __init__(self, core: _pgdr._Field, dimension: int, recipe: Tuple[Callable[..., Field], Tuple[Any, ...]]) -> None:
         self._core = core
         self._dimension = dimension
+        self._recipe = recipe
 
     @property
     def dimension(self) -> int:
@@ -34,6 +36,17 @@ class Field:
 
     def __repr__(self) -> str:
         return f"<pgdr.Field {self._dimension}D>"
+
+    def __reduce__(self) -> Tuple[Callable[..., Field], Tuple[Any, ...]]:
+        return self._recipe
+
+
+def is_lasting(size: object) -> bool:
+    """Is a size the same in another process: a number, or a field without functions of Python?"""
+    if isinstance(size, Field):
+        make, parts = size._recipe
+        return make is not smallest or all(map(is_lasting, parts))
+    return not callable(size)
 
 
 def core_of(name: str, size: object, dimension: int) -> _pgdr._Field:
@@ -61,30 +74,63 @@ def smallest(*fields: Size) -> Field:
         raise usage("smallest() takes fields of one dimension, at least one, and numbers and functions beside them")
     dimension = dimensions.pop()
     join = _pgdr.smallest2 if dimension == 2 else _pgdr.smallest3
-    return Field(join([core_of("a size", f, dimension) for f in fields]), dimension)
+    return Field(join([core_of("a size", f, dimension) for f in fields]), dimension, (smallest, fields))
 
 
 def sizes_at_points(points: npt.ArrayLike, sizes: npt.ArrayLike, growth: float) -> Field:
     """Sizes at (n, D) points, which grow with the distance: min over i of sizes[i] + growth |x - points[i]|, in 2D of the square
     root of the area. Raises UsageError: no points, a size that is not positive, a negative growth."""
-    at = _arguments.points("points", points).astype(np.float64)
+    at = np.array(_arguments.points("points", points), dtype=np.float64)
     make = _pgdr.sizes_at_points2 if at.shape[1] == 2 else _pgdr.sizes_at_points3
-    values = _arguments.values("sizes", sizes, len(at), "points")
-    return Field(make(at, values, _arguments.number("growth", growth)), int(at.shape[1]))
+    values = np.array(_arguments.values("sizes", sizes, len(at), "points"))
+    slope = _arguments.number("growth", growth)
+    return Field(make(at, values, slope), int(at.shape[1]), (sizes_at_points, (at, values, slope)))
 
 
-def sizes_on_mesh(mesh: Mesh, values: npt.ArrayLike) -> Field:
-    """Sizes at the vertices of a background mesh, interpolated linearly; outside, those of the nearest point of its boundary."""
-    make = _pgdr.sizes_on_mesh2 if _mesh("mesh", mesh).dimension == 2 else _pgdr.sizes_on_mesh3
-    return Field(make(mesh._core, _arguments.values("values", values, len(mesh.points), "points")), mesh.dimension)
+def sizes_on_mesh(mesh: Mesh, values: npt.ArrayLike, of: Optional[str] = None) -> Field:
+    """Sizes on a background mesh, as (n,) values of its points or (m,) values of its cells. Those of points are interpolated linearly;
+    outside, those of the nearest point of the boundary count. Of cells, each point has the smallest of its cells' values, so that
+    nowhere in a cell more than its value is allowed.
+
+    Parameters: `of` is "points" or "cells", and needed where a mesh has as many of both. Raises UsageError: another number of values,
+    or one that is not positive (ids: the point or cell).
+
+    >>> import pgdr
+    >>> square = pgdr.Plc([[0, 0], [1, 0], [1, 1], [0, 1]], segments=[[0, 1], [1, 2], [2, 3], [3, 0]])
+    >>> coarse = pgdr.mesh(square)
+    >>> finer = pgdr.mesh(square, size=pgdr.sizes_on_mesh(coarse, [0.01] * len(coarse.cells)))
+    >>> len(finer.cells) > 100
+    True
+    """
+    at_points = _at_points(mesh, values, of)
+    make = _pgdr.sizes_on_mesh2 if mesh.dimension == 2 else _pgdr.sizes_on_mesh3
+    return Field(make(mesh._core, at_points), mesh.dimension, (sizes_on_mesh, (mesh, at_points, "points")))
 
 
-def limit_growth(mesh: Mesh, values: npt.ArrayLike, growth: float) -> npt.NDArray[np.float64]:
-    """(n,) values at the vertices of a mesh, lowered where they grow faster than `growth` along an edge (gradation)."""
-    limit = _pgdr.limit_growth2 if _mesh("mesh", mesh).dimension == 2 else _pgdr.limit_growth3
-    made: npt.NDArray[np.float64] = limit(mesh._core, _arguments.values("values", values, len(mesh.points), "points"),
-                                          _arguments.number("growth", growth))
+def limit_growth(mesh: Mesh, values: npt.ArrayLike, growth: float, of: Optional[str] = None) -> npt.NDArray[np.float64]:
+    """(n,) values at the points of a mesh, from values of its points or cells as of `sizes_on_mesh`, lowered where they grow faster
+    than `growth` along an edge (gradation)."""
+    at_points = _at_points(mesh, values, of)
+    limit = _pgdr.limit_growth2 if mesh.dimension == 2 else _pgdr.limit_growth3
+    made: npt.NDArray[np.float64] = limit(mesh._core, at_points, _arguments.number("growth", growth))
     return made
+
+
+def _at_points(mesh: Mesh, values: npt.ArrayLike, of: Optional[str]) -> npt.NDArray[np.float64]:
+    """One value a point, from one a point or one a cell."""
+    points, cells = len(_mesh("mesh", mesh).points), len(mesh.cells)
+    given = _arguments.reals("values", values)
+    if of is None:
+        if given.shape == (points,) == (cells,):
+            raise usage(f"the mesh has {points} points and as many cells: say which the values are of, as of=\"points\" or of=\"cells\"")
+        if given.shape not in ((points,), (cells,)):
+            raise usage(f"values must have one number for each of {points} points, or one for each of {cells} cells, in the shape "
+                        f"({points},) or ({cells},), not {given.shape}")
+        of = "points" if given.shape == (points,) else "cells"
+    if _arguments.word("of", of, ("points", "cells")) == "points":
+        return np.array(_arguments.values("values", given, points, "points"))
+    smallest_at = _pgdr.smallest_at_vertices2 if mesh.dimension == 2 else _pgdr.smallest_at_vertices3
+    return smallest_at(mesh._core, _arguments.values("values", given, cells, "cells"))
 
 
 def _mesh(name: str, value: Optional[object]) -> Mesh:

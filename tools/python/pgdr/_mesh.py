@@ -76,14 +76,18 @@ class Mesh:
         return self._core.points
 
     @property
-    def cells(self) -> npt.NDArray[np.uint32]:
+    def cells(self) -> npt.NDArray[np.int32]:
         """(m, D + 1) vertices of the triangles (2D, counterclockwise) or tetrahedra (3D, of positive orientation)."""
-        return self._core.cells
+        return _arguments.signed(self._core.cells)
 
     @property
     def regions(self) -> npt.NDArray[np.float64]:
-        """(m,) label of each cell; (0,) where the mesh has one region without a label."""
-        return self._core.regions
+        """(m,) label of each cell: the attribute of its seed, its number with regions="auto" or "all", else 0."""
+        labels = self._core.regions
+        if len(labels) != len(self._core.cells):  # nothing has a label
+            labels = np.zeros(len(self._core.cells))
+            labels.setflags(write=False)
+        return labels
 
     @property
     def point_markers(self) -> npt.NDArray[np.int32]:
@@ -102,9 +106,9 @@ class Mesh:
         return self._core.input_points
 
     @property
-    def subsegments(self) -> npt.NDArray[np.uint32]:
+    def subsegments(self) -> npt.NDArray[np.int32]:
         """(k, 2) edges that segments, or edges of facets, have become."""
-        return self._core.subsegments
+        return _arguments.signed(self._core.subsegments)
 
     @property
     def subsegment_markers(self) -> npt.NDArray[np.int32]:
@@ -112,9 +116,9 @@ class Mesh:
         return self._core.subsegment_markers
 
     @property
-    def subfacets(self) -> npt.NDArray[np.uint32]:
+    def subfacets(self) -> npt.NDArray[np.int32]:
         """3D: (k, 3) triangles that the facets have become; those on the hull face outwards."""
-        return self._core.subfacets.reshape(-1, 3)
+        return _arguments.signed(self._core.subfacets.reshape(-1, 3))
 
     @property
     def subfacet_markers(self) -> npt.NDArray[np.int32]:
@@ -127,17 +131,17 @@ class Mesh:
         return self.subsegment_markers if self.dimension == 2 else self.subfacet_markers
 
     @property
-    def point_of_input(self) -> npt.NDArray[np.uint32]:
+    def point_of_input(self) -> npt.NDArray[np.int32]:
         """The row in `points` of each point of the input; (0,) of a mesh that was not made here."""
-        return self._core.point_of_input
+        return _arguments.signed(self._core.point_of_input)
 
     def neighbors(self) -> npt.NDArray[np.int64]:
         """(m, D + 1) the cell beyond the face opposite each vertex; -1: none. Linear time."""
         return self._core.neighbors()
 
-    def edges(self) -> npt.NDArray[np.uint32]:
+    def edges(self) -> npt.NDArray[np.int32]:
         """(k, 2) all edges, each once, the smaller row first, sorted. n log n."""
-        return self._core.edges()
+        return _arguments.signed(self._core.edges())
 
     def quality(self) -> Dict[str, Any]:
         """Angles in degrees, radius-edge ratio, radius ratio and scaled Jacobian: of all cells, and of each region."""
@@ -182,7 +186,7 @@ class Mesh:
         from ._check import check
         lost = [name for name, value in self._bounds.items() if value is _Lost and name not in bounds]
         if lost:
-            raise usage(f"a pickled mesh has no {' and '.join(lost)} that is a function or a field: give it again")
+            raise usage(f"a pickled mesh has no {' and '.join(lost)} that is a function: give it again")
         asked = dict(self._bounds) if self.stop == "finished" else {}
         if "radius_edge" in bounds or "min_angle" in bounds:
             asked.pop("radius_edge", None)
@@ -223,7 +227,8 @@ class Mesh:
         core = self._core
         arrays: Dict[str, Any] = {name: np.array(getattr(core, name)) for name in _PICKLED}
         arrays["reasons"] = tuple(np.array(a) for a in core.reason_arrays)
-        bounds = {name: _Lost if callable(value) or (name == "region_sizes" and any(map(callable, (value or {}).values()))) else value
+        from ._fields import is_lasting
+        bounds = {name: value if all(map(is_lasting, value.values() if name == "region_sizes" else (value,))) else _Lost
                   for name, value in self._bounds.items()}
         return _restored, (self.dimension, arrays, core.input_points, self._facts, bounds)
 

@@ -3,13 +3,16 @@
 """Inputs."""
 from __future__ import annotations
 
-from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Type, Union
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Type, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _arguments, _pgdr
 from ._errors import Diagnostic, usage
+
+if TYPE_CHECKING:
+    from ._mesh import Mesh
 
 _CORES: Dict[int, Type[_pgdr._Plc]] = {2: _pgdr.Plc2, 3: _pgdr.Plc3}
 
@@ -121,20 +124,50 @@ class Plc:
         return made if tolerance is None else made.with_tolerance(tolerance, coarse=coarse)
 
     @classmethod
-    def from_polygons(cls, outer: npt.ArrayLike, holes: Sequence[npt.ArrayLike] = (), *, markers: Optional[Sequence[int]] = None,
-                      tolerance: Optional[float] = None) -> Plc:
-        """2D: the area inside a ring, less those inside further rings.
+    def from_polygons(cls, outer: Any, holes: Sequence[npt.ArrayLike] = (), *, markers: Optional[Sequence[int]] = None,
+                      labels: Optional[npt.ArrayLike] = None, tolerance: Optional[float] = None) -> Plc:
+        """2D: the area inside a ring, less those inside further rings; or of several polygons the union of their areas, in which the
+        edges of all stay.
 
-        Parameters: `outer` and each of `holes` is an (n, 2) array of the corners of a ring, in either direction, with or without the
-        first one again at the end; holes lie inside `outer`, and apart. `markers`: one a ring, `outer` first; else they are
-        numbered from 1.
+        Parameters
+        ----------
+        outer
+            A ring: an (n, 2) array of its corners, in either direction, with or without the first one again at the end. Or a
+            polygon, multipolygon or collection: what has a `__geo_interface__` (Shapely, GeoPandas), or a dict as of GeoJSON. Or a
+            list of these, and of lists of rings, the outer one first. Heights of geometries, and what is no polygon in them, are left
+            out; the latter is said in a Python warning.
+        holes : list of rings
+            Of a single ring: inside of it, and apart.
+        markers
+            One a ring: of each polygon in turn the outer one, then its holes; else they are numbered from 1.
+        labels
+            One a polygon: the cells in it are labelled so, where polygons overlap by the first of them.
+
+        Parts of the plane that polygons enclose and none has become holes, one by one. Where edges cross, `resolve_crossings` splits
+        them before the input can be meshed.
 
         >>> import pgdr
         >>> pgdr.Plc.from_polygons([[0, 0], [3, 0], [3, 3], [0, 3]], holes=[[[1, 1], [2, 1], [2, 2], [1, 2]]])
         <pgdr.Plc 2D: 8 points, 8 segments, 1 hole>
         """
-        from ._convert import from_polygons
-        return from_polygons(outer, holes, markers=markers, tolerance=tolerance)
+        from ._polygons import from_polygons
+        return from_polygons(outer, holes, markers=markers, labels=labels, tolerance=tolerance)
+
+    @classmethod
+    def from_mesh(cls, mesh: Mesh) -> Plc:
+        """The boundary of a finished mesh, to be meshed again: its subsegments and subfacets with their markers, what else bounds its
+        cells or lies between labels, with marker 0; labels and voids as seeds. Points inside are left out but for those of the input;
+        the tolerance is the default, and bounds of regions are not known to a mesh.
+
+        >>> import pgdr
+        >>> square = pgdr.Plc([[0, 0], [1, 0], [1, 1], [0, 1]], segments=[[0, 1], [1, 2], [2, 3], [3, 0]], markers=[1, 2, 3, 4])
+        >>> sorted(set(pgdr.Plc.from_mesh(pgdr.mesh(square, size=0.1)).markers.tolist()))
+        [1, 2, 3, 4]
+        """
+        from ._mesh import Mesh
+        if not isinstance(mesh, Mesh):
+            raise TypeError(f"mesh must be a pgdr.Mesh, not {type(mesh).__name__}")
+        return cls._of((_pgdr.boundary_of_mesh2 if mesh.dimension == 2 else _pgdr.boundary_of_mesh3)(mesh._core))
 
     @classmethod
     def from_meshio(cls, mesh: Any) -> Plc:
@@ -170,9 +203,9 @@ class Plc:
         return self._core.points
 
     @property
-    def segments(self) -> npt.NDArray[np.uint32]:
+    def segments(self) -> npt.NDArray[np.int32]:
         """(m, 2) ends of the segments."""
-        return self._core.segments
+        return _arguments.signed(self._core.segments)
 
     @property
     def facets(self) -> Union[npt.NDArray[np.int64], List[Any]]:

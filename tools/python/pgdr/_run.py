@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import sys
+import warnings
 from typing import Any, Callable, Dict, Mapping, NamedTuple, Optional, Protocol, Union
 
 import numpy as np
@@ -11,7 +12,7 @@ import numpy.typing as npt
 
 from . import _arguments, _pgdr
 from ._ending import WORK
-from ._errors import DiagnosedError, Diagnostic, usage
+from ._errors import DiagnosedError, Diagnostic, in_python, usage
 from ._fields import Size, core_of
 from ._mesh import Mesh
 from ._plc import Plc
@@ -88,15 +89,17 @@ def mesh(plc: Plc, *, min_angle: Optional[float] = None, radius_edge: Optional[f
         3D. False: no optimiser, and a Delaunay mesh.
     threads : int
         How many; 0: as many as there are cores.
-    regions : "seeds" or "auto", optional
-        Which volumes are meshed and how they are labelled: as the input's seeds say (the default), or numbered by nesting.
+    regions : "seeds", "auto" or "all", optional
+        Which volumes are meshed and how they are labelled: as the input's seeds say (the default); by nesting, where of volumes
+        inside one another every second is a void; or all that is enclosed and no hole's. The latter two number those without a seed.
     region_sizes : dict, optional
         Further sizes of the cells with a label: {label: size}.
     selector : str or function, optional
         Where new points go: a name as the command has it ("circumcenter", "off-center", "optimized", "sliver-avoiding"), or a
         function of `Elements` that returns an (n, D) array of points in their selection disks. It is asked by one thread at a
         time, for the element that is next and those that wait behind it: each point must depend on its element alone. A point
-        outside of the disk, or NaN, is replaced by the circumcentre and counted, if the element comes to its turn.
+        outside of the disk, or NaN, is replaced by the circumcentre and counted, if the element comes to its turn. It is asked for
+        elements over the radius-edge bound; where none is met, a warning (`Mesh.warnings`, and of Python) says so.
     keep_boundary : bool
         2D: no new point on any segment.
     tolerance : float, optional
@@ -143,7 +146,7 @@ def mesh(plc: Plc, *, min_angle: Optional[float] = None, radius_edge: Optional[f
     """
     if not isinstance(plc, Plc):
         raise TypeError(f"plc must be a pgdr.Plc, not {type(plc).__name__}: pgdr.Plc(points, ...) makes one of arrays, pgdr.Plc.read(path) "
-                        "of a file")
+                        "of a file, pgdr.Plc.from_mesh(mesh) of a pgdr.Mesh")
     _require_walls(plc)
     if tolerance is not None:
         plc = plc.with_tolerance(tolerance)
@@ -165,8 +168,33 @@ def mesh(plc: Plc, *, min_angle: Optional[float] = None, radius_edge: Optional[f
         options.max_vertices = _arguments.whole_number("max_vertices", max_vertices, 0, 2**64 - 1)
     if schedule is not None:
         options.set_schedule(_arguments.word("schedule", schedule, ("reproducible", "uniform", "greedy")))
-    _select(options, selector)
-    return _run(plc, options, bounds, progress, stop)
+    asked = _select(options, selector)
+    try:
+        made = _run(plc, options, bounds, progress, stop)
+    except DiagnosedError as error:
+        _add_what_helps(error, plc)
+        raise
+    if asked is not None and not asked.was_called:
+        _say_unasked(made, options)
+    return made
+
+
+def _add_what_helps(error: DiagnosedError, plc: Plc) -> None:
+    """Names the functions that make a refused input valid."""
+    flags_for = _pgdr.flags_for2 if plc.dimension == 2 else _pgdr.flags_for3
+    with WORK:
+        flags = flags_for(plc._core)
+    if flags is not None:
+        error._add(". " + in_python(flags))
+
+
+def _say_unasked(made: Mesh, options: _pgdr._Options) -> None:
+    """A selector that was never called may be one with a mistake in it that never came to light."""
+    words = "the selector was never called: " + (
+        f"only elements over the radius-edge bound, here {options.radius_edge_bound:.4g}, are split at points of its choice, and none "
+        "was met; those that are too large alone are split at their circumcentres" if options.refine else "refine=False splits nothing")
+    made._facts["warnings"].append(Diagnostic("unused_selector", words))
+    warnings.warn(words, stacklevel=3)
 
 
 def _require_walls(plc: Plc) -> None:
@@ -207,17 +235,33 @@ def bounds_of(dimension: int, bounds: Mapping[str, Any]) -> _pgdr._Options:
     if "max_volume" in bounds:
         options.max_volume = _arguments.number("max_volume", bounds["max_volume"])
     if "regions" in bounds:
-        options.set_regions(_arguments.word("regions", bounds["regions"], ("seeds", "auto")) == "auto")
+        options.set_regions(_arguments.word("regions", bounds["regions"], ("seeds", "auto", "all")))
     return options
 
 
-def _select(options: _pgdr._Options, selector: object) -> None:
+class _Asked:
+    """A selector, and whether it was ever called."""
+
+    def __init__(self, select: Callable[[Elements], npt.ArrayLike]) -> None:
+        self._select = select
+        self.was_called = False
+
+    def __call__(self, elements: Elements) -> npt.ArrayLike:
+        self.was_called = True
+        return self._select(elements)
+
+
+def _select(options: _pgdr._Options, selector: object) -> Optional[_Asked]:
+    """Returns what was made of a function."""
+    if callable(selector):
+        asked = _Asked(selector)
+        options.select_by(asked)
+        return asked
     if isinstance(selector, str):
         options.select_by_name(selector)
-    elif callable(selector):
-        options.select_by(selector)
     elif selector is not None:
         raise TypeError(f"selector must be a name or a function, not {type(selector).__name__}")
+    return None
 
 
 class _Line:

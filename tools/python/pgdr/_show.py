@@ -60,7 +60,7 @@ def _planar(mesh: Mesh) -> Tuple[str, float, float, str]:
     cells, labels = np.asarray(mesh.cells), np.asarray(mesh.regions)
     parts, caption = [], ""
     if len(cells) <= MOST_CELLS:
-        number = np.unique(labels, return_inverse=True)[1] if labels.size else np.zeros(len(cells), dtype=int)
+        number = np.unique(labels, return_inverse=True)[1]
         fills = [_rgb(np.array(_COLORS[i % len(_COLORS)], dtype=float)) for i in number]
         parts.append('<g stroke="#fff" stroke-width="0.4">' + "".join(_polygons(places, cells, fills)) + "</g>")
     else:
@@ -119,7 +119,7 @@ def _rows(mesh: Mesh) -> List[Tuple[str, str]]:
     if mesh.dimension == 3:
         rows.append(("subfacets", f"{len(mesh.subfacets):,}"))
     rows.append(("subsegments", f"{len(mesh.subsegments):,}"))
-    if labels.size:
+    if labels.any():
         rows.append(("regions", ", ".join(f"{label:g}" for label in labels[:8]) + (", ..." if labels.size > 8 else "")))
     for name in ("poor_left", "stop"):
         value = getattr(mesh, name, None)

@@ -53,7 +53,7 @@ class Tetrahedralization:
     def __init__(self, mesh: Mesh) -> None:
         self.mesh = mesh
         self.nodes: npt.NDArray[np.float64] = mesh.points
-        self.elems: npt.NDArray[np.int32] = np.asarray(mesh.cells).astype(np.int32)
+        self.elems: npt.NDArray[np.int32] = np.array(mesh.cells)
 
     def __iter__(self) -> Iterator[npt.NDArray[Any]]:
         yield self.nodes
@@ -75,7 +75,7 @@ class Tetrahedralization:
 
     @property
     def faces(self) -> npt.NDArray[np.int32]:
-        return np.asarray(self.mesh.subfacets).astype(np.int32)
+        return np.array(self.mesh.subfacets)
 
     @property
     def face_markers(self) -> npt.NDArray[np.int32]:
@@ -83,8 +83,7 @@ class Tetrahedralization:
 
     @property
     def attributes(self) -> npt.NDArray[np.float64]:
-        labels = np.asarray(self.mesh.regions, dtype=np.float64)
-        return labels if labels.size else np.zeros(len(self.elems))
+        return self.mesh.regions
 
     def __repr__(self) -> str:
         return f"<pgdr.Tetrahedralization: {len(self.nodes)} nodes, {len(self.elems)} elems>"
@@ -126,10 +125,12 @@ def _switches(text: str) -> Dict[str, Any]:
 
 
 def _options(plc: Plc, minratio: Optional[float], mindihedral: Optional[float], max_volume: Optional[float],
-             steinerleft: Optional[int], quality: bool, optimize: bool) -> Dict[str, Any]:
+             steinerleft: Optional[int], quality: bool, optimize: bool, labels: bool) -> Dict[str, Any]:
     """The arguments of pgdr.mesh."""
     options: Dict[str, Any] = {"refine": quality or max_volume is not None or bool((plc.regions[:, 4] > 0).any())}
     options["optimize"] = optimize and options["refine"]
+    if labels:  # volumes without a seed are numbered, and none of them is a void
+        options["regions"] = "all"
     if quality:
         options["radius_edge"] = 2.0 if minratio is None else minratio
     elif options["refine"]:  # a volume alone
@@ -170,7 +171,7 @@ def tetrahedralize(points: Any, faces: Any = None, *, markers: Any = None, holes
         Most points to add; negative: any number.
     switches : str
         TetGen's, which alone count then, beside markers, holes, regions and threads: p, q, q1.5, q1.5/18, a0.1, a (largest volumes of
-        regions), A (labels), S100, T1e-8 (times the diagonal of all points), O0 (no optimiser), C (checks the result). z, Q, V, f, e,
+        regions), A (a label for each enclosed volume, those without a seed numbered), S100, T1e-8 (times the diagonal of all points), O0 (no optimiser), C (checks the result). z, Q, V, f, e,
         n, J, d, B, N, E, F, I, g, k change nothing. Others are refused.
     threads : int
         As of pgdr.mesh.
@@ -208,7 +209,7 @@ def tetrahedralize(points: Any, faces: Any = None, *, markers: Any = None, holes
         asked = _switches(switches)
     plc = _plc(points, faces, markers, holes, regions, asked)
     options = _options(plc, asked.get("minratio"), asked.get("mindihedral"), asked.get("max_volume"), asked.get("steinerleft"),
-                       asked.get("quality", True), asked.get("optimize", True))
+                       asked.get("quality", True), asked.get("optimize", True), asked.get("regionattrib", False))
     result = mesh(plc, threads=threads, **options)
     if asked.get("docheck"):
         report = check(result, plc)

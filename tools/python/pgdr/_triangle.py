@@ -200,8 +200,7 @@ def _output(result: Any, switches: Mapping[str, Any]) -> Dict[str, npt.NDArray[A
     if "E" not in switches:
         out["triangles"] = _ints(new[np.asarray(result.cells)])
         if "A" in switches:
-            labels = np.asarray(result.regions, dtype=np.float64)
-            out["triangle_attributes"] = (labels if labels.size else np.zeros(len(result.cells))).reshape(-1, 1)
+            out["triangle_attributes"] = np.array(result.regions).reshape(-1, 1)
     if ("p" in switches or "c" in switches) and "P" not in switches:
         out["segments"] = _ints(new[np.asarray(result.subsegments)])
         out["segment_markers"] = _columns(segment_markers)
