@@ -8,7 +8,6 @@
 #include "command.hpp"
 #include "console.hpp"
 #include "planar_hint.hpp"
-#include "proposal.hpp"
 
 namespace pgdr::tool {
 namespace {
@@ -94,8 +93,26 @@ int refuse(const Plc<D>& plc, const Diagnosis<D>& diagnosis, Report& report) {
   if (const std::uint64_t all = diagnosis.error_count(); all > most)
     std::fprintf(stderr, "pgdr: and %llu more errors\n", static_cast<unsigned long long>(all - most));
   if (const auto flags = flags_for_refused(plc, diagnosis)) std::fprintf(stderr, "pgdr: %s\n", flags->c_str());
-  propose_for_refused(plc);
+  if (const auto tolerance = tolerance_for_refused(plc))
+    std::fprintf(stderr, "pgdr: --tolerance %s%s\n", digits(*tolerance).c_str(), what_tolerance_does.data());
   return exit_input;
+}
+
+void give(const std::optional<Proposal>& proposal, bool quiet, Report& report) {
+  if (!proposal) return;
+  report.set("proposal", JsonObject{{"tolerance", proposal->tolerance},
+                                    {"facets", proposal->facets},
+                                    {"facets_then", proposal->facets_then},
+                                    {"joined", proposal->joined}});
+  if (quiet) return;
+  std::string what;
+  if (proposal->joined > 0)
+    what = "joins " + count(proposal->joined, "point to a point, a segment or a facet", "points to points, segments and facets");
+  if (proposal->facets_then < proposal->facets)
+    what += (what.empty() ? "" : " and ") + ("makes " + count(proposal->facets_then, "facet", "facets")) + " of " +
+            count(proposal->facets, "facet", "facets");
+  print_row("proposal",
+            "--tolerance " + digits(proposal->tolerance) + ", two units of the last digit of the coordinates, " + what);
 }
 
 #define PGDR_INSTANTIATE(D)                                        \

@@ -4,7 +4,10 @@
 // A diagnosis in words and as JSON.
 #pragma once
 
+#include <optional>
+
 #include "pgdr/diagnosis.hpp"
+#include "proposal.hpp"
 #include "report.hpp"
 
 namespace pgdr::tool {
@@ -21,5 +24,8 @@ void print_findings(const Diagnosis<D>& diagnosis);
 /// Returns exit_input.
 template <int D>
 int refuse(const Plc<D>& plc, const Diagnosis<D>& diagnosis, Report& report);
+
+/// A proposal, in the report as `proposal`, and in a row unless `quiet`.
+void give(const std::optional<Proposal>& proposal, bool quiet, Report& report);
 
 }  // namespace pgdr::tool

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "console.hpp"
+#include "size_measure.hpp"
 
 namespace pgdr::tool {
 namespace {
@@ -24,26 +25,11 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 template <int D>
 constexpr double bytes_a_cell = D == 3 ? 80 : 50;
 
-/// The average volume (area) of the cells of a cube (square) by its bound: on the circumradius, and on the volume (area).
-constexpr double volume_by_radius = 0.2, volume_by_bound = 0.54, area_by_bound = 0.65;
-
-template <int D>
-double measure_of_size(double size) {
-  if (!(size > 0)) return infinity;  // the run will say that it cannot be used
-  return D == 3 ? volume_by_radius * size * size * size : area_by_bound * size;
-}
-
 template <int D>
 EstimateOptions<D> estimate_options(const Bounds<D>& bounds) {
   EstimateOptions<D> options;
   options.radius_edge_bound = bounds.radius_edge;
-  if (!bounds.size.bounded() && bounds.region_sizes.empty() && bounds.max_volume == infinity) return options;
-  options.measure = [&bounds](const Point<D>& x, double label) {
-    double measure = std::min(measure_of_size<D>(bounds.size.at(x)), volume_by_bound * bounds.max_volume);
-    for (const RegionSize<D>& region : bounds.region_sizes)
-      if (region.label == label) measure = std::min(measure, measure_of_size<D>(region.size.at(x)));
-    return measure;
-  };
+  options.measure = measure_of_sizes<D>(bounds.size, bounds.region_sizes, bounds.max_volume);
   return options;
 }
 

@@ -78,8 +78,8 @@ struct Looks {
 };
 
 template <int D>
-Looks look_at(const Plc<D>& plc, const Domain<D>& domain, const InfoArguments& a) {
-  return {count_open(domain), smallest_angle(domain), find_proposal(plc, domain, a.reading)};
+Looks look_at(const Plc<D>& plc, const Domain<D>& domain) {
+  return {count_open(domain), smallest_angle(domain), find_proposal(plc, domain)};
 }
 
 /// What the input is without repetitions, its maximal entities, and how these meet.
@@ -191,7 +191,7 @@ class InputInfo {
             refused = std::current_exception();
           }
         },
-        [&] { looks = look_at(plc_, domain, a_); });
+        [&] { looks = look_at(plc_, domain); });
     seconds_.set("recovery", clock_.seconds() - recovery_at_);
     describe(domain, *looks, a_.quiet, findings_);
     report_.set("tolerance", domain.tolerance());

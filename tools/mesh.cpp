@@ -375,7 +375,7 @@ class MeshRun {
     };
     const auto look_for_proposal = [&] {
       if (a_.no_refine || result_.poor_left == 0 || result_.stop != StopCause::finished) return;
-      proposal = find_proposal(plc_, Domain<D>(plc_), a_.reading);
+      proposal = find_proposal(plc_, Domain<D>(plc_));
     };
     if (ranks_.transport()) {
       write_mesh();

@@ -5,13 +5,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <exception>
-#include <string>
 #include <string_view>
 #include <vector>
 
-#include "console.hpp"
 #include "pgdr/estimate.hpp"
 
 namespace pgdr::tool {
@@ -94,8 +91,7 @@ std::optional<double> unit_of_last_digit(std::span<const double> numbers) {
 }
 
 template <int D>
-std::optional<Proposal> find_proposal(const Plc<D>& plc, const Domain<D>& domain, const InputArguments& reading) {
-  if (reading.tolerance) return std::nullopt;
+std::optional<Proposal> find_proposal(const Plc<D>& plc, const Domain<D>& domain) {
   try {
     const auto other = with_tolerance_of_digits(plc);
     if (!other) return std::nullopt;
@@ -109,43 +105,24 @@ std::optional<Proposal> find_proposal(const Plc<D>& plc, const Domain<D>& domain
   return std::nullopt;
 }
 
-void give(const std::optional<Proposal>& proposal, bool quiet, Report& report) {
-  if (!proposal) return;
-  report.set("proposal", JsonObject{{"tolerance", proposal->tolerance},
-                                    {"facets", proposal->facets},
-                                    {"facets_then", proposal->facets_then},
-                                    {"joined", proposal->joined}});
-  if (quiet) return;
-  std::string what;
-  if (proposal->joined > 0)
-    what = "joins " + count(proposal->joined, "point to a point, a segment or a facet", "points to points, segments and facets");
-  if (proposal->facets_then < proposal->facets)
-    what += (what.empty() ? "" : " and ") + ("makes " + count(proposal->facets_then, "facet", "facets")) + " of " +
-            count(proposal->facets, "facet", "facets");
-  print_row("proposal",
-            "--tolerance " + digits(proposal->tolerance) + ", two units of the last digit of the coordinates, " + what);
-}
-
 template <int D>
-void propose_for_refused(const Plc<D>& plc) {
+std::optional<double> tolerance_for_refused(const Plc<D>& plc) {
   try {
     const auto other = with_tolerance_of_digits(plc);
-    if (!other) return;
+    if (!other) return std::nullopt;
     std::optional<Domain<D>> then;
-    if (diagnose(*other, {.most_listed = 0, .errors_only = true, .stop = {}}, then).error_count() > 0 || !then) return;
+    if (diagnose(*other, {.most_listed = 0, .errors_only = true, .stop = {}}, then).error_count() > 0 || !then)
+      return std::nullopt;
     const auto gap = narrowest_gap<D>(*then);
-    if (gap && gap->distance < least_of_next * *other->tolerance) return;
-    std::fprintf(stderr,
-                 "pgdr: --tolerance %s makes it valid: what is no farther apart than two units of the last digit of the "
-                 "coordinates then meets\n",
-                 digits(*other->tolerance).c_str());
+    if (!gap || gap->distance >= least_of_next * *other->tolerance) return other->tolerance;
   } catch (const std::exception&) {  // the refusal says enough
   }
+  return std::nullopt;
 }
 
-template std::optional<Proposal> find_proposal<2>(const Plc<2>&, const Domain<2>&, const InputArguments&);
-template std::optional<Proposal> find_proposal<3>(const Plc<3>&, const Domain<3>&, const InputArguments&);
-template void propose_for_refused<2>(const Plc<2>&);
-template void propose_for_refused<3>(const Plc<3>&);
+template std::optional<Proposal> find_proposal<2>(const Plc<2>&, const Domain<2>&);
+template std::optional<Proposal> find_proposal<3>(const Plc<3>&, const Domain<3>&);
+template std::optional<double> tolerance_for_refused<2>(const Plc<2>&);
+template std::optional<double> tolerance_for_refused<3>(const Plc<3>&);
 
 }  // namespace pgdr::tool

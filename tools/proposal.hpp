@@ -2,18 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A tolerance for a file of few digits: two units of the last digit of its coordinates. Never a default: what is given is meshed
-// as it is, and the user is told.
+// as it is, and the user is told. Prints nothing.
 #pragma once
 
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string_view>
 
-#include "options.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/plc.hpp"
-#include "report.hpp"
 
 namespace pgdr::tool {
 
@@ -31,13 +30,14 @@ struct Proposal {
 /// Of an input that is valid: nothing if a tolerance was asked for, or the digits are too many, or it would change nothing, or
 /// breaks what a Domain demands of a tolerance, or for lack of memory.
 template <int D>
-std::optional<Proposal> find_proposal(const Plc<D>& plc, const Domain<D>& domain, const InputArguments& reading);
-/// In the report as `proposal`, and in a row unless `quiet`.
-void give(const std::optional<Proposal>& proposal, bool quiet, Report& report);
+std::optional<Proposal> find_proposal(const Plc<D>& plc, const Domain<D>& domain);
 
-/// Of an input that is refused: says so on stderr if that tolerance makes it valid, and nothing is left then that is nearer than
-/// ten times as much: no features could be taken for rounding.
+/// Of an input that is refused: that tolerance, if it makes the input valid, and nothing is left then that is nearer than ten
+/// times as much: no features could be taken for rounding.
 template <int D>
-void propose_for_refused(const Plc<D>& plc);
+std::optional<double> tolerance_for_refused(const Plc<D>& plc);
+/// What is said of it, behind the flag.
+inline constexpr std::string_view what_tolerance_does =
+    " makes it valid: what is no farther apart than two units of the last digit of the coordinates then meets";
 
 }  // namespace pgdr::tool

@@ -329,7 +329,7 @@ CellEstimate<D> estimate_cells(const Domain<D>& domain, const EstimateOptions<D>
   estimate.cells = PathsThroughTree<D>(field, ways, bulk, options.stop).cells();
   const auto density = [&](const Point<D>& x) { return density_of<D>(field.look(x).h); };
   estimate.cells += detail::cells_of_sizes<D>(field, ways, options, estimate.cells, density, bulk);
-  estimate.cells = std::max(estimate.cells, 1.0);
+  estimate.cells = std::max({estimate.cells, estimate.at_least, 1.0});
   return estimate;
 }
 

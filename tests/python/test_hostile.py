@@ -58,6 +58,10 @@ class EveryArgument(unittest.TestCase):
         self.assertGreater(self.throw(lambda v: pgdr.Plc.from_polygons(v, []), "outer"), 30)
         self.assertGreater(self.throw(lambda v: pgdr.Plc.from_polygons(SQUARE_POINTS, v), "holes"), 30)
         self.assertGreater(self.throw(lambda v: pgdr.Plc.from_polygons(SQUARE_POINTS, [], markers=v), "markers"), 30)
+        self.assertGreater(self.throw(lambda v: pgdr.Plc.from_polygons([v, SQUARE_POINTS]), "a polygon"), 30)
+        self.assertGreater(self.throw(lambda v: pgdr.Plc.from_polygons({"type": "Polygon", "coordinates": v}), "coordinates"), 30)
+        self.assertGreater(self.throw(lambda v: pgdr.Plc.from_polygons(SQUARE_POINTS, labels=v), "labels"), 30)
+        self.assertEqual(self.throw(pgdr.Plc.from_mesh, "mesh"), len(ODD))
         self.assertEqual(self.throw(pgdr.Plc.from_meshio, "mesh"), len(ODD))
         self.assertEqual(self.throw(pgdr.Plc.from_pyvista, "mesh"), len(ODD))
         self.assertEqual(self.throw(pgdr.Plc.read, "path"), len(ODD))
@@ -88,6 +92,7 @@ class EveryArgument(unittest.TestCase):
         for call, least in ((lambda v: pgdr.sizes_at_points(v, [1], 0.1), 30), (lambda v: pgdr.sizes_at_points([[0, 0]], v, 0.1), 30),
                             (lambda v: pgdr.sizes_at_points([[0, 0]], [1], v), 30), (lambda v: pgdr.sizes_on_mesh(v, [1]), len(ODD)),
                             (lambda v: pgdr.sizes_on_mesh(made, v), len(ODD)), (lambda v: pgdr.limit_growth(made, v, 1), len(ODD)),
+                            (lambda v: pgdr.sizes_on_mesh(made, np.ones(len(made.cells)), v), len(ODD) - 1),
                             (lambda v: pgdr.smallest(field, v), 30), (field, 30)):
             self.assertGreaterEqual(self.throw(call, "of a field"), least)
 

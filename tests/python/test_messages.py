@@ -64,6 +64,69 @@ class Words(unittest.TestCase):
         self.assertNotIn("(plc)", str(caught.exception))
 
 
+    def test_a_tolerance_that_makes_an_input_valid(self):
+        """A strut whose end is beyond the wall by the last digit: it is on the wall with the tolerance that the message names."""
+        points = [[0, 0], [3.1, 0], [3.1, 3.1], [0, 3.1], [1.2345671, -0.0000001], [1.7, 1.8]]
+        plc = pgdr.Plc(points, [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5]])
+        with self.assertRaises(pgdr.InputError) as caught:
+            pgdr.mesh(plc)
+        found = re.search(r"tolerance=([-+0-9.e]+) makes it valid", str(caught.exception))
+        self.assertIsNotNone(found, caught.exception)
+        checked(self, plc, tolerance=float(found.group(1)))
+
+
+class Ahead(unittest.TestCase):
+    """`estimate`, and what `info` says of it."""
+
+    def test_a_narrow_gap(self):
+        """Two plates a little apart, in a box: both are named, and no mesh has fewer cells than is said."""
+        for gap in (0.05, 0.01):
+            at = np.vstack([cube().points * [4, 4, 1], cube().points * [1, 1, 0.2] + [1, 1, 0.3],
+                            cube().points * [1, 1, 0.2] + [1, 1, 0.5 + gap]])
+            plc = pgdr.Plc(at, facets=[[8 * k + v for v in facet] for k in range(3) for facet in cube().facets.tolist()])
+            ahead = pgdr.estimate(plc)
+            self.assertAlmostEqual(ahead.narrowest_gap.distance, gap)
+            self.assertEqual(sorted(ahead.narrowest_gap.entities), [("facet", 7), ("facet", 12)])
+            self.assertAlmostEqual(ahead.narrowest_gap.points[1][2] - ahead.narrowest_gap.points[0][2], gap)
+            self.assertAlmostEqual(ahead.sharpest_angle.degrees, 90)
+            self.assertTrue(50 < ahead.at_least <= ahead.cells, ahead)
+            self.assertLessEqual(ahead.at_least, len(pgdr.mesh(plc, optimize=False).cells))
+            self.assertEqual(pgdr.info(plc)["estimate"], ahead)
+
+    def test_sizes(self):
+        for plc, size in ((square(), 0.001), (cube(), 0.08)):
+            cells = len(checked(self, plc, size=size).cells)
+            for given in (size, lambda at, size=size: np.full(len(at), size), pgdr.sizes_at_points(plc.points[:1], [size], 0)):
+                self.assertTrue(cells / 3 < pgdr.estimate(plc, size=given).cells < 3 * cells)
+        labelled = cube(regions=[(0.5, 0.5, 0.5, 7)])
+        self.assertGreater(pgdr.estimate(labelled, region_sizes={7: 0.05}).cells, 10 * pgdr.estimate(labelled).cells)
+        self.assertGreater(pgdr.estimate(cube(), max_volume=1e-5).cells, 1e5)
+
+    def test_a_proposal(self):
+        """A square of eight points, the middle ones a last digit off the line of the others."""
+        at = [[0, 0, 0], [1.23456, 0, 0.00001], [2.46913, 0, 0], [2.46913, 1, 0], [1.23456, 1, 0], [0, 1, 0]]
+        top = [[x, y, 1] for x, y, _ in at]
+        facets = [[0, 5, 4, 1], [1, 4, 3, 2], [6, 7, 10, 11], [7, 8, 9, 10], [0, 1, 7, 6], [1, 2, 8, 7], [2, 3, 9, 8], [3, 4, 10, 9],
+                  [4, 5, 11, 10], [5, 0, 6, 11]]
+        plc = pgdr.Plc(at + top, facets=facets)
+        ahead = pgdr.estimate(plc)
+        self.assertEqual(ahead.proposal.tolerance, 2e-5)
+        self.assertLess(ahead.proposal.facets_then, ahead.proposal.facets)
+        self.assertIsNone(pgdr.estimate(plc, tolerance=1e-5).proposal)
+        self.assertIsNone(pgdr.estimate(cube()).proposal)
+
+    def test_what_has_no_mesh(self):
+        cross = pgdr.Plc([[0, 0], [1, 1], [0, 1], [1, 0]], [[0, 1], [2, 3]])
+        for plc in (cross, pgdr.Plc(cube().points), pgdr.Plc(cross.points)):
+            with self.assertRaises(pgdr.InputError):
+                pgdr.estimate(plc)
+            self.assertIsNone(pgdr.info(plc)["estimate"])
+        with self.assertRaises(TypeError):
+            pgdr.estimate([[0, 0]])
+        with self.assertRaises(ZeroDivisionError):
+            pgdr.estimate(cube(), size=lambda at: 1 / 0)
+
+
 class Selectors(unittest.TestCase):
     NEEDLE = [[0, 0], [4, 0], [4, 0.5], [0, 0.5], [0.02, 0.01]]
 

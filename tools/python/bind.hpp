@@ -17,11 +17,12 @@ std::string with_dimension(const char* name) {
   return name + std::to_string(D);
 }
 
-void bind_plc(py::module_& module);      // Plc, read_plc, file_dimension, resolve_crossings
-void bind_mesh(py::module_& module);     // MeshData, read_mesh
-void bind_fields(py::module_& module);   // Field, and what makes them
-void bind_options(py::module_& module);  // Options, as refine and check take them
-void bind_run(py::module_& module);      // StopSource, refine
-void bind_check(py::module_& module);    // check, diagnose
+void bind_plc(py::module_& module);       // Plc, read_plc, file_dimension, resolve_crossings
+void bind_mesh(py::module_& module);      // MeshData, read_mesh
+void bind_fields(py::module_& module);    // Field, and what makes them
+void bind_options(py::module_& module);   // Options, as refine and check take them
+void bind_run(py::module_& module);       // StopSource, refine
+void bind_check(py::module_& module);     // check, diagnose
+void bind_estimate(py::module_& module);  // estimate
 
 }  // namespace pgdr::python

@@ -6,7 +6,6 @@
 
 #include <pybind11/stl.h>
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,6 +16,7 @@
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/refine_options.hpp"
 #include "planar_hint.hpp"
+#include "proposal.hpp"
 #include "run.hpp"
 
 namespace pgdr::python {
@@ -31,17 +31,6 @@ py::dict dict_of(const CheckReport& r) {
                   "over_radius_edge"_a = r.over_radius_edge, "over_size"_a = r.over_size, "below_dihedral"_a = r.below_dihedral,
                   "explained"_a = r.explained, "unexplained"_a = r.unexplained,
                   "not_delaunay_rounding"_a = r.not_delaunay_rounding, "not_delaunay_refused"_a = r.not_delaunay_refused);
-}
-
-/// Runs what takes a stop token as a Watch does. @throws what a signal's handler raises, or `work` throws
-void run_watched(const std::function<void(const std::stop_token&)>& work) {
-  Watch watch({}, py::none());
-  try {
-    watch.run(0, [&] { work(watch.token()); });
-  } catch (const CancelledError&) {
-    if (watch.raised().is_none()) throw;
-  }
-  watch.raise();
 }
 
 /// As the command's `check`: against the input as given; reasons by its Domain. `bounds`: those of a run; infinite: none.
@@ -88,14 +77,18 @@ py::list diagnose_plc(const Plc<D>& plc, std::size_t most_listed, bool errors_on
   return found;
 }
 
-/// What makes a refused input valid, in the words of the command; or None.
+/// What makes a refused input valid, in the words of the command, a sentence each. A tolerance is handed over as a number, for
+/// its digits, with the sentence behind it.
 template <int D>
-std::optional<std::string> flags_for(const Plc<D>& plc) {
+py::tuple flags_for(const Plc<D>& plc) {
   std::optional<std::string> flags;
+  std::optional<double> tolerance;
   run_watched([&](const std::stop_token& stop) {
-    flags = tool::flags_for_refused(plc, diagnose(plc, {.most_listed = 0, .errors_only = true, .stop = stop}));
+    if constexpr (D == 2)
+      flags = tool::flags_for_refused(plc, diagnose(plc, {.most_listed = 0, .errors_only = true, .stop = stop}));
+    tolerance = tool::tolerance_for_refused(plc);
   });
-  return flags;
+  return py::make_tuple(flags, tolerance, std::string(tool::what_tolerance_does));
 }
 
 template <int D>

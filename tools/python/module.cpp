@@ -22,4 +22,5 @@ PYBIND11_MODULE(_pgdr, module) {
   pgdr::python::bind_options(module);
   pgdr::python::bind_run(module);
   pgdr::python::bind_check(module);
+  pgdr::python::bind_estimate(module);
 }

@@ -93,6 +93,16 @@ void Watch::run(int threads, const std::function<void()>& work) {
   over.get();
 }
 
+void run_watched(const std::function<void(const std::stop_token&)>& work) {
+  Watch watch({}, py::none());
+  try {
+    watch.run(0, [&] { work(watch.token()); });
+  } catch (const CancelledError&) {
+    if (watch.raised().is_none()) throw;
+  }
+  watch.raise();
+}
+
 namespace {
 
 /// The mesh, what is known of it, and what was raised meanwhile: an exception, or None.

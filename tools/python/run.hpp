@@ -45,4 +45,7 @@ class Watch {
   std::atomic<std::uint64_t> vertices_{0}, waiting_{0};
 };
 
+/// Runs what takes a stop token as a Watch does, with all threads. @throws what a signal's handler raises, or `work` throws
+void run_watched(const std::function<void(const std::stop_token&)>& work);
+
 }  // namespace pgdr::python

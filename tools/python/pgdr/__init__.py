@@ -10,6 +10,7 @@
 """
 from ._check import CheckFinding, CheckReport, Finding, check, diagnose, info
 from ._errors import (CancelledError, DiagnosedError, Diagnostic, Error, FileError, InputError, ResourceError, UsageError)
+from ._estimate import Estimate, Gap, Proposal, SharpAngle, estimate
 from ._fields import Field, limit_growth, sizes_at_points, sizes_on_mesh, smallest
 from ._mesh import Mesh, Reason
 from ._pgdr import version as __version__
@@ -18,7 +19,8 @@ from ._run import Elements, Progress, StopSource, mesh
 from ._tetgen import Tetrahedralization, tetrahedralize
 from ._triangle import triangulate
 
-__all__ = ["CancelledError", "CheckFinding", "CheckReport", "DiagnosedError", "Diagnostic", "Elements", "Error", "Field", "FileError",
-           "Finding", "InputError", "Mesh", "Plc", "Progress", "Reason", "ResourceError", "StopSource", "Tetrahedralization",
-           "UsageError", "__version__", "check", "diagnose", "info", "limit_growth", "mesh", "resolve_crossings", "sizes_at_points",
-           "sizes_on_mesh", "smallest", "tetrahedralize", "triangulate", "with_convex_hull"]
+__all__ = ["CancelledError", "CheckFinding", "CheckReport", "DiagnosedError", "Diagnostic", "Elements", "Error", "Estimate",
+           "Field", "FileError", "Finding", "Gap", "InputError", "Mesh", "Plc", "Progress", "Proposal", "Reason",
+           "ResourceError", "SharpAngle", "StopSource", "Tetrahedralization", "UsageError", "__version__", "check", "diagnose",
+           "estimate", "info", "limit_growth", "mesh", "resolve_crossings", "sizes_at_points", "sizes_on_mesh", "smallest",
+           "tetrahedralize", "triangulate", "with_convex_hull"]

@@ -128,12 +128,14 @@ def diagnose(plc: Plc, *, most_listed: int = 20, errors_only: bool = False) -> L
 
 
 def info(what: Union[Plc, Mesh, _arguments.Path]) -> Dict[str, Any]:
-    """What is in an input, a mesh, or a file of either: counts, extent, labels; of a mesh its quality.
+    """What is in an input, a mesh, or a file of either: counts, extent, labels; of a mesh its quality; of an input an `Estimate`, with
+    the default bounds, as `estimate` (None: it is refused, and `diagnose` says why), which takes a while of large ones.
 
     >>> import pgdr
     >>> pgdr.info(pgdr.Plc([[0, 0], [1, 0], [1, 2]], segments=[[0, 1], [1, 2], [2, 0]]))["upper"]
     [1.0, 2.0]
     """
+    from ._estimate import estimate_if_valid
     if not isinstance(what, (Plc, Mesh)):
         file = _arguments.path(what)
         what = Mesh.read(file) if _pgdr.holds_cells(file) else Plc.read(file)
@@ -143,7 +145,7 @@ def info(what: Union[Plc, Mesh, _arguments.Path]) -> Dict[str, Any]:
                              "upper": points.max(axis=0).tolist() if len(points) else None}
     if isinstance(what, Plc):
         found.update(segments=len(what.segments), facets=what._core.facet_count, holes=len(what.holes), regions=len(what.regions),
-                     tolerance=what.tolerance, file=what.file)
+                     tolerance=what.tolerance, file=what.file, estimate=estimate_if_valid(what))
     else:
         labels = sorted(set(what.regions.tolist()))
         found.update(cells=len(what.cells), subsegments=len(what.subsegments), subfacets=len(what.subfacets), labels=labels,

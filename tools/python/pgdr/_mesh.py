@@ -181,8 +181,8 @@ class Mesh:
         return list(self._facts.get("warnings", []))
 
     def check(self, plc: Optional[Plc] = None, **bounds: Any) -> CheckReport:
-        """`pgdr.check` with the bounds and the reasons of the run that made this mesh; `bounds` are instead of those. Of a run that
-        ended early (`stop`), the bounds are not asked for."""
+        """`pgdr.check` with the bounds, the reasons and the tolerance of the run that made this mesh; `bounds` are instead of those.
+        Of a run that ended early (`stop`), the bounds are not asked for."""
         from ._check import check
         lost = [name for name, value in self._bounds.items() if value is _Lost and name not in bounds]
         if lost:
@@ -191,6 +191,9 @@ class Mesh:
         if "radius_edge" in bounds or "min_angle" in bounds:
             asked.pop("radius_edge", None)
         asked.update(bounds)
+        tolerance = self.statistics.get("tolerance")
+        if tolerance is not None and plc is not None and plc.tolerance != tolerance:  # what met then meets now
+            plc = plc.with_tolerance(tolerance, coarse=True)
         return check(self, plc, **asked)
 
     def write(self, path: _arguments.Path, *, first_index: int = 1, edges: bool = False, neighbors: bool = False,

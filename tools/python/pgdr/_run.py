@@ -147,7 +147,7 @@ def mesh(plc: Plc, *, min_angle: Optional[float] = None, radius_edge: Optional[f
     if not isinstance(plc, Plc):
         raise TypeError(f"plc must be a pgdr.Plc, not {type(plc).__name__}: pgdr.Plc(points, ...) makes one of arrays, pgdr.Plc.read(path) "
                         "of a file, pgdr.Plc.from_mesh(mesh) of a pgdr.Mesh")
-    _require_walls(plc)
+    require_walls(plc)
     if tolerance is not None:
         plc = plc.with_tolerance(tolerance)
     dimension = plc.dimension
@@ -180,12 +180,14 @@ def mesh(plc: Plc, *, min_angle: Optional[float] = None, radius_edge: Optional[f
 
 
 def _add_what_helps(error: DiagnosedError, plc: Plc) -> None:
-    """Names the functions that make a refused input valid."""
+    """Names the functions, or the tolerance, that make a refused input valid."""
     flags_for = _pgdr.flags_for2 if plc.dimension == 2 else _pgdr.flags_for3
     with WORK:
-        flags = flags_for(plc._core)
+        flags, tolerance, what_it_does = flags_for(plc._core)
     if flags is not None:
         error._add(". " + in_python(flags))
+    if tolerance is not None:
+        error._add(f". tolerance={tolerance!r}{what_it_does}")
 
 
 def _say_unasked(made: Mesh, options: _pgdr._Options) -> None:
@@ -197,7 +199,7 @@ def _say_unasked(made: Mesh, options: _pgdr._Options) -> None:
     warnings.warn(words, stacklevel=3)
 
 
-def _require_walls(plc: Plc) -> None:
+def require_walls(plc: Plc) -> None:
     """Points alone enclose nothing: says what is missing."""
     if plc.dimension == 2 and not len(plc.segments):
         words = "there are no segments: of points alone, pgdr.with_convex_hull(plc) has the edges of their hull as segments"
