@@ -9,13 +9,11 @@
 #include <optional>
 
 #include "bind.hpp"
-#include "errors.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/refine_options.hpp"
 #include "proposal.hpp"
 #include "run.hpp"
 #include "size_measure.hpp"
-#include "words.hpp"
 
 namespace pgdr::python {
 namespace {

@@ -171,8 +171,8 @@ def tetrahedralize(points: Any, faces: Any = None, *, markers: Any = None, holes
         Most points to add; negative: any number.
     switches : str
         TetGen's, which alone count then, beside markers, holes, regions and threads: p, q, q1.5, q1.5/18, a0.1, a (largest volumes of
-        regions), A (a label for each enclosed volume, those without a seed numbered), S100, T1e-8 (times the diagonal of all points), O0 (no optimiser), C (checks the result). z, Q, V, f, e,
-        n, J, d, B, N, E, F, I, g, k change nothing. Others are refused.
+        regions), A (a label for each enclosed volume, those without a seed numbered), S100, T1e-8 (times the diagonal of all
+        points), O0 (no optimiser), C (checks the result). z, Q, V, f, e, n, J, d, B, N, E, F, I, g, k change nothing. Others are refused.
     threads : int
         As of pgdr.mesh.
     others
