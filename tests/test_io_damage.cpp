@@ -107,7 +107,7 @@ Format tetgen_file(const std::string& extension) {
       return content(e == extension ? file : std::filesystem::path(**folder / ("a" + e)));
     };
     const std::string face = text(".face"), edge = text(".edge");
-    const auto mesh = detail::read_tetgen<D>({text(".node"), text(".ele"), &face, &edge}, file);
+    const auto mesh = detail::read_tetgen<D>({text(".node"), text(".ele"), face, edge}, file);
     expect_in_range<D>(mesh);
   };
   return {"tetgen" + extension.substr(1) + std::to_string(D), "a" + extension, bytes, read, false};

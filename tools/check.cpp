@@ -27,11 +27,12 @@ template <int D>
 std::optional<Plc<D>> read_input_of_mesh(const std::string& input, InputArguments reading) {
   if (input.empty()) return std::nullopt;
   require_input_format(input);
-  if (file_dimension(input) != D)
+  InputFile file(input);
+  if (file.dimension() != D)
     throw UsageError({.code = Errc::bad_option, .message = format("the mesh is %dD, its input is not", D), .file = input});
   if constexpr (D == 2) reading.resolve_crossings = false;
   std::vector<Diagnostic> repairs;
-  return read_input<D>(input, reading, repairs);
+  return read_input<D>(file, reading, repairs);
 }
 
 template <int D>
@@ -96,11 +97,11 @@ void print_summary(const CheckArguments& a, const OutputMesh<D>& mesh, const Bou
 }
 
 template <int D>
-int check_as(const CheckArguments& a, Report& report) {
+int check_as(const CheckArguments& a, InputFile& file, Report& report) {
   ReportedBounds reported;
   if (!a.reasons.empty()) reported = read_bounds(a.reasons);
   const Bounds<D> bounds = resolve<D>(a.bounds, reported.radius_edge.value_or(unbounded));
-  const OutputMesh<D> mesh = read_mesh<D>(a.mesh);
+  const OutputMesh<D> mesh = file.read_mesh<D>();
   InputArguments reading = a.reading;
   reading.resolve_crossings = reading.resolve_crossings || reported.resolve_crossings;
   reading.convex_hull = reading.convex_hull || reported.convex_hull;
@@ -142,9 +143,10 @@ int check_as(const CheckArguments& a, Report& report) {
 int check(const CheckArguments& arguments, Report& report) {
   report.set("mesh", arguments.mesh);
   if (!arguments.input.empty()) report.set("input", arguments.input);
-  const int dimension = file_dimension(arguments.mesh);
+  InputFile file(arguments.mesh);
+  const int dimension = file.dimension();
   report.set("dimension", dimension);
-  return dimension == 2 ? check_as<2>(arguments, report) : check_as<3>(arguments, report);
+  return dimension == 2 ? check_as<2>(arguments, file, report) : check_as<3>(arguments, file, report);
 }
 
 }  // namespace pgdr::tool

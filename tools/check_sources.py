@@ -57,7 +57,7 @@ ROOMS = {
         "reasons": Room("which small angle is to blame for a poor element?", "refine", "poor_reasons.hpp", ""),
         "compact": Room("how is the finished mesh numbered?", "mesh output", "compact.hpp", ""),
         "check": Room("is a finished mesh what it should be?", "size", "check.cpp", "check"),
-        "io": Room("how are files read and written?", "output", "io.cpp read/ply.cpp", "io"),
+        "io": Room("how are files read and written?", "output", "io.cpp read/ply.cpp", "io output_files"),
     },
     "scheduler": {
         "tree": Room("which leaf is a point in, what is around it, how does it split?", "", "orthtree.hpp", ""),

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <new>
 
+#include "console.hpp"
+#include "pgdr/output_files.hpp"
 #include "pgdr/version.hpp"
 #include "run_files.hpp"
 
@@ -47,14 +49,22 @@ int guarded(Report& report, const Ranks& ranks, Action action) {
   }
 }
 
+/// The exit code of a run, and of what came after it: what it says of a mesh counts more than that this could not be said.
+int with_later(int code, int later) {
+  if (later == exit_done) return code;
+  return code == exit_done || code == exit_poor_left || later == exit_resource ? later : code;
+}
+
 int execute(const Arguments& arguments, Report& report, const Ranks& ranks) {
   report.set("version", PGDR_VERSION_STRING);
+  const std::string& report_file = std::visit([](const auto& a) -> const std::string& { return a.report; }, arguments);
   bool writes_report = false;
-  const int code = guarded(report, ranks, [&] {
+  int code = guarded(report, ranks, [&] {
     ranks.on_first([&] {
       const RunFiles files(arguments);
       files.require_own_report();
-      writes_report = true;
+      if (!report_file.empty()) require_writable(report_file);
+      writes_report = !report_file.empty();
       files.require_own_outputs();
     });
     return std::visit(
@@ -71,11 +81,9 @@ int execute(const Arguments& arguments, Report& report, const Ranks& ranks) {
         },
         arguments);
   });
-  const std::string& file = std::visit([](const auto& a) -> const std::string& { return a.report; }, arguments);
-  if (file.empty() || !writes_report) return code;
-  const int written = guarded(report, ranks, [&] { return report.write(file), exit_done; });
-  if (written == exit_done) return code;
-  return code == exit_done || code == exit_poor_left || written == exit_resource ? written : code;
+  code = with_later(code, guarded(report, ranks, [] { return require_printed(), exit_done; }));
+  if (!writes_report) return code;
+  return with_later(code, guarded(report, ranks, [&] { return report.write(report_file), exit_done; }));
 }
 
 /// Runs `action`; what it throws ends with exit_resource, without needing any memory.
@@ -99,8 +107,8 @@ int execute(const Arguments& arguments, const Ranks& ranks) noexcept {
   Report report;
   const int code = last_resort([&] { return ranks.largest(execute(arguments, report, ranks)); });
   if (code == exit_resource) {
-    for (const std::string& file : report.mesh_files) std::remove(file.c_str());
-    if (!report.trace_file.empty()) std::remove(report.trace_file.c_str());
+    for (const std::string& file : report.mesh_files) remove_output(file);
+    if (!report.trace_file.empty()) remove_output(report.trace_file);
   }
   return code;
 }

@@ -2,14 +2,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "console.hpp"
 
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <charconv>
+#include <csignal>
 #include <cstdarg>
 #include <cstdio>
+#include <system_error>
 
 namespace pgdr::tool {
+
+void prepare_process() {
+  // Opened for reading, so that writing fails.
+  for (int number = 0; number <= 2; ++number)
+    if (fcntl(number, F_GETFD) < 0 && open("/", O_RDONLY | O_DIRECTORY) < 0) return;
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+void require_printed() {
+  errno = 0;
+  const bool has_failed = std::fflush(stdout) != 0;
+  if (!has_failed && std::ferror(stdout) == 0) return;
+  const std::string why = errno != 0 ? ": " + std::generic_category().message(errno) : std::string();
+  std::clearerr(stdout);
+  throw FileError({.code = Errc::cannot_write, .message = "cannot be written" + why, .file = "standard output"});
+}
 
 void print_row(std::string_view label, const std::string& text) {
   std::printf("%-10.*s %s\n", static_cast<int>(label.size()), label.data(), text.c_str());

@@ -18,6 +18,11 @@ namespace pgdr::tool {
 
 /// `label      text` on stdout.
 void print_row(std::string_view label, const std::string& text);
+/// What main() does first. Descriptors 0 to 2 that are closed are taken, so that no file gets one of them, and what is printed
+/// into it. A pipe that nobody reads any more is an error of who writes, and ends no process.
+void prepare_process();
+/// Sends what has been printed on its way. @throws FileError cannot_write if any of it, now or before, did not get there
+void require_printed();
 /// The first few as `pgdr: warning: ...` on stderr, and how many more there are.
 void print_warnings(const std::vector<Diagnostic>& warnings);
 /// printf into a string.

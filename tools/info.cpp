@@ -128,7 +128,7 @@ RefineResult<D> recover(const Domain<D>& domain) {
 template <int D>
 class InputInfo {
  public:
-  InputInfo(const InfoArguments& a, Report& report) : a_(a), report_(report) {}
+  InputInfo(const InfoArguments& a, InputFile& file, Report& report) : a_(a), file_(file), report_(report) {}
 
   /// @returns the exit code
   int run() {
@@ -151,7 +151,7 @@ class InputInfo {
 
  private:
   void read() {
-    plc_ = read_input<D>(a_.file, a_.reading, repairs_);
+    plc_ = read_input<D>(file_, a_.reading, repairs_);
     seconds_.set("read", clock_.seconds());
     report_.set("kind", "input");
     findings_.set("accepted", false);
@@ -220,6 +220,7 @@ class InputInfo {
   }
 
   const InfoArguments& a_;
+  InputFile& file_;
   Report& report_;
   const Stopwatch clock_;
   Plc<D> plc_;
@@ -264,8 +265,8 @@ void print_quality(const QualitySummary& q) {
 }
 
 template <int D>
-int info_of_mesh(const InfoArguments& a, Report& report) {
-  const OutputMesh<D> mesh = read_mesh<D>(a.file);
+int info_of_mesh(const InfoArguments& a, InputFile& file, Report& report) {
+  const OutputMesh<D> mesh = file.read_mesh<D>();
   const QualitySummary q = summarize_quality(mesh);
   report.set("kind", "mesh");
   report.set("vertices", mesh.points.size());
@@ -289,11 +290,12 @@ int info_of_mesh(const InfoArguments& a, Report& report) {
 
 int info(const InfoArguments& arguments, Report& report) {
   report.set("input", arguments.file);
-  const int dimension = file_dimension(arguments.file);
+  InputFile file(arguments.file);
+  const int dimension = file.dimension();
   report.set("dimension", dimension);
-  if (holds_cells(arguments.file))
-    return dimension == 2 ? info_of_mesh<2>(arguments, report) : info_of_mesh<3>(arguments, report);
-  return dimension == 2 ? InputInfo<2>(arguments, report).run() : InputInfo<3>(arguments, report).run();
+  if (file.holds_cells())
+    return dimension == 2 ? info_of_mesh<2>(arguments, file, report) : info_of_mesh<3>(arguments, file, report);
+  return dimension == 2 ? InputInfo<2>(arguments, file, report).run() : InputInfo<3>(arguments, file, report).run();
 }
 
 }  // namespace pgdr::tool

@@ -15,10 +15,10 @@ namespace pgdr::tool {
 
 /// @param repairs gets what was done. @throws UsageError for a flag of the other dimension; what read_plc throws
 template <int D>
-Plc<D> read_input(const std::string& file, const InputArguments& reading, std::vector<Diagnostic>& repairs) {
+Plc<D> read_input(InputFile& file, const InputArguments& reading, std::vector<Diagnostic>& repairs) {
   if (D == 3 && (reading.resolve_crossings || reading.convex_hull))
     throw UsageError({.code = Errc::bad_option, .message = "--resolve-crossings and --convex-hull are for 2D"});
-  Plc<D> plc = read_plc<D>(file);
+  Plc<D> plc = file.read_plc<D>();
   plc.tolerance = reading.tolerance;
   plc.is_coarse = reading.yes_coarse;
   if constexpr (D == 2) {

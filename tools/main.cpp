@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "command.hpp"
+#include "console.hpp"
 
 namespace {
 
@@ -17,6 +18,7 @@ bool is_one_of_several() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  pgdr::tool::prepare_process();
   if (is_one_of_several()) {
     std::fputs("pgdr: error: MPI has started several of this program, which is for one process: use pgdr-mpi\n", stderr);
     return pgdr::tool::exit_usage;

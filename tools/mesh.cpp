@@ -17,6 +17,7 @@
 #include "files.hpp"
 #include "input.hpp"
 #include "pgdr/io.hpp"
+#include "pgdr/output_files.hpp"
 #include "proposal.hpp"
 #include "ranks.hpp"
 #include "selector.hpp"
@@ -259,8 +260,9 @@ Bounds<D> bounds_of(const MeshArguments& a) {
 template <int D>
 class MeshRun {
  public:
-  MeshRun(const MeshArguments& a, Report& report, const Ranks& ranks, const Stopwatch& total)
+  MeshRun(const MeshArguments& a, InputFile& input, Report& report, const Ranks& ranks, const Stopwatch& total)
       : a_(a),
+        input_(input),
         report_(report),
         ranks_(ranks),
         total_(total),
@@ -288,6 +290,8 @@ class MeshRun {
     give(proposal, a_.quiet, report_);
     if (!a_.trace.empty()) {
       std::string trace_file = a_.trace;
+      signals_.hear(false);
+      std::fflush(stdout);  // which the trace may go to, too
       write_trace(a_, result_, seconds_);
       report_.trace_file = std::move(trace_file);
     }
@@ -302,7 +306,8 @@ class MeshRun {
 
   void read() {
     seconds_.read_at = total_.seconds();
-    ranks_.on_first([&] { plc_ = read_input<D>(a_.input, a_.reading, repairs_); });
+    // Nobody looks at the stop token while the input is read, which may be a FIFO.
+    ranks_.on_first([&] { plc_ = read_input<D>(input_, a_.reading, repairs_); });
     if (ranks_.transport()) plc_ = broadcast(*ranks_.transport(), plc_);
     report_.set("tolerance", tolerance_of(plc_));
     report_.set("largest_move", 0.0);
@@ -317,6 +322,7 @@ class MeshRun {
 
   /// The exit code if a diagnosis refuses the input.
   std::optional<int> mesh() {
+    signals_.hear(true);
     try {
       ProgressLine line(!a_.quiet);
       if (!a_.quiet) options_.progress = [&](const Progress& p) { line(p); };
@@ -368,6 +374,10 @@ class MeshRun {
   /// it is alone, for else it has to talk to the others.
   std::optional<Proposal> write(bool has_mesh) {
     seconds_.write_at = total_.seconds();
+    const std::vector<std::string> files = files_of_mesh(a_.output, write_options(a_, plc_));
+    ranks_.on_first([&] {
+      if (std::any_of(files.begin(), files.end(), is_written_to)) signals_.hear(false);  // who reads may never come
+    });
     std::optional<Proposal> proposal;
     const auto write_mesh = [&] {
       if (has_mesh) write_as_asked();
@@ -416,12 +426,13 @@ class MeshRun {
   }
 
   const MeshArguments& a_;
+  InputFile& input_;
   Report& report_;
   const Ranks& ranks_;
   const Stopwatch& total_;
   const Bounds<D> bounds_;
   RefineOptions<D> options_;
-  const StopOnSignal signals_;
+  StopOnSignal signals_;
   const Threads threads_;
   Seconds seconds_;
   std::vector<Diagnostic> repairs_;
@@ -431,9 +442,9 @@ class MeshRun {
 };
 
 template <int D>
-int run(const MeshArguments& arguments, Report& report, const Ranks& ranks, const Stopwatch& total) {
+int run(const MeshArguments& arguments, InputFile& input, Report& report, const Ranks& ranks, const Stopwatch& total) {
   std::optional<MeshRun<D>> run;
-  ranks.together([&] { run.emplace(arguments, report, ranks, total); });
+  ranks.together([&] { run.emplace(arguments, input, report, ranks, total); });
   return run->run();
 }
 
@@ -442,6 +453,7 @@ int run(const MeshArguments& arguments, Report& report, const Ranks& ranks, cons
 int mesh(const MeshArguments& arguments, Report& report, const Ranks& ranks) {
   const Stopwatch total;
   report.set("input", arguments.input);
+  InputFile input(arguments.input);
   int dimension = 0;
   ranks.on_first([&] {
     require_input_format(arguments.input);
@@ -449,11 +461,11 @@ int mesh(const MeshArguments& arguments, Report& report, const Ranks& ranks) {
     require_format(arguments);
     require_ranks(arguments, ranks);
     if (!arguments.trace.empty()) require_writable(arguments.trace);
-    dimension = file_dimension(arguments.input);
+    dimension = input.dimension();
   });
   dimension = ranks.largest(dimension);
   report.set("dimension", dimension);
-  return dimension == 2 ? run<2>(arguments, report, ranks, total) : run<3>(arguments, report, ranks, total);
+  return dimension == 2 ? run<2>(arguments, input, report, ranks, total) : run<3>(arguments, input, report, ranks, total);
 }
 
 }  // namespace pgdr::tool

@@ -13,6 +13,7 @@
 #include <type_traits>
 
 #include "command.hpp"
+#include "console.hpp"
 #include "pgdr/mpi.hpp"
 
 namespace pgdr::tool {
@@ -72,6 +73,7 @@ bool init_mpi(int& argc, char**& argv) {
 }  // namespace pgdr::tool
 
 int main(int argc, char** argv) {
+  pgdr::tool::prepare_process();
   if (!pgdr::tool::init_mpi(argc, argv)) return pgdr::tool::exit_resource;
   int code = pgdr::tool::exit_resource;
   try {

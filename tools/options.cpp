@@ -10,6 +10,7 @@
 #include <map>
 
 #include "command.hpp"
+#include "console.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/version.hpp"
 #include "selector.hpp"
@@ -19,7 +20,8 @@ namespace {
 
 constexpr const char* exit_codes =
     "Exit codes: 0 done and every bound met; 1 done, elements stayed poor for listed reasons; 2 wrong usage; "
-    "3 invalid input; 4 a file cannot be opened or written; 5 stopped by a budget or a signal, valid partial mesh "
+    "3 invalid input; 4 a file or standard output cannot be opened or written; 5 stopped by a budget or a signal, valid partial "
+    "mesh "
     "written; 6 a check failed; 7 out of memory or an internal error, no output file.";
 
 /// A number in the given range; `nan` is never one.
@@ -310,6 +312,18 @@ void add_view(CLI::App& app, ViewArguments& a) {
   add_report(app, a.report, a.quiet);
 }
 
+/// What --help and --version ask for. @returns the exit code
+int print_help(const CLI::App& app, const CLI::Success& asked) {
+  app.exit(asked);
+  try {
+    require_printed();
+    return exit_done;
+  } catch (const FileError& e) {
+    std::cerr << "pgdr: error: " << e.what() << '\n';
+    return exit_file;
+  }
+}
+
 }  // namespace
 
 std::optional<std::pair<double, std::string>> split_region_size(const std::string& text) {
@@ -354,8 +368,7 @@ std::variant<Arguments, int> parse(int argc, const char* const* argv, bool speak
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {  // --help, --version
-    if (speaks) app.exit(e);
-    return exit_done;
+    return speaks ? print_help(app, e) : exit_done;
   } catch (const CLI::ParseError& e) {
     if (speaks) std::cerr << "pgdr: error: " << e.what() << "\nRun pgdr --help for the usage.\n";
     return exit_usage;

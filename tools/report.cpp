@@ -7,7 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "files.hpp"
+#include "pgdr/output_files.hpp"
 
 namespace pgdr::tool {
 namespace {
@@ -65,7 +65,7 @@ void Report::add_error(const Diagnostic& error) { errors_.push_back(error); }
 
 void Report::write(const std::string& file) {
   set("errors", tool::to_json(errors_));
-  write_whole(file, "the report", [this](std::ostream& out) { out << pretty(); });
+  write_file(file, [this](std::ostream& out) { out << pretty(); });
 }
 
 JsonObject to_json(const Diagnostic& d) {

@@ -23,7 +23,7 @@ namespace pgdr::tool {
 class Report : public JsonObject {
  public:
   void add_error(const Diagnostic& error);
-  /// Writes to a temporary name beside `file` and renames it. @throws FileError cannot_write
+  /// @throws FileError cannot_write
   void write(const std::string& file);
 
   /// Files that this run has written, if any. They go again should it still end with exit_resource.

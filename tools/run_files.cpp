@@ -8,6 +8,7 @@
 #include "files.hpp"
 #include "pgdr/error.hpp"
 #include "pgdr/io.hpp"
+#include "pgdr/output_files.hpp"
 
 namespace pgdr::tool {
 
@@ -30,12 +31,16 @@ std::vector<std::string> family(const std::string& file) {
   return files;
 }
 
-/// Where a file is or would be: links are followed as far as there is anything. Empty if that cannot be told.
+/// Where a file is or would be, with its links followed. Empty if that cannot be told.
 fs::path place_of(const std::string& file) {
+  fs::path place = file;
+  try {
+    place = place_of_output(file);
+  } catch (const FileError&) {  // it may be read all the same
+  }
   std::error_code failed;
-  const fs::path absolute = fs::absolute(file, failed);
-  if (failed) return {};
-  fs::path place = fs::weakly_canonical(absolute, failed);
+  place = fs::absolute(place, failed);
+  if (!failed) place = fs::weakly_canonical(place, failed);
   return failed ? fs::path() : place;
 }
 
@@ -45,6 +50,15 @@ bool are_same(const std::string& a, const std::string& b) {
   if (fs::equivalent(a, b, ignored)) return true;
   const fs::path place = place_of(a);
   return !place.empty() && place == place_of(b);
+}
+
+/// Would nothing be replaced by it? What cannot be written at all is refused later.
+bool is_stream(const std::string& file) {
+  try {
+    return is_written_to(file);
+  } catch (const FileError&) {
+    return false;
+  }
 }
 
 }  // namespace
@@ -98,14 +112,14 @@ void RunFiles::require_none_of(const std::vector<File>& others, const File& writ
 void RunFiles::require_own_report() const {
   for (const File& report : report_) {
     require_none_of(read_, report);
-    require_none_of(outputs_, report);
+    if (!is_stream(report.name)) require_none_of(outputs_, report);
   }
 }
 
 void RunFiles::require_own_outputs() const {
   for (auto output = outputs_.begin(); output != outputs_.end(); ++output) {
     require_none_of(read_, *output);
-    require_none_of({outputs_.begin(), output}, *output);
+    if (!is_stream(output->name)) require_none_of({outputs_.begin(), output}, *output);
   }
 }
 

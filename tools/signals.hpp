@@ -11,8 +11,8 @@
 
 namespace pgdr::tool {
 
-/// While it lives, the first SIGINT or SIGTERM requests a stop, and another one, a second later or
-/// more, ends the process.
+/// While it lives, and the token is heard, the first SIGINT or SIGTERM requests a stop, and another one, a second later or more,
+/// ends the process. Where it is not heard, as at first, any ends it.
 class StopOnSignal {
  public:
   StopOnSignal();
@@ -20,12 +20,16 @@ class StopOnSignal {
   StopOnSignal(const StopOnSignal&) = delete;
   StopOnSignal& operator=(const StopOnSignal&) = delete;
 
+  /// Does somebody look at the token from now on?
+  void hear(bool heard) { heard_ = heard; }
   std::stop_token token() const { return stop_.get_token(); }
 
  private:
+  void end_by(int signal) const;
+
   sigset_t signals_, before_;
   std::stop_source stop_;
-  std::atomic<bool> over_{false};
+  std::atomic<bool> over_{false}, heard_{false};
   std::thread watcher_;  // sits in sigwait: a handler could not call request_stop, which takes locks
 };
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <ostream>
 
-#include "files.hpp"
 #include "json.hpp"
+#include "pgdr/output_files.hpp"
 
 namespace pgdr::tool {
 namespace {
@@ -62,7 +62,7 @@ void write_trace(const std::string& file, std::span<const Phase> phases, std::sp
                  std::span<const VisitTrace> visits, double mesh_at) {
   std::uint32_t threads = 0;
   for (const VisitTrace& v : visits) threads = std::max(threads, v.thread + 1);
-  write_whole(file, "the trace", [&](std::ostream& out) {
+  write_file(file, [&](std::ostream& out) {
     out << "{\"displayTimeUnit\": \"ms\", \"traceEvents\": [\n";
     Events events(out);
     events.name_row(row_of_phases, "phases");

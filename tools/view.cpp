@@ -6,14 +6,15 @@
 #include "console.hpp"
 #include "files.hpp"
 #include "pgdr/io.hpp"
+#include "pgdr/output_files.hpp"
 #include "picture.hpp"
 
 namespace pgdr::tool {
 namespace {
 
 template <int D>
-int view_mesh(const ViewArguments& a, bool png, Report& report) {
-  const OutputMesh<D> mesh = read_mesh<D>(a.mesh);
+int view_mesh(const ViewArguments& a, InputFile& file, bool png, Report& report) {
+  const OutputMesh<D> mesh = file.read_mesh<D>();
   if (a.color == ViewColor::leaf && mesh.leaves.empty())
     throw UsageError({.code = Errc::bad_option, .message = "--color leaf is for meshes made with --leaves", .file = a.mesh});
   report.set("cells", mesh.cells.size());
@@ -21,7 +22,7 @@ int view_mesh(const ViewArguments& a, bool png, Report& report) {
   report.set("triangles_drawn", picture.triangles.size());
   report.set("width", picture.width);
   report.set("height", picture.height);
-  write_whole(a.output, "the picture", [&](std::ostream& out) { png ? write_png(picture, out) : write_svg(picture, out); });
+  write_file(a.output, [&](std::ostream& out) { png ? write_png(picture, out) : write_svg(picture, out); });
   report.mesh_files = {a.output};
   if (a.quiet) return exit_done;
   print_row("mesh", format("%s (%dD), ", a.mesh.c_str(), D) + count_cells<D>(mesh.cells.size()));
@@ -37,16 +38,17 @@ int view(const ViewArguments& a, Report& report) {
   report.set("output", a.output);
   const bool png = has_extension(a.output, {".png"});
   if (!has_extension(a.output, {".png", ".svg"}))
-    throw InputError({.code = Errc::unknown_format, .message = "pictures are written as .svg or .png", .file = a.output});
+    throw UsageError({.code = Errc::unknown_format, .message = "pictures are written as .svg or .png", .file = a.output});
   if (png && !has_png())
     throw UsageError(
         {.code = Errc::bad_option, .message = "this pgdr was built without Cairo: pictures are .svg alone", .file = a.output});
   require_writable(a.output);
-  const int dimension = file_dimension(a.mesh);
+  InputFile file(a.mesh);
+  const int dimension = file.dimension();
   report.set("dimension", dimension);
-  if (!holds_cells(a.mesh))
+  if (!file.holds_cells())
     throw InputError({.code = Errc::unknown_format, .message = "this is no mesh: there are no cells to draw", .file = a.mesh});
-  return dimension == 2 ? view_mesh<2>(a, png, report) : view_mesh<3>(a, png, report);
+  return dimension == 2 ? view_mesh<2>(a, file, png, report) : view_mesh<3>(a, file, png, report);
 }
 
 }  // namespace pgdr::tool

@@ -5,11 +5,27 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
+#include <string_view>
 
 namespace pgdr::detail {
 
 /// @throws FileError cannot_open for anything that is missing, a directory, or cannot be read to its end.
 std::string read_whole_file(const std::filesystem::path& file);
+
+/// Files by their names, each read once, as a FIFO can be. One thread.
+class FileTexts {
+ public:
+  /// The view lives until clear(). @throws as read_whole_file
+  std::string_view of(const std::filesystem::path& file) {
+    const auto known = texts_.find(file.native());
+    return known != texts_.end() ? known->second : texts_.emplace(file.native(), read_whole_file(file)).first->second;
+  }
+  void clear() { texts_.clear(); }
+
+ private:
+  std::map<std::string, std::string> texts_;
+};
 
 }  // namespace pgdr::detail

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A file that appears under its name complete or not at all: it grows under a temporary name in the same folder and is
-// renamed by `commit`. Numbers are formatted straight into the buffer by std::to_chars, since for millions of them
-// that is most of the time of writing, and side by side where there are threads. Files that mean something only together are
-// committed together. One thread a file.
+// renamed by `commit`. What is no file is written to instead (write_target.hpp). Numbers are formatted straight into the buffer
+// by std::to_chars, since for millions of them that is most of the time of writing, and side by side where there are threads.
+// Files that mean something only together are committed together. One thread a file.
 #pragma once
 
 #include <algorithm>
@@ -21,6 +21,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "io/write_target.hpp"
 
 namespace pgdr::detail {
 
@@ -98,7 +100,8 @@ void publish_together(std::span<const PendingFile> files);
 
 class FileOutput final : public TextBuffer {
  public:
-  /// @throws FileError cannot_write if no file can be made in that folder, or the target is not a regular file
+  /// @throws FileError cannot_write if no file can be made in that folder, or what is there can be neither replaced nor written
+  /// to
   explicit FileOutput(const std::filesystem::path& target);
   FileOutput(const FileOutput&) = delete;
   FileOutput& operator=(const FileOutput&) = delete;
@@ -116,8 +119,11 @@ class FileOutput final : public TextBuffer {
   /// As put_each, of what puts whole blocks.
   void put_blocks(std::size_t count, const PutBlock& put_block);
 
-  /// Its two names, once it is closed; whoever renames it says so by set_published().
-  PendingFile pending() const { return {temporary_, target_}; }
+  /// Is this written to as it grows? It has no temporary name then, is opened when the first bytes go there, and is there at
+  /// once.
+  bool is_stream() const { return target_.is_stream(); }
+  /// Its two names, once it is closed; whoever renames it says so by set_published(). @pre !is_stream()
+  PendingFile pending() const { return {temporary_, target_.name}; }
   void set_published() { temporary_.clear(); }
   /// Writes what is buffered and closes, so that nothing more can be put. Gives the memory back. @throws FileError cannot_write
   void close();
@@ -128,10 +134,13 @@ class FileOutput final : public TextBuffer {
   void make_room(std::size_t n) override;
   void flush();
   void write(std::string_view bytes);
-  [[noreturn]] void fail(const std::string& why) const;
+  void open_temporary();
+  void open_stream();
 
-  std::string target_, temporary_;  // strings: libstdc++'s path does not survive a failing allocation
+  WriteTarget target_;
+  std::string temporary_;
   std::FILE* stream_ = nullptr;
+  bool closed_ = false;
 };
 
 /// Closes the files and publishes them together. @throws FileError cannot_write

@@ -7,10 +7,9 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <system_error>
 #include <utility>
 
-#include "pgdr/error.hpp"
+#include "io/write_target.hpp"
 
 namespace pgdr::detail {
 namespace {
@@ -68,9 +67,6 @@ void FileSlices::write(std::string_view bytes) {
   }
 }
 
-void FileSlices::fail(int error_number) const {
-  const std::string why = "cannot be written: " + std::generic_category().message(error_number);
-  throw FileError({Errc::cannot_write, why, target_, 0, {}, {}});
-}
+void FileSlices::fail(int error_number) const { cannot_write(target_, error_number); }
 
 }  // namespace pgdr::detail

@@ -1,5 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <memory>
@@ -23,12 +27,17 @@ std::string reason(int error_number) { return std::generic_category().message(er
   throw FileError(Diagnostic{Errc::cannot_open, "cannot be read: " + why, file.string(), 0, {}, {}});
 }
 
-[[noreturn]] void cannot_write(const std::string& file, const std::string& why) {
-  throw FileError(Diagnostic{Errc::cannot_write, "cannot be written: " + why, file, 0, {}, {}});
+void publish(const PendingFile& file) {
+  if (std::rename(file.temporary.c_str(), file.target.c_str()) != 0) cannot_write(file.target, errno);
 }
 
-void publish(const PendingFile& file) {
-  if (std::rename(file.temporary.c_str(), file.target.c_str()) != 0) cannot_write(file.target, reason(errno));
+/// Gives a new file the owner, group and permissions of the one that it will replace, as far as the process may.
+void take_over_mode(int to, const std::string& old) {
+  struct stat status;
+  if (::stat(old.c_str(), &status) != 0) return;
+  if (::fchown(to, status.st_uid, status.st_gid) != 0 && ::fchown(to, static_cast<uid_t>(-1), status.st_gid) != 0)
+    status.st_mode &= ~static_cast<mode_t>(S_IRWXG);  // which were those of another group
+  if (::fchmod(to, status.st_mode & (S_IRWXU | S_IRWXG | S_IRWXO)) != 0) return;
 }
 
 std::string random_suffix() {
@@ -79,21 +88,36 @@ std::string read_whole_file(const fs::path& file) {
   return text;
 }
 
-FileOutput::FileOutput(const fs::path& target) : TextBuffer(std::size_t{1} << 20), target_(target.native()) {
-  std::error_code ec;
-  // A link keeps pointing at the file that is replaced.
-  if (fs::is_symlink(target_, ec)) {
-    fs::path resolved = fs::canonical(target_, ec);
-    if (!ec) target_ = resolved.native();
-  }
-  if (fs::exists(target_, ec) && !fs::is_regular_file(target_, ec)) fail("it is not a regular file");
+FileOutput::FileOutput(const fs::path& target) : TextBuffer(std::size_t{1} << 20), target_(target_of(target.native())) {
+  if (!target_.is_stream()) open_temporary();
+}
+
+void FileOutput::open_temporary() {
   constexpr int attempts = 100;
   for (int i = 0; i < attempts && stream_ == nullptr; ++i) {
-    temporary_ = name_beside(target_);
+    temporary_ = name_beside(target_.name);
     stream_ = std::fopen(temporary_.c_str(), "wbx");
     if (stream_ == nullptr && errno != EEXIST) break;
   }
-  if (stream_ == nullptr) fail(reason(errno));
+  if (stream_ == nullptr) {
+    const int error_number = errno;
+    temporary_.clear();
+    cannot_write(target_.name, error_number);
+  }
+  std::setvbuf(stream_, nullptr, _IONBF, 0);
+  if (target_.kind == WriteTarget::Kind::old_file) take_over_mode(::fileno(stream_), target_.name);
+}
+
+void FileOutput::open_stream() {
+  const int file = target_.kind == WriteTarget::Kind::descriptor
+                       ? ::fcntl(target_.descriptor, F_DUPFD_CLOEXEC, 3)
+                       : ::open(target_.name.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);  // of a FIFO, once somebody reads it
+  if (file >= 0) stream_ = ::fdopen(file, "wb");
+  if (stream_ == nullptr) {
+    const int error_number = errno;
+    if (file >= 0) ::close(file);
+    cannot_write(target_.name, error_number);
+  }
   std::setvbuf(stream_, nullptr, _IONBF, 0);
 }
 
@@ -136,19 +160,20 @@ void FileOutput::flush() {
 }
 
 void FileOutput::write(std::string_view bytes) {
-  if (std::fwrite(bytes.data(), 1, bytes.size(), stream_) != bytes.size()) fail(reason(errno));
+  if (stream_ == nullptr) open_stream();
+  if (std::fwrite(bytes.data(), 1, bytes.size(), stream_) != bytes.size()) cannot_write(target_.name, errno);
 }
 
 void FileOutput::close() {
-  if (stream_ == nullptr) return;
+  if (std::exchange(closed_, true)) return;
   flush();
   release();
-  if (std::fclose(std::exchange(stream_, nullptr)) != 0) fail(reason(errno));
+  if (std::fclose(std::exchange(stream_, nullptr)) != 0) cannot_write(target_.name, errno);
 }
 
 void FileOutput::commit() {
   close();
-  publish(pending());
+  if (!is_stream()) publish(pending());
   set_published();
 }
 
@@ -160,7 +185,7 @@ void publish_together(std::span<const PendingFile> files) {
     for (; kept > 0; --kept) {
       const std::string& target = files[kept - 1].target;
       if (std::rename(target.c_str(), aside[kept - 1].c_str()) == 0) continue;
-      if (errno != ENOENT) cannot_write(target, reason(errno));
+      if (errno != ENOENT) cannot_write(target, errno);
       aside[kept - 1].clear();
     }
     for (; published < files.size(); ++published) publish(files[published]);
@@ -178,12 +203,10 @@ void commit_together(std::span<const std::unique_ptr<FileOutput>> files) {
   std::vector<PendingFile> pending;
   for (const auto& f : files) {
     f->close();
-    pending.push_back(f->pending());
+    if (!f->is_stream()) pending.push_back(f->pending());
   }
   publish_together(pending);
   for (const auto& f : files) f->set_published();
 }
-
-void FileOutput::fail(const std::string& why) const { cannot_write(target_, why); }
 
 }  // namespace pgdr::detail

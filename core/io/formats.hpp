@@ -7,9 +7,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "io/file_input.hpp"
 #include "io/file_output.hpp"
 #include "io/file_slices.hpp"
 #include "io/read/file_mesh.hpp"
@@ -21,18 +23,18 @@
 namespace pgdr::detail {
 
 /// Reads as `read_plc` does, from memory. The extension of `name` says what it is; a file of that name need not exist
-/// (a .poly or .smesh of 0 points looks for the .node file beside it).
+/// (a .poly or .smesh of 0 points looks for the .node file beside it: in `beside`).
 template <int D>
-Plc<D> read_plc_from(std::string_view bytes, const std::filesystem::path& name);
+Plc<D> read_plc_from(std::string_view bytes, const std::filesystem::path& name, FileTexts&& beside = {});
 /// As `read_mesh`, but for .node and .ele, which are several files (read_tetgen).
 template <int D>
-OutputMesh<D> read_mesh_from(std::string_view bytes, const std::filesystem::path& name);
+OutputMesh<D> read_mesh_from(std::string_view bytes, const std::filesystem::path& name, FileTexts&& beside = {});
 
 template <int D>
-Plc<D> read_poly(std::string_view text, const std::filesystem::path& file);
+Plc<D> read_poly(std::string_view text, const std::filesystem::path& file, FileTexts& beside);
 template <int D>
 Plc<D> read_node(std::string_view text, const std::filesystem::path& file);
-Plc<3> read_smesh(std::string_view text, const std::filesystem::path& file);
+Plc<3> read_smesh(std::string_view text, const std::filesystem::path& file, FileTexts& beside);
 Plc<3> read_obj(std::string_view text, const std::filesystem::path& file);
 Plc<3> read_off(std::string_view text, const std::filesystem::path& file);
 Plc<3> read_ply(std::string_view text, const std::filesystem::path& file);
@@ -73,7 +75,7 @@ template <int D>
 MeshPiece<D> read_vtu_piece(std::string_view text, const std::filesystem::path& file);
 /// With the files of its pieces beside it.
 template <int D>
-OutputMesh<D> read_pvtu(std::string_view text, const std::filesystem::path& file);
+OutputMesh<D> read_pvtu(std::string_view text, const std::filesystem::path& file, FileTexts& beside);
 /// X.pvtu and X_0.vtu, X_1.vtu, ... of so many pieces: all or none.
 template <int D>
 void write_pvtu(const OutputMesh<D>& mesh, const std::filesystem::path& file, std::uint64_t count);
@@ -91,11 +93,11 @@ struct XmlEscape {
 };
 inline constexpr XmlEscape xml_escapes[] = {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&apos;"}};
 
-/// A mesh as TetGen and Triangle have it: one text a file, named `file` with another extension. Null: there is none.
+/// A mesh as TetGen and Triangle have it: one text a file, named `file` with another extension. None: there is no such file.
 struct TetgenTexts {
   std::string_view node, ele;
-  const std::string* face = nullptr;  ///< subfacets
-  const std::string* edge = nullptr;  ///< subsegments
+  std::optional<std::string_view> face;  ///< subfacets
+  std::optional<std::string_view> edge;  ///< subsegments
 };
 /// Comments at the head of .node and .edge, with a number.
 inline constexpr std::string_view input_points_comment = "# pgdr input_points ", subsegments_comment = "# pgdr subsegments ";
@@ -108,9 +110,9 @@ template <int D>
 void write_tetgen(const OutputMesh<D>& mesh, const std::filesystem::path& file, const WriteOptions& options);
 
 /// The dimension that the header states; anything but 2 and 3 is a syntax error.
-int node_dimension(std::string_view text, const std::filesystem::path& file);  ///< .node, .poly
+int node_dimension(std::string_view text, const std::filesystem::path& file, FileTexts& beside);  ///< .node, .poly
 int vtu_dimension(std::string_view text, const std::filesystem::path& file);
-int pvtu_dimension(std::string_view text, const std::filesystem::path& file);  ///< that of the first piece
+int pvtu_dimension(std::string_view text, const std::filesystem::path& file, FileTexts& beside);  ///< that of the first piece
 
 /// In lower case, with its dot.
 std::string lower_extension(const std::filesystem::path& file);

@@ -65,28 +65,27 @@ bool is_vtk(const std::string& extension) { return extension == ".vtu" || extens
 
 /// The texts of the mesh that a .node or .ele file belongs to.
 template <int D>
-OutputMesh<D> read_tetgen_files(const Path& file) {
-  const auto text = [&file](std::string_view extension) { return detail::read_whole_file(detail::tetgen_name(file, extension)); };
+OutputMesh<D> read_tetgen_files(const Path& file, detail::FileTexts& texts) {
+  const auto text = [&](std::string_view extension) { return texts.of(detail::tetgen_name(file, extension)); };
   const auto optional_text = [&](std::string_view extension) {
     std::error_code ignored;
     const bool there = std::filesystem::exists(detail::tetgen_name(file, extension), ignored);
-    return there ? std::optional<std::string>(text(extension)) : std::nullopt;
+    return there ? std::optional<std::string_view>(text(extension)) : std::nullopt;
   };
-  const std::string node = text(".node"), ele = text(".ele");
-  const std::optional<std::string> face = optional_text(".face"), edge = optional_text(".edge");
-  return detail::read_tetgen<D>({node, ele, face ? &*face : nullptr, edge ? &*edge : nullptr}, file);
+  const std::string_view node = text(".node"), ele = text(".ele");
+  return detail::read_tetgen<D>({node, ele, optional_text(".face"), optional_text(".edge")}, file);
 }
 
 template <int D>
-Plc<D> read_by_extension(std::string_view bytes, const Path& name) {
+Plc<D> read_by_extension(std::string_view bytes, const Path& name, detail::FileTexts& beside) {
   const std::string extension = lower_extension(name);
   if (const FileMeshReader read = file_mesh_reader(extension)) return detail::to_plc<D>(read(bytes, name, {Purpose::input, D}));
   using Reader = Plc<D> (*)(std::string_view, const Path&);
   Reader reader = nullptr;
-  if (extension == ".poly") reader = detail::read_poly<D>;
+  if (extension == ".poly") return detail::read_poly<D>(bytes, name, beside);
   if (extension == ".node") reader = detail::read_node<D>;
   if constexpr (D == 3) {
-    if (extension == ".smesh") reader = detail::read_smesh;
+    if (extension == ".smesh") return detail::read_smesh(bytes, name, beside);
     if (extension == ".obj") reader = detail::read_obj;
     if (extension == ".off") reader = detail::read_off;
     if (extension == ".ply") reader = detail::read_ply;
@@ -101,23 +100,23 @@ Plc<D> read_by_extension(std::string_view bytes, const Path& name) {
 namespace detail {
 
 template <int D>
-Plc<D> read_plc_from(std::string_view bytes, const Path& name) {
-  return read_by_extension<D>(bytes, name);
+Plc<D> read_plc_from(std::string_view bytes, const Path& name, FileTexts&& beside) {
+  return read_by_extension<D>(bytes, name, beside);
 }
 
 template <int D>
-OutputMesh<D> read_mesh_from(std::string_view bytes, const Path& name) {
+OutputMesh<D> read_mesh_from(std::string_view bytes, const Path& name, FileTexts&& beside) {
   const std::string extension = lower_extension(name);
   if (const FileMeshReader read = file_mesh_reader(extension)) return to_output_mesh<D>(read(bytes, name, {Purpose::mesh, D}));
   if (extension == ".vtu") return read_vtu<D>(bytes, name);
-  if (extension == ".pvtu") return read_pvtu<D>(bytes, name);
+  if (extension == ".pvtu") return read_pvtu<D>(bytes, name, beside);
   unknown_format(name, "a mesh");
 }
 
-template Plc<2> read_plc_from<2>(std::string_view, const Path&);
-template Plc<3> read_plc_from<3>(std::string_view, const Path&);
-template OutputMesh<2> read_mesh_from<2>(std::string_view, const Path&);
-template OutputMesh<3> read_mesh_from<3>(std::string_view, const Path&);
+template Plc<2> read_plc_from<2>(std::string_view, const Path&, FileTexts&&);
+template Plc<3> read_plc_from<3>(std::string_view, const Path&, FileTexts&&);
+template OutputMesh<2> read_mesh_from<2>(std::string_view, const Path&, FileTexts&&);
+template OutputMesh<3> read_mesh_from<3>(std::string_view, const Path&, FileTexts&&);
 
 }  // namespace detail
 
@@ -131,51 +130,75 @@ bool is_input_format(const std::string& extension) {
   return std::find(std::begin(formats), end, extension) != end;
 }
 
+}  // namespace
+
+InputFile::InputFile(Path name) : name_(std::move(name)), texts_(std::make_unique<detail::FileTexts>()) {}
+InputFile::InputFile(InputFile&&) noexcept = default;
+InputFile& InputFile::operator=(InputFile&&) noexcept = default;
+InputFile::~InputFile() = default;
+
 /// A file of unknown format is not opened.
-template <class Work>
-auto with_bytes(const Path& file, bool known, Work work) {
-  return guarded(file, [&] { return work(known ? detail::read_whole_file(file) : std::string()); });
+template <int D>
+Plc<D> InputFile::read_plc() {
+  return guarded(name_, [&] {
+    const bool known = is_input_format<D>(lower_extension(name_));
+    Plc<D> plc = detail::read_plc_from<D>(known ? texts_->of(name_) : std::string_view(), name_, std::move(*texts_));
+    texts_->clear();
+    return plc;
+  });
 }
 
-}  // namespace
+template <int D>
+OutputMesh<D> InputFile::read_mesh() {
+  return guarded(name_, [&] {
+    const bool several = is_tetgen_mesh(lower_extension(name_)), known = is_mesh_format(name_);
+    OutputMesh<D> mesh = several ? read_tetgen_files<D>(name_, *texts_)
+                                 : detail::read_mesh_from<D>(known ? texts_->of(name_) : std::string_view(), name_,
+                                                             std::move(*texts_));
+    texts_->clear();
+    return mesh;
+  });
+}
+
+int InputFile::dimension() {
+  const std::string extension = lower_extension(name_);
+  for (const std::string_view spatial : {".smesh", ".obj", ".off", ".ply", ".stl"}) {
+    if (extension == spatial) return 3;
+  }
+  return guarded(name_, [&] {
+    if (const FileMeshReader read = file_mesh_reader(extension))
+      return dimension_of(read(texts_->of(name_), name_, {Purpose::dimension, 0}));
+    if (extension == ".ele") {
+      const Path node = detail::tetgen_name(name_, ".node");
+      return detail::node_dimension(texts_->of(node), node, *texts_);
+    }
+    if (extension == ".poly" || extension == ".node") return detail::node_dimension(texts_->of(name_), name_, *texts_);
+    if (extension == ".vtu") return detail::vtu_dimension(texts_->of(name_), name_);
+    if (extension == ".pvtu") return detail::pvtu_dimension(texts_->of(name_), name_, *texts_);
+    unknown_format(name_, "a file that is read");
+  });
+}
+
+bool InputFile::holds_cells() {
+  const std::string extension = lower_extension(name_);
+  if (const FileMeshReader read = file_mesh_reader(extension))
+    return guarded(name_, [&] { return has_cells(read(texts_->of(name_), name_, {Purpose::mesh, 0})); });
+  return is_vtk(extension) || extension == ".ele";
+}
 
 template <int D>
 Plc<D> read_plc(const Path& file) {
-  return with_bytes(file, is_input_format<D>(lower_extension(file)),
-                    [&](const std::string& bytes) { return detail::read_plc_from<D>(bytes, file); });
+  return InputFile(file).read_plc<D>();
 }
 
 template <int D>
 OutputMesh<D> read_mesh(const Path& file) {
-  if (is_tetgen_mesh(lower_extension(file))) return guarded(file, [&] { return read_tetgen_files<D>(file); });
-  return with_bytes(file, is_mesh_format(file), [&](const std::string& bytes) { return detail::read_mesh_from<D>(bytes, file); });
+  return InputFile(file).read_mesh<D>();
 }
 
-int file_dimension(const Path& file) {
-  const std::string extension = lower_extension(file);
-  for (const std::string_view spatial : {".smesh", ".obj", ".off", ".ply", ".stl"}) {
-    if (extension == spatial) return 3;
-  }
-  return guarded(file, [&] {
-    if (const FileMeshReader read = file_mesh_reader(extension))
-      return dimension_of(read(detail::read_whole_file(file), file, {Purpose::dimension, 0}));
-    if (extension == ".ele") {
-      const Path node = detail::tetgen_name(file, ".node");
-      return detail::node_dimension(detail::read_whole_file(node), node);
-    }
-    if (extension == ".poly" || extension == ".node") return detail::node_dimension(detail::read_whole_file(file), file);
-    if (extension == ".vtu") return detail::vtu_dimension(detail::read_whole_file(file), file);
-    if (extension == ".pvtu") return detail::pvtu_dimension(detail::read_whole_file(file), file);
-    unknown_format(file, "a file that is read");
-  });
-}
+int file_dimension(const Path& file) { return InputFile(file).dimension(); }
 
-bool holds_cells(const Path& file) {
-  const std::string extension = lower_extension(file);
-  if (const FileMeshReader read = file_mesh_reader(extension))
-    return guarded(file, [&] { return has_cells(read(detail::read_whole_file(file), file, {Purpose::mesh, 0})); });
-  return is_vtk(extension) || extension == ".ele";
-}
+bool holds_cells(const Path& file) { return InputFile(file).holds_cells(); }
 
 bool is_mesh_format(const Path& file) {
   const std::string extension = lower_extension(file);
@@ -217,6 +240,10 @@ void write_mesh(const OutputMesh<D>& mesh, const Path& file, const WriteOptions&
   });
 }
 
+template PGDR_API Plc<2> InputFile::read_plc<2>();
+template PGDR_API Plc<3> InputFile::read_plc<3>();
+template PGDR_API OutputMesh<2> InputFile::read_mesh<2>();
+template PGDR_API OutputMesh<3> InputFile::read_mesh<3>();
 template PGDR_API Plc<2> read_plc<2>(const Path&);
 template PGDR_API Plc<3> read_plc<3>(const Path&);
 template PGDR_API OutputMesh<2> read_mesh<2>(const Path&);

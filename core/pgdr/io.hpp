@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Files in and out, by extension. Readers are strict: every count is checked against what the file can hold before
-// anything is allocated, and errors carry the line. Writers go to a temporary name and rename, so that an interrupted
-// run leaves no half file; text formats print doubles that read back to the same bits. Any thread; no global state
+// anything is allocated, and errors carry the line. Writers go to a temporary name and rename (output_files.hpp), so that an
+// interrupted run leaves no half file; text formats print doubles that read back to the same bits. Any thread; no global state
 // (the C locale is never consulted).
 //
 // | extension              | read as Plc<2>     | read as Plc<3>      | read mesh   | write mesh |
@@ -43,6 +43,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,10 @@
 #include "pgdr/export.hpp"
 #include "pgdr/output_mesh.hpp"
 #include "pgdr/plc.hpp"
+
+namespace pgdr::detail {
+class FileTexts;
+}
 
 namespace pgdr PGDR_API {
 
@@ -65,6 +70,29 @@ int file_dimension(const std::filesystem::path& file);
 /// Whether a file has cells (those of volume in 3D, triangles in 2D), so that `read_mesh` gives more than its surface.
 /// Always so for .vtu and .ele, never for formats of inputs alone; .node counts as points. @throws as read_plc
 bool holds_cells(const std::filesystem::path& file);
+
+/// A file of which several things are asked, and which is read once, so that it can be a FIFO, too. Its bytes, and those of files
+/// that belong to it, are kept until read_plc() or read_mesh() has made something of them: then they are given back, and another
+/// question reads again. One thread. Errors are those of the functions of the same names above and below.
+class PGDR_API InputFile {
+ public:
+  explicit InputFile(std::filesystem::path name);
+  InputFile(InputFile&&) noexcept;
+  InputFile& operator=(InputFile&&) noexcept;
+  ~InputFile();
+
+  const std::filesystem::path& name() const { return name_; }
+  int dimension();     ///< as file_dimension
+  bool holds_cells();  ///< as the function
+  template <int D>
+  Plc<D> read_plc();
+  template <int D>
+  OutputMesh<D> read_mesh();
+
+ private:
+  std::filesystem::path name_;
+  std::unique_ptr<detail::FileTexts> texts_;
+};
 
 inline constexpr std::uint32_t most_pieces = 100000;  ///< of a .pvtu
 

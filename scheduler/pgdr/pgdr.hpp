@@ -15,6 +15,7 @@
 #include "pgdr/io.hpp"
 #include "pgdr/mesh_maps.hpp"
 #include "pgdr/mesh_piece.hpp"
+#include "pgdr/output_files.hpp"
 #include "pgdr/output_mesh.hpp"
 #include "pgdr/planar_plc.hpp"
 #include "pgdr/plc.hpp"

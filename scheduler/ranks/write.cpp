@@ -10,6 +10,7 @@
 #include "io/formats.hpp"
 #include "output/piece_join.hpp"
 #include "pgdr/io.hpp"
+#include "pgdr/output_files.hpp"
 #include "pgdr/ranks.hpp"
 #include "ranks/values.hpp"
 #include "transport/collectives.hpp"
@@ -87,6 +88,7 @@ void write_pieces(Collectives& ranks, const std::string& file, const MeshPiece<D
   });
   detail::MessageWriter own;
   for (const auto& f : files) {
+    if (f->is_stream()) continue;
     own.put(f->pending().temporary);
     own.put(f->pending().target);
   }
@@ -104,7 +106,7 @@ void write_pieces(Collectives& ranks, const std::string& file, const MeshPiece<D
     FileOutput out(file);
     out.put(detail::pvtu_text<D>(piece, count, file));
     out.close();
-    pending.push_back(out.pending());
+    if (!out.is_stream()) pending.push_back(out.pending());
     detail::publish_together(pending);
     out.set_published();
   });
@@ -138,7 +140,9 @@ template <int D>
 void write_mesh(Transport& transport, const std::string& file, const DistributedResult<D>& result, const WriteOptions& options) {
   Collectives ranks(transport);
   const std::string extension = detail::lower_extension(file);
-  if (extension == ".vtu") return write_rows<D>(ranks, file, result.piece);
+  // Ranks write their rows in any order, which needs a file.
+  const bool to_file = ranks.sum(ranks.together([&] { return std::uint64_t{ranks.rank() == 0 && is_written_to(file)}; })) == 0;
+  if (extension == ".vtu" && to_file) return write_rows<D>(ranks, file, result.piece);
   if (extension != ".pvtu") return write_gathered<D>(ranks, file, result.piece, options);
   const std::uint64_t count = options.pieces == 0 ? static_cast<std::uint64_t>(ranks.size()) : options.pieces;
   if (count > most_pieces)

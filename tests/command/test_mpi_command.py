@@ -251,7 +251,7 @@ class Codes(RanksCase):
                  (2, ["mesh", BRACKET, "-o", self.output, "--schedule", "greedy"], "greedy"),
                  (3, ["mesh", broken, "-o", self.output], "broken.poly"),
                  (4, ["mesh", self.folder / "none.poly", "-o", self.output], "none.poly"),
-                 (4, ["mesh", BRACKET, "-o", self.folder / "none" / "out.vtu"], "no file can be written there"))
+                 (4, ["mesh", BRACKET, "-o", self.folder / "none" / "out.vtu"], "there is no such folder"))
         for code, arguments, text in cases:
             with self.subTest(text):
                 self.assert_said_once(self.ranks(3, *arguments, expect=code), "pgdr: error: ")

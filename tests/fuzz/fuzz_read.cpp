@@ -92,7 +92,8 @@ void read_tetgen_texts(std::string_view bytes) {
     else
       texts[n] += c;
   }
-  look_at<D>(detail::read_tetgen<D>({texts[0], texts[1], n >= 2 ? &texts[2] : nullptr, n >= 3 ? &texts[3] : nullptr}, name));
+  const auto there = [&](std::size_t i) { return n >= i ? std::optional<std::string_view>(texts[i]) : std::nullopt; };
+  look_at<D>(detail::read_tetgen<D>({texts[0], texts[1], there(2), there(3)}, name));
 }
 
 /// The file of a piece that is all of its mesh.

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <string>
 
-#include "io/file_input.hpp"
 #include "io/formats.hpp"
 #include "io/scan/line_scanner.hpp"
 
@@ -83,13 +82,13 @@ void read_points(LineScanner& in, const NodeHeader& h, Plc<D>& plc) {
 
 /// The points of a .poly or .smesh: its own, or those of the .node file beside it.
 template <int D>
-void read_point_section(LineScanner& in, const std::filesystem::path& file, Plc<D>& plc) {
+void read_point_section(LineScanner& in, const std::filesystem::path& file, FileTexts& texts, Plc<D>& plc) {
   const NodeHeader h = read_node_header(in);
   require_dimension<D>(in, h);
   if (h.points != 0) return read_points(in, h, plc);
   std::filesystem::path beside = file;
   beside.replace_extension(".node");
-  Plc<D> nodes = read_node<D>(read_whole_file(beside), beside);
+  Plc<D> nodes = read_node<D>(texts.of(beside), beside);
   plc.points = std::move(nodes.points);
   plc.point_markers = std::move(nodes.point_markers);
   plc.point_attributes = std::move(nodes.point_attributes);
@@ -240,11 +239,11 @@ Plc<D> read_node(std::string_view text, const std::filesystem::path& file) {
 }
 
 template <int D>
-Plc<D> read_poly(std::string_view text, const std::filesystem::path& file) {
+Plc<D> read_poly(std::string_view text, const std::filesystem::path& file, FileTexts& beside) {
   Plc<D> plc;
   plc.source.file = file.string();
   LineScanner in(text, plc.source.file);
-  read_point_section(in, file, plc);
+  read_point_section(in, file, beside, plc);
   if constexpr (D == 2)
     read_segments(in, plc);
   else
@@ -254,30 +253,30 @@ Plc<D> read_poly(std::string_view text, const std::filesystem::path& file) {
   return plc;
 }
 
-Plc<3> read_smesh(std::string_view text, const std::filesystem::path& file) {
+Plc<3> read_smesh(std::string_view text, const std::filesystem::path& file, FileTexts& beside) {
   Plc<3> plc;
   plc.source.file = file.string();
   LineScanner in(text, plc.source.file);
-  read_point_section(in, file, plc);
+  read_point_section(in, file, beside, plc);
   read_facets(in, plc, 4, read_smesh_facet);  // "1 1\n"
   read_holes(in, plc);
   read_regions(in, plc);
   return plc;
 }
 
-int node_dimension(std::string_view text, const std::filesystem::path& file) {
+int node_dimension(std::string_view text, const std::filesystem::path& file, FileTexts& texts) {
   LineScanner in(text, file.string());
   const NodeHeader h = read_node_header(in);
   if (h.dimension != 0) return h.dimension;
   std::filesystem::path beside = file;
   beside.replace_extension(".node");
   if (beside == file) in.fail(Errc::syntax, "the header of the points states no dimension");
-  return node_dimension(read_whole_file(beside), beside);
+  return node_dimension(texts.of(beside), beside, texts);
 }
 
 template Plc<2> read_node<2>(std::string_view, const std::filesystem::path&);
 template Plc<3> read_node<3>(std::string_view, const std::filesystem::path&);
-template Plc<2> read_poly<2>(std::string_view, const std::filesystem::path&);
-template Plc<3> read_poly<3>(std::string_view, const std::filesystem::path&);
+template Plc<2> read_poly<2>(std::string_view, const std::filesystem::path&, FileTexts&);
+template Plc<3> read_poly<3>(std::string_view, const std::filesystem::path&, FileTexts&);
 
 }  // namespace pgdr::detail

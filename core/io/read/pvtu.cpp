@@ -5,7 +5,6 @@
 // mesh has and which rows are its own, so that what is missing or there twice is found by its number.
 #include <memory>
 
-#include "io/file_input.hpp"
 #include "io/formats.hpp"
 #include "io/scan/xml_tags.hpp"
 #include "output/piece_join.hpp"
@@ -54,24 +53,24 @@ std::vector<std::filesystem::path> piece_files(std::string_view text, const std:
 }  // namespace
 
 template <int D>
-OutputMesh<D> read_pvtu(std::string_view text, const std::filesystem::path& file) {
+OutputMesh<D> read_pvtu(std::string_view text, const std::filesystem::path& file, FileTexts& beside) {
   const std::vector<std::filesystem::path> files = piece_files(text, file);
   std::vector<MeshPiece<D>> pieces;
   std::vector<PieceView<D>> views;
   pieces.reserve(files.size());
   for (const std::filesystem::path& piece : files) {
-    pieces.push_back(read_vtu_piece<D>(read_whole_file(piece), piece));
+    pieces.push_back(read_vtu_piece<D>(beside.of(piece), piece));
     views.push_back({&pieces.back(), piece.string()});
   }
   return join_views<D>(views, file.string());
 }
 
-int pvtu_dimension(std::string_view text, const std::filesystem::path& file) {
+int pvtu_dimension(std::string_view text, const std::filesystem::path& file, FileTexts& beside) {
   const std::filesystem::path first = piece_files(text, file).front();
-  return vtu_dimension(read_whole_file(first), first);
+  return vtu_dimension(beside.of(first), first);
 }
 
-template OutputMesh<2> read_pvtu<2>(std::string_view, const std::filesystem::path&);
-template OutputMesh<3> read_pvtu<3>(std::string_view, const std::filesystem::path&);
+template OutputMesh<2> read_pvtu<2>(std::string_view, const std::filesystem::path&, FileTexts&);
+template OutputMesh<3> read_pvtu<3>(std::string_view, const std::filesystem::path&, FileTexts&);
 
 }  // namespace pgdr::detail

@@ -72,7 +72,7 @@ void read_ele(std::string_view text, const std::string& file, const Numbering& n
 
 /// A .face or .edge file. What follows the marker (neighbours, inner points) is stepped over.
 template <int K, int D>
-void read_constraints(const std::string& text, const std::string& file, const Numbering& numbering,
+void read_constraints(std::string_view text, const std::string& file, const Numbering& numbering,
                       std::vector<typename OutputMesh<D>::template Constraint<K>>& constraints) {
   const Subject header{K == 3 ? "the list of faces" : "the list of edges"};
   LineScanner in(text, file);
@@ -113,13 +113,13 @@ OutputMesh<D> read_tetgen(const TetgenTexts& texts, const std::filesystem::path&
   mesh.input_points = read_comment(texts.node, input_points_comment, 0, mesh.points.size(), name(".node"));
   const Numbering numbering{nodes.first_index, mesh.points.size()};
   read_ele<D>(texts.ele, name(".ele"), numbering, mesh);
-  if (texts.edge != nullptr) {
+  if (texts.edge) {
     read_constraints<2, D>(*texts.edge, name(".edge"), numbering, mesh.subsegments);
     const std::size_t edges = mesh.subsegments.size();
     mesh.subsegments.resize(read_comment(*texts.edge, subsegments_comment, edges, edges, name(".edge")));
   }
   if constexpr (D == 3) {
-    if (texts.face != nullptr) read_constraints<3, D>(*texts.face, name(".face"), numbering, mesh.subfacets);
+    if (texts.face) read_constraints<3, D>(*texts.face, name(".face"), numbering, mesh.subfacets);
   }
   return mesh;
 }

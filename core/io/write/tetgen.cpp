@@ -139,6 +139,7 @@ template <int D>
 void write_tetgen(const OutputMesh<D>& mesh, const std::filesystem::path& file, const WriteOptions& options) {
   std::vector<std::unique_ptr<FileOutput>> files;
   const auto open = [&](std::string_view extension) -> FileOutput& {
+    if (!files.empty()) files.back()->close();  // who reads one FIFO after the other waits for the end of each
     return *files.emplace_back(std::make_unique<FileOutput>(tetgen_name(file, extension)));
   };
   put_node<D>(open(".node"), mesh, options.first_index);
