@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "input/steps/build_report.hpp"
 
+#include <set>
+#include <utility>
+
 #include "space/make_set.hpp"
 
 namespace pgdr::detail {
@@ -78,7 +81,9 @@ void BuildReport<D>::write(std::vector<Diagnostic>& mended, std::vector<Diagnost
   list(repairs.added_points, Errc::entities_intersect, "points added where edges cross inside of a plane that they lie in");
   list(repairs.dropped_flat, Errc::degenerate_facet, "facets with all their points on edges of others, dropped");
   list(repairs.dropped_bare, Errc::degenerate_facet, "facets without an area, with all their points on one line, dropped");
-  warnings.insert(warnings.end(), warnings_.begin(), warnings_.end());
+  std::set<std::pair<std::uint64_t, std::string>> said;  // each once: a segment that others split repeats others piece by piece
+  for (Diagnostic& warning : warnings_)
+    if (said.emplace(warning.line, warning.message).second) warnings.push_back(std::move(warning));
   repairs.ambiguous_planes.report(Errc::ambiguous,
                                   "groups of facets of which each lies in one plane with the next, within the tolerance, but not "
                                   "all together: taken as they are",
