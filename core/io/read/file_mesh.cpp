@@ -11,6 +11,7 @@
 #include "input/words.hpp"
 #include "output/cell_surface.hpp"
 #include "pgdr/error.hpp"
+#include "pgdr/predicates.hpp"
 
 namespace pgdr::detail {
 namespace {
@@ -26,7 +27,7 @@ void require_dimension(const FileMesh& mesh, int wanted) {
 }
 
 [[noreturn]] void refuse_cells(const FileMesh& mesh, const std::string& what, std::uint64_t line) {
-  fail(mesh, Errc::unknown_format, what + " cannot be read: only simplices are", line);
+  fail(mesh, Errc::unknown_format, what + " cannot be read as cells of a mesh: only simplices are", line);
 }
 
 std::uint64_t first_of(const std::vector<std::uint32_t>& lines) { return lines.empty() ? 0 : lines.front(); }
@@ -62,10 +63,11 @@ class PlcBuilder {
     plc_.source.file = mesh_.file;
     plc_.first_index = mesh_.first_index;
     for (const Point3& p : mesh_.points) plc_.points.push_back(flattened<D>(p));
+    if constexpr (D == 2) split_quadrilaterals();
     add_segments();
     if constexpr (D == 3) add_facets();
     if (has_cells(mesh_)) {
-      if (mesh_.other_cells.empty() && (D == 3 || mesh_.quadrilaterals.empty())) add_surface_of_cells();
+      if (mesh_.other_cells.empty()) add_surface_of_cells();
       drop_points_of_cells();
     }
     plc_.point_markers = markers_if_any(std::move(mesh_.point_markers));
@@ -75,6 +77,29 @@ class PlcBuilder {
 
  private:
   std::size_t facet_count() const { return D == 2 ? mesh_.edges.size() : mesh_.triangles.size() + mesh_.quadrilaterals.size(); }
+
+  /// 2D: quadrilaterals are cells, each as two triangles on the same side of the diagonal's ends.
+  void split_quadrilaterals() {
+    for (std::size_t i = 0; i < mesh_.quadrilaterals.size(); ++i) {
+      const auto& [corners, label] = mesh_.quadrilaterals[i];
+      const auto& [a, b, c, d] = corners;
+      const auto side = [this](std::uint32_t u, std::uint32_t v, std::uint32_t w) {
+        return orient2d(plc_.points[u], plc_.points[v], plc_.points[w]);
+      };
+      const Sign one = side(a, b, c), other = side(a, b, d);
+      if (one != Sign::zero && one == side(a, c, d)) {
+        mesh_.triangles.push_back({{a, b, c}, label});
+        mesh_.triangles.push_back({{a, c, d}, label});
+      } else if (other != Sign::zero && other == side(b, c, d)) {
+        mesh_.triangles.push_back({{a, b, d}, label});
+        mesh_.triangles.push_back({{b, c, d}, label});
+      } else {
+        fail(mesh_, Errc::self_crossing_facet, "quadrilateral " + std::to_string(i + 1) + " crosses itself, or has no area",
+             i < mesh_.quadrilateral_lines.size() ? mesh_.quadrilateral_lines[i] : 0);
+      }
+    }
+    mesh_.quadrilaterals.clear();
+  }
 
   void add_segments() {
     plc_.segments.reserve(mesh_.edges.size());
@@ -153,10 +178,8 @@ class PlcBuilder {
     };
     for (const auto& c : mesh_.tetrahedra) mark(c.corners, 0);
     mark(mesh_.other_corners, 0);
-    if constexpr (D == 2) {
+    if constexpr (D == 2)
       for (const auto& c : mesh_.triangles) mark(c.corners, 0);
-      for (const auto& c : mesh_.quadrilaterals) mark(c.corners, 0);
-    }
     for (const auto& s : plc_.segments) mark(s.points, 1);
     for (const auto& f : plc_.facets) mark(f.polygons.front(), 1);
     for (std::size_t i = 0; i < mesh_.required.size(); ++i) kept[i] |= mesh_.required[i];

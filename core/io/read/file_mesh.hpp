@@ -54,10 +54,11 @@ int dimension_of(const FileMesh& mesh);
 /// Whether there are cells: of volume in 3D, triangles and quadrilaterals in 2D.
 bool has_cells(const FileMesh& mesh);
 
-/// The surface and the edges. Cells add what of their boundary, and of the faces between different labels, the surface
-/// lacks; a region seed for each label, in each part that facets enclose; a hole in each void; and are dropped, with the
-/// points of them alone.
-/// @throws InputError syntax (another dimension), unknown_format (cells that are no simplices, and no surface)
+/// The surface and the edges. In 2D a quadrilateral is two triangles. Cells add what of their boundary, and of the faces between
+/// different labels, the surface lacks; a region seed for each label, in each part that facets enclose; a hole in each void; and
+/// are dropped, with the points of them alone.
+/// @throws InputError syntax (another dimension), unknown_format (cells that are no simplices, and no surface),
+///   self_crossing_facet (2D: a quadrilateral that is no two triangles)
 template <int D>
 Plc<D> to_plc(FileMesh&& mesh);
 
