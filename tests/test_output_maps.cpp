@@ -106,6 +106,54 @@ TEST(InputMap, SegmentsThatOverlap) {
   EXPECT_TRUE(map.subfacets_of_facet.size() == 0 && map.facets_of_subfacet.size() == 0);
 }
 
+/// A mesh without its points of no cell is the same, by other numbers, and so is its map. (Point 8 lies outside; the others are
+/// corners or crossings.)
+TEST(InputMap, PointsOfNoCellThatAreDropped) {
+  Plc<2> plc = overlapping_segments();
+  plc.points.insert(plc.points.begin(), Point2{{-3, -3}});
+  plc.points.push_back({{2.5, 1}});
+  for (auto& s : plc.segments)
+    for (auto& p : s.points) ++p;
+  for (std::size_t i = 0; i < plc.points.size(); ++i) {
+    plc.point_markers.push_back(static_cast<int>(i) + 20);
+    plc.point_attributes.insert(plc.point_attributes.end(), {plc.points[i][0], plc.points[i][1]});
+  }
+  const Domain<2> domain(plc);
+  RefineOptions<2> options;
+  options.size = 0.05;
+  const RefineResult<2> whole = refine(domain, options);
+  options.drop_unused_points = true;
+  const RefineResult<2> part = refine(domain, options);
+  ASSERT_EQ(whole.unused_points, (Numbers{0, 8}));  // of the Domain, where point 7 is point 2 again
+  EXPECT_EQ(part.unused_points, whole.unused_points);
+  EXPECT_EQ(unused_points(whole.mesh), whole.unused_points);
+  EXPECT_TRUE(unused_points(part.mesh).empty());
+  const auto is_of_points = [](const Diagnostic& d) { return d.code == Errc::unreferenced_point; };
+  ASSERT_EQ(std::ranges::count_if(part.warnings, is_of_points), 1);
+  EXPECT_EQ(std::ranges::find_if(part.warnings, is_of_points)->ids, (std::vector<std::int64_t>{0, 9}));
+  ASSERT_EQ(part.mesh.points.size() + 2, whole.mesh.points.size());
+  EXPECT_EQ(part.mesh.input_points + 2, whole.mesh.input_points);
+
+  const InputMap<2> of_whole = input_map(domain, whole.mesh), map = input_map(domain, part.mesh);
+  for (std::size_t i = 0; i < plc.points.size(); ++i) {
+    const std::uint32_t v = map.vertex_of_point[i];
+    ASSERT_EQ(v == dropped_point, i == 0 || i == 9) << i;
+    if (v == dropped_point) continue;
+    EXPECT_EQ(part.mesh.points[v], plc.points[i]);
+    EXPECT_EQ(part.mesh.point_markers[v], i == 7 ? 22 : static_cast<int>(i) + 20);
+    EXPECT_EQ(part.mesh.point_attributes[2 * v + 1], plc.points[i][1]);
+    EXPECT_EQ(list(map.points_of_vertex, v), list(of_whole.points_of_vertex, of_whole.vertex_of_point[i]));
+  }
+  EXPECT_EQ(map.points_of_vertex.size(), part.mesh.input_points);
+  EXPECT_EQ(map.subsegments_of_segment.numbers, of_whole.subsegments_of_segment.numbers);
+  for (std::size_t c = 0; c < part.mesh.cells.size(); ++c)
+    for (std::size_t k = 0; k < 3; ++k)
+      ASSERT_EQ(part.mesh.points[part.mesh.cells[c][k]], whole.mesh.points[whole.mesh.cells[c][k]]);
+  OutputMesh<2> other = part.mesh;
+  other.points[0][0] += 1e-9;
+  EXPECT_THROW(input_map(domain, other), UsageError);
+}
+
 /// Of triangles of one plane, which are one facet of the mesh, each has the subfacets of the whole. A facet given twice has them
 /// twice. A marker keeps its facet apart. A facet of two corners is a segment.
 TEST(InputMap, FacetsInOnePlaneAndRepeatedOnes) {

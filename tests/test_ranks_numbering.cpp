@@ -19,6 +19,7 @@
 #include "local_ranks.hpp"
 #include "model_plcs.hpp"
 #include "parallel_support.hpp"
+#include "pgdr/mesh_maps.hpp"
 #include "pgdr/ranks.hpp"
 #include "planar_plcs.hpp"
 #include "ranks/numbering.hpp"
@@ -179,6 +180,8 @@ void expect_pieces(const Plc<D>& plc, const RefineOptions<D>& options) {
   const PointData<D> data(made.unrefined, made.domain);
   const std::span<const double> labels = made.regions.labelled ? std::span<const double>(made.regions.attribute)
                                                                : std::span<const double>();
+  OutputMesh<D> dropped = made.result.mesh;
+  drop_points<D>(dropped, unused_points(dropped));
   for (const int ranks : {1, 2, 3, 4, 7}) {
     const auto of_point = holders<D>(made.result.mesh, ranks);
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
@@ -189,10 +192,14 @@ void expect_pieces(const Plc<D>& plc, const RefineOptions<D>& options) {
         detail::Collectives talk(transport);
         const auto is_own = [&](CellId c) { return part.is_own(c); };
         const std::uint64_t most_narrow = seed == 3 ? 0 : std::numeric_limits<std::uint32_t>::max();
+        const bool drop = seed == 2;
+        std::vector<std::uint32_t> unused;
         const MeshPiece<D> piece = detail::number_on_ranks<D>(talk, part.mesh(), is_own, made.domain, labels, data,
-                                                              detail::OneByOne(), most_narrow);
-        expect_same_piece<D>(piece, piece_of<D>(made.result.mesh, std::uint64_t(rank), std::uint64_t(ranks)));
-        expect_sharing<D>(detail::sharing_of<D>(talk, piece), piece, of_point, rank);
+                                                              detail::OneByOne(), unused, drop, most_narrow);
+        EXPECT_EQ(unused, unused_points(made.result.mesh));
+        const OutputMesh<D>& whole = drop ? dropped : made.result.mesh;
+        expect_same_piece<D>(piece, piece_of<D>(whole, std::uint64_t(rank), std::uint64_t(ranks)));
+        if (!drop) expect_sharing<D>(detail::sharing_of<D>(talk, piece), piece, of_point, rank);
       });
     }
   }

@@ -14,6 +14,7 @@
 #include "files.hpp"
 #include "input.hpp"
 #include "pgdr/io.hpp"
+#include "pgdr/mesh_maps.hpp"
 #include "pgdr/predicates.hpp"
 #include "pgdr/refine.hpp"
 
@@ -44,9 +45,10 @@ Plc<D> resolved(const Plc<D>& plc, const InputArguments& reading) {
 
 template <int D>
 void fill(Report& report, const OutputMesh<D>& mesh, const Bounds<D>& bounds, const std::optional<QualitySummary>& q,
-          const CheckReport& r, bool delaunay) {
+          const CheckReport& r, bool delaunay, std::size_t unused) {
   report.set("vertices", mesh.points.size());
   report.set("cells", mesh.cells.size());
+  report.set("unused_points", JsonObject{{"count", unused}});
   if (q) {
     JsonObject quality = to_json(*q);
     if (delaunay)
@@ -70,9 +72,10 @@ void fill(Report& report, const OutputMesh<D>& mesh, const Bounds<D>& bounds, co
 
 template <int D>
 void print_summary(const CheckArguments& a, const OutputMesh<D>& mesh, const Bounds<D>& bounds,
-                   const std::optional<QualitySummary>& q, const CheckReport& r) {
+                   const std::optional<QualitySummary>& q, const CheckReport& r, std::size_t unused) {
   print_row("mesh", format("%s (%dD, ", a.mesh.c_str(), D) + count(mesh.points.size(), "vertex", "vertices") + ", " +
                         count_cells<D>(mesh.cells.size()) + ')');
+  if (unused > 0) print_row("unused", count(unused, "vertex is in no cell", "vertices are in no cell"));
   print_row("input", a.input.empty() ? "not given: conformity was not checked" : a.input);
   if (q)
     print_row("quality", format("radius-edge up to %.4f, %s %.2f to %.2f degrees", q->max_radius_edge,
@@ -133,8 +136,9 @@ int check_as(const CheckArguments& a, InputFile& file, Report& report) {
   std::optional<QualitySummary> quality;  // of a mesh whose numbers can be used at all
   if (verdict.count(CheckFinding::Kind::bad_index) + verdict.count(CheckFinding::Kind::not_finite) == 0)
     quality = summarize_quality(mesh);
-  fill(report, mesh, bounds, quality, verdict, options.delaunay);
-  if (!a.quiet) print_summary(a, mesh, bounds, quality, verdict);
+  const std::size_t unused = unused_points(mesh).size();
+  fill(report, mesh, bounds, quality, verdict, options.delaunay, unused);
+  if (!a.quiet) print_summary(a, mesh, bounds, quality, verdict, unused);
   return verdict.exit_code();
 }
 

@@ -44,6 +44,7 @@ RefineOptions<D> make_options(const MeshArguments& a, const Bounds<D>& bounds) {
   options.selector = make_selector<D>(selector);
   options.disk = {a.disk.value_or(a.delta > 0 ? DiskType::type2 : usual_disk(selector)), a.delta};
   options.keep_boundary = a.keep_boundary;
+  options.drop_unused_points = a.drop_unused_points;
   options.refine = !a.no_refine;
   options.leaves = a.leaves;
   options.regions = a.regions;
@@ -169,6 +170,7 @@ void fill(Report& report, const MeshArguments& a, const Threads& threads, const 
                                   {"poor_left", r.poor_left},
                                   {"poor_unavoidable", r.poor_unavoidable},
                                   {"reasons", to_json(r.reasons)}});
+  report.set("unused_points", JsonObject{{"count", r.unused_points.size()}, {"dropped", a.drop_unused_points}});
   report.set("regions", to_json(r.regions));
   report.set("scheduler", to_json(r.scheduler));
   report.set("stages", to_json(s.stages));
@@ -212,6 +214,9 @@ void print_summary(const MeshArguments& a, const Plc<D>& plc, const Bounds<D>& b
   print_row("input", format("%s (%dD, %s)", a.input.c_str(), D, count(plc.points.size(), "point", "points").c_str()));
   if (!r.repairs.empty()) print_row("repaired", count(r.repairs.size(), "defect", "defects") + ", see --report");
   print_row("mesh", count(measured.vertices, "vertex", "vertices") + ", " + count_cells<D>(measured.cells));
+  if (!r.unused_points.empty())
+    print_row("unused", count(r.unused_points.size(), "point is in no cell", "points are in no cell") +
+                            (a.drop_unused_points ? " and dropped" : ", as nodes; --drop-unused-points leaves them out"));
   if (measured.cells > 0) {
     const std::string least = r.optimization.target > 0 ? format(" (bound %.4g)", r.optimization.target) : "";
     print_row("quality",

@@ -197,6 +197,8 @@ void add_mesh(CLI::App& app, MeshArguments& a) {
   add_input(app, a.reading);
   add_regions(app, a.regions);
   app.add_flag("--keep-boundary", a.keep_boundary, "2D: no new points on segments");
+  app.add_flag("--drop-unused-points", a.drop_unused_points,
+               "leave points that are in no cell, outside or in voids, out of the mesh");
   app.add_flag("--no-refine", a.no_refine,
                "2D: the constrained Delaunay triangulation, without new points; 3D: the "
                "triangulation with its boundary recovered");

@@ -44,16 +44,47 @@ void require_entities(const std::vector<Constraint>& constraints, const Entities
     if (c.entity >= entities.size()) refuse("a subsegment or subfacet of the mesh is of no segment or facet of this Domain");
 }
 
+/// The vertex of each point of the Domain, which are distinct. A mesh has them in their order, but for what was dropped.
+template <int D>
+std::vector<std::uint32_t> vertices_of_domain(const Domain<D>& domain, const OutputMesh<D>& mesh) {
+  std::vector<std::uint32_t> vertices(domain.points().size(), dropped_point);
+  std::uint32_t next = 0;
+  const std::size_t count = std::min(mesh.input_points, mesh.points.size());
+  for (std::size_t p = 0; p < vertices.size() && next < count; ++p)
+    if (mesh.points[next] == domain.points()[p]) vertices[p] = next++;
+  if (next != mesh.input_points) refuse("the mesh was not made of this Domain: it has other input points");
+  return vertices;
+}
+
 template <int D>
 void map_points(const Domain<D>& domain, const OutputMesh<D>& mesh, InputMap<D>& out) {
-  if (mesh.input_points != domain.points().size() || mesh.points.size() < mesh.input_points)
-    refuse("the mesh was not made of this Domain: it has another number of input points");
-  const auto vertices = domain.point_of_input();
-  out.vertex_of_point.assign(vertices.begin(), vertices.end());
+  out.vertex_of_point = vertices_of_points(domain, mesh);
   Pairs pairs;
-  pairs.reserve(vertices.size());
-  for (std::uint32_t i = 0; i < vertices.size(); ++i) pairs.push_back({vertices[i], i});
+  pairs.reserve(out.vertex_of_point.size());
+  for (std::uint32_t i = 0; i < out.vertex_of_point.size(); ++i)
+    if (out.vertex_of_point[i] != dropped_point) pairs.push_back({out.vertex_of_point[i], i});
   out.points_of_vertex = lists_of(pairs, mesh.input_points);
+}
+
+/// Calls visit(vertices) for all that has vertices.
+template <class Mesh, class Visit>
+void each_use(Mesh& mesh, const Visit& visit) {
+  for (auto& cell : mesh.cells) visit(cell);
+  for (auto& subsegment : mesh.subsegments) visit(subsegment.vertices);
+  for (auto& subfacet : mesh.subfacets) visit(subfacet.vertices);
+}
+
+/// Leaves the rows, of so many numbers each, whose number of a vertex is not dropped_point.
+template <class Value>
+void keep_rows(std::vector<Value>& values, const std::vector<std::uint32_t>& number) {
+  const std::size_t columns = values.size() / number.size();
+  for (std::size_t v = 0; v < number.size(); ++v)
+    if (number[v] != dropped_point)
+      std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(v * columns), columns,
+                  values.begin() + static_cast<std::ptrdiff_t>(number[v] * columns));
+  const auto kept = static_cast<std::size_t>(
+      std::count_if(number.begin(), number.end(), [](auto n) { return n != dropped_point; }));
+  values.resize(kept * columns);
 }
 
 template <int D>
@@ -100,6 +131,48 @@ void join_equal(std::span<Face<D>> bucket, std::vector<std::array<std::uint32_t,
 }
 
 }  // namespace
+
+template <int D>
+std::vector<std::uint32_t> unused_points(const OutputMesh<D>& mesh) {
+  std::vector<bool> used(mesh.points.size());
+  each_use(mesh, [&](const auto& vertices) {
+    for (const std::uint32_t v : vertices)
+      if (v < used.size()) used[v] = true;
+  });
+  std::vector<std::uint32_t> unused;
+  for (std::uint32_t v = 0; v < used.size(); ++v)
+    if (!used[v]) unused.push_back(v);
+  return unused;
+}
+
+template <int D>
+void drop_points(OutputMesh<D>& mesh, std::span<const std::uint32_t> unused) {
+  if (unused.empty()) return;
+  std::vector<std::uint32_t> number(mesh.points.size());
+  std::size_t dropped = 0;
+  for (std::uint32_t v = 0; v < number.size(); ++v) {
+    const bool drops = dropped < unused.size() && unused[dropped] == v;
+    number[v] = drops ? dropped_point : static_cast<std::uint32_t>(v - dropped);
+    dropped += drops;
+  }
+  mesh.input_points -= static_cast<std::size_t>(std::lower_bound(unused.begin(), unused.end(), mesh.input_points) -
+                                                unused.begin());
+  keep_rows(mesh.points, number);
+  keep_rows(mesh.point_markers, number);
+  keep_rows(mesh.point_attributes, number);
+  each_use(mesh, [&](auto& vertices) {
+    for (auto& v : vertices) v = number[v];
+  });
+}
+
+template <int D>
+std::vector<std::uint32_t> vertices_of_points(const Domain<D>& domain, const OutputMesh<D>& mesh) {
+  const std::vector<std::uint32_t> of_domain = vertices_of_domain(domain, mesh);
+  std::vector<std::uint32_t> vertices;
+  vertices.reserve(domain.point_of_input().size());
+  for (const std::uint32_t p : domain.point_of_input()) vertices.push_back(of_domain[p]);
+  return vertices;
+}
 
 template <int D>
 InputMap<D> input_map(const Domain<D>& domain, const OutputMesh<D>& mesh) {
@@ -157,6 +230,12 @@ std::vector<std::array<std::uint32_t, D + 1>> neighbors_of_cells(const OutputMes
   return neighbors;
 }
 
+template PGDR_API std::vector<std::uint32_t> unused_points<2>(const OutputMesh<2>&);
+template PGDR_API std::vector<std::uint32_t> unused_points<3>(const OutputMesh<3>&);
+template PGDR_API void drop_points<2>(OutputMesh<2>&, std::span<const std::uint32_t>);
+template PGDR_API void drop_points<3>(OutputMesh<3>&, std::span<const std::uint32_t>);
+template PGDR_API std::vector<std::uint32_t> vertices_of_points<2>(const Domain<2>&, const OutputMesh<2>&);
+template PGDR_API std::vector<std::uint32_t> vertices_of_points<3>(const Domain<3>&, const OutputMesh<3>&);
 template PGDR_API InputMap<2> input_map<2>(const Domain<2>&, const OutputMesh<2>&);
 template PGDR_API InputMap<3> input_map<3>(const Domain<3>&, const OutputMesh<3>&);
 template PGDR_API std::vector<std::array<std::uint32_t, 3>> neighbors_of_cells<2>(const OutputMesh<2>&);

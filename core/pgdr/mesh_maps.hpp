@@ -32,6 +32,17 @@ struct NumberLists {
   std::span<const std::uint32_t> operator[](std::size_t i) const&& = delete;
 };
 
+inline constexpr std::uint32_t dropped_point = 0xffffffffu;  ///< instead of a vertex: the mesh is without it
+
+/// The vertices that nothing of the mesh has, no cell, subsegment or subfacet, ascending: points of the input outside of what is
+/// meshed.
+template <int D>
+std::vector<std::uint32_t> unused_points(const OutputMesh<D>& mesh);
+
+/// Takes out the vertices `unused`, ascending, as unused_points() gives them. All else keeps its order.
+template <int D>
+void drop_points(OutputMesh<D>& mesh, std::span<const std::uint32_t> unused);
+
 /// Which vertices, subsegments and subfacets the points, segments and facets of an input have become, and back. Everything counts
 /// from 0: what is of the input in the vectors of the Plc, what is of the mesh in those of the OutputMesh.
 ///
@@ -42,7 +53,7 @@ struct NumberLists {
 /// empty lists.
 template <int D>
 struct InputMap {
-  /// The vertex of each point of the input. One in a hole, or outside, is in no cell.
+  /// The vertex of each point of the input. One in a hole, or outside, is in no cell; dropped_point if such points were dropped.
   std::vector<std::uint32_t> vertex_of_point;
   NumberLists points_of_vertex;        ///< of the first OutputMesh::input_points vertices; empty: a crossing of the input's edges
   NumberLists subsegments_of_segment;  ///< those that make up each of Plc::segments
@@ -56,10 +67,14 @@ struct InputMap {
 /// there.
 /// @param domain  the input as it was meshed
 /// @param mesh  as `refine` made it of this Domain; its lists of subsegments and subfacets may be in any order
-/// @throws UsageError bad_option: a mesh with another number of input points, or with subsegments or subfacets whose
-///   `entity` is not of the Domain, as those of a mesh that was read from a file
+/// @throws UsageError bad_option: a mesh whose input points are not the Domain's, in their order, but for some that were dropped,
+///   or with subsegments or subfacets whose `entity` is not of the Domain, as those of a mesh that was read from a file
 template <int D>
 InputMap<D> input_map(const Domain<D>& domain, const OutputMesh<D>& mesh);
+
+/// InputMap::vertex_of_point alone. @throws as input_map for points
+template <int D>
+std::vector<std::uint32_t> vertices_of_points(const Domain<D>& domain, const OutputMesh<D>& mesh);
 
 inline constexpr std::uint32_t no_cell_beyond = 0xffffffffu;  ///< a neighbour: there is none
 

@@ -29,7 +29,8 @@ struct OutputMesh {
   /// The distinct input points in the order of the input, those where edges of its facets cross in one plane, then Steiner points
   /// along a Hilbert curve (in no particular order if the run was cancelled, or ended by its time limit).
   std::vector<Point<D>> points;
-  std::size_t input_points = 0;  ///< how many of `points` are the Domain's (0: unknown, e.g. read from a file)
+  /// How many of `points` are the Domain's (0: unknown, e.g. read from a file): all, unless those of no cell were dropped.
+  std::size_t input_points = 0;
   /// Empty, or one a point. Of a Steiner point that of the segment or facet that it lies on.
   std::vector<int> point_markers;
   /// Of the first point, of the second, ...: equally many each, or none at all. Those of Steiner points are interpolated

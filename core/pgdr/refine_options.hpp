@@ -118,6 +118,9 @@ struct RefineOptions {
   /// What a run that was cancelled (by `stop`, or as part of the caller's tasks) returns. True: the mesh so far, valid, its
   /// Steiner points and cells in no particular order (as after the time limit), without reasons. False: no mesh, sooner.
   bool partial_mesh = true;
+  /// Leaves the points of the input that are in no cell, as they lie outside or in voids, out of the mesh. They are counted, and
+  /// warned of, either way.
+  bool drop_unused_points = false;
   bool leaves = false;       ///< tell for each cell which leaf of the tree holds its circumcentre (OutputMesh::leaves)
   ScheduleOptions schedule;  ///< threads, and how work is divided among them
   /// Called once, by the thread that calls `refine`, with the input that was checked and before anything is meshed: for an

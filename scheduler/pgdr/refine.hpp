@@ -119,11 +119,13 @@ struct RefineResult {
   bool delaunay = true;
   /// Were faces met that are not locally Delaunay? If not, none is left but by rounding, beside slanted entities.
   bool violations_seen = false;
+  /// Points of the Domain in no cell, as they lie outside or in voids, ascending: vertices with these numbers, or dropped.
+  std::vector<std::uint32_t> unused_points;
   double tolerance = 0;              ///< Domain::tolerance
   double largest_move = 0;           ///< Domain::largest_move
   std::vector<VisitTrace> trace;     ///< if asked for; in the order in which the visits ended
   std::vector<Diagnostic> repairs;   ///< of the input, see Domain
-  std::vector<Diagnostic> warnings;  ///< of the input, see Domain; and seeds that lie outside
+  std::vector<Diagnostic> warnings;  ///< of the input, see Domain; seeds that lie outside; points of no cell
 };
 
 /// Meshes the Domain of the input.

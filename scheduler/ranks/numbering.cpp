@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <numeric>
 #include <tuple>
 #include <utility>
 #include <variant>
@@ -54,8 +56,8 @@ struct OwnConstraint {
 template <int D>
 class RankNumbering {
  public:
-  RankNumbering(Collectives& ranks, Mesh<D>& mesh, const Domain<D>& domain, const Bulk& bulk)
-      : ranks_(ranks), mesh_(mesh), domain_(domain), bulk_(bulk), vertices_(ranks, mesh, domain, bulk) {}
+  RankNumbering(Collectives& ranks, Mesh<D>& mesh, const Domain<D>& domain, const Bulk& bulk, bool drop)
+      : ranks_(ranks), mesh_(mesh), domain_(domain), bulk_(bulk), drop_(drop), vertices_(ranks, mesh, domain, bulk, drop) {}
 
   MeshPiece<D> run(const IsOwnCell& is_own, std::span<const double> region_attributes, const PointData<D>& data,
                    const Pieces& pieces, Number most_narrow) {
@@ -63,7 +65,7 @@ class RankNumbering {
     StrippedCells<D> own(mesh_, bulk_, !region_attributes.empty(), is_own);
     vertices_.run(own);
     mesh_.discard_vertices();
-    piece_.total.input_points = domain_.points().size();
+    piece_.total.input_points = vertices_.input_points();
     piece_.total.points = vertices_.points();
     if (vertices_.points() <= most_narrow)
       number_cells<std::uint32_t>(own, region_attributes);
@@ -75,6 +77,7 @@ class RankNumbering {
     fetch_points();
     return std::move(piece_);
   }
+  const std::vector<std::uint32_t>& unused() const { return vertices_.unused(); }
 
  private:
   using Face = Numbered<D>;
@@ -152,6 +155,15 @@ class RankNumbering {
     piece_.first_subsegment = RowRange(piece_.total.subsegments, ranks_).first;
   }
 
+  /// The points of the Domain that the mesh has.
+  std::vector<std::uint32_t> kept_points() const {
+    std::vector<std::uint32_t> all(domain_.points().size()), kept;
+    std::iota(all.begin(), all.end(), 0u);
+    if (!drop_) return all;
+    std::set_difference(all.begin(), all.end(), unused().begin(), unused().end(), std::back_inserter(kept));
+    return kept;
+  }
+
   /// The rows of points of this rank, with their data.
   void take_own_points(const PointData<D>& data, const Pieces& pieces) {
     const RowRange rows(vertices_.points(), ranks_);
@@ -159,8 +171,9 @@ class RankNumbering {
     piece_.own_points = rows.count;
     std::vector<VertexRecord<D>> records;
     records.reserve(static_cast<std::size_t>(rows.count));
-    for (Number p = rows.first; p < std::min(rows.first + rows.count, piece_.total.input_points); ++p)
-      records.push_back({domain_.points()[p], Home(EntityKind::vertex, static_cast<EntityId>(p))});
+    const std::vector<std::uint32_t> kept = kept_points();
+    for (Number row = rows.first; row < std::min(rows.first + rows.count, piece_.total.input_points); ++row)
+      records.push_back({domain_.points()[kept[row]], Home(EntityKind::vertex, kept[row])});
     for (const Placed<D>& v : share_rows(ranks_, vertices_.take_stretch(), vertices_.first_of_stretch(), vertices_.points()))
       records.push_back({v.point, v.home});
     data.fill_rows(records, own_points_, pieces);
@@ -260,6 +273,7 @@ class RankNumbering {
   Mesh<D>& mesh_;
   const Domain<D>& domain_;
   const Bulk& bulk_;
+  const bool drop_;
   VertexNumbering<D> vertices_;
   std::vector<OwnConstraint<D>> own_faces_;
   std::vector<OwnConstraint<2>> own_edges_;
@@ -277,9 +291,12 @@ class RankNumbering {
 template <int D>
 MeshPiece<D> number_on_ranks(Collectives& ranks, Mesh<D>& mesh, const IsOwnCell& is_own, const Domain<D>& domain,
                              std::span<const double> region_attributes, const PointData<D>& data, const Pieces& pieces,
-                             std::uint64_t most_narrow) {
+                             std::vector<std::uint32_t>& unused, bool drop, std::uint64_t most_narrow) {
   const Bulk bulk(pieces);
-  return RankNumbering<D>(ranks, mesh, domain, bulk).run(is_own, region_attributes, data, pieces, most_narrow);
+  RankNumbering<D> numbering(ranks, mesh, domain, bulk, drop);
+  MeshPiece<D> piece = numbering.run(is_own, region_attributes, data, pieces, most_narrow);
+  unused = numbering.unused();
+  return piece;
 }
 
 template <int D>
@@ -319,9 +336,9 @@ SharingRanks sharing_of(Collectives& ranks, const MeshPiece<D>& piece) {
 }
 
 template MeshPiece<2> number_on_ranks<2>(Collectives&, Mesh<2>&, const IsOwnCell&, const Domain<2>&, std::span<const double>,
-                                         const PointData<2>&, const Pieces&, std::uint64_t);
+                                         const PointData<2>&, const Pieces&, std::vector<std::uint32_t>&, bool, std::uint64_t);
 template MeshPiece<3> number_on_ranks<3>(Collectives&, Mesh<3>&, const IsOwnCell&, const Domain<3>&, std::span<const double>,
-                                         const PointData<3>&, const Pieces&, std::uint64_t);
+                                         const PointData<3>&, const Pieces&, std::vector<std::uint32_t>&, bool, std::uint64_t);
 template SharingRanks sharing_of<2>(Collectives&, const MeshPiece<2>&);
 template SharingRanks sharing_of<3>(Collectives&, const MeshPiece<3>&);
 

@@ -23,6 +23,7 @@
 #include "ranks/values.hpp"
 #include "ranks/wall_cells.hpp"
 #include "run/run_hooks.hpp"
+#include "run/unused_points.hpp"
 #include "run/violation_scan.hpp"
 #include "transport/collectives.hpp"
 
@@ -216,7 +217,10 @@ void SharedRun<D>::finish(const RefineContext<D>& context, const RegionTable& re
   const std::span<const double> attributes = regions.labelled ? std::span<const double>(regions.attribute)
                                                               : std::span<const double>();
   result.regions = detail::region_volumes_on_ranks<D>(*ranks_, context.mesh, is_own, context.domain, attributes, pieces);
-  result_->piece = detail::number_on_ranks<D>(*ranks_, context.mesh, is_own, context.domain, attributes, data, pieces);
+  std::vector<std::uint32_t> unused;
+  result_->piece = detail::number_on_ranks<D>(*ranks_, context.mesh, is_own, context.domain, attributes, data, pieces, unused,
+                                              context.options.drop_unused_points);
+  detail::note_unused_points<D>(context.domain, std::move(unused), result);
   result_->distributed.cells_applied += part_.held->cells_applied();
   result_->distributed.seconds_finish = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   is_finished_ = true;

@@ -130,6 +130,7 @@ void put_result(MessageWriter& message, const RefineResult<D>& r) {
   message.put(r.optimization);
   put_flag(message, r.delaunay);
   put_flag(message, r.violations_seen);
+  message.put(r.unused_points);
   message.put(r.tolerance);
   message.put(r.largest_move);
   put_diagnostics(message, r.repairs);
@@ -165,6 +166,7 @@ RefineResult<D> get_result(MessageReader& message) {
   r.optimization = message.get<OptimizationStatistics>();
   r.delaunay = get_flag(message);
   r.violations_seen = get_flag(message);
+  r.unused_points = message.get_all<std::uint32_t>();
   r.tolerance = message.get<double>();
   r.largest_move = message.get<double>();
   r.repairs = get_diagnostics(message);

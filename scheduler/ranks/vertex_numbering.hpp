@@ -45,11 +45,13 @@ struct OnCurve {
 template <int D>
 class VertexNumbering {
  public:
-  VertexNumbering(Collectives& ranks, const Mesh<D>& mesh, const Domain<D>& domain, const Bulk& bulk)
-      : ranks_(ranks), mesh_(mesh), bulk_(bulk), curve_(domain.points()), input_(domain.points().size()) {}
+  /// @param drop  input points that no cell has get no numbers
+  VertexNumbering(Collectives& ranks, const Mesh<D>& mesh, const Domain<D>& domain, const Bulk& bulk, bool drop)
+      : ranks_(ranks), mesh_(mesh), bulk_(bulk), curve_(domain.points()), drop_(drop), input_(domain.points().size()) {}
 
   void run(const StrippedCells<D>& own) {
     list(own);
+    find_unused();
     const std::vector<std::size_t> begin = begin_of_ranks(choose_splitters());
     std::vector<std::vector<Placed<D>>> to_each(static_cast<std::size_t>(ranks_.size()));
     for (std::size_t q = 0; q < to_each.size(); ++q) {
@@ -66,7 +68,10 @@ class VertexNumbering {
     std::vector<Own>().swap(own_);
   }
 
-  Number points() const { return points_; }  ///< of the whole mesh
+  Number points() const { return points_; }       ///< of the whole mesh
+  Number input_points() const { return input_; }  ///< of these, of the input
+  /// Points of the Domain that no cell of any rank has, ascending.
+  const std::vector<std::uint32_t>& unused() const { return unused_; }
   /// By index(VertexId), of the vertices of the rank's own cells.
   const std::vector<Number>& numbers() const { return numbers_; }
   /// The Steiner vertices of this rank's stretch, in their order: once; and the number of the first.
@@ -101,6 +106,30 @@ class VertexNumbering {
       if (numbers_[v] == used && is_input(v)) numbers_[v] = record(v).home.id();
     });
     bulk_.sort(own_, [&](const Own& a, const Own& b) { return a.key != b.key ? a.key < b.key : lex_less(point(a), point(b)); });
+  }
+
+  /// Input points that no rank has in a cell; and the numbers of the others without them.
+  void find_unused() {
+    constexpr std::size_t width = 64;
+    std::vector<std::uint64_t> used((static_cast<std::size_t>(input_) + width - 1) / width, 0);
+    const auto is_input = [&](std::size_t v) {
+      return numbers_[v] != no_number && mesh_.vertex(VertexId{static_cast<std::uint32_t>(v)}).home.kind() == EntityKind::vertex;
+    };
+    for (std::size_t v = 0; v < numbers_.size(); ++v)
+      if (is_input(v)) used[numbers_[v] / width] |= std::uint64_t{1} << numbers_[v] % width;
+    MessageWriter message;
+    message.put(used);
+    for (const Bytes& bytes : ranks_.all_gather(message.take())) {
+      const std::vector<std::uint64_t> of_rank = MessageReader(bytes).get_all<std::uint64_t>();
+      for (std::size_t i = 0; i < used.size(); ++i) used[i] |= of_rank.at(i);
+    }
+    for (std::uint32_t p = 0; p < input_; ++p)
+      if ((used[p / width] >> p % width & 1) == 0) unused_.push_back(p);
+    if (!drop_) return;
+    input_ -= unused_.size();
+    for (std::size_t v = 0; v < numbers_.size(); ++v)
+      if (is_input(v))
+        numbers_[v] -= static_cast<Number>(std::lower_bound(unused_.begin(), unused_.end(), numbers_[v]) - unused_.begin());
   }
 
   /// Places that cut the curve into stretches of about as many vertices, counted once for each rank that has them.
@@ -176,7 +205,9 @@ class VertexNumbering {
   const Mesh<D>& mesh_;
   const Bulk& bulk_;
   const HilbertCurve<D> curve_;
-  const Number input_;
+  const bool drop_;
+  Number input_;
+  std::vector<std::uint32_t> unused_;
   static constexpr Number no_number = ~Number{0};
   std::vector<Own> own_;  // Steiner vertices, until they have numbers
   std::vector<Number> numbers_;

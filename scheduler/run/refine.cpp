@@ -21,6 +21,7 @@
 #include "graph/float_environment.hpp"
 #include "input/words.hpp"
 #include "pgdr/diagnosis.hpp"
+#include "pgdr/mesh_maps.hpp"
 #include "reasons/poor_reasons.hpp"
 #include "reasons/sharp_corners.hpp"
 #include "rule/cell_bounds.hpp"
@@ -29,6 +30,7 @@
 #include "run/folded_facets.hpp"
 #include "run/refinement.hpp"
 #include "run/run_pieces.hpp"
+#include "run/unused_points.hpp"
 #include "size/region_sizes.hpp"
 
 namespace pgdr {
@@ -322,6 +324,8 @@ void number_mesh(const RefineContext<D>& context, const RegionTable& regions, co
   });
   bulk.sort(result.reasons, [](const PoorReason& a, const PoorReason& b) { return a.cell < b.cell; });
   result.mesh = std::move(compacted.mesh);
+  detail::note_unused_points<D>(context.domain, unused_points(result.mesh), result);
+  if (options.drop_unused_points) drop_points<D>(result.mesh, result.unused_points);
   if (refined.tree) result.mesh.leaves = leaves_of(result.mesh, *refined.tree, bulk);
 }
 

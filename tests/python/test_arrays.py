@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Arrays in and out: types, shapes, views and their owners, and what is refused."""
 import gc
+import pickle
 import unittest
 
 import numpy as np
@@ -83,6 +84,23 @@ class ArraysOut(unittest.TestCase):
         np.testing.assert_array_equal(made.points[made.point_of_input], SQUARE_POINTS)
         self.assertEqual(made.point_markers[:4].tolist(), [5, 6, 7, 8])
         self.assertEqual(made.input_points, 4)
+
+    def test_points_in_no_cell(self):
+        points = [[9, 9], *SQUARE_POINTS, [0.5, 0.5], [-1, 5]]
+        plc = pgdr.Plc(points, segments=[[1, 2], [2, 3], [3, 4], [4, 1]])
+        for drop, rows in ((False, [0, 1, 2, 3, 4, 5, 6]), (True, [-1, 0, 1, 2, 3, 4, -1])):
+            made = pgdr.mesh(plc, size=0.02, drop_unused_points=drop)
+            self.assertEqual(made.point_of_input.tolist(), rows)
+            used = np.unique(made.cells)
+            self.assertEqual(len(used), len(made.points) - (0 if drop else 2))
+            self.assertEqual(made.input_points, 5 if drop else 7)
+            kept = np.flatnonzero(made.point_of_input >= 0)
+            np.testing.assert_array_equal(made.points[made.point_of_input[kept]], np.asarray(points)[kept])
+            self.assertEqual([w.ids for w in made.warnings], [[0, 6]])
+            self.assertEqual(made.statistics["unused_points"], 2)
+            self.assertEqual(made.check(plc).exit_code, 0)
+            again = pickle.loads(pickle.dumps(made))
+            self.assertEqual(again.point_of_input.tolist(), rows)
 
     def test_neighbors_and_edges(self):
         made = checked(self, cube(), size=0.3)

@@ -45,7 +45,7 @@ void set_constraints(std::vector<Given>& constraints, std::size_t points, const 
 
 template <int D>
 void set_labels(MeshData<D>& data, const Dense<double>& regions, std::size_t input_points, const Dense<int>& point_markers,
-                const Dense<double>& point_attributes, const Dense<std::uint32_t>& point_of_input) {
+                const Dense<double>& point_attributes, const Dense<std::int64_t>& point_of_input) {
   OutputMesh<D>& mesh = data.mesh;
   const auto fits = [](std::size_t size, std::size_t count) { return size == 0 || size == count; };
   if (!fits(span_of(regions).size(), mesh.cells.size())) bad_argument("there must be one label a cell");

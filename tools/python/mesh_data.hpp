@@ -16,7 +16,7 @@ template <int D>
 struct MeshData {
   OutputMesh<D> mesh;
   std::vector<PoorReason> reasons;
-  std::vector<std::uint32_t> point_of_input;  ///< vertex of each point of the input; empty: unknown
+  std::vector<std::int64_t> point_of_input;  ///< vertex of each point of the input, -1: none; empty: unknown
 };
 
 }  // namespace pgdr::python

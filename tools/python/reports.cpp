@@ -74,8 +74,8 @@ py::dict to_python(const RefineResult<D>& result) {
                "selector_outside"_a = s.selector_outside,
                "predicates"_a = py::dict("filter"_a = p.filter, "expansion"_a = p.expansion, "exact"_a = p.exact,
                                          "perturbed"_a = p.perturbed),
-               "regions"_a = regions, "delaunay"_a = result.delaunay, "tolerance"_a = result.tolerance,
-               "largest_move"_a = result.largest_move);
+               "unused_points"_a = result.unused_points.size(), "regions"_a = regions, "delaunay"_a = result.delaunay,
+               "tolerance"_a = result.tolerance, "largest_move"_a = result.largest_move);
   if (result.optimization.target > 0) all["optimization"] = to_python(result.optimization);
   return py::dict("stop"_a = tool::name(result.stop), "poor_left"_a = result.poor_left,
                   "poor_unavoidable"_a = result.poor_unavoidable, "size_met"_a = result.size_met,

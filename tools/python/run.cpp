@@ -7,6 +7,7 @@
 #include <tbb/info.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <chrono>
 #include <future>
 #include <memory>
@@ -105,6 +106,14 @@ void run_watched(const std::function<void(const std::stop_token&)>& work) {
 
 namespace {
 
+/// Renumbers the points of a mesh from which these were dropped, ascending: -1 for them.
+void drop(const std::vector<std::uint32_t>& unused, std::vector<std::int64_t>& points) {
+  for (std::int64_t& p : points) {
+    const auto next = std::lower_bound(unused.begin(), unused.end(), p);
+    p = next != unused.end() && *next == p ? -1 : p - (next - unused.begin());
+  }
+}
+
 /// The mesh, what is known of it, and what was raised meanwhile: an exception, or None.
 template <int D>
 py::tuple run(const std::shared_ptr<const Plc<D>>& plc, const RefineOptions<D>& given, const std::stop_token& stop,
@@ -124,6 +133,7 @@ py::tuple run(const std::shared_ptr<const Plc<D>>& plc, const RefineOptions<D>& 
     if (watch.raised().is_none()) throw;
     result.stop = StopCause::cancelled;
   }
+  if (options.drop_unused_points) drop(result.unused_points, data->point_of_input);
   data->mesh = std::move(result.mesh);
   data->reasons = std::move(result.reasons);
   return py::make_tuple(data, to_python(result), watch.raised());

@@ -131,9 +131,9 @@ class Mesh:
         return self.subsegment_markers if self.dimension == 2 else self.subfacet_markers
 
     @property
-    def point_of_input(self) -> npt.NDArray[np.int32]:
-        """The row in `points` of each point of the input; (0,) of a mesh that was not made here."""
-        return _arguments.signed(self._core.point_of_input)
+    def point_of_input(self) -> npt.NDArray[np.int64]:
+        """The row in `points` of each point of the input, -1 if it was dropped; (0,) of a mesh that was not made here."""
+        return self._core.point_of_input
 
     def neighbors(self) -> npt.NDArray[np.int64]:
         """(m, D + 1) the cell beyond the face opposite each vertex; -1: none. Linear time."""

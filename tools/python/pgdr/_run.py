@@ -66,8 +66,8 @@ def mesh(plc: Plc, *, min_angle: Optional[float] = None, radius_edge: Optional[f
          selector: Union[None, str, Callable[[Elements], npt.ArrayLike]] = None, keep_boundary: bool = False,
          tolerance: Optional[float] = None, max_volume: Optional[float] = None, min_edge: float = 0.0,
          time_limit: Optional[float] = None, max_vertices: Optional[int] = None, refine: bool = True,
-         schedule: Optional[str] = None, progress: Union[bool, Callable[[Progress], object]] = False,
-         stop: Union[None, StopSource, _Event] = None) -> Mesh:
+         schedule: Optional[str] = None, drop_unused_points: bool = False,
+         progress: Union[bool, Callable[[Progress], object]] = False, stop: Union[None, StopSource, _Event] = None) -> Mesh:
     """Meshes an input. Other Python threads run meanwhile, and may mesh, too. The mesh is the same for any number of threads.
 
     Parameters
@@ -116,6 +116,9 @@ def mesh(plc: Plc, *, min_angle: Optional[float] = None, radius_edge: Optional[f
         False: no new points but those that the boundary needs.
     schedule : "reproducible", "uniform" or "greedy", optional
         The order of the work (docs/usage.md). Only greedy meshes depend on timing.
+    drop_unused_points : bool
+        Points of the input that are in no cell, as they lie outside or in holes, are left out of the mesh: `point_of_input` has -1.
+        Else they are vertices without cells. `warnings` says how many there are, either way.
     progress : bool or function
         True: a line on standard error, which ends when the run ends. A function of `Progress`, called by this thread some thirty
         times a second at most, and once more in the end.
@@ -161,6 +164,7 @@ def mesh(plc: Plc, *, min_angle: Optional[float] = None, radius_edge: Optional[f
     options.set_threads(_arguments.whole_number("threads", threads, 0, 4096))
     options.refine = _arguments.flag("refine", refine)
     options.keep_boundary = _arguments.flag("keep_boundary", keep_boundary)
+    options.drop_unused_points = _arguments.flag("drop_unused_points", drop_unused_points)
     options.min_edge = _arguments.number("min_edge", min_edge)
     if time_limit is not None:
         options.set_time_limit(_arguments.number("time_limit", time_limit))
