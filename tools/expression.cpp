@@ -6,9 +6,11 @@
 
 #include <array>
 #include <atomic>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <vector>
 
 #include "pgdr/error.hpp"
@@ -17,6 +19,7 @@ namespace pgdr::tool {
 namespace {
 
 constexpr std::array<const char*, 3> variables{"x", "y", "z"};
+using ParserError = mu::Parser::exception_type;
 
 [[noreturn]] void refuse(const std::string& text, const std::string& flag, const std::string& why) {
   throw UsageError({.code = Errc::bad_option, .message = flag + " \"" + text + "\": " + why});
@@ -25,6 +28,27 @@ constexpr std::array<const char*, 3> variables{"x", "y", "z"};
 /// muParser's own has pow() for every exponent but those of a bare variable; a square is what sizes are made of.
 double power(double base, double exponent) { return exponent == 2 ? base * base : std::pow(base, exponent); }
 
+double hypotenuse(const double* legs, int count) {
+  if (count == 2) return std::hypot(legs[0], legs[1]);
+  if (count == 3) return std::hypot(legs[0], legs[1], legs[2]);
+  throw ParserError("hypot has two or three arguments");
+}
+
+double either(double condition, double if_true, double if_false) { return condition != 0 ? if_true : if_false; }
+
+/// An "=" that assigns: muParser would give the variable another value.
+bool assigns(const std::string& text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '=') continue;
+    if (i + 1 < text.size() && text[i + 1] == '=') {
+      ++i;
+      continue;
+    }
+    if (i == 0 || (text[i - 1] != '<' && text[i - 1] != '>' && text[i - 1] != '!')) return true;
+  }
+  return false;
+}
+
 /// A parser and the variables it reads.
 template <int D>
 class Evaluator {
@@ -32,6 +56,11 @@ class Evaluator {
   explicit Evaluator(const std::string& text) {
     for (int i = 0; i < D; ++i) parser_.DefineVar(variables[static_cast<std::size_t>(i)], &at_[i]);
     parser_.DefineOprt(power_sign, power, mu::prPOW, mu::oaRIGHT, true);
+    parser_.DefineFun("pow", power);
+    parser_.DefineFun("hypot", hypotenuse);
+    parser_.DefineFun("if", either);
+    parser_.ClearConst();  // _pi and _e
+    parser_.DefineConst("pi", std::numbers::pi);
     parser_.SetExpr(text);
   }
   double at(const Point<D>& p) {
@@ -41,9 +70,22 @@ class Evaluator {
   bool constant() const { return parser_.GetUsedVar().empty(); }
   int values() const { return parser_.GetNumResults(); }  ///< of the last evaluation: commas separate several
 
+  /// What is wrong: an unknown name with those that there are, or muParser's words.
+  std::string explain(const ParserError& e) const {
+    const std::string& word = e.GetToken();
+    const bool is_name = e.GetCode() == mu::ecUNASSIGNABLE_TOKEN && !word.empty() && (std::isalpha(word[0]) || word[0] == '_');
+    if (!is_name) return e.GetMsg() + " (variables: " + variable_names() + ")";
+    if (parser_.GetFunDef().count(word) > 0) return "the function \"" + word + "\" has its arguments in parentheses";
+    std::string functions;
+    for (const auto& [name, function] : parser_.GetFunDef()) functions += (functions.empty() ? "" : ", ") + name;
+    return "there is no \"" + word + "\". Variables: " + variable_names() + "; constant: pi; functions: " + functions;
+  }
+
   static constexpr const char* power_sign = "**";
 
  private:
+  static std::string variable_names() { return D == 2 ? "x, y" : "x, y, z"; }
+
   Point<D> at_{};
   mu::Parser parser_;
 };
@@ -52,14 +94,15 @@ template <int D>
 class Expression {
  public:
   Expression(std::string text, std::string flag) : text_(std::move(text)), flag_(std::move(flag)) {
+    if (assigns(text_)) refuse(text_, flag_, "a single \"=\" would be an assignment; equal is \"==\"");
     int values = 1;
+    Evaluator<D> evaluator(text_);
     try {
-      Evaluator<D> evaluator(text_);
       evaluator.at({});  // compiles: names and syntax are decided here
       constant_ = evaluator.constant();
       values = evaluator.values();
-    } catch (const mu::Parser::exception_type& e) {
-      refuse(text_, flag_, explain(e));
+    } catch (const ParserError& e) {
+      refuse(text_, flag_, evaluator.explain(e));
     }
     if (values != 1) refuse(text_, flag_, "these are " + std::to_string(values) + " values; a decimal point is no comma");
     for (std::size_t i = text_.find('^'); i != std::string::npos; i = text_.find('^', i + 1))
@@ -76,15 +119,12 @@ class Expression {
       auto& evaluator = evaluators[id_];
       if (!evaluator) evaluator = std::make_unique<Evaluator<D>>(text_);
       return evaluator->at(p);
-    } catch (const mu::Parser::exception_type& e) {
-      refuse(text_, flag_, explain(e));
+    } catch (const ParserError& e) {
+      refuse(text_, flag_, e.GetMsg());
     }
   }
 
  private:
-  static std::string explain(const mu::Parser::exception_type& e) {
-    return e.GetMsg() + (D == 2 ? " (variables: x, y)" : " (variables: x, y, z)");
-  }
   static std::size_t next_id() {
     static std::atomic<std::size_t> ids{0};
     return ids++;

@@ -3,11 +3,14 @@
 #include "options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <iostream>
 #include <limits>
 #include <map>
+#include <numeric>
+#include <utility>
 
 #include "command.hpp"
 #include "console.hpp"
@@ -60,6 +63,8 @@ const std::map<std::string, ClaimRule> claim_rules{{"boxes", ClaimRule::boxes}, 
 const std::map<std::string, RegionMode> region_modes{
     {"seeds", RegionMode::seeds}, {"auto", RegionMode::automatic}, {"all", RegionMode::all}};
 
+const std::map<std::string, DiskType> disk_types{{"type1", DiskType::type1}, {"type2", DiskType::type2}};
+
 const std::map<std::string, ViewColor> view_colors{
     {"quality", ViewColor::quality}, {"dihedral", ViewColor::dihedral}, {"region", ViewColor::region}, {"leaf", ViewColor::leaf}};
 
@@ -111,9 +116,10 @@ CLI::Option* add_bounds(CLI::App& app, BoundArguments& b, const std::string& wit
                                      "bound on circumradius over shortest edge (default " + without + ")")
                           ->type_name("R")
                           ->check(number("> 0", positive));
-  app.add_option("--size", b.size,
-                 "bound on the circumradius (3D) or the area (2D), at the centroid: a number, or an expression in x, "
-                 "y, z")
+  app.add_option(
+         "--size", b.size,
+         "bound on the circumradius (3D) or the area (2D), at the centroid: a number, or an expression in x, y, z, with pi, "
+         "if(c, a, b), pow, hypot, sqrt, exp, min, max, abs, sin and others (docs/usage.md)")
       ->type_name("S");
   app.add_option("--region-size", b.region_sizes,
                  "as --size, for the cells of the region with this label alone; repeatable, and all bounds are met")
@@ -208,11 +214,11 @@ void add_mesh(CLI::App& app, MeshArguments& a) {
       ->type_name("NAME")
       ->check(CLI::Validator([](std::string& text) { return selector_error(text); }, "", "selector"));
   app.add_option_function<std::string>(
-         "--disk", [&a](const std::string& t) { a.disk = t == "type1" ? DiskType::type1 : DiskType::type2; },
+         "--disk", [&a](const std::string& t) { a.disk = disk_types.at(t); },
          "selection disk: type1 or type2 (default: type2, or type1 for a selector other "
          "than circumcenter without --delta)")
       ->type_name("TYPE")
-      ->check(CLI::IsMember({"type1", "type2"}));
+      ->check(one_of(disk_types, "disks"));
   app.add_option("--delta", a.delta, "radius of a type 2 disk, 1 - D circumradii; 0 (default): as far as the bound allows")
       ->type_name("D")
       ->check(number("between 0 and 1", [](double v) { return v >= 0 && v <= 1; }));
@@ -326,6 +332,49 @@ int print_help(const CLI::App& app, const CLI::Success& asked) {
   }
 }
 
+/// How many letters differ: those to put in, to take out, and to change.
+std::size_t letters_between(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t before = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < b.size(); ++j)
+      before = std::exchange(row[j + 1], std::min({before + (a[i] != b[j]), row[j] + 1, row[j + 1] + 1}));
+  }
+  return row.back();
+}
+
+/// The flag of a subcommand that may have been meant; empty if none is near.
+std::string nearest_flag(const CLI::App& app, const std::string& word) {
+  std::size_t least = 3;
+  std::string nearest;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames())
+      if (const std::size_t letters = letters_between("--" + name, word); letters < least) {
+        least = letters;
+        nearest = "--" + name;
+      }
+  return nearest;
+}
+
+/// What is wrong, with the word that is, and those that would not be. CLI11 says all but which words it has not understood.
+std::string explain(const CLI::App& app, const CLI::ParseError& e, int argc, const char* const* argv) {
+  const std::vector<CLI::App*> parsed = app.get_subcommands();
+  if (parsed.empty()) {
+    std::string names;
+    for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; }))
+      names += (names.empty() ? "" : ", ") + sub->get_name();
+    return "the subcommands are " + names + (argc > 1 ? std::string(", not \"") + argv[1] + '"' : std::string());
+  }
+  if (e.get_name() != "ExtrasError") return e.what();
+  for (const std::string& word : parsed.front()->remaining()) {
+    if (!word.starts_with('-')) continue;
+    const std::string flag = word.substr(0, word.find('=')), nearest = nearest_flag(*parsed.front(), flag);
+    return parsed.front()->get_name() + " has no flag " + flag + (nearest.empty() ? "" : "; there is " + nearest);
+  }
+  return e.what();
+}
+
 }  // namespace
 
 std::optional<std::pair<double, std::string>> split_region_size(const std::string& text) {
@@ -372,7 +421,7 @@ std::variant<Arguments, int> parse(int argc, const char* const* argv, bool speak
   } catch (const CLI::Success& e) {  // --help, --version
     return speaks ? print_help(app, e) : exit_done;
   } catch (const CLI::ParseError& e) {
-    if (speaks) std::cerr << "pgdr: error: " << e.what() << "\nRun pgdr --help for the usage.\n";
+    if (speaks) std::cerr << "pgdr: error: " << explain(app, e, argc, argv) << "\nRun pgdr --help for the usage.\n";
     return exit_usage;
   }
   if (mesh_app->parsed()) return Arguments(std::move(mesh));

@@ -110,7 +110,7 @@ OutputMesh<D> read_mesh_from(std::string_view bytes, const Path& name, FileTexts
   if (const FileMeshReader read = file_mesh_reader(extension)) return to_output_mesh<D>(read(bytes, name, {Purpose::mesh, D}));
   if (extension == ".vtu") return read_vtu<D>(bytes, name);
   if (extension == ".pvtu") return read_pvtu<D>(bytes, name, beside);
-  unknown_format(name, "a mesh");
+  unknown_format(name, "a mesh (.vtu .pvtu .msh .mesh .node .ele)");
 }
 
 template Plc<2> read_plc_from<2>(std::string_view, const Path&, FileTexts&&);
@@ -175,7 +175,7 @@ int InputFile::dimension() {
     if (extension == ".poly" || extension == ".node") return detail::node_dimension(texts_->of(name_), name_, *texts_);
     if (extension == ".vtu") return detail::vtu_dimension(texts_->of(name_), name_);
     if (extension == ".pvtu") return detail::pvtu_dimension(texts_->of(name_), name_, *texts_);
-    unknown_format(name_, "a file that is read");
+    unknown_format(name_, "a file that is read (.poly .smesh .node .off .obj .ply .stl .mesh .msh; meshes also .vtu .pvtu .ele)");
   });
 }
 
