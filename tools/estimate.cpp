@@ -123,13 +123,16 @@ std::string about_cells(double cells) {
 }  // namespace
 
 template <int D>
-Outlook<D> look_ahead(const Domain<D>& domain, const Bounds<D>& bounds, bool refines, const std::stop_token& stop) {
+Outlook<D> look_ahead(const Domain<D>& domain, const Bounds<D>& bounds, bool refines, RegionMode regions,
+                      const std::stop_token& stop) {
+  const bool voids_by_nesting = regions == RegionMode::automatic;
   Outlook<D> outlook;
-  outlook.gap = narrowest_gap<D>(domain, stop);
+  outlook.gap = narrowest_gap<D>(domain, {.voids_by_nesting = voids_by_nesting, .stop = stop});
   outlook.angle = least_angle<D>(domain, stop);
   if (!refines) return outlook;
   EstimateOptions<D> options = estimate_options<D>(bounds);
   options.narrowest = outlook.gap;
+  options.voids_by_nesting = voids_by_nesting;
   options.stop = stop;
   outlook.estimate = estimate_cells<D>(domain, options);
   return outlook;
@@ -175,10 +178,10 @@ void require_memory(const Domain<D>& domain, const Outlook<D>& outlook) {
   throw ResourceError(std::move(d));
 }
 
-#define PGDR_INSTANTIATE(D)                                                                            \
-  template Outlook<D> look_ahead<D>(const Domain<D>&, const Bounds<D>&, bool, const std::stop_token&); \
-  template void set_outlook<D>(Report&, const Domain<D>&, const Outlook<D>&);                          \
-  template void print_outlook<D>(const Domain<D>&, const Outlook<D>&);                                 \
+#define PGDR_INSTANTIATE(D)                                                                                        \
+  template Outlook<D> look_ahead<D>(const Domain<D>&, const Bounds<D>&, bool, RegionMode, const std::stop_token&); \
+  template void set_outlook<D>(Report&, const Domain<D>&, const Outlook<D>&);                                      \
+  template void print_outlook<D>(const Domain<D>&, const Outlook<D>&);                                             \
   template void require_memory<D>(const Domain<D>&, const Outlook<D>&);
 PGDR_INSTANTIATE(2)
 PGDR_INSTANTIATE(3)

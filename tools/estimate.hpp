@@ -10,6 +10,7 @@
 #include "bounds.hpp"
 #include "options.hpp"
 #include "pgdr/estimate.hpp"
+#include "pgdr/region_mode.hpp"
 #include "report.hpp"
 
 namespace pgdr::tool {
@@ -23,7 +24,8 @@ struct Outlook {
 
 /// @throws CancelledError
 template <int D>
-Outlook<D> look_ahead(const Domain<D>& domain, const Bounds<D>& bounds, bool refines, const std::stop_token& stop);
+Outlook<D> look_ahead(const Domain<D>& domain, const Bounds<D>& bounds, bool refines, RegionMode regions,
+                      const std::stop_token& stop);
 
 /// In the report as `estimated_cells` and `narrowest_gap`.
 template <int D>

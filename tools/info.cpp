@@ -171,7 +171,7 @@ class InputInfo {
 
   /// What `mesh` would say, with its default bounds: before the recovery, which may take long.
   void say_what_is_ahead(const Domain<D>& domain) {
-    const Outlook<D> outlook = look_ahead<D>(domain, resolve<D>({}, smallest_proved_bound<D>()), true, {});
+    const Outlook<D> outlook = look_ahead<D>(domain, resolve<D>({}, smallest_proved_bound<D>()), true, RegionMode::seeds, {});
     set_outlook(report_, domain, outlook);
     if (!a_.quiet) print_outlook(domain, outlook);
     recovery_at_ = clock_.seconds();

@@ -366,13 +366,14 @@ class MeshRun {
   /// The estimate and the narrowest gap, before anything takes long. Refuses what there is no memory for, unless the user has
   /// bounded it.
   void say_what_is_ahead(const Domain<D>& domain) {
-    const Outlook<D> outlook = look_ahead<D>(domain, bounds_, !a_.no_refine, options_.stop);
+    const Outlook<D> outlook = look_ahead<D>(domain, bounds_, !a_.no_refine, a_.regions, options_.stop);
     set_outlook(report_, domain, outlook);
     if constexpr (D == 3)
       if (!domain.repairs().empty())
         report_.set("surface", JsonObject{{"given", to_json(surface_counts(plc_))}, {"meshed", to_json(surface_counts(domain))}});
     if (!a_.quiet) print_outlook(domain, outlook);
-    if (!a_.max_vertices && !a_.time_limit) require_memory(domain, outlook);
+    const bool is_bounded = a_.max_vertices || a_.time_limit || a_.keep_boundary || a_.min_edge > 0;
+    if (!is_bounded) require_memory(domain, outlook);
   }
 
   /// Writes the mesh, if there is one. Where elements stay poor the first rank looks for a tolerance that may help: meanwhile, if

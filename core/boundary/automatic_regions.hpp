@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// RegionMode::automatic and the order of numbers (region_mode.hpp), on the components of a mesh whose boundary is recovered.
-// Serial.
+// What RegionMode::automatic and the order of numbers (region_mode.hpp) ask of the components of a mesh whose boundary is
+// recovered. Serial.
 #pragma once
 
 #include <array>
@@ -15,11 +15,6 @@
 #include "space/bulk.hpp"
 
 namespace pgdr::detail {
-
-/// Whether each volume is solid, from the pairs of neighbours (of different volumes, in any order, any number of times).
-/// Volume 0 is the outside. Linear time.
-/// @pre all volumes can be reached from the outside
-std::vector<bool> solid_by_nesting(std::uint32_t volumes, std::vector<std::array<std::uint32_t, 2>> neighbours);
 
 /// Pairs of components with a constrained face between them, each once. `component` by slot of cells; ghosts have
 /// components, too.

@@ -16,6 +16,7 @@
 #include "space/box.hpp"
 #include "space/bulk.hpp"
 #include "space/disjoint_sets.hpp"
+#include "space/nesting.hpp"
 
 namespace pgdr {
 namespace {

@@ -19,7 +19,6 @@
 
 #include "diagnose/cells_of_sizes.hpp"
 #include "diagnose/chance.hpp"
-#include "diagnose/free_ways.hpp"
 #include "diagnose/size_field_of_gaps.hpp"
 #include "numbers/vectors.hpp"
 #include "pgdr/estimate.hpp"
@@ -30,7 +29,6 @@ namespace {
 
 using detail::Box;
 using detail::Chance;
-using detail::FreeWays;
 using detail::SizeFieldOfGaps;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -65,9 +63,8 @@ double density_of(double h) {
 template <int D>
 class PathsThroughTree {
  public:
-  PathsThroughTree(const SizeFieldOfGaps<D>& field, const FreeWays<D>& ways, const detail::Bulk& bulk,
-                   const std::stop_token& stop)
-      : field_(field), ways_(ways), bulk_(bulk), stop_check_(stop) {}
+  PathsThroughTree(const SizeFieldOfGaps<D>& field, const detail::Bulk& bulk, const std::stop_token& stop)
+      : field_(field), bulk_(bulk), stop_check_(stop) {}
 
   /// The middle one of some estimates: one that has found what others have missed may be far above the mean.
   double cells() {
@@ -126,9 +123,21 @@ class PathsThroughTree {
   }
 
   Below look_below(const Node& node) {
-    if (node.is_leaf) return {{}, {}, node.cells * ways_.part_inside(node.box)};
+    if (node.is_leaf) return {{}, {}, node.cells * part_meshed(node.box)};
     const auto [first, second] = halves(node);
     return {first, second, 0};
+  }
+
+  /// How much of the box is meshed, by the middles of its quarters (3D: eighths).
+  double part_meshed(const Box<D>& box) const {
+    constexpr int places = 1 << D;
+    int meshed = 0;
+    for (int k = 0; k < places; ++k) {
+      Point<D> x;
+      for (int i = 0; i < D; ++i) x[i] = box.low[i] + ((k >> i & 1) != 0 ? 0.75 : 0.25) * (box.high[i] - box.low[i]);
+      meshed += field_.space().is_meshed(x) ? 1 : 0;
+    }
+    return static_cast<double>(meshed) / places;
   }
 
   void share_out(const Paths& here, const Below& below, std::vector<Paths>& next) {
@@ -189,7 +198,6 @@ class PathsThroughTree {
   }
 
   const SizeFieldOfGaps<D>& field_;
-  const FreeWays<D>& ways_;
   const detail::Bulk& bulk_;
   const detail::StopCheck stop_check_;
   Chance chance_;
@@ -288,6 +296,7 @@ class CellsBetween {
     const double nn = detail::dot(n, n), mm = detail::dot(m, m), nm = detail::dot(n, m), above = std::fabs(detail::dot(way, m));
     if (!(mm > 0) || !(above >= (1 - 0x1p-20) * near.distance * std::sqrt(mm)) || nm == 0)
       return std::nullopt;  // its rim is nearest
+    if (!field_.space().is_between(x, near.place)) return std::nullopt;
     const double cosine = std::min(1.0, std::fabs(nm) / std::sqrt(nn * mm)), tangent = std::sqrt(1 - cosine * cosine) / cosine;
     const double radius = std::sqrt(2.0) * bound_ * near.distance, farther = near.distance + 2 * radius * tangent;
     const double most_radius = std::sqrt(2.0) * bound_ * farther;
@@ -320,15 +329,14 @@ template <int D>
 CellEstimate<D> estimate_cells(const Domain<D>& domain, const EstimateOptions<D>& options) {
   const detail::Bulk bulk(true, options.stop);
   const detail::StopCheck stop_check(options.stop);
-  const SizeFieldOfGaps<D> field(domain, options.narrowest, bulk);
+  const SizeFieldOfGaps<D> field(domain, options, bulk);
   stop_check();
   CellEstimate<D> estimate;
   CellsBetween<D>(field, options.radius_edge_bound, bulk).add_to(estimate);
   stop_check();
-  const FreeWays<D> ways(field);
-  estimate.cells = PathsThroughTree<D>(field, ways, bulk, options.stop).cells();
+  estimate.cells = PathsThroughTree<D>(field, bulk, options.stop).cells();
   const auto density = [&](const Point<D>& x) { return density_of<D>(field.look(x).h); };
-  estimate.cells += detail::cells_of_sizes<D>(field, ways, options, estimate.cells, density, bulk);
+  estimate.cells += detail::cells_of_sizes<D>(field, options, estimate.cells, density, bulk);
   estimate.cells = std::max({estimate.cells, estimate.at_least, 1.0});
   return estimate;
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "diagnose/free_ways.hpp"
+#include "diagnose/size_field_of_gaps.hpp"
 #include "pgdr/estimate.hpp"
 
 namespace pgdr::detail {
@@ -10,7 +10,7 @@ namespace pgdr::detail {
 /// How many cells sizes ask for beyond what gaps do, `of_gaps` in all, where `gap_density(x)` is that of a place. Some thousand
 /// places are looked at. @throws CancelledError, and what the sizes throw
 template <int D>
-double cells_of_sizes(const SizeFieldOfGaps<D>& field, const FreeWays<D>& ways, const EstimateOptions<D>& options, double of_gaps,
+double cells_of_sizes(const SizeFieldOfGaps<D>& field, const EstimateOptions<D>& options, double of_gaps,
                       const std::function<double(const Point<D>&)>& gap_density, const Bulk& bulk);
 
 }  // namespace pgdr::detail

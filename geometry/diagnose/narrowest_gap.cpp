@@ -4,13 +4,14 @@
 // The narrowest gap of a Domain. The least distance of two planar polygons that do not meet is that of a corner of one from the
 // other, or of an edge of one from an edge of the other. So it is looked for between points and segments, points and facets,
 // and segments, of pieces whose boxes come as near to each other as the nearest two entities within one piece are: not many more
-// than meet.
+// than meet. What is between is looked at where two are nearer than all before.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "diagnose/meshed_space.hpp"
 #include "diagnose/near_pieces.hpp"
 #include "input/entities.hpp"
 #include "pgdr/estimate.hpp"
@@ -40,8 +41,15 @@ struct NearPair {
 template <int D>
 class GapSearch {
  public:
-  GapSearch(const Domain<D>& domain, const std::stop_token& stop)
-      : bulk_(true, stop), stop_check_(stop), pieces_(domain, bulk_), p_(pieces_.points()), boxes_(pieces_.boxes(0, bulk_)) {}
+  GapSearch(const Domain<D>& domain, const GapOptions& options)
+      : bulk_(true, options.stop),
+        stop_check_(options.stop),
+        pieces_(domain, bulk_),
+        p_(pieces_.points()),
+        boxes_(pieces_.boxes(0, bulk_)),
+        in_(options.in) {
+    if (in_ != GapsIn::all_space) space_.emplace(pieces_, options.voids_by_nesting, bulk_, stop_check_);
+  }
 
   std::optional<Gap<D>> run() {
     NearPair least = least_inside();
@@ -64,16 +72,18 @@ class GapSearch {
     const std::size_t count = pieces_.pieces().size();
     std::vector<NearPair> found((count + block - 1) / block);
     bulk_.parts(found.size(), [&](std::size_t k) {
-      for (std::size_t i = k * block; i < std::min(count, (k + 1) * block); ++i) note_inside(pieces_.pieces()[i], found[k]);
+      for (std::size_t i = k * block; i < std::min(count, (k + 1) * block); ++i)
+        note_inside(static_cast<std::uint32_t>(i), found[k]);
     });
     return found.empty() ? NearPair{} : *std::min_element(found.begin(), found.end());
   }
   /// Of one piece: its corners, and each from the edge opposite to it.
-  void note_inside(const Piece& piece, NearPair& least) const {
-    const auto corners = piece.points();
+  void note_inside(std::uint32_t piece, NearPair& least) const {
+    const auto corners = pieces_.pieces()[piece].points();
+    const auto counts = [&] { return !space_ || space_->has(piece) == (in_ == GapsIn::meshed); };
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      for (std::size_t j = i + 1; j < corners.size(); ++j) note_points(corners[i], corners[j], least);
-      if (corners.size() == 3) note_edge(corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3], least);
+      for (std::size_t j = i + 1; j < corners.size(); ++j) note_points(corners[i], corners[j], least, counts);
+      if (corners.size() == 3) note_edge(corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3], least, counts);
     }
   }
 
@@ -113,24 +123,36 @@ class GapSearch {
     const Piece& piece = pieces_.pieces()[i];
     if (boxes_[i].squared_distance_to(p_[v]) > least.square) return;
     const auto [a, b, c] = piece.corners;
-    if (piece.count == 1) return note_points(v, a, least);
-    if (piece.count == 2) return note_edge(v, a, b, least);
-    const double square = pieces_.closest(p_[v], piece).square;
-    if (square > least.square) return;
-    if (!pieces_.owner_has(piece, v)) return note({square, NearPair::point_and_facet, {v, i, 0, 0}}, least);
+    if (piece.count == 1) return note_points(v, a, least, counts(v, a));
+    if (piece.count == 2) return note_edge(v, a, b, least, counts(v, a, b));
+    const auto closest = pieces_.closest(p_[v], piece);
+    if (closest.square > least.square) return;
+    if (!pieces_.owner_has(piece, v))
+      return note({closest.square, NearPair::point_and_facet, {v, i, 0, 0}}, least, counts(closest));
     for (int k = 0; k < 3; ++k) {
-      note_points(v, piece.corners[k], least);
-      note_edge(v, piece.corners[k], piece.corners[(k + 1) % 3], least);
+      const std::uint32_t p = piece.corners[k], q = piece.corners[(k + 1) % 3];
+      note_points(v, p, least, counts(v, p));
+      note_edge(v, p, q, least, counts(v, p, q));
     }
   }
 
-  void note_points(std::uint32_t v, std::uint32_t w, NearPair& least) const {
-    note({squared_distance(p_[v], p_[w]), NearPair::points, {std::min(v, w), std::max(v, w), 0, 0}}, least);
+  // Whether what is between is where gaps count is asked last.
+  template <class Counts>
+  void note_points(std::uint32_t v, std::uint32_t w, NearPair& least, const Counts& counts) const {
+    note({squared_distance(p_[v], p_[w]), NearPair::points, {std::min(v, w), std::max(v, w), 0, 0}}, least, counts);
   }
-  void note_edge(std::uint32_t v, std::uint32_t a, std::uint32_t b, NearPair& least) const {
+  template <class Counts>
+  void note_edge(std::uint32_t v, std::uint32_t a, std::uint32_t b, NearPair& least, const Counts& counts) const {
     const double square = detail::closest_to_edge(p_[v], p_[a], p_[b]).square;
     if (square <= least.square && pieces_.is_segment(a, b))
-      note({square, NearPair::point_and_edge, {v, std::min(a, b), std::max(a, b), 0}}, least);
+      note({square, NearPair::point_and_edge, {v, std::min(a, b), std::max(a, b), 0}}, least, counts);
+  }
+  auto counts(const ClosestPoints<D>& closest) const {
+    return [this, closest] { return !space_ || space_->is_between(closest.points[0], closest.points[1], in_ == GapsIn::meshed); };
+  }
+  auto counts(std::uint32_t v, std::uint32_t w) const { return counts(detail::closest_to_point(p_[v], p_[w])); }
+  auto counts(std::uint32_t v, std::uint32_t a, std::uint32_t b) const {
+    return counts(detail::closest_to_edge(p_[v], p_[a], p_[b]));
   }
 
   void note_edges(const Piece& a, const Piece& b, NearPair& least) const {
@@ -138,12 +160,12 @@ class GapSearch {
       if (b.has(p) || b.has(q)) return;  // then the end is no farther from the edge
       for_edges(b, [&](std::uint32_t r, std::uint32_t s) {
         if (a.has(r) || a.has(s) || !may_be_near(p_[p], p_[q], p_[r], p_[s], least.square)) return;
-        const double square = detail::closest_of_edges(p_[p], p_[q], p_[r], p_[s]).square;
-        if (square > least.square || !pieces_.is_segment(p, q) || !pieces_.is_segment(r, s)) return;
+        const auto closest = detail::closest_of_edges(p_[p], p_[q], p_[r], p_[s]);
+        if (closest.square > least.square || !pieces_.is_segment(p, q) || !pieces_.is_segment(r, s)) return;
         const auto first = std::minmax(p, q), second = std::minmax(r, s);
         std::array<std::uint32_t, 4> at{first.first, first.second, second.first, second.second};
         if (second < first) at = {second.first, second.second, first.first, first.second};
-        note({square, NearPair::edges, at}, least);
+        note({closest.square, NearPair::edges, at}, least, counts(closest));
       });
     });
   }
@@ -163,8 +185,9 @@ class GapSearch {
     if (piece.count == 3)
       for (int k = 0; k < 3; ++k) visit(piece.corners[k], piece.corners[(k + 1) % 3]);
   }
-  static void note(const NearPair& found, NearPair& least) {
-    if (found < least) least = found;
+  template <class Counts>
+  static void note(const NearPair& found, NearPair& least, const Counts& counts) {
+    if (found < least && counts()) least = found;
   }
 
   /// Of the entities that have the nearest points, those of the largest dimension that have no point in common: as no two
@@ -237,16 +260,18 @@ class GapSearch {
   const NearPieces<D> pieces_;
   const std::span<const Point<D>> p_;
   const std::vector<detail::Box<D>> boxes_;
+  const GapsIn in_;
+  std::optional<detail::MeshedSpace<D>> space_;  ///< none: all space counts
 };
 
 }  // namespace
 
 template <int D>
-std::optional<Gap<D>> narrowest_gap(const Domain<D>& domain, const std::stop_token& stop) {
-  return GapSearch<D>(domain, stop).run();
+std::optional<Gap<D>> narrowest_gap(const Domain<D>& domain, const GapOptions& options) {
+  return GapSearch<D>(domain, options).run();
 }
 
-template PGDR_API std::optional<Gap<2>> narrowest_gap<2>(const Domain<2>&, const std::stop_token&);
-template PGDR_API std::optional<Gap<3>> narrowest_gap<3>(const Domain<3>&, const std::stop_token&);
+template PGDR_API std::optional<Gap<2>> narrowest_gap<2>(const Domain<2>&, const GapOptions&);
+template PGDR_API std::optional<Gap<3>> narrowest_gap<3>(const Domain<3>&, const GapOptions&);
 
 }  // namespace pgdr

@@ -35,12 +35,13 @@ std::vector<Box<D>> boxes_of_segments(const NearPieces<D>& pieces) {
 }  // namespace
 
 template <int D>
-SizeFieldOfGaps<D>::SizeFieldOfGaps(const Domain<D>& domain, const std::optional<Gap<D>>& narrowest, const Bulk& bulk)
+SizeFieldOfGaps<D>::SizeFieldOfGaps(const Domain<D>& domain, const EstimateOptions<D>& options, const Bulk& bulk)
     : pieces_(domain, bulk),
+      space_(pieces_, options.voids_by_nesting, bulk, StopCheck(options.stop)),
       tree_(pieces_.boxes(0, bulk), bulk),
       points_tree_(boxes_of<D>(pieces_.points()), bulk),
       segments_tree_(boxes_of_segments(pieces_), bulk),
-      sizes_(sizes_at_points(narrowest, bulk)),
+      sizes_(sizes_at_points(options.narrowest, bulk)),
       least_size_below_(points_tree_.least_below(sizes_, bulk)) {
   least_facet_below_ = tree_.least_below(facets_of_pieces(1, bulk), bulk);
   greatest_facet_below_ = tree_.least_below(facets_of_pieces(-1, bulk), bulk);
@@ -69,9 +70,9 @@ std::vector<double> SizeFieldOfGaps<D>::sizes_at_points(const std::optional<Gap<
   bulk.each(pieces_.pieces().size(), [&](std::size_t number) {
     const auto& piece = pieces_.pieces()[number];
     const auto corners = piece.points();
+    if (corners.size() == 1 || !space_.has(static_cast<std::uint32_t>(number))) return;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const std::uint32_t a = corners[i], b = corners[(i + 1) % corners.size()], c = corners[(i + 2) % corners.size()];
-      if (corners.size() == 1) continue;
       note(a, squared_distance(p[a], p[b]));
       note(b, squared_distance(p[a], p[b]));
       if (corners.size() < 3) continue;
@@ -129,7 +130,8 @@ auto SizeFieldOfGaps<D>::nearest_disjoint(const Point<D>& x, const typename Near
         if (!(closest.square <= limit * limit)) return limit;
         const double distance = std::sqrt(closest.square);
         const bool is_nearer = distance < limit || (distance == near.distance && i < near.piece);
-        if (is_nearer && pieces_.are_disjoint(own, piece)) near = {i, distance, closest.points[1]};
+        if (is_nearer && space_.may_face(i, x) && pieces_.are_disjoint(own, piece) && space_.is_between(x, closest.points[1]))
+          near = {i, distance, closest.points[1]};
         return std::min(most, near.distance);
       });
   return near;

@@ -3,10 +3,10 @@
 //
 // How large cells may be about a point, by how near the entities of an input are to each other: the local feature size, but for
 // what grows with the distance from it. Where two entities without a common point are d apart, cells are as large as d, and from
-// there on they grow by as much as they are away: h(x) is the least of gap(y) + |x - y|, for y on entities. Three kinds of y are
-// looked at: all points of the Domain, with their distances from others and from segments within the pieces that they are of; and
-// the places nearest to x on a segment and on anything, with their distances from what these entities do not touch. Immutable
-// once made, any thread.
+// there on they grow by as much as they are away, if what is between is meshed: h(x) is the least of gap(y) + |x - y|, for y on
+// entities. Three kinds of y are looked at: all points of the Domain, with their distances from others and from segments within
+// the pieces that they are of; and the places nearest to x on a segment and on anything, with their distances from what these
+// entities do not touch. Immutable once made, any thread.
 #pragma once
 
 #include <limits>
@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "diagnose/meshed_space.hpp"
 #include "diagnose/near_pieces.hpp"
 #include "pgdr/estimate.hpp"
 #include "space/box_tree.hpp"
@@ -30,9 +31,10 @@ class SizeFieldOfGaps {
     Point<D> place;
   };
 
-  SizeFieldOfGaps(const Domain<D>& domain, const std::optional<Gap<D>>& narrowest, const Bulk& bulk);
+  SizeFieldOfGaps(const Domain<D>& domain, const EstimateOptions<D>& options, const Bulk& bulk);
 
   const NearPieces<D>& pieces() const { return pieces_; }
+  const MeshedSpace<D>& space() const { return space_; }
   const BoxTree<D>& tree() const { return tree_; }  ///< of the pieces
   /// A place on an entity: how far it is from x, and from what the entity does not touch.
   struct Narrow {
@@ -48,7 +50,8 @@ class SizeFieldOfGaps {
   Look look(const Point<D>& x) const;
   /// The piece nearest to x, if it is nearer than `most`.
   Near nearest(const Point<D>& x, double most) const;
-  /// The same of pieces whose entities have no point in common with that of a piece.
+  /// The same of pieces whose entities have no point in common with that of a piece, on which x is, where what is between is
+  /// meshed.
   Near nearest_disjoint(const Point<D>& x, std::uint32_t from, double most) const {
     return nearest_disjoint(x, pieces_.pieces()[from], most);
   }
@@ -61,6 +64,7 @@ class SizeFieldOfGaps {
   std::vector<double> facets_of_pieces(double sign, const Bulk& bulk) const;
 
   NearPieces<D> pieces_;
+  MeshedSpace<D> space_;
   BoxTree<D> tree_, points_tree_, segments_tree_;
   std::vector<double> sizes_, least_size_below_;
   std::vector<double> least_facet_below_, greatest_facet_below_;  ///< the latter with its sign changed

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <stop_token>
@@ -34,11 +35,26 @@ struct SharpAngle {
   Point<D> point;                     ///< that they share
 };
 
+/// Which gaps count: by what is between the two entities. Meshed is what walls (facets, 2D: segments) enclose, but for holes, and
+/// each wall that has any of it on a side.
+enum class GapsIn : std::uint8_t {
+  meshed,      ///< what takes cells
+  not_meshed,  ///< the outside, and voids
+  all_space,   ///< any two entities
+};
+
+/// What is asked of narrowest_gap.
+struct GapOptions {
+  GapsIn in = GapsIn::meshed;     ///< those that count
+  bool voids_by_nesting = false;  ///< as RegionMode::automatic: what is void by nesting alone is not meshed
+  std::stop_token stop = {};      ///< ends it by a CancelledError
+};
+
 /// The nearest two entities without a common point; none if there are no two. Of more than some hundred million pairs of pieces
 /// with boxes that meet not all are looked at: then it is one of the nearest.
 /// @throws CancelledError
 template <int D>
-std::optional<Gap<D>> narrowest_gap(const Domain<D>& domain, const std::stop_token& stop = {});
+std::optional<Gap<D>> narrowest_gap(const Domain<D>& domain, const GapOptions& options = {});
 
 /// The least angle between two segments at a point or two facets at a segment; none where nothing meets. At a point of more than
 /// 2000 segments only the first are compared.
@@ -50,6 +66,7 @@ std::optional<SharpAngle<D>> least_angle(const Domain<D>& domain, const std::sto
 template <int D>
 struct EstimateOptions {
   std::optional<Gap<D>> narrowest;  ///< what narrowest_gap() has found: nothing smaller is looked for
+  bool voids_by_nesting = false;    ///< as GapOptions
   double radius_edge_bound = 2;     ///< as RefineOptions
   /// The average volume (area) of the cells about x, in a region of this label, that sizes ask for; infinity: none do. Empty:
   /// none do anywhere. Those of the regions' seeds (RegionSeed::size) are looked at without it. Several threads call it.
@@ -62,7 +79,8 @@ template <int D>
 struct CellEstimate {
   /// About so many, mostly within a factor of three. Infinity is none.
   double cells = 0;
-  /// No mesh that meets the bounds has fewer, as entities without a common point are so near to each other. Sizes do not count.
+  /// No mesh that meets the bounds has fewer, as entities without a common point, and what is meshed between, are so near to each
+  /// other. Sizes do not count, nor does what else bounds a run (RefineOptions::min_edge, max_vertices, keep_boundary).
   double at_least = 0;
   std::optional<Gap<D>> most_due_to;  ///< the two entities that `at_least` owes most to
 };

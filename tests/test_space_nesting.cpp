@@ -8,9 +8,9 @@
 #include <numeric>
 #include <random>
 
-#include "boundary/automatic_regions.hpp"
+#include "space/nesting.hpp"
 
-namespace pgdr::test_boundary_nesting {
+namespace pgdr::test_space_nesting {
 
 using Pair = std::array<std::uint32_t, 2>;
 
@@ -118,4 +118,4 @@ TEST(Nesting, AMillionShells) {
   for (std::uint32_t v = 0; v < n; ++v) ASSERT_EQ(solid[v], v % 2 == 1);
 }
 
-}  // namespace pgdr::test_boundary_nesting
+}  // namespace pgdr::test_space_nesting
