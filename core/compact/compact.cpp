@@ -176,6 +176,26 @@ void number_cells(const detail::StrippedCells<D>& stripped, const detail::Bulk& 
   order.sort(cells, out.first_cell, hurry);
 }
 
+/// Steiner points in the order of their slots, behind those of the input. `number`, by slot: those in use have another than none.
+template <int D>
+void number_vertices_by_slots(const Mesh<D>& mesh, const Domain<D>& domain, const detail::Bulk& bulk,
+                              std::vector<std::uint32_t>& number, OutputMesh<D>& out) {
+  const auto is_steiner = [&](std::size_t i) {
+    return number[i] != none && mesh.vertex(VertexId{static_cast<std::uint32_t>(i)}).home.kind() != EntityKind::vertex;
+  };
+  const auto steiner = bulk.collect<std::uint32_t>(number.size(), is_steiner,
+                                                   [](std::size_t i) { return static_cast<std::uint32_t>(i); });
+  copy_input_points(domain, steiner.size(), out);
+  out.points.resize(out.input_points + steiner.size());
+  bulk.each(number.size(), [&](std::size_t i) {
+    if (number[i] != none) number[i] = mesh.vertex(VertexId{static_cast<std::uint32_t>(i)}).home.id();
+  });
+  bulk.each(steiner.size(), [&](std::size_t i) {
+    number[steiner[i]] = static_cast<std::uint32_t>(out.input_points + i);
+    out.points[out.input_points + i] = mesh.point(VertexId{steiner[i]});
+  });
+}
+
 /// Vertices and cells in the order of their slots, in two passes over the cells.
 template <int D>
 void number_by_slots(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes,
@@ -201,16 +221,7 @@ void number_by_slots(const Mesh<D>& mesh, const Domain<D>& domain, std::span<con
   });
   for (std::size_t i = 0; i < parts; ++i) begin[i + 1] += begin[i];
 
-  copy_input_points(domain, number.size(), out.mesh);
-  for (std::uint32_t i = 0; i < number.size(); ++i) {
-    if (number[i] == none) continue;
-    const auto& record = mesh.vertex(VertexId{i});
-    number[i] = record.home.id();
-    if (record.home.kind() == EntityKind::vertex) continue;
-    number[i] = static_cast<std::uint32_t>(out.mesh.points.size());
-    out.mesh.points.push_back(record.point);
-  }
-
+  number_vertices_by_slots(mesh, domain, bulk, number, out.mesh);
   out.mesh.cells.resize(begin.back());
   if (!region_attributes.empty()) out.mesh.regions.resize(begin.back());
   bulk.parts(parts, [&](std::size_t part) {

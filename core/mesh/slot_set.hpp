@@ -23,11 +23,12 @@ class SlotSet {
   bool operator[](std::size_t slot) const { return words_[slot / slots_a_word] >> slot % slots_a_word & 1; }
   /// Adds it.
   void add(std::size_t slot) { words_[slot / slots_a_word] |= std::uint64_t{1} << slot % slots_a_word; }
-  /// Adds it while others may add slots of the same word, in this way.
-  void add_shared(std::size_t slot) {
+  /// Adds it while others may add slots of the same word, in this way. False if it was in the set already.
+  bool add_shared(std::size_t slot) {
     const std::uint64_t bit = std::uint64_t{1} << slot % slots_a_word;
     const std::atomic_ref word(words_[slot / slots_a_word]);
-    if ((word.load(std::memory_order_relaxed) & bit) == 0) word.fetch_or(bit, std::memory_order_relaxed);  // read after the loop
+    if ((word.load(std::memory_order_relaxed) & bit) != 0) return false;
+    return (word.fetch_or(bit, std::memory_order_relaxed) & bit) == 0;  // the set is read after the loop
   }
 
  private:

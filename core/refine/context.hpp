@@ -47,8 +47,6 @@ struct RefineContext {
   const RefineOptions<D>& options;                    ///< as the caller gave them
   const CellBounds<D> bounds;                         ///< of cells
   const std::chrono::steady_clock::time_point start;  ///< of the time limit
-  /// By so much the time limit is put off, for what a run that it has ended leaves undone. Set while no visit runs.
-  std::chrono::duration<double> put_off{0};
   /// 3D: the last resort has begun, when what is poor would stay so (rule/insertion_rule.hpp). Set while no visit runs.
   bool last_resort = false;
   /// The stage that treats poor elements; null: points are inserted for them (element_splitter.hpp). Set while no visit runs.

@@ -213,7 +213,11 @@ void Refiner<D>::run(RegionVisit<D>& visit) {
     // The largest go first where the region is to be split, or where the visit is to end by size.
     const bool by_size = (crowded && visit.small_radius > 0) || last_bucket < std::numeric_limits<int>::max();
     const Entry<D> e = by_size ? list.pop_largest(workspace_.mesh) : list.pop_poor(workspace_.mesh);
-    if (!workspace_.alive(e)) continue;  // most
+    if (!workspace_.alive(e)) {  // most
+      constexpr std::uint64_t between_looks = 256;
+      if (++treated_ % between_looks == 0) go_on = may_go_on();
+      continue;
+    }
     treat(e);
     go_on = treat_entities();
   }

@@ -120,19 +120,26 @@ class Fifo {
     for (Block* b = first_; b && n > 0; b = b->next, i = 0)
       for (const std::uint32_t end = b == last_ ? tail_ : b->capacity; i < end && n > 0; ++i, --n) f(b->items()[i]);
   }
-  /// Calls f for each in order, and empties the list; `soon(item)` some turns before.
-  template <class F, class Soon>
-  void drain(F f, Soon soon) {
+  /// Calls f for each in order, and takes it out; `soon(item)` some turns before. False if `stop()`, which is asked now and then,
+  /// has ended it early.
+  template <class F, class Soon, class Stop>
+  bool drain(F f, Soon soon, const Stop& stop) {
     while (!empty()) {
-      if (const T* item = ahead(drained_ahead)) soon(*item);
-      f(pop());
+      if (stop()) return false;
+      for (std::size_t n = 0; n < between_looks && !empty(); ++n) {
+        if (const T* item = ahead(drained_ahead)) soon(*item);
+        f(pop());
+      }
     }
+    return true;
   }
   /// Calls f for each in order, and empties the list.
   template <class F>
   void drain(F f) {
-    drain(f, [](const T&) {});
+    drain(f, [](const T&) {}, [] { return false; });
   }
+
+  static constexpr std::size_t between_looks = 1024;  ///< so many items, some of whose cells are far apart in memory
 
  private:
   static constexpr std::size_t drained_ahead = 12;
@@ -204,11 +211,20 @@ class EntryHeap {
   void for_first(std::size_t n, F f) const {
     for (std::size_t i = 0; i < std::min(n, items_.size()); ++i) f(items_[i]);
   }
-  /// Calls f for each, and empties the heap.
-  template <class F>
-  void drain(F f) {
-    for (const Entry<D>& e : items_) f(e);
-    std::vector<Entry<D>>().swap(items_);
+  /// Calls f for each, and takes it out. False if `stop()`, which is asked now and then, has ended it early.
+  template <class F, class Stop>
+  bool drain(F f, const Stop& stop) {
+    std::size_t n = 0;
+    while (n < items_.size() && !stop())
+      for (const std::size_t end = std::min(items_.size(), n + Fifo<Entry<D>>::between_looks); n < end; ++n) f(items_[n]);
+    const bool is_done = n == items_.size();
+    if (is_done) {
+      std::vector<Entry<D>>().swap(items_);
+    } else {
+      items_.erase(items_.begin(), items_.begin() + static_cast<std::ptrdiff_t>(n));
+      std::make_heap(items_.begin(), items_.end(), later);
+    }
+    return is_done;
   }
 
  private:
@@ -334,24 +350,21 @@ class WorkList {
       }
     }
   }
-  /// Calls f for every entry that waits, in an order that depends on what was pushed and popped alone; empties the list.
-  /// `soon(entry)` some turns before, of most.
-  template <class F, class Soon>
-  void drain(F f, Soon soon) {
-    edges.drain(f);
-    faces.drain(f);
-    flips.drain(f);
-    for (Bucket& bucket : poor_) {
-      bucket.others.drain(f, soon);
-      bucket.by_shape.drain(f);
-    }
+  /// Calls f for every entry that waits, in an order that depends on what was pushed and popped alone, and takes it out.
+  /// `soon(entry)` some turns before, of most. False if `stop()`, which is asked now and then, has ended it early: the rest waits.
+  template <class F, class Soon, class Stop>
+  bool drain(F f, Soon soon, const Stop& stop) {
+    for (Fifo<Entry<D>>* entities : {&edges, &faces, &flips})
+      if (!entities->drain(f, soon, stop)) return false;
+    for (Bucket& bucket : poor_)
+      if (!drain(bucket, f, soon, stop)) return false;
     std::vector<Bucket>().swap(poor_);
-    waiting_ = others_ = to_come_ = 0;
+    return true;
   }
   /// Calls f for every entry, and empties the list.
   template <class F>
   void drain(F f) {
-    drain(f, [](const Entry<D>&) {});
+    drain(f, [](const Entry<D>&) {}, [] { return false; });
   }
   /// Calls f for every entry that waits, to be changed, but for what decides its place.
   template <class F>
@@ -379,18 +392,34 @@ class WorkList {
     while (first_ + static_cast<int>(poor_.size()) <= number) poor_.emplace_back();
     for (; first_ > number; --first_) poor_.emplace(poor_.begin());
   }
+  template <class F, class Soon, class Stop>
+  bool drain(Bucket& bucket, F f, Soon soon, const Stop& stop) {
+    const auto take_other = [&](const Entry<D>& e) {
+      count_out(bucket, e);
+      f(e);
+    };
+    const auto take = [&](const Entry<D>& e) {
+      --waiting_;
+      f(e);
+    };
+    return bucket.others.drain(take_other, soon, stop) && bucket.by_shape.drain(take, stop);
+  }
   Entry<D> pop(EntryHeap<D>& heap) {
     --waiting_;
     return heap.pop();
   }
-  Entry<D> pop_other(Bucket& bucket, const Mesh<D>& mesh) {
+  /// It goes: one that is too big.
+  void count_out(Bucket& bucket, const Entry<D>& e) {
     --waiting_;
     --others_;
+    to_come_ -= e.order;
+    bucket.to_come -= e.order;
+  }
+  Entry<D> pop_other(Bucket& bucket, const Mesh<D>& mesh) {
     if (const Entry<D>* e = bucket.others.ahead(cells_fetched_ahead)) mesh.prefetch(e->cell);
     if (const Entry<D>* e = bucket.others.ahead(fetched_ahead)) mesh.prefetch_vertices(e->cell);
     const Entry<D> e = bucket.others.pop();
-    to_come_ -= e.order;
-    bucket.to_come -= e.order;
+    count_out(bucket, e);
     return e;
   }
 

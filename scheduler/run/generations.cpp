@@ -18,10 +18,9 @@ template <int D>
 StopCause Generations<D>::drain() {
   split_leaves(waiting_->tree().leaves());
   while (true) {
-    if (context_->options.stop.stop_requested()) return StopCause::cancelled;
+    if (context_->ended()) return state_->stop();
     if (!context_->stage && state_->totals.vertices >= context_->options.max_vertices) return StopCause::max_vertices;
-    if (state_->is_spent() || !one_generation()) return StopCause::finished;
-    if (state_->stop() != StopCause::finished) return state_->stop();
+    if (state_->is_spent() || !one_generation()) return state_->stop();
   }
 }
 
@@ -54,10 +53,10 @@ void Generations<D>::renew_buffers(std::span<const VisitRequest> requests) {
   });
 }
 
-/// Splits those that are crowded, and their children as long as these are.
+/// Splits those that are crowded, and their children as long as these are, unless the run has to end meanwhile.
 template <int D>
 void Generations<D>::split_leaves(std::vector<Node> candidates) {
-  while (!candidates.empty()) {
+  while (!candidates.empty() && !context_->ended()) {
     std::vector<Node> parents;
     for (const Node leaf : candidates)
       if (waiting_->split_if_crowded(leaf)) parents.push_back(leaf);

@@ -109,7 +109,7 @@ template <int D>
 auto Greedy<D>::begin(const VisitRequest& request, std::uint64_t vertices_left) -> std::unique_ptr<Running> {
   auto visit = std::make_unique<Running>(waiting_->placement(), conflicts_.visit_of(request));
   state_->prepare(request, visit->work);
-  if (request.order == 1) (*waiting_)[request.node].open_inbox();
+  if (request.order == 1) (*waiting_)[request.node].open_inbox([this] { return context_->ended(); });
   visit->work.most_insertions = std::min(vertices_left,
                                          std::max<std::uint64_t>(vertices_left / static_cast<std::uint64_t>(threads_), 1));
   reserved_ += visit->work.most_insertions;
@@ -146,7 +146,7 @@ void Greedy<D>::split(Node leaf) {
   while (!candidates.empty()) {
     const Node parent = candidates.back();
     candidates.pop_back();
-    if (!waiting_->split_if_crowded(parent)) {
+    if (context_->ended() || !waiting_->split_if_crowded(parent)) {
       pool(parent);
       continue;
     }

@@ -9,7 +9,7 @@
 namespace pgdr::detail {
 
 template <int D>
-void LeafWorks<D>::hand_down(const RefineContext<D>& context, Node parent, double most_radius, std::uint64_t generation) {
+void LeafWorks<D>::hand_down(RefineContext<D>& context, Node parent, double most_radius, std::uint64_t generation) {
   const Mesh<D>& mesh = context.mesh;
   LeafWork<D>& from = *works_[parent];
   std::vector<Entry<D>> kept;
@@ -21,11 +21,13 @@ void LeafWorks<D>::hand_down(const RefineContext<D>& context, Node parent, doubl
     to.list.push(e);
     to.since = generation;
   };
-  auto set_aside = std::exchange(from.set_aside, {});
-  from.open_inbox();
-  from.list.drain(pass_on, [&mesh](const Entry<D>& e) { mesh.prefetch(e.cell); });
-  for (SetAside<D>& s : set_aside)
-    for (const Entry<D>& e : s.entries) s.order == whole_tree ? from.add_set_aside(s.order, s.since, e) : pass_on(e);
+  const auto ended = [&context] { return context.ended(); };
+  from.open_inbox(ended);
+  if (from.list.drain(pass_on, [&mesh](const Entry<D>& e) { mesh.prefetch(e.cell); }, ended)) {
+    auto set_aside = std::exchange(from.set_aside, {});
+    for (SetAside<D>& s : set_aside)
+      for (const Entry<D>& e : s.entries) s.order == whole_tree ? from.add_set_aside(s.order, s.since, e) : pass_on(e);
+  }
   for (const Entry<D>& e : kept) from.list.push(e);
 }
 

@@ -33,6 +33,14 @@ struct LeafWork {
   std::uint64_t since = 0;                   ///< generation in which the list last became non-empty
 
   bool has_list() const { return !list.empty() || !inbox.empty(); }
+  /// Calls f for all that waits, was set aside or refused, to be changed, but for what decides its place.
+  template <class F>
+  void for_each(F f) {
+    list.for_each(f);
+    for (auto& batch : inbox) std::for_each(batch.begin(), batch.end(), f);
+    for (SetAside<D>& s : set_aside) std::for_each(s.entries.begin(), s.entries.end(), f);
+    for (Refusal<D>& r : list.refused) f(r.entry);
+  }
   /// Adds to what was set aside for this order.
   void add_set_aside(std::uint32_t order, std::uint64_t generation, const Entry<D>& e) {
     const auto of_order = [order](const SetAside<D>& s) { return s.order == order; };
@@ -47,11 +55,16 @@ struct LeafWork {
       if (s.order == order) return std::exchange(s.entries, {});
     return {};
   }
-  /// Moves the inbox into the list.
-  void open_inbox() {
-    for (const auto& batch : inbox)
-      for (const Entry<D>& e : batch) list.push(e);
-    std::vector<std::vector<Entry<D>>>().swap(inbox);
+  /// Moves the inbox into the list. Where `stop()`, which is asked before each batch, says so, the rest stays.
+  template <class Stop>
+  void open_inbox(const Stop& stop) {
+    auto batch = inbox.begin();
+    for (; batch != inbox.end() && !stop(); ++batch)
+      for (const Entry<D>& e : *batch) list.push(e);
+    if (batch == inbox.end())
+      std::vector<std::vector<Entry<D>>>().swap(inbox);
+    else
+      inbox.erase(inbox.begin(), batch);
   }
 };
 
@@ -71,8 +84,9 @@ class LeafWorks {
   }
   /// Hands what waits at a node that was split to its children, by the places of the cells (RefineContext::place_of), but for
   /// elements with a circumradius above `most_radius`, which belong to the node itself. What was set aside for a visit of a leaf
-  /// starts again as ordinary. Threads: different parents at once.
-  void hand_down(const RefineContext<D>& context, Node parent, double most_radius, std::uint64_t generation);
+  /// starts again as ordinary. Where the run has to end meanwhile the rest stays with the parent. Threads: different parents at
+  /// once.
+  void hand_down(RefineContext<D>& context, Node parent, double most_radius, std::uint64_t generation);
 
  private:
   const Orthtree<D>* tree_;

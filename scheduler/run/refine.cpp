@@ -227,7 +227,7 @@ RegionTable make_initial(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Do
 template <int D>
 struct Refined {
   std::vector<PoorCell> explained;         ///< with their reasons, if the refinement has finished
-  std::optional<PoorCount> counted;        ///< how many there are, where the lists tell
+  std::optional<PoorCount> counted;        ///< how many there are, if the run was interrupted, where the lists tell
   bool sizes_are_met = false;              ///< none is over a bound of size: known once the optimiser has begun
   std::optional<Orthtree<D>> tree;         ///< as it is in the end, if the leaves of cells are asked for
   std::optional<double> optimizing_since;  ///< seconds after the run began
@@ -256,7 +256,7 @@ Refined<D> refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools,
   Refined<D> refined;
   refined.optimizing_since = refinement.optimizing_since();
   refined.explained = refinement.take_explained();
-  refined.counted = state.waiting.take_poor();
+  if (was_interrupted(result.stop)) refined.counted = state.waiting.count_poor(pieces);
   refined.sizes_are_met = refinement.sizes_are_met();
   if (context.options.leaves) refined.tree = state.waiting.take_tree();
   return refined;
@@ -269,8 +269,7 @@ void count_poor_left(const RefineContext<D>& context, const Refined<D>& refined,
                      RefineResult<D>& result) {
   const RefineOptions<D>& options = context.options;
   if (!options.refine || result.stop != StopCause::finished) {
-    const PoorCount count = refined.counted && was_interrupted(result.stop) ? *refined.counted
-                                                                            : count_poor(context, refined.sizes_are_met, pieces);
+    const PoorCount count = refined.counted ? *refined.counted : count_poor(context, refined.sizes_are_met, pieces);
     result.poor_left = count.cells;
     result.size_met = !count.over_size;
     return;

@@ -76,14 +76,12 @@ StopCause Refinement<D>::run() {
     if (stop != StopCause::finished) break;
   }
   state_.context.stage = nullptr;
-  if (stop != StopCause::finished && stop != StopCause::cancelled) {
-    if (optimizing_)
-      explained_.clear();  // which may be a part; and nothing is Delaunay by intent
-    else
-      leave_in_order();
-    if (!state_.is_cancelled()) state_.context.stop = static_cast<int>(stop);
+  if (stop == StopCause::max_vertices || stop == StopCause::min_edge) {
+    if (!optimizing_) leave_in_order();
+    if (state_.stop() == StopCause::finished) state_.context.stop = static_cast<int>(stop);
     stop = state_.stop();
   }
+  if (stop != StopCause::finished && optimizing_) explained_.clear();  // which may be a part; and nothing is Delaunay by intent
   state_.recorder.count_leaves(state_.waiting.tree().leaf_count());
   return stop;
 }
@@ -134,7 +132,7 @@ StopCause Refinement<D>::refine() {
     if (stop != StopCause::finished || state_.totals.counts.committed == before) return stop;
     for (const Entry<D>& e : violations_.look_if_any()) state_.waiting.relist(e);
     state_.refused.relist_changed();
-    if (state_.waiting.is_empty()) return stop;
+    if (state_.context.ended() || state_.waiting.is_empty()) return state_.stop();
   }
 }
 
@@ -145,7 +143,7 @@ StopCause Refinement<D>::refine_as_last_resort() {
   if (D == 2 || state_.context.options.radius_edge_bound < smallest_proved_bound<D>()) return StopCause::finished;
   state_.context.last_resort = true;
   state_.refused.relist_elements();
-  return state_.waiting.is_empty() ? StopCause::finished : refine();
+  return state_.waiting.is_empty() ? state_.stop() : refine();
 }
 
 /// Looks for those that the last visits left, so that they are seen.
@@ -211,14 +209,11 @@ StopCause Refinement<D>::explain_what_is_left() {
   return StopCause::finished;
 }
 
-/// A limit ends a run between an insertion and the repair of the faces that it left not locally Delaunay. This makes up for it,
-/// and names the small angles beside which such faces stay. It takes part of what a run may take beyond its time limit: a tenth
-/// of that, and a second; the rest is for numbering and writing the mesh.
+/// A budget ends a run between an insertion and the repair of the faces that it left not locally Delaunay. This makes up for it,
+/// and names the small angles beside which such faces stay. (Whom a clock or a signal has told to end does not wait for that.)
 template <int D>
 void Refinement<D>::leave_in_order() {
-  constexpr double part = 0.03, seconds = 0.3;
   RefineContext<D>& context = state_.context;
-  if (context.options.time_limit) context.put_off = part * *context.options.time_limit + std::chrono::duration<double>(seconds);
   context.stop = static_cast<int>(StopCause::finished);
   violations_.look();
   for (std::size_t before = violations_.standing().size() + 1; violations_.standing().size() < before && !context.ended();) {

@@ -11,7 +11,8 @@
 
 namespace pgdr::detail {
 
-/// Takes those of which the answer is yes off the lists, in the order of the lists, and drops those that are dead.
+/// Takes those of which the answer is yes off the lists, in the order of the lists, and drops those that are dead. Does nothing if
+/// the run has to end meanwhile.
 template <int D>
 std::vector<Refusal<D>> RefusedWork<D>::take_if(const Question& question) {
   enum class Fate : char { stays, is_taken, is_dead };
@@ -22,11 +23,13 @@ std::vector<Refusal<D>> RefusedWork<D>::take_if(const Question& question) {
   });
   std::vector<Fate> fates(all.size());
   pieces_->run((all.size() + refusals_a_piece - 1) / refusals_a_piece, [&](std::size_t piece) {
+    if (context_->ended()) return;
     const std::size_t first = piece * refusals_a_piece, last = std::min(all.size(), first + refusals_a_piece);
     for (std::size_t i = first; i < last; ++i)
       fates[i] = !all[i]->entry.alive(context_->mesh) ? Fate::is_dead : question(*all[i]) ? Fate::is_taken : Fate::stays;
   });
   std::vector<Refusal<D>> taken;
+  if (context_->stop != 0) return taken;
   auto fate = fates.begin();
   waiting_->for_each_list([&](WorkList<D>& list) {
     std::vector<Refusal<D>> stay;

@@ -21,9 +21,10 @@ class RefusedWork {
   using Node = typename Orthtree<D>::Node;
 
   /// All must outlive it.
-  RefusedWork(const RefineContext<D>& context, WaitingWork<D>& waiting, const Pieces& pieces)
+  RefusedWork(RefineContext<D>& context, WaitingWork<D>& waiting, const Pieces& pieces)
       : context_(&context), waiting_(&waiting), pieces_(&pieces) {}
 
+  // Where the run has to end meanwhile, nothing is taken or listed.
   /// Lists what was refused, and may be decided otherwise since the mesh has changed. What took a larger claim gets a larger one
   /// (WaitingWork).
   void relist_changed();
@@ -46,7 +47,7 @@ class RefusedWork {
   std::vector<Refusal<D>> take_if(const Question& question);
   bool has_changed(const Refusal<D>& refusal) const;
 
-  const RefineContext<D>* context_;
+  RefineContext<D>* context_;
   WaitingWork<D>* waiting_;
   const Pieces* pieces_;
 };

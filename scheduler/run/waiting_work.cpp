@@ -22,7 +22,7 @@ Orthtree<D> tree_over(std::span<const Point<D>> points) {
 }  // namespace
 
 template <int D>
-WaitingWork<D>::WaitingWork(const RefineContext<D>& context)
+WaitingWork<D>::WaitingWork(RefineContext<D>& context)
     : context_(&context),
       options_(&context.options.schedule),
       tree_(tree_over<D>(context.domain.points())),
@@ -143,44 +143,42 @@ bool WaitingWork<D>::split(std::span<const Node> leaves, const Pieces& pieces) {
 template <int D>
 void WaitingWork<D>::rename(const Renumbering<D>& to) {
   const auto rename_one = [&](Entry<D>& e) { to.rename(e.cell, e.birth); };
-  const auto rename_all = [&](std::vector<Entry<D>>& entries) { std::for_each(entries.begin(), entries.end(), rename_one); };
   tree_.for_each_node([&](Node n) {
-    LeafWork<D>& work = works_[n];
-    work.list.for_each(rename_one);
-    std::for_each(work.inbox.begin(), work.inbox.end(), rename_all);
-    for (SetAside<D>& s : work.set_aside) rename_all(s.entries);
-    for (Refusal<D>& r : work.list.refused) {
-      rename_one(r.entry);
+    works_[n].for_each(rename_one);
+    for (Refusal<D>& r : works_[n].list.refused)
       for (CellName& seen : r.seen) to.rename(seen.cell, seen.birth);
-    }
   });
-  rename_all(given_and_not_processed_);
+  std::for_each(given_and_not_processed_.begin(), given_and_not_processed_.end(), rename_one);
 }
 
 template <int D>
-std::optional<PoorCount> WaitingWork<D>::take_poor() {
+std::optional<PoorCount> WaitingWork<D>::count_poor(const Pieces& pieces) {
   if (!all_listed_) return std::nullopt;
+  constexpr std::size_t nodes_a_piece = 16;
+  std::vector<Node> nodes;
+  tree_.for_each_node([&nodes](Node n) { nodes.push_back(n); });
+  const std::size_t count = (nodes.size() + nodes_a_piece - 1) / nodes_a_piece;
+  SlotSet counted(context_->mesh.cell_bound());
+  std::vector<PoorCount> parts(count + 1);
+  pieces.run(count, [&](std::size_t i) {
+    for (std::size_t k = i * nodes_a_piece; k < std::min(nodes.size(), (i + 1) * nodes_a_piece); ++k)
+      works_[nodes[k]].for_each([&](const Entry<D>& e) { count_if_poor(e, counted, parts[i]); });
+  });
+  for (const Entry<D>& e : given_and_not_processed_) count_if_poor(e, counted, parts[count]);
   PoorCount poor;
-  std::vector<bool> counted(context_->mesh.cell_bound());
-  // A poor cell that is listed for a face that is not locally Delaunay was listed, or refused, as poor as well.
-  const auto count = [&](const Entry<D>& e) {
-    if (e.kind() != EntryKind::cell || e.which() == Entry<D>::not_delaunay) return;
-    if (!e.alive(context_->mesh)) return;
-    poor.over_size = poor.over_size || e.which() == Entry<D>::over_size;
-    poor.cells += counted[index(e.cell)] ? 0 : 1;
-    counted[index(e.cell)] = true;
-  };
-  const auto count_all = [&](const std::vector<Entry<D>>& entries) { std::for_each(entries.begin(), entries.end(), count); };
-  for_each_list([&](WorkList<D>& list) {
-    list.drain(count);
-    for (const Refusal<D>& r : list.refused) count(r.entry);
-  });
-  tree_.for_each_node([&](Node n) {
-    std::for_each(works_[n].inbox.begin(), works_[n].inbox.end(), count_all);
-    for (const SetAside<D>& s : works_[n].set_aside) count_all(s.entries);
-  });
-  count_all(given_and_not_processed_);
+  for (const PoorCount& part : parts) {
+    poor.cells += part.cells;
+    poor.over_size = poor.over_size || part.over_size;
+  }
   return poor;
+}
+
+/// A poor cell that is listed for a face that is not locally Delaunay was listed, or refused, as poor as well.
+template <int D>
+void WaitingWork<D>::count_if_poor(const Entry<D>& e, SlotSet& counted, PoorCount& poor) const {
+  if (e.kind() != EntryKind::cell || e.which() == Entry<D>::not_delaunay || !e.alive(context_->mesh)) return;
+  poor.over_size = poor.over_size || e.which() == Entry<D>::over_size;
+  poor.cells += counted.add_shared(index(e.cell)) ? 1 : 0;
 }
 
 template class WaitingWork<2>;

@@ -14,6 +14,7 @@
 #include "claims/conflict_manager.hpp"
 #include "claims/placement.hpp"
 #include "mesh/renumbering.hpp"
+#include "mesh/slot_set.hpp"
 #include "reasons/poor_reasons.hpp"
 #include "refine/context.hpp"
 #include "refine/region_visit.hpp"
@@ -28,7 +29,7 @@ class WaitingWork {
  public:
   using Node = typename Orthtree<D>::Node;
 
-  explicit WaitingWork(const RefineContext<D>& context);  ///< it must outlive this
+  explicit WaitingWork(RefineContext<D>& context);  ///< it must outlive this
   WaitingWork(const WaitingWork&) = delete;
   WaitingWork& operator=(const WaitingWork&) = delete;
 
@@ -57,7 +58,7 @@ class WaitingWork {
   /// Sets what the visit has set aside aside for one with a larger claim, if it is still alive now that the visits that ran
   /// beside this one have ended. Returns how many entries that are.
   std::uint64_t defer(const VisitRequest& request, const std::vector<Entry<D>>& entries);
-  /// Keeps what was given to a visit that the end of the run has overtaken, so that take_poor() counts it.
+  /// Keeps what was given to a visit that the end of the run has overtaken, so that count_poor() counts it.
   void keep_given(const std::vector<Entry<D>>& given) {
     given_and_not_processed_.insert(given_and_not_processed_.end(), given.begin(), given.end());
   }
@@ -65,7 +66,8 @@ class WaitingWork {
   /// Splits the leaf if it is so crowded, and its elements so small, that its children can be refined concurrently. What waits
   /// stays with the parent until hand_down().
   bool split_if_crowded(Node leaf);
-  /// Hands what waits at a node that was split to its children. Threads: different parents at once.
+  /// Hands what waits at a node that was split to its children, or a part of it where the run has to end meanwhile. Threads:
+  /// different parents at once.
   void hand_down(Node parent) {
     works_.hand_down(*context_, parent, placement_.most_radius(tree_.first_child(parent)), generation_);
   }
@@ -85,8 +87,8 @@ class WaitingWork {
   /// Says whether every poor element is on a list between visits.
   void set_all_listed(bool all) { all_listed_ = all; }
   /// The cells over a bound, at the end of a run or where it was stopped, by what waits and what was refused: no other cell is
-  /// looked at, and the size function is not called. Empties the lists. Nothing where some may be on no list.
-  std::optional<PoorCount> take_poor();
+  /// looked at, and the size function is not called. Nothing where some may be on no list.
+  std::optional<PoorCount> count_poor(const Pieces& pieces);
 
  private:
   std::size_t floor() const { return options_->floor != 0 ? options_->floor : D == 3 ? 1000 : 2000; }
@@ -96,8 +98,9 @@ class WaitingWork {
   void set_aside(Node node, std::uint32_t order, const Entry<D>& e);
   void set_aside_above(Node node, const Entry<D>& e);
   bool is_crowded(Node leaf);
+  void count_if_poor(const Entry<D>& e, SlotSet& counted, PoorCount& poor) const;
 
-  const RefineContext<D>* context_;
+  RefineContext<D>* context_;
   const ScheduleOptions* options_;
   Orthtree<D> tree_;
   Placement<D> placement_;
