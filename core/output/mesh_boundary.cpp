@@ -115,7 +115,7 @@ Plc<D> boundary_of_mesh(const OutputMesh<D>& mesh) {
     for (const auto& face : surface.faces) add_facet(face, 0);
   }
   plc.regions = std::move(surface.seeds);
-  plc.holes = std::move(surface.holes);
+  for (const auto& hole : surface.voids) plc.holes.push_back(hole.point);
   return plc;
 }
 
