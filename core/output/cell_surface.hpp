@@ -68,4 +68,15 @@ template <int D>
 CellSurface<D> surface_of(const std::vector<Point<D>>& points, const std::vector<LabelledCell<D>>& cells,
                           const std::vector<std::array<std::uint32_t, D>>& walls);
 
+/// Makes the seeds and the points in voids those of an input that has no others.
+template <int D>
+void give_seeds(const CellSurface<D>& surface, Plc<D>& plc) {
+  plc.regions = surface.seeds;
+  plc.source.cell_regions = static_cast<std::uint32_t>(surface.seeds.size());
+  for (const CellVoid<D>& v : surface.voids) {
+    plc.holes.push_back(v.point);
+    plc.source.void_widths.push_back(v.width);
+  }
+}
+
 }  // namespace pgdr::detail

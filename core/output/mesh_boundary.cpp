@@ -114,8 +114,7 @@ Plc<D> boundary_of_mesh(const OutputMesh<D>& mesh) {
     for (const auto& f : mesh.subfacets) add_facet(f.vertices, f.marker);
     for (const auto& face : surface.faces) add_facet(face, 0);
   }
-  plc.regions = std::move(surface.seeds);
-  for (const auto& hole : surface.voids) plc.holes.push_back(hole.point);
+  detail::give_seeds(surface, plc);
   return plc;
 }
 

@@ -162,12 +162,7 @@ class PlcBuilder {
         if (!plc_.source.facet_lines.empty()) plc_.source.facet_lines.push_back(0);
       }
     }
-    plc_.regions = std::move(surface.seeds);
-    plc_.source.cell_regions = static_cast<std::uint32_t>(plc_.regions.size());
-    for (const auto& [point, width] : surface.voids) {
-      plc_.holes.push_back(point);
-      plc_.source.void_widths.push_back(width);
-    }
+    give_seeds(surface, plc_);
   }
 
   /// Points that cells have and nothing that is kept has. What no cell has either was put into the file on its own.
