@@ -66,7 +66,10 @@ bool contains(const Simplex<D>& s, const Point<D>& p) {
   return true;
 }
 
-/// Is a point of the face's plane (line) inside of it? Approximate: it chooses where to look.
+/// Of what is 1 where it is largest: less than this is taken for rounding, or for 0.
+constexpr double slight = 0x1p-20;
+
+/// Is a point of the face's plane (line) inside of it, or as good as on its border? Approximate: it chooses where to look.
 template <int D>
 bool is_seen_inside(const Side<D>& face, const Point<D>& x) {
   const auto turn = [&](const Point<D>& p, const Point<D>& q) {  // the part of the normal that p, q and x have
@@ -81,7 +84,8 @@ bool is_seen_inside(const Side<D>& face, const Point<D>& x) {
   const auto& c = face.cell;
   if constexpr (D == 2) return turn(c[0], c[1]) >= 0 && turn(c[1], c[0]) >= 0;
   const double first = turn(c[0], c[1]), second = turn(c[1], c[2]), third = turn(c[2], c[0]);
-  return (first >= 0 && second >= 0 && third >= 0) || (first <= 0 && second <= 0 && third <= 0);
+  const double sum = first + second + third, least = -slight * std::fabs(sum), turned = sum < 0 ? -1 : 1;
+  return turned * first >= least && turned * second >= least && turned * third >= least;
 }
 
 /// How far from the face's centre, along its normal, the next face is; infinite if there is none.
@@ -96,7 +100,7 @@ double depth_beyond(const Side<D>& side, const std::vector<Side<D>>& others) {
       height += (other.centre[k] - side.centre[k]) * other.outward[k];
     }
     const double at = height / slope;
-    if (!(slope < 0) || !(at > 0) || !(at < depth)) continue;
+    if (!(slope < -slight * std::sqrt(other.squared)) || !(at > 0) || !(at < depth)) continue;  // faces across are not seen
     Point<D> x;
     for (int k = 0; k < D; ++k) x[k] = side.centre[k] + at * (side.outward[k] / length);
     if (is_seen_inside(other, x)) depth = at;
