@@ -127,6 +127,7 @@ int check_as(const CheckArguments& a, InputFile& file, Report& report) {
   options.size = bounds.size;
   options.region_sizes = bounds.region_sizes;
   options.max_measure = bounds.max_volume;
+  options.seed_sizes = reported.refined;
   options.largest_cosine = reported.largest_cosine.value_or(1);
   if (bounds.min_dihedral) options.largest_cosine = claimed_cosine(*bounds.min_dihedral);
   options.delaunay = a.delaunay || reported.delaunay;

@@ -176,8 +176,8 @@ ReportedBounds read_bounds(const std::string& file) {
     const auto& bounds = report.at("bounds");
     for (const auto& j : bounds.at("reasons")) read.reasons.push_back(parse_reason(j));
     const auto bound = bounds.find("radius_edge");
-    const bool refined = report.value("refined", true) && report.value("stop", "finished") == "finished";
-    if (bound != bounds.end() && bound->is_number() && refined) read.radius_edge = bound->get<double>();
+    read.refined = report.value("refined", true) && report.value("stop", "finished") == "finished";
+    if (bound != bounds.end() && bound->is_number() && read.refined) read.radius_edge = bound->get<double>();
     const auto tolerance = report.find("tolerance");
     if (tolerance != report.end() && tolerance->is_number() && *tolerance >= 0.0) read.tolerance = tolerance->get<double>();
     const auto holds = [&report](const char* key, const nlohmann::json& value) {

@@ -58,7 +58,8 @@ const char* name(RegionMode mode);
 /// What a report of `pgdr mesh` says that its check needs.
 struct ReportedBounds {
   std::vector<PoorReason> reasons;
-  std::optional<double> radius_edge;                    ///< the bound of a run that refined to its end
+  bool refined = true;                                  ///< to the end, so that the bounds of the run hold
+  std::optional<double> radius_edge;                    ///< the bound of such a run
   std::optional<double> tolerance;                      ///< Domain::tolerance
   std::optional<double> largest_cosine;                 ///< of dihedral angles, as the optimiser claims it
   bool delaunay = false;                                ///< does the report say that the mesh is?

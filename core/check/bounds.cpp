@@ -136,7 +136,7 @@ void check_bounds(const OutputMesh<D>& mesh, const CheckOptions<D>& options, con
     const std::uint32_t volume = input ? components.volume[components.of_cell[c]] : none;
     const bool thin = ratio < std::numeric_limits<double>::infinity() && !radius_edge_within<D>(s, ratio);
     const bool large = size_over<D>(s, sizes.of_cell(c)) || measure_over<D>(s, options.max_measure) ||
-                       (volume != none && measure_over<D>(s, input->volumes()[volume].size));
+                       (volume != none && options.seed_sizes && measure_over<D>(s, input->volumes()[volume].size));
     const bool below = !dihedral_holds(s, options.largest_cosine);
     report.over_radius_edge += thin;
     report.over_size += large;

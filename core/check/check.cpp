@@ -9,6 +9,7 @@
 
 #include "check/bounds.hpp"
 #include "check/given/volumes.hpp"
+#include "pgdr/planar_plc.hpp"
 
 namespace pgdr {
 namespace {
@@ -42,6 +43,12 @@ void check_against_domain(const OutputMesh<D>& mesh, const CheckOptions<D>& opti
   check_bounds(mesh, options, links, components, &input, reasons, findings);
 }
 
+Plc<2> without_crossings(const Plc<2>& plc) {
+  std::vector<Diagnostic> repairs;
+  return resolve_crossings(plc, repairs);
+}
+const Plc<3>& without_crossings(const Plc<3>& plc) { return plc; }
+
 /// The volumes by the walls of a Domain, which has taken apart what overlaps outside of the mesh.
 template <int D>
 InputVolumes<D> check_volumes_of_domain(const GivenTask<D>& task, const CheckOptions<D>& options, const Domain<D>& domain,
@@ -66,7 +73,7 @@ std::optional<InputVolumes<D>> check_volumes(const GivenTask<D>& task, const Che
   } catch (const InputError& e) {
     try {
       if (match.leftovers.empty()) throw;
-      const Domain<D>& domain = options.domain ? *options.domain : made.emplace(*options.input, options.stop);
+      const Domain<D>& domain = options.domain ? *options.domain : made.emplace(without_crossings(*options.input), options.stop);
       return check_volumes_of_domain(task, options, domain, sorted, links, components);
     } catch (const InputError&) {
     }

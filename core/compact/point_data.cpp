@@ -237,13 +237,18 @@ bool has_markers(const Domain<D>& domain) {
          std::any_of(domain.facets().begin(), domain.facets().end(), is_marked);
 }
 
-/// 2D: gives input points without a marker that of a segment.
+/// 2D: gives input points without a marker that of the first segment in the order of the input that has one.
 template <int D>
 void mark_input_points(const Domain<D>& domain, std::vector<int>& markers) {
-  if constexpr (D == 2)
+  if constexpr (D == 2) {
+    std::vector<std::uint32_t> first(markers.size(), no_entity);  // of points without a marker
     for (const DomainSegment& s : domain.segments())
-      for (const std::uint32_t v : s.points)
-        if (markers[v] == 0) markers[v] = s.marker;
+      for (const std::uint32_t v : s.points) {
+        if (s.marker == 0 || s.input >= first[v] || (markers[v] != 0 && first[v] == no_entity)) continue;
+        first[v] = s.input;
+        markers[v] = s.marker;
+      }
+  }
 }
 
 template <int D>

@@ -67,6 +67,8 @@ struct CheckOptions {
   SizingField<D> size;                                                 ///< circumradius (3D) or area (2D) bound at the centroid
   RegionSizes<D> region_sizes;                                         ///< further ones of the cells with these labels
   double max_measure = std::numeric_limits<double>::infinity();        ///< volume (3D) bound of all cells
+  /// Do the sizes that region seeds of the input have bind? Not where the refinement was left out, or ended before it was done.
+  bool seed_sizes = true;
   /// 3D: bound on dihedral angles, as its cosine rounded to a double (claimed_cosine); 1: none.
   double largest_cosine = 1;
   bool delaunay = false;  ///< are faces to be locally Delaunay, but for what rounding or a refused split explains?

@@ -16,15 +16,19 @@ using detail::difference;
 using detail::dot;
 using detail::Vector;
 
-/// The numbers t in [0, 1] with |u + t v|^2 <= r^2: a low and a high one; low above high if there are none.
+/// The numbers t in [0, 1] with |u + t v| <= r: a low and a high one; low above high if there are none. On both sides of where
+/// the line comes nearest, since the discriminant of the quadratic equation cancels where u and v are much longer than r.
 template <std::size_t N>
 std::array<double, 2> within(const Vector<N>& u, const Vector<N>& v, double r) {
-  const double a = dot(v, v), b = dot(u, v), c = dot(u, u) - r * r;
-  if (a <= 0) return c <= 0 ? std::array{0.0, 1.0} : std::array{1.0, 0.0};
-  const double discriminant = b * b - a * c;
-  if (discriminant < 0) return {1, 0};
-  const double root = std::sqrt(discriminant);
-  return {std::max(0.0, (-b - root) / a), std::min(1.0, (-b + root) / a)};
+  const double a = dot(v, v);
+  if (a <= 0) return dot(u, u) <= r * r ? std::array{0.0, 1.0} : std::array{1.0, 0.0};
+  const double nearest = -dot(u, v) / a;
+  Vector<N> there = u;
+  for (std::size_t i = 0; i < N; ++i) there[i] += nearest * v[i];
+  const double rest = r * r - dot(there, there);
+  if (rest < 0) return {1, 0};
+  const double half = std::sqrt(rest / a);
+  return {std::max(0.0, nearest - half), std::min(1.0, nearest + half)};
 }
 
 }  // namespace

@@ -7,10 +7,12 @@
 // that cover a place twice cannot stand for one that is missing.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
 
+#include "numbers/vectors.hpp"
 #include "pgdr/types.hpp"
 #include "space/box.hpp"
 
@@ -22,6 +24,16 @@ struct CoveringSegment {
   std::array<Point<D>, 2> ends;
   double reach = 0;
 };
+
+/// Whether x is within r of the segment.
+template <int D>
+bool is_near(const Point<D>& x, const std::array<Point<D>, 2>& segment, double r) {
+  const auto d = detail::difference(segment[1], segment[0]), u = detail::difference(x, segment[0]);
+  const double t = std::clamp(detail::dot(u, d) / detail::dot(d, d), 0.0, 1.0);
+  double squared = 0;
+  for (int k = 0; k < D; ++k) squared += (u[k] - t * d[k]) * (u[k] - t * d[k]);
+  return squared <= r * r;
+}
 
 /// The parts of the segment, as fractions of its length, that none of the others reaches; none of them is shorter than a
 /// reach.

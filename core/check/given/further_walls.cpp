@@ -7,6 +7,7 @@
 #include <set>
 
 #include "check/given/flat_leftovers.hpp"
+#include "check/given/cover.hpp"
 #include "check/given/volumes.hpp"
 #include "numbers/vectors.hpp"
 #include "pgdr/predicates.hpp"
@@ -72,10 +73,11 @@ class FurtherWalls {
     const auto box = detail::Box<2>::of(leftover.corners).widened(3 * reach);
     subsegments_->meeting(box, [&](std::uint32_t i) {
       for (const std::uint32_t v : mesh_.subsegments[i].vertices)
-        if (box.meets(detail::Box<2>::around(mesh_.points[v])) && is_along(mesh_.points[v], a, b, reach)) corners.push_back(v);
+        if (box.meets(detail::Box<2>::around(mesh_.points[v])) && is_near<2>(mesh_.points[v], {a, b}, reach))
+          corners.push_back(v);
     });
     given_points().meeting(box, [&](std::uint32_t p) {
-      if (is_along(input_.point(p), a, b, reach)) corners.push_back(corner(p));
+      if (is_near<2>(input_.point(p), {a, b}, reach)) corners.push_back(corner(p));
     });
     const auto at = [&](const Point<2>& x) {
       double t = 0;
@@ -91,15 +93,6 @@ class FurtherWalls {
       append({last, v});
       last = v;
     }
-  }
-
-  /// Within reach of the segment ab.
-  static bool is_along(const Point<2>& x, const Point<2>& a, const Point<2>& b, double reach) {
-    const auto d = detail::difference(b, a), u = detail::difference(x, a);
-    const double t = std::clamp(detail::dot(u, d) / detail::dot(d, d), 0.0, 1.0);
-    double squared = 0;
-    for (int k = 0; k < 2; ++k) squared += (u[k] - t * d[k]) * (u[k] - t * d[k]);
-    return squared <= reach * reach;
   }
 
   const detail::BoxTree<2>& given_points() {

@@ -4,11 +4,15 @@
 // What was given and is not in the mesh must lie outside of all cells: whether it may, the volumes tell. What leaves the
 // mesh at an angle a stays within r of it for r / a. So a leftover of diameter d is a finding where it lies within r of a cell
 // for more than sqrt(r d): any angle above sqrt(r / d) makes less. Two r are tried. Rounding finds what lies between cells or in
-// them, and is so small that little is missed. The reach finds what lies beside the hull, where it should have been joined.
+// them, and is so small that little is missed. The tolerance less rounding finds what lies beside the hull, where it should have
+// been joined: what is farther away may have been found to be outside. A point is compared exactly, or by the latter, and then
+// with what was given, too, from which the hull may be a tolerance away where other points were joined.
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <vector>
 
+#include "check/given/cover.hpp"
 #include "check/given/match.hpp"
 #include "numbers/vectors.hpp"
 #include "pgdr/predicates.hpp"
@@ -124,12 +128,13 @@ class LeftoverChecker {
 
   void run() {
     if (match_.leftovers.empty()) return;
-    look(task_.input.rounding());
-    if (task_.input.tolerance() > 0) look(task_.input.reach());
+    look(task_.input.rounding(), true);
+    const double joined = task_.input.tolerance() - task_.input.rounding();
+    if (joined > task_.input.rounding()) look(joined, false);
   }
 
  private:
-  void look(double r) {
+  void look(double r, bool exactly) {
     std::vector<detail::Box<D>> boxes;
     limits_.clear();
     for (const auto& leftover : match_.leftovers) {
@@ -144,16 +149,16 @@ class LeftoverChecker {
       tree.meeting(detail::Box<D>::of(s), [&](std::uint32_t i) {
         if (reported_[i]) return;
         if (cell.empty()) cell = widened_cell<D>(s, r);
-        compare(c, i, cell);
+        compare(c, i, cell, exactly);
       });
     }
   }
 
-  void compare(std::uint32_t c, std::uint32_t i, const std::vector<HalfSpace<D>>& cell) {
+  /// `exactly`: a point that is beside the cell is not in it, however near it is.
+  void compare(std::uint32_t c, std::uint32_t i, const std::vector<HalfSpace<D>>& cell, bool exactly) {
     const Leftover<D>& leftover = match_.leftovers[i];
-    // Without a tolerance a point beside the mesh is outside, however near it is.
-    const bool exactly = leftover.kind == EntityKind::vertex && task_.input.tolerance() == 0;
-    if (exactly && !has(corners_of(mesh_, c), leftover.corners[0])) return;
+    if (exactly && leftover.kind == EntityKind::vertex && !has(corners_of(mesh_, c), leftover.corners[0])) return;
+    if (!exactly && leftover.kind == EntityKind::vertex && !is_near_given(leftover)) return;
     std::vector<Point<D>> part = leftover.corners;
     for (const auto& side : cell) part = clip<D>(part, side);
     if (part.empty()) return;
@@ -165,6 +170,59 @@ class LeftoverChecker {
     if (!large) return;
     reported_[i] = 1;
     report(c, leftover, part[0]);
+  }
+
+  /// Whether it lies within what is joined of a given segment or triangle. One that it is a corner of counts if it is in the
+  /// mesh.
+  bool is_near_given(const Leftover<D>& point) {
+    const double r = task_.input.tolerance() - task_.input.rounding();
+    const Point<D>& x = point.corners[0];
+    if (!given_tree_) plant_given(r);
+    bool near = false;
+    given_tree_->at(x, [&](std::uint32_t i) {
+      const auto segments = task_.input.segments();
+      const auto is_left = [&](EntityKind kind, std::uint32_t id, const auto& corners) {
+        return std::ranges::find(corners, point.id) != corners.end() && is_left_at(kind, id, x);
+      };
+      if (near) return;
+      if (i < segments.size()) {
+        const auto& ends = segments[i].points;
+        near = is_near<D>(x, {task_.input.point(ends[0]), task_.input.point(ends[1])}, r) &&
+               !is_left(EntityKind::segment, i, ends);
+      } else if constexpr (D == 3) {
+        const auto t = static_cast<std::uint32_t>(i - segments.size());
+        const GivenTriangle& given = task_.input.triangles()[t];
+        near = is_near_triangle(x, task_.input.corners(given), r) && !is_left(EntityKind::facet, t, given.points);
+      }
+    });
+    return near;
+  }
+
+  bool is_left_at(EntityKind kind, std::uint32_t id, const Point<D>& x) const {
+    const double r = 10 * task_.input.reach();
+    return std::ranges::any_of(match_.leftovers, [&](const Leftover<D>& l) {
+      return l.kind == kind && l.id == id &&
+             std::ranges::any_of(l.corners, [&](const Point<D>& c) { return squared_distance(c, x) <= r * r; });
+    });
+  }
+
+  void plant_given(double r) {
+    std::vector<detail::Box<D>> boxes;
+    for (const GivenSegment& s : task_.input.segments()) {
+      boxes.push_back(detail::Box<D>::around(task_.input.point(s.points[0])));
+      boxes.back().add(task_.input.point(s.points[1]));
+      boxes.back() = boxes.back().widened(r);
+    }
+    for (const GivenTriangle& t : task_.input.triangles())
+      if constexpr (D == 3) boxes.push_back(detail::Box<D>::of(task_.input.corners(t)).widened(r));
+    given_tree_ = std::make_unique<detail::BoxTree<D>>(boxes);
+  }
+
+  static bool is_near_triangle(const Point3& x, const std::array<Point3, 3>& triangle, double r) {
+    const PlaneFrame frame(triangle);
+    if (!(frame.width() > 0)) return false;
+    const auto p = frame.place(x);
+    return std::abs(p[2]) <= r && CoveringTriangle(frame, triangle, r, r).contains({{p[0], p[1]}});
   }
 
   static bool has(const Simplex<D>& s, const Point<D>& x) {
@@ -204,6 +262,7 @@ class LeftoverChecker {
   const GivenMatch<D>& match_;
   std::vector<std::uint8_t> reported_;
   std::vector<double> limits_;
+  std::unique_ptr<detail::BoxTree<D>> given_tree_;  // segments, then triangles
 };
 
 }  // namespace

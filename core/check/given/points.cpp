@@ -80,6 +80,19 @@ class PointMatcher {
     });
   }
 
+  /// 2D: to each vertex that of the first given segment with one that ends there, which need not be in the mesh.
+  void allow_first_segments(const std::vector<std::uint8_t>& unmarked,
+                            std::vector<std::pair<std::uint32_t, int>>& allowed) const {
+    std::vector<std::uint8_t> done(mesh_.points.size(), 0);
+    for (const GivenSegment& s : task_.input.segments())
+      for (const std::uint32_t p : s.points) {
+        const std::uint32_t v = out_.vertex_of_point[p];
+        if (s.marker == 0 || v == none || !unmarked[v] || done[v]) continue;
+        done[v] = 1;
+        allowed.push_back({v, s.marker});
+      }
+  }
+
   /// That of a given point there; where such a point has none, that of a segment may be handed on to it, as Triangle has it.
   void check_markers() {
     std::vector<std::pair<std::uint32_t, int>> allowed;
@@ -95,6 +108,7 @@ class PointMatcher {
     for (const auto& s : mesh_.subsegments)
       for (const std::uint32_t v : s.vertices)
         if (unmarked[v]) allowed.push_back({v, s.marker});
+    if constexpr (D == 2) allow_first_segments(unmarked, allowed);
     detail::make_set(allowed);
     for (std::uint32_t p = 0; p < out_.vertex_of_point.size(); ++p) {
       const std::uint32_t v = out_.vertex_of_point[p];
