@@ -34,7 +34,9 @@ TEST(ReadPoly, TrianglesFormatWithAllItsParts) {
   EXPECT_EQ(plc.regions[0].attribute, 3);
   EXPECT_EQ(plc.regions[0].size, 0.125);
   EXPECT_EQ(plc.regions[1].attribute, 4);
-  EXPECT_EQ(plc.regions[1].size, 4);  // Triangle's manual: one value is both
+  EXPECT_EQ(plc.regions[1].size, 0);  // one number is a label
+  EXPECT_EQ(read_plc<2>(file, {.region_areas = true}).regions[0].size, 0.125);
+  EXPECT_EQ(read_plc<2>(file, {.region_areas = true}).regions[1].size, 4);  // Triangle's manual: it is both
   EXPECT_EQ(plc.source.file, file.string());
   EXPECT_EQ(plc.source.point_lines, (Lines{3, 4, 5, 6, 7}));
   EXPECT_EQ(plc.source.segment_lines, (Lines{10, 11, 12, 13}));

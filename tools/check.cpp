@@ -108,6 +108,7 @@ int check_as(const CheckArguments& a, InputFile& file, Report& report) {
   InputArguments reading = a.reading;
   reading.resolve_crossings = reading.resolve_crossings || reported.resolve_crossings;
   reading.convex_hull = reading.convex_hull || reported.convex_hull;
+  reading.region_areas = reading.region_areas || reported.region_areas;
   std::optional<Plc<D>> plc = read_input_of_mesh<D>(a.input, reading);
   if (!reading.tolerance) reading.tolerance = reported.tolerance;
   // The default is no tolerance that was given: what is ambiguous within it is left as it is, and not refused.

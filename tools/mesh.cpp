@@ -319,6 +319,7 @@ class MeshRun {
     if constexpr (D == 2) {
       report_.set("resolve_crossings", a_.reading.resolve_crossings);
       report_.set("convex_hull", a_.reading.convex_hull);
+      report_.set("region_areas", a_.reading.region_areas);
     }
     report_.set("region_mode", name(a_.regions));
     seconds_.mesh_at = total_.seconds();

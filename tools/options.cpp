@@ -160,6 +160,8 @@ void add_input(CLI::App& app, InputArguments& p) {
       ->check(number(">= 0", [](double v) { return v >= 0; }));
   app.add_flag("--yes-coarse", p.yes_coarse, "a --tolerance above a thousandth of the model's diagonal is meant");
   app.add_flag("--resolve-crossings", p.resolve_crossings, "2D: split segments that cross, at new points");
+  app.add_flag("--region-areas", p.region_areas,
+               "2D: a region of a .poly that has one number behind its point has it as label and as largest area");
   app.add_flag("--convex-hull", p.convex_hull, "2D: the edges of the convex hull of all points are segments, too");
 }
 

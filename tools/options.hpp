@@ -31,6 +31,7 @@ struct BoundArguments {
 /// How an input is read, and what is done to it before anything else.
 struct InputArguments {
   bool resolve_crossings = false, convex_hull = false;
+  bool region_areas = false;        ///< ReadOptions::region_areas
   std::optional<double> tolerance;  ///< none: the default of Plc
   bool yes_coarse = false;          ///< Plc::is_coarse
 };

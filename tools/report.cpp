@@ -186,6 +186,7 @@ ReportedBounds read_bounds(const std::string& file) {
     };
     read.resolve_crossings = holds("resolve_crossings", true);
     read.convex_hull = holds("convex_hull", true);
+    read.region_areas = holds("region_areas", true);
     read.delaunay = holds("delaunay", true);
     if (const auto o = report.find("optimization"); o != report.end() && o->is_object())
       if (const auto k = o->find("claimed_cosine"); k != o->end() && k->is_number()) read.largest_cosine = k->get<double>();

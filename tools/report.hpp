@@ -64,6 +64,7 @@ struct ReportedBounds {
   std::optional<double> largest_cosine;                 ///< of dihedral angles, as the optimiser claims it
   bool delaunay = false;                                ///< does the report say that the mesh is?
   bool resolve_crossings = false, convex_hull = false;  ///< what was done to the input, 2D
+  bool region_areas = false;                            ///< how it was read, 2D
   RegionMode regions = RegionMode::seeds;
 };
 

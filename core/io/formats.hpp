@@ -25,13 +25,14 @@ namespace pgdr::detail {
 /// Reads as `read_plc` does, from memory. The extension of `name` says what it is; a file of that name need not exist
 /// (a .poly or .smesh of 0 points looks for the .node file beside it: in `beside`).
 template <int D>
-Plc<D> read_plc_from(std::string_view bytes, const std::filesystem::path& name, FileTexts&& beside = {});
+Plc<D> read_plc_from(std::string_view bytes, const std::filesystem::path& name, FileTexts&& beside = {},
+                     const ReadOptions& options = {});
 /// As `read_mesh`, but for .node and .ele, which are several files (read_tetgen).
 template <int D>
 OutputMesh<D> read_mesh_from(std::string_view bytes, const std::filesystem::path& name, FileTexts&& beside = {});
 
 template <int D>
-Plc<D> read_poly(std::string_view text, const std::filesystem::path& file, FileTexts& beside);
+Plc<D> read_poly(std::string_view text, const std::filesystem::path& file, FileTexts& beside, const ReadOptions& options);
 template <int D>
 Plc<D> read_node(std::string_view text, const std::filesystem::path& file);
 Plc<3> read_smesh(std::string_view text, const std::filesystem::path& file, FileTexts& beside);

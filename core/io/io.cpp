@@ -77,12 +77,12 @@ OutputMesh<D> read_tetgen_files(const Path& file, detail::FileTexts& texts) {
 }
 
 template <int D>
-Plc<D> read_by_extension(std::string_view bytes, const Path& name, detail::FileTexts& beside) {
+Plc<D> read_by_extension(std::string_view bytes, const Path& name, detail::FileTexts& beside, const ReadOptions& options) {
   const std::string extension = lower_extension(name);
   if (const FileMeshReader read = file_mesh_reader(extension)) return detail::to_plc<D>(read(bytes, name, {Purpose::input, D}));
+  if (extension == ".poly") return detail::read_poly<D>(bytes, name, beside, options);
   using Reader = Plc<D> (*)(std::string_view, const Path&);
   Reader reader = nullptr;
-  if (extension == ".poly") return detail::read_poly<D>(bytes, name, beside);
   if (extension == ".node") reader = detail::read_node<D>;
   if constexpr (D == 3) {
     if (extension == ".smesh") return detail::read_smesh(bytes, name, beside);
@@ -100,8 +100,8 @@ Plc<D> read_by_extension(std::string_view bytes, const Path& name, detail::FileT
 namespace detail {
 
 template <int D>
-Plc<D> read_plc_from(std::string_view bytes, const Path& name, FileTexts&& beside) {
-  return read_by_extension<D>(bytes, name, beside);
+Plc<D> read_plc_from(std::string_view bytes, const Path& name, FileTexts&& beside, const ReadOptions& options) {
+  return read_by_extension<D>(bytes, name, beside, options);
 }
 
 template <int D>
@@ -113,8 +113,8 @@ OutputMesh<D> read_mesh_from(std::string_view bytes, const Path& name, FileTexts
   unknown_format(name, "a mesh (.vtu .pvtu .msh .mesh .node .ele)");
 }
 
-template Plc<2> read_plc_from<2>(std::string_view, const Path&, FileTexts&&);
-template Plc<3> read_plc_from<3>(std::string_view, const Path&, FileTexts&&);
+template Plc<2> read_plc_from<2>(std::string_view, const Path&, FileTexts&&, const ReadOptions&);
+template Plc<3> read_plc_from<3>(std::string_view, const Path&, FileTexts&&, const ReadOptions&);
 template OutputMesh<2> read_mesh_from<2>(std::string_view, const Path&, FileTexts&&);
 template OutputMesh<3> read_mesh_from<3>(std::string_view, const Path&, FileTexts&&);
 
@@ -139,10 +139,10 @@ InputFile::~InputFile() = default;
 
 /// A file of unknown format is not opened.
 template <int D>
-Plc<D> InputFile::read_plc() {
+Plc<D> InputFile::read_plc(const ReadOptions& options) {
   return guarded(name_, [&] {
     const bool known = is_input_format<D>(lower_extension(name_));
-    Plc<D> plc = detail::read_plc_from<D>(known ? texts_->of(name_) : std::string_view(), name_, std::move(*texts_));
+    Plc<D> plc = detail::read_plc_from<D>(known ? texts_->of(name_) : std::string_view(), name_, std::move(*texts_), options);
     texts_->clear();
     return plc;
   });
@@ -187,8 +187,8 @@ bool InputFile::holds_cells() {
 }
 
 template <int D>
-Plc<D> read_plc(const Path& file) {
-  return InputFile(file).read_plc<D>();
+Plc<D> read_plc(const Path& file, const ReadOptions& options) {
+  return InputFile(file).read_plc<D>(options);
 }
 
 template <int D>
@@ -240,12 +240,12 @@ void write_mesh(const OutputMesh<D>& mesh, const Path& file, const WriteOptions&
   });
 }
 
-template PGDR_API Plc<2> InputFile::read_plc<2>();
-template PGDR_API Plc<3> InputFile::read_plc<3>();
+template PGDR_API Plc<2> InputFile::read_plc<2>(const ReadOptions&);
+template PGDR_API Plc<3> InputFile::read_plc<3>(const ReadOptions&);
 template PGDR_API OutputMesh<2> InputFile::read_mesh<2>();
 template PGDR_API OutputMesh<3> InputFile::read_mesh<3>();
-template PGDR_API Plc<2> read_plc<2>(const Path&);
-template PGDR_API Plc<3> read_plc<3>(const Path&);
+template PGDR_API Plc<2> read_plc<2>(const Path&, const ReadOptions&);
+template PGDR_API Plc<3> read_plc<3>(const Path&, const ReadOptions&);
 template PGDR_API OutputMesh<2> read_mesh<2>(const Path&);
 template PGDR_API OutputMesh<3> read_mesh<3>(const Path&);
 template PGDR_API void write_mesh<2>(const OutputMesh<2>&, const Path&, const WriteOptions&);

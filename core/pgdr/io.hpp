@@ -18,8 +18,8 @@
 //
 // docs/formats.md has what each format keeps. Choices that the formats leave open:
 // - A .poly or .smesh that lists 0 points takes them from the .node file beside it. Point numbers start at 0 or 1 and
-//   are consecutive. A region with one number behind its point has it as attribute and, in 2D, as bound of the area too
-//   (Triangle's manual); in 3D as attribute alone. Holes are mandatory, regions may be missing.
+//   are consecutive. A region with one number behind its point has it as attribute alone, unless ReadOptions say
+//   more. Holes are mandatory, regions may be missing.
 // - .stl: equal points become one. If an ASCII file has several solids, markers number them from 1.
 // - .off, .obj, .ply: normals, colours, textures and groups are dropped; .obj counts points and faces from 1. The edges
 //   of a .ply are not read.
@@ -59,10 +59,16 @@ class FileTexts;
 
 namespace pgdr PGDR_API {
 
+/// What the formats of inputs leave open. Those that do not leave it open take no notice of it.
+struct ReadOptions {
+  /// 2D .poly: a region with one number behind its point has it as largest area, too, as Triangle's manual says.
+  bool region_areas = false;
+};
+
 /// @throws FileError if the file cannot be opened; InputError (unknown_format, syntax, truncated, count_too_large,
 ///   not_finite, index_out_of_range, ...) with file and line.
 template <int D>
-Plc<D> read_plc(const std::filesystem::path& file);
+Plc<D> read_plc(const std::filesystem::path& file, const ReadOptions& options = {});
 
 /// The dimension of a file (2 or 3) from its header, or from its points where the header does not tell; 3 for .smesh,
 /// .off, .obj, .ply, .stl, which are not opened. @throws as read_plc
@@ -86,7 +92,7 @@ class PGDR_API InputFile {
   int dimension();     ///< as file_dimension
   bool holds_cells();  ///< as the function
   template <int D>
-  Plc<D> read_plc();
+  Plc<D> read_plc(const ReadOptions& options = {});
   template <int D>
   OutputMesh<D> read_mesh();
 

@@ -73,7 +73,12 @@ class BoxTree {
   }
   /// Calls visit(i) once for every box that meets this one (borders count).
   template <class Visit>
-  void meeting(const Box<D>& box, Visit&& visit) const;
+  void meeting(const Box<D>& box, Visit&& visit) const {
+    wherever([&](const Box<D>& other) { return other.meets(box); }, visit);
+  }
+  /// Calls visit(i) once for every box with meets(box). @pre meets() is true of a box around one of which it is.
+  template <class Meets, class Visit>
+  void wherever(const Meets& meets, Visit&& visit) const;
   /// Calls visit(i) once for every box that holds p (its border counts).
   template <class Visit>
   void at(const Point<D>& p, Visit&& visit) const {
@@ -179,16 +184,16 @@ void BoxTree<D>::pairs_below(const NodePair& top, const Visit& visit) const {
 }
 
 template <int D>
-template <class Visit>
-void BoxTree<D>::meeting(const Box<D>& here, Visit&& visit) const {
+template <class Meets, class Visit>
+void BoxTree<D>::wherever(const Meets& meets, Visit&& visit) const {
   std::array<std::uint32_t, 34> stack;  // a node a level, and one
   stack[0] = 1;
   for (std::size_t n = 1; n > 0;) {
     const std::uint32_t node = stack[--n];
-    if (!nodes_[node].meets(here)) continue;
+    if (!meets(nodes_[node])) continue;
     if (is_leaf(node)) {
       for (const Item& item : items_of(node))
-        if (item.box.meets(here)) visit(item.index);
+        if (meets(item.box)) visit(item.index);
     } else {
       stack[n++] = 2 * node;
       stack[n++] = 2 * node + 1;

@@ -91,7 +91,7 @@ class Planar(Case):
         self.assertEqual(self.json()["subsegments"], 6 + 16 + 12)
 
     def test_flags_are_for_2d(self):
-        for flag in ("--keep-boundary", "--resolve-crossings", "--convex-hull"):
+        for flag in ("--keep-boundary", "--resolve-crossings", "--convex-hull", "--region-areas"):
             done = self.pgdr("mesh", BRACKET, "-o", self.output, flag, expect=2)
             self.assertIn("2D", done.stderr)
 
@@ -136,6 +136,24 @@ class Planar(Case):
             self.assertEqual(sorted(tuple(sorted(e[1:3])) for e in edge[1:]), sorted(tuple(sorted(s)) for s in sides))
             self.assertEqual({e[3] for e in edge[1:]}, {0, 8, 9})
             self.pgdr("check", self.output, "--input", model, "--min-angle", 30, expect=0)
+
+    def test_a_single_number_of_a_region_is_its_label(self):
+        square = "4 2 0 0\n0 0 0\n1 4 0\n2 4 4\n3 0 4\n4 0\n0 0 1\n1 1 2\n2 2 3\n3 3 0\n0\n1\n0 1 1 "
+        label, both, none = (self.file(f"{name}.poly", square + end) for name, end in
+                             (("label", "0.25\n"), ("both", "0.25 0.25\n"), ("none", "0.25 0\n")))
+        cells = []
+        for model, *flags in ((label,), (both,), (label, "--region-areas"), (both, "--region-areas"), (none, "--region-areas")):
+            self.checked(model, flags)
+            cells.append(self.json()["cells"])
+            self.assertEqual([r["label"] for r in self.json()["regions"]], [0.25])
+        self.assertEqual(cells[0], 2)
+        self.assertGreaterEqual(cells[1], 64)
+        self.assertEqual(cells[2:], [cells[1], cells[1], 2])
+        # The report says to check how the input was read.
+        self.mesh(label, "--region-areas", "--report", self.report, expect=0)
+        self.pgdr("mesh", label, "--report", self.folder / "coarse.json", "-o", self.folder / "coarse.vtu", expect=0)
+        self.pgdr("check", self.folder / "coarse.vtu", "--input", label, "--reasons", self.report, expect=6)
+        self.pgdr("check", self.folder / "coarse.vtu", "--input", label, "--reasons", self.folder / "coarse.json", expect=0)
 
     def test_no_refinement(self):
         self.mesh(PLATE, "--no-refine", "--report", self.report, expect=0)

@@ -158,6 +158,11 @@ class Stopping(unittest.TestCase):
         made = pgdr.mesh(cube(), size=0.01, max_vertices=500)
         self.assertEqual(made.stop, "max_vertices")
         self.assertTrue(pgdr.check(made, cube()))
+        square = [[0, 0], [1, 0], [1, 1], [0, 1]]
+        fine = pgdr.Plc(square, segments=[[0, 1], [1, 2], [2, 3], [3, 0]], regions=[(0.5, 0.5, 1, 0.001)])
+        stopped = pgdr.mesh(fine, max_vertices=50)
+        self.assertEqual(stopped.stop, "max_vertices")
+        self.assertTrue(stopped.check(fine))
         self.assertEqual(pgdr.mesh(cube(), size=0.002, time_limit=0.2).stop, "time_limit")
 
     def test_progress_ends_at_its_end(self):

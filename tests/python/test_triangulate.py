@@ -85,6 +85,9 @@ class Triangulate(unittest.TestCase):
         self.assertAlmostEqual(areas(made)[inner].sum(), 0.25, places=12)
         self.assertLessEqual(areas(made)[inner].max(), 0.002)
         self.assertLess(len(self.made(regions, "pqA")["triangles"]), len(made["triangles"]))
+        labels = self.made({**RING, "regions": [[0.5, 0.5, 0.001], [0.1, 0.1, 3]]}, "pqaA")  # without areas
+        self.assertEqual(set(labels["triangle_attributes"][:, 0]), {0.001, 3})
+        self.assertLess(len(labels["triangles"]), 200)
 
     def test_markers_and_attributes_are_handed_on(self):
         marked = {**SQUARE, "segment_markers": [[5], [0], [6], [0]], "vertex_attributes": [[0.0], [1.0], [1.0], [0.0]]}
@@ -128,7 +131,7 @@ class Triangulate(unittest.TestCase):
 
     def test_refusals_of_keys_and_arrays(self):
         for tri, opts in (({"segments": [[0, 1]]}, "p"), ({**SQUARE, "segmnts": 1}, "p"), (SQUARE, "q"),
-                          ({**SQUARE, "regions": [[0.5, 0.5, 1]]}, "p"), ({"vertices": [[0, 0, 0]]}, ""),
+                          ({**SQUARE, "regions": [[0.5, 0.5]]}, "p"), ({"vertices": [[0, 0, 0]]}, ""),
                           ({**SQUARE, "segments": [[0, 1, 2]]}, "p"), ({**SQUARE, "segment_markers": [1, 2]}, "p")):
             with self.subTest(tri=tri), self.assertRaises(pgdr.UsageError):
                 pgdr.triangulate(tri, opts)

@@ -34,9 +34,10 @@ py::dict dict_of(const CheckReport& r) {
 }
 
 /// As the command's `check`: against the input as given; reasons by its Domain. `bounds`: those of a run; infinite: none.
+/// `seed_sizes`: CheckOptions::seed_sizes.
 template <int D>
 py::dict check_mesh(const MeshData<D>& data, const Plc<D>* plc, const RefineOptions<D>& bounds, double largest_cosine,
-                    bool delaunay, bool with_reasons) {
+                    bool delaunay, bool with_reasons, bool seed_sizes) {
   CheckReport report;
   run_watched([&](const std::stop_token& stop) {
     CheckOptions<D> options;
@@ -51,6 +52,7 @@ py::dict check_mesh(const MeshData<D>& data, const Plc<D>* plc, const RefineOpti
     options.size = bounds.size;
     options.region_sizes = bounds.region_sizes;
     options.max_measure = bounds.max_volume;
+    options.seed_sizes = seed_sizes;
     options.largest_cosine = largest_cosine;
     options.delaunay = delaunay;
     report = check(data.mesh, options);

@@ -228,9 +228,9 @@ void bind(py::module_& module) {
       .def_property_readonly("first_index", [](const Held& p) { return p.first_index; })
       .def_property_readonly("file", [](const Held& p) { return p.source.file; })
       .def("with_tolerance", &with_tolerance<D>);
-  module.def(with_dimension<D>("read_plc").c_str(), [](const std::string& file) {
+  module.def(with_dimension<D>("read_plc").c_str(), [](const std::string& file, bool region_areas) {
     const py::gil_scoped_release others_run;
-    return std::make_shared<Held>(read_plc<D>(file));
+    return std::make_shared<Held>(read_plc<D>(file, {.region_areas = region_areas}));
   });
 }
 

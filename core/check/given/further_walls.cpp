@@ -6,8 +6,8 @@
 #include <memory>
 #include <set>
 
-#include "check/given/flat_leftovers.hpp"
 #include "check/given/cover.hpp"
+#include "check/given/flat_leftovers.hpp"
 #include "check/given/volumes.hpp"
 #include "numbers/vectors.hpp"
 #include "pgdr/predicates.hpp"

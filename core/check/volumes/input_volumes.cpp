@@ -64,7 +64,7 @@ class InputBuilder {
 
   void run(RegionMode mode) {
     collect_walls();
-    out_.box_simplices();
+    out_.plant_simplices();
     collect_ridges();
     const auto n = static_cast<std::uint32_t>(walls_.simplices.size());
     sides_ = DisjointSets(2 * n + 1);  // side 2 i: positive, 2 i + 1: negative, 2 n: outside
@@ -76,7 +76,7 @@ class InputBuilder {
     }
     cast_lines();
     number_patches_and_volumes();
-    out_.box_simplices();
+    out_.plant_simplices();
     place_seeds();
     if (mode == RegionMode::automatic) out_.nest();
     if (numbers_volumes(mode)) out_.number();

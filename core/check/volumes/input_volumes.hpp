@@ -14,7 +14,7 @@
 
 #include "pgdr/domain.hpp"
 #include "pgdr/region_mode.hpp"
-#include "space/box.hpp"
+#include "space/box_tree.hpp"
 
 namespace pgdr::checking {
 
@@ -82,8 +82,8 @@ class InputVolumes {
   std::span<const std::optional<std::uint32_t>> region_volumes() const { return region_volumes_; }
   std::span<const std::optional<std::uint32_t>> hole_volumes() const { return hole_volumes_; }
 
-  /// Whether the entity must be in the mesh: it touches a kept volume. A loose one is located, which takes a look at
-  /// every wall: ask only for what is not in the mesh.
+  /// Whether the entity must be in the mesh: it touches a kept volume. A loose one is located, which takes a
+  /// line: ask only for what is not in the mesh.
   bool wants_patch(std::uint32_t patch) const;
   bool wants_segment(EntityId segment) const;
   bool wants_point(std::uint32_t point) const;
@@ -94,7 +94,11 @@ class InputVolumes {
   /// Simplices crossed by the open segment from q to p, in order; empty optional if not in general position.
   std::optional<std::vector<std::uint32_t>> crossings(const Point<D>& q, const Point<D>& p) const;
   Point<D> far_from(const Point<D>& p, std::uint64_t attempt) const;
-  void box_simplices();
+  /// Those next to p among these, in order, the last one at least. So that place after place does not take a look at all walls.
+  std::optional<std::vector<std::uint32_t>> last_crossings(const Point<D>& q, const Point<D>& p) const;
+  std::optional<std::vector<std::uint32_t>> in_order(const Point<D>& q, const Point<D>& p,
+                                                     const std::vector<std::uint32_t>& hits) const;
+  void plant_simplices();
   void nest();    ///< RegionMode::automatic: which are kept
   void number();  ///< labels of those without a seed (numbers_volumes)
   std::uint32_t side_volume(std::uint32_t simplex, bool negative) const;
@@ -102,9 +106,8 @@ class InputVolumes {
 
   const Domain<D>* domain_ = nullptr;
   VolumeWalls<D> walls_;
-  double span_ = 0;                    ///< longer than the bounding box of the input
-  std::vector<detail::Box<D>> boxes_;  ///< of `boxed` simplices each that follow each other: inputs are mostly listed by place
-  static constexpr std::uint32_t boxed = 32;
+  double span_ = 0;                         ///< longer than the bounding box of the input
+  std::optional<detail::BoxTree<D>> tree_;  ///< of the simplices
   std::vector<std::uint32_t> patch_of_;
   std::vector<Patch> patches_;
   std::vector<Bound> bounds_;

@@ -5,6 +5,7 @@
 // a wall, is given up for another one.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "check/volumes/input_volumes.hpp"
 #include "numbers/exact_tests.hpp"
@@ -53,12 +54,13 @@ std::uint64_t mix(std::uint64_t x) {  // splitmix64
 template <int D>
 class Strip {
  public:
-  Strip(const Point<D>& q, const Point<D>& p, double magnitude) : q_(q) {
-    Point<D> d;
-    double length = 0;
+  Strip(const Point<D>& q, const Point<D>& p) : q_(q), p_(p) {
+    Point<D>& d = along_;
+    double length = 0, magnitude = 0;
     for (int i = 0; i < D; ++i) {
       d[i] = p[i] - q[i];
       length = std::max(length, std::abs(d[i]));
+      magnitude = std::max({magnitude, std::abs(q[i]), std::abs(p[i])});
     }
     for (int i = 0; i < D; ++i) d[i] /= length;
     int least = 0;
@@ -77,7 +79,8 @@ class Strip {
     slack_ = rounding::of_pruning * (magnitude + length);
   }
 
-  bool may_cross(const Point<D>& low, const Point<D>& high) const {
+  bool may_cross(const detail::Box<D>& box) const {
+    const auto& [low, high] = box;
     for (const auto& n : normal_) {
       double height = 0, reach = slack_;
       for (int i = 0; i < D; ++i) {
@@ -89,8 +92,19 @@ class Strip {
     return true;
   }
 
+  /// How far it is from the end, at least and at most, against the direction of the line.
+  std::array<double, 2> extent_from_end(const detail::Box<D>& box) const {
+    double from = -slack_, to = slack_;
+    for (int i = 0; i < D; ++i) {
+      const double a = along_[i] * (p_[i] - box.low[i]), b = along_[i] * (p_[i] - box.high[i]);
+      from += std::min(a, b);
+      to += std::max(a, b);
+    }
+    return {from, to};
+  }
+
  private:
-  Point<D> q_;
+  Point<D> q_, p_, along_;
   std::array<Point<D>, D - 1> normal_{};
   double slack_ = 0;
 };
@@ -105,38 +119,67 @@ std::array<Point<D>, D> InputVolumes<D>::simplex(std::uint32_t i) const {
 }
 
 template <int D>
-void InputVolumes<D>::box_simplices() {
-  boxes_.clear();
-  for (std::uint32_t i = 0; i < walls_.simplices.size(); ++i) {
-    const detail::Box<D> box = detail::Box<D>::of(simplex(i));
-    if (i % boxed == 0) boxes_.push_back(box);
-    boxes_.back().add(box);
-  }
+void InputVolumes<D>::plant_simplices() {
+  std::vector<detail::Box<D>> boxes;
+  boxes.reserve(walls_.simplices.size());
+  for (std::uint32_t i = 0; i < walls_.simplices.size(); ++i) boxes.push_back(detail::Box<D>::of(simplex(i)));
+  tree_.emplace(boxes);
 }
 
 template <int D>
 std::optional<std::vector<std::uint32_t>> InputVolumes<D>::crossings(const Point<D>& q, const Point<D>& p) const {
-  double magnitude = 0;
-  for (const Point<D>& x : {q, p})
-    for (int i = 0; i < D; ++i) magnitude = std::max(magnitude, std::abs(x[i]));
-  const Strip<D> strip(q, p, magnitude);
+  const Strip<D> strip(q, p);
   std::vector<std::uint32_t> hits;
-  std::vector<std::array<Point<D>, D>> hit_simplices;
-  for (std::uint32_t i = 0; i < walls_.simplices.size(); ++i) {
-    if (i % boxed == 0 && !strip.may_cross(boxes_[i / boxed].low, boxes_[i / boxed].high)) {
-      i += boxed - 1;
-      continue;
-    }
-    const auto s = simplex(i);
-    const detail::Box<D> box = detail::Box<D>::of(s);
-    if (!strip.may_cross(box.low, box.high)) continue;
-    const Crossing c = crossing<D>(s, q, p);
-    if (c == Crossing::degenerate) return {};
-    if (c == Crossing::miss) continue;
-    hits.push_back(i);
-    hit_simplices.push_back(s);
-  }
-  const auto order = order_along<D>(q, p, hit_simplices);
+  bool degenerate = false;
+  tree_->wherever([&](const detail::Box<D>& box) { return !degenerate && strip.may_cross(box); },
+                  [&](std::uint32_t i) {
+                    const Crossing c = crossing<D>(simplex(i), q, p);
+                    degenerate |= c == Crossing::degenerate;
+                    if (c == Crossing::hit) hits.push_back(i);
+                  });
+  if (degenerate) return {};
+  return in_order(q, p, hits);
+}
+
+template <int D>
+std::optional<std::vector<std::uint32_t>> InputVolumes<D>::last_crossings(const Point<D>& q, const Point<D>& p) const {
+  const Strip<D> strip(q, p);
+  struct Hit {
+    std::uint32_t simplex;
+    double from;
+  };
+  std::vector<Hit> hits;
+  bool degenerate = false;
+  double least = std::numeric_limits<double>::max();  // less than the bound of what the line passes
+  const auto bound = [&](const detail::Box<D>& box, std::uint32_t) {
+    const auto [from, to] = strip.extent_from_end(box);
+    return !degenerate && to >= 0 && strip.may_cross(box) ? from : std::numeric_limits<double>::infinity();
+  };
+  tree_->nearest(bound, [&](std::uint32_t i) {
+    const detail::Box<D> box = detail::Box<D>::of(simplex(i));
+    if (degenerate || !strip.may_cross(box)) return least;
+    const auto [from, to] = strip.extent_from_end(box);
+    if (from > least) return least;
+    const Crossing c = crossing<D>(simplex(i), q, p);
+    degenerate |= c == Crossing::degenerate;
+    if (c != Crossing::hit) return least;
+    hits.push_back({i, from});
+    least = std::min(least, to);
+    return least;
+  });
+  if (degenerate) return {};
+  std::vector<std::uint32_t> near;
+  for (const Hit& hit : hits)
+    if (hit.from <= least) near.push_back(hit.simplex);
+  return in_order(q, p, near);
+}
+
+template <int D>
+std::optional<std::vector<std::uint32_t>> InputVolumes<D>::in_order(const Point<D>& q, const Point<D>& p,
+                                                                    const std::vector<std::uint32_t>& hits) const {
+  std::vector<std::array<Point<D>, D>> simplices;
+  for (const std::uint32_t i : hits) simplices.push_back(simplex(i));
+  const auto order = order_along<D>(q, p, simplices);
   if (order.size() != hits.size()) return {};
   std::vector<std::uint32_t> sorted;
   for (const std::uint32_t i : order) sorted.push_back(hits[i]);
@@ -159,7 +202,7 @@ template <int D>
 std::optional<std::uint32_t> InputVolumes<D>::locate(const Point<D>& p) const {
   constexpr std::uint64_t attempts = 32;  // a line in general position is found at once unless p is on a wall
   for (std::uint64_t attempt = 0; attempt < attempts; ++attempt) {
-    const auto hits = crossings(far_from(p, attempt), p);
+    const auto hits = last_crossings(far_from(p, attempt), p);
     if (!hits) continue;
     if (hits->empty()) return 0;
     const auto s = simplex(hits->back());

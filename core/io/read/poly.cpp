@@ -200,10 +200,10 @@ void read_holes(LineScanner& in, Plc<D>& plc) {
   }
 }
 
-/// The optional last part. A single number behind the point is the attribute; Triangle's manual makes it the bound of
-/// the area as well, in space it is left at that, since there such files mean labels.
+/// The optional last part. A single number behind the point is the attribute, and in 2D the bound of the area as well where the
+/// options say so: Triangle's manual has it that way, but such files mean labels, and Triangle heeds areas with -a alone.
 template <int D>
-void read_regions(LineScanner& in, Plc<D>& plc) {
+void read_regions(LineScanner& in, const ReadOptions& options, Plc<D>& plc) {
   if (!in.advance()) return;
   const ListHeader h = read_list_header(in, {"the list of regions"}, 2 * (D + 2));
   plc.regions.reserve(h.entries);
@@ -217,7 +217,7 @@ void read_regions(LineScanner& in, Plc<D>& plc) {
     region.attribute = in.number(s);
     if (in.more_on_line())
       region.size = in.number(s);
-    else if constexpr (D == 2)
+    else if (D == 2 && options.region_areas)
       region.size = region.attribute;
     in.end_line({"the end of a region"});
     plc.regions.push_back(region);
@@ -239,7 +239,7 @@ Plc<D> read_node(std::string_view text, const std::filesystem::path& file) {
 }
 
 template <int D>
-Plc<D> read_poly(std::string_view text, const std::filesystem::path& file, FileTexts& beside) {
+Plc<D> read_poly(std::string_view text, const std::filesystem::path& file, FileTexts& beside, const ReadOptions& options) {
   Plc<D> plc;
   plc.source.file = file.string();
   LineScanner in(text, plc.source.file);
@@ -249,7 +249,7 @@ Plc<D> read_poly(std::string_view text, const std::filesystem::path& file, FileT
   else
     read_facets(in, plc, 6, read_poly_facet);  // "1\n1 1\n"
   read_holes(in, plc);
-  read_regions(in, plc);
+  read_regions(in, options, plc);
   return plc;
 }
 
@@ -260,7 +260,7 @@ Plc<3> read_smesh(std::string_view text, const std::filesystem::path& file, File
   read_point_section(in, file, beside, plc);
   read_facets(in, plc, 4, read_smesh_facet);  // "1 1\n"
   read_holes(in, plc);
-  read_regions(in, plc);
+  read_regions(in, {}, plc);
   return plc;
 }
 
@@ -276,7 +276,7 @@ int node_dimension(std::string_view text, const std::filesystem::path& file, Fil
 
 template Plc<2> read_node<2>(std::string_view, const std::filesystem::path&);
 template Plc<3> read_node<3>(std::string_view, const std::filesystem::path&);
-template Plc<2> read_poly<2>(std::string_view, const std::filesystem::path&, FileTexts&);
-template Plc<3> read_poly<3>(std::string_view, const std::filesystem::path&, FileTexts&);
+template Plc<2> read_poly<2>(std::string_view, const std::filesystem::path&, FileTexts&, const ReadOptions&);
+template Plc<3> read_poly<3>(std::string_view, const std::filesystem::path&, FileTexts&, const ReadOptions&);
 
 }  // namespace pgdr::detail

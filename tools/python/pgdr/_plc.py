@@ -113,14 +113,16 @@ class Plc:
         return made
 
     @classmethod
-    def read(cls, path: _arguments.Path, *, tolerance: Optional[float] = None, coarse: bool = False) -> Plc:
-        """The input in a file: .poly, .smesh, .node, .off, .obj, .ply, .stl, .msh or .mesh, by its extension.
+    def read(cls, path: _arguments.Path, *, tolerance: Optional[float] = None, coarse: bool = False,
+             region_areas: bool = False) -> Plc:
+        """The input in a file: .poly, .smesh, .node, .off, .obj, .ply, .stl, .msh or .mesh, by its extension. With `region_areas`, a
+        region of a .poly in 2D that has one number behind its point has it as label and as largest area; else as label alone.
 
         Raises FileError if it cannot be opened, InputError with file and line if it is not what its format asks for.
         """
         file = _arguments.path(path)
         read = _pgdr.read_plc2 if _pgdr.file_dimension(file) == 2 else _pgdr.read_plc3
-        made = cls._of(read(file))
+        made = cls._of(read(file, _arguments.flag("region_areas", region_areas)))
         return made if tolerance is None else made.with_tolerance(tolerance, coarse=coarse)
 
     @classmethod

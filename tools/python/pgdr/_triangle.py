@@ -97,8 +97,10 @@ def _plc(given: Mapping[str, Any], switches: Mapping[str, Any]) -> Plc:
         arguments["point_attributes"] = attributes[:, None] if attributes.ndim == 1 else attributes
     if "regions" in given:
         rows = np.array(_arguments.reals("regions", given["regions"]))
+        if rows.ndim == 2 and rows.shape[1] == 3:  # labels alone
+            rows = np.pad(rows, ((0, 0), (0, 1)))
         if rows.ndim != 2 or rows.shape[1] != 4:
-            raise usage(f"regions must have the shape (k, 4): x, y, attribute, largest area; not {rows.shape}")
+            raise usage(f"regions must have the shape (k, 4): x, y, attribute, largest area; or (k, 3), without; not {rows.shape}")
         if "a" not in switches:  # areas of regions count with a bare a
             rows[:, 3] = 0
         arguments["regions"] = np.maximum(rows, [-np.inf, -np.inf, -np.inf, 0])
@@ -219,7 +221,7 @@ def triangulate(tri: Mapping[str, Any], opts: str = "") -> Dict[str, npt.NDArray
     ----------
     tri : dict
         vertices (n, 2); vertex_attributes (n, a); vertex_markers (n,) or (n, 1); and with the switch p: segments (m, 2),
-        segment_markers (m,) or (m, 1), holes (k, 2), regions (k, 4) of x, y, attribute, largest area. The keys of a result
+        segment_markers (m,) or (m, 1), holes (k, 2), regions (k, 4) of x, y, attribute, largest area, or (k, 3), without the area. The keys of a result
         (triangles, neighbors, ...) may be there, too, and mean nothing.
     opts : str
         p: segments, holes and regions count; without p or with c, the convex hull is the boundary. q, q25: no angle below 20
