@@ -397,8 +397,8 @@ def sheets():
 MODELS = {  # and the flags; whether pieces overlap, so that markers of several may be right
     "lake": (lake, ["--size", "0.8"], True), "rooms": (shapes.rooms, ["--size", "2"], True),
     "rings": (shapes.rings, ["--size", "1"], False), "parcels": (shapes.parcels, ["--size", "4"], True),
-    "pipes": (shapes.pipes, [], False), "cracked_plate": (shapes.cracked_plate, [], False), "spikes": (spikes, [], False),
-    "pit": (pit, ["--size", "0.7"], True), "sheets": (sheets, ["--size", "0.8"], False), "blades": (blades, [], False),
+    "pipes": (shapes.pipes, [], False), "cracked_plate": (shapes.cracked_plate, [], False), "spikes": (spikes, ["--size", "0.1"], False),
+    "pit": (pit, ["--size", "0.7"], True), "sheets": (sheets, ["--size", "0.8"], False), "blades": (blades, ["--size", "0.4"], False),
     "box_on_floor": (shapes.box_on_floor, ["--size", "0.7"], True), "half_faces": (shapes.half_faces, ["--size", "0.8"], True),
     "lead": (shapes.lead, [], False), "layers": (shapes.layers, [], False), "tunnel": (shapes.tunnel, [], False),
 }
