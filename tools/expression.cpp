@@ -73,7 +73,8 @@ class Evaluator {
   /// What is wrong: an unknown name with those that there are, or muParser's words.
   std::string explain(const ParserError& e) const {
     const std::string& word = e.GetToken();
-    const bool is_name = e.GetCode() == mu::ecUNASSIGNABLE_TOKEN && !word.empty() && (std::isalpha(word[0]) || word[0] == '_');
+    const bool is_name = e.GetCode() == mu::ecUNASSIGNABLE_TOKEN && !word.empty() &&
+                         (std::isalpha(static_cast<unsigned char>(word[0])) != 0 || word[0] == '_');
     if (!is_name) return e.GetMsg() + " (variables: " + variable_names() + ")";
     if (parser_.GetFunDef().count(word) > 0) return "the function \"" + word + "\" has its arguments in parentheses";
     std::string functions;

@@ -368,8 +368,8 @@ std::string explain(const CLI::App& app, const CLI::ParseError& e, int argc, con
       names += (names.empty() ? "" : ", ") + sub->get_name();
     return "the subcommands are " + names + (argc > 1 ? std::string(", not \"") + argv[1] + '"' : std::string());
   }
-  if (e.get_name() != "ExtrasError") return e.what();
-  for (const std::string& word : parsed.front()->remaining()) {
+  if (e.get_exit_code() != static_cast<int>(CLI::ExitCodes::ExtrasError)) return e.what();
+  for (const std::string& word : app.remaining(true)) {
     if (!word.starts_with('-')) continue;
     const std::string flag = word.substr(0, word.find('=')), nearest = nearest_flag(*parsed.front(), flag);
     return parsed.front()->get_name() + " has no flag " + flag + (nearest.empty() ? "" : "; there is " + nearest);

@@ -64,9 +64,8 @@ void write_file(const std::filesystem::path& file, const std::function<void(std:
 void require_writable(const std::filesystem::path& file) {
   const detail::WriteTarget target = detail::target_of(file.native());
   if (target.is_stream()) return;
-  const std::string folder = detail::folder_of(target.name);
-  if (::access(folder.c_str(), F_OK) != 0) detail::cannot_write(file.native(), "there is no such folder");
-  if (::access(folder.c_str(), W_OK | X_OK) != 0) detail::cannot_write(file.native(), "no file can be made in this folder");
+  if (::access(detail::folder_of(target.name).c_str(), F_OK) != 0) detail::cannot_write(file.native(), "there is no such folder");
+  const detail::FileOutput begun(file);  // and removed: permissions say nothing of folders of the system
 }
 
 std::filesystem::path place_of_output(const std::filesystem::path& file) { return detail::target_of(file.native()).name; }

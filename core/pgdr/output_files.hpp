@@ -20,8 +20,8 @@ namespace pgdr PGDR_API {
 /// @throws FileError cannot_write
 void write_file(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write);
 
-/// Asks what can be known without writing: whether there is a folder in which a file can be made, and nothing of that name that
-/// may not be replaced or written to. @throws FileError cannot_write
+/// Asks what can be known without writing: whether there is a folder in which a file can be made, which is tried, and nothing of
+/// that name that may not be replaced or written to. @throws FileError cannot_write
 void require_writable(const std::filesystem::path& file);
 
 /// The place that is written under a name: that of the file behind all links, also where there is none yet. The name itself of

@@ -243,7 +243,15 @@ class Replaced(OutputCase):
         locked.chmod(0o555)
         for what, command in self.outputs(locked / "new.json").items():
             with self.subTest(what):
-                self.assertIn("folder", self.pgdr(*command, expect=4, preexec_fn=as_nobody).stderr)
+                self.assertIn("Permission", self.pgdr(*command, expect=4, preexec_fn=as_nobody).stderr)
+        self.assertFalse(self.output.exists())
+
+    def test_folders_of_the_system(self):
+        """Even root makes no files there, which no permission says."""
+        for name in ("/proc/pgdr.json", "/proc/self/comm"):
+            for what, command in self.outputs(name).items():
+                with self.subTest(what):
+                    self.pgdr(*command, expect=4)
         self.assertFalse(self.output.exists())
 
     def test_a_report_that_cannot_be_written_costs_no_meshing(self):

@@ -64,7 +64,7 @@ class Expressions(Case):
         self.assertEqual(listed, functions)
         self.assertGreater(len(listed), 20)
         for name in sorted(listed):
-            arguments = {"if": "x, 1, 2", "hypot": "x, y", "pow": "x, y", "atan2": "x, y"}.get(name, "0.5")
+            arguments = {"if": "x, 1, 2", "hypot": "x, y", "pow": "x, y", "atan2": "x, y", "acosh": "1.5"}.get(name, "0.5")
             done = self.mesh(PLATE, "--size", f"1 + abs({name}({arguments}))", "--no-refine", expect=None)
             self.assertNotEqual(done.returncode, 2, f"{name}: {done.stderr}")
 
