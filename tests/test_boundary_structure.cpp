@@ -172,7 +172,7 @@ TEST(Seeds, WinOverNesting) {
     std::vector<Point3> holes;
     std::vector<RegionSeed<3>> regions;
     std::array<double, 3> automatic, all, seeds;
-    std::size_t warnings = 0;
+    std::ptrdiff_t warnings = 0;
   };
   const std::vector<Case> cases{
       {{}, {}, {1, 0, 2}, {1, 2, 3}, {-1, -1, -1}},
@@ -205,7 +205,8 @@ TEST(Seeds, WinOverNesting) {
         }
         EXPECT_EQ(label_at<3>(out.result.mesh, p), wanted[k]) << k;
       }
-      EXPECT_EQ(out.result.warnings.size(), cases[i].warnings);
+      const auto is_of_seeds = [](const Diagnostic& d) { return d.code == Errc::seed_on_boundary; };
+      EXPECT_EQ(std::ranges::count_if(out.result.warnings, is_of_seeds), cases[i].warnings);
     }
   }
 }

@@ -44,13 +44,13 @@ void require_entities(const std::vector<Constraint>& constraints, const Entities
     if (c.entity >= entities.size()) refuse("a subsegment or subfacet of the mesh is of no segment or facet of this Domain");
 }
 
-/// The vertex of each point of the Domain, which are distinct. A mesh has them in their order, but for what was dropped.
+/// The vertex of each point of the Domain, which are distinct. A mesh has them in their order, but for what was dropped, and
+/// before all others.
 template <int D>
 std::vector<std::uint32_t> vertices_of_domain(const Domain<D>& domain, const OutputMesh<D>& mesh) {
   std::vector<std::uint32_t> vertices(domain.points().size(), dropped_point);
   std::uint32_t next = 0;
-  const std::size_t count = std::min(mesh.input_points, mesh.points.size());
-  for (std::size_t p = 0; p < vertices.size() && next < count; ++p)
+  for (std::size_t p = 0; p < vertices.size() && next < mesh.points.size(); ++p)
     if (mesh.points[next] == domain.points()[p]) vertices[p] = next++;
   if (next != mesh.input_points) refuse("the mesh was not made of this Domain: it has other input points");
   return vertices;
