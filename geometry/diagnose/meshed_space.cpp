@@ -235,6 +235,18 @@ bool MeshedSpace<D>::may_face(std::uint32_t piece, const Point<D>& x) const {
 }
 
 template <int D>
+bool MeshedSpace<D>::may_face_from_segment(EntityId segment, const Point<D>& x) const requires(D == 3) {
+  const Domain<D>& domain = pieces_.domain();
+  const auto& [a, b] = domain.segments()[segment].points;
+  const auto facets = domain.facets_of_segment(segment);
+  if (facets.empty()) return true;
+  for (const EntityId f : facets)
+    for (const std::uint32_t wall : domain.triangles_at(f, a))
+      if (pieces_.pieces()[wall].has(b) && may_face(wall, x)) return true;
+  return false;
+}
+
+template <int D>
 bool MeshedSpace<D>::is_between(const Point<D>& a, const Point<D>& b, bool meshed) const {
   if (is_in_volume(a, b, meshed)) return true;
   if constexpr (D == 3)

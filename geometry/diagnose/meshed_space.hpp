@@ -43,6 +43,8 @@ class MeshedSpace {
   bool has(std::uint32_t piece) const;
   /// May what is between the piece and x be meshed, by the side of the piece that x is on?
   bool may_face(std::uint32_t piece, const Point<D>& x) const;
+  /// The same of a segment of facets: a way from it to x begins in a volume that has a wall at less than 180 degrees from x.
+  bool may_face_from_segment(EntityId segment, const Point<D>& x) const requires(D == 3);
   /// Is all that is between two points of pieces in one volume that is meshed, or (3D) on one facet that bounds such a volume?
   /// With `meshed` false: in one that is not, or on one that bounds none.
   bool is_between(const Point<D>& a, const Point<D>& b, bool meshed = true) const;

@@ -112,31 +112,6 @@ auto SizeFieldOfGaps<D>::nearest(const Point<D>& x, double most) const -> Near {
   return near;
 }
 
-// A large facet of many triangles is passed over where a node has no others.
-template <int D>
-auto SizeFieldOfGaps<D>::nearest_disjoint(const Point<D>& x, const typename NearPieces<D>::Piece& own, double most) const
-    -> Near {
-  const double facet = own.count == 3 ? own.facet : -1.0;
-  Near near;
-  tree_.nearest(
-      [&](const Box<D>& box, std::uint32_t node) {
-        const bool is_own = least_facet_below_[node] == facet && greatest_facet_below_[node] == -facet;
-        return is_own ? infinity : std::sqrt(box.squared_distance_to(x));
-      },
-      [&](std::uint32_t i) {
-        const auto& piece = pieces_.pieces()[i];
-        const double limit = std::min(most, near.distance);
-        const auto closest = pieces_.closest(x, piece);
-        if (!(closest.square <= limit * limit)) return limit;
-        const double distance = std::sqrt(closest.square);
-        const bool is_nearer = distance < limit || (distance == near.distance && i < near.piece);
-        if (is_nearer && space_.may_face(i, x) && pieces_.are_disjoint(own, piece) && space_.is_between(x, closest.points[1]))
-          near = {i, distance, closest.points[1]};
-        return std::min(most, near.distance);
-      });
-  return near;
-}
-
 template <int D>
 auto SizeFieldOfGaps<D>::nearest_segment(const Point<D>& x, double most) const -> Near requires(D == 3) {
   const auto segments = pieces_.domain().segments();
@@ -153,20 +128,62 @@ auto SizeFieldOfGaps<D>::nearest_segment(const Point<D>& x, double most) const -
   return near;
 }
 
+// A large facet of many triangles is passed over where a node has no others. Behind walls there may be any number of pieces:
+// where so many are, the place counts as one that nothing is near to.
+constexpr int most_blocked = 64;
+
+template <int D>
+template <class MayFace>
+auto SizeFieldOfGaps<D>::nearest_disjoint(const Point<D>& x, const typename NearPieces<D>::Piece& own, double most,
+                                          const MayFace& may_face) const -> Near {
+  const double facet = own.count == 3 ? own.facet : -1.0;
+  Near near;
+  int blocked = 0;
+  tree_.nearest(
+      [&](const Box<D>& box, std::uint32_t node) {
+        const bool is_own = least_facet_below_[node] == facet && greatest_facet_below_[node] == -facet;
+        return is_own ? infinity : std::sqrt(box.squared_distance_to(x));
+      },
+      [&](std::uint32_t i) {
+        const auto& piece = pieces_.pieces()[i];
+        const double limit = std::min(most, near.distance);
+        const auto closest = pieces_.closest(x, piece);
+        if (!(closest.square <= limit * limit)) return limit;
+        const double distance = std::sqrt(closest.square);
+        const bool is_nearer = distance < limit || (distance == near.distance && i < near.piece);
+        const Point<D>& to = closest.points[1];
+        if (blocked == most_blocked) return -infinity;
+        if (!is_nearer || !may_face(to) || !space_.may_face(i, x) || !pieces_.are_disjoint(own, piece)) return limit;
+        if (space_.is_between(x, to))
+          near = {i, distance, to};
+        else
+          ++blocked;
+        return std::min(most, near.distance);
+      });
+  return near;
+}
+
+template <int D>
+auto SizeFieldOfGaps<D>::nearest_disjoint(const Point<D>& x, std::uint32_t from, double most) const -> Near {
+  return nearest_disjoint(x, pieces_.pieces()[from], most, [&](const Point<D>& to) { return space_.may_face(from, to); });
+}
+
 template <int D>
 auto SizeFieldOfGaps<D>::look(const Point<D>& x) const -> Look {
   Look found{from_points(x), {}, {}};
-  const auto note = [&](const Near& here, const typename NearPieces<D>::Piece& own, Narrow& narrow) {
-    const Near there = nearest_disjoint(here.place, own, found.h - here.distance);
+  const auto note = [&](const Near& here, const Near& there, Narrow& narrow) {
     if (there.piece == no_entity) return;
     narrow = {here.distance, there.distance, here.place};
     found.h = std::min(found.h, narrow.size());
   };
-  if (const Near here = nearest(x, found.h); here.piece != no_entity) note(here, pieces_.pieces()[here.piece], found.nearest);
+  if (const Near here = nearest(x, found.h); here.piece != no_entity)
+    note(here, nearest_disjoint(here.place, here.piece, found.h - here.distance), found.nearest);
   if constexpr (D == 3)
     if (const Near here = nearest_segment(x, found.h); here.piece != no_entity) {
       const auto& [a, b] = pieces_.domain().segments()[here.piece].points;
-      note(here, {{a, b, no_entity}, 2, no_entity, here.piece}, found.on_segment);
+      const auto may_face = [&](const Point<D>& to) { return space_.may_face_from_segment(here.piece, to); };
+      note(here, nearest_disjoint(here.place, {{a, b, no_entity}, 2, no_entity, here.piece}, found.h - here.distance, may_face),
+           found.on_segment);
     }
   return found;
 }

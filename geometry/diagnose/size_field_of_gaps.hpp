@@ -52,12 +52,11 @@ class SizeFieldOfGaps {
   Near nearest(const Point<D>& x, double most) const;
   /// The same of pieces whose entities have no point in common with that of a piece, on which x is, where what is between is
   /// meshed.
-  Near nearest_disjoint(const Point<D>& x, std::uint32_t from, double most) const {
-    return nearest_disjoint(x, pieces_.pieces()[from], most);
-  }
+  Near nearest_disjoint(const Point<D>& x, std::uint32_t from, double most) const;
 
  private:
-  Near nearest_disjoint(const Point<D>& x, const typename NearPieces<D>::Piece& own, double most) const;
+  template <class MayFace>
+  Near nearest_disjoint(const Point<D>& x, const typename NearPieces<D>::Piece& own, double most, const MayFace& may_face) const;
   std::vector<double> sizes_at_points(const std::optional<Gap<D>>& narrowest, const Bulk& bulk) const;
   double from_points(const Point<D>& x) const;
   Near nearest_segment(const Point<D>& x, double most) const requires(D == 3);
