@@ -4,10 +4,11 @@
 
 #include <array>
 #include <cstdio>
+#include <string>
 
 #include "command.hpp"
 #include "console.hpp"
-#include "planar_hint.hpp"
+#include "cures.hpp"
 
 namespace pgdr::tool {
 namespace {
@@ -86,15 +87,15 @@ template <int D>
 int refuse(const Plc<D>& plc, const Diagnosis<D>& diagnosis, Report& report) {
   constexpr std::size_t most = 5;
   const std::vector<Diagnostic> errors = diagnosis.errors();
+  const std::string bodies = words_of_bodies(plc, diagnosis);
+  if (!bodies.empty()) std::fprintf(stderr, "pgdr: error: %s\n", bodies.c_str());
   for (std::size_t i = 0; i < errors.size(); ++i) {
     report.add_error(errors[i]);
-    if (i < most) std::fprintf(stderr, "pgdr: error: %s\n", Error(errors[i]).what());
+    if (i < most && bodies.empty()) std::fprintf(stderr, "pgdr: error: %s\n", Error(errors[i]).what());
   }
-  if (const std::uint64_t all = diagnosis.error_count(); all > most)
+  if (const std::uint64_t all = diagnosis.error_count(); all > most && bodies.empty())
     std::fprintf(stderr, "pgdr: and %llu more errors\n", static_cast<unsigned long long>(all - most));
-  if (const auto flags = flags_for_refused(plc, diagnosis)) std::fprintf(stderr, "pgdr: %s\n", flags->c_str());
-  if (const auto tolerance = tolerance_for_refused(plc))
-    std::fprintf(stderr, "pgdr: --tolerance %s%s\n", digits(*tolerance).c_str(), what_tolerance_does.data());
+  say_cures(plc, diagnosis);
   return exit_input;
 }
 

@@ -164,16 +164,22 @@ void print_outlook(const Domain<D>& domain, const Outlook<D>& outlook) {
 }
 
 template <int D>
-void require_memory(const Domain<D>& domain, const Outlook<D>& outlook) {
-  if (!outlook.estimate || !outlook.estimate->most_due_to) return;
+bool has_memory_for(const Outlook<D>& outlook) {
+  if (!outlook.estimate || !outlook.estimate->most_due_to) return true;
+  return !(outlook.estimate->at_least * bytes_a_cell<D> > available_memory());
+}
+
+template <int D>
+void require_memory(const Domain<D>& domain, const Outlook<D>& outlook, const std::function<std::string()>& cure) {
+  if (has_memory_for(outlook)) return;
   const double cells = outlook.estimate->at_least, bytes = cells * bytes_a_cell<D>, there_are = available_memory();
-  if (!(bytes > there_are)) return;
   const Gap<D>& gap = *outlook.estimate->most_due_to;
   Diagnostic d{.code = Errc::out_of_memory, .file = domain.source().file};
   d.message = words(domain, gap.entities) + " are " + digits(gap.distance) + " apart, at " + words(gap.points[0]) + " and " +
               words(gap.points[1]) +
               format(": that takes at least %.1e cells, so %.1e bytes of memory, and there are %.1e. ", cells, bytes, there_are) +
               "With --max-vertices or --time-limit a part of the mesh is made";
+  if (const std::string words = cure(); !words.empty()) d.message += ". " + words;
   for (const Point<D>& p : gap.points) d.points.push_back({p[0], p[1], D == 3 ? p[D - 1] : 0});
   throw ResourceError(std::move(d));
 }
@@ -182,7 +188,8 @@ void require_memory(const Domain<D>& domain, const Outlook<D>& outlook) {
   template Outlook<D> look_ahead<D>(const Domain<D>&, const Bounds<D>&, bool, RegionMode, const std::stop_token&); \
   template void set_outlook<D>(Report&, const Domain<D>&, const Outlook<D>&);                                      \
   template void print_outlook<D>(const Domain<D>&, const Outlook<D>&);                                             \
-  template void require_memory<D>(const Domain<D>&, const Outlook<D>&);
+  template bool has_memory_for<D>(const Outlook<D>&);                                                              \
+  template void require_memory<D>(const Domain<D>&, const Outlook<D>&, const std::function<std::string()>&);
 PGDR_INSTANTIATE(2)
 PGDR_INSTANTIATE(3)
 #undef PGDR_INSTANTIATE

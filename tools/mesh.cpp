@@ -374,7 +374,15 @@ class MeshRun {
         report_.set("surface", JsonObject{{"given", to_json(surface_counts(plc_))}, {"meshed", to_json(surface_counts(domain))}});
     if (!a_.quiet) print_outlook(domain, outlook);
     const bool is_bounded = a_.max_vertices || a_.time_limit || a_.keep_boundary || a_.min_edge > 0;
-    if (!is_bounded) require_memory(domain, outlook);
+    if (is_bounded) return;
+    const auto is_cured = [&](const Domain<D>& other) {
+      return has_memory_for(look_ahead<D>(other, bounds_, !a_.no_refine, a_.regions, options_.stop));
+    };
+    require_memory<D>(domain, outlook, [&] {
+      const auto tolerance = cure_of_gaps<D>(plc_, domain, is_cured);
+      if (!tolerance) return std::string();
+      return "--tolerance " + digits(*tolerance) + ", two units of the last digit of the coordinates, joins what is so near";
+    });
   }
 
   /// Writes the mesh, if there is one. Where elements stay poor the first rank looks for a tolerance that may help: meanwhile, if

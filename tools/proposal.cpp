@@ -14,8 +14,9 @@
 namespace pgdr::tool {
 namespace {
 
-/// A double that was no short decimal number has 16 or 17 digits; one in ten thousand has as few as that.
-constexpr int most_digits = 12;
+/// A double that was no short decimal number has 16 or 17 digits; one in a hundred has as few as that, and all of a file have to.
+/// (Two units of a fifteenth digit are no more than what meets by default.)
+constexpr int most_digits = 14;
 constexpr double units = 2;           // a rounded point misses its facet by up to 1.3 of them, and others are as far off again
 constexpr double least_of_next = 10;  // times the tolerance: what is left is clearly no rounding
 
@@ -95,6 +96,8 @@ std::optional<Proposal> find_proposal(const Plc<D>& plc, const Domain<D>& domain
   try {
     const auto other = with_tolerance_of_digits(plc);
     if (!other) return std::nullopt;
+    const auto apart = narrowest_gap<D>(domain, {.in = GapsIn::not_meshed});
+    if (apart && apart->distance <= *other->tolerance) return std::nullopt;  // it takes no cells, and may be meant
     const Domain<D> then(*other);
     Proposal proposal{*other->tolerance, domain.facets().size(), then.facets().size(), 0};
     const std::size_t before = joined_points(domain), after = joined_points(then);
@@ -103,6 +106,19 @@ std::optional<Proposal> find_proposal(const Plc<D>& plc, const Domain<D>& domain
   } catch (const std::exception&) {  // it breaks a guard; and the mesh is there without it
   }
   return std::nullopt;
+}
+
+template <int D>
+std::optional<double> cure_of_gaps(const Plc<D>& plc, const Domain<D>& domain,
+                                   const std::function<bool(const Domain<D>&)>& is_cured) {
+  const auto proposal = find_proposal(plc, domain);
+  if (!proposal) return std::nullopt;
+  Plc<D> other = plc;
+  other.tolerance = proposal->tolerance;
+  std::optional<Domain<D>> then;
+  if (diagnose(other, {.most_listed = 0, .errors_only = true, .stop = {}}, then).error_count() > 0 || !then) return std::nullopt;
+  if (!is_cured(*then)) return std::nullopt;
+  return proposal->tolerance;
 }
 
 template <int D>
@@ -122,6 +138,8 @@ std::optional<double> tolerance_for_refused(const Plc<D>& plc) {
 
 template std::optional<Proposal> find_proposal<2>(const Plc<2>&, const Domain<2>&);
 template std::optional<Proposal> find_proposal<3>(const Plc<3>&, const Domain<3>&);
+template std::optional<double> cure_of_gaps<2>(const Plc<2>&, const Domain<2>&, const std::function<bool(const Domain<2>&)>&);
+template std::optional<double> cure_of_gaps<3>(const Plc<3>&, const Domain<3>&, const std::function<bool(const Domain<3>&)>&);
 template std::optional<double> tolerance_for_refused<2>(const Plc<2>&);
 template std::optional<double> tolerance_for_refused<3>(const Plc<3>&);
 

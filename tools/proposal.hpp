@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -28,9 +29,13 @@ struct Proposal {
 };
 
 /// Of an input that is valid: nothing if a tolerance was asked for, or the digits are too many, or it would change nothing, or
-/// breaks what a Domain demands of a tolerance, or for lack of memory.
+/// close a gap that is not meshed, or breaks what a Domain demands of a tolerance, or for lack of memory.
 template <int D>
 std::optional<Proposal> find_proposal(const Plc<D>& plc, const Domain<D>& domain);
+/// Of an input whose gaps take too many cells: that tolerance, if it is proposed and cures that.
+template <int D>
+std::optional<double> cure_of_gaps(const Plc<D>& plc, const Domain<D>& domain,
+                                   const std::function<bool(const Domain<D>&)>& is_cured);
 
 /// Of an input that is refused: that tolerance, if it makes the input valid, and nothing is left then that is nearer than ten
 /// times as much: no features could be taken for rounding.
