@@ -316,4 +316,36 @@ TEST(Diagnosis, IsWholeThoughTheTasksOfTheCallerAreCancelled) {
 }
 #endif
 
+// The error named one crossing, and how many more there were; its diagnostics had that one alone.
+TEST(Findings, AreAllInTheError) {
+  Plc<2> plc;
+  plc.points = {{{0, 0}}, {{7, 0}}, {{7, 7}}, {{0, 7}}};
+  for (std::uint32_t i = 0; i < 4; ++i) plc.segments.push_back({{i, (i + 1) % 4}, 0});
+  for (int i = 0; i < 6; ++i) {
+    const auto k = static_cast<std::uint32_t>(plc.points.size());
+    for (const auto& [x, y] : {std::pair{0.5, 1.0}, {0.5, 6.0}, {0.2, 3.0}, {0.8, 3.0}}) plc.points.push_back({{i + x, y}});
+    plc.segments.push_back({{k, k + 1}, 0});
+    plc.segments.push_back({{k + 2, k + 3}, 0});
+  }
+  try {
+    require_no_errors(Domain<2>(plc));
+    FAIL();
+  } catch (const DiagnosedError& e) {
+    EXPECT_NE(e.diagnostic().message.find("the first of 6"), std::string::npos);
+    EXPECT_EQ(e.diagnostics().size(), 6u);
+  }
+}
+
+TEST(Findings, InvalidEntitiesAreAllInTheError) {
+  Plc<3> plc = test::box();
+  for (int k = 0; k < 3; ++k) plc.facets.push_back({{{0, 0, 1}, {1, 1, 2}}, {}, 0});
+  try {
+    const Domain<3> domain(plc);
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_EQ(e.code(), Errc::degenerate_facet);
+    EXPECT_EQ(e.diagnostics().size(), 3u);
+  }
+}
+
 }  // namespace pgdr::test_diagnose_findings

@@ -186,6 +186,24 @@ TEST(Together, AllRanksThrowTheSameTypedError) {
   expect_on_all(Error(named));
 }
 
+TEST(Together, AllDiagnosticsTravel) {
+  const std::vector<std::exception_ptr> errors = errors_of_local_ranks(2, 1, [](Transport& transport) {
+    Collectives all(transport);
+    all.together([&] {
+      if (transport.rank() == 1) throw DiagnosedError(named, {named, {Errc::truncated, "the end", {}, 0, {}, {}}});
+    });
+  });
+  for (const std::exception_ptr& error : errors) {
+    try {
+      std::rethrow_exception(error);
+    } catch (const DiagnosedError& e) {
+      ASSERT_EQ(e.diagnostics().size(), 2u);
+      EXPECT_EQ(e.diagnostics()[0].ids, named.ids);
+      EXPECT_EQ(e.diagnostics()[1].message, "the end");
+    }
+  }
+}
+
 TEST(Together, AllOfADiagnosticTravels) {
   const std::vector<std::exception_ptr> errors = errors_of_local_ranks(2, 1, [](Transport& transport) {
     Collectives ranks(transport);

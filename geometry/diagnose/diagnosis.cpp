@@ -188,12 +188,13 @@ Diagnosis<D> diagnose(const Plc<D>& plc, const DiagnosisOptions& options, std::o
 
 template <int D>
 void require_no_errors(const Domain<D>& domain, const std::stop_token& stop, bool parallel) {
-  const Diagnosis<D> diagnosis = diagnose(domain, {.most_listed = 1, .errors_only = true, .stop = stop, .parallel = parallel});
+  const Diagnosis<D> diagnosis = diagnose(domain, {.errors_only = true, .stop = stop, .parallel = parallel});
   const std::uint64_t count = diagnosis.error_count();
   if (count == 0) return;
-  Diagnostic first = diagnosis.errors().front();
+  std::vector<Diagnostic> all = diagnosis.errors();
+  Diagnostic first = all.front();
   if (count > 1) first.message += " (the first of " + std::to_string(count) + " such errors)";
-  throw DiagnosedError(std::move(first));
+  throw DiagnosedError(std::move(first), std::move(all));
 }
 
 #define PGDR_INSTANTIATE(D)                                                                                      \

@@ -10,7 +10,14 @@
 namespace pgdr {
 template <int D>
 Domain<D>::Domain(const Plc<D>& plc, std::stop_token stop) {
-  DomainBuilder<D>(plc, *this, std::move(stop)).run();
+  try {
+    DomainBuilder<D>(plc, *this, stop).run();
+  } catch (const InputError& first) {  // which names one culprit: find them all
+    std::vector<Diagnostic> all;
+    without_invalid(plc, all, std::move(stop));
+    if (all.empty()) throw;
+    throw InputError(first.diagnostic(), std::move(all));
+  }
 }
 
 template <int D>

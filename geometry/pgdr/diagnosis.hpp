@@ -106,7 +106,8 @@ Diagnosis<D> diagnose(const Plc<D>& plc, const DiagnosisOptions& options, std::o
 
 /// The question that `refine` asks first. It costs nothing where the Domain knows already that nothing meets. `parallel`: as
 /// DiagnosisOptions::parallel.
-/// @throws DiagnosedError the first error, if there is one, and how many more there are; CancelledError.
+/// @throws DiagnosedError the first error, if there is one, and how many more there are, with the first of each kind as its
+///   diagnostics; CancelledError.
 template <int D>
 void require_no_errors(const Domain<D>& domain, const std::stop_token& stop = {}, bool parallel = true);
 

@@ -10,6 +10,7 @@
 #include <exception>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "pgdr/export.hpp"
@@ -99,8 +100,16 @@ struct UsageError : Error {
   using Error::Error;
 };
 /// Malformed or invalid input (exit code 3).
-struct InputError : Error {
-  using Error::Error;
+class InputError : public Error {
+ public:
+  explicit InputError(Diagnostic d) : Error(d), diagnostics_{std::move(d)} {}  ///< this alone is known
+  /// The first of all that is wrong.
+  InputError(Diagnostic first, std::vector<Diagnostic> all) : Error(std::move(first)), diagnostics_(std::move(all)) {}
+  /// All that is wrong with the input, this error among it, where that was looked for: the first twenty of each kind.
+  const std::vector<Diagnostic>& diagnostics() const noexcept { return diagnostics_; }
+
+ private:
+  std::vector<Diagnostic> diagnostics_;
 };
 /// Of these, what a diagnosis finds wrong (diagnosis.hpp), before anything is meshed.
 struct DiagnosedError : InputError {

@@ -4,8 +4,10 @@
 
 #include <array>
 #include <new>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace pgdr::detail {
 namespace {
@@ -24,9 +26,18 @@ Type type_of(const Error& error) {
   return Type::other;
 }
 
-void put(MessageWriter& message, Type type, const Diagnostic& d) {
+void put(MessageWriter& message, Type type, const Diagnostic& d, std::span<const Diagnostic> all = {}) {
   message.put(type);
   put_diagnostic(message, d);
+  message.put(std::uint64_t{all.size()});
+  for (const Diagnostic& one : all) put_diagnostic(message, one);
+}
+
+std::vector<Diagnostic> get_diagnostics(MessageReader& message) {
+  std::vector<Diagnostic> all;
+  for (auto left = message.get<std::uint64_t>(); left > 0; --left)
+    all.push_back(get_diagnostic(message));  // ends with the message
+  return all;
 }
 
 std::string words(int rank, const char* what) { return "rank " + std::to_string(rank) + ": " + what; }
@@ -64,6 +75,8 @@ Diagnostic get_diagnostic(MessageReader& message) {
 void put_error(MessageWriter& message, const std::exception_ptr& error, int rank) {
   try {
     std::rethrow_exception(error);
+  } catch (const InputError& e) {
+    put(message, type_of(e), e.diagnostic(), e.diagnostics());
   } catch (const Error& e) {
     put(message, type_of(e), e.diagnostic());
   } catch (const std::bad_alloc&) {
@@ -78,11 +91,12 @@ void put_error(MessageWriter& message, const std::exception_ptr& error, int rank
 void throw_error(MessageReader& message) {
   const auto type = message.get<Type>();
   Diagnostic d = get_diagnostic(message);
+  std::vector<Diagnostic> all = get_diagnostics(message);
   message.require_end();
   switch (type) {
     case Type::usage: throw UsageError(std::move(d));
-    case Type::diagnosed: throw DiagnosedError(std::move(d));
-    case Type::input: throw InputError(std::move(d));
+    case Type::diagnosed: throw DiagnosedError(std::move(d), std::move(all));
+    case Type::input: throw InputError(std::move(d), std::move(all));
     case Type::file: throw FileError(std::move(d));
     case Type::cancelled: throw CancelledError(std::move(d));
     case Type::resource: throw ResourceError(std::move(d));

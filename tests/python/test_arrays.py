@@ -54,6 +54,18 @@ class ArraysIn(unittest.TestCase):
             with self.subTest(words=words), self.assertRaisesRegex(error, words):
                 make()
 
+    def test_an_error_has_all_that_is_wrong(self):
+        """It had the first of six crossings."""
+        points, segments = [[0, 0], [7, 0], [7, 7], [0, 7]], [[0, 1], [1, 2], [2, 3], [3, 0]]
+        for i in range(6):
+            k = len(points)
+            points += [[i + 0.5, 1], [i + 0.5, 6], [i + 0.2, 3], [i + 0.8, 3]]
+            segments += [[k, k + 1], [k + 2, k + 3]]
+        with self.assertRaises(pgdr.InputError) as caught:
+            pgdr.mesh(pgdr.Plc(points, segments))
+        self.assertEqual(len(caught.exception.diagnostics), 6)
+        self.assertEqual({d.code for d in caught.exception.diagnostics}, {"entities_intersect"})
+
     def test_indices_and_coordinates_are_named(self):
         with self.assertRaises(pgdr.InputError) as caught:
             pgdr.Plc(SQUARE_POINTS, [[0, 1], [1, -2]])

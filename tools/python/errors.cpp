@@ -4,6 +4,7 @@
 
 #include <pybind11/stl.h>
 
+#include <span>
 #include <string>
 
 namespace pgdr::python {
@@ -21,7 +22,9 @@ const char* class_of(const Error& error) {
 
 void raise(const Error& error) {
   const py::object type = py::module_::import("pgdr._errors").attr(class_of(error));
-  const py::object made = type.attr("_of")(to_python(error.diagnostic()));
+  const auto* const input = dynamic_cast<const InputError*>(&error);
+  const std::span<const Diagnostic> all = input ? std::span(input->diagnostics()) : std::span(&error.diagnostic(), 1);
+  const py::object made = type.attr("_of")(to_python(error.diagnostic()), to_python(all));
   PyErr_SetObject(type.ptr(), made.ptr());
 }
 

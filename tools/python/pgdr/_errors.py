@@ -69,7 +69,7 @@ class Error(Exception):
         self.file: str = file
         #: Of the file, counted from 1; 0: unknown.
         self.line: int = line
-        #: All that is wrong with the input, this error among it, where that was looked for.
+        #: All that is wrong with the input, this error among it, where that was looked for: the first twenty of each kind.
         self.diagnostics: List[Diagnostic] = list(diagnostics)
         where = file + (f":{line}" if line else "")
         super().__init__(f"{where}: {message}" if where else message)
@@ -80,8 +80,8 @@ class Error(Exception):
         self.args = (f"{self}{words}",)
 
     @classmethod
-    def _of(cls: Type[_E], d: Diagnostic) -> _E:
-        return cls(d.message, code=d.code, ids=d.ids, points=d.points, file=d.file, line=d.line, diagnostics=[d])
+    def _of(cls: Type[_E], d: Diagnostic, all_of_them: Sequence[Diagnostic] = ()) -> _E:
+        return cls(d.message, code=d.code, ids=d.ids, points=d.points, file=d.file, line=d.line, diagnostics=all_of_them or [d])
 
     def __reduce__(self) -> Tuple[Callable[..., Error], Tuple[Any, ...]]:
         return _restored, (type(self), self.message, self.code, self.ids, self.points, self.file, self.line, self.diagnostics)
