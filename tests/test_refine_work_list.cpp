@@ -142,6 +142,38 @@ TEST(WorkList, IsCrowdedByCellsToComeOrByThoseThatWait) {
   EXPECT_EQ(list.to_come(), 0u);
 }
 
+// Millions may wait: who drains a list, and has to stop, leaves the rest as it is.
+TEST(WorkList, DrainingThatIsEndedEarlyLeavesTheRest) {
+  constexpr std::uint32_t each = 5000;
+  for (int looks = 0; looks < 30; ++looks) {
+    WorkList<3> list;
+    for (std::uint32_t i = 0; i < each; ++i) {
+      list.push({CellId{i}, 0, EntryKind::face, 1});
+      list.push(poor(i % 3, Item::over_size, 2, i));
+      list.push(skinny(4, each - i));
+    }
+    std::size_t drained = 0, to_come = 2 * each;
+    const bool done = list.drain(
+        [&](const Item& e) {
+          ++drained;
+          if (e.kind() == EntryKind::cell && e.which() == Item::over_size) to_come -= 2;
+        },
+        [](const Item&) {}, [&, asked = 0]() mutable { return asked++ == looks; });
+    EXPECT_EQ(done, drained == 3 * each);
+    EXPECT_LE(drained, static_cast<std::size_t>(looks) * 1024);
+    EXPECT_EQ(list.size(), 3 * each - drained);
+    EXPECT_EQ(list.to_come(), to_come);
+    std::uint32_t last = 0;
+    while (list.poor() > 0) {  // still in order
+      const Item e = list.pop_poor(mesh);
+      if (e.which() == Item::over_size) continue;
+      EXPECT_LT(last, e.order);
+      last = e.order;
+    }
+    EXPECT_EQ(list.size(), list.faces.size());
+  }
+}
+
 // A slot is given up before its births repeat: no entry of a dead cell is taken for one of the cells after it.
 TEST(Entry, ASlotAndItsBirthNameACellForGood) {
   class Cells : public Mesh<3> {

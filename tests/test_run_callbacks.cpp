@@ -199,6 +199,45 @@ TYPED_TEST(Callbacks, SlowOnesAreStoppedInTime) {
       }
 }
 
+/// What was told of a run, whose size function takes its time, so that it is told often.
+template <int D>
+std::vector<Progress> told_of(Schedule schedule, const Runner& runner) {
+  auto o = test::with<D>(options<D>(), runner);
+  o.schedule.schedule = schedule;
+  o.size = [](const Point<D>&) {
+    std::this_thread::sleep_for(std::chrono::microseconds(300));
+    return D == 2 ? 2e-3 : 0.12;
+  };
+  std::vector<Progress> told;
+  o.progress = [&](const Progress& p) { told.push_back(p); };
+  EXPECT_EQ(refine<D>(model<D>(), o).stop, StopCause::finished);
+  return told;
+}
+
+// The share done never falls, and is 1 in the end alone; a stage is always named.
+TYPED_TEST(Callbacks, ProgressCanDriveABar) {
+  constexpr int D = TypeParam::value;
+  const test::AllowThreads allow(8);
+  for (const Schedule schedule : {Schedule::reproducible, Schedule::uniform, Schedule::greedy})
+    for (const Runner& runner : {test::serial, test::eight_threads[0]}) {
+      const std::vector<Progress> told = told_of<D>(schedule, runner);
+      ASSERT_GT(told.size(), 1u);
+      double last = 0;
+      bool is_known = false;
+      for (const Progress& p : told) {
+        EXPECT_FALSE(std::string(p.stage).empty());
+        EXPECT_FALSE(is_known && !p.done);
+        is_known = p.done.has_value();
+        if (!is_known) continue;
+        EXPECT_GE(*p.done, last);
+        EXPECT_EQ(*p.done == 1, &p == &told.back());
+        last = *p.done;
+      }
+      EXPECT_EQ(last, 1);
+      EXPECT_STREQ(told.back().stage, "done");
+    }
+}
+
 // Without a partial mesh: all or nothing, whenever the cancellation comes.
 TYPED_TEST(Callbacks, CancelledWithoutPartialMesh) {
   constexpr int D = TypeParam::value;

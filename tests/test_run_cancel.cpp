@@ -9,6 +9,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <functional>
 #include <numbers>
 #include <thread>
@@ -265,6 +266,62 @@ TYPED_TEST(Cancel, WhileTheInputIsPrepared) {
     EXPECT_TRUE(result.mesh.cells.empty());
     EXPECT_FALSE(result.size_met);
   }
+}
+
+/// Processor seconds of this process.
+double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// Processor seconds that a run takes once it was told to end after so many, as a part of these; 0: it had ended before.
+template <int D>
+double lateness(const Plc<D>& plc, RefineOptions<D> o, double seconds, std::size_t& cells) {
+  std::stop_source source;
+  o.stop = source.get_token();
+  const double start = processor_seconds();
+  double asked = 0;
+  const auto ask = [&](const std::stop_token& over) {
+    while (!over.stop_requested() && processor_seconds() - start < seconds)
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    asked = processor_seconds();
+    source.request_stop();
+  };
+  std::jthread other(ask);
+  const auto result = refine<D>(plc, o);
+  const double end = processor_seconds();
+  other.request_stop();
+  other.join();
+  cells = result.mesh.cells.size();
+  return result.stop == StopCause::cancelled ? (end - asked) / (asked - start) : 0;
+}
+
+// Between two plates, or where a point nearly is on a segment, millions of entries wait for few leaves, which splits hand them
+// down to, level by level. (A run that had to end did all that first: twice as long as it had run until then.)
+TEST(Cancel, WhereMillionsWait) {
+  if (test::sanitized) GTEST_SKIP() << "too slow";
+  const double xyz[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1e-5, 1, 0, 1e-5, 0, 1, 1e-5, 1, 1, 1e-5};
+  const std::uint32_t triangles[] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
+                                     2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
+  const Plc<3> plate = plc_from_arrays<3>(xyz, triangles);
+  const double xy[] = {-8.5036734715375211, 10.095916872155248,  -8.12928682570357,   9.7201727850254009,  -7.7549001798695452,
+                       9.344428697895621,   -7.3805135340357486, 8.9686846107656439,  -7.0061268882017229, 8.592940523635864,
+                       -6.6317402423676963, 8.2171964365060806,  -6.2573535965338998, 7.841452349376107,   -5.8829669506998732,
+                       7.4657082622463253,  -1.5310149050511335, 11.131306902628786,  -3.685167691645244,  14.154488301752702};
+  const std::uint32_t segments[] = {0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7, 8, 8, 9, 9, 0, 2, 5};
+  const Plc<2> points = plc_from_arrays<2>(xy, segments);
+  for (const bool partial : {true, false})
+    for (const Schedule schedule : {Schedule::reproducible, Schedule::uniform, Schedule::greedy})
+      for (const double seconds : {0.3, 0.7, 1.1}) {
+        RefineOptions<3> o;
+        RefineOptions<2> planar;
+        o.memory_guard = planar.memory_guard = false;
+        o.partial_mesh = planar.partial_mesh = partial;
+        o.schedule.schedule = planar.schedule.schedule = schedule;
+        std::size_t cells = 0;
+        EXPECT_LT(lateness<3>(plate, o, seconds, cells), partial ? 0.6 : 0.3) << static_cast<int>(schedule) << " " << seconds;
+        EXPECT_TRUE(partial || cells == 0);
+        EXPECT_LT(lateness<2>(points, planar, seconds, cells), partial ? 0.6 : 0.3)
+            << static_cast<int>(schedule) << " " << seconds;
+        EXPECT_TRUE(partial || cells == 0);
+      }
 }
 
 // (A wing of 3,996 strips took minutes before there was a word.)

@@ -75,7 +75,9 @@ void ProgressLine::operator()(const Progress& p) {
   if (!shown_ || now < next_) return;
   next_ = now + std::chrono::milliseconds(100);
   dirty_ = true;
-  std::fprintf(stderr, "\r\033[K%llu vertices", static_cast<unsigned long long>(p.vertices));
+  std::fputs("\r\033[K", stderr);
+  if (p.done) std::fprintf(stderr, "%3.0f %%, ", 100 * *p.done);
+  std::fprintf(stderr, "%s: %llu vertices", p.stage, static_cast<unsigned long long>(p.vertices));
   if (p.waiting > 0) std::fprintf(stderr, ", %llu waiting", static_cast<unsigned long long>(p.waiting));
   std::fflush(stderr);
 }

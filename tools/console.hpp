@@ -45,6 +45,7 @@ class ProgressLine {
   ~ProgressLine() { clear(); }
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
+  bool is_shown() const { return shown_; }  ///< would it be seen?
   void operator()(const Progress& p);
   void clear();
 

@@ -36,11 +36,4 @@ void set_outlook(Report& report, const Domain<D>& domain, const Outlook<D>& outl
 template <int D>
 void print_outlook(const Domain<D>& domain, const Outlook<D>& outlook);
 
-/// Is there memory for the cells that the gaps alone need? Sizes do not count.
-template <int D>
-bool has_memory_for(const Outlook<D>& outlook);
-/// @throws ResourceError out_of_memory if not; `cure`: words for what helps, or none.
-template <int D>
-void require_memory(const Domain<D>& domain, const Outlook<D>& outlook, const std::function<std::string()>& cure);
-
 }  // namespace pgdr::tool

@@ -56,6 +56,7 @@ RefineOptions<D> make_options(const MeshArguments& a, const Bounds<D>& bounds) {
   options.schedule.lattice = a.lattice.value_or(0);
   if (a.granularity) options.schedule.granularity = *a.granularity;
   options.schedule.trace = !a.trace.empty();
+  options.memory_guard = false;  // asked with the estimate, which is printed anyway
   return options;
 }
 
@@ -331,7 +332,7 @@ class MeshRun {
     signals_.hear(true);
     try {
       ProgressLine line(!a_.quiet);
-      if (!a_.quiet) options_.progress = [&](const Progress& p) { line(p); };
+      if (line.is_shown()) options_.progress = [&](const Progress& p) { line(p); };
       if (ranks_.is_first())
         options_.prepared = [&](const Domain<D>& domain) {
           line.clear();
@@ -374,15 +375,24 @@ class MeshRun {
         report_.set("surface", JsonObject{{"given", to_json(surface_counts(plc_))}, {"meshed", to_json(surface_counts(domain))}});
     if (!a_.quiet) print_outlook(domain, outlook);
     const bool is_bounded = a_.max_vertices || a_.time_limit || a_.keep_boundary || a_.min_edge > 0;
-    if (is_bounded) return;
-    const auto is_cured = [&](const Domain<D>& other) {
-      return has_memory_for(look_ahead<D>(other, bounds_, !a_.no_refine, a_.regions, options_.stop));
-    };
-    require_memory<D>(domain, outlook, [&] {
-      const auto tolerance = cure_of_gaps<D>(plc_, domain, is_cured);
-      if (!tolerance) return std::string();
-      return "--tolerance " + digits(*tolerance) + ", two units of the last digit of the coordinates, joins what is so near";
-    });
+    if (!is_bounded && outlook.estimate) require_memory_for(domain, *outlook.estimate);
+  }
+
+  void require_memory_for(const Domain<D>& domain, const CellEstimate<D>& estimate) const {
+    try {
+      require_memory(domain, estimate);
+    } catch (const ResourceError& e) {
+      Diagnostic d = e.diagnostic();
+      d.message += " (--max-vertices, --time-limit)";
+      const auto is_cured = [this](const Domain<D>& other) {
+        const Outlook<D> outlook = look_ahead<D>(other, bounds_, !a_.no_refine, a_.regions, options_.stop);
+        return !outlook.estimate || has_memory_for(*outlook.estimate);
+      };
+      if (const auto tolerance = cure_of_gaps<D>(plc_, domain, is_cured))
+        d.message += ". --tolerance " + digits(*tolerance) +
+                     ", two units of the last digit of the coordinates, joins what is so near";
+      throw ResourceError(std::move(d));
+    }
   }
 
   /// Writes the mesh, if there is one. Where elements stay poor the first rank looks for a tolerance that may help: meanwhile, if

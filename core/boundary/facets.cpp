@@ -131,7 +131,7 @@ auto FacetPatches::triangulate(EntityId facet) -> Crossing {
 
 /// False if `stop` says so. @throws InputError boundary_not_recovered: of the first facet whose edges are no plane graph
 bool FacetPatches::triangulate_changed(const std::function<bool()>& stop) {
-  constexpr std::size_t between_looks = 1 << 16;  // facets, while nobody asks whether to stop
+  constexpr std::size_t between_looks = 1 << 13;  // facets, some 50 milliseconds, while nobody asks whether to stop
   for (std::size_t first = 0; first < changed_.size(); first += between_looks) {
     if (stop()) return false;
     using Failed = std::pair<EntityId, std::array<VertexId, 2>>;

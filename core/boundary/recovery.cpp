@@ -193,7 +193,7 @@ void BoundaryRecovery::report() {
   const auto now = std::chrono::steady_clock::now();
   if (now - last_report_ < time_between_reports) return;
   last_report_ = now;
-  options_->progress({vertices(), 0});
+  options_->progress({vertices(), 0, "recover", std::nullopt});
 }
 
 /// The recovery in 2D, which needs no points.

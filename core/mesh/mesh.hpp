@@ -330,6 +330,8 @@ class Mesh {
 
   /// Above the ids of all cells; `alive` tells which of the ids below have one.
   std::uint32_t cell_bound() const { return cell_source_.bound(); }
+  /// There are no more cells with constraints than that. Any thread.
+  std::uint32_t constraint_bound() const { return constraint_source_.bound(); }
   /// Above the ids of all vertices; some below may be in no cell, or unused.
   std::uint32_t vertex_bound() const { return vertex_source_.bound(); }
 

@@ -20,10 +20,12 @@
 
 namespace pgdr PGDR_API {
 
-/// How far a run is, for a progress line; approximate.
+/// How far a run is, for a progress line or a bar; approximate.
 struct Progress {
   std::uint64_t vertices = 0;  ///< vertices so far
   std::uint64_t waiting = 0;   ///< entries on the work lists; 0 while the boundary is recovered
+  const char* stage = "";      ///< what it is at: "recover", "insert", ..., as StageTime::name; in the end "done". Lives for ever
+  std::optional<double> done;  ///< about this share of its time is over: from 0 to 1, never falls; none while nothing is known
 };
 
 /// The order in which leaves of the tree are visited.
@@ -123,10 +125,15 @@ struct RefineOptions {
   bool drop_unused_points = false;
   bool leaves = false;       ///< tell for each cell which leaf of the tree holds its circumcentre (OutputMesh::leaves)
   ScheduleOptions schedule;  ///< threads, and how work is divided among them
+  /// Refuse at once, by a ResourceError, an input in whose gaps there are more cells than there is memory for (require_memory()
+  /// in estimate.hpp); it takes half a second for a million triangles. Not looked at where `max_vertices`, `time_limit`,
+  /// `min_edge` or `keep_boundary` bound the run, nor without `refine`.
+  bool memory_guard = true;
   /// Called once, by the thread that calls `refine`, with the input that was checked and before anything is meshed: for an
   /// estimate, say. May throw.
   std::function<void(const Domain<D>&)> prepared;
-  /// Called by one thread at a time, a few times a second at most, from any of the threads. May throw.
+  /// Called by one thread at a time, a few times a second at most, from any of the threads; and once in the end, unless the run
+  /// was cancelled, with all of it done. May throw.
   std::function<void(const Progress&)> progress;
 };
 

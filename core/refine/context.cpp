@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "numbers/rounding.hpp"
@@ -14,14 +15,15 @@
 namespace pgdr {
 namespace {
 
-/// When the refinement has to end so that the run ends about at its limit. Numbering and measuring what an interrupted run has made
-/// take up to a fiftieth of the time of the refinement, in 2D up to a sixteenth, as an insertion takes little more than a microsecond
-/// there: on one thread, of a cube and a square with a constant size. Half of that is kept for it, so that the run ends as much
-/// before its limit at most, where insertions are slow, as after it where they are fast.
+/// What finishing the mesh of an interrupted run takes, as a part of the time so far where all of that went into insertions: of a
+/// cube and a square with a constant size; and as much more as all cells had faces on facets (2D: segments), as between two that
+/// nearly touch. On one thread. Half of it is kept for it, so that where insertions are slow the run ends as much before its
+/// limit as it else ends after it at most.
 template <int D>
-std::chrono::duration<double> most_time(std::chrono::duration<double> limit) {
-  constexpr double rest = D == 2 ? 0.06 : 0.02;
-  return limit / (1 + rest / 2);
+double part_to_finish(const Mesh<D>& mesh) {
+  constexpr double least = D == 2 ? 0.06 : 0.02, more = D == 2 ? 0.24 : 0.12;
+  const double cells = std::max<double>(mesh.cell_bound(), 1);
+  return least / 2 + more * std::min(mesh.constraint_bound() / cells, 1.0);
 }
 
 }  // namespace
@@ -65,11 +67,24 @@ template <int D>
 bool RefineContext<D>::ended() {
   if (options.stop.stop_requested()) {
     stop = static_cast<int>(StopCause::cancelled);
-  } else if (stop == 0 && options.time_limit &&
-             std::chrono::steady_clock::now() - start >= most_time<D>(*options.time_limit)) {
-    stop = static_cast<int>(StopCause::time_limit);
+  } else if (stop == 0 && options.time_limit) {
+    if ((1 + part_to_finish(mesh)) * elapsed() >= *options.time_limit) stop = static_cast<int>(StopCause::time_limit);
   }
   return stop != 0;
+}
+
+template <int D>
+void RefineContext<D>::tell(std::uint64_t vertices_so_far, std::uint64_t waiting) {
+  constexpr std::chrono::milliseconds between(200);
+  if (!options.progress) return;
+  const auto now = std::chrono::steady_clock::now();
+  const std::unique_lock lock(progress_mutex, std::try_to_lock);
+  if (!lock || now - last_progress < between) return;
+  last_progress = now;
+  constexpr double most = 0.99;  // until all is done
+  const double to_come = remaining ? remaining() : -1, so_far = elapsed().count();
+  if (to_come >= 0) done = std::max(done, std::min(so_far / (so_far + to_come), most));
+  options.progress({vertices_so_far, waiting, at, done < 0 ? std::nullopt : std::optional(done)});
 }
 
 template struct RefineContext<2>;

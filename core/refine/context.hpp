@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <mutex>
 
 #include "mesh/mesh.hpp"
@@ -39,8 +40,12 @@ struct RefineContext {
   /// An upper bound of the entry's circumradius, by which it belongs to a larger or a smaller region; 0 where that does not
   /// count: of other entries than elements, and in a stage.
   double radius_of(const Entry<D>& e) const { return stage || e.kind() != EntryKind::cell ? 0 : largest_radius(e.bucket); }
-  /// Has the run been cancelled, or is its time up? It is stopped with that. Any thread.
+  /// Since the caller's time limit began to run. Any thread.
+  std::chrono::duration<double> elapsed() const { return std::chrono::steady_clock::now() - start; }
+  /// Has the run been cancelled, or is its time up but for what finishing the mesh takes? It is stopped with that. Any thread.
   bool ended();
+  /// Calls the caller's progress function if it is time for that. Any thread.
+  void tell(std::uint64_t vertices_so_far, std::uint64_t waiting);
 
   Mesh<D>& mesh;                                      ///< which visits change
   const Domain<D>& domain;                            ///< the input
@@ -59,9 +64,14 @@ struct RefineContext {
   /// insertion rule may lose; and what is nearer would be taken for one point by default, were it given (Plc::tolerance).
   double least_apart = 0;
 
-  std::atomic<int> stop{0};                             ///< a StopCause other than `finished`, once there is one
-  std::atomic<std::uint64_t> vertices;                  ///< in all, for the progress report
-  std::mutex progress_mutex;                            ///< held while the caller's function runs
+  std::atomic<int> stop{0};                 ///< a StopCause other than `finished`, once there is one
+  std::atomic<std::uint64_t> vertices;      ///< in all, for the progress report
+  std::atomic<std::uint64_t> evaluated{0};  ///< by the optimiser, for the progress report
+  // For that, set while no visit runs:
+  const char* at = "";                ///< the stage
+  std::function<double()> remaining;  ///< about the seconds that remain, by the above; below 0: not known. Any thread
+  double done = -1;                   ///< under the mutex: Progress::done; below 0: not known
+  std::mutex progress_mutex;          ///< held while the caller's function runs
   std::chrono::steady_clock::time_point last_progress;  ///< under the mutex
 };
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <mutex>
 
 namespace pgdr {
 
@@ -38,7 +37,7 @@ void Refiner<D>::begin(RegionVisit<D>& visit) {
     treatment_ = stage_ ? stage_->treatment(workspace_, lister_, repair_) : nullptr;
   }
   if (treatment_) treatment_->begin_visit();
-  treated_ = checked_at_ = reported_ = 0;
+  treated_ = checked_at_ = reported_ = evaluations_reported_ = 0;
 }
 
 template <int D>
@@ -50,6 +49,8 @@ void Refiner<D>::look_at_budget() {
   if (treated_ < checked_at_) return;
   const std::uint64_t vertices = context.vertices.fetch_add(counts.committed - reported_) + counts.committed - reported_;
   reported_ = counts.committed;
+  context.evaluated += counts.evaluated - evaluations_reported_;
+  evaluations_reported_ = counts.evaluated;
   const auto now = std::chrono::steady_clock::now();
   // Callbacks may be slow: the clock is looked at about every other millisecond.
   stride_ = now - checked_time_ > std::chrono::milliseconds(2) ? std::max<std::uint64_t>(stride_ / 4, 1)
@@ -57,11 +58,7 @@ void Refiner<D>::look_at_budget() {
   checked_at_ = treated_ + stride_;
   checked_time_ = now;
   context.ended();
-  if (!options.progress) return;
-  const std::unique_lock lock(context.progress_mutex, std::try_to_lock);
-  if (!lock || now - context.last_progress < std::chrono::milliseconds(200)) return;
-  context.last_progress = now;
-  options.progress({vertices, workspace_.visit->list->size()});
+  context.tell(vertices, workspace_.visit->list->size());
 }
 
 template <int D>
@@ -222,6 +219,7 @@ void Refiner<D>::run(RegionVisit<D>& visit) {
     go_on = treat_entities();
   }
   context.vertices += visit.counts.committed - reported_ - visit.counts.removed;
+  context.evaluated += visit.counts.evaluated - evaluations_reported_;
   lister_.fill_outboxes();
   workspace_.visit = nullptr;
 }

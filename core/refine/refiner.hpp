@@ -79,7 +79,7 @@ class Refiner {
   std::unique_ptr<ElementTreatment<D>> treatment_;  ///< of poor elements; null: points are inserted
   std::uint64_t most_evaluated_ = 0;                ///< by the treatment, in the visit
   bool undecided_ = false;                          ///< of the entry treated: was it beyond that?
-  std::uint64_t treated_ = 0, checked_at_ = 0, reported_ = 0;
+  std::uint64_t treated_ = 0, checked_at_ = 0, reported_ = 0, evaluations_reported_ = 0;
   std::uint64_t stride_ = 1;  ///< entries between two looks at the clock
   std::chrono::steady_clock::time_point checked_time_;
   KeySet distinct_;

@@ -136,7 +136,8 @@ class Fifo {
   /// Calls f for each in order, and empties the list.
   template <class F>
   void drain(F f) {
-    drain(f, [](const T&) {}, [] { return false; });
+    drain(
+        f, [](const T&) {}, [] { return false; });
   }
 
   static constexpr std::size_t between_looks = 1024;  ///< so many items, some of whose cells are far apart in memory
@@ -351,7 +352,8 @@ class WorkList {
     }
   }
   /// Calls f for every entry that waits, in an order that depends on what was pushed and popped alone, and takes it out.
-  /// `soon(entry)` some turns before, of most. False if `stop()`, which is asked now and then, has ended it early: the rest waits.
+  /// `soon(entry)` some turns before, of most. False if `stop()`, which is asked now and then, has ended it early: the rest
+  /// waits.
   template <class F, class Soon, class Stop>
   bool drain(F f, Soon soon, const Stop& stop) {
     for (Fifo<Entry<D>>* entities : {&edges, &faces, &flips})
@@ -364,7 +366,8 @@ class WorkList {
   /// Calls f for every entry, and empties the list.
   template <class F>
   void drain(F f) {
-    drain(f, [](const Entry<D>&) {}, [] { return false; });
+    drain(
+        f, [](const Entry<D>&) {}, [] { return false; });
   }
   /// Calls f for every entry that waits, to be changed, but for what decides its place.
   template <class F>

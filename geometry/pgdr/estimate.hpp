@@ -12,6 +12,7 @@
 #include <functional>
 #include <optional>
 #include <stop_token>
+#include <string>
 
 #include "pgdr/domain.hpp"
 #include "pgdr/export.hpp"
@@ -89,5 +90,24 @@ struct CellEstimate {
 /// @throws CancelledError, and what `measure` throws
 template <int D>
 CellEstimate<D> estimate_cells(const Domain<D>& domain, const EstimateOptions<D>& options = {});
+
+/// Is there memory for the cells that gaps alone need (`at_least`)? That is this machine's, or what a limit on this process or
+/// its group leaves. Sizes do not count. Any thread.
+template <int D>
+bool has_memory_for(const CellEstimate<D>& estimate);
+
+/// Refuses what there is no memory for, as has_memory_for() says.
+/// @throws ResourceError out_of_memory: it names the two entities, with the points where they are nearest to each other
+template <int D>
+void require_memory(const Domain<D>& domain, const CellEstimate<D>& estimate);
+
+/// The number in the input (its own numbering, see `Plc::first_index`) of a vertex (a domain point), a segment or a facet; none
+/// for an edge of facets that is no segment of the input.
+template <int D>
+std::optional<std::uint64_t> input_number(const Domain<D>& domain, EntityRef entity);
+
+/// The two in words, by these numbers: "facets 1 and 2", "point 7 and segment 3, from point 1 to point 2".
+template <int D>
+std::string words_of(const Domain<D>& domain, const std::array<EntityRef, 2>& pair);
 
 }  // namespace pgdr

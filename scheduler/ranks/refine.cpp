@@ -272,6 +272,7 @@ DistributedResult<D> refine(Transport& transport, const Plc<D>& plc, const Refin
     own.progress = nullptr;
     own.time_limit.reset();
     own.stop = {};
+    own.memory_guard = false;
   }
   DistributedResult<D> result;
   OwnVisits visits;

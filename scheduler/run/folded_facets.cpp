@@ -83,11 +83,12 @@ EntityId most_bent_facet(const Domain<3>& domain) {
 }
 
 /// Is this a mesh of the domain? Before the refinement it need not be Delaunay, which flat cells at bent facets may prevent.
-bool conforms(const OutputMesh<3>& mesh, const Domain<3>& domain, RegionMode regions) {
+bool conforms(const OutputMesh<3>& mesh, const Domain<3>& domain, RegionMode regions, const std::stop_token& stop) {
   CheckOptions<3> options;
   options.domain = &domain;
   options.regions = regions;
   options.max_listed = 0;
+  options.stop = stop;
   const CheckReport report = check<3>(mesh, options);
   return report.finding_count == report.count(CheckFinding::Kind::not_delaunay);
 }
@@ -109,10 +110,10 @@ bool may_fold(const Domain<3>& domain, const detail::Pieces& pieces) {
 }
 
 void require_unfolded(const Mesh<3>& mesh, const Domain<3>& domain, RegionMode regions, std::span<const double> region_attributes,
-                      const detail::Pieces& pieces) {
+                      const detail::Pieces& pieces, const std::stop_token& stop) {
   if (!may_fold(domain, pieces)) return;
   require_whole_segments(mesh, domain);
-  if (conforms(compact_by_slots<3>(mesh, domain, region_attributes, pieces).mesh, domain, regions)) return;
+  if (conforms(compact_by_slots<3>(mesh, domain, region_attributes, pieces).mesh, domain, regions, stop)) return;
   const EntityId f = most_bent_facet(domain);
   Diagnostic d = detail::about_points<3>(Errc::boundary_not_recovered, domain, domain.facet_points(f));
   char defect[32];

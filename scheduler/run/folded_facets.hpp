@@ -9,6 +9,7 @@
 #pragma once
 
 #include <span>
+#include <stop_token>
 
 #include "mesh/mesh.hpp"
 #include "pgdr/domain.hpp"
@@ -25,9 +26,9 @@ bool may_fold(const Domain<3>& domain, const detail::Pieces& pieces = detail::On
 /// nothing unless may_fold(domain); else takes some 5 microseconds a cell. `region_attributes`: of each region number, empty
 /// without labels. Any thread; nobody changes the mesh meanwhile.
 /// @throws InputError boundary_not_recovered: the least segment that is in the mesh in part, its ends in `ids` and `points`; or,
-/// if
-///   the checker finds the mesh not to be one of the domain, the facet that is off its plane by most, with its points
+///   if the checker finds the mesh not to be one of the domain, the facet that is off its plane by most, with its points;
+///   CancelledError, some hundredths of a second after `stop` is requested
 void require_unfolded(const Mesh<3>& mesh, const Domain<3>& domain, RegionMode regions, std::span<const double> region_attributes,
-                      const detail::Pieces& pieces = detail::OneByOne());
+                      const detail::Pieces& pieces = detail::OneByOne(), const std::stop_token& stop = {});
 
 }  // namespace pgdr

@@ -18,6 +18,7 @@ template <int D>
 StopCause Generations<D>::drain() {
   split_leaves(waiting_->tree().leaves());
   while (true) {
+    state_->meter.look();
     if (context_->ended()) return state_->stop();
     if (!context_->stage && state_->totals.vertices >= context_->options.max_vertices) return StopCause::max_vertices;
     if (state_->is_spent() || !one_generation()) return state_->stop();

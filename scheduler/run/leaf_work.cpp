@@ -23,7 +23,8 @@ void LeafWorks<D>::hand_down(RefineContext<D>& context, Node parent, double most
   };
   const auto ended = [&context] { return context.ended(); };
   from.open_inbox(ended);
-  if (from.list.drain(pass_on, [&mesh](const Entry<D>& e) { mesh.prefetch(e.cell); }, ended)) {
+  if (from.list.drain(
+          pass_on, [&mesh](const Entry<D>& e) { mesh.prefetch(e.cell); }, ended)) {
     auto set_aside = std::exchange(from.set_aside, {});
     for (SetAside<D>& s : set_aside)
       for (const Entry<D>& e : s.entries) s.order == whole_tree ? from.add_set_aside(s.order, s.since, e) : pass_on(e);

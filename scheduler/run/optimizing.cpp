@@ -25,6 +25,19 @@ constexpr std::uint64_t evaluations_a_cell = 20, evaluations_a_listed_cell = 100
 /// second.
 constexpr std::uint64_t evaluations_an_unexplained_cell = 100000, least_of_most_for_unexplained = 1000000;
 
+/// For the progress report: what a phase evaluates for each poor cell that it begins with, of some models, within its budget; and
+/// how many times as much the phases after it do, which begin with a part of these.
+struct UsualPhase {
+  double a_listed_cell, others;
+};
+UsualPhase usual(Optimization::Phase phase, bool is_first_of_its_kind) {
+  switch (phase) {
+    case Optimization::Phase::cheap: return {200, 3};
+    case Optimization::Phase::strong: return {1400, is_first_of_its_kind ? 1.3 : 0.0};
+    default: return {1400, 1};
+  }
+}
+
 }  // namespace
 
 Optimizing::Optimizing(RunState<3>& state, VisitSchedule<3>& schedule, double min_dihedral)
@@ -115,9 +128,13 @@ std::size_t Optimizing::list_refused(Phase next) {
 StopCause Optimizing::run(Phase phase) {
   begin(phase);
   const std::size_t listed = last_ ? list_refused(phase) : list_all_poor();
+  const std::uint64_t budget = evaluations_a_cell * cells_ +
+                               std::min<std::uint64_t>(evaluations_a_listed_cell * listed, most_for_listed * cells_);
+  const UsualPhase expected = usual(phase, last_ != Phase::worst);
+  state_->meter.begin_phase(std::min(expected.a_listed_cell * static_cast<double>(listed), static_cast<double>(budget)),
+                            expected.others);
   last_ = phase;
-  return work_off(evaluations_a_cell * cells_ +
-                  std::min<std::uint64_t>(evaluations_a_listed_cell * listed, most_for_listed * cells_));
+  return work_off(budget);
 }
 
 void Optimizing::begin(Phase phase) {

@@ -70,12 +70,14 @@ StopCause Refinement<D>::run() {
     if (stage.optimizes && !optimizing_since_) optimizing_since_ = clock.now();
     {
       const RunClock::Stage timed(clock, stage.name);
+      state_.meter.begin(stage.name);
       stop = (this->*stage.run)();
     }
     if (stop == StopCause::finished) stop = state_.stop();
     if (stop != StopCause::finished) break;
   }
   state_.context.stage = nullptr;
+  state_.meter.begin("number");
   if (stop == StopCause::max_vertices || stop == StopCause::min_edge) {
     if (!optimizing_) leave_in_order();
     if (state_.stop() == StopCause::finished) state_.context.stop = static_cast<int>(stop);

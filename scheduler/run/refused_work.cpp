@@ -11,8 +11,8 @@
 
 namespace pgdr::detail {
 
-/// Takes those of which the answer is yes off the lists, in the order of the lists, and drops those that are dead. Does nothing if
-/// the run has to end meanwhile.
+/// Takes those of which the answer is yes off the lists, in the order of the lists, and drops those that are dead. Does nothing
+/// if the run has to end meanwhile.
 template <int D>
 std::vector<Refusal<D>> RefusedWork<D>::take_if(const Question& question) {
   enum class Fate : char { stays, is_taken, is_dead };

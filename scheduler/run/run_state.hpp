@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "run/progress_meter.hpp"
 #include "run/refused_work.hpp"
 #include "run/run_pieces.hpp"
 #include "run/visit_recorder.hpp"
@@ -53,7 +54,8 @@ struct RunState {
         waiting(c),
         refused(c, waiting, run_pieces),
         workers(c, std::move(pools)),
-        recorder(options, c.start) {}
+        recorder(options, c.start),
+        meter(c, waiting) {}
   RunState(const RunState&) = delete;
   RunState& operator=(const RunState&) = delete;
 
@@ -100,6 +102,7 @@ struct RunState {
   RefusedWork<D> refused;
   WorkerPool<D> workers;
   VisitRecorder recorder;
+  ProgressMeter<D> meter;
   std::vector<std::function<void(const Renumbering<D>&)>> renamers;
 };
 

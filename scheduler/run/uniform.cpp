@@ -97,6 +97,7 @@ StopCause Uniform<D>::drain() {
 template <int D>
 StopCause Uniform<D>::run_phases() {
   while (true) {
+    state_->meter.look();
     if (const StopCause stop = stop_before_phase(); stop != StopCause::finished) return stop;
     const std::optional<Phase> phase = state_->is_spent() ? std::nullopt : next_phase();
     if (!phase) return StopCause::finished;

@@ -152,6 +152,13 @@ void WaitingWork<D>::rename(const Renumbering<D>& to) {
 }
 
 template <int D>
+double WaitingWork<D>::cells_to_come() const {
+  std::uint64_t cells = 0;
+  for (Node n = 0; n < tree_.node_count(); ++n) cells += works_[n].list.to_come() + works_[n].list.poor();
+  return static_cast<double>(cells);
+}
+
+template <int D>
 std::optional<PoorCount> WaitingWork<D>::count_poor(const Pieces& pieces) {
   if (!all_listed_) return std::nullopt;
   constexpr std::size_t nodes_a_piece = 16;
@@ -161,8 +168,16 @@ std::optional<PoorCount> WaitingWork<D>::count_poor(const Pieces& pieces) {
   SlotSet counted(context_->mesh.cell_bound());
   std::vector<PoorCount> parts(count + 1);
   pieces.run(count, [&](std::size_t i) {
+    constexpr std::size_t ahead = 16;  // entries, whose cells are far apart in memory
+    std::vector<Entry<D>> soon;
+    std::size_t at = 0;
     for (std::size_t k = i * nodes_a_piece; k < std::min(nodes.size(), (i + 1) * nodes_a_piece); ++k)
-      works_[nodes[k]].for_each([&](const Entry<D>& e) { count_if_poor(e, counted, parts[i]); });
+      works_[nodes[k]].for_each([&](const Entry<D>& e) {
+        context_->mesh.prefetch(e.cell);
+        if (soon.size() < ahead) return soon.push_back(e);
+        count_if_poor(std::exchange(soon[at++ % ahead], e), counted, parts[i]);
+      });
+    for (const Entry<D>& e : soon) count_if_poor(e, counted, parts[i]);
   });
   for (const Entry<D>& e : given_and_not_processed_) count_if_poor(e, counted, parts[count]);
   PoorCount poor;

@@ -81,6 +81,9 @@ class WaitingWork {
     tree_.for_each_node([&](Node n) { f(works_[n].list); });
   }
 
+  /// About so many cells will take the place of elements that wait, by their size, or are one of these. While no visit runs.
+  double cells_to_come() const;
+
   /// For tests: renames the cells of all that waits, and of what was refused.
   void rename(const Renumbering<D>& to);
 

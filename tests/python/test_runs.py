@@ -170,6 +170,10 @@ class Stopping(unittest.TestCase):
         made = checked(self, cube(), size=0.03, progress=told.append)
         self.assertEqual([p.finished for p in told], [False] * (len(told) - 1) + [True])
         self.assertEqual((told[-1].vertices, told[-1].waiting), (len(made.points), 0))
+        self.assertEqual((told[-1].stage, told[-1].done), ("done", 1.0))
+        known = [p.done for p in told if p.done is not None]
+        self.assertEqual(known, sorted(known))
+        self.assertTrue(all(0 <= done <= 1 for done in known))
         with contextlib.redirect_stderr(io.StringIO()) as line:
             checked(self, cube(), size=0.02, progress=True)
         self.assertTrue(line.getvalue().endswith("\n"))

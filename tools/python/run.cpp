@@ -45,6 +45,8 @@ Watch::Watch(const std::stop_token& given, py::object poll)
 void Watch::note(const Progress& progress) {
   vertices_ = progress.vertices;
   waiting_ = progress.waiting;
+  stage_ = progress.stage;
+  done_ = progress.done.value_or(-1);
 }
 
 void Watch::look() {
@@ -56,8 +58,10 @@ void Watch::look() {
   };
   if (PyErr_CheckSignals() != 0) keep();
   if (poll_.is_none() || !raised_.is_none()) return;
-  PyObject* const wish = PyObject_CallFunction(poll_.ptr(), "KK", static_cast<unsigned long long>(vertices_),
-                                               static_cast<unsigned long long>(waiting_));
+  const double share = done_;
+  const py::object done = share < 0 ? py::object(py::none()) : py::object(py::float_(share));
+  PyObject* const wish = PyObject_CallFunction(poll_.ptr(), "KKsO", static_cast<unsigned long long>(vertices_),
+                                               static_cast<unsigned long long>(waiting_), stage_.load(), done.ptr());
   const int is_true = wish ? PyObject_IsTrue(wish) : -1;
   Py_XDECREF(wish);
   if (is_true < 0) keep();

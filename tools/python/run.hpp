@@ -20,8 +20,8 @@ namespace pgdr::python {
 /// One run, watched.
 class Watch {
  public:
-  /// The run also stops by the caller's token. `poll`: a function of Python of the numbers of vertices and of what waits, which
-  /// says whether to stop; or None.
+  /// The run also stops by the caller's token. `poll`: a function of Python of the numbers of vertices and of what waits, the
+  /// stage and the share done (or None), which says whether to stop; or None.
   Watch(const std::stop_token& given, py::object poll);
 
   std::stop_token token() const { return stop_.get_token(); }  ///< for the run
@@ -43,6 +43,8 @@ class Watch {
   std::stop_callback<std::function<void()>> forward_;
   py::object poll_, raised_ = py::none();
   std::atomic<std::uint64_t> vertices_{0}, waiting_{0};
+  std::atomic<const char*> stage_{""};
+  std::atomic<double> done_{-1};  // below 0: not known
 };
 
 /// Runs what takes a stop token as a Watch does, with all threads. @throws what a signal's handler raises, or `work` throws

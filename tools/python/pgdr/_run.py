@@ -36,6 +36,8 @@ class Progress(NamedTuple):
     vertices: int  #: so far
     waiting: int  #: elements that wait to be refined
     finished: bool  #: the last report of a run, however it ended
+    stage: str = ""  #: what it is at: "recover", "insert", "optimize_cheap", ..., in the end "done"; "" while the input is prepared
+    done: Optional[float] = None  #: about this share of its time is over: 0 to 1, never falls; None while nothing is known
 
 
 class _Event(Protocol):
@@ -284,7 +286,8 @@ class _Line:
         if progress == self._written:
             return
         self._written = progress
-        print(f"\r{progress.vertices:,} vertices, {progress.waiting:,} waiting   ", end="", file=sys.stderr, flush=True)
+        share = "" if progress.done is None else f"{100 * progress.done:3.0f} %, "
+        print(f"\r{share}{progress.vertices:,} vertices, {progress.waiting:,} waiting   ", end="", file=sys.stderr, flush=True)
 
 
 def _run(plc: Plc, options: _pgdr._Options, bounds: Dict[str, Any], progress: object, stop: object) -> Mesh:
@@ -298,20 +301,24 @@ def _run(plc: Plc, options: _pgdr._Options, bounds: Dict[str, Any], progress: ob
     source = stop._core if isinstance(stop, StopSource) else None
     asks = stop if source is None else None
 
-    def poll(vertices: int, waiting: int) -> bool:
+    last = Progress(0, 0, False)
+
+    def poll(vertices: int, waiting: int, stage: str, done: Optional[float]) -> bool:
+        nonlocal last
         if tell is not None:
-            tell(Progress(vertices, waiting, False))
+            last = Progress(vertices, waiting, False, stage, done)
+            tell(last)
         return WORK.is_ending or (asks is not None and bool(asks.is_set()))  # type: ignore[attr-defined]
 
     refine = _pgdr.refine2 if plc.dimension == 2 else _pgdr.refine3
-    finished = 0
+    finished, is_done = 0, False
     try:
         with WORK:
             core, facts, raised = refine(plc._core, options, source, poll)
-        finished = len(core.points)
+        finished, is_done = len(core.points), facts["stop"] != "cancelled"
     finally:
         if tell is not None:
-            tell(Progress(finished, 0, True))
+            tell(Progress(finished, 0, True, "done" if is_done else last.stage, 1.0 if is_done else last.done))
     # The bounds that held when no argument said otherwise are part of what the mesh is certified for.
     certified = {k: v for k, v in bounds.items() if k != "min_angle"}
     if options.refine:
