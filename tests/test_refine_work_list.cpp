@@ -153,12 +153,13 @@ TEST(WorkList, DrainingThatIsEndedEarlyLeavesTheRest) {
       list.push(skinny(4, each - i));
     }
     std::size_t drained = 0, to_come = 2 * each;
+    int asked = 0;
     const bool done = list.drain(
         [&](const Item& e) {
           ++drained;
           if (e.kind() == EntryKind::cell && e.which() == Item::over_size) to_come -= 2;
         },
-        [](const Item&) {}, [&, asked = 0]() mutable { return asked++ == looks; });
+        [](const Item&) {}, [&] { return asked++ == looks; });
     EXPECT_EQ(done, drained == 3 * each);
     EXPECT_LE(drained, static_cast<std::size_t>(looks) * 1024);
     EXPECT_EQ(list.size(), 3 * each - drained);
