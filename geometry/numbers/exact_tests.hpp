@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Exact tests with tolerances: distances in ulps, order along a line, whether rounding explains an in-sphere sign. The checker
-// asks them, and the diagnosis, which wall comes first. Each is decided by a filter in extended precision, then by rationals. Pure functions, any thread.
+// asks them, and the diagnosis, which wall comes first. Each is decided by a filter in extended precision, then by rationals.
+// Pure functions, any thread.
 #pragma once
 
 #include <array>

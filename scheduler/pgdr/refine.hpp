@@ -130,9 +130,9 @@ struct RefineResult {
 
 /// Meshes the Domain of the input.
 /// @throws UsageError (bad option or size), InputError (see Domain; the first error of its diagnosis, found
-///   before anything is meshed; seeds), ResourceError (out_of_memory: there is not enough memory for what the input's gaps ask for,
-///   found before anything is meshed (RefineOptions::memory_guard), or it has run out; ids_exhausted). An exception of a callback
-///   comes out as it is, but for std::bad_alloc, which is a ResourceError, too.
+///   before anything is meshed; seeds), ResourceError (out_of_memory: there is not enough memory for what the input's gaps ask
+///   for, found before anything is meshed (RefineOptions::memory_guard), or it has run out; ids_exhausted). An exception of a
+///   callback comes out as it is, but for std::bad_alloc, which is a ResourceError, too.
 template <int D>
 RefineResult<D> refine(const Plc<D>& plc, const RefineOptions<D>& options);
 /// The same for an input already prepared, which may be shared by several calls at once.
