@@ -86,7 +86,7 @@ TYPED_TEST(Memory, WhatRunsOutIsATypedError) {
   constexpr int D = TypeParam::value;
   RefineOptions<D> options;
   options.size = SizingField<D>([calls = std::make_shared<std::atomic<int>>(0)](const Point<D>&) {
-    if (++*calls == 500) throw std::bad_alloc();
+    if (++*calls >= 500) throw std::bad_alloc();
     return 1e-12;
   });
   Plc<D> plc = thin<D>();
