@@ -204,7 +204,7 @@ std::string words_of_bodies(const Plc<D>& plc, const Diagnosis<D>& diagnosis) {
     if (!runs_through) return {};  // they touch
     return std::to_string(bodies.size()) + " closed bodies that overlap: " +
            count(crossings, "pair of their facets intersects", "pairs of their facets intersect") +
-           ", the first: " + all[Finding::facets_cross].listed[0].what.message;
+           ", the first: " + Error(all[Finding::facets_cross].listed[0].what).what();
   }
   return {};
 }

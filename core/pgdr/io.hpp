@@ -83,16 +83,18 @@ bool holds_cells(const std::filesystem::path& file);
 /// question reads again. One thread. Errors are those of the functions of the same names above and below.
 class PGDR_API InputFile {
  public:
-  explicit InputFile(std::filesystem::path name);
-  InputFile(InputFile&&) noexcept;
-  InputFile& operator=(InputFile&&) noexcept;
+  explicit InputFile(std::filesystem::path name);  ///< reads nothing yet
+  InputFile(InputFile&&) noexcept;                 ///< What was moved from may only be assigned to or destroyed.
+  InputFile& operator=(InputFile&&) noexcept;      ///< likewise
   ~InputFile();
 
-  const std::filesystem::path& name() const { return name_; }
-  int dimension();     ///< as file_dimension
-  bool holds_cells();  ///< as the function
+  const std::filesystem::path& name() const { return name_; }  ///< as given
+  int dimension();                                             ///< as file_dimension
+  bool holds_cells();                                          ///< as the function
+  /// As the function. @throws as it does
   template <int D>
   Plc<D> read_plc(const ReadOptions& options = {});
+  /// As the function. @throws as it does
   template <int D>
   OutputMesh<D> read_mesh();
 

@@ -43,6 +43,7 @@ std::vector<double> smallest_at_vertices(const OutputMesh<D>& mesh, std::span<co
 /// cells share, and where cells overlap, the one with the smallest number counts. Never beyond the values of the vertices
 /// that it is interpolated from. Flat cells and the orientation of cells do not matter; markers and constraints are not read.
 /// About log n steps, more where long thin cells overlap with their boxes. For values that change too fast: limit_growth.
+/// @param mesh    its cells and their vertices
 /// @param values  one a vertex; or one a cell, which stand for smallest_at_vertices() of them. Of a mesh with as many cells as
 ///   vertices they are those of vertices.
 /// @throws UsageError bad_option: no cell that is not flat, or not one value a vertex or cell; bad_size: a value that is not

@@ -35,7 +35,7 @@ struct PlcSource {
   /// Of a file that has cells, and no seeds of its own: how thick the voids between its cells are that the first holes were made
   /// for, and how many of the first regions were made for labelled cells. What is wrong with such a seed is said of the cells.
   std::vector<double> void_widths;
-  std::uint32_t cell_regions = 0;
+  std::uint32_t cell_regions = 0;  ///< so many of the first regions
 };
 
 /// The input. Coordinates are in the user's units; all indices count from 0, whatever `first_index` is. From flat arrays:
