@@ -227,6 +227,8 @@ TEST(NarrowestGap, IsInWhatIsMeshed) {
     plc.holes = {{1, 0.5, apart / 2}};
     EXPECT_NEAR(gap_of(plc), 1 - 2 * apart, 1e-9);  // the inner box alone
     EXPECT_NEAR(gap_of(plc, {.in = GapsIn::not_meshed}), apart, 1e-12);
+    EXPECT_NEAR(gap_of(plc, {.in = GapsIn::not_meshed, .within = 2 * apart}), apart, 1e-12);
+    EXPECT_EQ(gap_of(plc, {.in = GapsIn::not_meshed, .within = apart / 2}), infinity);
     plc.holes = {{1, 0.5, 1.5}};
     EXPECT_NEAR(gap_of(plc), apart, 1e-12);
   }

@@ -96,8 +96,8 @@ std::optional<Proposal> find_proposal(const Plc<D>& plc, const Domain<D>& domain
   try {
     const auto other = with_tolerance_of_digits(plc);
     if (!other) return std::nullopt;
-    const auto apart = narrowest_gap<D>(domain, {.in = GapsIn::not_meshed});
-    if (apart && apart->distance <= *other->tolerance) return std::nullopt;  // it takes no cells, and may be meant
+    if (narrowest_gap<D>(domain, {.in = GapsIn::not_meshed, .within = *other->tolerance}))
+      return std::nullopt;  // it takes no cells, and may be meant
     const Domain<D> then(*other);
     Proposal proposal{*other->tolerance, domain.facets().size(), then.facets().size(), 0};
     const std::size_t before = joined_points(domain), after = joined_points(then);

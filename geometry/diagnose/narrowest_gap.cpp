@@ -48,6 +48,8 @@ class GapSearch {
         p_(pieces_.points()),
         boxes_(pieces_.boxes(0, bulk_)),
         in_(options.in) {
+    const double within = options.within / pieces_.unit();
+    none_.square = std::nextafter(within * within, std::numeric_limits<double>::infinity());
     if (in_ != GapsIn::all_space) space_.emplace(pieces_, options.voids_by_nesting, bulk_, stop_check_);
   }
 
@@ -55,7 +57,7 @@ class GapSearch {
     NearPair least = least_inside();
     stop_check_();
     look_between(least);
-    if (!(least.square < std::numeric_limits<double>::infinity())) return std::nullopt;
+    if (!(least < none_)) return std::nullopt;
     return in_words_of_entities(least);
   }
 
@@ -70,12 +72,12 @@ class GapSearch {
   NearPair least_inside() const {
     constexpr std::size_t block = 4096;
     const std::size_t count = pieces_.pieces().size();
-    std::vector<NearPair> found((count + block - 1) / block);
+    std::vector<NearPair> found((count + block - 1) / block, none_);
     bulk_.parts(found.size(), [&](std::size_t k) {
       for (std::size_t i = k * block; i < std::min(count, (k + 1) * block); ++i)
         note_inside(static_cast<std::uint32_t>(i), found[k]);
     });
-    return found.empty() ? NearPair{} : *std::min_element(found.begin(), found.end());
+    return found.empty() ? none_ : *std::min_element(found.begin(), found.end());
   }
   /// Of one piece: its corners, and each from the edge opposite to it.
   void note_inside(std::uint32_t piece, NearPair& least) const {
@@ -261,6 +263,7 @@ class GapSearch {
   const std::span<const Point<D>> p_;
   const std::vector<detail::Box<D>> boxes_;
   const GapsIn in_;
+  NearPair none_;                                ///< what is found must be nearer
   std::optional<detail::MeshedSpace<D>> space_;  ///< none: all space counts
 };
 

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -48,7 +49,10 @@ enum class GapsIn : std::uint8_t {
 struct GapOptions {
   GapsIn in = GapsIn::meshed;     ///< those that count
   bool voids_by_nesting = false;  ///< as RegionMode::automatic: what is void by nesting alone is not meshed
-  std::stop_token stop = {};      ///< ends it by a CancelledError
+  /// Only gaps of at most this width are looked for, in units of the input. Where few or none count, as outside of a convex body,
+  /// it is by this that few pairs are looked at.
+  double within = std::numeric_limits<double>::infinity();
+  std::stop_token stop = {};  ///< ends it by a CancelledError
 };
 
 /// The nearest two entities without a common point; none if there are no two. Of more than some hundred million pairs of pieces
