@@ -206,8 +206,8 @@ std::vector<Progress> told_of(Schedule schedule, const Runner& runner) {
   auto o = test::with<D>(options<D>(), runner);
   o.schedule.schedule = schedule;
   o.size = [](const Point<D>&) {
-    std::this_thread::sleep_for(std::chrono::microseconds(300));
-    return D == 2 ? 2e-3 : 0.12;
+    std::this_thread::sleep_for(std::chrono::microseconds(D == 2 ? 300 : 100));
+    return D == 2 ? 2e-3 : 0.2;
   };
   std::vector<Progress> told;
   o.progress = [&](const Progress& p) { told.push_back(p); };
