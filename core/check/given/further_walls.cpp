@@ -7,6 +7,7 @@
 #include <set>
 
 #include "check/given/cover.hpp"
+#include "check/given/edge_net.hpp"
 #include "check/given/flat_leftovers.hpp"
 #include "check/given/volumes.hpp"
 #include "numbers/vectors.hpp"
@@ -17,7 +18,7 @@
 namespace pgdr::checking {
 namespace {
 
-/// Appends what is left over of segments to the walls of the mesh.
+/// Appends what is left over of segments to the walls of the mesh, in pieces that meet at their ends alone.
 class FurtherWalls {
  public:
   FurtherWalls(const GivenTask<2>& task, const GivenMatch<2>& match, VolumeWalls<2>& walls)
@@ -32,8 +33,11 @@ class FurtherWalls {
   }
 
   void run() {
+    std::map<std::uint32_t, std::vector<const Leftover<2>*>> of_segment;
     for (const auto& leftover : match_.leftovers)
-      if (leftover.kind == EntityKind::segment) add_segment(leftover);
+      if (leftover.kind == EntityKind::segment) of_segment[leftover.id].push_back(&leftover);
+    for (const auto& [id, pieces] : of_segment) add_segment(id, pieces);
+    append_without_crossings();
   }
 
  private:
@@ -45,53 +49,66 @@ class FurtherWalls {
     return at->second;
   }
 
-  /// Of the corners those two at which a piece ends, which is as much shorter as what is covered reaches.
-  std::array<std::uint32_t, 2> ends_of(const std::array<Point<2>, 2>& piece, std::span<const std::uint32_t> corners) const {
-    std::array<std::uint32_t, 2> ends{};
-    for (int k = 0; k < 2; ++k)
-      ends[k] = *std::min_element(corners.begin(), corners.end(), [&](std::uint32_t v, std::uint32_t w) {
-        return squared_distance(walls_.points[v], piece[k]) < squared_distance(walls_.points[w], piece[k]);
-      });
-    return ends;
+  /// Outside of the mesh segments may cross where there is no point. What several have is appended once.
+  void append_without_crossings() {
+    std::vector<Point3> points;
+    for (const Point2& p : walls_.points) points.push_back({{p[0], p[1], 0}});
+    const std::size_t known = points.size();
+    EdgeNet net(points);
+    for (const auto& [edge, reach] : edges_) net.add(edge, reach, false);
+    net.cut();
+    for (std::size_t v = known; v < points.size(); ++v) walls_.points.push_back({{points[v][0], points[v][1]}});
+    std::set<detail::PlanarEdge> appended;
+    for (const auto& [edge, reach] : edges_) {
+      const auto chain = net.chain(edge);
+      for (std::size_t k = 1; k < chain.size(); ++k) {
+        if (!appended.insert(sorted_edge(chain[k - 1], chain[k])).second) continue;
+        walls_.entities.push_back(static_cast<EntityId>(walls_.simplices.size()));
+        walls_.simplices.push_back({chain[k - 1], chain[k]});
+      }
+    }
   }
 
-  /// Once each, also where several given ones overlap.
-  void append(const std::array<std::uint32_t, 2>& simplex) {
-    auto key = simplex;
-    std::sort(key.begin(), key.end());
-    if (!appended_.insert(key).second) return;
-    walls_.entities.push_back(static_cast<EntityId>(walls_.simplices.size()));
-    walls_.simplices.push_back(simplex);
-  }
-
-  /// From one to the next of the vertices and given points on it.
-  void add_segment(const Leftover<2>& leftover) {
-    const GivenSegment& s = input_.segments()[leftover.id];
-    const double reach = match_.reach[leftover.id];
-    const auto &a = input_.point(s.points[0]), &b = input_.point(s.points[1]);
-    std::vector<std::uint32_t> corners{corner(s.points[0]), corner(s.points[1])};
-    const auto box = detail::Box<2>::of(leftover.corners).widened(3 * reach);
+  /// The vertices and given points on a segment, by their places along it.
+  std::vector<std::pair<double, std::uint32_t>> corners_along(const GivenSegment& s, double reach) {
+    const std::array<Point2, 2> ends{input_.point(s.points[0]), input_.point(s.points[1])};
+    std::vector<std::pair<double, std::uint32_t>> corners;
+    const auto take = [&](std::uint32_t v) { corners.push_back({along(ends, walls_.points[v]), v}); };
+    for (const std::uint32_t p : s.points) take(corner(p));
+    const auto box = detail::Box<2>::of(ends).widened(reach);
     subsegments_->meeting(box, [&](std::uint32_t i) {
       for (const std::uint32_t v : mesh_.subsegments[i].vertices)
-        if (box.meets(detail::Box<2>::around(mesh_.points[v])) && is_near<2>(mesh_.points[v], {a, b}, reach))
-          corners.push_back(v);
+        if (is_near<2>(mesh_.points[v], ends, reach)) take(v);
     });
     given_points().meeting(box, [&](std::uint32_t p) {
-      if (is_near<2>(input_.point(p), {a, b}, reach)) corners.push_back(corner(p));
+      if (is_near<2>(input_.point(p), ends, reach)) take(corner(p));
     });
-    const auto at = [&](const Point<2>& x) {
-      double t = 0;
-      for (int k = 0; k < 2; ++k) t += (x[k] - a[k]) * (b[k] - a[k]);
-      return t;
+    detail::make_set(corners);
+    return corners;
+  }
+
+  static double along(const std::array<Point2, 2>& ends, const Point2& x) {
+    return detail::dot(detail::difference(x, ends[0]), detail::difference(ends[1], ends[0]));
+  }
+
+  /// Each piece from one to the next of the corners, and from the one nearest to an end of it to the one nearest to the other: it
+  /// is as much shorter as what is covered reaches, which may be far beside what leaves it at a small angle.
+  void add_segment(std::uint32_t id, const std::vector<const Leftover<2>*>& pieces) {
+    const GivenSegment& s = input_.segments()[id];
+    const auto corners = corners_along(s, match_.reach[id]);
+    const auto nearest = [&](double t) {
+      const auto next = std::lower_bound(corners.begin(), corners.end(), std::pair{t, 0u});
+      if (next == corners.begin()) return next;
+      return next == corners.end() || t - next[-1].first < next->first - t ? next - 1 : next;
     };
-    const auto before = [&](std::uint32_t v, std::uint32_t w) { return at(walls_.points[v]) < at(walls_.points[w]); };
-    std::sort(corners.begin(), corners.end(), before);
-    const auto ends = ends_of({leftover.corners[0], leftover.corners[1]}, corners);
-    std::uint32_t last = ends[0];
-    for (const std::uint32_t v : corners) {
-      if (!before(last, v) || before(ends[1], v)) continue;
-      append({last, v});
-      last = v;
+    for (const auto* piece : pieces) {
+      const std::array<Point2, 2> ends{input_.point(s.points[0]), input_.point(s.points[1])};
+      const auto last = nearest(along(ends, piece->corners[1]));
+      for (auto at = nearest(along(ends, piece->corners[0])); at < last; ++at) {
+        if (at->second == at[1].second) continue;
+        double& known = edges_[sorted_edge(at->second, at[1].second)];
+        known = std::max(known, match_.reach[id]);
+      }
     }
   }
 
@@ -110,7 +127,7 @@ class FurtherWalls {
   const GivenMatch<2>& match_;
   VolumeWalls<2>& walls_;
   std::unique_ptr<detail::BoxTree<2>> subsegments_, given_points_;
-  std::set<std::array<std::uint32_t, 2>> appended_;
+  std::map<detail::PlanarEdge, double> edges_;          // and their reaches
   std::map<std::uint32_t, std::uint32_t> new_corners_;  // of places
 };
 

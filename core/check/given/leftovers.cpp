@@ -14,6 +14,7 @@
 
 #include "check/given/cover.hpp"
 #include "check/given/match.hpp"
+#include "diagnose/closest_points.hpp"
 #include "numbers/vectors.hpp"
 #include "pgdr/predicates.hpp"
 #include "space/box_tree.hpp"
@@ -192,7 +193,9 @@ class LeftoverChecker {
       } else if constexpr (D == 3) {
         const auto t = static_cast<std::uint32_t>(i - segments.size());
         const GivenTriangle& given = task_.input.triangles()[t];
-        near = is_near_triangle(x, task_.input.corners(given), r) && !is_left(EntityKind::facet, t, given.points);
+        const auto corners = task_.input.corners(given);
+        near = detail::closest_to_triangle(x, corners[0], corners[1], corners[2]).square <= r * r &&
+               !is_left(EntityKind::facet, t, given.points);
       }
     });
     return near;
@@ -216,13 +219,6 @@ class LeftoverChecker {
     for (const GivenTriangle& t : task_.input.triangles())
       if constexpr (D == 3) boxes.push_back(detail::Box<D>::of(task_.input.corners(t)).widened(r));
     given_tree_ = std::make_unique<detail::BoxTree<D>>(boxes);
-  }
-
-  static bool is_near_triangle(const Point3& x, const std::array<Point3, 3>& triangle, double r) {
-    const PlaneFrame frame(triangle);
-    if (!(frame.width() > 0)) return false;
-    const auto p = frame.place(x);
-    return std::abs(p[2]) <= r && CoveringTriangle(frame, triangle, r, r).contains({{p[0], p[1]}});
   }
 
   static bool has(const Simplex<D>& s, const Point<D>& x) {
