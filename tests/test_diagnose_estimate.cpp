@@ -211,6 +211,19 @@ Plc<3> nested_boxes(double apart) {
   return plc;
 }
 
+// The ways between their corners lie in the planes of their sides, without meeting these.
+TEST(NarrowestGap, OfBoxesWithSidesInOnePlane) {
+  constexpr double apart = 1e-3;
+  Plc<3> plc = two_boxes(apart);
+  const std::size_t n = plc.points.size() / 2;
+  for (std::size_t v = 0; v < n; ++v) {
+    const Point3& p = plc.points[v];
+    plc.points[n + v] = {p[0], p[1], p[2] + 3 + apart};
+  }
+  EXPECT_NEAR(narrowest_gap(Domain<3>(plc), {.in = GapsIn::not_meshed})->distance, apart, 1e-12);
+  EXPECT_NEAR(narrowest_gap(Domain<3>(triangulated(plc)), {.in = GapsIn::not_meshed})->distance, apart, 1e-12);
+}
+
 TEST(NarrowestGap, IsInWhatIsMeshed) {
   constexpr double apart = 1e-6;
   for (const bool is_turned : {false, true}) {

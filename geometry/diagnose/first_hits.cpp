@@ -87,11 +87,41 @@ auto FirstHits<D>::ray(const Point<D>& from, int attempt) const -> Ray {
   return ray;
 }
 
+/// Of a ray in the plane (2D: line) of a wall: does a line (point) of it separate the two? An edge of one of two convex figures
+/// is along one that does, if there is any.
+template <int D>
+bool FirstHits<D>::is_apart_in_plane(const Ray& ray, std::uint32_t wall) const {
+  const auto s = corners(wall);
+  if constexpr (D == 2) {
+    for (int i = 0; i < D; ++i) {
+      const auto [low, high] = std::minmax(ray.from[i], ray.to[i]);
+      if (high < std::min(s[0][i], s[1][i]) || low > std::max(s[0][i], s[1][i])) return true;
+    }
+    return false;
+  } else {
+    const auto n = cross(difference(s[1], s[0]), difference(s[2], s[0]));
+    int axis = 0;
+    for (int i = 1; i < D; ++i)
+      if (std::fabs(n[static_cast<std::size_t>(i)]) > std::fabs(n[static_cast<std::size_t>(axis)])) axis = i;
+    const Sign inside = orient_projected(s[0], s[1], s[2], axis);
+    if (inside == Sign::zero) return false;
+    bool all_positive = true, all_negative = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Point<D>&a = s[i], &b = s[(i + 1) % 3];
+      if (orient_projected(a, b, ray.from, axis) == -inside && orient_projected(a, b, ray.to, axis) == -inside) return true;
+      const Sign side = orient_projected(ray.from, ray.to, a, axis);
+      all_positive = all_positive && side == Sign::positive;
+      all_negative = all_negative && side == Sign::negative;
+    }
+    return all_positive || all_negative;
+  }
+}
+
 // Seen along the ray, a wall surrounds it if its rims turn round it the same way.
 template <int D>
 auto FirstHits<D>::meet(const Ray& ray, std::uint32_t wall) const -> Kind {
   const Sign before = side(wall, ray.from), behind = side(wall, ray.to);
-  if (before == behind && before != Sign::zero) return Kind::none;
+  if (before == behind && (before != Sign::zero || is_apart_in_plane(ray, wall))) return Kind::none;
   const auto s = corners(wall);
   bool positive = false, negative = false, zero = behind == Sign::zero;
   for (std::size_t i = 0; i < D; ++i) {

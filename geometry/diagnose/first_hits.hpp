@@ -58,6 +58,7 @@ class FirstHits {
     double low, high;
   };
   Kind meet(const Ray& ray, std::uint32_t wall) const;
+  bool is_apart_in_plane(const Ray& ray, std::uint32_t wall) const;
   static Interval inside(const Ray& ray, const Box<D>& box);
   Interval place(const Ray& ray, std::uint32_t wall) const;
   std::optional<bool> comes_first(const Ray& ray, std::uint32_t a, std::uint32_t b) const;
