@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <ostream>
 #include <streambuf>
 
@@ -72,10 +73,13 @@ std::filesystem::path place_of_output(const std::filesystem::path& file) { retur
 
 bool is_written_to(const std::filesystem::path& file) { return detail::target_of(file.native()).is_stream(); }
 
-void remove_output(const std::filesystem::path& file) noexcept {
+void remove_output(const std::string& file) noexcept {
   try {
-    const detail::WriteTarget target = detail::target_of(file.native());
+    const detail::WriteTarget target = detail::target_of(file);
     if (!target.is_stream()) std::remove(target.name.c_str());
+  } catch (const std::bad_alloc&) {  // without memory no link is followed
+    struct stat info {};
+    if (lstat(file.c_str(), &info) == 0 && S_ISREG(info.st_mode)) std::remove(file.c_str());
   } catch (...) {  // then there is nothing that this library has written
   }
 }

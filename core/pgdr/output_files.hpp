@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
+#include <string>
 
 #include "pgdr/export.hpp"
 
@@ -33,6 +34,6 @@ std::filesystem::path place_of_output(const std::filesystem::path& file);
 bool is_written_to(const std::filesystem::path& file);
 
 /// Removes a file that was written, where its links lead. Nothing that is no file, no link, and no error.
-void remove_output(const std::filesystem::path& file) noexcept;
+void remove_output(const std::string& file) noexcept;
 
 }  // namespace pgdr

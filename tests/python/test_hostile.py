@@ -70,7 +70,7 @@ class EveryArgument(unittest.TestCase):
     def test_runs(self):
         names = ("min_angle", "radius_edge", "size", "min_dihedral", "optimize", "threads", "regions", "region_sizes", "selector",
                  "keep_boundary", "tolerance", "max_volume", "min_edge", "time_limit", "max_vertices", "refine", "schedule", "progress",
-                 "drop_unused_points", "stop")
+                 "drop_unused_points", "memory_guard", "stop")
         for name in names:
             for plc in (square(), cube()):
                 self.assertGreater(self.throw(lambda v: pgdr.mesh(plc, **{"max_vertices": 40, name: v}), name), 15, name)

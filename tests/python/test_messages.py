@@ -93,6 +93,18 @@ class Ahead(unittest.TestCase):
             self.assertLessEqual(ahead.at_least, len(pgdr.mesh(plc, optimize=False).cells))
             self.assertEqual(pgdr.info(plc)["estimate"], ahead)
 
+    def test_what_there_is_no_memory_for(self):
+        """Two plates 1e-7 apart in a box: refused at once, unless the run is bounded, or somebody says that it may be tried."""
+        plate = cube().points * [1, 1, 0.2]
+        at = np.vstack([cube().points * [4, 4, 1], plate + [1, 1, 0.3], plate + [1, 1, 0.5000001]])
+        plc = pgdr.Plc(at, facets=[[8 * k + v for v in facet] for k in range(3) for facet in cube().facets.tolist()])
+        with self.assertRaisesRegex(pgdr.ResourceError, "apart"):
+            pgdr.mesh(plc)
+        self.assertEqual(pgdr.mesh(plc, max_vertices=1000).stop, "max_vertices")
+        stop = pgdr.StopSource()
+        stop.set()
+        self.assertEqual(pgdr.mesh(plc, memory_guard=False, stop=stop).stop, "cancelled")
+
     def test_sizes(self):
         for plc, size in ((square(), 0.001), (cube(), 0.08)):
             cells = len(checked(self, plc, size=size).cells)

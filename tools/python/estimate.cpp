@@ -21,13 +21,9 @@ namespace {
 /// ("point", number), ("segment", number or None for an edge of facets), ("facet", number), in the numbering of the input.
 template <int D>
 py::tuple entity_of(const Domain<D>& domain, EntityRef e) {
-  const auto named = [&](const char* kind, std::uint32_t number) {
-    return py::make_tuple(kind, std::uint64_t{number} + domain.first_index());
-  };
-  if (e.kind == EntityKind::vertex) return named("point", domain.input_of_point()[e.id]);
-  if (e.kind == EntityKind::facet) return named("facet", domain.triangle_origins(e.id)[0].facet);
-  const std::uint32_t input = domain.segments()[e.id].input;
-  return input == no_entity ? py::make_tuple("segment", py::none()) : named("segment", input);
+  const auto number = input_number(domain, e);
+  const char* kind = e.kind == EntityKind::vertex ? "point" : e.kind == EntityKind::facet ? "facet" : "segment";
+  return number ? py::make_tuple(kind, *number) : py::make_tuple(kind, py::none());
 }
 
 template <int D>

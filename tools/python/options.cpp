@@ -49,6 +49,7 @@ void bind(py::module_& module) {
       .def_readwrite("refine", &Options::refine)
       .def_readwrite("keep_boundary", &Options::keep_boundary)
       .def_readwrite("drop_unused_points", &Options::drop_unused_points)
+      .def_readwrite("memory_guard", &Options::memory_guard)
       .def_readwrite("min_edge", &Options::min_edge)
       .def_readwrite("max_vertices", &Options::max_vertices)
       .def("set_size", [](Options& o, const SizingField<D>& size) { o.size = size; })

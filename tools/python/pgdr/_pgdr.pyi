@@ -122,6 +122,7 @@ class _Options(metaclass=_PybindType):
     refine: bool
     keep_boundary: bool
     drop_unused_points: bool
+    memory_guard: bool
     min_edge: float
     max_vertices: int
     def __init__(self) -> None: ...

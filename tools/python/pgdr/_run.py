@@ -68,7 +68,7 @@ def mesh(plc: Plc, *, min_angle: Optional[float] = None, radius_edge: Optional[f
          selector: Union[None, str, Callable[[Elements], npt.ArrayLike]] = None, keep_boundary: bool = False,
          tolerance: Optional[float] = None, max_volume: Optional[float] = None, min_edge: float = 0.0,
          time_limit: Optional[float] = None, max_vertices: Optional[int] = None, refine: bool = True,
-         schedule: Optional[str] = None, drop_unused_points: bool = False,
+         schedule: Optional[str] = None, drop_unused_points: bool = False, memory_guard: bool = True,
          progress: Union[bool, Callable[[Progress], object]] = False, stop: Union[None, StopSource, _Event] = None) -> Mesh:
     """Meshes an input. Other Python threads run meanwhile, and may mesh, too. The mesh is the same for any number of threads.
 
@@ -121,6 +121,10 @@ def mesh(plc: Plc, *, min_angle: Optional[float] = None, radius_edge: Optional[f
     drop_unused_points : bool
         Points of the input that are in no cell, as they lie outside or in holes, are left out of the mesh: `point_of_input` has -1.
         Else they are vertices without cells. `warnings` says how many there are, either way.
+    memory_guard : bool
+        True: an input in whose gaps there are more cells than there is memory for is refused at once, by a ResourceError that names
+        the gap, unless `max_vertices`, `time_limit`, `min_edge` or `keep_boundary` bound the run. False: it is meshed, as far as
+        memory goes.
     progress : bool or function
         True: a line on standard error, which ends when the run ends. A function of `Progress`, called by this thread some thirty
         times a second at most, and once more in the end.
@@ -167,6 +171,7 @@ def mesh(plc: Plc, *, min_angle: Optional[float] = None, radius_edge: Optional[f
     options.refine = _arguments.flag("refine", refine)
     options.keep_boundary = _arguments.flag("keep_boundary", keep_boundary)
     options.drop_unused_points = _arguments.flag("drop_unused_points", drop_unused_points)
+    options.memory_guard = _arguments.flag("memory_guard", memory_guard)
     options.min_edge = _arguments.number("min_edge", min_edge)
     if time_limit is not None:
         options.set_time_limit(_arguments.number("time_limit", time_limit))
