@@ -102,7 +102,7 @@ class Ahead(unittest.TestCase):
             pgdr.mesh(plc)
         self.assertEqual(pgdr.mesh(plc, max_vertices=1000).stop, "max_vertices")
         stop = pgdr.StopSource()
-        stop.set()
+        stop.stop()
         self.assertEqual(pgdr.mesh(plc, memory_guard=False, stop=stop).stop, "cancelled")
 
     def test_sizes(self):
