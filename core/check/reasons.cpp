@@ -259,7 +259,7 @@ bool Reasons<D>::lies_on(std::uint32_t v, EntityRef entity) const {
 template <int D>
 bool Reasons<D>::is_in_gap(const PoorReason& reason) const {
   if constexpr (D == 3) {
-    const auto& [a, b] = reason.entities;
+    const EntityRef a = reason.entities[0], b = reason.entities[1];
     if (reason.code != PoorReason::Code::small_angle || !options_.domain || !conformity_ || !exists(a) || !exists(b))
       return false;
     const auto& cell = mesh_.cells[reason.cell];

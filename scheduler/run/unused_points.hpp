@@ -15,9 +15,9 @@ namespace pgdr::detail {
 
 /// Lists and warns. @param unused  points of the Domain, ascending
 template <int D>
-void note_unused_points(const Domain<D>& domain, std::vector<std::uint32_t> unused, RefineResult<D>& result) {
+void note_unused_points(const Domain<D>& domain, const std::vector<std::uint32_t>& unused, RefineResult<D>& result) {
   constexpr std::size_t most_named = 5;
-  result.unused_points = std::move(unused);
+  result.unused_points = unused;
   const std::size_t count = result.unused_points.size();
   if (count == 0) return;
   Diagnostic d{Errc::unreferenced_point, {}, {}, 0, {}, {}};
