@@ -12,9 +12,13 @@ namespace {
 // 0.3 of the insertions' time in solids that are mostly interior, and 0.7 to 4 of it where most cells are at facets.
 constexpr double optimizer_of_interior = 0.3, more_at_facets = 2;
 constexpr double rest_after_all = 0.15, rest_after_reasons = 0.08;
-constexpr double least_known = 0.005;  // of the cells: before, one cannot tell how fast the insertions are
+constexpr double least_known = 0.005;  // of the vertices: before, one cannot tell how fast the insertions are
 constexpr double between_looks = 0.03, least_optimizing = 0.05;  // seconds
 constexpr double unknown = -1;
+
+/// In a mesh that is mostly interior; the slots of cells tell less, as many are free after the exterior was carved away.
+template <int D>
+constexpr double cells_a_vertex = D == 3 ? 5 : 2;
 
 }  // namespace
 
@@ -37,7 +41,7 @@ void ProgressMeter<D>::begin(const char* stage) {
   const std::string_view name = stage;
   if (name == "insert" && insertions_since_ < 0) {
     insertions_since_ = seconds();
-    first_cells_ = context_->mesh.cell_bound();
+    first_vertices_ = static_cast<double>(context_->vertices);
     look();
   }
   if (name == "reasons") rest_ = rest_after_all * seconds();
@@ -52,6 +56,7 @@ void ProgressMeter<D>::begin_phase(double evaluations, double others) {
     optimizing_since_ = seconds();
     evaluated_before_ = evaluated;
   }
+  phase_since_ = seconds();
   evaluated_at_phase_ = evaluated;
   of_phase_ = evaluations;
   others_ = others;
@@ -61,7 +66,8 @@ template <int D>
 void ProgressMeter<D>::look() {
   if (!context_->options.progress || context_->stage || seconds() < next_look_) return;
   next_look_ = seconds() + between_looks;
-  all_cells_ = std::max(expected_cells_, context_->mesh.cell_bound() + waiting_->cells_to_come());
+  const double to_come = static_cast<double>(context_->vertices) + waiting_->cells_to_come() / cells_a_vertex<D>;
+  all_vertices_ = std::max(expected_cells_ / cells_a_vertex<D>, to_come);
 }
 
 /// Seconds that remain of the run; below 0: nobody knows. Any thread.
@@ -74,11 +80,11 @@ double ProgressMeter<D>::remaining() const {
 template <int D>
 double ProgressMeter<D>::of_insertions() const {
   if (insertions_since_ < 0) return unknown;
-  const double cells = context_->mesh.cell_bound(), so_far = seconds();
-  const double share = (cells - first_cells_) / std::max({all_cells_ - first_cells_, cells - first_cells_, 1.0});
+  const double vertices = static_cast<double>(context_->vertices), so_far = seconds(), made = vertices - first_vertices_;
+  const double share = made / std::max({all_vertices_ - first_vertices_, made, 1.0});
   if (!(share > least_known)) return unknown;
   const double insertions = (so_far - insertions_since_) / share;
-  const double at_facets = std::min(context_->mesh.constraint_bound() / cells, 1.0);
+  const double at_facets = std::min(context_->mesh.constraint_bound() / (cells_a_vertex<D> * vertices), 1.0);
   const double optimizer = optimizes_ ? optimizer_of_interior + more_at_facets * at_facets : 0;
   const double before_rest = insertions_since_ + insertions * (1 + optimizer);
   return (1 + rest_after_all) * before_rest - so_far;
@@ -86,12 +92,15 @@ double ProgressMeter<D>::of_insertions() const {
 
 template <int D>
 double ProgressMeter<D>::of_optimizer() const {
-  const std::uint64_t evaluated = context_->evaluated;
-  const double so_far = seconds(), optimizing = so_far - optimizing_since_;
-  if (optimizing_since_ < 0 || optimizing < least_optimizing || evaluated <= evaluated_before_) return unknown;
-  const double left_of_phase = of_phase_ - static_cast<double>(evaluated - std::min(evaluated, evaluated_at_phase_));
-  const double to_come = std::max(left_of_phase, 0.1 * of_phase_) + others_ * of_phase_;
-  const double all = so_far + to_come * optimizing / static_cast<double>(evaluated - evaluated_before_);
+  constexpr double least_part = 0.1;  // of what a phase evaluates: so much tells how fast it is; and so much is always to come
+  const double so_far = seconds(), evaluated = static_cast<double>(context_->evaluated);
+  const double in_phase = evaluated - static_cast<double>(evaluated_at_phase_);
+  const bool is_phase_known = in_phase > least_part * of_phase_;
+  const double since = is_phase_known ? phase_since_ : optimizing_since_;
+  const double done_since = is_phase_known ? in_phase : evaluated - static_cast<double>(evaluated_before_);
+  if (optimizing_since_ < 0 || so_far - since < least_optimizing || !(done_since > 0)) return unknown;
+  const double to_come = std::max(of_phase_ - in_phase, least_part * of_phase_) + others_ * of_phase_;
+  const double all = so_far + to_come * (so_far - since) / done_since;
   return (1 + rest_after_all) * all - so_far;
 }
 

@@ -42,10 +42,11 @@ class ProgressMeter {
   RefineContext<D>* context_;
   const WaitingWork<D>* waiting_;
   bool optimizes_ = false;
-  double expected_cells_ = 0, all_cells_ = 0;  ///< by the estimate, and as it seemed at the last look
+  double expected_cells_ = 0;  ///< by the estimate
+  double all_vertices_ = 0;    ///< that there will be, as it seemed at the last look
   double next_look_ = 0;
-  double insertions_since_ = -1, first_cells_ = 0;  ///< seconds, and how many cells there were
-  double optimizing_since_ = -1;
+  double insertions_since_ = -1, first_vertices_ = 0;  ///< seconds, and how many vertices there were
+  double optimizing_since_ = -1, phase_since_ = -1;
   std::uint64_t evaluated_before_ = 0, evaluated_at_phase_ = 0;  ///< when the optimiser and when its phase began
   double of_phase_ = 0, others_ = 0;                             ///< evaluations that are expected; times that of later phases
   double rest_ = -1;                                             ///< what remains after the optimiser, as a part of all before
