@@ -12,6 +12,7 @@
 #include <stop_token>
 #include <string>
 
+#include "diagnose/cells_between.hpp"
 #include "pgdr/estimate.hpp"
 #include "pgdr/flat_arrays.hpp"
 #include "pgdr/refine.hpp"
@@ -20,8 +21,7 @@ namespace pgdr::test_run_memory {
 
 /// A slab so thin, or a strip, that no machine has memory for its cells.
 template <int D>
-Plc<D> thin() {
-  constexpr double t = D == 3 ? 1e-9 : 1e-13;
+Plc<D> thin(double t = D == 3 ? 1e-9 : 1e-13) {
   if constexpr (D == 3) {
     const double xyz[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, t, 1, 0, t, 0, 1, t, 1, 1, t};
     const std::uint32_t triangles[] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
@@ -61,6 +61,19 @@ TYPED_TEST(Memory, GapsForWhichThereIsNoneAreRefused) {
   options.radius_edge_bound = 4;
   expect_refused<D>(options);
   EXPECT_FALSE(was_prepared);
+}
+
+/// The guard makes the estimate only where the places that it looks at are so near to something that there may be so many cells.
+TYPED_TEST(Memory, TheQuickLookAllowsNoFewerCellsThanTheEstimate) {
+  constexpr int D = TypeParam::value;
+  const detail::Bulk bulk(false);
+  for (double t = 0.25; t > 1e-8; t /= 4) {
+    const Domain<D> domain(thin<D>(t));
+    const double at_least = estimate_cells<D>(domain).at_least;
+    const detail::NearPieces<D> pieces(domain, bulk);
+    EXPECT_TRUE(detail::may_take_more_cells_between(pieces, 2, at_least * 0.999, bulk)) << t;
+    EXPECT_FALSE(detail::may_take_more_cells_between(pieces, 2, 2 * at_least + 100, bulk)) << t;
+  }
 }
 
 TYPED_TEST(Memory, WhoBoundsTheRunOrSaysSoIsNotRefused) {

@@ -11,12 +11,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numeric>
-#include <optional>
 #include <utility>
 #include <vector>
 
+#include "diagnose/cells_between.hpp"
 #include "diagnose/cells_of_sizes.hpp"
 #include "diagnose/chance.hpp"
 #include "diagnose/size_field_of_gaps.hpp"
@@ -204,125 +203,6 @@ class PathsThroughTree {
   std::vector<std::uint32_t> order_;  ///< points, those of each node together
 };
 
-/// The cells that are needed between entities that are near. Let two parallel facets be d apart, and p a vertex on one of them.
-/// The subfacet of the other that p is above is not encroached upon. With w_i the barycentric coordinates of p's foot there, c
-/// its circumcentre and R its radius, sum w_i |foot - v_i|^2 = R^2 - |foot - c|^2 <= d^2: so one of its vertices is within sqrt 2
-/// d of p. A cell with such an edge has a circumradius of up to r = sqrt 2 B d, with B the bound on radius over edge, and so has
-/// a subfacet of it: its area is up to 3/4 sqrt 3 r^2 (2D: its length up to 2 r). Facets that are not quite parallel are as far
-/// apart as at the other end of such a subfacet.
-template <int D>
-class CellsBetween {
- public:
-  CellsBetween(const SizeFieldOfGaps<D>& field, double radius_edge_bound, const detail::Bulk& bulk)
-      : field_(field), pieces_(field.pieces()), bound_(radius_edge_bound), bulk_(bulk) {}
-
-  /// Looks at places on the pieces, spread evenly over their area (length).
-  void add_to(CellEstimate<D>& estimate) {
-    if (!(bound_ < infinity)) return;
-    const std::vector<Place> places = choose_places();
-    std::vector<std::optional<Found>> found(places.size());
-    bulk_.parts(places.size(), [&](std::size_t k) { found[k] = look_at(places[k]); });
-    for (const std::optional<Found>& f : found) {
-      if (!f) continue;
-      Between& between = between_[f->pair];
-      between.cells += f->cells;
-      if (f->gap.distance < between.gap.distance) between.gap = f->gap;
-    }
-    for (const auto& [pair, between] : between_) {
-      estimate.at_least += between.cells;
-      if (between.cells > most_) estimate.most_due_to = between.gap;
-      most_ = std::max(most_, between.cells);
-    }
-  }
-
- private:
-  using Piece = typename detail::NearPieces<D>::Piece;
-  struct Between {
-    double cells = 0;
-    Gap<D> gap{infinity, {}, {}};
-  };
-  /// A place on a piece, by its coordinates in it, and the area (length) that it stands for.
-  struct Place {
-    std::uint32_t piece;
-    double u, v, measure;
-  };
-  struct Found {
-    std::pair<EntityId, EntityId> pair;
-    double cells;
-    Gap<D> gap;
-  };
-
-  std::vector<Place> choose_places() const {
-    constexpr int count = 256;
-    std::vector<double> until(pieces_.pieces().size());  // area of all pieces up to this one
-    bulk_.each(until.size(), [&](std::size_t i) { until[i] = measure_of(pieces_.pieces()[i]); });
-    std::partial_sum(until.begin(), until.end(), until.begin());
-    std::vector<Place> places;
-    Chance chance;
-    for (int k = 0; k < count && !until.empty(); ++k) {
-      const auto at = std::upper_bound(until.begin(), until.end(), (k + chance()) / count * until.back());
-      if (at == until.end()) continue;
-      double u = chance(), v = D == 3 ? chance() : 0.0;
-      if (u + v > 1) u = 1 - u, v = 1 - v;
-      places.push_back({static_cast<std::uint32_t>(at - until.begin()), u, v, until.back() / count});
-    }
-    return places;
-  }
-
-  const Point<D>& corner(const Piece& piece, std::size_t i) const { return pieces_.points()[piece.corners[i]]; }
-  /// Its length is twice the area (2D: the length).
-  detail::Vector<D> normal_of(const Piece& piece) const {
-    const auto u = detail::difference(corner(piece, 1), corner(piece, 0));
-    if constexpr (D == 3)
-      return detail::cross(u, detail::difference(corner(piece, 2), corner(piece, 0)));
-    else
-      return {u[1], -u[0]};
-  }
-  double measure_of(const Piece& piece) const {
-    if (piece.count < D) return 0;
-    const auto n = normal_of(piece);
-    return std::sqrt(detail::dot(n, n)) / (D == 3 ? 2 : 1);
-  }
-
-  std::optional<Found> look_at(const Place& place) const {
-    const Piece& piece = pieces_.pieces()[place.piece];
-    Point<D> x = detail::on_edge(corner(piece, 0), corner(piece, 1), place.u);
-    if constexpr (D == 3)
-      for (int k = 0; k < D; ++k) x[k] += place.v * (corner(piece, 2)[k] - corner(piece, 0)[k]);
-    const auto near = field_.nearest_disjoint(x, place.piece, infinity);
-    if (near.piece == no_entity || pieces_.pieces()[near.piece].count < D || !(near.distance > 0)) return std::nullopt;
-    const Piece& other = pieces_.pieces()[near.piece];
-    const auto n = normal_of(piece), m = normal_of(other), way = detail::difference(x, near.place);
-    const double nn = detail::dot(n, n), mm = detail::dot(m, m), nm = detail::dot(n, m), above = std::fabs(detail::dot(way, m));
-    if (!(mm > 0) || !(above >= (1 - 0x1p-20) * near.distance * std::sqrt(mm)) || nm == 0)
-      return std::nullopt;  // its rim is nearest
-    if (!field_.space().is_between(x, near.place)) return std::nullopt;
-    const double cosine = std::min(1.0, std::fabs(nm) / std::sqrt(nn * mm)), tangent = std::sqrt(1 - cosine * cosine) / cosine;
-    const double radius = std::sqrt(2.0) * bound_ * near.distance, farther = near.distance + 2 * radius * tangent;
-    const double most_radius = std::sqrt(2.0) * bound_ * farther;
-    constexpr double largest_triangle = 1.299038105676658;  // of those in a circle: 3/4 sqrt 3
-    const double most = D == 3 ? largest_triangle * most_radius * most_radius : 2 * most_radius;
-    const EntityRef a = piece.entity(), b = other.entity();
-    return Found{std::minmax(a.id, b.id), place.measure * cosine / most, gap_between(a, b, x, near)};
-  }
-
-  Gap<D> gap_between(EntityRef a, EntityRef b, const Point<D>& x, const typename SizeFieldOfGaps<D>::Near& near) const {
-    Gap<D> gap{near.distance * pieces_.unit(), {a, b}, {}};
-    for (int k = 0; k < D; ++k) {
-      gap.points[0][k] = x[k] * pieces_.unit();
-      gap.points[1][k] = near.place[k] * pieces_.unit();
-    }
-    return gap;
-  }
-
-  const SizeFieldOfGaps<D>& field_;
-  const detail::NearPieces<D>& pieces_;
-  const double bound_;
-  const detail::Bulk& bulk_;
-  std::map<std::pair<EntityId, EntityId>, Between> between_;  // by their entities
-  double most_ = 0;
-};
-
 }  // namespace
 
 template <int D>
@@ -332,7 +212,7 @@ CellEstimate<D> estimate_cells(const Domain<D>& domain, const EstimateOptions<D>
   const SizeFieldOfGaps<D> field(domain, options, bulk);
   stop_check();
   CellEstimate<D> estimate;
-  CellsBetween<D>(field, options.radius_edge_bound, bulk).add_to(estimate);
+  detail::add_cells_between<D>(field, options.radius_edge_bound, bulk, estimate);
   stop_check();
   estimate.cells = PathsThroughTree<D>(field, bulk, options.stop).cells();
   const auto density = [&](const Point<D>& x) { return density_of<D>(field.look(x).h); };

@@ -13,9 +13,11 @@
 #include <string>
 #include <utility>
 
+#include "diagnose/cells_between.hpp"
 #include "input/words.hpp"
 #include "pgdr/error.hpp"
 #include "pgdr/estimate.hpp"
+#include "space/stop_check.hpp"
 
 namespace pgdr {
 namespace {
@@ -99,11 +101,32 @@ void require_memory(const Domain<D>& domain, const CellEstimate<D>& estimate) {
   throw ResourceError(std::move(d));
 }
 
+template <int D>
+void require_memory(const Domain<D>& domain, const EstimateOptions<D>& options) {
+  const detail::Bulk bulk(true, options.stop);
+  const detail::StopCheck stop_check(options.stop);
+  const detail::NearPieces<D> pieces(domain, bulk);
+  const auto may_take_more = [&](double cells) {
+    const bool may = detail::may_take_more_cells_between(pieces, options.radius_edge_bound, cells, bulk);
+    stop_check();
+    return may;
+  };
+  constexpr double always_room_for = 1e5;  // cells: asking for the memory takes longer than the mesh of a cube
+  if (!may_take_more(always_room_for) || !may_take_more(available_memory() / bytes_a_cell<D>)) return;
+  CellEstimate<D> estimate;
+  const detail::SizeFieldOfGaps<D> field(domain, options, bulk);
+  stop_check();
+  detail::add_cells_between(field, options.radius_edge_bound, bulk, estimate);
+  stop_check();
+  require_memory(domain, estimate);
+}
+
 #define PGDR_INSTANTIATE(D)                                                                     \
   template PGDR_API std::optional<std::uint64_t> input_number<D>(const Domain<D>&, EntityRef);  \
   template PGDR_API std::string words_of<D>(const Domain<D>&, const std::array<EntityRef, 2>&); \
   template PGDR_API bool has_memory_for<D>(const CellEstimate<D>&);                             \
-  template PGDR_API void require_memory<D>(const Domain<D>&, const CellEstimate<D>&);
+  template PGDR_API void require_memory<D>(const Domain<D>&, const CellEstimate<D>&);           \
+  template PGDR_API void require_memory<D>(const Domain<D>&, const EstimateOptions<D>&);
 PGDR_INSTANTIATE(2)
 PGDR_INSTANTIATE(3)
 #undef PGDR_INSTANTIATE

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 namespace pgdr::detail {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 constexpr double optimizer_of_interior = 0.3, more_at_facets = 2;
 constexpr double rest_after_all = 0.15, rest_after_reasons = 0.08;
 constexpr double least_known = 0.005;  // of the vertices: before, one cannot tell how fast the insertions are
-constexpr double between_looks = 0.03, least_optimizing = 0.05;  // seconds
+constexpr double longest_short_run = 1, between_looks = 0.03, least_optimizing = 0.05;  // seconds
 constexpr double unknown = -1;
 
 /// In a mesh that is mostly interior; the slots of cells tell less, as many are free after the exterior was carved away.
@@ -29,8 +30,8 @@ ProgressMeter<D>::ProgressMeter(RefineContext<D>& context, const WaitingWork<D>&
 }
 
 template <int D>
-void ProgressMeter<D>::expect(double cells, bool optimizes) {
-  expected_cells_ = cells;
+void ProgressMeter<D>::expect(std::function<double()> estimate, bool optimizes) {
+  estimate_ = std::move(estimate);
   optimizes_ = optimizes;
 }
 
@@ -65,6 +66,10 @@ void ProgressMeter<D>::begin_phase(double evaluations, double others) {
 template <int D>
 void ProgressMeter<D>::look() {
   if (!context_->options.progress || context_->stage || seconds() < next_look_) return;
+  if (estimate_) {
+    if (seconds() < longest_short_run) return;
+    expected_cells_ = std::exchange(estimate_, nullptr)();
+  }
   next_look_ = seconds() + between_looks;
   const double to_come = static_cast<double>(context_->vertices) + waiting_->cells_to_come() / cells_a_vertex<D>;
   all_vertices_ = std::max(expected_cells_ / cells_a_vertex<D>, to_come);
@@ -79,7 +84,7 @@ double ProgressMeter<D>::remaining() const {
 
 template <int D>
 double ProgressMeter<D>::of_insertions() const {
-  if (insertions_since_ < 0) return unknown;
+  if (insertions_since_ < 0 || !(all_vertices_ > 0)) return unknown;
   const double vertices = static_cast<double>(context_->vertices), so_far = seconds(), made = vertices - first_vertices_;
   const double share = made / std::max({all_vertices_ - first_vertices_, made, 1.0});
   if (!(share > least_known)) return unknown;

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "refine/context.hpp"
 #include "run/waiting_work.hpp"
@@ -24,8 +25,9 @@ class ProgressMeter {
   ProgressMeter(const ProgressMeter&) = delete;
   ProgressMeter& operator=(const ProgressMeter&) = delete;
 
-  /// `cells`: about so many there will be, by the estimate; 0: nobody knows. `optimizes`: is there an optimiser?
-  void expect(double cells, bool optimizes);
+  /// `estimate` finds about how many cells there will be. It is called once, by look(), when the run is no longer a short one, as
+  /// it takes a good part of the time of that. `optimizes`: is there an optimiser?
+  void expect(std::function<double()> estimate, bool optimizes);
   /// A stage of the plan begins.
   void begin(const char* stage);
   /// A phase of the optimiser begins, which is expected to evaluate so many cells; and those after it so many times as many.
@@ -42,8 +44,9 @@ class ProgressMeter {
   RefineContext<D>* context_;
   const WaitingWork<D>* waiting_;
   bool optimizes_ = false;
-  double expected_cells_ = 0;  ///< by the estimate
-  double all_vertices_ = 0;    ///< that there will be, as it seemed at the last look
+  std::function<double()> estimate_;  ///< none: it has been called
+  double expected_cells_ = 0;         ///< by the estimate
+  double all_vertices_ = 0;           ///< that there will be, as it seemed at the last look; 0: not known
   double next_look_ = 0;
   double insertions_since_ = -1, first_vertices_ = 0;  ///< seconds, and how many vertices there were
   double optimizing_since_ = -1, phase_since_ = -1;

@@ -22,12 +22,12 @@
 #include "graph/float_environment.hpp"
 #include "input/words.hpp"
 #include "pgdr/diagnosis.hpp"
-#include "pgdr/estimate.hpp"
 #include "pgdr/mesh_maps.hpp"
 #include "reasons/poor_reasons.hpp"
 #include "reasons/sharp_corners.hpp"
 #include "rule/cell_bounds.hpp"
 #include "run/cell_parts.hpp"
+#include "run/cells_ahead.hpp"
 #include "run/deadline.hpp"
 #include "run/folded_facets.hpp"
 #include "run/refinement.hpp"
@@ -195,24 +195,6 @@ void warn_beyond_theory(const RefineOptions<D>& options, std::vector<Diagnostic>
                         {}});
 }
 
-/// About how many cells gaps ask for, if anybody wants to know; 0: nobody does. Refuses what these take more memory for than
-/// there is, unless the caller has bounded the run.
-template <int D>
-double look_ahead(const Domain<D>& domain, const RefineOptions<D>& options, const std::stop_token& stop) {
-  const bool has_fewer = options.max_vertices < RefineOptions<D>().max_vertices || options.min_edge > 0 || options.keep_boundary;
-  const bool is_guarded = options.memory_guard && !has_fewer && !options.time_limit;
-  if (!options.refine || (!is_guarded && !options.progress)) return 0;
-  const bool voids_by_nesting = options.regions == RegionMode::automatic;
-  const CellEstimate<D> estimate = estimate_cells<D>(
-      domain, {.narrowest = narrowest_gap<D>(domain, {.voids_by_nesting = voids_by_nesting, .stop = stop}),
-               .voids_by_nesting = voids_by_nesting,
-               .radius_edge_bound = options.radius_edge_bound,
-               .measure = {},
-               .stop = stop});
-  if (is_guarded) require_memory<D>(domain, estimate);
-  return estimate.cells;
-}
-
 /// Makes the mesh before its refinement: all input points, the boundary, no exterior. Where the run is stopped before the
 /// boundary is there, `result.stop` says why.
 template <int D>
@@ -259,10 +241,11 @@ struct Refined {
 
 template <int D>
 Refined<D> refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices,
-                       const detail::RunPieces& pieces, detail::RunHooks<D>* hooks, double expected_cells,
+                       const detail::RunPieces& pieces, detail::RunHooks<D>* hooks, const detail::Deadline& deadline,
                        RefineResult<D>& result) {
   detail::Refinement<D> refinement(context, std::move(pools), vertices, target_of(context.options), pieces, hooks);
   detail::RunState<D>& state = refinement.state();
+  const auto expected_cells = [&] { return detail::estimate_in_run(context.domain, context.options, deadline.token(), pieces); };
   state.meter.expect(expected_cells, target_of(context.options) > 0);
   result.stop = refinement.run();
   const detail::Optimizing* optimizing = refinement.optimizing();
@@ -358,7 +341,7 @@ void number_mesh(const RefineContext<D>& context, const RegionTable& regions, co
 template <int D>
 RefineResult<D> make_mesh(const Domain<D>& domain, const RefineOptions<D>& options, Clock::time_point start,
                           const detail::Deadline& deadline, const detail::RunPieces& pieces, detail::RunHooks<D>* hooks,
-                          double expected_cells, RefineResult<D> result) {
+                          RefineResult<D> result) {
   Mesh<D> mesh(domain.points().size());
   auto pools = mesh.make_pools();
   const RegionTable regions = make_initial<D>(mesh, pools, domain, options, start, deadline, pieces, result);
@@ -371,7 +354,7 @@ RefineResult<D> make_mesh(const Domain<D>& domain, const RefineOptions<D>& optio
   const std::uint64_t vertices = domain.points().size() + result.statistics.segment_points + result.statistics.facet_points;
   RefineContext<D> context(mesh, domain, options, bounds_of(options, regions), vertices, start);
   Refined<D> refined;
-  if (options.refine) refined = refine_mesh<D>(context, std::move(pools), vertices, pieces, hooks, expected_cells, result);
+  if (options.refine) refined = refine_mesh<D>(context, std::move(pools), vertices, pieces, hooks, deadline, result);
   if (is_unwanted(options, result.stop)) return without_mesh(std::move(result), start);
   detail::RunClock& clock = pieces.clock();
   if (hooks && hooks->has_part()) {
@@ -406,17 +389,16 @@ RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options, Cl
   before.largest_move = domain.largest_move();
   warn_beyond_theory(options, before.warnings);
   detail::RunClock& clock = pieces.clock();
-  double expected_cells = 0;
   try {
     const detail::RunClock::Stage timed(clock, "diagnose");
     const detail::PiecesHere here(pieces);
     require_no_errors(domain, deadline.token());
-    expected_cells = look_ahead(domain, options, deadline.token());
+    detail::guard_memory(domain, options, deadline.token());
     if (options.prepared) options.prepared(domain);
   } catch (const CancelledError&) {
     return without_mesh(std::move(before), start, deadline.cause());
   }
-  RefineResult<D> result = make_mesh<D>(domain, options, start, deadline, pieces, hooks, expected_cells, std::move(before));
+  RefineResult<D> result = make_mesh<D>(domain, options, start, deadline, pieces, hooks, std::move(before));
   result.statistics.predicates += predicate_counts() - predicates_before;
   result.statistics.predicates += pieces.predicates_elsewhere();
   result.statistics.stages = clock.stages();

@@ -118,16 +118,17 @@ void drop(const std::vector<std::uint32_t>& unused, std::vector<std::int64_t>& p
   }
 }
 
-/// The mesh, what is known of it, and what was raised meanwhile: an exception, or None.
+/// The mesh, what is known of it, and what was raised meanwhile: an exception, or None. `tells`: does the poll want to know how
+/// far the run is?
 template <int D>
 py::tuple run(const std::shared_ptr<const Plc<D>>& plc, const RefineOptions<D>& given, const std::stop_token& stop,
-              py::object poll) {
+              py::object poll, bool tells) {
   RefineOptions<D> options = given;
   Watch watch(stop, std::move(poll));
   auto data = std::make_shared<MeshData<D>>();
   RefineResult<D> result;
   options.stop = watch.token();
-  options.progress = [&](const Progress& p) { watch.note(p); };
+  if (tells) options.progress = [&](const Progress& p) { watch.note(p); };
   options.prepared = [&](const Domain<D>& domain) {
     data->point_of_input.assign(domain.point_of_input().begin(), domain.point_of_input().end());
   };
@@ -151,10 +152,12 @@ void bind_run(py::module_& module) {
       .def("stop", [](std::stop_source& source) { source.request_stop(); })
       .def("is_set", [](const std::stop_source& source) { return source.stop_requested(); });
   const auto token_of = [](const std::stop_source* source) { return source ? source->get_token() : std::stop_token(); };
-  module.def("refine2", [=](const std::shared_ptr<Plc<2>>& plc, const RefineOptions<2>& options, const std::stop_source* stop,
-                            py::object poll) { return run<2>(plc, options, token_of(stop), std::move(poll)); });
-  module.def("refine3", [=](const std::shared_ptr<Plc<3>>& plc, const RefineOptions<3>& options, const std::stop_source* stop,
-                            py::object poll) { return run<3>(plc, options, token_of(stop), std::move(poll)); });
+  module.def("refine2",
+             [=](const std::shared_ptr<Plc<2>>& plc, const RefineOptions<2>& options, const std::stop_source* stop,
+                 py::object poll, bool tells) { return run<2>(plc, options, token_of(stop), std::move(poll), tells); });
+  module.def("refine3",
+             [=](const std::shared_ptr<Plc<3>>& plc, const RefineOptions<3>& options, const std::stop_source* stop,
+                 py::object poll, bool tells) { return run<3>(plc, options, token_of(stop), std::move(poll), tells); });
 }
 
 }  // namespace pgdr::python

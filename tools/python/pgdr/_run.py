@@ -319,7 +319,7 @@ def _run(plc: Plc, options: _pgdr._Options, bounds: Dict[str, Any], progress: ob
     finished, is_done = 0, False
     try:
         with WORK:
-            core, facts, raised = refine(plc._core, options, source, poll)
+            core, facts, raised = refine(plc._core, options, source, poll, tell is not None)
         finished, is_done = len(core.points), facts["stop"] != "cancelled"
     finally:
         if tell is not None:
