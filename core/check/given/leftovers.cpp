@@ -27,67 +27,71 @@ using detail::difference;
 using detail::dot;
 using detail::Vector;
 
-/// Points with n . (x - origin) <= offset.
+/// Points with low <= n . (x - origin) <= high.
 template <int D>
-struct HalfSpace {
+struct Slab {
   Vector<D> n;  // of length 1
   Point<D> origin;
-  double offset;
-  double height(const Point<D>& x) const { return dot(difference(x, origin), n) - offset; }
+  double low, high;
 };
 
-/// 3D: planes at the edges of a cell at which its faces make less than 90 degrees, across the middle of that angle. Without them
-/// the widened planes of a flat cell, which lie in one another, go on without end.
-void cut_sharp_edges(const Simplex<3>& s, double r, std::vector<HalfSpace<3>>& out) {
-  for (const auto& [i, j, k, l] :
-       {std::array{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}}) {
-    const auto edge = difference(s[j], s[i]);
-    std::array<Vector<3>, 2> off{difference(s[k], s[i]), difference(s[l], s[i])};  // from the edge to the other corners
-    for (auto& u : off) {
-      const double t = dot(u, edge) / dot(edge, edge);
-      for (int x = 0; x < 3; ++x) u[x] -= t * edge[x];
-      const double length = std::sqrt(dot(u, u));
-      for (double& x : u) x /= length;
-    }
-    if (!(dot(off[0], off[1]) > 0)) continue;
-    Vector<3> n;
-    for (int x = 0; x < 3; ++x) n[x] = -(off[0][x] + off[1][x]);
-    const double length = std::sqrt(dot(n, n));  // at least the root of 2
-    for (double& x : n) x /= length;
-    out.push_back({n, s[i], r});
+/// What of u is square to a direction of length 1. Twice: the first time leaves the rounding of what was taken off.
+template <int D>
+Vector<D> square_part(Vector<D> u, const Vector<D>& direction) {
+  for (int twice = 0; twice < 2; ++twice) {
+    const double along = dot(u, direction);
+    for (int k = 0; k < D; ++k) u[k] -= along * direction[k];
   }
+  return u;
 }
 
-/// The cell and what is within r of it; at an angle a, within r / sin a.
+/// @return whether it has a direction
 template <int D>
-std::vector<HalfSpace<D>> widened_cell(const Simplex<D>& s, double r) {
-  std::vector<HalfSpace<D>> out;
-  for (int i = 0; i <= D; ++i) {
-    const Point<D>&a = s[(i + 1) % (D + 1)], &b = s[(i + 2) % (D + 1)];
-    Vector<D> n;
-    if constexpr (D == 2) {
-      const auto d = difference(b, a);
-      n = {d[1], -d[0]};
-    } else {
-      n = cross(difference(b, a), difference(s[(i + 3) % 4], a));
+bool normalize(Vector<D>& u) {
+  const double length = std::sqrt(dot(u, u));
+  for (double& x : u) x /= length;
+  return length > 0;
+}
+
+/// The cell and what is within r of it, between pairs of parallel planes that touch this: along each edge, and square to it along
+/// and across each face. Both planes of a pair are where the corners are, so rounding turns them a little and no more: which side
+/// of a face a flat cell is on nobody has to tell. They end at a sharp edge or corner, where planes of the faces alone go on.
+template <int D>
+std::vector<Slab<D>> widened_cell(const Simplex<D>& s, double r) {
+  std::vector<Slab<D>> out;
+  const auto add = [&](const Vector<D>& n) {
+    double low = 0, high = 0;
+    for (int i = 1; i <= D; ++i) {
+      const double height = dot(difference(s[i], s[0]), n);
+      low = std::min(low, height);
+      high = std::max(high, height);
     }
-    const double length = std::sqrt(dot(n, n));
-    const double sense = dot(difference(s[i], a), n) > 0 ? -1 : 1;
-    for (double& x : n) x *= sense / length;
-    out.push_back({n, a, r});
-  }
-  if constexpr (D == 3) cut_sharp_edges(s, r, out);
+    out.push_back({n, s[0], low - r, high + r});
+  };
+  for (int i = 0; i <= D; ++i)
+    for (int j = i + 1; j <= D; ++j) {
+      auto edge = difference(s[j], s[i]);
+      if (!normalize<D>(edge)) continue;
+      add(edge);
+      for (int k = 0; k <= D; ++k) {
+        if (k == i || k == j) continue;
+        auto off = square_part<D>(difference(s[k], s[i]), edge);
+        if (!normalize<D>(off)) continue;
+        add(off);
+        if constexpr (D == 3) add(cross(edge, off));
+      }
+    }
   return out;
 }
 
-/// The part of a convex point set (a point, a segment, a polygon) in a half-space.
-template <int D>
-std::vector<Point<D>> clip(const std::vector<Point<D>>& corners, const HalfSpace<D>& side) {
+/// The part of a convex point set (a point, a segment, a polygon) where a height above a plane is at most 0.
+template <int D, class Height>
+std::vector<Point<D>> clip(const std::vector<Point<D>>& corners, const Height& height) {
   std::vector<Point<D>> out;
   const std::size_t n = corners.size();
   for (std::size_t k = 0; k < n; ++k) {
     const Point<D>&p = corners[k], &q = corners[(k + 1) % n];
-    const double of_p = side.height(p), of_q = side.height(q);
+    const double of_p = height(p), of_q = height(q);
     if (of_p <= 0) out.push_back(p);
     if (n == 1 || (n == 2 && k == 1) || !((of_p < 0 && of_q > 0) || (of_p > 0 && of_q < 0))) continue;
     const double t = of_p / (of_p - of_q);
@@ -96,6 +100,13 @@ std::vector<Point<D>> clip(const std::vector<Point<D>>& corners, const HalfSpace
     out.push_back(x);
   }
   return out;
+}
+
+template <int D>
+std::vector<Point<D>> clip_between(const std::vector<Point<D>>& corners, const Slab<D>& slab) {
+  const auto along = [&](const Point<D>& x) { return dot(difference(x, slab.origin), slab.n); };
+  const auto below = clip<D>(corners, [&](const Point<D>& x) { return along(x) - slab.high; });
+  return clip<D>(below, [&](const Point<D>& x) { return slab.low - along(x); });
 }
 
 /// The largest distance of two corners, and for a polygon the largest one of a corner from the line of these two.
@@ -146,7 +157,7 @@ class LeftoverChecker {
     for (std::uint32_t c = 0; c < mesh_.cells.size(); ++c) {
       task_.findings.heed_stop();
       const Simplex<D> s = corners_of(mesh_, c);
-      std::vector<HalfSpace<D>> cell;
+      std::vector<Slab<D>> cell;
       tree.meeting(detail::Box<D>::of(s), [&](std::uint32_t i) {
         if (reported_[i]) return;
         if (cell.empty()) cell = widened_cell<D>(s, r);
@@ -156,12 +167,12 @@ class LeftoverChecker {
   }
 
   /// `exactly`: a point that is beside the cell is not in it, however near it is.
-  void compare(std::uint32_t c, std::uint32_t i, const std::vector<HalfSpace<D>>& cell, bool exactly) {
+  void compare(std::uint32_t c, std::uint32_t i, const std::vector<Slab<D>>& cell, bool exactly) {
     const Leftover<D>& leftover = match_.leftovers[i];
     if (exactly && leftover.kind == EntityKind::vertex && !has(corners_of(mesh_, c), leftover.corners[0])) return;
     if (!exactly && leftover.kind == EntityKind::vertex && !is_near_given(leftover)) return;
     std::vector<Point<D>> part = leftover.corners;
-    for (const auto& side : cell) part = clip<D>(part, side);
+    for (auto slab = cell.begin(); slab != cell.end() && !part.empty(); ++slab) part = clip_between<D>(part, *slab);
     if (part.empty()) return;
     const auto [length, width] = extents(part);
     // The mesh may be off a facet by its reach, and so may the border of what is left of it.
