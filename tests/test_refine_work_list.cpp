@@ -50,6 +50,21 @@ TEST(WorkList, TooBigOnesGoFirstLargestFirst) {
   EXPECT_TRUE(list.empty());
 }
 
+// Large before small, in a bucket subsegments before subfacets, each first in first out.
+TEST(WorkList, EntitiesGoBySize) {
+  WorkList<3> list;
+  const auto push = [&](std::uint32_t id, EntryKind kind, int bucket) { list.push({CellId{id}, 0, kind, 0, bucket}); };
+  push(1, EntryKind::face, 3);
+  push(2, EntryKind::edge, 5);
+  push(3, EntryKind::edge, 3);
+  push(4, EntryKind::face, 0);
+  push(5, EntryKind::face, 3);
+  push(6, EntryKind::edge, 3);
+  push(7, EntryKind::edge, 63);
+  for (const std::uint32_t id : {4u, 3u, 6u, 1u, 5u, 2u, 7u}) EXPECT_EQ(index(list.entities.pop().cell), id);
+  EXPECT_TRUE(list.empty());
+}
+
 // Every entry is passed once, may be changed, and stays in its place.
 TEST(WorkList, EntriesMayBeChangedWhereTheyWait) {
   WorkList<3> list;
@@ -63,7 +78,7 @@ TEST(WorkList, EntriesMayBeChangedWhereTheyWait) {
     ++passed;
   });
   EXPECT_EQ(passed, list.size());
-  EXPECT_EQ(index(list.edges.pop().cell), 1005u);
+  EXPECT_EQ(index(list.entities.pop().cell), 1005u);
   for (std::uint32_t i = 300; i < many; ++i) ASSERT_EQ(index(list.flips.pop().cell), 1000 + i);
   EXPECT_EQ(index(list.pop_poor(mesh).cell), 1001u);
   EXPECT_EQ(list.pop_poor(mesh).order, 1u);
@@ -171,7 +186,7 @@ TEST(WorkList, DrainingThatIsEndedEarlyLeavesTheRest) {
       EXPECT_LT(last, e.order);
       last = e.order;
     }
-    EXPECT_EQ(list.size(), list.faces.size());
+    EXPECT_EQ(list.size(), list.entities.size());
   }
 }
 

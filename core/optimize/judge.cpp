@@ -49,7 +49,7 @@ auto Judge::standing_of(std::span<const CellId> cells) -> Standing {
   for (const CellId c : cells) {
     const double q = of(c);
     standing.worst = std::min(standing.worst, q);
-    if (q < 1) standing.levels.push_back(CellQuality::level(q));
+    if (q < 1) standing.add_poor(CellQuality::level(q));
     if (q < 1 && !quality_.is_within_size(w_->mesh.simplex(c), w_->mesh.region(c))) ++standing.too_big;
     if (w_->options.min_edge > 0)
       standing.shortest2 = std::min(standing.shortest2, shortest_edge_squared<3>(w_->mesh.simplex(c)));
@@ -74,7 +74,7 @@ bool Judge::add(const Simplex<3>& s, int region, double enough, Standing& standi
   const double q = quality_.of(s, region, enough);
   if (!(q > enough)) return false;
   standing.worst = std::min(standing.worst, q);
-  if (q < 1) standing.levels.push_back(CellQuality::level(q));
+  if (q < 1) standing.add_poor(CellQuality::level(q));
   if (q < 1 && !quality_.is_within_size(s, region)) ++standing.too_big;
   if (w_->options.min_edge > 0) standing.shortest2 = std::min(standing.shortest2, shortest_edge_squared<3>(s));
   return true;
@@ -82,9 +82,9 @@ bool Judge::add(const Simplex<3>& s, int region, double enough, Standing& standi
 
 bool Judge::is_allowed(const Standing& now, const Standing& before, Rule rule) const {
   if (CellQuality::level(now.worst) < CellQuality::level(before.worst)) return false;
-  const bool fewer = now.levels.size() < before.levels.size();
-  if (!(rule == Rule::no_more_poor && fewer) && !is_better(now, before)) return false;
-  if (rule == Rule::no_more_poor && now.levels.size() > before.levels.size()) return false;
+  const bool weighs = rule == Rule::no_more_poor;
+  if (weighs && now.weight > before.weight) return false;
+  if (!(weighs && now.weight < before.weight) && !is_better(now, before)) return false;
   if (now.too_big > before.too_big) return false;
   const double least = w_->options.min_edge;
   return !(least > 0) || now.shortest2 >= std::min(before.shortest2, least * least);
@@ -106,7 +106,7 @@ auto Judge::accepts(const Replacement<3>& r, const Standing& before, Rule rule) 
   });
   for (const auto& cell : r.cells) {
     if (!add(w_->mesh.points(cell.vertices), cell.region, enough, now)) return {};
-    if (rule == Rule::no_more_poor && now.levels.size() > before.levels.size()) return {};
+    if (rule == Rule::no_more_poor && now.weight > before.weight) return {};
   }
   std::sort(now.levels.begin(), now.levels.end());
   if (!is_allowed(now, before, rule)) return {};

@@ -4,14 +4,16 @@
 // The judge of changes: is what comes better than what goes?
 //
 // Better: at the worst level of which the numbers of cells differ, fewer cells come than go. Rule `better` asks for that.
-// Rule `no_more_poor` asks that fewer cells are poor, or as many, and that they are better. By both no cell that comes is below
-// the worst level of those that go, and none that is too big takes the place of cells that are not.
+// Rule `no_more_poor` asks that the poor cells weigh less, or as much, and that they are better. A cell weighs one, and one more
+// for each factor of five that its quality is below the bounds: so one that is much too bad may go for a few that are nearly
+// good. By both no cell that comes is below the worst level of those that go, and none that is too big takes the place of cells
+// that are not.
 //
 // Why each phase ends, as each has one rule. There are finitely many levels, and the order of Dershowitz and Manna, which
 // compares multisets by what is said of "better", has no infinite descent. By `better` the multiset of the levels of all poor
-// cells gets smaller with each change. By `no_more_poor` the number of poor cells gets smaller, or stays, and the multiset gets
-// smaller. That is so whoever makes the changes, and in whatever order. What no change could help, a flat cell between walls that
-// stay, say, holds up nothing beside it.
+// cells gets smaller with each change. By `no_more_poor` the weight of the poor cells, a whole number, gets smaller, or stays,
+// and the multiset gets smaller. That is so whoever makes the changes, and in whatever order. What no change could help, a flat
+// cell between walls that stay, say, holds up nothing beside it.
 #pragma once
 
 #include <cstddef>
@@ -34,8 +36,13 @@ class Judge {
   struct Standing {
     double worst = 1;         ///< least quality
     std::vector<int> levels;  ///< of the poor ones, those of quality below 1, the worst first
+    int weight = 0;           ///< of these
     std::size_t too_big = 0;  ///< over a bound of size; counted for `poor` ones alone
     double shortest2 = 0;     ///< square of the shortest edge, where `min_edge` is asked for
+    void add_poor(int level) {
+      levels.push_back(level);
+      weight += CellQuality::weight(level);
+    }
   };
 
   /// The workspace must outlive it.

@@ -16,14 +16,7 @@
 namespace pgdr {
 namespace {
 
-constexpr double much = 5;             // parts of the target, below which an angle is much worse
 constexpr int rounds_of_compound = 3;  // of cheap changes about what a detour or a split has made
-
-/// The bounds, but for that of shape, which is wider as the angles are smaller: the shortest edge across an angle is as short.
-CellBounds<3> widened(CellBounds<3> bounds) {
-  bounds.radius_edge_bound *= much;
-  return bounds;
-}
 
 /// Treats poor cells. Part of a worker: one thread at a time.
 class Optimizer final : public ElementTreatment<3> {
@@ -35,14 +28,11 @@ class Optimizer final : public ElementTreatment<3> {
         flip_(s_),
         vertices_(s_),
         reconnect_(s_),
-        insertions_(s_),
-        wide_bounds_(widened(workspace.context.bounds)),
-        much_worse_(wide_bounds_, stage.min_dihedral() / much, s_.judge.sizes()) {}
+        insertions_(s_) {}
 
   void begin_visit() override {
     s_.replacer.set_area(s_.area());
-    const bool may_be_more = stage_->phase == Optimization::Phase::worst || stage_->phase == Optimization::Phase::rest;
-    rule_ = may_be_more ? Judge::Rule::better : Judge::Rule::no_more_poor;
+    rule_ = stage_->phase == Optimization::Phase::rest ? Judge::Rule::better : Judge::Rule::no_more_poor;
     if (s_.judge.sizes()) ask_listed(*s_.judge.sizes());
   }
   Outcome treat(const Entry<3>& e) override;
@@ -50,10 +40,9 @@ class Optimizer final : public ElementTreatment<3> {
 
  private:
   /// Is nothing more to be tried for the element?
-  bool is_spent() const { return s_.judge.guessed_wrong() || s_.judge.asked() - evaluated_before_ > evaluations_a_poor_cell; }
+  bool is_spent() const { return s_.judge.guessed_wrong() || s_.judge.asked() - evaluated_before_ > stage_->most_a_cell; }
   Outcome try_to_change(const Entry<3>& e);
   void ask_listed(SizeGuesses& sizes);
-  bool is_worth_more_poor(CellId c);
   bool change(CellId c);
   bool change_cheaply(CellId c, Judge::Rule rule);
   bool make_detour(CellId c);
@@ -68,8 +57,6 @@ class Optimizer final : public ElementTreatment<3> {
   VertexChanges vertices_;
   Reconnect reconnect_;
   Insertions insertions_;
-  const CellBounds<3> wide_bounds_;
-  const CellQuality much_worse_;                  ///< its poor cells are much worse than the bounds
   Judge::Rule rule_ = Judge::Rule::no_more_poor;  ///< of the visit
   std::uint64_t evaluated_before_ = 0;            ///< the element that is treated
   RefineCounts counts_before_;                    ///< a compound
@@ -170,15 +157,6 @@ void Optimizer::list_made(const std::vector<CellId>& made) {
     if (levels_[i] < 0) lister_->list_element(made[i], order_by_level(*s_.mesh, made[i], levels_[i]));
 }
 
-/// Beside angles of the input that are too small some cells stay poor, and to make the worst of them better makes more of them
-/// poor. So only what is much worse than the bounds is worth that there.
-bool Optimizer::is_worth_more_poor(CellId c) {
-  const auto& vertices = s_.mesh->cell(c).vertices;
-  const bool beside_sharp = std::any_of(vertices.begin(), vertices.end(),
-                                        [this](VertexId v) { return stage_->sharp->touches(s_.mesh->vertex(v).home); });
-  return !beside_sharp || much_worse_.of(s_.mesh->simplex(c), s_.mesh->region(c)) < 1;
-}
-
 Outcome Optimizer::treat(const Entry<3>& e) {
   const RefineCounts counts = s_.w->visit->counts;
   const std::uint64_t asked = s_.judge.asked();
@@ -192,7 +170,6 @@ Outcome Optimizer::treat(const Entry<3>& e) {
 
 /// One decision about the element, which is made again if it rests on a wrong guess; then nothing was changed.
 Outcome Optimizer::try_to_change(const Entry<3>& e) {
-  if (stage_->phase == Optimization::Phase::worst && !is_worth_more_poor(e.cell)) return Outcome::refused;
   s_.out_of_reach = false;
   evaluated_before_ = s_.judge.asked();
   const bool changed = change(e.cell);

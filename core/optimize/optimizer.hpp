@@ -17,7 +17,6 @@
 #include <memory>
 
 #include "optimize/judge.hpp"
-#include "optimize/sharp_places.hpp"
 #include "refine/element_stage.hpp"
 
 namespace pgdr {
@@ -27,11 +26,9 @@ class Optimization final : public ElementStage<3> {
  public:
   /// What is tried for a poor cell, and what is accepted.
   enum class Phase {
-    cheap,   ///< what takes few evaluations; the worst gets better, and no more cells are poor
+    cheap,   ///< what takes few evaluations; the worst gets better, and the poor cells weigh no more
     strong,  ///< all; likewise
-    worst,   ///< all; the worst gets better. Beside angles of the input that are too small only of cells much worse than the
-             ///< bounds
-    rest,    ///< as `worst`, but of all cells: for those that nothing excuses
+    rest,    ///< all; the worst gets better, whether or not more cells are poor: for those that nothing excuses
   };
 
   /// The mesh must outlive it. `min_dihedral`: the target in degrees.
@@ -43,9 +40,8 @@ class Optimization final : public ElementStage<3> {
 
   double min_dihedral() const { return min_dihedral_; }  ///< degrees
 
-  Phase phase = Phase::cheap;  ///< of the visits to come
-  /// Angles of the input that are too small for the bounds; must be there for the phase `worst`.
-  const SharpPlaces* sharp = nullptr;
+  Phase phase = Phase::cheap;                           ///< of the visits to come
+  std::uint64_t most_a_cell = evaluations_a_poor_cell;  ///< evaluations in one attempt
 
  private:
   const Mesh<3>* mesh_;

@@ -298,10 +298,11 @@ std::size_t Placement::first_turned_over(const Point3& x) const {
 }
 
 /// Goes to x if the worst cell is better there; else says which cell is not. Where no cell is turned over, x and all cells are in
-/// the star as it was, so that sizes are asked for in the domain alone.
+/// the star as it was, so that sizes are asked for in the domain alone. That is looked at first whether or not sizes are asked
+/// for, so that as many qualities are.
 bool Placement::try_place(const Point3& x, bool heights, std::size_t& stopped_by) {
   at_trial_.clear();
-  if (!heights && quality_->asks_sizes() && (stopped_by = first_turned_over(x)) < rated_.size()) return false;
+  if (!heights && (stopped_by = first_turned_over(x)) < rated_.size()) return false;
   for (std::size_t i = 0; i < rated_.size(); ++i) {
     const double value = value_at(rated_[i], x, heights, least_);
     if (!(value > least_)) {

@@ -134,7 +134,8 @@ void Reconnect::build() {
 bool Reconnect::fill(Judge::Rule rule) {
   build();
   const Judge::Standing before = s_->judge.standing_of(cells_);
-  const std::size_t most_poor = rule == Judge::Rule::no_more_poor ? before.levels.size() : Reconnection::most_cells * 2;
+  const std::size_t most_poor = rule == Judge::Rule::no_more_poor ? static_cast<std::size_t>(before.weight)
+                                                                  : Reconnection::most_cells * 2;
   if (!search_.find(polyhedron_, s_->judge.quality(), Judge::too_bad(before), most_poor)) return false;
   tried_.clear();
   tried_.old = cells_;

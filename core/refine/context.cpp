@@ -28,6 +28,12 @@ std::chrono::duration<double> time_to_finish(const Mesh<D>& mesh, double vertice
                                                  so_far * (most_part_least + at_facets * most_part_more));
 }
 
+/// As many that elements of the one are by this ratio larger than those of the other, or more.
+int buckets_of_ratio(double ratio) {
+  const double buckets = std::ceil(std::log2(ratio));
+  return static_cast<int>(std::clamp(buckets, 0.0, double{RefineContext<3>::buckets}));
+}
+
 }  // namespace
 
 template <int D>
@@ -38,6 +44,7 @@ RefineContext<D>::RefineContext(Mesh<D>& m, const Domain<D>& d, const RefineOpti
       options(o),
       bounds(std::move(b)),
       start(start_time),
+      buckets_before_entities(D == 2 ? buckets : buckets_of_ratio(2 * bounds.radius_edge_bound)),
       shells(d, D == 2),
       vertices(vertices_so_far),
       last_progress(start_time) {
@@ -51,8 +58,7 @@ RefineContext<D>::RefineContext(Mesh<D>& m, const Domain<D>& d, const RefineOpti
 }
 
 template <int D>
-int RefineContext<D>::bucket_of(const FilterSphere<D>& sphere) const {
-  const double r2 = sphere.radius2;
+int RefineContext<D>::bucket_of(double r2) const {
   if (!(r2 < std::numeric_limits<double>::infinity())) return 0;
   // floor(log2(side / r)) up to one: ilogb of r^2 halved, rounding down. Of a normal number ilogb is in its bits.
   const int biased = static_cast<int>(std::bit_cast<std::uint64_t>(r2) >> 52);

@@ -31,7 +31,8 @@ struct RefineContext {
   RefineContext(Mesh<D>& m, const Domain<D>& d, const RefineOptions<D>& o, CellBounds<D> b, std::uint64_t vertices_so_far,
                 std::chrono::steady_clock::time_point start_time);
 
-  int bucket_of(const FilterSphere<D>& sphere) const;  ///< by its radius, 0 being the largest
+  int bucket_of(double squared_radius) const;  ///< 0 being the largest
+  int bucket_of(const FilterSphere<D>& sphere) const { return bucket_of(sphere.radius2); }
   /// No circumradius of this bucket or a later one is larger.
   double largest_radius(int bucket) const;
   /// The element belongs to the region that holds this point: its circumcentre; in a stage with a treatment its centroid, as the
@@ -56,6 +57,9 @@ struct RefineContext {
   bool last_resort = false;
   /// The stage that treats poor elements; null: points are inserted for them (element_splitter.hpp). Set while no visit runs.
   const ElementStage<D>* stage = nullptr;
+  /// A poor element goes before entities with spheres of buckets beyond its own by so many: in 3D by more than twice the bound,
+  /// as with any edge of theirs as its shortest it would be poor. In 2D no mesh has more than linearly many triangles: none does.
+  const int buckets_before_entities;
   const Shells<D> shells;             ///< none in 3D, where boundary recovery alone splits on them
   int base_exponent = 0;              ///< of bucket 0: circumradii of the size of the domain and above
   static constexpr int buckets = 64;  ///< of circumradii

@@ -53,6 +53,12 @@ Outcome ElementSplitter<D>::split(const Entry<D>& e) {
   }
   // A cell beside a violation that no flip repairs has the demand of one of poor shape.
   if (e.which() == Entry<D>::not_delaunay) c.verdict.over_radius_edge = true;
+  if (is_forced(c)) {
+    w_->trace = {e.cell};
+    w_->trace_alone = true;
+    ++w_->visit->counts.refused;
+    return Outcome::refused;
+  }
   Outcome outcome = insert(c);
   if (outcome == Outcome::refused && !(c.x == center) && detail::is_finite(center) && w_->alive(e)) {
     cavity_->release();
@@ -60,6 +66,14 @@ Outcome ElementSplitter<D>::split(const Entry<D>& e) {
     outcome = insert(c);
   }
   return w_->give_up(outcome);
+}
+
+/// 3D: is the element poor in shape for its edges' lengths alone, and not for their relaxed lengths? Then the input forces it:
+/// these edges are children of a small angle, and what is split for it would get edges no longer than they are.
+template <int D>
+bool ElementSplitter<D>::is_forced(const Candidate<D>& c) {
+  if (D == 2 || c.entry.which() != Entry<D>::over_radius_edge) return false;
+  return std::sqrt(mesh_->squared_radius_bounds(c.sphere).second) < w_->options.radius_edge_bound * demand_of(c).d;
 }
 
 /// Inserts the candidate, or splits the entity that blocks it.

@@ -65,6 +65,7 @@ class ElementSplitter {
   CellVerdict verdict_of(const Entry<D>& e, const FilterSphere<D>& sphere) const;
   Outcome insert(const Candidate<D>& c);
   Obstacle find_obstacle(const Candidate<D>& c);
+  bool is_forced(const Candidate<D>& c);
   Judgement judge(const Candidate<D>& c);
   Outcome commit(const Candidate<D>& c);
   Outcome pass_by(const Entry<D>& entity, const Candidate<D>& c);

@@ -16,9 +16,11 @@
 
 namespace pgdr {
 
-/// The most qualities of cells that a treatment should ask for to treat one element. A visit ends its treatments once it has
-/// asked for so many, and for the others for each element that waits when it begins.
-constexpr std::uint64_t evaluations_a_poor_cell = 10000, evaluations_a_waiting_cell = 1000;
+/// The most qualities of cells that a treatment should ask for to treat one element.
+constexpr std::uint64_t evaluations_a_poor_cell = 10000;
+/// The most that a change of the mesh may take, on the average: a visit ends its treatments once it has asked for more, and for
+/// as many as one element may take. Where nearly all that is poor can be mended a change takes 100 to 800.
+constexpr std::uint64_t evaluations_a_change = 2000;
 
 /// Entry::order of an element whose quality has this level (CellQuality::level): the worst goes first, and of equals the one
 /// with the lesser hash of the coordinates of its vertices, which does not depend on the unit of length.

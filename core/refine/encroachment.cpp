@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <unordered_set>
 
 #include "numbers/vectors.hpp"
 #include "rule/insertion_rule.hpp"
@@ -59,6 +60,33 @@ bool is_beside_end(const Point<D>& p, const Point<D>& q, const Point<D>& x) {
   return along * along < 0x1p-36 * to_p * to_q;
 }
 
+/// Calls f(entry) for each subsegment of each cell of the cavity in whose diametral ball x lies, until it says true. Has it?
+template <int D, class F>
+bool any_encroached_edge(const Mesh<D>& mesh, const Cavity<D>& cavity, const Point<D>& x, const F& f) {
+  if constexpr (D == 3) {
+    for (const CellId c : cavity.cells()) {
+      const auto* k = mesh.constraints(c);
+      if (!k || !k->edges) continue;
+      for (int e = 0; e < 6; ++e) {
+        if (!k->has_edge(e)) continue;
+        const auto [a, b] = ends_of_edge(mesh.cell(c).vertices, e);
+        if (in_diametral_ball<D>(mesh.point(a), mesh.point(b), x) && f(entry_of(mesh, c, EntryKind::edge, e))) return true;
+      }
+    }
+  }
+  return false;
+}
+
+template <int D>
+std::optional<Entry<D>> encroached_edge(const Mesh<D>& mesh, const Cavity<D>& cavity, const Point<D>& x) {
+  std::optional<Entry<D>> first;
+  any_encroached_edge(mesh, cavity, x, [&](const Entry<D>& e) {
+    first = e;
+    return true;
+  });
+  return first;
+}
+
 template <int D>
 std::optional<Entry<D>> encroached_face(const Mesh<D>& mesh, const Cavity<D>& cavity, const Point<D>& x) {
   std::optional<Entry<D>> any;
@@ -103,6 +131,20 @@ bool is_face_encroached_by(const Mesh<D>& mesh, const Domain<D>& domain, CellId 
   }
 }
 
+template <int D>
+double squared_radius_of_face(const Mesh<D>& mesh, CellId c, int face) {
+  const std::array<Point<D>, D> corner = mesh.points(face_without(mesh.cell(c).vertices, face));
+  if constexpr (D == 2)
+    return squared_distance(corner[0], corner[1]) / 4;
+  else
+    return equatorial_ball(corner[0], corner[1], corner[2]).squared_radius;
+}
+
+double squared_radius_of_edge(const Mesh<3>& mesh, CellId c, int edge) {
+  const auto [a, b] = ends_of_edge(mesh.cell(c).vertices, edge);
+  return squared_distance(mesh.point(a), mesh.point(b)) / 4;
+}
+
 bool is_edge_encroached(const Mesh<3>& mesh, const Domain<3>& domain, CellId c, int edge) {
   const auto& vertices = mesh.cell(c).vertices;
   const auto [a, b] = edge_ends[edge];
@@ -116,19 +158,15 @@ bool is_edge_encroached(const Mesh<3>& mesh, const Domain<3>& domain, CellId c, 
 }
 
 template <int D>
-std::optional<Entry<D>> encroached_edge(const Mesh<D>& mesh, const Cavity<D>& cavity, const Point<D>& x) {
-  if constexpr (D == 3) {
-    for (const CellId c : cavity.cells()) {
-      const auto* k = mesh.constraints(c);
-      if (!k || !k->edges) continue;
-      for (int e = 0; e < 6; ++e) {
-        if (!k->has_edge(e)) continue;
-        const auto [a, b] = ends_of_edge(mesh.cell(c).vertices, e);
-        if (in_diametral_ball<D>(mesh.point(a), mesh.point(b), x)) return entry_of(mesh, c, EntryKind::edge, e);
-      }
-    }
-  }
-  return std::nullopt;
+std::vector<Entry<D>> encroached_edges(const Mesh<D>& mesh, const Cavity<D>& cavity, const Point<D>& x) {
+  std::vector<Entry<D>> edges;
+  std::unordered_set<std::uint64_t> known;  // an edge is on several cells
+  any_encroached_edge(mesh, cavity, x, [&](const Entry<D>& e) {
+    const auto [a, b] = ends_of_edge(mesh.cell(e.cell).vertices, e.which());
+    if (known.insert(std::uint64_t{index(std::max(a, b))} << 32 | index(std::min(a, b))).second) edges.push_back(e);
+    return false;
+  });
+  return edges;
 }
 
 template <int D>
@@ -153,34 +191,15 @@ std::optional<Entry<D>> encroached_entity(const Mesh<D>& mesh, const Cavity<D>& 
   return options.keep_boundary ? flattened_face<D>(mesh, cavity, options, x) : encroached_face<D>(mesh, cavity, x);
 }
 
-template <int D>
-std::optional<Entry<D>> edge_beyond(const Mesh<D>& mesh, const Domain<D>& domain, const Cavity<D>& cavity, const Point<D>& x) {
-  if constexpr (D == 3) {
-    for (const auto& part : cavity.part()) {
-      const auto* k = mesh.constraints(part.cell);
-      const auto& vertices = mesh.cell(part.cell).vertices;
-      const int axis = domain.facets()[part.entity].axis;
-      for (int i = 0; i <= D; ++i)
-        for (int j = i + 1; j <= D; ++j) {
-          if (i == part.face || j == part.face || !k->has_edge(edge_of_ends[i][j])) continue;
-          const int corner = 6 - part.face - i - j;
-          const Point<D>&a = mesh.point(vertices[i]), &b = mesh.point(vertices[j]);
-          const Sign inside = orient_projected(a, b, mesh.point(vertices[corner]), axis);
-          if (orient_projected(a, b, x, axis) != inside) return entry_of(mesh, part.cell, EntryKind::edge, edge_of_ends[i][j]);
-        }
-    }
-  }
-  return std::nullopt;
-}
-
 template Encroachment encroachment(const Mesh<2>&, CellId, int, const Point<2>&);
 template Encroachment encroachment(const Mesh<3>&, CellId, int, const Point<3>&);
+template double squared_radius_of_face(const Mesh<2>&, CellId, int);
+template double squared_radius_of_face(const Mesh<3>&, CellId, int);
 template bool is_face_encroached_by(const Mesh<2>&, const Domain<2>&, CellId, int, VertexId, double);
 template bool is_face_encroached_by(const Mesh<3>&, const Domain<3>&, CellId, int, VertexId, double);
-template std::optional<Entry<3>> encroached_edge(const Mesh<3>&, const Cavity<3>&, const Point<3>&);
+template std::vector<Entry<3>> encroached_edges(const Mesh<3>&, const Cavity<3>&, const Point<3>&);
 template std::optional<Entry<2>> encroached_entity(const Mesh<2>&, const Cavity<2>&, const RefineOptions<2>&, const Point<2>&);
 template std::optional<Entry<3>> encroached_entity(const Mesh<3>&, const Cavity<3>&, const RefineOptions<3>&, const Point<3>&);
 template std::optional<Entry<2>> flattened_face(const Mesh<2>&, const Cavity<2>&, const RefineOptions<2>&, const Point<2>&);
-template std::optional<Entry<3>> edge_beyond(const Mesh<3>&, const Domain<3>&, const Cavity<3>&, const Point<3>&);
 
 }  // namespace pgdr

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "cavity/cavity.hpp"
 #include "pgdr/refine_options.hpp"
@@ -30,12 +31,17 @@ template <int D>
 bool is_face_encroached_by(const Mesh<D>& mesh, const Domain<D>& domain, CellId c, int face, VertexId v,
                            double radius_edge_bound);
 
+/// Of the smallest sphere through the corners of the face, or the ends of the edge.
+template <int D>
+double squared_radius_of_face(const Mesh<D>& mesh, CellId c, int face);
+double squared_radius_of_edge(const Mesh<3>& mesh, CellId c, int edge);
+
 /// 3D: do any vertices of the cell encroach upon its constrained edge?
 bool is_edge_encroached(const Mesh<3>& mesh, const Domain<3>& domain, CellId c, int edge);
 
-/// 3D: a subsegment on a cell of the collected cavity in whose diametral ball x lies.
+/// 3D: the subsegments on cells of the collected cavity in whose diametral balls x lies, each once, in the order of the cells.
 template <int D>
-std::optional<Entry<D>> encroached_edge(const Mesh<D>& mesh, const Cavity<D>& cavity, const Point<D>& x);
+std::vector<Entry<D>> encroached_edges(const Mesh<D>& mesh, const Cavity<D>& cavity, const Point<D>& x);
 
 /// An entity that the collected point x of a poor element encroaches upon: a subsegment, or else a constrained face of the
 /// cavity's boundary, one that x projects into, if there is one. Where the boundary is kept (2D): a subsegment with which x would
@@ -49,9 +55,5 @@ std::optional<Entry<D>> encroached_entity(const Mesh<D>& mesh, const Cavity<D>& 
 template <int D>
 std::optional<Entry<D>> flattened_face(const Mesh<D>& mesh, const Cavity<D>& cavity, const RefineOptions<D>& options,
                                        const Point<D>& x);
-
-/// 3D: a subsegment at the rim of the facet's part of the cavity that cuts x off from it, in the facet's projection.
-template <int D>
-std::optional<Entry<D>> edge_beyond(const Mesh<D>& mesh, const Domain<D>& domain, const Cavity<D>& cavity, const Point<D>& x);
 
 }  // namespace pgdr

@@ -87,12 +87,9 @@ auto EntitySplitter<D>::walk_in_facet(const Entry<D>& e, const Point<D>& x) -> F
 
 /// @pre the cavity of x is collected.
 template <int D>
-Demand EntitySplitter<D>::demand_of(EntityRef entity, std::span<const VertexId> own, bool passed_on) {
+Demand EntitySplitter<D>::demand_of(EntityRef entity, std::span<const VertexId> own) {
   const VertexId q = nearest_vertex<D>(*mesh_, *cavity_, own);
-  if (q == no_vertex) return {};
-  Demand demand = demand_beside<D>(*w_, entity, q);
-  if (passed_on && demand.h == 0) demand.d = std::sqrt(squared_distance(cavity_->point(), mesh_->point(q))) / 2;
-  return demand;
+  return q == no_vertex ? Demand{} : demand_beside<D>(*w_, entity, q);
 }
 
 /// 2D: is the vertex of the cavity that is nearest to the point of a subsegment one of the boundary? Then it encroaches upon the
@@ -121,9 +118,9 @@ Outcome EntitySplitter<D>::commit_split(EntityRef entity, std::span<const Vertex
   if (status != Status::ok) return refuse(entity, own);
   std::vector<VertexId> left_out(twins.begin(), twins.end());
   if (!twins.empty()) left_out.insert(left_out.end(), own.begin(), own.end());
-  Demand demand = cause ? *cause : demand_of(entity, twins.empty() ? own : left_out, false);
+  Demand demand = cause ? *cause : demand_of(entity, twins.empty() ? own : left_out);
   const double r = insertion_radius<D>(*mesh_, *cavity_, twins);
-  if (D == 2 && cause && r < demand.d && is_near_boundary(own)) demand = demand_of(entity, own, false);
+  if (D == 2 && cause && r < demand.d && is_near_boundary(own)) demand = demand_of(entity, own);
   if (r < demand.d) {
     const VertexId q = nearest_vertex<D>(*mesh_, *cavity_, own);
     if (entity.kind != EntityKind::segment || !may_be_near(entity.id, own, q)) return refuse(entity, own);
@@ -135,6 +132,8 @@ Outcome EntitySplitter<D>::commit_split(EntityRef entity, std::span<const Vertex
   return inserter_->commit(Home(entity.kind, entity.id), std::max(r, demand.h));
 }
 
+/// Whether a subsegment cuts its point off is looked at first, on a walk in the facet: while there are few points inside the
+/// cavity of a point may be of thousands of cells.
 template <int D>
 Outcome EntitySplitter<D>::split_face(const Entry<D>& e, const Demand* cause) {
   const EntityRef entity = mesh_->entity_of_face(e.cell, e.which());
@@ -142,47 +141,79 @@ Outcome EntitySplitter<D>::split_face(const Entry<D>& e, const Demand* cause) {
   if (cause && is_refused_as_before(e, *cause)) return Outcome::refused;
   const Point<D> x = split_point_of_face(w_->context, e.cell, e.which());
   if (D == 2 && !is_between<D>(mesh_->point(own[0]), mesh_->point(own[1]), x)) return refuse(entity, own);
-  Status status = cavity_->collect_on_face(x, e.cell, e.which());
-  std::optional<Entry<D>> edge;
-  if (D == 3 && status == Status::ok) status = find_edge_in_the_way(e, x, edge);
+  const FacetWalk walk = walk_in_facet(e, x);
+  if (!walk.owned) return w_->give_up(Outcome::not_owned);
+  if (walk.edge) {
+    const VertexId q = cause ? no_vertex : encroacher(e, x);
+    if (cause || q != no_vertex)
+      return split_edges_instead(e, {&*walk.edge, 1}, cause ? *cause : demand_passed_on(entity, x, q), cause);
+  }
+  const Entry<D>& from = walk.face ? *walk.face : e;
+  const Status status = cavity_->collect_on_face(x, from.cell, from.which());
   if (status == Status::not_owned) return w_->give_up(Outcome::not_owned);
   if (status != Status::ok) return refuse(entity, own);
-  return edge ? split_edge_instead(e, *edge, entity, own, cause) : commit_split(entity, own, cause, {});
+  std::vector<Entry<D>> edges;
+  if (walk.edge) edges = {*walk.edge};
+  if constexpr (D == 3)
+    if (edges.empty()) edges = encroached_edges<D>(*mesh_, *cavity_, x);
+  if (edges.empty()) return commit_split(entity, own, cause, {});
+  return split_edges_instead(e, edges, cause ? *cause : demand_passed_on(entity, x, nearest_vertex<D>(*mesh_, *cavity_, own)),
+                             cause);
 }
 
-/// 3D: the subsegment that is to be split in place of the subfacet with the collected point x, if there is one. Where its cavity
-/// is not star-shaped about x, it is collected anew from the subfacet that x lies in.
+/// 3D: of the two vertices beyond the subfacet, the one that encroaches upon it, and is nearer to its point x; none if neither
+/// does.
 template <int D>
-auto EntitySplitter<D>::find_edge_in_the_way(const Entry<D>& e, const Point<D>& x, std::optional<Entry<D>>& edge) -> Status {
-  if constexpr (D == 3) {
-    edge = edge_beyond<D>(*mesh_, *domain_, *cavity_, x);
-    if (!edge) edge = encroached_edge<D>(*mesh_, *cavity_, x);
-    const Status star = edge ? Status::ok : cavity_->make_star_shaped();
-    if (star == Status::ok || star == Status::not_owned) return star;
-    const auto [beyond, around, owned] = walk_in_facet(e, x);
-    if (!owned) return Status::not_owned;
-    edge = beyond;
-    const Entry<D>& from = around ? *around : e;
-    cavity_->release();
-    const Status again = cavity_->collect_on_face(x, from.cell, from.which());
-    if (again == Status::ok && !edge && around) edge = encroached_edge<D>(*mesh_, *cavity_, x);
-    return again;
-  }
-  return Status::ok;
+VertexId EntitySplitter<D>::encroacher(const Entry<D>& face, const Point<D>& x) const {
+  VertexId nearest = no_vertex;
+  double least = std::numeric_limits<double>::infinity();
+  const auto look_at = [&](CellId c, int which) {
+    if (!is_face_encroached_by<D>(*mesh_, *domain_, c, which, mesh_->cell(c).vertices[which], w_->options.radius_edge_bound))
+      return;
+    const VertexId v = mesh_->cell(c).vertices[which];
+    const double squared = squared_distance(mesh_->point(v), x);
+    if (squared < least || (squared == least && lex_less<D>(mesh_->point(v), mesh_->point(nearest)))) {
+      least = squared;
+      nearest = v;
+    }
+  };
+  look_at(face.cell, face.which());
+  const Link beyond = mesh_->cell(face.cell).links[face.which()];
+  if (beyond && cavity_->owns(beyond.cell())) look_at(beyond.cell(), beyond.face());
+  return nearest;
 }
 
+/// The demand on subsegments that are split in place of a subfacet that q encroaches upon; x: its point.
 template <int D>
-Outcome EntitySplitter<D>::split_edge_instead(const Entry<D>& face, const Entry<D>& edge, EntityRef facet,
-                                              std::span<const VertexId> own, const Demand* cause) {
-  const Demand demand = cause ? *cause : demand_of(facet, own, true);
+Demand EntitySplitter<D>::demand_passed_on(EntityRef facet, const Point<D>& x, VertexId q) {
+  if (q == no_vertex) return {};
+  Demand demand = demand_beside<D>(*w_, facet, q);
+  if (demand.h == 0) demand.d = std::sqrt(squared_distance(x, mesh_->point(q))) / 2;
+  return demand;
+}
+
+/// Splits them until one is refused, or the subfacet is gone. Where it stays it is looked at again: an attempt each would collect
+/// the same cavity for each of them.
+template <int D>
+Outcome EntitySplitter<D>::split_edges_instead(const Entry<D>& face, std::span<const Entry<D>> edges, const Demand& demand,
+                                               const Demand* cause) {
   cavity_->release();
-  const Outcome outcome = split_edge(edge, &demand);
-  // The face is looked at again if the split left it as it was.
-  if (outcome == Outcome::committed && !cause && w_->alive(face)) w_->visit->list->push(face);
-  if (outcome == Outcome::refused) {
-    memo_.note_passed_on(face, edge);
-    w_->trace.push_back(face.cell);
+  const RegionVisit<D>& visit = *w_->visit;
+  const std::uint64_t committed_before = visit.counts.committed;
+  Outcome outcome = Outcome::committed;
+  for (const Entry<D>& edge : edges) {
+    if (!w_->alive(face) || visit.counts.committed >= visit.most_insertions) break;
+    if (!w_->alive(edge)) continue;
+    outcome = split_edge(edge, &demand);
+    if (outcome == Outcome::committed) continue;
+    if (outcome == Outcome::refused) memo_.note_passed_on(face, edge);
+    break;
   }
+  if (visit.counts.committed > committed_before) {
+    if (!cause && w_->alive(face)) w_->visit->list->push(face);
+    return Outcome::committed;
+  }
+  if (outcome == Outcome::refused) w_->trace.push_back(face.cell);
   return outcome;
 }
 

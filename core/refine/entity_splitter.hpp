@@ -51,15 +51,15 @@ class EntitySplitter {
 
   Outcome split_edge(const Entry<D>& e, const Demand* cause);
   Outcome split_face(const Entry<D>& e, const Demand* cause);
-  Status find_edge_in_the_way(const Entry<D>& face, const Point<D>& x, std::optional<Entry<D>>& edge);
-  Outcome split_edge_instead(const Entry<D>& face, const Entry<D>& edge, EntityRef facet, std::span<const VertexId> own,
-                             const Demand* cause);
+  Outcome split_edges_instead(const Entry<D>& face, std::span<const Entry<D>> edges, const Demand& demand, const Demand* cause);
+  VertexId encroacher(const Entry<D>& face, const Point<D>& x) const;
+  Demand demand_passed_on(EntityRef facet, const Point<D>& x, VertexId q);
   Outcome commit_split(EntityRef entity, std::span<const VertexId> own, const Demand* cause, std::span<const VertexId> twins);
   bool is_near_boundary(std::span<const VertexId> own) const;
   Outcome refuse(EntityRef entity, std::span<const VertexId> own);
   Outcome refuse_near(const Entry<D>& e, const Near& near);
   bool is_refused_as_before(const Entry<D>& face, const Demand& cause);
-  Demand demand_of(EntityRef entity, std::span<const VertexId> own, bool passed_on);
+  Demand demand_of(EntityRef entity, std::span<const VertexId> own);
   bool may_be_near(EntityId s, std::span<const VertexId> own, VertexId q) const;
   FacetWalk walk_in_facet(const Entry<D>& e, const Point<D>& x);
   std::optional<CellId> cell_near_edge(const Entry<D>& e, const Point<D>& x, double distance, const SplitPlace* place) const;

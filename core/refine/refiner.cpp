@@ -105,7 +105,8 @@ template <int D>
 Outcome Refiner<D>::treat_in_stage(const Entry<D>& e) {
   RegionVisit<D>& visit = *workspace_.visit;
   Outcome outcome = Outcome::refused;
-  undecided_ = visit.counts.evaluated >= most_evaluated_;
+  const std::uint64_t paid = std::min(visit.counts.evaluated, evaluations_a_change * visit.counts.changes());
+  undecided_ = visit.counts.evaluated >= most_evaluated_ || visit.counts.evaluated - paid >= visit.most_unpaid;
   if (!undecided_) {
     outcome = treatment_->treat(e);
   } else {
@@ -141,15 +142,41 @@ void Refiner<D>::treat(const Entry<D>& e) {
   if (outcome == Outcome::not_owned) visit.set_aside.push_back(e);
 }
 
-/// All that wait. False if the visit may not go on.
+/// Treats all entities and violations that wait. False if the visit may not go on.
 template <int D>
 bool Refiner<D>::treat_entities() {
   WorkList<D>& list = *workspace_.visit->list;
   while (may_go_on()) {
-    if (!list.edges.empty()) {
-      treat(list.edges.pop());
-    } else if (!list.faces.empty()) {
-      treat(list.faces.pop());
+    if (!list.entities.empty()) {
+      treat(list.entities.pop());
+    } else if (!list.flips.empty()) {
+      treat(list.flips.pop());
+    } else {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Is there a poor element so large that it goes before the entity that is next?
+template <int D>
+bool Refiner<D>::is_larger_than_entities() {
+  WorkList<D>& list = *workspace_.visit->list;
+  const int largest = list.entities.top().bucket - workspace_.context.buckets_before_entities;
+  const auto any = [&] { return list.poor() > 0 && list.first_bucket() <= largest; };
+  if (any()) return true;
+  if (lister_.unasked().empty() || lister_.unasked().first_bucket() > largest) return false;
+  lister_.ask_sizes();
+  return any();
+}
+
+/// Treats entities and violations that wait until an element is next. False if the visit may not go on.
+template <int D>
+bool Refiner<D>::treat_until_element() {
+  WorkList<D>& list = *workspace_.visit->list;
+  while (may_go_on()) {
+    if (!list.entities.empty() && !is_larger_than_entities()) {
+      treat(list.entities.pop());
     } else if (!list.flips.empty()) {
       treat(list.flips.pop());
     } else {
@@ -181,6 +208,36 @@ bool Refiner<D>::any_poor() {
   return workspace_.visit->list->poor() > 0;
 }
 
+/// All elements of the list, with the entities before them, until the visit is to end.
+template <int D>
+void Refiner<D>::treat_elements() {
+  RegionVisit<D>& visit = *workspace_.visit;
+  const RefineContext<D>& context = workspace_.context;
+  WorkList<D>& list = *visit.list;
+  const bool is_short = visit.granularity < RefineContext<D>::buckets;
+  int last_bucket = std::numeric_limits<int>::max();
+  bool go_on = treat_until_element();
+  if (is_short) lister_.ask_sizes();
+  if (is_short && list.poor() > 0) last_bucket = list.first_bucket() + visit.granularity;
+  while (go_on && any_poor()) {
+    const int bucket = list.first_bucket();
+    const bool crowded = list.is_crowded(visit.floor);
+    if (bucket > last_bucket || (crowded && context.largest_radius(bucket) <= visit.small_radius)) {
+      treat_entities();  // no visit leaves any
+      break;
+    }
+    // The largest go first before smaller entities, where the region is to be split, or where the visit is to end by size.
+    const bool by_size = !list.entities.empty() || (crowded && visit.small_radius > 0) || is_short;
+    const Entry<D> e = by_size ? list.pop_largest(workspace_.mesh) : list.pop_poor(workspace_.mesh);
+    if (workspace_.alive(e)) {
+      treat(e);
+    } else if (constexpr std::uint64_t between_looks = 256; ++treated_ % between_looks != 0 && list.entities.empty()) {
+      continue;  // most are dead
+    }
+    go_on = treat_until_element();
+  }
+}
+
 template <int D>
 void Refiner<D>::run(RegionVisit<D>& visit) {
   begin(visit);
@@ -188,9 +245,8 @@ void Refiner<D>::run(RegionVisit<D>& visit) {
   WorkList<D>& list = *visit.list;
   repair_.allow_for(list.flips.size());
   for (const Entry<D>& e : visit.given) repair_.allow_for(e.kind() == EntryKind::flip ? 1 : 0);
-  most_evaluated_ = std::min(visit.most_evaluated,
-                             evaluations_a_poor_cell + evaluations_a_waiting_cell * (list.size() + visit.given.size()));
-  bool go_on = treat_entities();
+  most_evaluated_ = visit.most_evaluated * std::max<std::uint64_t>(list.size() + visit.given.size(), 1);
+  bool go_on = visit.treat_list || treat_entities();
   for (std::size_t i = 0; i < visit.given.size(); ++i) {
     if (go_on) {
       treat(visit.given[i]);
@@ -200,24 +256,7 @@ void Refiner<D>::run(RegionVisit<D>& visit) {
     }
   }
   lister_.ask_sizes();
-  int last_bucket = std::numeric_limits<int>::max();
-  if (list.poor() > 0 && visit.granularity < RefineContext<D>::buckets) last_bucket = list.first_bucket() + visit.granularity;
-  while (visit.treat_list && go_on && any_poor()) {
-    const int bucket = list.first_bucket();
-    if (bucket > last_bucket) break;
-    const bool crowded = list.is_crowded(visit.floor);
-    if (crowded && context.largest_radius(bucket) <= visit.small_radius) break;
-    // The largest go first where the region is to be split, or where the visit is to end by size.
-    const bool by_size = (crowded && visit.small_radius > 0) || last_bucket < std::numeric_limits<int>::max();
-    const Entry<D> e = by_size ? list.pop_largest(workspace_.mesh) : list.pop_poor(workspace_.mesh);
-    if (!workspace_.alive(e)) {  // most
-      constexpr std::uint64_t between_looks = 256;
-      if (++treated_ % between_looks == 0) go_on = may_go_on();
-      continue;
-    }
-    treat(e);
-    go_on = treat_entities();
-  }
+  if (visit.treat_list && go_on) treat_elements();
   context.vertices += visit.counts.committed - reported_ - visit.counts.removed;
   context.evaluated += visit.counts.evaluated - evaluations_reported_;
   lister_.fill_outboxes();

@@ -59,6 +59,9 @@ class Refiner {
 
  private:
   bool treat_entities();
+  bool treat_until_element();
+  bool is_larger_than_entities();
+  void treat_elements();
   void treat(const Entry<D>& e);
   Outcome treat_poor(const Entry<D>& e) { return treatment_ ? treat_in_stage(e) : elements_.split(e); }
   Outcome treat_in_stage(const Entry<D>& e);

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The work list of one region. Encroached subsegments go first, then subfacets, then violations to be flipped, each first in
-// first out, then poor elements. Elements that are too big go by buckets of their circumradius, largest first. Elements of poor
-// shape alone go by their shortest edge, shortest first, which makes meshes up to a third smaller than the largest circumradius
-// first (docs/selectors.md). Where a region must become fit to be split, they go by buckets, too. Plain containers; one thread at
-// a time.
+// The work list of one region. Encroached entities go by buckets of the radii of their balls, largest first, in a bucket the
+// subsegments before the subfacets, each first in first out. So no mesh in between has many small entities and nothing between
+// them, which would have a quadratic number of cells (after Hudson, Miller and Phillips 2006, Sparse Voronoi Refinement). Then
+// violations to be flipped, first in first out, then poor elements. Elements that are too big go by buckets of their
+// circumradius, largest first. Elements of poor shape alone go by their shortest edge, shortest first, which makes meshes up to
+// a third smaller than the largest circumradius first (docs/selectors.md). Where a region must become fit to be split, and
+// before smaller entities, they go by buckets, too. Plain containers; one thread at a time.
 #pragma once
 
 #include <algorithm>
@@ -47,10 +49,13 @@ struct Entry {
         what_(static_cast<std::uint8_t>(static_cast<int>(kind) << 4 | which)) {}
 
   CellId cell;  ///< the slot of the cell
-  /// For elements of poor shape alone: the least goes first. For elements that are too big: CellVerdict::over_size.
+  /// For elements of poor shape alone: the least goes first. For elements that are too big: CellVerdict::over_size. For entities:
+  /// the least goes first, of their list.
   std::uint32_t order;
   std::uint16_t birth;  ///< of the cell
-  std::uint8_t bucket;  ///< kind cell: floor(log2(side of the domain / circumradius)), clamped; 0 in a stage with a treatment
+  /// floor(log2(side of the domain / radius)), clamped; of the circumsphere (kind cell; 0 in a stage with a treatment), or of the
+  /// entity's smallest sphere (edge, face).
+  std::uint8_t bucket;
 
   EntryKind kind() const { return static_cast<EntryKind>(what_ >> 4); }  ///< what it is
   int which() const { return what_ & 15; }  ///< the number of the edge or face in the cell; for kind cell, why it is listed
@@ -251,16 +256,15 @@ struct Refusal {
 template <int D>
 class WorkList {
  public:
-  Fifo<Entry<D>> edges;             ///< encroached subsegments
-  Fifo<Entry<D>> faces;             ///< encroached subfacets
+  EntryHeap<D> entities;            ///< encroached subsegments and subfacets
   Fifo<Entry<D>> flips;             ///< faces that are not locally Delaunay
   std::vector<Refusal<D>> refused;  ///< what was refused, for as long as the cells that decided are there
 
   /// Adds an entry of any kind.
   void push(const Entry<D>& e) {
     switch (e.kind()) {
-      case EntryKind::edge: return edges.push(e);
-      case EntryKind::face: return faces.push(e);
+      case EntryKind::edge:
+      case EntryKind::face: return push_entity(e);
       case EntryKind::flip: return flips.push(e);
       case EntryKind::cell: return push_poor(e);
     }
@@ -282,9 +286,9 @@ class WorkList {
   }
 
   /// Does nothing wait?
-  bool empty() const { return edges.empty() && faces.empty() && flips.empty() && waiting_ == 0; }
+  bool empty() const { return entities.empty() && flips.empty() && waiting_ == 0; }
   /// How many entries wait, dead ones among them.
-  std::size_t size() const { return edges.size() + faces.size() + flips.size() + waiting_; }
+  std::size_t size() const { return entities.size() + flips.size() + waiting_; }
   /// How many poor elements wait, dead ones among them.
   std::size_t poor() const { return waiting_; }
   /// About how many cells will take the place of those that are too big, dead ones among them.
@@ -356,8 +360,7 @@ class WorkList {
   /// waits.
   template <class F, class Soon, class Stop>
   bool drain(F f, Soon soon, const Stop& stop) {
-    for (Fifo<Entry<D>>* entities : {&edges, &faces, &flips})
-      if (!entities->drain(f, soon, stop)) return false;
+    if (!entities.drain(f, stop) || !flips.drain(f, soon, stop)) return false;
     for (Bucket& bucket : poor_)
       if (!drain(bucket, f, soon, stop)) return false;
     std::vector<Bucket>().swap(poor_);
@@ -372,8 +375,7 @@ class WorkList {
   /// Calls f for every entry that waits, to be changed, but for what decides its place.
   template <class F>
   void for_each(F f) {
-    edges.for_each(f);
-    faces.for_each(f);
+    entities.for_each(f);
     flips.for_each(f);
     for (Bucket& bucket : poor_) {
       bucket.others.for_each(f);
@@ -390,6 +392,12 @@ class WorkList {
     std::uint64_t to_come = 0;  ///< see to_come()
     bool empty() const { return others.empty() && by_shape.empty(); }
   };
+  void push_entity(Entry<D> e) {
+    constexpr unsigned turns = 25;  // bits; where it overflows those of a bucket are out of turn
+    const std::uint32_t kind = e.kind() == EntryKind::face ? 1 : 0, turn = pushed_++ & ((1u << turns) - 1);
+    e.order = std::uint32_t{e.bucket} << (turns + 1) | kind << turns | turn;
+    entities.push(e);
+  }
   [[gnu::noinline]] void make_bucket(int number) {
     if (poor_.empty()) first_ = number;
     while (first_ + static_cast<int>(poor_.size()) <= number) poor_.emplace_back();
@@ -428,6 +436,7 @@ class WorkList {
 
   std::vector<Bucket> poor_;  ///< of the buckets from first_ on
   int first_ = 0;
+  std::uint32_t pushed_ = 0;  ///< entities
   std::size_t waiting_ = 0, others_ = 0;
   std::uint64_t to_come_ = 0;
 };

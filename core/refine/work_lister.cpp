@@ -92,11 +92,11 @@ void WorkLister<D>::list_entities(CellId c, const ConstraintRecord<D>& k) {
   const auto& vertices = mesh_->cell(c).vertices;
   for (int f = 0; f <= D; ++f)
     if (k.has_face(f) && is_face_encroached_by<D>(*mesh_, w_->domain, c, f, vertices[f], w_->options.radius_edge_bound))
-      w_->visit->list->push(w_->entry(c, EntryKind::face, f));
+      w_->visit->list->push(w_->entry(c, EntryKind::face, f, w_->context.bucket_of(squared_radius_of_face<D>(*mesh_, c, f))));
   if constexpr (D == 3)
     for (int e = 0; e < 6; ++e)
       if (k.has_edge(e) && is_edge_encroached(*mesh_, w_->domain, c, e) && !is_refused_by_ring(c, e))
-        w_->visit->list->push(w_->entry(c, EntryKind::edge, e));
+        w_->visit->list->push(w_->entry(c, EntryKind::edge, e, w_->context.bucket_of(squared_radius_of_edge(*mesh_, c, e))));
 }
 
 template <int D>

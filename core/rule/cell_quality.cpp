@@ -77,11 +77,6 @@ CellQuality::CellQuality(const CellBounds<3>& bounds, double min_dihedral, SizeG
       guesses_(guesses),
       one_minus_cos_(min_dihedral > 0 ? cosine_complement(min_dihedral) * (1 + margin) : 0) {}
 
-bool CellQuality::asks_sizes() const {
-  const auto varies = [](const SizingField<3>& size) { return !size.is_constant(); };
-  return varies(bounds_->size) || std::any_of(bounds_->region_size.begin(), bounds_->region_size.end(), varies);
-}
-
 double CellQuality::of(const Simplex<3>& s, int region, double enough) const {
   return of_with(s, region, enough, [&](const SizeGuesses::Numbers& numbers) { return asked(s, region, with_size, numbers); });
 }

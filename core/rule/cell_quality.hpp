@@ -32,6 +32,7 @@ double cosine_complement(double degrees);
 class CellQuality {
  public:
   static constexpr int lowest_level = -10000;  ///< of cells that are flat or turned over
+  static constexpr int levels_a_weight = 162;  ///< 1.01 to that power is five
 
   /// `bounds` must outlive it. `min_dihedral`: the target in degrees, in [0, 60); 0: dihedral angles do not count. `guesses`: of
   /// these sizes, which must outlive it, too; null: sizes are asked for at once.
@@ -46,8 +47,6 @@ class CellQuality {
   SizeGuesses* guesses() const { return guesses_; }  ///< null: sizes are asked for at once
   /// CellBounds::within_size
   bool is_within_size(const Simplex<3>& s, int region) const;
-  /// Does `of` ask a size function, which need not know places outside of the domain?
-  bool asks_sizes() const;
 
   /// One of the numbers whose least is q, for each dihedral angle, the ratio, the radius, and the volume; not cut off at 1.
   struct Term {
@@ -60,6 +59,8 @@ class CellQuality {
 
   /// floor(log q / log 1.01): 0 of cells within all bounds, negative of poor ones, in steps of a hundredth. Monotone.
   static int level(double q);
+  /// What a poor cell of the level counts: one, and one more for each factor of five that its quality is below the bounds.
+  static constexpr int weight(int level) { return 1 - level / levels_a_weight; }
   /// The least q of the level.
   static double least_of_level(int level);
 

@@ -16,26 +16,26 @@
 namespace pgdr::detail {
 namespace {
 
-/// The budget of a phase: so many evaluations for each cell of the mesh, and for each poor cell that it begins with. For these it
-/// is at most some hundred for each cell of the mesh, which take about as long as its refinement took.
-constexpr std::uint64_t evaluations_a_cell = 20, evaluations_a_listed_cell = 1000, most_for_listed = 100;
+/// The budget: so many evaluations for each cell of the mesh, which take about as long as its refinement, and in small meshes
+/// about a second. It is half as large again for each degree that the target is above the default.
+constexpr std::uint64_t evaluations_a_cell = 40, least_budget = 6000000;
 
-/// The budget of what is tried for the cells that nothing excuses: so many evaluations for each of these, ten times as many as
-/// one look at it may take; but no more than a phase has for each cell of the mesh, or in small meshes a million, some half
-/// second.
-constexpr std::uint64_t evaluations_an_unexplained_cell = 100000, least_of_most_for_unexplained = 1000000;
+std::uint64_t budget_of(std::uint64_t cells, double min_dihedral) {
+  std::uint64_t budget = std::max(evaluations_a_cell * cells, least_budget);
+  for (double target = default_min_dihedral; target + 1 <= min_dihedral; ++target) budget += budget / 2;
+  return budget;
+}
+
+/// What is tried for a cell that nothing excuses may take ten times as many evaluations as one look at it.
+constexpr std::uint64_t evaluations_an_unexplained_cell = 10 * evaluations_a_poor_cell;
 
 /// For the progress report: what a phase evaluates for each poor cell that it begins with, of some models, within its budget; and
 /// how many times as much the phases after it do, which begin with a part of these.
 struct UsualPhase {
   double a_listed_cell, others;
 };
-UsualPhase usual(Optimization::Phase phase, bool is_first_of_its_kind) {
-  switch (phase) {
-    case Optimization::Phase::cheap: return {200, 3};
-    case Optimization::Phase::strong: return {1400, is_first_of_its_kind ? 1.3 : 0.0};
-    default: return {1400, 1};
-  }
+UsualPhase usual(Optimization::Phase phase) {
+  return phase == Optimization::Phase::cheap ? UsualPhase{200, 1} : UsualPhase{1400, 0.5};
 }
 
 }  // namespace
@@ -106,19 +106,13 @@ std::size_t Optimizing::list_all_poor() {
   return poor.size();
 }
 
-std::size_t Optimizing::list_refused(Phase next) {
+std::size_t Optimizing::list_refused() {
   std::size_t count = 0;
   std::vector<bool> listed(state_->context.mesh.cell_bound());
-  const std::vector<Refusal<3>> refused = state_->refused.take_all();
-  left_some_ = !refused.empty();
-  for (const Refusal<3>& r : refused) {
+  for (const Refusal<3>& r : state_->refused.take_all()) {
     const std::uint32_t slot = index(r.entry.cell);
     if (listed[slot]) continue;
     listed[slot] = true;
-    const std::uint64_t place = place_hash<3>(state_->context.mesh, r.entry.cell);
-    if (last_ == Phase::strong) refused_strongly_[place] = r.versions;
-    const auto before = refused_strongly_.find(place);
-    if (next == Phase::strong && before != refused_strongly_.end() && before->second == r.versions) continue;
     state_->waiting.relist(r.entry);
     ++count;
   }
@@ -127,37 +121,40 @@ std::size_t Optimizing::list_refused(Phase next) {
 
 StopCause Optimizing::run(Phase phase) {
   begin(phase);
-  const std::size_t listed = last_ ? list_refused(phase) : list_all_poor();
-  const std::uint64_t budget = evaluations_a_cell * cells_ +
-                               std::min<std::uint64_t>(evaluations_a_listed_cell * listed, most_for_listed * cells_);
-  const UsualPhase expected = usual(phase, last_ != Phase::worst);
-  state_->meter.begin_phase(std::min(expected.a_listed_cell * static_cast<double>(listed), static_cast<double>(budget)),
+  const std::size_t listed = last_ ? list_refused() : list_all_poor();
+  if (!last_) budget_ = budget_of(cells_, min_dihedral_);
+  const UsualPhase expected = usual(phase);
+  state_->meter.begin_phase(std::min(expected.a_listed_cell * static_cast<double>(listed), static_cast<double>(budget_)),
                             expected.others);
   last_ = phase;
-  return work_off(budget);
+  state_->must_pay = true;
+  return work_off(listed, budget_);
 }
 
 void Optimizing::begin(Phase phase) {
   RefineContext<3>& context = state_->context;
   stage_.phase = phase;
-  if (phase == Phase::worst && !sharp_)
-    sharp_.emplace(context.domain, AngleBounds{context.bounds.radius_edge_bound, claimed_cosine_});
-  if (sharp_) stage_.sharp = &*sharp_;
   context.stage = &stage_;
 }
 
-/// Treats what waits, and what was refused as often as its surroundings change, with so many evaluations.
-StopCause Optimizing::work_off(std::uint64_t budget) {
-  state_->most_evaluated = state_->totals.counts.evaluated + budget;
+/// Treats what waits, so many cells, with so many evaluations of the budget; and what was refused and has changed about it, as
+/// often as that pays.
+StopCause Optimizing::work_off(std::size_t waiting, std::uint64_t most) {
+  const std::uint64_t evaluated_before = state_->totals.counts.evaluated;
+  state_->most_evaluated = evaluated_before + most;
+  state_->most_evaluated_an_entry = most / std::max<std::size_t>(waiting, 1);
   bool some_undecided = false;  // when the lists were drained last, had some visit used up its share?
   while (!state_->waiting.is_empty() && !state_->is_spent()) {
     const RefineCounts counts = state_->totals.counts;
     const StopCause stop = schedule_->drain();
     if (stop != StopCause::finished) return stop;
     some_undecided = state_->totals.counts.out_of_budget > counts.out_of_budget;
-    if (state_->totals.counts.changes() == counts.changes()) break;
+    const RefineCounts& now = state_->totals.counts;
+    const std::uint64_t evaluated = now.evaluated - counts.evaluated, changes = now.changes() - counts.changes();
+    if (changes == 0 || (state_->must_pay && evaluated > evaluations_a_change * changes)) break;
     state_->refused.relist_changed();
   }
+  budget_ -= std::min(budget_, state_->totals.counts.evaluated - evaluated_before);
   is_limited_ = some_undecided || !state_->waiting.is_empty() || state_->totals.vertices >= state_->context.options.max_vertices;
   return StopCause::finished;
 }
@@ -180,21 +177,19 @@ std::vector<Entry<3>> Optimizing::find_unexplained() {
 /// Phase::rest makes more cells poor, which Phase::strong mends, if it has the evaluations. So it is left out where these are not
 /// enough for every cell, and has no more than half of what is left.
 StopCause Optimizing::run_for_unexplained() {
-  if (!left_some_ && state_->refused.take_all().empty()) return StopCause::finished;
-  const std::uint64_t most = std::max(evaluations_a_cell * cells_, least_of_most_for_unexplained);
-  std::uint64_t left = most;
+  if (state_->refused.take_all().empty() && state_->waiting.is_empty()) return StopCause::finished;
+  state_->must_pay = false;
+  stage_.most_a_cell = evaluations_an_unexplained_cell;
   for (const Phase phase : {Phase::strong, Phase::rest, Phase::strong, Phase::rest, Phase::strong}) {
     const std::vector<Entry<3>> unexplained = find_unexplained();
     const std::uint64_t wanted = evaluations_an_unexplained_cell * unexplained.size();
     if (unexplained.empty()) break;
-    if (phase == Phase::rest && wanted > left / 2) break;
+    if (phase == Phase::rest && wanted > budget_ / 2) break;
     state_->refused.take_all();
     state_->waiting.for_each_list([](WorkList<3>& list) { list.drain([](const Entry<3>&) {}); });
     for (const Entry<3>& e : unexplained) state_->waiting.relist(e);
     begin(phase);
-    const std::uint64_t evaluated = state_->totals.counts.evaluated;
-    if (const StopCause stop = work_off(std::min(left, wanted)); stop != StopCause::finished) return stop;
-    left -= std::min(left, state_->totals.counts.evaluated - evaluated);
+    if (const StopCause stop = work_off(unexplained.size(), std::min(budget_, wanted)); stop != StopCause::finished) return stop;
   }
   return StopCause::finished;
 }

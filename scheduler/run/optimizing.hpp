@@ -51,23 +51,20 @@ class Optimizing {
   std::vector<Entry<3>> find_poor();
   std::vector<Entry<3>> find_unexplained();
   void begin(Phase phase);
-  StopCause work_off(std::uint64_t budget);
+  StopCause work_off(std::size_t waiting, std::uint64_t most);
   std::size_t list_all_poor();
-  std::size_t list_refused(Phase next);
+  std::size_t list_refused();
 
   RunState<3>* state_;
   VisitSchedule<3>* schedule_;
   const double min_dihedral_, claimed_cosine_;
   Optimization stage_;
-  std::optional<SharpPlaces> sharp_;  ///< once they are asked for
   const RefineCounts before_;
   bool sizes_are_met_ = true;
   std::uint64_t cells_ = 0;    ///< of the mesh, at the last look at all
   std::optional<Phase> last_;  ///< that ran
-  bool left_some_ = false;     ///< had the phase before the last refused any?
+  std::uint64_t budget_ = 0;   ///< evaluations that are left
   bool is_limited_ = false;    ///< did a limit keep the last phase from anything?
-  /// What was refused in the last phase that was Phase::strong: by place_hash, the versions of the cells.
-  std::unordered_map<std::uint64_t, std::uint64_t> refused_strongly_;
   std::uint64_t left_ = 0, unexplained_ = 0;
 };
 

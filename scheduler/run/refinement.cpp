@@ -49,13 +49,10 @@ auto Refinement<D>::plan(bool optimizes) -> std::span<const Stage> {
   static constexpr Stage with_optimizer[] = {
       {"list", &R::list_everything},
       {"insert", &R::refine},
-      {"last_resort", &R::refine_as_last_resort},
       {"shortest_edge", &R::end_if_min_edge_hit},
       {"budget", &R::end_if_vertices_are_spent},
       {"optimize_cheap", &R::optimize_cheaply, true},
       {"optimize_strong", &R::optimize_strongly, true},
-      {"optimize_worst", &R::optimize_the_worst, true},
-      {"optimize_again", &R::optimize_strongly, true},
       {"optimize_rest", &R::optimize_the_rest, true},
       {"reasons", &R::explain_what_is_left, true},
   };
@@ -139,7 +136,8 @@ StopCause Refinement<D>::refine() {
 }
 
 /// Tries what is poor beside small angles once more, with a part of the demand. In that order the meshes are smaller than where
-/// all demand little. Not where nothing proves that most is good by now.
+/// all demand little. Not where nothing proves that most is good by now; nor before the optimiser, which makes such elements good
+/// without a point for each.
 template <int D>
 StopCause Refinement<D>::refine_as_last_resort() {
   if (D == 2 || state_.context.options.radius_edge_bound < smallest_proved_bound<D>()) return StopCause::finished;
@@ -191,12 +189,6 @@ StopCause Refinement<D>::optimize_cheaply() {
 template <int D>
 StopCause Refinement<D>::optimize_strongly() {
   return optimize(Optimization::Phase::strong);
-}
-
-/// Passes through more poor cells where that makes the worst ones better.
-template <int D>
-StopCause Refinement<D>::optimize_the_worst() {
-  return optimize(Optimization::Phase::worst);
 }
 
 /// Gives the cells that nothing excuses more effort.

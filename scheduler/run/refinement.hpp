@@ -70,7 +70,6 @@ class Refinement {
   StopCause end_if_vertices_are_spent();
   StopCause optimize_cheaply();
   StopCause optimize_strongly();
-  StopCause optimize_the_worst();
   StopCause optimize_the_rest();
   StopCause explain_what_is_left();
 

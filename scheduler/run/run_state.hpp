@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "refine/element_stage.hpp"
 #include "run/progress_meter.hpp"
 #include "run/refused_work.hpp"
 #include "run/run_pieces.hpp"
@@ -63,7 +64,8 @@ struct RunState {
   void prepare(const VisitRequest& request, RegionVisit<D>& visit) {
     visit.violations_seen = totals.violations_seen;
     visit.entities_refused = totals.entities_refused;
-    visit.most_evaluated = most_evaluated - std::min(most_evaluated, totals.counts.evaluated);
+    visit.most_evaluated = most_evaluated_an_entry;
+    visit.most_unpaid = must_pay ? evaluations_a_poor_cell : std::numeric_limits<std::uint64_t>::max();
     waiting.prepare(request, visit);
   }
   /// Takes in what a visit that has ended did, and what it set aside.
@@ -97,7 +99,9 @@ struct RunState {
   const ScheduleOptions& options;
   const RunPieces& pieces;  ///< for loops between visits
   RunTotals totals;
-  std::uint64_t most_evaluated = std::numeric_limits<std::uint64_t>::max();  ///< in all, by the end of this stage
+  std::uint64_t most_evaluated = std::numeric_limits<std::uint64_t>::max();           ///< in all, by the end of this stage
+  std::uint64_t most_evaluated_an_entry = std::numeric_limits<std::uint32_t>::max();  ///< in it, by a visit, for each that waits
+  bool must_pay = false;  ///< in it, do visits end that make too few changes (evaluations_a_change)?
   WaitingWork<D> waiting;
   RefusedWork<D> refused;
   WorkerPool<D> workers;
