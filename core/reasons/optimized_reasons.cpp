@@ -3,7 +3,6 @@
 #include "reasons/optimized_reasons.hpp"
 
 #include <algorithm>
-#include <unordered_set>
 
 #include "input/entity_distance.hpp"
 #include "mesh/ridge.hpp"
@@ -141,11 +140,14 @@ std::optional<PoorReason> OptimizedReasons::angle_near(CellId c) {
         if (!found && detail::squared_distance_to<3>(*domain_, {kind, order[0]}, sphere.center) <= reach)
           found = small_angle(kind, order);
   };
-  std::vector<CellId> cells{c};
-  std::unordered_set<std::uint32_t> known{index(c)}, known_vertices;
+  std::vector<CellId>& cells = cells_near_;
+  cells.assign(1, c);
+  known_cells_.reset(most_cells_near);
+  known_vertices_.reset(4 * most_cells_near);
+  known_cells_.insert(index(c));
   for (std::size_t i = 0; i < cells.size() && !found; ++i) {
     for (const VertexId v : mesh_->cell(cells[i]).vertices) {
-      if (found || !known_vertices.insert(index(v)).second) continue;
+      if (found || !known_vertices_.insert(index(v))) continue;
       const Home home = mesh_->vertex(v).home;
       if (home.kind() == EntityKind::segment) take(EntityKind::facet, facets_sharp_at(home.id()));
       if (home.kind() != EntityKind::vertex) continue;
@@ -153,7 +155,7 @@ std::optional<PoorReason> OptimizedReasons::angle_near(CellId c) {
       for (const EntityId s : segments_at_[home.id()]) take(EntityKind::facet, facets_sharp_at(s));
     }
     for (const Link link : mesh_->cell(cells[i]).links)
-      if (link && cells.size() < most_cells_near && known.insert(index(link.cell())).second) cells.push_back(link.cell());
+      if (link && cells.size() < most_cells_near && known_cells_.insert(index(link.cell()))) cells.push_back(link.cell());
   }
   return found;
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "input/sharp_angles.hpp"
+#include "mesh/key_set.hpp"
 #include "reasons/poor_reasons.hpp"
 #include "reasons/vertex_gaps.hpp"
 
@@ -53,6 +54,9 @@ class OptimizedReasons {
   std::unordered_map<EntityId, std::vector<Pair>> sharp_segments_;   ///< by input point
   std::unordered_map<EntityId, std::vector<Pair>> sharp_facets_;     ///< by segment
   std::unordered_map<EntityId, std::optional<Pair>> sharp_corners_;  ///< by input point: of two segments of one facet
+  // Scratch of angle_near():
+  std::vector<CellId> cells_near_;
+  KeySet known_cells_, known_vertices_;
 };
 
 }  // namespace pgdr
