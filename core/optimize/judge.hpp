@@ -3,17 +3,16 @@
 //
 // The judge of changes: is what comes better than what goes?
 //
-// Better: at the worst level of which the numbers of cells differ, fewer cells come than go. Rule `better` asks for that.
-// Rule `no_more_poor` asks that the poor cells weigh less, or as much, and that they are better. A cell weighs one, and one more
-// for each factor of five that its quality is below the bounds: so one that is much too bad may go for a few that are nearly
-// good. By both no cell that comes is below the worst level of those that go, and none that is too big takes the place of cells
-// that are not.
+// Better: at the worst level of which the numbers of cells differ, fewer cells come than go. Rule `better` asks for that, of the
+// changes within a detour. Rule `no_more_poor`, of all that is kept, asks that the poor cells weigh less, or as much, and that
+// they are better. A cell weighs one, and one more for each factor of five that its quality is below the bounds: so one that is
+// much too bad may go for a few that are nearly good. By both no cell that comes is below the worst level of those that go, and
+// none that is too big takes the place of cells that are not.
 //
-// Why each phase ends, as each has one rule. There are finitely many levels, and the order of Dershowitz and Manna, which
-// compares multisets by what is said of "better", has no infinite descent. By `better` the multiset of the levels of all poor
-// cells gets smaller with each change. By `no_more_poor` the weight of the poor cells, a whole number, gets smaller, or stays,
-// and the multiset gets smaller. That is so whoever makes the changes, and in whatever order. What no change could help, a flat
-// cell between walls that stay, say, holds up nothing beside it.
+// Why each phase ends. There are finitely many levels, and the order of Dershowitz and Manna, which compares multisets by what is
+// said of "better", has no infinite descent. By `no_more_poor` the weight of the poor cells, a whole number, gets smaller, or
+// stays, and the multiset of their levels gets smaller. That is so whoever makes the changes, and in whatever order. Within a
+// detour there are few changes. What no change could help, a flat cell between walls that stay, say, holds up nothing beside it.
 #pragma once
 
 #include <cstddef>

@@ -16,7 +16,7 @@
 namespace pgdr {
 namespace {
 
-constexpr int rounds_of_compound = 3;  // of cheap changes about what a detour or a split has made
+constexpr int rounds_of_compound = 3, rounds_in_rest = 10;  // of cheap changes about what a detour or a split has made
 
 /// Treats poor cells. Part of a worker: one thread at a time.
 class Optimizer final : public ElementTreatment<3> {
@@ -32,7 +32,6 @@ class Optimizer final : public ElementTreatment<3> {
 
   void begin_visit() override {
     s_.replacer.set_area(s_.area());
-    rule_ = stage_->phase == Optimization::Phase::rest ? Judge::Rule::better : Judge::Rule::no_more_poor;
     if (s_.judge.sizes()) ask_listed(*s_.judge.sizes());
   }
   Outcome treat(const Entry<3>& e) override;
@@ -45,6 +44,10 @@ class Optimizer final : public ElementTreatment<3> {
   void ask_listed(SizeGuesses& sizes);
   bool change(CellId c);
   bool change_cheaply(CellId c, Judge::Rule rule);
+  bool open_cheaply(CellId c) { return change_cheaply(c, Judge::Rule::better); }
+  bool open_by_reconnection(CellId c) { return reconnect_.make(c, Judge::Rule::better); }
+  bool open_by_digging(CellId c) { return insertions_.dig(c, Judge::Rule::better); }
+  bool open_by_contraction(CellId c) { return vertices_.contract(c, Judge::Rule::better); }
   bool make_detour(CellId c);
   bool split_an_edge(CellId c);
   bool end_compound(bool begun);
@@ -57,10 +60,9 @@ class Optimizer final : public ElementTreatment<3> {
   VertexChanges vertices_;
   Reconnect reconnect_;
   Insertions insertions_;
-  Judge::Rule rule_ = Judge::Rule::no_more_poor;  ///< of the visit
-  std::uint64_t evaluated_before_ = 0;            ///< the element that is treated
-  RefineCounts counts_before_;                    ///< a compound
-  std::vector<int> levels_;                       ///< scratch of list_made()
+  std::uint64_t evaluated_before_ = 0;  ///< the element that is treated
+  RefineCounts counts_before_;          ///< a compound
+  std::vector<int> levels_;             ///< scratch of list_made()
 };
 
 /// Asks for the sizes at the cells that wait, by which others are guessed, in one block.
@@ -88,7 +90,8 @@ bool Optimizer::change_cheaply(CellId c, Judge::Rule rule) {
 
 /// Ends a transaction: mends the poor cells that it has made, and keeps all if they are better than what was there, together.
 bool Optimizer::end_compound(bool begun) {
-  for (int round = 0; begun && round < rounds_of_compound && !is_spent(); ++round) {
+  const int rounds = stage_->phase == Optimization::Phase::rest ? rounds_in_rest : rounds_of_compound;
+  for (int round = 0; begun && round < rounds && !is_spent(); ++round) {
     bool any = false;
     const std::vector<CellId> made = s_.transaction.made();
     for (const CellId c : made) {
@@ -98,7 +101,9 @@ bool Optimizer::end_compound(bool begun) {
     }
     if (!any) break;
   }
-  const bool kept = begun && s_.judge.accepts(s_.transaction.made(), s_.judge.standing_of(s_.transaction.removed()), rule_) &&
+  const bool kept = begun &&
+                    s_.judge.accepts(s_.transaction.made(), s_.judge.standing_of(s_.transaction.removed()),
+                                     Judge::Rule::no_more_poor) &&
                     s_.judge.may_change();
   if (kept) {
     const std::vector<CellId> made = s_.transaction.made();
@@ -111,10 +116,18 @@ bool Optimizer::end_compound(bool begun) {
   return kept;
 }
 
+/// Begins with changes that make the worst better, whatever else gets poor.
 bool Optimizer::make_detour(CellId c) {
-  counts_before_ = s_.w->visit->counts;
-  s_.transaction.begin();
-  return end_compound(change_cheaply(c, Judge::Rule::better));
+  using Opening = bool (Optimizer::*)(CellId);
+  static constexpr std::array<Opening, 4> openings{&Optimizer::open_cheaply, &Optimizer::open_by_reconnection,
+                                                   &Optimizer::open_by_digging, &Optimizer::open_by_contraction};
+  const std::size_t count = stage_->phase == Optimization::Phase::rest ? openings.size() : 1;
+  for (std::size_t i = 0; i < count && !is_spent(); ++i) {
+    counts_before_ = s_.w->visit->counts;
+    s_.transaction.begin();
+    if (end_compound((this->*openings[i])(c))) return true;
+  }
+  return false;
 }
 
 /// The longest first.
@@ -139,12 +152,13 @@ bool Optimizer::change(CellId c) {
     return changed;
   };
   const bool has_short_edge = s_.w->context.bounds.over_radius_edge(*s_.mesh, c);
-  if (list(change_cheaply(c, rule_) || (has_short_edge && vertices_.contract(c, rule_)))) return true;
+  if (list(change_cheaply(c, Judge::Rule::no_more_poor) || (has_short_edge && vertices_.contract(c, Judge::Rule::no_more_poor))))
+    return true;
   if (!strong || !s_.judge.may_change()) return false;  // what follows takes long
-  if (list(reconnect_.make(c, rule_) || insertions_.dig(c, rule_))) return true;
+  if (list(reconnect_.make(c, Judge::Rule::no_more_poor) || insertions_.dig(c, Judge::Rule::no_more_poor))) return true;
   if (!s_.judge.may_change()) return false;
-  if ((rule_ == Judge::Rule::no_more_poor && make_detour(c)) || split_an_edge(c)) return true;
-  return !is_spent() && !has_short_edge && list(vertices_.contract(c, rule_));
+  if (make_detour(c) || split_an_edge(c)) return true;
+  return !is_spent() && !has_short_edge && list(vertices_.contract(c, Judge::Rule::no_more_poor));
 }
 
 void Optimizer::list_made(const std::vector<CellId>& made) {

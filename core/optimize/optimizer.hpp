@@ -28,7 +28,7 @@ class Optimization final : public ElementStage<3> {
   enum class Phase {
     cheap,   ///< what takes few evaluations; the worst gets better, and the poor cells weigh no more
     strong,  ///< all; likewise
-    rest,    ///< all; the worst gets better, whether or not more cells are poor: for those that nothing excuses
+    rest,    ///< all, and longer detours: for those that nothing excuses
   };
 
   /// The mesh must outlive it. `min_dihedral`: the target in degrees.

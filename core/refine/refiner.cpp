@@ -245,7 +245,8 @@ void Refiner<D>::run(RegionVisit<D>& visit) {
   WorkList<D>& list = *visit.list;
   repair_.allow_for(list.flips.size());
   for (const Entry<D>& e : visit.given) repair_.allow_for(e.kind() == EntryKind::flip ? 1 : 0);
-  most_evaluated_ = visit.most_evaluated * std::max<std::uint64_t>(list.size() + visit.given.size(), 1);
+  most_evaluated_ = std::min(visit.most_evaluated,
+                             visit.most_evaluated_an_entry * std::max<std::uint64_t>(list.size() + visit.given.size(), 1));
   bool go_on = visit.treat_list || treat_entities();
   for (std::size_t i = 0; i < visit.given.size(); ++i) {
     if (go_on) {

@@ -58,8 +58,10 @@ struct RegionVisit {
   std::size_t floor = 0;               ///< ... and the list is crowded by this
   int granularity = std::numeric_limits<int>::max();                          ///< end this many buckets after the first
   std::uint64_t most_insertions = std::numeric_limits<std::uint64_t>::max();  ///< share of the budget
-  std::uint64_t most_evaluated = std::numeric_limits<std::uint64_t>::max();   ///< in a stage: for each entry of the list
-  std::uint64_t most_unpaid = std::numeric_limits<std::uint64_t>::max();  ///< in a stage: beside evaluations_a_change a change
+  // In a stage: the qualities that it may ask for: in all; for each entry of the list; and beside evaluations_a_change a change.
+  std::uint64_t most_evaluated = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t most_evaluated_an_entry = std::numeric_limits<std::uint32_t>::max();
+  std::uint64_t most_unpaid = std::numeric_limits<std::uint64_t>::max();
   bool violations_seen = false;   ///< look for faces that are not locally Delaunay at every insertion
   bool entities_refused = false;  ///< has any visit refused an entity's split; after the visit, this one included?
   ChangeLog<D>* log = nullptr;    ///< where to log what changes; null: nowhere

@@ -174,24 +174,17 @@ std::vector<Entry<3>> Optimizing::find_unexplained() {
   return unexplained;
 }
 
-/// Phase::rest makes more cells poor, which Phase::strong mends, if it has the evaluations. So it is left out where these are not
-/// enough for every cell, and has no more than half of what is left.
 StopCause Optimizing::run_for_unexplained() {
   if (state_->refused.take_all().empty() && state_->waiting.is_empty()) return StopCause::finished;
+  if (budget_ < evaluations_a_poor_cell) return StopCause::finished;  // to find reasons takes long where many cells are poor
+  const std::vector<Entry<3>> unexplained = find_unexplained();
+  if (unexplained.empty()) return StopCause::finished;
+  state_->waiting.for_each_list([](WorkList<3>& list) { list.drain([](const Entry<3>&) {}); });
+  for (const Entry<3>& e : unexplained) state_->waiting.relist(e);
+  begin(Phase::rest);
   state_->must_pay = false;
   stage_.most_a_cell = evaluations_an_unexplained_cell;
-  for (const Phase phase : {Phase::strong, Phase::rest, Phase::strong, Phase::rest, Phase::strong}) {
-    const std::vector<Entry<3>> unexplained = find_unexplained();
-    const std::uint64_t wanted = evaluations_an_unexplained_cell * unexplained.size();
-    if (unexplained.empty()) break;
-    if (phase == Phase::rest && wanted > budget_ / 2) break;
-    state_->refused.take_all();
-    state_->waiting.for_each_list([](WorkList<3>& list) { list.drain([](const Entry<3>&) {}); });
-    for (const Entry<3>& e : unexplained) state_->waiting.relist(e);
-    begin(phase);
-    if (const StopCause stop = work_off(unexplained.size(), std::min(budget_, wanted)); stop != StopCause::finished) return stop;
-  }
-  return StopCause::finished;
+  return work_off(unexplained.size(), std::min(budget_, evaluations_an_unexplained_cell * unexplained.size()));
 }
 
 std::vector<PoorCell> Optimizing::explain_left() {

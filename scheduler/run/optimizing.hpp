@@ -32,8 +32,8 @@ class Optimizing {
   /// poor cells, each other with what the one before has refused, but for what the same phase has refused before, with nothing
   /// changed about it since. @throws what a callback throws
   StopCause run(Phase phase);
-  /// Once more, with a budget of its own, for the cells that nothing excuses, if there are any: Phase::rest and Phase::strong in
-  /// turn, a few rounds. @pre run() has run, last with Phase::strong. @throws what a callback throws
+  /// Once more, with what is left of the budget, for the cells that nothing excuses, if there are any. @pre run() has run.
+  /// @throws what a callback throws
   StopCause run_for_unexplained();
   /// The cells that are still over a bound, with their reasons. The last call. Part of them if the run is cancelled meanwhile,
   /// or its time is up.

@@ -64,7 +64,8 @@ struct RunState {
   void prepare(const VisitRequest& request, RegionVisit<D>& visit) {
     visit.violations_seen = totals.violations_seen;
     visit.entities_refused = totals.entities_refused;
-    visit.most_evaluated = most_evaluated_an_entry;
+    visit.most_evaluated = most_evaluated - std::min(most_evaluated, totals.counts.evaluated);
+    visit.most_evaluated_an_entry = most_evaluated_an_entry;
     visit.most_unpaid = must_pay ? evaluations_a_poor_cell : std::numeric_limits<std::uint64_t>::max();
     waiting.prepare(request, visit);
   }
