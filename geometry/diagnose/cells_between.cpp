@@ -30,16 +30,16 @@ struct Place {
 };
 
 template <int D>
-using Piece = typename NearPieces<D>::Piece;
+using PieceOf = typename NearPieces<D>::Piece;
 
 template <int D>
-const Point<D>& corner(const NearPieces<D>& pieces, const Piece<D>& piece, std::size_t i) {
+const Point<D>& corner(const NearPieces<D>& pieces, const PieceOf<D>& piece, std::size_t i) {
   return pieces.points()[piece.corners[i]];
 }
 
 /// Its length is twice the area (2D: the length).
 template <int D>
-Vector<D> normal_of(const NearPieces<D>& pieces, const Piece<D>& piece) {
+Vector<D> normal_of(const NearPieces<D>& pieces, const PieceOf<D>& piece) {
   const auto u = difference(corner<D>(pieces, piece, 1), corner<D>(pieces, piece, 0));
   if constexpr (D == 3)
     return cross(u, difference(corner<D>(pieces, piece, 2), corner<D>(pieces, piece, 0)));
@@ -48,14 +48,14 @@ Vector<D> normal_of(const NearPieces<D>& pieces, const Piece<D>& piece) {
 }
 
 template <int D>
-double measure_of(const NearPieces<D>& pieces, const Piece<D>& piece) {
+double measure_of(const NearPieces<D>& pieces, const PieceOf<D>& piece) {
   if (piece.count < D) return 0;
   const auto n = normal_of<D>(pieces, piece);
   return std::sqrt(dot(n, n)) / (D == 3 ? 2 : 1);
 }
 
 template <int D>
-Point<D> choose_in(const NearPieces<D>& pieces, const Piece<D>& piece, Chance& chance) {
+Point<D> choose_in(const NearPieces<D>& pieces, const PieceOf<D>& piece, Chance& chance) {
   double u = chance(), v = D == 3 ? chance() : 0.0;
   if (u + v > 1) u = 1 - u, v = 1 - v;
   Point<D> x = on_edge(corner<D>(pieces, piece, 0), corner<D>(pieces, piece, 1), u);
@@ -186,6 +186,22 @@ class PlacesAlongAxis {
   std::vector<Place<D>> places_;
 };
 
+/// Is a piece within this width of a place, without a point in common with what that is on?
+template <int D>
+bool is_any_near(const NearPieces<D>& pieces, const PlacesAlongAxis<D>& places, double width, const Bulk& bulk) {
+  std::atomic<bool> is_any = false;
+  bulk.each(pieces.pieces().size(), [&](std::size_t i) {
+    const PieceOf<D>& piece = pieces.pieces()[i];
+    auto box = Box<D>::empty();
+    for (const std::uint32_t v : piece.points()) box.add(pieces.points()[v]);
+    const auto is_near = [&](const Place<D>& place) {
+      return pieces.closest(place.x, piece).square <= width * width && pieces.are_disjoint(pieces.pieces()[place.piece], piece);
+    };
+    if (places.any_in(box.widened(width), is_near)) is_any = true;
+  });
+  return is_any;
+}
+
 }  // namespace
 
 template <int D>
@@ -196,22 +212,11 @@ void add_cells_between(const SizeFieldOfGaps<D>& field, double radius_edge_bound
 template <int D>
 bool may_take_more_cells_between(const NearPieces<D>& pieces, double radius_edge_bound, double cells, const Bulk& bulk) {
   if (!(radius_edge_bound < infinity)) return false;
-  std::vector<Place<D>> chosen = choose_places(pieces, bulk);
-  if (chosen.empty()) return false;
+  std::vector<Place<D>> places = choose_places(pieces, bulk);
+  if (places.empty()) return false;
   constexpr double above_rounding = 1 + 0x1p-40;
-  const double width = above_rounding * distance_of_subfacet<D>(radius_edge_bound, place_count * chosen[0].measure / cells);
-  const PlacesAlongAxis<D> places(std::move(chosen));
-  std::atomic<bool> is_any_near = false;
-  bulk.each(pieces.pieces().size(), [&](std::size_t i) {
-    const Piece<D>& piece = pieces.pieces()[i];
-    auto box = Box<D>::empty();
-    for (const std::uint32_t v : piece.points()) box.add(pieces.points()[v]);
-    const auto is_near = [&](const Place<D>& place) {
-      return pieces.closest(place.x, piece).square <= width * width && pieces.are_disjoint(pieces.pieces()[place.piece], piece);
-    };
-    if (places.any_in(box.widened(width), is_near)) is_any_near = true;
-  });
-  return is_any_near;
+  const double width = above_rounding * distance_of_subfacet<D>(radius_edge_bound, place_count * places[0].measure / cells);
+  return is_any_near(pieces, PlacesAlongAxis<D>(std::move(places)), width, bulk);
 }
 
 #define PGDR_INSTANTIATE(D)                                                                             \
