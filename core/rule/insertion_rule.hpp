@@ -28,9 +28,10 @@
 //     vertex.
 // (2) Of an element that is only too big, l is at most half its circumradius.
 // (3) c l and l, if an entity is split for an element of poor shape, and the radius-edge bound is below the smallest proved one.
-// (4) c l and l in the last resort, when nothing else waits. Elements at angles below 20 degrees, and at input vertices without
+// (4) c l and l in the last resort, when nothing else waits and no optimiser follows. Elements at angles below 20 degrees, and at input vertices without
 //     an angle below 60 degrees, still demand l: they have a reason to stay poor.
-// (5) q is the nearest vertex of the cavity that is none of the entity's.
+// (5) q is the nearest vertex of the cavity that is none of the entity's. If a subsegment cuts the point of a subfacet off, q is
+//     the nearer one of the two vertices beyond the subfacet that encroach upon it.
 // (6) r(x) is then at least the least distance of disjoint entities. If the split is passed on from a facet to a segment, d is
 //     half the distance from x to q.
 // (7) That d is not c R(q) in 3D is for the size of the meshes, not for the proof (bench/notebook/small_angles.md).
