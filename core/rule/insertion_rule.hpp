@@ -28,8 +28,8 @@
 //     vertex.
 // (2) Of an element that is only too big, l is at most half its circumradius.
 // (3) c l and l, if an entity is split for an element of poor shape, and the radius-edge bound is below the smallest proved one.
-// (4) c l and l in the last resort, when nothing else waits and no optimiser follows. Elements at angles below 20 degrees, and at input vertices without
-//     an angle below 60 degrees, still demand l: they have a reason to stay poor.
+// (4) c l and l in the last resort, when nothing else waits and no optimiser follows. Elements at angles below 20 degrees, and
+//     at input vertices without an angle below 60 degrees, still demand l: they have a reason to stay poor.
 // (5) q is the nearest vertex of the cavity that is none of the entity's. If a subsegment cuts the point of a subfacet off, q is
 //     the nearer one of the two vertices beyond the subfacet that encroach upon it.
 // (6) r(x) is then at least the least distance of disjoint entities. If the split is passed on from a facet to a segment, d is
@@ -37,8 +37,7 @@
 // (7) That d is not c R(q) in 3D is for the size of the meshes, not for the proof (bench/notebook/small_angles.md).
 // (8) The first shell at its end, or one no nearer to it than q is on another segment there (shells.hpp). h is at least R(q).
 // (9) Of a subsegment in 2D, if r(x) is less and q is no vertex of the volume: what an entity encroached upon by q demands. It
-// may
-//     be that, and was not split for it at once (encroachment.hpp).
+//     may be that, and was not split for it at once (encroachment.hpp).
 //
 // Proof. R is inherited along a chain of small angles, so that the factor c is paid once, not once a link. Let lambda be the
 // least of: half the least distance of disjoint entities, the shortest edge of the recovered mesh, half the least size, the least
