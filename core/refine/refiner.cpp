@@ -142,22 +142,6 @@ void Refiner<D>::treat(const Entry<D>& e) {
   if (outcome == Outcome::not_owned) visit.set_aside.push_back(e);
 }
 
-/// Treats all entities and violations that wait. False if the visit may not go on.
-template <int D>
-bool Refiner<D>::treat_entities() {
-  WorkList<D>& list = *workspace_.visit->list;
-  while (may_go_on()) {
-    if (!list.entities.empty()) {
-      treat(list.entities.pop());
-    } else if (!list.flips.empty()) {
-      treat(list.flips.pop());
-    } else {
-      return true;
-    }
-  }
-  return false;
-}
-
 /// Is there a poor element so large that it goes before the entity that is next?
 template <int D>
 bool Refiner<D>::is_larger_than_entities() {
@@ -170,12 +154,12 @@ bool Refiner<D>::is_larger_than_entities() {
   return any();
 }
 
-/// Treats entities and violations that wait until an element is next. False if the visit may not go on.
+/// Treats entities and violations that wait: all, or until an element is next. False if the visit may not go on.
 template <int D>
-bool Refiner<D>::treat_until_element() {
+bool Refiner<D>::treat_entities(Until until) {
   WorkList<D>& list = *workspace_.visit->list;
   while (may_go_on()) {
-    if (!list.entities.empty() && !is_larger_than_entities()) {
+    if (!list.entities.empty() && (until == Until::none_wait || !is_larger_than_entities())) {
       treat(list.entities.pop());
     } else if (!list.flips.empty()) {
       treat(list.flips.pop());
@@ -216,14 +200,14 @@ void Refiner<D>::treat_elements() {
   WorkList<D>& list = *visit.list;
   const bool is_short = visit.granularity < RefineContext<D>::buckets;
   int last_bucket = std::numeric_limits<int>::max();
-  bool go_on = treat_until_element();
+  bool go_on = treat_entities(Until::element_is_next);
   if (is_short) lister_.ask_sizes();
   if (is_short && list.poor() > 0) last_bucket = list.first_bucket() + visit.granularity;
   while (go_on && any_poor()) {
     const int bucket = list.first_bucket();
     const bool crowded = list.is_crowded(visit.floor);
     if (bucket > last_bucket || (crowded && context.largest_radius(bucket) <= visit.small_radius)) {
-      treat_entities();  // no visit leaves any
+      treat_entities(Until::none_wait);  // no visit leaves any
       break;
     }
     // The largest go first before smaller entities, where the region is to be split, or where the visit is to end by size.
@@ -234,7 +218,7 @@ void Refiner<D>::treat_elements() {
     } else if (constexpr std::uint64_t between_looks = 256; ++treated_ % between_looks != 0 && list.entities.empty()) {
       continue;  // most are dead
     }
-    go_on = treat_until_element();
+    go_on = treat_entities(Until::element_is_next);
   }
 }
 
@@ -247,11 +231,11 @@ void Refiner<D>::run(RegionVisit<D>& visit) {
   for (const Entry<D>& e : visit.given) repair_.allow_for(e.kind() == EntryKind::flip ? 1 : 0);
   most_evaluated_ = std::min(visit.most_evaluated,
                              visit.most_evaluated_an_entry * std::max<std::uint64_t>(list.size() + visit.given.size(), 1));
-  bool go_on = visit.treat_list || treat_entities();
+  bool go_on = visit.treat_list || treat_entities(Until::none_wait);
   for (std::size_t i = 0; i < visit.given.size(); ++i) {
     if (go_on) {
       treat(visit.given[i]);
-      go_on = treat_entities();
+      go_on = treat_entities(Until::none_wait);
     } else {
       visit.set_aside.push_back(visit.given[i]);
     }

@@ -58,8 +58,8 @@ class Refiner {
   void end_listing() { lister_.ask_sizes(); }
 
  private:
-  bool treat_entities();
-  bool treat_until_element();
+  enum class Until { none_wait, element_is_next };
+  bool treat_entities(Until until);
   bool is_larger_than_entities();
   void treat_elements();
   void treat(const Entry<D>& e);
