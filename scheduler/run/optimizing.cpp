@@ -17,13 +17,13 @@ namespace pgdr::detail {
 namespace {
 
 /// The budget: so many evaluations for each cell of the mesh, which take about as long as its refinement, and in small meshes
-/// about a second. For each degree that the target is above the default those for each cell are three tenths more.
+/// about a second. It is three tenths more for each degree that the target is above the default.
 constexpr std::uint64_t evaluations_a_cell = 40, least_budget = 6000000;
 
 std::uint64_t budget_of(std::uint64_t cells, double min_dihedral) {
-  std::uint64_t budget = evaluations_a_cell * cells;
+  std::uint64_t budget = std::max(evaluations_a_cell * cells, least_budget);
   for (double target = default_min_dihedral; target + 1 <= min_dihedral; ++target) budget += 3 * budget / 10;
-  return std::max(budget, least_budget);
+  return budget;
 }
 
 /// What is tried for a cell that nothing excuses may take ten times as many evaluations as one look at it.
