@@ -5,7 +5,6 @@
 # and MPFR are enough for the exact number types.
 set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
 find_package(CGAL 5.5 REQUIRED)
-find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(TBB 2021 REQUIRED)
 find_package(Threads REQUIRED)
 

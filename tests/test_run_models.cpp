@@ -69,7 +69,7 @@ void compare(const fs::path& file, Tally& tally) {
     std::cout << "too slow: " << file.string() << '\n';
     return static_cast<void>(++tally.too_slow);
   }
-  for (const auto& f : first.report.findings)  // faces beside needles may stay so (design notes, known limits)
+  for (const auto& f : first.report.findings)  // faces beside needles may stay so (docs/limits.md)
     EXPECT_EQ(f.kind, CheckFinding::Kind::not_delaunay) << name(f.kind) << ": " << f.message;
   options.time_limit.reset();
   for (const test::Runner& runner : test::concurrent_runners)

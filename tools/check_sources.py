@@ -10,7 +10,7 @@
     name; every other header is private;
   * tools, examples and bench see public headers alone, but for the programs of BENCH_OF_THE_INSIDE;
   * README.md shows the table of rooms as it is here;
-  * CGAL and Eigen are included by .cpp files and private headers of the layers only;
+  * CGAL is included by .cpp files and private headers of the layers only;
   * function templates of headers whose namespace bears PGDR_API have it where they are instantiated (export.hpp);
   * what never returns takes no std::string or std::vector by value: g++ 12 (-O3, several files as one) takes its stores for
     dead, and so has what was moved from destroyed twice on the way out;
@@ -164,7 +164,7 @@ def check_includes(root, path, text, layer_of, room_of, reached, used):
             used.add((here, room_of[name]))
             if room_of[name] not in reached.get(here, set()):
                 yield f"includes {name} of {room_of[name]}, which {here} may not"
-        if name.startswith(("CGAL/", "Eigen/")) and (public or folder not in LAYERS):
+        if name.startswith("CGAL/") and (public or folder not in LAYERS):
             yield f"includes {name}: only the inside of a layer may"
 
 

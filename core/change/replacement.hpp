@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A replacement: cells go, and others take their place. Beside the insertion of points (cavity/) it is the only way in which a
-// mesh changes once its boundary is there.
+// visit changes a mesh once its boundary is there. (Between visits a rank puts in what others have made: ranks/held_mesh.hpp.)
 //
 // Why no test for intersections is needed. If all new cells are positively oriented and their oriented boundary is that of the
 // old ones, they tile the same region: the difference of the two chains is a cycle of tetrahedra, hence 0, so that every point is

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The mesh while it is refined: flat arrays of vertices and cells, which grow without moving. In 3D a cell is one cache line: its
-// vertices, links to its neighbours, and its circumsphere, which answers nearly every in-sphere question without touching a
-// vertex. In 2D a cell is half a cache line, without a circumcircle. Constrained faces and edges are marked on the cells that
-// contain them, in side records of the few cells that have any.
+// The mesh while it is refined: flat arrays of vertices and cells, which grow without moving (small ones move once: leave_heap).
+// In 3D a cell is one cache line: its vertices, links to its neighbours, and its circumsphere, which answers nearly every
+// in-sphere question without touching a vertex. In 2D a cell is half a cache line, without a circumcircle. Constrained faces and
+// edges are marked on the cells that contain them, in side records of the few cells that have any.
 //
 // Ghosts: until the exterior is carved away, cells at `infinite_vertex` fill the complement of the convex hull.
 // Threads: elements carry no lock. A cell is written by the visit that owns it, and by no other (visit_area.hpp).

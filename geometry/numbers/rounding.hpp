@@ -39,7 +39,7 @@ inline constexpr double of_blame = 0x1p-20;
 inline constexpr double of_point = 4 * ulp;
 /// How far points of one plane are off it once they were turned and shifted: each coordinate is a sum of three products and a
 /// shift, six roundings of numbers of at most sqrt(3) times the largest, which is 5.2 ulps a coordinate and 9 along the normal.
-/// The plane itself is that of such points. The default of Plc::precision.
+/// The plane itself is that of such points, what is farther off is a bent facet (input/bent_facets.hpp).
 inline constexpr double of_plane = 16 * ulp;
 /// Above this a facet is more than rounding off its plane, that of its largest triangle, which may be much smaller than the
 /// facet: not derived, sixteen times of_plane.
