@@ -23,6 +23,8 @@ import subprocess
 import sys
 import tempfile
 
+import tables
+
 READABLE = {".off", ".obj", ".stl", ".ply", ".poly", ".smesh", ".mesh", ".msh"}
 SURFACES = {".off", ".obj", ".stl", ".ply"}
 TETGEN_READS = {".off", ".stl", ".ply", ".poly", ".smesh", ".mesh"}
@@ -178,14 +180,6 @@ def remarks(r):
         yield "more than 10 times TetGen's seconds"
 
 
-def write_table(file, lines, name="table"):
-    """In place of what is between the marks of the file that have this name; all else is kept."""
-    begin, end = f"<!-- begin of the {name} -->", f"<!-- end of the {name} -->"
-    old = file.read_text() if file.exists() else ""
-    before, after = (old.split(begin)[0], old.split(end)[1]) if begin in old and end in old else ("", "\n")
-    file.write_text(before + "\n".join([begin, ""] + lines + ["", end]) + after)
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("pgdr")
@@ -194,7 +188,7 @@ def main():
     parser.add_argument("--bound", type=float, default=2)
     parser.add_argument("--only", default="")
     parser.add_argument("--tetgen", default="")
-    parser.add_argument("--table", type=pathlib.Path)
+    tables.add_flags(parser)
     args = parser.parse_args()
     models = sorted(f for d in args.folders for f in ([d] if d.is_file() else d.iterdir())
                     if f.suffix in READABLE and args.only in f.name)
@@ -215,7 +209,7 @@ def main():
         looks += [f"{r['model']}: {remark}" for remark in remarks(r)]
     print("\n".join(looks))
     if args.table:
-        write_table(args.table, lines + [""] + [f"* {look}" for look in looks])
+        tables.write_table(args.table, lines + [""] + [f"* {look}" for look in looks])
     print(f"{len(models)} models, {bad} not as they should be")
     return bad > 0
 

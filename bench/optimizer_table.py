@@ -20,6 +20,7 @@ import tempfile
 import models
 import quality_table
 import suite_models
+import tables
 
 BOUND = 2
 HEAD = ["model", "bound", "cells", "vertices", "left", "unexplained", "least", "largest", "ratio", "before: over", "before: ratio", "evaluations",
@@ -69,7 +70,7 @@ def main():
     parser.add_argument("--angles", type=numbers, default=[15, 20, 25, 30], help="default: 15,20,25,30")
     parser.add_argument("--cubes", type=numbers, default=[0.04, 0.0155], help="the cube's bounds of size; default: 0.04,0.0155")
     parser.add_argument("--limit", type=float, default=300, help="seconds for one mesh; default: %(default)s")
-    parser.add_argument("--table", type=pathlib.Path, help="a file whose table, between its marks, is replaced")
+    tables.add_flags(parser)
     parser.add_argument("--name", default="optimizer's table", help="what the marks of that table call it; default: %(default)s")
     args = parser.parse_intermixed_args()
     args.pgdr = args.pgdr.resolve()
@@ -97,9 +98,7 @@ def main():
                 wrong += not good
                 lines.append(line)
                 print(line, flush=True)
-    if args.table:
-        models.write_table(args.table, lines, args.name)
-    return wrong > 0
+    return wrong + tables.keep(args, lines, args.name) > 0
 
 
 if __name__ == "__main__":

@@ -21,10 +21,10 @@ import statistics
 import sys
 import tempfile
 
-import models as input_models
 import suite
 import suite_machine
 import suite_models
+import tables
 from suite_programs import Configuration, Suite
 
 SIZES = {"elephant": 0.0059, "armadillo": 1.04}  # where the suite has another
@@ -138,7 +138,7 @@ def main():
     if a.json:
         a.json.write_text(json.dumps({**record, "wrong": wrong, "runs": everything}, indent=1) + "\n")
     if a.table:
-        input_models.write_table(a.table, lines + words, "path table")
+        tables.write_table(a.table, lines + words, "path table")
     return 1 if wrong else 0
 
 

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The table of docs/quality.md: angles and shapes of the cells that several programs make of the same inputs.
 
-    bench/quality_table.py build/release/pgdr [MODEL...] [--limit SECONDS] [--programs LIST] [--table docs/quality.md]
+    bench/quality_table.py build/release/pgdr [MODEL...] [--limit SECONDS] [--programs LIST] [--table|--compare docs/quality.md]
 
 The unit cube with a bound of size, and every MODEL (.off .stl .ply .obj .poly .smesh) without one, by pgdr without optimisation, as it is by
 default, and with `--min-dihedral 20`, each with the tolerance that `pgdr info` proposes for the input, if any; by TetGen with `-q2` and with `-q2/15`; by gmsh's HXT with its optimiser. What is not
@@ -24,6 +24,7 @@ import tempfile
 
 import models
 import suite_models
+import tables
 
 CUBE = next(m for m in suite_models.MODELS if m.name == "cube")
 BOUND = 2
@@ -176,8 +177,8 @@ def main():
     parser.add_argument("--programs", default="pgdr,tetgen,hxt", help="default: %(default)s")
     parser.add_argument("--tetgen", default="tetgen")
     parser.add_argument("--gmsh", default="gmsh")
-    parser.add_argument("--table", type=pathlib.Path, help="a file whose table, between its marks, is replaced")
-    args = parser.parse_args()
+    tables.add_flags(parser)
+    args = parser.parse_intermixed_args()
     args.pgdr = args.pgdr.resolve()
     needed = {"tetgen": args.tetgen, "hxt": args.gmsh}
     args.programs = [p for p in args.programs.split(",") if p not in needed or shutil.which(needed[p])]
@@ -193,9 +194,7 @@ def main():
                     print(line, flush=True)
                     lines.append(line)
                 wrong += table.wrong
-    if args.table:
-        models.write_table(args.table, lines)
-    return wrong > 0
+    return wrong + tables.keep(args, lines) > 0
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@
 """Tables 3.1 to 3.4 of the dissertation anew: the uniform schedule on ranks, with scaled and with fixed workload.
 
     bench/ranks.py build/openmpi/pgdr build/openmpi/pgdr-mpi [--launcher mpirun.openmpi] [--ranks 1,4,9,16]
-                   [--cells 6000000] [--cube-cells 1000000] [--repeat 3] [--minutes M] [--table docs/ranks-measured.md]
+                   [--cells 6000000] [--cube-cells 1000000] [--repeat 3] [--minutes M] [--table bench/notebook/ranks.md]
 
 The square (with 1000 points, as in the text) and the cube, with so many cells a rank, and so many at all. All configurations run by
 turns, one thread a rank, refinement alone (`--no-optimize`); figures are medians. Beside each mesh `pgdr` makes the same in one
@@ -25,9 +25,9 @@ import tempfile
 import time
 
 import made_inputs
-import models as input_models
 import ranks_model
 import suite_machine
+import tables
 from suite_programs import measure, read_json, sha256
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
@@ -258,7 +258,7 @@ def main():
         rows = [{**r, "case": dataclasses.asdict(r["case"])} for r in runner.rows]
         a.json.write_text(json.dumps({**record, "wrong": runner.wrong, "runs": rows}, indent=1) + "\n")
     if a.table:
-        input_models.write_table(a.table, lines, "tables of ranks")
+        tables.write_table(a.table, lines, "tables of ranks")
     return 1 if runner.wrong else 0
 
 

@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The pgdr authors
 # SPDX-License-Identifier: Apache-2.0
-"""The tables of docs/selectors.md, in Markdown, on standard output.
+"""The tables of docs/selectors.md, of the models in tests/models.
 
-Usage: selector_tables.py COMMAND [--planar FOLDER] [--surface FILE.off]
+Usage: selector_tables.py COMMAND [--table|--compare docs/selectors.md]
 
-COMMAND is the pgdr command. FOLDER has pipe_like.poly, cylinder_like.poly, key_like.poly and square1000.poly; FILE.off is
-the elephant of CGAL's demo data (CC0). Tables whose models are not given are left out. Every mesh is checked with
+COMMAND is the pgdr command. Every mesh is checked with
 `pgdr check`; a mesh that is not sound ends the script. Poor elements that are left are shown as +N. Meshes in 3D are those of the
 refinement, without the optimiser, which would move the points that the selectors have chosen.
 """
@@ -17,6 +16,8 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+
+import tables
 
 MODELS = pathlib.Path(__file__).resolve().parent.parent / "tests" / "models"
 SELECTORS = ["circumcenter", "off-center", "optimized", "sliver-avoiding"]
@@ -80,13 +81,6 @@ def least_dihedral(p):
     return least
 
 
-def print_table(head, rows):
-    print("| " + " | ".join(map(str, head)) + " |\n|" + " --- |" * len(head))
-    for row in rows:
-        print("| " + " | ".join(map(str, row)) + " |")
-    print()
-
-
 def two_points(folder):
     corners = [(i & 1, i >> 1 & 1, i >> 2 & 1) for i in range(8)] + [(0.5, 0.5, 0.5), (0.5001, 0.5, 0.5)]
     faces = [(0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6)]
@@ -97,6 +91,7 @@ def two_points(folder):
 
 
 def by_ratio(command, model, published):
+    """The lines of a table: cells by selector and ratio."""
     rows = []
     for selector in SELECTORS:
         rows.append([selector] + [command.cells(model, selector, "--radius-edge", str(r)) for r in RATIOS])
@@ -104,10 +99,11 @@ def by_ratio(command, model, published):
             rows.append([f"{selector}, dissertation"] + published[selector])
     if published:
         rows += [[name] + counts for name, counts in TETGEN.items()]
-    print_table(["tetrahedra at ratio"] + list(RATIOS), rows)
+    return tables.markdown(["tetrahedra at ratio", *RATIOS], rows)
 
 
 def quality(command, model, *bounds):
+    """The lines of two tables: quantiles of the cells' least dihedral angles, and shares of all dihedral angles."""
     rows, classes = [], []
     for selector in SELECTORS:
         report = command.mesh(model, selector, *bounds)
@@ -118,14 +114,15 @@ def quality(command, model, *bounds):
         rows.append([selector, report["cells"], poor, ratio, f"{least[0]:.2f}", quantile(0.01), quantile(0.05), quantile(0.1)])
         histogram = report["quality"]["histogram"]
         classes.append([selector] + [f"{100 * n / sum(histogram):.1f}" for n in histogram])
-    print_table(["selector", "tetrahedra", "poor", "worst ratio", "smallest dihedral angle", "1 %", "5 %", "10 %"], rows)
-    print_table(["% of dihedral angles from"] + [f"{10 * i}°" for i in range(18)], classes)
+    return [tables.markdown(["selector", "tetrahedra", "poor", "worst ratio", "smallest dihedral angle", "1 %", "5 %", "10 %"], rows),
+            tables.markdown(["% of dihedral angles from", *(f"{10 * i}°" for i in range(18))], classes)]
 
 
-def plane(command, folder):
+def plane(command):
+    """The lines of two tables: triangles by angle, without and with a bound on the area."""
     rows, bounded = [], []
     for name, (circumcenters, off_centers) in TRIANGLE.items():
-        model = folder / f"{name}.poly"
+        model = MODELS / "planar" / f"{name}.poly"
         for selector, triangle in (("circumcenter", circumcenters), ("off-center", off_centers), ("optimized", None)):
             ours = [command.cells(model, selector, "--min-angle", str(a)) for a in ANGLES]
             rows.append([name, selector] + [f"{n} ({t})" if triangle else n for n, t in zip(ours, triangle or ours)])
@@ -133,32 +130,28 @@ def plane(command, folder):
                 bounded.append([name, AREAS[name], selector] +
                                [command.cells(model, selector, "--min-angle", str(a), "--size", str(AREAS[name]))
                                 for a in (10, 20, 30)])
-    print("### Triangles at a smallest angle (Triangle's in parentheses)\n")
-    print_table(["model", "selector"] + [f"{a}°" for a in ANGLES], rows)
-    print("### With an area bound\n")
-    print_table(["model", "area", "selector", "10°", "20°", "30°"], bounded)
+    return [tables.markdown(["model", "selector", *(f"{a}°" for a in ANGLES)], rows),
+            tables.markdown(["model", "area", "selector", "10°", "20°", "30°"], bounded)]
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("command")
-    parser.add_argument("--planar", type=pathlib.Path)
-    parser.add_argument("--surface", type=pathlib.Path)
+    tables.add_flags(parser)
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         command = Command(arguments.command, folder)
-        print("### Two points 1e-4 apart in the unit cube\n")
-        by_ratio(command, two_points(folder), DISSERTATION)
-        print("### Rocket\n")
-        by_ratio(command, MODELS / "rocket.poly", {})
-        quality(command, MODELS / "rocket.poly", "--radius-edge", "2")
-        if arguments.surface:
-            print("### Elephant\n")
-            quality(command, arguments.surface, "--radius-edge", "2")
-        if arguments.planar:
-            plane(command, arguments.planar)
+        found = {"two points": by_ratio(command, two_points(folder), DISSERTATION),
+                 "rocket by ratio": by_ratio(command, MODELS / "rocket.poly", {})}
+        found["rocket"], found["rocket's angles"] = quality(command, MODELS / "rocket.poly", "--radius-edge", "2")
+        elephant = MODELS / "real" / "surfaces" / "cgal_elephant.off"
+        found["elephant"], found["elephant's angles"] = quality(command, elephant, "--radius-edge", "2")
+        found["angles in the plane"], found["areas in the plane"] = plane(command)
+    for name, lines in found.items():
+        print("\n".join([f"\n{name}\n", *lines]))
+    return sum(tables.keep(arguments, lines, name) for name, lines in found.items()) > 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -19,9 +19,9 @@ import sys
 import tempfile
 import time
 
-import models as input_models
 import suite_machine
 import suite_models
+import tables
 from suite_programs import Configuration, Suite
 
 TEXT_SECONDS = {"cube": (77.2, 47.0, 37.06, 32.29), "bat": (235.2, 142.1, 120.0, 111.2)}  # 1 to 4 threads of 1.28 GHz
@@ -131,7 +131,7 @@ def main():
     lines = lines_of(runs) + ["", f"{suite_machine.words(record)}, medians of {max([r['round'] for r in runs], default=0)}."]
     print("\n".join(lines))
     if a.table:
-        input_models.write_table(a.table, lines, "table 3.5")
+        tables.write_table(a.table, lines, "table 3.5")
     wrong = list(wrong_runs(runs))
     print("".join(f"WRONG: {w}\n" for w in wrong), end="")
     return 1 if wrong else 0

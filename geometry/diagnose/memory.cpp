@@ -22,7 +22,7 @@
 namespace pgdr {
 namespace {
 
-/// Of a run at its peak; the least of those in docs/performance.md.
+/// Of a run at its peak; the least of those in bench/notebook/performance.md.
 template <int D>
 constexpr double bytes_a_cell = D == 3 ? 80 : 50;
 
