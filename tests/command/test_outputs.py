@@ -15,7 +15,7 @@ import threading
 import time
 import unittest
 
-from test_command import BRACKET, COMMAND, PLATE, Case
+from test_command import BRACKET, COMMAND, PLATE, Case, children_seconds
 
 IS_ROOT = os.geteuid() == 0
 
@@ -255,9 +255,9 @@ class Replaced(OutputCase):
         self.assertFalse(self.output.exists())
 
     def test_a_report_that_cannot_be_written_costs_no_meshing(self):
-        begin = time.monotonic()
+        begin = children_seconds()
         self.pgdr("mesh", BRACKET, "-o", self.output, "--size", "0.01", "--report", self.folder / "none" / "report.json", expect=4)
-        self.assertLess(time.monotonic() - begin, 5)  # the mesh takes a minute
+        self.assertLess(children_seconds() - begin, 5)  # the mesh takes a minute
         self.assertFalse(self.output.exists())
 
     def test_unknown_suffixes_are_wrong_usage(self):
