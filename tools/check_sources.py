@@ -8,7 +8,7 @@
   * a room, a folder of a layer, includes its own headers and those of the rooms that ROOMS lets it reach;
   * a public header (<layer>/pgdr/) includes public headers alone, belongs to one room, and no two layers have one of the same
     name; every other header is private;
-  * tools, examples and bench see public headers alone, but for the programs of BENCH_OF_THE_INSIDE;
+  * tools, examples and bench see public headers alone, but for the programs of THE_INSIDE;
   * README.md shows the table of rooms as it is here;
   * CGAL is included by .cpp files and private headers of the layers only;
   * function templates of headers whose namespace bears PGDR_API have it where they are instantiated (export.hpp);
@@ -74,7 +74,8 @@ ROOMS = {
 }
 EVERYWHERE = {"export", "types", "error", "version"}  # public headers of geometry/ that belong to no room
 UMBRELLA = "scheduler/pgdr/pgdr.hpp"  # includes all public headers
-BENCH_OF_THE_INSIDE = {"bench/bench_phases.cpp"}  # measures the phases of an insertion one by one
+# What measures the phases of an insertion one by one, and what shows the method on them.
+THE_INSIDE = {"bench/bench_phases.cpp", "tools/examples/refine_by_hand.cpp"}
 FIRST_LINE, LAST_LINE = "<!-- rooms: python3 tools/check_sources.py --rooms -->\n", "<!-- end of rooms -->\n"
 # A declaration of a function template, to its semicolon; an explicit instantiation.
 TEMPLATE = re.compile(r"^template <int D>\n(?!struct|class|using)[^;{(]*?\b(\w+)\([^;{]*;", re.MULTILINE)
@@ -158,7 +159,7 @@ def check_includes(root, path, text, layer_of, room_of, reached, used):
                 yield f"includes {name}, which no layer has"
             elif folder in LAYERS and LAYERS.index(layer_of[name]) > LAYERS.index(folder):
                 yield f"includes {name} of the higher layer {layer_of[name]}"
-        if private and (public or folder not in LAYERS) and "/".join(parts) not in BENCH_OF_THE_INSIDE:
+        if private and (public or folder not in LAYERS) and "/".join(parts) not in THE_INSIDE:
             yield f"includes the private header {name}"
         if folder in LAYERS and "/".join(parts) != UMBRELLA and here and room_of.get(name):
             used.add((here, room_of[name]))

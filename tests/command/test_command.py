@@ -29,11 +29,6 @@ BRACKET, PLATE = MODELS / "bracket.poly", MODELS / "plate.poly"
 WEDGE = "3 2 0 0\n1 0 0\n2 5 0\n3 5 0.88\n3 0\n1 1 2\n2 2 3\n3 3 1\n0\n"
 
 
-def children_seconds():
-    """The processor's, of all commands that have ended."""
-    return sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
-
-
 class Case(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(prefix="pgdr_")))

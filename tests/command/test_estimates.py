@@ -11,7 +11,7 @@ import resource
 import sys
 import unittest
 
-from test_command import BRACKET, MODELS, PLATE, SANITIZE, Case, children_seconds
+from test_command import BRACKET, MODELS, PLATE, SANITIZE, Case
 
 # Two facets at 6e-6 degrees: no program recovers that boundary in a time that anybody would wait.
 WEDGE = """10 3 0 1
@@ -102,6 +102,11 @@ class Estimates(Case):
         self.assertEqual(self.json()["errors"][0]["code"], "out_of_memory")
         self.assertEqual(len(self.json()["errors"][0]["points"]), 2)
         self.mesh(model, "--max-vertices", "1000", expect=5, preexec_fn=limit)  # the user has bounded it
+
+
+def children_seconds():
+    """The processor's, of all commands that have ended."""
+    return sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
 
 
 class TimeLimit(Case):

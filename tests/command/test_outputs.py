@@ -15,7 +15,8 @@ import threading
 import time
 import unittest
 
-from test_command import BRACKET, COMMAND, PLATE, Case, children_seconds
+from test_command import BRACKET, COMMAND, PLATE, Case
+from test_estimates import children_seconds
 
 IS_ROOT = os.geteuid() == 0
 
