@@ -92,48 +92,103 @@ constexpr double default_min_dihedral = 15;  ///< degrees; mostly reached where 
 constexpr double most_min_dihedral = 35;     ///< degrees; above 30 there is mostly no such mesh
 
 /// What `refine` is asked for. A plain value: the callbacks in it are copied with it, and are called from several threads.
+/// Lengths are in the units of the coordinates. `refine` throws a UsageError (bad_option) that names what is not as REQUIRED
+/// here.
+///
+///   pgdr::RefineOptions<3> options;
+///   options.radius_edge_bound = 2;                                                  // the default, and the least that is proved
+///   options.size = [](const pgdr::Point3& p) { return 0.1 + 0.1 * p[2]; };          // circumradii: finer at the bottom
+///   options.region_sizes = {{7.0, pgdr::SizingField<3>(0.05)}};                     // and at most this in the region labelled 7
+///   options.schedule.threads = 4;                                                   // the mesh does not depend on it
+///   options.time_limit = std::chrono::seconds(60);                                  // then the mesh so far
+///   const auto result = pgdr::refine(plc, options);
 template <int D>
 struct RefineOptions {
-  /// Upper bound on circumradius over shortest edge. Proved for >= 2 (3D, without the optimiser), >= sqrt 2 (2D), away from small
-  /// angles of the input.
+  // ---- what is asked of the cells ------------------------------------------------------------------------------------
+
+  /// Upper bound on circumradius over shortest edge, of each cell. Proved for the default or more (3D: without the optimiser),
+  /// away from small angles of the input. In 2D min_angle_degrees() makes it of an angle. DEFAULT: 2 (3D), the square root of 2
+  /// (2D: 20.7 degrees). REQUIRES: above 0; below what is proved a warning says so.
   double radius_edge_bound = smallest_proved_bound<D>();
-  SizingField<D> size;                                          ///< circumradius (3D) or area (2D) bound at the centroid
-  RegionSizes<D> region_sizes;                                  ///< further such bounds, on the cells of single regions
-  double max_volume = std::numeric_limits<double>::infinity();  ///< 3D: volume bound of all cells; 2D: must be infinite
-  RegionMode regions = RegionMode::seeds;                       ///< what is meshed, and how it is labelled
-  /// 3D: bound on the dihedral angles of all cells in degrees, from 0 to most_min_dihedral, reached by an optimiser after the
-  /// refinement, which gives up that cells are Delaunay. None: default_min_dihedral, or 0 with a selector that is not the default
-  /// one, whose points the optimiser would move. 0: no optimiser.
+
+  /// Bound on the circumradius (3D) or the area (2D) of a cell, at its centroid. A number, or a function that several threads may
+  /// call at once and that says the same of a point each time; it may throw, which ends the run. DEFAULT: none. REQUIRES: above
+  /// 0.
+  SizingField<D> size;
+
+  /// Further such bounds, by label of the region, on the cells of single regions. DEFAULT: none. REQUIRES: sizes above 0.
+  RegionSizes<D> region_sizes;
+
+  /// 3D: bound on the volume of each cell. DEFAULT: infinity, none. REQUIRES: above 0; 2D: infinity.
+  double max_volume = std::numeric_limits<double>::infinity();
+
+  /// 3D: bound on the dihedral angles of all cells in degrees, worked for by an optimiser after the refinement, which gives up
+  /// that cells are Delaunay. 0: no optimiser. DEFAULT: none, which is default_min_dihedral, or 0 with a selector that is not the
+  /// default one, whose points the optimiser would move. REQUIRES: 0 to most_min_dihedral, and `refine`; 2D: none, or 0.
   std::optional<double> min_dihedral;
-  PointSelector<D> selector = default_selector<D>();               ///< empty: circumcentre
-  DiskOptions disk = default_disk<D>();                            ///< the disk in which the selector may put a point
-  OutsidePolicy outside = OutsidePolicy::replace_by_circumcenter;  ///< what becomes of points outside of it (and NaN)
-  bool refine = true;                                              ///< false: boundary recovery alone
-  /// 2D: no new point on any segment. Elements that this leaves poor have the reason kept_boundary.
+
+  // ---- what of the input is meshed, and where points may be ----------------------------------------------------------
+
+  /// What is meshed, and how it is labelled. DEFAULT: every volume but those of hole seeds.
+  RegionMode regions = RegionMode::seeds;
+
+  /// False: boundary recovery alone, without a bound. DEFAULT: true.
+  bool refine = true;
+
+  /// 2D: no new point on any segment. Elements that this leaves poor have the reason kept_boundary. DEFAULT: false. REQUIRES: 2D.
   bool keep_boundary = false;
-  double min_edge = 0;  ///< insertions that would make an edge shorter than this are refused
-  std::uint64_t max_vertices = std::numeric_limits<std::uint64_t>::max();  ///< a budget; input points count
-  std::optional<std::chrono::duration<double>> time_limit;  ///< seconds from the call; then the mesh so far is returned
+
+  /// Insertions that would make an edge shorter than this are refused; it is a length. DEFAULT: 0. REQUIRES: not negative.
+  double min_edge = 0;
+
+  /// Where a new point goes, for an element and the mesh about it (point_selector.hpp). Called by several threads at once.
+  /// DEFAULT: circumcentres (3D), off-centres (2D).
+  PointSelector<D> selector = default_selector<D>();
+  /// The disk in which the selector may put a point. DEFAULT: that in which any choice ends the run.
+  DiskOptions disk = default_disk<D>();
+  /// What becomes of its points outside of the disk (and NaN). DEFAULT: the circumcentre in their place, which is counted.
+  OutsidePolicy outside = OutsidePolicy::replace_by_circumcenter;
+
+  // ---- when it ends --------------------------------------------------------------------------------------------------
+
+  /// So many vertices at most, those of the input among them; then the mesh so far is returned. DEFAULT: no limit.
+  std::uint64_t max_vertices = std::numeric_limits<std::uint64_t>::max();
+
+  /// Seconds from the call; then the mesh so far is returned, which is not reproducible. DEFAULT: none. REQUIRES: not negative.
+  std::optional<std::chrono::duration<double>> time_limit;
+
   /// Cancels the run, from any thread. Each visit ends with the insertion that it is at; then the mesh so far is returned,
-  /// unless `partial_mesh` says no.
+  /// unless `partial_mesh` says no. DEFAULT: nothing can.
   std::stop_token stop;
+
   /// What a run that was cancelled (by `stop`, or as part of the caller's tasks) returns. True: the mesh so far, valid, its
   /// Steiner points and cells in no particular order (as after the time limit), without reasons. False: no mesh, sooner.
+  /// DEFAULT: true.
   bool partial_mesh = true;
-  /// Leaves the points of the input that are in no cell, as they lie outside or in voids, out of the mesh. They are counted, and
-  /// warned of, either way.
-  bool drop_unused_points = false;
-  bool leaves = false;       ///< tell for each cell which leaf of the tree holds its circumcentre (OutputMesh::leaves)
-  ScheduleOptions schedule;  ///< threads, and how work is divided among them
+
   /// Refuse at once, by a ResourceError, an input in whose gaps there are more cells than there is memory for (require_memory()
   /// in estimate.hpp); it takes half a second for a million triangles. Not looked at where `max_vertices`, `time_limit`,
-  /// `min_edge` or `keep_boundary` bound the run, nor without `refine`.
+  /// `min_edge` or `keep_boundary` bound the run, nor without `refine`. DEFAULT: true.
   bool memory_guard = true;
+
+  // ---- how it runs, and what it tells --------------------------------------------------------------------------------
+
+  /// Threads, and how work is divided among them. DEFAULT: all threads of the caller's arena, the same mesh for any number.
+  ScheduleOptions schedule;
+
+  /// Leaves the points of the input that are in no cell, as they lie outside or in voids, out of the mesh. They are counted, and
+  /// warned of, either way. DEFAULT: false.
+  bool drop_unused_points = false;
+
+  /// Tell for each cell which leaf of the tree holds its circumcentre (OutputMesh::leaves). DEFAULT: false.
+  bool leaves = false;
+
   /// Called once, by the thread that calls `refine`, with the input that was checked and before anything is meshed: for an
-  /// estimate, say. May throw.
+  /// estimate, say. May throw. DEFAULT: none.
   std::function<void(const Domain<D>&)> prepared;
+
   /// Called by one thread at a time, a few times a second at most, from any of the threads; and once in the end, unless the run
-  /// was cancelled, with all of it done. May throw.
+  /// was cancelled, with all of it done. May throw. DEFAULT: none.
   std::function<void(const Progress&)> progress;
 };
 
