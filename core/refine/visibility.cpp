@@ -3,7 +3,6 @@
 #include "refine/visibility.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace pgdr {
 namespace {
@@ -57,12 +56,10 @@ std::optional<Entry<D>> wall_that_hides(Workspace<D>& w, CellId c, const Point<D
 template <int D>
 std::optional<Entry<D>> wall_before_distant_point(Workspace<D>& w, CellId c, const Point<D>& x) {
   if constexpr (D == 2) return std::nullopt;
-  constexpr int far = 12;  // powers of two: nearer ones often encroach upon flat subfacets, whose splits leave fewer poor cells
+  // Nearer points often encroach upon flat subfacets, whose splits leave fewer poor cells.
   constexpr double far_for_its_edges = 128;
-  const double away = std::ldexp(1.0, w.context.base_exponent + far);
   const double squared = squared_distance(w.mesh.point(w.mesh.cell(c).vertices[0]), x);
-  const double edges = far_for_its_edges * far_for_its_edges * longest_edge_squared<D>(w.mesh.simplex(c));
-  if (!(squared > std::min(away * away, edges))) return std::nullopt;
+  if (!(squared > far_for_its_edges * far_for_its_edges * longest_edge_squared<D>(w.mesh.simplex(c)))) return std::nullopt;
   w.cavity.release();
   return wall_in_claim(w, c, x);
 }
