@@ -32,11 +32,10 @@
 // - .node, .ele: X.node, X.ele, X.face (3D, subfacets) and X.edge (subsegments), numbered from 1 unless WriteOptions say
 //   0, written all or none. The latter two may be missing when read. X.edge may have all edges, and X.neigh the
 //   neighbours of each cell.
-// - .mesh and .msh as inputs: cells (tetrahedra, hexahedra, ...; in 2D triangles and quadrilaterals) are dropped, with the points
-// that they
-//   alone have, but faces of simplices that bound them, or lie between labels, become facets where the file has none;
-//   labels become region seeds, the voids that the cells enclose holes. A file whose points all have z = 0 is 2D, if it
-//   has no cells of volume.
+// - .mesh and .msh as inputs: cells (tetrahedra, hexahedra, ...; in 2D triangles and quadrilaterals) are dropped, with the
+//   points that they alone have, but faces of simplices that bound them, or lie between labels, become facets where the file
+//   has none; labels become region seeds, the voids that the cells enclose holes. A file whose points all have z = 0 is 2D, if
+//   it has no cells of volume.
 // - .vtu: cells, then subfacets, then subsegments; cell data "region", "leaf" (of the cells) and "marker" (of the others),
 //   point data "marker" and "attributes", field data "dimension" and "input_points"; raw appended data.
 // - .pvtu: X.pvtu names the files X_0.vtu, X_1.vtu, ... of the pieces (mesh_piece.hpp), which have "GlobalPointIds" and

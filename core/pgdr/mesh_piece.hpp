@@ -65,8 +65,8 @@ MeshPiece<D> piece_of(const OutputMesh<D>& mesh, std::uint64_t k, std::uint64_t 
 
 /// The mesh of all its pieces, in any order.
 /// @throws InputError syntax if they are not the pieces of one mesh, each once (rows are missing or there twice, or a point is
-/// not
-///   the same in all), with the number of the row in the mesh; ResourceError ids_exhausted if an OutputMesh cannot index so much
+///   not the same in all), with the number of the row in the mesh; ResourceError ids_exhausted if an OutputMesh cannot index so
+///   much
 template <int D>
 OutputMesh<D> join_pieces(std::span<const MeshPiece<D>> pieces);
 

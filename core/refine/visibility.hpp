@@ -20,9 +20,8 @@ template <int D>
 std::optional<Entry<D>> wall_that_hides(Workspace<D>& w, CellId c, const Point<D>& x);
 
 /// 3D: the wall that hides the point of an element so flat that its point lies many times the element's longest edge away. Where
-/// facets are nearly coplanar such a point is in conflict with other flat elements, often
-/// thousands. They are not collected to find an entity that the point encroaches upon: mostly there is none, and the wall is
-/// split in the end.
+/// facets are nearly coplanar such a point is in conflict with other flat elements, often thousands. They are not collected to
+/// find an entity that the point encroaches upon: mostly there is none, and the wall is split in the end.
 template <int D>
 std::optional<Entry<D>> wall_before_distant_point(Workspace<D>& w, CellId c, const Point<D>& x);
 

@@ -97,8 +97,8 @@ class Domain {
   /// of its edge, point_on_segment; a point and a facet, point_on_facet; the ends of an edge and a facet,
   /// entities_intersect; a flat facet, degenerate_facet), the message at most twenty; `code` is that of the error which
   /// it would have been.
-  /// @throws InputError with ids, coordinates, and file and line if known, and all others among its diagnostics: not_finite,
-  /// index_out_of_range,
+  /// @throws InputError with ids, coordinates, and file and line if known, and all others among its diagnostics:
+  ///   not_finite, index_out_of_range,
   ///   degenerate_facet (of none or several polygons: fewer than three distinct points, or all collinear; enclosing nothing),
   ///   self_crossing_facet (two polygon edges cross, or a vertex lies inside an edge, though in the projection alone),
   ///   seed_on_boundary (the hole of a facet lies on its polygons), no_volume. UsageError bad_option: arrays of another length.

@@ -41,10 +41,15 @@ struct DistributedStatistics {
 /// What one rank has of a mesh that several made.
 template <int D>
 struct DistributedResult {
-  /// Without its mesh; the same on all ranks but for times, threads, predicates and the trace. In `run.scheduler` visits and what
-  /// they set aside are those of all ranks, but for those that all made alike, which count once; work_seconds a sum, without
-  /// waiting, of a rank that left the end of the run to rank 0 its visits alone; serial and critical seconds the most of any
-  /// rank.
+  /// Without its mesh. Its fields are those of one rank, or joined from all:
+  ///
+  ///   | field                                  | of all ranks                                                          |
+  ///   | -------------------------------------- | --------------------------------------------------------------------- |
+  ///   | times, threads, predicates, trace      | this rank's own                                                       |
+  ///   | scheduler: visits, set_aside, ...      | the sum; what all made alike, before the cut, counts once              |
+  ///   | scheduler: work_seconds                | the sum without waiting; only visits, where rank 0 ended the run alone |
+  ///   | scheduler: serial and critical seconds | the most                                                              |
+  ///   | all else                               | equal                                                                 |
   RefineResult<D> run;
   MeshPiece<D> piece;                 ///< of this rank; empty where there is no mesh
   SharingRanks sharing;               ///< which other ranks have each point of the piece
@@ -56,9 +61,8 @@ struct DistributedResult {
 /// same on each; progress and the clock of the time limit are those of rank 0 alone. An exception of a callback, on any rank,
 /// comes out of all: as it is where it was thrown, as RankFailure with its words elsewhere if it is no Error.
 /// @throws what refine() throws, of the lowest rank that failed, on all; UsageError bad_option (also for the greedy schedule,
-/// which
-///   depends on timing); ResourceError unlike_ranks if the ranks did not make the same mesh: unlike input, options, callbacks,
-///   builds; RankFailure
+///   which depends on timing); ResourceError unlike_ranks if the ranks did not make the same mesh: unlike input, options,
+///   callbacks, builds; RankFailure
 template <int D>
 DistributedResult<D> refine(Transport& transport, const Plc<D>& plc, const RefineOptions<D>& options);
 
@@ -66,8 +70,7 @@ DistributedResult<D> refine(Transport& transport, const Plc<D>& plc, const Refin
 /// the same, on a file system that all have; a .pvtu in options.pieces files, or one a rank; other formats by rank 0, which gets
 /// the whole mesh. All ranks call it, with the same name and options. An error of one rank is one of all, and leaves no file.
 /// @throws FileError cannot_write; InputError unknown_format; UsageError bad_option; ResourceError ids_exhausted if there are
-/// more
-///   points or cells than the format holds; RankFailure
+///   more points or cells than the format holds; RankFailure
 template <int D>
 void write_mesh(Transport& transport, const std::string& file, const DistributedResult<D>& result,
                 const WriteOptions& options = {});

@@ -22,8 +22,7 @@ namespace pgdr::detail {
 
 /// The piece of this rank of the finished mesh: that which piece_of() gives of the whole, without leaves. All ranks call it.
 /// @param mesh  has the rank's own cells, whole with their constraints, and may have others. It is taken apart: its memory is
-/// used
-///   for the piece, so that the rank needs little more than for the mesh
+///   used for the piece, so that the rank needs little more than for the mesh
 /// @param region_attributes  the attribute of each region number, on all ranks alike; empty: cells get no labels
 /// @param pieces  the threads; the result does not depend on them
 /// @param unused  gets the points of the Domain that no cell has, ascending, on all ranks
