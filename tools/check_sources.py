@@ -14,7 +14,8 @@
   * function templates of headers whose namespace bears PGDR_API have it where they are instantiated (export.hpp);
   * what never returns takes no std::string or std::vector by value: g++ 12 (-O3, several files as one) takes its stores for
     dead, and so has what was moved from destroyed twice on the way out;
-  * a public header is listed in the CMakeLists.txt of its layer, so that it is installed and compiled alone.
+  * a public header is listed in the CMakeLists.txt of its layer, so that it is installed and compiled alone;
+  * modules of the Python package import each other in no circle, wherever in a module the import stands.
 
 Usage: check_sources.py [ROOT]     (default: the repository of this script)
        check_sources.py --rooms    (prints the table of rooms as Markdown)
@@ -220,6 +221,22 @@ def check_exports(path, text, exported):
             yield f"lacks PGDR_API: {line.strip()}"
 
 
+def check_python(folder):
+    """Complaints about circles of imports among the modules of a package."""
+    imports = {}
+    for path in sorted(folder.glob("*.py")):
+        text = path.read_text(encoding="utf-8")
+        names = set(re.findall(r"^\s*from \.(\w+) import", text, re.MULTILINE))
+        for listed in re.findall(r"^\s*from \. import ([\w, ]+)", text, re.MULTILINE):
+            names.update(listed.replace(" ", "").split(","))
+        imports[path.stem] = names
+    while free := [name for name, needed in imports.items() if not needed & imports.keys()]:
+        for name in free:
+            del imports[name]
+    if imports:
+        yield f"{folder.name}: in circles of imports, or above them: {', '.join(imports)}"
+
+
 def main():
     if sys.argv[1:] == ["--rooms"]:
         print(table_of_rooms(), end="")
@@ -233,6 +250,7 @@ def main():
         layer_of[name] = layer
         if name not in (root / layer / "CMakeLists.txt").read_text(encoding="utf-8").split():
             complaints.append(f"{layer}/{name}: not listed in {layer}/CMakeLists.txt")
+    complaints += check_python(root / "tools" / "python" / "pgdr")
     exported = exported_templates(root)
     room_of = room_of_headers(root)
     complaints += check_rooms(root, layer_of, room_of)

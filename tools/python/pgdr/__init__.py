@@ -8,13 +8,15 @@
 >>> r.points.shape[1], r.cells.shape[1], bool(r.check(square))
 (2, 3, True)
 """
-from ._check import CheckFinding, CheckReport, Finding, check, diagnose, info
+from . import _convert, _polygons, _show  # noqa: F401: methods find their functions (_doors.py)
+from ._check import Finding, check, diagnose, info
 from ._errors import (CancelledError, DiagnosedError, Diagnostic, Error, FileError, InputError, ResourceError, UsageError)
 from ._estimate import Estimate, Gap, Proposal, SharpAngle, estimate
 from ._fields import Field, limit_growth, sizes_at_points, sizes_on_mesh, smallest
 from ._mesh import Mesh, Reason
 from ._pgdr import version as __version__
 from ._plc import Plc, resolve_crossings, with_convex_hull
+from ._report import CheckFinding, CheckReport
 from ._run import Elements, Progress, StopSource, mesh
 from ._tetgen import Tetrahedralization, tetrahedralize
 from ._triangle import triangulate

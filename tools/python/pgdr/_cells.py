@@ -14,6 +14,7 @@ import numpy.typing as npt
 from . import _arguments
 from ._errors import InputError, UsageError, usage
 from ._plc import Plc
+from ._run import mesh
 
 Rows = Union[npt.NDArray[Any], List[npt.NDArray[Any]]]
 LINES, FACES = ("line",), ("triangle", "quad", "polygon")
@@ -143,7 +144,6 @@ def _twice_areas(points: npt.NDArray[Any], *corners: npt.NDArray[Any]) -> npt.ND
 
 
 def _triangles_of(points: npt.NDArray[Any], ring: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    from ._run import mesh
     made = mesh(Plc.from_polygons(points[ring]), refine=False, threads=1)
     corner_of = np.empty(len(made.points), dtype=np.int64)
     corner_of[made.point_of_input] = np.arange(len(made.point_of_input))

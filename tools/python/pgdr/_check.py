@@ -7,54 +7,19 @@ import math
 from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 from . import _arguments, _pgdr
+from ._bounds import bounds_of
+from ._doors import door
 from ._ending import WORK
 from ._errors import Diagnostic, usage
+from ._estimate import estimate_if_valid
 from ._mesh import Mesh
 from ._plc import Plc
+from ._report import CheckReport
 
 _BOUNDS = ("min_angle", "radius_edge", "size", "region_sizes", "min_dihedral", "max_volume", "regions")
 
 
-class CheckFinding(NamedTuple):
-    """Something that is wrong with a mesh."""
-
-    kind: str  #: a stable word such as "inverted_cell"
-    message: str  #: one sentence
-    ids: Sequence[int]  #: the rows of cells, points or entities that it names
-
-
-class CheckReport:
-    """What a check has found. True where a mesh is sound, conforms to its input, and is over a bound only with a reason.
-
-    `exit_code`: 0: everything holds; 1: cells are over a bound, and the reasons say why, or say that nothing better was found;
-    6: anything else. `findings`: the first of what is wrong. The counts: `finding_count`, `over_radius_edge`, `over_size`,
-    `below_dihedral`, `explained`, `unexplained`, `not_delaunay_rounding`, `not_delaunay_refused`.
-    """
-
-    exit_code: int
-    findings: List[CheckFinding]
-    finding_count: int
-    over_radius_edge: int
-    over_size: int
-    below_dihedral: int
-    explained: int
-    unexplained: int
-    not_delaunay_rounding: int
-    not_delaunay_refused: int
-
-    def __init__(self, found: Dict[str, Any]) -> None:
-        self.__dict__.update(found)
-        self.findings = [CheckFinding(*f) for f in found["findings"]]
-
-    def __bool__(self) -> bool:
-        return self.exit_code <= 1
-
-    def __repr__(self) -> str:
-        words = ("everything holds", "sound; cells are over a bound")
-        over = f"{self.finding_count} findings: " + "; ".join(f.message for f in self.findings[:3])
-        return f"<pgdr.CheckReport {self.exit_code}: {words[self.exit_code] if self else over}>"
-
-
+@door
 def check(mesh: Mesh, plc: Optional[Plc] = None, *, delaunay: Optional[bool] = None, reasons: bool = True, **bounds: Any) -> CheckReport:
     """Certifies a mesh, with exact arithmetic: that its cells are one, that it conforms to the input as given, and that the bounds
     hold but where its reasons, each of which is verified, say why not. Those that regions of the input have count unless the run that
@@ -79,7 +44,6 @@ def check(mesh: Mesh, plc: Optional[Plc] = None, *, delaunay: Optional[bool] = N
     >>> pgdr.check(coarse, square, size=0.001).exit_code
     6
     """
-    from ._run import bounds_of
     if not isinstance(mesh, Mesh):
         raise TypeError(f"mesh must be a pgdr.Mesh, not {type(mesh).__name__}")
     if plc is not None and not isinstance(plc, Plc):
@@ -137,7 +101,6 @@ def info(what: Union[Plc, Mesh, _arguments.Path]) -> Dict[str, Any]:
     >>> pgdr.info(pgdr.Plc([[0, 0], [1, 0], [1, 2]], segments=[[0, 1], [1, 2], [2, 0]]))["upper"]
     [1.0, 2.0]
     """
-    from ._estimate import estimate_if_valid
     if not isinstance(what, (Plc, Mesh)):
         file = _arguments.path(what)
         what = Mesh.read(file) if _pgdr.holds_cells(file) else Plc.read(file)

@@ -4,17 +4,17 @@
 from __future__ import annotations
 
 import importlib
-from typing import TYPE_CHECKING, Any, Dict, Iterable, List, Optional, Sequence, Tuple
+from typing import Any, Dict, Iterable, List, Optional, Sequence, Tuple
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _arguments
+from ._cells import FACES, LINES, VOLUMES, block_of, input_of, is_flat
+from ._doors import door
 from ._errors import usage
-
-if TYPE_CHECKING:
-    from ._mesh import Mesh
-    from ._plc import Plc
+from ._mesh import Mesh
+from ._plc import Plc
 
 _MARKERS = ("marker", "gmsh:physical", "medit:ref")  # of constraints, the first that is there
 _LABELS = ("region", "gmsh:physical", "medit:ref")  # of cells
@@ -31,7 +31,6 @@ def _package(name: str) -> Any:
 
 
 def _refuse_own(mesh: Any) -> None:
-    from ._mesh import Mesh
     if isinstance(mesh, Mesh):
         raise TypeError("a pgdr.Mesh is taken by pgdr.Plc.from_mesh")
 
@@ -48,9 +47,9 @@ def _numbers_of(data: Dict[str, Any], names: Iterable[str], block: int, count: i
     return np.zeros(count, dtype=np.int64)
 
 
+@door
 def from_meshio(mesh: Any) -> Plc:
     """See Plc.from_meshio. Vertex blocks add nothing."""
-    from ._cells import FACES, LINES, VOLUMES, block_of, input_of, is_flat
     _refuse_own(mesh)
     if not hasattr(mesh, "points") or not hasattr(mesh, "cells"):
         raise TypeError(f"a meshio.Mesh is taken, with points and cells, not {type(mesh).__name__}")
@@ -72,6 +71,7 @@ def _constraints(mesh: Mesh) -> List[Tuple[str, npt.NDArray[Any], npt.NDArray[An
     return lines if mesh.dimension == 2 else [("triangle", mesh.subfacets, mesh.subfacet_markers)] + lines
 
 
+@door
 def to_meshio(mesh: Mesh) -> Any:
     """A meshio.Mesh: the cells, then in 3D the subfacets, then the subsegments; cell data `region` (0 for constraints) and `marker`
     (0 for cells), as in a .vtu. Raises ImportError without meshio."""
@@ -86,6 +86,7 @@ def to_meshio(mesh: Mesh) -> Any:
                        point_data={"marker": point_markers} if point_markers.size else {})
 
 
+@door
 def to_pyvista(mesh: Mesh) -> Any:
     """A pyvista.UnstructuredGrid of the cells, with cell data `region`; z = 0 in 2D. Raises ImportError without pyvista."""
     pyvista = _package("pyvista")
@@ -145,9 +146,9 @@ def _cells_of_surface(mesh: Any) -> Tuple[List[npt.NDArray[np.int64]], npt.NDArr
     return cells, np.array(kinds, dtype=object)
 
 
+@door
 def from_pyvista(mesh: Any) -> Plc:
     """See Plc.from_pyvista."""
-    from ._cells import FACES, VOLUMES, block_of, input_of, is_flat
     _refuse_own(mesh)
     if hasattr(mesh, "celltypes"):  # a grid may have `faces`, too, those of its polyhedra
         cells, kinds = _cells_of_grid(mesh)

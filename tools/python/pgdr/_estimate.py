@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import Any, Mapping, NamedTuple, Optional, Sequence, Tuple
 
 from . import _pgdr
+from ._bounds import bounds_of, require_walls
 from ._ending import WORK
 from ._errors import InputError
 from ._fields import Size
@@ -64,7 +65,6 @@ def estimate(plc: Plc, *, min_angle: Optional[float] = None, radius_edge: Option
     >>> 500 < ahead.cells < 5000, ahead.narrowest_gap.distance
     (True, 1.0)
     """
-    from ._run import bounds_of, require_walls
     if not isinstance(plc, Plc):
         raise TypeError(f"plc must be a pgdr.Plc, not {type(plc).__name__}")
     require_walls(plc)

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _arguments, _pgdr
+from ._doors import door
 from ._errors import usage
 from ._mesh import Mesh
 
@@ -41,6 +42,7 @@ class Field:
         return self._recipe
 
 
+@door
 def is_lasting(size: object) -> bool:
     """Is a size the same in another process: a number, or a field without functions of Python?"""
     if isinstance(size, Field):

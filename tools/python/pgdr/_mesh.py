@@ -3,18 +3,17 @@
 """Finished meshes."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Tuple, Type
+from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Tuple, Type
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _arguments, _pgdr
+from ._doors import through
 from ._ending import WORK
 from ._errors import Diagnostic, usage
-
-if TYPE_CHECKING:
-    from ._check import CheckReport
-    from ._plc import Plc
+from ._plc import Plc
+from ._report import CheckReport
 
 _CORES: Dict[int, Type[_pgdr._Mesh]] = {2: _pgdr.Mesh2, 3: _pgdr.Mesh3}
 _NO_ENTITY = 0xffffffff
@@ -183,7 +182,6 @@ class Mesh:
     def check(self, plc: Optional[Plc] = None, **bounds: Any) -> CheckReport:
         """`pgdr.check` with the bounds, the reasons and the tolerance of the run that made this mesh; `bounds` are instead of those.
         Of a run that ended early (`stop`), the bounds are not asked for."""
-        from ._check import check
         lost = [name for name, value in self._bounds.items() if value is _Lost and name not in bounds]
         if lost:
             raise usage(f"a pickled mesh has no {' and '.join(lost)} that is a function: give it again")
@@ -194,7 +192,8 @@ class Mesh:
         tolerance = self.statistics.get("tolerance")
         if tolerance is not None and plc is not None and plc.tolerance != tolerance:  # what met then meets now
             plc = plc.with_tolerance(tolerance, coarse=True)
-        return check(self, plc, **asked)
+        report: CheckReport = through("check")(self, plc, **asked)
+        return report
 
     def write(self, path: _arguments.Path, *, first_index: int = 1, edges: bool = False, neighbors: bool = False,
               pieces: int = 0) -> None:
@@ -209,17 +208,15 @@ class Mesh:
 
     def to_meshio(self) -> Any:
         """A meshio.Mesh of the cells, the subfacets and the subsegments, with cell data "region" and "marker"."""
-        from ._convert import to_meshio
-        return to_meshio(self)
+        return through("to_meshio")(self)
 
     def to_pyvista(self) -> Any:
         """A pyvista.UnstructuredGrid of the cells, with cell data "region"."""
-        from ._convert import to_pyvista
-        return to_pyvista(self)
+        return through("to_pyvista")(self)
 
     def _repr_html_(self) -> str:
-        from ._show import repr_html
-        return repr_html(self)
+        drawn: str = through("repr_html")(self)
+        return drawn
 
     def __repr__(self) -> str:
         words = f"<pgdr.Mesh {self.dimension}D: {len(self.points)} points, {len(self.cells)} cells"
@@ -230,7 +227,7 @@ class Mesh:
         core = self._core
         arrays: Dict[str, Any] = {name: np.array(getattr(core, name)) for name in _PICKLED}
         arrays["reasons"] = tuple(np.array(a) for a in core.reason_arrays)
-        from ._fields import is_lasting
+        is_lasting = through("is_lasting")
         bounds = {name: value if all(map(is_lasting, value.values() if name == "region_sizes" else (value,))) else _Lost
                   for name, value in self._bounds.items()}
         return _restored, (self.dimension, arrays, core.input_points, self._facts, bounds)

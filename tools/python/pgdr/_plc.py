@@ -3,18 +3,25 @@
 """Inputs."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Type, Union
+from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Protocol, Sequence, Tuple, Type, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _arguments, _pgdr
+from ._doors import through
 from ._errors import Diagnostic, usage
 
-if TYPE_CHECKING:
-    from ._mesh import Mesh
-
 _CORES: Dict[int, Type[_pgdr._Plc]] = {2: _pgdr.Plc2, 3: _pgdr.Plc3}
+
+
+class _Finished(Protocol):
+    """A `Mesh`, which is made of inputs, so that it is not known here."""
+
+    @property
+    def dimension(self) -> int: ...
+    @property
+    def cells(self) -> npt.NDArray[np.int32]: ...
 
 
 class Plc:
@@ -152,11 +159,11 @@ class Plc:
         >>> pgdr.Plc.from_polygons([[0, 0], [3, 0], [3, 3], [0, 3]], holes=[[[1, 1], [2, 1], [2, 2], [1, 2]]])
         <pgdr.Plc 2D: 8 points, 8 segments, 1 hole>
         """
-        from ._polygons import from_polygons
-        return from_polygons(outer, holes, markers=markers, labels=labels, tolerance=tolerance)
+        made: Plc = through("from_polygons")(outer, holes, markers=markers, labels=labels, tolerance=tolerance)
+        return made
 
     @classmethod
-    def from_mesh(cls, mesh: Mesh) -> Plc:
+    def from_mesh(cls, mesh: _Finished) -> Plc:
         """The boundary of a finished mesh, to be meshed again: its subsegments and subfacets with their markers, what else bounds its
         cells or lies between labels, with marker 0; labels and voids as seeds. Points inside are left out but for those of the input;
         the tolerance is the default, and bounds of regions are not known to a mesh.
@@ -166,10 +173,12 @@ class Plc:
         >>> sorted(set(pgdr.Plc.from_mesh(pgdr.mesh(square, size=0.1)).markers.tolist()))
         [1, 2, 3, 4]
         """
-        from ._mesh import Mesh
-        if not isinstance(mesh, Mesh):
-            raise TypeError(f"mesh must be a pgdr.Mesh, not {type(mesh).__name__}")
-        return cls._of((_pgdr.boundary_of_mesh2 if mesh.dimension == 2 else _pgdr.boundary_of_mesh3)(mesh._core))
+        core = getattr(mesh, "_core", None)
+        if isinstance(core, _pgdr.Mesh2):
+            return cls._of(_pgdr.boundary_of_mesh2(core))
+        if isinstance(core, _pgdr.Mesh3):
+            return cls._of(_pgdr.boundary_of_mesh3(core))
+        raise TypeError(f"mesh must be a pgdr.Mesh, not {type(mesh).__name__}")
 
     @classmethod
     def from_meshio(cls, mesh: Any) -> Plc:
@@ -180,15 +189,15 @@ class Plc:
         labels and the voids become seeds, and points that cells alone have are left out. 2D, where all z are 0 (or missing) and
         nothing has a volume: faces are the cells. Raises UsageError, with what would help, for other cells.
         """
-        from ._convert import from_meshio
-        return from_meshio(mesh)
+        made: Plc = through("from_meshio")(mesh)
+        return made
 
     @classmethod
     def from_pyvista(cls, mesh: Any) -> Plc:
         """The faces and lines of a pyvista.PolyData, or the cells of an UnstructuredGrid: lines, triangles, quadrilaterals, polygons,
         tetrahedra, taken as `from_meshio` takes them, with the same names of cell data. Of other grids, take extract_surface()."""
-        from ._convert import from_pyvista
-        return from_pyvista(mesh)
+        made: Plc = through("from_pyvista")(mesh)
+        return made
 
     def with_tolerance(self, tolerance: Optional[float], *, coarse: bool = False) -> Plc:
         """The same input with another tolerance, None being the rounding of the coordinates. It is copied."""

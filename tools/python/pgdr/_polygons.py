@@ -4,16 +4,16 @@
 from __future__ import annotations
 
 import warnings
-from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Dict, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _arguments
+from ._doors import door
 from ._errors import InputError, usage
-
-if TYPE_CHECKING:
-    from ._plc import Plc
+from ._plc import Plc, resolve_crossings
+from ._run import mesh
 
 _Points = npt.NDArray[Any]
 
@@ -154,8 +154,6 @@ class _Parts(NamedTuple):
 
 def _parts_of(plc: Plc, polygons: Sequence[_Polygon]) -> _Parts:
     """By a triangulation of all edges. Raises InputError where there is none."""
-    from ._plc import resolve_crossings
-    from ._run import mesh
     made = mesh(resolve_crossings(plc)[0], refine=False, regions="all")
     corners = made.points[made.cells]
     edges = corners - np.roll(corners, 1, axis=1)
@@ -189,10 +187,10 @@ def _seeds(plc: Plc, polygons: Sequence[_Polygon], labels: Optional[_Points]) ->
     return np.array(holes).reshape(-1, 2), []
 
 
+@door
 def from_polygons(outer: object, holes: Sequence[object] = (), *, markers: Optional[Sequence[int]] = None,
                   labels: Optional[npt.ArrayLike] = None, tolerance: Optional[float] = None) -> Plc:
     """See Plc.from_polygons."""
-    from ._plc import Plc
     polygons = _polygons_of(outer, holes)
     rings = [ring for polygon in polygons for ring in polygon.rings]
     given = _arguments.markers("markers", list(range(1, len(rings) + 1)) if markers is None else markers, len(rings), "rings")

@@ -5,15 +5,14 @@ caption says so."""
 from __future__ import annotations
 
 import html
-from typing import TYPE_CHECKING, Any, List, Sequence, Tuple
+from typing import Any, List, Sequence, Tuple
 
 import numpy as np
 import numpy.typing as npt
 
+from ._doors import door
 from ._errors import Error
-
-if TYPE_CHECKING:
-    from ._mesh import Mesh
+from ._mesh import Mesh
 
 MOST_CELLS = 4000  # 2D: above, the boundary alone is drawn
 MOST_PIECES = 6000  # faces of a surface, or edges of a boundary: above, evenly chosen ones
@@ -128,6 +127,7 @@ def _rows(mesh: Mesh) -> List[Tuple[str, str]]:
     return rows
 
 
+@door
 def repr_html(mesh: Mesh) -> str:
     """HTML of a picture, coloured by region (2D) or shaded (3D), and of a table. At most some 6,000 polygons, whatever the mesh."""
     picture = ""
