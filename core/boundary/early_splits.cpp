@@ -14,8 +14,6 @@
 namespace pgdr::detail {
 namespace {
 
-constexpr double strips = 4;  // the factor of the bound where segments meet at less than 60 degrees
-
 template <class T>
 std::array<T, 2> sorted_ends(T a, T b) {
   return {std::min(a, b), std::max(a, b)};
@@ -120,21 +118,19 @@ Flags with_wide_ridge(const Domain<3>& domain, const Bulk& bulk) {
 
 }  // namespace
 
-/// Finds the factor of each facet, by the least angle that a segment of it makes with another one. It is 0 unless the facets at
-/// all of these segments meet at 60 degrees or more, and the facet is plane but for rounding.
-void FacetPatches::find_factors() {
+/// Finds the facets whose triangles are split early: those plane but for rounding, at all of whose segments facets meet at 60
+/// degrees or more, and none of whose segments makes less than 20 degrees with another one.
+void FacetPatches::find_calm_facets() {
   const Flags wide = with_wide_ridge(*domain_, *bulk_);
   const std::vector<std::array<bool, 2>> sharp = at_sharp_angle(*domain_, *bulk_);
-  factors_of_bound_.resize(triangles_.size());
+  is_calm_.resize(triangles_.size());
   bulk_->each(triangles_.size(), [&](std::size_t i) {
     const auto f = static_cast<EntityId>(i);
-    double factor = 1;
-    for (const EntityId s : domain_->facet_segments(f)) {
+    const auto segments = domain_->facet_segments(f);
+    is_calm_[f] = std::all_of(segments.begin(), segments.end(), [&](EntityId s) {
       const bool plane = domain_->facets()[f].planarity_defect <= rounding::of_large_plane * domain_->segment_magnitude(s);
-      if (!wide[s] || !plane || sharp[s][0] || sharp[s][1]) factor = 0;
-      if (factor == 1 && chains_->at_small_angle(s)) factor = strips;
-    }
-    factors_of_bound_[f] = factor;
+      return wide[s] && plane && !sharp[s][0] && !sharp[s][1];
+    });
   });
 }
 
@@ -162,24 +158,21 @@ void FacetPatches::find_fragile() {
 
 /// The triangles of the facet that are over its bound.
 auto FacetPatches::poor_triangles(EntityId facet, double bound, double min_edge) const -> std::vector<Candidate> {
-  const double largest = factors_of_bound_[facet] * bound;
   std::vector<Candidate> poor;
-  if (largest == 0) return poor;
   for (const Triangle& t : triangles_[facet]) {
     const Point3 &a = mesh_->point(t[0]), &b = mesh_->point(t[1]), &c = mesh_->point(t[2]);
     const double shortest = std::min({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)});
     const Ball<3> ball = equatorial_ball(a, b, c);
-    if (ball.squared_radius > largest * largest * shortest) poor.push_back({ball, t, std::max(std::sqrt(shortest), min_edge)});
+    if (ball.squared_radius > bound * bound * shortest) poor.push_back({ball, t, std::max(std::sqrt(shortest), min_edge)});
   }
   return poor;
 }
 
 bool FacetPatches::split_poor_triangles(double bound, double min_edge, const std::function<bool()>& stop) {
-  if (factors_of_bound_.empty()) find_factors();
+  if (is_calm_.empty()) find_calm_facets();
   const std::vector<EntityId> facets = bulk_->gather<EntityId>(triangles_.size(),
                                                                [this](std::size_t f, std::vector<EntityId>& out) {
-                                                                 if (factors_of_bound_[f] != 0)
-                                                                   out.push_back(static_cast<EntityId>(f));
+                                                                 if (is_calm_[f]) out.push_back(static_cast<EntityId>(f));
                                                                });
   if (facets.empty()) return false;
   std::vector<SplitPlan> poor = plan_splits(facets, [&](EntityId f) { return poor_triangles(f, bound, min_edge); });

@@ -84,10 +84,6 @@ class SegmentChains {
   VertexId split(const Subsegment& s, double least = 0);
 
   const std::vector<Link>& chain(EntityId segment) const { return chains_[segment]; }
-  /// Does the segment make less than 60 degrees with another one?
-  bool at_small_angle(EntityId segment) const {
-    return shells_.end_of(segment, 0, 0.5) >= 0 || shells_.end_of(segment, 0.5, 1) >= 0;
-  }
   /// Was it made since the last call of take_changed()?
   bool is_new(const Link& link) const { return link.round == round_; }
   /// Segments whose chain has changed since the last call.
@@ -168,7 +164,7 @@ class FacetPatches {
   bool split_triangles(SplitPlan& plan, const std::function<bool()>& stop);
   bool may_split(const Subsegment& s) const;
   std::vector<Candidate> poor_triangles(EntityId facet, double bound, double min_edge) const;
-  void find_factors();
+  void find_calm_facets();
   void find_fragile();
   Point3 centroid_of(const Triangle& t) const;
   VertexId insert_inside(EntityId facet, const Candidate& c, const Point3& x);
@@ -187,7 +183,7 @@ class FacetPatches {
   PresentSimplices<3> faces_;
   std::vector<EntityId> look_again_;              ///< facets that were triangulated anew, or had triangles missing
   std::vector<EntityId> changed_;                 ///< to be triangulated anew
-  std::vector<double> factors_of_bound_;          ///< of each facet; 0 where no triangle is split for its shape
+  std::vector<std::uint8_t> is_calm_;             ///< is a facet one whose triangles are split for their shape?
   std::vector<std::array<VertexId, 2>> fragile_;  ///< sorted: edges at triangles so flat that rounding may turn them over
   std::uint64_t points_ = 0;
   MissingTrend trend_;
