@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Table 3.5 of the dissertation anew: the unit cube and the bat, both schedules and claim rules, over threads.
 
-    bench/table_3_5.py build/release/pgdr [--threads 1,2,4] [--repeat 3] [--minutes M] [--table docs/benchmarks.md]
+    bench/table_3_5.py build/release/pgdr [--threads 1,2,4] [--repeat 3] [--minutes M] [--table bench/notebook/threads.md]
 
 All configurations run by turns, refinement alone (`--no-optimize`), and every mesh goes through `pgdr check`; reproducible meshes of one
 claim rule must have the same bytes. Python's standard library is enough, and `bench/bundle.py` packs what a machine without packages
