@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The narrowest gap, beside one that looks at all pairs; the least angle; estimates of shapes whose meshes are known.
+// The narrowest gap, beside one that looks at all pairs; the least angle; least numbers of cells of
+// shapes whose meshes are known.
 #include "pgdr/estimate.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +11,6 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <span>
 #include <vector>
 
 #include "domain_plcs.hpp"
@@ -165,10 +165,7 @@ Plc<3> two_boxes(double apart) {
 
 template <int D>
 CellEstimate<D> estimate(const Plc<D>& plc) {
-  const Domain<D> domain(plc);
-  EstimateOptions<D> options;
-  options.narrowest = narrowest_gap(domain);
-  return estimate_cells(domain, options);
+  return estimate_cells(Domain<D>(plc));
 }
 
 TEST(NarrowestGap, OfABoxIsBetweenOppositeFaces) {
@@ -320,7 +317,7 @@ TEST(NarrowestGap, IsCancelled) {
   stop.request_stop();
   EXPECT_THROW(narrowest_gap(Domain<3>(box()), {.stop = stop.get_token()}), CancelledError);
   EXPECT_THROW(least_angle(Domain<3>(box()), stop.get_token()), CancelledError);
-  EXPECT_THROW(estimate_cells<3>(Domain<3>(box()), {.narrowest = {}, .measure = {}, .stop = stop.get_token()}), CancelledError);
+  EXPECT_THROW(estimate_cells<3>(Domain<3>(box()), {.measure = {}, .stop = stop.get_token()}), CancelledError);
 }
 
 /// Two facets that meet at an edge along the y axis at that angle, in radians, and what closes the wedge between them.
@@ -365,48 +362,42 @@ TEST(Estimate, OfSlabs) {
   for (const auto& [thickness, cells] : {std::pair{1.0, 6.0}, {0.1, 211.0}, {0.05, 1245.0}, {0.02, 7710.0}})
     for (const Plc<3>& plc : {slab(thickness), turned(slab(thickness)), triangulated(slab(thickness))}) {
       const CellEstimate<3> e = estimate(plc);
-      EXPECT_GT(e.cells, cells / 4) << thickness;
-      EXPECT_LT(e.cells, cells * 4) << thickness;
-      EXPECT_LE(e.at_least, cells) << thickness;
+      EXPECT_GE(e.cells, 3) << thickness;  // 12 triangles, four a cell
+      EXPECT_LE(e.cells, cells) << thickness;
+      EXPECT_LE(e.at_least, e.cells) << thickness;
       EXPECT_TRUE(thickness >= 0.1 || e.at_least > cells / 50) << thickness;
     }
 }
 
 /// Layers as thin as those of printed circuits: what takes days to count.
-/// One estimate in some fifty is off by more than a factor of four: looked at are the middle ones of five turns.
 TEST(Estimate, OfVeryThinSlabs) {
   for (const double thickness : {1e-3, 1e-5, 1e-7})
-    for (const bool is_turned : {false, true}) {
+    for (const double angle : {0.0, 0.1, 0.7, 1.3}) {
       const double expected = 3.1 / (thickness * thickness);  // as of those that are not so thin
-      std::vector<double> cells;
-      for (const double angle : {0.1, 0.4, 0.7, 1.0, 1.3}) {
-        const CellEstimate<3> e = estimate(is_turned ? turned(slab(thickness), angle) : slab(thickness));
-        cells.push_back(e.cells);
-        EXPECT_LT(e.at_least, expected);
-        EXPECT_GT(e.at_least, expected / 50);
-        ASSERT_TRUE(e.most_due_to);
-        EXPECT_NEAR(e.most_due_to->distance, thickness, 1e-9 * thickness + 1e-15);
-      }
-      std::sort(cells.begin(), cells.end());
-      EXPECT_GT(cells[2], expected / 4) << thickness;
-      EXPECT_LT(cells[2], expected * 4) << thickness;
+      const CellEstimate<3> e = estimate(angle > 0 ? turned(slab(thickness), angle) : slab(thickness));
+      EXPECT_LT(e.at_least, expected);
+      EXPECT_GT(e.at_least, expected / 50);
+      EXPECT_EQ(e.cells, e.at_least);
+      ASSERT_TRUE(e.most_due_to);
+      EXPECT_NEAR(e.most_due_to->distance, thickness, 1e-9 * thickness + 1e-15);
     }
 }
 
-/// A cube with a small cube taken out of its middle: some 70 tetrahedra more for each halving of that.
+/// A cube with a small cube in its middle, each of whose 12 triangles has two sides, or one where it is taken out: then there are
+/// some 70 tetrahedra more for each halving of that.
 TEST(Estimate, OfASmallVoid) {
   for (const auto& [side, cells] : {std::pair{0.1, 196.0}, {0.01, 528.0}, {0.001, 761.0}, {0.0001, 973.0}}) {
     Plc<3> plc = slab(1);
-    const Plc<3> small = slab(1);
-    for (const Point3& p : small.points)
+    for (const Point3& p : slab(1).points)
       plc.points.push_back({0.5 + side * (p[0] - 0.5), 0.5 + side * (p[1] - 0.5), 0.5 + side * (p[2] - 0.5)});
-    for (auto facet : small.facets) {
+    for (auto facet : slab(1).facets) {
       for (std::uint32_t& v : facet.polygons[0]) v += 8;
       plc.facets.push_back(facet);
     }
-    const CellEstimate<3> e = estimate(plc);
-    EXPECT_GT(e.cells, cells / 3) << side;
-    EXPECT_LT(e.cells, cells * 3) << side;
+    EXPECT_EQ(std::max(estimate(plc).at_least, 9.0), estimate(plc).cells) << side;
+    plc.holes = {{0.5, 0.5, 0.5}};
+    EXPECT_EQ(std::max(estimate(plc).at_least, 6.0), estimate(plc).cells) << side;
+    EXPECT_LE(estimate(plc).cells, cells) << side;
   }
 }
 
@@ -416,9 +407,9 @@ TEST(Estimate, OfRectangles) {
     plc.points = {{{0, 0}}, {{1, 0}}, {{1, height}}, {{0, height}}};
     for (std::uint32_t i = 0; i < 4; ++i) plc.segments.push_back({{i, (i + 1) % 4}, 0});
     const CellEstimate<2> e = estimate(plc);
-    EXPECT_GT(e.cells, cells / 3) << height;
-    EXPECT_LT(e.cells, cells * 3) << height;
-    EXPECT_LE(e.at_least, cells) << height;
+    EXPECT_GT(e.cells, cells / 30) << height;
+    EXPECT_LE(e.cells, cells) << height;
+    EXPECT_LE(e.at_least, e.cells) << height;
   }
 }
 
@@ -428,11 +419,21 @@ TEST(Estimate, CountsSizes) {
     EstimateOptions<3> options;
     options.measure = [&](const Point3&, double) { return volume; };
     const CellEstimate<3> e = estimate_cells(domain, options);
-    EXPECT_NEAR(e.cells * volume, 1, 0.02);
+    EXPECT_NEAR(e.cells * volume, 1, 1e-9);
     EXPECT_LE(e.at_least, 6);  // sizes do not count
     options.measure = [&](const Point3& p, double) { return p[0] < 0.125 ? volume : infinity; };
     EXPECT_NEAR(estimate_cells(domain, options).cells * volume, 0.125, 0.02);
+    options.measure = [&](const Point3& p, double) { return volume / p[0]; };  // the integral of x is 1/2
+    EXPECT_NEAR(estimate_cells(domain, options).cells * volume, 0.5, 0.02);
   }
+}
+
+/// A plate so thin that no place of a grid is in it, oblique in a box that is larger than it.
+TEST(Estimate, CountsSizesInWhatIsThin) {
+  EstimateOptions<3> options;
+  options.radius_edge_bound = infinity;
+  options.measure = [&](const Point3&, double) { return 1e-12; };
+  EXPECT_NEAR(estimate_cells<3>(Domain<3>(turned(slab(1e-7), 0.5)), options).cells * 1e-5, 1, 1e-6);
 }
 
 /// Two boxes with a face in common, and a size for one of them.
@@ -442,11 +443,11 @@ TEST(Estimate, CountsSizesOfRegions) {
     for (const double x : {0.0, 2.0}) plc.points.push_back({x, y, 1});
   plc.facets.push_back({{{8, 9, 11, 10}}, {}, 0});  // cuts off a third
   plc.regions = {{{{1, 0.5, 0.5}}, 7, 1e-5}, {{{1, 0.5, 2}}, 8, 0}};
-  EXPECT_NEAR(estimate(plc).cells * 0.54e-5, 2, 0.2);
+  EXPECT_NEAR(estimate(plc).cells * 1e-5, 2, 1e-9);
   const Domain<3> domain(plc);
   EstimateOptions<3> options;
   options.measure = [](const Point3&, double label) { return label == 8 ? 1e-6 : infinity; };
-  EXPECT_NEAR(estimate_cells(domain, options).cells * 1e-6, 4, 0.5);
+  EXPECT_NEAR(estimate_cells(domain, options).cells * 1e-6, 4 + 0.1 * 2, 1e-9);
 }
 
 /// Outside of the input there are no cells.
@@ -456,7 +457,7 @@ TEST(Estimate, LeavesOutWhatIsOutside) {
   plc.facets = {{{{0, 1, 2}}, {}, 0}, {{{0, 1, 3}}, {}, 0}, {{{0, 2, 3}}, {}, 0}, {{{1, 2, 3}}, {}, 0}};
   EstimateOptions<3> options;
   options.measure = [](const Point3&, double) { return 1e-7; };
-  EXPECT_NEAR(estimate_cells<3>(Domain<3>(plc), options).cells * 1e-7, 1.0 / 3, 0.1);
+  EXPECT_NEAR(estimate_cells<3>(Domain<3>(plc), options).cells * 1e-7, 1.0 / 3, 1e-9);
 }
 
 /// One after the other, the last first.
@@ -483,9 +484,8 @@ TEST(Estimate, DoesNotDependOnTheOrderOfPieces) {
   EXPECT_EQ(again.facets().size(), domain.facets().size());
   EXPECT_EQ(narrowest_gap(again)->points, gap->points);
   EXPECT_EQ(least_angle(again)->entities, angle->entities);
-  const CellEstimate<3> estimate = estimate_cells(again, options);
-  EXPECT_EQ(estimate.cells, expected.cells);
-  EXPECT_EQ(estimate.at_least, expected.at_least);
+  EXPECT_EQ(estimate_cells(again, options).cells, expected.cells);
+  EXPECT_EQ(estimate_cells(again, options).at_least, expected.at_least);
 }
 
 TEST(Estimate, IsTheSameAgain) {

@@ -42,13 +42,13 @@ JsonObject to_json(const Domain<D>& domain, EntityRef e) {
   return entity;
 }
 
-/// Two digits, as more of them would be made up.
+/// Two digits, as more of them would be made up; rounded down.
 template <int D>
-std::string about_cells(double cells) {
+std::string at_least_cells(double cells) {
   const double power = std::pow(10, std::floor(std::log10(std::max(cells, 1.0))) - 1);
-  const double rounded = power > 1 ? std::round(cells / power) * power : std::round(cells);
-  if (rounded < 1e15) return "about " + count_cells<D>(static_cast<std::uint64_t>(rounded));
-  return format("about %.1e ", rounded) + (D == 3 ? "tetrahedra" : "triangles");
+  const double rounded = power > 1 ? std::floor(cells / power) * power : std::floor(cells);
+  if (rounded < 1e15) return "at least " + count_cells<D>(static_cast<std::uint64_t>(rounded));
+  return format("at least %.1e ", rounded) + (D == 3 ? "tetrahedra" : "triangles");
 }
 
 }  // namespace
@@ -62,7 +62,6 @@ Outlook<D> look_ahead(const Domain<D>& domain, const Bounds<D>& bounds, bool ref
   outlook.angle = least_angle<D>(domain, stop);
   if (!refines) return outlook;
   EstimateOptions<D> options = estimate_options<D>(bounds);
-  options.narrowest = outlook.gap;
   options.voids_by_nesting = voids_by_nesting;
   options.stop = stop;
   outlook.estimate = estimate_cells<D>(domain, options);
@@ -71,7 +70,7 @@ Outlook<D> look_ahead(const Domain<D>& domain, const Bounds<D>& bounds, bool ref
 
 template <int D>
 void set_outlook(Report& report, const Domain<D>& domain, const Outlook<D>& outlook) {
-  if (outlook.estimate) report.set("estimated_cells", std::round(outlook.estimate->cells));
+  if (outlook.estimate) report.set("estimated_cells", std::floor(outlook.estimate->cells));
   if (!outlook.gap) return report.set("narrowest_gap", nullptr);
   const Gap<D>& gap = *outlook.gap;
   report.set("narrowest_gap",
@@ -82,7 +81,7 @@ void set_outlook(Report& report, const Domain<D>& domain, const Outlook<D>& outl
 
 template <int D>
 void print_outlook(const Domain<D>& domain, const Outlook<D>& outlook) {
-  if (outlook.estimate) print_row("estimate", about_cells<D>(outlook.estimate->cells));
+  if (outlook.estimate) print_row("estimate", at_least_cells<D>(outlook.estimate->cells));
   if (outlook.gap) {
     const Gap<D>& gap = *outlook.gap;
     print_row("narrowest", words_of(domain, gap.entities) + ", " + digits(gap.distance) + " apart, at " + words(gap.points[0]) +

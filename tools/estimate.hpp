@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is said before a mesh is made: about how many cells it will have, and which entities of the input are nearest to each
+// What is said before a mesh is made: how many cells it takes at least, and which entities of the input are nearest to each
 // other.
 #pragma once
 

@@ -13,13 +13,14 @@
 
 namespace pgdr::tool {
 
-/// The average volume (area) of the cells of a cube (square) by its bound: on the circumradius, and on the volume (area).
-inline constexpr double volume_by_radius = 0.2, volume_by_bound = 0.54, area_by_bound = 0.65;
+/// Of the largest tetrahedron, a regular one, in a sphere of radius 1: 8 sqrt 3 / 27.
+inline constexpr double largest_in_sphere = 0.5132002392796674;
 
+/// The largest volume (area) of a cell within a bound on its circumradius (2D: on its area).
 template <int D>
 double measure_of_size(double size) {
   if (!(size > 0)) return std::numeric_limits<double>::infinity();  // the run will say that it cannot be used
-  return D == 3 ? volume_by_radius * size * size * size : area_by_bound * size;
+  return D == 3 ? largest_in_sphere * size * size * size : size;
 }
 
 /// EstimateOptions::measure of these sizes, which it has copies of; empty where they bound nothing.
@@ -28,7 +29,7 @@ std::function<double(const Point<D>&, double)> measure_of_sizes(const SizingFiel
                                                                 double max_volume) {
   if (!size.bounded() && region_sizes.empty() && max_volume == std::numeric_limits<double>::infinity()) return {};
   return [=](const Point<D>& x, double label) {
-    double measure = std::min(measure_of_size<D>(size.at(x)), volume_by_bound * max_volume);
+    double measure = std::min(measure_of_size<D>(size.at(x)), max_volume);
     for (const RegionSize<D>& region : region_sizes)
       if (region.label == label) measure = std::min(measure, measure_of_size<D>(region.size.at(x)));
     return measure;

@@ -14,6 +14,7 @@
 
 #include "diagnose/chance.hpp"
 #include "numbers/vectors.hpp"
+#include "space/box_tree.hpp"
 
 namespace pgdr::detail {
 namespace {
@@ -95,11 +96,79 @@ double distance_of_subfacet(double radius_edge_bound, double measure) {
   return D == 3 ? std::sqrt(measure / at_one) : measure / at_one;
 }
 
+/// A piece, and where it is nearest to a point.
+template <int D>
+struct Near {
+  std::uint32_t piece = no_entity;  ///< no_entity: there is none
+  double distance = infinity;
+  Point<D> place;
+};
+
+/// What comes nearest to a place on a piece, of what the entity of that has no point in common with.
+template <int D>
+class NearestDisjoint {
+ public:
+  NearestDisjoint(const NearPieces<D>& pieces, const MeshedSpace<D>& space, const Bulk& bulk)
+      : pieces_(pieces),
+        space_(space),
+        tree_(pieces.boxes(0, bulk), bulk),
+        least_facet_below_(tree_.least_below(facets_of_pieces(1, bulk), bulk)),
+        greatest_facet_below_(tree_.least_below(facets_of_pieces(-1, bulk), bulk)) {}
+
+  /// Where what is between is meshed. A large facet of many triangles is passed over where a node of the tree has no others.
+  /// Behind walls there may be any number of pieces: where so many are, the place counts as one that nothing is near to.
+  Near<D> from(const Place<D>& place) const {
+    constexpr int most_blocked = 64;
+    const PieceOf<D>& own = pieces_.pieces()[place.piece];
+    const double facet = own.count == 3 ? own.facet : -1.0;
+    Near<D> near;
+    int blocked = 0;
+    tree_.nearest(
+        [&](const Box<D>& box, std::uint32_t node) {
+          const bool is_own = least_facet_below_[node] == facet && greatest_facet_below_[node] == -facet;
+          return is_own ? infinity : std::sqrt(box.squared_distance_to(place.x));
+        },
+        [&](std::uint32_t i) {
+          const PieceOf<D>& piece = pieces_.pieces()[i];
+          const auto closest = pieces_.closest(place.x, piece);
+          const double distance = std::sqrt(closest.square);
+          const bool is_nearer = distance < near.distance || (distance == near.distance && i < near.piece);
+          const Point<D>& to = closest.points[1];
+          if (blocked == most_blocked) return -infinity;
+          if (!is_nearer || !space_.may_face(place.piece, to) || !space_.may_face(i, place.x) ||
+              !pieces_.are_disjoint(own, piece))
+            return near.distance;
+          if (space_.is_between(place.x, to))
+            near = {i, distance, to};
+          else
+            ++blocked;
+          return near.distance;
+        });
+    return near;
+  }
+
+ private:
+  /// Of each piece its facet, with a sign; of those that are of none a number that no facet has.
+  std::vector<double> facets_of_pieces(double sign, const Bulk& bulk) const {
+    std::vector<double> facets(pieces_.pieces().size());
+    bulk.each(facets.size(), [&](std::size_t i) {
+      const PieceOf<D>& piece = pieces_.pieces()[i];
+      facets[i] = sign * (piece.count == 3 ? piece.facet : double{no_entity});
+    });
+    return facets;
+  }
+
+  const NearPieces<D>& pieces_;
+  const MeshedSpace<D>& space_;
+  const BoxTree<D> tree_;
+  const std::vector<double> least_facet_below_, greatest_facet_below_;  ///< the latter with its sign changed
+};
+
 template <int D>
 class CellsBetween {
  public:
-  CellsBetween(const SizeFieldOfGaps<D>& field, double radius_edge_bound, const Bulk& bulk)
-      : field_(field), pieces_(field.pieces()), bound_(radius_edge_bound), bulk_(bulk) {}
+  CellsBetween(const NearPieces<D>& pieces, const MeshedSpace<D>& space, double radius_edge_bound, const Bulk& bulk)
+      : pieces_(pieces), space_(space), nearest_(pieces, space, bulk), bound_(radius_edge_bound), bulk_(bulk) {}
 
   void add_to(CellEstimate<D>& estimate) {
     const std::vector<Place<D>> places = choose_places(pieces_, bulk_);
@@ -133,14 +202,14 @@ class CellsBetween {
   std::optional<Found> look_at(const Place<D>& place) const {
     const Piece& piece = pieces_.pieces()[place.piece];
     const Point<D>& x = place.x;
-    const auto near = field_.nearest_disjoint(x, place.piece, infinity);
+    const Near<D> near = nearest_.from(place);
     if (near.piece == no_entity || pieces_.pieces()[near.piece].count < D || !(near.distance > 0)) return std::nullopt;
     const Piece& other = pieces_.pieces()[near.piece];
     const auto n = normal_of(pieces_, piece), m = normal_of(pieces_, other), way = difference(x, near.place);
     const double nn = dot(n, n), mm = dot(m, m), nm = dot(n, m), above = std::fabs(dot(way, m));
     if (!(mm > 0) || !(above >= (1 - 0x1p-20) * near.distance * std::sqrt(mm)) || nm == 0)
       return std::nullopt;  // its rim is nearest
-    if (!field_.space().is_between(x, near.place)) return std::nullopt;
+    if (!space_.is_between(x, near.place)) return std::nullopt;
     const double cosine = std::min(1.0, std::fabs(nm) / std::sqrt(nn * mm)), tangent = std::sqrt(1 - cosine * cosine) / cosine;
     const double radius = std::sqrt(2.0) * bound_ * near.distance, farther = near.distance + 2 * radius * tangent;
     const EntityRef a = piece.entity(), b = other.entity();
@@ -148,7 +217,7 @@ class CellsBetween {
                  gap_between(a, b, x, near)};
   }
 
-  Gap<D> gap_between(EntityRef a, EntityRef b, const Point<D>& x, const typename SizeFieldOfGaps<D>::Near& near) const {
+  Gap<D> gap_between(EntityRef a, EntityRef b, const Point<D>& x, const Near<D>& near) const {
     Gap<D> gap{near.distance * pieces_.unit(), {a, b}, {}};
     for (int k = 0; k < D; ++k) {
       gap.points[0][k] = x[k] * pieces_.unit();
@@ -157,8 +226,9 @@ class CellsBetween {
     return gap;
   }
 
-  const SizeFieldOfGaps<D>& field_;
   const NearPieces<D>& pieces_;
+  const MeshedSpace<D>& space_;
+  const NearestDisjoint<D> nearest_;
   const double bound_;
   const Bulk& bulk_;
   std::map<std::pair<EntityId, EntityId>, Between> between_;  // by their entities
@@ -205,8 +275,9 @@ bool is_any_near(const NearPieces<D>& pieces, const PlacesAlongAxis<D>& places, 
 }  // namespace
 
 template <int D>
-void add_cells_between(const SizeFieldOfGaps<D>& field, double radius_edge_bound, const Bulk& bulk, CellEstimate<D>& estimate) {
-  if (radius_edge_bound < infinity) CellsBetween<D>(field, radius_edge_bound, bulk).add_to(estimate);
+void add_cells_between(const NearPieces<D>& pieces, const MeshedSpace<D>& space, double radius_edge_bound, const Bulk& bulk,
+                       CellEstimate<D>& estimate) {
+  if (radius_edge_bound < infinity) CellsBetween<D>(pieces, space, radius_edge_bound, bulk).add_to(estimate);
 }
 
 template <int D>
@@ -219,8 +290,8 @@ bool may_take_more_cells_between(const NearPieces<D>& pieces, double radius_edge
   return is_any_near(pieces, PlacesAlongAxis<D>(std::move(places)), width, bulk);
 }
 
-#define PGDR_INSTANTIATE(D)                                                                             \
-  template void add_cells_between<D>(const SizeFieldOfGaps<D>&, double, const Bulk&, CellEstimate<D>&); \
+#define PGDR_INSTANTIATE(D)                                                                                               \
+  template void add_cells_between<D>(const NearPieces<D>&, const MeshedSpace<D>&, double, const Bulk&, CellEstimate<D>&); \
   template bool may_take_more_cells_between<D>(const NearPieces<D>&, double, double, const Bulk&);
 PGDR_INSTANTIATE(2)
 PGDR_INSTANTIATE(3)

@@ -9,15 +9,16 @@
 // apart as at the other end of such a subfacet.
 #pragma once
 
+#include "diagnose/meshed_space.hpp"
 #include "diagnose/near_pieces.hpp"
-#include "diagnose/size_field_of_gaps.hpp"
 #include "pgdr/estimate.hpp"
 
 namespace pgdr::detail {
 
 /// Looks at some hundred places on the pieces, spread evenly over their area (length). Sets `at_least` and `most_due_to`.
 template <int D>
-void add_cells_between(const SizeFieldOfGaps<D>& field, double radius_edge_bound, const Bulk& bulk, CellEstimate<D>& estimate);
+void add_cells_between(const NearPieces<D>& pieces, const MeshedSpace<D>& space, double radius_edge_bound, const Bulk& bulk,
+                       CellEstimate<D>& estimate);
 
 /// May `at_least` be more than so many cells? Each of the same places has no more than its part of them, unless something that
 /// its entity has no point in common with is nearer to it than a width that follows; whatever is between the two. So no tree is

@@ -15,8 +15,6 @@
 namespace pgdr::detail {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 template <int D>
 std::vector<Box<D>> boxes_of_walls(const NearPieces<D>& pieces, std::uint32_t walls, const Bulk& bulk) {
   std::vector<Box<D>> boxes = pieces.boxes(0, bulk);
@@ -185,7 +183,7 @@ auto FirstHits<D>::first(const Ray& ray, std::uint32_t after) const -> Hit {
   tree_.nearest(
       [&](const Box<D>& box, std::uint32_t) {
         const Interval in = inside(ray, box);
-        return in.low <= in.high && in.high >= least ? in.low : infinity;
+        return in.low <= in.high && in.high >= least ? in.low : std::numeric_limits<double>::infinity();
       },
       [&](std::uint32_t i) {
         if (found.kind == Kind::on_wall || found.kind == Kind::degenerate || i == after) return limit;

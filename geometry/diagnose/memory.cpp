@@ -114,9 +114,9 @@ void require_memory(const Domain<D>& domain, const EstimateOptions<D>& options) 
   constexpr double always_room_for = 1e5;  // cells: asking for the memory takes longer than the mesh of a cube
   if (!may_take_more(always_room_for) || !may_take_more(available_memory() / bytes_a_cell<D>)) return;
   CellEstimate<D> estimate;
-  const detail::SizeFieldOfGaps<D> field(domain, options, bulk);
+  const detail::MeshedSpace<D> space(pieces, options.voids_by_nesting, bulk, stop_check);
   stop_check();
-  detail::add_cells_between(field, options.radius_edge_bound, bulk, estimate);
+  detail::add_cells_between(pieces, space, options.radius_edge_bound, bulk, estimate);
   stop_check();
   require_memory(domain, estimate);
 }

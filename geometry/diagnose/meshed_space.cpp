@@ -224,26 +224,15 @@ bool MeshedSpace<D>::has(std::uint32_t piece) const {
   if (piece < hits_.walls()) return bounds(piece);
   const auto corners = pieces_.pieces()[piece].points();
   const auto p = pieces_.points();
-  return is_meshed(on_edge(p[corners.front()], p[corners.back()], 0.5));
+  const Volume* const about = volume_at(on_edge(p[corners.front()], p[corners.back()], 0.5));
+  return about && about->meshed;
 }
 
 template <int D>
 bool MeshedSpace<D>::may_face(std::uint32_t piece, const Point<D>& x) const {
   if (piece >= hits_.walls()) return true;
   const Sign side = hits_.side(piece, x);
-  return side == Sign::zero ? bounds(piece) : is_side_meshed(piece, side == Sign::negative);
-}
-
-template <int D>
-bool MeshedSpace<D>::may_face_from_segment(EntityId segment, const Point<D>& x) const requires(D == 3) {
-  const Domain<D>& domain = pieces_.domain();
-  const auto& [a, b] = domain.segments()[segment].points;
-  const auto facets = domain.facets_of_segment(segment);
-  if (facets.empty()) return true;
-  for (const EntityId f : facets)
-    for (const std::uint32_t wall : domain.triangles_at(f, a))
-      if (pieces_.pieces()[wall].has(b) && may_face(wall, x)) return true;
-  return false;
+  return side == Sign::zero ? bounds(piece) : volume_beside(piece, side == Sign::negative).meshed;
 }
 
 template <int D>

@@ -33,18 +33,17 @@ class MeshedSpace {
   /// Points are in unit scale here and below. @throws CancelledError
   MeshedSpace(const NearPieces<D>& pieces, bool voids_by_nesting, const Bulk& bulk, const StopCheck& stop_check);
 
+  std::uint32_t walls() const { return hits_.walls(); }                   ///< the first of the pieces
+  std::span<const Volume> volumes() const { return volumes_; }            ///< the outside first
+  const Volume& volume_beside(std::uint32_t wall, bool negative) const {  ///< on its positive or negative side
+    return volumes_[volume_of_[2 * wall + negative]];
+  }
   /// The volume that x is inside of; null on a wall, or if nothing is known.
   const Volume* volume_at(const Point<D>& x) const;
-  bool is_meshed(const Point<D>& x) const {
-    const Volume* v = volume_at(x);
-    return v && v->meshed;
-  }
   /// Is the piece in what is meshed, or on its boundary?
   bool has(std::uint32_t piece) const;
   /// May what is between the piece and x be meshed, by the side of the piece that x is on?
   bool may_face(std::uint32_t piece, const Point<D>& x) const;
-  /// The same of a segment of facets: a way from it to x begins in a volume that has a wall at less than 180 degrees from x.
-  bool may_face_from_segment(EntityId segment, const Point<D>& x) const requires(D == 3);
   /// Is all that is between two points of pieces in one volume that is meshed, or (3D) on one facet that bounds such a volume?
   /// With `meshed` false: in one that is not, or on one that bounds none.
   bool is_between(const Point<D>& a, const Point<D>& b, bool meshed = true) const;
@@ -82,8 +81,7 @@ class MeshedSpace {
   void walls_at(const Point<D>& x, double near, const Visit& visit) const;
   bool is_in_volume(const Point<D>& a, const Point<D>& b, bool meshed) const;
   bool is_along_facet(const Point<D>& a, const Point<D>& b, bool meshed) const requires(D == 3);
-  bool is_side_meshed(std::uint32_t wall, bool negative) const { return volumes_[volume_of_[2 * wall + negative]].meshed; }
-  bool bounds(std::uint32_t wall) const { return is_side_meshed(wall, false) || is_side_meshed(wall, true); }
+  bool bounds(std::uint32_t wall) const { return volume_beside(wall, false).meshed || volume_beside(wall, true).meshed; }
 
   const NearPieces<D>& pieces_;
   const FirstHits<D> hits_;

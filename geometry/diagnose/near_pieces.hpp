@@ -44,10 +44,6 @@ class NearPieces {
 
   /// Is the edge a segment of the Domain?
   bool is_segment(std::uint32_t a, std::uint32_t b) const;
-  /// The same of an edge of the piece.
-  bool is_segment(const Piece& of, std::uint32_t a, std::uint32_t b) const {
-    return of.count == 2 || domain_->facets()[of.facet].triangle_count == 1 || is_segment(a, b);
-  }
   /// Does the piece, with the whole facet that it is of, have this point?
   bool owner_has(const Piece& piece, std::uint32_t v) const;
   /// Do the entities of two pieces have no point in common?

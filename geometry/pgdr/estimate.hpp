@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What a mesh of an input will be like, before it is made: how near its entities are to each other, at what angles they meet, and
-// about how many cells that takes. Near-linear time (half a second for a million triangles), but for inputs of long thin
+// how many cells it takes at least. Near-linear time (half a second for a million triangles), but for inputs of long thin
 // triangles whose boxes all overlap. What comes out does not depend on the number of threads. Pure functions; long loops run on
 // the threads of the caller's tbb::task_arena, and any number of calls may run at once.
 #pragma once
@@ -70,27 +70,31 @@ std::optional<SharpAngle<D>> least_angle(const Domain<D>& domain, const std::sto
 /// What is known beside the Domain.
 template <int D>
 struct EstimateOptions {
-  std::optional<Gap<D>> narrowest;  ///< what narrowest_gap() has found: nothing smaller is looked for
-  bool voids_by_nesting = false;    ///< as GapOptions
-  double radius_edge_bound = 2;     ///< as RefineOptions
-  /// The average volume (area) of the cells about x, in a region of this label, that sizes ask for; infinity: none do. Empty:
-  /// none do anywhere. Those of the regions' seeds (RegionSeed::size) are looked at without it. Several threads call it.
+  bool voids_by_nesting = false;  ///< as GapOptions
+  double radius_edge_bound = 2;   ///< as RefineOptions
+  /// The largest volume (area) of a cell about x, in a region of this label, that sizes allow, in units of the input; infinity:
+  /// none do. Empty: none do anywhere. Those of the regions' seeds (RegionSeed::size) are looked at without it. Several threads
+  /// call it.
   std::function<double(const Point<D>& x, double label)> measure;
   std::stop_token stop = {};  ///< ends it by a CancelledError
 };
 
-/// How many cells there will be.
+/// How many cells there will be at least, in a mesh that meets the bounds. What else bounds a run does not count
+/// (RefineOptions::min_edge, max_vertices, keep_boundary).
 template <int D>
 struct CellEstimate {
-  /// About so many, mostly within a factor of three. Infinity is none.
+  /// The largest of three: at_least; one in D + 1 of the triangles (2D: segments) on sides of walls that are meshed; the integral
+  /// over what is meshed of one over the largest volume (area) that sizes allow. The second is a bound, and so is the third of
+  /// sizes that are the same all over a region. A function of sizes is integrated by its values at some thousand places.
+  /// Infinity: it allows none.
   double cells = 0;
-  /// No mesh that meets the bounds has fewer, as entities without a common point, and what is meshed between, are so near to each
-  /// other. Sizes do not count, nor does what else bounds a run (RefineOptions::min_edge, max_vertices, keep_boundary).
+  /// By gaps alone: entities without a common point, and what is meshed between, are so near to each other. Sizes do not count.
+  /// It is found at some hundred places on the walls, and supposes that a vertex is joined to one of the subfacet opposite to it,
+  /// which slivers between may prevent (docs/usage.md).
   double at_least = 0;
   std::optional<Gap<D>> most_due_to;  ///< the two entities that `at_least` owes most to
 };
 
-/// Looks at some thousand places at most.
 /// @throws CancelledError, and what `measure` throws
 template <int D>
 CellEstimate<D> estimate_cells(const Domain<D>& domain, const EstimateOptions<D>& options = {});
@@ -105,7 +109,7 @@ bool has_memory_for(const CellEstimate<D>& estimate);
 template <int D>
 void require_memory(const Domain<D>& domain, const CellEstimate<D>& estimate);
 /// The same of an estimate that is made only where entities are so near to each other that it may be refused: elsewhere it takes
-/// a thousandth of the time that a mesh does. `narrowest` and `measure` are not needed.
+/// a thousandth of the time that a mesh does. `measure` is not needed.
 /// @throws CancelledError, and what the other throws
 template <int D>
 void require_memory(const Domain<D>& domain, const EstimateOptions<D>& options);

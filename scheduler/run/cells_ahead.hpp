@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a run asks about the cells that gaps take (pgdr/estimate.hpp): whether there is memory for them, and how many they are.
+// What a run asks about the cells that gaps take (pgdr/estimate.hpp): whether there is memory for them.
 #pragma once
 
 #include <stop_token>
 
 #include "pgdr/domain.hpp"
 #include "pgdr/refine_options.hpp"
-#include "space/pieces.hpp"
 
 namespace pgdr::detail {
 
@@ -16,10 +15,5 @@ namespace pgdr::detail {
 /// @throws ResourceError, CancelledError
 template <int D>
 void guard_memory(const Domain<D>& domain, const RefineOptions<D>& options, const std::stop_token& stop);
-
-/// About how many cells gaps ask for; 0: it was stopped.
-template <int D>
-double estimate_in_run(const Domain<D>& domain, const RefineOptions<D>& options, const std::stop_token& stop,
-                       const Pieces& pieces);
 
 }  // namespace pgdr::detail

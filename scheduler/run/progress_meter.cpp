@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <string_view>
-#include <utility>
 
 namespace pgdr::detail {
 namespace {
@@ -14,7 +13,7 @@ namespace {
 constexpr double optimizer_of_interior = 0.3, more_at_facets = 2;
 constexpr double rest_after_all = 0.15, rest_after_reasons = 0.08;
 constexpr double least_known = 0.005;  // of the vertices: before, one cannot tell how fast the insertions are
-constexpr double longest_short_run = 1, between_looks = 0.03, least_optimizing = 0.05;  // seconds
+constexpr double between_looks = 0.03, least_optimizing = 0.05;  // seconds
 constexpr double unknown = -1;
 
 /// In a mesh that is mostly interior; the slots of cells tell less, as many are free after the exterior was carved away.
@@ -27,12 +26,6 @@ template <int D>
 ProgressMeter<D>::ProgressMeter(RefineContext<D>& context, const WaitingWork<D>& waiting)
     : context_(&context), waiting_(&waiting) {
   context.remaining = [this] { return remaining(); };
-}
-
-template <int D>
-void ProgressMeter<D>::expect(std::function<double()> estimate, bool optimizes) {
-  estimate_ = std::move(estimate);
-  optimizes_ = optimizes;
 }
 
 template <int D>
@@ -66,13 +59,11 @@ void ProgressMeter<D>::begin_phase(double evaluations, double others) {
 template <int D>
 void ProgressMeter<D>::look() {
   if (!context_->options.progress || context_->stage || seconds() < next_look_) return;
-  if (estimate_) {
-    if (seconds() < longest_short_run) return;
-    expected_cells_ = std::exchange(estimate_, nullptr)();
-  }
   next_look_ = seconds() + between_looks;
-  const double to_come = static_cast<double>(context_->vertices) + waiting_->cells_to_come() / cells_a_vertex<D>;
-  all_vertices_ = std::max(expected_cells_ / cells_a_vertex<D>, to_come);
+  const auto to_come = waiting_->to_come();
+  is_by_size_ = is_by_size_ || to_come.by_size > to_come.waiting;
+  if (is_by_size_)
+    all_vertices_ = static_cast<double>(context_->vertices) + (to_come.by_size + to_come.waiting) / cells_a_vertex<D>;
 }
 
 /// Seconds that remain of the run; below 0: nobody knows. Any thread.

@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // About how much of its time a run has behind it, for the progress report. Reads clocks, and decides nothing.
-//   * Insertions: of the cells that there will be, so many are there: those that will take the place of others that are too big
-//     are known (WorkList::to_come), and how many gaps ask for is estimated before (pgdr/estimate.hpp).
+//   * Insertions: of the cells that there will be, so many are there, if most are made since others are too big: how many will
+//     take the place of these is known (WorkList::to_come). How many a bound of shape asks for is not, and nothing is said.
 //   * The optimiser: it evaluates some hundred cells for each poor one that a phase begins with, as fast as it has done so far.
 //   * What comes after that is a part of what was before.
 #pragma once
 
 #include <cstdint>
-#include <functional>
 
 #include "refine/context.hpp"
 #include "run/waiting_work.hpp"
@@ -25,9 +24,8 @@ class ProgressMeter {
   ProgressMeter(const ProgressMeter&) = delete;
   ProgressMeter& operator=(const ProgressMeter&) = delete;
 
-  /// `estimate` finds about how many cells there will be. It is called once, by look(), when the run is no longer a short one, as
-  /// it takes a good part of the time of that. `optimizes`: is there an optimiser?
-  void expect(std::function<double()> estimate, bool optimizes);
+  /// Is there an optimiser? If nobody says so, there is none.
+  void expect_optimizer(bool optimizes) { optimizes_ = optimizes; }
   /// A stage of the plan begins.
   void begin(const char* stage);
   /// A phase of the optimiser begins, which is expected to evaluate so many cells; and those after it so many times as many.
@@ -44,9 +42,8 @@ class ProgressMeter {
   RefineContext<D>* context_;
   const WaitingWork<D>* waiting_;
   bool optimizes_ = false;
-  std::function<double()> estimate_;  ///< none: it has been called
-  double expected_cells_ = 0;         ///< by the estimate
-  double all_vertices_ = 0;           ///< that there will be, as it seemed at the last look; 0: not known
+  bool is_by_size_ = false;  ///< have most cells been to come for their sizes, at any look?
+  double all_vertices_ = 0;  ///< that there will be, as it seemed at the last look; 0: not known
   double next_look_ = 0;
   double insertions_since_ = -1, first_vertices_ = 0;  ///< seconds, and how many vertices there were
   double optimizing_since_ = -1, phase_since_ = -1;

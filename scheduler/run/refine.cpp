@@ -241,12 +241,10 @@ struct Refined {
 
 template <int D>
 Refined<D> refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices,
-                       const detail::RunPieces& pieces, detail::RunHooks<D>* hooks, const detail::Deadline& deadline,
-                       RefineResult<D>& result) {
+                       const detail::RunPieces& pieces, detail::RunHooks<D>* hooks, RefineResult<D>& result) {
   detail::Refinement<D> refinement(context, std::move(pools), vertices, target_of(context.options), pieces, hooks);
   detail::RunState<D>& state = refinement.state();
-  const auto expected_cells = [&] { return detail::estimate_in_run(context.domain, context.options, deadline.token(), pieces); };
-  state.meter.expect(expected_cells, target_of(context.options) > 0);
+  state.meter.expect_optimizer(target_of(context.options) > 0);
   result.stop = refinement.run();
   const detail::Optimizing* optimizing = refinement.optimizing();
   const RefineCounts& counts = optimizing ? optimizing->counts_before() : state.totals.counts;
@@ -354,7 +352,7 @@ RefineResult<D> make_mesh(const Domain<D>& domain, const RefineOptions<D>& optio
   const std::uint64_t vertices = domain.points().size() + result.statistics.segment_points + result.statistics.facet_points;
   RefineContext<D> context(mesh, domain, options, bounds_of(options, regions), vertices, start);
   Refined<D> refined;
-  if (options.refine) refined = refine_mesh<D>(context, std::move(pools), vertices, pieces, hooks, deadline, result);
+  if (options.refine) refined = refine_mesh<D>(context, std::move(pools), vertices, pieces, hooks, result);
   if (is_unwanted(options, result.stop)) return without_mesh(std::move(result), start);
   detail::RunClock& clock = pieces.clock();
   if (hooks && hooks->has_part()) {

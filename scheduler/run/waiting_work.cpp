@@ -152,10 +152,10 @@ void WaitingWork<D>::rename(const Renumbering<D>& to) {
 }
 
 template <int D>
-double WaitingWork<D>::cells_to_come() const {
-  std::uint64_t cells = 0;
-  for (Node n = 0; n < tree_.node_count(); ++n) cells += works_[n].list.to_come() + works_[n].list.poor();
-  return static_cast<double>(cells);
+auto WaitingWork<D>::to_come() const -> ToCome {
+  std::uint64_t by_size = 0, waiting = 0;
+  for (Node n = 0; n < tree_.node_count(); ++n) by_size += works_[n].list.to_come(), waiting += works_[n].list.poor();
+  return {static_cast<double>(by_size), static_cast<double>(waiting)};
 }
 
 template <int D>

@@ -81,8 +81,12 @@ class WaitingWork {
     tree_.for_each_node([&](Node n) { f(works_[n].list); });
   }
 
-  /// About so many cells will take the place of elements that wait, by their size, or are one of these. While no visit runs.
-  double cells_to_come() const;
+  /// About how many cells will take the place of elements that wait, by their size; and how many of these there are.
+  struct ToCome {
+    double by_size = 0, waiting = 0;
+  };
+  /// While no visit runs.
+  ToCome to_come() const;
 
   /// For tests: renames the cells of all that waits, and of what was refused.
   void rename(const Renumbering<D>& to);

@@ -55,15 +55,16 @@ def poly(points, faces):
 
 
 class Estimates(Case):
-    def test_models_have_about_as_many_cells(self):
+    def test_models_have_no_fewer_cells(self):
+        """A mesh within sizes has some 2.5 times as many in 3D, where no regular tetrahedra fill space, and 1.6 times in 2D."""
         for model, flags in ((BRACKET, []), (BRACKET, ["--size", "0.1"]), (BRACKET, ["--max-volume", "0.0005"]),
                              (BRACKET, ["--size", "0.05+0.1*abs(x)"]), (PLATE, []), (PLATE, ["--size", "0.001"])):
             with self.subTest(model=model.name, flags=flags):
                 done = self.mesh(model, *flags, "--report", self.report, expect=0)
                 r = self.json()
-                self.assertLess(r["estimated_cells"], 3 * r["cells"])
-                self.assertGreater(r["estimated_cells"], r["cells"] / 3)
-                self.assertRegex(done.stdout, r"estimate +about [\d ]+")
+                self.assertLessEqual(r["estimated_cells"], r["cells"])
+                self.assertGreater(r["estimated_cells"], r["cells"] / 3 if flags else 10)
+                self.assertRegex(done.stdout, r"estimate +at least [\d ]+")
                 self.assertLess(done.stdout.index("estimate"), done.stdout.index("input"))
 
     def test_the_narrowest_gap_is_named(self):

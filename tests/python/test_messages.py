@@ -109,10 +109,10 @@ class Ahead(unittest.TestCase):
         for plc, size in ((square(), 0.001), (cube(), 0.08)):
             cells = len(checked(self, plc, size=size).cells)
             for given in (size, lambda at, size=size: np.full(len(at), size), pgdr.sizes_at_points(plc.points[:1], [size], 0)):
-                self.assertTrue(cells / 3 < pgdr.estimate(plc, size=given).cells < 3 * cells)
+                self.assertTrue(cells / 3 < pgdr.estimate(plc, size=given).cells <= cells)
         labelled = cube(regions=[(0.5, 0.5, 0.5, 7)])
         self.assertGreater(pgdr.estimate(labelled, region_sizes={7: 0.05}).cells, 10 * pgdr.estimate(labelled).cells)
-        self.assertGreater(pgdr.estimate(cube(), max_volume=1e-5).cells, 1e5)
+        self.assertAlmostEqual(pgdr.estimate(cube(), max_volume=1e-5).cells, 1e5)
 
     def test_a_proposal(self):
         """A square of eight points, the middle ones a last digit off the line of the others."""

@@ -52,7 +52,6 @@ Found<D> look_at(const Plc<D>& plc, const RefineOptions<D>& bounds, const std::s
   found.gap = narrowest_gap<D>(domain, {.voids_by_nesting = voids_by_nesting, .stop = stop});
   found.angle = least_angle<D>(domain, stop);
   EstimateOptions<D> options;
-  options.narrowest = found.gap;
   options.voids_by_nesting = voids_by_nesting;
   options.radius_edge_bound = bounds.radius_edge_bound;
   options.measure = tool::measure_of_sizes<D>(bounds.size, bounds.region_sizes, bounds.max_volume);
