@@ -49,49 +49,27 @@ std::uint64_t count_open(const Domain<D>& domain) {
   return open;
 }
 
-/// The smallest angle, in degrees, between two segments with a common point, or two facets with a common segment.
-/// Points where more than `most` segments meet are left out: all pairs would take too long.
-template <int D>
-double smallest_angle(const Domain<D>& domain) {
-  constexpr std::size_t most = 1000;
-  double smallest = 180;
-  std::vector<std::vector<EntityId>> at(domain.points().size());
-  for (EntityId s = 0; s < domain.segments().size(); ++s)
-    for (const std::uint32_t p : domain.segments()[s].points) at[p].push_back(s);
-  const auto take = [&](EntityKind kind, std::span<const EntityId> ids) {
-    if (ids.size() > most) return;
-    for (std::size_t i = 0; i < ids.size(); ++i)
-      for (std::size_t k = i + 1; k < ids.size(); ++k)
-        smallest = std::min(smallest, entity_angle(domain, EntityRef{kind, ids[i]}, EntityRef{kind, ids[k]}));
-  };
-  for (const auto& segments : at) take(EntityKind::segment, segments);
-  if constexpr (D == 3)
-    for (EntityId s = 0; s < domain.segments().size(); ++s) take(EntityKind::facet, domain.facets_of_segment(s));
-  return smallest;
-}
-
 /// What takes time to find out of a Domain.
 struct Looks {
   std::uint64_t open;
-  double smallest_angle;
   std::optional<Proposal> proposal;
 };
 
 template <int D>
 Looks look_at(const Plc<D>& plc, const Domain<D>& domain) {
-  return {count_open(domain), smallest_angle(domain), find_proposal(plc, domain)};
+  return {count_open(domain), find_proposal(plc, domain)};
 }
 
 /// What the input is without repetitions, its maximal entities, and how these meet.
 template <int D>
-void describe(const Domain<D>& domain, const Looks& looks, bool quiet, JsonObject& d) {
+void describe(const Domain<D>& domain, const Looks& looks, double smallest_angle, bool quiet, JsonObject& d) {
   const std::uint64_t open = looks.open;
   d.set("distinct_points", domain.points().size());
   d.set("maximal_segments", domain.segments().size());
   if (D == 3) d.set("maximal_facets", domain.facets().size());
   d.set("closed", open == 0);
   d.set("open", open);
-  d.set("smallest_angle_deg", looks.smallest_angle);
+  d.set("smallest_angle_deg", smallest_angle);
   double defect = 0;
   std::uint64_t warped = 0;
   for (const DomainFacet& f : domain.facets()) {
@@ -173,6 +151,7 @@ class InputInfo {
   void say_what_is_ahead(const Domain<D>& domain) {
     const Outlook<D> outlook = look_ahead<D>(domain, resolve<D>({}, smallest_proved_bound<D>()), true, RegionMode::seeds, {});
     set_outlook(report_, domain, outlook);
+    if (outlook.angle) smallest_angle_ = outlook.angle->degrees;
     if (!a_.quiet) print_outlook(domain, outlook);
     recovery_at_ = clock_.seconds();
   }
@@ -193,7 +172,7 @@ class InputInfo {
         },
         [&] { looks = look_at(plc_, domain); });
     seconds_.set("recovery", clock_.seconds() - recovery_at_);
-    describe(domain, *looks, a_.quiet, findings_);
+    describe(domain, *looks, smallest_angle_, a_.quiet, findings_);
     report_.set("tolerance", domain.tolerance());
     report_.set("largest_move", domain.largest_move());
     if constexpr (D == 3)
@@ -226,7 +205,7 @@ class InputInfo {
   Plc<D> plc_;
   std::vector<Diagnostic> repairs_;
   JsonObject seconds_, findings_;
-  double recovery_at_ = 0;
+  double recovery_at_ = 0, smallest_angle_ = 180;
 };
 
 template <int D>
