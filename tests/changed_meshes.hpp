@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <map>
 #include <random>
@@ -17,7 +18,6 @@
 #include "cavity/cavity.hpp"
 #include "input/entities.hpp"
 #include "numbers/vectors.hpp"
-#include "space/corner_means.hpp"
 
 namespace pgdr::test {
 
@@ -109,7 +109,13 @@ struct ChangedMesh {
     const auto normal = detail::cross(detail::difference(s[1], s[0]), detail::difference(s[2], s[0]));
     return std::abs(detail::dot(normal, detail::difference(s[3], s[0]))) / 6;
   }
-  Point3 mean(CellId c, unsigned corners) const { return detail::mean_of_corners<3>(mesh.simplex(c), corners); }
+  /// Of the corners whose bits are set.
+  Point3 mean(CellId c, unsigned corners) const {
+    Point3 x{};
+    for (int i = 0; i < 4; ++i)
+      for (int k = 0; k < 3; ++k) x[k] += (corners >> i & 1) != 0 ? mesh.simplex(c)[i][k] / std::popcount(corners) : 0;
+    return x;
+  }
 };
 
 template <class Map>

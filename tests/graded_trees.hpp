@@ -61,6 +61,19 @@ Orthtree<D> split_otherwise(const Orthtree<D>& tree, std::mt19937_64& random) {
 template <int D>
 using Set = std::set<typename Orthtree<D>::Node>;
 
+/// BUF^order(leaf), sorted: BUF^i = BUF^(i-1) and the BUF of all its leaves; without the leaf itself.
+template <int D>
+std::vector<std::uint32_t> buffer(const Orthtree<D>& tree, std::uint32_t leaf, std::uint32_t order) {
+  Set<D> zone{leaf};
+  for (std::uint32_t i = 0; i < order; ++i)
+    for (const auto l : Set<D>(zone)) {
+      const auto around = tree.buffer(l);
+      zone.insert(around.begin(), around.end());
+    }
+  zone.erase(leaf);
+  return {zone.begin(), zone.end()};
+}
+
 /// Boxes and leaves looked up once.
 template <int D>
 struct Boxes {

@@ -118,7 +118,7 @@ TYPED_TEST(ConflictManagerTest, ClaimsAreTheBuffersOfTheirOrder) {
         EXPECT_EQ(claim.node(), leaf);
         EXPECT_EQ(claim.whole(), order == whole_tree);
         if (order == whole_tree) continue;
-        auto expected = tree.buffer(leaf, order == 1 ? ordinary : order);
+        auto expected = trees::buffer(tree, leaf, order == 1 ? ordinary : order);
         expected.push_back(leaf);
         std::sort(expected.begin(), expected.end());
         EXPECT_EQ(visit.leaves, expected);

@@ -289,16 +289,4 @@ std::vector<std::uint8_t> PlanarTriangulation::constraint_masks() const {
   return out;
 }
 
-std::vector<PlanarEdge> PlanarTriangulation::domain_constraints() const {
-  std::vector<PlanarEdge> out;
-  for (std::uint32_t t = 0; t < cells_.size(); ++t) {
-    const Cell& c = cells_[t];
-    for (std::size_t i = 0; c.inside && i < 3; ++i) {
-      if (!is_fixed(c, i) || (cells_[c.n[i]].inside && c.n[i] < t)) continue;
-      out.push_back({ids_[c.v[(i + 1) % 3]], ids_[c.v[(i + 2) % 3]]});
-    }
-  }
-  return out;
-}
-
 }  // namespace pgdr::detail

@@ -82,12 +82,9 @@ class PlanarTriangulation {
   std::vector<PlanarTriangle> triangles() const;
   /// For each of triangles(): bit i is set if its edge i (from corner i + 1 to i + 2) is a constraint.
   std::vector<std::uint8_t> constraint_masks() const;
-  /// Constraint edges with a triangle of the domain on at least one side; that side is the left of the first pair.
-  std::vector<PlanarEdge> domain_constraints() const;
   bool has_vertex(std::uint32_t id) const { return local(id) != none; }
   bool has_edge(std::uint32_t a, std::uint32_t b) const;
   bool is_constraint(std::uint32_t a, std::uint32_t b) const;
-  bool has_triangle(const PlanarTriangle& t) const;  ///< in the domain, in any order of its vertices
   int axis() const { return axis_; }
   std::size_t vertex_count() const { return points_.size(); }
 

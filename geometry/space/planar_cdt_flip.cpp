@@ -154,14 +154,6 @@ bool PlanarTriangulation::is_constraint(std::uint32_t a, std::uint32_t b) const 
   return s.t != none && is_fixed(cells_[s.t], s.i);
 }
 
-bool PlanarTriangulation::has_triangle(const PlanarTriangle& t) const {
-  const std::uint32_t a = local(t[0]), b = local(t[1]), c = local(t[2]);
-  if (a == none || b == none || c == none || a == b) return false;
-  for (const Side s : {find_edge(a, b), find_edge(b, a)})
-    if (s.t != none && cells_[s.t].inside && cells_[s.t].v[static_cast<std::size_t>(s.i)] == c) return true;
-  return false;
-}
-
 bool PlanarTriangulation::is_valid(bool delaunay) const {
   for (std::uint32_t v = 0; v < points_.size(); ++v)
     if (cell_of_[v] >= cells_.size() || index_in(cell_of_[v], v) < 0) return false;

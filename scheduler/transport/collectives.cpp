@@ -34,16 +34,6 @@ Bytes Collectives::receive(int from, std::uint64_t round) {
   return message;
 }
 
-void Collectives::barrier() {
-  begin();
-  // By rounds: having heard from the rank 2^k before, one has heard of all 2^(k+1) ranks up to oneself.
-  std::uint64_t round = 0;
-  for (int step = 1; step < size_; step *= 2, ++round) {
-    send((rank_ + step) % size_, {}, round);
-    receive((rank_ + size_ - step) % size_, round);
-  }
-}
-
 std::vector<Bytes> Collectives::all_gather(Bytes own) {
   begin();
   std::vector<Bytes> found;  // of this rank, the next, ...

@@ -37,8 +37,6 @@ class Collectives {
   /// Has together() thrown? Then it has on all ranks.
   bool has_failed() const { return has_failed_; }
 
-  /// Returns once all ranks have called it.
-  void barrier();
   /// What each rank gave, by rank.
   std::vector<Bytes> all_gather(Bytes own);
   /// The same for small arrays of numbers. If there is an error on any rank, all throw as together() does.

@@ -163,14 +163,6 @@ void Orthtree<D>::append_face_neighbours(Node leaf, int axis, int side, std::vec
 }
 
 template <int D>
-auto Orthtree<D>::face_neighbours(Node leaf, int axis, int side) const -> std::vector<Node> {
-  std::vector<Node> out;
-  append_face_neighbours(leaf, axis, side, out);
-  std::sort(out.begin(), out.end());
-  return out;
-}
-
-template <int D>
 auto Orthtree<D>::buffer(Node leaf) const -> std::vector<Node> {
   // by_axes[m]: ends of the chains that have used the axes of the bit set m, in any order. Sets in increasing order of m
   // are complete when they are read, because m without one of its bits is smaller.
@@ -190,27 +182,6 @@ auto Orthtree<D>::buffer(Node leaf) const -> std::vector<Node> {
   }
   std::sort(zone.begin(), zone.end());
   zone.erase(std::unique(zone.begin(), zone.end()), zone.end());
-  return zone;
-}
-
-template <int D>
-auto Orthtree<D>::buffer(Node leaf, std::uint32_t order) const -> std::vector<Node> {
-  std::vector<Node> zone{leaf}, fresh{leaf}, reached, next;
-  for (std::uint32_t i = 0; i < order && !fresh.empty(); ++i) {
-    reached.clear();
-    for (const Node l : fresh) {
-      const std::vector<Node> around = buffer(l);
-      reached.insert(reached.end(), around.begin(), around.end());
-    }
-    std::sort(reached.begin(), reached.end());
-    reached.erase(std::unique(reached.begin(), reached.end()), reached.end());
-    fresh.clear();
-    std::set_difference(reached.begin(), reached.end(), zone.begin(), zone.end(), std::back_inserter(fresh));
-    next.clear();
-    std::merge(zone.begin(), zone.end(), fresh.begin(), fresh.end(), std::back_inserter(next));
-    zone.swap(next);
-  }
-  zone.erase(std::find(zone.begin(), zone.end(), leaf));
   return zone;
 }
 

@@ -104,10 +104,8 @@ class Orthtree {
   /// colour are disjoint for period 2i + 1.
   std::uint64_t colour(Node node, std::uint32_t period = 3) const;
 
-  /// Leaves that share a face (a piece of positive area) with `leaf`; side 0 = below on that axis, 1 = above.
-  /// Empty at the root's border.
-  std::vector<Node> face_neighbours(Node leaf, int axis, int side) const;
-  /// Appends the face neighbours to `out`.
+  /// Appends the leaves that share a face (a piece of positive area) with `leaf`; side 0 = below on that axis, 1 = above.
+  /// None at the root's border.
   void append_face_neighbours(Node leaf, int axis, int side, std::vector<Node>& out) const;
 
   /// BUF(leaf), sorted: its face neighbours, their face neighbours along the axes not used yet, and so on, for every
@@ -115,9 +113,6 @@ class Orthtree {
   /// axis at most once comes back to it, in any grading.) Symmetric: a in BUF(b) if and only if b in BUF(a). A split
   /// changes BUF(L) only if the leaf that split was in it.
   std::vector<Node> buffer(Node leaf) const;
-  /// BUF^order(leaf), sorted: BUF^i = BUF^(i-1) and the BUF of all its leaves. By that definition the leaf itself would be
-  /// in it from BUF^2 on; here it is left out for every order. Order 0 is empty.
-  std::vector<Node> buffer(Node leaf, std::uint32_t order) const;
 
   /// The double at a position of the finest grid, 0 .. 2^max_level from the root's low border to its high one.
   double border(int axis, std::uint64_t position) const { return low_[axis] + static_cast<double>(position) * unit_; }
