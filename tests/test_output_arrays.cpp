@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "model_plcs.hpp"
 #include "pgdr/check.hpp"
@@ -122,6 +123,8 @@ TEST(Embedding, MinAngle) {
   EXPECT_NEAR(min_angle_degrees(30), 1, 1e-15);
   EXPECT_NEAR(min_angle_degrees(60), 1 / std::sqrt(3.0), 1e-15);
   EXPECT_NEAR(min_angle_degrees(20.704811054635428), std::sqrt(2.0), 1e-14);
+  for (double degrees = 0.25; degrees <= 60; degrees += 0.25)
+    EXPECT_NEAR(min_angle_degrees(degrees) * 2 * std::sin(degrees * std::numbers::pi / 180), 1, 4e-16) << degrees;
   for (const double degrees : {0.0, -1.0, 60.1, std::nan("")}) words_of(Errc::bad_option, [&] { min_angle_degrees(degrees); });
 }
 

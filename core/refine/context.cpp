@@ -30,8 +30,10 @@ std::chrono::duration<double> time_to_finish(const Mesh<D>& mesh, double vertice
 
 /// As many that elements of the one are by this ratio larger than those of the other, or more.
 int buckets_of_ratio(double ratio) {
-  const double buckets = std::ceil(std::log2(ratio));
-  return static_cast<int>(std::clamp(buckets, 0.0, double{RefineContext<3>::buckets}));
+  constexpr int most = RefineContext<3>::buckets;
+  if (!(ratio < std::ldexp(1.0, most))) return most;
+  const int floor = std::ilogb(ratio);
+  return std::max(0, std::ldexp(1.0, floor) < ratio ? floor + 1 : floor);
 }
 
 }  // namespace

@@ -226,8 +226,10 @@ bool Search::overlap_nearly(std::uint32_t t, std::uint32_t u, double width) cons
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     if (!(height(polygon[k], t) <= width)) return false;
     if (k > 1) size += area(polygon[0].at, polygon[k - 1].at, polygon[k].at, axis);
-    for (std::size_t l = 0; l < k; ++l)
-      diameter = std::max(diameter, std::hypot(polygon[k].at[i] - polygon[l].at[i], polygon[k].at[j] - polygon[l].at[j]));
+    for (std::size_t l = 0; l < k; ++l) {
+      const double u = polygon[k].at[i] - polygon[l].at[i], v = polygon[k].at[j] - polygon[l].at[j];
+      diameter = std::max({diameter, std::sqrt(u * u + v * v), std::fabs(u), std::fabs(v)});  // the last: squares may underflow
+    }
   }
   return std::fabs(size) > least_width * width * diameter;
 }
