@@ -8,7 +8,6 @@
 #include <span>
 
 #include "boundary/automatic_regions.hpp"
-#include "input/entity_distance.hpp"
 #include "input/words.hpp"
 #include "mesh/cell_blocks.hpp"
 #include "numbers/rounding.hpp"
@@ -16,6 +15,7 @@
 #include "space/box.hpp"
 #include "space/bulk.hpp"
 #include "space/disjoint_sets.hpp"
+#include "space/distances.hpp"
 #include "space/nesting.hpp"
 
 namespace pgdr {
@@ -71,7 +71,7 @@ bool is_within(std::array<Point<D>, D> s, Point<D> x, double width) {
     for (double& coordinate : p.x) coordinate *= scale;
   for (double& coordinate : x.x) coordinate *= scale;
   const double scaled = width * scale;
-  return detail::squared_distance_to_simplex<D>(s, x) <= scaled * scaled;
+  return detail::closest_to_simplex<D>(x, s).square <= scaled * scaled;
 }
 
 /// Where Steiner points have rounded a wall, a seed on it or some ulps beside it may be on either side of its mesh: the side

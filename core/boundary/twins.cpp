@@ -8,8 +8,8 @@
 
 #include "boundary/state.hpp"
 #include "input/entities.hpp"
-#include "input/entity_distance.hpp"
 #include "rule/twins.hpp"
+#include "space/distances.hpp"
 
 namespace pgdr::detail {
 namespace {
@@ -89,11 +89,11 @@ const std::vector<SegmentChains::Link>& SegmentChains::input_beside(EntityId s) 
   const auto least = [&](const Box<3>& box, std::uint32_t) {
     Point3 middle;
     for (int i = 0; i < 3; ++i) middle[i] = box.low[i] + (box.high[i] - box.low[i]) / 2;
-    return std::sqrt(squared_distance_to_edge<3>(p, q, middle)) - std::sqrt(squared_distance(middle, box.high));
+    return std::sqrt(closest_to_edge(middle, p, q).square) - std::sqrt(squared_distance(middle, box.high));
   };
   points_tree_->nearest(least, [&](std::uint32_t i) {
     const Point3& x = domain_->points()[i];
-    if (i != ends[0] && i != ends[1] && squared_distance_to_edge<3>(p, q, x) < limit * limit)
+    if (i != ends[0] && i != ends[1] && closest_to_edge(x, p, q).square < limit * limit)
       found.push_back({delaunay_->vertices()[i], segment_parameter<3>(*domain_, s, x)});
     return limit;
   });

@@ -16,6 +16,7 @@
 #include "pgdr/circumsphere.hpp"
 #include "pgdr/point_selector.hpp"
 #include "pgdr/predicates.hpp"
+#include "space/distances.hpp"
 
 namespace pgdr::checking {
 namespace {
@@ -105,38 +106,6 @@ bool contains_segment(const Domain<3>& domain, EntityRef facet, EntityRef segmen
   if (facet.kind != EntityKind::facet || segment.kind != EntityKind::segment) return false;
   const auto list = domain.facet_segments(facet.id);
   return std::find(list.begin(), list.end(), segment.id) != list.end();
-}
-
-template <int D>
-Point<D> along(const Point<D>& a, const Point<D>& b, double t) {
-  Point<D> p;
-  for (int i = 0; i < D; ++i) p[i] = a[i] + t * (b[i] - a[i]);
-  return p;
-}
-
-template <int D>
-double product(const Point<D>& o, const Point<D>& a, const Point<D>& b) {
-  double s = 0;
-  for (int i = 0; i < D; ++i) s += (a[i] - o[i]) * (b[i] - o[i]);
-  return s;
-}
-
-template <int D>
-double distance_to_edge(const Point<D>& x, const Point<D>& a, const Point<D>& b) {
-  const double t = std::clamp(product(a, x, b) / squared_distance(a, b), 0.0, 1.0);
-  return std::sqrt(squared_distance(x, along(a, b, t)));
-}
-
-double distance_to_triangle(const Point3& x, const Point3& a, const Point3& b, const Point3& c) {
-  const double least = std::min({distance_to_edge(x, a, b), distance_to_edge(x, b, c), distance_to_edge(x, c, a)});
-  // The foot of x in the plane, in barycentric coordinates from the Gram matrix of the edges at a.
-  const double bb = product(a, b, b), bc = product(a, b, c), cc = product(a, c, c);
-  const double xb = product(a, x, b), xc = product(a, x, c), det = bb * cc - bc * bc;
-  const double v = (cc * xb - bc * xc) / det, w = (bb * xc - bc * xb) / det;
-  if (!(v >= 0 && w >= 0 && v + w <= 1)) return least;
-  Point3 foot;
-  for (int i = 0; i < 3; ++i) foot[i] = a[i] + v * (b[i] - a[i]) + w * (c[i] - a[i]);
-  return std::min(least, std::sqrt(squared_distance(x, foot)));
 }
 
 }  // namespace
@@ -351,7 +320,7 @@ bool Reasons<D>::beside_kept(const PoorReason& reason, std::string& why) const {
   if (D != 2 || s.kind != EntityKind::segment || !exists(s)) return fail("it names no segment of a planar input");
   if (conformity_->pieces[s.id] != 1) return fail(words(s) + " has points of its own");
   const auto& ends = options_.domain->segments()[s.id].points;
-  const Point<D> middle = along(options_.domain->points()[ends[0]], options_.domain->points()[ends[1]], 0.5);
+  const Point<D> middle = detail::on_edge(options_.domain->points()[ends[0]], options_.domain->points()[ends[1]], 0.5);
   const auto ball = circumsphere<D>(corners_of(mesh_, reason.cell));
   const double reach = std::sqrt(squared_distance(middle, options_.domain->points()[ends[0]]));
   const bool encroached = std::sqrt(squared_distance(middle, ball.center)) <=
@@ -440,11 +409,11 @@ bool Reasons<D>::within(const Point<D>& x, double distance, EntityRef entity) co
   if (entity.kind == EntityKind::vertex) return std::sqrt(squared_distance(x, points[entity.id])) <= distance;
   if (entity.kind == EntityKind::segment) {
     const auto& ends = domain.segments()[entity.id].points;
-    return distance_to_edge(x, points[ends[0]], points[ends[1]]) <= distance;
+    return std::sqrt(detail::closest_to_edge(x, points[ends[0]], points[ends[1]]).square) <= distance;
   }
   if constexpr (D == 3)
     for (const auto& t : domain.triangles(entity.id))
-      if (distance_to_triangle(x, points[t[0]], points[t[1]], points[t[2]]) <= distance) return true;
+      if (std::sqrt(detail::closest_to_triangle(x, points[t[0]], points[t[1]], points[t[2]]).square) <= distance) return true;
   return false;
 }
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "input/entity_distance.hpp"
+#include "input/entities.hpp"
 #include "mesh/ridge.hpp"
 #include "numbers/angle_bounds.hpp"
 #include "numbers/exact_tests.hpp"
@@ -137,7 +137,7 @@ std::optional<PoorReason> OptimizedReasons::angle_near(CellId c) {
   const auto take = [&](EntityKind kind, const std::vector<Pair>& pairs) {
     for (const Pair& pair : pairs)
       for (const Pair& order : {pair, Pair{pair[1], pair[0]}})
-        if (!found && detail::squared_distance_to<3>(*domain_, {kind, order[0]}, sphere.center) <= reach)
+        if (!found && squared_distance_to<3>(*domain_, {kind, order[0]}, sphere.center) <= reach)
           found = small_angle(kind, order);
   };
   std::vector<CellId>& cells = cells_near_;

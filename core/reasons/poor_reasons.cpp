@@ -9,7 +9,6 @@
 #include <unordered_set>
 
 #include "input/entities.hpp"
-#include "input/entity_distance.hpp"
 #include "numbers/rounding.hpp"
 #include "pgdr/refine_options.hpp"
 #include "rule/insertion_rule.hpp"
@@ -33,7 +32,7 @@ Ball<D> doubled_ball(const Ball<D>& ball) {
 
 template <int D>
 bool PoorReasons<D>::meets(EntityRef e, const Ball<D>& ball) const {
-  return detail::squared_distance_to<D>(*domain_, e, ball.center) <= ball.squared_radius;
+  return squared_distance_to<D>(*domain_, e, ball.center) <= ball.squared_radius;
 }
 
 /// As the checker will ask: do they meet at less than 60 (two segments) or 90 degrees? The reason that this is, if so.

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "diagnose/closest_points.hpp"
+#include "space/distances.hpp"
 #include "pgdr/domain.hpp"
 #include "space/box.hpp"
 #include "space/bulk.hpp"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check/given/crossings.hpp"
 
-#include "diagnose/closest_points.hpp"
+#include "space/distances.hpp"
 
 namespace pgdr::checking {
 

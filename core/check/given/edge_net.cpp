@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "diagnose/closest_points.hpp"
 #include "numbers/vectors.hpp"
 #include "pgdr/error.hpp"
 #include "space/box_tree.hpp"
+#include "space/distances.hpp"
 #include "space/make_set.hpp"
 
 namespace pgdr::checking {

@@ -14,10 +14,10 @@
 
 #include "check/given/cover.hpp"
 #include "check/given/match.hpp"
-#include "diagnose/closest_points.hpp"
 #include "numbers/vectors.hpp"
 #include "pgdr/predicates.hpp"
 #include "space/box_tree.hpp"
+#include "space/distances.hpp"
 
 namespace pgdr::checking {
 namespace {

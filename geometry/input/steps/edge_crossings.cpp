@@ -10,6 +10,7 @@
 #include "numbers/vectors.hpp"
 #include "space/box_tree.hpp"
 #include "space/disjoint_sets.hpp"
+#include "space/distances.hpp"
 #include "space/make_set.hpp"
 #include "space/point_places.hpp"
 
@@ -36,14 +37,6 @@ DoubleDouble crossing_part(const Ends& e, const Ends& f) {
   const auto minus = [&](const Point3& p, const Point3& q) { return std::array{difference(p[i], q[i]), difference(p[j], q[j])}; };
   const auto u = minus(e[1], e[0]), w = minus(f[1], f[0]), from = minus(f[0], e[0]);
   return (from[0] * w[1] - from[1] * w[0]) / (u[0] * w[1] - u[1] * w[0]);
-}
-
-double distance_to_edge(const Point3& p, const Point3& a, const Point3& b) {
-  const auto along = difference(b, a), to = difference(p, a);
-  const double t = std::clamp(dot(to, along) / dot(along, along), 0.0, 1.0);
-  double square = 0;
-  for (std::size_t k = 0; k < 3; ++k) square += (to[k] - t * along[k]) * (to[k] - t * along[k]);
-  return std::sqrt(square);
 }
 
 }  // namespace
@@ -179,7 +172,8 @@ void EdgeCrossings::pass_near(std::span<const Point3> points, std::vector<PointO
   for (const std::uint32_t v : made)
     tree.at(points[v], [&](std::uint32_t k) {
       const auto [a, b] = edge_of(edges[k]);
-      if (v != a && v != b && distance_to_edge(points[v], points[a], points[b]) <= width_) on_edges.emplace_back(edges[k], v);
+      if (v != a && v != b && closest_to_edge(points[v], points[a], points[b]).square <= width_ * width_)
+        on_edges.emplace_back(edges[k], v);
     });
   make_set(on_edges);
 }

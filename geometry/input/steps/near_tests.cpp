@@ -8,17 +8,14 @@
 #include "input/triangle_shapes.hpp"
 #include "numbers/rounding.hpp"
 #include "numbers/vectors.hpp"
+#include "space/distances.hpp"
 
 namespace pgdr::detail {
 
 template <int D>
 std::optional<double> part_of_edge_near(const Point<D>& p, const Point<D>& a, const Point<D>& b, double width) {
-  const auto along = difference(b, a), to = difference(p, a);
-  const double t = dot(to, along) / dot(along, along);
-  if (!(t > 0 && t < 1)) return std::nullopt;
-  double square = 0;
-  for (std::size_t k = 0; k < D; ++k) square += (to[k] - t * along[k]) * (to[k] - t * along[k]);
-  return square <= width * width ? std::optional(t) : std::nullopt;
+  const double t = part_of_edge(p, a, b);
+  return t > 0 && t < 1 && squared_distance_at(p, a, b, t) <= width * width ? std::optional(t) : std::nullopt;
 }
 
 bool pass_within(const std::array<Point3, 2>& e, const std::array<Point3, 2>& f, double width) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "space/disjoint_sets.hpp"
+#include "space/distances.hpp"
 #include "space/point_places.hpp"
 
 namespace pgdr::detail {
@@ -57,17 +58,12 @@ class Cubes {
   double tolerance_;
 };
 
-template <int D>
-double distance_of(const Point<D>& a, const Point<D>& b) {
-  return std::sqrt(squared_distance(a, b));
-}
-
 /// The two points that are farthest apart.
 template <int D>
 AmbiguousGroup widest_pair(std::span<const std::uint32_t> group, std::span<const Point<D>> points) {
   AmbiguousGroup widest{group[0], group[0], 0, group.size()};
   const auto take = [&](std::uint32_t v, std::uint32_t w) {
-    if (const double d = distance_of(points[v], points[w]); d > widest.distance) widest = {v, w, d, group.size()};
+    if (const double d = distance(points[v], points[w]); d > widest.distance) widest = {v, w, d, group.size()};
   };
   if (group.size() > most_compared) {
     for (int i = 0; i < D; ++i) {
@@ -92,7 +88,7 @@ PointGroups group_points(std::span<const Point<D>> points, double tolerance, con
   for (std::uint32_t v = 0; v < n; ++v) {
     stop();
     cubes.insert(points[v], v, points, [&](std::uint32_t w) {
-      if (!(distance_of(points[v], points[w]) <= tolerance)) return;
+      if (!(distance(points[v], points[w]) <= tolerance)) return;
       sets.unite(v, w);
       joined.insert(joined.end(), {v, w});
     });

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where points, edges and triangles are nearest to each other, in doubles. Pure functions, any thread.
+// Where points, edges and triangles are nearest to each other, and how far apart, in doubles. Pure functions, any thread.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "numbers/vectors.hpp"
 
@@ -19,10 +20,34 @@ struct ClosestPoints {
 };
 
 template <int D>
+double distance(const Point<D>& a, const Point<D>& b) {
+  return std::sqrt(squared_distance(a, b));
+}
+
+template <int D>
 Point<D> on_edge(const Point<D>& a, const Point<D>& b, double t) {
   Point<D> p;
   for (int i = 0; i < D; ++i) p[i] = a[i] + t * (b[i] - a[i]);
   return p;
+}
+
+/// Where the point of the line through a and b is that is nearest to x: 0 at a, 1 at b; 0 if they are one point.
+template <int D>
+double part_of_edge(const Point<D>& x, const Point<D>& a, const Point<D>& b) {
+  const auto along = difference(b, a);
+  const double length = dot(along, along);
+  return length > 0 ? dot(difference(x, a), along) / length : 0.0;
+}
+
+/// The squared distance of x from on_edge(a, b, t), which is not rounded to coordinates for it.
+template <int D>
+double squared_distance_at(const Point<D>& x, const Point<D>& a, const Point<D>& b, double t) {
+  double square = 0;
+  for (int i = 0; i < D; ++i) {
+    const double off = (x[i] - a[i]) - t * (b[i] - a[i]);
+    square += off * off;
+  }
+  return square;
 }
 
 template <int D>
@@ -32,27 +57,34 @@ ClosestPoints<D> closest_to_point(const Point<D>& x, const Point<D>& p) {
 
 template <int D>
 ClosestPoints<D> closest_to_edge(const Point<D>& x, const Point<D>& a, const Point<D>& b) {
-  const auto along = difference(b, a);
-  const double length = dot(along, along);
-  const double t = length > 0 ? std::clamp(dot(difference(x, a), along) / length, 0.0, 1.0) : 0.0;
-  return closest_to_point(x, on_edge(a, b, t));
+  const double t = std::clamp(part_of_edge(x, a, b), 0.0, 1.0);
+  return {{x, on_edge(a, b, t)}, squared_distance_at(x, a, b, t)};
 }
 
 inline ClosestPoints<3> closest_to_triangle(const Point3& x, const Point3& a, const Point3& b, const Point3& c) {
+  const auto ab = closest_to_edge(x, a, b), bc = closest_to_edge(x, b, c), ca = closest_to_edge(x, c, a);
+  const auto& nearer = bc.square < ab.square ? bc : ab;
+  const auto& nearest = ca.square < nearer.square ? ca : nearer;
   const auto normal = cross(difference(b, a), difference(c, a));
   const double square = dot(normal, normal);
   const auto is_inside_of = [&](const Point3& p, const Point3& q) {
     return dot(cross(difference(q, p), difference(x, p)), normal) >= 0;
   };
-  if (square > 0 && is_inside_of(a, b) && is_inside_of(b, c) && is_inside_of(c, a)) {
-    const double height = dot(difference(x, a), normal) / square;
-    Point3 foot;
-    for (int i = 0; i < 3; ++i) foot[i] = x[i] - height * normal[i];
-    return closest_to_point(x, foot);
-  }
-  const auto ab = closest_to_edge(x, a, b), bc = closest_to_edge(x, b, c), ca = closest_to_edge(x, c, a);
-  const auto& nearer = bc.square < ab.square ? bc : ab;
-  return ca.square < nearer.square ? ca : nearer;
+  if (!(square > 0) || !is_inside_of(a, b) || !is_inside_of(b, c) || !is_inside_of(c, a)) return nearest;
+  const double length = std::sqrt(square), height = dot(difference(x, a), normal) / length;
+  if (!(height * height < nearest.square)) return nearest;
+  Point3 foot;
+  for (int i = 0; i < 3; ++i) foot[i] = x[i] - height * (normal[i] / length);
+  return {{x, foot}, height * height};  // whose root is `height` as it is
+}
+
+/// Of an edge (2D) or a triangle (3D).
+template <int D>
+ClosestPoints<D> closest_to_simplex(const Point<D>& x, const std::array<Point<D>, D>& s) {
+  if constexpr (D == 2)
+    return closest_to_edge(x, s[0], s[1]);
+  else
+    return closest_to_triangle(x, s[0], s[1], s[2]);
 }
 
 /// Of the edges ab and cd.
