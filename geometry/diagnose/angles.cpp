@@ -11,6 +11,7 @@
 
 #include "diagnose/diagnoser.hpp"
 #include "numbers/dihedral_sign.hpp"
+#include "numbers/vectors.hpp"
 #include "pgdr/predicates.hpp"
 #include "space/sort_by_points.hpp"
 #include "space/triangle.hpp"
@@ -20,17 +21,11 @@ namespace {
 
 constexpr std::size_t most_at_a_point = 2000;
 
-using Vector = std::array<double, 3>;
-
 template <int D>
-Vector direction(const Point<D>& from, const Point<D>& to) {
-  Vector v{};
+Vector<3> direction(const Point<D>& from, const Point<D>& to) {
+  Vector<3> v{};
   for (std::size_t i = 0; i < D; ++i) v[i] = to.x[i] - from.x[i];
   return v;
-}
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
 double ratio(double a, double b) {
@@ -38,17 +33,17 @@ double ratio(double a, double b) {
   return q >= 0 && q < 1 ? q : 1;  // also where products under- or overflow
 }
 
-double sine2(const Vector& u, const Vector& w) {
-  const Vector n = cross(u, w);
+double sine2(const Vector<3>& u, const Vector<3>& w) {
+  const Vector<3> n = cross(u, w);
   return ratio(dot(n, n), dot(u, u) * dot(w, w));
 }
 
 // Between r and the nearest direction of the corner from b to c; `near_b`: r and b make less than a right angle.
-double sine2_to_corner(const Vector& r, const Vector& b, const Vector& c, bool near_b, bool near_c) {
+double sine2_to_corner(const Vector<3>& r, const Vector<3>& b, const Vector<3>& c, bool near_b, bool near_c) {
   double least = 1;
   if (near_b) least = std::min(least, sine2(r, b));
   if (near_c) least = std::min(least, sine2(r, c));
-  const Vector n = cross(b, c);
+  const Vector<3> n = cross(b, c);
   if (dot(cross(n, b), r) > 0 && dot(cross(c, n), r) > 0) {
     const double height = dot(n, r);
     least = std::min(least, ratio(height * height, dot(n, n) * dot(r, r)));
@@ -125,7 +120,7 @@ void Diagnoser<D>::note_facet_angles(std::uint32_t v, Angles& found) const requi
     const auto& ends = domain_.segments()[s].points;
     const std::uint32_t end = ends[0] == v ? ends[1] : ends[0];
     const auto own = domain_.facets_of_segment(s);
-    const Vector r = direction<D>(p_[v], p_[end]);
+    const Vector<3> r = direction<D>(p_[v], p_[end]);
     for (std::size_t k = 0, next; k < corners.size() && k < most_at_a_point; k = next) {
       const EntityId f = triangles_[corners[k] / 3].facet;
       Angle least{2, {v, end, 0, 0}};
@@ -160,8 +155,8 @@ void Diagnoser<D>::facets_at_segments(Angles& found) const requires(D == 3) {
         if (s.facet == t.facet) continue;
         const std::uint32_t c = apex(uses[i]), d = apex(uses[j]);
         if (dihedral_sign(p_[a], p_[b], p_[c], p_[d]) != Sign::positive) continue;
-        const Vector e = direction<D>(p_[a], p_[b]);
-        const Vector u = cross(e, direction<D>(p_[a], p_[c])), w = cross(e, direction<D>(p_[a], p_[d]));
+        const Vector<3> e = direction<D>(p_[a], p_[b]);
+        const Vector<3> u = cross(e, direction<D>(p_[a], p_[c])), w = cross(e, direction<D>(p_[a], p_[d]));
         const auto [f, g] = std::minmax(s.origin.facet, t.origin.facet);
         found.facets_90.add({sine2(u, w), {a, b, f, g}});
       }

@@ -16,7 +16,7 @@
 #include "diagnose/chance.hpp"
 #include "diagnose/meshed_space.hpp"
 #include "diagnose/near_pieces.hpp"
-#include "numbers/vectors.hpp"
+#include "numbers/signed_measure.hpp"
 #include "pgdr/estimate.hpp"
 #include "space/stop_check.hpp"
 
@@ -39,17 +39,20 @@ template <int D>
 class MeasuredSpace {
  public:
   MeasuredSpace(const NearPieces<D>& pieces, const MeshedSpace<D>& space)
-      : pieces_(pieces),
-        space_(space),
+      : space_(space),
         box_(Box<D>::of(pieces.points())),
         middle_(detail::on_edge(box_.low, box_.high, 0.5)),
         measures_(space.volumes().size()) {
-    for (std::uint32_t wall = 0; wall < space.walls(); ++wall)
+    constexpr double parts = D == 2 ? 2 : 6;
+    for (std::uint32_t wall = 0; wall < space.hits().walls(); ++wall) {
+      // From the wall to the middle of all; positive if that is on its positive side.
+      const double pyramid = detail::signed_measure<D>(space.hits().corners(wall), middle_).first / parts;
       for (const bool negative : {false, true}) {
         const auto& volume = space.volume_beside(wall, negative);
         faces_ += volume.meshed ? 1 : 0;
-        measures_[number(volume)] += (negative ? -1 : 1) * pyramid(wall);
+        measures_[number(volume)] += (negative ? -1 : 1) * pyramid;
       }
+    }
   }
 
   /// On sides of walls that are meshed.
@@ -77,7 +80,7 @@ class MeasuredSpace {
     // A volume in which there is no place is thin, or small: what is at its walls is near to all of it.
     std::vector<char> is_missed(means.size());
     for (std::size_t v = 0; v < means.size(); ++v) is_missed[v] = means[v].count == 0 ? 1 : 0;
-    for (std::uint32_t wall = 0; wall < space_.walls(); ++wall)
+    for (std::uint32_t wall = 0; wall < space_.hits().walls(); ++wall)
       for (const bool negative : {false, true}) {
         const Volume& volume = space_.volume_beside(wall, negative);
         if (is_missed[number(volume)] && means[number(volume)].count < count_places<D>) note(look(middle_of(wall), &volume));
@@ -102,19 +105,10 @@ class MeasuredSpace {
   };
 
   std::size_t number(const Volume& volume) const { return static_cast<std::size_t>(&volume - space_.volumes().data()); }
-  const Point<D>& corner(std::uint32_t wall, std::size_t i) const { return pieces_.points()[pieces_.pieces()[wall].corners[i]]; }
-  /// From the wall to the middle of all; positive if that is on its positive side.
-  double pyramid(std::uint32_t wall) const {
-    const auto u = detail::difference(corner(wall, 1), corner(wall, 0)), w = detail::difference(middle_, corner(wall, 0));
-    if constexpr (D == 2)
-      return (u[0] * w[1] - u[1] * w[0]) / 2;
-    else
-      return detail::dot(detail::cross(u, detail::difference(corner(wall, 2), corner(wall, 0))), w) / 6;
-  }
   Point<D> middle_of(std::uint32_t wall) const {
     Point<D> middle{};
-    for (std::size_t k = 0; k < D; ++k)
-      for (int i = 0; i < D; ++i) middle[i] += corner(wall, k)[i] / D;
+    for (const Point<D>& x : space_.hits().corners(wall))
+      for (int i = 0; i < D; ++i) middle[i] += x[i] / D;
     return middle;
   }
   std::vector<Point<D>> choose_places() const {
@@ -128,7 +122,6 @@ class MeasuredSpace {
     return places;
   }
 
-  const NearPieces<D>& pieces_;
   const MeshedSpace<D>& space_;
   const Box<D> box_;
   const Point<D> middle_;

@@ -31,16 +31,13 @@ struct Place {
 };
 
 template <int D>
-using PieceOf = typename NearPieces<D>::Piece;
-
-template <int D>
-const Point<D>& corner(const NearPieces<D>& pieces, const PieceOf<D>& piece, std::size_t i) {
+const Point<D>& corner(const NearPieces<D>& pieces, const Piece& piece, std::size_t i) {
   return pieces.points()[piece.corners[i]];
 }
 
 /// Its length is twice the area (2D: the length).
 template <int D>
-Vector<D> normal_of(const NearPieces<D>& pieces, const PieceOf<D>& piece) {
+Vector<D> normal_of(const NearPieces<D>& pieces, const Piece& piece) {
   const auto u = difference(corner<D>(pieces, piece, 1), corner<D>(pieces, piece, 0));
   if constexpr (D == 3)
     return cross(u, difference(corner<D>(pieces, piece, 2), corner<D>(pieces, piece, 0)));
@@ -49,14 +46,14 @@ Vector<D> normal_of(const NearPieces<D>& pieces, const PieceOf<D>& piece) {
 }
 
 template <int D>
-double measure_of(const NearPieces<D>& pieces, const PieceOf<D>& piece) {
+double measure_of(const NearPieces<D>& pieces, const Piece& piece) {
   if (piece.count < D) return 0;
   const auto n = normal_of<D>(pieces, piece);
   return std::sqrt(dot(n, n)) / (D == 3 ? 2 : 1);
 }
 
 template <int D>
-Point<D> choose_in(const NearPieces<D>& pieces, const PieceOf<D>& piece, Chance& chance) {
+Point<D> choose_in(const NearPieces<D>& pieces, const Piece& piece, Chance& chance) {
   double u = chance(), v = D == 3 ? chance() : 0.0;
   if (u + v > 1) u = 1 - u, v = 1 - v;
   Point<D> x = on_edge(corner<D>(pieces, piece, 0), corner<D>(pieces, piece, 1), u);
@@ -119,8 +116,8 @@ class NearestDisjoint {
   /// Behind walls there may be any number of pieces: where so many are, the place counts as one that nothing is near to.
   Near<D> from(const Place<D>& place) const {
     constexpr int most_blocked = 64;
-    const PieceOf<D>& own = pieces_.pieces()[place.piece];
-    const double facet = own.count == 3 ? own.facet : -1.0;
+    const Piece& own = pieces_.pieces()[place.piece];
+    const double facet = own.count == 3 ? own.owner : -1.0;
     Near<D> near;
     int blocked = 0;
     tree_.nearest(
@@ -129,7 +126,7 @@ class NearestDisjoint {
           return is_own ? infinity : std::sqrt(box.squared_distance_to(place.x));
         },
         [&](std::uint32_t i) {
-          const PieceOf<D>& piece = pieces_.pieces()[i];
+          const Piece& piece = pieces_.pieces()[i];
           const auto closest = pieces_.closest(place.x, piece);
           const double distance = std::sqrt(closest.square);
           const bool is_nearer = distance < near.distance || (distance == near.distance && i < near.piece);
@@ -152,8 +149,8 @@ class NearestDisjoint {
   std::vector<double> facets_of_pieces(double sign, const Bulk& bulk) const {
     std::vector<double> facets(pieces_.pieces().size());
     bulk.each(facets.size(), [&](std::size_t i) {
-      const PieceOf<D>& piece = pieces_.pieces()[i];
-      facets[i] = sign * (piece.count == 3 ? piece.facet : double{no_entity});
+      const Piece& piece = pieces_.pieces()[i];
+      facets[i] = sign * (piece.count == 3 ? piece.owner : double{no_entity});
     });
     return facets;
   }
@@ -188,7 +185,6 @@ class CellsBetween {
   }
 
  private:
-  using Piece = typename NearPieces<D>::Piece;
   struct Between {
     double cells = 0;
     Gap<D> gap{infinity, {}, {}};
@@ -261,7 +257,7 @@ template <int D>
 bool is_any_near(const NearPieces<D>& pieces, const PlacesAlongAxis<D>& places, double width, const Bulk& bulk) {
   std::atomic<bool> is_any = false;
   bulk.each(pieces.pieces().size(), [&](std::size_t i) {
-    const PieceOf<D>& piece = pieces.pieces()[i];
+    const Piece& piece = pieces.pieces()[i];
     auto box = Box<D>::empty();
     for (const std::uint32_t v : piece.points()) box.add(pieces.points()[v]);
     const auto is_near = [&](const Place<D>& place) {

@@ -123,10 +123,8 @@ class Diagnoser {
   std::vector<Point<D>> points_of(std::span<const std::uint32_t> vertices) const;
   void collect_triangles();
   std::span<const EdgeUse> uses_at(std::size_t begin) const;
-  bool is_segment(const Edge& e) const;
 
   // pairs.cpp
-  void collect_pieces();
   void find_meetings();
   void note(std::uint32_t i, std::uint32_t j, Meetings& found) const;
   std::uint32_t owner(std::uint32_t piece) const;
@@ -169,8 +167,7 @@ class Diagnoser {
   std::span<const Point<D>> p_;
   std::vector<Triangle> triangles_;  // all facets'
   std::vector<EdgeUse> uses_;
-  std::vector<Piece> pieces_;  // the triangles, then segments of no facet, then points of neither
-  std::vector<EntityId> piece_segments_;
+  std::vector<Piece> pieces_;                                // the triangles, then segments of no facet, then points of neither
   std::vector<std::uint32_t> segment_begin_, corner_begin_;  // by point
   std::vector<std::uint32_t> corner_at_;                     // 3 * triangle + corner
   std::vector<EntityId> segment_at_;

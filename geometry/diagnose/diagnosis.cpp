@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "diagnose/diagnoser.hpp"
+#include "diagnose/near_pieces.hpp"
 #include "input/words.hpp"
 
 namespace pgdr {
@@ -28,7 +29,7 @@ void Diagnoser<D>::run() {
   if (p_.empty()) return;
   stop_check_();
   collect_triangles();
-  collect_pieces();
+  pieces_ = pieces_of(domain_, bulk_);
   stop_check_();
   find_meetings();
   if (!options_.errors_only) {
@@ -117,25 +118,13 @@ auto Diagnoser<D>::uses_at(std::size_t begin) const -> std::span<const EdgeUse> 
   return std::span(uses_).subspan(begin, end - begin);
 }
 
-// A Domain has its segments in the order of the keys of their points.
-template <int D>
-bool Diagnoser<D>::is_segment(const Edge& e) const {
-  const auto segments = domain_.segments();
-  const auto key_of = [](const DomainSegment& s) { return key(s.points[0], s.points[1]); };
-  const std::uint64_t wanted = key(e[0], e[1]);
-  const auto at = std::partition_point(segments.begin(), segments.end(),
-                                       [&](const DomainSegment& s) { return key_of(s) < wanted; });
-  return at != segments.end() && key_of(*at) == wanted;
-}
-
 #define PGDR_INSTANTIATE(D)                                                                                               \
   template std::string Diagnoser<D>::point_words(std::uint32_t) const;                                                    \
   template std::string Diagnoser<D>::segment_words(EntityId) const;                                                       \
   template std::uint32_t Diagnoser<D>::segment_line(EntityId) const;                                                      \
   template void Diagnoser<D>::list(Finding, Errc, std::string, std::uint32_t, Ids, const std::vector<Point<D>>&, double); \
   template std::vector<Point<D>> Diagnoser<D>::points_of(std::span<const std::uint32_t>) const;                           \
-  template auto Diagnoser<D>::uses_at(std::size_t) const->std::span<const EdgeUse>;                                       \
-  template bool Diagnoser<D>::is_segment(const Edge&) const;
+  template auto Diagnoser<D>::uses_at(std::size_t) const->std::span<const EdgeUse>;
 PGDR_INSTANTIATE(2)
 PGDR_INSTANTIATE(3)
 #undef PGDR_INSTANTIATE

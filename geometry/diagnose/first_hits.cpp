@@ -9,6 +9,7 @@
 #include "diagnose/chance.hpp"
 #include "numbers/exact_tests.hpp"
 #include "numbers/rounding.hpp"
+#include "numbers/signed_measure.hpp"
 #include "numbers/vectors.hpp"
 #include "pgdr/predicates.hpp"
 
@@ -26,26 +27,6 @@ template <int D>
 std::uint32_t count_walls(const NearPieces<D>& pieces) {
   const auto& all = pieces.pieces();
   return static_cast<std::uint32_t>(std::ranges::partition_point(all, [](const auto& p) { return p.count == D; }) - all.begin());
-}
-
-/// The determinant that orient has the sign of, and how far it may be off.
-template <int D>
-std::array<double, 2> height(const std::array<Point<D>, D>& s, const Point<D>& x) {
-  const auto u = difference(s[1], s[0]), w = difference(x, s[0]);
-  if constexpr (D == 2) {
-    const double l = u[0] * w[1], r = u[1] * w[0];
-    return {l - r, rounding::of_determinant * (std::fabs(l) + std::fabs(r))};
-  } else {
-    const auto v = difference(s[2], s[0]);
-    double value = 0, size = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-      const double l = u[j] * v[k], r = u[k] * v[j];
-      value += w[i] * (l - r);
-      size += std::fabs(w[i]) * (std::fabs(l) + std::fabs(r));
-    }
-    return {value, rounding::of_determinant * size};
-  }
 }
 
 }  // namespace
@@ -156,8 +137,8 @@ auto FirstHits<D>::inside(const Ray& ray, const Box<D>& box) -> Interval {
 template <int D>
 auto FirstHits<D>::place(const Ray& ray, std::uint32_t wall) const -> Interval {
   const auto s = corners(wall);
-  const auto [before, of_before] = height<D>(s, ray.from);
-  const auto [behind, of_behind] = height<D>(s, ray.to);
+  const auto [before, of_before] = signed_measure<D>(s, ray.from);
+  const auto [behind, of_behind] = signed_measure<D>(s, ray.to);
   const double whole = before - behind, error = 4 * (of_before + of_behind) / std::fabs(whole);
   const Interval in = inside(ray, boxes_[wall]);
   if (!(error < 1)) return in;

@@ -9,6 +9,7 @@
 #include "numbers/vectors.hpp"
 #include "pgdr/predicates.hpp"
 #include "space/nesting.hpp"
+#include "space/turn_round.hpp"
 
 namespace pgdr::detail {
 namespace {
@@ -67,19 +68,9 @@ Sign MeshedSpace<D>::turn(std::uint64_t ridge, std::uint32_t from, std::uint32_t
     return orient3d(p[ridge >> 32], p[ridge & 0xffffffffu], p[from], p[to]);
 }
 
-// Angles from the first wall on: (0, 180), 180, (180, 360) degrees; inside the first and the last by orientation.
 template <int D>
 void MeshedSpace<D>::turn_round(std::span<AtRidge> walls, DisjointSets& sides, DisjointSets& surfaces) const {
-  const std::uint32_t first = walls[0].apex;
-  const auto part = [&](const AtRidge& w) {
-    const Sign s = turn(w.ridge, first, w.apex);
-    return s == Sign::positive ? 1 : s == Sign::zero ? 2 : 3;
-  };
-  if (walls.size() > 2)
-    std::sort(walls.begin() + 1, walls.end(), [&](const AtRidge& x, const AtRidge& y) {
-      const int px = part(x), py = part(y);
-      return px != py ? px < py : px != 2 && turn(x.ridge, x.apex, y.apex) == Sign::positive;
-    });
+  sort_round(walls, [&, ridge = walls[0].ridge](std::uint32_t v, std::uint32_t w) { return turn(ridge, v, w); });
   for (std::size_t i = 0; i < walls.size(); ++i) {
     const AtRidge &here = walls[i], &next = walls[(i + 1) % walls.size()];
     sides.unite(2 * here.wall + here.ahead_negative, 2 * next.wall + !next.ahead_negative);
@@ -270,12 +261,12 @@ template <int D>
 bool MeshedSpace<D>::is_along_facet(const Point<D>& a, const Point<D>& b, bool meshed) const requires(D == 3) {
   const auto is_of = [&](EntityId facet, const Point<D>& x) {
     bool found = false;
-    walls_at(x, tolerance_, [&](std::uint32_t i) { found = found || pieces_.pieces()[i].facet == facet; });
+    walls_at(x, tolerance_, [&](std::uint32_t i) { found = found || pieces_.pieces()[i].owner == facet; });
     return found;
   };
   bool along = false;
   walls_at(on_edge(a, b, 0.5), tolerance_, [&](std::uint32_t i) {
-    const EntityId facet = pieces_.pieces()[i].facet;
+    const EntityId facet = pieces_.pieces()[i].owner;
     along = along || (bounds(i) == meshed && is_of(facet, a) && is_of(facet, b));
   });
   return along;

@@ -33,7 +33,7 @@ class MeshedSpace {
   /// Points are in unit scale here and below. @throws CancelledError
   MeshedSpace(const NearPieces<D>& pieces, bool voids_by_nesting, const Bulk& bulk, const StopCheck& stop_check);
 
-  std::uint32_t walls() const { return hits_.walls(); }                   ///< the first of the pieces
+  const FirstHits<D>& hits() const { return hits_; }                      ///< of the walls
   std::span<const Volume> volumes() const { return volumes_; }            ///< the outside first
   const Volume& volume_beside(std::uint32_t wall, bool negative) const {  ///< on its positive or negative side
     return volumes_[volume_of_[2 * wall + negative]];

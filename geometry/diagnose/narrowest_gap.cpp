@@ -24,6 +24,7 @@ namespace {
 
 using detail::ClosestPoints;
 using detail::NearPieces;
+using detail::Piece;
 
 /// How many pairs of pieces one of a thousand parts of the search looks at. Surfaces have some six a piece in all; those of long
 /// thin triangles side by side may have all that there are.
@@ -62,7 +63,6 @@ class GapSearch {
   }
 
  private:
-  using Piece = typename NearPieces<D>::Piece;
   struct Part {
     NearPair least;
     std::uint64_t pairs = 0;
@@ -117,7 +117,7 @@ class GapSearch {
       if (!b.has(v)) note_point(v, j, least);
     for (const std::uint32_t v : b.points())
       if (!a.has(v)) note_point(v, i, least);
-    if (D == 3 && !(a.count == 3 && b.count == 3 && a.facet == b.facet)) note_edges(a, b, least);
+    if (D == 3 && !(a.count == 3 && b.count == 3 && a.owner == b.owner)) note_edges(a, b, least);
   }
 
   /// A point and a piece that does not have it.
@@ -230,10 +230,8 @@ class GapSearch {
     return {vertex(a), piece.entity(), pieces_.closest(p_[a], piece)};
   }
   EntityRef segment(std::uint32_t a, std::uint32_t b) const {
-    const auto segments = pieces_.domain().segments();
-    for (EntityId s = 0; s < segments.size(); ++s)
-      if (std::minmax(segments[s].points[0], segments[s].points[1]) == std::minmax(a, b)) return {EntityKind::segment, s};
-    return {EntityKind::vertex, a};
+    const EntityId s = detail::segment_between(pieces_.domain(), a, b);
+    return s == no_entity ? EntityRef{EntityKind::vertex, a} : EntityRef{EntityKind::segment, s};
   }
 
   /// The entity, and those that it is part of, the first few; the largest dimension comes first.

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The pieces of a Domain as questions of distance need them: 3D the triangles of facets, then segments of no facet; 2D the
-// segments; then points of neither. Immutable once made, any thread.
+// The pieces of a Domain; and as questions of distance need them, in unit scale. Immutable once made, any thread.
 #pragma once
 
 #include <array>
@@ -10,29 +9,25 @@
 #include <span>
 #include <vector>
 
-#include "space/distances.hpp"
 #include "pgdr/domain.hpp"
 #include "space/box.hpp"
 #include "space/bulk.hpp"
+#include "space/contact.hpp"
+#include "space/distances.hpp"
 
 namespace pgdr::detail {
+
+/// 3D the triangles of facets, then segments of no facet; 2D the segments; then points of neither.
+template <int D>
+std::vector<Piece> pieces_of(const Domain<D>& domain, const Bulk& bulk);
+
+/// The segment between two points, in either order; no_entity if there is none.
+template <int D>
+EntityId segment_between(const Domain<D>& domain, std::uint32_t a, std::uint32_t b);
 
 template <int D>
 class NearPieces {
  public:
-  struct Piece {
-    std::array<std::uint32_t, 3> corners{no_entity, no_entity, no_entity};
-    std::uint8_t count = 0;        ///< of corners
-    EntityId facet = no_entity;    ///< of a triangle
-    EntityId segment = no_entity;  ///< of an edge
-    bool has(std::uint32_t v) const { return corners[0] == v || corners[1] == v || corners[2] == v; }
-    std::span<const std::uint32_t> points() const { return std::span(corners).first(count); }
-    EntityRef entity() const {
-      if (count == 3) return {EntityKind::facet, facet};
-      return count == 2 ? EntityRef{EntityKind::segment, segment} : EntityRef{EntityKind::vertex, corners[0]};
-    }
-  };
-
   NearPieces(const Domain<D>& domain, const Bulk& bulk);
 
   const Domain<D>& domain() const { return *domain_; }
@@ -43,7 +38,7 @@ class NearPieces {
   std::vector<Box<D>> boxes(double width, const Bulk& bulk) const;
 
   /// Is the edge a segment of the Domain?
-  bool is_segment(std::uint32_t a, std::uint32_t b) const;
+  bool is_segment(std::uint32_t a, std::uint32_t b) const { return segment_between(*domain_, a, b) != no_entity; }
   /// Does the piece, with the whole facet that it is of, have this point?
   bool owner_has(const Piece& piece, std::uint32_t v) const;
   /// Do the entities of two pieces have no point in common?

@@ -5,72 +5,34 @@
 // pairs to look at; pairs of triangles are told as pairs of input facets, touching ones by the point that lies on the
 // other alone.
 #include <algorithm>
-#include <atomic>
 
 #include "diagnose/diagnoser.hpp"
+#include "diagnose/near_pieces.hpp"
 #include "input/words.hpp"
-#include "space/box_tree.hpp"
 #include "space/make_set.hpp"
+#include "space/piece_pairs.hpp"
 
 namespace pgdr::detail {
 
 template <int D>
-void Diagnoser<D>::collect_pieces() {
-  const auto number_of = [](std::size_t i) { return static_cast<std::uint32_t>(i); };
-  const auto append = [this](const std::vector<Piece>& more) { pieces_.insert(pieces_.end(), more.begin(), more.end()); };
-  std::vector<char> used(p_.size());
-  const auto use = [&used](std::uint32_t v) { std::atomic_ref(used[v]).store(1, std::memory_order_relaxed); };
-  pieces_.resize(triangles_.size());
-  bulk_.each(triangles_.size(), [&](std::size_t i) {
-    const Triangle& t = triangles_[i];
-    pieces_[i] = {t.corners, 3, static_cast<std::uint8_t>(domain_.facets()[t.facet].axis)};
-    for (const std::uint32_t v : t.corners) use(v);
-  });
-  piece_segments_ = bulk_.gather<EntityId>(domain_.segments().size(), [&](std::size_t i, std::vector<EntityId>& found) {
-    for (const std::uint32_t v : domain_.segments()[i].points) use(v);
-    if (domain_.facets_of_segment(number_of(i)).empty()) found.push_back(number_of(i));
-  });
-  append(bulk_.gather<Piece>(piece_segments_.size(), [&](std::size_t i, std::vector<Piece>& found) {
-    const auto [a, b] = domain_.segments()[piece_segments_[i]].points;
-    found.push_back({{a, b, no_entity}, 2, 0});
-  }));
-  append(bulk_.gather<Piece>(p_.size(), [&](std::size_t v, std::vector<Piece>& found) {
-    if (used[v] == 0) found.push_back({{number_of(v), no_entity, no_entity}, 1, 0});
-  }));
-}
-
-template <int D>
 void Diagnoser<D>::find_meetings() {
   if (domain_.nothing_meets()) return;
-  std::vector<std::array<std::uint32_t, 3>> corners(pieces_.size());
-  bulk_.each(corners.size(), [&](std::size_t i) { corners[i] = pieces_[i].corners; });
-  const BoxTree<D> tree(corners, p_, 0, bulk_);
-  stop_check_();
-  const auto parts = tree.template self_pairs_in_parts<Meetings>(
-      bulk_, [this](std::uint32_t i, std::uint32_t j, Meetings& found) { note(i, j, found); });
-  stop_check_();
-  const auto all = [&](auto Meetings::*list) {
-    auto joined = parts.front().*list;
-    for (const Meetings& part : std::span(parts).subspan(1))
-      joined.insert(joined.end(), (part.*list).begin(), (part.*list).end());
-    return joined;
-  };
-  report_meetings(all(&Meetings::facet_facet), 3, 3);
-  report_meetings(all(&Meetings::segment_facet), 2, 3);
-  report_meetings(all(&Meetings::segment_segment), 2, 2);
-  report_resting(all(&Meetings::resting));
+  auto parts = look_at_pairs<Meetings, D>(pieces_, p_, 0, bulk_, stop_check_,
+                                          [this](std::uint32_t i, std::uint32_t j, Meetings& found) { note(i, j, found); });
+  report_meetings(joined(parts, &Meetings::facet_facet), 3, 3);
+  report_meetings(joined(parts, &Meetings::segment_facet), 2, 3);
+  report_meetings(joined(parts, &Meetings::segment_segment), 2, 2);
+  report_resting(joined(parts, &Meetings::resting));
 }
 
 /// Input facet of a triangle, domain segment of a segment.
 template <int D>
 std::uint32_t Diagnoser<D>::owner(std::uint32_t piece) const {
-  if (piece < triangles_.size()) return triangles_[piece].origin.facet;
-  return piece_segments_[piece - triangles_.size()];
+  return piece < triangles_.size() ? triangles_[piece].origin.facet : pieces_[piece].owner;
 }
 
 template <int D>
 void Diagnoser<D>::note(std::uint32_t i, std::uint32_t j, Meetings& found) const {
-  stop_check_();
   bool same_plane = false;
   if (j < triangles_.size()) {
     const Triangle &s = triangles_[i], &t = triangles_[j];
@@ -94,7 +56,7 @@ void Diagnoser<D>::note(std::uint32_t i, std::uint32_t j, Meetings& found) const
 template <int D>
 auto Diagnoser<D>::resting(const Contact::Corner& corner, std::uint32_t on_piece) const -> Resting {
   bool on_edge = corner.edge[0] != no_entity;
-  if (on_edge && on_piece < triangles_.size() && !is_segment(corner.edge)) {
+  if (on_edge && on_piece < triangles_.size() && segment_between(domain_, corner.edge[0], corner.edge[1]) == no_entity) {
     const EdgeUse wanted{key(corner.edge[0], corner.edge[1]), 0};
     const auto at = std::lower_bound(uses_.begin(), uses_.end(), wanted);
     const auto uses = uses_at(static_cast<std::size_t>(at - uses_.begin()));
@@ -180,8 +142,6 @@ void Diagnoser<D>::list_resting(const Resting& r) {
          point_line(r.point), {point_number(r.point), point_number(r.first), point_number(r.second)}, {p_[r.point]});
 }
 
-template void Diagnoser<2>::collect_pieces();
-template void Diagnoser<3>::collect_pieces();
 template void Diagnoser<2>::find_meetings();
 template void Diagnoser<3>::find_meetings();
 

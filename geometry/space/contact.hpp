@@ -24,7 +24,14 @@ struct Piece {
   std::array<std::uint32_t, 3> corners{no_entity, no_entity, no_entity};
   std::uint8_t count = 0;  ///< of corners
   std::uint8_t axis = 0;
+  EntityId owner = no_entity;  ///< the facet or the segment of a Domain that it is of
   bool has(std::uint32_t v) const { return corners[0] == v || corners[1] == v || corners[2] == v; }
+  std::span<const std::uint32_t> points() const { return std::span(corners).first(count); }
+  /// @pre it is of a Domain
+  EntityRef entity() const {
+    if (count == 3) return {EntityKind::facet, owner};
+    return count == 2 ? EntityRef{EntityKind::segment, owner} : EntityRef{EntityKind::vertex, corners[0]};
+  }
 };
 
 /// How two pieces meet, and where.

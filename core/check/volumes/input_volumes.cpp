@@ -12,6 +12,7 @@
 #include "pgdr/predicates.hpp"
 #include "space/box.hpp"
 #include "space/disjoint_sets.hpp"
+#include "space/turn_round.hpp"
 
 namespace pgdr::checking {
 
@@ -22,27 +23,6 @@ void CompensatedSum::add(double x) {
   rest_ += std::abs(sum_) >= std::abs(x) ? (sum_ - t) + x : (x - t) + sum_;
   sum_ = t;
   absolute_ += std::abs(x);
-}
-
-/// The determinant of the corners less x, and its error.
-template <int D>
-std::pair<double, double> signed_measure(const std::array<Point<D>, D>& s, const Point<D>& x) {
-  std::array<Point<D>, D> a;
-  for (int i = 0; i < D; ++i)
-    for (int j = 0; j < D; ++j) a[i][j] = s[i][j] - x[j];
-  if constexpr (D == 2) {
-    const double l = a[0][0] * a[1][1], r = a[0][1] * a[1][0];
-    return {l - r, rounding::of_determinant * (std::abs(l) + std::abs(r))};
-  } else {
-    double value = 0, size = 0;
-    for (int j = 0; j < 3; ++j) {
-      const int k = (j + 1) % 3, m = (j + 2) % 3;
-      const double l = a[1][k] * a[2][m], r = a[1][m] * a[2][k];
-      value -= a[0][j] * (l - r);
-      size += std::abs(a[0][j]) * (std::abs(l) + std::abs(r));
-    }
-    return {value, rounding::of_determinant * size};
-  }
 }
 
 namespace {
@@ -124,17 +104,7 @@ class InputBuilder {
   }
 
   void turn_round(std::span<AtRidge> walls) {
-    // Angles from the first wall on: (0, 180), 180, (180, 360) degrees; inside the first and the last by orientation.
-    const std::uint32_t reference = walls[0].apex;
-    const auto part = [&](const AtRidge& w) {
-      const Sign s = turn(w.ridge, reference, w.apex);
-      return s == Sign::positive ? 1 : s == Sign::zero ? 2 : 3;
-    };
-    if (walls.size() > 2)
-      std::sort(walls.begin() + 1, walls.end(), [&](const AtRidge& x, const AtRidge& y) {
-        const int px = part(x), py = part(y);
-        return px != py ? px < py : px != 2 && turn(x.ridge, x.apex, y.apex) == Sign::positive;
-      });
+    detail::sort_round(walls, [&, ridge = walls[0].ridge](std::uint32_t v, std::uint32_t w) { return turn(ridge, v, w); });
     for (std::size_t i = 0; i < walls.size(); ++i) {
       const AtRidge &w = walls[i], &next = walls[(i + 1) % walls.size()];
       sides_.unite(2 * w.simplex + w.ahead_negative, 2 * next.simplex + !next.ahead_negative);
@@ -242,10 +212,8 @@ class InputBuilder {
   }
 
   void place_seeds() {
-    for (const auto& p : walls_.holes) {
-      out_.hole_volumes_.push_back(out_.locate(p));
-      if (const auto v = out_.hole_volumes_.back()) out_.volumes_[*v].kept = false;
-    }
+    for (const auto& p : walls_.holes)
+      if (const auto v = out_.locate(p)) out_.volumes_[*v].kept = false;
     for (std::uint32_t i = 0; i < walls_.regions.size(); ++i) {
       const RegionSeed<D>& seed = walls_.regions[i];
       out_.region_volumes_.push_back(out_.locate(seed.point));
@@ -374,7 +342,5 @@ std::span<const Bound> InputVolumes<D>::bounds(EntityId segment, bool reversed) 
 
 template class InputVolumes<2>;
 template class InputVolumes<3>;
-template std::pair<double, double> signed_measure<2>(const std::array<Point2, 2>&, const Point2&);
-template std::pair<double, double> signed_measure<3>(const std::array<Point3, 3>&, const Point3&);
 
 }  // namespace pgdr::checking

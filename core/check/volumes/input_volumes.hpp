@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "numbers/signed_measure.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/region_mode.hpp"
 #include "space/box_tree.hpp"
@@ -78,9 +79,8 @@ class InputVolumes {
   std::span<const Bound> bounds() const { return bounds_; }
   /// The volume at p; empty if p is on a wall.
   std::optional<std::uint32_t> locate(const Point<D>& p) const;
-  /// The volume of each region seed and hole; empty if it is on a wall.
+  /// The volume of each region seed; empty if it is on a wall.
   std::span<const std::optional<std::uint32_t>> region_volumes() const { return region_volumes_; }
-  std::span<const std::optional<std::uint32_t>> hole_volumes() const { return hole_volumes_; }
 
   /// Whether the entity must be in the mesh: it touches a kept volume. A loose one is located, which takes a
   /// line: ask only for what is not in the mesh.
@@ -112,14 +112,12 @@ class InputVolumes {
   std::vector<Patch> patches_;
   std::vector<Bound> bounds_;
   std::vector<Volume> volumes_;
-  std::vector<std::optional<std::uint32_t>> region_volumes_, hole_volumes_;
+  std::vector<std::optional<std::uint32_t>> region_volumes_;
   enum class Wanted : std::uint8_t { unknown, no, yes };
   std::vector<Wanted> wants_segment_, wants_point_;  ///< unknown: at no wall
 };
 
-/// Twice the area, or six times the volume, of the simplex and x, positive where orient is, and a bound of its error.
-template <int D>
-std::pair<double, double> signed_measure(const std::array<Point<D>, D>& simplex, const Point<D>& x);
+using detail::signed_measure;
 
 /// A sum with the running error added back (Neumaier), for volumes of millions of cells.
 class CompensatedSum {

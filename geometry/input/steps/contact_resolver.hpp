@@ -18,11 +18,6 @@
 
 namespace pgdr::detail {
 
-/// The pieces of a Domain in the making: triangles, then edges that no triangle has, then points of neither. Indexes the facets
-/// of triangles.
-template <int D>
-std::vector<Piece> pieces_of(const BuildInput<D>& in, FacetTriangles& faces, std::span<const OwnedEdge> segment_edges);
-
 /// Two pieces that meet where they should not.
 struct FoundContact {
   std::uint32_t first, second;

@@ -3,15 +3,14 @@
 #include "input/steps/near_search.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <iterator>
 
+#include "input/steps/build_pieces.hpp"
 #include "input/steps/near_tests.hpp"
 #include "numbers/vectors.hpp"
 #include "pgdr/predicates.hpp"
-#include "space/box_tree.hpp"
 #include "space/make_set.hpp"
+#include "space/piece_pairs.hpp"
 
 namespace pgdr::detail {
 namespace {
@@ -34,54 +33,15 @@ NearSearch<D>::NearSearch(const BuildInput<D>& in, const NearContacts& own)
 }
 
 template <int D>
-void NearSearch<D>::collect_pieces(std::span<const OwnedEdge> segment_edges, std::span<const FlatFacet> flat) {
-  pieces_.resize(faces_->triangles.size());
-  std::vector<char> used(in_.points.size());
-  in_.bulk.each(pieces_.size(), [&](std::size_t t) {
-    pieces_[t] = {faces_->triangles[t], 3, static_cast<std::uint8_t>(faces_->facets[faces_->facet_of[t]].axis)};
-    for (const std::uint32_t v : faces_->triangles[t]) std::atomic_ref(used[v]).store(1, std::memory_order_relaxed);
-  });
-  std::vector<std::uint64_t> loose, of_triangles;
-  for (const auto edges : {segment_edges, std::span<const OwnedEdge>(faces_->polygon_edges)})
-    for (const OwnedEdge& e : edges) loose.push_back(edge_key(e.edge[0], e.edge[1]));
-  for (const FlatFacet& facet : flat)
-    for (std::size_t k = 0, n = facet.vertices.size(); k < n; ++k)
-      if (facet.vertices[k] != facet.vertices[(k + 1) % n])
-        loose.push_back(edge_key(facet.vertices[k], facet.vertices[(k + 1) % n]));
-  make_set(loose);
-  if (!loose.empty()) {
-    of_triangles.resize(3 * faces_->triangles.size());
-    in_.bulk.each(of_triangles.size(),
-                  [&](std::size_t k) { of_triangles[k] = faces_->key_of_edge(static_cast<std::uint32_t>(k / 3), k % 3); });
-    in_.stop.sort(in_.bulk, of_triangles);
-  }
-  for (const std::uint64_t key : loose) {
-    const auto [a, b] = edge_of(key);
-    used[a] = used[b] = 1;
-    if (!std::binary_search(of_triangles.begin(), of_triangles.end(), key)) pieces_.push_back({{a, b, no_entity}, 2, 0});
-  }
-  for (std::uint32_t v = 0; v < used.size(); ++v)
-    if (!used[v]) pieces_.push_back({{v, no_entity, no_entity}, 1, 0});
-}
-
-template <int D>
 bool NearSearch<D>::find_pairs(FacetTriangles& faces, std::span<const OwnedEdge> segment_edges, std::span<const FlatFacet> flat) {
-  faces.index_facets();
   faces_ = &faces;
-  collect_pieces(segment_edges, flat);
-  std::vector<std::array<std::uint32_t, 3>> corners(pieces_.size());
-  in_.bulk.each(corners.size(), [&](std::size_t i) { corners[i] = pieces_[i].corners; });
-  const BoxTree<D> tree(corners, scaled_, width_, in_.bulk);
-  in_.stop();
+  pieces_ = pieces_of(in_, faces, segment_edges, flat);
   using Found = std::vector<Pair>;
-  auto parts = tree.template self_pairs_in_parts<Found>(in_.bulk, [&](std::uint32_t i, std::uint32_t j, Found& found) {
-    in_.stop();
-    const bool meet = !have_one_facet(i, j) && contact<D>(in_.points, pieces_[i], pieces_[j]).kind != Contact::Kind::none;
-    if (meet || (width_ > 0 && come_near(i, j))) found.push_back({i, j});
-  });
-  in_.stop();
-  pairs_.clear();
-  for (const Found& part : parts) pairs_.insert(pairs_.end(), part.begin(), part.end());
+  pairs_ = joined(
+      look_at_pairs<Found, D>(pieces_, scaled_, width_, in_.bulk, in_.stop, [&](std::uint32_t i, std::uint32_t j, Found& found) {
+        const bool meet = !have_one_facet(i, j) && contact<D>(in_.points, pieces_[i], pieces_[j]).kind != Contact::Kind::none;
+        if (meet || (width_ > 0 && come_near(i, j))) found.push_back({i, j});
+      }));
   closed_.clear();
   if (width_ > 0)
     closed_ = in_.bulk.template gather<std::uint32_t>(faces.triangles.size(), [&](std::size_t i, auto& found) {

@@ -42,7 +42,6 @@ class NearSearch {
  private:
   using Pair = std::array<std::uint32_t, 2>;  // of pieces
 
-  void collect_pieces(std::span<const OwnedEdge> segment_edges, std::span<const FlatFacet> flat);
   bool is_triangle(std::uint32_t piece) const { return piece < faces_->triangles.size(); }
   bool have_one_facet(std::uint32_t i, std::uint32_t j) const {
     return is_triangle(j) && is_triangle(i) && faces_->facet_of[i] == faces_->facet_of[j];

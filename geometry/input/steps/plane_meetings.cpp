@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
-#include "input/steps/contact_resolver.hpp"
+#include "input/steps/build_pieces.hpp"
 #include "input/triangle_shapes.hpp"
 #include "numbers/rounding.hpp"
 #include "numbers/vectors.hpp"
 #include "pgdr/predicates.hpp"
-#include "space/box_tree.hpp"
 #include "space/make_set.hpp"
+#include "space/piece_pairs.hpp"
 
 namespace pgdr::detail {
 namespace {
@@ -94,24 +93,16 @@ void Search::find_normals() {
 }
 
 PlaneMeetings Search::run() const {
-  std::vector<std::array<std::uint32_t, 3>> corners;
-  for (const Piece& piece : pieces_) corners.push_back(piece.corners);
-  const BoxTree<3> tree(corners, in_.points, width_.largest());
-  auto parts = tree.self_pairs_in_parts<PlaneMeetings>(
-      in_.bulk, [&](std::uint32_t i, std::uint32_t j, PlaneMeetings& found) { look_at(i, j, found); });
-  in_.stop();
-  PlaneMeetings all;
-  for (PlaneMeetings& part : parts) {
-    std::ranges::move(part.inner, std::back_inserter(all.inner));
-    std::ranges::move(part.overlaps, std::back_inserter(all.overlaps));
-  }
+  auto parts = look_at_pairs<PlaneMeetings, 3>(
+      pieces_, in_.points, width_.largest(), in_.bulk, in_.stop,
+      [&](std::uint32_t i, std::uint32_t j, PlaneMeetings& found) { look_at(i, j, found); });
+  PlaneMeetings all{joined(parts, &PlaneMeetings::inner), joined(parts, &PlaneMeetings::overlaps)};
   make_set(all.inner);
   make_set(all.overlaps);
   return all;
 }
 
 void Search::look_at(std::uint32_t i, std::uint32_t j, PlaneMeetings& found) const {
-  in_.stop();
   const Piece &a = pieces_[i], &b = pieces_[j];
   if (a.count < 3) return;  // triangles come first
   if (b.count < 3) {
