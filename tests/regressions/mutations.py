@@ -401,6 +401,7 @@ MODELS = {  # and the flags; whether pieces overlap, so that markers of several 
     "pit": (pit, ["--size", "0.7"], True), "sheets": (sheets, ["--size", "0.8"], False), "blades": (blades, ["--size", "0.4"], False),
     "box_on_floor": (shapes.box_on_floor, ["--size", "0.7"], True), "half_faces": (shapes.half_faces, ["--size", "0.8"], True),
     "lead": (shapes.lead, [], False), "layers": (shapes.layers, [], False), "tunnel": (shapes.tunnel, [], False),
+    "crossing": (shapes.crossing_boxes, ["--size", "0.8"], True),
 }
 
 

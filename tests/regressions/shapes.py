@@ -11,6 +11,7 @@ class Shape:
 
     def __init__(self, dimension):
         self.dimension, self.number, self.pieces, self.holes, self.regions, self.flags = dimension, {}, [], [], [], []
+        self.may_cross = False  # an input in which facets cross may be refused
 
     def point(self, *p):
         return self.number.setdefault(tuple(map(float, p)), len(self.number))
@@ -186,6 +187,14 @@ def tunnel():
         s.facet([(-20, y, -20), (20, y, -20), (20, y, 20), (-20, y, 20)], [(x, y, z) for x, z in mouth], holes=[(0.0, float(y), 0.0)])
     for (x, z), (u, w) in zip(mouth, [*mouth[1:], mouth[0]]):
         s.facet([(x, 0, z), (u, 0, w), (u, 100, w), (x, 100, z)])
+    return s
+
+
+def crossing_boxes():
+    """Boxes in each other, of which two facets cross where neither has an edge of its own."""
+    s = Shape(3)
+    for low, high in (((3, 2, 3), (5, 3, 4)), ((0, 2, 1), (4, 5, 4)), ((2, 3, 3), (4, 5, 4))):
+        s.box(low, high)
     return s
 
 

@@ -31,6 +31,17 @@ std::array<double, 2> within(const Vector<N>& u, const Vector<N>& v, double r) {
   return {std::max(0.0, nearest - half), std::min(1.0, nearest + half)};
 }
 
+/// Leaves of a part of a segment where a height, which is known at both ends of the segment, is at most 0.
+void cut(std::array<double, 2>& part, double from, double to) {
+  if (from > 0 && to > 0) part = {1, 0};
+  if (from <= 0 && to <= 0) return;
+  const double there = from / (from - to);
+  if (from > 0)
+    part[0] = std::max(part[0], there);
+  else
+    part[1] = std::min(part[1], there);
+}
+
 }  // namespace
 
 template <int D>
@@ -179,6 +190,23 @@ void CoveringTriangle::add_levels(const std::array<std::array<double, 3>, 3>& at
 bool CoveringTriangle::contains(const Point2& x) const {
   return count_ > 0 &&
          std::all_of(sides_.begin(), sides_.begin() + count_, [&](const HalfPlane& s) { return s.a * x[0] + s.b * x[1] <= s.c; });
+}
+
+std::array<double, 2> CoveringTriangle::part_of(const Point2& p, const Point2& q) const {
+  std::array<double, 2> part{0, 1};
+  if (count_ == 0) return {1, 0};
+  for (const HalfPlane& s : std::span(sides_).first(count_))
+    cut(part, s.a * p[0] + s.b * p[1] - s.c, s.a * q[0] + s.b * q[1] - s.c);
+  return part;
+}
+
+std::array<double, 2> part_near(const std::array<Point3, 2>& segment, const std::array<Point3, 3>& triangle, double reach) {
+  const PlaneFrame frame(triangle);
+  if (frame.width() <= 10 * reach) return {1, 0};
+  const auto p = frame.place(segment[0]), q = frame.place(segment[1]);
+  auto part = CoveringTriangle(frame, triangle, reach, reach).part_of({{p[0], p[1]}}, {{q[0], q[1]}});
+  for (const double sense : {1.0, -1.0}) cut(part, sense * p[2] - reach, sense * q[2] - reach);
+  return part;
 }
 
 bool CoveringTriangle::misses(const FlatPolygon& polygon) const {

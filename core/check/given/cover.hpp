@@ -72,6 +72,8 @@ class CoveringTriangle {
   /// Its corners turn the other way round in the plane.
   bool turned() const { return turned_; }
   bool contains(const Point2& x) const;
+  /// The part of the segment from p to q that it has, as fractions of its length; the first above the second if it has none.
+  std::array<double, 2> part_of(const Point2& p, const Point2& q) const;
   /// One of its sides has all of the polygon beyond it.
   bool misses(const FlatPolygon& polygon) const;
   const detail::Box<2>& box() const { return box_; }
@@ -90,6 +92,10 @@ class CoveringTriangle {
   bool turned_ = false;
   detail::Box<2> box_ = detail::Box<2>::empty();
 };
+
+/// The part of the segment, as fractions of its length, within reach of the triangle; the first above the second if there is
+/// none. A triangle that is not ten times as high as its reach has no plane, and so none.
+std::array<double, 2> part_near(const std::array<Point3, 2>& segment, const std::array<Point3, 3>& triangle, double reach);
 
 /// The parts of the triangle, in its frame, that none of the others covers; those thinner than `rounding` are left out. About
 /// n log n for n others that do not overlap much.

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check/given/crossings.hpp"
 
+#include <algorithm>
+
+#include "check/given/flat_groups.hpp"
 #include "space/distances.hpp"
 
 namespace pgdr::checking {
@@ -29,6 +32,41 @@ bool GivenCrossings<D>::has(const Point<D>& x) const {
     return squared_distance(end, detail::on_edge(through[0][0], through[0][1], t)) > 4 * reach_ * reach_;
   };
   return std::ranges::any_of(through, [&](const Ends& e) { return leaves_first(e[0]) || leaves_first(e[1]); });
+}
+
+FacetCrossings::FacetCrossings(const GivenInput<3>& input, std::vector<double> reach) : input_(input), reach_(std::move(reach)) {
+  std::vector<detail::Box<3>> boxes;
+  boxes.reserve(reach_.size());
+  for (std::uint32_t t = 0; t < reach_.size(); ++t)
+    boxes.push_back(detail::Box<3>::of(input.corners(input.triangles()[t])).widened(reach_[t]));
+  tree_ = std::make_unique<detail::BoxTree<3>>(boxes);
+}
+
+void FacetCrossings::append_parts(const std::array<Point3, 2>& segment, std::vector<CoveringSegment<3>>& out) const {
+  struct Part {
+    std::uint32_t triangle;
+    std::array<double, 2> ends;
+  };
+  std::vector<Part> parts;
+  tree_->meeting(detail::Box<3>::of(segment), [&](std::uint32_t t) {
+    const auto ends = part_near(segment, input_.corners(input_.triangles()[t]), reach_[t]);
+    if (ends[0] <= ends[1]) parts.push_back({t, ends});
+  });
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    for (std::size_t k = i + 1; k < parts.size(); ++k) {
+      const double from = std::max(parts[i].ends[0], parts[k].ends[0]), to = std::min(parts[i].ends[1], parts[k].ends[1]);
+      if (from > to || are_even(parts[i].triangle, parts[k].triangle)) continue;
+      const double reach = std::max(reach_[parts[i].triangle], reach_[parts[k].triangle]);
+      out.push_back({{detail::on_edge(segment[0], segment[1], from), detail::on_edge(segment[0], segment[1], to)}, reach});
+    }
+}
+
+/// Two triangles that may lie in one plane cross nowhere, or anywhere.
+bool FacetCrossings::are_even(std::uint32_t s, std::uint32_t t) const {
+  const double reach = std::max(reach_[s], reach_[t]);
+  const auto of_s = input_.corners(input_.triangles()[s]), of_t = input_.corners(input_.triangles()[t]);
+  return std::ranges::all_of(of_t, [&](const Point3& x) { return may_be_even(of_s, x, reach); }) ||
+         std::ranges::all_of(of_s, [&](const Point3& x) { return may_be_even(of_t, x, reach); });
 }
 
 template class GivenCrossings<2>;

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "check/given/cover.hpp"
+#include "check/given/crossings.hpp"
 #include "check/given/match.hpp"
 #include "space/box_tree.hpp"
 
@@ -130,21 +131,33 @@ class GivenSegmentMatcher {
     return !others.empty();
   }
 
+  /// Whether edges of facets, lines in which facets cross, and these have all of it.
+  bool is_on_facets(const Ends<D>& ends, std::vector<CoveringSegment<D>> others) {
+    const auto edges = edges_.near(ends, [](std::uint32_t) { return true; });
+    others.insert(others.end(), edges.begin(), edges.end());
+    if (covered(ends, others)) return true;
+    if constexpr (D == 3) {
+      if (!crossings_) crossings_ = std::make_unique<FacetCrossings>(input_, triangle_reaches());
+      crossings_->append_parts(ends, others);
+    }
+    return D == 3 && covered(ends, others);
+  }
+
+  std::vector<double> triangle_reaches() const {
+    std::vector<double> list;
+    for (const GivenTriangle& t : input_.triangles()) list.push_back(reach(t.points) + input_.bend(t.facet));
+    return list;
+  }
+
   /// Whether it lies on given segments. What lies on nothing given is a finding.
   bool match_subsegment(std::uint32_t i) {
     const auto& sub = mesh_.subsegments[i];
     const Ends<D> ends{mesh_.points[sub.vertices[0]], mesh_.points[sub.vertices[1]]};
     const auto own = given_.near(ends, [&](std::uint32_t s) { return input_.segments()[s].marker == sub.marker; });
     if (covered(ends, own)) return true;
-    auto of_any_marker = given_.near(ends, [](std::uint32_t) { return true; });
-    if (D == 3 && sub.marker == 0) {
-      auto edges = edges_.near(ends, [](std::uint32_t) { return true; });
-      edges.insert(edges.end(), own.begin(), own.end());
-      if (covered(ends, edges)) return false;
-    }
-    const auto edges = edges_.near(ends, [](std::uint32_t) { return true; });
-    of_any_marker.insert(of_any_marker.end(), edges.begin(), edges.end());
-    const bool marked = covered(ends, of_any_marker);
+    if (D == 3 && sub.marker == 0 && is_on_facets(ends, own)) return false;
+    const auto of_any_marker = given_.near(ends, [](std::uint32_t) { return true; });
+    const bool marked = is_on_facets(ends, of_any_marker);
     task_.findings.add(marked ? Kind::wrong_marker : Kind::stray_constraint, {i}, [&] {
       return "Subsegment " + std::to_string(i) + " (" + list_words(sub.vertices) + "), from " + words(ends[0]) + " to " +
              words(ends[1]) + ", has marker " + std::to_string(sub.marker) +
@@ -158,6 +171,7 @@ class GivenSegmentMatcher {
   const GivenInput<D>& input_;
   GivenMatch<D>& out_;
   SegmentTree<D> given_, edges_;
+  std::unique_ptr<FacetCrossings> crossings_;  // 3D: where a subsegment is on no edge
 };
 
 }  // namespace
