@@ -58,7 +58,8 @@ struct Cancelled {
   bool valid = true;
 };
 
-Cancelled cancelled_after(Clock::duration delay, const Domain<3>& domain, RefineOptions<3> options) {
+Cancelled cancelled_after(Clock::duration delay, const Plc<3>& plc, RefineOptions<3> options) {
+  const Domain<3> domain(plc);
   std::stop_source source;
   options.stop = source.get_token();
   Clock::time_point asked;
@@ -78,7 +79,7 @@ Cancelled cancelled_after(Clock::duration delay, const Domain<3>& domain, Refine
   Cancelled c{asked < end ? milliseconds(end - asked) : 0, asked < end ? cpu : 0, result.mesh.cells.size(), result.stop, true};
   if (c.cells == 0) return c;
   CheckOptions<3> check_options;
-  check_options.domain = &domain;
+  check_options.input = &plc;
   check_options.delaunay = result.delaunay;
   c.valid = check(result.mesh, check_options).exit_code() == 0;
   return c;
@@ -90,12 +91,12 @@ int main(int argc, char** argv) {
   const Arguments a = parse(argc, argv);
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
                                   a.threads > 0 ? std::size_t(a.threads) : std::thread::hardware_concurrency());
-  const Domain<3> domain(unit_cube());
+  const Plc<3> cube = unit_cube();
   RefineOptions<3> options;
   options.size = a.size;
   options.schedule.threads = a.threads;
   const auto start = Clock::now();
-  const auto whole = refine(domain, options);
+  const auto whole = refine(cube, options);
   const auto time = Clock::now() - start;
   std::printf("%zu tetrahedra in %.0f ms (refined after %.0f) on %d threads\n", whole.mesh.cells.size(), milliseconds(time),
               1000 * (whole.statistics.seconds_initial + whole.statistics.seconds_refine + whole.statistics.seconds_optimize),
@@ -106,7 +107,7 @@ int main(int argc, char** argv) {
     for (int i = 1; i <= a.cancels; ++i) {
       options.partial_mesh = partial;
       const auto delay = time * i / a.cancels * 99 / 100;
-      const Cancelled c = cancelled_after(delay, domain, options);
+      const Cancelled c = cancelled_after(delay, cube, options);
       std::printf("%-12s %-10.0f %10s %10zu %12.1f %8.1f%s\n", partial ? "yes" : "no", milliseconds(delay),
                   c.stop == StopCause::cancelled ? "cancelled" : "finished", c.cells, c.latency, c.cpu,
                   c.valid ? "" : "  NOT VALID");

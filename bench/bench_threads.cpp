@@ -176,7 +176,7 @@ double kernel_seconds() {
 
 /// Meshes once more, and checks the last round's mesh. False if the bytes are not those of the rounds before.
 template <int D>
-bool run(const Domain<D>& domain, bool last, Row<D>& row) {
+bool run(const Plc<D>& plc, const Domain<D>& domain, bool last, Row<D>& row) {
   const double kernel_before = kernel_seconds();
   const RefineResult<D> result = refine(domain, row.options);
   row.kernel.push_back(kernel_seconds() - kernel_before);
@@ -190,7 +190,7 @@ bool run(const Domain<D>& domain, bool last, Row<D>& row) {
   row.bytes = bytes;
   if (last) {
     CheckOptions<D> options;
-    options.domain = &domain;
+    options.input = &plc;
     options.radius_edge_bound = row.options.radius_edge_bound;
     options.size = row.options.size;
     options.largest_cosine = result.optimization.claimed_cosine;
@@ -209,7 +209,7 @@ int bench(const Arguments& a, const Plc<D>& plc) {
   for (int round = 0; round < a.repeat; ++round)
     for (Row<D>& row : rows) {
       std::this_thread::sleep_for(std::chrono::duration<double>(a.pause));
-      good = run(domain, round + 1 == a.repeat, row) && good;
+      good = run(plc, domain, round + 1 == a.repeat, row) && good;
     }
   std::printf("%-18s %10s %8s %8s %8s %6s %7s %7s %9s %6s %6s %6s %6s  %s\n", "schedule, threads", "elements", "mesh s",
               "refine s", "kernel s", "leaves", "visits", "aside %", "work/path", "M/s", "ratio", "growth", "check", "bytes");

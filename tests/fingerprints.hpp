@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -69,7 +70,11 @@ std::string fingerprint(const RefineResult<D>& r) {
   reasons.number(r.poor_left);
   for (const PoorReason& reason : r.reasons) {
     reasons.number(reason.cell).number(static_cast<std::uint64_t>(reason.code));
-    for (const auto& entity : reason.entities) reasons.number(static_cast<std::uint64_t>(entity.kind) << 32 | entity.id);
+    for (const auto& entity : reason.entities) {
+      reasons.number(static_cast<std::uint64_t>(entity.kind) << 32 | entity.facet);
+      for (const auto& end : entity.ends)
+        for (const double x : end) reasons.number(std::bit_cast<std::uint64_t>(x));
+    }
   }
   const auto column = [](std::size_t count, const char* what, const Fnv& hash) {
     return std::to_string(count) + ' ' + what + ' ' + hash.text();

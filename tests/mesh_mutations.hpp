@@ -291,7 +291,7 @@ std::vector<Mutation<D>> conformity_mutations() {
                     return true;
                   }});
   if constexpr (D == 3) {
-    list.push_back({"shift a point of a facet by 100 ulps", {K::facet_not_conforming}, [](auto& m) {
+    list.push_back({"shift a point of a facet by 100 ulps", {K::facet_not_conforming, K::stray_constraint}, [](auto& m) {
                       const VertexKinds<D> kinds(m);
                       std::size_t v;
                       if (!first_vertex(

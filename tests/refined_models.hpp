@@ -28,7 +28,6 @@ Outcome<D> refine_and_check(const Plc<D>& plc, const RefineOptions<D>& options) 
   CheckOptions<D> check_options;
   check_options.input = &plc;
   check_options.tolerance = domain.tolerance();
-  check_options.domain = &domain;
   check_options.regions = options.regions;
   check_options.radius_edge_bound = options.radius_edge_bound;
   check_options.size = options.size;

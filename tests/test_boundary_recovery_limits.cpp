@@ -88,9 +88,8 @@ TEST(RecoveryLimits, GoesOnWhileLessIsMissing) {
   RefineOptions<3> recovery;
   recovery.refine = false;
   const auto result = refine(plc, recovery);
-  const Domain<3> domain(plc);
   CheckOptions<3> options;
-  options.domain = &domain;
+  options.input = &plc;
   options.delaunay = result.delaunay;
   const CheckReport report = check(result.mesh, options);
   EXPECT_EQ(report.exit_code(), 0) << test::findings(report);

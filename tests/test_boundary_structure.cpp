@@ -49,7 +49,7 @@ test::Outcome<D> refined(const Plc<D>& plc, RegionMode mode, const std::string& 
   options.size = size;
   test::Outcome<D> out{refine<D>(domain, options), {}};
   CheckOptions<D> check_options;
-  check_options.domain = &domain;
+  check_options.input = &plc;
   check_options.regions = mode;
   check_options.size = size;
   check_options.radius_edge_bound = options.radius_edge_bound;

@@ -9,6 +9,7 @@
 #include "dimensions.hpp"
 #include "mesh_mutations.hpp"
 #include "pgdr/check.hpp"
+#include "pgdr/error.hpp"
 #include "test_check_models.hpp"
 
 namespace test_check_by_hand {
@@ -19,9 +20,8 @@ using Kind = CheckFinding::Kind;
 
 template <int D>
 CheckReport check_model(const Model<D>& model, const OutputMesh<D>& mesh, int ulps = 2) {
-  const Domain<D> domain(model.plc);
   CheckOptions<D> options;
-  options.domain = &domain;
+  options.input = &model.plc;
   options.conformity_ulps = ulps;
   options.delaunay = true;
   return check(mesh, options);
@@ -92,11 +92,10 @@ TYPED_TEST(Check, AStopTokenEndsIt) {
   constexpr int D = TypeParam::value;
   int stopped = 0;
   for (const auto& model : all_models<D>()) {
-    const Domain<D> domain(model.plc);
     std::stop_source stop;
     int asked = 0;
     CheckOptions<D> options;
-    options.domain = &domain;
+    options.input = &model.plc;
     options.stop = stop.get_token();
     options.size = [&](const Point<D>&) {
       ++asked;

@@ -5,10 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
+#include "given_names.hpp"
 #include "input/sharp_angles.hpp"
 #include "model_plcs.hpp"
 #include "numbers/corners.hpp"
+#include "numbers/vectors.hpp"
 #include "pgdr/check.hpp"
 #include "pgdr/predicates.hpp"
 #include "test_check_models.hpp"
@@ -21,20 +25,19 @@ using Kind = CheckFinding::Kind;
 using Code = PoorReason::Code;
 using Ids = std::vector<std::uint32_t>;
 
-EntityRef segment_between(const Plc<3>& plc, std::uint32_t a, std::uint32_t b) {
-  const Domain<3> domain(plc);
-  for (EntityId s = 0; s < domain.segments().size(); ++s)
-    if (const auto& p = domain.segments()[s].points; (p[0] == a && p[1] == b) || (p[0] == b && p[1] == a))
-      return {EntityKind::segment, s};
-  ADD_FAILURE() << "no segment between " << a << " and " << b;
-  return {};
+GivenEntity between(const Plc<3>& plc, std::uint32_t a, std::uint32_t b) {
+  return named_segment<3>(plc.points[a], plc.points[b]);
 }
 
-CheckReport run(const Model<3>& model, const CheckOptions<3>& what, const std::vector<PoorReason>& reasons, bool given = false) {
-  const Domain<3> domain(model.plc);
+/// At p, between the directions to q and r; in degrees.
+double angle_at(const Plc<3>& plc, std::uint32_t p, std::uint32_t q, std::uint32_t r) {
+  const auto u = detail::difference(plc.points[q], plc.points[p]), w = detail::difference(plc.points[r], plc.points[p]);
+  return std::acos(detail::dot(u, w) / std::sqrt(detail::dot(u, u) * detail::dot(w, w))) * 180 / std::numbers::pi;
+}
+
+CheckReport run(const Model<3>& model, const CheckOptions<3>& what, const std::vector<PoorReason>& reasons) {
   CheckOptions<3> options = what;
-  options.domain = &domain;
-  if (given) options.input = &model.plc;
+  options.input = &model.plc;
   options.reasons = &reasons;
   return check(model.mesh, options);
 }
@@ -121,53 +124,69 @@ TEST(CheckDihedral, CellsAreCounted) {
   EXPECT_EQ(run(block, {}, {}).below_dihedral, 0u);
 }
 
+/// Of the walls at the edge from a to b.
+double wedge_angle(const Plc<3>& plc) {
+  const auto& p = plc.points;
+  return dihedral_degrees(p[a], p[b], p[c], p[d]);
+}
+
 TEST(CheckDihedral, WedgesOfTheInputExplain) {
-  for (const bool given : {false, true})
-    for (const auto& m : {wedge(), halved_wedge()}) {
-      const EntityRef sharp = segment_between(m.plc, a, b), blunt = segment_between(m.plc, a, c);
-      const auto claims = [&](EntityRef s) {
-        std::vector<PoorReason> all;
-        for (std::uint32_t i = 0; i < m.mesh.cells.size(); ++i) all.push_back({i, Code::input_dihedral, {s, {}}, 0});
-        return all;
-      };
-      const auto good = run(m, below(15), claims(sharp), given);
-      EXPECT_EQ(good.exit_code(), 1) << listed(good);
-      EXPECT_EQ(good.below_dihedral, m.mesh.cells.size());
-      EXPECT_EQ(good.explained, m.mesh.cells.size());
-      EXPECT_EQ(good.unexplained, 0u);
-      for (const EntityRef s : {blunt, EntityRef{EntityKind::segment, 77}, EntityRef{EntityKind::facet, 0}, EntityRef{}}) {
-        const auto wrong = run(m, below(15), claims(s), given);
-        EXPECT_EQ(wrong.explained, 0u);
-        EXPECT_EQ(wrong.unexplained, m.mesh.cells.size());
-        EXPECT_EQ(wrong.exit_code(), 1);
-      }
+  for (const auto& m : {wedge(), halved_wedge()}) {
+    const GivenEntity sharp = between(m.plc, a, b), blunt = between(m.plc, a, c);
+    const double angle = wedge_angle(m.plc);
+    const auto claims = [&](const GivenEntity& s, double stated) {
+      std::vector<PoorReason> all;
+      for (std::uint32_t i = 0; i < m.mesh.cells.size(); ++i) all.push_back({i, Code::input_dihedral, {s, {}}, stated});
+      return all;
+    };
+    const auto good = run(m, below(15), claims(sharp, angle));
+    EXPECT_EQ(good.exit_code(), 1) << listed(good);
+    EXPECT_EQ(good.below_dihedral, m.mesh.cells.size());
+    EXPECT_EQ(good.explained, m.mesh.cells.size());
+    EXPECT_EQ(good.unexplained, 0u);
+    const GivenEntity none = named_segment<3>({0, 0, 0}, {7, 7, 7});
+    for (const auto& [s, stated] : {std::pair{blunt, angle},
+                                    {none, angle},
+                                    {named_facet(0), angle},
+                                    {GivenEntity{}, angle},
+                                    {sharp, angle * (1 + 1e-9)},
+                                    {sharp, angle * (1 - 1e-9)},
+                                    {sharp, 0.0}}) {
+      const auto wrong = run(m, below(15), claims(s, stated));
+      EXPECT_EQ(wrong.explained, 0u);
+      EXPECT_EQ(wrong.unexplained, m.mesh.cells.size());
+      EXPECT_EQ(wrong.exit_code(), 1);
     }
+  }
   // Of cells over the ratio: true but no excuse, and not true.
   const auto m = halved_wedge();
   CheckOptions<3> thin = below(15);
   thin.radius_edge_bound = 0.6;
-  const auto claim = [&](EntityRef e) {
+  const double angle = wedge_angle(m.plc);
+  const auto claim = [&](const GivenEntity& e, double stated) {
     return run(m, thin,
-               {{0, Code::input_dihedral, {e, {}}, 0}, {1, Code::input_dihedral, {segment_between(m.plc, a, b), {}}, 0}});
+               {{0, Code::input_dihedral, {e, {}}, stated}, {1, Code::input_dihedral, {between(m.plc, a, b), {}}, angle}});
   };
-  EXPECT_EQ(claim(segment_between(m.plc, a, b)).explained, 2u);
-  EXPECT_EQ(claim(segment_between(m.plc, a, c)).unexplained, 1u);
-  EXPECT_EQ(claim(segment_between(m.plc, a, c)).exit_code(), 1);
-  EXPECT_EQ(claim(segment_between(m.plc, a, d)).count(Kind::bad_reason), 1u);
-  EXPECT_EQ(claim({EntityKind::facet, 0}).count(Kind::bad_reason), 1u);
+  EXPECT_EQ(claim(between(m.plc, a, b), angle).explained, 2u);
+  EXPECT_EQ(claim(between(m.plc, a, b), angle + 1e-9).count(Kind::bad_reason), 1u) << "another angle";
+  EXPECT_EQ(claim(between(m.plc, a, c), angle).unexplained, 1u);
+  EXPECT_EQ(claim(between(m.plc, a, c), angle).exit_code(), 1);
+  EXPECT_EQ(claim(between(m.plc, a, d), angle).count(Kind::bad_reason), 1u);
+  EXPECT_EQ(claim(named_facet(0), angle).count(Kind::bad_reason), 1u);
   // Below the halves' angles, but not the wedge's: the halves need not be.
   const auto halves = halved_wedge();
-  const EntityRef s = segment_between(halves.plc, a, b);
-  const auto report = run(halves, below(5), {{0, Code::input_dihedral, {s, {}}, 0}, {1, Code::input_dihedral, {s, {}}, 0}});
+  const GivenEntity s = between(halves.plc, a, b);
+  const auto report = run(halves, below(5),
+                          {{0, Code::input_dihedral, {s, {}}, angle}, {1, Code::input_dihedral, {s, {}}, angle}});
   EXPECT_EQ(report.below_dihedral, 2u);
   EXPECT_EQ(report.explained, 0u);
 }
 
 TEST(CheckDihedral, TheWedgeMustBeTheCellsOwn) {
   const auto m = two_wedges();
-  const EntityRef s = segment_between(m.plc, a, b);
+  const GivenEntity s = between(m.plc, a, b);
   std::vector<PoorReason> claims;
-  for (std::uint32_t i = 0; i < 3; ++i) claims.push_back({i, Code::input_dihedral, {s, {}}, 0});
+  for (std::uint32_t i = 0; i < 3; ++i) claims.push_back({i, Code::input_dihedral, {s, {}}, wedge_angle(m.plc)});
   const auto report = run(m, below(10), claims);
   EXPECT_EQ(report.finding_count, 0u) << listed(report);
   EXPECT_EQ(report.below_dihedral, 2u);
@@ -184,29 +203,24 @@ Model<3> sharp_corner() {
 
 TEST(CheckDihedral, SharpCornersExplainTheCellsAtThem) {
   const auto m = sharp_corner();
-  const EntityRef ab = segment_between(m.plc, a, b), ac = segment_between(m.plc, a, c), bc = segment_between(m.plc, b, c);
+  const GivenEntity ab = between(m.plc, a, b), ac = between(m.plc, a, c), bc = between(m.plc, b, c);
+  const double at_a = angle_at(m.plc, a, b, c);
   CheckOptions<3> options = below(44);
-  const auto claims = [](EntityRef s, EntityRef t) {
-    return std::vector<PoorReason>{{0, Code::small_angle, {s, t}, 0}, {1, Code::small_angle, {s, t}, 0}};
+  const auto claims = [](const GivenEntity& s, const GivenEntity& t, double stated) {
+    return std::vector<PoorReason>{{0, Code::small_angle, {s, t}, stated}, {1, Code::small_angle, {s, t}, stated}};
   };
   EXPECT_EQ(run(m, options, {}).below_dihedral, 2u);
-  EXPECT_EQ(run(m, options, claims(ab, ac)).explained, 0u) << "there is no bound on the ratio";
+  EXPECT_EQ(run(m, options, claims(ab, ac, at_a)).explained, 0u) << "there is no bound on the ratio";
   options.radius_edge_bound = 2;
-  const auto with = [&](const std::vector<PoorReason>& reasons) {
-    CheckOptions<3> o = options;
-    o.radius_edge_bound = 2;
-    return run(m, o, reasons);
-  };
-  const auto ratio = with(claims(ab, ac));
+  const auto ratio = run(m, options, claims(ab, ac, at_a));
   EXPECT_EQ(ratio.below_dihedral, 2u);
   EXPECT_EQ(ratio.finding_count, 0u) << listed(ratio);
   EXPECT_EQ(ratio.explained, 1u);
   EXPECT_EQ(ratio.unexplained, 1u);
+  EXPECT_EQ(run(m, options, claims(ab, bc, angle_at(m.plc, b, a, c))).explained, 0u);
+  EXPECT_EQ(run(m, options, claims(ab, ac, at_a + 1e-9)).explained, 0u) << "another angle";
   options.radius_edge_bound = 4;  // arcsin(1/8) is 7.2 degrees
-  CheckOptions<3> wide = options;
-  wide.radius_edge_bound = 4;
-  EXPECT_EQ(run(m, wide, claims(ab, ac)).explained, 0u);
-  EXPECT_EQ(with(claims(ab, bc)).explained, 0u);
+  EXPECT_EQ(run(m, options, claims(ab, ac, at_a)).explained, 0u);
 }
 
 /// The prism over a rectangle with a notch, of 19 degrees at its tip, and a tooth beside it, of 3 degrees.
@@ -215,7 +229,14 @@ TEST(CheckDihedral, ANotchIsNoCorner) {
       {{{0, 0}}, {{4, 0}}, {{4, 1}}, {{2, 1}}, {{1.85, 0.1}}, {{1.7, 1}}, {{1.6, 3}}, {{1.5, 1}}, {{0, 1}}}, 1);
   const Domain<3> domain(plc);
   const AngleBounds bounds{1, 1};
-  const auto segment = [&](std::uint32_t p, std::uint32_t q) { return segment_between(plc, p, q).id; };
+  const auto segment = [&](std::uint32_t p, std::uint32_t q) {
+    const auto all = domain.segments();
+    const auto at = std::ranges::find_if(all, [&](const DomainSegment& s) {
+      return s.points == std::array{p, q} || s.points == std::array{q, p};
+    });
+    EXPECT_NE(at, all.end());
+    return static_cast<EntityId>(at - all.begin());
+  };
   EXPECT_TRUE(is_sharp_corner(domain, 6, segment(5, 6), segment(6, 7), bounds));
   EXPECT_FALSE(is_sharp_corner(domain, 4, segment(3, 4), segment(4, 5), bounds));
   EXPECT_FALSE(is_sharp_corner(domain, 5, segment(5, 6), segment(6, 7), bounds)) << "not at their common end";
@@ -255,9 +276,11 @@ TEST(CheckDihedral, AnglesThatAreNotSmallExcuseNoCell) {
   optimized.largest_cosine = claimed_cosine(0.01);
   optimized.radius_edge_bound = refined.radius_edge_bound = 0.6;
   std::uint64_t explained = 0;
+  const Domain<3> domain(block.plc);
   for (EntityId f = 0; f < 6; ++f)
     for (EntityId g = 0; g < f; ++g) {
-      const PoorReason claim{0, Code::small_angle, {EntityRef{EntityKind::facet, f}, EntityRef{EntityKind::facet, g}}, 60};
+      const EntityRef e{EntityKind::facet, f}, other{EntityKind::facet, g};
+      const PoorReason claim{0, Code::small_angle, {named(domain, e), named(domain, other)}, entity_angle(domain, e, other)};
       const auto before = run(block, refined, {claim}), after = run(block, optimized, {claim});
       explained += before.explained;
       EXPECT_EQ(after.explained, 0u);

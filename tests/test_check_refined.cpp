@@ -39,7 +39,7 @@ TYPED_TEST(CheckRefined, SoundMeshesPassAndDamageIsFound) {
     refine_options.min_dihedral = 0;
     const auto refined = refine(domain, refine_options);
     CheckOptions<D> options;
-    options.domain = &domain;
+    options.input = &model.plc;
     options.radius_edge_bound = refine_options.radius_edge_bound;
     options.size = refine_options.size;
     options.delaunay = true;

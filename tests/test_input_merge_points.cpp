@@ -52,11 +52,12 @@ std::size_t count_of(const std::vector<Diagnostic>& repairs, Errc code) {
 }
 
 template <int D>
-void expect_meshed(const Domain<D>& domain, double volume) {
+void expect_meshed(const Plc<D>& plc, double volume) {
   const RefineOptions<D> options;
-  const auto result = refine<D>(domain, options);
+  const auto result = refine<D>(plc, options);
   CheckOptions<D> check_options;
-  check_options.domain = &domain;
+  check_options.input = &plc;
+  check_options.tolerance = result.tolerance;
   check_options.radius_edge_bound = options.radius_edge_bound;
   check_options.largest_cosine = result.optimization.claimed_cosine;
   check_options.delaunay = result.delaunay;
@@ -81,7 +82,7 @@ TEST(MergePoints, ASoupOfTriangles) {
     EXPECT_EQ(after.error_count(), 0u);
     EXPECT_EQ(after[Finding::open_boundary].count, 0u);
     EXPECT_EQ(after[Finding::near_points].count, 0u);
-    expect_meshed(d, std::ldexp(6.0, 3 * exponent));
+    expect_meshed(plc, std::ldexp(6.0, 3 * exponent));
   }
 }
 
@@ -187,7 +188,7 @@ TEST(MergePoints, WhatCollapsesGoes) {
   const auto gone = std::ranges::find(repairs, Errc::degenerate_segment, &Diagnostic::code);
   ASSERT_NE(gone, repairs.end());
   EXPECT_EQ(gone->ids, (std::vector<std::int64_t>{0, n + 1, n + 2}));
-  expect_meshed(d, 6);
+  expect_meshed(plc, 6);
 }
 
 TEST(MergePoints, InThePlane) {
@@ -203,7 +204,7 @@ TEST(MergePoints, InThePlane) {
   plc.tolerance = 1e-8;
   const Domain<2> d(plc);
   EXPECT_EQ(d.points().size(), 4u);
-  expect_meshed(d, 2);
+  expect_meshed(plc, 2);
 }
 
 // By default what rounding moved, and nothing else.
@@ -281,7 +282,7 @@ TEST(MergePoints, FloatsOfWhatWasComputedForZero) {
   EXPECT_EQ(d.points().size(), 8u);
   EXPECT_EQ(d.facets().size(), 6u);
   EXPECT_EQ(count_of(d.repairs(), Errc::near_points), 36u - 8 - 4) << "the corner without a zero is the same in five triangles";
-  expect_meshed(d, 2.1 * 1.1 * 3.1);
+  expect_meshed(plc, 2.1 * 1.1 * 3.1);
 }
 
 // Of a sheet that is thinner than the rounding of floats nothing is left, which is said.

@@ -31,13 +31,15 @@ Ids repaired(const Plc<D>& plc, Errc code) {
 template <int D>
 void expect_meshed(const Plc<D>& plc) {
   for (const auto& [by, exponent, offset] : {std::tuple{0, 0, 0.0}, {1, 0, 0.0}, {2, -30, 0.0}, {0, 12, 0.375}, {1, 40, -3.25}}) {
-    const Domain<D> domain(moved(exponent == 12 ? test::oblique(plc) : plc, by, exponent, offset));
+    const Plc<D> given = moved(exponent == 12 ? test::oblique(plc) : plc, by, exponent, offset);
+    const Domain<D> domain(given);
     EXPECT_EQ(diagnose(domain).error_count(), 0u);
     const RefineOptions<D> options;
     const auto result = refine<D>(domain, options);
     EXPECT_EQ(result.stop, StopCause::finished);
     CheckOptions<D> check_options;
-    check_options.domain = &domain;
+    check_options.input = &given;
+    check_options.tolerance = domain.tolerance();
     check_options.radius_edge_bound = options.radius_edge_bound;
     check_options.largest_cosine = result.optimization.claimed_cosine;
     check_options.delaunay = result.delaunay;

@@ -58,7 +58,8 @@ void mesh(const Plc<D>& plc, RegionMode regions, Tally& tally) {
     const auto result = refine<D>(domain, options);
     EXPECT_EQ(diagnosis.error_count(), 0u);
     CheckOptions<D> check_options;
-    check_options.domain = &domain;
+    check_options.input = &plc;
+    check_options.tolerance = domain.tolerance();
     check_options.regions = regions;
     if (result.stop == StopCause::finished) check_options.radius_edge_bound = options.radius_edge_bound;
     check_options.largest_cosine = result.optimization.claimed_cosine;

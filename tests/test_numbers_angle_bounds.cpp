@@ -11,6 +11,7 @@
 
 #include "numbers/angle_bounds.hpp"
 #include "numbers/corners.hpp"
+#include "numbers/dihedral_sign.hpp"
 #include "pgdr/predicates.hpp"
 #include "random_simplices.hpp"
 #include "sanitized.hpp"
@@ -302,6 +303,13 @@ TEST(AngleBounds, ClaimedCosineIsTheNearestDouble) {
     EXPECT_LE(abs(exact - Rational(k)) * 2, Rational(std::nextafter(k, 2)) - Rational(k)) << thousandths;
     EXPECT_LE(abs(exact - Rational(k)) * 2, Rational(k) - Rational(std::nextafter(k, -2))) << thousandths;
   }
+}
+
+TEST(DihedralSign, AtARightAngle) {
+  const Point3 a{{0, 0, 0}}, b{{0, 0, 1}}, c{{1, 0, 5}};
+  EXPECT_EQ(detail::dihedral_sign(a, b, c, Point3{{0, 1, -7}}), Sign::zero);
+  EXPECT_EQ(detail::dihedral_sign(a, b, c, Point3{{0x1p-1000, 1, 3}}), Sign::positive);
+  EXPECT_EQ(detail::dihedral_sign(a, b, c, Point3{{-0x1p-1000, 1, 3}}), Sign::negative);
 }
 
 }  // namespace pgdr::test_numbers_angle_bounds

@@ -11,6 +11,7 @@
 #include <numbers>
 #include <string>
 
+#include "given_names.hpp"
 #include "model_plcs.hpp"
 #include "refined_models.hpp"
 #include "structure_plcs.hpp"
@@ -81,12 +82,23 @@ Plc<3> cone_on_floor(double degrees, Around around, const Turn& turn) {
   return plc;
 }
 
+/// What is named, which is in one piece and has one of the facets of the input.
+EntityRef entity_of(const Domain<3>& domain, const GivenEntity& name) {
+  const auto is_named = [&](EntityRef e) { return test::named<3>(domain, e) == name; };
+  for (EntityId s = 0; s < domain.segments().size(); ++s)
+    if (is_named({EntityKind::segment, s})) return {EntityKind::segment, s};
+  for (EntityId f = 0; f < domain.facets().size(); ++f)
+    if (is_named({EntityKind::facet, f})) return {EntityKind::facet, f};
+  return {};
+}
+
 /// How many reasons name a facet, and another or a segment, that have a point in common, and no segment at it.
 int count_gaps(const Domain<3>& domain, const std::vector<PoorReason>& reasons) {
   return static_cast<int>(std::count_if(reasons.begin(), reasons.end(), [&](const PoorReason& r) {
-    auto [e, f] = r.entities;
+    if (r.code != Code::small_angle) return false;
+    EntityRef e = entity_of(domain, r.entities[0]), f = entity_of(domain, r.entities[1]);
     if (e.kind == EntityKind::facet) std::swap(e, f);
-    if (r.code != Code::small_angle || f.kind != EntityKind::facet) return false;
+    if (f.kind != EntityKind::facet) return false;
     const auto own = domain.facet_segments(f.id);
     if (e.kind == EntityKind::segment) return std::find(own.begin(), own.end(), e.id) == own.end();
     const auto others = domain.facet_segments(e.id);
@@ -129,10 +141,10 @@ TEST(OptimizedReasons, NoOtherCellsAreForcedThere) {
   const auto gap = std::find_if(result.reasons.begin(), result.reasons.end(), is_gap);
   ASSERT_NE(gap, result.reasons.end());
   const auto entities = gap->entities;
+  const double angle = gap->angle;
   const auto explained = [&] {
     CheckOptions<3> check_options;
     check_options.input = &plc;
-    check_options.domain = &domain;
     check_options.radius_edge_bound = options.radius_edge_bound;
     check_options.largest_cosine = result.optimization.claimed_cosine;
     check_options.reasons = &result.reasons;
@@ -144,6 +156,7 @@ TEST(OptimizedReasons, NoOtherCellsAreForcedThere) {
     if (r.code == Code::not_found || r.code == Code::budget) {
       r.code = Code::small_angle;
       r.entities = entities;
+      r.angle = angle;
       ++given;
     }
   EXPECT_GT(given, 0);

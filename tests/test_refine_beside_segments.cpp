@@ -20,12 +20,11 @@ using namespace test;
 /// `ulps`: how far points are off, at most. Somewhat above the rounding of coordinates elements of its size can be made, but not
 /// with good angles, and the checker does not take that for a reason.
 void expect_sound(const Plc<2>& plc, int ulps, std::size_t most_cells, const std::string& what) {
-  // Held against the Domain: without a tolerance, which of segments an ulp apart a subsegment belongs to is not seen in the mesh.
-  const Domain<2> domain(plc);
   const RefineOptions<2> options;
-  const RefineResult<2> result = refine<2>(domain, options);
+  const RefineResult<2> result = refine<2>(plc, options);
   CheckOptions<2> check_options;
-  check_options.domain = &domain;
+  check_options.input = &plc;
+  check_options.tolerance = result.tolerance;
   check_options.radius_edge_bound = options.radius_edge_bound;
   check_options.delaunay = result.delaunay;
   check_options.reasons = &result.reasons;

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 
+#include "given_names.hpp"
 #include "models_folder.hpp"
 #include "parallel_support.hpp"
 #include "pgdr/io.hpp"
@@ -66,7 +67,7 @@ Plc<2> in_other_order(const Plc<2>& plc, Random& random) {
 void expect_constrained_delaunay(const Plc<2>& plc, std::uint64_t seed) {
   CheckOptions<2> options;
   const Domain<2> domain(plc);
-  options.domain = &domain;
+  options.input = &plc;
   options.delaunay = true;
   const auto result = refine<2>(domain, unrefined());
   EXPECT_EQ(result.mesh.points.size(), domain.points().size());
@@ -344,13 +345,13 @@ TEST(KeptBoundary, ReasonsAreVerified) {
   RefineResult<2> result = refine<2>(domain, options);
   ASSERT_FALSE(result.reasons.empty());
   CheckOptions<2> check_options;
-  check_options.domain = &domain;
+  check_options.input = &plc;
   check_options.radius_edge_bound = options.radius_edge_bound;
   check_options.size = options.size;
   check_options.delaunay = true;
   check_options.reasons = &result.reasons;
   EXPECT_EQ(check<2>(result.mesh, check_options).exit_code(), 1);
-  for (PoorReason& reason : result.reasons) reason.entities[0].id = 7;  // there are four segments
+  for (PoorReason& reason : result.reasons) reason.entities[0].ends[1] = {4, 4, 0};  // no segment
   EXPECT_EQ(check<2>(result.mesh, check_options).exit_code(), 6);
   options.keep_boundary = false;
   options.radius_edge_bound = 10;
@@ -360,7 +361,7 @@ TEST(KeptBoundary, ReasonsAreVerified) {
   check_options.radius_edge_bound = 0.1;  // all cells are over this
   std::vector<PoorReason> claims;
   for (std::uint32_t c = 0; c < result.mesh.cells.size(); ++c)
-    claims.push_back({c, PoorReason::Code::kept_boundary, {EntityRef{EntityKind::segment, 0}, {}}, 0});
+    claims.push_back({c, PoorReason::Code::kept_boundary, {test::named_segment<2>({{0, 0}}, {{8, 0}}), {}}, 0});
   check_options.reasons = &claims;
   ASSERT_GT(result.mesh.subsegments.size(), 4u);
   EXPECT_EQ(check<2>(result.mesh, check_options).exit_code(), 6);

@@ -109,7 +109,8 @@ TYPED_TEST(Cancel, PartialMeshesAreValidAndTheirPoorCellsCounted) {
       o.stop = this_one.get_token();
       calls = 0;
       stop_at = all * percent / 100 + 1;
-      const Domain<D> domain(model<D>());
+      const Plc<D> plc = model<D>();
+      const Domain<D> domain(plc);
       const auto result = refine<D>(domain, o);
       if (schedule == Schedule::greedy && calls < stop_at) continue;  // no two runs are the same
       const std::uint64_t late = calls - stop_at;
@@ -118,7 +119,7 @@ TYPED_TEST(Cancel, PartialMeshesAreValidAndTheirPoorCellsCounted) {
       EXPECT_TRUE(result.reasons.empty());
       EXPECT_EQ(result.mesh.regions.size(), whole.mesh.regions.empty() ? 0 : result.mesh.cells.size());
       CheckOptions<D> check_options;
-      check_options.domain = &domain;
+      check_options.input = &plc;
       check_options.delaunay = result.delaunay;
       const auto report = check<D>(result.mesh, check_options);
       EXPECT_TRUE(test::unfinished_but_valid(report)) << runner.name << percent << "\n" << test::findings(report);
@@ -136,7 +137,8 @@ TYPED_TEST(Cancel, PartialMeshesAreValidAndTheirPoorCellsCounted) {
 // Beside small angles cavities are cut back, and faces that are not locally Delaunay wait for their repair. A run that is
 // cancelled then does not say that its mesh is Delaunay.
 TEST(Cancel, MeshWithoutItsRepairsIsNotCalledDelaunay) {
-  const Domain<3> domain(read_plc<3>(PGDR_TEST_REGRESSIONS "/plate_fifty_cells.poly"));
+  const Plc<3> plc = read_plc<3>(PGDR_TEST_REGRESSIONS "/plate_fifty_cells.poly");
+  const Domain<3> domain(plc);
   std::uint64_t calls = 0, stop_at = 0;
   std::stop_source* source = nullptr;
   auto o = test::with<3>(options<3>(), test::serial);
@@ -158,7 +160,7 @@ TEST(Cancel, MeshWithoutItsRepairsIsNotCalledDelaunay) {
     stop_at = 0;
     ASSERT_EQ(result.stop, StopCause::cancelled) << part;
     CheckOptions<3> check_options;
-    check_options.domain = &domain;
+    check_options.input = &plc;
     check_options.delaunay = result.delaunay;
     const auto report = check<3>(result.mesh, check_options);
     EXPECT_TRUE(test::unfinished_but_valid(report)) << part << "\n" << test::findings(report);
@@ -171,7 +173,8 @@ TEST(Cancel, MeshWithoutItsRepairsIsNotCalledDelaunay) {
 // What a time limit leaves is numbered likewise.
 TYPED_TEST(Cancel, TimeLimit) {
   constexpr int D = TypeParam::value;
-  const Domain<D> domain(model<D>());
+  const Plc<D> plc = model<D>();
+  const Domain<D> domain(plc);
   for (const int limit : {0, 5, 20}) {
     auto o = options<D>();
     o.size = [](const Point<D>& p) { return size_at<D>(p) / 16; };
@@ -180,7 +183,7 @@ TYPED_TEST(Cancel, TimeLimit) {
     ASSERT_EQ(result.stop, StopCause::time_limit);
     if (result.mesh.cells.empty()) continue;  // a slow machine: no boundary yet
     CheckOptions<D> check_options;
-    check_options.domain = &domain;
+    check_options.input = &plc;
     check_options.delaunay = result.delaunay;
     const auto report = check<D>(result.mesh, check_options);
     EXPECT_TRUE(test::unfinished_but_valid(report)) << test::findings(report);

@@ -142,9 +142,8 @@ TEST(ParallelEmbedding, CancelledWithTheCallersTasks) {
   });
   ASSERT_TRUE(done);
   EXPECT_FALSE(outcome.result.mesh.cells.empty());
-  const Domain<3> domain(plc);
   CheckOptions<3> check_options;
-  check_options.domain = &domain;
+  check_options.input = &plc;
   check_options.delaunay = outcome.result.delaunay;
   const CheckReport report = check<3>(outcome.result.mesh, check_options);
   EXPECT_EQ(report.exit_code(), 0) << test::findings(report);

@@ -96,13 +96,13 @@ TYPED_TEST(RegionSizesOf, MeshesMeetThemReproducibly) {
   EXPECT_GT(cells_of(mesh, left), 3 * cells_of(mesh, right));
   EXPECT_GT(cells_of(mesh, right), 20u);
   // The checker sees to them, each where it belongs.
-  const Domain<D> domain(halves<D>());
+  const Plc<D> plc = halves<D>();
   for (const double label : {left, right}) {
     CheckOptions<D> check_options;
-    check_options.domain = &domain;
+    check_options.input = &plc;
     check_options.region_sizes = {{label, D == 3 ? 1e-3 : 1e-6}};
     EXPECT_EQ(check<D>(mesh, check_options).over_size, cells_of(mesh, label));
-    check_options.domain = nullptr;
+    check_options.input = nullptr;
     EXPECT_EQ(check<D>(mesh, check_options).over_size, cells_of(mesh, label));
   }
 }

@@ -37,13 +37,6 @@ std::optional<Plc<D>> read_input_of_mesh(const std::string& input, InputArgument
 }
 
 template <int D>
-Plc<D> resolved(const Plc<D>& plc, const InputArguments& reading) {
-  if constexpr (D == 2)
-    if (std::vector<Diagnostic> repairs; reading.resolve_crossings) return resolve_crossings(plc, repairs);
-  return plc;
-}
-
-template <int D>
 void fill(Report& report, const OutputMesh<D>& mesh, const Bounds<D>& bounds, const std::optional<QualitySummary>& q,
           const CheckReport& r, bool delaunay, std::size_t unused) {
   report.set("vertices", mesh.points.size());
@@ -106,24 +99,14 @@ int check_as(const CheckArguments& a, InputFile& file, Report& report) {
   const Bounds<D> bounds = resolve<D>(a.bounds, reported.radius_edge.value_or(unbounded));
   const OutputMesh<D> mesh = file.read_mesh<D>();
   InputArguments reading = a.reading;
-  reading.resolve_crossings = reading.resolve_crossings || reported.resolve_crossings;
   reading.convex_hull = reading.convex_hull || reported.convex_hull;
   reading.region_areas = reading.region_areas || reported.region_areas;
-  std::optional<Plc<D>> plc = read_input_of_mesh<D>(a.input, reading);
+  const std::optional<Plc<D>> plc = read_input_of_mesh<D>(a.input, reading);
   if (!reading.tolerance) reading.tolerance = reported.tolerance;
-  // The default is no tolerance that was given: what is ambiguous within it is left as it is, and not refused.
-  if (plc && reading.tolerance && *reading.tolerance != tolerance_of(*plc)) {
-    plc->tolerance = reading.tolerance;
-    plc->is_coarse = true;
-  }
-  // Reasons name the entities of a Domain, with crossings resolved; nothing else of the verdict depends on that.
-  std::optional<Domain<D>> domain;
-  if (plc && !reported.reasons.empty()) domain.emplace(resolved<D>(*plc, reading));
 
   CheckOptions<D> options;
   if (plc) options.input = &*plc;
   options.tolerance = reading.tolerance;
-  if (domain) options.domain = &*domain;
   options.radius_edge_bound = bounds.radius_edge;
   options.size = bounds.size;
   options.region_sizes = bounds.region_sizes;

@@ -26,8 +26,11 @@ void set_measures(JsonObject& o, const QualityMeasures& q) {
   o.set("histogram", q.histogram);
 }
 
-Json to_json(const EntityRef& e) {
-  return JsonObject{{"kind", name(e.kind)}, {"id", e.id == no_entity ? Json(nullptr) : Json(e.id)}};
+JsonObject to_json(const GivenEntity& e) {
+  JsonObject o{{"kind", name(e.kind)}};
+  if (e.kind == EntityKind::segment) o.set("ends", e.ends);
+  if (e.kind == EntityKind::facet) o.set("facet", e.facet);
+  return o;
 }
 
 /// The value of a word among `names`, by its place. @throws std::invalid_argument
@@ -52,8 +55,10 @@ PoorReason parse_reason(const nlohmann::json& j) {
   const auto& entities = j.at("entities");
   if (!entities.is_array() || entities.size() != 2) throw std::invalid_argument("\"entities\" are two");
   for (std::size_t i = 0; i < 2; ++i) {
-    r.entities[i].kind = parse_name<EntityKind>(entities[i].at("kind").get<std::string>(), kind_names);
-    if (const auto& id = entities[i].at("id"); !id.is_null()) r.entities[i].id = parse_id(id);
+    GivenEntity& e = r.entities[i];
+    e.kind = parse_name<EntityKind>(entities[i].at("kind").get<std::string>(), kind_names);
+    if (e.kind == EntityKind::segment) e.ends = entities[i].at("ends").get<decltype(e.ends)>();
+    if (e.kind == EntityKind::facet) e.facet = parse_id(entities[i].at("facet"));
   }
   if (const auto& angle = j.at("angle"); !angle.is_null()) r.angle = angle.get<double>();
   return r;
@@ -184,7 +189,6 @@ ReportedBounds read_bounds(const std::string& file) {
       const auto found = report.find(key);
       return found != report.end() && *found == value;
     };
-    read.resolve_crossings = holds("resolve_crossings", true);
     read.convex_hull = holds("convex_hull", true);
     read.region_areas = holds("region_areas", true);
     read.delaunay = holds("delaunay", true);

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numbers/exact_tests.hpp"
+#include "numbers/rounding.hpp"
 #include "pgdr/circumsphere.hpp"
 #include "pgdr/predicates.hpp"
 #include "size/region_sizes.hpp"
@@ -101,6 +103,12 @@ bool size_over(const Simplex<D>& s, double size) {
 bool dihedral_holds(const Simplex<2>&, double) { return true; }
 bool dihedral_holds(const Simplex<3>& s, double largest_cosine) { return dihedral_within(s, largest_cosine); }
 
+template <int D>
+void report_bad_reason(const OutputMesh<D>& mesh, std::uint32_t c, const std::string& why, Findings& findings) {
+  findings.add(Kind::bad_reason, {c},
+               [&] { return "The reason given for " + cell_words(mesh, c) + " does not hold: " + why + "."; });
+}
+
 /// Counts a cell that is over a bound of shape (`thin`) or of size, and perhaps `below` that on dihedral angles.
 template <int D>
 void judge_poor_cell(const OutputMesh<D>& mesh, std::uint32_t c, bool thin, bool below, Reasons<D>& reasons, Findings& findings) {
@@ -108,8 +116,7 @@ void judge_poor_cell(const OutputMesh<D>& mesh, std::uint32_t c, bool thin, bool
   std::string why;
   const Verdict verdict = reasons.judge(c, why);
   if (verdict == Verdict::fails) {
-    findings.add(Kind::bad_reason, {c},
-                 [&] { return "The reason given for " + cell_words(mesh, c) + " does not hold: " + why + "."; });
+    report_bad_reason(mesh, c, why, findings);
   } else if (verdict == Verdict::absent) {
     findings.add(thin ? Kind::over_radius_edge : Kind::over_size, {c}, [&] {
       return "The " + cell_words(mesh, c) + " at " + words(centroid<D>(corners_of(mesh, c))) + " is over the " +
@@ -141,10 +148,12 @@ void check_bounds(const OutputMesh<D>& mesh, const CheckOptions<D>& options, con
     report.over_radius_edge += thin;
     report.over_size += large;
     report.below_dihedral += below;
-    if (thin || large)
+    if (thin || large) {
       judge_poor_cell(mesh, c, thin, below, reasons, findings);
-    else if (below)
-      ++(reasons.excuses_dihedral(c) ? report.explained : report.unexplained);
+      continue;
+    }
+    if (below) ++(reasons.excuses_dihedral(c) ? report.explained : report.unexplained);
+    if (std::string why; reasons.misstates_angle(c, why)) report_bad_reason(mesh, c, why, findings);
   }
 }
 
@@ -188,8 +197,8 @@ double largest_coordinate(const OutputMesh<D>& mesh) {
 }
 
 template <int D>
-std::vector<double> slack_without_input(const OutputMesh<D>& mesh, int ulps) {
-  const double width = Tolerance{ulps, largest_coordinate(mesh)}.width();
+std::vector<double> slack_of_vertices(const OutputMesh<D>& mesh, int ulps) {
+  const double width = ulps * rounding::ulp * largest_coordinate(mesh);
   std::vector<double> slack = detail::vector_of_capacity<double>(mesh.points.size());
   slack.resize(mesh.points.size(), 0);
   const auto mark = [&](const auto& constraints, int aligned_axes) {
@@ -215,7 +224,7 @@ std::vector<double> slack_without_input(const OutputMesh<D>& mesh, int ulps) {
   template void check_delaunay(const OutputMesh<D>&, const Links<D>&, std::span<const double>, std::span<const std::uint8_t>, \
                                Findings&);                                                                                    \
   template double largest_coordinate(const OutputMesh<D>&);                                                                   \
-  template std::vector<double> slack_without_input(const OutputMesh<D>&, int);
+  template std::vector<double> slack_of_vertices(const OutputMesh<D>&, int);
 PGDR_INSTANTIATE(2)
 PGDR_INSTANTIATE(3)
 #undef PGDR_INSTANTIATE

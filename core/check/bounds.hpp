@@ -11,7 +11,7 @@
 
 namespace pgdr::checking {
 
-/// Every cell is within its bounds, or a reason holds. @param input null if there is no domain.
+/// Every cell is within its bounds, or a reason holds. @param input null if there is none.
 template <int D>
 void check_bounds(const OutputMesh<D>& mesh, const CheckOptions<D>& options, const Links<D>& links, const Components& components,
                   const InputVolumes<D>* input, Reasons<D>& reasons, Findings& findings);
@@ -27,9 +27,10 @@ void check_delaunay(const OutputMesh<D>& mesh, const Links<D>& links, std::span<
 template <int D>
 double largest_coordinate(const OutputMesh<D>& mesh);
 
-/// The slack of vertices when the input is unknown: any vertex of a constraint that is not axis-aligned may be off by
-/// so many ulps of the largest coordinate of the mesh; an input point may be one of a facet that is planar within rounding.
+/// How far rounding may have moved each vertex off what it lies on: any vertex of a constraint that is not axis-aligned by so
+/// many ulps of the largest coordinate of the mesh, also a point of the input, which may be one of a facet that is planar within
+/// rounding.
 template <int D>
-std::vector<double> slack_without_input(const OutputMesh<D>& mesh, int ulps);
+std::vector<double> slack_of_vertices(const OutputMesh<D>& mesh, int ulps);
 
 }  // namespace pgdr::checking

@@ -54,15 +54,6 @@ std::string words(const Point<D>& p) {
   return text + ")";
 }
 
-std::string words(EntityRef entity) {
-  switch (entity.kind) {
-    case EntityKind::vertex: return "input point " + std::to_string(entity.id);
-    case EntityKind::segment: return "segment " + std::to_string(entity.id);
-    case EntityKind::facet: return "facet " + std::to_string(entity.id);
-    default: return "the volume";
-  }
-}
-
 template <int D>
 std::string vertex_words(const OutputMesh<D>& mesh, std::uint32_t vertex) {
   return "vertex " + std::to_string(vertex) + " " + words(mesh.points[vertex]);

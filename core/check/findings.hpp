@@ -43,8 +43,6 @@ std::string words(double x);
 /// "(0.5, 1, 2)"
 template <int D>
 std::string words(const Point<D>& p);
-/// "segment 3", "facet 7", "input point 2"
-std::string words(EntityRef entity);
 /// "vertex 12 (0.5, 1, 2)"
 template <int D>
 std::string vertex_words(const OutputMesh<D>& mesh, std::uint32_t vertex);

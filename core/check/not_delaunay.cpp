@@ -33,7 +33,7 @@ template NotDelaunay count_among(const OutputMesh<3>&, std::span<const double>);
 
 template <int D>
 NotDelaunay count_not_delaunay(const OutputMesh<D>& mesh, bool everywhere) {
-  const std::vector<double> slack = checking::slack_without_input(mesh, CheckOptions<D>{}.conformity_ulps);
+  const std::vector<double> slack = checking::slack_of_vertices(mesh, CheckOptions<D>{}.conformity_ulps);
   if (everywhere) return checking::count_among<D>(mesh, slack);
   std::vector<std::uint8_t> slanted(slack.size());
   std::transform(slack.begin(), slack.end(), slanted.begin(), [](double s) { return s > 0; });

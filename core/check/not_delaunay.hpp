@@ -27,7 +27,7 @@ bool is_beside(const std::array<std::uint32_t, N>& cell, const std::vector<std::
          static_cast<std::ptrdiff_t>(N);
 }
 
-/// Counts among the cells of this mesh. @param slack  of each point, as slack_without_input() has it
+/// Counts among the cells of this mesh. @param slack  of each point, as slack_of_vertices() has it
 template <int D>
 NotDelaunay count_among(const OutputMesh<D>& mesh, std::span<const double> slack);
 

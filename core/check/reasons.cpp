@@ -1,18 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// Angles between input entities, decided exactly: of two segments below 60 degrees, otherwise below 90. A direction
-// into a facet at one of its points is a positive combination of the edges of its triangles there, and the product of
-// two positive combinations is positive for some choice iff it is for a pair of edges: so edges decide.
 #include "check/reasons.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <unordered_set>
 
+#include "check/given/edge_net.hpp"
 #include "check/wedges.hpp"
+#include "numbers/angle_bounds.hpp"
+#include "numbers/exact_tests.hpp"
 #include "numbers/rounding.hpp"
+#include "numbers/vectors.hpp"
 #include "pgdr/circumsphere.hpp"
 #include "pgdr/point_selector.hpp"
 #include "pgdr/predicates.hpp"
@@ -21,99 +20,28 @@
 namespace pgdr::checking {
 namespace {
 
-/// Ends of the edges that span the cones of the entity at a point of it: none if the point is not a corner of it.
+constexpr const char* no_input = "an angle of the input cannot be measured without the input";
+
+/// "segment from (0, 0) to (1, 0)", "facet 7"
 template <int D>
-std::vector<std::uint32_t> edges_at(const Domain<D>& domain, EntityRef entity, std::uint32_t point) {
-  std::vector<std::uint32_t> ends;
-  if (entity.kind == EntityKind::segment) {
-    const auto& p = domain.segments()[entity.id].points;
-    if (p[0] == point) ends.push_back(p[1]);
-    if (p[1] == point) ends.push_back(p[0]);
-  }
-  if constexpr (D == 3)
-    if (entity.kind == EntityKind::facet)
-      for (const auto& t : domain.triangles(entity.id))
-        for (int i = 0; i < 3; ++i)
-          if (t[i] == point) ends.insert(ends.end(), {t[(i + 1) % 3], t[(i + 2) % 3]});
-  std::sort(ends.begin(), ends.end());
-  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-  return ends;
+std::string words_of(const GivenEntity& e) {
+  if (e.kind != EntityKind::segment) return "facet " + std::to_string(e.facet);
+  std::array<Point<D>, 2> ends;
+  for (std::size_t k = 0; k < 2; ++k)
+    for (int i = 0; i < D; ++i) ends[k][i] = e.ends[k][static_cast<std::size_t>(i)];
+  return "the segment from " + words(ends[0]) + " to " + words(ends[1]);
 }
 
-template <int D>
-std::vector<std::uint32_t> points_of(const Domain<D>& domain, EntityRef entity) {
-  std::vector<std::uint32_t> points;
-  if (entity.kind == EntityKind::segment) {
-    const auto& p = domain.segments()[entity.id].points;
-    points.assign(p.begin(), p.end());
-  }
-  if constexpr (D == 3)
-    if (entity.kind == EntityKind::facet) {
-      const auto p = domain.facet_points(entity.id);
-      points.assign(p.begin(), p.end());
-    }
-  std::sort(points.begin(), points.end());
-  return points;
-}
-
-template <int D>
-std::vector<std::uint32_t> common_points(const Domain<D>& domain, EntityRef a, EntityRef b) {
-  const auto of_a = points_of(domain, a), of_b = points_of(domain, b);
-  std::vector<std::uint32_t> common;
-  std::set_intersection(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(), std::back_inserter(common));
-  return common;
-}
-
-template <int D>
-bool below_at(const Domain<D>& domain, EntityRef a, EntityRef b, std::uint32_t point) {
-  const auto points = domain.points();
-  const bool both_segments = a.kind == EntityKind::segment && b.kind == EntityKind::segment;
-  for (const std::uint32_t p : edges_at(domain, a, point))
-    for (const std::uint32_t q : edges_at(domain, b, point))
-      if (both_segments ? angle_below_60<D>(points[point], points[p], points[q])
-                        : angle_below_90<D>(points[point], points[p], points[q]))
-        return true;
-  return false;
-}
-
-/// The points opposite an edge in the triangles of a facet.
-std::vector<std::uint32_t> apexes(const Domain<3>& domain, EntityId facet, std::array<std::uint32_t, 2> edge) {
-  std::vector<std::uint32_t> out;
-  for (const auto& t : domain.triangles(facet))
-    for (int i = 0; i < 3; ++i) {
-      const std::uint32_t a = t[(i + 1) % 3], b = t[(i + 2) % 3];
-      if ((a == edge[0] && b == edge[1]) || (a == edge[1] && b == edge[0])) out.push_back(t[i]);
-    }
-  return out;
-}
-
-/// Two facets with a common segment: their dihedral angle there. Ends of common segments are marked in `on_common`.
-bool dihedral_below(const Domain<3>& domain, EntityId a, EntityId b, std::vector<std::uint32_t>& on_common) {
-  const auto points = domain.points();
-  const auto of_b = domain.facet_segments(b);
-  for (const EntityId s : domain.facet_segments(a)) {
-    if (std::find(of_b.begin(), of_b.end(), s) == of_b.end()) continue;
-    const auto& edge = domain.segments()[s].points;
-    on_common.insert(on_common.end(), edge.begin(), edge.end());
-    for (const std::uint32_t c : apexes(domain, a, edge))
-      for (const std::uint32_t d : apexes(domain, b, edge))
-        if (dihedral_below_90(points[edge[0]], points[edge[1]], points[c], points[d])) return true;
-  }
-  return false;
-}
-
-bool contains_segment(const Domain<3>& domain, EntityRef facet, EntityRef segment) {
-  if (facet.kind != EntityKind::facet || segment.kind != EntityKind::segment) return false;
-  const auto list = domain.facet_segments(facet.id);
-  return std::find(list.begin(), list.end(), segment.id) != list.end();
+bool agrees(double stated, const std::vector<AngleRange>& angles) {
+  return std::ranges::any_of(angles, [&](const AngleRange& r) { return r.low <= stated && stated <= r.high; });
 }
 
 }  // namespace
 
 template <int D>
-Reasons<D>::Reasons(const OutputMesh<D>& mesh, const CheckOptions<D>& options, const Links<D>& links,
-                    const Conformity<D>* conformity, Findings& findings)
-    : mesh_(mesh), options_(options), links_(links), conformity_(conformity) {
+Reasons<D>::Reasons(const OutputMesh<D>& mesh, const CheckOptions<D>& options, const Links<D>& links, NamedEntities<D>* named,
+                    Findings& findings)
+    : mesh_(mesh), options_(options), links_(links), named_(named) {
   if (!options.reasons) return;
   for (const Point<D>& p : mesh.points)
     for (const double x : p.x) largest_ = std::max(largest_, std::abs(x));
@@ -157,9 +85,16 @@ bool Reasons<D>::excuses_dihedral(std::uint32_t cell) {
   const auto of = of_cell(cell);
   return std::any_of(of.begin(), of.end(), [&](std::uint32_t r) {
     const PoorReason& reason = (*options_.reasons)[r];
-    return is_at_corner(reason) || is_in_gap(reason) ||
-           (reason.code == PoorReason::Code::input_dihedral && in_wedge(reason, why) == Verdict::holds);
+    if (reason.code == PoorReason::Code::input_dihedral) return in_wedge(reason, why) == Verdict::holds;
+    if (reason.code != PoorReason::Code::small_angle) return false;
+    return is_true(reason, why) && (is_at_corner(reason) || is_in_gap(reason));
   });
+}
+
+template <int D>
+auto Reasons<D>::pair_of(const PoorReason& reason) -> Pair {
+  if (!named_) return {nullptr, nullptr};
+  return {named_->find(reason.entities[0]), named_->find(reason.entities[1])};
 }
 
 template <int D>
@@ -184,41 +119,111 @@ auto Reasons<D>::judge(const PoorReason& reason, std::string& why) -> Verdict {
       return in_wedge(reason, why);
     case PoorReason::Code::small_angle: break;
   }
-  if (!options_.domain) return fail("an angle of the input cannot be measured without the input");
-  const auto& [a, b] = reason.entities;
-  if (!exists(a) || !exists(b)) return fail("it names an entity that does not exist");
-  const Meeting angle = meeting(a, b);
-  if (!angle.small && !angle.sharp) return fail(words(a) + " and " + words(b) + " meet at no small angle");
-  if (!near(reason.cell, a) && !meets_piece(reason.cell, a))
-    return fail("its circumball, doubled, does not meet " + words(a) +
+  return judge_angle(reason, why);
+}
+
+/// Do the two entities meet at the small angle that it states?
+template <int D>
+bool Reasons<D>::is_true(const PoorReason& reason, std::string& why) {
+  const auto fail = [&](std::string text) {
+    why = std::move(text);
+    return false;
+  };
+  if (!named_) return fail(no_input);
+  const Pair pair = pair_of(reason);
+  if (!pair.exists()) return fail("it names what is no segment and no facet of the input");
+  const auto both = [&] { return words_of<D>(reason.entities[0]) + " and " + words_of<D>(reason.entities[1]); };
+  const EntityMeeting& angle = meeting(pair);
+  if (!angle.is_small) return fail(both() + " meet at no small angle");
+  return agrees(reason.angle, angle.small) || fail(both() + " do not meet at " + words(reason.angle) + " degrees, but at " +
+                                                   words((angle.small[0].low + angle.small[0].high) / 2));
+}
+
+template <int D>
+bool Reasons<D>::misstates_angle(std::uint32_t cell, std::string& why) {
+  const auto of = of_cell(cell);
+  return named_ && std::any_of(of.begin(), of.end(), [&](std::uint32_t r) {
+           const PoorReason& reason = (*options_.reasons)[r];
+           return reason.code == PoorReason::Code::small_angle && !is_true(reason, why);
+         });
+}
+
+template <int D>
+auto Reasons<D>::judge_angle(const PoorReason& reason, std::string& why) -> Verdict {
+  const auto fail = [&](std::string text) {
+    why = std::move(text);
+    return Verdict::fails;
+  };
+  if (!is_true(reason, why)) return Verdict::fails;
+  const Pair pair = pair_of(reason);
+  if (!near(reason.cell, *pair.a) && !meets_piece(reason.cell, *pair.a))
+    return fail("its circumball, doubled, does not meet " + words_of<D>(reason.entities[0]) +
                 (D == 2 ? ", nor it the diametral disk of a piece of that" : ""));
-  return angle.sharp || !asks_for_dihedral() || is_in_gap(reason) ? Verdict::holds : Verdict::admitted;
+  const bool is_sharp = asks_for_dihedral() && meeting(pair).is_sharp;
+  return is_sharp || !asks_for_dihedral() || is_in_gap(reason) ? Verdict::holds : Verdict::admitted;
 }
 
 /// Does it name two segments of one facet that meet at a vertex of the cell, at a planar angle that is too small?
 template <int D>
-bool Reasons<D>::is_at_corner(const PoorReason& reason) const {
+bool Reasons<D>::is_at_corner(const PoorReason& reason) {
   if constexpr (D == 3) {
-    const auto& [a, b] = reason.entities;
-    if (reason.code != PoorReason::Code::small_angle || !options_.domain || !conformity_) return false;
-    if (a.kind != EntityKind::segment || b.kind != EntityKind::segment || !exists(a) || !exists(b)) return false;
-    for (const std::uint32_t p : common_points(*options_.domain, a, b))
-      if (const std::uint32_t v = conformity_->vertex_of_point[p]; v != none && has_corner(mesh_.cells[reason.cell], v))
-        return is_sharp_corner(*options_.domain, p, a.id, b.id, angle_bounds());
+    const auto [a, b] = pair_of(reason);
+    if (!a || !b || a->kind != EntityKind::segment || b->kind != EntityKind::segment || a->ends == b->ends) return false;
+    for (const std::size_t i : {0, 1})
+      for (const std::size_t k : {0, 1}) {
+        const std::uint32_t v = a->ends[i];
+        if (v != b->ends[k] || v >= mesh_.points.size() || !has_corner(mesh_.cells[reason.cell], v)) continue;
+        if (!detail::is_too_sharp<3>(mesh_.points[v], named_->point(a->ends[1 - i]), named_->point(b->ends[1 - k]),
+                                     options_.radius_edge_bound))
+          continue;
+        return is_facet_between(v, *a, *b);
+      }
   }
   return false;
 }
 
-/// Of the mesh: does the vertex lie on the segment or facet?
+/// Is there a fan of subfacets at the vertex from the one segment to the other, within their angle and across no subsegment? Then
+/// a subfacet at the vertex is no wider than they are apart (core/reasons/sharp_corners.hpp has the proof).
 template <int D>
-bool Reasons<D>::lies_on(std::uint32_t v, EntityRef entity) const {
-  const EntityRef home = conformity_->home[v];
-  if (home == entity) return true;
-  if (home.kind == EntityKind::vertex) {
-    const auto points = points_of(*options_.domain, entity);
-    return std::binary_search(points.begin(), points.end(), home.id);
+bool Reasons<D>::is_facet_between(std::uint32_t v, const Entity& a, const Entity& b) {
+  if constexpr (D == 3) {
+    if (subfacets_.empty()) {
+      for (std::uint32_t s = 0; s < mesh_.subfacets.size(); ++s) {
+        const auto& t = mesh_.subfacets[s].vertices;
+        for (std::size_t i = 0; i < 3; ++i) subfacets_.push_back({sorted_edge(t[(i + 1) % 3], t[(i + 2) % 3]), t[i]});
+      }
+      std::sort(subfacets_.begin(), subfacets_.end());
+      for (const auto& s : mesh_.subsegments) subsegments_.push_back(sorted_edge(s.vertices[0], s.vertices[1]));
+      std::sort(subsegments_.begin(), subsegments_.end());
+    }
+    const auto ends_at = [&](const Entity& e) {
+      std::vector<std::uint32_t> out;
+      for (const auto& [ends, s] : e.edges)
+        if (ends[0] == v || ends[1] == v) out.push_back(ends[0] == v ? ends[1] : ends[0]);
+      return out;
+    };
+    const auto towards = [&](std::uint32_t w) { return detail::difference(mesh_.points[w], mesh_.points[v]); };
+    const auto cosine = [&](std::uint32_t w, std::uint32_t x) {
+      const auto u = towards(w), y = towards(x);
+      return detail::dot(u, y) / std::sqrt(detail::dot(u, u) * detail::dot(y, y));
+    };
+    for (const std::uint32_t from : ends_at(a))
+      for (const std::uint32_t to : ends_at(b)) {
+        const double widest = cosine(from, to) * (1 - 0x1p-40);
+        for (const auto& first : std::ranges::equal_range(subfacets_, sorted_edge(v, from), {}, &Entity::AtEdge::ends)) {
+          std::uint32_t behind = from, at = first.apex;
+          while (at != to && cosine(from, at) >= widest && !std::ranges::binary_search(subsegments_, sorted_edge(v, at))) {
+            const auto next = std::ranges::equal_range(subfacets_, sorted_edge(v, at), {}, &Entity::AtEdge::ends);
+            if (next.size() != 2) break;
+            const std::uint32_t beyond = next[0].apex == behind ? next[1].apex : next[0].apex;
+            if (!(cosine(from, beyond) < cosine(from, at))) break;  // each step leads on
+            behind = at;
+            at = beyond;
+          }
+          if (at == to) return true;
+        }
+      }
   }
-  if constexpr (D == 3) return contains_segment(*options_.domain, entity, home);
   return false;
 }
 
@@ -226,20 +231,19 @@ bool Reasons<D>::lies_on(std::uint32_t v, EntityRef entity) const {
 /// about that (docs/small-angles.md has the proof)? It has to be as thin there as the proof says, with another vertex on one of
 /// the two, and have a way round the vertex to the middle of the gap, so that this is meshed.
 template <int D>
-bool Reasons<D>::is_in_gap(const PoorReason& reason) const {
+bool Reasons<D>::is_in_gap(const PoorReason& reason) {
   if constexpr (D == 3) {
-    const EntityRef a = reason.entities[0], b = reason.entities[1];
-    if (reason.code != PoorReason::Code::small_angle || !options_.domain || !conformity_ || !exists(a) || !exists(b))
-      return false;
+    const Pair pair = pair_of(reason);
+    if (reason.code != PoorReason::Code::small_angle || !pair.exists()) return false;
     const auto& cell = mesh_.cells[reason.cell];
-    for (const std::uint32_t p : common_points(*options_.domain, a, b)) {
-      const std::uint32_t v = conformity_->vertex_of_point[p];
-      if (v == none || !has_corner(cell, v) || !is_thin_at(corners_of(mesh_, reason.cell), corner_of(cell, v), angle_bounds()))
-        continue;
-      const auto touches = [&](std::uint32_t w) { return w != v && (lies_on(w, a) || lies_on(w, b)); };
+    for (const std::uint32_t v : cell) {
+      if (!pair.a->has(v) || !pair.b->has(v) || share_segment_at(*pair.a, *pair.b, v)) continue;
+      if (!is_thin_at(corners_of(mesh_, reason.cell), corner_of(cell, v), angle_bounds())) continue;
+      const auto touches = [&](std::uint32_t w) { return w != v && (pair.a->has(w) || pair.b->has(w)); };
       if (std::none_of(cell.begin(), cell.end(), touches)) continue;
-      const auto middle = middle_of_gap(*options_.domain, p, a, b, angle_bounds());
-      if (middle && reaches(reason.cell, v, reason.entities, *middle)) return true;
+      const auto middle = middle_of_gap(mesh_.points[v], sectors_at(*named_, *pair.a, v), sectors_at(*named_, *pair.b, v),
+                                        angle_bounds());
+      if (middle && reaches(reason.cell, v, pair, *middle)) return true;
     }
   }
   return false;
@@ -247,13 +251,12 @@ bool Reasons<D>::is_in_gap(const PoorReason& reason) const {
 
 /// Round the vertex, across neither of the two, is there a way from the cell to one that the direction to the middle leads into?
 template <int D>
-bool Reasons<D>::reaches(std::uint32_t cell, std::uint32_t v, const std::array<EntityRef, 2>& pair, const Point3& middle) const {
+bool Reasons<D>::reaches(std::uint32_t cell, std::uint32_t v, const Pair& pair, const Point3& middle) const {
   if constexpr (D == 3) {
     const auto is_on_one = [&](std::uint32_t face) {
       const auto corners = face_vertices(mesh_, face);
-      return std::any_of(pair.begin(), pair.end(), [&](EntityRef e) {
-        return e.kind == EntityKind::facet &&
-               std::all_of(corners.begin(), corners.end(), [&](std::uint32_t w) { return lies_on(w, e); });
+      return std::ranges::any_of(std::array{pair.a, pair.b}, [&](const Entity* e) {
+        return e->kind == EntityKind::facet && std::ranges::all_of(corners, [&](std::uint32_t w) { return e->has(w); });
       });
     };
     std::vector<std::uint32_t> cells{cell};
@@ -280,167 +283,84 @@ auto Reasons<D>::in_wedge(const PoorReason& reason, std::string& why) -> Verdict
     why = std::move(text);
     return Verdict::fails;
   };
-  const EntityRef s = reason.entities[0];
-  if (!options_.domain || !conformity_) return fail("an angle of the input cannot be measured without the input");
-  if (s.kind != EntityKind::segment || !exists(s)) return fail("it names no segment of the input");
-  bool at_segment = false;
-  if constexpr (D == 3) {
-    list_subsegments();
+  if (!named_) return fail(no_input);
+  const Entity* s = pair_of(reason).a;
+  if (!s || s->kind != EntityKind::segment) return fail("it names no segment of the input");
+  bool at_segment = false, is_below = false;
+  if constexpr (D == 3)
     for (int e = 0; e < edge_count(3); ++e) {
-      auto ends = ends_of_edge(mesh_.cells[reason.cell], e);
-      std::sort(ends.begin(), ends.end());
-      if (!std::binary_search(subsegments_.begin(), subsegments_.end(), std::pair{ends, EntityId{s.id}})) continue;
-      if (is_wedge_below(mesh_, links_, reason.cell, e, options_.largest_cosine)) return Verdict::holds;
+      const auto ends = ends_of_edge(mesh_.cells[reason.cell], e);
+      if (std::ranges::equal_range(s->edges, sorted_edge(ends[0], ends[1]), {}, &Entity::AtEdge::ends).empty()) continue;
       at_segment = true;
+      const auto wedge = wedge_below(mesh_, links_, reason.cell, e, options_.largest_cosine);
+      if (wedge && agrees(reason.angle, {dihedral_range(*wedge, 0)})) return Verdict::holds;
+      is_below = is_below || wedge;
     }
-  }
-  return at_segment ? Verdict::admitted : fail("it has no edge on " + words(s));
-}
-
-template <int D>
-void Reasons<D>::list_subsegments() {
-  if (!subsegments_.empty()) return;
-  for (std::size_t i = 0; i < mesh_.subsegments.size(); ++i) {
-    auto ends = mesh_.subsegments[i].vertices;
-    std::sort(ends.begin(), ends.end());
-    subsegments_.push_back({ends, conformity_->segment_of[i].entity});
-  }
-  std::sort(subsegments_.begin(), subsegments_.end());
+  if (is_below)
+    return fail("its walls at " + words_of<D>(reason.entities[0]) + " do not meet at " + words(reason.angle) + " degrees");
+  return at_segment ? Verdict::admitted : fail("it has no edge on " + words_of<D>(reason.entities[0]));
 }
 
 /// A segment in one piece that meets the cell's circumball, doubled, or has its centre in the diametral ball.
 template <int D>
-bool Reasons<D>::beside_kept(const PoorReason& reason, std::string& why) const {
+bool Reasons<D>::beside_kept(const PoorReason& reason, std::string& why) {
   const auto fail = [&](std::string text) {
     why = std::move(text);
     return false;
   };
-  const EntityRef s = reason.entities[0];
-  if (!options_.domain || !conformity_) return fail("whether a segment was kept cannot be seen without the input");
-  if (D != 2 || s.kind != EntityKind::segment || !exists(s)) return fail("it names no segment of a planar input");
-  if (conformity_->pieces[s.id] != 1) return fail(words(s) + " has points of its own");
-  const auto& ends = options_.domain->segments()[s.id].points;
-  const Point<D> middle = detail::on_edge(options_.domain->points()[ends[0]], options_.domain->points()[ends[1]], 0.5);
+  if (!named_) return fail("whether a segment was kept cannot be seen without the input");
+  const Entity* s = pair_of(reason).a;
+  if (D != 2 || !s || s->kind != EntityKind::segment) return fail("it names no segment of a planar input");
+  if (s->edges.size() != 1 || s->edges[0].ends != sorted_edge(s->ends[0], s->ends[1]))
+    return fail(words_of<D>(reason.entities[0]) + " has points of its own");
+  const Ball<D> own = diametral_ball<D>(named_->point(s->ends[0]), named_->point(s->ends[1]));
   const auto ball = circumsphere<D>(corners_of(mesh_, reason.cell));
-  const double reach = std::sqrt(squared_distance(middle, options_.domain->points()[ends[0]]));
-  const bool encroached = std::sqrt(squared_distance(middle, ball.center)) <=
-                          reach * (1 + rounding::of_blame_checked) + ball.center_error;
-  return encroached || near(reason.cell, s) || fail("its circumcentre is not beside " + words(s));
+  const bool encroached = std::sqrt(squared_distance(own.center, ball.center)) <=
+                          std::sqrt(own.squared_radius) * (1 + rounding::of_blame_checked) + ball.center_error;
+  return encroached || near(reason.cell, *s) || fail("its circumcentre is not beside " + words_of<D>(reason.entities[0]));
 }
 
 template <int D>
-bool Reasons<D>::exists(EntityRef entity) const {
-  switch (entity.kind) {
-    case EntityKind::vertex: return entity.id < options_.domain->points().size();
-    case EntityKind::segment: return entity.id < options_.domain->segments().size();
-    case EntityKind::facet: return entity.id < options_.domain->facets().size();
-    default: return false;
-  }
-}
-
-template <int D>
-auto Reasons<D>::meeting(EntityRef a, EntityRef b) -> Meeting {
-  const auto code = [](EntityRef e) { return std::uint64_t{static_cast<std::uint8_t>(e.kind)} << 32 | e.id; };
-  const auto [at, fresh] = angles_.try_emplace({code(a), code(b)}, Meeting{});
-  if (!fresh) return at->second;
-  at->second.small = measure_angle(a, b);
-  if constexpr (D == 3) at->second.sharp = asks_for_dihedral() && meet_too_sharply(*options_.domain, a, b, angle_bounds());
+const EntityMeeting& Reasons<D>::meeting(const Pair& pair) {
+  const auto [at, fresh] = meetings_.try_emplace({pair.a, pair.b});
+  if (fresh) at->second = meeting_of<D>(*named_, *pair.a, *pair.b, angle_bounds());
   return at->second;
 }
 
 template <int D>
-bool Reasons<D>::measure_angle(EntityRef a, EntityRef b) const {
-  const Domain<D>& domain = *options_.domain;
-  if (a == b) return false;
-  if (a.kind == EntityKind::vertex) return small_at_point(a.id, b);
-  if (b.kind == EntityKind::vertex) return small_at_point(b.id, a);
-  std::vector<std::uint32_t> on_common;  // two facets with a common segment make no other angle at its ends
-  if constexpr (D == 3) {
-    if (contains_segment(domain, a, b) || contains_segment(domain, b, a)) return false;
-    if (a.kind == EntityKind::facet && b.kind == EntityKind::facet && dihedral_below(domain, a.id, b.id, on_common)) return true;
-  }
-  for (const std::uint32_t p : common_points(domain, a, b))
-    if (std::find(on_common.begin(), on_common.end(), p) == on_common.end() && below_at(domain, a, b, p)) return true;
-  return false;
-}
-
-/// An input point stands for what meets there: some other entity makes a small angle with b at it.
-template <int D>
-bool Reasons<D>::small_at_point(std::uint32_t point, EntityRef b) const {
-  const Domain<D>& domain = *options_.domain;
-  if (edges_at(domain, b, point).empty()) return false;
-  const auto meets = [&](EntityRef c) { return !(c == b) && !edges_at(domain, c, point).empty() && measure_angle(c, b); };
-  for (EntityId s = 0; s < domain.segments().size(); ++s)
-    if (meets({EntityKind::segment, s})) return true;
-  for (EntityId f = 0; f < domain.facets().size(); ++f)
-    if (meets({EntityKind::facet, f})) return true;
-  return false;
-}
-
-template <int D>
-bool Reasons<D>::near(std::uint32_t cell, EntityRef entity) const {
+bool Reasons<D>::near(std::uint32_t cell, const Entity& entity) const {
   const auto ball = circumsphere<D>(corners_of(mesh_, cell));
   const double reach = 2 * std::sqrt(ball.squared_radius) * (1 + rounding::of_blame_checked) + ball.center_error;
-  return within(ball.center, reach, entity);
+  return named_->is_within(ball.center, reach, entity);
 }
 
 /// 2D: does the circumdisk meet the diametral disk of a subsegment of the segment? (docs/small-angles.md has the proof that it
 /// does if that was to be split in place of the cell, however far it is.)
 template <int D>
-bool Reasons<D>::meets_piece(std::uint32_t cell, EntityRef entity) {
-  if (D != 2 || entity.kind != EntityKind::segment || !conformity_) return false;
-  if (pieces_.empty())
-    for (std::uint32_t i = 0; i < mesh_.subsegments.size(); ++i)
-      if (const auto s = conformity_->segment_of[i].entity; s != none) pieces_[s].push_back(i);
+bool Reasons<D>::meets_piece(std::uint32_t cell, const Entity& entity) const {
+  if (D != 2) return false;
   const auto ball = circumsphere<D>(corners_of(mesh_, cell));
-  const auto& of_segment = pieces_[entity.id];
-  return std::any_of(of_segment.begin(), of_segment.end(), [&](std::uint32_t i) {
-    const auto& ends = mesh_.subsegments[i].vertices;
-    const Ball<D> piece = diametral_ball<D>(mesh_.points[ends[0]], mesh_.points[ends[1]]);
+  return std::ranges::any_of(entity.edges, [&](const auto& edge) {
+    const Ball<D> piece = diametral_ball<D>(mesh_.points[edge.ends[0]], mesh_.points[edge.ends[1]]);
     const double reach = (std::sqrt(ball.squared_radius) + std::sqrt(piece.squared_radius)) * (1 + rounding::of_blame_checked);
     return std::sqrt(squared_distance(ball.center, piece.center)) <= reach + ball.center_error;
   });
 }
 
 template <int D>
-bool Reasons<D>::within(const Point<D>& x, double distance, EntityRef entity) const {
-  const Domain<D>& domain = *options_.domain;
-  const auto points = domain.points();
-  if (entity.kind == EntityKind::vertex) return std::sqrt(squared_distance(x, points[entity.id])) <= distance;
-  if (entity.kind == EntityKind::segment) {
-    const auto& ends = domain.segments()[entity.id].points;
-    return std::sqrt(detail::closest_to_edge(x, points[ends[0]], points[ends[1]]).square) <= distance;
-  }
-  if constexpr (D == 3)
-    for (const auto& t : domain.triangles(entity.id))
-      if (std::sqrt(detail::closest_to_triangle(x, points[t[0]], points[t[1]], points[t[2]]).square) <= distance) return true;
-  return false;
-}
-
-template <int D>
-std::vector<std::uint8_t> Reasons<D>::vertices_at_refused(const InputVolumes<D>& input) {
-  if (!options_.reasons || !conformity_) return {};
-  std::vector<std::uint8_t> at(mesh_.points.size(), 0), segment(options_.domain->segments().size(), 0),
-      facet(options_.domain->facets().size(), 0);
+std::vector<std::uint8_t> Reasons<D>::vertices_at_refused() {
+  if (!options_.reasons || !named_) return {};
+  std::vector<std::uint8_t> at(mesh_.points.size(), 0);
+  std::unordered_set<const Entity*> marked;
   for (const PoorReason& r : *options_.reasons) {
-    const auto& [a, b] = r.entities;
-    if (r.code != PoorReason::Code::small_angle || !exists(a) || !exists(b) || !meeting(a, b).small) continue;
-    for (const EntityRef e : r.entities) {
-      if (e.kind == EntityKind::segment) segment[e.id] = 1;
-      if (e.kind == EntityKind::facet) facet[e.id] = 1;
-      if (e.kind == EntityKind::vertex)
-        if (const std::uint32_t v = conformity_->vertex_of_point[e.id]; v != none) at[v] = 1;
-    }
+    std::string why;
+    if (r.code != PoorReason::Code::small_angle || !is_true(r, why)) continue;
+    const Pair pair = pair_of(r);
+    for (const Entity* e : {pair.a, pair.b})
+      if (marked.insert(e).second)
+        for (const std::uint32_t v : e->points)
+          if (v < at.size()) at[v] = 1;
   }
-  const auto mark = [&](const auto& vertices) {
-    for (const std::uint32_t v : vertices) at[v] = 1;
-  };
-  for (std::size_t i = 0; i < mesh_.subsegments.size(); ++i)
-    if (const auto s = conformity_->segment_of[i].entity; s != none && segment[s]) mark(mesh_.subsegments[i].vertices);
-  if constexpr (D == 3)
-    for (std::size_t i = 0; i < mesh_.subfacets.size(); ++i)
-      if (const auto p = conformity_->patch_of[i].entity; p != none && facet[input.patches()[p].entity])
-        mark(mesh_.subfacets[i].vertices);
   return at;
 }
 

@@ -15,22 +15,23 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
-#include <unordered_map>
-#include <utility>
 #include <vector>
 
-#include "check/conformity.hpp"
-#include "input/sharp_angles.hpp"
+#include "check/given/entity_angles.hpp"
+#include "check/links.hpp"
 
 namespace pgdr::checking {
 
 template <int D>
 class Reasons {
  public:
-  /// Reasons for cells that do not exist are findings. @param conformity null if there is no domain.
-  Reasons(const OutputMesh<D>& mesh, const CheckOptions<D>& options, const Links<D>& links, const Conformity<D>* conformity,
+  using Entity = NamedEntity<D>;
+
+  /// Reasons for cells that do not exist are findings. @param named null if there is no input.
+  Reasons(const OutputMesh<D>& mesh, const CheckOptions<D>& options, const Links<D>& links, NamedEntities<D>* named,
           Findings& findings);
 
   /// What the reasons of a cell are: none at all, an excuse, true without being one, or false.
@@ -40,43 +41,45 @@ class Reasons {
   /// Is a reason of the cell, given for whatever bound, an excuse for a dihedral angle below the bound?
   bool excuses_dihedral(std::uint32_t cell);
 
+  /// Has a cell that needs no excuse of shape or size a reason whose entities do not meet at the small angle that it states? Such
+  /// reasons stand for faces that are not locally Delaunay, and for dihedral angles. @param why as of judge()
+  bool misstates_angle(std::uint32_t cell, std::string& why);
+
   /// Of each vertex: it lies on an entity of a small angle that some reason names; empty if there are no reasons.
-  std::vector<std::uint8_t> vertices_at_refused(const InputVolumes<D>& input);
+  std::vector<std::uint8_t> vertices_at_refused();
 
  private:
+  /// The two entities of a reason; null where it names none that exist.
+  struct Pair {
+    const Entity *a, *b;
+    bool exists() const { return a && b; }
+  };
+  Pair pair_of(const PoorReason& reason);
   std::span<const std::uint32_t> of_cell(std::uint32_t cell) const;
   bool asks_for_dihedral() const { return D == 3 && options_.largest_cosine < 1; }
   AngleBounds angle_bounds() const { return {options_.radius_edge_bound, options_.largest_cosine}; }
   Verdict judge(const PoorReason& reason, std::string& why);
-  bool is_at_corner(const PoorReason& reason) const;
-  bool is_in_gap(const PoorReason& reason) const;
-  bool reaches(std::uint32_t cell, std::uint32_t v, const std::array<EntityRef, 2>& pair, const Point3& middle) const;
-  bool lies_on(std::uint32_t v, EntityRef entity) const;
+  Verdict judge_angle(const PoorReason& reason, std::string& why);
+  bool is_true(const PoorReason& reason, std::string& why);
+  bool is_at_corner(const PoorReason& reason);
+  bool is_facet_between(std::uint32_t v, const Entity& a, const Entity& b);
+  bool is_in_gap(const PoorReason& reason);
+  bool reaches(std::uint32_t cell, std::uint32_t v, const Pair& pair, const Point3& middle) const;
   Verdict in_wedge(const PoorReason& reason, std::string& why);
-  void list_subsegments();
-  bool beside_kept(const PoorReason& reason, std::string& why) const;
-  /// Of two entities: do they meet at a small angle; and at one at which the bounds cannot be met?
-  struct Meeting {
-    bool small, sharp;
-  };
-  Meeting meeting(EntityRef a, EntityRef b);
-  bool measure_angle(EntityRef a, EntityRef b) const;
-  bool small_at_point(std::uint32_t point, EntityRef b) const;
-  bool exists(EntityRef entity) const;
-  bool near(std::uint32_t cell, EntityRef entity) const;
-  bool meets_piece(std::uint32_t cell, EntityRef entity);
-  bool within(const Point<D>& x, double distance, EntityRef entity) const;
+  bool beside_kept(const PoorReason& reason, std::string& why);
+  const EntityMeeting& meeting(const Pair& pair);
+  bool near(std::uint32_t cell, const Entity& entity) const;
+  bool meets_piece(std::uint32_t cell, const Entity& entity) const;
 
   const OutputMesh<D>& mesh_;
   const CheckOptions<D>& options_;
   const Links<D>& links_;
-  const Conformity<D>* conformity_;
+  NamedEntities<D>* named_;
   std::vector<std::uint32_t> by_cell_;  ///< indices of reasons, sorted by cell
-  std::map<std::array<std::uint64_t, 2>, Meeting> angles_;
-  /// Edges of the mesh on segments, sorted, with the segment; made when the first is asked for.
-  std::vector<std::pair<std::array<std::uint32_t, 2>, EntityId>> subsegments_;
-  std::unordered_map<EntityId, std::vector<std::uint32_t>> pieces_;  ///< 2D: subsegments by segment; made when asked for
-  double largest_ = 0;                                               ///< coordinate of the mesh
+  std::map<std::array<const Entity*, 2>, EntityMeeting> meetings_;
+  std::vector<typename Entity::AtEdge> subfacets_;  ///< 3D: by their edges, sorted; made when they are asked for
+  std::vector<detail::PlanarEdge> subsegments_;     ///< 3D: likewise
+  double largest_ = 0;                              ///< coordinate of the mesh
 };
 
 }  // namespace pgdr::checking

@@ -51,14 +51,13 @@ namespace {
 template <int D>
 class RegionChecker {
  public:
-  RegionChecker(const ConformityTask<D>& task, const Links<D>& links, const Conformity<D>& conformity, Components& components)
-      : task_(task), mesh_(task.mesh), input_(task.input), links_(links), conformity_(conformity), components_(components) {}
+  RegionChecker(const OutputMesh<D>& mesh, const Links<D>& links, const InputVolumes<D>& volumes, Components& components,
+                Findings& findings)
+      : mesh_(mesh), input_(volumes), links_(links), components_(components), findings_(findings) {}
 
   void run() {
     bad_side_.assign(components_.volume.size(), 0);
-    boundary_slack_.assign(input_.volumes().size(), 0);
-    for (std::uint32_t w = 0; w < walls(mesh_).size(); ++w)
-      if (conformity_.patch_of[w].entity != none) check_wall(w);
+    for (std::uint32_t w = 0; w < walls(mesh_).size(); ++w) check_wall(w);
     check_measures();
     check_seeds();
     check_labels_without_seed();
@@ -66,17 +65,14 @@ class RegionChecker {
 
  private:
   void check_wall(std::uint32_t w) {
-    const Place place = conformity_.patch_of[w];
-    const Patch& patch = input_.patches()[place.entity];
-    for (const int side : {0, 1}) {
-      const std::uint32_t volume = patch.volume[side != place.reversed];
+    for (const std::size_t side : {0, 1}) {
+      const std::uint32_t volume = input_.volumes_of(w)[side];
       const std::uint32_t face = links_.wall_sides[w][side];
       if (face != none && !links_.positive(face / (D + 1))) continue;  // reported, and its side means nothing
       if (face != none)
         enter(components_.of_cell[face / (D + 1)], volume, face);
       else if (input_.volumes()[volume].kept)
         report_empty_side(w);
-      boundary_slack_[volume] += slack(w, patch.entity);
     }
   }
 
@@ -85,14 +81,14 @@ class RegionChecker {
     if (bad_side_[component]) return;
     if (!input_.volumes()[volume].kept) {
       bad_side_[component] = 1;
-      task_.findings.add(Kind::hole_filled, {face / (D + 1)}, [&] {
+      findings_.add(Kind::hole_filled, {face / (D + 1)}, [&] {
         return "The " + cell_words(mesh_, face / (D + 1)) + (volume == 0 ? " lies outside the domain." : " lies in a hole.");
       });
     } else if (known == none) {
       known = volume;
     } else if (known != volume) {
       bad_side_[component] = 1;
-      task_.findings.add(Kind::wrong_volume, {face / (D + 1)}, [&] {
+      findings_.add(Kind::wrong_volume, {face / (D + 1)}, [&] {
         return "Cells connected to " + cell_words(mesh_, face / (D + 1)) +
                " without a constraint between them lie in two volumes of the input.";
       });
@@ -100,33 +96,10 @@ class RegionChecker {
   }
 
   void report_empty_side(std::uint32_t w) {
-    task_.findings.add(Kind::wrong_volume, {w}, [&] {
+    findings_.add(Kind::wrong_volume, {w}, [&] {
       return std::string(D == 2 ? "Subsegment " : "Subfacet ") + std::to_string(w) + " (" + list_words(walls(mesh_)[w].vertices) +
              ") has no cell on a side that belongs to the domain.";
     });
-  }
-
-  // How much the measure of a volume changes if this wall's vertices move onto their entity, by at most t: the wall
-  // sweeps at most t * its measure, which itself changes by at most t * its boundary (and pi t^2); doubled. A facet
-  // that is planar only within rounding is met by subfacets across its folds, up to twice its defect away.
-  double slack(std::uint32_t w, EntityId entity) const {
-    if (!input_.made_of()) return 0;  // the walls themselves bound the volumes
-    const auto& v = walls(mesh_)[w].vertices;
-    if constexpr (D == 2) {
-      const double t = Tolerance{task_.ulps, input_.domain().segment_magnitude(entity)}.width();
-      return 2 * t * (std::sqrt(squared_distance(mesh_.points[v[0]], mesh_.points[v[1]])) + 2 * t);
-    } else {
-      const double t = Tolerance{task_.ulps, input_.domain().facet_magnitude(entity)}.width() +
-                       2 * input_.domain().facets()[entity].planarity_defect;
-      const auto &a = mesh_.points[v[0]], &b = mesh_.points[v[1]], &c = mesh_.points[v[2]];
-      const double longest = std::sqrt(std::max({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)}));
-      double doubled = 0;  // at most the sum of the three projections
-      for (int axis = 0; axis < 3; ++axis) {
-        const int j = (axis + 1) % 3, k = (axis + 2) % 3;
-        doubled += std::abs(signed_measure<2>({{{{a[j], a[k]}}, {{b[j], b[k]}}}}, {{c[j], c[k]}}).first);
-      }
-      return 2 * t * (doubled / 2 + 3 * longest * t + 4 * t * t);
-    }
   }
 
   void check_measures() {
@@ -149,9 +122,9 @@ class RegionChecker {
     for (std::uint32_t v = 0; v < sums.size(); ++v) {
       const Volume& wanted = input_.volumes()[v];
       if (!wanted.kept) continue;
-      const double slack = errors[v] + sums[v].error() + wanted.measure_error + boundary_slack_[v];
+      const double slack = errors[v] + sums[v].error() + wanted.measure_error;
       if (components[v] == 1 && std::abs(sums[v].value() - wanted.measure) <= slack) continue;
-      task_.findings.add(Kind::wrong_volume, {v}, [&] {
+      findings_.add(Kind::wrong_volume, {v}, [&] {
         return "Volume " + std::to_string(v) + " of the input measures " + words(wanted.measure) + " and is filled by " +
                std::to_string(components[v]) + " connected sets of cells, which measure " + words(sums[v].value()) + ".";
       });
@@ -188,18 +161,18 @@ class RegionChecker {
       if (!wanted) continue;
       if (volume.numbered) used.push_back(label_of[i]);
       if (label_of[i] >= (*wanted)[0] && label_of[i] <= (*wanted)[1]) continue;
-      task_.findings.add(Kind::wrong_region, {components_.volume[i]}, [&] {
+      findings_.add(Kind::wrong_region, {components_.volume[i]}, [&] {
         return "Volume " + std::to_string(components_.volume[i]) + " of the input has label " + words(label_of[i]) +
                " instead of " + words((*wanted)[0]) + ".";
       });
     }
     std::sort(used.begin(), used.end());
     if (const auto twice = std::adjacent_find(used.begin(), used.end()); twice != used.end())
-      task_.findings.add(Kind::wrong_region, {}, [&] { return "Two volumes have the label " + words(*twice) + "."; });
+      findings_.add(Kind::wrong_region, {}, [&] { return "Two volumes have the label " + words(*twice) + "."; });
   }
 
   void report_seed(std::uint32_t i, const char* where) {
-    task_.findings.add(Kind::wrong_region, {i}, [&] {
+    findings_.add(Kind::wrong_region, {i}, [&] {
       return "The seed of region " + std::to_string(i) + " " + words(input_.regions()[i].point) + " lies " + where + ".";
     });
   }
@@ -232,7 +205,7 @@ class RegionChecker {
 
   void visit_seed(std::uint32_t c, const Seed& seed) {
     if (seed.hole) {
-      task_.findings.add(Kind::hole_filled, {c, seed.index}, [&] {
+      findings_.add(Kind::hole_filled, {c, seed.index}, [&] {
         return "The " + cell_words(mesh_, c) + " contains the seed of hole " + std::to_string(seed.index) + " " +
                words(seed.point) + ".";
       });
@@ -242,20 +215,18 @@ class RegionChecker {
     const double label = mesh_.regions.empty() ? 0 : mesh_.regions[c];
     const double wanted = input_.regions()[seed.index].attribute;
     if (label == wanted) return;
-    task_.findings.add(Kind::wrong_region, {c, seed.index}, [&] {
+    findings_.add(Kind::wrong_region, {c, seed.index}, [&] {
       return "The " + cell_words(mesh_, c) + " contains the seed of region " + std::to_string(seed.index) + " and has label " +
              words(label) + " instead of " + words(wanted) + ".";
     });
   }
 
-  const ConformityTask<D>& task_;
   const OutputMesh<D>& mesh_;
   const InputVolumes<D>& input_;
   const Links<D>& links_;
-  const Conformity<D>& conformity_;
   Components& components_;
+  Findings& findings_;
   std::vector<std::uint8_t> bad_side_;  ///< of each component: reported already
-  std::vector<double> boundary_slack_;  ///< of each volume
   std::vector<Seed> seeds_;             ///< by x
   std::vector<bool> found_;
 };
@@ -263,14 +234,14 @@ class RegionChecker {
 }  // namespace
 
 template <int D>
-void check_regions(const ConformityTask<D>& task, const Links<D>& links, const Conformity<D>& conformity,
-                   Components& components) {
-  RegionChecker<D>(task, links, conformity, components).run();
+void check_regions(const OutputMesh<D>& mesh, const Links<D>& links, const InputVolumes<D>& volumes, Components& components,
+                   Findings& findings) {
+  RegionChecker<D>(mesh, links, volumes, components, findings).run();
 }
 
 #define PGDR_INSTANTIATE(D)                                                          \
   template Components flood_cells(const OutputMesh<D>&, const Links<D>&, Findings&); \
-  template void check_regions(const ConformityTask<D>&, const Links<D>&, const Conformity<D>&, Components&);
+  template void check_regions(const OutputMesh<D>&, const Links<D>&, const InputVolumes<D>&, Components&, Findings&);
 PGDR_INSTANTIATE(2)
 PGDR_INSTANTIATE(3)
 #undef PGDR_INSTANTIATE

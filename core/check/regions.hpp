@@ -7,7 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "check/conformity.hpp"
+#include "check/links.hpp"
+#include "check/volumes/input_volumes.hpp"
 
 namespace pgdr::checking {
 
@@ -22,7 +23,9 @@ template <int D>
 Components flood_cells(const OutputMesh<D>& mesh, const Links<D>& links, Findings& findings);
 
 /// Components against volumes of the input; seeds; measures.
+/// @param volumes  its first walls are those of the mesh, in their order
 template <int D>
-void check_regions(const ConformityTask<D>& task, const Links<D>& links, const Conformity<D>& conformity, Components& components);
+void check_regions(const OutputMesh<D>& mesh, const Links<D>& links, const InputVolumes<D>& volumes, Components& components,
+                   Findings& findings);
 
 }  // namespace pgdr::checking

@@ -29,16 +29,19 @@ std::uint32_t wall_round_edge(const OutputMesh<3>& mesh, const Links<3>& links, 
 
 // The dihedral angles of cells from wall to wall, all positive and each of less than 180 degrees, add up to the wedge, which is
 // at most 360 degrees. The walls' half-planes make it or what it lacks of 360 degrees; the orientation tells which.
-bool is_wedge_below(const OutputMesh<3>& mesh, const Links<3>& links, std::uint32_t cell, int edge, double largest_cosine) {
+std::optional<Wedge> wedge_below(const OutputMesh<3>& mesh, const Links<3>& links, std::uint32_t cell, int edge,
+                                 double largest_cosine) {
   const auto [i, j] = edge_ends[edge];
   const auto [k, l] = corners_without(i, j);
   const std::uint32_t first = wall_round_edge(mesh, links, cell, l, k), last = wall_round_edge(mesh, links, cell, k, l);
-  if (first == none || last == none || first == last) return false;
-  const auto point = [&](std::uint32_t v) -> const Point3& { return mesh.points[v]; };
+  if (first == none || last == none || first == last) return {};
   const auto& v = mesh.cells[cell];
+  const auto point = [&](std::uint32_t u) -> const Point3& { return mesh.points[u]; };
   const Sign way = orient3d(point(v[i]), point(v[j]), point(v[k]), point(v[l]));
-  return orient3d(point(v[i]), point(v[j]), point(first), point(last)) == way &&
-         detail::dihedral_below(point(v[i]), point(v[j]), point(first), point(last), largest_cosine);
+  const Wedge wedge{point(v[i]), point(v[j]), point(first), point(last)};
+  if (orient3d(wedge[0], wedge[1], wedge[2], wedge[3]) != way) return {};
+  if (!detail::dihedral_below(wedge[0], wedge[1], wedge[2], wedge[3], largest_cosine)) return {};
+  return wedge;
 }
 
 }  // namespace pgdr::checking

@@ -5,10 +5,9 @@
 // bounds.
 //
 // It shares with the mesher what lies below both: the readers of files, the predicates, the planar triangulation of a polygon,
-// the tests of bounds, and what rounding may explain. It shares nothing of how meshes are made, and, where it has the input as
-// given, nothing of what is joined or repaired in it. Only reasons for poor cells go by the entities of a Domain, and, where what
-// was given outside of the mesh overlaps itself, the question which volumes are to be meshed. Exact arithmetic wherever a verdict
-// depends on a sign. Any thread; no state.
+// the tests of bounds, and what rounding may explain. It shares nothing of how meshes are made, nor of what is joined or repaired
+// in an input. Exact arithmetic wherever a verdict depends on a sign; distances from what was given are compared in doubles, with
+// bounds of their errors. Any thread; no state.
 //
 // Against the input as given (CheckOptions::input), with T the tolerance and u two ulps of its largest coordinate:
 //
@@ -26,6 +25,10 @@
 //   begin at one point, which may be in any order.
 // * The measure of a volume whose given facets close exactly differs from theirs by no more than (area of its boundary) (T + u)
 //   + (perimeter of its subfacets) (T + u)^2, with what was said above in the place of T + u.
+// * A reason names segments and facets of the input (GivenEntity). It holds if these meet at a small angle, as much as it says,
+// and
+//   one of them is near the cell. Angles are those of points that were given, exactly, or of points of the mesh on a facet, up to
+//   what these may be off it.
 //
 // With the input at hand the verdict is complete. Positively oriented cells cover the volume that they are to fill exactly once,
 // if their faces match, and if their boundary is, triangle by triangle, a triangulation of the boundary of that volume. Without
@@ -42,7 +45,6 @@
 #include <string_view>
 #include <vector>
 
-#include "pgdr/domain.hpp"
 #include "pgdr/export.hpp"
 #include "pgdr/output_mesh.hpp"
 #include "pgdr/plc.hpp"
@@ -55,13 +57,10 @@ namespace pgdr PGDR_API {
 /// What is checked.
 template <int D>
 struct CheckOptions {
-  /// The input as given: the mesh is certified against it, and nothing that was made of it. Null: see `domain`.
+  /// The input as given: the mesh is certified against it, and nothing that was made of it. Null: no conformity, no regions.
   const Plc<D>* input = nullptr;
   /// The absolute one that the mesh was made with (Domain::tolerance). None: the default of Plc::tolerance.
   std::optional<double> tolerance;
-  /// Without `input`, what the mesh is compared with (null: no conformity, no regions). With it, only reasons are verified by it,
-  /// which name its entities.
-  const Domain<D>* domain = nullptr;
   RegionMode regions = RegionMode::seeds;                              ///< what the mesh was made with
   double radius_edge_bound = std::numeric_limits<double>::infinity();  ///< on circumradius over shortest edge
   SizingField<D> size;                                                 ///< circumradius (3D) or area (2D) bound at the centroid
@@ -147,9 +146,8 @@ NotDelaunay count_not_delaunay(const OutputMesh<D>& mesh, bool everywhere = true
 /// Runs all checks for which `options` has the data. Bad indices and coordinates that are not finite end it early.
 /// About 5 microseconds a cell, on the calling thread.
 /// @throws UsageError bad_size if a size function returns a value that is not positive, bad_option if no cell has the label
-///   of a region size (but 0), or for a Domain that was moved from; InputError index_out_of_range, not_finite of the input as
-///   given, entities_intersect if walls of the Domain overlap so that no line crosses them one after the other; CancelledError
-///   some hundredths of a second after CheckOptions::stop is requested, from any thread; ResourceError.
+///   of a region size (but 0); InputError index_out_of_range, not_finite of the input; CancelledError some hundredths of a second
+///   after CheckOptions::stop is requested, from any thread; ResourceError.
 template <int D>
 CheckReport check(const OutputMesh<D>& mesh, const CheckOptions<D>& options);
 

@@ -7,10 +7,19 @@
 #include <array>
 #include <cstdint>
 
-#include "pgdr/domain.hpp"
 #include "pgdr/export.hpp"
+#include "pgdr/types.hpp"
 
 namespace pgdr PGDR_API {
+
+/// What a reason names: a segment or a facet of the input as given.
+struct GivenEntity {
+  EntityKind kind = EntityKind::volume;  ///< segment or facet; volume: nothing is named
+  std::uint32_t facet = no_entity;       ///< of a facet: its index in Plc::facets; of several that are one facet any of these
+  /// Of a segment, which may be an edge of facets: its ends, where the mesh has them; in 2D the third coordinate is 0.
+  std::array<std::array<double, 3>, 2> ends{};
+  friend bool operator==(const GivenEntity&, const GivenEntity&) = default;  ///< the same name
+};
 
 /// Why a cell stayed over a bound; one entry of the report's `bounds.reasons`.
 struct PoorReason {
@@ -22,10 +31,10 @@ struct PoorReason {
   /// of dihedral angles; the first entity is the segment. not_found, budget: no excuse, but what the optimiser has to say: it
   /// found nothing better, or its budget was spent.
   enum class Code { small_angle, rounding, beyond_theory, kept_boundary, input_dihedral, not_found, budget };
-  std::uint32_t cell = 0;             ///< index into OutputMesh::cells
-  Code code = Code::small_angle;      ///< what kind of reason
-  std::array<EntityRef, 2> entities;  ///< input entities (of the Domain) that meet at the angle
-  double angle = 0;                   ///< degrees
+  std::uint32_t cell = 0;               ///< index into OutputMesh::cells
+  Code code = Code::small_angle;        ///< what kind of reason
+  std::array<GivenEntity, 2> entities;  ///< that meet at the angle
+  double angle = 0;                     ///< degrees
 };
 
 }  // namespace pgdr

@@ -54,14 +54,14 @@ OptimizedReasons::OptimizedReasons(const Mesh<3>& mesh, const Domain<3>& domain,
     for (const std::uint32_t p : domain.segments()[s].points) segments_at_[p].push_back(s);
 }
 
-PoorReason OptimizedReasons::small_angle(EntityKind kind, const Pair& pair) const {
+DomainReason OptimizedReasons::small_angle(EntityKind kind, const Pair& pair) const {
   const std::array<EntityRef, 2> entities{EntityRef{kind, pair[0]}, EntityRef{kind, pair[1]}};
-  return {0, PoorReason::Code::small_angle, entities, entity_angle<3>(*domain_, entities[0], entities[1])};
+  return {PoorReason::Code::small_angle, entities, entity_angle<3>(*domain_, entities[0], entities[1])};
 }
 
 /// A segment at which the walls on both sides of the cell make an angle below the target. The walls are the mesh's, as the cell
 /// has to live with these, and the checker asks the same.
-std::optional<PoorReason> OptimizedReasons::wedge_of(CellId c) const {
+std::optional<DomainReason> OptimizedReasons::wedge_of(CellId c) const {
   const auto* constraints = mesh_->constraints(c);
   const auto& v = mesh_->cell(c).vertices;
   for (int e = 0; constraints && e < edge_count(3); ++e) {
@@ -74,15 +74,14 @@ std::optional<PoorReason> OptimizedReasons::wedge_of(CellId c) const {
     const Point3 &first = mesh_->point(walls[0].apex), &last = mesh_->point(walls[1].apex);
     if (orient3d(a, b, first, last) != orient3d(a, b, mesh_->point(v[k]), mesh_->point(v[l]))) continue;
     if (!detail::dihedral_below(a, b, first, last, angles_.largest_cosine)) continue;
-    const double angle = small_angle(EntityKind::facet, {walls[0].facet, walls[1].facet}).angle;
-    return PoorReason{
-        0, PoorReason::Code::input_dihedral, {EntityRef{EntityKind::segment, constraints->edge_entity[e]}, {}}, angle};
+    const EntityRef segment{EntityKind::segment, constraints->edge_entity[e]};
+    return DomainReason{PoorReason::Code::input_dihedral, {segment, {}}, dihedral_degrees(a, b, first, last)};
   }
   return {};
 }
 
 /// Two segments of one facet that make too small an angle at a vertex of the cell.
-std::optional<PoorReason> OptimizedReasons::corner_of_cell(CellId c) {
+std::optional<DomainReason> OptimizedReasons::corner_of_cell(CellId c) {
   for (const VertexId v : mesh_->cell(c).vertices) {
     const Home home = mesh_->vertex(v).home;
     if (home.kind() != EntityKind::vertex) continue;
@@ -96,10 +95,10 @@ std::optional<PoorReason> OptimizedReasons::corner_of_cell(CellId c) {
 }
 
 /// Two entities that share a vertex of the cell alone, and come too near to each other about it, with the cell between.
-std::optional<PoorReason> OptimizedReasons::gap_at_corner(CellId c) {
+std::optional<DomainReason> OptimizedReasons::gap_at_corner(CellId c) {
   const auto pair = gaps_.of_cell(c);
   if (!pair) return {};
-  return PoorReason{0, PoorReason::Code::small_angle, *pair, entity_angle<3>(*domain_, (*pair)[0], (*pair)[1])};
+  return DomainReason{PoorReason::Code::small_angle, *pair, entity_angle<3>(*domain_, (*pair)[0], (*pair)[1])};
 }
 
 const std::vector<OptimizedReasons::Pair>& OptimizedReasons::segments_sharp_at(EntityId point) {
@@ -130,10 +129,10 @@ const std::vector<OptimizedReasons::Pair>& OptimizedReasons::facets_sharp_at(Ent
 
 /// Two entities that meet at too small an angle, one of which meets the cell's circumball, doubled: among those on which vertices
 /// of ever more cells round it lie.
-std::optional<PoorReason> OptimizedReasons::angle_near(CellId c) {
+std::optional<DomainReason> OptimizedReasons::angle_near(CellId c) {
   const auto sphere = circumsphere<3>(mesh_->simplex(c));
   const double reach = 4 * sphere.squared_radius * (1 - rounding::of_blame);  // a hair less, for the checker's rounding
-  std::optional<PoorReason> found;
+  std::optional<DomainReason> found;
   const auto take = [&](EntityKind kind, const std::vector<Pair>& pairs) {
     for (const Pair& pair : pairs)
       for (const Pair& order : {pair, Pair{pair[1], pair[0]}})
@@ -169,16 +168,16 @@ std::vector<PoorCell> OptimizedReasons::of_cells(std::span<const CellId> cells, 
     const CellVerdict verdict = bounds_->test(*mesh_, c);
     const bool below = !dihedral_within(s, angles_.largest_cosine);
     if (!verdict && !below) continue;
-    std::optional<PoorReason> reason = wedge_of(c);
+    std::optional<DomainReason> reason = wedge_of(c);
     if (!reason) reason = corner_of_cell(c);
     if (!reason) reason = gap_at_corner(c);
     if (!reason && !below) {
       reason = angle_near(c);
-      if (!reason && checking::is_as_short_as_rounding<3>(s, largest_)) reason = PoorReason{0, PoorReason::Code::rounding, {}, 0};
+      if (!reason && checking::is_as_short_as_rounding<3>(s, largest_)) reason = DomainReason{PoorReason::Code::rounding, {}, 0};
       if (!reason && bounds_->radius_edge_bound < smallest_proved_bound<3>())
-        reason = PoorReason{0, PoorReason::Code::beyond_theory, {}, 0};
+        reason = DomainReason{PoorReason::Code::beyond_theory, {}, 0};
     }
-    found.push_back({c, true, verdict.over_size > 0, reason.value_or(PoorReason{0, otherwise, {}, 0}), false});
+    found.push_back({c, true, verdict.over_size > 0, reason.value_or(DomainReason{otherwise, {}, 0}), false});
   }
   return found;
 }

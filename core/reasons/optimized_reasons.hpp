@@ -36,13 +36,13 @@ class OptimizedReasons {
  private:
   using Pair = std::array<EntityId, 2>;
 
-  std::optional<PoorReason> wedge_of(CellId c) const;
-  std::optional<PoorReason> corner_of_cell(CellId c);
-  std::optional<PoorReason> gap_at_corner(CellId c);
-  std::optional<PoorReason> angle_near(CellId c);
+  std::optional<DomainReason> wedge_of(CellId c) const;
+  std::optional<DomainReason> corner_of_cell(CellId c);
+  std::optional<DomainReason> gap_at_corner(CellId c);
+  std::optional<DomainReason> angle_near(CellId c);
   const std::vector<Pair>& segments_sharp_at(EntityId point);
   const std::vector<Pair>& facets_sharp_at(EntityId segment);
-  PoorReason small_angle(EntityKind kind, const Pair& pair) const;
+  DomainReason small_angle(EntityKind kind, const Pair& pair) const;
 
   const Mesh<3>* mesh_;
   const Domain<3>* domain_;

@@ -37,24 +37,24 @@ bool PoorReasons<D>::meets(EntityRef e, const Ball<D>& ball) const {
 
 /// As the checker will ask: do they meet at less than 60 (two segments) or 90 degrees? The reason that this is, if so.
 template <int D>
-std::optional<PoorReason> PoorReasons<D>::small_angle(const std::array<EntityRef, 2>& pair, const Angle& angle_of) const {
+std::optional<DomainReason> PoorReasons<D>::small_angle(const std::array<EntityRef, 2>& pair, const Angle& angle_of) const {
   if (!has_extent(pair[0]) || !has_extent(pair[1]) || pair[0] == pair[1]) return {};
   if (!entities_touch<D>(*domain_, pair[0], pair[1])) return {};
   const bool segments = pair[0].kind == EntityKind::segment && pair[1].kind == EntityKind::segment;
   const double angle = angle_of(pair[0], pair[1]);
   if (angle >= (segments ? 60 : 90)) return {};
-  return PoorReason{0, PoorReason::Code::small_angle, pair, angle};
+  return DomainReason{PoorReason::Code::small_angle, pair, angle};
 }
 
 /// Do they meet at such an angle, one of them within the ball, which is named first then?
 template <int D>
 bool PoorReasons<D>::explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, const Angle& angle_of,
-                              PoorReason& reason) const {
+                              DomainReason& reason) const {
   const auto found = small_angle(pair, angle_of);
   if (!found) return false;
   for (const auto& order : {pair, std::array{pair[1], pair[0]}}) {
     if (!meets(order[0], doubled)) continue;
-    reason = {0, found->code, order, found->angle};
+    reason = {found->code, order, found->angle};
     return true;
   }
   return false;
@@ -63,14 +63,14 @@ bool PoorReasons<D>::explains(const std::array<EntityRef, 2>& pair, const Ball<D
 /// 2D: the small angle of a segment with a subsegment, on one of these cells, that may have been to be split in place of cell
 /// c: its diametral disk meets the circumdisk (small-angles.md has the proof). What refused the cell comes first.
 template <int D>
-std::optional<PoorReason> PoorReasons<D>::explain_by_piece(CellId c, std::span<const CellId> cells,
-                                                           std::span<const EntityRef> near, const Angle& angle) const {
+std::optional<DomainReason> PoorReasons<D>::explain_by_piece(CellId c, std::span<const CellId> cells,
+                                                             std::span<const EntityRef> near, const Angle& angle) const {
   if constexpr (D == 2) {
     const auto sphere = circumsphere<D>(mesh_->simplex(c));
     const double radius = std::sqrt(sphere.squared_radius);
     std::optional<EntityPair> why;
     if (const auto at = why_.find(index(c)); at != why_.end()) why = at->second;
-    std::optional<PoorReason> found;
+    std::optional<DomainReason> found;
     for (const CellId k : cells) {
       const auto* constraints = mesh_->constraints(k);
       for (int i = 0; constraints && i <= D; ++i) {
@@ -128,7 +128,7 @@ bool PoorReasons<D>::any_constrained(CellId c, F f) const {
 /// What refused the element if that is a pair with a small angle, else the first such pair among the entities of ever
 /// more cells round it; if `beside` is set, one of which has a vertex of the cell.
 template <int D>
-PoorReason PoorReasons<D>::explain(CellId c, bool beside) const {
+DomainReason PoorReasons<D>::explain(CellId c, bool beside) const {
   auto touches = [&](EntityRef e) {
     return std::any_of(mesh_->cell(c).vertices.begin(), mesh_->cell(c).vertices.end(),
                        [&](VertexId v) { return lies_on<D>(*domain_, mesh_->vertex(v).home, e); });
@@ -136,7 +136,7 @@ PoorReason PoorReasons<D>::explain(CellId c, bool beside) const {
   const auto sphere = circumsphere<D>(mesh_->simplex(c));
   const Ball<D> doubled = doubled_ball<D>({sphere.center, sphere.squared_radius});
   const Angle angle = [this](EntityRef a, EntityRef b) { return entity_angle<D>(*domain_, a, b); };
-  PoorReason reason;
+  DomainReason reason;
   if (const auto why = why_.find(index(c)); why != why_.end() && why->second)
     if (!beside && explains(why->second->entities, doubled, angle, reason)) return reason;
   // Below the proved bound most cells have no small angle to name, and need none.
@@ -170,7 +170,7 @@ PoorReason PoorReasons<D>::explain(CellId c, bool beside) const {
   if (!keep_boundary_ || beside) return reason;
   if (const auto why = why_.find(index(c)); why != why_.end() && why->second) near.insert(near.begin(), why->second->entities[0]);
   for (const EntityRef e : near)
-    if (is_beside(e, doubled)) return {0, PoorReason::Code::kept_boundary, {e, {}}, 0};
+    if (is_beside(e, doubled)) return {PoorReason::Code::kept_boundary, {e, {}}, 0};
   return reason;
 }
 
@@ -193,7 +193,7 @@ template <int D>
 void PoorReasons<D>::look_at(CellId c, bool violated, std::vector<PoorCell>& found) const {
   const CellVerdict verdict = bounds_->test(*mesh_, c);
   if (!verdict && !violated) return;
-  PoorReason reason;
+  DomainReason reason;
   // Without a small angle nearby a violation is one of rounding, which needs no reason.
   const bool beside = violated && (reason = explain(c, true)).code == PoorReason::Code::small_angle;
   if (verdict && !beside) reason = explain(c, false);
@@ -205,7 +205,7 @@ std::vector<PoorCell> PoorReasons<D>::of_violated(std::span<const CellId> cells,
   std::vector<PoorCell> found;
   for (const CellId c : cells) {
     if (ended()) break;
-    const PoorReason reason = explain(c, true);
+    const DomainReason reason = explain(c, true);
     if (reason.code == PoorReason::Code::small_angle) found.push_back({c, false, false, reason, true});
   }
   return found;

@@ -7,6 +7,7 @@
 // Reads the whole mesh, while nothing else is running; one thread where nothing else is said.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <span>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "mesh/ids.hpp"
+#include "pgdr/domain.hpp"
 #include "pgdr/poor_reason.hpp"
 #include "refine/work_list.hpp"
 #include "rule/cell_bounds.hpp"
@@ -21,13 +23,20 @@
 
 namespace pgdr {
 
+/// A PoorReason that names entities of the Domain, as long as it is found.
+struct DomainReason {
+  PoorReason::Code code = PoorReason::Code::small_angle;
+  std::array<EntityRef, 2> entities;
+  double angle = 0;  ///< degrees
+};
+
 /// An element that stays poor, or has a face that is not locally Delaunay, and why. `PoorReason::cell` is filled when
 /// the mesh is compacted.
 struct PoorCell {
   CellId cell;              ///< the element
   bool over_bound = false;  ///< over any bound
   bool over_size = false;   ///< over one of size, volume or area
-  PoorReason reason;        ///< why it is poor
+  DomainReason reason;      ///< why it is poor
   bool beside = false;      ///< has a vertex on one of the entities named
 };
 
@@ -67,11 +76,11 @@ class PoorReasons {
   std::vector<PoorCell> of_violated(std::span<const CellId> cells, const std::function<bool()>& ended) const;
 
  private:
-  PoorReason explain(CellId c, bool beside) const;
-  std::optional<PoorReason> small_angle(const std::array<EntityRef, 2>& pair, const Angle& angle) const;
-  std::optional<PoorReason> explain_by_piece(CellId c, std::span<const CellId> cells, std::span<const EntityRef> near,
-                                             const Angle& angle) const;
-  bool explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, const Angle& angle, PoorReason& reason) const;
+  DomainReason explain(CellId c, bool beside) const;
+  std::optional<DomainReason> small_angle(const std::array<EntityRef, 2>& pair, const Angle& angle) const;
+  std::optional<DomainReason> explain_by_piece(CellId c, std::span<const CellId> cells, std::span<const EntityRef> near,
+                                               const Angle& angle) const;
+  bool explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, const Angle& angle, DomainReason& reason) const;
   bool meets(EntityRef e, const Ball<D>& ball) const;
   bool is_beside(EntityRef segment, const Ball<D>& doubled) const;
   template <class F>

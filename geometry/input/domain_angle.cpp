@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "input/entities.hpp"
+#include "input/sharp_angles.hpp"
 #include "numbers/dihedral_sign.hpp"
 #include "numbers/double_double.hpp"
 #include "pgdr/domain.hpp"
@@ -187,6 +188,11 @@ std::array<std::uint32_t, 2> few_points(const Domain<D>& domain, EntityRef e) {
 }
 
 }  // namespace
+
+double dihedral_degrees(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+  const Vector edge = direction(a, b);
+  return angle_between(cross(edge, direction(a, c)), cross(edge, direction(a, d)));
+}
 
 template <int D>
 bool entities_touch(const Domain<D>& domain, EntityRef a, EntityRef b) {

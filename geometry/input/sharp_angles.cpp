@@ -55,15 +55,13 @@ std::uint32_t far_end(const Domain<3>& domain, EntityId segment, std::uint32_t p
   return a == point ? b : b == point ? a : no_entity;
 }
 
-/// What an entity is about a point of it: the directions between those to two points, which are one for a segment.
-using Sector = std::array<std::uint32_t, 2>;
-
 std::vector<Sector> sectors_at(const Domain<3>& domain, EntityRef e, std::uint32_t point) {
+  const auto p = domain.points();
   std::vector<Sector> out;
   if (e.kind == EntityKind::segment)
-    if (const std::uint32_t end = far_end(domain, e.id, point); end != no_entity) out.push_back({end, end});
+    if (const std::uint32_t end = far_end(domain, e.id, point); end != no_entity) out.push_back({p[end], p[end]});
   if (e.kind == EntityKind::facet)
-    for (const Triangle& t : corner_triangles(domain, e.id, point)) out.push_back({t[1], t[2]});
+    for (const Triangle& t : corner_triangles(domain, e.id, point)) out.push_back({p[t[1]], p[t[2]]});
   return out;
 }
 
@@ -113,25 +111,27 @@ struct Gap {
 std::optional<Point3> middle_of_gap(const Domain<3>& domain, std::uint32_t point, EntityRef a, EntityRef b,
                                     const AngleBounds& bounds) {
   if (bounds.largest_cosine >= 1 || share_segment_at(domain, point, a, b)) return {};
-  const auto p = domain.points();
-  const Point3& v = p[point];
+  return middle_of_gap(domain.points()[point], sectors_at(domain, a, point), sectors_at(domain, b, point), bounds);
+}
+
+std::optional<Point3> middle_of_gap(const Point3& v, std::span<const Sector> a, std::span<const Sector> b,
+                                    const AngleBounds& bounds) {
+  if (bounds.largest_cosine >= 1) return {};
   const double bound = bound_of_gaps(bounds);
   Gap gap;
-  const auto look = [&](const std::vector<Sector>& from, const std::vector<Sector>& to) {
+  const auto look = [&](std::span<const Sector> from, std::span<const Sector> to) {
     for (const Sector& s : from)
-      for (const std::uint32_t r : s)
+      for (const Point3& r : s)
         for (const auto& [c, d] : to) {
-          const bool near = c == d ? detail::is_too_sharp<3>(v, p[r], p[c], bound)
-                                   : detail::is_too_near_corner(v, p[r], p[c], p[d], bound);
+          const bool near = c == d ? detail::is_too_sharp<3>(v, r, c, bound) : detail::is_too_near_corner(v, r, c, d, bound);
           if (!near) continue;
-          const auto x = detail::difference(p[r], v), y = detail::difference(p[c], v), z = detail::difference(p[d], v);
+          const auto x = detail::difference(r, v), y = detail::difference(c, v), z = detail::difference(d, v);
           const auto foot = c == d ? std::nullopt : foot_between(x, y, z);
           for (const auto& w : foot ? std::array{*foot, *foot} : std::array{y, z}) gap.add(v, x, w);
         }
   };
-  const auto of_a = sectors_at(domain, a, point), of_b = sectors_at(domain, b, point);
-  look(of_a, of_b);
-  look(of_b, of_a);
+  look(a, b);
+  look(b, a);
   return gap.squared_sine <= 1 ? std::optional(gap.middle) : std::nullopt;
 }
 

@@ -4,8 +4,10 @@
 // Angles of the input at which no mesh meets the bounds that are asked for, decided exactly. Reads a Domain; any thread.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "pgdr/domain.hpp"
 
@@ -32,6 +34,15 @@ bool is_sharp_corner(const Domain<3>& domain, std::uint32_t point, EntityId s, E
 /// middle between the nearest of their directions, rounded, if they do.
 std::optional<Point3> middle_of_gap(const Domain<3>& domain, std::uint32_t point, EntityRef a, EntityRef b,
                                     const AngleBounds& bounds);
+
+/// What an entity is about a point of it: the directions to what is between these two points, which are one for a segment.
+using Sector = std::array<Point3, 2>;
+/// The same of what two entities are about the point v. @pre they share no segment at it
+std::optional<Point3> middle_of_gap(const Point3& v, std::span<const Sector> a, std::span<const Sector> b,
+                                    const AngleBounds& bounds);
+
+/// The angle of the half-planes from the line ab through c and through d, in degrees.
+double dihedral_degrees(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
 
 /// Has the tetrahedron, at corner i, an edge that makes an angle below that with the face beside it? Then it is over a bound.
 bool is_thin_at(const Simplex<3>& s, int i, const AngleBounds& bounds);

@@ -12,6 +12,7 @@
 #include <limits>
 #include <numeric>
 
+#include "numbers/rounding.hpp"
 #include "pgdr/circumsphere.hpp"
 
 namespace pgdr::checking {
@@ -35,107 +36,11 @@ Number dot(const Vector<Number, N>& u, const Vector<Number, N>& v) {
   return s;
 }
 
-template <class Number>
-Vector<Number, 3> cross(const Vector<Number, 3>& u, const Vector<Number, 3>& v) {
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
-
-/// |u x v|^2: twice the area of the triangle they span, squared.
-template <class Number, std::size_t N>
-Number cross_squared(const Vector<Number, N>& u, const Vector<Number, N>& v) {
-  if constexpr (N == 2) {
-    const Number c = u[0] * v[1] - u[1] * v[0];
-    return c * c;
-  } else {
-    const auto c = cross(u, v);
-    return dot(c, c);
-  }
-}
-
-Rational squared(const Tolerance& t) {
-  const Rational width = Rational(t.ulps) * Rational(t.magnitude) * Rational(rounding::ulp);
-  return width * width;
-}
-
-long double width_of(const Tolerance& t) { return static_cast<long double>(t.ulps) * t.magnitude * rounding::ulp; }
-
 enum class Filtered { no, yes, unsure };
 
 constexpr long double epsilon = std::numeric_limits<long double>::epsilon();
 // Below this, products of two may have lost digits to underflow; the rationals decide.
 constexpr long double smallest_trusted = std::numeric_limits<double>::min() * 0x1p100L;
-
-/// computed <= bound, where both have errors of at most `error` in the first and 16 epsilon relative in the second.
-Filtered within(long double computed, long double error, long double bound) {
-  if (!(bound > smallest_trusted)) return Filtered::unsure;
-  if (computed + error <= bound * (1 - 16 * epsilon)) return Filtered::yes;
-  if (computed - error > bound * (1 + 16 * epsilon)) return Filtered::no;
-  return Filtered::unsure;
-}
-
-}  // namespace
-
-// In the filter each component of u x v is off by at most 4 epsilon (|u_i v_j| + |u_j v_i|) (two differences, a
-// product and a difference, each with a relative error of epsilon / 2), so its length by less than 16 epsilon |u||v|;
-// the square root and the sums add a few epsilon of the length itself, which 32 covers.
-template <int D>
-bool near_line(const Point<D>& p, const Point<D>& q, const Point<D>& x, const Tolerance& tolerance) {
-  {
-    const auto u = difference<long double, D>(q, p), v = difference<long double, D>(x, p);
-    const long double length = std::sqrt(dot(u, u));
-    const long double off = std::sqrt(cross_squared(u, v));
-    const auto answer = within(off, 32 * epsilon * length * std::sqrt(dot(v, v)), width_of(tolerance) * length);
-    if (answer != Filtered::unsure) return answer == Filtered::yes;
-  }
-  const auto u = difference<Rational, D>(q, p), v = difference<Rational, D>(x, p);
-  return cross_squared(u, v) <= squared(tolerance) * dot(u, u);
-}
-
-// In the filter the normal n = u x w is off by less than 16 epsilon |u||w|, and n.v by that times |v| and a few epsilon
-// more of |n||v| <= |u||w||v|. The error of |n| counts against the bound: it is moved to the other side.
-bool near_plane(const std::array<Point3, 3>& triangle, const Point3& x, const Tolerance& tolerance) {
-  const auto& [a, b, c] = triangle;
-  {
-    const auto u = difference<long double, 3>(b, a), w = difference<long double, 3>(c, a);
-    const auto v = difference<long double, 3>(x, a);
-    const auto n = cross(u, w);
-    const long double product = std::sqrt(dot(u, u) * dot(w, w)), width = width_of(tolerance);
-    const long double error = 40 * epsilon * product * (std::sqrt(dot(v, v)) + width);
-    const auto answer = within(std::abs(dot(n, v)), error, width * std::sqrt(dot(n, n)));
-    if (answer != Filtered::unsure) return answer == Filtered::yes;
-  }
-  const auto n = cross(difference<Rational, 3>(b, a), difference<Rational, 3>(c, a));
-  const Rational height = dot(n, difference<Rational, 3>(x, a));
-  return height * height <= squared(tolerance) * dot(n, n);
-}
-
-template <int D>
-double distance_from_line(const Point<D>& p, const Point<D>& q, const Point<D>& x) {
-  const auto u = difference<long double, D>(q, p);
-  return static_cast<double>(std::sqrt(cross_squared(u, difference<long double, D>(x, p)) / dot(u, u)));
-}
-
-double distance_from_plane(const std::array<Point3, 3>& triangle, const Point3& x) {
-  const auto& [a, b, c] = triangle;
-  const auto n = cross(difference<long double, 3>(b, a), difference<long double, 3>(c, a));
-  return static_cast<double>(std::abs(dot(n, difference<long double, 3>(x, a))) / std::sqrt(dot(n, n)));
-}
-
-template <int D>
-bool advances(const Point<D>& p, const Point<D>& q, const Point<D>& x, const Point<D>& y) {
-  const auto u = difference<long double, D>(y, x), v = difference<long double, D>(q, p);
-  const long double product = dot(u, v), error = 8 * epsilon * std::sqrt(dot(u, u)) * std::sqrt(dot(v, v));
-  if (error > smallest_trusted && std::abs(product) > error) return product > 0;
-  return dot(difference<Rational, D>(y, x), difference<Rational, D>(q, p)) > 0;
-}
-
-bool dihedral_below_90(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
-  const auto e = difference<Rational, 3>(b, a), u = difference<Rational, 3>(c, a), v = difference<Rational, 3>(d, a);
-  // The parts of u and v normal to e are u - (u.e / e.e) e and v - (v.e / e.e) e.
-  return dot(u, v) * dot(e, e) > dot(u, e) * dot(v, e);
-}
-
-namespace {
 
 template <class Number, std::size_t N>
 using Matrix = std::array<std::array<Number, N>, N>;
@@ -240,7 +145,7 @@ bool rounding_cancels(const Simplex<D>& s, const Point<D>& p, const std::array<d
 
 template <int D>
 bool is_as_short_as_rounding(const Simplex<D>& s, double largest) {
-  const double width = Tolerance{8, largest}.width();
+  const double width = 8 * rounding::ulp * largest;
   if (std::sqrt(shortest_edge_squared<D>(s)) <= width) return true;
   if constexpr (D == 2) {
     double longest = 0;
@@ -274,9 +179,6 @@ std::vector<std::uint32_t> order_along(const Point<D>& q, const Point<D>& p,
 }
 
 #define PGDR_INSTANTIATE(D)                                                                                \
-  template bool near_line(const Point<D>&, const Point<D>&, const Point<D>&, const Tolerance&);            \
-  template double distance_from_line(const Point<D>&, const Point<D>&, const Point<D>&);                   \
-  template bool advances(const Point<D>&, const Point<D>&, const Point<D>&, const Point<D>&);              \
   template bool rounding_cancels<D>(const Simplex<D>&, const Point<D>&, const std::array<double, D + 2>&); \
   template bool is_as_short_as_rounding<D>(const Simplex<D>&, double);                                     \
   template std::vector<std::uint32_t> order_along<D>(const Point<D>&, const Point<D>&,                     \

@@ -10,7 +10,7 @@
 #include <span>
 
 #include "check/bounds.hpp"
-#include "numbers/exact_tests.hpp"
+#include "numbers/rounding.hpp"
 #include "pgdr/ranks.hpp"
 #include "ranks/exchange.hpp"
 #include "ranks/values.hpp"
@@ -149,14 +149,14 @@ NotDelaunay count_beside_slanted_points(Collectives& ranks, const DistributedRes
   const OutputMesh<D>& mesh = result.piece.mesh;
   Flags slanted = ranks.together([&] {
     Flags flags;
-    for (const double s : checking::slack_without_input(mesh, ulps)) flags.push_back(s > 0);
+    for (const double s : checking::slack_of_vertices(mesh, ulps)) flags.push_back(s > 0);
     return flags;
   });
   join_flags(ranks, result, slanted);
   Flags beside = ranks.together([&] { return checking::points_beside(mesh, slanted); });
   join_flags(ranks, result, beside);
   const double own = checking::largest_coordinate(mesh);
-  const double width = checking::Tolerance{ulps, ranks.max(std::span(&own, 1)).front()}.width();
+  const double width = ulps * rounding::ulp * ranks.max(std::span(&own, 1)).front();
   const std::vector<Bytes> messages = ranks.gather(0, ranks.together([&] { return packed(result.piece, slanted, beside); }));
   return ranks.together([&] { return ranks.rank() == 0 ? count_in<D>(messages, width) : NotDelaunay{}; });
 }

@@ -82,15 +82,83 @@ EntityId most_bent_facet(const Domain<3>& domain) {
   return most;
 }
 
-/// Is this a mesh of the domain? Before the refinement it need not be Delaunay, which flat cells at bent facets may prevent.
+/// The domain as an input: a facet for each triangle, so that edges between those of one facet are none of its segments.
+Plc<3> input_of(const Domain<3>& domain) {
+  Plc<3> plc;
+  plc.points.assign(domain.points().begin(), domain.points().end());
+  for (const DomainSegment& s : domain.segments()) plc.segments.push_back({s.points, s.marker});
+  for (EntityId f = 0; f < domain.facets().size(); ++f)
+    for (const auto& t : domain.triangles(f)) {
+      auto& facet = plc.facets.emplace_back();
+      facet.polygons.push_back({t[0], t[1], t[2]});
+      facet.marker = domain.facets()[f].marker;
+    }
+  plc.holes.assign(domain.holes().begin(), domain.holes().end());
+  plc.regions.assign(domain.regions().begin(), domain.regions().end());
+  return plc;
+}
+
+/// Is this a mesh of the domain, up to what facets are off their planes? Before the refinement it need not be Delaunay, which
+/// flat cells at bent facets may prevent. What is outside may be as near: which of facets has what they have in
+/// common, and what of segments is there, is not asked here.
 bool conforms(const OutputMesh<3>& mesh, const Domain<3>& domain, RegionMode regions, const std::stop_token& stop) {
+  const Plc<3> plc = input_of(domain);
   CheckOptions<3> options;
-  options.domain = &domain;
+  options.input = &plc;
+  options.tolerance = std::max(domain.tolerance(), domain.facets()[most_bent_facet(domain)].planarity_defect);
   options.regions = regions;
   options.max_listed = 0;
   options.stop = stop;
   const CheckReport report = check<3>(mesh, options);
-  return report.finding_count == report.count(CheckFinding::Kind::not_delaunay);
+  using Kind = CheckFinding::Kind;
+  const auto others = {Kind::not_delaunay, Kind::wrong_marker, Kind::segment_not_conforming, Kind::missing_input_point};
+  std::uint64_t passed = 0;
+  for (const Kind kind : others) passed += report.count(kind);
+  return report.finding_count == passed;
+}
+
+/// A subfacet at one of its edges.
+struct FacetEdge {
+  EntityId facet;
+  std::array<std::uint32_t, 2> ends;  // sorted
+  std::uint32_t apex;
+  friend auto operator<=>(const FacetEdge&, const FacetEdge&) = default;
+};
+
+/// Twice the area of the triangle from its edge to x, in the projection along the axis, positive on one side of the edge; 0 if
+/// that is no more than what rounding of its corners can make.
+double side_of(const Point3& a, const Point3& b, const Point3& x, int axis, double rounding) {
+  const int i = (axis + 1) % 3, k = (axis + 2) % 3;
+  const double doubled = (b[i] - a[i]) * (x[k] - a[k]) - (b[k] - a[k]) * (x[i] - a[i]);
+  const double longest = std::sqrt(std::max({squared_distance(a, b), squared_distance(b, x), squared_distance(x, a)}));
+  return std::abs(doubled) > rounding * longest ? doubled : 0;
+}
+
+/// Are two subfacets of one facet on the same side of an edge between them that is no subsegment, in the facet's projection?
+bool has_turned_subfacets(const OutputMesh<3>& mesh, const Domain<3>& domain) {
+  constexpr double ulps = 8;  // two of each of the four numbers of an area
+  std::vector<FacetEdge> edges;
+  edges.reserve(3 * mesh.subfacets.size());
+  for (const auto& s : mesh.subfacets)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto [a, b] = std::minmax(s.vertices[(i + 1) % 3], s.vertices[(i + 2) % 3]);
+      edges.push_back({s.entity, {a, b}, s.vertices[i]});
+    }
+  std::sort(edges.begin(), edges.end());
+  std::vector<std::array<std::uint32_t, 2>> subsegments;
+  for (const auto& s : mesh.subsegments)
+    subsegments.push_back({std::min(s.vertices[0], s.vertices[1]), std::max(s.vertices[0], s.vertices[1])});
+  std::sort(subsegments.begin(), subsegments.end());
+  for (std::size_t i = 1; i < edges.size(); ++i) {
+    const FacetEdge &e = edges[i - 1], &other = edges[i];
+    if (e.facet != other.facet || e.ends != other.ends || std::ranges::binary_search(subsegments, e.ends)) continue;
+    const double rounding = ulps * 0x1p-52 * domain.facet_magnitude(e.facet);
+    const auto side = [&](std::uint32_t apex) {
+      return side_of(mesh.points[e.ends[0]], mesh.points[e.ends[1]], mesh.points[apex], domain.facets()[e.facet].axis, rounding);
+    };
+    if (side(e.apex) * side(other.apex) > 0) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -113,7 +181,8 @@ void require_unfolded(const Mesh<3>& mesh, const Domain<3>& domain, RegionMode r
                       const detail::Pieces& pieces, const std::stop_token& stop) {
   if (!may_fold(domain, pieces)) return;
   require_whole_segments(mesh, domain);
-  if (conforms(compact_by_slots<3>(mesh, domain, region_attributes, pieces).mesh, domain, regions, stop)) return;
+  const OutputMesh<3> made = compact_by_slots<3>(mesh, domain, region_attributes, pieces).mesh;
+  if (!has_turned_subfacets(made, domain) && conforms(made, domain, regions, stop)) return;
   const EntityId f = most_bent_facet(domain);
   Diagnostic d = detail::about_points<3>(Errc::boundary_not_recovered, domain, domain.facet_points(f));
   char defect[32];

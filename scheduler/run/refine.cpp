@@ -23,6 +23,7 @@
 #include "input/words.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/mesh_maps.hpp"
+#include "reasons/given_names.hpp"
 #include "reasons/poor_reasons.hpp"
 #include "reasons/sharp_corners.hpp"
 #include "rule/cell_bounds.hpp"
@@ -323,11 +324,11 @@ void number_mesh(const RefineContext<D>& context, const RegionTable& regions, co
     poor.clear();
     if (!options.partial_mesh) return;
   }
+  GivenNames<D> names(context.domain, compacted.mesh);
   result.reasons.resize(poor.size());
-  bulk.each(poor.size(), [&](std::size_t i) {
-    result.reasons[i] = poor[i].reason;
-    result.reasons[i].cell = by_slots ? numbers[i] : compacted.cell_number(poor_vertices[i]);
-  });
+  bulk.each(poor.size(),
+            [&](std::size_t i) { result.reasons[i].cell = by_slots ? numbers[i] : compacted.cell_number(poor_vertices[i]); });
+  for (std::size_t i = 0; i < poor.size(); ++i) result.reasons[i] = names.named(poor[i].reason, result.reasons[i].cell);
   bulk.sort(result.reasons, [](const PoorReason& a, const PoorReason& b) { return a.cell < b.cell; });
   result.mesh = std::move(compacted.mesh);
   detail::note_unused_points<D>(context.domain, unused_points(result.mesh), result);

@@ -66,7 +66,7 @@ void mesh(const fuzz::GridInput<D>& input) {
     const RefineOptions<D> options = fuzz::small_run<D>(input.automatic);
     const auto result = refine<D>(domain, options);
     FUZZ_EXPECT(possible);
-    fuzz::expect_sound(domain, options, result);
+    fuzz::expect_sound(input.plc, options, result);
     fuzz::expect_same_shuffled(domain, options, result);
   } catch (const InputError& e) {
     const bool about_seeds = e.code() == Errc::encloses_nothing

@@ -77,7 +77,7 @@ void mesh(const Plc<D>& plc, bool automatic) {
     const RefineOptions<D> options = fuzz::small_run<D>(automatic);
     const auto result = refine<D>(domain, options);
     FUZZ_EXPECT(valid, "meshed, though the diagnosis has errors");
-    fuzz::expect_sound(domain, options, result);
+    fuzz::expect_sound(plc, options, result);
     fuzz::expect_same_shuffled(domain, options, result);
   } catch (const InputError& e) {
     FUZZ_EXPECT(!e.diagnostic().message.empty());

@@ -21,10 +21,11 @@ inline std::string findings(const CheckReport& report) {
 /// The checker passes it. One that a bound on vertices ended may have elements without a reason, and is none before the boundary
 /// is there.
 template <int D>
-void expect_sound(const Domain<D>& domain, const RefineOptions<D>& options, const RefineResult<D>& result) {
+void expect_sound(const Plc<D>& plc, const RefineOptions<D>& options, const RefineResult<D>& result) {
   if (result.mesh.cells.empty() && result.stop != StopCause::finished) return;
   CheckOptions<D> check_options;
-  check_options.domain = &domain;
+  check_options.input = &plc;
+  check_options.tolerance = result.tolerance;
   check_options.regions = options.regions;
   if (result.stop == StopCause::finished) check_options.radius_edge_bound = options.radius_edge_bound;
   check_options.largest_cosine = result.optimization.claimed_cosine;

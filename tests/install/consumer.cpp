@@ -44,7 +44,7 @@ pgdr::OutputMesh<D> mesh(const pgdr::Plc<D>& plc, const pgdr::RefineOptions<D>& 
   const pgdr::Domain<D> domain(plc);
   pgdr::RefineResult<D> result = pgdr::refine(domain, options);
   pgdr::CheckOptions<D> check;
-  check.domain = &domain;
+  check.input = &plc;
   check.radius_edge_bound = options.radius_edge_bound;
   check.size = options.size;
   check.region_sizes = options.region_sizes;

@@ -295,7 +295,7 @@ def vertex_moved(model, rng):
 
 
 def reason_false(model, rng):
-    """Of another cell, of an angle far from it, of another kind, or none."""
+    """Of another angle, of what is not there; in 2D, where it is of a cell over the ratio, of another cell or kind, or none."""
     report = copy.deepcopy(model.report)
     reasons = report["bounds"]["reasons"]
     angles = [i for i, r in enumerate(reasons) if r["code"] == "small_angle"]
@@ -304,7 +304,7 @@ def reason_false(model, rng):
     mesh, i = model.mesh, rng.choice(angles)
     poor = {r["cell"] for r in reasons}
     named = [r for r in reasons if r["cell"] == reasons[i]["cell"]]
-    way = rng.choice(("cell", "entity", "code", "left out"))
+    way = rng.choice(("angle", "nothing", *(("cell", "entity", "code", "left out") if mesh.dimension == 2 else ())))
     if way == "cell":
         other = rng.choice([c for c in range(len(mesh.cells)) if c not in poor] + [len(mesh.cells) + 3])
         for r in named:
@@ -315,11 +315,13 @@ def reason_false(model, rng):
         if math.dist(mesh.centre(far["cell"]), here) < mesh.size() / 3:
             return None
         for r in named:
-            r["code"], r["entities"] = "small_angle", far["entities"]
-    elif way == "code":
-        code = rng.choice(("rounding", "kept_boundary", "beyond_theory"))
+            r["code"], r["entities"], r["angle"] = "small_angle", far["entities"], far["angle"]
+    elif way != "left out":
+        change = {"angle": {"angle": reasons[i]["angle"] * rng.choice((1 - 1e-6, 1 + 1e-6, 0.5))},
+                  "nothing": {"entities": [{"kind": "segment", "ends": [[0, 0, 0], [1e3, 0, 0]]}, reasons[i]["entities"][1]]},
+                  "code": {"code": rng.choice(("rounding", "kept_boundary", "beyond_theory"))}}
         for r in named:
-            r["code"] = code
+            r.update(change[way])
     else:
         report["bounds"]["reasons"] = [r for r in reasons if r not in named]
     return mesh, report
@@ -399,6 +401,7 @@ MODELS = {  # and the flags; whether pieces overlap, so that markers of several 
     "rings": (shapes.rings, ["--size", "1"], False), "parcels": (shapes.parcels, ["--size", "4"], True),
     "pipes": (shapes.pipes, [], False), "cracked_plate": (shapes.cracked_plate, [], False), "spikes": (spikes, ["--size", "0.1"], False),
     "pit": (pit, ["--size", "0.7"], True), "sheets": (sheets, ["--size", "0.8"], False), "blades": (blades, ["--size", "0.4"], False),
+    "refined_blades": (blades, ["--size", "0.4", "--no-optimize"], False),
     "box_on_floor": (shapes.box_on_floor, ["--size", "0.7"], True), "half_faces": (shapes.half_faces, ["--size", "0.8"], True),
     "lead": (shapes.lead, [], False), "layers": (shapes.layers, [], False), "tunnel": (shapes.tunnel, [], False),
     "crossing": (shapes.crossing_boxes, ["--size", "0.8"], True),

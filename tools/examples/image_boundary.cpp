@@ -136,16 +136,15 @@ Outcome mesh(const Image& image, const std::vector<Point2>& points, bool with_se
   plc.points = {{{0, 0}}, {{1, 0}}, {{1, 1}}, {{0, 1}}};
   for (const std::uint32_t i : {0u, 1u, 2u, 3u}) plc.segments.push_back({{i, (i + 1) % 4}});
   plc.points.insert(plc.points.end(), points.begin(), points.end());
-  const pgdr::Domain<2> domain(plc);
   pgdr::RefineOptions<2> options;
   options.disk.type = pgdr::DiskType::type1;
   options.selector = {};  // circumcentres
   if (with_selector) options.selector = [&image](const pgdr::PoorElement<2>& e) { return choose(e, image); };
   options.schedule.threads = threads;
-  pgdr::RefineResult<2> result = pgdr::refine(domain, options);
+  pgdr::RefineResult<2> result = pgdr::refine(plc, options);
 
   pgdr::CheckOptions<2> check;
-  check.domain = &domain;
+  check.input = &plc;
   check.radius_edge_bound = options.radius_edge_bound;
   Outcome outcome;
   outcome.good = pgdr::check(result.mesh, check).exit_code() == 0 && result.statistics.selector_outside == 0;

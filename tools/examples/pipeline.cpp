@@ -61,17 +61,17 @@ struct Job {
 
 /// Runs on any thread of the arena; what a refinement has no work for, another one takes.
 void mesh(Job& job) {
-  const pgdr::Domain<3> domain(pgdr::plc_from_arrays<3>(job.surface.xyz, job.surface.triangles));
+  const pgdr::Plc<3> plc = pgdr::plc_from_arrays<3>(job.surface.xyz, job.surface.triangles);
   pgdr::RefineOptions<3> options;
   options.size = job.size;
   options.stop = job.cancel.get_token();
   options.partial_mesh = false;  // who cancels here wants no mesh
   options.progress = [&job](const pgdr::Progress& p) { job.vertices = p.vertices; };
-  pgdr::RefineResult<3> result = pgdr::refine(domain, options);
+  pgdr::RefineResult<3> result = pgdr::refine(plc, options);
   job.stop = result.stop;
   if (result.stop != pgdr::StopCause::finished) return;
   pgdr::CheckOptions<3> check;
-  check.domain = &domain;
+  check.input = &plc;
   check.radius_edge_bound = options.radius_edge_bound;
   check.size = options.size;
   check.reasons = &result.reasons;

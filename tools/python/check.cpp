@@ -33,7 +33,7 @@ py::dict dict_of(const CheckReport& r) {
                   "not_delaunay_rounding"_a = r.not_delaunay_rounding, "not_delaunay_refused"_a = r.not_delaunay_refused);
 }
 
-/// As the command's `check`: against the input as given; reasons by its Domain. `bounds`: those of a run; infinite: none.
+/// As the command's `check`: against the input as given. `bounds`: those of a run; infinite: none.
 /// `seed_sizes`: CheckOptions::seed_sizes.
 template <int D>
 py::dict check_mesh(const MeshData<D>& data, const Plc<D>* plc, const RefineOptions<D>& bounds, double largest_cosine,
@@ -41,12 +41,10 @@ py::dict check_mesh(const MeshData<D>& data, const Plc<D>* plc, const RefineOpti
   CheckReport report;
   run_watched([&](const std::stop_token& stop) {
     CheckOptions<D> options;
-    std::optional<Domain<D>> domain;
     options.stop = stop;
     options.input = plc;
     if (plc) options.tolerance = tolerance_of(*plc);
     if (with_reasons) options.reasons = &data.reasons;
-    if (with_reasons && plc && !data.reasons.empty()) options.domain = &domain.emplace(*plc, stop);
     options.regions = bounds.regions;
     options.radius_edge_bound = bounds.radius_edge_bound;
     options.size = bounds.size;

@@ -62,12 +62,14 @@ void set_labels(MeshData<D>& data, const Dense<double>& regions, std::size_t inp
 
 template <int D>
 void set_reasons(MeshData<D>& data, const Dense<std::uint32_t>& cells, const Dense<std::uint8_t>& codes,
-                 const Dense<std::uint8_t>& kinds, const Dense<std::uint32_t>& ids, const Dense<double>& angles) {
-  const auto cell = span_of(cells), id = span_of(ids);
+                 const Dense<std::uint8_t>& kinds, const Dense<std::uint32_t>& facets, const Dense<double>& ends,
+                 const Dense<double>& angles) {
+  const auto cell = span_of(cells), facet = span_of(facets);
   const auto code = span_of(codes), kind = span_of(kinds);
-  const auto angle = span_of(angles);
+  const auto angle = span_of(angles), end = span_of(ends);
   const std::size_t count = cell.size();
-  if (code.size() != count || angle.size() != count || kind.size() != 2 * count || id.size() != 2 * count)
+  if (code.size() != count || angle.size() != count || kind.size() != 2 * count || facet.size() != 2 * count ||
+      end.size() != 12 * count)
     bad_argument("the arrays of reasons have different lengths");
   data.reasons.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -75,32 +77,34 @@ void set_reasons(MeshData<D>& data, const Dense<std::uint32_t>& cells, const Den
         kind[2 * i] > static_cast<std::uint8_t>(EntityKind::volume) ||
         kind[2 * i + 1] > static_cast<std::uint8_t>(EntityKind::volume))
       bad_argument("a reason that cannot be");
-    data.reasons[i] = {cell[i],
-                       static_cast<PoorReason::Code>(code[i]),
-                       {EntityRef{static_cast<EntityKind>(kind[2 * i]), id[2 * i]},
-                        EntityRef{static_cast<EntityKind>(kind[2 * i + 1]), id[2 * i + 1]}},
-                       angle[i]};
+    data.reasons[i] = {cell[i], static_cast<PoorReason::Code>(code[i]), {}, angle[i]};
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double* x = &end[12 * i + 6 * k];
+      data.reasons[i].entities[k] = {
+          static_cast<EntityKind>(kind[2 * i + k]), facet[2 * i + k], {{{x[0], x[1], x[2]}, {x[3], x[4], x[5]}}}};
+    }
   }
 }
 
-/// Cells, codes, kinds and ids of two entities each, angles.
+/// Cells and codes; of two entities each the kinds, the facets, and the ends of segments; angles.
 template <int D>
 py::tuple reason_arrays(const MeshData<D>& data) {
-  std::vector<std::uint32_t> cells, ids;
+  std::vector<std::uint32_t> cells, facets;
   std::vector<std::uint8_t> codes, kinds;
-  std::vector<double> angles;
+  std::vector<double> ends, angles;
   for (const PoorReason& r : data.reasons) {
     cells.push_back(r.cell);
     codes.push_back(static_cast<std::uint8_t>(r.code));
-    for (const EntityRef& e : r.entities) {
+    for (const GivenEntity& e : r.entities) {
       kinds.push_back(static_cast<std::uint8_t>(e.kind));
-      ids.push_back(e.id);
+      facets.push_back(e.facet);
+      for (const auto& end : e.ends) ends.insert(ends.end(), end.begin(), end.end());
     }
     angles.push_back(r.angle);
   }
   const auto count = static_cast<py::ssize_t>(data.reasons.size());
   return py::make_tuple(own(std::move(cells)), own(std::move(codes)), own(std::move(kinds), {count, 2}),
-                        own(std::move(ids), {count, 2}), own(std::move(angles)));
+                        own(std::move(facets), {count, 2}), own(std::move(ends), {count, 2, 2, 3}), own(std::move(angles)));
 }
 
 /// All edges, each once, sorted.

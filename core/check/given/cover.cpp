@@ -53,17 +53,20 @@ std::vector<std::array<double, 2>> uncovered_parts(const std::array<Point<D>, 2>
   for (const auto& other : others) {
     std::array<double, 2> along;
     std::array<Vector<D>, 2> off;  // of its ends from the line
+    double farthest = length;
     for (int k = 0; k < 2; ++k) {
       off[k] = difference(other.ends[k], segment[0]);
+      farthest = std::max(farthest, std::sqrt(dot(off[k], off[k])));
       along[k] = dot(off[k], d) / length;
       for (int i = 0; i < D; ++i) off[k][i] -= along[k] / length * d[i];
     }
     Vector<D> change;
     for (int i = 0; i < D; ++i) change[i] = off[1][i] - off[0][i];
-    const auto [from, to] = within(off[0], change, other.reach);
+    const double reach = other.reach + 0x1p-51 * farthest;  // and the rounding of what is computed here
+    const auto [from, to] = within(off[0], change, reach);
     if (from > to) continue;
     const double first = along[0] + from * (along[1] - along[0]), last = along[0] + to * (along[1] - along[0]);
-    covered.push_back({std::min(first, last) - other.reach, std::max(first, last) + other.reach});
+    covered.push_back({std::min(first, last) - reach, std::max(first, last) + reach});
   }
   std::sort(covered.begin(), covered.end());
   covered.push_back({length, length});

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What of a segment, or of a triangle, is not covered by others, each of which covers what is within its reach. In doubles,
-// relative to a corner of what is to be covered: reaches are wider than the rounding of that (2 ulps of the largest
-// coordinate), so that what is covered leaves nothing, and what is left is wider than rounding. So no areas are added up: pieces
+// relative to a corner of what is to be covered: reaches are wider than the rounding of that (of segments they are made so; 2
+// ulps of the largest coordinate), so that what is covered leaves nothing, and what is left is wider than rounding. So no areas are added up: pieces
 // that cover a place twice cannot stand for one that is missing.
 #pragma once
 

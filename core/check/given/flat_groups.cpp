@@ -7,7 +7,6 @@
 
 #include "check/given/cover.hpp"
 #include "pgdr/predicates.hpp"
-#include "space/disjoint_sets.hpp"
 
 namespace pgdr::checking {
 namespace {
@@ -37,10 +36,8 @@ bool may_be_even(const std::array<Point3, 3>& triangle, const Point3& point, dou
   return std::abs(p[2]) <= sum * reach;
 }
 
-std::vector<bool> triangles_of_uneven_groups(const GivenInput<3>& input) {
+detail::DisjointSets flat_groups(const GivenInput<3>& input, std::size_t further, std::vector<std::uint32_t>* seams) {
   const auto triangles = input.triangles();
-  std::vector<bool> uneven(triangles.size(), false);
-  if (input.tolerance() == 0) return uneven;
   std::vector<Side> sides;
   sides.reserve(3 * triangles.size());
   for (std::uint32_t t = 0; t < triangles.size(); ++t)
@@ -51,8 +48,7 @@ std::vector<bool> triangles_of_uneven_groups(const GivenInput<3>& input) {
     }
   std::sort(sides.begin(), sides.end(),
             [](const Side& x, const Side& y) { return x.ends != y.ends ? x.ends < y.ends : x.triangle < y.triangle; });
-  detail::DisjointSets groups(triangles.size());
-  std::vector<std::uint32_t> seams;  // triangles at which a group is uneven
+  detail::DisjointSets groups(triangles.size() + further);
   for (std::size_t i = 0, j; i < sides.size(); i = j) {
     for (j = i + 1; j < sides.size() && sides[j].ends == sides[i].ends;) ++j;
     if (j - i != 2) continue;
@@ -64,8 +60,17 @@ std::vector<bool> triangles_of_uneven_groups(const GivenInput<3>& input) {
     const bool planar = orient3d(p[0], p[1], p[2], of_u) == Sign::zero;
     if (!planar && !(may_be_even(p, of_u, input.reach()) && may_be_even(q, of_t, input.reach()))) continue;
     groups.unite(x.triangle, y.triangle);
-    if (!planar) seams.push_back(x.triangle);
+    if (!planar && seams) seams->push_back(x.triangle);
   }
+  return groups;
+}
+
+std::vector<bool> triangles_of_uneven_groups(const GivenInput<3>& input) {
+  const auto triangles = input.triangles();
+  std::vector<bool> uneven(triangles.size(), false);
+  if (input.tolerance() == 0) return uneven;
+  std::vector<std::uint32_t> seams;  // triangles at which a group is uneven
+  detail::DisjointSets groups = flat_groups(input, 0, &seams);
   std::vector<bool> of_root(triangles.size(), false);
   for (const std::uint32_t t : seams) of_root[groups.find(t)] = true;
   for (std::uint32_t t = 0; t < triangles.size(); ++t) uneven[t] = of_root[groups.find(t)];

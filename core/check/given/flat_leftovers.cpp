@@ -342,7 +342,6 @@ class FlatLeftovers {
     const std::vector<Cover> cover = covers(triangles, changes);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
       if (cover[t].given % 2 == 0) continue;
-      walls_.entities.push_back(static_cast<EntityId>(walls_.simplices.size()));
       walls_.simplices.push_back(triangles[t]);
     }
   }

@@ -63,7 +63,6 @@ class FurtherWalls {
       const auto chain = net.chain(edge);
       for (std::size_t k = 1; k < chain.size(); ++k) {
         if (!appended.insert(sorted_edge(chain[k - 1], chain[k])).second) continue;
-        walls_.entities.push_back(static_cast<EntityId>(walls_.simplices.size()));
         walls_.simplices.push_back({chain[k - 1], chain[k]});
       }
     }
@@ -138,24 +137,18 @@ VolumeWalls<D> walls_of_mesh(const GivenTask<D>& task, const GivenMatch<D>& matc
   const OutputMesh<D>& mesh = task.mesh;
   VolumeWalls<D> out;
   out.points = mesh.points;
-  out.segments_are_pieces = true;
-  for (const auto& w : walls(mesh)) {
-    out.entities.push_back(static_cast<EntityId>(out.simplices.size()));
-    out.simplices.push_back(w.vertices);
-  }
+  for (const auto& w : walls(mesh)) out.simplices.push_back(w.vertices);
   if (!match.leftovers.empty()) {
     if constexpr (D == 2)
       FurtherWalls(task, match, out).run();
     else
       append_flat_leftovers(task, match, out);
   }
-  const auto add_segment = [&](std::uint32_t a, std::uint32_t b) {
-    out.segments.push_back(lex_less(out.points[a], out.points[b]) ? std::array{a, b} : std::array{b, a});
-  };
-  if constexpr (D == 2)
-    for (const auto& w : out.simplices) add_segment(w[0], w[1]);
-  else
-    for (const auto& s : mesh.subsegments) add_segment(s.vertices[0], s.vertices[1]);
+  if constexpr (D == 3)
+    for (const auto& s : mesh.subsegments) {
+      const auto [a, b] = s.vertices;
+      out.segments.push_back(lex_less(out.points[a], out.points[b]) ? std::array{a, b} : std::array{b, a});
+    }
   out.holes = holes_within(task.input.plc(), task.input.tolerance());
   out.regions = task.input.plc().regions;
   return out;
@@ -163,8 +156,8 @@ VolumeWalls<D> walls_of_mesh(const GivenTask<D>& task, const GivenMatch<D>& matc
 
 template <int D>
 void check_further_walls(const GivenTask<D>& task, const InputVolumes<D>& volumes) {
-  for (std::size_t w = walls(task.mesh).size(); w < volumes.patches().size(); ++w)
-    if (volumes.wants_patch(static_cast<std::uint32_t>(w)))
+  for (std::size_t w = walls(task.mesh).size(); w < volumes.wall_count(); ++w)
+    if (volumes.wants(static_cast<std::uint32_t>(w)))
       task.findings.add(Kind::wrong_volume, {}, [&] {
         std::string text = std::string("A ") + (D == 2 ? "segment" : "facet") + " of the input that bounds the domain, at ";
         for (const Point<D>& x : volumes.simplex(static_cast<std::uint32_t>(w))) text += words(x) + " ";

@@ -7,7 +7,7 @@
 #include <map>
 #include <numeric>
 
-#include "numbers/exact_tests.hpp"
+#include "diagnose/closest_points.hpp"
 #include "numbers/vectors.hpp"
 #include "pgdr/predicates.hpp"
 #include "space/make_set.hpp"
@@ -126,7 +126,7 @@ class FacetTriangulator {
       std::vector<std::pair<double, std::uint32_t>> along{{0, a}, {dot(d, d), b}};
       for (const std::uint32_t v : vertices_) {
         const double t = dot(difference(at(v), at(a)), d);
-        if (v != a && v != b && t > 0 && t < dot(d, d) && distance_from_line<3>(at(a), at(b), at(v)) <= reach_)
+        if (v != a && v != b && t > 0 && t < dot(d, d) && detail::closest_to_edge(at(v), at(a), at(b)).square <= reach_ * reach_)
           along.push_back({t, v});
       }
       std::sort(along.begin(), along.end());

@@ -53,7 +53,7 @@ class MeasureChecker {
     else
       return input_.triangles()[g].points;
   }
-  std::uint32_t volume(std::uint32_t wall, bool negative) const { return volumes_.patches()[wall].volume[negative]; }
+  std::uint32_t volume(std::uint32_t wall, bool negative) const { return volumes_.volumes_of(wall)[negative]; }
 
   /// A volume is known if all walls about it lie on something given.
   void look_at_walls() {

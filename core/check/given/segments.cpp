@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 
 #include "check/given/cover.hpp"
@@ -108,14 +109,22 @@ class GivenSegmentMatcher {
     return list;
   }
 
-  /// 3D: all edges of given triangles, so those between polygons, too, of which bent facets make segments.
+  /// 3D: the edges of given triangles, but for diagonals of facets that are not bent, of which no segment is made.
   std::vector<CoveringSegment<D>> facet_edges() const {
     std::vector<CoveringSegment<D>> list;
-    for (const GivenTriangle& t : input_.triangles())
-      for (int i = 0; i < 3; ++i) {
-        const std::array ends{t.points[i], t.points[(i + 1) % 3]};
-        list.push_back({{input_.point(ends[0]), input_.point(ends[1])}, reach(ends)});
-      }
+    const auto triangles = input_.triangles();
+    for (std::size_t first = 0, last; first < triangles.size(); first = last) {
+      const std::uint32_t facet = triangles[first].facet;
+      const bool is_bent = input_.bend(facet) > input_.reach();
+      std::map<std::array<std::uint32_t, 2>, int> times;
+      for (last = first; last < triangles.size() && triangles[last].facet == facet; ++last)
+        for (std::size_t i = 0; i < 3; ++i) {
+          const auto [p, q] = std::minmax(triangles[last].points[i], triangles[last].points[(i + 1) % 3]);
+          ++times[{p, q}];
+        }
+      for (const auto& [ends, count] : times)
+        if (count == 1 || is_bent) list.push_back({{input_.point(ends[0]), input_.point(ends[1])}, reach(ends)});
+    }
     return list;
   }
 

@@ -10,7 +10,7 @@
 
 namespace pgdr::checking {
 
-/// The walls of the mesh, in their order, each an entity of its own; then what is left over, in simplices whose corners are those
+/// The walls of the mesh, in their order; then what is left over, in simplices whose corners are those
 /// of the mesh wherever they are within reach of these.
 template <int D>
 VolumeWalls<D> walls_of_mesh(const GivenTask<D>& task, const GivenMatch<D>& match);

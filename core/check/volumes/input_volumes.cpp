@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Builds InputVolumes: walls, patches, sides joined round ridges and along lines, seeds, measures.
+// Builds InputVolumes: walls, sides joined round ridges and along lines, seeds, measures.
 #include "check/volumes/input_volumes.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "numbers/rounding.hpp"
+#include "pgdr/error.hpp"
 #include "pgdr/predicates.hpp"
 #include "space/box.hpp"
 #include "space/disjoint_sets.hpp"
@@ -40,7 +40,7 @@ struct AtRidge {
 template <int D>
 class InputBuilder {
  public:
-  explicit InputBuilder(InputVolumes<D>& out) : out_(out), walls_(out.walls_), sides_(0), patches_(0), components_(0) {}
+  explicit InputBuilder(InputVolumes<D>& out) : out_(out), walls_(out.walls_), sides_(0), components_(0) {}
 
   void run(RegionMode mode) {
     collect_walls();
@@ -48,19 +48,16 @@ class InputBuilder {
     collect_ridges();
     const auto n = static_cast<std::uint32_t>(walls_.simplices.size());
     sides_ = DisjointSets(2 * n + 1);  // side 2 i: positive, 2 i + 1: negative, 2 n: outside
-    patches_ = DisjointSets(n);
     components_ = DisjointSets(n);
     for (std::size_t i = 0, j; i < ridges_.size(); i = j) {
       for (j = i + 1; j < ridges_.size() && ridges_[j].ridge == ridges_[i].ridge;) ++j;
       turn_round(std::span(ridges_).subspan(i, j - i));
     }
     cast_lines();
-    number_patches_and_volumes();
-    out_.plant_simplices();
+    number_volumes();
     place_seeds();
     if (mode == RegionMode::automatic) out_.nest();
     if (numbers_volumes(mode)) out_.number();
-    collect_wanted();
     measure();
   }
 
@@ -70,7 +67,7 @@ class InputBuilder {
     out_.span_ = std::max(out_.span_, box.longest_side());
     for (int k = 0; k < D; ++k) centre_[k] = box.low[k] + (box.high[k] - box.low[k]) / 2;
     if constexpr (D == 3) {
-      for (EntityId s = 0; s < walls_.segments.size(); ++s) {
+      for (std::uint32_t s = 0; s < walls_.segments.size(); ++s) {
         auto key = walls_.segments[s];
         std::sort(key.begin(), key.end());
         segments_.push_back({key, s});
@@ -110,19 +107,13 @@ class InputBuilder {
       sides_.unite(2 * w.simplex + w.ahead_negative, 2 * next.simplex + !next.ahead_negative);
       components_.unite(w.simplex, next.simplex);
     }
-    if constexpr (D == 3) note_bounds(walls);
+    if constexpr (D == 3) note_segment(walls);
   }
 
-  void note_bounds(std::span<const AtRidge> walls) {
-    const auto at = std::lower_bound(segments_.begin(), segments_.end(), std::pair{walls[0].ridge, EntityId{0}});
-    if (at == segments_.end() || at->first != walls[0].ridge) {
-      if (walls.size() == 2 && walls_.entities[walls[0].simplex] == walls_.entities[walls[1].simplex])
-        patches_.unite(walls[0].simplex, walls[1].simplex);
-      return;
-    }
-    // ahead_negative: the triangle runs from the larger point number to the smaller.
-    const bool larger_first = walls_.segments[at->second][0] > walls_.segments[at->second][1];
-    for (const AtRidge& w : walls) out_.bounds_.push_back({at->second, w.ahead_negative != larger_first, w.simplex});
+  void note_segment(std::span<const AtRidge> walls) {
+    const auto at = std::lower_bound(segments_.begin(), segments_.end(), std::pair{walls[0].ridge, std::uint32_t{0}});
+    if (at == segments_.end() || at->first != walls[0].ridge) return;
+    for (const AtRidge& w : walls) out_.at_segments_.push_back({at->second, w.simplex});
   }
 
   /// Along a line, what lies between two walls that follow each other is one volume; both its ends are outside.
@@ -134,8 +125,7 @@ class InputBuilder {
       if (components_.find(i) == i) first_of_component.push_back(i);
     for (const std::uint32_t root : first_of_component)
       for (std::uint64_t attempt = 0; !linked[root]; ++attempt) {
-        if (attempt == 1000)
-          throw InputError({Errc::entities_intersect, "Two walls of the input overlap.", {}, 0, {walls_.entities[root]}, {}});
+        if (attempt == 1000) throw InputError({Errc::entities_intersect, "Two walls of the input overlap.", {}, 0, {}, {}});
         cast_line(target(root, attempt), attempt, linked);
       }
   }
@@ -179,12 +169,9 @@ class InputBuilder {
       return orient3d(s[0], s[1], s[2], x);
   }
 
-  void number_patches_and_volumes() {
+  void number_volumes() {
     const auto n = static_cast<std::uint32_t>(walls_.simplices.size());
-    std::vector<std::uint32_t> order(n), volume_of(2 * n + 1, 0xffffffffu);
-    std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return patches_.find(a) < patches_.find(b); });
+    std::vector<std::uint32_t> volume_of(2 * n + 1, 0xffffffffu);
     const auto volume_at = [&](std::uint32_t side) {
       auto& v = volume_of[sides_.find(side)];
       if (v == 0xffffffffu) {
@@ -195,20 +182,10 @@ class InputBuilder {
     };
     volume_at(2 * n);
     out_.volumes_[0].kept = false;
-    std::vector<std::array<std::uint32_t, D>> simplices;
-    std::vector<std::uint32_t> place(n);
-    for (const std::uint32_t i : order) {
-      if (simplices.empty() || patches_.find(i) != patches_.find(order[simplices.size() - 1]))
-        out_.patches_.push_back(
-            {walls_.entities[i], static_cast<std::uint32_t>(simplices.size()), 0, {volume_at(2 * i), volume_at(2 * i + 1)}});
-      ++out_.patches_.back().count;
-      place[i] = static_cast<std::uint32_t>(out_.patches_.size() - 1);
-      out_.patch_of_.push_back(place[i]);
-      simplices.push_back(walls_.simplices[i]);
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const std::uint32_t positive = volume_at(2 * i);
+      out_.sides_.push_back({positive, volume_at(2 * i + 1)});
     }
-    walls_.simplices = std::move(simplices);
-    for (Bound& b : out_.bounds_) b.patch = place[b.patch];
-    std::sort(out_.bounds_.begin(), out_.bounds_.end());
   }
 
   void place_seeds() {
@@ -224,27 +201,12 @@ class InputBuilder {
     }
   }
 
-  /// Entities at a wall are wanted if one side of it is kept.
-  void collect_wanted() {
-    using Wanted = typename InputVolumes<D>::Wanted;
-    auto &point = out_.wants_point_, &segment = out_.wants_segment_;
-    point.assign(walls_.points.size(), Wanted::unknown);
-    segment.assign(walls_.segments.size(), Wanted::unknown);
-    const auto mark = [](Wanted& flag, bool wanted) { flag = flag == Wanted::yes || wanted ? Wanted::yes : Wanted::no; };
-    for (std::uint32_t i = 0; i < walls_.simplices.size(); ++i) {
-      const std::uint32_t patch = out_.patch_of_[i];
-      for (const std::uint32_t v : walls_.simplices[i]) mark(point[v], out_.wants_patch(patch));
-      if constexpr (D == 2) mark(segment[out_.patches_[patch].entity], out_.wants_patch(patch));
-    }
-    for (const Bound& b : out_.bounds_) mark(segment[b.segment], out_.wants_patch(b.patch));
-  }
-
   void measure() {
     constexpr double parts = D == 2 ? 2 : 6;
     std::vector<CompensatedSum> sum(out_.volumes_.size());
     for (std::uint32_t i = 0; i < walls_.simplices.size(); ++i) {
       const auto [value, error] = signed_measure<D>(out_.simplex(i), centre_);
-      const auto& side = out_.patches_[out_.patch_of_[i]].volume;
+      const auto& side = out_.sides_[i];
       if (side[0] == side[1]) continue;
       sum[side[0]].add(value / parts);
       sum[side[1]].add(-value / parts);
@@ -259,85 +221,14 @@ class InputBuilder {
   InputVolumes<D>& out_;
   VolumeWalls<D>& walls_;
   Point<D> centre_;
-  std::vector<std::pair<std::array<std::uint32_t, 2>, EntityId>> segments_;
+  std::vector<std::pair<std::array<std::uint32_t, 2>, std::uint32_t>> segments_;
   std::vector<AtRidge> ridges_;
-  DisjointSets sides_, patches_, components_;
+  DisjointSets sides_, components_;
 };
-
-namespace {
-
-template <int D>
-VolumeWalls<D> walls_of(const Domain<D>& domain) {
-  VolumeWalls<D> walls;
-  walls.points.assign(domain.points().begin(), domain.points().end());
-  for (const DomainSegment& s : domain.segments()) walls.segments.push_back(s.points);
-  if constexpr (D == 2) {
-    walls.simplices = walls.segments;
-    walls.entities.resize(walls.simplices.size());
-    std::iota(walls.entities.begin(), walls.entities.end(), 0u);
-  } else {
-    for (EntityId f = 0; f < domain.facets().size(); ++f)
-      for (const auto& t : domain.triangles(f)) {
-        walls.simplices.push_back(t);
-        walls.entities.push_back(f);
-      }
-  }
-  walls.holes.assign(domain.holes().begin(), domain.holes().end());
-  walls.regions.assign(domain.regions().begin(), domain.regions().end());
-  return walls;
-}
-
-}  // namespace
-
-template <int D>
-InputVolumes<D>::InputVolumes(const Domain<D>& domain, RegionMode mode) : InputVolumes(walls_of(domain), mode) {
-  domain_ = &domain;
-}
 
 template <int D>
 InputVolumes<D>::InputVolumes(VolumeWalls<D> walls, RegionMode mode) : walls_(std::move(walls)) {
   InputBuilder<D>(*this).run(mode);
-}
-
-template <int D>
-std::uint32_t InputVolumes<D>::side_volume(std::uint32_t simplex, bool negative) const {
-  return patches_[patch_of_[simplex]].volume[negative];
-}
-
-template <int D>
-bool InputVolumes<D>::wants_patch(std::uint32_t patch) const {
-  const auto& side = patches_[patch].volume;
-  return volumes_[side[0]].kept || volumes_[side[1]].kept;
-}
-
-template <int D>
-bool InputVolumes<D>::keeps(const Point<D>& p) const {
-  const auto v = locate(p);
-  return !v || volumes_[*v].kept;
-}
-
-template <int D>
-bool InputVolumes<D>::wants_segment(EntityId segment) const {
-  if (wants_segment_[segment] != Wanted::unknown) return wants_segment_[segment] == Wanted::yes;
-  const auto& ends = walls_.segments[segment];
-  Point<D> middle;
-  for (int k = 0; k < D; ++k) middle[k] = walls_.points[ends[0]][k] / 2 + walls_.points[ends[1]][k] / 2;
-  return keeps(middle);
-}
-
-template <int D>
-bool InputVolumes<D>::wants_point(std::uint32_t point) const {
-  if (wants_point_[point] != Wanted::unknown) return wants_point_[point] == Wanted::yes;
-  return keeps(walls_.points[point]);
-}
-
-template <int D>
-std::span<const Bound> InputVolumes<D>::bounds(EntityId segment, bool reversed) const {
-  const auto less = [](const Bound& a, const Bound& b) {
-    return std::pair(a.segment, a.reversed) < std::pair(b.segment, b.reversed);
-  };
-  const auto [first, last] = std::equal_range(bounds_.begin(), bounds_.end(), Bound{segment, reversed, 0}, less);
-  return {first, last};
 }
 
 template class InputVolumes<2>;

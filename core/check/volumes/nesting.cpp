@@ -74,8 +74,7 @@ class NestingTree {
 template <int D>
 void InputVolumes<D>::nest() {
   Neighbours neighbours(volumes_.size());
-  for (const Patch& patch : patches_) {
-    const auto [a, b] = patch.volume;
+  for (const auto& [a, b] : sides_) {
     if (a == b) continue;
     neighbours[a].insert(b);
     neighbours[b].insert(a);
@@ -87,34 +86,28 @@ void InputVolumes<D>::nest() {
 
 template <int D>
 void InputVolumes<D>::number() {
-  using Ends = std::pair<Point<D>, Point<D>>;
-  const auto less = [](const Ends& a, const Ends& b) {
-    return a.first == b.first ? lex_less(a.second, b.second) : lex_less(a.first, b.first);
-  };
-  std::vector<std::vector<Ends>> segments(volumes_.size());
-  const auto add = [&](EntityId s, const Patch& patch) {
-    const Point<D>&a = walls_.points[walls_.segments[s][0]], &b = walls_.points[walls_.segments[s][1]];
-    for (const std::uint32_t v : patch.volume) segments[v].emplace_back(a, walls_.segments_are_pieces ? a : b);
+  // Of each volume the least of the lesser ends of its segments: further points of pieces may be points of the mesh.
+  std::vector<std::optional<Point<D>>> least(volumes_.size());
+  const auto add = [&](const std::array<std::uint32_t, 2>& segment, std::uint32_t wall) {
+    const Point<D>& a = lex_less(walls_.points[segment[1]], walls_.points[segment[0]]) ? walls_.points[segment[1]]
+                                                                                       : walls_.points[segment[0]];
+    for (const std::uint32_t v : sides_[wall])
+      if (!least[v] || lex_less(a, *least[v])) least[v] = a;
   };
   if constexpr (D == 2) {
-    for (const Patch& patch : patches_) add(patch.entity, patch);
+    for (std::uint32_t w = 0; w < sides_.size(); ++w) add(walls_.simplices[w], w);
   } else {
-    for (const Bound& b : bounds_) add(b.segment, patches_[b.patch]);
+    for (const auto& [segment, wall] : at_segments_) add(walls_.segments[segment], wall);
   }
   std::vector<std::uint32_t> order;
   std::vector<double> of_seeds;
   for (std::uint32_t v = 0; v < volumes_.size(); ++v) {
-    auto& own = segments[v];
-    std::sort(own.begin(), own.end(), less);
-    own.erase(std::unique(own.begin(), own.end()), own.end());
-    // Further points of pieces may be points of the mesh: only the least one is an end of a segment.
-    if (walls_.segments_are_pieces && !own.empty()) own.resize(1);
     if (!volumes_[v].kept) continue;
     if (volumes_[v].seeds.empty()) order.push_back(v);
     for (const std::uint32_t seed : volumes_[v].seeds) of_seeds.push_back(walls_.regions[seed].attribute);
   }
   const auto before = [&](std::uint32_t v, std::uint32_t w) {
-    return std::ranges::lexicographical_compare(segments[v], segments[w], less);
+    return least[v] && least[w] ? lex_less(*least[v], *least[w]) : !least[v] && least[w];
   };
   std::stable_sort(order.begin(), order.end(), before);
   std::vector<double> labels;

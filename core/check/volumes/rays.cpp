@@ -212,7 +212,7 @@ std::optional<std::uint32_t> InputVolumes<D>::locate(const Point<D>& p) const {
       else
         return orient3d(s[0], s[1], s[2], p);
     }();
-    return side_volume(hits->back(), side == Sign::negative);
+    return sides_[hits->back()][side == Sign::negative];
   }
   return {};
 }

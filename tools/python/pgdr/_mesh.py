@@ -3,7 +3,7 @@
 """Finished meshes."""
 from __future__ import annotations
 
-from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Tuple, Type
+from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Tuple, Type, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -16,7 +16,7 @@ from ._plc import Plc
 from ._report import CheckReport
 
 _CORES: Dict[int, Type[_pgdr._Mesh]] = {2: _pgdr.Mesh2, 3: _pgdr.Mesh3}
-_NO_ENTITY = 0xffffffff
+_Entity = Tuple[str, Union[int, Tuple[Tuple[float, ...], ...]]]
 
 
 class Reason(NamedTuple):
@@ -24,7 +24,8 @@ class Reason(NamedTuple):
 
     cell: int  #: its row in `cells`
     code: str  #: a stable word such as "small_angle"
-    entities: Sequence[Tuple[str, int]]  #: kind and number of each: ("segment", 3)
+    #: of each its kind and what it is in the input: ("facet", its row in the input), ("segment", its two ends, where the mesh has them)
+    entities: Sequence[_Entity]
     angle: float  #: in degrees, between these; 0: none
 
 
@@ -149,10 +150,14 @@ class Mesh:
     @property
     def reasons(self) -> List[Reason]:
         """Of each cell over a bound, why. Empty where all bounds hold."""
-        cells, codes, kinds, ids, angles = self._core.reason_arrays
-        return [Reason(int(c), _pgdr.reason_codes[code],
-                       [(_pgdr.entity_kinds[k], int(i)) for k, i in zip(kind, of) if i != _NO_ENTITY], float(angle))
-                for c, code, kind, of, angle in zip(cells, codes, kinds, ids, angles)]
+        def named(kind: int, facet: int, ends: npt.NDArray[np.float64]) -> List[_Entity]:
+            word = _pgdr.entity_kinds[kind]
+            if word == "facet":
+                return [(word, int(facet))]
+            return [(word, tuple(tuple(x) for x in ends[:, :self.dimension].tolist()))] if word == "segment" else []
+
+        return [Reason(int(cell), _pgdr.reason_codes[code], sum(map(named, kinds, facets, ends), []), float(angle))
+                for cell, code, kinds, facets, ends, angle in zip(*self._core.reason_arrays)]
 
     @property
     def poor_left(self) -> int:

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What entities of a Domain are called in reasons: by what was given, which is all that their reader has.
+#pragma once
+
+#include <vector>
+
+#include "pgdr/output_mesh.hpp"
+#include "reasons/poor_reasons.hpp"
+
+namespace pgdr {
+
+template <int D>
+class GivenNames {
+ public:
+  /// @param mesh of the Domain. Both must outlive it.
+  GivenNames(const Domain<D>& domain, const OutputMesh<D>& mesh) : domain_(domain), mesh_(mesh) {}
+
+  /// One thread. Takes a look at all subfacets once.
+  PoorReason named(const DomainReason& reason, std::uint32_t cell);
+
+ private:
+  GivenEntity name_of(EntityRef entity);
+  std::uint32_t given_facet(EntityId facet);
+  std::uint32_t find_given_facet(EntityId facet) const;
+  void find_subfacets();
+
+  const Domain<D>& domain_;
+  const OutputMesh<D>& mesh_;
+  std::vector<std::uint32_t> subfacet_of_, given_of_;  ///< of each facet: its first subfacet; its name once it was asked for
+};
+
+extern template class GivenNames<2>;
+extern template class GivenNames<3>;
+
+}  // namespace pgdr
