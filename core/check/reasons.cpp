@@ -293,7 +293,7 @@ auto Reasons<D>::in_wedge(const PoorReason& reason, std::string& why) -> Verdict
       if (std::ranges::equal_range(s->edges, sorted_edge(ends[0], ends[1]), {}, &Entity::AtEdge::ends).empty()) continue;
       at_segment = true;
       const auto wedge = wedge_below(mesh_, links_, reason.cell, e, options_.largest_cosine);
-      if (wedge && agrees(reason.angle, {dihedral_range(*wedge, 0)})) return Verdict::holds;
+      if (wedge && agrees(reason.angle, {dihedral_range(*wedge)})) return Verdict::holds;
       is_below = is_below || wedge;
     }
   if (is_below)

@@ -363,6 +363,9 @@ class PoorLeft(Case):
         self.pgdr(*check, "--reasons", self.report, expect=1)
         self.pgdr(*check, expect=6)
         self.pgdr("check", self.output, "--input", model, "--reasons", self.report, expect=1)  # the report's bound
+        false = self.json()
+        false["bounds"]["reasons"][0]["angle"] += 1e-6
+        self.assertIn("degrees, but at", self.pgdr(*check, "--reasons", self.file("false.json", json.dumps(false)), expect=6).stdout)
 
     def test_reasons_that_are_none(self):
         model = self.file("wedge.poly", WEDGE)

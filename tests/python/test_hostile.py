@@ -293,7 +293,10 @@ class MeshesThatAreNone(unittest.TestCase):
     def test_reasons_are_of_another_input(self):
         needle = pgdr.Plc([[0, 0, 0], [1, 0, 0], [1, 0.02, 0], [0.5, 0.01, 1]], facets=[[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
         made = checked(self, needle, size=0.02)
-        self.assertTrue(made.reasons)
+        named = [entity for reason in made.reasons for entity in reason.entities]
+        self.assertTrue(named)
+        for kind, what in named:
+            self.assertTrue(what in range(4) if kind == "facet" else kind == "segment" and np.shape(what) == (2, 3), (kind, what))
         for other in (pgdr.Plc(CUBE_POINTS[:4] + CUBE_POINTS[1:5], facets=[[0, 1, 2]]), cube(), pgdr.Plc(np.zeros((0, 3)))):
             try:
                 self.assertFalse(pgdr.check(made, other))

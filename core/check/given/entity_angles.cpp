@@ -122,6 +122,13 @@ Rays rays_at(const NamedEntity<D>& e, std::uint32_t v) {
 }
 
 template <int D>
+std::vector<std::uint32_t> common_points(const NamedEntity<D>& a, const NamedEntity<D>& b) {
+  std::vector<std::uint32_t> common;
+  std::set_intersection(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), std::back_inserter(common));
+  return common;
+}
+
+template <int D>
 class Meetings {
  public:
   Meetings(const NamedEntities<D>& entities, const NamedEntity<D>& a, const NamedEntity<D>& b, const AngleBounds& bounds)
@@ -193,7 +200,7 @@ class Meetings {
 
   /// At common points, but for some.
   void meet_at_points(const std::vector<std::uint32_t>& but) {
-    for (const std::uint32_t v : common_points(a_, b_)) {
+    for (const std::uint32_t v : common_points<D>(a_, b_)) {
       if (std::binary_search(but.begin(), but.end(), v)) continue;
       const auto of_a = rays_at<D>(a_, v), of_b = rays_at<D>(b_, v);
       look(a_, b_, v, of_a, of_b);
@@ -253,13 +260,6 @@ EntityMeeting meeting_of(const NamedEntities<D>& entities, const NamedEntity<D>&
   return Meetings<D>(entities, a, b, bounds).run();
 }
 
-template <int D>
-std::vector<std::uint32_t> common_points(const NamedEntity<D>& a, const NamedEntity<D>& b) {
-  std::vector<std::uint32_t> common;
-  std::set_intersection(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), std::back_inserter(common));
-  return common;
-}
-
 bool share_segment_at(const NamedEntity<3>& a, const NamedEntity<3>& b, std::uint32_t point) {
   if (a.kind == EntityKind::segment || b.kind == EntityKind::segment) {
     if (a.kind == b.kind) return a.ends == b.ends;
@@ -278,16 +278,12 @@ std::vector<Sector> sectors_at(const NamedEntities<3>& entities, const NamedEnti
   return out;
 }
 
-AngleRange dihedral_range(const std::array<Point3, 4>& p, double off) {
-  const auto u = normal(p[0], p[1], p[2], off), w = normal(p[0], p[1], p[3], off);
+AngleRange dihedral_range(const std::array<Point3, 4>& p) {
+  const auto u = normal(p[0], p[1], p[2], 0), w = normal(p[0], p[1], p[3], 0);
   return range(angle_of<3>(u.along, w.along), u.off + w.off);
 }
 
-#define PGDR_INSTANTIATE(D)                                                                                                     \
-  template EntityMeeting meeting_of(const NamedEntities<D>&, const NamedEntity<D>&, const NamedEntity<D>&, const AngleBounds&); \
-  template std::vector<std::uint32_t> common_points(const NamedEntity<D>&, const NamedEntity<D>&);
-PGDR_INSTANTIATE(2)
-PGDR_INSTANTIATE(3)
-#undef PGDR_INSTANTIATE
+template EntityMeeting meeting_of(const NamedEntities<2>&, const NamedEntity<2>&, const NamedEntity<2>&, const AngleBounds&);
+template EntityMeeting meeting_of(const NamedEntities<3>&, const NamedEntity<3>&, const NamedEntity<3>&, const AngleBounds&);
 
 }  // namespace pgdr::checking

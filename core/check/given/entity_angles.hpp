@@ -19,16 +19,12 @@ struct AngleRange {
 struct EntityMeeting {
   bool is_small = false;  ///< below 60 degrees (two segments) or 90 somewhere, or may be
   bool is_sharp = false;  ///< 3D: somewhere at one at which the bounds cannot be met: of two facets at a segment, of two segments
-  std::vector<AngleRange> small;  ///< those angles, in no order; ranges do not meet
+  std::vector<AngleRange> small;  ///< those angles, ascending; ranges do not meet
 };
 
 template <int D>
 EntityMeeting meeting_of(const NamedEntities<D>& entities, const NamedEntity<D>& a, const NamedEntity<D>& b,
                          const AngleBounds& bounds);
-
-/// Points of both.
-template <int D>
-std::vector<std::uint32_t> common_points(const NamedEntity<D>& a, const NamedEntity<D>& b);
 
 /// Do they, of which none is a part of the other, share a segment at this point? It is a point of both.
 bool share_segment_at(const NamedEntity<3>& a, const NamedEntity<3>& b, std::uint32_t point);
@@ -36,7 +32,7 @@ bool share_segment_at(const NamedEntity<3>& a, const NamedEntity<3>& b, std::uin
 /// What the entity is about the point.
 std::vector<Sector> sectors_at(const NamedEntities<3>& entities, const NamedEntity<3>& e, std::uint32_t point);
 
-/// The dihedral angle of the half-planes from ab through c and through d, where each of the points may be off by `off`.
-AngleRange dihedral_range(const std::array<Point3, 4>& abcd, double off);
+/// The dihedral angle of the half-planes from ab through c and through d, up to rounding.
+AngleRange dihedral_range(const std::array<Point3, 4>& abcd);
 
 }  // namespace pgdr::checking
