@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A checked and prepared `Plc<D>`: distinct points, maximal segments, facets as unions of triangles. Everything that
-// refines or checks a mesh speaks of the entities of a Domain. Immutable once made; any number of threads may read it.
+// refines a mesh speaks of the entities of a Domain. Immutable once made; any number of threads may read it.
 //
 // Definitions (3D). A polygon is the union of the triangles of one deterministic triangulation in its projection; its
 // planarity defect is reported. A polygon with points off its plane by more than 1e-4 of its extent is several facets,
@@ -85,8 +85,8 @@ class Domain;
 /// projection (nearest one if none does), in double-double, rounded once; exactly on it where axis-aligned.
 Point<3> point_on_facet(const Domain<3>& domain, EntityId f, const Point<3>& x);
 
-/// The input as everything else reads it. One that was moved from is empty, without points and entities: `refine` and `check`
-/// refuse it with a UsageError, and nothing else finds anything in it. About 200 bytes and 2 microseconds a triangle; made on the
+/// The input as the mesher reads it. One that was moved from is empty, without points and entities: `refine` refuses it
+/// with a UsageError, and nothing else finds anything in it. About 200 bytes and 2 microseconds a triangle; made on the
 /// threads of the caller's tbb::task_arena, the same for any number of them.
 template <int D>
 class Domain {
