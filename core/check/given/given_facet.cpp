@@ -7,9 +7,9 @@
 #include <map>
 #include <numeric>
 
-#include "diagnose/closest_points.hpp"
 #include "numbers/vectors.hpp"
 #include "pgdr/predicates.hpp"
+#include "space/distances.hpp"
 #include "space/make_set.hpp"
 #include "space/planar_cdt.hpp"
 

@@ -8,7 +8,7 @@
 #include "check/given/cover.hpp"
 #include "check/given/edge_net.hpp"
 #include "check/given/flat_groups.hpp"
-#include "diagnose/closest_points.hpp"
+#include "space/distances.hpp"
 #include "space/make_set.hpp"
 
 namespace pgdr::checking {
