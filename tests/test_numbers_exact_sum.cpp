@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -44,6 +45,26 @@ TEST(ExactSum, IsRoundedToTheNearestDouble) {
       ASSERT_TRUE(is_nearest(sum.divided_by(1), expected));
       ASSERT_TRUE(is_nearest(sum.divided_by(6), Number(expected / 6)));
     }
+  }
+}
+
+/// As processes add up what each has of them.
+TEST(ExactSum, IsThatOfTheTermsWhereverTheyWereAddedUp) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> mantissa(-1, 1);
+  std::uniform_int_distribution<int> exponent(-200, 200);
+  for (int round = 0; round < 100; ++round) {
+    detail::ExactSum all;
+    std::array<detail::ExactSum, 3> parts;
+    for (int term = 0; term < round; ++term) {
+      const double a = std::ldexp(mantissa(random), exponent(random)), b = mantissa(random);
+      all.add_product(a, b);
+      parts[random() % 2].add_product(a, b);
+    }
+    EXPECT_TRUE(parts[2].is_empty());
+    for (const detail::ExactSum& part : {parts[0], parts[1]}) parts[2].add(detail::ExactSum::of_words(part.to_words()));
+    EXPECT_EQ(parts[2].divided_by(6), all.divided_by(6));
+    EXPECT_EQ(parts[2].is_empty(), round == 0);
   }
 }
 

@@ -20,19 +20,14 @@
 namespace pgdr {
 namespace {
 
-constexpr std::uint32_t nothing = 0xffffffffu;  ///< in place of a label: no cell is there
+constexpr std::uint32_t nothing = LargestFace().label;  ///< in place of a label: no cell is there
 
-/// The labels on the two sides of a part of an entity. A subfacet of no area to speak of may be turned over by rounding, so the
-/// largest one is asked; of several, whoever comes first, the one of the least labels.
-struct Sides {
-  double size = -1;                                      ///< of the largest so far
-  std::array<std::uint32_t, 2> label{nothing, nothing};  ///< on the side of the normal (2D: on the left), and on the other
-  bool is_known() const { return size >= 0; }
-  bool same_on_both() const { return label[0] == label[1]; }
-  void take(const Sides& o) {
-    if (o.size > size || (o.size == size && o.label < label)) *this = o;
-  }
-};
+// A subfacet of no area to speak of may be turned over by rounding. So on each side of an entity the label is that of the largest
+// face. Where another face is larger, which only the other side has, the entity ends what is meshed.
+double size_of(const SidesOfEntity& sides) { return std::max(sides[0].size, sides[1].size); }
+std::uint32_t label_of(const SidesOfEntity& sides, std::size_t side) {
+  return sides[side].size == size_of(sides) ? sides[side].label : nothing;
+}
 
 /// Places of labels in ascending order, by the number of a region.
 struct Labels {
@@ -53,30 +48,29 @@ struct Labels {
 template <int D>
 struct WallFace {
   CellId cell;
-  int face;
   EntityId entity;
   std::array<VertexId, D> vertices;  ///< the cell lies on the side of their normal (2D: on the left)
-  std::uint32_t here, beyond;        ///< labels
+  std::uint32_t label;               ///< of the cell
 };
 
 constexpr std::size_t slots_a_part = 1 << 14;
 
-/// Those of the cells in one part of the slots.
+/// Those of the cells in one part of the slots, as far as they are of this part of the mesh.
 template <int D, class Visit>
-void each_wall_face(const Mesh<D>& mesh, const Labels& labels, std::size_t part, const Visit& visit) {
+void each_wall_face(const Mesh<D>& mesh, const VolumesInParts& parts, const Labels& labels, std::size_t part,
+                    const Visit& visit) {
   const auto end = static_cast<std::uint32_t>(std::min<std::size_t>(mesh.cell_bound(), (part + 1) * slots_a_part));
   for (auto i = static_cast<std::uint32_t>(part * slots_a_part); i < end; ++i) {
     const CellId c{i};
     if (!mesh.alive(c)) continue;
     const ConstraintRecord<D>* constraints = mesh.constraints(c);
-    if (constraints == nullptr || constraints->faces == 0) continue;
+    if (constraints == nullptr || constraints->faces == 0 || !parts.is_own(c)) continue;
     const CellRecord<D>& cell = mesh.cell(c);
     for (int f = 0; f <= D; ++f) {
       if (!constraints->has_face(f)) continue;
       const auto at = static_cast<std::size_t>(f);
-      WallFace<D> wall{c, f, constraints->face_entity[at], {}, labels.of(mesh.region(c)), nothing};
+      WallFace<D> wall{c, constraints->face_entity[at], {}, labels.of(mesh.region(c))};
       for (std::size_t k = 0; k < D; ++k) wall.vertices[k] = cell.vertices[face_corners<D>[at][k]];
-      if (cell.links[at]) wall.beyond = labels.of(mesh.region(cell.links[at].cell()));
       visit(wall);
     }
   }
@@ -88,23 +82,27 @@ double projected_area(const Point3& a, const Point3& b, const Point3& c, int axi
   return (b[x] - a[x]) * (c[y] - a[y]) - (b[y] - a[y]) * (c[x] - a[x]);
 }
 
-/// The sides of the entity that the face shows.
-Sides sides_at(const Mesh<3>& mesh, const Domain<3>& domain, const WallFace<3>& wall) {
-  const auto [a, b, c] = mesh.points(wall.vertices);
-  const double area = projected_area(a, b, c, domain.facets()[wall.entity].axis);
-  Sides sides{std::fabs(area), {wall.here, wall.beyond}};
-  if (area < 0) std::swap(sides.label[0], sides.label[1]);
-  return sides;
+/// How large the face is, and on which side of its entity the cell lies. The cell beyond finds the same size.
+struct Facing {
+  double size;
+  bool on_normal_side;
+};
+
+Facing facing_of(const Mesh<3>& mesh, const Domain<3>& domain, const WallFace<3>& wall) {
+  auto v = mesh.points(wall.vertices);
+  std::rotate(v.begin(), std::min_element(v.begin(), v.end(), lex_less<3>), v.end());
+  const bool turned = lex_less<3>(v[2], v[1]);
+  if (turned) std::swap(v[1], v[2]);
+  const double area = projected_area(v[0], v[1], v[2], domain.facets()[wall.entity].axis);
+  return {std::fabs(area), (area < 0) == turned};
 }
 
-Sides sides_at(const Mesh<2>& mesh, const Domain<2>& domain, const WallFace<2>& wall) {
+Facing facing_of(const Mesh<2>& mesh, const Domain<2>& domain, const WallFace<2>& wall) {
   const auto [a, b] = mesh.points(wall.vertices);
   const auto& ends = domain.segments()[wall.entity].points;
   const Point2 &p = domain.points()[ends[0]], &q = domain.points()[ends[1]];
   const double along = (b[0] - a[0]) * (q[0] - p[0]) + (b[1] - a[1]) * (q[1] - p[1]);
-  Sides sides{std::fabs(along), {wall.here, wall.beyond}};
-  if (along < 0) std::swap(sides.label[0], sides.label[1]);
-  return sides;
+  return {std::fabs(along), along >= 0};
 }
 
 /// Parts of a facet that its segments bound: each lies between two labels.
@@ -124,14 +122,16 @@ class Patches {
       if (a > b || std::binary_search(walls.begin(), walls.end(), std::array{a, b})) continue;
       if (const std::uint32_t other = triangle_along(b, a); other != nothing) sets_.unite(t, other);
     }
-    sides_.resize(triangles_.size());
   }
 
-  /// The sides of the part to the left of the edge from a to b, in the projection.
-  void take(std::uint32_t a, std::uint32_t b, const Sides& sides) {
-    if (const std::uint32_t t = triangle_along(a, b); t != nothing) sides_[sets_.find(t)].take(sides);
+  std::size_t triangles() const { return triangles_.size(); }
+  /// A triangle that stands for its part.
+  std::uint32_t part_of(std::uint32_t triangle) { return sets_.find(triangle); }
+  /// The part to the left of the edge from a to b, in the projection; nothing if there is none.
+  std::uint32_t part_along(std::uint32_t a, std::uint32_t b) {
+    const std::uint32_t t = triangle_along(a, b);
+    return t == nothing ? nothing : part_of(t);
   }
-  Sides of_triangle(std::uint32_t t) { return sides_[sets_.find(t)]; }
   bool are_several() {
     for (std::uint32_t t = 1; t < triangles_.size(); ++t)
       if (sets_.find(t) != sets_.find(0)) return true;
@@ -148,13 +148,12 @@ class Patches {
   std::span<const std::array<std::uint32_t, 3>> triangles_;
   std::vector<std::array<std::uint32_t, 3>> edges_;  // from, to, triangle; sorted
   detail::DisjointSets sets_;                        // of triangles
-  std::vector<Sides> sides_;                         // of each set
 };
 
 /// What is known of one label.
 struct Volumes {
   detail::ExactSum meshed, given;
-  bool has_cells = false, is_known = true;
+  bool is_known = true;
 };
 
 /// The labels that some of the faces have to do with. Few in one place, mostly one after the other.
@@ -171,7 +170,6 @@ class VolumesOfLabels {
     for (const auto& [label, volumes] : of_) {
       all[label].meshed.add(volumes.meshed);
       all[label].given.add(volumes.given);
-      all[label].has_cells = all[label].has_cells || volumes.has_cells;
       all[label].is_known = all[label].is_known && volumes.is_known;
     }
   }
@@ -185,30 +183,43 @@ class VolumesOfLabels {
 template <int D>
 class RegionMeasure {
  public:
-  RegionMeasure(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> attributes, const detail::Pieces& pieces)
-      : mesh_(mesh), domain_(domain), labels_(attributes), joined_(domain), bulk_(pieces), volumes_(labels_.values.size()) {}
+  RegionMeasure(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> attributes, const detail::Pieces& pieces,
+                VolumesInParts& parts)
+      : mesh_(mesh),
+        domain_(domain),
+        labels_(attributes),
+        joined_(domain),
+        bulk_(pieces),
+        parts_(parts),
+        volumes_(labels_.values.size()) {}
 
   std::vector<RegionVolume> run() {
-    look_at_faces();
+    parts_.together([this] { look_at_faces(); });
+    parts_.join(sides_);
     if constexpr (D == 3) {
-      add_facets();
-    } else {
-      add_in_parts(sides_.size(), entities_a_part, [this](std::size_t s, VolumesOfLabels& volumes) {
-        const auto& ends = domain_.segments()[s].points;
-        add_piece(sides_[s], ends, !joined_.with_point_or_edge(ends[0]) && !joined_.with_point_or_edge(ends[1]), volumes);
-      });
+      parts_.together([this] { look_at_facets(); });
+      parts_.join(patch_sides_);
     }
+    std::vector<detail::ExactSum> meshed;
+    for (Volumes& v : volumes_) meshed.push_back(std::move(v.meshed));
+    parts_.add(meshed);
+    for (std::size_t l = 0; l < volumes_.size(); ++l) volumes_[l].meshed = std::move(meshed[l]);
+    parts_.together([this] { add_given(); });
+    return result();
+  }
+
+ private:
+  std::vector<RegionVolume> result() const {
     constexpr unsigned divisor = D == 3 ? 6 : 2;
     std::vector<RegionVolume> volumes;
     for (std::size_t l = 0; l < labels_.values.size(); ++l) {
-      if (!volumes_[l].has_cells) continue;
+      if (volumes_[l].meshed.is_empty()) continue;
       volumes.push_back({labels_.values[l], volumes_[l].meshed.divided_by(divisor), std::nullopt});
       if (volumes_[l].is_known) volumes.back().volume_given = volumes_[l].given.divided_by(divisor);
     }
     return volumes;
   }
 
- private:
   /// What the simplex adds to the sum of a label that lies on the side of its normal (2D: on its left), or on the other.
   static void add(detail::ExactSum& sum, std::array<Point<D>, D> corners, bool on_normal_side) {
     if (on_normal_side == (D == 3)) std::swap(corners[0], corners[1]);
@@ -230,63 +241,81 @@ class RegionMeasure {
   }
   std::size_t slot_parts() const { return (mesh_.cell_bound() + slots_a_part - 1) / slots_a_part; }
 
+  /// Faces between cells of one label add nothing to it: those of the two sides cancel, exactly.
   void look_at_faces() {
     sides_.resize(D == 3 ? domain_.facets().size() : domain_.segments().size());
     add_in_parts(slot_parts(), 1, [this](std::size_t part, VolumesOfLabels& volumes) {
-      each_wall_face<D>(mesh_, labels_, part, [&](const WallFace<D>& wall) {
-        volumes[wall.here].has_cells = true;
-        if (wall.here != wall.beyond) add(volumes[wall.here].meshed, mesh_.points(wall.vertices), true);
-        const Sides sides = sides_at(mesh_, domain_, wall);
+      each_wall_face<D>(mesh_, parts_, labels_, part, [&](const WallFace<D>& wall) {
+        add(volumes[wall.label].meshed, mesh_.points(wall.vertices), true);
+        const Facing facing = facing_of(mesh_, domain_, wall);
         const std::lock_guard locked(lock_of(wall.entity));
-        sides_[wall.entity].take(sides);
+        sides_[wall.entity][facing.on_normal_side ? 0 : 1].take({facing.size, wall.label});
       });
     });
   }
 
-  void add_facets() requires(D == 3) {
+  /// Those that their segments divide: also where a part is in the mesh, and another is outside.
+  void look_at_facets() requires(D == 3) {
     const std::size_t facets = sides_.size();
-    std::vector<std::unique_ptr<Patches>> parts(facets);  // also where a part is in the mesh, and another is outside
+    patches_.resize(facets);
     std::vector<char> any((facets + entities_a_part - 1) / entities_a_part);
     bulk_.parts(any.size(), [&](std::size_t k) {
       for (std::size_t f = k * entities_a_part; f < std::min(facets, (k + 1) * entities_a_part); ++f) {
-        if (!sides_[f].is_known() || domain_.facets()[f].triangle_count == 1) continue;
+        if (size_of(sides_[f]) < 0 || domain_.facets()[f].triangle_count == 1) continue;
         if (Patches patches(domain_, static_cast<EntityId>(f)); patches.are_several())
-          parts[f] = std::make_unique<Patches>(std::move(patches));
-        any[k] = any[k] || parts[f];
+          patches_[f] = std::make_unique<Patches>(std::move(patches));
+        any[k] = any[k] || patches_[f];
       }
     });
-    if (std::ranges::count(any, 0) < std::ssize(any))
-      bulk_.parts(slot_parts(), [&](std::size_t part) {
-        each_wall_face<D>(mesh_, labels_, part, [&](const WallFace<D>& wall) {
-          if (!parts[wall.entity]) return;
-          const std::lock_guard locked(lock_of(wall.entity));
-          look_at_segments(wall, *parts[wall.entity]);
-        });
+    if (std::ranges::count(any, 0) == std::ssize(any)) return;
+    first_patch_.resize(facets);
+    std::size_t patches = 0;
+    for (std::size_t f = 0; f < facets; ++f) {
+      first_patch_[f] = patches;
+      if (patches_[f]) patches += patches_[f]->triangles();
+    }
+    patch_sides_.resize(patches);
+    bulk_.parts(slot_parts(), [&](std::size_t part) {
+      each_wall_face<D>(mesh_, parts_, labels_, part, [&](const WallFace<D>& wall) {
+        if (!patches_[wall.entity]) return;
+        const std::lock_guard locked(lock_of(wall.entity));
+        look_at_segments(wall);
       });
-    add_in_parts(facets, entities_a_part, [&](std::size_t i, VolumesOfLabels& volumes) {
-      const auto f = static_cast<EntityId>(i);
-      const auto triangles = domain_.triangles(f);
-      for (std::uint32_t t = 0; t < triangles.size(); ++t)
-        add_piece(parts[f] ? parts[f]->of_triangle(t) : sides_[f], triangles[t], is_given(f, t), volumes);
+    });
+  }
+
+  /// What the input's segments (3D: the triangles of its facets) add.
+  void add_given() {
+    add_in_parts(sides_.size(), entities_a_part, [this](std::size_t i, VolumesOfLabels& volumes) {
+      if constexpr (D == 3) {
+        const auto f = static_cast<EntityId>(i);
+        const auto triangles = domain_.triangles(f);
+        for (std::uint32_t t = 0; t < triangles.size(); ++t)
+          add_piece(patches_[f] ? patch_sides_[first_patch_[f] + patches_[f]->part_of(t)] : sides_[f], triangles[t],
+                    is_given(f, t), volumes);
+      } else {
+        const auto& ends = domain_.segments()[i].points;
+        add_piece(sides_[i], ends, !joined_.with_point_or_edge(ends[0]) && !joined_.with_point_or_edge(ends[1]), volumes);
+      }
     });
   }
 
   /// Tells the parts of the facet on whose segments the subfacet lies.
-  void look_at_segments(const WallFace<3>& wall, Patches& patches) const requires(D == 3) {
-    const Sides sides = sides_at(mesh_, domain_, wall);
+  void look_at_segments(const WallFace<3>& wall) requires(D == 3) {
+    const Facing facing = facing_of(mesh_, domain_, wall);
     const auto& corners = mesh_.cell(wall.cell).vertices;
-    const bool positive = sides.label[0] == wall.here && sides.label[1] == wall.beyond;
     for (std::size_t k = 0; k < 3; ++k) {
       VertexId from = wall.vertices[k], to = wall.vertices[(k + 1) % 3];
       const int edge = edge_of_ends[corner_of(corners, from)][corner_of(corners, to)];
       if (!mesh_.is_subsegment(wall.cell, edge)) continue;
-      if (!positive) std::swap(from, to);
+      if (!facing.on_normal_side) std::swap(from, to);
       auto [p, q] = domain_.segments()[mesh_.constraints(wall.cell)->edge_entity[static_cast<std::size_t>(edge)]].points;
       const Point3 &a = mesh_.point(from), &b = mesh_.point(to), &c = domain_.points()[p], &d = domain_.points()[q];
       double along = 0;
       for (int i = 0; i < 3; ++i) along += (b[i] - a[i]) * (d[i] - c[i]);
       if (along < 0) std::swap(p, q);
-      patches.take(p, q, sides);
+      if (const std::uint32_t part = patches_[wall.entity]->part_along(p, q); part != nothing)
+        patch_sides_[first_patch_[wall.entity] + part][facing.on_normal_side ? 0 : 1].take({facing.size, wall.label});
     }
   }
 
@@ -302,12 +331,13 @@ class RegionMeasure {
   }
 
   /// A segment (2D), or a triangle of a facet.
-  void add_piece(const Sides& sides, const std::array<std::uint32_t, D>& corners, bool given, VolumesOfLabels& volumes) const {
-    if (sides.same_on_both()) return;
+  void add_piece(const SidesOfEntity& sides, const std::array<std::uint32_t, D>& corners, bool given,
+                 VolumesOfLabels& volumes) const {
+    if (label_of(sides, 0) == label_of(sides, 1)) return;
     std::array<Point<D>, D> points;
     for (std::size_t k = 0; k < D; ++k) points[k] = domain_.points()[corners[k]];
     for (const std::size_t side : {0u, 1u}) {
-      const std::uint32_t label = sides.label[side];
+      const std::uint32_t label = label_of(sides, side);
       if (label == nothing) continue;
       Volumes& of = volumes[label];
       add(of.given, points, side == 0);
@@ -320,22 +350,37 @@ class RegionMeasure {
   const Labels labels_;
   const detail::JoinedPoints<D> joined_;
   const detail::Bulk bulk_;
-  std::vector<Volumes> volumes_;         // by label
-  std::vector<Sides> sides_;             // of each facet (2D: segment)
-  std::array<std::mutex, locks> locks_;  // for what is known of an entity
+  VolumesInParts& parts_;
+  std::vector<Volumes> volumes_;                   // by label
+  std::vector<SidesOfEntity> sides_;               // of each facet (2D: segment)
+  std::vector<std::unique_ptr<Patches>> patches_;  // 3D: of each facet that has several
+  std::vector<SidesOfEntity> patch_sides_;         // of these
+  std::vector<std::size_t> first_patch_;           // of each facet, in patch_sides_
+  std::array<std::mutex, locks> locks_;            // for what is known of an entity
 };
 
 }  // namespace
 
 template <int D>
 std::vector<RegionVolume> region_volumes(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes,
+                                         const detail::Pieces& pieces, VolumesInParts& parts) {
+  return RegionMeasure<D>(mesh, domain, region_attributes, pieces, parts).run();
+}
+
+template <int D>
+std::vector<RegionVolume> region_volumes(const Mesh<D>& mesh, const Domain<D>& domain, std::span<const double> region_attributes,
                                          const detail::Pieces& pieces) {
-  return RegionMeasure<D>(mesh, domain, region_attributes, pieces).run();
+  VolumesInParts all;
+  return region_volumes<D>(mesh, domain, region_attributes, pieces, all);
 }
 
 template std::vector<RegionVolume> region_volumes(const Mesh<2>&, const Domain<2>&, std::span<const double>,
                                                   const detail::Pieces&);
 template std::vector<RegionVolume> region_volumes(const Mesh<3>&, const Domain<3>&, std::span<const double>,
                                                   const detail::Pieces&);
+template std::vector<RegionVolume> region_volumes(const Mesh<2>&, const Domain<2>&, std::span<const double>,
+                                                  const detail::Pieces&, VolumesInParts&);
+template std::vector<RegionVolume> region_volumes(const Mesh<3>&, const Domain<3>&, std::span<const double>,
+                                                  const detail::Pieces&, VolumesInParts&);
 
 }  // namespace pgdr

@@ -119,6 +119,20 @@ void ExactSum::add_determinant(const Point3& a, const Point3& b, const Point3& c
   }
 }
 
+std::vector<std::int64_t> ExactSum::to_words() const {
+  std::vector<std::int64_t> words = digits_;
+  if (!words.empty()) carry_digits(words);
+  words.push_back(first_);
+  return words;
+}
+
+ExactSum ExactSum::of_words(std::span<const std::int64_t> words) {
+  ExactSum sum;
+  sum.digits_.assign(words.begin(), words.end() - 1);
+  sum.first_ = static_cast<int>(words.back());
+  return sum;
+}
+
 double ExactSum::divided_by(unsigned divisor) const {
   std::vector<std::int64_t> digits = digits_;
   if (digits.empty()) return 0;

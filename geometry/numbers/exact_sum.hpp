@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "pgdr/types.hpp"
@@ -26,6 +27,11 @@ class ExactSum {
   /// The double nearest to the sum over a small number, ties to even (below 2^-1022, where doubles have fewer digits, rounded
   /// twice).
   double divided_by(unsigned divisor) const;
+  /// Was nothing added but zeros?
+  bool is_empty() const { return digits_.empty(); }
+  // For messages: the sum in numbers, from which it can be made again.
+  std::vector<std::int64_t> to_words() const;
+  static ExactSum of_words(std::span<const std::int64_t> words);  ///< @pre what to_words() gave
 
  private:
   void carry();

@@ -21,7 +21,7 @@
 #include "ranks/numbering.hpp"
 #include "ranks/uniform_on_ranks.hpp"
 #include "ranks/values.hpp"
-#include "ranks/wall_cells.hpp"
+#include "ranks/volumes_on_ranks.hpp"
 #include "run/run_hooks.hpp"
 #include "run/unused_points.hpp"
 #include "run/violation_scan.hpp"
@@ -216,7 +216,8 @@ void SharedRun<D>::finish(const RefineContext<D>& context, const RegionTable& re
   const detail::IsOwnCell is_own = own_cells<D>(*part_.held, context.mesh);
   const std::span<const double> attributes = regions.labelled ? std::span<const double>(regions.attribute)
                                                               : std::span<const double>();
-  result.regions = detail::region_volumes_on_ranks<D>(*ranks_, context.mesh, is_own, context.domain, attributes, pieces);
+  detail::VolumesOnRanks volumes(*ranks_, is_own);
+  result.regions = region_volumes<D>(context.mesh, context.domain, attributes, pieces, volumes);
   std::vector<std::uint32_t> unused;
   result_->piece = detail::number_on_ranks<D>(*ranks_, context.mesh, is_own, context.domain, attributes, data, pieces, unused,
                                               context.options.drop_unused_points);

@@ -3,11 +3,9 @@
 #include "transport/collectives.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <chrono>
 #include <utility>
 
-#include "transport/message.hpp"
 #include "transport/shared_error.hpp"
 
 namespace pgdr {
@@ -117,40 +115,6 @@ std::vector<std::vector<std::uint64_t>> Collectives::all_gather(std::span<const 
     reader.require_end();
   }
   return rows;
-}
-
-/// By recursive doubling: after round k one knows of 2^k ranks, and both of a pair join the same two arrays, so that all come to
-/// the same. Ranks beyond the largest power of two join one below each at first, and hear from it at last.
-template <class T, class Join>
-std::vector<T> Collectives::reduce(std::span<const T> values, Join join) {
-  begin();
-  std::vector<T> all(values.begin(), values.end());
-  const auto tell = [&](int to, std::uint64_t round) {
-    MessageWriter message;
-    for (const T& value : all) message.put(value);
-    send(to, message.take(), round);
-  };
-  const auto hear = [&](int from, std::uint64_t round, auto take) {
-    const Bytes message = receive(from, round);
-    MessageReader reader(message);
-    for (T& value : all) value = take(value, reader.get<T>());
-    reader.require_end();
-  };
-  const auto other = [](const T&, const T& b) { return b; };
-  const int paired = static_cast<int>(std::bit_floor(static_cast<unsigned>(size_)));
-  if (rank_ >= paired) {
-    tell(rank_ - paired, 0);
-    hear(rank_ - paired, 1, other);
-    return all;
-  }
-  if (rank_ + paired < size_) hear(rank_ + paired, 0, join);
-  std::uint64_t round = 0;
-  for (int bit = 1; bit < paired; bit *= 2, ++round) {
-    tell(rank_ ^ bit, round);
-    hear(rank_ ^ bit, round, join);
-  }
-  if (rank_ + paired < size_) tell(rank_ + paired, 1);
-  return all;
 }
 
 std::vector<std::uint64_t> Collectives::sum(std::span<const std::uint64_t> values) {

@@ -5,6 +5,7 @@
 // ranks'.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <exception>
 #include <optional>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "pgdr/transport.hpp"
+#include "transport/message.hpp"
 
 namespace pgdr::detail {
 
@@ -64,6 +66,10 @@ class Collectives {
   std::uint64_t sum(std::uint64_t value) { return sum(std::span(&value, 1)).front(); }
   std::uint64_t max(std::uint64_t value) { return max(std::span(&value, 1)).front(); }
   std::uint64_t min(std::uint64_t value) { return min(std::span(&value, 1)).front(); }
+  /// Of each place of arrays of equal lengths join(a, b) over all ranks, with the same result on all if it does not matter in
+  /// which order.
+  template <Sendable T, class Join>
+  std::vector<T> reduce(std::span<const T> values, Join join);
   /// The sum over the ranks before this one.
   std::uint64_t exclusive_sum(std::uint64_t value);
 
@@ -103,8 +109,6 @@ class Collectives {
   std::uint64_t tag(std::uint64_t round) const { return conversation_ << 40 | call_ << 8 | round; }
   void send(int to, Bytes message, std::uint64_t round = 0);
   Bytes receive(int from, std::uint64_t round = 0);
-  template <class T, class Join>
-  std::vector<T> reduce(std::span<const T> values, Join join);
 
   Transport& transport_;
   const int rank_, size_;
@@ -113,5 +117,39 @@ class Collectives {
   Traffic traffic_;
   bool has_failed_ = false;
 };
+
+/// By recursive doubling: after round k one knows of 2^k ranks, and both of a pair join the same two arrays, so that all come to
+/// the same. Ranks beyond the largest power of two join one below each at first, and hear from it at last.
+template <Sendable T, class Join>
+std::vector<T> Collectives::reduce(std::span<const T> values, Join join) {
+  begin();
+  std::vector<T> all(values.begin(), values.end());
+  const auto tell = [&](int to, std::uint64_t round) {
+    MessageWriter message;
+    for (const T& value : all) message.put(value);
+    send(to, message.take(), round);
+  };
+  const auto hear = [&](int from, std::uint64_t round, auto take) {
+    const Bytes message = receive(from, round);
+    MessageReader reader(message);
+    for (T& value : all) value = take(value, reader.get<T>());
+    reader.require_end();
+  };
+  const auto other = [](const T&, const T& b) { return b; };
+  const int paired = static_cast<int>(std::bit_floor(static_cast<unsigned>(size_)));
+  if (rank_ >= paired) {
+    tell(rank_ - paired, 0);
+    hear(rank_ - paired, 1, other);
+    return all;
+  }
+  if (rank_ + paired < size_) hear(rank_ + paired, 0, join);
+  std::uint64_t round = 0;
+  for (int bit = 1; bit < paired; bit *= 2, ++round) {
+    tell(rank_ ^ bit, round);
+    hear(rank_ ^ bit, round, join);
+  }
+  if (rank_ + paired < size_) tell(rank_ + paired, 1);
+  return all;
+}
 
 }  // namespace pgdr::detail
