@@ -152,29 +152,16 @@ class TextSchedule final : public detail::VisitSchedule<2> {
   std::vector<Entry<2>> waiting_, set_aside_;
 };
 
-class TextHooks final : public detail::RunHooks<2> {
- public:
-  TextHooks(int blocks, double margin) : blocks_(blocks), margin_(margin) {}
-  std::unique_ptr<detail::VisitSchedule<2>> make_schedule(detail::RunState<2>& state, bool) override {
-    return std::make_unique<TextSchedule>(state, blocks_, margin_, counts);
-  }
-  bool has_part() const override { return false; }
-  void finish(const RefineContext<2>&, const RegionTable&, const PointData<2>&, const detail::RunPieces&,
-              RefineResult<2>&) override {}
-
-  Counts counts;
-
- private:
-  int blocks_;
-  double margin_;
-};
-
 /// Makes the mesh, and checks it. `size`: an area, small in units of r.
 Counts expect_sound(const Plc<2>& plc, int blocks, double margin, double size, const std::string& what) {
   RefineOptions<2> options;
   options.size = size;
   options.schedule.executor = Executor::serial;
-  TextHooks hooks(blocks, margin);
+  Counts counts;
+  detail::RunHooks<2> hooks;
+  hooks.make_schedule = [&](detail::RunState<2>& state, bool) {
+    return std::make_unique<TextSchedule>(state, blocks, margin, counts);
+  };
   const RefineResult<2> result = detail::refine_with<2>(plc, options, hooks);
   EXPECT_EQ(result.stop, StopCause::finished) << what;
   EXPECT_EQ(result.poor_left, 0u) << what;
@@ -186,9 +173,9 @@ Counts expect_sound(const Plc<2>& plc, int blocks, double margin, double size, c
   check_options.delaunay = true;
   const CheckReport report = check<2>(result.mesh, check_options);
   EXPECT_EQ(report.exit_code(), 0) << what << "\n" << test::findings(report);
-  EXPECT_GT(hooks.counts.in_windows, 5 * hooks.counts.coarse) << what;
-  EXPECT_EQ(result.statistics.insertions_committed, hooks.counts.coarse + hooks.counts.in_windows + hooks.counts.at_the_end);
-  return hooks.counts;
+  EXPECT_GT(counts.in_windows, 5 * counts.coarse) << what;
+  EXPECT_EQ(result.statistics.insertions_committed, counts.coarse + counts.in_windows + counts.at_the_end);
+  return counts;
 }
 
 class UniformOfTheText : public testing::TestWithParam<int> {};

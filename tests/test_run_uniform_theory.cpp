@@ -102,54 +102,46 @@ TYPED_TEST(UniformTheory, ClaimsOfAPhaseAndWindowsOfAllFillSpace) {
   }
 }
 
+/// Before how many phases it was asked, and before how many a circumradius was over the bound of their nodes.
+struct Phases {
+  int all = 0, over = 0;
+};
+
 /// The uniform schedule, which looks at what theorem U supposes before each phase.
 template <int D>
-class Watched final : public detail::Uniform<D> {
+class Watched final : public detail::Planner<D> {
  public:
-  /// `over`: counts phases before which a circumradius was over the bound of their nodes.
-  Watched(detail::RunState<D>& state, double ratio, int& phases, int& over)
-      : detail::Uniform<D>(state), ratio_(ratio), phases_(&phases), over_(&over) {}
+  Watched(detail::RunState<D>& state, double ratio, Phases& phases)
+      : state_(&state), uniform_(state), ratio_(ratio), phases_(&phases) {}
 
- protected:
-  void run_phase(const detail::Phase& phase) override {
-    const Generation<D> generation = this->plan(phase);
-    for (const Visit<D>& a : generation.visits)
-      for (const Visit<D>& b : generation.visits) EXPECT_TRUE(&a == &b || !a.box.meets(b.box));
-    if (phase.level > 0) {
-      ++*phases_;
-      *over_ += largest_radius() > ratio_ * this->tree().side(generation.visits.front().request.node) / 2 ? 1 : 0;
+  StopCause stop() override { return uniform_.stop(); }
+  std::optional<detail::PlannedVisits<D>> next() override {
+    std::optional<detail::PlannedVisits<D>> plan = uniform_.next();
+    if (!plan) return plan;
+    const std::vector<Visit<D>>& visits = plan->generation.visits;
+    for (const Visit<D>& a : visits)
+      for (const Visit<D>& b : visits) EXPECT_TRUE(&a == &b || !a.box.meets(b.box));
+    const auto node = visits.front().request.node;
+    if (uniform_.tree().level(node) > 0) {
+      ++phases_->all;
+      phases_->over += largest_radius() > ratio_ * uniform_.tree().side(node) / 2 ? 1 : 0;
     }
-    detail::Uniform<D>::run_phase(phase);
+    return plan;
   }
 
  private:
   double largest_radius() const {
-    const Mesh<D>& mesh = this->state().context.mesh;
+    const Mesh<D>& mesh = state_->context.mesh;
     double largest = 0;
     for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i)
       if (mesh.alive(CellId{i})) largest = std::max(largest, mesh.squared_radius_bounds(CellId{i}).first);
     return std::sqrt(largest);
   }
 
+  detail::RunState<D>* state_;
+  detail::Uniform<D> uniform_;
   double ratio_;
-  int *phases_, *over_;
-};
-
-template <int D>
-class Watching final : public detail::RunHooks<D> {
- public:
-  explicit Watching(double ratio) : ratio_(ratio) {}
-  std::unique_ptr<detail::VisitSchedule<D>> make_schedule(detail::RunState<D>& state, bool) override {
-    return std::make_unique<Watched<D>>(state, ratio_, phases, over);
-  }
-  bool has_part() const override { return false; }
-  void finish(const RefineContext<D>&, const RegionTable&, const PointData<D>&, const detail::RunPieces&,
-              RefineResult<D>&) override {}
-
-  int phases = 0, over = 0;
-
- private:
-  double ratio_;
+  Phases* phases_;
 };
 
 /// @returns what was set aside
@@ -163,11 +155,15 @@ std::uint64_t set_aside(const Plc<D>& plc, double size, double split_ratio, bool
   options.schedule.floor = 60;
   const auto [result, report] = test::refine_and_check<D>(plc, options);
   EXPECT_EQ(report.exit_code(), 0) << what << "\n" << test::findings(report);
-  Watching<D> watching(split_ratio);
-  EXPECT_EQ(detail::refine_with<D>(plc, options, watching).mesh.cells, result.mesh.cells) << what;
-  EXPECT_GE(watching.phases, D == 2 ? 20 : 8) << what;
+  Phases phases;
+  detail::RunHooks<D> hooks;
+  hooks.make_schedule = [&](detail::RunState<D>& state, bool) {
+    return std::make_unique<detail::PlannedSchedule<D>>(state, std::make_unique<Watched<D>>(state, split_ratio, phases));
+  };
+  EXPECT_EQ(detail::refine_with<D>(plc, options, hooks).mesh.cells, result.mesh.cells) << what;
+  EXPECT_GE(phases.all, D == 2 ? 20 : 8) << what;
   if (is_bound_kept) {
-    EXPECT_EQ(watching.over, 0) << what;
+    EXPECT_EQ(phases.over, 0) << what;
   }
   return result.scheduler.set_aside;
 }

@@ -10,9 +10,6 @@
 
 namespace pgdr::detail {
 
-/// Another rank's run was interrupted before the ranks parted: it has what there is of the mesh.
-struct InterruptedElsewhere {};
-
 /// @throws ResourceError unlike_ranks
 [[noreturn]] inline void fail_unlike_ranks() {
   throw ResourceError({.code = Errc::unlike_ranks,
@@ -24,11 +21,11 @@ inline void require_alike(Collectives& ranks, std::uint64_t hash) {
   if (ranks.min(hash) != ranks.max(hash)) fail_unlike_ranks();
 }
 
-/// Ranks meet: here if their runs go on, and in has_another_gone_on() if they have ended.
-/// @throws what another rank has thrown on its way; InterruptedElsewhere
-inline void require_all_go_on(Collectives& ranks) {
+/// Ranks meet: here if their runs go on, and in has_another_gone_on() if they have ended. False: that of another has ended.
+/// @throws what another rank has thrown on its way
+inline bool do_all_go_on(Collectives& ranks) {
   ranks.together([] {});
-  if (ranks.sum(std::uint64_t{0}) != 0) throw InterruptedElsewhere();
+  return ranks.sum(std::uint64_t{0}) == 0;
 }
 /// This rank's run has ended without the ranks having parted. Did that of another go on?
 inline bool has_another_gone_on(Collectives& ranks) {

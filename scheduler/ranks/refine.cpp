@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <cstring>
 #include <memory>
 #include <string>
@@ -158,37 +157,6 @@ void set_statistics(detail::Collectives& ranks, const OwnVisits& own, Distribute
   s.largest_peak_rss = ranks.max(peak);
 }
 
-/// A uniform run, of which ranks do parts.
-template <int D>
-class SharedRun final : public detail::RunHooks<D> {
- public:
-  SharedRun(detail::Collectives& ranks, DistributedResult<D>& result) : ranks_(&ranks), result_(&result) {}
-
-  std::unique_ptr<detail::VisitSchedule<D>> make_schedule(detail::RunState<D>& state, bool optimizes) override {
-    const RefineContext<D>& context = state.context;
-    const bool needs_all = optimizes || context.options.leaves || detail::has_uneven_facets(context.domain);
-    return std::make_unique<detail::UniformOnRanks<D>>(state, *ranks_, needs_all, part_, result_->distributed);
-  }
-  bool has_part() const override { return part_.held != nullptr; }
-  /// `run`: as this rank ended it, empty if it left it to the first.
-  OwnVisits visits(const RefineResult<D>& run, bool has_left) const {
-    OwnVisits own{has_left ? part_.until_gather : run.scheduler, part_.until_cut};
-    if (has_left)  // all else that it did is not known
-      for (const double busy : own.all.busy_seconds) own.all.work_seconds += busy;
-    return own;
-  }
-  void finish(const RefineContext<D>& context, const RegionTable& regions, const PointData<D>& data,
-              const detail::RunPieces& pieces, RefineResult<D>& result) override;
-  /// Is the mesh in pieces already?
-  bool is_finished() const { return is_finished_; }
-
- private:
-  detail::Collectives* ranks_;
-  DistributedResult<D>* result_;
-  detail::Part<D> part_;
-  bool is_finished_ = false;
-};
-
 /// Looks up once for each vertex whether it is in this rank's part. All vertices of most cells are, or none.
 template <int D>
 detail::IsOwnCell own_cells(const detail::HeldMesh<D>& held, const Mesh<D>& mesh) {
@@ -208,56 +176,96 @@ detail::IsOwnCell own_cells(const detail::HeldMesh<D>& held, const Mesh<D>& mesh
   };
 }
 
+/// A uniform run, of which ranks do parts.
+template <int D>
+class SharedRun {
+ public:
+  explicit SharedRun(detail::Collectives& ranks) : ranks_(ranks) {}
+
+  /// One run of all ranks, or of rank 0 in the end.
+  DistributedResult<D> run(const Plc<D>& plc, const RefineOptions<D>& options, OwnVisits& visits);
+
+ private:
+  std::unique_ptr<detail::VisitSchedule<D>> make_schedule(detail::RunState<D>& state, bool optimizes);
+  bool finish_part(const RefineContext<D>& context, const RegionTable& regions, const PointData<D>& data,
+                   const detail::RunPieces& pieces, RefineResult<D>& result);
+  OwnVisits visits_of(const RefineResult<D>& run) const;
+
+  detail::Collectives& ranks_;
+  DistributedResult<D> result_;
+  detail::Part<D> part_;
+};
+
+template <int D>
+std::unique_ptr<detail::VisitSchedule<D>> SharedRun<D>::make_schedule(detail::RunState<D>& state, bool optimizes) {
+  const RefineContext<D>& context = state.context;
+  const bool needs_all = optimizes || context.options.leaves || detail::has_uneven_facets(context.domain);
+  return std::make_unique<detail::PlannedSchedule<D>>(
+      state, std::make_unique<detail::UniformOnRanks<D>>(state, ranks_, needs_all, part_, result_.distributed));
+}
+
 /// Nothing was refused and nothing is left, so that all cells are within the bounds.
 template <int D>
-void SharedRun<D>::finish(const RefineContext<D>& context, const RegionTable& regions, const PointData<D>& data,
-                          const detail::RunPieces& pieces, RefineResult<D>& result) {
-  const auto start = std::chrono::steady_clock::now();
+bool SharedRun<D>::finish_part(const RefineContext<D>& context, const RegionTable& regions, const PointData<D>& data,
+                               const detail::RunPieces& pieces, RefineResult<D>& result) {
+  if (!part_.held) return false;
+  const detail::RunClock::Stage timed(pieces.clock(), "number");
+  const double start = pieces.clock().now();
+  result.statistics.seconds_refine = start - result.statistics.seconds_initial;
   const detail::IsOwnCell is_own = own_cells<D>(*part_.held, context.mesh);
   const std::span<const double> attributes = regions.labelled ? std::span<const double>(regions.attribute)
                                                               : std::span<const double>();
-  detail::VolumesOnRanks volumes(*ranks_, is_own);
+  detail::VolumesOnRanks volumes(ranks_, is_own);
   result.regions = region_volumes<D>(context.mesh, context.domain, attributes, pieces, volumes);
   std::vector<std::uint32_t> unused;
-  result_->piece = detail::number_on_ranks<D>(*ranks_, context.mesh, is_own, context.domain, attributes, data, pieces, unused,
-                                              context.options.drop_unused_points);
+  result_.piece = detail::number_on_ranks<D>(ranks_, context.mesh, is_own, context.domain, attributes, data, pieces, unused,
+                                             context.options.drop_unused_points);
   detail::note_unused_points<D>(context.domain, std::move(unused), result);
-  result_->distributed.cells_applied += part_.held->cells_applied();
-  result_->distributed.seconds_finish = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  is_finished_ = true;
+  result_.distributed.cells_applied += part_.held->cells_applied();
+  result_.distributed.seconds_finish = pieces.clock().now() - start;
+  return true;
 }
 
-/// One run of all ranks, or of rank 0 in the end.
+/// What the visits of this rank were in a run that has ended so, or that it left.
 template <int D>
-DistributedResult<D> share_run(detail::Collectives& ranks, const Plc<D>& plc, const RefineOptions<D>& options,
-                               OwnVisits& visits) {
-  DistributedResult<D> result;
-  SharedRun<D> shared(ranks, result);
+OwnVisits SharedRun<D>::visits_of(const RefineResult<D>& run) const {
+  const bool has_left = part_.left == detail::Left::gathered;
+  OwnVisits own{has_left ? part_.until_gather : run.scheduler, part_.until_cut};
+  if (has_left)  // all else that it did is not known
+    for (const double busy : own.all.busy_seconds) own.all.work_seconds += busy;
+  return own;
+}
+
+template <int D>
+DistributedResult<D> SharedRun<D>::run(const Plc<D>& plc, const RefineOptions<D>& options, OwnVisits& visits) {
+  detail::RunHooks<D> hooks;
+  hooks.make_schedule = [this](detail::RunState<D>& state, bool optimizes) { return make_schedule(state, optimizes); };
+  hooks.finish_part = [this](const auto& context, const auto& regions, const auto& data, const auto& pieces, auto& result) {
+    return finish_part(context, regions, data, pieces, result);
+  };
   RefineResult<D> run;
-  bool is_first_alone = false, has_left = false;
   try {
-    run = detail::refine_with<D>(plc, options, shared);
-  } catch (const detail::GatheredElsewhere&) {
-    has_left = true;
-  } catch (const detail::InterruptedElsewhere&) {
-    is_first_alone = true;
+    run = detail::refine_with<D>(plc, options, hooks);
   } catch (const RankFailure&) {
     throw;
   } catch (...) {
-    if (!ranks.has_failed()) ranks.together([] { throw; });  // where the others meet next
+    if (!ranks_.has_failed()) ranks_.together([] { throw; });  // where the others meet next
     throw;
   }
-  if (result.distributed.cut_cells == 0 && !is_first_alone) is_first_alone = detail::has_another_gone_on(ranks);
-  ranks.together([&] { visits = shared.visits(run, has_left); });
-  const DistributedStatistics statistics = result.distributed;
+  bool is_first_alone = part_.left == detail::Left::interrupted;
+  if (result_.distributed.cut_cells == 0 && !is_first_alone) is_first_alone = detail::has_another_gone_on(ranks_);
+  ranks_.together([&] { visits = visits_of(run); });
   // Where one has ended, and another goes on, a clock or a signal has ended it, or they do not the same.
-  if (ranks.max(is_first_alone ? 1 : 0) != 0 && ranks.max(was_interrupted(run.stop) ? 1 : 0) == 0) detail::fail_unlike_ranks();
-  if (shared.is_finished())
-    result.run = std::move(run);
-  else
-    result = share_whole(ranks, std::move(run), statistics.gathered || is_first_alone);
-  result.distributed = statistics;
-  return result;
+  const bool is_interrupted = part_.left == detail::Left::no && was_interrupted(run.stop);
+  if (ranks_.max(is_first_alone ? 1 : 0) != 0 && ranks_.max(is_interrupted ? 1 : 0) == 0) detail::fail_unlike_ranks();
+  if (part_.held) {
+    result_.run = std::move(run);
+    return std::move(result_);
+  }
+  const DistributedStatistics statistics = result_.distributed;
+  result_ = share_whole(ranks_, std::move(run), statistics.gathered || is_first_alone);
+  result_.distributed = statistics;
+  return std::move(result_);
 }
 
 }  // namespace
@@ -274,11 +282,12 @@ DistributedResult<D> refine(Transport& transport, const Plc<D>& plc, const Refin
     own.time_limit.reset();
     own.stop = {};
     own.memory_guard = false;
+    own.partial_mesh = false;  // who leaves the run has none
   }
   DistributedResult<D> result;
   OwnVisits visits;
   if (options.schedule.schedule == Schedule::uniform) {
-    result = share_run(ranks, plc, own, visits);
+    result = SharedRun<D>(ranks).run(plc, own, visits);
   } else {
     RefineResult<D> run = ranks.together([&] { return refine(plc, own); });
     visits = {run.scheduler, run.scheduler};

@@ -56,7 +56,8 @@ std::uint64_t hash_of_cells(const RefineContext<D>& context) {
 template <int D>
 UniformOnRanks<D>::UniformOnRanks(RunState<D>& state, Collectives& ranks, bool needs_all, Part<D>& part,
                                   DistributedStatistics& statistics)
-    : Uniform<D>(state),
+    : state_(&state),
+      uniform_(state, [this](Node node) { return is_own(node); }),
       ranks_(&ranks),
       needs_all_(needs_all),
       statistics_(&statistics),
@@ -65,90 +66,96 @@ UniformOnRanks<D>::UniformOnRanks(RunState<D>& state, Collectives& ranks, bool n
       held_(part.held) {}
 
 template <int D>
-StopCause UniformOnRanks<D>::run_phases() {
-  if (!territory_) {
-    const StopCause stop = Uniform<D>::run_phases();
-    if (!territory_) return stop;
+void UniformOnRanks<D>::begin() {
+  if (territory_) look_ahead(state_->totals, nullptr);
+}
+
+template <int D>
+StopCause UniformOnRanks<D>::stop() {
+  if (stop_ != StopCause::finished || territory_) return stop_;  // while ranks do parts they stop together
+  return uniform_.stop();
+}
+
+/// Before the cut in the order of one process, and so where rank 0 has all in the end.
+template <int D>
+std::optional<PlannedVisits<D>> UniformOnRanks<D>::next() {
+  if (!territory_ && ranks_->size() > 1 && !statistics_->gathered) meet_before_halving();
+  if (stop_ != StopCause::finished) return std::nullopt;
+  if (territory_) return next_together();
+  std::optional<PlannedVisits<D>> plan = uniform_.next();
+  phases_ += plan ? 1 : 0;
+  return plan;
+}
+
+/// For the others it goes on, or has ended elsewhere.
+template <int D>
+void UniformOnRanks<D>::leave(Left why) {
+  part_->left = why;
+  stop_ = StopCause::cancelled;
+}
+
+/// Until nothing waits that ranks do side by side, or one of them has to stop; then the end.
+template <int D>
+std::optional<PlannedVisits<D>> UniformOnRanks<D>::next_together() {
+  while (outlook_.stop == StopCause::finished && outlook_.first == no_phase && outlook_.is_any_left) {
+    halve_parts();
+    look_ahead(state_->totals, nullptr);
   }
-  const StopCause stop = drain_together();
-  if (stop == StopCause::finished && !is_alone_at_the_end()) {
+  if (outlook_.stop == StopCause::finished && outlook_.first != no_phase) return plan_together();
+  if (outlook_.stop == StopCause::finished && !is_alone_at_the_end()) {
     share_unsent();
-    return stop;
+    return std::nullopt;
   }
   gather();
-  return stop == StopCause::finished ? Uniform<D>::run_phases() : stop;
-}
-
-/// Before the cut: in the order of one process. Nothing once the mesh is cut.
-template <int D>
-std::optional<Phase> UniformOnRanks<D>::next_phase() {
-  std::uint64_t first = this->first_at_hand();
-  while (first == no_phase && this->is_any_left() && halve()) {
-    if (territory_) return std::nullopt;
-    first = this->first_at_hand();
+  if (ranks_->rank() != 0) {
+    leave(Left::gathered);
+  } else {
+    stop_ = outlook_.stop;
   }
-  if (first == no_phase) first = this->first_of_larger_claims();
-  if (first == no_phase) return std::nullopt;
-  return this->take_turn(first);
-}
-
-/// After the cut, until nothing waits that ranks do side by side, or one of them has to stop.
-template <int D>
-StopCause UniformOnRanks<D>::drain_together() {
-  Outlook next = look_ahead(this->state().totals, nullptr);
-  while (next.stop == StopCause::finished) {
-    if (next.first != no_phase) {
-      next = run_together(next);
-    } else if (next.is_any_left) {
-      halve_parts();
-      next = look_ahead(this->state().totals, nullptr);
-    } else {
-      break;
-    }
-  }
-  return next.stop;
+  return next();
 }
 
 /// What all ranks have done since their totals were these, and what they do next. If there is an error on any, all throw.
 template <int D>
-Outlook UniformOnRanks<D>::look_ahead(const RunTotals& before, std::exception_ptr error) {
-  RunTotals& totals = this->state().totals;
+void UniformOnRanks<D>::look_ahead(const RunTotals& before, std::exception_ptr error) {
+  RunTotals& totals = state_->totals;
   Outlook own;
   if (!error) {
     error = Collectives::caught([&] {
-      own.stop = this->stop_before_phase();
-      own.first = this->first_at_hand();
-      if (own.first != no_phase) own.visits = this->plan(this->phase_of(own.first)).visits.size();
-      own.is_any_left = this->is_any_left();
+      own.stop = state_->stop_between_visits();
+      own.first = uniform_.first_at_hand();
+      if (own.first != no_phase) own.visits = uniform_.visits_of(uniform_.phase_of(own.first)).visits.size();
+      own.is_any_left = uniform_.is_any_left();
       own.totals = totals - before;
     });
   }
-  Outlook all = Outlook::of_all(ranks_->all_gather(own.to_row(), error), ranks_->rank(), before);
-  totals = all.totals;
-  if (this->is_full()) all.stop = std::max(all.stop, StopCause::max_vertices);
-  return all;
+  outlook_ = Outlook::of_all(ranks_->all_gather(own.to_row(), error), ranks_->rank(), before);
+  totals = outlook_.totals;
+  if (state_->is_full()) outlook_.stop = std::max(outlook_.stop, StopCause::max_vertices);
 }
 
-/// Cuts the mesh then if it pays. This is where ranks meet for the first time: one that has failed, or whose run was interrupted,
-/// says so there.
+/// If the lattice is to be halved next: cuts the mesh then if it pays. This is where ranks meet for the first time: one that has
+/// failed, or whose run has ended, says so there.
 template <int D>
-bool UniformOnRanks<D>::halve() {
-  if (ranks_->size() == 1 || statistics_->gathered) return Uniform<D>::halve();
-  const Windows left = windows();
-  auto territory = std::make_unique<Territory<D>>(this->tree(), left.nodes, owners_of(left), ranks_->size(), ranks_->rank());
-  const bool pays = may_cut() && pays_to_cut(left, *territory);
-  require_all_go_on(*ranks_);
-  const bool is_due = ranks_->max(pays ? 0 : 1) == 0;
-  if (!ranks_->together([this] { return Uniform<D>::halve(); })) return false;
-  if (is_due) cut(std::move(territory), left);
-  return true;
+void UniformOnRanks<D>::meet_before_halving() {
+  while (uniform_.first_at_hand() == no_phase && uniform_.is_any_left()) {
+    const Windows left = windows();
+    auto territory = std::make_unique<Territory<D>>(tree(), left.nodes, owners_of(left), ranks_->size(), ranks_->rank());
+    const bool pays = may_cut() && pays_to_cut(left, *territory);
+    if (!do_all_go_on(*ranks_)) return leave(Left::interrupted);
+    const bool is_due = ranks_->max(pays ? 0 : 1) == 0;
+    if (!ranks_->together([this] { return uniform_.halve(); })) return;
+    if (!is_due) continue;
+    cut(std::move(territory), left);
+    return look_ahead(state_->totals, nullptr);
+  }
 }
 
 /// Lists of the nodes above are empty, but for what was found for them last.
 template <int D>
 bool UniformOnRanks<D>::may_cut() const {
-  for (Node node = 0; node < this->tree().node_count(); ++node)
-    if (this->tree().level(node) < this->finest() && !this->state().waiting[node].list.empty()) return false;
+  for (Node node = 0; node < tree().node_count(); ++node)
+    if (tree().level(node) < uniform_.finest() && !state_->waiting[node].list.empty()) return false;
   return true;
 }
 
@@ -156,13 +163,12 @@ bool UniformOnRanks<D>::may_cut() const {
 template <int D>
 auto UniformOnRanks<D>::windows() const -> Windows {
   Windows windows;
-  for (unsigned parity = 0; parity < this->parities; ++parity)
-    windows.nodes.insert(windows.nodes.end(), this->nodes(this->finest(), parity).begin(),
-                         this->nodes(this->finest(), parity).end());
-  std::sort(windows.nodes.begin(), windows.nodes.end(),
-            [this](Node a, Node b) { return this->tree().morton(a) < this->tree().morton(b); });
+  for (unsigned parity = 0; parity < Uniform<D>::parities; ++parity)
+    windows.nodes.insert(windows.nodes.end(), uniform_.nodes(uniform_.finest(), parity).begin(),
+                         uniform_.nodes(uniform_.finest(), parity).end());
+  std::sort(windows.nodes.begin(), windows.nodes.end(), [this](Node a, Node b) { return tree().morton(a) < tree().morton(b); });
   for (const Node node : windows.nodes) {
-    const WorkList<D>& list = this->state().waiting[node].list;
+    const WorkList<D>& list = state_->waiting[node].list;
     windows.to_come.push_back(static_cast<double>(list.to_come() + list.poor()));
   }
   return windows;
@@ -192,22 +198,22 @@ bool UniformOnRanks<D>::pays_to_cut(const Windows& windows, const Territory<D>& 
   std::vector<double> own(static_cast<std::size_t>(ranks_->size()));
   for (std::size_t n = 0; n < windows.nodes.size(); ++n) {
     const double w = windows.to_come[n];
-    is_last = is_last && !this->is_halved_with(static_cast<std::uint64_t>(w) / this->parities);
+    is_last = is_last && !uniform_.is_halved_with(static_cast<std::uint64_t>(w) / Uniform<D>::parities);
     all += w;
     own[static_cast<std::size_t>(territory.owner(windows.nodes[n]))] += w;
   }
   const std::vector<double> held = territory.held_of(windows.nodes, windows.to_come);
   const double most = *std::max_element(held.begin(), held.end()), most_own = *std::max_element(own.begin(), own.end());
   if (is_last) return most < all;
-  const auto cells = static_cast<double>(count_cells(this->state().context.mesh));
-  const double uneven = most_own - all / ranks_->size(), beside = this->parities * cells * (most - most_own) / all;
-  return uneven + beside < (this->parities - 1) * cells;
+  const auto cells = static_cast<double>(count_cells(state_->context.mesh));
+  const double uneven = most_own - all / ranks_->size(), beside = Uniform<D>::parities * cells * (most - most_own) / all;
+  return uneven + beside < (Uniform<D>::parities - 1) * cells;
 }
 
 /// @pre the windows have been split
 template <int D>
 void UniformOnRanks<D>::cut(std::unique_ptr<Territory<D>> territory, const Windows& windows) {
-  const RefineContext<D>& context = this->state().context;
+  const RefineContext<D>& context = state_->context;
   require_alike(*ranks_, ranks_->together([&] {
     WordHash hash;
     hash.add(hash_of_cells(context));
@@ -218,29 +224,29 @@ void UniformOnRanks<D>::cut(std::unique_ptr<Territory<D>> territory, const Windo
   statistics_->cut_cells = count_cells(context.mesh);
   ranks_->together([&] {
     keep_late_work();
-    held_ = std::make_unique<HeldMesh<D>>(this->state().context.mesh, *territory_);
+    held_ = std::make_unique<HeldMesh<D>>(state_->context.mesh, *territory_);
   });
   statistics_->cut_generation = phases_;
-  part_->until_cut = this->state().recorder.statistics();
-  statistics_->seconds_prologue = this->state().pieces.clock().now();
+  part_->until_cut = state_->recorder.statistics();
+  statistics_->seconds_prologue = state_->pieces.clock().now();
 }
 
 /// After the cut. The windows and the nodes right above them are what ranks visit from now on: so they hold less.
 template <int D>
 void UniformOnRanks<D>::halve_parts() {
-  if (!ranks_->together([&] { return Uniform<D>::halve(); })) return;
+  if (!ranks_->together([&] { return uniform_.halve(); })) return;
   std::unique_ptr<Territory<D>> next;
   std::vector<Bytes> to_each = ranks_->together([&] {
     next = std::make_unique<Territory<D>>(territory_->of_next_level());
-    for (Node node = 0; node < this->tree().node_count(); ++node)
-      if (this->tree().level(node) == territory_->level() && is_own(node)) keep_work(node, [](const Entry<D>&) { return true; });
+    for (Node node = 0; node < tree().node_count(); ++node)
+      if (tree().level(node) == territory_->level() && is_own(node)) keep_work(node, [](const Entry<D>&) { return true; });
     return late_for_owners();
   });
   const std::vector<Bytes> arrived = ranks_->exchange(std::move(to_each));
   ranks_->together([&] {
     for (const Bytes& bytes : arrived) {
       MessageReader message(bytes);
-      late_.get(message, this->tree(), this->state().context.mesh, *held_);
+      late_.get(message, tree(), state_->context.mesh, *held_);
       message.require_end();
     }
     held_->shrink(*next);
@@ -255,7 +261,7 @@ std::vector<Bytes> UniformOnRanks<D>::late_for_owners() {
   for (int rank = 0; rank < ranks_->size(); ++rank) {
     MessageWriter message;
     late_.take_if([&](const Entry<D>& e) { return rank != ranks_->rank() && owner_of(e) == rank; })
-        .put(message, this->state().context.mesh);
+        .put(message, state_->context.mesh);
     to_each.push_back(message.take());
   }
   return to_each;
@@ -264,11 +270,11 @@ std::vector<Bytes> UniformOnRanks<D>::late_for_owners() {
 /// Of the nodes above the cut; and empties the lists of nodes that others visit.
 template <int D>
 void UniformOnRanks<D>::keep_late_work() {
-  for (Node node = 0; node < this->tree().node_count(); ++node) {
-    if (this->tree().level(node) < territory_->level())
+  for (Node node = 0; node < tree().node_count(); ++node) {
+    if (tree().level(node) < territory_->level())
       keep_work(node, [this](const Entry<D>& e) { return ranks_->rank() == owner_of(e); });
     else if (!is_own(node))
-      this->state().waiting[node] = LeafWork<D>();
+      state_->waiting[node] = LeafWork<D>();
   }
 }
 
@@ -277,7 +283,7 @@ template <int D>
 template <class Is>
 void UniformOnRanks<D>::keep_work(Node node, Is is) {
   using Kind = typename LateWork<D>::Kind;
-  LeafWork<D>& work = this->state().waiting[node];
+  LeafWork<D>& work = state_->waiting[node];
   std::uint64_t number = 0;
   const auto keep = [&](Kind kind, std::uint32_t order, const Entry<D>& e) {
     if (is(e)) late_.add_entry({phases_, 0, number}, kind, node, order, e);
@@ -297,84 +303,93 @@ void UniformOnRanks<D>::keep_work(Node node, Is is) {
 /// The first rank keeps the place of what is dead.
 template <int D>
 int UniformOnRanks<D>::owner_of(const Entry<D>& e) const {
-  const Mesh<D>& mesh = this->state().context.mesh;
+  const Mesh<D>& mesh = state_->context.mesh;
   return e.alive(mesh) && mesh.alive(e.cell) ? territory_->owner(territory_->zone(mesh.point(first_vertex(mesh, e.cell)))) : 0;
 }
 
+/// Each visit packs what others have to know of it, on its thread.
 template <int D>
-void UniformOnRanks<D>::run_phase(const Phase& phase) {
+PlannedVisits<D> UniformOnRanks<D>::plan_together() {
   ++phases_;
-  Uniform<D>::run_phase(phase);
+  before_ = state_->totals;
+  const Phase phase = uniform_.take_turn(outlook_.first);
+  PlannedVisits<D> plan;
+  error_ = Collectives::caught([&] {
+    Generation<D> generation = uniform_.visits_of(phase);
+    changes_ = std::vector<VisitChanges<D>>(generation.visits.size());
+    for (std::size_t v = 0; v < changes_.size(); ++v) changes_[v].log.logs_cells(territory_->is_shared(generation.visits[v].box));
+    plan.generation = std::move(generation);
+  });
+  // Ranks own successive nodes of the Morton curve, which orders the visits.
+  plan.numbers = {outlook_.visits_before, outlook_.visits};
+  plan.hooks.before = [this](VisitGraph::Visit v, RegionVisit<D>& visit) {
+    uniform_.limit(visit);
+    visit.log = &changes_[v].log;
+  };
+  plan.hooks.after = [this](VisitGraph::Visit v, RegionVisit<D>& visit) {
+    changes_[v].pack(state_->context.mesh, *held_);
+    visit.log = nullptr;
+  };
+  return plan;
 }
 
 /// The ranks do not wait for each other but for the messages of their neighbours and, in the end, for how all go on. Who fails
 /// says nothing to its neighbours, and what happened to all.
 template <int D>
-Outlook UniformOnRanks<D>::run_together(const Outlook& next) {
-  ++phases_;
-  this->state().waiting.begin_generation();
-  const RunTotals before = this->state().totals;
-  const Phase phase = this->take_turn(next.first);
-  Generation<D> generation;
-  std::vector<VisitChanges<D>> changes;
-  std::vector<EndedVisit<D>> ended;
-  Letters<D> letters(this->tree(), *territory_, this->state().context.mesh);
+void UniformOnRanks<D>::done(VisitRunner<D>& runner, const PlannedVisits<D>& plan, std::vector<EndedVisit<D>> ended,
+                             std::exception_ptr error) {
+  if (!territory_) return Planner<D>::done(runner, plan, std::move(ended), error);
+  look_ahead(before_, tell_neighbours(plan.generation, ended, error_ ? error_ : error));
+}
+
+/// @returns what went wrong here
+template <int D>
+std::exception_ptr UniformOnRanks<D>::tell_neighbours(const Generation<D>& generation, std::vector<EndedVisit<D>>& ended,
+                                                      std::exception_ptr error) {
+  Letters<D> letters(tree(), *territory_, state_->context.mesh);
   std::vector<Bytes> messages(territory_->neighbours().size());
-  std::exception_ptr error = Collectives::caught([&] {
-    generation = this->plan(phase);
-    changes.resize(generation.visits.size());
-    // Ranks own successive nodes of the Morton curve, which orders the visits.
-    ended = run_visits(generation, changes, {next.visits_before, next.visits});
-    for (std::size_t v = 0; v < ended.size(); ++v) letters.take(generation.visits[v].request.node, phases_, ended[v].work, late_);
-    messages = messages_for_neighbours(changes, letters);
-  });
+  if (!error)
+    error = Collectives::caught([&] {
+      for (std::size_t v = 0; v < ended.size(); ++v)
+        letters.take(generation.visits[v].request.node, phases_, ended[v].work, late_);
+      messages = messages_for_neighbours(letters);
+    });
   if (error) messages.assign(messages.size(), Bytes());
   const std::vector<Bytes> arrived = ranks_->exchange_with(territory_->neighbours(), std::move(messages));
   const bool have_all = std::none_of(arrived.begin(), arrived.end(), [](const Bytes& bytes) { return bytes.empty(); });
-  if (!error && have_all) {
-    error = Collectives::caught([&] {
-      put_in(changes, arrived, letters);
-      take_in(generation, ended);
-      letters.post(this->state().waiting);
-    });
-  }
-  return look_ahead(before, error);
-}
-
-/// Each visit packs what others have to know of it, on its thread.
-template <int D>
-std::vector<EndedVisit<D>> UniformOnRanks<D>::run_visits(const Generation<D>& generation, std::vector<VisitChanges<D>>& changes,
-                                                         const typename VisitRunner<D>::Numbers& numbers) {
-  const auto before = [&](VisitGraph::Visit v, RegionVisit<D>& visit) {
-    this->limit(visit);
-    changes[v].log.logs_cells(territory_->is_shared(generation.visits[v].box));
-    visit.log = &changes[v].log;
-  };
-  const auto after = [&](VisitGraph::Visit v, RegionVisit<D>& visit) {
-    changes[v].pack(this->state().context.mesh, *held_);
-    visit.log = nullptr;
-  };
-  return this->runner().run(generation, Posting::afterwards, numbers, {before, after});
+  if (error || !have_all) return error;
+  return Collectives::caught([&] {
+    put_in(arrived, letters);
+    take_in(generation, ended);
+    letters.post(state_->waiting);
+  });
 }
 
 /// For each neighbour what has changed where it holds the mesh, and what was found for its nodes.
 template <int D>
-std::vector<Bytes> UniformOnRanks<D>::messages_for_neighbours(const std::vector<VisitChanges<D>>& changes,
-                                                              const Letters<D>& letters) const {
+std::vector<Bytes> UniformOnRanks<D>::messages_for_neighbours(const Letters<D>& letters) const {
   const Timed timed(statistics_->seconds_pack);
   std::vector<Bytes> messages;
-  for (std::size_t n = 0; n < territory_->neighbours().size(); ++n) messages.push_back(message_for(n, changes, letters));
+  for (std::size_t n = 0; n < territory_->neighbours().size(); ++n) {
+    const auto has_part = [n](const VisitChanges<D>& c) { return !c.is_empty_for(n); };
+    MessageWriter message;
+    message.put(static_cast<std::uint64_t>(std::count_if(changes_.begin(), changes_.end(), has_part)));
+    for (const VisitChanges<D>& c : changes_)
+      if (has_part(c)) c.parts[n].put(message);
+    letters.put(message, n);
+    messages.push_back(message.take());
+  }
   return messages;
 }
 
 /// Puts in what the neighbours have changed and found.
 template <int D>
-void UniformOnRanks<D>::put_in(std::vector<VisitChanges<D>>& changes, const std::vector<Bytes>& arrived, Letters<D>& letters) {
+void UniformOnRanks<D>::put_in(const std::vector<Bytes>& arrived, Letters<D>& letters) {
   const Timed timed(statistics_->seconds_apply);
-  unsent_.add(this->state().context.mesh, changes);
-  for (const VisitChanges<D>& c : changes) held_->note_gone(c.net);
-  for (const VisitChanges<D>& c : changes) held_->note_made(c.net);
-  std::vector<VisitChanges<D>>().swap(changes);
+  unsent_.add(state_->context.mesh, changes_);
+  for (const VisitChanges<D>& c : changes_) held_->note_gone(c.net);
+  for (const VisitChanges<D>& c : changes_) held_->note_made(c.net);
+  std::vector<VisitChanges<D>>().swap(changes_);
   for (const Bytes& bytes : arrived) {
     MessageReader message(bytes);
     for (auto parts = message.get<std::uint64_t>(); parts > 0; --parts) held_->apply(SentCells<D>::get(message));
@@ -383,32 +398,20 @@ void UniformOnRanks<D>::put_in(std::vector<VisitChanges<D>>& changes, const std:
   }
 }
 
-template <int D>
-Bytes UniformOnRanks<D>::message_for(std::size_t neighbour, const std::vector<VisitChanges<D>>& changes,
-                                     const Letters<D>& letters) const {
-  MessageWriter message;
-  message.put(static_cast<std::uint64_t>(
-      std::count_if(changes.begin(), changes.end(), [&](const auto& c) { return !c.is_empty_for(neighbour); })));
-  for (const VisitChanges<D>& c : changes)
-    if (!c.is_empty_for(neighbour)) c.parts[neighbour].put(message);
-  letters.put(message, neighbour);
-  return message.take();
-}
-
 /// Takes in what the visits did, and puts what they set aside into lists, in their order.
 template <int D>
 void UniformOnRanks<D>::take_in(const Generation<D>& generation, std::vector<EndedVisit<D>>& ended) {
-  RunState<D>& state = this->state();
+  RunState<D>& state = *state_;
   for (std::size_t v = 0; v < ended.size(); ++v) {
     const VisitRequest& request = generation.visits[v].request;
     RegionVisit<D>& work = ended[v].work;
-    if (this->tree().level(request.node) == territory_->level()) {  // the node above is nobody's
-      const Node above = this->tree().parent(request.node);
+    if (tree().level(request.node) == territory_->level()) {  // the node above is nobody's
+      const Node above = tree().parent(request.node);
       const std::uint32_t order = above == Orthtree<D>::root ? whole_tree : 2;
       std::uint64_t number = 0;
       for (const Entry<D>& e : work.set_aside)
         if (e.alive(state.context.mesh))
-          late_.add_entry({phases_, this->tree().morton(request.node), number++}, LateWork<D>::Kind::set_aside, above, order, e);
+          late_.add_entry({phases_, tree().morton(request.node), number++}, LateWork<D>::Kind::set_aside, above, order, e);
       state.recorder.count_set_aside(number);
       work.set_aside.clear();
     }
@@ -434,10 +437,10 @@ void UniformOnRanks<D>::share_unsent() {
 /// Is anything left that one rank does alone?
 template <int D>
 bool UniformOnRanks<D>::is_alone_at_the_end() {
-  RunState<D>& state = this->state();
+  RunState<D>& state = *state_;
   bool has_refused = false;
   state.refused.for_each_list([&](std::span<const Refusal<D>> list) { has_refused = has_refused || !list.empty(); });
-  const bool has_work = this->first_of_larger_claims() != no_phase;
+  const bool has_work = uniform_.first_of_larger_claims() != no_phase;
   const bool needs_one = needs_all_ || has_work || !late_.empty() || has_refused || state.totals.violations_seen ||
                          state.totals.entities_refused;
   return ranks_->max(needs_one ? 1 : 0) != 0;
@@ -447,14 +450,13 @@ bool UniformOnRanks<D>::is_alone_at_the_end() {
 template <int D>
 void UniformOnRanks<D>::gather() {
   statistics_->gathered = true;
-  part_->until_gather = this->state().recorder.statistics();
+  part_->until_gather = state_->recorder.statistics();
   const Bytes own = ranks_->together([&] { return pack_all(); });
   const std::vector<Bytes> all = ranks_->gather(0, own);
   ranks_->together([&] {
     if (ranks_->rank() == 0) take_all(all);
   });
-  if (ranks_->rank() != 0) throw GatheredElsewhere();
-  statistics_->cells_applied += held_->cells_applied();
+  if (ranks_->rank() == 0) statistics_->cells_applied += held_->cells_applied();
   held_.reset();
   territory_.reset();
 }
@@ -462,13 +464,13 @@ void UniformOnRanks<D>::gather() {
 /// What rank 0 has to get from this one.
 template <int D>
 Bytes UniformOnRanks<D>::pack_all() {
-  for (Node node = 0; node < this->tree().node_count(); ++node)
-    if (ranks_->rank() != 0 && this->tree().level(node) >= territory_->level() && is_own(node))
+  for (Node node = 0; node < tree().node_count(); ++node)
+    if (ranks_->rank() != 0 && tree().level(node) >= territory_->level() && is_own(node))
       keep_work(node, [](const Entry<D>&) { return true; });
   MessageWriter message;
   if (ranks_->rank() != 0) held_->own_beyond(0).put(message);
   unsent_.put(message);
-  late_.put(message, this->state().context.mesh);
+  late_.put(message, state_->context.mesh);
   return message.take();
 }
 
@@ -483,10 +485,10 @@ void UniformOnRanks<D>::take_all(const std::vector<Bytes>& all) {
   for (MessageReader& message : messages) LateConstraints<D>::apply(message, *held_);
   held_->complete();
   for (MessageReader& message : messages) {
-    late_.get(message, this->tree(), this->state().context.mesh, *held_);
+    late_.get(message, tree(), state_->context.mesh, *held_);
     message.require_end();
   }
-  late_.deliver(this->state().waiting);
+  late_.deliver(state_->waiting);
 }
 
 template class UniformOnRanks<2>;

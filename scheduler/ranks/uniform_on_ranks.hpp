@@ -11,8 +11,8 @@
 // in one process; what they found and set aside is put into lists in the order of the visits. What would need a larger claim than
 // the nodes of the cut have is kept for the end. When the lattice is halved again claims reach less far, and ranks hold less;
 // what was kept goes to who owns its cells, and so holds them on. When nothing else waits, and some of this is left, or something
-// was refused or is to be optimised, rank 0 gets all of the mesh and goes on alone, as one process would; the others leave by
-// GatheredElsewhere.
+// was refused or is to be optimised, rank 0 gets all of the mesh and goes on alone, as one process would; for the others the run
+// is cancelled then.
 //
 // A rank holds what it has to: the sides of nodes are four times the circumradii of the elements that wait there (split_ratio
 // 0.5), so that their vertices are in the claims of these, and a refusal rests on cells that its visit owned, and on their
@@ -38,8 +38,12 @@
 
 namespace pgdr::detail {
 
-/// Rank 0 has all of the mesh now, and finishes the run.
-struct GatheredElsewhere {};
+/// Why a rank has left the run: its own part of that is cancelled.
+enum class Left {
+  no,
+  gathered,    ///< rank 0 has all of the mesh now, and finishes the run
+  interrupted  ///< another rank's run has ended before the ranks parted: it has what there is of the mesh
+};
 
 /// What a rank holds, from the cut until all is gathered; null: all of the mesh.
 template <int D>
@@ -48,24 +52,25 @@ struct Part {
   std::unique_ptr<HeldMesh<D>> held;
   SchedulerStatistics until_cut;     ///< of visits that all ranks do alike
   SchedulerStatistics until_gather;  ///< of all visits of a rank that leaves then
+  Left left = Left::no;
 };
 
 /// See above.
 template <int D>
-class UniformOnRanks final : public Uniform<D> {
+class UniformOnRanks final : public Planner<D> {
  public:
-  using typename Uniform<D>::Node;
+  using Node = typename Orthtree<D>::Node;
 
   /// `needs_all`: the run goes on, after the refinement, with what one rank does alone. All must outlive it.
   UniformOnRanks(RunState<D>& state, Collectives& ranks, bool needs_all, Part<D>& part, DistributedStatistics& statistics);
 
- protected:
-  /// @throws GatheredElsewhere on all ranks but the first; what any rank's visits throw
-  StopCause run_phases() override;
-  std::optional<Phase> next_phase() override;
-  void run_phase(const Phase& phase) override;
-  bool halve() override;
-  bool is_own(Node node) const override { return !territory_ || territory_->owner(node) == ranks_->rank(); }
+  void begin() override;
+  StopCause stop() override;
+  /// @throws what any rank's callbacks threw
+  std::optional<PlannedVisits<D>> next() override;
+  /// The same.
+  void done(VisitRunner<D>& runner, const PlannedVisits<D>& plan, std::vector<EndedVisit<D>> ended,
+            std::exception_ptr error) override;
 
  private:
   /// Nodes of one level, with the elements that are to come in each.
@@ -74,7 +79,12 @@ class UniformOnRanks final : public Uniform<D> {
     std::vector<double> to_come;
   };
 
+  const Orthtree<D>& tree() const { return uniform_.tree(); }
+  bool is_own(Node node) const { return !territory_ || territory_->owner(node) == ranks_->rank(); }
+  void leave(Left why);
+
   // The cut.
+  void meet_before_halving();
   Windows windows() const;
   std::vector<int> owners_of(const Windows& windows) const;
   bool may_cut() const;
@@ -88,14 +98,13 @@ class UniformOnRanks final : public Uniform<D> {
   int owner_of(const Entry<D>& e) const;
 
   // A phase.
-  StopCause drain_together();
-  Outlook look_ahead(const RunTotals& before, std::exception_ptr error);
-  Outlook run_together(const Outlook& next);
-  std::vector<EndedVisit<D>> run_visits(const Generation<D>& generation, std::vector<VisitChanges<D>>& changes,
-                                        const typename VisitRunner<D>::Numbers& numbers);
-  std::vector<Bytes> messages_for_neighbours(const std::vector<VisitChanges<D>>& changes, const Letters<D>& letters) const;
-  void put_in(std::vector<VisitChanges<D>>& changes, const std::vector<Bytes>& arrived, Letters<D>& letters);
-  Bytes message_for(std::size_t neighbour, const std::vector<VisitChanges<D>>& changes, const Letters<D>& letters) const;
+  std::optional<PlannedVisits<D>> next_together();
+  PlannedVisits<D> plan_together();
+  void look_ahead(const RunTotals& before, std::exception_ptr error);
+  std::vector<Bytes> messages_for_neighbours(const Letters<D>& letters) const;
+  void put_in(const std::vector<Bytes>& arrived, Letters<D>& letters);
+  std::exception_ptr tell_neighbours(const Generation<D>& generation, std::vector<EndedVisit<D>>& ended,
+                                     std::exception_ptr error);
   void take_in(const Generation<D>& generation, std::vector<EndedVisit<D>>& ended);
 
   // The end.
@@ -105,6 +114,8 @@ class UniformOnRanks final : public Uniform<D> {
   Bytes pack_all();
   void take_all(const std::vector<Bytes>& all);
 
+  RunState<D>* state_;
+  Uniform<D> uniform_;
   Collectives* ranks_;
   const bool needs_all_;
   DistributedStatistics* statistics_;
@@ -114,6 +125,12 @@ class UniformOnRanks final : public Uniform<D> {
   LateWork<D> late_;
   LateConstraints<D> unsent_;
   std::uint64_t phases_ = 0;
+  // After the cut:
+  Outlook outlook_;                       ///< what comes next
+  std::vector<VisitChanges<D>> changes_;  ///< of the visits that run
+  RunTotals before_;                      ///< before these
+  std::exception_ptr error_;              ///< what went wrong when these were planned
+  StopCause stop_ = StopCause::finished;  ///< of any rank
 };
 
 extern template class UniformOnRanks<2>;

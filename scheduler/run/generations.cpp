@@ -11,35 +11,24 @@ Generations<D>::Generations(RunState<D>& state)
       context_(&state.context),
       options_(&state.options),
       waiting_(&state.waiting),
-      runner_(state),
       conflicts_(state.waiting.tree(), state.options.claims, state.options.claim_order) {}
 
 template <int D>
-StopCause Generations<D>::drain() {
-  split_leaves(waiting_->tree().leaves());
-  while (true) {
-    state_->meter.look();
-    if (context_->ended()) return state_->stop();
-    if (!context_->stage && state_->totals.vertices >= context_->options.max_vertices) return StopCause::max_vertices;
-    if (state_->is_spent() || !one_generation()) return state_->stop();
-  }
+std::optional<PlannedVisits<D>> Generations<D>::next() {
+  const std::vector<VisitRequest> wanted = waiting_->requests();
+  if (wanted.empty()) return std::nullopt;
+  if (options_->claims == ClaimRule::leaves) renew_buffers(wanted);
+  return PlannedVisits<D>{conflicts_.plan(wanted), Posting::at_once};
 }
 
-/// Plans the visits of a generation, runs them, takes in what they did, and splits leaves; false if nothing waits.
 template <int D>
-bool Generations<D>::one_generation() {
-  const std::vector<VisitRequest> wanted = waiting_->requests();
-  if (wanted.empty()) return false;
-  waiting_->begin_generation();
-  if (options_->claims == ClaimRule::leaves) renew_buffers(wanted);
-  Generation<D> generation = conflicts_.plan(wanted);
-  std::vector<EndedVisit<D>> ended = runner_.run(generation, Posting::at_once, {0, wanted.size()});
-  runner_.account(generation, ended);
+void Generations<D>::done(VisitRunner<D>& runner, const PlannedVisits<D>& plan, std::vector<EndedVisit<D>> ended,
+                          std::exception_ptr error) {
+  Planner<D>::done(runner, plan, std::move(ended), error);
   std::vector<Node> candidates;
-  for (const Visit<D>& visit : generation.visits)
+  for (const Visit<D>& visit : plan.generation.visits)
     if (visit.request.order == 1) candidates.push_back(visit.request.node);
   split_leaves(std::move(candidates));
-  return true;
 }
 
 /// Finds BUF of the leaves that are to be visited anew where a split has changed it.

@@ -10,23 +10,25 @@
 #include <span>
 #include <vector>
 
-#include "run/run_state.hpp"
-#include "run/visit_runner.hpp"
+#include "run/planner.hpp"
 
 namespace pgdr::detail {
 
-/// The schedule of a run, see above.
+/// See above.
 template <int D>
-class Generations final : public VisitSchedule<D> {
+class Generations final : public Planner<D> {
  public:
   using Node = typename Orthtree<D>::Node;
 
   explicit Generations(RunState<D>& state);  ///< it must outlive this
 
-  StopCause drain() override;
+  void begin() override { split_leaves(waiting_->tree().leaves()); }
+  StopCause stop() override { return state_->stop_between_visits(); }
+  std::optional<PlannedVisits<D>> next() override;
+  void done(VisitRunner<D>& runner, const PlannedVisits<D>& plan, std::vector<EndedVisit<D>> ended,
+            std::exception_ptr error) override;
 
  private:
-  bool one_generation();
   void renew_buffers(std::span<const VisitRequest> requests);
   void split_leaves(std::vector<Node> candidates);
 
@@ -34,7 +36,6 @@ class Generations final : public VisitSchedule<D> {
   RefineContext<D>* context_;
   const ScheduleOptions* options_;
   WaitingWork<D>* waiting_;
-  VisitRunner<D> runner_;
   ConflictManager<D> conflicts_;
 };
 

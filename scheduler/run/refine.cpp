@@ -242,7 +242,7 @@ struct Refined {
 
 template <int D>
 Refined<D> refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices,
-                       const detail::RunPieces& pieces, detail::RunHooks<D>* hooks, RefineResult<D>& result) {
+                       const detail::RunPieces& pieces, const detail::RunHooks<D>* hooks, RefineResult<D>& result) {
   detail::Refinement<D> refinement(context, std::move(pools), vertices, target_of(context.options), pieces, hooks);
   detail::RunState<D>& state = refinement.state();
   state.meter.expect_optimizer(target_of(context.options) > 0);
@@ -339,7 +339,7 @@ void number_mesh(const RefineContext<D>& context, const RegionTable& regions, co
 /// The mesh of the domain. `result`: what is known before. `start`: of the run, for its limits.
 template <int D>
 RefineResult<D> make_mesh(const Domain<D>& domain, const RefineOptions<D>& options, Clock::time_point start,
-                          const detail::Deadline& deadline, const detail::RunPieces& pieces, detail::RunHooks<D>* hooks,
+                          const detail::Deadline& deadline, const detail::RunPieces& pieces, const detail::RunHooks<D>* hooks,
                           RefineResult<D> result) {
   Mesh<D> mesh(domain.points().size());
   auto pools = mesh.make_pools();
@@ -355,13 +355,8 @@ RefineResult<D> make_mesh(const Domain<D>& domain, const RefineOptions<D>& optio
   Refined<D> refined;
   if (options.refine) refined = refine_mesh<D>(context, std::move(pools), vertices, pieces, hooks, result);
   if (is_unwanted(options, result.stop)) return without_mesh(std::move(result), start);
+  if (hooks && hooks->finish_part(context, regions, data, pieces, result)) return result;
   detail::RunClock& clock = pieces.clock();
-  if (hooks && hooks->has_part()) {
-    const detail::RunClock::Stage timed(clock, "number");
-    result.statistics.seconds_refine = seconds_since(start) - result.statistics.seconds_initial;
-    hooks->finish(context, regions, data, pieces, result);
-    return result;
-  }
   {
     const detail::RunClock::Stage timed(clock, "count");
     count_poor_left<D>(context, refined, pieces, result);
@@ -378,7 +373,8 @@ RefineResult<D> make_mesh(const Domain<D>& domain, const RefineOptions<D>& optio
 
 template <int D>
 RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options, Clock::time_point start,
-                    const detail::Deadline& deadline, const detail::RunPieces& pieces, detail::RunHooks<D>* hooks = nullptr) {
+                    const detail::Deadline& deadline, const detail::RunPieces& pieces,
+                    const detail::RunHooks<D>* hooks = nullptr) {
   if (domain.points().empty()) bad_option("the Domain is empty: it was moved from");
   const PredicateCounts predicates_before = predicate_counts();
   RefineResult<D> before;
@@ -422,7 +418,7 @@ auto with_typed_errors(const F& f) {
 
 template <int D>
 RefineResult<D> prepare_and_run(const Plc<D>& plc, const RefineOptions<D>& options, Clock::time_point start,
-                                detail::RunHooks<D>* hooks) {
+                                const detail::RunHooks<D>* hooks) {
   const detail::Deadline deadline(options, start);
   std::optional<Domain<D>> domain;
   detail::RunClock clock(start);
@@ -462,14 +458,14 @@ RefineResult<D> refine(const Plc<D>& plc, const RefineOptions<D>& options) {
 }
 
 template <int D>
-RefineResult<D> detail::refine_with(const Plc<D>& plc, const RefineOptions<D>& options, RunHooks<D>& hooks) {
+RefineResult<D> detail::refine_with(const Plc<D>& plc, const RefineOptions<D>& options, const RunHooks<D>& hooks) {
   const DefaultFloats floats;
   validate(options);
   return prepare_and_run<D>(plc, options, Clock::now(), &hooks);
 }
 
-template RefineResult<2> detail::refine_with<2>(const Plc<2>&, const RefineOptions<2>&, detail::RunHooks<2>&);
-template RefineResult<3> detail::refine_with<3>(const Plc<3>&, const RefineOptions<3>&, detail::RunHooks<3>&);
+template RefineResult<2> detail::refine_with<2>(const Plc<2>&, const RefineOptions<2>&, const detail::RunHooks<2>&);
+template RefineResult<3> detail::refine_with<3>(const Plc<3>&, const RefineOptions<3>&, const detail::RunHooks<3>&);
 
 template PGDR_API RefineResult<2> refine<2>(const Plc<2>&, const RefineOptions<2>&);
 template PGDR_API RefineResult<3> refine<3>(const Plc<3>&, const RefineOptions<3>&);

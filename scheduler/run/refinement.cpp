@@ -14,18 +14,22 @@ namespace pgdr::detail {
 namespace {
 
 template <int D>
-std::unique_ptr<VisitSchedule<D>> make_schedule(RunState<D>& state, RunHooks<D>* hooks, bool optimizes) {
+std::unique_ptr<VisitSchedule<D>> make_schedule(RunState<D>& state, const RunHooks<D>* hooks, bool optimizes) {
   if (hooks) return hooks->make_schedule(state, optimizes);
   if (state.options.schedule == Schedule::greedy) return std::make_unique<Greedy<D>>(state, threads_of(state.options));
-  if (state.options.schedule == Schedule::uniform) return std::make_unique<Uniform<D>>(state);
-  return std::make_unique<Generations<D>>(state);
+  std::unique_ptr<Planner<D>> planner;
+  if (state.options.schedule == Schedule::uniform)
+    planner = std::make_unique<Uniform<D>>(state);
+  else
+    planner = std::make_unique<Generations<D>>(state);
+  return std::make_unique<PlannedSchedule<D>>(state, std::move(planner));
 }
 
 }  // namespace
 
 template <int D>
 Refinement<D>::Refinement(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices, double min_dihedral,
-                          const RunPieces& pieces, RunHooks<D>* hooks)
+                          const RunPieces& pieces, const RunHooks<D>* hooks)
     : min_dihedral_(min_dihedral),
       state_(context, std::move(pools), vertices, pieces),
       schedule_(make_schedule(state_, hooks, min_dihedral > 0)),

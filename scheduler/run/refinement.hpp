@@ -34,7 +34,7 @@ class Refinement {
   /// `pools`: those that made the mesh so far. `vertices`: it has so many. `min_dihedral`: the optimiser's target in degrees; 0:
   /// none. `hooks`: of a run on ranks; or null. The context, the pieces and the hooks must outlive this.
   Refinement(RefineContext<D>& context, typename Mesh<D>::Pools pools, std::uint64_t vertices, double min_dihedral,
-             const RunPieces& pieces, RunHooks<D>* hooks);
+             const RunPieces& pieces, const RunHooks<D>* hooks);
 
   /// The stages in their order, with the optimiser or without.
   static std::span<const Stage> plan(bool optimizes);

@@ -4,6 +4,7 @@
 // What a run that several ranks share does otherwise than one of a single process.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "boundary/labeling.hpp"
@@ -16,20 +17,18 @@ namespace pgdr::detail {
 
 /// See above. One thread.
 template <int D>
-class RunHooks {
- public:
-  virtual ~RunHooks() = default;
+struct RunHooks {
   /// The schedule of the run. `optimizes`: it goes on after the refinement.
-  virtual std::unique_ptr<VisitSchedule<D>> make_schedule(RunState<D>& state, bool optimizes) = 0;
-  /// Does this rank, once the refinement has ended, hold a part of the mesh alone?
-  virtual bool has_part() const = 0;
-  /// Then this finishes the run in place of counting what is poor and numbering the mesh.
-  virtual void finish(const RefineContext<D>& context, const RegionTable& regions, const PointData<D>& data,
-                      const RunPieces& pieces, RefineResult<D>& result) = 0;
+  std::function<std::unique_ptr<VisitSchedule<D>>(RunState<D>& state, bool optimizes)> make_schedule;
+  /// If this rank, once the refinement has ended, holds a part of the mesh alone: finishes the run, in place of counting what is
+  /// poor and numbering the mesh, and says true.
+  std::function<bool(const RefineContext<D>& context, const RegionTable& regions, const PointData<D>& data,
+                     const RunPieces& pieces, RefineResult<D>& result)>
+      finish_part = [](const auto&...) { return false; };
 };
 
 /// refine(plc, options), with these hooks.
 template <int D>
-RefineResult<D> refine_with(const Plc<D>& plc, const RefineOptions<D>& options, RunHooks<D>& hooks);
+RefineResult<D> refine_with(const Plc<D>& plc, const RefineOptions<D>& options, const RunHooks<D>& hooks);
 
 }  // namespace pgdr::detail

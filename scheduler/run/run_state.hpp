@@ -89,6 +89,14 @@ struct RunState {
   bool is_spent() const { return totals.counts.evaluated >= most_evaluated; }
   /// How the run stands: what has stopped it, or finished.
   StopCause stop() const { return static_cast<StopCause>(context.stop.load()); }
+  /// Does the mesh have as many vertices as it may, so that nothing more is inserted?
+  bool is_full() const { return !context.stage && totals.vertices >= context.options.max_vertices; }
+  /// What ends the run between visits; finished: nothing. Tells how far it is, if it is time for that.
+  StopCause stop_between_visits() {
+    meter.look();
+    if (context.ended()) return stop();
+    return is_full() ? StopCause::max_vertices : StopCause::finished;
+  }
   /// Has the run been cancelled? It is stopped with that. For loops over all cells, which end then.
   bool is_cancelled() {
     if (!context.options.stop.stop_requested()) return false;

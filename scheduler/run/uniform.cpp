@@ -9,7 +9,7 @@
 
 namespace pgdr::detail {
 template <int D>
-Uniform<D>::Uniform(RunState<D>& state) : state_(&state), runner_(state) {
+Uniform<D>::Uniform(RunState<D>& state, IsOwn is_own) : state_(&state), is_own_(std::move(is_own)) {
   add_level();
 }
 
@@ -63,7 +63,7 @@ template <int D>
 bool Uniform<D>::is_any_left() const {
   for (unsigned parity = 0; parity < parities; ++parity)
     for (const Node node : nodes(finest(), parity))
-      if (is_own(node) && is_left(node)) return true;
+      if (is_own_(node) && is_left(node)) return true;
   return false;
 }
 
@@ -88,45 +88,18 @@ bool Uniform<D>::halve() {
 }
 
 template <int D>
-StopCause Uniform<D>::drain() {
-  const StopCause stop = run_phases();
-  is_final_ = stop == StopCause::finished;
-  return stop;
-}
-
-template <int D>
-StopCause Uniform<D>::run_phases() {
-  while (true) {
-    state_->meter.look();
-    if (const StopCause stop = stop_before_phase(); stop != StopCause::finished) return stop;
-    const std::optional<Phase> phase = state_->is_spent() ? std::nullopt : next_phase();
-    if (!phase) return StopCause::finished;
-    run_phase(*phase);
-  }
-}
-
-template <int D>
-StopCause Uniform<D>::stop_before_phase() {
-  if (state_->stop() != StopCause::finished) return state_->stop();
-  if (state_->context.options.stop.stop_requested()) return StopCause::cancelled;
-  return is_full() ? StopCause::max_vertices : StopCause::finished;
-}
-
-template <int D>
-bool Uniform<D>::is_full() const {
-  return !state_->context.stage && state_->totals.vertices >= state_->context.options.max_vertices;
-}
-
-template <int D>
-std::optional<Phase> Uniform<D>::next_phase() {
+std::optional<PlannedVisits<D>> Uniform<D>::next() {
   std::uint64_t first = first_at_hand();
   while (first == no_phase && is_any_left()) {
     halve();
     first = first_at_hand();
   }
   if (first == no_phase) first = first_of_larger_claims();
+  is_final_ = is_final_ || first == no_phase;
   if (first == no_phase) return std::nullopt;
-  return take_turn(first);
+  PlannedVisits<D> plan{visits_of(take_turn(first))};
+  plan.hooks.before = [this](VisitGraph::Visit, RegionVisit<D>& visit) { limit(visit); };
+  return plan;
 }
 
 template <int D>
@@ -140,7 +113,7 @@ bool Uniform<D>::has_work(Node node, std::uint32_t order) const {
 template <int D>
 bool Uniform<D>::has_work(int level, unsigned parity, std::uint32_t order) const {
   return std::any_of(nodes(level, parity).begin(), nodes(level, parity).end(),
-                     [&](Node node) { return is_own(node) && has_work(node, order); });
+                     [&](Node node) { return is_own_(node) && has_work(node, order); });
 }
 
 // The number of a phase has the order of its requests, its level, and by how many turns its parity is ahead.
@@ -199,10 +172,10 @@ Visit<D> Uniform<D>::visit_of(Node node, std::uint32_t order) const {
 }
 
 template <int D>
-Generation<D> Uniform<D>::plan(const Phase& phase) const {
+Generation<D> Uniform<D>::visits_of(const Phase& phase) const {
   Generation<D> generation;
   for (const Node node : nodes(phase.level, phase.parity)) {
-    if (!is_own(node) || !has_work(node, phase.order)) continue;
+    if (!is_own_(node) || !has_work(node, phase.order)) continue;
     generation.visits.push_back(visit_of(node, phase.order));
     generation.graph.add_visit({});
   }
@@ -213,15 +186,6 @@ template <int D>
 void Uniform<D>::limit(RegionVisit<D>& visit) const {
   visit.floor = floor();
   visit.small_radius = visit.treat_list && static_cast<int>(visit.level) == finest() ? small_radius() : 0;
-}
-
-template <int D>
-void Uniform<D>::run_phase(const Phase& phase) {
-  state_->waiting.begin_generation();
-  const Generation<D> generation = plan(phase);
-  const auto before = [this](VisitGraph::Visit, RegionVisit<D>& visit) { limit(visit); };
-  std::vector<EndedVisit<D>> ended = runner_.run(generation, Posting::afterwards, {0, generation.visits.size()}, {before, {}});
-  runner_.account(generation, ended);
 }
 
 template class Uniform<2>;

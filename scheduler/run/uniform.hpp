@@ -23,11 +23,11 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
-#include "run/run_state.hpp"
-#include "run/visit_runner.hpp"
+#include "run/planner.hpp"
 
 namespace pgdr::detail {
 
@@ -41,32 +41,24 @@ struct Phase {
   unsigned parity = 0;      ///< of the places of these: bit i for axis i
 };
 
-/// The schedule of a run, see above.
+/// See above.
 template <int D>
-class Uniform : public VisitSchedule<D> {
+class Uniform final : public Planner<D> {
  public:
   using Node = typename Orthtree<D>::Node;
+  using IsOwn = std::function<bool(Node)>;
   static constexpr unsigned parities = 1u << D;
 
-  explicit Uniform(RunState<D>& state);  ///< it must outlive this
+  /// `is_own`: does this rank visit the node? One process visits all. The state must outlive this.
+  explicit Uniform(
+      RunState<D>& state, IsOwn is_own = [](Node) { return true; });
 
-  /// Afterwards the lattice is not halved any more.
-  StopCause drain() final;
-
- protected:
-  /// Works off all that waits.
-  virtual StopCause run_phases();
-  /// What ends the run before the next phase; finished: nothing.
-  virtual StopCause stop_before_phase();
-  /// Does the mesh have as many vertices as it may?
-  bool is_full() const;
-  /// The phase that comes next, after which its level is at the next parity; nothing if nothing waits.
-  virtual std::optional<Phase> next_phase();
-  /// Runs it.
-  virtual void run_phase(const Phase& phase);
+  StopCause stop() override { return state_->stop_between_visits(); }
+  /// Once nothing waits the lattice is not halved any more.
+  std::optional<PlannedVisits<D>> next() override;
 
   /// Halves the lattice if windows have been left for that.
-  virtual bool halve();
+  bool halve();
   /// Will the lattice be halved once more, after the next time, for a window in which so many elements are to come?
   bool is_halved_with(std::uint64_t to_come) const;
   /// Has any window been left, to be split?
@@ -81,14 +73,10 @@ class Uniform : public VisitSchedule<D> {
   /// The same, after which its level is at the next parity.
   Phase take_turn(std::uint64_t number);
   /// The visits of the phase that have work, in Morton order.
-  Generation<D> plan(const Phase& phase) const;
+  Generation<D> visits_of(const Phase& phase) const;
   /// Says when the visit ends.
   void limit(RegionVisit<D>& visit) const;
-  /// Whether this rank visits the node. One process visits all.
-  virtual bool is_own(Node) const { return true; }
 
-  RunState<D>& state() const { return *state_; }
-  VisitRunner<D>& runner() { return runner_; }
   const Orthtree<D>& tree() const { return state_->waiting.tree(); }
   int finest() const { return static_cast<int>(levels_.size()) - 1; }  ///< level of the windows
   const std::vector<Node>& nodes(int level, unsigned parity) const {
@@ -113,7 +101,7 @@ class Uniform : public VisitSchedule<D> {
   Visit<D> visit_of(Node node, std::uint32_t order) const;
 
   RunState<D>* state_;
-  VisitRunner<D> runner_;
+  IsOwn is_own_;
   std::vector<Level> levels_;  ///< from the root's on
   bool is_final_ = false;      ///< the lattice is not halved any more
 };
