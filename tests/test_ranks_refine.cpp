@@ -8,12 +8,14 @@
 #include <gtest/gtest.h>
 
 #include <mutex>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "local_ranks.hpp"
 #include "parallel_support.hpp"
+#include "ranks/numbering.hpp"
 #include "ranks/values.hpp"
 
 namespace pgdr::test_ranks_refine {
@@ -94,6 +96,44 @@ TEST(RefineOnRanks, PiecesAreTheMeshOfOneProcess) {
   RefineOptions<3> unimproved = options_for<3>(0.1);
   unimproved.min_dihedral = 0;
   expect_pieces_of_the_same_mesh<3>(test::turned(test::two_region_cube()), unimproved);
+}
+
+/// Of meshes whose points, or those on the boundary alone, have been moved a little, so that many faces are not locally Delaunay,
+/// within pieces and between them.
+template <int D>
+void expect_same_counts(const Plc<D>& plc, double size, double by, bool everywhere) {
+  RefineOptions<D> options = options_for<D>(size);
+  options.min_dihedral = 0;
+  OutputMesh<D> mesh = refine(plc, options).mesh;
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> move(-by, by);
+  std::vector<bool> moves(mesh.points.size(), everywhere);
+  for (const auto& wall : mesh.subsegments)
+    for (const std::uint32_t v : wall.vertices) moves[v] = true;
+  for (const auto& wall : mesh.subfacets)
+    for (const std::uint32_t v : wall.vertices) moves[v] = true;
+  for (std::size_t v = 0; v < moves.size(); ++v)
+    for (double& x : mesh.points[v].x) x += moves[v] ? move(random) : 0;
+  const NotDelaunay by_one = count_not_delaunay(mesh, everywhere);
+  EXPECT_GT(by_one.other, 50u);
+  for (const int ranks : {1, 2, 3, 8})
+    run_on_local_ranks(ranks, 3, [&](Transport& transport) {
+      DistributedResult<D> result;
+      result.piece = piece_of(mesh, static_cast<std::uint64_t>(transport.rank()), static_cast<std::uint64_t>(ranks));
+      result.run.violations_seen = everywhere;
+      detail::Collectives all(transport);
+      result.sharing = detail::sharing_of(all, result.piece);
+      const NotDelaunay by_all = count_not_delaunay(transport, result);
+      EXPECT_EQ(by_all.rounding, by_one.rounding) << ranks << " ranks";
+      EXPECT_EQ(by_all.other, by_one.other) << ranks << " ranks";
+    });
+}
+
+TEST(RefineOnRanks, FacesThatAreNotDelaunayAreCountedOnce) {
+  for (const bool everywhere : {false, true}) {
+    expect_same_counts<3>(test::turned(test::two_region_cube()), 0.06, 0.01, everywhere);
+    expect_same_counts<2>(test::turned(test::square_with_hole()), 0.0005, 0.003, everywhere);
+  }
 }
 
 /// Twice on one transport, and an input that only rank 0 has.
