@@ -15,7 +15,7 @@
 #include <variant>
 
 #include "compact/canonical.hpp"
-#include "ranks/cell_rows.hpp"
+#include "compact/stripped_cells.hpp"
 #include "ranks/exchange.hpp"
 #include "ranks/vertex_numbering.hpp"
 #include "space/bulk.hpp"
@@ -30,21 +30,35 @@ struct Numbered {
   EntityId label;
 };
 
-/// Sorts what the ranks have by vertices, after `tidy`, which may take some out, has seen all with the same first vertex
-/// together.
-/// @returns the rows of this rank's part, and how many there are on all
-template <class Row, class Tidy>
-std::pair<std::vector<Row>, Number> sort_rows(Collectives& ranks, const Bulk& bulk, std::vector<Row> rows, Number points,
-                                              const Tidy& tidy) {
+/// A cell by the numbers of its vertices, in canonical order. N: an unsigned type that has all numbers.
+template <int D, class N>
+struct CellRow {
+  std::array<N, D + 1> vertices;
+  std::uint32_t label;  ///< the number of its region
+};
+
+/// The rows by the ranks in whose part of the points their first vertices are.
+template <class Row>
+std::vector<std::vector<Row>> rows_for_ranks(const Collectives& ranks, const std::vector<Row>& rows, Number points) {
   std::vector<std::vector<Row>> to_each(static_cast<std::size_t>(ranks.size()));
   for (const Row& row : rows)
     to_each[static_cast<std::size_t>(part_of_row(row.vertices[0], points, ranks.size()))].push_back(row);
-  rows = exchange_joined(ranks, std::move(to_each));
+  return to_each;
+}
+
+/// Sorts by vertices what ranks have for each, after `tidy`, which may take some out, has seen all with the same first vertex
+/// together.
+/// @returns the rows of this rank's part, and how many there are on all
+template <class Row, class Tidy>
+std::pair<std::vector<Row>, Number> sort_rows(Collectives& ranks, const Bulk& bulk, std::vector<std::vector<Row>> to_each,
+                                              const Tidy& tidy) {
+  std::vector<Row> rows = exchange_joined(ranks, std::move(to_each));
   bulk.sort(rows, [](const Row& a, const Row& b) { return a.vertices < b.vertices; });
   tidy(rows);
   const std::uint64_t count = rows.size(), first = ranks.exclusive_sum(count), all = ranks.sum(count);
   return {share_rows(ranks, std::move(rows), first, all), all};
 }
+constexpr auto as_they_are = [](const auto&) {};
 
 /// A constraint of a cell of this rank.
 template <std::size_t N>
@@ -104,15 +118,36 @@ class RankNumbering {
     }
   }
 
-  /// N: wide enough for all numbers of points.
+  /// N: wide enough for all numbers of points. The memory of a block of the mesh is given back once its cells are rows.
   template <class N>
   void number_cells(StrippedCells<D>& own, std::span<const double> region_attributes) {
-    std::vector<CellRow<D, N>> rows = CellRows<D, N>(ranks_, bulk_, vertices_.points()).sorted(own, mesh_, vertices_.numbers());
-    const std::uint64_t count = rows.size(), first = ranks_.exclusive_sum(count);
-    piece_.total.cells = ranks_.sum(count);
-    rows = share_rows(ranks_, std::move(rows), first, piece_.total.cells);
-    piece_.first_cell = RowRange(piece_.total.cells, ranks_).first;
-    piece_.total.regions = !region_attributes.empty() && piece_.total.cells > 0;
+    std::vector<std::vector<CellRow<D, N>>> to_each(static_cast<std::size_t>(ranks_.size()));
+    const auto rank_of = [&](Number first) {
+      return static_cast<std::size_t>(part_of_row(first, vertices_.points(), ranks_.size()));
+    };
+    std::vector<std::size_t> counts(to_each.size());
+    for (std::size_t block = 0; block < own.block_count(); ++block)
+      for (const auto& cell : own.block(block)) {
+        Number first = vertices_.numbers()[cell[0]];
+        for (const std::uint32_t v : cell) first = std::min(first, vertices_.numbers()[v]);
+        ++counts[rank_of(first)];
+      }
+    for (std::size_t q = 0; q < counts.size(); ++q) to_each[q].reserve(counts[q]);
+    for (std::size_t block = 0; block < own.block_count(); ++block) {
+      const auto regions = own.regions(block);
+      std::size_t i = 0;
+      for (const auto& cell : own.block(block)) {
+        CellRow<D, N> row{{}, regions.empty() ? 0u : regions[i++]};
+        for (std::size_t j = 0; j <= D; ++j) row.vertices[j] = static_cast<N>(vertices_.numbers()[cell[j]]);
+        row.vertices = canonical(row.vertices);
+        to_each[rank_of(row.vertices[0])].push_back(row);
+      }
+      own.discard(mesh_, block);
+    }
+    auto [rows, total] = sort_rows(ranks_, bulk_, std::move(to_each), as_they_are);
+    piece_.total.cells = total;
+    piece_.first_cell = RowRange(total, ranks_).first;
+    piece_.total.regions = !region_attributes.empty() && total > 0;
     if (piece_.total.regions)
       for (const auto& c : rows) piece_.mesh.regions.push_back(region_attributes[c.label]);
     cells_ = std::move(rows);
@@ -134,10 +169,9 @@ class RankNumbering {
       faces.push_back({canonical_face(sides[i].vertices, on_hull), sides[i].label});
       if (!on_hull) ++i;
     }
-    const auto nothing = [](std::vector<Face>&) {};
     auto [first, total] = D == 3 ? std::tie(piece_.first_subfacet, piece_.total.subfacets)
                                  : std::tie(piece_.first_subsegment, piece_.total.subsegments);
-    std::tie(faces_, total) = sort_rows(ranks_, bulk_, std::move(faces), vertices_.points(), nothing);
+    std::tie(faces_, total) = sort_rows(ranks_, bulk_, rows_for_ranks(ranks_, faces, vertices_.points()), as_they_are);
     first = RowRange(total, ranks_).first;
   }
 
@@ -151,7 +185,8 @@ class RankNumbering {
     }
     const auto same = [](const Edge& a, const Edge& b) { return a.vertices == b.vertices; };
     const auto once = [&](std::vector<Edge>& rows) { rows.erase(std::unique(rows.begin(), rows.end(), same), rows.end()); };
-    std::tie(edges_, piece_.total.subsegments) = sort_rows(ranks_, bulk_, std::move(edges), vertices_.points(), once);
+    std::tie(edges_, piece_.total.subsegments) = sort_rows(ranks_, bulk_, rows_for_ranks(ranks_, edges, vertices_.points()),
+                                                           once);
     piece_.first_subsegment = RowRange(piece_.total.subsegments, ranks_).first;
   }
 
