@@ -3,43 +3,35 @@
 #include "ranks/outlook.hpp"
 
 #include <algorithm>
+#include <type_traits>
 
 #include "transport/message.hpp"
 
 namespace pgdr::detail {
 
+namespace {
+
+template <class AnyOutlook, class F>
+void each_field(AnyOutlook& o, const F& f) {
+  auto& t = o.totals;
+  const auto all = [&](auto&... values) { (f(values), ...); };
+  all(o.stop, o.first, o.visits, o.is_any_left, t.counts.committed, t.counts.refused, t.counts.selector_outside, t.counts.removed,
+      t.vertices, t.violations_seen, t.entities_refused, t.min_edge_hit);
+}
+
+}  // namespace
+
 std::vector<std::uint64_t> Outlook::to_row() const {
-  const RefineCounts& c = totals.counts;
-  return {static_cast<std::uint64_t>(stop),
-          first,
-          visits,
-          is_any_left ? 1u : 0u,
-          c.committed,
-          c.refused,
-          c.selector_outside,
-          c.removed,
-          totals.vertices,
-          totals.violations_seen ? 1u : 0u,
-          totals.entities_refused ? 1u : 0u,
-          totals.min_edge_hit ? 1u : 0u};
+  std::vector<std::uint64_t> row;
+  each_field(*this, [&](const auto& value) { row.push_back(static_cast<std::uint64_t>(value)); });
+  return row;
 }
 
 Outlook Outlook::of(const std::vector<std::uint64_t>& row) {
-  if (row.size() != Outlook().to_row().size()) fail_message("a message of another rank is of another length");
   Outlook outlook;
-  outlook.stop = static_cast<StopCause>(row[0]);
-  outlook.first = row[1];
-  outlook.visits = row[2];
-  outlook.is_any_left = row[3] != 0;
-  RefineCounts& c = outlook.totals.counts;
-  c.committed = row[4];
-  c.refused = row[5];
-  c.selector_outside = row[6];
-  c.removed = row[7];
-  outlook.totals.vertices = row[8];
-  outlook.totals.violations_seen = row[9] != 0;
-  outlook.totals.entities_refused = row[10] != 0;
-  outlook.totals.min_edge_hit = row[11] != 0;
+  if (row.size() != outlook.to_row().size()) fail_message("a message of another rank is of another length");
+  std::size_t i = 0;
+  each_field(outlook, [&](auto& value) { value = static_cast<std::remove_reference_t<decltype(value)>>(row[i++]); });
   return outlook;
 }
 
