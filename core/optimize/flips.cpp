@@ -9,15 +9,10 @@
 namespace pgdr {
 
 bool BestFlip::make(CellId c, Judge::Rule rule) {
-  if (!s_->judge.may_change()) return false;
-  const std::uint64_t asked = s_->judge.asked();
-  do {
-    const SizeGuesses::Short decision(s_->judge.sizes());
-    found_ = false;
-    best_quality_ = 0;
-    for (int e = 0; e < 6; ++e) try_edge(c, e, rule);
-    for (int f = 0; f < 4; ++f) try_face(c, f, rule);
-  } while (!s_->judge.settle(asked));
+  found_ = false;
+  best_quality_ = 0;
+  for (int e = 0; e < 6; ++e) try_edge(c, e, rule);
+  for (int f = 0; f < 4; ++f) try_face(c, f, rule);
   return found_ && s_->commit(best_);
 }
 

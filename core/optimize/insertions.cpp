@@ -60,6 +60,7 @@ bool Insertions::keeps_sides(VertexId m) const {
 bool Insertions::split_ring(const Point3& x, Home home) {
   Mesh<3>& mesh = *s_->mesh;
   add_star_of_ring();
+  s_->judge.take_sizes(ring_.cells);
   star_.vertex = x;
   set_freedom(mesh, *s_->domain, home, ring_.cells, star_);
   const Point3 place = placement_.find(star_, s_->judge.quality()).value_or(x);
@@ -115,13 +116,6 @@ bool Insertions::split_edge(CellId c, int edge) {
 /// at a wall, or at too many.
 bool Insertions::dig_out(CellId c, const Point3& p, double enough) {
   const Mesh<3>& mesh = *s_->mesh;
-  const SizeGuesses::Along others(s_->judge.sizes(), [&](SizeGuesses& sizes) {
-    for (const CellId x : cells_)
-      for (int f = 0; f < 4; ++f) {
-        const auto base = mesh.points(face_inwards(mesh.cell(x).vertices, f));
-        sizes.add({base[0], base[1], base[2], p}, mesh.region(x));
-      }
-  });
   take(c);
   while (true) {
     star_.cells.clear();

@@ -30,18 +30,14 @@ class Optimizer final : public ElementTreatment<3> {
         reconnect_(s_),
         insertions_(s_) {}
 
-  void begin_visit() override {
-    s_.replacer.set_area(s_.area());
-    if (s_.judge.sizes()) ask_listed(*s_.judge.sizes());
-  }
+  void begin_visit() override { s_.replacer.set_area(s_.area()); }
   Outcome treat(const Entry<3>& e) override;
   std::uint64_t version(CellId c) const override { return stage_->version(c); }
 
  private:
   /// Is nothing more to be tried for the element?
-  bool is_spent() const { return s_.judge.guessed_wrong() || s_.judge.asked() - evaluated_before_ > stage_->most_a_cell; }
-  Outcome try_to_change(const Entry<3>& e);
-  void ask_listed(SizeGuesses& sizes);
+  bool is_spent() const { return s_.judge.asked() - evaluated_before_ > stage_->most_a_cell; }
+  void ask_about(CellId c);
   bool change(CellId c);
   bool change_cheaply(CellId c, Judge::Rule rule);
   bool open_cheaply(CellId c) { return change_cheaply(c, Judge::Rule::better); }
@@ -62,22 +58,26 @@ class Optimizer final : public ElementTreatment<3> {
   Insertions insertions_;
   std::uint64_t evaluated_before_ = 0;  ///< the element that is treated
   RefineCounts counts_before_;          ///< a compound
-  std::vector<int> levels_;             ///< scratch of list_made()
+  std::vector<CellId> about_;           ///< scratch of ask_about()
 };
 
-/// Asks for the sizes at the cells that wait, by which others are guessed, in one block.
-void Optimizer::ask_listed(SizeGuesses& sizes) {
-  std::size_t count = 0;
-  const auto add = [&](const Entry<3>& e) {
-    std::array<VertexId, 4> vertices;
-    if (e.kind() != EntryKind::cell || count >= SizeGuesses::most_remembered / 2) return;
-    if (!s_.mesh->read_vertices(e.cell, e.birth, vertices) || (s_.area() && !s_.area()->owns(*s_.mesh, vertices))) return;
-    sizes.add(s_.mesh->points(vertices), s_.mesh->region(e.cell));
-    ++count;
+/// Asks for the sizes at the cells that have a vertex of this one, in one block: nearly all cells that a change of it looks at.
+void Optimizer::ask_about(CellId c) {
+  Mesh<3>& mesh = *s_.mesh;
+  const auto vertices = mesh.cell(c).vertices;
+  const auto touches = [&](CellId x) {
+    return std::any_of(vertices.begin(), vertices.end(), [&](VertexId v) { return has_corner(mesh.cell(x).vertices, v); });
   };
-  if (s_.w->visit->treat_list) s_.w->visit->list->for_each(add);
-  for (const Entry<3>& e : s_.w->visit->given) add(e);
-  sizes.ask_added();
+  about_.assign(1, c);
+  mesh.mark(c);
+  for (std::size_t i = 0; i < about_.size() && about_.size() < Judge::most_known / 2; ++i)
+    for (const Link next : mesh.cell(about_[i]).links) {
+      if (!next || mesh.marked(next.cell()) || !s_.owns(next.cell()) || !touches(next.cell())) continue;
+      mesh.mark(next.cell());
+      about_.push_back(next.cell());
+    }
+  for (const CellId x : about_) mesh.unmark(x);
+  s_.judge.ask(about_);
 }
 
 bool Optimizer::change_cheaply(CellId c, Judge::Rule rule) {
@@ -85,7 +85,7 @@ bool Optimizer::change_cheaply(CellId c, Judge::Rule rule) {
     ++s_.w->visit->counts.edge_removals;
     return true;
   }
-  return !s_.judge.guessed_wrong() && vertices_.move(c, rule);
+  return vertices_.move(c, rule);
 }
 
 /// Ends a transaction: mends the poor cells that it has made, and keeps all if they are better than what was there, together.
@@ -94,6 +94,7 @@ bool Optimizer::end_compound(bool begun) {
   for (int round = 0; begun && round < rounds && !is_spent(); ++round) {
     bool any = false;
     const std::vector<CellId> made = s_.transaction.made();
+    s_.judge.ask(made);
     for (const CellId c : made) {
       const auto& now = s_.transaction.made();
       if (is_spent() || std::find(now.begin(), now.end(), c) == now.end() || s_.judge.of(c) >= 1) continue;
@@ -101,10 +102,8 @@ bool Optimizer::end_compound(bool begun) {
     }
     if (!any) break;
   }
-  const bool kept = begun &&
-                    s_.judge.accepts(s_.transaction.made(), s_.judge.standing_of(s_.transaction.removed()),
-                                     Judge::Rule::no_more_poor) &&
-                    s_.judge.may_change();
+  const bool kept = begun && s_.judge.accepts(s_.transaction.made(), s_.judge.standing_of(s_.transaction.removed()),
+                                              Judge::Rule::no_more_poor);
   if (kept) {
     const std::vector<CellId> made = s_.transaction.made();
     s_.transaction.keep(s_.w->pools);
@@ -154,37 +153,21 @@ bool Optimizer::change(CellId c) {
   const bool has_short_edge = s_.w->context.bounds.over_radius_edge(*s_.mesh, c);
   if (list(change_cheaply(c, Judge::Rule::no_more_poor) || (has_short_edge && vertices_.contract(c, Judge::Rule::no_more_poor))))
     return true;
-  if (!strong || !s_.judge.may_change()) return false;  // what follows takes long
+  if (!strong) return false;
   if (list(reconnect_.make(c, Judge::Rule::no_more_poor) || insertions_.dig(c, Judge::Rule::no_more_poor))) return true;
-  if (!s_.judge.may_change()) return false;
   if (make_detour(c) || split_an_edge(c)) return true;
   return !is_spent() && !has_short_edge && list(vertices_.contract(c, Judge::Rule::no_more_poor));
 }
 
 void Optimizer::list_made(const std::vector<CellId>& made) {
-  const std::uint64_t asked = s_.judge.asked();
-  do {
-    levels_.clear();
-    for (const CellId c : made) levels_.push_back(CellQuality::level(s_.judge.of(c)));
-  } while (!s_.judge.settle(asked));
-  for (std::size_t i = 0; i < made.size(); ++i)
-    if (levels_[i] < 0) lister_->list_element(made[i], order_by_level(*s_.mesh, made[i], levels_[i]));
+  for (const CellId c : made)
+    if (const int level = CellQuality::level(s_.judge.of(c)); level < 0)
+      lister_->list_element(c, order_by_level(*s_.mesh, c, level));
 }
 
 Outcome Optimizer::treat(const Entry<3>& e) {
-  const RefineCounts counts = s_.w->visit->counts;
-  const std::uint64_t asked = s_.judge.asked();
-  while (true) {
-    s_.judge.begin(e.cell);
-    const Outcome outcome = try_to_change(e);
-    if (s_.judge.settle(asked)) return outcome;
-    s_.w->visit->counts = counts;
-  }
-}
-
-/// One decision about the element, which is made again if it rests on a wrong guess; then nothing was changed.
-Outcome Optimizer::try_to_change(const Entry<3>& e) {
   s_.out_of_reach = false;
+  if (s_.w->context.bounds.sizes_vary()) ask_about(e.cell);
   evaluated_before_ = s_.judge.asked();
   const bool changed = change(e.cell);
   s_.w->visit->counts.evaluated += s_.judge.asked() - evaluated_before_;

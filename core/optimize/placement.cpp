@@ -168,17 +168,9 @@ void Placement::measure(bool heights) {
   least_ = rated_.empty() ? 1 : rated_[0].value;
 }
 
-/// Where a size is asked for at once, it is for all cells.
-SizeGuesses::Along Placement::all_at(const Point3& x) const {
-  return SizeGuesses::Along(quality_->guesses(), [this, &x](SizeGuesses& sizes) {
-    for (const Star::Cell& cell : star_->cells) sizes.add({cell.base[0], cell.base[1], cell.base[2], x}, cell.region);
-  });
-}
-
 double Placement::value_at(const Rated& r, const Point3& x, bool heights, double enough) const {
   const Star::Cell& cell = star_->cells[r.cell];
   if (!heights) {
-    const SizeGuesses::Along others = all_at(x);
     const double q = quality_->of({cell.base[0], cell.base[1], cell.base[2], x}, cell.region, enough);
     return q > 0 ? q : 0;  // never NaN
   }
@@ -251,7 +243,6 @@ void Placement::model(std::size_t i, bool heights) {
     t.value = height_over_base(cell, x_, t.gradient);
     terms_.push_back(t);
   } else {
-    const SizeGuesses::Along others = all_at(x_);
     quality_->append_terms({cell.base[0], cell.base[1], cell.base[2], x_}, cell.region, share_of_terms, terms_);
   }
   for (std::size_t k = before; k < terms_.size(); ++k) project(*star_, terms_[k].gradient);
@@ -297,9 +288,8 @@ std::size_t Placement::first_turned_over(const Point3& x) const {
   return i;
 }
 
-/// Goes to x if the worst cell is better there; else says which cell is not. Where no cell is turned over, x and all cells are in
-/// the star as it was, so that sizes are asked for in the domain alone. That is looked at first whether or not sizes are asked
-/// for, so that as many qualities are.
+/// Goes to x if the worst cell is better there; else says which cell is not. A cell that is turned over, which is seen quickly,
+/// is looked for before any quality is computed.
 bool Placement::try_place(const Point3& x, bool heights, std::size_t& stopped_by) {
   at_trial_.clear();
   if (!heights && (stopped_by = first_turned_over(x)) < rated_.size()) return false;

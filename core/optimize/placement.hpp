@@ -61,7 +61,6 @@ class Placement {
   Direction step(double trust);
   bool try_place(const Point3& x, bool heights, std::size_t& stopped_by);
   std::size_t first_turned_over(const Point3& x) const;
-  SizeGuesses::Along all_at(const Point3& x) const;
   double value_at(const Rated& r, const Point3& x, bool heights, double enough) const;
 
   const Star* star_ = nullptr;

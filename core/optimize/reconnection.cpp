@@ -210,15 +210,6 @@ Reconnection::Set Reconnection::inner_side(FaceNumber f) {
   return f & 1 ? s.below : s.above;
 }
 
-/// Has the sizes of the cells that may stand on open faces asked for along with one of them.
-void Reconnection::add_cells_on_fronts(SizeGuesses& sizes) {
-  for (const OpenFace& on : fronts_)
-    for (Set left = apexes_[on.face] == unknown_set ? inner_side(on.face) : 0; left; left &= left - 1) {
-      const Placed cell = with_apex(on.face, static_cast<Index>(std::countr_zero(left)));
-      if (qualities_[number_of(cell.corners)] < 0) sizes.add(simplex(cell.corners, cell.turned), given_->region);
-    }
-}
-
 Simplex<3> Reconnection::simplex(const Quad& corners, bool turned) const {
   Simplex<3> s;
   for (int i = 0; i < 4; ++i) s[i] = points_[corners[i]];
@@ -298,7 +289,6 @@ bool Reconnection::crosses(Index p, Index q, std::size_t triple) {
 Reconnection::Set Reconnection::apexes_of(FaceNumber f) {
   Set& known = apexes_[f];
   if (known != unknown_set) return known;
-  const SizeGuesses::Along others(measure_->guesses(), [this](SizeGuesses& sizes) { add_cells_on_fronts(sizes); });
   Set good = 0;
   for (Set left = inner_side(f); left; left &= left - 1) {
     const auto v = static_cast<Index>(std::countr_zero(left));

@@ -89,7 +89,6 @@ class Reconnection {
   const Sides& sides(std::size_t triple);
   Set inner_side(FaceNumber f);
   Simplex<3> simplex(const Polyhedron::Cell& corners, bool turned) const;
-  void add_cells_on_fronts(SizeGuesses& sizes);
   double quality_of(const Polyhedron::Cell& corners, bool turned);
   bool may_be(const Polyhedron::Cell& corners, bool turned);
   bool is_crossed(const Polyhedron::Cell& corners, bool turned);

@@ -38,10 +38,11 @@ struct Surgery {
   VertexId new_vertex(const Point3& p, Home home) { return mesh->new_vertex(w->pools, p, home, 0.f); }
   /// Takes back a vertex that no cell ever had. The last one first.
   void drop_vertex(VertexId v) { w->pools.vertices.give(index(v)); }
-  /// Makes a replacement that the judge has accepted; not if that rests on a wrong guess (Judge::may_change).
+  /// Makes a replacement that the judge has accepted, unless that is to be kept and is not better by the size at each cell.
   bool commit(const Replacement<3>& r) {
-    if (!judge.may_change()) return false;
+    if (!transaction.is_on() && !judge.is_better_by_own_sizes(r)) return false;
     transaction.commit(w->pools, r);
+    if (!transaction.is_on()) judge.learn_made(r, replacer.new_cells());
     return true;
   }
 

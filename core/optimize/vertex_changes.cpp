@@ -67,6 +67,7 @@ bool VertexChanges::move_vertex(CellId c, VertexId v, Judge::Rule rule) {
     for (int n = 0; n < 3; ++n) cell.base[n] = mesh.point(k.vertices[face_corners<3>[star_.corners[i]][n]]);
     points_.cells.push_back(cell);
   }
+  s_->judge.take_sizes(star_.cells);
   points_.vertex = mesh.point(v);
   set_freedom(mesh, *s_->domain, star_.home, star_.cells, points_);
   const auto place = placement_.find(points_, s_->judge.quality());
@@ -87,11 +88,7 @@ bool VertexChanges::move_vertex(CellId c, VertexId v, Judge::Rule rule) {
 
 bool VertexChanges::move(CellId c, Judge::Rule rule) {
   const auto vertices = s_->mesh->cell(c).vertices;
-  for (const VertexId v : vertices) {
-    if (move_vertex(c, v, rule)) return true;
-    if (s_->judge.guessed_wrong()) return false;
-  }
-  return false;
+  return std::any_of(vertices.begin(), vertices.end(), [&](VertexId v) { return move_vertex(c, v, rule); });
 }
 
 /// The corners of the cell, and the vertices beyond its faces, with a cell that has them.

@@ -130,18 +130,6 @@ double CellBounds<D>::measure_of(int region) const {
 }
 
 template <int D>
-bool CellBounds<D>::within_size(const Simplex<D>& s, int region) const {
-  if (!measure_within<D>(s, measure_of(region))) return false;
-  if (!size.bounded() && region_size.empty()) return true;
-  const double bound = size_at(s, region);
-  if constexpr (D == 3) {
-    return circumradius_within<D>(s, bound);
-  } else {
-    return measure_within<D>(s, bound);
-  }
-}
-
-template <int D>
 void CellBounds<D>::sizes_at(std::span<const Point<D>> centroids, std::span<const int> regions, std::span<double> sizes) const {
   ask_checked<D>(size, centroids, sizes);
   if (region_size.empty()) return;
@@ -162,6 +150,12 @@ template <int D>
 bool CellBounds<D>::asks_blocks() const {
   const auto by_blocks = [](const SizingField<D>& field) { return field.is_by_blocks(); };
   return by_blocks(size) || std::any_of(region_size.begin(), region_size.end(), by_blocks);
+}
+
+template <int D>
+bool CellBounds<D>::sizes_vary() const {
+  const auto is_function = [](const SizingField<D>& field) { return !field.is_constant(); };
+  return is_function(size) || std::any_of(region_size.begin(), region_size.end(), is_function);
 }
 
 template <int D>

@@ -79,9 +79,8 @@ class CellBounds {
   void sizes_at(std::span<const Point<D>> centroids, std::span<const int> regions, std::span<double> sizes) const;
   /// Is a bound of size to be asked for many cells at once?
   bool asks_blocks() const;
+  bool sizes_vary() const;              ///< is a bound of size a function of position?
   double measure_of(int region) const;  ///< the least bound of its volume (2D: area); infinity: none
-  /// Would a cell of these corners in the region be within the bounds of size?
-  bool within_size(const Simplex<D>& s, int region) const;
   /// Is the cell over the bound of shape?
   bool over_radius_edge(const Mesh<D>& mesh, CellId c) const;
   /// over_radius_edge() of a cell whose shape is known.

@@ -56,8 +56,7 @@ double least_of_angles(const std::array<Vector3, 4>& n, double of_large_angles) 
 }
 
 /// q of a cell whose radius is the root of `centre2 / twice2`, and that is q but for its size.
-double with_size(const Simplex<3>&, const SizeGuesses::Numbers& numbers, double size) {
-  const auto [q, twice2, centre2] = std::array{numbers[0], numbers[1], numbers[2]};
+double with_size(double q, double twice2, double centre2, double size) {
   if (!(size < CellBounds<3>::infinity) || size * size * twice2 >= q * q * centre2) return q;
   return lower(q, size * std::sqrt(twice2 / centre2));
 }
@@ -72,37 +71,32 @@ double cosine_complement(double degrees) {
   return 2 * sine * sine;
 }
 
-CellQuality::CellQuality(const CellBounds<3>& bounds, double min_dihedral, SizeGuesses* guesses)
-    : bounds_(&bounds),
-      guesses_(guesses),
-      one_minus_cos_(min_dihedral > 0 ? cosine_complement(min_dihedral) * (1 + margin) : 0) {}
+CellQuality::CellQuality(const CellBounds<3>& bounds, double min_dihedral)
+    : bounds_(&bounds), one_minus_cos_(min_dihedral > 0 ? cosine_complement(min_dihedral) * (1 + margin) : 0) {}
 
 double CellQuality::of(const Simplex<3>& s, int region, double enough) const {
-  return of_with(s, region, enough, [&](const SizeGuesses::Numbers& numbers) { return asked(s, region, with_size, numbers); });
+  ++evaluated_;
+  return of_with(s, region, enough, [&] { return size_for(s, region); });
 }
 
 double CellQuality::of_sized(const Simplex<3>& s, int region, double size) const {
-  return of_with(s, region, 0, [&](const SizeGuesses::Numbers& numbers) { return with_size(s, numbers, size); });
+  return of_with(s, region, 0, [size] { return size; });
 }
 
-/// The answer to a question about the size of the cell.
-double CellQuality::asked(const Simplex<3>& s, int region, SizeGuesses::Answer answer,
-                          const SizeGuesses::Numbers& numbers) const {
-  return guesses_ ? guesses_->answer(s, region, answer, numbers) : answer(s, numbers, bounds_->size_at(s, region));
+/// The size at the cell, or what is taken for it.
+double CellQuality::size_for(const Simplex<3>& s, int region) const {
+  if (bounds_->sizes_vary())
+    if (const auto size = sizes_near.at(centroid<3>(s), region)) return *size;
+  return bounds_->size_at(s, region);
 }
 
-bool CellQuality::is_within_size(const Simplex<3>& s, int region) const {
-  if (!guesses_) return bounds_->within_size(s, region);
-  const auto within = [](const Simplex<3>& cell, const SizeGuesses::Numbers&, double size) {
-    return circumradius_within<3>(cell, size) ? 1.0 : 0.0;
-  };
-  return measure_within<3>(s, bounds_->measure_of(region)) && asked(s, region, within, {}) != 0;
+bool CellQuality::is_within_size(const Simplex<3>& s, int region, double size) const {
+  return measure_within<3>(s, bounds_->measure_of(region)) && circumradius_within<3>(s, size);
 }
 
 /// The size is asked for only where the other measures leave it to say.
-template <class Limited>
-double CellQuality::of_with(const Simplex<3>& s, int region, double enough, Limited limited) const {
-  ++evaluated_;
+template <class SizeOf>
+double CellQuality::of_with(const Simplex<3>& s, int region, double enough, SizeOf size_of) const {
   using detail::cross;
   using detail::difference;
   using detail::dot;
@@ -130,7 +124,7 @@ double CellQuality::of_with(const Simplex<3>& s, int region, double enough, Limi
     if (!(part2 >= q2 * q2 * centre2)) q = lower(q, std::sqrt(std::sqrt(part2 / centre2)));
     if (!(q > enough)) return q;
   }
-  q = limited({q, twice2, centre2});
+  q = with_size(q, twice2, centre2, size_of());
   const double measure = bounds_->measure_of(region);
   if (measure < CellBounds<3>::infinity) q = lower(q, 6 * measure / (det * (1 + margin)));
   return q;

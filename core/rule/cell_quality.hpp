@@ -20,7 +20,7 @@
 
 #include "pgdr/types.hpp"
 #include "rule/cell_bounds.hpp"
-#include "rule/size_guesses.hpp"
+#include "rule/local_sizes.hpp"
 
 namespace pgdr {
 
@@ -34,19 +34,21 @@ class CellQuality {
   static constexpr int lowest_level = -10000;  ///< of cells that are flat or turned over
   static constexpr int levels_a_weight = 162;  ///< 1.01 to that power is five
 
-  /// `bounds` must outlive it. `min_dihedral`: the target in degrees, in [0, 60); 0: dihedral angles do not count. `guesses`: of
-  /// these sizes, which must outlive it, too; null: sizes are asked for at once.
-  CellQuality(const CellBounds<3>& bounds, double min_dihedral, SizeGuesses* guesses = nullptr);
+  /// `bounds` must outlive it. `min_dihedral`: the target in degrees, in [0, 60); 0: dihedral angles do not count.
+  CellQuality(const CellBounds<3>& bounds, double min_dihedral);
 
   /// q of a cell of these corners in the region; 0 if it is not positively oriented, as far as doubles tell. Once it is known to
   /// be at most `enough`, some number that is at most `enough`. @throws UsageError bad_size as CellBounds::test
   double of(const Simplex<3>& s, int region, double enough = 0) const;
-  /// q where the size is known: CellBounds::size_at of the cell.
+  /// q where the bound of size at the cell is this. It does not count as an evaluation.
   double of_sized(const Simplex<3>& s, int region, double size) const;
 
-  SizeGuesses* guesses() const { return guesses_; }  ///< null: sizes are asked for at once
-  /// CellBounds::within_size
-  bool is_within_size(const Simplex<3>& s, int region) const;
+  /// In regions where it knows any, the sizes at cells are taken from these, if sizes vary; elsewhere each is asked for.
+  LocalSizes sizes_near;
+  /// Is the cell within the bounds of size and volume of its region?
+  bool is_within_size(const Simplex<3>& s, int region) const { return is_within_size(s, region, size_for(s, region)); }
+  /// The same where the bound of size at the cell is this.
+  bool is_within_size(const Simplex<3>& s, int region, double size) const;
 
   /// One of the numbers whose least is q, for each dihedral angle, the ratio, the radius, and the volume; not cut off at 1.
   struct Term {
@@ -67,14 +69,13 @@ class CellQuality {
   std::uint64_t evaluated() const { return evaluated_; }  ///< how often `of` was called
 
  private:
-  template <class Limited>
-  double of_with(const Simplex<3>& s, int region, double enough, Limited limited) const;
+  template <class SizeOf>
+  double of_with(const Simplex<3>& s, int region, double enough, SizeOf size_of) const;
   static constexpr double of_large_angles = 0.7;  ///< d = 0.7 (1 + c) where c < 0
 
-  double asked(const Simplex<3>& s, int region, SizeGuesses::Answer answer, const SizeGuesses::Numbers& numbers) const;
+  double size_for(const Simplex<3>& s, int region) const;
 
   const CellBounds<3>* bounds_;
-  SizeGuesses* guesses_;  ///< null: sizes are asked for at once
   double one_minus_cos_;  ///< of the target; 0: none
   mutable std::uint64_t evaluated_ = 0;
 };

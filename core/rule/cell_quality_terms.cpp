@@ -44,13 +44,6 @@ LengthTerm shortest_edge(const Simplex<3>& s) {
   return {length, combined(moves ? 1 / length : 0, of_least, 0, of_least)};
 }
 
-/// The size if the term of a cell with this radius may count, as it is no larger than the others' least, times the share if that
-/// is above 1; else infinity.
-double size_if_it_counts(const Simplex<3>&, const SizeGuesses::Numbers& numbers, double size) {
-  const auto [radius, least, share] = std::array{numbers[0], numbers[1], numbers[2]};
-  return size / radius <= std::max(share, 1.0) * least ? size : CellBounds<3>::infinity;
-}
-
 }  // namespace
 
 void CellQuality::append_terms(const Simplex<3>& s, int region, double share, std::vector<Term>& terms) const {
@@ -92,10 +85,7 @@ void CellQuality::append_terms(const Simplex<3>& s, int region, double share, st
     const double value = std::sqrt(ratio_bound * length / radius);
     all[n++] = {value, combined(value / (2 * length), of_shortest, -value / (2 * radius), of_radius)};
   }
-  double least = measure < infinity ? 6 * measure / det : infinity;
-  for (int i = 0; i < n; ++i)
-    if (all[i].value < least) least = all[i].value;
-  if (const double size = asked(s, region, size_if_it_counts, {radius, least, share}); size < infinity) {
+  if (const double size = size_for(s, region); size < infinity) {
     const double value = size / radius;
     all[n++] = {value, combined(-value / radius, of_radius, 0, of_radius)};
   }
@@ -103,6 +93,7 @@ void CellQuality::append_terms(const Simplex<3>& s, int region, double share, st
     const double value = 6 * measure / det;
     all[n++] = {value, combined(-value / det, ab, 0, ab)};
   }
+  double least = infinity;
   for (int i = 0; i < n; ++i)
     if (all[i].value < least) least = all[i].value;
   for (int i = 0; i < n; ++i)
