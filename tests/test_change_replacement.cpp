@@ -14,7 +14,9 @@
 #include <utility>
 #include <vector>
 
+#include "change/flips.hpp"
 #include "changed_meshes.hpp"
+#include "mesh/locally_delaunay.hpp"
 #include "mesh/whole.hpp"
 #include "structure_plcs.hpp"
 
@@ -240,6 +242,66 @@ TEST(ReplacementsInSpace, CountVersionsOnce) {
     for (const VertexId v : about) EXPECT_EQ(mesh.note(v).version, versions[index(v)] + 1);
   }
   EXPECT_GT(flips, 10u);
+  EXPECT_TRUE(detail::is_whole<3>(mesh));
+}
+
+/// Faces of these cells that are not locally Delaunay; those between two of them twice.
+int violations_at(const Mesh<3>& mesh, const std::vector<CellId>& cells) {
+  int count = 0;
+  for (const CellId c : cells)
+    for (int f = 0; f < 4; ++f) count += violates(mesh, c, f);
+  return count;
+}
+
+/// Makes three cells of two where they are positive, `most` times. @returns how often
+std::size_t disturb(ChangedMesh& model, Replacer<3>& replacer, std::size_t most) {
+  Mesh<3>& mesh = model.mesh;
+  std::size_t flips = 0;
+  for (int n = 0; n < 2000 && flips < most; ++n) {
+    const std::vector<CellId> all = model.cells();
+    const CellId c = all[model.below(all.size())];
+    const int face = static_cast<int>(model.below(4));
+    if (!mesh.cell(c).links[face] || mesh.constrained(c, face)) continue;
+    const auto r = three_for_two(mesh, c, face);
+    const auto turned = [&](const auto& cell) { return orient<3>(mesh.points(cell.vertices)) != Sign::positive; };
+    if (std::any_of(r.cells.begin(), r.cells.end(), turned) || !replacer.fits(r)) continue;
+    const int expected = replacer.violations(r, 1000);
+    EXPECT_LE(replacer.violations(r, 0), std::min(expected, 2));
+    replacer.commit(model.pools, r);
+    EXPECT_EQ(expected, violations_at(mesh, replacer.new_cells()));
+    ++flips;
+  }
+  return flips;
+}
+
+// Where a face is flipped that was locally Delaunay, it is flipped back, and all others are left.
+TEST(ReplacementsInSpace, ViolationsAreCountedAndFlippedAway) {
+  ChangedMesh model(test::cube());
+  for (int n = 0; n < 300; ++n) model.insert_anywhere(n);
+  Mesh<3>& mesh = model.mesh;
+  Replacer<3> replacer(mesh);
+  LocalFlips<3> flips(mesh, model.domain);
+  const auto repair = [&] {
+    std::size_t made = 0;
+    for (bool any = true; any && made < 10000;) {
+      any = false;
+      for (const CellId c : model.cells())
+        for (int f = 0; f < 4 && mesh.alive(c); ++f) {
+          if (!violates(mesh, c, f) || flips.repair(model.pools, c, f) != LocalFlips<3>::Outcome::flipped) continue;
+          any = true;
+          ++made;
+        }
+    }
+    return made;
+  };
+  repair();
+  const int before = violations_at(mesh, model.cells());
+  ASSERT_GT(disturb(model, replacer, 60), 20u);
+  EXPECT_GT(violations_at(mesh, model.cells()), before);
+  const std::size_t made = repair();
+  EXPECT_GT(made, 10u);
+  EXPECT_LT(made, 1000u) << "it does not end";
+  EXPECT_LE(violations_at(mesh, model.cells()), before);
   EXPECT_TRUE(detail::is_whole<3>(mesh));
 }
 

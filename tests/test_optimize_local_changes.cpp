@@ -17,7 +17,7 @@
 #include "change/transaction.hpp"
 #include "changed_meshes.hpp"
 #include "mesh/whole.hpp"
-#include "optimize/edge_ring.hpp"
+#include "change/edge_ring.hpp"
 #include "optimize/vertex_star.hpp"
 #include "structure_plcs.hpp"
 

@@ -39,21 +39,21 @@ auto LocalFlips<D>::remove_flat_cell(Pools& pools, CellId c) -> Outcome {
     const auto cell = mesh_->cell(c);
     const auto old = *mesh_->constraints(c);
     const auto ends = corners_without(i, j);
-    if (cell.links[i]) return try_edge(pools, c, edge_without(i, j), Condition::no_worse);
+    if (cell.links[i]) return remove_edge(pools, c, edge_without(i, j), Condition::no_worse);
     // The ridge between the two faces may be no segment, nor the one that takes its place.
     if (old.has_edge(edge_of_ends[i][j]) || old.has_edge(edge_without(i, j))) return Outcome::stuck;
     const std::array edge{cell.vertices[ends[0]], cell.vertices[ends[1]]}, across{cell.vertices[i], cell.vertices[j]};
     if (!crosses_in_facet<D>(*mesh_, *domain_, old.face_entity[i], edge, across)) return Outcome::stuck;
     for (const int end : ends) {
       if (!cell.links[end]) return Outcome::stuck;
-      assert(may_read(cell.links[end].cell()));
       if (!owns(cell.links[end].cell())) return Outcome::not_owned;
     }
-    old_ = {c};
-    new_walls_.clear();
-    for (const int end : ends) new_walls_.push_back(face_without(cell.vertices, end));
-    wall_entity_ = old.face_entity[i];
-    replace(pools, {});
+    tried_.clear();
+    tried_.old = {c};
+    for (const int end : ends) tried_.walls.push_back({face_without(cell.vertices, end), old.face_entity[i]});
+    if (!replacer_.fits(tried_)) return Outcome::stuck;
+    replacer_.commit(pools, tried_);
+    new_cells_ = replacer_.new_cells();
     return Outcome::flipped;
   }
   return Outcome::stuck;

@@ -8,15 +8,16 @@
 // together with the two subfacets of one facet that it lies between.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "change/edge_ring.hpp"
 #include "change/replacement.hpp"
 #include "change/rewrap.hpp"
-#include "mesh/ridge.hpp"
 #include "mesh/visit_area.hpp"
 
 namespace pgdr {
@@ -54,44 +55,15 @@ class LocalFlips {
   const std::vector<CellId>& new_cells() const { return new_cells_; }
 
  private:
-  using Vertices = std::array<VertexId, D + 1>;
-  using NewCell = typename Replacement<D>::Cell;
-  using Face = std::array<VertexId, D>;  // sorted
-  struct OuterFace {
-    Face vertices;
-    Link link;
-    bool constrained;
-  };
-  /// The cells round an edge.
-  struct Ring {
-    std::vector<CellId> cells;    ///< in order
-    std::vector<VertexId> tips;   ///< far corners of the two subfacets at the edge, if it lies inside a facet
-    EntityId entity = no_entity;  ///< that facet
-  };
-  /// What is known of the ring of cells round an edge. Edge stays: it is too long, or its constrained faces allow no flip.
-  enum class RingStatus { whole, not_owned, edge_stays };
-
   bool owns(CellId c) const { return !area_ || area_->owns(*mesh_, c); }
-  bool may_read(CellId c) const { return !area_ || area_->may_read(*mesh_, c); }  ///< for assertions
-  std::vector<NewCell> cells_across(CellId c, int face) const;
-  bool try_two_cells(Pools& pools, CellId c, int face);
+  bool flip_face(Pools& pools, CellId c, int face);
   /// The condition on the number of violations. Better: fewer, or as many if three cells become two. No worse: at most as many.
   enum class Condition { better, no_worse };
-  Outcome try_edge(Pools& pools, CellId c, int edge, Condition condition);
-  bool note_wall(const RidgeWalk<D>& walk, Ring& ring) const;
-  RingStatus take_ring(CellId c, int edge, std::size_t longest, Ring& ring) const;
+  Outcome remove_edge(Pools& pools, CellId c, int edge, Condition condition);
+  void fill_about(VertexId hub);
+  bool commit_if(Pools& pools, int most);
+  int violations_before() const;
   std::optional<std::array<int, 2>> faces_of_flat(CellId c) const;
-  void take_old(std::vector<CellId> cells);
-  int violations() const;
-  std::vector<VertexId> hubs(const Ring& ring, VertexId u, VertexId w) const;
-  std::vector<NewCell> fans(const Ring& ring, VertexId u, VertexId w, VertexId hub) const;
-  void add_walls(const Ring& ring, VertexId u, VertexId w);
-  bool positive(const Vertices& v) const;
-  bool is_wall(const Face& f) const;
-  bool walls_are_free() const;
-  int violations_of(const std::vector<NewCell>& cells, int most);
-  void replace(Pools& pools, const std::vector<NewCell>& cells);
-  const OuterFace* outer(const Face& f) const;
 
   struct NoRewrap {
     explicit NoRewrap(Mesh<D>&) {}
@@ -99,19 +71,14 @@ class LocalFlips {
     void set_ended(const std::function<bool()>&) {}
   };
 
-  static constexpr std::size_t longest_ring = 7;
-
   Mesh<D>* mesh_;
   const Domain<D>* domain_;
   const VisitArea<D>* area_ = nullptr;
   std::conditional_t<D == 3, LocalRewrap, NoRewrap> rewrap_;
   Replacer<D> replacer_;
-  Replacement<D> replacement_;
-  std::vector<CellId> old_, new_cells_;
-  std::vector<OuterFace> outer_;
-  std::vector<Face> faces_;                  ///< of the cells whose violations are counted
-  std::vector<Face> old_walls_, new_walls_;  ///< constrained faces between the old, resp. of the new cells
-  EntityId wall_entity_ = no_entity;
+  Replacement<D> tried_;
+  EdgeRing ring_;  ///< 3D
+  std::vector<CellId> new_cells_;
 };
 
 extern template class LocalFlips<2>;

@@ -232,6 +232,23 @@ bool Replacer<D>::fits(const Replacement<D>& r) {
 }
 
 template <int D>
+int Replacer<D>::violations(const Replacement<D>& r, int most) const {
+  int count = 0;
+  for (const Face& f : faces_) {
+    if (count > most) break;
+    const bool was_hull = f.mades == 2 && f.olds == 1;  // and is no more
+    if (f.mades == 0 || f.is_wall() || (f.was_wall() && !was_hull)) continue;
+    const Link beyond = this->beyond(r, f);
+    if (f.mades == 1 && !beyond) continue;
+    const VertexId apex = f.mades == 2 ? r.cells[number_of(f.made[1])].vertices[face_of(f.made[1])]
+                                       : mesh_->cell(beyond.cell()).vertices[beyond.face()];
+    const auto& cell = r.cells[number_of(f.made[0])];
+    if (in_sphere<D>(mesh_->points(cell.vertices), mesh_->point(apex)) == Sign::positive) count += f.mades;
+  }
+  return count;
+}
+
+template <int D>
 CellId Replacer<D>::make_cell(Pools& pools, const typename Replacement<D>::Cell& cell) {
   assert(!area_ || area_->owns(*mesh_, cell.vertices));
   const CellId c = mesh_->new_cell(pools, cell.region);

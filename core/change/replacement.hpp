@@ -72,6 +72,9 @@ class Replacer {
   /// the old cells stay an edge or face of the new ones, but for those that others of the same entity take the place of, with the
   /// same border; and are the two cells at each unconstrained face of one region? @pre all old cells may be read
   bool fits(const Replacement<D>& r);
+  /// How many faces of the new cells would not be locally Delaunay; those between two of them count twice. No more are counted
+  /// than one or two above `most`. @pre fits(r) was asked last, and said so
+  int violations(const Replacement<D>& r, int most) const;
   /// Makes it: new cells with links, constraints and spheres, listed at pinched edges; notes that the cells at their vertices and
   /// at those of the old ones have changed (VertexNote::version, 3D). A face of the hull that gets a cell on its other side is
   /// constrained no more, unless it is one of the new walls. @pre fits(r); the visit owns the old cells; all new cells are

@@ -8,7 +8,7 @@
 
 #include "change/replacement.hpp"
 #include "change/transaction.hpp"
-#include "optimize/edge_ring.hpp"
+#include "change/edge_ring.hpp"
 #include "optimize/judge.hpp"
 #include "refine/workspace.hpp"
 

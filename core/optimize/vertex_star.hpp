@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "change/replacement.hpp"
-#include "optimize/edge_ring.hpp"
+#include "change/edge_ring.hpp"
 
 namespace pgdr {
 

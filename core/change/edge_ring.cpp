@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "optimize/edge_ring.hpp"
+#include "change/edge_ring.hpp"
 
 #include <algorithm>
 
