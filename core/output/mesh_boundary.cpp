@@ -67,7 +67,7 @@ class BoundaryPoints {
   void keep(const Vertices& vertices) {
     for (const std::uint32_t v : vertices) number_[v] = kept;
   }
-  /// Into `plc`. From then on at() says the new numbers.
+  /// Into `plc`. From then on what is added has the new numbers.
   void hand_over(Plc<D>& plc) {
     const std::size_t attributes = mesh_.points.empty() ? 0 : mesh_.point_attributes.size() / mesh_.points.size();
     for (std::size_t v = 0; v < number_.size(); ++v) {
@@ -79,7 +79,14 @@ class BoundaryPoints {
       plc.point_attributes.insert(plc.point_attributes.end(), first, first + static_cast<std::ptrdiff_t>(attributes));
     }
   }
-  std::uint32_t at(std::uint32_t vertex) const { return number_[vertex]; }
+  void add_segment(Plc<D>& plc, const std::array<std::uint32_t, 2>& ends, int marker) const {
+    plc.segments.push_back({{number_[ends[0]], number_[ends[1]]}, marker});
+  }
+  void add_facet(Plc<D>& plc, const std::array<std::uint32_t, 3>& corners, int marker) const {
+    auto& facet = plc.facets.emplace_back();
+    facet.polygons.push_back({number_[corners[0]], number_[corners[1]], number_[corners[2]]});
+    facet.marker = marker;
+  }
 
  private:
   static constexpr std::uint32_t none = 0xffffffffu, kept = 0;
@@ -99,20 +106,12 @@ Plc<D> boundary_of_mesh(const OutputMesh<D>& mesh) {
   for (const auto& face : surface.faces) points.keep(face);
   Plc<D> plc;
   points.hand_over(plc);
-  const auto add_segment = [&](const std::array<std::uint32_t, 2>& ends, int marker) {
-    plc.segments.push_back({{points.at(ends[0]), points.at(ends[1])}, marker});
-  };
-  for (const auto& s : mesh.subsegments) add_segment(s.vertices, s.marker);
+  for (const auto& s : mesh.subsegments) points.add_segment(plc, s.vertices, s.marker);
   if constexpr (D == 2) {
-    for (const auto& face : surface.faces) add_segment(face, 0);
+    for (const auto& face : surface.faces) points.add_segment(plc, face, 0);
   } else {
-    const auto add_facet = [&](const std::array<std::uint32_t, 3>& corners, int marker) {
-      auto& facet = plc.facets.emplace_back();
-      facet.polygons.push_back({points.at(corners[0]), points.at(corners[1]), points.at(corners[2])});
-      facet.marker = marker;
-    };
-    for (const auto& f : mesh.subfacets) add_facet(f.vertices, f.marker);
-    for (const auto& face : surface.faces) add_facet(face, 0);
+    for (const auto& f : mesh.subfacets) points.add_facet(plc, f.vertices, f.marker);
+    for (const auto& face : surface.faces) points.add_facet(plc, face, 0);
   }
   detail::give_seeds(surface, plc);
   return plc;
