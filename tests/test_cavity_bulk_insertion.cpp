@@ -15,7 +15,7 @@
 #include "cavity/delaunay.hpp"
 #include "pgdr/refine_options.hpp"
 #include "point_sets.hpp"
-#include "run/run_pieces.hpp"
+#include "visits/run_pieces.hpp"
 
 namespace pgdr::test_cavity_bulk_insertion {
 

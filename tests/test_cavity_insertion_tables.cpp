@@ -163,7 +163,7 @@ struct BoxArea : VisitArea<3> {
     home_high = inner_high = high;
   }
   bool claimed(const Point3&) const override { return false; }
-  std::uint32_t region_of(const Point3&, double) const override { return 0; }
+  std::uint32_t node_of(const Point3&, double) const override { return 0; }
 };
 
 TEST(VisitArea, CellsInConflictNoLargerThanThePointIsDeepAreOwned) {

@@ -8,8 +8,8 @@
 #include <random>
 
 #include "check/bounds.hpp"
-#include "check/volumes/input_volumes.hpp"
 #include "dimensions.hpp"
+#include "given/input_volumes.hpp"
 #include "numbers/exact_tests.hpp"
 #include "pgdr/predicates.hpp"
 #include "test_check_models.hpp"

@@ -9,8 +9,8 @@
 #include <random>
 #include <set>
 
-#include "check/given/volumes.hpp"
 #include "domain_plcs.hpp"
+#include "given/volumes.hpp"
 #include "refined_models.hpp"
 #include "structure_plcs.hpp"
 

@@ -13,11 +13,11 @@
 #include <utility>
 #include <vector>
 
+#include "change/edge_ring.hpp"
 #include "change/facet_flip.hpp"
 #include "change/transaction.hpp"
 #include "changed_meshes.hpp"
 #include "mesh/whole.hpp"
-#include "change/edge_ring.hpp"
 #include "optimize/vertex_star.hpp"
 #include "structure_plcs.hpp"
 

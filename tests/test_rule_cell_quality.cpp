@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The measure of cells, against angles by the arc cosine in long doubles.
-#include "rule/cell_quality.hpp"
+#include "optimize/cell_quality.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 
 #include <random>
 
-#include "rule/local_sizes.hpp"
+#include "optimize/local_sizes.hpp"
 
 namespace pgdr::test_rule_local_sizes {
 

@@ -4,8 +4,8 @@
 // The uniform algorithm as the dissertation has it (section 3.2, figures 3.5 and 3.6), in the plane: P blocks of 16 r beside each
 // other, with r = l / (16 sqrt P) of the longest side l, windows of the inner 12 r, which are refined one after the other as if
 // by as many processes, and phases between which blocks and windows are shifted by 8 r along an axis. A visit of a window changes
-// its block alone. Its margin is 2 r, where theorem U (run/uniform.hpp) asks for 3 r at the boundary; so what would change other
-// cells may come up there, and nowhere else. It is set aside for the end of a cycle.
+// its block alone. Its margin is 2 r, where theorem U (plans/uniform.hpp) asks for 3 r at the boundary; so what would change
+// other cells may come up there, and nowhere else. It is set aside for the end of a cycle.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,7 +45,7 @@ class WindowArea final : public VisitArea<2> {
     inner_high = block.high();
   }
   bool claimed(const Point2&) const override { return false; }
-  std::uint32_t region_of(const Point2&, double) const override { return 0; }
+  std::uint32_t node_of(const Point2&, double) const override { return 0; }
 };
 
 /// What came of it.
@@ -104,7 +104,7 @@ class TextSchedule final : public detail::VisitSchedule<2> {
     const auto first = std::stable_partition(waiting_.begin(), waiting_.end(), is_elsewhere);
     for (auto e = first; e != waiting_.end(); ++e) list.push(*e);
     waiting_.erase(first, waiting_.end());
-    RegionVisit<2> visit;
+    NodeVisit<2> visit;
     visit.list = &list;
     visit.small_radius = small_radius;
     visit.floor = small_radius > 0 ? 0 : std::numeric_limits<std::size_t>::max();

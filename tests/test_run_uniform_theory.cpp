@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Why phases of the uniform schedule may run at once, by brute force: the claims of a phase are disjoint and fill space, and so
-// do the windows of all phases; theorem U (run/uniform.hpp), that no insertion reaches beyond its claim while the bound on
+// do the windows of all phases; theorem U (plans/uniform.hpp), that no insertion reaches beyond its claim while the bound on
 // circumradii holds; and how far apart points have to be to be independent, with those that replace them at the boundary.
 #include <gtest/gtest.h>
 
@@ -15,9 +15,9 @@
 #include "dimensions.hpp"
 #include "graded_trees.hpp"
 #include "oracles.hpp"
+#include "plans/uniform.hpp"
 #include "refined_models.hpp"
 #include "run/run_hooks.hpp"
-#include "run/uniform.hpp"
 
 namespace pgdr::test_run_uniform_theory {
 

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "check/reasons.hpp"
-#include "check/regions.hpp"
+#include "given/regions.hpp"
 
 namespace pgdr::checking {
 

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "check/bounds.hpp"
-#include "check/given/volumes.hpp"
+#include "given/volumes.hpp"
 
 namespace pgdr {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <unordered_set>
 
-#include "check/given/edge_net.hpp"
 #include "check/wedges.hpp"
+#include "given/edge_net.hpp"
 #include "numbers/angle_bounds.hpp"
 #include "numbers/exact_tests.hpp"
 #include "numbers/rounding.hpp"

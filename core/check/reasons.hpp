@@ -20,8 +20,8 @@
 #include <string>
 #include <vector>
 
-#include "check/given/entity_angles.hpp"
-#include "check/links.hpp"
+#include "given/entity_angles.hpp"
+#include "given/links.hpp"
 
 namespace pgdr::checking {
 

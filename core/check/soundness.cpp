@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "check/links.hpp"
+#include "given/links.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr::checking {

@@ -7,7 +7,7 @@
 
 #include <optional>
 
-#include "check/links.hpp"
+#include "given/links.hpp"
 
 namespace pgdr::checking {
 

@@ -16,7 +16,7 @@
 
 namespace pgdr {
 
-/// The area of a visit, which does not change during the visit. `claimed` and `region_of` are called by the visit's thread alone.
+/// The area of a visit, which does not change during the visit. `claimed` and `node_of` are called by the visit's thread alone.
 template <int D>
 class VisitArea {
  public:
@@ -34,8 +34,8 @@ class VisitArea {
 
   /// Is the point in the claimed part of space? Asked beyond the inner box.
   virtual bool claimed(const Point<D>& p) const = 0;
-  /// The region that an element with its place at p and this circumradius belongs to.
-  virtual std::uint32_t region_of(const Point<D>& p, double radius) const = 0;
+  /// The node of the tree that an element with its place at p and this circumradius belongs to.
+  virtual std::uint32_t node_of(const Point<D>& p, double radius) const = 0;
 
   /// Does an element with this place and circumradius belong to the visit?
   bool is_home(const Point<D>& p, double radius) const {

@@ -13,8 +13,8 @@
 #include <span>
 #include <vector>
 
+#include "optimize/cell_quality.hpp"
 #include "pgdr/types.hpp"
-#include "rule/cell_quality.hpp"
 
 namespace pgdr {
 

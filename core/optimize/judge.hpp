@@ -27,8 +27,8 @@
 #include <vector>
 
 #include "change/replacement.hpp"
+#include "optimize/cell_quality.hpp"
 #include "refine/workspace.hpp"
-#include "rule/cell_quality.hpp"
 
 namespace pgdr {
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "optimize/optimizer.hpp"
 
+#include "optimize/order_by_level.hpp"
+
 #include <algorithm>
 #include <array>
 #include <vector>

@@ -15,8 +15,8 @@
 #include <optional>
 #include <vector>
 
+#include "optimize/cell_quality.hpp"
 #include "pgdr/types.hpp"
-#include "rule/cell_quality.hpp"
 
 namespace pgdr {
 

@@ -14,8 +14,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "optimize/cell_quality.hpp"
 #include "pgdr/types.hpp"
-#include "rule/cell_quality.hpp"
 
 namespace pgdr {
 

@@ -6,9 +6,9 @@
 
 #include <cstdint>
 
+#include "change/edge_ring.hpp"
 #include "change/replacement.hpp"
 #include "change/transaction.hpp"
-#include "change/edge_ring.hpp"
 #include "optimize/judge.hpp"
 #include "refine/workspace.hpp"
 

@@ -11,8 +11,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "change/replacement.hpp"
 #include "change/edge_ring.hpp"
+#include "change/replacement.hpp"
 
 namespace pgdr {
 

@@ -35,10 +35,10 @@ struct RefineContext {
   int bucket_of(const FilterSphere<D>& sphere) const { return bucket_of(sphere.radius2); }
   /// No circumradius of this bucket or a later one is larger.
   double largest_radius(int bucket) const;
-  /// The element belongs to the region that holds this point: its circumcentre; in a stage with a treatment its centroid, as the
+  /// The element belongs to the node that holds this point: its circumcentre; in a stage with a treatment its centroid, as the
   /// circumcentres of flat cells are anywhere. A function of the points of its vertices.
   Point<D> place_of(CellId c) const { return stage ? centroid<D>(mesh.simplex(c)) : mesh.center(c); }
-  /// An upper bound of the entry's circumradius, by which it belongs to a larger or a smaller region; 0 where that does not
+  /// An upper bound of the entry's circumradius, by which it belongs to a larger or a smaller node; 0 where that does not
   /// count: of other entries than elements, and in a stage.
   double radius_of(const Entry<D>& e) const { return stage || e.kind() != EntryKind::cell ? 0 : largest_radius(e.bucket); }
   /// Since the caller's time limit began to run. Any thread.

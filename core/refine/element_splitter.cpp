@@ -91,9 +91,9 @@ Outcome ElementSplitter<D>::insert(const Candidate<D>& c) {
   return outcome;
 }
 
-/// Looks, while the cavity of x is collected for a poor element, for a face that x encroaches upon and that is known to be refused
-/// for such a demand, and stops there: the face would be split in the element's place, and is refused again. Beside small angles
-/// most elements that stay poor are behind such a face, and many of their cavities have thousands of cells.
+/// Looks, while the cavity of x is collected for a poor element, for a face that x encroaches upon and that is known to be
+/// refused for such a demand, and stops there: the face would be split in the element's place, and is refused again. Beside small
+/// angles most elements that stay poor are behind such a face, and many of their cavities have thousands of cells.
 template <int D>
 class ElementSplitter<D>::RefusedFace final : public Cavity<D>::FaceWatch {
  public:

@@ -22,13 +22,8 @@ constexpr std::uint64_t evaluations_a_poor_cell = 10000;
 /// as many as one element may take. Where nearly all that is poor can be mended a change takes 100 to 800.
 constexpr std::uint64_t evaluations_a_change = 2000;
 
-/// Entry::order of an element whose quality has this level (CellQuality::level): the worst goes first, and of equals the one
-/// with the lesser hash of the coordinates of its vertices, which does not depend on the unit of length.
-template <int D>
-std::uint32_t order_by_level(const Mesh<D>& mesh, CellId c, int level);
-
-/// Treats the poor elements of a worker's visits in a stage of the run. One thread at a time. It counts in RegionVisit::counts
-/// what it changes and evaluates, but for `refused`; inserts no point once RegionVisit::most_insertions are committed; and lists
+/// Treats the poor elements of a worker's visits in a stage of the run. One thread at a time. It counts in NodeVisit::counts
+/// what it changes and evaluates, but for `refused`; inserts no point once NodeVisit::most_insertions are committed; and lists
 /// the poor elements that it makes (WorkLister::list_element).
 template <int D>
 class ElementTreatment {

@@ -198,7 +198,7 @@ template <int D>
 Outcome EntitySplitter<D>::split_edges_instead(const Entry<D>& face, std::span<const Entry<D>> edges, const Demand& demand,
                                                const Demand* cause) {
   cavity_->release();
-  const RegionVisit<D>& visit = *w_->visit;
+  const NodeVisit<D>& visit = *w_->visit;
   const std::uint64_t committed_before = visit.counts.committed;
   Outcome outcome = Outcome::committed;
   for (const Entry<D>& edge : edges) {

@@ -30,7 +30,7 @@ class Inserter {
   /// cells.
   Outcome commit(Home home, double relaxed_radius) {
     w_->cavity.commit(w_->pools, home, rounded_down(relaxed_radius));
-    RegionVisit<D>& visit = *w_->visit;
+    NodeVisit<D>& visit = *w_->visit;
     ++visit.counts.committed;
     lister_->list_inserted();
     // A cavity that was not cut back keeps every face locally Delaunay, if all were.

@@ -22,7 +22,7 @@ template <int D>
 Refiner<D>::~Refiner() = default;
 
 template <int D>
-void Refiner<D>::begin(RegionVisit<D>& visit) {
+void Refiner<D>::begin(NodeVisit<D>& visit) {
   const RefineContext<D>& context = workspace_.context;
   workspace_.visit = &visit;
   workspace_.trace.clear();
@@ -64,7 +64,7 @@ void Refiner<D>::look_at_budget() {
 template <int D>
 bool Refiner<D>::may_go_on() {
   look_at_budget();
-  const RegionVisit<D>& visit = *workspace_.visit;
+  const NodeVisit<D>& visit = *workspace_.visit;
   if (workspace_.context.stop.load(std::memory_order_relaxed) != 0) return false;
   return treatment_ || visit.counts.committed < visit.most_insertions;  // without points a treatment still has something to do
 }
@@ -84,7 +84,7 @@ std::vector<CellName> Refiner<D>::distinct_trace(const Entry<D>& e) {
 
 template <int D>
 void Refiner<D>::record_refusal(const Entry<D>& e) {
-  RegionVisit<D>& visit = *workspace_.visit;
+  NodeVisit<D>& visit = *workspace_.visit;
   Refusal<D> refusal{e, workspace_.refused_by, visit.order, {}, 0, false, 0, 0};
   if (treatment_) {
     refusal.versions = treatment_->version(e.cell) ^ (undecided_ ? 1 : 0);  // another: it is not known that nothing helps
@@ -103,7 +103,7 @@ void Refiner<D>::record_refusal(const Entry<D>& e) {
 /// Within the visit's share of the budget.
 template <int D>
 Outcome Refiner<D>::treat_in_stage(const Entry<D>& e) {
-  RegionVisit<D>& visit = *workspace_.visit;
+  NodeVisit<D>& visit = *workspace_.visit;
   Outcome outcome = Outcome::refused;
   const std::uint64_t paid = std::min(visit.counts.evaluated, evaluations_a_change * visit.counts.changes());
   undecided_ = visit.counts.evaluated >= most_evaluated_ || visit.counts.evaluated - paid >= visit.most_unpaid;
@@ -121,7 +121,7 @@ Outcome Refiner<D>::treat_in_stage(const Entry<D>& e) {
 template <int D>
 void Refiner<D>::treat(const Entry<D>& e) {
   ++treated_;
-  RegionVisit<D>& visit = *workspace_.visit;
+  NodeVisit<D>& visit = *workspace_.visit;
   workspace_.mesh.make_room(workspace_.pools);
   std::array<VertexId, D + 1> vertices;
   if (!workspace_.mesh.read_vertices(e.cell, e.birth, vertices)) return;
@@ -176,7 +176,7 @@ template <int D>
 bool Refiner<D>::sizes_decide() {
   const UnaskedCells<D>& unasked = lister_.unasked();
   if (unasked.empty()) return false;
-  const RegionVisit<D>& visit = *workspace_.visit;
+  const NodeVisit<D>& visit = *workspace_.visit;
   WorkList<D>& list = *visit.list;
   const int next = list.first_bucket_of_too_big();
   if (unasked.first_bucket() < next) return true;
@@ -195,7 +195,7 @@ bool Refiner<D>::any_poor() {
 /// All elements of the list, with the entities before them, until the visit is to end.
 template <int D>
 void Refiner<D>::treat_elements() {
-  RegionVisit<D>& visit = *workspace_.visit;
+  NodeVisit<D>& visit = *workspace_.visit;
   const RefineContext<D>& context = workspace_.context;
   WorkList<D>& list = *visit.list;
   const bool is_short = visit.granularity < RefineContext<D>::buckets;
@@ -210,7 +210,7 @@ void Refiner<D>::treat_elements() {
       treat_entities(Until::none_wait);  // no visit leaves any
       break;
     }
-    // The largest go first before smaller entities, where the region is to be split, or where the visit is to end by size.
+    // The largest go first before smaller entities, where the node is to be split, or where the visit is to end by size.
     const bool by_size = !list.entities.empty() || (crowded && visit.small_radius > 0) || is_short;
     const Entry<D> e = by_size ? list.pop_largest(workspace_.mesh) : list.pop_poor(workspace_.mesh);
     if (workspace_.alive(e)) {
@@ -223,7 +223,7 @@ void Refiner<D>::treat_elements() {
 }
 
 template <int D>
-void Refiner<D>::run(RegionVisit<D>& visit) {
+void Refiner<D>::run(NodeVisit<D>& visit) {
   begin(visit);
   RefineContext<D>& context = workspace_.context;
   WorkList<D>& list = *visit.list;
@@ -249,7 +249,7 @@ void Refiner<D>::run(RegionVisit<D>& visit) {
 }
 
 template <int D>
-void Refiner<D>::repair(RegionVisit<D>& visit) {
+void Refiner<D>::repair(NodeVisit<D>& visit) {
   begin(visit);
   auto& flips = visit.list->flips;
   repair_.allow_for(flips.size());

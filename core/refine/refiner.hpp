@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Delaunay refinement of one region: encroached subsegments first, then subfacets, then poor elements, those that are too
-// big by buckets of a factor of two of the circumradius, largest first, then those of poor shape, shortest edge first
+// Delaunay refinement of one node of the tree: encroached subsegments first, then subfacets, then poor elements, those that are
+// too big by buckets of a factor of two of the circumradius, largest first, then those of poor shape, shortest edge first
 // (work_list.hpp; dissertation, sections 2.1, 3.4).
-// The whole mesh refined as one region is the sequential algorithm.
+// The whole mesh refined as one node is the sequential algorithm.
 //
 // Every run ends, whatever the input angles: see insertion_rule.hpp. What is refused stays, and elements that stay poor
 // name the two input entities that meet at the small angle (poor_reasons.hpp).
@@ -23,7 +23,7 @@
 #include "refine/element_stage.hpp"
 #include "refine/entity_splitter.hpp"
 #include "refine/inserter.hpp"
-#include "refine/region_visit.hpp"
+#include "refine/node_visit.hpp"
 #include "refine/work_lister.hpp"
 #include "refine/workspace.hpp"
 
@@ -40,10 +40,10 @@ class Refiner {
 
   /// Treats what waits, and what that brings forth, until nothing is left that the visit may treat or the run is stopped.
   /// @throws what a callback throws; the mesh is whole then.
-  void run(RegionVisit<D>& visit);
+  void run(NodeVisit<D>& visit);
 
   /// Repairs the violations on the visit's list, and those that this brings, and treats nothing else; until the run is stopped.
-  void repair(RegionVisit<D>& visit);
+  void repair(NodeVisit<D>& visit);
 
   /// Forgets what its treatment has learnt of cells, as when these have got other numbers. Between visits.
   void forget_cells() {
@@ -51,7 +51,7 @@ class Refiner {
     treatment_ = nullptr;
   }
   /// Makes `visit` the one that list_cell lists for.
-  void begin(RegionVisit<D>& visit);
+  void begin(NodeVisit<D>& visit);
   /// Lists what is encroached or poor at a cell that the visit owns.
   void list_cell(CellId c) { lister_.list_cell(c); }
   /// Must be called after the last list_cell: some of it may wait for sizes. @throws what a size function throws

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The work list of one region. Encroached entities go by buckets of the radii of their balls, largest first, in a bucket the
+// The work list of one node. Encroached entities go by buckets of the radii of their balls, largest first, in a bucket the
 // subsegments before the subfacets, each first in first out. So no mesh in between has many small entities and nothing between
 // them, which would have a quadratic number of cells (after Hudson, Miller and Phillips 2006, Sparse Voronoi Refinement). Then
 // violations to be flipped, first in first out, then poor elements. Elements that are too big go by buckets of their
 // circumradius, largest first. Elements of poor shape alone go by their shortest edge, shortest first, which makes meshes up to
-// a third smaller than the largest circumradius first (docs/selectors.md). Where a region must become fit to be split, and
+// a third smaller than the largest circumradius first (docs/selectors.md). Where a node must become fit to be split, and
 // before smaller entities, they go by buckets, too. Plain containers; one thread at a time.
 #pragma once
 
@@ -252,7 +252,7 @@ struct Refusal {
   std::uint64_t versions = 0;      ///< in a stage with a treatment: ElementStage::version of the element, when it was decided
 };
 
-/// The work list of one region, and what was refused there.
+/// The work list of one node, and what was refused there.
 template <int D>
 class WorkList {
  public:
@@ -293,7 +293,7 @@ class WorkList {
   std::size_t poor() const { return waiting_; }
   /// About how many cells will take the place of those that are too big, dead ones among them.
   std::uint64_t to_come() const { return to_come_; }
-  /// Is there work for several regions: do `least` poor elements wait, or will three times as many cells take the place of those
+  /// Is there work for several nodes: do `least` poor elements wait, or will three times as many cells take the place of those
   /// that are too big?
   bool is_crowded(std::size_t least) const { return waiting_ >= least || to_come_ >= 3 * least; }
   /// The same of the elements in those buckets alone that `counts(bucket)`.

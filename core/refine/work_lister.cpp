@@ -19,7 +19,7 @@ void WorkLister<D>::list_poor(CellId c, int why, const FilterSphere<D>& sphere, 
 
 template <int D>
 bool WorkLister<D>::is_home(const Entry<D>& e, const Point<D>& place) const {
-  const RegionVisit<D>& visit = *w_->visit;
+  const NodeVisit<D>& visit = *w_->visit;
   assert(!visit.area || visit.area->owns(*mesh_, e.cell));
   return !visit.area || visit.area->is_home(place, w_->context.radius_of(e));
 }
@@ -174,11 +174,11 @@ void WorkLister<D>::fill_outboxes() {
   box_of_.clear();
   box_sizes_.clear();
   for (const Entry<D>& e : elsewhere_) {
-    const std::uint32_t region = w_->visit->area->region_of(w_->context.place_of(e.cell), w_->context.radius_of(e));
+    const std::uint32_t node = w_->visit->area->node_of(w_->context.place_of(e.cell), w_->context.radius_of(e));
     std::size_t box = boxes.size();
-    while (box > 0 && boxes[box - 1].region != region) --box;
+    while (box > 0 && boxes[box - 1].node != node) --box;
     if (box == 0) {
-      boxes.push_back({region, {}});
+      boxes.push_back({node, {}});
       box_sizes_.push_back(0);
       box = boxes.size();
     }

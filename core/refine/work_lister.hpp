@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The lister of work: it puts encroached entities and poor elements at new cells, and violations, on the work list of the visit.
-// Elements that belong to another region (VisitArea) go to the outbox for that at the end of the visit. Where sizes are asked by
+// Elements that belong to another node (VisitArea) go to the outbox for that at the end of the visit. Where sizes are asked by
 // blocks, new cells wait until they are asked for (unasked_cells.hpp).
 #pragma once
 
@@ -57,7 +57,7 @@ class WorkLister {
   const UnaskedCells<D>& unasked() const { return unasked_; }
   /// Asks for these, in one block, and lists the poor ones. @throws UsageError bad_size; what the size function throws
   void ask_sizes();
-  /// Asks for these, and for those that belong to other regions and live, and fills the outboxes of the visit. Most entries do
+  /// Asks for these, and for those that belong to other nodes and live, and fills the outboxes of the visit. Most entries do
   /// not live until its end, and the visit, which owns their cells, can tell.
   void fill_outboxes();
 

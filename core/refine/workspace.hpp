@@ -14,7 +14,7 @@
 #include "cavity/cavity.hpp"
 #include "mesh/entity_pair.hpp"
 #include "refine/context.hpp"
-#include "refine/region_visit.hpp"
+#include "refine/node_visit.hpp"
 
 namespace pgdr {
 
@@ -79,9 +79,9 @@ struct Workspace {
   Mesh<D>& mesh;
   const Domain<D>& domain;
   const RefineOptions<D>& options;
-  Pools pools;                      ///< of this worker
-  Cavity<D> cavity;                 ///< of the insertion that is being tried
-  RegionVisit<D>* visit = nullptr;  ///< that runs
+  Pools pools;                    ///< of this worker
+  Cavity<D> cavity;               ///< of the insertion that is being tried
+  NodeVisit<D>* visit = nullptr;  ///< that runs
   EntityAngles<D> angles;
   std::vector<CellId> trace;             ///< cells that were looked at to decide about the entry treated, with repetitions
   bool trace_alone = false;              ///< do these decide, whatever their neighbours are?

@@ -30,7 +30,7 @@ class ClaimedArea final : public VisitArea<D> {
     return Claim<D>::of_box(tree, node, GridBox<D>::around(tree, node, 0)).inner();
   }
   bool claimed(const Point<D>& p) const override { return claim_->contains(p); }
-  std::uint32_t region_of(const Point<D>& p, double radius) const override { return placement_->node_of(p, radius); }
+  std::uint32_t node_of(const Point<D>& p, double radius) const override { return placement_->node_of(p, radius); }
 
  private:
   const Placement<D>* placement_;

@@ -80,8 +80,8 @@ void write_mesh(Transport& transport, const std::string& file, const Distributed
 template <int D>
 QualitySummary summarize_quality(Transport& transport, const MeshPiece<D>& piece);
 
-/// What count_not_delaunay(mesh, violations_seen) counts in the mesh of all pieces, on all ranks. A rank gets the cells beside its
-/// own. All ranks call it. @throws ResourceError, RankFailure
+/// What count_not_delaunay(mesh, violations_seen) counts in the mesh of all pieces, on all ranks. A rank gets the cells beside
+/// its own. All ranks call it. @throws ResourceError, RankFailure
 template <int D>
 NotDelaunay count_not_delaunay(Transport& transport, const DistributedResult<D>& result);
 

@@ -89,10 +89,10 @@ struct VisitTrace {
   double end;                                               ///< seconds
   std::uint32_t leaf;                                       ///< node of the tree
   std::uint32_t level;                                      ///< of the leaf; 0 is the root
-  std::uint32_t order;                                      ///< of its claim: RefineOptions::claims; `whole_tree` for all of space
-  std::uint64_t generation;                                 ///< counted from 1
-  std::uint64_t committed;                                  ///< insertions
-  std::uint64_t set_aside;                                  ///< attempts left to a visit that claims more
+  std::uint32_t order;       ///< of its claim: RefineOptions::claims; `whole_tree` for all of space
+  std::uint64_t generation;  ///< counted from 1
+  std::uint64_t committed;   ///< insertions
+  std::uint64_t set_aside;   ///< attempts left to a visit that claims more
 };
 
 /// A mesh and all that is known about how it came to be. `mesh` and its arrays may be moved out.

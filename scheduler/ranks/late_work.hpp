@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "ranks/sent_entry.hpp"
-#include "run/waiting_work.hpp"
+#include "visits/waiting_work.hpp"
 
 namespace pgdr::detail {
 

@@ -10,16 +10,16 @@
 namespace pgdr::detail {
 
 template <int D>
-void Letters<D>::take(Node visited, std::uint64_t phase, RegionVisit<D>& visit, LateWork<D>& late) {
+void Letters<D>::take(Node visited, std::uint64_t phase, NodeVisit<D>& visit, LateWork<D>& late) {
   const std::vector<int>& neighbours = territory_->neighbours();
   const std::uint64_t number = tree_->morton(visited);
   std::uint64_t kept = 0;
   for (auto& box : visit.outboxes) {
-    if (tree_->level(box.region) < territory_->level()) {
-      for (const Entry<D>& e : box.entries) late.add_entry({phase, number, kept++}, LateWork<D>::Kind::found, box.region, 1, e);
+    if (tree_->level(box.node) < territory_->level()) {
+      for (const Entry<D>& e : box.entries) late.add_entry({phase, number, kept++}, LateWork<D>::Kind::found, box.node, 1, e);
       continue;
     }
-    Letter letter{number, box.region, std::move(box.entries)};
+    Letter letter{number, box.node, std::move(box.entries)};
     const int owner = territory_->owner(letter.node);
     const auto at = std::lower_bound(neighbours.begin(), neighbours.end(), owner);
     if (owner == territory_->rank())

@@ -10,8 +10,8 @@
 #include "ranks/held_mesh.hpp"
 #include "ranks/late_work.hpp"
 #include "ranks/territory.hpp"
-#include "refine/region_visit.hpp"
-#include "run/waiting_work.hpp"
+#include "refine/node_visit.hpp"
+#include "visits/waiting_work.hpp"
 
 namespace pgdr::detail {
 
@@ -27,7 +27,7 @@ class Letters {
 
   /// Takes what is in the outboxes of a visit of this node: for nodes of this rank, of its neighbours, and, to be kept, of none.
   /// @throws ResourceError internal: for a node of another rank, which would be too far away
-  void take(Node visited, std::uint64_t phase, RegionVisit<D>& visit, LateWork<D>& late);
+  void take(Node visited, std::uint64_t phase, NodeVisit<D>& visit, LateWork<D>& late);
   /// Writes what is for this neighbour.
   void put(MessageWriter& message, std::size_t neighbour) const;
   /// Adds what a neighbour wrote. @throws ResourceError internal: there is no such node or cell here

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "run/run_state.hpp"
-#include "run/uniform.hpp"
+#include "plans/uniform.hpp"
+#include "visits/run_state.hpp"
 
 namespace pgdr::detail {
 

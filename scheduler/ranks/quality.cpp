@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // How good a mesh is of which each rank has a piece. Ranks tell each other counts of regions and of values, never cells.
-#include "output/quality_of_part.hpp"
 #include "pgdr/ranks.hpp"
+#include "quality/quality_of_part.hpp"
 #include "transport/collectives.hpp"
 #include "transport/message.hpp"
 

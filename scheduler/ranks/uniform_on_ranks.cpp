@@ -322,11 +322,11 @@ PlannedVisits<D> UniformOnRanks<D>::plan_together() {
   });
   // Ranks own successive nodes of the Morton curve, which orders the visits.
   plan.numbers = {outlook_.visits_before, outlook_.visits};
-  plan.hooks.before = [this](VisitGraph::Visit v, RegionVisit<D>& visit) {
+  plan.hooks.before = [this](VisitGraph::Visit v, NodeVisit<D>& visit) {
     uniform_.limit(visit);
     visit.log = &changes_[v].log;
   };
-  plan.hooks.after = [this](VisitGraph::Visit v, RegionVisit<D>& visit) {
+  plan.hooks.after = [this](VisitGraph::Visit v, NodeVisit<D>& visit) {
     changes_[v].pack(state_->context.mesh, *held_);
     visit.log = nullptr;
   };
@@ -404,7 +404,7 @@ void UniformOnRanks<D>::take_in(const Generation<D>& generation, std::vector<End
   RunState<D>& state = *state_;
   for (std::size_t v = 0; v < ended.size(); ++v) {
     const VisitRequest& request = generation.visits[v].request;
-    RegionVisit<D>& work = ended[v].work;
+    NodeVisit<D>& work = ended[v].work;
     if (tree().level(request.node) == territory_->level()) {  // the node above is nobody's
       const Node above = tree().parent(request.node);
       const std::uint32_t order = above == Orthtree<D>::root ? whole_tree : 2;

@@ -26,6 +26,7 @@
 #include <vector>
 
 #include "pgdr/ranks.hpp"
+#include "plans/uniform.hpp"
 #include "ranks/cell_message.hpp"
 #include "ranks/held_mesh.hpp"
 #include "ranks/late_work.hpp"
@@ -33,7 +34,6 @@
 #include "ranks/outlook.hpp"
 #include "ranks/territory.hpp"
 #include "ranks/visit_changes.hpp"
-#include "run/uniform.hpp"
 #include "transport/collectives.hpp"
 
 namespace pgdr::detail {

@@ -6,10 +6,11 @@
 #include <array>
 #include <utility>
 
+#include "optimize/cell_quality.hpp"
+#include "optimize/order_by_level.hpp"
 #include "pgdr/circumsphere.hpp"
 #include "pgdr/predicates.hpp"
 #include "reasons/optimized_reasons.hpp"
-#include "rule/cell_quality.hpp"
 #include "rule/sizes_of_cells.hpp"
 #include "space/bulk.hpp"
 

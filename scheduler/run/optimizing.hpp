@@ -15,8 +15,8 @@
 #include "optimize/optimizer.hpp"
 #include "pgdr/refine.hpp"
 #include "reasons/poor_reasons.hpp"
-#include "run/cell_parts.hpp"
-#include "run/run_state.hpp"
+#include "visits/cell_parts.hpp"
+#include "visits/run_state.hpp"
 
 namespace pgdr::detail {
 

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "reasons/poor_reasons.hpp"
-#include "run/cell_parts.hpp"
-#include "run/run_state.hpp"
 #include "run/violation_scan.hpp"
+#include "visits/cell_parts.hpp"
+#include "visits/run_state.hpp"
 
 namespace pgdr::detail {
 

@@ -27,14 +27,14 @@
 #include "reasons/poor_reasons.hpp"
 #include "reasons/sharp_corners.hpp"
 #include "rule/cell_bounds.hpp"
-#include "run/cell_parts.hpp"
 #include "run/cells_ahead.hpp"
-#include "run/deadline.hpp"
 #include "run/folded_facets.hpp"
 #include "run/refinement.hpp"
-#include "run/run_pieces.hpp"
 #include "run/unused_points.hpp"
 #include "size/region_sizes.hpp"
+#include "visits/cell_parts.hpp"
+#include "visits/deadline.hpp"
+#include "visits/run_pieces.hpp"
 
 namespace pgdr {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "pgdr/point_selector.hpp"
-#include "run/generations.hpp"
-#include "run/greedy.hpp"
-#include "run/uniform.hpp"
+#include "plans/generations.hpp"
+#include "plans/greedy.hpp"
+#include "plans/uniform.hpp"
 #include "space/bulk.hpp"
 
 namespace pgdr::detail {
@@ -112,7 +112,7 @@ StopCause Refinement<D>::list_everything() {
 template <int D>
 auto Refinement<D>::list_cells(std::size_t first, std::size_t last) -> Listed {
   WorkList<D> list;
-  RegionVisit<D> listing;
+  NodeVisit<D> listing;
   listing.list = &list;
   const auto worker = state_.workers.lease();
   worker->begin(listing);
@@ -228,7 +228,7 @@ template <int D>
 void Refinement<D>::repair_standing_violations() {
   WorkList<D> list;
   for (const Entry<D>& e : violations_.standing()) list.flips.push(e);
-  RegionVisit<D> visit;
+  NodeVisit<D> visit;
   visit.list = &list;
   visit.entities_refused = state_.totals.entities_refused;
   {

@@ -15,8 +15,8 @@
 #include "run/optimizing.hpp"
 #include "run/poor_search.hpp"
 #include "run/run_hooks.hpp"
-#include "run/run_state.hpp"
 #include "run/violation_scan.hpp"
+#include "visits/run_state.hpp"
 
 namespace pgdr::detail {
 

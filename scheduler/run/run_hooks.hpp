@@ -10,8 +10,8 @@
 #include "boundary/labeling.hpp"
 #include "compact/point_data.hpp"
 #include "pgdr/refine.hpp"
-#include "run/run_pieces.hpp"
-#include "run/run_state.hpp"
+#include "visits/run_pieces.hpp"
+#include "visits/run_state.hpp"
 
 namespace pgdr::detail {
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "mesh/slot_set.hpp"
-#include "run/cell_parts.hpp"
-#include "run/run_state.hpp"
+#include "visits/cell_parts.hpp"
+#include "visits/run_state.hpp"
 
 namespace pgdr::detail {
 

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What is left of given triangles, plane by plane, in triangles that meet each other and the walls of the mesh at common edges,
+// so that the volumes between all of them are those of the input.
+//
+// How many given triangles cover a place of their plane changes across edges of these alone, by as many as have the place on
+// their one side more than on the other; so it is known everywhere from its changes: it is 0 far away. The same holds of the
+// subfacets of the mesh. So the borders of what is left are found without a look at any place, and a diagonal, or the common
+// border of two facets, is none. The sum of the changes round a point is 0 however it is rounded.
+#pragma once
+
+#include "given/input_volumes.hpp"
+#include "given/match.hpp"
+
+namespace pgdr::checking {
+
+/// Appends them to the walls of the mesh, each an entity of its own. Corners are vertices of the mesh where it has any.
+/// @throws InputError entities_intersect, if the leftovers make no complex.
+void append_flat_leftovers(const GivenTask<3>& task, const GivenMatch<3>& match, VolumeWalls<3>& walls);
+
+}  // namespace pgdr::checking

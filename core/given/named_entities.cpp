@@ -1,0 +1,211 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "given/named_entities.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "given/cover.hpp"
+#include "given/edge_net.hpp"
+#include "given/flat_groups.hpp"
+#include "space/distances.hpp"
+#include "space/make_set.hpp"
+
+namespace pgdr::checking {
+
+template <int D>
+NamedEntities<D>::NamedEntities(const GivenTask<D>& task, const GivenMatch<D>& match, std::span<const std::uint32_t> sorted)
+    : mesh_(task.mesh), input_(task.input), match_(match), sorted_(sorted), is_given_(mesh_.points.size(), 0) {
+  for (const std::uint32_t v : match.vertex_of_point)
+    if (v != none) is_given_[v] = 1;
+}
+
+template <int D>
+const NamedEntity<D>* NamedEntities<D>::find(const GivenEntity& name) {
+  const auto known = [&](auto& entities, const auto& key, const auto& make) -> const NamedEntity<D>* {
+    const auto [at, fresh] = entities.try_emplace(key);
+    if (fresh) make(at->second);
+    return at->second ? &*at->second : nullptr;
+  };
+  if (name.kind == EntityKind::segment)
+    return known(segments_, std::array{std::min(name.ends[0], name.ends[1]), std::max(name.ends[0], name.ends[1])},
+                 [&](auto& out) {
+                   make_segment(name.ends, out.emplace());
+                   if (out->ends[0] == out->ends[1] || !is_covered(*out)) out.reset();
+                 });
+  if (D == 3 && name.kind == EntityKind::facet)
+    return known(facets_, name.facet, [&](auto& out) {
+      make_facet(name.facet, out.emplace());
+      if (out->triangles.empty()) out.reset();
+    });
+  return nullptr;
+}
+
+template <int D>
+std::uint32_t NamedEntities<D>::number_of(const Point<D>& x) {
+  const auto at = std::lower_bound(sorted_.begin(), sorted_.end(), x,
+                                   [&](std::uint32_t v, const Point<D>& y) { return lex_less(mesh_.points[v], y); });
+  if (at != sorted_.end() && mesh_.points[*at] == x) return *at;
+  const auto next = static_cast<std::uint32_t>(mesh_.points.size() + further_points_.size());
+  const auto [known, fresh] = further_numbers_.try_emplace(x.x, next);
+  if (fresh) further_points_.push_back(x);
+  return known->second;
+}
+
+template <int D>
+void NamedEntities<D>::make_segment(std::array<std::array<double, 3>, 2> of, NamedEntity<D>& out) {
+  out.kind = EntityKind::segment;
+  std::sort(of.begin(), of.end());
+  std::array<Point<D>, 2> ends;
+  for (std::size_t k = 0; k < 2; ++k) {
+    for (int i = 0; i < D; ++i) ends[k][i] = of[k][static_cast<std::size_t>(i)];
+    for (const double x : ends[k].x)
+      if (!std::isfinite(x)) return;
+    out.ends[k] = number_of(ends[k]);
+    out.points.push_back(out.ends[k]);
+  }
+  if (!subsegments_) {
+    std::vector<detail::Box<D>> boxes;
+    for (const auto& s : mesh_.subsegments)
+      boxes.push_back(detail::Box<D>::of(std::array{mesh_.points[s.vertices[0]], mesh_.points[s.vertices[1]]}));
+    subsegments_ = std::make_unique<detail::BoxTree<D>>(boxes);
+  }
+  if (out.ends[0] == out.ends[1]) return;
+  subsegments_->meeting(detail::Box<D>::of(ends).widened(input_.reach()), [&](std::uint32_t s) {
+    const auto& v = mesh_.subsegments[s].vertices;
+    if (!is_near<D>(mesh_.points[v[0]], ends, input_.reach()) || !is_near<D>(mesh_.points[v[1]], ends, input_.reach())) return;
+    out.edges.push_back({sorted_edge(v[0], v[1]), s});
+    out.points.insert(out.points.end(), v.begin(), v.end());
+  });
+  std::sort(out.edges.begin(), out.edges.end());
+  detail::make_set(out.points);
+}
+
+/// Subsegments have all of it, or what was given and is not in the mesh has the rest.
+template <int D>
+bool NamedEntities<D>::is_covered(const NamedEntity<D>& segment) const {
+  const std::array<Point<D>, 2> ends{point(segment.ends[0]), point(segment.ends[1])};
+  std::vector<CoveringSegment<D>> covers;
+  for (const auto& [v, s] : segment.edges) covers.push_back({{mesh_.points[v[0]], mesh_.points[v[1]]}, input_.reach()});
+  if (uncovered_parts<D>(ends, covers).empty()) return true;
+  const double reach = 2 * input_.tolerance() + input_.rounding();
+  const auto box = detail::Box<D>::of(ends);
+  const auto add = [&](std::uint32_t p, std::uint32_t q) {
+    const std::array<Point<D>, 2> given{input_.point(p), input_.point(q)};
+    if (detail::Box<D>::of(given).widened(reach).meets(box)) covers.push_back({given, reach});
+  };
+  for (const GivenSegment& s : input_.segments()) add(s.points[0], s.points[1]);
+  for (const GivenTriangle& t : input_.triangles())
+    for (int i = 0; i < 3; ++i) add(t.points[i], t.points[(i + 1) % 3]);
+  return uncovered_parts<D>(ends, covers).empty();
+}
+
+template <int D>
+void NamedEntities<D>::add_triangle(const std::array<std::uint32_t, 3>& t, NamedEntity<D>& out) const {
+  if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return;
+  const auto number = static_cast<std::uint32_t>(out.triangles.size());
+  out.triangles.push_back(t);
+  for (std::size_t i = 0; i < 3; ++i) {
+    out.edges.push_back({sorted_edge(t[(i + 1) % 3], t[(i + 2) % 3]), t[i]});
+    out.at.emplace_back(t[i], number);
+    out.points.push_back(t[i]);
+  }
+}
+
+template <int D>
+void NamedEntities<D>::make_facet(std::uint32_t facet, NamedEntity<D>& out) {
+  if constexpr (D == 3) {
+    out.kind = EntityKind::facet;
+    join_flat_parts();
+    const auto triangles = input_.triangles();
+    const auto count = static_cast<std::uint32_t>(triangles.size());
+    const auto first = std::ranges::lower_bound(triangles, facet, {}, &GivenTriangle::facet);
+    for (auto t = first; t != triangles.end() && t->facet == facet; ++t)
+      out.parts.push_back(flat_->find(static_cast<std::uint32_t>(t - triangles.begin())));
+    detail::make_set(out.parts);
+    const auto corner = [&](std::uint32_t p) {
+      const std::uint32_t v = match_.vertex_of_point[p];
+      return v != none ? v : number_of(input_.point(p));
+    };
+    std::array<bool, 3> is_level{true, true, true};
+    for (const std::uint32_t part : out.parts)
+      for (auto at = std::ranges::lower_bound(by_flat_, std::pair{part, 0u}); at != by_flat_.end() && at->first == part; ++at) {
+        const std::uint32_t i = at->second;
+        if (i >= count) {
+          add_triangle(mesh_.subfacets[i - count].vertices, out);
+        } else {
+          const auto& p = triangles[i].points;
+          add_triangle({corner(p[0]), corner(p[1]), corner(p[2])}, out);
+          out.off = std::max(out.off, match_.reach[i]);
+        }
+      }
+    std::vector<detail::Box<3>> boxes;
+    for (const auto& t : out.triangles) {
+      boxes.push_back(detail::Box<3>::of(std::array{point(t[0]), point(t[1]), point(t[2])}));
+      for (int k = 0; k < 3; ++k)
+        is_level[k] = is_level[k] && boxes.back().low[k] == boxes[0].low[k] && boxes.back().high[k] == boxes[0].low[k];
+    }
+    out.is_loose = out.off > 1.5 * input_.reach();
+    if (is_level[0] || is_level[1] || is_level[2]) out.off = 0;
+    std::sort(out.edges.begin(), out.edges.end());
+    std::sort(out.at.begin(), out.at.end());
+    detail::make_set(out.points);
+    out.tree = std::make_unique<detail::BoxTree<3>>(boxes);
+  }
+}
+
+template <int D>
+void NamedEntities<D>::join_flat_parts() {
+  if constexpr (D == 3) {
+    if (flat_) return;
+    const auto count = static_cast<std::uint32_t>(input_.triangles().size());
+    flat_ = flat_groups(input_, mesh_.subfacets.size(), nullptr);
+    const auto marker = [&](std::uint32_t s) { return mesh_.subfacets[s].marker; };
+    const auto corners = [&](std::uint32_t s) {
+      const auto& v = mesh_.subfacets[s].vertices;
+      return std::array{mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]};
+    };
+    const auto is_even = [](const std::array<Point3, 3>& triangle, const std::array<Point3, 3>& other, double reach) {
+      return std::ranges::all_of(other, [&](const Point3& x) { return may_be_even(triangle, x, reach); });
+    };
+    for (const OnGiven& on : match_.on_given) {
+      const GivenTriangle& t = input_.triangles()[on.given];
+      if (marker(on.wall) == input_.marker(t) && is_even(input_.corners(t), corners(on.wall), match_.reach[on.given]))
+        flat_->unite(on.given, count + on.wall);
+    }
+    std::vector<NamedEntity<3>::AtEdge> edges;  // with the subfacet in place of its apex
+    for (std::uint32_t s = 0; s < mesh_.subfacets.size(); ++s)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto& v = mesh_.subfacets[s].vertices;
+        edges.push_back({sorted_edge(v[(i + 1) % 3], v[(i + 2) % 3]), s});
+      }
+    std::sort(edges.begin(), edges.end());
+    for (std::size_t i = 0, j; i < edges.size(); i = j) {
+      for (j = i + 1; j < edges.size() && edges[j].ends == edges[i].ends;) ++j;
+      const std::uint32_t s = edges[i].apex, t = edges[j - 1].apex;
+      if (j - i != 2 || marker(s) != marker(t)) continue;
+      const auto of_s = corners(s), of_t = corners(t);
+      if (is_even(of_s, of_t, input_.reach()) && is_even(of_t, of_s, input_.reach())) flat_->unite(count + s, count + t);
+    }
+    for (std::uint32_t i = 0; i < count + mesh_.subfacets.size(); ++i) by_flat_.emplace_back(flat_->find(i), i);
+    std::sort(by_flat_.begin(), by_flat_.end());
+  }
+}
+
+template <int D>
+bool NamedEntities<D>::is_within(const Point<D>& x, double distance, const NamedEntity<D>& entity) const {
+  if (entity.kind == EntityKind::segment)
+    return std::sqrt(detail::closest_to_edge(x, point(entity.ends[0]), point(entity.ends[1])).square) <= distance;
+  bool found = false;
+  if constexpr (D == 3)
+    entity.tree->meeting(detail::Box<3>::around(x).widened(distance), [&](std::uint32_t t) {
+      const auto& v = entity.triangles[t];
+      found = found || std::sqrt(detail::closest_to_triangle(x, point(v[0]), point(v[1]), point(v[2])).square) <= distance;
+    });
+  return found;
+}
+
+template class NamedEntities<2>;
+template class NamedEntities<3>;
+
+}  // namespace pgdr::checking

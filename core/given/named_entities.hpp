@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What reasons name: segments and facets of the input as given, in what of them is in the mesh, and what was given. Nothing is
+// told again of how the input was prepared. A segment is straight, from end to end, and subsegments, or given segments and edges
+// of facets, have all of it. A facet is all that hangs together with the one that is named: given triangles of one marker across
+// edges of two that may lie in one plane, and subfacets, likewise, and on each other.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "given/match.hpp"
+#include "pgdr/poor_reason.hpp"
+#include "space/box_tree.hpp"
+#include "space/disjoint_sets.hpp"
+#include "space/planar_cdt.hpp"
+
+namespace pgdr::checking {
+
+/// Points are numbers of NamedEntities::point.
+template <int D>
+struct NamedEntity {
+  /// A triangle at an edge, by the corner opposite; a subsegment, by its number.
+  struct AtEdge {
+    detail::PlanarEdge ends;  ///< sorted
+    std::uint32_t apex;
+    friend auto operator<=>(const AtEdge&, const AtEdge&) = default;
+  };
+  EntityKind kind = EntityKind::volume;
+  std::array<std::uint32_t, 2> ends{none, none};            ///< of a segment
+  std::vector<std::uint32_t> parts;                         ///< of a facet: the sets that it is, sorted
+  std::vector<std::array<std::uint32_t, 3>> triangles;      ///< of a facet
+  std::vector<AtEdge> edges;                                ///< of these, or subsegments of a segment, sorted
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> at;  ///< a point, and a triangle with it, sorted
+  std::vector<std::uint32_t> points;                        ///< all, sorted
+  std::unique_ptr<detail::BoxTree<D>> tree;                 ///< of the triangles
+  double off = 0;                                           ///< how far points of a facet, that were not given, may be off it
+  bool is_loose = false;  ///< so may be those that were given: they do not lie in one plane, or were moved
+
+  bool has(std::uint32_t point) const { return std::binary_search(points.begin(), points.end(), point); }
+};
+
+/// One thread, as it remembers what it was asked for.
+template <int D>
+class NamedEntities {
+ public:
+  /// All must outlive it. @param sorted the vertices by their coordinates
+  NamedEntities(const GivenTask<D>& task, const GivenMatch<D>& match, std::span<const std::uint32_t> sorted);
+
+  /// Null if the input has no such segment or facet. It lasts as long as this.
+  const NamedEntity<D>* find(const GivenEntity& name);
+  /// A vertex of the mesh; behind these, points that are none.
+  const Point<D>& point(std::uint32_t i) const {
+    return i < mesh_.points.size() ? mesh_.points[i] : further_points_[i - mesh_.points.size()];
+  }
+  /// How far the point may be off the entity, which has it.
+  double slack(const NamedEntity<D>& entity, std::uint32_t point) const {
+    return entity.is_loose || point >= is_given_.size() || !is_given_[point] ? entity.off : 0;
+  }
+  bool is_within(const Point<D>& x, double distance, const NamedEntity<D>& entity) const;
+
+ private:
+  std::uint32_t number_of(const Point<D>& x);
+  void make_segment(std::array<std::array<double, 3>, 2> of, NamedEntity<D>& out);
+  bool is_covered(const NamedEntity<D>& segment) const;
+  void make_facet(std::uint32_t facet, NamedEntity<D>& out);
+  void join_flat_parts();
+  void add_triangle(const std::array<std::uint32_t, 3>& triangle, NamedEntity<D>& out) const;
+
+  const OutputMesh<D>& mesh_;
+  const GivenInput<D>& input_;
+  const GivenMatch<D>& match_;
+  std::span<const std::uint32_t> sorted_;
+  std::vector<std::uint8_t> is_given_;  ///< of vertices
+  std::vector<Point<D>> further_points_;
+  std::map<std::array<double, D>, std::uint32_t> further_numbers_;
+  std::map<std::array<std::array<double, 3>, 2>, std::optional<NamedEntity<D>>> segments_;
+  std::map<std::uint32_t, std::optional<NamedEntity<D>>> facets_;
+  std::unique_ptr<detail::BoxTree<D>> subsegments_;
+  std::optional<detail::DisjointSets> flat_;                      ///< of given triangles, then of subfacets
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> by_flat_;  ///< set, member
+};
+
+}  // namespace pgdr::checking
