@@ -13,7 +13,7 @@
 #include "cut_meshes.hpp"
 #include "ranks/cell_message.hpp"
 #include "ranks/late_work.hpp"
-#include "ranks/letters.hpp"
+#include "ranks/rank_outbox.hpp"
 #include "ranks/sent_entry.hpp"
 #include "ranks/values.hpp"
 #include "ranks/visit_changes.hpp"
@@ -64,7 +64,9 @@ class RankMessages {
         LateConstraints<D>::apply(message, again.held);
         break;
       }
-      case MessageKind::letters: Letters<D>(owned_.tree, reader_.territory, reader_.part.mesh).get(message, reader_.held); break;
+      case MessageKind::letters:
+        RankOutbox<D>(owned_.tree, reader_.territory, reader_.part.mesh).get(message, reader_.held);
+        break;
       case MessageKind::late_work: LateWork<D>().get(message, owned_.tree, reader_.part.mesh, reader_.held); break;
       case MessageKind::plc: get_plc<D>(message); break;
       case MessageKind::piece: get_piece<D>(message); break;

@@ -37,7 +37,7 @@ Errc refused(const RefineOptions<3>& options) {
   return Errc::internal;
 }
 
-TEST(Optimizing, BoundsOnAnglesAreChecked) {
+TEST(OptimizerRun, BoundsOnAnglesAreChecked) {
   for (const double wrong : {-1.0, -1e-300, 35.001, 90.0, std::numeric_limits<double>::quiet_NaN()}) {
     RefineOptions<3> options = fine();
     options.min_dihedral = wrong;
@@ -52,7 +52,7 @@ TEST(Optimizing, BoundsOnAnglesAreChecked) {
   EXPECT_EQ(refine<2>(plc_from_arrays<2>(xy, segments), planar).optimization.target, 0);
 }
 
-TEST(Optimizing, IsThereUnlessPointsAreChosen) {
+TEST(OptimizerRun, IsThereUnlessPointsAreChosen) {
   const auto target_of = [](const RefineOptions<3>& options) {
     const RefineResult<3> r = refine<3>(test::cube(), options);
     EXPECT_EQ(r.delaunay, r.optimization.target == 0);
@@ -75,7 +75,7 @@ TEST(Optimizing, IsThereUnlessPointsAreChosen) {
   EXPECT_EQ(target_of(options), 0);
 }
 
-TEST(Optimizing, WarnsOfWhatIsBeyondPractice) {
+TEST(OptimizerRun, WarnsOfWhatIsBeyondPractice) {
   for (const double angle : {30.0, 30.5}) {
     RefineOptions<3> options = fine(0.8);
     options.min_dihedral = angle;
@@ -100,7 +100,7 @@ std::vector<std::string> stages_of(const RefineOptions<3>& options) {
   return names;
 }
 
-TEST(Optimizing, StagesAreInTheReport) {
+TEST(OptimizerRun, StagesAreInTheReport) {
   RefineOptions<3> options = fine();
   EXPECT_EQ(stages_of(options), (std::vector<std::string>{"prepare", "diagnose", "triangulate", "recover", "carve", "list",
                                                           "insert", "shortest_edge", "budget", "optimize_cheap",
@@ -111,7 +111,7 @@ TEST(Optimizing, StagesAreInTheReport) {
                                       "violations", "shortest_edge", "reasons", "budget", "count", "number"}));
 }
 
-TEST(Optimizing, WithoutItTheMeshIsDelaunay) {
+TEST(OptimizerRun, WithoutItTheMeshIsDelaunay) {
   RefineOptions<3> options = fine(0.2);
   options.min_dihedral = 0;
   const test::Outcome<3> outcome = test::refine_and_check<3>(test::turned<3>(test::l_block()), options);
@@ -119,7 +119,7 @@ TEST(Optimizing, WithoutItTheMeshIsDelaunay) {
   EXPECT_EQ(outcome.report.exit_code(), 0) << test::findings(outcome.report);
 }
 
-TEST(Optimizing, IsReproducible) {
+TEST(OptimizerRun, IsReproducible) {
   RefineOptions<3> options;
   options.schedule.floor = 20;
   for (const double target : {15.0, 25.0}) {
@@ -136,7 +136,7 @@ TEST(Optimizing, IsReproducible) {
 }
 
 // Points may not come any more, but all else goes on, and the run finishes.
-TEST(Optimizing, KeepsToTheBudgetOfVertices) {
+TEST(OptimizerRun, KeepsToTheBudgetOfVertices) {
   RefineOptions<3> options = fine(0.25);
   options.min_dihedral = 0;
   const std::uint64_t refined = refine<3>(test::cube(), options).mesh.points.size();
@@ -160,7 +160,7 @@ void expect_sound(const RefineResult<3>& r, const Plc<3>& plc) {
 }
 
 // Sizes are asked for by the optimiser, too: whenever one of these calls cancels the run, or throws, all is in order.
-TEST(Optimizing, MayEndAnywhere) {
+TEST(OptimizerRun, MayEndAnywhere) {
   const Plc<3> plc = test::cube();
   std::atomic<std::uint64_t> calls{0}, last{std::numeric_limits<std::uint64_t>::max()};
   bool throws = false;

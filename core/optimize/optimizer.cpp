@@ -11,7 +11,7 @@
 #include "mesh/surroundings.hpp"
 #include "optimize/flips.hpp"
 #include "optimize/insertions.hpp"
-#include "optimize/reconnect.hpp"
+#include "optimize/polyhedron_growth.hpp"
 #include "optimize/surgery.hpp"
 #include "optimize/vertex_changes.hpp"
 
@@ -23,7 +23,7 @@ constexpr int rounds_of_compound = 3, rounds_in_rest = 10;  // of cheap changes 
 /// Treats poor cells. Part of a worker: one thread at a time.
 class Optimizer final : public ElementTreatment<3> {
  public:
-  Optimizer(Workspace<3>& workspace, WorkLister<3>& lister, const Optimization& stage)
+  Optimizer(Workspace<3>& workspace, WorkLister<3>& lister, const OptimizerStage& stage)
       : s_(workspace, stage.min_dihedral()),
         lister_(&lister),
         stage_(&stage),
@@ -53,10 +53,10 @@ class Optimizer final : public ElementTreatment<3> {
 
   Surgery s_;
   WorkLister<3>* lister_;
-  const Optimization* stage_;
+  const OptimizerStage* stage_;
   BestFlip flip_;
   VertexChanges vertices_;
-  Reconnect reconnect_;
+  PolyhedronGrowth reconnect_;
   Insertions insertions_;
   std::uint64_t evaluated_before_ = 0;  ///< the element that is treated
   RefineCounts counts_before_;          ///< a compound
@@ -92,7 +92,7 @@ bool Optimizer::change_cheaply(CellId c, Judge::Rule rule) {
 
 /// Ends a transaction: mends the poor cells that it has made, and keeps all if they are better than what was there, together.
 bool Optimizer::end_compound(bool begun) {
-  const int rounds = stage_->phase == Optimization::Phase::rest ? rounds_in_rest : rounds_of_compound;
+  const int rounds = stage_->phase == OptimizerStage::Phase::rest ? rounds_in_rest : rounds_of_compound;
   for (int round = 0; begun && round < rounds && !is_spent(); ++round) {
     bool any = false;
     const std::vector<CellId> made = s_.transaction.made();
@@ -122,7 +122,7 @@ bool Optimizer::make_detour(CellId c) {
   using Opening = bool (Optimizer::*)(CellId);
   static constexpr std::array<Opening, 4> openings{&Optimizer::open_cheaply, &Optimizer::open_by_reconnection,
                                                    &Optimizer::open_by_digging, &Optimizer::open_by_contraction};
-  const std::size_t count = stage_->phase == Optimization::Phase::rest ? openings.size() : 1;
+  const std::size_t count = stage_->phase == OptimizerStage::Phase::rest ? openings.size() : 1;
   for (std::size_t i = 0; i < count && !is_spent(); ++i) {
     counts_before_ = s_.w->visit->counts;
     s_.transaction.begin();
@@ -147,7 +147,7 @@ bool Optimizer::split_an_edge(CellId c) {
 }
 
 bool Optimizer::change(CellId c) {
-  const bool strong = stage_->phase != Optimization::Phase::cheap;
+  const bool strong = stage_->phase != OptimizerStage::Phase::cheap;
   const auto list = [this](bool changed) {
     if (changed) list_made(s_.replacer.new_cells());
     return changed;
@@ -180,11 +180,11 @@ Outcome Optimizer::treat(const Entry<3>& e) {
 
 }  // namespace
 
-std::unique_ptr<ElementTreatment<3>> Optimization::treatment(Workspace<3>& workspace, WorkLister<3>& lister,
-                                                             DelaunayRepair<3>&) const {
+std::unique_ptr<ElementTreatment<3>> OptimizerStage::treatment(Workspace<3>& workspace, WorkLister<3>& lister,
+                                                               DelaunayRepair<3>&) const {
   return std::make_unique<Optimizer>(workspace, lister, *this);
 }
 
-std::uint64_t Optimization::version(CellId c) const { return versions_at(*mesh_, c); }
+std::uint64_t OptimizerStage::version(CellId c) const { return versions_at(*mesh_, c); }
 
 }  // namespace pgdr

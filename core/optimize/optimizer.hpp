@@ -22,7 +22,7 @@
 namespace pgdr {
 
 /// The stage. Threads: read by all visits at once, changed between them alone.
-class Optimization final : public ElementStage<3> {
+class OptimizerStage final : public ElementStage<3> {
  public:
   /// What is tried for a poor cell, and what is accepted.
   enum class Phase {
@@ -32,7 +32,7 @@ class Optimization final : public ElementStage<3> {
   };
 
   /// The mesh must outlive it. `min_dihedral`: the target in degrees.
-  Optimization(const Mesh<3>& mesh, double min_dihedral) : mesh_(&mesh), min_dihedral_(min_dihedral) {}
+  OptimizerStage(const Mesh<3>& mesh, double min_dihedral) : mesh_(&mesh), min_dihedral_(min_dihedral) {}
 
   std::unique_ptr<ElementTreatment<3>> treatment(Workspace<3>& workspace, WorkLister<3>& lister,
                                                  DelaunayRepair<3>& repair) const override;

@@ -170,7 +170,7 @@ bool Refiner<D>::treat_entities(Until until) {
   return false;
 }
 
-/// Does it depend on cells whose sizes were not asked for yet what is next, or whether the visit ends? Not as long as an element
+/// True if a size that is still unknown can change the next entry or end the visit. Not as long as an element
 /// that is too big waits in their buckets or a larger one, and it is certain, where it counts, whether the list is crowded.
 template <int D>
 bool Refiner<D>::sizes_decide() {

@@ -46,16 +46,16 @@ class ClaimRegistry {
 
 /// Holds a claim while it lives, in debug builds; in others it does nothing.
 template <int D>
-class HeldClaim {
+class TakenClaim {
  public:
-  HeldClaim([[maybe_unused]] ClaimRegistry<D>& registry, [[maybe_unused]] const Visit<D>& visit)
+  TakenClaim([[maybe_unused]] ClaimRegistry<D>& registry, [[maybe_unused]] const Visit<D>& visit)
 #ifndef NDEBUG
       : registry_(registry), visit_(visit) {
     const bool alone = registry.enter(visit);
     assert(alone && "the claims of two running visits meet");
     static_cast<void>(alone);
   }
-  ~HeldClaim() { registry_.leave(visit_); }
+  ~TakenClaim() { registry_.leave(visit_); }
 
  private:
   ClaimRegistry<D>& registry_;
@@ -65,8 +65,8 @@ class HeldClaim {
   }
 #endif
  public:
-  HeldClaim(const HeldClaim&) = delete;
-  HeldClaim& operator=(const HeldClaim&) = delete;
+  TakenClaim(const TakenClaim&) = delete;
+  TakenClaim& operator=(const TakenClaim&) = delete;
 };
 
 }  // namespace pgdr::detail

@@ -89,12 +89,12 @@ bool Uniform<D>::halve() {
 
 template <int D>
 std::optional<PlannedVisits<D>> Uniform<D>::next() {
-  std::uint64_t first = first_at_hand();
+  std::uint64_t first = first_phase_near_windows();
   while (first == no_phase && is_any_left()) {
     halve();
-    first = first_at_hand();
+    first = first_phase_near_windows();
   }
-  if (first == no_phase) first = first_of_larger_claims();
+  if (first == no_phase) first = first_phase();
   is_final_ = is_final_ || first == no_phase;
   if (first == no_phase) return std::nullopt;
   PlannedVisits<D> plan{visits_of(take_turn(first))};
@@ -133,13 +133,13 @@ std::uint64_t Uniform<D>::first_in_turn(std::size_t order, int from, int to) con
 }
 
 template <int D>
-std::uint64_t Uniform<D>::first_at_hand() const {
+std::uint64_t Uniform<D>::first_phase_near_windows() const {
   const std::uint64_t first = first_in_turn(0, finest() - 1, finest());
   return first != no_phase ? first : first_in_turn(1, finest() - 1, finest());
 }
 
 template <int D>
-std::uint64_t Uniform<D>::first_of_larger_claims() const {
+std::uint64_t Uniform<D>::first_phase() const {
   for (std::size_t order = 0; order < orders_in_turn.size(); ++order)
     if (const std::uint64_t first = first_in_turn(order, 0, finest()); first != no_phase) return first;
   return no_phase;

@@ -63,11 +63,11 @@ class Uniform final : public Planner<D> {
   bool is_halved_with(std::uint64_t to_come) const;
   /// Has any window been left, to be split?
   bool is_any_left() const;
-  // The number of the phase that comes first, no_phase if none has work.
-  /// Of what waits, and was set aside, in windows and the nodes right above them.
-  std::uint64_t first_at_hand() const;
-  /// Of all.
-  std::uint64_t first_of_larger_claims() const;
+  /// The number of the phase that comes first, of what waits, and was set aside, in windows and the nodes right above them;
+  /// no_phase if none has work.
+  std::uint64_t first_phase_near_windows() const;
+  /// The same, of all that waits.
+  std::uint64_t first_phase() const;
   /// The phase of this number.
   Phase phase_of(std::uint64_t number) const;
   /// The same, after which its level is at the next parity.

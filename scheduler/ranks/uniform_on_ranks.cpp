@@ -123,7 +123,7 @@ void UniformOnRanks<D>::look_ahead(const RunTotals& before, std::exception_ptr e
   if (!error) {
     error = Collectives::caught([&] {
       own.stop = state_->stop_between_visits();
-      own.first = uniform_.first_at_hand();
+      own.first = uniform_.first_phase_near_windows();
       if (own.first != no_phase) own.visits = uniform_.visits_of(uniform_.phase_of(own.first)).visits.size();
       own.is_any_left = uniform_.is_any_left();
       own.totals = totals - before;
@@ -138,7 +138,7 @@ void UniformOnRanks<D>::look_ahead(const RunTotals& before, std::exception_ptr e
 /// failed, or whose run has ended, says so there.
 template <int D>
 void UniformOnRanks<D>::meet_before_halving() {
-  while (uniform_.first_at_hand() == no_phase && uniform_.is_any_left()) {
+  while (uniform_.first_phase_near_windows() == no_phase && uniform_.is_any_left()) {
     const Windows left = windows();
     auto territory = std::make_unique<Territory<D>>(tree(), left.nodes, owners_of(left), ranks_->size(), ranks_->rank());
     const bool pays = may_cut() && pays_to_cut(left, *territory);
@@ -346,7 +346,7 @@ void UniformOnRanks<D>::done(VisitRunner<D>& runner, const PlannedVisits<D>& pla
 template <int D>
 std::exception_ptr UniformOnRanks<D>::tell_neighbours(const Generation<D>& generation, std::vector<EndedVisit<D>>& ended,
                                                       std::exception_ptr error) {
-  Letters<D> letters(tree(), *territory_, state_->context.mesh);
+  RankOutbox<D> letters(tree(), *territory_, state_->context.mesh);
   std::vector<Bytes> messages(territory_->neighbours().size());
   if (!error)
     error = Collectives::caught([&] {
@@ -367,7 +367,7 @@ std::exception_ptr UniformOnRanks<D>::tell_neighbours(const Generation<D>& gener
 
 /// For each neighbour what has changed where it holds the mesh, and what was found for its nodes.
 template <int D>
-std::vector<Bytes> UniformOnRanks<D>::messages_for_neighbours(const Letters<D>& letters) const {
+std::vector<Bytes> UniformOnRanks<D>::messages_for_neighbours(const RankOutbox<D>& letters) const {
   const Timed timed(statistics_->seconds_pack);
   std::vector<Bytes> messages;
   for (std::size_t n = 0; n < territory_->neighbours().size(); ++n) {
@@ -384,7 +384,7 @@ std::vector<Bytes> UniformOnRanks<D>::messages_for_neighbours(const Letters<D>& 
 
 /// Puts in what the neighbours have changed and found.
 template <int D>
-void UniformOnRanks<D>::put_in(const std::vector<Bytes>& arrived, Letters<D>& letters) {
+void UniformOnRanks<D>::put_in(const std::vector<Bytes>& arrived, RankOutbox<D>& letters) {
   const Timed timed(statistics_->seconds_apply);
   unsent_.add(state_->context.mesh, changes_);
   for (const VisitChanges<D>& c : changes_) held_->note_gone(c.net);
@@ -440,7 +440,7 @@ bool UniformOnRanks<D>::is_alone_at_the_end() {
   RunState<D>& state = *state_;
   bool has_refused = false;
   state.refused.for_each_list([&](std::span<const Refusal<D>> list) { has_refused = has_refused || !list.empty(); });
-  const bool has_work = uniform_.first_of_larger_claims() != no_phase;
+  const bool has_work = uniform_.first_phase() != no_phase;
   const bool needs_one = needs_all_ || has_work || !late_.empty() || has_refused || state.totals.violations_seen ||
                          state.totals.entities_refused;
   return ranks_->max(needs_one ? 1 : 0) != 0;

@@ -30,8 +30,8 @@
 #include "ranks/cell_message.hpp"
 #include "ranks/held_mesh.hpp"
 #include "ranks/late_work.hpp"
-#include "ranks/letters.hpp"
 #include "ranks/outlook.hpp"
+#include "ranks/rank_outbox.hpp"
 #include "ranks/territory.hpp"
 #include "ranks/visit_changes.hpp"
 #include "transport/collectives.hpp"
@@ -101,8 +101,8 @@ class UniformOnRanks final : public Planner<D> {
   std::optional<PlannedVisits<D>> next_together();
   PlannedVisits<D> plan_together();
   void look_ahead(const RunTotals& before, std::exception_ptr error);
-  std::vector<Bytes> messages_for_neighbours(const Letters<D>& letters) const;
-  void put_in(const std::vector<Bytes>& arrived, Letters<D>& letters);
+  std::vector<Bytes> messages_for_neighbours(const RankOutbox<D>& letters) const;
+  void put_in(const std::vector<Bytes>& arrived, RankOutbox<D>& letters);
   std::exception_ptr tell_neighbours(const Generation<D>& generation, std::vector<EndedVisit<D>>& ended,
                                      std::exception_ptr error);
   void take_in(const Generation<D>& generation, std::vector<EndedVisit<D>>& ended);

@@ -30,7 +30,7 @@ bool PoorSearch<D>::lists_all_poor(std::size_t found) const {
 
 /// Unless there may be violations, nothing is poor but what was refused.
 template <int D>
-std::vector<PoorCell> PoorSearch<D>::look() {
+std::vector<PoorCell> PoorSearch<D>::find() {
   state_->refused.for_each_list([this](std::span<const Refusal<D>> refused) { reasons_.add(refused); });
   if (state_->totals.violations_seen) return look_at_all();
   std::vector<PoorCell> found = reasons_.of_refused([this] { return state_->context.ended(); }, Bulk(state_->pieces));
@@ -40,7 +40,7 @@ std::vector<PoorCell> PoorSearch<D>::look() {
 
 template <int D>
 std::vector<PoorCell> PoorSearch<D>::look_at_all() {
-  violations_->look();
+  violations_->scan();
   const std::uint32_t cells = state_->context.mesh.cell_bound();
   std::vector<bool> violated(cells);
   for (const Entry<D>& e : violations_->standing()) violated[index(e.cell)] = true;
@@ -54,7 +54,7 @@ std::vector<PoorCell> PoorSearch<D>::look_at_all() {
 }
 
 template <int D>
-std::vector<PoorCell> PoorSearch<D>::look_at_violations() {
+std::vector<PoorCell> PoorSearch<D>::find_at_violations() {
   std::vector<CellId> cells;
   for (const Entry<D>& e : violations_->standing()) cells.push_back(e.cell);
   std::sort(cells.begin(), cells.end());

@@ -23,9 +23,9 @@ class PoorSearch {
 
   /// Returns every cell over a bound, and every one beside a face that is not locally Delaunay and a small angle, with its
   /// reason. Part of them if the run is cancelled meanwhile, or its time is up.
-  std::vector<PoorCell> look();
+  std::vector<PoorCell> find();
   /// Of a run that a limit has ended: only what is beside the violations that are known.
-  std::vector<PoorCell> look_at_violations();
+  std::vector<PoorCell> find_at_violations();
   /// The reasons as of the last look.
   const PoorReasons<D>& reasons() const { return reasons_; }
 

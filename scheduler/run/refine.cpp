@@ -247,7 +247,7 @@ Refined<D> refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools,
   detail::RunState<D>& state = refinement.state();
   state.meter.expect_optimizer(target_of(context.options) > 0);
   result.stop = refinement.run();
-  const detail::Optimizing* optimizing = refinement.optimizing();
+  const detail::OptimizerRun* optimizing = refinement.optimizing();
   const RefineCounts& counts = optimizing ? optimizing->counts_before() : state.totals.counts;
   if (optimizing) result.optimization = optimizing->statistics();
   // Who interrupts a run does not wait for the repair of what is not locally Delaunay.

@@ -133,15 +133,14 @@ StopCause Refinement<D>::refine() {
     const std::uint64_t before = state_.totals.counts.committed;
     const StopCause stop = schedule_->drain();
     if (stop != StopCause::finished || state_.totals.counts.committed == before) return stop;
-    for (const Entry<D>& e : violations_.look_if_any()) state_.waiting.relist(e);
+    for (const Entry<D>& e : violations_.scan_if_any()) state_.waiting.relist(e);
     state_.refused.relist_changed();
     if (state_.context.ended() || state_.waiting.is_empty()) return state_.stop();
   }
 }
 
-/// Tries what is poor beside small angles once more, with a part of the demand. In that order the meshes are smaller than where
-/// all demand little. Not where nothing proves that most is good by now; nor before the optimiser, which makes such elements good
-/// without a point for each.
+/// Retries refused cells with half the demand. Skipped below the proved bound, as nothing says that most is good by then. In that
+/// order meshes are smaller than where all demand little; the optimiser makes such cells good without a point for each.
 template <int D>
 StopCause Refinement<D>::refine_as_last_resort() {
   if (D == 2 || state_.context.options.radius_edge_bound < smallest_proved_bound<D>()) return StopCause::finished;
@@ -153,7 +152,7 @@ StopCause Refinement<D>::refine_as_last_resort() {
 /// Looks for those that the last visits left, so that they are seen.
 template <int D>
 StopCause Refinement<D>::look_for_violations() {
-  violations_.look_if_any();
+  violations_.scan_if_any();
   return StopCause::finished;
 }
 
@@ -165,7 +164,7 @@ StopCause Refinement<D>::end_if_min_edge_hit() {
 template <int D>
 StopCause Refinement<D>::explain() {
   poor_.emplace(state_, violations_);
-  explained_ = poor_->look();
+  explained_ = poor_->find();
   state_.is_cancelled();
   return StopCause::finished;
 }
@@ -177,9 +176,9 @@ StopCause Refinement<D>::end_if_vertices_are_spent() {
 }
 
 template <int D>
-StopCause Refinement<D>::optimize(Optimization::Phase phase) {
+StopCause Refinement<D>::optimize(OptimizerStage::Phase phase) {
   if constexpr (D == 3) {
-    if (!optimizing_) optimizing_ = std::make_unique<Optimizing>(state_, *schedule_, min_dihedral_);
+    if (!optimizing_) optimizing_ = std::make_unique<OptimizerRun>(state_, *schedule_, min_dihedral_);
     return optimizing_->run(phase);
   }
   return StopCause::finished;
@@ -187,12 +186,12 @@ StopCause Refinement<D>::optimize(Optimization::Phase phase) {
 
 template <int D>
 StopCause Refinement<D>::optimize_cheaply() {
-  return optimize(Optimization::Phase::cheap);
+  return optimize(OptimizerStage::Phase::cheap);
 }
 
 template <int D>
 StopCause Refinement<D>::optimize_strongly() {
-  return optimize(Optimization::Phase::strong);
+  return optimize(OptimizerStage::Phase::strong);
 }
 
 /// Gives the cells that nothing excuses more effort.
@@ -213,14 +212,14 @@ template <int D>
 void Refinement<D>::leave_in_order() {
   RefineContext<D>& context = state_.context;
   context.stop = static_cast<int>(StopCause::finished);
-  violations_.look();
+  violations_.scan();
   for (std::size_t before = violations_.standing().size() + 1; violations_.standing().size() < before && !context.ended();) {
     before = violations_.standing().size();
     repair_standing_violations();
-    violations_.look();
+    violations_.scan();
   }
   if (!poor_) poor_.emplace(state_, violations_);
-  explained_ = poor_->look_at_violations();
+  explained_ = poor_->find_at_violations();
 }
 
 /// One visit by one worker, which inserts nothing.

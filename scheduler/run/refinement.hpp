@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "run/optimizing.hpp"
+#include "run/optimizer_run.hpp"
 #include "run/poor_search.hpp"
 #include "run/run_hooks.hpp"
 #include "run/violation_scan.hpp"
@@ -47,7 +47,7 @@ class Refinement {
   /// When the optimiser began, if it has (StageTime::start).
   std::optional<double> optimizing_since() const { return optimizing_since_; }
   /// The optimiser's part; null if it has not begun.
-  const Optimizing* optimizing() const { return optimizing_.get(); }
+  const OptimizerRun* optimizing() const { return optimizing_.get(); }
   RunState<D>& state() { return state_; }
 
   /// Has the optimiser begun, with no cell over a bound of size?
@@ -76,10 +76,10 @@ class Refinement {
   void leave_in_order();
   void repair_standing_violations();
 
-  StopCause optimize(Optimization::Phase phase);
+  StopCause optimize(OptimizerStage::Phase phase);
 
   const double min_dihedral_;
-  std::unique_ptr<Optimizing> optimizing_;  ///< 3D; declared before the workers, which may hold on to it
+  std::unique_ptr<OptimizerRun> optimizing_;  ///< 3D; declared before the workers, which may hold on to it
   RunState<D> state_;
   std::unique_ptr<VisitSchedule<D>> schedule_;
   ViolationScan<D> violations_;

@@ -76,7 +76,7 @@ SlotSet ViolationScan<D>::changed_surroundings() {
 }
 
 template <int D>
-std::vector<Entry<D>> ViolationScan<D>::look() {
+std::vector<Entry<D>> ViolationScan<D>::scan() {
   const Mesh<D>& mesh = state_->context.mesh;
   // Nothing but what is new since then, or beside such, can have a violation that was not found.
   const SlotSet changed = changed_surroundings();
@@ -104,10 +104,10 @@ std::vector<Entry<D>> ViolationScan<D>::look() {
 /// Beside entities that were refused a constrained Delaunay triangulation need not exist, so that whole cavities may bring
 /// violations, too.
 template <int D>
-std::vector<Entry<D>> ViolationScan<D>::look_if_any() {
+std::vector<Entry<D>> ViolationScan<D>::scan_if_any() {
   RunTotals& totals = state_->totals;
   if (!totals.violations_seen && !totals.entities_refused && !uneven_) return {};
-  std::vector<Entry<D>> found = look();
+  std::vector<Entry<D>> found = scan();
   totals.violations_seen = totals.violations_seen || !found.empty();
   return found;
 }

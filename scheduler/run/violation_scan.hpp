@@ -27,9 +27,9 @@ class ViolationScan {
 
   /// Returns the violations whose surroundings have changed since the last look, if there may be any, in an order that does not
   /// depend on the slots of cells.
-  std::vector<Entry<D>> look_if_any();
+  std::vector<Entry<D>> scan_if_any();
   /// Looks whether or not there may be any.
-  std::vector<Entry<D>> look();
+  std::vector<Entry<D>> scan();
   /// All violations there were at the last look.
   const std::vector<Entry<D>>& standing() const { return standing_; }
 

@@ -36,7 +36,7 @@ void ProgressMeter<D>::begin(const char* stage) {
   if (name == "insert" && insertions_since_ < 0) {
     insertions_since_ = seconds();
     first_vertices_ = static_cast<double>(context_->vertices);
-    look();
+    update();
   }
   if (name == "reasons") rest_ = rest_after_all * seconds();
   if (name == "number") rest_ = rest_after_reasons * seconds();
@@ -57,7 +57,7 @@ void ProgressMeter<D>::begin_phase(double evaluations, double others) {
 }
 
 template <int D>
-void ProgressMeter<D>::look() {
+void ProgressMeter<D>::update() {
   if (!context_->options.progress || context_->stage || seconds() < next_look_) return;
   next_look_ = seconds() + between_looks;
   const auto to_come = waiting_->to_come();

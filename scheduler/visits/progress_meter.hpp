@@ -31,7 +31,7 @@ class ProgressMeter {
   /// A phase of the optimiser begins, which is expected to evaluate so many cells; and those after it so many times as many.
   void begin_phase(double evaluations, double others);
   /// Looks at what waits, now and then.
-  void look();
+  void update();
 
  private:
   double seconds() const { return context_->elapsed().count(); }

@@ -93,7 +93,7 @@ struct RunState {
   bool is_full() const { return !context.stage && totals.vertices >= context.options.max_vertices; }
   /// What ends the run between visits; finished: nothing. Tells how far it is, if it is time for that.
   StopCause stop_between_visits() {
-    meter.look();
+    meter.update();
     if (context.ended()) return stop();
     return is_full() ? StopCause::max_vertices : StopCause::finished;
   }

@@ -58,7 +58,7 @@ void VisitRunner<D>::run_visit(const Visit<D>& visit, EndedVisit<D>& ended, Post
   const VisitRecorder::Watch watch;
   state_->prepare(visit.request, ended.work);
   const Claim<D> claim = visit.claim(waiting_->tree());
-  const HeldClaim<D> held(registry_, visit);
+  const TakenClaim<D> held(registry_, visit);
   const ClaimedArea<D> area(waiting_->placement(), claim);
   if (visit.request.order == 1) (*waiting_)[visit.request.node].open_inbox([this] { return context_->ended(); });
   if (hooks.before) hooks.before(number, ended.work);

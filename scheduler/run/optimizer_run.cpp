@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "run/optimizing.hpp"
+#include "run/optimizer_run.hpp"
 
 #include <algorithm>
 #include <array>
@@ -35,13 +35,13 @@ constexpr std::uint64_t evaluations_an_unexplained_cell = 10 * evaluations_a_poo
 struct UsualPhase {
   double a_listed_cell, others;
 };
-UsualPhase usual(Optimization::Phase phase) {
-  return phase == Optimization::Phase::cheap ? UsualPhase{200, 1} : UsualPhase{1400, 0.5};
+UsualPhase usual(OptimizerStage::Phase phase) {
+  return phase == OptimizerStage::Phase::cheap ? UsualPhase{200, 1} : UsualPhase{1400, 0.5};
 }
 
 }  // namespace
 
-Optimizing::Optimizing(RunState<3>& state, VisitSchedule<3>& schedule, double min_dihedral)
+OptimizerRun::OptimizerRun(RunState<3>& state, VisitSchedule<3>& schedule, double min_dihedral)
     : state_(&state),
       schedule_(&schedule),
       min_dihedral_(min_dihedral),
@@ -59,7 +59,7 @@ Optimizing::Optimizing(RunState<3>& state, VisitSchedule<3>& schedule, double mi
 }
 
 /// All poor cells, in an order that does not depend on their slots, which depend on timing.
-std::vector<Entry<3>> Optimizing::find_poor() {
+std::vector<Entry<3>> OptimizerRun::find_poor() {
   RefineContext<3>& context = state_->context;
   const Mesh<3>& mesh = context.mesh;
   struct Part {
@@ -100,14 +100,14 @@ std::vector<Entry<3>> Optimizing::find_poor() {
 }
 
 /// Returns how many it has listed, as list_refused().
-std::size_t Optimizing::list_all_poor() {
+std::size_t OptimizerRun::list_all_poor() {
   state_->refused.take_all();
   const std::vector<Entry<3>> poor = find_poor();
   for (const Entry<3>& e : poor) state_->waiting.relist(e);
   return poor.size();
 }
 
-std::size_t Optimizing::list_refused() {
+std::size_t OptimizerRun::list_refused() {
   std::size_t count = 0;
   std::vector<bool> listed(state_->context.mesh.cell_bound());
   for (const Refusal<3>& r : state_->refused.take_all()) {
@@ -120,7 +120,7 @@ std::size_t Optimizing::list_refused() {
   return count;
 }
 
-StopCause Optimizing::run(Phase phase) {
+StopCause OptimizerRun::run(Phase phase) {
   begin(phase);
   const std::size_t listed = last_ ? list_refused() : list_all_poor();
   if (!last_) budget_ = budget_of(cells_, min_dihedral_);
@@ -132,7 +132,7 @@ StopCause Optimizing::run(Phase phase) {
   return work_off(listed, budget_);
 }
 
-void Optimizing::begin(Phase phase) {
+void OptimizerRun::begin(Phase phase) {
   RefineContext<3>& context = state_->context;
   stage_.phase = phase;
   context.stage = &stage_;
@@ -140,7 +140,7 @@ void Optimizing::begin(Phase phase) {
 
 /// Treats what waits, so many cells, with so many evaluations of the budget; and what was refused and has changed about it, as
 /// often as that pays.
-StopCause Optimizing::work_off(std::size_t waiting, std::uint64_t most) {
+StopCause OptimizerRun::work_off(std::size_t waiting, std::uint64_t most) {
   const std::uint64_t evaluated_before = state_->totals.counts.evaluated;
   state_->most_evaluated = evaluated_before + most;
   state_->most_evaluated_an_entry = most / std::max<std::size_t>(waiting, 1);
@@ -161,7 +161,7 @@ StopCause Optimizing::work_off(std::size_t waiting, std::uint64_t most) {
 }
 
 /// The poor cells that nothing excuses, in the order of find_poor().
-std::vector<Entry<3>> Optimizing::find_unexplained() {
+std::vector<Entry<3>> OptimizerRun::find_unexplained() {
   RefineContext<3>& context = state_->context;
   const std::vector<Entry<3>> poor = find_poor();
   std::vector<Entry<3>> unexplained;
@@ -175,7 +175,7 @@ std::vector<Entry<3>> Optimizing::find_unexplained() {
   return unexplained;
 }
 
-StopCause Optimizing::run_for_unexplained() {
+StopCause OptimizerRun::run_for_unexplained() {
   if (state_->refused.take_all().empty() && state_->waiting.is_empty()) return StopCause::finished;
   if (budget_ < evaluations_a_poor_cell) return StopCause::finished;  // to find reasons takes long where many cells are poor
   const std::vector<Entry<3>> unexplained = find_unexplained();
@@ -188,7 +188,7 @@ StopCause Optimizing::run_for_unexplained() {
   return work_off(unexplained.size(), std::min(budget_, evaluations_an_unexplained_cell * unexplained.size()));
 }
 
-std::vector<PoorCell> Optimizing::explain_left() {
+std::vector<PoorCell> OptimizerRun::explain_left() {
   RefineContext<3>& context = state_->context;
   context.stage = nullptr;
   std::vector<CellId> poor;
@@ -201,7 +201,7 @@ std::vector<PoorCell> Optimizing::explain_left() {
   return left;
 }
 
-OptimizationStatistics Optimizing::statistics() const {
+OptimizationStatistics OptimizerRun::statistics() const {
   const RefineCounts& now = state_->totals.counts;
   OptimizationStatistics s;
   s.target = min_dihedral_;

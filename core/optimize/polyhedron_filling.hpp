@@ -25,7 +25,7 @@ struct Polyhedron {
   using Face = std::array<Index, 3>;  ///< orient3d of the three and a point beside them in the polyhedron is positive
   using Cell = std::array<Index, 4>;  ///< positively oriented
 
-  std::vector<Point3> points;  ///< at most Reconnection::most_points, pairwise distinct
+  std::vector<Point3> points;  ///< at most PolyhedronFilling::most_points, pairwise distinct
   std::vector<Face> faces;     ///< a closed surface; one may occur twice, turned over, where the inside is on both sides of it
   /// Edges that the filling must have: subsegments.
   std::vector<std::array<Index, 2>> edges;
@@ -40,13 +40,13 @@ struct Polyhedron {
 };
 
 /// Fills polyhedra.
-class Reconnection {
+class PolyhedronFilling {
  public:
   static constexpr std::size_t most_points = 32;   ///< of a polyhedron
   static constexpr std::size_t most_cells = 24;    ///< that a polyhedron should be made of: others are seldom searched to the end
   static constexpr std::size_t most_nodes = 3000;  ///< cells that one search lays, those taken back included
 
-  Reconnection();
+  PolyhedronFilling();
   /// Looks for a filling with a least quality above `enough` and, of these, as good as it finds one. Signs of cells are exact.
   /// False if there is none, or none was found. `most_poor`: so many cells may have a quality below 1. What is found does not
   /// depend on the numbers of the points, nor on the order of faces. @throws UsageError bad_size as CellQuality::of

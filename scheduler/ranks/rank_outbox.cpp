@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ranks/letters.hpp"
+#include "ranks/rank_outbox.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -10,7 +10,7 @@
 namespace pgdr::detail {
 
 template <int D>
-void Letters<D>::take(Node visited, std::uint64_t phase, NodeVisit<D>& visit, LateWork<D>& late) {
+void RankOutbox<D>::take(Node visited, std::uint64_t phase, NodeVisit<D>& visit, LateWork<D>& late) {
   const std::vector<int>& neighbours = territory_->neighbours();
   const std::uint64_t number = tree_->morton(visited);
   std::uint64_t kept = 0;
@@ -33,7 +33,7 @@ void Letters<D>::take(Node visited, std::uint64_t phase, NodeVisit<D>& visit, La
 }
 
 template <int D>
-void Letters<D>::put(MessageWriter& message, std::size_t neighbour) const {
+void RankOutbox<D>::put(MessageWriter& message, std::size_t neighbour) const {
   message.put(static_cast<std::uint64_t>(there_[neighbour].size()));
   for (const Letter& letter : there_[neighbour]) {
     message.put(letter.visit);
@@ -45,7 +45,7 @@ void Letters<D>::put(MessageWriter& message, std::size_t neighbour) const {
 }
 
 template <int D>
-void Letters<D>::get(MessageReader& message, const HeldMesh<D>& held) {
+void RankOutbox<D>::get(MessageReader& message, const HeldMesh<D>& held) {
   for (auto left = message.get<std::uint64_t>(); left > 0; --left) {
     Letter letter;
     letter.visit = message.get<std::uint64_t>();
@@ -59,13 +59,13 @@ void Letters<D>::get(MessageReader& message, const HeldMesh<D>& held) {
 }
 
 template <int D>
-void Letters<D>::post(WaitingWork<D>& waiting) {
+void RankOutbox<D>::post(WaitingWork<D>& waiting) {
   std::stable_sort(here_.begin(), here_.end(), [](const Letter& a, const Letter& b) { return a.visit < b.visit; });
   for (Letter& letter : here_) waiting.post(letter.node, std::move(letter.entries));
   here_.clear();
 }
 
-template class Letters<2>;
-template class Letters<3>;
+template class RankOutbox<2>;
+template class RankOutbox<3>;
 
 }  // namespace pgdr::detail

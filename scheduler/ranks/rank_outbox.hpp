@@ -17,12 +17,12 @@ namespace pgdr::detail {
 
 /// See above.
 template <int D>
-class Letters {
+class RankOutbox {
  public:
   using Node = typename Orthtree<D>::Node;
 
   /// All must outlive it.
-  Letters(const Orthtree<D>& tree, const Territory<D>& territory, const Mesh<D>& mesh)
+  RankOutbox(const Orthtree<D>& tree, const Territory<D>& territory, const Mesh<D>& mesh)
       : tree_(&tree), territory_(&territory), mesh_(&mesh), there_(territory.neighbours().size()) {}
 
   /// Takes what is in the outboxes of a visit of this node: for nodes of this rank, of its neighbours, and, to be kept, of none.
@@ -49,7 +49,7 @@ class Letters {
   std::vector<std::vector<Letter>> there_;  ///< by neighbour
 };
 
-extern template class Letters<2>;
-extern template class Letters<3>;
+extern template class RankOutbox<2>;
+extern template class RankOutbox<3>;
 
 }  // namespace pgdr::detail

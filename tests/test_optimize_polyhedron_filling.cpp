@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Fillings of small polyhedra, against all that there are, and of parts of Delaunay meshes, whose old fillings are known.
-#include "optimize/reconnection.hpp"
+#include "optimize/polyhedron_filling.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@
 #include "numbers/corners.hpp"
 #include "pgdr/predicates.hpp"
 
-namespace pgdr::test_optimize_reconnection {
+namespace pgdr::test_optimize_polyhedron_filling {
 
 using Index = Polyhedron::Index;
 using Face = Polyhedron::Face;
@@ -260,12 +260,12 @@ void ask_for_more(Part& part, std::mt19937& random) {
     if (random() % 2) p.kept.push_back(i);
 }
 
-TEST(Reconnection, FindsTheBestOfAllFillings) {
+TEST(PolyhedronFilling, FindsTheBestOfAllFillings) {
   CellBounds<3> bounds;
   bounds.radius_edge_bound = 2;
   const CellQuality quality(bounds, 25);
   std::mt19937 random(3);
-  Reconnection reconnection;
+  PolyhedronFilling reconnection;
   int none_better = 0, better = 0, several = 0;
   for (unsigned seed = 0; seed < 60; ++seed) {
     Meshes meshes(seed % 4 == 0 ? 7 : 16, seed % 3 == 0, seed);
@@ -278,7 +278,7 @@ TEST(Reconnection, FindsTheBestOfAllFillings) {
       const std::uint64_t before = reconnection.nodes();
       const double old = least_of(part, quality), enough = k % 2 ? 0 : old * (1 - 1e-9);
       if (reconnection.find(part.polyhedron, quality, enough, part.cells.size() * 3)) {
-        ASSERT_LT(reconnection.nodes() - before, Reconnection::most_nodes);
+        ASSERT_LT(reconnection.nodes() - before, PolyhedronFilling::most_nodes);
         EXPECT_EQ(reconnection.least_quality(), all.best) << seed;
         expect_filling(part.polyhedron, reconnection.cells(), quality, reconnection.least_quality());
         better += all.best > old * (1 + 1e-9);
@@ -294,16 +294,16 @@ TEST(Reconnection, FindsTheBestOfAllFillings) {
   EXPECT_GT(none_better, 30);
 }
 
-TEST(Reconnection, IsSeldomWorseThanWhatWasThere) {
+TEST(PolyhedronFilling, IsSeldomWorseThanWhatWasThere) {
   CellBounds<3> bounds;
   bounds.radius_edge_bound = 2;
   const CellQuality quality(bounds, 20);
-  Reconnection reconnection;
+  PolyhedronFilling reconnection;
   int found = 0, better = 0, all = 0;
   for (unsigned seed = 0; seed < 30; ++seed) {
     Meshes meshes(60, false, seed);
-    for (std::size_t size = 4; size <= Reconnection::most_cells; size += 2) {
-      const Part part = meshes.part(size, Reconnection::most_points);
+    for (std::size_t size = 4; size <= PolyhedronFilling::most_cells; size += 2) {
+      const Part part = meshes.part(size, PolyhedronFilling::most_points);
       const double old = least_of(part, quality);
       if (!(old > 1e-6)) continue;
       ++all;
@@ -322,11 +322,11 @@ TEST(Reconnection, IsSeldomWorseThanWhatWasThere) {
   EXPECT_GT(better, all / 20);
 }
 
-TEST(Reconnection, DoesNotDependOnNumbersOrScale) {
+TEST(PolyhedronFilling, DoesNotDependOnNumbersOrScale) {
   CellBounds<3> bounds;
   bounds.radius_edge_bound = 2;
   const CellQuality quality(bounds, 25);
-  Reconnection reconnection;
+  PolyhedronFilling reconnection;
   std::mt19937 random(5);
   int found = 0;
   const auto sets = [](const Polyhedron& p, const Cells& cells) {
@@ -340,7 +340,7 @@ TEST(Reconnection, DoesNotDependOnNumbersOrScale) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     Meshes meshes(40, seed % 2 == 0, seed);
     for (int k = 0; k < 5; ++k) {
-      Part part = meshes.part(12, Reconnection::most_points);
+      Part part = meshes.part(12, PolyhedronFilling::most_points);
       if (k % 2) ask_for_more(part, random);
       const Polyhedron& p = part.polyhedron;
       if (!reconnection.find(p, quality, 0, 100)) continue;
@@ -373,10 +373,10 @@ TEST(Reconnection, DoesNotDependOnNumbersOrScale) {
   EXPECT_GT(found, 60);
 }
 
-TEST(Reconnection, ObeysFlatSetsAndTheNumberOfPoorCells) {
+TEST(PolyhedronFilling, ObeysFlatSetsAndTheNumberOfPoorCells) {
   CellBounds<3> bounds;
   const CellQuality quality(bounds, 40);
-  Reconnection reconnection;
+  PolyhedronFilling reconnection;
   int stopped = 0, flat = 0;
   for (unsigned seed = 0; seed < 40; ++seed) {
     Meshes meshes(20, false, seed);
@@ -429,12 +429,12 @@ Polyhedron twisted_prism(bool reflex) {
   return p;
 }
 
-TEST(Reconnection, FindsNoneWhereThereIsNone) {
+TEST(PolyhedronFilling, FindsNoneWhereThereIsNone) {
   CellBounds<3> bounds;
   const CellQuality quality(bounds, 15);
-  Reconnection reconnection;
+  PolyhedronFilling reconnection;
   EXPECT_TRUE(reconnection.find(twisted_prism(false), quality, 0, 100));
   EXPECT_FALSE(reconnection.find(twisted_prism(true), quality, 0, 100));  // Schoenhardt's
 }
 
-}  // namespace pgdr::test_optimize_reconnection
+}  // namespace pgdr::test_optimize_polyhedron_filling

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "optimize/reconnection.hpp"
+#include "optimize/polyhedron_filling.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -19,7 +19,7 @@ using Index = Polyhedron::Index;
 using Triple = std::array<Index, 3>;  // ascending
 using Quad = Polyhedron::Cell;        // ascending
 
-constexpr std::size_t most = Reconnection::most_points;
+constexpr std::size_t most = PolyhedronFilling::most_points;
 constexpr std::uint32_t unknown_set = 0xffffffffu;
 constexpr std::uint8_t unknown = 2;
 
@@ -98,12 +98,12 @@ void Polyhedron::clear() {
   volume6 = 0;
 }
 
-Reconnection::Reconnection() {
+PolyhedronFilling::PolyhedronFilling() {
   sides_.reserve(set_table<3>[most]);
   qualities_.reserve(set_table<4>[most]);
 }
 
-bool Reconnection::find(const Polyhedron& polyhedron, const CellQuality& quality, double enough, std::size_t most_poor) {
+bool PolyhedronFilling::find(const Polyhedron& polyhedron, const CellQuality& quality, double enough, std::size_t most_poor) {
   assert(polyhedron.points.size() >= 4 && polyhedron.points.size() <= most && polyhedron.faces.size() >= 4);
   given_ = &polyhedron;
   measure_ = &quality;
@@ -118,7 +118,7 @@ bool Reconnection::find(const Polyhedron& polyhedron, const CellQuality& quality
 }
 
 /// Numbers the points by their coordinates, and forgets what was known of others.
-void Reconnection::prepare() {
+void PolyhedronFilling::prepare() {
   const Polyhedron& p = *given_;
   count_ = p.points.size();
   std::iota(given_number_.begin(), given_number_.begin() + count_, Index{0});
@@ -146,7 +146,7 @@ void Reconnection::prepare() {
 }
 
 /// False if no cell can stand on some face.
-bool Reconnection::open_given_faces() {
+bool PolyhedronFilling::open_given_faces() {
   const Polyhedron& p = *given_;
   fronts_.clear();
   laid_.clear();
@@ -190,7 +190,7 @@ bool Reconnection::open_given_faces() {
 }
 
 /// Which points are on which side of the plane of three points.
-const Reconnection::Sides& Reconnection::sides(std::size_t triple) {
+const PolyhedronFilling::Sides& PolyhedronFilling::sides(std::size_t triple) {
   Sides& s = sides_[triple];
   if (s.above != unknown_set) return s;
   const Triple& t = all_triples[triple];
@@ -205,12 +205,12 @@ const Reconnection::Sides& Reconnection::sides(std::size_t triple) {
   return s;
 }
 
-Reconnection::Set Reconnection::inner_side(FaceNumber f) {
+PolyhedronFilling::Set PolyhedronFilling::inner_side(FaceNumber f) {
   const Sides& s = sides(f / 2);
   return f & 1 ? s.below : s.above;
 }
 
-Simplex<3> Reconnection::simplex(const Quad& corners, bool turned) const {
+Simplex<3> PolyhedronFilling::simplex(const Quad& corners, bool turned) const {
   Simplex<3> s;
   for (int i = 0; i < 4; ++i) s[i] = points_[corners[i]];
   if (turned) std::swap(s[2], s[3]);
@@ -218,7 +218,7 @@ Simplex<3> Reconnection::simplex(const Quad& corners, bool turned) const {
 }
 
 /// The quality of a cell; 0 if it is in no filling. `turned`: its corners are in negative order.
-double Reconnection::quality_of(const Quad& corners, bool turned) {
+double PolyhedronFilling::quality_of(const Quad& corners, bool turned) {
   double& q = qualities_[number_of(corners)];
   if (q >= 0) return q;
   const Set all = bits(corners);
@@ -231,13 +231,13 @@ double Reconnection::quality_of(const Quad& corners, bool turned) {
 }
 
 /// Not if a point that has to stay is in the cell, or a given face or edge crosses it: no filling has it then.
-bool Reconnection::may_be(const Quad& corners, bool turned) {
+bool PolyhedronFilling::may_be(const Quad& corners, bool turned) {
   std::uint8_t& known = possible_[number_of(corners)];
   if (known == unknown) known = !is_crossed(corners, turned);
   return known;
 }
 
-bool Reconnection::is_crossed(const Quad& corners, bool turned) {
+bool PolyhedronFilling::is_crossed(const Quad& corners, bool turned) {
   Set within = kept_ & ~bits(corners);
   for (int i = 0; i < 4 && within; ++i) {
     within &= ~inner_side(static_cast<FaceNumber>(face_of(corners, turned, i) ^ 1));
@@ -251,14 +251,14 @@ bool Reconnection::is_crossed(const Quad& corners, bool turned) {
   return false;
 }
 
-bool Reconnection::edge_is_crossed(Index p, Index q) {
+bool PolyhedronFilling::edge_is_crossed(Index p, Index q) {
   if (linked_[p] & bit(q)) return false;
   std::uint8_t& known = edge_crossed_[number_of(std::array<Index, 2>{p, q})];
   if (known == unknown) known = std::any_of(walls_.begin(), walls_.end(), [&](std::size_t wall) { return crosses(p, q, wall); });
   return known;
 }
 
-bool Reconnection::face_is_crossed(std::size_t triple) {
+bool PolyhedronFilling::face_is_crossed(std::size_t triple) {
   std::uint8_t& known = face_crossed_[triple];
   if (known != unknown) return known;
   known = false;
@@ -273,7 +273,7 @@ bool Reconnection::face_is_crossed(std::size_t triple) {
 }
 
 /// Does the inner part of the edge meet the inner part of the triangle in one point?
-bool Reconnection::crosses(Index p, Index q, std::size_t triple) {
+bool PolyhedronFilling::crosses(Index p, Index q, std::size_t triple) {
   const Sides& s = sides(triple);
   const bool through = ((s.above & bit(p)) && (s.below & bit(q))) || ((s.below & bit(p)) && (s.above & bit(q)));
   if (!through) return false;
@@ -286,7 +286,7 @@ bool Reconnection::crosses(Index p, Index q, std::size_t triple) {
 }
 
 /// The points that a cell on the face may have as its apex, whatever else is laid.
-Reconnection::Set Reconnection::apexes_of(FaceNumber f) {
+PolyhedronFilling::Set PolyhedronFilling::apexes_of(FaceNumber f) {
   Set& known = apexes_[f];
   if (known != unknown_set) return known;
   Set good = 0;
@@ -299,7 +299,7 @@ Reconnection::Set Reconnection::apexes_of(FaceNumber f) {
 }
 
 /// Those of them whose cells have no face that another cell has taken.
-Reconnection::Set Reconnection::apexes_left(FaceNumber f) {
+PolyhedronFilling::Set PolyhedronFilling::apexes_left(FaceNumber f) {
   Set good = 0;
   for (Set left = apexes_of(f); left; left &= left - 1) {
     const auto v = static_cast<Index>(std::countr_zero(left));
@@ -312,7 +312,7 @@ Reconnection::Set Reconnection::apexes_left(FaceNumber f) {
 }
 
 /// True: there is no need to search on. The front is what is behind `front` in the list.
-bool Reconnection::search(std::size_t front, const Filling& so_far) {
+bool PolyhedronFilling::search(std::size_t front, const Filling& so_far) {
   const std::size_t end = fronts_.size();
   if (front == end) return accept(so_far);
   const auto fewer = [](const OpenFace& f, const OpenFace& g) { return std::popcount(f.apexes) < std::popcount(g.apexes); };
@@ -338,7 +338,7 @@ bool Reconnection::search(std::size_t front, const Filling& so_far) {
 }
 
 /// Lists the cells that may stand on the face, the best first; of as good ones first what closes more faces.
-std::size_t Reconnection::list_candidates(const OpenFace& on, std::array<Candidate, most_points>& list) {
+std::size_t PolyhedronFilling::list_candidates(const OpenFace& on, std::array<Candidate, most_points>& list) {
   std::size_t n = 0;
   for (Set left = on.apexes; left; left &= left - 1) {
     const auto v = static_cast<Index>(std::countr_zero(left));
@@ -357,7 +357,7 @@ std::size_t Reconnection::list_candidates(const OpenFace& on, std::array<Candida
 }
 
 /// Lays a cell, and lists the new front behind `end`. False if no cell can stand on some face of it.
-bool Reconnection::lay(const Quad& cell, bool turned, std::size_t front, std::size_t end) {
+bool PolyhedronFilling::lay(const Quad& cell, bool turned, std::size_t front, std::size_t end) {
   laid_.push_back({cell, turned});
   const Set corners = bits(cell);
   std::array<FaceNumber, 4> face;
@@ -392,7 +392,7 @@ bool Reconnection::lay(const Quad& cell, bool turned, std::size_t front, std::si
   return alive;
 }
 
-void Reconnection::take_back() {
+void PolyhedronFilling::take_back() {
   const auto [cell, turned] = laid_.back();
   laid_.pop_back();
   for (int i = 0; i < 4; ++i) {
@@ -405,7 +405,7 @@ void Reconnection::take_back() {
   }
 }
 
-bool Reconnection::accept(const Filling& filling) {
+bool PolyhedronFilling::accept(const Filling& filling) {
   Set used = 0;
   std::array<Set, most_points> joined{};
   for (const auto& [cell, turned] : laid_) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "optimize/reconnect.hpp"
+#include "optimize/polyhedron_growth.hpp"
 
 #include <algorithm>
 
@@ -13,11 +13,11 @@ namespace pgdr {
 namespace {
 
 /// Sizes, in cells, at which a filling is looked for: each some one and a half times the one before, up to most_cells.
-constexpr std::array<std::size_t, 5> sizes{4, 7, 11, 16, Reconnection::most_cells};
+constexpr std::array<std::size_t, 5> sizes{4, 7, 11, 16, PolyhedronFilling::most_cells};
 
 }  // namespace
 
-void Reconnect::take(CellId c) {
+void PolyhedronGrowth::take(CellId c) {
   s_->mesh->mark(c);
   cells_.push_back(c);
   for (const VertexId v : s_->mesh->cell(c).vertices)
@@ -26,7 +26,7 @@ void Reconnect::take(CellId c) {
 
 /// Takes the cells across faces of the polyhedron that have one vertex: that which most faces see; of these the one with the
 /// worst cell. False if there is none, or if that would be too many.
-bool Reconnect::grow() {
+bool PolyhedronGrowth::grow() {
   struct Beyond {
     VertexId vertex;
     CellId cell;
@@ -49,7 +49,7 @@ bool Reconnect::grow() {
   double worst = 1;
   for (const Beyond& b : beyond) {
     const bool known = std::find(vertices_.begin(), vertices_.end(), b.vertex) != vertices_.end();
-    if (!known && vertices_.size() >= Reconnection::most_points) continue;
+    if (!known && vertices_.size() >= PolyhedronFilling::most_points) continue;
     std::size_t faces = 0;
     double least = 1;
     for (const Beyond& other : beyond)
@@ -63,14 +63,14 @@ bool Reconnect::grow() {
     most_faces = faces;
     worst = least;
   }
-  if (!best || cells_.size() + most_faces > Reconnection::most_cells) return false;
+  if (!best || cells_.size() + most_faces > PolyhedronFilling::most_cells) return false;
   for (const Beyond& b : beyond)
     if (b.vertex == best->vertex && !mesh.marked(b.cell)) take(b.cell);
   return true;
 }
 
 /// The sets of vertices that lie on one facet.
-void Reconnect::add_flat_sets() {
+void PolyhedronGrowth::add_flat_sets() {
   const Mesh<3>& mesh = *s_->mesh;
   std::vector<EntityId> facets = facets_at(mesh, cells_);
   for (const VertexId v : vertices_) {
@@ -90,7 +90,7 @@ void Reconnect::add_flat_sets() {
   }
 }
 
-void Reconnect::build() {
+void PolyhedronGrowth::build() {
   using Index = Polyhedron::Index;
   const Mesh<3>& mesh = *s_->mesh;
   Polyhedron& p = polyhedron_;
@@ -131,11 +131,11 @@ void Reconnect::build() {
   if (p.kept.size() >= 4) add_flat_sets();
 }
 
-bool Reconnect::fill(Judge::Rule rule) {
+bool PolyhedronGrowth::fill(Judge::Rule rule) {
   build();
   const Judge::Standing before = s_->judge.standing_of(cells_);
   const std::size_t most_poor = rule == Judge::Rule::no_more_poor ? static_cast<std::size_t>(before.weight)
-                                                                  : Reconnection::most_cells * 2;
+                                                                  : PolyhedronFilling::most_cells * 2;
   if (!search_.find(polyhedron_, s_->judge.quality(), Judge::too_bad(before), most_poor)) return false;
   tried_.clear();
   tried_.old = cells_;
@@ -147,7 +147,7 @@ bool Reconnect::fill(Judge::Rule rule) {
   return s_->judge.accepts(tried_, before, rule) && s_->replacer.fits(tried_);
 }
 
-bool Reconnect::make(CellId c, Judge::Rule rule) {
+bool PolyhedronGrowth::make(CellId c, Judge::Rule rule) {
   cells_.clear();
   vertices_.clear();
   take(c);

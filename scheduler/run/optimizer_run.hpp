@@ -21,12 +21,12 @@
 namespace pgdr::detail {
 
 /// Part of a run: see above. Workers may hold on to it: it must outlive them.
-class Optimizing {
+class OptimizerRun {
  public:
-  using Phase = Optimization::Phase;
+  using Phase = OptimizerStage::Phase;
 
   /// `min_dihedral`: the target in degrees, above 0. The others must outlive the last visit. @pre nothing waits
-  Optimizing(RunState<3>& state, VisitSchedule<3>& schedule, double min_dihedral);
+  OptimizerRun(RunState<3>& state, VisitSchedule<3>& schedule, double min_dihedral);
 
   /// Visits until nothing that was refused is worth another try, or the phase's budget is spent. The first phase begins with all
   /// poor cells, each other with what the one before has refused, but for what the same phase has refused before, with nothing
@@ -58,7 +58,7 @@ class Optimizing {
   RunState<3>* state_;
   VisitSchedule<3>* schedule_;
   const double min_dihedral_, claimed_cosine_;
-  Optimization stage_;
+  OptimizerStage stage_;
   const RefineCounts before_;
   bool sizes_are_met_ = true;
   std::uint64_t cells_ = 0;    ///< of the mesh, at the last look at all
