@@ -323,7 +323,16 @@ bool Reasons<D>::beside_kept(const PoorReason& reason, std::string& why) {
 template <int D>
 const EntityMeeting& Reasons<D>::meeting(const Pair& pair) {
   const auto [at, fresh] = meetings_.try_emplace({pair.a, pair.b});
-  if (fresh) at->second = meeting_of<D>(*named_, *pair.a, *pair.b, angle_bounds());
+  if (!fresh) return at->second;
+  at->second = meeting_of<D>(*named_, *pair.a, *pair.b, angle_bounds());
+  const auto try_parts = [&](const Entity& a, const Entity& b) {
+    const bool facets = a.kind == EntityKind::facet && b.kind == EntityKind::facet;
+    if (!facets || !named_->are_in_one_plane(a, b)) at->second.join(meeting_of<D>(*named_, a, b, angle_bounds()));
+  };
+  for (const Entity& a : pair.a->alone) try_parts(a, *pair.b);
+  for (const Entity& b : pair.b->alone) try_parts(*pair.a, b);
+  for (const Entity& a : pair.a->alone)
+    for (const Entity& b : pair.b->alone) try_parts(a, b);
   return at->second;
 }
 

@@ -128,6 +128,17 @@ std::vector<std::uint32_t> common_points(const NamedEntity<D>& a, const NamedEnt
   return common;
 }
 
+void merge(std::vector<AngleRange>& ranges) {
+  std::ranges::sort(ranges, {}, &AngleRange::low);
+  std::vector<AngleRange> merged;
+  for (const AngleRange& r : ranges)
+    if (!merged.empty() && r.low <= merged.back().high)
+      merged.back().high = std::max(merged.back().high, r.high);
+    else
+      merged.push_back(r);
+  ranges = std::move(merged);
+}
+
 template <int D>
 class Meetings {
  public:
@@ -144,7 +155,7 @@ class Meetings {
         meet_at_points({});
       }
     }
-    merge();
+    merge(out_.small);
     return std::move(out_);
   }
 
@@ -235,17 +246,6 @@ class Meetings {
     }
   }
 
-  void merge() {
-    std::ranges::sort(out_.small, {}, &AngleRange::low);
-    std::vector<AngleRange> merged;
-    for (const AngleRange& r : out_.small)
-      if (!merged.empty() && r.low <= merged.back().high)
-        merged.back().high = std::max(merged.back().high, r.high);
-      else
-        merged.push_back(r);
-    out_.small = std::move(merged);
-  }
-
   const NamedEntities<D>& entities_;
   const NamedEntity<D>&a_, &b_;
   AngleBounds bounds_;
@@ -253,6 +253,13 @@ class Meetings {
 };
 
 }  // namespace
+
+void EntityMeeting::join(const EntityMeeting& other) {
+  is_small = is_small || other.is_small;
+  is_sharp = is_sharp || other.is_sharp;
+  small.insert(small.end(), other.small.begin(), other.small.end());
+  merge(small);
+}
 
 template <int D>
 EntityMeeting meeting_of(const NamedEntities<D>& entities, const NamedEntity<D>& a, const NamedEntity<D>& b,

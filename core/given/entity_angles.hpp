@@ -20,6 +20,8 @@ struct EntityMeeting {
   bool is_small = false;  ///< below 60 degrees (two segments) or 90 somewhere, or may be
   bool is_sharp = false;  ///< 3D: somewhere at one at which the bounds cannot be met: of two facets at a segment, of two segments
   std::vector<AngleRange> small;  ///< those angles, ascending; ranges do not meet
+
+  void join(const EntityMeeting& other);
 };
 
 template <int D>

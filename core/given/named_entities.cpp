@@ -8,6 +8,8 @@
 #include "given/cover.hpp"
 #include "given/edge_net.hpp"
 #include "given/flat_groups.hpp"
+#include "numbers/vectors.hpp"
+#include "pgdr/predicates.hpp"
 #include "space/distances.hpp"
 #include "space/make_set.hpp"
 
@@ -42,14 +44,20 @@ const NamedEntity<D>* NamedEntities<D>::find(const GivenEntity& name) {
 }
 
 template <int D>
-std::uint32_t NamedEntities<D>::number_of(const Point<D>& x) {
+std::uint32_t NamedEntities<D>::known_number(const Point<D>& x) const {
   const auto at = std::lower_bound(sorted_.begin(), sorted_.end(), x,
                                    [&](std::uint32_t v, const Point<D>& y) { return lex_less(mesh_.points[v], y); });
   if (at != sorted_.end() && mesh_.points[*at] == x) return *at;
-  const auto next = static_cast<std::uint32_t>(mesh_.points.size() + further_points_.size());
-  const auto [known, fresh] = further_numbers_.try_emplace(x.x, next);
-  if (fresh) further_points_.push_back(x);
-  return known->second;
+  const auto known = further_numbers_.find(x.x);
+  return known != further_numbers_.end() ? known->second : none;
+}
+
+template <int D>
+std::uint32_t NamedEntities<D>::number_of(const Point<D>& x) {
+  if (const std::uint32_t known = known_number(x); known != none) return known;
+  further_numbers_[x.x] = static_cast<std::uint32_t>(mesh_.points.size() + further_points_.size());
+  further_points_.push_back(x);
+  return further_numbers_[x.x];
 }
 
 template <int D>
@@ -115,30 +123,67 @@ void NamedEntities<D>::add_triangle(const std::array<std::uint32_t, 3>& t, Named
 template <int D>
 void NamedEntities<D>::make_facet(std::uint32_t facet, NamedEntity<D>& out) {
   if constexpr (D == 3) {
-    out.kind = EntityKind::facet;
     join_flat_parts();
     const auto triangles = input_.triangles();
-    const auto count = static_cast<std::uint32_t>(triangles.size());
-    const auto first = std::ranges::lower_bound(triangles, facet, {}, &GivenTriangle::facet);
-    for (auto t = first; t != triangles.end() && t->facet == facet; ++t)
-      out.parts.push_back(flat_->find(static_cast<std::uint32_t>(t - triangles.begin())));
+    const auto [begin, end] = std::ranges::equal_range(triangles, facet, {}, &GivenTriangle::facet);
+    const auto first = static_cast<std::uint32_t>(begin - triangles.begin()),
+               last = static_cast<std::uint32_t>(end - triangles.begin());
+    for (std::uint32_t t = first; t < last; ++t) out.parts.push_back(flat_->find(t));
     detail::make_set(out.parts);
-    const auto corner = [&](std::uint32_t p) {
-      const std::uint32_t v = match_.vertex_of_point[p];
-      return v != none ? v : number_of(input_.point(p));
-    };
-    std::array<bool, 3> is_level{true, true, true};
+    for (std::uint32_t t = first; t < last; ++t)  // so that numbers of points that are in no mesh are known
+      for (const std::uint32_t p : triangles[t].points)
+        if (match_.vertex_of_point[p] == none) number_of(input_.point(p));
+    std::vector<std::uint32_t> members;
     for (const std::uint32_t part : out.parts)
       for (auto at = std::ranges::lower_bound(by_flat_, std::pair{part, 0u}); at != by_flat_.end() && at->first == part; ++at) {
-        const std::uint32_t i = at->second;
-        if (i >= count) {
-          add_triangle(mesh_.subfacets[i - count].vertices, out);
-        } else {
-          const auto& p = triangles[i].points;
-          add_triangle({corner(p[0]), corner(p[1]), corner(p[2])}, out);
-          out.off = std::max(out.off, match_.reach[i]);
-        }
+        members.push_back(at->second);
+        if (at->second >= triangles.size()) continue;
+        for (const std::uint32_t p : triangles[at->second].points)
+          if (match_.vertex_of_point[p] == none) number_of(input_.point(p));
       }
+    fill_facet(members, out);
+    if (out.triangles.empty() || is_in_one_plane(out)) return;
+    const std::vector<std::uint32_t> all = members_alone(first, last);
+    for (const std::size_t count : {all.size(), static_cast<std::size_t>(last - first)}) {
+      NamedEntity<D>& alone = out.alone.emplace_back();
+      alone.parts = {static_cast<std::uint32_t>(by_flat_.size()) + facet};  // of no set
+      fill_facet(std::span(all).first(count), alone);
+    }
+  }
+}
+
+/// The facet's triangles, and the subfacets that lie on these.
+template <int D>
+std::vector<std::uint32_t> NamedEntities<D>::members_alone(std::uint32_t first, std::uint32_t last) const {
+  std::vector<std::uint32_t> members;
+  for (std::uint32_t t = first; t < last; ++t) members.push_back(t);
+  const auto count = static_cast<std::uint32_t>(input_.triangles().size());
+  for (auto on = std::ranges::lower_bound(match_.on_given, first, {}, &OnGiven::given);
+       on != match_.on_given.end() && on->given < last; ++on)
+    members.push_back(count + on->wall);
+  return members;
+}
+
+/// @param members numbers of given triangles, and of subfacets behind them
+template <int D>
+void NamedEntities<D>::fill_facet(std::span<const std::uint32_t> members, NamedEntity<D>& out) const {
+  if constexpr (D == 3) {
+    out.kind = EntityKind::facet;
+    const auto triangles = input_.triangles();
+    const auto corner = [&](std::uint32_t p) {
+      const std::uint32_t v = match_.vertex_of_point[p];
+      return v != none ? v : known_number(input_.point(p));
+    };
+    for (const std::uint32_t i : members) {
+      if (i >= triangles.size()) {
+        add_triangle(mesh_.subfacets[i - triangles.size()].vertices, out);
+      } else {
+        const auto& p = triangles[i].points;
+        add_triangle({corner(p[0]), corner(p[1]), corner(p[2])}, out);
+        out.off = std::max(out.off, match_.reach[i]);
+      }
+    }
+    std::array<bool, 3> is_level{true, true, true};
     std::vector<detail::Box<3>> boxes;
     for (const auto& t : out.triangles) {
       boxes.push_back(detail::Box<3>::of(std::array{point(t[0]), point(t[1]), point(t[2])}));
@@ -152,6 +197,41 @@ void NamedEntities<D>::make_facet(std::uint32_t facet, NamedEntity<D>& out) {
     detail::make_set(out.points);
     out.tree = std::make_unique<detail::BoxTree<3>>(boxes);
   }
+}
+
+template <int D>
+std::array<Point<D>, 3> NamedEntities<D>::largest_triangle(const NamedEntity<D>& facet) const {
+  std::array<Point<D>, 3> largest{};
+  if constexpr (D == 3) {
+    double most = -1;
+    for (const auto& t : facet.triangles) {
+      const std::array<Point3, 3> corners{point(t[0]), point(t[1]), point(t[2])};
+      const auto n = detail::cross(detail::difference(corners[1], corners[0]), detail::difference(corners[2], corners[0]));
+      if (const double area = detail::dot(n, n); area > most) most = area, largest = corners;
+    }
+  }
+  return largest;
+}
+
+/// Are all its points within the tolerance of the plane of its largest triangle?
+template <int D>
+bool NamedEntities<D>::is_in_one_plane(const NamedEntity<D>& facet) const {
+  if constexpr (D == 3) {
+    const PlaneFrame frame(largest_triangle(facet));
+    return std::ranges::all_of(facet.points,
+                               [&](std::uint32_t p) { return std::abs(frame.place(point(p))[2]) <= input_.tolerance(); });
+  }
+  return true;
+}
+
+template <int D>
+bool NamedEntities<D>::are_in_one_plane(const NamedEntity<D>& facet, const NamedEntity<D>& other) const {
+  if constexpr (D == 3) {
+    const auto p = largest_triangle(facet);
+    const auto is_on = [&](std::uint32_t q) { return orient3d(p[0], p[1], p[2], point(q)) == Sign::zero; };
+    return std::ranges::all_of(facet.points, is_on) && std::ranges::all_of(other.points, is_on);
+  }
+  return false;
 }
 
 template <int D>

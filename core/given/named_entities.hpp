@@ -38,7 +38,11 @@ struct NamedEntity {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> at;  ///< a point, and a triangle with it, sorted
   std::vector<std::uint32_t> points;                        ///< all, sorted
   std::unique_ptr<detail::BoxTree<D>> tree;                 ///< of the triangles
-  double off = 0;                                           ///< how far points of a facet, that were not given, may be off it
+  /// Of a facet that hangs together with others, not all of which are within the tolerance of one plane: what was given of it by
+  /// itself, with the subfacets that lie on that, and without. Needles may lie in the planes on both of their sides, so that
+  /// nothing says which of these are one with it.
+  std::vector<NamedEntity> alone;
+  double off = 0;         ///< how far points of a facet, that were not given, may be off it
   bool is_loose = false;  ///< so may be those that were given: they do not lie in one plane, or were moved
 
   bool has(std::uint32_t point) const { return std::binary_search(points.begin(), points.end(), point); }
@@ -62,12 +66,19 @@ class NamedEntities {
     return entity.is_loose || point >= is_given_.size() || !is_given_[point] ? entity.off : 0;
   }
   bool is_within(const Point<D>& x, double distance, const NamedEntity<D>& entity) const;
+  /// Are the two facets in one plane, exactly?
+  bool are_in_one_plane(const NamedEntity<D>& facet, const NamedEntity<D>& other) const;
 
  private:
   std::uint32_t number_of(const Point<D>& x);
+  std::uint32_t known_number(const Point<D>& x) const;  ///< none, if it has none yet
   void make_segment(std::array<std::array<double, 3>, 2> of, NamedEntity<D>& out);
   bool is_covered(const NamedEntity<D>& segment) const;
   void make_facet(std::uint32_t facet, NamedEntity<D>& out);
+  void fill_facet(std::span<const std::uint32_t> members, NamedEntity<D>& out) const;
+  bool is_in_one_plane(const NamedEntity<D>& facet) const;
+  std::array<Point<D>, 3> largest_triangle(const NamedEntity<D>& facet) const;
+  std::vector<std::uint32_t> members_alone(std::uint32_t first, std::uint32_t last) const;
   void join_flat_parts();
   void add_triangle(const std::array<std::uint32_t, 3>& triangle, NamedEntity<D>& out) const;
 

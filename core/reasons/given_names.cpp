@@ -3,18 +3,126 @@
 #include "reasons/given_names.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <numbers>
 
+#include "numbers/vectors.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr {
+namespace {
+
+using detail::cross;
+using detail::difference;
+using detail::dot;
+using detail::Vector;
+
+/// What an entity has at one of its points: the directions to two others, and to all between. Of a segment they are one.
+struct Corner {
+  std::uint32_t triangle;             ///< of the facet
+  std::array<std::uint32_t, 2> ends;  ///< the two others
+};
+
+std::vector<Corner> corners_at(const Domain<3>& domain, EntityRef entity, std::uint32_t point) {
+  std::vector<Corner> corners;
+  if (entity.kind == EntityKind::segment) {
+    const auto& ends = domain.segments()[entity.id].points;
+    for (const std::size_t k : {0, 1})
+      if (ends[k] == point) corners.push_back({0, {ends[1 - k], ends[1 - k]}});
+    return corners;
+  }
+  const std::uint32_t first = domain.facets()[entity.id].first_triangle;
+  for (const std::uint32_t k : domain.triangles_at(entity.id, point)) {
+    auto t = domain.triangles(entity.id)[k - first];
+    std::rotate(t.begin(), std::find(t.begin(), t.end(), point), t.end());
+    corners.push_back({k - first, {t[1], t[2]}});
+  }
+  return corners;
+}
+
+double angle_of(const Vector<3>& u, const Vector<3>& w) {
+  const auto n = cross(u, w);
+  return std::atan2(std::sqrt(dot(n, n)), dot(u, w));
+}
+
+/// The least of a direction and of those between two others.
+double angle_to(const Vector<3>& ray, const Vector<3>& y, const Vector<3>& z) {
+  double least = std::min(angle_of(ray, y), angle_of(ray, z));
+  const auto n = cross(y, z);
+  if (dot(cross(n, y), ray) > 0 && dot(cross(z, n), ray) > 0)
+    least = std::min(least, std::abs(std::numbers::pi / 2 - angle_of(n, ray)));
+  return least;
+}
+
+/// In degrees, of two corners at a point; dihedral, if they share another one, too.
+double angle_between(const Domain<3>& domain, std::uint32_t point, const Corner& a, const Corner& b) {
+  const auto to = [&](std::uint32_t p) { return difference(domain.points()[p], domain.points()[point]); };
+  for (const std::size_t i : {0, 1})
+    for (const std::size_t k : {0, 1})
+      if (a.ends[i] == b.ends[k] && a.ends[0] != a.ends[1] && b.ends[0] != b.ends[1]) {
+        const auto edge = to(a.ends[i]);
+        return angle_of(cross(edge, to(a.ends[1 - i])), cross(edge, to(b.ends[1 - k]))) * 180 / std::numbers::pi;
+      }
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::size_t i : {0, 1}) {
+    least = std::min(least, angle_to(to(a.ends[i]), to(b.ends[0]), to(b.ends[1])));
+    least = std::min(least, angle_to(to(b.ends[i]), to(a.ends[0]), to(a.ends[1])));
+  }
+  return least * 180 / std::numbers::pi;
+}
+
+std::vector<std::uint32_t> points_of(const Domain<3>& domain, EntityRef entity) {
+  std::vector<std::uint32_t> points;
+  if (entity.kind == EntityKind::segment) {
+    const auto& p = domain.segments()[entity.id].points;
+    points.assign(p.begin(), p.end());
+  } else {
+    const auto p = domain.facet_points(entity.id);
+    points.assign(p.begin(), p.end());
+  }
+  std::sort(points.begin(), points.end());
+  return points;
+}
+
+bool has_extent(EntityRef entity) { return entity.kind == EntityKind::segment || entity.kind == EntityKind::facet; }
+
+}  // namespace
 
 template <int D>
 PoorReason GivenNames<D>::named(const DomainReason& reason, std::uint32_t cell) {
-  return {cell, reason.code, {name_of(reason.entities[0]), name_of(reason.entities[1])}, reason.angle};
+  const auto& [a, b] = reason.entities;
+  const std::array<std::uint32_t, 2> at = triangles_at_angle(reason);
+  return {cell, reason.code, {name_of(a, at[0]), name_of(b, at[1])}, reason.angle};
+}
+
+/// Of each facet, the triangle at which they meet at what is nearest to the angle that the reason states; no_entity: at none.
+template <int D>
+std::array<std::uint32_t, 2> GivenNames<D>::triangles_at_angle(const DomainReason& reason) const {
+  std::array<std::uint32_t, 2> best{no_entity, no_entity};
+  const auto& [a, b] = reason.entities;
+  if (reason.code != PoorReason::Code::small_angle || !has_extent(a) || !has_extent(b)) return best;
+  if constexpr (D == 3) {
+    if (a.kind == EntityKind::segment && b.kind == EntityKind::segment) return best;
+    const std::vector<std::uint32_t> of_a = points_of(domain_, a), of_b = points_of(domain_, b);
+    std::vector<std::uint32_t> common;
+    std::set_intersection(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(), std::back_inserter(common));
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t v : common)
+      for (const Corner& x : corners_at(domain_, a, v))
+        for (const Corner& y : corners_at(domain_, b, v)) {
+          const double off = std::abs(angle_between(domain_, v, x, y) - reason.angle);
+          if (!(off < least)) continue;
+          least = off;
+          best = {x.triangle, y.triangle};
+        }
+  }
+  return best;
 }
 
 template <int D>
-GivenEntity GivenNames<D>::name_of(EntityRef entity) {
+GivenEntity GivenNames<D>::name_of(EntityRef entity, std::uint32_t triangle) {
   GivenEntity name;
   name.kind = entity.kind;
   if (entity.kind == EntityKind::segment)
@@ -22,7 +130,8 @@ GivenEntity GivenNames<D>::name_of(EntityRef entity) {
       const auto& x = domain_.points()[domain_.segments()[entity.id].points[k]].x;
       std::copy(x.begin(), x.end(), name.ends[k].begin());
     }
-  if (entity.kind == EntityKind::facet) name.facet = given_facet(entity.id);
+  if (entity.kind == EntityKind::facet)
+    name.facet = triangle != no_entity ? domain_.triangle_origins(entity.id)[triangle].facet : given_facet(entity.id);
   return name;
 }
 

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What entities of a Domain are called in reasons: by what was given, which is all that their reader has.
+// What entities of a Domain are called in reasons: by what was given, which is all that their reader has. A facet is called by
+// that of its given triangles at which it meets the other entity at the angle that is stated.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "pgdr/output_mesh.hpp"
@@ -21,7 +23,8 @@ class GivenNames {
   PoorReason named(const DomainReason& reason, std::uint32_t cell);
 
  private:
-  GivenEntity name_of(EntityRef entity);
+  std::array<std::uint32_t, 2> triangles_at_angle(const DomainReason& reason) const;
+  GivenEntity name_of(EntityRef entity, std::uint32_t triangle);
   std::uint32_t given_facet(EntityId facet);
   std::uint32_t find_given_facet(EntityId facet) const;
   void find_subfacets();
