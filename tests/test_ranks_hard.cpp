@@ -81,7 +81,7 @@ std::vector<Hard<3>> solids() {
   all.add("pairs", test::box_with_pairs<3>(4, 1e-3, 5), 0.06);
   // Much that waits for the end dies before. What is gone lost its order once, so that of equal elements another went first.
   all.add("many_pairs", test::box_with_pairs<3>(40, 1e-3, 5), 1).schedule.lattice = 4;
-  all.add("small_angle", test::prism({{{0, 0}}, {{2, 0}}, {{2, 0.3}}}, 1), 0.04);
+  all.add("small_angle", test::prism({{{0, 0}}, {{2, 0}}, {{2, 0.3}}}, 1), 0.05);
   all.add("optimised", test::l_block(), 0.1).min_dihedral = 12;
   return all.take();
 }

@@ -92,8 +92,8 @@ Outcome ElementSplitter<D>::insert(const Candidate<D>& c) {
 }
 
 /// Looks, while the cavity of x is collected for a poor element, for a face that x encroaches upon and that is known to be
-/// refused for such a demand, and stops there: the face would be split in the element's place, and is refused again. Beside small
-/// angles most elements that stay poor are behind such a face, and many of their cavities have thousands of cells.
+/// refused, and stops once the cavity is large. (Beside small angles most elements that stay poor are behind such a face, which
+/// is near to them. Small cavities are collected to their ends, as there may be something else to split.)
 template <int D>
 class ElementSplitter<D>::RefusedFace final : public Cavity<D>::FaceWatch {
  public:
@@ -101,12 +101,17 @@ class ElementSplitter<D>::RefusedFace final : public Cavity<D>::FaceWatch {
       : w_(&workspace), entities_(&entities), x_(x), cause_(cause) {}
   bool stops_at(CellId c, int face) override {
     const Entry<D> f = w_->entry(c, EntryKind::face, face);
-    if (entities_->refused_before(f, cause_) && encroachment<D>(w_->mesh, c, face, x_) != Encroachment::none) found_ = f;
-    return found_.has_value();
+    if (!found_ && entities_->refused_before(f, cause_) && encroachment<D>(w_->mesh, c, face, x_) != Encroachment::none)
+      found_ = f;
+    return found_ && w_->cavity.cells().size() > many_cells;
   }
   const std::optional<Entry<D>>& found() const { return found_; }  ///< the face
 
  private:
+  /// Where it ends at once, elements of coarse nodes wait on in the uniform schedule, and ranks never cut their mesh
+  /// (bench/notebook/numbers.md).
+  static constexpr std::size_t many_cells = 128;
+
   const Workspace<D>* w_;
   const EntitySplitter<D>* entities_;
   Point<D> x_;
