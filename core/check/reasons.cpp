@@ -16,6 +16,7 @@
 #include "pgdr/point_selector.hpp"
 #include "pgdr/predicates.hpp"
 #include "space/distances.hpp"
+#include "space/equal_rows.hpp"
 
 namespace pgdr::checking {
 namespace {
@@ -30,6 +31,13 @@ std::string words_of(const GivenEntity& e) {
   for (std::size_t k = 0; k < 2; ++k)
     for (int i = 0; i < D; ++i) ends[k][i] = e.ends[k][static_cast<std::size_t>(i)];
   return "the segment from " + words(ends[0]) + " to " + words(ends[1]);
+}
+
+template <int D>
+std::span<const typename NamedEntity<D>::AtEdge> at_edge(const std::vector<typename NamedEntity<D>::AtEdge>& edges,
+                                                         const detail::PlanarEdge& ends) {
+  using AtEdge = typename NamedEntity<D>::AtEdge;
+  return detail::equal_rows(std::span<const AtEdge>(edges), ends, &AtEdge::ends);
 }
 
 bool agrees(double stated, const std::vector<AngleRange>& angles) {
@@ -210,10 +218,10 @@ bool Reasons<D>::is_facet_between(std::uint32_t v, const Entity& a, const Entity
     for (const std::uint32_t from : ends_at(a))
       for (const std::uint32_t to : ends_at(b)) {
         const double widest = cosine(from, to) * (1 - 0x1p-40);
-        for (const auto& first : std::ranges::equal_range(subfacets_, sorted_edge(v, from), {}, &Entity::AtEdge::ends)) {
+        for (const auto& first : at_edge<D>(subfacets_, sorted_edge(v, from))) {
           std::uint32_t behind = from, at = first.apex;
           while (at != to && cosine(from, at) >= widest && !std::ranges::binary_search(subsegments_, sorted_edge(v, at))) {
-            const auto next = std::ranges::equal_range(subfacets_, sorted_edge(v, at), {}, &Entity::AtEdge::ends);
+            const auto next = at_edge<D>(subfacets_, sorted_edge(v, at));
             if (next.size() != 2) break;
             const std::uint32_t beyond = next[0].apex == behind ? next[1].apex : next[0].apex;
             if (!(cosine(from, beyond) < cosine(from, at))) break;  // each step leads on
@@ -290,7 +298,7 @@ auto Reasons<D>::in_wedge(const PoorReason& reason, std::string& why) -> Verdict
   if constexpr (D == 3)
     for (int e = 0; e < edge_count(3); ++e) {
       const auto ends = ends_of_edge(mesh_.cells[reason.cell], e);
-      if (std::ranges::equal_range(s->edges, sorted_edge(ends[0], ends[1]), {}, &Entity::AtEdge::ends).empty()) continue;
+      if (at_edge<D>(s->edges, sorted_edge(ends[0], ends[1])).empty()) continue;
       at_segment = true;
       const auto wedge = wedge_below(mesh_, links_, reason.cell, e, options_.largest_cosine);
       if (wedge && agrees(reason.angle, {dihedral_range(*wedge)})) return Verdict::holds;
@@ -322,18 +330,19 @@ bool Reasons<D>::beside_kept(const PoorReason& reason, std::string& why) {
 
 template <int D>
 const EntityMeeting& Reasons<D>::meeting(const Pair& pair) {
-  const auto [at, fresh] = meetings_.try_emplace({pair.a, pair.b});
-  if (!fresh) return at->second;
-  at->second = meeting_of<D>(*named_, *pair.a, *pair.b, angle_bounds());
+  const auto made = meetings_.try_emplace({pair.a, pair.b});
+  EntityMeeting& meeting = made.first->second;
+  if (!made.second) return meeting;
+  meeting = meeting_of<D>(*named_, *pair.a, *pair.b, angle_bounds());
   const auto try_parts = [&](const Entity& a, const Entity& b) {
     const bool facets = a.kind == EntityKind::facet && b.kind == EntityKind::facet;
-    if (!facets || !named_->are_in_one_plane(a, b)) at->second.join(meeting_of<D>(*named_, a, b, angle_bounds()));
+    if (!facets || !named_->are_in_one_plane(a, b)) meeting.join(meeting_of<D>(*named_, a, b, angle_bounds()));
   };
   for (const Entity& a : pair.a->alone) try_parts(a, *pair.b);
   for (const Entity& b : pair.b->alone) try_parts(*pair.a, b);
   for (const Entity& a : pair.a->alone)
     for (const Entity& b : pair.b->alone) try_parts(a, b);
-  return at->second;
+  return meeting;
 }
 
 template <int D>

@@ -15,6 +15,7 @@
 #include "numbers/dihedral_sign.hpp"
 #include "numbers/vectors.hpp"
 #include "pgdr/predicates.hpp"
+#include "space/equal_rows.hpp"
 #include "space/make_set.hpp"
 
 namespace pgdr::checking {
@@ -92,8 +93,8 @@ AngleRange range(double radians, double off) {
 
 template <int D>
 std::span<const typename NamedEntity<D>::AtEdge> edges_at(const NamedEntity<D>& e, const detail::PlanarEdge& ends) {
-  const auto [first, last] = std::ranges::equal_range(e.edges, ends, {}, &NamedEntity<D>::AtEdge::ends);
-  return {first, last};
+  using AtEdge = typename NamedEntity<D>::AtEdge;
+  return detail::equal_rows(std::span<const AtEdge>(e.edges), ends, &AtEdge::ends);
 }
 
 /// A facet that has the segment, or a piece of it, makes no angle with it.
@@ -112,9 +113,9 @@ Rays rays_at(const NamedEntity<D>& e, std::uint32_t v) {
   if (e.kind == EntityKind::segment)
     for (std::size_t k = 0; k < 2; ++k)
       if (e.ends[k] == v) out.push_back({e.ends[1 - k], e.ends[1 - k]});
-  const auto [first, last] = std::ranges::equal_range(e.at, v, {}, [](const auto& at) { return at.first; });
-  for (auto at = first; at != last; ++at) {
-    auto t = e.triangles[at->second];
+  using At = std::pair<std::uint32_t, std::uint32_t>;
+  for (const auto& [point, number] : detail::equal_rows(std::span<const At>(e.at), v, &At::first)) {
+    auto t = e.triangles[number];
     std::rotate(t.begin(), std::find(t.begin(), t.end(), v), t.end());
     out.push_back({t[1], t[2]});
   }

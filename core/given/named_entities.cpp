@@ -11,6 +11,7 @@
 #include "numbers/vectors.hpp"
 #include "pgdr/predicates.hpp"
 #include "space/distances.hpp"
+#include "space/equal_rows.hpp"
 #include "space/make_set.hpp"
 
 namespace pgdr::checking {
@@ -125,9 +126,9 @@ void NamedEntities<D>::make_facet(std::uint32_t facet, NamedEntity<D>& out) {
   if constexpr (D == 3) {
     join_flat_parts();
     const auto triangles = input_.triangles();
-    const auto [begin, end] = std::ranges::equal_range(triangles, facet, {}, &GivenTriangle::facet);
-    const auto first = static_cast<std::uint32_t>(begin - triangles.begin()),
-               last = static_cast<std::uint32_t>(end - triangles.begin());
+    const auto own = detail::equal_rows(std::span<const GivenTriangle>(triangles), facet, &GivenTriangle::facet);
+    const auto first = static_cast<std::uint32_t>(own.data() - triangles.data());
+    const auto last = first + static_cast<std::uint32_t>(own.size());
     for (std::uint32_t t = first; t < last; ++t) out.parts.push_back(flat_->find(t));
     detail::make_set(out.parts);
     for (std::uint32_t t = first; t < last; ++t)  // so that numbers of points that are in no mesh are known

@@ -23,7 +23,7 @@ std::optional<PlannedVisits<D>> Generations<D>::next() {
 
 template <int D>
 void Generations<D>::done(VisitRunner<D>& runner, const PlannedVisits<D>& plan, std::vector<EndedVisit<D>> ended,
-                          std::exception_ptr error) {
+                          const std::exception_ptr& error) {
   Planner<D>::done(runner, plan, std::move(ended), error);
   std::vector<Node> candidates;
   for (const Visit<D>& visit : plan.generation.visits)

@@ -26,7 +26,7 @@ class Generations final : public Planner<D> {
   StopCause stop() override { return state_->stop_between_visits(); }
   std::optional<PlannedVisits<D>> next() override;
   void done(VisitRunner<D>& runner, const PlannedVisits<D>& plan, std::vector<EndedVisit<D>> ended,
-            std::exception_ptr error) override;
+            const std::exception_ptr& error) override;
 
  private:
   void renew_buffers(std::span<const VisitRequest> requests);

@@ -38,7 +38,7 @@ class Planner {
   virtual std::optional<PlannedVisits<D>> next() = 0;
   /// Takes in what the visits of the plan did. `error`: what one threw, so that they are not all there; mostly it is thrown.
   virtual void done(VisitRunner<D>& runner, const PlannedVisits<D>& plan, std::vector<EndedVisit<D>> ended,
-                    std::exception_ptr error) {
+                    const std::exception_ptr& error) {
     if (error) std::rethrow_exception(error);
     runner.account(plan.generation, ended);
   }

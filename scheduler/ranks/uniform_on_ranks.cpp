@@ -337,7 +337,7 @@ PlannedVisits<D> UniformOnRanks<D>::plan_together() {
 /// says nothing to its neighbours, and what happened to all.
 template <int D>
 void UniformOnRanks<D>::done(VisitRunner<D>& runner, const PlannedVisits<D>& plan, std::vector<EndedVisit<D>> ended,
-                             std::exception_ptr error) {
+                             const std::exception_ptr& error) {
   if (!territory_) return Planner<D>::done(runner, plan, std::move(ended), error);
   look_ahead(before_, tell_neighbours(plan.generation, ended, error_ ? error_ : error));
 }

@@ -70,7 +70,7 @@ class UniformOnRanks final : public Planner<D> {
   std::optional<PlannedVisits<D>> next() override;
   /// The same.
   void done(VisitRunner<D>& runner, const PlannedVisits<D>& plan, std::vector<EndedVisit<D>> ended,
-            std::exception_ptr error) override;
+            const std::exception_ptr& error) override;
 
  private:
   /// Nodes of one level, with the elements that are to come in each.
