@@ -184,6 +184,43 @@ TEST(CheckBounds, AnglesInSpace) {
   EXPECT_GT(slanted_mixed, 0);
 }
 
+/// A block of two prisms whose top, of two facets, is plane but for half of the tolerance; its first edge is 20 tolerances long.
+Model<3> block_with_an_uneven_top() {
+  Model<3> m;
+  m.plc.points = {{{0, 0, 1}},       {{0.02, 0, 1}},    {{5, 5, 1.0005}}, {{0, 5, 1}},
+                  {{0.2, -0.02, 0}}, {{0.3, -0.02, 0}}, {{5, 5, 0}},      {{0.2, 5, 0}}};
+  m.mesh.cells = {{0, 2, 1, 4}, {1, 2, 5, 4}, {2, 6, 5, 4}, {0, 3, 2, 4}, {2, 3, 6, 4}, {3, 7, 6, 4}};
+  const std::vector<std::array<std::uint32_t, 3>> walls{{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}, {0, 1, 4}, {1, 4, 5},
+                                                        {1, 2, 5}, {2, 5, 6}, {2, 3, 6}, {3, 6, 7}, {0, 3, 4}, {3, 4, 7}};
+  for (const auto& w : walls) {
+    m.plc.facets.push_back({{{w[0], w[1], w[2]}}, {}, 0});
+    m.mesh.subfacets.push_back({w, 0});
+  }
+  m.plc.tolerance = 0.001;
+  m.mesh.points = m.plc.points;
+  m.mesh.input_points = 8;
+  return m;
+}
+
+// wam2.stl of a robot's arm, without the optimiser: of a facet in one plane but for the tolerance no short edge was known, so
+// that a true angle with one was none.
+TEST(CheckBounds, CornersOfGivenTrianglesAreKnown) {
+  const Model<3> m = block_with_an_uneven_top();
+  CheckOptions<3> options;
+  options.radius_edge_bound = 0.5;
+  options.tolerance = m.plc.tolerance;
+  const GivenEntity edge = named_segment<3>(m.plc.points[0], m.plc.points[4]);
+  const double angle = std::acos(0.2 / std::sqrt(0.2 * 0.2 + 0.02 * 0.02 + 1)) * 180 / std::numbers::pi;
+  const auto explained = [&](std::uint32_t facet, double stated) {
+    const auto report = run(m, options, {{0, Code::small_angle, {named_facet(facet), edge}, stated}});
+    EXPECT_EQ(report.count(Kind::over_radius_edge), 5u);
+    return report.explained == 1;
+  };
+  EXPECT_TRUE(explained(0, angle));
+  EXPECT_FALSE(explained(0, angle - 1));
+  EXPECT_FALSE(explained(4, angle)) << "a facet that has the edge";
+}
+
 TEST(CheckBounds, Sizes) {
   auto m = two_regions<3>(straight<3>());  // cells of volume 1/6, circumradius sqrt(3)/2
   CheckOptions<3> options;
@@ -268,6 +305,9 @@ TEST(CheckDelaunay, RefusedOnlyBesideANamedEntity) {
   }
   m.mesh.input_points = 10;
   EXPECT_EQ(run(m, {}, {}).count(Kind::not_delaunay), 1u);
+  const auto said = run(m, {.not_delaunay_left = 1}, {});  // as hellbot_hidra_plus.obj, without the optimiser, has 31
+  EXPECT_EQ(said.not_delaunay_unexplained, 1u);
+  EXPECT_EQ(said.exit_code(), 1);
   const PoorReason elsewhere{0, Code::small_angle, {between(m, 0, 1), between(m, 0, 2)}, needle_angle};
   EXPECT_EQ(run(m, {}, {elsewhere}).count(Kind::not_delaunay), 1u);
   const PoorReason no_angle{2, Code::small_angle, {between(m, 6, 7), between(m, 7, 8)}, needle_angle};
@@ -286,6 +326,7 @@ TEST(CheckDelaunay, RefusedOnlyBesideANamedEntity) {
       4, Code::small_angle, {between(m, 6, 10), between(m, 6, 11)}, 2 * std::atan2(0.125, 1) * 180 / std::numbers::pi};
   const auto report = run(m, {}, {beside});
   EXPECT_EQ(report.not_delaunay_refused, 1u);
+  EXPECT_EQ(report.not_delaunay_unexplained, 0u);
   EXPECT_EQ(report.exit_code(), 0) << "as the mesher's: the bounds decide";
 }
 

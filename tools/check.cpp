@@ -45,7 +45,9 @@ void fill(Report& report, const OutputMesh<D>& mesh, const Bounds<D>& bounds, co
   if (q) {
     JsonObject quality = to_json(*q);
     if (delaunay)
-      quality.set("not_delaunay", JsonObject{{"rounding", r.not_delaunay_rounding}, {"refused", r.not_delaunay_refused}});
+      quality.set("not_delaunay", JsonObject{{"rounding", r.not_delaunay_rounding},
+                                             {"refused", r.not_delaunay_refused},
+                                             {"unexplained", r.not_delaunay_unexplained}});
     else
       quality.set("not_delaunay", nullptr);
     report.set("quality", quality);
@@ -80,15 +82,17 @@ void print_summary(const CheckArguments& a, const OutputMesh<D>& mesh, const Bou
                             (D == 3 ? count(r.below_dihedral, "cell", "cells") + " below the dihedral bound, " : "") +
                             count(r.explained, "cell", "cells") + " with a reason that holds" +
                             (r.unexplained > 0 ? ", " + count(r.unexplained, "cell", "cells") + " unexplained" : ""));
-  if (r.not_delaunay_rounding + r.not_delaunay_refused > 0)
+  if (r.not_delaunay_rounding + r.not_delaunay_refused + r.not_delaunay_unexplained > 0)
     print_row("delaunay", count(r.not_delaunay_rounding, "local violation", "local violations") + " by rounding, " +
-                              std::to_string(r.not_delaunay_refused) + " beside refused entities");
+                              std::to_string(r.not_delaunay_refused) + " beside refused entities, " +
+                              std::to_string(r.not_delaunay_unexplained) + " unexplained");
   for (const CheckFinding& f : r.findings) print_row("found", std::string(name(f.kind)) + ": " + f.message);
   if (r.finding_count > r.findings.size()) print_row("found", count(r.finding_count - r.findings.size(), "more", "more"));
   const int code = r.exit_code();
   print_row("verdict", code == exit_done        ? r.not_delaunay_refused == 0 ? "everything holds" : "every bound holds"
-                       : code == exit_poor_left ? r.unexplained > 0 ? "sound; over a bound also where nothing explains it"
-                                                                    : "sound; over a bound only where the reasons explain it"
+                       : code == exit_poor_left ? r.unexplained + r.not_delaunay_unexplained > 0
+                                                      ? "sound; over a bound also where nothing explains it"
+                                                      : "sound; over a bound only where the reasons explain it"
                                                 : "FAILED");
 }
 
@@ -115,6 +119,7 @@ int check_as(const CheckArguments& a, InputFile& file, Report& report) {
   options.largest_cosine = reported.largest_cosine.value_or(1);
   if (bounds.min_dihedral) options.largest_cosine = claimed_cosine(*bounds.min_dihedral);
   options.delaunay = a.delaunay || reported.delaunay;
+  options.not_delaunay_left = reported.not_delaunay_left;
   options.regions = a.regions.value_or(reported.regions);
   if (!a.reasons.empty()) options.reasons = &reported.reasons;
   const CheckReport verdict = pgdr::check(mesh, options);

@@ -192,6 +192,8 @@ ReportedBounds read_bounds(const std::string& file) {
     read.convex_hull = holds("convex_hull", true);
     read.region_areas = holds("region_areas", true);
     read.delaunay = holds("delaunay", true);
+    if (const nlohmann::json::json_pointer left("/quality/not_delaunay/refused"); report.contains(left))
+      read.not_delaunay_left = report.at(left).get<std::uint64_t>();
     if (const auto o = report.find("optimization"); o != report.end() && o->is_object())
       if (const auto k = o->find("claimed_cosine"); k != o->end() && k->is_number()) read.largest_cosine = k->get<double>();
     for (const RegionMode mode : {RegionMode::automatic, RegionMode::all})

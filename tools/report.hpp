@@ -63,6 +63,7 @@ struct ReportedBounds {
   std::optional<double> tolerance;       ///< Domain::tolerance
   std::optional<double> largest_cosine;  ///< of dihedral angles, as the optimiser claims it
   bool delaunay = false;                 ///< does the report say that the mesh is?
+  std::uint64_t not_delaunay_left = 0;   ///< faces that it says are not locally Delaunay, other than by rounding
   bool convex_hull = false;              ///< what was done to the input, 2D
   bool region_areas = false;             ///< how it was read, 2D
   RegionMode regions = RegionMode::seeds;

@@ -159,8 +159,9 @@ void check_bounds(const OutputMesh<D>& mesh, const CheckOptions<D>& options, con
 
 template <int D>
 void check_delaunay(const OutputMesh<D>& mesh, const Links<D>& links, std::span<const double> slack,
-                    std::span<const std::uint8_t> refused, Findings& findings) {
+                    std::span<const std::uint8_t> refused, std::uint64_t left, Findings& findings) {
   CheckReport& report = findings.report();
+  std::vector<std::uint32_t> unexplained;  // faces
   const auto touches_refused = [&](std::uint32_t cell) {
     const auto& v = mesh.cells[cell];
     return !refused.empty() && std::any_of(v.begin(), v.end(), [&](std::uint32_t u) { return refused[u]; });
@@ -180,11 +181,19 @@ void check_delaunay(const OutputMesh<D>& mesh, const Links<D>& links, std::span<
     } else if (touches_refused(cell) || touches_refused(other)) {
       ++report.not_delaunay_refused;
     } else {
-      findings.add(Kind::not_delaunay, {cell, other}, [&] {
-        return "The " + vertex_words(mesh, apex) + " of cell " + std::to_string(other) +
-               " lies inside the circumsphere of its neighbour " + cell_words(mesh, cell) + ".";
-      });
+      unexplained.push_back(face);
     }
+  }
+  if (unexplained.size() + report.not_delaunay_refused <= left) {
+    report.not_delaunay_unexplained = unexplained.size();
+    return;
+  }
+  for (const std::uint32_t face : unexplained) {
+    const std::uint32_t back = links.neighbour[face], cell = face / (D + 1), other = back / (D + 1);
+    findings.add(Kind::not_delaunay, {cell, other}, [&] {
+      return "The " + vertex_words(mesh, mesh.cells[other][back % (D + 1)]) + " of cell " + std::to_string(other) +
+             " lies inside the circumsphere of its neighbour " + cell_words(mesh, cell) + ".";
+    });
   }
 }
 
@@ -222,7 +231,7 @@ std::vector<double> slack_of_vertices(const OutputMesh<D>& mesh, int ulps) {
   template void check_bounds(const OutputMesh<D>&, const CheckOptions<D>&, const Links<D>&, const Components&,                \
                              const InputVolumes<D>*, Reasons<D>&, Findings&);                                                 \
   template void check_delaunay(const OutputMesh<D>&, const Links<D>&, std::span<const double>, std::span<const std::uint8_t>, \
-                               Findings&);                                                                                    \
+                               std::uint64_t, Findings&);                                                                     \
   template double largest_coordinate(const OutputMesh<D>&);                                                                   \
   template std::vector<double> slack_of_vertices(const OutputMesh<D>&, int);
 PGDR_INSTANTIATE(2)

@@ -19,9 +19,10 @@ void check_bounds(const OutputMesh<D>& mesh, const CheckOptions<D>& options, con
 /// No vertex opposite an unconstrained face lies inside the circumsphere of the cell on its other side.
 /// @param slack of each vertex: how far it may be off its entity by rounding.
 /// @param refused of each vertex: it lies on an entity whose split was refused; may be empty.
+/// @param left CheckOptions::not_delaunay_left
 template <int D>
 void check_delaunay(const OutputMesh<D>& mesh, const Links<D>& links, std::span<const double> slack,
-                    std::span<const std::uint8_t> refused, Findings& findings);
+                    std::span<const std::uint8_t> refused, std::uint64_t left, Findings& findings);
 
 /// The largest absolute value of a coordinate.
 template <int D>

@@ -52,7 +52,8 @@ void check_shapes(const OutputMesh<D>& mesh, const CheckOptions<D>& options, con
                   const InputVolumes<D>* volumes, NamedEntities<D>* named, Findings& findings) {
   Reasons<D> reasons(mesh, options, links, named, findings);
   if (options.delaunay)
-    check_delaunay<D>(mesh, links, slack_of_vertices(mesh, options.conformity_ulps), reasons.vertices_at_refused(), findings);
+    check_delaunay<D>(mesh, links, slack_of_vertices(mesh, options.conformity_ulps), reasons.vertices_at_refused(),
+                      options.not_delaunay_left, findings);
   check_bounds(mesh, options, links, components, volumes, reasons, findings);
 }
 

@@ -29,7 +29,7 @@ NotDelaunay count_all(const OutputMesh<D>& mesh, std::span<const double> slack, 
   Findings findings(report, 0, {});
   Links<D> links = link_cells(mesh, findings);
   links.neighbour.resize((D + 1) * own);  // a face is looked at from the first of its cells
-  check_delaunay<D>(mesh, links, slack, {}, findings);
+  check_delaunay<D>(mesh, links, slack, {}, 0, findings);
   return {report.not_delaunay_rounding, report.count(Kind::not_delaunay)};
 }
 

@@ -334,6 +334,8 @@ const EntityMeeting& Reasons<D>::meeting(const Pair& pair) {
   EntityMeeting& meeting = made.first->second;
   if (!made.second) return meeting;
   meeting = meeting_of<D>(*named_, *pair.a, *pair.b, angle_bounds());
+  // Where both are in one plane each, there is no doubt about what is one.
+  if (pair.a->is_one_plane && pair.b->is_one_plane && are_one(*pair.a, *pair.b)) return meeting;
   const auto try_parts = [&](const Entity& a, const Entity& b) {
     const bool facets = a.kind == EntityKind::facet && b.kind == EntityKind::facet;
     if (!facets || !named_->are_in_one_plane(a, b)) meeting.join(meeting_of<D>(*named_, a, b, angle_bounds()));

@@ -147,15 +147,13 @@ class Meetings {
       : entities_(entities), a_(a), b_(b), bounds_(bounds) {}
 
   EntityMeeting run() {
-    if (a_.kind == EntityKind::segment && b_.kind == EntityKind::segment) {
-      if (a_.ends != b_.ends) meet_segments();
-    } else if constexpr (D == 3) {
-      if (a_.kind == EntityKind::facet && b_.kind == EntityKind::facet) {
-        if (a_.parts != b_.parts) meet_facets();
-      } else if (a_.kind == EntityKind::segment ? !has_segment(b_, a_) : !has_segment(a_, b_)) {
-        meet_at_points({});
-      }
-    }
+    if (are_one(a_, b_)) return {};
+    if (a_.kind == EntityKind::segment && b_.kind == EntityKind::segment)
+      meet_segments();
+    else if (a_.kind == EntityKind::facet && b_.kind == EntityKind::facet)
+      meet_facets();
+    else
+      meet_at_points({});
     merge(out_.small);
     return std::move(out_);
   }
@@ -255,6 +253,12 @@ class Meetings {
 
 }  // namespace
 
+template <int D>
+bool are_one(const NamedEntity<D>& a, const NamedEntity<D>& b) {
+  if (a.kind == b.kind) return a.kind == EntityKind::segment ? a.ends == b.ends : a.parts == b.parts;
+  return a.kind == EntityKind::segment ? has_segment(b, a) : has_segment(a, b);
+}
+
 void EntityMeeting::join(const EntityMeeting& other) {
   is_small = is_small || other.is_small;
   is_sharp = is_sharp || other.is_sharp;
@@ -269,11 +273,8 @@ EntityMeeting meeting_of(const NamedEntities<D>& entities, const NamedEntity<D>&
 }
 
 bool share_segment_at(const NamedEntity<3>& a, const NamedEntity<3>& b, std::uint32_t point) {
-  if (a.kind == EntityKind::segment || b.kind == EntityKind::segment) {
-    if (a.kind == b.kind) return a.ends == b.ends;
-    return a.kind == EntityKind::segment ? has_segment<3>(b, a) : has_segment<3>(a, b);
-  }
-  if (a.parts == b.parts) return true;
+  if (are_one(a, b)) return true;
+  if (a.kind == EntityKind::segment || b.kind == EntityKind::segment) return false;
   for (const auto& [c, d] : rays_at<3>(a, point))
     for (const std::uint32_t x : {c, d})
       if (!edges_at<3>(b, sorted_edge(point, x)).empty()) return true;
@@ -291,6 +292,8 @@ AngleRange dihedral_range(const std::array<Point3, 4>& p) {
   return range(angle_of<3>(u.along, w.along), u.off + w.off);
 }
 
+template bool are_one(const NamedEntity<2>&, const NamedEntity<2>&);
+template bool are_one(const NamedEntity<3>&, const NamedEntity<3>&);
 template EntityMeeting meeting_of(const NamedEntities<2>&, const NamedEntity<2>&, const NamedEntity<2>&, const AngleBounds&);
 template EntityMeeting meeting_of(const NamedEntities<3>&, const NamedEntity<3>&, const NamedEntity<3>&, const AngleBounds&);
 

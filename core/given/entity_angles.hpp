@@ -28,6 +28,10 @@ template <int D>
 EntityMeeting meeting_of(const NamedEntities<D>& entities, const NamedEntity<D>& a, const NamedEntity<D>& b,
                          const AngleBounds& bounds);
 
+/// Is one a part of the other, or the same? These make no angle.
+template <int D>
+bool are_one(const NamedEntity<D>& a, const NamedEntity<D>& b);
+
 /// Do they, of which none is a part of the other, share a segment at this point? It is a point of both.
 bool share_segment_at(const NamedEntity<3>& a, const NamedEntity<3>& b, std::uint32_t point);
 

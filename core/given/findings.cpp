@@ -36,7 +36,7 @@ std::string_view name(CheckFinding::Kind kind) {
 
 int CheckReport::exit_code() const {
   if (finding_count > 0) return 6;
-  return explained + unexplained > 0 ? 1 : 0;
+  return explained + unexplained + not_delaunay_unexplained > 0 ? 1 : 0;
 }
 
 namespace checking {

@@ -143,14 +143,28 @@ void NamedEntities<D>::make_facet(std::uint32_t facet, NamedEntity<D>& out) {
           if (match_.vertex_of_point[p] == none) number_of(input_.point(p));
       }
     fill_facet(members, out);
-    if (out.triangles.empty() || is_in_one_plane(out)) return;
+    out.is_one_plane = is_in_one_plane(out);
+    if (out.triangles.empty() || (out.is_one_plane && !out.is_loose)) return;
     const std::vector<std::uint32_t> all = members_alone(first, last);
     for (const std::size_t count : {all.size(), static_cast<std::size_t>(last - first)}) {
       NamedEntity<D>& alone = out.alone.emplace_back();
       alone.parts = {static_cast<std::uint32_t>(by_flat_.size()) + facet};  // of no set
       fill_facet(std::span(all).first(count), alone);
     }
+    // The corners of given triangles are where they are: what may be off is what was put onto them.
+    out.alone.back().off = 0;
+    out.alone.back().is_loose = false;
   }
+}
+
+/// May the subfacet lie in the plane of the given triangle?
+template <int D>
+bool NamedEntities<D>::lies_on(std::uint32_t subfacet, std::uint32_t given) const {
+  if constexpr (D == 3)
+    return std::ranges::all_of(mesh_.subfacets[subfacet].vertices, [&](std::uint32_t v) {
+      return may_be_even(input_.corners(input_.triangles()[given]), mesh_.points[v], match_.reach[given]);
+    });
+  return false;
 }
 
 /// The facet's triangles, and the subfacets that lie on these.
@@ -161,7 +175,7 @@ std::vector<std::uint32_t> NamedEntities<D>::members_alone(std::uint32_t first, 
   const auto count = static_cast<std::uint32_t>(input_.triangles().size());
   for (auto on = std::ranges::lower_bound(match_.on_given, first, {}, &OnGiven::given);
        on != match_.on_given.end() && on->given < last; ++on)
-    members.push_back(count + on->wall);
+    if (lies_on(on->wall, on->given)) members.push_back(count + on->wall);
   return members;
 }
 
@@ -250,8 +264,7 @@ void NamedEntities<D>::join_flat_parts() {
       return std::ranges::all_of(other, [&](const Point3& x) { return may_be_even(triangle, x, reach); });
     };
     for (const OnGiven& on : match_.on_given) {
-      const GivenTriangle& t = input_.triangles()[on.given];
-      if (marker(on.wall) == input_.marker(t) && is_even(input_.corners(t), corners(on.wall), match_.reach[on.given]))
+      if (marker(on.wall) == input_.marker(input_.triangles()[on.given]) && lies_on(on.wall, on.given))
         flat_->unite(on.given, count + on.wall);
     }
     std::vector<NamedEntity<3>::AtEdge> edges;  // with the subfacet in place of its apex

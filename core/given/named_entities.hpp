@@ -38,9 +38,10 @@ struct NamedEntity {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> at;  ///< a point, and a triangle with it, sorted
   std::vector<std::uint32_t> points;                        ///< all, sorted
   std::unique_ptr<detail::BoxTree<D>> tree;                 ///< of the triangles
-  /// Of a facet that hangs together with others, not all of which are within the tolerance of one plane: what was given of it by
-  /// itself, with the subfacets that lie on that, and without. Needles may lie in the planes on both of their sides, so that
-  /// nothing says which of these are one with it.
+  bool is_one_plane = true;                                 ///< all of a facet is within the tolerance of one plane
+  /// Of a facet that is not in one plane, or loose: what was given of it by itself, with the subfacets that lie on that, and
+  /// without. Needles may lie in the planes on both of their sides, so that nothing says which of these are one with it; and
+  /// where a facet is loose, the corners of what was given are known all the same.
   std::vector<NamedEntity> alone;
   double off = 0;         ///< how far points of a facet, that were not given, may be off it
   bool is_loose = false;  ///< so may be those that were given: they do not lie in one plane, or were moved
@@ -78,6 +79,7 @@ class NamedEntities {
   void fill_facet(std::span<const std::uint32_t> members, NamedEntity<D>& out) const;
   bool is_in_one_plane(const NamedEntity<D>& facet) const;
   std::array<Point<D>, 3> largest_triangle(const NamedEntity<D>& facet) const;
+  bool lies_on(std::uint32_t subfacet, std::uint32_t given) const;
   std::vector<std::uint32_t> members_alone(std::uint32_t first, std::uint32_t last) const;
   void join_flat_parts();
   void add_triangle(const std::array<std::uint32_t, 3>& triangle, NamedEntity<D>& out) const;

@@ -71,6 +71,9 @@ struct CheckOptions {
   /// 3D: bound on dihedral angles, as its cosine rounded to a double (claimed_cosine); 1: none.
   double largest_cosine = 1;
   bool delaunay = false;  ///< are faces to be locally Delaunay, but for what rounding or a refused split explains?
+  /// So many faces are said to be left that are not locally Delaunay, other than by rounding (NotDelaunay::other). No more of
+  /// them are no findings: those beside no refused split are `not_delaunay_unexplained`.
+  std::uint64_t not_delaunay_left = 0;
   const std::vector<PoorReason>* reasons = nullptr;  ///< of poor cells, each of which is verified; null: there are none
   /// Widest distance, in ulps of the entity's largest coordinate, of a vertex from the line or plane it is on.
   /// One ulp is 2^-52 times that coordinate. Axis-aligned entities must be met exactly.
@@ -91,7 +94,7 @@ struct CheckFinding {
     inverted_cell,           ///< orientation not positive
     bad_link,                ///< a face shared wrongly, or a hull face that is no constraint
     overlapping,             ///< cells round a vertex that cover some direction twice, or not at all
-    not_delaunay,            ///< beyond what rounding or a refused split explains
+    not_delaunay,            ///< beyond what rounding or a refused split explains, and more than are said to be left
     missing_input_point,     ///< an input point that is no vertex of a cell
     segment_not_conforming,  ///< no chain of subsegments, or one off its line
     facet_not_conforming,    ///< not the union of its subfacets, or a vertex off its plane
@@ -114,12 +117,13 @@ std::string_view name(CheckFinding::Kind kind);
 
 /// The verdict, and what it rests on.
 struct CheckReport {
-  std::uint64_t not_delaunay_rounding = 0;  ///< local violations that moving slanted points by conformity_ulps cancels
-  std::uint64_t not_delaunay_refused = 0;   ///< other violations, beside an entity whose split was refused (in reasons)
-  std::uint64_t over_radius_edge = 0;       ///< cells over the radius-edge bound
-  std::uint64_t over_size = 0;              ///< cells over a bound of size, volume or area
-  std::uint64_t below_dihedral = 0;         ///< cells with a dihedral angle below the bound
-  std::uint64_t explained = 0;              ///< cells over a bound with a reason that holds
+  std::uint64_t not_delaunay_rounding = 0;     ///< local violations that moving slanted points by conformity_ulps cancels
+  std::uint64_t not_delaunay_refused = 0;      ///< other violations, beside an entity whose split was refused (in reasons)
+  std::uint64_t not_delaunay_unexplained = 0;  ///< other ones, which are said to be left
+  std::uint64_t over_radius_edge = 0;          ///< cells over the radius-edge bound
+  std::uint64_t over_size = 0;                 ///< cells over a bound of size, volume or area
+  std::uint64_t below_dihedral = 0;            ///< cells with a dihedral angle below the bound
+  std::uint64_t explained = 0;                 ///< cells over a bound with a reason that holds
   /// Cells over a bound without an excuse: those that the reasons admit, and all others below the bound on dihedral angles.
   std::uint64_t unexplained = 0;
   std::vector<CheckFinding> findings;                              ///< what makes the check fail, at most max_listed a kind
@@ -127,8 +131,9 @@ struct CheckReport {
   std::array<std::uint64_t, CheckFinding::kinds> count_of_kind{};  ///< findings, by kind
   /// Findings of one kind.
   std::uint64_t count(CheckFinding::Kind kind) const { return count_of_kind[static_cast<std::size_t>(kind)]; }
-  /// 0: sound, conforming and within all bounds; 1: cells are over a bound, but explained, or `unexplained`, and nothing else is
-  /// wrong; 6: anything else. Faces that are not locally Delaunay, but for causes that are counted above, change nothing.
+  /// 0: sound, conforming and within all bounds; 1: cells are over a bound, but explained, or `unexplained`, or faces are
+  /// `not_delaunay_unexplained`, and nothing else is wrong; 6: anything else. Faces that are not locally Delaunay by rounding or
+  /// beside a refused split change nothing.
   int exit_code() const;
 };
 

@@ -23,13 +23,13 @@ struct GivenEntity {
 
 /// Why a cell stayed over a bound; one entry of the report's `bounds.reasons`.
 struct PoorReason {
-  /// small_angle: of the input, between the two entities. rounding: none of the others, which the checker takes
-  /// only where an edge is as short as the rounding of coordinates. beyond_theory: the bound
+  /// small_angle: of the input, between the two entities. rounding: an edge is as short as the rounding
+  /// of coordinates. beyond_theory: the bound
   /// asked for is below the smallest proved one. kept_boundary: the first entity is a segment without points of its own,
   /// which hides the circumcentre or is encroached upon by it (RefineOptions::keep_boundary).
   /// input_dihedral: an edge of the cell is on a segment at which the input, in the cell's region, has a wedge below the target
-  /// of dihedral angles; the first entity is the segment. not_found, budget: no excuse, but what the optimiser has to say: it
-  /// found nothing better, or its budget was spent.
+  /// of dihedral angles; the first entity is the segment. not_found, budget: no excuse, but what is known of it: nothing
+  /// better was found, nor a reason in the input, or the optimiser's budget was spent.
   enum class Code { small_angle, rounding, beyond_theory, kept_boundary, input_dihedral, not_found, budget };
   std::uint32_t cell = 0;               ///< index into OutputMesh::cells
   Code code = Code::small_angle;        ///< what kind of reason

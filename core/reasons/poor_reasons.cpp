@@ -9,6 +9,7 @@
 #include <unordered_set>
 
 #include "input/entities.hpp"
+#include "numbers/exact_tests.hpp"
 #include "numbers/rounding.hpp"
 #include "pgdr/refine_options.hpp"
 #include "rule/insertion_rule.hpp"
@@ -166,7 +167,9 @@ DomainReason PoorReasons<D>::explain(CellId c, bool beside) const {
   }
   if (proved && !beside)
     if (const auto found = explain_by_piece(c, cells, near, angle)) return *found;
-  reason.code = proved ? PoorReason::Code::rounding : PoorReason::Code::beyond_theory;
+  reason.code = !proved                                                             ? PoorReason::Code::beyond_theory
+                : checking::is_as_short_as_rounding<D>(mesh_->simplex(c), largest_) ? PoorReason::Code::rounding
+                                                                                    : PoorReason::Code::not_found;
   if (!keep_boundary_ || beside) return reason;
   if (const auto why = why_.find(index(c)); why != why_.end() && why->second) near.insert(near.begin(), why->second->entities[0]);
   for (const EntityRef e : near)
@@ -180,6 +183,8 @@ PoorReasons<D>::PoorReasons(const Mesh<D>& mesh, const Domain<D>& domain, const 
     : mesh_(&mesh), domain_(&domain), bounds_(&bounds), keep_boundary_(keep_boundary) {
   const auto ends = [&](EntityId s) { return domain.segments()[s].points; };
   detail::sort_by_points(domain.points().size(), domain.segments().size(), ends, bulk, segments_begin_, segments_at_);
+  for (const Point<D>& p : domain.points())
+    for (const double x : p.x) largest_ = std::max(largest_, std::abs(x));
 }
 
 template <int D>

@@ -93,6 +93,7 @@ class PoorReasons {
   const Domain<D>* domain_;
   const CellBounds<D>* bounds_;
   bool keep_boundary_;
+  double largest_ = 0;  ///< coordinate of the input
   /// Of each input point its segments: segments_at_ from segments_begin_ on.
   std::vector<std::uint32_t> segments_begin_, segments_at_;
   /// Of the refused elements that are still there: by what; no entities if no pair was at fault.

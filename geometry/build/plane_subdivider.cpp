@@ -99,7 +99,7 @@ void PlaneSubdivider::find_crossings(const PlaneMeetings& met, const PlaneEdges&
   }
   name_planes();
   for (const auto& [t, key] : met.inner) {
-    if (edges.is_soft(key, plane_of_)) continue;
+    if (edges.is_soft(key, plane_of_) && !crosses_plane(faces_.facet_of[t], key, edges)) continue;
     touched_.push_back(faces_.facet_of[t]);
     inner_.emplace_back(faces_.facet_of[t], key);
     look_across(t, key, edges);
@@ -108,6 +108,15 @@ void PlaneSubdivider::find_crossings(const PlaneMeetings& met, const PlaneEdges&
   make_set(inner_);
   find_inner_crossings(edges, width);
   make_set(crossing_);
+}
+
+/// Do two facets meet at this edge from both sides of facet f? They may be one as far as they go, but their edge is one of f. (A
+/// diagonal of one facet was not given, and may be another in a copy.)
+bool PlaneSubdivider::crosses_plane(std::uint32_t f, std::uint64_t key, const PlaneEdges& edges) const {
+  const auto uses = edges.uses(key);
+  return uses[0].owner != uses[1].owner && std::ranges::none_of(uses, [&](const EdgeUse& use) {
+           return use.is_triangle() && plane_of_[use.owner] == plane_of_[f];
+         });
 }
 
 /// The edges of triangle t that an edge inside it crosses, or, at a point that was added, ends on.

@@ -41,6 +41,7 @@ class PlaneSubdivider {
   using Edges = std::vector<std::pair<std::uint32_t, std::uint64_t>>;
 
   void find_crossings(const PlaneMeetings& met, const PlaneEdges& edges, const PlaneWidth& width);
+  bool crosses_plane(std::uint32_t f, std::uint64_t key, const PlaneEdges& edges) const;
   void look_across(std::uint32_t t, std::uint64_t key, const PlaneEdges& edges);
   void add_crossing(std::uint64_t first, std::uint64_t second, const PlaneEdges& edges);
   void find_inner_crossings(const PlaneEdges& edges, const PlaneWidth& width);

@@ -379,20 +379,33 @@ def divided_by_coplanar(points, faces):
     return out
 
 
-def divided_by_open_edges(points, faces):
-    """Faces divided where edges of one face alone run in them."""
-    uses = collections.Counter(tuple(sorted(e)) for face in faces for e in face)
-    open_edges = [e for e, n in uses.items() if n == 1]
-    boxes = [tuple((min(c), max(c)) for c in zip(*(points[v] for v in e))) for e in open_edges]
+def edges_that_end(points, faces):
+    """Those of one face alone, and of faces of one plane alone: where another plane's face has such an edge inside, they end there."""
+    planes, uses = collections.defaultdict(set), collections.Counter()
+    for face in faces:
+        plane = plane_of(points, face)
+        for e in face:
+            planes[tuple(sorted(e))].add(plane)
+            uses[tuple(sorted(e))] += 1
+    return [(e, planes[e] if uses[e] > 1 else set()) for e in planes if len(planes[e]) == 1]
+
+
+def divided_by_ends(points, faces):
+    """Faces divided where edges at which others end run in them."""
+    ends = sorted(((tuple((min(c), max(c)) for c in zip(*(points[v] for v in e))), e, planes)
+                   for e, planes in edges_that_end(points, faces)), key=lambda end: end[0])
+    lows = [box[0][0] for box, _, _ in ends]
     out = []
     for face in faces:
-        corners = {v for e in face for v in e}
-        box = [(min(c), max(c)) for c in zip(*(points[v] for v in corners))]
+        own = {tuple(sorted(e)) for e in face}
+        box = [(min(c), max(c)) for c in zip(*(points[v] for e in face for v in e))]
         normal, origin = normal_of(points, face), points[face[0][0]]
-        inner = [e for e, other in zip(open_edges, boxes)
+        found = ends[bisect.bisect_left(lows, box[0][0]):bisect.bisect_right(lows, box[0][1])]
+        inner = [e for other, e, planes in found
                  if all(b[0] <= o[0] and o[1] <= b[1] for b, o in zip(box, other))
-                 and not all(v in corners for v in e)
-                 and all(dot(normal, minus(points[v], origin)) == 0 for v in e)]
+                 and e not in own
+                 and all(dot(normal, minus(points[v], origin)) == 0 for v in e)
+                 and plane_of(points, face) not in planes]
         out += divided(points, face, inner) if inner else [face]
     return out
 
@@ -473,7 +486,7 @@ def complex_of(given):
     faces = faces_of(given, points, number, unit)
     if not faces:
         raise UnknownInput("no faces")
-    faces = divided_by_open_edges(points, divided_by_coplanar(points, faces))
+    faces = divided_by_ends(points, divided_by_coplanar(points, faces))
     uses = collections.Counter(tuple(sorted(e)) for face in faces for e in face)
     open_edges = [e for e, n in uses.items() if n == 1]
     if open_edges:

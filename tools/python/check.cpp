@@ -30,14 +30,15 @@ py::dict dict_of(const CheckReport& r) {
   return py::dict("exit_code"_a = r.exit_code(), "findings"_a = findings, "finding_count"_a = r.finding_count,
                   "over_radius_edge"_a = r.over_radius_edge, "over_size"_a = r.over_size, "below_dihedral"_a = r.below_dihedral,
                   "explained"_a = r.explained, "unexplained"_a = r.unexplained,
-                  "not_delaunay_rounding"_a = r.not_delaunay_rounding, "not_delaunay_refused"_a = r.not_delaunay_refused);
+                  "not_delaunay_rounding"_a = r.not_delaunay_rounding, "not_delaunay_refused"_a = r.not_delaunay_refused,
+                  "not_delaunay_unexplained"_a = r.not_delaunay_unexplained);
 }
 
 /// As the command's `check`: against the input as given. `bounds`: those of a run; infinite: none.
 /// `seed_sizes`: CheckOptions::seed_sizes.
 template <int D>
 py::dict check_mesh(const MeshData<D>& data, const Plc<D>* plc, const RefineOptions<D>& bounds, double largest_cosine,
-                    bool delaunay, bool with_reasons, bool seed_sizes) {
+                    bool delaunay, std::uint64_t not_delaunay_left, bool with_reasons, bool seed_sizes) {
   CheckReport report;
   run_watched([&](const std::stop_token& stop) {
     CheckOptions<D> options;
@@ -53,6 +54,7 @@ py::dict check_mesh(const MeshData<D>& data, const Plc<D>* plc, const RefineOpti
     options.seed_sizes = seed_sizes;
     options.largest_cosine = largest_cosine;
     options.delaunay = delaunay;
+    options.not_delaunay_left = not_delaunay_left;
     report = check(data.mesh, options);
   });
   return dict_of(report);

@@ -5,6 +5,7 @@
 #include <pybind11/stl.h>
 
 #include "errors.hpp"
+#include "pgdr/check.hpp"
 #include "pgdr/quality.hpp"
 #include "words.hpp"
 
@@ -57,8 +58,14 @@ py::dict quality_of(const MeshData<D>& data) {
   return all;
 }
 
+/// CheckOptions::not_delaunay_left. None are left where the refinement met none.
 template <int D>
-py::dict to_python(const RefineResult<D>& result) {
+std::uint64_t not_delaunay_left(const RefineResult<D>& result, const OutputMesh<D>& mesh) {
+  return result.delaunay && result.violations_seen ? count_not_delaunay(mesh).other : 0;
+}
+
+template <int D>
+py::dict to_python(const RefineResult<D>& result, const OutputMesh<D>& mesh) {
   const RefineStatistics& s = result.statistics;
   const PredicateCounts& p = s.predicates;
   py::list stages, regions;
@@ -75,7 +82,8 @@ py::dict to_python(const RefineResult<D>& result) {
                "predicates"_a = py::dict("filter"_a = p.filter, "expansion"_a = p.expansion, "exact"_a = p.exact,
                                          "perturbed"_a = p.perturbed),
                "unused_points"_a = result.unused_points.size(), "regions"_a = regions, "delaunay"_a = result.delaunay,
-               "tolerance"_a = result.tolerance, "largest_move"_a = result.largest_move);
+               "not_delaunay_left"_a = not_delaunay_left(result, mesh), "tolerance"_a = result.tolerance,
+               "largest_move"_a = result.largest_move);
   if (result.optimization.target > 0) all["optimization"] = to_python(result.optimization);
   return py::dict("stop"_a = tool::name(result.stop), "poor_left"_a = result.poor_left,
                   "poor_unavoidable"_a = result.poor_unavoidable, "size_met"_a = result.size_met,
@@ -84,7 +92,7 @@ py::dict to_python(const RefineResult<D>& result) {
 
 template py::dict quality_of<2>(const MeshData<2>&);
 template py::dict quality_of<3>(const MeshData<3>&);
-template py::dict to_python<2>(const RefineResult<2>&);
-template py::dict to_python<3>(const RefineResult<3>&);
+template py::dict to_python<2>(const RefineResult<2>&, const OutputMesh<2>&);
+template py::dict to_python<3>(const RefineResult<3>&, const OutputMesh<3>&);
 
 }  // namespace pgdr::python

@@ -17,8 +17,8 @@ namespace py = pybind11;
 template <int D>
 py::dict quality_of(const MeshData<D>& data);
 
-/// The run but for its mesh, reasons and trace.
+/// The run but for its mesh, reasons and trace. `mesh`: that of the run.
 template <int D>
-py::dict to_python(const RefineResult<D>& result);
+py::dict to_python(const RefineResult<D>& result, const OutputMesh<D>& mesh);
 
 }  // namespace pgdr::python

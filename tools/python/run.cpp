@@ -141,7 +141,7 @@ py::tuple run(const std::shared_ptr<const Plc<D>>& plc, const RefineOptions<D>& 
   if (options.drop_unused_points) drop(result.unused_points, data->point_of_input);
   data->mesh = std::move(result.mesh);
   data->reasons = std::move(result.reasons);
-  return py::make_tuple(data, to_python(result), watch.raised());
+  return py::make_tuple(data, to_python(result, data->mesh), watch.raised());
 }
 
 }  // namespace

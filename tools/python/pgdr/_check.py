@@ -64,7 +64,8 @@ def check(mesh: Mesh, plc: Optional[Plc] = None, *, delaunay: Optional[bool] = N
     of_dimension = _pgdr.check2 if mesh.dimension == 2 else _pgdr.check3
     with WORK:
         return CheckReport(of_dimension(mesh._core, plc._core if plc is not None else None, options, cosine,
-                                        _arguments.flag("delaunay", delaunay), _arguments.flag("reasons", reasons),
+                                        _arguments.flag("delaunay", delaunay), int(mesh.statistics.get("not_delaunay_left") or 0),
+                                        _arguments.flag("reasons", reasons),
                                         mesh.stop == "finished"))
 
 

@@ -19,7 +19,7 @@ class CheckReport:
 
     `exit_code`: 0: everything holds; 1: cells are over a bound, and the reasons say why, or say that nothing better was found;
     6: anything else. `findings`: the first of what is wrong. The counts: `finding_count`, `over_radius_edge`, `over_size`,
-    `below_dihedral`, `explained`, `unexplained`, `not_delaunay_rounding`, `not_delaunay_refused`.
+    `below_dihedral`, `explained`, `unexplained`, `not_delaunay_rounding`, `not_delaunay_refused`, `not_delaunay_unexplained`.
     """
 
     exit_code: int
@@ -32,6 +32,7 @@ class CheckReport:
     unexplained: int
     not_delaunay_rounding: int
     not_delaunay_refused: int
+    not_delaunay_unexplained: int
 
     def __init__(self, found: Dict[str, Any]) -> None:
         self.__dict__.update(found)
