@@ -7,9 +7,7 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <charconv>
 #include <csignal>
-#include <cstdarg>
 #include <cstdio>
 #include <system_error>
 
@@ -40,32 +38,6 @@ void print_warnings(const std::vector<Diagnostic>& warnings) {
   for (std::size_t i = 0; i < warnings.size() && i < most; ++i)
     std::fprintf(stderr, "pgdr: warning: %s\n", Error(warnings[i]).what());
   if (warnings.size() > most) std::fprintf(stderr, "pgdr: and %zu more warnings\n", warnings.size() - most);
-}
-
-std::string format(const char* pattern, ...) {
-  va_list arguments, again;
-  va_start(arguments, pattern);
-  va_copy(again, arguments);
-  const int length = std::vsnprintf(nullptr, 0, pattern, arguments);
-  va_end(arguments);
-  std::string text;
-  if (length > 0) {
-    text.resize(static_cast<std::size_t>(length));
-    std::vsnprintf(text.data(), text.size() + 1, pattern, again);
-  }
-  va_end(again);
-  return text;
-}
-
-std::string digits(double value) {
-  char text[40];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
-
-std::string count(std::uint64_t n, std::string_view one, std::string_view many) {
-  std::string digits = std::to_string(n);
-  for (auto i = static_cast<std::ptrdiff_t>(digits.size()) - 3; i > 0; i -= 3) digits.insert(static_cast<std::size_t>(i), 1, ' ');
-  return digits.append(" ").append(n == 1 ? one : many);
 }
 
 ProgressLine::ProgressLine(bool wanted) : shown_(wanted && isatty(STDERR_FILENO)) {}

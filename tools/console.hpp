@@ -13,6 +13,7 @@
 
 #include "pgdr/error.hpp"
 #include "pgdr/refine.hpp"
+#include "text.hpp"
 
 namespace pgdr::tool {
 
@@ -25,18 +26,6 @@ void prepare_process();
 void require_printed();
 /// The first few as `pgdr: warning: ...` on stderr, and how many more there are.
 void print_warnings(const std::vector<Diagnostic>& warnings);
-/// printf into a string.
-[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...);
-/// The shortest digits that read back to the same double.
-std::string digits(double value);
-/// 1 vertex, 2 vertices; thousands are set apart.
-std::string count(std::uint64_t n, std::string_view one, std::string_view many);
-
-/// 1 triangle, 2 tetrahedra.
-template <int D>
-std::string count_cells(std::uint64_t n) {
-  return D == 3 ? count(n, "tetrahedron", "tetrahedra") : count(n, "triangle", "triangles");
-}
 
 /// One line on stderr that is written over; nothing at all if stderr is not a terminal.
 class ProgressLine {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <exception>
 #include <limits>
 #include <numeric>
@@ -13,9 +12,9 @@
 #include <set>
 #include <vector>
 
-#include "console.hpp"
 #include "planar_hint.hpp"
 #include "proposal.hpp"
+#include "text.hpp"
 
 namespace pgdr::tool {
 namespace {
@@ -69,24 +68,23 @@ std::vector<std::array<double, 3>> places_where_edges_cross(const Diagnosis<3>& 
 }
 
 /// A point of the file that lies on edges becomes one of all of them.
-bool say_points_to_add(const Plc<3>& plc) {
+std::optional<std::string> points_to_add(const Plc<3>& plc) {
   constexpr std::size_t most_said = 5;
   const Diagnosis<3> all = diagnose(plc, {.most_listed = all_of_them, .errors_only = true, .stop = {}});
   Plc<3> other = plc;
   const auto places = places_where_edges_cross(all, tolerance_of(plc));
-  if (places.empty()) return false;
+  if (places.empty()) return std::nullopt;
   for (const auto& [x, y, z] : places) other.points.push_back({x, y, z});
   if (!other.point_markers.empty()) other.point_markers.resize(other.points.size());
   other.point_attributes.clear();
-  if (!is_valid(other)) return false;
+  if (!is_valid(other)) return std::nullopt;
   std::string where;
   std::size_t said = 0;
   for (const auto& p : places)
     if (said++ < most_said) where += (said > 1 ? ", " : "") + words(p);
   if (said > most_said) where += " and " + std::to_string(said - most_said) + " more places";
-  std::fprintf(stderr, "pgdr: edges cross where neither has a point: %s at %s to the file makes it valid\n",
-               said == 1 ? "to add a point" : "to add points", where.c_str());
-  return true;
+  return "edges cross where neither has a point: to add " + std::string(said == 1 ? "a point" : "points") + " at " + where +
+         " to the input makes it valid";
 }
 
 /// Of the points of open boundaries, how far each is from the nearest other one; ascending.
@@ -113,10 +111,10 @@ std::vector<double> gaps_of_open_boundaries(const Plc<D>& plc) {
 
 /// Corners that were meant to be one are much nearer to each other than others are: a tolerance between the two joins them.
 template <int D>
-bool say_tolerance_that_welds(const Plc<D>& plc) {
+std::optional<std::string> tolerance_that_welds(const Plc<D>& plc) {
   constexpr double jump = 4;
   constexpr std::array<double, 3> factors{1.5, 3, 6};  // corners of one place are farther from each other than from the nearest
-  if (plc.tolerance) return false;
+  if (plc.tolerance) return std::nullopt;
   const std::vector<double> gaps = gaps_of_open_boundaries(plc);
   for (std::size_t i = gaps.size(), tried = 0; i-- > 1 && tried < 3;) {
     if (!(gaps[i] > jump * gaps[i - 1])) continue;
@@ -128,16 +126,13 @@ bool say_tolerance_that_welds(const Plc<D>& plc) {
       for (const bool coarse : {false, true}) {
         other.is_coarse = coarse;
         if (!is_valid(other)) continue;
-        std::fprintf(stderr,
-                     "pgdr: the surface is not welded: corners that were meant to be one are up to %s apart; "
-                     "--tolerance %s%s joins them, and makes it valid\n",
-                     format("%.2g", gaps[i - 1]).c_str(), format("%.2g", *other.tolerance).c_str(),
-                     coarse ? " --yes-coarse" : "");
-        return true;
+        return "the surface is not welded: corners that were meant to be one are up to " + format("%.2g", gaps[i - 1]) +
+               " apart; --tolerance " + format("%.2g", *other.tolerance) + (coarse ? " --yes-coarse" : "") +
+               " joins them, and makes it valid";
       }
     }
   }
-  return false;
+  return std::nullopt;
 }
 
 /// The surfaces of a Domain: of each triangle, counted through all facets, the least one that it hangs together with by edges;
@@ -210,21 +205,28 @@ std::string words_of_bodies(const Plc<D>& plc, const Diagnosis<D>& diagnosis) {
 }
 
 template <int D>
-void say_cures(const Plc<D>& plc, const Diagnosis<D>& diagnosis) {
-  if (const auto flags = flags_for_refused(plc, diagnosis)) std::fprintf(stderr, "pgdr: %s\n", flags->c_str());
+std::vector<std::string> cures_of(const Plc<D>& plc, const Diagnosis<D>& diagnosis) {
+  std::vector<std::string> cures;
+  const auto add = [&](const std::optional<std::string>& cure) {
+    if (cure) cures.push_back(*cure);
+    return cure.has_value();
+  };
+  add(flags_for_refused(plc, diagnosis));
   try {
     if constexpr (D == 3)
-      if (diagnosis[Finding::facets_cross].count + diagnosis[Finding::invalid_entity].count > 0 && say_points_to_add(plc)) return;
-    if (diagnosis[Finding::open_boundary].count > 0 && say_tolerance_that_welds(plc)) return;
+      if (diagnosis[Finding::facets_cross].count + diagnosis[Finding::invalid_entity].count > 0 && add(points_to_add(plc)))
+        return cures;
+    if (diagnosis[Finding::open_boundary].count > 0 && add(tolerance_that_welds(plc))) return cures;
   } catch (const std::exception&) {  // the refusal says enough
   }
   if (const auto tolerance = tolerance_for_refused(plc))
-    std::fprintf(stderr, "pgdr: --tolerance %s%s\n", digits(*tolerance).c_str(), what_tolerance_does.data());
+    cures.push_back("--tolerance " + digits(*tolerance) + std::string(what_tolerance_does));
+  return cures;
 }
 
 #define PGDR_INSTANTIATE(D)                                                    \
   template std::string words_of_bodies<D>(const Plc<D>&, const Diagnosis<D>&); \
-  template void say_cures<D>(const Plc<D>&, const Diagnosis<D>&);
+  template std::vector<std::string> cures_of<D>(const Plc<D>&, const Diagnosis<D>&);
 PGDR_INSTANTIATE(2)
 PGDR_INSTANTIATE(3)
 #undef PGDR_INSTANTIATE

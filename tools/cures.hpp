@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/plc.hpp"
@@ -15,8 +16,8 @@ namespace pgdr::tool {
 template <int D>
 std::string words_of_bodies(const Plc<D>& plc, const Diagnosis<D>& diagnosis);
 
-/// Prints on stderr what makes the input valid: flags, points to add, a tolerance.
+/// What makes the input valid: flags of the command, points to add, a tolerance. A sentence each, the best one first.
 template <int D>
-void say_cures(const Plc<D>& plc, const Diagnosis<D>& diagnosis);
+std::vector<std::string> cures_of(const Plc<D>& plc, const Diagnosis<D>& diagnosis);
 
 }  // namespace pgdr::tool

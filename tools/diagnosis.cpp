@@ -95,7 +95,7 @@ int refuse(const Plc<D>& plc, const Diagnosis<D>& diagnosis, Report& report) {
   }
   if (const std::uint64_t all = diagnosis.error_count(); all > most && bodies.empty())
     std::fprintf(stderr, "pgdr: and %llu more errors\n", static_cast<unsigned long long>(all - most));
-  say_cures(plc, diagnosis);
+  for (const std::string& cure : cures_of(plc, diagnosis)) std::fprintf(stderr, "pgdr: %s\n", cure.c_str());
   return exit_input;
 }
 

@@ -43,7 +43,7 @@ class Cures(Case):
             points, faces = self.tetrahedra(0.1 * seed)
             points = turned([tuple(map(float, p)) for p in points], seed)
             said = self.mesh(self.file("touch.poly", poly(points, faces)), expect=3).stderr
-            place = re.search(r"add a point at \((.*)\) to the file makes it valid", said)
+            place = re.search(r"add a point at \((.*)\) to the input makes it valid", said)
             self.assertTrue(place, f"{seed}: {said}")
             points.append(tuple(map(float, place[1].split(", "))))
             self.is_meshed(self.file("cured.poly", poly(points, faces)))

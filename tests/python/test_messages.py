@@ -64,6 +64,25 @@ class Words(unittest.TestCase):
         self.assertNotIn("(plc)", str(caught.exception))
 
 
+    def test_a_tolerance_that_welds(self):
+        """A tetrahedron each of whose triangles has corners of its own, 1e-4 off."""
+        corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])[[0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3]]
+        points = corners + np.random.default_rng(1).uniform(-5e-5, 5e-5, corners.shape)
+        plc = pgdr.Plc(points, facets=np.arange(12).reshape(4, 3))
+        with self.assertRaises(pgdr.InputError) as caught:
+            pgdr.mesh(plc)
+        found = re.search(r"not welded: .* apart; tolerance=(\S+) joins them, and makes it valid", str(caught.exception))
+        self.assertTrue(found, str(caught.exception))
+        checked(self, plc, tolerance=float(found.group(1)))
+
+    def test_points_that_make_an_input_valid(self):
+        """Two tetrahedra whose edges cross where neither has a point."""
+        points = [(-1, 0, 0), (1, 0, 0), (0, -1, -1), (0, 1, -1), (0, -1, 0), (0, 1, 0), (-1, 0, 1), (1, 0, 1)]
+        facets = [(0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2), (4, 5, 6), (4, 7, 5), (4, 6, 7), (5, 7, 6)]
+        with self.assertRaisesRegex(pgdr.InputError, r"to add a point at \(0, 0, 0\) to the input makes it valid"):
+            pgdr.mesh(pgdr.Plc(points, facets=facets))
+        checked(self, pgdr.Plc([*points, (0, 0, 0)], facets=facets))
+
     def test_a_tolerance_that_makes_an_input_valid(self):
         """A strut whose end is beyond the wall by the last digit: it is on the wall with the tolerance that the message names."""
         points = [[0, 0], [3.1, 0], [3.1, 3.1], [0, 3.1], [1.2345671, -0.0000001], [1.7, 1.8]]

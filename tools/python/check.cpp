@@ -11,12 +11,11 @@
 #include <string>
 
 #include "bind.hpp"
+#include "cures.hpp"
 #include "errors.hpp"
 #include "mesh_data.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/refine_options.hpp"
-#include "planar_hint.hpp"
-#include "proposal.hpp"
 #include "run.hpp"
 
 namespace pgdr::python {
@@ -79,25 +78,21 @@ py::list diagnose_plc(const Plc<D>& plc, std::size_t most_listed, bool errors_on
   return found;
 }
 
-/// What makes a refused input valid, in the words of the command, a sentence each. A tolerance is handed over as a number, for
-/// its digits, with the sentence behind it.
+/// What makes a refused input valid, in the words of the command, a sentence each.
 template <int D>
-py::tuple flags_for(const Plc<D>& plc) {
-  std::optional<std::string> flags;
-  std::optional<double> tolerance;
+std::vector<std::string> cures(const Plc<D>& plc) {
+  std::vector<std::string> found;
   run_watched([&](const std::stop_token& stop) {
-    if constexpr (D == 2)
-      flags = tool::flags_for_refused(plc, diagnose(plc, {.most_listed = 0, .errors_only = true, .stop = stop}));
-    tolerance = tool::tolerance_for_refused(plc);
+    found = tool::cures_of(plc, diagnose(plc, {.most_listed = 0, .errors_only = true, .stop = stop}));
   });
-  return py::make_tuple(flags, tolerance, std::string(tool::what_tolerance_does));
+  return found;
 }
 
 template <int D>
 void bind(py::module_& module) {
   module.def(with_dimension<D>("check").c_str(), &check_mesh<D>);
   module.def(with_dimension<D>("diagnose").c_str(), &diagnose_plc<D>);
-  module.def(with_dimension<D>("flags_for").c_str(), &flags_for<D>);
+  module.def(with_dimension<D>("cures").c_str(), &cures<D>);
 }
 
 }  // namespace

@@ -192,14 +192,12 @@ def mesh(plc: Plc, *, min_angle: Optional[float] = None, radius_edge: Optional[f
 
 
 def _add_what_helps(error: DiagnosedError, plc: Plc) -> None:
-    """Names the functions, or the tolerance, that make a refused input valid."""
-    flags_for = _pgdr.flags_for2 if plc.dimension == 2 else _pgdr.flags_for3
+    """Names the functions, the points or the tolerance that make a refused input valid."""
+    cures = _pgdr.cures2 if plc.dimension == 2 else _pgdr.cures3
     with WORK:
-        flags, tolerance, what_it_does = flags_for(plc._core)
-    if flags is not None:
-        error._add(". " + in_python(flags))
-    if tolerance is not None:
-        error._add(f". tolerance={tolerance!r}{what_it_does}")
+        found = cures(plc._core)
+    for cure in found:
+        error._add(". " + in_python(cure))
 
 
 def _say_unasked(made: Mesh, options: _pgdr._Options) -> None:
