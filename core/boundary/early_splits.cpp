@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "boundary/facet_splits.hpp"
+#include "boundary/numbers.hpp"
 #include "numbers/rounding.hpp"
 #include "numbers/vectors.hpp"
 
@@ -34,7 +35,6 @@ using Flags = std::vector<std::uint8_t>;  // several threads set different ones
 
 /// For each end of each segment: does it make less than 20 degrees with another one there?
 std::vector<std::array<bool, 2>> at_sharp_angle(const Domain<3>& domain, const Bulk& bulk) {
-  constexpr double squared_cosine = 0.8830222215594890;  // of 20 degrees
   const auto segments = domain.segments();
   const auto points = domain.points();
   struct Use {
@@ -60,7 +60,7 @@ std::vector<std::array<bool, 2>> at_sharp_angle(const Domain<3>& domain, const B
         if (at_i && at_j) continue;
         const auto u = direction(uses[i]), v = direction(uses[j]);
         const double along = dot(u, v);
-        if (along > 0 && along * along > squared_cosine * dot(u, u) * dot(v, v)) at_i = at_j = true;
+        if (along > 0 && along * along > numbers::early_split_squared_cosine * dot(u, u) * dot(v, v)) at_i = at_j = true;
       }
   });
   return sharp;

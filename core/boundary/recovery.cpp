@@ -9,6 +9,7 @@
 
 #include "boundary/marking.hpp"
 #include "boundary/named_points.hpp"
+#include "boundary/numbers.hpp"
 #include "boundary/segment_insertion.hpp"
 #include "boundary/state.hpp"
 #include "input/words.hpp"
@@ -16,18 +17,16 @@
 namespace pgdr {
 namespace {
 
-/// The most points of missing pieces. Recovery by Steiner points need not end where facets meet at small angles or nearly touch.
-/// (Between two faces 1e-9 apart 1.85 times as many triangles are missing round by round. In a terrain with facets at a tenth of
-/// a degree it is twice as many segments, until there are 300 points for one of the input, and soon a third from there on.)
-std::uint64_t most_points(std::size_t input_points) {
-  return 200000 + 100 * std::uint64_t{input_points} + std::min<std::uint64_t>(300 * std::uint64_t{input_points}, 1500000);
+/// The most points of missing pieces.
+std::uint64_t most_points(std::uint64_t input_points) {
+  return numbers::missing_points + numbers::missing_points_a_point * input_points +
+         std::min(numbers::hump_points_a_point * input_points, numbers::most_hump_points);
 }
-constexpr std::uint64_t most_points_more = 5000000;  // in addition, while less is missing than was before
-constexpr std::uint64_t most_rounds = 2000;          // of these
 
 /// The most points of pieces that went missing since triangles are split for their shape, which `improving` points were for.
-std::uint64_t most_points_after(std::size_t input_points, std::uint64_t improving) {
-  return 20000 + 10 * std::uint64_t{input_points} + 4 * improving;
+std::uint64_t most_points_after(std::uint64_t input_points, std::uint64_t improving) {
+  return numbers::early_missing_points + numbers::early_missing_points_a_point * input_points +
+         numbers::early_missing_points_a_split * improving;
 }
 
 constexpr auto time_between_reports = std::chrono::milliseconds(200);
@@ -156,7 +155,9 @@ void BoundaryRecovery::mark(Mesh<3>::Pools& pools) {
 /// Splits poor triangles, one round. False if there are none. Triangles up to twice the bound are left to the refinement, which
 /// splits them in the order that makes few points.
 bool BoundaryRecovery::improve() {
-  const double bound = options_->refine ? 2 * std::max(options_->radius_edge_bound, 2.0) : infinity;
+  const double bound = options_->refine
+                           ? numbers::early_split_slack * std::max(options_->radius_edge_bound, numbers::early_split_bound)
+                           : infinity;
   if (!(bound < infinity)) return false;
   const std::uint64_t before = points();
   if (counts_->improving == 0) needed_ = before;
@@ -172,10 +173,10 @@ bool BoundaryRecovery::is_over() {
 }
 
 void BoundaryRecovery::check_budget() const {
-  const std::size_t input_points = domain_->points().size();
+  const std::uint64_t input_points = domain_->points().size();
   const std::uint64_t missing = points() - counts_->improving;
   const bool is_falling = patches_.trend().rounds() > 1 ? patches_.trend().is_falling() : chains_.trend().is_falling();
-  const std::uint64_t more = is_falling && counts_->rounds < most_rounds ? most_points_more : 0;
+  const std::uint64_t more = is_falling && counts_->rounds < numbers::falling_rounds ? numbers::falling_points : 0;
   const bool too_many = missing > most_points(input_points) + more;
   const bool too_many_after = counts_->improving > 0 && missing - needed_ > most_points_after(input_points, counts_->improving);
   if (too_many || too_many_after) throw not_recovered(*domain_, chains_, patches_, missing);

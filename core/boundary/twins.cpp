@@ -8,6 +8,7 @@
 
 #include "boundary/state.hpp"
 #include "input/entities.hpp"
+#include "rule/numbers.hpp"
 #include "rule/twins.hpp"
 #include "space/distances.hpp"
 
@@ -46,8 +47,9 @@ void SegmentChains::find_companions() {
   using Pair = std::array<EntityId, 2>;
   const std::vector<Pair> pairs = bulk_->gather<Pair>(all.size(), [&all](std::size_t i, std::vector<Pair>& out) {
     for (std::size_t j = i + 1; j < all.size() && all[j].apex == all[i].apex; ++j) {
-      if (all[j].unit[0] - all[i].unit[0] > beside) break;
-      if (!(squared_distance(all[i].unit, all[j].unit) > beside * beside)) out.push_back({all[i].segment, all[j].segment});
+      if (all[j].unit[0] - all[i].unit[0] > numbers::beside_subsegment) break;
+      if (!(squared_distance(all[i].unit, all[j].unit) > numbers::beside_subsegment * numbers::beside_subsegment))
+        out.push_back({all[i].segment, all[j].segment});
     }
   });
   for (const auto& [s, t] : pairs) {
@@ -85,7 +87,7 @@ const std::vector<SegmentChains::Link>& SegmentChains::input_beside(EntityId s) 
   }
   const auto& ends = domain_->segments()[s].points;
   const Point3 &p = domain_->points()[ends[0]], &q = domain_->points()[ends[1]];
-  const double limit = beside * std::sqrt(squared_distance(p, q));
+  const double limit = numbers::beside_subsegment * std::sqrt(squared_distance(p, q));
   const auto least = [&](const Box<3>& box, std::uint32_t) {
     Point3 middle;
     for (int i = 0; i < 3; ++i) middle[i] = box.low[i] + (box.high[i] - box.low[i]) / 2;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "change/numbers.hpp"
 #include "mesh/locally_delaunay.hpp"
 
 namespace pgdr {
@@ -41,7 +42,7 @@ auto LocalFlips<D>::rewrap(Pools& pools, CellId c, int face, LocalRewrap::Effort
 
 template <int D>
 bool LocalFlips<D>::rewrap_pays(std::uint64_t allowance) const {
-  if constexpr (D == 3) return rewrap_.ineffective_work() <= allowance + 2 * rewrap_.effective_work();
+  if constexpr (D == 3) return rewrap_.ineffective_work() <= allowance + numbers::wrap_effect_weight * rewrap_.effective_work();
   return false;
 }
 

@@ -6,14 +6,15 @@
 #include <bit>
 #include <cassert>
 
+#include "change/numbers.hpp"
 #include "mesh/surroundings.hpp"
 
 namespace pgdr {
 namespace {
 
-constexpr std::size_t quick_cells = 20, wide_cells = 512;  // of a region: few where this is done for very many faces
-constexpr std::size_t least_growth = 2;  // of a region by one part in so many, before all of it is wrapped again
-constexpr int far_weight = 10000;        // of a violation between vertices in the volume
+/// Of a violation between vertices in the volume: more than all others together, as the cells of a region and what it is filled
+/// with have no more faces.
+constexpr int far_weight = static_cast<int>(4 * 2 * numbers::wide_wrap_cells) + 1;
 
 }  // namespace
 
@@ -21,7 +22,7 @@ bool LocalRewrap::repair(Pools& pools, CellId c, int face, Effort effort) {
   const CellId d = mesh_->cell(c).links[face].cell();
   reached_border_ = !owns(c) || !owns(d);
   if (reached_border_) return false;
-  most_cells_ = effort == Effort::quick ? quick_cells : wide_cells;
+  most_cells_ = effort == Effort::quick ? numbers::quick_wrap_cells : numbers::wide_wrap_cells;
   work_ = 0;
   begin(c, d);
   bool repaired = false;
@@ -29,7 +30,7 @@ bool LocalRewrap::repair(Pools& pools, CellId c, int face, Effort effort) {
   for (bool grows = true; grows && !repaired && !reached_border_ && !is_ended();) {
     grows = grow();
     if (reached_border_ || old_.size() >= most_cells_) break;
-    if (grows ? old_.size() < wrapped + wrapped / least_growth : old_.size() == wrapped) continue;
+    if (grows ? old_.size() < wrapped + wrapped / numbers::least_wrap_growth : old_.size() == wrapped) continue;
     wrapped = old_.size();
     repaired = wrap_again(pools);
   }

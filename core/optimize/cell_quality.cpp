@@ -11,6 +11,7 @@
 
 #include "numbers/corners.hpp"
 #include "numbers/vectors.hpp"
+#include "optimize/numbers.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr {
@@ -37,7 +38,7 @@ double lower(double q, double part) { return part >= q ? q : part > 0 ? part : 0
 
 /// The least of what the six dihedral angles between faces of these inward normals count; 0 if it cannot be said, as squares of
 /// areas are no numbers.
-double least_of_angles(const std::array<Vector3, 4>& n, double of_large_angles) {
+double least_of_angles(const std::array<Vector3, 4>& n) {
   std::array<double, 4> inverse;  // of squared lengths
   for (int i = 0; i < 4; ++i) {
     const double squared = detail::dot(n[i], n[i]);
@@ -51,7 +52,7 @@ double least_of_angles(const std::array<Vector3, 4>& n, double of_large_angles) 
     most = std::max(most, square);
     least = std::min(least, square);
   }
-  const double d = std::min(1 - std::sqrt(most), of_large_angles * (1 - std::sqrt(-least)));
+  const double d = std::min(1 - std::sqrt(most), numbers::of_large_angles * (1 - std::sqrt(-least)));
   return d > 0 ? d : 0;
 }
 
@@ -108,7 +109,7 @@ double CellQuality::of_with(const Simplex<3>& s, int region, double enough, Size
   if (one_minus_cos_ > 0) {
     // Inward normals of the faces opposite corners 1, 2, 3, and 0, whose areas close the surface.
     const Vector3 opposite_0 = {-bc[0] - ca[0] - ab[0], -bc[1] - ca[1] - ab[1], -bc[2] - ca[2] - ab[2]};
-    q = std::min(q, least_of_angles({bc, ca, ab, opposite_0}, of_large_angles) / one_minus_cos_);
+    q = std::min(q, least_of_angles({bc, ca, ab, opposite_0}) / one_minus_cos_);
     if (!(q > enough)) return q;
   }
   const double a2 = dot(a, a), b2 = dot(b, b), c2 = dot(c, c);

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "optimize/local_sizes.hpp"
+#include "optimize/numbers.hpp"
 #include "pgdr/types.hpp"
 #include "rule/cell_bounds.hpp"
 
@@ -32,7 +33,6 @@ double cosine_complement(double degrees);
 class CellQuality {
  public:
   static constexpr int lowest_level = -10000;  ///< of cells that are flat or turned over
-  static constexpr int levels_a_weight = 162;  ///< 1.01 to that power is five
 
   /// `bounds` must outlive it. `min_dihedral`: the target in degrees, in [0, 60); 0: dihedral angles do not count.
   CellQuality(const CellBounds<3>& bounds, double min_dihedral);
@@ -62,7 +62,7 @@ class CellQuality {
   /// floor(log q / log 1.01): 0 of cells within all bounds, negative of poor ones, in steps of a hundredth. Monotone.
   static int level(double q);
   /// What a poor cell of the level counts: one, and one more for each factor of five that its quality is below the bounds.
-  static constexpr int weight(int level) { return 1 - level / levels_a_weight; }
+  static constexpr int weight(int level) { return 1 - level / numbers::levels_a_weight; }
   /// The least q of the level.
   static double least_of_level(int level);
 
@@ -71,7 +71,6 @@ class CellQuality {
  private:
   template <class SizeOf>
   double of_with(const Simplex<3>& s, int region, double enough, SizeOf size_of) const;
-  static constexpr double of_large_angles = 0.7;  ///< d = 0.7 (1 + c) where c < 0
 
   double size_for(const Simplex<3>& s, int region) const;
 

@@ -7,6 +7,7 @@
 #include "numbers/corners.hpp"
 #include "numbers/vectors.hpp"
 #include "optimize/cell_quality.hpp"
+#include "optimize/numbers.hpp"
 
 namespace pgdr {
 namespace {
@@ -68,8 +69,8 @@ void CellQuality::append_terms(const Simplex<3>& s, int region, double share, st
       const double lengths = std::sqrt(length2[i] * length2[j]), cosine = -dot(normal[i], normal[j]) / lengths;
       const Arrow of_product = combined(1, cross(normal[j], u[i]), 1, cross(normal[i], u[j]));
       const Arrow of_cosine = combined(-1 / lengths, of_product, -cosine, combined(1, of_length[i], 1, of_length[j]));
-      const double slope = (cosine > 0 ? -1 : of_large_angles) / one_minus_cos_;
-      const double d = cosine > 0 ? 1 - cosine : of_large_angles * (1 + cosine);
+      const double slope = (cosine > 0 ? -1 : numbers::of_large_angles) / one_minus_cos_;
+      const double d = cosine > 0 ? 1 - cosine : numbers::of_large_angles * (1 + cosine);
       all[n++] = {d / one_minus_cos_, combined(slope, of_cosine, 0, of_cosine)};
     }
   }

@@ -8,15 +8,13 @@
 #include "input/entities.hpp"
 #include "mesh/pinched_edges.hpp"
 #include "numbers/corners.hpp"
+#include "optimize/numbers.hpp"
 #include "optimize/vertex_changes.hpp"
 #include "pgdr/predicates.hpp"
 #include "refine/split_points.hpp"
 
 namespace pgdr {
 namespace {
-
-constexpr std::size_t longest_split_ring = 60;  // cells round an edge that is split
-constexpr std::size_t most_dug_out = 48;        // cells: twice what reconnection takes
 
 Point3 middle(const Point3& p, const Point3& q) {
   return lex_less<3>(p, q) ? Point3{(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2}
@@ -95,7 +93,7 @@ bool Insertions::split_ring(const Point3& x, Home home) {
 bool Insertions::split_edge(CellId c, int edge) {
   const Mesh<3>& mesh = *s_->mesh;
   if (s_->w->visit->counts.committed >= s_->w->visit->most_insertions) return false;
-  if (s_->note(collect_ring(mesh, s_->area(), c, edge, longest_split_ring, ring_)) != Reach::ok) return false;
+  if (s_->note(collect_ring(mesh, s_->area(), c, edge, numbers::longest_split_ring, ring_)) != Reach::ok) return false;
   const auto [a, b] = ring_.ends;
   const Point3 x = middle(mesh.point(a), mesh.point(b));
   if (ring_.segment != no_entity) {
@@ -139,7 +137,7 @@ bool Insertions::dig_out(CellId c, const Point3& p, double enough) {
     }
     const bool all_better = std::all_of(rim_.begin(), rim_.end(), [&](const RimFace& r) { return r.quality > enough; });
     if (all_better) return true;
-    if (!worst || cells_.size() >= most_dug_out) return false;
+    if (!worst || cells_.size() >= numbers::most_dug_out) return false;
     const CellId next = mesh.cell(worst->cell).links[worst->face].cell();
     if (!s_->owns(next)) return s_->note(Reach::not_owned) == Reach::ok;
     take(next);

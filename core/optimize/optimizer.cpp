@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "optimize/optimizer.hpp"
 
+#include "optimize/numbers.hpp"
 #include "optimize/order_by_level.hpp"
 
 #include <algorithm>
@@ -17,8 +18,6 @@
 
 namespace pgdr {
 namespace {
-
-constexpr int rounds_of_compound = 3, rounds_in_rest = 10;  // of cheap changes about what a detour or a split has made
 
 /// Treats poor cells. Part of a worker: one thread at a time.
 class Optimizer final : public ElementTreatment<3> {
@@ -92,7 +91,7 @@ bool Optimizer::change_cheaply(CellId c, Judge::Rule rule) {
 
 /// Ends a transaction: mends the poor cells that it has made, and keeps all if they are better than what was there, together.
 bool Optimizer::end_compound(bool begun) {
-  const int rounds = stage_->phase == OptimizerStage::Phase::rest ? rounds_in_rest : rounds_of_compound;
+  const int rounds = stage_->phase == OptimizerStage::Phase::rest ? numbers::rounds_in_rest : numbers::rounds_of_compound;
   for (int round = 0; begun && round < rounds && !is_spent(); ++round) {
     bool any = false;
     const std::vector<CellId> made = s_.transaction.made();

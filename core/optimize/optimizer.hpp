@@ -18,6 +18,7 @@
 
 #include "optimize/judge.hpp"
 #include "refine/element_stage.hpp"
+#include "refine/numbers.hpp"
 
 namespace pgdr {
 
@@ -40,8 +41,8 @@ class OptimizerStage final : public ElementStage<3> {
 
   double min_dihedral() const { return min_dihedral_; }  ///< degrees
 
-  Phase phase = Phase::cheap;                           ///< of the visits to come
-  std::uint64_t most_a_cell = evaluations_a_poor_cell;  ///< evaluations in one attempt
+  Phase phase = Phase::cheap;                                    ///< of the visits to come
+  std::uint64_t most_a_cell = numbers::evaluations_a_poor_cell;  ///< evaluations in one attempt
 
  private:
   const Mesh<3>* mesh_;

@@ -7,23 +7,10 @@
 #include <limits>
 
 #include "numbers/vectors.hpp"
+#include "optimize/numbers.hpp"
 
 namespace pgdr {
 namespace {
-
-constexpr int most_rounds = 8, most_halvings = 7;
-/// Of the whole, relatively: less is no gain.
-constexpr double least_gain = 1e-4;
-/// Of a step, by the linear terms: a tenth of a level of quality. Less is not worth the evaluations.
-constexpr double least_gain_of_step = 1e-3;
-/// The cells that are at most so many times as good as the worst are looked at before one of them stops a step. It saves one or
-/// two trials: from 1 to 2 the places are the same, and from 1.02 to 1.1 it takes the fewest evaluations.
-constexpr double share_of_cells = 1.05;
-/// Of a cell, its terms are looked at that are at most so many times its least.
-constexpr double share_of_terms = 2;
-/// A step is as good as the best one if it gains so much less, relatively; and it is taken after so many terms.
-constexpr double balanced = 0.05;
-constexpr int most_additions = 40;
 
 double height_over_base(const Star::Cell& cell, const Point3& x, detail::Vector<3>& normal) {
   using detail::difference;
@@ -157,7 +144,7 @@ std::optional<Point3> Placement::find(const Star& star, const CellQuality& quali
     measure(false);
   }
   if (least_ > 0 && least_ < 1) ascend(false);
-  if (!(least_ > before * (1 + least_gain))) return std::nullopt;
+  if (!(least_ > before * (1 + numbers::least_placement_gain))) return std::nullopt;
   return x_;
 }
 
@@ -184,7 +171,7 @@ bool Placement::ascend(bool heights) {
   if (heights) measure(true);
   if (!std::isfinite(least_)) return false;
   double trust = 0;  // a step is that times a mean of gradients
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < numbers::most_placement_rounds; ++round) {
     if (!try_steps(heights, trust)) break;
     if (!heights && least_ >= 1) break;
     if (heights && least_ > 0) {
@@ -200,7 +187,7 @@ bool Placement::ascend(bool heights) {
 bool Placement::try_steps(bool heights, double& trust) {
   terms_.clear();
   modelled_ = 0;
-  const double enough = heights ? least_ : share_of_cells * least_;
+  const double enough = heights ? least_ : numbers::share_of_cells * least_;
   while (modelled_ < rated_.size() && (modelled_ == 0 || rated_[modelled_].value <= enough)) model(modelled_, heights);
   if (terms_.empty()) return false;
   if (trust == 0) {
@@ -210,12 +197,12 @@ bool Placement::try_steps(bool heights, double& trust) {
     if (!(steepest > 0)) return false;
     trust = shortest_arm(*star_) / (2 * std::sqrt(steepest));
   }
-  for (int halving = 0; halving <= most_halvings;) {
+  for (int halving = 0; halving <= numbers::most_step_halvings;) {
     const Direction s = step(trust);
     Point3 x = x_;
     for (int i = 0; i < 3; ++i) x[i] += s[i];
     if (star_->onto_entity) x = star_->onto_entity(x);
-    if (x == x_ || (!heights && gain_ < least_gain_of_step * least_)) return false;
+    if (x == x_ || (!heights && gain_ < numbers::least_step_gain * least_)) return false;
     std::size_t stopped_by = 0;
     if (try_place(x, heights, stopped_by)) {
       if (halving == 0) trust *= 2;
@@ -243,7 +230,7 @@ void Placement::model(std::size_t i, bool heights) {
     t.value = height_over_base(cell, x_, t.gradient);
     terms_.push_back(t);
   } else {
-    quality_->append_terms({cell.base[0], cell.base[1], cell.base[2], x_}, cell.region, share_of_terms, terms_);
+    quality_->append_terms({cell.base[0], cell.base[1], cell.base[2], x_}, cell.region, numbers::share_of_terms, terms_);
   }
   for (std::size_t k = before; k < terms_.size(); ++k) project(*star_, terms_[k].gradient);
 }
@@ -273,7 +260,8 @@ Placement::Direction Placement::step(double trust) {
       holding.begin(*least);
     } else {
       const double of_holding = holding.gain(worst, s);
-      if (addition > most_additions || of_holding - of_least <= balanced * std::fabs(of_holding)) return s;
+      if (addition > numbers::most_step_terms || of_holding - of_least <= numbers::balanced_step * std::fabs(of_holding))
+        return s;
       if (!holding.add(*least, trust)) return s;
     }
     s = holding.step(trust);

@@ -8,11 +8,10 @@
 #include "input/entities.hpp"
 #include "numbers/corners.hpp"
 #include "numbers/vectors.hpp"
+#include "optimize/numbers.hpp"
 
 namespace pgdr {
 namespace {
-
-constexpr std::size_t most_cells = 100;  // of a star: those of more are hubs of needles, where a move costs much and gains little
 
 /// Of a subfacet of the facet, at one of the cells; the one of the largest area.
 detail::Vector<3> normal_of_facet(const Mesh<3>& mesh, EntityId facet, std::span<const CellId> about) {
@@ -59,7 +58,7 @@ void set_freedom(const Mesh<3>& mesh, const Domain<3>& domain, Home home, std::s
 
 bool VertexChanges::move_vertex(CellId c, VertexId v, Judge::Rule rule) {
   Mesh<3>& mesh = *s_->mesh;
-  if (s_->note(collect_star(mesh, s_->area(), v, c, most_cells, star_)) != Reach::ok) return false;
+  if (s_->note(collect_star(mesh, s_->area(), v, c, numbers::most_star_cells, star_)) != Reach::ok) return false;
   points_.cells.clear();
   for (std::size_t i = 0; i < star_.cells.size(); ++i) {
     const auto& k = mesh.cell(star_.cells[i]);
@@ -112,7 +111,7 @@ bool VertexChanges::contract(CellId c, Judge::Rule rule) {
   Mesh<3>& mesh = *s_->mesh;
   std::optional<Judge::Standing> best;
   for (const auto& [v, cell] : vertices_about(c)) {
-    if (s_->note(collect_star(mesh, s_->area(), v, cell, most_cells, star_)) != Reach::ok) continue;
+    if (s_->note(collect_star(mesh, s_->area(), v, cell, numbers::most_star_cells, star_)) != Reach::ok) continue;
     const Judge::Standing before = s_->judge.standing_of(star_.cells);
     if (before.levels.empty()) continue;
     for (const VertexId to : contraction_targets(mesh, star_)) {

@@ -5,14 +5,9 @@
 #include <algorithm>
 
 #include "mesh/locally_delaunay.hpp"
+#include "refine/numbers.hpp"
 
 namespace pgdr {
-namespace {
-
-constexpr std::uint64_t most_ineffective_work = 20'000'000;     // of rewrapping large regions in one visit: some seconds
-constexpr std::uint64_t most_ineffective_work_inside = 50'000;  // likewise, once entities have been refused
-
-}  // namespace
 
 template <int D>
 DelaunayRepair<D>::DelaunayRepair(Workspace<D>& workspace, WorkLister<D>& lister)
@@ -38,13 +33,13 @@ void DelaunayRepair<D>::look_at(std::span<const CellId> made) {
 template <int D>
 auto DelaunayRepair<D>::rewrap_effort(const Entry<D>& e) const -> std::optional<LocalRewrap::Effort> {
   if constexpr (D == 2) return std::nullopt;
-  constexpr int few = 2;
   const auto& vertices = w_->mesh.cell(e.cell).vertices;
   const auto inside = std::count_if(vertices.begin(), vertices.end(), [this](VertexId v) { return w_->in_volume(v); });
   const bool refused = w_->visit->entities_refused;
-  if ((!refused || inside == D + 1) && flips_.rewrap_pays(refused ? most_ineffective_work_inside : most_ineffective_work))
+  if ((!refused || inside == D + 1) &&
+      flips_.rewrap_pays(refused ? numbers::wasted_wrap_work_refused : numbers::wasted_wrap_work))
     return LocalRewrap::Effort::wide;
-  if (inside >= few) return LocalRewrap::Effort::quick;
+  if (inside >= numbers::inner_corners_to_wrap) return LocalRewrap::Effort::quick;
   return std::nullopt;
 }
 

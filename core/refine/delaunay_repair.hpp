@@ -10,6 +10,7 @@
 #include <span>
 
 #include "change/flips.hpp"
+#include "refine/numbers.hpp"
 #include "refine/work_lister.hpp"
 #include "refine/workspace.hpp"
 
@@ -25,7 +26,7 @@ class DelaunayRepair {
   /// Must be called before the visit does anything.
   void begin_visit();
   /// Allows flips for faces that wait, beside those that the visit will find.
-  void allow_for(std::uint64_t faces) { flips_left_ += flips_for_each * faces; }
+  void allow_for(std::uint64_t faces) { flips_left_ += numbers::flips_a_violation * faces; }
   /// Lists the violations at cells that an insertion has made.
   void look_at(std::span<const CellId> made);
   /// Repairs the face of an entry of kind flip, or sets it aside, or lists its cell as poor.
@@ -35,9 +36,6 @@ class DelaunayRepair {
   Outcome remove_flat_cell(CellId c);
 
  private:
-  /// The allowance of flips for each violation, so that flips that trade violations for others end.
-  static constexpr std::uint64_t flips_for_each = 16;
-
   std::optional<LocalRewrap::Effort> rewrap_effort(const Entry<D>& e) const;
   void list_made();
 

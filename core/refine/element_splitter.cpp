@@ -8,6 +8,7 @@
 
 #include "numbers/finite.hpp"
 #include "refine/encroachment.hpp"
+#include "refine/numbers.hpp"
 #include "refine/visibility.hpp"
 
 namespace pgdr {
@@ -103,15 +104,11 @@ class ElementSplitter<D>::RefusedFace final : public Cavity<D>::FaceWatch {
     const Entry<D> f = w_->entry(c, EntryKind::face, face);
     if (!found_ && entities_->refused_before(f, cause_) && encroachment<D>(w_->mesh, c, face, x_) != Encroachment::none)
       found_ = f;
-    return found_ && w_->cavity.cells().size() > many_cells;
+    return found_ && w_->cavity.cells().size() > numbers::refused_face_cells;
   }
   const std::optional<Entry<D>>& found() const { return found_; }  ///< the face
 
  private:
-  /// Where it ends at once, elements of coarse nodes wait on in the uniform schedule, and ranks never cut their mesh
-  /// (bench/notebook/numbers.md).
-  static constexpr std::size_t many_cells = 128;
-
   const Workspace<D>* w_;
   const EntitySplitter<D>* entities_;
   Point<D> x_;
@@ -257,7 +254,7 @@ bool ElementSplitter<D>::may_halve_demand(CellId c) {
   for (std::size_t i = 0; i < entities.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       const double angle = w_->angles.between(entities[i], entities[j]);
-      if (angle < sharp_angle) return false;
+      if (angle < numbers::sharp_degrees) return false;
       small = small || angle < small_angle;
     }
   return small || !at_input_vertex;

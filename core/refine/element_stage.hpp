@@ -16,12 +16,6 @@
 
 namespace pgdr {
 
-/// The most qualities of cells that a treatment should ask for to treat one element.
-constexpr std::uint64_t evaluations_a_poor_cell = 10000;
-/// The most that a change of the mesh may take, on the average: a visit ends its treatments once it has asked for more, and for
-/// as many as one element may take. Where nearly all that is poor can be mended a change takes 100 to 800.
-constexpr std::uint64_t evaluations_a_change = 2000;
-
 /// Treats the poor elements of a worker's visits in a stage of the run. One thread at a time. It counts in NodeVisit::counts
 /// what it changes and evaluates, but for `refused`; inserts no point once NodeVisit::most_insertions are committed; and lists
 /// the poor elements that it makes (WorkLister::list_element).

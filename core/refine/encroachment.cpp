@@ -9,6 +9,7 @@
 
 #include "numbers/vectors.hpp"
 #include "rule/insertion_rule.hpp"
+#include "rule/numbers.hpp"
 #include "rule/twins.hpp"
 
 namespace pgdr {
@@ -54,7 +55,7 @@ bool is_flat_at(const Point2& x, const Point2& a, const Point2& b, double radius
 template <int D>
 bool is_beside_end(const Point<D>& p, const Point<D>& q, const Point<D>& x) {
   const double to_p = squared_distance(p, x), to_q = squared_distance(q, x);
-  if (std::min(to_p, to_q) > beside * beside * std::max(to_p, to_q)) return false;
+  if (std::min(to_p, to_q) > numbers::beside_subsegment * numbers::beside_subsegment * std::max(to_p, to_q)) return false;
   double along = 0;
   for (int i = 0; i < D; ++i) along += (p[i] - x[i]) * (q[i] - x[i]);
   return along * along < 0x1p-36 * to_p * to_q;

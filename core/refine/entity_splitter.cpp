@@ -8,6 +8,7 @@
 #include "input/entities.hpp"
 #include "mesh/ridge.hpp"
 #include "refine/encroachment.hpp"
+#include "refine/numbers.hpp"
 #include "refine/split_points.hpp"
 #include "refine/subsegment_ring.hpp"
 
@@ -21,8 +22,6 @@ bool is_between(const Point<D>& p, const Point<D>& q, const Point<D>& x) {
   const int axis = std::fabs(q[0] - p[0]) >= std::fabs(q[1] - p[1]) ? 0 : 1;
   return std::min(p[axis], q[axis]) < x[axis] && x[axis] < std::max(p[axis], q[axis]);
 }
-
-constexpr int most_steps = 1000;  // of a walk in a facet; it can run in a circle where the facet is not Delaunay
 
 }  // namespace
 
@@ -56,7 +55,7 @@ auto EntitySplitter<D>::walk_in_facet(const Entry<D>& e, const Point<D>& x) -> F
     const EntityId entity = mesh_->constraints(e.cell)->face_entity[e.which()];
     const int axis = domain_->facets()[entity].axis;
     Link at(e.cell, e.which());
-    for (int steps = 0; steps < most_steps; ++steps) {
+    for (int steps = 0; steps < numbers::facet_walk_steps; ++steps) {
       const CellId c = at.cell();
       if (!cavity_->owns(c)) return {{}, {}, false};
       w_->trace.push_back(c);

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "refine/numbers.hpp"
+
 namespace pgdr {
 
 template <int D>
@@ -105,7 +107,7 @@ template <int D>
 Outcome Refiner<D>::treat_in_stage(const Entry<D>& e) {
   NodeVisit<D>& visit = *workspace_.visit;
   Outcome outcome = Outcome::refused;
-  const std::uint64_t paid = std::min(visit.counts.evaluated, evaluations_a_change * visit.counts.changes());
+  const std::uint64_t paid = std::min(visit.counts.evaluated, numbers::evaluations_a_change * visit.counts.changes());
   undecided_ = visit.counts.evaluated >= most_evaluated_ || visit.counts.evaluated - paid >= visit.most_unpaid;
   if (!undecided_) {
     outcome = treatment_->treat(e);

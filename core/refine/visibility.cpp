@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "refine/numbers.hpp"
+
 namespace pgdr {
 namespace {
 
@@ -12,7 +14,7 @@ namespace {
 template <int D, class MayEnter>
 std::optional<Entry<D>> wall_before(Workspace<D>& w, CellId c, const Point<D>& x, MayEnter may_enter) {
   const Mesh<D>& mesh = w.mesh;
-  const std::size_t most_steps = 256 + w.cavity.cells().size();  // where cells are not Delaunay a walk can run in a circle
+  const std::size_t most_steps = numbers::claim_walk_steps + w.cavity.cells().size();
   int from = -1;
   for (std::size_t steps = 0; steps < most_steps && may_enter(c); ++steps) {
     const auto& k = mesh.cell(c);
@@ -56,10 +58,9 @@ std::optional<Entry<D>> wall_that_hides(Workspace<D>& w, CellId c, const Point<D
 template <int D>
 std::optional<Entry<D>> wall_before_distant_point(Workspace<D>& w, CellId c, const Point<D>& x) {
   if constexpr (D == 2) return std::nullopt;
-  // Nearer points often encroach upon flat subfacets, whose splits leave fewer poor cells.
-  constexpr double far_for_its_edges = 128;
   const double squared = squared_distance(w.mesh.point(w.mesh.cell(c).vertices[0]), x);
-  if (!(squared > far_for_its_edges * far_for_its_edges * longest_edge_squared<D>(w.mesh.simplex(c)))) return std::nullopt;
+  if (!(squared > numbers::distant_edges * numbers::distant_edges * longest_edge_squared<D>(w.mesh.simplex(c))))
+    return std::nullopt;
   w.cavity.release();
   return wall_in_claim(w, c, x);
 }

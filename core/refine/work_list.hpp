@@ -24,6 +24,7 @@
 #include "mesh/entity_pair.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/surroundings.hpp"
+#include "refine/numbers.hpp"
 #include "rule/cell_bounds.hpp"
 
 namespace pgdr {
@@ -293,9 +294,9 @@ class WorkList {
   std::size_t poor() const { return waiting_; }
   /// About how many cells will take the place of those that are too big, dead ones among them.
   std::uint64_t to_come() const { return to_come_; }
-  /// Is there work for several nodes: do `least` poor elements wait, or will three times as many cells take the place of those
-  /// that are too big?
-  bool is_crowded(std::size_t least) const { return waiting_ >= least || to_come_ >= 3 * least; }
+  /// Is there work for several nodes: do `least` poor elements wait, or will `numbers::cells_a_poor_element` times as many cells
+  /// take the place of those that are too big?
+  bool is_crowded(std::size_t least) const { return waiting_ >= least || to_come_ >= numbers::cells_a_poor_element * least; }
   /// The same of the elements in those buckets alone that `counts(bucket)`.
   template <class Counts>
   bool is_crowded(std::size_t least, Counts counts) const {
@@ -306,11 +307,11 @@ class WorkList {
         waiting += poor_[i].others.size() + poor_[i].by_shape.size();
         to_come += poor_[i].to_come;
       }
-    return waiting >= least || to_come >= 3 * least;
+    return waiting >= least || to_come >= numbers::cells_a_poor_element * least;
   }
   /// May it be so once this many more cells were looked at, some of which may be poor?
   bool may_be_crowded_with(std::size_t more, std::size_t least) const {
-    return waiting_ + more >= least || to_come_ + most_cells_to_fill * more >= 3 * least;
+    return waiting_ + more >= least || to_come_ + most_cells_to_fill * more >= numbers::cells_a_poor_element * least;
   }
   /// The bucket of the largest element that is too big; a large number if there is none.
   int first_bucket_of_too_big() const {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rule/insertion_rule.hpp"
 #include "input/entities.hpp"
+#include "rule/numbers.hpp"
 
 #include <algorithm>
 #include <array>
@@ -58,7 +59,7 @@ std::optional<EntityPair> small_angle_across(const Domain<2>& domain, const std:
   for (const std::uint32_t p : a) {
     if (p != b[0] && p != b[1]) continue;
     const double to_u = squared_distance(domain.points()[p], u.point), to_v = squared_distance(domain.points()[p], v.point);
-    if (!(to_u <= 1.002 * to_v && to_v <= 1.002 * to_u)) continue;
+    if (!(to_u <= (1 + numbers::equally_far) * to_v && to_v <= (1 + numbers::equally_far) * to_u)) continue;
     // The angle at p is below the bound: |uv| < 2 sin(bound / 2) |pu|.
     const double sine = 1 / (2 * bound), cosine = std::sqrt(std::max(0.0, 1 - sine * sine));
     if (squared_edge(opposite) < 2 * (1 - cosine) * to_u) return EntityPair{{u.home.entity(), v.home.entity()}};

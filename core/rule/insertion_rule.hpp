@@ -63,7 +63,6 @@ namespace pgdr {
 
 inline constexpr double inherited_fraction = 0.5;  ///< c of the table above
 inline constexpr double small_angle = 60;          ///< degrees; 3D: entities that meet at less are split less often
-inline constexpr double sharp_angle = 20;          ///< degrees; 3D: elements at a smaller angle get no last resort
 
 /// The demand of what a point is inserted for: r(x) >= d, and R(x) is at least h.
 struct Demand {

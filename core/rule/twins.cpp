@@ -3,6 +3,7 @@
 #include "rule/twins.hpp"
 #include "input/entities.hpp"
 #include "numbers/rounding.hpp"
+#include "rule/numbers.hpp"
 #include "space/distances.hpp"
 
 #include <algorithm>
@@ -11,8 +12,6 @@
 
 namespace pgdr {
 namespace {
-
-constexpr double least_part = 0.25;  // of the piece, on either side of a place with a twin
 
 /// The end of the segment, 0 or 1, that the vertex's own, another one, shares; -1 if there is none.
 int common_end(const Domain<3>& domain, EntityId segment, Home home) {
@@ -43,7 +42,7 @@ void TwinPlaces::look_at(const VertexRecord<3>& q) {
     const bool at_apex = end == 0 ? t0_ == 0 : t1_ == 1;
     double t = end == 0 ? part : 1 - part;
     if (where_ == Beside::nearest && !at_apex) t = segment_parameter<3>(*domain_, segment_, q.point);
-    add(t, q.point, least_part * length, apex);
+    add(t, q.point, numbers::least_part_at_twin * length, apex);
   }
 }
 
@@ -51,7 +50,7 @@ void TwinPlaces::add(double t, const Point3& q, double least_room, std::uint32_t
   if (!(t > t0_ && t < t1_) || whole_ * std::min(t - t0_, t1_ - t) < least_room) return;
   const SplitPlace place{t, point_on_segment<3>(*domain_, segment_, t), apex,
                          apex == no_entity ? 0.0 : detail::distance(domain_->points()[apex], q)};
-  if (detail::distance(place.x, q) >= beside * whole_ * (t1_ - t0_)) return;
+  if (detail::distance(place.x, q) >= numbers::beside_subsegment * whole_ * (t1_ - t0_)) return;
   const auto rank = [&](const SplitPlace& p) {
     return std::tuple(std::abs(p.t - (t0_ + (t1_ - t0_) / 2)), p.t, p.apex, p.radius);
   };
@@ -62,7 +61,8 @@ bool is_twin(const Domain<3>& domain, EntityId segment, const SplitPlace& place,
   if (place.apex == no_entity || v.home.kind() != EntityKind::segment || v.home.id() == segment) return false;
   const auto& ends = domain.segments()[v.home.id()].points;
   if (ends[0] != place.apex && ends[1] != place.apex) return false;
-  const double tolerance = rounding::of_plane * domain.segment_magnitude(segment) + detail::distance(place.x, v.point) / 64;
+  const double tolerance = rounding::of_plane * domain.segment_magnitude(segment) +
+                           numbers::twin_slack * detail::distance(place.x, v.point);
   return std::abs(detail::distance(domain.points()[place.apex], v.point) - place.radius) <= tolerance;
 }
 

@@ -33,10 +33,6 @@
 
 namespace pgdr {
 
-/// The part of a subsegment's length within which a vertex is beside it. At larger angles, from about one degree, few points make
-/// most elements between the segments good, if they may go where that takes the fewest.
-inline constexpr double beside = 0.0078125;
-
 /// Where to split a subsegment.
 struct SplitPlace {
   double t;                        ///< parameter on the segment, strictly inside of the piece

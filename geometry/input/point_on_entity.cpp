@@ -10,6 +10,7 @@
 
 #include "input/bent_facets.hpp"
 #include "input/entities.hpp"
+#include "input/numbers.hpp"
 #include "input/triangle_shapes.hpp"
 #include "numbers/double_double.hpp"
 #include "pgdr/domain.hpp"
@@ -164,8 +165,7 @@ Point<3> point_on_facet(const Domain<3>& domain, EntityId f, const Point<3>& x) 
   const auto first = holding(x);
   std::size_t at = first ? *first : nearest_triangle(triangles, points, x, facet.axis);
   Point3 p = projected(x, at);
-  constexpr int most_times = 8;
-  for (int n = 0; n < most_times && !has(at, p); ++n) {
+  for (int n = 0; n < numbers::projections_onto_bent && !has(at, p); ++n) {
     const auto next = holding(p);
     if (!next) break;
     at = *next;

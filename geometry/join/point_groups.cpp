@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "join/numbers.hpp"
 #include "space/disjoint_sets.hpp"
 #include "space/distances.hpp"
 #include "space/point_places.hpp"
@@ -17,7 +18,6 @@ namespace {
 /// Cubes of a grid so much wider than the tolerance that few points are near a wall of theirs, and moved off the origin, where
 /// many points have their coordinates.
 constexpr double width_of_cube = 64, moved_by = 0.37;
-constexpr std::size_t most_compared = 256;  // points of a group, each with each; a larger one is measured by its box
 
 template <int D>
 class Cubes {
@@ -65,7 +65,7 @@ AmbiguousGroup widest_pair(std::span<const std::uint32_t> group, std::span<const
   const auto take = [&](std::uint32_t v, std::uint32_t w) {
     if (const double d = distance(points[v], points[w]); d > widest.distance) widest = {v, w, d, group.size()};
   };
-  if (group.size() > most_compared) {
+  if (group.size() > numbers::most_compared) {
     for (int i = 0; i < D; ++i) {
       const auto [low, high] = std::ranges::minmax(group, {}, [&](std::uint32_t v) { return points[v][i]; });
       take(low, high);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "pgdr/refine.hpp"
+#include "visits/numbers.hpp"
 
 namespace pgdr::detail {
 template <int D>
@@ -47,7 +48,7 @@ double Uniform<D>::small_radius() const {
 template <int D>
 std::size_t Uniform<D>::floor() const {
   if (state_->options.lattice > 0) return 0;
-  return state_->options.floor != 0 ? state_->options.floor : 4000;
+  return state_->options.floor != 0 ? state_->options.floor : numbers::crowded_window;
 }
 
 /// Does all that waits in the window wait for its being split?

@@ -13,16 +13,13 @@
 #include "boundary/named_points.hpp"
 #include "compact/compact.hpp"
 #include "pgdr/check.hpp"
+#include "run/numbers.hpp"
 #include "space/bulk.hpp"
 
 namespace pgdr {
 namespace {
 
 constexpr const char* advice = "; another tolerance may keep them apart";
-constexpr double more_than_rounding = 0x1p-40;  // of the largest coordinate
-constexpr double whole = 1 - 0x1p-30;           // the sum of the pieces, each of which is rounded
-constexpr double as_short = 0x1p-34;            // of the largest coordinate: longer segments no rounding folds over
-constexpr double as_near = 1e-6;  // degrees: at larger angles no rounding folds facets over that are not thin themselves
 
 bool is_bent(const Domain<3>& domain, EntityId f, double by_more_than) {
   return domain.facets()[f].planarity_defect > by_more_than * domain.facet_magnitude(f);
@@ -55,10 +52,11 @@ bool is_tight(const Domain<3>& domain, EntityId s) {
   if (std::none_of(facets.begin(), facets.end(), [&](EntityId f) { return is_bent(domain, f, 0); })) return false;
   const auto& [a, b] = domain.segments()[s].points;
   const double length = std::sqrt(squared_distance(domain.points()[a], domain.points()[b]));
-  if (length < as_short * domain.segment_magnitude(s)) return true;
+  if (length < numbers::foldable_length * domain.segment_magnitude(s)) return true;
   for (std::size_t i = 0; i < facets.size(); ++i)
     for (std::size_t k = i + 1; k < facets.size(); ++k)
-      if (entity_angle(domain, {EntityKind::facet, facets[i]}, {EntityKind::facet, facets[k]}) < as_near) return true;
+      if (entity_angle(domain, {EntityKind::facet, facets[i]}, {EntityKind::facet, facets[k]}) < numbers::foldable_degrees)
+        return true;
   return false;
 }
 
@@ -68,7 +66,7 @@ void require_whole_segments(const Mesh<3>& mesh, const Domain<3>& domain) {
   for (EntityId s = 0; s < length.size(); ++s) {
     const auto& ends = domain.segments()[s].points;
     const Point3 &p = domain.points()[ends[0]], &q = domain.points()[ends[1]];
-    if (length[s] == 0 || length[s] >= whole * std::sqrt(squared_distance(p, q))) continue;
+    if (length[s] == 0 || length[s] >= (1 - numbers::lost_of_segment) * std::sqrt(squared_distance(p, q))) continue;
     Diagnostic d = detail::about_points<3>(Errc::boundary_not_recovered, domain, ends);
     d.message = "facets that are planar only within the tolerance fold over at " + detail::segment_words(d) + advice;
     throw InputError(std::move(d));
@@ -172,7 +170,7 @@ bool may_fold(const Domain<3>& domain, const detail::Pieces& pieces) {
         may.store(true, std::memory_order_relaxed);
     });
   };
-  look(domain.facets().size(), [&](EntityId f) { return is_bent(domain, f, more_than_rounding); });
+  look(domain.facets().size(), [&](EntityId f) { return is_bent(domain, f, numbers::bent_beyond_rounding); });
   look(domain.segments().size(), [&](EntityId s) { return is_tight(domain, s); });
   return may;
 }

@@ -11,24 +11,24 @@
 #include "pgdr/circumsphere.hpp"
 #include "pgdr/predicates.hpp"
 #include "reasons/optimized_reasons.hpp"
+#include "refine/numbers.hpp"
 #include "rule/sizes_of_cells.hpp"
+#include "run/numbers.hpp"
 #include "space/bulk.hpp"
 
 namespace pgdr::detail {
 namespace {
 
-/// The budget: so many evaluations for each cell of the mesh, which take about as long as its refinement, and in small meshes
-/// about a second. It is three tenths more for each degree that the target is above the default.
-constexpr std::uint64_t evaluations_a_cell = 40, least_budget = 6000000;
-
+/// The budget in evaluations.
 std::uint64_t budget_of(std::uint64_t cells, double min_dihedral) {
-  std::uint64_t budget = std::max(evaluations_a_cell * cells, least_budget);
-  for (double target = default_min_dihedral; target + 1 <= min_dihedral; ++target) budget += 3 * budget / 10;
+  std::uint64_t budget = std::max(numbers::evaluations_a_cell * cells, numbers::least_evaluations);
+  for (double target = default_min_dihedral; target + 1 <= min_dihedral; ++target)
+    budget += numbers::more_tenths_a_degree * budget / 10;
   return budget;
 }
 
-/// What is tried for a cell that nothing excuses may take ten times as many evaluations as one look at it.
-constexpr std::uint64_t evaluations_an_unexplained_cell = 10 * evaluations_a_poor_cell;
+constexpr std::uint64_t evaluations_an_unexplained_cell = numbers::looks_at_an_unexplained_cell *
+                                                          numbers::evaluations_a_poor_cell;
 
 /// For the progress report: what a phase evaluates for each poor cell that it begins with, of some models, within its budget; and
 /// how many times as much the phases after it do, which begin with a part of these.
@@ -152,7 +152,7 @@ StopCause OptimizerRun::work_off(std::size_t waiting, std::uint64_t most) {
     some_undecided = state_->totals.counts.out_of_budget > counts.out_of_budget;
     const RefineCounts& now = state_->totals.counts;
     const std::uint64_t evaluated = now.evaluated - counts.evaluated, changes = now.changes() - counts.changes();
-    if (changes == 0 || (state_->must_pay && evaluated > evaluations_a_change * changes)) break;
+    if (changes == 0 || (state_->must_pay && evaluated > numbers::evaluations_a_change * changes)) break;
     state_->refused.relist_changed();
   }
   budget_ -= std::min(budget_, state_->totals.counts.evaluated - evaluated_before);
@@ -177,7 +177,8 @@ std::vector<Entry<3>> OptimizerRun::find_unexplained() {
 
 StopCause OptimizerRun::run_for_unexplained() {
   if (state_->refused.take_all().empty() && state_->waiting.is_empty()) return StopCause::finished;
-  if (budget_ < evaluations_a_poor_cell) return StopCause::finished;  // to find reasons takes long where many cells are poor
+  if (budget_ < numbers::evaluations_a_poor_cell)
+    return StopCause::finished;  // to find reasons takes long where many cells are poor
   const std::vector<Entry<3>> unexplained = find_unexplained();
   if (unexplained.empty()) return StopCause::finished;
   state_->waiting.for_each_list([](WorkList<3>& list) { list.drain([](const Entry<3>&) {}); });

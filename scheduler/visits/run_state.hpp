@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "refine/element_stage.hpp"
+#include "refine/numbers.hpp"
 #include "visits/progress_meter.hpp"
 #include "visits/refused_work.hpp"
 #include "visits/run_pieces.hpp"
@@ -66,7 +67,7 @@ struct RunState {
     visit.entities_refused = totals.entities_refused;
     visit.most_evaluated = most_evaluated - std::min(most_evaluated, totals.counts.evaluated);
     visit.most_evaluated_an_entry = most_evaluated_an_entry;
-    visit.most_unpaid = must_pay ? evaluations_a_poor_cell : std::numeric_limits<std::uint64_t>::max();
+    visit.most_unpaid = must_pay ? numbers::evaluations_a_poor_cell : std::numeric_limits<std::uint64_t>::max();
     waiting.prepare(request, visit);
   }
   /// Takes in what a visit that has ended did, and what it set aside.

@@ -20,6 +20,7 @@
 #include "refine/node_visit.hpp"
 #include "space/pieces.hpp"
 #include "visits/leaf_work.hpp"
+#include "visits/numbers.hpp"
 
 namespace pgdr::detail {
 
@@ -98,7 +99,9 @@ class WaitingWork {
   std::optional<PoorCount> count_poor(const Pieces& pieces);
 
  private:
-  std::size_t floor() const { return options_->floor != 0 ? options_->floor : D == 3 ? 1000 : 2000; }
+  std::size_t floor() const {
+    return options_->floor != 0 ? options_->floor : D == 3 ? numbers::crowded_leaf : numbers::crowded_leaf_2d;
+  }
   double small_radius(Node leaf) const { return options_->split_ratio * tree_.side(leaf) / 2; }
   bool by_boxes() const { return placement_.by_boxes(); }
   bool is_uniform() const { return options_->schedule == Schedule::uniform; }
