@@ -26,9 +26,8 @@
 // * The measure of a volume whose given facets close exactly differs from theirs by no more than (area of its boundary) (T + u)
 //   + (perimeter of its subfacets) (T + u)^2, with what was said above in the place of T + u.
 // * A reason names segments and facets of the input (GivenEntity). It holds if these meet at a small angle, as much as it says,
-// and
-//   one of them is near the cell. Angles are those of points that were given, exactly, or of points of the mesh on a facet, up to
-//   what these may be off it.
+//   and one of them is near the cell. Angles are those of points that were given, exactly, or of points of the mesh on a facet,
+//   up to what these may be off it.
 //
 // With the input at hand the verdict is complete. Positively oriented cells cover the volume that they are to fill exactly once,
 // if their faces match, and if their boundary is, triangle by triangle, a triangulation of the boundary of that volume. Without
@@ -54,32 +53,83 @@
 
 namespace pgdr PGDR_API {
 
-/// What is checked.
+/// What a mesh is checked for. A plain value; what it points to must outlive the call. Lengths are in the units of the
+/// coordinates. By default a mesh is checked for what any mesh must be: sound cells whose faces match. Each option asks for more.
+///
+///   const auto result = pgdr::refine(plc, refine_options);
+///   pgdr::CheckOptions<3> options;
+///   options.input = &plc;                                                   // as it was given, before any repair
+///   options.radius_edge_bound = refine_options.radius_edge_bound;
+///   options.size = refine_options.size;
+///   options.largest_cosine = result.optimization.claimed_cosine;            // the angle that the optimiser worked for
+///   options.delaunay = result.delaunay;
+///   options.reasons = &result.reasons;                                      // each is verified
+///   const pgdr::CheckReport report = pgdr::check(result.mesh, options);     // report.exit_code() <= 1: nothing is wrong
 template <int D>
 struct CheckOptions {
-  /// The input as given: the mesh is certified against it, and nothing that was made of it. Null: no conformity, no regions.
+  // ---- against what was given ----------------------------------------------------------------------------------------
+
+  /// The input as given: the mesh is certified against it, and nothing that was made of it. DEFAULT: null, neither conformity nor
+  /// regions are checked, and boundaries that cross far from common vertices are not found.
   const Plc<D>* input = nullptr;
-  /// The absolute one that the mesh was made with (Domain::tolerance). None: the default of Plc::tolerance.
+
+  /// The tolerance that the mesh was made with, an absolute length (Domain::tolerance). DEFAULT: none, which is that of a Plc
+  /// without one. REQUIRES: not negative. Without `input` it has no effect.
   std::optional<double> tolerance;
-  RegionMode regions = RegionMode::seeds;                              ///< what the mesh was made with
-  double radius_edge_bound = std::numeric_limits<double>::infinity();  ///< on circumradius over shortest edge
-  SizingField<D> size;                                                 ///< circumradius (3D) or area (2D) bound at the centroid
-  RegionSizes<D> region_sizes;                                         ///< further ones of the cells with these labels
-  double max_measure = std::numeric_limits<double>::infinity();        ///< volume (3D) bound of all cells
+
+  /// What of the input is to be meshed, and how it is to be labelled: RefineOptions::regions. DEFAULT: every volume but those of
+  /// hole seeds. Without `input` it has no effect.
+  RegionMode regions = RegionMode::seeds;
+
+  // ---- bounds on the cells: what is over one needs a reason ----------------------------------------------------------
+
+  /// Upper bound on circumradius over shortest edge, of each cell. DEFAULT: infinity, none. REQUIRES: above 0.
+  double radius_edge_bound = std::numeric_limits<double>::infinity();
+
+  /// Bound on the circumradius (3D) or the area (2D) of a cell, at its centroid. A number or a function, which is called by the
+  /// calling thread. DEFAULT: none. REQUIRES: above 0.
+  SizingField<D> size;
+
+  /// Further such bounds on the cells with a label. DEFAULT: none. REQUIRES: sizes above 0, and labels that cells have, or 0.
+  RegionSizes<D> region_sizes;
+
+  /// Bound on the volume (2D: area) of each cell. DEFAULT: infinity, none. REQUIRES: above 0.
+  double max_measure = std::numeric_limits<double>::infinity();
+
   /// Do the sizes that region seeds of the input have bind? Not where the refinement was left out, or ended before it was done.
+  /// DEFAULT: true. Without `input` it has no effect.
   bool seed_sizes = true;
-  /// 3D: bound on dihedral angles, as its cosine rounded to a double (claimed_cosine); 1: none.
+
+  /// 3D: bound on dihedral angles, as the cosine of the smallest one that is allowed, rounded to a double
+  /// (OptimizationStatistics::claimed_cosine): so the verdict is exact. DEFAULT: 1, none. REQUIRES: 0 to 1. 2D: no effect.
   double largest_cosine = 1;
-  bool delaunay = false;  ///< are faces to be locally Delaunay, but for what rounding or a refused split explains?
-  /// So many faces are said to be left that are not locally Delaunay, other than by rounding (NotDelaunay::other). No more of
-  /// them are no findings: those beside no refused split are `not_delaunay_unexplained`.
+
+  /// Why cells are over a bound, and faces not locally Delaunay. Each reason is verified. DEFAULT: null, there are none.
+  /// REQUIRES: those of this mesh, whose cells count from 0.
+  const std::vector<PoorReason>* reasons = nullptr;
+
+  // ---- locally Delaunay ----------------------------------------------------------------------------------------------
+
+  /// Must faces be locally Delaunay, but for what rounding or a refused split (in `reasons`) explains? DEFAULT: false.
+  bool delaunay = false;
+
+  /// So many faces are said to be left that are not locally Delaunay, other than by rounding (NotDelaunay::other). As long as there
+  /// are no more, those beside no refused split are `not_delaunay_unexplained`, and else findings. DEFAULT: 0. Without `delaunay` it
+  /// has no effect.
   std::uint64_t not_delaunay_left = 0;
-  const std::vector<PoorReason>* reasons = nullptr;  ///< of poor cells, each of which is verified; null: there are none
-  /// Widest distance, in ulps of the entity's largest coordinate, of a vertex from the line or plane it is on.
-  /// One ulp is 2^-52 times that coordinate. Axis-aligned entities must be met exactly.
+
+  /// By how many ulps of the mesh's largest coordinate a vertex on a slanted entity may be off that: a face that is locally
+  /// Delaunay if its vertices move by so much counts as rounding. One ulp is 2^-52 times that coordinate. DEFAULT: 2. REQUIRES:
+  /// not negative. Without `delaunay` it has no effect.
   int conformity_ulps = 2;
-  std::size_t max_listed = 20;  ///< at most so many findings of one kind in words; all are counted
-  std::stop_token stop = {};    ///< ends it by a CancelledError
+
+  // ---- what it tells, and when it ends -------------------------------------------------------------------------------
+
+  /// So many findings of one kind at most have words; all are counted. DEFAULT: 20.
+  std::size_t max_listed = 20;
+
+  /// Ends the check by a CancelledError, from any thread. DEFAULT: nothing can.
+  std::stop_token stop = {};
 };
 
 /// Something that makes the check fail.
