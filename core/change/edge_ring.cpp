@@ -44,8 +44,11 @@ Reach walk_ring(const Mesh<3>& mesh, const VisitArea<3>* area, RidgeWalk<3> walk
 
 }  // namespace
 
-std::size_t EdgeRing::walls_count() const {
-  return static_cast<std::size_t>(std::count_if(walls.begin(), walls.end(), [](EntityId w) { return w != no_entity; }));
+std::vector<std::size_t> EdgeRing::constrained() const {
+  std::vector<std::size_t> at;
+  for (std::size_t i = 0; i < walls.size(); ++i)
+    if (walls[i] != no_entity) at.push_back(i);
+  return at;
 }
 
 Reach collect_ring(const Mesh<3>& mesh, const VisitArea<3>* area, CellId c, int edge, std::size_t longest, EdgeRing& ring) {
@@ -80,9 +83,7 @@ Reach collect_ring(const Mesh<3>& mesh, const VisitArea<3>* area, CellId c, int 
 
 std::vector<RingSide> sides_without_edge(const Mesh<3>& mesh, const Domain<3>& domain, const EdgeRing& ring) {
   if (ring.segment != no_entity) return {};
-  std::vector<std::size_t> at;
-  for (std::size_t i = 0; i < ring.walls.size(); ++i)
-    if (ring.walls[i] != no_entity) at.push_back(i);
+  const std::vector<std::size_t> at = ring.constrained();
   if (at.empty()) return {{0, ring.cells.size()}};
   if (at.size() != 2 || ring.walls[at[0]] != ring.walls[at[1]]) return {};
   if (!crosses_in_facet<3>(mesh, domain, ring.walls[at[0]], ring.ends, {ring.vertices[at[0]], ring.vertices[at[1]]})) return {};

@@ -28,7 +28,7 @@ struct EdgeRing {
   bool closed = false;             ///< does it go round?
   EntityId segment = no_entity;    ///< that the edge is part of, if any
 
-  std::size_t walls_count() const;                                                ///< how many faces at the edge are constrained
+  std::vector<std::size_t> constrained() const;  ///< at which of the vertices the face with the edge is a subfacet
   VertexId vertex(std::size_t i) const { return vertices[i % vertices.size()]; }  ///< the i-th, going round
   CellId cell(std::size_t i) const { return cells[i % cells.size()]; }            ///< the i-th, going round
 };

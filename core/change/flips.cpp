@@ -107,17 +107,13 @@ auto LocalFlips<D>::remove_edge(Pools& pools, CellId c, int edge, Condition cond
     if (sides_without_edge(*mesh_, *domain_, ring_).empty()) return Outcome::stuck;
     tried_.clear();
     tried_.old = ring_.cells;
+    const std::vector<std::size_t> at = ring_.constrained();
     std::vector<VertexId> hubs;
-    EntityId facet = no_entity;
-    for (std::size_t i = 0; i < ring_.walls.size(); ++i)
-      if (ring_.walls[i] != no_entity) {
-        hubs.push_back(ring_.vertices[i]);
-        facet = ring_.walls[i];
-      }
-    if (facet == no_entity)
+    for (const std::size_t i : at) hubs.push_back(ring_.vertices[i]);
+    if (at.empty())
       hubs = ring_.vertices;
     else
-      for (const VertexId end : ring_.ends) tried_.walls.push_back({{hubs[0], hubs[1], end}, facet});
+      for (const VertexId end : ring_.ends) tried_.walls.push_back({{hubs[0], hubs[1], end}, ring_.walls[at[0]]});
     const int most = violations_before() - (condition == Condition::better && ring_.cells.size() > 3);
     if (most < 0) return Outcome::stuck;
     for (const VertexId hub : hubs) {

@@ -50,7 +50,13 @@ struct Plane {
 class FlatLeftovers {
  public:
   FlatLeftovers(const GivenTask<3>& task, const GivenMatch<3>& match, VolumeWalls<3>& walls)
-      : task_(task), mesh_(task.mesh), input_(task.input), match_(match), walls_(walls), net_(walls.points) {}
+      : task_(task),
+        mesh_(task.mesh),
+        input_(task.input),
+        match_(match),
+        walls_(walls),
+        corner_(task.input, match, walls.points),
+        net_(walls.points) {}
 
   void run() {
     find_planes();
@@ -65,14 +71,6 @@ class FlatLeftovers {
   }
 
  private:
-  /// The vertex of the mesh in its place, or else a new one.
-  std::uint32_t corner(std::uint32_t p) {
-    if (match_.vertex_of_point[p] != none) return match_.vertex_of_point[p];
-    const auto [at, fresh] = new_corners_.try_emplace(input_.place(p), static_cast<std::uint32_t>(walls_.points.size()));
-    if (fresh) walls_.points.push_back(input_.point(p));
-    return at->second;
-  }
-
   std::array<Point3, 3> given(std::uint32_t t) const { return input_.corners(input_.triangles()[t]); }
 
   /// The largest triangles first: their planes are known best.
@@ -136,7 +134,7 @@ class FlatLeftovers {
 
   void add_given(Plane& plane, std::uint32_t t) {
     const auto& p = input_.triangles()[t].points;
-    add_changes(plane, {corner(p[0]), corner(p[1]), corner(p[2])}, {1, 0});
+    add_changes(plane, {corner_(p[0]), corner_(p[1]), corner_(p[2])}, {1, 0});
   }
 
   void add_changes(Plane& plane, const PlanarTriangle& t, const Cover& cover) {
@@ -351,7 +349,7 @@ class FlatLeftovers {
   const GivenInput<3>& input_;
   const GivenMatch<3>& match_;
   VolumeWalls<3>& walls_;
-  std::map<std::uint32_t, std::uint32_t> new_corners_;  // of places
+  CornersOfPoints<3> corner_;
   std::vector<Plane> planes_;
   EdgeNet net_;
   std::vector<PlanarEdge> kept_;  // edges of the mesh, and borders of what is left over

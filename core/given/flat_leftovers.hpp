@@ -10,10 +10,35 @@
 // border of two facets, is none. The sum of the changes round a point is 0 however it is rounded.
 #pragma once
 
+#include <map>
+
 #include "given/input_volumes.hpp"
 #include "given/match.hpp"
 
 namespace pgdr::checking {
+
+/// The corners of what is left over, by the points of the input.
+template <int D>
+class CornersOfPoints {
+ public:
+  /// All must outlive it.
+  CornersOfPoints(const GivenInput<D>& input, const GivenMatch<D>& match, std::vector<Point<D>>& corners)
+      : input_(&input), match_(&match), corners_(&corners) {}
+
+  /// The vertex of the mesh in the place of p, or else a new corner.
+  std::uint32_t operator()(std::uint32_t p) {
+    if (match_->vertex_of_point[p] != none) return match_->vertex_of_point[p];
+    const auto [at, is_new] = of_places_.try_emplace(input_->place(p), static_cast<std::uint32_t>(corners_->size()));
+    if (is_new) corners_->push_back(input_->point(p));
+    return at->second;
+  }
+
+ private:
+  const GivenInput<D>* input_;
+  const GivenMatch<D>* match_;
+  std::vector<Point<D>>* corners_;
+  std::map<std::uint32_t, std::uint32_t> of_places_;
+};
 
 /// Appends them to the walls of the mesh, each an entity of its own. Corners are vertices of the mesh where it has any.
 /// @throws InputError entities_intersect, if the leftovers make no complex.

@@ -22,7 +22,12 @@ namespace {
 class FurtherWalls {
  public:
   FurtherWalls(const GivenTask<2>& task, const GivenMatch<2>& match, VolumeWalls<2>& walls)
-      : task_(task), mesh_(task.mesh), input_(task.input), match_(match), walls_(walls) {
+      : task_(task),
+        mesh_(task.mesh),
+        input_(task.input),
+        match_(match),
+        walls_(walls),
+        corner_(task.input, match, walls.points) {
     std::vector<detail::Box<2>> boxes;
     for (const auto& s : mesh_.subsegments) {
       auto box = detail::Box<2>::around(mesh_.points[s.vertices[0]]);
@@ -41,14 +46,6 @@ class FurtherWalls {
   }
 
  private:
-  /// The vertex of the mesh in its place, or else a new one.
-  std::uint32_t corner(std::uint32_t p) {
-    if (match_.vertex_of_point[p] != none) return match_.vertex_of_point[p];
-    const auto [at, fresh] = new_corners_.try_emplace(input_.place(p), static_cast<std::uint32_t>(walls_.points.size()));
-    if (fresh) walls_.points.push_back(input_.point(p));
-    return at->second;
-  }
-
   /// Outside of the mesh segments may cross where there is no point. What several have is appended once.
   void append_without_crossings() {
     std::vector<Point3> points;
@@ -73,14 +70,14 @@ class FurtherWalls {
     const std::array<Point2, 2> ends{input_.point(s.points[0]), input_.point(s.points[1])};
     std::vector<std::pair<double, std::uint32_t>> corners;
     const auto take = [&](std::uint32_t v) { corners.push_back({along(ends, walls_.points[v]), v}); };
-    for (const std::uint32_t p : s.points) take(corner(p));
+    for (const std::uint32_t p : s.points) take(corner_(p));
     const auto box = detail::Box<2>::of(ends).widened(reach);
     subsegments_->meeting(box, [&](std::uint32_t i) {
       for (const std::uint32_t v : mesh_.subsegments[i].vertices)
         if (is_near<2>(mesh_.points[v], ends, reach)) take(v);
     });
     given_points().meeting(box, [&](std::uint32_t p) {
-      if (is_near<2>(input_.point(p), ends, reach)) take(corner(p));
+      if (is_near<2>(input_.point(p), ends, reach)) take(corner_(p));
     });
     detail::make_set(corners);
     return corners;
@@ -126,8 +123,8 @@ class FurtherWalls {
   const GivenMatch<2>& match_;
   VolumeWalls<2>& walls_;
   std::unique_ptr<detail::BoxTree<2>> subsegments_, given_points_;
-  std::map<detail::PlanarEdge, double> edges_;          // and their reaches
-  std::map<std::uint32_t, std::uint32_t> new_corners_;  // of places
+  std::map<detail::PlanarEdge, double> edges_;  // and their reaches
+  CornersOfPoints<2> corner_;
 };
 
 }  // namespace

@@ -12,16 +12,9 @@
 
 #include "given/findings.hpp"
 #include "numbers/corners.hpp"
+#include "output/walls.hpp"
 
 namespace pgdr::checking {
-
-template <int D>
-const auto& walls(const OutputMesh<D>& mesh) {
-  if constexpr (D == 2)
-    return mesh.subsegments;
-  else
-    return mesh.subfacets;
-}
 
 template <int D>
 struct Links {

@@ -64,15 +64,9 @@ void BestFlip::try_edge(CellId c, int edge, Judge::Rule rule) {
   const double enough = std::max(Judge::too_bad(before), found_ ? best_quality_ : 0);
   for (const RingSide& side : sides)
     if (!fill_side(side, enough)) return;
-  if (ring_.walls_count() > 0) {
-    std::vector<VertexId> tips;
-    EntityId facet = no_entity;
-    for (std::size_t i = 0; i < ring_.walls.size(); ++i)
-      if (ring_.walls[i] != no_entity) {
-        tips.push_back(ring_.vertices[i]);
-        facet = ring_.walls[i];
-      }
-    for (const VertexId end : ring_.ends) tried_.walls.push_back({{tips[0], tips[1], end}, facet});
+  if (const std::vector<std::size_t> at = ring_.constrained(); !at.empty()) {
+    for (const VertexId end : ring_.ends)
+      tried_.walls.push_back({{ring_.vertices[at[0]], ring_.vertices[at[1]], end}, ring_.walls[at[0]]});
     if (!s_->replacer.fits(tried_)) return;  // a flat cell beside them may have such a face already
   }
   take_if_best(before, rule);

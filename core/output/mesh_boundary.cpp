@@ -6,6 +6,7 @@
 #include <string>
 
 #include "output/cell_surface.hpp"
+#include "output/walls.hpp"
 #include "pgdr/error.hpp"
 #include "pgdr/mesh_maps.hpp"
 
@@ -27,14 +28,6 @@ void require_whole(const OutputMesh<D>& mesh) {
   if (!mesh.point_markers.empty() && mesh.point_markers.size() != points) refuse("the markers of points are not one a point");
   if (points > 0 && mesh.point_attributes.size() % points != 0) refuse("the attributes are not equally many a point");
   if (mesh.cells.empty()) throw UsageError({.code = Errc::bad_option, .message = "the mesh has no cells"});
-}
-
-template <int D>
-const auto& walls(const OutputMesh<D>& mesh) {
-  if constexpr (D == 2)
-    return mesh.subsegments;
-  else
-    return mesh.subfacets;
 }
 
 template <int D>
