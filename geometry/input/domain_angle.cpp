@@ -115,8 +115,9 @@ std::vector<HalfPlane> half_planes(const Domain<3>& domain, EntityId f, const Do
   return out;
 }
 
-// The angle of two half-planes at the segment. The product of their normals has more digits than two doubles: near 90 degrees its
-// sign is had exactly. What is near is far more than the angle is off, less than 2^-40 of a degree; so how much more changes nothing.
+// The angle of two half-planes at the segment. The product of their normals has more digits than two doubles: near 90 degrees
+// its sign is had exactly. What is near is far more than the angle is off, which is less than 2^-40 of a degree; so how much
+// more changes nothing.
 double dihedral_angle(const Domain<3>& domain, const DomainSegment& s, const HalfPlane& u, const HalfPlane& w) {
   constexpr double near = 1e-6;
   const double angle = angle_between(u.normal, w.normal);
