@@ -43,11 +43,9 @@ struct Polyhedron {
 /// Fills polyhedra.
 class PolyhedronFilling {
  public:
-  static constexpr std::size_t most_points = 32;  ///< of a polyhedron
-  static constexpr std::size_t most_cells =
-      numbers::most_filling_cells;  ///< that a polyhedron should be made of: others are seldom searched to the end
-  static constexpr std::size_t most_nodes =
-      numbers::most_filling_nodes;  ///< cells that one search lays, those taken back included
+  static constexpr std::size_t most_points = 32;                          ///< of a polyhedron, as a set of them is a word
+  static constexpr std::size_t most_cells = numbers::most_filling_cells;  ///< that a polyhedron should be made of
+  static constexpr std::size_t most_nodes = numbers::most_filling_nodes;  ///< that one search lays
 
   PolyhedronFilling();
   /// Looks for a filling with a least quality above `enough` and, of these, as good as it finds one. Signs of cells are exact.
