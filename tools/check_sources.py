@@ -39,7 +39,7 @@ ROOMS = {
         "input": Room("which points, segments and facets does an input have, and where is a point of one?", "space",
                       "entities.hpp point_on_entity.cpp", "plc domain"),
         "join": Room("what of an input meets within the tolerance, and how is a facet triangulated?", "input",
-                     "distinct_points.cpp facet_triangulator.hpp", "planar_plc"),
+                     "distinct_points.cpp facet_triangulator.hpp", "planar_plc joined_plc"),
         "build": Room("which facets are one plane, and how does an input become a Domain?", "join", "domain_builder.cpp", ""),
         "diagnose": Room("what is wrong with an input, and where?", "input", "diagnosis.cpp cell_estimate.cpp",
                          "diagnosis estimate surface_counts"),
@@ -82,7 +82,7 @@ ROOMS = {
         "processes": Room("how do processes talk by MPI?", "ranks", "mpi.cpp", "mpi"),
     },
 }
-EVERYWHERE = {"export", "types", "error", "version"}  # public headers of geometry/ that belong to no room
+EVERYWHERE = {"export", "types", "error", "names", "version"}  # public headers of geometry/ that belong to no room
 UMBRELLA = "scheduler/pgdr/pgdr.hpp"  # includes all public headers
 # What measures the phases of an insertion one by one, and what shows the method on them.
 THE_INSIDE = {"bench/bench_phases.cpp", "tools/examples/refine_by_hand.cpp"}

@@ -32,12 +32,13 @@ struct Seed {
   std::uint32_t index;  ///< in Domain::holes or Domain::regions
 
   bool is_of_cells(const Domain<D>& domain) const {
-    return index < (of_hole ? domain.source().void_widths.size() : domain.source().cell_regions);
+    const PlcSource& source = domain.source();
+    return of_hole ? index < source.void_widths.size() && std::isfinite(source.void_widths[index]) : index < source.cell_regions;
   }
   /// `of_cells`: what is said instead of a void between cells, or of labelled cells.
   Diagnostic diagnostic(const Domain<D>& domain, Errc code, const std::string& what, const std::string& of_cells) const {
-    const auto& lines = of_hole ? domain.source().hole_lines : domain.source().region_lines;
-    Diagnostic d{code, {}, domain.source().file, 0, {}, {{point[0], point[1], D == 3 ? point[D - 1] : 0.0}}};
+    PlcSource::Place place = domain.source().place(of_hole ? SourceItem::hole : SourceItem::region, index);
+    Diagnostic d{code, {}, std::move(place.file), 0, {}, {{point[0], point[1], D == 3 ? point[D - 1] : 0.0}}};
     if (is_of_cells(domain)) {
       const std::string subject = of_hole ? "the void between cells at "
                                           : "the cells of label " + detail::to_text(domain.regions()[index].attribute) + " at ";
@@ -46,7 +47,7 @@ struct Seed {
     }
     const std::int64_t number = static_cast<std::int64_t>(index) + domain.first_index();
     d.message = (of_hole ? "hole seed " : "region seed ") + std::to_string(number) + " at " + detail::to_text(point) + " " + what;
-    d.line = index < lines.size() ? lines[index] : 0;
+    d.line = place.line;
     d.ids = {number};
     return d;
   }

@@ -11,7 +11,11 @@ Diagnostic about_points(Errc code, const Domain<D>& domain, std::span<const std:
   d.file = domain.source().file;
   for (const std::uint32_t p : points) {
     const std::uint32_t input = domain.input_of_point()[p];
-    if (d.ids.empty() && input < domain.source().point_lines.size()) d.line = domain.source().point_lines[input];
+    if (d.ids.empty()) {
+      PlcSource::Place place = domain.source().place(SourceItem::point, input);
+      d.file = std::move(place.file);
+      d.line = place.line;
+    }
     d.ids.push_back(std::int64_t{input} + domain.first_index());
     const Point<D>& x = domain.points()[p];
     if constexpr (D == 3)

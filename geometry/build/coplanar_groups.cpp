@@ -136,8 +136,8 @@ void CoplanarGroups::leave_exact(std::span<const std::uint32_t> group, const Far
     report_.attempt([&] {
       report_.fail(Errc::ambiguous,
                    "facets of which each lies in one plane with the next, within the tolerance, but not all together: " + words,
-                   in_.plc.source.facet_lines, faces_.facets[group[0]].input,
-                   {number(group[0]), report_.point_number(farthest.point)}, {in_.points[farthest.point].x});
+                   SourceItem::facet, faces_.facets[group[0]].input, {number(group[0]), report_.point_number(farthest.point)},
+                   {in_.points[farthest.point].x});
     });
   report_.repairs.ambiguous_planes.add([&] { return words; }, {number(group[0]), report_.point_number(farthest.point)});
   std::vector<std::uint32_t> by_plane(group.begin(), group.end());

@@ -19,6 +19,7 @@ template <int D>
 void DomainBuilder<D>::run() {
   out_.first_index_ = plc_.first_index;
   out_.source_ = plc_.source;
+  out_.names_ = plc_.names;
   out_.input_segments_ = plc_.segments.size();
   out_.input_facets_ = plc_.facets.size();
   stop_();

@@ -11,8 +11,7 @@ namespace {
 
 /// Reports a segment that repeats an earlier one. One that is a facet of the input goes by the facet's number.
 template <int D>
-void report_repeated(const BuildInput<D>& in, const ExplicitSegments<D>& segments, std::uint32_t s, std::uint32_t first,
-                     BuildReport<D>& report) {
+void report_repeated(const ExplicitSegments<D>& segments, std::uint32_t s, std::uint32_t first, BuildReport<D>& report) {
   const auto number = [&](std::uint32_t t) { return report.number(segments.item_of(t)); };
   const auto name = [&](std::uint32_t t) { return (segments.is_in_plc(t) ? "" : "facet ") + std::to_string(number(t)); };
   const std::string words = name(s) + " = " + name(first);
@@ -20,7 +19,7 @@ void report_repeated(const BuildInput<D>& in, const ExplicitSegments<D>& segment
   report.repairs.repeated_segments.add([&] { return words; }, ids);
   if (segments.marker_of(s) != segments.marker_of(first))
     report.warn(Errc::degenerate_segment, "segments " + words + ", but their markers differ; that of the latter is kept",
-                segments.is_in_plc(s) ? in.plc.source.segment_lines : in.plc.source.facet_lines, segments.item_of(s), ids);
+                segments.is_in_plc(s) ? SourceItem::segment : SourceItem::facet, segments.item_of(s), ids);
 }
 
 template <int D>
@@ -33,7 +32,7 @@ DomainSegment segment_of(const BuildInput<D>& in, std::span<const EdgeUse> uses,
   for (const EdgeUse& use : uses) {
     if (use.kind != EdgeUse::Kind::explicit_segment) continue;
     if (segment.explicit_in_input) {
-      report_repeated(in, segments, use.owner, first, report);
+      report_repeated(segments, use.owner, first, report);
       continue;
     }
     first = use.owner;

@@ -259,7 +259,7 @@ void PlaneSubdivider::refuse_rest() {
       const std::int64_t first = report_.number(input(f)), second = report_.number(input(g));
       report_.fail(Errc::facets_overlap,
                    "facets " + std::to_string(first) + " and " + std::to_string(second) + " lie in one plane and overlap",
-                   in_.plc.source.facet_lines, input(f), {first, second}, {});
+                   SourceItem::facet, input(f), {first, second}, {});
     });
   for (const auto& [t, key] : met.inner) {
     const auto [a, b] = edge_of(key);
@@ -268,8 +268,7 @@ void PlaneSubdivider::refuse_rest() {
       report_.fail(Errc::entities_intersect,
                    "the edge " + report_.point_words(a) + " - " + report_.point_words(b) + " runs along facet " +
                        std::to_string(report_.number(f)) + ", as near to it as the tolerance, and crosses what is in it",
-                   in_.plc.source.facet_lines, f, {report_.point_number(a), report_.point_number(b), report_.number(f)},
-                   {p[a].x, p[b].x});
+                   SourceItem::facet, f, {report_.point_number(a), report_.point_number(b), report_.number(f)}, {p[a].x, p[b].x});
     });
   }
 }

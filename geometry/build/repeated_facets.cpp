@@ -67,7 +67,7 @@ void drop_repeated_facets(const BuildInput<3>& in, FacetTriangles& faces, BuildR
     report.repairs.repeated_facets.add([&] { return words; }, {number, first});
     if (in.plc.facets[mine].marker != in.plc.facets[other].marker)
       report.warn(Errc::degenerate_facet, "facets " + words + ", but their markers differ; that of the latter is kept",
-                  in.plc.source.facet_lines, mine, {number, first});
+                  SourceItem::facet, mine, {number, first});
   }
   std::erase_if(faces.polygon_edges, [&](const auto& e) { return same[e.owner] != no_entity; });
   for (auto& e : faces.polygon_edges) e.owner = new_index[e.owner];

@@ -168,7 +168,7 @@ void Diagnoser<D>::report_angles(const Angles& found) {
   using At = std::array<std::uint32_t, 4>;
   struct Account {
     std::string words;
-    std::uint32_t line;
+    PlcSource::Place place;
     Ids ids;
     std::vector<Point<D>> where;
   };
@@ -177,27 +177,27 @@ void Diagnoser<D>::report_angles(const Angles& found) {
     for (const auto& [s2, at] : least.kept()) {
       const double angle = degrees(s2);
       Account a = account(at, in_words(angle) + " degrees");
-      list(kind, Errc::small_angle, std::move(a.words), a.line, std::move(a.ids), a.where, angle);
+      list(kind, Errc::small_angle, std::move(a.words), std::move(a.place), std::move(a.ids), a.where, angle);
     }
   };
   report(Finding::segments_below_60, found.below_60, [this](const At& at, const std::string& angle) -> Account {
     return {"the segments from point " + point_words(at[0]) + " to points " + point_words(at[1]) + " and " + point_words(at[2]) +
                 " meet at " + angle,
-            point_line(at[0]),
+            point_place(at[0]),
             {point_number(at[0]), point_number(at[1]), point_number(at[2])},
             {p_[at[0]]}};
   });
   report(Finding::segment_facet_below_90, found.segment_facet_90, [this](const At& at, const std::string& angle) -> Account {
     return {"the segment from point " + point_words(at[0]) + " to " + point_words(at[1]) + " meets facet " + facet_words(at[2]) +
                 " at " + angle,
-            facet_line(at[2]),
+            facet_place(at[2]),
             {point_number(at[0]), point_number(at[1]), number(at[2])},
             {p_[at[0]]}};
   });
   report(Finding::facets_below_90, found.facets_90, [this](const At& at, const std::string& angle) -> Account {
     return {"facets " + facet_words(at[2]) + " and " + facet_words(at[3]) + " meet at " + angle + " at the edge " +
                 edge_words({at[0], at[1]}),
-            facet_line(at[2]),
+            facet_place(at[2]),
             {number(at[2]), number(at[3]), point_number(at[0]), point_number(at[1])},
             {p_[at[0]], p_[at[1]]}};
   });

@@ -113,12 +113,13 @@ class Diagnoser {
   std::string facet_words(std::uint32_t f) const { return std::to_string(number(f)); }
   std::string edge_words(const Edge& e) const { return "from point " + point_words(e[0]) + " to " + point_words(e[1]); }
   std::string segment_words(EntityId s) const;
-  std::uint32_t segment_line(EntityId s) const;
-  std::uint32_t facet_line(std::uint32_t f) const { return line(domain_.source().facet_lines, f); }
-  std::uint32_t point_line(std::uint32_t v) const { return line(domain_.source().point_lines, domain_.input_of_point()[v]); }
-  static std::uint32_t line(const std::vector<std::uint32_t>& lines, std::size_t i) { return i < lines.size() ? lines[i] : 0; }
+  PlcSource::Place segment_place(EntityId s) const;
+  PlcSource::Place facet_place(std::uint32_t f) const { return domain_.source().place(SourceItem::facet, f); }
+  PlcSource::Place point_place(std::uint32_t v) const {
+    return domain_.source().place(SourceItem::point, domain_.input_of_point()[v]);
+  }
   bool wants_more(Finding kind) const { return out_[kind].listed.size() < options_.most_listed; }
-  void list(Finding kind, Errc code, std::string message, std::uint32_t line, Ids ids, const std::vector<Point<D>>& where,
+  void list(Finding kind, Errc code, std::string message, PlcSource::Place place, Ids ids, const std::vector<Point<D>>& where,
             double measure = 0);
   std::vector<Point<D>> points_of(std::span<const std::uint32_t> vertices) const;
   void collect_triangles();

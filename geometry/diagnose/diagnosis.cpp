@@ -65,20 +65,20 @@ std::string Diagnoser<D>::segment_words(EntityId s) const {
 }
 
 template <int D>
-std::uint32_t Diagnoser<D>::segment_line(EntityId s) const {
+PlcSource::Place Diagnoser<D>::segment_place(EntityId s) const {
   const std::uint32_t input = domain_.segments()[s].input, facet = domain_.segments()[s].input_facet;
-  if (facet != no_entity) return line(domain_.source().facet_lines, facet);
-  return input == no_entity ? 0 : line(domain_.source().segment_lines, input);
+  if (facet != no_entity) return facet_place(facet);
+  return input == no_entity ? PlcSource::Place{domain_.source().file} : domain_.source().place(SourceItem::segment, input);
 }
 
 template <int D>
-void Diagnoser<D>::list(Finding kind, Errc code, std::string message, std::uint32_t line, Ids ids,
+void Diagnoser<D>::list(Finding kind, Errc code, std::string message, PlcSource::Place place, Ids ids,
                         const std::vector<Point<D>>& where, double measure) {
   FindingList::Item item;
   item.what.code = code;
   item.what.message = std::move(message);
-  item.what.file = domain_.source().file;
-  item.what.line = line;
+  item.what.file = std::move(place.file);
+  item.what.line = place.line;
   item.what.ids = std::move(ids);
   for (const Point<D>& q : where) item.what.points.push_back(in_space(q));
   item.measure = measure;
@@ -118,12 +118,12 @@ auto Diagnoser<D>::uses_at(std::size_t begin) const -> std::span<const EdgeUse> 
   return std::span(uses_).subspan(begin, end - begin);
 }
 
-#define PGDR_INSTANTIATE(D)                                                                                               \
-  template std::string Diagnoser<D>::point_words(std::uint32_t) const;                                                    \
-  template std::string Diagnoser<D>::segment_words(EntityId) const;                                                       \
-  template std::uint32_t Diagnoser<D>::segment_line(EntityId) const;                                                      \
-  template void Diagnoser<D>::list(Finding, Errc, std::string, std::uint32_t, Ids, const std::vector<Point<D>>&, double); \
-  template std::vector<Point<D>> Diagnoser<D>::points_of(std::span<const std::uint32_t>) const;                           \
+#define PGDR_INSTANTIATE(D)                                                                                                  \
+  template std::string Diagnoser<D>::point_words(std::uint32_t) const;                                                       \
+  template std::string Diagnoser<D>::segment_words(EntityId) const;                                                          \
+  template PlcSource::Place Diagnoser<D>::segment_place(EntityId) const;                                                     \
+  template void Diagnoser<D>::list(Finding, Errc, std::string, PlcSource::Place, Ids, const std::vector<Point<D>>&, double); \
+  template std::vector<Point<D>> Diagnoser<D>::points_of(std::span<const std::uint32_t>) const;                              \
   template auto Diagnoser<D>::uses_at(std::size_t) const->std::span<const EdgeUse>;
 PGDR_INSTANTIATE(2)
 PGDR_INSTANTIATE(3)

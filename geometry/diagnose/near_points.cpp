@@ -70,7 +70,7 @@ void Diagnoser<D>::find_near_points() {
   for (const auto& [negative, pair] : pairs.kept()) {
     const auto [w, v] = pair;
     list(Finding::near_points, Errc::near_points,
-         "points " + point_words(w) + " and " + point_words(v) + ", both on open boundaries, nearly coincide", point_line(v),
+         "points " + point_words(w) + " and " + point_words(v) + ", both on open boundaries, nearly coincide", point_place(v),
          {point_number(w), point_number(v)}, {p_[w], p_[v]}, -negative);
   }
 }

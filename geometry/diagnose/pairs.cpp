@@ -118,7 +118,7 @@ void Diagnoser<D>::list_meeting(std::span<const Meeting> same, std::size_t first
       for (const std::uint32_t v : domain_.segments()[e].points) ids.push_back(point_number(v));
   }
   list(kind, kind == Finding::facets_overlap ? Errc::facets_overlap : Errc::entities_intersect, std::move(message),
-       first_corners == 3 ? facet_line(a) : segment_line(a), std::move(ids), where);
+       first_corners == 3 ? facet_place(a) : segment_place(a), std::move(ids), where);
 }
 
 template <int D>
@@ -135,11 +135,11 @@ template <int D>
 void Diagnoser<D>::list_resting(const Resting& r) {
   const std::string words = "point " + point_words(r.point) + " lies inside ";
   if (r.second == no_entity)
-    list(Finding::point_on_facet, Errc::point_on_facet, words + "facet " + facet_words(r.first), point_line(r.point),
+    list(Finding::point_on_facet, Errc::point_on_facet, words + "facet " + facet_words(r.first), point_place(r.point),
          {point_number(r.point), number(r.first)}, {p_[r.point]});
   else
     list(Finding::point_on_segment, Errc::point_on_segment, words + "the edge " + edge_words({r.first, r.second}),
-         point_line(r.point), {point_number(r.point), point_number(r.first), point_number(r.second)}, {p_[r.point]});
+         point_place(r.point), {point_number(r.point), point_number(r.first), point_number(r.second)}, {p_[r.point]});
 }
 
 template void Diagnoser<2>::find_meetings();

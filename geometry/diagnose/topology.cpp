@@ -22,7 +22,7 @@ void Diagnoser<D>::find_repairs() {
     if (wants_more(Finding::duplicate_point))
       list(Finding::duplicate_point, Errc::duplicate_point,
            "point " + std::to_string(number(i)) + " and point " + point_words(point_of[i]) + " are one",
-           line(domain_.source().point_lines, i), {number(i), number(first)}, {p_[point_of[i]]});
+           domain_.source().place(SourceItem::point, i), {number(i), number(first)}, {p_[point_of[i]]});
   }
   if constexpr (D == 3)
     for (const Diagnostic& repair : domain_.repairs()) {
@@ -33,7 +33,7 @@ void Diagnoser<D>::find_repairs() {
         if (wants_more(Finding::repeated_facet))
           list(Finding::repeated_facet, Errc::repeated_facet,
                "facet " + std::to_string(f) + " repeats facet " + std::to_string(first),
-               facet_line(static_cast<std::uint32_t>(f - number(0))), {f, first}, {});
+               facet_place(static_cast<std::uint32_t>(f - number(0))), {f, first}, {});
       }
     }
 }
@@ -46,7 +46,7 @@ void Diagnoser<D>::find_unreferenced() {
     ++out_[Finding::unreferenced_point].count;
     if (wants_more(Finding::unreferenced_point))
       list(Finding::unreferenced_point, Errc::unreferenced_point, "point " + point_words(v) + " belongs to nothing",
-           point_line(v), {point_number(v)}, {p_[v]});
+           point_place(v), {point_number(v)}, {p_[v]});
   }
 }
 
@@ -62,7 +62,7 @@ void Diagnoser<D>::find_open_boundary() {
       if (degree[v] != 1) continue;
       ++out_[Finding::open_boundary].count;
       if (wants_more(Finding::open_boundary))
-        list(Finding::open_boundary, Errc::open_boundary, "one segment alone ends at point " + point_words(v), point_line(v),
+        list(Finding::open_boundary, Errc::open_boundary, "one segment alone ends at point " + point_words(v), point_place(v),
              {point_number(v)}, {p_[v]});
     }
   }
@@ -130,7 +130,7 @@ void Diagnoser<D>::list_open_loop(const std::vector<std::uint32_t>& loop) {
   list(Finding::open_boundary, Errc::open_boundary,
        std::string(closed ? "a loop" : "a path") + " of " + std::to_string(loop.size() - 1) +
            " edges of one facet each, through points " + words,
-       point_line(vertices[0]), std::move(ids), points_of(vertices), length);
+       point_place(vertices[0]), std::move(ids), points_of(vertices), length);
 }
 
 template <int D>
@@ -152,7 +152,7 @@ void Diagnoser<D>::find_non_manifold_edges() requires(D == 3) {
       words += (words.empty() ? "" : ", ") + facet_words(f);
     }
     list(Finding::non_manifold_edge, Errc::non_manifold,
-         std::to_string(n) + " facets meet at the edge " + edge_words(e) + ": " + words, facet_line(facets[0]), std::move(ids),
+         std::to_string(n) + " facets meet at the edge " + edge_words(e) + ": " + words, facet_place(facets[0]), std::move(ids),
          {p_[e[0]], p_[e[1]]});
   }
 }
@@ -185,7 +185,7 @@ void Diagnoser<D>::find_non_manifold_points() requires(D == 3) {
     ++out_[Finding::non_manifold_point].count;
     if (wants_more(Finding::non_manifold_point))
       list(Finding::non_manifold_point, Errc::non_manifold,
-           std::to_string(parts[v]) + " surfaces touch each other at point " + point_words(v), point_line(v), {point_number(v)},
+           std::to_string(parts[v]) + " surfaces touch each other at point " + point_words(v), point_place(v), {point_number(v)},
            {p_[v]});
   }
 }
@@ -211,7 +211,7 @@ void Diagnoser<D>::find_orientation() requires(D == 3) {
     const Edge e = uses[0].edge();
     list(Finding::inconsistent_orientation, Errc::inconsistent_orientation,
          "facets " + facet_words(f) + " and " + facet_words(g) + " are oriented against each other at the edge " + edge_words(e),
-         facet_line(f), {number(f), number(g), point_number(e[0]), point_number(e[1])}, {p_[e[0]], p_[e[1]]});
+         facet_place(f), {number(f), number(g), point_number(e[0]), point_number(e[1])}, {p_[e[0]], p_[e[1]]});
   }
 }
 
@@ -223,12 +223,13 @@ void Diagnoser<D>::find_encloses_nothing() {
   const FindingList& open = out_[Finding::open_boundary];
   std::string message = std::string("the ") + (D == 3 ? "facets" : "segments") + " enclose nothing";
   Diagnostic first;
+  first.file = domain_.source().file;
   if (!open.listed.empty()) {
     first = open.listed[0].what;
     message += "; open boundaries: " + std::to_string(open.count) + ", the first " + first.message;
   }
-  list(Finding::encloses_nothing, Errc::encloses_nothing, std::move(message), static_cast<std::uint32_t>(first.line), first.ids,
-       {});
+  list(Finding::encloses_nothing, Errc::encloses_nothing, std::move(message),
+       {first.file, static_cast<std::uint32_t>(first.line)}, first.ids, {});
   out_[Finding::encloses_nothing].listed.back().what.points = first.points;
   if (options_.errors_only) out_[Finding::open_boundary] = {};
 }

@@ -52,6 +52,7 @@ std::string_view name(Errc code) {
     case Errc::bent_facet: return "bent_facet";
     case Errc::small_angle: return "small_angle";
     case Errc::beyond_theory: return "beyond_theory";
+    case Errc::unfit_name: return "unfit_name";
     case Errc::cancelled: return "cancelled";
     case Errc::cannot_open: return "cannot_open";
     case Errc::cannot_write: return "cannot_write";

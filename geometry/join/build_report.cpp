@@ -10,29 +10,28 @@
 namespace pgdr::detail {
 
 template <int D>
-Diagnostic BuildReport<D>::diagnostic(Errc code, const std::string& message, const std::vector<std::uint32_t>& lines,
-                                      std::size_t item) const {
+Diagnostic BuildReport<D>::diagnostic(Errc code, const std::string& message, SourceItem kind, std::size_t i) const {
   Diagnostic d;
   d.code = code;
   d.message = message;
-  d.file = plc_.source.file;
-  d.line = item < lines.size() ? lines[item] : 0;
+  PlcSource::Place place = plc_.source.place(kind, i);
+  d.file = std::move(place.file);
+  d.line = place.line;
   return d;
 }
 
 template <int D>
-void BuildReport<D>::fail(Errc code, const std::string& message, const std::vector<std::uint32_t>& lines, std::size_t item,
+void BuildReport<D>::fail(Errc code, const std::string& message, SourceItem kind, std::size_t i,
                           const std::vector<std::int64_t>& ids, const std::vector<std::array<double, 3>>& where) const {
-  Diagnostic d = diagnostic(code, message, lines, item);
+  Diagnostic d = diagnostic(code, message, kind, i);
   d.ids = ids;
   d.points = where;
   throw InputError(std::move(d));
 }
 
 template <int D>
-void BuildReport<D>::warn(Errc code, const std::string& message, const std::vector<std::uint32_t>& lines, std::size_t item,
-                          std::vector<std::int64_t> ids) {
-  Diagnostic d = diagnostic(code, message, lines, item);
+void BuildReport<D>::warn(Errc code, const std::string& message, SourceItem kind, std::size_t i, std::vector<std::int64_t> ids) {
+  Diagnostic d = diagnostic(code, message, kind, i);
   d.ids = std::move(ids);
   warnings_.push_back(std::move(d));
 }

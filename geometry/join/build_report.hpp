@@ -46,12 +46,11 @@ class BuildReport {
   /// Number and coordinates of a distinct point.
   std::string point_words(std::uint32_t v) const { return std::to_string(point_number(v)) + " " + to_text(points_[v]); }
 
-  /// @throws InputError with what is said, the file, and the line of `item` if `lines` has it
-  [[noreturn]] void fail(Errc code, const std::string& message, const std::vector<std::uint32_t>& lines, std::size_t item,
+  /// @throws InputError with what is said, and the file and line of item i of its kind
+  [[noreturn]] void fail(Errc code, const std::string& message, SourceItem kind, std::size_t i,
                          const std::vector<std::int64_t>& ids, const std::vector<std::array<double, 3>>& where) const;
   /// Adds a warning with the same.
-  void warn(Errc code, const std::string& message, const std::vector<std::uint32_t>& lines, std::size_t item,
-            std::vector<std::int64_t> ids);
+  void warn(Errc code, const std::string& message, SourceItem kind, std::size_t i, std::vector<std::int64_t> ids);
   /// Runs an action whose InputError, if the caller wants the refused things named, is named and not thrown.
   template <class Action>
   void attempt(Action&& action) const {
@@ -93,7 +92,7 @@ class BuildReport {
   Repairs repairs;
 
  private:
-  Diagnostic diagnostic(Errc code, const std::string& message, const std::vector<std::uint32_t>& lines, std::size_t item) const;
+  Diagnostic diagnostic(Errc code, const std::string& message, SourceItem kind, std::size_t i) const;
 
   const Plc<D>& plc_;
   std::vector<Diagnostic>* refused_;

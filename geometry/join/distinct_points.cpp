@@ -54,26 +54,26 @@ void keep_point(const Plc<D>& plc, std::uint32_t i, const Point<D>& p, std::size
 template <int D>
 void check_finite(const Plc<D>& plc, const BuildReport<D>& report) {
   const auto number = [&](std::size_t i) { return std::to_string(report.number(i)); };
-  const auto check = [&](const Point<D>& p, const std::string& what, const std::vector<std::uint32_t>& lines, std::size_t i) {
+  const auto check = [&](const Point<D>& p, const std::string& what, SourceItem kind, std::size_t i) {
     if (is_finite(p)) return;
     report.attempt([&] {
-      report.fail(Errc::not_finite, what + " " + number(i) + " " + to_text(p) + " is not finite", lines, i, {report.number(i)},
+      report.fail(Errc::not_finite, what + " " + number(i) + " " + to_text(p) + " is not finite", kind, i, {report.number(i)},
                   {in_space(p)});
     });
   };
-  for (std::size_t i = 0; i < plc.points.size(); ++i) check(plc.points[i], "point", plc.source.point_lines, i);
-  for (std::size_t i = 0; i < plc.holes.size(); ++i) check(plc.holes[i], "hole", plc.source.hole_lines, i);
+  for (std::size_t i = 0; i < plc.points.size(); ++i) check(plc.points[i], "point", SourceItem::point, i);
+  for (std::size_t i = 0; i < plc.holes.size(); ++i) check(plc.holes[i], "hole", SourceItem::hole, i);
   for (std::size_t i = 0; i < plc.regions.size(); ++i) {
     const auto& r = plc.regions[i];
-    check(r.point, "region", plc.source.region_lines, i);
+    check(r.point, "region", SourceItem::region, i);
     if (!std::isnan(r.attribute) && !std::isnan(r.size)) continue;
     report.attempt([&] {
-      report.fail(Errc::not_finite, "region " + number(i) + " has an attribute or a size that is no number",
-                  plc.source.region_lines, i, {report.number(i)}, {in_space(r.point)});
+      report.fail(Errc::not_finite, "region " + number(i) + " has an attribute or a size that is no number", SourceItem::region,
+                  i, {report.number(i)}, {in_space(r.point)});
     });
   }
   for (std::size_t f = 0; f < plc.facets.size(); ++f)
-    for (const Point<D>& p : plc.facets[f].holes) check(p, "hole of facet", plc.source.facet_lines, f);
+    for (const Point<D>& p : plc.facets[f].holes) check(p, "hole of facet", SourceItem::facet, f);
 }
 
 template <int D>
@@ -82,23 +82,23 @@ void check_indices(const Plc<D>& plc, const BuildReport<D>& report) {
   const std::size_t n = plc.points.size();
   if (n >= std::numeric_limits<std::uint32_t>::max() - 2)
     throw ResourceError(Diagnostic{Errc::ids_exhausted, "more than 2^32 - 3 points", plc.source.file, 0, {}, {}});
-  const auto check = [&](std::uint32_t v, const std::string& what, const std::vector<std::uint32_t>& lines, std::size_t i) {
+  const auto check = [&](std::uint32_t v, const std::string& what, SourceItem kind, std::size_t i) {
     if (v < n) return;
     const std::string range = n == 0 ? "there are no points" : "the points are " + number(0) + " to " + number(n - 1);
     report.attempt([&] {
-      report.fail(Errc::index_out_of_range, what + " " + number(i) + " refers to point " + number(v) + "; " + range, lines, i,
+      report.fail(Errc::index_out_of_range, what + " " + number(i) + " refers to point " + number(v) + "; " + range, kind, i,
                   {report.number(i), report.number(v)}, {});
     });
   };
   for (std::size_t s = 0; s < plc.segments.size(); ++s)
-    for (const std::uint32_t v : plc.segments[s].points) check(v, "segment", plc.source.segment_lines, s);
+    for (const std::uint32_t v : plc.segments[s].points) check(v, "segment", SourceItem::segment, s);
   for (std::size_t f = 0; f < plc.facets.size(); ++f)
     for (const auto& polygon : plc.facets[f].polygons)
-      for (const std::uint32_t v : polygon) check(v, "facet", plc.source.facet_lines, f);
+      for (const std::uint32_t v : polygon) check(v, "facet", SourceItem::facet, f);
   if (D == 2 && !plc.facets.empty())
     report.attempt([&] {
-      report.fail(Errc::degenerate_facet, "a planar straight line graph has no facets", plc.source.facet_lines, 0,
-                  {report.number(0)}, {});
+      report.fail(Errc::degenerate_facet, "a planar straight line graph has no facets", SourceItem::facet, 0, {report.number(0)},
+                  {});
     });
 }
 
@@ -152,10 +152,10 @@ void refuse_or_warn(const ExactPoints<D>& exact, const AmbiguousGroup& group, do
   const std::vector<std::int64_t> ids{report.number(i), report.number(k)};
   if (plc.tolerance)
     report.attempt([&] {
-      report.fail(Errc::ambiguous, message, plc.source.point_lines, i, ids, {in_space(plc.points[i]), in_space(plc.points[k])});
+      report.fail(Errc::ambiguous, message, SourceItem::point, i, ids, {in_space(plc.points[i]), in_space(plc.points[k])});
     });
   else
-    report.warn(Errc::ambiguous, message + "; they are left apart", plc.source.point_lines, i, ids);
+    report.warn(Errc::ambiguous, message + "; they are left apart", SourceItem::point, i, ids);
 }
 
 template <int D>

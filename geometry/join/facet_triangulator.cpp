@@ -132,10 +132,10 @@ void FacetTriangulator::carve(std::uint32_t f) {
     const PlanarResult result = planar_.carve_hole(seed);
     const std::string words = "facet " + std::to_string(report_.number(f)) + ": its hole " + to_text(seed);
     if (result.status == PlanarStatus::on_constraint)
-      report_.fail(Errc::seed_on_boundary, words + " lies on a point or an edge of its polygons", in_.plc.source.facet_lines, f,
+      report_.fail(Errc::seed_on_boundary, words + " lies on a point or an edge of its polygons", SourceItem::facet, f,
                    {report_.number(f)}, {seed.x});
     if (result.status == PlanarStatus::outside)
-      report_.warn(Errc::encloses_nothing, words + " lies outside of it or in another hole", in_.plc.source.facet_lines, f,
+      report_.warn(Errc::encloses_nothing, words + " lies outside of it or in another hole", SourceItem::facet, f,
                    {report_.number(f)});
   }
 }
@@ -173,8 +173,8 @@ void FacetTriangulator::fail_degenerate(std::uint32_t f, const std::string& why,
     ids.push_back(report_.point_number(vertices[k]));
     where.push_back(in_.points[vertices[k]].x);
   }
-  report_.fail(Errc::degenerate_facet, "facet " + std::to_string(report_.number(f)) + " " + why + words,
-               in_.plc.source.facet_lines, f, ids, where);
+  report_.fail(Errc::degenerate_facet, "facet " + std::to_string(report_.number(f)) + " " + why + words, SourceItem::facet, f,
+               ids, where);
 }
 
 void FacetTriangulator::fail_facet(std::uint32_t f, const PlanarResult& result) const {
@@ -197,7 +197,7 @@ void FacetTriangulator::fail_facet(std::uint32_t f, const PlanarResult& result) 
     code = Errc::degenerate_facet;
     message = facet + "its points " + edge(result.edge) + " are one behind the other: it is far from planar";
   }
-  report_.fail(code, message, in_.plc.source.facet_lines, f, ids, where);
+  report_.fail(code, message, SourceItem::facet, f, ids, where);
 }
 
 }  // namespace pgdr::detail

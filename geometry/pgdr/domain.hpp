@@ -146,6 +146,8 @@ class Domain {
   std::span<const Point<D>> holes() const { return holes_; }           ///< Plc::holes
   std::span<const RegionSeed<D>> regions() const { return regions_; }  ///< Plc::regions
 
+  const Names& names() const { return names_; }  ///< Plc::names
+
   std::uint32_t first_index() const { return first_index_; }  ///< Plc::first_index
   const PlcSource& source() const { return source_; }         ///< Plc::source
 
@@ -189,6 +191,7 @@ class Domain {
   std::vector<EntityId> facets_of_segment_;
   std::vector<Point<D>> holes_;
   std::vector<RegionSeed<D>> regions_;
+  Names names_;
   std::uint32_t first_index_ = 0;
   PlcSource source_;
   double tolerance_ = 0, largest_move_ = 0;

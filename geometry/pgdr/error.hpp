@@ -55,6 +55,7 @@ enum class Errc {
   bent_facet,  ///< a polygon whose points are far off any plane
   small_angle,
   beyond_theory,  ///< a bound below the proved one is asked for
+  unfit_name,     ///< a format cannot hold a name as it is
   // files
   cannot_open,
   cannot_write,

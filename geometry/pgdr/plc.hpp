@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "pgdr/export.hpp"
+#include "pgdr/names.hpp"
 #include "pgdr/types.hpp"
 
 namespace pgdr PGDR_API {
@@ -23,9 +24,25 @@ struct RegionSeed {
   double size = 0;       ///< largest volume (3D) or area (2D) of the region's cells; <= 0: no bound
 };
 
+/// What a PlcSource has lines of.
+enum class SourceItem { point, segment, facet, hole, region };
+
 /// Where things stood in the file, for messages. Empty vectors: unknown.
 struct PlcSource {
-  std::string file;                          ///< as it was opened
+  /// Of an input joined of several (joined_plc.hpp): one of these.
+  struct Part {
+    std::string file;                    ///< as it was opened
+    std::array<std::uint32_t, 5> first;  ///< its first point, segment, ..., by SourceItem; it has those up to the next part's
+  };
+  /// Where one thing stood.
+  struct Place {
+    std::string file;        ///< as it was opened
+    std::uint32_t line = 0;  ///< counted from 1; 0: unknown
+  };
+  /// Of item i.
+  Place place(SourceItem item, std::size_t i) const;
+
+  std::string file;                          ///< as it was opened; of several the first, and how many more
   std::vector<std::uint32_t> point_lines;    ///< line of each point, counted from 1
   std::vector<std::uint32_t> segment_lines;  ///< of each segment
   std::vector<std::uint32_t> facet_lines;    ///< of each facet
@@ -33,9 +50,12 @@ struct PlcSource {
   std::vector<std::uint32_t> region_lines;   ///< of each region
 
   /// Of a file that has cells, and no seeds of its own: how thick the voids between its cells are that the first holes were made
-  /// for, and how many of the first regions were made for labelled cells. What is wrong with such a seed is said of the cells.
+  /// for (infinite: one of them was not), and how many of the first regions were made for labelled cells. What is wrong with such
+  /// a seed is said of the cells.
   std::vector<double> void_widths;
   std::uint32_t cell_regions = 0;  ///< so many of the first regions
+
+  std::vector<Part> parts;  ///< empty: the input is not joined
 };
 
 /// The input. Coordinates are in the user's units; all indices count from 0, whatever `first_index` is. From flat arrays:
@@ -63,6 +83,12 @@ struct Plc {
   std::vector<Facet> facets;             ///< 3D: the boundary and inner constraints; 2D: must be empty
   std::vector<Point<D>> holes;           ///< a point in each volume (area) that is to stay empty
   std::vector<RegionSeed<D>> regions;    ///< labels and bounds of volumes (areas)
+
+  /// 3D: the body that each facet belongs to, counted from 0: a file, or a solid of an .stl. Empty: bodies are what hangs
+  /// together by edges that facets share.
+  std::vector<std::uint32_t> facet_bodies;
+  std::vector<std::string> body_names;  ///< of each body; empty where `facet_bodies` is
+  Names names;                          ///< of markers and labels, which the mesh hands on
 
   /// What lies within this distance meets (domain.hpp): an absolute length, in the units of the coordinates. None: the rounding
   /// of the coordinates, `rounding_tolerance`. 0: everything is exactly as given.
