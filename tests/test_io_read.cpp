@@ -182,7 +182,7 @@ TEST(ReadStl, BinaryThatCallsItselfSolid) {
   EXPECT_EQ(plc.points, (std::vector<Point3>{{{0, 0, 0}}, {{1, 0, 0}}, {{0, .5, 0}}, {{0, 0, 3}}}));
   ASSERT_EQ(plc.facets.size(), 2u);
   EXPECT_EQ(plc.facets[1].polygons, (std::vector<Corners>{{0, 2, 3}}));
-  EXPECT_EQ(plc.facets[1].marker, 0);
+  EXPECT_EQ(plc.facets[1].marker, 1) << "which is called \"facet\"";
 }
 
 TEST(ReadStl, ManyDistinctPointsKeepTheirNumbers) {

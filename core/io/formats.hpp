@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "io/file_input.hpp"
 #include "io/file_output.hpp"
@@ -87,12 +88,28 @@ std::string pvtu_text(const MeshPiece<D>& piece, std::uint64_t count, const std:
 std::string name_of_piece(const std::filesystem::path& file, std::uint64_t k);
 /// Names of arrays of a piece.
 inline constexpr std::string_view point_ids = "GlobalPointIds", cell_ids = "GlobalCellIds";
-/// What stands for a character in an attribute of XML.
-struct XmlEscape {
-  char character;
-  std::string_view text;
-};
-inline constexpr XmlEscape xml_escapes[] = {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&apos;"}};
+/// Text as an attribute of XML has it.
+std::string xml_escaped(std::string_view text);
+std::string xml_unescaped(std::string_view text);
+/// Arrays of field data that are ours; of a name that is one of them, or begins so, the array has "pgdr:" before it.
+inline constexpr std::string_view own_field_data[] = {"dimension", "input_points", "piece"}, field_data_escape = "pgdr:";
+
+/// Comments of text formats that keep names: "# name region <label> = <name>", "# name marker <marker> = <name>".
+std::string name_comments(const Names& names);
+/// Those in the first lines of a text. Lines that are no such comments are passed over. @throws syntax
+Names read_name_comments(std::string_view head, const std::string& file);
+
+/// A folder named polyMesh, or a file in it?
+bool is_foam_mesh(const std::filesystem::path& file);
+/// The files of such a folder, in the order in which they appear: the last means that all are there.
+std::vector<std::string> foam_files(const std::filesystem::path& folder);
+/// @throws UsageError bad_option
+template <int D>
+void write_foam(const OutputMesh<D>& mesh, const std::filesystem::path& folder);
+template <int D>
+void write_abaqus(const OutputMesh<D>& mesh, FileOutput& out);
+template <int D>
+void write_mfem(const OutputMesh<D>& mesh, FileOutput& out);
 
 /// A mesh as TetGen and Triangle have it: one text a file, named `file` with another extension. None: there is no such file.
 struct TetgenTexts {

@@ -11,9 +11,11 @@
 #include <string>
 #include <string_view>
 
+#include "input/words.hpp"
 #include "io/file_input.hpp"
 #include "io/file_output.hpp"
 #include "io/formats.hpp"
+#include "io/write/valid_names.hpp"
 
 namespace pgdr {
 namespace detail {
@@ -60,6 +62,12 @@ FileMeshReader file_mesh_reader(const std::string& extension) {
 }
 
 bool is_tetgen_mesh(const std::string& extension) { return extension == ".node" || extension == ".ele"; }
+
+/// Written for other programs, and not read.
+bool is_for_others(const Path& file) {
+  const std::string extension = lower_extension(file);
+  return extension == ".inp" || extension == ".mfem" || detail::is_foam_mesh(file);
+}
 
 bool is_vtk(const std::string& extension) { return extension == ".vtu" || extension == ".pvtu"; }
 
@@ -205,7 +213,29 @@ bool is_mesh_format(const Path& file) {
   return file_mesh_reader(extension) != nullptr || is_tetgen_mesh(extension) || is_vtk(extension);
 }
 
+bool is_output_format(const Path& file) { return is_mesh_format(file) || is_for_others(file); }
+
+std::vector<Diagnostic> unfit_names(const Names& names, const Path& file) {
+  const Names valid = detail::valid_names(names, detail::name_rule(file));
+  std::vector<Diagnostic> warnings;
+  const auto compare = [&](const auto& given, const auto& written, const char* what) {
+    for (const auto& [label, name] : given)
+      if (const std::string& now = written.at(label); now != name)
+        warnings.push_back({Errc::unfit_name,
+                            "the name \"" + name + "\" of " + what + " " + detail::to_text(static_cast<double>(label)) +
+                                " cannot be written to this file as it is; it is \"" + now + "\" there",
+                            file.string(),
+                            0,
+                            {},
+                            {}});
+  };
+  compare(names.regions, valid.regions, "region");
+  compare(names.markers, valid.markers, "marker");
+  return warnings;
+}
+
 std::vector<std::string> files_of_mesh(const Path& file, const WriteOptions& options) {
+  if (detail::is_foam_mesh(file)) return detail::foam_files(file);
   const std::string own = lower_extension(file);
   std::vector<std::string> files;
   if (!is_tetgen_mesh(own)) files.push_back(file.native());
@@ -227,11 +257,14 @@ void write_mesh(const OutputMesh<D>& mesh, const Path& file, const WriteOptions&
     throw UsageError(Diagnostic{Errc::bad_option, "a mesh is written in up to 100,000 pieces", file.string(), 0, {}, {}});
   if (extension == ".pvtu") return guarded(file, [&] { detail::write_pvtu<D>(mesh, file, std::max(options.pieces, 1u)); });
   if (is_tetgen_mesh(extension)) return guarded(file, [&] { detail::write_tetgen<D>(mesh, file, options); });
+  if (detail::is_foam_mesh(file)) return guarded(file, [&] { detail::write_foam<D>(mesh, file); });
   using Writer = void (*)(const OutputMesh<D>&, detail::FileOutput&);
   Writer writer = nullptr;
   if (extension == ".mesh") writer = detail::write_medit<D>;
   if (extension == ".msh") writer = detail::write_msh<D>;
   if (extension == ".vtu") writer = detail::write_vtu<D>;
+  if (extension == ".inp") writer = detail::write_abaqus<D>;
+  if (extension == ".mfem") writer = detail::write_mfem<D>;
   if (writer == nullptr) unknown_format(file, "a mesh that can be written");
   guarded(file, [&] {
     detail::FileOutput out(file);

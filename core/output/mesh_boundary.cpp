@@ -107,6 +107,7 @@ Plc<D> boundary_of_mesh(const OutputMesh<D>& mesh) {
     for (const auto& face : surface.faces) points.add_facet(plc, face, 0);
   }
   detail::give_seeds(surface, plc);
+  plc.names = mesh.names;
   return plc;
 }
 

@@ -118,6 +118,7 @@ MeshPiece<D> take_piece(const Source<D>& source, const typename MeshPiece<D>::To
   MeshPiece<D> piece;
   piece.total = total;
   const OutputMesh<D>& from = source.mesh;
+  piece.mesh.names = from.names;
   /// The first row that both have, and the first that not both have.
   const auto both = [&](std::uint64_t rows, std::uint64_t begin, std::uint64_t size) {
     const std::uint64_t first = first_row_of_part(rows, k, count), last = first_row_of_part(rows, k + 1, count);
@@ -199,6 +200,7 @@ MeshPiece<D> detail::joined_parts(std::span<const MeshPiece<D>> parts, std::uint
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   const auto columns = static_cast<std::ptrdiff_t>(total.attributes_per_point);
   OutputMesh<D>& mesh = out.mesh;
+  mesh.names = parts.front().mesh.names;
   mesh.points.resize(numbers.size());
   if (total.point_markers) mesh.point_markers.resize(numbers.size());
   mesh.point_attributes.resize(numbers.size() * static_cast<std::size_t>(columns));

@@ -40,6 +40,7 @@ class PieceJoiner {
     // No piece says that there is more than it has, so that all this is no more than there is already.
     out_.points.resize(total_.points);
     out_.input_points = total_.input_points;
+    out_.names = pieces_.front().piece->mesh.names;
     if (total_.point_markers) out_.point_markers.resize(total_.points);
     out_.point_attributes.resize(total_.points * total_.attributes_per_point);
     out_.cells.resize(total_.cells);
@@ -61,7 +62,7 @@ class PieceJoiner {
   void check_totals() {
     total_ = pieces_.front().piece->total;
     for (const auto& [piece, name] : pieces_)
-      if (piece->total != total_)
+      if (piece->total != total_ || piece->mesh.names != pieces_.front().piece->mesh.names)
         throw InputError({Errc::syntax, "this piece and " + pieces_.front().name + " are not of one mesh", name, 0, {}, {}});
     if (total_.input_points > total_.points) fail(whole_, "point", total_.points, "would be an input point, and is none of it");
   }

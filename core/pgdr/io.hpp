@@ -15,20 +15,24 @@
 // | .mesh                  | edges              | triangles, quads    | Medit       | Medit      |
 // | .msh                   | lines              | triangles, quads    | 2.x and 4.1 | 4.1 binary |
 // | .vtu .pvtu             |                    |                     | ours        | VTK XML    |
+// | .inp                   |                    |                     |             | Abaqus     |
+// | .mfem                  |                    |                     |             | MFEM       |
+// | polyMesh (a folder)    |                    |                     |             | OpenFOAM   |
 //
 // docs/formats.md has what each format keeps. Choices that the formats leave open:
 // - A .poly or .smesh that lists 0 points takes them from the .node file beside it. Point numbers start at 0 or 1 and
 //   are consecutive. A region with one number behind its point has it as attribute alone, unless ReadOptions say
 //   more. Holes are mandatory, regions may be missing.
-// - .stl: equal points become one. If an ASCII file has several solids, markers number them from 1.
-// - .off, .obj, .ply: normals, colours, textures and groups are dropped; .obj counts points and faces from 1. The edges
-//   of a .ply are not read.
+// - .stl: equal points become one. Solids of a file with several, or with a name, have the markers 1, 2, ..., and are the bodies.
+// - .off, .obj, .ply: normals, colours and textures are dropped; .obj counts points and faces from 1, and its groups, objects and
+//   materials are markers with names. The edges of a .ply are not read.
 // - .stl, and .ply whose coordinates are floats: Plc::are_floats is set. Nothing else is read out of the numbers.
 // - .mesh: references are markers and region attributes; attributes that are not integers are numbered, and comments
 //   "# region <n> = <value>" tell which is which. Labels that are all 0 read back as none. RequiredVertices lists the
 //   input points. Sections that a mesh has no place for are skipped.
-// - .msh: the first physical group of an element is its label; groups of labels that are no positive integers have the
-//   names "pgdr marker <m>" and "pgdr region <a>". Node and element tags are their places from 1 (cells come first).
+// - .msh: the first physical group of an element is its label, and the group's name that of the label; groups of labels that are
+//   no positive integers, and have no name, are called "pgdr marker <m>" and "pgdr region <a>". Node and element tags are their
+//   places from 1 (cells come first).
 // - .node, .ele: X.node, X.ele, X.face (3D, subfacets) and X.edge (subsegments), numbered from 1 unless WriteOptions say
 //   0, written all or none. The latter two may be missing when read. X.edge may have all edges, and X.neigh the
 //   neighbours of each cell.
@@ -37,7 +41,7 @@
 //   has none; labels become region seeds, the voids that the cells enclose holes. A file whose points all have z = 0 is 2D, if
 //   it has no cells of volume.
 // - .vtu: cells, then subfacets, then subsegments; cell data "region", "leaf" (of the cells) and "marker" (of the others),
-//   point data "marker" and "attributes", field data "dimension" and "input_points"; raw appended data.
+//   point data "marker" and "attributes", field data "dimension", "input_points" and an array a name; raw appended data.
 // - .pvtu: X.pvtu names the files X_0.vtu, X_1.vtu, ... of the pieces (mesh_piece.hpp), which have "GlobalPointIds" and
 //   "GlobalCellIds", too. They are read as one mesh, and written all or none.
 #pragma once
@@ -114,8 +118,16 @@ struct WriteOptions {
 
 /// Whether `read_mesh` and `write_mesh` know the extension. The file is not opened.
 bool is_mesh_format(const std::filesystem::path& file);
-/// The files that `write_mesh` to this name replaces: itself, and with .node and .ele their family, with .pvtu its pieces.
+/// Whether `write_mesh` knows it: these, and what is for other programs and is not read: .inp, .mfem, a folder polyMesh.
+bool is_output_format(const std::filesystem::path& file);
+/// The files that `write_mesh` to this name replaces: itself, and with .node and .ele their family, with .pvtu its pieces; of a
+/// folder polyMesh the files in it.
 std::vector<std::string> files_of_mesh(const std::filesystem::path& file, const WriteOptions& options = {});
+
+/// The names that the format of this file cannot hold, and what `write_mesh` writes instead: a warning unfit_name each, of
+/// regions first. A function of the names and of the format alone: characters that may not be become '_', what is too long is
+/// cut, and of names that are alike then, all but the first get "_2", "_3", ... behind them. No file is opened.
+std::vector<Diagnostic> unfit_names(const Names& names, const std::filesystem::path& file);
 
 /// Vertex indices are in range; whether the cells are a mesh is the checker's business. @throws as read_plc
 template <int D>
@@ -124,8 +136,8 @@ OutputMesh<D> read_mesh(const std::filesystem::path& file);
 /// Replaces a file of that name when all is written, not before (.node and .ele: the files of both and of .face and
 /// .edge; a process that is killed in the middle leaves no .ele).
 /// @throws FileError cannot_write (nothing is left behind, an older file is as it was), InputError unknown_format,
-///   UsageError bad_option (a first index other than 0 and 1; too many pieces; neighbours of a mesh that has none, see
-///   neighbors_of_cells)
+///   UsageError bad_option (a mesh in 2D to a folder polyMesh; a first index other than 0 and 1; too many pieces; neighbours of a
+///   mesh that has none, see neighbors_of_cells)
 template <int D>
 void write_mesh(const OutputMesh<D>& mesh, const std::filesystem::path& file, const WriteOptions& options = {});
 

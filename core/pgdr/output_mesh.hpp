@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "pgdr/export.hpp"
+#include "pgdr/names.hpp"
 #include "pgdr/types.hpp"
 
 namespace pgdr PGDR_API {
@@ -41,6 +42,7 @@ struct OutputMesh {
   std::vector<std::uint32_t> leaves;       ///< on request: which leaf each cell's circumcentre lies in, by their Morton order
   std::vector<Constraint<2>> subsegments;  ///< each once, sorted by vertices; so are the subfacets
   std::vector<Constraint<3>> subfacets;    ///< 3D only
+  Names names;                             ///< of the labels and markers of the input, where they have any
 };
 
 }  // namespace pgdr

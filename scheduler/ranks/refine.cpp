@@ -220,6 +220,7 @@ bool SharedRun<D>::finish_part(const RefineContext<D>& context, const RegionTabl
   std::vector<std::uint32_t> unused;
   result_.piece = detail::number_on_ranks<D>(ranks_, context.mesh, is_own, context.domain, attributes, data, pieces, unused,
                                              context.options.drop_unused_points);
+  result_.piece.mesh.names = context.domain.names();
   detail::note_unused_points<D>(context.domain, std::move(unused), result);
   result_.distributed.cells_applied += part_.held->cells_applied();
   result_.distributed.seconds_finish = pieces.clock().now() - start;

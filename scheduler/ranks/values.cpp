@@ -2,13 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ranks/values.hpp"
 
+#include <map>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "transport/shared_error.hpp"
 
 namespace pgdr::detail {
 namespace {
+
+constexpr std::size_t length = sizeof(std::uint64_t);  // which a list begins with
 
 /// Writes values one after the other. Reading has the same functions, so that one list of its fields does for both of a type.
 class Writing {
@@ -33,6 +38,14 @@ class Writing {
   void put(bool flag) { message_.put(static_cast<std::uint8_t>(flag)); }
   void put(const std::optional<double>& value) { (*this)(value.has_value(), value.value_or(0)); }
   void put(const Diagnostic& value) { put_diagnostic(message_, value); }
+  template <class Key>
+  void put(const std::map<Key, std::string>& names) {
+    message_.put(static_cast<std::uint64_t>(names.size()));
+    for (const auto& [key, name] : names) (*this)(key, name);
+  }
+  void put(const std::vector<std::string>& texts) {
+    each(texts, length, [this](const std::string& text) { put(text); });
+  }
 
   MessageWriter& message_;
 };
@@ -68,11 +81,22 @@ class Reading {
     value = is_there ? std::optional(number) : std::nullopt;
   }
   void get(Diagnostic& value) { value = get_diagnostic(message_); }
+  template <class Key>
+  void get(std::map<Key, std::string>& names) {
+    const std::size_t count = message_.get_count(sizeof(Key) + length);
+    for (std::size_t i = 0; i < count; ++i) {
+      Key key{};
+      std::string name;
+      (*this)(key, name);
+      names.emplace(key, std::move(name));
+    }
+  }
+  void get(std::vector<std::string>& texts) {
+    each(texts, length, [this](std::string& text) { get(text); });
+  }
 
   MessageReader& message_;
 };
-
-constexpr std::size_t length = sizeof(std::uint64_t);  // which a list begins with
 
 // The fields of each type. Message: Writing, with a constant, or Reading.
 
@@ -83,10 +107,12 @@ void plc_fields(Message& message, Value& plc) {
     message.each(facet.polygons, length, [&](auto& polygon) { message(polygon); });
     message(facet.holes, facet.marker);
   });
-  message(plc.holes, plc.regions, plc.tolerance, plc.is_coarse, plc.are_floats, plc.first_index);
+  message(plc.holes, plc.regions, plc.facet_bodies, plc.body_names, plc.names.regions, plc.names.markers);
+  message(plc.tolerance, plc.is_coarse, plc.are_floats, plc.first_index);
   auto& source = plc.source;
   message(source.file, source.point_lines, source.segment_lines, source.facet_lines, source.hole_lines, source.region_lines,
           source.void_widths, source.cell_regions);
+  message.each(source.parts, length, [&](auto& part) { message(part.file, part.first); });
 }
 
 template <class Message, class Value>
@@ -106,8 +132,8 @@ void result_fields(Message& message, Value& r) {
 template <class Message, class Value>
 void piece_fields(Message& message, Value& piece) {
   auto& m = piece.mesh;
-  message(m.points, m.input_points, m.point_markers, m.point_attributes, m.cells, m.regions, m.leaves, m.subsegments,
-          m.subfacets);
+  message(m.points, m.input_points, m.point_markers, m.point_attributes, m.cells, m.regions, m.leaves, m.subsegments, m.subfacets,
+          m.names.regions, m.names.markers);
   message(piece.point_numbers, piece.first_point, piece.own_points, piece.first_cell, piece.first_subfacet,
           piece.first_subsegment);
   auto& t = piece.total;

@@ -331,6 +331,7 @@ void number_mesh(const RefineContext<D>& context, const RegionTable& regions, co
   for (std::size_t i = 0; i < poor.size(); ++i) result.reasons[i] = names.named(poor[i].reason, result.reasons[i].cell);
   bulk.sort(result.reasons, [](const PoorReason& a, const PoorReason& b) { return a.cell < b.cell; });
   result.mesh = std::move(compacted.mesh);
+  result.mesh.names = context.domain.names();
   detail::note_unused_points<D>(context.domain, unused_points(result.mesh), result);
   if (options.drop_unused_points) drop_points<D>(result.mesh, result.unused_points);
   if (refined.tree) result.mesh.leaves = leaves_of(result.mesh, *refined.tree, bulk);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <map>
+#include <set>
 #include <type_traits>
 #include <utility>
 
@@ -32,8 +34,10 @@ void require_dimension(const FileMesh& mesh, int wanted) {
 
 std::uint64_t first_of(const std::vector<std::uint32_t>& lines) { return lines.empty() ? 0 : lines.front(); }
 
+bool is_marker(double label) { return label >= -2147483648.0 && label <= 2147483647.0 && label == std::floor(label); }
+
 int marker_of(const FileMesh& mesh, double label) {
-  if (!(label >= -2147483648.0 && label <= 2147483647.0) || label != std::floor(label))
+  if (!is_marker(label))
     fail(mesh, Errc::syntax, "the label " + detail::to_text(label) + " is no marker: markers are integers", 0);
   return static_cast<int>(label);
 }
@@ -51,6 +55,82 @@ std::vector<int> markers_if_any(std::vector<int> markers) {
   return markers;
 }
 
+/// Calls f with the label of each element of a dimension, which it may change.
+template <class F>
+void each_label(FileMesh& mesh, int dimension, const F& f) {
+  const auto each = [&f](auto& elements) {
+    for (auto& e : elements) f(e.label);
+  };
+  if (dimension == 0)
+    for (int& marker : mesh.point_markers) {
+      double label = marker;
+      f(label);
+      marker = static_cast<int>(label);
+    }
+  if (dimension == 1) each(mesh.edges);
+  if (dimension == 2) each(mesh.triangles), each(mesh.quadrilaterals);
+  if (dimension == 3) each(mesh.tetrahedra);
+}
+
+std::set<double> labels_of(FileMesh& mesh, int dimension) {
+  std::set<double> labels;
+  each_label(mesh, dimension, [&labels](double label) { labels.insert(label); });
+  if (dimension == 0) labels.erase(0);  // a point of no group
+  return labels;
+}
+
+/// The names of labels and markers. Groups of several dimensions may have one number, markers have one name: where elements of
+/// more dimensions use a number, and name it otherwise or not at all, the group gets the least positive number that is free.
+class GroupNames {
+ public:
+  GroupNames(FileMesh& mesh, int dimension) : mesh_(mesh), dimension_(dimension), names_(std::move(mesh.names)) {}
+
+  Names take() {
+    if (mesh_.group_names.empty()) return std::move(names_);
+    for (const double label : labels_of(mesh_, dimension_))
+      if (const std::string* name = find(dimension_, label)) names_.regions[label] = *name;
+    for (int d = 0; d < dimension_; ++d) taken_.merge(labels_of(mesh_, d));
+    std::set<double> used_above;
+    for (int d = dimension_ - 1; d >= 0; --d) name_markers(d, used_above);
+    return std::move(names_);
+  }
+
+ private:
+  const std::string* find(int d, double label) const {
+    const auto it = mesh_.group_names.find({d, label});
+    return it == mesh_.group_names.end() ? nullptr : &it->second;
+  }
+
+  void name_markers(int d, std::set<double>& used_above) {
+    std::set<double> used = labels_of(mesh_, d);
+    std::map<double, double> now;
+    for (const double label : used) {
+      const std::string* name = find(d, label);
+      if (name == nullptr || !is_marker(label)) continue;
+      const auto above = names_.markers.find(static_cast<int>(label));
+      const bool is_alike = above != names_.markers.end() && above->second == *name;
+      const double number = used_above.contains(label) && !is_alike ? free_number() : label;
+      if (number != label) now[label] = number;
+      names_.markers[static_cast<int>(number)] = *name;
+    }
+    if (!now.empty())
+      each_label(mesh_, d, [&now](double& label) {
+        if (const auto it = now.find(label); it != now.end()) label = it->second;
+      });
+    used_above.merge(used);
+  }
+  double free_number() {
+    while (!taken_.insert(next_).second) ++next_;
+    return next_;
+  }
+
+  FileMesh& mesh_;
+  int dimension_;
+  Names names_;
+  std::set<double> taken_;
+  double next_ = 1;
+};
+
 /// One step of the way from a FileMesh to a Plc.
 template <int D>
 class PlcBuilder {
@@ -60,6 +140,7 @@ class PlcBuilder {
   Plc<D> build() {
     if (!mesh_.other_cells.empty() && facet_count() == 0)
       fail(mesh_, Errc::unknown_format, mesh_.other_cells + " have no surface here: the file must list it", mesh_.other_line);
+    plc_.names = GroupNames(mesh_, D).take();
     plc_.source.file = mesh_.file;
     plc_.first_index = mesh_.first_index;
     for (const Point3& p : mesh_.points) plc_.points.push_back(flattened<D>(p));
@@ -72,10 +153,20 @@ class PlcBuilder {
     }
     plc_.point_markers = markers_if_any(std::move(mesh_.point_markers));
     plc_.source.point_lines = std::move(mesh_.point_lines);
+    drop_names_without_seeds();
     return std::move(plc_);
   }
 
  private:
+  /// Volumes that have no seed are numbered, or 0, and not what cells of the file were that it has no more.
+  void drop_names_without_seeds() {
+    std::erase_if(plc_.names.regions, [this](const auto& of_label) {
+      const double label = of_label.first;
+      return label != 0 &&
+             std::none_of(plc_.regions.begin(), plc_.regions.end(), [&](const auto& r) { return r.attribute == label; });
+    });
+  }
+
   std::size_t facet_count() const { return D == 2 ? mesh_.edges.size() : mesh_.triangles.size() + mesh_.quadrilaterals.size(); }
 
   /// 2D: quadrilaterals are cells, each as two triangles on the same side of the diagonal's ends.
@@ -230,6 +321,7 @@ OutputMesh<D> to_output_mesh(FileMesh&& mesh) {
   if (!mesh.quadrilaterals.empty()) refuse_cells(mesh, "Quadrilaterals", first_of(mesh.quadrilateral_lines));
   if (!mesh.other_cells.empty()) refuse_cells(mesh, mesh.other_cells, mesh.other_line);
   OutputMesh<D> out;
+  out.names = GroupNames(mesh, D).take();
   out.points.reserve(mesh.points.size());
   for (const Point3& p : mesh.points) out.points.push_back(flattened<D>(p));
   out.input_points = mesh.input_points;

@@ -8,8 +8,10 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "pgdr/output_mesh.hpp"
@@ -41,6 +43,9 @@ struct FileMesh {
   std::vector<Element<3>> triangles;
   std::vector<Element<4>> quadrilaterals;
   std::vector<Element<4>> tetrahedra;
+  Names names;  ///< of labels, whatever has them
+  /// Names of the labels of elements of one dimension: by dimension and label.
+  std::map<std::pair<int, double>, std::string> group_names;
   std::vector<std::uint32_t> edge_lines, triangle_lines, quadrilateral_lines;
 
   /// Hexahedra, prisms and pyramids: what they are called, the line of the first, all their corners.

@@ -37,6 +37,7 @@ class MeditReader {
   MeditReader(std::string_view text, const std::string& file, Want want)
       : in_(text, file), want_(want), region_values_(read_region_comments(text, in_)) {
     mesh_.file = file;
+    mesh_.names = read_name_comments(text.substr(0, text.find("\nVertices")), file);
   }
 
   FileMesh read() {

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Reads gmsh's .msh, versions 2.x and 4.1, as text and binary (either byte order). The label of an element is its first
-// physical group; one that is named "pgdr marker <m>" or "pgdr region <a>" (io/write/msh.cpp) stands for m or a. Nodes
-// and elements are ordered by their tags, which may have gaps. Elements of higher order are refused, since their sides
-// are curved. Gmsh reference manual, sections "MSH file format" and "MSH file format version 2 (Legacy)".
+// physical group, whose name is that of the label; one that is named "pgdr marker <m>" or "pgdr region <a>", or of which a
+// comment says so (io/write/msh.cpp), stands for m or a. Nodes and elements are ordered by their tags, which may have gaps.
+// Elements of higher order are refused, since their sides are curved. Gmsh reference manual, sections "MSH file format" and "MSH
+// file format version 2 (Legacy)".
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,6 +17,7 @@
 #include "io/formats.hpp"
 #include "io/read/msh_elements.hpp"
 #include "io/scan/byte_order.hpp"
+#include "io/scan/clean_name.hpp"
 #include "io/scan/line_scanner.hpp"
 
 namespace pgdr::detail {
@@ -49,6 +51,8 @@ class MshReader {
     if (mesh_.input_points > mesh_.points.size())
       in_.fail(Errc::index_out_of_range, "a comment promises more input points than there are points");
     elements_.finish(mesh_);
+    for (const auto& [group, name] : names_)
+      mesh_.group_names[{group.first, elements_.label_of_physical(group.first, group.second)}] = name;
     return std::move(mesh_);
   }
 
@@ -177,6 +181,9 @@ class MshReader {
       const std::size_t open = name.find('"'), close = name.rfind('"');
       if (open == std::string_view::npos || open == close) in_.fail(Errc::syntax, "a physical name is not in quotes");
       name = name.substr(open + 1, close - open - 1);
+      if (std::string clean = clean_name(name);
+          !clean.empty() && !name.starts_with("pgdr marker ") && !name.starts_with("pgdr region "))
+        names_[{dimension, physical}] = std::move(clean);
       for (const std::string_view ours : {"pgdr marker ", "pgdr region "}) {
         if (!name.starts_with(ours)) continue;
         const auto value = parse_double(name.substr(ours.size()));
@@ -186,13 +193,14 @@ class MshReader {
     }
   }
 
-  /// "pgdr dimension <D> input_points <n>", which only our files have.
+  /// "pgdr dimension <D> input_points <n>", and "pgdr label <dimension> <group> <label>", which only our files have.
   void read_comments() {
     std::string_view text = skip_to_end("$Comments");
     const std::size_t at = text.find("\npgdr ");
     if (at == std::string_view::npos) return;
     text.remove_prefix(at + 1);
-    LineScanner words(text.substr(0, text.find('\n')), mesh_.file);
+    const std::string_view first = text.substr(0, text.find('\n'));
+    LineScanner words(first, mesh_.file);
     const auto next = [&words] { return words.more_on_line() ? words.word({}) : std::string_view(); };
     next();
     const bool dimension = next() == "dimension";
@@ -205,6 +213,21 @@ class MshReader {
     mesh_.dimension_certain = true;
     mesh_.input_points = static_cast<std::size_t>(*n);
     decided_ = only_dimension_;
+    for (text.remove_prefix(first.size()); text.starts_with("\npgdr label ");
+         text.remove_prefix(std::min(text.find('\n', 1), text.size())))
+      read_label(text.substr(1, text.find('\n', 1) - 1));
+  }
+  void read_label(std::string_view line) {
+    LineScanner words(line, mesh_.file);
+    const auto next = [&words] { return words.more_on_line() ? words.word({}) : std::string_view(); };
+    next();
+    next();
+    const auto dimension = parse_integer(next()), physical = parse_integer(next());
+    const auto label = parse_double(next());
+    if (!dimension || *dimension < 0 || *dimension > 3 || !physical || *physical != static_cast<int>(*physical) || !label ||
+        !std::isfinite(*label))
+      in_.fail(Errc::syntax, "the comment " + quoted(line) + " does not say what a group's label is");
+    elements_.name_physical(static_cast<int>(*dimension), static_cast<int>(*physical), *label);
   }
 
   void read_entities() {
@@ -385,6 +408,7 @@ class MshReader {
   std::endian order_ = std::endian::little;
   std::size_t size_bytes_ = 8;
   std::vector<std::uint64_t> tags_;
+  std::map<std::pair<int, int>, std::string> names_;  ///< by dimension and physical group
 };
 
 }  // namespace

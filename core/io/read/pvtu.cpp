@@ -12,23 +12,6 @@
 namespace pgdr::detail {
 namespace {
 
-/// What XML cannot have in an attribute as it is.
-std::string unescaped(std::string_view text) {
-  std::string out;
-  while (!text.empty()) {
-    std::size_t taken = 1;
-    char c = text.front();
-    for (const XmlEscape& escape : xml_escapes)
-      if (text.starts_with(escape.text)) {
-        taken = escape.text.size();
-        c = escape.character;
-      }
-    out += c;
-    text.remove_prefix(taken);
-  }
-  return out;
-}
-
 /// The files of the pieces, in their order: at least one.
 std::vector<std::filesystem::path> piece_files(std::string_view text, const std::filesystem::path& file) {
   const std::string name = file.string();
@@ -40,7 +23,7 @@ std::vector<std::filesystem::path> piece_files(std::string_view text, const std:
     if (tag.name == "PUnstructuredGrid") tags.require(tag, "GhostLevel", "0");
     if (tag.name == "/VTKFile") break;
     if (tag.name != "Piece") continue;
-    const std::string source = unescaped(tags.attribute(tag, "Source"));
+    const std::string source = xml_unescaped(tags.attribute(tag, "Source"));
     if (source.empty() || source.find('/') != std::string::npos || source.find('\0') != std::string::npos)
       tags.fail(Errc::unknown_format, "only pieces beside the file are read, not " + detail::quoted(source), tag.line);
     pieces.push_back(file.parent_path() / source);

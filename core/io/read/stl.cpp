@@ -4,6 +4,11 @@
 // STL surfaces, binary and ASCII. Binary is whatever has the size that its count of triangles implies, since binary
 // headers that begin with "solid" are common. STL repeats a point for each triangle; equal coordinates (-0 is 0) become
 // one point here. Normals are not read: they are often wrong or NaN, and the corners say it all.
+//
+// Solids are called by what follows "solid" on its line, or in the header of a binary file that begins with it and has text alone
+// behind it: other headers tell which program wrote the file. Solids of a file with several, and a single one with a name, have
+// the markers 1, 2, ...; several are the bodies of the file.
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cctype>
@@ -11,8 +16,10 @@
 #include <cstdint>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "io/formats.hpp"
+#include "io/scan/clean_name.hpp"
 #include "io/scan/line_scanner.hpp"
 
 namespace pgdr::detail {
@@ -96,6 +103,31 @@ void add_triangle(Plc<3>& plc, const std::array<std::uint32_t, 3>& corners, int 
   facet.marker = marker;
 }
 
+/// Of facets whose markers number their solids from 1: a single one without a name has no label to lose.
+void name_solids(Plc<3>& plc, const std::vector<std::string>& names) {
+  if (names.size() == 1 && names.front().empty())
+    for (auto& f : plc.facets) f.marker = 0;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (!names[i].empty()) plc.names.markers.emplace(static_cast<int>(i + 1), names[i]);
+  if (names.size() < 2) return;
+  plc.facet_bodies.reserve(plc.facets.size());
+  for (const auto& f : plc.facets) plc.facet_bodies.push_back(static_cast<std::uint32_t>(f.marker - 1));
+  for (std::size_t i = 0; i < names.size(); ++i)
+    plc.body_names.push_back(names[i].empty() ? "solid " + std::to_string(i + 1) : names[i]);
+}
+
+/// What stands behind "solid " in the header; empty if anything does that is no text.
+std::string name_in_header(std::string_view text) {
+  constexpr std::string_view solid = "solid ";
+  std::string_view header = text.substr(0, binary_header - 4);
+  if (!header.starts_with(solid)) return {};
+  header.remove_prefix(solid.size());
+  const std::string_view blanks(" \0", 2);
+  header = header.substr(0, header.find_last_not_of(blanks) + 1);
+  const auto is_text = [](char c) { return c >= ' ' && c <= '~'; };
+  return std::all_of(header.begin(), header.end(), is_text) ? clean_name(header) : std::string();
+}
+
 void read_binary(std::string_view text, Plc<3>& plc) {
   const std::size_t n = little_endian(text, binary_header - 4);
   plc.facets.reserve(n);
@@ -113,8 +145,9 @@ void read_binary(std::string_view text, Plc<3>& plc) {
       }
       c = index.insert(p);
     }
-    add_triangle(plc, corners, 0);
+    add_triangle(plc, corners, 1);
   }
+  name_solids(plc, {name_in_header(text)});
 }
 
 /// ASCII STL: a keyword at a time, in any case of letters.
@@ -126,8 +159,7 @@ class AsciiReader {
     constexpr Subject solid{"a solid"};
     while (in_.advance()) {
       expect("solid", solid);
-      ++solids_;
-      in_.skip_line();  // the name
+      names_.push_back(clean_name(in_.rest_of_line()));
       for (;;) {
         in_.require({"a facet or the end of the solid"});
         const std::string_view word = in_.word(solid);
@@ -137,10 +169,7 @@ class AsciiReader {
       }
       in_.skip_line();
     }
-    // The solids of a file with several are told apart by their markers; a single one has no label to lose.
-    if (solids_ == 1) {
-      for (auto& f : plc_.facets) f.marker = 0;
-    }
+    name_solids(plc_, names_);
   }
 
  private:
@@ -189,13 +218,13 @@ class AsciiReader {
     }
     expect_end("endloop", s);
     expect_end("endfacet", s);
-    add_triangle(plc_, corners, solids_);
+    add_triangle(plc_, corners, static_cast<int>(names_.size()));
   }
 
   LineScanner in_;
   Plc<3>& plc_;
   PointIndex index_;
-  int solids_ = 0;
+  std::vector<std::string> names_;  ///< of the solids so far
 };
 
 }  // namespace

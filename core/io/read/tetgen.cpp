@@ -3,8 +3,9 @@
 //
 // Meshes as TetGen (3D) and Triangle (2D) have them: X.node and X.ele, and, where they are there, X.face (subfacets)
 // and X.edge (subsegments). They are numbered from 0 or 1. The attribute of a cell is its region. A comment at the head of
-// X.node, "# pgdr input_points <n>", tells the input points from the others; one at the head of X.edge,
+// X.node, "# pgdr input_points <n>", tells the input points from the others; further ones tell names; one at the head of X.edge,
 // "# pgdr subsegments <n>", the subsegments, which come first, from the other edges.
+#include <algorithm>
 #include <string>
 
 #include "io/formats.hpp"
@@ -23,6 +24,13 @@ std::size_t read_comment(std::string_view text, std::string_view comment, std::s
     throw InputError(Diagnostic{
         Errc::syntax, "the comment " + quoted(line) + " has no number from 0 to " + std::to_string(most), file, 1, {}, {}});
   return static_cast<std::size_t>(*n);
+}
+
+/// The lines before the first that is no comment.
+std::string_view leading_comments(std::string_view text) {
+  std::size_t end = 0;
+  while (end < text.size() && text[end] == '#') end = std::min(text.find('\n', end), text.size() - 1) + 1;
+  return text.substr(0, end);
 }
 
 /// References to points, as the .node file numbers them.
@@ -111,6 +119,7 @@ OutputMesh<D> read_tetgen(const TetgenTexts& texts, const std::filesystem::path&
   mesh.point_markers = std::move(nodes.point_markers);
   mesh.point_attributes = std::move(nodes.point_attributes);
   mesh.input_points = read_comment(texts.node, input_points_comment, 0, mesh.points.size(), name(".node"));
+  mesh.names = read_name_comments(leading_comments(texts.node), name(".node"));
   const Numbering numbering{nodes.first_index, mesh.points.size()};
   read_ele<D>(texts.ele, name(".ele"), numbering, mesh);
   if (texts.edge) {

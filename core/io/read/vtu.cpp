@@ -8,10 +8,12 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <string>
 
 #include "io/formats.hpp"
+#include "io/scan/clean_name.hpp"
 #include "io/scan/xml_tags.hpp"
 
 namespace pgdr::detail {
@@ -47,7 +49,7 @@ Head read_head(std::string_view text, const std::string& file) {
       head.cells = tags.unsigned_attribute(tag, "NumberOfCells");
     } else if (tag.name == "DataArray") {
       tags.require(tag, "format", "appended");
-      const std::string name = section + "/" + std::string(tags.attribute(tag, "Name"));
+      const std::string name = section + "/" + xml_unescaped(tags.attribute(tag, "Name"));
       const bool one = !tag.attributes.contains("NumberOfComponents");
       head.arrays[name] = {std::string(tags.attribute(tag, "type")), tags.unsigned_attribute(tag, "offset"),
                            one ? 1 : tags.unsigned_attribute(tag, "NumberOfComponents"), tag.line};
@@ -119,6 +121,14 @@ class Arrays {
     fail_at(Errc::syntax, "bytes are left behind the data", 0);
   }
 
+  /// The names of all arrays that begin so.
+  std::vector<std::string> names_in(std::string_view section) const {
+    std::vector<std::string> names;
+    for (const auto& [name, array] : head_.arrays)
+      if (name.starts_with(section)) names.push_back(name);
+    return names;
+  }
+  const std::string& type(const std::string& name) const { return head_.arrays.at(name).type; }
   std::uint64_t components(const std::string& name) const { return head_.arrays.at(name).components; }
 
   [[noreturn]] void fail(Errc code, const std::string& name, const std::string& why) const {
@@ -192,6 +202,35 @@ class GridReader {
     read_offsets();
     read_connectivity();
     read_labels();
+    read_names();
+  }
+
+  /// Pairs of a label and a dimension.
+  void read_names() {
+    constexpr std::string_view section = "FieldData/";
+    for (const std::string& array : arrays_.names_in(section)) {
+      std::string_view own = std::string_view(array).substr(section.size());
+      if (std::count(std::begin(own_field_data), std::end(own_field_data), own) > 0) continue;
+      if (own.starts_with(field_data_escape)) own.remove_prefix(field_data_escape.size());
+      const std::string name = clean_name(own);
+      const bool integers = arrays_.type(array) == "Int64";
+      const auto count = static_cast<std::size_t>(arrays_.size(array) / sizeof(double));
+      const std::string_view bytes = arrays_.bytes(array, integers ? "Int64" : "Float64", count, sizeof(double));
+      const auto number = [&](std::size_t i) {
+        return integers ? static_cast<double>(little_endian<std::int64_t>(bytes, i)) : little_endian<double>(bytes, i);
+      };
+      for (std::size_t i = 0; i + 1 < count; i += 2) give_name(array, name, number(i), number(i + 1));
+      if (count % 2 != 0 || name.empty()) arrays_.fail(Errc::syntax, array, " has no pairs of a label and a dimension");
+    }
+  }
+  void give_name(const std::string& array, const std::string& name, double label, double dimension) {
+    const bool is_marker = dimension == D - 1 && label >= -2147483648.0 && label <= 2147483647.0 && label == std::floor(label);
+    if (dimension == D && !std::isnan(label))
+      mesh_.names.regions[label] = name;
+    else if (is_marker)
+      mesh_.names.markers[static_cast<int>(label)] = name;
+    else
+      arrays_.fail(Errc::syntax, array, " has no pairs of a label and a dimension");
   }
 
   /// All of an array of n numbers that count or name something.

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Writes Medit's .mesh. References are integers there, so region attributes that are not are numbered by value, and
-// comment lines "# region <n> = <value>" before the points keep what they were. RequiredVertices lists the input points.
+// comment lines "# region <n> = <value>" before the points keep what they were; so do others the names. RequiredVertices lists
+// the input points.
 #include <algorithm>
 #include <cmath>
 #include <compare>
@@ -73,7 +74,7 @@ void put_constraints(FileOutput& out, std::string_view keyword, const Constraint
 }
 
 template <int D>
-void put_header(FileOutput& out, const medit::RegionReferences& reference) {
+void put_header(FileOutput& out, const medit::RegionReferences& reference, const Names& names) {
   out.put("MeshVersionFormatted 2\nDimension ");
   out.put_number(D);
   out.put('\n');
@@ -84,6 +85,7 @@ void put_header(FileOutput& out, const medit::RegionReferences& reference) {
     out.put_number(reference.values()[i]);
     out.put('\n');
   }
+  out.put(name_comments(names));
 }
 
 }  // namespace
@@ -91,7 +93,7 @@ void put_header(FileOutput& out, const medit::RegionReferences& reference) {
 template <int D>
 void write_medit(const OutputMesh<D>& mesh, FileOutput& out) {
   const medit::RegionReferences reference(mesh.regions);
-  put_header<D>(out, reference);
+  put_header<D>(out, reference, mesh.names);
   put_section(out, "Vertices", mesh.points.size());
   out.put_each(mesh.points.size(), [&](TextBuffer& text, std::size_t i) {
     for (int k = 0; k < D; ++k) {

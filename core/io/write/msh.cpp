@@ -3,8 +3,9 @@
 //
 // Writes gmsh's .msh 4.1, binary. Cells, subfacets, subsegments and points with a marker are elements; those of one
 // dimension and label form an entity, and this a physical group. Positive integers are the numbers of their groups; any
-// other label gets a free number, and the group the name "pgdr marker <m>" or "pgdr region <a>", since gmsh knows
-// positive numbers alone, and its readers want all elements in groups if any is. Nodes belong to the entity of lowest
+// other label gets a free number, and the group, if the label has no name of its own, the name "pgdr marker <m>" or
+// "pgdr region <a>", since gmsh knows positive numbers alone, and its readers want all elements in groups if any is. Of a label
+// that is none of these numbers and has a name, a comment says which it is. Nodes belong to the entity of lowest
 // dimension that they lie on. Tags of nodes are their places, from 1; those of elements too, cells first.
 #include <algorithm>
 #include <bit>
@@ -14,6 +15,8 @@
 #include <utility>
 
 #include "io/formats.hpp"
+#include "io/write/valid_names.hpp"
+#include "io/write/wall_sides.hpp"
 
 namespace pgdr::detail {
 namespace {
@@ -23,45 +26,20 @@ constexpr std::uint32_t none = 0xffffffff;
 /// Elements of one dimension: the distinct labels in increasing order, each an entity whose tag is its place, from 1.
 class Groups {
  public:
-  Groups(int dimension, std::vector<double> labels) : dimension_(dimension), labels_(std::move(labels)) {
-    std::sort(labels_.begin(), labels_.end(), before);
-    const auto same = [](double a, double b) { return std::strong_order(a, b) == 0; };
-    labels_.erase(std::unique(labels_.begin(), labels_.end(), same), labels_.end());
-    number_groups();
-  }
+  Groups(int dimension, std::vector<double> labels)
+      : dimension_(dimension), labels_(distinct_labels(std::move(labels))), physical_(positive_numbers(labels_)) {}
 
   int dimension() const { return dimension_; }
   std::size_t count() const { return labels_.size(); }
   double label(std::size_t group) const { return labels_[group]; }
   int physical(std::size_t group) const { return physical_[group]; }
-  bool is_named(std::size_t group) const { return !is_physical(labels_[group]); }
+  bool is_own_number(std::size_t group) const { return is_positive_number(labels_[group]); }
   std::size_t group_of(double label) const {
     return static_cast<std::size_t>(std::lower_bound(labels_.begin(), labels_.end(), label, before) - labels_.begin());
   }
 
  private:
   static bool before(double a, double b) { return std::strong_order(a, b) < 0; }
-  static bool is_physical(double v) { return v >= 1 && v <= 2147483647.0 && v == static_cast<double>(static_cast<int>(v)); }
-  /// The smallest numbers that no positive label takes, for the others.
-  void number_groups() {
-    std::vector<int> taken;
-    for (const double v : labels_) {
-      if (is_physical(v)) taken.push_back(static_cast<int>(v));
-    }
-    int next = 1;
-    auto used = taken.begin();
-    for (const double v : labels_) {
-      if (is_physical(v)) {
-        physical_.push_back(static_cast<int>(v));
-        continue;
-      }
-      while (used != taken.end() && *used == next) {
-        ++used;
-        ++next;
-      }
-      physical_.push_back(next++);
-    }
-  }
 
   int dimension_;
   std::vector<double> labels_;
@@ -116,7 +94,7 @@ struct Layer {
 template <int D>
 class MshWriter {
  public:
-  MshWriter(const OutputMesh<D>& mesh, FileOutput& out) : mesh_(mesh), out_(out) {
+  MshWriter(const OutputMesh<D>& mesh, FileOutput& out) : mesh_(mesh), names_(valid_names(mesh.names, msh_names)), out_(out) {
     layers_.push_back(point_layer());
     layers_.push_back(constraint_layer(mesh.subsegments, 1, 1));
     if constexpr (D == 3) layers_.push_back(constraint_layer(mesh.subfacets, 2, 2));
@@ -137,6 +115,7 @@ class MshWriter {
     out_.put_number(D);
     out_.put(" input_points ");
     out_.put_number(mesh_.input_points);
+    put_labels_of_names();
     out_.put("\n$EndComments\n");
     put_names();
     put_entities();
@@ -189,26 +168,56 @@ class MshWriter {
   }
   void put_size(std::size_t n) { out_.put_binary(std::uint64_t{n}); }
 
+  /// What a group's label is called; null: it has no name.
+  const std::string* name_of(const Groups& groups, std::size_t g) const {
+    const auto find = [](const auto& names, auto label) {
+      const auto it = names.find(label);
+      return it == names.end() ? nullptr : &it->second;
+    };
+    return groups.dimension() == D ? find(names_.regions, groups.label(g))
+                                   : find(names_.markers, static_cast<int>(groups.label(g)));
+  }
+  template <class F>
+  void each_group(const F& f) const {
+    for (const Layer& layer : layers_)
+      for (std::size_t g = 0; g < layer.groups.count(); ++g) f(layer.groups, g);
+  }
+
+  /// "pgdr label <dimension> <group> <label>"
+  void put_labels_of_names() {
+    each_group([&](const Groups& groups, std::size_t g) {
+      if (groups.is_own_number(g) || name_of(groups, g) == nullptr) return;
+      out_.put("\npgdr label ");
+      out_.put_number(groups.dimension());
+      out_.put(' ');
+      out_.put_number(groups.physical(g));
+      out_.put(' ');
+      out_.put_number(groups.label(g));
+    });
+  }
+
   void put_names() {
     std::size_t n = 0;
-    for (const Layer& layer : layers_) {
-      for (std::size_t g = 0; g < layer.groups.count(); ++g) n += layer.groups.is_named(g) ? 1 : 0;
-    }
+    const auto has_name = [&](const Groups& groups, std::size_t g) { return name_of(groups, g) || !groups.is_own_number(g); };
+    each_group([&](const Groups& groups, std::size_t g) { n += has_name(groups, g) ? 1 : 0; });
     if (n == 0) return;
     out_.put("$PhysicalNames\n");
     out_.put_number(n);
-    for (const Layer& layer : layers_) {
-      for (std::size_t g = 0; g < layer.groups.count(); ++g) {
-        if (!layer.groups.is_named(g)) continue;
-        out_.put('\n');
-        out_.put_number(layer.groups.dimension());
-        out_.put(' ');
-        out_.put_number(layer.groups.physical(g));
-        out_.put(layer.groups.dimension() == D ? " \"pgdr region " : " \"pgdr marker ");
-        out_.put_number(layer.groups.label(g));
-        out_.put('"');
+    each_group([&](const Groups& groups, std::size_t g) {
+      if (!has_name(groups, g)) return;
+      out_.put('\n');
+      out_.put_number(groups.dimension());
+      out_.put(' ');
+      out_.put_number(groups.physical(g));
+      out_.put(" \"");
+      if (const std::string* name = name_of(groups, g)) {
+        out_.put(*name);
+      } else {
+        out_.put(groups.dimension() == D ? "pgdr region " : "pgdr marker ");
+        out_.put_number(groups.label(g));
       }
-    }
+      out_.put('"');
+    });
     out_.put("\n$EndPhysicalNames\n");
   }
 
@@ -313,6 +322,7 @@ class MshWriter {
   }
 
   const OutputMesh<D>& mesh_;
+  const Names names_;
   FileOutput& out_;
   std::vector<Layer> layers_;  ///< by dimension
   std::uint64_t elements_end_ = 1;

@@ -10,20 +10,6 @@
 #include "pgdr/error.hpp"
 
 namespace pgdr::detail {
-namespace {
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    std::string_view as = {&c, 1};
-    for (const XmlEscape& escape : xml_escapes)
-      if (escape.character == c) as = escape.text;
-    out += as;
-  }
-  return out;
-}
-
-}  // namespace
 
 std::string name_of_piece(const std::filesystem::path& file, std::uint64_t k) {
   return (file.parent_path() / (file.stem().native() + "_" + std::to_string(k) + ".vtu")).native();
@@ -41,7 +27,7 @@ std::string pvtu_text(const MeshPiece<D>& piece, std::uint64_t count, const std:
     out += "<P" + std::string(section) + attributes + ">\n";
     for (const VtuArray& a : arrays)
       if (a.section == section)
-        out += "<PDataArray type=\"" + std::string(a.type) + "\" Name=\"" + std::string(a.name) + "\"" + a.shape + "/>\n";
+        out += "<PDataArray type=\"" + std::string(a.type) + "\" Name=\"" + a.name + "\"" + a.shape + "/>\n";
     out += "</P" + std::string(section) + ">\n";
   };
   put_section("PointData", " GlobalIds=\"" + std::string(point_ids) + "\"");
@@ -49,7 +35,7 @@ std::string pvtu_text(const MeshPiece<D>& piece, std::uint64_t count, const std:
   put_section("Points", "");
   for (std::uint64_t k = 0; k < count; ++k) {
     const std::string name = std::filesystem::path(name_of_piece(file, k)).filename().native();
-    out += "<Piece Source=\"" + escaped(name) + "\"/>\n";
+    out += "<Piece Source=\"" + xml_escaped(name) + "\"/>\n";
   }
   return out + "</PUnstructuredGrid>\n</VTKFile>\n";
 }

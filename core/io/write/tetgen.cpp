@@ -32,6 +32,7 @@ void put_count(FileOutput& out, std::string_view comment, std::size_t n) {
 template <int D>
 void put_node(FileOutput& out, const OutputMesh<D>& mesh, std::uint32_t first) {
   if (mesh.input_points != 0) put_count(out, input_points_comment, mesh.input_points);
+  out.put(name_comments(mesh.names));
   const std::size_t attributes = mesh.points.empty() ? 0 : mesh.point_attributes.size() / mesh.points.size();
   out.put_number(mesh.points.size());
   out.put(D == 2 ? " 2 " : " 3 ");

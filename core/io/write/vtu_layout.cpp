@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <iterator>
+#include <map>
 #include <utility>
 
 #include "io/formats.hpp"
+#include "io/write/valid_names.hpp"
 #include "output/piece_join.hpp"
 
 namespace pgdr::detail {
@@ -100,7 +104,29 @@ class Layout {
                   put_cell, put_subfacet, put_subsegment);
   }
 
+  void add_names() {
+    std::map<std::string, std::vector<double>> labels;
+    const Names names = valid_names(mesh_->names, text_names);
+    for (const auto& [label, name] : names.regions) labels[name].insert(labels[name].end(), {label, double{D}});
+    for (const auto& [marker, name] : names.markers) labels[name].insert(labels[name].end(), {double(marker), double{D - 1}});
+    for (const auto& [name, pairs] : labels) {
+      const bool is_own = std::count(std::begin(own_field_data), std::end(own_field_data), name) > 0;
+      const bool integers = std::all_of(pairs.begin(), pairs.end(), [](double x) { return is_integer(x); });
+      VtuArray& array = add("FieldData", integers ? "Int64" : "Float64",
+                            (is_own || name.starts_with(field_data_escape) ? std::string(field_data_escape) : "") + name,
+                            " NumberOfTuples=\"" + std::to_string(pairs.size()) + "\"", sizeof(double) * pairs.size());
+      TextBuffer bytes;
+      for (const double x : pairs) integers ? bytes.put_binary(static_cast<std::int64_t>(x)) : bytes.put_binary(x);
+      array.content = bytes.text();
+    }
+  }
+  static bool is_integer(double x) {
+    constexpr double most = 9007199254740992;  // 2^53
+    return x >= -most && x <= most && x == std::floor(x) && !(x == 0 && std::signbit(x));
+  }
+
   void add_field_data() {
+    add_names();
     add_content("dimension", {D});
     add_content("input_points", {total_.input_points});
     if (const auto* piece = part_.piece) {
@@ -205,7 +231,7 @@ void put_section(std::string& out, std::string_view section, std::string_view at
   put({"<", section, attributes, ">\n"});
   for (const VtuArray& a : arrays)
     if (a.section == section)
-      put({"<DataArray type=\"", a.type, "\" Name=\"", a.name, "\"", a.shape, " format=\"appended\" offset=\"",
+      put({"<DataArray type=\"", a.type, "\" Name=\"", xml_escaped(a.name), "\"", a.shape, " format=\"appended\" offset=\"",
            std::to_string(a.offset), "\"/>\n"});
   put({"</", section, ">\n"});
 }

@@ -6,8 +6,10 @@
 //
 // VTK's XML file of an unstructured grid, all arrays appended as raw bytes, so that writing is copying and doubles keep
 // their bits. Cells come first, then subfacets (3D), then subsegments; "region" and "leaf" (-1 elsewhere) mean something for
-// the cells and "marker" for the others. Field data "dimension" and "input_points" let our reader restore the mesh. The file of
-// a piece has the numbers of its points and cells in the whole mesh, too, and field data "piece".
+// the cells and "marker" for the others. Field data "dimension" and "input_points" let our reader restore the mesh; of each name
+// there is an array of that name with what it stands for: pairs of a label or marker, and the dimension of what has it, as meshio
+// has it of gmsh's files. The file of a piece has the numbers of its points and cells in the whole mesh, too, and field data
+// "piece".
 #pragma once
 
 #include <cstdint>
@@ -45,7 +47,8 @@ struct VtuArray {
     std::size_t count;
     PutBlock put;
   };
-  std::string_view section, type, name;
+  std::string_view section, type;
+  std::string name;
   std::string shape;  ///< further attributes of the announcement, or empty
   std::uint64_t bytes = 0;
   std::uint64_t offset = 0;  ///< of its size, which its rows follow, in the appended data
