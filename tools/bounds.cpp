@@ -3,6 +3,8 @@
 #include "bounds.hpp"
 
 #include <limits>
+#include <string>
+#include <utility>
 
 #include "expression.hpp"
 #include "pgdr/error.hpp"
@@ -30,13 +32,17 @@ Bounds<D> resolve(const BoundArguments& arguments, double default_radius_edge) {
   if (D == 3 && arguments.min_angle) refuse("--min-angle is for 2D; use --radius-edge in 3D");
   if (D == 2 && arguments.min_dihedral) refuse("--min-dihedral is for 3D; use --min-angle in 2D");
 
-  Bounds<D> bounds{default_radius_edge, {}, {}, std::numeric_limits<double>::infinity(), arguments.min_dihedral};
+  Bounds<D> bounds{default_radius_edge, {}, {}, std::numeric_limits<double>::infinity(), arguments.min_dihedral, {}};
   if (arguments.radius_edge) bounds.radius_edge = *arguments.radius_edge;
   if (arguments.min_angle) bounds.radius_edge = min_angle_degrees(*arguments.min_angle);
   if (arguments.size) bounds.size = parse_size<D>(*arguments.size, "--size");
   for (const std::string& text : arguments.region_sizes) {
     const auto [label, size] = split_region_size(text).value();
-    bounds.region_sizes.push_back({label, parse_size<D>(size, "--region-size")});
+    SizingField<D> field = parse_size<D>(size, "--region-size");
+    if (const std::optional<double> number = label_number(label))
+      bounds.region_sizes.push_back({*number, std::move(field)});
+    else
+      bounds.named_sizes.emplace_back(label, std::move(field));
   }
   if (!arguments.size_mesh.empty())
     bounds.size = smallest<D>({bounds.size, background_sizes<D>(arguments.size_mesh, arguments.size_growth)});
@@ -44,6 +50,27 @@ Bounds<D> resolve(const BoundArguments& arguments, double default_radius_edge) {
   return bounds;
 }
 
+template <int D>
+void resolve_names(const Names& names, Bounds<D>& bounds) {
+  for (const auto& [wanted, size] : bounds.named_sizes) {
+    bool is_there = false;
+    std::string known;
+    for (const auto& [label, name] : names.regions) {
+      known += (known.empty() ? "" : ", ") + name;
+      if (name != wanted) continue;
+      bounds.region_sizes.push_back({label, size});
+      is_there = true;
+    }
+    if (!is_there)
+      throw UsageError({.code = Errc::bad_option,
+                        .message = "--region-size: no region is called \"" + wanted + "\"; " +
+                                   (known.empty() ? "none has a name" : "there are " + known)});
+  }
+  bounds.named_sizes.clear();
+}
+
+template void resolve_names<2>(const Names&, Bounds<2>&);
+template void resolve_names<3>(const Names&, Bounds<3>&);
 template Bounds<2> resolve<2>(const BoundArguments&, double);
 template Bounds<3> resolve<3>(const BoundArguments&, double);
 

@@ -5,11 +5,19 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "options.hpp"
+#include "pgdr/names.hpp"
 #include "pgdr/sizing.hpp"
 
 namespace pgdr::tool {
+
+/// Sizes of regions by their names.
+template <int D>
+using RegionSizesByName = std::vector<std::pair<std::string, SizingField<D>>>;
 
 template <int D>
 struct Bounds {
@@ -18,10 +26,15 @@ struct Bounds {
   RegionSizes<D> region_sizes;
   double max_volume;
   std::optional<double> min_dihedral;  ///< degrees; none: not asked for
+  RegionSizesByName<D> named_sizes;    ///< of regions whose labels are not known yet
 };
 
 /// @throws UsageError for a flag of the other dimension or a size that cannot be used.
 template <int D>
 Bounds<D> resolve(const BoundArguments& arguments, double default_radius_edge);
+
+/// Gives the sizes of named regions to the labels of these names. @throws UsageError for a name that no region has
+template <int D>
+void resolve_names(const Names& names, Bounds<D>& bounds);
 
 }  // namespace pgdr::tool

@@ -25,15 +25,16 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 /// As it was given: where segments cross, too.
 template <int D>
-std::optional<Plc<D>> read_input_of_mesh(const std::string& input, InputArguments reading) {
-  if (input.empty()) return std::nullopt;
-  require_input_format(input);
-  InputFile file(input);
-  if (file.dimension() != D)
-    throw UsageError({.code = Errc::bad_option, .message = format("the mesh is %dD, its input is not", D), .file = input});
+std::optional<Plc<D>> read_input_of_mesh(const std::vector<std::string>& inputs, InputArguments reading) {
+  if (inputs.empty()) return std::nullopt;
+  for (const std::string& input : inputs) require_input_format(input);
+  Inputs files(inputs);
+  if (files.dimension() != D)
+    throw UsageError(
+        {.code = Errc::bad_option, .message = format("the mesh is %dD, its input is not", D), .file = inputs.front()});
   if constexpr (D == 2) reading.resolve_crossings = false;
   std::vector<Diagnostic> repairs;
-  return read_input<D>(file, reading, repairs);
+  return files.read<D>(reading, repairs);
 }
 
 template <int D>
@@ -71,7 +72,7 @@ void print_summary(const CheckArguments& a, const OutputMesh<D>& mesh, const Bou
   print_row("mesh", format("%s (%dD, ", a.mesh.c_str(), D) + count(mesh.points.size(), "vertex", "vertices") + ", " +
                         count_cells<D>(mesh.cells.size()) + ')');
   if (unused > 0) print_row("unused", count(unused, "vertex is in no cell", "vertices are in no cell"));
-  print_row("input", a.input.empty() ? "not given: conformity was not checked" : a.input);
+  print_row("input", a.inputs.empty() ? "not given: conformity was not checked" : Inputs(a.inputs).words());
   if (q)
     print_row("quality", format("radius-edge up to %.4f, %s %.2f to %.2f degrees", q->max_radius_edge,
                                 D == 3 ? "dihedral angles" : "angles", q->min_angle_deg, q->max_angle_deg));
@@ -100,12 +101,15 @@ template <int D>
 int check_as(const CheckArguments& a, InputFile& file, Report& report) {
   ReportedBounds reported;
   if (!a.reasons.empty()) reported = read_bounds(a.reasons);
-  const Bounds<D> bounds = resolve<D>(a.bounds, reported.radius_edge.value_or(unbounded));
+  Bounds<D> bounds = resolve<D>(a.bounds, reported.radius_edge.value_or(unbounded));
   const OutputMesh<D> mesh = file.read_mesh<D>();
   InputArguments reading = a.reading;
   reading.convex_hull = reading.convex_hull || reported.convex_hull;
   reading.region_areas = reading.region_areas || reported.region_areas;
-  const std::optional<Plc<D>> plc = read_input_of_mesh<D>(a.input, reading);
+  if (reading.seeds.empty()) reading.seeds = reported.seeds;
+  if (reading.holes.empty()) reading.holes = reported.holes;
+  const std::optional<Plc<D>> plc = read_input_of_mesh<D>(a.inputs, reading);
+  resolve_names(plc ? plc->names : mesh.names, bounds);
   if (!reading.tolerance) reading.tolerance = reported.tolerance;
 
   CheckOptions<D> options;
@@ -136,7 +140,7 @@ int check_as(const CheckArguments& a, InputFile& file, Report& report) {
 
 int check(const CheckArguments& arguments, Report& report) {
   report.set("mesh", arguments.mesh);
-  if (!arguments.input.empty()) report.set("input", arguments.input);
+  if (!arguments.inputs.empty()) report.set("input", Inputs(arguments.inputs).json());
   InputFile file(arguments.mesh);
   const int dimension = file.dimension();
   report.set("dimension", dimension);

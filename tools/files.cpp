@@ -22,11 +22,26 @@ bool has_extension(const std::string& file, std::initializer_list<const char*> e
 }
 
 void require_mesh_writable(const std::string& output) {
-  if (!is_mesh_format(output))
-    throw UsageError({.code = Errc::unknown_format,
-                      .message = "meshes are written as .vtu, .pvtu, .msh, .mesh, or .node with .ele",
-                      .file = output});
+  if (!is_output_format(output))
+    throw UsageError(
+        {.code = Errc::unknown_format,
+         .message = "meshes are written as .vtu, .pvtu, .msh, .mesh, .node with .ele, .inp, .mfem, or a folder polyMesh",
+         .file = output});
+  const fs::path first = files_of_mesh(output).front();
+  if (!fs::path(output).has_extension() && !fs::exists(first.parent_path())) {  // a folder, made with those that it lies in
+    fs::path there = first.parent_path();
+    while (there.has_relative_path() && !fs::exists(there)) there = there.parent_path();
+    return require_writable(there / first.filename());
+  }
   for (const std::string& file : files_of_mesh(output)) require_writable(file);
+}
+
+void require_format(const MeshArguments& a) {
+  const auto refuse = [&a](const char* what) { throw UsageError({.code = Errc::bad_option, .message = what, .file = a.output}); };
+  if ((a.neighbors || a.edges || a.first_index) && !has_extension(a.output, {".node", ".ele"}))
+    refuse("--neighbors, --edges and --first-index are for .node and .ele");
+  if (a.leaves && !has_extension(a.output, {".vtu", ".pvtu"})) refuse("--leaves is for .vtu and .pvtu");
+  if (a.pieces && !has_extension(a.output, {".pvtu"})) refuse("--pieces is for .pvtu");
 }
 
 void require_input_format(const std::string& file) {

@@ -7,6 +7,8 @@
 #include <initializer_list>
 #include <string>
 
+#include "options.hpp"
+
 namespace pgdr::tool {
 
 /// Upper or lower case.
@@ -14,6 +16,9 @@ bool has_extension(const std::string& file, std::initializer_list<const char*> e
 /// What can be known of the files of a mesh without writing them is said before the work, not after it.
 /// @throws UsageError unknown_format, FileError cannot_write
 void require_mesh_writable(const std::string& output);
+
+/// What only some formats can hold is refused for the others. @throws UsageError bad_option
+void require_format(const MeshArguments& a);
 
 /// Meshes in formats that are no inputs are refused with what can be done. @throws InputError unknown_format
 void require_input_format(const std::string& file);

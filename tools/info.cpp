@@ -14,6 +14,7 @@
 #include "console.hpp"
 #include "diagnosis.hpp"
 #include "estimate.hpp"
+#include "files.hpp"
 #include "input.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/io.hpp"
@@ -47,6 +48,21 @@ std::uint64_t count_open(const Domain<D>& domain) {
     open = static_cast<std::uint64_t>(std::count(degree.begin(), degree.end(), 1u));
   }
   return open;
+}
+
+template <class Label>
+std::string words_of_names(const std::map<Label, std::string>& names) {
+  constexpr std::size_t most = 20;
+  std::string words;
+  std::size_t n = 0;
+  for (const auto& [label, name] : names)
+    if (++n <= most) words += (n == 1 ? "" : ", ") + name + " (" + digits(static_cast<double>(label)) + ")";
+  return n > most ? words + ", ..." : words;
+}
+
+void print_names(const Names& names) {
+  if (!names.regions.empty()) print_row("regions", words_of_names(names.regions));
+  if (!names.markers.empty()) print_row("markers", words_of_names(names.markers));
 }
 
 /// What takes time to find out of a Domain.
@@ -106,7 +122,7 @@ RefineResult<D> recover(const Domain<D>& domain) {
 template <int D>
 class InputInfo {
  public:
-  InputInfo(const InfoArguments& a, InputFile& file, Report& report) : a_(a), file_(file), report_(report) {}
+  InputInfo(const InfoArguments& a, Inputs& file, Report& report) : a_(a), file_(file), report_(report) {}
 
   /// @returns the exit code
   int run() {
@@ -129,7 +145,7 @@ class InputInfo {
 
  private:
   void read() {
-    plc_ = read_input<D>(file_, a_.reading, repairs_);
+    plc_ = file_.read<D>(a_.reading, repairs_);
     seconds_.set("read", clock_.seconds());
     report_.set("kind", "input");
     findings_.set("accepted", false);
@@ -139,12 +155,14 @@ class InputInfo {
     findings_.set("holes", plc_.holes.size());
     findings_.set("regions", plc_.regions.size());
     report_.set("diagnosis", findings_);  // what is known so far, should the next step refuse the input
+    set_names(report_, plc_.names);
     if (a_.quiet) return;
-    print_row("input", format("%s (%dD)", a_.file.c_str(), D));
+    print_row("input", format("%s (%dD)", file_.words().c_str(), D));
     std::string counts = count(plc_.points.size(), "point", "points") + ", " + count(plc_.segments.size(), "segment", "segments");
     if (D == 3) counts += ", " + count(plc_.facets.size(), "facet", "facets");
     print_row("file",
               counts + ", " + count(plc_.holes.size(), "hole", "holes") + ", " + count(plc_.regions.size(), "region", "regions"));
+    print_names(plc_.names);
   }
 
   /// What `mesh` would say, with its default bounds: before the recovery, which may take long.
@@ -199,7 +217,7 @@ class InputInfo {
   }
 
   const InfoArguments& a_;
-  InputFile& file_;
+  Inputs& file_;
   Report& report_;
   const Stopwatch clock_;
   Plc<D> plc_;
@@ -254,13 +272,15 @@ int info_of_mesh(const InfoArguments& a, InputFile& file, Report& report) {
   if (D == 3) report.set("subfacets", mesh.subfacets.size());
   report.set("regions", to_json(measure_regions(mesh)));
   report.set("quality", to_json(q));
+  set_names(report, mesh.names);
   if (a.quiet) return exit_done;
 
-  print_row("mesh", format("%s (%dD)", a.file.c_str(), D));
+  print_row("mesh", format("%s (%dD)", a.files.front().c_str(), D));
   std::string counts = count(mesh.points.size(), "vertex", "vertices") + ", " + count_cells<D>(mesh.cells.size()) + ", " +
                        count(mesh.subsegments.size(), "subsegment", "subsegments");
   if (D == 3) counts += ", " + count(mesh.subfacets.size(), "subfacet", "subfacets");
   print_row("counts", counts);
+  print_names(mesh.names);
   print_quality<D>(q);
   return exit_done;
 }
@@ -268,13 +288,14 @@ int info_of_mesh(const InfoArguments& a, InputFile& file, Report& report) {
 }  // namespace
 
 int info(const InfoArguments& arguments, Report& report) {
-  report.set("input", arguments.file);
-  InputFile file(arguments.file);
-  const int dimension = file.dimension();
+  Inputs inputs(arguments.files);
+  report.set("input", inputs.json());
+  const int dimension = inputs.dimension();
   report.set("dimension", dimension);
-  if (file.holds_cells())
-    return dimension == 2 ? info_of_mesh<2>(arguments, file, report) : info_of_mesh<3>(arguments, file, report);
-  return dimension == 2 ? InputInfo<2>(arguments, file, report).run() : InputInfo<3>(arguments, file, report).run();
+  if (arguments.files.size() == 1 && inputs.only().holds_cells())
+    return dimension == 2 ? info_of_mesh<2>(arguments, inputs.only(), report) : info_of_mesh<3>(arguments, inputs.only(), report);
+  for (const std::string& file : arguments.files) require_input_format(file);
+  return dimension == 2 ? InputInfo<2>(arguments, inputs, report).run() : InputInfo<3>(arguments, inputs, report).run();
 }
 
 }  // namespace pgdr::tool

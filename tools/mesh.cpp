@@ -66,21 +66,12 @@ WriteOptions write_options(const MeshArguments& a, const Plc<D>& plc) {
   WriteOptions options;
   if (a.first_index)
     options.first_index = static_cast<std::uint32_t>(*a.first_index);
-  else if (has_extension(a.input, {".poly", ".smesh", ".node"}))
+  else if (a.inputs.size() == 1 && has_extension(a.inputs.front(), {".poly", ".smesh", ".node"}))
     options.first_index = plc.first_index;
   options.pieces = static_cast<std::uint32_t>(a.pieces.value_or(0));
   options.edges = a.edges;
   options.neighbors = a.neighbors;
   return options;
-}
-
-/// What only some formats can hold is refused for the others.
-void require_format(const MeshArguments& a) {
-  const auto refuse = [&a](const char* what) { throw UsageError({.code = Errc::bad_option, .message = what, .file = a.output}); };
-  if ((a.neighbors || a.edges || a.first_index) && !has_extension(a.output, {".node", ".ele"}))
-    refuse("--neighbors, --edges and --first-index are for .node and .ele");
-  if (a.leaves && !has_extension(a.output, {".vtu", ".pvtu"})) refuse("--leaves is for .vtu and .pvtu");
-  if (a.pieces && !has_extension(a.output, {".pvtu"})) refuse("--pieces is for .pvtu");
 }
 
 /// What needs several ranks, and what they cannot do.
@@ -209,10 +200,10 @@ std::string words(const SchedulerStatistics& s, std::size_t threads) {
 }
 
 template <int D>
-void print_summary(const MeshArguments& a, const Plc<D>& plc, const Bounds<D>& bounds, const RefineResult<D>& r,
-                   const Measured& measured, const Seconds& seconds) {
+void print_summary(const MeshArguments& a, const std::string& inputs, const Plc<D>& plc, const Bounds<D>& bounds,
+                   const RefineResult<D>& r, const Measured& measured, const Seconds& seconds) {
   const QualitySummary& q = measured.quality;
-  print_row("input", format("%s (%dD, %s)", a.input.c_str(), D, count(plc.points.size(), "point", "points").c_str()));
+  print_row("input", format("%s (%dD, %s)", inputs.c_str(), D, count(plc.points.size(), "point", "points").c_str()));
   if (!r.repairs.empty()) print_row("repaired", count(r.repairs.size(), "defect", "defects") + ", see --report");
   print_row("mesh", count(measured.vertices, "vertex", "vertices") + ", " + count_cells<D>(measured.cells));
   if (!r.unused_points.empty())
@@ -266,7 +257,7 @@ Bounds<D> bounds_of(const MeshArguments& a) {
 template <int D>
 class MeshRun {
  public:
-  MeshRun(const MeshArguments& a, InputFile& input, Report& report, const Ranks& ranks, const Stopwatch& total)
+  MeshRun(const MeshArguments& a, Inputs& input, Report& report, const Ranks& ranks, const Stopwatch& total)
       : a_(a),
         input_(input),
         report_(report),
@@ -313,8 +304,13 @@ class MeshRun {
   void read() {
     seconds_.read_at = total_.seconds();
     // Nobody looks at the stop token while the input is read, which may be a FIFO.
-    ranks_.on_first([&] { plc_ = read_input<D>(input_, a_.reading, repairs_); });
+    ranks_.on_first([&] { plc_ = input_.read<D>(a_.reading, repairs_); });
     if (ranks_.transport()) plc_ = broadcast(*ranks_.transport(), plc_);
+    ranks_.together([&] { resolve_names(plc_.names, bounds_); });
+    options_.region_sizes = bounds_.region_sizes;
+    set_names(report_, plc_.names);
+    if (!a_.reading.seeds.empty()) report_.set("seeds", a_.reading.seeds);
+    if (!a_.reading.holes.empty()) report_.set("holes", a_.reading.holes);
     report_.set("tolerance", tolerance_of(plc_));
     report_.set("largest_move", 0.0);
     if constexpr (D == 2) {
@@ -351,6 +347,8 @@ class MeshRun {
       return refuse(plc_, diagnosis, report_);
     }
     result_.repairs.insert(result_.repairs.begin(), repairs_.begin(), repairs_.end());
+    const std::vector<Diagnostic> unfit = unfit_names(plc_.names, a_.output);
+    result_.warnings.insert(result_.warnings.end(), unfit.begin(), unfit.end());
     if (!a_.quiet) print_warnings(result_.warnings);
     return std::nullopt;
   }
@@ -447,15 +445,15 @@ class MeshRun {
   }
 
   void print(const Measured& measured) {
-    if (!a_.quiet) print_summary(a_, plc_, bounds_, result_, measured, seconds_);
+    if (!a_.quiet) print_summary(a_, input_.words(), plc_, bounds_, result_, measured, seconds_);
   }
 
   const MeshArguments& a_;
-  InputFile& input_;
+  Inputs& input_;
   Report& report_;
   const Ranks& ranks_;
   const Stopwatch& total_;
-  const Bounds<D> bounds_;
+  Bounds<D> bounds_;
   RefineOptions<D> options_;
   StopOnSignal signals_;
   const Threads threads_;
@@ -467,7 +465,7 @@ class MeshRun {
 };
 
 template <int D>
-int run(const MeshArguments& arguments, InputFile& input, Report& report, const Ranks& ranks, const Stopwatch& total) {
+int run(const MeshArguments& arguments, Inputs& input, Report& report, const Ranks& ranks, const Stopwatch& total) {
   std::optional<MeshRun<D>> run;
   ranks.together([&] { run.emplace(arguments, input, report, ranks, total); });
   return run->run();
@@ -477,11 +475,11 @@ int run(const MeshArguments& arguments, InputFile& input, Report& report, const 
 
 int mesh(const MeshArguments& arguments, Report& report, const Ranks& ranks) {
   const Stopwatch total;
-  report.set("input", arguments.input);
-  InputFile input(arguments.input);
+  Inputs input(arguments.inputs);
+  report.set("input", input.json());
   int dimension = 0;
   ranks.on_first([&] {
-    require_input_format(arguments.input);
+    for (const std::string& file : arguments.inputs) require_input_format(file);
     require_mesh_writable(arguments.output);
     require_format(arguments);
     require_ranks(arguments, ranks);

@@ -90,6 +90,8 @@ bool is_plane(const std::string& text) {
 }
 
 bool is_region_size(const std::string& text) { return split_region_size(text).has_value(); }
+bool is_seed(const std::string& text) { return split_seed(text).has_value(); }
+bool is_hole(const std::string& text) { return is_seed(text) && text.find('=') == std::string::npos; }
 
 CLI::Validator shaped(bool (*accept)(const std::string&), const std::string& what) {
   return {
@@ -122,10 +124,10 @@ CLI::Option* add_bounds(CLI::App& app, BoundArguments& b, const std::string& wit
          "if(c, a, b), pow, hypot, sqrt, exp, min, max, abs, sin and others (docs/usage.md)")
       ->type_name("S");
   app.add_option("--region-size", b.region_sizes,
-                 "as --size, for the cells of the region with this label alone; repeatable, and all bounds are met")
+                 "as --size, for the cells of the region with this label or name alone; repeatable, and all bounds are met")
       ->type_name("LABEL=S")
       ->allow_extra_args(false)
-      ->check(shaped(is_region_size, "LABEL=S: a region's label, and a size"));
+      ->check(shaped(is_region_size, "LABEL=S: a region's label or name, and a size"));
   auto* size_mesh = app.add_option("--size-mesh", b.size_mesh,
                                    "as --size, from a background mesh (.mesh, .vtu): a size for each vertex in the .sol "
                                    "file beside it, interpolated linearly; with --size the smaller counts")
@@ -158,6 +160,17 @@ void add_input(CLI::App& app, InputArguments& p) {
          "one plane are one (default: the rounding of doubles, or of floats in .stl and .ply; 0: exactly as given)")
       ->type_name("T")
       ->check(number(">= 0", [](double v) { return v >= 0; }));
+  app.add_option(
+         "--seed", p.seeds,
+         "a point in a region, and its label: a number, or a name, whose number is that of the input's region of this name, or "
+         "the least that is free; without one 0. Besides those of the input; repeatable. 2D: X,Y=LABEL")
+      ->type_name("X,Y,Z=LABEL")
+      ->allow_extra_args(false)
+      ->check(shaped(is_seed, "X,Y,Z=LABEL, in 2D X,Y=LABEL: a point in a region, and its label or name"));
+  app.add_option("--hole", p.holes, "a point in what stays empty, besides those of the input; repeatable. 2D: X,Y")
+      ->type_name("X,Y,Z")
+      ->allow_extra_args(false)
+      ->check(shaped(is_hole, "X,Y,Z, in 2D X,Y: a point in what stays empty"));
   app.add_flag("--yes-coarse", p.yes_coarse, "a --tolerance above a thousandth of the model's diagonal is meant");
   app.add_flag("--resolve-crossings", p.resolve_crossings, "2D: split segments that cross, at new points");
   app.add_flag("--region-areas", p.region_areas,
@@ -182,7 +195,10 @@ void add_report(CLI::App& app, std::string& report, bool& quiet) {
 }
 
 void add_output(CLI::App& app, MeshArguments& a) {
-  app.add_option("-o,--output", a.output, "the mesh: .vtu .pvtu .msh .mesh .node .ele")->required()->type_name("OUTPUT");
+  app.add_option("-o,--output", a.output,
+                 "the mesh: .vtu .pvtu .msh .mesh .node .ele; for other programs also .inp .mfem, or a folder polyMesh")
+      ->required()
+      ->type_name("OUTPUT");
   app.add_option("--pieces", a.pieces, ".pvtu: in so many files, X_0.vtu, X_1.vtu, ... (default: 1)")
       ->type_name("K")
       ->check(whole_number(1, most_pieces));
@@ -195,7 +211,10 @@ void add_output(CLI::App& app, MeshArguments& a) {
 }
 
 void add_mesh(CLI::App& app, MeshArguments& a) {
-  app.add_option("INPUT", a.input, "what to mesh: .poly .smesh .node .off .obj .ply .stl .mesh .msh")->required()->type_name("");
+  app.add_option("INPUT", a.inputs,
+                 "what to mesh: .poly .smesh .node .off .obj .ply .stl .mesh .msh; several files are one input")
+      ->required()
+      ->type_name("");
   add_output(app, a);
   auto* min_dihedral = add_bounds(app, a.bounds, "2 in 3D, sqrt 2 in 2D, the smallest with a proof",
                                   "15; 0 with a --selector other than circumcenter");
@@ -272,7 +291,10 @@ void add_mesh(CLI::App& app, MeshArguments& a) {
 
 void add_check(CLI::App& app, CheckArguments& a) {
   app.add_option("MESH", a.mesh, "the mesh to check: .vtu .pvtu .msh .mesh .node .ele")->required()->type_name("");
-  app.add_option("--input", a.input, "what it is a mesh of; without it, conformity is not checked")->type_name("INPUT");
+  app.add_option("--input", a.inputs,
+                 "what it is a mesh of, as often as there are files, in their order; without it, conformity is not checked")
+      ->type_name("INPUT")
+      ->allow_extra_args(false);
   add_bounds(app, a.bounds, "that of the report of --reasons; none without one", "likewise");
   app.add_flag("--delaunay", a.delaunay,
                "ask for a Delaunay mesh, also where the report of --reasons does not say that it is one");
@@ -285,7 +307,7 @@ void add_check(CLI::App& app, CheckArguments& a) {
 }
 
 void add_info(CLI::App& app, InfoArguments& a) {
-  app.add_option("FILE", a.file, "an input or a mesh")->required()->type_name("");
+  app.add_option("FILE", a.files, "an input, which may be several files, or a mesh")->required()->type_name("");
   add_input(app, a.reading);
   add_report(app, a.report, a.quiet);
 }
@@ -379,13 +401,25 @@ std::string explain(const CLI::App& app, const CLI::ParseError& e, int argc, con
 
 }  // namespace
 
-std::optional<std::pair<double, std::string>> split_region_size(const std::string& text) {
+std::optional<std::pair<std::string, std::string>> split_region_size(const std::string& text) {
   const std::size_t at = text.find('=');
-  if (at == std::string::npos || at + 1 == text.size()) return std::nullopt;
+  if (at == 0 || at == std::string::npos || at + 1 == text.size()) return std::nullopt;
+  return std::pair{text.substr(0, at), text.substr(at + 1)};
+}
+
+std::optional<SeedText> split_seed(const std::string& text) {
+  const std::size_t at = text.find('=');
+  SeedText seed{numbers(text.substr(0, at)), at == std::string::npos ? "" : text.substr(at + 1)};
+  const bool is_point = seed.point.size() == 2 || seed.point.size() == 3;
+  if (!is_point || (at != std::string::npos && seed.label.empty())) return std::nullopt;
+  return seed;
+}
+
+std::optional<double> label_number(const std::string& text) {
   double label = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + at, label);
-  if (error != std::errc() || end != text.data() + at || !std::isfinite(label)) return std::nullopt;
-  return std::pair{label, text.substr(at + 1)};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), label);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(label)) return std::nullopt;
+  return label;
 }
 
 const char* name(Schedule schedule) {

@@ -34,10 +34,13 @@ struct InputArguments {
   bool region_areas = false;        ///< ReadOptions::region_areas
   std::optional<double> tolerance;  ///< none: the default of Plc
   bool yes_coarse = false;          ///< Plc::is_coarse
+  std::vector<std::string> seeds;   ///< further region seeds, X,Y,Z or X,Y,Z=LABEL each (2D: X,Y)
+  std::vector<std::string> holes;   ///< further hole seeds
 };
 
 struct MeshArguments {
-  std::string input, output;
+  std::vector<std::string> inputs;  ///< one or more
+  std::string output;
   std::optional<int> first_index;                         ///< of .node and .ele; none: as in the input, or 1
   std::optional<std::uint64_t> pieces;                    ///< of a .pvtu; none: one
   bool edges = false, neighbors = false, leaves = false;  ///< what is written beside the mesh
@@ -63,7 +66,8 @@ struct MeshArguments {
 };
 
 struct CheckArguments {
-  std::string mesh, input;  ///< input empty: conformity is not checked
+  std::string mesh;
+  std::vector<std::string> inputs;  ///< empty: conformity is not checked
   BoundArguments bounds;
   InputArguments reading;
   std::optional<RegionMode> regions;  ///< none: as `reasons` says, or seeds
@@ -74,7 +78,7 @@ struct CheckArguments {
 };
 
 struct InfoArguments {
-  std::string file;
+  std::vector<std::string> files;  ///< one mesh, or one or more inputs
   InputArguments reading;
   std::string report;
   bool quiet = false;
@@ -100,8 +104,18 @@ struct ViewArguments {
 
 using Arguments = std::variant<MeshArguments, CheckArguments, InfoArguments, ViewArguments>;
 
-/// Label and size of a --region-size; none if it has no finite label before a "=" and something behind it.
-std::optional<std::pair<double, std::string>> split_region_size(const std::string& text);
+/// Label, which may be a name, and size of a --region-size; none if there is nothing before or behind its first "=".
+std::optional<std::pair<std::string, std::string>> split_region_size(const std::string& text);
+
+/// A --seed or --hole.
+struct SeedText {
+  std::vector<double> point;  ///< two or three coordinates
+  std::string label;          ///< a number or a name; empty: none was given
+};
+/// None if that is not what the text is.
+std::optional<SeedText> split_seed(const std::string& text);
+/// The finite number that a label is; none: it is a name.
+std::optional<double> label_number(const std::string& text);
 
 /// The word of --schedule.
 const char* name(Schedule schedule);

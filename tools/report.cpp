@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "options.hpp"
 #include "pgdr/output_files.hpp"
 
 namespace pgdr::tool {
@@ -46,6 +47,16 @@ std::uint32_t parse_id(const nlohmann::json& j) {
   if (!j.is_number_unsigned() || j.get<std::uint64_t>() > 0xffffffffu)
     throw std::invalid_argument("\"" + j.dump() + "\" is not an id");
   return j.get<std::uint32_t>();
+}
+
+/// The texts of --seed or --hole. @throws std::invalid_argument, nlohmann::json::exception
+std::vector<std::string> parse_seeds(const nlohmann::json& report, const char* key) {
+  const auto found = report.find(key);
+  if (found == report.end()) return {};
+  auto seeds = found->get<std::vector<std::string>>();
+  for (const std::string& seed : seeds)
+    if (!split_seed(seed)) throw std::invalid_argument("\"" + seed + "\" is no seed");
+  return seeds;
 }
 
 PoorReason parse_reason(const nlohmann::json& j) {
@@ -191,6 +202,8 @@ ReportedBounds read_bounds(const std::string& file) {
     };
     read.convex_hull = holds("convex_hull", true);
     read.region_areas = holds("region_areas", true);
+    read.seeds = parse_seeds(report, "seeds");
+    read.holes = parse_seeds(report, "holes");
     read.delaunay = holds("delaunay", true);
     if (const nlohmann::json::json_pointer left("/quality/not_delaunay/refused"); report.contains(left))
       read.not_delaunay_left = report.at(left).get<std::uint64_t>();

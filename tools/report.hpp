@@ -58,14 +58,15 @@ const char* name(RegionMode mode);
 /// What a report of `pgdr mesh` says that its check needs.
 struct ReportedBounds {
   std::vector<PoorReason> reasons;
-  bool refined = true;                   ///< to the end, so that the bounds of the run hold
-  std::optional<double> radius_edge;     ///< the bound of such a run
-  std::optional<double> tolerance;       ///< Domain::tolerance
-  std::optional<double> largest_cosine;  ///< of dihedral angles, as the optimiser claims it
-  bool delaunay = false;                 ///< does the report say that the mesh is?
-  std::uint64_t not_delaunay_left = 0;   ///< faces that it says are not locally Delaunay, other than by rounding
-  bool convex_hull = false;              ///< what was done to the input, 2D
-  bool region_areas = false;             ///< how it was read, 2D
+  bool refined = true;                    ///< to the end, so that the bounds of the run hold
+  std::optional<double> radius_edge;      ///< the bound of such a run
+  std::optional<double> tolerance;        ///< Domain::tolerance
+  std::optional<double> largest_cosine;   ///< of dihedral angles, as the optimiser claims it
+  bool delaunay = false;                  ///< does the report say that the mesh is?
+  std::uint64_t not_delaunay_left = 0;    ///< faces that it says are not locally Delaunay, other than by rounding
+  bool convex_hull = false;               ///< what was done to the input, 2D
+  bool region_areas = false;              ///< how it was read, 2D
+  std::vector<std::string> seeds, holes;  ///< of flags
   RegionMode regions = RegionMode::seeds;
 };
 

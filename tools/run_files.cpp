@@ -67,7 +67,7 @@ RunFiles::RunFiles(const Arguments& arguments) {
   const auto take = [this](const auto& a) {
     using A = std::decay_t<decltype(a)>;
     if constexpr (std::is_same_v<A, MeshArguments>) {
-      read(a.input, "the input");
+      for (const std::string& file : a.inputs) read(file, "the input");
       read(a.bounds);
       WriteOptions all;
       all.neighbors = a.neighbors;
@@ -76,11 +76,11 @@ RunFiles::RunFiles(const Arguments& arguments) {
       if (!a.trace.empty()) outputs_.push_back({a.trace, "the trace"});
     } else if constexpr (std::is_same_v<A, CheckArguments>) {
       read(a.mesh, "the mesh");
-      read(a.input, "the input");
+      for (const std::string& file : a.inputs) read(file, "the input");
       read(a.reasons, "the report of --reasons");
       read(a.bounds);
     } else if constexpr (std::is_same_v<A, InfoArguments>) {
-      read(a.file, "the input");
+      for (const std::string& file : a.files) read(file, "the input");
     } else {
       read(a.mesh, "the mesh");
       outputs_.push_back({a.output, "the picture"});

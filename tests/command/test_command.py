@@ -82,7 +82,6 @@ class Usage(Case):
         self.refused("mesh")
         self.refused("mesh", BRACKET)
         self.refused("mesh", BRACKET, "-o", self.output, "--frobnicate")
-        self.refused("mesh", BRACKET, "-o", self.output, "again")
         self.refused("check")
         self.refused("check", self.output, "--reasons", self.report)
         self.refused("info")
