@@ -5,10 +5,14 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
+#include <string>
+#include <utility>
 
 #include "arrays.hpp"
 #include "bind.hpp"
+#include "errors.hpp"
 #include "mesh_data.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/mesh_maps.hpp"
@@ -138,6 +142,9 @@ py::array neighbors_of(const MeshData<D>& data) {
   return own(std::move(neighbors), {static_cast<py::ssize_t>(found.size()), D + 1});
 }
 
+/// Names of regions and of markers.
+using NameDicts = std::pair<std::map<double, std::string>, std::map<int, std::string>>;
+
 template <int D>
 void write(const MeshData<D>& data, const std::string& file, std::uint32_t first_index, bool edges, bool neighbors,
            std::uint32_t pieces) {
@@ -180,6 +187,12 @@ void bind(py::module_& module) {
              set_constraints<3>(d.mesh.subfacets, d.mesh.points.size(), v, m, e);
            })
       .def("set_reasons", &set_reasons<D>)
+      .def("set_names",
+           [](Data& d, const NameDicts& names) {
+             d.mesh.names = {names.first, names.second};
+           })
+      .def_property_readonly("names", [](const Data& d) { return NameDicts(d.mesh.names.regions, d.mesh.names.markers); })
+      .def("unfit_names", [](const Data& d, const std::string& file) { return to_python(unfit_names(d.mesh.names, file)); })
       .def_property_readonly("points", get([](Self self, const Data& d) { return view_points<D>(self, d.mesh.points); }))
       .def_property_readonly(
           "cells", get([](Self self, const Data& d) {

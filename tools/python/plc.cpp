@@ -8,12 +8,16 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "errors.hpp"
 #include "pgdr/io.hpp"
+#include "pgdr/joined_plc.hpp"
 #include "pgdr/planar_plc.hpp"
 
 namespace pgdr::python {
@@ -185,6 +189,31 @@ std::shared_ptr<Plc<D>> with_tolerance(const Plc<D>& plc, std::optional<double> 
   return made;
 }
 
+/// Names of regions and of markers.
+using NameDicts = std::pair<std::map<double, std::string>, std::map<int, std::string>>;
+
+template <int D>
+std::shared_ptr<Plc<D>> with_names(const Plc<D>& plc, const NameDicts& names, const Dense<std::uint32_t>& facet_bodies,
+                                   const std::vector<std::string>& body_names) {
+  auto made = std::make_shared<Plc<D>>(plc);
+  made->names = {names.first, names.second};
+  made->facet_bodies = vector_of(facet_bodies);
+  made->body_names = body_names;
+  if (!made->facet_bodies.empty() && made->facet_bodies.size() != made->facets.size())
+    bad_argument("there must be one body a facet");
+  if (std::ranges::any_of(made->facet_bodies, [&](std::uint32_t body) { return body >= body_names.size(); }))
+    bad_argument("a facet of a body that has no name");
+  return made;
+}
+
+template <int D>
+std::shared_ptr<Plc<D>> join(const std::vector<std::shared_ptr<Plc<D>>>& inputs, const std::vector<std::string>& names) {
+  const py::gil_scoped_release others_run;
+  std::vector<Plc<D>> all;
+  for (const auto& input : inputs) all.push_back(*input);
+  return std::make_shared<Plc<D>>(joined<D>(all, names));
+}
+
 template <int D>
 void bind(py::module_& module) {
   using Held = Plc<D>;
@@ -227,7 +256,14 @@ void bind(py::module_& module) {
       .def_property_readonly("is_coarse", [](const Held& p) { return p.is_coarse; })
       .def_property_readonly("first_index", [](const Held& p) { return p.first_index; })
       .def_property_readonly("file", [](const Held& p) { return p.source.file; })
+      .def_property_readonly("names", [](const Held& p) { return NameDicts(p.names.regions, p.names.markers); })
+      .def_property_readonly("facet_bodies", get([](Self self, const Held& p) {
+                               return view(self, p.facet_bodies.data(), {static_cast<py::ssize_t>(p.facet_bodies.size())});
+                             }))
+      .def_property_readonly("body_names", [](const Held& p) { return p.body_names; })
+      .def("with_names", &with_names<D>)
       .def("with_tolerance", &with_tolerance<D>);
+  module.def(with_dimension<D>("joined").c_str(), &join<D>);
   module.def(with_dimension<D>("read_plc").c_str(), [](const std::string& file, bool region_areas) {
     const py::gil_scoped_release others_run;
     return std::make_shared<Held>(read_plc<D>(file, {.region_areas = region_areas}));

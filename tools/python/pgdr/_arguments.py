@@ -212,3 +212,15 @@ def polygons(value: object) -> Tuple[Array, Array, Array]:
     one_each = all(size == 1 for size in facet_sizes)
     return (np.concatenate(flat) if flat else np.zeros(0, dtype=np.int64), np.array(polygon_sizes, dtype=np.int64),
             np.array([] if one_each else facet_sizes, dtype=np.int64))
+
+
+def names(name: str, value: object, number: Any) -> Any:
+    """A dict from numbers to names."""
+    made = {}
+    for key, text in mapping(name, value, "number and name").items():
+        if isinstance(key, bool) or not isinstance(key, (numbers.Real, np.number)) or float(key) != number(key):
+            raise usage(f"{name}: {key!r} is no {'label' if number is float else 'marker'}")
+        if not isinstance(text, str) or not text.strip():
+            raise usage(f"{name}[{key}] must be a name, not {text!r}")
+        made[number(key)] = text
+    return made

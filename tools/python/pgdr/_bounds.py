@@ -3,7 +3,7 @@
 """The bounds that `mesh`, `check` and `estimate` share."""
 from __future__ import annotations
 
-from typing import Any, Mapping
+from typing import Any, Dict, Mapping
 
 from . import _arguments, _pgdr
 from ._errors import DiagnosedError, Diagnostic, usage
@@ -20,6 +20,21 @@ def require_walls(plc: Plc) -> None:
     else:
         return
     raise DiagnosedError._of(Diagnostic("encloses_nothing", words))
+
+
+def sizes_by_label(sizes: Mapping[Any, Any], names: Mapping[float, str]) -> Mapping[Any, Any]:
+    """Sizes of regions by label, some of which are given by name. @raises UsageError for a name that no region has"""
+    made: Dict[Any, Any] = {}
+    for key, size in _arguments.mapping("region_sizes", sizes, "label and size").items():
+        labels = [label for label, name in names.items() if name == key] if isinstance(key, str) else [key]
+        if not labels:
+            raise usage(f"region_sizes: no region is called {key!r}; " + (f"there are {', '.join(names.values())}" if names else
+                                                                          "none has a name"))
+        for label in labels:
+            if label in made:
+                raise usage(f"region_sizes: two sizes for the label {label}")
+            made[label] = size
+    return made
 
 
 def bounds_of(dimension: int, bounds: Mapping[str, Any]) -> _pgdr._Options:

@@ -61,9 +61,21 @@ def from_meshio(mesh: Any) -> Plc:
         raise usage(f"cells of the type {', '.join(unknown)} are not taken: there are {', '.join((*LINES, *FACES, *VOLUMES))}"
                     + ("; those with further points on their edges would be curved" if curved else ""))
     full = FACES if is_flat(_arguments.points("points", points), kinds) else VOLUMES
-    return input_of(points, [block_of(kind, block.data, _numbers_of(mesh.cell_data, _LABELS if kind in full else _MARKERS, number,
+    made = input_of(points, [block_of(kind, block.data, _numbers_of(mesh.cell_data, _LABELS if kind in full else _MARKERS, number,
                                                                     len(block.data)))
                              for number, (kind, block) in enumerate(zip(kinds, mesh.cells)) if kind != "vertex"])
+    return _named(made, getattr(mesh, "field_data", {}) or {})
+
+
+def _named(plc: Plc, field_data: Dict[str, Any]) -> Plc:
+    """With the names that are keys of pairs (number, dimension), as of gmsh's physical groups."""
+    dimension = plc.dimension
+    pairs = [(name, np.asarray(pair).reshape(-1).tolist()) for name, pair in field_data.items()]
+    of = {d: {int(pair[0]): str(name) for name, pair in pairs if len(pair) == 2 and pair[1] == d} for d in (dimension, dimension - 1)}
+    labels, markers = set(plc.regions[:, dimension].tolist()), set(plc.markers.tolist())
+    regions = {float(label): name for label, name in of[dimension].items() if label in labels}
+    named = {marker: name for marker, name in of[dimension - 1].items() if marker in markers}
+    return plc.with_names(regions=regions, markers=named) if regions or named else plc
 
 
 def _constraints(mesh: Mesh) -> List[Tuple[str, npt.NDArray[Any], npt.NDArray[Any]]]:
@@ -74,7 +86,8 @@ def _constraints(mesh: Mesh) -> List[Tuple[str, npt.NDArray[Any], npt.NDArray[An
 @door
 def to_meshio(mesh: Mesh) -> Any:
     """A meshio.Mesh: the cells, then in 3D the subfacets, then the subsegments; cell data `region` (0 for constraints) and `marker`
-    (0 for cells), as in a .vtu. Raises ImportError without meshio."""
+    (0 for cells), as in a .vtu. Where anything has a name, also a cell set of each name; field data of each, a label or marker and the
+    dimension of what has it; and cell data `gmsh:physical`, label or marker in one. Raises ImportError without meshio."""
     meshio = _package("meshio")
     constraints = [block for block in _constraints(mesh) if len(block[1])]
     cells = [("triangle" if mesh.dimension == 2 else "tetra", np.asarray(mesh.cells))]
@@ -82,8 +95,38 @@ def to_meshio(mesh: Mesh) -> Any:
     regions = [np.asarray(mesh.regions)] + [np.zeros(len(vertices)) for _, vertices, _ in constraints]
     markers = [np.zeros(len(mesh.cells), dtype=np.int32)] + [np.asarray(numbers) for _, _, numbers in constraints]
     point_markers = np.asarray(mesh.point_markers)
-    return meshio.Mesh(np.asarray(mesh.points), cells, cell_data={"region": regions, "marker": markers},
-                       point_data={"marker": point_markers} if point_markers.size else {})
+    cell_data = {"region": regions, "marker": markers}
+    if not mesh.region_names and not mesh.marker_names:
+        return meshio.Mesh(np.asarray(mesh.points), cells, cell_data=cell_data,
+                           point_data={"marker": point_markers} if point_markers.size else {})
+    physical = [regions[0]] + markers[1:]
+    if all(np.array_equal(numbers, numbers.astype(np.int32)) for numbers in physical):
+        cell_data["gmsh:physical"] = [numbers.astype(np.int32) for numbers in physical]
+    return meshio.Mesh(np.asarray(mesh.points), cells, cell_data=cell_data, cell_sets=_cell_sets(mesh, physical),
+                       field_data=_field_data(mesh), point_data={"marker": point_markers} if point_markers.size else {})
+
+
+def _cell_sets(mesh: Mesh, physical: List[npt.NDArray[Any]]) -> Dict[str, List[npt.NDArray[np.int64]]]:
+    """Of each name the rows of the cells of each block that have it."""
+    sets: Dict[str, List[npt.NDArray[np.int64]]] = {}
+    of_kinds: List[Dict[Any, str]] = [dict(mesh.region_names), dict(mesh.marker_names)]
+    for name in sorted({name for names in of_kinds for name in names.values()}):
+        rows = []
+        for block, numbers in enumerate(physical):
+            labels = [label for label, own in of_kinds[min(block, 1)].items() if own == name]
+            rows.append(np.flatnonzero(np.isin(numbers, labels)))
+        sets[name] = rows
+    return sets
+
+
+def _field_data(mesh: Mesh) -> Dict[str, npt.NDArray[Any]]:
+    """Of names that several have, the first, and regions before markers."""
+    data: Dict[str, npt.NDArray[Any]] = {}
+    for marker, name in sorted(mesh.marker_names.items(), reverse=True):
+        data[name] = np.array([marker, mesh.dimension - 1])
+    for label, name in sorted(mesh.region_names.items(), reverse=True):
+        data[name] = np.array([int(label) if label == int(label) else label, mesh.dimension])
+    return data
 
 
 @door

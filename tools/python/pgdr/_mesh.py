@@ -3,6 +3,7 @@
 """Finished meshes."""
 from __future__ import annotations
 
+import warnings
 from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Tuple, Type, Union
 
 import numpy as np
@@ -131,6 +132,16 @@ class Mesh:
         return self.subsegment_markers if self.dimension == 2 else self.subfacet_markers
 
     @property
+    def region_names(self) -> Dict[float, str]:
+        """What the labels in `regions` are called, where the input had names for them."""
+        return self._core.names[0]
+
+    @property
+    def marker_names(self) -> Dict[int, str]:
+        """What markers are called, where the input had names for them."""
+        return self._core.names[1]
+
+    @property
     def point_of_input(self) -> npt.NDArray[np.int64]:
         """The row in `points` of each point of the input, -1 if it was dropped; (0,) of a mesh that was not made here."""
         return self._core.point_of_input
@@ -202,17 +213,23 @@ class Mesh:
 
     def write(self, path: _arguments.Path, *, first_index: int = 1, edges: bool = False, neighbors: bool = False,
               pieces: int = 0) -> None:
-        """Writes .vtu, .pvtu, .msh, .mesh, or .node with .ele, by the extension; a file there is replaced when all is written.
+        """Writes .vtu, .pvtu, .msh, .mesh, or .node with .ele, by the extension, or for other programs .inp (Abaqus, CalculiX), .mfem, or
+        a folder named polyMesh (OpenFOAM); a file there is replaced when all is written. Names that the format cannot hold are
+        written as it can, which a Python warning says.
 
         first_index, edges, neighbors are for .node and .ele; pieces for .pvtu. Raises FileError, UsageError.
         """
+        file = _arguments.path(path)
+        for unfit in self._core.unfit_names(file):
+            warnings.warn(unfit.message, stacklevel=2)
         with WORK:
-            self._core.write(_arguments.path(path), _arguments.whole_number("first_index", first_index, 0, 1),
+            self._core.write(file, _arguments.whole_number("first_index", first_index, 0, 1),
                              _arguments.flag("edges", edges), _arguments.flag("neighbors", neighbors),
                              _arguments.whole_number("pieces", pieces, 0, 100000))
 
     def to_meshio(self) -> Any:
-        """A meshio.Mesh of the cells, the subfacets and the subsegments, with cell data "region" and "marker"."""
+        """A meshio.Mesh of the cells, the subfacets and the subsegments, with cell data "region" and "marker"; where anything has a name
+        also with cell sets and field data of the names, and with cell data "gmsh:physical"."""
         return through("to_meshio")(self)
 
     def to_pyvista(self) -> Any:
@@ -235,7 +252,7 @@ class Mesh:
         is_lasting = through("is_lasting")
         bounds = {name: value if all(map(is_lasting, value.values() if name == "region_sizes" else (value,))) else _Lost
                   for name, value in self._bounds.items()}
-        return _restored, (self.dimension, arrays, core.input_points, self._facts, bounds)
+        return _restored, (self.dimension, arrays, core.input_points, core.names, self._facts, bounds)
 
 
 class _Lost:
@@ -246,10 +263,12 @@ _PICKLED = ("points", "cells", "regions", "point_markers", "point_attributes", "
             "subsegment_entities", "subfacets", "subfacet_markers", "subfacet_entities", "point_of_input")
 
 
-def _restored(dimension: int, arrays: Dict[str, Any], input_points: int, facts: Dict[str, Any], bounds: Dict[str, Any]) -> Mesh:
+def _restored(dimension: int, arrays: Dict[str, Any], input_points: int, names: Tuple[Dict[float, str], Dict[int, str]],
+              facts: Dict[str, Any], bounds: Dict[str, Any]) -> Mesh:
     core = _CORES[dimension](arrays["points"], arrays["cells"])
     core.set_labels(arrays["regions"], input_points, arrays["point_markers"], arrays["point_attributes"], arrays["point_of_input"])
     core.set_subsegments(arrays["subsegments"], arrays["subsegment_markers"], arrays["subsegment_entities"])
     core.set_subfacets(arrays["subfacets"], arrays["subfacet_markers"], arrays["subfacet_entities"])
     core.set_reasons(*arrays["reasons"])
+    core.set_names(names)
     return Mesh._of(core, facts, bounds)

@@ -60,6 +60,8 @@ class Plc:
         What lies within this distance meets. None: the rounding of the coordinates; 0: everything is exactly as given.
     coarse : bool
         A tolerance above a thousandth of the diagonal of all points is meant.
+    region_names, marker_names : dict, optional
+        What labels, and markers, are called; the mesh has these names, too, and writes them.
 
     Raises
     ------
@@ -83,7 +85,8 @@ class Plc:
                  holes: Optional[npt.ArrayLike] = None, regions: Optional[Iterable[Any]] = None,
                  segment_markers: Optional[npt.ArrayLike] = None, point_attributes: Optional[npt.ArrayLike] = None,
                  facet_holes: Optional[Mapping[int, npt.ArrayLike]] = None, tolerance: Optional[float] = None,
-                 coarse: bool = False) -> None:
+                 coarse: bool = False, region_names: Optional[Mapping[float, str]] = None,
+                 marker_names: Optional[Mapping[int, str]] = None) -> None:
         at = _arguments.points("points", points)
         dimension = int(at.shape[1])
         if dimension == 2 and (facets is not None or facet_holes is not None):
@@ -112,6 +115,8 @@ class Plc:
             _arguments.regions([] if regions is None else regions, dimension),
             _arguments.markers("point_markers", point_markers, len(at), "points"), attributes.reshape(-1),
             _tolerance(tolerance), _arguments.flag("coarse", coarse))
+        if region_names is not None or marker_names is not None:
+            self._core = self.with_names(regions=region_names, markers=marker_names)._core
 
     @classmethod
     def _of(cls, core: _pgdr._Plc) -> Plc:
@@ -120,17 +125,44 @@ class Plc:
         return made
 
     @classmethod
-    def read(cls, path: _arguments.Path, *, tolerance: Optional[float] = None, coarse: bool = False,
+    def read(cls, path: Union[_arguments.Path, Sequence[_arguments.Path]], *, tolerance: Optional[float] = None, coarse: bool = False,
              region_areas: bool = False) -> Plc:
-        """The input in a file: .poly, .smesh, .node, .off, .obj, .ply, .stl, .msh or .mesh, by its extension. With `region_areas`, a
-        region of a .poly in 2D that has one number behind its point has it as label and as largest area; else as label alone.
+        """The input in a file: .poly, .smesh, .node, .off, .obj, .ply, .stl, .msh or .mesh, by its extension; or in a list of files, as
+        `joined` makes it. With `region_areas`, a region of a .poly in 2D that has one number behind its point has it as label and as
+        largest area; else as label alone.
 
         Raises FileError if it cannot be opened, InputError with file and line if it is not what its format asks for.
         """
+        if isinstance(path, (list, tuple)):
+            one = cls.joined([cls.read(each, region_areas=region_areas) for each in path])
+            return one if tolerance is None else one.with_tolerance(tolerance, coarse=coarse)
         file = _arguments.path(path)
         read = _pgdr.read_plc2 if _pgdr.file_dimension(file) == 2 else _pgdr.read_plc3
         made = cls._of(read(file, _arguments.flag("region_areas", region_areas)))
         return made if tolerance is None else made.with_tolerance(tolerance, coarse=coarse)
+
+    @classmethod
+    def joined(cls, plcs: Sequence[Plc], names: Optional[Sequence[str]] = None) -> Plc:
+        """One input of several, as if they stood in one file: points, segments, facets, holes and regions of each in turn.
+
+        Each is a body with a name, that of its file or of `names`, or has several, the solids of an .stl. A marker belongs to one of
+        them alone: it keeps its number unless that is 0 or taken, and has a name. Labels of regions are treated alike. The tolerance
+        is the largest that was given.
+
+        >>> import pgdr
+        >>> left = pgdr.Plc([[0, 0], [1, 0], [1, 1], [0, 1]], segments=[[0, 1], [1, 2], [2, 3], [3, 0]])
+        >>> right = pgdr.Plc([[1, 0], [2, 0], [2, 1], [1, 1]], segments=[[0, 1], [1, 2], [2, 3], [3, 0]])
+        >>> pgdr.Plc.joined([left, right], names=["left", "right"]).marker_names
+        {1: 'left', 2: 'right'}
+        """
+        inputs = list(plcs)
+        for plc in inputs:
+            if not isinstance(plc, Plc):
+                raise TypeError(f"plcs must be pgdr.Plc, not {type(plc).__name__}")
+        if not inputs or any(plc.dimension != inputs[0].dimension for plc in inputs):
+            raise usage("the inputs that are joined must be one or more, of one dimension")
+        join = _pgdr.joined2 if inputs[0].dimension == 2 else _pgdr.joined3
+        return cls._of(join([plc._core for plc in inputs], [] if names is None else [str(name) for name in names]))
 
     @classmethod
     def from_polygons(cls, outer: Any, holes: Sequence[npt.ArrayLike] = (), *, markers: Optional[Sequence[int]] = None,
@@ -203,10 +235,37 @@ class Plc:
         """The same input with another tolerance, None being the rounding of the coordinates. It is copied."""
         return self._of(self._core.with_tolerance(_tolerance(tolerance), _arguments.flag("coarse", coarse)))
 
+    def with_names(self, *, regions: Optional[Mapping[float, str]] = None, markers: Optional[Mapping[int, str]] = None) -> Plc:
+        """The same input with these names of labels, and of markers; None: as they are. It is copied."""
+        of_regions, of_markers = self._core.names
+        names = (of_regions if regions is None else _arguments.names("region_names", regions, float),
+                 of_markers if markers is None else _arguments.names("marker_names", markers, int))
+        return self._of(self._core.with_names(names, np.array(self._core.facet_bodies), self._core.body_names))
+
     @property
     def dimension(self) -> int:
         """2 or 3."""
         return 2 if isinstance(self._core, _pgdr.Plc2) else 3
+
+    @property
+    def region_names(self) -> Dict[float, str]:
+        """What labels of regions are called, where they have names."""
+        return self._core.names[0]
+
+    @property
+    def marker_names(self) -> Dict[int, str]:
+        """What markers are called, where they have names."""
+        return self._core.names[1]
+
+    @property
+    def body_names(self) -> List[str]:
+        """3D: what the bodies are called: the solids of an .stl with several, or the inputs that were joined. Else []."""
+        return self._core.body_names
+
+    @property
+    def facet_bodies(self) -> npt.NDArray[np.int32]:
+        """3D: (m,) the body of each facet, its row in `body_names`; (0,) where bodies are what hangs together."""
+        return _arguments.signed(self._core.facet_bodies)
 
     @property
     def points(self) -> npt.NDArray[np.float64]:
@@ -283,11 +342,11 @@ class Plc:
         parts = (np.array(core.points), core.are_floats, np.array(core.segments), np.array(core.segment_markers), corners,
                  polygon_sizes, facet_sizes, facet_markers, facet_holes, np.array(core.holes), core.regions,
                  np.array(core.point_markers), np.array(core.point_attributes).reshape(-1), core.tolerance, core.is_coarse)
-        return _restored, (self.dimension, parts)
+        return _restored, (self.dimension, parts, (core.names, np.array(core.facet_bodies), core.body_names))
 
 
-def _restored(dimension: int, parts: Tuple[Any, ...]) -> Plc:
-    return Plc._of(_CORES[dimension](*parts))
+def _restored(dimension: int, parts: Tuple[Any, ...], names: Tuple[Any, ...]) -> Plc:
+    return Plc._of(_CORES[dimension](*parts).with_names(*names))
 
 
 def _count(number: int, word: str) -> str:

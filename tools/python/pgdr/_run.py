@@ -5,13 +5,13 @@ from __future__ import annotations
 
 import sys
 import warnings
-from typing import Any, Callable, Dict, Mapping, NamedTuple, Optional, Protocol, Union
+from typing import Any, Callable, Dict, Mapping, NamedTuple, Optional, Protocol, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _arguments, _pgdr
-from ._bounds import bounds_of, require_walls
+from ._bounds import bounds_of, require_walls, sizes_by_label
 from ._ending import WORK
 from ._errors import DiagnosedError, Diagnostic, in_python, usage
 from ._fields import Size
@@ -63,9 +63,9 @@ class StopSource:
         return f"<pgdr.StopSource: {'set' if self.is_set() else 'not set'}>"
 
 
-def mesh(plc: Plc, *, min_angle: Optional[float] = None, radius_edge: Optional[float] = None, size: Optional[Size] = None,
+def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, radius_edge: Optional[float] = None, size: Optional[Size] = None,
          min_dihedral: Optional[float] = None, optimize: bool = True, threads: int = 0, regions: Optional[str] = None,
-         region_sizes: Optional[Mapping[float, Size]] = None,
+         region_sizes: Optional[Mapping[Union[float, str], Size]] = None,
          selector: Union[None, str, Callable[[Elements], npt.ArrayLike]] = None, keep_boundary: bool = False,
          tolerance: Optional[float] = None, max_volume: Optional[float] = None, min_edge: float = 0.0,
          time_limit: Optional[float] = None, max_vertices: Optional[int] = None, refine: bool = True,
@@ -75,8 +75,8 @@ def mesh(plc: Plc, *, min_angle: Optional[float] = None, radius_edge: Optional[f
 
     Parameters
     ----------
-    plc : Plc
-        The input.
+    plc : Plc, or list of them
+        The input; several are one, as `Plc.joined` makes it.
     min_angle : float, optional
         2D: bound on the angles, in degrees, above 0 and at most 60; up to 20.7 there is a proof, beyond some 33 few inputs have
         such a mesh. Instead of `radius_edge`.
@@ -96,7 +96,7 @@ def mesh(plc: Plc, *, min_angle: Optional[float] = None, radius_edge: Optional[f
         Which volumes are meshed and how they are labelled: as the input's seeds say (the default); by nesting, where of volumes
         inside one another every second is a void; or all that is enclosed and no hole's. The latter two number those without a seed.
     region_sizes : dict, optional
-        Further sizes of the cells with a label: {label: size}.
+        Further sizes of the cells with a label: {label: size}, or with the name that the input has for it: {name: size}.
     selector : str or function, optional
         Where new points go: a name as the command has it ("circumcenter", "off-center", "optimized", "sliver-avoiding"), or a
         function of `Elements` that returns an (n, D) array of points in their selection disks. It is asked by one thread at a
@@ -154,6 +154,8 @@ def mesh(plc: Plc, *, min_angle: Optional[float] = None, radius_edge: Optional[f
     >>> graded.stop, graded.poor_left
     ('finished', 0)
     """
+    if isinstance(plc, (list, tuple)):
+        plc = Plc.joined(plc)
     if not isinstance(plc, Plc):
         raise TypeError(f"plc must be a pgdr.Plc, not {type(plc).__name__}: pgdr.Plc(points, ...) makes one of arrays, pgdr.Plc.read(path) "
                         "of a file, pgdr.Plc.from_mesh(mesh) of a pgdr.Mesh")
@@ -161,6 +163,7 @@ def mesh(plc: Plc, *, min_angle: Optional[float] = None, radius_edge: Optional[f
     if tolerance is not None:
         plc = plc.with_tolerance(tolerance)
     dimension = plc.dimension
+    region_sizes = None if region_sizes is None else sizes_by_label(region_sizes, plc.region_names)
     if not _arguments.flag("optimize", optimize):
         if min_dihedral is not None:
             raise usage("optimize=False makes no use of min_dihedral")
