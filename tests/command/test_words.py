@@ -89,7 +89,7 @@ class Flags(Case):
         self.assertIn("no flag --reason; there is --reasons", said)
         said = self.refusal("mesh", PLATE, "-o", self.output, "--frobnicate")
         self.assertIn("mesh has no flag --frobnicate\n", said)
-        self.assertIn("other.poly", self.refusal("mesh", PLATE, "other.poly", "-o", self.output))
+        self.assertIn("other.poly", self.pgdr("mesh", PLATE, "other.poly", "-o", self.output, expect=4).stderr)  # another input
 
     def test_values(self):
         """The wrong word, and all that would be right."""
