@@ -93,8 +93,8 @@ def with_variables(name, text):
                 number, value = part.split(" = ")
                 lines.append(f'inline const {declared[1]} {number} = from_environment<{declared[1]}>("{number}", {value});')
             continue
-        if "numbers::" in line and re.search(r"\bconstexpr\b", line) and "std::numbers" not in line:
-            line = line.replace("static constexpr", "static inline const").replace("constexpr", "const")
+        if re.search(r"(?<!std::)numbers::", line):
+            line = re.sub(r"(?<!if )constexpr", "const", line).replace("static const ", "static inline const ")
         lines.append(line)
     text = "\n".join(lines) + "\n"
     if not name.endswith("/numbers.hpp"):
@@ -117,8 +117,9 @@ def mesh(command, file, flags, seconds, setting):
         result = {"exit": done.returncode, "seconds": took, "cells": 0, "poor": 0, "not Delaunay": 0, "hash": ""}
         if out.exists() and report.exists():
             said = json.loads(report.read_text())
+            faces = said["quality"]["not_delaunay"] or {}
             result |= {"cells": said["cells"], "poor": said["bounds"]["poor_left"],
-                       "not Delaunay": said["quality"]["not_delaunay"] or 0,
+                       "not Delaunay": sum(faces.values()),
                        "hash": hashlib.sha256(out.read_bytes()).hexdigest()}
         return result
 

@@ -12,6 +12,7 @@
 #include "space/box_tree.hpp"
 #include "space/bulk.hpp"
 #include "space/contact.hpp"
+#include "space/distances.hpp"
 
 namespace pgdr::detail::test_space_box_tree {
 
@@ -155,6 +156,52 @@ TEST(BoxTree, Simplices) {
   pairs = 0;
   BoxTree<3>(corners, points).self_pairs([&](std::uint32_t, std::uint32_t) { ++pairs; });
   EXPECT_LT(pairs, 120 * n);
+}
+
+// Triangles of fans, no two of which need meet: those with a corner that is near enough to the other are found.
+TEST(BoxTree, SimplicesThatAreNear) {
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const std::uint32_t fans = 10, n = 1000;
+  const double within = 0.03;
+  std::vector<Point3> points;
+  for (std::uint32_t k = 0; k < fans; k += 2) {  // the hubs of each two are near, too
+    points.push_back({uniform(random), uniform(random), uniform(random)});
+    points.push_back({points[k][0] + 0.6 * within, points[k][1], points[k][2] - 0.6 * within});
+  }
+  std::vector<std::array<std::uint32_t, 3>> corners;
+  for (std::uint32_t k = 0; k < n; ++k) {
+    const std::uint32_t apex = k % fans;
+    Point3 p = points[apex], q;  // slender ones, whose boxes hardly hold more
+    for (std::size_t i = 0; i < 3; ++i) {
+      p[i] += 0.4 * uniform(random) - 0.2;
+      q[i] = p[i] + 0.01 * uniform(random);
+    }
+    points.insert(points.end(), {p, q});
+    corners.push_back({apex, fans + 2 * k, fans + 2 * k + 1});
+  }
+  Pairs found;
+  BoxTree<3>(corners, points, within).self_pairs([&](std::uint32_t i, std::uint32_t j) { found.emplace_back(i, j); });
+  std::sort(found.begin(), found.end());
+  std::size_t near = 0, apart = 0;
+  for (std::uint32_t i = 0; i < n; ++i)
+    for (std::uint32_t j = i + 1; j < n; ++j) {
+      if (corners[i][0] == corners[j][0]) continue;
+      const auto is_near = [&](std::uint32_t s, std::uint32_t t) {
+        const auto& c = corners[t];
+        return std::ranges::any_of(corners[s], [&](std::uint32_t v) {
+          return closest_to_simplex<3>(points[v], {points[c[0]], points[c[1]], points[c[2]]}).square <= within * within;
+        });
+      };
+      if (is_near(i, j) || is_near(j, i)) {
+        ++near;
+        EXPECT_TRUE(std::binary_search(found.begin(), found.end(), std::pair{i, j})) << i << ' ' << j;
+      } else {
+        ++apart;
+      }
+    }
+  EXPECT_GT(near, 100u);
+  EXPECT_LT(found.size(), near + apart);  // and so are not all
 }
 
 TEST(BoxTree, OneOverlapsAll) {

@@ -14,11 +14,9 @@ namespace pgdr::numbers {
 /// A facet has none if a segment of it makes less than 20 degrees with another one: so the square of the cosine is above this.
 /// With less, or none, rotor, anchor and spool are not recovered (bench/notebook/tangles.md).
 inline constexpr double early_split_squared_cosine = 0.8830222215594890;
-/// They are of triangles whose ratio is above so many times the bound: what is nearly within it is left to the refinement,
-/// which splits in the order that makes few points.
+/// They are of triangles whose ratio is above so many times the bound, or the least that is proved if that is more. What is
+/// nearly within it is left to the refinement, which splits in the order that makes few points.
 inline constexpr double early_split_slack = 2;
-/// They take the bound for at least this, the least one that is proved: below it splits need not end.
-inline constexpr double early_split_bound = 2;
 
 // Recovery by Steiner points need not end where facets meet at small angles or nearly touch. (Between two faces 1e-9 apart 1.85
 // times as many triangles are missing round by round. In a terrain with facets at a tenth of a degree it is twice as many

@@ -156,7 +156,7 @@ void BoundaryRecovery::mark(Mesh<3>::Pools& pools) {
 /// splits them in the order that makes few points.
 bool BoundaryRecovery::improve() {
   const double bound = options_->refine
-                           ? numbers::early_split_slack * std::max(options_->radius_edge_bound, numbers::early_split_bound)
+                           ? numbers::early_split_slack * std::max(options_->radius_edge_bound, smallest_proved_bound<3>())
                            : infinity;
   if (!(bound < infinity)) return false;
   const std::uint64_t before = points();

@@ -9,6 +9,7 @@
 #include "mesh/pinched_edges.hpp"
 #include "numbers/corners.hpp"
 #include "optimize/numbers.hpp"
+#include "optimize/polyhedron_filling.hpp"
 #include "optimize/vertex_changes.hpp"
 #include "pgdr/predicates.hpp"
 #include "refine/split_points.hpp"
@@ -111,7 +112,7 @@ bool Insertions::split_edge(CellId c, int edge) {
 }
 
 /// Takes neighbours, for as long as a cell from p to a face of the hole would be no better than `enough`. False where that ends
-/// at a wall, or at too many.
+/// at a wall, or at too many: a star needs no search, so that it may take twice the cells of a polyhedron that is filled anew.
 bool Insertions::dig_out(CellId c, const Point3& p, double enough) {
   const Mesh<3>& mesh = *s_->mesh;
   take(c);
@@ -137,7 +138,7 @@ bool Insertions::dig_out(CellId c, const Point3& p, double enough) {
     }
     const bool all_better = std::all_of(rim_.begin(), rim_.end(), [&](const RimFace& r) { return r.quality > enough; });
     if (all_better) return true;
-    if (!worst || cells_.size() >= numbers::most_dug_out) return false;
+    if (!worst || cells_.size() >= 2 * PolyhedronFilling::most_cells) return false;
     const CellId next = mesh.cell(worst->cell).links[worst->face].cell();
     if (!s_->owns(next)) return s_->note(Reach::not_owned) == Reach::ok;
     take(next);

@@ -15,8 +15,6 @@ namespace pgdr::numbers {
 inline constexpr int rounds_of_compound = 3, rounds_in_rest = 10;
 /// Cells round an edge that is split; a split makes twice as many, which all have to be measured.
 inline constexpr std::size_t longest_split_ring = 60;
-/// Cells that are dug out about a poor one, for one new vertex: twice what reconnection takes, as a star needs no search.
-inline constexpr std::size_t most_dug_out = 48;
 /// Cells of a polyhedron that is filled anew: others are seldom searched to the end. And cells that one search lays, those
 /// taken back included, after which it takes the best so far.
 inline constexpr std::size_t most_filling_cells = 24, most_filling_nodes = 3000;

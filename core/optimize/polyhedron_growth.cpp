@@ -7,13 +7,14 @@
 #include "change/facet_flip.hpp"
 #include "numbers/corners.hpp"
 #include "numbers/vectors.hpp"
+#include "optimize/numbers.hpp"
 #include "rule/insertion_rule.hpp"
 
 namespace pgdr {
 namespace {
 
-/// Sizes, in cells, at which a filling is looked for: each some one and a half times the one before, up to most_cells.
-constexpr std::array<std::size_t, 5> sizes{4, 7, 11, 16, PolyhedronFilling::most_cells};
+/// Sizes, in cells, at which a filling is looked for: each some one and a half times the one before.
+constexpr std::array<std::size_t, 5> sizes{4, 7, 11, 16, numbers::most_filling_cells};
 
 }  // namespace
 
