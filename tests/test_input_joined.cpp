@@ -74,7 +74,10 @@ TEST(Joined, NamesThatAreAlikeAreToldApart) {
   EXPECT_EQ(all.body_names, (std::vector<std::string>{"part:solid", "part:solid:2", "other:solid", "part"}));
   const Plc<3> again = joined<3>(std::vector{all, box("last.stl", 8)});
   EXPECT_EQ(again.body_names.size(), 5u);
-  EXPECT_EQ(again.source.parts.size(), 5u);
+  EXPECT_EQ(again.source.place(SourceItem::facet, 9).file, "b/part.stl");
+  EXPECT_EQ(again.source.place(SourceItem::facet, 9).line, 104u);
+  EXPECT_EQ(again.source.place(SourceItem::point, 33).file, "last.stl");
+  EXPECT_EQ(again.source.place(SourceItem::point, 33).line, 0u);
   EXPECT_EQ(again.facet_bodies.back(), 4u);
 }
 

@@ -221,31 +221,25 @@ class Joiner {
   void note_source(const Plc<D>& plc) {
     PlcSource& to = out_.source;
     const PlcSource& from = plc.source;
-    const std::array<std::size_t, 5> before{out_.points.size(), out_.segments.size(), out_.facets.size(), out_.holes.size(),
-                                            out_.regions.size()};
     const std::array<std::size_t, 5> added{plc.points.size(), plc.segments.size(), plc.facets.size(), plc.holes.size(),
                                            plc.regions.size()};
     const std::array lines{&PlcSource::point_lines, &PlcSource::segment_lines, &PlcSource::facet_lines, &PlcSource::hole_lines,
                            &PlcSource::region_lines};
-    PlcSource::Part part{from.file, {}};
-    for (std::size_t k = 0; k < lines.size(); ++k) {
-      part.first[k] = static_cast<std::uint32_t>(before[k]);
-      std::vector<std::uint32_t>& list = to.*lines[k];
-      if ((from.*lines[k]).empty()) continue;
-      list.resize(before[k]);
-      list.insert(list.end(), (from.*lines[k]).begin(), (from.*lines[k]).end());
-      list.resize(before[k] + added[k]);
-    }
-    if (from.parts.empty()) to.parts.push_back(part);
-    for (PlcSource::Part own : from.parts) {
-      for (std::size_t k = 0; k < own.first.size(); ++k) own.first[k] += part.first[k];
-      to.parts.push_back(std::move(own));
-    }
+    std::uint32_t last = 0;
+    for (std::size_t k = 0; k < lines.size(); ++k)
+      for (std::size_t i = 0; i < added[k]; ++i) {
+        const std::uint32_t line = i < (from.*lines[k]).size() ? (from.*lines[k])[i] : 0;
+        last = std::max(last, line);
+        (to.*lines[k]).push_back(next_line_ + line);
+      }
+    to.parts.push_back({from.file, next_line_});
+    for (const PlcSource::Part& own : from.parts) to.parts.push_back({own.file, next_line_ + own.first_line});
+    next_line_ += last + 1;
     if (!from.void_widths.empty()) {
-      to.void_widths.resize(before[3], std::numeric_limits<double>::infinity());
+      to.void_widths.resize(out_.holes.size(), std::numeric_limits<double>::infinity());
       to.void_widths.insert(to.void_widths.end(), from.void_widths.begin(), from.void_widths.end());
     }
-    if (to.cell_regions == before[4]) to.cell_regions += from.cell_regions;
+    if (to.cell_regions == out_.regions.size()) to.cell_regions += from.cell_regions;
   }
 
   std::span<const Plc<D>> inputs_;
@@ -254,7 +248,8 @@ class Joiner {
   Renumbering<int> markers_;
   Renumbering<double> labels_;
   std::vector<std::uint32_t> first_body_;
-  std::size_t attributes_ = 0;  // of each point
+  std::size_t attributes_ = 0;   // of each point
+  std::uint32_t next_line_ = 1;  // 0 is what was not given
   Plc<D> out_;
 };
 

@@ -146,17 +146,11 @@ Plc<2> resolve_crossings(const Plc<2>& plc, std::vector<Diagnostic>& repairs) {
   append_attributes(resolver, out, plc.points.size());
   out.segments.clear();
   out.source.segment_lines.clear();
-  auto next_part = out.source.parts.begin();
   for (const detail::OwnedEdge& e : resolver.edges()) {
     if (e.edge[0] == e.edge[1]) continue;  // it has no length, and is dropped
-    constexpr auto of_segments = static_cast<std::size_t>(SourceItem::segment);
-    for (; next_part != out.source.parts.end() && next_part->first[of_segments] <= e.owner; ++next_part)
-      next_part->first[of_segments] = static_cast<std::uint32_t>(out.segments.size());
     out.segments.push_back({e.edge, plc.segments[e.owner].marker});
     if (e.owner < plc.source.segment_lines.size()) out.source.segment_lines.push_back(plc.source.segment_lines[e.owner]);
   }
-  for (; next_part != out.source.parts.end(); ++next_part)
-    next_part->first[static_cast<std::size_t>(SourceItem::segment)] = static_cast<std::uint32_t>(out.segments.size());
   return out;
 }
 

@@ -29,10 +29,10 @@ enum class SourceItem { point, segment, facet, hole, region };
 
 /// Where things stood in the file, for messages. Empty vectors: unknown.
 struct PlcSource {
-  /// Of an input joined of several (joined_plc.hpp): one of these.
+  /// Of an input joined of several (joined_plc.hpp), whose lines count on from file to file: one of these.
   struct Part {
-    std::string file;                    ///< as it was opened
-    std::array<std::uint32_t, 5> first;  ///< its first point, segment, ..., by SourceItem; it has those up to the next part's
+    std::string file;              ///< as it was opened
+    std::uint32_t first_line = 0;  ///< for its things of unknown line; those of line n have first_line + n
   };
   /// Where one thing stood.
   struct Place {

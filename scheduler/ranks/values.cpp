@@ -112,7 +112,7 @@ void plc_fields(Message& message, Value& plc) {
   auto& source = plc.source;
   message(source.file, source.point_lines, source.segment_lines, source.facet_lines, source.hole_lines, source.region_lines,
           source.void_widths, source.cell_regions);
-  message.each(source.parts, length, [&](auto& part) { message(part.file, part.first); });
+  message.each(source.parts, length, [&](auto& part) { message(part.file, part.first_line); });
 }
 
 template <class Message, class Value>
