@@ -59,6 +59,7 @@ RefineOptions<D> with(RefineOptions<D> options, const Runner& runner) {
 template <int D>
 void expect_same_mesh(const OutputMesh<D>& a, const OutputMesh<D>& b) {
   EXPECT_EQ(a.input_points, b.input_points);
+  EXPECT_EQ(a.names, b.names);
   EXPECT_EQ(a.points.size(), b.points.size());
   EXPECT_TRUE(same_bytes(a.points, b.points));
   EXPECT_TRUE(same_bytes(a.point_markers, b.point_markers));

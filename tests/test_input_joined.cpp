@@ -65,6 +65,16 @@ TEST(Joined, TellsInputsApart) {
   EXPECT_EQ(joined<3>(inputs, called).names.markers, (std::map<int, std::string>{{1, "lid"}, {2, "a"}, {3, "shaft"}}));
 }
 
+TEST(Joined, VoidsBetweenCellsStayThose) {
+  std::vector<Plc<3>> inputs{box("a.msh", 0), box("b.off", 2), box("c.msh", 4)};
+  for (Plc<3>& plc : inputs) plc.holes.push_back({{0.5, 0.5, 0.5}});
+  inputs[0].source.void_widths = {1e-3};
+  inputs[2].source.void_widths = {1};
+  const Plc<3> all = joined<3>(inputs);
+  EXPECT_EQ(holes_within(all, 0.01).size(), 2u) << "the first is no thicker";
+  EXPECT_EQ(holes_within(all, 10).size(), 1u) << "what a user made stays";
+}
+
 TEST(Joined, NamesThatAreAlikeAreToldApart) {
   std::vector<Plc<3>> inputs{box("a/part.stl", 0, 1), box("b/part.stl", 2, 1), box("c/other.stl", 4, 1), box("part.off", 6)};
   for (std::size_t i = 0; i < 3; ++i) inputs[i].names.markers[1] = "solid";

@@ -230,6 +230,21 @@ TEST(WriteAbaqus, HasSets) {
       "*SURFACE, NAME=in_let, TYPE=ELEMENT\n1, S1\n");
 }
 
+TEST(WriteAbaqus, HasSetsInThePlane) {
+  const TempFolder folder;
+  OutputMesh<2> mesh;
+  mesh.points = {{{0, 0}}, {{1, 0}}, {{0, 1}}, {{1, 1}}};
+  mesh.cells = {{0, 1, 2}, {1, 3, 2}};
+  mesh.subsegments = {{{0, 1}, 1}, {{1, 2}, 0}, {{1, 3}, 2}};
+  write_mesh<2>(mesh, folder / "a.inp");
+  EXPECT_EQ(content(folder / "a.inp"),
+            "*HEADING\npgdr\n*NODE\n1, 0, 0\n2, 1, 0\n3, 0, 1\n4, 1, 1\n"
+            "*ELEMENT, TYPE=CPS3, ELSET=REGION_0\n1, 1, 2, 3\n2, 2, 4, 3\n"
+            "*NSET, NSET=MARKER_0\n2, 3\n*NSET, NSET=MARKER_1\n1, 2\n*NSET, NSET=MARKER_2\n2, 4\n"
+            "*SURFACE, NAME=MARKER_0, TYPE=ELEMENT\n1, S2\n*SURFACE, NAME=MARKER_1, TYPE=ELEMENT\n1, S1\n"
+            "*SURFACE, NAME=MARKER_2, TYPE=ELEMENT\n2, S1\n");
+}
+
 TEST(WriteMfem, HasAttributesAndSets) {
   const TempFolder folder;
   OutputMesh<3> mesh = two_cells();

@@ -91,7 +91,9 @@ void expect_pieces_of_the_same_mesh(const Plc<D>& plc, const RefineOptions<D>& o
 }
 
 TEST(RefineOnRanks, PiecesAreTheMeshOfOneProcess) {
-  expect_pieces_of_the_same_mesh<3>(test::cube(), options_for<3>(0.3));
+  Plc<3> named = test::cube();
+  named.names = {{{0, "inside"}}, {{0, "walls"}}};
+  expect_pieces_of_the_same_mesh<3>(named, options_for<3>(0.3));
   expect_pieces_of_the_same_mesh<2>(test::square_with_hole(), options_for<2>(0.05));
   RefineOptions<3> unimproved = options_for<3>(0.1);
   unimproved.min_dihedral = 0;
@@ -233,6 +235,10 @@ Plc<3> full_plc() {
   plc.is_coarse = plc.are_floats = true;
   plc.first_index = 1;
   plc.source = {"a.poly", {1, 2}, {3}, {4}, {5}, {6}};
+  plc.source.parts = {{"b.poly", 3}};
+  plc.names = {{{5, "steel"}, {0.5, "air"}}, {{9, "edge"}}};
+  plc.facet_bodies.assign(plc.facets.size(), 0);
+  plc.body_names = {"plate"};
   return plc;
 }
 
@@ -251,6 +257,9 @@ TEST(ValuesOfRanks, AnInputTravelsWhole) {
   EXPECT_EQ(copy.tolerance, 1e-7);
   EXPECT_TRUE(copy.is_coarse && copy.are_floats);
   EXPECT_EQ(copy.source.file, "a.poly");
+  EXPECT_EQ(copy.source.place(SourceItem::facet, 0).file, "b.poly");
+  EXPECT_EQ(copy.names, full_plc().names);
+  EXPECT_EQ(copy.body_names, full_plc().body_names);
   EXPECT_EQ(copy.facets.size(), full_plc().facets.size());
 }
 
