@@ -122,7 +122,7 @@ class Joiner {
         if (const std::string* own = own_name(i, marker))
           names[i][marker] = *own;
         else if (wall_markers_[i].contains(marker))
-          names[i][marker] = input_names_[i] + (alone ? "" : ":" + std::to_string(marker));
+          names[i][marker] = alone ? input_names_[i] : input_names_[i] + ":" + std::to_string(marker);
       }
     }
     markers_ = renumbered(used);

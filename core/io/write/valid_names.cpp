@@ -51,7 +51,7 @@ std::string NamePool::give(std::string_view wanted) {
   if (!rule_.are_distinct) return base;
   std::string name = base;
   for (int k = 2; !given_.insert(key(name)).second; ++k) {
-    const std::string behind = "_" + std::to_string(k);
+    const std::string behind = std::string(1, '_').append(std::to_string(k));
     name = (rule_.longest == 0 ? base : cut(base, rule_.longest - behind.size())) + behind;
   }
   return name;
