@@ -12,7 +12,7 @@
 
 #include "given/findings.hpp"
 #include "numbers/corners.hpp"
-#include "output/walls.hpp"
+#include "output/simplices.hpp"
 
 namespace pgdr::checking {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "output/cell_surface.hpp"
-#include "output/walls.hpp"
+#include "output/simplices.hpp"
 #include "pgdr/error.hpp"
 #include "pgdr/mesh_maps.hpp"
 

@@ -8,6 +8,7 @@
 
 #include "numbers/corners.hpp"
 #include "output/facet_parts.hpp"
+#include "output/simplices.hpp"
 #include "pgdr/error.hpp"
 
 namespace pgdr {
@@ -64,14 +65,6 @@ void map_points(const Domain<D>& domain, const OutputMesh<D>& mesh, InputMap<D>&
   for (std::uint32_t i = 0; i < out.vertex_of_point.size(); ++i)
     if (out.vertex_of_point[i] != dropped_point) pairs.push_back({out.vertex_of_point[i], i});
   out.points_of_vertex = lists_of(pairs, mesh.input_points);
-}
-
-/// Calls visit(vertices) for all that has vertices.
-template <class Mesh, class Visit>
-void each_use(Mesh& mesh, const Visit& visit) {
-  for (auto& cell : mesh.cells) visit(cell);
-  for (auto& subsegment : mesh.subsegments) visit(subsegment.vertices);
-  for (auto& subfacet : mesh.subfacets) visit(subfacet.vertices);
 }
 
 /// Leaves the rows, of so many numbers each, whose number of a vertex is not dropped_point.
@@ -135,7 +128,7 @@ void join_equal(std::span<Face<D>> bucket, std::vector<std::array<std::uint32_t,
 template <int D>
 std::vector<std::uint32_t> unused_points(const OutputMesh<D>& mesh) {
   std::vector<bool> used(mesh.points.size());
-  each_use(mesh, [&](const auto& vertices) {
+  each_simplex(mesh, [&](const auto& vertices) {
     for (const std::uint32_t v : vertices)
       if (v < used.size()) used[v] = true;
   });
@@ -160,7 +153,7 @@ void drop_points(OutputMesh<D>& mesh, std::span<const std::uint32_t> unused) {
   keep_rows(mesh.points, number);
   keep_rows(mesh.point_markers, number);
   keep_rows(mesh.point_attributes, number);
-  each_use(mesh, [&](auto& vertices) {
+  each_simplex(mesh, [&](auto& vertices) {
     for (auto& v : vertices) v = number[v];
   });
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "output/piece_join.hpp"
+#include "output/simplices.hpp"
 #include "pgdr/error.hpp"
 
 namespace pgdr {
@@ -52,14 +53,6 @@ void take_rows(const std::vector<Row>& rows, std::uint64_t begin, std::uint64_t 
                std::vector<Row>& out) {
   if (rows.empty() || first >= last) return;
   out.assign(rows.begin() + static_cast<std::ptrdiff_t>(first - begin), rows.begin() + static_cast<std::ptrdiff_t>(last - begin));
-}
-
-/// Calls f(vertices) for all that has vertices.
-template <class Mesh, class F>
-void each_simplex(Mesh& mesh, const F& f) {
-  for (auto& c : mesh.cells) f(c);
-  for (auto& c : mesh.subfacets) f(c.vertices);
-  for (auto& c : mesh.subsegments) f(c.vertices);
 }
 
 /// Where part of a mesh lies in the whole: all of it, or the rows of a piece.

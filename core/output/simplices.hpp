@@ -15,4 +15,12 @@ const auto& walls(const OutputMesh<D>& mesh) {
     return mesh.subfacets;
 }
 
+/// Calls f(vertices) for all cells and constraints.
+template <class Mesh, class F>
+void each_simplex(Mesh& mesh, const F& f) {
+  for (auto& c : mesh.cells) f(c);
+  for (auto& c : mesh.subfacets) f(c.vertices);
+  for (auto& c : mesh.subsegments) f(c.vertices);
+}
+
 }  // namespace pgdr
