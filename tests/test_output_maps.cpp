@@ -229,6 +229,18 @@ TEST(InputMap, OfAMeshThatWasNumberedInHaste) {
   for (std::size_t i = 0; i < result.mesh.subfacets.size(); ++i) EXPECT_FALSE(map.facets_of_subfacet[i].empty());
 }
 
+// A point of the input may be the last of all.
+TEST(InputMap, OfAMeshWithoutSteinerPoints) {
+  const Plc<3> plc = test::cube();
+  const Domain<3> domain(plc);
+  RefineOptions<3> options;
+  options.refine = false;
+  const OutputMesh<3> mesh = refine(domain, options).mesh;
+  ASSERT_EQ(mesh.points.size(), plc.points.size());
+  const InputMap<3> map = input_map(domain, mesh);
+  for (std::size_t i = 0; i < plc.points.size(); ++i) EXPECT_EQ(mesh.points[map.vertex_of_point[i]], plc.points[i]);
+}
+
 template <class F>
 Errc code_of(const F& f) {
   try {
