@@ -23,18 +23,22 @@ namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-/// As it was given: where segments cross, too.
+/// As it was given: 2D, where segments cross, too. 3D, where facets cross: as `mesh` has resolved that, within the tolerance of
+/// its report if none is given.
 template <int D>
-std::optional<Plc<D>> read_input_of_mesh(const std::vector<std::string>& inputs, InputArguments reading) {
+std::optional<Plc<D>> read_input_of_mesh(const std::vector<std::string>& inputs, InputArguments reading,
+                                         std::optional<double> tolerance) {
   if (inputs.empty()) return std::nullopt;
   for (const std::string& input : inputs) require_input_format(input);
   Inputs files(inputs);
   if (files.dimension() != D)
     throw UsageError(
         {.code = Errc::bad_option, .message = format("the mesh is %dD, its input is not", D), .file = inputs.front()});
-  if constexpr (D == 2) reading.resolve_crossings = false;
+  if (D == 2) reading.resolve_crossings = false;
+  Plc<D> plc = files.read_given<D>(reading);
+  if (reading.resolve_crossings && !reading.tolerance && tolerance && *tolerance != tolerance_of(plc)) plc.tolerance = tolerance;
   std::vector<Diagnostic> repairs;
-  return files.read<D>(reading, repairs);
+  return prepared<D>(std::move(plc), reading, repairs);
 }
 
 template <int D>
@@ -106,9 +110,11 @@ int check_as(const CheckArguments& a, InputFile& file, Report& report) {
   InputArguments reading = a.reading;
   reading.convex_hull = reading.convex_hull || reported.convex_hull;
   reading.region_areas = reading.region_areas || reported.region_areas;
+  reading.resolve_crossings = reading.resolve_crossings || reported.resolve_crossings;
+  if (!reading.markers) reading.markers = reported.markers;
   if (reading.seeds.empty()) reading.seeds = reported.seeds;
   if (reading.holes.empty()) reading.holes = reported.holes;
-  const std::optional<Plc<D>> plc = read_input_of_mesh<D>(a.inputs, reading);
+  const std::optional<Plc<D>> plc = read_input_of_mesh<D>(a.inputs, reading, reported.tolerance);
   resolve_names(plc ? plc->names : mesh.names, bounds);
   if (!reading.tolerance) reading.tolerance = reported.tolerance;
 

@@ -43,6 +43,8 @@ ROOMS = {
         "build": Room("which facets are one plane, and how does an input become a Domain?", "join", "domain_builder.cpp", ""),
         "diagnose": Room("what is wrong with an input, and where?", "input", "diagnosis.cpp cell_estimate.cpp",
                          "diagnosis estimate surface_counts"),
+        "arrange": Room("which pieces are facets that cross, and whose are they?", "build diagnose",
+                        "arrangement.cpp crossings.hpp exact_cdt.hpp", "arrangement"),
         "select": Room("where may a point go?", "numbers", "selectors.cpp", "point_selector selectors"),
     },
     "core": {

@@ -22,9 +22,11 @@ class Inputs {
 
   /// Of all of them. @throws UsageError where they do not agree; what file_dimension throws
   int dimension();
-  /// @param repairs gets what was done. @throws UsageError for a flag of the other dimension, or a seed that is none; what
-  /// read_plc
-  ///   throws
+  /// As they stand in the files, with the seeds of flags. @throws UsageError for a flag of the other dimension, or a seed that is
+  /// none; what read_plc throws
+  template <int D>
+  Plc<D> read_given(const InputArguments& reading);
+  /// And prepared. @param repairs gets what was done.
   template <int D>
   Plc<D> read(const InputArguments& reading, std::vector<Diagnostic>& repairs);
 
@@ -35,6 +37,10 @@ class Inputs {
  private:
   std::vector<InputFile> files_;
 };
+
+/// What flags ask for. @param repairs gets what was done. @throws InputError where crossings have no end
+template <int D>
+Plc<D> prepared(Plc<D> plc, const InputArguments& reading, std::vector<Diagnostic>& repairs);
 
 /// Puts the keys of names into the report.
 void set_names(Report& report, const Names& names);

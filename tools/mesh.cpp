@@ -313,8 +313,10 @@ class MeshRun {
     if (!a_.reading.holes.empty()) report_.set("holes", a_.reading.holes);
     report_.set("tolerance", tolerance_of(plc_));
     report_.set("largest_move", 0.0);
-    if constexpr (D == 2) {
-      report_.set("resolve_crossings", a_.reading.resolve_crossings);
+    report_.set("resolve_crossings", a_.reading.resolve_crossings);
+    if constexpr (D == 3) {
+      if (a_.reading.resolve_crossings) report_.set("markers", name(a_.reading.markers.value_or(SharedMarker::smallest)));
+    } else {
       report_.set("convex_hull", a_.reading.convex_hull);
       report_.set("region_areas", a_.reading.region_areas);
     }

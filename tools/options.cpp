@@ -60,6 +60,8 @@ const std::map<std::string, Schedule> schedules{
 
 const std::map<std::string, ClaimRule> claim_rules{{"boxes", ClaimRule::boxes}, {"leaves", ClaimRule::leaves}};
 
+const std::map<std::string, SharedMarker> shared_markers{
+    {"smallest", SharedMarker::smallest}, {"first", SharedMarker::first}, {"last", SharedMarker::last}};
 const std::map<std::string, RegionMode> region_modes{
     {"seeds", RegionMode::seeds}, {"auto", RegionMode::automatic}, {"all", RegionMode::all}};
 
@@ -172,7 +174,16 @@ void add_input(CLI::App& app, InputArguments& p) {
       ->allow_extra_args(false)
       ->check(shaped(is_hole, "X,Y,Z, in 2D X,Y: a point in what stays empty"));
   app.add_flag("--yes-coarse", p.yes_coarse, "a --tolerance above a thousandth of the model's diagonal is meant");
-  app.add_flag("--resolve-crossings", p.resolve_crossings, "2D: split segments that cross, at new points");
+  auto* resolve = app.add_flag("--resolve-crossings", p.resolve_crossings,
+                               "split segments that cross, in 3D also facets that do and what goes through them, at new points");
+  app.add_option_function<std::string>(
+         "--markers", [&p](const std::string& t) { p.markers = shared_markers.at(t); },
+         "3D: whose marker a piece has that several facets cover: smallest (default), the facet of smallest area; first, or "
+         "last, "
+         "in the input")
+      ->type_name("NAME")
+      ->check(one_of(shared_markers, "ways to choose markers"))
+      ->needs(resolve);
   app.add_flag("--region-areas", p.region_areas,
                "2D: a region of a .poly that has one number behind its point has it as label and as largest area");
   app.add_flag("--convex-hull", p.convex_hull, "2D: the edges of the convex hull of all points are segments, too");

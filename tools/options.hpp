@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "pgdr/arrangement.hpp"
 #include "pgdr/refine_options.hpp"
 #include "pgdr/types.hpp"
 
@@ -31,11 +32,12 @@ struct BoundArguments {
 /// How an input is read, and what is done to it before anything else.
 struct InputArguments {
   bool resolve_crossings = false, convex_hull = false;
-  bool region_areas = false;        ///< ReadOptions::region_areas
-  std::optional<double> tolerance;  ///< none: the default of Plc
-  bool yes_coarse = false;          ///< Plc::is_coarse
-  std::vector<std::string> seeds;   ///< further region seeds, X,Y,Z or X,Y,Z=LABEL each (2D: X,Y)
-  std::vector<std::string> holes;   ///< further hole seeds
+  std::optional<SharedMarker> markers;  ///< of pieces that several facets cover; 3D, with resolve_crossings
+  bool region_areas = false;            ///< ReadOptions::region_areas
+  std::optional<double> tolerance;      ///< none: the default of Plc
+  bool yes_coarse = false;              ///< Plc::is_coarse
+  std::vector<std::string> seeds;       ///< further region seeds, X,Y,Z or X,Y,Z=LABEL each (2D: X,Y)
+  std::vector<std::string> holes;       ///< further hole seeds
 };
 
 struct MeshArguments {

@@ -182,6 +182,11 @@ const char* name(RegionMode mode) {
   return names[static_cast<std::size_t>(mode)];
 }
 
+const char* name(SharedMarker rule) {
+  constexpr std::array names{"smallest", "first", "last"};
+  return names[static_cast<std::size_t>(rule)];
+}
+
 ReportedBounds read_bounds(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in || std::filesystem::is_directory(file))
@@ -200,6 +205,9 @@ ReportedBounds read_bounds(const std::string& file) {
       const auto found = report.find(key);
       return found != report.end() && *found == value;
     };
+    read.resolve_crossings = holds("resolve_crossings", true);
+    for (const SharedMarker rule : {SharedMarker::smallest, SharedMarker::first, SharedMarker::last})
+      if (holds("markers", name(rule))) read.markers = rule;
     read.convex_hull = holds("convex_hull", true);
     read.region_areas = holds("region_areas", true);
     read.seeds = parse_seeds(report, "seeds");

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "json.hpp"
+#include "pgdr/arrangement.hpp"
 #include "pgdr/check.hpp"
 #include "pgdr/error.hpp"
 #include "pgdr/quality.hpp"
@@ -54,6 +55,7 @@ Json to_json(const std::vector<Value>& list) {
 }
 
 const char* name(RegionMode mode);
+const char* name(SharedMarker rule);
 
 /// What a report of `pgdr mesh` says that its check needs.
 struct ReportedBounds {
@@ -64,7 +66,9 @@ struct ReportedBounds {
   std::optional<double> largest_cosine;   ///< of dihedral angles, as the optimiser claims it
   bool delaunay = false;                  ///< does the report say that the mesh is?
   std::uint64_t not_delaunay_left = 0;    ///< faces that it says are not locally Delaunay, other than by rounding
-  bool convex_hull = false;               ///< what was done to the input, 2D
+  bool resolve_crossings = false;         ///< what was done to the input
+  std::optional<SharedMarker> markers;    ///< 3D, where that was done
+  bool convex_hull = false;               ///< 2D
   bool region_areas = false;              ///< how it was read, 2D
   std::vector<std::string> seeds, holes;  ///< of flags
   RegionMode regions = RegionMode::seeds;

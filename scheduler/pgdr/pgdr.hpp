@@ -4,6 +4,7 @@
 // All public headers.
 #pragma once
 
+#include "pgdr/arrangement.hpp"
 #include "pgdr/check.hpp"
 #include "pgdr/circumsphere.hpp"
 #include "pgdr/diagnosis.hpp"

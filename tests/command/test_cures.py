@@ -52,6 +52,23 @@ class Cures(Case):
         self.assertIn("add a point at (0, 0, 0)", said)
         self.mesh(self.file("cured.poly", poly(points + [(0, 0, 0)], faces)), expect=0)
 
+    def test_bodies_that_overlap_are_cut(self):
+        for seed in range(3):
+            points, faces = box(4, 4, 4)
+            others, more = box(4, 2, 2, first=8)
+            points += [(x + 2, y + 1, z + 1) for x, y, z in others]
+            model = self.file("bodies.poly", poly(turned([tuple(map(float, p)) for p in points], seed), faces + more))
+            self.assertIn("--resolve-crossings makes it valid", self.mesh(model, expect=3).stderr)
+            self.mesh(model, "--resolve-crossings", "--markers", "last", "--regions", "all", "--report", self.report, expect=0)
+            self.assertEqual([r["code"] for r in self.json()["repairs"] if r["message"].startswith("facets that cross")],
+                             ["entities_intersect"])
+            volumes = sorted(r["volume_meshed"] for r in self.json()["regions"])
+            for volume, exact in zip(volumes, (8, 8, 56), strict=True):
+                self.assertAlmostEqual(volume, exact, delta=1e-9)
+            self.pgdr("check", self.output, "--input", model, "--reasons", self.report, expect=0)
+            self.pgdr("info", model, "--resolve-crossings", expect=0)
+            self.pgdr("mesh", model, "-o", self.output, "--markers", "first", expect=2)
+
     def unwelded(self, n, apart, seed, turn=True):
         """The surface of a cube, of n x n squares a side: each triangle has corners of its own, up to so far off."""
         r = random.Random(seed)

@@ -259,6 +259,22 @@ class Inputs(unittest.TestCase):
         checked(self, split)
         self.assertIn("segments_cross", [f.kind for f in pgdr.diagnose(cross) if f.is_error])
 
+    def test_facets_that_cross_can_be_resolved(self):
+        corners = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], dtype=float)
+        faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
+        boxes = pgdr.Plc(np.vstack([4 * corners, 2 * corners + [3, 1, 1]]), facets=faces + [[8 + v for v in f] for f in faces],
+                         facet_markers=[1] * 6 + [2] * 6)
+        with self.assertRaises(pgdr.InputError) as caught:
+            pgdr.mesh(boxes)
+        self.assertIn("pgdr.resolve_crossings(plc)", str(caught.exception))
+        cut, repairs = pgdr.resolve_crossings(boxes, markers="last")
+        self.assertEqual([r.code for r in repairs], ["entities_intersect"])
+        made = checked(self, cut, regions="all")
+        self.assertEqual(set(made.subfacet_markers.tolist()), {1, 2})
+        self.assertEqual(len(set(made.regions.tolist())), 3)
+        with self.assertRaises(pgdr.UsageError):
+            pgdr.resolve_crossings(boxes, markers="both")
+
     def test_bounds_of_another_dimension_are_refused(self):
         for plc, options in ((square(), {"min_dihedral": 10}), (square(), {"max_volume": 1}), (cube(), {"min_angle": 20}),
                              (square(), {"min_angle": 20, "radius_edge": 2}), (cube(), {"optimize": False, "min_dihedral": 10})):

@@ -16,9 +16,11 @@
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "errors.hpp"
+#include "pgdr/arrangement.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/joined_plc.hpp"
 #include "pgdr/planar_plc.hpp"
+#include "run.hpp"
 
 namespace pgdr::python {
 namespace {
@@ -270,13 +272,21 @@ void bind(py::module_& module) {
   });
 }
 
-py::tuple resolve(const Plc<2>& plc) {
+SharedMarker shared_marker(const std::string& rule) {
+  if (rule == "first") return SharedMarker::first;
+  return rule == "last" ? SharedMarker::last : SharedMarker::smallest;
+}
+
+template <int D>
+py::tuple resolve(const Plc<D>& plc, const std::string& markers) {
   std::vector<Diagnostic> repairs;
-  std::shared_ptr<Plc<2>> made;
-  {
-    const py::gil_scoped_release others_run;
-    made = std::make_shared<Plc<2>>(resolve_crossings(plc, repairs));
-  }
+  std::shared_ptr<Plc<D>> made;
+  run_watched([&](const std::stop_token& stop) {
+    if constexpr (D == 2)
+      made = std::make_shared<Plc<D>>(resolve_crossings(plc, repairs));
+    else
+      made = std::make_shared<Plc<D>>(resolve_crossings(plc, repairs, {.markers = shared_marker(markers), .stop = stop}));
+  });
   return py::make_tuple(made, to_python(repairs));
 }
 
@@ -301,7 +311,8 @@ void bind_plc(py::module_& module) {
   bind<3>(module);
   module.def("file_dimension", [](const std::string& file) { return file_dimension(file); });
   module.def("holds_cells", [](const std::string& file) { return holds_cells(file); });
-  module.def("resolve_crossings", &resolve);
+  module.def("resolve_crossings2", &resolve<2>);
+  module.def("resolve_crossings3", &resolve<3>);
   module.def("with_convex_hull", [](const Plc<2>& plc) {
     const py::gil_scoped_release others_run;
     return std::make_shared<Plc<2>>(with_convex_hull(plc));

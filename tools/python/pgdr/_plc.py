@@ -370,8 +370,12 @@ def _hole_rows(holes: Optional[Mapping[int, npt.ArrayLike]], facets: int) -> npt
     return np.array(rows, dtype=np.float64).reshape(len(rows), 4)
 
 
-def resolve_crossings(plc: Plc) -> Tuple[Plc, List[Diagnostic]]:
-    """2D: splits segments where they cross, at new points behind those of the input. Returns the input so made, and what was done.
+def resolve_crossings(plc: Plc, *, markers: str = "smallest") -> Tuple[Plc, List[Diagnostic]]:
+    """Splits segments where they cross, at new points behind those of the input; in 3D also cuts facets that cross along each other,
+    and segments where they go through facets. Returns the input so made, and what was done.
+
+    `markers`, in 3D: whose marker a piece has that several facets cover: of the facet of "smallest" area, or of the "first" or "last"
+    in the input.
 
     >>> import pgdr
     >>> cross = pgdr.Plc([[0, 0], [2, 2], [0, 2], [2, 0]], segments=[[0, 1], [2, 3]])
@@ -379,8 +383,15 @@ def resolve_crossings(plc: Plc) -> Tuple[Plc, List[Diagnostic]]:
     >>> len(split.segments), [r.code for r in repairs]
     (4, ['entities_intersect'])
     """
-    core, repairs = _pgdr.resolve_crossings(_planar(plc, "crossings are resolved"))
-    return Plc._of(core), repairs
+    if not isinstance(plc, Plc):
+        raise TypeError(f"plc must be a pgdr.Plc, not {type(plc).__name__}")
+    if markers not in ("smallest", "first", "last"):
+        raise usage(f'markers must be "smallest", "first" or "last", not {markers!r}')
+    if isinstance(plc._core, _pgdr.Plc2):
+        core2, repairs = _pgdr.resolve_crossings2(plc._core, markers)
+        return Plc._of(core2), repairs
+    core3, repairs = _pgdr.resolve_crossings3(plc._core, markers)
+    return Plc._of(core3), repairs
 
 
 def with_convex_hull(plc: Plc) -> Plc:
