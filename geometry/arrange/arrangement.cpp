@@ -27,6 +27,16 @@ constexpr int most_rounds = 20;
 constexpr std::size_t most_growth = 4, few_pairs = 64;
 /// Rounds with points on a grid: each moves points first, and then cuts.
 constexpr int most_rounds_on_grid = 12;
+/// Points between edges that pass each other: what is not joined after so many rounds in a row will not be.
+constexpr int most_near_rounds = 2;
+
+/// What is done where rounds do not end, one after the other, each from the beginning. What is within a tolerance that was given
+/// stays joined.
+enum class Rung : std::uint8_t {
+  as_given,
+  doubles,  ///< the tolerance is the rounding of doubles, as new points have it, and not of floats
+  grid,     ///< the points of what crosses go to a grid
+};
 
 /// What crossed in the input, in the words and numbers of the report.
 struct CrossingLists {
@@ -64,7 +74,8 @@ class Arranger {
 
   bool cut_once();
   bool is_endless(std::size_t pairs);
-  void begin_on_grid();
+  void climb(std::span<const Piece> pieces);
+  std::string words_of_rung() const;
   bool snap(std::span<const Piece> pieces);
   void add_points(std::span<const Point3> points);
   void note_pairs(std::span<const Piece> pieces);
@@ -82,7 +93,10 @@ class Arranger {
   detail::Crossings crossings_;
   CrossingLists lists_;
   std::optional<detail::Grid> grid_;
-  int rounds_ = 0, rounds_on_grid_ = 0;
+  Rung rung_ = Rung::as_given;
+  int rounds_ = 0;       ///< all of them
+  int rounds_here_ = 0;  ///< since the last step
+  int near_rounds_ = 0;  ///< the last ones in a row
   std::size_t first_pairs_ = 0, first_points_ = 0;
   double farthest_ = 0;
 };
@@ -102,9 +116,10 @@ bool Arranger::cut_once() {
   }
   note_pairs(pieces);
   ++rounds_;
+  ++rounds_here_;
+  near_rounds_ = near.empty() ? 0 : near_rounds_ + 1;
   if (is_endless(left)) {
-    if (grid_) fail(pieces);
-    begin_on_grid();
+    climb(pieces);
     return true;
   }
   if (grid_ && snap(pieces)) return true;
@@ -116,25 +131,32 @@ bool Arranger::cut_once() {
   farthest_ += cut.farthest;
   if (grid_)
     for (Point3& p : cut.added) p = grid_->nearest(p);
-  if (!detail::replace_cut(state_, input_, *domain_, cut, options_.markers)) {
-    if (grid_) fail(pieces);
-    begin_on_grid();
-  }
+  if (!detail::replace_cut(state_, input_, *domain_, cut, options_.markers)) climb(pieces);
   return true;
 }
 
 /// Asked once a round.
 bool Arranger::is_endless(std::size_t pairs) {
-  if (grid_) return ++rounds_on_grid_ > most_rounds_on_grid;
-  if (first_pairs_ == 0) first_pairs_ = std::max(pairs, few_pairs);
-  if (rounds_ == 2) first_points_ = state_.plc.points.size();
-  return rounds_ > most_rounds || pairs > most_growth * first_pairs_ ||
-         (rounds_ > 2 && state_.plc.points.size() > most_growth * first_points_);
+  if (near_rounds_ > most_near_rounds) return true;
+  if (grid_) return rounds_here_ > most_rounds_on_grid;
+  if (rounds_here_ == 1) first_pairs_ = std::max(pairs, few_pairs);
+  if (rounds_here_ == 2) first_points_ = state_.plc.points.size();
+  return rounds_here_ > most_rounds || pairs > most_growth * first_pairs_ ||
+         (rounds_here_ > 2 && state_.plc.points.size() > most_growth * first_points_);
 }
 
-void Arranger::begin_on_grid() {
+/// The next way to go, from the beginning. @throws InputError if there is none
+void Arranger::climb(std::span<const Piece> pieces) {
+  if (rung_ == Rung::grid) fail(pieces);
+  const double before = tolerance_of(state_.plc);
   state_ = detail::CutPlc(input_);
-  grid_.emplace(input_);
+  do {
+    rung_ = input_.tolerance ? Rung::grid : static_cast<Rung>(static_cast<int>(rung_) + 1);
+    if (!input_.tolerance) state_.plc.are_floats = false;
+  } while (rung_ != Rung::grid && tolerance_of(state_.plc) == before);
+  if (rung_ == Rung::grid) grid_.emplace(input_);
+  rounds_here_ = near_rounds_ = 0;
+  farthest_ = 0;
 }
 
 /// The corners of what still meets.
@@ -200,14 +222,15 @@ void Arranger::report(std::vector<Diagnostic>& repairs) {
     repairs.push_back({Errc::entities_intersect, "edges that pass each other within the tolerance" + how, file, 0, {}, {}});
   for (std::size_t i = input_.points.size(); i < state_.plc.points.size(); ++i)
     repairs[before].points.push_back(state_.plc.points[i].x);
+  if (rung_ != Rung::as_given) repairs.push_back({Errc::near_points, words_of_rung(), file, 0, {}, {}});
+}
+
+std::string Arranger::words_of_rung() const {
   if (grid_)
-    repairs.push_back(
-        {Errc::near_points,
-         "rounds did not end: points of what still crossed were moved to a grid, by up to " + detail::to_text(grid_->farthest()),
-         file,
-         0,
-         {},
-         {}});
+    return "rounds did not end: points of what still crossed were moved to a grid, by up to " +
+           detail::to_text(grid_->farthest());
+  return "rounds did not end with a tolerance of " + detail::to_text(tolerance_of(input_)) + ": it is " +
+         detail::to_text(tolerance_of(state_.plc)) + " now";
 }
 
 /// With the pairs that are left, the first of them first.
