@@ -60,7 +60,7 @@ class Arranger {
   }
 
   bool changed() const { return rounds_ > 0; }
-  const Plc<3>& plc() const { return state_.plc; }
+  Plc<3> plc() const { return state_.with_markers_of(input_); }
   Arrangement arrangement() const;
   void report(std::vector<Diagnostic>& repairs);
   [[noreturn]] void refuse() const { throw InputError(refused_.front(), refused_); }
@@ -110,7 +110,7 @@ bool Arranger::cut_once() {
   if (!domain_->nothing_meets()) crossings_ = detail::find_crossings(*domain_, pieces, bulk_, stop_);
   const std::size_t left = crossings_.pairs.size() + refused_.size();
   if (left == 0) {
-    const bool changed = detail::replace_cut(state_, input_, *domain_, {}, options_.markers);
+    const bool changed = detail::replace_cut(state_, *domain_, {}, options_.markers);
     rounds_ += changed ? 1 : 0;
     return changed;
   }
@@ -131,17 +131,16 @@ bool Arranger::cut_once() {
   farthest_ += cut.farthest;
   if (grid_)
     for (Point3& p : cut.added) p = grid_->nearest(p);
-  if (!detail::replace_cut(state_, input_, *domain_, cut, options_.markers)) climb(pieces);
+  if (!detail::replace_cut(state_, *domain_, cut, options_.markers)) climb(pieces);
   return true;
 }
 
 /// Asked once a round.
 bool Arranger::is_endless(std::size_t pairs) {
   if (near_rounds_ > most_near_rounds) return true;
-  if (grid_) return rounds_here_ > most_rounds_on_grid;
   if (rounds_here_ == 1) first_pairs_ = std::max(pairs, few_pairs);
   if (rounds_here_ == 2) first_points_ = state_.plc.points.size();
-  return rounds_here_ > most_rounds || pairs > most_growth * first_pairs_ ||
+  return rounds_here_ > (grid_ ? most_rounds_on_grid : most_rounds) || pairs > most_growth * first_pairs_ ||
          (rounds_here_ > 2 && state_.plc.points.size() > most_growth * first_points_);
 }
 

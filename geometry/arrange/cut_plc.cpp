@@ -10,14 +10,49 @@
 #include "build/contact_resolver.hpp"
 #include "diagnose/near_pieces.hpp"
 #include "input/edges.hpp"
+#include "numbers/vectors.hpp"
 #include "space/disjoint_sets.hpp"
+#include "space/make_set.hpp"
 
 namespace pgdr::detail {
 
+namespace {
+
+/// Which of the two sides of its plane a facet shows to a direction that hardly any plane contains. Of facets of one plane it is
+/// the same, whatever rounding does, iff they are oriented alike.
+bool shows_front(const Plc<3>& plc, const Plc<3>::Facet& facet) {
+  constexpr Vector<3> direction{1, 0.7548776662466927, 0.5698402909980532};
+  double side = 0;
+  const auto has = [&](std::uint32_t v) { return v < plc.points.size(); };
+  if (facet.polygons.empty() || !std::ranges::all_of(facet.polygons[0], has)) return false;
+  const auto& polygon = facet.polygons[0];
+  for (std::size_t k = 2; k < polygon.size(); ++k) {
+    const Point3& a = plc.points[polygon[0]];
+    side += dot(direction, cross(difference(plc.points[polygon[k - 1]], a), difference(plc.points[polygon[k]], a)));
+  }
+  return side > 0;
+}
+
+}  // namespace
+
 CutPlc::CutPlc(const Plc<3>& input) : plc(input) {
+  std::vector<int> markers;
+  for (const auto& f : plc.facets) markers.push_back(f.marker);
+  make_set(markers);
+  for (auto& f : plc.facets) {
+    const auto rank = static_cast<int>(std::ranges::lower_bound(markers, f.marker) - markers.begin());
+    f.marker = 2 * rank + (shows_front(input, f) ? 1 : 0);
+    markers_of_input.push_back(f.marker);
+  }
   for (std::uint32_t f = 0; f <= plc.facets.size(); ++f) origins_begin.push_back(f);
   for (std::uint32_t f = 0; f < plc.facets.size(); ++f) origins.push_back({f, false});
   for (std::uint32_t s = 0; s < plc.segments.size(); ++s) segments.push_back(s);
+}
+
+Plc<3> CutPlc::with_markers_of(const Plc<3>& input) const {
+  Plc<3> out = plc;
+  for (std::uint32_t f = 0; f < out.facets.size(); ++f) out.facets[f].marker = input.facets[origins_of(f)[0].facet].marker;
+  return out;
 }
 
 std::vector<PieceOrigin> PieceOrigins::of(EntityId f, std::uint32_t k) const {
@@ -36,14 +71,8 @@ namespace {
 
 class Replacement {
  public:
-  Replacement(CutPlc& given, const Plc<3>& input, const Domain<3>& domain, const CutTriangles& cut, SharedMarker rule)
-      : given_(given),
-        input_(input),
-        domain_(domain),
-        cut_(cut),
-        rule_(rule),
-        origins_(given, domain, rule),
-        sets_(given.plc.facets.size()) {
+  Replacement(CutPlc& given, const Domain<3>& domain, const CutTriangles& cut, SharedMarker rule)
+      : given_(given), domain_(domain), cut_(cut), rule_(rule), origins_(given, domain, rule), sets_(given.plc.facets.size()) {
     for (EntityId f = 0; f < domain.facets().size(); ++f)
       for (std::uint32_t k = 0; k < domain.facets()[f].triangle_count; ++k) triangles_.push_back({f, k});
   }
@@ -70,7 +99,7 @@ class Replacement {
     return v - static_cast<std::uint32_t>(domain_.points().size()) + added_begin_;
   }
 
-  int marker_of(const PieceOrigin& o) const { return input_.facets[o.facet].marker; }
+  int marker_of(const PieceOrigin& o) const { return given_.markers_of_input[o.facet]; }
 
   /// Facets that cover a triangle together are replaced together.
   void find_touched() {
@@ -85,7 +114,7 @@ class Replacement {
         is_touched[candidates[0]] = true;
         ++next;
       } else if (rule_ != SharedMarker::smallest && candidates.size() > 1 &&
-                 marker_of(origins_.of(f, k)[0]) != domain_.facets()[f].marker) {
+                 marker_of(origins_.of(f, k)[0]) / 2 != domain_.facets()[f].marker / 2) {
         is_touched[candidates[0]] = true;
       }
     }
@@ -220,8 +249,6 @@ class Replacement {
       if (touched_[f]) by_facet.emplace_back(f, t);
     }
     std::ranges::sort(by_facet);
-    next_ = CutPlc({});
-    next_.origins_begin = {0};
     const bool has_lines = !plc.source.facet_lines.empty();
     auto at = by_facet.begin();
     auto line_facet = line_facets_.begin();
@@ -275,7 +302,6 @@ class Replacement {
   }
 
   CutPlc& given_;
-  const Plc<3>& input_;
   const Domain<3>& domain_;
   const CutTriangles& cut_;
   SharedMarker rule_;
@@ -285,14 +311,14 @@ class Replacement {
   std::vector<bool> touched_;     // of each facet of the Plc
   std::uint32_t added_begin_ = 0;
   std::vector<std::pair<std::uint32_t, std::vector<std::vector<std::uint32_t>>>> line_facets_;
-  CutPlc next_{Plc<3>{}};
+  CutPlc next_{Plc<3>{}};  // facets alone
   std::vector<std::uint32_t> facet_lines_;
 };
 
 }  // namespace
 
-bool replace_cut(CutPlc& given, const Plc<3>& input, const Domain<3>& domain, const CutTriangles& cut, SharedMarker rule) {
-  return Replacement(given, input, domain, cut, rule).run();
+bool replace_cut(CutPlc& given, const Domain<3>& domain, const CutTriangles& cut, SharedMarker rule) {
+  return Replacement(given, domain, cut, rule).run();
 }
 
 }  // namespace pgdr::detail

@@ -263,7 +263,7 @@ class Inputs(unittest.TestCase):
         corners = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], dtype=float)
         faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
         boxes = pgdr.Plc(np.vstack([4 * corners, 2 * corners + [3, 1, 1]]), facets=faces + [[8 + v for v in f] for f in faces],
-                         facet_markers=[1] * 6 + [2] * 6)
+                         markers=[1] * 6 + [2] * 6)
         with self.assertRaises(pgdr.InputError) as caught:
             pgdr.mesh(boxes)
         self.assertIn("pgdr.resolve_crossings(plc)", str(caught.exception))
