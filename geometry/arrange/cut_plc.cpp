@@ -93,6 +93,15 @@ class Replacement {
     std::uint32_t k;
   };
 
+  using Chain = std::vector<std::uint32_t>;
+  /// A segment of the Domain that a segment of the Plc, or a facet that is one, runs along.
+  struct Line {
+    bool is_facet;
+    std::uint32_t index;
+    EntityId segment;
+    friend auto operator<=>(const Line&, const Line&) = default;
+  };
+
   /// The number of a point in the Plc: those that the Domain has added count on, and new ones behind these.
   std::uint32_t number(std::uint32_t v) const {
     if (v < domain_.points().size()) return domain_.input_of_point()[v];
@@ -168,60 +177,57 @@ class Replacement {
     }
   }
 
-  /// Segments, and facets that are segments, along an edge that has new points; and edges drawn inside of facets that are
-  /// replaced.
-  void replace_segments() {
-    Plc<3>& plc = given_.plc;
-    std::vector<Point3> places(domain_.points().begin(), domain_.points().end());
-    places.insert(places.end(), cut_.added.begin(), cut_.added.end());
-    const PointsOnEdges<3> on_edges(places, cut_.on_edges);
-    std::vector<std::pair<SegmentOrigin, EntityId>> uses;
+  /// What of the input runs along which segments of the Domain: segments, then facets that are segments.
+  void collect_lines() {
     for (EntityId s = 0; s < domain_.segments().size(); ++s)
-      for (const SegmentOrigin& o : domain_.segment_origins(s)) uses.emplace_back(o, s);
-    std::ranges::sort(uses, [](const auto& a, const auto& b) {
-      return std::pair(a.first.is_facet, std::pair(a.first.index, a.second)) <
-             std::pair(b.first.is_facet, std::pair(b.first.index, b.second));
-    });
-    std::vector<Plc<3>::Segment> segments;
-    std::vector<std::uint32_t> lines;
-    const bool has_lines = !plc.source.segment_lines.empty();
-    auto use = uses.begin();
-    const auto chains_of = [&](std::uint32_t index, bool is_facet) {
-      std::vector<std::vector<std::uint32_t>> chains;
-      bool is_cut = false;
-      for (; use != uses.end() && use->first.index == index && use->first.is_facet == is_facet; ++use) {
-        const auto& ends = domain_.segments()[use->second].points;
-        chains.push_back(on_edges.chain(ends[0], ends[1]));
-        is_cut = is_cut || chains.back().size() > 2;
-      }
-      if (!is_cut) chains.clear();
-      return chains;
+      for (const SegmentOrigin& o : domain_.segment_origins(s)) lines_.push_back({o.is_facet, o.index, s});
+    std::ranges::sort(lines_);
+    places_.assign(domain_.points().begin(), domain_.points().end());
+    places_.insert(places_.end(), cut_.added.begin(), cut_.added.end());
+    on_edges_ = PointsOnEdges<3>(places_, cut_.on_edges);
+  }
+
+  Chain chain_of(EntityId s) const {
+    const auto& ends = domain_.segments()[s].points;
+    return on_edges_.chain(ends[0], ends[1]);
+  }
+
+  /// Of a segment of the Plc, or a facet that is one: the points along each part of it; none if there are no new ones.
+  std::vector<Chain> chains_of(std::uint32_t index, bool is_facet) const {
+    std::vector<Chain> chains;
+    bool is_cut = false;
+    for (auto at = std::ranges::lower_bound(lines_, Line{is_facet, index, 0});
+         at != lines_.end() && at->index == index && at->is_facet == is_facet; ++at) {
+      chains.push_back(chain_of(at->segment));
+      is_cut = is_cut || chains.back().size() > 2;
+    }
+    if (!is_cut) chains.clear();
+    return chains;
+  }
+
+  /// Segments along an edge that has new points; and edges drawn inside of facets that are replaced.
+  void replace_segments() {
+    collect_lines();
+    Plc<3>& plc = given_.plc;
+    const auto segments = std::exchange(plc.segments, {});
+    const auto inputs = std::exchange(given_.segments, {});
+    const auto source_lines = std::exchange(plc.source.segment_lines, {});
+    const auto add = [&](std::uint32_t a, std::uint32_t b, int marker, std::uint32_t input, std::uint32_t line) {
+      plc.segments.push_back({{a, b}, marker});
+      given_.segments.push_back(input);
+      if (!source_lines.empty()) plc.source.segment_lines.push_back(line);
     };
-    std::vector<std::uint32_t> inputs;
-    const auto add = [&](std::uint32_t a, std::uint32_t b, int marker, std::uint32_t line, std::uint32_t input) {
-      segments.push_back({{a, b}, marker});
-      inputs.push_back(input);
-      if (has_lines) lines.push_back(line);
+    const auto add_chain = [&](const Chain& chain, int marker, std::uint32_t input, std::uint32_t line) {
+      for (std::size_t k = 1; k < chain.size(); ++k) add(number(chain[k - 1]), number(chain[k]), marker, input, line);
     };
-    for (std::uint32_t s = 0; s < plc.segments.size(); ++s) {
+    for (std::uint32_t s = 0; s < segments.size(); ++s) {
       const auto chains = chains_of(s, false);
-      const auto& [ends, marker] = plc.segments[s];
-      const std::uint32_t line = has_lines ? plc.source.segment_lines[s] : 0;
-      if (chains.empty()) add(ends[0], ends[1], marker, line, given_.segments[s]);
-      for (const auto& chain : chains)
-        for (std::size_t k = 1; k < chain.size(); ++k)
-          add(number(chain[k - 1]), number(chain[k]), marker, line, given_.segments[s]);
+      const std::uint32_t line = source_lines.empty() ? 0 : source_lines[s];
+      if (chains.empty()) add(segments[s].points[0], segments[s].points[1], segments[s].marker, inputs[s], line);
+      for (const Chain& chain : chains) add_chain(chain, segments[s].marker, inputs[s], line);
     }
-    for (EntityId s = 0; s < domain_.segments().size(); ++s) {
-      if (!is_drawn_inside(s)) continue;
-      const auto chain = on_edges.chain(domain_.segments()[s].points[0], domain_.segments()[s].points[1]);
-      for (std::size_t k = 1; k < chain.size(); ++k) add(number(chain[k - 1]), number(chain[k]), 0, 0, no_entity);
-    }
-    for (std::uint32_t f = 0; f < plc.facets.size(); ++f)
-      if (auto chains = chains_of(f, true); !chains.empty()) line_facets_.emplace_back(f, std::move(chains));
-    plc.segments = std::move(segments);
-    given_.segments = std::move(inputs);
-    plc.source.segment_lines = std::move(lines);
+    for (EntityId s = 0; s < domain_.segments().size(); ++s)
+      if (is_drawn_inside(s)) add_chain(chain_of(s), 0, no_entity, 0);
   }
 
   /// Is the edge inside of one facet of the Domain that is replaced, and no segment of the input?
@@ -251,11 +257,11 @@ class Replacement {
     std::ranges::sort(by_facet);
     const bool has_lines = !plc.source.facet_lines.empty();
     auto at = by_facet.begin();
-    auto line_facet = line_facets_.begin();
     for (std::uint32_t f = 0; f < plc.facets.size(); ++f) {
       const std::size_t before = next_.plc.facets.size();
-      const bool is_line = line_facet != line_facets_.end() && line_facet->first == f;
-      if (is_line) add_line_facet(f, (line_facet++)->second);
+      const auto chains = chains_of(f, true);
+      const bool is_line = !chains.empty();
+      if (is_line) add_line_facet(f, chains);
       for (; at != by_facet.end() && at->first == f; ++at) add_pieces(at->second);
       if (!is_line && !touched_[f]) add_facet(std::move(plc.facets[f]), given_.origins_of(f));
       if (has_lines) facet_lines_.resize(facet_lines_.size() + next_.plc.facets.size() - before, plc.source.facet_lines[f]);
@@ -272,8 +278,8 @@ class Replacement {
     next_.origins_begin.push_back(static_cast<std::uint32_t>(next_.origins.size()));
   }
 
-  void add_line_facet(std::uint32_t f, const std::vector<std::vector<std::uint32_t>>& chains) {
-    for (const auto& chain : chains)
+  void add_line_facet(std::uint32_t f, std::span<const Chain> chains) {
+    for (const Chain& chain : chains)
       for (std::size_t k = 1; k < chain.size(); ++k) {
         Plc<3>::Facet piece;
         piece.polygons = {{number(chain[k - 1]), number(chain[k])}};
@@ -310,7 +316,9 @@ class Replacement {
   std::vector<Place> triangles_;  // of all facets
   std::vector<bool> touched_;     // of each facet of the Plc
   std::uint32_t added_begin_ = 0;
-  std::vector<std::pair<std::uint32_t, std::vector<std::vector<std::uint32_t>>>> line_facets_;
+  std::vector<Line> lines_;     // sorted
+  std::vector<Point3> places_;  // of the Domain's points and the new ones
+  PointsOnEdges<3> on_edges_;
   CutPlc next_{Plc<3>{}};  // facets alone
   std::vector<std::uint32_t> facet_lines_;
 };

@@ -80,6 +80,17 @@ class TriangleCutter {
     return found;
   }
 
+  /// Edges likewise.
+  std::vector<Crossings::Cut> ordered_cuts_of(std::uint32_t t) const {
+    std::vector<Crossings::Cut> cuts(cuts_of(t).begin(), cuts_of(t).end());
+    const auto ends = [&](const Crossings::Cut& cut) {
+      const Point3 &p = at(cut.ends[0]), &q = at(cut.ends[1]);
+      return lex_less(q, p) ? std::array{q.x, p.x} : std::array{p.x, q.x};
+    };
+    std::ranges::stable_sort(cuts, [&](const auto& a, const auto& b) { return ends(a) < ends(b); });
+    return cuts;
+  }
+
   LocalCut cut(std::uint32_t t) const {
     const auto& c = pieces_[t].corners;
     std::deque<ExactPoint> given;
@@ -97,50 +108,54 @@ class TriangleCutter {
     }
     std::ranges::sort(vertex_of);
     const auto vertex = [&](std::uint32_t v) { return std::ranges::lower_bound(vertex_of, std::pair{v, 0u})->second; };
-    std::vector<Crossings::Cut> cuts(cuts_of(t).begin(), cuts_of(t).end());
-    const auto ends = [&](const Crossings::Cut& cut) {
-      const Point3 &p = at(cut.ends[0]), &q = at(cut.ends[1]);
-      return lex_less(q, p) ? std::array{q.x, p.x} : std::array{p.x, q.x};
-    };
-    std::ranges::stable_sort(cuts, [&](const auto& a, const auto& b) { return ends(a) < ends(b); });
-    for (const Crossings::Cut& cut : cuts) cdt.constrain(vertex(cut.ends[0]), vertex(cut.ends[1]));
+    for (const Crossings::Cut& cut : ordered_cuts_of(t)) cdt.constrain(vertex(cut.ends[0]), vertex(cut.ends[1]));
+    return named(cdt, names);
+  }
+
+  /// The triangles, with the vertices that cuts have made behind all other points.
+  LocalCut named(ExactCdt& cdt, std::span<const std::uint32_t> names) const {
     LocalCut out;
     out.pieces = cdt.triangles();
-    for (std::uint32_t v = static_cast<std::uint32_t>(names.size()); v < cdt.vertex_count(); ++v) {
+    const auto known = static_cast<std::uint32_t>(names.size());
+    for (std::uint32_t v = known; v < cdt.vertex_count(); ++v) {
       out.made.push_back(rounded(cdt.point(v)));
       out.farthest = std::max(out.farthest, distance(cdt.point(v), out.made.back()));
     }
     for (auto& piece : out.pieces)
-      for (std::uint32_t& v : piece)
-        v = v < names.size() ? names[v] : first_made() + v - static_cast<std::uint32_t>(names.size());
+      for (std::uint32_t& v : piece) v = v < known ? names[v] : first_made() + v - known;
     return out;
   }
 
-  /// Gives the new points their numbers, by their places; what is at the place of a point of the Domain is that.
-  void number_points(CutTriangles& out) {
-    struct New {
-      Point3 at;
-      PointSource source;
-    };
+  struct New {
+    Point3 at;
+    PointSource source;
+  };
+  /// All new points, in the order of their places; of equals the first stays.
+  std::vector<New> new_points(const CutTriangles& out) const {
     std::vector<New> all;
-    for (std::size_t h = 0; h < crossings_.points.size(); ++h) all.push_back({crossings_.points[h].at, {}});
+    for (const CrossingPoint& p : crossings_.points) all.push_back({p.at, {}});
     for (auto row = crossings_.on_edges.rbegin(); row != crossings_.on_edges.rend(); ++row)
       if (row->second >= points_.size())
         all[row->second - points_.size()].source = {edge_of(row->first)[0], edge_of(row->first)[1], no_entity};
     for (std::size_t k = 0; k < local_.size(); ++k)
       for (const Point3& p : local_[k].made) all.push_back({p, pieces_[out.cut[k]].corners});
+    std::ranges::stable_sort(all, [](const New& a, const New& b) { return lex_less(a.at, b.at); });
+    all.erase(std::unique(all.begin(), all.end(), [](const New& a, const New& b) { return a.at == b.at; }), all.end());
+    return all;
+  }
+
+  /// Gives the new points their numbers, by their places; what is at the place of a point of the Domain is that.
+  void number_points(CutTriangles& out) {
     PointPlaces places(points_.size());
     for (std::uint32_t v = 0; v < points_.size(); ++v) places.insert(hash_of(points_[v]), v);
-    std::ranges::stable_sort(all, [](const New& a, const New& b) { return lex_less(a.at, b.at); });
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      if (k > 0 && all[k].at == all[k - 1].at) continue;
-      if (places.find(hash_of(all[k].at), [&](std::uint32_t v) { return points_[v] == all[k].at; }) != no_entity) continue;
-      out.added.push_back(all[k].at);
-      out.sources.push_back(all[k].source);
+    const auto known = [&](const Point3& p) { return places.find(hash_of(p), [&](std::uint32_t v) { return points_[v] == p; }); };
+    for (const New& p : new_points(out)) {
+      if (known(p.at) != no_entity) continue;
+      out.added.push_back(p.at);
+      out.sources.push_back(p.source);
     }
     const auto number = [&](const Point3& p) {
-      const std::uint32_t known = places.find(hash_of(p), [&](std::uint32_t v) { return points_[v] == p; });
-      if (known != no_entity) return known;
+      if (const std::uint32_t v = known(p); v != no_entity) return v;
       return static_cast<std::uint32_t>(points_.size()) +
              static_cast<std::uint32_t>(std::ranges::lower_bound(out.added, p, lex_less<3>) - out.added.begin());
     };

@@ -161,39 +161,38 @@ std::uint32_t ExactCdt::insert(const ExactPoint& p) {
   return cells_[where.cell].v[static_cast<std::size_t>(where.corner)];
 }
 
-/// One cell becomes three; the two at an edge become four, and its halves are constraints if it was one.
-std::uint32_t ExactCdt::insert_at(std::uint32_t v, const Location& where) {
-  struct Rim {
-    std::uint32_t a, b;
-    Side outer;
-    bool fixed;
-  };
+/// The edges about the one cell, or the two at an edge, and these cells.
+std::vector<ExactCdt::Rim> ExactCdt::rim_of(const Location& where, std::vector<std::uint32_t>& slots) const {
   std::vector<Rim> rim;
   const auto add = [&](std::uint32_t c, std::size_t i) {
     const Cell& cell = cells_[c];
     rim.push_back({cell.v[(i + 1) % 3], cell.v[(i + 2) % 3], cell.across[i], cell.fixed[i]});
   };
-  std::vector<std::uint32_t> slots{where.cell};
-  std::uint32_t from = ghost, to = ghost;  // the ends of the edge
-  bool halves_fixed = false;
+  slots.push_back(where.cell);
   if (where.edge < 0) {
     for (std::size_t i = 0; i < 3; ++i) add(where.cell, i);
-  } else {
-    const Cell& cell = cells_[where.cell];
-    const Side behind = cell.across[static_cast<std::size_t>(where.edge)];
-    halves_fixed = cell.fixed[static_cast<std::size_t>(where.edge)];
-    from = cell.v[after(where.edge, 1)];
-    to = cell.v[after(where.edge, 2)];
-    slots.push_back(behind.cell);
-    for (const int i : {1, 2}) add(where.cell, after(where.edge, i));
-    for (const int i : {1, 2}) add(behind.cell, after(behind.edge, i));
+    return rim;
   }
+  const Side behind = cells_[where.cell].across[static_cast<std::size_t>(where.edge)];
+  slots.push_back(behind.cell);
+  for (const int i : {1, 2}) add(where.cell, after(where.edge, i));
+  for (const int i : {1, 2}) add(behind.cell, after(behind.edge, i));
+  return rim;
+}
+
+/// One cell becomes three; the two at an edge become four, and its halves are constraints if it was one.
+std::uint32_t ExactCdt::insert_at(std::uint32_t v, const Location& where) {
+  std::vector<std::uint32_t> slots;
+  const std::vector<Rim> rim = rim_of(where, slots);
+  std::array<std::uint32_t, 2> halved{ghost, ghost};  // the ends of an edge that is a constraint
+  if (where.edge >= 0 && cells_[where.cell].fixed[static_cast<std::size_t>(where.edge)])
+    halved = {cells_[where.cell].v[after(where.edge, 1)], cells_[where.cell].v[after(where.edge, 2)]};
   while (slots.size() < rim.size()) {
     slots.push_back(static_cast<std::uint32_t>(cells_.size()));
     cells_.emplace_back();
   }
   std::vector<Side> stack;
-  const auto is_half = [&](std::uint32_t w) { return halves_fixed && (w == from || w == to); };
+  const auto is_half = [&](std::uint32_t w) { return w != ghost && (w == halved[0] || w == halved[1]); };
   for (std::size_t k = 0; k < rim.size(); ++k) {
     set(slots[k], {v, rim[k].a, rim[k].b});
     cells_[slots[k]].fixed = {rim[k].fixed, is_half(rim[k].b), is_half(rim[k].a)};

@@ -54,9 +54,15 @@ class ExactCdt {
     std::uint32_t cell;
     int edge = -1, corner = -1;  // on which the point is
   };
+  struct Rim {  // an edge about what is replaced, and what is behind it
+    std::uint32_t a, b;
+    Side outer;
+    bool fixed;
+  };
   struct Forcible;  // as EdgeForcing sees it
 
   std::uint32_t add_vertex(const ExactPoint& p);
+  std::vector<Rim> rim_of(const Location& where, std::vector<std::uint32_t>& slots) const;
   std::uint32_t insert_at(std::uint32_t v, const Location& where);
   Location locate(std::uint32_t v) const;
   void set(std::uint32_t c, const std::array<std::uint32_t, 3>& v);
