@@ -10,6 +10,7 @@
 #include <map>
 #include <random>
 #include <set>
+#include <tuple>
 
 #include "pgdr/arrangement.hpp"
 #include "pgdr/diagnosis.hpp"
@@ -283,6 +284,13 @@ TEST(Arrangement, SoupsOnAGrid) {
     }
   }
   EXPECT_LE(refused, 2);
+}
+
+TEST(Arrangement, FacetsOfOnePlaneKeepTheirSides) {  // they went on in each other against their orientation; a cluster was turned
+  for (const auto& [seed, triangles, turned] : {std::tuple{166u, 15, false}, {517u, 16, true}}) {
+    SCOPED_TRACE(seed);
+    arranged(soup(seed, triangles, turned), 1e-13);
+  }
 }
 
 TEST(Arrangement, OrderDoesNotMatter) {

@@ -27,7 +27,7 @@ constexpr int most_rounds = 20;
 constexpr std::size_t most_growth = 4, few_pairs = 64;
 /// Rounds with points on a grid: each moves points first, and then cuts.
 constexpr int most_rounds_on_grid = 12;
-/// Points between edges that pass each other: what is not joined after so many rounds in a row will not be.
+/// Points between edges that pass each other: what is not joined after so many rounds in a row is left until all else is cut.
 constexpr int most_near_rounds = 2;
 
 /// What is done where rounds do not end, one after the other, each from the beginning. What is within a tolerance that was given
@@ -123,10 +123,11 @@ bool Arranger::cut_once() {
     return true;
   }
   if (grid_ && snap(pieces)) return true;
-  if (!near.empty()) {
+  if (!near.empty() && near_rounds_ <= most_near_rounds) {
     add_points(near);
     return true;
   }
+  near_rounds_ = 0;
   auto cut = detail::cut_triangles(*domain_, pieces, crossings_, bulk_, stop_);
   farthest_ += cut.farthest;
   if (grid_)
@@ -137,7 +138,6 @@ bool Arranger::cut_once() {
 
 /// Asked once a round.
 bool Arranger::is_endless(std::size_t pairs) {
-  if (near_rounds_ > most_near_rounds) return true;
   if (rounds_here_ == 1) first_pairs_ = std::max(pairs, few_pairs);
   if (rounds_here_ == 2) first_points_ = state_.plc.points.size();
   return rounds_here_ > (grid_ ? most_rounds_on_grid : most_rounds) || pairs > most_growth * first_pairs_ ||

@@ -73,9 +73,12 @@ std::vector<std::uint32_t> CoveringFacets::candidates(EntityId f, std::uint32_t 
 std::vector<CoveringFacet> CoveringFacets::of(EntityId f, std::uint32_t k) const {
   const TriangleOrigin& origin = domain_.triangle_origins(f)[k];
   const std::vector<std::uint32_t> all = candidates(f, k);
-  if (all.size() == 1) return {{origin.facet, origin.reversed}};
   const Triangle& t = domain_.triangles(f)[k];
   const int axis = domain_.facets()[f].axis, marker = domain_.facets()[f].marker;
+  if (all.size() == 1) {
+    const auto& polygon = plc_.facets[origin.facet].polygons[0];
+    return {{origin.facet, polygon.size() == 3 ? is_reversed(polygon, axis) : origin.reversed}};
+  }
   std::vector<CoveringFacet> found;
   for (const std::uint32_t g : all)
     if (has_middle(plc_.facets[g], t, axis)) found.push_back({g, is_reversed(plc_.facets[g].polygons[0], axis)});
