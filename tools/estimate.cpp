@@ -30,7 +30,7 @@ std::string words(const Point<D>& p) {
 }
 
 template <int D>
-JsonObject to_json(const Domain<D>& domain, EntityRef e) {
+JsonObject json_of_entity(const Domain<D>& domain, EntityRef e) {
   JsonObject entity{{"kind", e.kind == EntityKind::vertex ? "point" : name(e.kind)}};
   const auto n = input_number(domain, e);
   entity.set("id", n ? Json(*n) : Json(nullptr));
@@ -73,10 +73,11 @@ void set_outlook(Report& report, const Domain<D>& domain, const Outlook<D>& outl
   if (outlook.estimate) report.set("estimated_cells", std::floor(outlook.estimate->cells));
   if (!outlook.gap) return report.set("narrowest_gap", nullptr);
   const Gap<D>& gap = *outlook.gap;
-  report.set("narrowest_gap",
-             JsonObject{{"distance", gap.distance},
-                        {"entities", std::array{to_json(domain, gap.entities[0]), to_json(domain, gap.entities[1])}},
-                        {"points", std::array{Json(gap.points[0].x), Json(gap.points[1].x)}}});
+  report.set(
+      "narrowest_gap",
+      JsonObject{{"distance", gap.distance},
+                 {"entities", std::array{json_of_entity(domain, gap.entities[0]), json_of_entity(domain, gap.entities[1])}},
+                 {"points", std::array{Json(gap.points[0].x), Json(gap.points[1].x)}}});
 }
 
 template <int D>

@@ -60,7 +60,7 @@ void add_seeds(const InputArguments& reading, Plc<D>& plc) {
 
 /// The labels or markers that have a name.
 template <class Label>
-JsonObject to_json(const std::map<Label, std::string>& names) {
+JsonObject json_of_names(const std::map<Label, std::string>& names) {
   JsonObject object;
   for (const auto& [label, name] : names) object.set(digits(static_cast<double>(label)), name);
   return object;
@@ -127,8 +127,8 @@ Json Inputs::json() const {
 }
 
 void set_names(Report& report, const Names& names) {
-  report.set("region_names", to_json(names.regions));
-  report.set("marker_names", to_json(names.markers));
+  report.set("region_names", json_of_names(names.regions));
+  report.set("marker_names", json_of_names(names.markers));
 }
 
 template Plc<2> Inputs::read_given<2>(const InputArguments&);

@@ -13,7 +13,7 @@
 namespace pgdr::tool {
 namespace {
 
-JsonObject to_json(const MeasureSummary& m) { return {{"min", m.least}, {"1%", m.one_percent}, {"mean", m.mean}}; }
+JsonObject json_of_measure(const MeasureSummary& m) { return {{"min", m.least}, {"1%", m.one_percent}, {"mean", m.mean}}; }
 
 void set_measures(JsonObject& o, const QualityMeasures& q) {
   const auto& [least, one, five] = q.smallest_angle_quantiles_deg;
@@ -21,13 +21,13 @@ void set_measures(JsonObject& o, const QualityMeasures& q) {
   o.set("min_angle_deg", q.min_angle_deg);
   o.set("max_angle_deg", q.max_angle_deg);
   o.set("smallest_angles_deg", JsonObject{{"0.1%", least}, {"1%", one}, {"5%", five}});
-  o.set("radius_ratio", to_json(q.radius_ratio));
-  o.set("scaled_jacobian", to_json(q.scaled_jacobian));
+  o.set("radius_ratio", json_of_measure(q.radius_ratio));
+  o.set("scaled_jacobian", json_of_measure(q.scaled_jacobian));
   o.set("cells_by_smallest_angle", q.cells_by_smallest_angle);
   o.set("histogram", q.histogram);
 }
 
-JsonObject to_json(const GivenEntity& e) {
+JsonObject json_of_given(const GivenEntity& e) {
   JsonObject o{{"kind", name(e.kind)}};
   if (e.kind == EntityKind::segment) o.set("ends", e.ends);
   if (e.kind == EntityKind::facet) o.set("facet", e.facet);
@@ -105,7 +105,7 @@ JsonObject to_json(const QualitySummary& q) {
 JsonObject to_json(const PoorReason& r) {
   return {{"cell", r.cell},
           {"code", name(r.code)},
-          {"entities", std::array{to_json(r.entities[0]), to_json(r.entities[1])}},
+          {"entities", std::array{json_of_given(r.entities[0]), json_of_given(r.entities[1])}},
           {"angle", r.angle}};
 }
 

@@ -71,7 +71,7 @@ void put_element(TextBuffer& text, int attribute, int geometry, const Vertices& 
   text.put('\n');
 }
 
-void put_count(FileOutput& out, std::string_view section, std::size_t n) {
+void put_heading(FileOutput& out, std::string_view section, std::size_t n) {
   out.put(section);
   out.put_number(n);
   out.put('\n');
@@ -90,18 +90,18 @@ void write_mfem(const OutputMesh<D>& mesh, FileOutput& out) {
   const bool has_sets = regions.has_sets() || boundary.has_sets();
   out.put(has_sets ? "MFEM mesh v1.3\n\ndimension\n" : "MFEM mesh v1.0\n\ndimension\n");
   out.put_number(D);
-  put_count(out, "\n\nelements\n", mesh.cells.size());
+  put_heading(out, "\n\nelements\n", mesh.cells.size());
   out.put_each(mesh.cells.size(), [&](TextBuffer& text, std::size_t i) {
     put_element(text, regions.of(mesh.regions.empty() ? 0 : mesh.regions[i]), D == 3 ? mfem_tetrahedron : mfem_triangle,
                 mesh.cells[i]);
   });
   if (has_sets) regions.put_sets(out, "\nattribute_sets\n");
-  put_count(out, "\nboundary\n", walls.size());
+  put_heading(out, "\nboundary\n", walls.size());
   out.put_each(walls.size(), [&](TextBuffer& text, std::size_t i) {
     put_element(text, boundary.of(walls[i].marker), D == 3 ? mfem_triangle : mfem_segment, walls[i].vertices);
   });
   if (has_sets) boundary.put_sets(out, "\nbdr_attribute_sets\n");
-  put_count(out, "\nvertices\n", mesh.points.size());
+  put_heading(out, "\nvertices\n", mesh.points.size());
   out.put_number(D);
   out.put('\n');
   out.put_each(mesh.points.size(), [&](TextBuffer& text, std::size_t i) {
