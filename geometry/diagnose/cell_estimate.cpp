@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "diagnose/cells_between.hpp"
-#include "diagnose/chance.hpp"
 #include "diagnose/meshed_space.hpp"
 #include "diagnose/near_pieces.hpp"
 #include "numbers/signed_measure.hpp"
 #include "pgdr/estimate.hpp"
+#include "space/chance.hpp"
 #include "space/stop_check.hpp"
 
 namespace pgdr {
@@ -44,7 +44,7 @@ class MeasuredSpace {
         middle_(detail::on_edge(box_.low, box_.high, 0.5)),
         measures_(space.volumes().size()) {
     constexpr double parts = D == 2 ? 2 : 6;
-    for (std::uint32_t wall = 0; wall < space.hits().walls(); ++wall) {
+    for (std::uint32_t wall = 0; wall < space.hits().count(); ++wall) {
       // From the wall to the middle of all; positive if that is on its positive side.
       const double pyramid = detail::signed_measure<D>(space.hits().corners(wall), middle_).first / parts;
       for (const bool negative : {false, true}) {
@@ -80,7 +80,7 @@ class MeasuredSpace {
     // A volume in which there is no place is thin, or small: what is at its walls is near to all of it.
     std::vector<char> is_missed(means.size());
     for (std::size_t v = 0; v < means.size(); ++v) is_missed[v] = means[v].count == 0 ? 1 : 0;
-    for (std::uint32_t wall = 0; wall < space_.hits().walls(); ++wall)
+    for (std::uint32_t wall = 0; wall < space_.hits().count(); ++wall)
       for (const bool negative : {false, true}) {
         const Volume& volume = space_.volume_beside(wall, negative);
         if (is_missed[number(volume)] && means[number(volume)].count < count_places<D>) note(look(middle_of(wall), &volume));

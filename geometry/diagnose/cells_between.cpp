@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "diagnose/chance.hpp"
 #include "numbers/vectors.hpp"
 #include "space/box_tree.hpp"
+#include "space/chance.hpp"
 
 namespace pgdr::detail {
 namespace {

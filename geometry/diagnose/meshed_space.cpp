@@ -4,176 +4,39 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
-#include "numbers/vectors.hpp"
-#include "pgdr/predicates.hpp"
 #include "space/nesting.hpp"
-#include "space/turn_round.hpp"
 
 namespace pgdr::detail {
 namespace {
 
-/// Rays that are tried, where each goes through a rim by bad luck only.
-constexpr int most_attempts = 64;
-
 /// In unit scale, where coordinates are up to 2: rounding's own, 8 ulps, where the Domain has none.
 constexpr double least_tolerance = 0x1p-48;
 
-std::uint64_t ridge_of(std::uint32_t a, std::uint32_t b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
+/// Those of the pieces that are walls come first.
+template <int D>
+std::vector<Wall<D>> walls_of(const NearPieces<D>& pieces) {
+  std::vector<Wall<D>> walls;
+  for (const Piece& p : pieces.pieces()) {
+    if (p.count != D) break;
+    Wall<D>& wall = walls.emplace_back();
+    std::copy_n(p.corners.begin(), D, wall.begin());
+  }
+  return walls;
+}
 
 }  // namespace
 
 template <int D>
 MeshedSpace<D>::MeshedSpace(const NearPieces<D>& pieces, bool voids_by_nesting, const Bulk& bulk, const StopCheck& stop_check)
-    : pieces_(pieces), hits_(pieces, bulk), tolerance_(std::max(pieces.domain().tolerance() / pieces.unit(), least_tolerance)) {
-  stop_check();
-  DisjointSets sides(2 * std::size_t{hits_.walls()} + 1), surfaces(hits_.walls());
-  std::vector<AtRidge> ridges = walls_at_ridges(bulk, stop_check);
-  for (std::size_t i = 0, j = 0; i < ridges.size(); i = j) {
-    for (j = i + 1; j < ridges.size() && ridges[j].ridge == ridges[i].ridge;) ++j;
-    turn_round(std::span(ridges).subspan(i, j - i), sides, surfaces);
-  }
-  const std::vector<char> joined = join_surfaces(sides, surfaces, bulk, stop_check);
-  number_volumes(sides, surfaces, joined);
-  if (voids_by_nesting) judge_nesting();
+    : pieces_(pieces),
+      walls_(pieces.points(), walls_of(pieces), bulk, stop_check),
+      tolerance_(std::max(pieces.domain().tolerance() / pieces.unit(), least_tolerance)),
+      volumes_(walls_.count()) {
+  const std::vector<bool> solid = voids_by_nesting ? solid_by_nesting(walls_.count(), walls_.neighbours())
+                                                   : std::vector<bool>(volumes_.size(), true);
+  for (std::uint32_t v = 1; v < volumes_.size(); ++v) volumes_[v].meshed = walls_.is_known(v) && solid[v];
   place_seeds(stop_check);
-}
-
-template <int D>
-auto MeshedSpace<D>::walls_at_ridges(const Bulk& bulk, const StopCheck& stop_check) const -> std::vector<AtRidge> {
-  std::vector<AtRidge> ridges(std::size_t{D} * hits_.walls());
-  bulk.each(hits_.walls(), [&](std::size_t i) {
-    const auto wall = static_cast<std::uint32_t>(i);
-    const auto& s = pieces_.pieces()[i].corners;
-    for (std::size_t k = 0; k < D; ++k) {
-      if constexpr (D == 2) {
-        ridges[D * i + k] = {s[k], wall, s[1 - k], k == 1};
-      } else {
-        const std::uint32_t a = s[(k + 1) % 3], b = s[(k + 2) % 3];
-        ridges[D * i + k] = {ridge_of(a, b), wall, s[k], a > b};
-      }
-    }
-  });
-  stop_check.sort(bulk, ridges);
-  return ridges;
-}
-
-template <int D>
-Sign MeshedSpace<D>::turn(std::uint64_t ridge, std::uint32_t from, std::uint32_t to) const {
-  const auto p = pieces_.points();
-  if constexpr (D == 2)
-    return orient2d(p[ridge], p[from], p[to]);
-  else
-    return orient3d(p[ridge >> 32], p[ridge & 0xffffffffu], p[from], p[to]);
-}
-
-template <int D>
-void MeshedSpace<D>::turn_round(std::span<AtRidge> walls, DisjointSets& sides, DisjointSets& surfaces) const {
-  sort_round(walls, [&, ridge = walls[0].ridge](std::uint32_t v, std::uint32_t w) { return turn(ridge, v, w); });
-  for (std::size_t i = 0; i < walls.size(); ++i) {
-    const AtRidge &here = walls[i], &next = walls[(i + 1) % walls.size()];
-    sides.unite(2 * here.wall + here.ahead_negative, 2 * next.wall + !next.ahead_negative);
-    surfaces.unite(here.wall, next.wall);
-  }
-}
-
-template <int D>
-auto MeshedSpace<D>::list(std::span<const std::uint32_t> by_surface, DisjointSets& surfaces) const -> std::vector<Surface> {
-  const auto first_ray = hits_.ray(Point<D>{}, 0);
-  const auto way = difference(first_ray.to, first_ray.from);
-  std::vector<Surface> found;
-  for (std::size_t i = 0; i < by_surface.size(); ++i) {
-    const std::uint32_t name = surfaces.find(by_surface[i]);
-    if (found.empty() || found.back().name != name) found.push_back({name, by_surface.subspan(i, 0), Box<D>::empty()});
-    Surface& s = found.back();
-    s.walls = std::span(s.walls.data(), s.walls.size() + 1);
-    for (const Point<D>& x : hits_.corners(by_surface[i])) {
-      s.box.add(x);
-      s.reach = std::max(s.reach, dot(difference(x, first_ray.from), way));
-    }
-  }
-  return found;
-}
-
-// A ray from a surface to beyond all walls tells in which volume the surface is: it leaves the surface for good, and goes on to
-// others, of which each in turn is left for good, till it meets the volume's own wall, or the outside. Once it has left its own
-// surface, it may end where it meets one of which that is known. Surfaces that are farther along come first, so that the next one
-// is mostly known.
-template <int D>
-std::vector<char> MeshedSpace<D>::join_surfaces(DisjointSets& sides, DisjointSets& surfaces, const Bulk& bulk,
-                                                const StopCheck& stop_check) const {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> named(hits_.walls());
-  for (std::uint32_t i = 0; i < named.size(); ++i) named[i] = {surfaces.find(i), i};
-  stop_check.sort(bulk, named);
-  std::vector<std::uint32_t> by_surface(named.size());
-  std::ranges::transform(named, by_surface.begin(), [](const auto& n) { return n.second; });
-  std::vector<Surface> all = list(by_surface, surfaces);
-  std::stable_sort(all.begin(), all.end(), [](const Surface& a, const Surface& b) { return a.reach > b.reach; });
-  std::vector<char> joined(by_surface.size());  // by the name of the surface
-  for (const Surface& s : all) {
-    stop_check();
-    for (int k = 0; k < most_attempts && joined[s.name] == 0; ++k)
-      if (join_along_ray(s, k, joined, sides, surfaces)) break;
-  }
-  return joined;
-}
-
-/// Through another wall of the surface at each attempt. False if the ray is of no use.
-template <int D>
-bool MeshedSpace<D>::join_along_ray(const Surface& surface, int attempt, std::vector<char>& joined, DisjointSets& sides,
-                                    DisjointSets& surfaces) const {
-  constexpr std::size_t stride = 7919;  // a prime
-  const std::uint32_t through = surface.walls[static_cast<std::size_t>(attempt) * stride % surface.walls.size()];
-  Point<D> begin{};
-  for (const Point<D>& x : hits_.corners(through))
-    for (int i = 0; i < D; ++i) begin[i] += x[i] / D;
-  auto ray = hits_.ray(begin, attempt);
-  for (int i = 0; i < D; ++i) ray.from[i] -= 0x1p-24 * (ray.to[i] - begin[i]);  // before the wall, whose middle is rounded
-  if (!hits_.crosses(ray, through)) return false;
-  std::vector<std::uint32_t> passed;
-  std::uint32_t open = no_entity;  // the side on which the ray has left the last wall
-  for (auto hit = hits_.first(ray);; hit = hits_.first(ray, hit.wall)) {
-    if (hit.kind == FirstHits<D>::Kind::on_wall || hit.kind == FirstHits<D>::Kind::degenerate) return false;
-    const bool ends = hit.kind == FirstHits<D>::Kind::none;
-    if (open != no_entity) sides.unite(open, ends ? outside() : 2 * hit.wall + hit.from_negative);
-    if (ends) break;
-    passed.push_back(surfaces.find(hit.wall));
-    open = 2 * hit.wall + !hit.from_negative;
-    if (joined[passed.back()] != 0 && hits_.is_beyond(ray, surface.box, hit.wall)) {
-      passed = {surface.name};  // the others may be met once more
-      break;
-    }
-  }
-  for (const std::uint32_t s : passed) joined[s] = 1;
-  return true;
-}
-
-/// Those about which nothing is known are not meshed.
-template <int D>
-void MeshedSpace<D>::number_volumes(DisjointSets& sides, DisjointSets& surfaces, std::span<const char> joined) {
-  std::vector<std::uint32_t> number(std::size_t{outside()} + 1, no_entity);
-  std::uint32_t count = 0;
-  number[sides.find(outside())] = count++;
-  volume_of_.resize(number.size());
-  for (std::uint32_t i = 0; i < number.size(); ++i) {
-    std::uint32_t& mine = number[sides.find(i)];
-    if (mine == no_entity) mine = count++;
-    volume_of_[i] = mine;
-  }
-  volumes_.resize(count);
-  for (std::size_t v = 1; v < count; ++v) volumes_[v].meshed = true;
-  for (std::uint32_t i = 0; i < outside(); ++i)
-    if (joined[surfaces.find(i / 2)] == 0) volumes_[volume_of_[i]].meshed = false;
-}
-
-template <int D>
-void MeshedSpace<D>::judge_nesting() {
-  std::vector<std::array<std::uint32_t, 2>> neighbours;
-  for (std::uint32_t i = 0; i < outside(); i += 2)
-    if (volume_of_[i] != volume_of_[i + 1]) neighbours.push_back({volume_of_[i], volume_of_[i + 1]});
-  const auto solid = solid_by_nesting(static_cast<std::uint32_t>(volumes_.size()), std::move(neighbours));
-  for (std::size_t v = 1; v < volumes_.size(); ++v) volumes_[v].meshed = volumes_[v].meshed && solid[v];
 }
 
 template <int D>
@@ -181,7 +44,7 @@ void MeshedSpace<D>::place_seeds(const StopCheck& stop_check) {
   const auto volume_of = [&](Point<D> x) {
     stop_check();
     for (double& c : x.x) c /= pieces_.unit();
-    return find(x);
+    return walls_.find(x);
   };
   for (const RegionSeed<D>& seed : pieces_.domain().regions())
     if (const auto v = volume_of(seed.point); v && *v != 0) {
@@ -194,25 +57,14 @@ void MeshedSpace<D>::place_seeds(const StopCheck& stop_check) {
 }
 
 template <int D>
-std::optional<std::uint32_t> MeshedSpace<D>::find(const Point<D>& x) const {
-  for (int k = 0; k < most_attempts; ++k) {
-    const auto hit = hits_.first(hits_.ray(x, k));
-    if (hit.kind == FirstHits<D>::Kind::on_wall) return std::nullopt;
-    if (hit.kind == FirstHits<D>::Kind::none) return 0;
-    if (hit.kind == FirstHits<D>::Kind::hit) return volume_of_[2 * hit.wall + hit.from_negative];
-  }
-  return std::nullopt;
-}
-
-template <int D>
 auto MeshedSpace<D>::volume_at(const Point<D>& x) const -> const Volume* {
-  const auto v = find(x);
+  const auto v = walls_.find(x);
   return v ? &volumes_[*v] : nullptr;
 }
 
 template <int D>
 bool MeshedSpace<D>::has(std::uint32_t piece) const {
-  if (piece < hits_.walls()) return bounds(piece);
+  if (piece < hits().count()) return bounds(piece);
   const auto corners = pieces_.pieces()[piece].points();
   const auto p = pieces_.points();
   const Volume* const about = volume_at(on_edge(p[corners.front()], p[corners.back()], 0.5));
@@ -221,8 +73,8 @@ bool MeshedSpace<D>::has(std::uint32_t piece) const {
 
 template <int D>
 bool MeshedSpace<D>::may_face(std::uint32_t piece, const Point<D>& x) const {
-  if (piece >= hits_.walls()) return true;
-  const Sign side = hits_.side(piece, x);
+  if (piece >= hits().count()) return true;
+  const Sign side = hits().side(piece, x);
   return side == Sign::zero ? bounds(piece) : volume_beside(piece, side == Sign::negative).meshed;
 }
 
@@ -241,7 +93,7 @@ bool MeshedSpace<D>::is_in_volume(const Point<D>& a, const Point<D>& b, bool mes
   constexpr double most = 0.125;
   const double length = std::sqrt(squared_distance(a, b)), rim = length * most > tolerance_ ? tolerance_ / length : most;
   const typename FirstHits<D>::Ray way{on_edge(a, b, rim), on_edge(a, b, 1 - rim)};
-  if (hits_.first(way).kind != FirstHits<D>::Kind::none) return false;
+  if (hits().first(way).kind != FirstHits<D>::Kind::none) return false;
   const Point<D> middle = on_edge(a, b, 0.5);
   bool on_wall = false;
   walls_at(middle, std::min(tolerance_, length / 4), [&](std::uint32_t) { on_wall = true; });
@@ -252,7 +104,7 @@ bool MeshedSpace<D>::is_in_volume(const Point<D>& a, const Point<D>& b, bool mes
 template <int D>
 template <class Visit>
 void MeshedSpace<D>::walls_at(const Point<D>& x, double near, const Visit& visit) const {
-  hits_.tree().meeting(Box<D>::around(x).widened(near), [&](std::uint32_t i) {
+  hits().tree().meeting(Box<D>::around(x).widened(near), [&](std::uint32_t i) {
     if (pieces_.closest(x, pieces_.pieces()[i]).square <= near * near) visit(i);
   });
 }

@@ -1,19 +1,25 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which wall of an input (a triangle of a facet; 2D: a segment) a ray meets first, and which comes after that one. Exact: a ray
-// through the rim of a wall is given up, and the caller takes another. Immutable once made, any thread.
+// Which of many walls (triangles; 2D: edges) a ray meets first, and which comes after that one. Exact: a ray through the rim of a
+// wall is given up, and the caller takes another. Immutable once made, any thread.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
-#include "diagnose/near_pieces.hpp"
+#include "pgdr/types.hpp"
 #include "space/box_tree.hpp"
+#include "space/bulk.hpp"
 
 namespace pgdr::detail {
+
+/// The corners of a wall, as indices of points.
+template <int D>
+using Wall = std::array<std::uint32_t, static_cast<std::size_t>(D)>;
 
 template <int D>
 class FirstHits {
@@ -34,9 +40,12 @@ class FirstHits {
     Point<D> from, to;
   };
 
-  FirstHits(const NearPieces<D>& pieces, const Bulk& bulk);
+  /// The points must outlive this. @pre walls are not degenerate
+  FirstHits(std::span<const Point<D>> points, std::vector<Wall<D>> walls, const Bulk& bulk);
 
-  std::uint32_t walls() const { return walls_; }  ///< they are the first of the pieces
+  std::uint32_t count() const { return static_cast<std::uint32_t>(walls_.size()); }
+  std::span<const Wall<D>> walls() const { return walls_; }
+  std::span<const Point<D>> points() const { return points_; }
   std::array<Point<D>, D> corners(std::uint32_t wall) const;
   Sign side(std::uint32_t wall, const Point<D>& x) const;  ///< of the wall, on which x is
   const BoxTree<D>& tree() const { return tree_; }         ///< of the walls
@@ -63,8 +72,8 @@ class FirstHits {
   Interval place(const Ray& ray, std::uint32_t wall) const;
   std::optional<bool> comes_first(const Ray& ray, std::uint32_t a, std::uint32_t b) const;
 
-  const NearPieces<D>& pieces_;
-  std::uint32_t walls_ = 0;
+  std::span<const Point<D>> points_;
+  std::vector<Wall<D>> walls_;
   std::vector<Box<D>> boxes_;
   BoxTree<D> tree_;
   double reach_ = 0;  ///< longer than the box of all points

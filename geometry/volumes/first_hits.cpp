@@ -1,46 +1,46 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnose/first_hits.hpp"
+#include "volumes/first_hits.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
-#include "diagnose/chance.hpp"
 #include "numbers/exact_tests.hpp"
 #include "numbers/rounding.hpp"
 #include "numbers/signed_measure.hpp"
 #include "numbers/vectors.hpp"
 #include "pgdr/predicates.hpp"
+#include "space/chance.hpp"
 
 namespace pgdr::detail {
 namespace {
 
 template <int D>
-std::vector<Box<D>> boxes_of_walls(const NearPieces<D>& pieces, std::uint32_t walls, const Bulk& bulk) {
-  std::vector<Box<D>> boxes = pieces.boxes(0, bulk);
-  boxes.resize(walls);
+std::vector<Box<D>> boxes_of(std::span<const Point<D>> points, std::span<const Wall<D>> walls, const Bulk& bulk) {
+  std::vector<Box<D>> boxes(walls.size());
+  bulk.each(walls.size(), [&](std::size_t i) {
+    boxes[i] = Box<D>::empty();
+    for (const std::uint32_t v : walls[i]) boxes[i].add(points[v]);
+  });
   return boxes;
-}
-
-template <int D>
-std::uint32_t count_walls(const NearPieces<D>& pieces) {
-  const auto& all = pieces.pieces();
-  return static_cast<std::uint32_t>(std::ranges::partition_point(all, [](const auto& p) { return p.count == D; }) - all.begin());
 }
 
 }  // namespace
 
 template <int D>
-FirstHits<D>::FirstHits(const NearPieces<D>& pieces, const Bulk& bulk)
-    : pieces_(pieces), walls_(count_walls(pieces)), boxes_(boxes_of_walls(pieces, walls_, bulk)), tree_(boxes_, bulk) {
-  reach_ = 4 * Box<D>::of(pieces.points()).longest_side();
-}
+FirstHits<D>::FirstHits(std::span<const Point<D>> points, std::vector<Wall<D>> walls, const Bulk& bulk)
+    : points_(points),
+      walls_(std::move(walls)),
+      boxes_(boxes_of<D>(points_, walls_, bulk)),
+      tree_(boxes_, bulk),
+      reach_(4 * Box<D>::of(points_).longest_side()) {}
 
 template <int D>
 std::array<Point<D>, D> FirstHits<D>::corners(std::uint32_t wall) const {
   std::array<Point<D>, D> s;
-  for (std::size_t k = 0; k < D; ++k) s[k] = pieces_.points()[pieces_.pieces()[wall].corners[k]];
+  for (std::size_t k = 0; k < D; ++k) s[k] = points_[walls_[wall][k]];
   return s;
 }
 
