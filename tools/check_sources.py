@@ -46,6 +46,8 @@ ROOMS = {
                          "diagnosis estimate surface_counts"),
         "arrange": Room("which pieces are facets that cross, and whose are they?", "build diagnose",
                         "arrangement.cpp crossings.hpp exact_cdt.hpp", "arrangement"),
+        "bodies": Room("which solids do facets mean, and which volumes are theirs?", "arrange",
+                       "body_volumes.hpp region_groups.hpp", "bodies"),
         "select": Room("where may a point go?", "numbers", "selectors.cpp", "point_selector selectors"),
     },
     "core": {

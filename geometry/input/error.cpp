@@ -41,6 +41,8 @@ std::string_view name(Errc code) {
     case Errc::tolerance_too_large: return "tolerance_too_large";
     case Errc::no_volume: return "no_volume";
     case Errc::boundary_not_recovered: return "boundary_not_recovered";
+    case Errc::not_orientable: return "not_orientable";
+    case Errc::bodies_overlap: return "bodies_overlap";
     case Errc::duplicate_point: return "duplicate_point";
     case Errc::near_points: return "near_points";
     case Errc::ambiguous: return "ambiguous";
@@ -50,6 +52,7 @@ std::string_view name(Errc code) {
     case Errc::non_manifold: return "non_manifold";
     case Errc::inconsistent_orientation: return "inconsistent_orientation";
     case Errc::bent_facet: return "bent_facet";
+    case Errc::unsure_volume: return "unsure_volume";
     case Errc::small_angle: return "small_angle";
     case Errc::beyond_theory: return "beyond_theory";
     case Errc::unfit_name: return "unfit_name";

@@ -43,6 +43,8 @@ enum class Errc {
   tolerance_too_large,  ///< it joins what is apart, or destroys what it should keep
   no_volume,            ///< all points lie in one plane (3D) or on one line (2D)
   boundary_not_recovered,
+  not_orientable,  ///< the facets of a body have no two sides
+  bodies_overlap,  ///< two bodies have a volume in common, and none may
   // input: found, and taken as it is
   duplicate_point,
   near_points,  ///< two points that may be meant to be one
@@ -52,7 +54,8 @@ enum class Errc {
   open_boundary,
   non_manifold,
   inconsistent_orientation,
-  bent_facet,  ///< a polygon whose points are far off any plane
+  bent_facet,     ///< a polygon whose points are far off any plane
+  unsure_volume,  ///< an open body leaves open whether it contains this volume
   small_angle,
   beyond_theory,  ///< a bound below the proved one is asked for
   unfit_name,     ///< a format cannot hold a name as it is

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "pgdr/arrangement.hpp"
+#include "pgdr/bodies.hpp"
 #include "pgdr/check.hpp"
 #include "pgdr/circumsphere.hpp"
 #include "pgdr/diagnosis.hpp"

@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "bodies/body_volumes.hpp"
+#include "bodies/region_groups.hpp"
+#include "pgdr/bodies.hpp"
+#include "pgdr/diagnosis.hpp"
+
+namespace pgdr {
+namespace {
+
+using detail::Bulk;
+using detail::RegionGroups;
+
+/// Which facets of an input are left as they are, and what is left of others.
+class KeptFacets {
+ public:
+  KeptFacets(const Plc<3>& plc, const Arrangement& pieces, const RegionGroups& groups, bool are_cut)
+      : plc_(plc), pieces_(pieces), whole_(plc.facets.size(), 1) {
+    for (std::uint32_t p = 0; p < pieces.triangles.size(); ++p)
+      for (std::uint32_t k = pieces.origins_begin[p]; k < pieces.origins_begin[p + 1]; ++k) {
+        const std::uint32_t f = pieces.origins[k].facet;
+        if (groups.is_dropped(p) || (are_cut && !is_piece(f, p))) whole_[f] = 0;
+      }
+    for (std::uint32_t f = 0; f < plc.facets.size(); ++f)
+      if (whole_[f] != 0) from_.push_back({f, detail::no_corner});
+    for (std::uint32_t p = 0; p < pieces.triangles.size(); ++p) {
+      const std::uint32_t f = pieces.origins[pieces.origins_begin[p]].facet;
+      if (!groups.is_dropped(p) && whole_[f] == 0) from_.push_back({f, p});
+    }
+    std::stable_sort(from_.begin(), from_.end(), [](const From& a, const From& b) { return a.facet < b.facet; });
+  }
+
+  std::size_t count() const { return from_.size(); }
+  std::uint32_t facet(std::size_t i) const { return from_[i].facet; }  ///< of the input, that the i-th one comes from
+  Plc<3>::Facet make(std::size_t i) const {
+    const auto& [f, p] = from_[i];
+    if (p == detail::no_corner) return plc_.facets[f];
+    const auto& t = pieces_.triangles[p];
+    const bool reversed = pieces_.origins[pieces_.origins_begin[p]].reversed;
+    return {{{t[0], t[reversed ? 2u : 1u], t[reversed ? 1u : 2u]}}, {}, plc_.facets[f].marker};
+  }
+
+ private:
+  struct From {
+    std::uint32_t facet, piece;
+  };
+  bool is_piece(std::uint32_t f, std::uint32_t p) const {
+    const auto& facet = plc_.facets[f];
+    if (facet.polygons.size() != 1 || facet.polygons[0].size() != 3) return false;
+    return std::ranges::is_permutation(facet.polygons[0], pieces_.triangles[p]);
+  }
+
+  const Plc<3>& plc_;
+  const Arrangement& pieces_;
+  std::vector<char> whole_;
+  std::vector<From> from_;
+};
+
+/// Leaves out points that the input had for facets and segments, and that nothing has any more.
+class PointsLeft {
+ public:
+  PointsLeft(const Plc<3>& before, Plc<3>& plc) : new_index_(plc.points.size(), 0) {
+    std::vector<char> had(plc.points.size(), 0), has(plc.points.size(), 0);
+    mark(before, had);
+    mark(plc, has);
+    std::uint32_t left = 0;
+    for (std::uint32_t v = 0; v < had.size(); ++v) {
+      const bool is_new = v >= before.points.size();
+      new_index_[v] = has[v] != 0 || (had[v] == 0 && !is_new) ? left++ : no_entity;
+    }
+    const std::size_t attributes = before.points.empty() ? 0 : before.point_attributes.size() / before.points.size();
+    keep(plc.points, 1);
+    keep(plc.point_markers, 1);
+    keep(plc.point_attributes, attributes);
+    keep(plc.source.point_lines, 1);
+    for (auto& f : plc.facets)
+      for (auto& polygon : f.polygons)
+        for (std::uint32_t& v : polygon) v = new_index_[v];
+    for (auto& s : plc.segments)
+      for (std::uint32_t& v : s.points) v = new_index_[v];
+  }
+
+ private:
+  static void mark(const Plc<3>& plc, std::vector<char>& used) {
+    for (const auto& f : plc.facets)
+      for (const auto& polygon : f.polygons)
+        for (const std::uint32_t v : polygon) used[v] = 1;
+    for (const auto& s : plc.segments)
+      for (const std::uint32_t v : s.points) used[v] = 1;
+  }
+  /// So many values a point, as far as the list goes.
+  template <class T>
+  void keep(std::vector<T>& values, std::size_t each) const {
+    std::size_t to = 0;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (new_index_[i / each] != no_entity) values[to++] = values[i];
+    values.resize(to);
+  }
+
+  std::vector<std::uint32_t> new_index_;
+};
+
+Plc<3> make_plc(const Plc<3>& plc, const Arrangement& pieces, const RegionGroups& groups, bool are_cut) {
+  const KeptFacets kept(plc, pieces, groups, are_cut);
+  Plc<3> made = plc;
+  made.facets.clear();
+  made.facet_bodies.clear();
+  made.source.facet_lines.clear();
+  for (std::size_t i = 0; i < kept.count(); ++i) {
+    const std::uint32_t f = kept.facet(i);
+    made.facets.push_back(kept.make(i));
+    if (!plc.facet_bodies.empty()) made.facet_bodies.push_back(plc.facet_bodies[f]);
+    if (!plc.source.facet_lines.empty()) made.source.facet_lines.push_back(plc.source.facet_lines[f]);
+  }
+  made.points.insert(made.points.end(), pieces.points.begin() + static_cast<std::ptrdiff_t>(plc.points.size()),
+                     pieces.points.end());
+  if (!made.point_markers.empty()) made.point_markers.resize(made.points.size());
+  if (!plc.points.empty()) made.point_attributes.resize(plc.point_attributes.size() / plc.points.size() * made.points.size());
+  PointsLeft(plc, made);
+  return made;
+}
+
+/// One for each solid and each void that has none.
+void add_seeds(const detail::BodyVolumes& volumes, const RegionGroups& groups, Plc<3>& plc) {
+  for (const RegionGroups::Group& g : groups.groups()) {
+    if (g.is_outside || g.has_seed || g.has_hole) continue;
+    const auto largest = std::ranges::max_element(g.volumes, {},
+                                                  [&](std::uint32_t v) { return volumes.measure(v).divided_by(6); });
+    const Point<3> x = volumes.inside(*largest);
+    if (g.is_solid)
+      plc.regions.push_back({x, g.label, 0});
+    else
+      plc.holes.push_back(x);
+  }
+}
+
+void require_arrays(const Plc<3>& plc) {
+  if (!plc.facet_bodies.empty() && plc.facet_bodies.size() != plc.facets.size())
+    throw UsageError({Errc::bad_option, "facet_bodies needs one entry a facet", {}, 0, {}, {}});
+}
+
+WithBodies label(const Plc<3>& plc, const Arrangement& pieces, bool are_cut, BodyMode mode, const Bulk& bulk,
+                 const detail::StopCheck& stop_check) {
+  const detail::BodyVolumes volumes(plc, pieces, bulk, stop_check);
+  const RegionGroups groups(plc, pieces, volumes, mode, bulk);
+  WithBodies made{make_plc(plc, pieces, groups, are_cut), groups.regions(), {}, volumes.warnings()};
+  add_seeds(volumes, groups, made.plc);
+  made.body_names.resize(volumes.bodies());
+  for (std::size_t b = 0; b < made.body_names.size() && b < plc.body_names.size(); ++b) made.body_names[b] = plc.body_names[b];
+  return made;
+}
+
+}  // namespace
+
+WithBodies with_bodies(const Plc<3>& plc, BodyMode mode, std::stop_token stop) {
+  require_arrays(plc);
+  std::vector<Diagnostic> repairs;
+  const Arrangement pieces = arrange(plc, repairs, {.markers = {}, .stop = stop});
+  const auto is_crossing = [](const Diagnostic& d) { return d.code == Errc::entities_intersect; };
+  const bool crosses = std::ranges::any_of(repairs, is_crossing);
+  if (crosses) require_no_errors(Domain<3>(plc, stop), stop);
+  return label(plc, pieces, crosses, mode, Bulk(true, stop), detail::StopCheck(stop));
+}
+
+WithBodies with_bodies(const Plc<3>& plc, const Arrangement& pieces, BodyMode mode, std::stop_token stop) {
+  require_arrays(plc);
+  const detail::StopCheck stop_check(stop);
+  return label(plc, pieces, true, mode, Bulk(true, stop), stop_check);
+}
+
+}  // namespace pgdr
