@@ -8,11 +8,13 @@
 #include <optional>
 #include <utility>
 
+#include "bodies.hpp"
 #include "bounds.hpp"
 #include "command.hpp"
 #include "console.hpp"
 #include "files.hpp"
 #include "input.hpp"
+#include "pgdr/check_bodies.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/mesh_maps.hpp"
 #include "pgdr/predicates.hpp"
@@ -114,12 +116,15 @@ int check_as(const CheckArguments& a, InputFile& file, Report& report) {
   if (!reading.markers) reading.markers = reported.markers;
   if (reading.seeds.empty()) reading.seeds = reported.seeds;
   if (reading.holes.empty()) reading.holes = reported.holes;
+  if (!a.regions) reading.bodies = reported.bodies;
   const std::optional<Plc<D>> plc = read_input_of_mesh<D>(a.inputs, reading, reported.tolerance);
-  resolve_names(plc ? plc->names : mesh.names, bounds);
+  std::optional<Plc<D>> with_bodies;  // what the mesh was made of
+  if (plc && reading.bodies) label_bodies(with_bodies.emplace(*plc), reading);
+  resolve_names(with_bodies ? with_bodies->names : plc ? plc->names : mesh.names, bounds);
   if (!reading.tolerance) reading.tolerance = reported.tolerance;
 
   CheckOptions<D> options;
-  if (plc) options.input = &*plc;
+  if (plc) options.input = with_bodies ? &*with_bodies : &*plc;
   options.tolerance = reading.tolerance;
   options.radius_edge_bound = bounds.radius_edge;
   options.size = bounds.size;
@@ -132,13 +137,19 @@ int check_as(const CheckArguments& a, InputFile& file, Report& report) {
   options.not_delaunay_left = reported.not_delaunay_left;
   options.regions = a.regions.value_or(reported.regions);
   if (!a.reasons.empty()) options.reasons = &reported.reasons;
-  const CheckReport verdict = pgdr::check(mesh, options);
+  CheckReport verdict = pgdr::check(mesh, options);
+  std::optional<BodyCheck> bodies;
+  if constexpr (D == 3)
+    if (with_bodies) bodies = check_bodies(mesh, *plc, *reading.bodies, options.tolerance, verdict);
   std::optional<QualitySummary> quality;  // of a mesh whose numbers can be used at all
   if (verdict.count(CheckFinding::Kind::bad_index) + verdict.count(CheckFinding::Kind::not_finite) == 0)
     quality = summarize_quality(mesh);
   const std::size_t unused = unused_points(mesh).size();
   fill(report, mesh, bounds, quality, verdict, options.delaunay, unused);
+  if (bodies) report.set("bodies", JsonObject{{"checked", bodies->done}, {"left_out", bodies->left_out}});
   if (!a.quiet) print_summary(a, mesh, bounds, quality, verdict, unused);
+  if (!a.quiet && bodies)
+    print_row("bodies", bodies->done ? "as rays through the given facets count them" : "not checked: " + bodies->left_out);
   return verdict.exit_code();
 }
 

@@ -68,7 +68,7 @@ ROOMS = {
         "compact": Room("how is the finished mesh numbered?", "mesh output", "compact.hpp", ""),
         "given": Room("does a finished mesh consist of what was given, and of nothing else?", "size", "match.hpp leftovers.cpp",
                       "check"),
-        "check": Room("is a finished mesh what it should be?", "given", "check.cpp", ""),
+        "check": Room("is a finished mesh what it should be?", "given", "check.cpp", "check_bodies"),
         "io": Room("how are files read and written?", "output", "io.cpp read/ply.cpp", "io output_files"),
     },
     "scheduler": {

@@ -10,6 +10,7 @@
 
 #include <tbb/parallel_invoke.h>
 
+#include "bodies.hpp"
 #include "command.hpp"
 #include "console.hpp"
 #include "diagnosis.hpp"
@@ -127,6 +128,7 @@ class InputInfo {
   /// @returns the exit code
   int run() {
     read();
+    if (a_.reading.resolve_crossings) bodies_ = label_bodies(plc_, a_.reading);
     std::optional<Domain<D>> prepared;
     const double diagnosis_at = clock_.seconds();
     const Diagnosis<D> diagnosis = diagnose(plc_, {}, prepared);
@@ -137,6 +139,7 @@ class InputInfo {
     report_.set("diagnosis", findings_);
     if (!a_.quiet) print_findings(diagnosis);
     if (diagnosis.error_count() > 0) return refuse(plc_, diagnosis, report_);
+    if (!bodies_ && (bodies_ = label_bodies(plc_, a_.reading))) prepared.emplace(plc_);
     say_what_is_ahead(*prepared);
     const RefineResult<D> recovered = recover_and_describe(*prepared);
     accept(recovered);
@@ -167,7 +170,7 @@ class InputInfo {
 
   /// What `mesh` would say, with its default bounds: before the recovery, which may take long.
   void say_what_is_ahead(const Domain<D>& domain) {
-    const Outlook<D> outlook = look_ahead<D>(domain, resolve<D>({}, smallest_proved_bound<D>()), true, RegionMode::seeds, {});
+    const Outlook<D> outlook = look_ahead<D>(domain, resolve<D>({}, smallest_proved_bound<D>()), true, a_.regions, {});
     set_outlook(report_, domain, outlook);
     if (outlook.angle) smallest_angle_ = outlook.angle->degrees;
     if (!a_.quiet) print_outlook(domain, outlook);
@@ -206,12 +209,17 @@ class InputInfo {
   void accept(const RefineResult<D>& recovered) {
     findings_.set("accepted", true);
     report_.set("diagnosis", findings_);
-    report_.set("warnings", to_json(recovered.warnings));
+    std::vector<Diagnostic> warnings = bodies_ ? bodies_->warnings : std::vector<Diagnostic>{};
+    if (bodies_) repairs_.insert(repairs_.end(), bodies_->repairs.begin(), bodies_->repairs.end());
+    warnings.insert(warnings.end(), recovered.warnings.begin(), recovered.warnings.end());
+    report_.set("warnings", to_json(warnings));
     repairs_.insert(repairs_.end(), recovered.repairs.begin(), recovered.repairs.end());
     report_.set("repairs", to_json(repairs_));
     report_.set("regions", to_json(recovered.regions));
+    if (bodies_) set_regions(report_, recovered.regions, *bodies_);
     if (a_.quiet) return;
-    print_warnings(recovered.warnings);
+    if (bodies_) print_bodies(*bodies_);
+    print_warnings(warnings);
     if (!repairs_.empty()) print_row("repaired", count(repairs_.size(), "defect", "defects"));
     print_row("verdict", "pgdr mesh takes it");
   }
@@ -221,6 +229,7 @@ class InputInfo {
   Report& report_;
   const Stopwatch clock_;
   Plc<D> plc_;
+  std::optional<BodyTable> bodies_;
   std::vector<Diagnostic> repairs_;
   JsonObject seconds_, findings_;
   double recovery_at_ = 0, smallest_angle_ = 180;

@@ -107,7 +107,7 @@ Plc<D> prepared(Plc<D> plc, const InputArguments& reading, std::vector<Diagnosti
     if (reading.convex_hull) plc = with_convex_hull(plc);
     if (reading.resolve_crossings) plc = resolve_crossings(plc, repairs);
   } else {
-    if (reading.resolve_crossings)
+    if (reading.resolve_crossings && !reading.bodies)  // else they are resolved with the bodies (bodies.hpp)
       plc = resolve_crossings(plc, repairs, {.markers = reading.markers.value_or(SharedMarker::smallest), .stop = {}});
   }
   return plc;

@@ -9,6 +9,7 @@
 
 #include <tbb/parallel_invoke.h>
 
+#include "bodies.hpp"
 #include "bounds.hpp"
 #include "command.hpp"
 #include "console.hpp"
@@ -78,17 +79,6 @@ WriteOptions write_options(const MeshArguments& a, const Plc<D>& plc) {
 void require_ranks(const MeshArguments& a, const Ranks& ranks) {
   if (a.rank_timeout && !ranks.transport())
     throw UsageError({.code = Errc::bad_option, .message = "--rank-timeout is for pgdr-mpi"});
-}
-
-const char* words(StopCause cause) {
-  switch (cause) {
-    case StopCause::max_vertices: return "at --max-vertices";
-    case StopCause::min_edge: return "at --min-edge";
-    case StopCause::time_limit: return "at --time-limit";
-    case StopCause::cancelled: return "by a signal";
-    case StopCause::finished: break;
-  }
-  return "";
 }
 
 /// Seconds that each part took, and when it began, since the command did.
@@ -216,10 +206,10 @@ void print_summary(const MeshArguments& a, const std::string& inputs, const Plc<
                      D == 3 ? "dihedral angles" : "angles", q.min_angle_deg, q.max_angle_deg, least.c_str()));
   }
   if (r.stop != StopCause::finished && measured.cells == 0)
-    print_row("stopped", format("%s, before the boundary was there: there is no mesh to write", words(r.stop)));
+    print_row("stopped", format("%s, before the boundary was there: there is no mesh to write", stop_words(r.stop)));
   else if (r.stop != StopCause::finished)
     print_row("stopped",
-              format("%s: the mesh is valid, ", words(r.stop)) + count(r.poor_left, "element is poor", "elements are poor"));
+              format("%s: the mesh is valid, ", stop_words(r.stop)) + count(r.poor_left, "element is poor", "elements are poor"));
   else if (a.no_refine)
     print_row("bounds", "not refined: " + count(r.poor_left, "element is", "elements are") + " over a bound");
   else
@@ -279,6 +269,7 @@ class MeshRun {
       report_.set("tolerance", result_.tolerance);
       report_.set("largest_move", result_.largest_move);
       fill(report_, a_, threads_, bounds_, result_, measured);
+      if (bodies_) set_regions(report_, result_.regions, *bodies_);
     });
     const std::optional<Proposal> proposal = write(measured.cells > 0);
     if (!ranks_.is_first()) return exit_code();
@@ -304,7 +295,11 @@ class MeshRun {
   void read() {
     seconds_.read_at = total_.seconds();
     // Nobody looks at the stop token while the input is read, which may be a FIFO.
-    ranks_.on_first([&] { plc_ = input_.read<D>(a_.reading, repairs_); });
+    ranks_.on_first([&] {
+      plc_ = input_.read<D>(a_.reading, repairs_);
+      bodies_ = label_bodies(plc_, a_.reading);
+      if (bodies_) repairs_.insert(repairs_.end(), bodies_->repairs.begin(), bodies_->repairs.end());
+    });
     if (ranks_.transport()) plc_ = broadcast(*ranks_.transport(), plc_);
     ranks_.together([&] { resolve_names(plc_.names, bounds_); });
     options_.region_sizes = bounds_.region_sizes;
@@ -320,7 +315,7 @@ class MeshRun {
       report_.set("convex_hull", a_.reading.convex_hull);
       report_.set("region_areas", a_.reading.region_areas);
     }
-    report_.set("region_mode", name(a_.regions));
+    report_.set("region_mode", name(a_.regions, a_.reading.bodies));
     seconds_.mesh_at = total_.seconds();
     seconds_.read = seconds_.mesh_at - seconds_.read_at;
   }
@@ -351,6 +346,7 @@ class MeshRun {
     result_.repairs.insert(result_.repairs.begin(), repairs_.begin(), repairs_.end());
     const std::vector<Diagnostic> unfit = unfit_names(plc_.names, a_.output);
     result_.warnings.insert(result_.warnings.end(), unfit.begin(), unfit.end());
+    if (bodies_) result_.warnings.insert(result_.warnings.begin(), bodies_->warnings.begin(), bodies_->warnings.end());
     if (!a_.quiet) print_warnings(result_.warnings);
     return std::nullopt;
   }
@@ -447,7 +443,9 @@ class MeshRun {
   }
 
   void print(const Measured& measured) {
-    if (!a_.quiet) print_summary(a_, input_.words(), plc_, bounds_, result_, measured, seconds_);
+    if (a_.quiet) return;
+    print_summary(a_, input_.words(), plc_, bounds_, result_, measured, seconds_);
+    if (bodies_) print_bodies(*bodies_);
   }
 
   const MeshArguments& a_;
@@ -462,6 +460,7 @@ class MeshRun {
   Seconds seconds_;
   std::vector<Diagnostic> repairs_;
   Plc<D> plc_;
+  std::optional<BodyTable> bodies_;
   DistributedResult<D> made_;  ///< on ranks with a piece of the mesh each
   RefineResult<D>& result_ = made_.run;
 };

@@ -65,6 +65,19 @@ const std::map<std::string, SharedMarker> shared_markers{
 const std::map<std::string, RegionMode> region_modes{
     {"seeds", RegionMode::seeds}, {"auto", RegionMode::automatic}, {"all", RegionMode::all}};
 
+const std::map<std::string, BodyMode> body_modes{{"union", BodyMode::united},
+                                                 {"fragments", BodyMode::fragments},
+                                                 {"priority", BodyMode::priority},
+                                                 {"disjoint", BodyMode::disjoint}};
+
+/// All of these, for the words of --regions.
+const std::map<std::string, std::optional<BodyMode>> region_words = [] {
+  std::map<std::string, std::optional<BodyMode>> all;
+  for (const auto& [word, unused] : region_modes) all[word] = std::nullopt;
+  for (const auto& [word, mode] : body_modes) all[word] = mode;
+  return all;
+}();
+
 const std::map<std::string, DiskType> disk_types{{"type1", DiskType::type1}, {"type2", DiskType::type2}};
 
 const std::map<std::string, ViewColor> view_colors{
@@ -190,14 +203,20 @@ void add_input(CLI::App& app, InputArguments& p) {
 }
 
 template <class Mode>  // a RegionMode, maybe an optional one
-void add_regions(CLI::App& app, Mode& mode) {
+void add_regions(CLI::App& app, Mode& mode, std::optional<BodyMode>& bodies) {
   app.add_option_function<std::string>(
-         "--regions", [&mode](const std::string& t) { mode = region_modes.at(t); },
+         "--regions",
+         [&mode, &bodies](const std::string& t) {
+           bodies = region_words.at(t);
+           mode = bodies ? RegionMode::seeds : region_modes.at(t);
+         },
          "seeds (default): the hole and region seeds of the input say what is meshed and "
          "labelled; auto: voids by nesting, and a label for each volume; all: no voids but of hole seeds, and a label for each "
-         "enclosed volume")
+         "enclosed volume. 3D, by winding numbers of bodies: union: a label each connected solid; fragments: a label each set of "
+         "bodies; priority: a label each body, the first one has what several share; disjoint: as fragments, but bodies that "
+         "overlap are refused")
       ->type_name("NAME")
-      ->check(one_of(region_modes, "ways to tell regions"));
+      ->check(one_of(region_words, "ways to tell regions"));
 }
 
 void add_report(CLI::App& app, std::string& report, bool& quiet) {
@@ -233,7 +252,7 @@ void add_mesh(CLI::App& app, MeshArguments& a) {
                "3D: leave the refined mesh as it is, Delaunay, with any dihedral angles; as --min-dihedral 0")
       ->excludes(min_dihedral);
   add_input(app, a.reading);
-  add_regions(app, a.regions);
+  add_regions(app, a.regions, a.reading.bodies);
   app.add_flag("--keep-boundary", a.keep_boundary, "2D: no new points on segments");
   app.add_flag("--drop-unused-points", a.drop_unused_points,
                "leave points that are in no cell, outside or in voids, out of the mesh");
@@ -310,7 +329,7 @@ void add_check(CLI::App& app, CheckArguments& a) {
   app.add_flag("--delaunay", a.delaunay,
                "ask for a Delaunay mesh, also where the report of --reasons does not say that it is one");
   add_input(app, a.reading);
-  add_regions(app, a.regions);
+  add_regions(app, a.regions, a.reading.bodies);
   app.add_option("--reasons", a.reasons, "report of `pgdr mesh`, whose bounds.reasons explain poor cells")
       ->type_name("REPORT.json")
       ->needs("--input");
@@ -320,6 +339,7 @@ void add_check(CLI::App& app, CheckArguments& a) {
 void add_info(CLI::App& app, InfoArguments& a) {
   app.add_option("FILE", a.files, "an input, which may be several files, or a mesh")->required()->type_name("");
   add_input(app, a.reading);
+  add_regions(app, a.regions, a.reading.bodies);
   add_report(app, a.report, a.quiet);
 }
 

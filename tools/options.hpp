@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "pgdr/arrangement.hpp"
+#include "pgdr/bodies.hpp"
 #include "pgdr/refine_options.hpp"
 #include "pgdr/types.hpp"
 
@@ -38,6 +39,7 @@ struct InputArguments {
   bool yes_coarse = false;              ///< Plc::is_coarse
   std::vector<std::string> seeds;       ///< further region seeds, X,Y,Z or X,Y,Z=LABEL each (2D: X,Y)
   std::vector<std::string> holes;       ///< further hole seeds
+  std::optional<BodyMode> bodies;       ///< 3D: what --regions says of bodies
 };
 
 struct MeshArguments {
@@ -82,6 +84,7 @@ struct CheckArguments {
 struct InfoArguments {
   std::vector<std::string> files;  ///< one mesh, or one or more inputs
   InputArguments reading;
+  RegionMode regions = RegionMode::seeds;
   std::string report;
   bool quiet = false;
 };

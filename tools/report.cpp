@@ -187,6 +187,22 @@ const char* name(SharedMarker rule) {
   return names[static_cast<std::size_t>(rule)];
 }
 
+const char* name(BodyMode mode) {
+  constexpr std::array names{"union", "fragments", "priority", "disjoint"};
+  return names[static_cast<std::size_t>(mode)];
+}
+
+const char* stop_words(StopCause cause) {
+  switch (cause) {
+    case StopCause::max_vertices: return "at --max-vertices";
+    case StopCause::min_edge: return "at --min-edge";
+    case StopCause::time_limit: return "at --time-limit";
+    case StopCause::cancelled: return "by a signal";
+    case StopCause::finished: break;
+  }
+  return "";
+}
+
 ReportedBounds read_bounds(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in || std::filesystem::is_directory(file))
@@ -219,6 +235,8 @@ ReportedBounds read_bounds(const std::string& file) {
       if (const auto k = o->find("claimed_cosine"); k != o->end() && k->is_number()) read.largest_cosine = k->get<double>();
     for (const RegionMode mode : {RegionMode::automatic, RegionMode::all})
       if (holds("region_mode", name(mode))) read.regions = mode;
+    for (const BodyMode mode : {BodyMode::united, BodyMode::fragments, BodyMode::priority, BodyMode::disjoint})
+      if (holds("region_mode", name(mode))) read.bodies = mode;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {

@@ -10,6 +10,7 @@
 
 #include "json.hpp"
 #include "pgdr/arrangement.hpp"
+#include "pgdr/bodies.hpp"
 #include "pgdr/check.hpp"
 #include "pgdr/error.hpp"
 #include "pgdr/quality.hpp"
@@ -56,6 +57,9 @@ Json to_json(const std::vector<Value>& list) {
 
 const char* name(RegionMode mode);
 const char* name(SharedMarker rule);
+const char* name(BodyMode mode);
+/// What ended a run: "at --time-limit"; "" if nothing did.
+const char* stop_words(StopCause cause);
 
 /// What a report of `pgdr mesh` says that its check needs.
 struct ReportedBounds {
@@ -72,6 +76,7 @@ struct ReportedBounds {
   bool region_areas = false;              ///< how it was read, 2D
   std::vector<std::string> seeds, holes;  ///< of flags
   RegionMode regions = RegionMode::seeds;
+  std::optional<BodyMode> bodies;
 };
 
 /// @throws FileError if it cannot be opened, InputError if it is not such a report.

@@ -62,6 +62,10 @@ BodyVolumes::BodyVolumes(const Plc<3>& plc, const Arrangement& pieces, const Bul
   require_consistent();
   if (plc.facet_bodies.empty()) join_cavities();
   stop_check();
+  insides_.resize(count());
+  bulk.parts(count() - 1, [this](std::size_t i) { insides_[i + 1] = find_inside(static_cast<std::uint32_t>(i + 1)); });
+  stop_check();
+  join_thin();
   wind_open(bulk);
   warn_of_turned();
 }
@@ -230,7 +234,8 @@ void BodyVolumes::wind_open(const Bulk& bulk) {
   std::vector<std::vector<Diagnostic>> unsure(count());
   bulk.parts(count() - 1, [&](std::size_t part) {
     const auto v = static_cast<std::uint32_t>(part + 1);
-    const Point<3> x = inside(v);
+    if (!inside(v)) return;
+    const Point<3>& x = *inside(v);
     std::vector<Winding> found;
     for (std::size_t i = 0, j = 0; i < open.size(); i = j) {
       Turns turns;
@@ -268,36 +273,65 @@ void BodyVolumes::warn_of_turned() {
                 plc_.source.file, warnings_);
 }
 
-Point<3> BodyVolumes::inside(std::uint32_t volume) const {
+/// Those that separate it from others; the largest first, and not too many.
+std::vector<std::uint32_t> BodyVolumes::largest_sides(std::uint32_t volume) const {
   constexpr std::size_t most_sides = 256;
-  const std::span<const std::uint32_t> all = std::span(sides_).subspan(sides_begin_[volume],
-                                                                       sides_begin_[volume + 1] - sides_begin_[volume]);
   struct Side {
     double area;
     std::uint32_t side;
   };
   std::vector<Side> sides;
-  for (const std::uint32_t s : all)
-    if (walls_.beside(s / 2, s % 2 == 0) != volume) {
-      const auto n = Ordered(walls_.hits().corners(s / 2)).normal();
-      sides.push_back({dot(n, n), s});
-    }
+  for (std::uint32_t k = sides_begin_[volume]; k < sides_begin_[volume + 1]; ++k) {
+    const std::uint32_t s = sides_[k];
+    if (walls_.beside(s / 2, s % 2 == 0) == volume) continue;
+    const auto n = Ordered(walls_.hits().corners(s / 2)).normal();
+    sides.push_back({dot(n, n), s});
+  }
   const std::size_t count = std::min(sides.size(), most_sides);
   std::partial_sort(sides.begin(), sides.begin() + static_cast<std::ptrdiff_t>(count), sides.end(),
                     [this](const Side& a, const Side& b) {
                       if (a.area != b.area) return a.area > b.area;
                       return Ordered(walls_.hits().corners(a.side / 2)) < Ordered(walls_.hits().corners(b.side / 2));
                     });
-  for (std::size_t i = 0; i < count; ++i)
-    if (const auto x = inside_at(volume, sides[i].side)) return *x;
-  const Point<3>& x = pieces_.points[pieces_.triangles[all[0] / 2][0]];
-  throw InputError(
-      {Errc::ambiguous,
-       "the volume at " + to_text<3>(x) + " is so thin that no point is inside; a larger --tolerance joins its sides",
-       plc_.source.file,
-       0,
-       {},
-       {x.x}});
+  std::vector<std::uint32_t> found(count);
+  for (std::size_t i = 0; i < count; ++i) found[i] = sides[i].side;
+  return found;
+}
+
+std::optional<Point<3>> BodyVolumes::find_inside(std::uint32_t volume) const {
+  for (const std::uint32_t side : largest_sides(volume))
+    if (const auto x = inside_at(volume, side)) return x;
+  return std::nullopt;
+}
+
+/// To the volume behind the largest side that one is known of.
+void BodyVolumes::join_thin() {
+  std::vector<std::uint32_t> left;
+  for (std::uint32_t v = 1; v < count(); ++v)
+    if (!insides_[v]) left.push_back(v);
+  if (left.empty()) return;
+  std::vector<char> known(count(), 1);
+  for (const std::uint32_t v : left) known[v] = 0;
+  Diagnostic d{Errc::ambiguous, {}, plc_.source.file, 0, {}, {}};
+  for (std::size_t before = left.size() + 1; !left.empty() && left.size() < before;) {
+    before = left.size();
+    std::vector<std::uint32_t> later;
+    for (const std::uint32_t v : left) {
+      const auto sides = largest_sides(v);
+      const auto beside = [this](std::uint32_t s) { return walls_.beside(s / 2, s % 2 == 0); };
+      const auto side = std::ranges::find_if(sides, [&](std::uint32_t s) { return known[beside(s)] != 0; });
+      if (side == sides.end()) {
+        later.push_back(v);
+        continue;
+      }
+      thin_.push_back({v, *side / 2, beside(*side)});
+      d.points.push_back(pieces_.points[pieces_.triangles[*side / 2][0]].x);
+    }
+    for (const ThinVolume& t : thin_) known[t.volume] = 1;
+    left = std::move(later);
+  }
+  d.message = std::to_string(thin_.size()) + " volumes are so thin that no point is inside, and count to those beside them";
+  warnings_.push_back(std::move(d));
 }
 
 /// From the middle of a side inwards, as far as the piece is wide, or half of that, and so on.

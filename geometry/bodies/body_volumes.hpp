@@ -25,6 +25,11 @@ struct Winding {
   friend bool operator==(const Winding&, const Winding&) = default;
 };
 
+/// A volume that no point of doubles is inside of: it counts to the one beside it, and the piece between them does not.
+struct ThinVolume {
+  std::uint32_t volume, piece, beside;
+};
+
 class BodyVolumes {
  public:
   /// Both must outlive this. @throws InputError not_orientable, ambiguous; CancelledError
@@ -39,8 +44,10 @@ class BodyVolumes {
   int total(std::uint32_t volume) const;
   /// Six times the volume's measure; of the outside less what it lacks.
   const ExactSum& measure(std::uint32_t volume) const { return measures_[volume]; }
-  /// A point strictly inside. @throws InputError ambiguous: of doubles there is none, as far as one was looked for
-  Point<3> inside(std::uint32_t volume) const;
+  /// A point strictly inside; none of the outside, and of thin volumes.
+  const std::optional<Point<3>>& inside(std::uint32_t volume) const { return insides_[volume]; }
+  /// Each behind the one beside it, if that is thin, too.
+  std::span<const ThinVolume> thin() const { return thin_; }
   const std::vector<Diagnostic>& warnings() const { return warnings_; }
 
  private:
@@ -59,6 +66,9 @@ class BodyVolumes {
   void warn_of_turned();
   std::span<const PieceOfBody> at_piece(std::uint32_t piece) const;
   bool is_closed(std::uint32_t body) const { return chains_.is_closed[body] != 0; }
+  std::vector<std::uint32_t> largest_sides(std::uint32_t volume) const;
+  std::optional<Point<3>> find_inside(std::uint32_t volume) const;
+  void join_thin();
   std::optional<Point<3>> inside_at(std::uint32_t volume, std::uint32_t side) const;
 
   const Plc<3>& plc_;
@@ -69,6 +79,8 @@ class BodyVolumes {
   std::vector<std::vector<Winding>> windings_;      ///< of volumes
   std::vector<ExactSum> measures_;                  ///< of volumes
   std::vector<std::uint32_t> sides_begin_, sides_;  ///< of volumes, as WallVolumes numbers them
+  std::vector<std::optional<Point<3>>> insides_;    ///< of volumes
+  std::vector<ThinVolume> thin_;
   std::vector<Diagnostic> warnings_;
 };
 

@@ -23,6 +23,7 @@ RegionGroups::RegionGroups(const Plc<3>& plc, const Arrangement& pieces, const B
   if (mode == BodyMode::disjoint) require_disjoint();
   judge_volumes();
   bulk.each(dropped_.size(), [&](std::size_t p) { dropped_[p] = drops(static_cast<std::uint32_t>(p)); });
+  for (const ThinVolume& t : volumes.thin()) dropped_[t.piece] = 1;
   group_volumes();
   place_seeds();
   number_labels(bulk);
@@ -32,8 +33,8 @@ void RegionGroups::require_disjoint() const {
   std::vector<Diagnostic> all;
   for (std::uint32_t v = 1; v < volumes_.count(); ++v) {
     const auto windings = volumes_.windings(v);
-    if (windings.size() < 2) continue;
-    const Point<3> x = volumes_.inside(v);
+    if (windings.size() < 2 || !volumes_.inside(v)) continue;
+    const Point<3>& x = *volumes_.inside(v);
     Diagnostic& d = all.emplace_back(Diagnostic{Errc::bodies_overlap, "bodies ", plc_.source.file, 0, {}, {x.x}});
     for (std::size_t i = 0; i < windings.size(); ++i) {
       d.message += (i == 0 ? "" : i + 1 < windings.size() ? ", " : " and ") + body_name(plc_, windings[i].body);
@@ -58,6 +59,7 @@ void RegionGroups::judge_volumes() {
     for (const Winding& w : volumes_.windings(v)) bodies_[v].push_back(w.body);
     if (mode_ == BodyMode::priority && bodies_[v].size() > 1) bodies_[v].resize(1);
   }
+  for (const ThinVolume& t : volumes_.thin()) bodies_[t.volume] = bodies_[t.beside];
 }
 
 bool RegionGroups::drops(std::uint32_t piece) const {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bodies/body_volumes.hpp"
+#include "bodies/kept_facets.hpp"
 #include "bodies/region_groups.hpp"
 #include "pgdr/bodies.hpp"
 #include "pgdr/diagnosis.hpp"
@@ -14,51 +15,6 @@ namespace {
 
 using detail::Bulk;
 using detail::RegionGroups;
-
-/// Which facets of an input are left as they are, and what is left of others.
-class KeptFacets {
- public:
-  KeptFacets(const Plc<3>& plc, const Arrangement& pieces, const RegionGroups& groups, bool are_cut)
-      : plc_(plc), pieces_(pieces), whole_(plc.facets.size(), 1) {
-    for (std::uint32_t p = 0; p < pieces.triangles.size(); ++p)
-      for (std::uint32_t k = pieces.origins_begin[p]; k < pieces.origins_begin[p + 1]; ++k) {
-        const std::uint32_t f = pieces.origins[k].facet;
-        if (groups.is_dropped(p) || (are_cut && !is_piece(f, p))) whole_[f] = 0;
-      }
-    for (std::uint32_t f = 0; f < plc.facets.size(); ++f)
-      if (whole_[f] != 0) from_.push_back({f, detail::no_corner});
-    for (std::uint32_t p = 0; p < pieces.triangles.size(); ++p) {
-      const std::uint32_t f = pieces.origins[pieces.origins_begin[p]].facet;
-      if (!groups.is_dropped(p) && whole_[f] == 0) from_.push_back({f, p});
-    }
-    std::stable_sort(from_.begin(), from_.end(), [](const From& a, const From& b) { return a.facet < b.facet; });
-  }
-
-  std::size_t count() const { return from_.size(); }
-  std::uint32_t facet(std::size_t i) const { return from_[i].facet; }  ///< of the input, that the i-th one comes from
-  Plc<3>::Facet make(std::size_t i) const {
-    const auto& [f, p] = from_[i];
-    if (p == detail::no_corner) return plc_.facets[f];
-    const auto& t = pieces_.triangles[p];
-    const bool reversed = pieces_.origins[pieces_.origins_begin[p]].reversed;
-    return {{{t[0], t[reversed ? 2u : 1u], t[reversed ? 1u : 2u]}}, {}, plc_.facets[f].marker};
-  }
-
- private:
-  struct From {
-    std::uint32_t facet, piece;
-  };
-  bool is_piece(std::uint32_t f, std::uint32_t p) const {
-    const auto& facet = plc_.facets[f];
-    if (facet.polygons.size() != 1 || facet.polygons[0].size() != 3) return false;
-    return std::ranges::is_permutation(facet.polygons[0], pieces_.triangles[p]);
-  }
-
-  const Plc<3>& plc_;
-  const Arrangement& pieces_;
-  std::vector<char> whole_;
-  std::vector<From> from_;
-};
 
 /// Leaves out points that the input had for facets and segments, and that nothing has any more.
 class PointsLeft {
@@ -105,7 +61,7 @@ class PointsLeft {
 };
 
 Plc<3> make_plc(const Plc<3>& plc, const Arrangement& pieces, const RegionGroups& groups, bool are_cut) {
-  const KeptFacets kept(plc, pieces, groups, are_cut);
+  const detail::KeptFacets kept(plc, pieces, groups, are_cut);
   Plc<3> made = plc;
   made.facets.clear();
   made.facet_bodies.clear();
@@ -128,9 +84,8 @@ Plc<3> make_plc(const Plc<3>& plc, const Arrangement& pieces, const RegionGroups
 void add_seeds(const detail::BodyVolumes& volumes, const RegionGroups& groups, Plc<3>& plc) {
   for (const RegionGroups::Group& g : groups.groups()) {
     if (g.is_outside || g.has_seed || g.has_hole) continue;
-    const auto largest = std::ranges::max_element(g.volumes, {},
-                                                  [&](std::uint32_t v) { return volumes.measure(v).divided_by(6); });
-    const Point<3> x = volumes.inside(*largest);
+    const auto size = [&](std::uint32_t v) { return volumes.inside(v) ? volumes.measure(v).divided_by(6) : 0; };
+    const Point<3>& x = volumes.inside(*std::ranges::max_element(g.volumes, {}, size)).value();
     if (g.is_solid)
       plc.regions.push_back({x, g.label, 0});
     else
@@ -138,38 +93,60 @@ void add_seeds(const detail::BodyVolumes& volumes, const RegionGroups& groups, P
   }
 }
 
+/// Segments are cut where facets are; `pieces` has no segments, but the same points.
+Plc<3> with_cut_segments(const Plc<3>& plc, const Arrangement& pieces, const ArrangementOptions& options) {
+  Plc<3> made = plc;
+  if (plc.segments.empty()) return made;
+  std::vector<Diagnostic> known;
+  Plc<3> cut = resolve_crossings(plc, known, options);
+  if (cut.points.size() != pieces.points.size()) return made;
+  made.segments = std::move(cut.segments);
+  made.source.segment_lines = std::move(cut.source.segment_lines);
+  return made;
+}
+
 void require_arrays(const Plc<3>& plc) {
   if (!plc.facet_bodies.empty() && plc.facet_bodies.size() != plc.facets.size())
     throw UsageError({Errc::bad_option, "facet_bodies needs one entry a facet", {}, 0, {}, {}});
+}
+
+/// The names of its bodies; "" if one has none.
+std::string name_of(const BodyRegion& region, const std::vector<std::string>& names) {
+  std::string all;
+  for (const std::uint32_t b : region.bodies) {
+    if (names[b].empty()) return {};
+    all += (all.empty() ? "" : "+") + names[b];
+  }
+  return all;
 }
 
 WithBodies label(const Plc<3>& plc, const Arrangement& pieces, bool are_cut, BodyMode mode, const Bulk& bulk,
                  const detail::StopCheck& stop_check) {
   const detail::BodyVolumes volumes(plc, pieces, bulk, stop_check);
   const RegionGroups groups(plc, pieces, volumes, mode, bulk);
-  WithBodies made{make_plc(plc, pieces, groups, are_cut), groups.regions(), {}, volumes.warnings()};
+  WithBodies made{make_plc(plc, pieces, groups, are_cut), groups.regions(), {}, {}, volumes.warnings()};
   add_seeds(volumes, groups, made.plc);
   made.body_names.resize(volumes.bodies());
   for (std::size_t b = 0; b < made.body_names.size() && b < plc.body_names.size(); ++b) made.body_names[b] = plc.body_names[b];
+  for (const BodyRegion& r : made.regions)
+    if (const std::string name = name_of(r, made.body_names); !name.empty()) made.plc.names.regions.try_emplace(r.label, name);
   return made;
 }
 
 }  // namespace
 
-WithBodies with_bodies(const Plc<3>& plc, BodyMode mode, std::stop_token stop) {
+WithBodies with_bodies(const Plc<3>& plc, BodyMode mode, const BodyOptions& options) {
   require_arrays(plc);
   std::vector<Diagnostic> repairs;
-  const Arrangement pieces = arrange(plc, repairs, {.markers = {}, .stop = stop});
-  const auto is_crossing = [](const Diagnostic& d) { return d.code == Errc::entities_intersect; };
-  const bool crosses = std::ranges::any_of(repairs, is_crossing);
-  if (crosses) require_no_errors(Domain<3>(plc, stop), stop);
-  return label(plc, pieces, crosses, mode, Bulk(true, stop), detail::StopCheck(stop));
-}
-
-WithBodies with_bodies(const Plc<3>& plc, const Arrangement& pieces, BodyMode mode, std::stop_token stop) {
-  require_arrays(plc);
-  const detail::StopCheck stop_check(stop);
-  return label(plc, pieces, true, mode, Bulk(true, stop), stop_check);
+  const ArrangementOptions how{options.markers, options.stop};
+  const Arrangement pieces = arrange(plc, repairs, how);
+  const bool crosses = std::ranges::any_of(repairs, [](const Diagnostic& d) { return d.code == Errc::entities_intersect; });
+  if (crosses && !options.resolve_crossings) require_no_errors(Domain<3>(plc, options.stop), options.stop);
+  const Bulk bulk(true, options.stop);
+  WithBodies made = label(crosses ? with_cut_segments(plc, pieces, how) : plc, pieces, crosses, mode, bulk,
+                          detail::StopCheck(options.stop));
+  if (options.resolve_crossings) made.repairs = std::move(repairs);
+  return made;
 }
 
 }  // namespace pgdr

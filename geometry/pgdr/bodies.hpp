@@ -53,14 +53,25 @@ struct BodyRegion {
   std::vector<std::uint32_t> bodies;  ///< whose winding number is not 0 there (`priority`: the first of them), ascending
 };
 
+/// How bodies are told.
+struct BodyOptions {
+  bool resolve_crossings = false;                 ///< as the function of that name does; else facets must not cross
+  SharedMarker markers = SharedMarker::smallest;  ///< with that, of pieces that several facets cover
+  std::stop_token stop = {};                      ///< ends it, from any thread, by a CancelledError
+};
+
 /// An input whose seeds say which bodies are where.
 struct WithBodies {
   /// For RegionMode::seeds. Facets that are left, as they were; of those that are left in part, the pieces. Seeds of the input,
-  /// then one a region or void that has none. Points that only dropped facets had are dropped.
+  /// then one a region or void that has none. Points that only dropped facets had are dropped. A label without a name gets those of
+  /// its bodies, with "+" between, if all have names.
   Plc<3> plc;
   std::vector<BodyRegion> regions;      ///< by label, ascending
   std::vector<std::string> body_names;  ///< of each body, in the order of their first facets: Plc::body_names, or ""
-  std::vector<Diagnostic> warnings;     ///< unsure_volume; inconsistent_orientation: what was turned over
+  std::vector<Diagnostic> repairs;      ///< as resolve_crossings says
+  /// unsure_volume; inconsistent_orientation: what was turned over; ambiguous: volumes so thin that no point of doubles is
+  /// inside, which count to those beside them, without the largest piece between them.
+  std::vector<Diagnostic> warnings;
 };
 
 /// Seeds win, as with RegionMode::automatic: a region seed makes its solid or void a solid with the seed's label, a hole seed
@@ -68,15 +79,10 @@ struct WithBodies {
 /// coordinates, then the next ones); with `priority` in the order of the bodies. So what comes out depends on the order of bodies
 /// with `priority` alone. About 10 microseconds a facet on the threads of the caller's tbb::task_arena, the same for any number
 /// of them.
-/// @param plc its facets must not cross (arrangement.hpp); they may overlap in a plane, repeat, touch, or lie in each other
-/// @throws DiagnosedError for facets that cross; InputError not_orientable, bodies_overlap (`disjoint`; `points`: one a volume;
-/// `ids`:
-///   its bodies), ambiguous: a volume so thin that no point of doubles is inside, or a surface that no ray tells the place of;
-///   what Domain throws; CancelledError
-WithBodies with_bodies(const Plc<3>& plc, BodyMode mode, std::stop_token stop = {});
-
-/// The same of the pieces of a surface that crosses itself.
-/// @param pieces of the facets of this input
-WithBodies with_bodies(const Plc<3>& plc, const Arrangement& pieces, BodyMode mode, std::stop_token stop = {});
+/// @param plc its facets may overlap in a plane, repeat, touch, or lie in each other
+/// @throws DiagnosedError for facets that cross; InputError entities_intersect, if resolving crossings has no end,
+/// not_orientable, bodies_overlap (`disjoint`; one diagnostic a volume, `ids`
+///   are its bodies), ambiguous: a surface that no ray tells the place of; what Domain throws; CancelledError
+WithBodies with_bodies(const Plc<3>& plc, BodyMode mode, const BodyOptions& options = {});
 
 }  // namespace pgdr

@@ -7,6 +7,7 @@
 #include "pgdr/arrangement.hpp"
 #include "pgdr/bodies.hpp"
 #include "pgdr/check.hpp"
+#include "pgdr/check_bodies.hpp"
 #include "pgdr/circumsphere.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/domain.hpp"

@@ -104,7 +104,7 @@ class Regions(Case):
 
     def test_usage(self):
         done = self.pgdr("mesh", "x.poly", "-o", self.output, "--regions", "every", expect=2)
-        self.assertIn("all, auto, seeds", done.stderr)
+        self.assertIn("all, auto, disjoint, fragments, priority, seeds, union", done.stderr)
 
 
 # What is wrong with each, as the first error has it; or None where it is a valid complex; or what is repaired in it.

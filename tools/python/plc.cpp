@@ -17,6 +17,7 @@
 #include "bind.hpp"
 #include "errors.hpp"
 #include "pgdr/arrangement.hpp"
+#include "pgdr/bodies.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/joined_plc.hpp"
 #include "pgdr/planar_plc.hpp"
@@ -290,6 +291,23 @@ py::tuple resolve(const Plc<D>& plc, const std::string& markers) {
   return py::make_tuple(made, to_python(repairs));
 }
 
+/// (Plc, (label, volume, bodies) of each region, names of bodies, repairs, warnings).
+py::tuple label_bodies(const Plc<3>& plc, const std::string& word, bool resolves_crossings, const std::string& markers) {
+  const BodyMode mode = word == "union"       ? BodyMode::united
+                        : word == "fragments" ? BodyMode::fragments
+                        : word == "priority"  ? BodyMode::priority
+                                              : BodyMode::disjoint;
+  WithBodies made;
+  std::shared_ptr<Plc<3>> seeded;
+  run_watched([&](const std::stop_token& stop) {
+    made = with_bodies(plc, mode, {resolves_crossings, shared_marker(markers), stop});
+    seeded = std::make_shared<Plc<3>>(std::move(made.plc));
+  });
+  py::list regions;
+  for (const BodyRegion& r : made.regions) regions.append(py::make_tuple(r.label, r.volume, r.bodies));
+  return py::make_tuple(seeded, regions, made.body_names, to_python(made.repairs), to_python(made.warnings));
+}
+
 }  // namespace
 
 CoordinateArray coordinates_of(const py::array& array) {
@@ -313,6 +331,7 @@ void bind_plc(py::module_& module) {
   module.def("holds_cells", [](const std::string& file) { return holds_cells(file); });
   module.def("resolve_crossings2", &resolve<2>);
   module.def("resolve_crossings3", &resolve<3>);
+  module.def("with_bodies", &label_bodies);
   module.def("with_convex_hull", [](const Plc<2>& plc) {
     const py::gil_scoped_release others_run;
     return std::make_shared<Plc<2>>(with_convex_hull(plc));

@@ -9,6 +9,7 @@
 (2, 3, True)
 """
 from . import _convert, _polygons, _show  # noqa: F401: methods find their functions (_doors.py)
+from ._bodies import Bodies, BodyRegion, with_bodies
 from ._check import Finding, check, diagnose, info
 from ._errors import (CancelledError, DiagnosedError, Diagnostic, Error, FileError, InputError, ResourceError, UsageError)
 from ._estimate import Estimate, Gap, Proposal, SharpAngle, estimate
@@ -21,8 +22,8 @@ from ._run import Elements, Progress, StopSource, mesh
 from ._tetgen import Tetrahedralization, tetrahedralize
 from ._triangle import triangulate
 
-__all__ = ["CancelledError", "CheckFinding", "CheckReport", "DiagnosedError", "Diagnostic", "Elements", "Error", "Estimate",
-           "Field", "FileError", "Finding", "Gap", "InputError", "Mesh", "Plc", "Progress", "Proposal", "Reason",
-           "ResourceError", "SharpAngle", "StopSource", "Tetrahedralization", "UsageError", "__version__", "check", "diagnose",
-           "estimate", "info", "limit_growth", "mesh", "resolve_crossings", "sizes_at_points", "sizes_on_mesh", "smallest",
-           "tetrahedralize", "triangulate", "with_convex_hull"]
+__all__ = ["Bodies", "BodyRegion", "CancelledError", "CheckFinding", "CheckReport", "DiagnosedError", "Diagnostic", "Elements",
+           "Error", "Estimate", "Field", "FileError", "Finding", "Gap", "InputError", "Mesh", "Plc", "Progress", "Proposal",
+           "Reason", "ResourceError", "SharpAngle", "StopSource", "Tetrahedralization", "UsageError", "__version__", "check",
+           "diagnose", "estimate", "info", "limit_growth", "mesh", "resolve_crossings", "sizes_at_points", "sizes_on_mesh",
+           "smallest", "tetrahedralize", "triangulate", "with_bodies", "with_convex_hull"]
