@@ -14,6 +14,7 @@
 
 #include "pgdr/arrangement.hpp"
 #include "pgdr/diagnosis.hpp"
+#include "pgdr/joined_plc.hpp"
 
 namespace pgdr {
 namespace arrange_surfaces {
@@ -180,6 +181,21 @@ TEST(Arrangement, WellThroughLayers) {
   for (const auto& s : out.segments) EXPECT_EQ(s.marker, 5);
   EXPECT_EQ(out.points.size(), 17u);
   for (std::size_t f = 0; f < out.facets.size(); ++f) EXPECT_EQ(out.facets[f].marker, out.source.facet_lines[f] == 7 ? 8 : 7);
+}
+
+TEST(Arrangement, PartsOfAJoinedInput) {
+  std::vector<Plc<3>> parts(2);
+  add_box(parts[0], {0, 0, 0}, {4, 4, 4}, 1);
+  add_box(parts[1], {2, 1, 1}, {6, 3, 3}, 1);
+  parts[0].source.file = "a.off";
+  parts[1].source.file = "b.off";
+  const Plc<3> plc = joined<3>(parts);
+  ASSERT_EQ(plc.facet_bodies.size(), 12u);
+  const Plc<3> out = resolved(plc);
+  ASSERT_EQ(out.facet_bodies.size(), out.facets.size());
+  for (std::size_t f = 0; f < out.facets.size(); ++f)
+    EXPECT_EQ(out.source.place(SourceItem::facet, f).file, out.facet_bodies[f] == 0 ? "a.off" : "b.off");
+  EXPECT_EQ(std::set(out.facet_bodies.begin(), out.facet_bodies.end()), (std::set<std::uint32_t>{0, 1}));
 }
 
 TEST(Arrangement, SegmentsThatCross) {

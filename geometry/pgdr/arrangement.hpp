@@ -25,7 +25,8 @@ enum class SharedMarker : std::uint8_t {
   last,      ///< of largest index
 };
 
-/// A facet of the input that covers a piece.
+/// A facet of the input that covers a piece. Of facets that go on in each other in one plane, with equal markers and oriented
+/// alike, a piece may lie in several, and names the one that has its middle.
 struct PieceOrigin {
   std::uint32_t facet;                                   ///< index in Plc::facets
   bool reversed = false;                                 ///< the piece's corners run against those of the facet's first polygon
@@ -64,9 +65,9 @@ struct ArrangementOptions {
 Arrangement arrange(const Plc<3>& plc, std::vector<Diagnostic>& repairs, const ArrangementOptions& options = {});
 
 /// The same as an input: with pieces, a triangle each, in the place of the facets that anything crosses, and of segments, in the
-/// places of these, with their markers and the lines of their source. All else comes back as it is; so does an input in which
-/// nothing crosses, and one that a Domain refuses for other reasons. Attributes of new points are interpolated along an edge, or
-/// in a triangle.
+/// places of these, with their markers, bodies and the lines of their source. All else comes back as it is; so does an input in
+/// which nothing crosses, and one that a Domain refuses for other reasons. Attributes of new points are interpolated along an
+/// edge, or in a triangle.
 /// @param repairs as above. @throws InputError as above, but for the first; CancelledError
 Plc<3> resolve_crossings(const Plc<3>& plc, std::vector<Diagnostic>& repairs, const ArrangementOptions& options = {});
 
