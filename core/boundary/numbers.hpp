@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Numbers of the recovery that decide meshes, or which inputs are refused, and that no theory gives. bench/numbers.py makes
-// meshes with half and with twice of each; bench/notebook/numbers.md has its tables.
+// Numbers of the recovery that decide meshes, or which inputs are refused, and that no theory gives. bench/deciding_numbers.py
+// makes meshes with half and with twice of each; bench/notebook/numbers.md has its tables.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Numbers of gift wrapping: how much is tried where a mesh is not locally Delaunay. bench/numbers.py makes meshes with half and
-// with twice of each; bench/notebook/numbers.md has its tables.
+// Numbers of gift wrapping: how much is tried where a mesh is not locally Delaunay. bench/deciding_numbers.py makes meshes with
+// half and with twice of each; bench/notebook/numbers.md has its tables.
 #pragma once
 
 #include <cstddef>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Numbers of the optimiser: how far it looks. None decides what is accepted (judge.hpp), but for the last two. bench/numbers.py
-// makes meshes with half and with twice of each; bench/notebook/numbers.md has its tables.
+// Numbers of the optimiser: how far it looks. None decides what is accepted (judge.hpp), but for the last two.
+// bench/deciding_numbers.py makes meshes with half and with twice of each; bench/notebook/numbers.md has its tables.
 #pragma once
 
 #include <cstddef>

@@ -56,15 +56,17 @@ namespace pgdr PGDR_API {
 /// What a mesh is checked for. A plain value; what it points to must outlive the call. Lengths are in the units of the
 /// coordinates. By default a mesh is checked for what any mesh must be: sound cells whose faces match. Each option asks for more.
 ///
-///   const auto result = pgdr::refine(plc, refine_options);
-///   pgdr::CheckOptions<3> options;
-///   options.input = &plc;                                                   // as it was given, before any repair
-///   options.radius_edge_bound = refine_options.radius_edge_bound;
-///   options.size = refine_options.size;
-///   options.largest_cosine = result.optimization.claimed_cosine;            // the angle that the optimiser worked for
-///   options.delaunay = result.delaunay;
-///   options.reasons = &result.reasons;                                      // each is verified
-///   const pgdr::CheckReport report = pgdr::check(result.mesh, options);     // report.exit_code() <= 1: nothing is wrong
+/// @code
+/// const auto result = pgdr::refine(plc, refine_options);
+/// pgdr::CheckOptions<3> options;
+/// options.input = &plc;                                                   // as it was given, before any repair
+/// options.radius_edge_bound = refine_options.radius_edge_bound;
+/// options.size = refine_options.size;
+/// options.largest_cosine = result.optimization.claimed_cosine;            // the angle that the optimiser worked for
+/// options.delaunay = result.delaunay;
+/// options.reasons = &result.reasons;                                      // each is verified
+/// const pgdr::CheckReport report = pgdr::check(result.mesh, options);     // report.exit_code() <= 1: nothing is wrong
+/// @endcode
 template <int D>
 struct CheckOptions {
   // ---- against what was given ----------------------------------------------------------------------------------------
@@ -113,9 +115,9 @@ struct CheckOptions {
   /// Must faces be locally Delaunay, but for what rounding or a refused split (in `reasons`) explains? DEFAULT: false.
   bool delaunay = false;
 
-  /// So many faces are said to be left that are not locally Delaunay, other than by rounding (NotDelaunay::other). As long as there
-  /// are no more, those beside no refused split are `not_delaunay_unexplained`, and else findings. DEFAULT: 0. Without `delaunay` it
-  /// has no effect.
+  /// So many faces are said to be left that are not locally Delaunay, other than by rounding (NotDelaunay::other). As long as
+  /// there are no more, those beside no refused split are `not_delaunay_unexplained`, and else findings. DEFAULT: 0. Without
+  /// `delaunay` it has no effect.
   std::uint64_t not_delaunay_left = 0;
 
   /// By how many ulps of the mesh's largest coordinate a vertex on a slanted entity may be off that: a face that is locally

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Numbers of the refinement that decide meshes and that no theory gives: what is looked at how far, and what is given up when.
-// bench/numbers.py makes meshes with half and with twice of each; bench/notebook/numbers.md has its tables.
+// bench/deciding_numbers.py makes meshes with half and with twice of each; bench/notebook/numbers.md has its tables.
 #pragma once
 
 #include <cstddef>

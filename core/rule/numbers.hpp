@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Numbers of points on segments that meet at small angles. The theory needs some such numbers, and lets them be what they are.
-// bench/numbers.py makes meshes with half and with twice of each; bench/notebook/numbers.md has its tables.
+// bench/deciding_numbers.py makes meshes with half and with twice of each; bench/notebook/numbers.md has its tables.
 #pragma once
 
 namespace pgdr::numbers {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Numbers of the geometry of the input. bench/numbers.py makes meshes with half and with twice of each;
+// Numbers of the geometry of the input. bench/deciding_numbers.py makes meshes with half and with twice of each;
 // bench/notebook/numbers.md has its tables.
 #pragma once
 

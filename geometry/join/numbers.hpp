@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Numbers of what is joined. bench/numbers.py makes meshes with half and with twice of each; bench/notebook/numbers.md has its
-// tables.
+// Numbers of what is joined. bench/deciding_numbers.py makes meshes with half and with twice of each; bench/notebook/numbers.md
+// has its tables.
 #pragma once
 
 #include <cstddef>

@@ -35,11 +35,12 @@ struct PieceOrigin {
 
 /// A surface cut along all its meetings: triangles any two of which have a corner, an edge, or nothing in common.
 struct Arrangement {
-  std::vector<Point<3>>
-      points;  ///< those of the input first (all of them, by their indices, where they were joined), then new ones
+  /// Those of the input first (all of them, by their indices, where they were joined), then new ones.
+  std::vector<Point<3>> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< the pieces; none twice, none degenerate
   std::vector<std::uint32_t> origins_begin;             ///< of each piece, among `origins`; one more than pieces
-  std::vector<PieceOrigin> origins;  ///< all facets that cover the piece, with multiplicity, the one whose marker it has first
+  /// All facets that cover the piece, with multiplicity, the one whose marker it has first.
+  std::vector<PieceOrigin> origins;
 };
 
 /// How crossings are resolved.
@@ -59,6 +60,7 @@ struct ArrangementOptions {
 /// @param plc the input.
 /// @param repairs gets an entry entities_intersect if anything crossed: `ids` are pairs of facets of the input, `points` the new
 ///   points; and one near_points if points went to a grid: their numbers.
+/// @param options whose marker a piece has; what ends it.
 /// @throws InputError what Domain refuses for other reasons than crossings; entities_intersect with the pairs left, if there is
 /// no
 ///   end; CancelledError
@@ -68,7 +70,10 @@ Arrangement arrange(const Plc<3>& plc, std::vector<Diagnostic>& repairs, const A
 /// places of these, with their markers, bodies and the lines of their source. All else comes back as it is; so does an input in
 /// which nothing crosses, and one that a Domain refuses for other reasons. Attributes of new points are interpolated along an
 /// edge, or in a triangle.
-/// @param repairs as above. @throws InputError as above, but for the first; CancelledError
+/// @param plc the input.
+/// @param repairs as above.
+/// @param options as above.
+/// @throws InputError as above, but for the first; CancelledError
 Plc<3> resolve_crossings(const Plc<3>& plc, std::vector<Diagnostic>& repairs, const ArrangementOptions& options = {});
 
 }  // namespace pgdr

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Numbers of a run: what the optimiser may take, and which facets rounding may fold. bench/numbers.py makes meshes with half
-// and with twice of each; bench/notebook/numbers.md has its tables.
+// Numbers of a run: what the optimiser may take, and which facets rounding may fold. bench/deciding_numbers.py makes meshes with
+// half and with twice of each; bench/notebook/numbers.md has its tables.
 #pragma once
 
 #include <cstdint>

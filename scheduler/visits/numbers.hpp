@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Numbers of how the work is divided. They decide meshes, as they decide in which order points come, but not how good these
-// are. bench/numbers.py makes meshes with half and with twice of each; bench/notebook/numbers.md has its tables.
+// are. bench/deciding_numbers.py makes meshes with half and with twice of each; bench/notebook/numbers.md has its tables.
 #pragma once
 
 #include <cstddef>

@@ -8,8 +8,8 @@ once, and meshes the files with each number as it is, halved and doubled, on one
 all files together, of cells, poor cells, faces not locally Delaunay and the processor's seconds, the files that made the same
 mesh to the last byte, and those that ended otherwise (exit code). What ends later than --seconds counts as that.
 
-Usage: numbers.py --list                              the numbers, with their rooms and values
-       numbers.py [options] FILE...                   the table, as Markdown
+Usage: deciding_numbers.py --list                              the numbers, with their rooms and values
+       deciding_numbers.py [options] FILE...                   the table, as Markdown
   --only REGEX        only numbers whose room/name it matches
   --no-optimize       without the optimiser, for the numbers that come before it
   --work FOLDER       of the copy and its build, kept for the next time (default: build/numbers)
