@@ -41,7 +41,7 @@ std::map<Cube, std::vector<std::uint32_t>> bodies_of_cubes(const std::vector<Bod
   return found;
 }
 
-Volumes volumes_of(const std::vector<BodyRegion>& regions) {
+Volumes region_volumes_of(const std::vector<BodyRegion>& regions) {
   Volumes found;
   for (const BodyRegion& r : regions) found[r.bodies] += r.volume;
   return found;
@@ -127,7 +127,7 @@ void expect_fragments(const std::vector<Body>& bodies, const Plc<3>& plc, bool i
   const auto of_cubes = bodies_of_cubes(bodies);
   Volumes wanted;
   for (const auto& [cube, its] : of_cubes) ++wanted[its];
-  expect_near(volumes_of(made.regions), wanted);
+  expect_near(region_volumes_of(made.regions), wanted);
   EXPECT_EQ(made.plc.facets.size(), plc.facets.size());
   for (const auto& [cube, label] : labels_of_cubes(made.plc, all_cubes(n), is_turned)) {
     const auto at = of_cubes.find(cube);
@@ -159,7 +159,7 @@ void expect_priority(const std::vector<Body>& bodies, const Plc<3>& plc, bool is
   const auto of_cubes = bodies_of_cubes(bodies);
   Volumes wanted;
   for (const auto& [cube, its] : of_cubes) ++wanted[{its[0]}];
-  expect_near(volumes_of(made.regions), wanted);
+  expect_near(region_volumes_of(made.regions), wanted);
   for (const auto& [cube, label] : labels_of_cubes(made.plc, all_cubes(n), is_turned)) {
     const auto at = of_cubes.find(cube);
     const auto region = std::ranges::find(made.regions, label, &BodyRegion::label);
@@ -241,8 +241,8 @@ TEST(Bodies, ShellInShell) {
   EXPECT_EQ(both.regions[0].volume, 125);
   EXPECT_EQ(both.plc.facets.size(), 300u) << "the inner one is gone";
   EXPECT_EQ(both.plc.points.size(), 600u) << "and its points";
-  EXPECT_EQ(volumes_of(with_bodies(plc, BodyMode::fragments).regions), (Volumes{{{0}, 117}, {{0, 1}, 8}}));
-  EXPECT_EQ(volumes_of(with_bodies(in_one_file(plc), BodyMode::fragments).regions), (Volumes{{{0}, 117}, {{0, 1}, 8}}));
+  EXPECT_EQ(region_volumes_of(with_bodies(plc, BodyMode::fragments).regions), (Volumes{{{0}, 117}, {{0, 1}, 8}}));
+  EXPECT_EQ(region_volumes_of(with_bodies(in_one_file(plc), BodyMode::fragments).regions), (Volumes{{{0}, 117}, {{0, 1}, 8}}));
 }
 
 TEST(Bodies, CavityIsOfWhatItIsIn) {
@@ -255,7 +255,7 @@ TEST(Bodies, CavityIsOfWhatItIsIn) {
     EXPECT_EQ(made.body_names.size(), 2u);
     const Volumes wanted = mode == BodyMode::priority ? Volumes{{{0}, 117}, {{1}, 343 - 117}}
                                                       : Volumes{{{0, 1}, 117}, {{1}, 343 - 117}};
-    EXPECT_EQ(volumes_of(made.regions), wanted) << "the shell of the cavity comes first, so that its body is 0";
+    EXPECT_EQ(region_volumes_of(made.regions), wanted) << "the shell of the cavity comes first, so that its body is 0";
   }
   const WithBodies united = with_bodies(in_one_file(plc), BodyMode::united);
   ASSERT_EQ(united.regions.size(), 1u);
@@ -270,7 +270,7 @@ TEST(Bodies, InsideOut) {
   ASSERT_EQ(made.regions.size(), 1u);
   EXPECT_EQ(made.regions[0].volume, 63);
   EXPECT_EQ(made.plc.holes.size(), 1u);
-  EXPECT_EQ(volumes_of(with_bodies(in_one_file(plc), BodyMode::fragments).regions), (Volumes{{{0}, 63}}));
+  EXPECT_EQ(region_volumes_of(with_bodies(in_one_file(plc), BodyMode::fragments).regions), (Volumes{{{0}, 63}}));
 }
 
 TEST(Bodies, RepeatedFacetsCount) {
@@ -279,7 +279,7 @@ TEST(Bodies, RepeatedFacetsCount) {
   add_surface(plc, box({0, 0, 0}, {2, 2, 2}), 0);
   add_surface(plc, box({1, 0, 0}, {3, 2, 2}), 1, false);
   // The second one is reversed as a whole, or it would take away from the first.
-  EXPECT_EQ(volumes_of(with_bodies(plc, BodyMode::fragments).regions), (Volumes{{{0}, 4}, {{0, 1}, 4}, {{1}, 4}}));
+  EXPECT_EQ(region_volumes_of(with_bodies(plc, BodyMode::fragments).regions), (Volumes{{{0}, 4}, {{0, 1}, 4}, {{1}, 4}}));
   // In one file it does: twice, less once.
   for (auto& body : plc.facet_bodies) body = 0;
   const WithBodies made = with_bodies(plc, BodyMode::united);
@@ -289,7 +289,7 @@ TEST(Bodies, RepeatedFacetsCount) {
 
 TEST(Bodies, TouchingBodiesOfOppositeFaces) {
   Plc<3> plc = surfaces({box({0, 0, 0}, {2, 2, 2}), box({2, 0, 0}, {4, 2, 2})});
-  EXPECT_EQ(volumes_of(with_bodies(plc, BodyMode::fragments).regions), (Volumes{{{0}, 8}, {{1}, 8}}));
+  EXPECT_EQ(region_volumes_of(with_bodies(plc, BodyMode::fragments).regions), (Volumes{{{0}, 8}, {{1}, 8}}));
   const WithBodies united = with_bodies(plc, BodyMode::united);
   ASSERT_EQ(united.regions.size(), 1u);
   EXPECT_EQ(united.regions[0].bodies, (std::vector<std::uint32_t>{0, 1}));
@@ -300,7 +300,7 @@ TEST(Bodies, FacetsTurnedOver) {
   Plc<3> plc = in_one_file(surfaces({box({0, 0, 0}, {3, 3, 3})}));
   for (const std::size_t f : {3u, 17u, 18u, 40u}) std::swap(plc.facets[f].polygons[0][1], plc.facets[f].polygons[0][2]);
   const WithBodies made = with_bodies(plc, BodyMode::fragments);
-  EXPECT_EQ(volumes_of(made.regions), (Volumes{{{0}, 27}}));
+  EXPECT_EQ(region_volumes_of(made.regions), (Volumes{{{0}, 27}}));
   ASSERT_EQ(made.warnings.size(), 1u);
   EXPECT_EQ(made.warnings[0].code, Errc::inconsistent_orientation);
   EXPECT_EQ(made.warnings[0].ids, (std::vector<std::int64_t>{3, 17, 18, 40}));
@@ -319,7 +319,7 @@ TEST(Bodies, CornersOnEdgesOfOthers) {
   plc.facets.push_back({{{first, first + 1, first + 2, first + 3}}, {}, 0});
   add_surface(plc, box({5, 0, 0}, {6, 1, 1}), 0);
   const WithBodies made = with_bodies(in_one_file(plc), BodyMode::fragments);
-  EXPECT_EQ(volumes_of(made.regions), (Volumes{{{0}, 8}, {{1}, 1}}));
+  EXPECT_EQ(region_volumes_of(made.regions), (Volumes{{{0}, 8}, {{1}, 1}}));
   EXPECT_TRUE(made.warnings.empty());
 }
 
@@ -342,9 +342,9 @@ TEST(Bodies, OpenBoxOnAPlate) {
   Plc<3> open = without_plane(surfaces({box({1, 1, 1}, {4, 4, 4})}), 2, 1);
   add_surface(open, box({0, 0, 0}, {5, 5, 1}), 1);
   const WithBodies made = with_bodies(open, BodyMode::fragments);
-  EXPECT_EQ(volumes_of(made.regions), (Volumes{{{0}, 27}, {{1}, 25}}));
+  EXPECT_EQ(region_volumes_of(made.regions), (Volumes{{{0}, 27}, {{1}, 25}}));
   EXPECT_TRUE(made.warnings.empty()) << made.warnings[0].message;
-  EXPECT_EQ(volumes_of(with_bodies(open, BodyMode::united).regions), (Volumes{{{0, 1}, 52}}));
+  EXPECT_EQ(region_volumes_of(with_bodies(open, BodyMode::united).regions), (Volumes{{{0, 1}, 52}}));
 }
 
 TEST(Bodies, UnsureOfAnOpenBody) {
@@ -368,7 +368,7 @@ TEST(Bodies, SheetThatDividesNothing) {
   for (int x = 1; x < 5; ++x)
     for (int y = 1; y < 5; ++y) add_square(plc, {x, y, 2}, 2, true, 1, 7);
   const WithBodies made = with_bodies(plc, BodyMode::fragments);
-  EXPECT_EQ(volumes_of(made.regions), (Volumes{{{0}, 144}}));
+  EXPECT_EQ(region_volumes_of(made.regions), (Volumes{{{0}, 144}}));
   EXPECT_TRUE(made.warnings.empty());
   EXPECT_EQ(made.plc.facets.size(), plc.facets.size()) << "the sheet is in the mesh";
   EXPECT_EQ(with_bodies(plc, BodyMode::united).plc.facets.size(), plc.facets.size() - 32);
@@ -384,7 +384,7 @@ void add_moebius_strip(Plc<3>& plc, std::uint32_t body) {
 TEST(Bodies, MoebiusStrip) {
   Plc<3> plc = surfaces({box({-2, -2, -2}, {4, 4, 4})});
   add_moebius_strip(plc, 1);
-  EXPECT_EQ(volumes_of(with_bodies(plc, BodyMode::fragments).regions), (Volumes{{{0}, 216}})) << "it separates nothing";
+  EXPECT_EQ(region_volumes_of(with_bodies(plc, BodyMode::fragments).regions), (Volumes{{{0}, 216}})) << "it separates nothing";
   // Among cubes it does.
   std::vector<Body> cubes;
   for (const Cube& c : box({-1, -1, -1}, {3, 3, 3})) cubes.push_back({c});
@@ -441,7 +441,7 @@ TEST(Bodies, SeedsWin) {
   plc.regions.clear();
   plc.holes = {{{5.5, 0.4, 0.6}}};
   made = with_bodies(plc, BodyMode::united);
-  EXPECT_EQ(volumes_of(made.regions), (Volumes{{{0, 1}, 12}}));
+  EXPECT_EQ(region_volumes_of(made.regions), (Volumes{{{0, 1}, 12}}));
   EXPECT_EQ(made.plc.holes.size(), 1u);
 }
 

@@ -205,14 +205,6 @@ class Replacement {
     return chains;
   }
 
-  /// The parts of a joined input begin where their first item does now.
-  void move_parts(SourceItem item, std::span<const std::uint32_t> begin, std::size_t end) {
-    for (PlcSource::Part& part : given_.plc.source.parts) {
-      std::uint32_t& first = part.first[static_cast<std::size_t>(item)];
-      first = first < begin.size() ? begin[first] : static_cast<std::uint32_t>(end);
-    }
-  }
-
   /// Segments along an edge that has new points; and edges drawn inside of facets that are replaced.
   void replace_segments() {
     collect_lines();
@@ -228,15 +220,12 @@ class Replacement {
     const auto add_chain = [&](const Chain& chain, int marker, std::uint32_t input, std::uint32_t line) {
       for (std::size_t k = 1; k < chain.size(); ++k) add(number(chain[k - 1]), number(chain[k]), marker, input, line);
     };
-    std::vector<std::uint32_t> begin;
     for (std::uint32_t s = 0; s < segments.size(); ++s) {
-      begin.push_back(static_cast<std::uint32_t>(plc.segments.size()));
       const auto chains = chains_of(s, false);
       const std::uint32_t line = source_lines.empty() ? 0 : source_lines[s];
       if (chains.empty()) add(segments[s].points[0], segments[s].points[1], segments[s].marker, inputs[s], line);
       for (const Chain& chain : chains) add_chain(chain, segments[s].marker, inputs[s], line);
     }
-    move_parts(SourceItem::segment, begin, plc.segments.size());
     for (EntityId s = 0; s < domain_.segments().size(); ++s)
       if (is_drawn_inside(s)) add_chain(chain_of(s), 0, no_entity, 0);
   }
@@ -268,10 +257,8 @@ class Replacement {
     std::ranges::sort(by_facet);
     const auto lines = std::exchange(plc.source.facet_lines, {});
     const auto bodies = std::exchange(plc.facet_bodies, {});
-    std::vector<std::uint32_t> begin;
     auto at = by_facet.begin();
     for (std::uint32_t f = 0; f < plc.facets.size(); ++f) {
-      begin.push_back(static_cast<std::uint32_t>(next_.plc.facets.size()));
       const auto chains = chains_of(f, true);
       const bool is_line = !chains.empty();
       if (is_line) add_line_facet(f, chains);
@@ -280,7 +267,6 @@ class Replacement {
       if (!lines.empty()) plc.source.facet_lines.resize(next_.plc.facets.size(), lines[f]);
       if (!bodies.empty()) plc.facet_bodies.resize(next_.plc.facets.size(), bodies[f]);
     }
-    move_parts(SourceItem::facet, begin, next_.plc.facets.size());
     plc.facets = std::move(next_.plc.facets);
     given_.origins = std::move(next_.origins);
     given_.origins_begin = std::move(next_.origins_begin);
