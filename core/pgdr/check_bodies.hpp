@@ -31,8 +31,12 @@ struct BodyCheck {
 ///
 /// Bodies have to be closed and to look one way as they are given, edge by edge of the same coordinates; what is open is left
 /// out, and so is an input with seeds, since these win. About 5 microseconds a cell and a facet, on the calling thread.
-/// @param given  what with_bodies was given, not what it made
+/// @param mesh with labels
+/// @param given what with_bodies was given, not what it made
+/// @param mode that of with_bodies
+/// @param tolerance CheckOptions::tolerance
 /// @param report of check() for the same mesh: gets findings (wrong_region, wrong_volume) if it has none
+/// @param stop ends it, from any thread, by a CancelledError
 /// @throws what check() throws
 BodyCheck check_bodies(const OutputMesh<3>& mesh, const Plc<3>& given, BodyMode mode, std::optional<double> tolerance,
                        CheckReport& report, std::stop_token stop = {});

@@ -34,7 +34,8 @@ struct MeshPiece {
   };
 
   /// The rows of cells, subfacets and subsegments, which index into `mesh.points`. These are the points of its cells, subfacets
-  /// and subsegments, and its own rows of points; `mesh.input_points` of them, the first, are input points. `mesh.names` are those of the whole mesh.
+  /// and subsegments, and its own rows of points; `mesh.input_points` of them, the first, are input points. `mesh.names` are
+  /// those of the whole mesh.
   OutputMesh<D> mesh;
   std::vector<Number> point_numbers;  ///< of mesh.points in the whole mesh, ascending
   Number first_point = 0;             ///< in the whole mesh: the first of the points that are its own rows

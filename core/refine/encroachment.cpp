@@ -41,8 +41,7 @@ bool projects_into(const std::array<Point<D>, D>& corner, const Point<D>& x) {
 }
 
 /// Is the angle at x, of the triangle with ab, above 180 degrees less twice the smallest that the bound allows? Its cosine is
-/// below
-/// -(1 - 2 sin^2) then.
+/// below -(1 - 2 sin^2) then.
 bool is_flat_at(const Point2& x, const Point2& a, const Point2& b, double radius_edge_bound) {
   const double limit = 1 - 1 / (2 * radius_edge_bound * radius_edge_bound);
   const double product = (a[0] - x[0]) * (b[0] - x[0]) + (a[1] - x[1]) * (b[1] - x[1]);

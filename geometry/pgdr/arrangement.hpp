@@ -61,9 +61,8 @@ struct ArrangementOptions {
 /// @param repairs gets an entry entities_intersect if anything crossed: `ids` are pairs of facets of the input, `points` the new
 ///   points; and one near_points if points went to a grid: their numbers.
 /// @param options whose marker a piece has; what ends it.
-/// @throws InputError what Domain refuses for other reasons than crossings; entities_intersect with the pairs left, if there is
-/// no
-///   end; CancelledError
+/// @throws InputError what Domain refuses for other reasons than crossings; entities_intersect with the pairs left, if there
+///   is no end; CancelledError
 Arrangement arrange(const Plc<3>& plc, std::vector<Diagnostic>& repairs, const ArrangementOptions& options = {});
 
 /// The same as an input: with pieces, a triangle each, in the place of the facets that anything crosses, and of segments, in the

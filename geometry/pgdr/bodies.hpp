@@ -39,8 +39,7 @@ enum class BodyMode {
   /// dropped.
   fragments,
   /// As `fragments`, but of the bodies of a volume the first one has it; a label each body. A facet that has the same body on
-  /// both
-  /// sides is dropped, unless it is that body's own; so is one with void on both sides.
+  /// both sides is dropped, unless it is that body's own; so is one with void on both sides.
   priority,
   /// As `fragments`, but a volume of two bodies is an error.
   disjoint,
@@ -63,8 +62,8 @@ struct BodyOptions {
 /// An input whose seeds say which bodies are where.
 struct WithBodies {
   /// For RegionMode::seeds. Facets that are left, as they were; of those that are left in part, the pieces. Seeds of the input,
-  /// then one a region or void that has none. Points that only dropped facets had are dropped. A label without a name gets those of
-  /// its bodies, with "+" between, if all have names.
+  /// then one a region or void that has none. Points that only dropped facets had are dropped. A label without a name gets those
+  /// of its bodies, with "+" between, if all have names.
   Plc<3> plc;
   std::vector<BodyRegion> regions;      ///< by label, ascending
   std::vector<std::string> body_names;  ///< of each body, in the order of their first facets: Plc::body_names, or ""
@@ -80,9 +79,12 @@ struct WithBodies {
 /// with `priority` alone. About 10 microseconds a facet on the threads of the caller's tbb::task_arena, the same for any number
 /// of them.
 /// @param plc its facets may overlap in a plane, repeat, touch, or lie in each other
+/// @param mode what is meshed, and how it is labelled
+/// @param options whether facets may cross, too; what ends it
 /// @throws DiagnosedError for facets that cross; InputError entities_intersect, if resolving crossings has no end,
-/// not_orientable, bodies_overlap (`disjoint`; one diagnostic a volume, `ids`
-///   are its bodies), ambiguous: a surface that no ray tells the place of; what Domain throws; CancelledError
+/// not_orientable,
+///   bodies_overlap (`disjoint`; one diagnostic a volume, `ids` are its bodies), ambiguous: a surface that no ray tells the place
+///   of; what Domain throws; CancelledError
 WithBodies with_bodies(const Plc<3>& plc, BodyMode mode, const BodyOptions& options = {});
 
 }  // namespace pgdr

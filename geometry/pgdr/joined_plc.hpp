@@ -26,11 +26,10 @@ namespace pgdr PGDR_API {
 /// The tolerance is the largest of those given; coordinates are floats if those of any input are; attributes that an input's
 /// points lack are 0.
 /// @param inputs  where there is one alone it comes back as it is
-/// @param names  what each input is called; empty, or "" for one: as its file is, without folder and extension, else "input1",
-/// ...
+/// @param names  what each input is called; empty, or "" for one: as its file is, without folder and extension, else
+///   "input1", ...
 /// @throws UsageError bad_option: another number of names than of inputs, or no input; ResourceError ids_exhausted: more points
-/// than
-///   can be numbered
+///   than can be numbered
 template <int D>
 Plc<D> joined(std::span<const Plc<D>> inputs, std::span<const std::string> names = {});
 
