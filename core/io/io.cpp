@@ -219,15 +219,14 @@ std::vector<Diagnostic> unfit_names(const Names& names, const Path& file) {
   const Names valid = detail::valid_names(names, detail::name_rule(file));
   std::vector<Diagnostic> warnings;
   const auto compare = [&](const auto& given, const auto& written, const char* what) {
-    for (const auto& [label, name] : given)
-      if (const std::string& now = written.at(label); now != name)
-        warnings.push_back({Errc::unfit_name,
-                            "the name \"" + name + "\" of " + what + " " + detail::to_text(static_cast<double>(label)) +
-                                " cannot be written to this file as it is; it is \"" + now + "\" there",
-                            file.string(),
-                            0,
-                            {},
-                            {}});
+    for (const auto& [label, name] : given) {
+      const std::string& now = written.at(label);
+      if (now == name) continue;
+      std::string words = "the name \"";
+      words.append(name).append("\" of ").append(what).append(" ").append(detail::to_text(static_cast<double>(label)));
+      words.append(" cannot be written to this file as it is; it is \"").append(now).append("\" there");
+      warnings.push_back({Errc::unfit_name, std::move(words), file.string(), 0, {}, {}});
+    }
   };
   compare(names.regions, valid.regions, "region");
   compare(names.markers, valid.markers, "marker");
