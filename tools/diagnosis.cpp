@@ -84,7 +84,7 @@ void print_findings(const Diagnosis<D>& diagnosis) {
 }
 
 template <int D>
-int refuse(const Plc<D>& plc, const Diagnosis<D>& diagnosis, Report& report) {
+int refuse(const Plc<D>& plc, const Diagnosis<D>& diagnosis, bool is_resolved, Report& report) {
   constexpr std::size_t most = 5;
   const std::vector<Diagnostic> errors = diagnosis.errors();
   const std::string bodies = words_of_bodies(plc, diagnosis);
@@ -95,7 +95,8 @@ int refuse(const Plc<D>& plc, const Diagnosis<D>& diagnosis, Report& report) {
   }
   if (const std::uint64_t all = diagnosis.error_count(); all > most && bodies.empty())
     std::fprintf(stderr, "pgdr: and %llu more errors\n", static_cast<unsigned long long>(all - most));
-  for (const std::string& cure : cures_of(plc, diagnosis)) std::fprintf(stderr, "pgdr: %s\n", cure.c_str());
+  for (const std::string& cure : cures_of(plc, diagnosis))
+    if (!is_resolved || !cure.starts_with("--resolve-crossings")) std::fprintf(stderr, "pgdr: %s\n", cure.c_str());
   return exit_input;
 }
 
@@ -119,7 +120,7 @@ void give(const std::optional<Proposal>& proposal, bool quiet, Report& report) {
 #define PGDR_INSTANTIATE(D)                                        \
   template void set_findings<D>(JsonObject&, const Diagnosis<D>&); \
   template void print_findings<D>(const Diagnosis<D>&);            \
-  template int refuse<D>(const Plc<D>&, const Diagnosis<D>&, Report&);
+  template int refuse<D>(const Plc<D>&, const Diagnosis<D>&, bool, Report&);
 PGDR_INSTANTIATE(2)
 PGDR_INSTANTIATE(3)
 #undef PGDR_INSTANTIATE

@@ -21,9 +21,9 @@ template <int D>
 void print_findings(const Diagnosis<D>& diagnosis);
 
 /// Puts all listed errors into the report and a few on stderr, and there which flags have been found to help.
-/// Returns exit_input.
+/// Returns exit_input. `is_resolved`: crossings were resolved, so that the flag for that is no help.
 template <int D>
-int refuse(const Plc<D>& plc, const Diagnosis<D>& diagnosis, Report& report);
+int refuse(const Plc<D>& plc, const Diagnosis<D>& diagnosis, bool is_resolved, Report& report);
 
 /// A proposal, in the report as `proposal`, and in a row unless `quiet`.
 void give(const std::optional<Proposal>& proposal, bool quiet, Report& report);

@@ -138,7 +138,7 @@ class InputInfo {
     report_.set("seconds", seconds_);
     report_.set("diagnosis", findings_);
     if (!a_.quiet) print_findings(diagnosis);
-    if (diagnosis.error_count() > 0) return refuse(plc_, diagnosis, report_);
+    if (diagnosis.error_count() > 0) return refuse(plc_, diagnosis, a_.reading.resolve_crossings, report_);
     if (!bodies_ && (bodies_ = label_bodies(plc_, a_.reading))) prepared.emplace(plc_);
     say_what_is_ahead(*prepared);
     const RefineResult<D> recovered = recover_and_describe(*prepared);

@@ -341,7 +341,7 @@ class MeshRun {
       set_findings(findings, diagnosis);
       report_.set("diagnosis", findings);
       if (diagnosis.error_count() == 0) throw;
-      return refuse(plc_, diagnosis, report_);
+      return refuse(plc_, diagnosis, a_.reading.resolve_crossings, report_);
     }
     result_.repairs.insert(result_.repairs.begin(), repairs_.begin(), repairs_.end());
     const std::vector<Diagnostic> unfit = unfit_names(plc_.names, a_.output);

@@ -257,6 +257,7 @@ void Arranger::fail(std::span<const Piece> pieces) const {
 Arrangement Arranger::arrangement() const {
   Arrangement out;
   const Domain<3>& domain = *domain_;
+  out.tolerance = tolerance_of(state_.plc);
   out.points = state_.plc.points;
   for (std::size_t i = 0; i < out.points.size(); ++i) out.points[i] = domain.points()[domain.point_of_input()[i]];
   for (std::uint32_t v = 0; v < domain.points().size(); ++v)

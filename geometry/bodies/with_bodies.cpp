@@ -72,8 +72,13 @@ Plc<3> make_plc(const Plc<3>& plc, const Arrangement& pieces, const RegionGroups
     if (!plc.facet_bodies.empty()) made.facet_bodies.push_back(plc.facet_bodies[f]);
     if (!plc.source.facet_lines.empty()) made.source.facet_lines.push_back(plc.source.facet_lines[f]);
   }
-  made.points.insert(made.points.end(), pieces.points.begin() + static_cast<std::ptrdiff_t>(plc.points.size()),
-                     pieces.points.end());
+  if (are_cut) {
+    made.points = pieces.points;
+    made.are_floats = plc.are_floats && pieces.tolerance > tolerance_of(plc) / 2;  // else it is that of doubles
+  } else {
+    made.points.insert(made.points.end(), pieces.points.begin() + static_cast<std::ptrdiff_t>(plc.points.size()),
+                       pieces.points.end());
+  }
   if (!made.point_markers.empty()) made.point_markers.resize(made.points.size());
   if (!plc.points.empty()) made.point_attributes.resize(plc.point_attributes.size() / plc.points.size() * made.points.size());
   PointsLeft(plc, made);
