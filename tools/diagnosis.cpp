@@ -95,8 +95,13 @@ int refuse(const Plc<D>& plc, const Diagnosis<D>& diagnosis, bool is_resolved, R
   }
   if (const std::uint64_t all = diagnosis.error_count(); all > most && bodies.empty())
     std::fprintf(stderr, "pgdr: and %llu more errors\n", static_cast<unsigned long long>(all - most));
-  for (const std::string& cure : cures_of(plc, diagnosis))
-    if (!is_resolved || !cure.starts_with("--resolve-crossings")) std::fprintf(stderr, "pgdr: %s\n", cure.c_str());
+  const char* const of_bodies =
+      "; with --regions union the bodies are one solid, with --regions fragments each cell says whose it is";
+  for (const std::string& cure : cures_of(plc, diagnosis)) {
+    const bool resolves = cure.starts_with("--resolve-crossings");
+    if (resolves && is_resolved) continue;
+    std::fprintf(stderr, "pgdr: %s%s\n", cure.c_str(), resolves && !bodies.empty() ? of_bodies : "");
+  }
   return exit_input;
 }
 

@@ -109,6 +109,9 @@ class Cures(Case):
             self.assertRegex(said, r"5 closed bodies that overlap: \d+ pairs of their facets intersect")
             self.assertEqual(said.count("intersect from"), 1)
             self.assertGreater(len(self.json()["errors"]), 4)  # all of them are there
+            for mode in ("union", "fragments"):
+                self.assertIn(f"--regions {mode}", said)
+                self.is_meshed(self.file("bodies.poly", poly(copy, faces)), "--resolve-crossings", "--regions", mode)
         p, f = box(1.0, 1.0, 1.0)  # a sheet through a box is no body
         sheet = [(0.5, -1.0, -1.0), (0.5, 2.0, -1.0), (0.5, 2.0, 2.0), (0.5, -1.0, 2.0)]
         said = self.mesh(self.file("sheet.poly", poly(p + sheet, f + [(8, 9, 10, 11)])), expect=3).stderr
