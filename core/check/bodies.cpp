@@ -189,7 +189,7 @@ class BodyChecker {
 }  // namespace
 
 BodyCheck check_bodies(const OutputMesh<3>& mesh, const Plc<3>& given, BodyMode mode, std::optional<double> tolerance,
-                       CheckReport& report, std::stop_token stop) {
+                       CheckReport& report, const std::stop_token& stop) {
   if (report.finding_count > 0) return {false, "the mesh is not sound"};
   if (!given.holes.empty() || !given.regions.empty()) return {false, "seeds of the input win"};
   CheckReport of_input;  // a facet that cannot be triangulated is a finding of check() already

@@ -39,6 +39,6 @@ struct BodyCheck {
 /// @param stop ends it, from any thread, by a CancelledError
 /// @throws what check() throws
 BodyCheck check_bodies(const OutputMesh<3>& mesh, const Plc<3>& given, BodyMode mode, std::optional<double> tolerance,
-                       CheckReport& report, std::stop_token stop = {});
+                       CheckReport& report, const std::stop_token& stop = {});
 
 }  // namespace pgdr

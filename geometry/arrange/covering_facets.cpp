@@ -83,7 +83,8 @@ std::vector<CoveringFacet> CoveringFacets::of(EntityId f, std::uint32_t k) const
   for (const std::uint32_t g : all)
     if (has_middle(plc_.facets[g], t, axis)) found.push_back({g, is_reversed(plc_.facets[g].polygons[0], axis)});
   if (found.empty()) return {{origin.facet, origin.reversed}};  // it is off its facet by the tolerance
-  std::ranges::stable_partition(found, [&](const CoveringFacet& c) { return plc_.facets[c.facet].marker == marker; });
+  std::stable_partition(found.begin(), found.end(),
+                        [&](const CoveringFacet& c) { return plc_.facets[c.facet].marker == marker; });
   return found;
 }
 

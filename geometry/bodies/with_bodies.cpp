@@ -81,7 +81,7 @@ Plc<3> make_plc(const Plc<3>& plc, const Arrangement& pieces, const RegionGroups
   }
   if (!made.point_markers.empty()) made.point_markers.resize(made.points.size());
   if (!plc.points.empty()) made.point_attributes.resize(plc.point_attributes.size() / plc.points.size() * made.points.size());
-  PointsLeft(plc, made);
+  const PointsLeft numbered_anew(plc, made);
   return made;
 }
 
