@@ -16,6 +16,7 @@
 #include "cube_bodies.hpp"
 #include "pgdr/arrangement.hpp"
 #include "pgdr/bodies.hpp"
+#include "pgdr/diagnosis.hpp"
 #include "pgdr/domain.hpp"
 #include "volumes/wall_volumes.hpp"
 
@@ -427,6 +428,19 @@ TEST(Bodies, VolumeWithoutPointsOfDoubles) {
     EXPECT_EQ(made.warnings[0].code, Errc::ambiguous);
     EXPECT_NO_THROW(Domain<3>{made.plc});
   }
+}
+
+TEST(Bodies, SegmentsAreCutWithThem) {
+  Plc<3> plc = surfaces({box({0, 0, 0}, {2, 2, 2}), box({1, 1, 1}, {3, 3, 3})});
+  const auto end = static_cast<std::uint32_t>(plc.points.size());
+  plc.points.insert(plc.points.end(), {{{0.5, 0.5, 0.25}}, {{2.75, 2.75, 2.5}}});
+  plc.segments = {{{end, end + 1}, 77}};
+  BodyOptions options;
+  options.resolve_crossings = true;
+  const WithBodies made = with_bodies(plc, BodyMode::fragments, options);
+  EXPECT_GT(made.plc.segments.size(), 2u) << "it goes into the second box, and out of the first";
+  for (const auto& s : made.plc.segments) EXPECT_EQ(s.marker, 77);
+  EXPECT_EQ(diagnose(made.plc).error_count(), 0u);
 }
 
 TEST(Bodies, SeedsWin) {

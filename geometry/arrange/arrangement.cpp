@@ -258,6 +258,8 @@ Arrangement Arranger::arrangement() const {
   Arrangement out;
   const Domain<3>& domain = *domain_;
   out.tolerance = tolerance_of(state_.plc);
+  out.segments = state_.plc.segments;
+  out.segment_lines = state_.plc.source.segment_lines;
   out.points = state_.plc.points;
   for (std::size_t i = 0; i < out.points.size(); ++i) out.points[i] = domain.points()[domain.point_of_input()[i]];
   for (std::uint32_t v = 0; v < domain.points().size(); ++v)

@@ -74,6 +74,8 @@ Plc<3> make_plc(const Plc<3>& plc, const Arrangement& pieces, const RegionGroups
   }
   if (are_cut) {
     made.points = pieces.points;
+    made.segments = pieces.segments;
+    made.source.segment_lines = pieces.segment_lines;
     made.are_floats = plc.are_floats && pieces.tolerance > tolerance_of(plc) / 2;  // else it is that of doubles
   } else {
     made.points.insert(made.points.end(), pieces.points.begin() + static_cast<std::ptrdiff_t>(plc.points.size()),
@@ -96,18 +98,6 @@ void add_seeds(const detail::BodyVolumes& volumes, const RegionGroups& groups, P
     else
       plc.holes.push_back(x);
   }
-}
-
-/// Segments are cut where facets are; `pieces` has no segments, but the same points.
-Plc<3> with_cut_segments(const Plc<3>& plc, const Arrangement& pieces, const ArrangementOptions& options) {
-  Plc<3> made = plc;
-  if (plc.segments.empty()) return made;
-  std::vector<Diagnostic> known;
-  Plc<3> cut = resolve_crossings(plc, known, options);
-  if (cut.points.size() != pieces.points.size()) return made;
-  made.segments = std::move(cut.segments);
-  made.source.segment_lines = std::move(cut.source.segment_lines);
-  return made;
 }
 
 void require_arrays(const Plc<3>& plc) {
@@ -148,8 +138,7 @@ WithBodies with_bodies(const Plc<3>& plc, BodyMode mode, const BodyOptions& opti
   const bool crosses = std::ranges::any_of(repairs, [](const Diagnostic& d) { return d.code == Errc::entities_intersect; });
   if (crosses && !options.resolve_crossings) require_no_errors(Domain<3>(plc, options.stop), options.stop);
   const Bulk bulk(true, options.stop);
-  WithBodies made = label(crosses ? with_cut_segments(plc, pieces, how) : plc, pieces, crosses, mode, bulk,
-                          detail::StopCheck(options.stop));
+  WithBodies made = label(plc, pieces, crosses, mode, bulk, detail::StopCheck(options.stop));
   if (options.resolve_crossings) made.repairs = std::move(repairs);
   return made;
 }

@@ -41,6 +41,9 @@ struct Arrangement {
   std::vector<std::uint32_t> origins_begin;             ///< of each piece, among `origins`; one more than pieces
   /// All facets that cover the piece, with multiplicity, the one whose marker it has first.
   std::vector<PieceOrigin> origins;
+  /// Plc::segments, cut where they go through facets or each other, and edges drawn inside of facets that were cut.
+  std::vector<Plc<3>::Segment> segments;
+  std::vector<std::uint32_t> segment_lines;  ///< PlcSource::segment_lines of these
   /// With which nothing crosses: that of the input, or, where it is the rounding of floats and rounds do not end, that of
   /// doubles.
   double tolerance = 0;
