@@ -2,9 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "console.hpp"
 
+#ifdef _WIN32
+#include <io.h>
+#include <windows.h>
+// After windows.h.
+#include <psapi.h>
+#else
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <unistd.h>
+#endif
 
 #include <cerrno>
 #include <csignal>
@@ -13,12 +20,32 @@
 
 namespace pgdr::tool {
 
+#ifdef _WIN32
+void prepare_process() {}
+
+std::uint64_t peak_rss_bytes() {
+  PROCESS_MEMORY_COUNTERS counters{};
+  if (!K32GetProcessMemoryInfo(GetCurrentProcess(), &counters, sizeof counters)) return 0;
+  return counters.PeakWorkingSetSize;
+}
+
+static bool speaks_to_terminal() { return _isatty(_fileno(stderr)) != 0; }
+#else
 void prepare_process() {
   // Opened for reading, so that writing fails.
   for (int number = 0; number <= 2; ++number)
     if (fcntl(number, F_GETFD) < 0 && open("/", O_RDONLY | O_DIRECTORY) < 0) return;
   std::signal(SIGPIPE, SIG_IGN);
 }
+
+std::uint64_t peak_rss_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts kilobytes
+}
+
+static bool speaks_to_terminal() { return isatty(STDERR_FILENO) != 0; }
+#endif
 
 void require_printed() {
   errno = 0;
@@ -40,7 +67,7 @@ void print_warnings(const std::vector<Diagnostic>& warnings) {
   if (warnings.size() > most) std::fprintf(stderr, "pgdr: and %zu more warnings\n", warnings.size() - most);
 }
 
-ProgressLine::ProgressLine(bool wanted) : shown_(wanted && isatty(STDERR_FILENO)) {}
+ProgressLine::ProgressLine(bool wanted) : shown_(wanted && speaks_to_terminal()) {}
 
 void ProgressLine::operator()(const Progress& p) {
   const auto now = std::chrono::steady_clock::now();
@@ -57,12 +84,6 @@ void ProgressLine::operator()(const Progress& p) {
 void ProgressLine::clear() {
   if (dirty_) std::fputs("\r\033[K", stderr);
   dirty_ = false;
-}
-
-std::uint64_t peak_rss_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts kilobytes
 }
 
 }  // namespace pgdr::tool

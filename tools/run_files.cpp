@@ -19,7 +19,7 @@ namespace {
 std::vector<std::string> family(const std::string& file) {
   std::vector<std::string> files{file};
   const auto add = [&](std::initializer_list<const char*> extensions) {
-    for (const char* extension : extensions) files.push_back(fs::path(file).replace_extension(extension).native());
+    for (const char* extension : extensions) files.push_back(fs::path(file).replace_extension(extension).string());
   };
   if (has_extension(file, {".poly", ".smesh"})) add({".node"});
   if (has_extension(file, {".node", ".ele"})) add({".node", ".ele", ".face", ".edge"});
@@ -98,7 +98,7 @@ void RunFiles::read(const std::string& file, const char* what) {
 void RunFiles::read(const BoundArguments& bounds) {
   if (bounds.size_mesh.empty()) return;
   read(bounds.size_mesh, "the mesh of --size-mesh");
-  read(fs::path(bounds.size_mesh).replace_extension(".sol").native(), "the sizes of --size-mesh");
+  read(fs::path(bounds.size_mesh).replace_extension(".sol").string(), "the sizes of --size-mesh");
 }
 
 void RunFiles::require_none_of(const std::vector<File>& others, const File& written) const {

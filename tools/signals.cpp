@@ -2,12 +2,38 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "signals.hpp"
 
+#ifdef _WIN32
+#include <windows.h>
+#else
 #include <pthread.h>
+#endif
 
 #include <chrono>
 
 namespace pgdr::tool {
 
+#ifdef _WIN32
+// Windows calls its handler in a thread of its own, where locks may be taken. What the handler does not take ends the process.
+static StopOnSignal* listener = nullptr;
+
+static BOOL WINAPI on_event(DWORD event) {
+  if ((event != CTRL_C_EVENT && event != CTRL_BREAK_EVENT) || listener == nullptr || listener->token().stop_requested())
+    return FALSE;
+  return listener->interrupt() ? TRUE : FALSE;
+}
+
+bool StopOnSignal::interrupt() { return heard_ && stop_.request_stop(); }
+
+StopOnSignal::StopOnSignal() {
+  listener = this;
+  SetConsoleCtrlHandler(on_event, TRUE);
+}
+
+StopOnSignal::~StopOnSignal() {
+  SetConsoleCtrlHandler(on_event, FALSE);
+  listener = nullptr;
+}
+#else
 StopOnSignal::StopOnSignal() {
   sigemptyset(&signals_);
   sigaddset(&signals_, SIGINT);
@@ -44,5 +70,6 @@ StopOnSignal::~StopOnSignal() {
   watcher_.join();
   pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
+#endif
 
 }  // namespace pgdr::tool

@@ -23,14 +23,20 @@ class StopOnSignal {
   /// Does somebody look at the token from now on?
   void hear(bool heard) { heard_ = heard; }
   std::stop_token token() const { return stop_.get_token(); }
+#ifdef _WIN32
+  bool interrupt();  ///< requests a stop, if somebody looks; of the handler
+#endif
 
  private:
+  std::stop_source stop_;
+  std::atomic<bool> heard_{false};
+#ifndef _WIN32
   void end_by(int signal) const;
 
   sigset_t signals_, before_;
-  std::stop_source stop_;
-  std::atomic<bool> over_{false}, heard_{false};
+  std::atomic<bool> over_{false};
   std::thread watcher_;  // sits in sigwait: a handler could not call request_stop, which takes locks
+#endif
 };
 
 }  // namespace pgdr::tool

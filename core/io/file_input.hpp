@@ -19,8 +19,8 @@ class FileTexts {
  public:
   /// The view lives until clear(). @throws as read_whole_file
   std::string_view of(const std::filesystem::path& file) {
-    const auto known = texts_.find(file.native());
-    return known != texts_.end() ? known->second : texts_.emplace(file.native(), read_whole_file(file)).first->second;
+    const auto known = texts_.find(file.string());
+    return known != texts_.end() ? known->second : texts_.emplace(file.string(), read_whole_file(file)).first->second;
   }
   void clear() { texts_.clear(); }
 

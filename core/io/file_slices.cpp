@@ -2,14 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/file_slices.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <utility>
 
 #include "io/write_target.hpp"
+#include "space/system.hpp"
 
 namespace pgdr::detail {
 namespace {
@@ -20,12 +18,12 @@ constexpr std::uint64_t slice = 1 << 20;
 
 FileSlices::FileSlices(const std::string& name, std::string target) : target_(std::move(target)) {
   waiting_.reserve(slice);
-  file_ = ::open(name.c_str(), O_WRONLY | O_CLOEXEC);
+  file_ = system::open_for_places(name);
   if (file_ < 0) fail(errno);
 }
 
 FileSlices::~FileSlices() {
-  if (file_ >= 0) ::close(file_);
+  if (file_ >= 0 && !system::close_descriptor(file_)) return;  // whoever wanted to know has called close()
 }
 
 void FileSlices::begin_at(std::uint64_t place) {
@@ -54,13 +52,12 @@ void FileSlices::put(std::string_view bytes) {
 
 void FileSlices::close() {
   begin_at(0);
-  if (::close(std::exchange(file_, -1)) != 0) fail(errno);
+  if (!system::close_descriptor(std::exchange(file_, -1))) fail(errno);
 }
 
 void FileSlices::write(std::string_view bytes) {
   while (!bytes.empty()) {
-    const ssize_t n = ::pwrite(file_, bytes.data(), bytes.size(), static_cast<off_t>(place_));
-    if (n < 0 && errno == EINTR) continue;
+    const std::int64_t n = system::write_at(file_, bytes.data(), bytes.size(), place_);
     if (n <= 0) fail(n < 0 ? errno : EIO);
     bytes.remove_prefix(static_cast<std::size_t>(n));
     place_ += static_cast<std::uint64_t>(n);

@@ -1,9 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <memory>
@@ -16,6 +12,7 @@
 #include "io/file_output.hpp"
 #include "pgdr/error.hpp"
 #include "space/bulk.hpp"
+#include "space/system.hpp"
 
 namespace pgdr::detail {
 namespace fs = std::filesystem;
@@ -28,16 +25,7 @@ std::string reason(int error_number) { return std::generic_category().message(er
 }
 
 void publish(const PendingFile& file) {
-  if (std::rename(file.temporary.c_str(), file.target.c_str()) != 0) cannot_write(file.target, errno);
-}
-
-/// Gives a new file the owner, group and permissions of the one that it will replace, as far as the process may.
-void take_over_mode(int to, const std::string& old) {
-  struct stat status;
-  if (::stat(old.c_str(), &status) != 0) return;
-  if (::fchown(to, status.st_uid, status.st_gid) != 0 && ::fchown(to, static_cast<uid_t>(-1), status.st_gid) != 0)
-    status.st_mode &= ~static_cast<mode_t>(S_IRWXG);  // which were those of another group
-  if (::fchmod(to, status.st_mode & (S_IRWXU | S_IRWXG | S_IRWXO)) != 0) return;
+  if (!system::replace_file(file.temporary, file.target)) cannot_write(file.target, errno);
 }
 
 std::string random_suffix() {
@@ -61,7 +49,7 @@ std::string name_beside(const std::string& target) {
 std::string read_whole_file(const fs::path& file) {
   std::error_code ec;
   if (fs::is_directory(file, ec)) cannot_open(file, "it is a directory");
-  std::FILE* const stream = std::fopen(file.c_str(), "rb");
+  std::FILE* const stream = std::fopen(file.string().c_str(), "rb");
   if (stream == nullptr) cannot_open(file, reason(errno));
   const auto close = [](std::FILE* f) { std::fclose(f); };
   const std::unique_ptr<std::FILE, decltype(close)> guard(stream, close);
@@ -88,7 +76,7 @@ std::string read_whole_file(const fs::path& file) {
   return text;
 }
 
-FileOutput::FileOutput(const fs::path& target) : TextBuffer(std::size_t{1} << 20), target_(target_of(target.native())) {
+FileOutput::FileOutput(const fs::path& target) : TextBuffer(std::size_t{1} << 20), target_(target_of(target.string())) {
   if (!target_.is_stream()) open_temporary();
 }
 
@@ -96,7 +84,7 @@ void FileOutput::open_temporary() {
   constexpr int attempts = 100;
   for (int i = 0; i < attempts && stream_ == nullptr; ++i) {
     temporary_ = name_beside(target_.name);
-    stream_ = std::fopen(temporary_.c_str(), "wbx");
+    stream_ = system::create_new(temporary_);
     if (stream_ == nullptr && errno != EEXIST) break;
   }
   if (stream_ == nullptr) {
@@ -105,19 +93,13 @@ void FileOutput::open_temporary() {
     cannot_write(target_.name, error_number);
   }
   std::setvbuf(stream_, nullptr, _IONBF, 0);
-  if (target_.kind == WriteTarget::Kind::old_file) take_over_mode(::fileno(stream_), target_.name);
+  if (target_.kind == WriteTarget::Kind::old_file) system::take_over_mode(stream_, target_.name);
 }
 
 void FileOutput::open_stream() {
-  const int file = target_.kind == WriteTarget::Kind::descriptor
-                       ? ::fcntl(target_.descriptor, F_DUPFD_CLOEXEC, 3)
-                       : ::open(target_.name.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);  // of a FIFO, once somebody reads it
-  if (file >= 0) stream_ = ::fdopen(file, "wb");
-  if (stream_ == nullptr) {
-    const int error_number = errno;
-    if (file >= 0) ::close(file);
-    cannot_write(target_.name, error_number);
-  }
+  stream_ = target_.kind == WriteTarget::Kind::descriptor ? system::open_descriptor(target_.descriptor)
+                                                          : system::open_stream(target_.name);
+  if (stream_ == nullptr) cannot_write(target_.name, errno);
   std::setvbuf(stream_, nullptr, _IONBF, 0);
 }
 
@@ -184,7 +166,7 @@ void publish_together(std::span<const PendingFile> files) {
   try {
     for (; kept > 0; --kept) {
       const std::string& target = files[kept - 1].target;
-      if (std::rename(target.c_str(), aside[kept - 1].c_str()) == 0) continue;
+      if (system::replace_file(target, aside[kept - 1])) continue;
       if (errno != ENOENT) cannot_write(target, errno);
       aside[kept - 1].clear();
     }
@@ -192,7 +174,7 @@ void publish_together(std::span<const PendingFile> files) {
   } catch (...) {
     for (std::size_t i = 0; i < published; ++i) std::remove(files[i].target.c_str());
     for (std::size_t i = kept; i < files.size(); ++i)
-      if (!aside[i].empty()) std::rename(aside[i].c_str(), files[i].target.c_str());
+      if (!aside[i].empty() && !system::replace_file(aside[i], files[i].target)) continue;  // nothing more can be done
     throw;
   }
   for (const std::string& name : aside)

@@ -237,7 +237,7 @@ std::vector<std::string> files_of_mesh(const Path& file, const WriteOptions& opt
   if (detail::is_foam_mesh(file)) return detail::foam_files(file);
   const std::string own = lower_extension(file);
   std::vector<std::string> files;
-  if (!is_tetgen_mesh(own)) files.push_back(file.native());
+  if (!is_tetgen_mesh(own)) files.push_back(file.string());
   for (std::uint32_t k = 0; own == ".pvtu" && k < std::max(options.pieces, 1u); ++k)
     files.push_back(detail::name_of_piece(file, k));
   if (!is_tetgen_mesh(own)) return files;

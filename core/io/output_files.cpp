@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pgdr/output_files.hpp"
 
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstdio>
 #include <exception>
@@ -14,6 +11,7 @@
 
 #include "io/file_output.hpp"
 #include "io/write_target.hpp"
+#include "space/system.hpp"
 
 namespace pgdr {
 namespace {
@@ -58,28 +56,27 @@ void write_file(const std::filesystem::path& file, const std::function<void(std:
   std::ostream stream(&buffer);
   write(stream);
   buffer.rethrow();
-  if (!stream) detail::cannot_write(file.native(), "what makes it failed");
+  if (!stream) detail::cannot_write(file.string(), "what makes it failed");
   out.commit();
 }
 
 void require_writable(const std::filesystem::path& file) {
-  const detail::WriteTarget target = detail::target_of(file.native());
+  const detail::WriteTarget target = detail::target_of(file.string());
   if (target.is_stream()) return;
-  if (::access(detail::folder_of(target.name).c_str(), F_OK) != 0) detail::cannot_write(file.native(), "there is no such folder");
+  if (!detail::system::is_there(detail::folder_of(target.name))) detail::cannot_write(file.string(), "there is no such folder");
   const detail::FileOutput begun(file);  // and removed: permissions say nothing of folders of the system
 }
 
-std::filesystem::path place_of_output(const std::filesystem::path& file) { return detail::target_of(file.native()).name; }
+std::filesystem::path place_of_output(const std::filesystem::path& file) { return detail::target_of(file.string()).name; }
 
-bool is_written_to(const std::filesystem::path& file) { return detail::target_of(file.native()).is_stream(); }
+bool is_written_to(const std::filesystem::path& file) { return detail::target_of(file.string()).is_stream(); }
 
 void remove_output(const std::string& file) noexcept {
   try {
     const detail::WriteTarget target = detail::target_of(file);
     if (!target.is_stream()) std::remove(target.name.c_str());
   } catch (const std::bad_alloc&) {  // without memory no link is followed
-    struct stat info {};
-    if (lstat(file.c_str(), &info) == 0 && S_ISREG(info.st_mode)) std::remove(file.c_str());
+    if (detail::system::is_regular_itself(file)) std::remove(file.c_str());
   } catch (...) {  // then there is nothing that this library has written
   }
 }

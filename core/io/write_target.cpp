@@ -2,39 +2,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/write_target.hpp"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <charconv>
-#include <climits>
-#include <cstdlib>
-#include <memory>
 #include <optional>
 #include <string_view>
 #include <system_error>
 
 #include "pgdr/error.hpp"
+#include "space/system.hpp"
 
 namespace pgdr::detail {
 namespace {
 
 constexpr int most_links = 40;  // as many as Linux follows
 
-/// The name of what exists, without links; empty if there is nothing, or no way to it.
-std::string real_name(const std::string& name) {
-  const std::unique_ptr<char, decltype(&std::free)> real(::realpath(name.c_str(), nullptr), std::free);
-  return real ? std::string(real.get()) : std::string();
-}
-
 /// Where a link leads, as it says; none if it is no link.
 std::optional<std::string> linked_name(const std::string& name) {
-  char text[PATH_MAX];
-  const ssize_t n = ::readlink(name.c_str(), text, sizeof text);
-  if (n < 0) return std::nullopt;
-  const std::string_view link(text, static_cast<std::size_t>(n));
-  return link.starts_with('/') ? std::string(link) : folder_of(name).append(link);
+  std::optional<std::string> link = system::link_text(name);
+  if (link && !link->starts_with('/')) link = folder_of(name).append(*link);
+  return link;
 }
 
 /// The number of a descriptor of this process by its name in the folder of all of them.
@@ -43,26 +29,26 @@ std::optional<int> own_descriptor(const std::string& name) {
   int number = -1;
   const auto [end, error] = std::from_chars(last.data(), last.data() + last.size(), number);
   if (error != std::errc() || end != last.data() + last.size()) return std::nullopt;
-  const std::string folder = real_name(folder_of(name));
-  if (folder.empty() || folder != real_name("/proc/self/fd")) return std::nullopt;
+  const std::string folder = system::real_name(folder_of(name));
+  if (folder.empty() || folder != system::real_name("/proc/self/fd")) return std::nullopt;
   return number;
 }
 
 /// One that is closed, or open for reading alone, cannot be written.
 WriteTarget open_descriptor(const std::string& file, int number) {
-  const int flags = ::fcntl(number, F_GETFL);
-  if (flags < 0) cannot_write(file, errno);
-  if ((flags & O_ACCMODE) == O_RDONLY) cannot_write(file, EBADF);
+  const system::Access access = system::access_of_descriptor(number);
+  if (access == system::Access::none) cannot_write(file, errno);
+  if (access == system::Access::read_only) cannot_write(file, EBADF);
   return {WriteTarget::Kind::descriptor, file, number};
 }
 
 /// What is there already.
-WriteTarget existing(const std::string& file, mode_t mode) {
-  if (S_ISDIR(mode)) cannot_write(file, EISDIR);
-  if (S_ISSOCK(mode)) cannot_write(file, "it is a socket");
-  if (::access(file.c_str(), W_OK) != 0) cannot_write(file, errno);
-  if (!S_ISREG(mode)) return {WriteTarget::Kind::stream, file, -1};
-  std::string real = real_name(file);
+WriteTarget existing(const std::string& file, system::FileType type) {
+  if (type == system::FileType::folder) cannot_write(file, EISDIR);
+  if (type == system::FileType::socket) cannot_write(file, "it is a socket");
+  if (!system::may_be_written(file)) cannot_write(file, errno);
+  if (type != system::FileType::regular) return {WriteTarget::Kind::stream, file, -1};
+  std::string real = system::real_name(file);
   if (real.empty()) cannot_write(file, errno);
   return {WriteTarget::Kind::old_file, std::move(real), -1};
 }
@@ -77,8 +63,7 @@ WriteTarget target_of(const std::string& file) {
     if (!link) break;
     last = std::move(*link);
   }
-  struct stat status;
-  if (::stat(file.c_str(), &status) == 0) return existing(file, status.st_mode);
+  if (const std::optional<system::FileType> type = system::file_type(file)) return existing(file, *type);
   if (errno != ENOENT) cannot_write(file, errno);
   return {WriteTarget::Kind::new_file, std::move(last), -1};
 }

@@ -2,16 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesh/reserved_memory.hpp"
 
-#include <sys/mman.h>
-#include <sys/resource.h>
-
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <new>
 
-#include "space/huge_pages.hpp"
+#include "space/system.hpp"
 
 namespace pgdr {
+namespace system = detail::system;
 namespace {
 
 constexpr std::size_t huge_page = std::size_t{1} << 21;
@@ -29,13 +28,13 @@ void touch_pages(std::span<std::byte> fresh) {
 
 // Pages without access count against nothing but the limit on addresses.
 ReservedMemory::ReservedMemory(std::size_t bytes) : reserved_(rounded_up(bytes, huge_page)) {
-  mapped_ = mmap(nullptr, reserved_ + huge_page, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (mapped_ == MAP_FAILED) throw std::bad_alloc();
+  mapped_ = system::reserve_addresses(reserved_ + huge_page);
+  if (mapped_ == nullptr) throw std::bad_alloc();
   const auto address = reinterpret_cast<std::uintptr_t>(mapped_);
   base_ = static_cast<std::byte*>(mapped_) + (rounded_up(address, huge_page) - address);
 }
 
-ReservedMemory::~ReservedMemory() { munmap(mapped_, reserved_ + huge_page); }
+ReservedMemory::~ReservedMemory() { system::release_addresses(mapped_, reserved_ + huge_page); }
 
 // Steps grow with the array, so that there are few; from the first huge page on they are huge pages.
 void ReservedMemory::grow(std::size_t bytes) {
@@ -44,8 +43,8 @@ void ReservedMemory::grow(std::size_t bytes) {
   if (bytes <= usable) return;
   std::size_t wanted = std::max({bytes, usable + usable / 8, first_step});
   wanted = std::min(rounded_up(wanted, wanted < huge_page ? first_step : huge_page), reserved_);
-  if (mprotect(base_ + usable, wanted - usable, PROT_READ | PROT_WRITE) != 0) throw std::bad_alloc();
-  if (wanted > huge_page) detail::ask_for_huge_pages(base_ + usable, wanted - usable);
+  if (!system::provide_memory(base_ + usable, wanted - usable)) throw std::bad_alloc();
+  if (wanted > huge_page) system::ask_for_huge_pages(base_ + usable, wanted - usable);
   usable_.store(wanted, std::memory_order_release);
 }
 
@@ -63,19 +62,18 @@ std::vector<std::span<std::byte>> ReservedMemory::fresh_pages(std::size_t first,
 void ReservedMemory::discard(std::size_t first, std::size_t last) {
   first = rounded_up(first, huge_page);
   last = std::min(last, usable_.load(std::memory_order_relaxed)) / huge_page * huge_page;
-  if (first < last) madvise(base_ + first, last - first, MADV_DONTNEED);
+  if (first < last) system::discard_memory(base_ + first, last - first);
 }
 
 // Half of what there is, so that others have some. The limit counts, and what the kernel (or what stands between) gives.
 std::size_t ReservedMemory::affordable_elements(std::size_t elements) {
-  rlimit limit{};
-  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
-    elements = std::min(elements, static_cast<std::size_t>(limit.rlim_cur) / 2 / bytes_an_element);
+  if (const double limit = system::limit_on_addresses(); std::isfinite(limit))
+    elements = std::min(elements, static_cast<std::size_t>(limit) / 2 / bytes_an_element);
   for (bool first = true; elements > (std::size_t{1} << 16); elements /= 2, first = false) {
     const std::size_t bytes = elements * bytes_an_element;
-    void* const p = mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-    if (p == MAP_FAILED) continue;
-    munmap(p, bytes);
+    void* const p = system::reserve_addresses(bytes);
+    if (p == nullptr) continue;
+    system::release_addresses(p, bytes);
     return first ? elements : elements / 2;
   }
   return elements;

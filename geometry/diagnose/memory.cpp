@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Is there memory for what gaps alone ask for? And the words for the two entities at fault.
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
@@ -18,6 +15,7 @@
 #include "pgdr/error.hpp"
 #include "pgdr/estimate.hpp"
 #include "space/stop_check.hpp"
+#include "space/system.hpp"
 
 namespace pgdr {
 namespace {
@@ -40,14 +38,10 @@ std::optional<double> number_in(const char* file, const std::string& after) {
 
 /// Bytes that this process can still have: what the machine has left, what a limit on its group or its own leaves.
 double available_memory() {
-  const auto pages = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  double bytes = pages > 0 ? pages : std::numeric_limits<double>::infinity();
+  double bytes = std::min(detail::system::physical_memory(), detail::system::limit_on_addresses());
   if (const auto kilobytes = number_in("/proc/meminfo", "MemAvailable:")) bytes = std::min(bytes, *kilobytes * 1024);
   for (const char* file : {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"})
     if (const auto limit = number_in(file, "")) bytes = std::min(bytes, *limit);
-  rlimit own{};
-  if (getrlimit(RLIMIT_AS, &own) == 0 && own.rlim_cur != RLIM_INFINITY)
-    bytes = std::min(bytes, static_cast<double>(own.rlim_cur));
   return bytes;
 }
 

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
 
 #include "pgdr/types.hpp"
 
@@ -47,12 +48,14 @@ auto squared_norm(const std::array<T, 3>& v) {
 }
 
 template <class T>
-auto dot(const std::array<T, 2>& v, const std::array<T, 2>& w) {
+requires(!std::is_same_v<T, double>)  // numbers/vectors.hpp has these
+    auto dot(const std::array<T, 2>& v, const std::array<T, 2>& w) {
   return add(mul(v[0], w[0]), mul(v[1], w[1]));
 }
 
 template <class T>
-auto dot(const std::array<T, 3>& v, const std::array<T, 3>& w) {
+requires(!std::is_same_v<T, double>)  // numbers/vectors.hpp has these
+    auto dot(const std::array<T, 3>& v, const std::array<T, 3>& w) {
   return add(add(mul(v[0], w[0]), mul(v[1], w[1])), mul(v[2], w[2]));
 }
 

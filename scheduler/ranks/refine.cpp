@@ -3,7 +3,6 @@
 //
 // The entry of a run on ranks. By the uniform schedule ranks share the run (uniform_on_ranks.hpp). By the reproducible one, or
 // where there is too little to share, every rank makes the whole mesh, which is the same on all, and keeps its piece.
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
@@ -24,16 +23,11 @@
 #include "run/run_hooks.hpp"
 #include "run/unused_points.hpp"
 #include "run/violation_scan.hpp"
+#include "space/system.hpp"
 #include "transport/collectives.hpp"
 
 namespace pgdr {
 namespace {
-
-std::uint64_t peak_rss_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts kilobytes
-}
 
 /// The bytes of the values: no type of an OutputMesh has padding.
 template <class T>
@@ -138,7 +132,7 @@ void sum_up_visits(detail::Collectives& ranks, const OwnVisits& own, Distributed
 template <int D>
 void set_statistics(detail::Collectives& ranks, const OwnVisits& own, DistributedResult<D>& result) {
   sum_up_visits(ranks, own, result);
-  const std::uint64_t peak = peak_rss_bytes();
+  const std::uint64_t peak = detail::system::peak_resident();
   DistributedStatistics& s = result.distributed;
   const detail::Traffic traffic = ranks.traffic();
   const auto counts = ranks.sum(std::array<std::uint64_t, 3>{traffic.messages, traffic.bytes_sent, s.cells_applied});

@@ -105,7 +105,7 @@ void read_constraints(std::string_view text, const std::string& file, const Numb
 
 std::string tetgen_name(const std::filesystem::path& file, std::string_view extension) {
   const std::string own = lower_extension(file);
-  std::string name = file.native();
+  std::string name = file.string();
   if (own != extension) name.replace(name.size() - own.size(), own.size(), extension);
   return name;
 }

@@ -282,7 +282,7 @@ bool is_foam_mesh(const Path& file) { return foam_folder(file).filename() == "po
 
 std::vector<std::string> foam_files(const Path& folder) {
   std::vector<std::string> files;
-  for (const char* name : foam_file_names) files.push_back((foam_folder(folder) / name).native());
+  for (const char* name : foam_file_names) files.push_back((foam_folder(folder) / name).string());
   return files;
 }
 

@@ -12,7 +12,7 @@
 namespace pgdr::detail {
 
 std::string name_of_piece(const std::filesystem::path& file, std::uint64_t k) {
-  return (file.parent_path() / (file.stem().native() + "_" + std::to_string(k) + ".vtu")).native();
+  return (file.parent_path() / (file.stem().string() + "_" + std::to_string(k) + ".vtu")).string();
 }
 
 template <int D>
@@ -34,7 +34,7 @@ std::string pvtu_text(const MeshPiece<D>& piece, std::uint64_t count, const std:
   put_section("CellData", " GlobalIds=\"" + std::string(cell_ids) + "\"");
   put_section("Points", "");
   for (std::uint64_t k = 0; k < count; ++k) {
-    const std::string name = std::filesystem::path(name_of_piece(file, k)).filename().native();
+    const std::string name = std::filesystem::path(name_of_piece(file, k)).filename().string();
     out += "<Piece Source=\"" + xml_escaped(name) + "\"/>\n";
   }
   return out + "</PUnstructuredGrid>\n</VTKFile>\n";
