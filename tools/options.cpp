@@ -15,8 +15,8 @@
 #include "command.hpp"
 #include "console.hpp"
 #include "pgdr/io.hpp"
-#include "pgdr/version.hpp"
 #include "selector.hpp"
+#include "version.hpp"
 
 namespace pgdr::tool {
 namespace {
@@ -472,7 +472,7 @@ std::variant<Arguments, int> parse(int argc, const char* const* argv, bool speak
   ViewArguments view;
 
   CLI::App app("pgdr: Delaunay meshes with guaranteed quality, in 3D and 2D", "pgdr");
-  app.set_version_flag("--version", "pgdr " PGDR_VERSION_STRING);
+  app.set_version_flag("--version", version_words());
   app.require_subcommand(1);
   app.footer(exit_codes);
   auto* mesh_app = app.add_subcommand("mesh", "Mesh an input");

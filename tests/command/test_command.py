@@ -74,7 +74,7 @@ class Usage(Case):
     def test_help_and_version(self):
         for arguments in (["--help"], ["mesh", "--help"], ["check", "--help"], ["info", "--help"]):
             self.assertIn("Usage", self.pgdr(*arguments, expect=0).stdout)
-        self.assertRegex(self.pgdr("--version", expect=0).stdout, r"^pgdr \d+\.\d+\.\d+\n$")
+        self.assertRegex(self.pgdr("--version", expect=0).stdout, r"^pgdr \d+\.\d+\.\d+( \([0-9a-f]+\+?\))?\n$")
 
     def test_command_line(self):
         self.refused()
