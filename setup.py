@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The pgdr authors
 # SPDX-License-Identifier: Apache-2.0
-"""Builds the extension module of the Python package by CMake; all else is in pyproject.toml. What is missing is looked for first, and
+"""Builds the extension module of the Python package, and the command that lies in it, by CMake; all else is in pyproject.toml. What is missing is looked for first, and
 said with what installs it; `pip install --verbose` shows each step of the compiler.
 
-PGDR_BUILD_FOLDER names a build folder that was configured with PGDR_PYTHON=ON: its module is brought up to date and taken.
+PGDR_CMAKE_OPTIONS: more for CMake, `NAME=VALUE ...` (of `tools/wheel`: PGDR_PICTURES=OFF).
+PGDR_BUILD_FOLDER names a build folder that was configured with PGDR_PYTHON=ON: its module and command are brought up to date and taken.
 """
 import importlib.util
 import os
@@ -26,18 +27,23 @@ class CMakeBuild(build_ext):
             folder = pathlib.Path(self.build_temp).resolve()
             require_tools()
             options = {"CMAKE_BUILD_TYPE": "Release", "CMAKE_UNITY_BUILD": "ON", "PGDR_PYTHON": "ON", "PGDR_TESTS": "OFF",
-                       "PGDR_TOOLS": "OFF", "PGDR_BENCH": "OFF", "PGDR_INSTALL": "OFF", "PGDR_PYTHON_EXECUTABLE": sys.executable}
+                       "PGDR_BENCH": "OFF", "PGDR_INSTALL": "OFF", "PGDR_PYTHON_EXECUTABLE": sys.executable}
+            options.update(word.split("=", 1) for word in os.environ.get("PGDR_CMAKE_OPTIONS", "").split())
             configured = subprocess.run(["cmake", "-S", ROOT, "-B", folder, *(["-G", "Ninja"] if shutil.which("ninja") else []),
                                          *[f"-D{name}={value}" for name, value in options.items()], *pybind11_options()], check=False)
             if configured.returncode != 0:
                 refuse("CMake has not found what it needs (its words are above)")
         print("pgdr: compiling takes minutes; [steps done / steps of all, seconds so far]", flush=True)
-        subprocess.run(["cmake", "--build", folder, "--parallel", str(os.cpu_count()), "--target", "pgdr_python"], check=True,
+        subprocess.run(["cmake", "--build", folder, "--parallel", str(os.cpu_count()), "--target", "pgdr_python",
+                        "pgdr_command"], check=True,
                        env={"NINJA_STATUS": "[%f/%t, %e s] ", **os.environ})
         target = pathlib.Path(self.get_ext_fullpath(ext.name))
         made = pathlib.Path(folder, "python", "pgdr", target.name)
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(made, target)
+        command = target.with_name("bin") / ("pgdr.exe" if os.name == "nt" else "pgdr")
+        command.parent.mkdir(exist_ok=True)
+        shutil.copy(pathlib.Path(folder, command.name), command)
 
 
 def missing_packages():

@@ -22,7 +22,7 @@ if(PGDR_TOOLS)
   find_package(nlohmann_json 3.11 REQUIRED)
   find_package(muparser 2.3 REQUIRED)
   find_package(PkgConfig)  # without Cairo, `pgdr view` writes no .png
-  if(PkgConfig_FOUND)
+  if(PkgConfig_FOUND AND PGDR_PICTURES)
     pkg_check_modules(cairo IMPORTED_TARGET cairo-png>=1.16)
   endif()
 endif()

@@ -33,3 +33,10 @@ with tempfile.TemporaryDirectory() as name:
                            capture_output=True, text=True).stdout.strip()
     assert where == str(place), where
     subprocess.run([sys.executable, "test_tasks.py"], check=True, env=environment, cwd=folder)
+
+    # The command has come along.
+    script, = (file for file in folder.glob("prefix/**/bin/pgdr") if file.parents[1].name != "pgdr")
+    for command in ([script], [sys.executable, "-m", "pgdr"]):
+        said = subprocess.run([*command, "--version"], check=True, env=environment, cwd=folder, capture_output=True, text=True).stdout
+        assert said == subprocess.run([build / "pgdr", "--version"], check=True, capture_output=True, text=True).stdout, said
+    assert subprocess.run([script, "mesh"], check=False, env=environment, capture_output=True).returncode == 2  # its exit code is the command's
