@@ -73,7 +73,7 @@ bool FirstHits<D>::is_apart_in_plane(const Ray& ray, std::uint32_t wall) const {
   const auto s = corners(wall);
   if constexpr (D == 2) {
     for (int i = 0; i < D; ++i) {
-      const auto [low, high] = std::minmax(ray.from[i], ray.to[i]);
+      const double low = std::min(ray.from[i], ray.to[i]), high = std::max(ray.from[i], ray.to[i]);
       if (high < std::min(s[0][i], s[1][i]) || low > std::max(s[0][i], s[1][i])) return true;
     }
     return false;
