@@ -48,6 +48,8 @@ ROOMS = {
                         "arrangement.cpp crossings.hpp exact_cdt.hpp", "arrangement"),
         "bodies": Room("which solids do facets mean, and which volumes are theirs?", "arrange",
                        "body_volumes.hpp region_groups.hpp", "bodies"),
+        "openings": Room("which openings of a surface lie in a plane, and what closes them?", "build",
+                         "planar_caps.hpp open_loops.hpp", "openings"),
         "select": Room("where may a point go?", "numbers", "selectors.cpp", "point_selector selectors"),
     },
     "core": {

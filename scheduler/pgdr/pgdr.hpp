@@ -20,6 +20,7 @@
 #include "pgdr/mesh_maps.hpp"
 #include "pgdr/mesh_piece.hpp"
 #include "pgdr/names.hpp"
+#include "pgdr/openings.hpp"
 #include "pgdr/output_files.hpp"
 #include "pgdr/output_mesh.hpp"
 #include "pgdr/planar_plc.hpp"
