@@ -443,6 +443,22 @@ TEST(Bodies, SegmentsAreCutWithThem) {
   EXPECT_EQ(diagnose(made.plc).error_count(), 0u);
 }
 
+TEST(Bodies, AttributesOfNewPointsAreInterpolated) {
+  Plc<3> plc = turned(surfaces({box({0, 0, 0}, {2, 2, 2}), box({1, 1, 1}, {3, 3, 3})}));
+  const auto value = [](const Point3& p) { return 3 * p[0] - p[1] + 2 * p[2] + 5; };  // linear, so that it is known everywhere
+  for (const Point3& p : plc.points) plc.point_attributes.insert(plc.point_attributes.end(), {value(p), 7});
+  BodyOptions options;
+  options.resolve_crossings = true;
+  for (const BodyMode mode : {BodyMode::united, BodyMode::fragments}) {
+    const Plc<3> made = with_bodies(plc, mode, options).plc;
+    ASSERT_EQ(made.point_attributes.size(), 2 * made.points.size());
+    for (std::size_t i = 0; i < made.points.size(); ++i) {
+      EXPECT_NEAR(made.point_attributes[2 * i], value(made.points[i]), 1e-12);
+      EXPECT_NEAR(made.point_attributes[2 * i + 1], 7, 1e-12);
+    }
+  }
+}
+
 TEST(Bodies, SeedsWin) {
   Plc<3> plc = surfaces({box({0, 0, 0}, {2, 2, 2}), box({1, 0, 0}, {3, 2, 2}), box({5, 0, 0}, {6, 1, 1})});
   plc.regions = {{{{1.5, 0.9, 0.9}}, 1, 0.01}};

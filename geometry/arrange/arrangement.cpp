@@ -262,8 +262,14 @@ Arrangement Arranger::arrangement() const {
   out.segment_lines = state_.plc.source.segment_lines;
   out.points = state_.plc.points;
   for (std::size_t i = 0; i < out.points.size(); ++i) out.points[i] = domain.points()[domain.point_of_input()[i]];
-  for (std::uint32_t v = 0; v < domain.points().size(); ++v)
-    if (domain.input_of_point()[v] >= state_.plc.points.size()) out.points.push_back(domain.points()[v]);
+  out.point_attributes = state_.plc.point_attributes;
+  const std::size_t columns = domain.attributes_per_point();
+  for (std::uint32_t v = 0; v < domain.points().size(); ++v) {
+    if (domain.input_of_point()[v] < state_.plc.points.size()) continue;
+    out.points.push_back(domain.points()[v]);
+    const auto row = domain.point_attributes().subspan(v * columns, columns);
+    out.point_attributes.insert(out.point_attributes.end(), row.begin(), row.end());
+  }
   const detail::PieceOrigins origins(state_, domain, options_.markers);
   out.origins_begin.push_back(0);
   const auto name = [&](std::uint32_t v) { return domain.input_of_point()[v]; };

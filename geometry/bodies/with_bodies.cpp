@@ -82,7 +82,7 @@ Plc<3> make_plc(const Plc<3>& plc, const Arrangement& pieces, const RegionGroups
                        pieces.points.end());
   }
   if (!made.point_markers.empty()) made.point_markers.resize(made.points.size());
-  if (!plc.points.empty()) made.point_attributes.resize(plc.point_attributes.size() / plc.points.size() * made.points.size());
+  made.point_attributes = pieces.point_attributes;  // of points of the input those that it has
   const PointsLeft numbered_anew(plc, made);
   return made;
 }

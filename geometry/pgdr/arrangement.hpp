@@ -37,6 +37,7 @@ struct PieceOrigin {
 struct Arrangement {
   /// Those of the input first (all of them, by their indices, where they were joined), then new ones.
   std::vector<Point<3>> points;
+  std::vector<double> point_attributes;  ///< of each point, as of those of the input; of new ones interpolated, as below
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< the pieces; none twice, none degenerate
   std::vector<std::uint32_t> origins_begin;             ///< of each piece, among `origins`; one more than pieces
   /// All facets that cover the piece, with multiplicity, the one whose marker it has first.
