@@ -25,8 +25,8 @@ namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-/// As it was given: 2D, where segments cross, too. 3D, where facets cross: as `mesh` has resolved that, within the tolerance of
-/// its report if none is given.
+/// As it was given: 2D, where segments cross, too. 3D, where facets cross, or openings are to be closed: as `mesh` has done
+/// that, within the tolerance of its report if none is given.
 template <int D>
 std::optional<Plc<D>> read_input_of_mesh(const std::vector<std::string>& inputs, InputArguments reading,
                                          std::optional<double> tolerance) {
@@ -38,9 +38,10 @@ std::optional<Plc<D>> read_input_of_mesh(const std::vector<std::string>& inputs,
         {.code = Errc::bad_option, .message = format("the mesh is %dD, its input is not", D), .file = inputs.front()});
   if (D == 2) reading.resolve_crossings = false;
   Plc<D> plc = files.read_given<D>(reading);
-  if (reading.resolve_crossings && !reading.tolerance && tolerance && *tolerance != tolerance_of(plc)) plc.tolerance = tolerance;
+  const bool is_changed = reading.resolve_crossings || reading.close_openings;
+  if (is_changed && !reading.tolerance && tolerance && *tolerance != tolerance_of(plc)) plc.tolerance = tolerance;
   std::vector<Diagnostic> repairs;
-  return prepared<D>(std::move(plc), reading, repairs);
+  return treated<D>(std::move(plc), reading, repairs);
 }
 
 template <int D>
@@ -113,6 +114,7 @@ int check_as(const CheckArguments& a, InputFile& file, Report& report) {
   reading.convex_hull = reading.convex_hull || reported.convex_hull;
   reading.region_areas = reading.region_areas || reported.region_areas;
   reading.resolve_crossings = reading.resolve_crossings || reported.resolve_crossings;
+  reading.close_openings = reading.close_openings || reported.close_openings;
   if (!reading.markers) reading.markers = reported.markers;
   if (reading.seeds.empty()) reading.seeds = reported.seeds;
   if (reading.holes.empty()) reading.holes = reported.holes;

@@ -47,6 +47,18 @@ bool has_measure(Finding kind) {
   return kind == Finding::open_boundary || kind == Finding::near_points || kind >= Finding::segments_below_60;
 }
 
+void say(const std::vector<Cure>& cures, bool in_row, Report& report) {
+  if (cures.empty()) return;
+  std::vector<Json> needs;
+  for (const Cure& cure : cures)
+    needs.push_back(JsonObject{{"ailment", cure.ailment}, {"flags", cure.flags}, {"words", cure.words}});
+  report.set("needs", needs);
+  if (in_row) print_row("needs", cures.front().need());
+  std::fprintf(stderr, "pgdr: needs: %s\n", cures.front().need().c_str());
+  for (const Cure& cure : cures)
+    if (cure.words != cure.need() || &cure != &cures.front()) std::fprintf(stderr, "pgdr: %s\n", cure.words.c_str());
+}
+
 }  // namespace
 
 template <int D>
@@ -84,10 +96,10 @@ void print_findings(const Diagnosis<D>& diagnosis) {
 }
 
 template <int D>
-int refuse(const Plc<D>& plc, const Diagnosis<D>& diagnosis, bool is_resolved, Report& report) {
+int refuse(const Refused<D>& input, const Diagnosis<D>& diagnosis, bool in_row, Report& report) {
   constexpr std::size_t most = 5;
   const std::vector<Diagnostic> errors = diagnosis.errors();
-  const std::string bodies = words_of_bodies(plc, diagnosis);
+  const std::string bodies = words_of_bodies(input.plc, diagnosis, input.stop);
   if (!bodies.empty()) std::fprintf(stderr, "pgdr: error: %s\n", bodies.c_str());
   for (std::size_t i = 0; i < errors.size(); ++i) {
     report.add_error(errors[i]);
@@ -95,14 +107,16 @@ int refuse(const Plc<D>& plc, const Diagnosis<D>& diagnosis, bool is_resolved, R
   }
   if (const std::uint64_t all = diagnosis.error_count(); all > most && bodies.empty())
     std::fprintf(stderr, "pgdr: and %llu more errors\n", static_cast<unsigned long long>(all - most));
-  const char* const of_bodies =
-      "; with --regions union the bodies are one solid, with --regions fragments each cell says whose it is";
-  for (const std::string& cure : cures_of(plc, diagnosis)) {
-    const bool resolves = cure.starts_with("--resolve-crossings");
-    if (resolves && is_resolved) continue;
-    std::fprintf(stderr, "pgdr: %s%s\n", cure.c_str(), resolves && !bodies.empty() ? of_bodies : "");
-  }
+  say(cures_of(input.given, input.done, diagnosis, input.stop), in_row, report);
   return exit_input;
+}
+
+template <int D>
+bool say_cure(const Refused<D>& input, const Error& error, bool in_row, Report& report) {
+  if constexpr (D == 3)
+    if (const auto cure = cure_of_bodies(input.given, input.done, error.code(), input.stop))
+      return say({*cure}, in_row, report), true;
+  return false;
 }
 
 void give(const std::optional<Proposal>& proposal, bool quiet, Report& report) {
@@ -122,10 +136,11 @@ void give(const std::optional<Proposal>& proposal, bool quiet, Report& report) {
             "--tolerance " + digits(proposal->tolerance) + ", two units of the last digit of the coordinates, " + what);
 }
 
-#define PGDR_INSTANTIATE(D)                                        \
-  template void set_findings<D>(JsonObject&, const Diagnosis<D>&); \
-  template void print_findings<D>(const Diagnosis<D>&);            \
-  template int refuse<D>(const Plc<D>&, const Diagnosis<D>&, bool, Report&);
+#define PGDR_INSTANTIATE(D)                                                      \
+  template void set_findings<D>(JsonObject&, const Diagnosis<D>&);               \
+  template void print_findings<D>(const Diagnosis<D>&);                          \
+  template int refuse<D>(const Refused<D>&, const Diagnosis<D>&, bool, Report&); \
+  template bool say_cure<D>(const Refused<D>&, const Error&, bool, Report&);
 PGDR_INSTANTIATE(2)
 PGDR_INSTANTIATE(3)
 #undef PGDR_INSTANTIATE

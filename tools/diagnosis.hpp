@@ -5,10 +5,12 @@
 #pragma once
 
 #include <optional>
+#include <stop_token>
 
 #include "pgdr/diagnosis.hpp"
 #include "proposal.hpp"
 #include "report.hpp"
+#include "treatment.hpp"
 
 namespace pgdr::tool {
 
@@ -20,10 +22,21 @@ void set_findings(JsonObject& object, const Diagnosis<D>& diagnosis);
 template <int D>
 void print_findings(const Diagnosis<D>& diagnosis);
 
-/// Puts all listed errors into the report and a few on stderr, and there which flags have been found to help.
-/// Returns exit_input. `is_resolved`: crossings were resolved, so that the flag for that is no help.
+/// An input, and how it was read.
 template <int D>
-int refuse(const Plc<D>& plc, const Diagnosis<D>& diagnosis, bool is_resolved, Report& report);
+struct Refused {
+  const Plc<D>& given;  ///< as it was read
+  const Plc<D>& plc;    ///< what was made of that
+  const Treatment& done;
+  std::stop_token stop = {};  ///< ends the search for cures
+};
+/// Puts all listed errors into the report and a few on stderr, and there what has been found to help; in the report as `needs`.
+/// In a row, too, if `in_row`. Returns exit_input.
+template <int D>
+int refuse(const Refused<D>& input, const Diagnosis<D>& diagnosis, bool in_row, Report& report);
+/// Says what helps against an error of bodies, likewise. False if it is none, or nothing does.
+template <int D>
+bool say_cure(const Refused<D>& input, const Error& error, bool in_row, Report& report);
 
 /// A proposal, in the report as `proposal`, and in a row unless `quiet`.
 void give(const std::optional<Proposal>& proposal, bool quiet, Report& report);

@@ -8,7 +8,6 @@
 #include <filesystem>
 
 #include "pgdr/error.hpp"
-#include "pgdr/io.hpp"
 #include "pgdr/output_files.hpp"
 
 namespace pgdr::tool {
@@ -42,6 +41,18 @@ void require_format(const MeshArguments& a) {
     refuse("--neighbors, --edges and --first-index are for .node and .ele");
   if (a.leaves && !has_extension(a.output, {".vtu", ".pvtu"})) refuse("--leaves is for .vtu and .pvtu");
   if (a.pieces && !has_extension(a.output, {".pvtu"})) refuse("--pieces is for .pvtu");
+}
+
+WriteOptions write_options(const MeshArguments& a, std::uint32_t first_index_of_input) {
+  WriteOptions options;
+  if (a.first_index)
+    options.first_index = static_cast<std::uint32_t>(*a.first_index);
+  else if (a.inputs.size() == 1 && has_extension(a.inputs.front(), {".poly", ".smesh", ".node"}))
+    options.first_index = first_index_of_input;
+  options.pieces = static_cast<std::uint32_t>(a.pieces.value_or(0));
+  options.edges = a.edges;
+  options.neighbors = a.neighbors;
+  return options;
 }
 
 void require_input_format(const std::string& file) {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "options.hpp"
+#include "pgdr/io.hpp"
 
 namespace pgdr::tool {
 
@@ -19,6 +20,9 @@ void require_mesh_writable(const std::string& output);
 
 /// What only some formats can hold is refused for the others. @throws UsageError bad_option
 void require_format(const MeshArguments& a);
+
+/// How a mesh is written: numbered as the input is, if it is one of the formats that number at will.
+WriteOptions write_options(const MeshArguments& a, std::uint32_t first_index_of_input);
 
 /// Meshes in formats that are no inputs are refused with what can be done. @throws InputError unknown_format
 void require_input_format(const std::string& file);

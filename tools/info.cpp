@@ -20,6 +20,7 @@
 #include "pgdr/domain.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/refine.hpp"
+#include "problems.hpp"
 #include "proposal.hpp"
 
 namespace pgdr::tool {
@@ -127,7 +128,19 @@ class InputInfo {
 
   /// @returns the exit code
   int run() {
-    read();
+    try {
+      read();
+      return run_treated();
+    } catch (const InputError& e) {
+      say_cure<D>(refused(), e, !a_.quiet, report_);
+      throw;
+    }
+  }
+
+ private:
+  Refused<D> refused() const { return {given_ ? *given_ : plc_, plc_, a_.reading}; }
+
+  int run_treated() {
     if (a_.reading.resolve_crossings) bodies_ = label_bodies(plc_, a_.reading);
     std::optional<Domain<D>> prepared;
     const double diagnosis_at = clock_.seconds();
@@ -138,7 +151,8 @@ class InputInfo {
     report_.set("seconds", seconds_);
     report_.set("diagnosis", findings_);
     if (!a_.quiet) print_findings(diagnosis);
-    if (diagnosis.error_count() > 0) return refuse(plc_, diagnosis, a_.reading.resolve_crossings, report_);
+    if (!a_.problems.empty()) write_problems(problems_ = problems_in_full(plc_, diagnosis), a_.problems);
+    if (diagnosis.error_count() > 0) return refuse(refused(), diagnosis, !a_.quiet, report_);
     if (!bodies_ && (bodies_ = label_bodies(plc_, a_.reading))) prepared.emplace(plc_);
     say_what_is_ahead(*prepared);
     const RefineResult<D> recovered = recover_and_describe(*prepared);
@@ -146,9 +160,9 @@ class InputInfo {
     return exit_done;
   }
 
- private:
   void read() {
-    plc_ = file_.read<D>(a_.reading, repairs_);
+    plc_ = file_.read_given<D>(a_.reading);
+    if (a_.reading.is_any()) plc_ = treated<D>(given_.emplace(plc_), a_.reading, repairs_);
     seconds_.set("read", clock_.seconds());
     report_.set("kind", "input");
     findings_.set("accepted", false);
@@ -182,13 +196,15 @@ class InputInfo {
   RefineResult<D> recover_and_describe(const Domain<D>& domain) {
     std::optional<RefineResult<D>> recovered;
     std::exception_ptr refused;
+    Diagnostic problem;
     std::optional<Looks> looks;
     tbb::parallel_invoke(
         [&] {
           try {
             recovered = recover(domain);
-          } catch (const InputError&) {
+          } catch (const InputError& e) {
             refused = std::current_exception();
+            problem = e.diagnostic();
           }
         },
         [&] { looks = look_at(plc_, domain); });
@@ -202,14 +218,17 @@ class InputInfo {
     give(looks->proposal, a_.quiet, report_);
     seconds_.set("total", clock_.seconds());
     report_.set("seconds", seconds_);
-    if (refused) std::rethrow_exception(refused);
-    return *std::move(recovered);
+    if (!refused) return *std::move(recovered);
+    add_problem(problems_, problem);
+    if (!a_.problems.empty()) write_problems(problems_, a_.problems);
+    std::rethrow_exception(refused);
   }
 
   void accept(const RefineResult<D>& recovered) {
     findings_.set("accepted", true);
     report_.set("diagnosis", findings_);
     std::vector<Diagnostic> warnings = bodies_ ? bodies_->warnings : std::vector<Diagnostic>{};
+    if (const auto closed = warning_of_openings(repairs_)) warnings.insert(warnings.begin(), *closed);
     if (bodies_) repairs_.insert(repairs_.end(), bodies_->repairs.begin(), bodies_->repairs.end());
     warnings.insert(warnings.end(), recovered.warnings.begin(), recovered.warnings.end());
     report_.set("warnings", to_json(warnings));
@@ -229,6 +248,8 @@ class InputInfo {
   Report& report_;
   const Stopwatch clock_;
   Plc<D> plc_;
+  std::optional<Plc<D>> given_;  ///< as it was read, if anything was done to it
+  Problems problems_;
   std::optional<BodyTable> bodies_;
   std::vector<Diagnostic> repairs_;
   JsonObject seconds_, findings_;
@@ -297,6 +318,7 @@ int info_of_mesh(const InfoArguments& a, InputFile& file, Report& report) {
 }  // namespace
 
 int info(const InfoArguments& arguments, Report& report) {
+  if (!arguments.problems.empty()) require_problems_writable(arguments.problems);
   Inputs inputs(arguments.files);
   report.set("input", inputs.json());
   const int dimension = inputs.dimension();

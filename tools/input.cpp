@@ -8,10 +8,8 @@
 #include <utility>
 
 #include "console.hpp"
-#include "pgdr/arrangement.hpp"
 #include "pgdr/error.hpp"
 #include "pgdr/joined_plc.hpp"
-#include "pgdr/planar_plc.hpp"
 
 namespace pgdr::tool {
 namespace {
@@ -86,30 +84,13 @@ int Inputs::dimension() {
 template <int D>
 Plc<D> Inputs::read_given(const InputArguments& reading) {
   if (D == 3 && (reading.convex_hull || reading.region_areas)) refuse("--convex-hull and --region-areas are for 2D");
-  if (D == 2 && reading.markers) refuse("--markers is for 3D");
+  if (D == 2 && (reading.markers || reading.close_openings)) refuse("--markers and --close-planar-openings are for 3D");
   std::vector<Plc<D>> all;
   for (InputFile& file : files_) all.push_back(file.read_plc<D>({.region_areas = reading.region_areas}));
   Plc<D> plc = all.size() == 1 ? std::move(all.front()) : joined<D>(all);
   plc.tolerance = reading.tolerance;
   plc.is_coarse = reading.yes_coarse;
   add_seeds<D>(reading, plc);
-  return plc;
-}
-
-template <int D>
-Plc<D> Inputs::read(const InputArguments& reading, std::vector<Diagnostic>& repairs) {
-  return prepared<D>(read_given<D>(reading), reading, repairs);
-}
-
-template <int D>
-Plc<D> prepared(Plc<D> plc, const InputArguments& reading, std::vector<Diagnostic>& repairs) {
-  if constexpr (D == 2) {
-    if (reading.convex_hull) plc = with_convex_hull(plc);
-    if (reading.resolve_crossings) plc = resolve_crossings(plc, repairs);
-  } else {
-    if (reading.resolve_crossings && !reading.bodies)  // else they are resolved with the bodies (bodies.hpp)
-      plc = resolve_crossings(plc, repairs, {.markers = reading.markers.value_or(SharedMarker::smallest), .stop = {}});
-  }
   return plc;
 }
 
@@ -133,9 +114,5 @@ void set_names(Report& report, const Names& names) {
 
 template Plc<2> Inputs::read_given<2>(const InputArguments&);
 template Plc<3> Inputs::read_given<3>(const InputArguments&);
-template Plc<2> prepared<2>(Plc<2>, const InputArguments&, std::vector<Diagnostic>&);
-template Plc<3> prepared<3>(Plc<3>, const InputArguments&, std::vector<Diagnostic>&);
-template Plc<2> Inputs::read<2>(const InputArguments&, std::vector<Diagnostic>&);
-template Plc<3> Inputs::read<3>(const InputArguments&, std::vector<Diagnostic>&);
 
 }  // namespace pgdr::tool

@@ -26,9 +26,6 @@ class Inputs {
   /// none; what read_plc throws
   template <int D>
   Plc<D> read_given(const InputArguments& reading);
-  /// And prepared. @param repairs gets what was done.
-  template <int D>
-  Plc<D> read(const InputArguments& reading, std::vector<Diagnostic>& repairs);
 
   std::string words() const;                    ///< their names, with commas
   Json json() const;                            ///< the name, or an array of several
@@ -37,10 +34,6 @@ class Inputs {
  private:
   std::vector<InputFile> files_;
 };
-
-/// What flags ask for. @param repairs gets what was done. @throws InputError where crossings have no end
-template <int D>
-Plc<D> prepared(Plc<D> plc, const InputArguments& reading, std::vector<Diagnostic>& repairs);
 
 /// Puts the keys of names into the report.
 void set_names(Report& report, const Names& names);

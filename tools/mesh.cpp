@@ -13,6 +13,8 @@
 #include "bounds.hpp"
 #include "command.hpp"
 #include "console.hpp"
+#include "cures.hpp"
+#include "deadline.hpp"
 #include "diagnosis.hpp"
 #include "estimate.hpp"
 #include "files.hpp"
@@ -58,20 +60,6 @@ RefineOptions<D> make_options(const MeshArguments& a, const Bounds<D>& bounds) {
   if (a.granularity) options.schedule.granularity = *a.granularity;
   options.schedule.trace = !a.trace.empty();
   options.memory_guard = false;  // asked with the estimate, which is printed anyway
-  return options;
-}
-
-/// As the input is numbered, if it is one of the formats that number at will.
-template <int D>
-WriteOptions write_options(const MeshArguments& a, const Plc<D>& plc) {
-  WriteOptions options;
-  if (a.first_index)
-    options.first_index = static_cast<std::uint32_t>(*a.first_index);
-  else if (a.inputs.size() == 1 && has_extension(a.inputs.front(), {".poly", ".smesh", ".node"}))
-    options.first_index = plc.first_index;
-  options.pieces = static_cast<std::uint32_t>(a.pieces.value_or(0));
-  options.edges = a.edges;
-  options.neighbors = a.neighbors;
   return options;
 }
 
@@ -261,8 +249,8 @@ class MeshRun {
 
   /// @returns the exit code
   int run() {
-    read();
-    if (const std::optional<int> refused = mesh()) return *refused;
+    if (const std::optional<int> refused = unless_refused([this] { read(); })) return *refused;
+    if (const std::optional<int> refused = unless_refused([this] { mesh(); })) return *refused;
     Transport* const transport = ranks_.transport();
     const Measured measured = transport ? measure(*transport, made_) : measure(result_);
     ranks_.on_first([&] {
@@ -296,7 +284,9 @@ class MeshRun {
     seconds_.read_at = total_.seconds();
     // Nobody looks at the stop token while the input is read, which may be a FIFO.
     ranks_.on_first([&] {
-      plc_ = input_.read<D>(a_.reading, repairs_);
+      plc_ = input_.read_given<D>(a_.reading);
+      is_read_ = true;
+      if (a_.reading.is_any()) plc_ = treated<D>(given_.emplace(plc_), a_.reading, repairs_);
       bodies_ = label_bodies(plc_, a_.reading);
       if (bodies_) repairs_.insert(repairs_.end(), bodies_->repairs.begin(), bodies_->repairs.end());
     });
@@ -310,6 +300,7 @@ class MeshRun {
     report_.set("largest_move", 0.0);
     report_.set("resolve_crossings", a_.reading.resolve_crossings);
     if constexpr (D == 3) {
+      report_.set("close_planar_openings", a_.reading.close_openings);
       if (a_.reading.resolve_crossings) report_.set("markers", name(a_.reading.markers.value_or(SharedMarker::smallest)));
     } else {
       report_.set("convex_hull", a_.reading.convex_hull);
@@ -321,34 +312,45 @@ class MeshRun {
   }
 
   /// The exit code if a diagnosis refuses the input.
-  std::optional<int> mesh() {
-    signals_.hear(true);
+  template <class Step>
+  std::optional<int> unless_refused(Step step) {
     try {
-      ProgressLine line(!a_.quiet);
-      if (line.is_shown()) options_.progress = [&](const Progress& p) { line(p); };
-      if (ranks_.is_first())
-        options_.prepared = [&](const Domain<D>& domain) {
-          line.clear();
-          say_what_is_ahead(domain);
-        };
-      if (a_.time_limit)
-        options_.time_limit = std::chrono::duration<double>(std::max(0.0, *a_.time_limit - total_.seconds()) * part_for_meshing);
-      refine_here();
-    } catch (const InputError&) {  // which names one culprit: find them all
-      if (!ranks_.is_first()) throw;
+      step();
+      return std::nullopt;
+    } catch (const InputError& e) {  // which names one culprit: find them all
+      if (!ranks_.is_first() || !is_read_) throw;
+      signals_.hear(true);
+      const double left = a_.time_limit ? std::max(0.0, *a_.time_limit - total_.seconds()) : longest_search.count();
+      const Deadline deadline(std::chrono::duration<double>(left), options_.stop);
+      const Refused<D> refused{given_ ? *given_ : plc_, plc_, a_.reading, deadline.token()};
+      if (say_cure(refused, e, false, report_)) throw;
       const Diagnosis<D> diagnosis = diagnose(plc_);
       JsonObject findings;
       set_findings(findings, diagnosis);
       report_.set("diagnosis", findings);
-      if (diagnosis.error_count() == 0) throw;
-      return refuse(plc_, diagnosis, a_.reading.resolve_crossings, report_);
+      if (diagnosis.error_count() > 0) return refuse(refused, diagnosis, false, report_);
+      throw;
     }
+  }
+
+  void mesh() {
+    signals_.hear(true);
+    ProgressLine line(!a_.quiet);
+    if (line.is_shown()) options_.progress = [&](const Progress& p) { line(p); };
+    if (ranks_.is_first())
+      options_.prepared = [&](const Domain<D>& domain) {
+        line.clear();
+        say_what_is_ahead(domain);
+      };
+    if (a_.time_limit)
+      options_.time_limit = std::chrono::duration<double>(std::max(0.0, *a_.time_limit - total_.seconds()) * part_for_meshing);
+    refine_here();
     result_.repairs.insert(result_.repairs.begin(), repairs_.begin(), repairs_.end());
     const std::vector<Diagnostic> unfit = unfit_names(plc_.names, a_.output);
     result_.warnings.insert(result_.warnings.end(), unfit.begin(), unfit.end());
     if (bodies_) result_.warnings.insert(result_.warnings.begin(), bodies_->warnings.begin(), bodies_->warnings.end());
+    if (const auto closed = warning_of_openings(repairs_)) result_.warnings.insert(result_.warnings.begin(), *closed);
     if (!a_.quiet) print_warnings(result_.warnings);
-    return std::nullopt;
   }
 
   void refine_here() {
@@ -395,7 +397,7 @@ class MeshRun {
   /// it is alone, for else it has to talk to the others.
   std::optional<Proposal> write(bool has_mesh) {
     seconds_.write_at = total_.seconds();
-    const std::vector<std::string> files = files_of_mesh(a_.output, write_options(a_, plc_));
+    const std::vector<std::string> files = files_of_mesh(a_.output, write_options(a_, plc_.first_index));
     ranks_.on_first([&] {
       if (std::any_of(files.begin(), files.end(), is_written_to)) signals_.hear(false);  // who reads may never come
     });
@@ -419,7 +421,7 @@ class MeshRun {
 
   void write_as_asked() {
     Transport* const transport = ranks_.transport();
-    WriteOptions how = write_options(a_, plc_);
+    WriteOptions how = write_options(a_, plc_.first_index);
     if (transport && how.pieces == 0) how.pieces = static_cast<std::uint32_t>(transport->size());
     std::vector<std::string> mesh_files = files_of_mesh(a_.output, how);
     if (transport)
@@ -460,6 +462,8 @@ class MeshRun {
   Seconds seconds_;
   std::vector<Diagnostic> repairs_;
   Plc<D> plc_;
+  std::optional<Plc<D>> given_;  ///< as it was read, if anything was done to it
+  bool is_read_ = false;
   std::optional<BodyTable> bodies_;
   DistributedResult<D> made_;  ///< on ranks with a piece of the mesh each
   RefineResult<D>& result_ = made_.run;

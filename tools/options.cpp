@@ -9,13 +9,13 @@
 #include <iostream>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "command.hpp"
 #include "console.hpp"
 #include "pgdr/io.hpp"
 #include "selector.hpp"
+#include "text.hpp"
 #include "version.hpp"
 
 namespace pgdr::tool {
@@ -197,6 +197,10 @@ void add_input(CLI::App& app, InputArguments& p) {
       ->type_name("NAME")
       ->check(one_of(shared_markers, "ways to choose markers"))
       ->needs(resolve);
+  app.add_flag(
+      "--close-planar-openings", p.close_openings,
+      "3D: openings of the surface whose loops lie in a plane, within the tolerance, are closed by facets with markers of "
+      "their own, named closed_opening_1, ...");
   app.add_flag("--region-areas", p.region_areas,
                "2D: a region of a .poly that has one number behind its point has it as label and as largest area");
   app.add_flag("--convex-hull", p.convex_hull, "2D: the edges of the convex hull of all points are segments, too");
@@ -340,6 +344,9 @@ void add_info(CLI::App& app, InfoArguments& a) {
   app.add_option("FILE", a.files, "an input, which may be several files, or a mesh")->required()->type_name("");
   add_input(app, a.reading);
   add_regions(app, a.regions, a.reading.bodies);
+  app.add_option("--write-problems", a.problems,
+                 "what is wrong or odd with an input, as geometry with kinds and numbers: .vtp .vtk .vtu .obj")
+      ->type_name("FILE");
   add_report(app, a.report, a.quiet);
 }
 
@@ -385,18 +392,6 @@ int print_help(const CLI::App& app, const CLI::Success& asked) {
     std::cerr << "pgdr: error: " << e.what() << '\n';
     return exit_file;
   }
-}
-
-/// How many letters differ: those to put in, to take out, and to change.
-std::size_t letters_between(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t before = std::exchange(row[0], i + 1);
-    for (std::size_t j = 0; j < b.size(); ++j)
-      before = std::exchange(row[j + 1], std::min({before + (a[i] != b[j]), row[j] + 1, row[j + 1] + 1}));
-  }
-  return row.back();
 }
 
 /// The flag of a subcommand that may have been meant; empty if none is near.

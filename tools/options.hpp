@@ -11,10 +11,9 @@
 #include <variant>
 #include <vector>
 
-#include "pgdr/arrangement.hpp"
-#include "pgdr/bodies.hpp"
 #include "pgdr/refine_options.hpp"
 #include "pgdr/types.hpp"
+#include "treatment.hpp"
 
 namespace pgdr::tool {
 
@@ -31,15 +30,12 @@ struct BoundArguments {
 };
 
 /// How an input is read, and what is done to it before anything else.
-struct InputArguments {
-  bool resolve_crossings = false, convex_hull = false;
-  std::optional<SharedMarker> markers;  ///< of pieces that several facets cover; 3D, with resolve_crossings
-  bool region_areas = false;            ///< ReadOptions::region_areas
-  std::optional<double> tolerance;      ///< none: the default of Plc
-  bool yes_coarse = false;              ///< Plc::is_coarse
-  std::vector<std::string> seeds;       ///< further region seeds, X,Y,Z or X,Y,Z=LABEL each (2D: X,Y)
-  std::vector<std::string> holes;       ///< further hole seeds
-  std::optional<BodyMode> bodies;       ///< 3D: what --regions says of bodies
+struct InputArguments : Treatment {
+  bool region_areas = false;        ///< ReadOptions::region_areas
+  std::optional<double> tolerance;  ///< none: the default of Plc
+  bool yes_coarse = false;          ///< Plc::is_coarse
+  std::vector<std::string> seeds;   ///< further region seeds, X,Y,Z or X,Y,Z=LABEL each (2D: X,Y)
+  std::vector<std::string> holes;   ///< further hole seeds
 };
 
 struct MeshArguments {
@@ -85,6 +81,7 @@ struct InfoArguments {
   std::vector<std::string> files;  ///< one mesh, or one or more inputs
   InputArguments reading;
   RegionMode regions = RegionMode::seeds;
+  std::string problems;  ///< what is wrong, as geometry; empty: not written
   std::string report;
   bool quiet = false;
 };

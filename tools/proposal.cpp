@@ -122,14 +122,16 @@ std::optional<double> cure_of_gaps(const Plc<D>& plc, const Domain<D>& domain,
 }
 
 template <int D>
-std::optional<double> tolerance_for_refused(const Plc<D>& plc) {
+std::optional<double> tolerance_for_refused(const Plc<D>& plc, const Treatment& done, const std::stop_token& stop) {
   try {
     const auto other = with_tolerance_of_digits(plc);
-    if (!other) return std::nullopt;
+    if (!other || stop.stop_requested()) return std::nullopt;
+    std::vector<Diagnostic> ignored;
+    const Plc<D> prepared = treated<D>(*other, done, ignored, stop);
     std::optional<Domain<D>> then;
-    if (diagnose(*other, {.most_listed = 0, .errors_only = true, .stop = {}}, then).error_count() > 0 || !then)
+    if (diagnose(prepared, {.most_listed = 0, .errors_only = true, .stop = stop}, then).error_count() > 0 || !then)
       return std::nullopt;
-    const auto gap = narrowest_gap<D>(*then);
+    const auto gap = narrowest_gap<D>(*then, {.stop = stop});
     if (!gap || gap->distance >= least_of_next * *other->tolerance) return other->tolerance;
   } catch (const std::exception&) {  // the refusal says enough
   }
@@ -140,7 +142,7 @@ template std::optional<Proposal> find_proposal<2>(const Plc<2>&, const Domain<2>
 template std::optional<Proposal> find_proposal<3>(const Plc<3>&, const Domain<3>&);
 template std::optional<double> cure_of_gaps<2>(const Plc<2>&, const Domain<2>&, const std::function<bool(const Domain<2>&)>&);
 template std::optional<double> cure_of_gaps<3>(const Plc<3>&, const Domain<3>&, const std::function<bool(const Domain<3>&)>&);
-template std::optional<double> tolerance_for_refused<2>(const Plc<2>&);
-template std::optional<double> tolerance_for_refused<3>(const Plc<3>&);
+template std::optional<double> tolerance_for_refused<2>(const Plc<2>&, const Treatment&, const std::stop_token&);
+template std::optional<double> tolerance_for_refused<3>(const Plc<3>&, const Treatment&, const std::stop_token&);
 
 }  // namespace pgdr::tool

@@ -9,11 +9,13 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string_view>
 
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/plc.hpp"
+#include "treatment.hpp"
 
 namespace pgdr::tool {
 
@@ -37,10 +39,10 @@ template <int D>
 std::optional<double> cure_of_gaps(const Plc<D>& plc, const Domain<D>& domain,
                                    const std::function<bool(const Domain<D>&)>& is_cured);
 
-/// Of an input that is refused: that tolerance, if it makes the input valid, and nothing is left then that is nearer than ten
-/// times as much: no features could be taken for rounding.
+/// Of an input that is refused after this was done to it: that tolerance, if it makes the input valid, and nothing is left then
+/// that is nearer than ten times as much: no features could be taken for rounding.
 template <int D>
-std::optional<double> tolerance_for_refused(const Plc<D>& plc);
+std::optional<double> tolerance_for_refused(const Plc<D>& plc, const Treatment& done, const std::stop_token& stop);
 /// What is said of it, behind the flag.
 inline constexpr std::string_view what_tolerance_does =
     " makes it valid: what is no farther apart than two units of the last digit of the coordinates then meets";

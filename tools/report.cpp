@@ -222,6 +222,7 @@ ReportedBounds read_bounds(const std::string& file) {
       return found != report.end() && *found == value;
     };
     read.resolve_crossings = holds("resolve_crossings", true);
+    read.close_openings = holds("close_planar_openings", true);
     for (const SharedMarker rule : {SharedMarker::smallest, SharedMarker::first, SharedMarker::last})
       if (holds("markers", name(rule))) read.markers = rule;
     read.convex_hull = holds("convex_hull", true);

@@ -72,6 +72,7 @@ struct ReportedBounds {
   std::uint64_t not_delaunay_left = 0;    ///< faces that it says are not locally Delaunay, other than by rounding
   bool resolve_crossings = false;         ///< what was done to the input
   std::optional<SharedMarker> markers;    ///< 3D, where that was done
+  bool close_openings = false;            ///< 3D
   bool convex_hull = false;               ///< 2D
   bool region_areas = false;              ///< how it was read, 2D
   std::vector<std::string> seeds, holes;  ///< of flags

@@ -81,6 +81,7 @@ RunFiles::RunFiles(const Arguments& arguments) {
       read(a.bounds);
     } else if constexpr (std::is_same_v<A, InfoArguments>) {
       for (const std::string& file : a.files) read(file, "the input");
+      if (!a.problems.empty()) outputs_.push_back({a.problems, "the file of problems"});
     } else {
       read(a.mesh, "the mesh");
       outputs_.push_back({a.output, "the picture"});

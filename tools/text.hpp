@@ -4,6 +4,7 @@
 // Numbers in words, which the Python package uses as well.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -16,6 +17,9 @@ namespace pgdr::tool {
 std::string digits(double value);
 /// 1 vertex, 2 vertices; thousands are set apart.
 std::string count(std::uint64_t n, std::string_view one, std::string_view many);
+
+/// How many letters differ: those to put in, to take out, and to change.
+std::size_t letters_between(const std::string& a, const std::string& b);
 
 /// 1 triangle, 2 tetrahedra.
 template <int D>

@@ -231,7 +231,6 @@ void Diagnoser<D>::find_encloses_nothing() {
   list(Finding::encloses_nothing, Errc::encloses_nothing, std::move(message),
        {first.file, static_cast<std::uint32_t>(first.line)}, first.ids, {});
   out_[Finding::encloses_nothing].listed.back().what.points = first.points;
-  if (options_.errors_only) out_[Finding::open_boundary] = {};
 }
 
 // What has a rim of its own (an edge, or in 2D an end, that nothing else has) bounds nothing. Taken away, it may leave

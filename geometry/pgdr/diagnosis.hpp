@@ -72,7 +72,7 @@ struct FindingList {
 /// How much is to be found out.
 struct DiagnosisOptions {
   std::size_t most_listed = 20;  ///< of each kind
-  bool errors_only = false;      ///< look for nothing that is reported only
+  bool errors_only = false;      ///< look for nothing that is reported only, but for open boundaries
   /// Ends it, from any thread, by a CancelledError: in some milliseconds, but for the making of a search tree, which takes up to
   /// a fifth of a second for a million triangles.
   std::stop_token stop = {};

@@ -78,12 +78,14 @@ py::list diagnose_plc(const Plc<D>& plc, std::size_t most_listed, bool errors_on
   return found;
 }
 
-/// What makes a refused input valid, in the words of the command, a sentence each.
+/// What makes a refused input valid, in the words of the command: first in one line, then a sentence each.
 template <int D>
 std::vector<std::string> cures(const Plc<D>& plc) {
   std::vector<std::string> found;
   run_watched([&](const std::stop_token& stop) {
-    found = tool::cures_of(plc, diagnose(plc, {.most_listed = 0, .errors_only = true, .stop = stop}));
+    const auto all = tool::cures_of<D>(plc, {}, diagnose(plc, {.errors_only = true, .stop = stop}), stop);
+    if (!all.empty() && all[0].need() != all[0].words) found.push_back(all[0].need());
+    for (const tool::Cure& cure : all) found.push_back(cure.words);
   });
   return found;
 }

@@ -20,6 +20,7 @@
 #include "pgdr/bodies.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/joined_plc.hpp"
+#include "pgdr/openings.hpp"
 #include "pgdr/planar_plc.hpp"
 #include "run.hpp"
 
@@ -291,6 +292,13 @@ py::tuple resolve(const Plc<D>& plc, const std::string& markers) {
   return py::make_tuple(made, to_python(repairs));
 }
 
+py::tuple close_openings(const Plc<3>& plc) {
+  std::vector<Diagnostic> repairs;
+  std::shared_ptr<Plc<3>> made;
+  run_watched([&](const std::stop_token& stop) { made = std::make_shared<Plc<3>>(close_planar_openings(plc, repairs, stop)); });
+  return py::make_tuple(made, to_python(repairs));
+}
+
 /// (Plc, (label, volume, bodies) of each region, names of bodies, repairs, warnings).
 py::tuple label_bodies(const Plc<3>& plc, const std::string& word, bool resolves_crossings, const std::string& markers) {
   const BodyMode mode = word == "union"       ? BodyMode::united
@@ -331,6 +339,7 @@ void bind_plc(py::module_& module) {
   module.def("holds_cells", [](const std::string& file) { return holds_cells(file); });
   module.def("resolve_crossings2", &resolve<2>);
   module.def("resolve_crossings3", &resolve<3>);
+  module.def("close_planar_openings", &close_openings);
   module.def("with_bodies", &label_bodies);
   module.def("with_convex_hull", [](const Plc<2>& plc) {
     const py::gil_scoped_release others_run;

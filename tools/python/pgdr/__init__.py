@@ -16,7 +16,7 @@ from ._estimate import Estimate, Gap, Proposal, SharpAngle, estimate
 from ._fields import Field, limit_growth, sizes_at_points, sizes_on_mesh, smallest
 from ._mesh import Mesh, Reason
 from ._pgdr import version as __version__
-from ._plc import Plc, resolve_crossings, with_convex_hull
+from ._plc import Plc, close_planar_openings, resolve_crossings, with_convex_hull
 from ._report import CheckFinding, CheckReport
 from ._run import Elements, Progress, StopSource, mesh
 from ._tetgen import Tetrahedralization, tetrahedralize
@@ -25,5 +25,5 @@ from ._triangle import triangulate
 __all__ = ["Bodies", "BodyRegion", "CancelledError", "CheckFinding", "CheckReport", "DiagnosedError", "Diagnostic", "Elements",
            "Error", "Estimate", "Field", "FileError", "Finding", "Gap", "InputError", "Mesh", "Plc", "Progress", "Proposal",
            "Reason", "ResourceError", "SharpAngle", "StopSource", "Tetrahedralization", "UsageError", "__version__", "check",
-           "diagnose", "estimate", "info", "limit_growth", "mesh", "resolve_crossings", "sizes_at_points", "sizes_on_mesh",
-           "smallest", "tetrahedralize", "triangulate", "with_bodies", "with_convex_hull"]
+           "close_planar_openings", "diagnose", "estimate", "info", "limit_growth", "mesh", "resolve_crossings", "sizes_at_points",
+           "sizes_on_mesh", "smallest", "tetrahedralize", "triangulate", "with_bodies", "with_convex_hull"]

@@ -20,9 +20,13 @@ class Diagnostic(NamedTuple):
 
 
 # What the command's flags are called here, where it is not their name with another sign between its words.
-_CALLS = {"resolve-crossings": "pgdr.resolve_crossings(plc)", "convex-hull": "pgdr.with_convex_hull(plc)", "yes-coarse": "coarse=True",
+_CALLS = {"close-planar-openings": "pgdr.close_planar_openings(plc)", "resolve-crossings": "pgdr.resolve_crossings(plc)",
+          "convex-hull": "pgdr.with_convex_hull(plc)", "yes-coarse": "coarse=True",
           "no-optimize": "optimize=False", "no-refine": "refine=False", "keep-boundary": "keep_boundary=True"}
-_FLAG = re.compile(r"(?<![\w-])--([a-z]+(?:-[a-z]+)*)(?:[ =]([-+]?[0-9][0-9.]*(?:e[-+]?[0-9]+)?|(?:seeds|auto|all|uniform|greedy)\b))?")
+_FLAG = re.compile(r"(?<![\w-])--([a-z]+(?:-[a-z]+)*)(?:[ =]([-+]?[0-9][0-9.]*(?:e[-+]?[0-9]+)?"
+                   r"|(?:seeds|auto|all|union|fragments|priority|disjoint|uniform|greedy)\b))?")
+
+_BODIES = re.compile(r"--resolve-crossings --regions (union|fragments)")
 
 
 def in_python(message: str) -> str:
@@ -33,6 +37,7 @@ def in_python(message: str) -> str:
             return _CALLS[name] + ("" if value is None else f" {value}")
         keyword = name.replace("-", "_")
         return keyword if value is None else f"{keyword}={value}" if value[0] in "+-0123456789" else f'{keyword}="{value}"'
+    message = _BODIES.sub(r'pgdr.with_bodies(plc, "\1", resolve_crossings=True)', message)
     return _FLAG.sub(call, message.replace("--yes-coarse, Plc::is_coarse", "--yes-coarse"))
 
 

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from . import _arguments, _pgdr
 from ._doors import through
+from ._ending import WORK
 from ._errors import Diagnostic, usage
 
 _CORES: Dict[int, Type[_pgdr._Plc]] = {2: _pgdr.Plc2, 3: _pgdr.Plc3}
@@ -392,6 +393,30 @@ def resolve_crossings(plc: Plc, *, markers: str = "smallest") -> Tuple[Plc, List
         return Plc._of(core2), repairs
     core3, repairs = _pgdr.resolve_crossings3(plc._core, markers)
     return Plc._of(core3), repairs
+
+
+def close_planar_openings(plc: Plc) -> Tuple[Plc, List[Diagnostic]]:
+    """3D: closes the openings of the surface that lie in a plane, within the tolerance, by facets. Returns the input so made, and an
+    entry for each opening: the points of its loops.
+
+    The new facets stand behind those of the input. Each has a marker of its own, which nothing else has, with the name
+    closed_opening_1, closed_opening_2, ... in `marker_names`. Of loops in one plane, one in the other, the ring between is closed where
+    their facets run in opposite directions, as those of the two sides of a pipe's wall do; else both are.
+
+    >>> import pgdr
+    >>> corners = [[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+    >>> box = pgdr.Plc(corners, facets=[[0, 2, 3, 1], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]])
+    >>> closed, openings = pgdr.close_planar_openings(box)
+    >>> [sorted(o.ids) for o in openings], closed.marker_names
+    ([[4, 5, 6, 7]], {1: 'closed_opening_1'})
+    """
+    if not isinstance(plc, Plc):
+        raise TypeError(f"plc must be a pgdr.Plc, not {type(plc).__name__}")
+    if not isinstance(plc._core, _pgdr.Plc3):
+        raise usage("openings are closed in 3D")
+    with WORK:
+        core, openings = _pgdr.close_planar_openings(plc._core)
+    return Plc._of(core), openings
 
 
 def with_convex_hull(plc: Plc) -> Plc:
