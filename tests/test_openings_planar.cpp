@@ -265,6 +265,47 @@ TEST(PlanarOpenings, LoopsThatTouchAtAPoint) {
   EXPECT_EQ(volumes(c.plc), std::vector<double>{4});
 }
 
+/// The body, without some of the squares of its surface that look up at some height; how many of these are left out.
+std::size_t add_opened(Plc<3>& plc, const Body& cubes, int height, std::mt19937& random) {
+  std::size_t missing = 0;
+  for (const test::Cube& c : cubes)
+    for (int axis = 0; axis < 3; ++axis)
+      for (const int step : {-1, 1}) {
+        test::Cube next = c, low = c;
+        next[static_cast<std::size_t>(axis)] += step;
+        if (step == 1) low = next;
+        if (cubes.contains(next)) continue;
+        const bool is_open = axis == 2 && step == 1 && next[2] == height && random() % 2 == 0;
+        missing += is_open;
+        if (!is_open) test::add_square(plc, low, axis, step == 1, 0);
+      }
+  return missing;
+}
+
+TEST(PlanarOpenings, RandomOpeningsOfBodiesOfCubes) {
+  std::mt19937 random(3);
+  int with_openings = 0, all_closed = 0;
+  for (int run = 0; run < 300; ++run) {
+    const Body cubes = box({0, 0, 0}, {3, 3, 2});
+    Plc<3> plc;
+    const std::size_t missing = add_opened(plc, cubes, 2, random);
+    plc.facet_bodies.clear();
+    if (run % 2 == 1) plc = turned(plc, static_cast<unsigned>(run));
+    const Closed c = closed(plc);
+    EXPECT_EQ(diagnose(c.plc)[Finding::facets_overlap].count, 0u);
+    EXPECT_EQ(diagnose(c.plc)[Finding::facets_cross].count, 0u);
+    double area = 0;
+    for (const Diagnostic& d : c.openings) area += std::stod(d.message.substr(d.message.rfind(' ') + 1));
+    with_openings += missing > 0 ? 1 : 0;
+    if (surface_counts(Domain<3>(c.plc)).open_loops > 0) continue;  // loops with two points in common are not told apart
+    ++all_closed;
+    EXPECT_NEAR(area, static_cast<double>(missing), 1e-9) << run;
+    EXPECT_NEAR(volumes(c.plc).at(0), 18, 1e-9) << run;
+  }
+  EXPECT_GT(with_openings, 250);
+  EXPECT_GT(all_closed, 150);
+}
+
 TEST(PlanarOpenings, FilesAndNames) {
   Plc<3> a, b;
   add_pipe(a, 8, 1, 0, 1, true, 3);

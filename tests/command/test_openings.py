@@ -6,13 +6,15 @@
 PGDR_COMMAND names the command, PGDR_SANITIZE its sanitizers, if any. Usage: test_openings.py [Class[.test]...]
 """
 import math
+import random
 import shutil
+import signal
 import subprocess
 import time
 import unittest
 import xml.etree.ElementTree
 
-from test_command import Case
+from test_command import COMMAND, Case
 from test_cures import turned
 from test_estimates import poly
 
@@ -164,15 +166,26 @@ class Needs(Case):
         corner = [faces[0], faces[2], faces[4]]
         self.assertIsNone(self.needs(self.file("open.poly", poly(points, corner))))
 
-    def test_in_time(self):
-        """Of a soup of triangles nothing is found, and soon."""
-        import random
+    def soup(self, triangles):
         r = random.Random(1)
-        points = [tuple(r.random() for _ in range(3)) for _ in range(900)]
-        model = self.file("soup.poly", poly(points, [(3 * k, 3 * k + 1, 3 * k + 2) for k in range(300)]))
+        points = [tuple(r.random() for _ in range(3)) for _ in range(3 * triangles)]
+        return self.file("soup.poly", poly(points, [(3 * k, 3 * k + 1, 3 * k + 2) for k in range(triangles)]))
+
+    def test_a_signal_ends_the_search(self):
+        with subprocess.Popen([COMMAND, "mesh", str(self.soup(600)), "-o", str(self.output)], stderr=subprocess.PIPE,
+                              stdout=subprocess.DEVNULL, text=True) as run:
+            self.assertIn("error", run.stderr.readline())  # cures are looked for from here on
+            begin = time.monotonic()
+            run.send_signal(signal.SIGINT)
+            run.stderr.read()
+            self.assertEqual(run.wait(), 3)
+            self.assertLess(time.monotonic() - begin, 15)
+
+    def test_a_time_limit_ends_the_search(self):
         begin = time.monotonic()
-        self.mesh(model, expect=3)
-        self.assertLess(time.monotonic() - begin, 120)
+        done = self.mesh(self.soup(400), "--time-limit", "3", expect=None)
+        self.assertIn(done.returncode, (3, 5))  # 5: it was over before anything was refused
+        self.assertLess(time.monotonic() - begin, 20)
 
 
 class Problems(Case):

@@ -75,6 +75,33 @@ class Words(unittest.TestCase):
         self.assertTrue(found, str(caught.exception))
         checked(self, plc, tolerance=float(found.group(1)))
 
+    def test_a_box_without_a_lid(self):
+        corners = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+        sides = [(0, 2, 3, 1), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+        plc = pgdr.Plc(corners, facets=sides)
+        with self.assertRaises(pgdr.InputError) as caught:
+            pgdr.mesh(plc)
+        self.assertIn("open, with 1 opening that lies in a plane: pgdr.close_planar_openings(plc)", str(caught.exception))
+        closed, openings = pgdr.close_planar_openings(plc)
+        self.assertEqual([(o.code, sorted(o.ids)) for o in openings], [("open_boundary", [4, 5, 6, 7])])
+        made = checked(self, closed)
+        self.assertEqual(made.marker_names, {1: "closed_opening_1"})
+        self.assertEqual(pgdr.close_planar_openings(closed)[1], [])
+        with self.assertRaises(TypeError):
+            pgdr.close_planar_openings(corners)
+        with self.assertRaises(pgdr.UsageError):
+            pgdr.close_planar_openings(square())
+
+    def test_bodies_that_overlap(self):
+        corners = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+        sides = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+        plc = pgdr.Plc([*corners, *[tuple(x + 0.5 for x in p) for p in corners]], facets=sides + [[v + 8 for v in f] for f in sides])
+        with self.assertRaises(pgdr.InputError) as caught:
+            pgdr.mesh(plc)
+        self.assertIn('2 closed bodies that overlap: pgdr.with_bodies(plc, "union", resolve_crossings=True)', str(caught.exception))
+        self.assertNotIn("--", str(caught.exception))
+        checked(self, pgdr.with_bodies(plc, "union", resolve_crossings=True)[0])
+
     def test_points_that_make_an_input_valid(self):
         """Two tetrahedra whose edges cross where neither has a point."""
         points = [(-1, 0, 0), (1, 0, 0), (0, -1, -1), (0, 1, -1), (0, -1, 0), (0, 1, 0), (-1, 0, 1), (1, 0, 1)]
