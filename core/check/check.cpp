@@ -5,7 +5,9 @@
 // cannot be used at all.
 #include "pgdr/check.hpp"
 
+#include <map>
 #include <optional>
+#include <string>
 
 #include "check/bounds.hpp"
 #include "given/volumes.hpp"
@@ -25,6 +27,29 @@ void check_loose_points(const OutputMesh<D>& mesh, Findings& findings) {
   for (std::uint32_t v = static_cast<std::uint32_t>(mesh.input_points); v < mesh.points.size(); ++v)
     if (!in_cell[v])
       findings.add(Kind::unreferenced_point, {v}, [&] { return "The " + vertex_words(mesh, v) + " is in no cell."; });
+}
+
+/// Of a name, what every format keeps: signs other than letters and digits may become others, and long names are cut.
+std::string kept_of(const std::string& name) {
+  constexpr std::size_t longest = 80;
+  std::string kept;
+  for (const char c : name) {
+    const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    if (is_letter || (c >= '0' && c <= '9') || static_cast<unsigned char>(c) >= 0x80) kept += c;
+  }
+  return kept.substr(0, longest);
+}
+
+/// What has a name in the mesh and in the input has the same. A mesh may have none.
+template <class Number>
+void check_names(const char* what, const std::map<Number, std::string>& names, const std::map<Number, std::string>& given,
+                 Findings& findings) {
+  for (const auto& named : names)
+    if (const auto wanted = given.find(named.first); wanted != given.end() && kept_of(named.second) != kept_of(wanted->second))
+      findings.add(Kind::wrong_name, {static_cast<std::int64_t>(named.first)}, [&] {
+        return std::string("The ") + what + " " + words(static_cast<double>(named.first)) + " is called \"" + named.second +
+               "\", and in the input \"" + wanted->second + "\".";
+      });
 }
 
 /// The volumes of the input, once everything in the mesh lies on something given and the other way round; none if its walls
@@ -70,6 +95,8 @@ void check_against_given(const OutputMesh<D>& mesh, const CheckOptions<D>& optio
     check_creases(task, match);
   }
   check_leftovers(task, match);
+  check_names("label", mesh.names.regions, options.input->names.regions, findings);
+  check_names("marker", mesh.names.markers, options.input->names.markers, findings);
   const std::optional<InputVolumes<D>> volumes = check_volumes(task, match, options.regions, links, components);
   NamedEntities<D> named(task, match, sorted);
   check_shapes(mesh, options, links, components, volumes ? &*volumes : nullptr, &named, findings);

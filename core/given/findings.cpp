@@ -23,6 +23,7 @@ std::string_view name(CheckFinding::Kind kind) {
                                                "segment_not_conforming",
                                                "facet_not_conforming",
                                                "wrong_marker",
+                                               "wrong_name",
                                                "stray_constraint",
                                                "wrong_region",
                                                "wrong_volume",

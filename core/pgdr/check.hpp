@@ -151,6 +151,7 @@ struct CheckFinding {
     segment_not_conforming,  ///< no chain of subsegments, or one off its line
     facet_not_conforming,    ///< not the union of its subfacets, or a vertex off its plane
     wrong_marker,            ///< of an input point, a subsegment or a subfacet
+    wrong_name,              ///< of a marker or a label that has another one in the input, but for what a format cannot hold
     stray_constraint,        ///< a subsegment or subfacet that no entity owns or no cell has
     wrong_region,            ///< label not constant in a volume, or not that of its seed, or not the automatic one
     wrong_volume,            ///< a volume without cells, only partly filled, or of another measure

@@ -98,6 +98,17 @@ class Names(NamedCase):
         info = json.loads((self.folder / "info.json").read_text())
         self.assertEqual(sorted(info["marker_names"].values()), sorted(GEARBOX))
 
+    def test_names_are_those_of_the_input(self):
+        parts = [("Gear A", (0, 0, 0), (1, 1, 1)), ('a "very" ' + 90 * "long " + "name", (2, 0, 0), (3, 1, 1))]
+        model = self.file("model.stl", "".join(stl(*part) for part in parts))
+        other = self.file("other.stl", "".join(stl(name.replace("Gear A", "Gear B"), *box) for name, *box in parts))
+        for output in ("out.vtu", "out.msh", "out.mesh"):  # not all hold the long name as it is
+            output = self.folder / output
+            self.pgdr("mesh", model, "-o", output, "--report", self.report, expect=0)
+            self.pgdr("check", output, "--input", model, "--reasons", self.report, expect=0)
+            said = self.pgdr("check", output, "--input", other, "--reasons", self.report, expect=6).stdout
+            self.assertIn('wrong_name: The marker 1 is called "Gear A", and in the input "Gear B".', said)
+
     def test_sizes_by_name(self):
         _, coarse, _ = self.meshed("a.vtu")
         _, fine, _ = self.meshed("b.vtu", "--region-size", "Gear A=0.1")
