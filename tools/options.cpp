@@ -16,6 +16,7 @@
 #include "pgdr/io.hpp"
 #include "selector.hpp"
 #include "text.hpp"
+#include "validators.hpp"
 #include "version.hpp"
 
 namespace pgdr::tool {
@@ -27,33 +28,7 @@ constexpr const char* exit_codes =
     "mesh "
     "written; 6 a check failed; 7 out of memory or an internal error, no output file.";
 
-/// A number in the given range; `nan` is never one.
-CLI::Validator number(const std::string& range, bool (*accept)(double)) {
-  return {[range, accept](std::string& text) {
-            double value = 0;
-            const bool ok = CLI::detail::lexical_cast(text, value) && accept(value);
-            return ok ? std::string() : "must be a number " + range + ", not \"" + text + '"';
-          },
-          "", "number " + range};
-}
-
-/// A whole number in decimal digits, which CLI11 alone would let wrap round zero.
-CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
-  return {[least, most](std::string& text) {
-            std::uint64_t value = 0;
-            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-            const bool ok = error == std::errc() && end == text.data() + text.size() && value >= least && value <= most;
-            return ok ? std::string()
-                      : "must be a whole number from " + std::to_string(least) + " to " + std::to_string(most) + ", not \"" +
-                            text + '"';
-          },
-          "", "whole number"};
-}
-
 constexpr int most_threads = 1024;  // what TBB starts, it starts all at once: too many would take a machine down
-
-bool positive(double v) { return v > 0; }
-bool not_negative(double v) { return v >= 0 && std::isfinite(v); }
 
 const std::map<std::string, Schedule> schedules{
     {"reproducible", Schedule::reproducible}, {"uniform", Schedule::uniform}, {"greedy", Schedule::greedy}};
@@ -107,24 +82,6 @@ bool is_plane(const std::string& text) {
 bool is_region_size(const std::string& text) { return split_region_size(text).has_value(); }
 bool is_seed(const std::string& text) { return split_seed(text).has_value(); }
 bool is_hole(const std::string& text) { return is_seed(text) && text.find('=') == std::string::npos; }
-
-CLI::Validator shaped(bool (*accept)(const std::string&), const std::string& what) {
-  return {
-      [accept, what](std::string& text) { return accept(text) ? std::string() : "must be " + what + ", not \"" + text + '"'; },
-      "", what};
-}
-
-/// A word of the map from words to values.
-template <class Value>
-CLI::Validator one_of(const std::map<std::string, Value>& words, std::string what) {
-  return {[&words, what](std::string& text) {
-            if (words.count(text)) return std::string();
-            std::string list;
-            for (const auto& [word, value] : words) list += (list.empty() ? "" : ", ") + word;
-            return "the " + what + " of this version: " + list + ", not \"" + text + '"';
-          },
-          "", what};
-}
 
 /// @param without  what holds if --radius-edge is not given
 /// @param without_dihedral  likewise

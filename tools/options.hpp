@@ -38,6 +38,12 @@ struct InputArguments : Treatment {
   std::vector<std::string> holes;   ///< further hole seeds
 };
 
+/// 3D: another surface, near the given one.
+struct SurfaceArguments {
+  std::optional<std::string> tolerance;  ///< E or E% (surface_tolerance.hpp); none: the given surface
+  std::optional<double> feature_angle;   ///< degrees; none: as a report says, or the default
+};
+
 struct MeshArguments {
   std::vector<std::string> inputs;  ///< one or more
   std::string output;
