@@ -19,6 +19,7 @@
 #include "pgdr/mesh_maps.hpp"
 #include "pgdr/predicates.hpp"
 #include "pgdr/refine.hpp"
+#include "surface_tolerance.hpp"
 
 namespace pgdr::tool {
 namespace {
@@ -42,6 +43,18 @@ std::optional<Plc<D>> read_input_of_mesh(const std::vector<std::string>& inputs,
   if (is_changed && !reading.tolerance && tolerance && *tolerance != tolerance_of(plc)) plc.tolerance = tolerance;
   std::vector<Diagnostic> repairs;
   return treated<D>(std::move(plc), reading, repairs);
+}
+
+/// The options of another surface. @throws UsageError in 2D, and what surface_tolerance() throws
+template <int D>
+void set_surface(const CheckArguments& a, const ReportedBounds& reported, CheckOptions<D>& options) {
+  if (!a.surface.tolerance) return;
+  if constexpr (D == 3) {
+    options.surface_tolerance = surface_tolerance(*a.surface.tolerance, *options.input, options.tolerance);
+    options.feature_angle = a.surface.feature_angle.value_or(reported.feature_angle.value_or(options.feature_angle));
+  } else {
+    throw UsageError({.code = Errc::bad_option, .message = "--surface-tolerance is for 3D"});
+  }
 }
 
 template <int D>
@@ -75,7 +88,8 @@ void fill(Report& report, const OutputMesh<D>& mesh, const Bounds<D>& bounds, co
 
 template <int D>
 void print_summary(const CheckArguments& a, const OutputMesh<D>& mesh, const Bounds<D>& bounds,
-                   const std::optional<QualitySummary>& q, const CheckReport& r, std::size_t unused) {
+                   const std::optional<QualitySummary>& q, const CheckReport& r, std::size_t unused,
+                   std::optional<double> surface_tolerance) {
   print_row("mesh", format("%s (%dD, ", a.mesh.c_str(), D) + count(mesh.points.size(), "vertex", "vertices") + ", " +
                         count_cells<D>(mesh.cells.size()) + ')');
   if (unused > 0) print_row("unused", count(unused, "vertex is in no cell", "vertices are in no cell"));
@@ -94,6 +108,11 @@ void print_summary(const CheckArguments& a, const OutputMesh<D>& mesh, const Bou
     print_row("delaunay", count(r.not_delaunay_rounding, "local violation", "local violations") + " by rounding, " +
                               std::to_string(r.not_delaunay_refused) + " beside refused entities, " +
                               std::to_string(r.not_delaunay_unexplained) + " unexplained");
+  if (surface_tolerance)
+    print_row("surface", format("another one, to be within %.6g of the given one, both ways", *surface_tolerance) +
+                             (r.undecided_volumes > 0
+                                  ? "; " + count(r.undecided_volumes, "volume is", "volumes are") + " too thin to be told apart"
+                                  : ""));
   for (const CheckFinding& f : r.findings) print_row("found", std::string(name(f.kind)) + ": " + f.message);
   if (r.finding_count > r.findings.size()) print_row("found", count(r.finding_count - r.findings.size(), "more", "more"));
   const int code = r.exit_code();
@@ -139,17 +158,25 @@ int check_as(const CheckArguments& a, InputFile& file, Report& report) {
   options.not_delaunay_left = reported.not_delaunay_left;
   options.regions = a.regions.value_or(reported.regions);
   if (!a.reasons.empty()) options.reasons = &reported.reasons;
+  set_surface(a, reported, options);
   CheckReport verdict = pgdr::check(mesh, options);
   std::optional<BodyCheck> bodies;
   if constexpr (D == 3)
-    if (with_bodies) bodies = check_bodies(mesh, *plc, *reading.bodies, options.tolerance, verdict);
+    if (with_bodies)
+      bodies = check_bodies(mesh, *plc, *reading.bodies,
+                            options.surface_tolerance ? options.surface_tolerance : options.tolerance, verdict);
   std::optional<QualitySummary> quality;  // of a mesh whose numbers can be used at all
   if (verdict.count(CheckFinding::Kind::bad_index) + verdict.count(CheckFinding::Kind::not_finite) == 0)
     quality = summarize_quality(mesh);
   const std::size_t unused = unused_points(mesh).size();
   fill(report, mesh, bounds, quality, verdict, options.delaunay, unused);
+  if (options.surface_tolerance)
+    report.set("surface_tolerance", JsonObject{{"given", *a.surface.tolerance},
+                                               {"length", *options.surface_tolerance},
+                                               {"feature_angle", options.feature_angle},
+                                               {"undecided_volumes", verdict.undecided_volumes}});
   if (bodies) report.set("bodies", JsonObject{{"checked", bodies->done}, {"left_out", bodies->left_out}});
-  if (!a.quiet) print_summary(a, mesh, bounds, quality, verdict, unused);
+  if (!a.quiet) print_summary(a, mesh, bounds, quality, verdict, unused, options.surface_tolerance);
   if (!a.quiet && bodies)
     print_row("bodies", bodies->done ? "as rays through the given facets count them" : "not checked: " + bodies->left_out);
   return verdict.exit_code();

@@ -70,7 +70,8 @@ ROOMS = {
         "compact": Room("how is the finished mesh numbered?", "mesh output", "compact.hpp", ""),
         "given": Room("does a finished mesh consist of what was given, and of nothing else?", "size", "match.hpp leftovers.cpp",
                       "check"),
-        "check": Room("is a finished mesh what it should be?", "given", "check.cpp", "check_bodies"),
+        "nearness": Room("is the mesh's surface within a distance of the given one?", "given", "nearness.hpp near_set.hpp", "facet_places"),
+        "check": Room("is a finished mesh what it should be?", "nearness", "check.cpp", "check_bodies"),
         "io": Room("how are files read and written?", "output", "io.cpp read/ply.cpp", "io output_files"),
     },
     "scheduler": {

@@ -15,6 +15,7 @@
 #include "console.hpp"
 #include "pgdr/io.hpp"
 #include "selector.hpp"
+#include "surface_options.hpp"
 #include "text.hpp"
 #include "validators.hpp"
 #include "version.hpp"
@@ -291,6 +292,10 @@ void add_check(CLI::App& app, CheckArguments& a) {
                "ask for a Delaunay mesh, also where the report of --reasons does not say that it is one");
   add_input(app, a.reading);
   add_regions(app, a.regions, a.reading.bodies);
+  add_surface(app, a.surface,
+              "the mesh is of another surface, and is to be within E of the given one, both ways, with its topology, markers and "
+              "volumes");
+  app.get_option("--surface-tolerance")->needs("--input");
   app.add_option("--reasons", a.reasons, "report of `pgdr mesh`, whose bounds.reasons explain poor cells")
       ->type_name("REPORT.json")
       ->needs("--input");

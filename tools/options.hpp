@@ -77,8 +77,9 @@ struct CheckArguments {
   BoundArguments bounds;
   InputArguments reading;
   std::optional<RegionMode> regions;  ///< none: as `reasons` says, or seeds
-  std::string reasons;                ///< a report of `mesh`
-  bool delaunay = false;              ///< is it to be Delaunay?
+  SurfaceArguments surface;
+  std::string reasons;    ///< a report of `mesh`
+  bool delaunay = false;  ///< is it to be Delaunay?
   std::string report;
   bool quiet = false;
 };

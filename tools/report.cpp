@@ -30,7 +30,8 @@ void set_measures(JsonObject& o, const QualityMeasures& q) {
 JsonObject json_of_given(const GivenEntity& e) {
   JsonObject o{{"kind", name(e.kind)}};
   if (e.kind == EntityKind::segment) o.set("ends", e.ends);
-  if (e.kind == EntityKind::facet) o.set("facet", e.facet);
+  if (e.kind == EntityKind::facet && e.facet != no_entity) o.set("facet", e.facet);
+  if (e.kind == EntityKind::facet && e.facet == no_entity) o.set("place", e.ends[0]);
   return o;
 }
 
@@ -69,7 +70,11 @@ PoorReason parse_reason(const nlohmann::json& j) {
     GivenEntity& e = r.entities[i];
     e.kind = parse_name<EntityKind>(entities[i].at("kind").get<std::string>(), kind_names);
     if (e.kind == EntityKind::segment) e.ends = entities[i].at("ends").get<decltype(e.ends)>();
-    if (e.kind == EntityKind::facet) e.facet = parse_id(entities[i].at("facet"));
+    if (e.kind != EntityKind::facet) continue;
+    if (entities[i].contains("place"))
+      e.ends[0] = e.ends[1] = entities[i].at("place").get<std::array<double, 3>>();
+    else
+      e.facet = parse_id(entities[i].at("facet"));
   }
   if (const auto& angle = j.at("angle"); !angle.is_null()) r.angle = angle.get<double>();
   return r;
@@ -238,6 +243,9 @@ ReportedBounds read_bounds(const std::string& file) {
       if (holds("region_mode", name(mode))) read.regions = mode;
     for (const BodyMode mode : {BodyMode::united, BodyMode::fragments, BodyMode::priority, BodyMode::disjoint})
       if (holds("region_mode", name(mode))) read.bodies = mode;
+    if (const auto surface = report.find("surface_tolerance"); surface != report.end() && surface->is_object())
+      if (const auto angle = surface->find("feature_angle"); angle != surface->end() && angle->is_number())
+        read.feature_angle = angle->get<double>();
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {

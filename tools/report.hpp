@@ -78,6 +78,7 @@ struct ReportedBounds {
   std::vector<std::string> seeds, holes;  ///< of flags
   RegionMode regions = RegionMode::seeds;
   std::optional<BodyMode> bodies;
+  std::optional<double> feature_angle;  ///< of another surface
 };
 
 /// @throws FileError if it cannot be opened, InputError if it is not such a report.

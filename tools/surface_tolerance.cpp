@@ -22,6 +22,13 @@ double diagonal_of(const Plc<3>& plc) {
   return std::sqrt(square);
 }
 
+double largest_coordinate(const Plc<3>& plc) {
+  double largest = 0;
+  for (const Point3& p : plc.points)
+    for (const double x : p.x) largest = std::max(largest, std::abs(x));
+  return largest;
+}
+
 [[noreturn]] void refuse(const std::string& message) { throw UsageError({.code = Errc::bad_option, .message = message}); }
 
 }  // namespace
@@ -43,7 +50,8 @@ double surface_tolerance(const std::string& text, const Plc<3>& plc, std::option
     refuse("--surface-tolerance " + text + ": all points of the input are one, so that it has no diagonal");
   const double length = given->is_percent ? given->number / 100 * diagonal : given->number;
   if (!(length > 0) || !std::isfinite(length)) refuse("--surface-tolerance has to be above 0 and finite, not " + text);
-  const double joined = tolerance ? *tolerance : tolerance_of(plc);
+  // A tolerance of 0 leaves what rounding of doubles does, 8 ulps of the largest coordinate.
+  const double joined = std::max(tolerance ? *tolerance : tolerance_of(plc), 0x1p-49 * largest_coordinate(plc));
   if (constexpr double times = 16; length < times * joined)
     refuse(
         format("--surface-tolerance is %.6g, and has to be 16 times the tolerance within which points are one, or more, which "

@@ -19,7 +19,8 @@ struct SurfaceToleranceText {
 /// None if the text is no number, nor one with a % behind it.
 std::optional<SurfaceToleranceText> split_surface_tolerance(const std::string& text);
 
-/// The length E that the text says, in the units of the input, whose default tolerance or own one, or else `tolerance`, is T.
+/// The length E that the text says, in the units of the input, whose default tolerance or own one, or else `tolerance`, is T,
+/// at least the rounding of doubles.
 /// @throws UsageError bad_option if it is no length above 0 or less than 16 T, or if the input has no extent that a percentage
 ///   could be of; both lengths are said
 double surface_tolerance(const std::string& text, const Plc<3>& plc, std::optional<double> tolerance = {});

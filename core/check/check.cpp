@@ -11,6 +11,9 @@
 
 #include "check/bounds.hpp"
 #include "given/volumes.hpp"
+#include "nearness/nearness.hpp"
+#include "nearness/own_walls.hpp"
+#include "pgdr/facet_places.hpp"
 
 namespace pgdr {
 namespace {
@@ -102,6 +105,51 @@ void check_against_given(const OutputMesh<D>& mesh, const CheckOptions<D>& optio
   check_shapes(mesh, options, links, components, volumes ? &*volumes : nullptr, &named, findings);
 }
 
+/// The walls of the mesh are those of another surface: it is to fill what they bound, and they are to be near the given ones.
+void check_against_surface(const OutputMesh<3>& mesh, const CheckOptions<3>& options, const Links<3>& links,
+                           std::span<const std::uint32_t> sorted, Components& components, Findings& findings) {
+  const GivenInput<3> input(*options.input, options.tolerance, findings);
+  const GivenSurface surface(input, options.regions, findings);
+  const double distance = *options.surface_tolerance;
+  const NearTask near{mesh, input, surface, distance, options.feature_angle, findings};
+  check_loose_points(mesh, findings);
+  check_explicit_points(near, sorted);
+  check_near_facets(near);
+  check_near_curves(near);
+  check_same_topology(near);
+
+  const double even = evenness(mesh, input.tolerance(), distance);
+  check_edges_of_walls(mesh, even + input.rounding(), findings);
+  const Plc<3> walls = walls_as_input(mesh, input);
+  const GivenInput<3> own(walls, even, findings);
+  const GivenTask<3> task{mesh, own, findings};
+  GivenMatch<3> match;
+  match_given_points(task, sorted, match);
+  match_given_segments(task, match);
+  match_given_facets(task, match);
+  std::optional<InputVolumes<3>> volumes;
+  try {
+    volumes.emplace(walls_of_mesh(task, match), options.regions);
+    check_regions(mesh, links, *volumes, components, findings);
+    check_near_volumes(near, *volumes, components);
+  } catch (const InputError& e) {
+    findings.add(Kind::wrong_volume, {},
+                 [&] { return std::string("What the walls of the mesh bound cannot be told: ") + e.what(); });
+  }
+  // Points of the mesh that are none of the surface are where facets are only up to rounding.
+  for (std::size_t p = mesh.input_points; p < match.vertex_of_point.size(); ++p) match.vertex_of_point[p] = none;
+  NamedEntities<3> named(task, match, sorted);
+  CheckOptions<3> of_walls = options;
+  std::vector<PoorReason> reasons;
+  if (options.reasons) {
+    reasons = *options.reasons;
+    name_facets_by_places(*options.input, reasons);  // those with numbers, of a mesh that is of the given surface after all
+    reasons = with_subfacets(reasons, mesh);
+    of_walls.reasons = &reasons;
+  }
+  check_shapes(mesh, of_walls, links, components, volumes ? &*volumes : nullptr, &named, findings);
+}
+
 }  // namespace
 
 template <int D>
@@ -115,6 +163,11 @@ CheckReport check(const OutputMesh<D>& mesh, const CheckOptions<D>& options) {
   check_subsegments_used(mesh, findings);
   if (findings.clean()) check_stars(mesh, links, findings);
   Components components = flood_cells(mesh, links, findings);
+  if constexpr (D == 3)
+    if (options.input && options.surface_tolerance) {
+      check_against_surface(mesh, options, links, sorted, components, findings);
+      return report;
+    }
   if (options.input) {
     check_against_given(mesh, options, links, sorted, components, findings);
     return report;

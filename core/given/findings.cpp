@@ -30,7 +30,10 @@ std::string_view name(CheckFinding::Kind kind) {
                                                "hole_filled",
                                                "over_radius_edge",
                                                "over_size",
-                                               "bad_reason"};
+                                               "bad_reason",
+                                               "off_surface",
+                                               "surface_not_covered",
+                                               "other_topology"};
   static_assert(std::size(names) == CheckFinding::kinds);
   return names[static_cast<std::size_t>(kind)];
 }

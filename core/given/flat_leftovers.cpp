@@ -58,14 +58,22 @@ class FlatLeftovers {
         corner_(task.input, match, walls.points),
         net_(walls.points) {}
 
-  void run() {
+  void run(std::span<const std::array<std::uint32_t, 2>> kept) {
     find_planes();
     add_subfacets();
     add_subsegments();
+    for (const auto& [p, q] : kept) {
+      further_.push_back(sorted_edge(corner_(p), corner_(q)));
+      net_.add(further_.back(), input_.reach(), false);
+    }
     do {
       task_.findings.heed_stop();
       net_.cut();
     } while (!find_borders());
+    for (const PlanarEdge& e : further_) {
+      const auto chain = net_.chain(e);
+      for (std::size_t k = 1; k < chain.size(); ++k) kept_.push_back(sorted_edge(chain[k - 1], chain[k]));
+    }
     keep_edges_of_mesh();
     append();
   }
@@ -353,14 +361,16 @@ class FlatLeftovers {
   std::vector<Plane> planes_;
   EdgeNet net_;
   std::vector<PlanarEdge> kept_;  // edges of the mesh, and borders of what is left over
+  std::vector<PlanarEdge> further_;
   detail::PlanarTriangulation planar_;
   detail::PlanarResult problem_;
 };
 
 }  // namespace
 
-void append_flat_leftovers(const GivenTask<3>& task, const GivenMatch<3>& match, VolumeWalls<3>& walls) {
-  FlatLeftovers(task, match, walls).run();
+void append_flat_leftovers(const GivenTask<3>& task, const GivenMatch<3>& match, VolumeWalls<3>& walls,
+                           std::span<const std::array<std::uint32_t, 2>> kept) {
+  FlatLeftovers(task, match, walls).run(kept);
 }
 
 }  // namespace pgdr::checking

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 
 #include "given/input_volumes.hpp"
 #include "given/match.hpp"
@@ -41,7 +42,9 @@ class CornersOfPoints {
 };
 
 /// Appends them to the walls of the mesh, each an entity of its own. Corners are vertices of the mesh where it has any.
+/// @param kept  further edges between points of the input, that are edges of what is appended wherever they lie in its planes
 /// @throws InputError entities_intersect, if the leftovers make no complex.
-void append_flat_leftovers(const GivenTask<3>& task, const GivenMatch<3>& match, VolumeWalls<3>& walls);
+void append_flat_leftovers(const GivenTask<3>& task, const GivenMatch<3>& match, VolumeWalls<3>& walls,
+                           std::span<const std::array<std::uint32_t, 2>> kept = {});
 
 }  // namespace pgdr::checking

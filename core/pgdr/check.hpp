@@ -29,6 +29,20 @@
 //   and one of them is near the cell. Angles are those of points that were given, exactly, or of points of the mesh on a facet,
 //   up to what these may be off it.
 //
+// With CheckOptions::surface_tolerance, E, the surface of the mesh is another one, and points 2, 3, 4 and the last but one give
+// way to these, in which facets are joined within T, what no volume to be meshed touches is left out, and u is as above (and b,
+// of facets whose points are not in one plane, is added to it):
+//
+// * Each subfacet is within E + u of given facets of its marker, and each given facet within E + u of subfacets of its marker.
+// * The same of subsegments and given segments with a marker; of edges with one subfacet, with three or more, or with subfacets
+//   of two markers, and such edges of the given facets, kind by kind. Creases and given segments are within E + u of subsegments.
+// * Both surfaces have as many components and open loops, the same Euler characteristic and handles; marker by marker, too.
+// * Vertices and centroids of cells that are deeper than E in their volume are in one given volume, which is to be meshed, and
+//   not in that of others; each given volume to be meshed that is deeper than 2 E somewhere has one. Seeds are in the same.
+// * What a given volume and that of the mesh measure differs by no more than what lies within E of the given facets about it.
+// * Given points are vertices if they are ends of segments, have a marker other than 0, or are of no facet.
+// * Reasons name what the mesh has: segments by their ends, facets by a place on them.
+//
 // With the input at hand the verdict is complete. Positively oriented cells cover the volume that they are to fill exactly once,
 // if their faces match, and if their boundary is, triangle by triangle, a triangulation of the boundary of that volume. Without
 // the input, cells that overlap are found where they share a vertex, not where two far boundaries cross.
@@ -82,6 +96,16 @@ struct CheckOptions {
   /// What of the input is to be meshed, and how it is to be labelled: RefineOptions::regions. DEFAULT: every volume but those of
   /// hole seeds. Without `input` it has no effect.
   RegionMode regions = RegionMode::seeds;
+
+  /// 3D: E, an absolute length: the mesh is of another surface, and certified to be within E of the given one, both ways, as is
+  /// said at the head of this file. DEFAULT: none, it is of the given one. REQUIRES: above 0, finite; some hundred ulps of the
+  /// largest coordinate at least, or rounding leaves pieces undecided, which are findings. Without `input` it has no effect. 2D:
+  /// REQUIRES none.
+  std::optional<double> surface_tolerance;
+
+  /// Edges of the given facets at which normals differ by more than this are creases, which have subsegments within E. DEFAULT:
+  /// 40 degrees. REQUIRES: 0 to 180, which is none. Without `surface_tolerance` it has no effect.
+  double feature_angle = 40;
 
   // ---- bounds on the cells: what is over one needs a reason ----------------------------------------------------------
 
@@ -159,9 +183,12 @@ struct CheckFinding {
     over_radius_edge,        ///< without a reason
     over_size,               ///< without a reason
     bad_reason,              ///< a reason that is not true
+    off_surface,             ///< with a surface tolerance: a subfacet or subsegment farther than that from what was given
+    surface_not_covered,     ///< with one: something given, to which the mesh has nothing as near
+    other_topology,          ///< with one: the surface of the mesh hangs together otherwise than the given one
   };
-  static constexpr std::size_t kinds = static_cast<std::size_t>(Kind::bad_reason) + 1;  ///< so many
-  Kind kind;                                                                            ///< what is wrong
+  static constexpr std::size_t kinds = static_cast<std::size_t>(Kind::other_topology) + 1;  ///< so many
+  Kind kind;                                                                                ///< what is wrong
   std::string message;            ///< one sentence; numbers of points, cells and entities count from 0
   std::vector<std::int64_t> ids;  ///< the cells, vertices or entities of the message, in its order
 };
@@ -179,6 +206,9 @@ struct CheckReport {
   std::uint64_t explained = 0;                 ///< cells over a bound with a reason that holds
   /// Cells over a bound without an excuse: those that the reasons admit, and all others below the bound on dihedral angles.
   std::uint64_t unexplained = 0;
+  /// With a surface tolerance: volumes of the mesh that are nowhere deeper than that, so that nothing of the given ones is surely
+  /// in them, and given ones to be meshed that are nowhere deeper than twice that and have no volume of the mesh.
+  std::uint64_t undecided_volumes = 0;
   std::vector<CheckFinding> findings;                              ///< what makes the check fail, at most max_listed a kind
   std::uint64_t finding_count = 0;                                 ///< all of them
   std::array<std::uint64_t, CheckFinding::kinds> count_of_kind{};  ///< findings, by kind

@@ -16,7 +16,7 @@ namespace pgdr PGDR_API {
 struct GivenEntity {
   EntityKind kind = EntityKind::volume;  ///< segment or facet; volume: nothing is named
   std::uint32_t facet = no_entity;       ///< of a facet: its index in Plc::facets; of several that are one facet any of these
-  /// Of a segment, which may be an edge of facets: its ends, where the mesh has them; in 2D the third coordinate is 0.
+  /// Of a segment: its ends, where the mesh has them, in 2D with 0 behind; of a facet without number: a place (facet_places.hpp).
   std::array<std::array<double, 3>, 2> ends{};
   friend bool operator==(const GivenEntity&, const GivenEntity&) = default;  ///< the same name
 };

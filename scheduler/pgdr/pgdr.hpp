@@ -14,6 +14,7 @@
 #include "pgdr/error.hpp"
 #include "pgdr/estimate.hpp"
 #include "pgdr/export.hpp"
+#include "pgdr/facet_places.hpp"
 #include "pgdr/flat_arrays.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/joined_plc.hpp"

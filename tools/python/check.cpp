@@ -17,6 +17,7 @@
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/refine_options.hpp"
 #include "run.hpp"
+#include "surface_tolerance.hpp"
 
 namespace pgdr::python {
 namespace {
@@ -30,15 +31,19 @@ py::dict dict_of(const CheckReport& r) {
                   "over_radius_edge"_a = r.over_radius_edge, "over_size"_a = r.over_size, "below_dihedral"_a = r.below_dihedral,
                   "explained"_a = r.explained, "unexplained"_a = r.unexplained,
                   "not_delaunay_rounding"_a = r.not_delaunay_rounding, "not_delaunay_refused"_a = r.not_delaunay_refused,
-                  "not_delaunay_unexplained"_a = r.not_delaunay_unexplained);
+                  "not_delaunay_unexplained"_a = r.not_delaunay_unexplained, "undecided_volumes"_a = r.undecided_volumes);
 }
 
 /// As the command's `check`: against the input as given. `bounds`: those of a run; infinite: none.
-/// `seed_sizes`: CheckOptions::seed_sizes.
+/// `seed_sizes`: CheckOptions::seed_sizes. `surface_tolerance`: as the command's; empty: none.
 template <int D>
 py::dict check_mesh(const MeshData<D>& data, const Plc<D>* plc, const RefineOptions<D>& bounds, double largest_cosine,
-                    bool delaunay, std::uint64_t not_delaunay_left, bool with_reasons, bool seed_sizes) {
+                    bool delaunay, std::uint64_t not_delaunay_left, bool with_reasons, bool seed_sizes,
+                    const std::string& surface_tolerance, double feature_angle) {
   CheckReport report;
+  std::optional<double> length;
+  if constexpr (D == 3)
+    if (!surface_tolerance.empty() && plc) length = tool::surface_tolerance(surface_tolerance, *plc);
   run_watched([&](const std::stop_token& stop) {
     CheckOptions<D> options;
     options.stop = stop;
@@ -54,6 +59,8 @@ py::dict check_mesh(const MeshData<D>& data, const Plc<D>* plc, const RefineOpti
     options.largest_cosine = largest_cosine;
     options.delaunay = delaunay;
     options.not_delaunay_left = not_delaunay_left;
+    options.surface_tolerance = length;
+    options.feature_angle = feature_angle;
     report = check(data.mesh, options);
   });
   return dict_of(report);

@@ -20,7 +20,8 @@ _BOUNDS = ("min_angle", "radius_edge", "size", "region_sizes", "min_dihedral", "
 
 
 @door
-def check(mesh: Mesh, plc: Optional[Plc] = None, *, delaunay: Optional[bool] = None, reasons: bool = True, **bounds: Any) -> CheckReport:
+def check(mesh: Mesh, plc: Optional[Plc] = None, *, delaunay: Optional[bool] = None, reasons: bool = True,
+          surface_tolerance: Union[None, float, str] = None, feature_angle: float = 40.0, **bounds: Any) -> CheckReport:
     """Certifies a mesh, with exact arithmetic: that its cells are one, that it conforms to the input as given, and that the bounds
     hold but where its reasons, each of which is verified, say why not. Those that regions of the input have count unless the run that
     made the mesh ended early. Some 5 microseconds a cell.
@@ -35,6 +36,11 @@ def check(mesh: Mesh, plc: Optional[Plc] = None, *, delaunay: Optional[bool] = N
         Are faces to be locally Delaunay? None: if the run that made the mesh says so.
     reasons : bool
         False: no cell has an excuse.
+    surface_tolerance : float or str, optional
+        3D: the mesh is of another surface, which is certified to be within this length of the given one, both ways, with its
+        topology, markers and volumes; "0.1%" is of the diagonal of all points. 16 times the tolerance of the input at least.
+    feature_angle : float
+        With it: given edges at which normals differ by more than so many degrees, 0 to 180, have subsegments as near.
     min_angle, radius_edge, size, region_sizes, min_dihedral, max_volume, regions
         As `pgdr.mesh`. What is not given is no bound; `Mesh.check` takes those that the mesh was made with.
 
@@ -61,12 +67,25 @@ def check(mesh: Mesh, plc: Optional[Plc] = None, *, delaunay: Optional[bool] = N
     cosine = _pgdr.claimed_cosine(float(bounds["min_dihedral"])) if bounds.get("min_dihedral") else 1.0
     if delaunay is None:
         delaunay = bool(mesh.statistics.get("delaunay", False))
+    surface = _surface_tolerance(surface_tolerance, plc)
+    angle = float(feature_angle)
+    if not 0 <= angle <= 180:
+        raise usage(f"feature_angle must be 0 to 180 degrees, not {feature_angle!r}")
     of_dimension = _pgdr.check2 if mesh.dimension == 2 else _pgdr.check3
     with WORK:
         return CheckReport(of_dimension(mesh._core, plc._core if plc is not None else None, options, cosine,
                                         _arguments.flag("delaunay", delaunay), int(mesh.statistics.get("not_delaunay_left") or 0),
                                         _arguments.flag("reasons", reasons),
-                                        mesh.stop == "finished"))
+                                        mesh.stop == "finished", surface, angle))
+
+
+def _surface_tolerance(value: Union[None, float, str], plc: Optional[Plc]) -> str:
+    """As the command has it; empty: none."""
+    if value is None:
+        return ""
+    if plc is None or plc.dimension != 3:
+        raise usage("surface_tolerance needs an input of three dimensions")
+    return value if isinstance(value, str) else repr(float(value))
 
 
 class Finding(NamedTuple):

@@ -19,7 +19,8 @@ class CheckReport:
 
     `exit_code`: 0: everything holds; 1: cells are over a bound, and the reasons say why, or say that nothing better was found;
     6: anything else. `findings`: the first of what is wrong. The counts: `finding_count`, `over_radius_edge`, `over_size`,
-    `below_dihedral`, `explained`, `unexplained`, `not_delaunay_rounding`, `not_delaunay_refused`, `not_delaunay_unexplained`.
+    `below_dihedral`, `explained`, `unexplained`, `not_delaunay_rounding`, `not_delaunay_refused`, `not_delaunay_unexplained`;
+    `undecided_volumes`: with a surface tolerance, volumes that are too thin to be told apart by it.
     """
 
     exit_code: int
@@ -33,6 +34,7 @@ class CheckReport:
     not_delaunay_rounding: int
     not_delaunay_refused: int
     not_delaunay_unexplained: int
+    undecided_volumes: int
 
     def __init__(self, found: Dict[str, Any]) -> None:
         self.__dict__.update(found)
