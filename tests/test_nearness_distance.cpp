@@ -176,6 +176,20 @@ TEST(NearSet, KnowsTheLimitItself) {
   EXPECT_FALSE(NearSet(std::vector<Triangle3>{needle}).farther(needle, 1e-12));
 }
 
+// The point of a needle that is nearest is known as well as that of any triangle: here points of it, which are on it.
+TEST(NearSet, NeedlesAreKnownWell) {
+  RandomPairs pairs(5);
+  for (const double width : {1e-3, 1e-6, 1e-9, 1e-12})
+    for (int k = 0; k < 200; ++k) {
+      const Point3 a = pairs.point(1), b = pairs.point(1), off = pairs.point(width);
+      const double part = pairs.real(-0.5, 1.5), s = pairs.real(0, 1), t = pairs.real(0, 1 - s);
+      Point3 c, x;
+      for (int i = 0; i < 3; ++i) c[i] = a[i] + part * (b[i] - a[i]) + off[i];
+      for (int i = 0; i < 3; ++i) x[i] = a[i] + s * (b[i] - a[i]) + t * (c[i] - a[i]);
+      EXPECT_TRUE(is_within(x, {a, b, c}, 1e-15)) << width << ", " << std::sqrt(squared_distance_above(x, {c, a, b}));
+    }
+}
+
 TEST(NearSet, SegmentsLikewise) {
   const NearSet set(std::vector<Segment3>{{{{{0, 0, 0}}, {{1, 0, 0}}}}, {{{{1, 0, 0}}, {{1, 1, 0}}}}});
   EXPECT_FALSE(set.farther(Segment3{{{{0, 0, 0.1}}, {{0.95, 0.05, 0}}}}, 0.11));

@@ -19,7 +19,7 @@ inline constexpr std::uint32_t none = 0xffffffffu;
 class Findings {
  public:
   Findings(CheckReport& report, std::size_t max_listed, const std::stop_token& stop)
-      : report_(report), max_listed_(max_listed), heed_stop_(stop) {}
+      : report_(report), max_listed_(max_listed), stop_(stop), heed_stop_(stop) {}
 
   /// `message` is called only if the finding is listed: words cost more than most checks.
   template <class Message>
@@ -31,10 +31,12 @@ class Findings {
   bool clean() const { return report_.finding_count == 0; }
   /// Asked in loops over all cells, or over what takes as long. @throws CancelledError
   void heed_stop() const { heed_stop_(); }
+  const std::stop_token& stop() const { return stop_; }
 
  private:
   CheckReport& report_;
   std::size_t max_listed_;
+  std::stop_token stop_;
   detail::StopCheck heed_stop_;
 };
 

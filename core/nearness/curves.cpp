@@ -101,7 +101,7 @@ class NearCurves {
     std::map<int, NearSet> near_given, near_meshed;
     for (const auto& [marker, list] : given) near_given.try_emplace(marker, list);
     for (const auto& [marker, list] : meshed) near_meshed.try_emplace(marker, list);
-    const auto far = look_at_all(mesh_.subsegments.size(), [&](std::size_t i) -> std::optional<FarPlace> {
+    const auto far = look_at_all(task_.findings, mesh_.subsegments.size(), [&](std::size_t i) -> std::optional<FarPlace> {
       const auto& s = mesh_.subsegments[i];
       if (s.marker == 0) return std::nullopt;
       const Segment3 ends{mesh_.points[s.vertices[0]], mesh_.points[s.vertices[1]]};
@@ -188,9 +188,8 @@ class NearCurves {
   void compare(const Curves& curves, const std::map<CurveKind, NearSet>& others, Kind finding, const char* has,
                const char* lacks) {
     for (const auto& [kind, segments] : curves) {
-      task_.findings.heed_stop();
       const auto set = others.find(kind);
-      const auto far = look_at_all(segments.size(), [&](std::size_t i) -> std::optional<FarPlace> {
+      const auto far = look_at_all(task_.findings, segments.size(), [&](std::size_t i) -> std::optional<FarPlace> {
         if (set == others.end()) return FarPlace{segments[i][0], std::numeric_limits<double>::infinity(), true};
         return set->second.farther(segments[i], task_.limit());
       });
@@ -213,7 +212,7 @@ class NearCurves {
       if (segments.distance(given_.points()[v], input_.reach()) <= input_.reach()) kept.push_back(v);
     detail::make_set(kept);
     const auto creases = given_creases(given_, edges, kept, task_.distance, task_.feature_angle);
-    const auto far = look_at_all(creases.size(), [&](std::size_t i) {
+    const auto far = look_at_all(task_.findings, creases.size(), [&](std::size_t i) {
       const auto [a, b] = creases[i];
       return subsegments_.farther(Segment3{given_.points()[a], given_.points()[b]}, task_.limit());
     });

@@ -25,14 +25,12 @@ class NearFacets {
   }
 
   void run() {
-    task_.findings.heed_stop();
-    const auto off = look_at_all(mesh_.subfacets.size(), [&](std::size_t s) {
+    const auto off = look_at_all(task_.findings, mesh_.subfacets.size(), [&](std::size_t s) {
       return farther(given_, mesh_.subfacets[s].marker, corners(mesh_.subfacets[s].vertices));
     });
     for (std::uint32_t s = 0; s < off.size(); ++s)
       if (off[s]) report_off(s, *off[s]);
-    task_.findings.heed_stop();
-    const auto left = look_at_all(input_.triangles().size(),
+    const auto left = look_at_all(task_.findings, input_.triangles().size(),
                                   [&](std::size_t t) { return uncovered(static_cast<std::uint32_t>(t)); });
     for (std::uint32_t t = 0; t < left.size(); ++t)
       if (left[t]) report_left(t, *left[t]);

@@ -38,6 +38,23 @@ std::vector<std::uint32_t> joined_points(std::span<const Point3> points, double 
   return out;
 }
 
+/// The triangle that is nearest to x, the least of several. @pre the tree is not empty
+template <class CornersOf>
+std::uint32_t nearest_of(const detail::BoxTree<3>& tree, const Point3& x, const CornersOf& corners_of) {
+  double least = std::numeric_limits<double>::infinity();
+  std::uint32_t nearest = none;
+  tree.nearest([&](const detail::Box<3>& box, std::uint32_t) { return box.squared_distance_to(x); },
+               [&](std::uint32_t i) {
+                 const double square = squared_distance_above(x, corners_of(i));
+                 if (square < least || (square == least && i < nearest)) {
+                   least = square;
+                   nearest = i;
+                 }
+                 return least;
+               });
+  return nearest;
+}
+
 using Edge = std::array<std::uint32_t, 2>;
 
 /// Each once.
@@ -166,6 +183,11 @@ void GivenSurface::find_markers() {
       markers_[t].push_back(input_.marker(input_.triangles()[g]));
       parts_.push_back({g, t});
     });
+    if (markers_[t].empty() && !boxes.empty()) {  // a crossing was joined farther away
+      const std::uint32_t g = nearest_of(given, centre, [&](std::uint32_t i) { return input_.corners(input_.triangles()[i]); });
+      markers_[t].push_back(input_.marker(input_.triangles()[g]));
+      parts_.push_back({g, t});
+    }
     detail::make_set(markers_[t]);
   }
   detail::make_set(parts_);

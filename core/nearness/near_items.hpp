@@ -10,19 +10,22 @@
 #include <optional>
 #include <vector>
 
+#include "given/findings.hpp"
 #include "nearness/near_set.hpp"
 #include "space/bulk.hpp"
 
 namespace pgdr::checking {
 
 /// Of each of so many items what look(i) says, which may take long for some of them. In their order, whatever the threads do.
+/// @throws CancelledError
 template <class Look>
-std::vector<std::optional<FarPlace>> look_at_all(std::size_t count, const Look& look) {
+std::vector<std::optional<FarPlace>> look_at_all(const Findings& findings, std::size_t count, const Look& look) {
   constexpr std::size_t block = 32;
   std::vector<std::optional<FarPlace>> out(count);
-  detail::Bulk(true).parts((count + block - 1) / block, [&](std::size_t part) {
+  detail::Bulk(true, findings.stop()).parts((count + block - 1) / block, [&](std::size_t part) {
     for (std::size_t i = part * block; i < std::min(count, (part + 1) * block); ++i) out[i] = look(i);
   });
+  findings.heed_stop();
   return out;
 }
 

@@ -27,8 +27,16 @@ struct Foot {
 
 double clamped(double along, double length) { return length > 0 ? std::clamp(along / length, 0.0, 1.0) : 0.0; }
 
+/// With its longest edge first.
+Triangle3 turned(const Triangle3& t) {
+  const double a = squared_distance(t[0], t[1]), b = squared_distance(t[1], t[2]), c = squared_distance(t[2], t[0]);
+  if (a >= b && a >= c) return t;
+  return b >= c ? Triangle3{t[1], t[2], t[0]} : Triangle3{t[2], t[0], t[1]};
+}
+
 /// Whatever rounding does to s and t, they name a point of the triangle: so the distance from that is never too small by more
-/// than the rounding of three differences and their sum.
+/// than the rounding of three differences and their sum. The part of v square to the longest edge tells t; so of a needle, too,
+/// the point is as near as others but for rounding. @pre the triangle is turned
 Foot nearest_foot(const Point3& x, const Triangle3& triangle) {
   const Vector3 u = difference(triangle[1], triangle[0]), v = difference(triangle[2], triangle[0]);
   const Vector3 w = difference(x, triangle[0]);
@@ -41,13 +49,27 @@ Foot nearest_foot(const Point3& x, const Triangle3& triangle) {
     }
     if (square < best.square) best = {s, t, square};
   };
-  const double uu = dot(u, u), vv = dot(v, v), uv = dot(u, v), uw = dot(u, w), vw = dot(v, w);
-  const double determinant = uu * vv - uv * uv, s = vv * uw - uv * vw, t = uu * vw - uv * uw;
-  if (determinant > 0 && s >= 0 && t >= 0 && s + t <= determinant)
-    take(std::min(s / determinant, 1.0), std::min(t / determinant, 1.0 - std::min(s / determinant, 1.0)));
-  take(clamped(uw, uu), 0);
-  take(0, clamped(vw, vv));
-  const double on_third = clamped(vw - uw - uv + uu, uu - 2 * uv + vv);  // from b to c
+  const double uu = dot(u, u);
+  if (!(uu > 0)) {
+    take(0, 0);
+    return best;
+  }
+  Vector3 across = v;
+  for (int twice = 0; twice < 2; ++twice) {  // the second time for what rounding left
+    const double along = dot(across, u) / uu;
+    for (std::size_t i = 0; i < 3; ++i) across[i] -= along * u[i];
+  }
+  const double height = dot(across, across), t = height > 0 ? dot(w, across) / height : -1;
+  if (t >= 0 && t <= 1) {
+    Vector3 rest = w;
+    for (std::size_t i = 0; i < 3; ++i) rest[i] -= t * v[i];
+    const double s = dot(rest, u) / uu;
+    if (s >= 0 && s + t <= 1) take(s, t);
+  }
+  take(clamped(dot(w, u), uu), 0);
+  take(0, clamped(dot(w, v), dot(v, v)));
+  const Vector3 third = difference(triangle[2], triangle[1]);
+  const double on_third = clamped(dot(difference(x, triangle[1]), third), dot(third, third));
   take(1 - on_third, on_third);
   return best;
 }
@@ -89,15 +111,17 @@ Point3 middle(const Point3& a, const Point3& b) {
 
 }  // namespace
 
-double squared_distance_above(const Point3& x, const Triangle3& triangle) { return nearest_foot(x, triangle).square; }
+double squared_distance_above(const Point3& x, const Triangle3& triangle) { return nearest_foot(x, turned(triangle)).square; }
 
-bool is_within(const Point3& x, const Triangle3& triangle, double limit) {
+bool is_within(const Point3& x, const Triangle3& given, double limit) {
+  const Triangle3 triangle = turned(given);
   const Foot foot = nearest_foot(x, triangle);
-  const double distance = std::sqrt(foot.square), slack = std::max(rounding_of(x, triangle), 0x1p-40 * limit);
+  const double off = rounding_of(x, triangle);  // of the foot beside the nearest point, so that its square is what counts
+  const double distance = std::sqrt(foot.square), slack = std::max(off, 0x1p-40 * limit);
   if (distance <= limit - slack) return true;
   if (!(distance <= limit + slack)) return false;
   const DoubleDouble rest = exact_square(x, triangle, foot) - DoubleDouble(limit) * DoubleDouble(limit);
-  return rest.hi <= 0;
+  return rest.hi <= off * off;
 }
 
 NearSet::NearSet(std::vector<Triangle3> triangles) : triangles_(std::move(triangles)) {

@@ -55,7 +55,8 @@ class NearSet {
 /// The squared distance of x from a point of the triangle, which is the nearest one up to rounding: no less than the square of
 /// its distance from the triangle, but for that.
 double squared_distance_above(const Point3& x, const Triangle3& triangle);
-/// Is x within `limit` of the triangle? Decided by about 100 bits where doubles leave it open; yes is true up to these.
+/// Is x within `limit` of the triangle? Decided by about 100 bits where doubles leave it open; yes is true up to what the
+/// rounding of the foot beside the nearest point adds, squared: a fraction of an ulp.
 bool is_within(const Point3& x, const Triangle3& triangle, double limit);
 
 }  // namespace pgdr::checking

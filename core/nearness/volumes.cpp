@@ -75,12 +75,10 @@ class NearVolumes {
     for (const auto& s : mesh_.subfacets)
       for (const std::uint32_t v : s.vertices) skip[v] = 1;
     depths_.assign(vertices + mesh_.cells.size(), 0);
-    const detail::Bulk bulk(true);
-    task_.findings.heed_stop();
+    const detail::Bulk bulk(true, task_.findings.stop());
     bulk.each(vertices, [&](std::size_t v) {
       if (!skip[v]) depths_[v] = walls_.distance(mesh_.points[v], infinite);
     });
-    task_.findings.heed_stop();
     bulk.each(mesh_.cells.size(), [&](std::size_t c) {
       const Point3 x = centroid(static_cast<std::uint32_t>(c));
       double& depth = depths_[vertices + c];
@@ -88,6 +86,7 @@ class NearVolumes {
         depth = std::max(depth, depths_[v] - std::sqrt(squared_distance(x, mesh_.points[v])) - rounding());
       if (!(depth > limit())) depth = walls_.distance(x, infinite);
     });
+    task_.findings.heed_stop();
   }
 
   void place_deep_points() {
@@ -115,7 +114,10 @@ class NearVolumes {
     for (const std::uint32_t i : deepest)
       if (i != none) asked.push_back(i);
     std::vector<std::optional<std::uint32_t>> found(asked.size());
-    detail::Bulk(true).parts(asked.size(), [&](std::size_t k) { found[k] = given_.locate(place(asked[k])); });
+    detail::Bulk(true, task_.findings.stop()).parts(asked.size(), [&](std::size_t k) {
+      found[k] = given_.locate(place(asked[k]));
+    });
+    task_.findings.heed_stop();
     for (std::size_t k = 0; k < asked.size(); ++k)
       if (const std::uint32_t own = components_.volume[component[asked[k]]]; own != none) note(own, found[k], place(asked[k]));
   }
