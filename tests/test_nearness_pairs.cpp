@@ -3,6 +3,7 @@
 //
 // The certificate of another surface: meshes of one surface against another one, made by hand.
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
 #include <cmath>
 #include <functional>
@@ -314,6 +315,32 @@ TEST(NearPairs, Mutations) {
   mesh.cells.resize(left);
   mesh.regions.resize(left);
   EXPECT_EQ(certify(given, mesh).exit_code(), 6);
+}
+
+// A void that is thinner than the distance may have become a body beside it: nothing says which of them it is.
+TEST(NearPairs, ThinVolumesAreCounted) {
+  const auto with_cube = [](double z) {
+    Plc<3> plc = test::boxes({{{{0, 0, 0}}, {{3, 3, 3}}}, {{{1, 1, z}}, {{1 + e / 4, 1 + e / 4, z + e / 4}}}});
+    for (auto& facet : plc.facets) facet.marker = 0;
+    return plc;
+  };
+  const auto report = certify(with_cube(3 - e / 2), mesh_of(with_cube(3 + e / 4)));
+  EXPECT_EQ(report.finding_count, 0u) << findings(report);
+  EXPECT_EQ(report.undecided_volumes, 1u);
+  EXPECT_EQ(certify(with_cube(3 - e / 2), mesh_of(with_cube(3 + e / 4)), e / 10).exit_code(), 6);
+}
+
+TEST(NearPairs, ThreadsChangeNothing) {
+  const Plc<3> given = test::icosphere(3), other = coloured_sphere(2, 2);
+  const OutputMesh<3> mesh = mesh_of(other);
+  std::vector<std::string> said;
+  for (const int threads : {1, 2, 8}) {
+    tbb::task_arena arena(threads);
+    arena.execute([&] { said.push_back(findings(certify(given, mesh, 0.01))); });
+  }
+  EXPECT_NE(said[0], "");
+  EXPECT_EQ(said[1], said[0]);
+  EXPECT_EQ(said[2], said[0]);
 }
 
 // Random surfaces about a sphere: never within where a point of one is farther from the other than the distance.

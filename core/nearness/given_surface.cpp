@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
+#include "given/cover.hpp"
 #include "given/flat_leftovers.hpp"
 #include "given/match.hpp"
 #include "nearness/near_set.hpp"
@@ -70,6 +72,72 @@ std::vector<Edge> edges_of(const Plc<3>& triangles) {
   return edges;
 }
 
+/// The lines that triangles of two planes have in common, as edges of both. (Facets may cross where both ends of such a line are
+/// points of both, which may be points where edges cross, that nobody has given.)
+class CommonLines {
+ public:
+  /// @param plc of triangles, which gets a point for each end that is none. What is within 2 r of a point is that point.
+  CommonLines(Plc<3>& plc, double r) : plc_(plc), reach_(r) {
+    std::vector<detail::Box<3>> boxes;
+    for (const auto& facet : plc.facets) {
+      boxes.push_back(detail::Box<3>::of(corners(facet)).widened(r));
+      for (const std::uint32_t p : facet.polygons[0]) by_x_.insert({plc.points[p][0], p});
+    }
+    detail::BoxTree<3>(boxes, detail::TreeCut::at_medians).self_pairs([&](std::uint32_t t, std::uint32_t u) {
+      if (!add(corners(plc.facets[t]), corners(plc.facets[u]))) add(corners(plc.facets[u]), corners(plc.facets[t]));
+    });
+    detail::make_set(edges_);
+  }
+  const std::vector<Edge>& edges() const { return edges_; }
+
+ private:
+  using Triangle = std::array<Point3, 3>;
+  Triangle corners(const Plc<3>::Facet& facet) const {
+    const auto& p = facet.polygons[0];
+    return {plc_.points[p[0]], plc_.points[p[1]], plc_.points[p[2]]};
+  }
+
+  /// What t has of the plane of u, as far as it is in u. @return false: u is too thin to have a plane
+  bool add(const Triangle& t, const Triangle& u) {
+    const PlaneFrame frame(u);
+    if (frame.width() <= 10 * reach_) return false;
+    std::array<double, 3> heights;
+    for (std::size_t i = 0; i < 3; ++i) heights[i] = frame.place(t[i])[2];
+    const auto is_on = [&](double h) { return std::abs(h) <= reach_; };
+    if (std::ranges::all_of(heights, is_on)) return true;
+    std::vector<Point3> on;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t k = (i + 1) % 3;
+      if (is_on(heights[i])) on.push_back(t[i]);
+      if (!is_on(heights[i]) && !is_on(heights[k]) && (heights[i] < 0) != (heights[k] < 0))
+        on.push_back(detail::on_edge(t[i], t[k], heights[i] / (heights[i] - heights[k])));
+    }
+    if (on.size() != 2) return true;
+    const double length = detail::distance(on[0], on[1]);
+    const auto part = part_near({on[0], on[1]}, u, reach_);
+    if (!((part[1] - part[0]) * length > 10 * reach_)) return true;
+    const std::uint32_t a = point_at(detail::on_edge(on[0], on[1], part[0])),
+                        b = point_at(detail::on_edge(on[0], on[1], part[1]));
+    if (a != b) edges_.push_back({std::min(a, b), std::max(a, b)});
+    return true;
+  }
+
+  std::uint32_t point_at(const Point3& x) {
+    const double r = 2 * reach_;
+    for (auto at = by_x_.lower_bound(x[0] - r); at != by_x_.end() && at->first <= x[0] + r; ++at)
+      if (squared_distance(plc_.points[at->second], x) <= r * r) return at->second;
+    const auto v = static_cast<std::uint32_t>(plc_.points.size());
+    plc_.points.push_back(x);
+    by_x_.insert({x[0], v});
+    return v;
+  }
+
+  Plc<3>& plc_;
+  double reach_;
+  std::multimap<double, std::uint32_t> by_x_;
+  std::vector<Edge> edges_;
+};
+
 /// Do no two edges come within r of each other, nor a corner and a triangle, but where they share a corner, and is no triangle
 /// there twice? Then triangles overlap nowhere and end on nothing. (Those that go through each other do not count: inputs in
 /// which some do are refused.)
@@ -129,15 +197,18 @@ Plc<3> GivenSurface::joined() const {
   return plc;
 }
 
-VolumeWalls<3> GivenSurface::walls_of(const Plc<3>& joined, Findings& findings) const {
+VolumeWalls<3> GivenSurface::walls_of(Plc<3> joined, Findings& findings) const {
   VolumeWalls<3> walls;
-  const std::vector<Edge> edges = edges_of(joined);
+  std::vector<Edge> edges = edges_of(joined);
   if (meets_at_common_corners(joined, edges, input_.reach())) {
     walls.points = joined.points;
     for (const auto& facet : joined.facets)
       walls.simplices.push_back({facet.polygons[0][0], facet.polygons[0][1], facet.polygons[0][2]});
     return walls;
   }
+  const CommonLines lines(joined, input_.reach());
+  edges.insert(edges.end(), lines.edges().begin(), lines.edges().end());
+  detail::make_set(edges);
   const GivenInput<3> input(joined, input_.tolerance(), findings);
   const OutputMesh<3> nothing;
   GivenMatch<3> match;

@@ -52,7 +52,7 @@ class GivenSurface {
  private:
   Plc<3> joined() const;
   void make_complex(RegionMode mode, Findings& findings);
-  VolumeWalls<3> walls_of(const Plc<3>& joined, Findings& findings) const;
+  VolumeWalls<3> walls_of(Plc<3> joined, Findings& findings) const;
   void find_markers();
 
   const GivenInput<3>& input_;

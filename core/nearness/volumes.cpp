@@ -127,6 +127,8 @@ class NearVolumes {
     if (!given) return;
     std::uint32_t& known = given_of_[own];
     if (known == *given) return;
+    const bool are_empty = !own_.volumes()[own].kept && !given_.volumes()[*given].kept;
+    if (are_empty) return;  // of which the mesh has as one what walls between them are not in it for
     if (known != none) {
       task_.findings.add(Kind::wrong_volume, {own}, [&] {
         return "Volume " + std::to_string(own) + " of the mesh has parts of two volumes of the input, one of them at " +
