@@ -9,6 +9,7 @@
 #include <functional>
 #include <random>
 
+#include "allow_threads.hpp"
 #include "pgdr/check.hpp"
 #include "pgdr/facet_places.hpp"
 #include "pgdr/refine.hpp"
@@ -334,6 +335,7 @@ TEST(NearPairs, ThreadsChangeNothing) {
   const Plc<3> given = test::icosphere(3), other = coloured_sphere(2, 2);
   const OutputMesh<3> mesh = mesh_of(other);
   std::vector<std::string> said;
+  const test::AllowThreads allowed(8);
   for (const int threads : {1, 2, 8}) {
     tbb::task_arena arena(threads);
     arena.execute([&] { said.push_back(findings(certify(given, mesh, 0.01))); });
