@@ -16,8 +16,12 @@ namespace {
 double diagonal_of(const Plc<3>& plc) {
   double square = 0;
   for (int i = 0; i < 3 && !plc.points.empty(); ++i) {
-    const auto [low, high] = std::ranges::minmax(plc.points, {}, [i](const Point3& p) { return p[i]; });
-    square += (high[i] - low[i]) * (high[i] - low[i]);
+    double low = plc.points[0][i], high = low;
+    for (const Point3& p : plc.points) {
+      low = std::min(low, p[i]);
+      high = std::max(high, p[i]);
+    }
+    square += (high - low) * (high - low);
   }
   return std::sqrt(square);
 }

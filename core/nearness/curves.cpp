@@ -187,7 +187,9 @@ class NearCurves {
 
   void compare(const Curves& curves, const std::map<CurveKind, NearSet>& others, Kind finding, const char* has,
                const char* lacks) {
-    for (const auto& [kind, segments] : curves) {
+    for (const auto& curve : curves) {
+      const CurveKind& kind = curve.first;
+      const std::vector<Segment3>& segments = curve.second;
       const auto set = others.find(kind);
       const auto far = look_at_all(task_.findings, segments.size(), [&](std::size_t i) -> std::optional<FarPlace> {
         if (set == others.end()) return FarPlace{segments[i][0], std::numeric_limits<double>::infinity(), true};

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <map>
-#include <ranges>
 
 #include "nearness/near_items.hpp"
 #include "nearness/nearness.hpp"
@@ -67,7 +66,8 @@ class NearFacets {
       auto far = farther(meshed_, marker, whole);
       if (!far || std::ranges::none_of(parts, is_shared)) return far;
     }
-    for (const GivenSurface::Part& part : parts | std::views::filter(is_wanted)) {
+    for (const GivenSurface::Part& part : parts) {
+      if (!is_wanted(part)) continue;
       std::optional<FarPlace> far;
       for (const int any : given.markers(part.triangle))
         if (far = farther(meshed_, any, given.corners(part.triangle)); !far) break;
