@@ -50,6 +50,7 @@ ROOMS = {
                        "body_volumes.hpp region_groups.hpp", "bodies"),
         "openings": Room("which openings of a surface lie in a plane, and what closes them?", "build",
                          "planar_caps.hpp open_loops.hpp", "openings"),
+        "replace": Room("which other surface is within a distance of it?", "diagnose", "complex.hpp replace_surface.cpp", "surface"),
         "select": Room("where may a point go?", "numbers", "selectors.cpp", "point_selector selectors"),
     },
     "core": {

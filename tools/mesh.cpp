@@ -19,12 +19,13 @@
 #include "estimate.hpp"
 #include "files.hpp"
 #include "input.hpp"
+#include "mesh_options.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/output_files.hpp"
 #include "proposal.hpp"
 #include "ranks.hpp"
-#include "selector.hpp"
 #include "signals.hpp"
+#include "surface_step.hpp"
 #include "threads.hpp"
 #include "trace.hpp"
 
@@ -33,35 +34,6 @@ namespace {
 
 /// Of the time limit: to number a large mesh and to measure it takes up to a tenth of the time that it took to make.
 constexpr double part_for_meshing = 0.95;
-constexpr double most_min_angle = 34;  // degrees; beyond, the number of points explodes
-
-template <int D>
-RefineOptions<D> make_options(const MeshArguments& a, const Bounds<D>& bounds) {
-  RefineOptions<D> options;
-  options.radius_edge_bound = bounds.radius_edge;
-  options.size = bounds.size;
-  options.region_sizes = bounds.region_sizes;
-  options.max_volume = bounds.max_volume;
-  options.min_dihedral = a.no_optimize ? 0 : bounds.min_dihedral;
-  const std::string selector = a.selector.value_or(usual_selector<D>());
-  options.selector = make_selector<D>(selector);
-  options.disk = {a.disk.value_or(a.delta > 0 ? DiskType::type2 : usual_disk(selector)), a.delta};
-  options.keep_boundary = a.keep_boundary;
-  options.drop_unused_points = a.drop_unused_points;
-  options.refine = !a.no_refine;
-  options.leaves = a.leaves;
-  options.regions = a.regions;
-  options.min_edge = a.min_edge;
-  if (a.max_vertices) options.max_vertices = *a.max_vertices;
-  options.schedule.threads = a.threads.value_or(0);
-  options.schedule.schedule = a.schedule;
-  options.schedule.claims = a.claims;
-  options.schedule.lattice = a.lattice.value_or(0);
-  if (a.granularity) options.schedule.granularity = *a.granularity;
-  options.schedule.trace = !a.trace.empty();
-  options.memory_guard = false;  // asked with the estimate, which is printed anyway
-  return options;
-}
 
 /// What needs several ranks, and what they cannot do.
 void require_ranks(const MeshArguments& a, const Ranks& ranks) {
@@ -178,10 +150,10 @@ std::string words(const SchedulerStatistics& s, std::size_t threads) {
 }
 
 template <int D>
-void print_summary(const MeshArguments& a, const std::string& inputs, const Plc<D>& plc, const Bounds<D>& bounds,
+void print_summary(const MeshArguments& a, const std::string& inputs, std::size_t points, const Bounds<D>& bounds,
                    const RefineResult<D>& r, const Measured& measured, const Seconds& seconds) {
   const QualitySummary& q = measured.quality;
-  print_row("input", format("%s (%dD, %s)", inputs.c_str(), D, count(plc.points.size(), "point", "points").c_str()));
+  print_row("input", format("%s (%dD, %s)", inputs.c_str(), D, count(points, "point", "points").c_str()));
   if (!r.repairs.empty()) print_row("repaired", count(r.repairs.size(), "defect", "defects") + ", see --report");
   print_row("mesh", count(measured.vertices, "vertex", "vertices") + ", " + count_cells<D>(measured.cells));
   if (!r.unused_points.empty())
@@ -220,15 +192,6 @@ void write_trace(const MeshArguments& a, const RefineResult<D>& r, const Seconds
                             {"compact", compact_at, seconds.mesh_at + s.seconds_mesh},
                             {"write", seconds.write_at, seconds.write_at + seconds.write}};
   write_trace(a.trace, phases, s.stages, r.trace, seconds.mesh_at);
-}
-
-template <int D>
-Bounds<D> bounds_of(const MeshArguments& a) {
-  Bounds<D> bounds = resolve<D>(a.bounds, smallest_proved_bound<D>());
-  if (D == 2 && a.bounds.min_angle.value_or(0) > most_min_angle)
-    throw UsageError({.code = Errc::bad_option,
-                      .message = format("--min-angle takes up to %.0f degrees: few elements meet more", most_min_angle)});
-  return bounds;
 }
 
 /// One run: read, mesh, write, print. Each step puts into the report what it knows.
@@ -291,6 +254,7 @@ class MeshRun {
       if (bodies_) repairs_.insert(repairs_.end(), bodies_->repairs.begin(), bodies_->repairs.end());
     });
     if (ranks_.transport()) plc_ = broadcast(*ranks_.transport(), plc_);
+    given_points_ = plc_.points.size();
     ranks_.together([&] { resolve_names(plc_.names, bounds_); });
     options_.region_sizes = bounds_.region_sizes;
     set_names(report_, plc_.names);
@@ -342,6 +306,7 @@ class MeshRun {
         line.clear();
         say_what_is_ahead(domain);
       };
+    if constexpr (D == 3) make_surface();
     if (a_.time_limit)
       options_.time_limit = std::chrono::duration<double>(std::max(0.0, *a_.time_limit - total_.seconds()) * part_for_meshing);
     refine_here();
@@ -351,6 +316,15 @@ class MeshRun {
     if (bodies_) result_.warnings.insert(result_.warnings.begin(), bodies_->warnings.begin(), bodies_->warnings.end());
     if (const auto closed = warning_of_openings(repairs_)) result_.warnings.insert(result_.warnings.begin(), *closed);
     if (!a_.quiet) print_warnings(result_.warnings);
+  }
+
+  /// Puts another surface in the place of the given one, where that is asked for.
+  void make_surface() requires(D == 3) {
+    if (!a_.surface.tolerance) return;
+    surface_ = replace_surface(plc_, a_.surface, a_.reading.tolerance, bounds_, options_.stop);
+    plc_ = std::move(surface_->replaced.plc);
+    set_surface(report_, *surface_);
+    if (!a_.quiet && ranks_.is_first()) print_surface(*surface_);
   }
 
   void refine_here() {
@@ -369,7 +343,7 @@ class MeshRun {
     const Outlook<D> outlook = look_ahead<D>(domain, bounds_, !a_.no_refine, a_.regions, options_.stop);
     set_outlook(report_, domain, outlook);
     if constexpr (D == 3)
-      if (!domain.repairs().empty())
+      if (!surface_ && !domain.repairs().empty())
         report_.set("surface", JsonObject{{"given", to_json(surface_counts(plc_))}, {"meshed", to_json(surface_counts(domain))}});
     if (!a_.quiet) print_outlook(domain, outlook);
     const bool is_bounded = a_.max_vertices || a_.time_limit || a_.keep_boundary || a_.min_edge > 0;
@@ -446,7 +420,7 @@ class MeshRun {
 
   void print(const Measured& measured) {
     if (a_.quiet) return;
-    print_summary(a_, input_.words(), plc_, bounds_, result_, measured, seconds_);
+    print_summary(a_, input_.words(), given_points_, bounds_, result_, measured, seconds_);
     if (bodies_) print_bodies(*bodies_);
   }
 
@@ -464,8 +438,10 @@ class MeshRun {
   Plc<D> plc_;
   std::optional<Plc<D>> given_;  ///< as it was read, if anything was done to it
   bool is_read_ = false;
+  std::size_t given_points_ = 0;
   std::optional<BodyTable> bodies_;
-  DistributedResult<D> made_;  ///< on ranks with a piece of the mesh each
+  std::optional<SurfaceStep> surface_;  ///< what was put in the place of the surface as given
+  DistributedResult<D> made_;           ///< on ranks with a piece of the mesh each
   RefineResult<D>& result_ = made_.run;
 };
 
@@ -492,6 +468,7 @@ int mesh(const MeshArguments& arguments, Report& report, const Ranks& ranks) {
     dimension = input.dimension();
   });
   dimension = ranks.largest(dimension);
+  require_3d(arguments.surface, dimension);
   report.set("dimension", dimension);
   return dimension == 2 ? run<2>(arguments, input, report, ranks, total) : run<3>(arguments, input, report, ranks, total);
 }

@@ -214,6 +214,7 @@ void add_mesh(CLI::App& app, MeshArguments& a) {
                "3D: leave the refined mesh as it is, Delaunay, with any dihedral angles; as --min-dihedral 0")
       ->excludes(min_dihedral);
   add_input(app, a.reading);
+  add_surface(app, a.surface, "mesh another surface, within this distance of the given one both ways, without its needles");
   add_regions(app, a.regions, a.reading.bodies);
   app.add_flag("--keep-boundary", a.keep_boundary, "2D: no new points on segments");
   app.add_flag("--drop-unused-points", a.drop_unused_points,

@@ -52,6 +52,7 @@ struct MeshArguments {
   bool edges = false, neighbors = false, leaves = false;  ///< what is written beside the mesh
   BoundArguments bounds;
   InputArguments reading;
+  SurfaceArguments surface;
   bool keep_boundary = false, no_refine = false, no_optimize = false, drop_unused_points = false;
   std::optional<std::string> selector;  ///< NAME or NAME:PARAMETER (selector.hpp); none: as usual for the dimension
   std::optional<DiskType> disk;         ///< none: as usual for the selector

@@ -38,6 +38,7 @@
 #include "pgdr/selectors.hpp"
 #include "pgdr/size_fields.hpp"
 #include "pgdr/sizing.hpp"
+#include "pgdr/surface.hpp"
 #include "pgdr/surface_counts.hpp"
 #include "pgdr/transport.hpp"
 #include "pgdr/types.hpp"

@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "replace/change.hpp"
+
+#include <iterator>
+
+#include "pgdr/predicates.hpp"
+#include "space/triangle.hpp"
+
+namespace pgdr::detail {
+namespace {
+
+/// The face with w in the place of u.
+SurfaceFace with(SurfaceFace face, std::uint32_t u, std::uint32_t w) {
+  for (std::uint32_t& c : face.corners)
+    if (c == u) c = w;
+  face.changes = 0;
+  return face;
+}
+
+void add_come(SurfaceChange& change, const SurfaceFace& face, std::uint32_t from) {
+  change.come.push_back(face);
+  change.from.push_back(from);
+}
+
+/// Do the faces at u and v, and their edges, become the same ones only where they have to?
+bool is_contractible(const SurfaceComplex& s, std::uint32_t u, std::uint32_t v) {
+  std::vector<std::uint32_t> third, common;
+  s.each_face_at(u, v, [&](std::uint32_t f) { third.push_back(corner_beside(s.faces[f].corners, u, v)); });
+  std::sort(third.begin(), third.end());
+  third.erase(std::unique(third.begin(), third.end()), third.end());
+  const auto of_u = s.neighbours(u), of_v = s.neighbours(v);
+  std::set_intersection(of_u.begin(), of_u.end(), of_v.begin(), of_v.end(), std::back_inserter(common));
+  if (common != third) return false;
+  for (const std::uint32_t f : s.faces_at[u]) {  // (u, x, y) and (v, x, y)
+    const auto& c = s.faces[f].corners;
+    if (s.has_corner(f, v)) continue;
+    const std::uint32_t x = c[0] == u ? c[1] : c[0], y = corner_beside(c, u, x);
+    bool is_twice = false;
+    s.each_face_at(v, x, [&](std::uint32_t g) { is_twice = is_twice || s.has_corner(g, y); });
+    if (is_twice) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<SurfaceChange> contraction(const SurfaceComplex& s, std::uint32_t u, std::uint32_t v, const Point3& place) {
+  const std::uint32_t curve = s.curve_of(u, v);
+  const bool moves = !(place == s.at(v));
+  if (s.order[u] == VertexOrder::fixed || (s.order[u] == VertexOrder::on_curve && curve == no_index)) return {};
+  if (moves && (s.order[u] != VertexOrder::free || s.order[v] != VertexOrder::free)) return {};
+  if (!is_contractible(s, u, v)) return {};
+  SurfaceChange change;
+  change.u = u;
+  change.v = v;
+  change.moved = moves ? v : no_index;
+  change.place = place;
+  if (s.order[u] == VertexOrder::on_curve) {
+    const auto& kept = s.kept_at[u];
+    const std::uint32_t w = kept[0].other == v ? kept[1].other : kept[0].other;
+    if (w == v || s.is_kept(v, w)) return {};
+    change.kept_gone = {{{u, v}, curve}, {{u, w}, curve}};
+    change.kept_come = {{{v, w}, curve}};
+  }
+  for (const std::uint32_t f : s.faces_at[u]) {
+    change.gone.push_back(f);
+    if (!s.has_corner(f, v)) add_come(change, with(s.faces[f], u, v), f);
+  }
+  if (moves)
+    for (const std::uint32_t f : s.faces_at[v])
+      if (!s.has_corner(f, u)) {
+        change.gone.push_back(f);
+        add_come(change, with(s.faces[f], v, v), f);
+      }
+  if (change.come.empty()) return {};
+  return change;
+}
+
+std::optional<SurfaceChange> flip(const SurfaceComplex& s, std::uint32_t a, std::uint32_t b) {
+  if (s.is_kept(a, b)) return {};
+  const auto faces = s.faces_of_edge(a, b);
+  if (faces.size() != 2) return {};
+  const std::uint32_t c = corner_beside(s.faces[faces[0]].corners, a, b), d = corner_beside(s.faces[faces[1]].corners, a, b);
+  const auto near = s.neighbours(c);
+  if (c == d || std::binary_search(near.begin(), near.end(), d)) return {};
+  SurfaceChange change;
+  change.kind = SurfaceChange::Kind::flip;
+  change.u = a;
+  change.v = b;
+  change.gone = faces;
+  add_come(change, with(s.faces[faces[0]], b, d), faces[0]);  // (a, d, c), the way that (a, b, c) runs
+  add_come(change, with(s.faces[faces[0]], a, d), faces[0]);
+  if (s.faces[faces[0]].group != s.faces[faces[1]].group)
+    for (SurfaceFace& f : change.come) f.group = no_index;
+  return change;
+}
+
+SurfaceChange move(const SurfaceComplex& s, std::uint32_t v, const Point3& place) {
+  SurfaceChange change;
+  change.kind = SurfaceChange::Kind::move;
+  change.u = change.moved = v;
+  change.place = place;
+  for (const std::uint32_t f : s.faces_at[v]) {
+    change.gone.push_back(f);
+    add_come(change, with(s.faces[f], v, v), f);
+  }
+  for (const KeptEdge& e : s.kept_at[v]) change.kept_gone.push_back({{v, e.other}, e.curve});
+  change.kept_come = change.kept_gone;
+  return change;
+}
+
+SurfaceChange split(const SurfaceComplex& s, std::uint32_t a, std::uint32_t b, const Point3& place) {
+  SurfaceChange change;
+  change.kind = SurfaceChange::Kind::split;
+  change.u = a;
+  change.v = b;
+  change.moved = static_cast<std::uint32_t>(s.points.size());
+  change.place = place;
+  s.each_face_at(a, b, [&](std::uint32_t f) {
+    change.gone.push_back(f);
+    add_come(change, with(s.faces[f], b, change.moved), f);
+    add_come(change, with(s.faces[f], a, change.moved), f);
+  });
+  if (const std::uint32_t curve = s.curve_of(a, b); curve != no_index) {
+    change.kept_gone = {{{a, b}, curve}};
+    change.kept_come = {{{a, change.moved}, curve}, {{change.moved, b}, curve}};
+  }
+  return change;
+}
+
+bool regroup(const SurfaceComplex& s, SurfaceChange& change) {
+  const auto projected = [](const std::array<Point3, 3>& t, int axis) { return orient_projected(t[0], t[1], t[2], axis); };
+  for (std::size_t k = 0; k < change.come.size(); ++k) {
+    SurfaceFace& face = change.come[k];
+    const std::uint32_t before = s.faces[change.from[k]].group;
+    if (face.group != no_index) {
+      const FlatGroup& group = s.groups[face.group];
+      const auto t = triangle_after(s, change, face);
+      const bool is_near = std::all_of(t.begin(), t.end(), [&](const Point3& p) { return height_over(group, p) <= s.flatness; });
+      const Sign way = projected(s.triangle(change.from[k]), group.axis);
+      if (!is_near || way == Sign::zero || projected(t, group.axis) != way) face.group = no_index;
+    }
+    if (face.group == no_index && before != no_index && s.groups[before].is_wide) return false;
+  }
+  if (change.kind != SurfaceChange::Kind::flip) return true;
+  for (const std::uint32_t f : change.gone) {  // both faces stand for the first one, above
+    const std::uint32_t group = s.faces[f].group;
+    if (group != no_index && s.groups[group].is_wide && change.come[0].group != group) return false;
+  }
+  return true;
+}
+
+}  // namespace pgdr::detail

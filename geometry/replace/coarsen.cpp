@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "replace/coarsen.hpp"
+
+#include <algorithm>
+#include <queue>
+#include <utility>
+
+#include "input/edges.hpp"
+#include "space/distances.hpp"
+
+namespace pgdr::detail {
+namespace {
+
+/// An edge that waits, by its length and its ends.
+struct WaitingEdge {
+  double square;
+  Point3 low, high;
+  std::uint32_t a, b;                           ///< at these
+  bool operator<(const WaitingEdge& o) const {  // the shortest is the top of a queue
+    if (square != o.square) return square > o.square;
+    return lex_less(o.low, low) || (low == o.low && lex_less(o.high, high));
+  }
+};
+
+class Coarsening {
+ public:
+  Coarsening(Changer& changer, double distance, HalfTangent floor)
+      : changer_(changer), s_(changer.complex()), goal_{CornerRule::coarsen, distance, floor} {}
+
+  bool run(const std::stop_token& stop) {
+    std::vector<std::uint32_t> all;
+    for (std::uint32_t f = 0; f < s_.faces.size(); ++f)
+      if (s_.faces[f].alive) all.push_back(f);
+    push_edges(all);
+    while (!queue_.empty()) {
+      if (stop.stop_requested()) return false;
+      const WaitingEdge e = queue_.top();
+      queue_.pop();
+      if (is_there(e) && contract(e)) push_edges(changer_.last());
+    }
+    return true;
+  }
+
+ private:
+  void push_edges(const std::vector<std::uint32_t>& faces) {
+    std::vector<std::uint64_t> keys;
+    for (const std::uint32_t f : faces)
+      for (std::size_t i = 0; i < 3; ++i) keys.push_back(edge_key(s_.faces[f].corners[i], s_.faces[f].corners[(i + 1) % 3]));
+    std::sort(keys.begin(), keys.end());
+    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+    for (const std::uint64_t key : keys) {
+      auto [a, b] = edge_of(key);
+      if (lex_less(s_.at(b), s_.at(a))) std::swap(a, b);
+      if (s_.order[a] == VertexOrder::fixed && s_.order[b] == VertexOrder::fixed) continue;
+      queue_.push({squared_distance(s_.at(a), s_.at(b)), s_.at(a), s_.at(b), a, b});
+    }
+  }
+  bool is_there(const WaitingEdge& e) const {
+    return s_.at(e.a) == e.low && s_.at(e.b) == e.high && !s_.faces_of_edge(e.a, e.b).empty();
+  }
+  bool contract(const WaitingEdge& e) {
+    if (s_.order[e.a] == VertexOrder::free && s_.order[e.b] == VertexOrder::free && put(e.a, e.b, on_edge(e.low, e.high, 0.5)))
+      return true;
+    return put(e.a, e.b, e.high) || put(e.b, e.a, e.low);
+  }
+  bool put(std::uint32_t u, std::uint32_t v, const Point3& place) {
+    auto change = contraction(s_, u, v, place);
+    return change && changer_.attempt(std::move(*change), goal_) == Verdict::yes;
+  }
+
+  Changer& changer_;
+  const SurfaceComplex& s_;
+  ChangeGoal goal_;
+  std::priority_queue<WaitingEdge> queue_;
+};
+
+}  // namespace
+
+bool coarsen(Changer& changer, double distance, HalfTangent floor, const std::stop_token& stop) {
+  return Coarsening(changer, distance, floor).run(stop);
+}
+
+}  // namespace pgdr::detail

@@ -1,0 +1,204 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "replace/coverage.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "replace/complex.hpp"
+#include "replace/numbers.hpp"
+#include "space/distances.hpp"
+
+namespace pgdr::detail {
+namespace {
+
+constexpr int deepest = 24;  // parts of parts
+
+/// Within the plane of a triangle and above it: a little less than e, so that what is cut off at that height passes the test of
+/// its corners against it in spite of rounding.
+constexpr double part_of_height = 0.999;
+/// Of e: a part of a smaller diameter is given up.
+constexpr double least_part = 1.0 / 16;
+
+double height(const Vector<3>& normal, const Point3& p) { return normal[0] * p[0] + normal[1] * p[1] + normal[2] * p[2]; }
+
+bool normalize(Vector<3>& v) {
+  const double length = std::sqrt(dot(v, v));
+  if (!(length > 0)) return false;
+  for (double& x : v) x /= length;
+  return true;
+}
+
+Point3 centre(const CutPolygon& polygon) {
+  Point3 c;
+  for (const Point3& p : polygon.all())
+    for (int i = 0; i < 3; ++i) c[i] += p[i];
+  for (int i = 0; i < 3; ++i) c[i] /= static_cast<double>(polygon.count);
+  return c;
+}
+
+}  // namespace
+
+bool cut(const CutPolygon& polygon, const Vector<3>& normal, double offset, CutPolygon& inside, CutPolygon& beyond) {
+  inside.count = beyond.count = 0;
+  std::array<double, CutPolygon::most_corners> side{};
+  bool any_beyond = false, any_inside = false;
+  for (std::size_t k = 0; k < polygon.count; ++k) {
+    side[k] = height(normal, polygon.corners[k]) - offset;
+    (side[k] > 0 ? any_beyond : any_inside) = true;
+  }
+  if (!any_beyond || !any_inside) {
+    (any_beyond ? beyond : inside) = polygon;
+    return true;
+  }
+  for (std::size_t k = 0; k < polygon.count; ++k) {
+    const std::size_t next = k + 1 == polygon.count ? 0 : k + 1;
+    const Point3 &p = polygon.corners[k], &q = polygon.corners[next];
+    if (!(side[k] > 0 ? beyond : inside).add(p)) return false;
+    if ((side[k] > 0) == (side[next] > 0)) continue;
+    const Point3 x = on_edge(p, q, side[k] / (side[k] - side[next]));
+    if (!inside.add(x) || !beyond.add(x)) return false;
+  }
+  return true;
+}
+
+bool cut_to_box(CutPolygon& polygon, const Box<3>& box) {
+  CutPolygon inside, beyond;
+  for (std::size_t i = 0; i < 3 && polygon.count > 0; ++i) {
+    Vector<3> axis{};
+    for (const double way : {1.0, -1.0}) {
+      axis[i] = way;
+      const int k = static_cast<int>(i);
+      if (!cut(polygon, axis, way > 0 ? box.high[k] : -box.low[k], inside, beyond)) return false;
+      polygon = inside;
+    }
+  }
+  return true;
+}
+
+void Cover::add(const std::array<Point3, 3>& sorted_corners) {
+  Triangle t{.corners = sorted_corners, .box = Box<3>::of(sorted_corners)};
+  const auto& c = t.corners;
+  t.normal = cross(difference(c[1], c[0]), difference(c[2], c[0]));
+  t.has_plane = normalize(t.normal);
+  for (std::size_t i = 0; i < 3 && t.has_plane; ++i) {
+    t.outward[i] = cross(difference(c[(i + 1) % 3], c[i]), t.normal);
+    t.has_plane = normalize(t.outward[i]);
+  }
+  triangles_.push_back(t);
+}
+
+bool Cover::covers(const CutPolygon& polygon, std::size_t first, std::size_t each) const {
+  std::size_t left = first + each * triangles_.size();
+  return !triangles_.empty() && look(polygon, 0, left);
+}
+
+const Cover::Triangle* Cover::nearest(const Point3& p, double& square) const {
+  const Triangle* best = nullptr;
+  square = e_ * e_;
+  for (const Triangle& t : triangles_) {
+    if (t.box.squared_distance_to(p) > square) continue;
+    const double d = closest_to_triangle(p, t.corners[0], t.corners[1], t.corners[2]).square;
+    if (d > square || (d == square && best && !triangle_less(t.corners, best->corners))) continue;
+    square = d;
+    best = &t;
+  }
+  return best;
+}
+
+bool Cover::holds(const Triangle& t, const CutPolygon& polygon) const {
+  for (const Point3& p : polygon.all())
+    if (!(closest_to_triangle(p, t.corners[0], t.corners[1], t.corners[2]).square <= e_ * e_)) return false;
+  return true;
+}
+
+bool Cover::look(const CutPolygon& polygon, int depth, std::size_t& left) const {
+  if (polygon.count < 3) return true;  // no more than an edge of another part
+  if (left == 0 || depth > deepest) return false;
+  --left;
+  double square = 0;
+  const Triangle* const t = nearest(centre(polygon), square);
+  if (!t) return false;
+  if (holds(*t, polygon)) return true;
+  const Box<3> box = Box<3>::of(polygon.all());
+  const auto might_hold = [&](const Triangle& o) {
+    for (int i = 0; i < 3; ++i)
+      if (box.low[i] < o.box.low[i] - e_ || box.high[i] > o.box.high[i] + e_) return false;
+    return true;
+  };
+  for (const Triangle& o : triangles_)
+    if (&o != t && might_hold(o) && holds(o, polygon)) return true;
+  bool was_cut = false;
+  if (t->has_plane) {
+    const bool is_covered = look_beyond(*t, polygon, depth, left, was_cut);
+    if (was_cut) return is_covered;
+  }
+  return look_at_halves(polygon, depth, left);
+}
+
+bool Cover::look_beyond(const Triangle& t, const CutPolygon& polygon, int depth, std::size_t& left, bool& was_cut) const {
+  std::array<CutPolygon, 5> rest;
+  CutPolygon here = polygon, inside;
+  std::size_t parts = 0;
+  const double level = height(t.normal, t.corners[0]), reach = part_of_height * e_;
+  const auto take = [&](const Vector<3>& normal, double offset) {
+    if (here.count == 0 || !cut(here, normal, offset, inside, rest[parts])) return false;
+    here = inside;
+    if (rest[parts].count > 0) ++parts;
+    return here.count > 0;
+  };
+  for (std::size_t i = 0; i < 3; ++i)
+    if (!take(t.outward[i], height(t.outward[i], t.corners[i]))) return false;
+  Vector<3> down = t.normal;
+  for (double& x : down) x = -x;
+  if (!take(t.normal, level + reach) || !take(down, reach - level)) return false;
+  if (!holds(t, here) || parts == 0) return false;
+  was_cut = true;
+  for (std::size_t k = 0; k < parts; ++k)
+    if (!look(rest[k], depth + 1, left)) return false;
+  return true;
+}
+
+bool Cover::look_at_halves(const CutPolygon& polygon, int depth, std::size_t& left) const {
+  double longest = -1;
+  const Point3 *from = nullptr, *to = nullptr;
+  const auto all = polygon.all();
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t j = i + 1; j < all.size(); ++j)
+      if (const double d = squared_distance(all[i], all[j]); d > longest) {
+        longest = d;
+        from = &all[i];
+        to = &all[j];
+      }
+  const double least = least_part * e_;
+  if (!(longest >= least * least)) return false;
+  if (lex_less(*to, *from)) std::swap(from, to);
+  Vector<3> along = difference(*to, *from);
+  if (!normalize(along)) return false;
+  CutPolygon near, far;
+  if (!cut(polygon, along, height(along, on_edge(*from, *to, 0.5)), near, far)) return false;
+  return look(near, depth + 1, left) && look(far, depth + 1, left);
+}
+
+bool SegmentCover::covers(const Point3& a, const Point3& b) const {
+  std::size_t left = 60 + 4 * segments_.size();
+  return !segments_.empty() && look(a, b, left);
+}
+
+bool SegmentCover::look(const Point3& a, const Point3& b, std::size_t& left) const {
+  if (left == 0) return false;
+  --left;
+  const Point3 middle = on_edge(a, b, 0.5);
+  const auto is_near = [this](const Point3& p, const std::array<Point3, 2>& s) {
+    return closest_to_edge(p, s[0], s[1]).square <= e_ * e_;
+  };
+  bool any = false;
+  for (const auto& s : segments_) {
+    if (is_near(a, s) && is_near(b, s)) return true;
+    any = any || is_near(middle, s);
+  }
+  const double least = least_part * e_;
+  return any && squared_distance(a, b) >= least * least && look(a, middle, left) && look(middle, b, left);
+}
+
+}  // namespace pgdr::detail

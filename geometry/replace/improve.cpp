@@ -1,0 +1,203 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The worst face is given to the changes that may cure it, one after the other, until one is made. (The idea of a greatest least
+// angle, worst first, is that of Hu, Yan, Bommes, Alliez and Benes 2017.) A face for which none is made waits until a face at its
+// vertices changes.
+#include <algorithm>
+#include <queue>
+#include <utility>
+
+#include "replace/coarsen.hpp"
+#include "replace/numbers.hpp"
+#include "space/distances.hpp"
+#include "space/triangle.hpp"
+
+namespace pgdr::detail {
+namespace {
+
+/// A face that waits, by its least corner and its corners.
+struct WaitingFace {
+  HalfTangent corner;
+  std::array<Point3, 3> at;  ///< in the order of coordinates
+  std::uint32_t face;
+  std::uint32_t touched;                        ///< sum of how often its vertices had been
+  bool operator<(const WaitingFace& o) const {  // the worst is the top of a queue
+    return corner != o.corner ? corner > o.corner : triangle_less(o.at, at);
+  }
+};
+
+class Improving {
+ public:
+  Improving(Changer& changer, double distance, HalfTangent wanted, std::uint64_t most_splits)
+      : changer_(changer),
+        s_(changer.complex()),
+        goal_{CornerRule::improve, distance, wanted},
+        split_goal_{CornerRule::split, distance, wanted},
+        splits_left_(most_splits) {}
+
+  bool run(const std::stop_token& stop) {
+    for (std::uint32_t f = 0; f < s_.faces.size(); ++f)
+      if (s_.faces[f].alive) push(f);
+    while (!queue_.empty()) {
+      if (stop.stop_requested()) return false;
+      const WaitingFace w = queue_.top();
+      queue_.pop();
+      if (!s_.faces[w.face].alive || w.touched != touched(w.face)) continue;
+      if (!cure(w.face)) continue;
+      push_near();
+      if (s_.faces[w.face].alive && w.touched == touched(w.face)) push(w.face);  // a split farther away
+    }
+    return true;
+  }
+
+ private:
+  using Corners = std::array<std::uint32_t, 3>;
+
+  std::uint32_t touched(std::uint32_t f) const {
+    const auto& c = s_.faces[f].corners;
+    return changer_.touched(c[0]) + changer_.touched(c[1]) + changer_.touched(c[2]);
+  }
+  void push(std::uint32_t f) {
+    const HalfTangent corner = least_corner(s_, f);
+    if (!(corner < goal_.floor)) return;
+    WaitingFace w{corner, s_.triangle(f), f, touched(f)};
+    sort_corners(w.at);
+    queue_.push(w);
+  }
+  void push_near() {
+    std::vector<std::uint32_t> near;
+    for (const std::uint32_t f : changer_.last())
+      for (const std::uint32_t v : s_.faces[f].corners) near.insert(near.end(), s_.faces_at[v].begin(), s_.faces_at[v].end());
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+    for (const std::uint32_t f : near) push(f);
+  }
+
+  bool cure(std::uint32_t f) {
+    const Corners by_edge = by_opposite_edge(f);
+    return contract_edge(by_edge[1], by_edge[2]) || flip_edges(by_edge) || move_corners(by_edge) || split_path(f);
+  }
+  /// Its corners, by the lengths of the edges opposite of them, shortest first; of equal ones by their coordinates.
+  Corners by_opposite_edge(std::uint32_t f) const {
+    Corners c = s_.faces[f].corners;
+    const auto square = [&](std::uint32_t v) {
+      const auto& all = s_.faces[f].corners;
+      const std::uint32_t a = all[0] == v ? all[1] : all[0];
+      return squared_distance(s_.at(a), s_.at(corner_beside(all, v, a)));
+    };
+    std::sort(c.begin(), c.end(), [&](std::uint32_t u, std::uint32_t v) {
+      const double p = square(u), q = square(v);
+      return p != q ? p < q : lex_less(s_.at(u), s_.at(v));
+    });
+    return c;
+  }
+
+  bool made(SurfaceChange change, const ChangeGoal& goal) { return changer_.attempt(std::move(change), goal) == Verdict::yes; }
+  bool is_held(std::uint32_t v) const { return v < held_.size() && held_[v]; }
+
+  bool contract_edge(std::uint32_t a, std::uint32_t b) {
+    if (lex_less(s_.at(b), s_.at(a))) std::swap(a, b);
+    const Point3 low = s_.at(a), high = s_.at(b);
+    const bool both_free = s_.order[a] == VertexOrder::free && s_.order[b] == VertexOrder::free;
+    if (both_free && !is_held(a) && !is_held(b) && put(a, b, on_edge(low, high, 0.5))) return true;
+    return (!is_held(a) && put(a, b, high)) || (!is_held(b) && put(b, a, low));
+  }
+  bool put(std::uint32_t u, std::uint32_t v, const Point3& place) {
+    auto change = contraction(s_, u, v, place);
+    return change && made(std::move(*change), goal_);
+  }
+
+  /// The longest edge first.
+  bool flip_edges(const Corners& c) {
+    for (std::size_t k = 3; k-- > 0;) {
+      auto change = flip_between(c[(k + 1) % 3], c[(k + 2) % 3]);
+      if (change && made(std::move(*change), goal_)) return true;
+    }
+    return false;
+  }
+  std::optional<SurfaceChange> flip_between(std::uint32_t a, std::uint32_t b) const {
+    return lex_less(s_.at(b), s_.at(a)) ? flip(s_, b, a) : flip(s_, a, b);
+  }
+
+  bool move_corners(const Corners& c) {
+    return std::any_of(c.begin(), c.end(), [this](std::uint32_t v) { return move_corner(v); });
+  }
+  bool move_corner(std::uint32_t v) {
+    if (s_.order[v] == VertexOrder::fixed) return false;
+    if (s_.order[v] == VertexOrder::on_curve) {
+      const auto& kept = s_.kept_at[v];
+      const Point3 middle = middle_of(s_.at(kept[0].other), s_.at(kept[1].other));
+      return made(move(s_, v, changer_.given().nearest_on_curve(middle, kept[0].curve)), goal_);
+    }
+    const Point3 from = s_.at(v), to = middle_of_neighbours(v);
+    const std::uint32_t klass = s_.faces[s_.faces_at[v].front()].klass;
+    for (const double part : {1.0, 0.5, 0.25})
+      if (made(move(s_, v, changer_.given().nearest(on_edge(from, to, part), klass).point), goal_)) return true;
+    return false;
+  }
+  static Point3 middle_of(const Point3& a, const Point3& b) { return lex_less(b, a) ? on_edge(b, a, 0.5) : on_edge(a, b, 0.5); }
+  Point3 middle_of_neighbours(std::uint32_t v) const {
+    std::vector<Point3> around;
+    for (const std::uint32_t w : s_.neighbours(v)) around.push_back(s_.at(w));
+    std::sort(around.begin(), around.end(), [](const Point3& a, const Point3& b) { return lex_less(a, b); });
+    Point3 sum;
+    for (const Point3& p : around)
+      for (int i = 0; i < 3; ++i) sum[i] += p[i];
+    for (int i = 0; i < 3; ++i) sum[i] /= static_cast<double>(around.size());
+    return sum;
+  }
+
+  /// Splits the longest edge; where that makes a corner of a neighbour too small, first the longest edge of the neighbour.
+  bool split_path(std::uint32_t f) {
+    for (int step = 0; step < numbers::most_path && splits_left_ > 0; ++step) {
+      const Corners c = by_opposite_edge(f);
+      std::uint32_t a = c[0], b = c[1];
+      if (lex_less(s_.at(b), s_.at(a))) std::swap(a, b);
+      if (distance(s_.at(a), s_.at(b)) < numbers::shortest_split * goal_.distance) return false;
+      const Verdict verdict = changer_.attempt(split(s_, a, b, place_on(a, b)), split_goal_);
+      if (verdict == Verdict::yes) {
+        --splits_left_;
+        held_.resize(s_.points.size(), false);
+        held_.back() = true;
+        return true;
+      }
+      if (verdict != Verdict::angle || s_.is_kept(a, b)) return false;
+      const std::uint32_t g = s_.beyond(f, a, b);
+      if (g == no_index || has_longest(g, a, b)) return false;
+      f = g;
+    }
+    return false;
+  }
+  bool has_longest(std::uint32_t f, std::uint32_t a, std::uint32_t b) const {
+    const Corners c = by_opposite_edge(f);
+    return (c[0] == a && c[1] == b) || (c[0] == b && c[1] == a);
+  }
+  Point3 place_on(std::uint32_t a, std::uint32_t b) const {
+    const Point3 middle = on_edge(s_.at(a), s_.at(b), 0.5);
+    if (const std::uint32_t curve = s_.curve_of(a, b); curve != no_index)
+      return s_.curves[curve].is_explicit ? middle : changer_.given().nearest_on_curve(middle, curve);
+    bool is_flat = false;
+    std::uint32_t klass = 0;
+    s_.each_face_at(a, b, [&](std::uint32_t f) {
+      is_flat = is_flat || s_.faces[f].group != no_index;
+      klass = s_.faces[f].klass;
+    });
+    return is_flat ? middle : changer_.given().nearest(middle, klass).point;
+  }
+
+  Changer& changer_;
+  const SurfaceComplex& s_;
+  ChangeGoal goal_, split_goal_;
+  std::uint64_t splits_left_;
+  std::vector<bool> held_;  // vertices that splits have made
+  std::priority_queue<WaitingFace> queue_;
+};
+
+}  // namespace
+
+bool improve(Changer& changer, double distance, HalfTangent wanted, std::uint64_t most_splits, const std::stop_token& stop) {
+  return Improving(changer, distance, wanted, most_splits).run(stop);
+}
+
+}  // namespace pgdr::detail

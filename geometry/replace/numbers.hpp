@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Numbers of the search for another surface, E the tolerance. They decide which surface it is, never whether it is within E.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace pgdr::numbers {
+
+/// Of E, what the step uses: so that whoever certifies the result at E ends quickly (a piece of which all is within 63/64 E is
+/// decided at a radius of E/64 at the latest), and rounding has room.
+inline constexpr double used_part = 63.0 / 64;
+
+/// An E has to be that many times the tolerance within which things meet, so that both are not about the same thing.
+inline constexpr double least_of_tolerance = 16;
+
+/// Of E: a triangle that is not higher over an edge is a needle there, and its normal says nothing of the shape. Without it one
+/// noisy scan has 2,972 edges of creases in place of some hundred.
+inline constexpr double real_height = 0.25;
+/// Needles side by side, across which the first triangle that is none is looked for.
+inline constexpr int needles_crossed = 8;
+/// Of E: creases that hang together in a smaller box are noise; E is the scale below which shape is not meant (203 creases of
+/// one scan become 117, 1,210 of another 114).
+inline constexpr double least_creases = 30;
+/// Of E: a vertex of a curve is a corner if both of its edges are longer.
+inline constexpr double corner_edges = 0.5;
+
+/// Of the diagonal of all points: faces whose corners are as near to a plane are one flat group. A file of six digits is noise of
+/// that size.
+inline constexpr double flat_part = 1e-6;
+/// Of E: a flat group whose area over the diagonal of its box is larger may not be broken. Narrow ones are mostly chance, two
+/// triangles of a curved face. None may be broken: 86 and 229 cells stay over a bound on two models; all may: 602 on one where
+/// nothing had been poor; with this rule 0, 14 and 0.
+inline constexpr double wide_group = 20;
+/// Of the distance within which a group is flat: a polygon whose outline comes as near to itself is handed on as triangles, since
+/// points that are put onto its edges leave them by as much as its corners are off its plane.
+inline constexpr double outline_gap = 30;
+
+/// Parts that are looked at for one question of coverage, and so many more a triangle: by the faces that come alone, and by more.
+inline constexpr std::size_t first_parts = 60, first_parts_each = 4;
+inline constexpr std::size_t more_parts = 300, more_parts_each = 10;
+
+/// Degrees: a corner of a patch that is coarsened may shrink to this. At 20 one good coarse surface went from 2,518 to 3,782
+/// cells, at 28 to 3,506, at 34 to 2,806; others do not care.
+inline constexpr double coarse_corner = 30;
+/// Degrees: corners between two kept edges may shrink to this. Without a rule creases are bent until they meet at 8 degrees.
+inline constexpr double kept_corner = 29;
+/// Degrees: corners beyond the rim of a patch may shrink to this; what is larger makes no poor cell by itself.
+inline constexpr double rim_corner = 15;
+/// Of the least corner of a patch: a split halves no corner along the path of longest edges, and may make one so small.
+inline constexpr double split_corner = 0.45;
+/// A cosine between normals: ridges that are less sharp may come.
+inline constexpr double flat_enough = 0.75;
+/// Radians: a face with a corner below the first is refused, or below the second and half of what was there.
+inline constexpr double flat_corner = 1e-5, thin_corner = 2e-3;
+/// Of E: gaps that are wider may become as narrow. Narrow gaps cost cells more than any needle.
+inline constexpr double narrow_gap = 0.25;
+/// Of E: a point that is farther from the patch makes a cone that stands off the surface.
+inline constexpr double farthest_place = 4;
+/// A new point has no other side of the surface as near as this part of the heights of the faces at its edge: a face whose plane
+/// makes a cosine above the second with these, above or below the point (a cosine above the third). No edge of a curve is split
+/// at which faces meet more sharply than the second. In a wedge of 1.4 degrees a new point lies 1/40 of its distance from the tip
+/// off the other side, and meshing that costs more than what it cured.
+inline constexpr double wedge_height = 0.5, wedge_cosine = 0.2, wedge_beyond = 0.7;
+
+/// Corners are compared by levels of so much: changes that make less of a difference are none.
+inline constexpr double level_ratio = 1.01;
+/// Faces along a path of longest edges that are asked for a split.
+inline constexpr int most_path = 12;
+/// Of E: shorter edges are not split, since what is that small is not meant.
+inline constexpr double shortest_split = 2;
+
+/// Of E, for the first changes: room must be left for splits, flips and moves, or nothing moves any more.
+inline constexpr double first_part = 0.6;
+/// Splits, for each face of the surface that has been coarsened: in the first round, in the second.
+inline constexpr std::uint64_t first_splits = 6, second_splits = 3;
+
+}  // namespace pgdr::numbers

@@ -1,0 +1,194 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "replace/shape.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "pgdr/predicates.hpp"
+#include "space/triangle.hpp"
+
+namespace pgdr::detail {
+namespace {
+
+/// The angle at p, as cosine and sine times a length.
+std::array<double, 2> turn_at(const Point3& p, const Point3& a, const Point3& b) {
+  const auto u = difference(a, p), v = difference(b, p);
+  const auto n = cross(u, v);
+  return {dot(u, v), std::sqrt(dot(n, n))};
+}
+
+HalfTangent half_tangent_of(const std::array<double, 2>& turn) {
+  const double sum = std::sqrt(turn[0] * turn[0] + turn[1] * turn[1]) + turn[0];
+  return sum > 0 ? turn[1] / sum : turn[1] > 0 || turn[0] < 0 ? wide_corner : 0.0;
+}
+
+/// Sums angles until they are 180 degrees or more.
+class AngleSum {
+ public:
+  void add(const std::array<double, 2>& turn) {
+    const double length = std::sqrt(turn[0] * turn[0] + turn[1] * turn[1]);
+    if (!(length > 0)) return;
+    const double c = turn[0] / length, s = turn[1] / length;
+    const double sum_c = cosine_ * c - sine_ * s, sum_s = sine_ * c + cosine_ * s;
+    if (sum_s < 0 || (sum_s == 0 && sum_c < 0)) is_wide_ = true;
+    cosine_ = sum_c;
+    sine_ = sum_s;
+  }
+  HalfTangent value() const { return is_wide_ ? wide_corner : half_tangent_of({cosine_, sine_}); }
+
+ private:
+  double cosine_ = 1, sine_ = 0;
+  bool is_wide_ = false;
+};
+
+struct Corner {
+  std::uint32_t a, b;  ///< the other two vertices of a face
+};
+Corner corner_at(const SurfaceFace& f, std::uint32_t v) {
+  const auto& c = f.corners;
+  return c[0] == v ? Corner{c[1], c[2]} : c[1] == v ? Corner{c[2], c[0]} : Corner{c[0], c[1]};
+}
+
+}  // namespace
+
+HalfTangent half_tangent(double degrees) {
+  const double c = claimed_cosine(degrees);
+  return c > -1 ? std::sqrt((1 - c) * (1 + c)) / (1 + c) : wide_corner;
+}
+
+double degrees_of(HalfTangent t) { return 360 / std::numbers::pi * std::atan(t); }
+
+bool SurfaceView::is_kept(std::uint32_t a, std::uint32_t b) const {
+  if (after_) {
+    const auto has = [&](const std::vector<SurfaceChange::Kept>& list) {
+      return std::any_of(list.begin(), list.end(), [&](const SurfaceChange::Kept& k) {
+        return (k.ends[0] == a && k.ends[1] == b) || (k.ends[0] == b && k.ends[1] == a);
+      });
+    };
+    if (has(after_->kept_come)) return true;
+    if (has(after_->kept_gone) || a >= s_.points.size() || b >= s_.points.size()) return false;
+  }
+  return s_.is_kept(a, b);
+}
+
+Sector sector_at(const SurfaceView& view, std::uint32_t face, std::uint32_t vertex) {
+  const std::uint32_t group = view.face(face).group;
+  const Corner first = corner_at(view.face(face), vertex);
+  Sector sector;
+  if (group == no_index) {
+    sector.angle = half_tangent_of(turn_at(view.at(vertex), view.at(first.a), view.at(first.b)));
+    sector.between_kept = view.is_kept(vertex, first.a) && view.is_kept(vertex, first.b);
+    return sector;
+  }
+  sector.faces.push_back(face);
+  std::vector<std::array<double, 2>> before, behind;
+  int kept_ends = 0;
+  for (const std::uint32_t start : {first.a, first.b}) {
+    std::uint32_t f = face, edge = start;
+    while (true) {
+      if (view.is_kept(vertex, edge)) {
+        ++kept_ends;
+        break;
+      }
+      const std::uint32_t g = view.beyond(f, vertex, edge);
+      if (g == face) {  // all round
+        sector.angle = wide_corner;
+        return sector;
+      }
+      if (g == no_index || view.face(g).group != group) break;
+      const Corner c = corner_at(view.face(g), vertex);
+      (start == first.a ? before : behind).push_back(turn_at(view.at(vertex), view.at(c.a), view.at(c.b)));
+      sector.faces.push_back(g);
+      edge = c.a == edge ? c.b : c.a;
+      f = g;
+    }
+  }
+  AngleSum sum;  // from the end that has the lesser point, whichever face was asked for
+  const auto own = turn_at(view.at(vertex), view.at(first.a), view.at(first.b));
+  std::vector<std::array<double, 2>> all(before.rbegin(), before.rend());
+  all.push_back(own);
+  all.insert(all.end(), behind.begin(), behind.end());
+  if (all.back() < all.front()) std::reverse(all.begin(), all.end());
+  for (const auto& turn : all) sum.add(turn);
+  sector.angle = sum.value();
+  sector.between_kept = kept_ends == 2;
+  return sector;
+}
+
+HalfTangent least_corner(const SurfaceComplex& s, std::uint32_t face) {
+  const SurfaceView view(s);
+  HalfTangent least = wide_corner;
+  for (const std::uint32_t v : s.faces[face].corners) {
+    const Sector sector = sector_at(view, face, v);
+    if (!sector.between_kept) least = std::min(least, sector.angle);
+  }
+  return least;
+}
+
+CornerChange corners_of(const SurfaceComplex& s, const SurfaceChange& change, HalfTangent rim_floor) {
+  const SurfaceView before(s), after(s, &change);
+  CornerChange out;
+  for (const std::uint32_t f : change.gone)
+    for (const std::uint32_t v : s.faces[f].corners) {
+      const Sector was = sector_at(before, f, v);
+      HalfTangent& least = was.between_kept ? out.kept_gone : out.gone;
+      least = std::min(least, was.angle);
+      for (const std::uint32_t g : was.faces) {  // those that stay, beyond the rim
+        if (change.is_gone(g)) continue;
+        const Sector is = sector_at(after, g, v);
+        if (is.between_kept || std::any_of(is.faces.begin(), is.faces.end(), [&](std::uint32_t h) { return after.is_new(h); }))
+          continue;
+        if (!(is.angle < was.angle)) continue;
+        out.rim = std::min(out.rim, is.angle);
+        out.is_rim_fine = out.is_rim_fine && is.angle >= std::min(was.angle, rim_floor);
+      }
+    }
+  for (std::uint32_t k = 0; k < change.come.size(); ++k)
+    for (const std::uint32_t v : change.come[k].corners) {
+      const Sector is = sector_at(after, static_cast<std::uint32_t>(s.faces.size() + k), v);
+      HalfTangent& least = is.between_kept ? out.kept_come : out.come;
+      least = std::min(least, is.angle);
+    }
+  return out;
+}
+
+namespace {
+
+/// The cosine between the normals of two faces at an edge, as if they ran the same way round; 1 where one has none.
+double cosine_across(const SurfaceView& view, std::uint32_t f, std::uint32_t g, std::uint32_t a, std::uint32_t b) {
+  const std::uint32_t c = corner_beside(view.face(f).corners, a, b), d = corner_beside(view.face(g).corners, a, b);
+  const auto along = difference(view.at(b), view.at(a));
+  const auto m = cross(along, difference(view.at(c), view.at(a))), n = cross(difference(view.at(d), view.at(a)), along);
+  const double length = std::sqrt(dot(m, m) * dot(n, n));
+  return length > 0 ? dot(m, n) / length : 1;
+}
+
+/// Least across plain edges of a face.
+double least_cosine(const SurfaceView& view, std::uint32_t f) {
+  double least = 1;
+  const auto& c = view.face(f).corners;
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::uint32_t a = c[i], b = c[(i + 1) % 3];
+    if (lex_less(view.at(b), view.at(a))) std::swap(a, b);
+    if (view.is_kept(a, b)) continue;
+    if (const std::uint32_t g = view.beyond(f, a, b); g != no_index) least = std::min(least, cosine_across(view, f, g, a, b));
+  }
+  return least;
+}
+
+}  // namespace
+
+bool keeps_folds(const SurfaceComplex& s, const SurfaceChange& change, double floor) {
+  const SurfaceView before(s), after(s, &change);
+  double is = 1;
+  for (std::uint32_t k = 0; k < change.come.size(); ++k)
+    is = std::min(is, least_cosine(after, static_cast<std::uint32_t>(s.faces.size() + k)));
+  if (is >= floor) return true;
+  double was = 1;
+  for (const std::uint32_t f : change.gone) was = std::min(was, least_cosine(before, f));
+  return is >= was;
+}
+
+}  // namespace pgdr::detail

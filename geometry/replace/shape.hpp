@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Angles of facets as the mesher gets them: a counted corner is the sum of the angles of consecutive faces of one flat group
+// about a vertex, from one edge that is not inside of the group to the next. Angles are compared by the tangents of their halves,
+// which are sums, products, quotients and roots of coordinates.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "replace/change.hpp"
+#include "replace/complex.hpp"
+
+namespace pgdr::detail {
+
+/// An angle from 0 to 180 degrees by the tangent of its half; infinite: 180 or more, or none.
+using HalfTangent = double;
+inline constexpr HalfTangent wide_corner = std::numeric_limits<double>::infinity();
+
+/// Of so many degrees, correctly rounded up to some ulps.
+HalfTangent half_tangent(double degrees);
+/// For reports.
+double degrees_of(HalfTangent t);
+
+/// A surface as it is, or as it would be after a change. Faces that would come are numbered after all others.
+class SurfaceView {
+ public:
+  explicit SurfaceView(const SurfaceComplex& s, const SurfaceChange* after = nullptr) : s_(s), after_(after) {}
+
+  const SurfaceFace& face(std::uint32_t f) const { return f < s_.faces.size() ? s_.faces[f] : after_->come[f - s_.faces.size()]; }
+  const Point3& at(std::uint32_t v) const { return after_ ? place_after(s_, *after_, v) : s_.at(v); }
+  bool is_kept(std::uint32_t a, std::uint32_t b) const;
+  /// Calls visit(f) for each face at an edge.
+  template <class Visit>
+  void each_face_at(std::uint32_t a, std::uint32_t b, const Visit& visit) const {
+    const auto count = [this](std::uint32_t v) { return v < s_.points.size() ? s_.faces_at[v].size() : 0; };
+    if (count(b) < count(a)) std::swap(a, b);
+    if (count(a) > 0)
+      for (const std::uint32_t f : s_.faces_at[a])
+        if (s_.has_corner(f, b) && !(after_ && after_->is_gone(f))) visit(f);
+    if (!after_) return;
+    for (std::uint32_t k = 0; k < after_->come.size(); ++k) {
+      const auto& c = after_->come[k].corners;
+      const auto has = [&c](std::uint32_t v) { return c[0] == v || c[1] == v || c[2] == v; };
+      if (has(a) && has(b)) visit(static_cast<std::uint32_t>(s_.faces.size() + k));
+    }
+  }
+  /// The other face at a plain edge.
+  std::uint32_t beyond(std::uint32_t f, std::uint32_t a, std::uint32_t b) const {
+    std::uint32_t other = no_index;
+    each_face_at(a, b, [&](std::uint32_t g) {
+      if (g != f) other = g;
+    });
+    return other;
+  }
+  bool is_new(std::uint32_t f) const { return f >= s_.faces.size(); }
+
+ private:
+  const SurfaceComplex& s_;
+  const SurfaceChange* after_;
+};
+
+/// The faces of one group about a vertex that a face is one of.
+struct Sector {
+  HalfTangent angle = wide_corner;
+  bool between_kept = false;         ///< both of its ends are kept edges: it is not counted
+  std::vector<std::uint32_t> faces;  ///< all of it; empty: the face alone
+};
+Sector sector_at(const SurfaceView& view, std::uint32_t face, std::uint32_t vertex);
+
+/// The least counted corner of a face.
+HalfTangent least_corner(const SurfaceComplex& s, std::uint32_t face);
+
+/// The corners that a change takes away, and that it makes.
+struct CornerChange {
+  HalfTangent gone = wide_corner, come = wide_corner;            ///< least counted ones
+  HalfTangent kept_gone = wide_corner, kept_come = wide_corner;  ///< least ones between two kept edges
+  /// Least of the corners beyond the rim that get smaller since faces have left their group; and is each at least the lesser
+  /// of what it was and `rim_floor`?
+  HalfTangent rim = wide_corner;
+  bool is_rim_fine = true;
+};
+CornerChange corners_of(const SurfaceComplex& s, const SurfaceChange& change, HalfTangent rim_floor);
+
+/// Does it make no ridge that was not there: is the least cosine between normals across plain edges at least that of before, or
+/// `floor`?
+bool keeps_folds(const SurfaceComplex& s, const SurfaceChange& change, double floor);
+
+}  // namespace pgdr::detail

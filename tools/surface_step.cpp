@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+#include "surface_step.hpp"
+
+#include <algorithm>
+
+#include "console.hpp"
+#include "surface_tolerance.hpp"
+
+namespace pgdr::tool {
+namespace {
+
+/// Triangles of 14.5 degrees are too sharp for the bound of 15 on dihedral angles; beyond a larger one there is as much headroom
+/// as is usual.
+constexpr double usual_wanted_corner = 25, headroom = 10;
+
+JsonObject refusals(const SurfaceReport::Refused& r) {
+  return {{"topology", r.topology}, {"angle", r.angle}, {"fold", r.fold}, {"size", r.size},
+          {"distance", r.distance}, {"meets", r.meets}, {"gap", r.gap},   {"swept", r.swept}};
+}
+
+}  // namespace
+
+void require_3d(const SurfaceArguments& arguments, int dimension) {
+  if (arguments.tolerance && dimension == 2)
+    throw UsageError({.code = Errc::bad_option, .message = "--surface-tolerance is for 3D"});
+}
+
+SurfaceStep replace_surface(const Plc<3>& plc, const SurfaceArguments& arguments, std::optional<double> tolerance,
+                            const Bounds<3>& bounds, const std::stop_token& stop) {
+  SurfaceOptions options;
+  options.tolerance = surface_tolerance(*arguments.tolerance, plc, tolerance);
+  require_fine_surface_tolerance(options.tolerance, plc);
+  if (arguments.feature_angle) options.feature_angle = *arguments.feature_angle;
+  options.wanted_corner = std::max(usual_wanted_corner, bounds.min_dihedral.value_or(0) + headroom);
+  options.stop = stop;
+  SurfaceStep step{*arguments.tolerance, pgdr::replace_surface(plc, options), surface_counts(plc), {}};
+  step.after = surface_counts(step.replaced.plc);
+  return step;
+}
+
+void set_surface(Report& report, const SurfaceStep& step) {
+  const SurfaceReport& r = step.replaced.report;
+  report.set("surface_tolerance", JsonObject{{"given", step.given},
+                                             {"length", r.tolerance},
+                                             {"used", r.used},
+                                             {"feature_angle", r.feature_angle},
+                                             {"triangles", r.triangles},
+                                             {"counted_corners_below_14.5", r.sharp_triangles},
+                                             {"smallest_counted_corner", r.smallest_corner},
+                                             {"creases", r.creases},
+                                             {"corners", r.corners},
+                                             {"flat_groups", r.flat_groups},
+                                             {"contracted", r.contracted},
+                                             {"flipped", r.flipped},
+                                             {"moved", r.moved},
+                                             {"split", r.split},
+                                             {"refused", refusals(r.refused)},
+                                             {"distance", JsonObject{{"to_given", r.to_given}, {"from_given", r.from_given}}},
+                                             {"farthest_point", r.farthest_point.x},
+                                             {"stopped", r.stopped},
+                                             {"seconds", r.seconds}});
+  report.set("surface", JsonObject{{"given", to_json(step.before)}, {"meshed", to_json(step.after)}});
+}
+
+void print_surface(const SurfaceStep& step) {
+  const SurfaceReport& r = step.replaced.report;
+  print_row("surface", count(r.triangles[1], "triangle", "triangles") + " in place of " + std::to_string(r.triangles[0]) +
+                           format(", within %.4g; corners below 14.5 degrees: %llu, were %llu (%.3f s)", r.tolerance,
+                                  static_cast<unsigned long long>(r.sharp_triangles[1]),
+                                  static_cast<unsigned long long>(r.sharp_triangles[0]), r.seconds));
+}
+
+}  // namespace pgdr::tool
