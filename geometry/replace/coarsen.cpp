@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <queue>
+#include <unordered_map>
 #include <utility>
 
 #include "input/edges.hpp"
@@ -29,20 +30,34 @@ class Coarsening {
       : changer_(changer), s_(changer.complex()), goal_{CornerRule::coarsen, distance, floor} {}
 
   bool run(const std::stop_token& stop) {
-    std::vector<std::uint32_t> all;
-    for (std::uint32_t f = 0; f < s_.faces.size(); ++f)
-      if (s_.faces[f].alive) all.push_back(f);
-    push_edges(all);
-    while (!queue_.empty()) {
-      if (stop.stop_requested()) return false;
-      const WaitingEdge e = queue_.top();
-      queue_.pop();
-      if (is_there(e) && contract(e)) push_edges(changer_.last());
+    for (bool any = true; any;) {
+      any = false;
+      push_all();
+      while (!queue_.empty()) {
+        if (stop.stop_requested()) return false;
+        const WaitingEdge e = queue_.top();
+        queue_.pop();
+        if (!is_there(e)) continue;
+        if (contract(e)) {
+          any = true;
+          push_edges(changer_.last());
+        } else {
+          refused_[edge_key(e.a, e.b)] = touched(e.a, e.b);
+        }
+      }
     }
     return true;
   }
 
  private:
+  std::uint32_t touched(std::uint32_t a, std::uint32_t b) const { return changer_.touched(a) + changer_.touched(b); }
+  /// All edges but those that were refused, and nothing at whose ends has changed since.
+  void push_all() {
+    std::vector<std::uint32_t> all;
+    for (std::uint32_t f = 0; f < s_.faces.size(); ++f)
+      if (s_.faces[f].alive) all.push_back(f);
+    push_edges(all);
+  }
   void push_edges(const std::vector<std::uint32_t>& faces) {
     std::vector<std::uint64_t> keys;
     for (const std::uint32_t f : faces)
@@ -53,6 +68,8 @@ class Coarsening {
       auto [a, b] = edge_of(key);
       if (lex_less(s_.at(b), s_.at(a))) std::swap(a, b);
       if (s_.order[a] == VertexOrder::fixed && s_.order[b] == VertexOrder::fixed) continue;
+      const auto refused = refused_.find(key);
+      if (refused != refused_.end() && refused->second == touched(a, b)) continue;
       queue_.push({squared_distance(s_.at(a), s_.at(b)), s_.at(a), s_.at(b), a, b});
     }
   }
@@ -73,6 +90,7 @@ class Coarsening {
   const SurfaceComplex& s_;
   ChangeGoal goal_;
   std::priority_queue<WaitingEdge> queue_;
+  std::unordered_map<std::uint64_t, std::uint32_t> refused_;  // by the key of an edge, how often its ends had been touched
 };
 
 }  // namespace

@@ -12,7 +12,7 @@
 namespace pgdr::detail {
 namespace {
 
-constexpr int deepest = 24;  // parts of parts
+constexpr int deepest = 40;  // parts of parts
 
 /// Within the plane of a triangle and above it: a little less than e, so that what is cut off at that height passes the test of
 /// its corners against it in spite of rounding.
@@ -29,11 +29,24 @@ bool normalize(Vector<3>& v) {
   return true;
 }
 
+/// The centroid of its area: of any line through it no side has less than 4/9 of that. Of what has no area that of its corners.
 Point3 centre(const CutPolygon& polygon) {
-  Point3 c;
+  Point3 sum, c;
+  double area = 0;
+  const Point3& origin = polygon.corners[0];
+  for (std::size_t k = 1; k + 1 < polygon.count; ++k) {
+    const auto u = difference(polygon.corners[k], origin), v = difference(polygon.corners[k + 1], origin);
+    const auto n = cross(u, v);
+    const double twice = std::sqrt(dot(n, n));
+    area += twice;
+    for (std::size_t i = 0; i < 3; ++i) sum.x[i] += twice * (u[i] + v[i]);
+  }
+  if (area > 0) {
+    for (int i = 0; i < 3; ++i) c[i] = origin[i] + sum[i] / (3 * area);
+    return c;
+  }
   for (const Point3& p : polygon.all())
-    for (int i = 0; i < 3; ++i) c[i] += p[i];
-  for (int i = 0; i < 3; ++i) c[i] /= static_cast<double>(polygon.count);
+    for (int i = 0; i < 3; ++i) c[i] += p[i] / static_cast<double>(polygon.count);
   return c;
 }
 
@@ -141,8 +154,11 @@ bool Cover::look_beyond(const Triangle& t, const CutPolygon& polygon, int depth,
   CutPolygon here = polygon, inside;
   std::size_t parts = 0;
   const double level = height(t.normal, t.corners[0]), reach = part_of_height * e_;
+  const Point3 c = centre(polygon);
+  // With the centroid inside, what is cut off is no more than 5/9 of the polygon each time, so that this ends. An edge alone
+  // could be inside again and again.
   const auto take = [&](const Vector<3>& normal, double offset) {
-    if (here.count == 0 || !cut(here, normal, offset, inside, rest[parts])) return false;
+    if (height(normal, c) > offset || !cut(here, normal, offset, inside, rest[parts])) return false;
     here = inside;
     if (rest[parts].count > 0) ++parts;
     return here.count > 0;
