@@ -4,6 +4,7 @@
 // pgdr info: what is in an input or a mesh, and whether pgdr mesh would take it.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <exception>
 #include <numeric>
 #include <optional>
@@ -22,6 +23,7 @@
 #include "pgdr/refine.hpp"
 #include "problems.hpp"
 #include "proposal.hpp"
+#include "surface_step.hpp"
 
 namespace pgdr::tool {
 namespace {
@@ -157,6 +159,7 @@ class InputInfo {
     say_what_is_ahead(*prepared);
     const RefineResult<D> recovered = recover_and_describe(*prepared);
     accept(recovered);
+    if constexpr (D == 3) try_surface();
     return exit_done;
   }
 
@@ -186,6 +189,7 @@ class InputInfo {
   void say_what_is_ahead(const Domain<D>& domain) {
     const Outlook<D> outlook = look_ahead<D>(domain, resolve<D>({}, smallest_proved_bound<D>()), true, a_.regions, {});
     set_outlook(report_, domain, outlook);
+    if (outlook.estimate) estimated_ = outlook.estimate->cells;
     if (outlook.angle) smallest_angle_ = outlook.angle->degrees;
     if (!a_.quiet) print_outlook(domain, outlook);
     recovery_at_ = clock_.seconds();
@@ -224,6 +228,23 @@ class InputInfo {
     std::rethrow_exception(refused);
   }
 
+  /// Says what `mesh --surface-tolerance` would make of it, and how many cells of that.
+  void try_surface() requires(D == 3) {
+    if (!a_.surface.tolerance) return;
+    const Bounds<3> bounds = resolve<3>({}, smallest_proved_bound<3>());
+    const SurfaceStep step = replace_surface(plc_, a_.surface, a_.reading.tolerance, bounds, {});
+    set_surface(report_, step);
+    if (!a_.quiet) print_surface(step);
+    const Domain<3> domain(step.replaced.plc);
+    const Outlook<3> outlook = look_ahead<3>(domain, bounds, true, a_.regions, {});
+    JsonObject cells;
+    if (outlook.estimate)
+      cells = JsonObject{{"given", std::floor(estimated_)}, {"replaced", std::floor(outlook.estimate->cells)}};
+    report_.set("surface_estimated_cells", cells);
+    if (!a_.quiet && outlook.estimate)
+      print_row("", "at least " + count_cells<3>(static_cast<std::uint64_t>(outlook.estimate->cells)) + " of it");
+  }
+
   void accept(const RefineResult<D>& recovered) {
     findings_.set("accepted", true);
     report_.set("diagnosis", findings_);
@@ -253,6 +274,7 @@ class InputInfo {
   std::optional<BodyTable> bodies_;
   std::vector<Diagnostic> repairs_;
   JsonObject seconds_, findings_;
+  double estimated_ = 0;  ///< cells
   double recovery_at_ = 0, smallest_angle_ = 180;
 };
 
@@ -323,6 +345,7 @@ int info(const InfoArguments& arguments, Report& report) {
   report.set("input", inputs.json());
   const int dimension = inputs.dimension();
   report.set("dimension", dimension);
+  require_3d(arguments.surface, dimension);
   if (arguments.files.size() == 1 && inputs.only().holds_cells())
     return dimension == 2 ? info_of_mesh<2>(arguments, inputs.only(), report) : info_of_mesh<3>(arguments, inputs.only(), report);
   for (const std::string& file : arguments.files) require_input_format(file);

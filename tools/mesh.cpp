@@ -20,6 +20,7 @@
 #include "files.hpp"
 #include "input.hpp"
 #include "mesh_options.hpp"
+#include "pgdr/facet_places.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/output_files.hpp"
 #include "proposal.hpp"
@@ -310,6 +311,8 @@ class MeshRun {
     if (a_.time_limit)
       options_.time_limit = std::chrono::duration<double>(std::max(0.0, *a_.time_limit - total_.seconds()) * part_for_meshing);
     refine_here();
+    if constexpr (D == 3)
+      if (surface_) name_facets_by_places(plc_, result_.reasons);  // the input does not have these facets
     result_.repairs.insert(result_.repairs.begin(), repairs_.begin(), repairs_.end());
     const std::vector<Diagnostic> unfit = unfit_names(plc_.names, a_.output);
     result_.warnings.insert(result_.warnings.end(), unfit.begin(), unfit.end());
@@ -321,7 +324,9 @@ class MeshRun {
   /// Puts another surface in the place of the given one, where that is asked for.
   void make_surface() requires(D == 3) {
     if (!a_.surface.tolerance) return;
-    surface_ = replace_surface(plc_, a_.surface, a_.reading.tolerance, bounds_, options_.stop);
+    SurfaceArguments arguments = a_.surface;
+    if (!ranks_.is_first()) arguments.output.clear();
+    surface_ = replace_surface(plc_, arguments, a_.reading.tolerance, bounds_, options_.stop);
     plc_ = std::move(surface_->replaced.plc);
     set_surface(report_, *surface_);
     if (!a_.quiet && ranks_.is_first()) print_surface(*surface_);

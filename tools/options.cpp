@@ -215,6 +215,10 @@ void add_mesh(CLI::App& app, MeshArguments& a) {
       ->excludes(min_dihedral);
   add_input(app, a.reading);
   add_surface(app, a.surface, "mesh another surface, within this distance of the given one both ways, without its needles");
+  app.add_option("--surface-output", a.surface.output,
+                 "3D: write the other surface, too: .poly, or triangles as .off .obj .ply .stl")
+      ->type_name("FILE")
+      ->needs("--surface-tolerance");
   add_regions(app, a.regions, a.reading.bodies);
   app.add_flag("--keep-boundary", a.keep_boundary, "2D: no new points on segments");
   app.add_flag("--drop-unused-points", a.drop_unused_points,
@@ -306,6 +310,7 @@ void add_check(CLI::App& app, CheckArguments& a) {
 void add_info(CLI::App& app, InfoArguments& a) {
   app.add_option("FILE", a.files, "an input, which may be several files, or a mesh")->required()->type_name("");
   add_input(app, a.reading);
+  add_surface(app, a.surface, "say what `mesh` would make of the surface within this distance");
   add_regions(app, a.regions, a.reading.bodies);
   app.add_option("--write-problems", a.problems,
                  "what is wrong or odd with an input, as geometry with kinds and numbers: .vtp .vtk .vtu .obj")

@@ -42,6 +42,7 @@ struct InputArguments : Treatment {
 struct SurfaceArguments {
   std::optional<std::string> tolerance;  ///< E or E% (surface_tolerance.hpp); none: the given surface
   std::optional<double> feature_angle;   ///< degrees; none: as a report says, or the default
+  std::string output;                    ///< of `mesh`: where the other surface is written; empty: nowhere
 };
 
 struct MeshArguments {
@@ -88,6 +89,7 @@ struct CheckArguments {
 struct InfoArguments {
   std::vector<std::string> files;  ///< one mesh, or one or more inputs
   InputArguments reading;
+  SurfaceArguments surface;
   RegionMode regions = RegionMode::seeds;
   std::string problems;  ///< what is wrong, as geometry; empty: not written
   std::string report;

@@ -3,8 +3,12 @@
 #include "surface_step.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <limits>
+#include <vector>
 
 #include "console.hpp"
+#include "surface_output.hpp"
 #include "surface_tolerance.hpp"
 
 namespace pgdr::tool {
@@ -19,11 +23,26 @@ JsonObject refusals(const SurfaceReport::Refused& r) {
           {"distance", r.distance}, {"meets", r.meets}, {"gap", r.gap},   {"swept", r.swept}};
 }
 
+/// The least of the sizes that are asked for at a point; none if none is.
+std::function<double(const Point3&)> size_of(const Bounds<3>& bounds) {
+  std::vector<SizingField<3>> fields;
+  if (bounds.size.bounded()) fields.push_back(bounds.size);
+  for (const RegionSize<3>& r : bounds.region_sizes)
+    if (r.size.bounded()) fields.push_back(r.size);
+  if (fields.empty()) return {};
+  return [fields](const Point3& p) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& field : fields) least = std::min(least, field.at(p));
+    return least;
+  };
+}
+
 }  // namespace
 
 void require_3d(const SurfaceArguments& arguments, int dimension) {
   if (arguments.tolerance && dimension == 2)
     throw UsageError({.code = Errc::bad_option, .message = "--surface-tolerance is for 3D"});
+  if (!arguments.output.empty()) require_surface_writable(arguments.output);
 }
 
 SurfaceStep replace_surface(const Plc<3>& plc, const SurfaceArguments& arguments, std::optional<double> tolerance,
@@ -34,8 +53,10 @@ SurfaceStep replace_surface(const Plc<3>& plc, const SurfaceArguments& arguments
   if (arguments.feature_angle) options.feature_angle = *arguments.feature_angle;
   options.wanted_corner = std::max(usual_wanted_corner, bounds.min_dihedral.value_or(0) + headroom);
   options.stop = stop;
+  options.size = size_of(bounds);
   SurfaceStep step{*arguments.tolerance, pgdr::replace_surface(plc, options), surface_counts(plc), {}};
   step.after = surface_counts(step.replaced.plc);
+  if (!arguments.output.empty()) write_surface(arguments.output, step.replaced.plc);
   return step;
 }
 
@@ -58,6 +79,7 @@ void set_surface(Report& report, const SurfaceStep& step) {
                                              {"refused", refusals(r.refused)},
                                              {"distance", JsonObject{{"to_given", r.to_given}, {"from_given", r.from_given}}},
                                              {"farthest_point", r.farthest_point.x},
+                                             {"given_up", r.given_up},
                                              {"stopped", r.stopped},
                                              {"seconds", r.seconds}});
   report.set("surface", JsonObject{{"given", to_json(step.before)}, {"meshed", to_json(step.after)}});

@@ -23,11 +23,12 @@ struct SurfaceStep {
   SurfaceCounts before, after;
 };
 
-/// @throws UsageError bad_option if the flag is given for a plane input
+/// @throws UsageError bad_option if the flag is given for a plane input; as require_surface_writable
 void require_3d(const SurfaceArguments& arguments, int dimension);
 
+/// Writes the surface, too, where that is asked for.
 /// @param tolerance  that of the flag --tolerance
-/// @throws as pgdr::replace_surface
+/// @throws as pgdr::replace_surface and write_surface
 SurfaceStep replace_surface(const Plc<3>& plc, const SurfaceArguments& arguments, std::optional<double> tolerance,
                             const Bounds<3>& bounds, const std::stop_token& stop);
 

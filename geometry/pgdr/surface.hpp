@@ -52,8 +52,10 @@ struct SurfaceReport {
     std::uint64_t gap = 0;       ///< a gap too narrow
     std::uint64_t swept = 0;     ///< something would be on its other side
   } refused;
-  double to_given = 0,
-         from_given = 0;    ///< the largest distance that a vertex is from the other surface: of new ones, of given ones
+  /// Triangles with corners smaller than wanted for which not all was tried: the effort, so many changes a triangle, was spent.
+  std::uint64_t given_up = 0;
+  double to_given = 0;      ///< the largest distance that a vertex of the other surface is from the given one
+  double from_given = 0;    ///< the largest that a given one is from the other surface
   Point3 farthest_point{};  ///< where the larger of these is
   bool stopped = false;     ///< the caller's token ended it early
   double seconds = 0;       ///< that it took

@@ -73,6 +73,7 @@ Verdict Changer::judge(SurfaceChange& change, const ChangeGoal& goal) const {
 }
 
 Verdict Changer::attempt(SurfaceChange change, const ChangeGoal& goal) {
+  ++attempts_;
   const Verdict verdict = judge(change, goal);
   count(verdict, change.kind);
   if (verdict == Verdict::yes) make(change);

@@ -43,6 +43,9 @@ class Changer {
 
   const SurfaceComplex& complex() const { return s_.complex; }
   const GivenSurface& given() const { return s_.given; }
+  std::uint64_t attempts() const { return attempts_; }  ///< changes that were judged
+  /// Says that so many faces were left to themselves.
+  void give_up(std::uint64_t faces) { report_.given_up += faces; }
   /// How often something at this vertex has changed.
   std::uint32_t touched(std::uint32_t v) const { return touched_[v]; }
   /// The faces that came with the change made last.
@@ -58,6 +61,7 @@ class Changer {
   double tolerance_;
   const std::function<double(const Point3&)>& size_;
   SurfaceReport& report_;
+  std::uint64_t attempts_ = 0;
   std::vector<std::uint32_t> touched_;
   std::vector<std::uint32_t> last_;
 };

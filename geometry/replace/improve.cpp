@@ -37,10 +37,16 @@ class Improving {
         splits_left_(most_splits) {}
 
   bool run(const std::stop_token& stop) {
-    for (std::uint32_t f = 0; f < s_.faces.size(); ++f)
-      if (s_.faces[f].alive) push(f);
+    std::uint64_t faces = 0;
+    for (std::uint32_t f = 0; f < s_.faces.size(); ++f) {
+      if (!s_.faces[f].alive) continue;
+      ++faces;
+      push(f);
+    }
+    const std::uint64_t most = changer_.attempts() + numbers::effort * faces;
     while (!queue_.empty()) {
       if (stop.stop_requested()) return false;
+      if (changer_.attempts() > most) return give_up();
       const WaitingFace w = queue_.top();
       queue_.pop();
       if (!s_.faces[w.face].alive || w.touched != touched(w.face)) continue;
@@ -72,6 +78,16 @@ class Improving {
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
     for (const std::uint32_t f : near) push(f);
+  }
+
+  bool give_up() {
+    std::uint64_t left = 0;
+    for (; !queue_.empty(); queue_.pop()) {
+      const WaitingFace& w = queue_.top();
+      left += s_.faces[w.face].alive && w.touched == touched(w.face);
+    }
+    changer_.give_up(left);
+    return true;
   }
 
   bool cure(std::uint32_t f) {

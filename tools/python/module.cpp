@@ -23,4 +23,5 @@ PYBIND11_MODULE(_pgdr, module) {
   pgdr::python::bind_run(module);
   pgdr::python::bind_check(module);
   pgdr::python::bind_estimate(module);
+  pgdr::python::bind_surface(module);
 }

@@ -19,11 +19,13 @@ from ._pgdr import version as __version__
 from ._plc import Plc, close_planar_openings, resolve_crossings, with_convex_hull
 from ._report import CheckFinding, CheckReport
 from ._run import Elements, Progress, StopSource, mesh
+from ._surface import ReplacedSurface, replace_surface
 from ._tetgen import Tetrahedralization, tetrahedralize
 from ._triangle import triangulate
 
 __all__ = ["Bodies", "BodyRegion", "CancelledError", "CheckFinding", "CheckReport", "DiagnosedError", "Diagnostic", "Elements",
            "Error", "Estimate", "Field", "FileError", "Finding", "Gap", "InputError", "Mesh", "Plc", "Progress", "Proposal",
-           "Reason", "ResourceError", "SharpAngle", "StopSource", "Tetrahedralization", "UsageError", "__version__", "check",
-           "close_planar_openings", "diagnose", "estimate", "info", "limit_growth", "mesh", "resolve_crossings", "sizes_at_points",
+           "Reason", "ReplacedSurface", "ResourceError", "SharpAngle", "StopSource", "Tetrahedralization", "UsageError",
+           "__version__", "check", "close_planar_openings", "diagnose", "estimate", "info", "limit_growth", "mesh",
+           "replace_surface", "resolve_crossings", "sizes_at_points",
            "sizes_on_mesh", "smallest", "tetrahedralize", "triangulate", "with_bodies", "with_convex_hull"]

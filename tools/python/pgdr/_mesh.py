@@ -25,7 +25,7 @@ class Reason(NamedTuple):
 
     cell: int  #: its row in `cells`
     code: str  #: a stable word such as "small_angle"
-    #: of each its kind and what it is in the input: ("facet", its row in the input), ("segment", its two ends, where the mesh has them)
+    #: of each its kind and what it is in the input: ("facet", its row in the input, or, with `surface_tolerance`, a place on it), ("segment", its two ends, where the mesh has them)
     entities: Sequence[_Entity]
     angle: float  #: in degrees, between these; 0: none
 
@@ -163,8 +163,8 @@ class Mesh:
         """Of each cell over a bound, why. Empty where all bounds hold."""
         def named(kind: int, facet: int, ends: npt.NDArray[np.float64]) -> List[_Entity]:
             word = _pgdr.entity_kinds[kind]
-            if word == "facet":
-                return [(word, int(facet))]
+            if word == "facet":  # of another surface than the input's: a place on it
+                return [(word, int(facet) if facet != 2**32 - 1 else tuple(tuple(x) for x in ends[:1].tolist()))]
             return [(word, tuple(tuple(x) for x in ends[:, :self.dimension].tolist()))] if word == "segment" else []
 
         return [Reason(int(cell), _pgdr.reason_codes[code], sum(map(named, kinds, facets, ends), []), float(angle))
@@ -189,6 +189,12 @@ class Mesh:
     def repairs(self) -> List[Diagnostic]:
         """What was done to the input: each repair, with the numbers and places of what it is about."""
         return list(self._facts.get("repairs", []))
+
+    @property
+    def surface(self) -> Optional[Dict[str, Any]]:
+        """With `surface_tolerance`: what was made of the surface, by the names of the command's report (docs/usage.md). None: it is
+        the surface as given."""
+        return self._facts.get("surface")
 
     @property
     def warnings(self) -> List[Diagnostic]:

@@ -17,6 +17,7 @@ from ._errors import DiagnosedError, Diagnostic, in_python, usage
 from ._fields import Size
 from ._mesh import Mesh
 from ._plc import Plc
+from ._surface import replace_surface
 
 
 class Elements(NamedTuple):
@@ -67,7 +68,8 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
          min_dihedral: Optional[float] = None, optimize: bool = True, threads: int = 0, regions: Optional[str] = None,
          region_sizes: Optional[Mapping[Union[float, str], Size]] = None,
          selector: Union[None, str, Callable[[Elements], npt.ArrayLike]] = None, keep_boundary: bool = False,
-         tolerance: Optional[float] = None, max_volume: Optional[float] = None, min_edge: float = 0.0,
+         tolerance: Optional[float] = None, surface_tolerance: Union[None, float, str] = None, feature_angle: float = 40.0,
+         max_volume: Optional[float] = None, min_edge: float = 0.0,
          time_limit: Optional[float] = None, max_vertices: Optional[int] = None, refine: bool = True,
          schedule: Optional[str] = None, drop_unused_points: bool = False, memory_guard: bool = True,
          progress: Union[bool, Callable[[Progress], object]] = False, stop: Union[None, StopSource, _Event] = None) -> Mesh:
@@ -107,6 +109,12 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
         2D: no new point on any segment.
     tolerance : float, optional
         Instead of that of the input: what lies within this distance meets.
+    surface_tolerance : float or str, optional
+        3D: another surface is meshed, which `replace_surface` makes within this distance of the given one: a length, or "0.1%" of the
+        diagonal of all points. Rows of the input are then those of the other surface; `Mesh.surface` says what it is. (`size` does not
+        limit its edges here: call `replace_surface` in C++, or the command, for that.)
+    feature_angle : float
+        Degrees, with `surface_tolerance`: where normals differ by more is a crease, which stays.
     max_volume : float, optional
         3D: bound on the volume of each cell.
     min_edge : float
@@ -163,6 +171,10 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
     if tolerance is not None:
         plc = plc.with_tolerance(tolerance)
     dimension = plc.dimension
+    surface: Optional[Dict[str, Any]] = None
+    if surface_tolerance is not None:
+        wanted = max(25.0, _arguments.number("min_dihedral", min_dihedral or 0) + 10)
+        plc, _, surface = replace_surface(plc, surface_tolerance, feature_angle=feature_angle, wanted_corner=wanted)
     region_sizes = None if region_sizes is None else sizes_by_label(region_sizes, plc.region_names)
     if not _arguments.flag("optimize", optimize):
         if min_dihedral is not None:
@@ -189,6 +201,9 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
     except DiagnosedError as error:
         _add_what_helps(error, plc)
         raise
+    if surface is not None and isinstance(made._core, _pgdr.Mesh3) and isinstance(plc._core, _pgdr.Plc3):
+        _pgdr.name_facets_by_places(made._core, plc._core)  # the input does not have these facets
+        made._facts["surface"] = surface
     if asked is not None and not asked.was_called:
         _say_unasked(made, options)
     return made

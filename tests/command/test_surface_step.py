@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The pgdr authors
+# SPDX-License-Identifier: Apache-2.0
+"""Meshes of another surface that the command makes by itself, and certifies. Usage: test_surface_step.py [Class[.test]...]"""
+import pathlib
+import unittest
+
+from test_command import Case
+from test_surface import ball
+
+SURFACES = pathlib.Path(__file__).parent.parent / "models" / "real" / "surfaces"
+ANCHOR = SURFACES / "cgal_anchor.off"
+
+
+class SurfaceStep(Case):
+    def certify(self, model, tolerance, expect):
+        done = self.pgdr("check", self.output, "--input", model, "--surface-tolerance", tolerance, "--reasons", self.report)
+        self.assertIn(done.returncode, expect, done.stdout)
+
+    def test_needles_go(self):
+        self.mesh(ANCHOR, "--report", self.report, expect=1)
+        before = self.json()
+        done = self.mesh(ANCHOR, "--surface-tolerance", "0.1%", "--report", self.report, expect=None)
+        self.assertIn(done.returncode, (0, 1), done.stderr)
+        after, step = self.json(), self.json()["surface_tolerance"]
+        self.assertGreater(before["bounds"]["poor_left"], 500)
+        self.assertLess(after["bounds"]["poor_left"], 10)
+        self.assertLess(after["cells"], before["cells"])
+        self.assertEqual(after["surface"]["given"], after["surface"]["meshed"])
+        self.assertEqual(step["given"], "0.1%")
+        self.assertLess(max(step["distance"].values()), step["used"])
+        self.assertLess(step["counted_corners_below_14.5"][1], 5)
+        self.assertIn("in place of 1050", done.stdout)
+        self.certify(ANCHOR, "0.1%", (0, 1))
+        self.certify(ANCHOR, "0.05%", (6,))
+
+    def test_threads_and_the_order_of_facets_are_no_matter(self):
+        lines = ball(16).splitlines()
+        points, facets = int(lines[1].split()[0]), lines[2:]
+        turned = "\n".join(lines[:2] + facets[:points] + facets[:points - 1:-1]) + "\n"
+        made = []
+        for k, (text, threads) in enumerate(((ball(16), 1), (ball(16), 2), (turned, 2))):
+            surface = self.folder / f"surface{k}.poly"
+            self.mesh(self.file("ball.off", text), "--surface-tolerance", "2%", "--threads", threads, "--surface-output", surface,
+                      expect=0)
+            made.append((self.output.read_bytes(), surface.read_bytes()))
+        self.assertEqual(made[0], made[1])
+        self.assertEqual(made[0][1], made[2][1])
+
+    def test_the_surface_is_written(self):
+        model, flags = self.file("ball.off", ball(24)), ("--surface-tolerance", "0.02")
+        for extension in ("poly", "off", "obj", "ply", "stl"):
+            surface = self.folder / f"surface.{extension}"
+            self.mesh(model, *flags, "--surface-output", surface, "--report", self.report)
+            cells = self.json()["cells"]
+            self.mesh(surface, "--report", self.report)
+            self.assertLess(abs(self.json()["cells"] - cells), 0.2 * cells, extension)
+            if extension != "stl":  # whose solids are read with markers of their own
+                self.certify(model, "0.02", (0,))
+        self.pgdr("mesh", model, "-o", self.output, *flags, "--surface-output", "x.step", expect=2)
+        self.pgdr("mesh", model, "-o", self.output, "--surface-output", "x.off", expect=2)
+
+    def test_sizes_limit(self):
+        model = self.file("ball.off", ball(40))
+        triangles = []
+        for flags in ((), ("--size", "0.12"), ("--size", "0.12+z*z")):
+            self.mesh(model, "--surface-tolerance", "5%", "--yes-coarse", *flags, "--report", self.report, expect=None)
+            triangles.append(self.json()["surface_tolerance"]["triangles"][1])
+        self.assertLess(2 * triangles[0], triangles[1])
+        self.assertLess(triangles[2], triangles[1])
+
+    def test_info_says_what_it_would_do(self):
+        done = self.pgdr("info", ANCHOR, "--surface-tolerance", "0.1%", "--report", self.report, expect=0)
+        self.assertIn("in place of 1050", done.stdout)
+        self.assertEqual(self.json()["surface_tolerance"]["triangles"][0], 1050)
+        self.assertGreater(min(self.json()["surface_estimated_cells"].values()), 0)
+
+    def test_what_is_refused(self):
+        model = self.file("ball.off", ball(12))
+        self.assertIn("tolerance_too_large", self.refused(model, "3%", 3))
+        self.mesh(model, "--surface-tolerance", "3%", "--yes-coarse")
+        self.assertIn("seed", self.refused(model, "0.01", 3, "--seed", "0,0,0.995=1"))
+        self.mesh(model, "--surface-tolerance", "0.01", "--seed", "0,0,0.5=1")
+        square = self.file("square.poly", "4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n")
+        self.assertIn("is for 3D", self.refused(square, "0.1", 2))
+
+    def refused(self, model, tolerance, expect, *flags):
+        done = self.mesh(model, "--surface-tolerance", tolerance, *flags, "--report", self.report, expect=expect)
+        return done.stderr + self.report.read_text()
+
+
+if __name__ == "__main__":
+    unittest.main()
