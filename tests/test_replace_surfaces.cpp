@@ -256,7 +256,9 @@ TEST(ReplaceSurface, SizesLimit) {
   for (const auto& f : out.plc.facets)
     for (std::size_t i = 0; i < 3; ++i) {
       const Point3 &a = out.plc.points[f.polygons[0][i]], &b = out.plc.points[f.polygons[0][(i + 1) % 3]];
-      if (a[2] > 0 || b[2] > 0) EXPECT_LE(std::sqrt(squared_distance(a, b)), 0.3);
+      if (a[2] > 0 || b[2] > 0) {
+        EXPECT_LE(std::sqrt(squared_distance(a, b)), 0.3);
+      }
       ++halves[a[2] > 0 ? 1 : 0];
     }
   EXPECT_GT(halves[1], halves[0] * 3 / 2);
