@@ -9,9 +9,9 @@
 
 namespace pgdr::numbers {
 
-/// Of E, what the step uses: so that whoever certifies the result at E ends quickly (a piece of which all is within 63/64 E is
+/// Of E, what the step uses, 63/64: so that whoever certifies the result at E ends quickly (a piece of which all is within 63/64 E is
 /// decided at a radius of E/64 at the latest), and rounding has room.
-inline constexpr double used_part = 63.0 / 64;
+inline constexpr double used_part = 0.984375;
 
 /// An E has to be that many times the tolerance within which things meet, so that both are not about the same thing.
 inline constexpr double least_of_tolerance = 16;
