@@ -15,7 +15,7 @@
 namespace pgdr::tool {
 namespace {
 
-using Point = std::array<double, 3>;
+using Place = std::array<double, 3>;
 using Ids = std::array<std::int64_t, 2>;
 
 class Collector {
@@ -25,10 +25,10 @@ class Collector {
   }
 
   /// What so many points are: a point, a line, or, if they go round something, a polygon or a ring.
-  void add(Finding finding, Problems::Role role, const Ids& ids, double measure, std::span<const Point> points,
+  void add(Finding finding, Problems::Role role, const Ids& ids, double measure, std::span<const Place> points,
            bool is_ring = false, bool is_polygon = false) {
     Problems::Cell cell{finding, role, ids, measure, {}};
-    for (const Point& p : points) {
+    for (const Place& p : points) {
       const std::uint32_t n = number(p);
       if (cell.points.empty() || cell.points.back() != n) cell.points.push_back(n);
     }
@@ -42,14 +42,14 @@ class Collector {
   bool is_new(Finding finding, char what, const Ids& ids) { return seen_.emplace(finding, what, ids).second; }
 
  private:
-  std::uint32_t number(const Point& p) {
+  std::uint32_t number(const Place& p) {
     const auto [at, is_new] = numbers_.emplace(p, static_cast<std::uint32_t>(out_.points.size()));
     if (is_new) out_.points.push_back(p);
     return at->second;
   }
 
   Problems& out_;
-  std::map<Point, std::uint32_t> numbers_;
+  std::map<Place, std::uint32_t> numbers_;
   std::set<std::tuple<Finding, char, Ids>> seen_;
 };
 
@@ -62,7 +62,7 @@ class ProblemFinder {
     kind_ = kind;
     measure_ = item.measure;
     const std::vector<std::int64_t>& ids = item.what.ids;
-    const std::span<const Point> points(item.what.points);
+    const std::span<const Place> points(item.what.points);
     add_culprits(ids);
     switch (kind) {
       case Finding::encloses_nothing: return;  // the open boundaries are in their own list
@@ -77,7 +77,7 @@ class ProblemFinder {
       case Finding::unreferenced_point:
       case Finding::non_manifold_point:
       case Finding::facets_overlap:
-        for (const Point& p : points) place(ids, {&p, 1});
+        for (const Place& p : points) place(ids, {&p, 1});
         return;
       default: return place(ids, points);
     }
@@ -85,7 +85,7 @@ class ProblemFinder {
 
  private:
   static Ids first_two(const std::vector<std::int64_t>& ids) { return {ids.empty() ? -1 : ids[0], ids.size() < 2 ? -1 : ids[1]}; }
-  void place(const std::vector<std::int64_t>& ids, std::span<const Point> points) {
+  void place(const std::vector<std::int64_t>& ids, std::span<const Place> points) {
     out_.add(kind_, Problems::Role::where, first_two(ids), measure_, points);
   }
 
@@ -115,10 +115,10 @@ class ProblemFinder {
     }
   }
 
-  std::optional<Point> point(std::int64_t id) const {
+  std::optional<Place> point(std::int64_t id) const {
     const std::int64_t i = id - plc_.first_index;
     if (i < 0 || static_cast<std::size_t>(i) >= plc_.points.size()) return std::nullopt;  // a Domain has added it
-    Point p{};
+    Place p{};
     std::copy_n(plc_.points[static_cast<std::size_t>(i)].x.begin(), D, p.begin());
     return p;
   }
@@ -137,7 +137,7 @@ class ProblemFinder {
     if (i < 0 || static_cast<std::size_t>(i) >= plc_.facets.size() || !out_.is_new(kind_, 'f', {id, -1})) return;
     const auto& polygons = plc_.facets[static_cast<std::size_t>(i)].polygons;
     for (const auto& polygon : polygons) {
-      std::vector<Point> corners;
+      std::vector<Place> corners;
       for (const std::uint32_t v : polygon)
         if (const auto p = point(v + std::int64_t{plc_.first_index})) corners.push_back(*p);
       out_.add(kind_, Problems::Role::culprit, {id, -1}, measure_, corners, true, polygons.size() == 1);
@@ -147,7 +147,7 @@ class ProblemFinder {
   /// The length of a loop is that of all its edges, of a path that of one less: the same sum as the diagnosis'.
   static bool is_loop(const FindingList::Item& item) {
     const auto& p = item.what.points;
-    const auto length = [](const Point& a, const Point& b) {
+    const auto length = [](const Place& a, const Place& b) {
       return std::sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
     };
     if (D == 2 || p.size() < 3) return false;
@@ -183,7 +183,7 @@ Problems problems_in_full(const Plc<D>& plc, const Diagnosis<D>& diagnosis) {
 
 void add_problem(Problems& problems, const Diagnostic& error) {
   Collector out(problems);
-  for (const Point& p : error.points)
+  for (const Place& p : error.points)
     out.add(Finding::invalid_entity, Problems::Role::where, {error.ids.empty() ? -1 : error.ids[0], -1}, 0, {&p, 1});
 }
 
