@@ -108,6 +108,10 @@ class Names(NamedCase):
             self.pgdr("check", output, "--input", model, "--reasons", self.report, expect=0)
             said = self.pgdr("check", output, "--input", other, "--reasons", self.report, expect=6).stdout
             self.assertIn('wrong_name: The marker 1 is called "Gear A", and in the input "Gear B".', said)
+        self.pgdr("mesh", model, "-o", self.output, "--seed", "0.5,0.5,0.5=Steel", expect=0)
+        self.pgdr("check", self.output, "--input", model, "--seed", "0.5,0.5,0.5=Steel", expect=0)
+        said = self.pgdr("check", self.output, "--input", model, "--seed", "0.5,0.5,0.5=Brass", expect=6).stdout
+        self.assertIn('wrong_name: The label 1 is called "Steel", and in the input "Brass".', said)
 
     def test_sizes_by_name(self):
         _, coarse, _ = self.meshed("a.vtu")
