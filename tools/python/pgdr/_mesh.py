@@ -25,7 +25,8 @@ class Reason(NamedTuple):
 
     cell: int  #: its row in `cells`
     code: str  #: a stable word such as "small_angle"
-    #: of each its kind and what it is in the input: ("facet", its row in the input, or, with `surface_tolerance`, a place on it), ("segment", its two ends, where the mesh has them)
+    #: of each its kind and what it is in the input: ("facet", its row in the input, or, with `surface_tolerance`, a place on it),
+    #: ("segment", its two ends, where the mesh has them)
     entities: Sequence[_Entity]
     angle: float  #: in degrees, between these; 0: none
 
