@@ -144,6 +144,13 @@ std::string verdict(const RefineResult<D>& r) {
   return text;
 }
 
+/// Does a cell stay poor beside a small angle of the input that another surface might not have?
+template <int D>
+bool has_needles(const RefineResult<D>& r) {
+  const auto is_small = [](const PoorReason& reason) { return reason.code == PoorReason::Code::small_angle; };
+  return static_cast<std::size_t>(std::ranges::count_if(r.reasons, is_small)) > r.poor_unavoidable;
+}
+
 std::string words(const SchedulerStatistics& s, std::size_t threads) {
   return count(threads, "thread", "threads") + ", " + count(s.visits, "visit", "visits") + " of " +
          count(s.leaves, "leaf", "leaves") + " in " + count(s.generations, "generation", "generations") +
@@ -152,7 +159,7 @@ std::string words(const SchedulerStatistics& s, std::size_t threads) {
 
 template <int D>
 void print_summary(const MeshArguments& a, const std::string& inputs, std::size_t points, const Bounds<D>& bounds,
-                   const RefineResult<D>& r, const Measured& measured, const Seconds& seconds) {
+                   const RefineResult<D>& r, const Measured& measured, const Seconds& seconds, double seconds_of_surface) {
   const QualitySummary& q = measured.quality;
   print_row("input", format("%s (%dD, %s)", inputs.c_str(), D, count(points, "point", "points").c_str()));
   if (!r.repairs.empty()) print_row("repaired", count(r.repairs.size(), "defect", "defects") + ", see --report");
@@ -175,7 +182,11 @@ void print_summary(const MeshArguments& a, const std::string& inputs, std::size_
     print_row("bounds", "not refined: " + count(r.poor_left, "element is", "elements are") + " over a bound");
   else
     print_row("bounds", verdict(r));
-  print_row("time", format("%.3f s meshing (%.3f s read, %.3f s write)", r.statistics.seconds_mesh, seconds.read, seconds.write));
+  if (D == 3 && !a.surface.tolerance && has_needles(r))
+    print_row("needles",
+              "cells stay poor beside small angles of the surface; --surface-tolerance 0.1% meshes another one as near to it");
+  print_row("time", format("%.3f s meshing (%.3f s read, %.3f s write)", r.statistics.seconds_mesh + seconds_of_surface,
+                           seconds.read, seconds.write));
   print_row("threads", words(r.scheduler, threads_that_ran(r)));
   print_row("memory", format("%.1f MiB at most", static_cast<double>(peak_rss_bytes()) / (1 << 20)));
   if (measured.cells > 0) print_row("wrote", a.output);
@@ -221,6 +232,7 @@ class MeshRun {
       report_.set("tolerance", result_.tolerance);
       report_.set("largest_move", result_.largest_move);
       fill(report_, a_, threads_, bounds_, result_, measured);
+      if (surface_ && surface_->replaced.report.stopped) report_.set("reproducible", false);
       if (bodies_) set_regions(report_, result_.regions, *bodies_);
     });
     const std::optional<Proposal> proposal = write(measured.cells > 0);
@@ -326,7 +338,11 @@ class MeshRun {
     if (!a_.surface.tolerance) return;
     SurfaceArguments arguments = a_.surface;
     if (!ranks_.is_first()) arguments.output.clear();
-    surface_ = replace_surface(plc_, arguments, a_.reading.tolerance, bounds_, options_.stop);
+    // With a clock it has half of the time, so that a mesh can be made; where it ends early it has a valid surface.
+    std::optional<Deadline> half;
+    if (a_.time_limit)
+      half.emplace(std::chrono::duration<double>(std::max(0.0, *a_.time_limit - total_.seconds()) / 2), options_.stop);
+    surface_ = replace_surface(plc_, arguments, a_.reading.tolerance, bounds_, half ? half->token() : options_.stop);
     plc_ = std::move(surface_->replaced.plc);
     set_surface(report_, *surface_);
     if (!a_.quiet && ranks_.is_first()) print_surface(*surface_);
@@ -410,11 +426,13 @@ class MeshRun {
     if (ranks_.is_first()) report_.mesh_files = std::move(mesh_files);
   }
 
+  double seconds_of_surface() const { return surface_ ? surface_->replaced.report.seconds : 0; }
+
   void report_seconds() {
     const RefineStatistics& s = result_.statistics;
     seconds_.total = total_.seconds();
     report_.set("seconds", JsonObject{{"read", seconds_.read},
-                                      {"mesh", s.seconds_mesh},
+                                      {"mesh", s.seconds_mesh + seconds_of_surface()},
                                       {"initial", s.seconds_initial},
                                       {"refine", s.seconds_refine},
                                       {"optimize", s.seconds_optimize},
@@ -425,7 +443,7 @@ class MeshRun {
 
   void print(const Measured& measured) {
     if (a_.quiet) return;
-    print_summary(a_, input_.words(), given_points_, bounds_, result_, measured, seconds_);
+    print_summary(a_, input_.words(), given_points_, bounds_, result_, measured, seconds_, seconds_of_surface());
     if (bodies_) print_bodies(*bodies_);
   }
 

@@ -15,6 +15,7 @@ namespace pgdr PGDR_API {
 /// Facets of another surface have no numbers that an input knows: each is named by a place on it instead, the centre of its
 /// largest triangle (GivenEntity), by which `check` with a surface tolerance finds it.
 /// @param plc  that surface, as it was meshed: 3D
+/// @param reasons  of its mesh: facets by their numbers, which become places
 void name_facets_by_places(const Plc<3>& plc, std::vector<PoorReason>& reasons);
 
 }  // namespace pgdr

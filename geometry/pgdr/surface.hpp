@@ -39,8 +39,12 @@ struct SurfaceReport {
   std::array<std::uint64_t, 2> sharp_triangles{};  ///< with a counted corner below 14.5 degrees
   std::array<double, 2> smallest_corner{};         ///< the least counted corner, in degrees; 180: none is counted
   std::array<std::uint64_t, 2> flat_groups{};      ///< of two triangles or more
-  std::uint64_t creases = 0, corners = 0;          ///< edges of creases as given; vertices that are kept in place
-  std::uint64_t contracted = 0, flipped = 0, moved = 0, split = 0;  ///< changes that were made
+  std::uint64_t creases = 0;                       ///< edges of creases as given
+  std::uint64_t corners = 0;                       ///< vertices that are kept in place
+  std::uint64_t contracted = 0;                    ///< edges, to a point
+  std::uint64_t flipped = 0;                       ///< edges, to the other diagonal
+  std::uint64_t moved = 0;                         ///< vertices
+  std::uint64_t split = 0;                         ///< edges, by a new vertex
   /// Changes that were not made, by the first test that refused them.
   struct Refused {
     std::uint64_t topology = 0;  ///< it would be another surface
@@ -51,7 +55,7 @@ struct SurfaceReport {
     std::uint64_t meets = 0;     ///< facets would cross or touch
     std::uint64_t gap = 0;       ///< a gap too narrow
     std::uint64_t swept = 0;     ///< something would be on its other side
-  } refused;
+  } refused;                     ///< how many of each
   /// Triangles with corners smaller than wanted for which not all was tried: the effort, so many changes a triangle, was spent.
   std::uint64_t given_up = 0;
   double to_given = 0;      ///< the largest distance that a vertex of the other surface is from the given one

@@ -9,8 +9,8 @@
 
 namespace pgdr::numbers {
 
-/// Of E, what the step uses, 63/64: so that whoever certifies the result at E ends quickly (a piece of which all is within 63/64 E is
-/// decided at a radius of E/64 at the latest), and rounding has room.
+/// Of E, what the step uses, 63/64: so that whoever certifies the result at E ends quickly (a piece of which all is within 63/64
+/// E is decided at a radius of E/64 at the latest), and rounding has room.
 inline constexpr double used_part = 0.984375;
 
 /// An E has to be that many times the tolerance within which things meet, so that both are not about the same thing.
@@ -73,8 +73,8 @@ inline constexpr int most_path = 12;
 inline constexpr double shortest_split = 2;
 
 /// Changes that are judged in one round of improving, for each face that there is: what takes more is a surface most of which are
-/// needles between curves, where each change makes its neighbours be tried again, in vain. Models of 1,000 to 75,000 triangles take
-/// 10 to 60 in all rounds.
+/// needles between curves, where each change makes its neighbours be tried again, in vain. Models of 1,000 to 75,000 triangles
+/// take 10 to 60 in all rounds.
 inline constexpr std::uint64_t effort = 40;
 
 /// Of E, for the first changes: room must be left for splits, flips and moves, or nothing moves any more.

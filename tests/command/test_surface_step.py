@@ -18,7 +18,7 @@ class SurfaceStep(Case):
         self.assertIn(done.returncode, expect, done.stdout)
 
     def test_needles_go(self):
-        self.mesh(ANCHOR, "--report", self.report, expect=1)
+        self.assertIn("--surface-tolerance 0.1%", self.mesh(ANCHOR, "--report", self.report, expect=1).stdout)
         before = self.json()
         done = self.mesh(ANCHOR, "--surface-tolerance", "0.1%", "--report", self.report, expect=None)
         self.assertIn(done.returncode, (0, 1), done.stderr)
@@ -28,6 +28,8 @@ class SurfaceStep(Case):
         self.assertLess(after["cells"], before["cells"])
         self.assertEqual(after["surface"]["given"], after["surface"]["meshed"])
         self.assertEqual(step["given"], "0.1%")
+        self.assertGreater(after["seconds"]["mesh"], step["seconds"])
+        self.assertNotIn("meshes another one", done.stdout)
         self.assertLess(max(step["distance"].values()), step["used"])
         self.assertLess(step["counted_corners_below_14.5"][1], 5)
         self.assertIn("in place of 1050", done.stdout)
