@@ -67,6 +67,16 @@ std::uint64_t crossings_of(const Plc<3>& plc) {
   return found.error_count() - found[Finding::encloses_nothing].count;
 }
 
+bool lies_in_plane_of(const Plc<3>& plc, std::size_t f, std::size_t g) {
+  const auto& plane = plc.facets[f].polygons[0];
+  const auto normal = twice_area(plc.points, plane);
+  return std::ranges::all_of(plc.facets[g].polygons[0], [&](std::uint32_t v) {
+    double height = 0;
+    for (int i = 0; i < 3; ++i) height += normal[static_cast<std::size_t>(i)] * (plc.points[v][i] - plc.points[plane[0]][i]);
+    return std::fabs(height) < 1e-9;
+  });
+}
+
 /// All that must hold of an arrangement; `off`: how far points may be off.
 void check(const Plc<3>& plc, const Arrangement& a, double off) {
   ASSERT_GE(a.points.size(), plc.points.size());
@@ -80,9 +90,15 @@ void check(const Plc<3>& plc, const Arrangement& a, double off) {
     for (std::uint32_t k = a.origins_begin[t]; k < a.origins_begin[t + 1]; ++k)
       for (std::size_t i = 0; i < 3; ++i) sums[a.origins[k].facet][i] += a.origins[k].reversed ? -area[i] : area[i];
   }
-  for (std::size_t f = 0; f < plc.facets.size(); ++f) {
-    const auto area = twice_area(plc.points, plc.facets[f].polygons[0]);
-    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(sums[f][i], area[i], 64 * off) << "facet " << f;
+  for (std::size_t f = 0; f < plc.facets.size();
+       ++f) {  // facets of one plane that share edges are one there, and each of its pieces names one
+    std::array<double, 3> sum{}, area{};
+    for (std::size_t g = 0; g < plc.facets.size(); ++g) {
+      if (g != f && !lies_in_plane_of(plc, f, g)) continue;
+      const auto given = twice_area(plc.points, plc.facets[g].polygons[0]);
+      for (std::size_t i = 0; i < 3; ++i) sum[i] += sums[g][i], area[i] += given[i];
+    }
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(sum[i], area[i], 64 * off) << "facet " << f;
   }
 }
 
@@ -296,7 +312,8 @@ TEST(Arrangement, SoupsOnAGrid) {  // PGDR_SOUPS: how many
     try {
       std::vector<Diagnostic> repairs;
       const Arrangement a = arrange(plc, repairs);
-      check(plc, a, 1e-12);
+      const auto is_grid = [](const Diagnostic& d) { return d.code == Errc::near_points; };  // rounds did not end
+      check(plc, a, std::ranges::any_of(repairs, is_grid) ? 1e-6 : 1e-12);
     } catch (const InputError& e) {
       ++refused;
       EXPECT_NE(e.code(), Errc::internal);
