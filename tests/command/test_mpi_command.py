@@ -234,6 +234,17 @@ class Reports(UniformCase):
         self.assert_same(self.file("wedge.poly", WEDGE), "--size", "0.001", "--schedule", "uniform", expect=1, is_gathered=None)
 
 
+class AnotherSurface(RanksCase):
+    """Each rank makes it, from the file: the same one."""
+    def test_same_bytes(self):
+        model = BRACKET.parent / "real" / "surfaces" / "cgal_anchor.off"
+        self.pgdr("mesh", model, "--surface-tolerance", "0.5%", "-o", self.output, expect=None)
+        alone = self.output.read_bytes()
+        self.ranks(2, "mesh", model, "--surface-tolerance", "0.5%", "-o", self.output, "--report", self.report, expect=None)
+        self.assertEqual(self.output.read_bytes(), alone)
+        self.assertEqual(self.json()["ranks"], 2)
+
+
 class Codes(RanksCase):
     def assert_said_once(self, done, text):
         self.assertEqual((done.stdout + done.stderr).count(text), 1, done.stdout + done.stderr)
