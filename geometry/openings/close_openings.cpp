@@ -136,7 +136,7 @@ class Closing {
 }  // namespace
 }  // namespace detail
 
-Plc<3> close_planar_openings(const Plc<3>& plc, std::vector<Diagnostic>& repairs, std::stop_token stop) {
+Plc<3> close_planar_openings(const Plc<3>& plc, std::vector<Diagnostic>& repairs, const std::stop_token& stop) {
   std::optional<Domain<3>> domain;
   try {
     domain.emplace(plc, stop);

@@ -35,6 +35,6 @@ namespace pgdr PGDR_API {
 /// @param repairs gets an entry open_boundary for each opening: `ids` are the points of its loops, `points` where these are.
 /// @param stop ends it, from any thread, by a CancelledError.
 /// @throws CancelledError
-Plc<3> close_planar_openings(const Plc<3>& plc, std::vector<Diagnostic>& repairs, std::stop_token stop = {});
+Plc<3> close_planar_openings(const Plc<3>& plc, std::vector<Diagnostic>& repairs, const std::stop_token& stop = {});
 
 }  // namespace pgdr
