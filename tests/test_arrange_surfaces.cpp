@@ -77,6 +77,27 @@ bool lies_in_plane_of(const Plc<3>& plc, std::size_t f, std::size_t g) {
   });
 }
 
+/// Facets of one plane that share an edge, and so on: a piece may lie in several, and names one (PieceOrigin).
+std::set<std::size_t> going_on(const Plc<3>& plc, std::size_t first) {
+  std::set<std::size_t> found{first};
+  std::vector<std::size_t> queue{first};
+  const auto places = [&](std::size_t f) {
+    std::set<std::array<double, 3>> at;
+    for (const std::uint32_t v : plc.facets[f].polygons[0]) at.insert(plc.points[v].x);
+    return at;
+  };
+  while (!queue.empty()) {
+    const std::size_t f = queue.back();
+    queue.pop_back();
+    for (std::size_t g = 0; g < plc.facets.size(); ++g) {
+      const auto own = places(f);
+      const auto common = std::ranges::count_if(places(g), [&](const auto& x) { return own.contains(x); });
+      if (common >= 2 && lies_in_plane_of(plc, first, g) && found.insert(g).second) queue.push_back(g);
+    }
+  }
+  return found;
+}
+
 /// All that must hold of an arrangement; `off`: how far points may be off.
 void check(const Plc<3>& plc, const Arrangement& a, double off) {
   ASSERT_GE(a.points.size(), plc.points.size());
@@ -90,11 +111,9 @@ void check(const Plc<3>& plc, const Arrangement& a, double off) {
     for (std::uint32_t k = a.origins_begin[t]; k < a.origins_begin[t + 1]; ++k)
       for (std::size_t i = 0; i < 3; ++i) sums[a.origins[k].facet][i] += a.origins[k].reversed ? -area[i] : area[i];
   }
-  for (std::size_t f = 0; f < plc.facets.size();
-       ++f) {  // facets of one plane that share edges are one there, and each of its pieces names one
+  for (std::size_t f = 0; f < plc.facets.size(); ++f) {
     std::array<double, 3> sum{}, area{};
-    for (std::size_t g = 0; g < plc.facets.size(); ++g) {
-      if (g != f && !lies_in_plane_of(plc, f, g)) continue;
+    for (const std::size_t g : going_on(plc, f)) {
       const auto given = twice_area(plc.points, plc.facets[g].polygons[0]);
       for (std::size_t i = 0; i < 3; ++i) sum[i] += sums[g][i], area[i] += given[i];
     }

@@ -32,15 +32,21 @@ void check_loose_points(const OutputMesh<D>& mesh, Findings& findings) {
       findings.add(Kind::unreferenced_point, {v}, [&] { return "The " + vertex_words(mesh, v) + " is in no cell."; });
 }
 
-/// Of a name, what every format keeps: signs other than letters and digits may become others, and long names are cut.
+/// Of a name, what every format keeps: signs other than letters and digits may become others.
 std::string kept_of(const std::string& name) {
-  constexpr std::size_t longest = 80;
   std::string kept;
   for (const char c : name) {
     const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
     if (is_letter || (c >= '0' && c <= '9') || static_cast<unsigned char>(c) >= 0x80) kept += c;
   }
-  return kept.substr(0, longest);
+  return kept;
+}
+
+/// May a format have made the one of the other? Long names are cut, none of fewer bytes than so many.
+bool is_name_of(const std::string& name, const std::string& given) {
+  constexpr std::size_t never_cut = 80;
+  const std::string kept = kept_of(name), whole = kept_of(given);
+  return kept == whole || (name.size() >= never_cut && whole.starts_with(kept));
 }
 
 /// What has a name in the mesh and in the input has the same. A mesh may have none.
@@ -48,7 +54,7 @@ template <class Number>
 void check_names(const char* what, const std::map<Number, std::string>& names, const std::map<Number, std::string>& given,
                  Findings& findings) {
   for (const auto& named : names)
-    if (const auto wanted = given.find(named.first); wanted != given.end() && kept_of(named.second) != kept_of(wanted->second))
+    if (const auto wanted = given.find(named.first); wanted != given.end() && !is_name_of(named.second, wanted->second))
       findings.add(Kind::wrong_name, {static_cast<std::int64_t>(named.first)}, [&] {
         return std::string("The ") + what + " " + words(static_cast<double>(named.first)) + " is called \"" + named.second +
                "\", and in the input \"" + wanted->second + "\".";

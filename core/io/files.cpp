@@ -174,7 +174,7 @@ void publish_together(std::span<const PendingFile> files) {
   } catch (...) {
     for (std::size_t i = 0; i < published; ++i) std::remove(files[i].target.c_str());
     for (std::size_t i = kept; i < files.size(); ++i)
-      if (!aside[i].empty() && !system::replace_file(aside[i], files[i].target)) continue;  // nothing more can be done
+      if (!aside[i].empty()) (void)system::replace_file(aside[i], files[i].target);  // nothing more can be done
     throw;
   }
   for (const std::string& name : aside)

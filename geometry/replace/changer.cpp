@@ -84,7 +84,6 @@ void Changer::count(Verdict verdict, SurfaceChange::Kind kind) {
   using Kind = SurfaceChange::Kind;
   auto& r = report_.refused;
   switch (verdict) {
-    case Verdict::topology: ++r.topology; break;
     case Verdict::angle: ++r.angle; break;
     case Verdict::fold: ++r.fold; break;
     case Verdict::size: ++r.size; break;

@@ -27,7 +27,7 @@ struct ChangeGoal {
 };
 
 /// The first test that said no.
-enum class Verdict : std::uint8_t { yes, topology, angle, fold, size, distance, meets, gap, swept };
+enum class Verdict : std::uint8_t { yes, angle, fold, size, distance, meets, gap, swept };
 
 /// Makes changes that pass all tests.
 class Changer {

@@ -105,7 +105,7 @@ Sector sector_at(const SurfaceView& view, std::uint32_t face, std::uint32_t vert
       f = g;
     }
   }
-  AngleSum sum;  // from the end that has the lesser point, whichever face was asked for
+  AngleSum sum;  // from the same end, whichever face was asked for
   const auto own = turn_at(view.at(vertex), view.at(first.a), view.at(first.b));
   std::vector<std::array<double, 2>> all(before.rbegin(), before.rend());
   all.push_back(own);

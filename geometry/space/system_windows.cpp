@@ -57,7 +57,7 @@ double limit_on_addresses() noexcept { return unlimited; }
 double physical_memory() noexcept {
   MEMORYSTATUSEX status{};
   status.dwLength = sizeof status;
-  return GlobalMemoryStatusEx(&status) ? static_cast<double>(status.ullAvailPhys) : unlimited;
+  return GlobalMemoryStatusEx(&status) ? static_cast<double>(status.ullTotalPhys) : unlimited;
 }
 
 std::uint64_t peak_resident() noexcept {

@@ -99,7 +99,7 @@ class Names(NamedCase):
         self.assertEqual(sorted(info["marker_names"].values()), sorted(GEARBOX))
 
     def test_names_are_those_of_the_input(self):
-        parts = [("Gear A", (0, 0, 0), (1, 1, 1)), ('a "very" ' + 90 * "long " + "name", (2, 0, 0), (3, 1, 1))]
+        parts = [("Gear A", (0, 0, 0), (1, 1, 1)), ('a "very" ' + 90 * "l. " + "name", (2, 0, 0), (3, 1, 1))]
         model = self.file("model.stl", "".join(stl(*part) for part in parts))
         other = self.file("other.stl", "".join(stl(name.replace("Gear A", "Gear B"), *box) for name, *box in parts))
         for output in ("out.vtu", "out.msh", "out.mesh"):  # not all hold the long name as it is

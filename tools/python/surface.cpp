@@ -20,7 +20,6 @@ namespace {
 
 py::dict report_of(const SurfaceReport& r) {
   py::dict refused, distance, out;
-  refused["topology"] = r.refused.topology;
   refused["angle"] = r.refused.angle;
   refused["fold"] = r.refused.fold;
   refused["size"] = r.refused.size;
