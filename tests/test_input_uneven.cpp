@@ -11,8 +11,10 @@
 #include <numbers>
 #include <tuple>
 
+#include "input/bent_facets.hpp"
 #include "parallel_support.hpp"
 #include "pgdr/io.hpp"
+#include "space/planar_cdt.hpp"
 
 namespace pgdr::test_input_uneven {
 
@@ -76,6 +78,41 @@ TEST(FarFromTheOrigin, IsMeshed) {
     EXPECT_LE(outcome.report.exit_code(), 1) << corners << ": " << test::findings(outcome.report);
     if (corners == 68) test::expect_reproducible<3>(far, {}, "far", test::eight_threads);
   }
+}
+
+// Four points in the far corner of a slanted polygon, off its plane by a millionth, a hundredth of what they are apart: the
+// shorter diagonal is Delaunay, whichever way they are off. (The heights of in-circle tests were |x|^2 from the polygon's first
+// corner, where a millionth counts as much as circles of a thousandth. So triangles were taken that are not Delaunay; strips of a
+// thickened surface, a file of six digits, were split down to rounding, and refused.)
+TEST(LevelledFacet, BendsFarFromItsLevelDecideNoCircle) {
+  const auto height = [](double x, double y) { return 0.9 * x + 0.3 * y; };
+  Plc<3> plc;
+  for (const auto& [x, y] : {std::pair{0., 0.}, {1., 0.}, {1., 1.}, {0., 1.}})
+    plc.points.push_back({{x, y, height(x, y) + (x == y ? 1e-6 : -1e-6)}});
+  plc.points.push_back({{0.5, 0.5, 3}});
+  plc.facets.push_back({{{0, 1, 2, 3}}, {}, 0});
+  for (std::uint32_t i = 0; i < 4; ++i) plc.facets.push_back({{{i, (i + 1) % 4, 4}}, {}, 0});
+  const Domain<3> domain(plc);
+  EntityId bent = 0;
+  while (domain.facet_points(bent).size() != 4) ++bent;
+  ASSERT_TRUE(detail::is_uneven(domain, bent));
+  const detail::LevelledFacet levelled(domain, bent);
+  for (unsigned off = 0; off < 16; ++off)
+    for (const bool is_turned : {false, true}) {
+      const double a = 1e-4, b = 1.05e-4;  // half of the diagonals
+      std::vector<Point3> points;
+      for (const auto& [u, v] : {std::pair{a, 0.}, {0., b}, {-a, 0.}, {0., -b}}) {
+        // Across the slope lengths are as in the projection; along it they are longer by sqrt(1 + 0.9^2 + 0.3^2).
+        const double along = u / std::sqrt(1.9), x = 0.98 + (0.9 * along - 0.3 * v) / std::sqrt(0.9),
+                     y = 0.98 + (0.3 * along + 0.9 * v) / std::sqrt(0.9);
+        points.push_back(levelled({{x, y, height(x, y) + ((off >> points.size() & 1) != 0 ? 1e-6 : -1e-6)}}));
+      }
+      if (is_turned) std::rotate(points.begin(), points.begin() + 1, points.end());
+      detail::PlanarTriangulation plane;
+      ASSERT_TRUE(plane.build(points, std::vector<std::uint32_t>{0, 1, 2, 3}, {}, domain.facets()[bent].axis));
+      for (const auto& t : plane.triangles())
+        EXPECT_EQ(std::count_if(t.begin(), t.end(), [&](std::uint32_t v) { return v % 2 == (is_turned ? 1 : 0); }), 2) << off;
+    }
 }
 
 // Sixteen nearly coplanar facets about each hub. The recovery of the facets went on for ever there: a facet's triangle had

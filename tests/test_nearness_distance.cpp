@@ -112,7 +112,9 @@ TEST(NearSet, SaysYesOnlyOfWhatIsNear) {
         ++near;
       if (!found) continue;
       ++far;
-      if (found->is_certain) EXPECT_GT(oracle(found->where, others), limit * (1 - 1e-9));
+      if (found->is_certain) {
+        EXPECT_GT(oracle(found->where, others), limit * (1 - 1e-9));
+      }
       EXPECT_NEAR(static_cast<double>(oracle(found->where, others)), found->distance, 1e-12);
     }
   }

@@ -93,10 +93,11 @@ auto FacetPatches::triangulate(EntityId facet) -> Crossing {
   std::vector<VertexId> vertices;
   std::unordered_map<std::uint32_t, std::uint32_t> local;
   std::vector<Point3> points;
+  const LevelledFacet levelled(*domain_, facet);
   auto add = [&](VertexId v) {
     const auto [at, fresh] = local.try_emplace(index(v), static_cast<std::uint32_t>(points.size()));
     if (fresh) {
-      points.push_back(levelled(*domain_, facet, mesh_->point(v)));
+      points.push_back(levelled(mesh_->point(v)));
       vertices.push_back(v);
     }
     return at->second;

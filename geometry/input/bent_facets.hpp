@@ -6,12 +6,14 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "numbers/rounding.hpp"
+#include "numbers/vectors.hpp"
 #include "pgdr/domain.hpp"
 #include "space/box_tree.hpp"
 
@@ -26,14 +28,46 @@ inline bool is_uneven(const Domain<3>& domain, EntityId f) {
   return domain.facets()[f].planarity_defect > rounding::of_plane * domain.facet_magnitude(f);
 }
 
-/// A point of the facet for in-circle tests. Their heights are |x|^2, in which a bend, or an ulp by which a Steiner point is off
-/// its facet, counts the more the farther away the origin is; so the dropped coordinate is taken from one of its points instead
-/// (the others are compared by differences alone), where that is exact, or the facet is uneven anyway.
-inline Point3 levelled(const Domain<3>& domain, EntityId f, Point3 p) {
-  const int axis = domain.facets()[f].axis;
-  p[axis] -= is_uneven(domain, f) ? domain.points()[domain.triangles(f)[0][0]][axis] : domain.facet_level(f);
-  return p;
-}
+/// The points of a facet for in-circle tests. Their heights are |x|^2, in which an ulp by which a Steiner point is off its facet
+/// counts the more the farther away the origin is; so the dropped coordinate is taken from a level near it, where that is exact
+/// (the others are compared by differences alone). A bend counts the more the farther a point is from that level, too: in a
+/// circle of radius r, whose points are some distance L from it, all that is off the plane by more than r^2 / L decides, however
+/// small beside r. So points of an uneven facet are put into its plane.
+class LevelledFacet {
+ public:
+  LevelledFacet(const Domain<3>& domain, EntityId f) : axis_(domain.facets()[f].axis), level_(domain.facet_level(f)) {
+    if (is_uneven(domain, f)) take_plane(domain.triangles(f), domain.points());
+  }
+
+  Point3 operator()(Point3 p) const {
+    if (is_uneven_)
+      p[axis_] = slopes_[0] * (p[(axis_ + 1) % 3] - anchor_[(axis_ + 1) % 3]) +
+                 slopes_[1] * (p[(axis_ + 2) % 3] - anchor_[(axis_ + 2) % 3]);
+    else
+      p[axis_] -= level_;
+    return p;
+  }
+
+ private:
+  /// The sum of the triangles' normals is that of the plane which the outline is nearest to as a whole.
+  void take_plane(std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const Point3> points) {
+    is_uneven_ = true;
+    anchor_ = points[triangles[0][0]];
+    std::array<double, 3> normal{};
+    for (const auto& t : triangles) {
+      const auto n = cross(difference(points[t[1]], points[t[0]]), difference(points[t[2]], points[t[0]]));
+      for (std::size_t i = 0; i < 3; ++i) normal[i] += n[i];
+    }
+    const auto along = [&](int axis) { return normal[static_cast<std::size_t>(axis % 3)]; };
+    slopes_ = {-along(axis_ + 1) / along(axis_), -along(axis_ + 2) / along(axis_)};
+  }
+
+  int axis_;
+  double level_;
+  bool is_uneven_ = false;
+  Point3 anchor_;
+  std::array<double, 2> slopes_{};
+};
 
 /// The triangles of one facet, by what they cover in its projection.
 class BentFacet {

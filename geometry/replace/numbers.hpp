@@ -28,14 +28,14 @@ inline constexpr double least_creases = 30;
 inline constexpr double corner_edges = 0.5;
 
 /// Of the diagonal of all points: faces whose corners are as near to a plane are one flat group. A file of six digits is noise of
-/// that size.
+/// that size. At most half of E, as a polygon can be triangulated in several ways.
 inline constexpr double flat_part = 1e-6;
 /// Of E: a flat group whose area over the diagonal of its box is larger may not be broken. Narrow ones are mostly chance, two
 /// triangles of a curved face. None may be broken: 86 and 229 cells stay over a bound on two models; all may: 602 on one where
 /// nothing had been poor; with this rule 0, 14 and 0.
 inline constexpr double wide_group = 20;
-/// Of the distance within which a group is flat: a polygon whose outline comes as near to itself is handed on as triangles, since
-/// points that are put onto its edges leave them by as much as its corners are off its plane.
+/// Of what the corners of a polygon are off its plane: one whose outline comes as near to itself is handed on as triangles, since
+/// points that are put onto its edges leave them by as much.
 inline constexpr double outline_gap = 30;
 
 /// Parts that are looked at for one question of coverage, and so many more a triangle: by the faces that come alone, and by more.

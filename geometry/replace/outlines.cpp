@@ -87,9 +87,31 @@ class Outline {
     return true;
   }
 
-  /// Two edges without a common corner, nearer than that.
+  /// How far its corners are off the plane of the group.
+  double thickness() const {
+    double most = 0;
+    for (const Edge& e : rim_) most = std::max(most, height_over(group_, s_.at(e[0])));
+    for (const Edge& e : inner_)
+      for (const std::uint32_t v : e) most = std::max(most, height_over(group_, s_.at(v)));
+    return most;
+  }
+
+  /// How near two edges are to each other; at a common corner, how far the other corner of the shorter one is from the longer.
+  double square_of_gap(const Edge& a, const Edge& b) const {
+    const auto from_corner = [this](std::uint32_t corner, std::uint32_t p, std::uint32_t q) {
+      if (distance(s_.at(corner), s_.at(q)) < distance(s_.at(corner), s_.at(p))) std::swap(p, q);
+      return closest_of_edges(s_.at(p), s_.at(p), s_.at(corner), s_.at(q)).square;
+    };
+    for (const std::size_t i : {0, 1})
+      for (const std::size_t j : {0, 1})
+        if (a[i] == b[j]) return from_corner(a[i], a[1 - i], b[1 - j]);
+    return closest_of_edges(s_.at(a[0]), s_.at(a[1]), s_.at(b[0]), s_.at(b[1])).square;
+  }
+
+  /// A strip is bent by its thickness over its width, also one that ends in a corner. Points that are put onto its edges leave
+  /// these by as much as the corners are off the plane.
   bool comes_near_itself() const {
-    const double least = numbers::outline_gap * s_.flatness;
+    const double least = numbers::outline_gap * thickness();
     std::vector<Edge> edges(rim_);
     edges.insert(edges.end(), inner_.begin(), inner_.end());
     std::vector<Box<3>> boxes;
@@ -99,11 +121,8 @@ class Outline {
       boxes.push_back(box.widened(least / 2));
     }
     bool is_near = false;
-    BoxTree<3>(boxes).self_pairs([&](std::uint32_t i, std::uint32_t j) {
-      const Edge &a = edges[i], &b = edges[j];
-      if (is_near || a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1]) return;
-      is_near = closest_of_edges(s_.at(a[0]), s_.at(a[1]), s_.at(b[0]), s_.at(b[1])).square < least * least;
-    });
+    BoxTree<3>(boxes).self_pairs(
+        [&](std::uint32_t i, std::uint32_t j) { is_near = is_near || square_of_gap(edges[i], edges[j]) < least * least; });
     return is_near;
   }
 
