@@ -18,6 +18,7 @@
 #include "pgdr/bodies.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/domain.hpp"
+#include "space/distances.hpp"
 #include "volumes/wall_volumes.hpp"
 
 namespace pgdr {
@@ -473,6 +474,23 @@ TEST(Bodies, SeedsWin) {
   made = with_bodies(plc, BodyMode::united);
   EXPECT_EQ(region_volumes_of(made.regions), (Volumes{{{0, 1}, 12}}));
   EXPECT_EQ(made.plc.holes.size(), 1u);
+}
+
+// Seeds lay as deep as the triangle beside them is wide, so that another surface within a distance E was refused for a sphere of
+// small triangles: which volume a seed within E of the walls means is not certain.
+TEST(Bodies, SeedsAreDeepInWhatTheyMean) {
+  for (const bool is_turned : {false, true}) {
+    const Plc<3> grid = surfaces({box({0, 0, 0}, {10, 8, 6})});
+    const WithBodies made = with_bodies(is_turned ? turned(grid) : grid, BodyMode::united, {});
+    ASSERT_EQ(made.plc.regions.size(), 1u);
+    double depth = 1e9;
+    for (const auto& facet : made.plc.facets) {
+      const auto& t = facet.polygons[0];
+      const auto& p = made.plc.points;
+      depth = std::min(depth, detail::closest_to_triangle(made.plc.regions[0].point, p[t[0]], p[t[1]], p[t[2]]).square);
+    }
+    EXPECT_GE(std::sqrt(depth), 2);
+  }
 }
 
 TEST(Bodies, FacetsThatCrossAreRefused) {

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
 #include "bodies/turns.hpp"
+#include "input/diagonal.hpp"
 #include "input/words.hpp"
 #include "numbers/vectors.hpp"
+#include "space/distances.hpp"
 #include "space/equal_rows.hpp"
 
 namespace pgdr::detail {
@@ -30,6 +33,11 @@ struct Ordered {
   }
   friend bool operator<(const Ordered& a, const Ordered& b) {
     return std::lexicographical_compare(a.corners.begin(), a.corners.end(), b.corners.begin(), b.corners.end(), lex_less<3>);
+  }
+  Point<3> centre() const {
+    Point<3> x;
+    for (int i = 0; i < 3; ++i) x[i] = (corners[0][i] + corners[1][i] + corners[2][i]) / 3;
+    return x;
   }
   Vector<3> normal() const { return cross(difference(corners[1], corners[0]), difference(corners[2], corners[0])); }
 };
@@ -298,10 +306,67 @@ std::vector<std::uint32_t> BodyVolumes::largest_sides(std::uint32_t volume) cons
   return found;
 }
 
+/// From the middle of the largest side inwards that has a point inside, by halves of the volume's extent; then away from the
+/// nearest wall, as far as it gets deeper. So the seed that it becomes says as surely as may be which volume is meant.
 std::optional<Point<3>> BodyVolumes::find_inside(std::uint32_t volume) const {
-  for (const std::uint32_t side : largest_sides(volume))
-    if (const auto x = inside_at(volume, side)) return x;
-  return std::nullopt;
+  constexpr int most_climbs = 8;
+  const double extent = extent_of(volume);
+  std::optional<Deep> deepest;
+  for (const std::uint32_t side : largest_sides(volume)) {
+    const Ordered t(walls_.hits().corners(side / 2));
+    auto inwards = t.normal();
+    if ((side % 2 == 1) != t.is_odd)
+      for (double& x : inwards) x = -x;
+    deepest = deepest_towards(volume, t.centre(), inwards, extent);
+    if (deepest) break;
+  }
+  if (!deepest) return std::nullopt;
+  for (int k = 0; k < most_climbs; ++k) {
+    const auto deeper = deepest_towards(volume, deepest->x, difference(deepest->x, deepest->wall), extent);
+    if (!deeper || !(deeper->square > deepest->square)) break;
+    deepest = deeper;
+  }
+  return deepest->x;
+}
+
+/// The deepest point of the volume that is found from x in a direction, `reach` / 2 away, half of that, and so on, until it gets
+/// less deep.
+auto BodyVolumes::deepest_towards(std::uint32_t volume, const Point<3>& from, const Vector<3>& way, double reach) const
+    -> std::optional<Deep> {
+  const double size = std::sqrt(dot(way, way));
+  if (!(size > 0) || !std::isfinite(size)) return std::nullopt;
+  std::optional<Deep> deepest;
+  Point<3> last = from;
+  for (int k = 1; k < 64; ++k) {
+    Point<3> x;
+    for (int i = 0; i < 3; ++i) x[i] = from[i] + way[static_cast<std::size_t>(i)] / size * std::ldexp(reach, -k);
+    if (x == last) break;  // the steps are smaller than the digits
+    last = x;
+    if (walls_.find(x) != volume) continue;
+    const Deep here = depth_at(x);
+    if (deepest && !(here.square > deepest->square)) break;
+    deepest = here;
+  }
+  return deepest;
+}
+
+double BodyVolumes::extent_of(std::uint32_t volume) const {
+  Box<3> box = Box<3>::empty();
+  for (std::uint32_t k = sides_begin_[volume]; k < sides_begin_[volume + 1]; ++k)
+    for (const Point<3>& p : walls_.hits().corners(sides_[k] / 2)) box.add(p);
+  return diagonal_of(box);
+}
+
+auto BodyVolumes::depth_at(const Point<3>& x) const -> Deep {
+  Deep deep{x, x, std::numeric_limits<double>::infinity()};
+  walls_.hits().tree().nearest([&](const Box<3>& box, std::uint32_t) { return box.squared_distance_to(x); },
+                               [&](std::uint32_t w) {
+                                 const auto [a, b, c] = walls_.hits().corners(w);
+                                 const auto closest = closest_to_triangle(x, a, b, c);
+                                 if (closest.square < deep.square) deep = {x, closest.points[1], closest.square};
+                                 return deep.square;
+                               });
+  return deep;
 }
 
 /// To the volume behind the largest side that one is known of.
@@ -332,26 +397,6 @@ void BodyVolumes::join_thin() {
   }
   d.message = std::to_string(thin_.size()) + " volumes are so thin that no point is inside, and count to those beside them";
   warnings_.push_back(std::move(d));
-}
-
-/// From the middle of a side inwards, as far as the piece is wide, or half of that, and so on.
-std::optional<Point<3>> BodyVolumes::inside_at(std::uint32_t volume, std::uint32_t side) const {
-  const Ordered t(walls_.hits().corners(side / 2));
-  const auto& s = t.corners;
-  const auto n = t.normal();
-  const double size = std::sqrt(dot(n, n));
-  if (!(size > 0) || !std::isfinite(size)) return std::nullopt;
-  const double reach = std::sqrt(size) * ((side % 2 == 1) != t.is_odd ? -1 : 1);
-  Point<3> last = s[0];
-  for (int k = 1; k < 64; ++k) {
-    Point<3> x;
-    for (int i = 0; i < 3; ++i)
-      x[i] = (s[0][i] + s[1][i] + s[2][i]) / 3 + n[static_cast<std::size_t>(i)] / size * std::ldexp(reach, -k);
-    if (x == last) break;  // the steps are smaller than the digits
-    if (walls_.find(x) == volume) return x;
-    last = x;
-  }
-  return std::nullopt;
 }
 
 }  // namespace pgdr::detail

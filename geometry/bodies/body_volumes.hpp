@@ -12,6 +12,7 @@
 
 #include "bodies/body_chains.hpp"
 #include "numbers/exact_sum.hpp"
+#include "numbers/vectors.hpp"
 #include "pgdr/bodies.hpp"
 #include "space/stop_check.hpp"
 #include "volumes/wall_volumes.hpp"
@@ -51,6 +52,12 @@ class BodyVolumes {
   const std::vector<Diagnostic>& warnings() const { return warnings_; }
 
  private:
+  /// A point, where a wall is nearest to it, and how far that is, squared.
+  struct Deep {
+    Point<3> x, wall;
+    double square;
+  };
+
   std::vector<char> separating() const;
   void require_known() const;
   void wind_closed();
@@ -69,7 +76,9 @@ class BodyVolumes {
   std::vector<std::uint32_t> largest_sides(std::uint32_t volume) const;
   std::optional<Point<3>> find_inside(std::uint32_t volume) const;
   void join_thin();
-  std::optional<Point<3>> inside_at(std::uint32_t volume, std::uint32_t side) const;
+  double extent_of(std::uint32_t volume) const;
+  Deep depth_at(const Point<3>& x) const;
+  std::optional<Deep> deepest_towards(std::uint32_t volume, const Point<3>& from, const Vector<3>& way, double reach) const;
 
   const Plc<3>& plc_;
   const Arrangement& pieces_;
