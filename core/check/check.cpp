@@ -144,7 +144,7 @@ void check_against_surface(const OutputMesh<3>& mesh, const CheckOptions<3>& opt
   }
   // Points of the mesh that are none of the surface are where facets are only up to rounding.
   for (std::size_t p = mesh.input_points; p < match.vertex_of_point.size(); ++p) match.vertex_of_point[p] = none;
-  NamedEntities<3> named(task, match, sorted);
+  NamedEntities<3> named(task, match, sorted, own_facets(mesh));
   CheckOptions<3> of_walls = options;
   std::vector<PoorReason> reasons;
   if (options.reasons) {

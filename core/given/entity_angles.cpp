@@ -201,7 +201,7 @@ class Meetings {
       const double of_a = std::max({off(a_, ends[0]), off(a_, ends[1]), off(a_, c)});
       const double of_b = std::max({off(b_, ends[0]), off(b_, ends[1]), off(b_, d)});
       const auto u = normal(p, q, x, of_a), w = normal(p, q, y, of_b);
-      const bool is_exact = of_a == 0 && of_b == 0;
+      const bool is_exact = entities_.are_own() || (of_a == 0 && of_b == 0);
       take(is_exact, is_exact && detail::dihedral_sign(p, q, x, y) == Sign::positive, angle_of<3>(u.along, w.along),
            u.off + w.off, 90);
       out_.is_sharp = out_.is_sharp || (bounds_.largest_cosine < 1 && detail::dihedral_below(p, q, x, y, bounds_.largest_cosine));
@@ -239,7 +239,7 @@ class Meetings {
                                     std::min(angle_of<3>(n.along, x.along), std::numbers::pi - angle_of<3>(n.along, x.along)));
         turned = std::max(turned, x.off + n.off);
       }
-      const bool is_exact = of_ray == 0 && of_sector == 0;
+      const bool is_exact = entities_.are_own() || (of_ray == 0 && of_sector == 0);
       const bool below = is_exact && (angle_below_90<3>(o, point(r), point(c)) || angle_below_90<3>(o, point(r), point(d)));
       take(is_exact, below, angle, turned, 90);
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "given/cover.hpp"
 #include "given/edge_net.hpp"
@@ -17,8 +18,14 @@
 namespace pgdr::checking {
 
 template <int D>
-NamedEntities<D>::NamedEntities(const GivenTask<D>& task, const GivenMatch<D>& match, std::span<const std::uint32_t> sorted)
-    : mesh_(task.mesh), input_(task.input), match_(match), sorted_(sorted), is_given_(mesh_.points.size(), 0) {
+NamedEntities<D>::NamedEntities(const GivenTask<D>& task, const GivenMatch<D>& match, std::span<const std::uint32_t> sorted,
+                                std::optional<OwnFacets> own)
+    : mesh_(task.mesh),
+      input_(task.input),
+      match_(match),
+      sorted_(sorted),
+      is_given_(mesh_.points.size(), 0),
+      own_(std::move(own)) {
   for (const std::uint32_t v : match.vertex_of_point)
     if (v != none) is_given_[v] = 1;
 }
@@ -143,6 +150,10 @@ void NamedEntities<D>::make_facet(std::uint32_t facet, NamedEntity<D>& out) {
           if (match_.vertex_of_point[p] == none) number_of(input_.point(p));
       }
     fill_facet(members, out);
+    if (own_) {
+      out.off = std::max(out.off, own_->thickness[own_->sets.find(facet)]);
+      return;
+    }
     out.is_one_plane = is_in_one_plane(out);
     if (out.triangles.empty() || (out.is_one_plane && !out.is_loose)) return;
     const std::vector<std::uint32_t> all = members_alone(first, last);
@@ -195,7 +206,7 @@ void NamedEntities<D>::fill_facet(std::span<const std::uint32_t> members, NamedE
       } else {
         const auto& p = triangles[i].points;
         add_triangle({corner(p[0]), corner(p[1]), corner(p[2])}, out);
-        out.off = std::max(out.off, match_.reach[i]);
+        out.off = std::max(out.off, own_ ? input_.rounding() : match_.reach[i]);
       }
     }
     std::array<bool, 3> is_level{true, true, true};
@@ -253,6 +264,10 @@ template <int D>
 void NamedEntities<D>::join_flat_parts() {
   if constexpr (D == 3) {
     if (flat_) return;
+    if (own_) {
+      join_own_parts();
+      return;
+    }
     const auto count = static_cast<std::uint32_t>(input_.triangles().size());
     flat_ = flat_groups(input_, mesh_.subfacets.size(), nullptr);
     const auto marker = [&](std::uint32_t s) { return mesh_.subfacets[s].marker; };
@@ -284,6 +299,18 @@ void NamedEntities<D>::join_flat_parts() {
     for (std::uint32_t i = 0; i < count + mesh_.subfacets.size(); ++i) by_flat_.emplace_back(flat_->find(i), i);
     std::sort(by_flat_.begin(), by_flat_.end());
   }
+}
+
+template <int D>
+void NamedEntities<D>::join_own_parts() {
+  const auto count = static_cast<std::uint32_t>(input_.triangles().size());
+  flat_.emplace(2 * std::size_t{count});
+  for (std::uint32_t s = 0; s < count; ++s) {
+    flat_->unite(s, count + s);
+    flat_->unite(s, own_->sets.find(s));
+  }
+  for (std::uint32_t i = 0; i < 2 * count; ++i) by_flat_.emplace_back(flat_->find(i), i);
+  std::sort(by_flat_.begin(), by_flat_.end());
 }
 
 template <int D>

@@ -49,12 +49,21 @@ struct NamedEntity {
   bool has(std::uint32_t point) const { return std::binary_search(points.begin(), points.end(), point); }
 };
 
+/// Which subfacets are one facet, where the input is the surface that the mesh has, each subfacet a facet of the same number.
+struct OwnFacets {
+  detail::DisjointSets sets;
+  std::vector<double> thickness;  ///< by the number that names a set: how thick the slab is that its points lie in
+};
+
 /// One thread, as it remembers what it was asked for.
 template <int D>
 class NamedEntities {
  public:
   /// All must outlive it. @param sorted the vertices by their coordinates
-  NamedEntities(const GivenTask<D>& task, const GivenMatch<D>& match, std::span<const std::uint32_t> sorted);
+  /// @param own  if the input is the mesh's own surface. Then facets are where their subfacets are, so that it is certain which
+  ///   angles are small; how large exactly is not, where a facet is bent and was one of other triangles for whom it was named by.
+  NamedEntities(const GivenTask<D>& task, const GivenMatch<D>& match, std::span<const std::uint32_t> sorted,
+                std::optional<OwnFacets> own = std::nullopt);
 
   /// Null if the input has no such segment or facet. It lasts as long as this.
   const NamedEntity<D>* find(const GivenEntity& name);
@@ -67,6 +76,7 @@ class NamedEntities {
     return entity.is_loose || point >= is_given_.size() || !is_given_[point] ? entity.off : 0;
   }
   bool is_within(const Point<D>& x, double distance, const NamedEntity<D>& entity) const;
+  bool are_own() const { return own_.has_value(); }  ///< facets of the mesh's own surface
   /// Are the two facets in one plane, exactly?
   bool are_in_one_plane(const NamedEntity<D>& facet, const NamedEntity<D>& other) const;
 
@@ -82,6 +92,7 @@ class NamedEntities {
   bool lies_on(std::uint32_t subfacet, std::uint32_t given) const;
   std::vector<std::uint32_t> members_alone(std::uint32_t first, std::uint32_t last) const;
   void join_flat_parts();
+  void join_own_parts();
   void add_triangle(const std::array<std::uint32_t, 3>& triangle, NamedEntity<D>& out) const;
 
   const OutputMesh<D>& mesh_;
@@ -94,6 +105,7 @@ class NamedEntities {
   std::map<std::array<std::array<double, 3>, 2>, std::optional<NamedEntity<D>>> segments_;
   std::map<std::uint32_t, std::optional<NamedEntity<D>>> facets_;
   std::unique_ptr<detail::BoxTree<D>> subsegments_;
+  std::optional<OwnFacets> own_;
   std::optional<detail::DisjointSets> flat_;                      ///< of given triangles, then of subfacets
   std::vector<std::pair<std::uint32_t, std::uint32_t>> by_flat_;  ///< set, member
 };

@@ -9,6 +9,7 @@
 #include "given/cover.hpp"
 #include "nearness/near_set.hpp"
 #include "nearness/surface_edges.hpp"
+#include "numbers/vectors.hpp"
 
 namespace pgdr::checking {
 namespace {
@@ -87,6 +88,37 @@ void check_edges_of_walls(const OutputMesh<3>& mesh, double even, Findings& find
              (uses.size() == 1 ? " subfacet ends" : " subfacets meet that are not one facet") + ", is no subsegment.";
     });
   });
+}
+
+OwnFacets own_facets(const OutputMesh<3>& mesh) {
+  const auto subfacets = subfacets_of(mesh);
+  const Subsegments subsegments(mesh);
+  OwnFacets own{detail::DisjointSets(subfacets.size()), std::vector<double>(subfacets.size(), 0)};
+  SurfaceEdges(subfacets, [](std::uint32_t) { return true; }).each([&](std::span<const SurfaceEdges::AtEdge> uses) {
+    if (uses.size() == 2 && !subsegments.has(uses[0].ends)) own.sets.unite(uses[0].triangle, uses[1].triangle);
+  });
+  std::vector<std::pair<double, std::uint32_t>> largest(subfacets.size(), {-1, 0});  // of each set: area squared, subfacet
+  const auto area_of = [&](std::uint32_t s) {
+    const auto [a, b, c] = corners(mesh, s);
+    const auto n = detail::cross(detail::difference(b, a), detail::difference(c, a));
+    return detail::dot(n, n);
+  };
+  for (std::uint32_t s = 0; s < subfacets.size(); ++s) {
+    auto& of = largest[own.sets.find(s)];
+    of = std::max(of, std::pair{area_of(s), s});
+  }
+  std::vector<std::array<double, 2>> heights(subfacets.size(), {0, 0});  // of each set: least, most
+  for (std::uint32_t s = 0; s < subfacets.size(); ++s) {
+    const std::uint32_t set = own.sets.find(s);
+    const PlaneFrame frame(corners(mesh, largest[set].second));
+    if (!(frame.width() > 0)) continue;
+    for (const Point3& p : corners(mesh, s)) {
+      const double h = frame.place(p)[2];
+      heights[set] = {std::min(heights[set][0], h), std::max(heights[set][1], h)};
+    }
+    own.thickness[set] = heights[set][1] - heights[set][0];
+  }
+  return own;
 }
 
 std::vector<PoorReason> with_subfacets(const std::vector<PoorReason>& reasons, const OutputMesh<3>& mesh) {

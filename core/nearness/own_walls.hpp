@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "given/match.hpp"
+#include "given/named_entities.hpp"
 #include "pgdr/poor_reason.hpp"
 
 namespace pgdr::checking {
@@ -21,6 +22,9 @@ double evenness(const OutputMesh<3>& mesh, double least, double most);
 /// Each edge with one subfacet, with three or more, of two markers, or with two subfacets that are not within `even` of one
 /// plane, is a subsegment.
 void check_edges_of_walls(const OutputMesh<3>& mesh, double even, Findings& findings);
+
+/// Subfacets are one facet if they hang together across edges that are no subsegments.
+OwnFacets own_facets(const OutputMesh<3>& mesh);
 
 /// Facets that are named by a place get the number of a subfacet there; those that are not are none.
 std::vector<PoorReason> with_subfacets(const std::vector<PoorReason>& reasons, const OutputMesh<3>& mesh);

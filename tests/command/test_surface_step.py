@@ -36,6 +36,18 @@ class SurfaceStep(Case):
         self.certify(ANCHOR, "0.1%", (0, 1))
         self.certify(ANCHOR, "0.05%", (6,))
 
+    def test_flat_groups_with_long_narrow_ends(self):
+        # Their polygons are bent by a millionth, the surface refused once: their triangles were split down to rounding.
+        done = self.mesh(ANCHOR, "--surface-tolerance", "0.03%", "--report", self.report, expect=None)
+        self.assertIn(done.returncode, (0, 1), done.stderr)
+        self.certify(ANCHOR, "0.03%", (0, 1, 2))
+
+    def test_reasons_beside_bent_facets(self):
+        # A facet that a place names is all that no subsegment divides; its angles are those of its own subfacets.
+        done = self.mesh(ANCHOR, "--surface-tolerance", "0.1%", "--no-optimize", "--report", self.report, expect=None)
+        self.assertIn(done.returncode, (0, 1), done.stderr)
+        self.certify(ANCHOR, "0.1%", (0, 1, 2))
+
     def test_threads_and_the_order_of_facets_are_no_matter(self):
         lines = ball(16).splitlines()
         points, facets = int(lines[1].split()[0]), lines[2:]
@@ -70,6 +82,18 @@ class SurfaceStep(Case):
             triangles.append(self.json()["surface_tolerance"]["triangles"][1])
         self.assertLess(2 * triangles[0], triangles[1])
         self.assertLess(triangles[2], triangles[1])
+
+    def test_bodies(self):
+        other = "\n".join(" ".join(str(float(x) + d) for x, d in zip(line.split(), (0.9, 0.2, 0.1))) if line.count(".") == 3 else line
+                          for line in ball(24).splitlines()) + "\n"
+        inputs = self.file("ball.off", ball(24)), self.file("other.off", other)
+        for mode, labels in (("union", 1), ("fragments", 3)):
+            self.mesh(*inputs, "--resolve-crossings", "--regions", mode, "--surface-tolerance", "1%", "--report", self.report,
+                      expect=None)
+            self.assertEqual(len(self.json()["regions"]), labels)
+            done = self.pgdr("check", self.output, *(x for path in inputs for x in ("--input", path)), "--surface-tolerance", "1%",
+                             "--reasons", self.report)
+            self.assertIn(done.returncode, (0, 1), done.stdout)
 
     def test_info_says_what_it_would_do(self):
         done = self.pgdr("info", ANCHOR, "--surface-tolerance", "0.1%", "--report", self.report, expect=0)
