@@ -27,7 +27,8 @@ using detail::Vector;
 
 class FacetTriangulator {
  public:
-  FacetTriangulator(const Plc<3>& plc, std::uint32_t facet, double reach) : plc_(plc), facet_(plc.facets[facet]), reach_(reach) {}
+  FacetTriangulator(const Plc<3>& plc, const ExplicitEdges& explicit_edges, std::uint32_t facet, double reach)
+      : plc_(plc), explicit_(explicit_edges), facet_(plc.facets[facet]), reach_(reach) {}
 
   FacetTriangulation run() {
     FacetTriangulation out;
@@ -47,6 +48,8 @@ class FacetTriangulator {
     }
     planar_.carve_outside();
     for (const Point3& seed : facet_.holes) planar_.carve_hole(seed);
+    for (const auto& [a, b] : explicit_.among(vertices_))
+      if (!planar_.is_constraint(a, b)) planar_.constrain(a, b);  // what does not fit is no matter of the facet
     out.triangles = planar_.triangles();
     find_inner_edges(out);
     out.bend = bend(out.triangles);
@@ -169,6 +172,7 @@ class FacetTriangulator {
   }
 
   const Plc<3>& plc_;
+  const ExplicitEdges& explicit_;
   const Plc<3>::Facet& facet_;
   double reach_;
   std::vector<std::uint32_t> vertices_;
@@ -179,8 +183,30 @@ class FacetTriangulator {
 
 }  // namespace
 
-FacetTriangulation triangulate_given(const Plc<3>& plc, std::uint32_t facet, double reach) {
-  return FacetTriangulator(plc, facet, reach).run();
+ExplicitEdges::ExplicitEdges(const Plc<3>& plc, std::span<const std::uint32_t> place) : place_(place) {
+  const auto add = [this](std::uint32_t a, std::uint32_t b) {
+    ends_.push_back({place_[a], place_[b]});
+    ends_.push_back({place_[b], place_[a]});
+  };
+  for (const auto& s : plc.segments) add(s.points[0], s.points[1]);
+  for (const auto& facet : plc.facets)
+    if (facet.polygons.size() == 1 && facet.polygons[0].size() == 2) add(facet.polygons[0][0], facet.polygons[0][1]);
+  make_set(ends_);
+}
+
+std::vector<std::array<std::uint32_t, 2>> ExplicitEdges::among(std::span<const std::uint32_t> points) const {
+  std::vector<std::array<std::uint32_t, 2>> found;
+  if (ends_.empty() || points.size() < 4) return found;
+  std::map<std::uint32_t, std::uint32_t> at;
+  for (const std::uint32_t p : points) at.emplace(place_[p], p);
+  for (const auto& [place, p] : at)
+    for (auto e = std::ranges::lower_bound(ends_, std::array{place, 0u}); e != ends_.end() && (*e)[0] == place; ++e)
+      if (const auto q = at.find((*e)[1]); q != at.end() && q->first > place) found.push_back({p, q->second});
+  return found;
+}
+
+FacetTriangulation triangulate_given(const Plc<3>& plc, const ExplicitEdges& edges, std::uint32_t facet, double reach) {
+  return FacetTriangulator(plc, edges, facet, reach).run();
 }
 
 }  // namespace pgdr::checking

@@ -39,7 +39,7 @@ double default_tolerance(const Plc<D>& plc) {
 template <int D>
 GivenInput<D>::GivenInput(const Plc<D>& plc, std::optional<double> tolerance, Findings& findings) : plc_(&plc) {
   require_usable();
-  number_places();
+  places_ = number_places(plc);
   tolerance_ = tolerance ? *tolerance : default_tolerance(plc);
   rounding_ = 2 * rounding::ulp * largest_coordinate(plc);
   for (std::uint32_t s = 0; s < plc.segments.size(); ++s) add_segment({plc.segments[s].points, plc.segments[s].marker, s, false});
@@ -64,16 +64,6 @@ void GivenInput<D>::require_usable() const {
 }
 
 template <int D>
-void GivenInput<D>::number_places() {
-  std::vector<std::uint32_t> order(plc_->points.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t p, std::uint32_t q) { return lex_less(point(p), point(q)); });
-  places_ = order;
-  for (std::size_t i = 0; i < order.size(); ++i)
-    places_[order[i]] = i > 0 && point(order[i]) == point(order[i - 1]) ? places_[order[i - 1]] : order[i];
-}
-
-template <int D>
 void GivenInput<D>::add_segment(const GivenSegment& segment) {
   if (!(point(segment.points[0]) == point(segment.points[1]))) segments_.push_back(segment);
 }
@@ -81,14 +71,15 @@ void GivenInput<D>::add_segment(const GivenSegment& segment) {
 template <int D>
 void GivenInput<D>::add_facets(Findings& findings) {
   bends_.assign(plc_->facets.size(), 0);
-  if constexpr (D == 3)
+  if constexpr (D == 3) {
+    const ExplicitEdges explicit_edges(*plc_, places_);
     for (std::uint32_t f = 0; f < plc_->facets.size(); ++f) {
       const auto& facet = plc_->facets[f];
       if (facet.polygons.size() == 1 && facet.polygons[0].size() == 2) {
         add_segment({{facet.polygons[0][0], facet.polygons[0][1]}, facet.marker, f, true});
         continue;
       }
-      const FacetTriangulation parts = triangulate_given(*plc_, f, reach());
+      const FacetTriangulation parts = triangulate_given(*plc_, explicit_edges, f, reach());
       bends_[f] = parts.bend;
       for (const auto& t : parts.triangles) triangles_.push_back({t, f});
       for (const auto& e : parts.inner_edges) add_segment({e, 0, f, true});
@@ -97,6 +88,7 @@ void GivenInput<D>::add_facets(Findings& findings) {
           return "The polygons of facet " + std::to_string(f) + " cross, so that nothing can be compared with it.";
         });
     }
+  }
 }
 
 template class GivenInput<2>;

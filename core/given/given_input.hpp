@@ -58,7 +58,6 @@ class GivenInput {
 
  private:
   void require_usable() const;
-  void number_places();
   void add_segment(const GivenSegment& segment);
   void add_facets(Findings& findings);
 
