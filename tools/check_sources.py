@@ -101,7 +101,7 @@ TEMPLATE = re.compile(r"^template <int D>\n(?!struct|class|using)[^;{(]*?\b(\w+)
 INSTANTIATION = re.compile(r"^\s*template (?!<|class|struct)[^;(]*?\b(\w+)(?:<[23D]>)?\(")
 # A parameter by value of a function that never returns.
 MOVED_AWAY = re.compile(r"\[\[noreturn\]\][^;{]*?[(,]\s*(std::(?:string|vector<[^;{}()&]*>) \w+)\s*[,)=]")
-SOURCES = {".cpp", ".hpp", ".py", ".cmake", ".sh"}
+SOURCES = {".cpp", ".hpp", ".py", ".cmake", ".sh", ".js"}
 SCRIPTS = ["demo", "run-tests", ".ci/run", ".ci/long", ".ci/stages.sh", ".ci/style", ".ci/install-packages"]
 MOST_LINES = 500
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)

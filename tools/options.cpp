@@ -320,15 +320,21 @@ void add_info(CLI::App& app, InfoArguments& a) {
 
 void add_view(CLI::App& app, ViewArguments& a) {
   app.add_option("MESH", a.mesh, "the mesh: .vtu .pvtu .msh .mesh .node .ele")->required()->type_name("");
-  app.add_option("-o,--output", a.output, "the picture: .svg .png")->required()->type_name("PICTURE");
+  app.add_option("-o,--output", a.output, "the picture: .svg .png, or .html, a page that shows the mesh in any browser")
+      ->required()
+      ->type_name("PICTURE");
   app.add_option_function<std::string>(
-         "--color", [&a](const std::string& t) { a.color = view_colors.at(t); },
+         "--color",
+         [&a](const std::string& t) {
+           const auto known = view_colors.find(t);
+           a.color = known == view_colors.end() ? ViewColor::of_pages : known->second;
+           a.coloring = t;
+         },
          "quality (default): by the smallest (dihedral) angle, red is poor; in 3D of the "
          "cells that a cut opens; dihedral: of all cells, in classes of degrees, red is below 5; region: by label; leaf: by leaf "
          "of the tree, of a mesh made "
-         "with --leaves")
-      ->type_name("NAME")
-      ->check(one_of(view_colors, "colourings"));
+         "with --leaves; a page has radius_edge, volume, marker, name and the fields of the file, too")
+      ->type_name("NAME");
   app.add_option_function<std::string>(
          "--cut",
          [&a](const std::string& t) {

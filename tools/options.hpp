@@ -14,6 +14,7 @@
 #include "pgdr/refine_options.hpp"
 #include "pgdr/types.hpp"
 #include "treatment.hpp"
+#include "view/page.hpp"
 
 namespace pgdr::tool {
 
@@ -96,20 +97,15 @@ struct InfoArguments {
   bool quiet = false;
 };
 
-enum class ViewColor { quality, dihedral, region, leaf };
-
-/// The plane where coordinate `axis` has this value.
-struct CutPlane {
-  int axis;
-  double value;
-};
+enum class ViewColor { quality, dihedral, region, leaf, of_pages };
 
 struct ViewArguments {
   std::string mesh, output;
   ViewColor color = ViewColor::quality;
-  std::optional<CutPlane> cut;  ///< 3D
-  std::optional<Point3> from;   ///< 3D: towards the eye, not the origin; none: as usual
-  int width = 1000;             ///< in pixels
+  std::string coloring = "quality";  ///< the word of `color`; a page has more of them
+  std::optional<CutPlane> cut;       ///< 3D
+  std::optional<Point3> from;        ///< 3D: towards the eye, not the origin; none: as usual
+  int width = 1000;                  ///< in pixels
   std::string report;
   bool quiet = false;
 };

@@ -92,31 +92,17 @@ Color mix(const Color& a, const Color& b, double t) {
   return {channel(a.red, b.red), channel(a.green, b.green), channel(a.blue, b.blue)};
 }
 
-/// From red (poor) through pale to blue (good): ColorBrewer's RdBu, which people tell apart who see no green.
+/// From red (poor) to blue (good).
 Color quality_color(double q) {
-  constexpr std::array<Color, 6> stops{
-      {{178, 24, 43}, {239, 138, 98}, {253, 219, 199}, {209, 229, 240}, {103, 169, 207}, {33, 102, 172}}};
-  const double at = q * (stops.size() - 1);
-  const std::size_t i = std::min<std::size_t>(static_cast<std::size_t>(at), stops.size() - 2);
-  return mix(stops[i], stops[i + 1], at - static_cast<double>(i));
+  const double at = q * (quality_stops.size() - 1);
+  const std::size_t i = std::min<std::size_t>(static_cast<std::size_t>(at), quality_stops.size() - 2);
+  return mix(quality_stops[i], quality_stops[i + 1], at - static_cast<double>(i));
 }
 
-/// The colour of the class of an angle in degrees, from red (below 5) to blue (40 or more): ColorBrewer's RdYlBu.
+/// The colour of the class of an angle in degrees.
 Color angle_color(double angle) {
-  constexpr std::array<double, 6> limits{5, 10, 15, 20, 30, 40};
-  constexpr std::array<Color, 7> classes{
-      {{215, 48, 39}, {252, 141, 89}, {254, 224, 144}, {255, 255, 191}, {224, 243, 248}, {145, 191, 219}, {69, 117, 180}}};
-  return classes[static_cast<std::size_t>(std::upper_bound(limits.begin(), limits.end(), angle) - limits.begin())];
-}
-
-/// The n-th of colours whose hues are far apart.
-Color region_color(std::size_t n) {
-  const double hue = 6 * std::fmod(0.58 + 0.61803398875 * static_cast<double>(n), 1.0);
-  const auto channel = [hue](double shift) {
-    const double k = std::fmod(hue + shift, 6.0);
-    return static_cast<std::uint8_t>(std::lround(225 - 100 * std::clamp(std::min(k, 4 - k), 0.0, 1.0)));
-  };
-  return {channel(5), channel(3), channel(1)};
+  return angle_classes[static_cast<std::size_t>(std::upper_bound(angle_limits.begin(), angle_limits.end(), angle) -
+                                                angle_limits.begin())];
 }
 
 /// The colour of each cell, before light falls on it.
@@ -276,7 +262,6 @@ double height(const Simplex<3>& s, const Point3& back) {
 }
 
 Picture draw_space(const OutputMesh<3>& mesh, const ViewArguments& a) {
-  constexpr Color plain{120, 160, 205};
   const Point3 from = a.from.value_or(Point3{{1, -1.5, 0.8}});
   const Camera eye(from);
   Point3 light;
@@ -303,7 +288,8 @@ Picture draw_space(const OutputMesh<3>& mesh, const ViewArguments& a) {
     const Simplex<3> s = simplex(mesh, faces[f].cell);
     const bool colored = faces[f].opened || a.color != ViewColor::quality;
     const double brightness = 0.62 + 0.38 * std::max(0.0, dot(normals[f], light));
-    const Color fill = mix({}, colored ? colors.of(faces[f].cell) : plain, faces[f].opened ? 0.8 + 0.2 * brightness : brightness);
+    const Color fill = mix({}, colored ? colors.of(faces[f].cell) : plain_cell,
+                           faces[f].opened ? 0.8 + 0.2 * brightness : brightness);
     std::array<Pixel, 3> corners;
     for (std::size_t i = 0; i < 3; ++i) corners[i] = frame.pixel(eye.flat(s[(faces[f].opposite + i + 1) % 4]));
     add(picture, corners, fill);

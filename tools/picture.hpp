@@ -5,18 +5,14 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <iosfwd>
 #include <vector>
 
 #include "options.hpp"
 #include "pgdr/output_mesh.hpp"
+#include "view/colors.hpp"
 
 namespace pgdr::tool {
-
-struct Color {
-  std::uint8_t red = 0, green = 0, blue = 0;
-};
 
 using Pixel = std::array<float, 2>;  ///< to the right, downwards
 
@@ -31,7 +27,6 @@ struct Picture {
 };
 
 inline constexpr double edge_width = 0.6, line_width = 1.4;  ///< in pixels
-inline constexpr Color ink{45, 50, 60};
 
 /// 2D: every cell and subsegment. 3D: the faces of the surface that `a` leaves in sight, a hidden one before what hides it.
 /// @throws UsageError if the flags are of the other dimension or the cut leaves nothing; InputError if there is nothing to

@@ -26,16 +26,6 @@ void append(std::string& text, const Pixel& p) {
   append(text, p[1]);
 }
 
-std::string hex(const Color& c) {
-  constexpr const char* digit = "0123456789abcdef";
-  std::string text = "#";
-  for (const std::uint8_t v : {c.red, c.green, c.blue}) {
-    text += digit[v >> 4];
-    text += digit[v & 15];
-  }
-  return text;
-}
-
 }  // namespace
 
 void write_svg(const Picture& picture, std::ostream& out) {

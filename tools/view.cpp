@@ -1,13 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// pgdr view: a picture of a mesh.
+// pgdr view: a picture of a mesh, or a page that shows it.
+#include <filesystem>
+#include <utility>
+
 #include "command.hpp"
 #include "console.hpp"
 #include "files.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/output_files.hpp"
 #include "picture.hpp"
+#include "view/page.hpp"
 
 namespace pgdr::tool {
 namespace {
@@ -31,23 +35,53 @@ int view_mesh(const ViewArguments& a, InputFile& file, bool png, Report& report)
   return exit_done;
 }
 
+template <int D>
+int view_page(const ViewArguments& a, InputFile& file, Report& report) {
+  if (D == 2 && (a.cut || a.from)) throw UsageError({.code = Errc::bad_option, .message = "--cut and --from are for 3D"});
+  std::vector<MeshField> fields = file.read_fields();
+  const OutputMesh<D> mesh = file.read_mesh<D>();
+  if (mesh.cells.empty())
+    throw InputError({.code = Errc::encloses_nothing, .message = "there are no cells to draw", .file = a.mesh});
+  std::vector<std::string> names;
+  for (const MeshField& field : fields) names.push_back(field.name);
+  report.set("cells", mesh.cells.size());
+  report.set("fields", names);
+  const std::string title = std::filesystem::path(a.mesh).filename().string();
+  write_file(a.output, [&](std::ostream& out) { write_page(mesh, std::move(fields), {title, a.coloring, a.cut, a.from}, out); });
+  report.mesh_files = {a.output};
+  if (a.quiet) return exit_done;
+  print_row("mesh", format("%s (%dD), ", a.mesh.c_str(), D) + count_cells<D>(mesh.cells.size()));
+  print_row("page", a.output + ", for any browser");
+  return exit_done;
+}
+
+void require_format(const ViewArguments& a, bool page, bool png) {
+  const auto refuse = [&a](Errc code, const char* message) {
+    throw UsageError({.code = code, .message = message, .file = a.output});
+  };
+  if (!page && !has_extension(a.output, {".png", ".svg"}))
+    refuse(Errc::unknown_format, "pictures are written as .svg, .png, or .html");
+  if (page && !has_page())
+    refuse(Errc::bad_option, "this pgdr was built without three.js (Debian's package libjs-three): pictures are .svg and .png");
+  if (png && !has_png()) refuse(Errc::bad_option, "this pgdr was built without Cairo: pictures are .svg and .html");
+  if (!page && a.color == ViewColor::of_pages)
+    refuse(Errc::bad_option, "--color: the colourings of pictures are quality, dihedral, region and leaf; others are for .html");
+}
+
 }  // namespace
 
 int view(const ViewArguments& a, Report& report) {
   report.set("input", a.mesh);
   report.set("output", a.output);
-  const bool png = has_extension(a.output, {".png"});
-  if (!has_extension(a.output, {".png", ".svg"}))
-    throw UsageError({.code = Errc::unknown_format, .message = "pictures are written as .svg or .png", .file = a.output});
-  if (png && !has_png())
-    throw UsageError(
-        {.code = Errc::bad_option, .message = "this pgdr was built without Cairo: pictures are .svg alone", .file = a.output});
+  const bool png = has_extension(a.output, {".png"}), page = has_extension(a.output, {".html"});
+  require_format(a, page, png);
   require_writable(a.output);
   InputFile file(a.mesh);
   const int dimension = file.dimension();
   report.set("dimension", dimension);
   if (!file.holds_cells())
     throw InputError({.code = Errc::unknown_format, .message = "this is no mesh: there are no cells to draw", .file = a.mesh});
+  if (page) return dimension == 2 ? view_page<2>(a, file, report) : view_page<3>(a, file, report);
   return dimension == 2 ? view_mesh<2>(a, file, png, report) : view_mesh<3>(a, file, png, report);
 }
 

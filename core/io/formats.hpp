@@ -56,6 +56,8 @@ FileMesh read_msh(std::string_view text, const std::filesystem::path& file, Want
 
 template <int D>
 OutputMesh<D> read_vtu(std::string_view text, const std::filesystem::path& file);
+/// The point data and cell data that read_vtu() has no place for.
+std::vector<MeshField> read_vtu_fields(std::string_view text, const std::filesystem::path& file);
 template <int D>
 void write_medit(const OutputMesh<D>& mesh, FileOutput& out);
 template <int D>

@@ -168,6 +168,11 @@ OutputMesh<D> InputFile::read_mesh() {
   });
 }
 
+std::vector<MeshField> InputFile::read_fields() {
+  if (lower_extension(name_) != ".vtu") return {};
+  return guarded(name_, [&] { return detail::read_vtu_fields(texts_->of(name_), name_); });
+}
+
 int InputFile::dimension() {
   const std::string extension = lower_extension(name_);
   for (const std::string_view spatial : {".smesh", ".obj", ".off", ".ply", ".stl"}) {

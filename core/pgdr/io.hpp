@@ -41,7 +41,8 @@
 //   has none; labels become region seeds, the voids that the cells enclose holes. A file whose points all have z = 0 is 2D, if
 //   it has no cells of volume.
 // - .vtu: cells, then subfacets, then subsegments; cell data "region", "leaf" (of the cells) and "marker" (of the others),
-//   point data "marker" and "attributes", field data "dimension", "input_points" and an array a name; raw appended data.
+//   point data "marker" and "attributes", field data "dimension", "input_points" and an array a name; raw appended data. Other
+//   point and cell data are for `read_fields`.
 // - .pvtu: X.pvtu names the files X_0.vtu, X_1.vtu, ... of the pieces (mesh_piece.hpp), which have "GlobalPointIds" and
 //   "GlobalCellIds", too. They are read as one mesh, and written all or none.
 #pragma once
@@ -81,6 +82,14 @@ int file_dimension(const std::filesystem::path& file);
 /// Always so for .vtu and .ele, never for formats of inputs alone; .node counts as points. @throws as read_plc
 bool holds_cells(const std::filesystem::path& file);
 
+/// Numbers that a file has for each point or for each cell of its mesh, and an OutputMesh has no place for.
+struct MeshField {
+  std::string name;            ///< as the file has it
+  bool of_points = false;      ///< else of the cells
+  std::size_t components = 1;  ///< 3 of a vector
+  std::vector<double> values;  ///< so many for each point or cell, in the order of these
+};
+
 /// A file of which several things are asked, and which is read once, so that it can be a FIFO, too. Its bytes, and those of files
 /// that belong to it, are kept until read_plc() or read_mesh() has made something of them: then they are given back, and another
 /// question reads again. One thread. Errors are those of the functions of the same names above and below.
@@ -100,6 +109,9 @@ class PGDR_API InputFile {
   /// As the function. @throws as it does
   template <int D>
   OutputMesh<D> read_mesh();
+  /// Of a .vtu the arrays of point data and cell data that are not ours, points first, by name; of other formats none. Ask before
+  /// `read_mesh`, after which the file is read again. @throws as read_mesh
+  std::vector<MeshField> read_fields();
 
  private:
   std::filesystem::path name_;

@@ -21,8 +21,8 @@ STACK = ("MeshVersionFormatted 2\nDimension 3\nVertices 8\n"
 
 
 def pixels(path):
-    """Width, height and rows of RGB triples of an 8 bit RGB .png without interlacing."""
-    data, at, body = path.read_bytes(), 8, b""
+    """Width, height and rows of RGB triples of an 8 bit RGB .png without interlacing; of RGBA without the last. Of a file, or its bytes."""
+    data, at, body = path if isinstance(path, bytes) else path.read_bytes(), 8, b""
     while at < len(data):
         size, kind = struct.unpack(">I4s", data[at:at + 8])
         if kind == b"IHDR":
@@ -30,16 +30,17 @@ def pixels(path):
         elif kind == b"IDAT":
             body += data[at + 8:at + 8 + size]
         at += size + 12
-    if rest != [8, 2, 0, 0, 0]:
-        raise ValueError(f"{path}: {rest}")
-    raw, stride, rows, before = zlib.decompress(body), 3 * width, [], bytes(3 * width)
+    if rest not in ([8, 2, 0, 0, 0], [8, 6, 0, 0, 0]):
+        raise ValueError(f"{rest}")
+    size = 3 if rest[1] == 2 else 4
+    raw, stride, rows, before = zlib.decompress(body), size * width, [], bytes(size * width)
     for y in range(height):
         method, line = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
-        for x in range(stride):
-            left, up, corner = line[x - 3] if x > 2 else 0, before[x], before[x - 3] if x > 2 else 0
+        for x in range(stride) if method else ():
+            left, up, corner = line[x - size] if x >= size else 0, before[x], before[x - size] if x >= size else 0
             nearest = min((left, up, corner), key=lambda v: abs(left + up - corner - v))
             line[x] = (line[x] + (0, left, up, (left + up) // 2, nearest)[method]) & 255
-        rows.append([tuple(line[x:x + 3]) for x in range(0, stride, 3)])
+        rows.append([tuple(line[x:x + 3]) for x in range(0, stride, size)])
         before = line
     return width, height, rows
 

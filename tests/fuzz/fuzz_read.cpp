@@ -105,6 +105,11 @@ void read_piece(std::string_view bytes) {
   look_at<D>(detail::join_views<D>({&view, 1}, name));
 }
 
+void read_fields(std::string_view bytes) {
+  for (const MeshField& field : detail::read_vtu_fields(bytes, name))
+    FUZZ_EXPECT(field.components > 0 && field.values.size() % field.components == 0, field.name);
+}
+
 template <int D>
 void read(std::string_view bytes) {
   if (input) guarded(bytes, [&] { expect_in_range<D>(detail::read_plc_from<D>(bytes, name)); });
@@ -113,6 +118,7 @@ void read(std::string_view bytes) {
   else if (mesh)
     guarded(bytes, [&] { look_at<D>(detail::read_mesh_from<D>(bytes, name)); });
   if (extension == ".vtu") guarded(bytes, [&] { read_piece<D>(bytes); });
+  if (extension == ".vtu") guarded(bytes, [&] { read_fields(bytes); });
 }
 
 }  // namespace

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Reads the .vtu files that io/write/vtu.cpp makes, and refuses all others by name: an XML head that announces arrays
-// by place and type, then their raw bytes. Each array must have exactly the size that the counts of the head imply and
-// lie within the file, so nothing is allocated that the file does not hold. Errors carry the line of the announcement.
+// by place and type, then their raw bytes. Further arrays of point and cell data, as of a solution, are fields. Each array must
+// have exactly the size that the counts of the head imply and lie within the file, so nothing is allocated that the file does not
+// hold. Errors carry the line of the announcement.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -67,7 +68,7 @@ Head read_head(std::string_view text, const std::string& file) {
 
 template <class T>
 T little_endian(std::string_view bytes, std::size_t i) {
-  std::array<char, sizeof(T)> raw;
+  std::array<char, sizeof(T)> raw{};
   bytes.substr(i * sizeof(T)).copy(raw.data(), raw.size());
   if constexpr (std::endian::native == std::endian::big) std::reverse(raw.begin(), raw.end());
   return std::bit_cast<T>(raw);
@@ -95,7 +96,6 @@ class Arrays {
     if (size(name) != n * bytes_each) fail(Errc::syntax, name, " has not the size that the counts of points and cells imply");
     const std::string_view rest = head_.data.substr(static_cast<std::size_t>(a.offset));
     if (rest.size() - prefix < n * bytes_each) fail(Errc::truncated, name, " reaches beyond the end of the file");
-    end_ = std::max(end_, static_cast<std::size_t>(a.offset) + prefix + n * bytes_each);
     return rest.substr(prefix, n * bytes_each);
   }
 
@@ -108,17 +108,34 @@ class Arrays {
     return little_endian<std::uint64_t>(head_.data.substr(static_cast<std::size_t>(a.offset)), 0);
   }
 
-  /// After the last array was asked for: the end tags must follow.
+  /// The end tags must follow the last of all arrays, asked for or not.
   void check_end() const {
-    std::string found;
-    for (const char c : head_.data.substr(end_)) {
-      if (c != '\n' && c != '\r' && c != ' ') found += c;
-    }
-    constexpr std::string_view end = "</AppendedData></VTKFile>";
-    if (found == end) return;
-    const bool cut = end.starts_with(found);
-    if (cut) fail_at(Errc::truncated, "the file ends too early", 0);
-    fail_at(Errc::syntax, "bytes are left behind the data", 0);
+    std::size_t end = 0;
+    for (const auto& [name, array] : head_.arrays) end = std::max(end, end_of(name));
+    check_tags(end);
+  }
+
+  /// As doubles, `count` rows at the beginning of an array of `rows`.
+  std::vector<double> numbers(const std::string& name, std::size_t count, std::size_t rows) {
+    const std::string& kind = type(name);
+    const std::size_t n = count * static_cast<std::size_t>(components(name));
+    const auto read = [&]<class T>(T) {
+      const std::string_view all = bytes(name, kind, rows * static_cast<std::size_t>(components(name)), sizeof(T));
+      std::vector<double> values(n);
+      for (std::size_t i = 0; i < n; ++i) values[i] = static_cast<double>(little_endian<T>(all, i));
+      return values;
+    };
+    if (kind == "Float64") return read(double());
+    if (kind == "Float32") return read(float());
+    if (kind == "Int8") return read(std::int8_t());
+    if (kind == "UInt8") return read(std::uint8_t());
+    if (kind == "Int16") return read(std::int16_t());
+    if (kind == "UInt16") return read(std::uint16_t());
+    if (kind == "Int32") return read(std::int32_t());
+    if (kind == "UInt32") return read(std::uint32_t());
+    if (kind == "Int64") return read(std::int64_t());
+    if (kind == "UInt64") return read(std::uint64_t());
+    fail(Errc::unknown_format, name, " is of the type " + kind + ", which is no number");
   }
 
   /// The names of all arrays that begin so.
@@ -136,6 +153,25 @@ class Arrays {
   }
 
  private:
+  /// Where an array ends in the data. It lies within them.
+  std::size_t end_of(const std::string& name) const {
+    constexpr std::size_t prefix = sizeof(std::uint64_t);
+    const std::uint64_t length = size(name);
+    const auto begin = static_cast<std::size_t>(head_.arrays.at(name).offset) + prefix;
+    if (head_.data.size() - begin < length) fail(Errc::truncated, name, " reaches beyond the end of the file");
+    return begin + static_cast<std::size_t>(length);
+  }
+  void check_tags(std::size_t begin) const {
+    std::string found;
+    for (const char c : head_.data.substr(begin)) {
+      if (c != '\n' && c != '\r' && c != ' ') found += c;
+    }
+    constexpr std::string_view tags = "</AppendedData></VTKFile>";
+    if (found == tags) return;
+    const bool cut = tags.starts_with(found);
+    if (cut) fail_at(Errc::truncated, "the file ends too early", 0);
+    fail_at(Errc::syntax, "bytes are left behind the data", 0);
+  }
   [[noreturn]] void fail_at(Errc code, const std::string& message, std::uint64_t line) const {
     throw InputError(Diagnostic{code, message, file_, line, {}, {}});
   }
@@ -147,7 +183,6 @@ class Arrays {
 
   const std::string& file_;
   Head head_;
-  std::size_t end_ = 0;
 };
 
 std::int64_t read_dimension(Arrays& arrays) {
@@ -374,7 +409,37 @@ class GridReader {
   OutputMesh<D> mesh_;
 };
 
+/// How many cells of the mesh there are: the first of the cells of the file, before its constraints.
+std::size_t count_cells(Arrays& arrays) {
+  constexpr char triangle = 5, tetrahedron = 10;
+  const char kind = read_dimension(arrays) == 3 ? tetrahedron : triangle;
+  const std::string_view types = arrays.bytes("Cells/types", "UInt8", arrays.cells(), 1);
+  return std::min(types.find_first_not_of(kind), types.size());
+}
+
 }  // namespace
+
+std::vector<MeshField> read_vtu_fields(std::string_view text, const std::filesystem::path& file) {
+  const std::string own[] = {"PointData/marker", "PointData/attributes", "PointData/" + std::string(point_ids), "CellData/marker",
+                             "CellData/region",  "CellData/leaf",        "CellData/" + std::string(cell_ids)};
+  const std::string name = file.string();
+  Arrays arrays(text, name);
+  const std::size_t cells = count_cells(arrays);
+  std::vector<MeshField> fields;
+  for (const std::string_view section : {"PointData/", "CellData/"})
+    for (const std::string& array : arrays.names_in(section)) {
+      if (std::find(std::begin(own), std::end(own), array) != std::end(own)) continue;
+      const bool of_points = section == "PointData/";
+      constexpr std::uint64_t most_components = 1024;  // no count of the file overflows
+      if (const std::uint64_t n = arrays.components(array); n == 0 || n > most_components)
+        arrays.fail(Errc::count_too_large, array, " has " + std::to_string(n) + " components");
+      fields.push_back(
+          {array.substr(section.size()), of_points, static_cast<std::size_t>(arrays.components(array)),
+           arrays.numbers(array, of_points ? arrays.points() : cells, of_points ? arrays.points() : arrays.cells())});
+    }
+  arrays.check_end();
+  return fields;
+}
 
 template <int D>
 OutputMesh<D> read_vtu(std::string_view text, const std::filesystem::path& file) {
