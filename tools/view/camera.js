@@ -8,15 +8,16 @@ const USUAL_EYE = [1, -1.5, 0.8];
 
 class Eye {
   constructor(dimension) { this.flat = dimension === 2; }
-  /** As in the beginning: all of a box of these half lengths about the origin, in a picture of this size. */
-  home(from, box, width, height) {
+  /** As in the beginning: all of a box of these half lengths about the origin, in a picture of this size, right of its first pixels. */
+  home(from, box, width, height, first) {
     const [x, y, z] = this.flat ? [0, 0, 1] : from || USUAL_EYE;
     this.azimuth = this.flat ? -Math.PI / 2 : Math.atan2(y, x || 0);
     this.elevation = Math.atan2(z, Math.hypot(x, y));
     this.target = new THREE.Vector3();
     const nearer = Math.min(width, height), margin = 1.06;
     const along = (v) => v.toArray().reduce((sum, n, k) => sum + Math.abs(n) * (box[k] || 0), 0);
-    this.reach = margin * Math.max(along(this.right()) * nearer / width, along(this.up()) * nearer / height, 1e-6);
+    this.reach = margin * Math.max(along(this.right()) * nearer / (width - first), along(this.up()) * nearer / height, 1e-6);
+    this.move(first / 2, 0, nearer / 2);
   }
   /** Towards the eye. */
   back() {

@@ -69,7 +69,8 @@ class Viewer {
   }
   home() {
     const half = this.mesh.high.map((high, k) => (high - this.mesh.low[k]) / 2 / this.mesh.scale);
-    this.eye.home(this.mesh.from, half, this.canvas.clientWidth || 1, this.canvas.clientHeight || 1);
+    const width = this.canvas.clientWidth || 1, panel = 235;
+    this.eye.home(this.mesh.from, half, width, this.canvas.clientHeight || 1, width > 3 * panel ? panel : 0);
     if (this.scene) this.redraw();
   }
 

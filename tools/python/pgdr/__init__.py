@@ -8,7 +8,7 @@
 >>> r.points.shape[1], r.cells.shape[1], bool(r.check(square))
 (2, 3, True)
 """
-from . import _convert, _polygons, _show  # noqa: F401: methods find their functions (_doors.py)
+from . import _convert, _page, _polygons, _show  # noqa: F401: methods find their functions (_doors.py)
 from ._bodies import Bodies, BodyRegion, with_bodies
 from ._check import Finding, check, diagnose, info
 from ._errors import (CancelledError, DiagnosedError, Diagnostic, Error, FileError, InputError, ResourceError, UsageError)
@@ -16,6 +16,7 @@ from ._estimate import Estimate, Gap, Proposal, SharpAngle, estimate
 from ._fields import Field, limit_growth, sizes_at_points, sizes_on_mesh, smallest
 from ._mesh import Mesh, Reason
 from ._pgdr import version as __version__
+from ._page import Page
 from ._plc import Plc, close_planar_openings, resolve_crossings, with_convex_hull
 from ._report import CheckFinding, CheckReport
 from ._run import Elements, Progress, StopSource, mesh
@@ -24,7 +25,7 @@ from ._tetgen import Tetrahedralization, tetrahedralize
 from ._triangle import triangulate
 
 __all__ = ["Bodies", "BodyRegion", "CancelledError", "CheckFinding", "CheckReport", "DiagnosedError", "Diagnostic", "Elements",
-           "Error", "Estimate", "Field", "FileError", "Finding", "Gap", "InputError", "Mesh", "Plc", "Progress", "Proposal",
+           "Error", "Estimate", "Field", "FileError", "Finding", "Gap", "InputError", "Mesh", "Page", "Plc", "Progress", "Proposal",
            "Reason", "ReplacedSurface", "ResourceError", "SharpAngle", "StopSource", "Tetrahedralization", "UsageError",
            "__version__", "check", "close_planar_openings", "diagnose", "estimate", "info", "limit_growth", "mesh",
            "replace_surface", "resolve_crossings", "sizes_at_points",

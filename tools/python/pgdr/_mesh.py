@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import warnings
-from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Tuple, Type, Union
+from typing import Any, Callable, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Type, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -242,6 +242,25 @@ class Mesh:
     def to_pyvista(self) -> Any:
         """A pyvista.UnstructuredGrid of the cells, with cell data "region"."""
         return through("to_pyvista")(self)
+
+    def to_html(self, path: _arguments.Path, *, color: Optional[str] = None, point_data: Optional[Mapping[str, npt.ArrayLike]] = None,
+                cell_data: Optional[Mapping[str, npt.ArrayLike]] = None, title: Optional[str] = None) -> Any:
+        """Writes a page, one file, that shows the mesh in any browser: it turns, zooms, is cut by a plane, coloured, and says the figures
+        of the cell under the pointer. As `pgdr view MESH -o PAGE.html`.
+
+        color: what it is coloured by at first: "quality" (the default), "dihedral", "radius_edge", "volume", "region", "name", "marker", or
+        the name of a field. point_data, cell_data: fields, {name: (n,) or (n, k) numbers}, of the points and cells of this mesh. title: of
+        the page; else the name of the file. Returns a Page, with its `path`, which a notebook shows. Raises FileError, UsageError.
+        """
+        return through("to_html")(self, path, color, point_data, cell_data, title)
+
+    def show(self, color: Optional[str] = None, *, point_data: Optional[Mapping[str, npt.ArrayLike]] = None,
+             cell_data: Optional[Mapping[str, npt.ArrayLike]] = None) -> Any:
+        """Shows the mesh, and fields of it: by PyVista, where it is installed, whose plot() is returned (`color` is then the name of a
+        field, or "region"); else as a page of `to_html`, in the browser or, in a notebook, as the value of the cell. The page is a
+        temporary file, which stays.
+        """
+        return through("show")(self, color, point_data, cell_data)
 
     def _repr_html_(self) -> str:
         drawn: str = through("repr_html")(self)
