@@ -56,6 +56,7 @@ ROOMS = {
     "core": {
         "output": Room("what is a finished mesh?", "", "mesh_maps.cpp",
                        "output_mesh mesh_maps mesh_piece region_mode region_volume poor_reason flat_arrays"),
+        "weld": Room("do meshes match, and what is one mesh of them?", "output", "boundaries.cpp", "mesh_join"),
         "quality": Room("how good is a finished mesh?", "output", "quality.cpp", "quality"),
         "size": Room("how large may a cell be here?", "output", "size_fields.cpp", "sizing size_fields"),
         "mesh": Room("what are cells, vertices and constraints, and who owns them?", "", "mesh.hpp visit_area.hpp", ""),

@@ -76,6 +76,8 @@ int execute(const Arguments& arguments, Report& report, const Ranks& ranks) {
             return check(a, report);
           else if constexpr (std::is_same_v<A, InfoArguments>)
             return info(a, report);
+          else if constexpr (std::is_same_v<A, JoinArguments>)
+            return join(a, report);
           else
             return view(a, report);
         },

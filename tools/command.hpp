@@ -35,5 +35,6 @@ int mesh(const MeshArguments& arguments, Report& report, const Ranks& ranks);
 int check(const CheckArguments& arguments, Report& report);
 int info(const InfoArguments& arguments, Report& report);
 int view(const ViewArguments& arguments, Report& report);
+int join(const JoinArguments& arguments, Report& report);
 
 }  // namespace pgdr::tool

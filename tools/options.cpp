@@ -356,6 +356,20 @@ void add_view(CLI::App& app, ViewArguments& a) {
   add_report(app, a.report, a.quiet);
 }
 
+void add_join(CLI::App& app, JoinArguments& a) {
+  app.add_option("MESH", a.meshes, "the meshes, two or more: .vtu .pvtu .msh .mesh .node .ele")
+      ->required()
+      ->expected(2, std::numeric_limits<int>::max())
+      ->type_name("");
+  app.add_option("-o,--output", a.output,
+                 "the one mesh: .vtu .pvtu .msh .mesh .node .ele; for other programs also .inp .mfem, or a folder polyMesh")
+      ->required()
+      ->type_name("OUTPUT");
+  app.add_flag("--relabel", a.relabel,
+               "labels of different files become different ones, 1, 2, ...; without it equal labels stay one label");
+  add_report(app, a.report, a.quiet);
+}
+
 /// What --help and --version ask for. @returns the exit code
 int print_help(const CLI::App& app, const CLI::Success& asked) {
   app.exit(asked);
@@ -439,6 +453,7 @@ std::variant<Arguments, int> parse(int argc, const char* const* argv, bool speak
   CheckArguments check;
   InfoArguments info;
   ViewArguments view;
+  JoinArguments join;
 
   CLI::App app("pgdr: Delaunay meshes with guaranteed quality, in 3D and 2D", "pgdr");
   app.set_version_flag("--version", version_words());
@@ -451,6 +466,8 @@ std::variant<Arguments, int> parse(int argc, const char* const* argv, bool speak
   add_info(*app.add_subcommand("info", "What is in an input or a mesh"), info);
   auto* view_app = app.add_subcommand("view", "Draw a mesh");
   add_view(*view_app, view);
+  auto* join_app = app.add_subcommand("join", "Make one mesh of several whose boundaries match");
+  add_join(*join_app, join);
 
   try {
     app.parse(argc, argv);
@@ -463,6 +480,7 @@ std::variant<Arguments, int> parse(int argc, const char* const* argv, bool speak
   if (mesh_app->parsed()) return Arguments(std::move(mesh));
   if (check_app->parsed()) return Arguments(std::move(check));
   if (view_app->parsed()) return Arguments(std::move(view));
+  if (join_app->parsed()) return Arguments(std::move(join));
   return Arguments(std::move(info));
 }
 

@@ -110,7 +110,15 @@ struct ViewArguments {
   bool quiet = false;
 };
 
-using Arguments = std::variant<MeshArguments, CheckArguments, InfoArguments, ViewArguments>;
+struct JoinArguments {
+  std::vector<std::string> meshes;  ///< two or more
+  std::string output;
+  bool relabel = false;
+  std::string report;
+  bool quiet = false;
+};
+
+using Arguments = std::variant<MeshArguments, CheckArguments, InfoArguments, ViewArguments, JoinArguments>;
 
 /// Label, which may be a name, and size of a --region-size; none if there is nothing before or behind its first "=".
 std::optional<std::pair<std::string, std::string>> split_region_size(const std::string& text);

@@ -82,6 +82,9 @@ RunFiles::RunFiles(const Arguments& arguments) {
     } else if constexpr (std::is_same_v<A, InfoArguments>) {
       for (const std::string& file : a.files) read(file, "the input");
       if (!a.problems.empty()) outputs_.push_back({a.problems, "the file of problems"});
+    } else if constexpr (std::is_same_v<A, JoinArguments>) {
+      for (const std::string& file : a.meshes) read(file, "a mesh");
+      for (const std::string& file : files_of_mesh(a.output)) outputs_.push_back({file, "the output"});
     } else {
       read(a.mesh, "the mesh");
       outputs_.push_back({a.output, "the picture"});

@@ -3,32 +3,14 @@
 //
 // A finished mesh as an input again.
 #include <algorithm>
-#include <string>
 
 #include "output/cell_surface.hpp"
 #include "output/simplices.hpp"
-#include "pgdr/error.hpp"
+#include "output/whole_arrays.hpp"
 #include "pgdr/mesh_maps.hpp"
 
 namespace pgdr {
 namespace {
-
-template <int D>
-void require_whole(const OutputMesh<D>& mesh) {
-  const std::size_t points = mesh.points.size();
-  const auto refuse = [](const std::string& what) { throw InputError({.code = Errc::index_out_of_range, .message = what}); };
-  const auto require_vertices = [&](const auto& vertices, const char* what) {
-    if (std::ranges::any_of(vertices, [&](std::uint32_t v) { return v >= points; }))
-      refuse(std::string(what) + " has a vertex that is none of the " + std::to_string(points) + " points");
-  };
-  for (const auto& cell : mesh.cells) require_vertices(cell, "a cell");
-  for (const auto& s : mesh.subsegments) require_vertices(s.vertices, "a subsegment");
-  for (const auto& f : mesh.subfacets) require_vertices(f.vertices, "a subfacet");
-  if (!mesh.regions.empty() && mesh.regions.size() != mesh.cells.size()) refuse("the labels are not one a cell");
-  if (!mesh.point_markers.empty() && mesh.point_markers.size() != points) refuse("the markers of points are not one a point");
-  if (points > 0 && mesh.point_attributes.size() % points != 0) refuse("the attributes are not equally many a point");
-  if (mesh.cells.empty()) throw UsageError({.code = Errc::bad_option, .message = "the mesh has no cells"});
-}
 
 template <int D>
 detail::CellSurface<D> surface_of_mesh(const OutputMesh<D>& mesh) {
@@ -91,7 +73,7 @@ class BoundaryPoints {
 
 template <int D>
 Plc<D> boundary_of_mesh(const OutputMesh<D>& mesh) {
-  require_whole(mesh);
+  detail::require_whole(mesh, {});
   detail::CellSurface<D> surface = surface_of_mesh(mesh);
   BoundaryPoints<D> points(mesh);
   for (const auto& s : mesh.subsegments) points.keep(s.vertices);

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "numbers/corners.hpp"
+#include "output/face_groups.hpp"
 #include "output/facet_parts.hpp"
 #include "output/simplices.hpp"
 #include "pgdr/error.hpp"
@@ -102,27 +102,6 @@ void map_facets(const Domain<3>& domain, const OutputMesh<3>& mesh, InputMap<3>&
   std::tie(out.subfacets_of_facet, out.facets_of_subfacet) = both_ways(pairs, domain.input_facets(), mesh.subfacets.size());
 }
 
-/// A face by its vertices other than the smallest, ascending, and where it is: the number of its cell times D + 1, and its
-/// corner.
-template <int D>
-struct Face {
-  std::array<std::uint32_t, D - 1> others;
-  std::uint64_t place;
-};
-
-/// Joins the cells of equal faces. The faces of one bucket have the same smallest vertex; there are few.
-template <int D>
-void join_equal(std::span<Face<D>> bucket, std::vector<std::array<std::uint32_t, D + 1>>& neighbors) {
-  std::sort(bucket.begin(), bucket.end(), [](const Face<D>& a, const Face<D>& b) { return a.others < b.others; });
-  for (std::size_t i = 1; i < bucket.size(); ++i) {
-    if (bucket[i].others != bucket[i - 1].others) continue;
-    if (i >= 2 && bucket[i].others == bucket[i - 2].others) refuse("the mesh has a face with more than two cells");
-    const std::uint64_t a = bucket[i - 1].place, b = bucket[i].place;
-    neighbors[a / (D + 1)][a % (D + 1)] = static_cast<std::uint32_t>(b / (D + 1));
-    neighbors[b / (D + 1)][b % (D + 1)] = static_cast<std::uint32_t>(a / (D + 1));
-  }
-}
-
 }  // namespace
 
 template <int D>
@@ -176,50 +155,17 @@ InputMap<D> input_map(const Domain<D>& domain, const OutputMesh<D>& mesh) {
   return out;
 }
 
-namespace {
-
-/// Calls visit(face, place) for the faces of all cells, the vertices of each sorted.
-template <int D, class Visit>
-void each_face(const OutputMesh<D>& mesh, const Visit& visit) {
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-    for (int i = 0; i <= D; ++i) {
-      auto face = face_without(mesh.cells[c], i);
-      std::sort(face.begin(), face.end());
-      visit(face, (D + 1) * std::uint64_t{c} + static_cast<std::uint64_t>(i));
-    }
-}
-
-/// The faces of all cells, by their smallest vertices. `begin`: of those of each vertex, and the end.
-template <int D>
-std::vector<Face<D>> faces_by_vertex(const OutputMesh<D>& mesh, std::vector<std::size_t>& begin) {
-  begin.assign(mesh.points.size() + 1, 0);
-  each_face<D>(mesh, [&](const auto& face, std::uint64_t) {
-    if (face.back() >= mesh.points.size())
-      throw InputError({Errc::index_out_of_range, "a cell has a vertex that does not exist", {}, 0, {face.back()}, {}});
-    ++begin[face[0] + 1];
-  });
-  for (std::size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];
-  std::vector<Face<D>> faces(begin.back());
-  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-  each_face<D>(mesh, [&](const auto& face, std::uint64_t place) {
-    Face<D>& f = faces[next[face[0]]++];
-    std::copy(face.begin() + 1, face.end(), f.others.begin());
-    f.place = place;
-  });
-  return faces;
-}
-
-}  // namespace
-
 template <int D>
 std::vector<std::array<std::uint32_t, D + 1>> neighbors_of_cells(const OutputMesh<D>& mesh) {
-  std::vector<std::size_t> begin;
-  std::vector<Face<D>> faces = faces_by_vertex<D>(mesh, begin);
   std::array<std::uint32_t, D + 1> alone;
   alone.fill(no_cell_beyond);
   std::vector<std::array<std::uint32_t, D + 1>> neighbors(mesh.cells.size(), alone);
-  for (std::size_t v = 0; v + 1 < begin.size(); ++v)
-    join_equal<D>(std::span(faces).subspan(begin[v], begin[v + 1] - begin[v]), neighbors);
+  detail::each_face_group<D>(mesh, [&](std::uint32_t, std::span<const detail::CellFace<D>> group) {
+    if (group.size() > 2) refuse("the mesh has a face with more than two cells");
+    if (group.size() < 2) return;
+    neighbors[group[0].cell()][group[0].corner()] = group[1].cell();
+    neighbors[group[1].cell()][group[1].corner()] = group[0].cell();
+  });
   return neighbors;
 }
 

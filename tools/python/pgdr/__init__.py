@@ -14,6 +14,7 @@ from ._check import Finding, check, diagnose, info
 from ._errors import (CancelledError, DiagnosedError, Diagnostic, Error, FileError, InputError, ResourceError, UsageError)
 from ._estimate import Estimate, Gap, Proposal, SharpAngle, estimate
 from ._fields import Field, limit_growth, sizes_at_points, sizes_on_mesh, smallest
+from ._join import Joined, JoinedLabel, Shared, join
 from ._mesh import Mesh, Reason
 from ._pgdr import version as __version__
 from ._page import Page
@@ -28,5 +29,8 @@ __all__ = ["Bodies", "BodyRegion", "CancelledError", "CheckFinding", "CheckRepor
            "Error", "Estimate", "Field", "FileError", "Finding", "Gap", "InputError", "Mesh", "Page", "Plc", "Progress", "Proposal",
            "Reason", "ReplacedSurface", "ResourceError", "SharpAngle", "StopSource", "Tetrahedralization", "UsageError",
            "__version__", "check", "close_planar_openings", "diagnose", "estimate", "info", "limit_growth", "mesh",
+           "Error", "Estimate", "Field", "FileError", "Finding", "Gap", "InputError", "Joined", "JoinedLabel", "Mesh", "Plc",
+           "Progress", "Proposal", "Reason", "ReplacedSurface", "ResourceError", "Shared", "SharpAngle", "StopSource", "Tetrahedralization", "UsageError",
+           "__version__", "check", "close_planar_openings", "diagnose", "estimate", "info", "join", "limit_growth", "mesh",
            "replace_surface", "resolve_crossings", "sizes_at_points",
            "sizes_on_mesh", "smallest", "tetrahedralize", "triangulate", "with_bodies", "with_convex_hull"]
