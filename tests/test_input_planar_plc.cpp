@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What is done to planar straight line graphs on request: crossings resolved, the convex hull added.
+#include "pgdr/convex_hull.hpp"
 #include "pgdr/planar_plc.hpp"
 
 #include <gtest/gtest.h>

@@ -40,6 +40,7 @@ ROOMS = {
                       "entities.hpp point_on_entity.cpp", "plc domain"),
         "join": Room("what of an input meets within the tolerance, and how is a facet triangulated?", "input",
                      "distinct_points.cpp facet_triangulator.hpp", "planar_plc joined_plc"),
+        "hull": Room("what is the convex hull of the points of an input?", "join", "space_hull.cpp", "convex_hull"),
         "build": Room("which facets are one plane, and how does an input become a Domain?", "join", "domain_builder.cpp", ""),
         "volumes": Room("which volumes do walls separate, and what does a ray meet first?", "space", "wall_volumes.hpp", ""),
         "diagnose": Room("what is wrong with an input, and where?", "input volumes", "diagnosis.cpp cell_estimate.cpp",

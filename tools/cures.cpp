@@ -75,6 +75,14 @@ class CureSearch {
     return how;
   }
 
+  /// Of points alone, in space.
+  void try_hull() requires(D == 3) {
+    Treatment hull = done_;
+    hull.convex_hull = true;
+    if (is_valid(hull))
+      add({"points alone", "--convex-hull", "--convex-hull makes it valid: the convex hull of all points is meshed then"});
+  }
+
   void try_flags_of_plane() {
     const bool crosses = diagnosis_[Finding::segments_cross].count > 0 && !done_.resolve_crossings;
     const bool is_open = diagnosis_[Finding::encloses_nothing].count > 0;
@@ -112,6 +120,7 @@ class CureSearch {
     if (has_other_than_crossings()) return;
     const bool is_crossed = this->is_crossed(), cuts = is_crossed && !done_.resolve_crossings, closes = !done_.close_openings;
     const bool is_open = diagnosis_[Finding::open_boundary].count + diagnosis_[Finding::encloses_nothing].count > 0;
+    if (given_.facets.empty()) return try_hull();
     if (cuts && is_valid(with(false, true))) add_cutting();
     if (is_crossed) try_points();
     if (is_open) try_to_weld(false);

@@ -83,7 +83,7 @@ int Inputs::dimension() {
 
 template <int D>
 Plc<D> Inputs::read_given(const InputArguments& reading) {
-  if (D == 3 && (reading.convex_hull || reading.region_areas)) refuse("--convex-hull and --region-areas are for 2D");
+  if (D == 3 && reading.region_areas) refuse("--region-areas is for 2D");
   if (D == 2 && (reading.markers || reading.close_openings)) refuse("--markers and --close-planar-openings are for 3D");
   std::vector<Plc<D>> all;
   for (InputFile& file : files_) all.push_back(file.read_plc<D>({.region_areas = reading.region_areas}));

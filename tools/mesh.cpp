@@ -276,11 +276,11 @@ class MeshRun {
     report_.set("tolerance", tolerance_of(plc_));
     report_.set("largest_move", 0.0);
     report_.set("resolve_crossings", a_.reading.resolve_crossings);
+    report_.set("convex_hull", a_.reading.convex_hull);
     if constexpr (D == 3) {
       report_.set("close_planar_openings", a_.reading.close_openings);
       if (a_.reading.resolve_crossings) report_.set("markers", name(a_.reading.markers.value_or(SharedMarker::smallest)));
     } else {
-      report_.set("convex_hull", a_.reading.convex_hull);
       report_.set("region_areas", a_.reading.region_areas);
     }
     report_.set("region_mode", name(a_.regions, a_.reading.bodies));

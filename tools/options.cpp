@@ -161,7 +161,7 @@ void add_input(CLI::App& app, InputArguments& p) {
       "their own, named closed_opening_1, ...");
   app.add_flag("--region-areas", p.region_areas,
                "2D: a region of a .poly that has one number behind its point has it as label and as largest area");
-  app.add_flag("--convex-hull", p.convex_hull, "2D: the edges of the convex hull of all points are segments, too");
+  app.add_flag("--convex-hull", p.convex_hull, "the edges (3D: facets) of the convex hull of all points are segments (facets), too");
 }
 
 template <class Mode>  // a RegionMode, maybe an optional one

@@ -73,7 +73,7 @@ struct ReportedBounds {
   bool resolve_crossings = false;         ///< what was done to the input
   std::optional<SharedMarker> markers;    ///< 3D, where that was done
   bool close_openings = false;            ///< 3D
-  bool convex_hull = false;               ///< 2D
+  bool convex_hull = false;
   bool region_areas = false;              ///< how it was read, 2D
   std::vector<std::string> seeds, holes;  ///< of flags
   RegionMode regions = RegionMode::seeds;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "pgdr/arrangement.hpp"
+#include "pgdr/convex_hull.hpp"
 #include "pgdr/openings.hpp"
 #include "pgdr/planar_plc.hpp"
 #include "text.hpp"
@@ -22,8 +23,8 @@ Plc<3> resolved(const Plc<3>& plc, const Treatment& how, std::vector<Diagnostic>
 
 template <int D>
 Plc<D> treated(Plc<D> plc, const Treatment& how, std::vector<Diagnostic>& repairs, const std::stop_token& stop) {
+  if (how.convex_hull) plc = with_convex_hull(plc);
   if constexpr (D == 2) {
-    if (how.convex_hull) plc = with_convex_hull(plc);
     if (how.resolve_crossings) plc = resolve_crossings(plc, repairs);
   } else {
     if (how.close_openings) plc = close_planar_openings(plc, repairs, stop);

@@ -16,7 +16,7 @@
 namespace pgdr::tool {
 
 struct Treatment {
-  bool convex_hull = false;     ///< 2D
+  bool convex_hull = false;
   bool close_openings = false;  ///< 3D
   bool resolve_crossings = false;
   std::optional<SharedMarker> markers = {};  ///< 3D, with resolve_crossings

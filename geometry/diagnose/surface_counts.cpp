@@ -73,26 +73,10 @@ class Surface {
   std::int64_t faces_ = 0;
 };
 
-/// Of each point the first one at its place.
-std::vector<std::uint32_t> first_at_places(std::span<const Point3> points) {
-  detail::PointPlaces places(points.size());
-  std::vector<std::uint32_t> first(points.size());
-  for (std::uint32_t i = 0; i < points.size(); ++i) {
-    Point3 p = points[i];
-    for (double& x : p.x) x += 0.0;
-    const std::size_t hash = detail::hash_of(p);
-    first[i] = places.find(hash, [&](std::uint32_t v) { return points[v] == p; });
-    if (first[i] != no_entity) continue;
-    first[i] = i;
-    places.insert(hash, i);
-  }
-  return first;
-}
-
 }  // namespace
 
 SurfaceCounts surface_counts(const Plc<3>& plc) {
-  const std::vector<std::uint32_t> first = first_at_places(plc.points);
+  const std::vector<std::uint32_t> first = detail::first_at_places<3>(plc.points);
   Surface surface(plc.points.size());
   Loop loop;
   for (const auto& facet : plc.facets) {

@@ -28,8 +28,4 @@ namespace pgdr PGDR_API {
 ///   ends).
 Plc<2> resolve_crossings(const Plc<2>& plc, std::vector<Diagnostic>& repairs);
 
-/// Adds the edges of the convex hull of all points as segments, with marker 0, but for those that are segments already. They go
-/// through all points that they pass within the tolerance.
-Plc<2> with_convex_hull(const Plc<2>& plc);
-
 }  // namespace pgdr

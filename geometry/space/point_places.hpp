@@ -48,6 +48,23 @@ class PointPlaces {
   std::vector<std::uint32_t> table_;
 };
 
+/// Of each point the first one at its place. @pre coordinates are finite
+template <int D>
+std::vector<std::uint32_t> first_at_places(std::span<const Point<D>> points) {
+  PointPlaces places(points.size());
+  std::vector<std::uint32_t> first(points.size());
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    Point<D> p = points[i];
+    for (double& x : p.x) x += 0.0;  // -0 is 0
+    const std::size_t hash = hash_of(p);
+    first[i] = places.find(hash, [&](std::uint32_t v) { return points[v] == p; });
+    if (first[i] != no_entity) continue;
+    first[i] = i;
+    places.insert(hash, i);
+  }
+  return first;
+}
+
 /// A grid of cubes as wide as the distance: whoever is near enough is in a point's own, or in one beside it.
 template <int D>
 class PointGrid {

@@ -91,7 +91,7 @@ class Planar(Case):
         self.assertEqual(self.json()["subsegments"], 6 + 16 + 12)
 
     def test_flags_are_for_2d(self):
-        for flag in ("--keep-boundary", "--convex-hull", "--region-areas"):
+        for flag in ("--keep-boundary", "--region-areas"):
             done = self.pgdr("mesh", BRACKET, "-o", self.output, flag, expect=2)
             self.assertIn("2D", done.stderr)
 

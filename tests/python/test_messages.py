@@ -58,6 +58,18 @@ class Words(unittest.TestCase):
                 self.assertIn(f"pgdr.{name}(plc)", str(caught.exception))
                 self.assertIn(f"pgdr.{name}(plc)", caught.exception.message)
             checked(self, mend(plc))
+
+    def test_points_alone_in_space(self):
+        bare = pgdr.Plc([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [0.2, 0.3, 0.2]])
+        with self.assertRaises(pgdr.InputError) as caught:
+            pgdr.mesh(bare)
+        self.assertIn("pgdr.with_convex_hull(plc)", caught.exception.message)
+        hull = pgdr.with_convex_hull(bare)
+        self.assertEqual((len(hull.facets), hull.dimension), (4, 3))
+        checked(self, hull)
+        with self.assertRaises(pgdr.InputError) as caught:
+            pgdr.with_convex_hull(pgdr.Plc([[0, 0, 1], [1, 0, 1], [0, 1, 1]]))
+        self.assertEqual(caught.exception.code, "no_volume")
         beyond_help = pgdr.Plc([[0, 0], [1, 0], [0, 0], [1, 0]], [[0, 1], [2, 3]])
         with self.assertRaises(pgdr.InputError) as caught:
             pgdr.mesh(beyond_help)

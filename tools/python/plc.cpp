@@ -18,6 +18,7 @@
 #include "errors.hpp"
 #include "pgdr/arrangement.hpp"
 #include "pgdr/bodies.hpp"
+#include "pgdr/convex_hull.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/joined_plc.hpp"
 #include "pgdr/openings.hpp"
@@ -332,6 +333,12 @@ IndexArray indices_of(const py::array& array) {
   bad_argument("indices are integers of 32 or 64 bits, contiguous");
 }
 
+template <int D>
+std::shared_ptr<Plc<D>> hull(const Plc<D>& plc) {
+  const py::gil_scoped_release others_run;
+  return std::make_shared<Plc<D>>(with_convex_hull(plc));
+}
+
 void bind_plc(py::module_& module) {
   bind<2>(module);
   bind<3>(module);
@@ -341,10 +348,8 @@ void bind_plc(py::module_& module) {
   module.def("resolve_crossings3", &resolve<3>);
   module.def("close_planar_openings", &close_openings);
   module.def("with_bodies", &label_bodies);
-  module.def("with_convex_hull", [](const Plc<2>& plc) {
-    const py::gil_scoped_release others_run;
-    return std::make_shared<Plc<2>>(with_convex_hull(plc));
-  });
+  module.def("with_convex_hull2", &hull<2>);
+  module.def("with_convex_hull3", &hull<3>);
 }
 
 }  // namespace pgdr::python

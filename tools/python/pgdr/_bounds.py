@@ -16,7 +16,8 @@ def require_walls(plc: Plc) -> None:
     if plc.dimension == 2 and not len(plc.segments):
         words = "there are no segments: of points alone, pgdr.with_convex_hull(plc) has the edges of their hull as segments"
     elif plc.dimension == 3 and not plc._core.facet_count:
-        words = "there are no facets: the triangles or polygons of a closed surface are needed, as facets of pgdr.Plc"
+        words = ("there are no facets: the triangles or polygons of a closed surface are needed, as facets of pgdr.Plc; of points alone, "
+                 "pgdr.with_convex_hull(plc) has those of their hull")
     else:
         return
     raise DiagnosedError._of(Diagnostic("encloses_nothing", words))

@@ -420,13 +420,18 @@ def close_planar_openings(plc: Plc) -> Tuple[Plc, List[Diagnostic]]:
 
 
 def with_convex_hull(plc: Plc) -> Plc:
-    """2D: the same input with the edges of the convex hull of all points as segments, too, with marker 0."""
-    return Plc._of(_pgdr.with_convex_hull(_planar(plc, "the convex hull is added")))
+    """The same input with the convex hull of all points, too: its edges as segments in 2D, its facets in 3D, with marker 0. Exact: what
+    lies in one plane is one facet. Raises InputError (`no_volume`) if all points lie in one plane.
 
-
-def _planar(plc: Plc, what: str) -> _pgdr.Plc2:
+    >>> import pgdr
+    >>> corners = [[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+    >>> plc = pgdr.with_convex_hull(pgdr.Plc(corners + [[0.5, 0.4, 0.3]]))
+    >>> len(plc.facets), pgdr.mesh(plc).check(plc).exit_code
+    (6, 0)
+    """
     if not isinstance(plc, Plc):
         raise TypeError(f"plc must be a pgdr.Plc, not {type(plc).__name__}")
-    if not isinstance(plc._core, _pgdr.Plc2):
-        raise usage(f"{what} in 2D only")
-    return plc._core
+    core = plc._core
+    with WORK:
+        made = _pgdr.with_convex_hull2(core) if isinstance(core, _pgdr.Plc2) else _pgdr.with_convex_hull3(core)
+    return Plc._of(made)
