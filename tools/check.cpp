@@ -14,6 +14,7 @@
 #include "console.hpp"
 #include "files.hpp"
 #include "input.hpp"
+#include "periodic.hpp"
 #include "pgdr/check_bodies.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/mesh_maps.hpp"
@@ -89,7 +90,7 @@ void fill(Report& report, const OutputMesh<D>& mesh, const Bounds<D>& bounds, co
 template <int D>
 void print_summary(const CheckArguments& a, const OutputMesh<D>& mesh, const Bounds<D>& bounds,
                    const std::optional<QualitySummary>& q, const CheckReport& r, std::size_t unused,
-                   std::optional<double> surface_tolerance) {
+                   std::optional<double> surface_tolerance, const PeriodicCheck& in_step) {
   print_row("mesh", format("%s (%dD, ", a.mesh.c_str(), D) + count(mesh.points.size(), "vertex", "vertices") + ", " +
                         count_cells<D>(mesh.cells.size()) + ')');
   if (unused > 0) print_row("unused", count(unused, "vertex is in no cell", "vertices are in no cell"));
@@ -115,12 +116,22 @@ void print_summary(const CheckArguments& a, const OutputMesh<D>& mesh, const Bou
                                   : ""));
   for (const CheckFinding& f : r.findings) print_row("found", std::string(name(f.kind)) + ": " + f.message);
   if (r.finding_count > r.findings.size()) print_row("found", count(r.finding_count - r.findings.size(), "more", "more"));
-  const int code = r.exit_code();
+  print_periodic(in_step.pairs);
+  if (in_step.failure) print_row("periodic", "FAILED: " + in_step.failure->message);
+  const int code = in_step.failure ? exit_check_failed : r.exit_code();
   print_row("verdict", code == exit_done        ? r.not_delaunay_refused == 0 ? "everything holds" : "every bound holds"
                        : code == exit_poor_left ? r.unexplained + r.not_delaunay_unexplained > 0
                                                       ? "sound; over a bound also where nothing explains it"
                                                       : "sound; over a bound only where the reasons explain it"
                                                 : "FAILED");
+}
+
+/// The tolerance of an input of the points of a mesh.
+template <int D>
+double rounding_of(const OutputMesh<D>& mesh) {
+  Plc<D> plc;
+  plc.points = mesh.points;
+  return rounding_tolerance(plc);
 }
 
 template <int D>
@@ -168,6 +179,11 @@ int check_as(const CheckArguments& a, InputFile& file, Report& report) {
   std::optional<QualitySummary> quality;  // of a mesh whose numbers can be used at all
   if (verdict.count(CheckFinding::Kind::bad_index) + verdict.count(CheckFinding::Kind::not_finite) == 0)
     quality = summarize_quality(mesh);
+  const std::vector<std::string>& periodic = a.periodic.empty() ? reported.periodic : a.periodic;
+  const double tolerance = options.tolerance.value_or(plc ? tolerance_of(*plc) : rounding_of(mesh));
+  const PeriodicCheck in_step = check_periodic(mesh, periodic_sides<D>(periodic, plc ? plc->names : mesh.names), 2 * tolerance);
+  if (in_step.failure) report.add_error(*in_step.failure);
+  if (!periodic.empty()) in_step.failure ? report.set("periodic", nullptr) : set_periodic(report, in_step.pairs);
   const std::size_t unused = unused_points(mesh).size();
   fill(report, mesh, bounds, quality, verdict, options.delaunay, unused);
   if (options.surface_tolerance)
@@ -176,10 +192,10 @@ int check_as(const CheckArguments& a, InputFile& file, Report& report) {
                                                {"feature_angle", options.feature_angle},
                                                {"undecided_volumes", verdict.undecided_volumes}});
   if (bodies) report.set("bodies", JsonObject{{"checked", bodies->done}, {"left_out", bodies->left_out}});
-  if (!a.quiet) print_summary(a, mesh, bounds, quality, verdict, unused, options.surface_tolerance);
+  if (!a.quiet) print_summary(a, mesh, bounds, quality, verdict, unused, options.surface_tolerance, in_step);
   if (!a.quiet && bodies)
     print_row("bodies", bodies->done ? "as rays through the given facets count them" : "not checked: " + bodies->left_out);
-  return verdict.exit_code();
+  return in_step.failure ? exit_check_failed : verdict.exit_code();
 }
 
 }  // namespace

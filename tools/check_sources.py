@@ -57,7 +57,7 @@ ROOMS = {
     "core": {
         "output": Room("what is a finished mesh?", "", "mesh_maps.cpp",
                        "output_mesh mesh_maps mesh_piece region_mode region_volume poor_reason flat_arrays"),
-        "weld": Room("do meshes match, and what is one mesh of them?", "output", "boundaries.cpp", "mesh_join"),
+        "weld": Room("do meshes, or sides of one, match, and what is one mesh of them?", "output", "boundaries.cpp", "mesh_join periodic"),
         "quality": Room("how good is a finished mesh?", "output", "quality.cpp", "quality"),
         "size": Room("how large may a cell be here?", "output", "size_fields.cpp", "sizing size_fields"),
         "mesh": Room("what are cells, vertices and constraints, and who owns them?", "", "mesh.hpp visit_area.hpp", ""),
@@ -75,7 +75,7 @@ ROOMS = {
                       "check"),
         "nearness": Room("is the mesh's surface within a distance of the given one?", "given", "nearness.hpp near_set.hpp", "facet_places"),
         "check": Room("is a finished mesh what it should be?", "nearness", "check.cpp", "check_bodies"),
-        "io": Room("how are files read and written?", "output", "io.cpp read/ply.cpp", "io output_files"),
+        "io": Room("how are files read and written?", "output weld", "io.cpp read/ply.cpp", "io output_files"),
     },
     "scheduler": {
         "tree": Room("which leaf is a point in, what is around it, how does it split?", "", "orthtree.hpp", ""),
@@ -85,7 +85,7 @@ ROOMS = {
                        "refine"),
         "plans": Room("which leaf is refined when?", "visits", "planner.hpp generations.hpp", ""),
         "run": Room("how does an input become a mesh?",
-                    "plans boundary optimize compact given", "refine.cpp refinement.hpp", "pgdr"),
+                    "plans boundary optimize compact given weld", "refine.cpp refinement.hpp", "pgdr make_periodic"),
         "transport": Room("how do ranks talk to each other?", "", "collectives.hpp", "transport"),
         "ranks": Room("how do several ranks make one mesh?", "run transport io quality check", "refine.cpp", "ranks"),
     },

@@ -20,8 +20,10 @@
 #include "files.hpp"
 #include "input.hpp"
 #include "mesh_options.hpp"
+#include "periodic.hpp"
 #include "pgdr/facet_places.hpp"
 #include "pgdr/io.hpp"
+#include "pgdr/make_periodic.hpp"
 #include "pgdr/output_files.hpp"
 #include "proposal.hpp"
 #include "ranks.hpp"
@@ -124,33 +126,6 @@ void fill(Report& report, const MeshArguments& a, const Threads& threads, const 
   report.set("repairs", to_json(r.repairs));
 }
 
-/// How the bounds were met. Reasons are given for poor cells, and for cells that are not Delaunay.
-template <int D>
-std::string verdict(const RefineResult<D>& r) {
-  std::string text = !r.size_met && r.poor_left == 0 ? "the size bound is not met everywhere"
-                     : r.poor_left == 0              ? "every bound is met"
-                                                     : count(r.poor_left, "element stays poor", "elements stay poor");
-  if (r.reasons.size() > r.poor_left) text += ", " + count(r.reasons.size() - r.poor_left, "is", "are") + " not Delaunay";
-  std::array<std::uint64_t, static_cast<std::size_t>(PoorReason::Code::budget) + 1> by_code{};
-  for (const PoorReason& reason : r.reasons) ++by_code[static_cast<std::size_t>(reason.code)];
-  const char* separator = ": ";
-  for (std::size_t i = 0; i < by_code.size(); ++i) {
-    if (by_code[i] == 0) continue;
-    text += separator + std::to_string(by_code[i]) + ' ' + name(static_cast<PoorReason::Code>(i));
-    separator = ", ";
-  }
-  if (r.poor_unavoidable > 0)
-    text += "; " + std::to_string(r.poor_unavoidable) + " in corners of the input so sharp that every mesh has such there";
-  return text;
-}
-
-/// Does a cell stay poor beside a small angle of the input that another surface might not have?
-template <int D>
-bool has_needles(const RefineResult<D>& r) {
-  const auto is_small = [](const PoorReason& reason) { return reason.code == PoorReason::Code::small_angle; };
-  return static_cast<std::size_t>(std::ranges::count_if(r.reasons, is_small)) > r.poor_unavoidable;
-}
-
 std::string words(const SchedulerStatistics& s, std::size_t threads) {
   return count(threads, "thread", "threads") + ", " + count(s.visits, "visit", "visits") + " of " +
          count(s.leaves, "leaf", "leaves") + " in " + count(s.generations, "generation", "generations") +
@@ -234,6 +209,9 @@ class MeshRun {
       fill(report_, a_, threads_, bounds_, result_, measured);
       if (surface_ && surface_->replaced.report.stopped) report_.set("reproducible", false);
       if (bodies_) set_regions(report_, result_.regions, *bodies_);
+      if (result_.stop == StopCause::finished)
+        for (const auto& sides : sides_) pairs_.push_back(periodic_pairs(result_.mesh, sides, 2 * result_.tolerance));
+      if (!sides_.empty()) set_periodic(report_, pairs_);
     });
     const std::optional<Proposal> proposal = write(measured.cells > 0);
     if (!ranks_.is_first()) return exit_code();
@@ -322,6 +300,7 @@ class MeshRun {
     if constexpr (D == 3) make_surface();
     if (a_.time_limit)
       options_.time_limit = std::chrono::duration<double>(std::max(0.0, *a_.time_limit - total_.seconds()) * part_for_meshing);
+    if constexpr (D == 2) make_sides();
     refine_here();
     if constexpr (D == 3)
       if (surface_) name_facets_by_places(plc_, result_.reasons);  // the input does not have these facets
@@ -331,6 +310,17 @@ class MeshRun {
     if (bodies_) result_.warnings.insert(result_.warnings.begin(), bodies_->warnings.begin(), bodies_->warnings.end());
     if (const auto closed = warning_of_openings(repairs_)) result_.warnings.insert(result_.warnings.begin(), *closed);
     if (!a_.quiet) print_warnings(result_.warnings);
+  }
+
+  /// Divides sides that are to correspond.
+  void make_sides() requires(D == 2) {
+    if (a_.periodic.empty()) return;
+    PeriodicInput made = make_periodic(plc_, periodic_sides<2>(a_.periodic, plc_.names), options_);
+    plc_ = std::move(made.plc);
+    sides_ = std::move(made.sides);
+    options_.keep_boundary = options_.keep_boundary || made.keep_boundary;
+    report_.set("periodic_sides", a_.periodic);
+    report_.set("periodic_rounds", made.rounds);
   }
 
   /// Puts another surface in the place of the given one, where that is asked for.
@@ -419,6 +409,7 @@ class MeshRun {
     WriteOptions how = write_options(a_, plc_.first_index);
     if (transport && how.pieces == 0) how.pieces = static_cast<std::uint32_t>(transport->size());
     std::vector<std::string> mesh_files = files_of_mesh(a_.output, how);
+    how.periodic = pairs_;
     if (transport)
       pgdr::write_mesh(*transport, a_.output, made_, how);
     else
@@ -445,6 +436,7 @@ class MeshRun {
     if (a_.quiet) return;
     print_summary(a_, input_.words(), given_points_, bounds_, result_, measured, seconds_, seconds_of_surface());
     if (bodies_) print_bodies(*bodies_);
+    print_periodic(pairs_);
   }
 
   const MeshArguments& a_;
@@ -463,6 +455,8 @@ class MeshRun {
   bool is_read_ = false;
   std::size_t given_points_ = 0;
   std::optional<BodyTable> bodies_;
+  std::vector<PeriodicSides<D>> sides_;  ///< that correspond
+  std::vector<PeriodicPairs> pairs_;
   std::optional<SurfaceStep> surface_;  ///< what was put in the place of the surface as given
   DistributedResult<D> made_;           ///< on ranks with a piece of the mesh each
   RefineResult<D>& result_ = made_.run;
@@ -492,6 +486,8 @@ int mesh(const MeshArguments& arguments, Report& report, const Ranks& ranks) {
   });
   dimension = ranks.largest(dimension);
   require_3d(arguments.surface, dimension);
+  if (!arguments.periodic.empty() && (dimension == 3 || ranks.transport()))
+    throw UsageError({.code = Errc::bad_option, .message = "--periodic is for 2D, and one process"});
   report.set("dimension", dimension);
   return dimension == 2 ? run<2>(arguments, input, report, ranks, total) : run<3>(arguments, input, report, ranks, total);
 }

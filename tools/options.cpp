@@ -13,6 +13,7 @@
 
 #include "command.hpp"
 #include "console.hpp"
+#include "periodic.hpp"
 #include "pgdr/io.hpp"
 #include "selector.hpp"
 #include "surface_options.hpp"
@@ -161,7 +162,8 @@ void add_input(CLI::App& app, InputArguments& p) {
       "their own, named closed_opening_1, ...");
   app.add_flag("--region-areas", p.region_areas,
                "2D: a region of a .poly that has one number behind its point has it as label and as largest area");
-  app.add_flag("--convex-hull", p.convex_hull, "the edges (3D: facets) of the convex hull of all points are segments (facets), too");
+  app.add_flag("--convex-hull", p.convex_hull,
+               "the edges (3D: facets) of the convex hull of all points are segments (facets), too");
 }
 
 template <class Mode>  // a RegionMode, maybe an optional one
@@ -179,6 +181,13 @@ void add_regions(CLI::App& app, Mode& mode, std::optional<BodyMode>& bodies) {
          "overlap are refused")
       ->type_name("NAME")
       ->check(one_of(region_words, "ways to tell regions"));
+}
+
+void add_periodic(CLI::App& app, std::vector<std::string>& periodic, const char* what) {
+  app.add_option("--periodic", periodic, what)
+      ->type_name("FROM=TO[:MOTION]")
+      ->allow_extra_args(false)
+      ->check(shaped(is_periodic, "FROM=TO or FROM=TO:MOTION: two markers, and 6 numbers (3D: 12), row by row"));
 }
 
 void add_report(CLI::App& app, std::string& report, bool& quiet) {
@@ -221,6 +230,9 @@ void add_mesh(CLI::App& app, MeshArguments& a) {
       ->needs("--surface-tolerance");
   add_regions(app, a.regions, a.reading.bodies);
   app.add_flag("--keep-boundary", a.keep_boundary, "2D: no new points on segments");
+  add_periodic(app, a.periodic,
+               "2D: the sides with these markers, or names, correspond vertex by vertex; repeatable. By the translation between "
+               "them, or a rigid motion of 6 numbers: x' = a x + b y + c, y' = d x + e y + f");
   app.add_flag("--drop-unused-points", a.drop_unused_points,
                "leave points that are in no cell, outside or in voids, out of the mesh");
   app.add_flag("--no-refine", a.no_refine,
@@ -304,6 +316,7 @@ void add_check(CLI::App& app, CheckArguments& a) {
   app.add_option("--reasons", a.reasons, "report of `pgdr mesh`, whose bounds.reasons explain poor cells")
       ->type_name("REPORT.json")
       ->needs("--input");
+  add_periodic(app, a.periodic, "as of `mesh`: do these sides correspond? (default: those of the report of --reasons)");
   add_report(app, a.report, a.quiet);
 }
 

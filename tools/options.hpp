@@ -58,6 +58,7 @@ struct MeshArguments {
   bool keep_boundary = false, no_refine = false, no_optimize = false, drop_unused_points = false;
   std::optional<std::string> selector;  ///< NAME or NAME:PARAMETER (selector.hpp); none: as usual for the dimension
   std::optional<DiskType> disk;         ///< none: as usual for the selector
+  std::vector<std::string> periodic;    ///< FROM=TO or FROM=TO:MOTION each (periodic.hpp)
   RegionMode regions = RegionMode::seeds;
   double delta = 0;
   std::optional<int> threads;  ///< none: one a core
@@ -81,8 +82,9 @@ struct CheckArguments {
   InputArguments reading;
   std::optional<RegionMode> regions;  ///< none: as `reasons` says, or seeds
   SurfaceArguments surface;
-  std::string reasons;    ///< a report of `mesh`
-  bool delaunay = false;  ///< is it to be Delaunay?
+  std::vector<std::string> periodic;  ///< as of `mesh`; empty: as `reasons` says
+  std::string reasons;                ///< a report of `mesh`
+  bool delaunay = false;              ///< is it to be Delaunay?
   std::string report;
   bool quiet = false;
 };

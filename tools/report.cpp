@@ -2,13 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report.hpp"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "options.hpp"
+#include "periodic.hpp"
 #include "pgdr/output_files.hpp"
+#include "text.hpp"
 
 namespace pgdr::tool {
 namespace {
@@ -50,14 +53,16 @@ std::uint32_t parse_id(const nlohmann::json& j) {
   return j.get<std::uint32_t>();
 }
 
-/// The texts of --seed or --hole. @throws std::invalid_argument, nlohmann::json::exception
-std::vector<std::string> parse_seeds(const nlohmann::json& report, const char* key) {
+bool is_seed(const std::string& text) { return split_seed(text).has_value(); }
+
+/// The texts of a flag that may be repeated. @throws std::invalid_argument, nlohmann::json::exception
+std::vector<std::string> parse_texts(const nlohmann::json& report, const char* key, bool (*is_one)(const std::string&)) {
   const auto found = report.find(key);
   if (found == report.end()) return {};
-  auto seeds = found->get<std::vector<std::string>>();
-  for (const std::string& seed : seeds)
-    if (!split_seed(seed)) throw std::invalid_argument("\"" + seed + "\" is no seed");
-  return seeds;
+  auto texts = found->get<std::vector<std::string>>();
+  for (const std::string& text : texts)
+    if (!is_one(text)) throw std::invalid_argument("\"" + text + "\" is none of " + key);
+  return texts;
 }
 
 PoorReason parse_reason(const nlohmann::json& j) {
@@ -208,6 +213,36 @@ const char* stop_words(StopCause cause) {
   return "";
 }
 
+template <int D>
+std::string verdict(const RefineResult<D>& r) {
+  std::string text = !r.size_met && r.poor_left == 0 ? "the size bound is not met everywhere"
+                     : r.poor_left == 0              ? "every bound is met"
+                                                     : count(r.poor_left, "element stays poor", "elements stay poor");
+  if (r.reasons.size() > r.poor_left) text += ", " + count(r.reasons.size() - r.poor_left, "is", "are") + " not Delaunay";
+  std::array<std::uint64_t, static_cast<std::size_t>(PoorReason::Code::budget) + 1> by_code{};
+  for (const PoorReason& reason : r.reasons) ++by_code[static_cast<std::size_t>(reason.code)];
+  const char* separator = ": ";
+  for (std::size_t i = 0; i < by_code.size(); ++i) {
+    if (by_code[i] == 0) continue;
+    text += separator + std::to_string(by_code[i]) + ' ' + name(static_cast<PoorReason::Code>(i));
+    separator = ", ";
+  }
+  if (r.poor_unavoidable > 0)
+    text += "; " + std::to_string(r.poor_unavoidable) + " in corners of the input so sharp that every mesh has such there";
+  return text;
+}
+
+template <int D>
+bool has_needles(const RefineResult<D>& r) {
+  const auto is_small = [](const PoorReason& reason) { return reason.code == PoorReason::Code::small_angle; };
+  return static_cast<std::size_t>(std::ranges::count_if(r.reasons, is_small)) > r.poor_unavoidable;
+}
+
+template std::string verdict(const RefineResult<2>&);
+template std::string verdict(const RefineResult<3>&);
+template bool has_needles(const RefineResult<2>&);
+template bool has_needles(const RefineResult<3>&);
+
 ReportedBounds read_bounds(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in || std::filesystem::is_directory(file))
@@ -232,8 +267,9 @@ ReportedBounds read_bounds(const std::string& file) {
       if (holds("markers", name(rule))) read.markers = rule;
     read.convex_hull = holds("convex_hull", true);
     read.region_areas = holds("region_areas", true);
-    read.seeds = parse_seeds(report, "seeds");
-    read.holes = parse_seeds(report, "holes");
+    read.seeds = parse_texts(report, "seeds", is_seed);
+    read.holes = parse_texts(report, "holes", is_seed);
+    read.periodic = parse_texts(report, "periodic_sides", is_periodic);
     read.delaunay = holds("delaunay", true);
     if (const nlohmann::json::json_pointer left("/quality/not_delaunay/refused"); report.contains(left))
       read.not_delaunay_left = report.at(left).get<std::uint64_t>();

@@ -61,21 +61,29 @@ const char* name(BodyMode mode);
 /// What ended a run: "at --time-limit"; "" if nothing did.
 const char* stop_words(StopCause cause);
 
+/// How the bounds were met. Reasons are given for poor cells, and for cells that are not Delaunay.
+template <int D>
+std::string verdict(const RefineResult<D>& r);
+
+/// Does a cell stay poor beside a small angle of the input that another surface might not have?
+template <int D>
+bool has_needles(const RefineResult<D>& r);
+
 /// What a report of `pgdr mesh` says that its check needs.
 struct ReportedBounds {
   std::vector<PoorReason> reasons;
-  bool refined = true;                    ///< to the end, so that the bounds of the run hold
-  std::optional<double> radius_edge;      ///< the bound of such a run
-  std::optional<double> tolerance;        ///< Domain::tolerance
-  std::optional<double> largest_cosine;   ///< of dihedral angles, as the optimiser claims it
-  bool delaunay = false;                  ///< does the report say that the mesh is?
-  std::uint64_t not_delaunay_left = 0;    ///< faces that it says are not locally Delaunay, other than by rounding
-  bool resolve_crossings = false;         ///< what was done to the input
-  std::optional<SharedMarker> markers;    ///< 3D, where that was done
-  bool close_openings = false;            ///< 3D
+  bool refined = true;                   ///< to the end, so that the bounds of the run hold
+  std::optional<double> radius_edge;     ///< the bound of such a run
+  std::optional<double> tolerance;       ///< Domain::tolerance
+  std::optional<double> largest_cosine;  ///< of dihedral angles, as the optimiser claims it
+  bool delaunay = false;                 ///< does the report say that the mesh is?
+  std::uint64_t not_delaunay_left = 0;   ///< faces that it says are not locally Delaunay, other than by rounding
+  bool resolve_crossings = false;        ///< what was done to the input
+  std::optional<SharedMarker> markers;   ///< 3D, where that was done
+  bool close_openings = false;           ///< 3D
   bool convex_hull = false;
-  bool region_areas = false;              ///< how it was read, 2D
-  std::vector<std::string> seeds, holes;  ///< of flags
+  bool region_areas = false;                        ///< how it was read, 2D
+  std::vector<std::string> seeds, holes, periodic;  ///< of flags
   RegionMode regions = RegionMode::seeds;
   std::optional<BodyMode> bodies;
   std::optional<double> feature_angle;  ///< of another surface

@@ -61,9 +61,9 @@ std::vector<MeshField> read_vtu_fields(std::string_view text, const std::filesys
 template <int D>
 void write_medit(const OutputMesh<D>& mesh, FileOutput& out);
 template <int D>
-void write_msh(const OutputMesh<D>& mesh, FileOutput& out);
+void write_msh(const OutputMesh<D>& mesh, const std::vector<PeriodicPairs>& periodic, FileOutput& out);
 template <int D>
-void write_vtu(const OutputMesh<D>& mesh, FileOutput& out);
+void write_vtu(const OutputMesh<D>& mesh, const std::vector<PeriodicPairs>& periodic, FileOutput& out);
 /// The file of a piece alone, with the numbers of its points and cells in the whole mesh.
 template <int D>
 void write_vtu_of_piece(const MeshPiece<D>& piece, FileOutput& out);

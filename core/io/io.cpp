@@ -262,11 +262,15 @@ void write_mesh(const OutputMesh<D>& mesh, const Path& file, const WriteOptions&
   if (extension == ".pvtu") return guarded(file, [&] { detail::write_pvtu<D>(mesh, file, std::max(options.pieces, 1u)); });
   if (is_tetgen_mesh(extension)) return guarded(file, [&] { detail::write_tetgen<D>(mesh, file, options); });
   if (detail::is_foam_mesh(file)) return guarded(file, [&] { detail::write_foam<D>(mesh, file); });
+  if (extension == ".msh" || extension == ".vtu")
+    return guarded(file, [&] {
+      detail::FileOutput out(file);
+      extension == ".msh" ? detail::write_msh<D>(mesh, options.periodic, out) : detail::write_vtu<D>(mesh, options.periodic, out);
+      out.commit();
+    });
   using Writer = void (*)(const OutputMesh<D>&, detail::FileOutput&);
   Writer writer = nullptr;
   if (extension == ".mesh") writer = detail::write_medit<D>;
-  if (extension == ".msh") writer = detail::write_msh<D>;
-  if (extension == ".vtu") writer = detail::write_vtu<D>;
   if (extension == ".inp") writer = detail::write_abaqus<D>;
   if (extension == ".mfem") writer = detail::write_mfem<D>;
   if (writer == nullptr) unknown_format(file, "a mesh that can be written");

@@ -55,6 +55,7 @@
 #include "pgdr/error.hpp"
 #include "pgdr/export.hpp"
 #include "pgdr/output_mesh.hpp"
+#include "pgdr/periodic.hpp"
 #include "pgdr/plc.hpp"
 
 namespace pgdr::detail {
@@ -126,6 +127,7 @@ struct WriteOptions {
   bool edges = false;        ///< X.edge has all edges: first the subsegments, which a comment counts, then the others, marker 0
   bool neighbors = false;    ///< write X.neigh, too: of each cell, in the order of its corners, the cell opposite; -1: none
   std::uint32_t pieces = 0;  ///< .pvtu: in so many files, up to most_pieces; 0: one, of a mesh on ranks one a rank
+  std::vector<PeriodicPairs> periodic = {};  ///< .msh: a section of them; .vtu: point data "periodic_of" (periodic.hpp)
 };
 
 /// Whether `read_mesh` and `write_mesh` know the extension. The file is not opened.

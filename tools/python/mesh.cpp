@@ -149,7 +149,7 @@ template <int D>
 void write(const MeshData<D>& data, const std::string& file, std::uint32_t first_index, bool edges, bool neighbors,
            std::uint32_t pieces) {
   const py::gil_scoped_release others_run;
-  write_mesh(data.mesh, file, {first_index, edges, neighbors, pieces});
+  write_mesh(data.mesh, file, {first_index, edges, neighbors, pieces, data.periodic});
 }
 
 template <int D>

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pgdr/output_mesh.hpp"
+#include "pgdr/periodic.hpp"
 #include "pgdr/poor_reason.hpp"
 
 namespace pgdr::python {
@@ -16,6 +17,7 @@ template <int D>
 struct MeshData {
   OutputMesh<D> mesh;
   std::vector<PoorReason> reasons;
+  std::vector<PeriodicPairs> periodic;
   std::vector<std::int64_t> point_of_input;  ///< vertex of each point of the input, -1: none; empty: unknown
 };
 

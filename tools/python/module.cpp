@@ -24,6 +24,7 @@ PYBIND11_MODULE(_pgdr, module) {
   pgdr::python::bind_check(module);
   pgdr::python::bind_estimate(module);
   pgdr::python::bind_join(module);
+  pgdr::python::bind_periodic(module);
   pgdr::python::bind_surface(module);
   pgdr::python::bind_page(module);
 }

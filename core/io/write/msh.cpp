@@ -94,7 +94,8 @@ struct Layer {
 template <int D>
 class MshWriter {
  public:
-  MshWriter(const OutputMesh<D>& mesh, FileOutput& out) : mesh_(mesh), names_(valid_names(mesh.names, msh_names)), out_(out) {
+  MshWriter(const OutputMesh<D>& mesh, const std::vector<PeriodicPairs>& periodic, FileOutput& out)
+      : mesh_(mesh), periodic_(periodic), names_(valid_names(mesh.names, msh_names)), out_(out) {
     layers_.push_back(point_layer());
     layers_.push_back(constraint_layer(mesh.subsegments, 1, 1));
     if constexpr (D == 3) layers_.push_back(constraint_layer(mesh.subfacets, 2, 2));
@@ -121,6 +122,7 @@ class MshWriter {
     put_entities();
     put_nodes();
     put_elements();
+    if (!periodic_.empty()) put_periodic();
   }
 
  private:
@@ -321,7 +323,32 @@ class MshWriter {
     });
   }
 
+  /// A link a pair of sides, with a motion of 4 x 4 numbers, which takes the master to the other.
+  void put_periodic() {
+    out_.put("$Periodic\n");
+    put_size(periodic_.size());
+    for (const PeriodicPairs& p : periodic_) {
+      const Groups& groups = layers_[D - 1].groups;
+      put(std::int32_t{D - 1});
+      for (const int marker : {p.to, p.from}) put(static_cast<std::int32_t>(groups.group_of(marker) + 1));
+      put_size(16);
+      for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t k = 0; k < 4; ++k) put(affine(p.motion, i, k));
+      put_size(p.points.size());
+      out_.put_each(p.points.size(), [&](TextBuffer& bytes, std::size_t i) {
+        bytes.put_binary(std::uint64_t{p.points[i][1]} + 1);
+        bytes.put_binary(std::uint64_t{p.points[i][0]} + 1);
+      });
+    }
+    out_.put("\n$EndPeriodic\n");
+  }
+  static double affine(const std::vector<double>& motion, std::size_t i, std::size_t k) {
+    if (i < D && (k < D || k == 3)) return motion[i * (D + 1) + std::min<std::size_t>(k, D)];
+    return i == k ? 1 : 0;
+  }
+
   const OutputMesh<D>& mesh_;
+  const std::vector<PeriodicPairs>& periodic_;
   const Names names_;
   FileOutput& out_;
   std::vector<Layer> layers_;  ///< by dimension
@@ -331,11 +358,11 @@ class MshWriter {
 }  // namespace
 
 template <int D>
-void write_msh(const OutputMesh<D>& mesh, FileOutput& out) {
-  MshWriter<D>(mesh, out).write();
+void write_msh(const OutputMesh<D>& mesh, const std::vector<PeriodicPairs>& periodic, FileOutput& out) {
+  MshWriter<D>(mesh, periodic, out).write();
 }
 
-template void write_msh<2>(const OutputMesh<2>&, FileOutput&);
-template void write_msh<3>(const OutputMesh<3>&, FileOutput&);
+template void write_msh<2>(const OutputMesh<2>&, const std::vector<PeriodicPairs>&, FileOutput&);
+template void write_msh<3>(const OutputMesh<3>&, const std::vector<PeriodicPairs>&, FileOutput&);
 
 }  // namespace pgdr::detail

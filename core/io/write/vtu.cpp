@@ -25,8 +25,10 @@ void put_file(const VtuPart<D>& part, FileOutput& out) {
 }  // namespace
 
 template <int D>
-void write_vtu(const OutputMesh<D>& mesh, FileOutput& out) {
-  put_file<D>(VtuPart<D>::whole(mesh), out);
+void write_vtu(const OutputMesh<D>& mesh, const std::vector<PeriodicPairs>& periodic, FileOutput& out) {
+  VtuPart<D> part = VtuPart<D>::whole(mesh);
+  if (!periodic.empty()) part.periodic_of = periodic_of(periodic, mesh.points.size());
+  put_file<D>(part, out);
 }
 
 template <int D>
@@ -61,8 +63,8 @@ void write_vtu_rows(const MeshPiece<D>& piece, bool frame, FileSlices& out) {
   out.close();
 }
 
-template void write_vtu<2>(const OutputMesh<2>&, FileOutput&);
-template void write_vtu<3>(const OutputMesh<3>&, FileOutput&);
+template void write_vtu<2>(const OutputMesh<2>&, const std::vector<PeriodicPairs>&, FileOutput&);
+template void write_vtu<3>(const OutputMesh<3>&, const std::vector<PeriodicPairs>&, FileOutput&);
 template void write_vtu_of_piece<2>(const MeshPiece<2>&, FileOutput&);
 template void write_vtu_of_piece<3>(const MeshPiece<3>&, FileOutput&);
 template void write_vtu_rows<2>(const MeshPiece<2>&, bool, FileSlices&);

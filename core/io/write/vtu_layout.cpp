@@ -146,6 +146,9 @@ class Layout {
       add_point_rows("PointData", "Int32", "marker", "", 4, [mesh = mesh_, own = own_begin_](TextBuffer& bytes, std::size_t i) {
         bytes.put_binary(std::int32_t{mesh->point_markers[own + i]});
       });
+    if (!part_.periodic_of.empty())
+      add_point_rows("PointData", "Int64", "periodic_of", "", 8,
+                     [of = &part_.periodic_of](TextBuffer& bytes, std::size_t i) { bytes.put_binary(std::int64_t{(*of)[i]}); });
     const auto columns = static_cast<std::size_t>(total_.attributes_per_point);
     if (columns > 0)
       add_point_rows("PointData", "Float64", "attributes", " NumberOfComponents=\"" + std::to_string(columns) + "\"", 8 * columns,

@@ -32,7 +32,8 @@ struct VtuPart {
   const std::vector<Number>* point_numbers = nullptr;  ///< of mesh->points in the file; null: they are all points, in their order
   Number first_point = 0, own_points = 0;              ///< the rows of points, by their numbers in the file
   Number first_cell = 0, first_subfacet = 0, first_subsegment = 0;
-  const MeshPiece<D>* piece = nullptr;  ///< of a whole mesh whose numbers the file has, too
+  const MeshPiece<D>* piece = nullptr;          ///< of a whole mesh whose numbers the file has, too
+  std::vector<std::uint32_t> periodic_of = {};  ///< of all points; empty: nothing is periodic
 
   static VtuPart whole(const OutputMesh<D>& mesh);          ///< all rows of the file of a mesh
   static VtuPart rows_of(const MeshPiece<D>& piece);        ///< its rows of the file of the whole mesh

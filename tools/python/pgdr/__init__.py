@@ -18,6 +18,7 @@ from ._join import Joined, JoinedLabel, Shared, join
 from ._mesh import Mesh, Reason
 from ._pgdr import version as __version__
 from ._page import Page
+from ._periodic import Periodic
 from ._plc import Plc, close_planar_openings, resolve_crossings, with_convex_hull
 from ._report import CheckFinding, CheckReport
 from ._run import Elements, Progress, StopSource, mesh
@@ -30,6 +31,7 @@ __all__ = ["Bodies", "BodyRegion", "CancelledError", "CheckFinding", "CheckRepor
            "Reason", "ReplacedSurface", "ResourceError", "SharpAngle", "StopSource", "Tetrahedralization", "UsageError",
            "__version__", "check", "close_planar_openings", "diagnose", "estimate", "info", "limit_growth", "mesh",
            "Error", "Estimate", "Field", "FileError", "Finding", "Gap", "InputError", "Joined", "JoinedLabel", "Mesh", "Plc",
+           "Error", "Estimate", "Field", "FileError", "Finding", "Gap", "InputError", "Joined", "JoinedLabel", "Mesh", "Periodic", "Plc",
            "Progress", "Proposal", "Reason", "ReplacedSurface", "ResourceError", "Shared", "SharpAngle", "StopSource", "Tetrahedralization", "UsageError",
            "__version__", "check", "close_planar_openings", "diagnose", "estimate", "info", "join", "limit_growth", "mesh",
            "replace_surface", "resolve_crossings", "sizes_at_points",

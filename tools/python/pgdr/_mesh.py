@@ -13,6 +13,7 @@ from . import _arguments, _pgdr
 from ._doors import through
 from ._ending import WORK
 from ._errors import Diagnostic, usage
+from ._periodic import Periodic, paired
 from ._plc import Plc
 from ._report import CheckReport
 
@@ -145,7 +146,8 @@ class Mesh:
     @property
     def point_of_input(self) -> npt.NDArray[np.int64]:
         """The row in `points` of each point of the input, -1 if it was dropped; (0,) of a mesh that was not made here."""
-        return self._core.point_of_input
+        rows: npt.NDArray[np.int64] = self._core.point_of_input[:self._facts.get("given_points")]
+        return rows
 
     def neighbors(self) -> npt.NDArray[np.int64]:
         """(m, D + 1) the cell beyond the face opposite each vertex; -1: none. Linear time."""
@@ -196,6 +198,11 @@ class Mesh:
         """With `surface_tolerance`: what was made of the surface, by the names of the command's report (docs/usage.md). None: it is
         the surface as given."""
         return self._facts.get("surface")
+
+    @property
+    def periodic(self) -> List[Periodic]:
+        """The sides that correspond, as asked for by `periodic`, vertex by vertex."""
+        return list(self._facts.get("periodic", []))
 
     @property
     def warnings(self) -> List[Diagnostic]:
@@ -297,4 +304,6 @@ def _restored(dimension: int, arrays: Dict[str, Any], input_points: int, names: 
     core.set_subfacets(arrays["subfacets"], arrays["subfacet_markers"], arrays["subfacet_entities"])
     core.set_reasons(*arrays["reasons"])
     core.set_names(names)
+    for p in facts.get("periodic", []):
+        paired(core, [(p.from_marker, p.to_marker, p.motion.ravel().tolist())], p.largest_gap)
     return Mesh._of(core, facts, bounds)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import sys
 import warnings
-from typing import Any, Callable, Dict, Mapping, NamedTuple, Optional, Protocol, Sequence, Union
+from typing import Any, Callable, Dict, Mapping, NamedTuple, Optional, Protocol, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -16,6 +16,7 @@ from ._ending import WORK
 from ._errors import DiagnosedError, Diagnostic, in_python, usage
 from ._fields import Size
 from ._mesh import Mesh
+from ._periodic import paired, sides_of
 from ._plc import Plc
 from ._surface import replace_surface
 
@@ -68,6 +69,7 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
          min_dihedral: Optional[float] = None, optimize: bool = True, threads: int = 0, regions: Optional[str] = None,
          region_sizes: Optional[Mapping[Union[float, str], Size]] = None,
          selector: Union[None, str, Callable[[Elements], npt.ArrayLike]] = None, keep_boundary: bool = False,
+         periodic: Sequence[Tuple[Any, ...]] = (),
          tolerance: Optional[float] = None, surface_tolerance: Union[None, float, str] = None, feature_angle: float = 40.0,
          max_volume: Optional[float] = None, min_edge: float = 0.0,
          time_limit: Optional[float] = None, max_vertices: Optional[int] = None, refine: bool = True,
@@ -107,6 +109,9 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
         elements over the radius-edge bound; where none is met, a warning (`Mesh.warnings`, and of Python) says so.
     keep_boundary : bool
         2D: no new point on any segment.
+    periodic : list of (from, to) or (from, to, motion)
+        2D: the sides with these markers correspond vertex by vertex (`Mesh.periodic`), by the translation between them, or by a rigid
+        motion, (2, 3) numbers.
     tolerance : float, optional
         Instead of that of the input: what lies within this distance meets.
     surface_tolerance : float or str, optional
@@ -196,6 +201,13 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
     if schedule is not None:
         options.set_schedule(_arguments.word("schedule", schedule, ("reproducible", "uniform", "greedy")))
     asked = _select(options, selector)
+    sides, given_points = sides_of(periodic, dimension), len(plc.points)
+    if sides:
+        if not isinstance(plc._core, _pgdr.Plc2):
+            raise usage("periodic sides are for 2D")
+        with WORK:
+            core, sides, keeps, _ = _pgdr.make_periodic(plc._core, sides, options)
+        plc, options.keep_boundary = Plc._of(core), options.keep_boundary or keeps
     try:
         made = _run(plc, options, bounds, progress, stop)
     except DiagnosedError as error:
@@ -204,6 +216,10 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
     if surface is not None and isinstance(made._core, _pgdr.Mesh3) and isinstance(plc._core, _pgdr.Plc3):
         _pgdr.name_facets_by_places(made._core, plc._core)  # the input does not have these facets
         made._facts["surface"] = surface
+    if sides:
+        made._facts["given_points"] = given_points
+        if made.stop == "finished":
+            made._facts["periodic"] = paired(made._core, sides, 2 * made.statistics["tolerance"])
     if asked is not None and not asked.was_called:
         _say_unasked(made, options)
     return made

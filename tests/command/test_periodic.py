@@ -1,0 +1,129 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The pgdr authors
+# SPDX-License-Identifier: Apache-2.0
+"""Sides that correspond: --periodic. Usage: test_periodic.py [Class[.test]...]"""
+import math
+import random
+import re
+import struct
+import unittest
+
+from test_command import BRACKET, Case
+
+
+def cell(shear, turn, pieces, holes):
+    """A .poly of a unit cell, sheared and turned, its sides with markers 1 to 4 in so many pieces each, holes with marker 9."""
+    place = lambda x, y: (math.cos(turn) * (x + shear * y) - math.sin(turn) * y, math.sin(turn) * (x + shear * y) + math.cos(turn) * y)
+    corners = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    points, segments = [], []
+    for side, (a, b) in enumerate(zip(corners, corners[1:] + corners[:1])):
+        for k in range(pieces[side]):
+            points.append(tuple(a[i] + (b[i] - a[i]) * k / pieces[side] for i in range(2)))
+            segments.append((len(points) - 1, len(points), side + 1))
+    segments[-1] = (segments[-1][0], 0, 4)
+    for x, y, radius in holes:
+        first = len(points)
+        points += [(x + radius * math.cos(k * math.pi / 6), y + radius * math.sin(k * math.pi / 6)) for k in range(12)]
+        segments += [(first + k, first + (k + 1) % 12, 9) for k in range(12)]
+    row = lambda i, p: "{} {!r} {!r}\n".format(i, *place(*p))
+    text = f"{len(points)} 2 0 0\n" + "".join(row(i, p) for i, p in enumerate(points))
+    text += f"{len(segments)} 1\n" + "".join(f"{i} {a} {b} {m}\n" for i, (a, b, m) in enumerate(segments))
+    return text + f"{len(holes)}\n" + "".join(row(i, hole[:2]) for i, hole in enumerate(holes))
+
+
+def drawn(chance, count):
+    """Disks that stay off each other and off the sides."""
+    holes = []
+    while len(holes) < count:
+        radius = chance.uniform(0.02, 0.12)
+        x, y = (chance.uniform(radius + 0.02, 0.98 - radius) for _ in range(2))
+        if all(math.hypot(x - a, y - b) > radius + r + 0.02 for a, b, r in holes):
+            holes.append((x, y, radius))
+    return holes
+
+
+class Periodic(Case):
+    SIDES = "--periodic", "4=2", "--periodic", "1=3"
+
+    def meshed(self, model, *flags, expect=(0, 1)):
+        done = self.mesh(model, *self.SIDES, *flags, "--report", self.report, expect=None)
+        self.assertIn(done.returncode, expect, done.stderr)
+        checked = self.pgdr("check", self.output, "--input", model, "--reasons", self.report, expect=done.returncode).stdout
+        self.assertEqual(checked.count("\nperiodic "), 2)
+        return self.json()
+
+    def test_cells(self):
+        chance = random.Random(6)
+        for k in range(12):
+            shear, turn = chance.uniform(-0.8, 0.8), chance.choice((0, chance.uniform(0, 6)))
+            pieces = [chance.choice((1, 1, 2, 3)) for _ in range(4)]
+            model = self.file("cell.poly", cell(shear, turn, pieces, drawn(chance, chance.choice((0, 1, 3)))))
+            flags = chance.choice(([], ["--size", 0.002], ["--min-angle", 28], ["--size", "0.0005+0.01*abs(x)"]))
+            report = self.meshed(model, *flags)
+            for pairs in report["periodic"]:
+                self.assertEqual(len(pairs["points"]), pairs["walls"] + 1)
+                self.assertLess(pairs["largest_gap"], 1e-15)
+            alone = self.mesh(model, *flags, "--report", self.report, expect=None)
+            self.assertLess(report["cells"], 2.5 * self.json()["cells"] + 10, alone.stdout)
+
+    def test_threads(self):
+        model = self.file("cell.poly", cell(0.3, 0.2, (1, 2, 1, 1), [(0.9, 0.3, 0.07)]))
+        meshes = set()
+        for threads in (1, 2, 8):
+            self.meshed(model, "--size", 0.0005, "--threads", threads)
+            meshes.add(self.output.read_bytes())
+        self.assertEqual(len(meshes), 1)
+
+    def test_files(self):
+        """.vtu: of each vertex the least that is one with it. .msh: gmsh's section."""
+        model = self.file("cell.poly", cell(0, 0, (1, 1, 1, 1), [(0.9, 0.3, 0.07)]))
+        report = self.meshed(model)
+        pairs = {frozenset(pair) for p in report["periodic"] for pair in p["points"]}
+        data = self.output.read_bytes()
+        offset = int(re.search(rb'Name="periodic_of"[^>]* offset="(\d+)"', data).group(1))
+        begin = data.index(b"_", data.index(b"<AppendedData")) + 1 + offset
+        size, = struct.unpack_from("<Q", data, begin)
+        of = struct.unpack_from(f"<{size // 8}q", data, begin + 8)
+        self.assertEqual(len(of), report["vertices"])
+        for v, w in map(sorted, pairs):
+            self.assertEqual(of[v], of[w])
+        self.assertEqual(len({of[v] for v in range(4)}), 1)  # the corners are one
+        self.assertEqual(sum(w != v for v, w in enumerate(of)), sum(len(p["points"]) for p in report["periodic"]) - 1)
+        self.output = self.folder / "out.msh"
+        self.meshed(model)
+        data = self.output.read_bytes()
+        at = data.index(b"$Periodic\n") + len(b"$Periodic\n")
+        links, dimension, _, _, numbers = struct.unpack_from("<QiiiQ", data, at)
+        self.assertEqual((links, dimension, numbers), (2, 1, 16))
+        affine = struct.unpack_from("<16d", data, at + 28)
+        self.assertEqual(affine, (1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1))
+        count, = struct.unpack_from("<Q", data, at + 28 + 128)
+        nodes = struct.unpack_from(f"<{2 * count}Q", data, at + 28 + 136)
+        wanted = [[w + 1, v + 1] for v, w in report["periodic"][0]["points"]]
+        self.assertEqual([list(nodes[i:i + 2]) for i in range(0, 2 * count, 2)], wanted)
+        self.pgdr("info", self.output, expect=0)
+
+    def test_check_by_itself(self):
+        """Of a mesh that was made without the flag."""
+        model = self.file("cell.poly", cell(0, 0, (1, 1, 1, 1), [(0.9, 0.3, 0.07)]))
+        self.mesh(model, expect=0)
+        done = self.pgdr("check", self.output, *self.SIDES, expect=6)
+        self.assertRegex(done.stdout, r"\nperiodic +FAILED: vertex \d+ of the side with marker \d .* that with marker \d, at ")
+        self.assertIn("\nverdict    FAILED", done.stdout)
+        self.mesh(model, *self.SIDES, expect=0)
+        self.pgdr("check", self.output, *self.SIDES, expect=0)
+        self.pgdr("check", self.output, "--periodic", "4=2:1,0,1,0,1,0.25", expect=6)
+
+    def test_usage(self):
+        model = self.file("cell.poly", cell(0, 0, (1, 1, 1, 1), []))
+        for flag, words in [("4", "FROM=TO or FROM=TO:MOTION"), ("4=2:1,2", "FROM=TO or FROM=TO:MOTION"), ("=2", "FROM=TO"),
+                            ("4=left", 'no marker is called "left"'), ("4=4", "are one side"), ("4=8", "no segment has the marker 8"),
+                            ("4=3", "do not match within the tolerance"),
+                            ("4=2:1,0,0,0,0,1,0,0,0,0,1,0", "takes a motion of 6 numbers in 2D"),
+                            ("4=2:1,0,1,0,2,0", "must keep lengths")]:
+            self.assertIn(words, self.mesh(model, "--periodic", flag, expect=2).stderr)
+        self.assertIn("--periodic is for 2D", self.mesh(BRACKET, "--periodic", "1=2", expect=2).stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

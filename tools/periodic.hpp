@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The pgdr authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// --periodic: sides of a mesh that correspond, vertex by vertex.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pgdr/names.hpp"
+#include "pgdr/periodic.hpp"
+#include "report.hpp"
+
+namespace pgdr::tool {
+
+/// Is this FROM=TO, or FROM=TO:NUMBERS with 6 or 12 numbers between commas?
+bool is_periodic(const std::string& text);
+/// The sides of these flags; markers are numbers, or names. @throws UsageError: no such name; another dimension
+template <int D>
+std::vector<PeriodicSides<D>> periodic_sides(const std::vector<std::string>& flags, const Names& names);
+
+/// `periodic` of the report, and a line each.
+void set_periodic(Report& report, const std::vector<PeriodicPairs>& pairs);
+void print_periodic(const std::vector<PeriodicPairs>& pairs);
+
+/// Of a mesh: the pairs, or what is wrong.
+struct PeriodicCheck {
+  std::vector<PeriodicPairs> pairs;
+  std::optional<Diagnostic> failure;
+};
+template <int D>
+PeriodicCheck check_periodic(const OutputMesh<D>& mesh, const std::vector<PeriodicSides<D>>& sides, double tolerance);
+
+}  // namespace pgdr::tool
