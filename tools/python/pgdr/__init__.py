@@ -26,13 +26,10 @@ from ._surface import ReplacedSurface, replace_surface
 from ._tetgen import Tetrahedralization, tetrahedralize
 from ._triangle import triangulate
 
-__all__ = ["Bodies", "BodyRegion", "CancelledError", "CheckFinding", "CheckReport", "DiagnosedError", "Diagnostic", "Elements",
-           "Error", "Estimate", "Field", "FileError", "Finding", "Gap", "InputError", "Mesh", "Page", "Plc", "Progress", "Proposal",
-           "Reason", "ReplacedSurface", "ResourceError", "SharpAngle", "StopSource", "Tetrahedralization", "UsageError",
-           "__version__", "check", "close_planar_openings", "diagnose", "estimate", "info", "limit_growth", "mesh",
-           "Error", "Estimate", "Field", "FileError", "Finding", "Gap", "InputError", "Joined", "JoinedLabel", "Mesh", "Plc",
-           "Error", "Estimate", "Field", "FileError", "Finding", "Gap", "InputError", "Joined", "JoinedLabel", "Mesh", "Periodic", "Plc",
-           "Progress", "Proposal", "Reason", "ReplacedSurface", "ResourceError", "Shared", "SharpAngle", "StopSource", "Tetrahedralization", "UsageError",
-           "__version__", "check", "close_planar_openings", "diagnose", "estimate", "info", "join", "limit_growth", "mesh",
-           "replace_surface", "resolve_crossings", "sizes_at_points",
-           "sizes_on_mesh", "smallest", "tetrahedralize", "triangulate", "with_bodies", "with_convex_hull"]
+__all__ = ["Bodies", "BodyRegion", "CancelledError", "CheckFinding", "CheckReport", "DiagnosedError", "Diagnostic",
+           "Elements", "Error", "Estimate", "Field", "FileError", "Finding", "Gap", "InputError", "Joined", "JoinedLabel",
+           "Mesh", "Page", "Periodic", "Plc", "Progress", "Proposal", "Reason", "ReplacedSurface", "ResourceError",
+           "Shared", "SharpAngle", "StopSource", "Tetrahedralization", "UsageError", "__version__", "check",
+           "close_planar_openings", "diagnose", "estimate", "info", "join", "limit_growth", "mesh", "replace_surface",
+           "resolve_crossings", "sizes_at_points", "sizes_on_mesh", "smallest", "tetrahedralize", "triangulate",
+           "with_bodies", "with_convex_hull"]
