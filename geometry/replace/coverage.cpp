@@ -33,9 +33,9 @@ bool normalize(Vector<3>& v) {
 Point3 centre(const CutPolygon& polygon) {
   Point3 sum, c;
   double area = 0;
-  const Point3& origin = polygon.corners[0];
-  for (std::size_t k = 1; k + 1 < polygon.count; ++k) {
-    const auto u = difference(polygon.corners[k], origin), v = difference(polygon.corners[k + 1], origin);
+  const Point3& origin = polygon[0];
+  for (std::size_t k = 1; k + 1 < polygon.count(); ++k) {
+    const auto u = difference(polygon[k], origin), v = difference(polygon[k + 1], origin);
     const auto n = cross(u, v);
     const double twice = std::sqrt(dot(n, n));
     area += twice;
@@ -46,27 +46,30 @@ Point3 centre(const CutPolygon& polygon) {
     return c;
   }
   for (const Point3& p : polygon.all())
-    for (int i = 0; i < 3; ++i) c[i] += p[i] / static_cast<double>(polygon.count);
+    for (int i = 0; i < 3; ++i) c[i] += p[i] / static_cast<double>(polygon.count());
   return c;
 }
 
 }  // namespace
 
 bool cut(const CutPolygon& polygon, const Vector<3>& normal, double offset, CutPolygon& inside, CutPolygon& beyond) {
-  inside.count = beyond.count = 0;
-  std::array<double, CutPolygon::most_corners> side{};
+  std::array<double, CutPolygon::most_corners> side;
+  const std::size_t count = polygon.count();
   bool any_beyond = false, any_inside = false;
-  for (std::size_t k = 0; k < polygon.count; ++k) {
-    side[k] = height(normal, polygon.corners[k]) - offset;
+  for (std::size_t k = 0; k < count; ++k) {
+    side[k] = height(normal, polygon[k]) - offset;
     (side[k] > 0 ? any_beyond : any_inside) = true;
   }
   if (!any_beyond || !any_inside) {
+    (any_beyond ? inside : beyond).clear();
     (any_beyond ? beyond : inside) = polygon;
     return true;
   }
-  for (std::size_t k = 0; k < polygon.count; ++k) {
-    const std::size_t next = k + 1 == polygon.count ? 0 : k + 1;
-    const Point3 &p = polygon.corners[k], &q = polygon.corners[next];
+  inside.clear();
+  beyond.clear();
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t next = k + 1 == count ? 0 : k + 1;
+    const Point3 &p = polygon[k], &q = polygon[next];
     if (!(side[k] > 0 ? beyond : inside).add(p)) return false;
     if ((side[k] > 0) == (side[next] > 0)) continue;
     const Point3 x = on_edge(p, q, side[k] / (side[k] - side[next]));
@@ -77,11 +80,13 @@ bool cut(const CutPolygon& polygon, const Vector<3>& normal, double offset, CutP
 
 bool cut_to_box(CutPolygon& polygon, const Box<3>& box) {
   CutPolygon inside, beyond;
-  for (std::size_t i = 0; i < 3 && polygon.count > 0; ++i) {
+  for (std::size_t i = 0; i < 3 && polygon.count() > 0; ++i) {
+    const int k = static_cast<int>(i);
+    const auto all = polygon.all();
+    if (std::all_of(all.begin(), all.end(), [&](const Point3& p) { return box.low[k] <= p[k] && p[k] <= box.high[k]; })) continue;
     Vector<3> axis{};
     for (const double way : {1.0, -1.0}) {
       axis[i] = way;
-      const int k = static_cast<int>(i);
       if (!cut(polygon, axis, way > 0 ? box.high[k] : -box.low[k], inside, beyond)) return false;
       polygon = inside;
     }
@@ -89,8 +94,20 @@ bool cut_to_box(CutPolygon& polygon, const Box<3>& box) {
   return true;
 }
 
-void Cover::add(const std::array<Point3, 3>& sorted_corners) {
-  Triangle t{.corners = sorted_corners, .box = Box<3>::of(sorted_corners)};
+void Cover::add(const std::array<Point3, 3>& sorted_corners, const Box<3>& box) {
+  boxes_.push_back(box);
+  triangles_.push_back({.corners = sorted_corners});
+}
+
+void Cover::add_meeting(const Cover& other, const Box<3>& box) {
+  for (std::size_t t = 0; t < other.size(); ++t)
+    if (other.boxes_[t].meets(box)) add(other.triangles_[t].corners, other.boxes_[t]);
+}
+
+const Cover::Triangle& Cover::with_plane(std::size_t number) const {
+  Triangle& t = triangles_[number];
+  if (t.is_known) return t;
+  t.is_known = true;
   const auto& c = t.corners;
   t.normal = cross(difference(c[1], c[0]), difference(c[2], c[0]));
   t.has_plane = normalize(t.normal);
@@ -98,7 +115,7 @@ void Cover::add(const std::array<Point3, 3>& sorted_corners) {
     t.outward[i] = cross(difference(c[(i + 1) % 3], c[i]), t.normal);
     t.has_plane = normalize(t.outward[i]);
   }
-  triangles_.push_back(t);
+  return t;
 }
 
 bool Cover::covers(const CutPolygon& polygon, std::size_t first, std::size_t each) const {
@@ -106,69 +123,87 @@ bool Cover::covers(const CutPolygon& polygon, std::size_t first, std::size_t eac
   return !triangles_.empty() && look(polygon, 0, left);
 }
 
-const Cover::Triangle* Cover::nearest(const Point3& p, double& square) const {
-  const Triangle* best = nullptr;
-  square = e_ * e_;
-  for (const Triangle& t : triangles_) {
-    if (t.box.squared_distance_to(p) > square) continue;
-    const double d = closest_to_triangle(p, t.corners[0], t.corners[1], t.corners[2]).square;
-    if (d > square || (d == square && best && !triangle_less(t.corners, best->corners))) continue;
+bool Cover::is_near(std::size_t t, const Point3& p) const {
+  const auto& c = triangles_[t].corners;
+  return is_near_triangle(p, c[0], c[1], c[2], square_);
+}
+
+bool Cover::reaches(const Point3& p) const {
+  for (std::size_t t = 0; t < boxes_.size(); ++t)
+    if (boxes_[t].squared_distance_to(p) <= square_ && is_near(t, p)) return true;
+  return false;
+}
+
+bool Cover::might_hold(std::size_t t, const Box<3>& box) const {
+  const Box<3>& own = boxes_[t];
+  for (int i = 0; i < 3; ++i)
+    if (box.low[i] < own.low[i] - e_ || box.high[i] > own.high[i] + e_) return false;
+  return true;
+}
+
+bool Cover::holds(std::size_t t, std::span<const Point3> corners) const {
+  return std::all_of(corners.begin(), corners.end(), [&](const Point3& p) { return is_near(t, p); });
+}
+
+bool Cover::has_one_near(std::span<const Point3> corners) const {
+  const Box<3> box = Box<3>::of(corners);
+  for (std::size_t t = 0; t < boxes_.size(); ++t)
+    if (might_hold(t, box) && holds(t, corners)) return true;
+  return false;
+}
+
+/// Its number; size(): none is within e.
+std::size_t Cover::nearest(const Point3& p) const {
+  std::size_t best = size();
+  double square = square_;
+  for (std::size_t t = 0; t < boxes_.size(); ++t) {
+    if (boxes_[t].squared_distance_to(p) > square) continue;
+    const auto& c = triangles_[t].corners;
+    const double d = closest_to_triangle(p, c[0], c[1], c[2]).square;
+    if (d > square || (d == square && best < size() && !triangle_less(c, triangles_[best].corners))) continue;
     square = d;
-    best = &t;
+    best = t;
   }
   return best;
 }
 
-bool Cover::holds(const Triangle& t, const CutPolygon& polygon) const {
-  for (const Point3& p : polygon.all())
-    if (!(closest_to_triangle(p, t.corners[0], t.corners[1], t.corners[2]).square <= e_ * e_)) return false;
-  return true;
-}
-
 bool Cover::look(const CutPolygon& polygon, int depth, std::size_t& left) const {
-  if (polygon.count < 3) return true;  // no more than an edge of another part
+  if (polygon.count() < 3) return true;  // no more than an edge of another part
   if (left == 0 || depth > deepest) return false;
   --left;
-  double square = 0;
-  const Triangle* const t = nearest(centre(polygon), square);
-  if (!t) return false;
-  if (holds(*t, polygon)) return true;
-  const Box<3> box = Box<3>::of(polygon.all());
-  const auto might_hold = [&](const Triangle& o) {
-    for (int i = 0; i < 3; ++i)
-      if (box.low[i] < o.box.low[i] - e_ || box.high[i] > o.box.high[i] + e_) return false;
-    return true;
-  };
-  for (const Triangle& o : triangles_)
-    if (&o != t && might_hold(o) && holds(o, polygon)) return true;
-  bool was_cut = false;
-  if (t->has_plane) {
-    const bool is_covered = look_beyond(*t, polygon, depth, left, was_cut);
+  const Point3 c = centre(polygon);
+  const std::size_t t = nearest(c);
+  if (t == size()) return false;
+  if (holds(t, polygon.all()) || has_one_near(polygon.all())) return true;
+  if (with_plane(t).has_plane) {
+    bool was_cut = false;
+    const bool is_covered = look_beyond(t, polygon, c, depth, left, was_cut);
     if (was_cut) return is_covered;
   }
   return look_at_halves(polygon, depth, left);
 }
 
-bool Cover::look_beyond(const Triangle& t, const CutPolygon& polygon, int depth, std::size_t& left, bool& was_cut) const {
+bool Cover::look_beyond(std::size_t number, const CutPolygon& polygon, const Point3& c, int depth, std::size_t& left,
+                        bool& was_cut) const {
+  const Triangle& t = triangles_[number];
   std::array<CutPolygon, 5> rest;
   CutPolygon here = polygon, inside;
   std::size_t parts = 0;
   const double level = height(t.normal, t.corners[0]), reach = part_of_height * e_;
-  const Point3 c = centre(polygon);
   // With the centroid inside, what is cut off is no more than 5/9 of the polygon each time, so that this ends. An edge alone
   // could be inside again and again.
   const auto take = [&](const Vector<3>& normal, double offset) {
     if (height(normal, c) > offset || !cut(here, normal, offset, inside, rest[parts])) return false;
     here = inside;
-    if (rest[parts].count > 0) ++parts;
-    return here.count > 0;
+    if (rest[parts].count() > 0) ++parts;
+    return here.count() > 0;
   };
   for (std::size_t i = 0; i < 3; ++i)
     if (!take(t.outward[i], height(t.outward[i], t.corners[i]))) return false;
   Vector<3> down = t.normal;
   for (double& x : down) x = -x;
   if (!take(t.normal, level + reach) || !take(down, reach - level)) return false;
-  if (!holds(t, here) || parts == 0) return false;
+  if (!holds(number, here.all()) || parts == 0) return false;
   was_cut = true;
   for (std::size_t k = 0; k < parts; ++k)
     if (!look(rest[k], depth + 1, left)) return false;

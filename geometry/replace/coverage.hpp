@@ -10,8 +10,10 @@
 // is below e / 16 its centre is farther than 15/16 e from all of them, or the part is at a border, or too many parts were made.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <new>
 #include <span>
 #include <vector>
 
@@ -21,21 +23,38 @@
 
 namespace pgdr::detail {
 
-/// A convex polygon in space. Plain storage, since hundreds are made for one question.
-struct CutPolygon {
+/// A convex polygon in space. Plain storage, since hundreds are made for one question; corners beyond its own are never written.
+class CutPolygon {
+ public:
   static constexpr std::size_t most_corners = 28;
-  std::array<Point3, most_corners> corners;
-  std::size_t count = 0;
 
   CutPolygon() = default;
-  explicit CutPolygon(const std::array<Point3, 3>& t) : count(3) { std::copy(t.begin(), t.end(), corners.begin()); }
-  std::span<const Point3> all() const { return std::span(corners).first(count); }
+  explicit CutPolygon(const std::array<Point3, 3>& t) : count_(3) { std::copy(t.begin(), t.end(), first()); }
+  CutPolygon(const CutPolygon& o) : count_(o.count_) { std::copy_n(o.first(), count_, first()); }
+  CutPolygon& operator=(const CutPolygon& o) {
+    if (this != &o) std::copy_n(o.first(), o.count_, first());
+    count_ = o.count_;
+    return *this;
+  }
+
+  std::size_t count() const { return count_; }
+  const Point3& operator[](std::size_t k) const { return first()[k]; }
+  std::span<const Point3> all() const { return {first(), count_}; }
+  void clear() { count_ = 0; }
   /// @returns false if it has too many already
   bool add(const Point3& p) {
-    if (count == most_corners) return false;
-    corners[count++] = p;
+    if (count_ == most_corners) return false;
+    first()[count_++] = p;
     return true;
   }
+
+ private:
+  // Points are objects of the bytes' lifetime, as for any type that is an aggregate and needs no destructor.
+  Point3* first() { return std::launder(reinterpret_cast<Point3*>(bytes_.data())); }
+  const Point3* first() const { return std::launder(reinterpret_cast<const Point3*>(bytes_.data())); }
+
+  alignas(Point3) std::array<std::byte, most_corners * sizeof(Point3)> bytes_;
+  std::size_t count_ = 0;
 };
 
 /// The part of a polygon on the side of a plane where dot(normal, x) <= offset, and the one beyond. @returns false if one of them
@@ -44,33 +63,48 @@ bool cut(const CutPolygon& polygon, const Vector<3>& normal, double offset, CutP
 /// The part of it in a box; of no corners if none is. @returns false if it has too many corners
 bool cut_to_box(CutPolygon& polygon, const Box<3>& box);
 
-/// Triangles that are to cover something.
+/// Triangles that are to cover something. May be asked by one thread at a time.
 class Cover {
  public:
-  explicit Cover(double e) : e_(e) {}
-  void clear() { triangles_.clear(); }
+  explicit Cover(double e) : e_(e), square_(e * e) {}
+  void clear() {
+    boxes_.clear();
+    triangles_.clear();
+  }
   /// Its corners in the order of their coordinates, so that no decision hangs on their numbers.
-  void add(const std::array<Point3, 3>& sorted_corners);
+  void add(const std::array<Point3, 3>& sorted_corners) { add(sorted_corners, Box<3>::of(sorted_corners)); }
+  /// @param box  of the corners
+  void add(const std::array<Point3, 3>& sorted_corners, const Box<3>& box);
+  /// Those of another whose boxes meet this one.
+  void add_meeting(const Cover& other, const Box<3>& box);
   std::size_t size() const { return triangles_.size(); }
   /// Is each point of the polygon within e of these? @param first, each  so many parts are looked at, and so many more a triangle
   bool covers(const CutPolygon& polygon, std::size_t first, std::size_t each) const;
+  /// Is each point of a polygon within e of one of these? Then they cover it.
+  bool has_one_near(std::span<const Point3> corners) const;
+  /// Is a point within e of these? Where one is not they cover nothing that has it.
+  bool reaches(const Point3& p) const;
 
  private:
   struct Triangle {
     std::array<Point3, 3> corners;
-    Box<3> box;
-    Vector<3> normal{};                  ///< of length 1
-    std::array<Vector<3>, 3> outward{};  ///< of length 1, in the plane, normal to edge i from corner i to the next
-    bool has_plane = false;
+    Vector<3> normal{};                        ///< of length 1
+    std::array<Vector<3>, 3> outward{};        ///< of length 1, in the plane, normal to edge i from corner i to the next
+    bool has_plane = false, is_known = false;  ///< is there such a plane? Has it been made?
   };
   bool look(const CutPolygon& polygon, int depth, std::size_t& left) const;
-  const Triangle* nearest(const Point3& p, double& square) const;
-  bool holds(const Triangle& t, const CutPolygon& polygon) const;
-  bool look_beyond(const Triangle& t, const CutPolygon& polygon, int depth, std::size_t& left, bool& was_cut) const;
+  std::size_t nearest(const Point3& p) const;
+  bool is_near(std::size_t t, const Point3& p) const;
+  bool might_hold(std::size_t t, const Box<3>& box) const;
+  bool holds(std::size_t t, std::span<const Point3> corners) const;
+  const Triangle& with_plane(std::size_t t) const;
+  bool look_beyond(std::size_t t, const CutPolygon& polygon, const Point3& centre, int depth, std::size_t& left,
+                   bool& was_cut) const;
   bool look_at_halves(const CutPolygon& polygon, int depth, std::size_t& left) const;
 
-  double e_;
-  std::vector<Triangle> triangles_;
+  double e_, square_;
+  std::vector<Box<3>> boxes_;                // beside the triangles, as most are looked at no closer
+  mutable std::vector<Triangle> triangles_;  // planes are made when they are asked for
 };
 
 /// Segments that are to cover one.

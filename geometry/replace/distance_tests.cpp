@@ -10,6 +10,7 @@
 #include "replace/coverage.hpp"
 #include "replace/numbers.hpp"
 #include "replace/patch_tests.hpp"
+#include "space/distances.hpp"
 
 namespace pgdr::detail {
 namespace {
@@ -108,17 +109,109 @@ bool keeps_curves(const ChangingSurface& s, const SurfaceChange& change, double 
   return std::all_of(curves.begin(), curves.end(), [&](std::uint32_t curve) { return is_curve_near(s, change, curve, e); });
 }
 
+namespace {
+
+/// Given triangles whose boxes meet one.
+struct NearGiven {
+  std::vector<const GivenSurface::Triangle*> triangles;
+  std::vector<Box<3>> boxes;
+
+  NearGiven(const GivenSurface& given, const Box<3>& box) {
+    given.triangles_meeting(box, [&](std::uint32_t g) {
+      triangles.push_back(&given.triangles()[g]);
+      boxes.push_back(Box<3>::of(triangles.back()->corners));
+    });
+  }
+  bool reach(const Point3& p, std::uint32_t klass, double square) const {
+    for (std::size_t k = 0; k < boxes.size(); ++k) {
+      if (triangles[k]->klass != klass || boxes[k].squared_distance_to(p) > square) continue;
+      const auto& c = triangles[k]->corners;
+      if (is_near_triangle(p, c[0], c[1], c[2], square)) return true;
+    }
+    return false;
+  }
+};
+
+/// The centre of a triangle and the middles of its edges.
+std::array<Point3, 4> samples_of(const std::array<Point3, 3>& t) {
+  Point3 centre;
+  for (int i = 0; i < 3; ++i) centre[i] = (t[0][i] + t[1][i] + t[2][i]) / 3;
+  return {centre, on_edge(t[0], t[1], 0.5), on_edge(t[1], t[2], 0.5), on_edge(t[0], t[2], 0.5)};
+}
+
+}  // namespace
+
 bool is_near_given(const ChangingSurface& s, const SurfaceChange& change, double e) {
-  Cover cover(e);
+  std::vector<std::array<Point3, 3>> come;
+  Box<3> all = Box<3>::empty();
   for (const SurfaceFace& f : change.come) {
-    const auto t = sorted(triangle_after(s.complex, change, f));
+    come.push_back(sorted(triangle_after(s.complex, change, f)));
+    all.add(Box<3>::of(come.back()));
+  }
+  const NearGiven near(s.given, all.widened(e));
+  // One point that is farther from all proves a no, mostly before anything is cut.
+  for (std::size_t k = 0; k < come.size(); ++k)
+    for (const Point3& p : samples_of(come[k]))
+      if (!near.reach(p, change.come[k].klass, e * e)) return false;
+  Cover cover(e);
+  for (std::size_t k = 0; k < come.size(); ++k) {
+    const Box<3> box = Box<3>::of(come[k]).widened(e);
     cover.clear();
-    s.given.triangles_meeting(Box<3>::of(t).widened(e), f.klass,
-                              [&](std::uint32_t g) { cover.add(s.given.triangles()[g].corners); });
-    if (!cover.covers(CutPolygon(t), numbers::more_parts, numbers::more_parts_each)) return false;
+    for (std::size_t i = 0; i < near.boxes.size(); ++i)
+      if (near.triangles[i]->klass == change.come[k].klass && near.boxes[i].meets(box))
+        cover.add(near.triangles[i]->corners, near.boxes[i]);
+    if (!cover.covers(CutPolygon(come[k]), numbers::more_parts, numbers::more_parts_each)) return false;
   }
   return true;
 }
+
+namespace {
+
+/// Covers given triangles of one class by faces that come, or by these and those that stay.
+class GivenCover {
+ public:
+  /// @param all  the box of the faces that go, grown by e
+  GivenCover(const ChangingSurface& s, const SurfaceChange& change, double e, std::uint32_t klass, const Box<3>& all)
+      : s_(s), change_(change), e_(e), klass_(klass), all_(all), come_(e), stay_(e) {
+    for (const SurfaceFace& f : change.come)
+      if (f.klass == klass) come_.add(sorted(triangle_after(s.complex, change, f)));
+  }
+
+  bool covers(const std::array<Point3, 3>& given) {
+    if (come_.has_one_near(given)) return true;
+    find_staying();
+    if (stay_.has_one_near(given)) return true;
+    CutPolygon part(given);
+    if (!cut_to_box(part, all_)) return false;
+    const auto corners = part.all();
+    if (corners.empty()) return true;
+    const bool may_come_alone = std::all_of(corners.begin(), corners.end(), [&](const Point3& p) { return come_.reaches(p); });
+    if (may_come_alone && come_.covers(part, numbers::first_parts, numbers::first_parts_each)) return true;
+    Cover more(come_);
+    more.add_meeting(stay_, Box<3>::of(corners).widened(e_));
+    return more.covers(part, numbers::more_parts, numbers::more_parts_each);
+  }
+
+ private:
+  void find_staying() {
+    if (has_staying_) return;
+    has_staying_ = true;
+    constexpr double with_rounding = 1.001;  // what is cut to the box may be off it by some ulps
+    s_.boxes.meeting(all_.widened(with_rounding * e_), [&](std::uint32_t f) {
+      if (s_.complex.faces[f].klass == klass_ && !change_.is_gone(f)) stay_.add(sorted(s_.complex.triangle(f)));
+    });
+  }
+
+  const ChangingSurface& s_;
+  const SurfaceChange& change_;
+  double e_;
+  std::uint32_t klass_;
+  Box<3> all_;
+  Cover come_, stay_;
+  bool has_staying_ = false;
+};
+
+}  // namespace
 
 bool is_given_near(const ChangingSurface& s, const SurfaceChange& change, double e) {
   const SurfaceComplex& c = s.complex;
@@ -130,29 +223,16 @@ bool is_given_near(const ChangingSurface& s, const SurfaceChange& change, double
     gone.push_back(Box<3>::of(c.triangle(f)).widened(e));
     all.add(gone.back());
   }
+  const NearGiven near(s.given, all);
   for (const std::uint32_t klass : classes) {
-    Cover come(e);
-    for (const SurfaceFace& f : change.come)
-      if (f.klass == klass) come.add(sorted(triangle_after(c, change, f)));
-    const auto is_near = [&](std::uint32_t g) {
-      const auto& corners = s.given.triangles()[g].corners;
-      const Box<3> box = Box<3>::of(corners);
-      bool is_asked = false;
+    GivenCover cover(s, change, e, klass, all);
+    const auto is_asked = [&](const Box<3>& box) {
       for (std::size_t k = 0; k < gone.size(); ++k)
-        is_asked = is_asked || (c.faces[change.gone[k]].klass == klass && gone[k].meets(box));
-      if (!is_asked) return true;
-      CutPolygon part(corners);
-      if (!cut_to_box(part, all)) return false;
-      if (part.count == 0 || come.covers(part, numbers::first_parts, numbers::first_parts_each)) return true;
-      Cover more(come);
-      s.boxes.meeting(Box<3>::of(part.all()).widened(e), [&](std::uint32_t f) {
-        if (c.faces[f].klass == klass && !change.is_gone(f)) more.add(sorted(c.triangle(f)));
-      });
-      return more.covers(part, numbers::more_parts, numbers::more_parts_each);
+        if (gone[k].meets(box) && c.faces[change.gone[k]].klass == klass) return true;
+      return false;
     };
-    bool are_near = true;
-    s.given.triangles_meeting(all, klass, [&](std::uint32_t g) { are_near = are_near && is_near(g); });
-    if (!are_near) return false;
+    for (std::size_t i = 0; i < near.boxes.size(); ++i)
+      if (near.triangles[i]->klass == klass && is_asked(near.boxes[i]) && !cover.covers(near.triangles[i]->corners)) return false;
   }
   return true;
 }

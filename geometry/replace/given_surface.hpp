@@ -27,12 +27,10 @@ class GivenSurface {
   explicit GivenSurface(const SurfaceComplex& surface);
 
   const std::vector<Triangle>& triangles() const { return triangles_; }
-  /// Calls visit(number) for each triangle of the class whose box meets this one.
+  /// Calls visit(number) for each triangle whose box meets this one.
   template <class Visit>
-  void triangles_meeting(const Box<3>& box, std::uint32_t klass, const Visit& visit) const {
-    triangle_tree_.meeting(box, [&](std::uint32_t i) {
-      if (triangles_[i].klass == klass) visit(i);
-    });
+  void triangles_meeting(const Box<3>& box, const Visit& visit) const {
+    triangle_tree_.meeting(box, visit);
   }
   template <class Visit>
   void segments_meeting(const Box<3>& box, std::uint32_t curve, const Visit& visit) const {

@@ -78,6 +78,24 @@ inline ClosestPoints<3> closest_to_triangle(const Point3& x, const Point3& a, co
   return {{x, foot}, height * height};  // whose root is `height` as it is
 }
 
+/// Is closest_to_triangle(x, a, b, c).square at most this? The same answer to the last bit, which the first part that is as near
+/// gives: the triangle's inside, then its edges.
+inline bool is_near_triangle(const Point3& x, const Point3& a, const Point3& b, const Point3& c, double square) {
+  const auto normal = cross(difference(b, a), difference(c, a));
+  const double area = dot(normal, normal);
+  const auto is_inside_of = [&](const Point3& p, const Point3& q) {
+    return dot(cross(difference(q, p), difference(x, p)), normal) >= 0;
+  };
+  if (area > 0 && is_inside_of(a, b) && is_inside_of(b, c) && is_inside_of(c, a)) {
+    const double height = dot(difference(x, a), normal) / std::sqrt(area);
+    if (height * height <= square) return true;
+  }
+  const auto is_near_edge = [&](const Point3& p, const Point3& q) {
+    return squared_distance_at(x, p, q, std::clamp(part_of_edge(x, p, q), 0.0, 1.0)) <= square;
+  };
+  return is_near_edge(a, b) || is_near_edge(b, c) || is_near_edge(c, a);
+}
+
 /// Of an edge (2D) or a triangle (3D).
 template <int D>
 ClosestPoints<D> closest_to_simplex(const Point<D>& x, const std::array<Point<D>, D>& s) {
