@@ -3,6 +3,7 @@
 //
 // What another surface within a tolerance keeps, and what it may change.
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
 #include <numeric>
 #include <random>
@@ -242,6 +243,36 @@ TEST(ReplaceSurface, CanBeEndedAnywhere) {
     const ReplacedSurface out = run(last);
     EXPECT_TRUE(out.report.stopped) << last;
     check(plc, out.plc, e, 2);
+  }
+}
+
+/// Trials that threads make ahead are settled in the order of one thread, and made anew where a change before them has touched
+/// what they read. A rough block on which changes of all kinds are made beside each other.
+TEST(ReplaceSurface, AnyNumberOfThreads) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> off(-0.006, 0.006);
+  const Plc<3> plc = relief(40, [&](double x, double y) { return 0.1 * std::sin(7 * x) * std::sin(5 * y + x) + off(random); });
+  SurfaceOptions options;
+  options.tolerance = 0.01;
+  options.wanted_corner = 38;
+  const auto made_by = [&](int threads) {
+    return tbb::task_arena(threads).execute([&] { return replace_surface(plc, options); });
+  };
+  const ReplacedSurface one = made_by(1);
+  const SurfaceReport& r = one.report;
+  EXPECT_GT(r.contracted, 500u);
+  EXPECT_GT(std::min({r.flipped, r.moved, r.split}), 20u) << r.flipped << ' ' << r.moved << ' ' << r.split;
+  for (const int threads : {2, 8}) {
+    const ReplacedSurface other = made_by(threads);
+    EXPECT_EQ(other.plc.points, one.plc.points) << threads;
+    ASSERT_EQ(other.plc.facets.size(), one.plc.facets.size()) << threads;
+    for (std::size_t f = 0; f < one.plc.facets.size(); ++f) EXPECT_EQ(other.plc.facets[f].polygons, one.plc.facets[f].polygons);
+    EXPECT_EQ(other.facet_of_input, one.facet_of_input) << threads;
+    const SurfaceReport& o = other.report;
+    EXPECT_EQ(std::tie(o.contracted, o.flipped, o.moved, o.split), std::tie(r.contracted, r.flipped, r.moved, r.split));
+    EXPECT_EQ(std::tie(o.refused.angle, o.refused.fold, o.refused.distance, o.refused.meets, o.refused.gap, o.refused.swept),
+              std::tie(r.refused.angle, r.refused.fold, r.refused.distance, r.refused.meets, r.refused.gap, r.refused.swept));
+    EXPECT_EQ(std::tie(o.to_given, o.from_given, o.farthest_point), std::tie(r.to_given, r.from_given, r.farthest_point));
   }
 }
 

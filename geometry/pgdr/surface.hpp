@@ -25,7 +25,7 @@ struct SurfaceOptions {
   double feature_angle = 40;  ///< degrees: facets of one marker whose normals differ by more meet at a crease; 180: none do
   double wanted_corner = 25;  ///< degrees: angles of facets that are smaller are made larger where that is possible
   /// The size that a mesh is to have here: no edge is made longer than twice the size at its ends. Empty: E alone limits. Called
-  /// from the calling thread.
+  /// from the calling thread, on which all is done then.
   std::function<double(const Point3&)> size;
   std::stop_token stop;  ///< ends the step after any change, with a valid surface
 };

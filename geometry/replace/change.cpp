@@ -23,7 +23,8 @@ void add_come(SurfaceChange& change, const SurfaceFace& face, std::uint32_t from
   change.from.push_back(from);
 }
 
-/// Do the faces at u and v, and their edges, become the same ones only where they have to?
+}  // namespace
+
 bool is_contractible(const SurfaceComplex& s, std::uint32_t u, std::uint32_t v) {
   std::vector<std::uint32_t> third, common;
   s.each_face_at(u, v, [&](std::uint32_t f) { third.push_back(corner_beside(s.faces[f].corners, u, v)); });
@@ -43,14 +44,11 @@ bool is_contractible(const SurfaceComplex& s, std::uint32_t u, std::uint32_t v) 
   return true;
 }
 
-}  // namespace
-
 std::optional<SurfaceChange> contraction(const SurfaceComplex& s, std::uint32_t u, std::uint32_t v, const Point3& place) {
   const std::uint32_t curve = s.curve_of(u, v);
   const bool moves = !(place == s.at(v));
   if (s.order[u] == VertexOrder::fixed || (s.order[u] == VertexOrder::on_curve && curve == no_index)) return {};
   if (moves && (s.order[u] != VertexOrder::free || s.order[v] != VertexOrder::free)) return {};
-  if (!is_contractible(s, u, v)) return {};
   SurfaceChange change;
   change.u = u;
   change.v = v;

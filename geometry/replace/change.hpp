@@ -33,8 +33,12 @@ struct SurfaceChange {
   bool is_gone(std::uint32_t f) const { return std::find(gone.begin(), gone.end(), f) != gone.end(); }
 };
 
-/// Puts u into v, which is at `place` then: at its own, or at another where both are free. None if that would be another surface
-/// (the link conditions of Dey, Edelsbrunner, Guha and Nekhayev, 1999), or u may not go. @pre uv is an edge
+/// Is the surface with u and v put together the same, up to a homeomorphism (the link conditions of Dey, Edelsbrunner, Guha and
+/// Nekhayev, 1999)? For either into the other. Do the faces at u and v, and their edges, become the same ones only where they
+/// have to? @pre uv is an edge
+bool is_contractible(const SurfaceComplex& s, std::uint32_t u, std::uint32_t v);
+/// Puts u into v, which is at `place` then: at its own, or at another where both are free. None if u may not go, or a curve would
+/// be another. @pre is_contractible(s, u, v)
 std::optional<SurfaceChange> contraction(const SurfaceComplex& s, std::uint32_t u, std::uint32_t v, const Point3& place);
 /// The other diagonal of the two faces at a plain edge; none if it is an edge already, or the edge is not plain.
 std::optional<SurfaceChange> flip(const SurfaceComplex& s, std::uint32_t a, std::uint32_t b);

@@ -22,6 +22,15 @@ std::size_t level_of(HalfTangent corner, HalfTangent wanted) {
   static const CornerLevels levels;
   return levels.of(corner, wanted);
 }
+/// A split that was judged before others were made gets the number that is next now.
+void number_new_vertex(SurfaceChange& change, std::uint32_t number) {
+  const auto renumber = [&](std::uint32_t& v) {
+    if (v == change.moved) v = number;
+  };
+  for (SurfaceFace& f : change.come) std::for_each(f.corners.begin(), f.corners.end(), renumber);
+  for (auto& k : change.kept_come) std::for_each(k.ends.begin(), k.ends.end(), renumber);
+  change.moved = number;
+}
 
 }  // namespace
 
@@ -58,7 +67,7 @@ bool Changer::are_edges_short(const SurfaceChange& change) const {
   return true;
 }
 
-Verdict Changer::judge(SurfaceChange& change, const ChangeGoal& goal) const {
+Verdict Changer::verdict_of(SurfaceChange& change, const ChangeGoal& goal) const {
   const SurfaceComplex& s = s_.complex;
   if (!regroup(s, change) || !are_corners_fine(change, goal)) return Verdict::angle;
   if (!keeps_folds(s, change, numbers::flat_enough)) return Verdict::fold;
@@ -72,16 +81,49 @@ Verdict Changer::judge(SurfaceChange& change, const ChangeGoal& goal) const {
   return sweeps_nothing(s_, change) ? Verdict::yes : Verdict::swept;
 }
 
-Verdict Changer::attempt(SurfaceChange change, const ChangeGoal& goal) {
-  ++attempts_;
-  const Verdict verdict = judge(change, goal);
-  count(verdict, change.kind);
-  if (verdict == Verdict::yes) make(change);
+Verdict Changer::judge(SurfaceChange change, const ChangeGoal& goal, Trial& trial) const {
+  if (trial.is_ahead && change.kind == SurfaceChange::Kind::split) {
+    // Wedges are looked for as far as half of the heights of the faces at the edge, which is less than their box is long.
+    Box<3> box = Box<3>::empty();
+    for (const std::uint32_t f : change.gone) box.add(s_.boxes[f]);
+    trial.read.add(Box<3>::around(change.place).widened(box.longest_side()));
+  }
+  const Verdict verdict = verdict_of(change, goal);
+  if (verdict == Verdict::yes)
+    trial.change = std::move(change);
+  else
+    trial.refused.push_back(verdict);
   return verdict;
 }
 
-void Changer::count(Verdict verdict, SurfaceChange::Kind kind) {
-  using Kind = SurfaceChange::Kind;
+void Changer::read_around(std::span<const std::uint32_t> vertices, Trial& trial) const {
+  if (!trial.is_ahead) return;
+  // Beyond the faces at the neighbours, coverage looks for faces twice as far as the distance, which is E at most, from what
+  // goes; what comes is no farther than `farthest_place`, and gaps are looked for beyond that.
+  constexpr double margin = std::max(2.01, numbers::farthest_place + 2 * numbers::narrow_gap);
+  const SurfaceComplex& s = s_.complex;
+  Box<3> box = Box<3>::empty();
+  const auto add_faces_at = [&](std::uint32_t v) {
+    for (const std::uint32_t f : s.faces_at[v]) box.add(s_.boxes[f]);
+  };
+  for (const std::uint32_t v : vertices)
+    for (const std::uint32_t f : s.faces_at[v])
+      for (const std::uint32_t w : s.faces[f].corners) add_faces_at(w);
+  trial.read.add(box.widened(margin * tolerance_));
+}
+
+bool Changer::settle(const Trial& trial) {
+  attempts_ += trial.refused.size() + (trial.change ? 1 : 0);
+  for (const Verdict verdict : trial.refused) count_refused(verdict);
+  if (!trial.change) return false;
+  count_made(trial.change->kind);
+  SurfaceChange change = *trial.change;
+  if (change.kind == SurfaceChange::Kind::split) number_new_vertex(change, static_cast<std::uint32_t>(touched_.size()));
+  make(change);
+  return true;
+}
+
+void Changer::count_refused(Verdict verdict) {
   auto& r = report_.refused;
   switch (verdict) {
     case Verdict::angle: ++r.angle; break;
@@ -91,17 +133,23 @@ void Changer::count(Verdict verdict, SurfaceChange::Kind kind) {
     case Verdict::meets: ++r.meets; break;
     case Verdict::gap: ++r.gap; break;
     case Verdict::swept: ++r.swept; break;
-    case Verdict::yes:
-      ++(kind == Kind::contract ? report_.contracted
-         : kind == Kind::flip   ? report_.flipped
-         : kind == Kind::move   ? report_.moved
-                                : report_.split);
+    case Verdict::yes: break;
   }
+}
+
+void Changer::count_made(SurfaceChange::Kind kind) {
+  using Kind = SurfaceChange::Kind;
+  ++(kind == Kind::contract ? report_.contracted
+     : kind == Kind::flip   ? report_.flipped
+     : kind == Kind::move   ? report_.moved
+                            : report_.split);
 }
 
 void Changer::make(const SurfaceChange& change) {
   SurfaceComplex& s = s_.complex;
+  Box<3> changed = Box<3>::empty();
   for (const std::uint32_t f : change.gone) {
+    changed.add(s_.boxes[f]);
     s.remove_face(f);
     s_.boxes.change(f, Box<3>::empty());
   }
@@ -116,9 +164,12 @@ void Changer::make(const SurfaceChange& change) {
   last_.clear();
   for (std::size_t k = 0; k < change.come.size(); ++k) {
     const std::uint32_t f = s.add_face(change.come[k]);
-    s_.boxes.add(Box<3>::of(s.triangle(f)), change.from[k]);
+    const Box<3> box = Box<3>::of(s.triangle(f));
+    changed.add(box);
+    s_.boxes.add(box, change.from[k]);
     last_.push_back(f);
   }
+  changed_.push_back(changed);
   for (const std::uint32_t f : last_)
     for (const std::uint32_t v : s.faces[f].corners) ++touched_[v];
 }

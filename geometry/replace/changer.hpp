@@ -2,13 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "pgdr/surface.hpp"
 #include "replace/patch_tests.hpp"
 #include "replace/shape.hpp"
+#include "space/bulk.hpp"
 
 namespace pgdr::detail {
 
@@ -29,17 +33,41 @@ struct ChangeGoal {
 /// The first test that said no.
 enum class Verdict : std::uint8_t { yes, angle, fold, size, distance, meets, gap, swept };
 
-/// Makes changes that pass all tests.
+/// What came of a candidate: of its changes, judged one after the other until one passed.
+struct Trial {
+  std::vector<Verdict> refused;         ///< in their order
+  std::optional<SurfaceChange> change;  ///< that passed
+  bool is_ahead = false;                ///< other changes may be made before this one: `read` has to be known
+  /// Where all lies that had a part in it: a face, point or kept edge that does not meet this box had none.
+  Box<3> read = Box<3>::empty();
+};
+
+/// Makes changes that pass all tests. Trials may be made by any number of threads at once while no change is made.
 class Changer {
  public:
   /// @param tolerance  E: what gaps and new places are measured with
   Changer(ChangingSurface& surface, double tolerance, const std::function<double(const Point3&)>& size, SurfaceReport& report)
       : s_(surface), tolerance_(tolerance), size_(size), report_(report), touched_(surface.complex.points.size()) {}
 
-  /// Reads the surface alone.
-  Verdict judge(SurfaceChange& change, const ChangeGoal& goal) const;
-  /// Makes the change if it may be made.
-  Verdict attempt(SurfaceChange change, const ChangeGoal& goal);
+  /// Judges a change, whose verdict goes to the trial. @pre the trial has none that passed; it has read around what the change
+  /// takes away
+  Verdict judge(SurfaceChange change, const ChangeGoal& goal, Trial& trial) const;
+  /// Notes that what is about these vertices is read: faces at their neighbours, and as far beyond as any test looks.
+  void read_around(std::span<const std::uint32_t> vertices, Trial& trial) const;
+  /// Counts what was judged, and makes the change that passed. @pre nothing in trial.read has changed since. @returns was there
+  /// one?
+  bool settle(const Trial& trial);
+
+  /// May trials be made ahead, by several threads? Not with sizes, which are asked for on the calling thread alone.
+  bool looks_ahead() const { return !size_ && bulk_.is_parallel(); }
+  const Bulk& bulk() const { return bulk_; }
+  /// Forgets where changes were made before.
+  void begin_changes() { changed_.clear(); }
+  /// Has a change been made since begin_changes() that a trial might have gone otherwise for? The box of the faces that went
+  /// and came meets what the trial has read: else these had no part in it, and nothing else has changed.
+  bool has_changed(const Trial& trial) const {
+    return std::any_of(changed_.begin(), changed_.end(), [&](const Box<3>& box) { return box.meets(trial.read); });
+  }
 
   const SurfaceComplex& complex() const { return s_.complex; }
   const GivenSurface& given() const { return s_.given; }
@@ -52,18 +80,22 @@ class Changer {
   const std::vector<std::uint32_t>& last() const { return last_; }
 
  private:
+  Verdict verdict_of(SurfaceChange& change, const ChangeGoal& goal) const;
   bool are_corners_fine(const SurfaceChange& change, const ChangeGoal& goal) const;
   bool are_edges_short(const SurfaceChange& change) const;
   void make(const SurfaceChange& change);
-  void count(Verdict verdict, SurfaceChange::Kind kind);
+  void count_refused(Verdict verdict);
+  void count_made(SurfaceChange::Kind kind);
 
   ChangingSurface& s_;
   double tolerance_;
   const std::function<double(const Point3&)>& size_;
   SurfaceReport& report_;
+  Bulk bulk_{true};
   std::uint64_t attempts_ = 0;
   std::vector<std::uint32_t> touched_;
   std::vector<std::uint32_t> last_;
+  std::vector<Box<3>> changed_;
 };
 
 /// Levels of corners, by one percent each, from flat to the corner that is wanted: how many are passed.

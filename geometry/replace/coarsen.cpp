@@ -3,11 +3,11 @@
 #include "replace/coarsen.hpp"
 
 #include <algorithm>
-#include <queue>
 #include <unordered_map>
 #include <utility>
 
 #include "input/edges.hpp"
+#include "replace/ahead.hpp"
 #include "space/distances.hpp"
 
 namespace pgdr::detail {
@@ -17,7 +17,8 @@ namespace {
 struct WaitingEdge {
   double square;
   Point3 low, high;
-  std::uint32_t a, b;                           ///< at these
+  std::uint32_t a, b;  ///< at these
+  double key() const { return square; }
   bool operator<(const WaitingEdge& o) const {  // the shortest is the top of a queue
     if (square != o.square) return square > o.square;
     return lex_less(o.low, low) || (low == o.low && lex_less(o.high, high));
@@ -27,18 +28,18 @@ struct WaitingEdge {
 class Coarsening {
  public:
   Coarsening(Changer& changer, double distance, HalfTangent floor)
-      : changer_(changer), s_(changer.complex()), goal_{CornerRule::coarsen, distance, floor} {}
+      : changer_(changer), s_(changer.complex()), goal_{CornerRule::coarsen, distance, floor}, queue_(changer) {}
 
   bool run(const std::stop_token& stop) {
+    const auto try_it = [this](const WaitingEdge& e, Trial& trial) { return try_edge(e, trial); };
     for (bool any = true; any;) {
       any = false;
       push_all();
       while (!queue_.empty()) {
         if (stop.stop_requested()) return false;
-        const WaitingEdge e = queue_.top();
-        queue_.pop();
+        const WaitingEdge e = queue_.pop(try_it);
         if (!is_there(e)) continue;
-        if (contract(e)) {
+        if (changer_.settle(queue_.trial(e, try_it))) {
           any = true;
           push_edges(changer_.last());
         } else {
@@ -74,22 +75,29 @@ class Coarsening {
     }
   }
   bool is_there(const WaitingEdge& e) const {
-    return s_.at(e.a) == e.low && s_.at(e.b) == e.high && !s_.faces_of_edge(e.a, e.b).empty();
+    if (!(s_.at(e.a) == e.low && s_.at(e.b) == e.high)) return false;
+    const auto& faces = s_.faces_at[e.a];
+    return std::any_of(faces.begin(), faces.end(), [&](std::uint32_t f) { return s_.has_corner(f, e.b); });
   }
-  bool contract(const WaitingEdge& e) {
-    if (s_.order[e.a] == VertexOrder::free && s_.order[e.b] == VertexOrder::free && put(e.a, e.b, on_edge(e.low, e.high, 0.5)))
-      return true;
-    return put(e.a, e.b, e.high) || put(e.b, e.a, e.low);
+  /// @returns false if it is not there
+  bool try_edge(const WaitingEdge& e, Trial& trial) const {
+    if (!is_there(e)) return false;
+    changer_.read_around(std::array{e.a, e.b}, trial);
+    if (!is_contractible(s_, e.a, e.b)) return true;
+    const bool both_free = s_.order[e.a] == VertexOrder::free && s_.order[e.b] == VertexOrder::free;
+    if (both_free && try_to_put(e.a, e.b, on_edge(e.low, e.high, 0.5), trial)) return true;
+    if (!try_to_put(e.a, e.b, e.high, trial)) try_to_put(e.b, e.a, e.low, trial);
+    return true;
   }
-  bool put(std::uint32_t u, std::uint32_t v, const Point3& place) {
+  bool try_to_put(std::uint32_t u, std::uint32_t v, const Point3& place, Trial& trial) const {
     auto change = contraction(s_, u, v, place);
-    return change && changer_.attempt(std::move(*change), goal_) == Verdict::yes;
+    return change && changer_.judge(std::move(*change), goal_, trial) == Verdict::yes;
   }
 
   Changer& changer_;
   const SurfaceComplex& s_;
   ChangeGoal goal_;
-  std::priority_queue<WaitingEdge> queue_;
+  AheadQueue<WaitingEdge> queue_;
   std::unordered_map<std::uint64_t, std::uint32_t> refused_;  // by the key of an edge, how often its ends had been touched
 };
 

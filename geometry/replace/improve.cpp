@@ -5,9 +5,9 @@
 // angle, worst first, is that of Hu, Yan, Bommes, Alliez and Benes 2017.) A face for which none is made waits until a face at its
 // vertices changes.
 #include <algorithm>
-#include <queue>
 #include <utility>
 
+#include "replace/ahead.hpp"
 #include "replace/coarsen.hpp"
 #include "replace/numbers.hpp"
 #include "space/distances.hpp"
@@ -21,7 +21,8 @@ struct WaitingFace {
   HalfTangent corner;
   std::array<Point3, 3> at;  ///< in the order of coordinates
   std::uint32_t face;
-  std::uint32_t touched;                        ///< sum of how often its vertices had been
+  std::uint32_t touched;  ///< sum of how often its vertices had been
+  double key() const { return corner; }
   bool operator<(const WaitingFace& o) const {  // the worst is the top of a queue
     return corner != o.corner ? corner > o.corner : triangle_less(o.at, at);
   }
@@ -34,7 +35,8 @@ class Improving {
         s_(changer.complex()),
         goal_{CornerRule::improve, distance, wanted},
         split_goal_{CornerRule::split, distance, wanted},
-        splits_left_(most_splits) {}
+        splits_left_(most_splits),
+        queue_(changer) {}
 
   bool run(const std::stop_token& stop) {
     std::uint64_t faces = 0;
@@ -43,16 +45,18 @@ class Improving {
       ++faces;
       push(f);
     }
+    const auto try_it = [this](const WaitingFace& w, Trial& trial) { return try_face(w, trial); };
     const std::uint64_t most = changer_.attempts() + numbers::effort * faces;
     while (!queue_.empty()) {
       if (stop.stop_requested()) return false;
       if (changer_.attempts() > most) return give_up();
-      const WaitingFace w = queue_.top();
-      queue_.pop();
-      if (!s_.faces[w.face].alive || w.touched != touched(w.face)) continue;
-      if (!cure(w.face)) continue;
+      const WaitingFace w = queue_.pop(try_it);
+      if (!is_waiting(w)) continue;
+      const Trial trial = queue_.trial(w, try_it);
+      if (!changer_.settle(trial)) continue;
+      if (trial.change->kind == SurfaceChange::Kind::split) note_split();
       push_near();
-      if (s_.faces[w.face].alive && w.touched == touched(w.face)) push(w.face);  // a split farther away
+      if (is_waiting(w)) push(w.face);  // a split farther away
     }
     return true;
   }
@@ -64,6 +68,8 @@ class Improving {
     const auto& c = s_.faces[f].corners;
     return changer_.touched(c[0]) + changer_.touched(c[1]) + changer_.touched(c[2]);
   }
+  /// It is there, and nothing at its vertices has changed.
+  bool is_waiting(const WaitingFace& w) const { return s_.faces[w.face].alive && w.touched == touched(w.face); }
   void push(std::uint32_t f) {
     const HalfTangent corner = least_corner(s_, f);
     if (!(corner < goal_.floor)) return;
@@ -82,17 +88,25 @@ class Improving {
 
   bool give_up() {
     std::uint64_t left = 0;
-    for (; !queue_.empty(); queue_.pop()) {
-      const WaitingFace& w = queue_.top();
-      left += s_.faces[w.face].alive && w.touched == touched(w.face);
-    }
+    while (!queue_.empty()) left += is_waiting(queue_.pop([](const WaitingFace&, Trial&) { return false; }));
     changer_.give_up(left);
     return true;
   }
+  /// The vertex that a split has made is not taken back in this round. With the last split trials come to something else.
+  void note_split() {
+    held_.resize(s_.points.size(), false);
+    held_.back() = true;
+    if (--splits_left_ == 0) queue_.forget_trials();
+  }
 
-  bool cure(std::uint32_t f) {
-    const Corners by_edge = by_opposite_edge(f);
-    return contract_edge(by_edge[1], by_edge[2]) || flip_edges(by_edge) || move_corners(by_edge) || split_path(f);
+  /// @returns false if it does not wait any more
+  bool try_face(const WaitingFace& w, Trial& trial) const {
+    if (!is_waiting(w)) return false;
+    changer_.read_around(s_.faces[w.face].corners, trial);
+    const Corners by_edge = by_opposite_edge(w.face);
+    if (!contract_edge(by_edge[1], by_edge[2], trial) && !flip_edges(by_edge, trial) && !move_corners(by_edge, trial))
+      split_path(w.face, trial);
+    return true;
   }
   /// Its corners, by the lengths of the edges opposite of them, shortest first; of equal ones by their coordinates.
   Corners by_opposite_edge(std::uint32_t f) const {
@@ -109,26 +123,29 @@ class Improving {
     return c;
   }
 
-  bool made(SurfaceChange change, const ChangeGoal& goal) { return changer_.attempt(std::move(change), goal) == Verdict::yes; }
+  bool passes(SurfaceChange change, Trial& trial) const {
+    return changer_.judge(std::move(change), goal_, trial) == Verdict::yes;
+  }
   bool is_held(std::uint32_t v) const { return v < held_.size() && held_[v]; }
 
-  bool contract_edge(std::uint32_t a, std::uint32_t b) {
+  bool contract_edge(std::uint32_t a, std::uint32_t b, Trial& trial) const {
+    if (!is_contractible(s_, a, b)) return false;
     if (lex_less(s_.at(b), s_.at(a))) std::swap(a, b);
     const Point3 low = s_.at(a), high = s_.at(b);
     const bool both_free = s_.order[a] == VertexOrder::free && s_.order[b] == VertexOrder::free;
-    if (both_free && !is_held(a) && !is_held(b) && put(a, b, on_edge(low, high, 0.5))) return true;
-    return (!is_held(a) && put(a, b, high)) || (!is_held(b) && put(b, a, low));
+    if (both_free && !is_held(a) && !is_held(b) && put(a, b, on_edge(low, high, 0.5), trial)) return true;
+    return (!is_held(a) && put(a, b, high, trial)) || (!is_held(b) && put(b, a, low, trial));
   }
-  bool put(std::uint32_t u, std::uint32_t v, const Point3& place) {
+  bool put(std::uint32_t u, std::uint32_t v, const Point3& place, Trial& trial) const {
     auto change = contraction(s_, u, v, place);
-    return change && made(std::move(*change), goal_);
+    return change && passes(std::move(*change), trial);
   }
 
   /// The longest edge first.
-  bool flip_edges(const Corners& c) {
+  bool flip_edges(const Corners& c, Trial& trial) const {
     for (std::size_t k = 3; k-- > 0;) {
       auto change = flip_between(c[(k + 1) % 3], c[(k + 2) % 3]);
-      if (change && made(std::move(*change), goal_)) return true;
+      if (change && passes(std::move(*change), trial)) return true;
     }
     return false;
   }
@@ -136,20 +153,20 @@ class Improving {
     return lex_less(s_.at(b), s_.at(a)) ? flip(s_, b, a) : flip(s_, a, b);
   }
 
-  bool move_corners(const Corners& c) {
-    return std::any_of(c.begin(), c.end(), [this](std::uint32_t v) { return move_corner(v); });
+  bool move_corners(const Corners& c, Trial& trial) const {
+    return std::any_of(c.begin(), c.end(), [&](std::uint32_t v) { return move_corner(v, trial); });
   }
-  bool move_corner(std::uint32_t v) {
+  bool move_corner(std::uint32_t v, Trial& trial) const {
     if (s_.order[v] == VertexOrder::fixed) return false;
     if (s_.order[v] == VertexOrder::on_curve) {
       const auto& kept = s_.kept_at[v];
       const Point3 middle = middle_of(s_.at(kept[0].other), s_.at(kept[1].other));
-      return made(move(s_, v, changer_.given().nearest_on_curve(middle, kept[0].curve)), goal_);
+      return passes(move(s_, v, changer_.given().nearest_on_curve(middle, kept[0].curve)), trial);
     }
     const Point3 from = s_.at(v), to = middle_of_neighbours(v);
     const std::uint32_t klass = s_.faces[s_.faces_at[v].front()].klass;
     for (const double part : {1.0, 0.5, 0.25})
-      if (made(move(s_, v, changer_.given().nearest(on_edge(from, to, part), klass).point), goal_)) return true;
+      if (passes(move(s_, v, changer_.given().nearest(on_edge(from, to, part), klass).point), trial)) return true;
     return false;
   }
   static Point3 middle_of(const Point3& a, const Point3& b) { return lex_less(b, a) ? on_edge(b, a, 0.5) : on_edge(a, b, 0.5); }
@@ -165,23 +182,19 @@ class Improving {
   }
 
   /// Splits the longest edge; where that makes a corner of a neighbour too small, first the longest edge of the neighbour.
-  bool split_path(std::uint32_t f) {
+  bool split_path(std::uint32_t f, Trial& trial) const {
     for (int step = 0; step < numbers::most_path && splits_left_ > 0; ++step) {
       const Corners c = by_opposite_edge(f);
       std::uint32_t a = c[0], b = c[1];
       if (lex_less(s_.at(b), s_.at(a))) std::swap(a, b);
       if (distance(s_.at(a), s_.at(b)) < numbers::shortest_split * goal_.distance) return false;
-      const Verdict verdict = changer_.attempt(split(s_, a, b, place_on(a, b)), split_goal_);
-      if (verdict == Verdict::yes) {
-        --splits_left_;
-        held_.resize(s_.points.size(), false);
-        held_.back() = true;
-        return true;
-      }
+      const Verdict verdict = changer_.judge(split(s_, a, b, place_on(a, b)), split_goal_, trial);
+      if (verdict == Verdict::yes) return true;
       if (verdict != Verdict::angle || s_.is_kept(a, b)) return false;
       const std::uint32_t g = s_.beyond(f, a, b);
       if (g == no_index || has_longest(g, a, b)) return false;
       f = g;
+      changer_.read_around(s_.faces[f].corners, trial);
     }
     return false;
   }
@@ -207,7 +220,7 @@ class Improving {
   ChangeGoal goal_, split_goal_;
   std::uint64_t splits_left_;
   std::vector<bool> held_;  // vertices that splits have made
-  std::priority_queue<WaitingFace> queue_;
+  AheadQueue<WaitingFace> queue_;
 };
 
 }  // namespace
