@@ -159,7 +159,7 @@ std::size_t Cover::nearest(const Point3& p) const {
   for (std::size_t t = 0; t < boxes_.size(); ++t) {
     if (boxes_[t].squared_distance_to(p) > square) continue;
     const auto& c = triangles_[t].corners;
-    const double d = closest_to_triangle(p, c[0], c[1], c[2]).square;
+    const double d = TriangleDistance(p, c[0], c[1], c[2]).square();
     if (d > square || (d == square && best < size() && !triangle_less(c, triangles_[best].corners))) continue;
     square = d;
     best = t;

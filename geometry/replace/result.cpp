@@ -8,6 +8,7 @@
 
 #include "replace/shape.hpp"
 #include "replace/to_plc.hpp"
+#include "space/bulk.hpp"
 #include "space/distances.hpp"
 
 namespace pgdr::detail {
@@ -116,16 +117,26 @@ void ResultMaker::measure_distances(SurfaceReport& report) const {
     farthest = square;
     report.farthest_point = p;
   };
-  for (std::uint32_t f = 0; f < c.faces.size(); ++f)
-    if (c.faces[f].alive)
-      for (const std::uint32_t v : c.faces[f].corners)
-        if (v >= points.size() || !(points[v] == c.at(v)))
-          take(c.at(v), s_.given.nearest(c.at(v), c.faces[f].klass).square, report.to_given);
-  const GivenSurface now(c);
+  // Each point once for each class that it is a corner of.
+  using Asked = std::pair<std::uint32_t, std::uint32_t>;
+  const auto take_all = [&](std::vector<Asked> asked, const GivenSurface& other, std::span<const Point3> places,
+                            double& largest) {
+    std::sort(asked.begin(), asked.end());
+    asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
+    std::vector<double> squares(asked.size());
+    Bulk(true).each(asked.size(),
+                    [&](std::size_t k) { squares[k] = other.nearest(places[asked[k].first], asked[k].second).square; });
+    for (std::size_t k = 0; k < asked.size(); ++k) take(places[asked[k].first], squares[k], largest);
+  };
+  std::vector<Asked> now, given;
+  for (const SurfaceFace& f : c.faces)
+    for (const std::uint32_t v : f.corners)
+      if (f.alive && (v >= points.size() || !(points[v] == c.at(v)))) now.emplace_back(v, f.klass);
   for (std::size_t t = 0; t < corners_.size(); ++t)
     for (const std::uint32_t v : corners_[t])
-      if (c.faces_at[v].empty() || !(points[v] == c.at(v)))
-        take(points[v], now.nearest(points[v], s_.given.triangles()[t].klass).square, report.from_given);
+      if (c.faces_at[v].empty() || !(points[v] == c.at(v))) given.emplace_back(v, s_.given.triangles()[t].klass);
+  take_all(std::move(now), s_.given, c.points, report.to_given);
+  take_all(std::move(given), GivenSurface(c), points, report.from_given);
 }
 
 }  // namespace pgdr::detail

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "numbers/vectors.hpp"
 
@@ -78,22 +79,44 @@ inline ClosestPoints<3> closest_to_triangle(const Point3& x, const Point3& a, co
   return {{x, foot}, height * height};  // whose root is `height` as it is
 }
 
-/// Is closest_to_triangle(x, a, b, c).square at most this? The same answer to the last bit, which the first part that is as near
-/// gives: the triangle's inside, then its edges.
-inline bool is_near_triangle(const Point3& x, const Point3& a, const Point3& b, const Point3& c, double square) {
-  const auto normal = cross(difference(b, a), difference(c, a));
-  const double area = dot(normal, normal);
-  const auto is_inside_of = [&](const Point3& p, const Point3& q) {
-    return dot(cross(difference(q, p), difference(x, p)), normal) >= 0;
-  };
-  if (area > 0 && is_inside_of(a, b) && is_inside_of(b, c) && is_inside_of(c, a)) {
-    const double height = dot(difference(x, a), normal) / std::sqrt(area);
-    if (height * height <= square) return true;
+/// closest_to_triangle(x, a, b, c).square to the last bit, without the points.
+class TriangleDistance {
+ public:
+  TriangleDistance(const Point3& x, const Point3& a, const Point3& b, const Point3& c)
+      : from_{difference(x, a), difference(x, b), difference(x, c)},
+        along_{difference(b, a), difference(c, b), difference(a, c)} {
+    const auto normal = cross(along_[0], difference(c, a));
+    const double area = dot(normal, normal);
+    if (!(area > 0)) return;
+    for (std::size_t i = 0; i < 3; ++i)
+      if (!(dot(cross(along_[i], from_[i]), normal) >= 0)) return;
+    const double height = dot(from_[0], normal) / std::sqrt(area);
+    inside_ = height * height;
   }
-  const auto is_near_edge = [&](const Point3& p, const Point3& q) {
-    return squared_distance_at(x, p, q, std::clamp(part_of_edge(x, p, q), 0.0, 1.0)) <= square;
-  };
-  return is_near_edge(a, b) || is_near_edge(b, c) || is_near_edge(c, a);
+  double square() const { return std::min({to_edge(0), to_edge(1), to_edge(2), inside_}); }
+  /// Is it at most this? The first part that is as near says so.
+  bool is_within(double square) const {
+    return inside_ <= square || to_edge(0) <= square || to_edge(1) <= square || to_edge(2) <= square;
+  }
+
+ private:
+  double to_edge(std::size_t i) const {
+    const auto &from = from_[i], &along = along_[i];
+    const double length = dot(along, along), t = std::clamp(length > 0 ? dot(from, along) / length : 0.0, 0.0, 1.0);
+    double square = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double off = from[k] - t * along[k];
+      square += off * off;
+    }
+    return square;
+  }
+
+  std::array<Vector<3>, 3> from_, along_;  // of x from each corner, of the next corner from each
+  double inside_ = std::numeric_limits<double>::infinity();
+};
+/// Is closest_to_triangle(x, a, b, c).square at most this?
+inline bool is_near_triangle(const Point3& x, const Point3& a, const Point3& b, const Point3& c, double square) {
+  return TriangleDistance(x, a, b, c).is_within(square);
 }
 
 /// Of an edge (2D) or a triangle (3D).
