@@ -94,14 +94,10 @@ bool cut_to_box(CutPolygon& polygon, const Box<3>& box) {
   return true;
 }
 
-void Cover::add(const std::array<Point3, 3>& sorted_corners, const Box<3>& box) {
-  boxes_.push_back(box);
+void Cover::add(const std::array<Point3, 3>& sorted_corners) {
+  used_.push_back(static_cast<std::uint32_t>(size()));
+  boxes_.push_back(Box<3>::of(sorted_corners));
   triangles_.push_back({.corners = sorted_corners});
-}
-
-void Cover::add_meeting(const Cover& other, const Box<3>& box) {
-  for (std::size_t t = 0; t < other.size(); ++t)
-    if (other.boxes_[t].meets(box)) add(other.triangles_[t].corners, other.boxes_[t]);
 }
 
 const Cover::Triangle& Cover::with_plane(std::size_t number) const {
@@ -119,8 +115,8 @@ const Cover::Triangle& Cover::with_plane(std::size_t number) const {
 }
 
 bool Cover::covers(const CutPolygon& polygon, std::size_t first, std::size_t each) const {
-  std::size_t left = first + each * triangles_.size();
-  return !triangles_.empty() && look(polygon, 0, left);
+  std::size_t left = first + each * used_.size();
+  return !used_.empty() && look(polygon, 0, left);
 }
 
 bool Cover::is_near(std::size_t t, const Point3& p) const {
@@ -129,7 +125,7 @@ bool Cover::is_near(std::size_t t, const Point3& p) const {
 }
 
 bool Cover::reaches(const Point3& p) const {
-  for (std::size_t t = 0; t < boxes_.size(); ++t)
+  for (const std::uint32_t t : used_)
     if (boxes_[t].squared_distance_to(p) <= square_ && is_near(t, p)) return true;
   return false;
 }
@@ -147,7 +143,7 @@ bool Cover::holds(std::size_t t, std::span<const Point3> corners) const {
 
 bool Cover::has_one_near(std::span<const Point3> corners) const {
   const Box<3> box = Box<3>::of(corners);
-  for (std::size_t t = 0; t < boxes_.size(); ++t)
+  for (const std::uint32_t t : used_)
     if (might_hold(t, box) && holds(t, corners)) return true;
   return false;
 }
@@ -156,7 +152,7 @@ bool Cover::has_one_near(std::span<const Point3> corners) const {
 std::size_t Cover::nearest(const Point3& p) const {
   std::size_t best = size();
   double square = square_;
-  for (std::size_t t = 0; t < boxes_.size(); ++t) {
+  for (const std::uint32_t t : used_) {
     if (boxes_[t].squared_distance_to(p) > square) continue;
     const auto& c = triangles_[t].corners;
     const double d = TriangleDistance(p, c[0], c[1], c[2]).square();

@@ -13,7 +13,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <new>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -63,21 +65,26 @@ bool cut(const CutPolygon& polygon, const Vector<3>& normal, double offset, CutP
 /// The part of it in a box; of no corners if none is. @returns false if it has too many corners
 bool cut_to_box(CutPolygon& polygon, const Box<3>& box);
 
-/// Triangles that are to cover something. May be asked by one thread at a time.
+/// Triangles that are to cover something, or some of them: what is asked is asked of those in use. May be asked by one thread at
+/// a time.
 class Cover {
  public:
   explicit Cover(double e) : e_(e), square_(e * e) {}
-  void clear() {
-    boxes_.clear();
-    triangles_.clear();
-  }
-  /// Its corners in the order of their coordinates, so that no decision hangs on their numbers.
-  void add(const std::array<Point3, 3>& sorted_corners) { add(sorted_corners, Box<3>::of(sorted_corners)); }
-  /// @param box  of the corners
-  void add(const std::array<Point3, 3>& sorted_corners, const Box<3>& box);
-  /// Those of another whose boxes meet this one.
-  void add_meeting(const Cover& other, const Box<3>& box);
+  /// Its corners in the order of their coordinates, so that no decision hangs on their numbers. Takes it in use.
+  void add(const std::array<Point3, 3>& sorted_corners);
   std::size_t size() const { return triangles_.size(); }
+  /// Takes those with is_used(number, box) in use, and no others.
+  template <class IsUsed>
+  void use(const IsUsed& is_used) {
+    used_.clear();
+    for (std::uint32_t t = 0; t < boxes_.size(); ++t)
+      if (is_used(t, boxes_[t])) used_.push_back(t);
+  }
+  /// Takes those in use that were added from the first of these numbers on, and before the second.
+  void use_between(std::size_t first, std::size_t last) {
+    used_.resize(last - first);
+    std::iota(used_.begin(), used_.end(), static_cast<std::uint32_t>(first));
+  }
   /// Is each point of the polygon within e of these? @param first, each  so many parts are looked at, and so many more a triangle
   bool covers(const CutPolygon& polygon, std::size_t first, std::size_t each) const;
   /// Is each point of a polygon within e of one of these? Then they cover it.
@@ -103,6 +110,7 @@ class Cover {
   bool look_at_halves(const CutPolygon& polygon, int depth, std::size_t& left) const;
 
   double e_, square_;
+  std::vector<std::uint32_t> used_;
   std::vector<Box<3>> boxes_;                // beside the triangles, as most are looked at no closer
   mutable std::vector<Triangle> triangles_;  // planes are made when they are asked for
 };

@@ -111,27 +111,6 @@ bool keeps_curves(const ChangingSurface& s, const SurfaceChange& change, double 
 
 namespace {
 
-/// Given triangles whose boxes meet one.
-struct NearGiven {
-  std::vector<const GivenSurface::Triangle*> triangles;
-  std::vector<Box<3>> boxes;
-
-  NearGiven(const GivenSurface& given, const Box<3>& box) {
-    given.triangles_meeting(box, [&](std::uint32_t g) {
-      triangles.push_back(&given.triangles()[g]);
-      boxes.push_back(Box<3>::of(triangles.back()->corners));
-    });
-  }
-  bool reach(const Point3& p, std::uint32_t klass, double square) const {
-    for (std::size_t k = 0; k < boxes.size(); ++k) {
-      if (triangles[k]->klass != klass || boxes[k].squared_distance_to(p) > square) continue;
-      const auto& c = triangles[k]->corners;
-      if (is_near_triangle(p, c[0], c[1], c[2], square)) return true;
-    }
-    return false;
-  }
-};
-
 /// The centre of a triangle and the middles of its edges.
 std::array<Point3, 4> samples_of(const std::array<Point3, 3>& t) {
   Point3 centre;
@@ -148,18 +127,24 @@ bool is_near_given(const ChangingSurface& s, const SurfaceChange& change, double
     come.push_back(sorted(triangle_after(s.complex, change, f)));
     all.add(Box<3>::of(come.back()));
   }
-  const NearGiven near(s.given, all.widened(e));
-  // One point that is farther from all proves a no, mostly before anything is cut.
-  for (std::size_t k = 0; k < come.size(); ++k)
-    for (const Point3& p : samples_of(come[k]))
-      if (!near.reach(p, change.come[k].klass, e * e)) return false;
   Cover cover(e);
+  std::vector<std::uint32_t> classes;  // of its triangles
+  s.given.triangles_meeting(all.widened(e), [&](std::uint32_t g) {
+    cover.add(s.given.triangles()[g].corners);
+    classes.push_back(s.given.triangles()[g].klass);
+  });
+  // One point that is farther from all proves a no, mostly before anything is cut.
+  std::uint32_t used = no_index;
+  for (std::size_t k = 0; k < come.size(); ++k) {
+    const std::uint32_t klass = change.come[k].klass;
+    if (klass != used) cover.use([&](std::size_t t, const Box<3>&) { return classes[t] == klass; });
+    used = klass;
+    for (const Point3& p : samples_of(come[k]))
+      if (!cover.reaches(p)) return false;
+  }
   for (std::size_t k = 0; k < come.size(); ++k) {
     const Box<3> box = Box<3>::of(come[k]).widened(e);
-    cover.clear();
-    for (std::size_t i = 0; i < near.boxes.size(); ++i)
-      if (near.triangles[i]->klass == change.come[k].klass && near.boxes[i].meets(box))
-        cover.add(near.triangles[i]->corners, near.boxes[i]);
+    cover.use([&](std::size_t t, const Box<3>& own) { return classes[t] == change.come[k].klass && own.meets(box); });
     if (!cover.covers(CutPolygon(come[k]), numbers::more_parts, numbers::more_parts_each)) return false;
   }
   return true;
@@ -172,24 +157,28 @@ class GivenCover {
  public:
   /// @param all  the box of the faces that go, grown by e
   GivenCover(const ChangingSurface& s, const SurfaceChange& change, double e, std::uint32_t klass, const Box<3>& all)
-      : s_(s), change_(change), e_(e), klass_(klass), all_(all), come_(e), stay_(e) {
+      : s_(s), change_(change), e_(e), klass_(klass), all_(all), cover_(e) {
     for (const SurfaceFace& f : change.come)
-      if (f.klass == klass) come_.add(sorted(triangle_after(s.complex, change, f)));
+      if (f.klass == klass) cover_.add(sorted(triangle_after(s.complex, change, f)));
+    come_ = cover_.size();
   }
 
   bool covers(const std::array<Point3, 3>& given) {
-    if (come_.has_one_near(given)) return true;
+    cover_.use_between(0, come_);
+    if (cover_.has_one_near(given)) return true;
     find_staying();
-    if (stay_.has_one_near(given)) return true;
+    cover_.use_between(come_, cover_.size());
+    if (cover_.has_one_near(given)) return true;
     CutPolygon part(given);
     if (!cut_to_box(part, all_)) return false;
     const auto corners = part.all();
     if (corners.empty()) return true;
-    const bool may_come_alone = std::all_of(corners.begin(), corners.end(), [&](const Point3& p) { return come_.reaches(p); });
-    if (may_come_alone && come_.covers(part, numbers::first_parts, numbers::first_parts_each)) return true;
-    Cover more(come_);
-    more.add_meeting(stay_, Box<3>::of(corners).widened(e_));
-    return more.covers(part, numbers::more_parts, numbers::more_parts_each);
+    cover_.use_between(0, come_);
+    const bool may_come_alone = std::all_of(corners.begin(), corners.end(), [&](const Point3& p) { return cover_.reaches(p); });
+    if (may_come_alone && cover_.covers(part, numbers::first_parts, numbers::first_parts_each)) return true;
+    const Box<3> box = Box<3>::of(corners).widened(e_);
+    cover_.use([&](std::size_t t, const Box<3>& own) { return t < come_ || own.meets(box); });
+    return cover_.covers(part, numbers::more_parts, numbers::more_parts_each);
   }
 
  private:
@@ -198,7 +187,7 @@ class GivenCover {
     has_staying_ = true;
     constexpr double with_rounding = 1.001;  // what is cut to the box may be off it by some ulps
     s_.boxes.meeting(all_.widened(with_rounding * e_), [&](std::uint32_t f) {
-      if (s_.complex.faces[f].klass == klass_ && !change_.is_gone(f)) stay_.add(sorted(s_.complex.triangle(f)));
+      if (s_.complex.faces[f].klass == klass_ && !change_.is_gone(f)) cover_.add(sorted(s_.complex.triangle(f)));
     });
   }
 
@@ -207,7 +196,8 @@ class GivenCover {
   double e_;
   std::uint32_t klass_;
   Box<3> all_;
-  Cover come_, stay_;
+  Cover cover_;  // faces that come, then, once they are looked for, those that stay
+  std::size_t come_ = 0;
   bool has_staying_ = false;
 };
 
@@ -223,7 +213,8 @@ bool is_given_near(const ChangingSurface& s, const SurfaceChange& change, double
     gone.push_back(Box<3>::of(c.triangle(f)).widened(e));
     all.add(gone.back());
   }
-  const NearGiven near(s.given, all);
+  std::vector<std::uint32_t> near;
+  s.given.triangles_meeting(all, [&](std::uint32_t g) { near.push_back(g); });
   for (const std::uint32_t klass : classes) {
     GivenCover cover(s, change, e, klass, all);
     const auto is_asked = [&](const Box<3>& box) {
@@ -231,8 +222,10 @@ bool is_given_near(const ChangingSurface& s, const SurfaceChange& change, double
         if (gone[k].meets(box) && c.faces[change.gone[k]].klass == klass) return true;
       return false;
     };
-    for (std::size_t i = 0; i < near.boxes.size(); ++i)
-      if (near.triangles[i]->klass == klass && is_asked(near.boxes[i]) && !cover.covers(near.triangles[i]->corners)) return false;
+    for (const std::uint32_t g : near) {
+      const GivenSurface::Triangle& t = s.given.triangles()[g];
+      if (t.klass == klass && is_asked(Box<3>::of(t.corners)) && !cover.covers(t.corners)) return false;
+    }
   }
   return true;
 }
