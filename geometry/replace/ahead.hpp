@@ -41,8 +41,8 @@ class AheadQueue {
   /// Takes the first one off. try_it(candidate, trial) tries one, where it may be tried at all; several threads call it at once.
   template <class TryIt>
   Candidate pop(const TryIt& try_it) {
-    if (next_ == front_.size()) look_ahead(try_it);
-    is_of_front_ = next_ < front_.size() && (heap_.empty() || !(front_[next_].candidate < waiting_[heap_.front().slot]));
+    if (is_heap_before_front() && changer_.looks_ahead()) look_ahead(try_it);
+    is_of_front_ = !is_heap_before_front();
     return is_of_front_ ? front_[next_++].candidate : take();
   }
   /// What came of the one that was taken off last. @pre nothing has changed since
@@ -83,24 +83,33 @@ class AheadQueue {
     return waiting_[slot];
   }
 
+  bool is_heap_before_front() const {
+    return next_ == front_.size() || (!heap_.empty() && front_[next_].candidate < waiting_[heap_.front().slot]);
+  }
+  /// Puts the first of the heap in order among those of the front that are left, and tries them at once.
   template <class TryIt>
   void look_ahead(const TryIt& try_it) {
-    front_.clear();
+    front_.erase(front_.begin(), front_.begin() + static_cast<std::ptrdiff_t>(next_));
     next_ = 0;
-    changer_.begin_changes();
-    if (!changer_.looks_ahead()) return;
-    while (front_.size() < numbers::tried_ahead && !heap_.empty()) front_.push_back({take(), {}, false});
-    changer_.bulk().parts(front_.size(), [&](std::size_t k) {
-      front_[k].trial.is_ahead = true;
-      front_[k].is_tried = try_it(front_[k].candidate, front_[k].trial);
+    if (front_.empty()) changer_.begin_changes();
+    const std::size_t left = front_.size();
+    if (left > 2 * numbers::tried_ahead) return;  // what is tried too long before its turn is tried in vain
+    const std::size_t most = std::max(numbers::tried_ahead, left + numbers::tried_ahead / 4);
+    while (front_.size() < most && !heap_.empty()) front_.push_back({take(), {}, false});
+    changer_.bulk().parts(front_.size() - left, [&](std::size_t k) {
+      Entry& e = front_[left + k];
+      e.trial.ahead_of = changer_.changes();
+      e.is_tried = try_it(e.candidate, e.trial);
     });
+    std::inplace_merge(front_.begin(), front_.begin() + static_cast<std::ptrdiff_t>(left), front_.end(),
+                       [](const Entry& a, const Entry& b) { return b.candidate < a.candidate; });
   }
 
   Changer& changer_;
   std::vector<Handle> heap_;
   std::vector<Candidate> waiting_;   // by slot
   std::vector<std::uint32_t> free_;  // slots
-  std::vector<Entry> front_;         // the first of the queue as it was, in their order
+  std::vector<Entry> front_;         // those that were tried ahead, in their order
   std::size_t next_ = 0;             // of these
   bool is_of_front_ = false;         // the one that was taken off last
 };

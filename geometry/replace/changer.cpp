@@ -82,7 +82,7 @@ Verdict Changer::verdict_of(SurfaceChange& change, const ChangeGoal& goal) const
 }
 
 Verdict Changer::judge(SurfaceChange change, const ChangeGoal& goal, Trial& trial) const {
-  if (trial.is_ahead && change.kind == SurfaceChange::Kind::split) {
+  if (trial.ahead_of && change.kind == SurfaceChange::Kind::split) {
     // Wedges are looked for as far as half of the heights of the faces at the edge, which is less than their box is long.
     Box<3> box = Box<3>::empty();
     for (const std::uint32_t f : change.gone) box.add(s_.boxes[f]);
@@ -97,7 +97,7 @@ Verdict Changer::judge(SurfaceChange change, const ChangeGoal& goal, Trial& tria
 }
 
 void Changer::read_around(std::span<const std::uint32_t> vertices, Trial& trial) const {
-  if (!trial.is_ahead) return;
+  if (!trial.ahead_of) return;
   // Beyond the faces at the neighbours, coverage looks for faces twice as far as the distance, which is E at most, from what
   // goes; what comes is no farther than `farthest_place`, and gaps are looked for beyond that.
   constexpr double margin = std::max(2.01, numbers::farthest_place + 2 * numbers::narrow_gap);
@@ -106,9 +106,13 @@ void Changer::read_around(std::span<const std::uint32_t> vertices, Trial& trial)
   const auto add_faces_at = [&](std::uint32_t v) {
     for (const std::uint32_t f : s.faces_at[v]) box.add(s_.boxes[f]);
   };
-  for (const std::uint32_t v : vertices)
+  const auto is_one = [&](std::uint32_t w) { return std::find(vertices.begin(), vertices.end(), w) != vertices.end(); };
+  for (const std::uint32_t v : vertices) {
+    add_faces_at(v);
     for (const std::uint32_t f : s.faces_at[v])
-      for (const std::uint32_t w : s.faces[f].corners) add_faces_at(w);
+      for (const std::uint32_t w : s.faces[f].corners)
+        if (!is_one(w)) add_faces_at(w);
+  }
   trial.read.add(box.widened(margin * tolerance_));
 }
 

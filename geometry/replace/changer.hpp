@@ -37,7 +37,8 @@ enum class Verdict : std::uint8_t { yes, angle, fold, size, distance, meets, gap
 struct Trial {
   std::vector<Verdict> refused;         ///< in their order
   std::optional<SurfaceChange> change;  ///< that passed
-  bool is_ahead = false;                ///< other changes may be made before this one: `read` has to be known
+  /// How many changes had been made, where others may be made before this one: then `read` has to be known.
+  std::optional<std::size_t> ahead_of;
   /// Where all lies that had a part in it: a face, point or kept edge that does not meet this box had none.
   Box<3> read = Box<3>::empty();
 };
@@ -63,10 +64,13 @@ class Changer {
   const Bulk& bulk() const { return bulk_; }
   /// Forgets where changes were made before.
   void begin_changes() { changed_.clear(); }
-  /// Has a change been made since begin_changes() that a trial might have gone otherwise for? The box of the faces that went
-  /// and came meets what the trial has read: else these had no part in it, and nothing else has changed.
+  /// How many have been made since begin_changes().
+  std::size_t changes() const { return changed_.size(); }
+  /// Has a change been made since that a trial made ahead might have gone otherwise for? The box of the faces that went and came
+  /// meets what the trial has read: else these had no part in it, and nothing else has changed.
   bool has_changed(const Trial& trial) const {
-    return std::any_of(changed_.begin(), changed_.end(), [&](const Box<3>& box) { return box.meets(trial.read); });
+    return std::any_of(changed_.begin() + static_cast<std::ptrdiff_t>(*trial.ahead_of), changed_.end(),
+                       [&](const Box<3>& box) { return box.meets(trial.read); });
   }
 
   const SurfaceComplex& complex() const { return s_.complex; }
