@@ -78,7 +78,7 @@ class Tetrahedralize(unittest.TestCase):
             pgdr.tetrahedralize(plc, BOX)
 
     def test_refusals_say_what_to_use(self):
-        for keywords, word in (({"order": 2}, "order"), ({"nobisect": True}, "nobisect"), ({"bgmesh": 1}, "bgmesh"),
+        for keywords, word in (({"order": 2}, "order"), ({"nobisect": True}, "nobisect"), ({"cdt": True}, "cdt"),
                                ({"switches": "pY"}, "leave Y out"), ({"switches": "pr"}, "r of"), ({"switches": "pu"}, "'u'"),
                                ({"switches": "pq", "minratio": 2}, "two ways"), ({"switches": "pq1.2.3"}, "1.2.3"),
                                ({"maxvolume": 1, "max_volume": 1}, "the same")):

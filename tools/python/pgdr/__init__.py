@@ -8,7 +8,7 @@
 >>> r.points.shape[1], r.cells.shape[1], bool(r.check(square))
 (2, 3, True)
 """
-from . import _convert, _page, _polygons, _show  # noqa: F401: methods find their functions (_doors.py)
+from . import _convert, _page, _polygons, _show, tetgen, triangle  # noqa: F401: methods find their functions (_doors.py)
 from ._bodies import Bodies, BodyRegion, with_bodies
 from ._check import Finding, check, diagnose, info
 from ._errors import (CancelledError, DiagnosedError, Diagnostic, Error, FileError, InputError, ResourceError, UsageError)
@@ -27,9 +27,9 @@ from ._tetgen import Tetrahedralization, tetrahedralize
 from ._triangle import triangulate
 
 __all__ = ["Bodies", "BodyRegion", "CancelledError", "CheckFinding", "CheckReport", "DiagnosedError", "Diagnostic",
-           "Elements", "Error", "Estimate", "Field", "FileError", "Finding", "Gap", "InputError", "Joined", "JoinedLabel",
-           "Mesh", "Page", "Periodic", "Plc", "Progress", "Proposal", "Reason", "ReplacedSurface", "ResourceError",
-           "Shared", "SharpAngle", "StopSource", "Tetrahedralization", "UsageError", "__version__", "check",
-           "close_planar_openings", "diagnose", "estimate", "info", "join", "limit_growth", "mesh", "replace_surface",
-           "resolve_crossings", "sizes_at_points", "sizes_on_mesh", "smallest", "tetrahedralize", "triangulate",
-           "with_bodies", "with_convex_hull"]
+           "Elements", "Error", "Estimate", "Field", "FileError", "Finding", "Gap", "InputError", "Joined",
+           "JoinedLabel", "Mesh", "Page", "Periodic", "Plc", "Progress", "Proposal", "Reason", "ReplacedSurface",
+           "ResourceError", "Shared", "SharpAngle", "StopSource", "Tetrahedralization", "UsageError", "__version__",
+           "check", "close_planar_openings", "diagnose", "estimate", "info", "join", "limit_growth", "mesh",
+           "replace_surface", "resolve_crossings", "sizes_at_points", "sizes_on_mesh", "smallest", "tetgen",
+           "tetrahedralize", "triangle", "triangulate", "with_bodies", "with_convex_hull"]

@@ -33,9 +33,11 @@ class Block(NamedTuple):
     numbers: npt.NDArray[np.int64]  #: (n,) markers, or labels where the cells fill what is to be meshed
 
 
-def block_of(kind: str, rows: Sequence[Any], numbers: npt.NDArray[np.int64]) -> Block:
+def block_of(kind: str, rows: Union[Rows, Sequence[Any]], numbers: npt.NDArray[np.int64]) -> Block:
     """A block of rows of indices, which are looked at."""
     name = f"cells of the type {kind}"
+    if kind == "polygon" and isinstance(rows, np.ndarray) and rows.ndim == 2 and rows.shape[1] > 2 and len(rows):
+        return Block(kind, _arguments.indices(name, rows, None), numbers)
     if kind == "polygon":
         sizes = np.array([np.size(row) for row in rows], dtype=np.int64)
         if (sizes < 3).any():
@@ -100,9 +102,10 @@ def _of_walls(points: npt.NDArray[Any], blocks: Sequence[Block], flat: bool) -> 
     if not sum(len(block.corners) for block in faces):
         raise usage("there are no faces: a closed surface is needed, or, for a mesh in 2D, the plane z = 0")
     uniform = [block.corners for block in faces if isinstance(block.corners, np.ndarray) and len(block.corners)]
-    facets: Any = [row.tolist() for block in faces for row in block.corners]
     if len(uniform) == len(faces) and len({corners.shape[1] for corners in uniform}) == 1:
-        facets = np.concatenate(uniform)
+        facets: Any = np.concatenate(uniform)
+    else:
+        facets = [row.tolist() for block in faces for row in block.corners]
     return Plc(points, segments, facets, markers=np.concatenate([block.numbers for block in faces]), segment_markers=segment_markers)
 
 
@@ -110,6 +113,8 @@ def _by_size(block: Block) -> List[Block]:
     """Polygons of three corners as triangles, of four as quadrilaterals, and the others."""
     if block.kind != "polygon":
         return [block]
+    if isinstance(block.corners, np.ndarray) and block.corners.shape[1] <= 4:
+        return [Block("triangle" if block.corners.shape[1] == 3 else "quad", block.corners, block.numbers)]
     sizes = np.array([len(row) for row in block.corners], dtype=np.int64)
     parts = []
     for kind, chosen in (("triangle", sizes == 3), ("quad", sizes == 4), ("polygon", sizes > 4)):

@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 import importlib
-from typing import Any, Dict, Iterable, List, Optional, Sequence, Tuple
+from typing import Any, Dict, Iterable, List, NamedTuple, Sequence, Tuple
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _arguments
-from ._cells import FACES, LINES, VOLUMES, block_of, input_of, is_flat
+from ._cells import FACES, LINES, VOLUMES, Rows, block_of, input_of, is_flat
 from ._doors import door
 from ._errors import usage
 from ._mesh import Mesh
@@ -21,6 +21,7 @@ _LABELS = ("region", "gmsh:physical", "medit:ref")  # of cells
 _VTK_TRIANGLE, _VTK_TETRA = 5, 10
 _VTK_KINDS = {1: "vertex", 2: "vertex", 3: "line", 4: "line", _VTK_TRIANGLE: "polygon", 7: "polygon", 9: "polygon", _VTK_TETRA: "tetra",
               12: "hexahedron", 13: "wedge", 14: "pyramid"}
+_VTK_OF_WIDTH = {2: 3, 3: _VTK_TRIANGLE, 4: _VTK_TETRA}
 
 
 def _package(name: str) -> Any:
@@ -129,32 +130,94 @@ def _field_data(mesh: Mesh) -> Dict[str, npt.NDArray[Any]]:
     return data
 
 
+def _padded(rows: npt.NDArray[Any]) -> npt.NDArray[np.int64]:
+    """Rows of indices, each behind its length, as VTK has them."""
+    made: npt.NDArray[np.int64] = np.pad(np.asarray(rows, dtype=np.int64), ((0, 0), (1, 0)), constant_values=rows.shape[1]).reshape(-1)
+    return made
+
+
+def _spatial(points: npt.NDArray[Any]) -> npt.NDArray[np.float64]:
+    """With z = 0 in 2D."""
+    made: npt.NDArray[np.float64] = np.pad(np.asarray(points), ((0, 0), (0, 3 - points.shape[1])))
+    return np.ascontiguousarray(made)
+
+
 @door
-def to_pyvista(mesh: Mesh) -> Any:
-    """A pyvista.UnstructuredGrid of the cells, with cell data `region`; z = 0 in 2D. Raises ImportError without pyvista."""
+def to_pyvista(mesh: Mesh, constraints: bool = False) -> Any:
+    """See Mesh.to_pyvista."""
     pyvista = _package("pyvista")
-    cells = np.asarray(mesh.cells, dtype=np.int64)
-    padded = np.column_stack([np.full(len(cells), cells.shape[1], dtype=np.int64), cells]).reshape(-1)
-    points = np.asarray(mesh.points)
-    if mesh.dimension == 2:
-        points = np.column_stack([points, np.zeros(len(points))])
-    kinds = np.full(len(cells), _VTK_TRIANGLE if mesh.dimension == 2 else _VTK_TETRA, dtype=np.uint8)
-    grid = pyvista.UnstructuredGrid(padded, kinds, np.ascontiguousarray(points))
-    grid.cell_data["region"] = np.array(mesh.regions)
+    blocks = [(np.asarray(mesh.cells), np.asarray(mesh.regions), np.zeros(len(mesh.cells), dtype=np.int32))]
+    if _arguments.flag("constraints", constraints):
+        blocks += [(np.asarray(rows), np.zeros(len(rows)), np.asarray(markers)) for _, rows, markers in _constraints(mesh)]
+    kinds = np.concatenate([np.full(len(rows), _VTK_OF_WIDTH[rows.shape[1]], dtype=np.uint8) for rows, _, _ in blocks])
+    grid = pyvista.UnstructuredGrid(np.concatenate([_padded(rows) for rows, _, _ in blocks]), kinds, _spatial(mesh.points))
+    grid.cell_data["region"] = np.concatenate([labels for _, labels, _ in blocks])
+    if constraints:
+        grid.cell_data["marker"] = np.concatenate([markers for _, _, markers in blocks])
+    if np.asarray(mesh.point_markers).size:
+        grid.point_data["marker"] = np.array(mesh.point_markers)
+    for name, pair in _field_data(mesh).items():
+        grid.field_data[name] = pair
     return grid
 
 
-def _unpadded(name: str, flat: object) -> List[npt.NDArray[np.int64]]:
+@door
+def surface_to_pyvista(plc: Plc) -> Any:
+    """A pyvista.PolyData of the facets of an input, with cell data `marker`. Of a facet of several polygons each is a face."""
+    pyvista = _package("pyvista")
+    facets, markers = plc.facets, np.asarray(plc.markers)
+    if isinstance(facets, np.ndarray):
+        made = pyvista.PolyData(_spatial(plc.points), _padded(facets))
+    else:
+        polygons = [facet if isinstance(facet[0], list) else [facet] for facet in facets]
+        markers = np.repeat(markers, [len(part) for part in polygons])
+        made = pyvista.PolyData(_spatial(plc.points), np.array([n for part in polygons for row in part for n in (len(row), *row)]))
+    made.cell_data["marker"] = markers
+    return made
+
+
+class _Lists(NamedTuple):
+    """Lists of indices, one behind the other."""
+
+    flat: npt.NDArray[np.int64]
+    sizes: npt.NDArray[np.int64]
+
+    def rows(self, chosen: npt.NDArray[np.bool_]) -> Rows:
+        """Some of them: an array where all have one size."""
+        sizes, flat = self.sizes[chosen], self.flat[np.repeat(chosen, self.sizes)]
+        if (sizes == sizes[:1]).all():
+            return flat.reshape(len(sizes), -1)
+        return np.split(flat, np.cumsum(sizes)[:-1])
+
+
+def _unpadded(name: str, given: object) -> _Lists:
     """Lists of indices, each behind its length, as VTK keeps them."""
-    numbers = np.asarray(flat, dtype=np.int64).reshape(-1)
-    lists, at = [], 0
-    while at < len(numbers):
-        end = at + 1 + int(numbers[at])
-        if numbers[at] < 0 or end > len(numbers):
-            raise usage(f"{name} is damaged: a list of {numbers[at]} indices at {at} does not fit")
-        lists.append(numbers[at + 1:end])
-        at = end
-    return lists
+    numbers = np.asarray(given, dtype=np.int64).reshape(-1)
+    count = len(numbers)
+    if not count:
+        return _Lists(numbers, numbers)
+    width = int(numbers[0]) + 1
+    starts = np.arange(0, count, max(width, 1))
+    if width < 1 or count % width or (numbers[starts] != width - 1).any():
+        starts = _starts(numbers)
+    sizes = numbers[starts]
+    if sizes[-1] < 0 or starts[-1] + 1 + sizes[-1] > count:  # what is before the last one led here
+        raise usage(f"{name} is damaged: a list of {sizes[-1]} indices at {starts[-1]} does not fit")
+    return _Lists(np.delete(numbers, starts), sizes)
+
+
+def _starts(numbers: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:
+    """Where the lists begin, in their order, up to the first that does not fit. After k rounds, the first 2^k of them are known, and
+    the 2^k-th list behind each number."""
+    count = len(numbers)
+    beyond = np.arange(1, count + 1) + numbers
+    beyond = np.append(np.where((numbers < 0) | (beyond > count), count, beyond), count)
+    starts = np.zeros(1, dtype=np.int64)
+    while beyond[0] < count:
+        further = beyond[starts]
+        starts = np.concatenate([starts, further[further < count]])
+        beyond = beyond[beyond]
+    return starts
 
 
 def _numbers(mesh: Any, names: Sequence[str], chosen: npt.NDArray[np.bool_]) -> npt.NDArray[np.int64]:
@@ -163,30 +226,35 @@ def _numbers(mesh: Any, names: Sequence[str], chosen: npt.NDArray[np.bool_]) -> 
     return _numbers_of(data, names, 0, int(chosen.sum()))
 
 
-def _cells_of_grid(mesh: Any) -> Tuple[List[npt.NDArray[np.int64]], npt.NDArray[Any]]:
+def _cells_of_grid(mesh: Any) -> Tuple[_Lists, npt.NDArray[np.str_]]:
     """The corners of each cell of an UnstructuredGrid, and its kind."""
     types = np.asarray(mesh.celltypes)
-    other = sorted(set(types.tolist()) - set(_VTK_KINDS))
+    other = sorted(set(np.unique(types).tolist()) - set(_VTK_KINDS))
     if other:
         raise usage(f"cells of the VTK types {', '.join(map(str, other))} are not taken: the surface of the grid is what is needed, "
                     "which grid.extract_surface() gives")
     cells = _unpadded("cells", mesh.cells)
-    if len(cells) != len(types):
-        raise usage(f"cells is damaged: it has {len(cells)} cells, celltypes has {len(types)}")
-    return cells, np.array([_VTK_KINDS[int(t)] for t in types], dtype=object)
+    if len(cells.sizes) != len(types):
+        raise usage(f"cells is damaged: it has {len(cells.sizes)} cells, celltypes has {len(types)}")
+    kinds = np.array([_VTK_KINDS.get(number, "") for number in range(max(_VTK_KINDS) + 1)])
+    return cells, kinds[types]
 
 
-def _cells_of_surface(mesh: Any) -> Tuple[List[npt.NDArray[np.int64]], npt.NDArray[Any]]:
+def _cells_of_surface(mesh: Any) -> Tuple[_Lists, npt.NDArray[np.str_]]:
     """The same of a PolyData, whose cells are its vertices, its lines, its faces, then its strips."""
     if np.size(getattr(mesh, "strips", ())):
         raise usage("strips of triangles are not taken: call triangulate() first")
-    cells: List[npt.NDArray[np.int64]] = []
-    kinds: List[str] = []
-    for name, kind in (("verts", "vertex"), ("lines", "line"), ("faces", "polygon")):
-        lists = _unpadded(name, getattr(mesh, name, ()))
-        cells += lists
-        kinds += [kind] * len(lists)
-    return cells, np.array(kinds, dtype=object)
+    lists = [_unpadded(name, getattr(mesh, name, ())) for name in ("verts", "lines", "faces")]
+    kinds = np.repeat(np.array(["vertex", "line", "polygon"]), [len(part.sizes) for part in lists])
+    return _Lists(np.concatenate([part.flat for part in lists]), np.concatenate([part.sizes for part in lists])), kinds
+
+
+def _pieces(lines: Rows, numbers: npt.NDArray[np.int64]) -> Tuple[Rows, npt.NDArray[np.int64]]:
+    """The edges of lines of two points or more."""
+    if isinstance(lines, np.ndarray) and lines.shape[1] == 2:
+        return lines, numbers
+    rows = [np.stack([row[:-1], row[1:]], axis=1) for row in lines]
+    return np.concatenate(rows), np.repeat(numbers, [len(row) for row in rows])
 
 
 @door
@@ -201,15 +269,19 @@ def from_pyvista(mesh: Any) -> Plc:
         raise TypeError(f"a PolyData or an UnstructuredGrid of PyVista is taken, not {type(mesh).__name__}: other data sets have "
                         "extract_surface() or cast_to_unstructured_grid()")
     points = np.asarray(mesh.points)
-    full = FACES if is_flat(_arguments.points("points", points), kinds.tolist()) else VOLUMES
+    full = FACES if is_flat(_arguments.points("points", points), np.unique(kinds).tolist()) else VOLUMES
     blocks = []
     for kind in (*FACES, *VOLUMES, "line"):
         chosen = kinds == kind
-        rows = [cells[i] for i in np.flatnonzero(chosen)]
-        if rows:
-            numbers = _numbers(mesh, _LABELS if kind in full else _MARKERS, chosen)
-            if kind == "line":  # of two points or more
-                numbers = np.repeat(numbers, [max(len(row) - 1, 0) for row in rows])
-                rows = [row[i:i + 2] for row in rows for i in range(len(row) - 1)]
+        if chosen.any():
+            rows, numbers = cells.rows(chosen), _numbers(mesh, _LABELS if kind in full else _MARKERS, chosen)
+            if kind == "line":
+                rows, numbers = _pieces(rows, numbers)
             blocks.append(block_of(kind, rows, numbers))
-    return input_of(points, blocks)
+    return _named(input_of(points, blocks), _pairs(getattr(mesh, "field_data", {})))
+
+
+def _pairs(field_data: Any) -> Dict[str, Any]:
+    """Field data that may be a name's number and dimension."""
+    arrays = {str(name): np.asarray(field_data[name]) for name in (field_data.keys() if hasattr(field_data, "keys") else ())}
+    return {name: pair for name, pair in arrays.items() if pair.dtype.kind in "fiu" and pair.shape == (2,)}

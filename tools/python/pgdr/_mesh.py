@@ -246,9 +246,11 @@ class Mesh:
         also with cell sets and field data of the names, and with cell data "gmsh:physical"."""
         return through("to_meshio")(self)
 
-    def to_pyvista(self) -> Any:
-        """A pyvista.UnstructuredGrid of the cells, with cell data "region"."""
-        return through("to_pyvista")(self)
+    def to_pyvista(self, constraints: bool = False) -> Any:
+        """A pyvista.UnstructuredGrid of the cells, with cell data "region"; z = 0 in 2D. With `constraints` also, behind them, the
+        subfacets (3D) and the subsegments, whose cell data "marker" is theirs. Names are field data, pairs of the label or marker and
+        the dimension of what has it, which `Plc.from_pyvista` reads. Raises ImportError without pyvista."""
+        return through("to_pyvista")(self, constraints)
 
     def to_html(self, path: _arguments.Path, *, color: Optional[str] = None, point_data: Optional[Mapping[str, npt.ArrayLike]] = None,
                 cell_data: Optional[Mapping[str, npt.ArrayLike]] = None, title: Optional[str] = None) -> Any:

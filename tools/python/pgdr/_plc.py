@@ -13,6 +13,7 @@ from ._doors import through
 from ._ending import WORK
 from ._errors import Diagnostic, usage
 
+_HOLES = 9  # the place of the holes among the arguments of the extension's classes; those of regions follow
 _CORES: Dict[int, Type[_pgdr._Plc]] = {2: _pgdr.Plc2, 3: _pgdr.Plc3}
 
 
@@ -196,6 +197,48 @@ class Plc:
         return made
 
     @classmethod
+    def from_shapely(cls, geometries: Any, *, labels: Optional[Sequence[Any]] = None, sizes: Optional[npt.ArrayLike] = None,
+                     names: Optional[Sequence[Any]] = None, markers: Optional[Sequence[Any]] = None,
+                     tolerance: Optional[float] = None) -> Plc:
+        """2D: the union of polygons, with lines and points in it as constraints. Geometries of Shapely, or what has a
+        `__geo_interface__` (dicts of GeoJSON, too): one, or a list of n rows, each a polygon, line, point, or a collection of these.
+
+        Parameters
+        ----------
+        labels
+            (n,) one a row: cells in its polygons are labelled so, where polygons overlap by the first row. Numbers, or words, which
+            are numbered from 1 and become names. None: rows are numbered from 1.
+        sizes
+            (n,) largest area of the cells in its polygons; 0 or NaN: any.
+        names
+            (n,) names of the labels of rows with polygons, and of the markers of rows with lines.
+        markers
+            (n,) of its edges, numbers or words, as labels; a common edge has that of the first row. None: rows are numbered from 1.
+
+        Edges that neighbours have in common are there once, those of the same ends by being equal, others within the tolerance; what
+        crosses is split there. What polygons enclose and none has is a hole. Heights are left out. Coordinates may be large, as those
+        of a projection are: signs are exact, and nothing has to be moved to the origin. Without polygons, what lines enclose is
+        meshed. Raises UsageError, TypeError, and InputError where the edges enclose nothing.
+
+        >>> import pgdr
+        >>> field = {"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 2], [0, 2]]]}
+        >>> ditch = {"type": "LineString", "coordinates": [[1, 1], [3, 1]]}
+        >>> pgdr.Plc.from_shapely([field, ditch], names=["field", "ditch"])
+        <pgdr.Plc 2D: 6 points, 5 segments, 1 region>
+        """
+        made: Plc = through("from_shapely")(geometries, labels=labels, sizes=sizes, names=names, markers=markers, tolerance=tolerance)
+        return made
+
+    @classmethod
+    def from_geopandas(cls, frame: Any, *, label: Optional[str] = None, size: Optional[str] = None, name: Optional[str] = None,
+                       marker: Optional[str] = None, tolerance: Optional[float] = None) -> Plc:
+        """2D: the rows of a GeoDataFrame or GeoSeries, as `from_shapely` takes them; labels, sizes, names and markers are the columns
+        of these names. Rows without a geometry count for nothing. Areas are in the units of its coordinates, so project it first
+        (`to_crs`): degrees are no lengths."""
+        made: Plc = through("from_geopandas")(frame, label=label, size=size, name=name, marker=marker, tolerance=tolerance)
+        return made
+
+    @classmethod
     def from_mesh(cls, mesh: _Finished) -> Plc:
         """The boundary of a finished mesh, to be meshed again: its subsegments and subfacets with their markers, what else bounds its
         cells or lies between labels, with marker 0; labels and voids as seeds. Points inside are left out but for those of the input;
@@ -228,13 +271,22 @@ class Plc:
     @classmethod
     def from_pyvista(cls, mesh: Any) -> Plc:
         """The faces and lines of a pyvista.PolyData, or the cells of an UnstructuredGrid: lines, triangles, quadrilaterals, polygons,
-        tetrahedra, taken as `from_meshio` takes them, with the same names of cell data. Of other grids, take extract_surface()."""
+        tetrahedra, taken as `from_meshio` takes them, with the same names of cell data, and names in field data as
+        `Mesh.to_pyvista` has them. Of other grids, take extract_surface()."""
         made: Plc = through("from_pyvista")(mesh)
         return made
 
     def with_tolerance(self, tolerance: Optional[float], *, coarse: bool = False) -> Plc:
         """The same input with another tolerance, None being the rounding of the coordinates. It is copied."""
         return self._of(self._core.with_tolerance(_tolerance(tolerance), _arguments.flag("coarse", coarse)))
+
+    def with_seeds(self, *, holes: Optional[npt.ArrayLike] = None, regions: Optional[Iterable[Any]] = None) -> Plc:
+        """The same input with further holes and regions, each as of `Plc`, behind its own. It is copied."""
+        dimension, parts, names = self.__reduce__()[1]
+        further = (_arguments.coordinates("holes", [] if holes is None else holes, dimension),
+                   _arguments.regions([] if regions is None else regions, dimension))
+        own = [np.concatenate([mine, more]) for mine, more in zip(parts[_HOLES:_HOLES + 2], further)]
+        return _restored(dimension, (*parts[:_HOLES], *own, *parts[_HOLES + 2:]), names)
 
     def with_names(self, *, regions: Optional[Mapping[float, str]] = None, markers: Optional[Mapping[int, str]] = None) -> Plc:
         """The same input with these names of labels, and of markers; None: as they are. It is copied."""

@@ -187,6 +187,154 @@ def _seeds(plc: Plc, polygons: Sequence[_Polygon], labels: Optional[_Points]) ->
     return np.array(holes).reshape(-1, 2), []
 
 
+class _Rows(NamedTuple):
+    """What geometries consist of, each with the row that it is of."""
+
+    polygons: List[_Polygon]
+    polygon_rows: List[int]
+    lines: List[_Points]
+    line_rows: List[int]
+    points: List[_Points]
+
+
+def _sorted_out(geometries: Sequence[object]) -> _Rows:
+    made = _Rows([], [], [], [], [])
+    for row, value in enumerate(geometries):
+        if value is None:  # GeoPandas has rows without a geometry
+            continue
+        geometry = _geometry(value)
+        if geometry is None:
+            raise TypeError(f"row {row} must be a geometry of Shapely, or what has a __geo_interface__, not {type(value).__name__}")
+        for kind, at in _simple_parts(geometry):
+            try:
+                if kind == "Polygon":
+                    rings = [_ring(f"ring {i} of a polygon of row {row}", [corner[:2] for corner in ring]) for i, ring in enumerate(at)]
+                    made.polygons.append(_Polygon(rings))
+                    made.polygon_rows.append(row)
+                elif kind == "Point":
+                    made.points.append(_arguments.points(f"a point of row {row}", [at[:2]], 2))
+                else:
+                    made.lines.append(_arguments.points(f"a line of row {row}", [corner[:2] for corner in at], 2))
+                    made.line_rows.append(row)
+            except (TypeError, IndexError):
+                raise usage(f"row {row}: the coordinates of a {kind} must be as GeoJSON has them") from None
+    if not made.polygons and not made.lines:
+        raise usage("there are no polygons and no lines: nothing encloses an area")
+    return made
+
+
+def _simple_parts(geometry: Mapping[str, Any]) -> Iterator[Tuple[str, Any]]:
+    """Polygons, lines and points of a geometry, whatever it is made of."""
+    kind = str(geometry.get("type"))
+    try:
+        if kind in ("GeometryCollection", "FeatureCollection"):
+            for part in geometry["geometries" if kind == "GeometryCollection" else "features"]:
+                yield from _simple_parts(_geometry(part) or {})
+        elif kind == "Feature":
+            yield from _simple_parts(_geometry(geometry["geometry"]) or {"type": "Polygon", "coordinates": ()})
+        elif kind in ("MultiPolygon", "MultiLineString", "MultiPoint"):
+            for at in geometry["coordinates"]:
+                yield kind[len("Multi"):], at
+        elif kind in ("Polygon", "LineString", "LinearRing", "Point"):
+            if len(geometry["coordinates"]):  # else it is empty
+                yield kind, geometry["coordinates"]
+        else:
+            raise usage(f"a geometry of the type {kind} is not taken: there are points, lines, polygons and collections of them")
+    except (KeyError, TypeError, AttributeError) as error:
+        raise usage(f"a {kind} must be as GeoJSON has it: {type(error).__name__}: {error}") from None
+
+
+def _graph(rows: _Rows, markers: _Points) -> Tuple[_Points, _Points, _Points]:
+    """Points, segments and their markers: of equal points one, and of equal segments the one of the first row."""
+    paths = [np.concatenate([ring, ring[:1]]) for polygon in rows.polygons for ring in polygon.rings]
+    owners = [row for polygon, row in zip(rows.polygons, rows.polygon_rows) for _ in polygon.rings]
+    paths, owners = paths + rows.lines, owners + rows.line_rows
+    at = np.concatenate([*paths, *rows.points])
+    begin = np.cumsum([0] + [len(path) for path in paths])
+    ends = np.stack([np.arange(begin[-1] - 1), np.arange(1, begin[-1])], axis=1)
+    kept = np.ones(len(ends), dtype=bool)
+    kept[begin[1:-1] - 1] = False
+    points, first, place = np.unique(at, axis=0, return_index=True, return_inverse=True)
+    order = np.argsort(first)  # as they come
+    rank = np.empty(len(order), dtype=np.int64)
+    rank[order] = np.arange(len(order))
+    segments, owner = rank[place.reshape(-1)][ends[kept]], np.repeat(owners, np.diff(begin))[:-1][kept]
+    owner, segments = owner[segments[:, 0] != segments[:, 1]], segments[segments[:, 0] != segments[:, 1]]
+    by_row = np.argsort(owner, kind="stable")
+    keys = np.sort(segments[by_row], axis=1)
+    chosen = np.sort(by_row[np.unique(keys, axis=0, return_index=True)[1]])
+    return points[order], segments[chosen], markers[owner[chosen]]
+
+
+def _numbered(name: str, values: Optional[Sequence[Any]], count: int) -> Tuple[_Points, Dict[int, str]]:
+    """Labels or markers of rows; of words, numbers in the order in which they come, and what these are called."""
+    if values is None:
+        return np.arange(1, count + 1), {}
+    given = list(values)
+    if len(given) != count:
+        raise usage(f"{name} must have one entry for each of {count} rows, not {len(given)}")
+    if any(isinstance(value, str) for value in given):
+        numbers: Dict[str, int] = {}
+        made = np.array([numbers.setdefault(str(value), len(numbers) + 1) for value in given])
+        return made, {number: word for word, number in numbers.items()}
+    return np.asarray(_arguments.values(name, np.array(given), count, "rows")), {}
+
+
+def _whole(markers: _Points) -> _Points:
+    if not np.array_equal(markers, np.asarray(markers, dtype=np.int64)):
+        raise usage("markers must be whole numbers")
+    return np.asarray(markers, dtype=np.int64)
+
+
+@door
+def from_shapely(geometries: object, *, labels: Optional[Sequence[Any]] = None, sizes: Optional[npt.ArrayLike] = None,
+                 names: Optional[Sequence[Any]] = None, markers: Optional[Sequence[Any]] = None,
+                 tolerance: Optional[float] = None) -> Plc:
+    """See Plc.from_shapely."""
+    given = list(geometries) if isinstance(geometries, (list, tuple, np.ndarray)) else [geometries]
+    rows = _sorted_out(given)
+    of_rows, label_names = _numbered("labels", labels, len(given))
+    numbers, marker_names = _numbered("markers", markers, len(given))
+    largest = np.zeros(len(given))
+    if sizes is not None:
+        largest = np.array(_arguments.reals("sizes", np.nan_to_num(np.asarray(sizes, dtype=np.float64))))
+        if largest.shape != (len(given),) or (largest < 0).any():
+            raise usage(f"sizes must be {len(given)} areas, one a row; 0 or NaN: any size")
+    if names is not None:
+        if len(names) != len(given):
+            raise usage(f"names must have one entry for each of {len(given)} rows, not {len(names)}")
+        label_names = {of_rows[row]: str(names[row]) for row in reversed(rows.polygon_rows)}
+        marker_names = {int(numbers[row]): str(names[row]) for row in reversed(rows.line_rows)}
+    points, segments, owned = _graph(rows, _whole(numbers))
+    plc = resolve_crossings(Plc(points, segments, markers=owned, tolerance=tolerance))[0]
+    if rows.polygons:
+        parts = _parts_of(plc, rows.polygons)
+        of_part = np.array([*rows.polygon_rows, -1])[parts.owners]  # -1: none
+        plc = plc.with_seeds(holes=parts.seeds[of_part < 0] if (of_part < 0).any() else None,
+                             regions=[[*seed, of_rows[row], largest[row]] for seed, row in zip(parts.seeds, of_part) if row >= 0])
+    used = set(plc.regions[:, 2].tolist()), set(plc.markers.tolist())
+    return plc.with_names(regions={float(label): name for label, name in label_names.items() if label in used[0]},
+                          markers={marker: name for marker, name in marker_names.items() if marker in used[1]})
+
+
+@door
+def from_geopandas(frame: Any, *, label: Optional[str] = None, size: Optional[str] = None, name: Optional[str] = None,
+                   marker: Optional[str] = None, tolerance: Optional[float] = None) -> Plc:
+    """See Plc.from_geopandas."""
+    if not hasattr(frame, "geometry"):
+        raise TypeError(f"a GeoDataFrame or GeoSeries is taken, not {type(frame).__name__}")
+
+    def column(of: Optional[str]) -> Optional[List[Any]]:
+        if of is None:
+            return None
+        if of not in getattr(frame, "columns", ()):
+            raise usage(f"there is no column {of!r}: there are {', '.join(map(str, getattr(frame, 'columns', ())))}")
+        return list(frame[of])
+
+    return from_shapely(list(frame.geometry), labels=column(label), sizes=column(size), names=column(name), markers=column(marker),
+                        tolerance=tolerance)
+
+
 @door
 def from_polygons(outer: object, holes: Sequence[object] = (), *, markers: Optional[Sequence[int]] = None,
                   labels: Optional[npt.ArrayLike] = None, tolerance: Optional[float] = None) -> Plc:

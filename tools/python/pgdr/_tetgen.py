@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import re
-from typing import Any, Dict, Iterator, Mapping, Optional
+from typing import Any, Dict, Iterator, Mapping, Optional, Tuple
 
 import numpy as np
 import numpy.typing as npt
@@ -12,23 +12,22 @@ import numpy.typing as npt
 from . import _arguments
 from ._check import check
 from ._errors import InputError, usage
+from ._fields import Field, sizes_on_mesh
 from ._mesh import Mesh
 from ._plc import Plc
 from ._run import mesh
 
 # Switches that change nothing here: p is always meant, z counts from 0 as always, Q and V are about printing, which is never done,
-# f, e, n list what the result has anyway, J keeps unused points as always, d finds intersections as always, B and the others are
-# about files.
-_WITHOUT_EFFECT = "pzQVfenJdBNEFIgk"
+# f, e, n list what the result has anyway, J keeps unused points as always, d finds intersections as always, X asks for inexact signs,
+# which are never needed, B and the others are about files.
+_WITHOUT_EFFECT = "pzQVfenJdBNEFIgkX"
 _REFUSED = {
     "r": "a given mesh is not refined: mesh its surface again, with a smaller size",
     "Y": "the surface may get new points, which the guarantees need: leave Y out",
     "i": "put further points among `points`: those inside are kept",
-    "m": "give pgdr.mesh a size: a function of points, or pgdr.sizes_on_mesh",
     "o": "cells have four corners: leave o2 out",
     "v": "there is no Voronoi diagram",
     "c": "the convex hull is not kept: add a box, or the hull's facets, to the surface",
-    "X": "signs are always exact: leave X out",
     "M": "facets of different markers are never merged: leave M out and give them markers",
     "s": "the mesh is constrained Delaunay: leave s out",
     "D": "the mesh is constrained Delaunay: leave D out",
@@ -38,8 +37,45 @@ _REFUSED = {
     "W": "there are no weighted triangulations",
     "h": "see help(pgdr.tetrahedralize)",
 }
-# Keywords with no equivalent, for which one value says nothing.
-_NEUTRAL: Mapping[str, Any] = {"order": 1, "nobisect": False, "plc": True, "quality": True, "verbose": 0, "quiet": True}
+# Keywords of the class TetGen that change nothing here, whatever their value: about printing, files, what is kept in memory, orders of
+# insertion, and how TetGen gets to the same.
+_SILENT = frozenset((
+    "plc quiet verbose nowarning zeroindex diagnose noexact nostaticfilter facesout edgesout neighout meditview vtkview vtksurfview "
+    "nobound nonodewritten noelewritten nofacewritten noiterationnum nojettison vertexperblock tetrahedraperblock shellfaceperblock "
+    "brio_hilbert flipinsert no_sort hilbert_order hilbert_limit brio_threshold brio_ratio supsteiner_level addsteiner_algo cdtrefine "
+    "unflip_queue_limit fliplinklevel flipstarsize fliplinklevelinc delmaxfliplevel reversetetori").split())
+# Keywords that would change the mesh and have no equivalent: their values that ask for nothing, and what to do instead.
+_NO_LIMITS = "there are no such limits"
+_OWN_OPTIMIZER = "the optimiser has no such setting: optimize=False and mindihedral are what there is"
+_NEUTRAL: Mapping[str, Tuple[Tuple[Any, ...], str]] = {
+    "order": ((1,), "cells have four corners"),
+    "nobisect": ((False,), _REFUSED["Y"].replace("leave Y out", "leave it out")),
+    "refine": ((False,), _REFUSED["r"]),
+    "psc": ((False,), "surfaces are flat piece by piece"),
+    "cdt": ((False,), _REFUSED["D"].replace("leave D out", "leave it out")),
+    "coarsen": ((False,), _REFUSED["R"]),
+    "coarsen_param": ((0,), _REFUSED["R"]),
+    "coarsen_percent": ((1, 1.0), _REFUSED["R"]),
+    "weighted": ((False,), _REFUSED["w"]),
+    "weighted_param": ((0,), _REFUSED["w"]),
+    "insertaddpoints": ((False,), _REFUSED["i"]),
+    "convex": ((False,), _REFUSED["c"]),
+    "nomergefacet": ((False,), "facets of different markers are never merged: give them markers"),
+    "nomergevertex": ((False,), "points within the tolerance meet: epsilon says how near that is"),
+    "voroout": ((False,), "there is no Voronoi diagram in 3D"),
+    "bgmeshfilename": (("", None), "read that mesh and give it as bgmesh"),
+    "facet_separate_ang_tol": ((179.9,), _NO_LIMITS),
+    "collinear_ang_tol": ((179.9,), _NO_LIMITS),
+    "facet_small_ang_tol": ((15, 15.0), _NO_LIMITS),
+    "elem_growth_ratio": ((0, 0.0), "give bgmesh sizes that grow so"),
+    "refine_progress_ratio": ((0.333,), _NO_LIMITS),
+    "maxvolume_length": ((-1, -1.0), "maxvolume is what there is"),
+    **{name: (default, _OWN_OPTIMIZER) for name, default in (
+        ("opt_max_flip_level", (3,)), ("opt_scheme", (7,)), ("opt_iterations", (3,)), ("smooth_cirterion", (1,)), ("smooth_maxiter", (7,)),
+        ("smooth_alpha", (0.3,)), ("optmaxdihedral", (165, 165.0)), ("optminsmtdihed", (179, 179.0)), ("optminslidihed", (179, 179.0)))},
+}
+# A regular tetrahedron with edges h has the circumradius sqrt(6)/4 h.
+_RADIUS_OF_EDGE = 6 ** 0.5 / 4
 
 
 class Tetrahedralization:
@@ -115,6 +151,8 @@ def _switches(text: str) -> Dict[str, Any]:
                 found["optimize"] = number.split("/")[0] not in ("0", "0.")
             elif letter == "C":
                 found["docheck"] = True
+            elif letter == "m":
+                found["metric"] = True
             elif letter not in _WITHOUT_EFFECT:
                 raise usage(f"{text!r} has the unknown switch {letter!r}")
         except ValueError as error:
@@ -125,9 +163,10 @@ def _switches(text: str) -> Dict[str, Any]:
 
 
 def _options(plc: Plc, minratio: Optional[float], mindihedral: Optional[float], max_volume: Optional[float],
-             steinerleft: Optional[int], quality: bool, optimize: bool, labels: bool) -> Dict[str, Any]:
+             steinerleft: Optional[int], quality: bool, optimize: bool, labels: bool, size: Optional[Field]) -> Dict[str, Any]:
     """The arguments of pgdr.mesh."""
-    options: Dict[str, Any] = {"refine": quality or max_volume is not None or bool((plc.regions[:, 4] > 0).any())}
+    sized = max_volume is not None or size is not None
+    options: Dict[str, Any] = {"refine": quality or sized or bool((plc.regions[:, 4] > 0).any())}
     options["optimize"] = optimize and options["refine"]
     if labels:  # volumes without a seed are numbered, and none of them is a void
         options["regions"] = "all"
@@ -141,17 +180,68 @@ def _options(plc: Plc, minratio: Optional[float], mindihedral: Optional[float], 
         options["min_dihedral"] = mindihedral
     if max_volume is not None:
         options["max_volume"] = max_volume
+    if size is not None:
+        options["size"] = size
     if steinerleft is not None and _arguments.whole_number("steinerleft", steinerleft, -2**63, 2**63 - 1) >= 0:
         options["max_vertices"] = len(plc.points) + steinerleft
     return options
 
 
+def _require_neutral(others: Mapping[str, Any]) -> None:
+    """Refuses, by name, keywords that would change the mesh."""
+    for name, value in others.items():
+        if name in _SILENT:
+            continue
+        if name not in _NEUTRAL:
+            raise usage(f"{name} has no equivalent here: see help(pgdr.tetrahedralize) for what there is, and pgdr.mesh")
+        taken, instead = _NEUTRAL[name]
+        if not any(type(value) in (type(one), int, float) and value == one for one in taken):
+            raise usage(f"{name} can only be {taken[0]!r} here, not {value!r}: {instead}")
+
+
+def _size_on(bgmesh: Any) -> Field:
+    """The field of circumradii that a background mesh says, whose points have the edge lengths `target_size`."""
+    if not hasattr(bgmesh, "points") or not hasattr(bgmesh, "celltypes"):
+        raise TypeError(f"bgmesh must be a pyvista.UnstructuredGrid of tetrahedra, not {type(bgmesh).__name__}")
+    cells, kinds = np.asarray(bgmesh.cells, dtype=np.int64), np.asarray(bgmesh.celltypes)
+    if (kinds != 10).any() or cells.size != 5 * kinds.size or not kinds.size:
+        raise usage("bgmesh must consist of tetrahedra with four corners")
+    if "target_size" not in bgmesh.point_data:
+        raise usage("bgmesh needs point data target_size: the wanted length of edges at each point")
+    lengths = _arguments.values("target_size", np.asarray(bgmesh.point_data["target_size"]), len(bgmesh.points), "points")
+    background = Mesh.from_arrays(np.asarray(bgmesh.points, dtype=np.float64), cells.reshape(-1, 5)[:, 1:])
+    return sizes_on_mesh(background, lengths * _RADIUS_OF_EDGE, of="points")
+
+
+def _made(plc: Plc, asked: Mapping[str, Any], size: Optional[Field], threads: int) -> Tetrahedralization:
+    options = _options(plc, asked.get("minratio"), asked.get("mindihedral"), asked.get("max_volume"), asked.get("steinerleft"),
+                       asked.get("quality", True), asked.get("optimize", True), asked.get("regionattrib", False), size)
+    result = mesh(plc, threads=threads, **options)
+    if asked.get("docheck"):
+        report = check(result, plc)
+        if not report:
+            raise InputError(f"the mesh does not pass the check: {report}", code="internal")
+    return Tetrahedralization(result)
+
+
+def _asked(switches: Optional[str], asked: Dict[str, Any]) -> Dict[str, Any]:
+    """What keywords say that are not None, or what switches say."""
+    given = {name: value for name, value in asked.items() if value is not None}
+    if switches is None:
+        return given
+    if given:
+        raise usage(f"{', '.join(given)} and switches are two ways to say the same: give one of them")
+    return _switches(switches)
+
+
 def tetrahedralize(points: Any, faces: Any = None, *, markers: Any = None, holes: Any = None, regions: Any = None,
                    minratio: Optional[float] = None, mindihedral: Optional[float] = None, max_volume: Optional[float] = None,
-                   maxvolume: Optional[float] = None, steinerleft: Optional[int] = None, switches: Optional[str] = None,
-                   threads: int = 0, **others: Any) -> Tetrahedralization:
+                   maxvolume: Optional[float] = None, steinerleft: Optional[int] = None, quality: Optional[bool] = None,
+                   regionattrib: Optional[bool] = None, varvolume: Optional[bool] = None, epsilon: Optional[float] = None,
+                   docheck: Optional[bool] = None, optimize: Optional[bool] = None, bgmesh: Any = None,
+                   switches: Optional[str] = None, threads: int = 0, **others: Any) -> Tetrahedralization:
     """3D: fills a closed surface with tetrahedra, called as PyVista's `tetgen` and `meshpy.tet` are. Any thread; other Python threads
-    run meanwhile.
+    run meanwhile. `pgdr.tetgen.TetGen` is the object of the former.
 
     Parameters
     ----------
@@ -169,14 +259,31 @@ def tetrahedralize(points: Any, faces: Any = None, *, markers: Any = None, holes
         No cell is larger.
     steinerleft : int
         Most points to add; negative: any number.
+    quality : bool
+        False: no bound on shapes.
+    regionattrib : bool
+        A label for each enclosed volume, those without a seed numbered.
+    varvolume : bool
+        False: the largest volumes of regions do not count. They do by default.
+    epsilon : float
+        The tolerance, times the diagonal of all points.
+    docheck : bool
+        The result is checked (`pgdr.check`).
+    optimize : bool
+        False: no optimiser.
+    bgmesh : pyvista.UnstructuredGrid
+        Tetrahedra whose points have the data `target_size`, the wanted length h of edges. No circumradius is above that of a regular
+        tetrahedron of such edges, 0.61 h, at the cell's centroid.
     switches : str
-        TetGen's, which alone count then, beside markers, holes, regions and threads: p, q, q1.5, q1.5/18, a0.1, a (largest volumes of
-        regions), A (a label for each enclosed volume, those without a seed numbered), S100, T1e-8 (times the diagonal of all
-        points), O0 (no optimiser), C (checks the result). z, Q, V, f, e, n, J, d, B, N, E, F, I, g, k change nothing. Others are refused.
+        TetGen's, which alone count then, beside markers, holes, regions, bgmesh and threads: p, q, q1.5, q1.5/18, a0.1, a (largest
+        volumes of regions), A (as regionattrib), S100, T1e-8 (as epsilon), O0 (no optimiser), C (as docheck), m (with bgmesh).
+        z, Q, V, f, e, n, J, d, B, N, E, F, I, g, k, X change nothing. Others are refused.
     threads : int
         As of pgdr.mesh.
     others
-        order=1, nobisect=False, plc=True, quality=True, verbose=0, quiet=True say what is so anyway; other values are refused.
+        Keywords of TetGen's class that change nothing in the mesh (quiet, verbose, zeroindex, plc, facesout, ...) are taken with any
+        value. Those that would change it (order=2, nobisect, refine, coarsen, ...) are refused by name, but for the value that asks
+        for nothing.
 
     Raises
     ------
@@ -193,29 +300,16 @@ def tetrahedralize(points: Any, faces: Any = None, *, markers: Any = None, holes
     >>> nodes.shape, elems.shape
     ((4, 3), (1, 4))
     """
-    for name, value in others.items():
-        if name not in _NEUTRAL:
-            raise usage(f"{name} has no equivalent here: see help(pgdr.tetrahedralize) for what there is, and pgdr.mesh")
-        if value != _NEUTRAL[name]:
-            raise usage(f"{name} can only be {_NEUTRAL[name]!r} here, not {value!r}")
+    _require_neutral(others)
     if max_volume is not None and maxvolume is not None:
         raise usage("max_volume and maxvolume are the same: give one of them")
-    asked: Dict[str, Any] = {"minratio": minratio, "mindihedral": mindihedral, "steinerleft": steinerleft,
-                             "max_volume": maxvolume if max_volume is None else max_volume}
-    if switches is not None:
-        both = [name for name, value in asked.items() if value is not None]
-        if both:
-            raise usage(f"{', '.join(both)} and switches are two ways to say the same: give one of them")
-        asked = _switches(switches)
-    plc = _plc(points, faces, markers, holes, regions, asked)
-    options = _options(plc, asked.get("minratio"), asked.get("mindihedral"), asked.get("max_volume"), asked.get("steinerleft"),
-                       asked.get("quality", True), asked.get("optimize", True), asked.get("regionattrib", False))
-    result = mesh(plc, threads=threads, **options)
-    if asked.get("docheck"):
-        report = check(result, plc)
-        if not report:
-            raise InputError(f"the mesh does not pass the check: {report}", code="internal")
-    return Tetrahedralization(result)
+    asked = _asked(switches, {"minratio": minratio, "mindihedral": mindihedral, "steinerleft": steinerleft, "quality": quality,
+                              "max_volume": maxvolume if max_volume is None else max_volume, "regionattrib": regionattrib,
+                              "varvolume": varvolume, "epsilon": epsilon, "docheck": docheck, "optimize": optimize})
+    size = None if bgmesh is None else _size_on(bgmesh)
+    if "metric" in asked and size is None:
+        raise usage("switch m needs bgmesh, which says the sizes")
+    return _made(_plc(points, faces, markers, holes, regions, asked), asked, size, threads)
 
 
 def _plc(points: Any, faces: Any, markers: Any, holes: Any, regions: Any, asked: Mapping[str, Any]) -> Plc:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import re
-from typing import Any, Dict, Mapping, Tuple
+from typing import Any, Dict, Mapping, Optional, Tuple
 
 import numpy as np
 import numpy.typing as npt
@@ -12,6 +12,7 @@ import numpy.typing as npt
 from . import _arguments
 from ._check import check
 from ._errors import InputError, usage
+from ._fields import Field, Size, smallest
 from ._mesh import Mesh
 from ._plc import Plc, resolve_crossings, with_convex_hull
 from ._run import mesh
@@ -21,19 +22,16 @@ _RESULTS = ("triangles", "triangle_attributes", "triangle_max_area", "neighbors"
 
 # Switches that change nothing here, each for a reason: i, F, l choose algorithms whose triangulations are the same; X asks for
 # inexact arithmetic, which is never needed; Q and V are about printing, which is never done; z counts from 0, as always; I is about
-# names of files.
-_WITHOUT_EFFECT = "iFlXQVzI"
+# names of files; v has nothing to say in this result, pgdr.triangle.voronoi has the diagram.
+_WITHOUT_EFFECT = "iFlXQVzIv"
 _REFUSED = {
     "r": "a given triangulation is not refined: mesh its segments again with a smaller area, in one call",
     "D": "meshes are constrained Delaunay, not conforming Delaunay: leave D out",
     "s": "segments are inserted without new points: leave s out",
-    "u": "there is no function of a C program: call pgdr.mesh(plc, size=f) with a Python function of points",
-    "v": "there is no Voronoi diagram: compute it of the vertices, with scipy.spatial.Voronoi for instance",
     "g": "no file is written: call Mesh.write",
-    "o": "triangles have three corners: leave o2 out, and add the midpoints of `edges` (switch e)",
     "h": "see help(pgdr.triangulate)",
 }
-_PLAIN = "pcjenYAPNEBOC"
+_PLAIN = "pcjenYAPNEBOCu"
 
 
 def _switches(opts: str) -> Dict[str, Any]:
@@ -44,12 +42,14 @@ def _switches(opts: str) -> Dict[str, Any]:
     for letter, number in re.findall(r"(.)([0-9.]*)", opts.replace("-", "").replace(" ", ""), re.DOTALL):
         if letter in _REFUSED:
             raise usage(f"switch {letter} of {opts!r}: {_REFUSED[letter]}")
-        if letter not in _PLAIN + _WITHOUT_EFFECT + "qaS":
+        if letter not in _PLAIN + _WITHOUT_EFFECT + "qaSo":
             raise usage(f"{opts!r} has the unknown switch {letter!r}")
-        if number and letter not in "qaS":
+        if number and letter not in "qaSo":
             raise usage(f"switch {letter} of {opts!r} takes no number")
         if letter == "S" and not number.isdigit():
             raise usage(f"switch S of {opts!r} needs a whole number: the most points to add")
+        if letter == "o" and number not in ("1", "2"):
+            raise usage(f"switch o of {opts!r} is o2: triangles with a vertex in the middle of each edge; or o1")
         if letter in "qa" and number:
             try:
                 found[letter + "#"] = float(number)
@@ -57,7 +57,7 @@ def _switches(opts: str) -> Dict[str, Any]:
                 raise usage(f"switch {letter} of {opts!r}: {number!r} is no number") from None
         elif letter == "S":
             found["S"] = int(number)
-        else:
+        elif letter != "o" or number == "2":
             found[letter] = True
     return found
 
@@ -112,9 +112,9 @@ def _plc(given: Mapping[str, Any], switches: Mapping[str, Any]) -> Plc:
     return with_convex_hull(plc) if "c" in switches or "p" not in switches else plc
 
 
-def _options(switches: Mapping[str, Any], points: int) -> Dict[str, Any]:
+def _options(switches: Mapping[str, Any], points: int, size: Optional[Size]) -> Dict[str, Any]:
     """The arguments of pgdr.mesh."""
-    options: Dict[str, Any] = {"refine": any(key in switches for key in ("q", "q#", "a", "a#"))}
+    options: Dict[str, Any] = {"refine": any(key in switches for key in ("q", "q#", "a", "a#", "u"))}
     angle = switches.get("q#", 20.0 if "q" in switches else 0.0)
     if angle > 0:
         options["min_angle"] = angle
@@ -126,7 +126,20 @@ def _options(switches: Mapping[str, Any], points: int) -> Dict[str, Any]:
         options["keep_boundary"] = True
     if "S" in switches:
         options["max_vertices"] = points + switches["S"]
+    if size is not None:
+        own = options.pop("size", None)
+        options["size"] = size if own is None else _smaller(size, own)
     return options
+
+
+def _smaller(size: Size, own: float) -> Size:
+    """The smaller of two sizes at each point."""
+    if isinstance(size, Field):
+        return smallest(size, own)
+    if callable(size):
+        function = size
+        return lambda at: np.minimum(np.asarray(function(at)), own)
+    return min(size, own)
 
 
 def _numbering(result: Mesh) -> Tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
@@ -211,10 +224,27 @@ def _output(result: Any, switches: Mapping[str, Any]) -> Dict[str, npt.NDArray[A
         out["edges"], out["edge_markers"] = _ints(new[edges]), _columns(markers)
     if "n" in switches:
         out["neighbors"] = _ints(result.neighbors())
+    if "o" in switches:
+        _add_middles(out, result, source, segment_markers)
     return {key: value for key, value in out.items() if "B" not in switches or not key.endswith("_markers")}
 
 
-def triangulate(tri: Mapping[str, Any], opts: str = "") -> Dict[str, npt.NDArray[Any]]:
+def _add_middles(out: Dict[str, npt.NDArray[Any]], result: Mesh, source: npt.NDArray[np.int64], boundary: npt.NDArray[np.int32]) -> None:
+    """A vertex in the middle of each edge, behind the others, and three further corners of each triangle, each opposite one."""
+    edges, markers = _edges(result, boundary)
+    cells, count = np.asarray(result.cells, dtype=np.int64), len(result.points)
+    place = np.searchsorted(edges[:, 0] * count + edges[:, 1], [
+        sides.min(axis=1) * count + sides.max(axis=1) for sides in (cells[:, [1, 2]], cells[:, [2, 0]], cells[:, [0, 1]])])
+    attributes = np.asarray(result.point_attributes)
+    for key, middles in (("vertices", np.asarray(result.points)[edges].mean(axis=1)), ("vertex_markers", _columns(markers)),
+                         ("vertex_attributes", attributes.reshape(count, -1)[edges].mean(axis=1))):
+        if key in out:
+            out[key] = np.concatenate([out[key], middles])
+    if "triangles" in out:
+        out["triangles"] = np.concatenate([out["triangles"], _ints(len(source) + place.T)], axis=1)
+
+
+def triangulate(tri: Mapping[str, Any], opts: str = "", *, size: Optional[Size] = None) -> Dict[str, npt.NDArray[Any]]:
     """2D: triangulates a dict of arrays, called as `triangle.triangulate` is. Any thread; other Python threads run meanwhile.
 
     Parameters
@@ -222,13 +252,16 @@ def triangulate(tri: Mapping[str, Any], opts: str = "") -> Dict[str, npt.NDArray
     tri : dict
         vertices (n, 2); vertex_attributes (n, a); vertex_markers (n,) or (n, 1); and with the switch p: segments (m, 2),
         segment_markers (m,) or (m, 1), holes (k, 2), regions (k, 4) of x, y, attribute, largest area, or (k, 3), without the area. The keys of a result
-        (triangles, neighbors, ...) may be there, too, and mean nothing.
+        (triangles, neighbors, ...) may be there, too, and mean nothing: so a result is an input.
     opts : str
         p: segments, holes and regions count; without p or with c, the convex hull is the boundary. q, q25: no angle below 20
         degrees, or 25; at most 34. a0.1: no triangle is larger; a: nor larger than its region says. A: triangle_attributes. Y, YY:
         no new point on any segment. S100: at most so many new points. j: no vertex without a triangle. e: edges, edge_markers.
         n: neighbors. O: no holes. B, P, N, E: no markers, segments, vertices, triangles in the result. C: the result is checked.
-        i, F, l, X, Q, V, z, I change nothing. r, D, s, u, v, g, o2 are refused.
+        o2: six corners, the last three in the middle of the edges opposite the first three. u: no triangle is larger than `size`
+        says. i, F, l, X, Q, V, z, I, v change nothing. r, D, s, g are refused.
+    size : float, Field, or function
+        With the switch u: the largest area at a triangle's centroid, as of pgdr.mesh.
 
     Returns
     -------
@@ -255,7 +288,10 @@ def triangulate(tri: Mapping[str, Any], opts: str = "") -> Dict[str, npt.NDArray
     """
     switches = _switches(opts)
     plc = _plc(_given(tri, switches), switches)
-    options = _options(switches, len(plc.points))
+    if ("u" in switches) != (size is not None):
+        raise usage("the switch u and size= come together: size is a number, a pgdr.Field, or a function of an (n, 2) array of points "
+                    "that returns their n largest areas")
+    options = _options(switches, len(plc.points), size)
     result = mesh(plc, **options)
     if "C" in switches:
         report = check(result, plc)
