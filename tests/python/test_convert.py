@@ -66,6 +66,25 @@ class Meshio(Meshed):
         self.assertEqual(set(again.regions.tolist()), {7.0})
         self.assertEqual(set(again.subfacet_markers.tolist()), {1, 2, 3, 4, 5, 6})
 
+    def test_cell_sets(self):
+        faces = {"bottom": [0], "sides": [2, 3, 4, 5]}
+        given = meshio.Mesh(POINTS, [("quad", QUADS)], cell_sets={name: [np.array(rows)] for name, rows in faces.items()})
+        plc = pgdr.Plc.from_meshio(given)
+        self.assertEqual((plc.markers.tolist(), plc.marker_names), ([1, 0, 2, 2, 2, 2], {1: "bottom", 2: "sides"}))
+        mesh = self.meshed(pgdr.Plc(POINTS, facets=QUADS, markers=[4, 5, 6, 6, 6, 6], regions=[[0.5, 0.5, 0.5, 7]],
+                                    region_names={7: "steel"}, marker_names={4: "bottom", 6: "sides"}), 1.0)
+        there = mesh.to_meshio()
+        there.field_data = {}
+        again = pgdr.Plc.from_meshio(there)
+        self.assertEqual((again.region_names, again.marker_names), ({7.0: "steel"}, {4: "bottom", 6: "sides"}))
+        del there.cell_data["marker"], there.cell_data["region"], there.cell_data["gmsh:physical"]
+        again = pgdr.Plc.from_meshio(there)
+        self.assertEqual(sorted(again.marker_names.values()), ["bottom", "sides"])
+        self.assertEqual(list(again.region_names.values()), ["steel"])
+        self.meshed(again, 1.0)
+        with self.assertRaisesRegex(pgdr.UsageError, "cell set"):
+            pgdr.Plc.from_meshio(meshio.Mesh(POINTS, [("quad", QUADS)], cell_sets={"a": [np.array([6])]}))
+
     def test_planar_cells(self):
         first = self.meshed(pgdr.Plc.from_polygons(SQUARE, [[[1, 1], [2, 1], [2, 2], [1, 2]]]), 8.0)
         again = self.meshed(pgdr.Plc.from_meshio(first.to_meshio()), 8.0)

@@ -62,10 +62,64 @@ def from_meshio(mesh: Any) -> Plc:
         raise usage(f"cells of the type {', '.join(unknown)} are not taken: there are {', '.join((*LINES, *FACES, *VOLUMES))}"
                     + ("; those with further points on their edges would be curved" if curved else ""))
     full = FACES if is_flat(_arguments.points("points", points), kinds) else VOLUMES
-    made = input_of(points, [block_of(kind, block.data, _numbers_of(mesh.cell_data, _LABELS if kind in full else _MARKERS, number,
-                                                                    len(block.data)))
+    sets = _Sets(mesh, [kind in full for kind in kinds])
+    made = input_of(points, [block_of(kind, block.data, sets.numbers(number, len(block.data)))
                              for number, (kind, block) in enumerate(zip(kinds, mesh.cells)) if kind != "vertex"])
-    return _named(made, getattr(mesh, "field_data", {}) or {})
+    return sets.named(_named(made, getattr(mesh, "field_data", {}) or {}))
+
+
+class _Sets:
+    """The cell sets of a meshio.Mesh. Where cells have no numbers, sets number them from 1, as they come, and a cell has that of the
+    first one that has it; else a set that has just the cells of one number is the name of that. Those of cells that fill the domain are
+    of labels, others of markers."""
+
+    def __init__(self, mesh: Any, fills: Sequence[bool]) -> None:
+        self._data = mesh.cell_data
+        self._fills = list(fills)
+        self._numbers: Dict[int, npt.NDArray[np.int64]] = {}
+        given = getattr(mesh, "cell_sets", None) or {}
+        self._rows = {str(name): [np.zeros(0, dtype=np.int64) if rows is None else np.asarray(rows).astype(np.int64) for rows in parts]
+                      for name, parts in given.items() if not str(name).startswith("gmsh:")}
+
+    def _of(self, fills: bool) -> Dict[str, Dict[int, npt.NDArray[np.int64]]]:
+        """The sets that have such cells: by name and block, the rows."""
+        parts = {name: {block: rows for block, rows in enumerate(parts) if len(rows) and self._fills[block] == fills}
+                 for name, parts in self._rows.items()}
+        return {name: blocks for name, blocks in parts.items() if blocks}
+
+    def numbers(self, block: int, count: int) -> npt.NDArray[np.int64]:
+        """The markers or labels of a block."""
+        names = _LABELS if self._fills[block] else _MARKERS
+        made = _numbers_of(self._data, names, block, count)
+        if not any(name in self._data for name in names):
+            for number, blocks in reversed(list(enumerate(self._of(self._fills[block]).values(), 1))):
+                rows = blocks.get(block, made[:0])
+                if (rows < 0).any() or (rows >= count).any():
+                    raise usage(f"a cell set has a row that block {block} of the cells lacks")
+                made[rows] = number
+        self._numbers[block] = made
+        return made
+
+    def _names(self, fills: bool) -> Dict[int, str]:
+        """Of numbers, the first set that has just their cells."""
+        names: Dict[int, str] = {}
+        for name, blocks in self._of(fills).items():
+            own = {int(number) for block, rows in blocks.items() if block in self._numbers
+                   for number in np.unique(self._numbers[block][rows])}
+            everywhere = sum(int(np.isin(numbers, list(own)).sum()) for block, numbers in self._numbers.items()
+                             if self._fills[block] == fills)
+            if len(own) == 1 and everywhere == sum(map(len, blocks.values())):
+                names.setdefault(own.pop(), name)
+        return names
+
+    def named(self, plc: Plc) -> Plc:
+        """With the names of sets, where numbers have none yet."""
+        labels, markers = set(plc.regions[:, plc.dimension].tolist()), set(plc.markers.tolist())
+        regions: Dict[float, str] = {float(n): name for n, name in self._names(True).items() if n in labels}
+        of_markers = {n: name for n, name in self._names(False).items() if n in markers}
+        if not regions and not of_markers:
+            return plc
+        return plc.with_names(regions={**regions, **plc.region_names}, markers={**of_markers, **plc.marker_names})
 
 
 def _named(plc: Plc, field_data: Dict[str, Any]) -> Plc:

@@ -260,7 +260,8 @@ class Plc:
     def from_meshio(cls, mesh: Any) -> Plc:
         """The surface, or the cells to be meshed again, in a meshio.Mesh, as gmsh and others write them.
 
-        line: segments; triangle, quad, polygon: facets. Their markers: cell data "marker", "gmsh:physical" or "medit:ref", else 0.
+        line: segments; triangle, quad, polygon: facets. Their markers: cell data "marker", "gmsh:physical" or "medit:ref", else the
+        cell set that they are in, numbered from 1; else 0. Names: field data, and cell sets that have just the cells of a number.
         With tetra: also the faces between cells of different labels ("region", "gmsh:physical", "medit:ref") and at the outside; the
         labels and the voids become seeds, and points that cells alone have are left out. 2D, where all z are 0 (or missing) and
         nothing has a volume: faces are the cells. Raises UsageError, with what would help, for other cells.
