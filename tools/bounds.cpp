@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "expression.hpp"
+#include "files.hpp"
 #include "pgdr/error.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/size_fields.hpp"
@@ -17,10 +18,29 @@ namespace {
 
 template <int D>
 SizingField<D> background_sizes(const std::filesystem::path& file, std::optional<double> growth) {
+  if constexpr (D == 2) {
+    if (has_extension(file.string(), {".asc"})) {
+      SizeRaster raster = read_size_raster(file);
+      if (growth) raster.values = limit_growth<2>(raster.mesh, raster.values, *growth);
+      return sizes_on_mesh<2>(raster.mesh, raster.values);
+    }
+  }
   const OutputMesh<D> mesh = read_mesh<D>(file);
   std::vector<double> values = read_vertex_values(std::filesystem::path(file).replace_extension(".sol"), D);
   if (growth) values = limit_growth<D>(mesh, values, *growth);
   return sizes_on_mesh<D>(mesh, values);
+}
+
+template <int D>
+SizingField<D> sizes_at_lines(const std::filesystem::path& file, std::optional<double> growth) {
+  constexpr double usual_growth = 0.2;  // as many mesh generators have it: gentle, and quickly coarse
+  std::vector<std::array<Point<D>, 2>> lines;
+  std::vector<double> sizes;
+  for (const SizedLine<D>& line : read_sized_lines<D>(file)) {
+    lines.push_back(line.ends);
+    sizes.push_back(line.size);
+  }
+  return sizes_along<D>(lines, sizes, growth.value_or(usual_growth));
 }
 
 }  // namespace
@@ -44,6 +64,10 @@ Bounds<D> resolve(const BoundArguments& arguments, double default_radius_edge) {
     else
       bounds.named_sizes.emplace_back(label, std::move(field));
   }
+  if (arguments.size_growth && arguments.size_mesh.empty() && arguments.size_at.empty())
+    refuse("--size-growth needs --size-mesh or --size-at");
+  if (!arguments.size_at.empty())
+    bounds.size = smallest<D>({bounds.size, sizes_at_lines<D>(arguments.size_at, arguments.size_growth)});
   if (!arguments.size_mesh.empty())
     bounds.size = smallest<D>({bounds.size, background_sizes<D>(arguments.size_mesh, arguments.size_growth)});
   if (arguments.max_volume) bounds.max_volume = *arguments.max_volume;

@@ -14,6 +14,35 @@ namespace pgdr::tool {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+void name_stream(std::string& file, const std::string& formats, bool is_output = false) {
+  if (file != "-") return;
+  const std::size_t comma = formats.find(',');
+  const std::string format = is_output && comma != std::string::npos ? formats.substr(comma + 1) : formats.substr(0, comma);
+  if (format.empty())
+    throw UsageError({.code = Errc::bad_option,
+                      .message = "-, standard input or output, needs --format: an extension such as off, or of both off,vtu"});
+  file = stream_name("." + format);
+}
+
+}  // namespace
+
+void name_streams(MeshArguments& a) {
+  if (a.output == "-") a.quiet = true;
+  for (std::string& file : a.inputs) name_stream(file, a.reading.format);
+  name_stream(a.output, a.reading.format, true);
+}
+
+void name_streams(CheckArguments& a) {
+  name_stream(a.mesh, a.reading.format);
+  for (std::string& file : a.inputs) name_stream(file, a.reading.format);
+}
+
+void name_streams(InfoArguments& a) {
+  for (std::string& file : a.files) name_stream(file, a.reading.format);
+}
+
 bool has_extension(const std::string& file, std::initializer_list<const char*> extensions) {
   const std::string own = fs::path(file).extension().string();
   return std::any_of(extensions.begin(), extensions.end(),
@@ -24,7 +53,7 @@ void require_mesh_writable(const std::string& output) {
   if (!is_output_format(output))
     throw UsageError(
         {.code = Errc::unknown_format,
-         .message = "meshes are written as .vtu, .pvtu, .msh, .mesh, .node with .ele, .inp, .mfem, or a folder polyMesh",
+         .message = "meshes are written as .vtu, .pvtu, .msh, .mesh, .node with .ele, .inp, .mfem, .vtk, or a folder polyMesh",
          .file = output});
   const fs::path first = files_of_mesh(output).front();
   if (!fs::path(output).has_extension() && !fs::exists(first.parent_path())) {  // a folder, made with those that it lies in

@@ -14,6 +14,12 @@ namespace pgdr::tool {
 
 /// Upper or lower case.
 bool has_extension(const std::string& file, std::initializer_list<const char*> extensions);
+/// Files that are `-` get the names of standard streams (stream_name), with the format that --format says. A mesh that goes to
+/// standard output is all that is printed there. @throws UsageError bad_option: there is none
+void name_streams(MeshArguments& a);
+void name_streams(CheckArguments& a);
+void name_streams(InfoArguments& a);
+
 /// What can be known of the files of a mesh without writing them is said before the work, not after it.
 /// @throws UsageError unknown_format, FileError cannot_write
 void require_mesh_writable(const std::string& output);

@@ -29,6 +29,7 @@ RefineOptions<D> make_options(const MeshArguments& a, const Bounds<D>& bounds) {
   options.selector = make_selector<D>(selector);
   options.disk = {a.disk.value_or(a.delta > 0 ? DiskType::type2 : usual_disk(selector)), a.delta};
   options.keep_boundary = a.keep_boundary;
+  options.conforming_delaunay = a.conforming_delaunay;
   options.drop_unused_points = a.drop_unused_points;
   options.refine = !a.no_refine;
   options.leaves = a.leaves;

@@ -11,8 +11,10 @@
 #include <map>
 #include <utility>
 
+#include "bound_options.hpp"
 #include "command.hpp"
 #include "console.hpp"
+#include "files.hpp"
 #include "periodic.hpp"
 #include "pgdr/io.hpp"
 #include "selector.hpp"
@@ -81,53 +83,14 @@ bool is_plane(const std::string& text) {
   return text.size() > 2 && text[0] >= 'x' && text[0] <= 'z' && text[1] == '=' && numbers(text.substr(2)).size() == 1;
 }
 
-bool is_region_size(const std::string& text) { return split_region_size(text).has_value(); }
 bool is_seed(const std::string& text) { return split_seed(text).has_value(); }
 bool is_hole(const std::string& text) { return is_seed(text) && text.find('=') == std::string::npos; }
 
-/// @param without  what holds if --radius-edge is not given
-/// @param without_dihedral  likewise
-CLI::Option* add_bounds(CLI::App& app, BoundArguments& b, const std::string& without, const std::string& without_dihedral) {
-  auto* radius_edge = app.add_option("--radius-edge", b.radius_edge,
-                                     "bound on circumradius over shortest edge (default " + without + ")")
-                          ->type_name("R")
-                          ->check(number("> 0", positive));
-  app.add_option(
-         "--size", b.size,
-         "bound on the circumradius (3D) or the area (2D), at the centroid: a number, or an expression in x, y, z, with pi, "
-         "if(c, a, b), pow, hypot, sqrt, exp, min, max, abs, sin and others (docs/usage.md)")
-      ->type_name("S");
-  app.add_option("--region-size", b.region_sizes,
-                 "as --size, for the cells of the region with this label or name alone; repeatable, and all bounds are met")
-      ->type_name("LABEL=S")
-      ->allow_extra_args(false)
-      ->check(shaped(is_region_size, "LABEL=S: a region's label or name, and a size"));
-  auto* size_mesh = app.add_option("--size-mesh", b.size_mesh,
-                                   "as --size, from a background mesh (.mesh, .vtu): a size for each vertex in the .sol "
-                                   "file beside it, interpolated linearly; with --size the smaller counts")
-                        ->type_name("MESH");
-  app.add_option("--size-growth", b.size_growth,
-                 "most that sizes of --size-mesh may grow a unit of length along an edge (2D: their square roots)")
-      ->type_name("G")
-      ->check(number(">= 0", not_negative))
-      ->needs(size_mesh);
-  app.add_option("--max-volume", b.max_volume, "bound on the volume of every tetrahedron (3D)")
-      ->type_name("V")
-      ->check(number("> 0", positive));
-  app.add_option("--min-angle", b.min_angle,
-                 "2D: smallest angle in degrees, for --radius-edge 1/(2 sin A); proved up to 20.7, `mesh` takes "
-                 "up to 34")
-      ->type_name("A")
-      ->check(number("between 0 and 60", [](double v) { return v > 0 && v < 60; }))
-      ->excludes(radius_edge);
-  return app
-      .add_option("--min-dihedral", b.min_dihedral,
-                  "3D: smallest dihedral angle in degrees, up to 35 (default " + without_dihedral + ")")
-      ->type_name("A")
-      ->check(number("between 0 and 35", [](double v) { return v >= 0 && v <= most_min_dihedral; }));
-}
-
 void add_input(CLI::App& app, InputArguments& p) {
+  app.add_option(
+         "--format", p.format,
+         "the format of a file that is -, standard input or output, as an extension: --format off; of both: --format off,vtu")
+      ->type_name("EXT[,EXT]");
   app.add_option(
          "--tolerance", p.tolerance,
          "what lies within T meets, in the units of the coordinates: points are one, or lie on edges and facets, and facets of "
@@ -197,7 +160,7 @@ void add_report(CLI::App& app, std::string& report, bool& quiet) {
 
 void add_output(CLI::App& app, MeshArguments& a) {
   app.add_option("-o,--output", a.output,
-                 "the mesh: .vtu .pvtu .msh .mesh .node .ele; for other programs also .inp .mfem, or a folder polyMesh")
+                 "the mesh: .vtu .pvtu .msh .mesh .node .ele; for other programs also .inp .mfem .vtk, or a folder polyMesh")
       ->required()
       ->type_name("OUTPUT");
   app.add_option("--pieces", a.pieces, ".pvtu: in so many files, X_0.vtu, X_1.vtu, ... (default: 1)")
@@ -213,7 +176,7 @@ void add_output(CLI::App& app, MeshArguments& a) {
 
 void add_mesh(CLI::App& app, MeshArguments& a) {
   app.add_option("INPUT", a.inputs,
-                 "what to mesh: .poly .smesh .node .off .obj .ply .stl .mesh .msh; several files are one input")
+                 "what to mesh: .poly .smesh .node .off .obj .ply .stl .mesh .msh .geojson; several files are one input")
       ->required()
       ->type_name("");
   add_output(app, a);
@@ -229,10 +192,13 @@ void add_mesh(CLI::App& app, MeshArguments& a) {
       ->type_name("FILE")
       ->needs("--surface-tolerance");
   add_regions(app, a.regions, a.reading.bodies);
-  app.add_flag("--keep-boundary", a.keep_boundary, "2D: no new points on segments");
+  auto* keep = app.add_flag("--keep-boundary", a.keep_boundary, "2D: no new points on segments");
   add_periodic(app, a.periodic,
                "2D: the sides with these markers, or names, correspond vertex by vertex; repeatable. By the translation between "
                "them, or a rigid motion of 6 numbers: x' = a x + b y + c, y' = d x + e y + f");
+  app.add_flag("--conforming-delaunay", a.conforming_delaunay,
+               "2D: split segments until every triangle is Delaunay across them, too, and its circumcentre in the domain")
+      ->excludes(keep);
   app.add_flag("--drop-unused-points", a.drop_unused_points,
                "leave points that are in no cell, outside or in voids, out of the mesh");
   app.add_flag("--no-refine", a.no_refine,
@@ -484,6 +450,12 @@ std::variant<Arguments, int> parse(int argc, const char* const* argv, bool speak
 
   try {
     app.parse(argc, argv);
+    name_streams(mesh);
+    name_streams(check);
+    name_streams(info);
+  } catch (const UsageError& e) {
+    if (speaks) std::cerr << "pgdr: error: " << e.what() << '\n';
+    return exit_usage;
   } catch (const CLI::Success& e) {  // --help, --version
     return speaks ? print_help(app, e) : exit_done;
   } catch (const CLI::ParseError& e) {

@@ -24,7 +24,8 @@ struct BoundArguments {
   std::optional<std::string> size;        ///< a number or an expression in x, y, z
   std::vector<std::string> region_sizes;  ///< LABEL=S each, S as above
   std::string size_mesh;                  ///< a background mesh, with its sizes in a .sol file beside it; empty: none
-  std::optional<double> size_growth;      ///< of these sizes; none: as they are
+  std::optional<double> size_growth;      ///< of these sizes; none: as they are; of those of size_at: 0.2
+  std::string size_at;                    ///< a file of points and lines with sizes; empty: none
   std::optional<double> max_volume;
   std::optional<double> min_angle;
   std::optional<double> min_dihedral;
@@ -32,7 +33,8 @@ struct BoundArguments {
 
 /// How an input is read, and what is done to it before anything else.
 struct InputArguments : Treatment {
-  bool region_areas = false;        ///< ReadOptions::region_areas
+  std::string format;         ///< extension of what comes from standard input, and perhaps, behind a comma, of what goes out
+  bool region_areas = false;  ///< ReadOptions::region_areas
   std::optional<double> tolerance;  ///< none: the default of Plc
   bool yes_coarse = false;          ///< Plc::is_coarse
   std::vector<std::string> seeds;   ///< further region seeds, X,Y,Z or X,Y,Z=LABEL each (2D: X,Y)
@@ -55,6 +57,7 @@ struct MeshArguments {
   BoundArguments bounds;
   InputArguments reading;
   SurfaceArguments surface;
+  bool conforming_delaunay = false;  ///< 2D
   bool keep_boundary = false, no_refine = false, no_optimize = false, drop_unused_points = false;
   std::optional<std::string> selector;  ///< NAME or NAME:PARAMETER (selector.hpp); none: as usual for the dimension
   std::optional<DiskType> disk;         ///< none: as usual for the selector

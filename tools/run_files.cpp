@@ -100,9 +100,11 @@ void RunFiles::read(const std::string& file, const char* what) {
 }
 
 void RunFiles::read(const BoundArguments& bounds) {
+  if (!bounds.size_at.empty()) read(bounds.size_at, "the sizes of --size-at");
   if (bounds.size_mesh.empty()) return;
   read(bounds.size_mesh, "the mesh of --size-mesh");
-  read(fs::path(bounds.size_mesh).replace_extension(".sol").string(), "the sizes of --size-mesh");
+  if (!has_extension(bounds.size_mesh, {".asc"}))
+    read(fs::path(bounds.size_mesh).replace_extension(".sol").string(), "the sizes of --size-mesh");
 }
 
 void RunFiles::require_none_of(const std::vector<File>& others, const File& written) const {

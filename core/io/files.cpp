@@ -10,6 +10,7 @@
 
 #include "io/file_input.hpp"
 #include "io/file_output.hpp"
+#include "io/write_target.hpp"
 #include "pgdr/error.hpp"
 #include "space/bulk.hpp"
 #include "space/system.hpp"
@@ -49,7 +50,7 @@ std::string name_beside(const std::string& target) {
 std::string read_whole_file(const fs::path& file) {
   std::error_code ec;
   if (fs::is_directory(file, ec)) cannot_open(file, "it is a directory");
-  std::FILE* const stream = std::fopen(file.string().c_str(), "rb");
+  std::FILE* const stream = std::fopen(names_stream(file.string()) ? "/dev/stdin" : file.string().c_str(), "rb");
   if (stream == nullptr) cannot_open(file, reason(errno));
   const auto close = [](std::FILE* f) { std::fclose(f); };
   const std::unique_ptr<std::FILE, decltype(close)> guard(stream, close);

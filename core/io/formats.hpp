@@ -36,6 +36,7 @@ template <int D>
 Plc<D> read_poly(std::string_view text, const std::filesystem::path& file, FileTexts& beside, const ReadOptions& options);
 template <int D>
 Plc<D> read_node(std::string_view text, const std::filesystem::path& file);
+Plc<2> read_geojson(std::string_view text, const std::filesystem::path& file);
 Plc<3> read_smesh(std::string_view text, const std::filesystem::path& file, FileTexts& beside);
 Plc<3> read_obj(std::string_view text, const std::filesystem::path& file);
 Plc<3> read_off(std::string_view text, const std::filesystem::path& file);
@@ -112,6 +113,8 @@ template <int D>
 void write_abaqus(const OutputMesh<D>& mesh, FileOutput& out);
 template <int D>
 void write_mfem(const OutputMesh<D>& mesh, FileOutput& out);
+template <int D>
+void write_vtk(const OutputMesh<D>& mesh, FileOutput& out);
 
 /// A mesh as TetGen and Triangle have it: one text a file, named `file` with another extension. None: there is no such file.
 struct TetgenTexts {

@@ -61,12 +61,14 @@ FileMeshReader file_mesh_reader(const std::string& extension) {
   return nullptr;
 }
 
+bool is_geojson(const std::string& extension) { return extension == ".geojson" || extension == ".json"; }
+
 bool is_tetgen_mesh(const std::string& extension) { return extension == ".node" || extension == ".ele"; }
 
 /// Written for other programs, and not read.
 bool is_for_others(const Path& file) {
   const std::string extension = lower_extension(file);
-  return extension == ".inp" || extension == ".mfem" || detail::is_foam_mesh(file);
+  return extension == ".inp" || extension == ".mfem" || extension == ".vtk" || detail::is_foam_mesh(file);
 }
 
 bool is_vtk(const std::string& extension) { return extension == ".vtu" || extension == ".pvtu"; }
@@ -92,6 +94,9 @@ Plc<D> read_by_extension(std::string_view bytes, const Path& name, detail::FileT
   using Reader = Plc<D> (*)(std::string_view, const Path&);
   Reader reader = nullptr;
   if (extension == ".node") reader = detail::read_node<D>;
+  if constexpr (D == 2) {
+    if (is_geojson(extension)) reader = detail::read_geojson;
+  }
   if constexpr (D == 3) {
     if (extension == ".smesh") return detail::read_smesh(bytes, name, beside);
     if (extension == ".obj") reader = detail::read_obj;
@@ -134,6 +139,7 @@ template <int D>
 bool is_input_format(const std::string& extension) {
   constexpr std::string_view formats[] = {".poly", ".node", ".mesh", ".msh", ".smesh", ".obj", ".off", ".ply", ".stl"};
   constexpr std::ptrdiff_t in_2d = 4;
+  if (is_geojson(extension)) return D == 2;
   const auto end = D == 2 ? std::begin(formats) + in_2d : std::end(formats);
   return std::find(std::begin(formats), end, extension) != end;
 }
@@ -178,6 +184,7 @@ int InputFile::dimension() {
   for (const std::string_view spatial : {".smesh", ".obj", ".off", ".ply", ".stl"}) {
     if (extension == spatial) return 3;
   }
+  if (is_geojson(extension)) return 2;
   return guarded(name_, [&] {
     if (const FileMeshReader read = file_mesh_reader(extension))
       return dimension_of(read(texts_->of(name_), name_, {Purpose::dimension, 0}));
@@ -188,7 +195,8 @@ int InputFile::dimension() {
     if (extension == ".poly" || extension == ".node") return detail::node_dimension(texts_->of(name_), name_, *texts_);
     if (extension == ".vtu") return detail::vtu_dimension(texts_->of(name_), name_);
     if (extension == ".pvtu") return detail::pvtu_dimension(texts_->of(name_), name_, *texts_);
-    unknown_format(name_, "a file that is read (.poly .smesh .node .off .obj .ply .stl .mesh .msh; meshes also .vtu .pvtu .ele)");
+    unknown_format(
+        name_, "a file that is read (.poly .smesh .node .off .obj .ply .stl .mesh .msh .geojson; meshes also .vtu .pvtu .ele)");
   });
 }
 
@@ -273,6 +281,7 @@ void write_mesh(const OutputMesh<D>& mesh, const Path& file, const WriteOptions&
   if (extension == ".mesh") writer = detail::write_medit<D>;
   if (extension == ".inp") writer = detail::write_abaqus<D>;
   if (extension == ".mfem") writer = detail::write_mfem<D>;
+  if (extension == ".vtk") writer = detail::write_vtk<D>;
   if (writer == nullptr) unknown_format(file, "a mesh that can be written");
   guarded(file, [&] {
     detail::FileOutput out(file);

@@ -55,7 +55,13 @@ WriteTarget existing(const std::string& file, system::FileType type) {
 
 }  // namespace
 
+bool names_stream(const std::string& file) {
+  return file.size() > 2 && file.starts_with("-.") && file.find('/') == std::string::npos;
+}
+
 WriteTarget target_of(const std::string& file) {
+  constexpr int standard_output = 1;
+  if (names_stream(file)) return open_descriptor(file, standard_output);
   std::string last = file;  // behind the links
   for (int i = 0; i < most_links; ++i) {
     if (const std::optional<int> number = own_descriptor(last)) return open_descriptor(file, *number);

@@ -9,6 +9,9 @@
 
 namespace pgdr::detail {
 
+/// Is it a stream_name()? It has an extension.
+bool names_stream(const std::string& file);
+
 struct WriteTarget {
   enum class Kind {
     new_file,

@@ -12,11 +12,13 @@
 // | .node                  | points             | points              | with .ele   | with .ele  |
 // | .ele                   |                    |                     | with .node  | with .node |
 // | .off .obj .ply .stl    |                    | triangles, polygons |             |            |
+// | .geojson .json         | GeoJSON            |                     |             |            |
 // | .mesh                  | edges              | triangles, quads    | Medit       | Medit      |
 // | .msh                   | lines              | triangles, quads    | 2.x and 4.1 | 4.1 binary |
 // | .vtu .pvtu             |                    |                     | ours        | VTK XML    |
 // | .inp                   |                    |                     |             | Abaqus     |
 // | .mfem                  |                    |                     |             | MFEM       |
+// | .vtk                   |                    |                     |             | VTK legacy |
 // | polyMesh (a folder)    |                    |                     |             | OpenFOAM   |
 //
 // docs/formats.md has what each format keeps. Choices that the formats leave open:
@@ -130,9 +132,13 @@ struct WriteOptions {
   std::vector<PeriodicPairs> periodic = {};  ///< .msh: a section of them; .vtu: point data "periodic_of" (periodic.hpp)
 };
 
+/// The name of standard input, where it is read, and of standard output, where it is written, in the format with this extension.
+/// No file of this name in the current folder is: "./" before it names that.
+inline std::string stream_name(const std::string& extension) { return "-" + extension; }
+
 /// Whether `read_mesh` and `write_mesh` know the extension. The file is not opened.
 bool is_mesh_format(const std::filesystem::path& file);
-/// Whether `write_mesh` knows it: these, and what is for other programs and is not read: .inp, .mfem, a folder polyMesh.
+/// Whether `write_mesh` knows it: these, and what is for other programs and is not read: .inp, .mfem, .vtk, a folder polyMesh.
 bool is_output_format(const std::filesystem::path& file);
 /// The files that `write_mesh` to this name replaces: itself, and with .node and .ele their family, with .pvtu its pieces; of a
 /// folder polyMesh the files in it.
@@ -161,5 +167,27 @@ void write_mesh(const OutputMesh<D>& mesh, const std::filesystem::path& file, co
 /// @param dimension  2 or 3: what the file must say
 /// @throws FileError cannot_open; InputError syntax, truncated, count_too_large, not_finite, with file and line
 std::vector<double> read_vertex_values(const std::filesystem::path& file, int dimension);
+
+/// A size along a line, or at a point, which has twice the same end (sizes_along() in size_fields.hpp).
+template <int D>
+struct SizedLine {
+  std::array<Point<D>, 2> ends;
+  double size = 0;
+};
+/// Sizes in a text: a line of it has a point and a size, D + 1 numbers, or two ends and a size, 2 D + 1 numbers. '#' begins
+/// comments.
+/// @throws FileError cannot_open; InputError syntax, truncated, not_finite, bad_size, with file and line
+template <int D>
+std::vector<SizedLine<D>> read_sized_lines(const std::filesystem::path& file);
+
+/// 2D: a raster of sizes as a background mesh (sizes_on_mesh() in size_fields.hpp).
+struct SizeRaster {
+  OutputMesh<2> mesh;          ///< its points are the middles of the raster's cells, row by row from the top
+  std::vector<double> values;  ///< of each point; 1 of those without one, which no cell has
+};
+/// An ASCII grid of ESRI (.asc). Cells are triangles between neighbouring values that are there; values that are NODATA_value or
+/// NaN are not.
+/// @throws FileError cannot_open; InputError syntax, truncated, count_too_large, bad_size, with file and line
+SizeRaster read_size_raster(const std::filesystem::path& file);
 
 }  // namespace pgdr

@@ -138,6 +138,12 @@ struct RefineOptions {
   /// 2D: no new point on any segment. Elements that this leaves poor have the reason kept_boundary. DEFAULT: false. REQUIRES: 2D.
   bool keep_boundary = false;
 
+  /// 2D: subsegments are split until none has a vertex of a cell inside its diametral circle but such as lie on its own segment.
+  /// So every triangle is Delaunay, across subsegments, too, and circumcentres lie in the domain: a dual mesh of Voronoi cells is
+  /// there (core/refine/encroachment.hpp has the proof that it ends). What lies beyond a void does not count. DEFAULT: false.
+  /// REQUIRES: 2D, `refine`, and not `keep_boundary`. With `radius_edge_bound` infinite, this alone adds points.
+  bool conforming_delaunay = false;
+
   /// Insertions that would make an edge shorter than this are refused; it is a length. DEFAULT: 0. REQUIRES: not negative.
   double min_edge = 0;
 

@@ -7,6 +7,7 @@
 // area: 0.2 lets sizes grow by a fifth of the distance.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,13 @@ SizingField<D> smallest(std::vector<SizingField<D>> fields);
 ///   not positive and finite (ids: the point's number). InputError not_finite: a coordinate.
 template <int D>
 SizingField<D> sizes_at_points(std::span<const Point<D>> points, std::span<const double> sizes, double growth);
+
+/// Sizes given along straight lines, which grow with the distance from them as those of sizes_at_points() do; a line of two equal
+/// ends is a point. Made of points on the lines, so close that it is nowhere larger than the exact minimum, and nowhere less by
+/// more than a twentieth of the line's size (2D: of its square root).
+/// @throws as sizes_at_points (ids: the line's number), and bad_option: so many points that memory would not hold them
+template <int D>
+SizingField<D> sizes_along(std::span<const std::array<Point<D>, 2>> lines, std::span<const double> sizes, double growth);
 
 /// Values at the vertices of a mesh from one value a cell: the smallest of its cells'. What is interpolated between them is
 /// nowhere above the value of the cell. A vertex in no cell has the largest value of all. Linear time.

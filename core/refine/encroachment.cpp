@@ -116,14 +116,14 @@ Encroachment encroachment(const Mesh<D>& mesh, CellId c, int face, const Point<D
 
 template <int D>
 bool is_face_encroached_by(const Mesh<D>& mesh, const Domain<D>& domain, CellId c, int face, VertexId v,
-                           double radius_edge_bound) {
+                           const RefineOptions<D>& options) {
   const auto& k = mesh.cell(c).vertices;
   const EntityId id = mesh.constraints(c)->face_entity[face];
   if constexpr (D == 2) {
     const Point<D>&a = mesh.point(k[(face + 1) % 3]), &b = mesh.point(k[(face + 2) % 3]), &x = mesh.point(v);
     const Home home = mesh.vertex(v).home;
     return in_diametral_ball<2>(a, b, x) && !lies_on<D>(domain, home, {EntityKind::segment, id}) &&
-           (home.kind() == EntityKind::volume || is_flat_at(x, a, b, radius_edge_bound));
+           (home.kind() == EntityKind::volume || options.conforming_delaunay || is_flat_at(x, a, b, options.radius_edge_bound));
   } else {
     const Ball<3> ball = equatorial_ball(mesh.point(k[(face + 1) & 3]), mesh.point(k[(face + 2) & 3]),
                                          mesh.point(k[(face + 3) & 3]));
@@ -195,8 +195,8 @@ template Encroachment encroachment(const Mesh<2>&, CellId, int, const Point<2>&)
 template Encroachment encroachment(const Mesh<3>&, CellId, int, const Point<3>&);
 template double squared_radius_of_face(const Mesh<2>&, CellId, int);
 template double squared_radius_of_face(const Mesh<3>&, CellId, int);
-template bool is_face_encroached_by(const Mesh<2>&, const Domain<2>&, CellId, int, VertexId, double);
-template bool is_face_encroached_by(const Mesh<3>&, const Domain<3>&, CellId, int, VertexId, double);
+template bool is_face_encroached_by(const Mesh<2>&, const Domain<2>&, CellId, int, VertexId, const RefineOptions<2>&);
+template bool is_face_encroached_by(const Mesh<3>&, const Domain<3>&, CellId, int, VertexId, const RefineOptions<3>&);
 template std::vector<Entry<3>> encroached_edges(const Mesh<3>&, const Cavity<3>&, const Point<3>&);
 template std::optional<Entry<2>> encroached_entity(const Mesh<2>&, const Cavity<2>&, const RefineOptions<2>&, const Point<2>&);
 template std::optional<Entry<3>> encroached_entity(const Mesh<3>&, const Cavity<3>&, const RefineOptions<3>&, const Point<3>&);

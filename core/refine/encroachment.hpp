@@ -25,11 +25,24 @@ Encroachment encroachment(const Mesh<D>& mesh, CellId c, int face, const Point<D
 /// ulps inside a ball. In 2D a vertex of the boundary does only if the triangle with the subsegment has an angle below the bound
 /// on its account, that at v above 180 degrees less twice the bound (diametral lenses, Chew 1993, Shewchuk 1997): what is no
 /// obstacle to a good triangle is none, and if the triangle is poor for another reason, that splits the subsegment. (Vertices of
-/// the volume are never inserted inside a diametral ball. So no such split has one near, and none has to be deleted.)
-/// `radius_edge_bound`: of the run.
+/// the volume are never inserted inside a diametral ball. So no such split has one near, and none has to be deleted.) With
+/// RefineOptions::conforming_delaunay it does whenever it is inside, and such a split is not refused by the insertion rule.
+///
+/// That still ends. Call what is split for a vertex of the boundary a closing split. Its piece, of length L, has a vertex of
+/// another segment inside its diametral circle, which is nearer than L/2 to it. (a) Of segments that do not touch, L is more than
+/// twice their distance. (b) Of segments that meet at an angle a (below 90 degrees, or none is inside), the piece being at least
+/// rho away from there, their distance there is at least rho sin a, so L is more than twice that. (c) A piece that begins at a
+/// common end v, with a vertex inside at distance s from there: at 60 degrees or more s is less than half of it, and its half is
+/// no shorter than the neighbour's first piece. At less it is split on a shell about v (rule/shells.hpp). If it ended on one, it
+/// is halved, and if s is a shell, too, its half is no shorter than s; that one of both does not end on a shell happens once. So
+/// the shortest of the first pieces at v does not get shorter without end. So closing splits between two others are finitely
+/// many, and they leave no piece shorter than a length that depends on the input and on these first pieces alone. The relaxed
+/// insertion radius of a new vertex is at least that of q, as without, so that R >= lambda holds for all (insertion_rule.hpp),
+/// and all other insertions have r >= c lambda: finitely many vertices of the volume, and finitely many other splits, since each
+/// of these takes one from the sum over all pieces of L / (c lambda), rounded down, less one, which no closing split raises.
 template <int D>
 bool is_face_encroached_by(const Mesh<D>& mesh, const Domain<D>& domain, CellId c, int face, VertexId v,
-                           double radius_edge_bound);
+                           const RefineOptions<D>& options);
 
 /// Of the smallest sphere through the corners of the face, or the ends of the edge.
 template <int D>

@@ -122,7 +122,8 @@ Outcome EntitySplitter<D>::commit_split(EntityRef entity, std::span<const Vertex
   if (D == 2 && cause && r < demand.d && is_near_boundary(own)) demand = demand_of(entity, own);
   if (r < demand.d) {
     const VertexId q = nearest_vertex<D>(*mesh_, *cavity_, own);
-    if (entity.kind != EntityKind::segment || !may_be_near(entity.id, own, q)) return refuse(entity, own);
+    const bool closing = w_->options.conforming_delaunay && !cause;
+    if (!closing && (entity.kind != EntityKind::segment || !may_be_near(entity.id, own, q))) return refuse(entity, own);
     if (q != no_vertex && mesh_->vertex(q).home.kind() != EntityKind::vertex)
       demand.h = std::max(demand.h, double{mesh_->vertex(q).relaxed_radius});
   }
@@ -167,8 +168,7 @@ VertexId EntitySplitter<D>::encroacher(const Entry<D>& face, const Point<D>& x) 
   VertexId nearest = no_vertex;
   double least = std::numeric_limits<double>::infinity();
   const auto look_at = [&](CellId c, int which) {
-    if (!is_face_encroached_by<D>(*mesh_, *domain_, c, which, mesh_->cell(c).vertices[which], w_->options.radius_edge_bound))
-      return;
+    if (!is_face_encroached_by<D>(*mesh_, *domain_, c, which, mesh_->cell(c).vertices[which], w_->options)) return;
     const VertexId v = mesh_->cell(c).vertices[which];
     const double squared = squared_distance(mesh_->point(v), x);
     if (squared < least || (squared == least && lex_less<D>(mesh_->point(v), mesh_->point(nearest)))) {

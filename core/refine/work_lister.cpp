@@ -91,7 +91,7 @@ void WorkLister<D>::list_entities(CellId c, const ConstraintRecord<D>& k) {
   if (w_->options.keep_boundary) return;
   const auto& vertices = mesh_->cell(c).vertices;
   for (int f = 0; f <= D; ++f)
-    if (k.has_face(f) && is_face_encroached_by<D>(*mesh_, w_->domain, c, f, vertices[f], w_->options.radius_edge_bound))
+    if (k.has_face(f) && is_face_encroached_by<D>(*mesh_, w_->domain, c, f, vertices[f], w_->options))
       w_->visit->list->push(w_->entry(c, EntryKind::face, f, w_->context.bucket_of(squared_radius_of_face<D>(*mesh_, c, f))));
   if constexpr (D == 3)
     for (int e = 0; e < 6; ++e)

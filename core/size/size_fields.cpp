@@ -88,6 +88,42 @@ SizingField<D> sizes_at_points(std::span<const Point<D>> points, std::span<const
   };
 }
 
+/// Of a line with the length r (its size, or in 2D the root of it), points h apart, with r less growth h / 2 each. Between them
+/// the field is r at most; h is such that it is r less r / 20 at least.
+template <int D>
+SizingField<D> sizes_along(std::span<const std::array<Point<D>, 2>> lines, std::span<const double> sizes, double growth) {
+  constexpr double most_points = 1e8, loss = 0.1;
+  detail::require_growth(growth);
+  std::vector<Point<D>> ends;
+  for (const auto& line : lines) ends.push_back(line[0]);
+  detail::require_sizes<D>(ends, sizes);
+  std::vector<Point<D>> points;
+  std::vector<double> values;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const auto& [a, b] = lines[i];
+    const double r = detail::length_of<D>(sizes[i]), length = std::sqrt(squared_distance(a, b));
+    const double parts = std::ceil(length * growth / (loss * r));
+    if (!(parts + static_cast<double>(points.size()) <= most_points))
+      throw UsageError({Errc::bad_option,
+                        "sizes along a line are so small, beside its length, that they take too many points",
+                        {},
+                        0,
+                        {static_cast<std::int64_t>(i)},
+                        {}});
+    const auto n = static_cast<std::size_t>(parts);
+    const double lowered = n == 0 ? r : r - growth * (length / parts) / 2;
+    for (std::size_t k = 0; k <= n; ++k) {
+      const double t = n == 0 ? 0 : static_cast<double>(k) / parts;
+      Point<D> p = k == n && n > 0 ? b : a;
+      if (k > 0 && k < n)
+        for (int d = 0; d < D; ++d) p[d] = a[d] + t * (b[d] - a[d]);
+      points.push_back(p);
+      values.push_back(detail::size_of_length<D>(lowered));
+    }
+  }
+  return sizes_at_points<D>(points, values, growth);
+}
+
 template <int D>
 std::vector<double> limit_growth(const OutputMesh<D>& mesh, std::span<const double> values, double growth) {
   detail::require_growth(growth);
@@ -162,6 +198,8 @@ template PGDR_API SizingField<2> smallest<2>(std::vector<SizingField<2>>);
 template PGDR_API SizingField<3> smallest<3>(std::vector<SizingField<3>>);
 template PGDR_API SizingField<2> sizes_at_points<2>(std::span<const Point<2>>, std::span<const double>, double);
 template PGDR_API SizingField<3> sizes_at_points<3>(std::span<const Point<3>>, std::span<const double>, double);
+template PGDR_API SizingField<2> sizes_along<2>(std::span<const std::array<Point<2>, 2>>, std::span<const double>, double);
+template PGDR_API SizingField<3> sizes_along<3>(std::span<const std::array<Point<3>, 2>>, std::span<const double>, double);
 template PGDR_API std::vector<double> limit_growth<2>(const OutputMesh<2>&, std::span<const double>, double);
 template PGDR_API std::vector<double> sizes_of_regions<2>(const OutputMesh<2>&, const RegionSizes<2>&, double);
 template PGDR_API std::vector<double> sizes_of_regions<3>(const OutputMesh<3>&, const RegionSizes<3>&, double);

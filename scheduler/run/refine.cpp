@@ -66,6 +66,9 @@ void validate(const RefineOptions<D>& options) {
   if (D == 2 && options.min_dihedral.value_or(0) > 0)
     bad_option("the bound on dihedral angles is for 3D; in 2D the radius-edge bound is one on angles");
   if (D == 3 && options.keep_boundary) bad_option("the boundary can be kept as it is in 2D only");
+  if (options.conforming_delaunay && (D == 3 || !options.refine || options.keep_boundary))
+    bad_option(
+        "a conforming Delaunay mesh is made in 2D only, with refinement, and splits segments: the boundary cannot be kept");
   if (options.schedule.threads < 0) bad_option("the number of threads must not be negative");
   if (options.schedule.granularity < 1) bad_option("the granularity must be at least 1");
   if (!(options.schedule.split_ratio > 0)) bad_option("the split ratio must be positive");

@@ -123,7 +123,7 @@ class Triangulate(unittest.TestCase):
         self.made(self.made(SQUARE, "p"), "pq30a0.1")
 
     def test_refusals_name_the_switch(self):
-        for opts, word in (("pr", "r of"), ("pqD", "D of"), ("ps", "s of"), ("pu", "u and size"), ("po3", "o of"), ("po", "o of"),
+        for opts, word in (("pr", "r of"), ("pqDY", "conforming"), ("ps", "s of"), ("pu", "u and size"), ("po3", "o of"), ("po", "o of"),
                            ("pk", "'k'"), ("p3", "no number"), ("pS", "whole number"), ("pqa1.2.3", "1.2.3")):
             with self.subTest(opts), self.assertRaises(pgdr.UsageError) as caught:
                 pgdr.triangulate(SQUARE, opts)

@@ -39,6 +39,14 @@ void bind(py::module_& module) {
     const py::gil_scoped_release others_run;
     return sizes_at_points<D>(at, values, growth);
   });
+  module.def(named("sizes_along").c_str(), [](const Dense<double>& ends, const Dense<double>& sizes, double growth) {
+    const std::vector<Point<D>> at = points_of<D>(ends);
+    std::vector<std::array<Point<D>, 2>> lines;
+    for (std::size_t i = 0; i + 1 < at.size(); i += 2) lines.push_back({at[i], at[i + 1]});
+    const auto values = span_of(sizes);
+    const py::gil_scoped_release others_run;
+    return sizes_along<D>(lines, values, growth);
+  });
   module.def(named("sizes_on_mesh").c_str(), [](const MeshData<D>& data, const Dense<double>& sizes) {
     const auto values = span_of(sizes);
     const py::gil_scoped_release others_run;

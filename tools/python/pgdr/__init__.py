@@ -13,7 +13,7 @@ from ._bodies import Bodies, BodyRegion, with_bodies
 from ._check import Finding, check, diagnose, info
 from ._errors import (CancelledError, DiagnosedError, Diagnostic, Error, FileError, InputError, ResourceError, UsageError)
 from ._estimate import Estimate, Gap, Proposal, SharpAngle, estimate
-from ._fields import Field, limit_growth, sizes_at_points, sizes_on_mesh, smallest
+from ._fields import Field, limit_growth, sizes_along, sizes_at_points, sizes_on_mesh, sizes_on_raster, smallest
 from ._join import Joined, JoinedLabel, Shared, join
 from ._mesh import Mesh, Reason
 from ._pgdr import version as __version__
@@ -25,11 +25,13 @@ from ._run import Elements, Progress, StopSource, mesh
 from ._surface import ReplacedSurface, replace_surface
 from ._tetgen import Tetrahedralization, tetrahedralize
 from ._triangle import triangulate
+from ._voronoi import Voronoi
 
 __all__ = ["Bodies", "BodyRegion", "CancelledError", "CheckFinding", "CheckReport", "DiagnosedError", "Diagnostic",
            "Elements", "Error", "Estimate", "Field", "FileError", "Finding", "Gap", "InputError", "Joined",
            "JoinedLabel", "Mesh", "Page", "Periodic", "Plc", "Progress", "Proposal", "Reason", "ReplacedSurface",
-           "ResourceError", "Shared", "SharpAngle", "StopSource", "Tetrahedralization", "UsageError", "__version__",
-           "check", "close_planar_openings", "diagnose", "estimate", "info", "join", "limit_growth", "mesh",
-           "replace_surface", "resolve_crossings", "sizes_at_points", "sizes_on_mesh", "smallest", "tetgen",
-           "tetrahedralize", "triangle", "triangulate", "with_bodies", "with_convex_hull"]
+           "ResourceError", "Shared", "SharpAngle", "StopSource", "Tetrahedralization", "UsageError", "Voronoi",
+           "__version__", "check", "close_planar_openings", "diagnose", "estimate", "info", "join", "limit_growth",
+           "mesh", "replace_surface", "resolve_crossings", "sizes_along", "sizes_at_points", "sizes_on_mesh",
+           "sizes_on_raster", "smallest", "tetgen", "tetrahedralize", "triangle", "triangulate", "with_bodies",
+           "with_convex_hull"]

@@ -89,6 +89,75 @@ def sizes_at_points(points: npt.ArrayLike, sizes: npt.ArrayLike, growth: float) 
     return Field(make(at, values, slope), int(at.shape[1]), (sizes_at_points, (at, values, slope)))
 
 
+def sizes_along(lines: npt.ArrayLike, sizes: npt.ArrayLike, growth: float) -> Field:
+    """Sizes along n straight lines, (n, 2, D) ends, which grow with the distance from them as those of `sizes_at_points`; it is never
+    larger than exactly that, and smaller by a twentieth of the line's size at most (2D: of its square root). Raises UsageError.
+
+    >>> import pgdr
+    >>> shore = pgdr.sizes_along([[[0, 0], [10, 0]]], [0.25], growth=0.5)
+    >>> bool(abs(shore([[5, 0]])[0] - 0.24) < 0.02)
+    True
+    """
+    given = _arguments.reals("lines", lines)
+    if given.ndim != 3 or given.shape[1] != 2 or given.shape[2] not in (2, 3):
+        raise usage(f"lines must have the shape (n, 2, 2) or (n, 2, 3), not {given.shape}")
+    at = np.array(given, dtype=np.float64)
+    make = _pgdr.sizes_along2 if at.shape[2] == 2 else _pgdr.sizes_along3
+    values = np.array(_arguments.values("sizes", sizes, len(at), "lines"))
+    slope = _arguments.number("growth", growth)
+    return Field(make(at.reshape(-1, at.shape[2]), values, slope), int(at.shape[2]), (sizes_along, (at, values, slope)))
+
+
+def sizes_on_raster(values: npt.ArrayLike, transform: Any, growth: Optional[float] = None) -> Field:
+    """2D: sizes (largest areas) on a raster, interpolated linearly between the middles of its cells; beyond them, the value at the
+    nearest point that has one counts.
+
+    Parameters
+    ----------
+    values : (rows, columns) array
+        NaN and what is masked is no value. At least three neighbours must be there.
+    transform
+        Six numbers a, b, c, d, e, f as rasterio's `transform` and the affine package have them: the upper left corner of the cell in
+        row r and column k is (a k + b r + c, d k + e r + f). An array from GDAL's GetGeoTransform is (c, a, b, f, d, e).
+    growth : float, optional
+        As of `limit_growth`: values are lowered where their roots grow faster.
+
+    Raises UsageError.
+
+    >>> import numpy as np, pgdr
+    >>> field = pgdr.sizes_on_raster(np.full((4, 5), 0.01), (1, 0, 0, 0, -1, 4))
+    >>> field([[2.5, 2.0]]).tolist()
+    [0.01]
+    """
+    masked = np.ma.masked_array(values) if np.ma.isMaskedArray(values) else None
+    sizes = np.array(_arguments.reals("values", np.ma.filled(masked.astype(np.float64), np.nan) if masked is not None else values),
+                     dtype=np.float64)
+    if sizes.ndim != 2 or min(sizes.shape) < 2:
+        raise usage(f"values must be a raster of two rows and columns or more, not of the shape {sizes.shape}")
+    a, b, c, d, e, f = (_arguments.number("transform", number) for number in tuple(transform)[:6])
+    row, column = (index.reshape(-1) + 0.5 for index in np.indices(sizes.shape))
+    at = np.stack([a * column + b * row + c, d * column + e * row + f], axis=1)
+    there = ~np.isnan(sizes)
+    number = np.arange(sizes.size).reshape(sizes.shape)
+    around = np.stack([number[rows, columns].reshape(-1) for rows, columns in _CORNERS], axis=1)
+    known = there.reshape(-1)[around]
+    whole = around[known.all(axis=1)]
+    three = around[known.sum(axis=1) == 3][known[known.sum(axis=1) == 3]].reshape(-1, 3)
+    cells = np.concatenate([whole[:, [0, 1, 2]], whole[:, [0, 2, 3]], three])
+    if not len(cells):
+        raise usage("no three neighbouring values are there")
+    background = Mesh.from_arrays(at, cells)
+    filled = np.where(there, sizes, 1.0).reshape(-1)  # of points that no cell has
+    if growth is not None:
+        filled = limit_growth(background, filled, growth, of="points")
+    return sizes_on_mesh(background, filled, of="points")
+
+
+# The four cells of a raster about a corner that they have in common, in turn about it.
+_CORNERS = [(slice(1, None), slice(None, -1)), (slice(1, None), slice(1, None)), (slice(None, -1), slice(1, None)),
+            (slice(None, -1), slice(None, -1))]
+
+
 def sizes_on_mesh(mesh: Mesh, values: npt.ArrayLike, of: Optional[str] = None) -> Field:
     """Sizes on a background mesh, as (n,) values of its points or (m,) values of its cells. Those of points are interpolated linearly;
     outside, those of the nearest point of the boundary count. Of cells, each point has the smallest of its cells' values, so that

@@ -241,6 +241,11 @@ class Mesh:
                              _arguments.flag("edges", edges), _arguments.flag("neighbors", neighbors),
                              _arguments.whole_number("pieces", pieces, 0, 100000))
 
+    def voronoi(self) -> Any:
+        """2D: the Voronoi cells of the vertices, clipped to the domain, as a `pgdr.Voronoi`. Of meshes of conforming_delaunay=True;
+        of others, a UsageError says at how many edges circumcentres are not where they have to be. n log n."""
+        return through("voronoi")(self)
+
     def to_meshio(self) -> Any:
         """A meshio.Mesh of the cells, the subfacets and the subsegments, with cell data "region" and "marker"; where anything has a name
         also with cell sets and field data of the names, and with cell data "gmsh:physical"."""

@@ -69,7 +69,7 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
          min_dihedral: Optional[float] = None, optimize: bool = True, threads: int = 0, regions: Optional[str] = None,
          region_sizes: Optional[Mapping[Union[float, str], Size]] = None,
          selector: Union[None, str, Callable[[Elements], npt.ArrayLike]] = None, keep_boundary: bool = False,
-         periodic: Sequence[Tuple[Any, ...]] = (),
+         conforming_delaunay: bool = False, periodic: Sequence[Tuple[Any, ...]] = (),
          tolerance: Optional[float] = None, surface_tolerance: Union[None, float, str] = None, feature_angle: float = 40.0,
          max_volume: Optional[float] = None, min_edge: float = 0.0,
          time_limit: Optional[float] = None, max_vertices: Optional[int] = None, refine: bool = True,
@@ -109,6 +109,9 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
         elements over the radius-edge bound; where none is met, a warning (`Mesh.warnings`, and of Python) says so.
     keep_boundary : bool
         2D: no new point on any segment.
+    conforming_delaunay : bool
+        2D: segments are split until every triangle is Delaunay across them, too, and its circumcentre in the domain: `Mesh.voronoi`
+        has the cells of such a mesh. What lies beyond a void does not count. With radius_edge=inf and no size, this alone adds points.
     periodic : list of (from, to) or (from, to, motion)
         2D: the sides with these markers correspond vertex by vertex (`Mesh.periodic`), by the translation between them, or by a rigid
         motion, (2, 3) numbers.
@@ -191,6 +194,7 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
     options.set_threads(_arguments.whole_number("threads", threads, 0, 4096))
     options.refine = _arguments.flag("refine", refine)
     options.keep_boundary = _arguments.flag("keep_boundary", keep_boundary)
+    options.conforming_delaunay = _arguments.flag("conforming_delaunay", conforming_delaunay)
     options.drop_unused_points = _arguments.flag("drop_unused_points", drop_unused_points)
     options.memory_guard = _arguments.flag("memory_guard", memory_guard)
     options.min_edge = _arguments.number("min_edge", min_edge)

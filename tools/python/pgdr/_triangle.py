@@ -26,12 +26,11 @@ _RESULTS = ("triangles", "triangle_attributes", "triangle_max_area", "neighbors"
 _WITHOUT_EFFECT = "iFlXQVzIv"
 _REFUSED = {
     "r": "a given triangulation is not refined: mesh its segments again with a smaller area, in one call",
-    "D": "meshes are constrained Delaunay, not conforming Delaunay: leave D out",
-    "s": "segments are inserted without new points: leave s out",
+    "s": "segments are inserted without new points: leave s out, or give D, which makes all triangles Delaunay",
     "g": "no file is written: call Mesh.write",
     "h": "see help(pgdr.triangulate)",
 }
-_PLAIN = "pcjenYAPNEBOCu"
+_PLAIN = "pcjenYAPNEBOCuD"
 
 
 def _switches(opts: str) -> Dict[str, Any]:
@@ -114,7 +113,7 @@ def _plc(given: Mapping[str, Any], switches: Mapping[str, Any]) -> Plc:
 
 def _options(switches: Mapping[str, Any], points: int, size: Optional[Size]) -> Dict[str, Any]:
     """The arguments of pgdr.mesh."""
-    options: Dict[str, Any] = {"refine": any(key in switches for key in ("q", "q#", "a", "a#", "u"))}
+    options: Dict[str, Any] = {"refine": any(key in switches for key in ("q", "q#", "a", "a#", "u", "D"))}
     angle = switches.get("q#", 20.0 if "q" in switches else 0.0)
     if angle > 0:
         options["min_angle"] = angle
@@ -122,6 +121,8 @@ def _options(switches: Mapping[str, Any], points: int, size: Optional[Size]) -> 
         options["radius_edge"] = float("inf")
     if "a#" in switches:
         options["size"] = switches["a#"]
+    if "D" in switches:
+        options["conforming_delaunay"] = True
     if "Y" in switches:
         options["keep_boundary"] = True
     if "S" in switches:
@@ -259,7 +260,7 @@ def triangulate(tri: Mapping[str, Any], opts: str = "", *, size: Optional[Size] 
         no new point on any segment. S100: at most so many new points. j: no vertex without a triangle. e: edges, edge_markers.
         n: neighbors. O: no holes. B, P, N, E: no markers, segments, vertices, triangles in the result. C: the result is checked.
         o2: six corners, the last three in the middle of the edges opposite the first three. u: no triangle is larger than `size`
-        says. i, F, l, X, Q, V, z, I, v change nothing. r, D, s, g are refused.
+        says. D: all triangles are Delaunay, as of conforming_delaunay of pgdr.mesh; not with Y. i, F, l, X, Q, V, z, I, v change nothing. r, s, g are refused.
     size : float, Field, or function
         With the switch u: the largest area at a triangle's centroid, as of pgdr.mesh.
 
