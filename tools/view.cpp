@@ -56,7 +56,7 @@ int view_page(const ViewArguments& a, InputFile& file, Report& report) {
 }
 
 void require_format(const ViewArguments& a, bool page, bool png) {
-  const auto refuse = [&a](Errc code, const char* message) {
+  const auto refuse = [&a](Errc code, const std::string& message) {
     throw UsageError({.code = code, .message = message, .file = a.output});
   };
   if (!page && !has_extension(a.output, {".png", ".svg"}))
@@ -65,7 +65,8 @@ void require_format(const ViewArguments& a, bool page, bool png) {
     refuse(Errc::bad_option, "this pgdr was built without three.js (Debian's package libjs-three): pictures are .svg and .png");
   if (png && !has_png()) refuse(Errc::bad_option, "this pgdr was built without Cairo: pictures are .svg and .html");
   if (!page && a.color == ViewColor::of_pages)
-    refuse(Errc::bad_option, "--color: the colourings of pictures are quality, dihedral, region and leaf; others are for .html");
+    refuse(Errc::bad_option, "--color: the colourings of pictures are dihedral, leaf, quality, region, not \"" + a.coloring +
+                                 "\"; a page has more");
 }
 
 }  // namespace

@@ -309,6 +309,7 @@ class PageBrowser(PageCase):
         size = page.stat().st_size / 2**20
         begin = time.monotonic()
         shown = self.opened(page, patience=300)
+        shown.screenshot()
         timing = shown.value("pgdrView.timing")
         print(f"998,250 cells: a page of {size:.0f} MiB; seconds: {time.monotonic() - begin:.1f} to the first picture, of it in the page "
               f"{timing['first'] / 1000:.1f}: arrays {timing['decode'] / 1000:.1f}, faces {timing['faces'] / 1000:.1f}")

@@ -85,6 +85,7 @@ def try_package(root, install, command):
     install(root)
     installed = time.monotonic()
     root.run("pgdr", "mesh", "/bracket.poly", "-o", "/command.vtu", stdout=subprocess.DEVNULL)
+    root.run("pgdr", "view", "/command.vtu", "-o", "/page.html", stdout=subprocess.DEVNULL)  # the viewer is in it, and asks for nothing
     root.run("python3", "-c", OF_MODULE)
     end = time.monotonic()
     run(command, "mesh", MODEL, "-o", root.path / "own.vtu", stdout=subprocess.DEVNULL)

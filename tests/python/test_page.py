@@ -98,11 +98,12 @@ class Pages(unittest.TestCase):
 
     def test_show_by_pyvista(self):
         mesh = pgdr.mesh(cube())
-        grid = mock.Mock(point_data={}, cell_data={})
+        grid = mock.Mock(point_data={}, cell_data={}, n_points=len(mesh.points), n_cells=len(mesh.cells) + 2)
         grid.plot.return_value = "plotted"
         vista = types.SimpleNamespace(UnstructuredGrid=mock.Mock(return_value=grid))
         with mock.patch("importlib.util.find_spec", return_value=object()), mock.patch.dict(sys.modules, {"pyvista": vista}):
-            self.assertEqual(mesh.show("T", point_data={"T": mesh.points[:, 0]}), "plotted")
+            self.assertEqual(mesh.show("T", point_data={"T": mesh.points[:, 0]}, cell_data={"c": np.ones(len(mesh.cells))}), "plotted")
+        self.assertEqual(np.isnan(grid.cell_data["c"]).tolist(), [False] * len(mesh.cells) + [True] * 2)
         np.testing.assert_array_equal(grid.point_data["T"], mesh.points[:, 0])
         self.assertEqual(grid.plot.call_args.kwargs["scalars"], "T")
 

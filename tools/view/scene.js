@@ -50,13 +50,15 @@ void main() {
 }`;
 const BEHIND_EVERYTHING = 1e3;  // offset of a plane that nothing is beyond
 const PLANE_WIDTH = 1e-5;       // what lies in the plane is drawn
+const MOST_SMOOTH = 300000;     // cells in 2D, all of which are drawn: of more, edges are not smoothed, which halves the work
 
 class Scene {
   constructor(canvas, mesh) {
-    const context = canvas.getContext("webgl2", { antialias: true });
+    const antialias = mesh.dimension === 3 || mesh.cellCount < MOST_SMOOTH;
+    const context = canvas.getContext("webgl2", { antialias });
     if (!context) throw new Error("This browser has no WebGL 2, by which the mesh is drawn.");
     this.canvas = canvas;
-    this.renderer = new THREE.WebGLRenderer({ canvas, context, antialias: true });
+    this.renderer = new THREE.WebGLRenderer({ canvas, context, antialias });
     this.renderer.setClearColor(0xffffff, 1);
     this.camera = new THREE.OrthographicCamera(-1, 1, 1, -1, 0, 8);
     this.scene = new THREE.Scene();

@@ -73,7 +73,10 @@ def show(mesh: Mesh, color: Optional[str], point_data: Data, cell_data: Data) ->
     if importlib.util.find_spec("pyvista") is not None:
         grid = through("to_pyvista")(mesh)
         for name, of_points, numbers in _fields(mesh, point_data, cell_data):
-            (grid.point_data if of_points else grid.cell_data)[name] = numbers[:, 0] if numbers.shape[1] == 1 else numbers
+            rows = grid.n_points if of_points else grid.n_cells
+            padded = np.full((rows, numbers.shape[1]), np.nan)  # of a grid that has constraints, too, behind the cells
+            padded[:len(numbers)] = numbers
+            (grid.point_data if of_points else grid.cell_data)[name] = padded[:, 0] if numbers.shape[1] == 1 else padded
         return grid.plot(scalars=color, show_edges=True)
     with tempfile.NamedTemporaryFile(prefix="pgdr_", suffix=".html", delete=False) as file:
         pass  # it stays: the browser reads it when it likes
