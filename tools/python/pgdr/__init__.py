@@ -28,10 +28,9 @@ from ._triangle import triangulate
 from ._voronoi import Voronoi
 
 __all__ = ["Bodies", "BodyRegion", "CancelledError", "CheckFinding", "CheckReport", "DiagnosedError", "Diagnostic",
-           "Elements", "Error", "Estimate", "Field", "FileError", "Finding", "Gap", "InputError", "Joined",
-           "JoinedLabel", "Mesh", "Page", "Periodic", "Plc", "Progress", "Proposal", "Reason", "ReplacedSurface",
-           "ResourceError", "Shared", "SharpAngle", "StopSource", "Tetrahedralization", "UsageError", "Voronoi",
-           "__version__", "check", "close_planar_openings", "diagnose", "estimate", "info", "join", "limit_growth",
-           "mesh", "replace_surface", "resolve_crossings", "sizes_along", "sizes_at_points", "sizes_on_mesh",
-           "sizes_on_raster", "smallest", "tetgen", "tetrahedralize", "triangle", "triangulate", "with_bodies",
-           "with_convex_hull"]
+           "Elements", "Error", "Estimate", "Field", "FileError", "Finding", "Gap", "InputError", "Joined", "JoinedLabel",
+           "Mesh", "Page", "Periodic", "Plc", "Progress", "Proposal", "Reason", "ReplacedSurface", "ResourceError",
+           "Shared", "SharpAngle", "StopSource", "Tetrahedralization", "UsageError", "Voronoi", "__version__", "check",
+           "close_planar_openings", "diagnose", "estimate", "info", "join", "limit_growth", "mesh", "replace_surface",
+           "resolve_crossings", "sizes_along", "sizes_at_points", "sizes_on_mesh", "sizes_on_raster", "smallest", "tetgen",
+           "tetrahedralize", "triangle", "triangulate", "with_bodies", "with_convex_hull"]
