@@ -19,7 +19,7 @@ class Shared(NamedTuple):
 
     meshes: Tuple[int, int]  #: the first one, whose marker stands, and a later one
     markers: Tuple[int, int]  #: what the two of them say; 0 where one lists none
-    count: int  #: so many
+    number: int  #: so many
 
 
 class JoinedLabel(NamedTuple):
@@ -75,7 +75,7 @@ def join(meshes: Sequence[Mesh], *, relabel: bool = False, names: Sequence[str] 
     >>> joined.mesh.points.shape, joined.shared_points, sorted(set(joined.mesh.regions)), bool(joined.mesh.check())
     ((6, 2), 2, [1.0, 2.0], True)
     >>> joined.interfaces
-    [Shared(meshes=(0, 1), markers=(0, 0), count=1)]
+    [Shared(meshes=(0, 1), markers=(0, 0), number=1)]
     """
     given = list(meshes)
     for mesh in given:
@@ -90,6 +90,6 @@ def join(meshes: Sequence[Mesh], *, relabel: bool = False, names: Sequence[str] 
     with WORK:
         core, vertices, first, points, interfaces, segments, labels, added, dropped, warnings = call(
             [mesh._core for mesh in given], [str(name) for name in names], _arguments.flag("relabel", relabel))
-    shared = [[Shared(tuple(s[0]), tuple(s[1]), s[2]) for s in found] for found in (interfaces, segments)]
+    shared = [[Shared((m[0], m[1]), (k[0], k[1]), number) for m, k, number in found] for found in (interfaces, segments)]
     return Joined(Mesh._of(core), [_arguments.signed(v) for v in vertices], first, points, shared[0], shared[1],
                   [JoinedLabel(*label) for label in labels], added, dropped, warnings)
