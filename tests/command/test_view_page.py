@@ -245,6 +245,7 @@ class PageBrowser(PageCase):
         self.assertEqual(shown.value("pgdrView.counts.hull"), surface_size(cells))
         whole = self.picture(shown)
         self.assertGreater(sum(pixel != (255, 255, 255) for line in whole for pixel in line[250:]), 5000)
+        self.check_markers(shown, about, arrays)
         shown.value("pgdrView.setCut({axis: 'x', value: 2.5})")
         place = (2.5 - about["origin"][0]) / about["scale"]
         kept = [cell for cell in cells if sum(points[v][0] for v in cell) <= 4 * place]
@@ -261,6 +262,18 @@ class PageBrowser(PageCase):
         shown.value("pgdrView.setCut(null); pgdrView.turn(-60, 30)")
         self.assertEqual(self.differing(whole, self.picture(shown)), 0)
 
+    def check_markers(self, shown, about, arrays):
+        """Without a cut, each picked face is a facet of its cell, and says its marker."""
+        marker_of = {tuple(sorted(face)): about["markers"][m]["label"]
+                     for face, m in zip(rows(arrays["subfacets"], 3), arrays["subfacets_marker"])}
+        picks = shown.value("[...Array(400).keys()].map(i => pgdrView.pick(20 + 22 * (i % 20), 20 + 16 * Math.floor(i / 20))).filter(p => p)")
+        self.assertGreater(len(picks), 40)
+        for pick in picks:
+            corners = pick["corners"]
+            markers = {marker_of.get(tuple(sorted(corners[:i] + corners[i + 1:]))) for i in range(4)}
+            self.assertIn(pick["marker"]["label"], markers - {None})
+        self.assertGreater(len({pick["marker"]["label"] for pick in picks}), 1)
+
     def check_picks(self, shown, arrays, fits):
         """Picks on a grid. @returns the cells"""
         places = [(x, y) for x in range(20, 480, 20) for y in range(170, 350, 20)]
@@ -276,7 +289,7 @@ class PageBrowser(PageCase):
         return {pick["cell"] for pick in found}
 
     def test_the_nearer_is_picked(self):
-        """Of two tetrahedra above each other; facets have their markers and names, cells their labels."""
+        """Of two tetrahedra above each other, with its label and name."""
         stack = self.file("stack.mesh", "# name region 2 = upper\n" + STACK)
         for height, cell, name in ((1, 1, "upper"), (-1, 0, "")):
             shown = self.opened(self.page(stack, "--from", f"0,0,{height}"))
