@@ -82,6 +82,7 @@ struct JoinedMesh {
 /// the calling thread. The order of the meshes decides numbers, and whose word stands, and nothing else.
 /// @param meshes  one or more, each sound in itself, as check() decides it without an input: here it is only seen whether indices
 ///   and arrays fit, coordinates are finite, points are distinct, cells positively oriented, and two at a face on its two sides
+/// @param options  names for messages, and whether labels stay apart
 /// @throws UsageError bad_option: no mesh, or another number of names; InputError index_out_of_range, not_finite,
 /// duplicate_point,
 ///   inconsistent_orientation: a mesh that is not sound; point_on_facet, point_on_segment, facets_overlap, entities_intersect:

@@ -55,6 +55,8 @@ Motion<D> translation_between(const std::vector<Point<D>>& from, const std::vect
 
 /// Pairs the vertices of two sides of a mesh, if they correspond one to one and their subsegments (3D: subfacets) do, too.
 /// n log n.
+/// @param mesh  any; its walls need markers
+/// @param sides  by markers
 /// @param tolerance  most that a vertex may be from the image of its partner
 /// @throws UsageError bad_option: no wall has one of the markers; the motion is none; or the sides do not correspond: with the
 ///   vertices and where they are

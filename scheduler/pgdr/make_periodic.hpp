@@ -35,12 +35,12 @@ struct PeriodicInput {
 ///
 /// Points of the input are not moved: one that is within the tolerance of the image of another is its partner, and where one has
 /// no partner, a point is added. Sides may share corners, and be chained, as 1 = 2 and 2 = 3.
+/// @param plc  the input
 /// @param sides  pairs of markers of segments
-/// @param options  those of the mesh. With `keep_boundary` no point is added: then the sides have to correspond as they are
+/// @param options  those of the mesh. With `keep_boundary` only partners of points of the input are added, and it is not meshed
 /// @param most_rounds  so often it is meshed before all of the boundary is kept
 /// @throws UsageError bad_option: a marker that no segment has, or both of a pair; sides that do not match within the tolerance;
-/// pairs that
-///   contradict each other, by other motions: with the points and where they are. What `refine` throws
+///   pairs that contradict each other, by other motions: with the points and where they are. What `refine` throws
 PeriodicInput make_periodic(const Plc<2>& plc, std::span<const PeriodicSides<2>> sides, const RefineOptions<2>& options,
                             std::uint32_t most_rounds = 16);
 
