@@ -48,8 +48,10 @@ class AheadQueue {
   /// What came of the one that was taken off last. @pre nothing has changed since
   template <class TryIt>
   Trial trial(const Candidate& candidate, const TryIt& try_it) {
-    if (is_of_front_ && front_[next_ - 1].is_tried && !changer_.has_changed(front_[next_ - 1].trial))
-      return std::move(front_[next_ - 1].trial);
+    if (is_of_front_ && front_[next_ - 1].is_tried) {
+      if (!changer_.has_changed(front_[next_ - 1].trial)) return std::move(front_[next_ - 1].trial);
+      ++in_vain_;
+    }
     Trial trial;
     try_it(candidate, trial);
     return trial;
@@ -92,10 +94,12 @@ class AheadQueue {
     front_.erase(front_.begin(), front_.begin() + static_cast<std::ptrdiff_t>(next_));
     next_ = 0;
     if (front_.empty()) changer_.begin_changes();
+    adapt();
     const std::size_t left = front_.size();
-    if (left > 2 * numbers::tried_ahead) return;  // what is tried too long before its turn is tried in vain
-    const std::size_t most = std::max(numbers::tried_ahead, left + numbers::tried_ahead / 4);
+    if (left > 2 * ahead_) return;  // what is tried too long before its turn is tried in vain
+    const std::size_t most = std::max(ahead_, left + ahead_ / 4);
     while (front_.size() < most && !heap_.empty()) front_.push_back({take(), {}, false});
+    tried_ += front_.size() - left;
     changer_.bulk().parts(front_.size() - left, [&](std::size_t k) {
       Entry& e = front_[left + k];
       e.trial.ahead_of = changer_.changes();
@@ -105,7 +109,20 @@ class AheadQueue {
                        [](const Entry& a, const Entry& b) { return b.candidate < a.candidate; });
   }
 
+  /// Where neighbours follow each other in the queue, as the edges of a regular surface do, fewer are tried at once.
+  void adapt() {
+    constexpr std::size_t judged = 64, most_in_vain = judged / 4, few_in_vain = judged / 16;
+    if (tried_ < judged) return;
+    if (in_vain_ * judged > most_in_vain * tried_)
+      ahead_ = std::max(ahead_ / 2, numbers::least_tried_ahead);
+    else if (in_vain_ * judged < few_in_vain * tried_)
+      ahead_ = std::min(ahead_ * 2, numbers::tried_ahead);
+    tried_ = in_vain_ = 0;
+  }
+
   Changer& changer_;
+  std::size_t ahead_ = numbers::tried_ahead;  // as many are tried at once
+  std::size_t tried_ = 0, in_vain_ = 0;       // ahead since that was set
   std::vector<Handle> heap_;
   std::vector<Candidate> waiting_;   // by slot
   std::vector<std::uint32_t> free_;  // slots
