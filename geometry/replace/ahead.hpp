@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "replace/changer.hpp"
-#include "replace/numbers.hpp"
 
 namespace pgdr::detail {
 
@@ -62,6 +61,10 @@ class AheadQueue {
   }
 
  private:
+  /// So many are tried at once, on which the surface does not depend: a few for each of many threads. More are tried in vain, as
+  /// changes before them touch what they have read.
+  static constexpr std::size_t most_ahead = 64, least_ahead = 8;
+
   struct Entry {
     Candidate candidate;
     Trial trial;
@@ -111,18 +114,17 @@ class AheadQueue {
 
   /// Where neighbours follow each other in the queue, as the edges of a regular surface do, fewer are tried at once.
   void adapt() {
-    constexpr std::size_t judged = 64, most_in_vain = judged / 4, few_in_vain = judged / 16;
-    if (tried_ < judged) return;
-    if (in_vain_ * judged > most_in_vain * tried_)
-      ahead_ = std::max(ahead_ / 2, numbers::least_tried_ahead);
-    else if (in_vain_ * judged < few_in_vain * tried_)
-      ahead_ = std::min(ahead_ * 2, numbers::tried_ahead);
+    if (tried_ < most_ahead) return;
+    if (4 * in_vain_ > tried_)
+      ahead_ = std::max(ahead_ / 2, least_ahead);
+    else if (16 * in_vain_ < tried_)
+      ahead_ = std::min(ahead_ * 2, most_ahead);
     tried_ = in_vain_ = 0;
   }
 
   Changer& changer_;
-  std::size_t ahead_ = numbers::tried_ahead;  // as many are tried at once
-  std::size_t tried_ = 0, in_vain_ = 0;       // ahead since that was set
+  std::size_t ahead_ = most_ahead;       // as many are tried at once
+  std::size_t tried_ = 0, in_vain_ = 0;  // ahead since that was set
   std::vector<Handle> heap_;
   std::vector<Candidate> waiting_;   // by slot
   std::vector<std::uint32_t> free_;  // slots

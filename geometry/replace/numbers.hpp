@@ -77,10 +77,6 @@ inline constexpr double shortest_split = 2;
 /// take 10 to 60 in all rounds.
 inline constexpr std::uint64_t effort = 40;
 
-/// Candidates that are tried at once before the first of them is settled; the surface does not depend on it. A few for each of
-/// many threads; more are tried in vain, as changes before them touch what they have read. Fewer where many are.
-inline constexpr std::size_t tried_ahead = 64, least_tried_ahead = 8;
-
 /// Of E, for the first changes: room must be left for splits, flips and moves, or nothing moves any more.
 inline constexpr double first_part = 0.6;
 /// Splits, for each face of the surface that has been coarsened: in the first round, in the second.
