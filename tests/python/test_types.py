@@ -48,7 +48,7 @@ class Types(unittest.TestCase):
     def test_the_package(self):
         content, words = self.run_module("mypy", "--strict", "-p", "pgdr")
         self.assertTrue(content, words)
-        self.assertRegex(words, "no issues found in [12][0-9] source files")
+        self.assertRegex(words, "no issues found in [1-9][0-9] source files")
 
     def test_the_stub_is_what_the_extension_has(self):
         content, words = self.run_module("mypy.stubtest", "pgdr._pgdr")

@@ -129,9 +129,10 @@ def sizes_on_raster(values: npt.ArrayLike, transform: Any, growth: Optional[floa
     >>> field([[2.5, 2.0]]).tolist()
     [0.01]
     """
-    masked = np.ma.masked_array(values) if np.ma.isMaskedArray(values) else None
-    sizes = np.array(_arguments.reals("values", np.ma.filled(masked.astype(np.float64), np.nan) if masked is not None else values),
-                     dtype=np.float64)
+    sizes = np.array(_arguments.reals("values", np.asarray(values)), dtype=np.float64)
+    mask = getattr(values, "mask", False)
+    if not callable(mask) and np.shape(mask) == sizes.shape:  # of a numpy.ma array
+        sizes[np.asarray(mask)] = np.nan
     if sizes.ndim != 2 or min(sizes.shape) < 2:
         raise usage(f"values must be a raster of two rows and columns or more, not of the shape {sizes.shape}")
     a, b, c, d, e, f = (_arguments.number("transform", number) for number in tuple(transform)[:6])

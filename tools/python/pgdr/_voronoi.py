@@ -156,5 +156,5 @@ def _areas(sites: _Reals, points: _Reals, offsets: _Ints, corners: _Ints) -> _Re
     last = offsets[1:][np.diff(offsets) > 0] - 1
     following[last] = offsets[:-1][np.diff(offsets) > 0]
     a, b = points[corners] - sites[owner], points[corners[following]] - sites[owner]
-    made: _Reals = np.bincount(owner, weights=(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2, minlength=len(sites))
-    return made
+    halves = (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2
+    return np.asarray(np.bincount(owner, weights=halves, minlength=len(sites)), dtype=np.float64)
