@@ -100,8 +100,11 @@ void PlanarGraph::mark_outer() {
     if (part[v] == v && from_[v] < from_[v + 1]) bounded_[face_[at_[from_[v + 1] - 1]]] = false;
 }
 
-/// Where a segment crosses a horizontal line; of one whose ends are on both sides of it.
-double crossing(const Point2& a, const Point2& b, double y) { return a[0] + (b[0] - a[0]) * ((y - a[1]) / (b[1] - a[1])); }
+/// Where a segment crosses a horizontal line; of one whose ends are on both sides of it. By halves, which do not overflow.
+double crossing(const Point2& a, const Point2& b, double y) {
+  const double t = (y / 2 - a[1] / 2) / (b[1] / 2 - a[1] / 2);
+  return t >= 0 && t <= 1 ? (1 - t) * a[0] + t * b[0] : a[0] / 2 + b[0] / 2;
+}
 
 /// A level that no corner is on: midway between two neighbouring levels of corners of the face that are farthest apart, or if
 /// other points lie between these, in the box about the face, midway between such.
@@ -128,7 +131,7 @@ double level_of_face(const PlanarGraph& graph, std::span<const Point2> points, s
   for (; p != by_height.end() && (*p)[1] < high; ++p)
     if (box.low[0] < (*p)[0] && (*p)[0] < box.high[0]) levels.push_back((*p)[1]);
   const auto [below, above] = widest();
-  return below + (above - below) / 2;
+  return below / 2 + above / 2;
 }
 
 bool has(const RingPolygon& polygon, const Point2& x) {
@@ -188,7 +191,7 @@ bool choose_seed(const PlanarGraph& graph, std::span<const Point2> points, FaceL
     const bool inside = graph.face(up ? h + 1 : h) == through.face || graph.face(also_up ? g : g + 1) == through.face;
     if (!inside || !(width > widest)) continue;
     widest = width;
-    seed = {line[i].x + width / 2, through.y};
+    seed = {line[i].x / 2 + line[i + 1].x / 2, through.y};
   }
   return widest > 0;
 }
