@@ -367,10 +367,22 @@ TEST(KeptBoundary, ReasonsAreVerified) {
   EXPECT_EQ(check<2>(result.mesh, check_options).exit_code(), 6);
 }
 
-TEST(KeptBoundary, NotIn3D) {
-  RefineOptions<3> options;
+/// Segments with one marker are kept, the others are split.
+TEST(KeptBoundary, ByPart) {
+  Plc<2> plc;
+  add_square(plc, 0, 1);
+  for (std::size_t s = 0; s < 4; ++s) plc.segments[s].marker = static_cast<int>(s) + 1;
+  RefineOptions<2> options = to_angle(20.7);
+  options.size = 0.01;
+  options.kept_markers = {2};
+  EXPECT_THROW(refine<2>(plc, options), UsageError);
   options.keep_boundary = true;
-  EXPECT_THROW(refine<3>(cube(), options), UsageError);
+  const auto [result, report] = refine_and_check<2>(plc, options);
+  EXPECT_LE(report.exit_code(), 1) << findings(report);
+  std::array<std::size_t, 5> pieces{};
+  for (const auto& s : result.mesh.subsegments) ++pieces[static_cast<std::size_t>(s.marker)];
+  EXPECT_EQ(pieces[2], 1u);
+  for (const std::size_t m : {1u, 3u, 4u}) EXPECT_GT(pieces[m], 2u);
 }
 
 TEST(BeyondTheory, IsWarnedOf) {

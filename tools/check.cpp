@@ -168,6 +168,8 @@ int check_as(const CheckArguments& a, InputFile& file, Report& report) {
   options.delaunay = a.delaunay || reported.delaunay;
   options.not_delaunay_left = reported.not_delaunay_left;
   options.regions = a.regions.value_or(reported.regions);
+  options.keep_boundary = a.kept.any() || reported.keep_boundary;
+  options.kept_markers = a.kept.any() ? a.kept.markers() : reported.kept_markers;
   if (!a.reasons.empty()) options.reasons = &reported.reasons;
   set_surface(a, reported, options);
   CheckReport verdict = pgdr::check(mesh, options);

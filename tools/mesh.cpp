@@ -63,9 +63,8 @@ struct Measured {
   std::optional<NotDelaunay> not_delaunay;  ///< if they were counted
 };
 
-/// Are the violations of the finished mesh counted? Not after a run that was ended early, when nobody wants to wait for it: such
-/// a mesh may have many, and each takes rationals; and not where the optimiser ran, which makes them. (A look at every face would
-/// take more than a tenth of the time of meshing.)
+/// Are the violations of the finished mesh counted? Not after a run that was ended early, as such a mesh may have many, and each
+/// takes rationals; and not where the optimiser ran, which makes them. (All faces take a tenth of the time of meshing.)
 template <int D>
 bool counts_violations(const RefineResult<D>& r) {
   return r.delaunay && r.stop != StopCause::cancelled && r.stop != StopCause::time_limit;
@@ -115,6 +114,7 @@ void fill(Report& report, const MeshArguments& a, const Threads& threads, const 
                                   {"poor_left", r.poor_left},
                                   {"poor_unavoidable", r.poor_unavoidable},
                                   {"reasons", to_json(r.reasons)}});
+  set_kept(report, a.kept, s);
   report.set("unused_points", JsonObject{{"count", r.unused_points.size()}, {"dropped", a.drop_unused_points}});
   report.set("regions", to_json(r.regions));
   report.set("scheduler", to_json(r.scheduler));
@@ -157,6 +157,7 @@ void print_summary(const MeshArguments& a, const std::string& inputs, std::size_
     print_row("bounds", "not refined: " + count(r.poor_left, "element is", "elements are") + " over a bound");
   else
     print_row("bounds", verdict(r));
+  print_kept(r.statistics);
   if (D == 3 && !a.surface.tolerance && has_needles(r))
     print_row("needles",
               "cells stay poor beside small angles of the surface; --surface-tolerance 0.1% meshes another one as near to it");
@@ -231,7 +232,8 @@ class MeshRun {
  private:
   int exit_code() const {
     if (result_.stop != StopCause::finished) return exit_stopped;
-    return a_.no_refine || (result_.poor_left == 0 && result_.size_met) ? exit_done : exit_poor_left;
+    const bool holds = a_.no_refine || (result_.poor_left == 0 && result_.size_met);
+    return holds && result_.statistics.boundary_points == 0 ? exit_done : exit_poor_left;
   }
 
   void read() {
@@ -348,8 +350,7 @@ class MeshRun {
     }
   }
 
-  /// The estimate and the narrowest gap, before anything takes long. Refuses what there is no memory for, unless the user has
-  /// bounded it.
+  /// The estimate and the narrowest gap, before anything takes long. Refuses what memory does not hold, unless it is bounded.
   void say_what_is_ahead(const Domain<D>& domain) {
     const Outlook<D> outlook = look_ahead<D>(domain, bounds_, !a_.no_refine, a_.regions, options_.stop);
     set_outlook(report_, domain, outlook);
@@ -357,7 +358,7 @@ class MeshRun {
       if (!surface_ && !domain.repairs().empty())
         report_.set("surface", JsonObject{{"given", to_json(surface_counts(plc_))}, {"meshed", to_json(surface_counts(domain))}});
     if (!a_.quiet) print_outlook(domain, outlook);
-    const bool is_bounded = a_.max_vertices || a_.time_limit || a_.keep_boundary || a_.min_edge > 0;
+    const bool is_bounded = a_.max_vertices || a_.time_limit || a_.kept.any() || a_.min_edge > 0;
     if (!is_bounded && outlook.estimate) require_memory_for(domain, *outlook.estimate);
   }
 

@@ -28,7 +28,8 @@ RefineOptions<D> make_options(const MeshArguments& a, const Bounds<D>& bounds) {
   const std::string selector = a.selector.value_or(usual_selector<D>());
   options.selector = make_selector<D>(selector);
   options.disk = {a.disk.value_or(a.delta > 0 ? DiskType::type2 : usual_disk(selector)), a.delta};
-  options.keep_boundary = a.keep_boundary;
+  options.keep_boundary = a.kept.any();
+  options.kept_markers = a.kept.markers();
   options.conforming_delaunay = a.conforming_delaunay;
   options.drop_unused_points = a.drop_unused_points;
   options.refine = !a.no_refine;

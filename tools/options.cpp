@@ -158,6 +158,11 @@ void add_report(CLI::App& app, std::string& report, bool& quiet) {
   app.add_flag("--quiet", quiet, "print errors only");
 }
 
+CLI::Option* add_kept(CLI::App& app, KeptArguments& kept, const std::string& what) {
+  return app.add_flag("--keep-boundary", kept.words, what + "; =MARKERS, with commas between: of facets (2D: segments) with these alone")
+      ->check(CLI::Validator([](std::string& text) { return KeptArguments{text}.error(); }, "", "markers"));
+}
+
 void add_output(CLI::App& app, MeshArguments& a) {
   app.add_option("-o,--output", a.output,
                  "the mesh: .vtu .pvtu .msh .mesh .node .ele; for other programs also .inp .mfem .vtk, or a folder polyMesh")
@@ -192,7 +197,7 @@ void add_mesh(CLI::App& app, MeshArguments& a) {
       ->type_name("FILE")
       ->needs("--surface-tolerance");
   add_regions(app, a.regions, a.reading.bodies);
-  auto* keep = app.add_flag("--keep-boundary", a.keep_boundary, "2D: no new points on segments");
+  auto* keep = add_kept(app, a.kept, "no new points on the boundary, of which every given triangle stays as it is");
   add_periodic(app, a.periodic,
                "2D: the sides with these markers, or names, correspond vertex by vertex; repeatable. By the translation between "
                "them, or a rigid motion of 6 numbers: x' = a x + b y + c, y' = d x + e y + f");
@@ -275,6 +280,7 @@ void add_check(CLI::App& app, CheckArguments& a) {
                "ask for a Delaunay mesh, also where the report of --reasons does not say that it is one");
   add_input(app, a.reading);
   add_regions(app, a.regions, a.reading.bodies);
+  add_kept(app, a.kept, "the boundary was to be kept: no points on it that were not given, and each given triangle is there");
   add_surface(app, a.surface,
               "the mesh is of another surface, and is to be within E of the given one, both ways, with its topology, markers and "
               "volumes");

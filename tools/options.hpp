@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "kept.hpp"
 #include "pgdr/refine_options.hpp"
 #include "pgdr/types.hpp"
 #include "treatment.hpp"
@@ -58,7 +59,8 @@ struct MeshArguments {
   InputArguments reading;
   SurfaceArguments surface;
   bool conforming_delaunay = false;  ///< 2D
-  bool keep_boundary = false, no_refine = false, no_optimize = false, drop_unused_points = false;
+  KeptArguments kept;
+  bool no_refine = false, no_optimize = false, drop_unused_points = false;
   std::optional<std::string> selector;  ///< NAME or NAME:PARAMETER (selector.hpp); none: as usual for the dimension
   std::optional<DiskType> disk;         ///< none: as usual for the selector
   std::vector<std::string> periodic;    ///< FROM=TO or FROM=TO:MOTION each (periodic.hpp)
@@ -83,6 +85,7 @@ struct CheckArguments {
   std::vector<std::string> inputs;  ///< empty: conformity is not checked
   BoundArguments bounds;
   InputArguments reading;
+  KeptArguments kept;
   std::optional<RegionMode> regions;  ///< none: as `reasons` says, or seeds
   SurfaceArguments surface;
   std::vector<std::string> periodic;  ///< as of `mesh`; empty: as `reasons` says

@@ -279,6 +279,8 @@ ReportedBounds read_bounds(const std::string& file) {
       if (holds("region_mode", name(mode))) read.regions = mode;
     for (const BodyMode mode : {BodyMode::united, BodyMode::fragments, BodyMode::priority, BodyMode::disjoint})
       if (holds("region_mode", name(mode))) read.bodies = mode;
+    read.keep_boundary = holds("keep_boundary", true);
+    read.kept_markers = report.value("kept_markers", std::vector<int>());
     if (const auto surface = report.find("surface_tolerance"); surface != report.end() && surface->is_object())
       if (const auto angle = surface->find("feature_angle"); angle != surface->end() && angle->is_number())
         read.feature_angle = angle->get<double>();

@@ -87,6 +87,8 @@ struct ReportedBounds {
   RegionMode regions = RegionMode::seeds;
   std::optional<BodyMode> bodies;
   std::optional<double> feature_angle;  ///< of another surface
+  bool keep_boundary = false;           ///< was it kept?
+  std::vector<int> kept_markers;        ///< of these facets alone; empty: of all
 };
 
 /// @throws FileError if it cannot be opened, InputError if it is not such a report.

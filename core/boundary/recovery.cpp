@@ -153,9 +153,9 @@ void BoundaryRecovery::mark(Mesh<3>::Pools& pools) {
 }
 
 /// Splits poor triangles, one round. False if there are none. Triangles up to twice the bound are left to the refinement, which
-/// splits them in the order that makes few points.
+/// splits them in the order that makes few points; where the boundary is kept, no point may stay.
 bool BoundaryRecovery::improve() {
-  const double bound = options_->refine
+  const double bound = options_->refine && !options_->keep_boundary
                            ? numbers::early_split_slack * std::max(options_->radius_edge_bound, smallest_proved_bound<3>())
                            : infinity;
   if (!(bound < infinity)) return false;

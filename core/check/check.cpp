@@ -10,6 +10,7 @@
 #include <string>
 
 #include "check/bounds.hpp"
+#include "check/kept.hpp"
 #include "given/volumes.hpp"
 #include "nearness/nearness.hpp"
 #include "nearness/own_walls.hpp"
@@ -104,6 +105,7 @@ void check_against_given(const OutputMesh<D>& mesh, const CheckOptions<D>& optio
     check_creases(task, match);
   }
   check_leftovers(task, match);
+  check_kept(task, match, options);
   check_names("label", mesh.names.regions, options.input->names.regions, findings);
   check_names("marker", mesh.names.markers, options.input->names.markers, findings);
   const std::optional<InputVolumes<D>> volumes = check_volumes(task, match, options.regions, links, components);

@@ -94,6 +94,7 @@ bool Reasons<D>::excuses_dihedral(std::uint32_t cell) {
   return std::any_of(of.begin(), of.end(), [&](std::uint32_t r) {
     const PoorReason& reason = (*options_.reasons)[r];
     if (reason.code == PoorReason::Code::input_dihedral) return in_wedge(reason, why) == Verdict::holds;
+    if (reason.code == PoorReason::Code::kept_boundary) return beside_kept(reason, why) && has_edge_on(reason);
     if (reason.code != PoorReason::Code::small_angle) return false;
     return is_true(reason, why) && (is_at_corner(reason) || is_in_gap(reason));
   });
@@ -309,23 +310,39 @@ auto Reasons<D>::in_wedge(const PoorReason& reason, std::string& why) -> Verdict
   return at_segment ? Verdict::admitted : fail("it has no edge on " + words_of<D>(reason.entities[0]));
 }
 
-/// A segment in one piece that meets the cell's circumball, doubled, or has its centre in the diametral ball.
+/// A segment in one piece, or a facet without points of its own, that meets the cell's circumball, doubled, or has its centre in
+/// the smallest ball about the segment, or about a triangle of the facet.
 template <int D>
 bool Reasons<D>::beside_kept(const PoorReason& reason, std::string& why) {
   const auto fail = [&](std::string text) {
     why = std::move(text);
     return false;
   };
-  if (!named_) return fail("whether a segment was kept cannot be seen without the input");
-  const Entity* s = pair_of(reason).a;
-  if (D != 2 || !s || s->kind != EntityKind::segment) return fail("it names no segment of a planar input");
-  if (s->edges.size() != 1 || s->edges[0].ends != sorted_edge(s->ends[0], s->ends[1]))
+  if (!named_) return fail("whether the boundary was kept cannot be seen without the input");
+  const Entity* e = pair_of(reason).a;
+  if (!e) return fail("it names no segment and no facet of the input");
+  const bool is_segment = e->kind == EntityKind::segment;
+  if (is_segment ? e->edges.size() != 1 || e->edges[0].ends != sorted_edge(e->ends[0], e->ends[1])
+                 : !std::ranges::all_of(e->points, [&](std::uint32_t p) { return named_->is_given(p); }))
     return fail(words_of<D>(reason.entities[0]) + " has points of its own");
-  const Ball<D> own = diametral_ball<D>(named_->point(s->ends[0]), named_->point(s->ends[1]));
   const auto ball = circumsphere<D>(corners_of(mesh_, reason.cell));
-  const bool encroached = std::sqrt(squared_distance(own.center, ball.center)) <=
-                          std::sqrt(own.squared_radius) * (1 + rounding::of_blame_checked) + ball.center_error;
-  return encroached || near(reason.cell, *s) || fail("its circumcentre is not beside " + words_of<D>(reason.entities[0]));
+  const auto is_in = [&](const Ball<D>& own) {
+    return std::sqrt(squared_distance(own.center, ball.center)) <=
+           std::sqrt(own.squared_radius) * (1 + rounding::of_blame_checked) + ball.center_error;
+  };
+  const auto p = [&](std::uint32_t i) { return named_->point(i); };
+  bool encroached = is_segment && is_in(diametral_ball<D>(p(e->ends[0]), p(e->ends[1])));
+  if constexpr (D == 3)
+    for (const auto& t : e->triangles) encroached = encroached || is_in(equatorial_ball(p(t[0]), p(t[1]), p(t[2])));
+  return encroached || near(reason.cell, *e) || fail("its circumcentre is not beside " + words_of<D>(reason.entities[0]));
+}
+
+/// Has the cell an edge on what was kept?
+template <int D>
+bool Reasons<D>::has_edge_on(const PoorReason& reason) {
+  const Entity* e = pair_of(reason).a;
+  const auto& cell = mesh_.cells[reason.cell];
+  return e && std::count_if(cell.begin(), cell.end(), [&](std::uint32_t v) { return e->has(v); }) >= 2;
 }
 
 template <int D>

@@ -33,7 +33,8 @@ std::string_view name(CheckFinding::Kind kind) {
                                                "bad_reason",
                                                "off_surface",
                                                "surface_not_covered",
-                                               "other_topology"};
+                                               "other_topology",
+                                               "boundary_not_kept"};
   static_assert(std::size(names) == CheckFinding::kinds);
   return names[static_cast<std::size_t>(kind)];
 }

@@ -75,6 +75,9 @@ class NamedEntities {
   double slack(const NamedEntity<D>& entity, std::uint32_t point) const {
     return entity.is_loose || point >= is_given_.size() || !is_given_[point] ? entity.off : 0;
   }
+  bool is_given(std::uint32_t point) const {
+    return point >= is_given_.size() || is_given_[point];
+  }  ///< or is it of the mesh alone?
   bool is_within(const Point<D>& x, double distance, const NamedEntity<D>& entity) const;
   bool are_own() const { return own_.has_value(); }  ///< facets of the mesh's own surface
   /// Are the two facets in one plane, exactly?

@@ -98,6 +98,7 @@ bool Insertions::split_edge(CellId c, int edge) {
   const auto [a, b] = ring_.ends;
   const Point3 x = middle(mesh.point(a), mesh.point(b));
   if (ring_.segment != no_entity) {
+    if (s_->w->context.kept.has({EntityKind::segment, ring_.segment})) return false;
     const auto* pinched = mesh.pinched_edges();
     if (pinched && pinched->has(ring_.segment)) return false;
     return split_ring(split_point<3>(s_->w->context, ring_.segment, a, b), Home(EntityKind::segment, ring_.segment));
@@ -108,6 +109,7 @@ bool Insertions::split_edge(CellId c, int edge) {
     if (wall != no_entity) facet = wall;
   }
   if (facet == no_entity) return split_ring(x, Home(EntityKind::volume, 0));
+  if (s_->w->context.kept.has({EntityKind::facet, facet})) return false;
   return split_ring(point_on_facet(*s_->domain, facet, x), Home(EntityKind::facet, facet));
 }
 

@@ -97,6 +97,14 @@ struct CheckOptions {
   /// hole seeds. Without `input` it has no effect.
   RegionMode regions = RegionMode::seeds;
 
+  /// Was the boundary to be kept (RefineOptions::keep_boundary)? Then no vertex on a kept segment or facet is none of the input,
+  /// and each given triangle that no other given point lies on is one subfacet (2D: segments, one subsegment). DEFAULT: false.
+  /// Without `input` it has no effect.
+  bool keep_boundary = false;
+
+  /// RefineOptions::kept_markers. DEFAULT: none, everything was to be kept.
+  std::vector<int> kept_markers;
+
   /// 3D: E, an absolute length: the mesh is of another surface, and certified to be within E of the given one, both ways, as is
   /// said at the head of this file. DEFAULT: none, it is of the given one. REQUIRES: above 0, finite; some hundred ulps of the
   /// largest coordinate at least, or rounding leaves pieces undecided, which are findings. Without `input` it has no effect. 2D:
@@ -186,9 +194,10 @@ struct CheckFinding {
     off_surface,             ///< with a surface tolerance: a subfacet or subsegment farther than that from what was given
     surface_not_covered,     ///< with one: something given, to which the mesh has nothing as near
     other_topology,          ///< with one: the surface of the mesh hangs together otherwise than the given one
+    boundary_not_kept,  ///< where it was to be kept: a point on it that was not given, or a given triangle that is no subfacet
   };
-  static constexpr std::size_t kinds = static_cast<std::size_t>(Kind::other_topology) + 1;  ///< so many
-  Kind kind;                                                                                ///< what is wrong
+  static constexpr std::size_t kinds = static_cast<std::size_t>(Kind::boundary_not_kept) + 1;  ///< so many
+  Kind kind;                                                                                   ///< what is wrong
   std::string message;            ///< one sentence; numbers of points, cells and entities count from 0
   std::vector<std::int64_t> ids;  ///< the cells, vertices or entities of the message, in its order
 };

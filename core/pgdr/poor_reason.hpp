@@ -25,8 +25,8 @@ struct GivenEntity {
 struct PoorReason {
   /// small_angle: of the input, between the two entities. rounding: an edge is as short as the rounding
   /// of coordinates. beyond_theory: the bound
-  /// asked for is below the smallest proved one. kept_boundary: the first entity is a segment without points of its own,
-  /// which hides the circumcentre or is encroached upon by it (RefineOptions::keep_boundary).
+  /// asked for is below the smallest proved one. kept_boundary: the first entity is a segment (2D) or a facet without points of
+  /// its own, which hides the circumcentre or is encroached upon by it, or is near it (RefineOptions::keep_boundary).
   /// input_dihedral: an edge of the cell is on a segment at which the input, in the cell's region, has a wedge below the target
   /// of dihedral angles; the first entity is the segment. not_found, budget: no excuse, but what is known of it: nothing
   /// better was found, nor a reason in the input, or the optimiser's budget was spent.

@@ -10,6 +10,7 @@
 #include <limits>
 #include <optional>
 #include <stop_token>
+#include <vector>
 
 #include "pgdr/domain.hpp"
 #include "pgdr/export.hpp"
@@ -135,9 +136,15 @@ struct RefineOptions {
   /// False: boundary recovery alone, without a bound. DEFAULT: true.
   bool refine = true;
 
-  /// 2D: no new point on any segment. Elements that this leaves poor have the reason kept_boundary. DEFAULT: false. REQUIRES: 2D.
+  /// No new point on any segment or facet. 3D: each triangle of the input is one subfacet, each edge of a polygon one subsegment;
+  /// a polygon of more corners, or one that others touch, is triangulated once. Elements that this leaves poor have the reason
+  /// kept_boundary. A Domain that is given keeps the segments and facets that it has: make it of with_kept_edges()
+  /// (kept_edges.hpp). DEFAULT: false. REQUIRES: in 3D one process (no ranks).
   bool keep_boundary = false;
 
+  /// With `keep_boundary`: the facets (2D: segments) with these markers alone are kept, and the edges that these have; the others
+  /// are refined as always. DEFAULT: none, all are kept. REQUIRES: none without `keep_boundary`.
+  std::vector<int> kept_markers;
   /// 2D: subsegments are split until none has a vertex of a cell inside its diametral circle but such as lie on its own segment.
   /// So every triangle is Delaunay, across subsegments, too, and circumcentres lie in the domain: a dual mesh of Voronoi cells is
   /// there (core/refine/encroachment.hpp has the proof that it ends). What lies beyond a void does not count. DEFAULT: false.

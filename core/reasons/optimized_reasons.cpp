@@ -10,6 +10,7 @@
 #include "numbers/exact_tests.hpp"
 #include "numbers/rounding.hpp"
 #include "pgdr/refine_options.hpp"
+#include "rule/insertion_rule.hpp"
 
 namespace pgdr {
 namespace {
@@ -41,10 +42,11 @@ std::array<WallAtEdge, 2> walls_at(const Mesh<3>& mesh, CellId c, int edge) {
 }  // namespace
 
 OptimizedReasons::OptimizedReasons(const Mesh<3>& mesh, const Domain<3>& domain, const CellBounds<3>& bounds,
-                                   double largest_cosine)
+                                   const KeptEntities<3>& kept, double largest_cosine)
     : mesh_(&mesh),
       domain_(&domain),
       bounds_(&bounds),
+      kept_(&kept),
       angles_{bounds.radius_edge_bound, largest_cosine},
       gaps_(mesh, domain, angles_),
       segments_at_(domain.points().size()) {
@@ -159,6 +161,45 @@ std::optional<DomainReason> OptimizedReasons::angle_near(CellId c) {
   return found;
 }
 
+/// A kept entity that stands in the way of a better cell: one that two corners of the cell lie on, if there is any, as for a
+/// dihedral angle it has to be; else, among those at ever more cells round it, the first beside its circumball.
+std::optional<DomainReason> OptimizedReasons::kept_near(CellId c) {
+  constexpr std::size_t most_at = 64;  // cells, the entities at which may have two corners of the cell
+  const Ball<3> doubled = doubled_circumball<3>(mesh_->simplex(c));
+  std::optional<EntityRef> beside;
+  std::vector<EntityRef> known;
+  const auto has_edge_of_cell = [&](EntityRef e) {
+    const auto& v = mesh_->cell(c).vertices;
+    return std::count_if(v.begin(), v.end(), [&](VertexId x) { return lies_on<3>(*domain_, mesh_->vertex(x).home, e); }) >= 2;
+  };
+  const auto is_at = [&](EntityRef e) {
+    if (!kept_->has(e) || std::find(known.begin(), known.end(), e) != known.end()) return false;
+    known.push_back(e);
+    if (!is_beside<3>(*domain_, e, doubled)) return false;
+    const bool at = has_edge_of_cell(e);
+    if (at || !beside) beside = e;
+    return at;
+  };
+  const auto any_at = [&](const ConstraintRecord<3>& k) {
+    for (int f = 0; f < 4; ++f)
+      if (k.has_face(f) && is_at({EntityKind::facet, k.face_entity[f]})) return true;
+    for (int e = 0; e < 6; ++e)
+      if (k.has_edge(e) && is_at({EntityKind::segment, k.edge_entity[e]})) return true;
+    return false;
+  };
+  std::vector<CellId>& cells = cells_near_;
+  cells.assign(1, c);
+  known_cells_.reset(most_cells_near);
+  known_cells_.insert(index(c));
+  for (std::size_t i = 0; i < cells.size() && !(beside && i > most_at); ++i) {
+    if (const auto* k = mesh_->constraints(cells[i]); k && any_at(*k)) break;
+    for (const Link link : mesh_->cell(cells[i]).links)
+      if (link && cells.size() < most_cells_near && known_cells_.insert(index(link.cell()))) cells.push_back(link.cell());
+  }
+  if (!beside) return {};
+  return DomainReason{PoorReason::Code::kept_boundary, {*beside, {}}, 0};
+}
+
 std::vector<PoorCell> OptimizedReasons::of_cells(std::span<const CellId> cells, PoorReason::Code otherwise,
                                                  const std::function<bool()>& ended) {
   std::vector<PoorCell> found;
@@ -177,6 +218,7 @@ std::vector<PoorCell> OptimizedReasons::of_cells(std::span<const CellId> cells, 
       if (!reason && bounds_->radius_edge_bound < smallest_proved_bound<3>())
         reason = DomainReason{PoorReason::Code::beyond_theory, {}, 0};
     }
+    if (!reason && kept_->any()) reason = kept_near(c);
     found.push_back({c, true, verdict.over_size > 0, reason.value_or(DomainReason{otherwise, {}, 0}), false});
   }
   return found;

@@ -23,8 +23,9 @@ namespace pgdr {
 /// entities of the input: each thread has its own.
 class OptimizedReasons {
  public:
-  /// What it is given must outlive it. `largest_cosine`: claimed_cosine of the target.
-  OptimizedReasons(const Mesh<3>& mesh, const Domain<3>& domain, const CellBounds<3>& bounds, double largest_cosine);
+  /// What it is given must outlive it. `kept`: what was not split. `largest_cosine`: claimed_cosine of the target.
+  OptimizedReasons(const Mesh<3>& mesh, const Domain<3>& domain, const CellBounds<3>& bounds, const KeptEntities<3>& kept,
+                   double largest_cosine);
 
   /// Of those of the cells that are over a bound, as the checker decides it. Where nothing excuses the cell the code is
   /// `otherwise`: not_found or budget. Ends early, with some of them, once `ended` says so.
@@ -40,6 +41,7 @@ class OptimizedReasons {
   std::optional<DomainReason> corner_of_cell(CellId c);
   std::optional<DomainReason> gap_at_corner(CellId c);
   std::optional<DomainReason> angle_near(CellId c);
+  std::optional<DomainReason> kept_near(CellId c);
   const std::vector<Pair>& segments_sharp_at(EntityId point);
   const std::vector<Pair>& facets_sharp_at(EntityId segment);
   DomainReason small_angle(EntityKind kind, const Pair& pair) const;
@@ -47,6 +49,7 @@ class OptimizedReasons {
   const Mesh<3>* mesh_;
   const Domain<3>* domain_;
   const CellBounds<3>* bounds_;
+  const KeptEntities<3>* kept_;
   AngleBounds angles_;
   VertexGaps gaps_;
   double largest_ = 0;                                               ///< coordinate of the input

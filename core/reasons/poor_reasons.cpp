@@ -23,13 +23,31 @@ constexpr std::size_t most_cells_about = 4096;  // an element are looked at for 
 
 bool has_extent(EntityRef e) { return e.kind == EntityKind::segment || e.kind == EntityKind::facet; }
 
-/// A hair less than doubled, so that another's rounding cannot disagree.
+}  // namespace
+
 template <int D>
-Ball<D> doubled_ball(const Ball<D>& ball) {
-  return {ball.center, 4 * ball.squared_radius * (1 - rounding::of_blame)};
+Ball<D> doubled_circumball(const Simplex<D>& cell) {
+  const auto sphere = circumsphere<D>(cell);
+  return {sphere.center, 4 * sphere.squared_radius * (1 - rounding::of_blame)};
 }
 
-}  // namespace
+template <int D>
+bool is_beside(const Domain<D>& domain, EntityRef entity, const Ball<D>& doubled) {
+  const Point<D>& x = doubled.center;
+  const auto p = [&](std::uint32_t i) { return domain.points()[i]; };
+  if (entity.kind == EntityKind::segment) {
+    const auto& ends = domain.segments()[entity.id].points;
+    if (in_diametral_ball<D>(p(ends[0]), p(ends[1]), x)) return true;
+  } else if (entity.kind != EntityKind::facet) {
+    return false;
+  }
+  if (squared_distance_to<D>(domain, entity, x) <= doubled.squared_radius) return true;
+  if constexpr (D == 3)
+    if (entity.kind == EntityKind::facet)
+      for (const auto& t : domain.triangles(entity.id))
+        if (in_equatorial_ball(equatorial_ball(p(t[0]), p(t[1]), p(t[2])), x)) return true;
+  return false;
+}
 
 template <int D>
 bool PoorReasons<D>::meets(EntityRef e, const Ball<D>& ball) const {
@@ -91,14 +109,6 @@ std::optional<DomainReason> PoorReasons<D>::explain_by_piece(CellId c, std::span
   return {};
 }
 
-/// As the checker will ask: does the segment meet the ball, or have its centre in the diametral ball?
-template <int D>
-bool PoorReasons<D>::is_beside(EntityRef segment, const Ball<D>& doubled) const {
-  if (segment.kind != EntityKind::segment) return false;
-  const auto& ends = domain_->segments()[segment.id].points;
-  return in_diametral_ball<D>(domain_->points()[ends[0]], domain_->points()[ends[1]], doubled.center) || meets(segment, doubled);
-}
-
 /// Calls `f` with the entities that a vertex of this home lies on until it says true. Has it?
 template <int D>
 template <class F>
@@ -134,8 +144,7 @@ DomainReason PoorReasons<D>::explain(CellId c, bool beside) const {
     return std::any_of(mesh_->cell(c).vertices.begin(), mesh_->cell(c).vertices.end(),
                        [&](VertexId v) { return lies_on<D>(*domain_, mesh_->vertex(v).home, e); });
   };
-  const auto sphere = circumsphere<D>(mesh_->simplex(c));
-  const Ball<D> doubled = doubled_ball<D>({sphere.center, sphere.squared_radius});
+  const Ball<D> doubled = doubled_circumball<D>(mesh_->simplex(c));
   const Angle angle = [this](EntityRef a, EntityRef b) { return entity_angle<D>(*domain_, a, b); };
   DomainReason reason;
   if (const auto why = why_.find(index(c)); why != why_.end() && why->second)
@@ -170,17 +179,17 @@ DomainReason PoorReasons<D>::explain(CellId c, bool beside) const {
   reason.code = !proved                                                             ? PoorReason::Code::beyond_theory
                 : checking::is_as_short_as_rounding<D>(mesh_->simplex(c), largest_) ? PoorReason::Code::rounding
                                                                                     : PoorReason::Code::not_found;
-  if (!keep_boundary_ || beside) return reason;
+  if (!kept_->any() || beside) return reason;
   if (const auto why = why_.find(index(c)); why != why_.end() && why->second) near.insert(near.begin(), why->second->entities[0]);
   for (const EntityRef e : near)
-    if (is_beside(e, doubled)) return {PoorReason::Code::kept_boundary, {e, {}}, 0};
+    if (kept_->has(e) && is_beside<D>(*domain_, e, doubled)) return {PoorReason::Code::kept_boundary, {e, {}}, 0};
   return reason;
 }
 
 template <int D>
-PoorReasons<D>::PoorReasons(const Mesh<D>& mesh, const Domain<D>& domain, const CellBounds<D>& bounds, bool keep_boundary,
-                            const detail::Bulk& bulk)
-    : mesh_(&mesh), domain_(&domain), bounds_(&bounds), keep_boundary_(keep_boundary) {
+PoorReasons<D>::PoorReasons(const Mesh<D>& mesh, const Domain<D>& domain, const CellBounds<D>& bounds,
+                            const KeptEntities<D>& kept, const detail::Bulk& bulk)
+    : mesh_(&mesh), domain_(&domain), bounds_(&bounds), kept_(&kept) {
   const auto ends = [&](EntityId s) { return domain.segments()[s].points; };
   detail::sort_by_points(domain.points().size(), domain.segments().size(), ends, bulk, segments_begin_, segments_at_);
   for (const Point<D>& p : domain.points())
@@ -259,6 +268,10 @@ std::vector<PoorCell> PoorReasons<D>::of_refused(const std::function<bool()>& mu
   return all;
 }
 
+template Ball<2> doubled_circumball<2>(const Simplex<2>&);
+template Ball<3> doubled_circumball<3>(const Simplex<3>&);
+template bool is_beside<2>(const Domain<2>&, EntityRef, const Ball<2>&);
+template bool is_beside<3>(const Domain<3>&, EntityRef, const Ball<3>&);
 template PoorCount count_poor_cells(const Mesh<2>&, const CellBounds<2>&, std::uint32_t, std::uint32_t);
 template PoorCount count_poor_cells(const Mesh<3>&, const CellBounds<3>&, std::uint32_t, std::uint32_t);
 template class PoorReasons<2>;

@@ -19,6 +19,7 @@
 #include "pgdr/poor_reason.hpp"
 #include "refine/work_list.hpp"
 #include "rule/cell_bounds.hpp"
+#include "rule/kept_entities.hpp"
 #include "space/bulk.hpp"
 
 namespace pgdr {
@@ -51,14 +52,23 @@ struct PoorCount {
 template <int D>
 PoorCount count_poor_cells(const Mesh<D>& mesh, const CellBounds<D>& bounds, std::uint32_t first, std::uint32_t last);
 
+/// As the checker will ask: does the segment (3D: the facet) meet the ball, the circumball of a cell doubled but for a hair, or
+/// does its centre lie in the smallest sphere about the segment, or about a triangle of the facet?
+template <int D>
+bool is_beside(const Domain<D>& domain, EntityRef entity, const Ball<D>& doubled);
+
+/// The circumball, doubled, a hair less, so that another's rounding cannot disagree.
+template <int D>
+Ball<D> doubled_circumball(const Simplex<D>& cell);
+
 /// Finds the reasons of elements that stay poor.
 template <int D>
 class PoorReasons {
  public:
   using Angle = std::function<double(EntityRef, EntityRef)>;  ///< entity_angle of two, or what a caller remembers of it
 
-  /// `keep_boundary`: no segment was split (RefineOptions).
-  PoorReasons(const Mesh<D>& mesh, const Domain<D>& domain, const CellBounds<D>& bounds, bool keep_boundary,
+  /// All must outlive it. `kept`: what was not split.
+  PoorReasons(const Mesh<D>& mesh, const Domain<D>& domain, const CellBounds<D>& bounds, const KeptEntities<D>& kept,
               const detail::Bulk& bulk);
 
   /// What was refused in one region. What is said of a cell last counts, if it names a pair.
@@ -82,7 +92,6 @@ class PoorReasons {
                                                const Angle& angle) const;
   bool explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, const Angle& angle, DomainReason& reason) const;
   bool meets(EntityRef e, const Ball<D>& ball) const;
-  bool is_beside(EntityRef segment, const Ball<D>& doubled) const;
   template <class F>
   bool any_entity_of(Home home, F f) const;
   template <class F>
@@ -92,7 +101,7 @@ class PoorReasons {
   const Mesh<D>* mesh_;
   const Domain<D>* domain_;
   const CellBounds<D>* bounds_;
-  bool keep_boundary_;
+  const KeptEntities<D>* kept_;
   double largest_ = 0;  ///< coordinate of the input
   /// Of each input point its segments: segments_at_ from segments_begin_ on.
   std::vector<std::uint32_t> segments_begin_, segments_at_;

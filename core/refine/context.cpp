@@ -45,6 +45,7 @@ RefineContext<D>::RefineContext(Mesh<D>& m, const Domain<D>& d, const RefineOpti
       domain(d),
       options(o),
       bounds(std::move(b)),
+      kept(o, d),
       start(start_time),
       buckets_before_entities(D == 2 ? buckets : buckets_of_ratio(2 * bounds.radius_edge_bound)),
       shells(d, D == 2),

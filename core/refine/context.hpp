@@ -16,6 +16,7 @@
 #include "pgdr/refine_options.hpp"
 #include "refine/work_list.hpp"
 #include "rule/cell_bounds.hpp"
+#include "rule/kept_entities.hpp"
 #include "rule/shells.hpp"
 
 namespace pgdr {
@@ -52,7 +53,10 @@ struct RefineContext {
   const Domain<D>& domain;                            ///< the input
   const RefineOptions<D>& options;                    ///< as the caller gave them
   const CellBounds<D> bounds;                         ///< of cells
+  const KeptEntities<D> kept;                         ///< which no point goes onto
   const std::chrono::steady_clock::time_point start;  ///< of the time limit
+  /// Is the mesh constrained Delaunay before the refinement begins? Set before it does.
+  bool begins_delaunay = true;
   /// 3D: the last resort has begun, when what is poor would stay so (rule/insertion_rule.hpp). Set while no visit runs.
   bool last_resort = false;
   /// The stage that treats poor elements; null: points are inserted for them (element_splitter.hpp). Set while no visit runs.

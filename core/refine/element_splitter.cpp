@@ -81,7 +81,8 @@ bool ElementSplitter<D>::is_forced(const Candidate<D>& c) {
 template <int D>
 Outcome ElementSplitter<D>::insert(const Candidate<D>& c) {
   const Obstacle obstacle = find_obstacle(c);
-  if (obstacle.entity && !w_->options.keep_boundary) return split_instead(*obstacle.entity, c);
+  const bool is_kept = obstacle.entity && w_->context.kept.any() && w_->context.kept.has(entity_of(*mesh_, *obstacle.entity));
+  if (obstacle.entity && !is_kept) return split_instead(*obstacle.entity, c);
   Outcome outcome = obstacle.outcome;
   if (obstacle.entity)
     outcome = pass_by(*obstacle.entity, c);
@@ -134,11 +135,11 @@ auto ElementSplitter<D>::find_obstacle(const Candidate<D>& c) -> Obstacle {
     return {wall_in_claim<D>(*w_, c.entry.cell, c.x), Outcome::not_owned};
   }
   if (status != Status::ok) return {{}, Outcome::refused};
-  if (const auto encroached = encroached_entity<D>(*mesh_, *cavity_, w_->options, c.x)) return {encroached};
+  if (const auto encroached = encroached_entity<D>(w_->context, *cavity_, c.x)) return {encroached};
   return {wall_that_hides<D>(*w_, c.entry.cell, c.x)};
 }
 
-/// Where the boundary is kept: the incentre of an element too big whose circumcentre the boundary hides.
+/// 2D, beside what is kept: the incentre of an element too big whose circumcentre the boundary hides.
 template <int D>
 Outcome ElementSplitter<D>::insert_inside(Candidate<D> c) {
   if constexpr (D == 2) {
@@ -157,16 +158,16 @@ Outcome ElementSplitter<D>::insert_inside(Candidate<D> c) {
     cavity_->release();
     const Status status = cavity_->collect(x, c.entry.cell);
     if (status == Status::not_owned) return Outcome::not_owned;
-    if (status == Status::ok && !flattened_face<D>(*mesh_, *cavity_, w_->options, x))
+    if (status == Status::ok && !flattened_face<D>(w_->context, *cavity_, x))
       if (const Outcome outcome = commit(c); outcome != Outcome::refused) return outcome;
   }
   return w_->give_up(Outcome::refused);
 }
 
-/// Where the boundary is kept: an entity hides the candidate, or is encroached upon.
+/// A kept entity hides the candidate, or is encroached upon.
 template <int D>
 Outcome ElementSplitter<D>::pass_by(const Entry<D>& entity, const Candidate<D>& c) {
-  w_->refused_by = EntityPair{{mesh_->entity_of_face(entity.cell, entity.which()), {}}};
+  w_->refused_by = EntityPair{{entity_of(*mesh_, entity), {}}};
   return c.verdict.over_size > 0 ? insert_inside(c) : Outcome::refused;
 }
 

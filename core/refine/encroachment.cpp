@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <limits>
 #include <unordered_set>
 
 #include "numbers/vectors.hpp"
@@ -77,10 +79,12 @@ bool any_encroached_edge(const Mesh<D>& mesh, const Cavity<D>& cavity, const Poi
   return false;
 }
 
+/// The first such subsegment that is not kept.
 template <int D>
-std::optional<Entry<D>> encroached_edge(const Mesh<D>& mesh, const Cavity<D>& cavity, const Point<D>& x) {
+std::optional<Entry<D>> encroached_edge(const RefineContext<D>& context, const Cavity<D>& cavity, const Point<D>& x) {
   std::optional<Entry<D>> first;
-  any_encroached_edge(mesh, cavity, x, [&](const Entry<D>& e) {
+  any_encroached_edge(context.mesh, cavity, x, [&](const Entry<D>& e) {
+    if (context.kept.any() && context.kept.has(entity_of(context.mesh, e))) return false;
     first = e;
     return true;
   });
@@ -88,15 +92,61 @@ std::optional<Entry<D>> encroached_edge(const Mesh<D>& mesh, const Cavity<D>& ca
 }
 
 template <int D>
-std::optional<Entry<D>> encroached_face(const Mesh<D>& mesh, const Cavity<D>& cavity, const Point<D>& x) {
+std::optional<Entry<D>> encroached_face(const RefineContext<D>& context, const Cavity<D>& cavity, const Point<D>& x) {
+  const Mesh<D>& mesh = context.mesh;
   std::optional<Entry<D>> any;
   for (const auto& f : cavity.boundary()) {
     if (!mesh.constrained(f.cell, f.face)) continue;
+    if (context.kept.any() && context.kept.has(mesh.entity_of_face(f.cell, f.face))) continue;
     const Encroachment how = encroachment<D>(mesh, f.cell, f.face, x);
     if (how == Encroachment::before) return entry_of(mesh, f.cell, EntryKind::face, f.face);
     if (how == Encroachment::beside && !any) any = entry_of(mesh, f.cell, EntryKind::face, f.face);
   }
   return any;
+}
+
+/// Would a tetrahedron of these and x be over the bound on account of x: farther from a sphere of its size than the ball about
+/// them is? (What is over the bound without x, or nearly, is no worse with it.)
+template <std::size_t N>
+bool is_flattened_by(const std::array<Point3, N>& corners, const Point3& x, double squared_ball, double radius_edge_bound) {
+  double squared_radius, shortest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < N; ++i) {
+    shortest = std::min(shortest, squared_distance(corners[i], x));
+    for (std::size_t k = 0; k < i; ++k) shortest = std::min(shortest, squared_distance(corners[i], corners[k]));
+  }
+  if constexpr (N == 3)
+    squared_radius = circumsphere<3>({corners[0], corners[1], corners[2], x}).squared_radius;
+  else
+    squared_radius = equatorial_ball(corners[0], corners[1], x).squared_radius;
+  return !(squared_radius <= std::max(radius_edge_bound * radius_edge_bound * shortest, 2 * squared_ball));
+}
+
+/// A kept subsegment or subfacet in whose smallest ball x lies, and that it would flatten a cell at.
+std::optional<Entry<3>> encroached_kept(const RefineContext<3>& context, const Cavity<3>& cavity, const Point3& x) {
+  static const bool strict = std::getenv("PGDR_STRICT") != nullptr;
+  const Mesh<3>& mesh = context.mesh;
+  const double bound = context.options.radius_edge_bound;
+  std::optional<Entry<3>> found;
+  any_encroached_edge(mesh, cavity, x, [&](const Entry<3>& e) {
+    if (!context.kept.has(entity_of(mesh, e))) return false;
+    const auto ends = mesh.points(ends_of_edge(mesh.cell(e.cell).vertices, e.which()));
+    if (!strict && !is_flattened_by<2>(ends, x, squared_distance(ends[0], ends[1]) / 4, bound)) return false;
+    found = e;
+    return true;
+  });
+  if (found) return found;
+  for (const auto& f : cavity.boundary()) {
+    if (!mesh.constrained(f.cell, f.face) || !context.kept.has(mesh.entity_of_face(f.cell, f.face))) continue;
+    const auto corners = mesh.points(face_without(mesh.cell(f.cell).vertices, f.face));
+    const Ball<3> ball = equatorial_ball(corners[0], corners[1], corners[2]);
+    if (!in_equatorial_ball(ball, x)) continue;
+    if (strict || is_flattened_by<3>(corners, x, ball.squared_radius, bound))
+      return entry_of(mesh, f.cell, EntryKind::face, f.face);
+  }
+  return std::nullopt;
+}
+std::optional<Entry<2>> encroached_kept(const RefineContext<2>& context, const Cavity<2>& cavity, const Point2& x) {
+  return flattened_face<2>(context, cavity, x);
 }
 
 }  // namespace
@@ -170,25 +220,26 @@ std::vector<Entry<D>> encroached_edges(const Mesh<D>& mesh, const Cavity<D>& cav
 }
 
 template <int D>
-std::optional<Entry<D>> flattened_face(const Mesh<D>& mesh, const Cavity<D>& cavity, const RefineOptions<D>& options,
-                                       const Point<D>& x) {
+std::optional<Entry<D>> flattened_face(const RefineContext<D>& context, const Cavity<D>& cavity, const Point<D>& x) {
   if constexpr (D == 2) {
+    const Mesh<D>& mesh = context.mesh;
     for (const auto& f : cavity.boundary()) {
-      if (!mesh.constrained(f.cell, f.face)) continue;
+      if (!mesh.constrained(f.cell, f.face) || !context.kept.has(mesh.entity_of_face(f.cell, f.face))) continue;
       const auto& v = mesh.cell(f.cell).vertices;
       const Point<D>&a = mesh.point(v[(f.face + 1) % 3]), &b = mesh.point(v[(f.face + 2) % 3]);
-      if (is_flat_at(x, a, b, options.radius_edge_bound)) return entry_of(mesh, f.cell, EntryKind::face, f.face);
+      if (is_flat_at(x, a, b, context.options.radius_edge_bound)) return entry_of(mesh, f.cell, EntryKind::face, f.face);
     }
   }
   return std::nullopt;
 }
 
 template <int D>
-std::optional<Entry<D>> encroached_entity(const Mesh<D>& mesh, const Cavity<D>& cavity, const RefineOptions<D>& options,
-                                          const Point<D>& x) {
+std::optional<Entry<D>> encroached_entity(const RefineContext<D>& context, const Cavity<D>& cavity, const Point<D>& x) {
   if (!cavity.touches_constraints()) return std::nullopt;
-  if (auto edge = encroached_edge<D>(mesh, cavity, x)) return edge;
-  return options.keep_boundary ? flattened_face<D>(mesh, cavity, options, x) : encroached_face<D>(mesh, cavity, x);
+  if (context.kept.any())
+    if (auto kept = encroached_kept(context, cavity, x)) return kept;
+  if (auto edge = encroached_edge<D>(context, cavity, x)) return edge;
+  return encroached_face<D>(context, cavity, x);
 }
 
 template Encroachment encroachment(const Mesh<2>&, CellId, int, const Point<2>&);
@@ -198,8 +249,8 @@ template double squared_radius_of_face(const Mesh<3>&, CellId, int);
 template bool is_face_encroached_by(const Mesh<2>&, const Domain<2>&, CellId, int, VertexId, const RefineOptions<2>&);
 template bool is_face_encroached_by(const Mesh<3>&, const Domain<3>&, CellId, int, VertexId, const RefineOptions<3>&);
 template std::vector<Entry<3>> encroached_edges(const Mesh<3>&, const Cavity<3>&, const Point<3>&);
-template std::optional<Entry<2>> encroached_entity(const Mesh<2>&, const Cavity<2>&, const RefineOptions<2>&, const Point<2>&);
-template std::optional<Entry<3>> encroached_entity(const Mesh<3>&, const Cavity<3>&, const RefineOptions<3>&, const Point<3>&);
-template std::optional<Entry<2>> flattened_face(const Mesh<2>&, const Cavity<2>&, const RefineOptions<2>&, const Point<2>&);
+template std::optional<Entry<2>> encroached_entity(const RefineContext<2>&, const Cavity<2>&, const Point<2>&);
+template std::optional<Entry<3>> encroached_entity(const RefineContext<3>&, const Cavity<3>&, const Point<3>&);
+template std::optional<Entry<2>> flattened_face(const RefineContext<2>&, const Cavity<2>&, const Point<2>&);
 
 }  // namespace pgdr

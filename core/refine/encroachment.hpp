@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cavity/cavity.hpp"
-#include "pgdr/refine_options.hpp"
+#include "refine/context.hpp"
 #include "refine/work_list.hpp"
 
 namespace pgdr {
@@ -56,17 +56,22 @@ bool is_edge_encroached(const Mesh<3>& mesh, const Domain<3>& domain, CellId c, 
 template <int D>
 std::vector<Entry<D>> encroached_edges(const Mesh<D>& mesh, const Cavity<D>& cavity, const Point<D>& x);
 
-/// An entity that the collected point x of a poor element encroaches upon: a subsegment, or else a constrained face of the
-/// cavity's boundary, one that x projects into, if there is one. Where the boundary is kept (2D): a subsegment with which x would
-/// make a triangle so flat that it has an angle below the bound, whatever comes after; a point that merely encroaches upon it
-/// does more good than harm.
+/// An entity that the collected point x of a poor element encroaches upon: one that is kept, if there is any; a subsegment, or
+/// else a constrained face of the cavity's boundary, one that x projects into, if there is one. Of what is kept in 2D: a
+/// subsegment with which x would make a triangle so flat that it has an angle below the bound, whatever comes after; a point that
+/// merely encroaches upon it does more good than harm.
 template <int D>
-std::optional<Entry<D>> encroached_entity(const Mesh<D>& mesh, const Cavity<D>& cavity, const RefineOptions<D>& options,
-                                          const Point<D>& x);
+std::optional<Entry<D>> encroached_entity(const RefineContext<D>& context, const Cavity<D>& cavity, const Point<D>& x);
 
-/// 2D: that subsegment where the boundary is kept.
+/// 2D: that subsegment that is kept.
 template <int D>
-std::optional<Entry<D>> flattened_face(const Mesh<D>& mesh, const Cavity<D>& cavity, const RefineOptions<D>& options,
-                                       const Point<D>& x);
+std::optional<Entry<D>> flattened_face(const RefineContext<D>& context, const Cavity<D>& cavity, const Point<D>& x);
+
+/// The facet or segment that the constrained face or edge is part of.
+template <int D>
+EntityRef entity_of(const Mesh<D>& mesh, const Entry<D>& e) {
+  if (e.kind() == EntryKind::face) return mesh.entity_of_face(e.cell, e.which());
+  return {EntityKind::segment, mesh.constraints(e.cell)->edge_entity[e.which()]};
+}
 
 }  // namespace pgdr

@@ -107,6 +107,14 @@ Outcome EntitySplitter<D>::refuse(EntityRef entity, std::span<const VertexId> ow
   return w_->give_up(Outcome::refused);
 }
 
+/// What blocks a facet's point is kept.
+template <int D>
+Outcome EntitySplitter<D>::refuse_kept(EntityRef kept) {
+  w_->refused_by = EntityPair{{kept, {}}};
+  ++w_->visit->counts.refused;
+  return w_->give_up(Outcome::refused);
+}
+
 /// Judges the collected point of the entity, and inserts it if the insertion rule allows. `twins`: their distances do not count.
 template <int D>
 Outcome EntitySplitter<D>::commit_split(EntityRef entity, std::span<const VertexId> own, const Demand* cause,
@@ -284,6 +292,7 @@ template <int D>
 Outcome EntitySplitter<D>::split_edge(const Entry<D>& e, const Demand* cause) {
   if constexpr (D == 3) {
     const EntityId s = mesh_->constraints(e.cell)->edge_entity[e.which()];
+    if (w_->context.kept.has({EntityKind::segment, s})) return refuse_kept({EntityKind::segment, s});
     const std::array<VertexId, 2> own = ends_of_edge(mesh_->cell(e.cell).vertices, e.which());
     const SubsegmentRing ring(*w_, e.cell, e.which());
     if (!ring.owned()) return w_->give_up(Outcome::not_owned);

@@ -57,6 +57,7 @@ class EntitySplitter {
   Outcome commit_split(EntityRef entity, std::span<const VertexId> own, const Demand* cause, std::span<const VertexId> twins);
   bool is_near_boundary(std::span<const VertexId> own) const;
   Outcome refuse(EntityRef entity, std::span<const VertexId> own);
+  Outcome refuse_kept(EntityRef kept);
   Outcome refuse_near(const Entry<D>& e, const Near& near);
   bool is_refused_as_before(const Entry<D>& face, const Demand& cause);
   Demand demand_of(EntityRef entity, std::span<const VertexId> own);

@@ -33,13 +33,16 @@ struct StageTime {
 
 /// What was done. Times are of the clock on the wall.
 struct RefineStatistics {
-  double seconds_mesh = 0;                 ///< from the input in memory to the finished mesh in memory
-  double seconds_initial = 0;              ///< of these, until the boundary is there
-  double seconds_refine = 0;               ///< of these, the refinement
-  double seconds_optimize = 0;             ///< of these, the optimiser
-  std::vector<StageTime> stages;           ///< those that ran, in their order
-  std::uint64_t segment_points = 0;        ///< Steiner points on segments, of the boundary recovery
-  std::uint64_t facet_points = 0;          ///< Steiner points on facets, of the boundary recovery
+  double seconds_mesh = 0;           ///< from the input in memory to the finished mesh in memory
+  double seconds_initial = 0;        ///< of these, until the boundary is there
+  double seconds_refine = 0;         ///< of these, the refinement
+  double seconds_optimize = 0;       ///< of these, the optimiser
+  std::vector<StageTime> stages;     ///< those that ran, in their order
+  std::uint64_t segment_points = 0;  ///< Steiner points on segments, of the boundary recovery
+  std::uint64_t facet_points = 0;    ///< Steiner points on facets, of the boundary recovery
+  /// With RefineOptions::keep_boundary, of these: on what was to be kept, as no way was found to do without them.
+  std::uint64_t boundary_points = 0;
+  std::uint64_t inner_points = 0;          ///< with it: points inside, which the recovery needs in their place
   std::uint64_t insertions_committed = 0;  ///< points that the refinement inserted
   /// Beside small angles, or with `min_edge`. Not counted: encroached subsegments that their rings refuse, which are never listed
   /// (refine/subsegment_ring.hpp), and elements that lean on the refusal of an entity, which counts once.

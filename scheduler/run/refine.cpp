@@ -29,6 +29,7 @@
 #include "rule/cell_bounds.hpp"
 #include "run/cells_ahead.hpp"
 #include "run/folded_facets.hpp"
+#include "run/kept_boundary.hpp"
 #include "run/refinement.hpp"
 #include "run/unused_points.hpp"
 #include "size/region_sizes.hpp"
@@ -65,7 +66,7 @@ void validate(const RefineOptions<D>& options) {
     bad_option("a bound on dihedral angles needs the refinement: the optimiser follows it");
   if (D == 2 && options.min_dihedral.value_or(0) > 0)
     bad_option("the bound on dihedral angles is for 3D; in 2D the radius-edge bound is one on angles");
-  if (D == 3 && options.keep_boundary) bad_option("the boundary can be kept as it is in 2D only");
+  if (!options.kept_markers.empty() && !options.keep_boundary) bad_option("kept markers need that the boundary is kept");
   if (options.conforming_delaunay && (D == 3 || !options.refine || options.keep_boundary))
     bad_option(
         "a conforming Delaunay mesh is made in 2D only, with refinement, and splits segments: the boundary cannot be kept");
@@ -223,8 +224,13 @@ RegionTable make_initial(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Do
     result.statistics.facet_points = counts.facet_points;
   }
   if (result.stop != StopCause::finished) return {};
-  const detail::RunClock::Stage timed(clock, "carve");
+  std::optional<detail::RunClock::Stage> timed(std::in_place, clock, "carve");
   RegionTable regions = carve<D>(mesh, pools, delaunay, domain, options.regions, result.warnings, pieces);
+  if constexpr (D == 3)
+    if (options.keep_boundary) {
+      timed.emplace(clock, "withdraw");
+      detail::keep_boundary(mesh, pools, domain, options, deadline.token(), result);
+    }
   try {
     if constexpr (D == 3) require_unfolded(mesh, domain, options.regions, attributes_of(regions), pieces, deadline.token());
   } catch (const CancelledError&) {
@@ -254,7 +260,7 @@ Refined<D> refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools,
   const RefineCounts& counts = optimizing ? optimizing->counts_before() : state.totals.counts;
   if (optimizing) result.optimization = optimizing->statistics();
   // Who interrupts a run does not wait for the repair of what is not locally Delaunay.
-  result.delaunay = !optimizing && !(was_interrupted(result.stop) && state.totals.violations_seen);
+  result.delaunay = context.begins_delaunay && !optimizing && !(was_interrupted(result.stop) && state.totals.violations_seen);
   result.violations_seen = state.totals.violations_seen || optimizing;
   result.statistics.insertions_committed = counts.committed;
   result.statistics.insertions_refused = counts.refused;
@@ -354,8 +360,10 @@ RefineResult<D> make_mesh(const Domain<D>& domain, const RefineOptions<D>& optio
     return result;  // no boundary yet, so no mesh
   }
   const PointData<D> data(mesh, domain, pieces);
-  const std::uint64_t vertices = domain.points().size() + result.statistics.segment_points + result.statistics.facet_points;
+  const std::uint64_t vertices = domain.points().size() + result.statistics.segment_points + result.statistics.facet_points +
+                                 result.statistics.inner_points;
   RefineContext<D> context(mesh, domain, options, bounds_of(options, regions), vertices, start);
+  context.begins_delaunay = result.delaunay;
   Refined<D> refined;
   if (options.refine) refined = refine_mesh<D>(context, std::move(pools), vertices, pieces, hooks, result);
   if (is_unwanted(options, result.stop)) return without_mesh(std::move(result), start);
@@ -421,8 +429,8 @@ auto with_typed_errors(const F& f) {
 }
 
 template <int D>
-RefineResult<D> prepare_and_run(const Plc<D>& plc, const RefineOptions<D>& options, Clock::time_point start,
-                                const detail::RunHooks<D>* hooks) {
+RefineResult<D> prepare_and_run_as_given(const Plc<D>& plc, const RefineOptions<D>& options, Clock::time_point start,
+                                         const detail::RunHooks<D>* hooks) {
   const detail::Deadline deadline(options, start);
   std::optional<Domain<D>> domain;
   detail::RunClock clock(start);
@@ -437,6 +445,15 @@ RefineResult<D> prepare_and_run(const Plc<D>& plc, const RefineOptions<D>& optio
     return without_mesh(std::move(none), start, deadline.cause());
   }
   return run<D>(*domain, options, start, deadline, pieces, hooks);
+}
+
+template <int D>
+RefineResult<D> prepare_and_run(const Plc<D>& plc, const RefineOptions<D>& options, Clock::time_point start,
+                                const detail::RunHooks<D>* hooks) {
+  const auto run_as_given = [&](const Plc<D>& input) { return prepare_and_run_as_given<D>(input, options, start, hooks); };
+  if constexpr (D == 3)
+    if (options.keep_boundary) return detail::with_kept_input(plc, options, run_as_given);
+  return run_as_given(plc);
 }
 
 }  // namespace
@@ -465,6 +482,7 @@ template <int D>
 RefineResult<D> detail::refine_with(const Plc<D>& plc, const RefineOptions<D>& options, const RunHooks<D>& hooks) {
   const DefaultFloats floats;
   validate(options);
+  if (D == 3 && options.keep_boundary) bad_option("the boundary cannot be kept on ranks; run one process");
   return prepare_and_run<D>(plc, options, Clock::now(), &hooks);
 }
 

@@ -105,6 +105,10 @@ StopCause Refinement<D>::list_everything() {
     listed = {};
   }
   state_.waiting.set_all_listed(context.stop == 0);
+  if (!context.begins_delaunay) {
+    state_.totals.violations_seen = true;
+    for (const Entry<D>& e : violations_.scan_if_any()) state_.waiting.relist(e);
+  }
   return StopCause::finished;
 }
 

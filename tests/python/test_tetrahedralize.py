@@ -64,6 +64,13 @@ class Tetrahedralize(unittest.TestCase):
     def test_p_alone_adds_nothing(self):
         self.assertEqual(self.made(switches="p").nodes.tolist(), POINTS)
 
+    def test_the_surface_may_be_kept(self):
+        one, other = self.made(switches="pqa0.01YC"), self.made(max_volume=0.01, nobisect=True)
+        self.assertEqual(one.nodes.tobytes(), other.nodes.tobytes())
+        self.assertEqual(len(one.faces), 12)
+        self.assertLess(int(one.faces.max()), len(POINTS))
+        self.assertGreater(len(one.nodes), len(POINTS))
+
     def test_regions(self):
         regions = [[0.5, 0.5, 0.5, 7, 0.005]]
         made = self.made(switches="pqaAC", regions=regions)
@@ -78,8 +85,8 @@ class Tetrahedralize(unittest.TestCase):
             pgdr.tetrahedralize(plc, BOX)
 
     def test_refusals_say_what_to_use(self):
-        for keywords, word in (({"order": 2}, "order"), ({"nobisect": True}, "nobisect"), ({"cdt": True}, "cdt"),
-                               ({"switches": "pY"}, "leave Y out"), ({"switches": "pr"}, "r of"), ({"switches": "pu"}, "'u'"),
+        for keywords, word in (({"order": 2}, "order"), ({"cdt": True}, "cdt"),
+                               ({"switches": "pY", "nobisect": True}, "two ways"), ({"switches": "pr"}, "r of"), ({"switches": "pu"}, "'u'"),
                                ({"switches": "pq", "minratio": 2}, "two ways"), ({"switches": "pq1.2.3"}, "1.2.3"),
                                ({"maxvolume": 1, "max_volume": 1}, "the same")):
             with self.subTest(keywords), self.assertRaises(pgdr.UsageError) as caught:

@@ -59,6 +59,8 @@ py::dict check_mesh(const MeshData<D>& data, const Plc<D>* plc, const RefineOpti
     options.largest_cosine = largest_cosine;
     options.delaunay = delaunay;
     options.not_delaunay_left = not_delaunay_left;
+    options.keep_boundary = bounds.keep_boundary;
+    options.kept_markers = bounds.kept_markers;
     options.surface_tolerance = length;
     options.feature_angle = feature_angle;
     report = check(data.mesh, options);

@@ -49,6 +49,7 @@ void bind(py::module_& module) {
       .def_readwrite("refine", &Options::refine)
       .def_readwrite("keep_boundary", &Options::keep_boundary)
       .def_readwrite("conforming_delaunay", &Options::conforming_delaunay)
+      .def_readwrite("kept_markers", &Options::kept_markers)
       .def_readwrite("drop_unused_points", &Options::drop_unused_points)
       .def_readwrite("memory_guard", &Options::memory_guard)
       .def_readwrite("min_edge", &Options::min_edge)

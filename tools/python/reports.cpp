@@ -77,6 +77,7 @@ py::dict to_python(const RefineResult<D>& result, const OutputMesh<D>& mesh) {
                                       "optimize"_a = s.seconds_optimize),
                "stages"_a = stages, "threads"_a = result.scheduler.threads, "scheduler"_a = to_python(result.scheduler),
                "insertions"_a = py::dict("segment_points"_a = s.segment_points, "facet_points"_a = s.facet_points,
+                                         "boundary_points"_a = s.boundary_points, "inner_points"_a = s.inner_points,
                                          "committed"_a = s.insertions_committed, "refused"_a = s.insertions_refused),
                "selector_outside"_a = s.selector_outside,
                "predicates"_a = py::dict("filter"_a = p.filter, "expansion"_a = p.expansion, "exact"_a = p.exact,

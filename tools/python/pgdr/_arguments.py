@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 import numbers
 import os
-from typing import Any, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -133,6 +133,16 @@ def flag(name: str, value: object) -> bool:
     if not isinstance(value, (bool, np.bool_)):
         raise TypeError(f"{name} must be True or False, not {type(value).__name__}")
     return bool(value)
+
+
+def kept(name: str, value: object) -> Tuple[bool, List[int]]:
+    """True or False, or the markers of what is kept: whether anything is, and these."""
+    if isinstance(value, (bool, np.bool_)):
+        return bool(value), []
+    if isinstance(value, (str, bytes)) or not isinstance(value, (Sequence, np.ndarray)):
+        raise TypeError(f"{name} must be True, False, or markers, not {type(value).__name__}")
+    markers = [whole_number(name, marker, -2**31, 2**31 - 1) for marker in value]
+    return bool(markers), markers
 
 
 def mapping(name: str, value: object, of_what: str) -> Mapping[Any, Any]:

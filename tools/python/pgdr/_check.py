@@ -21,7 +21,8 @@ _BOUNDS = ("min_angle", "radius_edge", "size", "region_sizes", "min_dihedral", "
 
 @door
 def check(mesh: Mesh, plc: Optional[Plc] = None, *, delaunay: Optional[bool] = None, reasons: bool = True,
-          surface_tolerance: Union[None, float, str] = None, feature_angle: float = 40.0, **bounds: Any) -> CheckReport:
+          surface_tolerance: Union[None, float, str] = None, feature_angle: float = 40.0,
+          keep_boundary: Union[None, bool, Sequence[int]] = None, **bounds: Any) -> CheckReport:
     """Certifies a mesh, with exact arithmetic: that its cells are one, that it conforms to the input as given, and that the bounds
     hold but where its reasons, each of which is verified, say why not. Those that regions of the input have count unless the run that
     made the mesh ended early. Some 5 microseconds a cell.
@@ -41,6 +42,9 @@ def check(mesh: Mesh, plc: Optional[Plc] = None, *, delaunay: Optional[bool] = N
         topology, markers and volumes; "0.1%" is of the diagonal of all points. 16 times the tolerance of the input at least.
     feature_angle : float
         With it: given edges at which normals differ by more than so many degrees, 0 to 180, have subsegments as near.
+    keep_boundary : bool or sequence of int, optional
+        Was the boundary to be kept, all or with these markers? Then it may have no points but given ones, and each given triangle is
+        one subfacet (2D: each segment one subsegment). None: if the run that made the mesh kept it.
     min_angle, radius_edge, size, region_sizes, min_dihedral, max_volume, regions
         As `pgdr.mesh`. What is not given is no bound; `Mesh.check` takes those that the mesh was made with.
 
@@ -71,6 +75,8 @@ def check(mesh: Mesh, plc: Optional[Plc] = None, *, delaunay: Optional[bool] = N
     angle = float(feature_angle)
     if not 0 <= angle <= 180:
         raise usage(f"feature_angle must be 0 to 180 degrees, not {feature_angle!r}")
+    kept = mesh._facts.get("kept_boundary", False) if keep_boundary is None else keep_boundary
+    options.keep_boundary, options.kept_markers = _arguments.kept("keep_boundary", kept)
     of_dimension = _pgdr.check2 if mesh.dimension == 2 else _pgdr.check3
     with WORK:
         return CheckReport(of_dimension(mesh._core, plc._core if plc is not None else None, options, cosine,

@@ -134,6 +134,7 @@ class _Options(metaclass=_PybindType):
     refine: bool
     keep_boundary: bool
     conforming_delaunay: bool
+    kept_markers: List[int]
     drop_unused_points: bool
     memory_guard: bool
     min_edge: float

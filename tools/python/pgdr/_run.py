@@ -68,7 +68,7 @@ class StopSource:
 def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, radius_edge: Optional[float] = None, size: Optional[Size] = None,
          min_dihedral: Optional[float] = None, optimize: bool = True, threads: int = 0, regions: Optional[str] = None,
          region_sizes: Optional[Mapping[Union[float, str], Size]] = None,
-         selector: Union[None, str, Callable[[Elements], npt.ArrayLike]] = None, keep_boundary: bool = False,
+         selector: Union[None, str, Callable[[Elements], npt.ArrayLike]] = None, keep_boundary: Union[bool, Sequence[int]] = False,
          conforming_delaunay: bool = False, periodic: Sequence[Tuple[Any, ...]] = (),
          tolerance: Optional[float] = None, surface_tolerance: Union[None, float, str] = None, feature_angle: float = 40.0,
          max_volume: Optional[float] = None, min_edge: float = 0.0,
@@ -107,8 +107,10 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
         time, for the element that is next and those that wait behind it: each point must depend on its element alone. A point
         outside of the disk, or NaN, is replaced by the circumcentre and counted, if the element comes to its turn. It is asked for
         elements over the radius-edge bound; where none is met, a warning (`Mesh.warnings`, and of Python) says so.
-    keep_boundary : bool
-        2D: no new point on any segment.
+    keep_boundary : bool or sequence of int
+        True: no new point on any segment (2D) or facet (3D): each given triangle is one subfacet. Numbers: of facets (2D: segments)
+        with these markers alone. In 3D `Mesh.statistics["insertions"]` has `boundary_points`, those without which the boundary
+        could not be recovered (mostly none), and `inner_points`, those inside that it takes in their place.
     conforming_delaunay : bool
         2D: segments are split until every triangle is Delaunay across them, too, and its circumcentre in the domain: `Mesh.voronoi`
         has the cells of such a mesh. What lies beyond a void does not count. With radius_edge=inf and no size, this alone adds points.
@@ -193,7 +195,7 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
     options = bounds_of(dimension, bounds)
     options.set_threads(_arguments.whole_number("threads", threads, 0, 4096))
     options.refine = _arguments.flag("refine", refine)
-    options.keep_boundary = _arguments.flag("keep_boundary", keep_boundary)
+    options.keep_boundary, options.kept_markers = _arguments.kept("keep_boundary", keep_boundary)
     options.conforming_delaunay = _arguments.flag("conforming_delaunay", conforming_delaunay)
     options.drop_unused_points = _arguments.flag("drop_unused_points", drop_unused_points)
     options.memory_guard = _arguments.flag("memory_guard", memory_guard)
@@ -224,6 +226,8 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
         made._facts["given_points"] = given_points
         if made.stop == "finished":
             made._facts["periodic"] = paired(made._core, sides, 2 * made.statistics["tolerance"])
+    if options.keep_boundary:
+        made._facts["kept_boundary"] = list(options.kept_markers) or True
     if asked is not None and not asked.was_called:
         _say_unasked(made, options)
     return made

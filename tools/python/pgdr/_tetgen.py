@@ -23,7 +23,6 @@ from ._run import mesh
 _WITHOUT_EFFECT = "pzQVfenJdBNEFIgkX"
 _REFUSED = {
     "r": "a given mesh is not refined: mesh its surface again, with a smaller size",
-    "Y": "the surface may get new points, which the guarantees need: leave Y out",
     "i": "put further points among `points`: those inside are kept",
     "o": "cells have four corners: leave o2 out",
     "v": "there is no Voronoi diagram",
@@ -49,7 +48,6 @@ _NO_LIMITS = "there are no such limits"
 _OWN_OPTIMIZER = "the optimiser has no such setting: optimize=False and mindihedral are what there is"
 _NEUTRAL: Mapping[str, Tuple[Tuple[Any, ...], str]] = {
     "order": ((1,), "cells have four corners"),
-    "nobisect": ((False,), _REFUSED["Y"].replace("leave Y out", "leave it out")),
     "refine": ((False,), _REFUSED["r"]),
     "psc": ((False,), "surfaces are flat piece by piece"),
     "cdt": ((False,), _REFUSED["D"].replace("leave D out", "leave it out")),
@@ -151,6 +149,8 @@ def _switches(text: str) -> Dict[str, Any]:
                 found["optimize"] = number.split("/")[0] not in ("0", "0.")
             elif letter == "C":
                 found["docheck"] = True
+            elif letter == "Y":
+                found["nobisect"] = True
             elif letter == "m":
                 found["metric"] = True
             elif letter not in _WITHOUT_EFFECT:
@@ -163,11 +163,13 @@ def _switches(text: str) -> Dict[str, Any]:
 
 
 def _options(plc: Plc, minratio: Optional[float], mindihedral: Optional[float], max_volume: Optional[float],
-             steinerleft: Optional[int], quality: bool, optimize: bool, labels: bool, size: Optional[Field]) -> Dict[str, Any]:
+             steinerleft: Optional[int], quality: bool, optimize: bool, labels: bool, size: Optional[Field],
+             keep: bool) -> Dict[str, Any]:
     """The arguments of pgdr.mesh."""
     sized = max_volume is not None or size is not None
     options: Dict[str, Any] = {"refine": quality or sized or bool((plc.regions[:, 4] > 0).any())}
     options["optimize"] = optimize and options["refine"]
+    options["keep_boundary"] = keep
     if labels:  # volumes without a seed are numbered, and none of them is a void
         options["regions"] = "all"
     if quality:
@@ -215,7 +217,8 @@ def _size_on(bgmesh: Any) -> Field:
 
 def _made(plc: Plc, asked: Mapping[str, Any], size: Optional[Field], threads: int) -> Tetrahedralization:
     options = _options(plc, asked.get("minratio"), asked.get("mindihedral"), asked.get("max_volume"), asked.get("steinerleft"),
-                       asked.get("quality", True), asked.get("optimize", True), asked.get("regionattrib", False), size)
+                       asked.get("quality", True), asked.get("optimize", True), asked.get("regionattrib", False), size,
+                       bool(asked.get("nobisect")))
     result = mesh(plc, threads=threads, **options)
     if asked.get("docheck"):
         report = check(result, plc)
@@ -238,7 +241,7 @@ def tetrahedralize(points: Any, faces: Any = None, *, markers: Any = None, holes
                    minratio: Optional[float] = None, mindihedral: Optional[float] = None, max_volume: Optional[float] = None,
                    maxvolume: Optional[float] = None, steinerleft: Optional[int] = None, quality: Optional[bool] = None,
                    regionattrib: Optional[bool] = None, varvolume: Optional[bool] = None, epsilon: Optional[float] = None,
-                   docheck: Optional[bool] = None, optimize: Optional[bool] = None, bgmesh: Any = None,
+                   docheck: Optional[bool] = None, nobisect: Optional[bool] = None, optimize: Optional[bool] = None, bgmesh: Any = None,
                    switches: Optional[str] = None, threads: int = 0, **others: Any) -> Tetrahedralization:
     """3D: fills a closed surface with tetrahedra, called as PyVista's `tetgen` and `meshpy.tet` are. Any thread; other Python threads
     run meanwhile. `pgdr.tetgen.TetGen` is the object of the former.
@@ -269,6 +272,8 @@ def tetrahedralize(points: Any, faces: Any = None, *, markers: Any = None, holes
         The tolerance, times the diagonal of all points.
     docheck : bool
         The result is checked (`pgdr.check`).
+    nobisect : bool
+        No new points on the surface: `keep_boundary` of pgdr.mesh.
     optimize : bool
         False: no optimiser.
     bgmesh : pyvista.UnstructuredGrid
@@ -276,13 +281,14 @@ def tetrahedralize(points: Any, faces: Any = None, *, markers: Any = None, holes
         tetrahedron of such edges, 0.61 h, at the cell's centroid.
     switches : str
         TetGen's, which alone count then, beside markers, holes, regions, bgmesh and threads: p, q, q1.5, q1.5/18, a0.1, a (largest
-        volumes of regions), A (as regionattrib), S100, T1e-8 (as epsilon), O0 (no optimiser), C (as docheck), m (with bgmesh).
+        volumes of regions), A (as regionattrib), S100, T1e-8 (as epsilon), O0 (no optimiser), C (as docheck), Y (as nobisect),
+        m (with bgmesh).
         z, Q, V, f, e, n, J, d, B, N, E, F, I, g, k, X change nothing. Others are refused.
     threads : int
         As of pgdr.mesh.
     others
         Keywords of TetGen's class that change nothing in the mesh (quiet, verbose, zeroindex, plc, facesout, ...) are taken with any
-        value. Those that would change it (order=2, nobisect, refine, coarsen, ...) are refused by name, but for the value that asks
+        value. Those that would change it (order=2, refine, coarsen, ...) are refused by name, but for the value that asks
         for nothing.
 
     Raises
@@ -305,7 +311,8 @@ def tetrahedralize(points: Any, faces: Any = None, *, markers: Any = None, holes
         raise usage("max_volume and maxvolume are the same: give one of them")
     asked = _asked(switches, {"minratio": minratio, "mindihedral": mindihedral, "steinerleft": steinerleft, "quality": quality,
                               "max_volume": maxvolume if max_volume is None else max_volume, "regionattrib": regionattrib,
-                              "varvolume": varvolume, "epsilon": epsilon, "docheck": docheck, "optimize": optimize})
+                              "varvolume": varvolume, "epsilon": epsilon, "docheck": docheck, "optimize": optimize,
+                              "nobisect": None if nobisect is None else _arguments.flag("nobisect", nobisect)})
     size = None if bgmesh is None else _size_on(bgmesh)
     if "metric" in asked and size is None:
         raise usage("switch m needs bgmesh, which says the sizes")
