@@ -151,33 +151,18 @@ bool HullFilling::search(const Hull& hull, Cells& out) {
   return true;
 }
 
-/// By the step that makes the worst cell best, of those that are halved from the size of the hull on; then it may move on.
-std::optional<Point3> HullFilling::place_inside(const Hull& hull, const Point3& from) {
-  const double length = std::sqrt(hull.inwards[0] * hull.inwards[0] + hull.inwards[1] * hull.inwards[1] +
-                                  hull.inwards[2] * hull.inwards[2]);
-  if (!(length > 0)) return std::nullopt;
-  double size = 0;
-  for (const auto& face : hull.faces)
-    for (const VertexId v : face) size = std::max(size, squared_distance(mesh_->point(v), from));
-  std::optional<Point3> best;
-  double quality = 0;
-  double step = std::sqrt(size);
-  for (int k = 0; k < numbers::most_halvings; ++k, step /= 2) {
-    Point3 x = from;
-    for (int i = 0; i < 3; ++i) x[i] += step * hull.inwards[static_cast<std::size_t>(i)] / length;
-    if (const double q = quality_about(hull, x); q > quality) {
-      quality = q;
-      best = x;
-    } else if (best) {
-      break;
-    }
-  }
-  if (!best) return best;
+/// What has to be in the hull is, and x sees all faces from inside.
+bool HullFilling::is_seen_from(const Hull& hull, const Point3& x) const {
+  return hull.inside.empty() && quality_about(hull, x) > 0 &&
+         std::all_of(hull.edges.begin(), hull.edges.end(), [&](const auto& edge) { return is_edge_of_face(hull, edge); });
+}
+
+Point3 HullFilling::better_place(const Hull& hull, const Point3& x) {
   star_ = {};
   for (const auto& face : hull.faces) star_.cells.push_back({mesh_->points(face), hull.region});
-  star_.vertex = *best;
-  if (const auto better = placement_.find(star_, quality_); better && quality_about(hull, *better) > quality) best = better;
-  return best;
+  star_.vertex = x;
+  const auto better = placement_.find(star_, quality_);
+  return better && quality_about(hull, *better) > quality_about(hull, x) ? *better : x;
 }
 
 }  // namespace pgdr

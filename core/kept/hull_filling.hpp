@@ -29,9 +29,10 @@ class HullFilling {
   /// Appends cells of the hull's own vertices that fill it. `facets`: those that may have all corners of a cell. False: none are
   /// found.
   bool fill(const Hull& hull, std::span<const EntityId> facets, Cells& out);
-  /// The place of a new point near `from` that sees all faces of the hull from inside, along its direction inwards; a better one,
-  /// if there is. None: no double does.
-  std::optional<Point3> place_inside(const Hull& hull, const Point3& from);
+  /// Do cells about a new point there fill it?
+  bool is_seen_from(const Hull& hull, const Point3& x) const;
+  /// A place where the worst of these cells is better, or x. @pre is_seen_from(hull, x)
+  Point3 better_place(const Hull& hull, const Point3& x);
 
  private:
   void take(const Hull& hull, std::span<const EntityId> facets);

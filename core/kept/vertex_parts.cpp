@@ -160,6 +160,24 @@ bool VertexParts::find_fans() {
   return true;
 }
 
+/// A face opposite the vertex with all corners on the polygon belongs to a cell that is flat but for rounding: with the edges of
+/// such, so that these cells go, too.
+std::vector<detail::PlanarEdge> VertexParts::with_flat_faces(std::span<const VertexId> polygon,
+                                                             std::vector<detail::PlanarEdge> edges) const {
+  for (const CellId c : cells_) {
+    const auto& v = mesh_->cell(c).vertices;
+    const Hull::Face face = face_without(v, corner_of(v, vertex_));
+    std::array<std::uint32_t, 3> at{};
+    bool is_flat = true;
+    for (std::size_t i = 0; i < 3 && is_flat; ++i) {
+      at[i] = static_cast<std::uint32_t>(std::find(polygon.begin(), polygon.end(), face[i]) - polygon.begin());
+      is_flat = at[i] < polygon.size();
+    }
+    for (std::size_t i = 0; i < 3 && is_flat; ++i) edges.push_back({at[i], at[(i + 1) % 3]});
+  }
+  return edges;
+}
+
 /// The polygon of the fan, without the vertex. False if it is not one, seen along the axis.
 bool VertexParts::triangulate(std::uint32_t fan, std::span<const Leaf> leaves) {
   const EntityId facet = leaves[0].facet;
@@ -182,8 +200,9 @@ bool VertexParts::triangulate(std::uint32_t fan, std::span<const Leaf> leaves) {
     points.push_back(detail::levelled(*domain_, facet, mesh_->point(polygon[i])));
     rim.push_back({i, (i + 1) % n});
   }
+  const int axis = domain_->facets()[facet].axis;
   detail::PlanarTriangulation plane;
-  if (!plane.build(points, all, rim, domain_->facets()[facet].axis)) return false;
+  if (!plane.build(points, all, with_flat_faces(polygon, rim), axis) && !plane.build(points, all, rim, axis)) return false;
   plane.keep_left_of(rim);
   const auto made = plane.triangles();
   if (made.size() != n - 2) return false;
@@ -214,7 +233,6 @@ void VertexParts::add_face(Hull& hull, const Hull::Face& face) const {
 void VertexParts::build_hulls() {
   hulls_.resize(sectors_);
   std::vector<std::array<std::uint32_t, 3>> sides;  // sector, fan, turned
-  std::vector<detail::Vector<3>> normals;
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const CellId c = cells_[i];
     Hull& hull = hulls_[sector_[i]];
@@ -240,6 +258,9 @@ void VertexParts::build_hulls() {
       for (int d = 0; d < 3; ++d) hull.inwards[static_cast<std::size_t>(d)] += n[static_cast<std::size_t>(d)];
     }
   }
+  for (const auto& [sector, fan, turned] : sides)  // on both sides of one fan no direction is inwards
+    if (std::find(sides.begin(), sides.end(), std::array<std::uint32_t, 3>{sector, fan, 1 - turned}) != sides.end())
+      hulls_[sector].inwards = {};
   for (const auto& [sector, fan, turned] : sides)
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       if (fan_of_triangle_[t] != fan) continue;

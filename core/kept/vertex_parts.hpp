@@ -59,6 +59,8 @@ class VertexParts {
   void divide();
   bool collect_leaves();
   bool find_fans();
+  std::vector<std::array<std::uint32_t, 2>> with_flat_faces(std::span<const VertexId> polygon,
+                                                            std::vector<std::array<std::uint32_t, 2>> edges) const;
   bool triangulate(std::uint32_t fan, std::span<const Leaf> leaves);
   void build_hulls();
   void add_face(Hull& hull, const Hull::Face& face) const;

@@ -16,6 +16,7 @@
 #include "kept/numbers.hpp"
 #include "kept/vertex_parts.hpp"
 #include "numbers/corners.hpp"
+#include "pgdr/predicates.hpp"
 #include "space/make_set.hpp"
 
 namespace pgdr {
@@ -53,7 +54,9 @@ class Withdrawal {
   bool fill_growing(Hull& hull);
   bool grow(Hull& hull);
   void take_cell(Hull& hull, CellId c);
+  bool dig_out(Hull& hull, const Point3& x);
   bool fill_about_new_point(const Hull& hull);
+  bool add_star(const Hull& hull, const Point3& x);
   void commit();
   /// Have the cells at the vertex changed since these means did nothing for it? Else they will not.
   bool is_new(VertexId v, Means means) {
@@ -212,14 +215,48 @@ void Withdrawal::take_cell(Hull& hull, CellId c) {
   });
 }
 
+/// Takes cells across faces that x does not see, until it sees all. False where that ends at a wall, or at too many.
+bool Withdrawal::dig_out(Hull& hull, const Point3& x) {
+  const auto is_seen = [&](const Hull::Face& f) {
+    const auto p = mesh_->points(f);
+    return orient<3>({p[0], p[1], p[2], x}) == Sign::positive;
+  };
+  while (true) {
+    const auto hidden = std::find_if(hull.faces.begin(), hull.faces.end(), [&](const auto& f) { return !is_seen(f); });
+    if (hidden == hull.faces.end()) return filling_.is_seen_from(hull, x);
+    const Link beyond = hull.beyond[static_cast<std::size_t>(hidden - hull.faces.begin())];
+    if (!beyond || is_taken(beyond.cell()) || tried_.old.size() >= numbers::most_grown_cells) return false;
+    take_cell(hull, beyond.cell());
+  }
+}
+
+/// At the longest step inwards that does, of those that are halved from the size of the hull on.
 bool Withdrawal::fill_about_new_point(const Hull& hull) {
-  const auto place = filling_.place_inside(hull, mesh_->point(vertex_));
-  if (!place) return false;
+  const Point3& from = mesh_->point(vertex_);
+  const auto& d = hull.inwards;
+  const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  if (!(length > 0)) return false;
+  double size = 0;
+  for (const auto& face : hull.faces)
+    for (const VertexId v : face) size = std::max(size, squared_distance(mesh_->point(v), from));
+  double step = std::sqrt(size);
+  for (int k = 0; k < numbers::most_halvings; ++k, step /= 2) {
+    Point3 x = from;
+    for (int i = 0; i < 3; ++i) x[i] += step * d[static_cast<std::size_t>(i)] / length;
+    Hull dug = hull;
+    const std::size_t before = tried_.old.size();
+    if (dig_out(dug, x)) return add_star(dug, filling_.better_place(dug, x));
+    tried_.old.resize(before);
+  }
+  return false;
+}
+
+bool Withdrawal::add_star(const Hull& hull, const Point3& x) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const auto& face : hull.faces)
-    for (const VertexId v : face) nearest = std::min(nearest, squared_distance(mesh_->point(v), *place));
+    for (const VertexId v : face) nearest = std::min(nearest, squared_distance(mesh_->point(v), x));
   const float radius = std::nextafter(static_cast<float>(std::sqrt(nearest)), 0.f);
-  const VertexId m = mesh_->new_vertex(*pools_, *place, Home(EntityKind::volume, 0), radius);
+  const VertexId m = mesh_->new_vertex(*pools_, x, Home(EntityKind::volume, 0), radius);
   made_.push_back(m);
   for (const auto& face : hull.faces) tried_.cells.push_back({{face[0], face[1], face[2], m}, hull.region});
   return true;

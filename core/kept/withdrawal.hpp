@@ -4,7 +4,7 @@
 // Takes the points that the recovery has put onto kept entities off them again, one after the other, those on facets first, the
 // last one first. Without the vertex v the polygons of its fans of subfacets are triangulated anew, and each sector between them
 // (kept/vertex_parts.hpp) is filled with cells of its own vertices. A sector that cannot be grows by cells beside it; at last it
-// gets a point inside.
+// gets a point inside, and grows by what hides its faces from that, so that the point may be far from v.
 //
 // Why a point inside always does it, in exact numbers. The cells at v are positive: v sees each face opposite it strictly from
 // inside. So does any point near enough to v. The new triangles of the fans lie in the planes of these, on whose inner side v' =

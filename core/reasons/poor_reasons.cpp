@@ -23,6 +23,19 @@ constexpr std::size_t most_cells_about = 4096;  // an element are looked at for 
 
 bool has_extent(EntityRef e) { return e.kind == EntityKind::segment || e.kind == EntityKind::facet; }
 
+/// May it be an angle within one plane, where triangles of that are facets of their own, since they are kept? That of two facets
+/// at a segment is none, nor that of two segments.
+template <int D>
+bool may_be_of_one_plane(const Domain<D>& domain, const std::array<EntityRef, 2>& pair) {
+  if (pair[0].kind != pair[1].kind) return true;
+  if (pair[0].kind == EntityKind::segment) return false;
+  const auto segments = domain.facet_segments(pair[0].id);
+  return std::none_of(segments.begin(), segments.end(), [&](EntityId s) {
+    const auto facets = domain.facets_of_segment(s);
+    return std::find(facets.begin(), facets.end(), pair[1].id) != facets.end();
+  });
+}
+
 }  // namespace
 
 template <int D>
@@ -58,6 +71,7 @@ bool PoorReasons<D>::meets(EntityRef e, const Ball<D>& ball) const {
 template <int D>
 std::optional<DomainReason> PoorReasons<D>::small_angle(const std::array<EntityRef, 2>& pair, const Angle& angle_of) const {
   if (!has_extent(pair[0]) || !has_extent(pair[1]) || pair[0] == pair[1]) return {};
+  if (kept_->any() && may_be_of_one_plane(*domain_, pair)) return {};
   if (!entities_touch<D>(*domain_, pair[0], pair[1])) return {};
   const bool segments = pair[0].kind == EntityKind::segment && pair[1].kind == EntityKind::segment;
   const double angle = angle_of(pair[0], pair[1]);

@@ -139,13 +139,16 @@ auto ElementSplitter<D>::find_obstacle(const Candidate<D>& c) -> Obstacle {
   return {wall_that_hides<D>(*w_, c.entry.cell, c.x)};
 }
 
-/// 2D, beside what is kept: the incentre of an element too big whose circumcentre the boundary hides.
+/// Where a kept entity hides the circumcentre of an element, or is encroached upon by it. 2D: the incentre of one that is too
+/// big. 3D: of one over the bound of shape the off-centre, which is some lengths of its shortest edge away from that; of one that
+/// is too big the centroid, or farther from the entity where that is a face of it.
 template <int D>
-Outcome ElementSplitter<D>::insert_inside(Candidate<D> c) {
+std::optional<Point<D>> ElementSplitter<D>::place_inside(const Entry<D>& entity, const Candidate<D>& c) const {
+  Simplex<D> s = mesh_->simplex(c.entry.cell);
+  std::sort(s.begin(), s.end(), lex_less<D>);
+  Point<D> x{};
   if constexpr (D == 2) {
-    Simplex<D> s = mesh_->simplex(c.entry.cell);
-    std::sort(s.begin(), s.end(), lex_less<D>);
-    Point<D> x{};
+    if (c.verdict.over_size == 0) return std::nullopt;
     double whole = 0;
     for (int i = 0; i <= D; ++i) {
       const double weight = std::sqrt(squared_distance(s[(i + 1) % 3], s[(i + 2) % 3]));
@@ -153,14 +156,45 @@ Outcome ElementSplitter<D>::insert_inside(Candidate<D> c) {
       whole += weight;
     }
     for (int k = 0; k < D; ++k) x[k] = s[0][k] + x[k] / whole;
-    c.x = x;
-    c.at_center = false;
-    cavity_->release();
-    const Status status = cavity_->collect(x, c.entry.cell);
-    if (status == Status::not_owned) return Outcome::not_owned;
-    if (status == Status::ok && !flattened_face<D>(w_->context, *cavity_, x))
-      if (const Outcome outcome = commit(c); outcome != Outcome::refused) return outcome;
+    return x;
   }
+  if (!c.verdict.over_radius_edge) {
+    x = centroid<D>(s);
+    if (entity.cell == c.entry.cell && entity.kind() == EntryKind::face) {
+      const Point<D>& apex = mesh_->point(mesh_->cell(c.entry.cell).vertices[entity.which()]);
+      for (int k = 0; k < D; ++k) x[k] += (apex[k] - x[k]) / 4;
+    }
+    return x;
+  }
+  std::array<int, 2> shortest{0, 1};
+  for (int i = 0; i <= D; ++i)
+    for (int j = i + 1; j <= D; ++j)
+      if (squared_distance(s[i], s[j]) < squared_distance(s[shortest[0]], s[shortest[1]])) shortest = {i, j};
+  const Point<D>&p = s[shortest[0]], &q = s[shortest[1]];
+  for (int k = 0; k < D; ++k) x[k] = p[k] + (q[k] - p[k]) / 2;
+  const double far = numbers::off_center_edges * std::sqrt(squared_distance(p, q));
+  const double to_center = std::sqrt(squared_distance(x, c.sphere.center));
+  if (!(far < to_center)) return std::nullopt;
+  for (int k = 0; k < D; ++k) x[k] += far / to_center * (c.sphere.center[k] - x[k]);
+  return x;
+}
+
+template <int D>
+Outcome ElementSplitter<D>::insert_inside(const Entry<D>& entity, Candidate<D> c) {
+  const auto place = place_inside(entity, c);
+  if (!place || !detail::is_finite(*place)) return w_->give_up(Outcome::refused);
+  c.x = *place;
+  c.at_center = false;
+  c.is_beside_kept = true;
+  cavity_->release();
+  const Status status = cavity_->collect(c.x, c.entry.cell);
+  if (status == Status::not_owned) return Outcome::not_owned;
+  const auto is_blocked = [&] {
+    if (D == 2) return flattened_face<D>(w_->context, *cavity_, c.x).has_value();
+    return encroached_entity<D>(w_->context, *cavity_, c.x) || wall_that_hides<D>(*w_, c.entry.cell, c.x);
+  };
+  if (status == Status::ok && !is_blocked())
+    if (const Outcome outcome = commit(c); outcome != Outcome::refused) return outcome;
   return w_->give_up(Outcome::refused);
 }
 
@@ -168,7 +202,7 @@ Outcome ElementSplitter<D>::insert_inside(Candidate<D> c) {
 template <int D>
 Outcome ElementSplitter<D>::pass_by(const Entry<D>& entity, const Candidate<D>& c) {
   w_->refused_by = EntityPair{{entity_of(*mesh_, entity), {}}};
-  return c.verdict.over_size > 0 ? insert_inside(c) : Outcome::refused;
+  return insert_inside(entity, c);
 }
 
 /// Splits the entity that hides the candidate, or that it encroaches upon, in its place.
@@ -220,7 +254,9 @@ Demand ElementSplitter<D>::demand_of(const Candidate<D>& c) {
   for (int i = 0; i <= D; ++i)
     for (int j = i + 1; j <= D; ++j)
       least = std::min(least, relaxed_length<D>(w_->domain, mesh_->vertex(v[i]), mesh_->vertex(v[j])));
-  if (!c.verdict.over_radius_edge) least = std::min(least, std::sqrt(mesh_->squared_radius_bounds(c.entry.cell).first) / 2);
+  // Beside a kept face there is less room; the size bounds a quarter as well.
+  const double part = D == 3 && c.is_beside_kept ? 4 : 2;
+  if (!c.verdict.over_radius_edge) least = std::min(least, std::sqrt(mesh_->squared_radius_bounds(c.entry.cell).first) / part);
   // A smaller demand lets points come nearer than the element's edges are long, beside small angles or below the proved bound.
   // There a few such points, which inherit the radius, make elements good that would stay poor. In 3D it is for those alone that
   // stayed so.

@@ -21,11 +21,12 @@ namespace pgdr {
 /// A point that is to go in for a poor element.
 template <int D>
 struct Candidate {
-  Entry<D> entry;          ///< the element
-  CellVerdict verdict;     ///< the bounds that it is over
-  FilterSphere<D> sphere;  ///< its circumsphere
-  Point<D> x;              ///< the point
-  bool at_center = true;   ///< is x the circumcentre, where there is no selector?
+  Entry<D> entry;               ///< the element
+  CellVerdict verdict;          ///< the bounds that it is over
+  FilterSphere<D> sphere;       ///< its circumsphere
+  Point<D> x;                   ///< the point
+  bool at_center = true;        ///< is x the circumcentre, where there is no selector?
+  bool is_beside_kept = false;  ///< what is kept blocks the circumcentre
 };
 
 /// Splits poor elements. Part of a worker: one thread at a time.
@@ -69,7 +70,8 @@ class ElementSplitter {
   Judgement judge(const Candidate<D>& c);
   Outcome commit(const Candidate<D>& c);
   Outcome pass_by(const Entry<D>& entity, const Candidate<D>& c);
-  Outcome insert_inside(Candidate<D> c);
+  std::optional<Point<D>> place_inside(const Entry<D>& entity, const Candidate<D>& c) const;
+  Outcome insert_inside(const Entry<D>& entity, Candidate<D> c);
   Outcome split_instead(const Entry<D>& entity, const Candidate<D>& c);
   Demand demand_of(const Candidate<D>& c);
   Demand demand_on_entity(const Candidate<D>& c);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <unordered_set>
 
@@ -123,14 +122,13 @@ bool is_flattened_by(const std::array<Point3, N>& corners, const Point3& x, doub
 
 /// A kept subsegment or subfacet in whose smallest ball x lies, and that it would flatten a cell at.
 std::optional<Entry<3>> encroached_kept(const RefineContext<3>& context, const Cavity<3>& cavity, const Point3& x) {
-  static const bool strict = std::getenv("PGDR_STRICT") != nullptr;
   const Mesh<3>& mesh = context.mesh;
   const double bound = context.options.radius_edge_bound;
   std::optional<Entry<3>> found;
   any_encroached_edge(mesh, cavity, x, [&](const Entry<3>& e) {
     if (!context.kept.has(entity_of(mesh, e))) return false;
     const auto ends = mesh.points(ends_of_edge(mesh.cell(e.cell).vertices, e.which()));
-    if (!strict && !is_flattened_by<2>(ends, x, squared_distance(ends[0], ends[1]) / 4, bound)) return false;
+    if (!is_flattened_by<2>(ends, x, squared_distance(ends[0], ends[1]) / 4, bound)) return false;
     found = e;
     return true;
   });
@@ -140,8 +138,7 @@ std::optional<Entry<3>> encroached_kept(const RefineContext<3>& context, const C
     const auto corners = mesh.points(face_without(mesh.cell(f.cell).vertices, f.face));
     const Ball<3> ball = equatorial_ball(corners[0], corners[1], corners[2]);
     if (!in_equatorial_ball(ball, x)) continue;
-    if (strict || is_flattened_by<3>(corners, x, ball.squared_radius, bound))
-      return entry_of(mesh, f.cell, EntryKind::face, f.face);
+    if (is_flattened_by<3>(corners, x, ball.squared_radius, bound)) return entry_of(mesh, f.cell, EntryKind::face, f.face);
   }
   return std::nullopt;
 }

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/kept_boundary.hpp"
 
+#include <utility>
+#include <vector>
+
 #include "kept/withdrawal.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/kept_edges.hpp"
@@ -28,6 +31,16 @@ void keep_boundary(Mesh<3>& mesh, Mesh<3>::Pools& pools, const Domain<3>& domain
   s.inner_points = counts.inside;
   result.delaunay = s.boundary_points == counts.on_segments + counts.on_facets;
   result.violations_seen = !result.delaunay;
+}
+
+std::uint64_t count_boundary_points(const Mesh<3>& mesh, const KeptEntities<3>& kept) {
+  std::vector<std::uint8_t> known(mesh.vertex_bound(), 0);
+  std::uint64_t count = 0;
+  for (std::uint32_t i = 0; i < mesh.cell_bound(); ++i)
+    if (mesh.alive(CellId{i}))
+      for (const VertexId v : mesh.cell(CellId{i}).vertices)
+        if (!std::exchange(known[index(v)], 1) && kept.has(mesh.vertex(v).home.entity())) ++count;
+  return count;
 }
 
 }  // namespace pgdr::detail

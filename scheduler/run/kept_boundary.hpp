@@ -10,6 +10,7 @@
 
 #include "mesh/mesh.hpp"
 #include "pgdr/refine.hpp"
+#include "rule/kept_entities.hpp"
 
 namespace pgdr::detail {
 
@@ -21,5 +22,8 @@ RefineResult<3> with_kept_input(const Plc<3>& plc, const RefineOptions<3>& optio
 /// Takes the points of the recovery off what is kept, and counts. Is the mesh constrained Delaunay still?
 void keep_boundary(Mesh<3>& mesh, Mesh<3>::Pools& pools, const Domain<3>& domain, const RefineOptions<3>& options,
                    const std::stop_token& stop, RefineResult<3>& result);
+
+/// Of the finished mesh: the points on what was kept that are none of the input, as the optimiser may have taken some off, too.
+std::uint64_t count_boundary_points(const Mesh<3>& mesh, const KeptEntities<3>& kept);
 
 }  // namespace pgdr::detail

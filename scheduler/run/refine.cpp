@@ -372,6 +372,9 @@ RefineResult<D> make_mesh(const Domain<D>& domain, const RefineOptions<D>& optio
   {
     const detail::RunClock::Stage timed(clock, "count");
     count_poor_left<D>(context, refined, pieces, result);
+    if constexpr (D == 3)
+      if (result.statistics.boundary_points > 0)
+        result.statistics.boundary_points = detail::count_boundary_points(mesh, context.kept);
     result.regions = region_volumes<D>(mesh, domain, attributes_of(regions), pieces);
   }
   const double end = seconds_since(start), optimizing_since = refined.optimizing_since.value_or(end);
