@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kept.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 
@@ -31,6 +32,13 @@ std::vector<int> KeptArguments::markers() const {
     begin = end + 1;
   }
   return list;
+}
+
+CLI::Option* add_kept(CLI::App& app, KeptArguments& kept, const std::string& what) {
+  return app
+      .add_flag("--keep-boundary", kept.words,
+                what + "; =MARKERS, with commas between: of facets (2D: segments) with these alone")
+      ->check(CLI::Validator([](std::string& text) { return KeptArguments{text}.error(); }, "", "markers"));
 }
 
 void set_kept(JsonObject& report, const KeptArguments& kept, const RefineStatistics& s) {

@@ -10,6 +10,10 @@
 #include "json.hpp"
 #include "pgdr/refine.hpp"
 
+namespace CLI {
+class App;
+}
+
 namespace pgdr::tool {
 
 /// The words of --keep-boundary.
@@ -20,6 +24,9 @@ struct KeptArguments {
   std::vector<int> markers() const;  ///< empty: all. @pre error() has none
   std::string error() const;         ///< what is wrong with the words; empty: nothing
 };
+
+/// The flag; it means `what`, for this command.
+CLI::Option* add_kept(CLI::App& app, KeptArguments& kept, const std::string& what);
 
 /// Puts into the report what is kept, and what points that takes.
 void set_kept(JsonObject& report, const KeptArguments& kept, const RefineStatistics& s);

@@ -320,6 +320,7 @@ class MeshRun {
     PeriodicInput made = make_periodic(plc_, periodic_sides<2>(a_.periodic, plc_.names), options_);
     plc_ = std::move(made.plc);
     sides_ = std::move(made.sides);
+    if (made.keep_boundary) options_.kept_markers.clear();  // all
     options_.keep_boundary = options_.keep_boundary || made.keep_boundary;
     report_.set("periodic_sides", a_.periodic);
     report_.set("periodic_rounds", made.rounds);

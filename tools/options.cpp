@@ -3,7 +3,6 @@
 #include "options.hpp"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <iostream>
@@ -156,11 +155,6 @@ void add_periodic(CLI::App& app, std::vector<std::string>& periodic, const char*
 void add_report(CLI::App& app, std::string& report, bool& quiet) {
   app.add_option("--report", report, "write what was done and found as one JSON object")->type_name("FILE.json");
   app.add_flag("--quiet", quiet, "print errors only");
-}
-
-CLI::Option* add_kept(CLI::App& app, KeptArguments& kept, const std::string& what) {
-  return app.add_flag("--keep-boundary", kept.words, what + "; =MARKERS, with commas between: of facets (2D: segments) with these alone")
-      ->check(CLI::Validator([](std::string& text) { return KeptArguments{text}.error(); }, "", "markers"));
 }
 
 void add_output(CLI::App& app, MeshArguments& a) {

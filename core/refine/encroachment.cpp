@@ -120,7 +120,7 @@ bool is_flattened_by(const std::array<Point3, N>& corners, const Point3& x, doub
   return !(squared_radius <= std::max(radius_edge_bound * radius_edge_bound * shortest, 2 * squared_ball));
 }
 
-/// A kept subsegment or subfacet in whose smallest ball x lies, and that it would flatten a cell at.
+/// A kept subsegment or subfacet in whose smallest ball x lies, behind it, or so that it would flatten a cell there.
 std::optional<Entry<3>> encroached_kept(const RefineContext<3>& context, const Cavity<3>& cavity, const Point3& x) {
   const Mesh<3>& mesh = context.mesh;
   const double bound = context.options.radius_edge_bound;
@@ -138,6 +138,8 @@ std::optional<Entry<3>> encroached_kept(const RefineContext<3>& context, const C
     const auto corners = mesh.points(face_without(mesh.cell(f.cell).vertices, f.face));
     const Ball<3> ball = equatorial_ball(corners[0], corners[1], corners[2]);
     if (!in_equatorial_ball(ball, x)) continue;
+    const auto inwards = mesh.points(face_inwards(mesh.cell(f.cell).vertices, f.face));
+    if (orient3d(inwards[0], inwards[1], inwards[2], x) != Sign::positive) return entry_of(mesh, f.cell, EntryKind::face, f.face);
     if (is_flattened_by<3>(corners, x, ball.squared_radius, bound)) return entry_of(mesh, f.cell, EntryKind::face, f.face);
   }
   return std::nullopt;

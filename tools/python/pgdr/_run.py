@@ -197,6 +197,7 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
     options.refine = _arguments.flag("refine", refine)
     options.keep_boundary, options.kept_markers = _arguments.kept("keep_boundary", keep_boundary)
     options.conforming_delaunay = _arguments.flag("conforming_delaunay", conforming_delaunay)
+    kept = options.keep_boundary and (list(options.kept_markers) or True)
     options.drop_unused_points = _arguments.flag("drop_unused_points", drop_unused_points)
     options.memory_guard = _arguments.flag("memory_guard", memory_guard)
     options.min_edge = _arguments.number("min_edge", min_edge)
@@ -214,6 +215,8 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
         with WORK:
             core, sides, keeps, _ = _pgdr.make_periodic(plc._core, sides, options)
         plc, options.keep_boundary = Plc._of(core), options.keep_boundary or keeps
+        if keeps:
+            options.kept_markers = []
     try:
         made = _run(plc, options, bounds, progress, stop)
     except DiagnosedError as error:
@@ -226,8 +229,8 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
         made._facts["given_points"] = given_points
         if made.stop == "finished":
             made._facts["periodic"] = paired(made._core, sides, 2 * made.statistics["tolerance"])
-    if options.keep_boundary:
-        made._facts["kept_boundary"] = list(options.kept_markers) or True
+    if kept:
+        made._facts["kept_boundary"] = kept
     if asked is not None and not asked.was_called:
         _say_unasked(made, options)
     return made
