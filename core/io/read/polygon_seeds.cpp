@@ -134,7 +134,7 @@ double level_of_face(const PlanarGraph& graph, std::span<const Point2> points, s
   return below / 2 + above / 2;
 }
 
-bool has(const RingPolygon& polygon, const Point2& x) {
+bool is_inside(const RingPolygon& polygon, const Point2& x) {
   bool inside = false;
   for (const auto& ring : polygon.rings)
     for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -214,7 +214,8 @@ std::vector<FaceSeed> seeds_of_faces(const Plc<2>& plc, std::span<const RingPoly
   for (FaceLine& line : lines) {
     FaceSeed seed;
     if (!choose_seed(graph, points, line, seed.point)) continue;
-    const auto owner = std::find_if(polygons.begin(), polygons.end(), [&](const RingPolygon& p) { return has(p, seed.point); });
+    const auto owner = std::find_if(polygons.begin(), polygons.end(),
+                                    [&](const RingPolygon& p) { return is_inside(p, seed.point); });
     if (owner != polygons.end()) seed.feature = owner->feature;
     seeds.push_back(seed);
   }

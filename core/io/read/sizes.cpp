@@ -66,7 +66,8 @@ GridHead read_grid_head(LineScanner& in) {
 }
 
 /// Two triangles between each four values that are all there, one between three.
-void add_cells(const GridHead& head, const std::vector<bool>& there, std::vector<std::array<std::uint32_t, 3>>& cells) {
+void add_triangles_between(const GridHead& head, const std::vector<bool>& there,
+                           std::vector<std::array<std::uint32_t, 3>>& cells) {
   const auto columns = static_cast<std::uint32_t>(head.columns), rows = static_cast<std::uint32_t>(head.rows);
   for (std::uint32_t j = 0; j + 1 < rows; ++j)
     for (std::uint32_t i = 0; i + 1 < columns; ++i) {
@@ -128,7 +129,7 @@ SizeRaster read_size_raster(const std::filesystem::path& file) {
           {head.x + static_cast<double>(i) * head.width, head.y + static_cast<double>(head.rows - 1 - j) * head.height});
     }
   if (in.advance()) in.fail(Errc::syntax, detail::quoted(in.word({})) + " stands behind the last value");
-  add_cells(head, there, raster.mesh.cells);
+  add_triangles_between(head, there, raster.mesh.cells);
   if (raster.mesh.cells.empty()) in.fail(Errc::syntax, "no three neighbouring values of the grid are there");
   return raster;
 }

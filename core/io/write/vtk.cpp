@@ -36,7 +36,7 @@ void put_lines(FileOutput& out, std::string_view text, std::size_t n) {
 }
 
 template <int D>
-void put_names(FileOutput& out, const Names& names) {
+void put_field_data(FileOutput& out, const Names& names) {
   if (names.regions.empty() && names.markers.empty()) return;
   put_lines(out, "FIELD FieldData ", names.regions.size() + names.markers.size());
   const auto put = [&out](const auto& of_labels, int dimension) {
@@ -92,7 +92,7 @@ void put_cell_data(const OutputMesh<D>& mesh, std::size_t all, FileOutput& out) 
 template <int D>
 void write_vtk(const OutputMesh<D>& mesh, FileOutput& out) {
   out.put("# vtk DataFile Version 3.0\npgdr mesh\nASCII\nDATASET UNSTRUCTURED_GRID\n");
-  put_names<D>(out, mesh.names);
+  put_field_data<D>(out, mesh.names);
   out.put("POINTS ");
   out.put_number(mesh.points.size());
   out.put(" double\n");
