@@ -192,12 +192,13 @@ bool VertexParts::triangulate(std::uint32_t fan, std::span<const Leaf> leaves) {
   }
   const auto n = static_cast<std::uint32_t>(polygon.size());
   if (n < 3) return false;
+  const detail::LevelledFacet levelled(*domain_, facet);
   std::vector<Point3> points;
   std::vector<std::uint32_t> all(n);
   std::vector<detail::PlanarEdge> rim;
   std::iota(all.begin(), all.end(), 0u);
   for (std::uint32_t i = 0; i < n; ++i) {
-    points.push_back(detail::levelled(*domain_, facet, mesh_->point(polygon[i])));
+    points.push_back(levelled(mesh_->point(polygon[i])));
     rim.push_back({i, (i + 1) % n});
   }
   const int axis = domain_->facets()[facet].axis;
