@@ -53,7 +53,7 @@ std::uint32_t parse_id(const nlohmann::json& j) {
   return j.get<std::uint32_t>();
 }
 
-bool is_seed(const std::string& text) { return split_seed(text).has_value(); }
+bool is_seed_of_report(const std::string& text) { return split_seed(text).has_value(); }
 
 /// The texts of a flag that may be repeated. @throws std::invalid_argument, nlohmann::json::exception
 std::vector<std::string> parse_texts(const nlohmann::json& report, const char* key, bool (*is_one)(const std::string&)) {
@@ -267,8 +267,8 @@ ReportedBounds read_bounds(const std::string& file) {
       if (holds("markers", name(rule))) read.markers = rule;
     read.convex_hull = holds("convex_hull", true);
     read.region_areas = holds("region_areas", true);
-    read.seeds = parse_texts(report, "seeds", is_seed);
-    read.holes = parse_texts(report, "holes", is_seed);
+    read.seeds = parse_texts(report, "seeds", is_seed_of_report);
+    read.holes = parse_texts(report, "holes", is_seed_of_report);
     read.periodic = parse_texts(report, "periodic_sides", is_periodic);
     read.delaunay = holds("delaunay", true);
     if (const nlohmann::json::json_pointer left("/quality/not_delaunay/refused"); report.contains(left))
