@@ -94,9 +94,8 @@ class View final : public Neighborhood<D> {
     if (status == Collected::not_owned) preview.status = end();
     if (status != Collected::ok) return preview;
     for (const CellId c : cavity.cells()) ++(w_->context.bounds.test(w_->mesh, c) ? preview.poor : preview.good);
-    preview.status = encroached_entity<D>(w_->context, cavity, p) || wall_that_hides<D>(*w_, seed_, p)
-                         ? Status::encroaches
-                         : Status::possible;
+    preview.status = encroached_entity<D>(w_->context, cavity, p) || wall_that_hides<D>(*w_, seed_, p) ? Status::encroaches
+                                                                                                       : Status::possible;
     return preview;
   }
 
