@@ -171,8 +171,8 @@ std::vector<double> read_vertex_values(const std::filesystem::path& file, int di
 /// A size along a line, or at a point, which has twice the same end (sizes_along() in size_fields.hpp).
 template <int D>
 struct SizedLine {
-  std::array<Point<D>, 2> ends;
-  double size = 0;
+  std::array<Point<D>, 2> ends;  ///< of the line
+  double size = 0;               ///< along it
 };
 /// Sizes in a text: a line of it has a point and a size, D + 1 numbers, or two ends and a size, 2 D + 1 numbers. '#' begins
 /// comments.

@@ -91,9 +91,8 @@ class Planar(Case):
         self.assertEqual(self.json()["subsegments"], 6 + 16 + 12)
 
     def test_flags_are_for_2d(self):
-        for flag in ("--keep-boundary", "--region-areas"):
-            done = self.pgdr("mesh", BRACKET, "-o", self.output, flag, expect=2)
-            self.assertIn("2D", done.stderr)
+        done = self.pgdr("mesh", BRACKET, "-o", self.output, "--region-areas", expect=2)
+        self.assertIn("2D", done.stderr)
 
     def rows(self, suffix):
         """Numbers of the lines of one of the files of the mesh, its header first."""
