@@ -3,6 +3,7 @@
 #include "bound_options.hpp"
 
 #include "pgdr/refine.hpp"
+#include "remesh_options.hpp"
 #include "validators.hpp"
 
 namespace pgdr::tool {
@@ -27,6 +28,7 @@ CLI::Option* add_bounds(CLI::App& app, BoundArguments& b, const std::string& wit
       ->type_name("LABEL=S")
       ->allow_extra_args(false)
       ->check(shaped(is_region_size, "LABEL=S: a region's label or name, and a size"));
+  add_size_unit(app, b);
   app.add_option(
          "--size-mesh", b.size_mesh,
          "as --size, from a background mesh (.mesh, .vtu): a size for each vertex in the .sol "
@@ -37,9 +39,10 @@ CLI::Option* add_bounds(CLI::App& app, BoundArguments& b, const std::string& wit
          "as --size, at points and along lines: a text with X Y [Z] S, or both ends and S, in each line; sizes grow with the "
          "distance by --size-growth")
       ->type_name("FILE");
-  app.add_option("--size-growth", b.size_growth,
-                 "most that sizes of --size-mesh may grow a unit of length along an edge (2D: their square roots); what those of "
-                 "--size-at do grow (default there: 0.2)")
+  app.add_option(
+         "--size-growth", b.size_growth,
+         "most that sizes of --size-mesh and --size-field may grow a unit of length along an edge (areas: their square roots); "
+         "what those of --size-at do grow (default there: 0.2)")
       ->type_name("G")
       ->check(number(">= 0", not_negative));
   app.add_option("--max-volume", b.max_volume, "bound on the volume of every tetrahedron (3D)")

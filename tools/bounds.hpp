@@ -11,6 +11,7 @@
 
 #include "options.hpp"
 #include "pgdr/names.hpp"
+#include "pgdr/size_fields.hpp"
 #include "pgdr/sizing.hpp"
 
 namespace pgdr::tool {
@@ -28,6 +29,17 @@ struct Bounds {
   std::optional<double> min_dihedral;  ///< degrees; none: not asked for
   RegionSizesByName<D> named_sizes;    ///< of regions whose labels are not known yet
 };
+
+/// That of the flag, or the usual one.
+template <int D>
+SizeUnit unit_of(const BoundArguments& arguments) {
+  return arguments.size_unit.value_or(usual_size_unit<D>());
+}
+
+/// Sizes given at the vertices or on the cells of a mesh, in the unit of the flags, with their growth.
+/// @throws as sizes_on_mesh
+template <int D>
+SizingField<D> sizes_as_asked(const OutputMesh<D>& mesh, std::vector<double> values, const BoundArguments& arguments);
 
 /// @throws UsageError for a flag of the other dimension or a size that cannot be used.
 template <int D>

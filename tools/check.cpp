@@ -14,6 +14,7 @@
 #include "console.hpp"
 #include "files.hpp"
 #include "input.hpp"
+#include "old_mesh.hpp"
 #include "periodic.hpp"
 #include "pgdr/check_bodies.hpp"
 #include "pgdr/io.hpp"
@@ -32,7 +33,6 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
 template <int D>
 std::optional<Plc<D>> read_input_of_mesh(const std::vector<std::string>& inputs, InputArguments reading,
                                          std::optional<double> tolerance) {
-  if (inputs.empty()) return std::nullopt;
   for (const std::string& input : inputs) require_input_format(input);
   Inputs files(inputs);
   if (files.dimension() != D)
@@ -134,6 +134,22 @@ double rounding_of(const OutputMesh<D>& mesh) {
   return rounding_tolerance(plc);
 }
 
+/// The boundary of the mesh that this one was made of, which of its points are required, and bounds that its fields are.
+template <int D>
+Plc<D> read_old_mesh(const CheckArguments& a, const InputArguments& reading, const ReportedBounds& reported, Bounds<D>& bounds,
+                     std::optional<std::vector<std::uint8_t>>& required) {
+  if (a.inputs.size() != 1) throw UsageError({.code = Errc::bad_option, .message = "--remeshed takes one mesh as --input"});
+  InputFile file(a.inputs.front());
+  const OldMesh<D> old(file, !a.bounds.size_field.empty());
+  bounds.size = smallest<D>({bounds.size, old.sizes(a.bounds)});
+  const std::vector<std::uint8_t> vertices = old.required(a.required.empty() ? reported.required : a.required);
+  MeshBoundary<D> boundary = boundary_with_vertices<D>(old.mesh(), vertices);
+  required = required_points(boundary, vertices);
+  if constexpr (D == 3)
+    if (a.surface.tolerance) drop_plain_segments(boundary.plc);
+  return Inputs::as_asked<D>(std::move(boundary.plc), reading);
+}
+
 template <int D>
 int check_as(const CheckArguments& a, InputFile& file, Report& report) {
   ReportedBounds reported;
@@ -149,7 +165,14 @@ int check_as(const CheckArguments& a, InputFile& file, Report& report) {
   if (reading.seeds.empty()) reading.seeds = reported.seeds;
   if (reading.holes.empty()) reading.holes = reported.holes;
   if (!a.regions) reading.bodies = reported.bodies;
-  const std::optional<Plc<D>> plc = read_input_of_mesh<D>(a.inputs, reading, reported.tolerance);
+  std::optional<Plc<D>> plc;
+  std::optional<std::vector<std::uint8_t>> required;
+  if (!a.inputs.empty() && (a.remeshed || reported.remeshed))
+    plc = read_old_mesh(a, reading, reported, bounds, required);
+  else if (!a.required.empty() || !a.bounds.size_field.empty())
+    throw UsageError({.code = Errc::bad_option, .message = "--required and --size-field are for meshes as --input: --remeshed"});
+  else if (!a.inputs.empty())
+    plc = read_input_of_mesh<D>(a.inputs, reading, reported.tolerance);
   std::optional<Plc<D>> with_bodies;  // what the mesh was made of
   if (plc && reading.bodies) label_bodies(with_bodies.emplace(*plc), reading);
   resolve_names(with_bodies ? with_bodies->names : plc ? plc->names : mesh.names, bounds);
@@ -157,6 +180,7 @@ int check_as(const CheckArguments& a, InputFile& file, Report& report) {
 
   CheckOptions<D> options;
   if (plc) options.input = with_bodies ? &*with_bodies : &*plc;
+  options.required_points = std::move(required);
   options.tolerance = reading.tolerance;
   options.radius_edge_bound = bounds.radius_edge;
   options.size = bounds.size;

@@ -76,7 +76,7 @@ WriteOptions write_options(const MeshArguments& a, std::uint32_t first_index_of_
   WriteOptions options;
   if (a.first_index)
     options.first_index = static_cast<std::uint32_t>(*a.first_index);
-  else if (a.inputs.size() == 1 && has_extension(a.inputs.front(), {".poly", ".smesh", ".node"}))
+  else if (!a.remesh && a.inputs.size() == 1 && has_extension(a.inputs.front(), {".poly", ".smesh", ".node"}))
     options.first_index = first_index_of_input;
   options.pieces = static_cast<std::uint32_t>(a.pieces.value_or(0));
   options.edges = a.edges;

@@ -82,16 +82,20 @@ int Inputs::dimension() {
 }
 
 template <int D>
-Plc<D> Inputs::read_given(const InputArguments& reading) {
+Plc<D> Inputs::as_asked(Plc<D> plc, const InputArguments& reading) {
   if (D == 3 && reading.region_areas) refuse("--region-areas is for 2D");
   if (D == 2 && (reading.markers || reading.close_openings)) refuse("--markers and --close-planar-openings are for 3D");
-  std::vector<Plc<D>> all;
-  for (InputFile& file : files_) all.push_back(file.read_plc<D>({.region_areas = reading.region_areas}));
-  Plc<D> plc = all.size() == 1 ? std::move(all.front()) : joined<D>(all);
   plc.tolerance = reading.tolerance;
   plc.is_coarse = reading.yes_coarse;
   add_seeds<D>(reading, plc);
   return plc;
+}
+
+template <int D>
+Plc<D> Inputs::read_given(const InputArguments& reading) {
+  std::vector<Plc<D>> all;
+  for (InputFile& file : files_) all.push_back(file.read_plc<D>({.region_areas = reading.region_areas}));
+  return as_asked<D>(all.size() == 1 ? std::move(all.front()) : joined<D>(all), reading);
 }
 
 std::string Inputs::words() const {
@@ -112,6 +116,8 @@ void set_names(Report& report, const Names& names) {
   report.set("marker_names", json_of_names(names.markers));
 }
 
+template Plc<2> Inputs::as_asked<2>(Plc<2>, const InputArguments&);
+template Plc<3> Inputs::as_asked<3>(Plc<3>, const InputArguments&);
 template Plc<2> Inputs::read_given<2>(const InputArguments&);
 template Plc<3> Inputs::read_given<3>(const InputArguments&);
 

@@ -26,6 +26,9 @@ class Inputs {
   /// none; what read_plc throws
   template <int D>
   Plc<D> read_given(const InputArguments& reading);
+  /// An input that comes from elsewhere, with the tolerance and the seeds of flags. @throws likewise
+  template <int D>
+  static Plc<D> as_asked(Plc<D> plc, const InputArguments& reading);
 
   std::string words() const;                    ///< their names, with commas
   Json json() const;                            ///< the name, or an array of several

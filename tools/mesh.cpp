@@ -20,8 +20,11 @@
 #include "files.hpp"
 #include "input.hpp"
 #include "mesh_options.hpp"
+#include "mesh_report.hpp"
+#include "old_mesh.hpp"
 #include "periodic.hpp"
 #include "pgdr/facet_places.hpp"
+#include "pgdr/field_io.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/make_periodic.hpp"
 #include "pgdr/output_files.hpp"
@@ -30,7 +33,6 @@
 #include "signals.hpp"
 #include "surface_step.hpp"
 #include "threads.hpp"
-#include "trace.hpp"
 
 namespace pgdr::tool {
 namespace {
@@ -42,144 +44,7 @@ constexpr double part_for_meshing = 0.95;
 void require_ranks(const MeshArguments& a, const Ranks& ranks) {
   if (a.rank_timeout && !ranks.transport())
     throw UsageError({.code = Errc::bad_option, .message = "--rank-timeout is for pgdr-mpi"});
-}
-
-/// Seconds that each part took, and when it began, since the command did.
-struct Seconds {
-  double read = 0, write = 0, total = 0;
-  double read_at = 0, mesh_at = 0, write_at = 0;
-};
-
-/// Threads that have run any visit. What comes before the visits runs on one.
-template <int D>
-std::size_t threads_that_ran(const RefineResult<D>& r) {
-  return std::max<std::size_t>(r.scheduler.busy_seconds.size(), 1);
-}
-
-/// What is known of the mesh itself, wherever it is.
-struct Measured {
-  std::uint64_t vertices = 0, cells = 0;
-  QualitySummary quality;
-  std::optional<NotDelaunay> not_delaunay;  ///< if they were counted
-};
-
-/// Are the violations of the finished mesh counted? Not after a run that was ended early, as such a mesh may have many, and each
-/// takes rationals; and not where the optimiser ran, which makes them. (All faces take a tenth of the time of meshing.)
-template <int D>
-bool counts_violations(const RefineResult<D>& r) {
-  return r.delaunay && r.stop != StopCause::cancelled && r.stop != StopCause::time_limit;
-}
-
-template <int D>
-Measured measure(const RefineResult<D>& r) {
-  Measured m{r.mesh.points.size(), r.mesh.cells.size(), summarize_quality(r.mesh), std::nullopt};
-  if (counts_violations(r)) m.not_delaunay = count_not_delaunay(r.mesh, r.violations_seen);
-  return m;
-}
-
-/// The same on all ranks.
-template <int D>
-Measured measure(Transport& transport, const DistributedResult<D>& r) {
-  Measured m{r.piece.total.points, r.piece.total.cells, summarize_quality(transport, r.piece), std::nullopt};
-  if (counts_violations(r.run)) m.not_delaunay = count_not_delaunay(transport, r);
-  return m;
-}
-
-Json json_of(const std::optional<NotDelaunay>& n) {
-  return n ? Json(JsonObject{{"rounding", n->rounding}, {"refused", n->other}}) : Json(nullptr);
-}
-
-template <int D>
-void fill(Report& report, const MeshArguments& a, const Threads& threads, const Bounds<D>& bounds, const RefineResult<D>& r,
-          const Measured& measured) {
-  const RefineStatistics& s = r.statistics;
-  report.set("vertices", measured.vertices);
-  report.set("cells", measured.cells);
-  report.set("threads", JsonObject{{"requested", threads.requested()}, {"ran", threads_that_ran(r)}});
-  report.set("schedule", name(a.schedule));
-  report.set("claims", name(a.claims));
-  report.set("reproducible", a.schedule != Schedule::greedy && r.stop != StopCause::time_limit && r.stop != StopCause::cancelled);
-  report.set("stop", name(r.stop));
-  report.set("refined", !a.no_refine);
-  report.set("selector", a.selector.value_or(usual_selector<D>()));
-  report.set("seconds", nullptr);  // their places; the values come last
-  report.set("peak_rss_bytes", nullptr);
-  JsonObject quality = to_json(measured.quality);
-  quality.set("not_delaunay", json_of(measured.not_delaunay));
-  report.set("quality", quality);
-  report.set("delaunay", r.delaunay);
-  if (r.optimization.target > 0) report.set("optimization", to_json(r.optimization, r.stop == StopCause::finished));
-  report.set("bounds", JsonObject{{"radius_edge", bounds.radius_edge},
-                                  {"size_met", r.size_met},
-                                  {"poor_left", r.poor_left},
-                                  {"poor_unavoidable", r.poor_unavoidable},
-                                  {"reasons", to_json(r.reasons)}});
-  set_kept(report, a.kept, s);
-  report.set("unused_points", JsonObject{{"count", r.unused_points.size()}, {"dropped", a.drop_unused_points}});
-  report.set("regions", to_json(r.regions));
-  report.set("scheduler", to_json(r.scheduler));
-  report.set("stages", to_json(s.stages));
-  report.set("insertions", JsonObject{{"committed", s.insertions_committed}, {"refused", s.insertions_refused}});
-  report.set("predicates", to_json(s.predicates));
-  report.set("selector_outside", s.selector_outside);
-  report.set("warnings", to_json(r.warnings));
-  report.set("repairs", to_json(r.repairs));
-}
-
-std::string words(const SchedulerStatistics& s, std::size_t threads) {
-  return count(threads, "thread", "threads") + ", " + count(s.visits, "visit", "visits") + " of " +
-         count(s.leaves, "leaf", "leaves") + " in " + count(s.generations, "generation", "generations") +
-         format(", at most %u at once", s.max_concurrent);
-}
-
-template <int D>
-void print_summary(const MeshArguments& a, const std::string& inputs, std::size_t points, const Bounds<D>& bounds,
-                   const RefineResult<D>& r, const Measured& measured, const Seconds& seconds, double seconds_of_surface) {
-  const QualitySummary& q = measured.quality;
-  print_row("input", format("%s (%dD, %s)", inputs.c_str(), D, count(points, "point", "points").c_str()));
-  if (!r.repairs.empty()) print_row("repaired", count(r.repairs.size(), "defect", "defects") + ", see --report");
-  print_row("mesh", count(measured.vertices, "vertex", "vertices") + ", " + count_cells<D>(measured.cells));
-  if (!r.unused_points.empty())
-    print_row("unused", count(r.unused_points.size(), "point is in no cell", "points are in no cell") +
-                            (a.drop_unused_points ? " and dropped" : ", as nodes; --drop-unused-points leaves them out"));
-  if (measured.cells > 0) {
-    const std::string least = r.optimization.target > 0 ? format(" (bound %.4g)", r.optimization.target) : "";
-    print_row("quality",
-              format("radius-edge up to %.4f (bound %.4g), %s %.2f to %.2f degrees%s", q.max_radius_edge, bounds.radius_edge,
-                     D == 3 ? "dihedral angles" : "angles", q.min_angle_deg, q.max_angle_deg, least.c_str()));
-  }
-  if (r.stop != StopCause::finished && measured.cells == 0)
-    print_row("stopped", format("%s, before the boundary was there: there is no mesh to write", stop_words(r.stop)));
-  else if (r.stop != StopCause::finished)
-    print_row("stopped",
-              format("%s: the mesh is valid, ", stop_words(r.stop)) + count(r.poor_left, "element is poor", "elements are poor"));
-  else if (a.no_refine)
-    print_row("bounds", "not refined: " + count(r.poor_left, "element is", "elements are") + " over a bound");
-  else
-    print_row("bounds", verdict(r));
-  print_kept(r.statistics);
-  if (D == 3 && !a.surface.tolerance && has_needles(r))
-    print_row("needles",
-              "cells stay poor beside small angles of the surface; --surface-tolerance 0.1% meshes another one as near to it");
-  print_row("time", format("%.3f s meshing (%.3f s read, %.3f s write)", r.statistics.seconds_mesh + seconds_of_surface,
-                           seconds.read, seconds.write));
-  print_row("threads", words(r.scheduler, threads_that_ran(r)));
-  print_row("memory", format("%.1f MiB at most", static_cast<double>(peak_rss_bytes()) / (1 << 20)));
-  if (measured.cells > 0) print_row("wrote", a.output);
-}
-
-template <int D>
-void write_trace(const MeshArguments& a, const RefineResult<D>& r, const Seconds& seconds) {
-  const RefineStatistics& s = r.statistics;
-  const double refine_at = seconds.mesh_at + s.seconds_initial, optimize_at = refine_at + s.seconds_refine;
-  const double compact_at = optimize_at + s.seconds_optimize;
-  std::vector<Phase> phases{{"read", seconds.read_at, seconds.read_at + seconds.read},
-                            {"initial", seconds.mesh_at, refine_at},
-                            {"refine", refine_at, optimize_at},
-                            {"optimize", optimize_at, compact_at},
-                            {"compact", compact_at, seconds.mesh_at + s.seconds_mesh},
-                            {"write", seconds.write_at, seconds.write_at + seconds.write}};
-  write_trace(a.trace, phases, s.stages, r.trace, seconds.mesh_at);
+  if (a.remesh && ranks.transport()) throw UsageError({.code = Errc::bad_option, .message = "remesh is not for pgdr-mpi"});
 }
 
 /// One run: read, mesh, write, print. Each step puts into the report what it knows.
@@ -240,7 +105,7 @@ class MeshRun {
     seconds_.read_at = total_.seconds();
     // Nobody looks at the stop token while the input is read, which may be a FIFO.
     ranks_.on_first([&] {
-      plc_ = input_.read_given<D>(a_.reading);
+      plc_ = a_.remesh ? read_old_mesh() : input_.read_given<D>(a_.reading);
       is_read_ = true;
       if (a_.reading.is_any()) plc_ = treated<D>(given_.emplace(plc_), a_.reading, repairs_);
       bodies_ = label_bodies(plc_, a_.reading);
@@ -266,6 +131,15 @@ class MeshRun {
     report_.set("region_mode", name(a_.regions, a_.reading.bodies));
     seconds_.mesh_at = total_.seconds();
     seconds_.read = seconds_.mesh_at - seconds_.read_at;
+  }
+
+  Plc<D> read_old_mesh() {
+    old_.emplace(input_.only(), !a_.remesh->no_fields || !a_.bounds.size_field.empty());
+    bounds_.size = smallest<D>({bounds_.size, old_->sizes(a_.bounds), old_->sizes_of_cells(a_.remesh->cell_bounds)});
+    options_.size = bounds_.size;
+    report_.set("remeshed", true);
+    report_.set("required", a_.remesh->keep_vertices ? std::vector<std::string>{all_vertices} : a_.remesh->required);
+    return Inputs::as_asked<D>(old_->input(a_), a_.reading);
   }
 
   /// The exit code if a diagnosis refuses the input.
@@ -306,6 +180,10 @@ class MeshRun {
     refine_here();
     if constexpr (D == 3)
       if (surface_) name_facets_by_places(plc_, result_.reasons);  // the input does not have these facets
+    if (old_) {
+      old_->rename(result_.reasons);
+      fields_ = old_->transferred(a_, result_.mesh, result_.warnings);
+    }
     result_.repairs.insert(result_.repairs.begin(), repairs_.begin(), repairs_.end());
     const std::vector<Diagnostic> unfit = unfit_names(plc_.names, a_.output);
     result_.warnings.insert(result_.warnings.end(), unfit.begin(), unfit.end());
@@ -415,7 +293,7 @@ class MeshRun {
     if (transport)
       pgdr::write_mesh(*transport, a_.output, made_, how);
     else
-      pgdr::write_mesh(result_.mesh, a_.output, how);
+      pgdr::write_mesh(result_.mesh, fields_, a_.output, how);
     if (ranks_.is_first()) report_.mesh_files = std::move(mesh_files);
   }
 
@@ -451,6 +329,8 @@ class MeshRun {
   StopOnSignal signals_;
   const Threads threads_;
   Seconds seconds_;
+  std::optional<OldMesh<D>> old_;  ///< of `remesh`
+  MeshFields fields_;
   std::vector<Diagnostic> repairs_;
   Plc<D> plc_;
   std::optional<Plc<D>> given_;  ///< as it was read, if anything was done to it
@@ -479,7 +359,8 @@ int mesh(const MeshArguments& arguments, Report& report, const Ranks& ranks) {
   report.set("input", input.json());
   int dimension = 0;
   ranks.on_first([&] {
-    for (const std::string& file : arguments.inputs) require_input_format(file);
+    if (!arguments.remesh)
+      for (const std::string& file : arguments.inputs) require_input_format(file);
     require_mesh_writable(arguments.output);
     require_format(arguments);
     require_ranks(arguments, ranks);

@@ -16,6 +16,7 @@
 #include "files.hpp"
 #include "periodic.hpp"
 #include "pgdr/io.hpp"
+#include "remesh_options.hpp"
 #include "selector.hpp"
 #include "surface_options.hpp"
 #include "text.hpp"
@@ -173,11 +174,8 @@ void add_output(CLI::App& app, MeshArguments& a) {
   app.add_flag("--leaves", a.leaves, ".vtu: say of each cell which leaf of the tree it was refined in");
 }
 
-void add_mesh(CLI::App& app, MeshArguments& a) {
-  app.add_option("INPUT", a.inputs,
-                 "what to mesh: .poly .smesh .node .off .obj .ply .stl .mesh .msh .geojson; several files are one input")
-      ->required()
-      ->type_name("");
+/// What `mesh` and `remesh` share.
+void add_run(CLI::App& app, MeshArguments& a) {
   add_output(app, a);
   auto* min_dihedral = add_bounds(app, a.bounds, "2 in 3D, sqrt 2 in 2D, the smallest with a proof",
                                   "15; 0 with a --selector other than circumcenter");
@@ -263,6 +261,26 @@ void add_mesh(CLI::App& app, MeshArguments& a) {
       ->type_name("FILE.json");
 }
 
+void add_mesh(CLI::App& app, MeshArguments& a) {
+  app.add_option("INPUT", a.inputs,
+                 "what to mesh: .poly .smesh .node .off .obj .ply .stl .mesh .msh .geojson; several files are one input")
+      ->required()
+      ->type_name("");
+  add_run(app, a);
+}
+
+void add_remesh(CLI::App& app, MeshArguments& a) {
+  app.add_option("MESH", a.inputs, "the mesh: .vtu .pvtu .msh .mesh .node .ele")->required()->expected(1)->type_name("");
+  add_remesh_options(app, a);
+  add_run(app, a);
+}
+
+void add_refine(CLI::App& app, MeshArguments& a) {
+  app.add_option("MESH", a.inputs, "the mesh: .vtu .pvtu .msh .mesh .node .ele")->required()->expected(1)->type_name("");
+  add_refine_options(app, a);
+  add_run(app, a);
+}
+
 void add_check(CLI::App& app, CheckArguments& a) {
   app.add_option("MESH", a.mesh, "the mesh to check: .vtu .pvtu .msh .mesh .node .ele")->required()->type_name("");
   app.add_option("--input", a.inputs,
@@ -279,6 +297,7 @@ void add_check(CLI::App& app, CheckArguments& a) {
               "the mesh is of another surface, and is to be within E of the given one, both ways, with its topology, markers and "
               "volumes");
   app.get_option("--surface-tolerance")->needs("--input");
+  add_remeshed(app, a);
   app.add_option("--reasons", a.reasons, "report of `pgdr mesh`, whose bounds.reasons explain poor cells")
       ->type_name("REPORT.json")
       ->needs("--input");
@@ -428,7 +447,7 @@ const char* name(ClaimRule rule) {
 }
 
 std::variant<Arguments, int> parse(int argc, const char* const* argv, bool speaks) {
-  MeshArguments mesh;
+  MeshArguments mesh, remesh, refine;
   CheckArguments check;
   InfoArguments info;
   ViewArguments view;
@@ -440,6 +459,10 @@ std::variant<Arguments, int> parse(int argc, const char* const* argv, bool speak
   app.footer(exit_codes);
   auto* mesh_app = app.add_subcommand("mesh", "Mesh an input");
   add_mesh(*mesh_app, mesh);
+  auto* remesh_app = app.add_subcommand("remesh", "Mesh anew what a mesh fills, and take its fields along");
+  add_remesh(*remesh_app, remesh);
+  auto* refine_app = app.add_subcommand("refine", "Add points to a mesh, whose vertices all stay");
+  add_refine(*refine_app, refine);
   auto* check_app = app.add_subcommand("check", "Check a mesh with exact arithmetic, from the files alone");
   add_check(*check_app, check);
   add_info(*app.add_subcommand("info", "What is in an input or a mesh"), info);
@@ -451,6 +474,8 @@ std::variant<Arguments, int> parse(int argc, const char* const* argv, bool speak
   try {
     app.parse(argc, argv);
     name_streams(mesh);
+    name_streams(remesh);
+    name_streams(refine);
     name_streams(check);
     name_streams(info);
   } catch (const UsageError& e) {
@@ -463,6 +488,8 @@ std::variant<Arguments, int> parse(int argc, const char* const* argv, bool speak
     return exit_usage;
   }
   if (mesh_app->parsed()) return Arguments(std::move(mesh));
+  if (remesh_app->parsed()) return Arguments(std::move(remesh));
+  if (refine_app->parsed()) return Arguments(std::move(refine));
   if (check_app->parsed()) return Arguments(std::move(check));
   if (view_app->parsed()) return Arguments(std::move(view));
   if (join_app->parsed()) return Arguments(std::move(join));

@@ -13,6 +13,7 @@
 
 #include "kept.hpp"
 #include "pgdr/refine_options.hpp"
+#include "pgdr/size_fields.hpp"
 #include "pgdr/types.hpp"
 #include "treatment.hpp"
 #include "view/page.hpp"
@@ -25,8 +26,10 @@ struct BoundArguments {
   std::optional<std::string> size;        ///< a number or an expression in x, y, z
   std::vector<std::string> region_sizes;  ///< LABEL=S each, S as above
   std::string size_mesh;                  ///< a background mesh, with its sizes in a .sol file beside it; empty: none
-  std::optional<double> size_growth;      ///< of these sizes; none: as they are; of those of size_at: 0.2
+  std::string size_field;                 ///< a field with sizes of the mesh that is the input; empty: none
   std::string size_at;                    ///< a file of points and lines with sizes; empty: none
+  std::optional<double> size_growth;      ///< of these sizes; none: as they are; of those of size_at: 0.2
+  std::optional<SizeUnit> size_unit;      ///< of all sizes; none: as usual for the dimension
   std::optional<double> max_volume;
   std::optional<double> min_angle;
   std::optional<double> min_dihedral;
@@ -49,8 +52,19 @@ struct SurfaceArguments {
   std::string output;                    ///< of `mesh`: where the other surface is written; empty: nowhere
 };
 
+inline constexpr const char* all_vertices = "all";  ///< in the place of markers of required vertices
+
+/// What `remesh` is told of the old mesh beside what `mesh` is told of an input.
+struct RemeshArguments {
+  std::vector<std::string> required;  ///< markers, or their names, of vertices that stay
+  bool no_fields = false;             ///< fields stay behind
+  bool keep_vertices = false;         ///< `refine`
+  std::string cell_bounds;            ///< of `refine`: a .vol or .area file; empty: none
+};
+
 struct MeshArguments {
-  std::vector<std::string> inputs;  ///< one or more
+  std::optional<RemeshArguments> remesh;  ///< the input is a mesh
+  std::vector<std::string> inputs;        ///< one or more
   std::string output;
   std::optional<int> first_index;                         ///< of .node and .ele; none: as in the input, or 1
   std::optional<std::uint64_t> pieces;                    ///< of a .pvtu; none: one
@@ -87,6 +101,8 @@ struct CheckArguments {
   InputArguments reading;
   KeptArguments kept;
   std::optional<RegionMode> regions;  ///< none: as `reasons` says, or seeds
+  bool remeshed = false;              ///< the input is a mesh, of which `remesh` has made this one
+  std::vector<std::string> required;  ///< RemeshArguments::required
   SurfaceArguments surface;
   std::vector<std::string> periodic;  ///< as of `mesh`; empty: as `reasons` says
   std::string reasons;                ///< a report of `mesh`

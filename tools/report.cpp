@@ -270,6 +270,8 @@ ReportedBounds read_bounds(const std::string& file) {
     read.seeds = parse_texts(report, "seeds", is_seed_of_report);
     read.holes = parse_texts(report, "holes", is_seed_of_report);
     read.periodic = parse_texts(report, "periodic_sides", is_periodic);
+    read.remeshed = holds("remeshed", true);
+    read.required = report.value("required", std::vector<std::string>{});
     read.delaunay = holds("delaunay", true);
     if (const nlohmann::json::json_pointer left("/quality/not_delaunay/refused"); report.contains(left))
       read.not_delaunay_left = report.at(left).get<std::uint64_t>();

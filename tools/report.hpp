@@ -84,6 +84,8 @@ struct ReportedBounds {
   bool convex_hull = false;
   bool region_areas = false;                        ///< how it was read, 2D
   std::vector<std::string> seeds, holes, periodic;  ///< of flags
+  bool remeshed = false;                            ///< by `remesh`
+  std::vector<std::string> required;                ///< of that
   RegionMode regions = RegionMode::seeds;
   std::optional<BodyMode> bodies;
   std::optional<double> feature_angle;  ///< of another surface

@@ -92,11 +92,21 @@ void check_shapes(const OutputMesh<D>& mesh, const CheckOptions<D>& options, con
   check_bounds(mesh, options, links, components, volumes, reasons, findings);
 }
 
+/// @throws UsageError bad_option: not one flag a point
+template <int D>
+const std::vector<std::uint8_t>* required_of(const CheckOptions<D>& options) {
+  if (!options.required_points) return nullptr;
+  if (options.required_points->size() != options.input->points.size())
+    throw UsageError(
+        {.code = Errc::bad_option, .message = "the flags of required points are not one for each point of the input"});
+  return &*options.required_points;
+}
+
 template <int D>
 void check_against_given(const OutputMesh<D>& mesh, const CheckOptions<D>& options, const Links<D>& links,
                          std::span<const std::uint32_t> sorted, Components& components, Findings& findings) {
   const GivenInput<D> input(*options.input, options.tolerance, findings);
-  const GivenTask<D> task{mesh, input, findings};
+  const GivenTask<D> task{mesh, input, findings, required_of(options)};
   GivenMatch<D> match;
   match_given_points(task, sorted, match);
   match_given_segments(task, match);
@@ -119,7 +129,7 @@ void check_against_surface(const OutputMesh<3>& mesh, const CheckOptions<3>& opt
   const GivenInput<3> input(*options.input, options.tolerance, findings);
   const GivenSurface surface(input, options.regions, findings);
   const double distance = *options.surface_tolerance;
-  const NearTask near{mesh, input, surface, distance, options.feature_angle, findings};
+  const NearTask near{mesh, input, surface, distance, options.feature_angle, findings, required_of(options)};
   check_loose_points(mesh, findings);
   check_explicit_points(near, sorted);
   check_near_facets(near);

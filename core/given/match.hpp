@@ -19,6 +19,8 @@ struct GivenTask {
   const OutputMesh<D>& mesh;
   const GivenInput<D>& input;
   Findings& findings;
+  const std::vector<std::uint8_t>* required = nullptr;  ///< of each given point: it has to be a vertex; null: all have to
+  bool requires_point(std::uint32_t p) const { return required == nullptr || (*required)[p] != 0; }
 };
 
 /// A part of something given that the mesh does not have: a point, a piece of a segment, a convex piece of a triangle.

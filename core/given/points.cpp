@@ -50,7 +50,7 @@ class PointMatcher {
     else if (task_.input.tolerance() > 0 && has_near_point(p))
       look_near(p);
     const std::uint32_t v = out_.vertex_of_point[p];
-    if (v == none || !in_cell_[v]) out_.leftovers.push_back({EntityKind::vertex, p, {x}});
+    if ((v == none || !in_cell_[v]) && task_.requires_point(p)) out_.leftovers.push_back({EntityKind::vertex, p, {x}});
   }
 
   double reach() const { return 2 * task_.input.tolerance(); }
@@ -112,7 +112,7 @@ class PointMatcher {
     detail::make_set(allowed);
     for (std::uint32_t p = 0; p < out_.vertex_of_point.size(); ++p) {
       const std::uint32_t v = out_.vertex_of_point[p];
-      if (v == none || !in_cell_[v]) continue;
+      if (v == none || !in_cell_[v] || !task_.requires_point(p)) continue;
       const int marker = mesh_.point_markers.empty() ? 0 : mesh_.point_markers[v];
       if (std::binary_search(allowed.begin(), allowed.end(), std::pair{v, marker})) continue;
       task_.findings.add(Kind::wrong_marker, {v}, [&] {

@@ -22,6 +22,7 @@ struct NearTask {
   double distance;       ///< E
   double feature_angle;  ///< degrees
   Findings& findings;
+  const std::vector<std::uint8_t>* required = nullptr;  ///< GivenTask::required
   /// How far the mesh may be from what was given: E, and rounding.
   double limit() const { return distance + input.rounding(); }
 };

@@ -23,6 +23,7 @@ void check_explicit_points(const NearTask& task, std::span<const std::uint32_t> 
     if (plc.point_markers[p] != 0) is_explicit[p] = 1;
   for (const auto& segment : plc.segments)
     for (const std::uint32_t p : segment.points) is_explicit[p] = 1;
+  if (task.required) is_explicit = *task.required;
   std::vector<std::uint8_t> in_cell(task.mesh.points.size(), 0);
   for (const auto& cell : task.mesh.cells)
     for (const std::uint32_t v : cell) in_cell[v] = 1;

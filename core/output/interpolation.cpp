@@ -41,15 +41,24 @@ double rounded_measure(const Simplex<D>& s) {
   }
 }
 
-/// The cells that are not flat, all positive.
+/// The cells that are not flat.
+template <int D>
+std::vector<std::uint32_t> not_flat(const std::vector<Point<D>>& points, std::span<const std::array<std::uint32_t, D + 1>> all) {
+  std::vector<std::uint32_t> numbers;
+  for (std::uint32_t c = 0; c < all.size(); ++c)
+    if (orient<D>(corners_of<D>(points, all[c])) != Sign::zero) numbers.push_back(c);
+  return numbers;
+}
+
+/// These, all positive.
 template <int D>
 std::vector<std::array<std::uint32_t, D + 1>> oriented(const std::vector<Point<D>>& points,
-                                                       std::span<const std::array<std::uint32_t, D + 1>> all) {
+                                                       std::span<const std::array<std::uint32_t, D + 1>> all,
+                                                       const std::vector<std::uint32_t>& numbers) {
   std::vector<std::array<std::uint32_t, D + 1>> cells;
-  for (auto cell : all) {
-    const Sign sign = orient<D>(corners_of<D>(points, cell));
-    if (sign == Sign::negative) std::swap(cell[0], cell[1]);
-    if (sign != Sign::zero) cells.push_back(cell);
+  for (const std::uint32_t c : numbers) {
+    cells.push_back(all[c]);
+    if (orient<D>(corners_of<D>(points, all[c])) == Sign::negative) std::swap(cells.back()[0], cells.back()[1]);
   }
   return cells;
 }
@@ -114,7 +123,8 @@ std::array<double, 3> nearest_weights(const std::array<Point3, 3>& face, const P
 template <int D>
 MeshInterpolation<D>::MeshInterpolation(std::vector<Point<D>> points, std::span<const Cell> cells)
     : points_(std::move(points)),
-      cells_(oriented<D>(points_, cells)),
+      numbers_(not_flat<D>(points_, cells)),
+      cells_(oriented<D>(points_, cells, numbers_)),
       faces_(boundary<D>(cells_)),
       cell_tree_(boxes(cells_), TreeCut::at_medians),
       face_tree_(boxes(faces_), TreeCut::at_medians) {}
@@ -133,11 +143,23 @@ auto MeshInterpolation<D>::boxes(const std::vector<std::array<std::uint32_t, N>>
 }
 
 template <int D>
-auto MeshInterpolation<D>::at(const Point<D>& x) const -> WeightedCorners<D + 1> {
+std::uint32_t MeshInterpolation<D>::place_of(const Point<D>& x) const {
   std::uint32_t home = none;
   cell_tree_.at(x, [&](std::uint32_t c) {
     if (c < home && holds(c, x)) home = c;
   });
+  return home;
+}
+
+template <int D>
+std::uint32_t MeshInterpolation<D>::cell_at(const Point<D>& x) const {
+  const std::uint32_t home = place_of(x);
+  return home == none ? none : numbers_[home];
+}
+
+template <int D>
+auto MeshInterpolation<D>::at(const Point<D>& x) const -> WeightedCorners<D + 1> {
+  const std::uint32_t home = place_of(x);
   return home != none ? inside(home, x) : outside(x);
 }
 

@@ -55,18 +55,22 @@ class MeshInterpolation {
   bool empty() const { return cells_.empty(); }
   /// x in the cell that holds it, the one with the smallest number if there are several; else next to x on the boundary.
   WeightedCorners<D + 1> at(const Point<D>& x) const;
+  /// The number of that cell among the given ones; none outside.
+  std::uint32_t cell_at(const Point<D>& x) const;
 
- private:
   static constexpr std::uint32_t none = 0xffffffffu;
 
+ private:
   template <std::size_t N>
   std::vector<Box<D>> boxes(const std::vector<std::array<std::uint32_t, N>>& simplices) const;
+  std::uint32_t place_of(const Point<D>& x) const;
   bool holds(std::uint32_t c, const Point<D>& x) const;
   WeightedCorners<D + 1> inside(std::uint32_t c, const Point<D>& x) const;
   WeightedCorners<D + 1> outside(const Point<D>& x) const;
 
   std::vector<Point<D>> points_;
-  std::vector<Cell> cells_;
+  std::vector<std::uint32_t> numbers_;  ///< of those of the given cells that are not flat
+  std::vector<Cell> cells_;             ///< these
   std::vector<Face> faces_;
   BoxTree<D> cell_tree_, face_tree_;
 };

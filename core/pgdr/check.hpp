@@ -11,7 +11,8 @@
 //
 // Against the input as given (CheckOptions::input), with T the tolerance and u two ulps of its largest coordinate:
 //
-// * Each given point is a vertex; or, if another given point is within 2 T, a vertex is within 2 T of it.
+// * Each given point (CheckOptions::required_points: each of these) is a vertex; or, if another given point is within 2 T, a
+// vertex is within 2 T of it.
 // * Each subfacet (2D: subsegment) lies within T + u of given facets (segments) of its marker, all of it. Instead of T, 2 T at
 //   facets whose points have moved by so much, and at those that may be one facet with others, since their points are within T of
 //   one plane: that facet, and what was given, are both within T of it. A facet whose points are not in one plane is only known
@@ -114,6 +115,12 @@ struct CheckOptions {
   /// Edges of the given facets at which normals differ by more than this are creases, which have subsegments within E. DEFAULT:
   /// 40 degrees. REQUIRES: 0 to 180, which is none. Without `surface_tolerance` it has no effect.
   double feature_angle = 40;
+
+  /// Which of the given points must be vertices, one flag a point. Others are certified as parts of the segments and facets that
+  /// have them, which are covered; where nothing has them they may be missing; and their markers do not count. For a mesh whose
+  /// input is another mesh (remesh_input.hpp), and with whole facets. DEFAULT: none, which is all of them. Without `input` it has
+  /// no effect.
+  std::optional<std::vector<std::uint8_t>> required_points;
 
   // ---- bounds on the cells: what is over one needs a reason ----------------------------------------------------------
 

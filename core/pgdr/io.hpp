@@ -56,6 +56,7 @@
 
 #include "pgdr/error.hpp"
 #include "pgdr/export.hpp"
+#include "pgdr/mesh_fields.hpp"
 #include "pgdr/output_mesh.hpp"
 #include "pgdr/periodic.hpp"
 #include "pgdr/plc.hpp"
@@ -85,14 +86,6 @@ int file_dimension(const std::filesystem::path& file);
 /// Always so for .vtu and .ele, never for formats of inputs alone; .node counts as points. @throws as read_plc
 bool holds_cells(const std::filesystem::path& file);
 
-/// Numbers that a file has for each point or for each cell of its mesh, and an OutputMesh has no place for.
-struct MeshField {
-  std::string name;            ///< as the file has it
-  bool of_points = false;      ///< else of the cells
-  std::size_t components = 1;  ///< 3 of a vector
-  std::vector<double> values;  ///< so many for each point or cell, in the order of these
-};
-
 /// A file of which several things are asked, and which is read once, so that it can be a FIFO, too. Its bytes, and those of files
 /// that belong to it, are kept until read_plc() or read_mesh() has made something of them: then they are given back, and another
 /// question reads again. One thread. Errors are those of the functions of the same names above and below.
@@ -112,8 +105,8 @@ class PGDR_API InputFile {
   /// As the function. @throws as it does
   template <int D>
   OutputMesh<D> read_mesh();
-  /// Of a .vtu the arrays of point data and cell data that are not ours, points first, by name; of other formats none. Ask before
-  /// `read_mesh`, after which the file is read again. @throws as read_mesh
+  /// Of a .vtu the arrays of point data and cell data that are not ours, points first, by name, without a "pgdr:" before it; of
+  /// other formats none. Ask before `read_mesh`, after which the file is read again. @throws as read_mesh
   std::vector<MeshField> read_fields();
 
  private:

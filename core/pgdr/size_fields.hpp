@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -59,6 +60,14 @@ std::vector<double> smallest_at_vertices(const OutputMesh<D>& mesh, std::span<co
 template <int D>
 SizingField<D> sizes_on_mesh(const OutputMesh<D>& mesh, std::span<const double> values);
 
+/// Sizes of the cells of a mesh, each everywhere in its cell, as TetGen's and Triangle's -r take bounds of cells; on faces that
+/// cells share, and where they overlap, of the one with the smallest number. No bound outside, nor in cells whose size is not
+/// positive.
+/// @throws UsageError bad_option: no cell that is not flat, or not one size a cell; bad_size: a NaN (ids: the cell).
+///   InputError index_out_of_range (ids: the cell), not_finite.
+template <int D>
+SizingField<D> sizes_in_cells(const OutputMesh<D>& mesh, std::span<const double> sizes);
+
 /// Values at the vertices of a mesh, lowered where they grow faster than `growth` along an edge: the largest values, none
 /// above its old one, that do not. n log n. Values far below their neighbours' thus have the say, as usual.
 /// @throws as sizes_on_mesh, and UsageError bad_option: growth negative or not finite
@@ -75,5 +84,31 @@ std::vector<double> limit_growth(const OutputMesh<D>& mesh, std::span<const doub
 ///   finite (ids: the vertex). InputError index_out_of_range (ids: the cell). What a size function throws.
 template <int D>
 std::vector<double> sizes_of_regions(const OutputMesh<D>& mesh, const RegionSizes<D>& sizes, double otherwise);
+
+/// What a size is of. Meshes are bounded by circumradii in 3D and by areas in 2D; other sizes are made these.
+enum class SizeUnit : std::uint8_t {
+  edge,    ///< a length h: edges are h long on average. 3D: circumradius 0.75 h; 2D: area 0.625 h^2 (measured, docs/remeshing.md)
+  radius,  ///< circumradius. 2D: the area of the regular triangle with this one, 3 sqrt(3) / 4 of its square
+  area,    ///< 2D
+  volume,  ///< 3D: the circumradius of the regular tetrahedron with this volume, so that none has more
+};
+
+/// The unit of sizes where nothing else is said.
+template <int D>
+constexpr SizeUnit usual_size_unit() {
+  return D == 2 ? SizeUnit::area : SizeUnit::radius;
+}
+
+/// A size in the usual unit. What is not positive, or NaN, stays so. By correctly rounded operations alone.
+/// @throws UsageError bad_option: areas in 3D, volumes in 2D
+template <int D>
+double in_usual_unit(double size, SizeUnit unit);
+/// The same of a field, asked by blocks if that is. @throws likewise
+template <int D>
+SizingField<D> in_usual_unit(SizingField<D> field, SizeUnit unit);
+/// How much the length of a usual size (in 2D the root of the area) grows where one in this unit grows by 1: growths of lengths
+/// in a unit times this are growths as limit_growth and sizes_at_points take them. Areas and volumes: 1.
+template <int D>
+double growth_of_unit(SizeUnit unit);
 
 }  // namespace pgdr

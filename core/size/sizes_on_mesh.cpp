@@ -3,6 +3,8 @@
 //
 // Sizes on a background mesh.
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -55,6 +57,36 @@ SizingField<D> sizes_on_mesh(const OutputMesh<D>& mesh, std::span<const double> 
   return [source = std::make_shared<const MeshValues<D>>(mesh, values)](const Point<D>& x) { return source->at(x); };
 }
 
+template <int D>
+SizingField<D> sizes_in_cells(const OutputMesh<D>& mesh, std::span<const double> sizes) {
+  if (sizes.size() != mesh.cells.size())
+    throw UsageError({.code = Errc::bad_option,
+                      .message = std::to_string(sizes.size()) + " sizes for " + std::to_string(mesh.cells.size()) + " cells"});
+  detail::require_indices<D>(mesh);
+  detail::require_sizes<D>(mesh.points, std::vector<double>(mesh.points.size(), 1));
+  std::vector<double> bounds;
+  for (std::size_t c = 0; c < sizes.size(); ++c) {
+    if (std::isnan(sizes[c]))
+      throw UsageError({.code = Errc::bad_size,
+                        .message = "the size of cell " + std::to_string(c) + " is not a number",
+                        .ids = {static_cast<std::int64_t>(c)}});
+    bounds.push_back(sizes[c] > 0 ? sizes[c] : std::numeric_limits<double>::infinity());
+  }
+  struct Source {
+    std::vector<double> bounds;
+    detail::MeshInterpolation<D> mesh;
+  };
+  const auto source = std::make_shared<const Source>(
+      Source{std::move(bounds), detail::MeshInterpolation<D>(mesh.points, mesh.cells)});
+  if (source->mesh.empty()) throw UsageError({Errc::bad_option, "the mesh has no cell with a volume", {}, 0, {}, {}});
+  return [source](const Point<D>& x) {
+    const std::uint32_t c = source->mesh.cell_at(x);
+    return c == detail::MeshInterpolation<D>::none ? std::numeric_limits<double>::infinity() : source->bounds[c];
+  };
+}
+
+template PGDR_API SizingField<2> sizes_in_cells<2>(const OutputMesh<2>&, std::span<const double>);
+template PGDR_API SizingField<3> sizes_in_cells<3>(const OutputMesh<3>&, std::span<const double>);
 template PGDR_API std::vector<double> smallest_at_vertices<2>(const OutputMesh<2>&, std::span<const double>);
 template PGDR_API std::vector<double> smallest_at_vertices<3>(const OutputMesh<3>&, std::span<const double>);
 template PGDR_API SizingField<2> sizes_on_mesh<2>(const OutputMesh<2>&, std::span<const double>);

@@ -74,11 +74,11 @@ class Flags(Case):
         return self.pgdr(*arguments, expect=2).stderr
 
     def test_subcommands(self):
-        for word in ("mehs", "refine", "--meesh"):
+        for word in ("mehs", "triangulate", "--meesh"):
             said = self.refusal(word, PLATE, "-o", self.output)
             self.assertIn(f'"{word}"', said)
-            self.assertIn("mesh, check, info, view", said)
-        self.assertIn("mesh, check, info, view", self.refusal())
+            self.assertIn("mesh, remesh, refine, check, info, view", said)
+        self.assertIn("mesh, remesh, refine, check, info, view", self.refusal())
 
     def test_flags(self):
         for flag, meant in {"--sizes": "--size", "--radius-edges": "--radius-edge", "--kep-boundary": "--keep-boundary",

@@ -433,9 +433,11 @@ std::vector<MeshField> read_vtu_fields(std::string_view text, const std::filesys
       constexpr std::uint64_t most_components = 1024;  // no count of the file overflows
       if (const std::uint64_t n = arrays.components(array); n == 0 || n > most_components)
         arrays.fail(Errc::count_too_large, array, " has " + std::to_string(n) + " components");
-      fields.push_back(
-          {array.substr(section.size()), of_points, static_cast<std::size_t>(arrays.components(array)),
-           arrays.numbers(array, of_points ? arrays.points() : cells, of_points ? arrays.points() : arrays.cells())});
+      std::string_view name_there = std::string_view(array).substr(section.size());
+      if (name_there.starts_with(field_data_escape)) name_there.remove_prefix(field_data_escape.size());
+      fields.push_back({std::string(name_there), of_points, static_cast<std::size_t>(arrays.components(array)),
+                        arrays.numbers(array, of_points ? arrays.points() : cells, of_points ? arrays.points() : arrays.cells()),
+                        !arrays.type(array).starts_with("Float")});
     }
   arrays.check_end();
   return fields;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <string>
 
+#include "io/field_formats.hpp"
 #include "io/file_slices.hpp"
 #include "io/formats.hpp"
 #include "io/write/vtu_layout.hpp"
@@ -28,6 +29,15 @@ template <int D>
 void write_vtu(const OutputMesh<D>& mesh, const std::vector<PeriodicPairs>& periodic, FileOutput& out) {
   VtuPart<D> part = VtuPart<D>::whole(mesh);
   if (!periodic.empty()) part.periodic_of = periodic_of(periodic, mesh.points.size());
+  put_file<D>(part, out);
+}
+
+template <int D>
+void write_vtu_with_fields(const OutputMesh<D>& mesh, const MeshFields& fields, const std::vector<PeriodicPairs>& periodic,
+                           FileOutput& out) {
+  VtuPart<D> part = VtuPart<D>::whole(mesh);
+  if (!periodic.empty()) part.periodic_of = periodic_of(periodic, mesh.points.size());
+  part.fields = &fields;
   put_file<D>(part, out);
 }
 
@@ -65,6 +75,8 @@ void write_vtu_rows(const MeshPiece<D>& piece, bool frame, FileSlices& out) {
 
 template void write_vtu<2>(const OutputMesh<2>&, const std::vector<PeriodicPairs>&, FileOutput&);
 template void write_vtu<3>(const OutputMesh<3>&, const std::vector<PeriodicPairs>&, FileOutput&);
+template void write_vtu_with_fields<2>(const OutputMesh<2>&, const MeshFields&, const std::vector<PeriodicPairs>&, FileOutput&);
+template void write_vtu_with_fields<3>(const OutputMesh<3>&, const MeshFields&, const std::vector<PeriodicPairs>&, FileOutput&);
 template void write_vtu_of_piece<2>(const MeshPiece<2>&, FileOutput&);
 template void write_vtu_of_piece<3>(const MeshPiece<3>&, FileOutput&);
 template void write_vtu_rows<2>(const MeshPiece<2>&, bool, FileSlices&);

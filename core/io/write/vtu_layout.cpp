@@ -7,8 +7,10 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <span>
 #include <utility>
 
+#include "io/field_formats.hpp"
 #include "io/formats.hpp"
 #include "io/write/valid_names.hpp"
 #include "output/piece_join.hpp"
@@ -156,6 +158,32 @@ class Layout {
                        for (std::size_t k = 0; k < columns; ++k)
                          bytes.put_binary(mesh->point_attributes[(own + i) * columns + k]);
                      });
+    add_fields(false);
+  }
+
+  /// Further arrays, whose names are not those of the mesh's own.
+  void add_fields(bool of_cells) {
+    if (!part_.fields) return;
+    const std::span<const std::string_view> own = of_cells ? std::span<const std::string_view>(own_cell_data)
+                                                           : std::span<const std::string_view>(own_point_data);
+    for (const MeshField& field : *part_.fields) {
+      if (field.of_points == of_cells) continue;
+      const bool is_own = std::ranges::count(own, field.name) > 0 || field.name.starts_with(field_data_escape);
+      const std::string name = (is_own ? std::string(field_data_escape) : "") + field.name;
+      const std::string shape = field.components == 1 ? "" : " NumberOfComponents=\"" + std::to_string(field.components) + "\"";
+      const auto put = [&field](TextBuffer& bytes, std::size_t i) {
+        for (std::size_t k = i * field.components; k < (i + 1) * field.components; ++k)
+          field.is_integer ? bytes.put_binary(static_cast<std::int64_t>(field.values[k])) : bytes.put_binary(field.values[k]);
+      };
+      const auto put_nothing = [width = field.components](TextBuffer& bytes, std::size_t) {
+        for (std::size_t k = 0; k < width; ++k) bytes.put_binary(std::int64_t{0});  // 0.0 has the same bytes
+      };
+      const std::string_view type = field.is_integer ? "Int64" : "Float64";
+      if (of_cells)
+        add_cell_rows("CellData", type, name, shape, 8 * field.components, put, put_nothing, put_nothing);
+      else
+        add_point_rows("PointData", type, name, shape, 8 * field.components, put);
+    }
   }
 
   void add_cell_data() {
@@ -185,6 +213,7 @@ class Layout {
         "CellData", "Int32", "marker", "", 4, put_nothing(std::int32_t{0}),
         [mesh = mesh_](TextBuffer& bytes, std::size_t i) { bytes.put_binary(std::int32_t{mesh->subfacets[i].marker}); },
         [mesh = mesh_](TextBuffer& bytes, std::size_t i) { bytes.put_binary(std::int32_t{mesh->subsegments[i].marker}); });
+    add_fields(true);
   }
 
   void add_connectivity() {

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "io/file_output.hpp"
+#include "pgdr/mesh_fields.hpp"
 #include "pgdr/mesh_piece.hpp"
 
 namespace pgdr::detail {
@@ -34,6 +35,7 @@ struct VtuPart {
   Number first_cell = 0, first_subfacet = 0, first_subsegment = 0;
   const MeshPiece<D>* piece = nullptr;          ///< of a whole mesh whose numbers the file has, too
   std::vector<std::uint32_t> periodic_of = {};  ///< of all points; empty: nothing is periodic
+  const MeshFields* fields = nullptr;           ///< of a whole mesh: further arrays
 
   static VtuPart whole(const OutputMesh<D>& mesh);          ///< all rows of the file of a mesh
   static VtuPart rows_of(const MeshPiece<D>& piece);        ///< its rows of the file of the whole mesh
