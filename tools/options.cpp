@@ -22,6 +22,7 @@
 #include "text.hpp"
 #include "validators.hpp"
 #include "version.hpp"
+#include "view_options.hpp"
 
 namespace pgdr::tool {
 namespace {
@@ -58,30 +59,6 @@ const std::map<std::string, std::optional<BodyMode>> region_words = [] {
 }();
 
 const std::map<std::string, DiskType> disk_types{{"type1", DiskType::type1}, {"type2", DiskType::type2}};
-
-const std::map<std::string, ViewColor> view_colors{
-    {"quality", ViewColor::quality}, {"dihedral", ViewColor::dihedral}, {"region", ViewColor::region}, {"leaf", ViewColor::leaf}};
-
-/// Finite numbers between commas; none if the text is anything else.
-std::vector<double> numbers(const std::string& text) {
-  std::vector<double> list;
-  for (const std::string& word : CLI::detail::split(text, ',')) {
-    double value = 0;
-    if (!CLI::detail::lexical_cast(word, value) || !std::isfinite(value)) return {};
-    list.push_back(value);
-  }
-  return list;
-}
-
-bool is_direction(const std::string& text) {
-  const std::vector<double> v = numbers(text);
-  const double square = v.size() == 3 ? v[0] * v[0] + v[1] * v[1] + v[2] * v[2] : 0;
-  return std::isnormal(square);
-}
-
-bool is_plane(const std::string& text) {
-  return text.size() > 2 && text[0] >= 'x' && text[0] <= 'z' && text[1] == '=' && numbers(text.substr(2)).size() == 1;
-}
 
 bool is_seed(const std::string& text) { return split_seed(text).has_value(); }
 bool is_hole(const std::string& text) { return is_seed(text) && text.find('=') == std::string::npos; }
@@ -316,44 +293,6 @@ void add_info(CLI::App& app, InfoArguments& a) {
   add_report(app, a.report, a.quiet);
 }
 
-void add_view(CLI::App& app, ViewArguments& a) {
-  app.add_option("MESH", a.mesh, "the mesh: .vtu .pvtu .msh .mesh .node .ele")->required()->type_name("");
-  app.add_option("-o,--output", a.output, "the picture: .svg .png, or .html, a page that shows the mesh in any browser")
-      ->required()
-      ->type_name("PICTURE");
-  app.add_option_function<std::string>(
-         "--color",
-         [&a](const std::string& t) {
-           const auto known = view_colors.find(t);
-           a.color = known == view_colors.end() ? ViewColor::of_pages : known->second;
-           a.coloring = t;
-         },
-         "quality (default): by the smallest (dihedral) angle, red is poor; in 3D of the "
-         "cells that a cut opens; dihedral: of all cells, in classes of degrees, red is below 5; region: by label; leaf: by leaf "
-         "of the tree, of a mesh made "
-         "with --leaves; a page has radius_edge, volume, marker, name and the fields of the file, too")
-      ->type_name("NAME");
-  app.add_option_function<std::string>(
-         "--cut",
-         [&a](const std::string& t) {
-           a.cut = CutPlane{t[0] - 'x', numbers(t.substr(2))[0]};
-         },
-         "3D: leave out the cells on the eye's side of a plane, e.g. x=0.5")
-      ->type_name("PLANE")
-      ->check(shaped(is_plane, "x=, y= or z= and a number"));
-  app.add_option_function<std::string>(
-         "--from",
-         [&a](const std::string& t) {
-           const std::vector<double> v = numbers(t);
-           a.from = Point3{{v[0], v[1], v[2]}};
-         },
-         "3D: the direction towards the eye (default 1,-1.5,0.8)")
-      ->type_name("X,Y,Z")
-      ->check(shaped(is_direction, "three numbers with commas, not all 0"));
-  app.add_option("--size", a.width, "width of the picture (default 1000)")->type_name("PIXELS")->check(whole_number(16, 8000));
-  add_report(app, a.report, a.quiet);
-}
-
 void add_join(CLI::App& app, JoinArguments& a) {
   app.add_option("MESH", a.meshes, "the meshes, two or more: .vtu .pvtu .msh .mesh .node .ele")
       ->required()
@@ -468,6 +407,7 @@ std::variant<Arguments, int> parse(int argc, const char* const* argv, bool speak
   add_info(*app.add_subcommand("info", "What is in an input or a mesh"), info);
   auto* view_app = app.add_subcommand("view", "Draw a mesh");
   add_view(*view_app, view);
+  add_report(*view_app, view.report, view.quiet);
   auto* join_app = app.add_subcommand("join", "Make one mesh of several whose boundaries match");
   add_join(*join_app, join);
 

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace pgdr::tool {
 
@@ -34,6 +35,17 @@ inline CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
                             text + '"';
           },
           "", "whole number"};
+}
+
+/// Finite numbers between commas; none if the text is anything else.
+inline std::vector<double> numbers(const std::string& text) {
+  std::vector<double> list;
+  for (const std::string& word : CLI::detail::split(text, ',')) {
+    double value = 0;
+    if (!CLI::detail::lexical_cast(word, value) || !std::isfinite(value)) return {};
+    list.push_back(value);
+  }
+  return list;
 }
 
 inline bool positive(double v) { return v > 0; }
