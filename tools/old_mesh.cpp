@@ -14,7 +14,7 @@
 namespace pgdr::tool {
 namespace {
 
-[[noreturn]] void refuse(const std::string& what) { throw UsageError({.code = Errc::bad_option, .message = what}); }
+[[noreturn]] void refuse_flag(const std::string& what) { throw UsageError({.code = Errc::bad_option, .message = what}); }
 
 /// The markers that a text means: a number, or all that are called so.
 template <int D>
@@ -24,7 +24,7 @@ std::set<int> markers_of(const OutputMesh<D>& mesh, const std::string& text) {
     markers.insert(static_cast<int>(*number));
   for (const auto& [marker, name] : mesh.names.markers)
     if (name == text) markers.insert(marker);
-  if (markers.empty()) refuse("--required: no marker is called \"" + text + '"');
+  if (markers.empty()) refuse_flag("--required: no marker is called \"" + text + '"');
   return markers;
 }
 
@@ -55,7 +55,7 @@ std::vector<std::uint8_t> OldMesh<D>::required(const std::vector<std::string>& m
       if (wanted.contains(s.marker)) require(s.vertices);
     for (const auto& f : mesh_.subfacets)
       if (wanted.contains(f.marker)) require(f.vertices);
-    if (!is_any) refuse("--required: nothing has the marker " + text);
+    if (!is_any) refuse_flag("--required: nothing has the marker " + text);
   }
   return required;
 }
@@ -67,8 +67,8 @@ const MeshField& OldMesh<D>::field(const std::string& name) const {
     if (f.name == name && f.components == 1) return f;
     known += (known.empty() ? "" : ", ") + f.name;
   }
-  refuse("--size-field: the file has no field of one number each that is called \"" + name + "\"; " +
-         (known.empty() ? "it has none at all" : "it has " + known));
+  refuse_flag("--size-field: the file has no field of one number each that is called \"" + name + "\"; " +
+              (known.empty() ? "it has none at all" : "it has " + known));
 }
 
 template <int D>

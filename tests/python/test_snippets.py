@@ -12,7 +12,7 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PAGES = ("README.md", "docs/python.md", "docs/coming-from.md")
+PAGES = ("README.md", "docs/python.md", "docs/remeshing.md", "docs/coming-from.md")
 BLOCK = re.compile(r"^```(python[^\n]*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 

@@ -26,6 +26,7 @@ void bind_check(py::module_& module);     // check, diagnose
 void bind_estimate(py::module_& module);  // estimate
 void bind_join(py::module_& module);      // join
 void bind_periodic(py::module_& module);  // make_periodic, pair
+void bind_remesh(py::module_& module);    // meshes as inputs, transfer of fields
 void bind_surface(py::module_& module);   // replace_surface
 void bind_page(py::module_& module);      // has_page, write_page
 

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "arrays.hpp"
 #include "bind.hpp"
 #include "cures.hpp"
 #include "errors.hpp"
@@ -39,8 +40,11 @@ py::dict dict_of(const CheckReport& r) {
 template <int D>
 py::dict check_mesh(const MeshData<D>& data, const Plc<D>* plc, const RefineOptions<D>& bounds, double largest_cosine,
                     bool delaunay, std::uint64_t not_delaunay_left, bool with_reasons, bool seed_sizes,
-                    const std::string& surface_tolerance, double feature_angle) {
+                    const std::string& surface_tolerance, double feature_angle,
+                    const std::optional<Dense<std::uint8_t>>& required) {
   CheckReport report;
+  std::optional<std::vector<std::uint8_t>> required_points;
+  if (required) required_points = vector_of(*required);
   std::optional<double> length;
   if constexpr (D == 3)
     if (!surface_tolerance.empty() && plc) length = tool::surface_tolerance(surface_tolerance, *plc);
@@ -48,6 +52,7 @@ py::dict check_mesh(const MeshData<D>& data, const Plc<D>* plc, const RefineOpti
     CheckOptions<D> options;
     options.stop = stop;
     options.input = plc;
+    options.required_points = required_points;
     if (plc) options.tolerance = tolerance_of(*plc);
     if (with_reasons) options.reasons = &data.reasons;
     options.regions = bounds.regions;

@@ -24,6 +24,13 @@ py::array evaluate(const SizingField<D>& field, const Dense<double>& points) {
   return own(std::move(sizes));
 }
 
+SizeUnit unit_of(const std::string& word) {
+  return word == "edge"     ? SizeUnit::edge
+         : word == "radius" ? SizeUnit::radius
+         : word == "area"   ? SizeUnit::area
+                            : SizeUnit::volume;
+}
+
 template <int D>
 void bind(py::module_& module) {
   using Field = SizingField<D>;
@@ -61,6 +68,14 @@ void bind(py::module_& module) {
     }
     return own(std::move(made));
   });
+  module.def(named("in_usual_unit").c_str(),
+             [](const Field& field, const std::string& unit) { return in_usual_unit<D>(field, unit_of(unit)); });
+  module.def(named("usual_sizes").c_str(), [](const Dense<double>& sizes, const std::string& unit) {
+    std::vector<double> made = vector_of(sizes);
+    for (double& size : made) size = in_usual_unit<D>(size, unit_of(unit));
+    return own(std::move(made));
+  });
+  module.def(named("growth_of_unit").c_str(), [](const std::string& unit) { return growth_of_unit<D>(unit_of(unit)); });
   module.def(named("limit_growth").c_str(), [](const MeshData<D>& data, const Dense<double>& sizes, double growth) {
     const auto values = span_of(sizes);
     std::vector<double> limited;

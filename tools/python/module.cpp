@@ -27,4 +27,5 @@ PYBIND11_MODULE(_pgdr, module) {
   pgdr::python::bind_periodic(module);
   pgdr::python::bind_surface(module);
   pgdr::python::bind_page(module);
+  pgdr::python::bind_remesh(module);
 }

@@ -20,6 +20,7 @@ from ._pgdr import version as __version__
 from ._page import Page
 from ._periodic import Periodic
 from ._plc import Plc, close_planar_openings, resolve_crossings, with_convex_hull
+from ._remesh import FileFields, Transfer, read_fields, remesh, sizes_from_error, write_fields
 from ._report import CheckFinding, CheckReport
 from ._run import Elements, Progress, StopSource, mesh
 from ._surface import ReplacedSurface, replace_surface
@@ -28,9 +29,11 @@ from ._triangle import triangulate
 from ._voronoi import Voronoi
 
 __all__ = ["Bodies", "BodyRegion", "CancelledError", "CheckFinding", "CheckReport", "DiagnosedError", "Diagnostic",
-           "Elements", "Error", "Estimate", "Field", "FileError", "Finding", "Gap", "InputError", "Joined", "JoinedLabel",
-           "Mesh", "Page", "Periodic", "Plc", "Progress", "Proposal", "Reason", "ReplacedSurface", "ResourceError",
-           "Shared", "SharpAngle", "StopSource", "Tetrahedralization", "UsageError", "Voronoi", "__version__", "check",
-           "close_planar_openings", "diagnose", "estimate", "info", "join", "limit_growth", "mesh", "replace_surface",
-           "resolve_crossings", "sizes_along", "sizes_at_points", "sizes_on_mesh", "sizes_on_raster", "smallest", "tetgen",
-           "tetrahedralize", "triangle", "triangulate", "with_bodies", "with_convex_hull"]
+           "Elements", "Error", "Estimate", "Field", "FileError", "FileFields", "Finding", "Gap", "InputError",
+           "Joined", "JoinedLabel", "Mesh", "Page", "Periodic", "Plc", "Progress", "Proposal", "Reason",
+           "ReplacedSurface", "ResourceError", "Shared", "SharpAngle", "StopSource", "Tetrahedralization",
+           "Transfer", "UsageError", "Voronoi", "__version__", "check", "close_planar_openings", "diagnose",
+           "estimate", "info", "join", "limit_growth", "mesh", "read_fields", "remesh", "replace_surface",
+           "resolve_crossings", "sizes_along", "sizes_at_points", "sizes_from_error", "sizes_on_mesh",
+           "sizes_on_raster", "smallest", "tetgen", "tetrahedralize", "triangle", "triangulate", "with_bodies",
+           "with_convex_hull", "write_fields"]

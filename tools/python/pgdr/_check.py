@@ -6,13 +6,16 @@ from __future__ import annotations
 import math
 from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
 
+import numpy as np
+import numpy.typing as npt
+
 from . import _arguments, _pgdr
 from ._bounds import bounds_of
 from ._doors import door
 from ._ending import WORK
 from ._errors import Diagnostic, usage
 from ._estimate import estimate_if_valid
-from ._mesh import Mesh
+from ._mesh import Mesh, required_mask
 from ._plc import Plc
 from ._report import CheckReport
 
@@ -20,9 +23,10 @@ _BOUNDS = ("min_angle", "radius_edge", "size", "region_sizes", "min_dihedral", "
 
 
 @door
-def check(mesh: Mesh, plc: Optional[Plc] = None, *, delaunay: Optional[bool] = None, reasons: bool = True,
+def check(mesh: Mesh, plc: Union[None, Plc, Mesh] = None, *, delaunay: Optional[bool] = None, reasons: bool = True,
           surface_tolerance: Union[None, float, str] = None, feature_angle: float = 40.0,
-          keep_boundary: Union[None, bool, Sequence[int]] = None, **bounds: Any) -> CheckReport:
+          keep_boundary: Union[None, bool, Sequence[int]] = None, required: Optional[npt.ArrayLike] = None,
+          **bounds: Any) -> CheckReport:
     """Certifies a mesh, with exact arithmetic: that its cells are one, that it conforms to the input as given, and that the bounds
     hold but where its reasons, each of which is verified, say why not. Those that regions of the input have count unless the run that
     made the mesh ended early. Some 5 microseconds a cell.
@@ -31,8 +35,11 @@ def check(mesh: Mesh, plc: Optional[Plc] = None, *, delaunay: Optional[bool] = N
     ----------
     mesh : Mesh
         Of any origin.
-    plc : Plc, optional
-        The input. None: only what can be said without it.
+    plc : Plc or Mesh, optional
+        The input. None: only what can be said without it. A mesh: the one that `remesh` has made this one of. Its boundary, the faces
+        between its labels, its subfacets and subsegments are to be there, and of its points the required ones.
+    required : (n,) array of bool, optional
+        With a mesh as input: which of its points are to be points of this one.
     delaunay : bool, optional
         Are faces to be locally Delaunay? None: if the run that made the mesh says so.
     reasons : bool
@@ -56,10 +63,20 @@ def check(mesh: Mesh, plc: Optional[Plc] = None, *, delaunay: Optional[bool] = N
     """
     if not isinstance(mesh, Mesh):
         raise TypeError(f"mesh must be a pgdr.Mesh, not {type(mesh).__name__}")
-    if plc is not None and not isinstance(plc, Plc):
-        raise TypeError(f"plc must be a pgdr.Plc, not {type(plc).__name__}")
+    if plc is not None and not isinstance(plc, (Plc, Mesh)):
+        raise TypeError(f"plc must be a pgdr.Plc or a pgdr.Mesh, not {type(plc).__name__}")
     if plc is not None and plc.dimension != mesh.dimension:
         raise usage(f"the mesh has {mesh.dimension} dimensions, the input {plc.dimension}")
+    points: Optional[npt.NDArray[np.uint8]] = None
+    if isinstance(plc, Mesh):
+        boundary = _pgdr.remesh_boundary2 if plc.dimension == 2 else _pgdr.remesh_boundary3
+        core, points = boundary(plc._core, required_mask(plc, required), surface_tolerance is not None)
+        plc = Plc._of(core)
+        tolerance = mesh.statistics.get("tolerance")
+        if tolerance is not None:
+            plc = plc.with_tolerance(tolerance, coarse=True)
+    elif required is not None:
+        raise usage("required is of a mesh as input; of a pgdr.Plc all points are")
     unknown = sorted(set(bounds) - set(_BOUNDS))
     if unknown:
         raise TypeError(f"check() has no argument {unknown[0]!r}")
@@ -82,7 +99,7 @@ def check(mesh: Mesh, plc: Optional[Plc] = None, *, delaunay: Optional[bool] = N
         return CheckReport(of_dimension(mesh._core, plc._core if plc is not None else None, options, cosine,
                                         _arguments.flag("delaunay", delaunay), int(mesh.statistics.get("not_delaunay_left") or 0),
                                         _arguments.flag("reasons", reasons),
-                                        mesh.stop == "finished", surface, angle))
+                                        mesh.stop == "finished", surface, angle, points))
 
 
 def _surface_tolerance(value: Union[None, float, str], plc: Optional[Plc]) -> str:

@@ -21,7 +21,7 @@ class Field:
     """A sizing field; `smallest`, `sizes_at_points` and `sizes_on_mesh` make them. Any number of threads may ask one. It pickles
     with all that it was made of, as far as that does: not with a lambda."""
 
-    def __init__(self, core: _pgdr._Field, dimension: int, recipe: Tuple[Callable[..., Field], Tuple[Any, ...]]) -> None:
+    def __init__(self, core: _pgdr._Field, dimension: int, recipe: Tuple[Callable[..., Size], Tuple[Any, ...]]) -> None:
         self._core = core
         self._dimension = dimension
         self._recipe = recipe
@@ -38,7 +38,7 @@ class Field:
     def __repr__(self) -> str:
         return f"<pgdr.Field {self._dimension}D>"
 
-    def __reduce__(self) -> Tuple[Callable[..., Field], Tuple[Any, ...]]:
+    def __reduce__(self) -> Tuple[Callable[..., Size], Tuple[Any, ...]]:
         return self._recipe
 
 
@@ -47,7 +47,7 @@ def is_lasting(size: object) -> bool:
     """Is a size the same in another process: a number, or a field without functions of Python?"""
     if isinstance(size, Field):
         make, parts = size._recipe
-        return make is not smallest or all(map(is_lasting, parts))
+        return make not in (smallest, in_unit) or all(map(is_lasting, parts if make is smallest else parts[:1]))
     return not callable(size)
 
 
@@ -61,6 +61,28 @@ def core_of(name: str, size: object, dimension: int) -> _pgdr._Field:
     if callable(size):
         return made(size)
     return made(_arguments.number(name, size))
+
+
+def size_unit_of(size: Optional[Size], edge_length: Optional[Size], unit: Optional[str]) -> Tuple[Optional[Size], Optional[str]]:
+    """The size and its unit, of which edge_length is both."""
+    if unit is not None:
+        _arguments.word("size_unit", unit, ("edge", "radius", "area", "volume"))
+    if edge_length is None:
+        return size, unit
+    if size is not None or unit not in (None, "edge"):
+        raise usage('edge_length is short for size=edge_length, size_unit="edge": give one of them')
+    return edge_length, "edge"
+
+
+def in_unit(size: Size, unit: Optional[str], dimension: int) -> Size:
+    """A size in a unit, as one of circumradii (3D) or areas (2D)."""
+    if unit is None:
+        return size
+    if not callable(size):
+        convert = _pgdr.usual_sizes2 if dimension == 2 else _pgdr.usual_sizes3
+        return float(convert(np.array([_arguments.number("size", size)]), unit)[0])
+    of_field = _pgdr.in_usual_unit2 if dimension == 2 else _pgdr.in_usual_unit3
+    return Field(of_field(core_of("size", size, dimension), unit), dimension, (in_unit, (size, unit, dimension)))
 
 
 def smallest(*fields: Size) -> Field:

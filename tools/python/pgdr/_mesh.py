@@ -209,7 +209,7 @@ class Mesh:
         """What is odd about the input, and was taken as it is."""
         return list(self._facts.get("warnings", []))
 
-    def check(self, plc: Optional[Plc] = None, **bounds: Any) -> CheckReport:
+    def check(self, plc: Union[None, Plc, Mesh] = None, **bounds: Any) -> CheckReport:
         """`pgdr.check` with the bounds, the reasons and the tolerance of the run that made this mesh; `bounds` are instead of those.
         Of a run that ended early (`stop`), the bounds are not asked for."""
         lost = [name for name, value in self._bounds.items() if value is _Lost and name not in bounds]
@@ -220,7 +220,7 @@ class Mesh:
             asked.pop("radius_edge", None)
         asked.update(bounds)
         tolerance = self.statistics.get("tolerance")
-        if tolerance is not None and plc is not None and plc.tolerance != tolerance:  # what met then meets now
+        if tolerance is not None and isinstance(plc, Plc) and plc.tolerance != tolerance:  # what met then meets now
             plc = plc.with_tolerance(tolerance, coarse=True)
         report: CheckReport = through("check")(self, plc, **asked)
         return report
@@ -293,6 +293,16 @@ class Mesh:
         bounds = {name: value if all(map(is_lasting, value.values() if name == "region_sizes" else (value,))) else _Lost
                   for name, value in self._bounds.items()}
         return _restored, (self.dimension, arrays, core.input_points, core.names, self._facts, bounds)
+
+
+def required_mask(mesh: Mesh, required: Optional[npt.ArrayLike]) -> npt.NDArray[np.uint8]:
+    """(n,) flags of the points of a mesh; (0,): none is required."""
+    if required is None:
+        return np.zeros(0, dtype=np.uint8)
+    mask = np.asarray(required)
+    if mask.dtype != np.bool_ or mask.shape != (len(mesh.points),):
+        raise usage(f"required must be True or False for each of {len(mesh.points)} points, not {mask.dtype} in the shape {mask.shape}")
+    return np.ascontiguousarray(mask, dtype=np.uint8)
 
 
 class _Lost:

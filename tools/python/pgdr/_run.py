@@ -14,7 +14,7 @@ from . import _arguments, _pgdr
 from ._bounds import bounds_of, require_walls, sizes_by_label
 from ._ending import WORK
 from ._errors import DiagnosedError, Diagnostic, in_python, usage
-from ._fields import Size
+from ._fields import Size, in_unit, size_unit_of
 from ._mesh import Mesh
 from ._periodic import paired, sides_of
 from ._plc import Plc
@@ -68,6 +68,7 @@ class StopSource:
 def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, radius_edge: Optional[float] = None, size: Optional[Size] = None,
          min_dihedral: Optional[float] = None, optimize: bool = True, threads: int = 0, regions: Optional[str] = None,
          region_sizes: Optional[Mapping[Union[float, str], Size]] = None,
+         size_unit: Optional[str] = None, edge_length: Optional[Size] = None,
          selector: Union[None, str, Callable[[Elements], npt.ArrayLike]] = None, keep_boundary: Union[bool, Sequence[int]] = False,
          conforming_delaunay: bool = False, periodic: Sequence[Tuple[Any, ...]] = (),
          tolerance: Optional[float] = None, surface_tolerance: Union[None, float, str] = None, feature_angle: float = 40.0,
@@ -90,6 +91,11 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
         Bound on the circumradius (3D, a length) or area (2D) of each cell, at its centroid. Regular cells with edges h have 0.61 h,
         and 0.43 h h. A function gets an (n, D) float64 array of points, and returns their n sizes; it must say the same whenever it
         is asked for a point, and what it raises comes out of this call.
+    size_unit : "edge", "radius", "area" or "volume", optional
+        What `size` and `region_sizes` are of: "radius" in 3D (the default there) and "area" in 2D, as said above; "volume" in 3D; or
+        "edge": the length that edges have on average (docs/remeshing.md).
+    edge_length : float, Field, or function, optional
+        Short for size=edge_length, size_unit="edge".
     min_dihedral : float, optional
         3D: bound on the dihedral angles, in degrees, from 0 to 35, that the optimiser works for. Default: 15.
     optimize : bool
@@ -185,7 +191,10 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
     if surface_tolerance is not None:
         wanted = max(25.0, _arguments.number("min_dihedral", min_dihedral or 0) + 10)
         plc, _, surface = replace_surface(plc, surface_tolerance, feature_angle=feature_angle, wanted_corner=wanted)
-    region_sizes = None if region_sizes is None else sizes_by_label(region_sizes, plc.region_names)
+    size, size_unit = size_unit_of(size, edge_length, size_unit)
+    size = None if size is None else in_unit(size, size_unit, dimension)
+    region_sizes = None if region_sizes is None else {label: in_unit(one, size_unit, dimension) for label, one in
+                                                      sizes_by_label(region_sizes, plc.region_names).items()}
     if not _arguments.flag("optimize", optimize):
         if min_dihedral is not None:
             raise usage("optimize=False makes no use of min_dihedral")
