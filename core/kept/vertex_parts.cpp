@@ -248,9 +248,10 @@ void VertexParts::build_hulls() {
       const auto face = face_inwards(v, f);
       const auto p = mesh_->points(face);
       const bool turned = orient_projected(p[0], p[1], p[2], domain_->facets()[k->face_entity[f]].axis) == Sign::negative;
-      const auto [x, y] = corners_without(f, at);
+      const auto others = corners_without(f, at);
+      const VertexId from = v[others[0]], to = v[others[1]];
       const auto leaf = std::find_if(leaves_.begin(), leaves_.end(), [&](const Leaf& l) {
-        return l.facet == k->face_entity[f] && ((l.from == v[x] && l.to == v[y]) || (l.from == v[y] && l.to == v[x]));
+        return l.facet == k->face_entity[f] && ((l.from == from && l.to == to) || (l.from == to && l.to == from));
       });
       const std::array<std::uint32_t, 3> side{sector_[i], leaf->fan, turned};
       if (std::find(sides.begin(), sides.end(), side) != sides.end()) continue;

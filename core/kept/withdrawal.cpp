@@ -30,7 +30,7 @@ enum class Means { none, growth, point_inside };
 class Withdrawal {
  public:
   Withdrawal(Mesh<3>& mesh, Mesh<3>::Pools& pools, const Domain<3>& domain, const KeptEntities<3>& kept)
-      : mesh_(&mesh), pools_(&pools), domain_(&domain), parts_(mesh, domain), filling_(mesh, domain), replacer_(mesh) {
+      : mesh_(&mesh), pools_(&pools), parts_(mesh, domain), filling_(mesh, domain), replacer_(mesh) {
     find_points(kept);
   }
 
@@ -69,7 +69,6 @@ class Withdrawal {
 
   Mesh<3>* mesh_;
   Mesh<3>::Pools* pools_;
-  const Domain<3>* domain_;
   VertexParts parts_;
   HullFilling filling_;
   Replacer<3> replacer_;
@@ -163,7 +162,8 @@ bool Withdrawal::grow(Hull& hull) {
     if (link && !is_taken(link.cell())) beyond.emplace_back(mesh_->cell(link.cell()).vertices[link.face()], link.cell());
   std::optional<VertexId> best;
   std::ptrdiff_t most = 0;
-  for (const auto& [v, c] : beyond) {
+  for (const auto& face : beyond) {
+    const VertexId v = face.first;
     const bool known = std::binary_search(corners.begin(), corners.end(), v);
     if (v == vertex_ || (!known && corners.size() >= PolyhedronFilling::most_points)) continue;
     const auto faces = std::count_if(beyond.begin(), beyond.end(), [&](const auto& b) { return b.first == v; }) * 2 +

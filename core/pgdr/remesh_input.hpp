@@ -27,6 +27,7 @@ struct MeshBoundary {
   std::vector<std::uint32_t> vertex_of_point;  ///< of each point of plc, ascending
 };
 
+/// @param mesh      whole, as boundary_of_mesh takes it
 /// @param required  of each vertex: it is a point of the input, wherever it is; empty: none has to be one
 /// @throws as boundary_of_mesh, and UsageError bad_option: not one a vertex
 template <int D>
@@ -58,6 +59,7 @@ WholeFacets<D> remesh_input(const OutputMesh<D>& mesh, const RemeshInputOptions&
 
 /// Reasons that name facets of such an input name those of the boundary instead.
 /// @param facet_of_input  WholeFacets::facet_of_input
+/// @param reasons  changed
 void name_given_facets(std::span<const std::uint32_t> facet_of_input, std::vector<PoorReason>& reasons);
 
 /// Takes out segments without a marker at edges of facets, which are there anyway or lie inside of a plane: where another surface

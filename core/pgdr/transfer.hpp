@@ -28,6 +28,7 @@ class PointTransfer {
   PointTransfer(const OutputMesh<D>& from, std::span<const Point<D>> to);
 
   /// @param values  `width` for each vertex of the mesh, row by row
+  /// @param width  numbers of a row
   /// @returns  as many for each of the points
   /// @throws UsageError bad_option: another number of values
   std::vector<double> operator()(std::span<const double> values, std::size_t width = 1) const;
@@ -58,6 +59,7 @@ class CellTransfer {
 
   /// Amounts over measures: what is a density, per volume (area), is conserved.
   /// @param values  `width` for each old cell, row by row
+  /// @param width  numbers of a row
   /// @returns  as many for each new cell; 0 for a cell without a measure
   /// @throws UsageError bad_option: another number of values
   std::vector<double> means(std::span<const double> values, std::size_t width = 1) const;

@@ -105,7 +105,7 @@ class WallJoiner {
       count(f, j_.outer[next_ + 1], group);
     } else {
       wall.vertices = outward_face<D>(j_.out.mesh.cells[f.cell()], f.place % (D + 1));
-      if (D == 3) std::ranges::rotate(wall.vertices, std::ranges::min_element(wall.vertices));
+      if (D == 3) std::rotate(wall.vertices.begin(), std::ranges::min_element(wall.vertices), wall.vertices.end());
     }
     return wall;
   }

@@ -190,7 +190,7 @@ class HullMaker {
     for (std::uint32_t v = next.begin()->first; around.size() < next.size(); v = next.at(v)) around.push_back(v);
     for (std::size_t i = 0, n = around.size(); i < n; ++i)
       if (!collinear<3>(p_[around[(i + n - 1) % n]], p_[around[i]], p_[around[(i + 1) % n]])) corners.push_back(around[i]);
-    std::ranges::rotate(corners, std::ranges::min_element(corners));
+    std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
     return corners;
   }
 

@@ -263,7 +263,7 @@ class Replaced(OutputCase):
 
     def test_unknown_suffixes_are_wrong_usage(self):
         fifo = self.fifo("never.poly")  # whose reading would not end
-        for output in ("out.pdf", "out", "out.vtk", "out.poly"):
+        for output in ("out.pdf", "out", "out.dxf", "out.poly"):
             self.assertIn(".vtu", self.pgdr("mesh", fifo, "-o", self.folder / output, expect=2).stderr)
             self.assertIn(".svg", self.pgdr("view", fifo, "-o", self.folder / output, expect=2).stderr)
 

@@ -141,7 +141,7 @@ class WithPyvista(unittest.TestCase):
         tet = tetgen.TetGen(POINTS, QUADS)
         with self.assertRaisesRegex(pgdr.UsageError, "no mesh yet"):
             tet.grid
-        for keywords, word in (({"order": 2}, "order.*four corners"), ({"nobisect": True}, "nobisect"), ({"refine": True}, "refine"),
+        for keywords, word in (({"order": 2}, "order.*four corners"), ({"refine": True}, "refine"),
                                ({"coarsen": True}, "coarsen"), ({"weighted": True}, "weighted"), ({"metric": True}, "bgmesh"),
                                ({"opt_scheme": 3}, "opt_scheme"), ({"minration": 2}, "minration"), ({"order": True}, "order")):
             with self.subTest(keywords), self.assertRaisesRegex(pgdr.UsageError, word):

@@ -168,7 +168,7 @@ std::vector<FaceLine> lines_through(const PlanarGraph& graph, std::span<const Po
             [](const FaceLine& a, const FaceLine& b) { return a.y < b.y || (a.y == b.y && a.face < b.face); });
   for (std::uint32_t s = 0; s < edges.size(); ++s) {
     const Point2 &a = points[edges[s][0]], &b = points[edges[s][1]];
-    const auto [low, high] = std::minmax(a[1], b[1]);
+    const auto [low, high] = std::minmax({a[1], b[1]});
     auto line = std::upper_bound(lines.begin(), lines.end(), low, [](double y, const FaceLine& l) { return y < l.y; });
     for (; line != lines.end() && line->y < high; ++line) line->crossings.push_back({crossing(a, b, line->y), s});
   }
