@@ -7,9 +7,11 @@
 #include <limits>
 
 #include "numbers/finite.hpp"
+#include "pgdr/selectors.hpp"
 #include "refine/encroachment.hpp"
 #include "refine/numbers.hpp"
 #include "refine/visibility.hpp"
+#include "select/off_center.hpp"
 
 namespace pgdr {
 
@@ -140,7 +142,7 @@ auto ElementSplitter<D>::find_obstacle(const Candidate<D>& c) -> Obstacle {
 }
 
 /// Where a kept entity hides the circumcentre of an element, or is encroached upon by it. 2D: the incentre of one that is too
-/// big. 3D: of one over the bound of shape the off-centre, which is some lengths of its shortest edge away from that; of one that
+/// big. 3D: of one over the bound of shape the off-centre (pgdr/selectors.hpp); of one that
 /// is too big the centroid, or farther from the entity where that is a face of it.
 template <int D>
 std::optional<Point<D>> ElementSplitter<D>::place_inside(const Entry<D>& entity, const Candidate<D>& c) const {
@@ -172,7 +174,8 @@ std::optional<Point<D>> ElementSplitter<D>::place_inside(const Entry<D>& entity,
       if (squared_distance(s[i], s[j]) < squared_distance(s[shortest[0]], s[shortest[1]])) shortest = {i, j};
   const Point<D>&p = s[shortest[0]], &q = s[shortest[1]];
   for (int k = 0; k < D; ++k) x[k] = p[k] + (q[k] - p[k]) / 2;
-  const double far = numbers::off_center_edges * std::sqrt(squared_distance(p, q));
+  const double far = detail::off_center_distance(default_off_center_factor<D>(), std::sqrt(squared_distance(p, q)),
+                                                 w_->options.radius_edge_bound);
   const double to_center = std::sqrt(squared_distance(x, c.sphere.center));
   if (!(far < to_center)) return std::nullopt;
   for (int k = 0; k < D; ++k) x[k] += far / to_center * (c.sphere.center[k] - x[k]);

@@ -43,8 +43,4 @@ inline constexpr std::uint64_t evaluations_a_change = 2000;
 /// So many cells that are to come are as much work as one poor element that waits (bench/notebook/performance.md).
 inline constexpr std::size_t cells_a_poor_element = 3;
 
-/// Beside a kept boundary: how many lengths of its shortest edge an off-centre is away from that, at the bound of 2 0.6 (b +
-/// sqrt(b^2 - 1/4)), as selectors.hpp has it.
-inline constexpr double off_center_edges = 2.36;
-
 }  // namespace pgdr::numbers

@@ -89,16 +89,16 @@ std::uint32_t WorkLister<D>::order_of(double shortest_edge_squared, double squar
 template <int D>
 void WorkLister<D>::list_entities(CellId c, const ConstraintRecord<D>& k) {
   const KeptEntities<D>& kept = w_->context.kept;
-  const auto may_split = [&](EntityRef e) { return !kept.any() || !kept.has(e); };
+  const bool any_kept = kept.any();
   const auto& vertices = mesh_->cell(c).vertices;
   for (int f = 0; f <= D; ++f)
-    if (k.has_face(f) && may_split(mesh_->entity_of_face(c, f)) &&
+    if (k.has_face(f) && !(any_kept && kept.has(mesh_->entity_of_face(c, f))) &&
         is_face_encroached_by<D>(*mesh_, w_->domain, c, f, vertices[f], w_->options))
       w_->visit->list->push(w_->entry(c, EntryKind::face, f, w_->context.bucket_of(squared_radius_of_face<D>(*mesh_, c, f))));
   if constexpr (D == 3)
     for (int e = 0; e < 6; ++e)
-      if (k.has_edge(e) && may_split({EntityKind::segment, k.edge_entity[e]}) && is_edge_encroached(*mesh_, w_->domain, c, e) &&
-          !is_refused_by_ring(c, e))
+      if (k.has_edge(e) && !(any_kept && kept.has({EntityKind::segment, k.edge_entity[e]})) &&
+          is_edge_encroached(*mesh_, w_->domain, c, e) && !is_refused_by_ring(c, e))
         w_->visit->list->push(w_->entry(c, EntryKind::edge, e, w_->context.bucket_of(squared_radius_of_edge(*mesh_, c, e))));
 }
 

@@ -13,6 +13,7 @@
 
 #include "numbers/vectors.hpp"
 #include "pgdr/error.hpp"
+#include "select/off_center.hpp"
 
 namespace pgdr {
 namespace {
@@ -66,9 +67,7 @@ struct Axis {
 /// How far from the midpoint of the shortest edge the off-centre lies; nothing if the circumcentre is to be taken.
 template <int D>
 double off_center_distance(const PoorElement<D>& e, const Axis<D>& axis, double factor) {
-  const double b = e.radius_edge_bound;
-  const double far = factor * e.shortest_edge * (b + std::sqrt(std::max(b * b - 0.25, 0.0)));
-  return std::min(far, axis.to_center);
+  return std::min(detail::off_center_distance(factor, e.shortest_edge, e.radius_edge_bound), axis.to_center);
 }
 
 template <int D>
