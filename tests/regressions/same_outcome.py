@@ -61,6 +61,22 @@ class Outcome:
             self.complaints.append(f"check ended with {checked.returncode}, mesh with {done.returncode}: {checked.stdout.strip()[-300:]}")
 
 
+def entities_at(command, given, flags, seconds):
+    """The numbers of points, segments and facets alone."""
+    with tempfile.TemporaryDirectory(prefix="pgdr_") as name:
+        path, report = pathlib.Path(name) / "copy.poly", pathlib.Path(name) / "report.json"
+        input_files.write_poly(given, path)
+        subprocess.run([command, "info", str(path), "--report", str(report), "--quiet", *flags], capture_output=True, text=True,
+                       stdin=subprocess.DEVNULL, timeout=seconds, check=False)
+        found = json.loads(report.read_text(encoding="utf-8"))["diagnosis"]
+    return {kind: found[kind] for kind in ENTITIES if kind in found}
+
+
+def undecided(entities, least, most):
+    """Whether each number is one of those between: what lies within the tolerance but for rounding may be joined or not."""
+    return entities.keys() == least.keys() == most.keys() and all(least[k] <= entities[k] <= most[k] for k in entities)
+
+
 def differences(first, copy, factor, rounding, meets=True):
     """What is not as with the first outcome. `rounding`: by how much points may have moved from their places. `meets`: what met does."""
     if copy.exit != first.exit:
@@ -95,6 +111,10 @@ def of_input(command, name, given, flags, seconds, seed, kinds):
         # A piece of two facets is the first one's: in another order there may be more or fewer.
         overlap = any(repair["code"] == "facets_overlap" for repair in first.report.get("repairs", []))
         meets = kind not in motions.MISSING and not (kind == "permuted" and overlap)
+        # With a tolerance of its own the copy joins what is that near; the rounding may take from each distance, or add, as much again.
+        if more and outcome.entities != first.entities:
+            twice = [*flags, "--tolerance", repr(2 * float(more[0][1]))]
+            meets = not undecided(outcome.entities, entities_at(command, given, twice, seconds), first.entities)
         wrong = list(differences(first, outcome, factor, rounding, meets))
         wrong += outcome.complaints if first.exit == "meshed" else []
         found += [(f"{kind} {seed}", c) for c in wrong]
