@@ -9,7 +9,8 @@
 
 #include "check/bounds.hpp"
 #include "dimensions.hpp"
-#include "given/input_volumes.hpp"
+#include "enclosed/input_volumes.hpp"
+#include "given/cover.hpp"
 #include "numbers/exact_tests.hpp"
 #include "pgdr/predicates.hpp"
 #include "test_check_models.hpp"
@@ -230,6 +231,42 @@ TEST(SlackOfVertices, OfABentFacetIsRoundingHoweverBentItIs) {
   EXPECT_EQ(slack[0], 0);
   EXPECT_EQ(slack[3], 0) << "all that it lies on is parallel to axes";
   for (const std::size_t v : {4u, 5u, 6u, 7u}) EXPECT_EQ(slack[v], 2 * (1 + 0x1p-14) * 0x1p-52);
+}
+
+// The hull convhull_RWY_merged.stl of Debian's dart-doc, cut where it crosses itself: between two points 1.4e-14 apart a facet
+// ends, 0.026 long. A subfacet there has a plane that rounding tilts, so that the far end of the facet is 1e-5 off it; near to
+// the subfacet the facet is in the plane, and covers it.
+TEST(CheckExact, ANeedleCoversItsTip) {
+  const Point3 a{{1.0504975456681297e-14, -0.07900000363588333, -0.2927899956703186}}, b{{2.483991880459016e-14, a[1], a[2]}},
+      far{{2.483812648287377e-14, -0.10500000417232513, -0.2927214503288269}},
+      below{{6.756831795172333e-15, -0.07900000363593063, -0.2927899956703185}};
+  const double reach = 5e-16;
+  const PlaneFrame frame({a, b, below});
+  const std::array<Point3, 3> needle{a, far, b};
+  for (int turn = 0; turn < 3; ++turn) {
+    const CoveringTriangle cover(frame, {needle[turn], needle[(turn + 1) % 3], needle[(turn + 2) % 3]}, reach, reach);
+    for (int i = 1; i < 8; ++i) {
+      Point3 x;
+      for (int k = 0; k < 3; ++k) x[k] = (a[k] + b[k]) / 2 + i / 16.0 * (below[k] - (a[k] + b[k]) / 2);
+      const auto place = frame.place(x);
+      EXPECT_TRUE(cover.contains({{place[0], place[1]}})) << turn << ", " << i;
+    }
+    const auto out = frame.place(Point3{{(a[0] + b[0]) / 2, a[1] + 2e-15, a[2]}});
+    EXPECT_FALSE(cover.contains({{out[0], out[1]}}));
+  }
+}
+
+// What of a triangle across the plane is within a height of it: a strip between two levels.
+TEST(CheckExact, ACrossingTriangleCoversAStrip) {
+  const PlaneFrame frame({Point3{{0, 0, 0}}, Point3{{1, 0, 0}}, Point3{{0, 1, 0}}});
+  const std::array<Point3, 3> across{Point3{{0, 0, -1}}, Point3{{4, 0, 1}}, Point3{{0, 4, -1}}};  // height x / 2 - 1
+  for (int turn = 0; turn < 3; ++turn) {
+    const CoveringTriangle cover(frame, {across[turn], across[(turn + 1) % 3], across[(turn + 2) % 3]}, 1e-9, 0.25);
+    for (const auto& [x, within] : {std::pair(1.4, false), {1.6, true}, {2.4, true}, {2.6, false}}) {
+      const auto place = frame.place(Point3{{x, 0.5, 0}});
+      EXPECT_EQ(cover.contains({{place[0], place[1]}}), within) << x;
+    }
+  }
 }
 
 }  // namespace test_check_exact

@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "io/formats.hpp"
-#include "io/scan/clean_name.hpp"
 #include "io/write/valid_names.hpp"
 #include "pgdr/mesh_piece.hpp"
+#include "scan/clean_name.hpp"
 #include "test_io_support.hpp"
 
 namespace pgdr::test::test_io_names {

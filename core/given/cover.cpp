@@ -149,7 +149,8 @@ CoveringTriangle::CoveringTriangle(const PlaneFrame& frame, const std::array<Poi
   if (turned_) std::swap(at[1], at[2]);
   add_sides(at, reach);
   if (count_ == 0) return;
-  if (lowest < -height || highest > height) add_levels(at, height);
+  if (highest > height) add_level(at, height, 1);
+  if (lowest < -height) add_level(at, height, -1);
   for (const auto& p : at) box_.add(Point2{{p[0], p[1]}});
   box_ = box_.widened(3 * reach);  // (1 + sin a) / cos a <= 1 + sqrt 2 at a corner of 2 a <= 90 degrees, see add_sides
 }
@@ -179,15 +180,25 @@ void CoveringTriangle::add_sides(const std::array<std::array<double, 3>, 3>& at,
   }
 }
 
-// The height is linear in the two coordinates.
-void CoveringTriangle::add_levels(const std::array<std::array<double, 3>, 3>& at, double height) {
-  const double ux = at[1][0] - at[0][0], uy = at[1][1] - at[0][1], uh = at[1][2] - at[0][2];
-  const double vx = at[2][0] - at[0][0], vy = at[2][1] - at[0][1], vh = at[2][2] - at[0][2];
-  const double determinant = ux * vy - uy * vx;
-  const double a = (uh * vy - vh * uy) / determinant, b = (ux * vh - vx * uh) / determinant;
-  const double level = a * at[0][0] + b * at[0][1] - at[0][2];
-  add({a, b, level + height});
-  add({-a, -b, -level + height});
+// The line of a level goes through where it meets the two edges from the corner that is alone on its side. Its coefficients from
+// the three heights by Cramer's rule are another thing: of a needle's they are off by its length over its width, and hold
+// nowhere.
+void CoveringTriangle::add_level(const std::array<std::array<double, 3>, 3>& at, double height, double sense) {
+  const auto above = [&](int i) { return sense * at[i % 3][2] > height; };
+  int lone = 0;
+  while (lone < 3 && (above(lone) == above(lone + 1) || above(lone) == above(lone + 2))) ++lone;
+  if (lone == 3) return;  // all are on one side
+  std::array<Point2, 2> x;
+  for (int k = 0; k < 2; ++k) {
+    const auto &p = at[lone], &q = at[(lone + 1 + k) % 3];
+    const double t = (height - sense * p[2]) / (sense * (q[2] - p[2]));
+    x[k] = {{p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])}};
+  }
+  // The corner is to the left of the line, counter-clockwise as they are.
+  Vector<2> left{x[0][1] - x[1][1], x[1][0] - x[0][0]};
+  if (left[0] == 0 && left[1] == 0) left = {at[lone][0] - x[0][0], at[lone][1] - x[0][1]};
+  const double out = above(lone) ? 1 : -1;
+  add({out * left[0], out * left[1], out * (left[0] * x[0][0] + left[1] * x[0][1])});
 }
 
 bool CoveringTriangle::contains(const Point2& x) const {

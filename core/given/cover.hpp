@@ -85,7 +85,7 @@ class CoveringTriangle {
     double a, b, c;  // a x + b y <= c
   };
   void add_sides(const std::array<std::array<double, 3>, 3>& corners, double reach);
-  void add_levels(const std::array<std::array<double, 3>, 3>& corners, double height);
+  void add_level(const std::array<std::array<double, 3>, 3>& corners, double height, double sense);
   void add(const HalfPlane& side) { sides_[count_++] = side; }
   std::array<HalfPlane, 8> sides_;  ///< of edges and corners, and two of the height
   std::uint32_t count_ = 0;

@@ -13,7 +13,7 @@
 #include <map>
 #include <span>
 
-#include "given/input_volumes.hpp"
+#include "enclosed/input_volumes.hpp"
 #include "given/match.hpp"
 
 namespace pgdr::checking {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "given/input_volumes.hpp"
+#include "enclosed/input_volumes.hpp"
 #include "given/links.hpp"
 
 namespace pgdr::checking {

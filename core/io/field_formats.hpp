@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/file_output.hpp"
+#include "paths/file_output.hpp"
 #include "pgdr/mesh_fields.hpp"
 #include "pgdr/output_mesh.hpp"
 #include "pgdr/periodic.hpp"

@@ -7,8 +7,8 @@
 
 #include "io/field_formats.hpp"
 #include "io/formats.hpp"
-#include "io/scan/line_scanner.hpp"
 #include "pgdr/field_io.hpp"
+#include "scan/line_scanner.hpp"
 
 namespace pgdr {
 namespace {

@@ -12,10 +12,10 @@
 #include <string_view>
 #include <vector>
 
-#include "io/file_input.hpp"
-#include "io/file_output.hpp"
-#include "io/file_slices.hpp"
 #include "io/read/file_mesh.hpp"
+#include "paths/file_input.hpp"
+#include "paths/file_output.hpp"
+#include "paths/file_slices.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/mesh_piece.hpp"
 #include "pgdr/output_mesh.hpp"

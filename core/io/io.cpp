@@ -12,10 +12,10 @@
 #include <string_view>
 
 #include "input/words.hpp"
-#include "io/file_input.hpp"
-#include "io/file_output.hpp"
 #include "io/formats.hpp"
 #include "io/write/valid_names.hpp"
+#include "paths/file_input.hpp"
+#include "paths/file_output.hpp"
 
 namespace pgdr {
 namespace detail {

@@ -7,9 +7,9 @@
 
 #include "input/words.hpp"
 #include "io/formats.hpp"
-#include "io/scan/clean_name.hpp"
-#include "io/scan/line_scanner.hpp"
 #include "io/write/valid_names.hpp"
+#include "scan/clean_name.hpp"
+#include "scan/line_scanner.hpp"
 
 namespace pgdr::detail {
 namespace {

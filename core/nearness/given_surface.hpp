@@ -13,8 +13,8 @@
 #include <span>
 #include <vector>
 
+#include "enclosed/input_volumes.hpp"
 #include "given/given_input.hpp"
-#include "given/input_volumes.hpp"
 #include "space/box_tree.hpp"
 
 namespace pgdr::checking {

@@ -145,8 +145,8 @@ DEFECTIVE = {
     "trimesh_joined_tetrahedra.obj": {"repairs": {"repeated_facet"}},
     "trimesh_soup.stl": INTERSECTS,
     "trimesh_whitespace.off": {},
-    "tritri-00-pp-.smesh": INTERSECTS,
-    "tritri-12-pxx.smesh": INTERSECTS,
+    "tritri-00-pp-.smesh": OPEN,
+    "tritri-12-pxx.smesh": OPEN,
 }
 
 

@@ -19,9 +19,9 @@
 
 #include "io/formats.hpp"
 #include "io/read/polygon_seeds.hpp"
-#include "io/scan/json_scanner.hpp"
-#include "io/scan/line_scanner.hpp"
 #include "pgdr/error.hpp"
+#include "scan/json_scanner.hpp"
+#include "scan/line_scanner.hpp"
 
 namespace pgdr::detail {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "io/formats.hpp"
-#include "io/scan/line_scanner.hpp"
+#include "scan/line_scanner.hpp"
 
 namespace pgdr::detail {
 namespace {

@@ -16,9 +16,9 @@
 
 #include "io/formats.hpp"
 #include "io/read/msh_elements.hpp"
-#include "io/scan/byte_order.hpp"
-#include "io/scan/clean_name.hpp"
-#include "io/scan/line_scanner.hpp"
+#include "scan/byte_order.hpp"
+#include "scan/clean_name.hpp"
+#include "scan/line_scanner.hpp"
 
 namespace pgdr::detail {
 namespace {

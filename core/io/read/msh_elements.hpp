@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "io/read/file_mesh.hpp"
-#include "io/scan/line_scanner.hpp"
+#include "scan/line_scanner.hpp"
 
 namespace pgdr::detail {
 

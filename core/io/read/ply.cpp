@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "io/formats.hpp"
-#include "io/scan/byte_order.hpp"
-#include "io/scan/line_scanner.hpp"
+#include "scan/byte_order.hpp"
+#include "scan/line_scanner.hpp"
 
 namespace pgdr::detail {
 namespace {

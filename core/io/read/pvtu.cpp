@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "io/formats.hpp"
-#include "io/scan/xml_tags.hpp"
 #include "output/piece_join.hpp"
+#include "scan/xml_tags.hpp"
 
 namespace pgdr::detail {
 namespace {

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "io/file_input.hpp"
-#include "io/scan/line_scanner.hpp"
+#include "paths/file_input.hpp"
 #include "pgdr/io.hpp"
+#include "scan/line_scanner.hpp"
 
 namespace pgdr {
 

@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "io/formats.hpp"
-#include "io/scan/clean_name.hpp"
-#include "io/scan/line_scanner.hpp"
+#include "scan/clean_name.hpp"
+#include "scan/line_scanner.hpp"
 
 namespace pgdr::detail {
 namespace {

@@ -14,8 +14,8 @@
 #include <string>
 
 #include "io/formats.hpp"
-#include "io/scan/clean_name.hpp"
-#include "io/scan/xml_tags.hpp"
+#include "scan/clean_name.hpp"
+#include "scan/xml_tags.hpp"
 
 namespace pgdr::detail {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "io/formats.hpp"
-#include "io/scan/clean_name.hpp"
+#include "scan/clean_name.hpp"
 
 namespace pgdr::detail {
 namespace {

@@ -3,9 +3,9 @@
 #include <string>
 
 #include "io/field_formats.hpp"
-#include "io/file_slices.hpp"
 #include "io/formats.hpp"
 #include "io/write/vtu_layout.hpp"
+#include "paths/file_slices.hpp"
 
 namespace pgdr::detail {
 namespace {

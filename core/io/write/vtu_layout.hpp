@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/file_output.hpp"
+#include "paths/file_output.hpp"
 #include "pgdr/mesh_fields.hpp"
 #include "pgdr/mesh_piece.hpp"
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/file_slices.hpp"
+#include "paths/file_slices.hpp"
 
 #include <algorithm>
 #include <cerrno>
 #include <utility>
 
-#include "io/write_target.hpp"
+#include "paths/write_target.hpp"
 #include "space/system.hpp"
 
 namespace pgdr::detail {

@@ -22,7 +22,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/write_target.hpp"
+#include "paths/write_target.hpp"
 
 namespace pgdr::detail {
 

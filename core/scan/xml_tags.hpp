@@ -10,8 +10,8 @@
 #include <string>
 #include <string_view>
 
-#include "io/scan/line_scanner.hpp"
 #include "pgdr/error.hpp"
+#include "scan/line_scanner.hpp"
 
 namespace pgdr::detail {
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Builds InputVolumes: walls, sides joined round ridges and along lines, seeds, measures.
-#include "given/input_volumes.hpp"
+#include "enclosed/input_volumes.hpp"
 
 #include <algorithm>
 #include <cmath>

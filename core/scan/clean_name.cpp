@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/scan/clean_name.hpp"
+#include "scan/clean_name.hpp"
 
 namespace pgdr::detail {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/write_target.hpp"
+#include "paths/write_target.hpp"
 
 #include <cerrno>
 #include <charconv>

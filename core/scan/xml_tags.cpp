@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/scan/xml_tags.hpp"
+#include "scan/xml_tags.hpp"
 
 namespace pgdr::detail {
 

@@ -7,12 +7,13 @@
 #include <algorithm>
 #include <set>
 
-#include "given/findings.hpp"
-#include "given/input_volumes.hpp"
+#include "enclosed/input_volumes.hpp"
 #include "space/disjoint_sets.hpp"
 
 namespace pgdr::checking {
 namespace {
+
+constexpr std::uint32_t no_volume = 0xffffffffu;
 
 using Neighbours = std::vector<std::set<std::uint32_t>>;
 
@@ -20,11 +21,14 @@ using Neighbours = std::vector<std::set<std::uint32_t>>;
 class NestingTree {
  public:
   explicit NestingTree(const Neighbours& neighbours)
-      : parent_(neighbours.size(), none), depth_(neighbours.size(), 0), classes_(neighbours.size()), odd_(neighbours.size(), 0) {
+      : parent_(neighbours.size(), no_volume),
+        depth_(neighbours.size(), 0),
+        classes_(neighbours.size()),
+        odd_(neighbours.size(), 0) {
     order_.push_back(0);
     for (std::size_t i = 0; i < order_.size(); ++i)
       for (const std::uint32_t v : neighbours[order_[i]]) {
-        if (v == 0 || parent_[v] != none) continue;
+        if (v == 0 || parent_[v] != no_volume) continue;
         parent_[v] = order_[i];
         depth_[v] = depth_[order_[i]] + 1;
         order_.push_back(v);
@@ -36,11 +40,11 @@ class NestingTree {
 
   std::vector<bool> solids() {
     std::vector<bool> solid(parent_.size(), false);
-    std::vector<std::uint32_t> entry(parent_.size(), none);  // of a class: its volume nearest to the outside
+    std::vector<std::uint32_t> entry(parent_.size(), no_volume);  // of a class: its volume nearest to the outside
     for (const std::uint32_t v : order_) {
       if (v == 0) continue;
       const std::uint32_t c = classes_.find(v);
-      if (entry[c] == none) entry[c] = parent_[v];
+      if (entry[c] == no_volume) entry[c] = parent_[v];
       solid[v] = !solid[odd_[c] ? entry[c] : parent_[v]];
     }
     return solid;

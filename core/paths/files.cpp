@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "io/file_input.hpp"
-#include "io/file_output.hpp"
-#include "io/write_target.hpp"
+#include "paths/file_input.hpp"
+#include "paths/file_output.hpp"
+#include "paths/write_target.hpp"
 #include "pgdr/error.hpp"
 #include "space/bulk.hpp"
 #include "space/system.hpp"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "given/input_volumes.hpp"
+#include "enclosed/input_volumes.hpp"
 #include "numbers/exact_tests.hpp"
 #include "numbers/rounding.hpp"
 #include "pgdr/predicates.hpp"

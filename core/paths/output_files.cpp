@@ -9,8 +9,8 @@
 #include <ostream>
 #include <streambuf>
 
-#include "io/file_output.hpp"
-#include "io/write_target.hpp"
+#include "paths/file_output.hpp"
+#include "paths/write_target.hpp"
 #include "space/system.hpp"
 
 namespace pgdr {

@@ -7,7 +7,7 @@
 #include <system_error>
 #include <utility>
 
-#include "io/scan/line_scanner.hpp"
+#include "scan/line_scanner.hpp"
 
 namespace pgdr::detail {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/scan/json_scanner.hpp"
+#include "scan/json_scanner.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "io/scan/line_scanner.hpp"
+#include "scan/line_scanner.hpp"
 
 namespace pgdr::detail {
 namespace {
