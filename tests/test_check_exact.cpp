@@ -11,6 +11,7 @@
 #include "dimensions.hpp"
 #include "enclosed/input_volumes.hpp"
 #include "given/cover.hpp"
+#include "given/segment_chain.hpp"
 #include "numbers/exact_tests.hpp"
 #include "pgdr/predicates.hpp"
 #include "test_check_models.hpp"
@@ -267,6 +268,25 @@ TEST(CheckExact, ACrossingTriangleCoversAStrip) {
       EXPECT_EQ(cover.contains({{place[0], place[1]}}), within) << x;
     }
   }
+}
+
+// From the origin to (4, 0, 0), points 0 and 3: two pieces, the edges of a neighbour that end beside it, and one that leads back
+// to it.
+TEST(CheckExact, ASegmentIsTheChainToItsOtherEnd) {
+  const std::vector<Point3> points{{{0, 0, 0}}, {{1, 0, 0}}, {{1, 0.01, 0}}, {{4, 0, 0}}, {{3, 0.01, 0}}};
+  using Ends = std::array<std::uint32_t, 2>;
+  const auto chain = [&](const std::vector<Ends>& edges) {
+    std::vector<NearEdge<3>> near;
+    for (const Ends& e : edges) near.push_back({e, {points[e[0]], points[e[1]]}});
+    std::vector<Ends> out;
+    for (const std::uint32_t i : segment_chain<3>(near, {0, 3}, {points[0], points[3]})) out.push_back(edges[i]);
+    std::ranges::sort(out);
+    return out;
+  };
+  EXPECT_EQ(chain({{2, 0}, {3, 1}, {0, 1}, {2, 4}}), (std::vector<Ends>{{0, 1}, {3, 1}}));
+  EXPECT_EQ(chain({{2, 0}, {3, 1}, {0, 1}, {2, 4}, {4, 3}}), (std::vector<Ends>{{0, 1}, {3, 1}}));
+  EXPECT_EQ(chain({{2, 0}, {3, 1}, {2, 4}, {4, 3}}), (std::vector<Ends>{{2, 0}, {2, 4}, {4, 3}}));
+  EXPECT_TRUE(chain({{2, 0}, {3, 1}}).empty());
 }
 
 }  // namespace test_check_exact

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "given/cover.hpp"
 #include "given/edge_net.hpp"
 #include "given/flat_groups.hpp"
+#include "given/segment_chain.hpp"
 #include "numbers/vectors.hpp"
 #include "pgdr/predicates.hpp"
 #include "space/distances.hpp"
@@ -87,12 +89,24 @@ void NamedEntities<D>::make_segment(std::array<std::array<double, 3>, 2> of, Nam
     subsegments_ = std::make_unique<detail::BoxTree<D>>(boxes);
   }
   if (out.ends[0] == out.ends[1]) return;
+  std::vector<NearEdge<D>> near;
+  std::vector<std::uint32_t> numbers;
   subsegments_->meeting(detail::Box<D>::of(ends).widened(input_.reach()), [&](std::uint32_t s) {
     const auto& v = mesh_.subsegments[s].vertices;
     if (!is_near<D>(mesh_.points[v[0]], ends, input_.reach()) || !is_near<D>(mesh_.points[v[1]], ends, input_.reach())) return;
-    out.edges.push_back({sorted_edge(v[0], v[1]), s});
-    out.points.insert(out.points.end(), v.begin(), v.end());
+    near.push_back({v, {mesh_.points[v[0]], mesh_.points[v[1]]}});
+    numbers.push_back(s);
   });
+  std::vector<std::uint32_t> pieces = segment_chain<D>(near, out.ends, ends);
+  if (pieces.empty()) {
+    pieces.resize(near.size());
+    std::iota(pieces.begin(), pieces.end(), 0u);
+  }
+  for (const std::uint32_t i : pieces) {
+    const auto& v = near[i].ends;
+    out.edges.push_back({sorted_edge(v[0], v[1]), numbers[i]});
+    out.points.insert(out.points.end(), v.begin(), v.end());
+  }
   std::sort(out.edges.begin(), out.edges.end());
   detail::make_set(out.points);
 }

@@ -49,6 +49,26 @@ class Surface(Case):
         self.assertIn("off_surface", {f["kind"] for f in self.json()["findings"]})
         self.assertIn("surface_not_covered", {f["kind"] for f in self.json()["findings"]})
 
+    def test_reasons_beside_a_sharp_corner(self):
+        """Two segments from one point that enclose 0.06 degrees, and a polygon that is bent by more than they are apart there:
+        check took the first edges of the one for edges of the other, and said that a facet at the other has the one."""
+        points = [(0, 0, 0), (4, 0, 0), (4, .004, 0), (2, .002, 3), (6, 0, 0), (7, 0, 0), (7, 1, 0), (6, 1, 0), (6, 0, 1), (7, 0, 1),
+                  (7, 1, 1.002), (6, 1, 1)]
+        facets = [(0, 1, 2), (0, 1, 3), (1, 2, 3), (2, 0, 3), (4, 5, 6, 7), (4, 5, 9, 8), (5, 6, 10, 9), (6, 7, 11, 10), (7, 4, 8, 11)]
+
+        def poly(name, top):
+            lines = [f"{len(points)} 3 0 0"] + ["%d %r %r %r" % (i, *p) for i, p in enumerate(points)] + [f"{len(facets) + len(top)} 0"]
+            for facet in facets + top:
+                lines += ["1", " ".join(map(str, (len(facet), *facet)))]
+            return self.file(name, "\n".join([*lines, "0", "0"]) + "\n")
+
+        bent, even = poly("bent.poly", [(8, 9, 10, 11)]), poly("even.poly", [(8, 9, 10), (8, 10, 11)])
+        for size in ("0.3", "0.1"):
+            self.pgdr("mesh", bent, "-o", self.output, "--tolerance", "1.2e-3", "--no-optimize", "--size", size, "--report", self.report,
+                      expect=1)
+            said = self.pgdr("check", self.output, "--input", even, "--surface-tolerance", "0.02", "--reasons", self.report, expect=1)
+            self.assertIn("only where the reasons explain it", said.stdout)
+
     def test_wrong_words(self):
         for text, word in (("x", "a length, or a percentage"), ("%", "a length, or a percentage"), ("1 %", "a length, or a percentage"),
                            ("0", "above 0"), ("-1", "above 0"), ("nan", "a length"), ("inf", "finite"), ("1e999", "finite"),
