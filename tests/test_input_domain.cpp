@@ -166,6 +166,27 @@ TEST(Domain, TrianglesThatAreCoplanarUpToRoundingAreOneFacet) {
 }
 
 // Two boxes on one another: the face between them, given twice, is one facet; edges round it have four triangles.
+// hellbot_hidra.obj (Debian's cura), turned: two triangles of a plane, 1.3 wide and 144 long, were two facets in one of four
+// copies. The normal of a needle, rounded, is turned so far that the far end of its neighbour was off it by more than the
+// tolerance.
+TEST(Domain, TurnedStripsAreStillOneFacetEach) {
+  for (int copy = 0; copy < 40; ++copy) {
+    Plc<3> plc;
+    for (const double z : {0.0, 1.0})
+      for (const auto& [x, y] : {std::pair{0.0, 0.0}, {1000.0, 0.0}, {1000.0, 1.0}, {0.0, 1.0}}) plc.points.push_back({x, y, z});
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+      plc.facets.push_back({{{a, b, c}}, {}, 0});
+      plc.facets.push_back({{{a, c, d}}, {}, 0});
+    };
+    add(0, 1, 2, 3);
+    add(4, 5, 6, 7);
+    for (std::uint32_t k = 0; k < 4; ++k) add(k, (k + 1) % 4, (k + 1) % 4 + 4, k + 4);
+    const Domain<3> d(turned(plc, 0.1 + 0.07 * copy));
+    EXPECT_EQ(d.facets().size(), 6u) << copy;
+    EXPECT_EQ(d.segments().size(), 12u) << copy;
+  }
+}
+
 TEST(Domain, StackedBoxes) {
   Plc<3> plc = box(), upper = box();
   for (auto& p : upper.points) p[2] += 3;

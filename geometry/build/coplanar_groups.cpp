@@ -55,7 +55,7 @@ void CoplanarGroups::fit_planes() {
   planes_.assign(faces_.facets.size(), FittedPlane(origin));
   in_.bulk.each(faces_.facets.size(), [&](std::size_t f) {
     for (const PlanarTriangle& t : faces_.of(faces_.facets[f]))
-      planes_[f].add(shapes_.scaled(t[0]), shapes_.scaled(t[1]), shapes_.scaled(t[2]), shapes_.normal(t));
+      planes_[f].add(shapes_.scaled(t[0]), shapes_.scaled(t[1]), shapes_.scaled(t[2]));
   });
 }
 

@@ -18,13 +18,16 @@ class FittedPlane {
   /// @param origin  near the triangles, and the same for all planes that are added to one another
   explicit FittedPlane(const Point3& origin) : origin_(origin) {}
 
-  /// @param normal  (b - a) x (c - a), to either side: towards that of what is there already.
-  void add(const Point3& a, const Point3& b, const Point3& c, const Vector<3>& normal) {
-    const double weight = std::sqrt(dot(normal, normal)), side = dot(normal, this->normal()) < 0 ? -1 : 1;
+  /// Normal to either side: towards that of what is there already. The normal of a needle that is rounded may be turned by the
+  /// doubles' precision times its length over its width, which at its far end is more than any tolerance.
+  void add(const Point3& a, const Point3& b, const Point3& c) {
+    const DoubleDoubles<3> n = cross(exact_difference(b, a), exact_difference(c, a));
+    const double weight = std::sqrt(dot(n, n).rounded());
+    const DoubleDouble side = dot(n, normal_).rounded() < 0 ? -1 : 1;
     weight_ = weight_ + DoubleDouble(weight);
     for (int i = 0; i < 3; ++i) {
       const auto k = static_cast<std::size_t>(i);
-      normal_[k] = normal_[k] + DoubleDouble(side * normal[k]);
+      normal_[k] = normal_[k] + side * n[k];
       centre_[k] = centre_[k] + DoubleDouble(weight / 3 * ((a[i] - origin_[i]) + (b[i] - origin_[i]) + (c[i] - origin_[i])));
     }
   }
@@ -42,13 +45,9 @@ class FittedPlane {
   /// Twice the area that it is made of.
   double weight() const { return weight_.rounded(); }
   double distance(const Point3& p) const {
-    const Vector<3> n = normal();
-    Vector<3> d;
-    for (int i = 0; i < 3; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      d[k] = (p[i] - origin_[i]) - (centre_[k] / weight_).rounded();
-    }
-    return std::fabs(dot(d, n)) / std::sqrt(dot(n, n));
+    DoubleDoubles<3> d = exact_difference(p, origin_);
+    for (std::size_t k = 0; k < 3; ++k) d[k] = d[k] - centre_[k] / weight_;
+    return std::fabs(dot(d, normal_).rounded()) / std::sqrt(dot(normal_, normal_).rounded());
   }
 
  private:

@@ -60,9 +60,13 @@ inline DoubleDouble difference(double a, double b) { return two_diff(a, b); }
 template <std::size_t N>
 using DoubleDoubles = std::array<DoubleDouble, N>;
 
-/// The difference of two points of the plane, exactly.
+/// The difference of two points, exactly.
 inline DoubleDoubles<2> exact_difference(const Point2& a, const Point2& b) {
   return {difference(a[0], b[0]), difference(a[1], b[1])};
+}
+
+inline DoubleDoubles<3> exact_difference(const Point3& a, const Point3& b) {
+  return {difference(a[0], b[0]), difference(a[1], b[1]), difference(a[2], b[2])};
 }
 
 template <std::size_t N>

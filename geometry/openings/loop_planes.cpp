@@ -59,7 +59,7 @@ std::optional<LoopPlane> LoopPlanes::plane_of(const OpenLoop& loop) const {
   double most = 0;
   for (const PlanarTriangle& t : inside) {
     const Vector<3> n = shapes_.normal(t);
-    plane.fitted.add(shapes_.scaled(t[0]), shapes_.scaled(t[1]), shapes_.scaled(t[2]), n);
+    plane.fitted.add(shapes_.scaled(t[0]), shapes_.scaled(t[1]), shapes_.scaled(t[2]));
     if (dot(n, n) > most) {
       most = dot(n, n);
       plane.largest = t;

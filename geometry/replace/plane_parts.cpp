@@ -16,10 +16,6 @@
 namespace pgdr::detail {
 namespace {
 
-DoubleDoubles<3> exact_difference(const Point3& a, const Point3& b) {
-  return {difference(a[0], b[0]), difference(a[1], b[1]), difference(a[2], b[2])};
-}
-
 class PartJoiner {
  public:
   explicit PartJoiner(const Domain<3>& domain) : domain_(domain), points_(domain.points()), sets_(domain.facets().size()) {
@@ -64,11 +60,7 @@ class PartJoiner {
   FittedPlane plane_of(const std::vector<EntityId>& facets) const {
     FittedPlane plane(scaled(domain_.triangles(facets[0])[0][0]));
     for (const EntityId f : facets)
-      for (const auto& t : domain_.triangles(f)) {
-        const Point3 a = scaled(t[0]), b = scaled(t[1]), c = scaled(t[2]);
-        const DoubleDoubles<3> n = cross(exact_difference(b, a), exact_difference(c, a));
-        plane.add(a, b, c, {n[0].rounded(), n[1].rounded(), n[2].rounded()});
-      }
+      for (const auto& t : domain_.triangles(f)) plane.add(scaled(t[0]), scaled(t[1]), scaled(t[2]));
     return plane;
   }
 
