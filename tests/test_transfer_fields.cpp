@@ -13,6 +13,7 @@
 #include <random>
 
 #include "dimensions.hpp"
+#include "pgdr/predicates.hpp"
 #include "pgdr/refine.hpp"
 #include "pgdr/transfer.hpp"
 
@@ -117,6 +118,44 @@ TYPED_TEST(Transfer, LinearFunctionsOfPoints) {
   for (std::size_t i = 0; i < from.points.size(); ++i) numbers.push_back(static_cast<double>(i));
   const std::vector<double> nearest = PointTransfer<D>(from, from.points).of_nearest_corners(numbers);
   EXPECT_EQ(nearest, numbers);
+}
+
+/// A cell with corners in a plane (on a line) that rounding has made no plane: the measures in it are all rounding, and a point
+/// in it had the values of others.
+TYPED_TEST(Transfer, LinearFunctionsInFlatCells) {
+  constexpr int D = TypeParam::value;
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> number(-1, 1);
+  const auto on_plane = [&](const std::array<Point<D>, D>& corners) {
+    double sum = 0;
+    std::array<double, D> weights;
+    for (double& w : weights) sum += w = number(random) + 1;
+    Point<D> p{};
+    for (int i = 0; i < D; ++i)
+      for (int k = 0; k < D; ++k) p[k] += weights[i] / sum * corners[i][k];
+    return p;
+  };
+  int tried = 0;
+  while (tried < 200) {
+    OutputMesh<D> mesh;
+    std::array<Point<D>, D> corners;
+    for (Point<D>& p : corners)
+      for (int k = 0; k < D; ++k) p[k] = 7 * number(random);
+    mesh.points.assign(corners.begin(), corners.end());
+    mesh.points.push_back(on_plane(corners));
+    mesh.cells.emplace_back();
+    for (std::uint32_t i = 0; i <= D; ++i) mesh.cells[0][i] = i;
+    Simplex<D> s;
+    std::copy(mesh.points.begin(), mesh.points.end(), s.begin());
+    if (orient<D>(s) == Sign::zero) continue;
+    ++tried;
+    std::vector<Point<D>> to;
+    for (int i = 0; i < 20; ++i) to.push_back(on_plane(corners));
+    std::vector<double> values;
+    for (const Point<D>& p : mesh.points) values.push_back(linear(p));
+    const std::vector<double> made = PointTransfer<D>(mesh, to)(values);
+    for (std::size_t i = 0; i < to.size(); ++i) EXPECT_NEAR(made[i], linear(to[i]), 1e-12 * 50);
+  }
 }
 
 TYPED_TEST(Transfer, AmountsOfCells) {

@@ -4,14 +4,20 @@
 
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "numbers/corners.hpp"
+#include "numbers/exact_sum.hpp"
 #include "numbers/rounding.hpp"
+#include "numbers/signed_measure.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr::detail {
 namespace {
+
+/// Of all weights together, as a part of their sum: bounds on errors are ten times what these are.
+constexpr double most_error = 0x1p-40;
 
 template <int D>
 Simplex<D> corners_of(const std::vector<Point<D>>& points, const std::array<std::uint32_t, D + 1>& cell) {
@@ -39,6 +45,26 @@ double rounded_measure(const Simplex<D>& s) {
     return std::abs(e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) - e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
                     e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]));
   }
+}
+
+/// The same, the double next to it: what its faces have with the origin, together.
+template <int D>
+double exact_measure(const Simplex<D>& s) {
+  ExactSum sum;
+  for (const auto& corners : face_corners<D>) {
+    std::array<Point<D>, D> face;
+    for (std::size_t k = 0; k < D; ++k) face[k] = s[corners[k]];
+    std::apply([&sum](const auto&... p) { sum.add_determinant(p...); }, face);
+  }
+  return std::abs(sum.divided_by(1));
+}
+
+/// How far rounding may have put rounded_measure off.
+template <int D>
+double measure_error(const Simplex<D>& s) {
+  std::array<Point<D>, D> others;
+  std::copy(s.begin() + 1, s.end(), others.begin());
+  return signed_measure<D>(others, s[0]).second;
 }
 
 /// The cells that are not flat.
@@ -174,15 +200,25 @@ bool MeshInterpolation<D>::holds(std::uint32_t c, const Point<D>& x) const {
   return true;
 }
 
+/// The weights are measures of what x has in the place of a corner. Those of a cell that is all but flat, as cells at planes that
+/// are turned may be, are rounding and nothing else, unless they are exact.
 template <int D>
 auto MeshInterpolation<D>::inside(std::uint32_t c, const Point<D>& x) const -> WeightedCorners<D + 1> {
   const Simplex<D> corners = corners_of<D>(points_, cells_[c]);
   WeightedCorners<D + 1> result{cells_[c], {}};
-  for (int i = 0; i <= D; ++i) {
+  const auto with_x = [&](int i) {
     Simplex<D> s = corners;
     s[i] = x;
-    result.weight[i] = rounded_measure<D>(s);
+    return s;
+  };
+  double sum = 0, error = 0;
+  for (int i = 0; i <= D; ++i) {
+    result.weight[i] = rounded_measure<D>(with_x(i));
+    sum += result.weight[i];
+    error += measure_error<D>(with_x(i));
   }
+  if (error > most_error * sum)
+    for (int i = 0; i <= D; ++i) result.weight[i] = exact_measure<D>(with_x(i));
   return result;
 }
 
