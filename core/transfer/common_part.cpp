@@ -30,9 +30,9 @@ class Polygon {
   /// Keeps what is on the inner side. @returns whether anything is
   template <class At>
   bool cut(const At& at) {
-    std::array<double, most> sides{};
+    std::array<double, most> sides;  // as all here, not set beyond size_: to clear what is not used takes as long as a cut
     for (std::size_t i = 0; i < size_; ++i) sides[i] = at(corners_[i]);
-    std::array<Vector, most> out{};
+    std::array<Vector, most> out;
     std::size_t n = 0;
     for (std::size_t i = 0; i < size_; ++i) {
       const std::size_t k = (i + 1) % size_;
@@ -41,7 +41,7 @@ class Polygon {
         out[n++] = sides[i] >= 0 ? between(corners_[i], sides[i], corners_[k], sides[k])
                                  : between(corners_[k], sides[k], corners_[i], sides[i]);
     }
-    corners_ = out;
+    std::copy_n(out.begin(), n, corners_.begin());
     size_ = n;
     return n > 0;
   }
@@ -57,7 +57,7 @@ class Polygon {
 
  private:
   static constexpr std::size_t most = 16;  // three corners; each cut adds one, or with rounding two
-  std::array<Vector, most> corners_{};
+  std::array<Vector, most> corners_;
   std::size_t size_;
 };
 
@@ -74,7 +74,7 @@ class Polyhedron {
   /// Keeps what is on the inner side. @returns whether anything is
   template <class At>
   bool cut(const At& at) {
-    std::array<double, most> sides{};
+    std::array<double, most> sides;
     std::size_t outside = 0;
     for (std::size_t i = 0; i < size_; ++i) {
       sides[i] = at(vertices_[i].place);
@@ -99,7 +99,8 @@ class Polyhedron {
 
   double measure() const {
     double sixfold = 0;
-    std::array<std::array<bool, 3>, most> done{};
+    std::array<std::array<bool, 3>, most> done;
+    std::fill_n(done.begin(), size_, std::array<bool, 3>{});
     for (std::size_t v = 0; v < size_; ++v)
       for (int k = 0; k < 3; ++k)
         if (!done[v][static_cast<std::size_t>(k)]) sixfold += face_at(v, k, done);
@@ -141,7 +142,7 @@ class Polyhedron {
   }
 
   void drop(const std::array<double, most>& sides, std::size_t old) {
-    std::array<int, most> number{};
+    std::array<int, most> number;
     std::size_t n = 0;
     for (std::size_t v = 0; v < size_; ++v) {
       if (v < old && sides[v] < 0) continue;
@@ -211,11 +212,20 @@ template <int D>
 double InsideOf<D>::common_with(const Simplex<D>& other) const {
   std::array<Vector, D + 1> x;
   for (std::size_t i = 0; i <= D; ++i) x[i] = relative(other[i]);
-  for (const Plane& plane : planes_)
-    if (std::ranges::all_of(x, [&](const Vector& p) { return plane.at(p) <= 0; })) return 0;
+  std::array<bool, D + 1> cuts;
+  for (std::size_t k = 0; k <= D; ++k) {
+    std::size_t inside = 0, outside = 0;
+    for (const Vector& p : x) {
+      const double side = planes_[k].at(p);
+      inside += side >= 0;
+      outside += side <= 0;
+    }
+    if (outside == D + 1) return 0;
+    cuts[k] = inside <= D;
+  }
   std::conditional_t<D == 2, Polygon, Polyhedron> part(x);
-  for (const Plane& plane : planes_)
-    if (!part.cut([&plane](const Vector& p) { return plane.at(p); })) return 0;
+  for (std::size_t k = 0; k <= D; ++k)
+    if (cuts[k] && !part.cut([&plane = planes_[k]](const Vector& p) { return plane.at(p); })) return 0;
   return part.measure();
 }
 
