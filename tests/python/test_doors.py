@@ -141,8 +141,8 @@ class WithPyvista(unittest.TestCase):
         tet = tetgen.TetGen(POINTS, QUADS)
         with self.assertRaisesRegex(pgdr.UsageError, "no mesh yet"):
             tet.grid
-        for keywords, word in (({"order": 2}, "order.*four corners"), ({"refine": True}, "refine"),
-                               ({"coarsen": True}, "coarsen"), ({"weighted": True}, "weighted"), ({"metric": True}, "bgmesh"),
+        for keywords, word in (({"order": 2}, "order.*four corners"), ({"refine": True}, "no mesh yet"),
+                               ({"coarsen": True}, "no mesh yet"), ({"weighted": True}, "weighted"), ({"metric": True}, "bgmesh"),
                                ({"opt_scheme": 3}, "opt_scheme"), ({"minration": 2}, "minration"), ({"order": True}, "order")):
             with self.subTest(keywords), self.assertRaisesRegex(pgdr.UsageError, word):
                 tet.tetrahedralize(**keywords)
@@ -209,6 +209,30 @@ class Axes:
     get_yaxis = get_xaxis
 
 
+class RefinedAndCoarse(unittest.TestCase):
+    def test_meshes(self):
+        """r and R take the mesh in the place of the surface."""
+        old = pgdr.tetrahedralize(pgdr.Plc(POINTS, facets=QUADS, markers=[1, 2, 3, 4, 5, 6]), max_volume=0.01).mesh
+        for keywords in ({"refine": True, "max_volume": 0.001, "docheck": True}, {"switches": "rqa0.001C"}):
+            fine = pgdr.tetrahedralize(old, **keywords)
+            np.testing.assert_array_equal(fine.nodes[:len(old.points)], old.points)
+            at = fine.nodes[fine.elems]
+            self.assertLessEqual(np.linalg.det(at[:, 1:] - at[:, :1]).max() / 6, 0.001)
+        for keywords in ({"coarsen": True, "docheck": True}, {"switches": "RqC"}):
+            coarse = pgdr.tetrahedralize(fine.mesh, **keywords)
+            self.assertLess(len(coarse.elems), len(old.cells) / 4)
+            self.assertEqual(set(coarse.face_markers), {1, 2, 3, 4, 5, 6})
+        for given, keywords in (((POINTS, QUADS), {"refine": True}), ((old,), {"refine": True, "markers": [1] * 6}),
+                                ((old,), {"switches": "rqa"})):
+            with self.assertRaises(pgdr.UsageError):
+                pgdr.tetrahedralize(*given, **keywords)
+        tet = tetgen.TetGen(POINTS, QUADS)
+        tet.tetrahedralize(maxvolume=0.01)
+        count = len(tet.elem)
+        tet.tetrahedralize(refine=True, maxvolume=0.002)
+        self.assertGreater(len(tet.elem), 3 * count)
+
+
 class Triangle(unittest.TestCase):
     def test_functions_of_points(self):
         pts = np.random.default_rng(1).random((40, 2))
@@ -235,6 +259,28 @@ class Triangle(unittest.TestCase):
         bottom = (at[:, 1] == 0) & (at[:, 0] > 0) & (at[:, 0] < 1)
         self.assertEqual(set(made["vertex_markers"][bottom].ravel().tolist()), {2})
         self.assertEqual(len(np.unique(cells)), len(at))
+
+    def test_refined(self):
+        """r: a result is refined by areas of its triangles; all vertices stay, first and in their order, and so do segments."""
+        tri = {**SQUARE, "segment_markers": [2, 3, 4, 5], "vertex_attributes": [0.0, 1.0, 1.0, 0.0]}
+        coarse = triangle.triangulate(tri, "pqa0.05A")
+        areas = np.where(coarse["vertices"][coarse["triangles"]].mean(axis=1)[:, 0] < 0.5, 0.002, -1)
+        for opts, key in (("rpqaAC", areas), ("rpqaC", areas[:, None])):
+            fine = triangle.triangulate({**coarse, "triangle_max_area": key}, opts)
+            count = len(coarse["vertices"])
+            np.testing.assert_array_equal(fine["vertices"][:count], coarse["vertices"])
+            np.testing.assert_allclose(fine["vertex_attributes"][:, 0], fine["vertices"][:, 0], atol=1e-12)
+            at = fine["vertices"][fine["triangles"]]
+            size = np.linalg.det(at[:, 1:] - at[:, :1]) / 2
+            self.assertLessEqual(size[at.max(axis=1)[:, 0] < 0.4].max(), 0.002)
+            self.assertGreater(size.max(), 0.005)
+            self.assertAlmostEqual(size.sum(), 1, places=12)
+            self.assertEqual(set(fine["segment_markers"].ravel()), {2, 3, 4, 5})
+        labelled = {**coarse, "triangle_attributes": np.arange(len(coarse["triangles"]))[:, None] % 2}
+        self.assertEqual(set(triangle.triangulate(labelled, "rpqA")["triangle_attributes"].ravel()), {0, 1})
+        for opts, given in (("rpqa", coarse), ("rpq", SQUARE)):
+            with self.assertRaises(pgdr.UsageError):
+                triangle.triangulate(given, opts)
 
     def test_sizes_by_a_function(self):
         made = triangle.triangulate(SQUARE, "pqa0.02uC", size=lambda at: 0.002 + at[:, 0])

@@ -59,6 +59,12 @@ void bind(py::module_& module) {
     const py::gil_scoped_release others_run;
     return sizes_on_mesh<D>(data.mesh, values);
   });
+  module.def(named("sizes_in_cells").c_str(), [](const MeshData<D>& data, const Dense<double>& bounds) {
+    std::vector<double> usual = vector_of(bounds);
+    for (double& bound : usual) bound = in_usual_unit<D>(bound, D == 2 ? SizeUnit::area : SizeUnit::volume);
+    const py::gil_scoped_release others_run;
+    return sizes_in_cells<D>(data.mesh, usual);
+  });
   module.def(named("smallest_at_vertices").c_str(), [](const MeshData<D>& data, const Dense<double>& of_cells) {
     const auto values = span_of(of_cells);
     std::vector<double> made;

@@ -21,15 +21,18 @@ namespace {
 
 using Mask = Dense<std::uint8_t>;
 
-/// (Plc, of each of its facets one of the boundary's). `keep_boundary`: the boundary as it is.
+/// (Plc, of each of its facets one of the boundary's). `keep_boundary`: the boundary as it is; `keep_vertices`: all vertices,
+/// too.
 template <int D>
-py::tuple input_of(const MeshData<D>& data, const Mask& required, std::optional<double> tolerance, bool keep_boundary) {
+py::tuple input_of(const MeshData<D>& data, const Mask& required, std::optional<double> tolerance, bool keep_boundary,
+                   bool keep_vertices) {
   auto plc = std::make_shared<Plc<D>>();
   std::vector<std::uint32_t> facets;
   const std::vector<std::uint8_t> mask = vector_of(required);
   run_watched([&](const std::stop_token& stop) {
     WholeFacets<D> whole = remesh_input<D>(
-        data.mesh, {.required = mask, .tolerance = tolerance, .keep_boundary = keep_boundary, .stop = stop});
+        data.mesh,
+        {.required = mask, .tolerance = tolerance, .keep_boundary = keep_boundary, .keep_vertices = keep_vertices, .stop = stop});
     *plc = std::move(whole.plc);
     facets = std::move(whole.facet_of_input);
   });

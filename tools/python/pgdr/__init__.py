@@ -20,7 +20,7 @@ from ._pgdr import version as __version__
 from ._page import Page
 from ._periodic import Periodic
 from ._plc import Plc, close_planar_openings, resolve_crossings, with_convex_hull
-from ._remesh import FileFields, Transfer, read_fields, remesh, sizes_from_error, write_fields
+from ._remesh import FileFields, Transfer, read_fields, refine, remesh, sizes_from_error, write_fields
 from ._report import CheckFinding, CheckReport
 from ._run import Elements, Progress, StopSource, mesh
 from ._surface import ReplacedSurface, replace_surface
@@ -33,7 +33,7 @@ __all__ = ["Bodies", "BodyRegion", "CancelledError", "CheckFinding", "CheckRepor
            "Joined", "JoinedLabel", "Mesh", "Page", "Periodic", "Plc", "Progress", "Proposal", "Reason",
            "ReplacedSurface", "ResourceError", "Shared", "SharpAngle", "StopSource", "Tetrahedralization",
            "Transfer", "UsageError", "Voronoi", "__version__", "check", "close_planar_openings", "diagnose",
-           "estimate", "info", "join", "limit_growth", "mesh", "read_fields", "remesh", "replace_surface",
+           "estimate", "info", "join", "limit_growth", "mesh", "read_fields", "refine", "remesh", "replace_surface",
            "resolve_crossings", "sizes_along", "sizes_at_points", "sizes_from_error", "sizes_on_mesh",
            "sizes_on_raster", "smallest", "tetgen", "tetrahedralize", "triangle", "triangulate", "with_bodies",
            "with_convex_hull", "write_fields"]

@@ -201,6 +201,13 @@ def sizes_on_mesh(mesh: Mesh, values: npt.ArrayLike, of: Optional[str] = None) -
     return Field(make(mesh._core, at_points), mesh.dimension, (sizes_on_mesh, (mesh, at_points, "points")))
 
 
+def sizes_in_cells(mesh: Any, bounds: npt.NDArray[np.float64]) -> Field:
+    """(m,) bounds on the volume (area) of what lies in each cell; 0 or less: any. The first cell counts of several that have a
+    point."""
+    make = _pgdr.sizes_in_cells2 if mesh.dimension == 2 else _pgdr.sizes_in_cells3
+    return Field(make(mesh._core, bounds), mesh.dimension, (sizes_in_cells, (mesh, bounds)))
+
+
 def limit_growth(mesh: Mesh, values: npt.ArrayLike, growth: float, of: Optional[str] = None) -> npt.NDArray[np.float64]:
     """(n,) values at the points of a mesh, from values of its points or cells as of `sizes_on_mesh`, lowered where they grow faster
     than `growth` along an edge (gradation)."""

@@ -62,11 +62,35 @@ class Mesh:
         return cls._of(read(file))
 
     @classmethod
-    def from_arrays(cls, points: npt.ArrayLike, cells: npt.ArrayLike) -> Mesh:
-        """A mesh of (n, D) points and (m, D + 1) cells, without constraints or labels: a background mesh, or one to check."""
+    def from_arrays(cls, points: npt.ArrayLike, cells: npt.ArrayLike, *, regions: Optional[npt.ArrayLike] = None,
+                    point_markers: Optional[npt.ArrayLike] = None, point_attributes: Optional[npt.ArrayLike] = None,
+                    subsegments: Optional[npt.ArrayLike] = None, subsegment_markers: Optional[npt.ArrayLike] = None,
+                    subfacets: Optional[npt.ArrayLike] = None, subfacet_markers: Optional[npt.ArrayLike] = None) -> Mesh:
+        """A mesh of (n, D) points and (m, D + 1) cells: a background mesh, one to check, to remesh or to refine. By further arrays it
+        has (m,) labels of cells, (n,) markers and (n, k) attributes of points, and (k, 2) subsegments and, in 3D, (k, 3) subfacets
+        with (k,) markers, 0 without. Raises UsageError."""
         at = _arguments.points("points", points)
         dimension = int(at.shape[1])
-        return cls._of(_CORES[dimension](at, _arguments.indices("cells", cells, dimension + 1)))
+        core = _CORES[dimension](at, _arguments.indices("cells", cells, dimension + 1))
+        if dimension == 2 and subfacets is not None:
+            raise usage("subfacets are of three dimensions")
+        labels = np.zeros(0) if regions is None else _arguments.values("regions", regions, len(core.cells), "cells")
+        markers = np.zeros(0, dtype=np.int32) if point_markers is None else _whole("point_markers", point_markers, len(at))
+        attributes = np.zeros(0) if point_attributes is None else _arguments.reals("point_attributes", point_attributes)
+        if attributes.size and len(attributes) != len(at):
+            raise usage(f"point_attributes must have a row for each of {len(at)} points, not {len(attributes)}")
+        core.set_labels(labels, 0, markers, attributes.reshape(-1), np.zeros(0, dtype=np.int64))
+        for name, rows, given, columns in (("subsegment", subsegments, subsegment_markers, 2), ("subfacet", subfacets, subfacet_markers, 3)):
+            if rows is None:
+                if given is not None:
+                    raise usage(f"{name}_markers are of {name}s")
+                continue
+            wall = _arguments.indices(f"{name}s", rows, columns)
+            if wall.size and not 0 <= wall.min() <= wall.max() < len(at):
+                raise usage(f"{name}s refer to points from 0 to {len(at) - 1}")
+            of = np.zeros(len(wall), dtype=np.int32) if given is None else _whole(f"{name}_markers", given, len(wall))
+            getattr(core, f"set_{name}s")(wall.astype(np.uint32), of, np.zeros(len(wall), dtype=np.uint32))
+        return cls._of(core)
 
     @property
     def dimension(self) -> int:
@@ -293,6 +317,16 @@ class Mesh:
         bounds = {name: value if all(map(is_lasting, value.values() if name == "region_sizes" else (value,))) else _Lost
                   for name, value in self._bounds.items()}
         return _restored, (self.dimension, arrays, core.input_points, core.names, self._facts, bounds)
+
+
+def _whole(name: str, values: npt.ArrayLike, count: int) -> npt.NDArray[np.int32]:
+    """(count,) markers."""
+    array = np.asarray(values)
+    if array.dtype.kind not in "iu" or array.shape != (count,):
+        raise usage(f"{name} must be {count} integers, not {array.dtype} in the shape {array.shape}")
+    if array.size and not -2**31 <= int(array.min()) <= int(array.max()) < 2**31:
+        raise usage(f"{name} must be integers of 32 bits")
+    return np.ascontiguousarray(array, dtype=np.int32)
 
 
 def required_mask(mesh: Mesh, required: Optional[npt.ArrayLike]) -> npt.NDArray[np.uint8]:

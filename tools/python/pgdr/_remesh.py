@@ -11,7 +11,7 @@ import numpy.typing as npt
 from . import _arguments, _pgdr
 from ._ending import WORK
 from ._errors import usage
-from ._fields import Size, in_unit, limit_growth, size_unit_of, sizes_on_mesh, smallest
+from ._fields import Size, in_unit, limit_growth, size_unit_of, sizes_in_cells, sizes_on_mesh, smallest
 from ._mesh import Mesh, required_mask
 from ._plc import Plc
 from ._run import mesh as _mesh
@@ -60,8 +60,56 @@ def remesh(old: Mesh, *, point_sizes: Optional[npt.ArrayLike] = None, cell_sizes
     >>> len(coarse.points), bool(pgdr.check(coarse, fine))
     (4, True)
     """
+    _require_mesh(old)
+    size = _size_of(old, point_sizes, cell_sizes, size, growth, size_unit, edge_length, options)
+    return _anew(old, required_mask(old, required), tolerance, keep_boundary, False, size, options)
+
+
+def refine(old: Mesh, *, cell_bounds: Optional[npt.ArrayLike] = None, point_sizes: Optional[npt.ArrayLike] = None,
+           cell_sizes: Optional[npt.ArrayLike] = None, size: Optional[Size] = None, growth: Optional[float] = None,
+           size_unit: Optional[str] = None, edge_length: Optional[Size] = None, tolerance: Optional[float] = None,
+           keep_boundary: Union[bool, Sequence[int]] = False, **options: Any) -> Mesh:
+    """What -r of TetGen and Triangle is for: all points, segments and facets of a mesh stay, and points are added where bounds ask. Cells
+    are those of the constrained Delaunay triangulation of all points, and not the old ones where these are not Delaunay; the
+    optimiser may change them, but for optimize=False.
+
+    Parameters
+    ----------
+    old : Mesh
+    cell_bounds : array, optional
+        (m,) the largest volume (2D: area) of what lies in each old cell; 0 or less: any.
+    point_sizes, cell_sizes, size, growth, size_unit, edge_length, tolerance
+        As of `remesh`.
+    keep_boundary : bool or sequence of int
+        No segment and, in 3D, no triangle of the boundary gets a point, all or those with these markers.
+    **options
+        Of `pgdr.mesh`.
+
+    The points of the old mesh come first, in their order. `pgdr.check(new, old, required=np.ones(len(old.points), bool))` certifies it.
+
+    >>> import numpy as np, pgdr
+    >>> square = pgdr.Plc([[0, 0], [1, 0], [1, 1], [0, 1]], segments=[[0, 1], [1, 2], [2, 3], [3, 0]])
+    >>> coarse = pgdr.mesh(square)
+    >>> fine = pgdr.refine(coarse, cell_bounds=[0.01, 0])
+    >>> bool((fine.points[:4] == coarse.points).all()), len(fine.cells) > 20
+    (True, True)
+    """
+    _require_mesh(old)
+    size = _size_of(old, point_sizes, cell_sizes, size, growth, size_unit, edge_length, options)
+    if cell_bounds is not None:
+        inside = sizes_in_cells(old, _arguments.values("cell_bounds", cell_bounds, len(old.cells), "cells"))
+        size = inside if size is None else smallest(size, inside)
+    return _anew(old, required_mask(old, None), tolerance, keep_boundary, True, size, options)
+
+
+def _require_mesh(old: Any) -> None:
     if not isinstance(old, Mesh):
         raise TypeError(f"old must be a pgdr.Mesh, not {type(old).__name__}")
+
+
+def _size_of(old: Mesh, point_sizes: Optional[npt.ArrayLike], cell_sizes: Optional[npt.ArrayLike], size: Optional[Size],
+             growth: Optional[float], size_unit: Optional[str], edge_length: Optional[Size], options: Dict[str, Any]) -> Optional[Size]:
+    """All sizes as one, in the usual unit, as region_sizes of the options are then."""
     dimension = old.dimension
     size, unit = size_unit_of(size, edge_length, size_unit)
     sizes = [] if size is None else [in_unit(size, unit, dimension)]
@@ -78,15 +126,20 @@ def remesh(old: Mesh, *, point_sizes: Optional[npt.ArrayLike] = None, cell_sizes
         raise usage("growth is of point_sizes or cell_sizes")
     if unit is not None and options.get("region_sizes") is not None:
         options["region_sizes"] = {key: in_unit(value, unit, dimension) for key, value in options["region_sizes"].items()}
-    if sizes:
-        options["size"] = sizes[0] if len(sizes) == 1 else smallest(*sizes)
-    of_dimension = _pgdr.remesh_input2 if dimension == 2 else _pgdr.remesh_input3
+    return None if not sizes else sizes[0] if len(sizes) == 1 else smallest(*sizes)
+
+
+def _anew(old: Mesh, required: npt.NDArray[np.uint8], tolerance: Optional[float], keep_boundary: Union[bool, Sequence[int]],
+          keep_vertices: bool, size: Optional[Size], options: Dict[str, Any]) -> Mesh:
+    if size is not None:
+        options["size"] = size
+    of_dimension = _pgdr.remesh_input2 if old.dimension == 2 else _pgdr.remesh_input3
     limit = None if tolerance is None else _arguments.number("tolerance", tolerance)
     is_kept, _ = _arguments.kept("keep_boundary", keep_boundary)
     with WORK:
-        core, facets = of_dimension(old._core, required_mask(old, required), limit, is_kept)
+        core, facets = of_dimension(old._core, required, limit, is_kept, keep_vertices)
     made = _mesh(Plc._of(core), keep_boundary=keep_boundary, **options)
-    finish = _pgdr.finish_remesh2 if dimension == 2 else _pgdr.finish_remesh3
+    finish = _pgdr.finish_remesh2 if old.dimension == 2 else _pgdr.finish_remesh3
     finish(made._core, old._core, facets)
     return made
 

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import re
-from typing import Any, Dict, Iterator, Mapping, Optional, Tuple
+from typing import Any, Dict, Iterator, Mapping, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -15,6 +15,8 @@ from ._errors import InputError, usage
 from ._fields import Field, sizes_on_mesh
 from ._mesh import Mesh
 from ._plc import Plc
+from ._remesh import refine as _refine
+from ._remesh import remesh
 from ._run import mesh
 
 # Switches that change nothing here: p is always meant, z counts from 0 as always, Q and V are about printing, which is never done,
@@ -22,7 +24,6 @@ from ._run import mesh
 # which are never needed, B and the others are about files.
 _WITHOUT_EFFECT = "pzQVfenJdBNEFIgkX"
 _REFUSED = {
-    "r": "a given mesh is not refined: mesh its surface again, with a smaller size",
     "i": "put further points among `points`: those inside are kept",
     "o": "cells have four corners: leave o2 out",
     "v": "there is no Voronoi diagram",
@@ -31,7 +32,6 @@ _REFUSED = {
     "s": "the mesh is constrained Delaunay: leave s out",
     "D": "the mesh is constrained Delaunay: leave D out",
     "w": "there are no weighted triangulations",
-    "R": "meshes are not coarsened: mesh with a larger size",
     "L": "there are no such limits", "P": "there are no such limits", "K": "no .vtk is written: call Mesh.write",
     "W": "there are no weighted triangulations",
     "h": "see help(pgdr.tetrahedralize)",
@@ -48,12 +48,10 @@ _NO_LIMITS = "there are no such limits"
 _OWN_OPTIMIZER = "the optimiser has no such setting: optimize=False and mindihedral are what there is"
 _NEUTRAL: Mapping[str, Tuple[Tuple[Any, ...], str]] = {
     "order": ((1,), "cells have four corners"),
-    "refine": ((False,), _REFUSED["r"]),
     "psc": ((False,), "surfaces are flat piece by piece"),
     "cdt": ((False,), _REFUSED["D"].replace("leave D out", "leave it out")),
-    "coarsen": ((False,), _REFUSED["R"]),
-    "coarsen_param": ((0,), _REFUSED["R"]),
-    "coarsen_percent": ((1, 1.0), _REFUSED["R"]),
+    "coarsen_param": ((0,), "coarsen makes a mesh as coarse as its bounds allow"),
+    "coarsen_percent": ((1, 1.0), "coarsen makes a mesh as coarse as its bounds allow"),
     "weighted": ((False,), _REFUSED["w"]),
     "weighted_param": ((0,), _REFUSED["w"]),
     "insertaddpoints": ((False,), _REFUSED["i"]),
@@ -151,8 +149,8 @@ def _switches(text: str) -> Dict[str, Any]:
                 found["docheck"] = True
             elif letter == "Y":
                 found["nobisect"] = True
-            elif letter == "m":
-                found["metric"] = True
+            elif letter in "mrR":
+                found[{"m": "metric", "r": "refine", "R": "coarsen"}[letter]] = True
             elif letter not in _WITHOUT_EFFECT:
                 raise usage(f"{text!r} has the unknown switch {letter!r}")
         except ValueError as error:
@@ -162,12 +160,12 @@ def _switches(text: str) -> Dict[str, Any]:
     return found
 
 
-def _options(plc: Plc, minratio: Optional[float], mindihedral: Optional[float], max_volume: Optional[float],
+def _options(points: int, bounded: bool, minratio: Optional[float], mindihedral: Optional[float], max_volume: Optional[float],
              steinerleft: Optional[int], quality: bool, optimize: bool, labels: bool, size: Optional[Field],
              keep: bool) -> Dict[str, Any]:
-    """The arguments of pgdr.mesh."""
+    """The arguments of pgdr.mesh. `bounded`: regions have largest volumes."""
     sized = max_volume is not None or size is not None
-    options: Dict[str, Any] = {"refine": quality or sized or bool((plc.regions[:, 4] > 0).any())}
+    options: Dict[str, Any] = {"refine": quality or sized or bounded}
     options["optimize"] = optimize and options["refine"]
     options["keep_boundary"] = keep
     if labels:  # volumes without a seed are numbered, and none of them is a void
@@ -185,7 +183,7 @@ def _options(plc: Plc, minratio: Optional[float], mindihedral: Optional[float], 
     if size is not None:
         options["size"] = size
     if steinerleft is not None and _arguments.whole_number("steinerleft", steinerleft, -2**63, 2**63 - 1) >= 0:
-        options["max_vertices"] = len(plc.points) + steinerleft
+        options["max_vertices"] = points + steinerleft
     return options
 
 
@@ -215,16 +213,36 @@ def _size_on(bgmesh: Any) -> Field:
     return sizes_on_mesh(background, lengths * _RADIUS_OF_EDGE, of="points")
 
 
-def _made(plc: Plc, asked: Mapping[str, Any], size: Optional[Field], threads: int) -> Tetrahedralization:
-    options = _options(plc, asked.get("minratio"), asked.get("mindihedral"), asked.get("max_volume"), asked.get("steinerleft"),
-                       asked.get("quality", True), asked.get("optimize", True), asked.get("regionattrib", False), size,
-                       bool(asked.get("nobisect")))
-    result = mesh(plc, threads=threads, **options)
+def _made(given: Union[Plc, Mesh], asked: Mapping[str, Any], size: Optional[Field], threads: int) -> Tetrahedralization:
+    bounded = isinstance(given, Plc) and bool((given.regions[:, 4] > 0).any())
+    options = _options(len(given.points), bounded, asked.get("minratio"), asked.get("mindihedral"), asked.get("max_volume"),
+                       asked.get("steinerleft"), asked.get("quality", True), asked.get("optimize", True),
+                       asked.get("regionattrib", False), size, bool(asked.get("nobisect")))
+    required = None
+    if isinstance(given, Plc):
+        result = mesh(given, threads=threads, **options)
+    else:
+        options.pop("regions", None)  # a mesh has its labels
+        result = (remesh if asked.get("coarsen") else _refine)(given, threads=threads, **options)
+        required = None if asked.get("coarsen") else np.ones(len(given.points), dtype=bool)
     if asked.get("docheck"):
-        report = check(result, plc)
+        report = check(result, given, required=required)
         if not report:
             raise InputError(f"the mesh does not pass the check: {report}", code="internal")
     return Tetrahedralization(result)
+
+
+def _old(points: Any, faces: Any) -> Optional[Mesh]:
+    """A mesh that is given in the place of a surface; None: none is."""
+    if isinstance(points, Mesh):
+        return points
+    if not hasattr(points, "celltypes") or faces is not None:
+        return None
+    cells, kinds = np.asarray(points.cells, dtype=np.int64), np.asarray(points.celltypes)
+    if (kinds != 10).any() or cells.size != 5 * kinds.size or not kinds.size:
+        return None
+    labels = {"regions": np.asarray(points.cell_data["region"], dtype=np.float64)} if "region" in points.cell_data else {}
+    return Mesh.from_arrays(np.asarray(points.points, dtype=np.float64), cells.reshape(-1, 5)[:, 1:], **labels)
 
 
 def _asked(switches: Optional[str], asked: Dict[str, Any]) -> Dict[str, Any]:
@@ -241,7 +259,8 @@ def tetrahedralize(points: Any, faces: Any = None, *, markers: Any = None, holes
                    minratio: Optional[float] = None, mindihedral: Optional[float] = None, max_volume: Optional[float] = None,
                    maxvolume: Optional[float] = None, steinerleft: Optional[int] = None, quality: Optional[bool] = None,
                    regionattrib: Optional[bool] = None, varvolume: Optional[bool] = None, epsilon: Optional[float] = None,
-                   docheck: Optional[bool] = None, nobisect: Optional[bool] = None, optimize: Optional[bool] = None, bgmesh: Any = None,
+                   docheck: Optional[bool] = None, nobisect: Optional[bool] = None, optimize: Optional[bool] = None,
+                   refine: Optional[bool] = None, coarsen: Optional[bool] = None, bgmesh: Any = None,
                    switches: Optional[str] = None, threads: int = 0, **others: Any) -> Tetrahedralization:
     """3D: fills a closed surface with tetrahedra, called as PyVista's `tetgen` and `meshpy.tet` are. Any thread; other Python threads
     run meanwhile. `pgdr.tetgen.TetGen` is the object of the former.
@@ -276,19 +295,23 @@ def tetrahedralize(points: Any, faces: Any = None, *, markers: Any = None, holes
         No new points on the surface: `keep_boundary` of pgdr.mesh.
     optimize : bool
         False: no optimiser.
+    refine, coarsen : bool
+        The first argument is a pgdr.Mesh, or a pyvista.UnstructuredGrid of tetrahedra (with cell data "region"). Its points and walls all
+        stay, and points are added where bounds ask (pgdr.refine); or it is meshed anew, as coarse as its shape and the bounds allow
+        (pgdr.remesh).
     bgmesh : pyvista.UnstructuredGrid
         Tetrahedra whose points have the data `target_size`, the wanted length h of edges. No circumradius is above that of a regular
         tetrahedron of such edges, 0.61 h, at the cell's centroid.
     switches : str
         TetGen's, which alone count then, beside markers, holes, regions, bgmesh and threads: p, q, q1.5, q1.5/18, a0.1, a (largest
         volumes of regions), A (as regionattrib), S100, T1e-8 (as epsilon), O0 (no optimiser), C (as docheck), Y (as nobisect),
-        m (with bgmesh).
+        m (with bgmesh), r (as refine), R (as coarsen).
         z, Q, V, f, e, n, J, d, B, N, E, F, I, g, k, X change nothing. Others are refused.
     threads : int
         As of pgdr.mesh.
     others
         Keywords of TetGen's class that change nothing in the mesh (quiet, verbose, zeroindex, plc, facesout, ...) are taken with any
-        value. Those that would change it (order=2, refine, coarsen, ...) are refused by name, but for the value that asks
+        value. Those that would change it (order=2, psc, ...) are refused by name, but for the value that asks
         for nothing.
 
     Raises
@@ -312,11 +335,21 @@ def tetrahedralize(points: Any, faces: Any = None, *, markers: Any = None, holes
     asked = _asked(switches, {"minratio": minratio, "mindihedral": mindihedral, "steinerleft": steinerleft, "quality": quality,
                               "max_volume": maxvolume if max_volume is None else max_volume, "regionattrib": regionattrib,
                               "varvolume": varvolume, "epsilon": epsilon, "docheck": docheck, "optimize": optimize,
-                              "nobisect": None if nobisect is None else _arguments.flag("nobisect", nobisect)})
+                              "nobisect": None if nobisect is None else _arguments.flag("nobisect", nobisect),
+                              "refine": _arguments.flag("refine", refine) or None if refine is not None else None,
+                              "coarsen": _arguments.flag("coarsen", coarsen) or None if coarsen is not None else None})
     size = None if bgmesh is None else _size_on(bgmesh)
     if "metric" in asked and size is None:
         raise usage("switch m needs bgmesh, which says the sizes")
-    return _made(_plc(points, faces, markers, holes, regions, asked), asked, size, threads)
+    if not asked.get("refine") and not asked.get("coarsen"):
+        return _made(_plc(points, faces, markers, holes, regions, asked), asked, size, threads)
+    old = _old(points, faces)
+    if old is None or old.dimension != 3 or any(value is not None for value in (markers, holes, regions)):
+        raise usage("refine and coarsen (r, R) take a mesh in the place of the surface, a pgdr.Mesh or a pyvista.UnstructuredGrid of "
+                    "tetrahedra, and nothing beside it but sizes and bounds")
+    if asked.get("varvolume") or asked.get("epsilon") is not None:
+        raise usage("a and T without a number are not of meshes: pgdr.refine takes cell_bounds, and tolerance")
+    return _made(old, asked, size, threads)
 
 
 def _plc(points: Any, faces: Any, markers: Any, holes: Any, regions: Any, asked: Mapping[str, Any]) -> Plc:

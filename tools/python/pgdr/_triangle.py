@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import re
-from typing import Any, Dict, Mapping, Optional, Tuple
+from typing import Any, Dict, Mapping, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -15,6 +15,7 @@ from ._errors import InputError, usage
 from ._fields import Field, Size, smallest
 from ._mesh import Mesh
 from ._plc import Plc, resolve_crossings, with_convex_hull
+from ._remesh import refine
 from ._run import mesh
 
 _KEYS = ("vertices", "vertex_attributes", "vertex_markers", "segments", "segment_markers", "holes", "regions")
@@ -25,12 +26,11 @@ _RESULTS = ("triangles", "triangle_attributes", "triangle_max_area", "neighbors"
 # names of files; v has nothing to say in this result, pgdr.triangle.voronoi has the diagram.
 _WITHOUT_EFFECT = "iFlXQVzIv"
 _REFUSED = {
-    "r": "a given triangulation is not refined: mesh its segments again with a smaller area, in one call",
     "s": "segments are inserted without new points: leave s out, or give D, which makes all triangles Delaunay",
     "g": "no file is written: call Mesh.write",
     "h": "see help(pgdr.triangulate)",
 }
-_PLAIN = "pcjenYAPNEBOCuD"
+_PLAIN = "prcjenYAPNEBOCuD"
 
 
 def _switches(opts: str) -> Dict[str, Any]:
@@ -70,7 +70,7 @@ def _given(tri: Mapping[str, Any], switches: Mapping[str, Any]) -> Dict[str, Any
     if tri.get("vertices") is None or not np.size(tri["vertices"]):
         raise usage("the key vertices is missing: an (n, 2) array")
     given = {key: tri[key] for key in _KEYS if tri.get(key) is not None and np.size(tri[key])}
-    if "p" not in switches:
+    if "p" not in switches and "r" not in switches:
         ignored = [key for key in ("segments", "segment_markers", "holes", "regions") if key in given]
         if ignored:
             raise usage(f"{', '.join(ignored)} count with the switch p alone: add it, or leave them out")
@@ -109,6 +109,37 @@ def _plc(given: Mapping[str, Any], switches: Mapping[str, Any]) -> Plc:
     if "p" in switches:
         plc, _ = resolve_crossings(plc)
     return with_convex_hull(plc) if "c" in switches or "p" not in switches else plc
+
+
+def _old(tri: Mapping[str, Any], given: Mapping[str, Any]) -> Mesh:
+    """The triangulation that the switch r refines."""
+    if tri.get("triangles") is None or not np.size(tri["triangles"]):
+        raise usage("switch r of a dict without the key triangles, which it refines")
+    arrays: Dict[str, Any] = {}
+    if tri.get("triangle_attributes") is not None and np.size(tri["triangle_attributes"]):
+        attributes = _arguments.reals("triangle_attributes", tri["triangle_attributes"])
+        arrays["regions"] = attributes[:, 0] if attributes.ndim == 2 else attributes
+    if "segments" in given:
+        arrays["subsegments"] = given["segments"]
+        if "segment_markers" in given:
+            arrays["subsegment_markers"] = _flat_markers(given["segment_markers"])
+    if "vertex_markers" in given:
+        arrays["point_markers"] = _flat_markers(given["vertex_markers"])
+    if "vertex_attributes" in given:
+        arrays["point_attributes"] = given["vertex_attributes"]
+    return Mesh.from_arrays(_arguments.points("vertices", given["vertices"], 2), np.asarray(tri["triangles"])[:, :3], **arrays)
+
+
+def _refined(tri: Mapping[str, Any], given: Mapping[str, Any], switches: Mapping[str, Any], size: Optional[Size]) -> Tuple[Mesh, Mesh]:
+    """What the switch r refines, and what that becomes. Holes and regions are those of the triangles."""
+    old = _old(tri, given)
+    options = _options(switches, len(old.points), size)
+    areas = tri.get("triangle_max_area")
+    if "a" in switches and areas is not None and np.size(areas):
+        options["cell_bounds"] = _arguments.reals("triangle_max_area", areas).reshape(-1)
+    elif "a" in switches:
+        raise usage("switches r and a together need the key triangle_max_area, or a number behind a")
+    return old, refine(old, **options)
 
 
 def _options(switches: Mapping[str, Any], points: int, size: Optional[Size]) -> Dict[str, Any]:
@@ -217,7 +248,7 @@ def _output(result: Any, switches: Mapping[str, Any]) -> Dict[str, npt.NDArray[A
         out["triangles"] = _ints(new[np.asarray(result.cells)])
         if "A" in switches:
             out["triangle_attributes"] = np.array(result.regions).reshape(-1, 1)
-    if ("p" in switches or "c" in switches) and "P" not in switches:
+    if ("p" in switches or "c" in switches or "r" in switches) and "P" not in switches:
         out["segments"] = _ints(new[np.asarray(result.subsegments)])
         out["segment_markers"] = _columns(segment_markers)
     if "e" in switches:
@@ -253,14 +284,16 @@ def triangulate(tri: Mapping[str, Any], opts: str = "", *, size: Optional[Size] 
     tri : dict
         vertices (n, 2); vertex_attributes (n, a); vertex_markers (n,) or (n, 1); and with the switch p: segments (m, 2),
         segment_markers (m,) or (m, 1), holes (k, 2), regions (k, 4) of x, y, attribute, largest area, or (k, 3), without the area. The keys of a result
-        (triangles, neighbors, ...) may be there, too, and mean nothing: so a result is an input.
+        (triangles, neighbors, ...) may be there, too, so that a result is an input; they mean nothing without the switch r.
     opts : str
         p: segments, holes and regions count; without p or with c, the convex hull is the boundary. q, q25: no angle below 20
         degrees, or 25; at most 34. a0.1: no triangle is larger; a: nor larger than its region says. A: triangle_attributes. Y, YY:
         no new point on any segment. S100: at most so many new points. j: no vertex without a triangle. e: edges, edge_markers.
         n: neighbors. O: no holes. B, P, N, E: no markers, segments, vertices, triangles in the result. C: the result is checked.
         o2: six corners, the last three in the middle of the edges opposite the first three. u: no triangle is larger than `size`
-        says. D: all triangles are Delaunay, as of conforming_delaunay of pgdr.mesh; not with Y. i, F, l, X, Q, V, z, I, v change nothing. r, s, g are refused.
+        says. D: all triangles are Delaunay, as of conforming_delaunay of pgdr.mesh; not with Y. r: the triangles (and segments) of a result are
+        refined: all vertices stay, as of pgdr.refine; triangle_attributes are labels, and with a, triangle_max_area, (m,) or (m, 1),
+        bounds what lies in each triangle, 0 or less: any. i, F, l, X, Q, V, z, I, v change nothing. s, g are refused.
     size : float, Field, or function
         With the switch u: the largest area at a triangle's centroid, as of pgdr.mesh.
 
@@ -288,14 +321,19 @@ def triangulate(tri: Mapping[str, Any], opts: str = "", *, size: Optional[Size] 
     (['segment_markers', 'segments', 'triangles', 'vertex_markers', 'vertices'], (2, 3))
     """
     switches = _switches(opts)
-    plc = _plc(_given(tri, switches), switches)
+    given = _given(tri, switches)
     if ("u" in switches) != (size is not None):
         raise usage("the switch u and size= come together: size is a number, a pgdr.Field, or a function of an (n, 2) array of points "
                     "that returns their n largest areas")
-    options = _options(switches, len(plc.points), size)
-    result = mesh(plc, **options)
+    made_of: Union[Plc, Mesh]
+    if "r" in switches:
+        made_of, result = _refined(tri, given, switches, size)
+        required: Optional[npt.NDArray[np.bool_]] = np.ones(len(made_of.points), dtype=bool)
+    else:
+        plc = made_of = _plc(given, switches)
+        result, required = mesh(plc, **_options(switches, len(plc.points), size)), None
     if "C" in switches:
-        report = check(result, plc)
+        report = check(result, made_of, required=required)
         if not report:
             raise InputError(f"the mesh does not pass the check: {report}", code="internal")
     return _output(result, switches)

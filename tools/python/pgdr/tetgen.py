@@ -71,7 +71,7 @@ class TetGen:
         triface_markers (k,), those of the faces of `trifaces`.
 
         Parameters are those of `pgdr.tetrahedralize`; maxvolume below 0, as it is by default, is none. `metric` and `fixedvolume` say
-        what bgmesh and maxvolume say anyway. Keywords that change nothing in the mesh are taken, those that would and have no
+        what bgmesh and maxvolume say anyway. refine=True (r) and coarsen=True (R) are of what was made before. Keywords that change nothing in the mesh are taken, those that would and have no
         equivalent are refused by name. Raises as `pgdr.tetrahedralize`.
         """
         volume = _arguments.number("maxvolume", maxvolume)
@@ -83,7 +83,9 @@ class TetGen:
             keywords.pop("mindihedral", None)
         if volume > 0:
             keywords["maxvolume"] = volume
-        self._made = tetrahedralize(self._plc.with_seeds(holes=self._holes or None, regions=self._regions), switches=switches or None, bgmesh=bgmesh, threads=threads, **keywords)
+        again = bool(keywords.get("refine") or keywords.get("coarsen") or set(switches) & set("rR"))
+        given: Any = self.result.mesh if again else self._plc.with_seeds(holes=self._holes or None, regions=self._regions)
+        self._made = tetrahedralize(given, switches=switches or None, bgmesh=bgmesh, threads=threads, **keywords)
         return self.node, self.elem, self.attributes, self.triface_markers
 
     @property
