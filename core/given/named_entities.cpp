@@ -303,10 +303,13 @@ void NamedEntities<D>::join_flat_parts() {
         edges.push_back({sorted_edge(v[(i + 1) % 3], v[(i + 2) % 3]), s});
       }
     std::sort(edges.begin(), edges.end());
+    std::vector<detail::PlanarEdge> subsegments;  // where others met that are not in the mesh two may be left, in one plane
+    for (const auto& s : mesh_.subsegments) subsegments.push_back(sorted_edge(s.vertices[0], s.vertices[1]));
+    std::ranges::sort(subsegments);
     for (std::size_t i = 0, j; i < edges.size(); i = j) {
       for (j = i + 1; j < edges.size() && edges[j].ends == edges[i].ends;) ++j;
       const std::uint32_t s = edges[i].apex, t = edges[j - 1].apex;
-      if (j - i != 2 || marker(s) != marker(t)) continue;
+      if (j - i != 2 || marker(s) != marker(t) || std::ranges::binary_search(subsegments, edges[i].ends)) continue;
       const auto of_s = corners(s), of_t = corners(t);
       if (is_even(of_s, of_t, input_.reach()) && is_even(of_t, of_s, input_.reach())) flat_->unite(count + s, count + t);
     }
