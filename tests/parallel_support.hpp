@@ -90,6 +90,8 @@ void expect_same(const RefineResult<D>& a, const RefineResult<D>& b, const std::
   EXPECT_EQ(a.statistics.insertions_committed, b.statistics.insertions_committed);
   EXPECT_EQ(a.statistics.insertions_refused, b.statistics.insertions_refused);
   EXPECT_EQ(a.statistics.selector_outside, b.statistics.selector_outside);
+  EXPECT_EQ(a.statistics.selector_further, b.statistics.selector_further);
+  EXPECT_EQ(a.statistics.selector_dropped, b.statistics.selector_dropped);
   EXPECT_EQ(a.optimization.moves, b.optimization.moves);
   EXPECT_EQ(a.optimization.edge_removals, b.optimization.edge_removals);
   EXPECT_EQ(a.optimization.evaluated, b.optimization.evaluated);

@@ -11,6 +11,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <random>
 #include <set>
 #include <string>
 
@@ -43,12 +44,27 @@ Point<D> on_the_rim(const PoorElement<D>& e) {
   return p;
 }
 
+/// The circumcentre, and seven points about it, mostly inside the circumsphere, in directions hashed from the element.
+template <int D>
+SelectedPoints<D> hashed_points(const PoorElement<D>& e) {
+  SelectedPoints<D> points(e.circumcenter);
+  std::mt19937_64 random(static_cast<std::uint64_t>(1e6 * std::abs(e.circumcenter[0] / e.circumradius)));
+  while (points.size() < SelectedPoints<D>::most) {
+    Point<D> p = e.circumcenter;
+    for (int k = 0; k < D; ++k) p[k] += e.circumradius * (static_cast<double>(random() >> 11) * 0x1p-52 - 1);
+    points.push_back(p);
+  }
+  return points;
+}
+
 template <int D>
 std::vector<NamedSelector<D>> selectors() {
   return {{"off_center", off_center<D>()},
           {"optimized", optimized<D>(40)},
           {"sliver_avoiding", sliver_avoiding<D>(8)},
+          {"random", randomized<D>(3)},
           {"rim", on_the_rim<D>},
+          {"several", hashed_points<D>},
           {"asking", [](const PoorElement<D>& e, Neighborhood<D>& n) {
              const Point<D> p = on_the_rim<D>(e);
              const Preview<D> a = n.measure(p), b = n.count(e.circumcenter);
@@ -328,6 +344,88 @@ TYPED_TEST(SelectorsRefine, PointsOutsideTheDisk) {
       EXPECT_EQ(e.code(), Errc::bad_option);
     }
   }
+}
+
+template <int D>
+double squared_shortest_edge(const OutputMesh<D>& mesh) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& cell : mesh.cells)
+    for (int i = 0; i <= D; ++i)
+      for (int j = 0; j < i; ++j) least = std::min(least, squared_distance(mesh.points[cell[i]], mesh.points[cell[j]]));
+  return least;
+}
+
+// Further points go in, and others are left out, as near as they may come to anything; edges are as long as without them can be:
+// half of the shortest that is given, as the input has no small angle.
+TYPED_TEST(SelectorsRefine, FurtherPointsKeepTheirDistance) {
+  constexpr int D = TypeParam::value;
+  for (const DiskType disk : {DiskType::type1, DiskType::type2}) {
+    RefineOptions<D> options;
+    options.selector = hashed_points<D>;
+    options.disk.type = disk;
+    options.radius_edge_bound = 2.5;
+    const auto [result, report] = refine_and_check<D>(box_with_pairs<D>(D == 2 ? 100 : 15, 0.002, 5), options);
+    EXPECT_EQ(report.exit_code(), 0) << test::findings(report);
+    EXPECT_EQ(result.poor_left, 0u);
+    EXPECT_TRUE(result.delaunay);
+    EXPECT_GT(result.statistics.selector_further, 50u);
+    EXPECT_GT(result.statistics.selector_dropped, 50u);
+    EXPECT_LT(result.statistics.selector_further, result.statistics.insertions_committed);
+    EXPECT_GE(squared_shortest_edge(result.mesh), 0.25 * 0.002 * 0.002 * (1 - 1e-9));
+  }
+}
+
+// What may not go in changes nothing: too near to the first point, to the element's corners or beyond its circumsphere, nowhere.
+// Nor does it where no first point is in the disk.
+TYPED_TEST(SelectorsRefine, FurtherPointsThatMayNotGoIn) {
+  constexpr int D = TypeParam::value;
+  const Plc<D> plc = box_with_pairs<D>(20, 0.01, 2);
+  RefineOptions<D> options;
+  options.disk.type = DiskType::type1;
+  options.min_dihedral = 0;
+  options.selector = {};
+  const auto plain = refine<D>(plc, options);
+  std::uint64_t outside = 0;
+  options.selector = [](const PoorElement<D>& e) {
+    const auto moved = [&](double by) {
+      Point<D> p = e.circumcenter;
+      p[0] += by;
+      return p;
+    };
+    Point<D> beside_corner = e.corners[0];
+    for (int k = 0; k < D; ++k)
+      beside_corner[k] += (e.circumcenter[k] - beside_corner[k]) * 0.5 * e.shortest_edge / e.circumradius;
+    return SelectedPoints<D>{e.circumcenter,
+                             moved(0.99 * e.shortest_edge),
+                             e.corners[1],
+                             beside_corner,
+                             moved(1.01 * e.circumradius),
+                             moved(1e300),
+                             moved(NAN),
+                             e.circumcenter};
+  };
+  for (const bool is_first_outside : {false, true}) {
+    if (is_first_outside)
+      options.selector = [](const PoorElement<D>& e) { return SelectedPoints<D>{e.corners[0], e.circumcenter}; };
+    const auto result = refine<D>(plc, options);
+    test::expect_same_mesh<D>(result.mesh, plain.mesh);
+    EXPECT_EQ(result.statistics.selector_further, 0u);
+    EXPECT_EQ(result.statistics.selector_dropped > 100, !is_first_outside);
+    outside += result.statistics.selector_outside;
+  }
+  EXPECT_GT(outside, 0u);
+}
+
+// They count as insertions where these are limited.
+TYPED_TEST(SelectorsRefine, FurtherPointsKeepToTheLimitOfVertices) {
+  constexpr int D = TypeParam::value;
+  RefineOptions<D> options;
+  options.selector = hashed_points<D>;
+  options.disk.type = DiskType::type1;
+  options.max_vertices = D == 2 ? 300 : 200;
+  const auto result = refine<D>(box_with_pairs<D>(D == 2 ? 100 : 40, 0.002, 5), options);
+  EXPECT_EQ(result.stop, StopCause::max_vertices);
+  EXPECT_EQ(result.mesh.points.size(), options.max_vertices);
 }
 
 // A selector that takes its time, now and then, on eight threads.

@@ -126,6 +126,43 @@ TYPED_TEST(SelectorBlocks, UniformAndOnRanks) {
   EXPECT_GT(test::expect_same_on_ranks<D>(plc, options, 3, 1).cut_cells, 0u);
 }
 
+/// Some points more, inside the circumsphere.
+template <int D>
+SelectedPoints<D> several(const PoorElement<D>& e) {
+  SelectedPoints<D> points;
+  for (const double far : {0.5, -0.5, -0.9}) points.push_back(towards_a_corner<D>(far * (points.empty() ? 1 : 2))(e));
+  return points;
+}
+
+// Of several points: the same element by element, by blocks, for any number of threads, with all schedules and on ranks.
+TYPED_TEST(SelectorBlocks, SeveralPoints) {
+  constexpr int D = TypeParam::value;
+  const test::AllowThreads allow(8);
+  const Plc<D> plc = test::box_with_pairs<D>(D == 2 ? 100 : 20, 0.01, 3);
+  const auto by_blocks = PointSelector<D>::by_blocks_of_several(
+      [](std::span<const PoorElement<D>> e, std::span<SelectedPoints<D>> points) {
+        for (std::size_t i = 0; i < e.size(); ++i) points[i] = several<D>(e[i]);
+      });
+  for (const bool is_uniform : {false, true}) {
+    RefineOptions<D> options = is_uniform ? test::uniform_options<D>(D == 2 ? 0.001 : 0.12) : RefineOptions<D>{};
+    options.disk.type = DiskType::type1;
+    options.schedule.floor = 5;
+    options.selector = several<D>;
+    options.schedule.threads = 1;
+    const auto wanted = test::checked_alone<D>(plc, options);
+    EXPECT_GT(wanted.statistics.selector_further, 10u);
+    options.selector = by_blocks;
+    for (const int threads : {1, 2, 8}) {
+      options.schedule.threads = threads;
+      test::expect_same<D>(wanted, refine(plc, options), std::to_string(threads) + " threads");
+    }
+  }
+  RefineOptions<D> options = test::uniform_options<D>(D == 2 ? 0.001 : 0.12);
+  options.disk.type = DiskType::type1;
+  options.selector = by_blocks;
+  EXPECT_GT(test::expect_same_on_ranks<D>(plc, options, 3, 1).cut_cells, 0u);
+}
+
 TEST(SelectorBlocksModels, Regions) {
   RefineOptions<3> options;
   options.schedule.floor = 60;

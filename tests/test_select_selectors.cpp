@@ -284,8 +284,59 @@ TYPED_TEST(Selectors, HoldAnyFunctor) {
   EXPECT_THROW(asks(e, nobody), std::logic_error);
   simple = asks;
   EXPECT_THROW(simple(e, nobody), std::logic_error);
+  EXPECT_FALSE(simple.is_of_several());
+  EXPECT_EQ(PointSelector<D>([](const PoorElement<D>& x) { return x.corners[1]; }).all(e, nobody).size(), 1u);
   simple = nullptr;
   EXPECT_FALSE(simple);
+}
+
+TYPED_TEST(Selectors, OfSeveralPoints) {
+  constexpr int D = TypeParam::value;
+  const PoorElement<D> e = poor_elements<D>(bound_of<D>(), {}, 1)[0];
+  auto nobody = unasked<D>();
+  const auto corners = [](const PoorElement<D>& x) {
+    SelectedPoints<D> points;
+    for (const Point<D>& p : x.corners) points.push_back(p);
+    return points;
+  };
+  const auto asking = [&](const PoorElement<D>& x, Neighborhood<D>&) { return corners(x); };
+  const auto blocks = [&](std::span<const PoorElement<D>> x, std::span<SelectedPoints<D>> points) {
+    for (std::size_t i = 0; i < x.size(); ++i) points[i] = corners(x[i]);
+  };
+  for (const PointSelector<D>& s :
+       {PointSelector<D>(corners), PointSelector<D>(asking), PointSelector<D>::by_blocks_of_several(blocks)}) {
+    EXPECT_TRUE(s);
+    EXPECT_TRUE(s.is_of_several());
+    EXPECT_EQ(s(e, nobody), e.corners[0]);
+    const SelectedPoints<D> all = s.all(e, nobody);
+    ASSERT_EQ(all.size(), static_cast<std::size_t>(D + 1));
+    EXPECT_EQ(all[D], e.corners[D]);
+  }
+  SelectedPoints<D> points;
+  EXPECT_NE(points.first(), points.first());  // NaN
+  for (std::size_t i = 0; i < SelectedPoints<D>::most; ++i) points.push_back(e.corners[0]);
+  EXPECT_THROW(points.push_back(e.corners[0]), std::length_error);
+  EXPECT_FALSE(PointSelector<D>::by_blocks_of_several(nullptr));
+}
+
+// Uniform in the disk: the mean of the draws is near the centre, and so is half of them within the radius of half of the volume.
+TYPED_TEST(Selectors, RandomPointsFillTheDisk) {
+  constexpr int D = TypeParam::value;
+  auto nobody = unasked<D>();
+  int within = 0, all = 0;
+  Point<D> mean;
+  for (const PoorElement<D>& e : poor_elements<D>(bound_of<D>(), {DiskType::type1}, 20))
+    for (std::uint32_t seed = 0; seed < 100; ++seed) {
+      const Point<D> p = randomized<D>(seed)(e, nobody);
+      ASSERT_TRUE(inside(e.disk, p));
+      EXPECT_EQ(p, randomized<D>(seed)(e, nobody));
+      within += squared_distance(p, e.disk.center) < std::pow(0.5, 2.0 / D) * e.disk.radius * e.disk.radius ? 1 : 0;
+      for (int k = 0; k < D; ++k) mean[k] += (p[k] - e.disk.center[k]) / e.disk.radius;
+      ++all;
+    }
+  EXPECT_EQ(all, 2000);
+  EXPECT_NEAR(within / 2000.0, 0.5, 0.05);
+  for (int k = 0; k < D; ++k) EXPECT_NEAR(mean[k] / 2000, 0, 0.05);
 }
 
 }  // namespace pgdr::test_select_selectors

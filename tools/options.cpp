@@ -180,7 +180,7 @@ void add_run(CLI::App& app, MeshArguments& a) {
                "triangulation with its boundary recovered");
   app.add_option("--selector", a.selector,
                  "where new points go: circumcenter (default in 3D), off-center[:FACTOR] (default in 2D), "
-                 "optimized[:SAMPLES], sliver-avoiding[:CANDIDATES]")
+                 "optimized[:SAMPLES], sliver-avoiding[:CANDIDATES], random[:SEED]")
       ->type_name("NAME")
       ->check(CLI::Validator([](std::string& text) { return selector_error(text); }, "", "selector"));
   app.add_option_function<std::string>(

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include "pgdr/selectors.hpp"
@@ -11,7 +12,7 @@
 namespace pgdr::tool {
 namespace {
 
-enum class Kind { circumcenter, off_center, optimized, sliver_avoiding };
+enum class Kind { circumcenter, off_center, optimized, sliver_avoiding, random };
 
 struct Named {
   const char* name;
@@ -20,8 +21,9 @@ struct Named {
 constexpr Named known[] = {{"circumcenter", Kind::circumcenter},
                            {"off-center", Kind::off_center},
                            {"optimized", Kind::optimized},
-                           {"sliver-avoiding", Kind::sliver_avoiding}};
-constexpr double most_samples = 1000000;
+                           {"sliver-avoiding", Kind::sliver_avoiding},
+                           {"random", Kind::random}};
+constexpr double most_samples = 1000000, most_seed = 4294967295;
 
 struct Choice {
   Kind kind = Kind::circumcenter;
@@ -48,6 +50,10 @@ std::string parse(const std::string& text, Choice& choice) {
   choice.parameter = value;
   if (choice.kind == Kind::off_center)
     return is_number && value > 0 ? "" : "the factor of off-center must be a number > 0, not \"" + text + '"';
+  if (choice.kind == Kind::random)
+    return is_number && value >= 0 && value <= most_seed && value == std::floor(value)
+               ? ""
+               : "the seed of random must be a whole number from 0 to 4294967295, not \"" + text + '"';
   const bool is_count = is_number && value >= 1 && value <= most_samples && value == std::floor(value);
   return is_count
              ? ""
@@ -74,6 +80,7 @@ PointSelector<D> make_selector(const std::string& text) {
     case Kind::off_center: return p ? off_center<D>(*p) : off_center<D>();
     case Kind::optimized: return p ? optimized<D>(static_cast<int>(*p)) : optimized<D>();
     case Kind::sliver_avoiding: return p ? sliver_avoiding<D>(static_cast<int>(*p)) : sliver_avoiding<D>();
+    case Kind::random: return randomized<D>(p ? static_cast<std::uint32_t>(*p) : 0);
     case Kind::circumcenter: break;
   }
   return {};

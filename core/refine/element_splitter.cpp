@@ -45,8 +45,9 @@ Outcome ElementSplitter<D>::split(const Entry<D>& e) {
   }
   const Point<D> center = mesh_->is_accurate(sphere) ? sphere.center : circumsphere<D>(mesh_->simplex(e.cell)).center;
   c.x = center;
+  further_.clear();
   if (w_->options.selector && c.verdict.over_radius_edge) {
-    const auto selected = selected_point<D>(*w_, answers_, e, center);
+    const auto selected = selected_point<D>(*w_, answers_, e, center, further_);
     if (!selected) return Outcome::not_owned;
     c.x = *selected;
   }
@@ -62,7 +63,13 @@ Outcome ElementSplitter<D>::split(const Entry<D>& e) {
     ++w_->visit->counts.refused;
     return Outcome::refused;
   }
+  if (!further_.empty()) {
+    const Demand demand = demand_of(c);
+    if (!further_.look_ahead(e.cell, std::max(demand.d, demand.h))) return Outcome::not_owned;
+    c.leads = true;
+  }
   Outcome outcome = insert(c);
+  c.leads = false;
   if (outcome == Outcome::refused && !(c.x == center) && detail::is_finite(center) && w_->alive(e)) {
     cavity_->release();
     c.x = center;
@@ -88,8 +95,10 @@ Outcome ElementSplitter<D>::insert(const Candidate<D>& c) {
   Outcome outcome = obstacle.outcome;
   if (obstacle.entity)
     outcome = pass_by(*obstacle.entity, c);
-  else if (outcome == Outcome::committed)
+  else if (outcome == Outcome::committed) {
     outcome = commit(c);
+    if (outcome == Outcome::committed && c.leads) further_.insert();
+  }
   // An entity that was refused in place of the element has been counted, if it was asked anew.
   w_->visit->counts.refused += outcome == Outcome::refused ? 1 : 0;
   return outcome;

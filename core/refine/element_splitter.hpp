@@ -5,6 +5,8 @@
 // blocks it and the insertion rule allows. An entity that blocks it is split in its place:
 //
 //   candidate -> blocked by? -> judged -> committed -> listed      (ElementSplitter::insert, Inserter::commit)
+//
+// A selector may want further points in the same element (further_points.hpp), which go in behind the candidate.
 #pragma once
 
 #include <optional>
@@ -27,6 +29,7 @@ struct Candidate {
   Point<D> x;                   ///< the point
   bool at_center = true;        ///< is x the circumcentre, where there is no selector?
   bool is_beside_kept = false;  ///< what is kept blocks the circumcentre
+  bool leads = false;           ///< do further points of the selector follow it?
 };
 
 /// Splits poor elements. Part of a worker: one thread at a time.
@@ -42,7 +45,8 @@ class ElementSplitter {
         lister_(&lister),
         inserter_(&inserter),
         repair_(&repair),
-        entities_(&entities) {}
+        entities_(&entities),
+        further_(workspace, inserter) {}
 
   /// Must be called before the visit does anything.
   void begin_visit() { answers_.begin_visit(); }
@@ -85,6 +89,7 @@ class ElementSplitter {
   DelaunayRepair<D>* repair_;
   EntitySplitter<D>* entities_;
   SelectorAnswers<D> answers_;  ///< in the visit
+  FurtherPoints<D> further_;    ///< of the element that is split
 };
 
 extern template class ElementSplitter<2>;

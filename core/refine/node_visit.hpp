@@ -18,6 +18,8 @@ struct RefineCounts {
   std::uint64_t committed = 0;         ///< insertions
   std::uint64_t refused = 0;           ///< entries that stay as they are: the insertion rule, or the stage, found nothing
   std::uint64_t selector_outside = 0;  ///< points of the selector outside their disk
+  std::uint64_t selector_further = 0;  ///< of the insertions: further points of a selector of several
+  std::uint64_t selector_dropped = 0;  ///< further points that were left out, where the first went in
   // The optimiser; what it undid does not count.
   std::uint64_t moves = 0;          ///< vertices that got another place
   std::uint64_t edge_removals = 0;  ///< edges that went, and faces in whose place one came
@@ -33,6 +35,8 @@ struct RefineCounts {
     committed += o.committed;
     refused += o.refused;
     selector_outside += o.selector_outside;
+    selector_further += o.selector_further;
+    selector_dropped += o.selector_dropped;
     moves += o.moves;
     edge_removals += o.edge_removals;
     reconnections += o.reconnections;

@@ -159,7 +159,7 @@ void SelectorAnswers<D>::ask(const Workspace<D>& w, const Entry<D>& next, const 
   if (std::exchange(is_first_, false)) std::for_each(w.visit->given.begin(), w.visit->given.end(), add_too);
   if (w.visit->treat_list) w.visit->list->for_next(next, most, add_too);
   points_.resize(elements_.size());
-  w.options.selector(std::span<const PoorElement<D>>(elements_), std::span<Point<D>>(points_));
+  w.options.selector.all(std::span<const PoorElement<D>>(elements_), std::span<SelectedPoints<D>>(points_));
   if (answers_.size() >= 2 * most) drop_dead(w.mesh);
   for (std::size_t i = 0; i < entries_.size(); ++i)
     answers_.insert_or_assign(index(entries_[i].cell), Answer{entries_[i].birth, points_[i]});
@@ -172,23 +172,29 @@ void SelectorAnswers<D>::drop_dead(const Mesh<D>& mesh) {
 }
 
 template <int D>
-Point<D> SelectorAnswers<D>::point_of(const Workspace<D>& w, const Entry<D>& e, const PoorElement<D>& element) {
+const SelectedPoints<D>& SelectorAnswers<D>::points_of(const Workspace<D>& w, const Entry<D>& e, const PoorElement<D>& element) {
   if (!has(e)) ask(w, e, element);
-  return answers_.find(index(e.cell))->second.point;
+  return answers_.find(index(e.cell))->second.points;
 }
 
 template <int D>
-std::optional<Point<D>> selected_point(Workspace<D>& w, SelectorAnswers<D>& answers, const Entry<D>& e, const Point<D>& center) {
+std::optional<Point<D>> selected_point(Workspace<D>& w, SelectorAnswers<D>& answers, const Entry<D>& e, const Point<D>& center,
+                                       FurtherPoints<D>& further) {
   const PoorElement<D> element = poor_element<D>(w, e.cell, center);
+  const auto is_fit = [&](const Point<D>& p) { return p == center || inside(element.disk, p); };
+  const auto take_all = [&](const SelectedPoints<D>& points) {
+    if (is_fit(points.first())) further.take(points, element);
+    return points.first();
+  };
   Point<D> p;
   if (w.options.selector.is_by_blocks()) {
-    p = answers.point_of(w, e, element);
+    p = take_all(answers.points_of(w, e, element));
   } else {
     View<D> view(w, e.cell, element.disk);
-    p = w.options.selector(element, view);
+    p = w.options.selector.is_of_several() ? take_all(w.options.selector.all(element, view)) : w.options.selector(element, view);
     if (view.ended()) return std::nullopt;
   }
-  if (p == center || inside(element.disk, p)) return p;
+  if (is_fit(p)) return p;
   if (w.options.outside == OutsidePolicy::error) {
     Diagnostic d{Errc::bad_option, "the selector returned a point outside the selection disk", {}, 0, {}, {}};
     for (const Point<D>& q : {p, element.disk.center}) d.points.push_back({q[0], q[1], D == 3 ? q[D - 1] : 0.0});
@@ -200,7 +206,9 @@ std::optional<Point<D>> selected_point(Workspace<D>& w, SelectorAnswers<D>& answ
 
 template class SelectorAnswers<2>;
 template class SelectorAnswers<3>;
-template std::optional<Point<2>> selected_point(Workspace<2>&, SelectorAnswers<2>&, const Entry<2>&, const Point<2>&);
-template std::optional<Point<3>> selected_point(Workspace<3>&, SelectorAnswers<3>&, const Entry<3>&, const Point<3>&);
+template std::optional<Point<2>> selected_point(Workspace<2>&, SelectorAnswers<2>&, const Entry<2>&, const Point<2>&,
+                                                FurtherPoints<2>&);
+template std::optional<Point<3>> selected_point(Workspace<3>&, SelectorAnswers<3>&, const Entry<3>&, const Point<3>&,
+                                                FurtherPoints<3>&);
 
 }  // namespace pgdr

@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "refine/further_points.hpp"
 #include "refine/workspace.hpp"
 
 namespace pgdr {
@@ -27,13 +28,13 @@ class SelectorAnswers {
     answers_.clear();
     is_first_ = true;
   }
-  /// Where the selector puts the point of this element, which is that of the entry. @throws what the selector throws
-  Point<D> point_of(const Workspace<D>& w, const Entry<D>& e, const PoorElement<D>& element);
+  /// Where the selector puts the points of this element, which is that of the entry. @throws what the selector throws
+  const SelectedPoints<D>& points_of(const Workspace<D>& w, const Entry<D>& e, const PoorElement<D>& element);
 
  private:
   struct Answer {
     std::uint16_t birth;
-    Point<D> point;
+    SelectedPoints<D> points;
   };
 
   bool has(const Entry<D>& e) const {
@@ -48,14 +49,16 @@ class SelectorAnswers {
   bool is_first_ = true;                               ///< was nothing asked for in this visit?
   std::vector<Entry<D>> entries_;                      // scratch of ask()
   std::vector<PoorElement<D>> elements_;
-  std::vector<Point<D>> points_;
+  std::vector<SelectedPoints<D>> points_;
 };
 
-/// Where the selector puts the point of an entry's cell, which is over the radius-edge bound; nothing if the claim is too small
-/// to tell. `center`: the cell's circumcentre. Uses the cavity, which must be empty.
+/// Where the selector puts the (first) point of an entry's cell, which is over the radius-edge bound; nothing if the claim is too
+/// small to tell. `center`: the cell's circumcentre. Gives the other points to `further`, if the first is in the disk: these go
+/// by what the first needs. Uses the cavity, which must be empty.
 /// @throws UsageError bad_option for a point outside the disk, if the caller wants that to be an error; what the selector throws
 template <int D>
-std::optional<Point<D>> selected_point(Workspace<D>& w, SelectorAnswers<D>& answers, const Entry<D>& e, const Point<D>& center);
+std::optional<Point<D>> selected_point(Workspace<D>& w, SelectorAnswers<D>& answers, const Entry<D>& e, const Point<D>& center,
+                                       FurtherPoints<D>& further);
 
 extern template class SelectorAnswers<2>;
 extern template class SelectorAnswers<3>;

@@ -6,14 +6,18 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <span>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "pgdr/export.hpp"
 #include "pgdr/types.hpp"
@@ -99,6 +103,47 @@ class Neighborhood {
   ~Neighborhood() = default;
 };
 
+/// Where the points of one poor element go: the first in its selection disk, others, if there are any, inside its circumsphere.
+/// These are *further points*: each goes in behind the first, in their order, if it is as far from all vertices that are there by
+/// then as every point of the disk is from the element's (docs/selectors.md, "Several points"), and is left out if not. Converts
+/// from a point. Copies are independent; const calls are safe from several threads.
+template <int D>
+class SelectedPoints {
+ public:
+  static constexpr std::size_t most = 8;  ///< points of one element
+
+  SelectedPoints() = default;                                  ///< none: as a point outside of the disk
+  SelectedPoints(const Point<D>& p) : points_{p}, size_(1) {}  ///< one
+  /// As many as `most` of them. @throws std::length_error
+  SelectedPoints(std::initializer_list<Point<D>> points) {
+    for (const Point<D>& p : points) push_back(p);
+  }
+
+  /// Adds one behind the others. @throws std::length_error beyond `most`
+  void push_back(const Point<D>& p) {
+    if (size_ == most) throw std::length_error("a selector puts eight points or fewer into an element");
+    points_[size_++] = p;
+  }
+  void clear() { size_ = 0; }                                             ///< none are left
+  std::size_t size() const { return size_; }                              ///< so many points
+  bool empty() const { return size_ == 0; }                               ///< are there none?
+  const Point<D>& operator[](std::size_t i) const { return points_[i]; }  ///< the i-th. @pre i < size()
+  const Point<D>* begin() const { return points_.data(); }                ///< the first
+  const Point<D>* end() const { return points_.data() + size_; }          ///< behind the last
+  /// The first; of none one of NaN, which is in no disk.
+  Point<D> first() const { return size_ > 0 ? points_[0] : nowhere(); }
+  /// A point of NaN.
+  static Point<D> nowhere() {
+    Point<D> p;
+    p.x.fill(std::numeric_limits<double>::quiet_NaN());
+    return p;
+  }
+
+ private:
+  std::array<Point<D>, most> points_;
+  std::size_t size_ = 0;
+};
+
 /// Where the points of many poor elements go: puts that of elements[i] into points[i], for all i, and keeps neither span. Each
 /// must be a function of its element alone, whatever block the element is in, and of elements that are never treated too: a visit
 /// asks for the element that is next together with those that wait behind it, and some of these go before their turn. It is
@@ -107,9 +152,13 @@ class Neighborhood {
 template <int D>
 using SelectorBlock = std::function<void(std::span<const PoorElement<D>> elements, std::span<Point<D>> points)>;
 
+/// The same for selectors of several points. What it leaves as it is has none, as a point outside of the disk.
+template <int D>
+using SeveralSelectorBlock = std::function<void(std::span<const PoorElement<D>> elements, std::span<SelectedPoints<D>> points)>;
+
 /// Where the point of a poor element goes. Holds any `Point<D>(const PoorElement<D>&)`, or, to look at the mesh about the
-/// element, `Point<D>(const PoorElement<D>&, Neighborhood<D>&)`; empty: the circumcentre. See selectors.hpp for those that
-/// come with the library.
+/// element, `Point<D>(const PoorElement<D>&, Neighborhood<D>&)`; either may return `SelectedPoints<D>`, up to eight. Empty: the
+/// circumcentre. See selectors.hpp for those that come with the library.
 template <int D>
 class PointSelector {
  public:
@@ -118,14 +167,20 @@ class PointSelector {
   /// Holds a copy of f, which is called from several threads at once; empty if f is an empty std::function.
   template <class F>
   requires(!std::same_as<std::remove_cvref_t<F>, PointSelector> &&
-           (std::is_invocable_r_v<Point<D>, std::decay_t<F>&, const PoorElement<D>&> ||
+           (std::is_invocable_r_v<SelectedPoints<D>, std::decay_t<F>&, const PoorElement<D>&> ||
+            std::is_invocable_r_v<SelectedPoints<D>, std::decay_t<F>&, const PoorElement<D>&, Neighborhood<D>&> ||
+            std::is_invocable_r_v<Point<D>, std::decay_t<F>&, const PoorElement<D>&> ||
             std::is_invocable_r_v<Point<D>, std::decay_t<F>&, const PoorElement<D>&, Neighborhood<D>&>)) PointSelector(F&& f) {
-    if constexpr (std::is_invocable_r_v<Point<D>, std::decay_t<F>&, const PoorElement<D>&>) {
-      std::function<Point<D>(const PoorElement<D>&)> simple(std::forward<F>(f));
-      if (simple) call_ = [simple = std::move(simple)](const PoorElement<D>& e, Neighborhood<D>&) { return simple(e); };
-    } else {
+    using Function = std::decay_t<F>&;
+    using Element = const PoorElement<D>&;
+    if constexpr (std::is_invocable_r_v<Point<D>, Function, Element>)
+      hold_simple(call_, std::function<Point<D>(Element)>(std::forward<F>(f)));
+    else if constexpr (std::is_invocable_r_v<Point<D>, Function, Element, Neighborhood<D>&>)
       call_ = std::forward<F>(f);
-    }
+    else if constexpr (std::is_invocable_r_v<SelectedPoints<D>, Function, Element>)
+      hold_simple(several_, std::function<SelectedPoints<D>(Element)>(std::forward<F>(f)));
+    else
+      several_ = std::forward<F>(f);
   }
 
   /// A function that is asked by blocks; empty if it is empty. It makes the mesh that the same function makes element by element.
@@ -134,32 +189,66 @@ class PointSelector {
     if (!block) return selector;
     selector.block_ = std::make_shared<const SelectorBlock<D>>(std::move(block));
     selector.call_ = [block = selector.block_](const PoorElement<D>& element, Neighborhood<D>&) {
-      Point<D> point = unset();
+      Point<D> point = SelectedPoints<D>::nowhere();
       (*block)({&element, 1}, {&point, 1});
       return point;
     };
     return selector;
   }
+  /// The same of several points each.
+  static PointSelector by_blocks_of_several(SeveralSelectorBlock<D> block) {
+    PointSelector selector;
+    if (!block) return selector;
+    selector.several_block_ = std::make_shared<const SeveralSelectorBlock<D>>(std::move(block));
+    selector.several_ = [block = selector.several_block_](const PoorElement<D>& element, Neighborhood<D>&) {
+      SelectedPoints<D> points;
+      (*block)({&element, 1}, {&points, 1});
+      return points;
+    };
+    return selector;
+  }
 
-  explicit operator bool() const { return static_cast<bool>(call_); }  ///< is there a function?
-  bool is_by_blocks() const { return block_ != nullptr; }              ///< is it to be asked for many elements at once?
-  /// Where the function puts the point; throws what it throws. @pre not empty.
-  Point<D> operator()(const PoorElement<D>& element, Neighborhood<D>& neighborhood) const { return call_(element, neighborhood); }
-  /// Where it puts the points of the elements, asked as one block; throws what it throws. @pre is_by_blocks(); as many points
+  explicit operator bool() const { return call_ || several_; }        ///< is there a function?
+  bool is_by_blocks() const { return block_ || several_block_; }      ///< is it to be asked for many elements at once?
+  bool is_of_several() const { return static_cast<bool>(several_); }  ///< may it put several points into an element?
+  /// Where the function puts the (first) point; throws what it throws. @pre not empty.
+  Point<D> operator()(const PoorElement<D>& element, Neighborhood<D>& neighborhood) const {
+    return call_ ? call_(element, neighborhood) : several_(element, neighborhood).first();
+  }
+  /// Where it puts all; throws what it throws. @pre not empty
+  SelectedPoints<D> all(const PoorElement<D>& element, Neighborhood<D>& neighborhood) const {
+    return several_ ? several_(element, neighborhood) : SelectedPoints<D>(call_(element, neighborhood));
+  }
+  /// Where it puts the (first) points of the elements, asked as one block; throws what it throws. @pre is_by_blocks(); as many
+  /// points
   void operator()(std::span<const PoorElement<D>> elements, std::span<Point<D>> points) const {
-    std::fill(points.begin(), points.end(), unset());
-    (*block_)(elements, points);
+    std::fill(points.begin(), points.end(), SelectedPoints<D>::nowhere());
+    if (block_) return (*block_)(elements, points);
+    std::vector<SelectedPoints<D>> several(elements.size());
+    (*several_block_)(elements, several);
+    for (std::size_t i = 0; i < points.size(); ++i) points[i] = several[i].first();
+  }
+  /// The same with all points of each.
+  void all(std::span<const PoorElement<D>> elements, std::span<SelectedPoints<D>> points) const {
+    std::fill(points.begin(), points.end(), SelectedPoints<D>());
+    if (several_block_) return (*several_block_)(elements, points);
+    std::vector<Point<D>> one(elements.size(), SelectedPoints<D>::nowhere());
+    (*block_)(elements, one);
+    std::copy(one.begin(), one.end(), points.begin());
   }
 
  private:
-  static Point<D> unset() {
-    Point<D> point;
-    point.x.fill(std::numeric_limits<double>::quiet_NaN());
-    return point;
+  template <class Result>
+  static void hold_simple(std::function<Result(const PoorElement<D>&, Neighborhood<D>&)>& to,
+                          std::function<Result(const PoorElement<D>&)> f) {
+    if (f) to = [f = std::move(f)](const PoorElement<D>& e, Neighborhood<D>&) { return f(e); };
   }
 
+  // Of the first two one is set, or none; of the others that of the same kind, if it is asked by blocks.
   std::function<Point<D>(const PoorElement<D>&, Neighborhood<D>&)> call_;
-  std::shared_ptr<const SelectorBlock<D>> block_;  ///< null: asked element by element
+  std::function<SelectedPoints<D>(const PoorElement<D>&, Neighborhood<D>&)> several_;
+  std::shared_ptr<const SelectorBlock<D>> block_;
+  std::shared_ptr<const SeveralSelectorBlock<D>> several_block_;
 };
 
 /// The default of RefineOptions: in 2D off-centres (`off_center<2>()` of selectors.hpp), in disks of type 1, which make fewer

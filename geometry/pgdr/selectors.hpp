@@ -7,6 +7,8 @@
 // there is. Any thread; each call as one thread.
 #pragma once
 
+#include <cstdint>
+
 #include "pgdr/export.hpp"
 #include "pgdr/point_selector.hpp"
 
@@ -42,5 +44,11 @@ PointSelector<D> optimized(int samples = D == 2 ? 64 : 1000);
 /// @throws UsageError bad_option unless 1 <= candidates <= 1000000
 template <int D>
 PointSelector<D> sliver_avoiding(int candidates = 20);
+
+/// A point of the disk drawn at random, uniformly (section 4.1 of the dissertation leaves such selectors to later work). The draw
+/// is a hash of the seed and of the element's corners, in a unit that goes with them: the mesh is the same for any number of
+/// threads, and another for another seed. The circumcentre where 64 draws from a cube about the disk miss it.
+template <int D>
+PointSelector<D> randomized(std::uint32_t seed = 0);
 
 }  // namespace pgdr

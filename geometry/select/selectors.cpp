@@ -188,7 +188,7 @@ Point3 best_in_ball(const PoorElement<3>& e, Neighborhood<3>& neighborhood, cons
 template <int D>
 class Draw {
  public:
-  explicit Draw(const PoorElement<D>& e) {
+  explicit Draw(const PoorElement<D>& e, std::uint32_t seed = 0) : state_(0x9e3779b97f4a7c15 ^ seed) {
     const int exponent = -std::ilogb(e.circumradius);
     for (const Point<D>& p : e.corners)
       for (int i = 0; i < D; ++i) state_ = mix(state_ ^ std::bit_cast<std::uint64_t>(std::scalbn(p[i], exponent) + 0.0));
@@ -204,7 +204,7 @@ class Draw {
     z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
     return z ^ (z >> 31);
   }
-  std::uint64_t state_ = 0x9e3779b97f4a7c15;
+  std::uint64_t state_;
 };
 
 /// A point of the disk, uniformly; by rejection, so that it may fail, as it does where the disk is too small for its doubles.
@@ -236,6 +236,14 @@ Point<D> sharpest_avoided(const PoorElement<D>& e, Neighborhood<D>& neighborhood
   return best;
 }
 
+template <int D>
+Point<D> drawn(const PoorElement<D>& e, std::uint32_t seed) {
+  if (!(e.disk.radius > 0)) return e.circumcenter;
+  Draw<D> draw(e, seed);
+  Point<D> p;
+  return draw_in(e.disk, draw, p) ? p : e.circumcenter;
+}
+
 constexpr int most_samples = 1000000;
 
 }  // namespace
@@ -263,6 +271,11 @@ PointSelector<D> sliver_avoiding(int candidates) {
 }
 
 template <int D>
+PointSelector<D> randomized(std::uint32_t seed) {
+  return [seed](const PoorElement<D>& e) { return drawn<D>(e, seed); };
+}
+
+template <int D>
 PointSelector<D> default_selector() {
   if constexpr (D == 2) return off_center<2>();
   return {};
@@ -276,5 +289,7 @@ template PGDR_API PointSelector<2> optimized<2>(int);
 template PGDR_API PointSelector<3> optimized<3>(int);
 template PGDR_API PointSelector<2> sliver_avoiding<2>(int);
 template PGDR_API PointSelector<3> sliver_avoiding<3>(int);
+template PGDR_API PointSelector<2> randomized<2>(std::uint32_t);
+template PGDR_API PointSelector<3> randomized<3>(std::uint32_t);
 
 }  // namespace pgdr

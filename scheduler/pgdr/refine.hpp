@@ -48,6 +48,8 @@ struct RefineStatistics {
   /// (refine/subsegment_ring.hpp), and elements that lean on the refusal of an entity, which counts once.
   std::uint64_t insertions_refused = 0;
   std::uint64_t selector_outside = 0;  ///< points of the selector outside their disk, replaced
+  std::uint64_t selector_further = 0;  ///< of the insertions: further points of a selector of several (SelectedPoints)
+  std::uint64_t selector_dropped = 0;  ///< further points that were left out, where the first went in
   PredicateCounts predicates;          ///< of all threads
 };
 

@@ -15,8 +15,9 @@ template <class AnyOutlook, class F>
 void each_field(AnyOutlook& o, const F& f) {
   auto& t = o.totals;
   const auto all = [&](auto&... values) { (f(values), ...); };
-  all(o.stop, o.first, o.visits, o.is_any_left, t.counts.committed, t.counts.refused, t.counts.selector_outside, t.counts.removed,
-      t.vertices, t.violations_seen, t.entities_refused, t.min_edge_hit);
+  all(o.stop, o.first, o.visits, o.is_any_left, t.counts.committed, t.counts.refused, t.counts.selector_outside,
+      t.counts.selector_further, t.counts.selector_dropped, t.counts.removed, t.vertices, t.violations_seen, t.entities_refused,
+      t.min_edge_hit);
 }
 
 }  // namespace
@@ -64,6 +65,8 @@ RunTotals operator-(const RunTotals& now, const RunTotals& then) {
   since.counts.committed -= then.counts.committed;
   since.counts.refused -= then.counts.refused;
   since.counts.selector_outside -= then.counts.selector_outside;
+  since.counts.selector_further -= then.counts.selector_further;
+  since.counts.selector_dropped -= then.counts.selector_dropped;
   since.counts.removed -= then.counts.removed;
   since.vertices -= then.vertices;
   return since;

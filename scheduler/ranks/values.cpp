@@ -121,8 +121,8 @@ void result_fields(Message& message, Value& r) {
   message.each(r.regions, sizeof(RegionVolume::label),
                [&](auto& region) { message(region.label, region.volume_meshed, region.volume_given); });
   auto& s = r.statistics;
-  message(s.segment_points, s.facet_points, s.insertions_committed, s.insertions_refused, s.selector_outside, s.seconds_mesh,
-          s.seconds_initial, s.seconds_refine, s.seconds_optimize, s.predicates);
+  message(s.segment_points, s.facet_points, s.insertions_committed, s.insertions_refused, s.selector_outside, s.selector_further,
+          s.selector_dropped, s.seconds_mesh, s.seconds_initial, s.seconds_refine, s.seconds_optimize, s.predicates);
   message(r.scheduler.leaves, r.scheduler.generations, r.scheduler.cycles, r.scheduler.visits, r.scheduler.set_aside);
   message(r.optimization, r.delaunay, r.violations_seen, r.unused_points, r.tolerance, r.largest_move);
   for (auto* diagnostics : {&r.repairs, &r.warnings})

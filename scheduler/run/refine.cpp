@@ -41,9 +41,7 @@ namespace pgdr {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
 constexpr double most_practical_dihedral = 30;  // degrees
-
 double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
 
 [[noreturn]] void bad_option(const std::string& what) { throw UsageError({Errc::bad_option, what, {}, 0, {}, {}}); }
@@ -265,6 +263,8 @@ Refined<D> refine_mesh(RefineContext<D>& context, typename Mesh<D>::Pools pools,
   result.statistics.insertions_committed = counts.committed;
   result.statistics.insertions_refused = counts.refused;
   result.statistics.selector_outside = state.totals.counts.selector_outside;
+  result.statistics.selector_further = state.totals.counts.selector_further;
+  result.statistics.selector_dropped = state.totals.counts.selector_dropped;
   result.statistics.predicates += state.recorder.predicates_elsewhere();
   result.scheduler = state.recorder.statistics();
   result.scheduler.threads = detail::threads_of(context.options.schedule);

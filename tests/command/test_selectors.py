@@ -32,6 +32,14 @@ class Selectors(Case):
                     seen.add(mesh)
             self.assertGreaterEqual(len(seen), 3 if model in (BRACKET, PLATE) else 7)
 
+    def test_seeds(self):
+        """Random points by a seed: the same again with the same, others with another; none is outside of its disk."""
+        made = lambda *flags: self.made(ROCKET, "--radius-edge", "2", *flags)
+        (report, zero), (_, plain), (_, seven) = (made("--selector", name) for name in ("random:0", "random", "random:7"))
+        self.assertEqual(report["selector_outside"], 0)
+        self.assertTrue(zero == plain)
+        self.assertFalse(zero == seven)
+
     def test_defaults_of_parameters(self):
         for model, factor, samples in ((TWO_POINTS, "0.6", "1000"), (None, "0.95", "64")):
             path = self.file("two_points.poly", model) if model else PLATE
@@ -50,14 +58,15 @@ class Selectors(Case):
         self.assertEqual(len({usual, type2, graded}), 3)
 
     def test_the_same_for_any_threads(self):
-        for name in ("off-center", "optimized:50", "sliver-avoiding"):
+        for name in ("off-center", "optimized:50", "sliver-avoiding", "random:7"):
             for model in (ROCKET, PLATE):
                 meshes = {self.made(model, "--radius-edge", "2", "--selector", name, "--threads", n)[1] for n in ("18" if SANITIZE else "128")}
                 self.assertEqual(len(meshes), 1)
 
     def test_wrong_names_and_parameters(self):
         for value in ("nearest", "", ":", "circumcenter:1", "off-center:", "off-center:0", "off-center:nan", "off-center:inf",
-                      "off-center:0.6x", "optimized:0", "optimized:1.5", "optimized:1000001", "sliver-avoiding:-1",
+                      "off-center:0.6x", "optimized:0", "optimized:1.5", "optimized:1000001", "sliver-avoiding:-1", "random:-1", "random:1.5",
+                      "random:4294967296",
                       "sliver-avoiding:x"):
             with self.subTest(value):
                 done = self.pgdr("mesh", BRACKET, "-o", self.output, "--selector=" + value, expect=2)

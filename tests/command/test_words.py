@@ -95,7 +95,7 @@ class Flags(Case):
         """The wrong word, and all that would be right."""
         view = ["view", self.output, "-o", self.folder / "out.svg"]
         mesh = ["mesh", PLATE, "-o", self.output]
-        for command, flag, known in ((mesh, "--selector", "circumcenter, off-center, optimized, sliver-avoiding"),
+        for command, flag, known in ((mesh, "--selector", "circumcenter, off-center, optimized, sliver-avoiding, random"),
                                      (mesh, "--disk", "type1, type2"), (mesh, "--schedule", "greedy, reproducible, uniform"),
                                      (mesh, "--claims", "boxes, leaves"), (mesh, "--regions", "seeds"),
                                      (view, "--color", "dihedral, leaf, quality, region"), (view, "--cut", "x=, y= or z="),

@@ -110,17 +110,43 @@ class Selectors(unittest.TestCase):
 
     def test_what_it_returns_is_looked_at(self):
         bracket = pgdr.Plc.read(MODELS / "bracket.poly")
-        for selector, words in ((lambda e: e.circumradius, r"selector .*shape \(\d+, 3\), not .*shape \(\d+,\)"),
-                                (lambda e: e.circumcenter[:, :2], r"shape \(\d+, 3\), not .*\(\d+, 2\)"),
-                                (lambda e: e.corners, r"shape \(\d+, 3\)"), (lambda e: None, "None")):
+        for selector, words in ((lambda e: e.circumradius, r"selector .*shape \(\d+, 3\), .*k up to 8, not .*shape \(\d+,\)"),
+                                (lambda e: e.circumcenter[:, :2], r"shape \(\d+, 3\), .* not .*\(\d+, 2\)"),
+                                (lambda e: e.corners[:, :, :2], r"shape \(\d+, 4, 3\), not .*\(\d+, 4, 2\)"),
+                                (lambda e: e.corners[:1].repeat(3, 1), r"not .*\(\d+, 12, 3\)"), (lambda e: None, "None")):
             with self.subTest(words=words), self.assertRaisesRegex(pgdr.UsageError, words):
                 pgdr.mesh(bracket, selector=selector)
         nowhere = checked(self, bracket, selector=lambda e: e.circumcenter * np.nan)
         self.assertTrue(same(nowhere, checked(self, bracket, selector="circumcenter", optimize=False)))
         self.assertGreater(nowhere.statistics["selector_outside"], 0)
 
+    def test_several_points(self):
+        """A ring of points in each element: what goes in is the same for any number of threads, and rows of NaN are none."""
+        rng = np.random.default_rng(3)
+        pairs = np.concatenate([p + [[0, 0], [1e-3, 0]] for p in rng.random((40, 1, 2)) * 0.9 + 0.05])
+        plc = pgdr.Plc(np.vstack([[[0, 0], [1, 0], [1, 1], [0, 1]], pairs]), segments=[[0, 1], [1, 2], [2, 3], [3, 0]])
+        turns = np.linspace(0, 2 * np.pi, 5)[:4]
+
+        def ring(e):
+            points = np.full((len(e.circumradius), 6, 2), np.nan)
+            points[:, 0] = e.circumcenter
+            points[:, 1:5] = e.circumcenter[:, None] + 0.6 * e.circumradius[:, None, None] * np.stack([np.cos(turns), np.sin(turns)], 1)
+            return points
+
+        one, eight = (checked(self, plc, min_angle=20, selector=ring, threads=n) for n in (1, 8))
+        self.assertTrue(same(one, eight))
+        for name in ("selector_further", "selector_dropped"):
+            self.assertGreater(one.statistics[name], 10)
+            self.assertEqual(one.statistics[name], eight.statistics[name])
+        plain = checked(self, plc, min_angle=20, selector="circumcenter")
+        self.assertEqual(plain.statistics["selector_further"], 0)
+        self.assertFalse(same(one, plain))
+        alone = checked(self, plc, min_angle=20, selector=lambda e: ring(e)[:, [0, 5, 5]])
+        self.assertTrue(same(alone, checked(self, plc, min_angle=20, selector=lambda e: e.circumcenter)))
+        self.assertEqual(alone.statistics["selector_further"] + alone.statistics["selector_dropped"], 0)
+
     def test_names(self):
-        for name in ("off-center", "sliver-avoiding"):
+        for name in ("off-center", "sliver-avoiding", "random", "random:7"):
             checked(self, cube(), size=0.3, selector=name)
         with self.assertRaisesRegex(pgdr.UsageError, "circumcenter"):
             pgdr.mesh(cube(), selector="nowhere")

@@ -39,12 +39,15 @@ std::string shape_words(const py::array& array) {
   return words + (array.ndim() == 1 ? ",)" : ")");
 }
 
-/// The numbers that a callback has returned, one after the other. @throws UsageError
-void take_numbers(const py::object& returned, const Shape& shape, const char* who, std::span<double> numbers) {
+/// The numbers that a callback has returned, one after the other. `or_else`: words for what else it may return.
+/// @throws UsageError
+void take_numbers(const py::object& returned, const Shape& shape, const char* who, std::span<double> numbers,
+                  const char* or_else = "") {
   const auto refuse = [&](const std::string& what) {
     py::array wanted(py::dtype::of<char>(), shape);
-    throw UsageError({.code = Errc::bad_option,
-                      .message = std::string(who) + " must return numbers of shape " + shape_words(wanted) + ", not " + what});
+    throw UsageError(
+        {.code = Errc::bad_option,
+         .message = std::string(who) + " must return numbers of shape " + shape_words(wanted) + or_else + ", not " + what});
   };
   const auto has_shape = [&](const py::array& a) {
     return a.ndim() == static_cast<py::ssize_t>(shape.size()) && std::equal(shape.begin(), shape.end(), a.shape());
@@ -88,9 +91,31 @@ py::array_t<double> gather(std::span<const PoorElement<D>> elements, Shape shape
   return array;
 }
 
+/// The points that a selector has returned: an array of n points, or of n times k, where rows of NaN behind the first are none.
+/// @throws UsageError
+template <int D>
+void take_points(const py::object& returned, std::span<SelectedPoints<D>> points) {
+  constexpr auto most = static_cast<py::ssize_t>(SelectedPoints<D>::most);
+  const auto count = static_cast<py::ssize_t>(points.size());
+  Shape shape{count, D};
+  std::size_t each = 1;
+  if (py::isinstance<py::array>(returned) || py::isinstance<py::sequence>(returned)) {
+    const py::array array = py::array::ensure(returned);
+    if (array && array.ndim() == 3 && array.shape(1) >= 1 && array.shape(1) <= most) {
+      each = static_cast<std::size_t>(array.shape(1));
+      shape = {count, array.shape(1), D};
+    }
+  }
+  std::vector<Point<D>> all(points.size() * each);
+  take_numbers(returned, shape, "the selector", {all.front().x.data(), all.size() * D},
+               each == 1 ? ", or as many times k points, k up to 8" : "");
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (i % each == 0 || all[i] == all[i]) points[i / each].push_back(all[i]);
+}
+
 template <int D>
 void ask_points(const SharedFunction& f, const py::object& type, std::span<const PoorElement<D>> elements,
-                std::span<Point<D>> points) {
+                std::span<SelectedPoints<D>> points) {
   const ThreadGil gil(f.callers());
   using Element = PoorElement<D>;
   py::array_t<bool> over(static_cast<py::ssize_t>(elements.size()));
@@ -108,12 +133,7 @@ void ask_points(const SharedFunction& f, const py::object& type, std::span<const
                                 gather<1>(
                                     elements, {}, [](const Element& e) -> const auto& { return e.disk.radius; }),
                                 over);
-  const std::span<double> numbers(points.front().x.data(), points.size() * D);
-  f(
-      [&](const py::object& returned) {
-        take_numbers(returned, {static_cast<py::ssize_t>(elements.size()), D}, "the selector", numbers);
-      },
-      asked);
+  f([&](const py::object& returned) { take_points<D>(returned, points); }, asked);
 }
 
 }  // namespace
@@ -128,8 +148,8 @@ SizingField<D> sizes_by(py::function f) {
 template <int D>
 PointSelector<D> selector_by(py::function f) {
   const std::shared_ptr<py::object> type(new py::object(py::module_::import("pgdr._run").attr("Elements")), GilDeleter{});
-  return PointSelector<D>::by_blocks(
-      [f = SharedFunction(std::move(f)), type](std::span<const PoorElement<D>> elements, std::span<Point<D>> points) {
+  return PointSelector<D>::by_blocks_of_several(
+      [f = SharedFunction(std::move(f)), type](std::span<const PoorElement<D>> elements, std::span<SelectedPoints<D>> points) {
         ask_points<D>(f, *type, elements, points);
       });
 }

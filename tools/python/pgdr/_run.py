@@ -108,8 +108,10 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
     region_sizes : dict, optional
         Further sizes of the cells with a label: {label: size}, or with the name that the input has for it: {name: size}.
     selector : str or function, optional
-        Where new points go: a name as the command has it ("circumcenter", "off-center", "optimized", "sliver-avoiding"), or a
-        function of `Elements` that returns an (n, D) array of points in their selection disks. It is asked by one thread at a
+        Where new points go: a name as the command has it ("circumcenter", "off-center", "optimized", "sliver-avoiding",
+        "random"), or a function of `Elements` that returns an (n, D) array of points in their selection disks, or an (n, k, D)
+        array, k up to 8, of the point in the disk and further points inside the circumsphere, which go in where they keep the
+        distance of docs/selectors.md, "Several points" (rows of NaN: none). It is asked by one thread at a
         time, for the element that is next and those that wait behind it: each point must depend on its element alone. A point
         outside of the disk, or NaN, is replaced by the circumcentre and counted, if the element comes to its turn. It is asked for
         elements over the radius-edge bound; where none is met, a warning (`Mesh.warnings`, and of Python) says so.
