@@ -50,7 +50,7 @@ const std::vector<Point2> sheared{{{0, 0}}, {{1, 0}}, {{1.375, 1}}, {{0.375, 1}}
 /// Meshed and checked: the pairs.
 std::vector<PeriodicPairs> expect_periodic(const Plc<2>& plc, const Pairs& sides, RefineOptions<2> options = {},
                                            std::uint32_t most_rounds = 16) {
-  const PeriodicInput made = make_periodic(plc, sides, options, most_rounds);
+  const PeriodicInput<2> made = make_periodic(plc, sides, options, most_rounds);
   EXPECT_EQ(made.plc.points.size(), plc.points.size() + made.added_points);
   options.keep_boundary = options.keep_boundary || made.keep_boundary;
   const RefineResult<2> result = refine(made.plc, options);
@@ -101,7 +101,7 @@ TEST(Periodic, KeptInTheEnd) {
   options.size = 0.001;
   const Plc<2> plc = cell(sheared, {1, 1, 1, 1}, {{0.9, 0.3}}, 0.06);
   EXPECT_FALSE(make_periodic(plc, Pairs{{4, 2}, {1, 3}}, options).keep_boundary);
-  const PeriodicInput made = make_periodic(plc, Pairs{{4, 2}, {1, 3}}, options, 1);
+  const PeriodicInput<2> made = make_periodic(plc, Pairs{{4, 2}, {1, 3}}, options, 1);
   EXPECT_TRUE(made.keep_boundary);
   EXPECT_EQ(made.rounds, 1u);
   expect_periodic(plc, {{4, 2}, {1, 3}}, options, 1);

@@ -195,10 +195,10 @@ class MeshRun {
   /// Divides sides that are to correspond.
   void make_sides() requires(D == 2) {
     if (a_.periodic.empty()) return;
-    PeriodicInput made = make_periodic(plc_, periodic_sides<2>(a_.periodic, plc_.names), options_);
+    PeriodicInput<D> made = make_periodic(plc_, periodic_sides<2>(a_.periodic, plc_.names), options_);
     plc_ = std::move(made.plc);
     sides_ = std::move(made.sides);
-    if (made.keep_boundary) options_.kept_markers.clear();  // all
+    if (made.keep_boundary) options_.kept_markers = std::move(made.kept_markers);
     options_.keep_boundary = options_.keep_boundary || made.keep_boundary;
     report_.set("periodic_sides", a_.periodic);
     report_.set("periodic_rounds", made.rounds);

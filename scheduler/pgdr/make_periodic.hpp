@@ -16,12 +16,14 @@
 namespace pgdr PGDR_API {
 
 /// An input to mesh, and how.
+template <int D>
 struct PeriodicInput {
-  Plc<2> plc;                           ///< the given one, with its periodic sides in pieces that correspond
+  Plc<D> plc;                           ///< the given one, with its periodic sides in pieces that correspond
   bool keep_boundary = false;           ///< RefineOptions::keep_boundary must be set: the sides do not stay in step without
+  std::vector<int> kept_markers;        ///< and RefineOptions::kept_markers be these
   std::uint32_t rounds = 0;             ///< how often it was meshed to find that
   std::uint64_t added_points = 0;       ///< behind those of the given input
-  std::vector<PeriodicSides<2>> sides;  ///< as asked for, each with its motion
+  std::vector<PeriodicSides<D>> sides;  ///< as asked for, each with its motion
 };
 
 /// Divides periodic sides as their meshes ask for it, both alike, so that periodic_pairs() of the mesh of the result holds.
@@ -41,7 +43,7 @@ struct PeriodicInput {
 /// @param most_rounds  so often it is meshed before all of the boundary is kept
 /// @throws UsageError bad_option: a marker that no segment has, or both of a pair; sides that do not match within the tolerance;
 ///   pairs that contradict each other, by other motions: with the points and where they are. What `refine` throws
-PeriodicInput make_periodic(const Plc<2>& plc, std::span<const PeriodicSides<2>> sides, const RefineOptions<2>& options,
-                            std::uint32_t most_rounds = 16);
+PeriodicInput<2> make_periodic(const Plc<2>& plc, std::span<const PeriodicSides<2>> sides, const RefineOptions<2>& options,
+                               std::uint32_t most_rounds = 16);
 
 }  // namespace pgdr

@@ -3,6 +3,7 @@
 #include "pgdr/make_periodic.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -10,42 +11,30 @@
 #include "pgdr/domain.hpp"
 #include "pgdr/refine.hpp"
 #include "run/periodic_sides.hpp"
-#include "space/disjoint_sets.hpp"
 #include "space/point_places.hpp"
 
 namespace pgdr {
 namespace {
 
 using detail::SideChain;
-
-/// The pairs that hang together by common markers.
-std::vector<std::vector<PeriodicSides<2>>> chains_of(std::span<const PeriodicSides<2>> sides) {
-  std::map<int, std::uint32_t> number;
-  for (const auto& pair : sides)
-    for (const int marker : {pair.from, pair.to}) number.try_emplace(marker, static_cast<std::uint32_t>(number.size()));
-  detail::DisjointSets sets(number.size());
-  for (const auto& pair : sides) sets.unite(number[pair.from], number[pair.to]);
-  std::map<std::uint32_t, std::vector<PeriodicSides<2>>> chains;
-  for (const auto& pair : sides) chains[sets.find(number[pair.from])].push_back(pair);
-  std::vector<std::vector<PeriodicSides<2>>> all;
-  for (auto& [set, pairs] : chains) all.push_back(std::move(pairs));
-  return all;
-}
+using detail::SideInput;
+using detail::SidePart;
+using Chain = SideChain<2>;
 
 class PeriodicMaker {
  public:
-  PeriodicMaker(const Plc<2>& plc, std::span<const PeriodicSides<2>> sides) : given_(plc) {
-    for (std::vector<PeriodicSides<2>>& pairs : chains_of(sides)) {
-      chains_.emplace_back(plc, pairs, tolerance_of(plc));
-      out_.sides.insert(out_.sides.end(), pairs.begin(), pairs.end());
-    }
+  PeriodicMaker(const Plc<2>& plc, std::span<const PeriodicSides<2>> sides)
+      : given_(plc), input_(detail::side_input(plc, detail::markers_of(sides))), points_(plc.points, input_.reach) {
+    for (const Point2& p : plc.points) points_.add(p);
+    out_.sides = detail::make_chains(input_, points_, sides, chains_);
+    for (Chain& chain : chains_) chain.find_pieces();
   }
 
-  PeriodicInput run(RefineOptions<2> options, std::uint32_t most_rounds) {
+  PeriodicInput<2> run(RefineOptions<2> options, std::uint32_t most_rounds) {
     options.progress = {};
     options.prepared = {};
     rebuild();
-    if (options.keep_boundary || !options.refine) return finished(options.keep_boundary);
+    if (options.keep_boundary || !options.refine) return finished(options.keep_boundary, options.kept_markers);
     for (;;) {
       const RefineResult<2> result = refine(out_.plc, options);
       ++out_.rounds;
@@ -59,23 +48,64 @@ class PeriodicMaker {
 
  private:
   bool divide(const OutputMesh<2>& mesh) {
-    bool any = false;
-    for (SideChain& chain : chains_) any = chain.divide(mesh) || any;
-    return any;
+    std::vector<std::vector<std::vector<SidePart>>> parts;
+    for (const Chain& chain : chains_) parts.push_back(parts_of_pieces(chain, mesh));
+    return detail::halve_pieces<2>(chains_, parts);
+  }
+
+  std::vector<std::vector<SidePart>> parts_of_pieces(const Chain& chain, const OutputMesh<2>& mesh) const {
+    std::vector<std::vector<SidePart>> parts(chain.pieces().size());
+    for (const auto& side : chain.sides()) {
+      std::vector<detail::Box<2>> boxes;
+      for (const auto& [a, b] : chain.pieces())
+        boxes.push_back(detail::box_of_edge<2>(chain.point(side, a), chain.point(side, b), input_.reach));
+      const detail::BoxTree<2> tree(boxes);
+      for (const auto& s : mesh.subsegments) {
+        if (s.marker != side.marker) continue;
+        const Point2 &p = mesh.points[s.vertices[0]], &q = mesh.points[s.vertices[1]];
+        tree.meeting(detail::box_of_edge<2>(p, q, 0), [&](std::uint32_t k) {
+          const Point2 &a = chain.point(side, chain.pieces()[k][0]), &b = chain.point(side, chain.pieces()[k][1]);
+          const auto t = detail::part_near<2>(p, a, b, input_.reach), u = detail::part_near<2>(q, a, b, input_.reach);
+          if (t && u && *t != *u) parts[k].push_back({std::min(*t, *u), std::max(*t, *u), std::sqrt(squared_distance(p, q))});
+        });
+      }
+    }
+    return parts;
   }
 
   bool is_periodic(int marker) const {
-    return std::ranges::any_of(chains_, [marker](const SideChain& chain) { return chain.has(marker); });
+    return std::ranges::any_of(chains_, [marker](const Chain& chain) { return chain.has(marker); });
   }
 
   /// The given input with the pieces of its periodic sides.
   void rebuild() {
     Plc<2> plc = given_;
     std::erase_if(plc.segments, [&](const auto& s) { return is_periodic(s.marker); });
-    for (const SideChain& chain : chains_) chain.add_to(plc);
+    for (const Chain& chain : chains_) add_sides(chain, plc);
     plc.source.segment_lines.clear();
     if (!plc.source.point_lines.empty()) plc.source.point_lines.resize(plc.points.size(), 0);
     out_.plc = std::move(plc);
+  }
+
+  /// Appends points that are not of the given input, and the pieces as segments.
+  void add_sides(const Chain& chain, Plc<2>& plc) const {
+    const std::size_t given = given_.points.size(), columns = given == 0 ? 0 : given_.point_attributes.size() / given;
+    for (const std::uint32_t s : chain.order()) {
+      const Chain::Side& side = chain.sides()[s];
+      std::vector<std::uint32_t> number(side.at);
+      for (std::uint32_t k = 0; k < number.size(); ++k) {
+        if (number[k] < given) continue;
+        number[k] = static_cast<std::uint32_t>(plc.points.size());
+        plc.points.push_back(chain.point(side, k));
+        if (!given_.point_markers.empty()) plc.point_markers.push_back(side.marker);
+        const auto [a, b] = input_.walls[side.wall[k]].points;
+        const double t = detail::part_near<2>(chain.point(side, k), given_.points[a], given_.points[b], input_.reach).value_or(0);
+        for (std::size_t i = 0; i < columns; ++i)
+          plc.point_attributes.push_back((1 - t) * given_.point_attributes[a * columns + i] +
+                                         t * given_.point_attributes[b * columns + i]);
+      }
+      for (const auto& [a, b] : chain.pieces()) plc.segments.push_back({{number[a], number[b]}, side.marker});
+    }
   }
 
   /// The other segments as a mesh has divided them.
@@ -100,21 +130,24 @@ class PeriodicMaker {
     if (!plc.source.point_lines.empty()) plc.source.point_lines.resize(plc.points.size(), 0);
   }
 
-  PeriodicInput finished(bool keep_boundary) {
+  PeriodicInput<2> finished(bool keep_boundary, std::vector<int> kept_markers = {}) {
     out_.keep_boundary = keep_boundary;
+    out_.kept_markers = std::move(kept_markers);
     out_.added_points = out_.plc.points.size() - given_.points.size();
     return std::move(out_);
   }
 
   const Plc<2>& given_;
-  std::vector<SideChain> chains_;
-  PeriodicInput out_;
+  const SideInput<2> input_;
+  detail::NearPoints<2> points_;
+  std::vector<Chain> chains_;
+  PeriodicInput<2> out_;
 };
 
 }  // namespace
 
-PeriodicInput make_periodic(const Plc<2>& plc, std::span<const PeriodicSides<2>> sides, const RefineOptions<2>& options,
-                            std::uint32_t most_rounds) {
+PeriodicInput<2> make_periodic(const Plc<2>& plc, std::span<const PeriodicSides<2>> sides, const RefineOptions<2>& options,
+                               std::uint32_t most_rounds) {
   if (!detail::is_usable(plc)) Domain<2>{plc};  // which throws what is wrong
   return PeriodicMaker(plc, sides).run(options, most_rounds);
 }

@@ -4,100 +4,99 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <set>
 #include <utility>
 
 #include "input/words.hpp"
-#include "join/near_tests.hpp"
+#include "numbers/exact_sum.hpp"
 #include "pgdr/error.hpp"
-#include "space/box_tree.hpp"
+#include "space/disjoint_sets.hpp"
+#include "space/distances.hpp"
 
 namespace pgdr::detail {
 namespace {
 
-[[noreturn]] void refuse(const std::string& what, const std::vector<std::int64_t>& ids = {},
-                         const std::vector<std::array<double, 3>>& points = {}) {
-  throw UsageError({Errc::bad_option, what, {}, 0, ids, points});
+template <int D>
+std::string name_of(const PeriodicSides<D>& pair) {
+  return std::to_string(pair.from) + " and " + std::to_string(pair.to);
 }
 
-/// How far along an edge a point is that lies on it, or is an end, within so much.
-std::optional<double> part_near(const Point2& p, const Point2& a, const Point2& b, double width) {
-  if (squared_distance(p, a) <= width * width) return 0;
-  if (squared_distance(p, b) <= width * width) return 1;
-  return part_of_edge_near<2>(p, a, b, width);
+template <int D>
+constexpr const char* line_word() {
+  return D == 2 ? "segment" : "facet";
 }
 
-Box<2> box_of(const Point2& a, const Point2& b, double width) {
-  Box<2> box = Box<2>::around(a);
-  box.add(b);
-  return box.widened(width);
+template <int D>
+BoxTree<D> tree_of_walls(const SideInput<D>& input) {
+  std::vector<Box<D>> boxes;
+  for (const auto& wall : input.walls) {
+    Box<D> box = Box<D>::empty();
+    for (const std::uint32_t v : wall.points) box.add(input.points[v]);
+    boxes.push_back(box.widened(input.reach));
+  }
+  return BoxTree<D>(boxes);
 }
 
-std::string name_of(const PeriodicSides<2>& pair) { return std::to_string(pair.from) + " and " + std::to_string(pair.to); }
+/// The inverse of a motion that keeps lengths: its rows are columns. Exact, and rounded once.
+template <int D>
+Point<D> moved_back(const Motion<D>& m, const Point<D>& p) {
+  Point<D> image;
+  for (int i = 0; i < D; ++i) {
+    ExactSum sum;
+    for (int k = 0; k < D; ++k) {
+      const double* const row = &m[static_cast<std::size_t>(k * (D + 1))];
+      sum.add_product(row[i], p[k]);
+      sum.add_product(-row[i], row[D]);
+    }
+    image[i] = sum.divided_by(1);
+  }
+  return image;
+}
 
 }  // namespace
 
-SideChain::SideChain(const Plc<2>& plc, std::vector<PeriodicSides<2>>& pairs, double tolerance)
-    : plc_(plc), reach_(2 * tolerance) {
+template <int D>
+SideChain<D>::SideChain(const SideInput<D>& input, NearPoints<D>& points, std::vector<PeriodicSides<D>>& pairs)
+    : input_(input),
+      points_(points),
+      places_(input.points, input.reach),
+      walls_(tree_of_walls(input)),
+      seen_(static_cast<std::uint32_t>(input.points.size())) {
   make_sides(pairs);
-  find_given_points();
   find_motions(pairs);
   order_sides(pairs);
   find_places();
   require_consistent(pairs);
-  find_pieces();
 }
 
-void SideChain::make_sides(const std::vector<PeriodicSides<2>>& pairs) {
+template <int D>
+void SideChain<D>::make_sides(const std::vector<PeriodicSides<D>>& pairs) {
   for (const auto& pair : pairs) {
-    if (pair.from == pair.to) refuse("the periodic sides " + name_of(pair) + " are one side");
+    if (pair.from == pair.to) refuse_sides("the periodic sides " + name_of(pair) + " are one side");
     for (const int marker : {pair.from, pair.to})
       if (side_of_.try_emplace(marker, static_cast<std::uint32_t>(sides_.size())).second) sides_.push_back({.marker = marker});
   }
+  for (const Side& side : sides_)
+    if (!input_.given.contains(side.marker))
+      refuse_sides(std::string("no ") + line_word<D>() + " has the marker " + std::to_string(side.marker) +
+                   " that a periodic side is to have");
 }
 
-/// Ends of its segments, and points that lie on these.
-void SideChain::find_given_points() {
-  std::vector<Box<2>> boxes;
-  std::vector<std::uint32_t> segments;
-  for (std::uint32_t s = 0; s < plc_.segments.size(); ++s) {
-    if (!has(plc_.segments[s].marker)) continue;
-    const auto& [a, b] = plc_.segments[s].points;
-    boxes.push_back(box_of(plc_.points[a], plc_.points[b], reach_));
-    segments.push_back(s);
-  }
-  const BoxTree<2> tree(boxes);
-  std::set<std::pair<std::uint32_t, std::array<double, 2>>> seen;
-  for (std::uint32_t v = 0; v < plc_.points.size(); ++v)
-    tree.at(plc_.points[v], [&](std::uint32_t k) {
-      const auto& s = plc_.segments[segments[k]];
-      const std::uint32_t side = side_of_.at(s.marker);
-      const Point2& p = plc_.points[v];
-      if (!part_near(p, plc_.points[s.points[0]], plc_.points[s.points[1]], reach_)) return;
-      if (seen.emplace(side, std::array{p[0] + 0.0, p[1] + 0.0}).second) sides_[side].given.push_back(v);
-    });
-  for (Side& side : sides_) {
-    std::ranges::sort(side.given);
-    if (side.given.empty())
-      refuse("no segment has the marker " + std::to_string(side.marker) + " that a periodic side is to have");
-  }
-}
-
-void SideChain::find_motions(std::vector<PeriodicSides<2>>& pairs) const {
+template <int D>
+void SideChain<D>::find_motions(std::vector<PeriodicSides<D>>& pairs) const {
   const auto points = [&](int marker) {
-    std::vector<Point2> all;
-    for (const std::uint32_t v : sides_[side_of_.at(marker)].given) all.push_back(plc_.points[v]);
+    std::vector<Point<D>> all;
+    for (const std::uint32_t v : input_.given.at(marker)) all.push_back(input_.points[v]);
     return all;
   };
   for (auto& pair : pairs) {
-    if (!pair.motion) pair.motion = translation_between<2>(points(pair.from), points(pair.to));
-    require_rigid<2>(*pair.motion);
+    if (!pair.motion) pair.motion = translation_between<D>(points(pair.from), points(pair.to));
+    require_rigid<D>(*pair.motion);
   }
 }
 
 /// The first is one that is the image of none, if there is one.
-void SideChain::order_sides(const std::vector<PeriodicSides<2>>& pairs) {
+template <int D>
+void SideChain<D>::order_sides(const std::vector<PeriodicSides<D>>& pairs) {
   std::set<int> images;
   for (const auto& pair : pairs) images.insert(pair.to);
   std::uint32_t first = 0;
@@ -119,200 +118,218 @@ void SideChain::order_sides(const std::vector<PeriodicSides<2>>& pairs) {
       }
 }
 
-/// The inverse of a motion that keeps lengths: its rows are columns.
-Point2 moved_back(const Motion<2>& m, const Point2& p) {
-  const double x = p[0] - m[2], y = p[1] - m[5];
-  return {{m[0] * x + m[3] * y, m[1] * x + m[4] * y}};
+template <int D>
+Point<D> SideChain<D>::from_parent(const Side& side, const Point<D>& p) const {
+  return side.is_image ? moved<D>(side.motion, p) : moved_back<D>(side.motion, p);
 }
 
-Point2 SideChain::from_parent(const Side& side, const Point2& p) const {
-  return side.is_image ? moved<2>(side.motion, p) : moved_back(side.motion, p);
+template <int D>
+Point<D> SideChain<D>::on_first(std::uint32_t side, Point<D> p) const {
+  for (std::uint32_t at = side; sides_[at].parent != at; at = sides_[at].parent)
+    p = sides_[at].is_image ? moved_back<D>(sides_[at].motion, p) : moved<D>(sides_[at].motion, p);
+  return p;
 }
-Point2 SideChain::to_parent(const Side& side, const Point2& p) const {
-  return side.is_image ? moved_back(side.motion, p) : moved<2>(side.motion, p);
+
+template <int D>
+Point<D> SideChain<D>::carried(std::uint32_t side, const Point<D>& p) const {
+  const Side& s = sides_[side];
+  return s.parent == side ? p : from_parent(s, carried(s.parent, p));
 }
 
 /// Points of all sides, as they would be on the first; then where they are on the others.
-void SideChain::find_places() {
-  std::vector<Point2> on_first;
-  const auto is_new = [&](const Point2& p) {
-    return std::ranges::none_of(on_first, [&](const Point2& x) { return squared_distance(x, p) <= reach_ * reach_; });
-  };
+template <int D>
+void SideChain<D>::find_places() {
   for (const std::uint32_t s : order_)
-    for (const std::uint32_t v : sides_[s].given) {
-      Point2 p = plc_.points[v];
-      for (std::uint32_t at = s; sides_[at].parent != at; at = sides_[at].parent) p = to_parent(sides_[at], p);
-      if (!is_new(p)) continue;
-      on_first.push_back(p);
-      add_place(p, v, sides_[s].marker);
+    for (const std::uint32_t v : input_.given.at(sides_[s].marker)) {
+      const Point<D> p = on_first(s, input_.points[v]);
+      if (places_.find(p) == no_entity) add_place(p, v, sides_[s].marker);
     }
   for (const Side& side : sides_)
-    if (side.given.size() > side.at.size())
-      refuse("two points of the periodic side with marker " + std::to_string(side.marker) + " are one within the tolerance");
+    if (input_.given.at(side.marker).size() > side.at.size())
+      refuse_sides("two points of the periodic side with marker " + std::to_string(side.marker) +
+                   " are one within the tolerance");
 }
 
-/// Where the input has a point within the tolerance, that is the place.
-std::uint32_t SideChain::add_place(const Point2& on_first, std::uint32_t origin, int marker) {
-  const auto place = static_cast<std::uint32_t>(sides_[order_[0]].at.size());
+template <int D>
+std::uint32_t SideChain<D>::add_place(const Point<D>& p_first, std::uint32_t origin, int marker) {
+  const std::uint32_t place = places_.add(p_first);
   for (const std::uint32_t s : order_) {
     Side& side = sides_[s];
-    Point2 p = side.parent == s ? on_first : from_parent(side, sides_[side.parent].at[place]);
-    const auto is_here = [&](std::uint32_t v) { return squared_distance(plc_.points[v], p) <= reach_ * reach_; };
-    const auto point = std::ranges::find_if(side.given, is_here);
-    if (point != side.given.end()) p = plc_.points[*point];
-    const std::uint32_t segment = segment_at(side.marker, p);
-    if (segment == no_entity) refuse_place(p, side.marker, origin, marker);
-    side.at.push_back(p);
-    side.point.push_back(point == side.given.end() ? no_entity : *point);
-    side.segment.push_back(segment);
+    const Point<D> p = side.parent == s ? p_first : from_parent(side, points_[sides_[side.parent].at[place]]);
+    std::uint32_t point = points_.find(p);
+    const std::uint32_t wall = wall_at(side.marker, point == no_entity ? p : points_[point]);
+    if (wall == no_entity) refuse_place(p, side.marker, origin, marker);
+    if (point == no_entity) point = points_.add(p);
+    side.at.push_back(point);
+    side.wall.push_back(wall);
+    side.has.insert(point);
   }
   return place;
 }
 
-/// Its place on the side with marker `there` is none. A half of a piece has no origin.
-void SideChain::refuse_place(const Point2& p, int there, std::uint32_t origin, int marker) const {
-  std::string what = "the periodic sides do not match within the tolerance: ";
-  std::vector<std::int64_t> ids;
-  std::vector<std::array<double, 3>> points{in_space(p)};
-  if (origin == no_entity) {
-    what += "a place between two points";
-  } else {
-    ids.push_back(std::int64_t{origin} + plc_.first_index);
-    points.insert(points.begin(), in_space(plc_.points[origin]));
-    what += "the point " + std::to_string(ids[0]) + ' ' + to_text(plc_.points[origin]) + " of that with marker " +
-            std::to_string(marker);
-  }
-  refuse(
-      what + " would be at " + to_text(p) + " of that with marker " + std::to_string(there) + ", where there is no segment of it",
-      ids, points);
+template <int D>
+std::uint32_t SideChain<D>::add_place_of(std::uint32_t side, std::uint32_t point) {
+  return add_place(on_first(side, points_[point]), point, sides_[side].marker);
 }
 
-std::uint32_t SideChain::segment_at(int marker, const Point2& p) const {
-  for (std::uint32_t s = 0; s < plc_.segments.size(); ++s) {
-    const auto& [ends, its] = plc_.segments[s];
-    if (its == marker && part_near(p, plc_.points[ends[0]], plc_.points[ends[1]], reach_)) return s;
+template <int D>
+std::uint32_t SideChain<D>::add_inner_place(const Point<D>& p_first) {
+  const std::uint32_t place = places_.add(p_first);
+  for (const std::uint32_t s : order_) {
+    Side& side = sides_[s];
+    const Point<D> p = side.parent == s ? p_first : from_parent(side, points_[sides_[side.parent].at[place]]);
+    side.at.push_back(points_.add(p));
+    side.wall.push_back(no_entity);
   }
-  return no_entity;
+  return place;
+}
+
+template <int D>
+bool SideChain<D>::take_points() {
+  const std::size_t before = first().at.size(),
+                    most = 1000 + 100 * input_.points.size();  // more than any group of motions asks for
+  for (; seen_ < points_.size(); ++seen_) {
+    if (points_.size() > most)
+      refuse_sides("the periodic sides contradict each other: there is no end of places that points of the side with marker " +
+                   std::to_string(first().marker) + " would be at");
+    for (const std::uint32_t s : order_) {
+      if (sides_[s].has.contains(seen_) || !is_on(sides_[s], points_[seen_])) continue;
+      if (places_.find(on_first(s, points_[seen_])) == no_entity) add_place_of(s, seen_);
+    }
+  }
+  return first().at.size() > before;
+}
+
+/// Its place on the side with marker `there` is none. A half of a piece has no origin.
+template <int D>
+void SideChain<D>::refuse_place(const Point<D>& p, int there, std::uint32_t origin, int marker) const {
+  std::string what = "the periodic sides do not match within the tolerance: ";
+  const std::vector<std::int64_t> ids = numbers({origin});
+  std::vector<std::array<double, 3>> points{in_space(p)};
+  if (ids.empty()) {
+    what += "a place between two points";
+  } else {
+    points.insert(points.begin(), in_space(points_[origin]));
+    what += "the point " + std::to_string(ids[0]) + ' ' + to_text(points_[origin]) + " of that with marker " +
+            std::to_string(marker);
+  }
+  refuse_sides(what + " would be at " + to_text(p) + " of that with marker " + std::to_string(there) + ", where there is no " +
+                   line_word<D>() + " of it",
+               ids, points);
+}
+
+template <int D>
+std::uint32_t SideChain<D>::wall_at(int marker, const Point<D>& p) const {
+  std::uint32_t found = no_entity;
+  walls_.at(p, [&](std::uint32_t w) {
+    const auto& wall = input_.walls[w];
+    if (wall.marker != marker || w >= found) return;
+    std::array<Point<D>, D> corners;
+    for (std::size_t i = 0; i < D; ++i) corners[i] = input_.points[wall.points[i]];
+    if (closest_to_simplex<D>(p, corners).square <= input_.reach * input_.reach) found = w;
+  });
+  return found;
 }
 
 /// As the input counts; of those that are its.
-std::vector<std::int64_t> SideChain::numbers(std::initializer_list<std::uint32_t> points) const {
+template <int D>
+std::vector<std::int64_t> SideChain<D>::numbers(std::initializer_list<std::uint32_t> points) const {
   std::vector<std::int64_t> ids;
   for (const std::uint32_t v : points)
-    if (v != no_entity) ids.push_back(std::int64_t{v} + plc_.first_index);
+    if (v < input_.numbers.size()) ids.push_back(input_.numbers[v]);
   return ids;
 }
 
-void SideChain::require_consistent(const std::vector<PeriodicSides<2>>& pairs) const {
+template <int D>
+void SideChain<D>::require_consistent(const std::vector<PeriodicSides<D>>& pairs) const {
   for (const auto& pair : pairs) {
     const Side &from = sides_[side_of_.at(pair.from)], &to = sides_[side_of_.at(pair.to)];
-    for (std::size_t k = 0; k < from.at.size(); ++k) {
-      const Point2 image = moved<2>(*pair.motion, from.at[k]);
-      if (squared_distance(image, to.at[k]) <= reach_ * reach_) continue;
-      refuse("the periodic sides " + name_of(pair) + " contradict the others: the point " + to_text(from.at[k]) +
-                 " would be at " + to_text(image) + " and at " + to_text(to.at[k]),
-             numbers({from.point[k], to.point[k]}), {in_space(from.at[k]), in_space(image), in_space(to.at[k])});
+    for (std::uint32_t k = 0; k < from.at.size(); ++k) {
+      const Point<D>&p = point(from, k), &q = point(to, k), image = moved<D>(*pair.motion, p);
+      if (squared_distance(image, q) <= input_.reach * input_.reach) continue;
+      refuse_sides("the periodic sides " + name_of(pair) + " contradict the others: the point " + to_text(p) + " would be at " +
+                       to_text(image) + " and at " + to_text(q),
+                   numbers({from.at[k], to.at[k]}), {in_space(p), in_space(image), in_space(q)});
     }
   }
 }
 
-std::vector<SideChain::Piece> SideChain::pieces_on(const Side& side) const {
+template <int D>
+auto SideChain<D>::pieces_on(const Side& side) const -> std::set<Piece> {
+  std::vector<Box<D>> boxes;
+  for (const std::uint32_t v : side.at) boxes.push_back(Box<D>::around(points_[v]));
+  const BoxTree<D> tree(boxes);
   std::set<Piece> pieces;
-  for (const auto& segment : plc_.segments) {
-    if (segment.marker != side.marker) continue;
-    const Point2 &a = plc_.points[segment.points[0]], &b = plc_.points[segment.points[1]];
+  for (const auto& line : input_.lines) {
+    if (line.marker != side.marker) continue;
+    const Point<D>&a = input_.points[line.points[0]], &b = input_.points[line.points[1]];
     std::vector<std::pair<double, std::uint32_t>> along;
-    for (std::uint32_t k = 0; k < side.at.size(); ++k)
-      if (const auto t = part_near(side.at[k], a, b, reach_)) along.emplace_back(*t, k);
+    tree.meeting(box_of_edge<D>(a, b, input_.reach), [&](std::uint32_t k) {
+      if (const auto t = part_near<D>(points_[side.at[k]], a, b, input_.reach)) along.emplace_back(*t, k);
+    });
     std::ranges::sort(along);
     for (std::size_t i = 1; i < along.size(); ++i) {
       const std::uint32_t k = along[i - 1].second, l = along[i].second;
       pieces.insert({std::min(k, l), std::max(k, l)});
     }
   }
-  return {pieces.begin(), pieces.end()};
+  return pieces;
 }
 
-void SideChain::find_pieces() {
-  const Side& first = sides_[order_[0]];
-  pieces_ = pieces_on(first);
+template <int D>
+void SideChain<D>::require_like(const std::set<Piece>& pieces, const Side& side) const {
+  const std::set<Piece> others = pieces_on(side);
+  std::vector<Piece> unlike;
+  std::ranges::set_symmetric_difference(pieces, others, std::back_inserter(unlike));
+  if (unlike.empty()) return;
+  const auto [a, b] = unlike.front();
+  refuse_sides("the periodic sides with markers " + std::to_string(first().marker) + " and " + std::to_string(side.marker) +
+                   " do not match: one of them alone has a segment between " + to_text(point(first(), a)) + " and " +
+                   to_text(point(first(), b)) + ", on the other " + to_text(point(side, a)) + " and " + to_text(point(side, b)),
+               numbers({first().at[a], first().at[b], side.at[a], side.at[b]}),
+               {in_space(point(first(), a)), in_space(point(first(), b)), in_space(point(side, a)), in_space(point(side, b))});
+}
+
+template <int D>
+void SideChain<D>::find_pieces() {
+  std::set<Piece> pieces = pieces_on(first());
   for (const std::uint32_t s : order_) {
-    const Side& side = sides_[s];
-    std::vector<Piece> unlike;
-    std::ranges::set_symmetric_difference(pieces_, pieces_on(side), std::back_inserter(unlike));
-    if (unlike.empty()) continue;
-    const auto [a, b] = unlike.front();
-    refuse("the periodic sides with markers " + std::to_string(first.marker) + " and " + std::to_string(side.marker) +
-               " do not match: one of them alone has a segment between " + to_text(first.at[a]) + " and " + to_text(first.at[b]) +
-               ", on the other " + to_text(side.at[a]) + " and " + to_text(side.at[b]),
-           numbers({first.point[a], first.point[b], side.point[a], side.point[b]}),
-           {in_space(first.at[a]), in_space(first.at[b]), in_space(side.at[a]), in_space(side.at[b])});
+    if (D == 2)
+      require_like(pieces, sides_[s]);
+    else
+      pieces.merge(pieces_on(sides_[s]));
   }
+  pieces_.assign(pieces.begin(), pieces.end());
 }
 
-std::vector<std::vector<SideChain::Part>> SideChain::parts_of_pieces(const OutputMesh<2>& mesh) const {
-  std::vector<std::vector<Part>> parts(pieces_.size());
-  for (const Side& side : sides_) {
-    std::vector<Box<2>> boxes;
-    for (const auto& [a, b] : pieces_) boxes.push_back(box_of(side.at[a], side.at[b], reach_));
-    const BoxTree<2> tree(boxes);
-    for (const auto& s : mesh.subsegments) {
-      if (s.marker != side.marker) continue;
-      const Point2 &p = mesh.points[s.vertices[0]], &q = mesh.points[s.vertices[1]];
-      tree.meeting(box_of(p, q, 0), [&](std::uint32_t k) {
-        const Point2 &a = side.at[pieces_[k][0]], &b = side.at[pieces_[k][1]];
-        const auto t = part_near(p, a, b, reach_), u = part_near(q, a, b, reach_);
-        if (t && u && *t != *u) parts[k].push_back({std::min(*t, *u), std::max(*t, *u), std::sqrt(squared_distance(p, q))});
-      });
-    }
+template <int D>
+std::vector<PeriodicSides<D>> make_chains(const SideInput<D>& input, NearPoints<D>& points,
+                                          std::span<const PeriodicSides<D>> sides, std::vector<SideChain<D>>& chains) {
+  std::map<int, std::uint32_t> number;
+  for (const auto& pair : sides)
+    for (const int marker : {pair.from, pair.to}) number.try_emplace(marker, static_cast<std::uint32_t>(number.size()));
+  DisjointSets sets(number.size());
+  for (const auto& pair : sides) sets.unite(number[pair.from], number[pair.to]);
+  std::map<std::uint32_t, std::vector<PeriodicSides<D>>> pairs_of;
+  for (const auto& pair : sides) pairs_of[sets.find(number[pair.from])].push_back(pair);
+  std::vector<PeriodicSides<D>> all;
+  for (auto& [set, pairs] : pairs_of) {
+    chains.emplace_back(input, points, pairs);
+    all.insert(all.end(), pairs.begin(), pairs.end());
   }
-  return parts;
-}
-
-/// Halves the part of a piece from one number to another until no part of the mesh there is shorter.
-void SideChain::halve(const Piece& ends, double from, double to, const std::vector<Part>& parts, const Piece& whole,
-                      std::vector<Piece>& made) {
-  constexpr double rounding = 1 + 0x1p-20;  // of what is as long, but for the ulps of its ends
-  const Side& first = sides_[order_[0]];
-  const Point2 a = first.at[whole[0]], b = first.at[whole[1]];
-  const double length = (to - from) * std::sqrt(squared_distance(a, b)), slack = (to - from) * 0x1p-20;
-  const bool is_short = std::ranges::all_of(parts, [&](const Part& part) {
-    return part.to <= from + slack || part.from >= to - slack || length <= part.length * rounding;
-  });
-  if (is_short) return made.push_back({std::min(ends[0], ends[1]), std::max(ends[0], ends[1])});
-  const double t = (from + to) / 2;
-  const std::uint32_t middle = add_place({{(1 - t) * a[0] + t * b[0], (1 - t) * a[1] + t * b[1]}}, no_entity, 0);
-  halve({ends[0], middle}, from, t, parts, whole, made);
-  halve({middle, ends[1]}, t, to, parts, whole, made);
-}
-
-bool SideChain::divide(const OutputMesh<2>& mesh) {
-  const std::size_t before = pieces_.size();
-  const std::vector<std::vector<Part>> parts = parts_of_pieces(mesh);
-  std::vector<Piece> made;
-  for (std::size_t k = 0; k < before; ++k) halve(pieces_[k], 0, 1, parts[k], pieces_[k], made);
-  pieces_ = std::move(made);
-  return pieces_.size() > before;
-}
-
-void SideChain::add_to(Plc<2>& plc) const {
-  const std::size_t given = plc_.points.size(), columns = given == 0 ? 0 : plc_.point_attributes.size() / given;
-  for (const std::uint32_t s : order_) {
-    const Side& side = sides_[s];
-    std::vector<std::uint32_t> number(side.point);
-    for (std::size_t k = 0; k < number.size(); ++k) {
-      if (number[k] != no_entity) continue;
-      number[k] = static_cast<std::uint32_t>(plc.points.size());
-      plc.points.push_back(side.at[k]);
-      if (!plc_.point_markers.empty()) plc.point_markers.push_back(side.marker);
-      const auto [a, b] = plc_.segments[side.segment[k]].points;
-      const double t = part_near(side.at[k], plc_.points[a], plc_.points[b], reach_).value_or(0);
-      for (std::size_t i = 0; i < columns; ++i)
-        plc.point_attributes.push_back((1 - t) * plc_.point_attributes[a * columns + i] +
-                                       t * plc_.point_attributes[b * columns + i]);
-    }
-    for (const auto& [a, b] : pieces_) plc.segments.push_back({{number[a], number[b]}, side.marker});
+  for (bool any = true; any;) {
+    any = false;
+    for (SideChain<D>& chain : chains) any = chain.take_points() || any;
   }
+  return all;
 }
+
+#define PGDR_INSTANTIATE(D)                                                                                                     \
+  template class SideChain<D>;                                                                                                  \
+  template std::vector<PeriodicSides<D>> make_chains<D>(const SideInput<D>&, NearPoints<D>&, std::span<const PeriodicSides<D>>, \
+                                                        std::vector<SideChain<D>>&);
+PGDR_INSTANTIATE(2)
+PGDR_INSTANTIATE(3)
+#undef PGDR_INSTANTIATE
 
 }  // namespace pgdr::detail

@@ -36,7 +36,7 @@ PeriodicSides<D> sides_of(const Sides& given) {
 py::tuple make(const Plc<2>& plc, const std::vector<Sides>& given, const RefineOptions<2>& bounds) {
   std::vector<PeriodicSides<2>> sides;
   for (const Sides& pair : given) sides.push_back(sides_of<2>(pair));
-  PeriodicInput made;
+  PeriodicInput<2> made;
   run_watched([&](const std::stop_token& stop) {
     RefineOptions<2> options = bounds;
     options.stop = stop;
